@@ -1,0 +1,8 @@
+# The warnings of this project, linked PRIVATE and only at build time: a user's own flags are his own.
+add_library(acs_warnings INTERFACE)
+target_compile_options(acs_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor
+  -Woverloaded-virtual -Wformat=2 -Wswitch-enum -Wswitch-default -Wextra-semi -Wmissing-field-initializers
+  $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond -Wduplicated-branches -Wlogical-op -Wuseless-cast>
+  $<$<CXX_COMPILER_ID:Clang>:-Wno-switch-default>
+  $<$<BOOL:${ACS_WARNINGS_AS_ERRORS}>:-Werror>)

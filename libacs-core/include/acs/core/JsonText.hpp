@@ -1,0 +1,45 @@
+#pragma once
+
+#include <acs/core/Result.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace ACS::Core
+{
+
+/// Any JSON value, kept as its compact text: what a protocol carries without looking inside (the result of a GET, the
+/// value of an action parameter). Valid JSON by construction.
+class JsonText
+{
+    std::string _text = "null";
+
+    explicit JsonText(std::string text);
+
+public:
+    /// null
+    JsonText() = default;
+
+    /// A JSON string, a number, a boolean: made, not parsed.
+    [[nodiscard]] static JsonText FromString(std::string_view value);
+    [[nodiscard]] static JsonText FromNumber(double value);
+    [[nodiscard]] static JsonText FromInteger(std::int64_t value);
+    [[nodiscard]] static JsonText FromBoolean(bool bValue);
+
+    /// Text that is known to be JSON, such as what a codec of this SDK cut out of a parsed message. Not checked:
+    /// text from outside goes through the parser of ACS::Json.
+    [[nodiscard]] static JsonText FromTrusted(std::string text);
+
+    [[nodiscard]] const std::string& GetText() const noexcept;
+
+    /// The text of a JSON string without quotes and escapes; nullopt where this is no string.
+    [[nodiscard]] std::optional<std::string> GetStringOrNull() const;
+    [[nodiscard]] std::optional<double> GetNumberOrNull() const;
+    [[nodiscard]] std::optional<bool> GetBooleanOrNull() const;
+
+    bool operator==(const JsonText&) const = default;
+};
+
+} // namespace ACS::Core

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <chrono>
+
+namespace ACS::Core
+{
+
+using SteadyTime = std::chrono::steady_clock::time_point;
+using WallTime = std::chrono::system_clock::time_point;
+using Duration = std::chrono::steady_clock::duration;
+
+/// The present, as the caller sees it: an argument of every call of a state machine. No library reads a clock.
+struct Now
+{
+    SteadyTime steady; ///< For deadlines and periods; never goes back.
+    WallTime wall;     ///< For the timestamps of messages only; may jump.
+};
+
+/// Makes the Now. Implemented by programs (the system's clocks) and by tests (time that they move by hand).
+class IClock
+{
+public:
+    IClock() = default;
+    IClock(const IClock&) = delete;
+    IClock& operator=(const IClock&) = delete;
+    virtual ~IClock() = default;
+
+    [[nodiscard]] virtual Now GetNow() const = 0;
+};
+
+} // namespace ACS::Core
