@@ -1,0 +1,166 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+namespace ACS::Json
+{
+
+/// How a member may be missing, and what is written when it has no value.
+enum class EPresence : std::uint8_t
+{
+    Required,  ///< Must be there and not null; always written.
+    Optional,  ///< May be absent (null is read as absent and counted); left out when nullopt or empty.
+    Nullable,  ///< Of a std::optional: null or absent is nullopt; nullopt is written as null.
+    Defaulted, ///< Absent or null leaves the struct's default; always written.
+};
+
+/// Bounds of a number, or of a string's bytes, or of an array's elements.
+struct FieldBounds
+{
+    double minimum = -std::numeric_limits<double>::infinity();
+    double maximum = std::numeric_limits<double>::infinity();
+    std::size_t minimumLength = 0;
+    std::size_t maximumLength = std::numeric_limits<std::size_t>::max();
+};
+
+/// One member of a message: its JSON name, where it stands in the struct, and its rules. This one description drives
+/// decode, encode and checks.
+template <typename TAccessor>
+struct JsonField
+{
+    std::string_view name;
+    TAccessor accessor;
+    EPresence presence = EPresence::Required;
+    FieldBounds bounds{};
+
+    [[nodiscard]] constexpr JsonField Between(double minimum, double maximum) const
+    {
+        JsonField field = *this;
+        field.bounds.minimum = minimum;
+        field.bounds.maximum = maximum;
+        return field;
+    }
+
+    [[nodiscard]] constexpr JsonField WithLength(std::size_t minimum, std::size_t maximum) const
+    {
+        JsonField field = *this;
+        field.bounds.minimumLength = minimum;
+        field.bounds.maximumLength = maximum;
+        return field;
+    }
+};
+
+template <typename TStruct, typename TMember>
+struct MemberAccessor
+{
+    TMember TStruct::*member;
+
+    constexpr TMember& operator()(TStruct& object) const
+    {
+        return object.*member;
+    }
+
+    constexpr const TMember& operator()(const TStruct& object) const
+    {
+        return object.*member;
+    }
+};
+
+/// A member of a member: the field of a struct whose fields stand flat in the same JSON object.
+template <typename TOuter, typename TInner>
+struct NestedAccessor
+{
+    TOuter outer;
+    TInner inner;
+
+    template <typename TStruct>
+    constexpr decltype(auto) operator()(TStruct& object) const
+    {
+        return inner(outer(object));
+    }
+};
+
+/// The description of a message struct; specialise once per struct, in the codec's .cpp:
+/// `template <> struct JsonFields<Job> { static constexpr auto FIELDS = std::make_tuple(Required("jobId", &Job::jobID), …); };`
+template <typename TStruct>
+struct JsonFields;
+
+template <typename TStruct>
+concept DescribedStruct = requires
+{
+    JsonFields<TStruct>::FIELDS;
+};
+
+template <typename TStruct, typename TMember>
+[[nodiscard]] constexpr auto Required(std::string_view name, TMember TStruct::*member)
+{
+    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Required, {}};
+}
+
+template <typename TStruct, typename TMember>
+[[nodiscard]] constexpr auto Optional(std::string_view name, TMember TStruct::*member)
+{
+    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Optional, {}};
+}
+
+template <typename TStruct, typename TMember>
+[[nodiscard]] constexpr auto Nullable(std::string_view name, TMember TStruct::*member)
+{
+    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Nullable, {}};
+}
+
+template <typename TStruct, typename TMember>
+[[nodiscard]] constexpr auto Defaulted(std::string_view name, TMember TStruct::*member)
+{
+    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Defaulted, {}};
+}
+
+/// A struct whose fields stand flat in the JSON object of the struct that holds it (a message's header).
+template <typename TStruct, typename TMember>
+struct FlatField
+{
+    MemberAccessor<TStruct, TMember> accessor;
+};
+
+template <typename TStruct, typename TMember>
+[[nodiscard]] constexpr auto Flat(TMember TStruct::*member)
+{
+    return FlatField<TStruct, TMember>{{member}};
+}
+
+template <typename TAccessor>
+[[nodiscard]] constexpr auto ExpandField(const JsonField<TAccessor>& field)
+{
+    return std::make_tuple(field);
+}
+
+template <typename TStruct, typename TMember>
+[[nodiscard]] constexpr auto ExpandField(const FlatField<TStruct, TMember>& flat)
+{
+    const auto nest = [&flat](const auto&... fields) {
+        const auto wrap = [&flat](const auto& field) {
+            using Inner = std::remove_cvref_t<decltype(field.accessor)>;
+            using Nested = NestedAccessor<MemberAccessor<TStruct, TMember>, Inner>;
+            return JsonField<Nested>{field.name, Nested{flat.accessor, field.accessor}, field.presence, field.bounds};
+        };
+        return std::make_tuple(wrap(fields)...);
+    };
+    return std::apply(nest, JsonFields<TMember>::FIELDS);
+}
+
+/// The fields of a struct with the flat ones expanded, in the order in which they are written.
+template <DescribedStruct TStruct>
+inline constexpr auto EXPANDED_FIELDS = std::apply(
+    [](const auto&... fields) { return std::tuple_cat(ExpandField(fields)...); },
+    JsonFields<TStruct>::FIELDS);
+
+template <DescribedStruct TStruct>
+inline constexpr std::size_t FIELD_COUNT = std::tuple_size_v<std::remove_cvref_t<decltype(EXPANDED_FIELDS<TStruct>)>>;
+
+} // namespace ACS::Json

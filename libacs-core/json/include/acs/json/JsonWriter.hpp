@@ -1,0 +1,39 @@
+#pragma once
+
+#include <acs/core/JsonText.hpp>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace ACS::Json
+{
+
+/// Appends compact JSON to a string of the caller, who reuses it: writing allocates nothing once it has grown. Members
+/// come out in the order in which they are written. What is not UTF-8 in a string is written as U+FFFD.
+class JsonWriter
+{
+    std::string& _out;
+
+    void Separate();
+
+public:
+    explicit JsonWriter(std::string& out);
+
+    void BeginObject();
+    void EndObject();
+    void BeginArray();
+    void EndArray();
+    void Key(std::string_view name);
+
+    void WriteString(std::string_view value);
+    /// Finite: JSON has no word for anything else.
+    void WriteNumber(double value);
+    void WriteInteger(std::int64_t value);
+    void WriteUnsigned(std::uint64_t value);
+    void WriteBoolean(bool bValue);
+    void WriteNull();
+    void WriteRaw(const Core::JsonText& value);
+};
+
+} // namespace ACS::Json

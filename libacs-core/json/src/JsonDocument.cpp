@@ -1,0 +1,257 @@
+#include <acs/json/JsonDocument.hpp>
+
+#include <fmt/format.h>
+#include <rapidjson/error/en.h>
+#include <rapidjson/memorystream.h>
+#include <rapidjson/reader.h>
+#include <rapidjson/stringbuffer.h>
+#include <rapidjson/writer.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace ACS::Json
+{
+
+namespace
+{
+
+constexpr std::size_t POOL_BYTES = 64U * 1024U;
+constexpr std::size_t FIRST_STACK_BYTES = 1024;
+constexpr std::size_t LONGEST_FOUND = 40;
+constexpr unsigned PARSE_FLAGS =
+    rapidjson::kParseIterativeFlag | rapidjson::kParseValidateEncodingFlag | rapidjson::kParseFullPrecisionFlag;
+
+/// Passes the parser's events on to the document and ends the parse at the depth limit.
+class DepthLimitedHandler
+{
+    Document& _document;
+    std::size_t _depth = 0;
+    const std::size_t _maximumDepth;
+
+public:
+    using Ch = char;
+
+    DepthLimitedHandler(Document& document, std::size_t maximumDepth)
+        : _document(document),
+          _maximumDepth(maximumDepth)
+    {
+    }
+
+    bool Null()
+    {
+        return _document.Null();
+    }
+
+    bool Bool(bool bValue)
+    {
+        return _document.Bool(bValue);
+    }
+
+    bool Int(int value)
+    {
+        return _document.Int(value);
+    }
+
+    bool Uint(unsigned value)
+    {
+        return _document.Uint(value);
+    }
+
+    bool Int64(std::int64_t value)
+    {
+        return _document.Int64(value);
+    }
+
+    bool Uint64(std::uint64_t value)
+    {
+        return _document.Uint64(value);
+    }
+
+    bool Double(double value)
+    {
+        return _document.Double(value);
+    }
+
+    bool RawNumber(const char* text, rapidjson::SizeType length, bool bCopy)
+    {
+        return _document.RawNumber(text, length, bCopy);
+    }
+
+    bool String(const char* text, rapidjson::SizeType length, bool bCopy)
+    {
+        return _document.String(text, length, bCopy);
+    }
+
+    bool StartObject()
+    {
+        return ++_depth <= _maximumDepth && _document.StartObject();
+    }
+
+    bool Key(const char* text, rapidjson::SizeType length, bool bCopy)
+    {
+        return _document.Key(text, length, bCopy);
+    }
+
+    bool EndObject(rapidjson::SizeType count)
+    {
+        --_depth;
+        return _document.EndObject(count);
+    }
+
+    bool StartArray()
+    {
+        return ++_depth <= _maximumDepth && _document.StartArray();
+    }
+
+    bool EndArray(rapidjson::SizeType count)
+    {
+        --_depth;
+        return _document.EndArray(count);
+    }
+};
+
+std::string_view SkipByteOrderMark(std::string_view text)
+{
+    constexpr std::string_view MARK = "\xEF\xBB\xBF";
+    return text.substr(0, MARK.size()) == MARK ? text.substr(MARK.size()) : text;
+}
+
+bool IsUtf8Continuation(char byte)
+{
+    return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
+}
+
+bool HasDuplicateNamesHere(const Value& object)
+{
+    std::vector<std::string_view> names;
+    names.reserve(object.MemberCount());
+    for (const auto& member : object.GetObject())
+    {
+        names.emplace_back(member.name.GetString(), member.name.GetStringLength());
+    }
+    std::ranges::sort(names);
+    return std::ranges::adjacent_find(names) != names.end();
+}
+
+} // namespace
+
+JsonDocument::JsonDocument()
+    : _valueBuffer(std::make_unique<char[]>(POOL_BYTES)), // NOLINT(modernize-avoid-c-arrays)
+      _stackBuffer(std::make_unique<char[]>(POOL_BYTES)), // NOLINT(modernize-avoid-c-arrays)
+      _valuePool(_valueBuffer.get(), POOL_BYTES),
+      _stackPool(_stackBuffer.get(), POOL_BYTES)
+{
+}
+
+JsonDocument::~JsonDocument() = default;
+
+Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const ParseLimits& limits)
+{
+    if (text.size() > limits.bytes)
+    {
+        return Core::Fail(
+            Core::ECoreError::TooLarge,
+            {},
+            fmt::format("at most {} bytes", limits.bytes),
+            fmt::format("{} bytes", text.size()));
+    }
+    const std::string_view body = SkipByteOrderMark(text);
+    _document.reset();
+    _valuePool.Clear();
+    _stackPool.Clear();
+    Document& document = _document.emplace(&_valuePool, FIRST_STACK_BYTES, &_stackPool);
+    rapidjson::GenericReader<rapidjson::UTF8<>, rapidjson::UTF8<>, PoolAllocator> reader(
+        &_stackPool,
+        FIRST_STACK_BYTES);
+    rapidjson::MemoryStream stream(body.data(), body.size());
+    rapidjson::ParseResult outcome;
+    const auto generate = [&](Document& target) {
+        DepthLimitedHandler handler(target, limits.depth);
+        outcome = reader.Parse<PARSE_FLAGS>(stream, handler);
+        return !outcome.IsError();
+    };
+    document.Populate(generate);
+    if (outcome.Code() == rapidjson::kParseErrorTermination)
+    {
+        return Core::Fail(Core::ECoreError::TooLarge, {}, fmt::format("at most {} levels of nesting", limits.depth));
+    }
+    if (outcome.IsError())
+    {
+        return Core::Fail(
+            Core::ECoreError::InvalidJson,
+            {},
+            "JSON",
+            fmt::format("byte {}: {}", outcome.Offset(), rapidjson::GetParseError_En(outcome.Code())));
+    }
+    // A NUL byte ends RapidJSON's stream as the real end does: what follows it would pass unseen.
+    if (stream.Tell() != body.size())
+    {
+        return Core::Fail(Core::ECoreError::InvalidJson, {}, "JSON", fmt::format("a NUL at byte {}", stream.Tell()));
+    }
+    return &document;
+}
+
+std::string WriteText(const Value& value)
+{
+    rapidjson::StringBuffer buffer;
+    rapidjson::Writer<rapidjson::StringBuffer> writer(buffer);
+    value.Accept(writer);
+    return {buffer.GetString(), buffer.GetSize()};
+}
+
+std::string ShortenForError(const Value& value)
+{
+    if (value.IsObject())
+    {
+        return "an object";
+    }
+    if (value.IsArray())
+    {
+        return "an array";
+    }
+    std::string text = WriteText(value);
+    if (text.size() > LONGEST_FOUND)
+    {
+        std::size_t end = LONGEST_FOUND;
+        while (end > 0 && IsUtf8Continuation(text[end]))
+        {
+            --end;
+        }
+        text.resize(end);
+        text += "...";
+    }
+    return text;
+}
+
+bool HasDuplicateNames(const Value& value)
+{
+    std::vector<const Value*> pending{&value};
+    while (!pending.empty())
+    {
+        const Value& current = *pending.back();
+        pending.pop_back();
+        if (current.IsArray())
+        {
+            for (const Value& element : current.GetArray())
+            {
+                pending.push_back(&element);
+            }
+        }
+        else if (current.IsObject())
+        {
+            if (HasDuplicateNamesHere(current))
+            {
+                return true;
+            }
+            for (const auto& member : current.GetObject())
+            {
+                pending.push_back(&member.value);
+            }
+        }
+    }
+    return false;
+}
+
+} // namespace ACS::Json
