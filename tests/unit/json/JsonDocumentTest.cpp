@@ -1,0 +1,94 @@
+#include "Catch.hpp"
+#include <acs/json/JsonDocument.hpp>
+
+#include <string>
+#include <string_view>
+
+namespace ACS::Json::Test
+{
+
+namespace
+{
+
+std::error_code GetParseError(std::string_view text, const ParseLimits& limits = {})
+{
+    JsonDocument document;
+    const auto root = document.Parse(text, limits);
+    return root ? std::error_code() : root.error().code;
+}
+
+} // namespace
+
+TEST_CASE("Five megabytes of opening brackets are refused without a crash")
+{
+    ParseLimits limits;
+    limits.bytes = 8U * 1024U * 1024U;
+    CHECK(GetParseError(std::string(5U * 1024U * 1024U, '['), limits) == Core::ECoreError::TooLarge);
+    limits.depth = limits.bytes;
+    CHECK(GetParseError(std::string(5U * 1024U * 1024U, '['), limits) == Core::ECoreError::InvalidJson);
+}
+
+TEST_CASE("Nesting is allowed up to the limit and no further")
+{
+    const ParseLimits limits{1024, 3};
+    CHECK_FALSE(GetParseError("[[[1]]]", limits));
+    CHECK(GetParseError("[[[[1]]]]", limits) == Core::ECoreError::TooLarge);
+}
+
+TEST_CASE("A text longer than the limit is refused before it is parsed")
+{
+    CHECK(GetParseError("[1,2,3]", {6, 3}) == Core::ECoreError::TooLarge);
+    CHECK_FALSE(GetParseError("[1,2,3]", {7, 3}));
+}
+
+TEST_CASE("What is no JSON is refused")
+{
+    using namespace std::string_view_literals;
+    for (const std::string_view text :
+         {""sv,
+          " "sv,
+          "{"sv,
+          "{\"a\":}"sv,
+          "[1,]"sv,
+          "{} {}"sv,
+          "NaN"sv,
+          "Infinity"sv,
+          "[1e999]"sv,
+          "\"\xC3\x28\""sv,
+          "\"\xED\xA0\x80\""sv,
+          "{\"a\":1}\0{\"b\":2}"sv,
+          "// c\n1"sv,
+          "'a'"sv,
+          "01"sv})
+    {
+        CAPTURE(text);
+        CHECK(GetParseError(text) == Core::ECoreError::InvalidJson);
+    }
+}
+
+TEST_CASE("White space and a byte order mark around the text are accepted")
+{
+    CHECK_FALSE(GetParseError("\xEF\xBB\xBF {\"a\": 1} \r\n"));
+}
+
+TEST_CASE("A document is parsed again and again in the same buffers")
+{
+    JsonDocument document;
+    for (int i = 0; i < 1000; ++i)
+    {
+        const auto root = document.Parse(R"({"a":[1,2,3],"b":"text"})", {});
+        REQUIRE(root);
+        REQUIRE((*root)->MemberCount() == 2);
+    }
+    CHECK_FALSE(document.Parse("{", {}));
+    CHECK(document.Parse("{}", {}));
+}
+
+TEST_CASE("A repeated name is found at any depth")
+{
+    JsonDocument document;
+    CHECK(HasDuplicateNames(**document.Parse(R"([{"a":{"b":1,"b":2}}])", {})));
+    CHECK_FALSE(HasDuplicateNames(**document.Parse(R"([{"a":{"b":1}},{"a":{"b":1}}])", {})));
+}
+
+} // namespace ACS::Json::Test

@@ -1,0 +1,69 @@
+#include "Catch.hpp"
+#include <acs/json/JsonWriter.hpp>
+
+#include <limits>
+#include <string>
+
+namespace ACS::Json::Test
+{
+
+namespace
+{
+
+std::string WriteOne(std::string_view value)
+{
+    std::string text;
+    JsonWriter(text).WriteString(value);
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("Objects and arrays are separated by commas where they belong")
+{
+    std::string text;
+    JsonWriter writer(text);
+    writer.BeginObject();
+    writer.Key("empty");
+    writer.BeginObject();
+    writer.EndObject();
+    writer.Key("list");
+    writer.BeginArray();
+    writer.WriteInteger(-1);
+    writer.WriteUnsigned(std::numeric_limits<std::uint64_t>::max());
+    writer.WriteNumber(0.1);
+    writer.WriteBoolean(true);
+    writer.WriteNull();
+    writer.WriteString("a:[");
+    writer.WriteRaw(Core::JsonText::FromTrusted("{}"));
+    writer.BeginArray();
+    writer.EndArray();
+    writer.EndArray();
+    writer.EndObject();
+    CHECK(text == R"({"empty":{},"list":[-1,18446744073709551615,0.1,true,null,"a:[",{},[]]})");
+}
+
+TEST_CASE("Control characters, quotes and backslashes are escaped, UTF-8 is kept")
+{
+    CHECK(WriteOne("a\"b\\c\n\x01") == R"("a\"b\\c\n\u0001")");
+    CHECK(WriteOne("\xED\x8F\xAC \xF0\x9F\xA4\x96") == "\"\xED\x8F\xAC \xF0\x9F\xA4\x96\"");
+}
+
+TEST_CASE("What is no UTF-8 is written as the replacement character")
+{
+    CHECK(WriteOne("a\xFFz") == "\"a\xEF\xBF\xBDz\"");
+    CHECK(WriteOne("\xC3") == "\"\xEF\xBF\xBD\"");
+    CHECK(WriteOne("\xED\xA0\x80") == "\"\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD\"");
+}
+
+TEST_CASE("A number is written so that reading it gives the same number")
+{
+    for (const double value : {0.1, 1e-300, 12345678.9, -0.0, 1.0 / 3.0})
+    {
+        std::string text;
+        JsonWriter(text).WriteNumber(value);
+        CHECK(std::stod(text) == value);
+    }
+}
+
+} // namespace ACS::Json::Test
