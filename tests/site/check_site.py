@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+"""Checks the example site, its configuration and the example plans; exit code 1 and a line per mistake.
+
+    check_site.py            everything but the schema
+    check_site.py --schema   the layout against the official LIF schema of $ACS_SPEC_DIR; exit code 77 (skipped) where
+                             that folder or python3-jsonschema is missing
+"""
+
+import importlib.util
+import os
+import pathlib
+import subprocess
+import sys
+
+import site_checks as checks
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+SITE = ROOT / "examples/site"
+PLANS = ROOT / "examples/plans"
+SKIPPED = 77
+
+
+def find_schema_or_none():
+    folder = os.environ.get("ACS_SPEC_DIR")
+    path = pathlib.Path(folder) / "lif/lif-schema.json" if folder else None
+    return path if path is not None and path.is_file() else None
+
+
+def check_schema_only(lif):
+    schema = find_schema_or_none()
+    if schema is None:
+        print("skipped: ACS_SPEC_DIR does not name a folder with lif/lif-schema.json")
+        return SKIPPED, []
+    if importlib.util.find_spec("jsonschema") is None:
+        print("skipped: python3-jsonschema is not installed")
+        return SKIPPED, []
+    return 0, checks.check_schema(lif, checks.read_json(schema))
+
+
+def check_all_else(lif):
+    mistakes = [mistake for check in checks.LAYOUT_CHECKS for mistake in check(lif)]
+    config = checks.read_toml(SITE / "acsd.toml")
+    mistakes += checks.check_config(config, lif)
+    mistakes += checks.check_key_table(config, (SITE / "README.md").read_text(encoding="utf-8"))
+    plans = sorted(PLANS.glob("*.json"))
+    if not plans:
+        mistakes.append("there are no example plans")
+    for path in plans:
+        mistakes += [f"{path.name}: {mistake}" for mistake in checks.check_plan(checks.read_json(path), config)]
+    if subprocess.run([sys.executable, ROOT / "scripts/make_site.py", "--check"], check=False).returncode != 0:
+        mistakes.append("the layout or its picture is not what scripts/make_site.py writes")
+    return mistakes
+
+
+def main():
+    lif = checks.read_json(SITE / "site.lif.json")
+    code, mistakes = check_schema_only(lif) if sys.argv[1:] == ["--schema"] else (0, check_all_else(lif))
+    for mistake in mistakes:
+        print(mistake, file=sys.stderr)
+    return 1 if mistakes else code
+
+
+if __name__ == "__main__":
+    sys.exit(main())
