@@ -1,0 +1,61 @@
+"""What the tests with real processes share."""
+
+import argparse
+import json
+import os
+import pathlib
+import sys
+import unittest
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(REPOSITORY / "scripts"))
+from production_line import Line  # noqa: E402
+
+SITE = REPOSITORY / "examples" / "site"
+PLANS = [REPOSITORY / "examples" / "plans" / name for name in ("lr-cassette.json", "cr-tray.json")]
+TIME_SCALE = 20
+FINISH_SECONDS = 120
+
+
+class ScenarioCase(unittest.TestCase):
+    """A test on a line of its own; on a failure the ends of all logs are printed."""
+
+    bin_dir = None
+
+    def setUp(self):
+        self.line = Line(self.bin_dir, SITE)
+        self.line.__enter__()
+        self.addCleanup(self.line.stop)
+
+    def tearDown(self):
+        if any(error for _, error in getattr(self._outcome, "errors", [])) or not self._outcome.success:
+            for program in self.line.programs:
+                print(f"--- {program.name} ---", *program.tail(40), sep="\n", file=sys.stderr)
+
+    def start_robots(self):
+        self.line.start_broker()
+        vehicles = self.line.start_vehicles(TIME_SCALE)
+        arm = self.line.start_arm(TIME_SCALE)
+        vehicles.wait_ready()
+        return arm.wait_ready()
+
+    def assert_last_line(self, program, expected):
+        self.assertEqual(program.tail(1), [expected])
+
+
+def write_plan(folder, name, change):
+    """A copy of the LR example plan, changed by the function."""
+    plan = json.loads(PLANS[0].read_text())
+    change(plan)
+    path = pathlib.Path(folder) / name
+    path.write_text(json.dumps(plan))
+    return path
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--bin", required=True, type=pathlib.Path)
+    arguments, rest = parser.parse_known_args()
+    ScenarioCase.bin_dir = arguments.bin
+    os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
+    unittest.main(argv=[sys.argv[0], *rest], verbosity=2, module="__main__")

@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""What a user meets when something is not there or wrong: one clear line, the right exit code, nothing left running."""
+
+import socket
+import subprocess
+import unittest
+
+from scenario_case import FINISH_SECONDS, SITE, ScenarioCase, main, write_plan
+
+
+class BadInput(ScenarioCase):
+    def run_program(self, name, *arguments):
+        return subprocess.run([self.bin_dir / name, *map(str, arguments)], capture_output=True, text=True, timeout=20,
+                              stdin=subprocess.DEVNULL, check=False)
+
+    def assert_refused(self, result, code, *words):
+        self.assertEqual(result.returncode, code, result.stderr)
+        lines = result.stderr.strip().splitlines()
+        self.assertEqual(len(lines), 1, result.stderr)
+        for word in words:
+            self.assertIn(word, lines[0])
+
+    def test_an_unknown_option_is_refused_by_every_program(self):
+        for name in ("acsd", "vda-sim", "openstream-sim", "mcs-sim"):
+            with self.subTest(name):
+                self.assert_refused(self.run_program(name, "--frobnicate"), 2, "--frobnicate")
+
+    def test_help_and_version_work_in_every_program(self):
+        for name in ("acsd", "vda-sim", "openstream-sim", "mcs-sim"):
+            with self.subTest(name):
+                self.assertEqual(self.run_program(name, "--help").returncode, 0)
+                version = self.run_program(name, "--version")
+                self.assertEqual(version.returncode, 0)
+                self.assertTrue(version.stdout.startswith(name + " "), version.stdout)
+
+    def test_a_port_in_use_is_named(self):
+        with socket.create_server(("127.0.0.1", 0)) as taken:
+            address = f"127.0.0.1:{taken.getsockname()[1]}"
+            plan = write_plan(self.line.folder, "plan.json", lambda plan: None)
+            store = self.line.folder / "acsd.db"
+            rows = {
+                "mcs-sim": ["--listen", address, "--plan", plan],
+                "openstream-sim": ["--listen", address, "--http", "127.0.0.1:0"],
+                "acsd": ["--config", SITE / "acsd.toml", "--set", f"http.listen={address}",
+                         "--set", f"store.path={store}"],
+            }
+            for name, arguments in rows.items():
+                with self.subTest(name):
+                    result = self.run_program(name, *arguments)
+                    self.assertNotEqual(result.returncode, 0)
+                    self.assertIn(address, result.stderr)
+
+    def test_a_site_file_that_is_no_lif_is_refused(self):
+        site = self.line.folder / "wrong.lif.json"
+        site.write_text('{"layouts": 3}')
+        result = self.run_program("vda-sim", "--broker", "mqtt://127.0.0.1:1", "--site", site, "--vehicle", "LR01")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("wrong.lif.json", result.stderr)
+        result = self.run_program("acsd", "--config", SITE / "acsd.toml", "--set", f"site.map={site}", "--check-config")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("wrong.lif.json", result.stderr)
+
+    def test_every_mistake_of_a_configuration_is_told_at_once(self):
+        config = self.line.folder / "acsd.toml"
+        text = (SITE / "acsd.toml").read_text()
+        text = text.replace('url = "ws://127.0.0.1:9001/acs/"', 'url = "http://127.0.0.1:9001/"')
+        text = text.replace("max_plans = 100", "max_plants = 100").replace('type = "LR"', 'type = "XR"')
+        text = text.replace('map = "site.lif.json"', f'map = "{SITE / "site.lif.json"}"')
+        config.write_text(text)
+        result = self.run_program("acsd", "--config", config, "--check-config")
+        self.assertEqual(result.returncode, 2)
+        for key in ("mcs.url", "queue.max_plants", "robots.LR01.type"):
+            lines = [line for line in result.stderr.splitlines() if key in line]
+            self.assertEqual(len(lines), 1, result.stderr)
+            self.assertRegex(lines[0], r"acsd\.toml:\d+: ")
+
+    def test_the_example_configuration_is_good(self):
+        result = self.run_program("acsd", "--config", SITE / "acsd.toml", "--check-config")
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_acsd_is_ready_without_broker_and_mcs_and_ends_cleanly(self):
+        acsd = self.line.start("acsd", "--config", SITE / "acsd.toml", "--set", "mcs.url=ws://127.0.0.1:1/acs/",
+                               "--set", "mqtt.url=mqtt://127.0.0.1:1", "--set", "http.listen=127.0.0.1:0",
+                               "--set", f"store.path={self.line.folder / 'acsd.db'}")
+        self.assertIn("http", acsd.wait_ready())
+        self.line.forget(acsd)
+        self.assertEqual(acsd.stop(), 0)
+
+    def test_a_plan_for_a_location_that_the_site_lacks_is_refused_with_a_reason(self):
+        def change(plan):
+            plan["steps"][0]["position"] = "A09.CP01"
+            plan["steps"][0]["jobs"][0]["from"] = "A09.CP01"
+
+        arm = self.start_robots()
+        mcs = self.line.start_mcs([write_plan(self.line.folder, "plan.json", change)], "--fresh-ids")
+        self.line.start_acsd(mcs.wait_ready()["ws"], arm).wait_ready()
+        self.assertEqual(mcs.wait(FINISH_SECONDS), 1)
+        output = mcs.log.read_text()
+        self.assertIn("A09.CP01", output)
+        self.assert_last_line(mcs, "0 plans completed, 1 failed")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""The demo itself: it ends as it says, and leaves nothing behind, however it is ended."""
+
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+import uuid
+
+from scenario_case import FINISH_SECONDS, REPOSITORY, ScenarioCase, main
+
+MARK = "ACS_DEMO_TEST_MARK"
+INTERRUPTIONS = 5
+LATEST_INTERRUPTION = 6.0
+
+
+def find_processes(mark):
+    """All processes that inherited the mark: the demo and everything that it started."""
+    wanted = f"{MARK}={mark}".encode()
+    found = []
+    for entry in pathlib.Path("/proc").iterdir():
+        if entry.name.isdigit():
+            try:
+                if wanted in (entry / "environ").read_bytes().split(b"\0"):
+                    found.append((entry / "cmdline").read_bytes().replace(b"\0", b" ").decode())
+            except OSError:
+                pass
+    return found
+
+
+class Demo(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.mark = uuid.uuid4().hex
+
+    def start(self, *arguments):
+        environment = {**os.environ, "TMPDIR": self.folder, MARK: self.mark, "PYTHONDONTWRITEBYTECODE": "1"}
+        return subprocess.Popen(
+            [sys.executable, REPOSITORY / "scripts" / "demo.py", "--bin", ScenarioCase.bin_dir, *arguments],
+            env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+    def assert_nothing_left(self):
+        self.assertEqual(find_processes(self.mark), [])
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_the_demo_completes_its_plans(self):
+        demo = self.start("--time-scale", "20")
+        output, _ = demo.communicate(timeout=FINISH_SECONDS)
+        self.assertEqual(demo.returncode, 0, output)
+        self.assertEqual(output.splitlines()[-1], "2 plans completed, 0 failed")
+        self.assert_nothing_left()
+
+    def test_an_interruption_at_any_moment_leaves_nothing(self):
+        seed = int.from_bytes(os.urandom(4), "big")
+        print(f"seed {seed}")
+        moments = random.Random(seed)
+        for i in range(INTERRUPTIONS):
+            moment = moments.uniform(0.0, LATEST_INTERRUPTION)
+            with self.subTest(i=i, moment=moment):
+                demo = self.start()
+                try:
+                    demo.wait(moment)
+                except subprocess.TimeoutExpired:
+                    pass
+                demo.send_signal(signal.SIGINT)
+                output, _ = demo.communicate(timeout=60)
+                self.assertNotIn("Traceback", output)
+                self.assert_nothing_left()
+
+    def test_a_program_that_dies_is_told_with_the_end_of_its_log(self):
+        demo = self.start("--time-scale", "1")
+        for line in demo.stdout:
+            if "registered" in line.lower() or "InProgress" in line:
+                break
+        victims = [pid for pid in os.listdir("/proc") if pid.isdigit() and self.is_marked(pid, "acsd")]
+        self.assertEqual(len(victims), 1)
+        os.kill(int(victims[0]), signal.SIGKILL)
+        output, _ = demo.communicate(timeout=60)
+        self.assertEqual(demo.returncode, 1)
+        self.assertIn("acsd ended with exit code -9", output)
+        self.assertIn("the end of acsd's log", output)
+        self.assert_nothing_left()
+
+    def is_marked(self, pid, program):
+        try:
+            arguments = pathlib.Path("/proc", pid, "cmdline").read_bytes().split(b"\0")
+            environment = pathlib.Path("/proc", pid, "environ").read_bytes().split(b"\0")
+        except OSError:
+            return False
+        return pathlib.Path(arguments[0].decode()).name == program and f"{MARK}={self.mark}".encode() in environment
+
+
+if __name__ == "__main__":
+    main()
