@@ -1,0 +1,269 @@
+#include "AcsdConfig.hpp"
+
+#include <acs/core/Location.hpp>
+#include <acs/plan/LifReader.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+using namespace std::chrono_literals;
+using Apps::ConfigSection;
+using Apps::EUrlScheme;
+
+constexpr std::int64_t HIGHEST_PROGRAM = 9999;
+constexpr std::int64_t HIGHEST_RELAY_BYTE = 65'535;
+constexpr std::int64_t HIGHEST_WORD_INDEX = 255;
+constexpr std::int64_t MOST_PLANS = 100'000;
+constexpr std::int64_t MOST_RETRIES = 100;
+
+/// Paths in the configuration count from its own folder.
+std::string ResolvePath(const std::string& configFile, const std::string& path)
+{
+    const std::filesystem::path target(path);
+    return target.is_absolute() ? path : (std::filesystem::path(configFile).parent_path() / target).string();
+}
+
+/// Ranges such as "A01.CP01.TP01-04"; in front of each the prefix ("LR01." for ports of a robot).
+std::vector<Core::Location> ReadPlaces(const ConfigSection& section, const std::string& key, const std::string& prefix)
+{
+    std::vector<Core::Location> places;
+    for (const std::string& text : section.GetStringList(key))
+    {
+        Core::Result<std::vector<Core::Location>> range = Core::ParseLocationRange(prefix + text);
+        if (!range)
+        {
+            section.AddMistake(key, fmt::format("\"{}\": {}", text, Core::Describe(range.error())));
+            continue;
+        }
+        std::ranges::move(*range, std::back_inserter(places));
+    }
+    return places;
+}
+
+Planning::ERobotType ReadRobotType(const ConfigSection& section, const std::string& key)
+{
+    return section.GetWord(key, {"LR", "CR"}) == "CR" ? Planning::ERobotType::CR : Planning::ERobotType::LR;
+}
+
+void ReadLinks(const ConfigSection& root, AcsdConfig& config)
+{
+    const ConfigSection mcs = root.GetSection("mcs");
+    config.mcs.url = mcs.GetUrl("url", {EUrlScheme::Ws, EUrlScheme::Wss});
+    config.mcs.ackTimeout = mcs.GetDuration("ack_timeout", 10ms, 10min, config.mcs.ackTimeout);
+    config.mcs.ackRetries =
+        static_cast<unsigned>(mcs.GetInteger("ack_retries", 0, MOST_RETRIES, config.mcs.ackRetries));
+    config.mcs.pingInterval = mcs.GetDuration("ping_interval", 100ms, 10min, config.mcs.pingInterval);
+
+    const ConfigSection mqtt = root.GetSection("mqtt");
+    config.mqtt.url = mqtt.GetUrl("url", {EUrlScheme::Mqtt, EUrlScheme::Mqtts});
+    config.mqtt.interfaceName = mqtt.GetString("interface_name", config.mqtt.interfaceName);
+    if (config.mqtt.interfaceName.empty() || config.mqtt.interfaceName.find_first_of("/+#$") != std::string::npos)
+    {
+        mqtt.AddMistake("interface_name", "must be one level of a topic: not empty, without / + # $");
+    }
+
+    const ConfigSection arm = root.GetSection("arm");
+    ArmCounters& counters = config.arm;
+    const auto readIndex = [&arm](const std::string& key, std::size_t fallback) {
+        return static_cast<std::size_t>(
+            arm.GetInteger(key, 0, HIGHEST_WORD_INDEX, static_cast<std::int64_t>(fallback)));
+    };
+    counters.monitorUrl = arm.GetString("monitor_url", counters.monitorUrl);
+    counters.firstByte =
+        static_cast<std::uint32_t>(arm.GetInteger("monitor_start", 0, HIGHEST_RELAY_BYTE, counters.firstByte));
+    counters.period = arm.GetDuration("monitor_period", 2ms, 30s, counters.period);
+    counters.startedIndex = readIndex("counter_started", counters.startedIndex);
+    counters.finishedIndex = readIndex("counter_finished", counters.finishedIndex);
+    counters.failedIndex = readIndex("counter_failed", counters.failedIndex);
+}
+
+void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
+{
+    const ConfigSection section = root.GetSection("site");
+    const std::string map = section.GetString("map");
+    config.siteFile = ResolvePath(fileName, map);
+    config.engine.places = ReadPlaces(section, "ports", "");
+    const std::string zone = section.GetString("timezone", "system");
+    const Core::Result<Apps::LocalOffset> offset = Apps::LocalOffset::Parse(zone);
+    if (offset)
+    {
+        config.localOffset = *offset;
+    }
+    else
+    {
+        section.AddMistake("timezone", Core::Describe(offset.error()));
+    }
+    if (map.empty())
+    {
+        return;
+    }
+    std::ifstream file(config.siteFile);
+    std::ostringstream text;
+    text << file.rdbuf();
+    if (!file)
+    {
+        section.AddMistake("map", fmt::format("{} cannot be read; give the path of a LIF file", config.siteFile));
+        return;
+    }
+    Core::Result<Planning::SiteMap> site = Planning::DecodeLif(text.str());
+    if (site)
+    {
+        config.site = std::move(*site);
+    }
+    else
+    {
+        section.AddMistake(
+            "map",
+            fmt::format("{} is no LIF layout: {}", config.siteFile, Core::Describe(site.error())));
+    }
+}
+
+std::optional<ArmConfig> ReadArmOrNull(const ConfigSection& robot, bool bNeeded)
+{
+    if (!robot.HasKey("arm"))
+    {
+        if (bNeeded)
+        {
+            robot.AddMistake("", "a CR needs arm.url (tcp://) and arm.http (http://) of its arm's controller");
+        }
+        return std::nullopt;
+    }
+    const ConfigSection section = robot.GetSection("arm");
+    ArmConfig arm;
+    arm.stream = section.GetUrl("url", {EUrlScheme::Tcp});
+    arm.http = section.GetUrl("http", {EUrlScheme::Http});
+    return arm;
+}
+
+void ReadRobot(const ConfigSection& section, const std::string& name, AcsdConfig& config)
+{
+    const Core::Result<Core::RobotID> robotID = Core::RobotID::Parse(name);
+    if (!robotID)
+    {
+        section.AddMistake("", Core::Describe(robotID.error()));
+        return;
+    }
+    Planning::RobotOptions options{.robotID = *robotID};
+    options.type = ReadRobotType(section, "type");
+    options.vehicleTypeID = section.GetString("vehicle_type");
+    options.startNodeID = section.GetString("start_node");
+    options.homeStationID = section.GetStringOrNull("home");
+    options.ports = ReadPlaces(section, "ports", name + ".");
+    options.childPorts = ReadPlaces(section, "child_ports", name + ".");
+
+    RobotLinkConfig link;
+    link.robotID = name;
+    link.manufacturer = section.GetString("manufacturer");
+    link.serialNumber = section.GetString("serial");
+    link.protocolVersion = section.GetWord("protocol", {"2.0.0", "2.1.0"}, "2.0.0");
+    link.armOrNone = ReadArmOrNull(section, options.type == Planning::ERobotType::CR);
+    config.engine.robots.push_back(std::move(options));
+    config.robots.push_back(std::move(link));
+}
+
+/// An action of the document keeps its rules; another one is done at its place without from and to.
+void ReadAction(const ConfigSection& section, const std::string& name, AcsdConfig& config)
+{
+    const Planning::ActionTable standard = Planning::MakeStandardActions();
+    const auto known = standard.find(name);
+    Planning::ActionRule rule = known == standard.end() ? Planning::ActionRule{} : known->second;
+    rule.robotType = ReadRobotType(section, "robot");
+    rule.timeout = section.GetDuration("timeout", 0ms, 24h, rule.timeout);
+
+    JobMethod method;
+    const bool bVehicle = section.HasKey("vehicle_action");
+    const bool bArm = section.HasKey("arm_program");
+    if (bVehicle == bArm)
+    {
+        section.AddMistake("", "needs exactly one of vehicle_action and arm_program");
+    }
+    if (bVehicle)
+    {
+        method.vehicleAction = section.GetString("vehicle_action");
+    }
+    if (bArm)
+    {
+        method.armProgram = static_cast<std::uint32_t>(section.GetInteger("arm_program", 1, HIGHEST_PROGRAM));
+    }
+    config.engine.actions.insert_or_assign(name, rule);
+    config.methods.insert_or_assign(name, method);
+}
+
+void ReadTables(const ConfigSection& root, AcsdConfig& config)
+{
+    const ConfigSection robots = root.GetSection("robots");
+    for (const std::string& name : robots.GetNames())
+    {
+        ReadRobot(robots.GetSection(name), name, config);
+    }
+    if (config.robots.empty())
+    {
+        root.AddMistake("robots", "needs at least one table, such as [robots.LR01]");
+    }
+    const ConfigSection actions = root.GetSection("actions");
+    config.engine.actions.clear();
+    for (const std::string& name : actions.GetNames())
+    {
+        ReadAction(actions.GetSection(name), name, config);
+    }
+}
+
+/// What a robot cannot do for want of an arm is not given to it.
+void RejectActionsWithoutMethod(AcsdConfig& config)
+{
+    for (std::size_t i = 0; i < config.robots.size(); ++i)
+    {
+        for (const auto& [name, method] : config.methods)
+        {
+            if (method.vehicleAction.empty() && !config.robots[i].armOrNone.has_value())
+            {
+                config.engine.robots[i].rejectedActions.push_back(name);
+            }
+        }
+    }
+}
+
+} // namespace
+
+AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::string>& overrides)
+{
+    AcsdConfig config;
+    const Apps::ConfigReader reader = Apps::ConfigReader::ReadFile(fileName, overrides);
+    const ConfigSection root = reader.GetRoot();
+    ReadLinks(root, config);
+    ReadSite(root, fileName, config);
+    config.storeFile = ResolvePath(fileName, root.GetSection("store").GetString("path"));
+    config.httpListen = root.GetSection("http").GetEndpoint("listen", config.httpListen);
+    config.engine.maximumPlans = static_cast<std::size_t>(root.GetSection("queue").GetInteger(
+        "max_plans",
+        1,
+        MOST_PLANS,
+        static_cast<std::int64_t>(config.engine.maximumPlans)));
+    config.positionInterval =
+        root.GetSection("position").GetDuration("interval", 10ms, 1min, config.positionInterval);
+    ReadTables(root, config);
+    RejectActionsWithoutMethod(config);
+    config.mistakes = reader.GetMistakes();
+    if (config.mistakes.empty())
+    {
+        for (const Core::Error& error : Planning::FindMistakes(config.engine, *config.site))
+        {
+            config.mistakes.push_back(fmt::format("{}: {}", fileName, Core::Describe(error)));
+        }
+    }
+    return config;
+}
+
+} // namespace ACS::Acsd

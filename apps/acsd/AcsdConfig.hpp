@@ -1,0 +1,92 @@
+#pragma once
+
+#include "common/ConfigReader.hpp"
+#include "common/LocalOffset.hpp"
+#include "common/Url.hpp"
+#include <acs/plan/EngineOptions.hpp>
+#include <acs/plan/SiteMap.hpp>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+struct McsConfig
+{
+    Apps::Url url;
+    std::chrono::milliseconds ackTimeout{5'000};
+    unsigned ackRetries = 3;
+    std::chrono::milliseconds pingInterval{10'000};
+};
+
+struct MqttConfig
+{
+    Apps::Url url;
+    std::string interfaceName = "uagv";
+};
+
+/// Where an arm shows what its programs do: one array of words in its relays, read through MONITOR.
+struct ArmCounters
+{
+    std::string monitorUrl = "/project/plc/m/val_s32";
+    std::uint32_t firstByte = 400;
+    std::chrono::milliseconds period{20};
+    std::size_t startedIndex = 0;
+    std::size_t finishedIndex = 1;
+    std::size_t failedIndex = 2;
+};
+
+struct ArmConfig
+{
+    Apps::Url stream; ///< tcp://, Open Stream
+    Apps::Url http;   ///< http://, Open API
+};
+
+/// The vehicle and the arm of one robot; what the engine must know of it stands in EngineOptions::robots.
+struct RobotLinkConfig
+{
+    std::string robotID;
+    std::string manufacturer;
+    std::string serialNumber;
+    std::string protocolVersion; ///< "2.0.0" or "2.1.0"
+    std::optional<ArmConfig> armOrNone;
+};
+
+/// How a robot does an action: exactly one of the two.
+struct JobMethod
+{
+    std::string vehicleAction; ///< VDA5050 actionType; empty: the arm does it.
+    std::uint32_t armProgram = 0;
+};
+
+using JobMethods = std::map<std::string, JobMethod, std::less<>>;
+
+/// acsd's configuration, checked as a whole.
+struct AcsdConfig
+{
+    McsConfig mcs;
+    MqttConfig mqtt;
+    ArmCounters arm;
+    std::string siteFile;
+    std::string storeFile;
+    Apps::Endpoint httpListen{"127.0.0.1", 8080};
+    Apps::LocalOffset localOffset;
+    std::chrono::milliseconds positionInterval{200};
+    std::vector<RobotLinkConfig> robots;
+    JobMethods methods;
+    Planning::EngineOptions engine;
+    std::optional<Planning::SiteMap> site; ///< Always there when there are no mistakes.
+    std::vector<std::string> mistakes;     ///< Each with file, line and key; empty: the rest is good.
+};
+
+/// Reads the file, with the overrides of the command line ("table.key=value") on top, and the map that it names.
+[[nodiscard]] AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::string>& overrides);
+
+} // namespace ACS::Acsd

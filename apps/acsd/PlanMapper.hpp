@@ -1,0 +1,17 @@
+#pragma once
+
+#include <acs/plan/PlanCommand.hpp>
+#include <acs/protocol/AcsMessage.hpp>
+
+#include <optional>
+
+namespace ACS::Acsd
+{
+
+/// From what the MCS asks to what the engine understands: wire types and domain types stay apart. nullopt for requests
+/// that are no command of the engine (queries).
+[[nodiscard]] std::optional<Planning::PlanCommand> MakePlanCommandOrNull(
+    const Protocol::AcsPayload& payload,
+    Planning::ReplyToken replyToken);
+
+} // namespace ACS::Acsd
