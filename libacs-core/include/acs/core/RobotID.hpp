@@ -1,0 +1,48 @@
+#pragma once
+
+#include <acs/core/Result.hpp>
+
+#include <compare>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace ACS::Core
+{
+
+/// The name of a robot ("LR01"), valid by construction: 1 to 64 of the characters A-Z a-z 0-9 _ -, and nothing that
+/// reads as an element of a location (A01, ST1, SET12, T01, CP01 …, in either case). Upper and lower case differ.
+class RobotID
+{
+    std::string _text;
+
+    explicit RobotID(std::string text);
+
+public:
+    static constexpr std::size_t MAX_LENGTH = 64;
+    /// What MCS-ACS writes for whichever robot executes the plan (section 10).
+    static constexpr std::string_view ALIAS = "AMR";
+
+    /// Fails with ECoreError::InvalidIdentifier.
+    [[nodiscard]] static Result<RobotID> Parse(std::string_view text);
+
+    [[nodiscard]] const std::string& GetText() const noexcept;
+
+    /// Whether this is the alias and therefore names no robot. A fleet must have no robot of this name.
+    [[nodiscard]] bool IsAlias() const noexcept;
+
+    bool operator==(const RobotID&) const = default;
+    std::strong_ordering operator<=>(const RobotID&) const = default;
+};
+
+} // namespace ACS::Core
+
+template <>
+struct std::hash<ACS::Core::RobotID>
+{
+    std::size_t operator()(const ACS::Core::RobotID& robotID) const noexcept
+    {
+        return std::hash<std::string>()(robotID.GetText());
+    }
+};

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <acs/core/Now.hpp>
+#include <acs/core/Result.hpp>
+
+#include <chrono>
+#include <string>
+#include <string_view>
+
+namespace ACS::Core
+{
+
+/// A moment and how far the sender's local time was ahead of UTC (negative: behind).
+struct Timestamp
+{
+    WallTime time;
+    std::chrono::minutes offset{0};
+
+    bool operator==(const Timestamp&) const = default;
+};
+
+/// Reads an ISO 8601 date and time: no or 1 to 9 digits of a second's fraction, `Z`, `+09:00`, `+0900` or no offset
+/// (then defaultOffset), `T` and `Z` in either case. Years 1678 to 2261, which 64-bit nanoseconds can hold; no leap
+/// seconds. Fails with ECoreError::InvalidTimestamp.
+[[nodiscard]] Result<Timestamp> ParseTimestamp(std::string_view text, std::chrono::minutes defaultOffset = {});
+
+/// Local time with offset, as MCS-ACS writes it (section 2): 2025-07-02T21:00:00.123+09:00. Cuts below a millisecond.
+/// The offset is that of the site, less than 24 hours either way.
+[[nodiscard]] std::string FormatLocal(WallTime time, std::chrono::minutes offset);
+
+/// UTC, as VDA5050 writes it: 2025-07-02T12:00:00.123Z. Cuts below a millisecond.
+[[nodiscard]] std::string FormatUtc(WallTime time);
+
+} // namespace ACS::Core

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <acs/core/IRandom.hpp>
+
+#include <string>
+
+namespace ACS::Core
+{
+
+/// A random UUID (version 4) in its canonical lower-case form, for example for a transactionId. As unique as the
+/// random source is good.
+[[nodiscard]] std::string MakeUuid(IRandom& random);
+
+} // namespace ACS::Core

@@ -1,0 +1,4 @@
+#pragma once
+
+// The only place that knows which Catch2 this is.
+#include <catch2/catch.hpp>
