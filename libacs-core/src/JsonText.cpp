@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <utility>
@@ -18,6 +19,7 @@ constexpr std::uint32_t HIGH_SURROGATE = 0xD800;
 constexpr std::uint32_t LOW_SURROGATE = 0xDC00;
 constexpr std::uint32_t SURROGATE_SPAN = 0x400;
 constexpr std::uint32_t SURROGATE_OFFSET = 0x10000;
+constexpr std::uint32_t REPLACEMENT_CHARACTER = 0xFFFD;
 constexpr unsigned SIX_BITS = 0x3F;
 
 void AppendUtf8(std::string& out, std::uint32_t codePoint)
@@ -52,53 +54,78 @@ void AppendUtf8(std::string& out, std::uint32_t codePoint)
     }
 }
 
-/// Reads the four hexadecimal digits at position; the text is JSON, so they are there.
-std::uint32_t ReadHex(std::string_view text, std::size_t position)
+/// Takes four hexadecimal digits from the front; nullopt where they are not there.
+std::optional<std::uint32_t> TakeHexOrNull(std::string_view& rest)
 {
     std::uint32_t value = 0;
-    const std::string_view digits = text.substr(position, HEX_DIGITS);
-    std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+    const std::string_view digits = rest.substr(0, HEX_DIGITS);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+    if (digits.size() < HEX_DIGITS || error != std::errc() || end != digits.data() + digits.size())
+    {
+        return std::nullopt;
+    }
+    rest.remove_prefix(HEX_DIGITS);
     return value;
 }
 
-/// Appends the character that the escape at position (behind the backslash) means; returns the position behind it.
-std::size_t AppendEscaped(std::string& out, std::string_view text, std::size_t position)
+/// Takes the second half of a surrogate pair, with its \u, from the front, if it is one.
+std::optional<std::uint32_t> TakeLowSurrogateOrNull(std::string_view& rest)
 {
-    switch (text[position])
+    std::string_view behind = rest.substr(std::min<std::size_t>(rest.size(), 2));
+    const std::optional<std::uint32_t> lowOrNull = TakeHexOrNull(behind);
+    if (!rest.starts_with("\\u") || !lowOrNull.has_value() || *lowOrNull < LOW_SURROGATE
+        || *lowOrNull >= LOW_SURROGATE + SURROGATE_SPAN)
     {
-        case 'b':
-            out += '\b';
-            break;
-        case 'f':
-            out += '\f';
-            break;
-        case 'n':
-            out += '\n';
-            break;
-        case 'r':
-            out += '\r';
-            break;
-        case 't':
-            out += '\t';
-            break;
-        case 'u':
-        {
-            std::uint32_t codePoint = ReadHex(text, position + 1);
-            std::size_t end = position + 1 + HEX_DIGITS;
-            if (codePoint >= HIGH_SURROGATE && codePoint < LOW_SURROGATE)
-            {
-                const std::uint32_t low = ReadHex(text, end + 2);
-                codePoint = SURROGATE_OFFSET + (codePoint - HIGH_SURROGATE) * SURROGATE_SPAN + (low - LOW_SURROGATE);
-                end += 2 + HEX_DIGITS;
-            }
-            AppendUtf8(out, codePoint);
-            return end;
-        }
-        default:
-            out += text[position];
-            break;
+        return std::nullopt;
     }
-    return position + 1;
+    rest = behind;
+    return lowOrNull;
+}
+
+/// Takes what stands behind \u. Half a surrogate pair has no UTF-8 and is replaced: parsers let a low one pass.
+std::optional<std::uint32_t> TakeCodePointOrNull(std::string_view& rest)
+{
+    const std::optional<std::uint32_t> unitOrNull = TakeHexOrNull(rest);
+    if (!unitOrNull.has_value() || *unitOrNull < HIGH_SURROGATE || *unitOrNull >= LOW_SURROGATE + SURROGATE_SPAN)
+    {
+        return unitOrNull;
+    }
+    const std::optional<std::uint32_t> lowOrNull =
+        *unitOrNull < LOW_SURROGATE ? TakeLowSurrogateOrNull(rest) : std::nullopt;
+    if (!lowOrNull.has_value())
+    {
+        return REPLACEMENT_CHARACTER;
+    }
+    return SURROGATE_OFFSET + (*unitOrNull - HIGH_SURROGATE) * SURROGATE_SPAN + (*lowOrNull - LOW_SURROGATE);
+}
+
+/// Takes the escape behind a backslash from the front and appends what it means. False where JSON has no such escape.
+bool TryAppendEscaped(std::string& out, std::string_view& rest)
+{
+    constexpr std::string_view LETTERS = "\"\\/bfnrt";
+    constexpr std::string_view MEANINGS = "\"\\/\b\f\n\r\t";
+    if (rest.empty())
+    {
+        return false;
+    }
+    const char letter = rest.front();
+    rest.remove_prefix(1);
+    if (letter == 'u')
+    {
+        const std::optional<std::uint32_t> codePointOrNull = TakeCodePointOrNull(rest);
+        if (codePointOrNull.has_value())
+        {
+            AppendUtf8(out, *codePointOrNull);
+        }
+        return codePointOrNull.has_value();
+    }
+    const std::size_t index = LETTERS.find(letter);
+    if (index == std::string_view::npos)
+    {
+        return false;
+    }
+    out += MEANINGS[index];
+    return true;
 }
 
 } // namespace
@@ -158,23 +185,24 @@ const std::string& JsonText::GetText() const noexcept
 
 std::optional<std::string> JsonText::GetStringOrNull() const
 {
-    if (_text.size() < 2 || _text.front() != '"')
+    if (_text.size() < 2 || _text.front() != '"' || _text.back() != '"')
     {
         return std::nullopt;
     }
-    const std::string_view inner = std::string_view(_text).substr(1, _text.size() - 2);
+    std::string_view rest = std::string_view(_text).substr(1, _text.size() - 2);
     std::string value;
-    value.reserve(inner.size());
-    for (std::size_t position = 0; position < inner.size();)
+    value.reserve(rest.size());
+    while (!rest.empty())
     {
-        if (inner[position] == '\\')
+        const char character = rest.front();
+        rest.remove_prefix(1);
+        if (character == '"' || (character == '\\' && !TryAppendEscaped(value, rest)))
         {
-            position = AppendEscaped(value, inner, position + 1);
+            return std::nullopt;
         }
-        else
+        if (character != '\\')
         {
-            value += inner[position];
-            ++position;
+            value += character;
         }
     }
     return value;

@@ -22,7 +22,7 @@ public:
     /// null
     JsonText() = default;
 
-    /// A JSON string, a number, a boolean: made, not parsed.
+    /// A JSON string (of UTF-8), a number (null where it is not finite), a boolean: made, not parsed.
     [[nodiscard]] static JsonText FromString(std::string_view value);
     [[nodiscard]] static JsonText FromNumber(double value);
     [[nodiscard]] static JsonText FromInteger(std::int64_t value);
@@ -34,7 +34,8 @@ public:
 
     [[nodiscard]] const std::string& GetText() const noexcept;
 
-    /// The text of a JSON string without quotes and escapes; nullopt where this is no string.
+    /// The text of a JSON string without quotes and escapes, half a surrogate pair replaced by U+FFFD; nullopt where
+    /// this is no string.
     [[nodiscard]] std::optional<std::string> GetStringOrNull() const;
     [[nodiscard]] std::optional<double> GetNumberOrNull() const;
     [[nodiscard]] std::optional<bool> GetBooleanOrNull() const;

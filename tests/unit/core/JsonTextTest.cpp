@@ -1,0 +1,86 @@
+#include "Catch.hpp"
+#include <acs/core/JsonText.hpp>
+
+#include <cmath>
+#include <limits>
+
+using ACS::Core::JsonText;
+
+TEST_CASE("A JSON text is null until it is given a value")
+{
+    const JsonText json;
+    CHECK(json.GetText() == "null");
+    CHECK_FALSE(json.GetStringOrNull().has_value());
+    CHECK_FALSE(json.GetNumberOrNull().has_value());
+    CHECK_FALSE(json.GetBooleanOrNull().has_value());
+}
+
+TEST_CASE("A JSON string escapes what JSON cannot hold and gives it back")
+{
+    using namespace std::string_literals;
+    const std::string text = "quote \" backslash \\ line\n tab\t nul\0 \xED\x95\x9C \xF0\x9F\xA4\x96"s;
+    const JsonText json = JsonText::FromString(text);
+    CHECK(json.GetText().find('\n') == std::string::npos);
+    CHECK(json.GetText().find("\\u0000") != std::string::npos);
+    CHECK(json.GetStringOrNull() == text);
+    CHECK(JsonText::FromString("").GetText() == "\"\"");
+    CHECK(JsonText::FromString("").GetStringOrNull() == "");
+}
+
+TEST_CASE("Every escape of a JSON string is read")
+{
+    const auto read = [](std::string text) {
+        return JsonText::FromTrusted(std::move(text)).GetStringOrNull();
+    };
+    CHECK(read(R"("\"\\\/\b\f\n\r\t")") == "\"\\/\b\f\n\r\t");
+    CHECK(read(R"("\u002B\u00e4\uD55C")") == "+\xC3\xA4\xED\x95\x9C");
+    CHECK(read(R"("\uD83E\uDD16")") == "\xF0\x9F\xA4\x96");
+    CHECK(read(R"("\u0000")") == std::string(1, '\0'));
+}
+
+TEST_CASE("Half a surrogate pair becomes the replacement character and eats nothing behind it")
+{
+    const auto read = [](std::string text) {
+        return JsonText::FromTrusted(std::move(text)).GetStringOrNull();
+    };
+    CHECK(read(R"("\uD83E")") == "\xEF\xBF\xBD");
+    CHECK(read(R"("\uDD16x")") == "\xEF\xBF\xBDx");
+    CHECK(
+        read(R"("\uD83Eabcdef")")
+        == "\xEF\xBF\xBD"
+           "abcdef");
+    CHECK(
+        read(R"("\uD83E\u0041")")
+        == "\xEF\xBF\xBD"
+           "A");
+}
+
+TEST_CASE("Text that was wrongly trusted is no string rather than a read behind its end")
+{
+    for (const std::string_view text : {"\"", "\"abc", "abc\"", "\"\\\"", "\"\\u12\"", "\"\\u12x4\"", "\"\\x\"", ""})
+    {
+        INFO(text);
+        CHECK_FALSE(JsonText::FromTrusted(std::string(text)).GetStringOrNull().has_value());
+    }
+}
+
+TEST_CASE("A JSON number keeps its value exactly")
+{
+    for (const double value : {0.0, -1.5, 0.1, 1e300, 123456789.125, std::numeric_limits<double>::denorm_min()})
+    {
+        CHECK(JsonText::FromNumber(value).GetNumberOrNull() == value);
+    }
+    CHECK(JsonText::FromInteger(std::numeric_limits<std::int64_t>::min()).GetText() == "-9223372036854775808");
+    CHECK(JsonText::FromNumber(std::numeric_limits<double>::infinity()).GetText() == "null");
+    CHECK(JsonText::FromNumber(std::nan("")).GetText() == "null");
+    CHECK_FALSE(JsonText::FromTrusted("1e999").GetNumberOrNull().has_value());
+    CHECK_FALSE(JsonText::FromTrusted("inf").GetNumberOrNull().has_value());
+    CHECK_FALSE(JsonText::FromTrusted("\"1\"").GetNumberOrNull().has_value());
+}
+
+TEST_CASE("A JSON boolean is true or false and nothing else")
+{
+    CHECK(JsonText::FromBoolean(true).GetBooleanOrNull() == true);
+    CHECK(JsonText::FromBoolean(false).GetBooleanOrNull() == false);
+    CHECK_FALSE(JsonText::FromInteger(1).GetBooleanOrNull().has_value());
+}
