@@ -42,6 +42,7 @@ private:
     std::optional<RobotID> _robotOrNull;
     std::array<LocationSegment, MAX_SEGMENTS> _segments{};
     std::size_t _segmentCount = 0;
+    bool _bNormalised = false;
 
     Location(std::span<const LocationSegment> segments, std::optional<RobotID> robotOrNull);
 

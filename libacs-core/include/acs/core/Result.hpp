@@ -5,6 +5,7 @@
 #include <tl/expected.hpp>
 
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace ACS::Core
@@ -34,5 +35,8 @@ using Result = tl::expected<TValue, Error>;
     std::string path = {},
     std::string expected = {},
     std::string found = {});
+
+/// Text from outside as Error::found shows it: in quotes, cut after 64 characters, '?' for what is not printable ASCII.
+[[nodiscard]] std::string QuoteForError(std::string_view text);
 
 } // namespace ACS::Core

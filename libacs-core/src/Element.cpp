@@ -1,0 +1,64 @@
+#include "Element.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace ACS::Core::Detail
+{
+
+namespace
+{
+
+struct Prefix
+{
+    ESegmentKind kind;
+    std::string_view text;
+};
+
+constexpr std::array<Prefix, 7> PREFIXES{{
+    {ESegmentKind::Stocker, "ST"},
+    {ESegmentKind::Area, "A"},
+    {ESegmentKind::Table, "T"},
+    {ESegmentKind::Set, "SET"},
+    {ESegmentKind::CassettePort, "CP"},
+    {ESegmentKind::TrayPort, "TP"},
+    {ESegmentKind::MemoryPort, "MP"},
+}};
+
+char ToUpper(char character)
+{
+    return character >= 'a' && character <= 'z' ? static_cast<char>(character - 'a' + 'A') : character;
+}
+
+} // namespace
+
+std::optional<Element> SplitElementOrNull(std::string_view text)
+{
+    const std::size_t firstDigit = text.find_first_of("0123456789");
+    if (firstDigit == std::string_view::npos
+        || text.find_first_not_of("0123456789", firstDigit) != std::string_view::npos)
+    {
+        return std::nullopt;
+    }
+    const auto* const found = std::ranges::find_if(PREFIXES, [text, firstDigit](const Prefix& prefix) {
+        return IsSameWord(text.substr(0, firstDigit), prefix.text);
+    });
+    if (found == PREFIXES.end())
+    {
+        return std::nullopt;
+    }
+    return Element{found->kind, text.substr(firstDigit)};
+}
+
+std::string_view GetPrefix(ESegmentKind kind)
+{
+    const auto* const found = std::ranges::find(PREFIXES, kind, &Prefix::kind);
+    return found == PREFIXES.end() ? std::string_view() : found->text;
+}
+
+bool IsSameWord(std::string_view text, std::string_view upperWord)
+{
+    return std::ranges::equal(text, upperWord, {}, ToUpper);
+}
+
+} // namespace ACS::Core::Detail
