@@ -189,7 +189,8 @@ std::optional<std::string> JsonText::GetStringOrNull() const
     {
         return std::nullopt;
     }
-    std::string_view rest = std::string_view(_text).substr(1, _text.size() - 2);
+    std::string_view rest = _text;
+    rest = rest.substr(1, rest.size() - 2);
     std::string value;
     value.reserve(rest.size());
     while (!rest.empty())

@@ -110,7 +110,7 @@ std::optional<std::chrono::sys_days> ReadDateOrNull(Scanner& scanner)
     {
         return std::nullopt;
     }
-    return std::chrono::sys_days(date);
+    return static_cast<std::chrono::sys_days>(date);
 }
 
 std::optional<std::chrono::nanoseconds> ReadTimeOfDayOrNull(Scanner& scanner)

@@ -2,7 +2,9 @@
 #include "SeededRandom.hpp"
 #include <acs/core/Backoff.hpp>
 
-#include <cmath>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -24,14 +26,11 @@ public:
     }
 };
 
-std::vector<milliseconds> TakeDelays(Backoff& backoff, int count)
+std::vector<milliseconds> TakeDelays(Backoff& backoff, std::size_t count)
 {
     SeededRandom random;
-    std::vector<milliseconds> delays;
-    for (int i = 0; i < count; ++i)
-    {
-        delays.push_back(backoff.GetNextDelay(random));
-    }
+    std::vector<milliseconds> delays(count);
+    std::ranges::generate(delays, [&backoff, &random] { return backoff.GetNextDelay(random); });
     return delays;
 }
 

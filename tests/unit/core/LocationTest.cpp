@@ -177,8 +177,7 @@ TEST_CASE("10 Other text is no location")
           "A01.SET01.MP01~MP32",
           "A01/CP01",
           "A 1.CP01",
-          "R\xC3\xB6"
-          "bot.CP01"})
+          "N\xC3\xB6.CP01"})
     {
         CheckRefused(text);
     }

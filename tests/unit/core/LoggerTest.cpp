@@ -6,7 +6,6 @@ using ACS::Core::ELogLevel;
 using ACS::Core::ILogSink;
 using ACS::Core::LogField;
 using ACS::Core::Logger;
-using ACS::Testing::RecordedLine;
 using ACS::Testing::RecordingLogSink;
 
 namespace

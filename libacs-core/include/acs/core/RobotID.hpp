@@ -33,7 +33,11 @@ public:
     [[nodiscard]] bool IsAlias() const noexcept;
 
     bool operator==(const RobotID&) const = default;
-    std::strong_ordering operator<=>(const RobotID&) const = default;
+
+    friend std::strong_ordering operator<=>(const RobotID& left, const RobotID& right) noexcept
+    {
+        return left._text <=> right._text;
+    }
 };
 
 } // namespace ACS::Core
