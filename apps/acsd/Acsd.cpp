@@ -1,0 +1,453 @@
+#include "Acsd.hpp"
+
+#include "AcsdStatus.hpp"
+#include "McsLink.hpp"
+#include "PlanLog.hpp"
+#include "RobotHost.hpp"
+#include "common/HttpServer.hpp"
+#include "common/MetricsEndpoint.hpp"
+#include "common/TimerSet.hpp"
+
+#include <acs/core/Overloaded.hpp>
+#include <acs/plan/PlanEngine.hpp>
+#include <acs/plan_sqlite/SqlitePlanStore.hpp>
+#include <acs/vda5050_mosquitto/MosquittoLink.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <deque>
+#include <map>
+#include <span>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+using namespace std::chrono_literals;
+
+/// How long the broker may be away before the MCS is told that no work can be taken (`comm.grace`).
+constexpr std::chrono::milliseconds WORK_GRACE = 10s;
+constexpr std::chrono::milliseconds STOP_LIMIT = 5s;
+
+constexpr std::uint64_t GRACE_TIMER = 1;
+constexpr std::uint64_t STOP_TIMER = 2;
+constexpr std::uint64_t FIRST_ENGINE_TIMER = 1000;
+
+constexpr const char* LINK_UP = "acsd_link_up";
+constexpr const char* PLANS_ACTIVE = "acsd_plans_active";
+constexpr const char* OUTBOX_DEPTH = "acsd_outbox_depth";
+constexpr const char* MESSAGES_SENT = "acsd_mcs_requests_sent_total";
+
+VDA5050::MosquittoOptions MakeMqttOptions(const AcsdConfig& config)
+{
+    VDA5050::MosquittoOptions options;
+    options.host = config.mqtt.url.peer.host;
+    options.port = config.mqtt.url.peer.port;
+    if (Apps::IsSecure(config.mqtt.url.scheme))
+    {
+        options.tls.emplace();
+    }
+    return options;
+}
+
+} // namespace
+
+class Acsd::Impl final : public VDA5050::IMqttLinkListener
+{
+    struct RobotEventTask
+    {
+        std::string robotID;
+        Planning::RobotEvent event;
+    };
+
+    /// What waits for the engine: it is called for one at a time, and its actions are carried out before the next.
+    using Task = std::variant<Planning::PlanCommand, RobotEventTask, Planning::EngineTimer>;
+
+    Surroundings _surroundings;
+    AcsdConfig _config;
+    Apps::MetricsEndpoint _metrics;
+    PlanLog _planLog;
+    std::unique_ptr<Planning::IPlanStore> _store;
+    Planning::PlanEngine _engine;
+    McsLink _mcs;
+    VDA5050::MosquittoLink _mqtt;
+    std::vector<std::unique_ptr<RobotHost>> _robots;
+    Apps::TimerSet _timers;
+    Apps::HttpServer _http;
+    Apps::Endpoint _httpEndpoint;
+
+    std::deque<Task> _tasks;
+    bool _bWorking = false; ///< A task is being worked on: what comes in meanwhile is queued.
+    std::map<Planning::EngineTimer, std::uint64_t> _timerKeys;
+    std::map<std::uint64_t, Planning::EngineTimer> _engineTimers;
+    bool _bMqttUp = false;
+    bool _bStopping = false;
+    std::size_t _stopsOpen = 0;
+    StopHandler _stopHandler;
+
+    void Enqueue(Task task)
+    {
+        if (_bStopping)
+        {
+            return; // what is not stored by now is asked for again after the next start
+        }
+        _tasks.push_back(std::move(task));
+        if (std::exchange(_bWorking, true))
+        {
+            return;
+        }
+        while (!_tasks.empty())
+        {
+            const Task next = std::move(_tasks.front());
+            _tasks.pop_front();
+            Work(next);
+        }
+        _bWorking = false;
+    }
+
+    void Work(const Task& task)
+    {
+        const Core::Now now = _surroundings.clock.GetNow();
+        Planning::EngineActions actions;
+        std::visit(
+            Core::Overloaded{
+                [&](const Planning::PlanCommand& command) { _engine.Handle(command, now, actions); },
+                [&](const RobotEventTask& robot) { _engine.Handle(robot.robotID, robot.event, now, actions); },
+                [&](const Planning::EngineTimer& timer) { _engine.OnTimer(timer, now, actions); }},
+            task);
+        Execute(actions, now);
+    }
+
+    /// In order. When the store fails, the engine decides anew about what stood behind it.
+    void Execute(Planning::EngineActions& actions, Core::Now now)
+    {
+        for (std::size_t i = 0; i < actions.size(); ++i)
+        {
+            const Planning::StorePlans* storeOrNull = std::get_if<Planning::StorePlans>(&actions[i]);
+            if (storeOrNull == nullptr)
+            {
+                Execute(actions[i]);
+                continue;
+            }
+            const Core::Result<void> stored = _store->Append(storeOrNull->batch);
+            if (!stored)
+            {
+                const std::string reason = Core::Describe(stored.error());
+                _surroundings.logger.Error("the store fails", {{"reason", reason}});
+                Planning::EngineActions instead;
+                const std::span<const Planning::EngineAction> skipped = std::span(actions).subspan(i + 1);
+                _engine.OnStoreFailed(storeOrNull->batch, skipped, reason, now, instead);
+                actions = std::move(instead);
+                i = static_cast<std::size_t>(-1);
+            }
+        }
+    }
+
+    void Execute(const Planning::EngineAction& action)
+    {
+        std::visit(
+            Core::Overloaded{
+                [](const Planning::StorePlans&) { assert(false && "carried out by the caller"); },
+                [&](const Planning::ReplyCommand& reply) { _mcs.Reply(reply); },
+                [&](const Planning::SendReport& report) { _mcs.Report(report.entry); },
+                [&](const Planning::CommandRobot& command) { CommandRobot(command); },
+                [&](const Planning::RobotStatusChanged& changed) { _mcs.TellStatus(changed.status); },
+                [&](const Planning::StartEngineTimer& start) {
+                    _timers.Start(GetTimerKey(start.timer), start.delay);
+                },
+                [&](const Planning::CancelEngineTimer& cancel) { _timers.Cancel(GetTimerKey(cancel.timer)); }},
+            action);
+    }
+
+    void CommandRobot(const Planning::CommandRobot& command)
+    {
+        const auto found =
+            std::ranges::find(_robots, command.robotID, [](const auto& robot) { return robot->GetRobotID(); });
+        assert(found != _robots.end());
+        (*found)->Handle(command.command);
+    }
+
+    std::uint64_t GetTimerKey(const Planning::EngineTimer& timer)
+    {
+        const auto [entry, bNew] = _timerKeys.try_emplace(timer, FIRST_ENGINE_TIMER + _timerKeys.size());
+        if (bNew)
+        {
+            _engineTimers.emplace(entry->second, timer);
+        }
+        return entry->second;
+    }
+
+    void OnTimer(std::uint64_t key)
+    {
+        if (key == GRACE_TIMER)
+        {
+            _mcs.TellWorking(false);
+        }
+        else if (key == STOP_TIMER)
+        {
+            FinishStop();
+        }
+        else
+        {
+            Enqueue(_engineTimers.at(key));
+        }
+    }
+
+    void OnLinkUp() override
+    {
+        _bMqttUp = true;
+        _timers.Cancel(GRACE_TIMER);
+        _mcs.TellWorking(true);
+        for (const auto& robot : _robots)
+        {
+            robot->OnLinkUp();
+        }
+    }
+
+    void OnLinkDown(std::error_code /*reason*/) override
+    {
+        _bMqttUp = false;
+        if (_bStopping)
+        {
+            return;
+        }
+        _timers.Start(GRACE_TIMER, WORK_GRACE);
+        for (const auto& robot : _robots)
+        {
+            robot->OnLinkDown();
+        }
+    }
+
+    void OnMqttMessage(const VDA5050::MqttMessage& message) override
+    {
+        if (_bStopping)
+        {
+            return;
+        }
+        for (const auto& robot : _robots)
+        {
+            robot->OnMqttMessage(message);
+        }
+    }
+
+    [[nodiscard]] std::vector<LinkStatus> GetLinks() const
+    {
+        return {{"mcs", _mcs.IsRegistered()}, {"mqtt", _bMqttUp}};
+    }
+
+    [[nodiscard]] Apps::HttpResponse Respond(const Apps::HttpRequest& request)
+    {
+        constexpr unsigned NOT_FOUND = 404;
+        constexpr unsigned NOT_ALLOWED = 405;
+        if (request.method != "GET")
+        {
+            return {NOT_ALLOWED, "text/plain; charset=utf-8", "only GET is served\n"};
+        }
+        if (request.path == "/livez")
+        {
+            return MakeLiveResponse();
+        }
+        if (request.path == "/readyz")
+        {
+            return MakeReadyResponse(GetLinks());
+        }
+        if (request.path == "/status")
+        {
+            return MakeStatusResponse(GetLinks(), _engine);
+        }
+        if (request.path == "/metrics")
+        {
+            UpdateMetrics();
+            return _metrics.Respond();
+        }
+        return {NOT_FOUND, "text/plain; charset=utf-8", "there are /livez, /readyz, /status and /metrics\n"};
+    }
+
+    void UpdateMetrics()
+    {
+        for (const LinkStatus& link : GetLinks())
+        {
+            _metrics.SetGauge(LINK_UP, {{"link", link.name}}, link.bUp ? 1.0 : 0.0);
+        }
+        _metrics.SetGauge(PLANS_ACTIVE, {}, static_cast<double>(_engine.GetActivePlans().size()));
+        _metrics.SetGauge(OUTBOX_DEPTH, {}, static_cast<double>(_engine.GetUnacknowledged().size()));
+        const Protocol::SessionStatistics& statistics = _mcs.GetStatistics();
+        for (std::size_t index = 0; index < Protocol::COMMAND_COUNT; ++index)
+        {
+            const auto command = static_cast<Protocol::EAcsCommand>(index);
+            _metrics.SetTotal(
+                MESSAGES_SENT,
+                {{"command", std::string(GetText(command))}},
+                static_cast<double>(statistics.Of(command).sent));
+        }
+    }
+
+    void FinishStop()
+    {
+        _timers.CancelAll();
+        _http.Stop();
+        if (_stopHandler)
+        {
+            std::exchange(_stopHandler, nullptr)();
+        }
+    }
+
+    void CountStop()
+    {
+        if (--_stopsOpen == 0)
+        {
+            FinishStop();
+        }
+    }
+
+public:
+    Impl(Surroundings surroundings, AcsdConfig config, std::unique_ptr<Planning::IPlanStore> store)
+        : _surroundings(std::move(surroundings)),
+          _config(std::move(config)),
+          _planLog(_surroundings.logger.MakeFor("plan"), _metrics),
+          _store(std::move(store)),
+          _engine(_config.engine, *_config.site, _surroundings.random),
+          _mcs(
+              _surroundings.clock,
+              _surroundings.logger.MakeFor("mcs"),
+              _config.localOffset,
+              _engine,
+              [this](Planning::PlanCommand command) { Enqueue(std::move(command)); }),
+          _mqtt(
+              _surroundings.executor,
+              _surroundings.random,
+              _surroundings.logger.MakeFor("mqtt"),
+              MakeMqttOptions(_config),
+              *this),
+          _timers(_surroundings.executor, [this](std::uint64_t key) { OnTimer(key); }),
+          _http(
+              _surroundings.executor,
+              [this](const Apps::HttpRequest& request) { return Respond(request); },
+              _surroundings.logger.MakeFor("http"))
+    {
+        _engine.SetObserver(_planLog);
+        _metrics.AddGauge(LINK_UP, "Whether the link is up");
+        _metrics.AddGauge(PLANS_ACTIVE, "Plans that are not finished");
+        _metrics.AddGauge(OUTBOX_DEPTH, "Reports that the MCS has not acknowledged");
+        _metrics.AddCounter(MESSAGES_SENT, "Requests sent to the MCS, resends included");
+        for (const RobotLinkConfig& robot : _config.robots)
+        {
+            _robots.push_back(std::make_unique<RobotHost>(
+                RobotHost::Surroundings{
+                    _surroundings.executor,
+                    _surroundings.clock,
+                    _surroundings.random,
+                    _mqtt,
+                    _surroundings.logger},
+                _config,
+                robot,
+                [this](const std::string& robotID, const Planning::RobotEvent& event) {
+                    Enqueue(RobotEventTask{robotID, event});
+                }));
+        }
+    }
+
+    [[nodiscard]] Core::Result<void> Open(Planning::StoredState state)
+    {
+        Core::Result<void> opened = _mcs.Open(_surroundings.executor, _surroundings.random, _config);
+        if (!opened)
+        {
+            return opened;
+        }
+        const Core::Result<Apps::Endpoint> endpoint = _http.Listen(_config.httpListen);
+        if (!endpoint)
+        {
+            return tl::unexpected<Core::Error>(endpoint.error());
+        }
+        _httpEndpoint = *endpoint;
+        const Core::Now now = _surroundings.clock.GetNow();
+        Planning::EngineActions actions;
+        _engine.Restore(std::move(state), now, actions);
+        Execute(actions, now);
+        return {};
+    }
+
+    void Start()
+    {
+        for (const auto& robot : _robots)
+        {
+            robot->Start();
+        }
+        _timers.Start(GRACE_TIMER, WORK_GRACE);
+        _mqtt.Start();
+        _mcs.Start();
+    }
+
+    void StopAsync(StopHandler handler)
+    {
+        _bStopping = true;
+        _stopHandler = std::move(handler);
+        _stopsOpen = 2;
+        _timers.CancelAll();
+        _timers.Start(STOP_TIMER, STOP_LIMIT);
+        for (const auto& robot : _robots)
+        {
+            robot->Stop();
+        }
+        _mqtt.StopAsync(std::nullopt, VDA5050::MosquittoLink::DEFAULT_STOP_TIMEOUT, [this] { CountStop(); });
+        _mcs.StopAsync([this] { CountStop(); });
+    }
+
+    [[nodiscard]] const Apps::Endpoint& GetHttpEndpoint() const noexcept
+    {
+        return _httpEndpoint;
+    }
+};
+
+Acsd::Acsd(std::unique_ptr<Impl> impl)
+    : _impl(std::move(impl))
+{
+}
+
+Acsd::~Acsd() = default;
+
+Core::Result<std::unique_ptr<Acsd>> Acsd::Create(Surroundings surroundings, AcsdConfig config)
+{
+    assert(config.mistakes.empty());
+    Core::Result<std::unique_ptr<Planning::SqlitePlanStore>> store =
+        Planning::SqlitePlanStore::Open(config.storeFile);
+    if (!store)
+    {
+        return tl::unexpected<Core::Error>(store.error());
+    }
+    Core::Result<Planning::StoredState> state = (*store)->Load();
+    if (!state)
+    {
+        return tl::unexpected<Core::Error>(state.error());
+    }
+    auto impl = std::make_unique<Impl>(std::move(surroundings), std::move(config), std::move(*store));
+    const Core::Result<void> opened = impl->Open(std::move(*state));
+    if (!opened)
+    {
+        return tl::unexpected<Core::Error>(opened.error());
+    }
+    return std::unique_ptr<Acsd>(new Acsd(std::move(impl)));
+}
+
+void Acsd::Start()
+{
+    _impl->Start();
+}
+
+void Acsd::StopAsync(StopHandler handler)
+{
+    _impl->StopAsync(std::move(handler));
+}
+
+Apps::Endpoint Acsd::GetHttpEndpoint() const
+{
+    return _impl->GetHttpEndpoint();
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,99 @@
+#include "AcsdProgram.hpp"
+
+#include "Acsd.hpp"
+#include "common/CommandLine.hpp"
+#include "common/ReadyLine.hpp"
+#include "common/SignalWaiter.hpp"
+#include "common/SpdlogSink.hpp"
+#include "common/SystemClock.hpp"
+#include "common/SystemRandom.hpp"
+
+#include <boost/asio/io_context.hpp>
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+constexpr const char* NAME = "acsd";
+
+struct ProgramOptions
+{
+    Apps::CommonOptions common;
+    std::string configFile;
+    std::vector<std::string> overrides;
+    bool bCheckOnly = false;
+};
+
+int Serve(const ProgramOptions& options, AcsdConfig config)
+{
+    const Apps::SystemClock clock;
+    Apps::SystemRandom random;
+    Apps::SpdlogSink sink(options.common.logLevel);
+    boost::asio::io_context context(1);
+    Core::Result<std::unique_ptr<Acsd>> acsd = Acsd::Create(
+        Acsd::Surroundings{context.get_executor(), clock, random, Core::Logger(sink, NAME)},
+        std::move(config));
+    if (!acsd)
+    {
+        Apps::PrintMistake(NAME, Core::Describe(acsd.error()));
+        return 1;
+    }
+    std::optional<Apps::SignalWaiter> signals;
+    signals.emplace(context.get_executor(), [&](int) { (*acsd)->StopAsync([&context] { context.stop(); }); });
+    (*acsd)->Start();
+    Apps::PrintReadyLine({{"http", (*acsd)->GetHttpEndpoint()}});
+    context.run();
+    return 0;
+}
+
+} // namespace
+
+int RunAcsd(int argc, const char* const* argv)
+{
+    ProgramOptions options;
+    CLI::App app{
+        "Takes ExecutionPlans from an MCS (MCS-ACS), drives robots over VDA5050 and arms over Open Stream, and reports "
+        "every state back.",
+        NAME};
+    app.add_option("--config", options.configFile, "TOML file; examples/site/acsd.toml explains every key")
+        ->required()
+        ->type_name("FILE");
+    app.add_option("--set", options.overrides, "override one key, for example --set mcs.url=ws://10.0.0.1:9001/acs/")
+        ->type_name("KEY=VALUE")
+        ->take_all();
+    app.add_flag("--check-config", options.bCheckOnly, "tell every mistake of the configuration and end");
+    Apps::AddCommonOptions(app, options.common);
+    const std::optional<int> exitCodeOrNull = Apps::ParseCommandLineOrNull(app, argc, argv);
+    if (exitCodeOrNull.has_value())
+    {
+        return *exitCodeOrNull;
+    }
+
+    AcsdConfig config = ReadAcsdConfig(options.configFile, options.overrides);
+    if (!config.mistakes.empty())
+    {
+        for (const std::string& mistake : config.mistakes)
+        {
+            fmt::print(stderr, "{}\n", mistake);
+        }
+        return Apps::EXIT_BAD_COMMAND_LINE;
+    }
+    if (options.bCheckOnly)
+    {
+        fmt::print("{}: no mistakes\n", options.configFile);
+        return 0;
+    }
+    return Serve(options, std::move(config));
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,109 @@
+#pragma once
+
+#include "AcsdConfig.hpp"
+#include "IMqttRobotAdapter.hpp"
+#include "RobotOutputs.hpp"
+#include "Vda5050RobotAdapter.hpp"
+
+#include <acs/core/Now.hpp>
+#include <acs/openstream/ClientSessionActions.hpp>
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace ACS::Acsd
+{
+
+/// Joins a control robot to the engine: its base is a VDA5050 vehicle, its arm a Hi6 controller behind Open Stream.
+/// Drives go to the base. A job is a program of the arm: CONTROL selects and starts it; it is done when a counter that
+/// the program raises in a relay has changed, as MONITOR shows it. Pure, like the adapter of the base inside it.
+class OpenStreamRobotAdapter final : public IMqttRobotAdapter
+{
+    enum class EArmState : std::uint8_t
+    {
+        Lost,     ///< No session.
+        MotorOff, ///< MONITOR watches the motor, which was asked to go on.
+        Counting, ///< MONITOR watches the counters, none has come yet.
+        Ready,
+    };
+
+    enum class EJobPhase : std::uint8_t
+    {
+        None,
+        Selecting, ///< The CONTROL that selects the program is under way.
+        Starting,  ///< The CONTROL that starts it is under way.
+        Running,
+    };
+
+    /// What a CONTROL was for; they settle in the order in which they were sent.
+    enum class EControl : std::uint8_t
+    {
+        MotorOn,
+        SelectProgram,
+        StartProgram,
+    };
+
+    struct Counters
+    {
+        std::int64_t started = 0;
+        std::int64_t finished = 0;
+        std::int64_t failed = 0;
+
+        bool operator==(const Counters&) const = default;
+    };
+
+    RobotOutputs& _outputs;
+    Vda5050RobotAdapter _base;
+    ArmCounters _options;
+    JobMethods _methods;
+    Planning::AdapterActions _baseActions;
+
+    bool _bBaseOnline = false;
+    bool _bOnline = false;
+    EArmState _armState = EArmState::Lost;
+    std::deque<EControl> _controls; ///< Sent and not settled.
+    EJobPhase _phase = EJobPhase::None;
+    std::string _jobID;
+    bool _bJobStarted = false;
+    Counters _counters; ///< The latest.
+    Counters _counted;  ///< Those of the moment when the job was commanded.
+
+    void StartJob(const Planning::StartJob& job, Planning::AdapterActions& out);
+    void FailJob(const std::string& reason, Planning::AdapterActions& out);
+    void SendControl(EControl kind, std::string_view url, std::string body);
+    void WatchMotor(Planning::AdapterActions& out);
+    void TakeMotor(const Core::JsonText& result, Planning::AdapterActions& out);
+    void TakeCounters(const Core::JsonText& result, Planning::AdapterActions& out);
+    void FollowJob(Planning::AdapterActions& out);
+    void TakeSettled(const OpenStream::ClientControlSettled& settled, Planning::AdapterActions& out);
+    void TakeData(const OpenStream::DataLine& line, Planning::AdapterActions& out);
+    void SetArmState(EArmState state, Planning::AdapterActions& out);
+
+    /// Passes on what the base tells; the robot is online when both its parts are.
+    void DrainBase(Planning::AdapterActions& out);
+    void TellOnline(Planning::AdapterActions& out);
+
+public:
+    /// The outputs must outlive the adapter.
+    OpenStreamRobotAdapter(
+        VDA5050::MasterOptions base,
+        ArmCounters counters,
+        JobMethods methods,
+        RobotOutputs& outputs);
+
+    void Handle(const Planning::RobotCommand& command, Core::Now now, Planning::AdapterActions& out) override;
+    void OnTimer(Planning::AdapterTimerID timer, Core::Now now, Planning::AdapterActions& out) override;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(std::string_view action) const override;
+
+    [[nodiscard]] std::vector<VDA5050::MqttSubscription> GetSubscriptions() const override;
+    void OnLinkUp(Core::Now now, Planning::AdapterActions& out) override;
+    void OnLinkDown(Core::Now now, Planning::AdapterActions& out) override;
+    void OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, Planning::AdapterActions& out) override;
+
+    void OnArmEvent(const OpenStream::ClientEvent& event, Core::Now now, Planning::AdapterActions& out);
+};
+
+} // namespace ACS::Acsd

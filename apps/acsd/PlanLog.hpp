@@ -1,0 +1,37 @@
+#pragma once
+
+#include "common/MetricsEndpoint.hpp"
+#include <acs/core/Logger.hpp>
+#include <acs/plan/IPlanObserver.hpp>
+
+namespace ACS::Acsd
+{
+
+/// One log line and one count for each change of state.
+class PlanLog final : public Planning::IPlanObserver
+{
+    Core::Logger _logger;
+    Apps::MetricsEndpoint& _metrics;
+
+public:
+    /// The metrics must outlive the log.
+    PlanLog(Core::Logger logger, Apps::MetricsEndpoint& metrics);
+
+    void OnPlanChanged(const Planning::PlanRecord& record, Planning::EPlanState from, Core::Now now) override;
+    void OnStepChanged(
+        const Planning::PlanRecord& record,
+        std::size_t stepIndex,
+        Planning::EStepState from,
+        Core::Now now) override;
+    void OnJobChanged(
+        const Planning::PlanRecord& record,
+        std::size_t stepIndex,
+        std::size_t jobIndex,
+        Planning::EJobState from,
+        Core::Now now) override;
+    void OnAlarmChanged(const Planning::Alarm& alarm, bool bSet, Core::Now now) override;
+    void OnRobotStatusChanged(const Planning::RobotStatus& status, Core::Now now) override;
+    void OnNote(std::string_view robotID, std::string_view text, Core::Now now) override;
+};
+
+} // namespace ACS::Acsd

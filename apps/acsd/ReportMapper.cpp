@@ -1,0 +1,164 @@
+#include "ReportMapper.hpp"
+
+#include <acs/core/Overloaded.hpp>
+
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+constexpr double FULL_CIRCLE = 360.0;
+
+// The two enumerations of each pair list the same words in the same order: the casts below rest on it.
+static_assert(static_cast<int>(Planning::EPlanState::Aborted) == static_cast<int>(Protocol::EPlanStatus::Aborted));
+static_assert(static_cast<int>(Planning::EPlanState::Paused) == static_cast<int>(Protocol::EPlanStatus::Paused));
+static_assert(static_cast<int>(Planning::EStepState::Skipped) == static_cast<int>(Protocol::EStepStatus::Skipped));
+static_assert(static_cast<int>(Planning::EJobState::Failed) == static_cast<int>(Protocol::EJobStatus::Failed));
+static_assert(static_cast<int>(Planning::ERobotStatus::Stopped) == static_cast<int>(Protocol::ERobotStatus::Stopped));
+static_assert(static_cast<int>(Planning::ERobotStatus::Arrival) == static_cast<int>(Protocol::ERobotStatus::Arrival));
+static_assert(static_cast<int>(Planning::ERobotType::CR) == static_cast<int>(Protocol::ERobotType::Control));
+static_assert(static_cast<int>(Planning::EAlarmLevel::Light) == static_cast<int>(Protocol::EErrorLevel::Light));
+
+template <typename TReport>
+Protocol::AcsPayload MakeResult(const Planning::ControlResultReport& report)
+{
+    TReport result;
+    result.planID = report.planID;
+    result.result = report.bSucceeded ? Protocol::EReportResult::Success : Protocol::EReportResult::Failed;
+    result.message = report.message;
+    return result;
+}
+
+Protocol::AcsPayload MakeControlResult(const Planning::ControlResultReport& report)
+{
+    switch (report.control)
+    {
+        case Planning::EPlanControl::Cancel:
+            return MakeResult<Protocol::CancelResultReport>(report);
+        case Planning::EPlanControl::Abort:
+            return MakeResult<Protocol::AbortResultReport>(report);
+        case Planning::EPlanControl::Pause:
+            return MakeResult<Protocol::PauseResultReport>(report);
+        case Planning::EPlanControl::Resume:
+            return MakeResult<Protocol::ResumeResultReport>(report);
+        default:
+            assert(false && "unhandled EPlanControl");
+            return MakeResult<Protocol::CancelResultReport>(report);
+    }
+}
+
+Protocol::AcsPayload MakePayload(const Planning::Report& report)
+{
+    return std::visit(
+        Core::Overloaded{
+            [](const Planning::PlanReport& plan) -> Protocol::AcsPayload {
+                return Protocol::PlanReport{
+                    plan.planID,
+                    static_cast<Protocol::EPlanStatus>(plan.state),
+                    plan.message};
+            },
+            [](const Planning::StepReport& step) -> Protocol::AcsPayload {
+                return Protocol::StepReport{
+                    step.planID,
+                    step.robotID,
+                    step.stepNo,
+                    static_cast<Protocol::EStepStatus>(step.state),
+                    step.message};
+            },
+            [](const Planning::JobReport& job) -> Protocol::AcsPayload {
+                return Protocol::JobReport{
+                    job.planID,
+                    job.robotID,
+                    job.stepNo,
+                    job.jobID,
+                    static_cast<Protocol::EJobStatus>(job.state),
+                    job.message};
+            },
+            [](const Planning::ErrorReport& error) -> Protocol::AcsPayload {
+                return MakeErrorReport(error.alarm, error.bSet);
+            },
+            [](const Planning::ControlResultReport& result) -> Protocol::AcsPayload {
+                return MakeControlResult(result);
+            }},
+        report);
+}
+
+} // namespace
+
+Protocol::AcsRequest MakeReportRequest(const Planning::OutboxEntry& entry, std::chrono::minutes offset)
+{
+    return {entry.transactionID, Core::Timestamp{entry.time, offset}, MakePayload(entry.report)};
+}
+
+Protocol::RobotStatusUpdate MakeStatusUpdate(const Planning::RobotStatus& status)
+{
+    Protocol::RobotStatusUpdate update;
+    update.robotID = status.robotID;
+    update.robotType = static_cast<Protocol::ERobotType>(status.type);
+    update.robotStatus = static_cast<Protocol::ERobotStatus>(status.status);
+    if (!status.position.empty())
+    {
+        update.position = status.position;
+    }
+    update.carrierIDs = status.carrierIDs;
+    update.planID = status.planID;
+    update.stepNo = status.stepNo;
+    update.jobID = status.jobID;
+    update.message = status.message;
+    return update;
+}
+
+Protocol::RobotPositionUpdate MakePositionUpdate(const std::vector<Planning::RobotPose>& poses)
+{
+    Protocol::RobotPositionUpdate update;
+    update.robots.reserve(poses.size());
+    for (const Planning::RobotPose& pose : poses)
+    {
+        const double degrees = std::fmod(pose.theta * (FULL_CIRCLE / 2) / std::numbers::pi, FULL_CIRCLE);
+        update.robots.push_back(Protocol::RobotPosition{
+            pose.robotID,
+            pose.x,
+            pose.y,
+            degrees < 0 ? degrees + FULL_CIRCLE : degrees,
+            std::round(pose.batteryPercent)});
+    }
+    return update;
+}
+
+Protocol::PlanEntry MakePlanEntry(const Planning::PlanSummary& summary, std::chrono::minutes offset)
+{
+    Protocol::PlanEntry entry;
+    entry.planID = summary.planID;
+    entry.robotID = summary.robotID;
+    entry.status = static_cast<Protocol::EPlanStatus>(summary.state);
+    entry.stepNo = summary.stepNo;
+    entry.jobID = summary.jobID;
+    entry.currentAction = summary.currentAction;
+    entry.startTime = Core::Timestamp{summary.startTime, offset};
+    if (summary.endTime.has_value())
+    {
+        entry.endTime = Core::Timestamp{*summary.endTime, offset};
+    }
+    return entry;
+}
+
+Protocol::ErrorReport MakeErrorReport(const Planning::Alarm& alarm, bool bSet)
+{
+    Protocol::ErrorReport report;
+    report.robotID = alarm.robotID;
+    report.planID = alarm.planID;
+    report.bSet = bSet;
+    report.stepNo = alarm.stepNo;
+    report.jobID = alarm.jobID;
+    report.errorCode = alarm.errorCode;
+    report.level = static_cast<Protocol::EErrorLevel>(alarm.level);
+    report.message = alarm.message;
+    return report;
+}
+
+} // namespace ACS::Acsd

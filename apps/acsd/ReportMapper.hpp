@@ -1,0 +1,29 @@
+#pragma once
+
+#include <acs/core/Now.hpp>
+#include <acs/plan/PlanRecord.hpp>
+#include <acs/plan/Report.hpp>
+#include <acs/plan/RobotStatus.hpp>
+#include <acs/protocol/AcsMessage.hpp>
+
+#include <chrono>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+/// From what the engine tells to what the MCS is sent. The offset is that of the site's local time.
+
+/// With the report's own transactionId and time: sent again it is the same message.
+[[nodiscard]] Protocol::AcsRequest MakeReportRequest(const Planning::OutboxEntry& entry, std::chrono::minutes offset);
+
+[[nodiscard]] Protocol::RobotStatusUpdate MakeStatusUpdate(const Planning::RobotStatus& status);
+
+/// Radians become degrees from 0 to below 360, the battery a whole number.
+[[nodiscard]] Protocol::RobotPositionUpdate MakePositionUpdate(const std::vector<Planning::RobotPose>& poses);
+
+[[nodiscard]] Protocol::PlanEntry MakePlanEntry(const Planning::PlanSummary& summary, std::chrono::minutes offset);
+
+[[nodiscard]] Protocol::ErrorReport MakeErrorReport(const Planning::Alarm& alarm, bool bSet);
+
+} // namespace ACS::Acsd

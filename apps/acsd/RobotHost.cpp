@@ -1,0 +1,210 @@
+#include "RobotHost.hpp"
+
+#include "OpenStreamRobotAdapter.hpp"
+#include "RobotOutputs.hpp"
+#include "Vda5050RobotAdapter.hpp"
+#include "common/TimerSet.hpp"
+
+#include <acs/core/Overloaded.hpp>
+#include <acs/openstream_asio/OpenStreamClient.hpp>
+
+#include <chrono>
+#include <optional>
+#include <utility>
+#include <variant>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+using namespace std::chrono_literals;
+
+/// The controller's refusals come within a few milliseconds: a longer silence only delays each job.
+constexpr std::chrono::milliseconds CONTROL_WINDOW = 100ms;
+
+VDA5050::MasterOptions MakeMasterOptions(const AcsdConfig& config, const RobotLinkConfig& robot)
+{
+    VDA5050::MasterOptions options;
+    options.address = {config.mqtt.interfaceName, robot.manufacturer, robot.serialNumber};
+    options.version =
+        VDA5050::ReadVersionOrNull(robot.protocolVersion).value_or(VDA5050::EVda5050Version::Version200);
+    return options;
+}
+
+OpenStreamAsio::OpenStreamClientOptions MakeArmOptions(const ArmConfig& arm)
+{
+    OpenStreamAsio::OpenStreamClientOptions options;
+    options.host = arm.stream.peer.host;
+    options.port = arm.stream.peer.port;
+    options.session.controlWindow = CONTROL_WINDOW;
+    return options;
+}
+
+} // namespace
+
+struct RobotHost::Impl
+{
+    Surroundings surroundings;
+    RobotLinkConfig robot;
+    EventHandler handler;
+    RobotOutputs outputs;
+    std::unique_ptr<IMqttRobotAdapter> adapter;
+    OpenStreamRobotAdapter* armAdapterOrNull = nullptr;
+    std::optional<Apps::TimerSet> timers;
+    std::unique_ptr<OpenStreamAsio::OpenStreamClient> armClient;
+
+    Impl(Surroundings around, const AcsdConfig& config, const RobotLinkConfig& link, EventHandler eventHandler)
+        : surroundings(std::move(around)),
+          robot(link),
+          handler(std::move(eventHandler))
+    {
+        VDA5050::MasterOptions options = MakeMasterOptions(config, robot);
+        if (robot.armOrNone.has_value())
+        {
+            auto armAdapter =
+                std::make_unique<OpenStreamRobotAdapter>(std::move(options), config.arm, config.methods, outputs);
+            armAdapterOrNull = armAdapter.get();
+            adapter = std::move(armAdapter);
+        }
+        else
+        {
+            adapter = std::make_unique<Vda5050RobotAdapter>(std::move(options), config.methods, outputs);
+        }
+        timers.emplace(surroundings.executor, [this](std::uint64_t key) {
+            Call([this, key](Core::Now now, Planning::AdapterActions& out) {
+                adapter->OnTimer(static_cast<Planning::AdapterTimerID>(key), now, out);
+            });
+        });
+    }
+
+    /// Calls the adapter and carries out what it wants.
+    template <typename TCall>
+    void Call(TCall call)
+    {
+        Planning::AdapterActions actions;
+        call(surroundings.clock.GetNow(), actions);
+        for (const Planning::AdapterAction& action : actions)
+        {
+            Execute(action);
+        }
+        for (const VDA5050::MqttMessage& message : std::exchange(outputs.messages, {}))
+        {
+            Publish(message);
+        }
+        for (const ArmRequest& request : std::exchange(outputs.armRequests, {}))
+        {
+            Send(request);
+        }
+    }
+
+    void Execute(const Planning::AdapterAction& action)
+    {
+        std::visit(
+            Core::Overloaded{
+                [&](const Planning::RaiseEvent& raise) { handler(robot.robotID, raise.event); },
+                [&](const Planning::StartAdapterTimer& start) { timers->Start(start.timer, start.delay); },
+                [&](const Planning::CancelAdapterTimer& cancel) { timers->Cancel(cancel.timer); }},
+            action);
+    }
+
+    void Publish(const VDA5050::MqttMessage& message)
+    {
+        const Core::Result<void> published = surroundings.mqtt.Publish(message);
+        if (!published)
+        {
+            // The session sends it again until the vehicle has shown it.
+            surroundings.logger.Warning(
+                "a message to the vehicle could not be sent",
+                {{"robotId", robot.robotID}, {"topic", message.topic}, {"reason", Core::Describe(published.error())}});
+        }
+    }
+
+    void Send(const ArmRequest& request)
+    {
+        std::visit(
+            Core::Overloaded{
+                [&](const OpenStream::MonitorRequest& monitor) { armClient->SetMonitor(monitor); },
+                [&](const OpenStream::ControlRequest& control) {
+                    static_cast<void>(armClient->SendControl(control));
+                }},
+            request);
+    }
+
+    void StartArm()
+    {
+        armClient = std::make_unique<OpenStreamAsio::OpenStreamClient>(
+            surroundings.executor,
+            surroundings.clock,
+            surroundings.random,
+            surroundings.logger.MakeFor("arm." + robot.robotID),
+            MakeArmOptions(*robot.armOrNone),
+            [this](const OpenStream::ClientEvent& event, Core::Now /*now*/) {
+                Call([this, &event](Core::Now now, Planning::AdapterActions& out) {
+                    armAdapterOrNull->OnArmEvent(event, now, out);
+                });
+            });
+        armClient->Start();
+    }
+};
+
+RobotHost::RobotHost(
+    Surroundings surroundings,
+    const AcsdConfig& config,
+    const RobotLinkConfig& robot,
+    EventHandler handler)
+    : _impl(std::make_unique<Impl>(std::move(surroundings), config, robot, std::move(handler)))
+{
+}
+
+RobotHost::~RobotHost() = default;
+
+void RobotHost::Start()
+{
+    _impl->surroundings.mqtt.Subscribe(_impl->adapter->GetSubscriptions());
+    if (_impl->robot.armOrNone.has_value())
+    {
+        _impl->StartArm();
+    }
+}
+
+void RobotHost::Stop()
+{
+    _impl->timers->CancelAll();
+    if (_impl->armClient != nullptr)
+    {
+        _impl->armClient->Stop();
+    }
+}
+
+void RobotHost::Handle(const Planning::RobotCommand& command)
+{
+    _impl->Call([this, &command](Core::Now now, Planning::AdapterActions& out) {
+        _impl->adapter->Handle(command, now, out);
+    });
+}
+
+void RobotHost::OnLinkUp()
+{
+    _impl->Call([this](Core::Now now, Planning::AdapterActions& out) { _impl->adapter->OnLinkUp(now, out); });
+}
+
+void RobotHost::OnLinkDown()
+{
+    _impl->Call([this](Core::Now now, Planning::AdapterActions& out) { _impl->adapter->OnLinkDown(now, out); });
+}
+
+void RobotHost::OnMqttMessage(const VDA5050::MqttMessage& message)
+{
+    _impl->Call([this, &message](Core::Now now, Planning::AdapterActions& out) {
+        _impl->adapter->OnMqttMessage(message, now, out);
+    });
+}
+
+const std::string& RobotHost::GetRobotID() const noexcept
+{
+    return _impl->robot.robotID;
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "AcsdConfig.hpp"
+
+#include <acs/core/IRandom.hpp>
+#include <acs/core/Logger.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/plan/RobotCommand.hpp>
+#include <acs/plan/RobotEvent.hpp>
+#include <acs/vda5050/IMqttLink.hpp>
+
+#include <boost/asio/any_io_executor.hpp>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace ACS::Acsd
+{
+
+/// Runs the adapter of one robot: gives it events and time, publishes and sends what it wants sent, keeps its timers,
+/// passes its events on. Decides nothing. One thread: the executor's.
+class RobotHost final
+{
+    struct Impl;
+    std::unique_ptr<Impl> _impl;
+
+public:
+    /// Called from within the host's calls and from its timers; must not call the host.
+    using EventHandler = std::function<void(const std::string& robotID, const Planning::RobotEvent& event)>;
+
+    /// What a host needs from the program; everything outlives it.
+    struct Surroundings
+    {
+        boost::asio::any_io_executor executor;
+        Core::IClock& clock;
+        Core::IRandom& random;
+        VDA5050::IMqttLink& mqtt;
+        Core::Logger logger;
+    };
+
+    RobotHost(
+        Surroundings surroundings,
+        const AcsdConfig& config,
+        const RobotLinkConfig& robot,
+        EventHandler handler);
+    RobotHost(const RobotHost&) = delete;
+    RobotHost& operator=(const RobotHost&) = delete;
+    ~RobotHost();
+
+    /// Subscribes and connects to the arm.
+    void Start();
+
+    /// Takes leave of the arm.
+    void Stop();
+
+    void Handle(const Planning::RobotCommand& command);
+    void OnLinkUp();
+    void OnLinkDown();
+    void OnMqttMessage(const VDA5050::MqttMessage& message);
+
+    [[nodiscard]] const std::string& GetRobotID() const noexcept;
+};
+
+} // namespace ACS::Acsd

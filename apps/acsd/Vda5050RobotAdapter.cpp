@@ -1,0 +1,437 @@
+#include "Vda5050RobotAdapter.hpp"
+
+#include <acs/core/JsonText.hpp>
+#include <acs/core/Overloaded.hpp>
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <variant>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+using Planning::AdapterActions;
+using Planning::RaiseEvent;
+
+/// Positions in the vehicle's tolerance count as reached: half the distance to the nearest other node of the site.
+constexpr double NODE_TOLERANCE = 0.5;
+
+VDA5050::OrderNode MakeNode(const Planning::RouteNode& from)
+{
+    VDA5050::OrderNode node;
+    node.nodeID = from.nodeID;
+    VDA5050::NodePosition& position = node.nodePosition.emplace();
+    position.x = from.x;
+    position.y = from.y;
+    position.theta = from.theta;
+    position.mapID = from.mapID;
+    position.allowedDeviationXY = NODE_TOLERANCE;
+    return node;
+}
+
+VDA5050::OrderEdge MakeEdge(const Planning::RouteEdge& from)
+{
+    VDA5050::OrderEdge edge;
+    edge.edgeID = from.edgeID;
+    edge.startNodeID = from.startNodeID;
+    edge.endNodeID = from.endNodeID;
+    edge.maxSpeed = from.maxSpeed;
+    edge.maxRotationSpeed = from.maxRotationSpeed;
+    edge.orientation = from.orientation;
+    if (from.orientationType == "GLOBAL")
+    {
+        edge.orientationType = VDA5050::EOrientationType::Global;
+    }
+    edge.bRotationAllowed = from.bRotationAllowed;
+    edge.length = from.length;
+    return edge;
+}
+
+void AddParameter(VDA5050::Action& action, std::string key, const std::optional<std::string>& value)
+{
+    if (value.has_value())
+    {
+        action.actionParameters.push_back({std::move(key), Core::JsonText::FromString(*value)});
+    }
+}
+
+Planning::RobotError MakeError(const VDA5050::VehicleError& error)
+{
+    const bool bFatal = error.errorLevel == VDA5050::EErrorLevel::Fatal;
+    return {
+        "AGV-" + error.errorType,
+        bFatal ? Planning::EAlarmLevel::Heavy : Planning::EAlarmLevel::Light,
+        error.errorDescription.empty() ? error.errorType : error.errorDescription};
+}
+
+} // namespace
+
+Vda5050RobotAdapter::Vda5050RobotAdapter(VDA5050::MasterOptions options, JobMethods methods, RobotOutputs& outputs)
+    : _session(std::move(options)),
+      _methods(std::move(methods)),
+      _outputs(outputs)
+{
+}
+
+void Vda5050RobotAdapter::Handle(const Planning::RobotCommand& command, Core::Now now, AdapterActions& out)
+{
+    std::visit(
+        Core::Overloaded{
+            [&](const Planning::Drive& drive) { StartDrive(drive, now, out); },
+            [&](const Planning::ExtendDrive& extension) {
+                if (_route.has_value() && _route->GetOrderID() == extension.driveID)
+                {
+                    _wantedReleased = extension.releasedCount;
+                    SendPendingUpdate(now, out);
+                }
+            },
+            [&](const Planning::CancelDrive& cancel) { CancelOrder(cancel.driveID, now, out); },
+            [&](const Planning::StartJob& job) { StartJob(job, now, out); },
+            [&](const Planning::CancelJob& cancel) { CancelOrder(cancel.jobID, now, out); },
+            [&](const Planning::Pause&) { SendInstantAction(VDA5050::ActionTypes::START_PAUSE, now); },
+            [&](const Planning::Resume&) { SendInstantAction(VDA5050::ActionTypes::STOP_PAUSE, now); }},
+        command);
+    Drain(now, out);
+}
+
+void Vda5050RobotAdapter::OnTimer(Planning::AdapterTimerID timer, Core::Now now, AdapterActions& out)
+{
+    _session.OnTimer(static_cast<VDA5050::EMasterTimer>(timer), now, _sessionActions);
+    Drain(now, out);
+}
+
+std::optional<std::string> Vda5050RobotAdapter::GetRejectionReasonOrNull(std::string_view action) const
+{
+    const auto method = _methods.find(action);
+    if (method == _methods.end() || method->second.vehicleAction.empty())
+    {
+        return fmt::format("the vehicle has no action for {}", action);
+    }
+    return std::nullopt;
+}
+
+std::vector<VDA5050::MqttSubscription> Vda5050RobotAdapter::GetSubscriptions() const
+{
+    return _session.GetSubscriptions();
+}
+
+void Vda5050RobotAdapter::OnLinkUp(Core::Now now, AdapterActions& out)
+{
+    _session.OnLinkUp(now, _sessionActions);
+    Drain(now, out);
+}
+
+void Vda5050RobotAdapter::OnLinkDown(Core::Now now, AdapterActions& out)
+{
+    _session.OnLinkDown(now, _sessionActions);
+    Drain(now, out);
+    SetOnline(false, out);
+}
+
+void Vda5050RobotAdapter::OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, AdapterActions& out)
+{
+    _session.OnMessage(message.topic, message.payload, now, _sessionActions);
+    Drain(now, out);
+}
+
+const VDA5050::MasterSession& Vda5050RobotAdapter::GetSession() const noexcept
+{
+    return _session;
+}
+
+void Vda5050RobotAdapter::StartDrive(const Planning::Drive& drive, Core::Now now, AdapterActions& out)
+{
+    std::vector<VDA5050::OrderNode> nodes;
+    std::vector<VDA5050::OrderEdge> edges;
+    for (const Planning::RouteNode& node : drive.route.nodes)
+    {
+        nodes.push_back(MakeNode(node));
+    }
+    for (const Planning::RouteEdge& edge : drive.route.edges)
+    {
+        edges.push_back(MakeEdge(edge));
+    }
+    Core::Result<VDA5050::OrderBuilder> builder =
+        VDA5050::OrderBuilder::Create(drive.driveID, std::move(nodes), std::move(edges));
+    if (!builder)
+    {
+        out.emplace_back(RaiseEvent{Planning::DriveRejected{drive.driveID, Core::Describe(builder.error())}});
+        return;
+    }
+    Core::Result<VDA5050::OrderMessage> order = builder->MakeOrder(drive.releasedCount);
+    if (!order)
+    {
+        out.emplace_back(RaiseEvent{Planning::DriveRejected{drive.driveID, Core::Describe(order.error())}});
+        return;
+    }
+    _route = std::move(*builder);
+    _wantedReleased = drive.releasedCount;
+    _lastPassedNodeID.clear();
+    _bUpdateUnderWay = true;
+    _pendingOrder = PendingOrder{std::move(*order)};
+    SendPendingOrder(now, out);
+}
+
+void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now, AdapterActions& out)
+{
+    const std::optional<std::string> rejection = GetRejectionReasonOrNull(job.action);
+    if (rejection.has_value())
+    {
+        out.emplace_back(RaiseEvent{Planning::JobFailed{job.jobID, *rejection}});
+        return;
+    }
+    const VDA5050::StateMessage* stateOrNull = _session.GetStateOrNull();
+    if (stateOrNull == nullptr || stateOrNull->lastNodeID.empty())
+    {
+        out.emplace_back(RaiseEvent{Planning::JobFailed{job.jobID, "the vehicle does not tell on which node it is"}});
+        return;
+    }
+    VDA5050::Action action;
+    action.actionType = _methods.find(job.action)->second.vehicleAction;
+    action.actionID = job.jobID;
+    action.blockingType = VDA5050::EBlockingType::Hard;
+    AddParameter(action, "stationName", job.position);
+    AddParameter(action, "loadId", job.carrierID);
+
+    VDA5050::OrderMessage order;
+    order.orderID = job.jobID;
+    VDA5050::OrderNode& node = order.nodes.emplace_back();
+    node.nodeID = stateOrNull->lastNodeID;
+    node.bReleased = true;
+    node.actions.push_back(std::move(action));
+    _jobID = job.jobID;
+    _bJobStarted = false;
+    _pendingOrder = PendingOrder{std::move(order)};
+    SendPendingOrder(now, out);
+}
+
+void Vda5050RobotAdapter::CancelOrder(std::string_view id, Core::Now now, AdapterActions& out)
+{
+    if (_pendingOrder.has_value() && _pendingOrder->order.orderID == id)
+    {
+        // The vehicle never saw it.
+        const std::string orderID = std::exchange(_pendingOrder, std::nullopt)->order.orderID;
+        RefuseOrder(orderID, "cancelled before the vehicle had it", out);
+        return;
+    }
+    if (_session.GetOrderID() == id)
+    {
+        // Where it cannot be cancelled now, its end is told as if it had not been asked for.
+        static_cast<void>(_session.Cancel(now, _sessionActions));
+    }
+}
+
+void Vda5050RobotAdapter::SendInstantAction(std::string_view actionType, Core::Now now)
+{
+    VDA5050::Action action;
+    action.actionType = actionType;
+    // A vehicle that is away shows by its state that it did not pause; the engine watches that with its own time.
+    static_cast<void>(_session.SendInstantAction(std::move(action), now, _sessionActions));
+}
+
+void Vda5050RobotAdapter::SendPendingOrder(Core::Now now, AdapterActions& out)
+{
+    if (!_pendingOrder.has_value() || !_session.CanTakeOrder())
+    {
+        return;
+    }
+    VDA5050::OrderMessage order = std::exchange(_pendingOrder, std::nullopt)->order;
+    const std::string orderID = order.orderID;
+    const Core::Result<void> sent = _session.SendOrder(std::move(order), now, _sessionActions);
+    if (!sent)
+    {
+        RefuseOrder(orderID, Core::Describe(sent.error()), out);
+    }
+}
+
+void Vda5050RobotAdapter::SendPendingUpdate(Core::Now now, AdapterActions& out)
+{
+    if (!_route.has_value() || _bUpdateUnderWay || _wantedReleased <= _route->GetReleasedNodes())
+    {
+        return;
+    }
+    Core::Result<VDA5050::OrderMessage> update = _route->MakeUpdate(_wantedReleased);
+    if (!update)
+    {
+        RefuseOrder(_route->GetOrderID(), Core::Describe(update.error()), out);
+        return;
+    }
+    const Core::Result<void> sent = _session.SendOrderUpdate(std::move(*update), now, _sessionActions);
+    if (!sent)
+    {
+        RefuseOrder(_route->GetOrderID(), Core::Describe(sent.error()), out);
+        return;
+    }
+    _bUpdateUnderWay = true;
+}
+
+void Vda5050RobotAdapter::RefuseOrder(const std::string& orderID, const std::string& reason, AdapterActions& out)
+{
+    if (_route.has_value() && _route->GetOrderID() == orderID)
+    {
+        _route.reset();
+        out.emplace_back(RaiseEvent{Planning::DriveRejected{orderID, reason}});
+    }
+    else if (_jobID == orderID)
+    {
+        _jobID.clear();
+        out.emplace_back(RaiseEvent{Planning::JobFailed{orderID, reason}});
+    }
+}
+
+void Vda5050RobotAdapter::Drain(Core::Now now, AdapterActions& out)
+{
+    // What is told may make the session say more, so the list is taken before it is walked.
+    while (!_sessionActions.empty())
+    {
+        const VDA5050::MasterActions actions = std::exchange(_sessionActions, {});
+        for (const VDA5050::MasterAction& action : actions)
+        {
+            Take(action, now, out);
+        }
+        SendPendingUpdate(now, out);
+        SendPendingOrder(now, out);
+    }
+}
+
+void Vda5050RobotAdapter::Take(const VDA5050::MasterAction& action, Core::Now /*now*/, AdapterActions& out)
+{
+    std::visit(
+        Core::Overloaded{
+            [&](const VDA5050::PublishMessage& publish) { _outputs.messages.push_back(publish.message); },
+            [&](const VDA5050::StartMasterTimer& start) {
+                out.emplace_back(Planning::StartAdapterTimer{
+                    static_cast<Planning::AdapterTimerID>(start.timer),
+                    start.delay});
+            },
+            [&](const VDA5050::CancelMasterTimer& cancel) {
+                out.emplace_back(
+                    Planning::CancelAdapterTimer{static_cast<Planning::AdapterTimerID>(cancel.timer)});
+            },
+            [&](const VDA5050::StateReceived&) { TakeState(out); },
+            [&](const VDA5050::PositionReceived& received) { TakePosition(received, out); },
+            [&](const VDA5050::VehicleOffline&) { SetOnline(false, out); },
+            [&](const VDA5050::VehicleBroken&) { SetOnline(false, out); },
+            [&](const VDA5050::VehicleSilent&) { SetOnline(false, out); },
+            [&](const VDA5050::OrderAccepted&) { _bUpdateUnderWay = false; },
+            [&](const VDA5050::OrderRejected& rejected) {
+                RefuseOrder(rejected.orderID, "the vehicle refuses the order: " + rejected.reason, out);
+            },
+            [&](const VDA5050::OrderLost& lost) {
+                RefuseOrder(lost.orderID, "the vehicle lost the order: " + lost.reason, out);
+            },
+            [&](const VDA5050::NodeReached& reached) {
+                if (_route.has_value())
+                {
+                    _lastPassedNodeID = reached.nodeID;
+                    out.emplace_back(RaiseEvent{Planning::NodePassed{_route->GetOrderID(), reached.nodeID}});
+                }
+            },
+            [&](const VDA5050::ActionChanged& changed) { TakeAction(changed, out); },
+            [&](const VDA5050::OrderFinished& finished) { TakeFinished(finished.orderID, out); },
+            [&](const VDA5050::OrderCancelled& cancelled) {
+                if (_route.has_value() && _route->GetOrderID() == cancelled.orderID)
+                {
+                    _route.reset();
+                    out.emplace_back(RaiseEvent{Planning::DriveCancelled{cancelled.orderID, _lastPassedNodeID}});
+                }
+                RefuseOrder(cancelled.orderID, "cancelled", out);
+            },
+            [](const auto&) {}},
+        action);
+}
+
+void Vda5050RobotAdapter::TakeState(AdapterActions& out)
+{
+    const VDA5050::StateMessage& state = *_session.GetStateOrNull();
+    if (state.agvPosition.has_value())
+    {
+        _state.x = state.agvPosition->x;
+        _state.y = state.agvPosition->y;
+        _state.theta = state.agvPosition->theta;
+        _state.bPoseKnown = state.agvPosition->bPositionInitialized;
+    }
+    _state.batteryPercent = state.batteryState.batteryCharge;
+    _state.lastNodeID = state.lastNodeID;
+    _state.bDriving = state.bDriving;
+    _state.bCharging = state.batteryState.bCharging;
+    _state.bPaused = state.bPaused.value_or(false);
+    _state.bAutomatic = state.operatingMode == VDA5050::EOperatingMode::Automatic
+        || state.operatingMode == VDA5050::EOperatingMode::SemiAutomatic;
+    _state.bSafetyStop = state.safetyState.emergencyStop != VDA5050::EEmergencyStop::None
+        || state.safetyState.bFieldViolation;
+    _state.errors.clear();
+    for (const VDA5050::VehicleError& error : state.errors)
+    {
+        _state.errors.push_back(MakeError(error));
+    }
+    SetOnline(_session.IsReady(), out);
+    out.emplace_back(RaiseEvent{_state});
+}
+
+void Vda5050RobotAdapter::TakePosition(const VDA5050::PositionReceived& received, AdapterActions& out)
+{
+    _state.x = received.position.x;
+    _state.y = received.position.y;
+    _state.theta = received.position.theta;
+    _state.bPoseKnown = received.position.bPositionInitialized;
+    if (_bOnline)
+    {
+        out.emplace_back(RaiseEvent{_state});
+    }
+}
+
+void Vda5050RobotAdapter::TakeAction(const VDA5050::ActionChanged& action, AdapterActions& out)
+{
+    if (_jobID.empty() || action.actionID != _jobID)
+    {
+        return;
+    }
+    switch (action.status)
+    {
+        case VDA5050::EActionStatus::Waiting:
+            break;
+        case VDA5050::EActionStatus::Initializing:
+        case VDA5050::EActionStatus::Running:
+        case VDA5050::EActionStatus::Paused:
+            if (!std::exchange(_bJobStarted, true))
+            {
+                out.emplace_back(RaiseEvent{Planning::JobStarted{_jobID}});
+            }
+            break;
+        case VDA5050::EActionStatus::Finished:
+            out.emplace_back(RaiseEvent{Planning::JobFinished{std::exchange(_jobID, {})}});
+            break;
+        case VDA5050::EActionStatus::Failed:
+            out.emplace_back(RaiseEvent{Planning::JobFailed{
+                std::exchange(_jobID, {}),
+                action.resultDescription.empty() ? "the vehicle's action failed" : action.resultDescription}});
+            break;
+        default:
+            break;
+    }
+}
+
+void Vda5050RobotAdapter::TakeFinished(const std::string& orderID, AdapterActions& out)
+{
+    if (_route.has_value() && _route->GetOrderID() == orderID)
+    {
+        _route.reset();
+        out.emplace_back(RaiseEvent{Planning::Arrived{orderID}});
+    }
+    RefuseOrder(orderID, "the order ended without a word of the action", out);
+}
+
+void Vda5050RobotAdapter::SetOnline(bool bOnline, AdapterActions& out)
+{
+    if (std::exchange(_bOnline, bOnline) != bOnline)
+    {
+        out.emplace_back(RaiseEvent{Planning::LinkChanged{bOnline}});
+    }
+}
+
+} // namespace ACS::Acsd

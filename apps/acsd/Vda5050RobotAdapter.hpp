@@ -1,0 +1,78 @@
+#pragma once
+
+#include "AcsdConfig.hpp"
+#include "IMqttRobotAdapter.hpp"
+#include "RobotOutputs.hpp"
+
+#include <acs/core/Now.hpp>
+#include <acs/vda5050/MasterSession.hpp>
+#include <acs/vda5050/OrderBuilder.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+/// Joins a VDA5050 vehicle to the engine. A drive is an order, its extensions are order updates; a job is an order of
+/// the single node where the vehicle stands, with one action whose actionId is the jobId. Pure: what has to be sent goes
+/// into the outputs.
+class Vda5050RobotAdapter final : public IMqttRobotAdapter
+{
+    /// An order that waits until the vehicle has finished the one before.
+    struct PendingOrder
+    {
+        VDA5050::OrderMessage order;
+    };
+
+    VDA5050::MasterSession _session;
+    JobMethods _methods;
+    RobotOutputs& _outputs;
+    VDA5050::MasterActions _sessionActions;
+
+    bool _bOnline = false;
+    Planning::StateChanged _state;
+    std::optional<VDA5050::OrderBuilder> _route; ///< Of the present drive.
+    std::size_t _wantedReleased = 0;             ///< Nodes that the engine has released.
+    bool _bUpdateUnderWay = false;               ///< The vehicle has not shown the last message of the drive yet.
+    std::string _lastPassedNodeID;
+    std::string _jobID; ///< Empty: no job.
+    bool _bJobStarted = false;
+    std::optional<PendingOrder> _pendingOrder;
+
+    void StartDrive(const Planning::Drive& drive, Core::Now now, Planning::AdapterActions& out);
+    void StartJob(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
+    void CancelOrder(std::string_view id, Core::Now now, Planning::AdapterActions& out);
+    void SendInstantAction(std::string_view actionType, Core::Now now);
+    void SendPendingOrder(Core::Now now, Planning::AdapterActions& out);
+    void SendPendingUpdate(Core::Now now, Planning::AdapterActions& out);
+    void RefuseOrder(const std::string& orderID, const std::string& reason, Planning::AdapterActions& out);
+
+    /// Carries out what the session asked for, and tells the engine what it told.
+    void Drain(Core::Now now, Planning::AdapterActions& out);
+    void Take(const VDA5050::MasterAction& action, Core::Now now, Planning::AdapterActions& out);
+    void TakeState(Planning::AdapterActions& out);
+    void TakePosition(const VDA5050::PositionReceived& received, Planning::AdapterActions& out);
+    void TakeAction(const VDA5050::ActionChanged& action, Planning::AdapterActions& out);
+    void TakeFinished(const std::string& orderID, Planning::AdapterActions& out);
+    void SetOnline(bool bOnline, Planning::AdapterActions& out);
+
+public:
+    /// The outputs must outlive the adapter.
+    Vda5050RobotAdapter(VDA5050::MasterOptions options, JobMethods methods, RobotOutputs& outputs);
+
+    void Handle(const Planning::RobotCommand& command, Core::Now now, Planning::AdapterActions& out) override;
+    void OnTimer(Planning::AdapterTimerID timer, Core::Now now, Planning::AdapterActions& out) override;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(std::string_view action) const override;
+
+    [[nodiscard]] std::vector<VDA5050::MqttSubscription> GetSubscriptions() const override;
+    void OnLinkUp(Core::Now now, Planning::AdapterActions& out) override;
+    void OnLinkDown(Core::Now now, Planning::AdapterActions& out) override;
+    void OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, Planning::AdapterActions& out) override;
+
+    [[nodiscard]] const VDA5050::MasterSession& GetSession() const noexcept;
+};
+
+} // namespace ACS::Acsd

@@ -1,0 +1,7 @@
+#include "AcsdProgram.hpp"
+#include "common/CommandLine.hpp"
+
+int main(int argc, char** argv)
+{
+    return ACS::Apps::RunProgram("acsd", [argc, argv] { return ACS::Acsd::RunAcsd(argc, argv); });
+}
