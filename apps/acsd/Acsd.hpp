@@ -32,7 +32,7 @@ public:
     struct Surroundings
     {
         boost::asio::any_io_executor executor;
-        const Core::IClock& clock;
+        Core::IClock& clock;
         Core::IRandom& random;
         Core::Logger logger;
     };

@@ -155,7 +155,7 @@ void ReadRobot(const ConfigSection& section, const std::string& name, AcsdConfig
         section.AddMistake("", Core::Describe(robotID.error()));
         return;
     }
-    Planning::RobotOptions options{.robotID = *robotID};
+    Planning::RobotOptions options{*robotID, {}, {}, {}, {}, {}, {}, {}};
     options.type = ReadRobotType(section, "type");
     options.vehicleTypeID = section.GetString("vehicle_type");
     options.startNodeID = section.GetString("start_node");

@@ -36,7 +36,7 @@ struct ProgramOptions
 
 int Serve(const ProgramOptions& options, AcsdConfig config)
 {
-    const Apps::SystemClock clock;
+    Apps::SystemClock clock;
     Apps::SystemRandom random;
     Apps::SpdlogSink sink(options.common.logLevel);
     boost::asio::io_context context(1);
