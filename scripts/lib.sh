@@ -1,0 +1,79 @@
+# Sourced by the scripts beside it: where the clone is, how they talk, how they configure and build. Bash.
+set -euo pipefail
+
+ACS_ROOT="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)"
+ACS_SCRIPT="$(basename "$0")"
+
+# One object cache for every clone and build folder of a machine.
+export CCACHE_BASEDIR="${CCACHE_BASEDIR:-$ACS_ROOT}" CCACHE_NOHASHDIR="${CCACHE_NOHASHDIR:-1}"
+export NINJA_STATUS="[%f/%t %es] "
+
+note()
+{
+    printf '== %s\n' "$*" >&2
+}
+
+die()
+{
+    printf '%s: %s\n' "$ACS_SCRIPT" "$*" >&2
+    exit 1
+}
+
+# A wrong command line: one line, exit code 2.
+die_usage()
+{
+    printf '%s: %s (see %s --help)\n' "$ACS_SCRIPT" "$*" "$ACS_SCRIPT" >&2
+    exit 2
+}
+
+setup()
+{
+    "$ACS_ROOT/scripts/setup" || die "cannot go on without the packages above"
+}
+
+# configure PRESET: runs CMake where the folder has never been configured or the presets have changed since.
+# Changes in CMakeLists.txt are the build's own business: Ninja reruns CMake by itself.
+configure()
+{
+    local preset="$1" folder="$ACS_ROOT/build/$1" log presets
+    presets="$(cksum <"$ACS_ROOT/CMakePresets.json")"
+    if [ -f "$folder/build.ninja" ] && [ "$(cat "$folder/.presets" 2>/dev/null)" = "$presets" ]; then
+        return
+    fi
+    note "configure $preset"
+    mkdir -p "$folder"
+    log="$folder/configure.log"
+    if ! (cd "$ACS_ROOT" && cmake --preset "$preset") >"$log" 2>&1 </dev/null; then
+        cat "$log" >&2
+        die "CMake could not configure preset '$preset'; its message is above"
+    fi
+    printf '%s\n' "$presets" >"$folder/.presets"
+}
+
+# configure_and_build PRESET [TARGET...]: says nothing when there is nothing to do. The build goes to standard error.
+configure_and_build()
+{
+    local preset="$1" folder="$ACS_ROOT/build/$1" plan targets=()
+    shift
+    configure "$preset"
+    if [ $# -gt 0 ]; then
+        targets=(--target "$@")
+    fi
+    if plan="$(ninja -C "$folder" -n "$@" 2>/dev/null)" && grep -q '^ninja: no work to do' <<<"$plan"; then
+        return
+    fi
+    note "build $preset${*:+ ($*)}"
+    cmake --build "$folder" -j "$(nproc)" "${targets[@]}" >&2 </dev/null || die "the build of preset '$preset' failed; the compiler's message is above"
+}
+
+# join SEPARATOR WORD...
+join()
+{
+    local separator="$1" result="$2"
+    shift 2
+    local word
+    for word in "$@"; do
+        result+="$separator$word"
+    done
+    printf '%s' "$result"
+}
