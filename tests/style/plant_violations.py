@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+"""Plants one violation after another in an otherwise right tree, and requires that scripts/check_layers.py and
+scripts/check_files.py report it at its line; the tree without it must pass."""
+
+import os
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "scripts"))
+sys.dont_write_bytecode = True
+import check_files  # noqa: E402
+import check_layers  # noqa: E402
+
+CHECKS = {"layers": check_layers, "files": check_files}
+
+RIGHT = {
+    "libacs-core/include/acs/core/Location.hpp": "#pragma once\n#include <fmt/core.h>\nclass Location\n{\n};\n",
+    "libacs-core/json/include/acs/json/JsonReader.hpp": "#pragma once\n#include <rapidjson/reader.h>\n",
+    "libacs-protocol/include/acs/protocol/Codec.hpp": "#pragma once\n#include <acs/core/Location.hpp>\n",
+    "libacs-protocol/src/codec/Codec.cpp": "#include <acs/json/JsonReader.hpp>\n// steady_clock::now() is a comment\n",
+    "libacs-protocol/src/PendingRequests.hpp": "#pragma once\n#include <vector>\n",
+    "libacs-protocol/beast/include/acs/protocol_beast/Client.hpp":
+        "#pragma once\n#include <acs/protocol/Codec.hpp>\n#include <boost/asio/any_io_executor.hpp>\n",
+    "libacs-protocol/beast/src/Client.cpp": "#include <boost/beast/websocket.hpp>\n#include <thread>\n",
+    "libvda5050/include/acs/vda5050/Header.hpp": "#pragma once\n#include <acs/core/Location.hpp>\n",
+    "libvda5050/mosquitto/src/Link.cpp": "#include <acs/vda5050/Header.hpp>\n#include <mosquitto.h>\n",
+    "libplan/sqlite/src/Store.cpp": "#include <SQLiteCpp/Database.h>\n",
+    "apps/common/ConfigReader.hpp": "#pragma once\n#include <acs/core/Location.hpp>\n",
+    "apps/acsd/Acsd.hpp": "#pragma once\n#include \"../common/ConfigReader.hpp\"\n#include <acs/protocol/Codec.hpp>\n",
+    "apps/acsd/main.cpp": "#include \"Acsd.hpp\"\n" * 60,
+    "apps/vda-sim/VirtualVehicle.hpp": "#pragma once\n",
+    "tests/support/ManualClock.hpp": "#pragma once\n#include <acs/core/Location.hpp>\n",
+    "tests/unit/core/LocationTest.cpp": "#include \"ManualClock.hpp\"\nTEST_CASE(\"one\")\n{\n}\n",
+    "examples/e01_locations.cpp": "#include <acs/core/Location.hpp>\n",
+}
+
+# check, file, content, line that must be named, what the sentence must hold
+PLANTED = [
+    ("layers", "libacs-core/src/Location.cpp", "#include <string>\n#include <boost/asio.hpp>\n", 2, "layer 'core'"),
+    ("layers", "libacs-core/src/Location.cpp", "#include <rapidjson/document.h>\n", 1, "layer 'core'"),
+    ("layers", "libacs-core/src/Location.cpp", "#include <mutex>\n", 1, "pure"),
+    ("layers", "libacs-core/src/Location.cpp", "auto now = std::chrono::steady_clock::now();\n", 1, "clock"),
+    ("layers", "libacs-core/src/Location.cpp", "std::random_device device;\n", 1, "random"),
+    ("layers", "libacs-core/src/Location.cpp", "#include <acs/protocol/Codec.hpp>\n", 1, "above"),
+    ("layers", "libacs-core/include/acs/core/Plan.hpp", "#pragma once\n#include <acs/json/JsonReader.hpp>\n", 2, "internal"),
+    ("layers", "libacs-protocol/include/acs/protocol/Bad.hpp", "#pragma once\n#include <acs/json/JsonReader.hpp>\n", 2,
+     "internal"),
+    ("layers", "libacs-protocol/src/Session.hpp", "#pragma once\n#include <acs/json/JsonReader.hpp>\n", 2, "internal"),
+    ("layers", "libacs-protocol/src/Session.cpp", "#include <rapidjson/reader.h>\n", 1, "layer 'protocol'"),
+    ("layers", "libacs-protocol/src/Session.cpp", "#include <acs/vda5050/Header.hpp>\n", 1, "another library"),
+    ("layers", "libacs-protocol/src/Session.cpp", "#include <acs/protocol_beast/Client.hpp>\n", 1, "another library"),
+    ("layers", "libacs-protocol/src/Session.cpp", "#include \"../../apps/acsd/Acsd.hpp\"\n", 1, "program"),
+    ("layers", "libvda5050/src/Session.cpp", "#include <boost/asio/steady_timer.hpp>\n", 1, "layer 'vda5050'"),
+    ("layers", "libvda5050/src/Session.cpp", "#include <mosquitto.h>\n", 1, "layer 'vda5050'"),
+    ("layers", "libvda5050/src/Session.cpp", "\n/* two\nlines */ auto now = system_clock :: now();\n", 3, "clock"),
+    ("layers", "libopenstream/src/Framer.cpp", "#include <thread>\n", 1, "pure"),
+    ("layers", "libopenstream/src/Framer.cpp", "#include <filesystem>\n", 1, "pure"),
+    ("layers", "libopenstream/src/Framer.cpp", "#include <sys/socket.h>\n", 1, "layer 'openstream'"),
+    ("layers", "libplan/src/Engine.cpp", "#include <sqlite3.h>\n", 1, "layer 'plan'"),
+    ("layers", "libplan/src/Engine.cpp", "#include <acs/protocol/Codec.hpp>\n", 1, "another library"),
+    ("layers", "libacs-protocol/beast/src/Bad.cpp", "#include <acs/vda5050/Header.hpp>\n", 1, "out of reach"),
+    ("layers", "libacs-protocol/beast/src/Bad.cpp", "#include <acs/json/JsonReader.hpp>\n", 1, "internal"),
+    ("layers", "libacs-protocol/beast/src/Bad.cpp", "#include <mosquitto.h>\n", 1, "layer 'protocol_beast'"),
+    ("layers", "libvda5050/mosquitto/src/Bad.cpp", "#include <boost/beast/core.hpp>\n", 1, "layer 'vda5050_mosquitto'"),
+    ("layers", "libopenstream/asio/src/Bad.cpp", "#include <SQLiteCpp/Database.h>\n", 1, "layer 'openstream_asio'"),
+    ("layers", "libplan/sqlite/src/Bad.cpp", "#include <boost/asio.hpp>\n", 1, "layer 'plan_sqlite'"),
+    ("layers", "libacs-protocol/beast/include/acs/protocol_beast/Bad.hpp",
+     "#pragma once\n#include <boost/beast/core.hpp>\n", 2, "public header"),
+    ("layers", "libacs-protocol/beast/src/Bad.cpp", "#include \"ManualClock.hpp\"\n", 1, "tests"),
+    ("layers", "apps/acsd/Bad.cpp", "#include \"../../tests/support/ManualClock.hpp\"\n", 1, "tests"),
+    ("layers", "apps/acsd/Bad.cpp", "#include \"../vda-sim/VirtualVehicle.hpp\"\n", 1, "program"),
+    ("layers", "apps/common/Bad.cpp", "#include \"../acsd/Acsd.hpp\"\n", 1, "program"),
+    ("layers", "apps/acsd/Bad.cpp", "void Wait()\n{\n    std::this_thread::sleep_for(1s);\n}\n", 3, "sleeps"),
+    ("layers", "apps/acsd/main.cpp", "\n" * 61, 61, "main.cpp"),
+    ("layers", "apps/acsd/CMakeLists.txt", "add_library(one)\ntarget_link_libraries(one acs_test_support)\n", 2, "tests"),
+    ("layers", "examples/e02_json.cpp", "#include <acs/json/JsonReader.hpp>\n", 1, "internal"),
+    ("layers", "examples/e03_acsd.cpp", "#include \"../apps/acsd/Acsd.hpp\"\n", 1, "program"),
+    ("layers", "tests/support/Bad.hpp", "#pragma once\n#include <acs/protocol_beast/Client.hpp>\n", 2, "tests/support"),
+    ("files", "libplan/src/Engine.hpp", "class Engine\n{\n};\n", 1, "#pragma once"),
+    ("files", "libplan/src/engine.hpp", "#pragma once\nclass engine\n{\n};\n", 1, "PascalCase"),
+    ("files", "libplan/src/plan_engine.cpp", "int one;\n", 1, "PascalCase"),
+    ("files", "libplan/src/Engine.hpp", "#pragma once\n\nclass PlanEngine\n{\n};\n", 3, "PlanEngine.hpp"),
+    ("files", "libplan/src/Job.hpp", "#pragma once\nstruct Task\n{\n};\n", 1, "Task.hpp"),
+    ("files", "libplan/src/Engine.hpp", "#pragma once\nclass Engine\n{\n};\n\nclass Store final\n{\n};\n", 6, "second class"),
+    ("files", "libplan/src/Engine.cc", "int one;\n", 1, ".cpp"),
+    ("files", "tests/unit/plan/Engine.cpp", "TEST_CASE(\"one\")\n{\n}\n", 1, "Test.cpp"),
+    ("files", "libplan/src/Engine.cpp", "int one;\nint two;\r\n", 2, "LF"),
+    ("files", "libplan/src/Engine.cpp", "int one;\nint two;", 2, "last line"),
+    ("files", "libplan/src/Engine.cpp", "int one;\n// TO" "DO: more\n", 2, "unfinished"),
+    ("files", "README.md", "one\nsee /wo" "rk/main\n", 2, "path of one machine"),
+    ("files", "docs/site.md", "`/ho" "me/somebody`\n", 1, "path of one machine"),
+]
+
+ACCEPTED = [
+    ("files", "libplan/src/Engine.hpp", "#pragma once\nclass IStore\n{\n};\n\nstruct Change\n{\n};\n\nclass Engine;\n\n"
+                                        "class Engine final : public IStore\n{\n    class Inner\n    {\n    };\n};\n"),
+    ("files", "libplan/include/acs/plan/Reports.hpp", "#pragma once\nstruct PlanReport\n{\n};\n\nstruct JobReport\n{\n};\n"),
+    ("files", "libplan/src/PlanEngine.Recovery.cpp", "// /tmp/acs.XXXXXX and https://example.org/home/page\n"),
+    ("files", "libplan/src/Text.hpp", "#pragma once\nnamespace ACS::Detail\n{\n\nclass Hidden\n{\n};\n\n}\n\n"
+                                      "class Text\n{\n};\n"),
+    ("layers", "libplan/src/Engine.cpp", "const char* text = \"steady_clock::now()\"; // steady_clock::now()\n"),
+    ("layers", "libplan/src/Engine.cpp", "#include <boost/graph/dijkstra_shortest_paths.hpp>\n"),
+]
+
+
+def write_tree(folder, files):
+    for path, content in files.items():
+        place = os.path.join(folder, path)
+        os.makedirs(os.path.dirname(place), exist_ok=True)
+        with open(place, "w", encoding="utf-8", newline="") as file:
+            file.write(content)
+
+
+def check(kind, files):
+    with tempfile.TemporaryDirectory() as folder:
+        write_tree(folder, files)
+        return list(CHECKS[kind].check_tree(folder))
+
+
+def check_program(kind, files):
+    """The same through the command line, as the tests and people call it: exit code and lines."""
+    with tempfile.TemporaryDirectory() as folder:
+        write_tree(folder, files)
+        done = subprocess.run([sys.executable, os.path.join(ROOT, "scripts", f"check_{kind}.py"), "--root", folder],
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        return done.returncode, done.stdout.splitlines()
+
+
+def main():
+    failures = []
+    for kind in CHECKS:
+        path, content = next((path, content) for name, path, content, *_ in PLANTED if name == kind)
+        for files, expected in ((RIGHT, 0), ({**RIGHT, path: content}, 1)):
+            code, lines = check_program(kind, files)
+            if code != expected or len(lines) != expected:
+                failures.append(f"check_{kind}.py must end with {expected}, not {code}, and as many lines: {lines}")
+    for kind, path, content, line, sentence in PLANTED:
+        lines = check(kind, {**RIGHT, path: content})
+        if len(lines) != 1 or not lines[0].startswith(f"{path}:{line}: ") or sentence not in lines[0]:
+            failures.append(f"check_{kind} must report {path}:{line} with '{sentence}', and nothing else, for\n"
+                            f"{content}but says {lines}")
+    for kind, path, content in ACCEPTED:
+        lines = check(kind, {**RIGHT, path: content})
+        if lines:
+            failures.append(f"check_{kind} must accept {path}:\n{content}but says {lines}")
+    for failure in failures:
+        print(failure)
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
