@@ -13,6 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
+RULES = os.path.join(ROOT, ".clang-tidy")
 QUERIES = os.path.join(ROOT, "scripts", "house-rules.clang-query")
 BROKEN_QUERY = re.compile(r"Error (?:parsing|building)|Matcher not found|Invalid token|unknown command", re.IGNORECASE)
 
@@ -24,7 +25,8 @@ def run(*command):
 
 
 def tidy(path):
-    return run("clang-tidy-14", "--quiet", path, "--", "-std=c++20")[1]
+    # The root's rules: those for tests are looser.
+    return run("clang-tidy-14", "--quiet", "--config-file=" + RULES, path, "--", "-std=c++20")[1]
 
 
 def query(path):
@@ -74,6 +76,19 @@ def check_bad_tidy(path):
         yield f"{path}: holds no expectation"
 
 
+def check_bad_warnings(path, compiler, flags):
+    """Not as errors: clang stops at an error of one kind before it looks for the next."""
+    flags = [flag for flag in flags if flag != "-Werror"]
+    output = run(compiler, "-std=c++20", "-O2", *flags, "-c", "-o", os.devnull, path)[2]
+    bClang = "clang" in run(compiler, "--version")[1]
+    other = "GNU" if bClang else "CLANG"
+    for number, text in read_lines(path):
+        mark = re.search(r"// EXPECT-(WARNING|GNU|CLANG) (\S+)$", text)
+        if mark and mark.group(1) != other:
+            if not re.search(re.escape(path) + rf":{number}:\d+: warning: .*{mark.group(2)}", output):
+                yield f"{path}:{number}: {compiler} must report {mark.group(2)} here"
+
+
 def check_bad_query(path):
     output = query(path)
     if BROKEN_QUERY.search(output):
@@ -107,6 +122,8 @@ def main():
         jobs += [pool.submit(lambda path: list(check_format(path, True)), path) for path in good + headers]
         jobs.append(pool.submit(lambda: list(check_format(os.path.join(bad, "Unformatted.cpp"), False))))
         jobs.append(pool.submit(lambda: list(check_bad_tidy(os.path.join(bad, "Bad.cpp")))))
+        jobs.append(pool.submit(lambda: list(check_bad_warnings(os.path.join(bad, "BadWarnings.cpp"), arguments.compiler,
+                                                                flags))))
         jobs.append(pool.submit(lambda: list(check_bad_query(os.path.join(bad, "BadHouse.cpp")))))
         failures = [failure for job in jobs for failure in job.result()]
     for failure in failures:

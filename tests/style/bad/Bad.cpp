@@ -125,7 +125,7 @@ int AddUp(const std::vector<int>& values)
     }
     for (int i = 0; i < 3; ++i)
     {
-        total += (int)2.5; // EXPECT google-readability-casting
+        total += values.at(0);
     }
     for (const std::string text : std::vector<std::string>{"one"}) // EXPECT performance-for-range-copy
     {
