@@ -27,11 +27,8 @@ class Derived : public Base // EXPECT-GNU -Wnon-virtual-dtor
 {
 public:
     void Draw(double count); // EXPECT-CLANG -Woverloaded-virtual
+    void Clear() {}; // EXPECT-WARNING -Wextra-semi
 };
-
-void Empty()
-{
-}; // EXPECT-WARNING -Wextra-semi
 
 int Choose(EColour colour, int number, unsigned size)
 {
@@ -43,7 +40,7 @@ int Choose(EColour colour, int number, unsigned size)
     std::uint8_t small = 0;
     small = number; // EXPECT-WARNING conversion
     size = number; // EXPECT-WARNING -Wsign-conversion
-    const Point point{.x = 1}; // EXPECT-WARNING -Wmissing-field-initializers
+    const Point point{.x = 1}; // EXPECT-GNU -Wmissing-field-initializers
     switch (colour) // EXPECT-WARNING -Wswitch
     {
         case EColour::Red:
