@@ -56,7 +56,8 @@ def check_header(path, text):
     types = list_types(strip_comments_and_strings(text))
     names = [name for _, _, name in types]
     classes = [(line, name) for line, kind, name in types if kind == "class" and not is_interface(name)]
-    defined = sorted({name for _, kind, name in types if kind not in ("using", "concept")})
+    # Specialisations count: a header full of them is a family, not one class.
+    defined = [name for _, kind, name in types if kind not in ("using", "concept")]
     if classes and stem not in names:
         yield classes[0][0], f"class {classes[0][1]} stands in a file of another name; call the file {classes[0][1]}.hpp"
     elif len(defined) == 1 and stem not in names and stem not in text.split("#pragma once", 1)[-1]:
