@@ -31,13 +31,13 @@ setup()
     "$ACS_ROOT/scripts/setup" || die "cannot go on without the packages above"
 }
 
-# configure PRESET: runs CMake where the folder has never been configured or the presets have changed since.
-# Changes in CMakeLists.txt are the build's own business: Ninja reruns CMake by itself.
+# configure PRESET: runs CMake where the folder has never been configured, or the presets or the list of folders have
+# changed since. Changes inside a CMakeLists.txt are the build's own business: Ninja reruns CMake by itself.
 configure()
 {
-    local preset="$1" folder="$ACS_ROOT/build/$1" log presets
-    presets="$(cksum <"$ACS_ROOT/CMakePresets.json")"
-    if [ -f "$folder/build.ninja" ] && [ "$(cat "$folder/.presets" 2>/dev/null)" = "$presets" ]; then
+    local preset="$1" folder="$ACS_ROOT/build/$1" log state
+    state="$(cd "$ACS_ROOT" && { cat CMakePresets.json; find . -name build -prune -o -name CMakeLists.txt -print | sort; } | cksum)"
+    if [ -f "$folder/build.ninja" ] && [ "$(cat "$folder/.configured" 2>/dev/null)" = "$state" ]; then
         return
     fi
     note "configure $preset"
@@ -47,7 +47,7 @@ configure()
         cat "$log" >&2
         die "CMake could not configure preset '$preset'; its message is above"
     fi
-    printf '%s\n' "$presets" >"$folder/.presets"
+    printf '%s\n' "$state" >"$folder/.configured"
 }
 
 # configure_and_build PRESET [TARGET...]: says nothing when there is nothing to do. The build goes to standard error.
