@@ -1,13 +1,12 @@
 #include "Acsd.hpp"
 
 #include "AcsdStatus.hpp"
-#include "McsLink.hpp"
-#include "PlanLog.hpp"
-#include "RobotHost.hpp"
 #include "common/HttpServer.hpp"
 #include "common/MetricsEndpoint.hpp"
 #include "common/TimerSet.hpp"
-
+#include "McsLink.hpp"
+#include "PlanLog.hpp"
+#include "RobotHost.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/plan/PlanEngine.hpp>
 #include <acs/plan_sqlite/SqlitePlanStore.hpp>
@@ -119,7 +118,9 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
             Core::Overloaded{
                 [&](const Planning::PlanCommand& command) { _engine.Handle(command, now, actions); },
                 [&](const RobotEventTask& robot) { _engine.Handle(robot.robotID, robot.event, now, actions); },
-                [&](const Planning::EngineTimer& timer) { _engine.OnTimer(timer, now, actions); }},
+                [&](const Planning::EngineTimer& timer) {
+                    _engine.OnTimer(timer, now, actions);
+                }},
             task);
         Execute(actions, now);
     }
@@ -158,10 +159,10 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
                 [&](const Planning::SendReport& report) { _mcs.Report(report.entry); },
                 [&](const Planning::CommandRobot& command) { CommandRobot(command); },
                 [&](const Planning::RobotStatusChanged& changed) { _mcs.TellStatus(changed.status); },
-                [&](const Planning::StartEngineTimer& start) {
-                    _timers.Start(GetTimerKey(start.timer), start.delay);
-                },
-                [&](const Planning::CancelEngineTimer& cancel) { _timers.Cancel(GetTimerKey(cancel.timer)); }},
+                [&](const Planning::StartEngineTimer& start) { _timers.Start(GetTimerKey(start.timer), start.delay); },
+                [&](const Planning::CancelEngineTimer& cancel) {
+                    _timers.Cancel(GetTimerKey(cancel.timer));
+                }},
             action);
     }
 
@@ -415,8 +416,7 @@ Acsd::~Acsd() = default;
 Core::Result<std::unique_ptr<Acsd>> Acsd::Create(Surroundings surroundings, AcsdConfig config)
 {
     assert(config.mistakes.empty());
-    Core::Result<std::unique_ptr<Planning::SqlitePlanStore>> store =
-        Planning::SqlitePlanStore::Open(config.storeFile);
+    Core::Result<std::unique_ptr<Planning::SqlitePlanStore>> store = Planning::SqlitePlanStore::Open(config.storeFile);
     if (!store)
     {
         return tl::unexpected<Core::Error>(store.error());

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "AcsdConfig.hpp"
-
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>

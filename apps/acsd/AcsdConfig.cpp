@@ -246,13 +246,10 @@ AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::st
     ReadSite(root, fileName, config);
     config.storeFile = ResolvePath(fileName, root.GetSection("store").GetString("path"));
     config.httpListen = root.GetSection("http").GetEndpoint("listen", config.httpListen);
-    config.engine.maximumPlans = static_cast<std::size_t>(root.GetSection("queue").GetInteger(
-        "max_plans",
-        1,
-        MOST_PLANS,
-        static_cast<std::int64_t>(config.engine.maximumPlans)));
-    config.positionInterval =
-        root.GetSection("position").GetDuration("interval", 10ms, 1min, config.positionInterval);
+    config.engine.maximumPlans = static_cast<std::size_t>(
+        root.GetSection("queue")
+            .GetInteger("max_plans", 1, MOST_PLANS, static_cast<std::int64_t>(config.engine.maximumPlans)));
+    config.positionInterval = root.GetSection("position").GetDuration("interval", 10ms, 1min, config.positionInterval);
     ReadTables(root, config);
     RejectActionsWithoutMethod(config);
     config.mistakes = reader.GetMistakes();

@@ -19,10 +19,7 @@ public:
     virtual void OnLinkDown(Core::Now now, Planning::AdapterActions& out) = 0;
 
     /// Messages for other robots may come too and are ignored.
-    virtual void OnMqttMessage(
-        const VDA5050::MqttMessage& message,
-        Core::Now now,
-        Planning::AdapterActions& out) = 0;
+    virtual void OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, Planning::AdapterActions& out) = 0;
 };
 
 } // namespace ACS::Acsd

@@ -2,7 +2,6 @@
 
 #include "PlanMapper.hpp"
 #include "ReportMapper.hpp"
-
 #include <acs/core/Overloaded.hpp>
 
 #include <fmt/format.h>
@@ -33,7 +32,9 @@ std::string GetPlanID(const Planning::PlanCommand& command)
         Core::Overloaded{
             [](const Planning::SubmitPlan& submit) { return submit.plan.planID; },
             [](const Planning::ControlPlan& control) { return control.planID; },
-            [](const auto&) { return std::string(); }},
+            [](const auto&) {
+                return std::string();
+            }},
         command);
 }
 
@@ -167,7 +168,8 @@ void McsLink::OnSessionEvent(const Protocol::SessionEvent& event)
                     std::exchange(_stopHandler, nullptr)();
                 }
             },
-            [](const auto&) {}},
+            [](const auto&) {
+            }},
         event);
 }
 
@@ -188,9 +190,10 @@ void McsLink::TakeRequest(const Protocol::AcsRequest& request)
 
 void McsLink::AnswerQuery(const Protocol::AcsRequest& request)
 {
-    const auto answer = [&](Protocol::EAckResult result, std::string_view message, const Protocol::AckPayload& payload) {
-        _client->Answer(Protocol::GetCommand(request), request.transactionID, result, message, payload);
-    };
+    const auto answer =
+        [&](Protocol::EAckResult result, std::string_view message, const Protocol::AckPayload& payload) {
+            _client->Answer(Protocol::GetCommand(request), request.transactionID, result, message, payload);
+        };
     std::visit(
         Core::Overloaded{
             [&](const Protocol::RequestAcsPlans&) {
@@ -210,7 +213,9 @@ void McsLink::AnswerQuery(const Protocol::AcsRequest& request)
                 }
                 answer(Protocol::EAckResult::Success, "", list);
             },
-            [&](const auto&) { answer(Protocol::EAckResult::Fail, "not supported", Protocol::EmptyAck{}); }},
+            [&](const auto&) {
+                answer(Protocol::EAckResult::Fail, "not supported", Protocol::EmptyAck{});
+            }},
         request.payload);
 }
 
@@ -231,12 +236,7 @@ void McsLink::AnswerHistory(const Protocol::AcsRequest& request, const Protocol:
             unknown += planID;
         }
     }
-    _client->Answer(
-        Protocol::GetCommand(request),
-        request.transactionID,
-        Protocol::EAckResult::Success,
-        unknown,
-        list);
+    _client->Answer(Protocol::GetCommand(request), request.transactionID, Protocol::EAckResult::Success, unknown, list);
 }
 
 void McsLink::TakeAck(const Protocol::Acked& acked)
@@ -251,9 +251,7 @@ void McsLink::TakeAck(const Protocol::Acked& acked)
         // Final all the same (register D-1, mcs.on_report_nack): the MCS has it and does not want it.
         _logger.Warning(
             "the MCS refuses a report",
-            {{"command", GetText(acked.command)},
-             {"transactionId", acked.transactionID},
-             {"reason", acked.message}});
+            {{"command", GetText(acked.command)}, {"transactionId", acked.transactionID}, {"reason", acked.message}});
     }
     const std::uint64_t sequence = found->second;
     _sequences.erase(found);

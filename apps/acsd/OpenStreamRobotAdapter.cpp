@@ -168,7 +168,8 @@ void OpenStreamRobotAdapter::OnArmEvent(const OpenStream::ClientEvent& event, Co
                 out.emplace_back(Planning::CancelAdapterTimer{MOTOR_TIMER});
                 SetArmState(EArmState::Lost, out);
             },
-            [](const auto&) {}},
+            [](const auto&) {
+            }},
         event);
 }
 

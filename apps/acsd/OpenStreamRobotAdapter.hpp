@@ -4,7 +4,6 @@
 #include "IMqttRobotAdapter.hpp"
 #include "RobotOutputs.hpp"
 #include "Vda5050RobotAdapter.hpp"
-
 #include <acs/core/Now.hpp>
 #include <acs/openstream/ClientSessionActions.hpp>
 

@@ -64,7 +64,9 @@ std::optional<Planning::PlanCommand> MakePlanCommandOrNull(
             [&](const Protocol::ResumePlan& message) -> std::optional<Planning::PlanCommand> {
                 return control(EPlanControl::Resume, message.planID, {});
             },
-            [](const auto&) -> std::optional<Planning::PlanCommand> { return std::nullopt; }},
+            [](const auto&) -> std::optional<Planning::PlanCommand> {
+                return std::nullopt;
+            }},
         payload);
 }
 

@@ -57,10 +57,7 @@ Protocol::AcsPayload MakePayload(const Planning::Report& report)
     return std::visit(
         Core::Overloaded{
             [](const Planning::PlanReport& plan) -> Protocol::AcsPayload {
-                return Protocol::PlanReport{
-                    plan.planID,
-                    static_cast<Protocol::EPlanStatus>(plan.state),
-                    plan.message};
+                return Protocol::PlanReport{plan.planID, static_cast<Protocol::EPlanStatus>(plan.state), plan.message};
             },
             [](const Planning::StepReport& step) -> Protocol::AcsPayload {
                 return Protocol::StepReport{

@@ -1,10 +1,9 @@
 #include "RobotHost.hpp"
 
+#include "common/TimerSet.hpp"
 #include "OpenStreamRobotAdapter.hpp"
 #include "RobotOutputs.hpp"
 #include "Vda5050RobotAdapter.hpp"
-#include "common/TimerSet.hpp"
-
 #include <acs/core/Overloaded.hpp>
 #include <acs/openstream_asio/OpenStreamClient.hpp>
 
@@ -28,8 +27,7 @@ VDA5050::MasterOptions MakeMasterOptions(const AcsdConfig& config, const RobotLi
 {
     VDA5050::MasterOptions options;
     options.address = {config.mqtt.interfaceName, robot.manufacturer, robot.serialNumber};
-    options.version =
-        VDA5050::ReadVersionOrNull(robot.protocolVersion).value_or(VDA5050::EVda5050Version::Version200);
+    options.version = VDA5050::ReadVersionOrNull(robot.protocolVersion).value_or(VDA5050::EVda5050Version::Version200);
     return options;
 }
 
@@ -105,7 +103,9 @@ struct RobotHost::Impl
             Core::Overloaded{
                 [&](const Planning::RaiseEvent& raise) { handler(robot.robotID, raise.event); },
                 [&](const Planning::StartAdapterTimer& start) { timers->Start(start.timer, start.delay); },
-                [&](const Planning::CancelAdapterTimer& cancel) { timers->Cancel(cancel.timer); }},
+                [&](const Planning::CancelAdapterTimer& cancel) {
+                    timers->Cancel(cancel.timer);
+                }},
             action);
     }
 
@@ -180,9 +180,8 @@ void RobotHost::Stop()
 
 void RobotHost::Handle(const Planning::RobotCommand& command)
 {
-    _impl->Call([this, &command](Core::Now now, Planning::AdapterActions& out) {
-        _impl->adapter->Handle(command, now, out);
-    });
+    _impl->Call(
+        [this, &command](Core::Now now, Planning::AdapterActions& out) { _impl->adapter->Handle(command, now, out); });
 }
 
 void RobotHost::OnLinkUp()

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "AcsdConfig.hpp"
-
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
@@ -39,11 +38,7 @@ public:
         Core::Logger logger;
     };
 
-    RobotHost(
-        Surroundings surroundings,
-        const AcsdConfig& config,
-        const RobotLinkConfig& robot,
-        EventHandler handler);
+    RobotHost(Surroundings surroundings, const AcsdConfig& config, const RobotLinkConfig& robot, EventHandler handler);
     RobotHost(const RobotHost&) = delete;
     RobotHost& operator=(const RobotHost&) = delete;
     ~RobotHost();

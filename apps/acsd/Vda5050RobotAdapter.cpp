@@ -93,7 +93,9 @@ void Vda5050RobotAdapter::Handle(const Planning::RobotCommand& command, Core::No
             [&](const Planning::StartJob& job) { StartJob(job, now, out); },
             [&](const Planning::CancelJob& cancel) { CancelOrder(cancel.jobID, now, out); },
             [&](const Planning::Pause&) { SendInstantAction(VDA5050::ActionTypes::START_PAUSE, now); },
-            [&](const Planning::Resume&) { SendInstantAction(VDA5050::ActionTypes::STOP_PAUSE, now); }},
+            [&](const Planning::Resume&) {
+                SendInstantAction(VDA5050::ActionTypes::STOP_PAUSE, now);
+            }},
         command);
     Drain(now, out);
 }
@@ -304,13 +306,11 @@ void Vda5050RobotAdapter::Take(const VDA5050::MasterAction& action, Core::Now /*
         Core::Overloaded{
             [&](const VDA5050::PublishMessage& publish) { _outputs.messages.push_back(publish.message); },
             [&](const VDA5050::StartMasterTimer& start) {
-                out.emplace_back(Planning::StartAdapterTimer{
-                    static_cast<Planning::AdapterTimerID>(start.timer),
-                    start.delay});
+                out.emplace_back(
+                    Planning::StartAdapterTimer{static_cast<Planning::AdapterTimerID>(start.timer), start.delay});
             },
             [&](const VDA5050::CancelMasterTimer& cancel) {
-                out.emplace_back(
-                    Planning::CancelAdapterTimer{static_cast<Planning::AdapterTimerID>(cancel.timer)});
+                out.emplace_back(Planning::CancelAdapterTimer{static_cast<Planning::AdapterTimerID>(cancel.timer)});
             },
             [&](const VDA5050::StateReceived&) { TakeState(out); },
             [&](const VDA5050::PositionReceived& received) { TakePosition(received, out); },
@@ -341,7 +341,8 @@ void Vda5050RobotAdapter::Take(const VDA5050::MasterAction& action, Core::Now /*
                 }
                 RefuseOrder(cancelled.orderID, "cancelled", out);
             },
-            [](const auto&) {}},
+            [](const auto&) {
+            }},
         action);
 }
 
@@ -362,8 +363,8 @@ void Vda5050RobotAdapter::TakeState(AdapterActions& out)
     _state.bPaused = state.bPaused.value_or(false);
     _state.bAutomatic = state.operatingMode == VDA5050::EOperatingMode::Automatic
         || state.operatingMode == VDA5050::EOperatingMode::SemiAutomatic;
-    _state.bSafetyStop = state.safetyState.emergencyStop != VDA5050::EEmergencyStop::None
-        || state.safetyState.bFieldViolation;
+    _state.bSafetyStop =
+        state.safetyState.emergencyStop != VDA5050::EEmergencyStop::None || state.safetyState.bFieldViolation;
     _state.errors.clear();
     for (const VDA5050::VehicleError& error : state.errors)
     {

@@ -3,7 +3,6 @@
 #include "AcsdConfig.hpp"
 #include "IMqttRobotAdapter.hpp"
 #include "RobotOutputs.hpp"
-
 #include <acs/core/Now.hpp>
 #include <acs/vda5050/MasterSession.hpp>
 #include <acs/vda5050/OrderBuilder.hpp>

@@ -48,7 +48,7 @@ TEST_CASE("What is no JSON is refused")
          {""sv,
           " "sv,
           "{"sv,
-          "{\"a\":}"sv,
+          R"({"a":})"sv,
           "[1,]"sv,
           "{} {}"sv,
           "NaN"sv,
