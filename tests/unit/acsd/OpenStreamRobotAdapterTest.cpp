@@ -1,0 +1,238 @@
+#include "OpenStreamRobotAdapter.hpp"
+
+#include "Catch.hpp"
+#include "ManualClock.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace ACS::Acsd::Test
+{
+
+namespace
+{
+
+/// An adapter whose base is never heard of: only the arm's side is under test here.
+struct ArmFixture
+{
+    Testing::ManualClock clock;
+    RobotOutputs outputs;
+    OpenStreamRobotAdapter adapter{
+        VDA5050::MasterOptions{},
+        ArmCounters{},
+        {{"TrayLoad", {"", 11}}, {"CassetteLoad", {"pick", 0}}},
+        outputs};
+    Planning::AdapterActions actions;
+
+    void Tell(const OpenStream::ClientEvent& event)
+    {
+        adapter.OnArmEvent(event, clock.GetNow(), actions);
+    }
+
+    void TellData(std::string_view json)
+    {
+        OpenStream::DataLine line;
+        line.result = Core::JsonText::FromTrusted(std::string(json));
+        Tell(OpenStream::ClientData{line, clock.GetNow()});
+    }
+
+    void Settle(OpenStream::EControlOutcome outcome, int status = 0)
+    {
+        Tell(OpenStream::ClientControlSettled{0, outcome, status, std::nullopt, "detail"});
+    }
+
+    void Command(const std::string& jobID, const std::string& action = "TrayLoad")
+    {
+        Planning::StartJob job;
+        job.jobID = jobID;
+        job.action = action;
+        adapter.Handle(job, clock.GetNow(), actions);
+    }
+
+    /// Handshake, motor on, first counters.
+    void BringUp(std::string_view counters = "[5,5,0]")
+    {
+        Tell(OpenStream::ClientReady{});
+        Settle(OpenStream::EControlOutcome::Accepted); // motor_on
+        TellData(R"({"_type":"JObject","val":0})");
+        TellData(counters);
+        static_cast<void>(TakeRequests());
+        actions.clear();
+    }
+
+    /// "MONITOR url" or "CONTROL url body" of what was asked for since the last call.
+    std::vector<std::string> TakeRequests()
+    {
+        std::vector<std::string> texts;
+        for (const ArmRequest& request : std::exchange(outputs.armRequests, {}))
+        {
+            if (const auto* monitorOrNull = std::get_if<OpenStream::MonitorRequest>(&request))
+            {
+                texts.push_back("MONITOR " + monitorOrNull->url);
+            }
+            else
+            {
+                const auto& control = std::get<OpenStream::ControlRequest>(request);
+                texts.push_back(fmt::format("CONTROL {} {}", control.url, control.body->GetText()));
+            }
+        }
+        return texts;
+    }
+
+    template <typename TEvent>
+    std::vector<TEvent> TakeEvents()
+    {
+        std::vector<TEvent> events;
+        for (const Planning::AdapterAction& action : actions)
+        {
+            const auto* raiseOrNull = std::get_if<Planning::RaiseEvent>(&action);
+            if (raiseOrNull != nullptr && std::holds_alternative<TEvent>(raiseOrNull->event))
+            {
+                events.push_back(std::get<TEvent>(raiseOrNull->event));
+            }
+        }
+        return events;
+    }
+};
+
+const std::string SELECT = R"(CONTROL /project/context/tasks[0]/cur_prog_cnt {"pno":11,"sno":0,"fno":0,"ext_sel":0})";
+const std::string START = "CONTROL /project/robot/start {}";
+
+} // namespace
+
+TEST_CASE("After the handshake the motor is asked to go on, and only then the counters are watched")
+{
+    ArmFixture arm;
+    arm.Tell(OpenStream::ClientReady{});
+    CHECK(
+        arm.TakeRequests()
+        == std::vector<std::string>{"MONITOR /project/robot/motor_on_state", "CONTROL /project/robot/motor_on {}"});
+    arm.TellData(R"({"val":2})");
+    arm.TellData(R"({"val":1})");
+    CHECK(arm.TakeRequests().empty());
+    arm.TellData(R"({"val":0})");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{"MONITOR /project/plc/m/val_s32"});
+}
+
+TEST_CASE("A job selects its program, starts it, and is done when the finished counter has changed")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+    arm.TellData("[5,5,0]");
+    CHECK(arm.TakeEvents<Planning::JobStarted>().empty());
+    arm.TellData("[6,5,0]");
+    arm.TellData("[6,5,0]");
+    CHECK(arm.TakeEvents<Planning::JobStarted>() == std::vector<Planning::JobStarted>{{"J"}});
+    CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
+    arm.TellData("[6,6,0]");
+    arm.TellData("[6,6,0]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+}
+
+TEST_CASE("A counter that wraps around has changed, too")
+{
+    ArmFixture arm;
+    arm.BringUp("[2147483647,2147483647,0]");
+    arm.Command("J");
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.TellData("[-2147483648,-2147483648,0]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+}
+
+TEST_CASE("A program that raises the failed counter fails its job")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.TellData("[6,5,1]");
+    REQUIRE(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+    arm.TellData("[6,6,1]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
+}
+
+TEST_CASE("A refused CONTROL fails the job with the controller's status")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Settle(OpenStream::EControlOutcome::Refused, 403);
+    const auto failed = arm.TakeEvents<Planning::JobFailed>();
+    REQUIRE(failed.size() == 1);
+    CHECK(failed.front().reason.find("403") != std::string::npos);
+}
+
+TEST_CASE("A start whose fate is not known is never sent again: the counters decide")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    static_cast<void>(arm.TakeRequests());
+    arm.Settle(OpenStream::EControlOutcome::Unknown);
+    arm.Tell(OpenStream::ClientLost{});
+    arm.Tell(OpenStream::ClientReady{});
+    arm.TellData(R"({"val":0})");
+    arm.TellData("[6,6,0]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
+    for (const std::string& request : arm.TakeRequests())
+    {
+        CHECK(request != START);
+        CHECK(request != SELECT);
+    }
+}
+
+TEST_CASE("A job before the motor is on, or of an action without a program, fails with a reason")
+{
+    ArmFixture arm;
+    arm.Command("J1");
+    arm.BringUp();
+    arm.Command("J2", "CassetteLoad");
+    const auto failed = arm.TakeEvents<Planning::JobFailed>();
+    REQUIRE(failed.size() == 1);
+    CHECK(failed.front().jobID == "J2");
+    CHECK(failed.front().reason.find("CassetteLoad") != std::string::npos);
+    CHECK(arm.TakeRequests().empty());
+}
+
+TEST_CASE("The settling of motor_on is not taken for that of a job's CONTROL")
+{
+    ArmFixture arm;
+    arm.Tell(OpenStream::ClientReady{});
+    arm.TellData(R"({"val":0})");
+    arm.TellData("[5,5,0]");
+    static_cast<void>(arm.TakeRequests());
+    arm.Command("J");
+    arm.Settle(OpenStream::EControlOutcome::Accepted); // motor_on, late
+    CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+}
+
+TEST_CASE("Answers that are no counters are passed over")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    for (const std::string_view nonsense : {"[]", "[6]", R"(["a","b","c"])", R"({"val":0})", "null", "[6,6.5,0]"})
+    {
+        arm.TellData(nonsense);
+    }
+    CHECK(arm.TakeEvents<Planning::JobStarted>().empty());
+    CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
+}
+
+} // namespace ACS::Acsd::Test

@@ -1,0 +1,313 @@
+#include "Vda5050RobotAdapter.hpp"
+
+#include "Catch.hpp"
+#include "ManualClock.hpp"
+#include <acs/vda5050/Vda5050Codec.hpp>
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace ACS::Acsd::Test
+{
+
+namespace
+{
+
+/// The vehicle's side is played by hand: it shows what a test lets it show.
+struct VehicleFixture
+{
+    Testing::ManualClock clock;
+    RobotOutputs outputs;
+    VDA5050::Vda5050Codec codec;
+    VDA5050::StateMessage state;
+    Planning::AdapterActions actions;
+    Vda5050RobotAdapter adapter{MakeOptions(), {{"CassetteLoad", {"pick", 0}}, {"TrayLoad", {"", 11}}}, outputs};
+
+    static VDA5050::MasterOptions MakeOptions()
+    {
+        VDA5050::MasterOptions options;
+        options.address = {"uagv", "ACS", "LR01"};
+        options.bFactsheetRequested = false;
+        options.bStateRequested = false;
+        return options;
+    }
+
+    VehicleFixture()
+    {
+        state.header.version = "2.0.0";
+        state.header.manufacturer = "ACS";
+        state.header.serialNumber = "LR01";
+        state.lastNodeID = "A";
+    }
+
+    template <typename TMessage>
+    void Receive(std::string_view topic, TMessage message)
+    {
+        message.header = state.header;
+        message.header.timestamp = Core::Timestamp{clock.GetNow().wall, {}};
+        std::string payload;
+        codec.Encode(message, VDA5050::EVda5050Version::Version200, payload);
+        adapter.OnMqttMessage({"uagv/v2/ACS/LR01/" + std::string(topic), payload, 0, false}, clock.GetNow(), actions);
+    }
+
+    void ShowState()
+    {
+        ++state.header.headerID;
+        Receive("state", state);
+    }
+
+    void ComeOnline()
+    {
+        adapter.OnLinkUp(clock.GetNow(), actions);
+        VDA5050::ConnectionMessage connection;
+        connection.connectionState = VDA5050::EConnectionState::Online;
+        Receive("connection", connection);
+        ShowState();
+        outputs.messages.clear();
+    }
+
+    void Command(const Planning::RobotCommand& command)
+    {
+        adapter.Handle(command, clock.GetNow(), actions);
+    }
+
+    std::vector<VDA5050::OrderMessage> TakeOrders()
+    {
+        std::vector<VDA5050::OrderMessage> orders;
+        for (const VDA5050::MqttMessage& message : std::exchange(outputs.messages, {}))
+        {
+            if (message.topic.ends_with("/order"))
+            {
+                auto order = codec.Decode<VDA5050::OrderMessage>(message.payload);
+                REQUIRE(order);
+                orders.push_back(std::move(*order));
+            }
+        }
+        return orders;
+    }
+
+    /// Shows the order as accepted, with these nodes still to be reached.
+    void ShowOrder(const VDA5050::OrderMessage& order, const std::vector<std::string>& remaining)
+    {
+        state.orderID = order.orderID;
+        state.orderUpdateID = order.orderUpdateID;
+        state.nodeStates.clear();
+        state.edgeStates.clear();
+        for (const VDA5050::OrderNode& node : order.nodes)
+        {
+            if (std::find(remaining.begin(), remaining.end(), node.nodeID) != remaining.end())
+            {
+                state.nodeStates.push_back({node.nodeID, node.sequenceID, "", node.bReleased, std::nullopt});
+            }
+        }
+    }
+
+    void ShowAt(const std::string& nodeID, std::uint32_t sequenceID)
+    {
+        state.lastNodeID = nodeID;
+        state.lastNodeSequenceID = sequenceID;
+    }
+
+    template <typename TEvent>
+    std::vector<TEvent> TakeEvents() const
+    {
+        std::vector<TEvent> events;
+        for (const Planning::AdapterAction& action : actions)
+        {
+            const auto* raiseOrNull = std::get_if<Planning::RaiseEvent>(&action);
+            if (raiseOrNull != nullptr && std::holds_alternative<TEvent>(raiseOrNull->event))
+            {
+                events.push_back(std::get<TEvent>(raiseOrNull->event));
+            }
+        }
+        return events;
+    }
+};
+
+Planning::Drive MakeDrive()
+{
+    Planning::Drive drive;
+    drive.driveID = "D";
+    drive.releasedCount = 2;
+    for (const char* nodeID : {"A", "B", "C"})
+    {
+        drive.route.nodes.push_back({nodeID, 0.0, 0.0, std::nullopt, "floor-1"});
+    }
+    drive.route.edges.push_back({"AB", "A", "B", 1.0, 1.2, std::nullopt, std::nullopt, "", std::nullopt});
+    drive.route.edges.push_back({"BC", "B", "C", 1.0, 0.4, std::nullopt, 0.0, "TANGENTIAL", false});
+    return drive;
+}
+
+Planning::StartJob MakeJob(const std::string& action)
+{
+    Planning::StartJob job;
+    job.jobID = "J";
+    job.action = action;
+    job.position = "A01.CP01";
+    job.carrierID = "C1";
+    return job;
+}
+
+} // namespace
+
+TEST_CASE("A vehicle is online once it has said so and shown a state")
+{
+    VehicleFixture vehicle;
+    vehicle.adapter.OnLinkUp(vehicle.clock.GetNow(), vehicle.actions);
+    CHECK(vehicle.TakeEvents<Planning::LinkChanged>().empty());
+    vehicle.ComeOnline();
+    CHECK(vehicle.TakeEvents<Planning::LinkChanged>() == std::vector<Planning::LinkChanged>{{true}});
+    vehicle.adapter.OnLinkDown(vehicle.clock.GetNow(), vehicle.actions);
+    CHECK(vehicle.TakeEvents<Planning::LinkChanged>() == std::vector<Planning::LinkChanged>{{true}, {false}});
+}
+
+TEST_CASE("6.6 A drive is an order of base and horizon, its extension an update from the decision point")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.Command(MakeDrive());
+    const auto orders = vehicle.TakeOrders();
+    REQUIRE(orders.size() == 1);
+    CHECK(orders[0].orderID == "D");
+    REQUIRE(orders[0].nodes.size() == 3);
+    CHECK(orders[0].nodes[1].bReleased);
+    CHECK_FALSE(orders[0].nodes[2].bReleased);
+    CHECK(orders[0].edges[1].maxSpeed == 0.4);
+
+    // Not before the vehicle has shown the order.
+    vehicle.Command(Planning::ExtendDrive{"D", 3});
+    CHECK(vehicle.TakeOrders().empty());
+    vehicle.ShowOrder(orders[0], {"B", "C"});
+    vehicle.ShowState();
+    const auto updates = vehicle.TakeOrders();
+    REQUIRE(updates.size() == 1);
+    CHECK(updates[0].orderUpdateID == 1);
+    CHECK(updates[0].nodes.front().nodeID == "B");
+    CHECK(updates[0].nodes.back().bReleased);
+}
+
+TEST_CASE("Nodes are told once each, and the arrival when the whole route is driven")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    Planning::Drive drive = MakeDrive();
+    drive.releasedCount = 3;
+    vehicle.Command(drive);
+    const auto order = vehicle.TakeOrders().at(0);
+    vehicle.ShowOrder(order, {"B", "C"});
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::NodePassed>() == std::vector<Planning::NodePassed>{{"D", "A"}});
+    // The state in which B was passed is lost.
+    vehicle.ShowOrder(order, {});
+    vehicle.ShowAt("C", 4);
+    vehicle.ShowState();
+    vehicle.ShowState();
+    CHECK(
+        vehicle.TakeEvents<Planning::NodePassed>()
+        == std::vector<Planning::NodePassed>{{"D", "A"}, {"D", "B"}, {"D", "C"}});
+    CHECK(vehicle.TakeEvents<Planning::Arrived>() == std::vector<Planning::Arrived>{{"D"}});
+}
+
+TEST_CASE("A job is an order of the node where the vehicle stands, whose action is named by the jobId")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.Command(MakeJob("CassetteLoad"));
+    const auto orders = vehicle.TakeOrders();
+    REQUIRE(orders.size() == 1);
+    REQUIRE(orders[0].nodes.size() == 1);
+    CHECK(orders[0].edges.empty());
+    CHECK(orders[0].nodes[0].nodeID == "A");
+    const VDA5050::Action& action = orders[0].nodes[0].actions.at(0);
+    CHECK(action.actionID == "J");
+    CHECK(action.actionType == "pick");
+    CHECK(action.blockingType == VDA5050::EBlockingType::Hard);
+
+    vehicle.ShowOrder(orders[0], {});
+    vehicle.state.actionStates = {{"J", "pick", "", VDA5050::EActionStatus::Running, ""}};
+    vehicle.ShowState();
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::JobStarted>() == std::vector<Planning::JobStarted>{{"J"}});
+    vehicle.state.actionStates[0].actionStatus = VDA5050::EActionStatus::Finished;
+    vehicle.ShowState();
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
+    CHECK(vehicle.TakeEvents<Planning::JobFailed>().empty());
+}
+
+TEST_CASE("A failed action fails the job with the vehicle's words")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.Command(MakeJob("CassetteLoad"));
+    vehicle.ShowOrder(vehicle.TakeOrders().at(0), {});
+    vehicle.state.actionStates = {{"J", "pick", "", VDA5050::EActionStatus::Failed, "station is empty"}};
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::JobFailed>() == std::vector<Planning::JobFailed>{{"J", "station is empty"}});
+}
+
+TEST_CASE("A rejected order is told with the vehicle's reason")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.Command(MakeDrive());
+    VDA5050::VehicleError error;
+    error.errorType = "noRouteError";
+    error.errorDescription = "too far away";
+    error.errorReferences = {{"orderId", "D"}, {"orderUpdateId", "0"}, {"topic", "order"}};
+    vehicle.state.errors = {error};
+    vehicle.ShowState();
+    const auto rejected = vehicle.TakeEvents<Planning::DriveRejected>();
+    REQUIRE(rejected.size() == 1);
+    CHECK(rejected[0].driveID == "D");
+    CHECK(rejected[0].reason.find("too far away") != std::string::npos);
+}
+
+TEST_CASE("A command that comes before the vehicle has finished waits and is sent then")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.Command(MakeJob("CassetteLoad"));
+    const auto order = vehicle.TakeOrders().at(0);
+    vehicle.ShowOrder(order, {});
+    vehicle.state.actionStates = {{"J", "pick", "", VDA5050::EActionStatus::Running, ""}};
+    vehicle.ShowState();
+    vehicle.Command(MakeDrive());
+    CHECK(vehicle.TakeOrders().empty());
+    vehicle.state.actionStates[0].actionStatus = VDA5050::EActionStatus::Finished;
+    vehicle.ShowState();
+    const auto orders = vehicle.TakeOrders();
+    REQUIRE(orders.size() == 1);
+    CHECK(orders[0].orderID == "D");
+}
+
+TEST_CASE("An action that the vehicle has no name for fails the job with a reason")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.Command(MakeJob("TrayLoad"));
+    REQUIRE(vehicle.TakeEvents<Planning::JobFailed>().size() == 1);
+    CHECK(vehicle.TakeOrders().empty());
+    CHECK(vehicle.adapter.GetRejectionReasonOrNull("TrayLoad").has_value());
+    CHECK_FALSE(vehicle.adapter.GetRejectionReasonOrNull("CassetteLoad").has_value());
+}
+
+TEST_CASE("A fatal error of the vehicle is heavy, a warning light, and an emergency stop is shown")
+{
+    VehicleFixture vehicle;
+    vehicle.state.errors = {
+        {"motorFault", {}, "too hot", "", VDA5050::EErrorLevel::Fatal},
+        {"batteryLow", {}, "", "", VDA5050::EErrorLevel::Warning}};
+    vehicle.state.safetyState.emergencyStop = VDA5050::EEmergencyStop::Manual;
+    vehicle.ComeOnline();
+    const Planning::StateChanged shown = vehicle.TakeEvents<Planning::StateChanged>().back();
+    CHECK(shown.bSafetyStop);
+    REQUIRE(shown.errors.size() == 2);
+    CHECK(shown.errors[0] == Planning::RobotError{"AGV-motorFault", Planning::EAlarmLevel::Heavy, "too hot"});
+    CHECK(shown.errors[1].level == Planning::EAlarmLevel::Light);
+}
+
+} // namespace ACS::Acsd::Test
