@@ -1,0 +1,67 @@
+#pragma once
+
+#include "common/Endpoint.hpp"
+#include "common/Url.hpp"
+#include <acs/core/Logger.hpp>
+
+#include <functional>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace CLI
+{
+class App;
+class Option;
+} // namespace CLI
+
+namespace ACS::Apps
+{
+
+/// Exit codes that every program shares.
+constexpr int EXIT_BAD_COMMAND_LINE = 2;
+
+/// What every program understands.
+struct CommonOptions
+{
+    Core::ELogLevel logLevel = Core::ELogLevel::Info;
+};
+
+/// Adds --version (NAME VERSION) and --log-level (debug, info, warning, error); CLI11 adds --help itself.
+/// The app must bear the program's name: `CLI::App app{"what it does", "vda-sim"}`. The targets must outlive parsing.
+void AddCommonOptions(CLI::App& app, CommonOptions& options);
+
+/// An option whose value is HOST:PORT. What the target holds is shown as the default.
+CLI::Option& AddEndpointOption(CLI::App& app, const std::string& name, Endpoint& target, const std::string& help);
+
+/// An option whose value is a URL of one of these schemes.
+CLI::Option& AddUrlOption(
+    CLI::App& app,
+    const std::string& name,
+    Url& target,
+    std::initializer_list<EUrlScheme> allowed,
+    const std::string& help);
+
+/// --time-scale X: how many times faster than real time a simulator runs; from 0.01 to 1000, by default 1.
+CLI::Option& AddTimeScaleOption(CLI::App& app, double& target);
+
+/// An option whose value one's own function reads: it returns the mistake, or nothing. For lists, call it per value.
+CLI::Option& AddTextOption(
+    CLI::App& app,
+    const std::string& name,
+    std::function<std::optional<std::string>(const std::string&)> tryReadOrNull,
+    const std::string& help);
+
+/// Reads the command line. Nothing: go on. Otherwise the exit code to leave with: 0 after --help and --version (on
+/// standard output), 2 after a mistake, told in one line on standard error.
+[[nodiscard]] std::optional<int> ParseCommandLineOrNull(CLI::App& app, int argc, const char* const* argv);
+
+/// One line on standard error, "NAME: text"; line ends within the text become spaces.
+void PrintMistake(std::string_view program, std::string_view text);
+
+/// Runs the body of main(). What a third party throws past everything becomes one line on standard error and exit
+/// code 1, never a stack trace.
+[[nodiscard]] int RunProgram(std::string_view program, const std::function<int()>& body);
+
+} // namespace ACS::Apps

@@ -1,0 +1,153 @@
+#pragma once
+
+#include "common/Endpoint.hpp"
+#include "common/Url.hpp"
+#include <acs/core/Result.hpp>
+
+#include <chrono>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace ACS::Apps
+{
+
+class ConfigDocument;
+struct ConfigNode;
+
+/// One table of a configuration. A getter that finds a mistake notes it (ConfigReader::GetMistakes) and returns the
+/// default, or an empty value where the key is required: the caller reads on and checks once at the end.
+/// Getters that take a default read an optional key, those without a required one. Copied freely.
+class ConfigSection final
+{
+    std::shared_ptr<ConfigDocument> _document;
+    const ConfigNode* _nodeOrNull = nullptr;
+    std::string _path;
+
+public:
+    /// For ConfigReader. No node: a table that is not there.
+    ConfigSection(std::shared_ptr<ConfigDocument> document, const ConfigNode* nodeOrNull, std::string path);
+
+    [[nodiscard]] std::string GetString(const std::string& key) const;
+    [[nodiscard]] std::string GetString(const std::string& key, const std::string& fallback) const;
+    [[nodiscard]] std::optional<std::string> GetStringOrNull(const std::string& key) const;
+
+    /// One of the words.
+    [[nodiscard]] std::string GetWord(const std::string& key, std::initializer_list<std::string_view> words) const;
+    [[nodiscard]] std::string GetWord(
+        const std::string& key,
+        std::initializer_list<std::string_view> words,
+        const std::string& fallback) const;
+
+    /// An integer from min to max, both allowed.
+    [[nodiscard]] std::int64_t GetInteger(const std::string& key, std::int64_t min, std::int64_t max) const;
+    [[nodiscard]] std::int64_t GetInteger(
+        const std::string& key,
+        std::int64_t min,
+        std::int64_t max,
+        std::int64_t fallback) const;
+
+    /// A number (integers too) from min to max, both allowed.
+    [[nodiscard]] double GetNumber(const std::string& key, double min, double max) const;
+    [[nodiscard]] double GetNumber(const std::string& key, double min, double max, double fallback) const;
+
+    /// true or false
+    [[nodiscard]] bool IsEnabled(const std::string& key, bool bFallback) const;
+
+    /// A string such as '200ms', '5s', '2m', '1h', from min to max, both allowed.
+    [[nodiscard]] std::chrono::milliseconds GetDuration(
+        const std::string& key,
+        std::chrono::milliseconds min,
+        std::chrono::milliseconds max,
+        std::chrono::milliseconds fallback) const;
+
+    [[nodiscard]] Endpoint GetEndpoint(const std::string& key, const Endpoint& fallback) const;
+    [[nodiscard]] Url GetUrl(const std::string& key, std::initializer_list<EUrlScheme> allowed) const;
+    [[nodiscard]] std::optional<Url> GetUrlOrNull(const std::string& key, std::initializer_list<EUrlScheme> allowed)
+        const;
+
+    /// A list of strings; empty where the key is absent.
+    [[nodiscard]] std::vector<std::string> GetStringList(const std::string& key) const;
+
+    /// A required string that a function reads: `section.GetParsed<Location>("dock", ParseLocation)`. Its error becomes
+    /// the mistake, a value-initialised TValue the result.
+    template <typename TValue, typename TParse>
+    [[nodiscard]] TValue GetParsed(const std::string& key, TParse parse) const
+    {
+        return ParseOr<TValue>(key, GetStringIfGivenOrNull(key, true), parse, TValue{});
+    }
+
+    /// The same for an optional key.
+    template <typename TValue, typename TParse>
+    [[nodiscard]] TValue GetParsed(const std::string& key, TParse parse, TValue fallback) const
+    {
+        return ParseOr<TValue>(key, GetStringIfGivenOrNull(key, false), parse, std::move(fallback));
+    }
+
+    /// The table of that name. Where it is not there, its required keys are mistakes when they are asked for.
+    [[nodiscard]] ConfigSection GetSection(const std::string& name) const;
+
+    /// A list of tables ([[name]]), in order; empty where it is absent.
+    [[nodiscard]] std::vector<ConfigSection> GetSectionList(const std::string& name) const;
+
+    /// Every key of this table, sorted: for tables whose keys are names, such as `robots`.
+    [[nodiscard]] std::vector<std::string> GetNames() const;
+
+    /// Whether the key or table is given. Asking makes it known.
+    [[nodiscard]] bool HasKey(const std::string& key) const;
+
+    /// Notes a mistake that only the caller can see ("no such station in the map") at the line of that key; an empty
+    /// key means the table itself.
+    void AddMistake(const std::string& key, const std::string& text) const;
+
+    /// "robots.LR01"
+    [[nodiscard]] const std::string& GetPath() const noexcept;
+
+private:
+    [[nodiscard]] const ConfigNode* FindOrNull(const std::string& key) const;
+    [[nodiscard]] const ConfigNode* FindGivenOrNull(const std::string& key, bool bRequired, std::string_view allowed)
+        const;
+    [[nodiscard]] std::optional<std::string> GetStringIfGivenOrNull(const std::string& key, bool bRequired) const;
+    [[nodiscard]] std::optional<std::int64_t> GetIntegerIfGivenOrNull(
+        const std::string& key,
+        std::int64_t min,
+        std::int64_t max,
+        bool bRequired) const;
+    [[nodiscard]] std::optional<double> GetNumberIfGivenOrNull(
+        const std::string& key,
+        double min,
+        double max,
+        bool bRequired) const;
+    [[nodiscard]] std::optional<std::string> GetWordIfGivenOrNull(
+        const std::string& key,
+        std::initializer_list<std::string_view> words,
+        bool bRequired) const;
+    void AddParseMistake(const std::string& key, const Core::Error& error) const;
+
+    template <typename TValue, typename TParse>
+    [[nodiscard]] TValue ParseOr(
+        const std::string& key,
+        const std::optional<std::string>& text,
+        TParse& parse,
+        TValue fallback) const
+    {
+        if (!text.has_value())
+        {
+            return fallback;
+        }
+        Core::Result<TValue> value = parse(*text);
+        if (!value.has_value())
+        {
+            AddParseMistake(key, value.error());
+            return fallback;
+        }
+        return std::move(*value);
+    }
+};
+
+} // namespace ACS::Apps

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <acs/core/Result.hpp>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace ACS::Apps
+{
+
+/// Where to listen, or what was listened on.
+struct Endpoint
+{
+    std::string host;       ///< A name or an address; an IPv6 address without its brackets.
+    std::uint16_t port = 0; ///< 0: any free port.
+
+    bool operator==(const Endpoint&) const = default;
+};
+
+/// "HOST:PORT"; an IPv6 address stands in brackets ("[::1]:80"). Port 0 is allowed.
+[[nodiscard]] Core::Result<Endpoint> ParseEndpoint(std::string_view text);
+
+/// The same form back.
+[[nodiscard]] std::string MakeText(const Endpoint& endpoint);
+
+} // namespace ACS::Apps

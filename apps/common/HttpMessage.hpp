@@ -1,0 +1,36 @@
+#pragma once
+
+#include <acs/core/Result.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace ACS::Apps
+{
+
+/// A request as a handler sees it.
+struct HttpRequest
+{
+    std::string method; ///< "GET", "POST" …
+    std::string path;   ///< Percent-decoded, without the query: "/project/robot/tasks[0]".
+    std::vector<std::pair<std::string, std::string>> query; ///< Decoded, in the order given; names may repeat.
+    std::string body;                                       ///< At most 1 MiB.
+
+    /// The value of the first query parameter of that name.
+    [[nodiscard]] std::optional<std::string> GetQueryOrNull(std::string_view name) const;
+};
+
+struct HttpResponse
+{
+    unsigned status = 200;
+    std::string contentType = "text/plain; charset=utf-8";
+    std::string body;
+};
+
+/// Splits the target of a request line into path and query and decodes both; what is no target is refused.
+[[nodiscard]] Core::Result<HttpRequest> ParseHttpTarget(std::string_view target);
+
+} // namespace ACS::Apps

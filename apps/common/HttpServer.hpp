@@ -1,0 +1,58 @@
+#pragma once
+
+#include "common/Endpoint.hpp"
+#include "common/HttpMessage.hpp"
+#include <acs/core/Logger.hpp>
+#include <acs/core/Result.hpp>
+
+#include <boost/asio/any_io_executor.hpp>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+namespace ACS::Apps
+{
+
+/// What a server accepts from one peer, and from all of them.
+struct HttpLimits
+{
+    std::uint32_t maxHeaderBytes = 16U * 1024U;
+    std::uint64_t maxBodyBytes = 1024U * 1024U;
+    std::chrono::milliseconds timeout{30'000}; ///< For a whole request, and for a connection without one.
+    std::size_t maxConnections = 64;           ///< More wait until one closes.
+};
+
+/// A small HTTP/1.1 server: status and metrics of a program, the Open API of the simulated controller. Keeps
+/// connections alive; answers 400, 413 and 431 itself and closes on what is no HTTP. One thread: the executor's.
+class HttpServer final
+{
+    struct Impl;
+    std::shared_ptr<Impl> _impl;
+
+public:
+    /// Called on the executor, one request after the other; must not block and must not throw.
+    using Handler = std::function<HttpResponse(const HttpRequest&)>;
+
+    HttpServer(
+        const boost::asio::any_io_executor& executor,
+        Handler handler,
+        Core::Logger logger,
+        HttpLimits limits = {});
+    HttpServer(const HttpServer&) = delete;
+    HttpServer& operator=(const HttpServer&) = delete;
+
+    /// Stops.
+    ~HttpServer();
+
+    /// Starts to serve. The result is the same host with the port that was got. Refused where the address is not
+    /// this machine's or the port is in use; then another call may try again.
+    [[nodiscard]] Core::Result<Endpoint> Listen(const Endpoint& endpoint);
+
+    /// Closes the port and all connections. The handler is not called any more.
+    void Stop();
+};
+
+} // namespace ACS::Apps

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <acs/core/Logger.hpp>
+#include <acs/core/Result.hpp>
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+namespace ACS::Apps
+{
+
+/// "component: message key=value …" on one line: values with spaces, quotes or nothing in them are quoted, and control
+/// characters are escaped, so that what a peer sent cannot forge a line.
+[[nodiscard]] std::string MakeLogText(
+    std::string_view component,
+    std::string_view message,
+    std::initializer_list<Core::LogField> fields);
+
+/// "debug", "info", "warning", "error"
+[[nodiscard]] Core::Result<Core::ELogLevel> ParseLogLevel(std::string_view text);
+
+} // namespace ACS::Apps

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "common/HttpMessage.hpp"
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace ACS::Apps
+{
+
+/// Counters and gauges of one program, served as Prometheus text. Names and label names are the program's own
+/// ([a-zA-Z_][a-zA-Z0-9_]*, a name is either a counter or a gauge); label values may be anything.
+class MetricsEndpoint final
+{
+    struct Impl;
+    std::unique_ptr<Impl> _impl;
+
+public:
+    using Labels = std::map<std::string, std::string>;
+
+    MetricsEndpoint();
+    MetricsEndpoint(const MetricsEndpoint&) = delete;
+    MetricsEndpoint& operator=(const MetricsEndpoint&) = delete;
+    ~MetricsEndpoint();
+
+    /// Makes the metric known, with its help text. The first call for a name counts.
+    void AddCounter(const std::string& name, const std::string& help);
+    void AddGauge(const std::string& name, const std::string& help);
+
+    /// These take names that were added.
+    void Increment(const std::string& name, const Labels& labels = {}, double delta = 1.0);
+    /// Raises a counter to the total that a library's statistics show; a smaller total changes nothing.
+    void SetTotal(const std::string& name, const Labels& labels, double total);
+    void SetGauge(const std::string& name, const Labels& labels, double value);
+
+    /// The text exposition format.
+    [[nodiscard]] std::string Render() const;
+
+    /// The answer to GET /metrics.
+    [[nodiscard]] HttpResponse Respond() const;
+};
+
+} // namespace ACS::Apps

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <boost/asio/any_io_executor.hpp>
+
+#include <functional>
+#include <memory>
+
+namespace ACS::Apps
+{
+
+/// Calls its handler at the first SIGINT or SIGTERM, on the executor: the program then stops cleanly. A second signal
+/// ends the process at once, with 130 or 143, even when the event loop hangs. At most one lives at a time.
+class SignalWaiter final
+{
+    struct Impl;
+    std::shared_ptr<Impl> _impl;
+
+public:
+    /// Receives the number of the signal.
+    using Handler = std::function<void(int)>;
+
+    SignalWaiter(const boost::asio::any_io_executor& executor, Handler handler);
+    SignalWaiter(const SignalWaiter&) = delete;
+    SignalWaiter& operator=(const SignalWaiter&) = delete;
+    ~SignalWaiter();
+
+    /// Waits no longer, so that an event loop with nothing else to do ends. The handler is not called any more.
+    void Stop();
+};
+
+} // namespace ACS::Apps

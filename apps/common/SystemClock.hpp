@@ -1,0 +1,15 @@
+#pragma once
+
+#include <acs/core/Now.hpp>
+
+namespace ACS::Apps
+{
+
+/// The clocks of the system. Only programs use it: libraries are given the time.
+class SystemClock final : public Core::IClock
+{
+public:
+    [[nodiscard]] Core::Now GetNow() const override;
+};
+
+} // namespace ACS::Apps

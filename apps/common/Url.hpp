@@ -1,0 +1,43 @@
+#pragma once
+
+#include "common/Endpoint.hpp"
+#include <acs/core/Result.hpp>
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+namespace ACS::Apps
+{
+
+enum class EUrlScheme : std::uint8_t
+{
+    Ws,    ///< Port 80 where none is given.
+    Wss,   ///< 443
+    Mqtt,  ///< 1883
+    Mqtts, ///< 8883
+    Tcp,   ///< 49000
+    Http,  ///< 80
+};
+
+/// A peer to connect to.
+struct Url
+{
+    EUrlScheme scheme = EUrlScheme::Tcp;
+    Endpoint peer;    ///< The port is never 0.
+    std::string path; ///< With its query. "/" where none is given for ws, wss and http; empty for mqtt, mqtts and tcp.
+
+    bool operator==(const Url&) const = default;
+};
+
+/// SCHEME://HOST[:PORT][/PATH]; other schemes than the allowed ones are refused, and so are user names and fragments.
+[[nodiscard]] Core::Result<Url> ParseUrl(std::string_view text, std::initializer_list<EUrlScheme> allowed);
+
+/// With its port, always.
+[[nodiscard]] std::string MakeText(const Url& url);
+
+/// wss and mqtts: the connection is encrypted.
+[[nodiscard]] bool IsSecure(EUrlScheme scheme);
+
+} // namespace ACS::Apps
