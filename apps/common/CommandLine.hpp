@@ -5,10 +5,10 @@
 #include <acs/core/Logger.hpp>
 
 #include <functional>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace CLI
 {
@@ -40,7 +40,7 @@ CLI::Option& AddUrlOption(
     CLI::App& app,
     const std::string& name,
     Url& target,
-    std::initializer_list<EUrlScheme> allowed,
+    const std::vector<EUrlScheme>& allowed,
     const std::string& help);
 
 /// --time-scale X: how many times faster than real time a simulator runs; from 0.01 to 1000, by default 1.

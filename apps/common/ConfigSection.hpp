@@ -67,9 +67,8 @@ public:
         std::chrono::milliseconds fallback) const;
 
     [[nodiscard]] Endpoint GetEndpoint(const std::string& key, const Endpoint& fallback) const;
-    [[nodiscard]] Url GetUrl(const std::string& key, std::initializer_list<EUrlScheme> allowed) const;
-    [[nodiscard]] std::optional<Url> GetUrlOrNull(const std::string& key, std::initializer_list<EUrlScheme> allowed)
-        const;
+    [[nodiscard]] Url GetUrl(const std::string& key, const std::vector<EUrlScheme>& allowed) const;
+    [[nodiscard]] std::optional<Url> GetUrlOrNull(const std::string& key, const std::vector<EUrlScheme>& allowed) const;
 
     /// A list of strings; empty where the key is absent.
     [[nodiscard]] std::vector<std::string> GetStringList(const std::string& key) const;
@@ -79,7 +78,13 @@ public:
     template <typename TValue, typename TParse>
     [[nodiscard]] TValue GetParsed(const std::string& key, TParse parse) const
     {
-        return ParseOr<TValue>(key, GetStringIfGivenOrNull(key, true), parse, TValue{});
+        if (!HasKey(key))
+        {
+            const Core::Result<TValue> nothing = parse(std::string());
+            AddMissing(key, nothing.has_value() ? std::string() : nothing.error().expected);
+            return TValue{};
+        }
+        return ParseOr<TValue>(key, GetStringIfGivenOrNull(key, false), parse, TValue{});
     }
 
     /// The same for an optional key.
@@ -127,6 +132,7 @@ private:
         const std::string& key,
         std::initializer_list<std::string_view> words,
         bool bRequired) const;
+    void AddMissing(const std::string& key, std::string_view allowed) const;
     void AddParseMistake(const std::string& key, const Core::Error& error) const;
 
     template <typename TValue, typename TParse>

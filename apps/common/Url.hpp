@@ -4,9 +4,9 @@
 #include <acs/core/Result.hpp>
 
 #include <cstdint>
-#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ACS::Apps
 {
@@ -32,7 +32,7 @@ struct Url
 };
 
 /// SCHEME://HOST[:PORT][/PATH]; other schemes than the allowed ones are refused, and so are user names and fragments.
-[[nodiscard]] Core::Result<Url> ParseUrl(std::string_view text, std::initializer_list<EUrlScheme> allowed);
+[[nodiscard]] Core::Result<Url> ParseUrl(std::string_view text, const std::vector<EUrlScheme>& allowed);
 
 /// With its port, always.
 [[nodiscard]] std::string MakeText(const Url& url);

@@ -1,0 +1,157 @@
+#include "common/CommandLine.hpp"
+
+#include "common/LogText.hpp"
+#include "common/Version.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <utility>
+
+namespace ACS::Apps
+{
+
+namespace
+{
+
+constexpr double MIN_TIME_SCALE = 0.01;
+constexpr double MAX_TIME_SCALE = 1000.0;
+
+/// Puts the value in its place, or returns the mistake.
+template <typename TValue>
+std::optional<std::string> TakeOrNull(Core::Result<TValue> value, TValue& target)
+{
+    if (!value.has_value())
+    {
+        return Core::Describe(value.error());
+    }
+    target = std::move(*value);
+    return std::nullopt;
+}
+
+} // namespace
+
+void AddCommonOptions(CLI::App& app, CommonOptions& options)
+{
+    app.set_version_flag("--version", fmt::format("{} {}", app.get_name(), VERSION));
+    AddTextOption(
+        app,
+        "--log-level",
+        [&options](const std::string& text) { return TakeOrNull(ParseLogLevel(text), options.logLevel); },
+        "What to log on standard error: debug, info, warning or error")
+        .default_str("info");
+}
+
+CLI::Option& AddEndpointOption(CLI::App& app, const std::string& name, Endpoint& target, const std::string& help)
+{
+    CLI::Option& option = AddTextOption(
+        app,
+        name,
+        [&target](const std::string& text) { return TakeOrNull(ParseEndpoint(text), target); },
+        help);
+    option.type_name("HOST:PORT");
+    if (!target.host.empty())
+    {
+        option.default_str(MakeText(target));
+    }
+    return option;
+}
+
+CLI::Option& AddUrlOption(
+    CLI::App& app,
+    const std::string& name,
+    Url& target,
+    const std::vector<EUrlScheme>& allowed,
+    const std::string& help)
+{
+    CLI::Option& option = AddTextOption(
+        app,
+        name,
+        [&target, allowed](const std::string& text) { return TakeOrNull(ParseUrl(text, allowed), target); },
+        help);
+    option.type_name("URL");
+    if (!target.peer.host.empty())
+    {
+        option.default_str(MakeText(target));
+    }
+    return option;
+}
+
+CLI::Option& AddTimeScaleOption(CLI::App& app, double& target)
+{
+    return *app.add_option("--time-scale", target, "How many times faster than real time to run")
+                ->check(CLI::Range(MIN_TIME_SCALE, MAX_TIME_SCALE))
+                ->capture_default_str();
+}
+
+CLI::Option& AddTextOption(
+    CLI::App& app,
+    const std::string& name,
+    std::function<std::optional<std::string>(const std::string&)> tryReadOrNull,
+    const std::string& help)
+{
+    CLI::Option* const option = app.add_option_function<std::vector<std::string>>(
+        name,
+        [name, tryReadOrNull = std::move(tryReadOrNull)](const std::vector<std::string>& values) {
+            for (const std::string& value : values)
+            {
+                const std::optional<std::string> mistake = tryReadOrNull(value);
+                if (mistake.has_value())
+                {
+                    throw CLI::ValidationError(name, *mistake);
+                }
+            }
+        },
+        help);
+    return *option->type_name("TEXT")->expected(1);
+}
+
+std::optional<int> ParseCommandLineOrNull(CLI::App& app, int argc, const char* const* argv)
+{
+    try
+    {
+        app.parse(argc, argv);
+        return std::nullopt;
+    }
+    catch (const CLI::CallForHelp&)
+    {
+        std::cout << app.help();
+        return EXIT_SUCCESS;
+    }
+    catch (const CLI::CallForVersion&)
+    {
+        std::cout << fmt::format("{} {}\n", app.get_name(), VERSION);
+        return EXIT_SUCCESS;
+    }
+    catch (const CLI::ParseError& error)
+    {
+        PrintMistake(app.get_name(), fmt::format("{}; try {} --help", error.what(), app.get_name()));
+        return EXIT_BAD_COMMAND_LINE;
+    }
+}
+
+void PrintMistake(std::string_view program, std::string_view text)
+{
+    std::string line = fmt::format("{}: {}", program, text);
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    std::cerr << line << std::endl;
+}
+
+int RunProgram(std::string_view program, const std::function<int()>& body)
+{
+    try
+    {
+        return body();
+    }
+    catch (const std::exception& error)
+    {
+        PrintMistake(program, fmt::format("stopped by an unexpected error: {}", error.what()));
+        return EXIT_FAILURE;
+    }
+}
+
+} // namespace ACS::Apps

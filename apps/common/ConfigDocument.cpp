@@ -1,0 +1,241 @@
+#include "common/ConfigDocument.hpp"
+
+#include "common/TomlTree.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace ACS::Apps
+{
+
+namespace
+{
+
+/// A key this far from a known one, in edits, is taken for a slip of the pen.
+constexpr std::size_t MAX_SLIP = 3;
+
+bool IsBareKey(std::string_view key)
+{
+    return !key.empty() && std::all_of(key.begin(), key.end(), [](char character) {
+        return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z')
+            || (character >= '0' && character <= '9') || character == '-' || character == '_';
+    });
+}
+
+/// How many characters must be inserted, removed or replaced to make one of the other (Levenshtein).
+std::size_t CountEdits(std::string_view left, std::string_view right)
+{
+    std::vector<std::size_t> previous(right.size() + 1);
+    std::iota(previous.begin(), previous.end(), std::size_t{0});
+    std::vector<std::size_t> current(right.size() + 1);
+    for (std::size_t row = 1; row <= left.size(); ++row)
+    {
+        current[0] = row;
+        for (std::size_t column = 1; column <= right.size(); ++column)
+        {
+            const std::size_t replaced = previous[column - 1] + (left[row - 1] == right[column - 1] ? 0U : 1U);
+            current[column] = std::min({replaced, previous[column] + 1, current[column - 1] + 1});
+        }
+        previous.swap(current);
+    }
+    return previous.back();
+}
+
+/// Tables are joined key by key; anything else replaces what was there.
+void MergeRecursive(ConfigNode& target, ConfigNode source)
+{
+    auto* const targetTable = std::get_if<ConfigNode::Table>(&target.value);
+    auto* const sourceTable = std::get_if<ConfigNode::Table>(&source.value);
+    if (targetTable == nullptr || sourceTable == nullptr)
+    {
+        target = std::move(source);
+        return;
+    }
+    for (auto& [key, value] : *sourceTable)
+    {
+        std::unique_ptr<ConfigNode>& place = (*targetTable)[key];
+        if (place == nullptr)
+        {
+            place = std::move(value);
+        }
+        else
+        {
+            MergeRecursive(*place, std::move(*value));
+        }
+    }
+}
+
+} // namespace
+
+ConfigDocument::ConfigDocument(std::string_view text, std::string fileName)
+    : _fileName(std::move(fileName))
+{
+    auto root = ParseToml(text, false);
+    if (root.has_value())
+    {
+        _root = std::move(*root);
+        _root.line = 0;
+        return;
+    }
+    ConfigNode place;
+    place.line = root.error().line;
+    AddMistake(&place, {}, fmt::format("not TOML: {}", root.error().text));
+    _bUnreadable = true;
+}
+
+std::shared_ptr<ConfigDocument> ConfigDocument::MakeUnreadable(std::string fileName, const std::string& reason)
+{
+    auto document = std::make_shared<ConfigDocument>(std::string_view(), std::move(fileName));
+    document->AddMistake(nullptr, {}, reason);
+    document->_bUnreadable = true;
+    return document;
+}
+
+void ConfigDocument::Override(const std::string& text)
+{
+    ConfigNode place;
+    place.bOverride = true;
+    const std::size_t equals = text.find('=');
+    const std::string key = text.substr(0, equals);
+    // A key with a line break or '#' in it would make other TOML than it seems to.
+    const bool bOneKey = equals != std::string::npos && key.find_first_of("\n\r#[") == std::string::npos
+        && ParseToml(key + " = 0", true).has_value();
+    if (!bOneKey)
+    {
+        AddMistake(&place, {}, fmt::format("'{}': write table.key=value", text));
+        return;
+    }
+    const std::string value = text.substr(equals + 1);
+    const bool bOneLine = value.find_first_of("\n\r") == std::string::npos;
+    auto node = bOneLine ? ParseToml(fmt::format("{} = {}", key, value), true)
+                         : tl::expected<ConfigNode, TomlMistake>(tl::unexpect, TomlMistake{});
+    if (!node.has_value())
+    {
+        node = ParseToml(key + " = ''", true);
+        ConfigNode* leaf = &*node;
+        while (auto* const table = std::get_if<ConfigNode::Table>(&leaf->value))
+        {
+            leaf = table->begin()->second.get();
+        }
+        leaf->value = value;
+    }
+    node->bOverride = false;
+    MergeRecursive(_root, std::move(*node));
+}
+
+const ConfigNode& ConfigDocument::GetRoot() const noexcept
+{
+    return _root;
+}
+
+void ConfigDocument::NoteAsked(const std::string& tablePath, const std::string& key)
+{
+    _askedByTable[tablePath].insert(key);
+}
+
+void ConfigDocument::AddMistake(const ConfigNode* nodeOrNull, const std::string& path, const std::string& text)
+{
+    if (_bUnreadable)
+    {
+        return;
+    }
+    const std::string where = path.empty() ? MakeOrigin(nodeOrNull) : MakeOrigin(nodeOrNull) + ": " + path;
+    _mistakes.push_back(
+        {nodeOrNull != nullptr && nodeOrNull->bOverride,
+         nodeOrNull != nullptr ? nodeOrNull->line : 0,
+         fmt::format("{}: {}", where, text)});
+}
+
+std::vector<std::string> ConfigDocument::MakeMistakes() const
+{
+    std::vector<Mistake> mistakes = _mistakes;
+    if (!_bUnreadable)
+    {
+        FindUnknownRecursive(_root, {}, mistakes);
+    }
+    std::stable_sort(mistakes.begin(), mistakes.end(), [](const Mistake& left, const Mistake& right) {
+        return std::tie(left.bOverride, left.line) < std::tie(right.bOverride, right.line);
+    });
+    std::vector<std::string> texts;
+    texts.reserve(mistakes.size());
+    for (Mistake& mistake : mistakes)
+    {
+        texts.push_back(std::move(mistake.text));
+    }
+    return texts;
+}
+
+std::string ConfigDocument::JoinPath(const std::string& path, const std::string& key)
+{
+    const std::string name = IsBareKey(key) ? key : fmt::format("\"{}\"", key);
+    return path.empty() ? name : fmt::format("{}.{}", path, name);
+}
+
+std::string ConfigDocument::MakeOrigin(const ConfigNode* nodeOrNull) const
+{
+    if (nodeOrNull != nullptr && nodeOrNull->bOverride)
+    {
+        return "--set";
+    }
+    const bool bHasLine = nodeOrNull != nullptr && nodeOrNull->line != 0;
+    return bHasLine ? fmt::format("{}:{}", _fileName, nodeOrNull->line) : _fileName;
+}
+
+void ConfigDocument::FindUnknownRecursive(const ConfigNode& node, const std::string& path, std::vector<Mistake>& out)
+    const
+{
+    if (const auto* const array = std::get_if<ConfigNode::Array>(&node.value))
+    {
+        for (std::size_t index = 0; index < array->size(); ++index)
+        {
+            FindUnknownRecursive(*(*array)[index], fmt::format("{}[{}]", path, index), out);
+        }
+        return;
+    }
+    const auto* const table = std::get_if<ConfigNode::Table>(&node.value);
+    if (table == nullptr)
+    {
+        return;
+    }
+    const auto asked = _askedByTable.find(path);
+    for (const auto& [key, value] : *table)
+    {
+        if (asked != _askedByTable.end() && asked->second.find(key) != asked->second.end())
+        {
+            FindUnknownRecursive(*value, JoinPath(path, key), out);
+        }
+        else
+        {
+            out.push_back(
+                {value->bOverride,
+                 value->line,
+                 fmt::format("{}: {}: {}", MakeOrigin(value.get()), JoinPath(path, key), MakeUnknownText(path, key))});
+        }
+    }
+}
+
+std::string ConfigDocument::MakeUnknownText(const std::string& tablePath, const std::string& key) const
+{
+    const auto asked = _askedByTable.find(tablePath);
+    if (asked == _askedByTable.end() || asked->second.empty())
+    {
+        return "unknown key; this table takes none";
+    }
+    const auto nearest = std::min_element(
+        asked->second.begin(),
+        asked->second.end(),
+        [&key](const std::string& left, const std::string& right) {
+            return CountEdits(key, left) < CountEdits(key, right);
+        });
+    if (CountEdits(key, *nearest) <= std::min(MAX_SLIP, key.size() / 2))
+    {
+        return fmt::format("unknown key; did you mean '{}'?", *nearest);
+    }
+    return fmt::format("unknown key; allowed here: {}", fmt::join(asked->second, ", "));
+}
+
+} // namespace ACS::Apps

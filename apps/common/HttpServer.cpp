@@ -1,0 +1,314 @@
+#include "common/HttpServer.hpp"
+
+#include "common/TcpListen.hpp"
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http.hpp>
+
+#include <list>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace ACS::Apps
+{
+
+namespace
+{
+
+namespace Asio = boost::asio;
+namespace Beast = boost::beast;
+namespace Http = boost::beast::http;
+using Tcp = boost::asio::ip::tcp;
+using ErrorCode = boost::system::error_code;
+
+/// How long to wait before the next accept after the system refused one (no file descriptors left).
+constexpr std::chrono::milliseconds ACCEPT_PAUSE{100};
+
+HttpResponse MakeRefusal(Http::status status, std::string reason)
+{
+    HttpResponse response;
+    response.status = static_cast<unsigned>(status);
+    response.body = std::move(reason) + "\n";
+    return response;
+}
+
+/// The answer to what Beast could not read; nothing where the peer simply went away or was silent.
+std::optional<HttpResponse> MakeRefusalOrNull(const ErrorCode& error, const HttpLimits& limits)
+{
+    if (error == Http::error::body_limit)
+    {
+        return MakeRefusal(
+            Http::status::payload_too_large,
+            "the body is longer than " + std::to_string(limits.maxBodyBytes) + " bytes");
+    }
+    if (error == Http::error::header_limit)
+    {
+        return MakeRefusal(
+            Http::status::request_header_fields_too_large,
+            "the header is longer than " + std::to_string(limits.maxHeaderBytes) + " bytes");
+    }
+    const bool bHttpError = error.category() == Http::make_error_code(Http::error::bad_method).category();
+    if (bHttpError && error != Http::error::end_of_stream && error != Http::error::partial_message)
+    {
+        return MakeRefusal(Http::status::bad_request, "not an HTTP/1.1 request");
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+struct HttpServer::Impl : std::enable_shared_from_this<Impl>
+{
+    class Connection;
+    using ConnectionList = std::list<std::shared_ptr<Connection>>;
+
+    Asio::any_io_executor executor;
+    Handler handler;
+    Core::Logger logger;
+    HttpLimits limits;
+    Tcp::acceptor acceptor;
+    Asio::steady_timer acceptPause;
+    ConnectionList connections;
+    bool bAccepting = false;
+
+    Impl(
+        Asio::any_io_executor serverExecutor,
+        Handler handlerToCall,
+        Core::Logger serverLogger,
+        HttpLimits serverLimits)
+        : executor(std::move(serverExecutor)),
+          handler(std::move(handlerToCall)),
+          logger(std::move(serverLogger)),
+          limits(serverLimits),
+          acceptor(executor),
+          acceptPause(executor)
+    {
+    }
+
+    Core::Result<Endpoint> Listen(const Endpoint& endpoint);
+    void AcceptAsync();
+    void OnAccepted(const ErrorCode& error, Tcp::socket socket);
+    void OnClosed(ConnectionList::iterator place);
+    void Stop();
+};
+
+/// One peer: reads a request, answers it, reads the next. Lives in the server's list and in its pending operation.
+class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connection>
+{
+    std::weak_ptr<Impl> _server;
+    HttpLimits _limits;
+    Beast::tcp_stream _stream;
+    Beast::flat_buffer _buffer;
+    std::optional<Http::request_parser<Http::string_body>> _parserOrNull;
+    std::optional<Http::response<Http::string_body>> _responseOrNull;
+    std::optional<Http::response_serializer<Http::string_body>> _serializerOrNull;
+
+public:
+    ConnectionList::iterator place; ///< In the server's list.
+
+    Connection(const std::shared_ptr<Impl>& server, Tcp::socket socket)
+        : _server(server),
+          _limits(server->limits),
+          _stream(std::move(socket))
+    {
+    }
+
+    void ReadAsync()
+    {
+        _parserOrNull.emplace();
+        _parserOrNull->header_limit(_limits.maxHeaderBytes);
+        _parserOrNull->body_limit(_limits.maxBodyBytes);
+        _stream.expires_after(_limits.timeout);
+        Http::async_read(
+            _stream,
+            _buffer,
+            *_parserOrNull,
+            [self = shared_from_this()](const ErrorCode& error, std::size_t) { self->OnRead(error); });
+    }
+
+    void Close()
+    {
+        ErrorCode ignored;
+        _stream.socket().shutdown(Tcp::socket::shutdown_both, ignored);
+        _stream.close();
+    }
+
+private:
+    void OnRead(const ErrorCode& error)
+    {
+        const std::shared_ptr<Impl> server = _server.lock();
+        if (server == nullptr || !_stream.socket().is_open())
+        {
+            return Leave();
+        }
+        if (error.failed())
+        {
+            const std::optional<HttpResponse> refusal = MakeRefusalOrNull(error, _limits);
+            if (!refusal.has_value())
+            {
+                return Leave();
+            }
+            server->logger.Warning("Refused an HTTP request", {{"reason", error.message()}});
+            return WriteAsync(*refusal, false, false);
+        }
+        const auto& request = _parserOrNull->get();
+        const std::string_view target(request.target().data(), request.target().size());
+        Core::Result<HttpRequest> parsed = ParseHttpTarget(target);
+        const bool bHead = request.method() == Http::verb::head;
+        if (!parsed.has_value())
+        {
+            const HttpResponse refusal = MakeRefusal(Http::status::bad_request, Core::Describe(parsed.error()));
+            return WriteAsync(refusal, request.keep_alive(), bHead);
+        }
+        parsed->method = std::string(request.method_string());
+        parsed->body = request.body();
+        // A copy: the handler may stop and destroy the server.
+        const Handler handler = server->handler;
+        const HttpResponse response = handler(*parsed);
+        WriteAsync(response, request.keep_alive(), bHead);
+    }
+
+    void WriteAsync(const HttpResponse& response, bool bKeepAlive, bool bHead)
+    {
+        _responseOrNull.emplace(Http::int_to_status(response.status), 11U);
+        _responseOrNull->result(response.status);
+        _responseOrNull->set(Http::field::content_type, response.contentType);
+        _responseOrNull->body() = response.body;
+        _responseOrNull->keep_alive(bKeepAlive);
+        _responseOrNull->prepare_payload();
+        _serializerOrNull.emplace(*_responseOrNull);
+        _stream.expires_after(_limits.timeout);
+        const auto onWritten = [self = shared_from_this(), bKeepAlive](const ErrorCode& error, std::size_t) {
+            self->OnWritten(error, bKeepAlive);
+        };
+        if (bHead)
+        {
+            Http::async_write_header(_stream, *_serializerOrNull, onWritten);
+        }
+        else
+        {
+            Http::async_write(_stream, *_serializerOrNull, onWritten);
+        }
+    }
+
+    void OnWritten(const ErrorCode& error, bool bKeepAlive)
+    {
+        if (!error.failed() && bKeepAlive && !_server.expired() && _stream.socket().is_open())
+        {
+            ReadAsync();
+        }
+        else
+        {
+            Leave();
+        }
+    }
+
+    /// Closes, and leaves the list of the server where that still lives.
+    void Leave()
+    {
+        Close();
+        if (const std::shared_ptr<Impl> server = _server.lock())
+        {
+            server->OnClosed(std::exchange(place, server->connections.end()));
+        }
+    }
+};
+
+Core::Result<Endpoint> HttpServer::Impl::Listen(const Endpoint& endpoint)
+{
+    Core::Result<Endpoint> actual = ListenOn(acceptor, endpoint);
+    if (actual.has_value())
+    {
+        AcceptAsync();
+    }
+    return actual;
+}
+
+void HttpServer::Impl::AcceptAsync()
+{
+    if (bAccepting || !acceptor.is_open() || connections.size() >= limits.maxConnections)
+    {
+        return;
+    }
+    bAccepting = true;
+    acceptor.async_accept([weak = weak_from_this()](const ErrorCode& error, Tcp::socket socket) {
+        if (const std::shared_ptr<Impl> server = weak.lock())
+        {
+            server->bAccepting = false;
+            server->OnAccepted(error, std::move(socket));
+        }
+    });
+}
+
+void HttpServer::Impl::OnAccepted(const ErrorCode& error, Tcp::socket socket)
+{
+    if (!acceptor.is_open())
+    {
+        return;
+    }
+    if (error.failed())
+    {
+        logger.Warning("Could not accept an HTTP connection", {{"reason", error.message()}});
+        acceptPause.expires_after(ACCEPT_PAUSE);
+        acceptPause.async_wait([weak = weak_from_this()](const ErrorCode&) {
+            if (const std::shared_ptr<Impl> server = weak.lock())
+            {
+                server->AcceptAsync();
+            }
+        });
+        return;
+    }
+    const auto connection = std::make_shared<Connection>(shared_from_this(), std::move(socket));
+    connections.push_back(connection);
+    connection->place = std::prev(connections.end());
+    connection->ReadAsync();
+    AcceptAsync();
+}
+
+void HttpServer::Impl::OnClosed(ConnectionList::iterator place)
+{
+    if (place != connections.end())
+    {
+        connections.erase(place);
+        AcceptAsync();
+    }
+}
+
+void HttpServer::Impl::Stop()
+{
+    ErrorCode ignored;
+    acceptor.close(ignored);
+    acceptPause.cancel();
+    for (const std::shared_ptr<Connection>& connection : connections)
+    {
+        connection->place = connections.end();
+        connection->Close();
+    }
+    connections.clear();
+}
+
+HttpServer::HttpServer(const Asio::any_io_executor& executor, Handler handler, Core::Logger logger, HttpLimits limits)
+    : _impl(std::make_shared<Impl>(executor, std::move(handler), std::move(logger), limits))
+{
+}
+
+HttpServer::~HttpServer()
+{
+    _impl->Stop();
+}
+
+Core::Result<Endpoint> HttpServer::Listen(const Endpoint& endpoint)
+{
+    return _impl->Listen(endpoint);
+}
+
+void HttpServer::Stop()
+{
+    _impl->Stop();
+}
+
+} // namespace ACS::Apps

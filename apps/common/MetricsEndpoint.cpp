@@ -1,0 +1,96 @@
+#include "common/MetricsEndpoint.hpp"
+
+#include <prometheus/counter.h>
+#include <prometheus/family.h>
+#include <prometheus/gauge.h>
+#include <prometheus/registry.h>
+#include <prometheus/text_serializer.h>
+
+#include <cassert>
+#include <unordered_map>
+
+namespace ACS::Apps
+{
+
+namespace
+{
+
+constexpr const char* EXPOSITION_TYPE = "text/plain; version=0.0.4; charset=utf-8";
+
+template <typename TMetric>
+using FamilyMap = std::unordered_map<std::string, prometheus::Family<TMetric>*>;
+
+/// The metric of that name and those labels; made at its first use.
+template <typename TMetric>
+TMetric& GetMetric(FamilyMap<TMetric>& families, const std::string& name, const MetricsEndpoint::Labels& labels)
+{
+    const auto found = families.find(name);
+    assert(found != families.end() && "metric was not added");
+    return found->second->Add(labels);
+}
+
+} // namespace
+
+struct MetricsEndpoint::Impl
+{
+    prometheus::Registry registry;
+    FamilyMap<prometheus::Counter> counters;
+    FamilyMap<prometheus::Gauge> gauges;
+};
+
+MetricsEndpoint::MetricsEndpoint()
+    : _impl(std::make_unique<Impl>())
+{
+}
+
+MetricsEndpoint::~MetricsEndpoint() = default;
+
+void MetricsEndpoint::AddCounter(const std::string& name, const std::string& help)
+{
+    if (_impl->counters.find(name) == _impl->counters.end())
+    {
+        _impl->counters.emplace(name, &prometheus::BuildCounter().Name(name).Help(help).Register(_impl->registry));
+    }
+}
+
+void MetricsEndpoint::AddGauge(const std::string& name, const std::string& help)
+{
+    if (_impl->gauges.find(name) == _impl->gauges.end())
+    {
+        _impl->gauges.emplace(name, &prometheus::BuildGauge().Name(name).Help(help).Register(_impl->registry));
+    }
+}
+
+void MetricsEndpoint::Increment(const std::string& name, const Labels& labels, double delta)
+{
+    GetMetric(_impl->counters, name, labels).Increment(delta);
+}
+
+void MetricsEndpoint::SetTotal(const std::string& name, const Labels& labels, double total)
+{
+    prometheus::Counter& counter = GetMetric(_impl->counters, name, labels);
+    if (total > counter.Value())
+    {
+        counter.Increment(total - counter.Value());
+    }
+}
+
+void MetricsEndpoint::SetGauge(const std::string& name, const Labels& labels, double value)
+{
+    GetMetric(_impl->gauges, name, labels).Set(value);
+}
+
+std::string MetricsEndpoint::Render() const
+{
+    return prometheus::TextSerializer().Serialize(_impl->registry.Collect());
+}
+
+HttpResponse MetricsEndpoint::Respond() const
+{
+    HttpResponse response;
+    response.contentType = EXPOSITION_TYPE;
+    response.body = Render();
+    return response;
+}
+
+} // namespace ACS::Apps
