@@ -88,18 +88,20 @@ CLI::Option& AddTimeScaleOption(CLI::App& app, double& target)
                 ->capture_default_str();
 }
 
-CLI::Option& AddTextOption(
-    CLI::App& app,
-    const std::string& name,
-    std::function<std::optional<std::string>(const std::string&)> tryReadOrNull,
-    const std::string& help)
+CLI::Option& AddTextOption(CLI::App& app, const std::string& name, TextReader readOrNull, const std::string& help)
+{
+    CLI::Option& option = AddRepeatedOption(app, name, std::move(readOrNull), help);
+    return *option.multi_option_policy(CLI::MultiOptionPolicy::Throw);
+}
+
+CLI::Option& AddRepeatedOption(CLI::App& app, const std::string& name, TextReader readOrNull, const std::string& help)
 {
     CLI::Option* const option = app.add_option_function<std::vector<std::string>>(
         name,
-        [name, tryReadOrNull = std::move(tryReadOrNull)](const std::vector<std::string>& values) {
+        [name, readOrNull = std::move(readOrNull)](const std::vector<std::string>& values) {
             for (const std::string& value : values)
             {
-                const std::optional<std::string> mistake = tryReadOrNull(value);
+                const std::optional<std::string> mistake = readOrNull(value);
                 if (mistake.has_value())
                 {
                     throw CLI::ValidationError(name, *mistake);
@@ -107,7 +109,8 @@ CLI::Option& AddTextOption(
             }
         },
         help);
-    return *option->type_name("TEXT")->expected(1);
+    return *option->type_name("TEXT")->expected(1)->allow_extra_args(false)->multi_option_policy(
+        CLI::MultiOptionPolicy::TakeAll);
 }
 
 std::optional<int> ParseCommandLineOrNull(CLI::App& app, int argc, const char* const* argv)

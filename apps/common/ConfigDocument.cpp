@@ -26,9 +26,10 @@ bool IsBareKey(std::string_view key)
     });
 }
 
-/// How many characters must be inserted, removed or replaced to make one of the other (Levenshtein).
+/// How many characters must be inserted, removed, replaced or exchanged with their neighbour to make one of the other.
 std::size_t CountEdits(std::string_view left, std::string_view right)
 {
+    std::vector<std::size_t> beforePrevious;
     std::vector<std::size_t> previous(right.size() + 1);
     std::iota(previous.begin(), previous.end(), std::size_t{0});
     std::vector<std::size_t> current(right.size() + 1);
@@ -39,8 +40,14 @@ std::size_t CountEdits(std::string_view left, std::string_view right)
         {
             const std::size_t replaced = previous[column - 1] + (left[row - 1] == right[column - 1] ? 0U : 1U);
             current[column] = std::min({replaced, previous[column] + 1, current[column - 1] + 1});
+            const bool bExchanged =
+                row > 1 && column > 1 && left[row - 1] == right[column - 2] && left[row - 2] == right[column - 1];
+            if (bExchanged)
+            {
+                current[column] = std::min(current[column], beforePrevious[column - 2] + 1);
+            }
         }
-        previous.swap(current);
+        beforePrevious = std::exchange(previous, current);
     }
     return previous.back();
 }

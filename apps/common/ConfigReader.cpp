@@ -4,13 +4,41 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cerrno>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 #include <utility>
 
 namespace ACS::Apps
 {
+
+namespace
+{
+
+constexpr std::size_t CHUNK_BYTES = 4096;
+
+/// 0, or the system's error number.
+int ReadAll(const std::string& fileName, std::string& text)
+{
+    errno = 0;
+    std::ifstream file(fileName, std::ios::binary);
+    std::array<char, CHUNK_BYTES> chunk{};
+    while (file)
+    {
+        // A folder can be opened, not read.
+        file.read(chunk.data(), chunk.size());
+        text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
+    }
+    const bool bReadToEnd = file.is_open() && file.eof() && !file.bad();
+    if (bReadToEnd)
+    {
+        return 0;
+    }
+    return errno != 0 ? errno : EIO;
+}
+
+} // namespace
 
 ConfigReader::ConfigReader(std::shared_ptr<ConfigDocument> document)
     : _document(std::move(document))
@@ -19,17 +47,11 @@ ConfigReader::ConfigReader(std::shared_ptr<ConfigDocument> document)
 
 ConfigReader ConfigReader::ReadFile(const std::string& fileName, const std::vector<std::string>& overrides)
 {
-    std::ifstream file(fileName, std::ios::binary);
     std::string text;
-    if (file)
+    const int systemError = ReadAll(fileName, text);
+    if (systemError != 0)
     {
-        text.assign(std::istreambuf_iterator<char>(file), {});
-    }
-    // A folder can be opened, not read.
-    file.peek();
-    if (!file.is_open() || file.bad())
-    {
-        const std::string reason = std::generic_category().message(errno);
+        const std::string reason = std::generic_category().message(systemError);
         return ConfigReader(ConfigDocument::MakeUnreadable(
             fileName,
             fmt::format("cannot be read ({}); give the path of a configuration file", reason)));

@@ -25,6 +25,11 @@ namespace Http = boost::beast::http;
 using Tcp = boost::asio::ip::tcp;
 using ErrorCode = boost::system::error_code;
 
+/// How long a refused peer may go on sending before the connection is cut: closing with unread bytes would make the
+/// system drop the refusal, too.
+constexpr std::chrono::seconds DRAIN_TIME{2};
+constexpr std::size_t DRAIN_BYTES = 16U * 1024U;
+
 /// How long to wait before the next accept after the system refused one (no file descriptors left).
 constexpr std::chrono::milliseconds ACCEPT_PAUSE{100};
 
@@ -167,8 +172,8 @@ private:
         parsed->method = std::string(request.method_string());
         parsed->body = request.body();
         // A copy: the handler may stop and destroy the server.
-        const Handler handler = server->handler;
-        const HttpResponse response = handler(*parsed);
+        const Handler makeResponse = server->handler;
+        const HttpResponse response = makeResponse(*parsed);
         WriteAsync(response, request.keep_alive(), bHead);
     }
 
@@ -201,10 +206,35 @@ private:
         {
             ReadAsync();
         }
+        else if (!error.failed() && _stream.socket().is_open())
+        {
+            ErrorCode ignored;
+            _stream.socket().shutdown(Tcp::socket::shutdown_send, ignored);
+            _stream.expires_after(DRAIN_TIME);
+            DrainAsync();
+        }
         else
         {
             Leave();
         }
+    }
+
+    /// Reads on until the peer closes; the time that ends this is not renewed.
+    void DrainAsync()
+    {
+        _buffer.clear();
+        _stream.async_read_some(
+            _buffer.prepare(DRAIN_BYTES),
+            [self = shared_from_this()](const ErrorCode& error, std::size_t) {
+                if (error.failed())
+                {
+                    self->Leave();
+                }
+                else
+                {
+                    self->DrainAsync();
+                }
+            });
     }
 
     /// Closes, and leaves the list of the server where that still lives.

@@ -1,0 +1,43 @@
+#include "common/MetricsEndpoint.hpp"
+
+#include "Catch.hpp"
+
+#include <string>
+
+using namespace ACS;
+using Catch::Matchers::Contains;
+
+TEST_CASE("Counters and gauges appear by name and labels")
+{
+    Apps::MetricsEndpoint metrics;
+    metrics.AddCounter("acs_plans_total", "Plans by result");
+    metrics.AddGauge("acs_robots_online", "Robots that are online");
+    metrics.Increment("acs_plans_total", {{"result", "completed"}});
+    metrics.Increment("acs_plans_total", {{"result", "completed"}}, 2.0);
+    metrics.Increment("acs_plans_total", {{"result", "say \"no\""}});
+    metrics.SetGauge("acs_robots_online", {}, 5.0);
+    metrics.SetGauge("acs_robots_online", {}, 4.0);
+    const std::string text = metrics.Render();
+    REQUIRE_THAT(text, Contains("# HELP acs_plans_total Plans by result\n"));
+    REQUIRE_THAT(text, Contains("# TYPE acs_plans_total counter\n"));
+    REQUIRE_THAT(text, Contains("acs_plans_total{result=\"completed\"} 3\n"));
+    REQUIRE_THAT(text, Contains("acs_plans_total{result=\"say \\\"no\\\"\"} 1\n"));
+    REQUIRE_THAT(text, Contains("acs_robots_online 4\n"));
+}
+
+TEST_CASE("A counter follows the total of a library's statistics and never falls")
+{
+    Apps::MetricsEndpoint metrics;
+    metrics.AddCounter("acs_messages_total", "Messages");
+    metrics.SetTotal("acs_messages_total", {}, 7.0);
+    metrics.SetTotal("acs_messages_total", {}, 9.0);
+    metrics.SetTotal("acs_messages_total", {}, 3.0);
+    REQUIRE_THAT(metrics.Render(), Contains("acs_messages_total 9\n"));
+}
+
+TEST_CASE("The answer to a scrape says which text format it is")
+{
+    const Apps::HttpResponse response = Apps::MetricsEndpoint().Respond();
+    REQUIRE(response.status == 200);
+    REQUIRE_THAT(response.contentType, Contains("version=0.0.4"));
+}
