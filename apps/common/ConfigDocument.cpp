@@ -53,25 +53,32 @@ std::size_t CountEdits(std::string_view left, std::string_view right)
 }
 
 /// Tables are joined key by key; anything else replaces what was there.
-void MergeRecursive(ConfigNode& target, ConfigNode source)
+void Merge(ConfigNode& target, ConfigNode source)
 {
-    auto* const targetTable = std::get_if<ConfigNode::Table>(&target.value);
-    auto* const sourceTable = std::get_if<ConfigNode::Table>(&source.value);
-    if (targetTable == nullptr || sourceTable == nullptr)
+    std::vector<std::pair<ConfigNode*, ConfigNode>> work;
+    work.emplace_back(&target, std::move(source));
+    while (!work.empty())
     {
-        target = std::move(source);
-        return;
-    }
-    for (auto& [key, value] : *sourceTable)
-    {
-        std::unique_ptr<ConfigNode>& place = (*targetTable)[key];
-        if (place == nullptr)
+        auto [place, node] = std::move(work.back());
+        work.pop_back();
+        auto* const placeTable = std::get_if<ConfigNode::Table>(&place->value);
+        auto* const nodeTable = std::get_if<ConfigNode::Table>(&node.value);
+        if (placeTable == nullptr || nodeTable == nullptr)
         {
-            place = std::move(value);
+            *place = std::move(node);
+            continue;
         }
-        else
+        for (auto& [key, value] : *nodeTable)
         {
-            MergeRecursive(*place, std::move(*value));
+            const auto [found, bNew] = placeTable->try_emplace(key, nullptr);
+            if (bNew)
+            {
+                found->second = std::move(value);
+            }
+            else
+            {
+                work.emplace_back(found->second.get(), std::move(*value));
+            }
         }
     }
 }
@@ -131,7 +138,7 @@ void ConfigDocument::Override(const std::string& text)
         leaf->value = value;
     }
     node->bOverride = false;
-    MergeRecursive(_root, std::move(*node));
+    Merge(_root, std::move(*node));
 }
 
 const ConfigNode& ConfigDocument::GetRoot() const noexcept
@@ -162,7 +169,7 @@ std::vector<std::string> ConfigDocument::MakeMistakes() const
     std::vector<Mistake> mistakes = _mistakes;
     if (!_bUnreadable)
     {
-        FindUnknownRecursive(_root, {}, mistakes);
+        FindUnknown(mistakes);
     }
     std::stable_sort(mistakes.begin(), mistakes.end(), [](const Mistake& left, const Mistake& right) {
         return std::tie(left.bOverride, left.line) < std::tie(right.bOverride, right.line);
@@ -192,37 +199,42 @@ std::string ConfigDocument::MakeOrigin(const ConfigNode* nodeOrNull) const
     return bHasLine ? fmt::format("{}:{}", _fileName, nodeOrNull->line) : _fileName;
 }
 
-void ConfigDocument::FindUnknownRecursive(const ConfigNode& node, const std::string& path, std::vector<Mistake>& out)
-    const
+void ConfigDocument::FindUnknown(std::vector<Mistake>& out) const
 {
-    if (const auto* const array = std::get_if<ConfigNode::Array>(&node.value))
+    std::vector<std::pair<const ConfigNode*, std::string>> work;
+    work.emplace_back(&_root, std::string());
+    while (!work.empty())
     {
-        for (std::size_t index = 0; index < array->size(); ++index)
+        const auto [node, path] = std::move(work.back());
+        work.pop_back();
+        if (const auto* const array = std::get_if<ConfigNode::Array>(&node->value))
         {
-            FindUnknownRecursive(*(*array)[index], fmt::format("{}[{}]", path, index), out);
+            for (std::size_t index = 0; index < array->size(); ++index)
+            {
+                work.emplace_back((*array)[index].get(), fmt::format("{}[{}]", path, index));
+            }
         }
-        return;
-    }
-    const auto* const table = std::get_if<ConfigNode::Table>(&node.value);
-    if (table == nullptr)
-    {
-        return;
-    }
-    const auto asked = _askedByTable.find(path);
-    for (const auto& [key, value] : *table)
-    {
-        if (asked != _askedByTable.end() && asked->second.find(key) != asked->second.end())
+        else if (const auto* const table = std::get_if<ConfigNode::Table>(&node->value))
         {
-            FindUnknownRecursive(*value, JoinPath(path, key), out);
-        }
-        else
-        {
-            out.push_back(
-                {value->bOverride,
-                 value->line,
-                 fmt::format("{}: {}: {}", MakeOrigin(value.get()), JoinPath(path, key), MakeUnknownText(path, key))});
+            for (const auto& [key, value] : *table)
+            {
+                if (WasAsked(path, key))
+                {
+                    work.emplace_back(value.get(), JoinPath(path, key));
+                    continue;
+                }
+                const std::string where = fmt::format("{}: {}", MakeOrigin(value.get()), JoinPath(path, key));
+                out.push_back(
+                    {value->bOverride, value->line, fmt::format("{}: {}", where, MakeUnknownText(path, key))});
+            }
         }
     }
+}
+
+bool ConfigDocument::WasAsked(const std::string& tablePath, const std::string& key) const
+{
+    const auto asked = _askedByTable.find(tablePath);
+    return asked != _askedByTable.end() && asked->second.find(key) != asked->second.end();
 }
 
 std::string ConfigDocument::MakeUnknownText(const std::string& tablePath, const std::string& key) const

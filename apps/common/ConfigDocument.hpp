@@ -69,7 +69,8 @@ public:
 
 private:
     [[nodiscard]] std::string MakeOrigin(const ConfigNode* nodeOrNull) const;
-    void FindUnknownRecursive(const ConfigNode& node, const std::string& path, std::vector<Mistake>& out) const;
+    void FindUnknown(std::vector<Mistake>& out) const;
+    [[nodiscard]] bool WasAsked(const std::string& tablePath, const std::string& key) const;
     [[nodiscard]] std::string MakeUnknownText(const std::string& tablePath, const std::string& key) const;
 };
 

@@ -132,7 +132,7 @@ public:
             _stream,
             _buffer,
             *_parserOrNull,
-            [self = shared_from_this()](const ErrorCode& error, std::size_t) { self->OnRead(error); });
+            Beast::bind_front_handler(&Connection::OnRead, shared_from_this()));
     }
 
     void Close()
@@ -143,7 +143,7 @@ public:
     }
 
 private:
-    void OnRead(const ErrorCode& error)
+    void OnRead(const ErrorCode& error, std::size_t /*count*/)
     {
         const std::shared_ptr<Impl> server = _server.lock();
         if (server == nullptr || !_stream.socket().is_open())
@@ -187,20 +187,18 @@ private:
         _responseOrNull->prepare_payload();
         _serializerOrNull.emplace(*_responseOrNull);
         _stream.expires_after(_limits.timeout);
-        const auto onWritten = [self = shared_from_this(), bKeepAlive](const ErrorCode& error, std::size_t) {
-            self->OnWritten(error, bKeepAlive);
-        };
+        auto onWritten = Beast::bind_front_handler(&Connection::OnWritten, shared_from_this(), bKeepAlive);
         if (bHead)
         {
-            Http::async_write_header(_stream, *_serializerOrNull, onWritten);
+            Http::async_write_header(_stream, *_serializerOrNull, std::move(onWritten));
         }
         else
         {
-            Http::async_write(_stream, *_serializerOrNull, onWritten);
+            Http::async_write(_stream, *_serializerOrNull, std::move(onWritten));
         }
     }
 
-    void OnWritten(const ErrorCode& error, bool bKeepAlive)
+    void OnWritten(bool bKeepAlive, const ErrorCode& error, std::size_t /*count*/)
     {
         if (!error.failed() && bKeepAlive && !_server.expired() && _stream.socket().is_open())
         {
@@ -225,16 +223,19 @@ private:
         _buffer.clear();
         _stream.async_read_some(
             _buffer.prepare(DRAIN_BYTES),
-            [self = shared_from_this()](const ErrorCode& error, std::size_t) {
-                if (error.failed())
-                {
-                    self->Leave();
-                }
-                else
-                {
-                    self->DrainAsync();
-                }
-            });
+            Beast::bind_front_handler(&Connection::OnDrained, shared_from_this()));
+    }
+
+    void OnDrained(const ErrorCode& error, std::size_t /*count*/)
+    {
+        if (error.failed())
+        {
+            Leave();
+        }
+        else
+        {
+            DrainAsync();
+        }
     }
 
     /// Closes, and leaves the list of the server where that still lives.
@@ -312,7 +313,7 @@ void HttpServer::Impl::Stop()
 {
     ErrorCode ignored;
     acceptor.close(ignored);
-    acceptPause.cancel();
+    acceptPause.cancel(ignored);
     for (const std::shared_ptr<Connection>& connection : connections)
     {
         connection->place = connections.end();

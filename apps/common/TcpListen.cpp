@@ -12,9 +12,10 @@ namespace
 
 tl::unexpected<Core::Error> FailToListen(const Endpoint& endpoint, const boost::system::error_code& error)
 {
+    const std::error_code code = error;
     const bool bInUse = error == boost::asio::error::address_in_use;
     return Core::Fail(
-        std::error_code(error),
+        code,
         MakeText(endpoint),
         bInUse ? "a free port (stop the program that uses this one, or choose another; 0 takes any free port)"
                : "an address and port of this machine that this user may listen on",

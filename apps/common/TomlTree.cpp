@@ -3,6 +3,7 @@
 #include <toml++/toml.h>
 
 #include <utility>
+#include <vector>
 
 namespace ACS::Apps
 {
@@ -10,63 +11,79 @@ namespace ACS::Apps
 namespace
 {
 
-ConfigNode MakeNodeRecursive(const toml::node& source, bool bOverride);
+/// A node of toml++ and the place of its copy.
+using Work = std::vector<std::pair<const toml::node*, ConfigNode*>>;
 
-ConfigNode::Table MakeTableRecursive(const toml::table& source, bool bOverride)
+void TakeTable(const toml::table& source, ConfigNode& target, Work& work)
 {
     ConfigNode::Table table;
     for (const auto& [key, value] : source)
     {
-        table.emplace(std::string(key.str()), std::make_unique<ConfigNode>(MakeNodeRecursive(value, bOverride)));
+        const auto place = table.emplace(std::string(key.str()), std::make_unique<ConfigNode>()).first;
+        work.emplace_back(&value, place->second.get());
     }
-    return table;
+    target.value = std::move(table);
 }
 
-ConfigNode::Array MakeArrayRecursive(const toml::array& source, bool bOverride)
+void TakeArray(const toml::array& source, ConfigNode& target, Work& work)
 {
     ConfigNode::Array array;
     for (const toml::node& value : source)
     {
-        array.push_back(std::make_unique<ConfigNode>(MakeNodeRecursive(value, bOverride)));
+        array.push_back(std::make_unique<ConfigNode>());
+        work.emplace_back(&value, array.back().get());
     }
-    return array;
+    target.value = std::move(array);
 }
 
-/// As deep as the parser of toml++ allows (256).
-ConfigNode MakeNodeRecursive(const toml::node& source, bool bOverride)
+void TakeScalar(const toml::node& source, ConfigNode& target)
 {
-    ConfigNode node;
-    node.bOverride = bOverride;
-    node.line = source.source().begin.line;
-    if (const toml::table* const table = source.as_table())
+    if (const auto* const string = source.as_string())
     {
-        node.value = MakeTableRecursive(*table, bOverride);
-    }
-    else if (const toml::array* const array = source.as_array())
-    {
-        node.value = MakeArrayRecursive(*array, bOverride);
-    }
-    else if (const auto* const string = source.as_string())
-    {
-        node.value = string->get();
+        target.value = string->get();
     }
     else if (const auto* const integer = source.as_integer())
     {
-        node.value = integer->get();
+        target.value = integer->get();
     }
     else if (const auto* const number = source.as_floating_point())
     {
-        node.value = number->get();
+        target.value = number->get();
     }
     else if (const auto* const boolean = source.as_boolean())
     {
-        node.value = boolean->get();
+        target.value = boolean->get();
     }
     else
     {
-        node.value = ConfigNode::Other{};
+        target.value = ConfigNode::Other{};
     }
-    return node;
+}
+
+ConfigNode MakeTree(const toml::table& document, bool bOverride)
+{
+    ConfigNode root;
+    Work work{{&document, &root}};
+    while (!work.empty())
+    {
+        const auto [source, target] = work.back();
+        work.pop_back();
+        target->bOverride = bOverride;
+        target->line = source->source().begin.line;
+        if (const toml::table* const table = source->as_table())
+        {
+            TakeTable(*table, *target, work);
+        }
+        else if (const toml::array* const array = source->as_array())
+        {
+            TakeArray(*array, *target, work);
+        }
+        else
+        {
+            TakeScalar(*source, *target);
+        }
+    }
+    return root;
 }
 
 } // namespace
@@ -75,7 +92,7 @@ tl::expected<ConfigNode, TomlMistake> ParseToml(std::string_view text, bool bOve
 {
     try
     {
-        return MakeNodeRecursive(toml::parse(text), bOverride);
+        return MakeTree(toml::parse(text), bOverride);
     }
     catch (const toml::parse_error& error)
     {

@@ -12,7 +12,8 @@
 #include <string>
 #include <vector>
 
-using namespace ACS;
+namespace Apps = ACS::Apps;
+namespace Core = ACS::Core;
 using Catch::Matchers::Contains;
 
 namespace

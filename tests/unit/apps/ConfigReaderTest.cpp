@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-using namespace ACS;
+namespace Apps = ACS::Apps;
 using namespace std::chrono_literals;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <utility>
 
-using namespace ACS;
+namespace Apps = ACS::Apps;
 
 TEST_CASE("A duration is a whole number and its unit")
 {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-using namespace ACS;
+namespace Apps = ACS::Apps;
 
 TEST_CASE("An endpoint is a host and a port, and port 0 asks for any")
 {

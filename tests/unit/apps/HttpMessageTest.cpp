@@ -2,7 +2,7 @@
 
 #include "Catch.hpp"
 
-using namespace ACS;
+namespace Apps = ACS::Apps;
 
 TEST_CASE("A path is the same with its brackets encoded or not")
 {

@@ -16,7 +16,9 @@
 #include <string>
 #include <vector>
 
-using namespace ACS;
+namespace Apps = ACS::Apps;
+namespace Core = ACS::Core;
+namespace Testing = ACS::Testing;
 using namespace std::chrono_literals;
 using Catch::Matchers::Contains;
 using Catch::Matchers::EndsWith;

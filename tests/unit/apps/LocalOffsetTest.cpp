@@ -9,7 +9,8 @@
 #include <string>
 #include <utility>
 
-using namespace ACS;
+namespace Apps = ACS::Apps;
+namespace Testing = ACS::Testing;
 
 TEST_CASE("A fixed offset is the same at all times")
 {

@@ -3,7 +3,8 @@
 #include "Catch.hpp"
 #include "common/SpdlogSink.hpp"
 
-using namespace ACS;
+namespace Apps = ACS::Apps;
+namespace Core = ACS::Core;
 
 TEST_CASE("A log line is component, message and fields")
 {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-using namespace ACS;
+namespace Apps = ACS::Apps;
 using Catch::Matchers::Contains;
 
 TEST_CASE("Counters and gauges appear by name and labels")

@@ -11,7 +11,7 @@
 #include <unistd.h>
 #include <vector>
 
-using namespace ACS;
+namespace Apps = ACS::Apps;
 using namespace std::chrono_literals;
 
 namespace

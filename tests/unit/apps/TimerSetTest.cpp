@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-using namespace ACS;
+namespace Apps = ACS::Apps;
 using namespace std::chrono_literals;
 
 namespace

@@ -4,7 +4,7 @@
 
 #include <string>
 
-using namespace ACS;
+namespace Apps = ACS::Apps;
 using Apps::EUrlScheme;
 
 namespace
