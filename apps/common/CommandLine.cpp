@@ -23,14 +23,14 @@ constexpr double MAX_TIME_SCALE = 1000.0;
 
 /// Puts the value in its place, or returns the mistake.
 template <typename TValue>
-std::optional<std::string> TakeOrNull(Core::Result<TValue> value, TValue& target)
+std::string Take(Core::Result<TValue> value, TValue& target)
 {
     if (!value.has_value())
     {
         return Core::Describe(value.error());
     }
     target = std::move(*value);
-    return std::nullopt;
+    return {};
 }
 
 } // namespace
@@ -41,7 +41,7 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options)
     AddTextOption(
         app,
         "--log-level",
-        [&options](const std::string& text) { return TakeOrNull(ParseLogLevel(text), options.logLevel); },
+        [&options](const std::string& text) { return Take(ParseLogLevel(text), options.logLevel); },
         "What to log on standard error: debug, info, warning or error")
         .default_str("info");
 }
@@ -51,7 +51,7 @@ CLI::Option& AddEndpointOption(CLI::App& app, const std::string& name, Endpoint&
     CLI::Option& option = AddTextOption(
         app,
         name,
-        [&target](const std::string& text) { return TakeOrNull(ParseEndpoint(text), target); },
+        [&target](const std::string& text) { return Take(ParseEndpoint(text), target); },
         help);
     option.type_name("HOST:PORT");
     if (!target.host.empty())
@@ -71,7 +71,7 @@ CLI::Option& AddUrlOption(
     CLI::Option& option = AddTextOption(
         app,
         name,
-        [&target, allowed](const std::string& text) { return TakeOrNull(ParseUrl(text, allowed), target); },
+        [&target, allowed](const std::string& text) { return Take(ParseUrl(text, allowed), target); },
         help);
     option.type_name("URL");
     if (!target.peer.host.empty())
@@ -88,23 +88,23 @@ CLI::Option& AddTimeScaleOption(CLI::App& app, double& target)
                 ->capture_default_str();
 }
 
-CLI::Option& AddTextOption(CLI::App& app, const std::string& name, TextReader readOrNull, const std::string& help)
+CLI::Option& AddTextOption(CLI::App& app, const std::string& name, TextReader reader, const std::string& help)
 {
-    CLI::Option& option = AddRepeatedOption(app, name, std::move(readOrNull), help);
+    CLI::Option& option = AddRepeatedOption(app, name, std::move(reader), help);
     return *option.multi_option_policy(CLI::MultiOptionPolicy::Throw);
 }
 
-CLI::Option& AddRepeatedOption(CLI::App& app, const std::string& name, TextReader readOrNull, const std::string& help)
+CLI::Option& AddRepeatedOption(CLI::App& app, const std::string& name, TextReader reader, const std::string& help)
 {
     CLI::Option* const option = app.add_option_function<std::vector<std::string>>(
         name,
-        [name, readOrNull = std::move(readOrNull)](const std::vector<std::string>& values) {
+        [name, reader = std::move(reader)](const std::vector<std::string>& values) {
             for (const std::string& value : values)
             {
-                const std::optional<std::string> mistake = readOrNull(value);
-                if (mistake.has_value())
+                const std::string mistake = reader(value);
+                if (!mistake.empty())
                 {
-                    throw CLI::ValidationError(name, *mistake);
+                    throw CLI::ValidationError(name, mistake);
                 }
             }
         },

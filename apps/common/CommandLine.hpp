@@ -46,15 +46,15 @@ CLI::Option& AddUrlOption(
 /// --time-scale X: how many times faster than real time a simulator runs; from 0.01 to 1000, by default 1.
 CLI::Option& AddTimeScaleOption(CLI::App& app, double& target);
 
-/// Puts a value where it belongs and returns nothing, or returns what was expected and found.
-using TextReader = std::function<std::optional<std::string>(const std::string& value)>;
+/// Puts a value where it belongs and returns an empty text, or returns what was expected and found.
+using TextReader = std::function<std::string(const std::string& value)>;
 
 /// An option that is given at most once, whose value one's own function reads.
-CLI::Option& AddTextOption(CLI::App& app, const std::string& name, TextReader readOrNull, const std::string& help);
+CLI::Option& AddTextOption(CLI::App& app, const std::string& name, TextReader reader, const std::string& help);
 
 /// An option that may be given again and again, one value each time; `.allow_extra_args()` on the result lets several values
 /// follow one name (--plan a.json b.json). The function is called for each value, in order.
-CLI::Option& AddRepeatedOption(CLI::App& app, const std::string& name, TextReader readOrNull, const std::string& help);
+CLI::Option& AddRepeatedOption(CLI::App& app, const std::string& name, TextReader reader, const std::string& help);
 
 /// Reads the command line. Nothing: go on. Otherwise the exit code to leave with: 0 after --help and --version (on
 /// standard output), 2 after a mistake, told in one line on standard error.

@@ -69,7 +69,7 @@ Outcome Parse(const std::vector<const char*>& arguments)
     Apps::AddTimeScaleOption(app, outcome.timeScale);
     const auto takeVehicle = [&outcome](const std::string& text) {
         outcome.vehicles.push_back(text);
-        return text == "bad" ? std::optional<std::string>("no such vehicle") : std::nullopt;
+        return std::string(text == "bad" ? "no such vehicle" : "");
     };
     Apps::AddRepeatedOption(app, "--vehicle", takeVehicle, "A vehicle");
     Apps::AddRepeatedOption(app, "--plan", takeVehicle, "Plans").allow_extra_args();
