@@ -70,7 +70,8 @@ int RunAcsd(int argc, const char* const* argv)
         ->type_name("FILE");
     app.add_option("--set", options.overrides, "override one key, for example --set mcs.url=ws://10.0.0.1:9001/acs/")
         ->type_name("KEY=VALUE")
-        ->take_all();
+        ->take_all()
+        ->allow_extra_args(false);
     app.add_flag("--check-config", options.bCheckOnly, "tell every mistake of the configuration and end");
     Apps::AddCommonOptions(app, options.common);
     const std::optional<int> exitCodeOrNull = Apps::ParseCommandLineOrNull(app, argc, argv);
