@@ -8,6 +8,7 @@
 #include "PlanLog.hpp"
 #include "RobotHost.hpp"
 #include <acs/core/Overloaded.hpp>
+#include <acs/core/Uuid.hpp>
 #include <acs/plan/PlanEngine.hpp>
 #include <acs/plan_sqlite/SqlitePlanStore.hpp>
 #include <acs/vda5050_mosquitto/MosquittoLink.hpp>
@@ -43,9 +44,11 @@ constexpr const char* PLANS_ACTIVE = "acsd_plans_active";
 constexpr const char* OUTBOX_DEPTH = "acsd_outbox_depth";
 constexpr const char* MESSAGES_SENT = "acsd_mcs_requests_sent_total";
 
-VDA5050::MosquittoOptions MakeMqttOptions(const AcsdConfig& config)
+VDA5050::MosquittoOptions MakeMqttOptions(const AcsdConfig& config, Core::IRandom& random)
 {
     VDA5050::MosquittoOptions options;
+    // Unique, so that a second acsd on the broker does not push the first one out.
+    options.clientID = "acsd-" + Core::MakeUuid(random);
     options.host = config.mqtt.url.peer.host;
     options.port = config.mqtt.url.peer.port;
     if (Apps::IsSecure(config.mqtt.url.scheme))
@@ -324,7 +327,7 @@ public:
               _surroundings.executor,
               _surroundings.random,
               _surroundings.logger.MakeFor("mqtt"),
-              MakeMqttOptions(_config),
+              MakeMqttOptions(_config, _surroundings.random),
               *this),
           _timers(_surroundings.executor, [this](std::uint64_t key) { OnTimer(key); }),
           _http(

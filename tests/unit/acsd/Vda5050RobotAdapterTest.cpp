@@ -4,6 +4,7 @@
 #include "ManualClock.hpp"
 #include <acs/vda5050/Vda5050Codec.hpp>
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -47,7 +48,7 @@ struct VehicleFixture
     void Receive(std::string_view topic, TMessage message)
     {
         message.header = state.header;
-        message.header.timestamp = Core::Timestamp{clock.GetNow().wall, {}};
+        message.header.timestamp = clock.GetNow().wall;
         std::string payload;
         codec.Encode(message, VDA5050::EVda5050Version::Version200, payload);
         adapter.OnMqttMessage({"uagv/v2/ACS/LR01/" + std::string(topic), payload, 0, false}, clock.GetNow(), actions);
