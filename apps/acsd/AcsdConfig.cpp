@@ -2,6 +2,7 @@
 
 #include <acs/core/Location.hpp>
 #include <acs/plan/LifReader.hpp>
+#include <acs/vda5050/Topic.hpp>
 
 #include <fmt/format.h>
 
@@ -169,6 +170,10 @@ void ReadRobot(const ConfigSection& section, const std::string& name, AcsdConfig
     link.serialNumber = section.GetString("serial");
     link.protocolVersion = section.GetWord("protocol", {"2.0.0", "2.1.0"}, "2.0.0");
     link.armOrNone = ReadArmOrNull(section, options.type == Planning::ERobotType::CR);
+    if (!VDA5050::IsValidAddress({config.mqtt.interfaceName, link.manufacturer, link.serialNumber}))
+    {
+        section.AddMistake("serial", "manufacturer and serial are levels of a topic: not empty, without / + #");
+    }
     config.engine.robots.push_back(std::move(options));
     config.robots.push_back(std::move(link));
 }

@@ -17,13 +17,20 @@ namespace ACS::Acsd::Test
 namespace
 {
 
+VDA5050::MasterOptions MakeBaseOptions()
+{
+    VDA5050::MasterOptions options;
+    options.address = {"uagv", "ACS", "CR01"};
+    return options;
+}
+
 /// An adapter whose base is never heard of: only the arm's side is under test here.
 struct ArmFixture
 {
     Testing::ManualClock clock;
     RobotOutputs outputs;
     OpenStreamRobotAdapter adapter{
-        VDA5050::MasterOptions{},
+        MakeBaseOptions(),
         ArmCounters{},
         {{"TrayLoad", {"", 11}}, {"CassetteLoad", {"pick", 0}}},
         outputs};
