@@ -1,0 +1,67 @@
+#pragma once
+
+#include <acs/core/IRandom.hpp>
+#include <acs/core/Logger.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/core/Result.hpp>
+#include <acs/protocol/AcsMessage.hpp>
+#include <acs/protocol/SessionStatistics.hpp>
+#include <acs/protocol_beast/ClientOptions.hpp>
+#include <acs/protocol_beast/ISessionHandler.hpp>
+
+#include <boost/asio/any_io_executor.hpp>
+
+#include <chrono>
+#include <memory>
+#include <string_view>
+
+namespace ACS::ProtocolBeast
+{
+
+/// An AcsSession over a WebSocket: connects, registers, reconnects for ever. Everything runs on the given executor, which
+/// must be that of one thread (or a strand), and is called from there only.
+class AcsClient
+{
+    class Impl;
+    std::shared_ptr<Impl> _impl;
+
+    explicit AcsClient(std::shared_ptr<Impl> impl);
+
+public:
+    /// Fails with a sentence about the URL or the certificate files; opens no connection. Clock, random source, log sink
+    /// and handler outlive the client.
+    [[nodiscard]] static Core::Result<std::unique_ptr<AcsClient>> Create(
+        const boost::asio::any_io_executor& executor,
+        const Core::IClock& clock,
+        Core::IRandom& random,
+        const Core::Logger& logger,
+        const ClientOptions& options,
+        ISessionHandler& handler);
+
+    AcsClient(const AcsClient&) = delete;
+    AcsClient& operator=(const AcsClient&) = delete;
+    /// Drops the connection at once, without a goodbye; the handler is not called any more.
+    ~AcsClient();
+
+    /// These run AcsSession's function of the same name and carry out what it returns; events reach the handler after
+    /// the call has returned.
+    void Start();
+    void Stop();
+    [[nodiscard]] bool TrySendDurable(const Protocol::AcsRequest& request);
+    void ReplayDone();
+    void SendStatus(const Protocol::AcsPayload& status);
+    void SendPosition(const Protocol::RobotPositionUpdate& positions);
+    void Answer(
+        Protocol::EAcsCommand command,
+        std::string_view transactionID,
+        Protocol::EAckResult result,
+        std::string_view message,
+        const Protocol::AckPayload& payload);
+    void SetSiteOffset(std::chrono::minutes offset);
+
+    [[nodiscard]] bool IsRegistered() const;
+    [[nodiscard]] std::size_t GetRoom() const;
+    [[nodiscard]] const Protocol::SessionStatistics& GetStatistics() const;
+};
+
+} // namespace ACS::ProtocolBeast

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace ACS::Protocol
+{
+
+/// The `result` of an Ack (section 6.1). On receipt, success and ok in any case are Success, everything else is Fail.
+enum class EAckResult : std::uint8_t
+{
+    Success,
+    Fail,
+};
+
+[[nodiscard]] std::string_view GetText(EAckResult result);
+
+} // namespace ACS::Protocol

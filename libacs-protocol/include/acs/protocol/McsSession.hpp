@@ -1,0 +1,68 @@
+#pragma once
+
+#include <acs/core/IRandom.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/protocol/AcsMessage.hpp>
+#include <acs/protocol/SessionAction.hpp>
+#include <acs/protocol/SessionOptions.hpp>
+#include <acs/protocol/SessionStatistics.hpp>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace ACS::Protocol
+{
+
+/// The MCS's side of the protocol as a pure state machine over all connections of a server: one ACS is registered at a
+/// time. Built like AcsSession. Every report is acknowledged at once with Success, a repeated one again.
+class McsSession
+{
+    class Impl;
+    std::unique_ptr<Impl> _impl;
+
+public:
+    /// The random source makes transaction ids; it outlives the session.
+    McsSession(const McsSessionOptions& options, Core::IRandom& random);
+    McsSession(const McsSession&) = delete;
+    McsSession& operator=(const McsSession&) = delete;
+    ~McsSession();
+
+    /// Whether an upgrade is to be refused with 403 now (option bSecondRefused, and a connection is there).
+    [[nodiscard]] bool ShouldRefuseUpgrade() const noexcept;
+
+    /// A client has connected; no action. Ids are the caller's, never used twice.
+    void OnConnected(ConnectionID connection, Core::Now now, SessionActions& out);
+
+    /// SendText (Acks), Close (a connection that is replaced, or the second one where that is refused), CancelTimer,
+    /// StartTimer, Deliver of Registered, LinkLost, RequestReceived, AckReceived, ProtocolNoted.
+    void OnText(ConnectionID connection, std::string_view text, Core::Now now, SessionActions& out);
+
+    /// Where it was the registered one: Deliver RequestUnanswered for all that waits, then LinkLost; CancelTimer.
+    void OnClosed(ConnectionID connection, std::string_view reason, Core::Now now, SessionActions& out);
+
+    /// Deliver RequestUnanswered, StartTimer.
+    void OnTimer(ESessionTimer timer, Core::Now now, SessionActions& out);
+
+    /// A request with a fresh transactionID and the present as its timestamp, to be sent once or more often.
+    [[nodiscard]] AcsRequest MakeRequest(AcsPayload payload, Core::Now now);
+
+    /// SendText, StartTimer. False, and nothing done, where no ACS is registered or too many requests wait.
+    [[nodiscard]] bool TrySend(const AcsRequest& request, Core::Now now, SessionActions& out);
+
+    /// Close of the registered connection, for example to show what a cut does. Nothing where there is none.
+    void Drop(std::uint16_t code, std::string_view reason, SessionActions& out);
+
+    [[nodiscard]] bool IsRegistered() const noexcept;
+
+    /// Requests that wait for their Ack.
+    [[nodiscard]] std::size_t GetPendingCount() const noexcept;
+
+    /// For the timestamps sent from now on.
+    void SetSiteOffset(std::chrono::minutes offset) noexcept;
+
+    [[nodiscard]] const SessionStatistics& GetStatistics() const noexcept;
+};
+
+} // namespace ACS::Protocol

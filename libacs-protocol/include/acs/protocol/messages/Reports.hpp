@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace ACS::Protocol
+{
+
+/// Section 6.12. Completed, Failed, Cancelled and Aborted are final.
+enum class EPlanStatus : std::uint8_t
+{
+    Pending,
+    InProgress,
+    Paused,
+    Completed,
+    Failed,
+    Cancelled,
+    Aborted,
+};
+
+/// Section 6.13.
+enum class EStepStatus : std::uint8_t
+{
+    Pending,
+    Dispatched,
+    InProgress,
+    Completed,
+    Failed,
+    Skipped,
+};
+
+/// Section 6.14, without the two struck out there.
+enum class EJobStatus : std::uint8_t
+{
+    Pending,
+    Instructed,
+    InProgress,
+    Completed,
+    Failed,
+};
+
+[[nodiscard]] std::string_view GetText(EPlanStatus status);
+[[nodiscard]] std::string_view GetText(EStepStatus status);
+[[nodiscard]] std::string_view GetText(EJobStatus status);
+
+/// ACS to MCS: the status of a plan changed (section 6.12).
+struct PlanReport
+{
+    std::string planID;
+    EPlanStatus status = EPlanStatus::Pending;
+    std::string message;
+
+    bool operator==(const PlanReport&) const = default;
+};
+
+/// ACS to MCS: the status of a step changed (section 6.13).
+struct StepReport
+{
+    std::string planID;
+    std::string robotID;
+    std::int32_t stepNo = 0;
+    EStepStatus status = EStepStatus::Pending;
+    std::string message;
+
+    bool operator==(const StepReport&) const = default;
+};
+
+/// ACS to MCS: the status of a job changed (section 6.14).
+struct JobReport
+{
+    std::string planID;
+    std::string robotID;
+    std::int32_t stepNo = 0;
+    std::string jobID;
+    EJobStatus status = EJobStatus::Pending;
+    std::string message;
+
+    bool operator==(const JobReport&) const = default;
+};
+
+} // namespace ACS::Protocol
