@@ -72,7 +72,8 @@ public:
     void SendPosition(const RobotPositionUpdate& positions, Core::Now now, SessionActions& out);
 
     /// The answer to a RequestReceived: SendText where registered. Kept, so that the request, if it comes again, is
-    /// answered by the same text and not delivered. A second answer, or one to an unknown request, is ignored.
+    /// answered by the same text and not delivered. A second answer is ignored; one to a
+    /// request that is forgotten by now is sent and not kept.
     void Answer(
         EAcsCommand command,
         std::string_view transactionID,

@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -55,6 +56,9 @@ public:
     void Drop(std::uint16_t code, std::string_view reason, SessionActions& out);
 
     [[nodiscard]] bool IsRegistered() const noexcept;
+
+    /// Which connection is registered; nullopt: none.
+    [[nodiscard]] std::optional<ConnectionID> GetRegisteredOrNull() const noexcept;
 
     /// Requests that wait for their Ack.
     [[nodiscard]] std::size_t GetPendingCount() const noexcept;

@@ -93,19 +93,19 @@ struct Stopped
 /// What a session put up with or threw away. For logs and metrics; nothing is to be done.
 enum class EProtocolNote : std::uint8_t
 {
-    UnknownMember,    ///< Ignored.
-    NullOptional,     ///< Read as absent.
-    LenientWord,      ///< A word in another case.
-    LenientNumber,    ///< A number in a string.
-    BadTimestamp,     ///< Missing or unreadable.
-    Undecodable,      ///< No message: thrown away, or refused where it had a command.
-    UnknownCommand,   ///< Refused: undefined, or not for this side.
-    AckMismatched,    ///< An Ack with a foreign transactionId, matched by its command (D-4).
-    AckUnexpected,    ///< An Ack that nothing waits for.
-    AckFailed,        ///< The other side refused a status.
-    DuplicateRequest, ///< Answered from memory.
-    BeforeRegistered, ///< Came before registration: ignored.
-    NotReadable,      ///< The registration had no answer in time.
+    UnknownMember,          ///< Ignored.
+    NullOptional,           ///< Read as absent.
+    LenientWord,            ///< A word in another case.
+    LenientNumber,          ///< A number in a string.
+    BadTimestamp,           ///< Missing or unreadable.
+    Undecodable,            ///< No message: thrown away, or refused where it had a command.
+    UnknownCommand,         ///< Refused: undefined, or not for this side.
+    AckMismatched,          ///< An Ack with a foreign transactionId, matched by its command (D-4).
+    AckUnexpected,          ///< An Ack that nothing waits for.
+    AckFailed,              ///< The other side refused a status.
+    DuplicateRequest,       ///< Answered from memory.
+    BeforeRegistered,       ///< Came before registration: ignored.
+    RegistrationUnanswered, ///< The connection is closed and made anew.
 };
 
 inline constexpr std::size_t NOTE_COUNT = 13;

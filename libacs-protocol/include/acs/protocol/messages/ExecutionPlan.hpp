@@ -11,7 +11,7 @@ namespace ACS::Protocol
 /// One robot operation of a step (sections 6.3, 6.4). Locations are kept in the sender's spelling: Core::Location parses.
 struct PlanJob
 {
-    std::string jobID; ///< Opaque, 1 to 128 bytes.
+    std::string jobID; ///< Opaque, 1 to 512 bytes.
     std::string from;  ///< Empty where absent, null or empty: CloseSetCover, OpenSetCover and Start have none.
     std::string to;    ///< As from.
 
@@ -33,7 +33,7 @@ struct PlanStep
 /// MCS to ACS: the work for one lot. Acknowledged with PlanAck.
 struct ExecutionPlan
 {
-    std::string planID;                   ///< Opaque, 1 to 128 bytes.
+    std::string planID;                   ///< Opaque, 1 to 512 bytes.
     std::string lotID;                    ///< Empty where the sender left it out.
     std::optional<std::int32_t> priority; ///< Which direction is more urgent is the site's decision; 0 may mean none.
     std::vector<PlanStep> steps;          ///< At least one; executed by ascending stepNo.

@@ -1,0 +1,404 @@
+#include "PendingRequests.hpp"
+#include "SessionOutput.hpp"
+#include <acs/core/Uuid.hpp>
+#include <acs/protocol/AcsCodec.hpp>
+#include <acs/protocol/McsSession.hpp>
+
+#include <algorithm>
+#include <deque>
+#include <optional>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+namespace ACS::Protocol
+{
+
+namespace
+{
+
+struct PendingRequest
+{
+    EAcsCommand command = EAcsCommand::ExecutionPlan;
+    std::string transactionID;
+    Core::SteadyTime deadline{};
+};
+
+} // namespace
+
+class McsSession::Impl
+{
+    McsSessionOptions _options;
+    Core::IRandom& _random;
+    AcsCodec _codec;
+    std::chrono::minutes _siteOffset;
+    Detail::SessionOutput _output;
+
+    std::vector<ConnectionID> _connections;
+    std::optional<ConnectionID> _registered;
+    std::vector<PendingRequest> _pending;
+    std::unordered_set<std::string> _seen;
+    std::deque<std::string> _seenOrder;
+    std::string _scratch;
+
+public:
+    Impl(const McsSessionOptions& options, Core::IRandom& random)
+        : _options(options),
+          _random(random),
+          _codec(options.codec),
+          _siteOffset(options.codec.siteOffset)
+    {
+    }
+
+    [[nodiscard]] bool ShouldRefuseUpgrade() const noexcept
+    {
+        return _options.bSecondRefused && !_connections.empty();
+    }
+
+    void OnConnected(ConnectionID connection)
+    {
+        ++_output.statistics.connects;
+        _connections.push_back(connection);
+    }
+
+    void OnText(ConnectionID connection, std::string_view text, Core::Now now, SessionActions& out)
+    {
+        if (std::find(_connections.begin(), _connections.end(), connection) == _connections.end())
+        {
+            return;
+        }
+        DecodeOutcome outcome = _codec.Decode(text);
+        _output.NoteAll(outcome.notes, out);
+        if (!outcome.message.has_value())
+        {
+            Refuse(connection, outcome.message.error(), now, out);
+        }
+        else if (AcsRequest* requestOrNull = std::get_if<AcsRequest>(&*outcome.message))
+        {
+            HandleRequest(connection, *requestOrNull, now, out);
+        }
+        else if (_registered == connection)
+        {
+            HandleAck(std::get<AcsAck>(*outcome.message), out);
+        }
+        else
+        {
+            _output.Note(EProtocolNote::BeforeRegistered, "an Ack", out);
+        }
+        ArmAckTimer(now, out);
+    }
+
+    void OnClosed(ConnectionID connection, std::string_view reason, SessionActions& out)
+    {
+        std::erase(_connections, connection);
+        if (_registered == connection)
+        {
+            LoseRegistered(reason, out);
+        }
+    }
+
+    void OnTimer(ESessionTimer timer, Core::Now now, SessionActions& out)
+    {
+        if (!_output.TryExpire(timer) || timer != ESessionTimer::Ack)
+        {
+            return;
+        }
+        for (const PendingRequest& request : _pending)
+        {
+            if (request.deadline <= now.steady)
+            {
+                out.emplace_back(Deliver{RequestUnanswered{request.command, request.transactionID}});
+            }
+        }
+        std::erase_if(_pending, [now](const PendingRequest& request) { return request.deadline <= now.steady; });
+        ArmAckTimer(now, out);
+    }
+
+    AcsRequest MakeRequest(AcsPayload payload, Core::Now now)
+    {
+        return {Core::MakeUuid(_random), Detail::MakeTimestamp(now, _siteOffset), std::move(payload)};
+    }
+
+    bool TrySend(const AcsRequest& request, Core::Now now, SessionActions& out)
+    {
+        if (!_registered.has_value() || _pending.size() >= _options.maximumPending)
+        {
+            return false;
+        }
+        const EAcsCommand command = GetCommand(request);
+        _codec.EncodeRequest(request, _scratch);
+        ++_output.statistics.Of(command).sent;
+        out.emplace_back(SendText{*_registered, _scratch, false});
+        _pending.push_back({command, request.transactionID, now.steady + _options.ackTimeout});
+        ArmAckTimer(now, out);
+        return true;
+    }
+
+    void Drop(std::uint16_t code, std::string_view reason, SessionActions& out) const
+    {
+        if (_registered.has_value())
+        {
+            out.emplace_back(Close{*_registered, code, std::string(reason)});
+        }
+    }
+
+    [[nodiscard]] const std::optional<ConnectionID>& GetRegisteredOrNull() const noexcept
+    {
+        return _registered;
+    }
+
+    [[nodiscard]] std::size_t GetPendingCount() const noexcept
+    {
+        return _pending.size();
+    }
+
+    void SetSiteOffset(std::chrono::minutes offset) noexcept
+    {
+        _siteOffset = offset;
+    }
+
+    [[nodiscard]] const SessionStatistics& GetStatistics() const noexcept
+    {
+        return _output.statistics;
+    }
+
+private:
+    void ArmAckTimer(Core::Now now, SessionActions& out)
+    {
+        if (!_pending.empty() && !_output.IsRunning(ESessionTimer::Ack))
+        {
+            _output.Start(ESessionTimer::Ack, Detail::GetNextDelay(_pending, now), out);
+        }
+    }
+
+    void LoseRegistered(std::string_view reason, SessionActions& out)
+    {
+        _output.CancelAll(out);
+        _registered.reset();
+        ++_output.statistics.linkLosses;
+        for (const PendingRequest& request : std::exchange(_pending, {}))
+        {
+            out.emplace_back(Deliver{RequestUnanswered{request.command, request.transactionID}});
+        }
+        out.emplace_back(Deliver{LinkLost{std::string(reason), true}});
+    }
+
+    void Acknowledge(
+        ConnectionID connection,
+        const AcsRequest& request,
+        EAckResult result,
+        std::string_view message,
+        Core::Now now,
+        SessionActions& out)
+    {
+        const EAcsCommand command = GetCommand(request);
+        if (!HasAck(command))
+        {
+            return;
+        }
+        CommandCounters& counters = _output.statistics.Of(command);
+        ++counters.acknowledged;
+        counters.refused += result == EAckResult::Fail ? 1U : 0U;
+        const Core::Timestamp timestamp = Detail::MakeTimestamp(now, _siteOffset);
+        _codec.EncodeAck(
+            {command, request.transactionID, timestamp, result, std::string(message), EmptyAck{}, false},
+            _scratch);
+        out.emplace_back(SendText{connection, _scratch, false});
+    }
+
+    void Refuse(ConnectionID connection, const DecodeFailure& failure, Core::Now now, SessionActions& out)
+    {
+        const bool bForUs = failure.command.has_value() && !IsSentByMcs(*failure.command);
+        const bool bKnown = failure.commandName.empty() || failure.bAck || bForUs;
+        _output.Note(
+            bKnown ? EProtocolNote::Undecodable : EProtocolNote::UnknownCommand,
+            Core::Describe(failure.error),
+            out);
+        const bool bAnswerable =
+            !failure.commandName.empty() && !failure.bAck && (!failure.command.has_value() || HasAck(*failure.command));
+        if (_registered != connection || !bAnswerable)
+        {
+            return;
+        }
+        if (bForUs)
+        {
+            CommandCounters& counters = _output.statistics.Of(*failure.command);
+            ++counters.received;
+            ++counters.acknowledged;
+            ++counters.refused;
+        }
+        _codec.EncodeRefusal(
+            failure.commandName,
+            failure.transactionID,
+            Detail::MakeTimestamp(now, _siteOffset),
+            bForUs ? Detail::MakeRefusal(failure) : std::string(Detail::UNSUPPORTED),
+            _scratch);
+        out.emplace_back(SendText{connection, _scratch, false});
+    }
+
+    void HandleRequest(ConnectionID connection, AcsRequest& request, Core::Now now, SessionActions& out)
+    {
+        const EAcsCommand command = GetCommand(request);
+        if (command == EAcsCommand::Registration)
+        {
+            ++_output.statistics.Of(command).received;
+            Register(connection, request, now, out);
+            return;
+        }
+        if (_registered != connection)
+        {
+            _output.Note(EProtocolNote::BeforeRegistered, std::string(GetText(command)), out);
+            return;
+        }
+        CommandCounters& counters = _output.statistics.Of(command);
+        ++counters.received;
+        if (IsSentByMcs(command))
+        {
+            _output.Note(EProtocolNote::UnknownCommand, std::string(GetText(command)), out);
+            Acknowledge(connection, request, EAckResult::Fail, Detail::UNSUPPORTED, now, out);
+            return;
+        }
+        // Positions come five times a second and are never sent again.
+        const bool bDuplicate = HasAck(command) && !WasNew(command, request.transactionID);
+        counters.duplicates += bDuplicate ? 1U : 0U;
+        Acknowledge(connection, request, EAckResult::Success, "Received.", now, out);
+        out.emplace_back(Deliver{RequestReceived{std::move(request), bDuplicate}});
+    }
+
+    [[nodiscard]] bool WasNew(EAcsCommand command, std::string_view transactionID)
+    {
+        std::string key(GetText(command));
+        key += ' ';
+        key += transactionID;
+        if (!_seen.insert(key).second)
+        {
+            return false;
+        }
+        _seenOrder.push_back(std::move(key));
+        if (_seenOrder.size() > _options.duplicateMemory)
+        {
+            _seen.erase(_seenOrder.front());
+            _seenOrder.pop_front();
+        }
+        return true;
+    }
+
+    void Register(ConnectionID connection, const AcsRequest& request, Core::Now now, SessionActions& out)
+    {
+        if (_registered.has_value() && _options.bSecondRefused)
+        {
+            Acknowledge(connection, request, EAckResult::Fail, "An ACS is registered already.", now, out);
+            out.emplace_back(Close{connection, CLOSE_POLICY, "an ACS is registered already"});
+            return;
+        }
+        if (_registered.has_value() && *_registered != connection)
+        {
+            out.emplace_back(Close{*_registered, CLOSE_POLICY, "replaced by a new connection"});
+            LoseRegistered("replaced by a new connection", out);
+        }
+        const bool bAgain = _registered == connection;
+        _registered = connection;
+        Acknowledge(connection, request, EAckResult::Success, "Registered.", now, out);
+        if (!bAgain)
+        {
+            ++_output.statistics.registrations;
+            out.emplace_back(Deliver{Registered{}});
+        }
+    }
+
+    void HandleAck(AcsAck& ack, SessionActions& out)
+    {
+        Detail::PendingMatch match = Detail::FindPendingByID(_pending, ack.command, ack.transactionID);
+        if (!match.bFound)
+        {
+            match = Detail::FindPendingByCommand(_pending, ack.command);
+        }
+        if (!match.bFound)
+        {
+            _output.Note(EProtocolNote::AckUnexpected, std::string(GetText(ack.command)), out);
+            return;
+        }
+        if (match.bByCommand)
+        {
+            _output.Note(EProtocolNote::AckMismatched, std::string(GetText(ack.command)), out);
+        }
+        ++_output.statistics.Of(ack.command).answered;
+        ack.transactionID = std::move(_pending[match.index].transactionID);
+        _pending.erase(_pending.begin() + static_cast<std::ptrdiff_t>(match.index));
+        out.emplace_back(Deliver{AckReceived{std::move(ack)}});
+    }
+};
+
+McsSession::McsSession(const McsSessionOptions& options, Core::IRandom& random)
+    : _impl(std::make_unique<Impl>(options, random))
+{
+}
+
+McsSession::~McsSession() = default;
+
+bool McsSession::ShouldRefuseUpgrade() const noexcept
+{
+    return _impl->ShouldRefuseUpgrade();
+}
+
+void McsSession::OnConnected(ConnectionID connection, Core::Now /*now*/, SessionActions& /*out*/)
+{
+    _impl->OnConnected(connection);
+}
+
+void McsSession::OnText(ConnectionID connection, std::string_view text, Core::Now now, SessionActions& out)
+{
+    _impl->OnText(connection, text, now, out);
+}
+
+void McsSession::OnClosed(ConnectionID connection, std::string_view reason, Core::Now /*now*/, SessionActions& out)
+{
+    _impl->OnClosed(connection, reason, out);
+}
+
+void McsSession::OnTimer(ESessionTimer timer, Core::Now now, SessionActions& out)
+{
+    _impl->OnTimer(timer, now, out);
+}
+
+AcsRequest McsSession::MakeRequest(AcsPayload payload, Core::Now now)
+{
+    return _impl->MakeRequest(std::move(payload), now);
+}
+
+bool McsSession::TrySend(const AcsRequest& request, Core::Now now, SessionActions& out)
+{
+    return _impl->TrySend(request, now, out);
+}
+
+void McsSession::Drop(std::uint16_t code, std::string_view reason, SessionActions& out)
+{
+    _impl->Drop(code, reason, out);
+}
+
+std::optional<ConnectionID> McsSession::GetRegisteredOrNull() const noexcept
+{
+    return _impl->GetRegisteredOrNull();
+}
+
+bool McsSession::IsRegistered() const noexcept
+{
+    return _impl->GetRegisteredOrNull().has_value();
+}
+
+std::size_t McsSession::GetPendingCount() const noexcept
+{
+    return _impl->GetPendingCount();
+}
+
+void McsSession::SetSiteOffset(std::chrono::minutes offset) noexcept
+{
+    _impl->SetSiteOffset(offset);
+}
+
+const SessionStatistics& McsSession::GetStatistics() const noexcept
+{
+    return _impl->GetStatistics();
+}
+
+} // namespace ACS::Protocol

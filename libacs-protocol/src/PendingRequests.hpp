@@ -1,0 +1,59 @@
+#pragma once
+
+#include <acs/core/Now.hpp>
+#include <acs/protocol/EAcsCommand.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::Protocol::Detail
+{
+
+/// Which entry an Ack belongs to.
+struct PendingMatch
+{
+    std::size_t index = 0;
+    bool bFound = false;
+    bool bByCommand = false; ///< The transactionId was a foreign one (D-4).
+};
+
+/// The oldest entry of this command with this transaction, else the oldest of this command. Entries have the members
+/// command and transactionID and stand in the order in which they were sent.
+template <typename TEntry>
+[[nodiscard]] PendingMatch FindPendingByID(
+    const std::vector<TEntry>& entries,
+    EAcsCommand command,
+    std::string_view transactionID)
+{
+    const auto found = std::find_if(entries.begin(), entries.end(), [command, transactionID](const TEntry& entry) {
+        return entry.command == command && entry.transactionID == transactionID;
+    });
+    return {static_cast<std::size_t>(found - entries.begin()), found != entries.end(), false};
+}
+
+template <typename TEntry>
+[[nodiscard]] PendingMatch FindPendingByCommand(const std::vector<TEntry>& entries, EAcsCommand command)
+{
+    const auto found = std::find_if(entries.begin(), entries.end(), [command](const TEntry& entry) {
+        return entry.command == command;
+    });
+    return {static_cast<std::size_t>(found - entries.begin()), found != entries.end(), true};
+}
+
+/// From now until the earliest deadline, rounded up, at least zero. Of at least one entry.
+template <typename TEntry>
+[[nodiscard]] std::chrono::milliseconds GetNextDelay(const std::vector<TEntry>& entries, Core::Now now)
+{
+    const auto earliest = std::min_element(entries.begin(), entries.end(), [](const TEntry& left, const TEntry& right) {
+        return left.deadline < right.deadline;
+    });
+    return std::max(
+        std::chrono::ceil<std::chrono::milliseconds>(earliest->deadline - now.steady),
+        std::chrono::milliseconds(0));
+}
+
+} // namespace ACS::Protocol::Detail

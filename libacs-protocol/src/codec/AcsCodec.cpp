@@ -1,0 +1,449 @@
+#include "Fields.hpp"
+#include <acs/json/JsonDocument.hpp>
+#include <acs/protocol/AcsCodec.hpp>
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <utility>
+
+namespace ACS::Json
+{
+
+namespace
+{
+
+Core::Timestamp CutToMilliseconds(const Core::Timestamp& timestamp)
+{
+    return {std::chrono::floor<std::chrono::milliseconds>(timestamp.time), timestamp.offset};
+}
+
+} // namespace
+
+bool ValueDecoder<Core::Timestamp>::TryDecode(
+    const Value& value,
+    Core::Timestamp& out,
+    const FieldBounds& bounds,
+    DecodeContext& context)
+{
+    std::string_view text;
+    if (!TryDecodeString(value, text, bounds, context))
+    {
+        return false;
+    }
+    const Core::Result<Core::Timestamp> timestamp = Core::ParseTimestamp(text);
+    if (!timestamp.has_value())
+    {
+        return context.IsFailedWith(Core::ECoreError::InvalidTimestamp, timestamp.error().expected, &value);
+    }
+    out = CutToMilliseconds(*timestamp);
+    return true;
+}
+
+void ValueEncoder<Core::Timestamp>::Encode(const Core::Timestamp& value, JsonWriter& writer)
+{
+    writer.WriteString(Core::FormatLocal(value.time, value.offset));
+}
+
+bool ValueDecoder<Protocol::EReportResult>::TryDecode(
+    const Value& value,
+    Protocol::EReportResult& out,
+    const FieldBounds& bounds,
+    DecodeContext& context)
+{
+    std::string_view text;
+    if (!TryDecodeString(value, text, bounds, context))
+    {
+        return false;
+    }
+    const bool bSuccess =
+        Protocol::Detail::IsSuccess(text, GetWord(Protocol::EReportResult::Failed), context.GetNotes());
+    out = bSuccess ? Protocol::EReportResult::Success : Protocol::EReportResult::Failed;
+    return true;
+}
+
+bool ValueDecoder<Protocol::SyncConfig>::TryDecode(
+    const Value& value,
+    Protocol::SyncConfig& out,
+    const FieldBounds& bounds,
+    DecodeContext& context)
+{
+    if (!value.IsObject())
+    {
+        return context.IsFailedWith(Core::ECoreError::WrongType, "an object", &value);
+    }
+    return ValueDecoder<Core::JsonText>::TryDecode(value, out.content, bounds, context);
+}
+
+void ValueEncoder<Protocol::SyncConfig>::Encode(const Protocol::SyncConfig& value, JsonWriter& writer)
+{
+    writer.WriteRaw(value.content);
+}
+
+} // namespace ACS::Json
+
+namespace ACS::Protocol
+{
+
+namespace Detail
+{
+
+bool IsSuccess(std::string_view text, std::string_view failureWord, Json::DecodeNotes& notes)
+{
+    const std::string_view successWord = Json::GetWord(EAckResult::Success);
+    if (text == successWord)
+    {
+        return true;
+    }
+    notes.lenientWords += text == failureWord ? 0U : 1U;
+    return Json::IsEqualIgnoringCase(text, successWord) || Json::IsEqualIgnoringCase(text, "ok");
+}
+
+} // namespace Detail
+
+namespace
+{
+
+constexpr std::string_view ACK_SUFFIX = "Ack";
+constexpr std::string_view LEGACY_NAME = "RequestAcsStatus";
+
+using PayloadDecoder = bool (*)(const Json::Value&, AcsPayload&, Json::DecodeContext&);
+
+template <std::size_t INDEX>
+bool TryDecodePayloadAs(const Json::Value& value, AcsPayload& out, Json::DecodeContext& context)
+{
+    return Json::TryDecode(value, out.emplace<INDEX>(), {}, context);
+}
+
+template <std::size_t... INDEX>
+constexpr std::array<PayloadDecoder, COMMAND_COUNT> MakePayloadDecoders(std::index_sequence<INDEX...> /*all*/)
+{
+    return {&TryDecodePayloadAs<INDEX>...};
+}
+
+constexpr std::array<PayloadDecoder, COMMAND_COUNT> PAYLOAD_DECODERS =
+    MakePayloadDecoders(std::make_index_sequence<COMMAND_COUNT>{});
+
+/// An empty payload of the kind that the Ack of this command carries.
+AckPayload MakeAckPayload(EAcsCommand command)
+{
+    if (command <= EAcsCommand::ResumePlan)
+    {
+        return PlanAck{};
+    }
+    if (command == EAcsCommand::RequestAcsPlans || command == EAcsCommand::RequestAcsPlanHistory)
+    {
+        return PlanListAck{};
+    }
+    if (command == EAcsCommand::RequestAcsErrorList)
+    {
+        return ErrorListAck{};
+    }
+    return EmptyAck{};
+}
+
+std::string_view GetStringOrEmpty(const Json::DeferredValue& value)
+{
+    const bool bString = value.valueOrNull != nullptr && value.valueOrNull->IsString();
+    return bString ? std::string_view(value.valueOrNull->GetString(), value.valueOrNull->GetStringLength())
+                   : std::string_view();
+}
+
+/// Reads what can still be told about a payload that could not be decoded.
+std::string FindPlanID(const Json::DeferredValue& payload)
+{
+    if (payload.valueOrNull == nullptr || !payload.valueOrNull->IsObject())
+    {
+        return {};
+    }
+    const auto found = payload.valueOrNull->FindMember("planId");
+    const bool bUsable = found != payload.valueOrNull->MemberEnd() && found->value.IsString()
+        && found->value.GetStringLength() <= Detail::LONGEST_ID;
+    return bUsable ? std::string(found->value.GetString(), found->value.GetStringLength()) : std::string();
+}
+
+/// Takes the suffix off; false where there is none.
+bool TryTakeAckSuffix(std::string_view& name)
+{
+    const bool bAck = name.size() >= ACK_SUFFIX.size()
+        && Json::IsEqualIgnoringCase(name.substr(name.size() - ACK_SUFFIX.size()), ACK_SUFFIX);
+    if (bAck)
+    {
+        name.remove_suffix(ACK_SUFFIX.size());
+    }
+    return bAck;
+}
+
+/// What a text says it is.
+struct WireKind
+{
+    std::optional<EAcsCommand> command;
+    bool bAck = false;
+    bool bLegacyName = false;
+};
+
+WireKind ReadKind(std::string_view commandName, const CodecOptions& options, Json::DecodeNotes& notes)
+{
+    WireKind kind;
+    kind.bAck = TryTakeAckSuffix(commandName);
+    EAcsCommand command = EAcsCommand::ExecutionPlan;
+    bool bExact = commandName == LEGACY_NAME;
+    if (options.bLegacyNames && Json::IsEqualIgnoringCase(commandName, LEGACY_NAME))
+    {
+        kind.command = EAcsCommand::RequestAcsPlans;
+        kind.bLegacyName = true;
+    }
+    else if (Json::TryReadWord(commandName, command, bExact))
+    {
+        kind.command = command;
+    }
+    notes.lenientWords += kind.command.has_value() && !bExact ? 1U : 0U;
+    return kind;
+}
+
+Json::DecodeOptions MakeDecodeOptions(const CodecOptions& options)
+{
+    Json::DecodeOptions decodeOptions;
+    decodeOptions.bUnknownMembersRefused = options.bUnknownMembersRefused;
+    decodeOptions.bNumericStringsAccepted = true;
+    decodeOptions.maximumString = options.maximumString;
+    decodeOptions.maximumArray = options.maximumArray;
+    return decodeOptions;
+}
+
+} // namespace
+
+class AcsCodec::Impl
+{
+public:
+    const CodecOptions options;
+    Json::JsonDocument document;
+
+    explicit Impl(const CodecOptions& codecOptions)
+        : options(codecOptions)
+    {
+    }
+
+    [[nodiscard]] Core::Timestamp ReadTimestamp(const Json::DeferredValue& value, DecodeNotes& notes) const
+    {
+        const Core::Result<Core::Timestamp> timestamp =
+            Core::ParseTimestamp(GetStringOrEmpty(value), options.siteOffset);
+        if (!timestamp.has_value())
+        {
+            ++notes.badTimestamps;
+            return {};
+        }
+        return {std::chrono::floor<std::chrono::milliseconds>(timestamp->time), timestamp->offset};
+    }
+
+    [[nodiscard]] bool TryDecodeRequest(
+        const Detail::WireEnvelope& envelope,
+        EAcsCommand command,
+        AcsRequest& request,
+        DecodeNotes& notes,
+        Json::DecodeContext& context) const
+    {
+        request.transactionID = GetStringOrEmpty(envelope.transactionID);
+        if (request.transactionID.empty() || request.transactionID.size() > Detail::LONGEST_ID)
+        {
+            static_cast<void>(context.IsFailedWith(
+                Core::ECoreError::InvalidIdentifier,
+                "an identifier",
+                envelope.transactionID.valueOrNull));
+            return context.IsFailedAt("transactionId");
+        }
+        request.timestamp = ReadTimestamp(envelope.timestamp, notes);
+        if (envelope.payload.valueOrNull == nullptr)
+        {
+            static_cast<void>(
+                context.IsFailedWith(make_error_code(Core::ECoreError::MissingField), "an object", "nothing, or null"));
+            return context.IsFailedAt("payload");
+        }
+        const PayloadDecoder decoder = PAYLOAD_DECODERS[static_cast<std::size_t>(command)];
+        return decoder(*envelope.payload.valueOrNull, request.payload, context) || context.IsFailedAt("payload");
+    }
+
+    [[nodiscard]] bool TryDecodeAck(
+        const Detail::WireEnvelope& envelope,
+        const WireKind& kind,
+        AcsAck& ack,
+        DecodeNotes& notes,
+        Json::DecodeContext& context) const
+    {
+        ack.command = *kind.command;
+        ack.bLegacyName = kind.bLegacyName;
+        ack.transactionID = GetStringOrEmpty(envelope.transactionID);
+        ack.timestamp = ReadTimestamp(envelope.timestamp, notes);
+        const std::string_view failureWord = Json::GetWord(EAckResult::Fail);
+        const bool bSuccess = Detail::IsSuccess(GetStringOrEmpty(envelope.result), failureWord, context.GetNotes());
+        ack.result = bSuccess ? EAckResult::Success : EAckResult::Fail;
+        ack.message = GetStringOrEmpty(envelope.message);
+        ack.payload = MakeAckPayload(ack.command);
+        if (envelope.payload.valueOrNull == nullptr || std::holds_alternative<EmptyAck>(ack.payload))
+        {
+            return true;
+        }
+        const bool bRead = std::visit(
+            [&](auto& payload) { return Json::TryDecode(*envelope.payload.valueOrNull, payload, {}, context); },
+            ack.payload);
+        return bRead || context.IsFailedAt("payload");
+    }
+
+    /// False with the error in the context.
+    [[nodiscard]] bool TryDecodeMessage(
+        const Detail::WireEnvelope& envelope,
+        const WireKind& kind,
+        DecodeOutcome& outcome,
+        Json::DecodeContext& context) const
+    {
+        if (envelope.command.valueOrNull == nullptr || !envelope.command.valueOrNull->IsString())
+        {
+            static_cast<void>(
+                context.IsFailedWith(Core::ECoreError::MissingField, "a string", envelope.command.valueOrNull));
+            return context.IsFailedAt("command");
+        }
+        if (!kind.command.has_value())
+        {
+            static_cast<void>(context.IsFailedWith(
+                Core::ECoreError::UnknownWord,
+                "a command of MCS-ACS",
+                envelope.command.valueOrNull));
+            return context.IsFailedAt("command");
+        }
+        if (kind.bAck)
+        {
+            return TryDecodeAck(envelope, kind, outcome.message->emplace<AcsAck>(), outcome.notes, context);
+        }
+        AcsRequest& request = std::get<AcsRequest>(*outcome.message);
+        return TryDecodeRequest(envelope, *kind.command, request, outcome.notes, context);
+    }
+};
+
+AcsCodec::AcsCodec(const CodecOptions& options)
+    : _impl(std::make_unique<Impl>(options))
+{
+}
+
+AcsCodec::~AcsCodec() = default;
+
+DecodeOutcome AcsCodec::Decode(std::string_view text)
+{
+    DecodeOutcome outcome;
+    const Json::ParseLimits limits{_impl->options.maximumBytes, _impl->options.maximumDepth};
+    Core::Result<const Json::Value*> root = _impl->document.Parse(text, limits);
+    if (!root.has_value())
+    {
+        outcome.message = tl::unexpected<DecodeFailure>(DecodeFailure{std::move(root.error()), {}, {}, {}, {}, false});
+        return outcome;
+    }
+    Json::DecodeContext context(MakeDecodeOptions(_impl->options));
+    Detail::WireEnvelope envelope;
+    const bool bEnvelope = Json::TryDecode(**root, envelope, {}, context);
+    const std::string_view commandName = GetStringOrEmpty(envelope.command);
+    const WireKind kind = ReadKind(commandName, _impl->options, context.GetNotes());
+    outcome.bLegacyName = kind.bLegacyName;
+    if (!bEnvelope || !_impl->TryDecodeMessage(envelope, kind, outcome, context))
+    {
+        DecodeFailure failure;
+        failure.error = context.TakeError();
+        const bool bNameUsable = commandName.size() <= Detail::LONGEST_ID;
+        failure.commandName = bNameUsable ? std::string(commandName) : std::string();
+        failure.command = kind.command;
+        const std::string_view transactionID = GetStringOrEmpty(envelope.transactionID);
+        failure.transactionID =
+            transactionID.substr(0, transactionID.size() <= Detail::LONGEST_ID ? std::string_view::npos : 0);
+        failure.planID = FindPlanID(envelope.payload);
+        failure.bAck = kind.bAck;
+        outcome.message = tl::unexpected<DecodeFailure>(std::move(failure));
+    }
+    const Json::DecodeNotes& notes = context.GetNotes();
+    outcome.notes.unknownMembers = notes.unknownMembers;
+    outcome.notes.nullOptionals = notes.nullOptionals;
+    outcome.notes.lenientWords = notes.lenientWords;
+    outcome.notes.lenientNumbers = notes.lenientNumbers;
+    return outcome;
+}
+
+void AcsCodec::Encode(const AcsMessage& message, std::string& out) const
+{
+    if (const AcsRequest* requestOrNull = std::get_if<AcsRequest>(&message))
+    {
+        EncodeRequest(*requestOrNull, out);
+    }
+    else
+    {
+        EncodeAck(std::get<AcsAck>(message), out);
+    }
+}
+
+void AcsCodec::EncodeRequest(const AcsRequest& request, std::string& out) const
+{
+    out.clear();
+    Json::JsonWriter writer(out);
+    writer.BeginObject();
+    writer.Key("command");
+    writer.WriteString(GetText(GetCommand(request)));
+    writer.Key("transactionId");
+    writer.WriteString(request.transactionID);
+    writer.Key("timestamp");
+    Json::Encode(request.timestamp, writer);
+    writer.Key("payload");
+    std::visit([&writer](const auto& payload) { Json::Encode(payload, writer); }, request.payload);
+    writer.EndObject();
+}
+
+namespace
+{
+
+/// The members that every response begins with.
+void BeginResponse(
+    std::string_view commandName,
+    std::string_view transactionID,
+    const Core::Timestamp& timestamp,
+    EAckResult result,
+    std::string_view message,
+    Json::JsonWriter& writer)
+{
+    writer.BeginObject();
+    writer.Key("command");
+    std::string name(commandName);
+    name += ACK_SUFFIX;
+    writer.WriteString(name);
+    writer.Key("transactionId");
+    writer.WriteString(transactionID);
+    writer.Key("timestamp");
+    Json::Encode(timestamp, writer);
+    writer.Key("result");
+    writer.WriteString(GetText(result));
+    writer.Key("message");
+    writer.WriteString(message);
+    writer.Key("payload");
+}
+
+} // namespace
+
+void AcsCodec::EncodeAck(const AcsAck& ack, std::string& out) const
+{
+    out.clear();
+    Json::JsonWriter writer(out);
+    const std::string_view commandName = ack.bLegacyName ? LEGACY_NAME : GetText(ack.command);
+    BeginResponse(commandName, ack.transactionID, ack.timestamp, ack.result, ack.message, writer);
+    std::visit([&writer](const auto& payload) { Json::Encode(payload, writer); }, ack.payload);
+    writer.EndObject();
+}
+
+void AcsCodec::EncodeRefusal(
+    std::string_view commandName,
+    std::string_view transactionID,
+    const Core::Timestamp& timestamp,
+    std::string_view reason,
+    std::string& out) const
+{
+    out.clear();
+    Json::JsonWriter writer(out);
+    BeginResponse(commandName, transactionID, timestamp, EAckResult::Fail, reason, writer);
+    Json::Encode(EmptyAck{}, writer);
+    writer.EndObject();
+}
+
+} // namespace ACS::Protocol
