@@ -1,0 +1,302 @@
+#include "BeastLink.hpp"
+#include "EventQueue.hpp"
+#include "SessionTimers.hpp"
+#include "WebSocketUrl.hpp"
+#include <acs/core/Overloaded.hpp>
+#include <acs/protocol/AcsSession.hpp>
+#include <acs/protocol_beast/AcsClient.hpp>
+
+#include <boost/asio/connect.hpp>
+#include <boost/asio/ip/tcp.hpp>
+
+#include <utility>
+
+namespace ACS::ProtocolBeast
+{
+
+using Tcp = boost::asio::ip::tcp;
+using ErrorCode = boost::beast::error_code;
+
+class AcsClient::Impl : public std::enable_shared_from_this<AcsClient::Impl>
+{
+    boost::asio::any_io_executor _executor;
+    const Core::IClock& _clock;
+    Core::Logger _logger;
+    ClientOptions _options;
+    WebSocketUrl _url;
+    Protocol::AcsSession _session;
+    std::shared_ptr<EventQueue> _events;
+    std::shared_ptr<SessionTimers> _timers;
+    Tcp::resolver _resolver;
+    std::shared_ptr<TcpLink> _linkOrNull;
+    Protocol::SessionActions _actions;
+    std::size_t _done = 0;
+    bool _bActing = false;
+
+public:
+    Impl(
+        const boost::asio::any_io_executor& executor,
+        const Core::IClock& clock,
+        Core::IRandom& random,
+        const Core::Logger& logger,
+        const ClientOptions& options,
+        WebSocketUrl url,
+        ISessionHandler& handler)
+        : _executor(executor),
+          _clock(clock),
+          _logger(logger),
+          _options(options),
+          _url(std::move(url)),
+          _session(options.session, random),
+          _events(std::make_shared<EventQueue>(executor, handler)),
+          _resolver(executor)
+    {
+    }
+
+    /// What needs shared_from_this.
+    void Prepare()
+    {
+        _timers = std::make_shared<SessionTimers>(_executor, [weak = weak_from_this()](Protocol::ESessionTimer timer) {
+            if (const auto self = weak.lock())
+            {
+                self->Run([timer](auto& session, Core::Now now, auto& out) { session.OnTimer(timer, now, out); });
+            }
+        });
+    }
+
+    void Detach()
+    {
+        _events->Detach();
+        _timers->Detach();
+        _resolver.cancel();
+        if (_linkOrNull != nullptr)
+        {
+            std::exchange(_linkOrNull, nullptr)->Kill();
+        }
+    }
+
+    /// Runs the session and carries out what it returns, in order, also where that runs the session again.
+    template <typename TCall>
+    void Run(TCall call)
+    {
+        call(_session, _clock.GetNow(), _actions);
+        if (_bActing)
+        {
+            return;
+        }
+        _bActing = true;
+        for (; _done < _actions.size(); ++_done)
+        {
+            const Protocol::SessionAction action = std::move(_actions[_done]);
+            Act(action);
+        }
+        _actions.clear();
+        _done = 0;
+        _bActing = false;
+    }
+
+    [[nodiscard]] const Protocol::AcsSession& GetSession() const
+    {
+        return _session;
+    }
+
+    void SetSiteOffset(std::chrono::minutes offset)
+    {
+        _session.SetSiteOffset(offset);
+    }
+
+private:
+    void Act(const Protocol::SessionAction& action)
+    {
+        std::visit(
+            Core::Overloaded{
+                [this](const Protocol::SendText& send) {
+                    if (_linkOrNull != nullptr)
+                    {
+                        _linkOrNull->Send(send.text, send.bDroppable);
+                    }
+                },
+                [this](const Protocol::Connect& /*connect*/) { ConnectAsync(); },
+                [this](const Protocol::Close& close) {
+                    _resolver.cancel();
+                    if (_linkOrNull != nullptr)
+                    {
+                        _linkOrNull->Close(close.code, close.reason);
+                    }
+                },
+                [this](const Protocol::StartTimer& start) { _timers->Start(start); },
+                [this](const Protocol::CancelTimer& cancel) { _timers->Cancel(cancel.timer); },
+                [this](const Protocol::Deliver& deliver) { _events->Push(deliver.event); },
+            },
+            action);
+    }
+
+    void ConnectAsync()
+    {
+        _logger.Debug("connecting", {{"url", _options.url}});
+        auto link = std::make_shared<TcpLink>(boost::beast::tcp_stream(_executor), _options.link, MakeOwner());
+        _linkOrNull = link;
+        link->GetStream().expires_after(_options.link.handshakeTimeout);
+        _resolver.async_resolve(
+            _url.host,
+            _url.port,
+            [weak = weak_from_this(), link](ErrorCode error, const Tcp::resolver::results_type& results) {
+                const auto self = weak.lock();
+                if (self == nullptr || self->_linkOrNull != link)
+                {
+                    return;
+                }
+                if (error)
+                {
+                    link->Abort("cannot find " + self->_url.host + ": " + error.message());
+                    return;
+                }
+                self->ConnectToAsync(link, results);
+            });
+    }
+
+    void ConnectToAsync(const std::shared_ptr<TcpLink>& link, const Tcp::resolver::results_type& results)
+    {
+        link->GetStream().async_connect(
+            results,
+            [weak = weak_from_this(), link](ErrorCode error, const Tcp::endpoint& /*endpoint*/) {
+                const auto self = weak.lock();
+                if (self == nullptr || self->_linkOrNull != link)
+                {
+                    return;
+                }
+                if (error)
+                {
+                    link->Abort(
+                        "cannot connect to " + self->_url.host + ":" + self->_url.port + ": " + error.message());
+                    return;
+                }
+                const std::string& host = self->_options.host.empty() ? self->_url.hostHeader : self->_options.host;
+                link->HandshakeAsync(host, self->_url.target, self->_options.headers);
+            });
+    }
+
+    LinkOwner MakeOwner()
+    {
+        const std::weak_ptr<Impl> weak = weak_from_this();
+        LinkOwner owner;
+        owner.onOpen = [weak] {
+            if (const auto self = weak.lock())
+            {
+                self->_logger.Info("connected", {{"url", self->_options.url}});
+                self->Run([](auto& session, Core::Now now, auto& out) { session.OnConnected(now, out); });
+            }
+        };
+        owner.onText = [weak](std::string_view text) {
+            if (const auto self = weak.lock())
+            {
+                self->Run([text](auto& session, Core::Now now, auto& out) { session.OnText(text, now, out); });
+            }
+        };
+        owner.onClosed = [weak](const std::string& reason) {
+            if (const auto self = weak.lock())
+            {
+                self->_linkOrNull = nullptr;
+                self->_logger.Debug("not connected", {{"url", self->_options.url}, {"reason", reason}});
+                self->Run([&reason](auto& session, Core::Now now, auto& out) { session.OnClosed(reason, now, out); });
+            }
+        };
+        return owner;
+    }
+};
+
+AcsClient::AcsClient(std::shared_ptr<Impl> impl)
+    : _impl(std::move(impl))
+{
+}
+
+AcsClient::~AcsClient()
+{
+    _impl->Detach();
+}
+
+Core::Result<std::unique_ptr<AcsClient>> AcsClient::Create(
+    const boost::asio::any_io_executor& executor,
+    const Core::IClock& clock,
+    Core::IRandom& random,
+    const Core::Logger& logger,
+    const ClientOptions& options,
+    ISessionHandler& handler)
+{
+    Core::Result<WebSocketUrl> url = ParseWebSocketUrl(options.url);
+    if (!url.has_value())
+    {
+        return tl::unexpected<Core::Error>(std::move(url.error()));
+    }
+    auto impl = std::make_shared<Impl>(executor, clock, random, logger, options, std::move(*url), handler);
+    impl->Prepare();
+    return std::unique_ptr<AcsClient>(new AcsClient(std::move(impl))); // the constructor is private
+}
+
+void AcsClient::Start()
+{
+    _impl->Run([](auto& session, Core::Now now, auto& out) { session.Start(now, out); });
+}
+
+void AcsClient::Stop()
+{
+    _impl->Run([](auto& session, Core::Now now, auto& out) { session.Stop(now, out); });
+}
+
+bool AcsClient::TrySendDurable(const Protocol::AcsRequest& request)
+{
+    bool bTaken = false;
+    _impl->Run([&request, &bTaken](auto& session, Core::Now now, auto& out) {
+        bTaken = session.TrySendDurable(request, now, out);
+    });
+    return bTaken;
+}
+
+void AcsClient::ReplayDone()
+{
+    _impl->Run([](auto& session, Core::Now now, auto& out) { session.ReplayDone(now, out); });
+}
+
+void AcsClient::SendStatus(const Protocol::AcsPayload& status)
+{
+    _impl->Run([&status](auto& session, Core::Now now, auto& out) { session.SendStatus(status, now, out); });
+}
+
+void AcsClient::SendPosition(const Protocol::RobotPositionUpdate& positions)
+{
+    _impl->Run([&positions](auto& session, Core::Now now, auto& out) { session.SendPosition(positions, now, out); });
+}
+
+void AcsClient::Answer(
+    Protocol::EAcsCommand command,
+    std::string_view transactionID,
+    Protocol::EAckResult result,
+    std::string_view message,
+    const Protocol::AckPayload& payload)
+{
+    _impl->Run([&](auto& session, Core::Now now, auto& out) {
+        session.Answer(command, transactionID, result, message, payload, now, out);
+    });
+}
+
+void AcsClient::SetSiteOffset(std::chrono::minutes offset)
+{
+    _impl->SetSiteOffset(offset);
+}
+
+bool AcsClient::IsRegistered() const
+{
+    return _impl->GetSession().IsRegistered();
+}
+
+std::size_t AcsClient::GetRoom() const
+{
+    return _impl->GetSession().GetRoom();
+}
+
+const Protocol::SessionStatistics& AcsClient::GetStatistics() const
+{
+    return _impl->GetSession().GetStatistics();
+}
+
+} // namespace ACS::ProtocolBeast

@@ -1,0 +1,424 @@
+#include "BeastLink.hpp"
+#include "EventQueue.hpp"
+#include "SessionTimers.hpp"
+#include "UpgradeGate.hpp"
+#include <acs/core/Overloaded.hpp>
+#include <acs/protocol/McsSession.hpp>
+#include <acs/protocol_beast/McsServer.hpp>
+
+#include <boost/asio/ip/tcp.hpp>
+
+#include <map>
+#include <utility>
+
+namespace ACS::ProtocolBeast
+{
+
+namespace
+{
+
+namespace http = boost::beast::http;
+
+using Tcp = boost::asio::ip::tcp;
+using ErrorCode = boost::beast::error_code;
+
+constexpr std::chrono::milliseconds ACCEPT_PAUSE{200};
+
+std::string_view StripTarget(std::string_view target)
+{
+    target = target.substr(0, target.find_first_of("?#"));
+    while (!target.empty() && target.back() == '/')
+    {
+        target.remove_suffix(1);
+    }
+    return target;
+}
+
+} // namespace
+
+class McsServer::Impl : public std::enable_shared_from_this<McsServer::Impl>
+{
+    boost::asio::any_io_executor _executor;
+    const Core::IClock& _clock;
+    Core::Logger _logger;
+    ServerOptions _options;
+    Protocol::McsSession _session;
+    std::shared_ptr<EventQueue> _events;
+    std::shared_ptr<SessionTimers> _timers;
+    Tcp::acceptor _acceptor;
+    boost::asio::steady_timer _acceptTimer;
+    std::map<Protocol::ConnectionID, std::shared_ptr<UpgradeGate>> _gates;
+    std::map<Protocol::ConnectionID, std::shared_ptr<TcpLink>> _links;
+    Protocol::ConnectionID _lastID = 0;
+    Protocol::SessionActions _actions;
+    std::size_t _done = 0;
+    bool _bActing = false;
+
+public:
+    Impl(
+        const boost::asio::any_io_executor& executor,
+        const Core::IClock& clock,
+        Core::IRandom& random,
+        const Core::Logger& logger,
+        const ServerOptions& options,
+        ISessionHandler& handler)
+        : _executor(executor),
+          _clock(clock),
+          _logger(logger),
+          _options(options),
+          _session(options.session, random),
+          _events(std::make_shared<EventQueue>(executor, handler)),
+          _acceptor(executor),
+          _acceptTimer(executor)
+    {
+    }
+
+    Core::Result<void> Listen()
+    {
+        _timers = std::make_shared<SessionTimers>(_executor, [weak = weak_from_this()](Protocol::ESessionTimer timer) {
+            if (const auto self = weak.lock())
+            {
+                self->Run([timer](auto& session, Core::Now now, auto& out) { session.OnTimer(timer, now, out); });
+            }
+        });
+        const std::string where = _options.address + ":" + std::to_string(_options.port);
+        ErrorCode error;
+        const auto address = boost::asio::ip::make_address(_options.address, error);
+        if (error)
+        {
+            return Core::Fail(error, where, "a numeric IP address to listen on, such as 127.0.0.1", _options.address);
+        }
+        const Tcp::endpoint endpoint(address, _options.port);
+        _acceptor.open(endpoint.protocol(), error);
+        if (!error)
+        {
+            _acceptor.set_option(Tcp::acceptor::reuse_address(true), error);
+        }
+        if (!error)
+        {
+            _acceptor.bind(endpoint, error);
+        }
+        if (!error)
+        {
+            _acceptor.listen(boost::asio::socket_base::max_listen_connections, error);
+        }
+        if (error)
+        {
+            const char* const advice =
+                "an address and port free to listen on (stop the program that has it, or take another port)";
+            return Core::Fail(error, where, advice, error.message());
+        }
+        AcceptAsync();
+        return {};
+    }
+
+    void Detach()
+    {
+        _events->Detach();
+        if (_timers != nullptr)
+        {
+            _timers->Detach();
+        }
+        StopListening();
+        for (const auto& [connection, gate] : std::exchange(_gates, {}))
+        {
+            gate->Kill();
+        }
+        for (const auto& [connection, link] : std::exchange(_links, {}))
+        {
+            link->Kill();
+        }
+    }
+
+    void Stop()
+    {
+        StopListening();
+        for (const auto& [connection, gate] : std::exchange(_gates, {}))
+        {
+            gate->Kill();
+        }
+        for (const auto& [connection, link] : _links)
+        {
+            link->Close(Protocol::CLOSE_NORMAL, "shutting down");
+        }
+    }
+
+    void Cut()
+    {
+        const auto found = _links.find(_session.GetRegisteredOrNull().value_or(0));
+        if (found != _links.end())
+        {
+            found->second->Abort("cut");
+        }
+    }
+
+    template <typename TCall>
+    void Run(TCall call)
+    {
+        call(_session, _clock.GetNow(), _actions);
+        if (_bActing)
+        {
+            return;
+        }
+        _bActing = true;
+        for (; _done < _actions.size(); ++_done)
+        {
+            const Protocol::SessionAction action = std::move(_actions[_done]);
+            Act(action);
+        }
+        _actions.clear();
+        _done = 0;
+        _bActing = false;
+    }
+
+    [[nodiscard]] std::uint16_t GetPort() const
+    {
+        ErrorCode error;
+        const Tcp::endpoint endpoint = _acceptor.local_endpoint(error);
+        return error ? _options.port : endpoint.port();
+    }
+
+    [[nodiscard]] const Protocol::McsSession& GetSession() const
+    {
+        return _session;
+    }
+
+private:
+    void StopListening()
+    {
+        ErrorCode ignored;
+        _options.port = GetPort();
+        _acceptor.close(ignored);
+        _acceptTimer.cancel();
+    }
+
+    void AcceptAsync()
+    {
+        _acceptor.async_accept([weak = weak_from_this()](ErrorCode error, Tcp::socket socket) {
+            const auto self = weak.lock();
+            if (self == nullptr || !self->_acceptor.is_open())
+            {
+                return;
+            }
+            if (error)
+            {
+                self->PauseAsync(error);
+                return;
+            }
+            self->OnAccepted(std::move(socket));
+            self->AcceptAsync();
+        });
+    }
+
+    /// No descriptor is free, for example: trying again at once would only burn the processor.
+    void PauseAsync(ErrorCode error)
+    {
+        _logger.Warning("cannot accept a connection", {{"reason", error.message()}});
+        _acceptTimer.expires_after(ACCEPT_PAUSE);
+        _acceptTimer.async_wait([weak = weak_from_this()](ErrorCode waitError) {
+            const auto self = weak.lock();
+            if (!waitError && self != nullptr && self->_acceptor.is_open())
+            {
+                self->AcceptAsync();
+            }
+        });
+    }
+
+    void OnAccepted(Tcp::socket socket)
+    {
+        if (_gates.size() + _links.size() >= _options.maximumClients)
+        {
+            _logger.Warning("refused a connection: too many clients", {});
+            return;
+        }
+        const Protocol::ConnectionID connection = ++_lastID;
+        const std::weak_ptr<Impl> weak = weak_from_this();
+        const auto gate = std::make_shared<UpgradeGate>(
+            boost::beast::tcp_stream(std::move(socket)),
+            [weak](const UpgradeRequest& request) -> std::optional<UpgradeRefusal> {
+                const auto self = weak.lock();
+                return self == nullptr ? UpgradeRefusal{http::status::service_unavailable, {}}
+                                       : self->JudgeOrNull(request);
+            },
+            [weak, connection](boost::beast::tcp_stream&& stream, const UpgradeRequest& request) {
+                if (const auto self = weak.lock())
+                {
+                    self->OnUpgrade(connection, std::move(stream), request);
+                }
+            },
+            [weak, connection] {
+                if (const auto self = weak.lock())
+                {
+                    self->_gates.erase(connection);
+                }
+            });
+        _gates.emplace(connection, gate);
+        gate->RunAsync(_options.link.handshakeTimeout);
+    }
+
+    [[nodiscard]] std::optional<UpgradeRefusal> JudgeOrNull(const UpgradeRequest& request) const
+    {
+        const std::string_view target(request.target().data(), request.target().size());
+        if (StripTarget(target) != StripTarget(_options.path))
+        {
+            return UpgradeRefusal{http::status::not_found, "The ACS connects at " + _options.path + ".\n"};
+        }
+        if (!boost::beast::websocket::is_upgrade(request))
+        {
+            return UpgradeRefusal{
+                http::status::upgrade_required,
+                "This is the MCS end of MCS-ACS: connect with a WebSocket.\n"};
+        }
+        if (_session.ShouldRefuseUpgrade())
+        {
+            return UpgradeRefusal{http::status::forbidden, "An ACS is connected already.\n"};
+        }
+        return std::nullopt;
+    }
+
+    void OnUpgrade(Protocol::ConnectionID connection, boost::beast::tcp_stream&& stream, const UpgradeRequest& request)
+    {
+        const auto link = std::make_shared<TcpLink>(std::move(stream), _options.link, MakeOwner(connection));
+        _links.emplace(connection, link);
+        link->AcceptAsync(request);
+    }
+
+    LinkOwner MakeOwner(Protocol::ConnectionID connection)
+    {
+        const std::weak_ptr<Impl> weak = weak_from_this();
+        LinkOwner owner;
+        owner.onOpen = [weak, connection] {
+            if (const auto self = weak.lock())
+            {
+                self->Run([connection](auto& session, Core::Now now, auto& out) {
+                    session.OnConnected(connection, now, out);
+                });
+            }
+        };
+        owner.onText = [weak, connection](std::string_view text) {
+            if (const auto self = weak.lock())
+            {
+                self->Run([connection, text](auto& session, Core::Now now, auto& out) {
+                    session.OnText(connection, text, now, out);
+                });
+            }
+        };
+        owner.onClosed = [weak, connection](const std::string& reason) {
+            if (const auto self = weak.lock())
+            {
+                self->_logger.Debug("client gone", {{"reason", reason}});
+                self->_links.erase(connection);
+                self->Run([connection, &reason](auto& session, Core::Now now, auto& out) {
+                    session.OnClosed(connection, reason, now, out);
+                });
+            }
+        };
+        return owner;
+    }
+
+    void Act(const Protocol::SessionAction& action)
+    {
+        std::visit(
+            Core::Overloaded{
+                [this](const Protocol::SendText& send) {
+                    const auto found = _links.find(send.connection);
+                    if (found != _links.end())
+                    {
+                        found->second->Send(send.text, send.bDroppable);
+                    }
+                },
+                [](const Protocol::Connect& /*connect*/) {},
+                [this](const Protocol::Close& close) {
+                    const auto found = _links.find(close.connection);
+                    if (found != _links.end())
+                    {
+                        found->second->Close(close.code, close.reason);
+                    }
+                },
+                [this](const Protocol::StartTimer& start) { _timers->Start(start); },
+                [this](const Protocol::CancelTimer& cancel) { _timers->Cancel(cancel.timer); },
+                [this](const Protocol::Deliver& deliver) { _events->Push(deliver.event); },
+            },
+            action);
+    }
+};
+
+McsServer::McsServer(std::shared_ptr<Impl> impl)
+    : _impl(std::move(impl))
+{
+}
+
+McsServer::~McsServer()
+{
+    _impl->Detach();
+}
+
+Core::Result<std::unique_ptr<McsServer>> McsServer::Create(
+    const boost::asio::any_io_executor& executor,
+    const Core::IClock& clock,
+    Core::IRandom& random,
+    const Core::Logger& logger,
+    const ServerOptions& options,
+    ISessionHandler& handler)
+{
+    auto impl = std::make_shared<Impl>(executor, clock, random, logger, options, handler);
+    Core::Result<void> listened = impl->Listen();
+    if (!listened.has_value())
+    {
+        return tl::unexpected<Core::Error>(std::move(listened.error()));
+    }
+    return std::unique_ptr<McsServer>(new McsServer(std::move(impl))); // the constructor is private
+}
+
+std::uint16_t McsServer::GetPort() const
+{
+    return _impl->GetPort();
+}
+
+void McsServer::Stop()
+{
+    _impl->Stop();
+}
+
+Protocol::AcsRequest McsServer::MakeRequest(Protocol::AcsPayload payload)
+{
+    Protocol::AcsRequest request;
+    _impl->Run(
+        [&](auto& session, Core::Now now, auto& /*out*/) { request = session.MakeRequest(std::move(payload), now); });
+    return request;
+}
+
+bool McsServer::TrySend(const Protocol::AcsRequest& request)
+{
+    bool bTaken = false;
+    _impl->Run(
+        [&request, &bTaken](auto& session, Core::Now now, auto& out) { bTaken = session.TrySend(request, now, out); });
+    return bTaken;
+}
+
+void McsServer::Drop(std::uint16_t code, std::string_view reason)
+{
+    _impl->Run([code, reason](auto& session, Core::Now /*now*/, auto& out) { session.Drop(code, reason, out); });
+}
+
+void McsServer::Cut()
+{
+    _impl->Cut();
+}
+
+bool McsServer::IsRegistered() const
+{
+    return _impl->GetSession().IsRegistered();
+}
+
+std::size_t McsServer::GetPendingCount() const
+{
+    return _impl->GetSession().GetPendingCount();
+}
+
+const Protocol::SessionStatistics& McsServer::GetStatistics() const
+{
+    return _impl->GetSession().GetStatistics();
+}
+
+} // namespace ACS::ProtocolBeast

@@ -28,7 +28,7 @@ class AcsClient
     explicit AcsClient(std::shared_ptr<Impl> impl);
 
 public:
-    /// Fails with a sentence about the URL or the certificate files; opens no connection. Clock, random source, log sink
+    /// Fails with a sentence about the URL; opens no connection. Clock, random source, log sink
     /// and handler outlive the client.
     [[nodiscard]] static Core::Result<std::unique_ptr<AcsClient>> Create(
         const boost::asio::any_io_executor& executor,

@@ -25,12 +25,9 @@ struct LinkOptions
 /// Where and how an AcsClient connects.
 struct ClientOptions
 {
-    std::string url;                                          ///< `mcs.url`: ws://host[:port]/path or wss://…
-    std::string host;                                         ///< Host header, where it must differ from the URL's.
+    std::string url;  ///< `mcs.url`: ws://host[:port][/path]; wss is refused with a sentence.
+    std::string host; ///< Host header, where it must differ from the URL's.
     std::vector<std::pair<std::string, std::string>> headers; ///< `mcs.headers`, for example Authorization.
-    std::string caFile;          ///< wss: PEM of the authorities to trust; empty: those of the system.
-    std::string certificateFile; ///< wss: PEM of the own certificate chain; empty: none.
-    std::string keyFile;         ///< wss: PEM of its key.
     LinkOptions link{};
     Protocol::SessionOptions session{};
 };

@@ -1,0 +1,84 @@
+#include "WebSocketUrl.hpp"
+
+#include <acs/core/ECoreError.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+
+namespace ACS::ProtocolBeast
+{
+
+namespace
+{
+
+constexpr std::string_view EXPECTED = "ws://host[:port][/path]";
+constexpr std::string_view DEFAULT_PORT = "80";
+
+tl::unexpected<Core::Error> Refuse(std::string_view expected, std::string_view text)
+{
+    return Core::Fail(Core::ECoreError::OutOfRange, "url", std::string(expected), std::string(text));
+}
+
+bool IsPort(std::string_view text)
+{
+    std::uint16_t port = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+    return error == std::errc() && end == text.data() + text.size() && port != 0;
+}
+
+/// What no URL may have anywhere: it would end up in the lines of the HTTP request.
+bool HasForbiddenByte(std::string_view text)
+{
+    return std::any_of(text.begin(), text.end(), [](char byte) {
+        return static_cast<unsigned char>(byte) <= ' ' || byte == '\x7F';
+    });
+}
+
+} // namespace
+
+Core::Result<WebSocketUrl> ParseWebSocketUrl(std::string_view text)
+{
+    constexpr std::string_view PLAIN = "ws://";
+    constexpr std::string_view SECURE = "wss://";
+    if (text.substr(0, SECURE.size()) == SECURE)
+    {
+        return Refuse("ws:// (TLS is not supported by this version; put a TLS proxy in front)", text);
+    }
+    if (text.substr(0, PLAIN.size()) != PLAIN || HasForbiddenByte(text))
+    {
+        return Refuse(EXPECTED, text);
+    }
+    const std::string_view rest = text.substr(PLAIN.size());
+    const std::size_t authorityEnd = std::min(rest.find_first_of("/?#"), rest.size());
+    const std::string_view authority = rest.substr(0, authorityEnd);
+    std::string_view target = rest.substr(authorityEnd);
+    target = target.substr(0, target.find('#'));
+
+    std::string_view host = authority;
+    std::string_view port;
+    const std::size_t bracket = authority.find(']');
+    const std::size_t colon = authority.find(':', bracket == std::string_view::npos ? 0 : bracket);
+    if (colon != std::string_view::npos)
+    {
+        host = authority.substr(0, colon);
+        port = authority.substr(colon + 1);
+    }
+    if (host.size() > 2 && host.front() == '[' && host.back() == ']')
+    {
+        host = host.substr(1, host.size() - 2);
+    }
+    if (host.empty() || host.find_first_of("@[]") != std::string_view::npos
+        || (colon != std::string_view::npos && !IsPort(port)))
+    {
+        return Refuse(EXPECTED, text);
+    }
+    WebSocketUrl url;
+    url.host = host;
+    url.port = port.empty() ? DEFAULT_PORT : port;
+    url.hostHeader = authority;
+    url.target = target.empty() || target.front() != '/' ? "/" + std::string(target) : std::string(target);
+    return url;
+}
+
+} // namespace ACS::ProtocolBeast
