@@ -1,3 +1,4 @@
+#include "ActionPump.hpp"
 #include "BeastLink.hpp"
 #include "EventQueue.hpp"
 #include "SessionTimers.hpp"
@@ -29,9 +30,7 @@ class AcsClient::Impl : public std::enable_shared_from_this<AcsClient::Impl>
     std::shared_ptr<SessionTimers> _timers;
     Tcp::resolver _resolver;
     std::shared_ptr<TcpLink> _linkOrNull;
-    Protocol::SessionActions _actions;
-    std::size_t _done = 0;
-    bool _bActing = false;
+    ActionPump _pump;
 
 public:
     Impl(
@@ -75,24 +74,12 @@ public:
         }
     }
 
-    /// Runs the session and carries out what it returns, in order, also where that runs the session again.
     template <typename TCall>
     void Run(TCall call)
     {
-        call(_session, _clock.GetNow(), _actions);
-        if (_bActing)
-        {
-            return;
-        }
-        _bActing = true;
-        for (; _done < _actions.size(); ++_done)
-        {
-            const Protocol::SessionAction action = std::move(_actions[_done]);
-            Act(action);
-        }
-        _actions.clear();
-        _done = 0;
-        _bActing = false;
+        _pump.Run(
+            [this, &call](Protocol::SessionActions& out) { call(_session, _clock.GetNow(), out); },
+            [this](const Protocol::SessionAction& action) { Act(action); });
     }
 
     [[nodiscard]] const Protocol::AcsSession& GetSession() const

@@ -1,3 +1,4 @@
+#include "ActionPump.hpp"
 #include "BeastLink.hpp"
 #include "EventQueue.hpp"
 #include "SessionTimers.hpp"
@@ -50,9 +51,7 @@ class McsServer::Impl : public std::enable_shared_from_this<McsServer::Impl>
     std::map<Protocol::ConnectionID, std::shared_ptr<UpgradeGate>> _gates;
     std::map<Protocol::ConnectionID, std::shared_ptr<TcpLink>> _links;
     Protocol::ConnectionID _lastID = 0;
-    Protocol::SessionActions _actions;
-    std::size_t _done = 0;
-    bool _bActing = false;
+    ActionPump _pump;
 
 public:
     Impl(
@@ -155,20 +154,9 @@ public:
     template <typename TCall>
     void Run(TCall call)
     {
-        call(_session, _clock.GetNow(), _actions);
-        if (_bActing)
-        {
-            return;
-        }
-        _bActing = true;
-        for (; _done < _actions.size(); ++_done)
-        {
-            const Protocol::SessionAction action = std::move(_actions[_done]);
-            Act(action);
-        }
-        _actions.clear();
-        _done = 0;
-        _bActing = false;
+        _pump.Run(
+            [this, &call](Protocol::SessionActions& out) { call(_session, _clock.GetNow(), out); },
+            [this](const Protocol::SessionAction& action) { Act(action); });
     }
 
     [[nodiscard]] std::uint16_t GetPort() const

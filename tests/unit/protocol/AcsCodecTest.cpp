@@ -1,0 +1,425 @@
+#include "Catch.hpp"
+#include "Fixture.hpp"
+#include <acs/json/JsonDocument.hpp>
+#include <acs/protocol/AcsCodec.hpp>
+
+#include <string>
+#include <vector>
+
+using namespace ACS; // NOLINT(google-build-using-namespace)
+using Protocol::AcsAck;
+using Protocol::AcsCodec;
+using Protocol::AcsMessage;
+using Protocol::AcsRequest;
+using Protocol::DecodeFailure;
+using Protocol::DecodeOutcome;
+using Protocol::EAckResult;
+using Protocol::EAcsCommand;
+using Testing::MakeAckText;
+using Testing::MakeRequestText;
+using Testing::ReadFixture;
+
+namespace
+{
+
+/// The two whose spelling is not the one that is sent.
+const std::vector<std::string>& GetOddFixtures()
+{
+    static const std::vector<std::string> NAMES{"JobReport", "RequestAcsPlansAck"};
+    return NAMES;
+}
+
+const std::vector<std::string>& GetExactFixtures()
+{
+    static const std::vector<std::string> NAMES{
+        "AbortPlan",
+        "AbortPlanAck",
+        "AbortResultReport",
+        "AbortResultReportAck",
+        "AcsCommStateUpdate",
+        "AcsCommStateUpdateAck",
+        "CancelPlan",
+        "CancelPlanAck",
+        "CancelResultReport",
+        "CancelResultReportAck",
+        "ErrorReport",
+        "ErrorReportAck",
+        "ExecutionPlanAck",
+        "ExecutionPlanCR",
+        "ExecutionPlanLR",
+        "JobReportAck",
+        "PausePlan",
+        "PausePlanAck",
+        "PauseResultReport",
+        "PauseResultReportAck",
+        "PlanReport",
+        "PlanReportAck",
+        "Registration",
+        "RegistrationAck",
+        "RequestAcsErrorList",
+        "RequestAcsErrorListAck",
+        "RequestAcsPlanHistory",
+        "RequestAcsPlanHistoryAck",
+        "RequestAcsPlans",
+        "ResumePlan",
+        "ResumePlanAck",
+        "ResumeResultReport",
+        "ResumeResultReportAck",
+        "RobotPositionUpdate",
+        "RobotStatusUpdateAck",
+        "RobotStatusUpdateCR",
+        "RobotStatusUpdateEmptyPort",
+        "RobotStatusUpdateLR",
+        "StepReport",
+        "StepReportAck",
+        "SyncConfigAck",
+        "TscStateUpdate",
+        "TscStateUpdateAck",
+    };
+    return NAMES;
+}
+
+bool IsSameJson(const std::string& left, const std::string& right)
+{
+    Json::JsonDocument leftDocument;
+    Json::JsonDocument rightDocument;
+    const auto leftRoot = leftDocument.Parse(left, {});
+    const auto rightRoot = rightDocument.Parse(right, {});
+    REQUIRE(leftRoot.has_value());
+    REQUIRE(rightRoot.has_value());
+    return **leftRoot == **rightRoot;
+}
+
+AcsMessage DecodeOrFail(AcsCodec& codec, const std::string& text)
+{
+    DecodeOutcome outcome = codec.Decode(text);
+    INFO(text);
+    if (!outcome.message.has_value())
+    {
+        FAIL(Core::Describe(outcome.message.error().error));
+    }
+    return *outcome.message;
+}
+
+DecodeFailure FailOrDecode(AcsCodec& codec, const std::string& text)
+{
+    DecodeOutcome outcome = codec.Decode(text);
+    INFO(text);
+    REQUIRE_FALSE(outcome.message.has_value());
+    return outcome.message.error();
+}
+
+const Protocol::ExecutionPlan& GetPlan(const AcsMessage& message)
+{
+    return std::get<Protocol::ExecutionPlan>(std::get<AcsRequest>(message).payload);
+}
+
+} // namespace
+
+TEST_CASE("6.2-6.21 Every example decodes, and encodes to the same JSON")
+{
+    AcsCodec codec;
+    for (const std::string& name : GetExactFixtures())
+    {
+        INFO(name);
+        const std::string text = ReadFixture(name);
+        const AcsMessage message = DecodeOrFail(codec, text);
+        std::string encoded;
+        codec.Encode(message, encoded);
+        INFO(encoded);
+        CHECK(IsSameJson(encoded, text));
+        CHECK(DecodeOrFail(codec, encoded) == message);
+        CHECK(encoded.find('\n') == std::string::npos);
+    }
+}
+
+TEST_CASE("6.10, 6.14, D-2, D-3 The document's odd spellings are read, noted, and not sent")
+{
+    AcsCodec codec;
+    for (const std::string& name : GetOddFixtures())
+    {
+        INFO(name);
+        const std::string text = ReadFixture(name);
+        CHECK(codec.Decode(text).notes.lenientWords == 1);
+        const AcsMessage message = DecodeOrFail(codec, text);
+        std::string encoded;
+        codec.Encode(message, encoded);
+        CHECK(DecodeOrFail(codec, encoded) == message);
+        CHECK(codec.Decode(encoded).notes == Protocol::DecodeNotes{});
+        CHECK_FALSE(IsSameJson(encoded, text));
+    }
+}
+
+TEST_CASE("6.4 The control robot's example has the values of the document")
+{
+    AcsCodec codec;
+    const AcsMessage message = DecodeOrFail(codec, ReadFixture("ExecutionPlanCR"));
+    const Protocol::ExecutionPlan& plan = GetPlan(message);
+    CHECK(plan.planID == "PLAN-20250702-001");
+    CHECK(plan.priority == 10);
+    REQUIRE(plan.steps.size() == 3);
+    CHECK(plan.steps[0].carrierIDs == std::vector<std::string>{"TRAY_01", "TRAY_02"});
+    CHECK(plan.steps[1].action == "MemoryPickAndPlace");
+    CHECK(plan.steps[2].jobs[1].from == "AMR.TP02");
+    CHECK(std::get<AcsRequest>(message).timestamp.offset == std::chrono::hours(9));
+}
+
+TEST_CASE("R18 carrierIds of MemoryPickAndPlace is written, and empty")
+{
+    AcsCodec codec;
+    AcsMessage message = DecodeOrFail(codec, ReadFixture("ExecutionPlanCR"));
+    CHECK(GetPlan(message).steps[1].carrierIDs.empty());
+    std::string encoded;
+    codec.Encode(message, encoded);
+    CHECK(encoded.find(R"("carrierIds":[],"jobs")") != std::string::npos);
+}
+
+TEST_CASE("R13 An empty port is null in carrierIds, in both directions")
+{
+    AcsCodec codec;
+    const AcsMessage message = DecodeOrFail(codec, ReadFixture("RobotStatusUpdateEmptyPort"));
+    const auto& status = std::get<Protocol::RobotStatusUpdate>(std::get<AcsRequest>(message).payload);
+    REQUIRE(status.carrierIDs.size() == 3);
+    CHECK_FALSE(status.carrierIDs[0].has_value());
+    std::string encoded;
+    codec.Encode(message, encoded);
+    CHECK(encoded.find(R"("carrierIds":[null,"TRAY_02","TRAY_03"])") != std::string::npos);
+}
+
+TEST_CASE("R19 Timestamps are written as local time with offset, and read in any form")
+{
+    AcsCodec codec;
+    for (const std::string time :
+         {"2025-07-02T21:00:00.1234567+09:00", "2025-07-02T12:00:00.123Z", "2025-07-02T21:00:00.123+0900"})
+    {
+        const AcsMessage message = DecodeOrFail(
+            codec,
+            R"({"command":"RequestAcsPlans","transactionId":"t","timestamp":")" + time + R"(","payload":{}})");
+        const auto since = std::get<AcsRequest>(message).timestamp.time.time_since_epoch();
+        CHECK(since == std::chrono::milliseconds(1'751'457'600'123));
+    }
+    Protocol::CodecOptions options;
+    options.siteOffset = std::chrono::hours(9);
+    AcsCodec local(options);
+    const AcsMessage message = DecodeOrFail(
+        local,
+        R"({"command":"RequestAcsPlans","transactionId":"t","timestamp":"2025-07-02T21:00:00.123","payload":{}})");
+    std::string encoded;
+    local.Encode(message, encoded);
+    CHECK(encoded.find(R"("timestamp":"2025-07-02T21:00:00.123+09:00")") != std::string::npos);
+}
+
+TEST_CASE("2 A missing or bad timestamp is accepted and counted")
+{
+    AcsCodec codec;
+    const DecodeOutcome missing = codec.Decode(R"({"command":"RequestAcsPlans","transactionId":"t","payload":{}})");
+    CHECK(missing.message.has_value());
+    CHECK(missing.notes.badTimestamps == 1);
+    const DecodeOutcome bad =
+        codec.Decode(R"({"command":"RequestAcsPlans","transactionId":"t","timestamp":"yesterday","payload":{}})");
+    CHECK(bad.message.has_value());
+    CHECK(bad.notes.badTimestamps == 1);
+}
+
+TEST_CASE("13.1 A request with result and message null and escapes in the time is a request")
+{
+    AcsCodec codec;
+    const std::string text =
+        "{\"command\":\"CancelPlan\",\"transactionId\":\"t\",\"timestamp\":\"2025-07-02T21:00:00.1234567\\u002B09:00\","
+        "\"result\":null,\"message\":null,\"payload\":{\"planId\":\"P\",\"reason\":null}}";
+    const DecodeOutcome outcome = codec.Decode(text);
+    REQUIRE(outcome.message.has_value());
+    const AcsRequest* requestOrNull = std::get_if<AcsRequest>(&*outcome.message);
+    REQUIRE(requestOrNull != nullptr);
+    CHECK(requestOrNull->timestamp.offset == std::chrono::hours(9));
+    CHECK(outcome.notes.nullOptionals == 3);
+    CHECK(outcome.notes.badTimestamps == 0);
+}
+
+TEST_CASE("13.2 Actions on a set need no jobs, and their locations may be null or empty")
+{
+    AcsCodec codec;
+    const AcsMessage message = DecodeOrFail(
+        codec,
+        MakeRequestText(
+            "ExecutionPlan",
+            R"({"planId":"P","lotId":null,"steps":[
+                {"stepNo":1,"action":"OpenSetCover","position":"A01.SET01","carrierIds":null},
+                {"stepNo":"2","action":"Start","position":"A01.SET01","jobs":[{"jobId":"J","from":null,"to":""}]}]})"));
+    const Protocol::ExecutionPlan& plan = GetPlan(message);
+    CHECK_FALSE(plan.priority.has_value());
+    CHECK(plan.steps[0].jobs.empty());
+    CHECK(plan.steps[1].stepNo == 2);
+    std::string encoded;
+    codec.Encode(message, encoded);
+    CHECK(encoded.find(R"("jobs":[{"jobId":"J"}])") != std::string::npos);
+    CHECK(encoded.find("priority") == std::string::npos);
+}
+
+TEST_CASE("R17 Locations keep the sender's spelling on the wire")
+{
+    AcsCodec codec;
+    const AcsMessage message = DecodeOrFail(
+        codec,
+        MakeRequestText(
+            "ExecutionPlan",
+            R"({"planId":"P","steps":[{"stepNo":1,"action":"TrayLoad","position":"a01.cp1","jobs":[]}]})"));
+    CHECK(GetPlan(message).steps[0].position == "a01.cp1");
+}
+
+TEST_CASE("D-1 Success is success or ok in any case; everything else is a failure")
+{
+    AcsCodec codec;
+    for (const std::string result : {"Success", "success", "SUCCESS", "ok", "OK"})
+    {
+        CHECK(
+            std::get<AcsAck>(DecodeOrFail(codec, MakeAckText("PlanReport", "t", result))).result
+            == EAckResult::Success);
+    }
+    for (const std::string result : {"Fail", "fail", "Failed", "", "no"})
+    {
+        CHECK(std::get<AcsAck>(DecodeOrFail(codec, MakeAckText("PlanReport", "t", result))).result == EAckResult::Fail);
+    }
+    const AcsMessage report =
+        DecodeOrFail(codec, MakeRequestText("CancelResultReport", R"({"planId":"P","result":"fail","message":""})"));
+    std::string encoded;
+    codec.Encode(report, encoded);
+    CHECK(encoded.find(R"("result":"Failed")") != std::string::npos);
+}
+
+TEST_CASE("D-5 The old name of RequestAcsPlans is an alias, answered under the old name")
+{
+    AcsCodec codec;
+    const DecodeOutcome outcome = codec.Decode(MakeRequestText("RequestAcsStatus", "{}"));
+    REQUIRE(outcome.message.has_value());
+    CHECK(outcome.bLegacyName);
+    CHECK(GetCommand(std::get<AcsRequest>(*outcome.message)) == EAcsCommand::RequestAcsPlans);
+    AcsAck ack;
+    ack.command = EAcsCommand::RequestAcsPlans;
+    ack.payload = Protocol::PlanListAck{};
+    ack.bLegacyName = true;
+    std::string encoded;
+    codec.EncodeAck(ack, encoded);
+    CHECK(encoded.find(R"("command":"RequestAcsStatusAck")") != std::string::npos);
+
+    Protocol::CodecOptions options;
+    options.bLegacyNames = false;
+    AcsCodec strict(options);
+    CHECK_FALSE(FailOrDecode(strict, MakeRequestText("RequestAcsStatus", "{}")).command.has_value());
+}
+
+TEST_CASE("6.15 What does not apply to an error is left out; 6.16 to a status it is null")
+{
+    AcsCodec codec;
+    std::string encoded;
+    codec.EncodeRequest({"t", {}, Protocol::ErrorReport{}}, encoded);
+    CHECK(encoded.find("null") == std::string::npos);
+    CHECK(encoded.find("stepNo") == std::string::npos);
+    codec.EncodeRequest({"t", {}, Protocol::RobotStatusUpdate{}}, encoded);
+    CHECK(encoded.find(R"("planId":null,"stepNo":null,"jobId":null)") != std::string::npos);
+}
+
+TEST_CASE("R3 What cannot be decoded says where and why, and keeps what could be read of the envelope")
+{
+    struct Case
+    {
+        std::string payload;
+        std::string path;
+    };
+    AcsCodec codec;
+    const std::vector<Case> cases{
+        {"null", "payload"},
+        {"[]", "payload"},
+        {R"({"lotId":"L","steps":[]})", "payload.steps"},
+        {R"({"planId":"P"})", "payload.steps"},
+        {R"({"planId":"","steps":[]})", "payload.planId"},
+        {R"({"planId":7,"steps":[]})", "payload.planId"},
+        {R"({"planId":"P","steps":[{"stepNo":0,"action":"Start","position":"A01"}]})", "payload.steps[0].stepNo"},
+        {R"({"planId":"P","steps":[{"stepNo":1.5,"action":"Start","position":"A01"}]})", "payload.steps[0].stepNo"},
+        {R"({"planId":"P","steps":[{"stepNo":99999999999999999999,"action":"Start","position":"A01"}]})",
+         "payload.steps[0].stepNo"},
+        {R"({"planId":"P","steps":[{"stepNo":1,"action":"Start","position":"A01","jobs":[{"jobId":""}]}]})",
+         "payload.steps[0].jobs[0].jobId"},
+        {R"({"planId":"P","planId":"P","steps":[]})", "payload.planId"},
+        {R"({"planId":"P","steps":[],"priority":"high"})", "payload.steps"},
+    };
+    for (const Case& bad : cases)
+    {
+        const DecodeFailure failure = FailOrDecode(codec, MakeRequestText("ExecutionPlan", bad.payload));
+        INFO(bad.payload);
+        INFO(Core::Describe(failure.error));
+        CHECK(failure.error.path == bad.path);
+        CHECK(failure.command == EAcsCommand::ExecutionPlan);
+        CHECK(failure.transactionID == "t-1");
+        CHECK_FALSE(failure.bAck);
+    }
+    const DecodeFailure named = FailOrDecode(codec, MakeRequestText("ExecutionPlan", R"({"planId":"P","steps":1})"));
+    CHECK(named.planID == "P");
+}
+
+TEST_CASE("2 Text that is no message has no command to answer")
+{
+    AcsCodec codec;
+    const std::string deep(5U * 1024U * 1024U, '[');
+    for (const std::string& text :
+         {std::string(),
+          std::string("hello"),
+          std::string("[]"),
+          std::string("{}"),
+          deep,
+          std::string(R"({"command":7})"),
+          std::string("{\"command\":\"\xFF\"}"),
+          deep.substr(0, 1000)})
+    {
+        const DecodeFailure failure = FailOrDecode(codec, text);
+        CHECK(failure.commandName.empty());
+        CHECK_FALSE(failure.command.has_value());
+    }
+}
+
+TEST_CASE("2 An unknown command keeps its name; one without a transactionId is refused")
+{
+    AcsCodec codec;
+    const DecodeFailure unknown = FailOrDecode(codec, MakeRequestText("Dance", "{}"));
+    CHECK(unknown.commandName == "Dance");
+    CHECK_FALSE(unknown.command.has_value());
+    CHECK(unknown.transactionID == "t-1");
+    CHECK(FailOrDecode(codec, MakeAckText("Dance", "t-1")).bAck);
+    const DecodeFailure nameless = FailOrDecode(codec, MakeRequestText("CancelPlan", R"({"planId":"P"})", ""));
+    CHECK(nameless.command == EAcsCommand::CancelPlan);
+    CHECK(nameless.error.path == "transactionId");
+}
+
+TEST_CASE("2 Commands and words in another case, unknown members, a byte order mark: read and counted")
+{
+    AcsCodec codec;
+    const DecodeOutcome outcome =
+        codec.Decode("\xEF\xBB\xBF " + MakeRequestText("tscstateupdate", R"({"state":"AUTO","colour":"red"})") + "\n");
+    REQUIRE(outcome.message.has_value());
+    CHECK(outcome.notes.lenientWords == 2);
+    CHECK(outcome.notes.unknownMembers == 1);
+    Protocol::CodecOptions options;
+    options.bUnknownMembersRefused = true;
+    AcsCodec strict(options);
+    CHECK(
+        FailOrDecode(strict, MakeRequestText("TscStateUpdate", R"({"state":"Auto","colour":"red"})")).error.path
+        == "payload.colour");
+}
+
+TEST_CASE("6.9 SyncConfig carries any object")
+{
+    AcsCodec codec;
+    const std::string text = MakeRequestText("SyncConfig", R"({"ports":[1,{"x":null}]})");
+    const AcsMessage message = DecodeOrFail(codec, text);
+    std::string encoded;
+    codec.Encode(message, encoded);
+    CHECK(encoded == text);
+}
+
+TEST_CASE("3 A struck out job status is refused")
+{
+    AcsCodec codec;
+    const std::string payload =
+        R"({"planId":"P","robotId":"R","stepNo":1,"jobId":"J","status":"Timeout","message":""})";
+    CHECK(FailOrDecode(codec, MakeRequestText("JobReport", payload)).error.path == "payload.status");
+}
