@@ -1,1 +1,650 @@
 #include "Catch.hpp"
+#include "Fixture.hpp"
+#include "ManualClock.hpp"
+#include "SeededRandom.hpp"
+#include "SessionProbe.hpp"
+#include <acs/protocol/AcsSession.hpp>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+using namespace ACS; // NOLINT(google-build-using-namespace)
+using namespace std::chrono_literals;
+using Protocol::AcsRequest;
+using Protocol::EAckResult;
+using Protocol::EAcsCommand;
+using Protocol::EProtocolNote;
+using Protocol::ESessionTimer;
+using Testing::MakeAckText;
+using Testing::MakeRequestText;
+using Strings = std::vector<std::string>;
+using Notes = std::vector<EProtocolNote>;
+
+namespace
+{
+
+AcsRequest MakeReport(const std::string& transactionID)
+{
+    return {
+        transactionID,
+        {Core::WallTime(1'751'457'600s), 9h},
+        Protocol::PlanReport{"P", Protocol::EPlanStatus::InProgress, "fine"}};
+}
+
+Protocol::AcsPayload MakeStatus(const std::string& robotID, Protocol::ERobotStatus status)
+{
+    Protocol::RobotStatusUpdate update;
+    update.robotID = robotID;
+    update.robotStatus = status;
+    return update;
+}
+
+Protocol::SessionOptions MakeOptions()
+{
+    Protocol::SessionOptions options;
+    options.positionInterval = 0ms;
+    return options;
+}
+
+/// A session with its clock, and shorthands for what happens to it.
+class Bench
+{
+public:
+    Testing::ManualClock clock;
+    Testing::SeededRandom random;
+    Protocol::AcsSession session;
+    Testing::SessionProbe probe;
+
+    explicit Bench(const Protocol::SessionOptions& options = MakeOptions())
+        : session(options, random)
+    {
+    }
+
+    void Text(const std::string& text)
+    {
+        probe.Clear();
+        session.OnText(text, clock.GetNow(), probe.out);
+    }
+
+    void Timer(ESessionTimer timer, std::chrono::milliseconds after)
+    {
+        probe.Clear();
+        clock.Advance(after);
+        session.OnTimer(timer, clock.GetNow(), probe.out);
+    }
+
+    void Closed()
+    {
+        probe.Clear();
+        session.OnClosed("gone", clock.GetNow(), probe.out);
+    }
+
+    [[nodiscard]] bool TrySend(const std::string& transactionID)
+    {
+        return session.TrySendDurable(MakeReport(transactionID), clock.GetNow(), probe.out);
+    }
+
+    /// From Connecting to Registered.
+    void Register()
+    {
+        probe.Clear();
+        session.OnConnected(clock.GetNow(), probe.out);
+        const std::vector<AcsRequest> requests = probe.GetRequests();
+        REQUIRE(requests.size() == 1);
+        Text(MakeAckText("Registration", requests[0].transactionID));
+        REQUIRE(probe.GetEvents<Protocol::Registered>().size() == 1);
+    }
+
+    void StartAndRegister()
+    {
+        session.Start(clock.GetNow(), probe.out);
+        Register();
+    }
+
+    void StartAndReplay()
+    {
+        StartAndRegister();
+        probe.Clear();
+        session.ReplayDone(clock.GetNow(), probe.out);
+    }
+
+    void AckAllRequests()
+    {
+        for (const AcsRequest& request : probe.GetRequests())
+        {
+            session.OnText(
+                MakeAckText(std::string(GetText(GetCommand(request))), request.transactionID),
+                clock.GetNow(),
+                probe.out);
+        }
+    }
+};
+
+} // namespace
+
+TEST_CASE("1, 5 Registration is the first message, and nothing follows before its Ack")
+{
+    Bench bench;
+    bench.session.Start(bench.clock.GetNow(), bench.probe.out);
+    CHECK(bench.probe.GetAll<Protocol::Connect>().size() == 1);
+    CHECK_FALSE(bench.TrySend("a"));
+    bench.probe.Clear();
+    bench.session.OnConnected(bench.clock.GetNow(), bench.probe.out);
+    CHECK(bench.probe.GetCommands() == Strings{"Registration"});
+    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Registration) == 5s);
+
+    bench.probe.Clear();
+    CHECK_FALSE(bench.TrySend("a"));
+    bench.session.SendStatus(Protocol::TscStateUpdate{}, bench.clock.GetNow(), bench.probe.out);
+    bench.session.SendPosition({}, bench.clock.GetNow(), bench.probe.out);
+    bench.session.ReplayDone(bench.clock.GetNow(), bench.probe.out);
+    CHECK(bench.probe.out.empty());
+    bench.Text(MakeRequestText("RequestAcsPlans", "{}"));
+    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
+    CHECK(bench.probe.GetNotes() == Notes{EProtocolNote::BeforeRegistered});
+    CHECK_FALSE(bench.session.IsRegistered());
+}
+
+TEST_CASE("6.2, D-4 The document's own RegistrationAck has another transactionId and counts")
+{
+    Bench bench;
+    bench.session.Start(bench.clock.GetNow(), bench.probe.out);
+    bench.session.OnConnected(bench.clock.GetNow(), bench.probe.out);
+    bench.Text(Testing::ReadFixture("RegistrationAck"));
+    CHECK(bench.session.IsRegistered());
+    CHECK(bench.probe.GetNotes() == Notes{EProtocolNote::AckMismatched});
+}
+
+TEST_CASE("6 After registration: replay, TSC state, comm state, each robot, then positions")
+{
+    Protocol::SessionOptions options;
+    Bench bench(options);
+    const Core::Now now = bench.clock.GetNow();
+    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Idle), now, bench.probe.out);
+    bench.session.SendStatus(MakeStatus("CR01", Protocol::ERobotStatus::Idle), now, bench.probe.out);
+    bench.session.SendStatus(Protocol::AcsCommStateUpdate{true}, now, bench.probe.out);
+    bench.session.SendStatus(Protocol::TscStateUpdate{}, now, bench.probe.out);
+    bench.StartAndRegister();
+    CHECK(bench.probe.GetCommands().empty());
+    bench.probe.Clear();
+    REQUIRE(bench.TrySend("a"));
+    REQUIRE(bench.TrySend("b"));
+    bench.session.ReplayDone(now, bench.probe.out);
+    CHECK(
+        bench.probe.GetCommands()
+        == Strings{
+            "PlanReport",
+            "PlanReport",
+            "TscStateUpdate",
+            "AcsCommStateUpdate",
+            "RobotStatusUpdate",
+            "RobotStatusUpdate"});
+    CHECK(std::holds_alternative<Protocol::PositionDue>(std::get<Protocol::Deliver>(bench.probe.out.back()).event));
+}
+
+TEST_CASE("9 A durable request keeps the caller's transactionId and timestamp on every connection")
+{
+    Bench bench;
+    bench.StartAndReplay();
+    REQUIRE(bench.TrySend("a"));
+    const std::string first = bench.probe.GetAll<Protocol::SendText>().at(0).text;
+    bench.Closed();
+    CHECK(bench.probe.GetEvents<Protocol::LinkLost>().at(0).bWasRegistered);
+    bench.Timer(ESessionTimer::Reconnect, 10s);
+    CHECK(bench.probe.GetAll<Protocol::Connect>().size() == 1);
+    bench.Register();
+    bench.probe.Clear();
+    REQUIRE(bench.TrySend("a"));
+    CHECK(bench.probe.GetAll<Protocol::SendText>().at(0).text == first);
+    bench.Text(MakeAckText("PlanReport", "a"));
+    CHECK(
+        bench.probe.GetEvents<Protocol::Acked>()
+        == std::vector<Protocol::Acked>{{EAcsCommand::PlanReport, "a", EAckResult::Success, ""}});
+}
+
+TEST_CASE("9 Without an Ack the same text is sent again three times, then given up")
+{
+    Bench bench;
+    bench.StartAndReplay();
+    REQUIRE(bench.TrySend("a"));
+    const std::string first = bench.probe.GetAll<Protocol::SendText>().at(0).text;
+    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Ack) == 5s);
+    for (int round = 0; round < 3; ++round)
+    {
+        bench.Timer(ESessionTimer::Ack, 5s);
+        REQUIRE(bench.probe.GetAll<Protocol::SendText>().size() == 1);
+        CHECK(bench.probe.GetAll<Protocol::SendText>()[0].text == first);
+    }
+    bench.Timer(ESessionTimer::Ack, 5s);
+    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
+    CHECK(bench.probe.GetEvents<Protocol::RequestUnanswered>().at(0).transactionID == "a");
+    CHECK(bench.probe.GetAll<Protocol::Close>().empty());
+
+    SECTION("an Ack that comes too late still counts, once")
+    {
+        bench.Text(MakeAckText("PlanReport", "a"));
+        CHECK(bench.probe.GetEvents<Protocol::Acked>().size() == 1);
+        bench.Text(MakeAckText("PlanReport", "a"));
+        CHECK(bench.probe.GetEvents<Protocol::Acked>().empty());
+    }
+}
+
+TEST_CASE("9 Five given up in a row drop the link, which is made anew")
+{
+    Protocol::SessionOptions options = MakeOptions();
+    options.ackRetries = 0;
+    Bench bench(options);
+    bench.StartAndReplay();
+    for (const std::string transactionID : {"a", "b", "c", "d"})
+    {
+        REQUIRE(bench.TrySend(transactionID));
+    }
+    bench.Timer(ESessionTimer::Ack, 5s);
+    CHECK(bench.probe.GetAll<Protocol::Close>().empty());
+    SECTION("an Ack in between starts the count again")
+    {
+        REQUIRE(bench.TrySend("e"));
+        bench.Text(MakeAckText("PlanReport", "e"));
+        REQUIRE(bench.TrySend("f"));
+        bench.Timer(ESessionTimer::Ack, 5s);
+        CHECK(bench.probe.GetAll<Protocol::Close>().empty());
+    }
+    SECTION("the fifth closes")
+    {
+        REQUIRE(bench.TrySend("e"));
+        bench.Timer(ESessionTimer::Ack, 5s);
+        CHECK(bench.probe.GetAll<Protocol::Close>().size() == 1);
+        CHECK_FALSE(bench.session.IsRegistered());
+        CHECK_FALSE(bench.TrySend("g"));
+        bench.Closed();
+        CHECK(bench.probe.GetEvents<Protocol::LinkLost>().at(0).bWasRegistered);
+        CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Reconnect).has_value());
+    }
+}
+
+TEST_CASE("9 Sixteen messages wait for their Ack at most, and room is announced once")
+{
+    Bench bench;
+    bench.StartAndReplay();
+    for (int index = 0; index < 16; ++index)
+    {
+        REQUIRE(bench.session.GetRoom() == static_cast<std::size_t>(16 - index));
+        REQUIRE(bench.TrySend(std::to_string(index)));
+    }
+    CHECK(bench.TrySend("3")); // in flight already: taken, not sent twice
+    CHECK(bench.probe.GetRequests().size() == 16);
+    CHECK_FALSE(bench.TrySend("x"));
+    bench.Text(MakeAckText("PlanReport", "7"));
+    CHECK(bench.probe.GetEvents<Protocol::WindowOpened>().size() == 1);
+    bench.Text(MakeAckText("PlanReport", "8"));
+    CHECK(bench.probe.GetEvents<Protocol::WindowOpened>().empty());
+    CHECK(bench.TrySend("x"));
+}
+
+TEST_CASE("9 Statuses are coalesced to the latest per robot where there is no room")
+{
+    Protocol::SessionOptions options = MakeOptions();
+    options.window = 1;
+    Bench bench(options);
+    bench.StartAndReplay();
+    REQUIRE(bench.TrySend("a"));
+    bench.probe.Clear();
+    const Core::Now now = bench.clock.GetNow();
+    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Moving), now, bench.probe.out);
+    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Arrival), now, bench.probe.out);
+    CHECK(bench.probe.out.empty());
+    bench.Text(MakeAckText("PlanReport", "a"));
+    const std::vector<AcsRequest> requests = bench.probe.GetRequests();
+    REQUIRE(requests.size() == 1);
+    CHECK(std::get<Protocol::RobotStatusUpdate>(requests[0].payload).robotStatus == Protocol::ERobotStatus::Arrival);
+}
+
+TEST_CASE("9 A status that a newer one has overtaken is not sent again")
+{
+    Bench bench;
+    bench.StartAndReplay();
+    const Core::Now now = bench.clock.GetNow();
+    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Moving), now, bench.probe.out);
+    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Arrival), now, bench.probe.out);
+    CHECK(bench.probe.GetRequests().size() == 2);
+    bench.Timer(ESessionTimer::Ack, 5s);
+    const std::vector<AcsRequest> requests = bench.probe.GetRequests();
+    REQUIRE(requests.size() == 1);
+    CHECK(std::get<Protocol::RobotStatusUpdate>(requests[0].payload).robotStatus == Protocol::ERobotStatus::Arrival);
+}
+
+TEST_CASE("9 Every connection begins with the present status of every robot")
+{
+    Bench bench;
+    bench.StartAndReplay();
+    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Idle), bench.clock.GetNow(), bench.probe.out);
+    bench.AckAllRequests();
+    bench.Closed();
+    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Error), bench.clock.GetNow(), bench.probe.out);
+    bench.Timer(ESessionTimer::Reconnect, 10s);
+    bench.Register();
+    bench.probe.Clear();
+    bench.session.ReplayDone(bench.clock.GetNow(), bench.probe.out);
+    const std::vector<AcsRequest> requests = bench.probe.GetRequests();
+    REQUIRE(requests.size() == 1);
+    CHECK(std::get<Protocol::RobotStatusUpdate>(requests[0].payload).robotStatus == Protocol::ERobotStatus::Error);
+}
+
+TEST_CASE("13.9 An Ack with a foreign transactionId belongs to the oldest request of its command")
+{
+    Bench bench;
+    bench.StartAndReplay();
+    REQUIRE(bench.TrySend("a"));
+    REQUIRE(bench.TrySend("b"));
+    bench.Text(MakeAckText("PlanReport", "zzz"));
+    CHECK(bench.probe.GetEvents<Protocol::Acked>().at(0).transactionID == "a");
+    CHECK(bench.probe.GetNotes() == Notes{EProtocolNote::AckMismatched});
+    CHECK(bench.session.GetStatistics().CountOf(EProtocolNote::AckMismatched) == 1);
+    bench.Text(MakeAckText("StepReport", "zzz"));
+    CHECK(bench.probe.GetNotes() == Notes{EProtocolNote::AckUnexpected});
+}
+
+TEST_CASE("D-4 The second Ack of a message that was sent twice is not taken for that of another one")
+{
+    Bench bench;
+    bench.StartAndReplay();
+    REQUIRE(bench.TrySend("a"));
+    bench.Timer(ESessionTimer::Ack, 5s);
+    REQUIRE(bench.TrySend("b"));
+    bench.Text(MakeAckText("PlanReport", "a"));
+    CHECK(bench.probe.GetEvents<Protocol::Acked>().at(0).transactionID == "a");
+    bench.Text(MakeAckText("PlanReport", "a"));
+    CHECK(bench.probe.GetEvents<Protocol::Acked>().empty());
+    bench.Text(MakeAckText("PlanReport", "b"));
+    CHECK(bench.probe.GetEvents<Protocol::Acked>().at(0).transactionID == "b");
+}
+
+TEST_CASE("9 An Ack with Fail is final")
+{
+    Bench bench;
+    bench.StartAndReplay();
+    REQUIRE(bench.TrySend("a"));
+    bench.Text(MakeAckText("PlanReport", "a", "Fail"));
+    CHECK(bench.probe.GetEvents<Protocol::Acked>().at(0).result == EAckResult::Fail);
+    bench.Timer(ESessionTimer::Ack, 5s);
+    CHECK(bench.probe.out.empty());
+}
+
+TEST_CASE("R1, R2 Every request is answered with its own transactionId")
+{
+    Bench bench;
+    bench.StartAndReplay();
+    bench.Text(MakeRequestText("CancelPlan", R"({"planId":"P","reason":"r"})", "t-9"));
+    REQUIRE(bench.probe.GetEvents<Protocol::RequestReceived>().size() == 1);
+    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
+    bench.probe.Clear();
+    bench.session.Answer(
+        EAcsCommand::CancelPlan,
+        "t-9",
+        EAckResult::Success,
+        "",
+        Protocol::PlanAck{"P"},
+        bench.clock.GetNow(),
+        bench.probe.out);
+    const std::vector<Protocol::AcsAck> acks = bench.probe.GetAcks();
+    REQUIRE(acks.size() == 1);
+    CHECK(acks[0].transactionID == "t-9");
+    CHECK(acks[0].command == EAcsCommand::CancelPlan);
+    CHECK(acks[0].payload == Protocol::AckPayload(Protocol::PlanAck{"P"}));
+}
+
+TEST_CASE("R1, R3 What is undefined is answered with Fail and a reason, and not delivered")
+{
+    struct Case
+    {
+        std::string text;
+        std::string command;
+        std::string message;
+    };
+    const std::vector<Case> cases{
+        {MakeRequestText("Dance", "{}"), "DanceAck", "unsupported command"},
+        {MakeRequestText("PlanReport", R"({"planId":"P","status":"Failed","message":""})"),
+         "PlanReportAck",
+         "unsupported command"},
+        {MakeRequestText("PlanReport", "{}"), "PlanReportAck", "unsupported command"},
+        {MakeRequestText("ExecutionPlan", "null"), "ExecutionPlanAck", "payload: expected an object"},
+        {MakeRequestText("CancelPlan", "{}"), "CancelPlanAck", "payload.planId: expected a value"},
+        {MakeRequestText("RequestAcsPlans", "null"), "RequestAcsPlansAck", "payload: expected an object"},
+    };
+    for (const Case& bad : cases)
+    {
+        INFO(bad.text);
+        Bench bench;
+        bench.StartAndReplay();
+        bench.Text(bad.text);
+        CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().empty());
+        const auto sent = bench.probe.GetAll<Protocol::SendText>();
+        REQUIRE(sent.size() == 1);
+        INFO(sent[0].text);
+        CHECK(sent[0].text.find("\"command\":\"" + bad.command + "\",\"transactionId\":\"t-1\"") != std::string::npos);
+        CHECK(sent[0].text.find(R"("result":"Fail")") != std::string::npos);
+        CHECK(sent[0].text.find("\"message\":\"" + bad.message) != std::string::npos);
+    }
+}
+
+TEST_CASE("R1 What cannot be answered is counted, and the connection goes on")
+{
+    Bench bench;
+    bench.StartAndReplay();
+    for (const std::string text : {"not JSON", "[]", "{}", R"({"command":"DanceAck"})"})
+    {
+        bench.Text(text);
+        CHECK(bench.probe.out.size() == 1);
+        CHECK(bench.probe.GetNotes() == Notes{EProtocolNote::Undecodable});
+    }
+    bench.Text(MakeRequestText("RobotPositionUpdate", R"({"robots":[]})"));
+    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
+    CHECK(bench.session.IsRegistered());
+}
+
+TEST_CASE("13.5 A request that comes again is answered by the same text and executed once")
+{
+    Bench bench;
+    bench.StartAndReplay();
+    const std::string plan = Testing::ReadFixture("ExecutionPlanLR");
+    const std::string transactionID = "e2a97f63-4ed2-4d85-a2b3-11a51c188111";
+    bench.Text(plan);
+    REQUIRE(bench.probe.GetEvents<Protocol::RequestReceived>().size() == 1);
+    bench.Text(plan);
+    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().empty());
+    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
+    CHECK(bench.probe.GetNotes() == Notes{EProtocolNote::DuplicateRequest});
+
+    bench.probe.Clear();
+    const auto answer = [&bench, &transactionID] {
+        bench.session.Answer(
+            EAcsCommand::ExecutionPlan,
+            transactionID,
+            EAckResult::Success,
+            "registered",
+            Protocol::PlanAck{"PLAN-20250702-001"},
+            bench.clock.GetNow(),
+            bench.probe.out);
+    };
+    answer();
+    const std::string first = bench.probe.GetAll<Protocol::SendText>().at(0).text;
+    bench.probe.Clear();
+    answer();
+    CHECK(bench.probe.out.empty());
+
+    bench.clock.Advance(9min);
+    bench.Text(plan);
+    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().empty());
+    CHECK(bench.probe.GetAll<Protocol::SendText>().at(0).text == first);
+
+    SECTION("also on the next connection, where the first answer may have been lost")
+    {
+        bench.Closed();
+        bench.Timer(ESessionTimer::Reconnect, 10s);
+        bench.Register();
+        bench.Text(plan);
+        CHECK(bench.probe.GetAll<Protocol::SendText>().at(0).text == first);
+    }
+    SECTION("but not for ever")
+    {
+        bench.clock.Advance(2min);
+        bench.Text(plan);
+        CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().size() == 1);
+    }
+}
+
+TEST_CASE("D-5 RequestAcsStatus is answered under its own name")
+{
+    Bench bench;
+    bench.StartAndReplay();
+    bench.Text(MakeRequestText("RequestAcsStatus", "{}"));
+    bench.probe.Clear();
+    bench.session.Answer(
+        EAcsCommand::RequestAcsPlans,
+        "t-1",
+        EAckResult::Success,
+        "",
+        Protocol::PlanListAck{},
+        bench.clock.GetNow(),
+        bench.probe.out);
+    CHECK(
+        bench.probe.GetAll<Protocol::SendText>().at(0).text.find(R"("command":"RequestAcsStatusAck")")
+        != std::string::npos);
+}
+
+TEST_CASE("1 Reconnects for ever, ever slower up to ten seconds, at once again after a success")
+{
+    Bench bench;
+    bench.session.Start(bench.clock.GetNow(), bench.probe.out);
+    std::chrono::milliseconds last{0};
+    for (int attempt = 0; attempt < 20; ++attempt)
+    {
+        bench.Closed();
+        CHECK_FALSE(bench.probe.GetEvents<Protocol::LinkLost>().at(0).bWasRegistered);
+        last = bench.probe.GetDelayOrNull(ESessionTimer::Reconnect).value_or(0ms);
+        CHECK(last > 0ms);
+        CHECK(last <= 10s);
+        bench.Timer(ESessionTimer::Reconnect, last);
+        REQUIRE(bench.probe.GetAll<Protocol::Connect>().size() == 1);
+    }
+    CHECK(last >= 5s);
+    bench.Register();
+    bench.Closed();
+    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Reconnect).value_or(1h) <= 500ms);
+}
+
+TEST_CASE("1 A refused or unanswered registration is tried again")
+{
+    Bench bench;
+    bench.session.Start(bench.clock.GetNow(), bench.probe.out);
+    bench.session.OnConnected(bench.clock.GetNow(), bench.probe.out);
+    SECTION("refused")
+    {
+        bench.Text(MakeAckText("Registration", "any", "Fail"));
+        CHECK(bench.probe.GetEvents<Protocol::RegistrationRefused>().size() == 1);
+    }
+    SECTION("unanswered")
+    {
+        bench.Timer(ESessionTimer::Registration, 5s);
+        CHECK(bench.probe.GetNotes() == Notes{EProtocolNote::RegistrationUnanswered});
+    }
+    CHECK(bench.probe.GetAll<Protocol::Close>().size() == 1);
+    bench.Closed();
+    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Reconnect).has_value());
+}
+
+TEST_CASE("1 Stop says goodbye, waits for the Ack a while, and closes with 1000")
+{
+    Bench bench;
+    bench.StartAndReplay();
+    bench.probe.Clear();
+    bench.session.Stop(bench.clock.GetNow(), bench.probe.out);
+    const std::vector<AcsRequest> requests = bench.probe.GetRequests();
+    REQUIRE(requests.size() == 1);
+    CHECK(requests[0].payload == Protocol::AcsPayload(Protocol::AcsCommStateUpdate{false}));
+    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Shutdown) == 2s);
+    CHECK_FALSE(bench.TrySend("a"));
+    SECTION("acknowledged")
+    {
+        bench.Text(MakeAckText("AcsCommStateUpdate", requests[0].transactionID));
+    }
+    SECTION("not acknowledged")
+    {
+        bench.Timer(ESessionTimer::Shutdown, 2s);
+    }
+    REQUIRE(bench.probe.GetAll<Protocol::Close>().size() == 1);
+    CHECK(bench.probe.GetAll<Protocol::Close>()[0].code == 1000);
+    bench.Closed();
+    CHECK(bench.probe.GetEvents<Protocol::Stopped>().size() == 1);
+    CHECK_FALSE(bench.probe.GetDelayOrNull(ESessionTimer::Reconnect).has_value());
+    bench.Timer(ESessionTimer::Reconnect, 10s);
+    CHECK(bench.probe.out.empty());
+}
+
+TEST_CASE("1 Stop between two attempts ends at once, and Start begins again")
+{
+    Bench bench;
+    bench.session.Start(bench.clock.GetNow(), bench.probe.out);
+    bench.Closed();
+    bench.probe.Clear();
+    bench.session.Stop(bench.clock.GetNow(), bench.probe.out);
+    CHECK(bench.probe.GetEvents<Protocol::Stopped>().size() == 1);
+    CHECK(bench.probe.GetAll<Protocol::CancelTimer>().size() == 1);
+    bench.StartAndRegister();
+}
+
+TEST_CASE("R14 Positions come due every 200 ms without drift, are never kept and expect no Ack")
+{
+    Protocol::SessionOptions options;
+    Bench bench(options);
+    bench.StartAndReplay();
+    CHECK(bench.probe.GetEvents<Protocol::PositionDue>().size() == 1);
+    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Position) == 200ms);
+    bench.Timer(ESessionTimer::Position, 230ms);
+    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Position) == 170ms);
+    bench.Timer(ESessionTimer::Position, 1000ms); // at 1230: the ticks at 400 to 1200 are one
+    CHECK(bench.probe.GetEvents<Protocol::PositionDue>().size() == 1);
+    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Position) == 170ms);
+
+    bench.probe.Clear();
+    bench.session.SendPosition({{{"LR01", 1.5, 2.0, 90.0, 75.0}}}, bench.clock.GetNow(), bench.probe.out);
+    REQUIRE(bench.probe.out.size() == 1);
+    CHECK(bench.probe.GetAll<Protocol::SendText>().at(0).bDroppable);
+    CHECK(bench.session.GetRoom() == 16);
+    bench.Closed();
+    CHECK(bench.probe.GetAll<Protocol::CancelTimer>().size() == 1);
+    bench.probe.Clear();
+    bench.session.SendPosition({}, bench.clock.GetNow(), bench.probe.out);
+    CHECK(bench.probe.out.empty());
+}
+
+TEST_CASE("R15 The TSC state is sent once after connecting, then on change")
+{
+    Bench bench;
+    bench.session.SendStatus(Protocol::TscStateUpdate{}, bench.clock.GetNow(), bench.probe.out);
+    bench.StartAndReplay();
+    CHECK(bench.probe.GetCommands() == Strings{"TscStateUpdate"});
+    bench.AckAllRequests();
+    bench.probe.Clear();
+    bench.session.ReplayDone(bench.clock.GetNow(), bench.probe.out);
+    CHECK(bench.probe.out.empty());
+    bench.session.SendStatus(
+        Protocol::TscStateUpdate{Protocol::ETscState::Pausing},
+        bench.clock.GetNow(),
+        bench.probe.out);
+    CHECK(bench.probe.GetCommands() == Strings{"TscStateUpdate"});
+}
+
+TEST_CASE("9 A jump of the wall clock changes no deadline")
+{
+    Bench bench;
+    bench.StartAndReplay();
+    REQUIRE(bench.TrySend("a"));
+    bench.clock.JumpWall(-3h);
+    bench.Timer(ESessionTimer::Ack, 4999ms);
+    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
+    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Ack) == 1ms);
+    bench.Timer(ESessionTimer::Ack, 1ms);
+    CHECK(bench.probe.GetAll<Protocol::SendText>().size() == 1);
+}
