@@ -1,0 +1,54 @@
+#pragma once
+
+#include <acs/core/JsonText.hpp>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::VDA5050
+{
+
+/// What may happen beside an action (section 6.11): None anything, Soft no driving, Hard nothing else at all.
+enum class EBlockingType : std::uint8_t
+{
+    None,
+    Soft,
+    Hard,
+};
+
+struct ActionParameter
+{
+    std::string key;
+    Core::JsonText value; ///< Any JSON value but null.
+
+    bool operator==(const ActionParameter&) const = default;
+};
+
+/// An action on a node, on an edge, or an instant action.
+struct Action
+{
+    std::string actionType;
+    std::string actionID; ///< Unique; the key of its state.
+    std::string actionDescription;
+    EBlockingType blockingType = EBlockingType::None;
+    std::vector<ActionParameter> actionParameters;
+
+    bool operator==(const Action&) const = default;
+};
+
+/// The parameter of this key, null where there is none.
+[[nodiscard]] const ActionParameter* FindParameterOrNull(const Action& action, std::string_view key);
+
+/// The predefined actions that the sessions themselves know (section 6.8.2).
+namespace ActionTypes
+{
+inline constexpr std::string_view CANCEL_ORDER = "cancelOrder";
+inline constexpr std::string_view START_PAUSE = "startPause";
+inline constexpr std::string_view STOP_PAUSE = "stopPause";
+inline constexpr std::string_view STATE_REQUEST = "stateRequest";
+inline constexpr std::string_view FACTSHEET_REQUEST = "factsheetRequest";
+} // namespace ActionTypes
+
+} // namespace ACS::VDA5050

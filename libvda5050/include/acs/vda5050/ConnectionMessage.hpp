@@ -1,0 +1,26 @@
+#pragma once
+
+#include <acs/vda5050/Header.hpp>
+
+#include <cstdint>
+
+namespace ACS::VDA5050
+{
+
+enum class EConnectionState : std::uint8_t
+{
+    Online,
+    Offline,          ///< Said by a vehicle that leaves in order.
+    ConnectionBroken, ///< Said by the broker: the will.
+};
+
+/// Topic connection (section 6.14), retained.
+struct ConnectionMessage
+{
+    Header header;
+    EConnectionState connectionState = EConnectionState::Offline;
+
+    bool operator==(const ConnectionMessage&) const = default;
+};
+
+} // namespace ACS::VDA5050

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <acs/vda5050/Action.hpp>
+#include <acs/vda5050/Header.hpp>
+
+#include <vector>
+
+namespace ACS::VDA5050
+{
+
+/// Topic instantActions (section 6.8): executed at once, beside the order.
+struct InstantActionsMessage
+{
+    Header header;
+    std::vector<Action> actions;
+
+    bool operator==(const InstantActionsMessage&) const = default;
+};
+
+} // namespace ACS::VDA5050

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <acs/vda5050/Action.hpp>
+#include <acs/vda5050/Header.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ACS::VDA5050
+{
+
+/// Metres and radians in the project's map frame, counter-clockwise, theta in [-pi, pi].
+struct NodePosition
+{
+    double x = 0.0;
+    double y = 0.0;
+    std::optional<double> theta;
+    std::optional<double> allowedDeviationXY;    ///< Radius in metres; 0 is the maker's own tolerance.
+    std::optional<double> allowedDeviationTheta; ///< [0, pi]
+    std::string mapID;
+    std::string mapDescription;
+
+    bool operator==(const NodePosition&) const = default;
+};
+
+struct OrderNode
+{
+    std::string nodeID;
+    std::uint32_t sequenceID = 0; ///< Even; runs over nodes and edges together.
+    std::string nodeDescription;
+    bool bReleased = false; ///< Base, else horizon.
+    std::optional<NodePosition> nodePosition;
+    std::vector<Action> actions;
+
+    bool operator==(const OrderNode&) const = default;
+};
+
+struct ControlPoint
+{
+    double x = 0.0;
+    double y = 0.0;
+    std::optional<double> weight; ///< 1 where absent.
+
+    bool operator==(const ControlPoint&) const = default;
+};
+
+/// A NURBS: as many knots as control points + degree + 1, each in [0, 1].
+struct Trajectory
+{
+    std::uint32_t degree = 1;
+    std::vector<double> knotVector;
+    std::vector<ControlPoint> controlPoints;
+
+    bool operator==(const Trajectory&) const = default;
+};
+
+enum class ECorridorReferencePoint : std::uint8_t
+{
+    KinematicCenter,
+    Contour,
+};
+
+/// How far a vehicle may leave its trajectory, left and right of the driving direction, in metres (2.1).
+struct Corridor
+{
+    double leftWidth = 0.0;
+    double rightWidth = 0.0;
+    std::optional<ECorridorReferencePoint> corridorReferencePoint;
+
+    bool operator==(const Corridor&) const = default;
+};
+
+enum class EOrientationType : std::uint8_t
+{
+    Global,
+    Tangential,
+};
+
+struct OrderEdge
+{
+    std::string edgeID;
+    std::uint32_t sequenceID = 0; ///< Odd.
+    std::string edgeDescription;
+    bool bReleased = false;
+    std::string startNodeID;
+    std::string endNodeID;
+    std::optional<double> maxSpeed;  ///< m/s
+    std::optional<double> maxHeight; ///< m
+    std::optional<double> minHeight; ///< m
+    std::optional<double> orientation;
+    std::optional<EOrientationType> orientationType; ///< Tangential where absent.
+    std::string direction;
+    std::optional<bool> bRotationAllowed;
+    std::optional<double> maxRotationSpeed; ///< rad/s
+    std::optional<double> length;           ///< m
+    std::optional<Trajectory> trajectory;   ///< A straight line where absent.
+    std::optional<Corridor> corridor;       ///< Written from 2.1 on.
+    std::vector<Action> actions;
+
+    bool operator==(const OrderEdge&) const = default;
+};
+
+/// Topic order (section 6.6).
+struct OrderMessage
+{
+    Header header;
+    std::string orderID;
+    std::uint32_t orderUpdateID = 0;
+    std::string zoneSetID;
+    std::vector<OrderNode> nodes;
+    std::vector<OrderEdge> edges;
+
+    bool operator==(const OrderMessage&) const = default;
+};
+
+} // namespace ACS::VDA5050

@@ -1,0 +1,263 @@
+#pragma once
+
+#include <acs/vda5050/Header.hpp>
+#include <acs/vda5050/OrderMessage.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::VDA5050
+{
+
+enum class EMapStatus : std::uint8_t
+{
+    Enabled,
+    Disabled,
+};
+
+struct MapState
+{
+    std::string mapID;
+    std::string mapVersion;
+    EMapStatus mapStatus = EMapStatus::Disabled;
+    std::string mapDescription;
+
+    bool operator==(const MapState&) const = default;
+};
+
+/// The position of a node as a state repeats it: without the tolerances of the order.
+struct NodeStatePosition
+{
+    double x = 0.0;
+    double y = 0.0;
+    std::optional<double> theta;
+    std::string mapID;
+
+    bool operator==(const NodeStatePosition&) const = default;
+};
+
+struct NodeState
+{
+    std::string nodeID;
+    std::uint32_t sequenceID = 0;
+    std::string nodeDescription;
+    bool bReleased = false;
+    std::optional<NodeStatePosition> nodePosition;
+
+    bool operator==(const NodeState&) const = default;
+};
+
+struct EdgeState
+{
+    std::string edgeID;
+    std::uint32_t sequenceID = 0;
+    std::string edgeDescription;
+    bool bReleased = false;
+    std::optional<Trajectory> trajectory;
+
+    bool operator==(const EdgeState&) const = default;
+};
+
+struct AgvPosition
+{
+    bool bPositionInitialized = false;
+    std::optional<double> localizationScore; ///< [0, 1]
+    std::optional<double> deviationRange;    ///< m
+    double x = 0.0;
+    double y = 0.0;
+    double theta = 0.0; ///< [-pi, pi]
+    std::string mapID;
+    std::string mapDescription;
+
+    bool operator==(const AgvPosition&) const = default;
+};
+
+/// In the vehicle's own frame.
+struct Velocity
+{
+    std::optional<double> vx;    ///< m/s
+    std::optional<double> vy;    ///< m/s
+    std::optional<double> omega; ///< rad/s
+
+    bool operator==(const Velocity&) const = default;
+};
+
+struct BoundingBoxReference
+{
+    double x = 0.0;
+    double y = 0.0;
+    double z = 0.0;
+    std::optional<double> theta;
+
+    bool operator==(const BoundingBoxReference&) const = default;
+};
+
+struct LoadDimensions
+{
+    double length = 0.0;
+    double width = 0.0;
+    std::optional<double> height;
+
+    bool operator==(const LoadDimensions&) const = default;
+};
+
+struct Load
+{
+    std::optional<std::string> loadID; ///< "" where the vehicle could identify it and has not yet.
+    std::string loadType;
+    std::string loadPosition;
+    std::optional<BoundingBoxReference> boundingBoxReference;
+    std::optional<LoadDimensions> loadDimensions;
+    std::optional<double> weight; ///< kg
+
+    bool operator==(const Load&) const = default;
+};
+
+/// Section 6.11: Finished and Failed are final. ActionMachine has the transitions.
+enum class EActionStatus : std::uint8_t
+{
+    Waiting,
+    Initializing,
+    Running,
+    Paused,
+    Finished,
+    Failed,
+};
+
+struct ActionState
+{
+    std::string actionID;
+    std::string actionType;
+    std::string actionDescription;
+    EActionStatus actionStatus = EActionStatus::Waiting;
+    std::string resultDescription;
+
+    bool operator==(const ActionState&) const = default;
+};
+
+struct BatteryState
+{
+    double batteryCharge = 0.0;            ///< %
+    std::optional<double> batteryVoltage;  ///< V
+    std::optional<double> batteryHealth;   ///< %; written as an integer in 2.0.
+    bool bCharging = false;
+    std::optional<double> reach; ///< m
+
+    bool operator==(const BatteryState&) const = default;
+};
+
+enum class EOperatingMode : std::uint8_t
+{
+    Automatic,
+    SemiAutomatic,
+    Manual,
+    Service,
+    TeachIn,
+};
+
+enum class EErrorLevel : std::uint8_t
+{
+    Warning,
+    Fatal,
+};
+
+struct ErrorReference
+{
+    std::string referenceKey;
+    std::string referenceValue;
+
+    bool operator==(const ErrorReference&) const = default;
+};
+
+/// An active error of a vehicle.
+struct VehicleError
+{
+    std::string errorType;
+    std::vector<ErrorReference> errorReferences;
+    std::string errorDescription;
+    std::string errorHint; ///< Written from 2.1 on.
+    EErrorLevel errorLevel = EErrorLevel::Warning;
+
+    bool operator==(const VehicleError&) const = default;
+};
+
+/// The error types that 2.x names.
+namespace ErrorTypes
+{
+inline constexpr std::string_view VALIDATION_ERROR = "validationError";
+inline constexpr std::string_view ORDER_ERROR = "orderError";
+inline constexpr std::string_view ORDER_UPDATE_ERROR = "orderUpdateError";
+inline constexpr std::string_view NO_ROUTE_ERROR = "noRouteError";
+inline constexpr std::string_view NO_ORDER_TO_CANCEL = "noOrderToCancel";
+inline constexpr std::string_view INSTANT_ACTION_ERROR = "instantActionError";
+} // namespace ErrorTypes
+
+/// The value of the reference with this key, null where there is none.
+[[nodiscard]] const std::string* FindReferenceOrNull(const VehicleError& error, std::string_view key);
+
+enum class EInformationLevel : std::uint8_t
+{
+    Info,
+    Debug,
+};
+
+/// For people only: no program decides by it.
+struct Information
+{
+    std::string infoType;
+    std::vector<ErrorReference> infoReferences;
+    std::string infoDescription;
+    EInformationLevel infoLevel = EInformationLevel::Info;
+
+    bool operator==(const Information&) const = default;
+};
+
+enum class EEmergencyStop : std::uint8_t
+{
+    AutoAcknowledge,
+    Manual,
+    Remote,
+    None,
+};
+
+struct SafetyState
+{
+    EEmergencyStop emergencyStop = EEmergencyStop::None;
+    bool bFieldViolation = false;
+
+    bool operator==(const SafetyState&) const = default;
+};
+
+/// Topic state (section 6.10).
+struct StateMessage
+{
+    Header header;
+    std::optional<std::vector<MapState>> maps; ///< Written from 2.1 on; empty: no map on the vehicle.
+    std::string orderID;                       ///< The running or the last order; empty where there never was one.
+    std::uint32_t orderUpdateID = 0;
+    std::string zoneSetID;
+    std::string lastNodeID;
+    std::uint32_t lastNodeSequenceID = 0;
+    std::vector<NodeState> nodeStates; ///< What is still to be reached, horizon included.
+    std::vector<EdgeState> edgeStates;
+    std::optional<AgvPosition> agvPosition;
+    std::optional<Velocity> velocity;
+    std::optional<std::vector<Load>> loads; ///< Absent: the vehicle cannot tell.
+    bool bDriving = false;
+    std::optional<bool> bPaused;
+    std::optional<bool> bNewBaseRequest;
+    std::optional<double> distanceSinceLastNode; ///< m
+    std::vector<ActionState> actionStates;       ///< Order and instant actions.
+    BatteryState batteryState;
+    EOperatingMode operatingMode = EOperatingMode::Automatic;
+    std::vector<VehicleError> errors;
+    std::vector<Information> information;
+    SafetyState safetyState;
+
+    bool operator==(const StateMessage&) const = default;
+};
+
+} // namespace ACS::VDA5050

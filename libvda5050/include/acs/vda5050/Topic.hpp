@@ -1,0 +1,87 @@
+#pragma once
+
+#include <acs/core/Result.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace ACS::VDA5050
+{
+
+/// The topics of 2.x (section 6.5 of the standard).
+enum class ETopic : std::uint8_t
+{
+    Order,
+    InstantActions,
+    State,
+    Visualization,
+    Connection,
+    Factsheet,
+};
+
+inline constexpr std::size_t TOPIC_COUNT = 6;
+
+/// Project: order and instantActions 2, state and connection 1, the rest 0. Standard: connection 1, the rest 0.
+enum class EQosProfile : std::uint8_t
+{
+    Project,
+    Standard,
+};
+
+/// The last level of a topic: "order", "instantActions", …
+[[nodiscard]] std::string_view GetTopicName(ETopic topic);
+
+/// Whether messages of this topic are published retained (connection and factsheet).
+[[nodiscard]] bool IsRetained(ETopic topic);
+
+/// The quality of service per topic: a profile, of which single topics may be changed.
+class QosTable
+{
+    std::array<std::uint8_t, TOPIC_COUNT> _levels{};
+
+public:
+    /// The project's profile.
+    QosTable();
+    explicit QosTable(EQosProfile profile);
+
+    [[nodiscard]] std::uint8_t Get(ETopic topic) const;
+    /// qos is 0, 1 or 2.
+    void Set(ETopic topic, std::uint8_t qos);
+
+    bool operator==(const QosTable&) const = default;
+};
+
+/// Where a vehicle lives on the broker. A level has no `/`, `+`, `#` and is not empty.
+struct VehicleAddress
+{
+    std::string interfaceName = "uagv";
+    std::string manufacturer;
+    std::string serialNumber;
+
+    bool operator==(const VehicleAddress&) const = default;
+};
+
+/// Whether each level may stand in a topic.
+[[nodiscard]] bool IsValidAddress(const VehicleAddress& address);
+
+/// "uagv/v2/KIT/0001/order"
+[[nodiscard]] std::string BuildTopic(const VehicleAddress& address, ETopic topic);
+
+/// The filter for one topic of all vehicles: "uagv/v2/+/+/connection".
+[[nodiscard]] std::string BuildTopicFilter(std::string_view interfaceName, ETopic topic);
+
+struct ParsedTopic
+{
+    VehicleAddress address;
+    ETopic topic = ETopic::Order;
+
+    bool operator==(const ParsedTopic&) const = default;
+};
+
+/// Fails with InvalidTopic, or UnsupportedVersion where only the major version is not 2.
+[[nodiscard]] Core::Result<ParsedTopic> ParseTopic(std::string_view text);
+
+} // namespace ACS::VDA5050
