@@ -35,9 +35,10 @@ struct TypeSpecification
     std::string seriesDescription;
     EAgvKinematic agvKinematic = EAgvKinematic::Diff;
     EAgvClass agvClass = EAgvClass::Carrier;
-    double maxLoadMass = 0.0;                   ///< kg
-    std::vector<std::string> localizationTypes; ///< NATURAL, REFLECTOR, RFID, DMC, SPOT, GRID: examples, not a closed set.
-    std::vector<std::string> navigationTypes;   ///< By priority: PHYSICAL_LINE_GUIDED, VIRTUAL_LINE_GUIDED, AUTONOMOUS.
+    double maxLoadMass = 0.0; ///< kg
+    std::vector<std::string>
+        localizationTypes; ///< NATURAL, REFLECTOR, RFID, DMC, SPOT, GRID: examples, not a closed set.
+    std::vector<std::string> navigationTypes; ///< By priority: PHYSICAL_LINE_GUIDED, VIRTUAL_LINE_GUIDED, AUTONOMOUS.
 
     bool operator==(const TypeSpecification&) const = default;
 };

@@ -140,9 +140,9 @@ struct ActionState
 
 struct BatteryState
 {
-    double batteryCharge = 0.0;            ///< %
-    std::optional<double> batteryVoltage;  ///< V
-    std::optional<double> batteryHealth;   ///< %; written as an integer in 2.0.
+    double batteryCharge = 0.0;           ///< %
+    std::optional<double> batteryVoltage; ///< V
+    std::optional<double> batteryHealth;  ///< %; written as an integer in 2.0.
     bool bCharging = false;
     std::optional<double> reach; ///< m
 

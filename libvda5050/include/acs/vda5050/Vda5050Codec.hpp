@@ -96,13 +96,9 @@ extern template void Vda5050Codec::Encode(
     const VisualizationMessage& message,
     EVda5050Version version,
     std::string& out) const;
-extern template void Vda5050Codec::Encode(
-    const ConnectionMessage& message,
-    EVda5050Version version,
-    std::string& out) const;
-extern template void Vda5050Codec::Encode(
-    const FactsheetMessage& message,
-    EVda5050Version version,
-    std::string& out) const;
+extern template void Vda5050Codec::Encode(const ConnectionMessage& message, EVda5050Version version, std::string& out)
+    const;
+extern template void Vda5050Codec::Encode(const FactsheetMessage& message, EVda5050Version version, std::string& out)
+    const;
 
 } // namespace ACS::VDA5050

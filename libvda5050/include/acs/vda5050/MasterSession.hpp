@@ -1,0 +1,167 @@
+#pragma once
+
+#include <acs/core/Now.hpp>
+#include <acs/core/Result.hpp>
+#include <acs/vda5050/MasterAction.hpp>
+#include <acs/vda5050/MasterOptions.hpp>
+#include <acs/vda5050/OrderMessage.hpp>
+#include <acs/vda5050/Vda5050Codec.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace ACS::VDA5050
+{
+
+enum class EVehicleLink : std::uint8_t
+{
+    Unknown, ///< No connection message yet, or our own link is down.
+    Online,
+    Offline,
+    Broken,
+};
+
+/// Where the order stands, as far as the vehicle has shown it.
+enum class EOrderPhase : std::uint8_t
+{
+    None,       ///< No order, or the last one ended.
+    Sent,       ///< The first message of it waits for the echo.
+    Active,     ///< Accepted. An update may wait for its echo.
+    Cancelling, ///< Cancel was asked for.
+};
+
+/// What a session has counted since it was made.
+struct MasterStatistics
+{
+    std::uint64_t statesReceived = 0;
+    std::uint64_t statesIgnored = 0; ///< Older than one that came before it.
+    std::uint64_t messagesRefused = 0;
+    std::uint64_t messagesSent = 0;
+    std::uint64_t ordersResent = 0;
+
+    bool operator==(const MasterStatistics&) const = default;
+};
+
+/// One vehicle as master control sees it: sends orders and instant actions until the vehicle shows them, and draws from
+/// its states what became of them. Pure: no clock, no I/O; all output is appended to out, which the caller reuses.
+/// The truth is what the vehicle says: lost states, repeated retained messages and old wills do no harm.
+class MasterSession
+{
+    struct PendingAction
+    {
+        Action action;
+        std::uint32_t sendCount = 0;
+    };
+
+    struct RouteNode
+    {
+        std::string nodeID;
+        std::uint32_t sequenceID = 0;
+        bool bReleased = false;
+        std::vector<std::string> actionIDs; ///< Of the node and of the edge that leads to it.
+    };
+
+    MasterOptions _options;
+    Vda5050Codec _codec;
+    std::array<std::uint32_t, TOPIC_COUNT> _headerIDs{};
+    std::array<std::string, TOPIC_COUNT> _topics;
+    MasterStatistics _statistics;
+    bool _bLinkUp = false;
+    EVehicleLink _link = EVehicleLink::Unknown;
+    bool _bSilent = false;
+    Core::SteadyTime _lastStateTime;
+    std::optional<StateMessage> _state;
+    std::optional<FactsheetMessage> _factsheet;
+    EOrderPhase _phase = EOrderPhase::None;
+    std::string _orderID;
+    std::uint32_t _lastSentUpdateID = 0;
+    std::uint32_t _acceptedUpdateID = 0;
+    bool _bAccepted = false;               ///< Any message of this order was echoed.
+    std::optional<OrderMessage> _inFlight; ///< Sent and not yet echoed.
+    std::optional<OrderMessage> _queued;   ///< Waits for the echo of the one in flight.
+    std::uint32_t _sendCount = 0;
+    std::vector<VehicleError> _errorsBeforeSend;
+    std::vector<RouteNode> _route; ///< Accepted nodes, base and horizon.
+    std::size_t _reachedNodes = 0; ///< How many of _route were told.
+    std::vector<PendingAction> _pendingActions;
+    std::string _cancelActionID;
+    std::uint32_t _ownActionCount = 0;
+
+    void OnConnection(std::string_view payload, Core::Now now, MasterActions& out);
+    void OnState(std::string_view payload, Core::Now now, MasterActions& out);
+    void OnVisualization(std::string_view payload, MasterActions& out);
+    void OnFactsheet(std::string_view payload, MasterActions& out);
+    void Refuse(ETopic topic, Core::Error error, MasterActions& out);
+    void ComeOnline(Core::Now now, MasterActions& out);
+    void GoAway(EVehicleLink link, MasterActions& out);
+
+    void TellDifferences(const StateMessage* previousOrNull, MasterActions& out) const;
+    void SettlePendingActions(MasterActions& out);
+    void SettleInFlight(Core::Now now, MasterActions& out);
+    void AcceptInFlight(Core::Now now, MasterActions& out);
+    void RejectInFlight(const std::string& errorType, const std::string& reason, MasterActions& out);
+    [[nodiscard]] const VehicleError* FindRejectionOrNull() const;
+    void FollowOrder(MasterActions& out);
+    void TellReachedNodes(MasterActions& out);
+    [[nodiscard]] bool IsOrderDone() const;
+    void FollowCancel(MasterActions& out);
+    void EndOrder();
+
+    [[nodiscard]] Header MakeHeader(ETopic topic, Core::Now now);
+    void PublishPayload(ETopic topic, std::string payload, MasterActions& out);
+    void PublishOrder(Core::Now now, MasterActions& out);
+    void PublishInstantActions(std::vector<Action> actions, Core::Now now, MasterActions& out);
+    void ResendOrder(Core::Now now, MasterActions& out);
+    void ResendInstantActions(Core::Now now, MasterActions& out);
+    [[nodiscard]] std::string MakeActionID(std::string_view actionType, Core::Now now);
+    void StartSilenceTimer(MasterActions& out) const;
+
+public:
+    explicit MasterSession(MasterOptions options);
+
+    /// What to subscribe to before OnLinkUp: state, visualization, connection and factsheet of this vehicle.
+    [[nodiscard]] std::vector<MqttSubscription> GetSubscriptions() const;
+
+    /// The broker is connected and the subscriptions stand. The retained connection message follows by itself.
+    void OnLinkUp(Core::Now now, MasterActions& out);
+    /// Our own link is down: the vehicle is Unknown from now on, orders stay as they are and are resent after OnLinkUp.
+    void OnLinkDown(Core::Now now, MasterActions& out);
+    /// Messages of other vehicles and topics are ignored.
+    void OnMessage(std::string_view topic, std::string_view payload, Core::Now now, MasterActions& out);
+    void OnTimer(EMasterTimer timer, Core::Now now, MasterActions& out);
+
+    /// Sends an order (orderID and its route filled in, its header not) and resends it until the vehicle shows it. The
+    /// orderUpdateID is sent as given: 0, or that of an order which is taken up again after a restart of the master (the
+    /// vehicle discards what it has already, and shows it). Errors: VehicleNotReady, OrderActive, InvalidOrder.
+    [[nodiscard]] Core::Result<void> SendOrder(OrderMessage order, Core::Now now, MasterActions& out);
+    /// The next update of the running order: nodes from the decision point on. Its orderID and orderUpdateID are set
+    /// here. Waits for the echo of the message before it; one may wait. Errors: NoOrder, UpdatePending, InvalidOrder.
+    [[nodiscard]] Core::Result<void> SendOrderUpdate(OrderMessage update, Core::Now now, MasterActions& out);
+    /// Sends an instant action until the vehicle shows its id. blockingType is set as vehicles of 2.x want it.
+    /// An empty actionID is filled in; the result is the id. Errors: VehicleNotReady.
+    [[nodiscard]] Core::Result<std::string> SendInstantAction(Action action, Core::Now now, MasterActions& out);
+    /// Cancels the order: not yet seen by the vehicle, or running. Ends with OrderCancelled, OrderFinished (it was
+    /// quicker), OrderLost or CancelFailed. Errors: NoOrder, VehicleNotReady.
+    [[nodiscard]] Core::Result<void> Cancel(Core::Now now, MasterActions& out);
+
+    [[nodiscard]] EVehicleLink GetLink() const noexcept;
+    [[nodiscard]] EOrderPhase GetOrderPhase() const noexcept;
+    [[nodiscard]] const std::string& GetOrderID() const noexcept;
+    /// Online, a state has come, mode AUTOMATIC or SEMIAUTOMATIC, and no order runs.
+    [[nodiscard]] bool CanTakeOrder() const;
+    /// Online, a state has come and is not overdue.
+    [[nodiscard]] bool IsReady() const;
+    /// The last state, null before the first.
+    [[nodiscard]] const StateMessage* GetStateOrNull() const noexcept;
+    [[nodiscard]] const FactsheetMessage* GetFactsheetOrNull() const noexcept;
+    [[nodiscard]] const MasterStatistics& GetStatistics() const noexcept;
+    [[nodiscard]] const MasterOptions& GetOptions() const noexcept;
+};
+
+} // namespace ACS::VDA5050

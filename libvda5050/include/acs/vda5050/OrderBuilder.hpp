@@ -1,0 +1,59 @@
+#pragma once
+
+#include <acs/core/Result.hpp>
+#include <acs/vda5050/OrderMessage.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace ACS::VDA5050
+{
+
+/// A route and how much of it is released. Makes the order and each of its updates: sequence ids, released flags and
+/// the edges' start and end nodes are filled in, an update begins at the decision point (the last released node). The
+/// caller fills in ids, positions, actions and limits only.
+class OrderBuilder
+{
+    std::string _orderID;
+    std::uint32_t _orderUpdateID = 0;
+    std::vector<OrderNode> _nodes;
+    std::vector<OrderEdge> _edges;
+    std::size_t _releasedNodes = 0;
+
+    OrderBuilder(std::string orderID, std::vector<OrderNode> nodes, std::vector<OrderEdge> edges);
+    [[nodiscard]] OrderMessage Cut(std::size_t firstNode, std::size_t horizonNodes) const;
+
+public:
+    static constexpr std::size_t WHOLE_ROUTE = std::numeric_limits<std::size_t>::max();
+
+    /// At least one node; one edge less than nodes, edge n from node n to node n + 1. Fails with InvalidOrder.
+    [[nodiscard]] static Core::Result<OrderBuilder> Create(
+        std::string orderID,
+        std::vector<OrderNode> nodes,
+        std::vector<OrderEdge> edges);
+
+    /// The first message: the first releasedNodes nodes (1 to all) are the base, at most horizonNodes more the horizon.
+    /// Fails with InvalidOrder where one was made already.
+    [[nodiscard]] Core::Result<OrderMessage> MakeOrder(
+        std::size_t releasedNodes,
+        std::size_t horizonNodes = WHOLE_ROUTE);
+
+    /// The next update: releases the route up to its node number releasedNodes, counted from the route's begin, no less
+    /// than before. orderUpdateID is one more than the last one.
+    [[nodiscard]] Core::Result<OrderMessage> MakeUpdate(
+        std::size_t releasedNodes,
+        std::size_t horizonNodes = WHOLE_ROUTE);
+
+    /// Lengthens the route: as many edges as nodes; the first edge leaves the route's last node. Not yet released.
+    [[nodiscard]] Core::Result<void> Append(std::vector<OrderNode> nodes, std::vector<OrderEdge> edges);
+
+    [[nodiscard]] const std::string& GetOrderID() const noexcept;
+    [[nodiscard]] const std::vector<OrderNode>& GetNodes() const noexcept;
+    [[nodiscard]] std::size_t GetReleasedNodes() const noexcept;
+    [[nodiscard]] bool IsWholeRouteReleased() const noexcept;
+};
+
+} // namespace ACS::VDA5050

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <acs/vda5050/FactsheetMessage.hpp>
+#include <acs/vda5050/OrderMessage.hpp>
+#include <acs/vda5050/StateMessage.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ACS::VDA5050
+{
+
+/// A broken rule, with the error that a vehicle reports for it.
+struct OrderViolation
+{
+    std::string rule; ///< Short English sentence.
+    VehicleError error;
+
+    bool operator==(const OrderViolation&) const = default;
+};
+
+/// Checks an order by itself: counts, sequence ids, base before horizon, neighbours of edges, unique action ids, curve
+/// and angle ranges. Empty where it keeps all rules.
+[[nodiscard]] std::vector<OrderViolation> ValidateOrder(const OrderMessage& order);
+
+/// What a vehicle knows when an order arrives.
+struct OrderContext
+{
+    std::string heldOrderID;
+    std::uint32_t heldOrderUpdateID = 0;
+    bool bExecuting = false;  ///< Nodes left (horizon included), order actions not ended, or a cancel running.
+    bool bCancelling = false; ///< An update is refused while a cancel runs.
+    EOperatingMode operatingMode = EOperatingMode::Automatic;
+    std::string decisionNodeID; ///< Last released node; lastNode where no order runs.
+    std::uint32_t decisionSequenceID = 0;
+    std::string lastNodeID;
+    std::optional<AgvPosition> position;
+    double defaultDeviationXY = 0.5;             ///< Metres, where the first node states none or 0.
+    std::vector<std::string> mapIDs;             ///< Maps on the vehicle; empty: not checked.
+    const FactsheetMessage* factsheet = nullptr; ///< Which actions it can perform; null: all.
+};
+
+enum class EOrderVerdict : std::uint8_t
+{
+    NewOrder,
+    Update,
+    Discard, ///< The update that the vehicle has already.
+    Reject,
+};
+
+struct OrderJudgement
+{
+    EOrderVerdict verdict = EOrderVerdict::Reject;
+    std::vector<OrderViolation> violations; ///< Of a rejected order: at least one.
+};
+
+/// The acceptance tree of 2.x (section 6.6.4): what a vehicle does with an order that its codec could read.
+[[nodiscard]] OrderJudgement JudgeOrder(const OrderMessage& order, const OrderContext& context);
+
+} // namespace ACS::VDA5050

@@ -1,0 +1,184 @@
+#pragma once
+
+#include <acs/core/Now.hpp>
+#include <acs/vda5050/ActionMachine.hpp>
+#include <acs/vda5050/OrderValidator.hpp>
+#include <acs/vda5050/Vda5050Codec.hpp>
+#include <acs/vda5050/VehicleAction.hpp>
+#include <acs/vda5050/VehicleOptions.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::VDA5050
+{
+
+/// The vehicle's side of the protocol: takes orders and instant actions by the rules of 2.x, tells its owner (the
+/// vehicle's control, or a simulator) where to drive and what to do, and publishes what becomes of it. Pure: no clock, no
+/// I/O; all output is appended to out, which the caller reuses. Changes are told through the On… calls; states are
+/// merged and sent as section 6.10 asks.
+class VehicleSession
+{
+    struct TrackedAction
+    {
+        Action action;
+        ActionMachine machine;
+        EActionScope scope = EActionScope::Node;
+        std::string elementID;
+        std::uint32_t sequenceID = 0; ///< Of its node or edge.
+    };
+
+    VehicleOptions _options;
+    Vda5050Codec _codec;
+    std::array<std::uint32_t, TOPIC_COUNT> _headerIDs{};
+    std::array<std::string, TOPIC_COUNT> _topics;
+    bool _bLinkUp = false;
+
+    // What the owner says.
+    std::optional<AgvPosition> _position;
+    std::optional<Velocity> _velocity;
+    std::optional<double> _distanceSinceLastNode;
+    std::optional<std::vector<Load>> _loads;
+    std::optional<std::vector<MapState>> _maps;
+    BatteryState _battery;
+    EOperatingMode _operatingMode = EOperatingMode::Automatic;
+    SafetyState _safety;
+    std::vector<VehicleError> _ownerErrors;
+    std::vector<Information> _information;
+    bool _bDriving = false;
+
+    // The order.
+    std::string _orderID;
+    std::uint32_t _orderUpdateID = 0;
+    std::string _zoneSetID;
+    std::string _lastNodeID;
+    std::uint32_t _lastNodeSequenceID = 0;
+    std::deque<OrderNode> _nodes; ///< Still to be reached.
+    std::deque<OrderEdge> _edges; ///< Edge n leads to node n.
+    std::vector<TrackedAction> _actions;
+    std::deque<std::string> _actionQueue; ///< Of what was reached or entered, not yet started.
+    std::vector<VehicleError> _sessionErrors;
+    bool _bOrderRunning = false; ///< Taken and not yet told as completed.
+    bool _bEdgeEntered = false;
+    bool _bLegActive = false;
+    bool _bLegStops = true;
+    bool _bPaused = false;
+    std::string _pauseActionID; ///< startPause that waits for the vehicle to stand.
+    std::vector<std::string> _cancelActionIDs;
+
+    // Publishing.
+    bool _bStateDue = false;
+    bool _bMinimumTimerRuns = false;
+    std::optional<Core::SteadyTime> _lastStateTime;
+
+    void OnOrder(std::string_view payload, Core::Now now, VehicleActions& out);
+    void OnInstantActions(std::string_view payload, Core::Now now, VehicleActions& out);
+    void OnInstantAction(const Action& action, Core::Now now, VehicleActions& out);
+    [[nodiscard]] bool IsForeign(ETopic topic, const Header& header, VehicleActions& out) const;
+    void RefusePayload(ETopic topic, std::string_view payload, const Core::Error& error, VehicleActions& out);
+    [[nodiscard]] OrderContext MakeContext() const;
+    void RefuseOrder(const OrderMessage& order, const OrderJudgement& judgement, VehicleActions& out);
+    void TakeNewOrder(OrderMessage order, VehicleActions& out);
+    void TakeUpdate(OrderMessage order, VehicleActions& out);
+    void AppendElements(OrderMessage& order, bool bWithFirstNode);
+    void DropHorizon();
+
+    void Advance(VehicleActions& out);
+    void StartQueuedActions(VehicleActions& out);
+    void DriveOn(VehicleActions& out);
+    void FinishOrderIfDone(VehicleActions& out);
+    void ReachFront(VehicleActions& out);
+    [[nodiscard]] bool CanDrive() const;
+    [[nodiscard]] bool NeedsStopAtFront() const;
+    [[nodiscard]] bool HasRunningActions(bool bBlockingOnly) const;
+    [[nodiscard]] bool IsExecuting() const;
+    [[nodiscard]] bool NeedsNewBase() const;
+
+    void AddActions(
+        const std::vector<Action>& actions,
+        EActionScope scope,
+        const std::string& elementID,
+        std::uint32_t sequenceID);
+    void Enqueue(const std::vector<Action>& actions);
+    [[nodiscard]] TrackedAction* FindActionOrNull(std::string_view actionID);
+    void SetStatus(std::string_view actionID, EActionStatus status, std::string result = {});
+    void AddInstantAction(const Action& action, EActionStatus status, std::string result = {});
+    void FailInstantAction(const Action& action, std::string_view errorType, std::string reason);
+    void StartPause(const Action& action, VehicleActions& out);
+    void StopPause(const Action& action, VehicleActions& out);
+    void StartCancel(const Action& action, VehicleActions& out);
+    void ClearOrder(VehicleActions& out);
+    void FinishCancelIfStanding(VehicleActions& out);
+    void FinishPauseIfStanding();
+
+    [[nodiscard]] Header MakeHeader(ETopic topic, Core::Now now);
+    [[nodiscard]] StateMessage MakeState(Core::Now now);
+    template <typename TMessage>
+    void PublishTyped(ETopic topic, const TMessage& message, VehicleActions& out) const;
+    void PublishState(Core::Now now, VehicleActions& out);
+    void PublishFactsheet(Core::Now now, VehicleActions& out);
+    void PublishVisualization(Core::Now now, VehicleActions& out);
+    void PublishConnection(bool bOnline, Core::Now now, VehicleActions& out);
+    void Settle(Core::Now now, VehicleActions& out);
+
+public:
+    explicit VehicleSession(VehicleOptions options);
+
+    /// order and instantActions of this vehicle.
+    [[nodiscard]] std::vector<MqttSubscription> GetSubscriptions() const;
+    /// Made anew for each connect: its header says when.
+    [[nodiscard]] MqttWill MakeWill(Core::Now now);
+
+    /// Connected and subscribed: publishes ONLINE, the factsheet and a state, and starts the timers.
+    void OnLinkUp(Core::Now now, VehicleActions& out);
+    /// The order goes on to the end of the base; nothing is published until OnLinkUp.
+    void OnLinkDown(Core::Now now, VehicleActions& out);
+    /// Publishes OFFLINE. The owner disconnects when it is sent.
+    void Leave(Core::Now now, VehicleActions& out);
+    void OnMessage(
+        std::string_view topic,
+        std::string_view payload,
+        bool bRetained,
+        Core::Now now,
+        VehicleActions& out);
+    void OnTimer(EVehicleTimer timer, Core::Now now, VehicleActions& out);
+
+    /// The node of the last DriveTo, by its sequenceID; any other is ignored. False then.
+    bool TryReachNode(std::uint32_t sequenceID, Core::Now now, VehicleActions& out);
+    /// No reason to send a state: it goes into the next one and into visualization.
+    void OnPosition(
+        const AgvPosition& position,
+        const Velocity& velocity,
+        std::optional<double> distanceSinceLastNode = {});
+    void OnDrivingChanged(bool bDriving, Core::Now now, VehicleActions& out);
+    /// Ignored (false) for an unknown action and for a change that the table of ActionMachine forbids.
+    bool TrySetActionStatus(
+        std::string_view actionID,
+        EActionStatus status,
+        std::string resultDescription,
+        Core::Now now,
+        VehicleActions& out);
+    /// A state is sent when charging begins or ends; a level alone waits for the next state.
+    void OnBattery(const BatteryState& battery, Core::Now now, VehicleActions& out);
+    void OnLoads(std::optional<std::vector<Load>> loads, Core::Now now, VehicleActions& out);
+    void OnMaps(std::optional<std::vector<MapState>> maps, Core::Now now, VehicleActions& out);
+    /// All active errors of the vehicle itself; those about orders are kept by the session.
+    void OnErrors(std::vector<VehicleError> errors, Core::Now now, VehicleActions& out);
+    void OnInformation(std::vector<Information> information);
+    void OnSafetyState(const SafetyState& safety, Core::Now now, VehicleActions& out);
+    /// Entering and leaving MANUAL clears the order (2.x, section 6.10.6).
+    void OnOperatingMode(EOperatingMode mode, Core::Now now, VehicleActions& out);
+
+    /// The state as it would be sent, with the headerID of the last one sent.
+    [[nodiscard]] StateMessage GetState(Core::Now now) const;
+    [[nodiscard]] bool IsPaused() const noexcept;
+    [[nodiscard]] bool IsOrderRunning() const noexcept;
+};
+
+} // namespace ACS::VDA5050
