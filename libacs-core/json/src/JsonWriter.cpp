@@ -83,8 +83,9 @@ void AppendNumber(std::string& out, TNumber value)
 
 } // namespace
 
-JsonWriter::JsonWriter(std::string& out)
+JsonWriter::JsonWriter(std::string& out, DialectFlags dialect)
     : _out(out)
+    , _dialect(dialect)
 {
 }
 

@@ -202,7 +202,7 @@ template <DescribedStruct T, std::size_t INDEX>
     constexpr auto FIELD = std::get<INDEX>(EXPANDED_FIELDS<T>);
     auto& member = FIELD.accessor(object);
     using Member = std::remove_cvref_t<decltype(member)>;
-    if constexpr (FIELD.presence != EPresence::Required)
+    if constexpr (FIELD.presence != EPresence::Required && FIELD.presence != EPresence::Alias)
     {
         if (value.IsNull() && !std::same_as<Member, Core::JsonText>)
         {
@@ -242,6 +242,20 @@ struct FieldTable
             | std::uint64_t{0});
     }
 
+    /// The field whose bit stands for each field: its own, or that of the field which an alias names again.
+    template <std::size_t... INDEX>
+    [[nodiscard]] static constexpr std::array<std::uint64_t, COUNT> MakeBits(std::index_sequence<INDEX...>)
+    {
+        const std::array<bool, COUNT> bAliases{(std::get<INDEX>(EXPANDED_FIELDS<T>).presence == EPresence::Alias)...};
+        std::array<std::uint64_t, COUNT> bits{};
+        for (std::size_t index = 0; index < COUNT; ++index)
+        {
+            bits[index] = bAliases[index] ? bits[index - 1] : std::uint64_t{1} << index;
+        }
+        return bits;
+    }
+
+    static constexpr std::array<std::uint64_t, COUNT> BITS = MakeBits(std::make_index_sequence<COUNT>{});
     static constexpr std::array<DecodeFunction, COUNT> FUNCTIONS = MakeFunctions(std::make_index_sequence<COUNT>{});
     static constexpr std::array<std::string_view, COUNT> NAMES = MakeNames(std::make_index_sequence<COUNT>{});
     static constexpr std::uint64_t REQUIRED = MakeRequired(std::make_index_sequence<COUNT>{});
@@ -303,7 +317,7 @@ struct ValueDecoder<T>
                 }
                 continue;
             }
-            const std::uint64_t bit = std::uint64_t{1} << index;
+            const std::uint64_t bit = Table::BITS[index];
             if ((seen & bit) != 0)
             {
                 return IsRepeatedMember(name, context);

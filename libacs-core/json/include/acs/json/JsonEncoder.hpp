@@ -137,6 +137,10 @@ template <typename TField, typename TStruct>
 void EncodeField(const TField& field, const TStruct& object, JsonWriter& writer)
 {
     const auto& member = field.accessor(object);
+    if (field.presence == EPresence::Alias || (field.dialects & writer.GetDialect()) == 0)
+    {
+        return;
+    }
     if (field.presence == EPresence::Optional && IsLeftOut(member))
     {
         return;

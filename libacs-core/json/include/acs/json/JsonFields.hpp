@@ -18,7 +18,12 @@ enum class EPresence : std::uint8_t
     Optional,  ///< May be absent (null is read as absent and counted); left out when nullopt or empty.
     Nullable,  ///< Of a std::optional: null or absent is nullopt; nullopt is written as null.
     Defaulted, ///< Absent or null leaves the struct's default; always written.
+    Alias,     ///< Another name of the field in front of it: read as that field, never written, refused beside it.
 };
+
+/// One bit for each dialect of a protocol (its versions), given a meaning by the codec.
+using DialectFlags = std::uint8_t;
+inline constexpr DialectFlags ALL_DIALECTS = 0xFF;
 
 /// Bounds of a number, or of a string's bytes, or of an array's elements.
 struct FieldBounds
@@ -38,6 +43,15 @@ struct JsonField
     TAccessor accessor;
     EPresence presence = EPresence::Required;
     FieldBounds bounds{};
+    DialectFlags dialects = ALL_DIALECTS;
+
+    /// Written in these dialects only; read in all.
+    [[nodiscard]] constexpr JsonField WrittenIn(DialectFlags flags) const
+    {
+        JsonField field = *this;
+        field.dialects = flags;
+        return field;
+    }
 
     [[nodiscard]] constexpr JsonField Between(double minimum, double maximum) const
     {
@@ -100,25 +114,32 @@ concept DescribedStruct = requires
 template <typename TStruct, typename TMember>
 [[nodiscard]] constexpr auto Required(std::string_view name, TMember TStruct::*member)
 {
-    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Required, {}};
+    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Required, {}, ALL_DIALECTS};
 }
 
 template <typename TStruct, typename TMember>
 [[nodiscard]] constexpr auto Optional(std::string_view name, TMember TStruct::*member)
 {
-    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Optional, {}};
+    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Optional, {}, ALL_DIALECTS};
 }
 
 template <typename TStruct, typename TMember>
 [[nodiscard]] constexpr auto Nullable(std::string_view name, TMember TStruct::*member)
 {
-    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Nullable, {}};
+    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Nullable, {}, ALL_DIALECTS};
 }
 
 template <typename TStruct, typename TMember>
 [[nodiscard]] constexpr auto Defaulted(std::string_view name, TMember TStruct::*member)
 {
-    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Defaulted, {}};
+    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Defaulted, {}, ALL_DIALECTS};
+}
+
+/// Stands right behind the field that it names again, with the same member.
+template <typename TStruct, typename TMember>
+[[nodiscard]] constexpr auto Alias(std::string_view name, TMember TStruct::*member)
+{
+    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Alias, {}, ALL_DIALECTS};
 }
 
 /// A struct whose fields stand flat in the JSON object of the struct that holds it (a message's header).
@@ -147,7 +168,12 @@ template <typename TStruct, typename TMember>
         const auto wrap = [&flat](const auto& field) {
             using Inner = std::remove_cvref_t<decltype(field.accessor)>;
             using Nested = NestedAccessor<MemberAccessor<TStruct, TMember>, Inner>;
-            return JsonField<Nested>{field.name, Nested{flat.accessor, field.accessor}, field.presence, field.bounds};
+            return JsonField<Nested>{
+                field.name,
+                Nested{flat.accessor, field.accessor},
+                field.presence,
+                field.bounds,
+                field.dialects};
         };
         return std::make_tuple(wrap(fields)...);
     };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/core/JsonText.hpp>
+#include <acs/json/JsonFields.hpp>
 
 #include <cstdint>
 #include <string>
@@ -14,11 +15,18 @@ namespace ACS::Json
 class JsonWriter
 {
     std::string& _out;
+    DialectFlags _dialect;
 
     void Separate();
 
 public:
-    explicit JsonWriter(std::string& out);
+    /// Of the fields that are bound to dialects, those of this one are written.
+    explicit JsonWriter(std::string& out, DialectFlags dialect = ALL_DIALECTS);
+
+    [[nodiscard]] DialectFlags GetDialect() const noexcept
+    {
+        return _dialect;
+    }
 
     void BeginObject();
     void EndObject();
