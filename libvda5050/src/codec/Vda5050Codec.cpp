@@ -1,34 +1,20 @@
 #include "CodecBody.hpp"
 #include "CommonFields.hpp"
 
-namespace ACS::VDA5050
-{
-
-namespace
-{
-
-/// As much of a header as there is.
-struct PartialHeader
-{
-    Header header;
-};
-
-} // namespace
-
-} // namespace ACS::VDA5050
-
 namespace ACS::Json
 {
 
 template <>
-struct JsonFields<VDA5050::PartialHeader>
+struct JsonFields<VDA5050::MessageIdentity>
 {
-    using Type = VDA5050::PartialHeader;
+    using Type = VDA5050::MessageIdentity;
     static constexpr auto FIELDS = std::make_tuple(
         DefaultedInHeader<Type>("headerId", &VDA5050::Header::headerID),
         DefaultedInHeader<Type>("version", &VDA5050::Header::version),
         DefaultedInHeader<Type>("manufacturer", &VDA5050::Header::manufacturer),
-        DefaultedInHeader<Type>("serialNumber", &VDA5050::Header::serialNumber));
+        DefaultedInHeader<Type>("serialNumber", &VDA5050::Header::serialNumber),
+        Optional("orderId", &Type::orderID),
+        Optional("orderUpdateId", &Type::orderUpdateID));
 };
 
 } // namespace ACS::Json
@@ -51,7 +37,7 @@ const DecodeTolerance& Vda5050Codec::GetTolerance() const noexcept
     return _tolerance;
 }
 
-Core::Result<Header> Vda5050Codec::DecodeHeader(std::string_view payload)
+Core::Result<MessageIdentity> Vda5050Codec::DecodeIdentity(std::string_view payload)
 {
     const Core::Result<const Json::Value*> root =
         _scratch->document.Parse(payload, Json::ParseLimits{_limits.payloadBytes, _limits.depth});
@@ -60,12 +46,12 @@ Core::Result<Header> Vda5050Codec::DecodeHeader(std::string_view payload)
         return tl::unexpected(root.error());
     }
     Json::DecodeContext context;
-    PartialHeader partial;
-    if (!Json::TryDecode(**root, partial, {}, context))
+    MessageIdentity identity;
+    if (!Json::TryDecode(**root, identity, {}, context))
     {
         return tl::unexpected(context.TakeError());
     }
-    return std::move(partial.header);
+    return identity;
 }
 
 } // namespace ACS::VDA5050

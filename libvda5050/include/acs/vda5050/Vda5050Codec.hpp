@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -35,6 +36,16 @@ struct DecodeTolerance
     std::uint32_t lenientWords = 0;  ///< An enumeration in other letter case.
 
     bool operator==(const DecodeTolerance&) const = default;
+};
+
+/// Whose a message is, and which order it belongs to.
+struct MessageIdentity
+{
+    Header header; ///< Without its timestamp.
+    std::string orderID;
+    std::optional<std::uint32_t> orderUpdateID;
+
+    bool operator==(const MessageIdentity&) const = default;
 };
 
 /// Turns payloads into messages and back. Reads 2.0 and 2.1 and what their schemas misspell (allowedDeviationXy,
@@ -63,8 +74,8 @@ public:
     /// Tolerances of the last Decode.
     [[nodiscard]] const DecodeTolerance& GetTolerance() const noexcept;
 
-    /// The header of any message, as far as it can be read: for the error report about a payload that Decode refused.
-    [[nodiscard]] Core::Result<Header> DecodeHeader(std::string_view payload);
+    /// What names a message, as far as it can be read: for the error report about a payload that Decode refused.
+    [[nodiscard]] Core::Result<MessageIdentity> DecodeIdentity(std::string_view payload);
 
     /// Replaces out by the payload; out is reused by the caller, so that writing allocates nothing once it has grown.
     template <typename TMessage>

@@ -32,6 +32,7 @@ class VehicleSession
         EActionScope scope = EActionScope::Node;
         std::string elementID;
         std::uint32_t sequenceID = 0; ///< Of its node or edge.
+        bool bStarted = false;        ///< The owner was told to.
     };
 
     VehicleOptions _options;
@@ -69,7 +70,7 @@ class VehicleSession
     bool _bLegActive = false;
     bool _bLegStops = true;
     bool _bPaused = false;
-    std::string _pauseActionID; ///< startPause that waits for the vehicle to stand.
+    std::vector<std::string> _pauseActionIDs; ///< startPause that waits for the vehicle to stand.
     std::vector<std::string> _cancelActionIDs;
 
     // Publishing.
@@ -77,16 +78,18 @@ class VehicleSession
     bool _bMinimumTimerRuns = false;
     std::optional<Core::SteadyTime> _lastStateTime;
 
-    void OnOrder(std::string_view payload, Core::Now now, VehicleActions& out);
+    void OnOrder(std::string_view payload, VehicleActions& out);
     void OnInstantActions(std::string_view payload, Core::Now now, VehicleActions& out);
-    void OnInstantAction(const Action& action, Core::Now now, VehicleActions& out);
+    void OnInstantAction(const Action& action, const Header& header, Core::Now now, VehicleActions& out);
     [[nodiscard]] bool IsForeign(ETopic topic, const Header& header, VehicleActions& out) const;
     void RefusePayload(ETopic topic, std::string_view payload, const Core::Error& error, VehicleActions& out);
+    void RefuseVersion(ETopic topic, const Header& header, VehicleActions& out);
+    void AddSessionError(VehicleError error);
     [[nodiscard]] OrderContext MakeContext() const;
-    void RefuseOrder(const OrderMessage& order, const OrderJudgement& judgement, VehicleActions& out);
+    void RefuseOrder(const OrderMessage& order, OrderJudgement judgement, VehicleActions& out);
     void TakeNewOrder(OrderMessage order, VehicleActions& out);
     void TakeUpdate(OrderMessage order, VehicleActions& out);
-    void AppendElements(OrderMessage& order, bool bWithFirstNode);
+    void AppendElements(OrderMessage order);
     void DropHorizon();
 
     void Advance(VehicleActions& out);
@@ -96,9 +99,9 @@ class VehicleSession
     void ReachFront(VehicleActions& out);
     [[nodiscard]] bool CanDrive() const;
     [[nodiscard]] bool NeedsStopAtFront() const;
-    [[nodiscard]] bool HasRunningActions(bool bBlockingOnly) const;
     [[nodiscard]] bool IsExecuting() const;
     [[nodiscard]] bool NeedsNewBase() const;
+    [[nodiscard]] bool CanMoveByItself() const;
 
     void AddActions(
         const std::vector<Action>& actions,
@@ -106,25 +109,34 @@ class VehicleSession
         const std::string& elementID,
         std::uint32_t sequenceID);
     void Enqueue(const std::vector<Action>& actions);
+    void Start(TrackedAction& tracked, VehicleActions& out);
     [[nodiscard]] TrackedAction* FindActionOrNull(std::string_view actionID);
-    void SetStatus(std::string_view actionID, EActionStatus status, std::string result = {});
-    void AddInstantAction(const Action& action, EActionStatus status, std::string result = {});
-    void FailInstantAction(const Action& action, std::string_view errorType, std::string reason);
+    void SetStatus(std::string_view actionID, EActionStatus status, const std::string& result = {});
+    void AddInstantAction(const Action& action, EActionStatus status, const std::string& result = {});
+    void FailInstantAction(
+        const Action& action,
+        const Header& header,
+        std::string_view errorType,
+        const std::string& reason);
     void StartPause(const Action& action, VehicleActions& out);
     void StopPause(const Action& action, VehicleActions& out);
-    void StartCancel(const Action& action, VehicleActions& out);
+    void StartCancel(const Action& action, const Header& header, VehicleActions& out);
+    void StopOrderActions(VehicleActions& out);
+    void StopMoving(VehicleActions& out);
     void ClearOrder(VehicleActions& out);
     void FinishCancelIfStanding(VehicleActions& out);
     void FinishPauseIfStanding();
+    void PerformOwnInstantAction(const Action& action, const Header& header, Core::Now now, VehicleActions& out);
 
     [[nodiscard]] Header MakeHeader(ETopic topic, Core::Now now);
-    [[nodiscard]] StateMessage MakeState(Core::Now now);
+    [[nodiscard]] StateMessage BuildState() const;
     template <typename TMessage>
-    void PublishTyped(ETopic topic, const TMessage& message, VehicleActions& out) const;
+    [[nodiscard]] MqttMessage MakeMessage(ETopic topic, const TMessage& message) const;
     void PublishState(Core::Now now, VehicleActions& out);
     void PublishFactsheet(Core::Now now, VehicleActions& out);
     void PublishVisualization(Core::Now now, VehicleActions& out);
-    void PublishConnection(bool bOnline, Core::Now now, VehicleActions& out);
+    void PublishConnection(EConnectionState state, Core::Now now, VehicleActions& out);
+    /// Ends each call from outside: sends the state that has become due, now or when it may be sent again.
     void Settle(Core::Now now, VehicleActions& out);
 
 public:
@@ -175,8 +187,8 @@ public:
     /// Entering and leaving MANUAL clears the order (2.x, section 6.10.6).
     void OnOperatingMode(EOperatingMode mode, Core::Now now, VehicleActions& out);
 
-    /// The state as it would be sent, with the headerID of the last one sent.
-    [[nodiscard]] StateMessage GetState(Core::Now now) const;
+    /// The state as it would be sent, its header but for the names left empty.
+    [[nodiscard]] StateMessage GetState() const;
     [[nodiscard]] bool IsPaused() const noexcept;
     [[nodiscard]] bool IsOrderRunning() const noexcept;
 };

@@ -1,0 +1,181 @@
+#include "OrderErrors.hpp"
+#include <acs/vda5050/OrderValidator.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+namespace ACS::VDA5050
+{
+
+namespace
+{
+
+constexpr std::uint32_t SEQUENCE_STEP = 2;
+
+/// Collects the violations of one order.
+class Findings
+{
+    const OrderMessage& _order;
+    std::vector<OrderViolation> _violations;
+
+public:
+    explicit Findings(const OrderMessage& order)
+        : _order(order)
+    {
+    }
+
+    void Add(std::string rule)
+    {
+        VehicleError error = MakeOrderError(_order, ErrorTypes::VALIDATION_ERROR, rule);
+        _violations.push_back(OrderViolation{std::move(rule), std::move(error)});
+    }
+
+    void Add(std::string rule, std::string_view key, const std::string& value)
+    {
+        Add(rule + ": " + value);
+        AddReference(_violations.back().error, key, value);
+    }
+
+    [[nodiscard]] std::vector<OrderViolation> Take()
+    {
+        return std::move(_violations);
+    }
+};
+
+void CheckSequence(const OrderMessage& order, Findings& findings)
+{
+    std::uint32_t expected = order.nodes.front().sequenceID;
+    if (expected % SEQUENCE_STEP != 0)
+    {
+        findings.Add("the sequenceId of a node is even", ReferenceKeys::NODE_ID, order.nodes.front().nodeID);
+    }
+    for (std::size_t index = 0; index < order.nodes.size(); ++index)
+    {
+        const OrderNode& node = order.nodes[index];
+        if (node.sequenceID != expected)
+        {
+            findings.Add("sequenceIds follow each other without a gap", ReferenceKeys::NODE_ID, node.nodeID);
+        }
+        if (index < order.edges.size() && order.edges[index].sequenceID != expected + 1)
+        {
+            findings.Add(
+                "sequenceIds follow each other without a gap",
+                ReferenceKeys::EDGE_ID,
+                order.edges[index].edgeID);
+        }
+        expected += SEQUENCE_STEP;
+    }
+}
+
+void CheckBase(const OrderMessage& order, Findings& findings)
+{
+    if (!order.nodes.front().bReleased)
+    {
+        findings.Add("the first node is released", ReferenceKeys::NODE_ID, order.nodes.front().nodeID);
+    }
+    for (std::size_t index = 0; index < order.edges.size(); ++index)
+    {
+        const OrderEdge& edge = order.edges[index];
+        const bool bJoined = order.nodes[index].bReleased && order.nodes[index + 1].bReleased;
+        if (edge.bReleased && !bJoined)
+        {
+            findings.Add("a released edge joins released nodes", ReferenceKeys::EDGE_ID, edge.edgeID);
+        }
+        if (!edge.bReleased && order.nodes[index + 1].bReleased)
+        {
+            findings.Add("nothing is released behind the horizon's begin", ReferenceKeys::EDGE_ID, edge.edgeID);
+        }
+    }
+}
+
+void CheckTrajectory(const OrderEdge& edge, Findings& findings)
+{
+    if (!edge.trajectory.has_value())
+    {
+        return;
+    }
+    const Trajectory& curve = *edge.trajectory;
+    const bool bCounts = curve.controlPoints.size() > curve.degree
+        && curve.knotVector.size() == curve.controlPoints.size() + curve.degree + 1;
+    const bool bRange = std::ranges::all_of(curve.knotVector, [](double knot) { return knot >= 0.0 && knot <= 1.0; });
+    if (!bCounts || !bRange || !std::ranges::is_sorted(curve.knotVector))
+    {
+        findings.Add(
+            "a trajectory has control points + degree + 1 rising knots from 0 to 1",
+            ReferenceKeys::EDGE_ID,
+            edge.edgeID);
+    }
+}
+
+void CheckEdges(const OrderMessage& order, Findings& findings)
+{
+    for (std::size_t index = 0; index < order.edges.size(); ++index)
+    {
+        const OrderEdge& edge = order.edges[index];
+        if (edge.startNodeID != order.nodes[index].nodeID || edge.endNodeID != order.nodes[index + 1].nodeID)
+        {
+            findings.Add("an edge names the nodes beside it", ReferenceKeys::EDGE_ID, edge.edgeID);
+        }
+        CheckTrajectory(edge, findings);
+    }
+}
+
+void CheckActions(const OrderMessage& order, Findings& findings)
+{
+    std::vector<std::string_view> ids;
+    const auto check = [&ids, &findings](const std::vector<Action>& actions) {
+        for (const Action& action : actions)
+        {
+            ids.push_back(action.actionID);
+            const bool bNull = std::ranges::any_of(action.actionParameters, [](const ActionParameter& parameter) {
+                return parameter.value.GetText() == "null";
+            });
+            if (action.actionID.empty() || bNull)
+            {
+                findings.Add(
+                    "an action has an id, and no parameter that is null",
+                    ReferenceKeys::ACTION_ID,
+                    action.actionID);
+            }
+        }
+    };
+    for (const OrderNode& node : order.nodes)
+    {
+        check(node.actions);
+    }
+    for (const OrderEdge& edge : order.edges)
+    {
+        check(edge.actions);
+    }
+    std::ranges::sort(ids);
+    const auto repeated = std::ranges::adjacent_find(ids);
+    if (repeated != ids.end())
+    {
+        findings.Add("actionIds are unique", ReferenceKeys::ACTION_ID, std::string(*repeated));
+    }
+}
+
+} // namespace
+
+std::vector<OrderViolation> ValidateOrder(const OrderMessage& order)
+{
+    Findings findings(order);
+    if (order.orderID.empty())
+    {
+        findings.Add("an order has an orderId");
+    }
+    if (order.nodes.empty() || order.edges.size() + 1 != order.nodes.size())
+    {
+        findings.Add("an order has at least one node, and one edge less than nodes");
+        return findings.Take();
+    }
+    CheckSequence(order, findings);
+    CheckBase(order, findings);
+    CheckEdges(order, findings);
+    CheckActions(order, findings);
+    return findings.Take();
+}
+
+} // namespace ACS::VDA5050

@@ -1,0 +1,215 @@
+#include <acs/vda5050/VehicleSession.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace ACS::VDA5050
+{
+
+Header VehicleSession::MakeHeader(ETopic topic, Core::Now now)
+{
+    return Header{
+        _headerIDs.at(static_cast<std::size_t>(topic))++,
+        now.wall,
+        std::string(GetVersionText(_options.version)),
+        _options.address.manufacturer,
+        _options.address.serialNumber};
+}
+
+template <typename TMessage>
+MqttMessage VehicleSession::MakeMessage(ETopic topic, const TMessage& message) const
+{
+    return MqttMessage{
+        _topics.at(static_cast<std::size_t>(topic)),
+        _codec.Encode(message, _options.version),
+        _options.qos.Get(topic),
+        IsRetained(topic)};
+}
+
+MqttWill VehicleSession::MakeWill(Core::Now now)
+{
+    ConnectionMessage message;
+    message.header = MakeHeader(ETopic::Connection, now);
+    message.connectionState = EConnectionState::ConnectionBroken;
+    return MqttWill{MakeMessage(ETopic::Connection, message)};
+}
+
+void VehicleSession::OnLinkUp(Core::Now now, VehicleActions& out)
+{
+    _bLinkUp = true;
+    PublishConnection(EConnectionState::Online, now, out);
+    PublishFactsheet(now, out);
+    PublishState(now, out);
+    if (_options.visualizationInterval.count() > 0)
+    {
+        out.emplace_back(StartVehicleTimer{EVehicleTimer::Visualization, _options.visualizationInterval});
+    }
+}
+
+void VehicleSession::OnLinkDown(Core::Now /*now*/, VehicleActions& out)
+{
+    _bLinkUp = false;
+    _bMinimumTimerRuns = false;
+    for (const EVehicleTimer timer :
+         {EVehicleTimer::MinimumStateInterval, EVehicleTimer::MaximumStateInterval, EVehicleTimer::Visualization})
+    {
+        out.emplace_back(CancelVehicleTimer{timer});
+    }
+}
+
+void VehicleSession::Leave(Core::Now now, VehicleActions& out)
+{
+    if (_bLinkUp)
+    {
+        PublishConnection(EConnectionState::Offline, now, out);
+        OnLinkDown(now, out);
+    }
+}
+
+void VehicleSession::OnTimer(EVehicleTimer timer, Core::Now now, VehicleActions& out)
+{
+    if (!_bLinkUp)
+    {
+        return;
+    }
+    switch (timer)
+    {
+        case EVehicleTimer::MinimumStateInterval:
+            _bMinimumTimerRuns = false;
+            Settle(now, out);
+            break;
+        case EVehicleTimer::MaximumStateInterval:
+            PublishState(now, out);
+            break;
+        case EVehicleTimer::Visualization:
+            PublishVisualization(now, out);
+            out.emplace_back(StartVehicleTimer{EVehicleTimer::Visualization, _options.visualizationInterval});
+            break;
+        default:
+            break;
+    }
+}
+
+void VehicleSession::Settle(Core::Now now, VehicleActions& out)
+{
+    if (!_bStateDue || !_bLinkUp || _bMinimumTimerRuns)
+    {
+        return;
+    }
+    const Core::SteadyTime due =
+        _lastStateTime.has_value() ? *_lastStateTime + _options.minimumStateInterval : now.steady;
+    if (now.steady >= due)
+    {
+        PublishState(now, out);
+        return;
+    }
+    _bMinimumTimerRuns = true;
+    out.emplace_back(StartVehicleTimer{EVehicleTimer::MinimumStateInterval, due - now.steady});
+}
+
+StateMessage VehicleSession::BuildState() const
+{
+    StateMessage state;
+    state.header.manufacturer = _options.address.manufacturer;
+    state.header.serialNumber = _options.address.serialNumber;
+    state.maps = _maps;
+    state.orderID = _orderID;
+    state.orderUpdateID = _orderUpdateID;
+    state.zoneSetID = _zoneSetID;
+    state.lastNodeID = _lastNodeID;
+    state.lastNodeSequenceID = _lastNodeSequenceID;
+    state.nodeStates.reserve(_nodes.size());
+    for (const OrderNode& node : _nodes)
+    {
+        NodeState& entry = state.nodeStates.emplace_back(
+            NodeState{node.nodeID, node.sequenceID, node.nodeDescription, node.bReleased, std::nullopt});
+        if (node.nodePosition.has_value())
+        {
+            const NodePosition& position = *node.nodePosition;
+            entry.nodePosition = NodeStatePosition{position.x, position.y, position.theta, position.mapID};
+        }
+    }
+    state.edgeStates.reserve(_edges.size());
+    for (const OrderEdge& edge : _edges)
+    {
+        state.edgeStates.push_back(
+            EdgeState{edge.edgeID, edge.sequenceID, edge.edgeDescription, edge.bReleased, edge.trajectory});
+    }
+    state.agvPosition = _position;
+    state.velocity = _velocity;
+    state.loads = _loads;
+    state.bDriving = _bDriving;
+    state.bPaused = _bPaused && _pauseActionIDs.empty();
+    state.bNewBaseRequest = NeedsNewBase();
+    state.distanceSinceLastNode = _distanceSinceLastNode;
+    state.actionStates.reserve(_actions.size());
+    for (const TrackedAction& tracked : _actions)
+    {
+        state.actionStates.push_back(tracked.machine.GetState());
+    }
+    state.batteryState = _battery;
+    if (state.batteryState.batteryHealth.has_value())
+    {
+        state.batteryState.batteryHealth = std::round(*state.batteryState.batteryHealth);
+    }
+    state.operatingMode = _operatingMode;
+    state.errors = _ownerErrors;
+    std::ranges::copy(_sessionErrors, std::back_inserter(state.errors));
+    state.information = _information;
+    state.safetyState = _safety;
+    return state;
+}
+
+void VehicleSession::PublishState(Core::Now now, VehicleActions& out)
+{
+    if (!_bLinkUp)
+    {
+        return;
+    }
+    StateMessage state = BuildState();
+    state.header = MakeHeader(ETopic::State, now);
+    out.emplace_back(PublishMessage{MakeMessage(ETopic::State, state)});
+    if (_bMinimumTimerRuns)
+    {
+        _bMinimumTimerRuns = false;
+        out.emplace_back(CancelVehicleTimer{EVehicleTimer::MinimumStateInterval});
+    }
+    _bStateDue = false;
+    _lastStateTime = now.steady;
+    out.emplace_back(StartVehicleTimer{EVehicleTimer::MaximumStateInterval, _options.maximumStateInterval});
+}
+
+void VehicleSession::PublishFactsheet(Core::Now now, VehicleActions& out)
+{
+    if (!_bLinkUp)
+    {
+        return;
+    }
+    _options.factsheet.header = MakeHeader(ETopic::Factsheet, now);
+    out.emplace_back(PublishMessage{MakeMessage(ETopic::Factsheet, _options.factsheet)});
+}
+
+void VehicleSession::PublishVisualization(Core::Now now, VehicleActions& out)
+{
+    if (!_position.has_value())
+    {
+        return;
+    }
+    VisualizationMessage message;
+    message.header = MakeHeader(ETopic::Visualization, now);
+    message.agvPosition = _position;
+    message.velocity = _velocity;
+    out.emplace_back(PublishMessage{MakeMessage(ETopic::Visualization, message)});
+}
+
+void VehicleSession::PublishConnection(EConnectionState state, Core::Now now, VehicleActions& out)
+{
+    ConnectionMessage message;
+    message.header = MakeHeader(ETopic::Connection, now);
+    message.connectionState = state;
+    out.emplace_back(PublishMessage{MakeMessage(ETopic::Connection, message)});
+}
+
+} // namespace ACS::VDA5050
