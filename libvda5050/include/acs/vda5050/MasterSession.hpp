@@ -100,18 +100,26 @@ class MasterSession
     void Refuse(ETopic topic, Core::Error error, MasterActions& out);
     void ComeOnline(Core::Now now, MasterActions& out);
     void GoAway(EVehicleLink link, MasterActions& out);
+    void CheckSilence(Core::Now now, MasterActions& out);
+    [[nodiscard]] bool IsStale(const StateMessage& state) const;
 
-    void TellDifferences(const StateMessage* previousOrNull, MasterActions& out) const;
+    void TellDifferences(const std::optional<StateMessage>& previous, MasterActions& out) const;
     void SettlePendingActions(MasterActions& out);
     void SettleInFlight(Core::Now now, MasterActions& out);
     void AcceptInFlight(Core::Now now, MasterActions& out);
     void RejectInFlight(const std::string& errorType, const std::string& reason, MasterActions& out);
+    [[nodiscard]] bool IsRejection(const VehicleError& error) const;
     [[nodiscard]] const VehicleError* FindRejectionOrNull() const;
     void FollowOrder(MasterActions& out);
     void TellReachedNodes(MasterActions& out);
     [[nodiscard]] bool IsOrderDone() const;
     void FollowCancel(MasterActions& out);
-    void EndOrder();
+    void EndCancel(EActionStatus status, MasterActions& out);
+    void EndOrder(MasterActions& out);
+    void ExtendRoute(const OrderMessage& order);
+    /// Where an update has to begin: the last released node of what was sent last.
+    [[nodiscard]] std::pair<std::string, std::uint32_t> GetDecisionPoint() const;
+    [[nodiscard]] bool IsPending(std::string_view actionID) const;
 
     [[nodiscard]] Header MakeHeader(ETopic topic, Core::Now now);
     void PublishPayload(ETopic topic, std::string payload, MasterActions& out);
@@ -120,7 +128,6 @@ class MasterSession
     void ResendOrder(Core::Now now, MasterActions& out);
     void ResendInstantActions(Core::Now now, MasterActions& out);
     [[nodiscard]] std::string MakeActionID(std::string_view actionType, Core::Now now);
-    void StartSilenceTimer(MasterActions& out) const;
 
 public:
     explicit MasterSession(MasterOptions options);

@@ -1,0 +1,340 @@
+#include <acs/vda5050/ActionMachine.hpp>
+#include <acs/vda5050/EVda5050Error.hpp>
+#include <acs/vda5050/MasterSession.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace ACS::VDA5050
+{
+
+MasterSession::MasterSession(MasterOptions options)
+    : _options(std::move(options))
+{
+    for (std::size_t index = 0; index < TOPIC_COUNT; ++index)
+    {
+        _topics.at(index) = BuildTopic(_options.address, static_cast<ETopic>(index));
+    }
+}
+
+std::vector<MqttSubscription> MasterSession::GetSubscriptions() const
+{
+    std::vector<MqttSubscription> subscriptions;
+    for (const ETopic topic : {ETopic::State, ETopic::Visualization, ETopic::Connection, ETopic::Factsheet})
+    {
+        subscriptions.push_back(MqttSubscription{_topics.at(static_cast<std::size_t>(topic)), _options.qos.Get(topic)});
+    }
+    return subscriptions;
+}
+
+void MasterSession::OnLinkUp(Core::Now /*now*/, MasterActions& /*out*/)
+{
+    _bLinkUp = true;
+}
+
+void MasterSession::OnLinkDown(Core::Now /*now*/, MasterActions& out)
+{
+    _bLinkUp = false;
+    _link = EVehicleLink::Unknown;
+    for (const EMasterTimer timer :
+         {EMasterTimer::ResendOrder, EMasterTimer::ResendInstantActions, EMasterTimer::Silence})
+    {
+        out.emplace_back(CancelMasterTimer{timer});
+    }
+}
+
+void MasterSession::OnMessage(std::string_view topic, std::string_view payload, Core::Now now, MasterActions& out)
+{
+    const auto found = std::ranges::find(_topics, topic);
+    if (found == _topics.end() || !_bLinkUp)
+    {
+        return;
+    }
+    switch (static_cast<ETopic>(found - _topics.begin()))
+    {
+        case ETopic::State:
+            OnState(payload, now, out);
+            break;
+        case ETopic::Visualization:
+            OnVisualization(payload, out);
+            break;
+        case ETopic::Connection:
+            OnConnection(payload, now, out);
+            break;
+        case ETopic::Factsheet:
+            OnFactsheet(payload, out);
+            break;
+        case ETopic::Order:
+        case ETopic::InstantActions:
+        default:
+            break; // what masters send
+    }
+}
+
+void MasterSession::OnTimer(EMasterTimer timer, Core::Now now, MasterActions& out)
+{
+    switch (timer)
+    {
+        case EMasterTimer::ResendOrder:
+            ResendOrder(now, out);
+            break;
+        case EMasterTimer::ResendInstantActions:
+            ResendInstantActions(now, out);
+            break;
+        case EMasterTimer::Silence:
+            CheckSilence(now, out);
+            break;
+        default:
+            break;
+    }
+}
+
+void MasterSession::Refuse(ETopic topic, Core::Error error, MasterActions& out)
+{
+    ++_statistics.messagesRefused;
+    out.emplace_back(MessageRefused{topic, std::move(error)});
+}
+
+void MasterSession::OnConnection(std::string_view payload, Core::Now now, MasterActions& out)
+{
+    const Core::Result<ConnectionMessage> message = _codec.Decode<ConnectionMessage>(payload);
+    if (!message)
+    {
+        Refuse(ETopic::Connection, message.error(), out);
+        return;
+    }
+    switch (message->connectionState)
+    {
+        case EConnectionState::Online:
+            if (_link != EVehicleLink::Online)
+            {
+                ComeOnline(now, out);
+            }
+            break;
+        case EConnectionState::Offline:
+            GoAway(EVehicleLink::Offline, out);
+            break;
+        case EConnectionState::ConnectionBroken:
+            GoAway(EVehicleLink::Broken, out);
+            break;
+        default:
+            break;
+    }
+}
+
+void MasterSession::ComeOnline(Core::Now now, MasterActions& out)
+{
+    _link = EVehicleLink::Online;
+    _bSilent = false;
+    _lastStateTime = now.steady;
+    out.emplace_back(VehicleOnline{});
+    out.emplace_back(StartMasterTimer{EMasterTimer::Silence, _options.stateInterval + _options.stateMargin});
+    std::vector<Action> requests;
+    const auto ask = [this, now, &requests](std::string_view actionType) {
+        Action& action = requests.emplace_back();
+        action.actionType = actionType;
+        action.actionID = MakeActionID(actionType, now);
+    };
+    if (_options.bStateRequested)
+    {
+        ask(ActionTypes::STATE_REQUEST);
+    }
+    if (_options.bFactsheetRequested && !_factsheet.has_value())
+    {
+        ask(ActionTypes::FACTSHEET_REQUEST);
+    }
+    if (!requests.empty())
+    {
+        PublishInstantActions(std::move(requests), now, out);
+    }
+    ResendOrder(now, out);
+    ResendInstantActions(now, out);
+}
+
+void MasterSession::GoAway(EVehicleLink link, MasterActions& out)
+{
+    if (_link == link)
+    {
+        return; // a repeated retained message, or a will after it was read once
+    }
+    _link = link;
+    for (const EMasterTimer timer :
+         {EMasterTimer::ResendOrder, EMasterTimer::ResendInstantActions, EMasterTimer::Silence})
+    {
+        out.emplace_back(CancelMasterTimer{timer});
+    }
+    if (link == EVehicleLink::Broken)
+    {
+        out.emplace_back(VehicleBroken{});
+    }
+    else
+    {
+        out.emplace_back(VehicleOffline{});
+    }
+}
+
+/// The timer is not moved at each state: it looks back when it ends, and waits for the rest.
+void MasterSession::CheckSilence(Core::Now now, MasterActions& out)
+{
+    if (_link != EVehicleLink::Online || _bSilent)
+    {
+        return;
+    }
+    const Core::Duration allowed = _options.stateInterval + _options.stateMargin;
+    const Core::Duration age = now.steady - _lastStateTime;
+    if (age < allowed)
+    {
+        out.emplace_back(StartMasterTimer{EMasterTimer::Silence, allowed - age});
+        return;
+    }
+    _bSilent = true;
+    out.emplace_back(VehicleSilent{age});
+}
+
+/// Both must be older: headerIds begin again when a vehicle restarts, and clocks are set.
+bool MasterSession::IsStale(const StateMessage& state) const
+{
+    return _state.has_value() && state.header.headerID < _state->header.headerID
+        && state.header.timestamp < _state->header.timestamp;
+}
+
+void MasterSession::OnState(std::string_view payload, Core::Now now, MasterActions& out)
+{
+    Core::Result<StateMessage> state = _codec.Decode<StateMessage>(payload);
+    if (!state)
+    {
+        Refuse(ETopic::State, state.error(), out);
+        return;
+    }
+    if (IsStale(*state))
+    {
+        ++_statistics.statesIgnored;
+        return;
+    }
+    ++_statistics.statesReceived;
+    if (_link == EVehicleLink::Unknown)
+    {
+        // States are never retained: it lives, whatever became of its connection message.
+        ComeOnline(now, out);
+    }
+    _lastStateTime = now.steady;
+    if (_bSilent && _link == EVehicleLink::Online)
+    {
+        _bSilent = false;
+        out.emplace_back(StartMasterTimer{EMasterTimer::Silence, _options.stateInterval + _options.stateMargin});
+    }
+    const std::optional<StateMessage> previous = std::exchange(_state, std::move(*state));
+    out.emplace_back(StateReceived{});
+    if (_state->agvPosition.has_value())
+    {
+        out.emplace_back(PositionReceived{*_state->agvPosition, _state->velocity});
+    }
+    SettleInFlight(now, out);
+    TellDifferences(previous, out);
+    SettlePendingActions(out);
+    FollowOrder(out);
+    FollowCancel(out);
+}
+
+void MasterSession::OnVisualization(std::string_view payload, MasterActions& out)
+{
+    const Core::Result<VisualizationMessage> message = _codec.Decode<VisualizationMessage>(payload);
+    if (!message)
+    {
+        Refuse(ETopic::Visualization, message.error(), out);
+        return;
+    }
+    if (message->agvPosition.has_value())
+    {
+        out.emplace_back(PositionReceived{*message->agvPosition, message->velocity});
+    }
+}
+
+void MasterSession::OnFactsheet(std::string_view payload, MasterActions& out)
+{
+    Core::Result<FactsheetMessage> message = _codec.Decode<FactsheetMessage>(payload);
+    if (!message)
+    {
+        Refuse(ETopic::Factsheet, message.error(), out);
+        return;
+    }
+    _factsheet = std::move(*message);
+    out.emplace_back(FactsheetReceived{});
+}
+
+void MasterSession::TellDifferences(const std::optional<StateMessage>& previous, MasterActions& out) const
+{
+    const StateMessage none;
+    const StateMessage& before = previous.has_value() ? *previous : none;
+    for (const ActionState& action : _state->actionStates)
+    {
+        const auto known = std::ranges::find(before.actionStates, action.actionID, &ActionState::actionID);
+        const bool bSame = known != before.actionStates.end() && known->actionStatus == action.actionStatus
+            && known->resultDescription == action.resultDescription;
+        if (!bSame)
+        {
+            out.emplace_back(
+                ActionChanged{action.actionID, action.actionType, action.actionStatus, action.resultDescription});
+        }
+    }
+    const auto tell = [&out](const StateMessage& from, const StateMessage& other, bool bActive) {
+        for (const VehicleError& error : from.errors)
+        {
+            if (std::ranges::find(other.errors, error) == other.errors.end())
+            {
+                out.emplace_back(VehicleErrorChanged{error, bActive});
+            }
+        }
+    };
+    tell(*_state, before, true);
+    tell(before, *_state, false);
+}
+
+EVehicleLink MasterSession::GetLink() const noexcept
+{
+    return _link;
+}
+
+EOrderPhase MasterSession::GetOrderPhase() const noexcept
+{
+    return _phase;
+}
+
+const std::string& MasterSession::GetOrderID() const noexcept
+{
+    return _orderID;
+}
+
+bool MasterSession::IsReady() const
+{
+    return _link == EVehicleLink::Online && _state.has_value() && !_bSilent;
+}
+
+bool MasterSession::CanTakeOrder() const
+{
+    return IsReady() && _phase == EOrderPhase::None
+        && (_state->operatingMode == EOperatingMode::Automatic
+            || _state->operatingMode == EOperatingMode::SemiAutomatic);
+}
+
+const StateMessage* MasterSession::GetStateOrNull() const noexcept
+{
+    return _state.has_value() ? &*_state : nullptr;
+}
+
+const FactsheetMessage* MasterSession::GetFactsheetOrNull() const noexcept
+{
+    return _factsheet.has_value() ? &*_factsheet : nullptr;
+}
+
+const MasterStatistics& MasterSession::GetStatistics() const noexcept
+{
+    return _statistics;
+}
+
+const MasterOptions& MasterSession::GetOptions() const noexcept
+{
+    return _options;
+}
+
+} // namespace ACS::VDA5050
