@@ -2,6 +2,7 @@
 #include <acs/vda5050/Topic.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 namespace ACS::VDA5050
@@ -56,28 +57,10 @@ bool IsRetained(ETopic topic)
     return GetRule(topic).bRetained;
 }
 
-QosTable::QosTable()
-    : QosTable(EQosProfile::Project)
+std::uint8_t GetQos(ETopic topic, EQosProfile profile)
 {
-}
-
-QosTable::QosTable(EQosProfile profile)
-{
-    for (const TopicRule& rule : RULES)
-    {
-        Set(rule.topic, profile == EQosProfile::Project ? rule.projectQos : rule.standardQos);
-    }
-}
-
-std::uint8_t QosTable::Get(ETopic topic) const
-{
-    return _levels.at(static_cast<std::size_t>(topic));
-}
-
-void QosTable::Set(ETopic topic, std::uint8_t qos)
-{
-    assert(qos <= 2);
-    _levels.at(static_cast<std::size_t>(topic)) = qos;
+    const TopicRule& rule = GetRule(topic);
+    return profile == EQosProfile::Project ? rule.projectQos : rule.standardQos;
 }
 
 bool IsValidAddress(const VehicleAddress& address)

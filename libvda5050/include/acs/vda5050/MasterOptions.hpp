@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/vda5050/EVda5050Version.hpp>
+#include <acs/vda5050/QosTable.hpp>
 #include <acs/vda5050/Topic.hpp>
 
 #include <chrono>

@@ -2,7 +2,6 @@
 
 #include <acs/core/Result.hpp>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -37,22 +36,8 @@ enum class EQosProfile : std::uint8_t
 /// Whether messages of this topic are published retained (connection and factsheet).
 [[nodiscard]] bool IsRetained(ETopic topic);
 
-/// The quality of service per topic: a profile, of which single topics may be changed.
-class QosTable
-{
-    std::array<std::uint8_t, TOPIC_COUNT> _levels{};
-
-public:
-    /// The project's profile.
-    QosTable();
-    explicit QosTable(EQosProfile profile);
-
-    [[nodiscard]] std::uint8_t Get(ETopic topic) const;
-    /// qos is 0, 1 or 2.
-    void Set(ETopic topic, std::uint8_t qos);
-
-    bool operator==(const QosTable&) const = default;
-};
+/// The quality of service of a profile; QosTable changes single topics of it.
+[[nodiscard]] std::uint8_t GetQos(ETopic topic, EQosProfile profile);
 
 /// Where a vehicle lives on the broker. A level has no `/`, `+`, `#` and is not empty.
 struct VehicleAddress

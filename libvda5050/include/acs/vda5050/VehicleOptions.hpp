@@ -2,6 +2,7 @@
 
 #include <acs/vda5050/EVda5050Version.hpp>
 #include <acs/vda5050/FactsheetMessage.hpp>
+#include <acs/vda5050/QosTable.hpp>
 #include <acs/vda5050/Topic.hpp>
 
 #include <chrono>

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <acs/vda5050/Topic.hpp>
+
+#include <array>
+#include <cstdint>
+
+namespace ACS::VDA5050
+{
+
+/// The quality of service per topic: a profile, of which single topics may be changed.
+class QosTable
+{
+    std::array<std::uint8_t, TOPIC_COUNT> _levels{};
+
+public:
+    /// The project's profile.
+    QosTable();
+    explicit QosTable(EQosProfile profile);
+
+    [[nodiscard]] std::uint8_t Get(ETopic topic) const;
+    /// qos is 0, 1 or 2.
+    void Set(ETopic topic, std::uint8_t qos);
+
+    bool operator==(const QosTable&) const = default;
+};
+
+} // namespace ACS::VDA5050

@@ -1,0 +1,460 @@
+#include "Catch.hpp"
+#include "Vda5050Sample.hpp"
+#include <acs/vda5050/EVda5050Error.hpp>
+#include <acs/vda5050/MasterSession.hpp>
+
+#include <algorithm>
+
+namespace ACS::VDA5050::Test
+{
+
+namespace
+{
+
+MasterOptions MakeMasterOptions()
+{
+    MasterOptions options;
+    options.address = MakeAddress();
+    return options;
+}
+
+/// A master whose vehicle is written by the test.
+class MasterBench
+{
+    Testing::ManualClock _clock;
+    MasterActions _out;
+    std::uint32_t _headerID = 0;
+
+public:
+    MasterSession session;
+    StateMessage state;
+
+    explicit MasterBench(MasterOptions options = MakeMasterOptions())
+        : session(std::move(options))
+    {
+        state.lastNodeID = "N0";
+        session.OnLinkUp(_clock.GetNow(), _out);
+    }
+
+    [[nodiscard]] const MasterActions& GetOutput() const
+    {
+        return _out;
+    }
+
+    MasterActions& Clear()
+    {
+        _out.clear();
+        return _out;
+    }
+
+    [[nodiscard]] Core::Now GetNow() const
+    {
+        return _clock.GetNow();
+    }
+
+    void Connect(EConnectionState connection)
+    {
+        ConnectionMessage message;
+        message.header = Header{_headerID++, _clock.GetNow().wall, "2.0.0", "ACS", "LR01"};
+        message.connectionState = connection;
+        Say(ETopic::Connection, Vda5050Codec().Encode(message, EVda5050Version::Version200));
+    }
+
+    void Say(ETopic topic, std::string_view payload)
+    {
+        session.OnMessage(BuildTopic(MakeAddress(), topic), payload, _clock.GetNow(), _out);
+    }
+
+    void SendState()
+    {
+        state.header = Header{_headerID++, _clock.GetNow().wall, "2.0.0", "ACS", "LR01"};
+        Say(ETopic::State, Vda5050Codec().Encode(state, EVda5050Version::Version200));
+    }
+
+    void BeReady()
+    {
+        Connect(EConnectionState::Online);
+        SendState();
+        _out.clear();
+    }
+
+    void Wait(std::chrono::milliseconds span, EMasterTimer timer)
+    {
+        _clock.Advance(span);
+        session.OnTimer(timer, _clock.GetNow(), _out);
+    }
+
+    /// As a vehicle shows an order that it has taken.
+    void Hold(const OrderMessage& order, std::size_t nodesLeft)
+    {
+        state.orderID = order.orderID;
+        state.orderUpdateID = order.orderUpdateID;
+        state.nodeStates.clear();
+        state.edgeStates.clear();
+        for (std::size_t index = order.nodes.size() - nodesLeft; index < order.nodes.size(); ++index)
+        {
+            const OrderNode& node = order.nodes[index];
+            state.nodeStates.push_back(NodeState{node.nodeID, node.sequenceID, {}, node.bReleased, {}});
+        }
+        const OrderNode& last = order.nodes[order.nodes.size() - nodesLeft - 1];
+        state.lastNodeID = last.nodeID;
+        state.lastNodeSequenceID = last.sequenceID;
+    }
+
+    void Refuse(std::string_view errorType, const std::vector<ErrorReference>& references)
+    {
+        VehicleError error;
+        error.errorType = errorType;
+        error.errorReferences = references;
+        error.errorDescription = "because";
+        state.errors = {error};
+        SendState();
+    }
+
+    [[nodiscard]] std::vector<MqttMessage> GetSent(ETopic topic) const
+    {
+        std::vector<MqttMessage> sent;
+        for (const PublishMessage& publish : Pick<PublishMessage>(_out))
+        {
+            if (publish.message.topic == BuildTopic(MakeAddress(), topic))
+            {
+                sent.push_back(publish.message);
+            }
+        }
+        return sent;
+    }
+
+    [[nodiscard]] OrderMessage GetSentOrder() const
+    {
+        const std::vector<MqttMessage> sent = GetSent(ETopic::Order);
+        REQUIRE_FALSE(sent.empty());
+        const Core::Result<OrderMessage> order = Vda5050Codec().Decode<OrderMessage>(sent.back().payload);
+        REQUIRE(order.has_value());
+        return *order;
+    }
+};
+
+std::vector<std::string> ListReached(const MasterActions& actions)
+{
+    std::vector<std::string> ids;
+    for (const NodeReached& node : Pick<NodeReached>(actions))
+    {
+        ids.push_back(node.nodeID);
+    }
+    return ids;
+}
+
+} // namespace
+
+TEST_CASE("6 ONLINE asks for state and factsheet; OFFLINE, the will and repeated retained messages are told once")
+{
+    MasterBench bench;
+    CHECK(bench.session.GetSubscriptions().size() == 4);
+    bench.Connect(EConnectionState::ConnectionBroken);
+    bench.Connect(EConnectionState::Online);
+    bench.Connect(EConnectionState::Online);
+    CHECK(Pick<VehicleBroken>(bench.GetOutput()).size() == 1);
+    CHECK(Pick<VehicleOnline>(bench.GetOutput()).size() == 1);
+    const auto sent = bench.GetSent(ETopic::InstantActions);
+    REQUIRE(sent.size() == 1);
+    CHECK(sent[0].qos == 2);
+    const auto request = Vda5050Codec().Decode<InstantActionsMessage>(sent[0].payload);
+    REQUIRE(request.has_value());
+    REQUIRE(request->actions.size() == 2);
+    CHECK(request->actions[0].actionType == "stateRequest");
+    CHECK(request->actions[0].blockingType == EBlockingType::None);
+    CHECK(request->actions[1].actionType == "factsheetRequest");
+    CHECK_FALSE(bench.session.CanTakeOrder());
+    bench.SendState();
+    CHECK(bench.session.CanTakeOrder());
+    bench.Connect(EConnectionState::Offline);
+    CHECK(Pick<VehicleOffline>(bench.GetOutput()).size() == 1);
+    CHECK_FALSE(bench.session.IsReady());
+}
+
+TEST_CASE("13 An order is resent until the state shows its ids, and then no more")
+{
+    MasterBench bench;
+    bench.BeReady();
+    const OrderMessage order = MakeOrder(3, 2);
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    bench.SendState();
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()).empty());
+    bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendOrder);
+    REQUIRE(bench.GetSent(ETopic::Order).size() == 2);
+    const OrderMessage resent = bench.GetSentOrder();
+    CHECK(resent.nodes == order.nodes);
+    CHECK(resent.header.headerID == 1);
+    bench.Hold(order, 2);
+    bench.SendState();
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()) == std::vector{OrderAccepted{"order-1", 0}});
+    CHECK(ListReached(bench.GetOutput()) == std::vector<std::string>{"N0"});
+    bench.Clear();
+    bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendOrder);
+    CHECK(bench.GetSent(ETopic::Order).empty());
+}
+
+TEST_CASE("13 Resends end after a count where one is set")
+{
+    MasterOptions options = MakeMasterOptions();
+    options.resendCount = 1;
+    MasterBench bench(options);
+    bench.BeReady();
+    REQUIRE(bench.session.SendOrder(MakeOrder(2, 2), bench.GetNow(), bench.Clear()).has_value());
+    bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendOrder);
+    CHECK(Pick<OrderRejected>(bench.GetOutput()).empty());
+    bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendOrder);
+    REQUIRE(Pick<OrderRejected>(bench.GetOutput()).size() == 1);
+    CHECK(Pick<OrderRejected>(bench.GetOutput())[0].errorType.empty());
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::None);
+}
+
+TEST_CASE("13 Nodes are told once and in order, also when the states between them were lost")
+{
+    MasterBench bench;
+    bench.BeReady();
+    const OrderMessage order = MakeOrder(5, 5);
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    bench.Hold(order, 4);
+    bench.SendState();
+    bench.Hold(order, 1);
+    bench.SendState();
+    bench.SendState();
+    CHECK(ListReached(bench.GetOutput()) == std::vector<std::string>{"N0", "N1", "N2", "N3"});
+    bench.Hold(order, 0);
+    bench.SendState();
+    CHECK(ListReached(bench.GetOutput()).size() == 5);
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
+    bench.SendState();
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
+}
+
+TEST_CASE("13 A vehicle with horizon left is waiting, and an order with actions left is not done")
+{
+    MasterBench bench;
+    bench.BeReady();
+    OrderBuilder builder = MakeBuilder(3);
+    OrderMessage order = *builder.MakeOrder(2);
+    order.nodes[1].actions.push_back(MakeAction("a1", EBlockingType::Hard));
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    bench.Hold(order, 1);
+    bench.SendState();
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).empty());
+    const OrderMessage update = *builder.MakeUpdate(3);
+    REQUIRE(bench.session.SendOrderUpdate(update, bench.GetNow(), bench.Clear()).has_value());
+    CHECK(bench.GetSentOrder().orderUpdateID == 1);
+    bench.Hold(update, 0);
+    bench.state.actionStates = {ActionState{"a1", "pick", {}, EActionStatus::Running, {}}};
+    bench.SendState();
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()) == std::vector{OrderAccepted{"order-1", 1}});
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).empty());
+    bench.state.actionStates[0].actionStatus = EActionStatus::Finished;
+    bench.SendState();
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
+    const auto changes = Pick<ActionChanged>(bench.GetOutput());
+    REQUIRE(changes.size() == 2);
+    CHECK(changes[1].status == EActionStatus::Finished);
+}
+
+TEST_CASE("13 An update waits for the echo of the message before it")
+{
+    MasterBench bench;
+    bench.BeReady();
+    OrderBuilder builder = MakeBuilder(4);
+    const OrderMessage order = *builder.MakeOrder(2);
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    bench.Clear();
+    REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear()).has_value());
+    CHECK(bench.GetSent(ETopic::Order).empty());
+    const auto third = bench.session.SendOrderUpdate(*builder.MakeUpdate(4), bench.GetNow(), bench.Clear());
+    REQUIRE_FALSE(third.has_value());
+    CHECK(third.error().code == EVda5050Error::UpdatePending);
+    bench.Hold(order, 3);
+    bench.SendState();
+    CHECK(bench.GetSentOrder().orderUpdateID == 1);
+}
+
+TEST_CASE("13 An update that does not begin at the decision point is not sent")
+{
+    MasterBench bench;
+    bench.BeReady();
+    REQUIRE(bench.session.SendOrder(MakeOrder(4, 2), bench.GetNow(), bench.Clear()).has_value());
+    OrderBuilder other = MakeBuilder(4);
+    REQUIRE(other.MakeOrder(3).has_value());
+    const auto result = bench.session.SendOrderUpdate(*other.MakeUpdate(4), bench.GetNow(), bench.Clear());
+    REQUIRE_FALSE(result.has_value());
+    CHECK(result.error().code == EVda5050Error::InvalidOrder);
+}
+
+TEST_CASE("4.2 A rejection is known by its references, or by its type where there are none")
+{
+    const std::vector<ErrorReference> references = GENERATE(
+        std::vector<ErrorReference>{{"orderId", "order-1"}, {"orderUpdateId", "0"}},
+        std::vector<ErrorReference>{{"topic", "order"}, {"headerId", "0"}},
+        std::vector<ErrorReference>{{"nodeId", "N0"}},
+        std::vector<ErrorReference>{});
+    MasterBench bench;
+    bench.BeReady();
+    REQUIRE(bench.session.SendOrder(MakeOrder(2, 2), bench.GetNow(), bench.Clear()).has_value());
+    bench.Refuse(ErrorTypes::NO_ROUTE_ERROR, references);
+    CHECK(
+        Pick<OrderRejected>(bench.GetOutput()) == std::vector{OrderRejected{"order-1", 0, "noRouteError", "because"}});
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::None);
+}
+
+TEST_CASE("4.2 Other errors are no rejection: of another order, of before, of an instant action, of the battery")
+{
+    MasterBench bench;
+    bench.BeReady();
+    bench.Refuse(ErrorTypes::VALIDATION_ERROR, {});
+    REQUIRE(bench.session.SendOrder(MakeOrder(2, 2), bench.GetNow(), bench.Clear()).has_value());
+    bench.SendState();
+    bench.Refuse(ErrorTypes::ORDER_UPDATE_ERROR, {{"orderId", "order-0"}, {"orderUpdateId", "0"}});
+    bench.Refuse(ErrorTypes::VALIDATION_ERROR, {{"topic", "instantActions"}});
+    bench.Refuse("batteryLow", {});
+    CHECK(Pick<OrderRejected>(bench.GetOutput()).empty());
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::Sent);
+}
+
+TEST_CASE("4.2 A rejected update leaves the running order alive, and the next one has another id")
+{
+    MasterBench bench;
+    bench.BeReady();
+    OrderBuilder builder = MakeBuilder(4);
+    const OrderMessage order = *builder.MakeOrder(2);
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    bench.Hold(order, 3);
+    bench.SendState();
+    const OrderMessage update = *builder.MakeUpdate(3);
+    REQUIRE(bench.session.SendOrderUpdate(update, bench.GetNow(), bench.Clear()).has_value());
+    bench.Refuse(ErrorTypes::ORDER_ERROR, {{"orderId", "order-1"}, {"orderUpdateId", "1"}});
+    CHECK(Pick<OrderRejected>(bench.GetOutput()).size() == 1);
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
+    REQUIRE(bench.session.SendOrderUpdate(update, bench.GetNow(), bench.Clear()).has_value());
+    CHECK(bench.GetSentOrder().orderUpdateID == 2);
+}
+
+TEST_CASE("5.4 A cancel of an accepted order ends with the vehicle's FINISHED")
+{
+    MasterBench bench;
+    bench.BeReady();
+    const OrderMessage order = MakeOrder(3, 3);
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    bench.Hold(order, 2);
+    bench.SendState();
+    REQUIRE(bench.session.Cancel(bench.GetNow(), bench.Clear()).has_value());
+    const auto sent = bench.GetSent(ETopic::InstantActions);
+    REQUIRE(sent.size() == 1);
+    const auto message = Vda5050Codec().Decode<InstantActionsMessage>(sent[0].payload);
+    REQUIRE(message.has_value());
+    CHECK(message->actions[0].blockingType == EBlockingType::Hard);
+    bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendInstantActions);
+    CHECK(bench.GetSent(ETopic::InstantActions).size() == 2);
+    bench.state.actionStates = {
+        ActionState{message->actions[0].actionID, "cancelOrder", {}, EActionStatus::Running, {}}};
+    bench.SendState();
+    CHECK(Pick<OrderCancelled>(bench.GetOutput()).empty());
+    bench.state.actionStates[0].actionStatus = EActionStatus::Finished;
+    bench.state.nodeStates.clear();
+    bench.SendState();
+    CHECK(Pick<OrderCancelled>(bench.GetOutput()).size() == 1);
+    CHECK(Pick<OrderLost>(bench.GetOutput()).empty());
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::None);
+}
+
+TEST_CASE("5.4 A cancel of an order that the vehicle never saw ends it, and it is not sent again")
+{
+    MasterBench bench;
+    bench.BeReady();
+    REQUIRE(bench.session.SendOrder(MakeOrder(2, 2), bench.GetNow(), bench.Clear()).has_value());
+    REQUIRE(bench.session.Cancel(bench.GetNow(), bench.Clear()).has_value());
+    const auto message =
+        Vda5050Codec().Decode<InstantActionsMessage>(bench.GetSent(ETopic::InstantActions).back().payload);
+    bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendOrder);
+    CHECK(bench.GetSent(ETopic::Order).empty());
+    bench.Refuse(ErrorTypes::NO_ORDER_TO_CANCEL, {{"actionId", message->actions[0].actionID}});
+    CHECK(Pick<OrderCancelled>(bench.GetOutput()).size() == 1);
+    CHECK_FALSE(bench.session.Cancel(bench.GetNow(), bench.Clear()).has_value());
+}
+
+TEST_CASE("13 A vehicle that restarts without the order, or cleared it, has lost it")
+{
+    const bool bRestarted = GENERATE(true, false);
+    MasterBench bench;
+    bench.BeReady();
+    const OrderMessage order = MakeOrder(3, 3);
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    bench.Hold(order, 2);
+    bench.SendState();
+    bench.state.orderID = bRestarted ? "" : "order-1";
+    bench.state.nodeStates.clear();
+    bench.SendState();
+    CHECK(Pick<OrderLost>(bench.GetOutput()).size() == 1);
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::None);
+}
+
+TEST_CASE("4.6 A vehicle without a state for longer than the interval and the margin is silent, told once")
+{
+    MasterBench bench;
+    bench.BeReady();
+    bench.Wait(std::chrono::seconds(20), EMasterTimer::ResendOrder);
+    bench.SendState();
+    bench.Clear();
+    bench.Wait(std::chrono::seconds(15), EMasterTimer::Silence);
+    CHECK(Pick<VehicleSilent>(bench.GetOutput()).empty());
+    CHECK(
+        Pick<StartMasterTimer>(bench.GetOutput())
+        == std::vector{StartMasterTimer{EMasterTimer::Silence, std::chrono::seconds(20)}});
+    bench.Wait(std::chrono::seconds(20), EMasterTimer::Silence);
+    CHECK(Pick<VehicleSilent>(bench.GetOutput()).size() == 1);
+    CHECK_FALSE(bench.session.IsReady());
+    bench.SendState();
+    CHECK(bench.session.IsReady());
+}
+
+TEST_CASE("2 A state that is older than one that came is ignored; ids that begin again are not")
+{
+    MasterBench bench;
+    bench.BeReady();
+    StateMessage old = bench.state;
+    old.header.headerID = 0;
+    old.header.timestamp -= std::chrono::seconds(1);
+    bench.Say(ETopic::State, Vda5050Codec().Encode(old, EVda5050Version::Version200));
+    CHECK(bench.session.GetStatistics().statesIgnored == 1);
+    old.header.timestamp += std::chrono::seconds(2);
+    bench.Say(ETopic::State, Vda5050Codec().Encode(old, EVda5050Version::Version200));
+    CHECK(bench.session.GetStatistics().statesReceived == 2);
+}
+
+TEST_CASE("13 Broken payloads are counted and told, nothing else happens")
+{
+    MasterBench bench;
+    bench.BeReady();
+    for (const ETopic topic : {ETopic::State, ETopic::Connection, ETopic::Visualization, ETopic::Factsheet})
+    {
+        bench.Say(topic, R"({"headerId":"NaN")");
+    }
+    CHECK(Pick<MessageRefused>(bench.GetOutput()).size() == 4);
+    CHECK(bench.session.GetStatistics().messagesRefused == 4);
+    CHECK(bench.GetOutput().size() == 4);
+}
+
+TEST_CASE("13 No order is sent to a vehicle that is not ready, or has one")
+{
+    MasterBench bench;
+    const OrderMessage order = MakeOrder(2, 2);
+    CHECK(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).error().code == EVda5050Error::VehicleNotReady);
+    bench.BeReady();
+    bench.state.operatingMode = EOperatingMode::Manual;
+    bench.SendState();
+    CHECK(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).error().code == EVda5050Error::VehicleNotReady);
+    bench.state.operatingMode = EOperatingMode::Automatic;
+    bench.SendState();
+    OrderMessage broken = order;
+    broken.edges.clear();
+    CHECK(bench.session.SendOrder(broken, bench.GetNow(), bench.Clear()).error().code == EVda5050Error::InvalidOrder);
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    CHECK(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).error().code == EVda5050Error::OrderActive);
+}
+
+} // namespace ACS::VDA5050::Test

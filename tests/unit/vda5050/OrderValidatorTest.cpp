@@ -1,0 +1,117 @@
+#include "Catch.hpp"
+#include "Vda5050Sample.hpp"
+#include <acs/vda5050/OrderValidator.hpp>
+
+#include <functional>
+
+namespace ACS::VDA5050::Test
+{
+
+TEST_CASE("4.1 Each rule of an order's structure is told by itself")
+{
+    struct Case
+    {
+        const char* name;
+        std::function<void(OrderMessage&)> spoil;
+    };
+    const std::vector<Case> cases{
+        {"no node",
+         [](OrderMessage& order) {
+             order.nodes.clear();
+         }},
+        {"an edge too many",
+         [](OrderMessage& order) {
+             order.edges.push_back(order.edges.back());
+         }},
+        {"no orderId",
+         [](OrderMessage& order) {
+             order.orderID.clear();
+         }},
+        {"odd node",
+         [](OrderMessage& order) {
+             order.nodes[0].sequenceID = 1;
+         }},
+        {"gap",
+         [](OrderMessage& order) {
+             order.nodes[2].sequenceID = 6;
+         }},
+        {"edge out of sequence",
+         [](OrderMessage& order) {
+             order.edges[1].sequenceID = 5;
+         }},
+        {"first node unreleased",
+         [](OrderMessage& order) {
+             order.nodes[0].bReleased = false;
+         }},
+        {"released behind the horizon",
+         [](OrderMessage& order) {
+             order.nodes[3].bReleased = true;
+         }},
+        {"released edge into the horizon",
+         [](OrderMessage& order) {
+             order.edges[2].bReleased = true;
+         }},
+        {"wrong neighbour",
+         [](OrderMessage& order) {
+             order.edges[0].endNodeID = "N9";
+         }},
+        {"action without id",
+         [](OrderMessage& order) {
+             order.nodes[1].actions.push_back(MakeAction("", EBlockingType::None));
+         }},
+        {"repeated actionId",
+         [](OrderMessage& order) {
+             order.nodes[1].actions.push_back(MakeAction("a", EBlockingType::None));
+             order.edges[1].actions.push_back(MakeAction("a", EBlockingType::None));
+         }},
+        {"null parameter",
+         [](OrderMessage& order) {
+             order.nodes[1].actions.push_back(MakeAction("a", EBlockingType::None));
+             order.nodes[1].actions[0].actionParameters.push_back(ActionParameter{"key", {}});
+         }},
+        {"too few knots",
+         [](OrderMessage& order) {
+             order.edges[0].trajectory = Trajectory{1, {0.0, 1.0}, {ControlPoint{}, ControlPoint{}}};
+         }},
+    };
+    CHECK(ValidateOrder(MakeOrder(4, 3)).empty());
+    for (const Case& spoiled : cases)
+    {
+        CAPTURE(spoiled.name);
+        OrderMessage order = MakeOrder(4, 3);
+        spoiled.spoil(order);
+        const std::vector<OrderViolation> violations = ValidateOrder(order);
+        REQUIRE_FALSE(violations.empty());
+        CHECK(violations[0].error.errorType == ErrorTypes::VALIDATION_ERROR);
+        CHECK(violations[0].error.errorLevel == EErrorLevel::Warning);
+        CHECK(FindReferenceOrNull(violations[0].error, "topic") != nullptr);
+    }
+}
+
+TEST_CASE("7 A straight trajectory of degree 1 keeps the rules of a NURBS")
+{
+    OrderMessage order = MakeOrder(2, 2);
+    order.edges[0].trajectory = Trajectory{1, {0.0, 0.0, 1.0, 1.0}, {ControlPoint{}, ControlPoint{10.0, 0.0, {}}}};
+    CHECK(ValidateOrder(order).empty());
+}
+
+TEST_CASE("4.2 Orders are refused outside of automatic modes, without a position, and on an unknown map")
+{
+    const OrderMessage order = MakeOrder(2, 2);
+    OrderContext context;
+    context.lastNodeID = "N0";
+    CHECK(JudgeOrder(order, context).verdict == EOrderVerdict::NewOrder);
+    context.operatingMode = EOperatingMode::Service;
+    CHECK(JudgeOrder(order, context).violations.at(0).error.errorType == ErrorTypes::ORDER_ERROR);
+    context.operatingMode = EOperatingMode::SemiAutomatic;
+    context.mapIDs = {"other"};
+    CHECK(JudgeOrder(order, context).violations.at(0).error.errorType == ErrorTypes::ORDER_ERROR);
+    context.mapIDs = {"floor"};
+    context.position = AgvPosition{};
+    context.position->mapID = "floor";
+    CHECK(JudgeOrder(order, context).violations.at(0).error.errorType == ErrorTypes::NO_ROUTE_ERROR);
+    context.position->bPositionInitialized = true;
+    CHECK(JudgeOrder(order, context).verdict == EOrderVerdict::NewOrder);
+}
+
+} // namespace ACS::VDA5050::Test

@@ -1,0 +1,174 @@
+#include "Catch.hpp"
+#include "Vda5050Sample.hpp"
+#include <acs/core/ECoreError.hpp>
+#include <acs/vda5050/Vda5050Codec.hpp>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace ACS::VDA5050::Test
+{
+
+namespace
+{
+
+std::string ReadFixture(const std::string& name)
+{
+    std::ifstream file(std::string(ACS_FIXTURES) + "/" + name);
+    REQUIRE(file.good());
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    while (!text.empty() && text.back() == '\n')
+    {
+        text.pop_back();
+    }
+    return text;
+}
+
+template <typename TMessage>
+void CheckGolden(const std::string& name, EVda5050Version version)
+{
+    CAPTURE(name);
+    const std::string text = ReadFixture(name);
+    Vda5050Codec codec;
+    const Core::Result<TMessage> message = codec.Decode<TMessage>(text);
+    if (!message)
+    {
+        FAIL(Core::Describe(message.error()));
+    }
+    CHECK(codec.GetTolerance() == DecodeTolerance{});
+    CHECK(codec.Encode(*message, version) == text);
+}
+
+std::string Replace(std::string text, const std::string& from, const std::string& to)
+{
+    const std::size_t position = text.find(from);
+    REQUIRE(position != std::string::npos);
+    return text.replace(position, from.size(), to);
+}
+
+} // namespace
+
+TEST_CASE("3 Every field of every message is read, and written as it was")
+{
+    CheckGolden<OrderMessage>("order.2.0.json", EVda5050Version::Version200);
+    CheckGolden<OrderMessage>("order.2.1.json", EVda5050Version::Version210);
+    CheckGolden<InstantActionsMessage>("instantActions.2.0.json", EVda5050Version::Version200);
+    CheckGolden<StateMessage>("state.2.0.json", EVda5050Version::Version200);
+    CheckGolden<StateMessage>("state.2.1.json", EVda5050Version::Version210);
+    CheckGolden<StateMessage>("state.minimal.json", EVda5050Version::Version200);
+    CheckGolden<VisualizationMessage>("visualization.2.0.json", EVda5050Version::Version200);
+    CheckGolden<ConnectionMessage>("connection.2.0.json", EVda5050Version::Version200);
+    CheckGolden<FactsheetMessage>("factsheet.2.0.json", EVda5050Version::Version200);
+    CheckGolden<FactsheetMessage>("factsheet.2.1.json", EVda5050Version::Version210);
+}
+
+TEST_CASE("3 What 2.0 does not know is not written in 2.0")
+{
+    Vda5050Codec codec;
+    const auto order = codec.Decode<OrderMessage>(ReadFixture("order.2.1.json"));
+    REQUIRE(order.has_value());
+    CHECK(codec.Encode(*order, EVda5050Version::Version210).find("corridor") != std::string::npos);
+    CHECK(codec.Encode(*order, EVda5050Version::Version200).find("corridor") == std::string::npos);
+    const auto state = codec.Decode<StateMessage>(ReadFixture("state.2.1.json"));
+    REQUIRE(state.has_value());
+    const std::string old = codec.Encode(*state, EVda5050Version::Version200);
+    CHECK(old.find("maps") == std::string::npos);
+    CHECK(old.find("errorHint") == std::string::npos);
+    const auto factsheet = codec.Decode<FactsheetMessage>(ReadFixture("factsheet.2.1.json"));
+    REQUIRE(factsheet.has_value());
+    CHECK(codec.Encode(*factsheet, EVda5050Version::Version200).find("vehicleConfig") == std::string::npos);
+}
+
+TEST_CASE("1 The misspellings of the published schemas are read")
+{
+    Vda5050Codec codec;
+    const std::string order = ReadFixture("order.2.0.json");
+    const auto spelt = codec.Decode<OrderMessage>(Replace(order, "allowedDeviationXY", "allowedDeviationXy"));
+    REQUIRE(spelt.has_value());
+    CHECK(*spelt == *codec.Decode<OrderMessage>(order));
+    const std::string instant = ReadFixture("instantActions.2.0.json");
+    const auto named = codec.Decode<InstantActionsMessage>(Replace(instant, "actionType", "actionName"));
+    REQUIRE(named.has_value());
+    CHECK(*named == *codec.Decode<InstantActionsMessage>(instant));
+    const auto older = codec.Decode<InstantActionsMessage>(Replace(instant, "\"actions\"", "\"instantActions\""));
+    REQUIRE(older.has_value());
+    CHECK(*older == *named);
+}
+
+TEST_CASE("2 Timestamps are read with any fraction and offset, and written with milliseconds")
+{
+    const std::string text = ReadFixture("connection.2.0.json");
+    const char* time = GENERATE(
+        "2026-11-20T23:37:12.345Z",
+        "2026-11-20T23:37:12.34500Z",
+        "2026-11-21T08:37:12.345+09:00",
+        "2026-11-20T23:37:12.345");
+    Vda5050Codec codec;
+    const auto message = codec.Decode<ConnectionMessage>(Replace(text, "2026-11-20T23:37:12.345Z", time));
+    REQUIRE(message.has_value());
+    CHECK(codec.Encode(*message, EVda5050Version::Version200) == text);
+}
+
+TEST_CASE("12 Unknown members are ignored and counted; null is absent where a member may be, wrong where it must be")
+{
+    Vda5050Codec codec;
+    const std::string text = ReadFixture("connection.2.0.json");
+    REQUIRE(codec.Decode<ConnectionMessage>(Replace(text, "{", R"({"vendor":{"a":[1]},)")).has_value());
+    CHECK(codec.GetTolerance().unknownMembers == 1);
+    const std::string order = ReadFixture("order.2.0.json");
+    REQUIRE(codec.Decode<OrderMessage>(Replace(order, R"("maxSpeed":1.5)", R"("maxSpeed":null)")).has_value());
+    CHECK(codec.GetTolerance().nullOptionals == 1);
+    const auto failed = codec.Decode<OrderMessage>(Replace(order, R"("released":true)", R"("released":null)"));
+    REQUIRE_FALSE(failed.has_value());
+    CHECK(failed.error().path == "nodes[0].released");
+}
+
+TEST_CASE("3 A wrong payload is refused with the path of the member and what would be right")
+{
+    struct Case
+    {
+        const char* from;
+        const char* to;
+        const char* path;
+        Core::ECoreError code;
+    };
+    const Case wrong = GENERATE(
+        Case{R"("sequenceId":0)", R"("sequenceId":-1)", "nodes[0].sequenceId", Core::ECoreError::OutOfRange},
+        Case{R"("sequenceId":0)", R"("sequenceId":4294967296)", "nodes[0].sequenceId", Core::ECoreError::OutOfRange},
+        Case{R"("sequenceId":0)", R"("sequenceId":"0")", "nodes[0].sequenceId", Core::ECoreError::WrongType},
+        Case{R"("x":0.5)", R"("x":"0.5")", "nodes[0].nodePosition.x", Core::ECoreError::WrongType},
+        Case{R"("theta":1.5)", R"("theta":4)", "nodes[0].nodePosition.theta", Core::ECoreError::OutOfRange},
+        Case{
+            R"("blockingType":"HARD")",
+            R"("blockingType":"SINGLE")",
+            "nodes[0].actions[0].blockingType",
+            Core::ECoreError::UnknownWord},
+        Case{R"("orderId":"order-1",)", "", "orderId", Core::ECoreError::MissingField},
+        Case{"2026-11-20T23:37:12.345Z", "yesterday", "timestamp", Core::ECoreError::InvalidTimestamp});
+    Vda5050Codec codec;
+    const auto message = codec.Decode<OrderMessage>(Replace(ReadFixture("order.2.0.json"), wrong.from, wrong.to));
+    REQUIRE_FALSE(message.has_value());
+    CHECK(message.error().path == wrong.path);
+    CHECK(message.error().code == wrong.code);
+}
+
+TEST_CASE("3 What names a refused message is read as far as it can be")
+{
+    Vda5050Codec codec;
+    const auto identity = codec.DecodeIdentity(R"({"headerId":7,"orderId":"o","orderUpdateId":2,"nodes":5})");
+    REQUIRE(identity.has_value());
+    CHECK(identity->header.headerID == 7);
+    CHECK(identity->orderID == "o");
+    CHECK(identity->orderUpdateID == 2U);
+    CHECK_FALSE(codec.DecodeIdentity("[").has_value());
+}
+
+TEST_CASE("3 Deep nesting and long payloads are refused, not followed")
+{
+    Vda5050Codec codec(CodecLimits{1000, 16});
+    CHECK(codec.Decode<OrderMessage>(std::string(900, '[')).error().code != Core::ECoreError::MissingField);
+    CHECK(codec.Decode<OrderMessage>(std::string(2000, ' ')).error().code == Core::ECoreError::TooLarge);
+}
+
+} // namespace ACS::VDA5050::Test
