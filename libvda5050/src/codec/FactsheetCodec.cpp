@@ -180,7 +180,7 @@ struct JsonFields<VDA5050::AgvAction>
         Required("actionScopes", &Type::actionScopes),
         Optional("actionParameters", &Type::actionParameters),
         Optional("resultDescription", &Type::resultDescription),
-        Optional("blockingTypes", &Type::blockingTypes));
+        Optional("blockingTypes", &Type::blockingTypes).WrittenIn(VDA5050::Dialects::VERSION_210));
 };
 
 template <>

@@ -168,7 +168,7 @@ struct AgvAction
     std::vector<EActionScope> actionScopes;
     std::vector<AgvActionParameter> actionParameters;
     std::string resultDescription;
-    std::vector<EBlockingType> blockingTypes;
+    std::vector<EBlockingType> blockingTypes; ///< Written from 2.1 on.
 
     bool operator==(const AgvAction&) const = default;
 };
