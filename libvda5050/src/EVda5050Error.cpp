@@ -44,8 +44,8 @@ public:
 
 std::error_code make_error_code(EVda5050Error error) noexcept
 {
-    static const Vda5050Category category;
-    return {static_cast<int>(error), category};
+    static const Vda5050Category CATEGORY;
+    return {static_cast<int>(error), CATEGORY};
 }
 
 } // namespace ACS::VDA5050

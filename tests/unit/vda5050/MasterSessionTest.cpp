@@ -1,4 +1,5 @@
 #include "Catch.hpp"
+#include "ManualClock.hpp"
 #include "Vda5050Sample.hpp"
 #include <acs/vda5050/EVda5050Error.hpp>
 #include <acs/vda5050/MasterSession.hpp>

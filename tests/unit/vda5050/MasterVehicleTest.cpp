@@ -1,6 +1,6 @@
 #include "Catch.hpp"
 #include "SeededRandom.hpp"
-#include "Vda5050Sample.hpp"
+#include "VehicleBench.hpp"
 #include <acs/vda5050/MasterSession.hpp>
 
 #include <algorithm>

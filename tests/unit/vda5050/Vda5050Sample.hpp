@@ -4,14 +4,12 @@
 #include <acs/vda5050/MasterAction.hpp>
 #include <acs/vda5050/OrderBuilder.hpp>
 #include <acs/vda5050/OrderMessage.hpp>
+#include <acs/vda5050/StateMessage.hpp>
+#include <acs/vda5050/Topic.hpp>
 #include <acs/vda5050/VehicleAction.hpp>
-#include <acs/vda5050/VehicleSession.hpp>
 
-#include <chrono>
 #include <cstddef>
-#include <cstdint>
 #include <string>
-#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -42,41 +40,6 @@ template <typename TWanted, typename TAction>
     }
     return picked;
 }
-
-/// A vehicle at N0 that is linked; it writes down what it is told, and drives nowhere by itself.
-class VehicleBench
-{
-    Testing::ManualClock _clock;
-    VehicleSession _session;
-    VehicleActions _out;
-    std::uint32_t _headerID = 0;
-
-public:
-    explicit VehicleBench(VehicleOptions options = MakeOptions());
-
-    [[nodiscard]] static VehicleOptions MakeOptions();
-
-    [[nodiscard]] VehicleSession& GetSession();
-    [[nodiscard]] Core::Now GetNow() const;
-    [[nodiscard]] const VehicleActions& GetOutput() const;
-    void Clear();
-    void Advance(std::chrono::milliseconds span);
-
-    void Order(OrderMessage order);
-    void Payload(ETopic topic, std::string_view payload, bool bRetained = false);
-    void Instant(std::string_view actionType, const std::string& actionID);
-    void Reach(std::uint32_t sequenceID);
-    void Drive(bool bDriving);
-    void Status(std::string_view actionID, EActionStatus status);
-    void StandAt(double x);
-
-    /// The last state that was published, or the present one where none was.
-    [[nodiscard]] StateMessage GetPublishedState() const;
-    [[nodiscard]] std::vector<StateMessage> GetPublishedStates() const;
-    [[nodiscard]] std::vector<std::string> GetStartedActions() const;
-    [[nodiscard]] EActionStatus GetStatus(std::string_view actionID) const;
-    [[nodiscard]] bool HasError(std::string_view errorType) const;
-};
 
 [[nodiscard]] std::vector<std::string> ListNodes(const StateMessage& state);
 

@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "Vda5050Sample.hpp"
+#include "VehicleBench.hpp"
 #include <acs/vda5050/Vda5050Codec.hpp>
 
 #include <algorithm>

@@ -1,0 +1,143 @@
+#include "VehicleBench.hpp"
+
+#include "Catch.hpp"
+#include <acs/vda5050/Vda5050Codec.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace ACS::VDA5050::Test
+{
+
+VehicleOptions VehicleBench::MakeOptions()
+{
+    VehicleOptions options;
+    options.address = MakeAddress();
+    options.initialNodeID = "N0";
+    options.minimumStateInterval = std::chrono::milliseconds(0);
+    return options;
+}
+
+VehicleBench::VehicleBench(VehicleOptions options)
+    : _session(std::move(options))
+{
+    StandAt(0.0);
+    _session.OnLinkUp(_clock.GetNow(), _out);
+    Clear();
+}
+
+VehicleSession& VehicleBench::GetSession()
+{
+    return _session;
+}
+
+Core::Now VehicleBench::GetNow() const
+{
+    return _clock.GetNow();
+}
+
+const VehicleActions& VehicleBench::GetOutput() const
+{
+    return _out;
+}
+
+void VehicleBench::Clear()
+{
+    _out.clear();
+}
+
+void VehicleBench::Advance(std::chrono::milliseconds span)
+{
+    _clock.Advance(span);
+}
+
+void VehicleBench::Order(OrderMessage order)
+{
+    order.header = Header{_headerID++, _clock.GetNow().wall, "2.0.0", "ACS", "LR01"};
+    Payload(ETopic::Order, Vda5050Codec().Encode(order, EVda5050Version::Version200));
+}
+
+void VehicleBench::Payload(ETopic topic, std::string_view payload, bool bRetained)
+{
+    _session.OnMessage(BuildTopic(MakeAddress(), topic), payload, bRetained, _clock.GetNow(), _out);
+}
+
+void VehicleBench::Instant(std::string_view actionType, const std::string& actionID)
+{
+    InstantActionsMessage message;
+    message.header = Header{_headerID++, _clock.GetNow().wall, "2.0.0", "ACS", "LR01"};
+    message.actions.push_back(MakeAction(actionID, EBlockingType::Hard, std::string(actionType)));
+    Payload(ETopic::InstantActions, Vda5050Codec().Encode(message, EVda5050Version::Version200));
+}
+
+void VehicleBench::Reach(std::uint32_t sequenceID)
+{
+    CHECK(_session.TryReachNode(sequenceID, _clock.GetNow(), _out));
+}
+
+void VehicleBench::Drive(bool bDriving)
+{
+    _session.OnDrivingChanged(bDriving, _clock.GetNow(), _out);
+}
+
+void VehicleBench::Status(std::string_view actionID, EActionStatus status)
+{
+    CHECK(_session.TrySetActionStatus(actionID, status, {}, _clock.GetNow(), _out));
+}
+
+void VehicleBench::StandAt(double x)
+{
+    AgvPosition position;
+    position.bPositionInitialized = true;
+    position.x = x;
+    position.mapID = "floor";
+    _session.OnPosition(position, Velocity{});
+}
+
+std::vector<StateMessage> VehicleBench::GetPublishedStates() const
+{
+    std::vector<StateMessage> states;
+    Vda5050Codec codec;
+    for (const PublishMessage& publish : Pick<PublishMessage>(_out))
+    {
+        if (publish.message.topic == BuildTopic(MakeAddress(), ETopic::State))
+        {
+            Core::Result<StateMessage> state = codec.Decode<StateMessage>(publish.message.payload);
+            REQUIRE(state.has_value());
+            states.push_back(std::move(*state));
+        }
+    }
+    return states;
+}
+
+StateMessage VehicleBench::GetPublishedState() const
+{
+    const std::vector<StateMessage> states = GetPublishedStates();
+    return states.empty() ? _session.GetState() : states.back();
+}
+
+std::vector<std::string> VehicleBench::GetStartedActions() const
+{
+    std::vector<std::string> ids;
+    for (const StartAction& start : Pick<StartAction>(_out))
+    {
+        ids.push_back(start.action.actionID);
+    }
+    return ids;
+}
+
+EActionStatus VehicleBench::GetStatus(std::string_view actionID) const
+{
+    const StateMessage state = _session.GetState();
+    const auto found = std::ranges::find(state.actionStates, actionID, &ActionState::actionID);
+    REQUIRE(found != state.actionStates.end());
+    return found->actionStatus;
+}
+
+bool VehicleBench::HasError(std::string_view errorType) const
+{
+    const StateMessage state = GetPublishedState();
+    return std::ranges::find(state.errors, errorType, &VehicleError::errorType) != state.errors.end();
+}
+
+} // namespace ACS::VDA5050::Test
