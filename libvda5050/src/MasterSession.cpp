@@ -45,7 +45,7 @@ void MasterSession::OnLinkDown(Core::Now /*now*/, MasterActions& out)
 
 void MasterSession::OnMessage(std::string_view topic, std::string_view payload, Core::Now now, MasterActions& out)
 {
-    const auto found = std::ranges::find(_topics, topic);
+    const auto* const found = std::ranges::find(_topics, topic);
     if (found == _topics.end() || !_bLinkUp)
     {
         return;

@@ -32,7 +32,7 @@ public:
         _violations.push_back(OrderViolation{std::move(rule), std::move(error)});
     }
 
-    void Add(std::string rule, std::string_view key, const std::string& value)
+    void Add(const std::string& rule, std::string_view key, const std::string& value)
     {
         Add(rule + ": " + value);
         AddReference(_violations.back().error, key, value);

@@ -119,7 +119,7 @@ Core::Result<ParsedTopic> ParseTopic(std::string_view text)
             return fail(EVda5050Error::InvalidTopic);
         }
     }
-    const auto rule = std::ranges::find(RULES, levels[4], &TopicRule::name);
+    const auto* const rule = std::ranges::find(RULES, levels[4], &TopicRule::name);
     if (rule == RULES.end())
     {
         return fail(EVda5050Error::InvalidTopic);
