@@ -1,0 +1,62 @@
+#pragma once
+
+#include <acs/core/IRandom.hpp>
+#include <acs/core/Logger.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/openstream/ClientSession.hpp>
+
+#include <boost/asio/any_io_executor.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace ACS::OpenStreamAsio
+{
+
+struct OpenStreamClientOptions
+{
+    std::string host = "127.0.0.1"; ///< A name or an address.
+    std::uint16_t port = 49'000;
+    OpenStream::ClientSessionOptions session;
+};
+
+/// Runs a ClientSession over TCP (no delay, keep-alive). Everything happens on the executor's one thread; destroying or
+/// stopping it lets no handler touch it later. Clock and random source must outlive it.
+class OpenStreamClient
+{
+    class Impl;
+
+    std::shared_ptr<Impl> _impl;
+
+public:
+    /// May call any method of the client, but not destroy it.
+    using EventHandler = std::function<void(const OpenStream::ClientEvent& event, Core::Now now)>;
+
+    OpenStreamClient(
+        const boost::asio::any_io_executor& executor,
+        Core::IClock& clock,
+        Core::IRandom& random,
+        Core::Logger logger,
+        OpenStreamClientOptions options,
+        EventHandler handler);
+    OpenStreamClient(const OpenStreamClient&) = delete;
+    OpenStreamClient& operator=(const OpenStreamClient&) = delete;
+    ~OpenStreamClient();
+
+    /// See ClientSession. The handler is called from within, or later.
+    void Start();
+    void Stop();
+    void SetMonitor(std::optional<OpenStream::MonitorRequest> monitorOrNull);
+    std::uint64_t SendControl(
+        const OpenStream::ControlRequest& request,
+        OpenStream::EControlTracking tracking = OpenStream::EControlTracking{});
+    void StopControl();
+
+    [[nodiscard]] OpenStream::EClientState GetState() const noexcept;
+    [[nodiscard]] const OpenStream::ClientSessionStats& GetStats() const noexcept;
+};
+
+} // namespace ACS::OpenStreamAsio

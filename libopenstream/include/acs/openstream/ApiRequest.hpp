@@ -1,0 +1,58 @@
+#pragma once
+
+#include <acs/core/JsonText.hpp>
+#include <acs/openstream/EApiMethod.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::OpenStream
+{
+
+/// One parameter of a query, unescaped as the peer wrote it.
+struct QueryParameter
+{
+    std::string name;
+    std::string value; ///< A string's text, or the JSON text of any other value.
+
+    bool operator==(const QueryParameter&) const = default;
+};
+
+/// A call of the controller's Open API, the same whether it came over HTTP or in a MONITOR or CONTROL.
+struct ApiRequest
+{
+    EApiMethod method = EApiMethod::Get;
+    std::string path; ///< "/project/robot/po_cur", as it came: percent signs are not decoded.
+    std::vector<QueryParameter> query;
+    std::optional<Core::JsonText> body; ///< Nothing with a GET; `{}` with a CONTROL that named none.
+
+    /// The value of the first parameter of this name; null where there is none.
+    [[nodiscard]] const std::string* GetParameterOrNull(std::string_view name) const noexcept;
+
+    bool operator==(const ApiRequest&) const = default;
+};
+
+/// The answer to an ApiRequest.
+struct ApiResponse
+{
+    int status = 200; ///< HTTP; every 2xx is a success.
+    std::optional<Core::JsonText> body;
+
+    [[nodiscard]] bool IsSuccess() const noexcept;
+
+    bool operator==(const ApiResponse&) const = default;
+};
+
+/// Takes "/path?name=value&name2=value2" apart: sets path and query of the request.
+void SplitUrl(std::string_view url, ApiRequest& request);
+
+/// Puts the arguments (text of a JSON object, as MONITOR and CONTROL carry them) into the query. An argument replaces a
+/// parameter of the same name.
+void AddArguments(const Core::JsonText& args, ApiRequest& request);
+
+/// Path and query as a target for HTTP, the query's names and values percent-encoded.
+[[nodiscard]] std::string BuildUrl(const ApiRequest& request);
+
+} // namespace ACS::OpenStream

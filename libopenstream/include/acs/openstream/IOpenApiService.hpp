@@ -1,0 +1,27 @@
+#pragma once
+
+#include <acs/core/Now.hpp>
+#include <acs/openstream/ApiRequest.hpp>
+
+namespace ACS::OpenStream
+{
+
+/// The controller behind the Open Stream and behind the HTTP side: one implementation serves both. Called on the thread
+/// of the server, must not throw and should answer within a fraction of the shortest period that is used.
+class IOpenApiService
+{
+public:
+    IOpenApiService() = default;
+    IOpenApiService(const IOpenApiService&) = delete;
+    IOpenApiService& operator=(const IOpenApiService&) = delete;
+    virtual ~IOpenApiService() = default;
+
+    /// Any method and path: 404 for one that it does not have. A status of 500 or more says that the service itself
+    /// failed.
+    [[nodiscard]] virtual ApiResponse Call(const ApiRequest& request, Core::Now now) = 0;
+
+    /// A client sent STOP control: what is buffered is released, such as the points of a trajectory.
+    virtual void StopControl(Core::Now now) = 0;
+};
+
+} // namespace ACS::OpenStream

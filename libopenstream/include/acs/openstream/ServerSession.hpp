@@ -1,0 +1,121 @@
+#pragma once
+
+#include <acs/core/BoundedQueue.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/openstream/LineFramer.hpp>
+#include <acs/openstream/LineOutbox.hpp>
+#include <acs/openstream/OpenStreamCodec.hpp>
+#include <acs/openstream/ServerSessionActions.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace ACS::OpenStream
+{
+
+enum class EServerState : std::uint8_t
+{
+    Connected, ///< Waits for HANDSHAKE.
+    Ready,
+    Streaming, ///< A MONITOR is active.
+    Closing,   ///< The last lines leave; commands are answered with handshake_required.
+    Closed,
+};
+
+/// The controller's side of one Open Stream connection, without I/O: events and the time in, actions out, appended to a
+/// vector that the caller reuses. The caller carries out each batch of actions, in order, before the next event; events
+/// that come of carrying them out (OnServiceAnswer, OnSendCompleted) append to the same batch.
+class ServerSession
+{
+    ServerSessionOptions _options;
+    OpenStreamCodec _codec;
+    LineFramer _framer;
+    LineOutbox _outbox;
+    ServerSessionStats _stats;
+    EServerState _state = EServerState::Connected;
+    EServerCloseReason _closeReason = EServerCloseReason::PeerClosed;
+
+    ApiRequest _monitorCall;
+    std::optional<Core::JsonText> _monitorID;
+    std::chrono::milliseconds _period{};
+    Core::SteadyTime _monitorBegin;
+    Core::SteadyTime _nextTick;
+    Core::SteadyTime _monitorAskedAt;
+    std::uint64_t _monitorToken = 0; ///< Of the call in flight; 0 where there is none.
+    bool _bMonitorFailing = false;   ///< Within an episode of internal errors, reported once.
+
+    Core::BoundedQueue<ApiRequest> _controls; ///< The first one is in flight.
+    std::uint64_t _controlToken = 0;
+    std::uint64_t _lastToken = 0;
+    bool _bControlled = false; ///< A CONTROL came since HANDSHAKE or the last STOP control.
+
+    Core::SteadyTime _lastCommandAt;
+    Core::SteadyTime _lastDataAt;
+    Core::SteadyTime _watchdogAt;
+    bool _bWatchdogArmed = false;
+    bool _bReadingPaused = false;
+    bool _bContinuing = false;
+    bool _bRefusingControls = false;
+    bool _bPeerClosed = false;
+    bool _bSendShutDown = false;
+
+    void ProcessLines(Core::Now now, ServerActions& out);
+    void ProcessLine(std::string_view line, Core::Now now, ServerActions& out);
+    [[nodiscard]] std::optional<EOpenStreamErrorCode> GetGateErrorOrNull(EOpenStreamCommand command) const;
+    void Handle(const HandshakeRequest& request, Core::Now now, ServerActions& out);
+    void Handle(const MonitorRequest& request, Core::Now now, ServerActions& out);
+    void Handle(const ControlRequest& request, Core::Now now, ServerActions& out);
+    void Handle(const StopRequest& request, Core::Now now, ServerActions& out);
+    void StopMonitor(ServerActions& out);
+    [[nodiscard]] bool TryStopControl(ServerActions& out);
+    void CallNextControl(ServerActions& out);
+    void ResumeControls(Core::Now now, ServerActions& out);
+    void FinishControl(const ApiResponse& response, Core::Now now, ServerActions& out);
+    void FinishMonitor(const ApiResponse& response, Core::Now now, ServerActions& out);
+    void Tick(Core::Now now, ServerActions& out);
+    void ReportMonitorFailure();
+    void CheckWatchdog(Core::Now now, ServerActions& out);
+    void ArmWatchdog(ServerActions& out);
+    [[nodiscard]] Core::SteadyTime GetWatchdogDeadline() const;
+    void AppendError(EOpenStreamErrorCode code, std::string_view message);
+    void BeginClosing(EServerCloseReason reason, Core::Now now, ServerActions& out);
+    void Close(ServerActions& out);
+    void Flush(ServerActions& out);
+
+public:
+    explicit ServerSession(const ServerSessionOptions& options = {});
+
+    /// The connection was accepted. → StartTimer.
+    void Start(Core::Now now, ServerActions& out);
+
+    /// The connection was accepted, but there is no room for it, or the server goes down while it lives: one
+    /// handshake_rejected, then the orderly end. → Send, StartTimer, CancelTimer.
+    void Reject(std::string_view message, Core::Now now, ServerActions& out);
+
+    /// Bytes came. → everything.
+    void OnBytes(std::string_view bytes, Core::Now now, ServerActions& out);
+
+    /// As asked for by ServerContinue. → everything.
+    void OnContinue(Core::Now now, ServerActions& out);
+
+    /// As asked for by ServerStartTimer. → Send, Call, timers, Close.
+    void OnTimer(EServerTimer timer, Core::Now now, ServerActions& out);
+
+    /// The answer to a ServerCall; one that nobody waits for any more is ignored. → Send, Call, timers, ResumeReading.
+    void OnServiceAnswer(std::uint64_t token, const ApiResponse& response, Core::Now now, ServerActions& out);
+
+    /// The text of the last ServerSend has left. → Send, ShutdownSend, Close.
+    void OnSendCompleted(Core::Now now, ServerActions& out);
+
+    /// The client closed its sending side. → Send, timers, Close.
+    void OnPeerClosed(Core::Now now, ServerActions& out);
+
+    /// The connection broke. → CancelTimer, Close.
+    void OnSocketError(ServerActions& out);
+
+    [[nodiscard]] EServerState GetState() const noexcept;
+    [[nodiscard]] const ServerSessionStats& GetStats() const noexcept;
+};
+
+} // namespace ACS::OpenStream
