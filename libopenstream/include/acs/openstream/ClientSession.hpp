@@ -53,7 +53,6 @@ class ClientSession
         Monitor,
         Control,
         StopMonitor,
-        StopControl,
         StopSession,
     };
 
@@ -72,10 +71,12 @@ class ClientSession
     bool _bControlLeft = false;
 
     std::optional<MonitorRequest> _monitor;
-    bool _bMonitorDue = false; ///< The wish has changed and the server does not know.
-    bool _bMonitorOn = false;  ///< The server streams, as far as we know.
-    bool _bStopControlDue = false;
+    bool _bMonitorDue = false;       ///< The wish has changed and the server does not know.
+    bool _bMonitorOn = false;        ///< The server streams, as far as we know.
+    bool _bMonitorStopFirst = false; ///< It said monitor_already_active.
     bool _bStale = false;
+    bool _bDataAgeArmed = false;
+    Core::SteadyTime _dataAgeAt;
     Core::SteadyTime _lastDataAt;
     std::optional<double> _lastTs;
 
@@ -83,27 +84,35 @@ class ClientSession
     std::uint64_t _lastToken = 0;
 
     void Connect(Core::Now now, ClientActions& out);
-    void ProcessLine(std::string_view line, Core::Now now, ClientActions& out);
+    void ProcessLine(std::string_view text, Core::Now now, ClientActions& out);
     void Handle(HandshakeAck& ack, Core::Now now, ClientActions& out);
     void Handle(MonitorAck& ack, Core::Now now, ClientActions& out);
     void Handle(DataLine& line, Core::Now now, ClientActions& out);
     void Handle(StopAck& ack, Core::Now now, ClientActions& out);
     void Handle(ControlError& error, Core::Now now, ClientActions& out);
     void Handle(ErrorLine& error, Core::Now now, ClientActions& out);
-    void HandleMonitorError(ErrorLine& error, Core::Now now, ClientActions& out);
-    void HandleStopError(ErrorLine& error, Core::Now now, ClientActions& out);
+    void HandleErrorWhenReady(ErrorLine& error, Core::Now now, ClientActions& out);
+    void HandleMonitorError(ErrorLine& error, ClientActions& out);
+    void HandleStopError(ErrorLine& error, ClientActions& out);
     void RefuseControl(int status, std::optional<Core::JsonText> body, std::string detail, ClientActions& out);
-    void SettleControl(EControlOutcome outcome, std::string detail, ClientActions& out);
+    void SettleInFlight(EControlOutcome outcome, std::string_view detail, ClientActions& out);
+    void SettleWaiting(std::string_view detail, ClientActions& out);
     void FinishInFlight(ClientActions& out);
     void SendNext(Core::Now now, ClientActions& out);
-    void SendCommand(const OpenStreamRequest& request, EInFlight kind, Core::Now now, ClientActions& out);
+    [[nodiscard]] bool TrySendMonitorWish(Core::Now now, ClientActions& out);
+    void SendNow(const OpenStreamRequest& request, ClientActions& out);
+    void SendAwaited(const OpenStreamRequest& request, EInFlight kind, Core::Now now, ClientActions& out);
     void Flush(ClientActions& out);
+    void CountMissing(const DataLine& line);
+    [[nodiscard]] bool IsConnected() const noexcept;
+    [[nodiscard]] std::chrono::milliseconds GetDataLimit() const noexcept;
     void ArmDataAge(ClientActions& out);
     void CheckDataAge(Core::Now now, ClientActions& out);
-    void Lose(EClientLossReason reason, std::string detail, Core::Now now, ClientActions& out);
+    void OnAnswerTimeout(Core::Now now, ClientActions& out);
+    void Lose(EClientLossReason reason, std::string_view detail, Core::Now now, ClientActions& out);
+    void Disconnect(EClientLossReason reason, std::string_view detail, Core::Now now, ClientActions& out);
     void DropConnection(std::string_view detail, ClientActions& out);
     void End(ClientActions& out);
-    void OnAnswerTimeout(Core::Now now, ClientActions& out);
 
 public:
     /// The random source scatters the reconnects and must outlive the session.
@@ -128,8 +137,8 @@ public:
         Core::Now now,
         ClientActions& out);
 
-    /// STOP control: the hard stop. CONTROLs that wait are settled as NotSent; goes before everything else that waits,
-    /// and does not wait for the one in flight, which becomes Unknown. → Send, timers, ClientControlSettled.
+    /// STOP control: the hard stop. Goes at once, whatever is in flight: a CONTROL that is becomes Unknown, those that
+    /// wait are settled as NotSent. Nothing without a session. → Send, timers, ClientControlSettled, later ClientStopped.
     void StopControl(Core::Now now, ClientActions& out);
 
     /// → Send, timers.

@@ -25,6 +25,7 @@ class LineFramer
 
     [[nodiscard]] std::optional<std::string_view> TakeRawLineOrNull();
     [[nodiscard]] std::optional<std::string_view> CutKeptOrNull();
+    void KeepPartialLine();
 
 public:
     /// The bound is on a line's bytes without its end.

@@ -18,7 +18,7 @@ class LineOutbox
     std::string _sending;              ///< In flight.
     std::uint64_t _sentBytes = 0;      ///< Of lines, since the beginning.
     std::size_t _sendingBytes = 0;     ///< Of lines, in flight.
-    std::size_t _dataLines = 0;        ///< Among the waiting lines and data.
+    std::size_t _dataLines = 0;        ///< Sealed among the waiting lines.
     std::size_t _dataLinesSending = 0; ///< Among what is in flight.
     bool _bSending = false;
 
@@ -35,9 +35,6 @@ public:
     /// The waiting data line joins the lines: what is appended later goes behind it, and nothing replaces it.
     void SealData();
 
-    /// The waiting data line is forgotten.
-    void DropData();
-
     /// Takes everything that waits as the next write; empty where nothing waits or a write is in flight. Valid until
     /// CompleteSend or Reset.
     [[nodiscard]] std::string_view TakeForSend();
@@ -45,11 +42,14 @@ public:
     /// The write in flight has left. Returns how many data lines were in it.
     std::size_t CompleteSend();
 
+    /// Whether nothing waits. What is in flight does not count.
     [[nodiscard]] bool IsEmpty() const noexcept;
+    [[nodiscard]] bool IsSending() const noexcept;
     [[nodiscard]] bool IsFull() const noexcept;
 
-    /// A mark behind the lines so far; WasSent(mark) once they have all left.
+    /// A mark behind the lines so far; WasTaken(mark) once they are all in flight, WasSent(mark) once they have left.
     [[nodiscard]] std::uint64_t GetMark() const noexcept;
+    [[nodiscard]] bool WasTaken(std::uint64_t mark) const noexcept;
     [[nodiscard]] bool WasSent(std::uint64_t mark) const noexcept;
 
     /// For a new connection.

@@ -1,0 +1,358 @@
+#include "SocketOptions.hpp"
+#include <acs/openstream_asio/OpenStreamClient.hpp>
+
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/connect.hpp>
+#include <boost/asio/error.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/write.hpp>
+#include <fmt/format.h>
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+namespace ACS::OpenStreamAsio
+{
+
+using OpenStream::ClientAction;
+using OpenStream::ClientActions;
+using OpenStream::ClientEvent;
+using Tcp = boost::asio::ip::tcp;
+
+class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStreamClient::Impl>
+{
+    static constexpr std::size_t READ_BYTES = 64U * 1024U;
+
+    Core::IClock& _clock;
+    Core::Logger _logger;
+    OpenStreamClientOptions _options;
+    EventHandler _handler;
+    OpenStream::ClientSession _session;
+    ClientActions _actions;
+    Tcp::resolver _resolver;
+    Tcp::socket _socket;
+    std::array<boost::asio::steady_timer, OpenStream::CLIENT_TIMER_COUNT> _timers;
+    /// How often each timer was started or cancelled: one that had fired just then is too late.
+    std::array<std::uint64_t, OpenStream::CLIENT_TIMER_COUNT> _timerTurns{};
+    std::array<char, READ_BYTES> _input{};
+    std::uint64_t _connection = 0; ///< Handlers of an earlier connection do nothing.
+    bool _bExecuting = false;
+    bool _bDown = false;
+
+    /// Runs a handler of this connection, as long as the client lives and the connection is the present one.
+    template <typename TAction>
+    void Proceed(std::uint64_t connection, TAction action)
+    {
+        if (!_bDown && connection == _connection)
+        {
+            action();
+            Execute();
+        }
+    }
+
+    /// Carries out the batch. What the event handler asks for from within joins the batch.
+    void Execute()
+    {
+        if (_bExecuting)
+        {
+            return;
+        }
+        const std::shared_ptr<Impl> self = shared_from_this(); // the handler may destroy the client
+        _bExecuting = true;
+        for (std::size_t index = 0; index < _actions.size() && !_bDown; ++index)
+        {
+            const ClientAction action = std::move(_actions[index]);
+            std::visit([this](const auto& content) { Do(content); }, action);
+        }
+        _actions.clear();
+        _bExecuting = false;
+    }
+
+    void Do(const ClientEvent& event)
+    {
+        if (const auto* lost = std::get_if<OpenStream::ClientLost>(&event))
+        {
+            _logger.Warning(
+                "the Open Stream session was lost",
+                {{"host", _options.host}, {"port", std::to_string(_options.port)}, {"reason", lost->detail}});
+        }
+        _handler(event, _clock.GetNow());
+    }
+
+    void Do(const OpenStream::ClientConnect& /*action*/)
+    {
+        const std::uint64_t connection = ++_connection;
+        _resolver.async_resolve(
+            _options.host,
+            std::to_string(_options.port),
+            [weak = weak_from_this(),
+             connection](const boost::system::error_code& error, const Tcp::resolver::results_type& found) {
+                if (const std::shared_ptr<Impl> self = weak.lock())
+                {
+                    self->Proceed(connection, [&]() { self->OnResolved(error, found, connection); });
+                }
+            });
+    }
+
+    void OnResolved(
+        const boost::system::error_code& error,
+        const Tcp::resolver::results_type& found,
+        std::uint64_t connection)
+    {
+        if (error)
+        {
+            ReportConnectFailure(error);
+            return;
+        }
+        boost::asio::async_connect(
+            _socket,
+            found,
+            [weak = weak_from_this(),
+             connection](const boost::system::error_code& connectError, const Tcp::endpoint& /*endpoint*/) {
+                if (const std::shared_ptr<Impl> self = weak.lock())
+                {
+                    self->Proceed(connection, [&]() { self->OnConnectDone(connectError, connection); });
+                }
+            });
+    }
+
+    void ReportConnectFailure(const boost::system::error_code& error)
+    {
+        const std::string detail =
+            fmt::format("cannot connect to {}:{}: {}", _options.host, _options.port, error.message());
+        _session.OnConnectFailed(detail, _clock.GetNow(), _actions);
+    }
+
+    void OnConnectDone(const boost::system::error_code& error, std::uint64_t connection)
+    {
+        if (error)
+        {
+            ReportConnectFailure(error);
+            return;
+        }
+        SetSocketOptions(_socket);
+        ReadMoreAsync(connection);
+        _session.OnConnected(_clock.GetNow(), _actions);
+    }
+
+    void ReadMoreAsync(std::uint64_t connection)
+    {
+        _socket.async_read_some(
+            boost::asio::buffer(_input),
+            [weak = weak_from_this(), connection](const boost::system::error_code& error, std::size_t size) {
+                if (const std::shared_ptr<Impl> self = weak.lock())
+                {
+                    self->Proceed(connection, [&]() { self->OnRead(error, size); });
+                    self->Proceed(connection, [&]() {
+                        if (!error)
+                        {
+                            self->ReadMoreAsync(connection);
+                        }
+                    });
+                }
+            });
+    }
+
+    void OnRead(const boost::system::error_code& error, std::size_t size)
+    {
+        const Core::Now now = _clock.GetNow();
+        if (error == boost::asio::error::eof)
+        {
+            _session.OnPeerClosed(now, _actions);
+        }
+        else if (error)
+        {
+            _session.OnSocketError(error.message(), now, _actions);
+        }
+        else
+        {
+            _session.OnBytes(std::string_view(_input.data(), size), now, _actions);
+        }
+    }
+
+    void Do(const OpenStream::ClientSend& action)
+    {
+        boost::asio::async_write(
+            _socket,
+            boost::asio::buffer(action.text),
+            [weak = weak_from_this(),
+             connection = _connection](const boost::system::error_code& error, std::size_t /*size*/) {
+                if (const std::shared_ptr<Impl> self = weak.lock())
+                {
+                    self->Proceed(connection, [&]() { self->OnWritten(error); });
+                }
+            });
+    }
+
+    void OnWritten(const boost::system::error_code& error)
+    {
+        if (error)
+        {
+            _session.OnSocketError(error.message(), _clock.GetNow(), _actions);
+        }
+        else
+        {
+            _session.OnSendCompleted(_clock.GetNow(), _actions);
+        }
+    }
+
+    void Do(const OpenStream::ClientClose& /*action*/)
+    {
+        ++_connection;
+        _resolver.cancel();
+        boost::system::error_code ignored;
+        static_cast<void>(_socket.close(ignored));
+    }
+
+    void Do(const OpenStream::ClientStartTimer& action)
+    {
+        const auto index = static_cast<std::size_t>(action.timer);
+        const std::uint64_t turn = ++_timerTurns.at(index);
+        _timers.at(index).expires_after(action.deadline - _clock.GetNow().steady);
+        _timers.at(index).async_wait(
+            [weak = weak_from_this(), kind = action.timer, index, turn](const boost::system::error_code& error) {
+                const std::shared_ptr<Impl> self = weak.lock();
+                if (!error && self != nullptr && !self->_bDown && self->_timerTurns.at(index) == turn)
+                {
+                    self->_session.OnTimer(kind, self->_clock.GetNow(), self->_actions);
+                    self->Execute();
+                }
+            });
+    }
+
+    void Do(const OpenStream::ClientCancelTimer& action)
+    {
+        const auto index = static_cast<std::size_t>(action.timer);
+        ++_timerTurns.at(index);
+        _timers.at(index).cancel();
+    }
+
+public:
+    Impl(
+        const boost::asio::any_io_executor& executor,
+        Core::IClock& clock,
+        Core::IRandom& random,
+        Core::Logger logger,
+        OpenStreamClientOptions options,
+        EventHandler handler)
+        : _clock(clock),
+          _logger(std::move(logger)),
+          _options(std::move(options)),
+          _handler(std::move(handler)),
+          _session(_options.session, random),
+          _resolver(executor),
+          _socket(executor),
+          _timers{
+              boost::asio::steady_timer(executor),
+              boost::asio::steady_timer(executor),
+              boost::asio::steady_timer(executor),
+              boost::asio::steady_timer(executor)}
+    {
+    }
+
+    void Start()
+    {
+        _session.Start(_clock.GetNow(), _actions);
+        Execute();
+    }
+
+    void Stop()
+    {
+        _session.Stop(_clock.GetNow(), _actions);
+        Execute();
+    }
+
+    void SetMonitor(std::optional<OpenStream::MonitorRequest> monitorOrNull)
+    {
+        _session.SetMonitor(std::move(monitorOrNull), _clock.GetNow(), _actions);
+        Execute();
+    }
+
+    std::uint64_t SendControl(const OpenStream::ControlRequest& request, OpenStream::EControlTracking tracking)
+    {
+        const std::uint64_t token = _session.SendControl(request, tracking, _clock.GetNow(), _actions);
+        Execute();
+        return token;
+    }
+
+    void StopControl()
+    {
+        _session.StopControl(_clock.GetNow(), _actions);
+        Execute();
+    }
+
+    void ShutDown()
+    {
+        _bDown = true;
+        _resolver.cancel();
+        for (boost::asio::steady_timer& timer : _timers)
+        {
+            timer.cancel();
+        }
+        boost::system::error_code ignored;
+        static_cast<void>(_socket.close(ignored));
+    }
+
+    [[nodiscard]] const OpenStream::ClientSession& GetSession() const noexcept
+    {
+        return _session;
+    }
+};
+
+OpenStreamClient::OpenStreamClient(
+    const boost::asio::any_io_executor& executor,
+    Core::IClock& clock,
+    Core::IRandom& random,
+    Core::Logger logger,
+    OpenStreamClientOptions options,
+    EventHandler handler)
+    : _impl(std::make_shared<Impl>(executor, clock, random, std::move(logger), std::move(options), std::move(handler)))
+{
+}
+
+OpenStreamClient::~OpenStreamClient()
+{
+    _impl->ShutDown();
+}
+
+void OpenStreamClient::Start()
+{
+    _impl->Start();
+}
+
+void OpenStreamClient::Stop()
+{
+    _impl->Stop();
+}
+
+void OpenStreamClient::SetMonitor(std::optional<OpenStream::MonitorRequest> monitorOrNull)
+{
+    _impl->SetMonitor(std::move(monitorOrNull));
+}
+
+std::uint64_t OpenStreamClient::SendControl(
+    const OpenStream::ControlRequest& request,
+    OpenStream::EControlTracking tracking)
+{
+    return _impl->SendControl(request, tracking);
+}
+
+void OpenStreamClient::StopControl()
+{
+    _impl->StopControl();
+}
+
+OpenStream::EClientState OpenStreamClient::GetState() const noexcept
+{
+    return _impl->GetSession().GetState();
+}
+
+const OpenStream::ClientSessionStats& OpenStreamClient::GetStats() const noexcept
+{
+    return _impl->GetSession().GetStats();
+}
+
+} // namespace ACS::OpenStreamAsio

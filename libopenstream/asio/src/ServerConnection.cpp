@@ -1,0 +1,253 @@
+#include "ServerConnection.hpp"
+
+#include "SocketOptions.hpp"
+
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/error.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/write.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace ACS::OpenStreamAsio
+{
+
+namespace
+{
+
+std::string DescribePeer(const boost::asio::ip::tcp::socket& socket)
+{
+    boost::system::error_code error;
+    const boost::asio::ip::tcp::endpoint peer = socket.remote_endpoint(error);
+    return error ? "unknown" : fmt::format("{}:{}", peer.address().to_string(), peer.port());
+}
+
+std::string_view GetReasonText(OpenStream::EServerCloseReason reason)
+{
+    using OpenStream::EServerCloseReason;
+    switch (reason)
+    {
+        case EServerCloseReason::PeerClosed:
+            return "the client closed";
+        case EServerCloseReason::StopSession:
+            return "STOP session";
+        case EServerCloseReason::IdleTimeout:
+            return "idle for too long";
+        case EServerCloseReason::StreamingTimeout:
+            return "the stream was interrupted for too long";
+        case EServerCloseReason::LineTooLong:
+            return "a line beyond the limit";
+        case EServerCloseReason::OutputFull:
+            return "the client does not read";
+        case EServerCloseReason::Rejected:
+            return "rejected";
+        case EServerCloseReason::SocketError:
+            return "the connection broke";
+        default:
+            return "unknown";
+    }
+}
+
+} // namespace
+
+ServerConnection::ServerConnection(
+    boost::asio::ip::tcp::socket socket,
+    Core::IClock& clock,
+    Core::Logger logger,
+    const OpenStream::ServerSessionOptions& options,
+    OpenStream::IOpenApiService& service,
+    ClosedHandler onClosed)
+    : _socket(std::move(socket)),
+      _clock(clock),
+      _logger(std::move(logger)),
+      _service(service),
+      _onClosed(std::move(onClosed)),
+      _peer(DescribePeer(_socket)),
+      _session(options),
+      _timers{
+          boost::asio::steady_timer(_socket.get_executor()),
+          boost::asio::steady_timer(_socket.get_executor()),
+          boost::asio::steady_timer(_socket.get_executor()),
+          boost::asio::steady_timer(_socket.get_executor())}
+{
+}
+
+void ServerConnection::Start()
+{
+    SetSocketOptions(_socket);
+    _logger.Info("an Open Stream client connected", {{"peer", _peer}});
+    _session.Start(_clock.GetNow(), _actions);
+    Execute();
+    ReadMoreAsync();
+}
+
+void ServerConnection::Reject(std::string_view message)
+{
+    SetSocketOptions(_socket);
+    _logger.Warning("an Open Stream client was rejected", {{"peer", _peer}, {"reason", message}});
+    _session.Reject(message, _clock.GetNow(), _actions);
+    Execute();
+    ReadMoreAsync();
+}
+
+void ServerConnection::Abort()
+{
+    _bClosed = true;
+    for (boost::asio::steady_timer& timer : _timers)
+    {
+        timer.cancel();
+    }
+    boost::system::error_code ignored;
+    static_cast<void>(_socket.close(ignored));
+}
+
+/// Carries out the batch. What it leads to at once (the answer of a service) joins the batch.
+void ServerConnection::Execute()
+{
+    for (std::size_t index = 0; index < _actions.size() && !_bClosed; ++index)
+    {
+        const OpenStream::ServerAction action = _actions[index];
+        std::visit([this](const auto& content) { Do(content); }, action);
+    }
+    _actions.clear();
+}
+
+void ServerConnection::Do(const OpenStream::ServerSend& action)
+{
+    boost::asio::async_write(
+        _socket,
+        boost::asio::buffer(action.text),
+        [self = shared_from_this()](const boost::system::error_code& error, std::size_t /*size*/) {
+            self->OnWritten(error);
+        });
+}
+
+void ServerConnection::OnWritten(const boost::system::error_code& error)
+{
+    if (_bClosed)
+    {
+        return;
+    }
+    if (error)
+    {
+        _session.OnSocketError(_actions);
+    }
+    else
+    {
+        _session.OnSendCompleted(_clock.GetNow(), _actions);
+    }
+    Execute();
+}
+
+void ServerConnection::Do(const OpenStream::ServerCall& action)
+{
+    const OpenStream::ApiResponse response = _service.Call(*action.request, _clock.GetNow());
+    if (!_bClosed)
+    {
+        _session.OnServiceAnswer(action.token, response, _clock.GetNow(), _actions);
+    }
+}
+
+void ServerConnection::Do(const OpenStream::ServerStopControl& /*action*/)
+{
+    _service.StopControl(_clock.GetNow());
+}
+
+void ServerConnection::Do(const OpenStream::ServerStartTimer& action)
+{
+    const auto index = static_cast<std::size_t>(action.timer);
+    const std::uint64_t turn = ++_timerTurns.at(index);
+    _timers.at(index).expires_after(action.deadline - _clock.GetNow().steady);
+    _timers.at(index).async_wait(
+        [self = shared_from_this(), kind = action.timer, index, turn](const boost::system::error_code& error) {
+            if (!error && !self->_bClosed && self->_timerTurns.at(index) == turn)
+            {
+                self->_session.OnTimer(kind, self->_clock.GetNow(), self->_actions);
+                self->Execute();
+            }
+        });
+}
+
+void ServerConnection::Do(const OpenStream::ServerCancelTimer& action)
+{
+    const auto index = static_cast<std::size_t>(action.timer);
+    ++_timerTurns.at(index);
+    _timers.at(index).cancel();
+}
+
+void ServerConnection::Do(const OpenStream::ServerPauseReading& /*action*/)
+{
+    _bPaused = true;
+}
+
+void ServerConnection::Do(const OpenStream::ServerResumeReading& /*action*/)
+{
+    _bPaused = false;
+    ReadMoreAsync();
+}
+
+void ServerConnection::Do(const OpenStream::ServerContinue& /*action*/)
+{
+    boost::asio::post(_socket.get_executor(), [self = shared_from_this()]() {
+        if (!self->_bClosed)
+        {
+            self->_session.OnContinue(self->_clock.GetNow(), self->_actions);
+            self->Execute();
+        }
+    });
+}
+
+void ServerConnection::Do(const OpenStream::ServerShutdownSend& /*action*/)
+{
+    boost::system::error_code ignored;
+    static_cast<void>(_socket.shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored));
+}
+
+void ServerConnection::Do(const OpenStream::ServerClose& action)
+{
+    _logger.Info("an Open Stream session ended", {{"peer", _peer}, {"reason", GetReasonText(action.reason)}});
+    Abort();
+    _onClosed(*this);
+}
+
+void ServerConnection::ReadMoreAsync()
+{
+    if (_bReading || _bPaused || _bPeerClosed || _bClosed)
+    {
+        return;
+    }
+    _bReading = true;
+    _socket.async_read_some(
+        boost::asio::buffer(_input),
+        [self = shared_from_this()](const boost::system::error_code& error, std::size_t size) {
+            self->OnRead(error, size);
+        });
+}
+
+void ServerConnection::OnRead(const boost::system::error_code& error, std::size_t size)
+{
+    _bReading = false;
+    if (_bClosed)
+    {
+        return;
+    }
+    if (error == boost::asio::error::eof)
+    {
+        _bPeerClosed = true;
+        _session.OnPeerClosed(_clock.GetNow(), _actions);
+    }
+    else if (error)
+    {
+        _session.OnSocketError(_actions);
+    }
+    else
+    {
+        _session.OnBytes(std::string_view(_input.data(), size), _clock.GetNow(), _actions);
+    }
+    Execute();
+    ReadMoreAsync();
+}
+
+} // namespace ACS::OpenStreamAsio

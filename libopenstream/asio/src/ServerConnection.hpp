@@ -1,0 +1,80 @@
+#pragma once
+
+#include <acs/core/Logger.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/openstream/IOpenApiService.hpp>
+#include <acs/openstream/ServerSession.hpp>
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace ACS::OpenStreamAsio
+{
+
+/// One accepted connection: carries out what its ServerSession wants and tells it what happens. Lives as long as a handler
+/// or the server holds it; after Abort no handler does anything.
+class ServerConnection final : public std::enable_shared_from_this<ServerConnection>
+{
+public:
+    using ClosedHandler = std::function<void(ServerConnection& connection)>;
+
+private:
+    static constexpr std::size_t READ_BYTES = 64U * 1024U;
+
+    boost::asio::ip::tcp::socket _socket;
+    Core::IClock& _clock;
+    Core::Logger _logger;
+    OpenStream::IOpenApiService& _service;
+    ClosedHandler _onClosed;
+    std::string _peer;
+    OpenStream::ServerSession _session;
+    OpenStream::ServerActions _actions;
+    std::array<boost::asio::steady_timer, OpenStream::SERVER_TIMER_COUNT> _timers;
+    /// How often each timer was started or cancelled: one that had fired just then is too late.
+    std::array<std::uint64_t, OpenStream::SERVER_TIMER_COUNT> _timerTurns{};
+    std::array<char, READ_BYTES> _input{};
+    bool _bReading = false;
+    bool _bPaused = false;
+    bool _bPeerClosed = false;
+    bool _bClosed = false;
+
+    void Execute();
+    void Do(const OpenStream::ServerSend& action);
+    void Do(const OpenStream::ServerCall& action);
+    void Do(const OpenStream::ServerStopControl& action);
+    void Do(const OpenStream::ServerStartTimer& action);
+    void Do(const OpenStream::ServerCancelTimer& action);
+    void Do(const OpenStream::ServerPauseReading& action);
+    void Do(const OpenStream::ServerResumeReading& action);
+    void Do(const OpenStream::ServerContinue& action);
+    void Do(const OpenStream::ServerShutdownSend& action);
+    void Do(const OpenStream::ServerClose& action);
+    void ReadMoreAsync();
+    void OnRead(const boost::system::error_code& error, std::size_t size);
+    void OnWritten(const boost::system::error_code& error);
+
+public:
+    ServerConnection(
+        boost::asio::ip::tcp::socket socket,
+        Core::IClock& clock,
+        Core::Logger logger,
+        const OpenStream::ServerSessionOptions& options,
+        OpenStream::IOpenApiService& service,
+        ClosedHandler onClosed);
+
+    void Start();
+    /// Instead of Start.
+    void Reject(std::string_view message);
+    /// Closes at once. The closed handler is not called.
+    void Abort();
+};
+
+} // namespace ACS::OpenStreamAsio

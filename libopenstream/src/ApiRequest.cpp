@@ -1,0 +1,112 @@
+#include <acs/json/JsonDocument.hpp>
+#include <acs/openstream/ApiRequest.hpp>
+
+#include <algorithm>
+
+namespace ACS::OpenStream
+{
+
+namespace
+{
+
+constexpr int FIRST_SUCCESS = 200;
+constexpr int BEYOND_SUCCESS = 300;
+constexpr std::string_view HEX = "0123456789ABCDEF";
+
+bool IsUnreserved(char letter)
+{
+    const bool bLetter = (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z');
+    const bool bDigit = letter >= '0' && letter <= '9';
+    return bLetter || bDigit || std::string_view("-._~,:").find(letter) != std::string_view::npos;
+}
+
+void AppendEncoded(std::string_view text, std::string& out)
+{
+    for (const char letter : text)
+    {
+        if (IsUnreserved(letter))
+        {
+            out += letter;
+            continue;
+        }
+        const auto byte = static_cast<unsigned char>(letter);
+        out += '%';
+        out += HEX[byte >> 4U];
+        out += HEX[byte & 0xFU];
+    }
+}
+
+void SetParameter(std::string_view name, std::string value, ApiRequest& request)
+{
+    std::erase_if(request.query, [name](const QueryParameter& parameter) { return parameter.name == name; });
+    request.query.push_back(QueryParameter{std::string(name), std::move(value)});
+}
+
+} // namespace
+
+const std::string* ApiRequest::GetParameterOrNull(std::string_view name) const noexcept
+{
+    const auto found = std::ranges::find(query, name, &QueryParameter::name);
+    return found == query.end() ? nullptr : &found->value;
+}
+
+bool ApiResponse::IsSuccess() const noexcept
+{
+    return status >= FIRST_SUCCESS && status < BEYOND_SUCCESS;
+}
+
+void SplitUrl(std::string_view url, ApiRequest& request)
+{
+    request.query.clear();
+    const std::size_t mark = url.find('?');
+    request.path.assign(url.substr(0, mark));
+    std::string_view rest = mark == std::string_view::npos ? std::string_view() : url.substr(mark + 1);
+    while (!rest.empty())
+    {
+        const std::size_t end = rest.find('&');
+        const std::string_view part = rest.substr(0, end);
+        rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
+        if (part.empty())
+        {
+            continue;
+        }
+        const std::size_t equals = part.find('=');
+        const std::string_view value = equals == std::string_view::npos ? std::string_view() : part.substr(equals + 1);
+        request.query.push_back(QueryParameter{std::string(part.substr(0, equals)), std::string(value)});
+    }
+}
+
+void AddArguments(const Core::JsonText& args, ApiRequest& request)
+{
+    Json::JsonDocument document;
+    const auto root = document.Parse(args.GetText(), Json::ParseLimits{});
+    if (!root.has_value() || !(*root)->IsObject())
+    {
+        return;
+    }
+    for (const auto& member : (*root)->GetObject())
+    {
+        const std::string_view name(member.name.GetString(), member.name.GetStringLength());
+        std::string value = member.value.IsString()
+            ? std::string(member.value.GetString(), member.value.GetStringLength())
+            : Json::WriteText(member.value);
+        SetParameter(name, std::move(value), request);
+    }
+}
+
+std::string BuildUrl(const ApiRequest& request)
+{
+    std::string url = request.path;
+    char separator = '?';
+    for (const QueryParameter& parameter : request.query)
+    {
+        url += separator;
+        separator = '&';
+        AppendEncoded(parameter.name, url);
+        url += '=';
+        AppendEncoded(parameter.value, url);
+    }
+    return url;
+}
+
+} // namespace ACS::OpenStream
