@@ -1,0 +1,13 @@
+// needs: nothing
+#include <acs/openstream/OpenStreamCodec.hpp>
+
+#include <cstdio>
+
+int main()
+{
+    ACS::OpenStream::OpenStreamCodec codec;
+    std::string text;
+    codec.EncodeRequest(ACS::OpenStream::HandshakeRequest{}, text);
+    std::fputs(text.c_str(), stdout);
+    return codec.DecodeRequest(text).has_value() ? 0 : 1;
+}

@@ -1,0 +1,390 @@
+#include "Catch.hpp"
+#include "RecordingLogSink.hpp"
+#include "SeededRandom.hpp"
+#include <acs/core/Overloaded.hpp>
+#include <acs/openstream_asio/OpenStreamClient.hpp>
+#include <acs/openstream_asio/OpenStreamServer.hpp>
+
+#include <boost/asio/connect.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/read_until.hpp>
+#include <boost/asio/write.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+using namespace ACS::OpenStream;     // NOLINT(google-build-using-namespace)
+using namespace ACS::OpenStreamAsio; // NOLINT(google-build-using-namespace)
+using namespace std::chrono_literals;
+using ACS::Core::JsonText;
+using ACS::Core::Logger;
+using Tcp = boost::asio::ip::tcp;
+
+namespace
+{
+
+constexpr std::chrono::seconds LIMIT{10};
+
+class SystemClock final : public ACS::Core::IClock
+{
+public:
+    [[nodiscard]] ACS::Core::Now GetNow() const override
+    {
+        return ACS::Core::Now{std::chrono::steady_clock::now(), std::chrono::system_clock::now()};
+    }
+};
+
+class CountingService final : public IOpenApiService
+{
+public:
+    int gets = 0;
+    int controls = 0;
+    int stops = 0;
+
+    [[nodiscard]] ApiResponse Call(const ApiRequest& request, ACS::Core::Now /*now*/) override
+    {
+        if (request.method == EApiMethod::Get)
+        {
+            return ApiResponse{200, JsonText::FromInteger(++gets)};
+        }
+        ++controls;
+        return request.path == "/refused" ? ApiResponse{403, JsonText::FromTrusted(R"({"err_code":-38500})")}
+                                          : ApiResponse{};
+    }
+
+    void StopControl(ACS::Core::Now /*now*/) override
+    {
+        ++stops;
+    }
+};
+
+/// A server on a free port, and what the tests need around it.
+class Fixture
+{
+public:
+    boost::asio::io_context context;
+    SystemClock clock;
+    ACS::Testing::SeededRandom random;
+    ACS::Testing::RecordingLogSink log;
+    CountingService service;
+    std::vector<ClientEvent> events;
+
+    [[nodiscard]] std::unique_ptr<OpenStreamServer> MakeServer(OpenStreamServerOptions options)
+    {
+        return std::make_unique<OpenStreamServer>(
+            context.get_executor(),
+            clock,
+            Logger(log, "server"),
+            options,
+            service);
+    }
+
+    [[nodiscard]] std::unique_ptr<OpenStreamServer> StartServer(OpenStreamServerOptions options = MakeOptions())
+    {
+        std::unique_ptr<OpenStreamServer> server = MakeServer(std::move(options));
+        const auto started = server->Start();
+        REQUIRE(started.has_value());
+        REQUIRE(server->GetPort() != 0);
+        return server;
+    }
+
+    [[nodiscard]] static OpenStreamServerOptions MakeOptions()
+    {
+        OpenStreamServerOptions options;
+        options.port = 0;
+        return options;
+    }
+
+    [[nodiscard]] std::unique_ptr<OpenStreamClient> MakeClient(std::uint16_t port)
+    {
+        OpenStreamClientOptions options;
+        options.port = port;
+        options.session.controlWindow = 100ms;
+        options.session.reconnect.initial = 20ms;
+        options.session.reconnect.maximum = 50ms;
+        return std::make_unique<OpenStreamClient>(
+            context.get_executor(),
+            clock,
+            random,
+            Logger(log, "client"),
+            options,
+            [this](const ClientEvent& event, ACS::Core::Now /*now*/) { events.push_back(event); });
+    }
+
+    /// Runs handlers until the condition holds; false where it did not in time.
+    [[nodiscard]] bool TryRunUntil(const std::function<bool()>& isReached)
+    {
+        const auto end = std::chrono::steady_clock::now() + LIMIT;
+        while (!isReached() && std::chrono::steady_clock::now() < end)
+        {
+            context.restart();
+            context.run_one_for(100ms);
+        }
+        return isReached();
+    }
+
+    template <typename TEvent>
+    [[nodiscard]] std::size_t Count() const
+    {
+        return static_cast<std::size_t>(std::ranges::count_if(events, [](const ClientEvent& event) {
+            return std::holds_alternative<TEvent>(event);
+        }));
+    }
+};
+
+/// A plain socket, as any client in any language has it.
+class RawPeer
+{
+    Fixture& _fixture;
+    Tcp::socket _socket;
+    std::string _received;
+    std::array<char, 4096> _input{};
+    bool _bClosed = false;
+
+    void ReadAsync()
+    {
+        _socket.async_read_some(
+            boost::asio::buffer(_input),
+            [this](const boost::system::error_code& error, std::size_t size) {
+                if (error == boost::asio::error::operation_aborted)
+                {
+                    return;
+                }
+                _bClosed = static_cast<bool>(error);
+                _received.append(_input.data(), size);
+                if (!error)
+                {
+                    ReadAsync();
+                }
+            });
+    }
+
+public:
+    RawPeer(Fixture& fixture, std::uint16_t port)
+        : _fixture(fixture),
+          _socket(fixture.context)
+    {
+        _socket.connect(Tcp::endpoint(boost::asio::ip::address_v4::loopback(), port));
+        ReadAsync();
+    }
+
+    RawPeer(const RawPeer&) = delete;
+    RawPeer& operator=(const RawPeer&) = delete;
+
+    ~RawPeer()
+    {
+        boost::system::error_code ignored;
+        static_cast<void>(_socket.close(ignored));
+        _fixture.context.restart();
+        _fixture.context.poll();
+    }
+
+    void Send(std::string_view bytes)
+    {
+        boost::asio::write(_socket, boost::asio::buffer(bytes));
+    }
+
+    void CloseSending()
+    {
+        _socket.shutdown(Tcp::socket::shutdown_send);
+    }
+
+    [[nodiscard]] bool TryAwait(std::string_view part)
+    {
+        return _fixture.TryRunUntil([this, part]() { return _received.find(part) != std::string::npos; });
+    }
+
+    [[nodiscard]] bool TryAwaitClose()
+    {
+        return _fixture.TryRunUntil([this]() { return _bClosed; });
+    }
+
+    [[nodiscard]] const std::string& GetReceived() const
+    {
+        return _received;
+    }
+};
+
+const MonitorRequest MONITOR{"/project/rgen", 20ms, {}, {}}; // NOLINT(cert-err58-cpp)
+
+} // namespace
+
+TEST_CASE("3 Handshake, a MONITOR at 20 ms delivers, a good CONTROL is accepted, a refused one tells why")
+{
+    Fixture fixture;
+    const auto server = fixture.StartServer();
+    const auto client = fixture.MakeClient(server->GetPort());
+    client->SetMonitor(MONITOR);
+    client->Start();
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientData>() >= 5; }));
+    REQUIRE(fixture.Count<ClientReady>() == 1);
+    REQUIRE(fixture.Count<ClientMonitorStarted>() == 1);
+
+    const std::uint64_t good =
+        client->SendControl(ControlRequest{EApiMethod::Post, "/good", {}, {}}, EControlTracking::Tracked);
+    const std::uint64_t bad =
+        client->SendControl(ControlRequest{EApiMethod::Post, "/refused", {}, {}}, EControlTracking::Tracked);
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientControlSettled>() == 2; }));
+    std::vector<ClientControlSettled> settled;
+    for (const ClientEvent& event : fixture.events)
+    {
+        if (const auto* outcome = std::get_if<ClientControlSettled>(&event))
+        {
+            settled.push_back(*outcome);
+        }
+    }
+    REQUIRE(settled.at(0).token == good);
+    REQUIRE(settled.at(0).outcome == EControlOutcome::Accepted);
+    REQUIRE(settled.at(1).token == bad);
+    REQUIRE(settled.at(1).outcome == EControlOutcome::Refused);
+    REQUIRE(settled.at(1).status == 403);
+    REQUIRE(settled.at(1).body->GetText() == R"({"err_code":-38500})");
+
+    client->StopControl();
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientStopped>() == 1; }));
+    REQUIRE(fixture.service.stops == 1);
+
+    client->Stop();
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientEnded>() == 1; }));
+    REQUIRE(fixture.TryRunUntil([&]() { return server->GetSessionCount() == 0; }));
+}
+
+TEST_CASE("8 A server that comes back finds the client again, with its MONITOR")
+{
+    Fixture fixture;
+    auto server = fixture.StartServer();
+    OpenStreamServerOptions options = Fixture::MakeOptions();
+    options.port = server->GetPort();
+    const auto client = fixture.MakeClient(options.port);
+    client->SetMonitor(MONITOR);
+    client->Start();
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientData>() > 0; }));
+    server.reset();
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientLost>() >= 2; }));
+    REQUIRE(fixture.log.Contains(ACS::Core::ELogLevel::Warning, "lost"));
+    server = fixture.StartServer(options);
+    const std::size_t before = fixture.Count<ClientData>();
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientData>() > before; }));
+    REQUIRE(fixture.Count<ClientReady>() == 2);
+    REQUIRE(fixture.Count<ClientMonitorStarted>() == 2);
+}
+
+TEST_CASE("8 Sessions that are dropped without a line come back")
+{
+    Fixture fixture;
+    const auto server = fixture.StartServer();
+    const auto client = fixture.MakeClient(server->GetPort());
+    client->Start();
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientReady>() == 1; }));
+    server->DropSessions();
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientReady>() == 2; }));
+}
+
+TEST_CASE("1 7.33 7.34 Half lines, CRLF and garbage over a real socket")
+{
+    Fixture fixture;
+    const auto server = fixture.StartServer();
+    RawPeer peer(fixture, server->GetPort());
+    peer.Send("\xFF\xFEgarbage\r\n\r\n{\"cmd\":\"HAND");
+    REQUIRE(peer.TryAwait("invalid_ndjson"));
+    peer.Send("SHAKE\",\"payload\":{\"major\":1}}\r\n");
+    REQUIRE(peer.TryAwait("handshake_ack"));
+    peer.Send("{\"cmd\":\"MONITOR\",\"payload\":{\"url\":\"/a\",\"method\":\"GET\",\"period_ms\":2}}\n");
+    REQUIRE(peer.TryAwait("\"result\":5"));
+    REQUIRE(peer.GetReceived().find('\xFF') == std::string::npos);
+}
+
+TEST_CASE("7.20 An overlong line gets its error and the close, other sessions do not notice")
+{
+    Fixture fixture;
+    const auto server = fixture.StartServer();
+    const auto client = fixture.MakeClient(server->GetPort());
+    client->SetMonitor(MONITOR);
+    client->Start();
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientData>() > 0; }));
+    RawPeer peer(fixture, server->GetPort());
+    const std::string part(64U * 1024U, 'x');
+    for (int count = 0; count < 17; ++count)
+    {
+        peer.Send(part);
+        fixture.context.restart();
+        fixture.context.poll();
+    }
+    REQUIRE(peer.TryAwait("rx_buf_overflow"));
+    REQUIRE(peer.TryAwaitClose());
+    const std::size_t before = fixture.Count<ClientData>();
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientData>() > before; }));
+    REQUIRE(fixture.Count<ClientLost>() == 0);
+}
+
+TEST_CASE("7.39 Half-close: the answers come, then the server closes")
+{
+    Fixture fixture;
+    const auto server = fixture.StartServer();
+    RawPeer peer(fixture, server->GetPort());
+    peer.Send("{\"cmd\":\"HANDSHAKE\",\"payload\":{\"major\":1}}\n"
+              "{\"cmd\":\"CONTROL\",\"payload\":{\"url\":\"/refused\",\"method\":\"POST\"}}\n"
+              "{\"cmd\":\"CONTROL\",\"payload\":{\"url\":\"/x");
+    peer.CloseSending();
+    REQUIRE(peer.TryAwaitClose());
+    REQUIRE(peer.GetReceived().find("control_err") != std::string::npos);
+    REQUIRE(fixture.service.controls == 1);
+}
+
+TEST_CASE("7.12 The session too many is rejected with a line, and its place is free again later")
+{
+    Fixture fixture;
+    OpenStreamServerOptions options = Fixture::MakeOptions();
+    options.maximumSessions = 1;
+    const auto server = fixture.StartServer(options);
+    {
+        RawPeer first(fixture, server->GetPort());
+        first.Send("{\"cmd\":\"HANDSHAKE\",\"payload\":{\"major\":1}}\n");
+        REQUIRE(first.TryAwait("handshake_ack"));
+        RawPeer second(fixture, server->GetPort());
+        REQUIRE(second.TryAwait("handshake_rejected"));
+        REQUIRE(second.TryAwaitClose());
+    }
+    REQUIRE(fixture.TryRunUntil([&]() { return server->GetSessionCount() == 0; }));
+    RawPeer third(fixture, server->GetPort());
+    third.Send("{\"cmd\":\"HANDSHAKE\",\"payload\":{\"major\":1}}\n");
+    REQUIRE(third.TryAwait("handshake_ack"));
+}
+
+TEST_CASE("1 A port in use is a sentence that names the address and what to do")
+{
+    Fixture fixture;
+    const auto server = fixture.StartServer();
+    OpenStreamServerOptions options = Fixture::MakeOptions();
+    options.port = server->GetPort();
+    const auto second = fixture.MakeServer(options);
+    const auto started = second->Start();
+    REQUIRE_FALSE(started.has_value());
+    const std::string sentence = ACS::Core::Describe(started.error());
+    REQUIRE(sentence.find("127.0.0.1:" + std::to_string(options.port)) != std::string::npos);
+    REQUIRE(sentence.find("choose another port") != std::string::npos);
+    REQUIRE(second->GetPort() == 0);
+}
+
+TEST_CASE("8 Destroying both ends in mid stream leaves no handler behind")
+{
+    Fixture fixture;
+    auto server = fixture.StartServer();
+    auto client = fixture.MakeClient(server->GetPort());
+    client->SetMonitor(MonitorRequest{"/project/rgen", 2ms, {}, {}});
+    client->Start();
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientData>() >= 10; }));
+    client.reset();
+    server.reset();
+    const std::size_t before = fixture.events.size();
+    fixture.context.restart();
+    fixture.context.run_for(1s);
+    REQUIRE(fixture.events.size() == before);
+    REQUIRE(fixture.context.stopped());
+}

@@ -1,0 +1,58 @@
+#include "Catch.hpp"
+#include <acs/openstream/ApiRequest.hpp>
+#include <acs/openstream/OpenStreamCodec.hpp>
+
+#include <string>
+
+using namespace ACS::OpenStream; // NOLINT(google-build-using-namespace)
+using ACS::Core::JsonText;
+
+TEST_CASE("7.29 A url is an opaque path and a query, into which args go and win")
+{
+    ApiRequest request;
+    SplitUrl("/project/context/tasks[0]/x%20y?jno_n=3&flag&&empty=", request);
+    REQUIRE(request.path == "/project/context/tasks[0]/x%20y");
+    REQUIRE(request.query.size() == 3);
+    REQUIRE(*request.GetParameterOrNull("jno_n") == "3");
+    REQUIRE(request.GetParameterOrNull("flag")->empty());
+    REQUIRE(request.GetParameterOrNull("none") == nullptr);
+
+    AddArguments(JsonText::FromTrusted(R"({"jno_n":6,"name":"a b","deep":{"x":[1,true]}})"), request);
+    REQUIRE(*request.GetParameterOrNull("jno_n") == "6");
+    REQUIRE(*request.GetParameterOrNull("name") == "a b");
+    REQUIRE(*request.GetParameterOrNull("deep") == R"({"x":[1,true]})");
+    REQUIRE(request.query.size() == 5);
+}
+
+TEST_CASE("7.29 BuildUrl encodes what a query cannot carry")
+{
+    ApiRequest request;
+    request.path = "/project/robot/po_cur";
+    REQUIRE(BuildUrl(request) == "/project/robot/po_cur");
+    request.query = {{"crd", "-1"}, {"text", "a b&c=\xC3\xA9"}};
+    REQUIRE(BuildUrl(request) == "/project/robot/po_cur?crd=-1&text=a%20b%26c%3D%C3%A9");
+}
+
+TEST_CASE("7.29 Blanks, control characters and relative urls are refused, the rest is opaque")
+{
+    for (const char* good : {"/", "/a/../b", "/a#b?c=%zz", "/tasks[0]"})
+    {
+        REQUIRE(IsUrl(good));
+    }
+    for (const char* bad : {"", "a", "/a b", "/a\tb", "/a\x7F", "http://x/"})
+    {
+        REQUIRE_FALSE(IsUrl(bad));
+    }
+}
+
+TEST_CASE("7.17 Every 2xx is a success")
+{
+    for (const int status : {200, 201, 204, 299})
+    {
+        REQUIRE(ApiResponse{status, {}}.IsSuccess());
+    }
+    for (const int status : {199, 300, 400, 403, 404, 500})
+    {
+        REQUIRE_FALSE(ApiResponse{status, {}}.IsSuccess());
+    }
+}

@@ -1,0 +1,513 @@
+#include "Catch.hpp"
+#include "ManualClock.hpp"
+#include "SeededRandom.hpp"
+#include <acs/openstream/ClientSession.hpp>
+
+#include <array>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+using namespace ACS::OpenStream; // NOLINT(google-build-using-namespace)
+using namespace ACS::Testing;    // NOLINT(google-build-using-namespace)
+using namespace std::chrono_literals;
+
+namespace
+{
+
+constexpr std::string_view ACK = "{\"type\":\"handshake_ack\",\"ok\":true,\"version\":\"1.0.0\"}\n";
+constexpr std::string_view MONITOR_ACK = "{\"type\":\"monitor_ack\"}\n";
+
+/// A ClientSession in virtual time. A send leaves at once unless bSocketTakes is false.
+class ClientHarness
+{
+public:
+    ManualClock clock;
+    SeededRandom random;
+    ClientSession session;
+    std::vector<std::string> lines;
+    std::vector<ClientEvent> events;
+    int connects = 0;
+    int closes = 0;
+    bool bSocketTakes = true;
+
+private:
+    std::array<std::optional<ACS::Core::SteadyTime>, CLIENT_TIMER_COUNT> _deadlines;
+
+    void Do(const ClientEvent& event)
+    {
+        events.push_back(event);
+    }
+
+    void Do(const ClientConnect& /*action*/)
+    {
+        ++connects;
+    }
+
+    void Do(const ClientSend& action)
+    {
+        std::string_view rest = action.text;
+        while (!rest.empty())
+        {
+            const std::size_t end = rest.find('\n');
+            lines.emplace_back(rest.substr(0, end));
+            rest.remove_prefix(end + 1);
+        }
+        if (bSocketTakes)
+        {
+            session.OnSendCompleted(clock.GetNow(), actions);
+        }
+    }
+
+    void Do(const ClientClose& /*action*/)
+    {
+        ++closes;
+    }
+
+    void Do(const ClientStartTimer& action)
+    {
+        _deadlines.at(static_cast<std::size_t>(action.timer)) = action.deadline;
+    }
+
+    void Do(const ClientCancelTimer& action)
+    {
+        _deadlines.at(static_cast<std::size_t>(action.timer)).reset();
+    }
+
+public:
+    ClientActions actions;
+
+    explicit ClientHarness(const ClientSessionOptions& options = {})
+        : session(options, random)
+    {
+    }
+
+    [[nodiscard]] ACS::Core::Now GetNow() const
+    {
+        return clock.GetNow();
+    }
+
+    void Execute()
+    {
+        for (std::size_t index = 0; index < actions.size(); ++index)
+        {
+            const ClientAction action = actions[index];
+            std::visit([this](const auto& content) { Do(content); }, action);
+        }
+        actions.clear();
+    }
+
+    void Receive(std::string_view bytes)
+    {
+        session.OnBytes(bytes, GetNow(), actions);
+        Execute();
+    }
+
+    void Start()
+    {
+        session.Start(GetNow(), actions);
+        Execute();
+    }
+
+    void ConnectAndShake()
+    {
+        session.OnConnected(GetNow(), actions);
+        Execute();
+        Receive(ACK);
+    }
+
+    void SetMonitor(std::chrono::milliseconds period)
+    {
+        session.SetMonitor(MonitorRequest{"/project/rgen", period, {}, {}}, GetNow(), actions);
+        Execute();
+    }
+
+    std::uint64_t Control(const std::string& url, EControlTracking tracking = EControlTracking::Tracked)
+    {
+        const std::uint64_t token =
+            session.SendControl(ControlRequest{EApiMethod::Post, url, {}, {}}, tracking, GetNow(), actions);
+        Execute();
+        return token;
+    }
+
+    void Pass(std::chrono::milliseconds span)
+    {
+        for (std::chrono::milliseconds passed{0}; passed < span; ++passed)
+        {
+            clock.Advance(1ms);
+            for (std::size_t index = 0; index < _deadlines.size(); ++index)
+            {
+                if (_deadlines.at(index).has_value() && *_deadlines.at(index) <= GetNow().steady)
+                {
+                    _deadlines.at(index).reset();
+                    session.OnTimer(static_cast<EClientTimer>(index), GetNow(), actions);
+                    Execute();
+                }
+            }
+        }
+    }
+
+    template <typename TEvent>
+    [[nodiscard]] std::vector<TEvent> Take()
+    {
+        std::vector<TEvent> taken;
+        for (const ClientEvent& event : events)
+        {
+            if (const auto* match = std::get_if<TEvent>(&event))
+            {
+                taken.push_back(*match);
+            }
+        }
+        std::erase_if(events, [](const ClientEvent& event) { return std::holds_alternative<TEvent>(event); });
+        return taken;
+    }
+
+    [[nodiscard]] std::size_t CountLines(std::string_view part) const
+    {
+        std::size_t count = 0;
+        for (const std::string& line : lines)
+        {
+            count += line.find(part) == std::string::npos ? 0U : 1U;
+        }
+        return count;
+    }
+};
+
+void MakeReady(ClientHarness& client)
+{
+    client.Start();
+    client.ConnectAndShake();
+    client.lines.clear();
+    client.events.clear();
+}
+
+std::string MakeData(int ts)
+{
+    return R"({"type":"data","ts":)" + std::to_string(ts) + R"(,"svc_dur_ms":0.1,"result":{"a":1}})" + "\n";
+}
+
+} // namespace
+
+TEST_CASE("3 The client shakes hands first and sets up the MONITOR that it was given")
+{
+    ClientHarness client;
+    client.SetMonitor(1ms);
+    client.Start();
+    REQUIRE(client.connects == 1);
+    client.session.OnConnected(client.GetNow(), client.actions);
+    client.Execute();
+    REQUIRE(client.lines == std::vector<std::string>{R"({"cmd":"HANDSHAKE","payload":{"major":1}})"});
+    client.Receive(ACK);
+    REQUIRE(client.Take<ClientReady>().at(0).version == "1.0.0");
+    // 7.1: never outside 2 to 30000
+    REQUIRE(
+        client.lines.at(1) == R"({"cmd":"MONITOR","payload":{"method":"GET","url":"/project/rgen","period_ms":2}})");
+    client.Receive(MakeData(2));
+    client.Receive(MONITOR_ACK);
+    REQUIRE(client.Take<ClientMonitorStarted>().size() == 1);
+    REQUIRE(client.Take<ClientData>().at(0).line.result->GetText() == R"({"a":1})");
+}
+
+TEST_CASE("8 The MONITOR is set up again after every reconnect, and the waits grow until a handshake")
+{
+    ClientHarness client;
+    client.SetMonitor(20ms);
+    MakeReady(client);
+    client.Receive(MONITOR_ACK);
+    client.session.OnPeerClosed(client.GetNow(), client.actions);
+    client.Execute();
+    const auto lost = client.Take<ClientLost>();
+    REQUIRE(lost.at(0).reason == EClientLossReason::PeerClosed);
+    client.Pass(lost.at(0).retryIn);
+    REQUIRE(client.connects == 2);
+    client.session.OnConnectFailed("refused", client.GetNow(), client.actions);
+    client.Execute();
+    const auto failed = client.Take<ClientLost>();
+    REQUIRE(failed.at(0).reason == EClientLossReason::ConnectFailed);
+    client.Pass(failed.at(0).retryIn);
+    REQUIRE(client.connects == 3);
+    client.ConnectAndShake();
+    REQUIRE(client.CountLines("MONITOR") == 1);
+    REQUIRE(client.session.GetStats().connects == 2);
+}
+
+TEST_CASE("3 Silence for the window means that the CONTROL worked; the next one waits for that")
+{
+    ClientHarness client;
+    MakeReady(client);
+    const std::uint64_t first = client.Control("/a");
+    const std::uint64_t second = client.Control("/b");
+    REQUIRE(client.lines.size() == 1);
+    client.Pass(499ms);
+    REQUIRE(client.Take<ClientControlSettled>().empty());
+    client.Pass(1ms);
+    const auto settled = client.Take<ClientControlSettled>();
+    REQUIRE(settled.at(0).token == first);
+    REQUIRE(settled.at(0).outcome == EControlOutcome::Accepted);
+    REQUIRE(client.CountLines("\"/b\"") == 1);
+    client.Receive("{\"type\":\"control_err\",\"status\":403,\"body\":{\"err_code\":-38500}}\n");
+    const auto refused = client.Take<ClientControlSettled>();
+    REQUIRE(refused.at(0).token == second);
+    REQUIRE(refused.at(0).outcome == EControlOutcome::Refused);
+    REQUIRE(refused.at(0).status == 403);
+    REQUIRE(refused.at(0).body->GetText() == R"({"err_code":-38500})");
+}
+
+TEST_CASE("7.15 7.16 An error line about the request refuses the CONTROL in flight too")
+{
+    for (const char* code : {"invalid_method", "method_not_allowed", "invalid_url", "control_busy", "invalid_value"})
+    {
+        ClientHarness client;
+        MakeReady(client);
+        static_cast<void>(client.Control("/a"));
+        client.Receive(std::string(R"({"error":")") + code + "\",\"message\":\"m\"}\n");
+        REQUIRE(client.Take<ClientControlSettled>().at(0).outcome == EControlOutcome::Refused);
+    }
+}
+
+TEST_CASE("3 The window begins when the CONTROL has left")
+{
+    ClientHarness client;
+    MakeReady(client);
+    client.bSocketTakes = false;
+    static_cast<void>(client.Control("/a"));
+    client.Pass(2s);
+    REQUIRE(client.Take<ClientControlSettled>().empty());
+    client.session.OnSendCompleted(client.GetNow(), client.actions);
+    client.Execute();
+    client.Pass(500ms);
+    REQUIRE(client.Take<ClientControlSettled>().at(0).outcome == EControlOutcome::Accepted);
+}
+
+TEST_CASE("3 A lost connection leaves the CONTROL in flight unknown, and those that wait surely unsent")
+{
+    ClientHarness client;
+    MakeReady(client);
+    static_cast<void>(client.Control("/a"));
+    static_cast<void>(client.Control("/b"));
+    client.session.OnSocketError("reset", client.GetNow(), client.actions);
+    client.Execute();
+    const auto settled = client.Take<ClientControlSettled>();
+    REQUIRE(settled.at(0).outcome == EControlOutcome::Unknown);
+    REQUIRE(settled.at(1).outcome == EControlOutcome::NotSent);
+    static_cast<void>(client.Control("/c"));
+    REQUIRE(client.Take<ClientControlSettled>().at(0).outcome == EControlOutcome::NotSent);
+    client.Pass(5s);
+    client.ConnectAndShake();
+    REQUIRE(client.CountLines("CONTROL") == 1);
+}
+
+TEST_CASE("3 Streamed CONTROLs do not wait, their refusals are faults")
+{
+    ClientHarness client;
+    MakeReady(client);
+    static_cast<void>(client.Control("/a", EControlTracking::Streamed));
+    static_cast<void>(client.Control("/b", EControlTracking::Streamed));
+    REQUIRE(client.CountLines("CONTROL") == 2);
+    client.Receive("{\"type\":\"control_err\",\"status\":403}\n");
+    REQUIRE(client.Take<ClientControlFault>().at(0).status == 403);
+    REQUIRE(client.Take<ClientControlSettled>().empty());
+}
+
+TEST_CASE("3 STOP control goes at once: the CONTROL in flight is unknown, the waiting one unsent")
+{
+    ClientHarness client;
+    MakeReady(client);
+    static_cast<void>(client.Control("/a"));
+    static_cast<void>(client.Control("/b"));
+    client.session.StopControl(client.GetNow(), client.actions);
+    client.Execute();
+    REQUIRE(client.lines.back() == R"({"cmd":"STOP","payload":{"target":"control"}})");
+    const auto settled = client.Take<ClientControlSettled>();
+    REQUIRE(settled.at(0).outcome == EControlOutcome::Unknown);
+    REQUIRE(settled.at(1).outcome == EControlOutcome::NotSent);
+    // 7.19: both mean done
+    client.Receive("{\"error\":\"nothing_to_stop\",\"message\":\"\"}\n");
+    REQUIRE(client.Take<ClientStopped>().at(0).target == EStopTarget::Control);
+}
+
+TEST_CASE("7.7 monitor_already_active means stop and retry")
+{
+    ClientHarness client;
+    MakeReady(client);
+    client.SetMonitor(20ms);
+    client.Receive("{\"error\":\"monitor_already_active\",\"message\":\"\"}\n");
+    REQUIRE(client.lines.back() == R"({"cmd":"STOP","payload":{"target":"monitor"}})");
+    client.Receive("{\"type\":\"stop_ack\",\"target\":\"monitor\"}\n");
+    REQUIRE(client.CountLines("\"MONITOR\"") == 2);
+    client.Receive("{\"error\":\"monitor_already_active\",\"message\":\"\"}\n");
+    client.Receive("{\"type\":\"stop_ack\",\"target\":\"monitor\"}\n");
+    REQUIRE(client.CountLines("\"MONITOR\"") <= 3);
+}
+
+TEST_CASE("3 A refused MONITOR is reported and not repeated until it is set anew")
+{
+    ClientHarness client;
+    MakeReady(client);
+    client.SetMonitor(20ms);
+    client.Receive("{\"error\":\"invalid_url\",\"message\":\"m\"}\n");
+    REQUIRE(client.Take<ClientMonitorRefused>().at(0).error.code == EOpenStreamErrorCode::InvalidUrl);
+    client.Pass(10s);
+    REQUIRE(client.CountLines("\"MONITOR\"") == 1);
+    client.SetMonitor(20ms);
+    REQUIRE(client.CountLines("\"MONITOR\"") == 2);
+}
+
+TEST_CASE("7.22 Data after the stream was stopped is tolerated and not reported")
+{
+    ClientHarness client;
+    MakeReady(client);
+    client.SetMonitor(20ms);
+    client.Receive(MONITOR_ACK);
+    client.session.SetMonitor(std::nullopt, client.GetNow(), client.actions);
+    client.Execute();
+    REQUIRE(client.CountLines("\"monitor\"") == 1);
+    client.Receive(MakeData(20));
+    client.Receive("{\"type\":\"stop_ack\",\"target\":\"monitor\"}\n");
+    client.Receive(MakeData(40));
+    REQUIRE(client.Take<ClientData>().empty());
+    client.Pass(20s);
+    REQUIRE(client.Take<ClientLost>().empty());
+}
+
+TEST_CASE("9 Data overdue is reported once as stale, and in the end the connection is made anew")
+{
+    ClientHarness client;
+    MakeReady(client);
+    client.SetMonitor(20ms);
+    client.Receive(MONITOR_ACK);
+    for (int count = 1; count <= 100; ++count)
+    {
+        client.Pass(20ms);
+        client.Receive(MakeData(20 * count));
+    }
+    REQUIRE(client.Take<ClientMonitorStale>().empty());
+    client.Pass(520ms);
+    REQUIRE(client.Take<ClientMonitorStale>().at(0).age == 520ms);
+    client.Receive(MakeData(2'520));
+    client.Pass(519ms);
+    REQUIRE(client.Take<ClientMonitorStale>().empty());
+    client.Pass(1ms);
+    REQUIRE(client.Take<ClientMonitorStale>().size() == 1);
+    client.Pass(2'499ms);
+    REQUIRE(client.Take<ClientLost>().empty());
+    client.Pass(1ms);
+    REQUIRE(client.Take<ClientLost>().at(0).reason == EClientLossReason::DataSilent);
+    REQUIRE(client.closes == 1);
+}
+
+TEST_CASE("11 What ts skipped is counted as missing")
+{
+    ClientHarness client;
+    MakeReady(client);
+    client.SetMonitor(20ms);
+    client.Receive(MONITOR_ACK);
+    for (const int ts : {20, 40, 61, 100, 120, 200})
+    {
+        client.Receive(MakeData(ts));
+    }
+    REQUIRE(client.session.GetStats().dataLines == 6);
+    REQUIRE(client.session.GetStats().missingLines == 4);
+}
+
+TEST_CASE("4 Only the codes that end a session cost the connection")
+{
+    for (const char* code : {"session_timeout", "stop_failed", "handshake_rejected", "rx_buf_overflow"})
+    {
+        ClientHarness client;
+        MakeReady(client);
+        client.Receive(std::string(R"({"error":")") + code + "\",\"message\":\"m\"}\n" + std::string(ACK));
+        REQUIRE(client.Take<ClientLost>().at(0).reason == EClientLossReason::SessionEnded);
+        REQUIRE(client.session.GetState() == EClientState::Waiting);
+    }
+    for (const char* code : {"monitor_internal_error", "busy_session_active", "invalid_ndjson", "new_code"})
+    {
+        ClientHarness client;
+        MakeReady(client);
+        client.Receive(std::string(R"({"error":")") + code + "\",\"message\":\"m\"}\n");
+        REQUIRE(client.session.GetState() == EClientState::Ready);
+    }
+}
+
+TEST_CASE("3 A refused or unanswered HANDSHAKE is tried again on a new connection")
+{
+    ClientHarness client;
+    client.Start();
+    client.session.OnConnected(client.GetNow(), client.actions);
+    client.Execute();
+    SECTION("refused")
+    {
+        client.Receive("{\"error\":\"version_mismatch\",\"message\":\"m\"}\n");
+        REQUIRE(client.Take<ClientLost>().at(0).reason == EClientLossReason::HandshakeFailed);
+    }
+    SECTION("unanswered")
+    {
+        client.Pass(2s);
+        REQUIRE(client.Take<ClientLost>().at(0).reason == EClientLossReason::AnswerTimeout);
+    }
+    client.Pass(1s);
+    REQUIRE(client.connects == 2);
+}
+
+TEST_CASE("1 Half lines, CRLF and garbage from the server cost nothing but themselves")
+{
+    ClientHarness client;
+    MakeReady(client);
+    client.SetMonitor(20ms);
+    client.Receive("{\"type\":\"moni");
+    client.Receive("tor_ack\"}\r\n\xFFgarbage\n\n{\"type\":\"new\"}\n");
+    REQUIRE(client.Take<ClientMonitorStarted>().size() == 1);
+    REQUIRE(client.Take<ClientBadLine>().size() == 2);
+    REQUIRE(client.session.GetStats().badLines == 2);
+    REQUIRE(client.session.GetState() == EClientState::Ready);
+}
+
+TEST_CASE("7.20 A line beyond the bound costs the connection")
+{
+    ClientSessionOptions options;
+    options.longestLine = 200;
+    ClientHarness client(options);
+    MakeReady(client);
+    client.Receive(std::string(201, 'x'));
+    REQUIRE(client.Take<ClientLost>().at(0).reason == EClientLossReason::LineTooLong);
+}
+
+TEST_CASE("7.21 Stop says STOP session, waits for its ack and ends; without an answer it ends as well")
+{
+    ClientHarness client;
+    MakeReady(client);
+    static_cast<void>(client.Control("/a"));
+    client.session.Stop(client.GetNow(), client.actions);
+    client.Execute();
+    REQUIRE(client.lines.back() == R"({"cmd":"STOP","payload":{"target":"session"}})");
+    REQUIRE(client.Take<ClientControlSettled>().at(0).outcome == EControlOutcome::Unknown);
+    SECTION("acknowledged")
+    {
+        client.Receive("{\"type\":\"stop_ack\",\"target\":\"session\"}\n");
+    }
+    SECTION("closed")
+    {
+        client.session.OnPeerClosed(client.GetNow(), client.actions);
+        client.Execute();
+    }
+    SECTION("silent")
+    {
+        client.Pass(2s);
+    }
+    REQUIRE(client.Take<ClientEnded>().size() == 1);
+    REQUIRE(client.session.GetState() == EClientState::Stopped);
+    client.Pass(60s);
+    REQUIRE(client.connects == 1);
+}
+
+TEST_CASE("8 Connecting takes its time limit and is tried for ever")
+{
+    ClientHarness client;
+    client.Start();
+    client.Pass(3s);
+    REQUIRE(client.Take<ClientLost>().at(0).reason == EClientLossReason::ConnectTimeout);
+    client.Pass(600s);
+    REQUIRE(client.connects > 30);
+}

@@ -1,0 +1,342 @@
+#include "Catch.hpp"
+#include "ServerHarness.hpp"
+
+using namespace ACS::OpenStream; // NOLINT(google-build-using-namespace)
+using namespace ACS::Testing;    // NOLINT(google-build-using-namespace)
+using namespace std::chrono_literals;
+using ACS::Core::JsonText;
+
+TEST_CASE("3 HANDSHAKE with the same major version is acknowledged")
+{
+    ServerHarness server;
+    server.Receive(HANDSHAKE);
+    REQUIRE(server.TakeLines() == std::vector<std::string>{R"({"type":"handshake_ack","ok":true,"version":"1.0.0"})"});
+    REQUIRE(server.session.GetState() == EServerState::Ready);
+}
+
+TEST_CASE("4 Another major version is a mismatch and leaves the session as it was")
+{
+    ServerHarness server;
+    server.Receive("{\"cmd\":\"HANDSHAKE\",\"payload\":{\"major\":2}}\n");
+    REQUIRE(server.Count("version_mismatch") == 1);
+    REQUIRE(server.session.GetState() == EServerState::Connected);
+    server.Receive(HANDSHAKE);
+    REQUIRE(server.session.GetState() == EServerState::Ready);
+}
+
+TEST_CASE("7.10 HANDSHAKE twice while idle is acknowledged again")
+{
+    ServerHarness server;
+    server.Receive(std::string(HANDSHAKE) + std::string(HANDSHAKE));
+    REQUIRE(server.Count("handshake_ack") == 2);
+}
+
+TEST_CASE("7.11 HANDSHAKE is busy while a MONITOR is active or a CONTROL in flight, and disturbs neither")
+{
+    ServerHarness server;
+    server.Receive(HANDSHAKE);
+    server.Receive(MakeMonitorLine(2));
+    server.Receive(HANDSHAKE);
+    REQUIRE(server.Count("busy_session_active") == 1);
+    server.Pass(10ms);
+    REQUIRE(server.Count("\"data\"") == 5);
+    server.Receive(MakeStopLine("monitor"));
+
+    server.bServiceAnswers = false;
+    server.Receive(CONTROL);
+    server.Receive(HANDSHAKE);
+    REQUIRE(server.Count("busy_session_active") == 2);
+    server.Answer(server.unanswered.back());
+    server.Receive(HANDSHAKE);
+    REQUIRE(server.Count("handshake_ack") == 2);
+}
+
+TEST_CASE("7.13 Before the HANDSHAKE nothing is executed and the connection stays")
+{
+    ServerHarness server;
+    server.Receive(MakeMonitorLine(2));
+    server.Receive(CONTROL);
+    server.Receive(MakeStopLine("session"));
+    server.Pass(10ms);
+    REQUIRE(server.Count("handshake_required") == 3);
+    REQUIRE(server.lines.size() == 3);
+    REQUIRE(server.calls.empty());
+    REQUIRE_FALSE(server.closed.has_value());
+}
+
+TEST_CASE("7.14 The gate goes before the fields, the command before the gate")
+{
+    ServerHarness server;
+    server.Receive("{\"cmd\":\"MONITOR\",\"payload\":7}\n");
+    REQUIRE(server.Count("handshake_required") == 1);
+    server.Receive("{\"cmd\":\"DANCE\"}\n");
+    REQUIRE(server.Count("invalid_cmd") == 1);
+    server.Receive(HANDSHAKE);
+    server.Receive("{\"cmd\":\"MONITOR\",\"payload\":7}\n");
+    REQUIRE(server.Count("invalid_payload") == 1);
+}
+
+TEST_CASE("7.15 A CONTROL that the service refuses is a control_err, one that is no request an error")
+{
+    ServerHarness server;
+    server.Receive(HANDSHAKE);
+    static_cast<void>(server.TakeLines());
+    server.answer = ApiResponse{403, JsonText::FromTrusted(R"({"err_code":-38500})")};
+    server.Receive(CONTROL);
+    REQUIRE(
+        server.TakeLines()
+        == std::vector<std::string>{R"({"type":"control_err","status":403,"body":{"err_code":-38500}})"});
+    server.Receive("{\"cmd\":\"CONTROL\",\"payload\":{\"method\":\"GET\",\"url\":\"/a\"}}\n");
+    REQUIRE(server.Count("\"error\":\"invalid_method\"") == 1);
+    REQUIRE(server.calls.size() == 1);
+}
+
+TEST_CASE("7.17 7.18 Every 2xx is silent, a refusal without body has no body")
+{
+    ServerHarness server;
+    server.Receive(HANDSHAKE);
+    static_cast<void>(server.TakeLines());
+    server.answer = ApiResponse{204, {}};
+    server.Receive(CONTROL);
+    REQUIRE(server.lines.empty());
+    server.answer = ApiResponse{404, {}};
+    server.Receive(CONTROL);
+    REQUIRE(server.TakeLines() == std::vector<std::string>{R"({"type":"control_err","status":404})"});
+}
+
+TEST_CASE("3 A CONTROL without body carries an empty object to the service, args go into the query")
+{
+    ServerHarness server;
+    server.Receive(HANDSHAKE);
+    server.Receive("{\"cmd\":\"CONTROL\",\"payload\":{\"method\":\"PUT\",\"url\":\"/a?x=1\",\"args\":{\"x\":2}}}\n");
+    REQUIRE(server.calls.size() == 1);
+    REQUIRE(server.calls[0].method == EApiMethod::Put);
+    REQUIRE(server.calls[0].path == "/a");
+    REQUIRE(*server.calls[0].GetParameterOrNull("x") == "2");
+    REQUIRE(server.calls[0].body->GetText() == "{}");
+}
+
+TEST_CASE("8 CONTROLs reach the service one after another, in their order")
+{
+    ServerHarness server;
+    server.bServiceAnswers = false;
+    server.Receive(HANDSHAKE);
+    for (const char* url : {"/a", "/b", "/c"})
+    {
+        server.Receive(
+            std::string("{\"cmd\":\"CONTROL\",\"payload\":{\"method\":\"POST\",\"url\":\"") + url + "\"}}\n");
+    }
+    REQUIRE(server.calls.size() == 1);
+    server.Answer(server.unanswered.at(0));
+    server.Answer(server.unanswered.at(1));
+    REQUIRE(server.calls.size() == 3);
+    REQUIRE(server.calls[0].path == "/a");
+    REQUIRE(server.calls[2].path == "/c");
+}
+
+TEST_CASE("8 A full queue of CONTROLs stops reading; control_busy only where the service blocks")
+{
+    ServerSessionOptions options;
+    options.maximumControls = 2;
+    ServerHarness server(options);
+    server.bServiceAnswers = false;
+    server.Receive(HANDSHAKE);
+    server.Receive(std::string(CONTROL) + std::string(CONTROL) + std::string(CONTROL));
+    REQUIRE(server.bReadingPaused);
+    server.Answer(server.unanswered.at(0));
+    server.Answer(server.unanswered.at(1));
+    REQUIRE(server.calls.size() == 3);
+    REQUIRE_FALSE(server.bReadingPaused);
+    server.Pass(2'000ms);
+    REQUIRE(server.Count("control_busy") == 0);
+    server.Receive(std::string(CONTROL) + std::string(CONTROL));
+    server.Pass(999ms);
+    REQUIRE(server.Count("control_busy") == 0);
+    server.Pass(1ms);
+    REQUIRE(server.Count("control_busy") == 1);
+    server.Answer(server.unanswered.at(2));
+    server.Receive(CONTROL);
+    REQUIRE(server.Count("control_busy") == 1);
+}
+
+TEST_CASE("7.19 STOP of what is not there is nothing_to_stop, STOP session is always acknowledged")
+{
+    ServerHarness server;
+    server.Receive(HANDSHAKE);
+    server.Receive(MakeStopLine("monitor"));
+    server.Receive(MakeStopLine("control"));
+    REQUIRE(server.Count("nothing_to_stop") == 2);
+    server.Receive(CONTROL);
+    server.Receive(MakeStopLine("control"));
+    REQUIRE(server.Count(R"({"type":"stop_ack","target":"control"})") == 1);
+    REQUIRE(server.stopControls == 1);
+    server.Receive(MakeStopLine("control"));
+    REQUIRE(server.Count("nothing_to_stop") == 3);
+    server.Receive(MakeStopLine("session"));
+    REQUIRE(server.Count(R"({"type":"stop_ack","target":"session"})") == 1);
+}
+
+TEST_CASE("3 STOP control drops the CONTROLs that wait")
+{
+    ServerHarness server;
+    server.bServiceAnswers = false;
+    server.Receive(HANDSHAKE);
+    server.Receive(std::string(CONTROL) + std::string(CONTROL) + MakeStopLine("control"));
+    server.Answer(server.unanswered.at(0));
+    REQUIRE(server.calls.size() == 1);
+    REQUIRE(server.stopControls == 1);
+}
+
+TEST_CASE("7.21 STOP session: ack, nothing but handshake_required after it, shutdown, close after a second at most")
+{
+    ServerHarness server;
+    server.Receive(HANDSHAKE);
+    server.Receive(MakeMonitorLine(2));
+    server.Pass(4ms);
+    server.Receive(MakeStopLine("session") + MakeStopLine("monitor"));
+    REQUIRE(server.lines.back().find("handshake_required") != std::string::npos);
+    REQUIRE(server.bSendShutDown);
+    const std::size_t count = server.lines.size();
+    server.Pass(999ms);
+    REQUIRE(server.lines.size() == count);
+    REQUIRE_FALSE(server.closed.has_value());
+    server.Pass(1ms);
+    REQUIRE(server.closed == EServerCloseReason::StopSession);
+}
+
+TEST_CASE("7.21 The client's own close ends the wait after STOP session")
+{
+    ServerHarness server;
+    server.Receive(HANDSHAKE);
+    server.Receive(MakeStopLine("session"));
+    server.ClosePeer();
+    REQUIRE(server.closed == EServerCloseReason::StopSession);
+}
+
+TEST_CASE("7.23 7.8 STOP without target and MONITOR with stop are refused, session and stream go on")
+{
+    ServerHarness server;
+    server.Receive(HANDSHAKE);
+    server.Receive(MakeMonitorLine(2));
+    server.Receive("{\"cmd\":\"STOP\",\"payload\":{\"id\":1}}\n");
+    server.Receive("{\"cmd\":\"MONITOR\",\"payload\":{\"stop\":true}}\n");
+    REQUIRE(server.Count("missing_target") == 1);
+    REQUIRE(server.Count("missing_url") == 1);
+    server.Pass(4ms);
+    REQUIRE(server.Count("\"data\"") == 2);
+}
+
+TEST_CASE("7.20 A line beyond the bound gets one rx_buf_overflow, then the session is closed")
+{
+    ServerSessionOptions options;
+    options.longestLine = 100;
+    ServerHarness server(options);
+    server.Receive(HANDSHAKE);
+    server.Receive(std::string(101, 'x'));
+    server.Receive(std::string(500, 'x') + "\n" + std::string(CONTROL));
+    REQUIRE(server.Count("rx_buf_overflow") == 1);
+    REQUIRE(server.calls.empty());
+    REQUIRE(server.bSendShutDown);
+    server.Pass(1'000ms);
+    REQUIRE(server.closed == EServerCloseReason::LineTooLong);
+}
+
+TEST_CASE("7.33 7.34 7.35 Empty lines are skipped, each broken one has one error that does not echo it")
+{
+    ServerHarness server;
+    server.Receive("\r\n\n  \n");
+    REQUIRE(server.lines.empty());
+    server.Receive("{\n\xFF\xFE\nnull\n");
+    REQUIRE(server.Count("invalid_ndjson") == 3);
+    REQUIRE(server.lines.size() == 3);
+    for (const std::string& line : server.lines)
+    {
+        REQUIRE(line.find('\xFF') == std::string::npos);
+    }
+    server.Receive("{\"cmd\":\"HANDSHAKE\",\"payload\":{\"major\":1}}\r\n");
+    REQUIRE(server.session.GetState() == EServerState::Ready);
+}
+
+TEST_CASE("7.39 Half-close: whole lines are worked on, half a line is dropped, then the close")
+{
+    ServerHarness server;
+    server.Receive(HANDSHAKE);
+    server.Receive(MakeMonitorLine(2));
+    server.answer = ApiResponse{403, {}};
+    server.Receive(std::string(CONTROL) + "{\"cmd\":\"CONTR");
+    server.ClosePeer();
+    REQUIRE(server.Count("control_err") == 1);
+    REQUIRE(server.calls.size() == 1);
+    REQUIRE(server.closed == EServerCloseReason::PeerClosed);
+}
+
+TEST_CASE("7.39 Half-close with a CONTROL in flight waits for its answer, a second at most")
+{
+    ServerHarness server;
+    server.Receive(HANDSHAKE);
+    server.bServiceAnswers = false;
+    server.answer = ApiResponse{403, {}};
+    server.Receive(CONTROL);
+    server.ClosePeer();
+    REQUIRE_FALSE(server.closed.has_value());
+    SECTION("answered")
+    {
+        server.Answer(server.unanswered.at(0));
+        REQUIRE(server.Count("control_err") == 1);
+        REQUIRE(server.closed == EServerCloseReason::PeerClosed);
+    }
+    SECTION("never answered")
+    {
+        server.Pass(1'000ms);
+        REQUIRE(server.closed == EServerCloseReason::PeerClosed);
+    }
+}
+
+TEST_CASE("7.12 4 A session too many is told so and closed")
+{
+    ServerHarness server;
+    server.Reject();
+    server.Receive(HANDSHAKE);
+    REQUIRE(server.Count("handshake_rejected") == 1);
+    REQUIRE(server.lines.size() == 1);
+    server.Pass(1'000ms);
+    REQUIRE(server.closed == EServerCloseReason::Rejected);
+}
+
+TEST_CASE("7.25 Idle for 180 s ends the session, before the HANDSHAKE too; garbage keeps nobody in")
+{
+    ServerHarness server;
+    server.Pass(100s);
+    server.Receive("garbage\n");
+    server.Receive(MakeMonitorLine(2));
+    server.Pass(79'999ms);
+    REQUIRE(server.Count("session_timeout") == 0);
+    server.Pass(1ms);
+    REQUIRE(server.Count("session_timeout") == 1);
+    server.Pass(1'000ms);
+    REQUIRE(server.closed == EServerCloseReason::IdleTimeout);
+}
+
+TEST_CASE("7.25 A good command begins the 180 s anew")
+{
+    ServerHarness server;
+    server.Pass(100s);
+    server.Receive(HANDSHAKE);
+    server.Pass(179'999ms);
+    REQUIRE(server.Count("session_timeout") == 0);
+    server.Pass(1ms);
+    REQUIRE(server.Count("session_timeout") == 1);
+}
+
+TEST_CASE("8 Acks and errors that nobody reads are bounded")
+{
+    ServerSessionOptions options;
+    options.maximumOutput = 1'000;
+    ServerHarness server(options);
+    server.bSocketTakes = false;
+    for (int count = 0; count < 100 && !server.closed.has_value(); ++count)
+    {
+        server.Receive("x\n");
+    }
+    REQUIRE(server.closed == EServerCloseReason::OutputFull);
+}
