@@ -408,7 +408,7 @@ void ClientSession::SendNext(Core::Now now, ClientActions& out)
         _controlToken = control->token;
         _bControlLeft = false;
         _inFlight = EInFlight::Control;
-        _codec.EncodeRequest(control->request, _outbox.GetLines());
+        OpenStreamCodec::EncodeRequest(control->request, _outbox.GetLines());
         _controlMark = _outbox.GetMark();
         Flush(out);
     }
@@ -436,7 +436,7 @@ bool ClientSession::TrySendMonitorWish(Core::Now now, ClientActions& out)
 
 void ClientSession::SendNow(const OpenStreamRequest& request, ClientActions& out)
 {
-    _codec.EncodeRequest(request, _outbox.GetLines());
+    OpenStreamCodec::EncodeRequest(request, _outbox.GetLines());
     Flush(out);
 }
 

@@ -105,7 +105,7 @@ EErrorScope GetErrorScope(EOpenStreamErrorCode code) noexcept
 
 EOpenStreamErrorCode GetErrorCode(std::string_view text) noexcept
 {
-    const auto row = std::ranges::find(ERROR_TABLE, text, &ErrorRow::text);
+    const auto* const row = std::ranges::find(ERROR_TABLE, text, &ErrorRow::text);
     return row == ERROR_TABLE.end() ? EOpenStreamErrorCode::Unknown : row->code;
 }
 

@@ -69,7 +69,11 @@ std::optional<std::string_view> LineFramer::TakeRawLineOrNull()
     const std::string_view line = _input.substr(0, end);
     _input.remove_prefix(end + 1);
     _bOverflown = line.size() > _maximumLine;
-    return _bOverflown ? std::nullopt : std::optional(line);
+    if (_bOverflown)
+    {
+        return std::nullopt;
+    }
+    return line;
 }
 
 std::optional<std::string_view> LineFramer::CutKeptOrNull()
@@ -94,7 +98,11 @@ std::optional<std::string_view> LineFramer::CutKeptOrNull()
     _keptRead = end + 1;
     _scanned = _keptRead;
     _bOverflown = line.size() > _maximumLine;
-    return _bOverflown ? std::nullopt : std::optional(line);
+    if (_bOverflown)
+    {
+        return std::nullopt;
+    }
+    return line;
 }
 
 void LineFramer::Keep()

@@ -180,7 +180,7 @@ void ServerSession::ProcessLine(std::string_view line, Core::Now now, ServerActi
 
 std::optional<EOpenStreamErrorCode> ServerSession::GetGateErrorOrNull(EOpenStreamCommand command) const
 {
-    const auto row = std::ranges::find(GATE, _state, &GateRow::state);
+    const auto* const row = std::ranges::find(GATE, _state, &GateRow::state);
     assert(row != GATE.end());
     const EVerdict verdict = row->verdicts.at(static_cast<std::size_t>(command));
     const bool bControlBusy = command == EOpenStreamCommand::Handshake && !_controls.IsEmpty();
@@ -201,14 +201,14 @@ void ServerSession::Handle(const HandshakeRequest& request, Core::Now /*now*/, S
     }
     _state = EServerState::Ready;
     _bControlled = false;
-    _codec.EncodeLine(HandshakeAck{true, std::string(VERSION)}, _outbox.GetLines());
+    OpenStreamCodec::EncodeLine(HandshakeAck{true, std::string(VERSION)}, _outbox.GetLines());
 }
 
 void ServerSession::Handle(const MonitorRequest& request, Core::Now now, ServerActions& out)
 {
     // No line of the old recipe may come behind this ack.
     _outbox.SealData();
-    _codec.EncodeLine(MonitorAck{}, _outbox.GetLines());
+    OpenStreamCodec::EncodeLine(MonitorAck{}, _outbox.GetLines());
     FillRequest(EApiMethod::Get, request.url, request.args, _monitorCall);
     _monitorID = request.id;
     _period = request.period;
@@ -259,7 +259,7 @@ void ServerSession::Handle(const StopRequest& request, Core::Now now, ServerActi
             break;
         case EStopTarget::Session:
             StopMonitor(out);
-            _codec.EncodeLine(StopAck{request.target}, _outbox.GetLines());
+            OpenStreamCodec::EncodeLine(StopAck{request.target}, _outbox.GetLines());
             BeginClosing(EServerCloseReason::StopSession, now, out);
             return;
         default:
@@ -271,7 +271,7 @@ void ServerSession::Handle(const StopRequest& request, Core::Now now, ServerActi
         AppendError(EOpenStreamErrorCode::NothingToStop, "there is nothing to stop");
         return;
     }
-    _codec.EncodeLine(StopAck{request.target}, _outbox.GetLines());
+    OpenStreamCodec::EncodeLine(StopAck{request.target}, _outbox.GetLines());
     ArmWatchdog(out);
 }
 
@@ -333,7 +333,7 @@ void ServerSession::FinishControl(const ApiResponse& response, Core::Now now, Se
     if (!response.IsSuccess())
     {
         ++_stats.controlErrors;
-        _codec.EncodeLine(ControlError{response.status, response.body}, _outbox.GetLines());
+        OpenStreamCodec::EncodeLine(ControlError{response.status, response.body}, _outbox.GetLines());
     }
     const bool bWasFull = _controls.IsFull();
     static_cast<void>(_controls.PopFrontOrNull());
@@ -364,7 +364,7 @@ void ServerSession::FinishMonitor(const ApiResponse& response, Core::Now now, Se
     _stats.replacedLines += bReplaced ? 1U : 0U;
     const auto ts = std::chrono::duration_cast<std::chrono::milliseconds>(_monitorAskedAt - _monitorBegin);
     const Milliseconds duration = std::max(now.steady - _monitorAskedAt, Core::Duration::zero());
-    _codec.EncodeData(ts.count(), duration.count(), response, _monitorID, data);
+    OpenStreamCodec::EncodeData(ts.count(), duration.count(), response, _monitorID, data);
 }
 
 void ServerSession::ReportMonitorFailure()
@@ -520,7 +520,7 @@ void ServerSession::OnSocketError(ServerActions& out)
 void ServerSession::AppendError(EOpenStreamErrorCode code, std::string_view message)
 {
     ++_stats.errorLines;
-    _codec.EncodeLine(ErrorLine{code, {}, std::string(message), {}}, _outbox.GetLines());
+    OpenStreamCodec::EncodeLine(ErrorLine{code, {}, std::string(message), {}}, _outbox.GetLines());
 }
 
 void ServerSession::BeginClosing(EServerCloseReason reason, Core::Now now, ServerActions& out)

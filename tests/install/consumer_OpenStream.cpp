@@ -7,7 +7,7 @@ int main()
 {
     ACS::OpenStream::OpenStreamCodec codec;
     std::string text;
-    codec.EncodeRequest(ACS::OpenStream::HandshakeRequest{}, text);
+    ACS::OpenStream::OpenStreamCodec::EncodeRequest(ACS::OpenStream::HandshakeRequest{}, text);
     std::fputs(text.c_str(), stdout);
     return codec.DecodeRequest(text).has_value() ? 0 : 1;
 }

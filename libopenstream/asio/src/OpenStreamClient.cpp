@@ -42,15 +42,42 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
     bool _bExecuting = false;
     bool _bDown = false;
 
-    /// Runs a handler of this connection, as long as the client lives and the connection is the present one.
-    template <typename TAction>
-    void Proceed(std::uint64_t connection, TAction action)
+    /// Calls a method as long as the client lives and the connection is the one that it was made for. No lambda: the
+    /// handlers of one operation start the next one, which is no recursion.
+    template <typename... TResults>
+    class GuardedHandler
     {
-        if (!_bDown && connection == _connection)
+    public:
+        using Method = void (Impl::*)(TResults...);
+
+    private:
+        std::weak_ptr<Impl> _client;
+        std::uint64_t _connection;
+        Method _method;
+
+    public:
+        GuardedHandler(std::weak_ptr<Impl> client, std::uint64_t connection, Method method)
+            : _client(std::move(client)),
+              _connection(connection),
+              _method(method)
         {
-            action();
-            Execute();
         }
+
+        void operator()(TResults... results) const
+        {
+            const std::shared_ptr<Impl> self = _client.lock();
+            if (self != nullptr && !self->_bDown && self->_connection == _connection)
+            {
+                (self.get()->*_method)(results...);
+                self->Execute();
+            }
+        }
+    };
+
+    template <typename... TResults>
+    [[nodiscard]] GuardedHandler<TResults...> Guard(void (Impl::*method)(TResults...))
+    {
+        return GuardedHandler<TResults...>(weak_from_this(), _connection, method);
     }
 
     /// Carries out the batch. What the event handler asks for from within joins the batch.
@@ -84,39 +111,18 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
 
     void Do(const OpenStream::ClientConnect& /*action*/)
     {
-        const std::uint64_t connection = ++_connection;
-        _resolver.async_resolve(
-            _options.host,
-            std::to_string(_options.port),
-            [weak = weak_from_this(),
-             connection](const boost::system::error_code& error, const Tcp::resolver::results_type& found) {
-                if (const std::shared_ptr<Impl> self = weak.lock())
-                {
-                    self->Proceed(connection, [&]() { self->OnResolved(error, found, connection); });
-                }
-            });
+        ++_connection;
+        _resolver.async_resolve(_options.host, std::to_string(_options.port), Guard(&Impl::OnResolved));
     }
 
-    void OnResolved(
-        const boost::system::error_code& error,
-        const Tcp::resolver::results_type& found,
-        std::uint64_t connection)
+    void OnResolved(const boost::system::error_code& error, const Tcp::resolver::results_type& found)
     {
         if (error)
         {
             ReportConnectFailure(error);
             return;
         }
-        boost::asio::async_connect(
-            _socket,
-            found,
-            [weak = weak_from_this(),
-             connection](const boost::system::error_code& connectError, const Tcp::endpoint& /*endpoint*/) {
-                if (const std::shared_ptr<Impl> self = weak.lock())
-                {
-                    self->Proceed(connection, [&]() { self->OnConnectDone(connectError, connection); });
-                }
-            });
+        boost::asio::async_connect(_socket, found, Guard(&Impl::OnConnectDone));
     }
 
     void ReportConnectFailure(const boost::system::error_code& error)
@@ -126,7 +132,7 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
         _session.OnConnectFailed(detail, _clock.GetNow(), _actions);
     }
 
-    void OnConnectDone(const boost::system::error_code& error, std::uint64_t connection)
+    void OnConnectDone(const boost::system::error_code& error, const Tcp::endpoint& /*endpoint*/)
     {
         if (error)
         {
@@ -134,26 +140,13 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
             return;
         }
         SetSocketOptions(_socket);
-        ReadMoreAsync(connection);
+        ReadMoreAsync();
         _session.OnConnected(_clock.GetNow(), _actions);
     }
 
-    void ReadMoreAsync(std::uint64_t connection)
+    void ReadMoreAsync()
     {
-        _socket.async_read_some(
-            boost::asio::buffer(_input),
-            [weak = weak_from_this(), connection](const boost::system::error_code& error, std::size_t size) {
-                if (const std::shared_ptr<Impl> self = weak.lock())
-                {
-                    self->Proceed(connection, [&]() { self->OnRead(error, size); });
-                    self->Proceed(connection, [&]() {
-                        if (!error)
-                        {
-                            self->ReadMoreAsync(connection);
-                        }
-                    });
-                }
-            });
+        _socket.async_read_some(boost::asio::buffer(_input), Guard(&Impl::OnRead));
     }
 
     void OnRead(const boost::system::error_code& error, std::size_t size)
@@ -162,32 +155,28 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
         if (error == boost::asio::error::eof)
         {
             _session.OnPeerClosed(now, _actions);
+            return;
         }
-        else if (error)
+        if (error)
         {
             _session.OnSocketError(error.message(), now, _actions);
+            return;
         }
-        else
+        const std::uint64_t connection = _connection;
+        _session.OnBytes(std::string_view(_input.data(), size), now, _actions);
+        Execute();
+        if (!_bDown && _connection == connection)
         {
-            _session.OnBytes(std::string_view(_input.data(), size), now, _actions);
+            ReadMoreAsync();
         }
     }
 
     void Do(const OpenStream::ClientSend& action)
     {
-        boost::asio::async_write(
-            _socket,
-            boost::asio::buffer(action.text),
-            [weak = weak_from_this(),
-             connection = _connection](const boost::system::error_code& error, std::size_t /*size*/) {
-                if (const std::shared_ptr<Impl> self = weak.lock())
-                {
-                    self->Proceed(connection, [&]() { self->OnWritten(error); });
-                }
-            });
+        boost::asio::async_write(_socket, boost::asio::buffer(action.text), Guard(&Impl::OnWritten));
     }
 
-    void OnWritten(const boost::system::error_code& error)
+    void OnWritten(const boost::system::error_code& error, std::size_t /*size*/)
     {
         if (error)
         {
@@ -212,15 +201,21 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
         const auto index = static_cast<std::size_t>(action.timer);
         const std::uint64_t turn = ++_timerTurns.at(index);
         _timers.at(index).expires_after(action.deadline - _clock.GetNow().steady);
-        _timers.at(index).async_wait(
-            [weak = weak_from_this(), kind = action.timer, index, turn](const boost::system::error_code& error) {
-                const std::shared_ptr<Impl> self = weak.lock();
-                if (!error && self != nullptr && !self->_bDown && self->_timerTurns.at(index) == turn)
-                {
-                    self->_session.OnTimer(kind, self->_clock.GetNow(), self->_actions);
-                    self->Execute();
-                }
-            });
+        _timers.at(index).async_wait(std::bind_front(&Impl::OnTimerFired, weak_from_this(), action.timer, turn));
+    }
+
+    static void OnTimerFired(
+        const std::weak_ptr<Impl>& weak,
+        OpenStream::EClientTimer timer,
+        std::uint64_t turn,
+        const boost::system::error_code& error)
+    {
+        const std::shared_ptr<Impl> self = weak.lock();
+        if (!error && self != nullptr && !self->_bDown && self->_timerTurns.at(static_cast<std::size_t>(timer)) == turn)
+        {
+            self->_session.OnTimer(timer, self->_clock.GetNow(), self->_actions);
+            self->Execute();
+        }
     }
 
     void Do(const OpenStream::ClientCancelTimer& action)
@@ -288,11 +283,11 @@ public:
     {
         _bDown = true;
         _resolver.cancel();
+        boost::system::error_code ignored;
         for (boost::asio::steady_timer& timer : _timers)
         {
-            timer.cancel();
+            static_cast<void>(timer.cancel(ignored));
         }
-        boost::system::error_code ignored;
         static_cast<void>(_socket.close(ignored));
     }
 

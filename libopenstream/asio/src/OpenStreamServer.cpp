@@ -32,7 +32,7 @@ tl::unexpected<Core::Error> FailListening(
         ? "another program uses the port: end it, or choose another port (0 picks a free one)"
         : "choose an address of this machine and a port that this user may open";
     return Core::Fail(
-        std::error_code(error),
+        static_cast<std::error_code>(error),
         {},
         fmt::format("to listen for Open Stream clients on {}:{}; {}", options.host, options.port, advice),
         error.message());
@@ -183,8 +183,8 @@ public:
     void Stop()
     {
         _port = 0;
-        _retryTimer.cancel();
         boost::system::error_code ignored;
+        static_cast<void>(_retryTimer.cancel(ignored));
         static_cast<void>(_acceptor.close(ignored));
         DropSessions();
     }

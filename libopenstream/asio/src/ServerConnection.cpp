@@ -8,7 +8,7 @@
 #include <boost/asio/write.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace ACS::OpenStreamAsio
@@ -95,11 +95,11 @@ void ServerConnection::Reject(std::string_view message)
 void ServerConnection::Abort()
 {
     _bClosed = true;
+    boost::system::error_code ignored;
     for (boost::asio::steady_timer& timer : _timers)
     {
-        timer.cancel();
+        static_cast<void>(timer.cancel(ignored));
     }
-    boost::system::error_code ignored;
     static_cast<void>(_socket.close(ignored));
 }
 
@@ -119,12 +119,10 @@ void ServerConnection::Do(const OpenStream::ServerSend& action)
     boost::asio::async_write(
         _socket,
         boost::asio::buffer(action.text),
-        [self = shared_from_this()](const boost::system::error_code& error, std::size_t /*size*/) {
-            self->OnWritten(error);
-        });
+        std::bind_front(&ServerConnection::OnWritten, shared_from_this()));
 }
 
-void ServerConnection::OnWritten(const boost::system::error_code& error)
+void ServerConnection::OnWritten(const boost::system::error_code& error, std::size_t /*size*/)
 {
     if (_bClosed)
     {
@@ -161,13 +159,19 @@ void ServerConnection::Do(const OpenStream::ServerStartTimer& action)
     const std::uint64_t turn = ++_timerTurns.at(index);
     _timers.at(index).expires_after(action.deadline - _clock.GetNow().steady);
     _timers.at(index).async_wait(
-        [self = shared_from_this(), kind = action.timer, index, turn](const boost::system::error_code& error) {
-            if (!error && !self->_bClosed && self->_timerTurns.at(index) == turn)
-            {
-                self->_session.OnTimer(kind, self->_clock.GetNow(), self->_actions);
-                self->Execute();
-            }
-        });
+        std::bind_front(&ServerConnection::OnTimerFired, shared_from_this(), action.timer, turn));
+}
+
+void ServerConnection::OnTimerFired(
+    OpenStream::EServerTimer timer,
+    std::uint64_t turn,
+    const boost::system::error_code& error)
+{
+    if (!error && !_bClosed && _timerTurns.at(static_cast<std::size_t>(timer)) == turn)
+    {
+        _session.OnTimer(timer, _clock.GetNow(), _actions);
+        Execute();
+    }
 }
 
 void ServerConnection::Do(const OpenStream::ServerCancelTimer& action)
@@ -190,13 +194,16 @@ void ServerConnection::Do(const OpenStream::ServerResumeReading& /*action*/)
 
 void ServerConnection::Do(const OpenStream::ServerContinue& /*action*/)
 {
-    boost::asio::post(_socket.get_executor(), [self = shared_from_this()]() {
-        if (!self->_bClosed)
-        {
-            self->_session.OnContinue(self->_clock.GetNow(), self->_actions);
-            self->Execute();
-        }
-    });
+    boost::asio::post(_socket.get_executor(), std::bind_front(&ServerConnection::OnContinue, shared_from_this()));
+}
+
+void ServerConnection::OnContinue()
+{
+    if (!_bClosed)
+    {
+        _session.OnContinue(_clock.GetNow(), _actions);
+        Execute();
+    }
 }
 
 void ServerConnection::Do(const OpenStream::ServerShutdownSend& /*action*/)
@@ -221,9 +228,7 @@ void ServerConnection::ReadMoreAsync()
     _bReading = true;
     _socket.async_read_some(
         boost::asio::buffer(_input),
-        [self = shared_from_this()](const boost::system::error_code& error, std::size_t size) {
-            self->OnRead(error, size);
-        });
+        std::bind_front(&ServerConnection::OnRead, shared_from_this()));
 }
 
 void ServerConnection::OnRead(const boost::system::error_code& error, std::size_t size)

@@ -59,7 +59,9 @@ private:
     void Do(const OpenStream::ServerClose& action);
     void ReadMoreAsync();
     void OnRead(const boost::system::error_code& error, std::size_t size);
-    void OnWritten(const boost::system::error_code& error);
+    void OnWritten(const boost::system::error_code& error, std::size_t size);
+    void OnTimerFired(OpenStream::EServerTimer timer, std::uint64_t turn, const boost::system::error_code& error);
+    void OnContinue();
 
 public:
     ServerConnection(

@@ -75,7 +75,7 @@ public:
     CountingService service;
     std::vector<ClientEvent> events;
 
-    [[nodiscard]] std::unique_ptr<OpenStreamServer> MakeServer(OpenStreamServerOptions options)
+    [[nodiscard]] std::unique_ptr<OpenStreamServer> MakeServer(const OpenStreamServerOptions& options)
     {
         return std::make_unique<OpenStreamServer>(
             context.get_executor(),
@@ -85,9 +85,9 @@ public:
             service);
     }
 
-    [[nodiscard]] std::unique_ptr<OpenStreamServer> StartServer(OpenStreamServerOptions options = MakeOptions())
+    [[nodiscard]] std::unique_ptr<OpenStreamServer> StartServer(const OpenStreamServerOptions& options = MakeOptions())
     {
-        std::unique_ptr<OpenStreamServer> server = MakeServer(std::move(options));
+        std::unique_ptr<OpenStreamServer> server = MakeServer(options);
         const auto started = server->Start();
         REQUIRE(started.has_value());
         REQUIRE(server->GetPort() != 0);

@@ -30,17 +30,15 @@ std::string MakeControl(const std::string& members)
 
 std::string Encode(const OpenStreamLine& line)
 {
-    OpenStreamCodec codec;
     std::string text;
-    codec.EncodeLine(line, text);
+    OpenStreamCodec::EncodeLine(line, text);
     return text;
 }
 
 std::string Encode(const OpenStreamRequest& request)
 {
-    OpenStreamCodec codec;
     std::string text;
-    codec.EncodeRequest(request, text);
+    OpenStreamCodec::EncodeRequest(request, text);
     return text;
 }
 
@@ -212,16 +210,15 @@ TEST_CASE("7.3 The client takes data under both names, the server writes one")
     const auto line = codec.DecodeLine(R"({"type":"monitor_data","ts":1,"svc_dur_ms":0,"result":{}})");
     REQUIRE(std::holds_alternative<DataLine>(line.value()));
     std::string text;
-    codec.EncodeData(2, 0.5, ApiResponse{200, JsonText::FromTrusted("{}")}, std::nullopt, text);
+    OpenStreamCodec::EncodeData(2, 0.5, ApiResponse{200, JsonText::FromTrusted("{}")}, std::nullopt, text);
     REQUIRE(text == "{\"type\":\"data\",\"ts\":2,\"svc_dur_ms\":0.5,\"result\":{}}\n");
 }
 
 TEST_CASE("7.4 The result is wrapped, status takes its place where there is no body, and tells of a failure")
 {
-    OpenStreamCodec codec;
     std::string text;
-    codec.EncodeData(2, 0, ApiResponse{204, {}}, std::nullopt, text);
-    codec.EncodeData(4, 0, ApiResponse{404, JsonText::FromInteger(1)}, JsonText::FromString("m"), text);
+    OpenStreamCodec::EncodeData(2, 0, ApiResponse{204, {}}, std::nullopt, text);
+    OpenStreamCodec::EncodeData(4, 0, ApiResponse{404, JsonText::FromInteger(1)}, JsonText::FromString("m"), text);
     REQUIRE(
         text
         == "{\"type\":\"data\",\"ts\":2,\"svc_dur_ms\":0,\"status\":204}\n"
@@ -232,7 +229,7 @@ TEST_CASE("1 A service's pretty-printed JSON tears no line")
 {
     OpenStreamCodec codec;
     std::string text;
-    codec.EncodeData(2, 0, ApiResponse{200, JsonText::FromTrusted("{\r\n \"a\":1\n}")}, std::nullopt, text);
+    OpenStreamCodec::EncodeData(2, 0, ApiResponse{200, JsonText::FromTrusted("{\r\n \"a\":1\n}")}, std::nullopt, text);
     REQUIRE(text.find('\n') == text.size() - 1);
     REQUIRE(std::get<DataLine>(codec.DecodeLine(text).value()).result->GetText() == R"({"a":1})");
 }

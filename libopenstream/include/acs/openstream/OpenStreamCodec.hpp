@@ -45,11 +45,11 @@ public:
     /// Reads a line of a server: the member `error` first, then `type`. Errors are those of ACS::Core.
     [[nodiscard]] Core::Result<OpenStreamLine> DecodeLine(std::string_view line);
 
-    void EncodeRequest(const OpenStreamRequest& request, std::string& out);
-    void EncodeLine(const OpenStreamLine& line, std::string& out);
+    static void EncodeRequest(const OpenStreamRequest& request, std::string& out);
+    static void EncodeLine(const OpenStreamLine& line, std::string& out);
 
     /// A data line straight from the answer of a service, without a copy of it.
-    void EncodeData(
+    static void EncodeData(
         std::int64_t ts,
         double serviceDurationMs,
         const ApiResponse& response,
