@@ -141,37 +141,45 @@ public:
 /// A plain socket, as any client in any language has it.
 class RawPeer
 {
-    Fixture& _fixture;
-    Tcp::socket _socket;
-    std::string _received;
-    std::array<char, 4096> _input{};
-    bool _bClosed = false;
-
-    void ReadAsync()
+    /// Outlives the peer in the handler that its end aborts.
+    struct Reader : std::enable_shared_from_this<Reader>
     {
-        _socket.async_read_some(
-            boost::asio::buffer(_input),
-            [this](const boost::system::error_code& error, std::size_t size) {
-                if (error == boost::asio::error::operation_aborted)
-                {
-                    return;
-                }
-                _bClosed = static_cast<bool>(error);
-                _received.append(_input.data(), size);
-                if (!error)
-                {
-                    ReadAsync();
-                }
-            });
-    }
+        Tcp::socket socket;
+        std::string received;
+        std::array<char, 4096> input{};
+        bool bClosed = false;
+
+        explicit Reader(boost::asio::io_context& context)
+            : socket(context)
+        {
+        }
+
+        void ReadAsync()
+        {
+            socket.async_read_some(boost::asio::buffer(input), std::bind_front(&Reader::OnRead, shared_from_this()));
+        }
+
+        void OnRead(const boost::system::error_code& error, std::size_t size)
+        {
+            bClosed = static_cast<bool>(error);
+            received.append(input.data(), size);
+            if (!error)
+            {
+                ReadAsync();
+            }
+        }
+    };
+
+    Fixture& _fixture;
+    std::shared_ptr<Reader> _reader;
 
 public:
     RawPeer(Fixture& fixture, std::uint16_t port)
         : _fixture(fixture),
-          _socket(fixture.context)
+          _reader(std::make_shared<Reader>(fixture.context))
     {
-        _socket.connect(Tcp::endpoint(boost::asio::ip::address_v4::loopback(), port));
-        ReadAsync();
+        _reader->socket.connect(Tcp::endpoint(boost::asio::ip::address_v4::loopback(), port));
+        _reader->ReadAsync();
     }
 
     RawPeer(const RawPeer&) = delete;
@@ -180,34 +188,32 @@ public:
     ~RawPeer()
     {
         boost::system::error_code ignored;
-        static_cast<void>(_socket.close(ignored));
-        _fixture.context.restart();
-        _fixture.context.poll();
+        static_cast<void>(_reader->socket.close(ignored));
     }
 
     void Send(std::string_view bytes)
     {
-        boost::asio::write(_socket, boost::asio::buffer(bytes));
+        boost::asio::write(_reader->socket, boost::asio::buffer(bytes));
     }
 
     void CloseSending()
     {
-        _socket.shutdown(Tcp::socket::shutdown_send);
+        _reader->socket.shutdown(Tcp::socket::shutdown_send);
     }
 
     [[nodiscard]] bool TryAwait(std::string_view part)
     {
-        return _fixture.TryRunUntil([this, part]() { return _received.find(part) != std::string::npos; });
+        return _fixture.TryRunUntil([this, part]() { return _reader->received.find(part) != std::string::npos; });
     }
 
     [[nodiscard]] bool TryAwaitClose()
     {
-        return _fixture.TryRunUntil([this]() { return _bClosed; });
+        return _fixture.TryRunUntil([this]() { return _reader->bClosed; });
     }
 
     [[nodiscard]] const std::string& GetReceived() const
     {
-        return _received;
+        return _reader->received;
     }
 };
 

@@ -91,10 +91,12 @@ public:
 
     void Execute()
     {
-        for (std::size_t index = 0; index < actions.size(); ++index)
+        std::size_t index = 0;
+        while (index < actions.size()) // grows underway
         {
             const ClientAction action = actions[index];
             std::visit([this](const auto& content) { Do(content); }, action);
+            ++index;
         }
         actions.clear();
     }
@@ -456,7 +458,7 @@ TEST_CASE("1 Half lines, CRLF and garbage from the server cost nothing but thems
     ClientHarness client;
     MakeReady(client);
     client.SetMonitor(20ms);
-    client.Receive("{\"type\":\"moni");
+    client.Receive(R"({"type":"moni)");
     client.Receive("tor_ack\"}\r\n\xFFgarbage\n\n{\"type\":\"new\"}\n");
     REQUIRE(client.Take<ClientMonitorStarted>().size() == 1);
     REQUIRE(client.Take<ClientBadLine>().size() == 2);

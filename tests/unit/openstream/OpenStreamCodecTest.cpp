@@ -70,7 +70,7 @@ TEST_CASE("4 Every code has its text, finds back to itself, and has a status")
 
 TEST_CASE("4 Each thing that is wrong with a request has its own code")
 {
-    const std::string longUrl = "\"url\":\"/" + std::string(LONGEST_URL, 'a') + "\"";
+    const std::string longUrl = R"("url":"/)" + std::string(LONGEST_URL, 'a') + "\"";
     const std::string url = R"("url":"/a",)";
     const std::vector<Refusal> refusals{
         {"", ECode::InvalidNdjson},

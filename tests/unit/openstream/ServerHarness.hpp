@@ -39,10 +39,12 @@ private:
 
     void Execute()
     {
-        for (std::size_t index = 0; index < _actions.size(); ++index)
+        std::size_t index = 0;
+        while (index < _actions.size()) // grows underway
         {
             const OpenStream::ServerAction action = _actions[index];
             std::visit([this](const auto& content) { Do(content); }, action);
+            ++index;
         }
         _actions.clear();
     }

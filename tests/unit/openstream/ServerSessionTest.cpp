@@ -123,8 +123,7 @@ TEST_CASE("8 CONTROLs reach the service one after another, in their order")
     server.Receive(HANDSHAKE);
     for (const char* url : {"/a", "/b", "/c"})
     {
-        server.Receive(
-            std::string("{\"cmd\":\"CONTROL\",\"payload\":{\"method\":\"POST\",\"url\":\"") + url + "\"}}\n");
+        server.Receive(std::string(R"({"cmd":"CONTROL","payload":{"method":"POST","url":")") + url + "\"}}\n");
     }
     REQUIRE(server.calls.size() == 1);
     server.Answer(server.unanswered.at(0));
@@ -263,7 +262,7 @@ TEST_CASE("7.39 Half-close: whole lines are worked on, half a line is dropped, t
     server.Receive(HANDSHAKE);
     server.Receive(MakeMonitorLine(2));
     server.answer = ApiResponse{403, {}};
-    server.Receive(std::string(CONTROL) + "{\"cmd\":\"CONTR");
+    server.Receive(std::string(CONTROL) + R"({"cmd":"CONTR)");
     server.ClosePeer();
     REQUIRE(server.Count("control_err") == 1);
     REQUIRE(server.calls.size() == 1);
