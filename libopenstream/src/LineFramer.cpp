@@ -94,7 +94,8 @@ std::optional<std::string_view> LineFramer::CutKeptOrNull()
         _input.remove_prefix(inputEnd + 1);
         end = _kept.size() - 1;
     }
-    const std::string_view line = std::string_view(_kept).substr(_keptRead, end - _keptRead);
+    const std::string_view kept = _kept;
+    const std::string_view line = kept.substr(_keptRead, end - _keptRead);
     _keptRead = end + 1;
     _scanned = _keptRead;
     _bOverflown = line.size() > _maximumLine;
