@@ -108,6 +108,10 @@ std::optional<std::string_view> LineFramer::CutKeptOrNull()
 
 void LineFramer::Keep()
 {
+    if (_bOverflown)
+    {
+        _input = {}; // nobody will ask for it, so nothing may pile up
+    }
     if (_input.empty())
     {
         return;

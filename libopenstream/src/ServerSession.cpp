@@ -87,6 +87,10 @@ void ServerSession::Reject(std::string_view message, Core::Now now, ServerAction
 
 void ServerSession::OnBytes(std::string_view bytes, Core::Now now, ServerActions& out)
 {
+    if (_state == EServerState::Closed)
+    {
+        return;
+    }
     _framer.Feed(bytes);
     ProcessLines(now, out);
 }

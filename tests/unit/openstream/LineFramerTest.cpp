@@ -76,6 +76,9 @@ TEST_CASE("7.20 A line without end is an overflow as soon as it is too long, in 
     REQUIRE_FALSE(framer.HasOverflown());
     REQUIRE(TakeLines(framer, "9").empty());
     REQUIRE(framer.HasOverflown());
+    REQUIRE(TakeLines(framer, "abc\nabc\n").empty());
+    framer.Reset();
+    REQUIRE_FALSE(framer.HasPartialLine());
 }
 
 TEST_CASE("7.20 Lines that nobody took yet are kept in order and are no overflow")
