@@ -1,0 +1,90 @@
+#include "McsSimOptions.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <utility>
+
+namespace ACS::McsSim
+{
+
+namespace
+{
+
+constexpr std::size_t MAX_REPEAT = 10'000;
+
+std::string TakePath(const std::string& text, std::string& path)
+{
+    if (!text.starts_with('/') || text.find_first_of(" ?#") != std::string::npos)
+    {
+        return "expected a path that begins with a slash (/acs/), found '" + text + "'";
+    }
+    path = text;
+    return {};
+}
+
+std::string TakeLiveMode(const std::string& text, ELiveMode& mode)
+{
+    for (const auto& [word, value] :
+         {std::pair{"auto", ELiveMode::Auto},
+          std::pair{"always", ELiveMode::Always},
+          std::pair{"never", ELiveMode::Never}})
+    {
+        if (text == word)
+        {
+            mode = value;
+            return {};
+        }
+    }
+    return "expected auto, always or never, found '" + text + "'";
+}
+
+} // namespace
+
+std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimOptions& options)
+{
+    CLI::App app{
+        "Plays the MCS: waits for an ACS on a WebSocket, sends it plans and shows what it reports until all have "
+        "ended. Exit code 0 when every plan was completed and every report was right, else 1.",
+        std::string(PROGRAM_NAME)};
+    Apps::AddEndpointOption(app, "--listen", options.listen, "Where to wait for the ACS; port 0 takes a free one");
+    Apps::AddTextOption(
+        app,
+        "--path",
+        [&options](const std::string& text) { return TakePath(text, options.path); },
+        "Path of the WebSocket")
+        .type_name("PATH")
+        ->default_str(options.path);
+    Apps::AddRepeatedOption(
+        app,
+        "--plan",
+        [&options](const std::string& text) {
+            options.planFiles.push_back(text);
+            return std::string();
+        },
+        "Plans to send: files with the payload of an ExecutionPlan or the whole message")
+        .type_name("FILE.json")
+        ->allow_extra_args();
+    app.add_option("--repeat", options.repeat, "Send every file so often, in rotation, with fresh ids")
+        ->check(CLI::Range(std::size_t{1}, MAX_REPEAT))
+        ->capture_default_str();
+    app.add_flag("--fresh-ids", options.bFreshIDs, "Replace the ids of plans, transactions, jobs and carriers");
+    Apps::AddTextOption(
+        app,
+        "--live",
+        [&options](const std::string& text) { return TakeLiveMode(text, options.liveMode); },
+        "Show robots and plans in place: auto (on a terminal), always or never")
+        .type_name("MODE")
+        ->default_str("auto");
+    app.add_flag("--keep", options.bKeep, "Stay when all plans have ended, until SIGINT or SIGTERM");
+    app.add_flag("--wait-for-enter", options.bWaitForEnter, "Send the plans only after a line came on standard input");
+    Apps::AddCommonOptions(app, options.common);
+    const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
+    if (!exitCode.has_value() && options.planFiles.empty())
+    {
+        Apps::PrintMistake(PROGRAM_NAME, "no plan to send: give --plan FILE.json; try mcs-sim --help");
+        return Apps::EXIT_BAD_COMMAND_LINE;
+    }
+    return exitCode;
+}
+
+} // namespace ACS::McsSim

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "common/CommandLine.hpp"
+#include "common/Endpoint.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::McsSim
+{
+
+constexpr std::string_view PROGRAM_NAME = "mcs-sim";
+
+enum class ELiveMode : std::uint8_t
+{
+    Auto, ///< Where standard output is a terminal.
+    Always,
+    Never,
+};
+
+/// The command line.
+struct McsSimOptions
+{
+    Apps::CommonOptions common;
+    Apps::Endpoint listen{"127.0.0.1", 9001};
+    std::string path = "/acs/";
+    std::vector<std::string> planFiles; ///< At least one.
+    std::size_t repeat = 1;
+    bool bFreshIDs = false;
+    ELiveMode liveMode = ELiveMode::Auto;
+    bool bKeep = false;
+    bool bWaitForEnter = false;
+};
+
+/// Fills the options. Nullopt: go on; else the exit code to leave with, everything having been said.
+[[nodiscard]] std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimOptions& options);
+
+} // namespace ACS::McsSim

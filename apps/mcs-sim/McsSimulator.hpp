@@ -1,0 +1,72 @@
+#pragma once
+
+#include "common/Endpoint.hpp"
+#include "PlannedPlan.hpp"
+#include <acs/core/IRandom.hpp>
+#include <acs/core/Logger.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/core/Result.hpp>
+
+#include <boost/asio/any_io_executor.hpp>
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace ACS::McsSim
+{
+
+class Screen;
+
+struct SimulatorOptions
+{
+    Apps::Endpoint listen{"127.0.0.1", 0};
+    std::string path = "/acs/";
+    std::chrono::minutes siteOffset{0}; ///< Of the timestamps that are sent.
+    bool bKeep = false;                 ///< Do not end by itself.
+    std::size_t columns = 100;          ///< Of the live view and the closing table.
+    std::size_t rows = 24;
+};
+
+/// The MCS of a run: serves one ACS at a time, sends it the plans, shows what it reports, and closes with a table.
+/// One thread: the executor's.
+class McsSimulator
+{
+    class Impl;
+    std::unique_ptr<Impl> _impl;
+
+public:
+    /// Called once, when the table stands on the output: 0 where every plan was completed and no report was wrong.
+    using DoneHandler = std::function<void(int exitCode)>;
+
+    /// Clock, random source, log sink and output outlive the simulator; so does the screen. Without a screen the output
+    /// gets a line per change of state instead.
+    McsSimulator(
+        const boost::asio::any_io_executor& executor,
+        const Core::IClock& clock,
+        Core::IRandom& random,
+        const Core::Logger& logger,
+        const SimulatorOptions& options,
+        std::vector<PlannedPlan> plans,
+        std::ostream& out,
+        Screen* screenOrNull,
+        DoneHandler onDone);
+    McsSimulator(const McsSimulator&) = delete;
+    McsSimulator& operator=(const McsSimulator&) = delete;
+    ~McsSimulator();
+
+    /// Listens; the result says where. The error names the address and says what to do.
+    [[nodiscard]] Core::Result<Apps::Endpoint> Start();
+
+    /// From now on plans are sent, and the live view is drawn.
+    void Release();
+
+    /// Ends the run now, whatever its state. Harmless when it is ending already.
+    void Interrupt();
+};
+
+} // namespace ACS::McsSim

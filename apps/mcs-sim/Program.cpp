@@ -1,0 +1,134 @@
+#include "Program.hpp"
+
+#include "common/LocalOffset.hpp"
+#include "common/ReadyLine.hpp"
+#include "common/SignalWaiter.hpp"
+#include "common/SpdlogSink.hpp"
+#include "common/SystemClock.hpp"
+#include "common/SystemRandom.hpp"
+#include "InputLine.hpp"
+#include "McsSimulator.hpp"
+#include "PlanBatch.hpp"
+#include "PlanFile.hpp"
+#include "Screen.hpp"
+#include "ScreenLogSink.hpp"
+#include <acs/core/Timestamp.hpp>
+
+#include <boost/asio/io_context.hpp>
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <unistd.h>
+#include <utility>
+
+namespace ACS::McsSim
+{
+
+namespace
+{
+
+/// 20261121
+std::string MakeDate(Core::WallTime wall, std::chrono::minutes offset)
+{
+    const std::string text = Core::FormatLocal(wall, offset);
+    return text.substr(0, 4) + text.substr(5, 2) + text.substr(8, 2);
+}
+
+/// All plans of the run, or a sentence about the first thing that is wrong.
+tl::expected<std::vector<PlannedPlan>, std::string> LoadPlans(
+    const McsSimOptions& options,
+    const std::string& date,
+    Core::IRandom& random)
+{
+    std::vector<PlannedPlan> files;
+    for (const std::string& path : options.planFiles)
+    {
+        tl::expected<PlannedPlan, std::string> planned = ReadPlanFile(path);
+        if (!planned.has_value())
+        {
+            return tl::make_unexpected(std::move(planned.error()));
+        }
+        files.push_back(std::move(*planned));
+    }
+    std::vector<PlannedPlan> plans = MakeBatch(files, {options.repeat, options.bFreshIDs, date}, random);
+    const std::optional<std::string> shared = FindSharedTransactionOrNull(plans);
+    if (shared.has_value())
+    {
+        return tl::make_unexpected("two plans have the transactionId " + *shared + ": use --fresh-ids");
+    }
+    return plans;
+}
+
+bool ShouldDraw(ELiveMode mode)
+{
+    return mode == ELiveMode::Always || (mode == ELiveMode::Auto && ::isatty(STDOUT_FILENO) != 0);
+}
+
+} // namespace
+
+int Run(const McsSimOptions& options)
+{
+    const Apps::SystemClock clock;
+    Apps::SystemRandom random;
+    const Core::WallTime wall = clock.GetNow().wall;
+    const std::chrono::minutes offset = Apps::LocalOffset().GetAt(wall);
+    tl::expected<std::vector<PlannedPlan>, std::string> plans = LoadPlans(options, MakeDate(wall, offset), random);
+    if (!plans.has_value())
+    {
+        Apps::PrintMistake(PROGRAM_NAME, plans.error());
+        return Apps::EXIT_BAD_COMMAND_LINE;
+    }
+    const std::size_t count = plans->size();
+
+    const TerminalSize size = ReadTerminalSize();
+    Screen screen(std::cout, size.columns);
+    const bool bLive = ShouldDraw(options.liveMode);
+    Apps::SpdlogSink plainSink(options.common.logLevel);
+    ScreenLogSink screenSink(plainSink, screen);
+    const bool bMixed = bLive && ::isatty(STDERR_FILENO) != 0;
+    Core::ILogSink& sink = bMixed ? static_cast<Core::ILogSink&>(screenSink) : plainSink;
+
+    boost::asio::io_context context(1);
+    int exitCode = EXIT_FAILURE;
+    McsSimulator simulator(
+        context.get_executor(),
+        clock,
+        random,
+        Core::Logger(sink, std::string(PROGRAM_NAME)),
+        {options.listen, options.path, offset, options.bKeep, size.columns, size.rows},
+        std::move(*plans),
+        std::cout,
+        bLive ? &screen : nullptr,
+        [&context, &exitCode](int code) {
+            exitCode = code;
+            context.stop();
+        });
+    const Apps::SignalWaiter signals(context.get_executor(), [&simulator](int) { simulator.Interrupt(); });
+    const Core::Result<Apps::Endpoint> endpoint = simulator.Start();
+    if (!endpoint.has_value())
+    {
+        Apps::PrintMistake(PROGRAM_NAME, Describe(endpoint.error()));
+        return EXIT_FAILURE;
+    }
+    Apps::PrintReadyLine({{"ws", *endpoint}});
+    std::unique_ptr<InputLine> input;
+    if (options.bWaitForEnter)
+    {
+        if (::isatty(STDIN_FILENO) != 0)
+        {
+            std::cout << fmt::format("Press Enter to send {} plans.", count) << std::endl;
+        }
+        input = std::make_unique<InputLine>(context.get_executor(), [&simulator] { simulator.Release(); });
+    }
+    else
+    {
+        simulator.Release();
+    }
+    context.run();
+    return exitCode;
+}
+
+} // namespace ACS::McsSim

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "PlanTracker.hpp"
+#include "StyledLine.hpp"
+#include <acs/protocol/SessionStatistics.hpp>
+
+#include <chrono>
+#include <string>
+
+namespace ACS::McsSim
+{
+
+/// The closing table: what this program received and acknowledged, not what the ACS believes.
+[[nodiscard]] StyledLines MakeSummary(
+    const PlanTracker& tracker,
+    const Protocol::SessionStatistics& statistics,
+    std::chrono::milliseconds duration);
+
+/// The very last line: "2 plans completed, 0 failed".
+[[nodiscard]] std::string MakeLastLine(const PlanTracker& tracker);
+
+} // namespace ACS::McsSim
