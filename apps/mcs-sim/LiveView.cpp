@@ -19,17 +19,18 @@ namespace
 
 constexpr std::size_t MIN_COLUMNS = 40;
 constexpr std::size_t MIN_ROWS = 8;
-constexpr std::size_t FRAME_ROWS = 7; ///< Heading, two table heads, empty lines, the count, and the cursor's own.
+constexpr std::size_t FREE_COLUMNS = 1; ///< A screen leaves the last one empty.
+constexpr std::size_t FRAME_ROWS = 7;   ///< Heading, two table heads, empty lines, the count, and the cursor's own.
 constexpr std::size_t MIN_PLAN_ROWS = 2;
 
-constexpr std::size_t ROBOT_COLUMNS = 7;
-constexpr std::size_t TYPE_COLUMNS = 4;
+constexpr std::size_t ROBOT_COLUMNS = 6;
+constexpr std::size_t TYPE_COLUMNS = 5;
 constexpr std::size_t ROBOT_STATUS_COLUMNS = 13;
-constexpr std::size_t PLACE_COLUMNS = 11;
-constexpr std::size_t POINT_COLUMNS = 12;
+constexpr std::size_t PLACE_COLUMNS = 10;
+constexpr std::size_t POINT_COLUMNS = 10;
 constexpr std::size_t BATTERY_COLUMNS = 6;
-constexpr std::size_t WORK_ID_COLUMNS = 10;
-constexpr std::size_t WORK_COLUMNS = 12;
+constexpr std::size_t SHORT_ID_COLUMNS = 10;
+constexpr std::size_t SHARE_COLUMNS = 4;
 
 constexpr std::size_t MIN_ID_COLUMNS = 8;
 constexpr std::size_t MAX_ID_COLUMNS = 24;
@@ -115,64 +116,84 @@ std::string ShortenID(const std::string& planID)
 {
     const std::string clean = CleanText(planID);
     const std::size_t length = GetColumns(clean);
-    if (length < WORK_ID_COLUMNS || length != clean.size())
+    if (length < SHORT_ID_COLUMNS || length != clean.size())
     {
-        return CutText(clean, WORK_ID_COLUMNS - 1);
+        return CutText(clean, SHORT_ID_COLUMNS - 1);
     }
-    return "…" + clean.substr(clean.size() - (WORK_ID_COLUMNS - 2));
+    return "…" + clean.substr(clean.size() - (SHORT_ID_COLUMNS - 2));
 }
 
-/// "step 2/3 1/2" of what a robot works on.
-std::string DescribeWork(const PlanTracker& tracker, const Protocol::RobotStatusUpdate& status)
+/// What a robot works on: plan, step and job.
+struct Work
 {
-    if (!status.stepNo.has_value())
+    std::string plan = "–";
+    std::string step;
+    std::string job;
+};
+
+Work DescribeWork(const PlanTracker& tracker, const Protocol::RobotStatusUpdate& status)
+{
+    Work work;
+    if (!status.planID.has_value())
     {
-        return "";
+        return work;
     }
+    work.plan = ShortenID(*status.planID);
+    work.step = status.stepNo.has_value() ? fmt::format("{}", *status.stepNo) : "";
     const TrackedPlan* const planOrNull = tracker.FindPlanOrNull(*status.planID);
-    std::string text = fmt::format("step {}", *status.stepNo);
-    if (planOrNull == nullptr || !status.jobID.has_value())
+    if (planOrNull == nullptr || !status.stepNo.has_value())
     {
-        return text;
+        return work;
     }
-    for (const TrackedStep& step : planOrNull->steps)
+    const std::vector<TrackedStep>& steps = planOrNull->steps;
+    const auto step = std::find_if(steps.begin(), steps.end(), [&status](const TrackedStep& other) {
+        return other.stepNo == *status.stepNo;
+    });
+    if (step == steps.end())
     {
-        const auto job = std::find_if(step.jobs.begin(), step.jobs.end(), [&status](const TrackedJob& other) {
-            return other.jobID == *status.jobID;
-        });
-        if (job != step.jobs.end())
-        {
-            return text + " job " + fmt::format("{}", job - step.jobs.begin() + 1);
-        }
+        return work;
     }
-    return text;
+    work.step = MakeShare(static_cast<std::size_t>(step - steps.begin()), steps.size());
+    const auto job = std::find_if(step->jobs.begin(), step->jobs.end(), [&status](const TrackedJob& other) {
+        return other.jobID == status.jobID;
+    });
+    if (job != step->jobs.end())
+    {
+        work.job = MakeShare(static_cast<std::size_t>(job - step->jobs.begin()), step->jobs.size());
+    }
+    return work;
+}
+
+/// Robots without a status keep their columns.
+void AddStatus(const RobotEntry& robot, StyledLine& line)
+{
+    if (!robot.status.has_value())
+    {
+        line.push_back({FitText("", TYPE_COLUMNS + ROBOT_STATUS_COLUMNS + PLACE_COLUMNS), EStyle::Plain});
+        return;
+    }
+    const Protocol::RobotStatusUpdate& status = *robot.status;
+    line.push_back({FitText(GetText(status.robotType), TYPE_COLUMNS), EStyle::Plain});
+    line.push_back({FitText(GetText(status.robotStatus), ROBOT_STATUS_COLUMNS), GetStyle(status.robotStatus)});
+    line.push_back({FitText(CleanText(status.position.value_or("–")), PLACE_COLUMNS - 1) + " ", EStyle::Plain});
 }
 
 StyledLine MakeRobotLine(const PlanTracker& tracker, const std::string& robotID, const RobotEntry& robot)
 {
     StyledLine line{{" " + FitText(CleanText(robotID), ROBOT_COLUMNS - 1) + " ", EStyle::Bold}};
-    if (robot.status.has_value())
-    {
-        const Protocol::RobotStatusUpdate& status = *robot.status;
-        line.push_back({FitText(GetText(status.robotType), TYPE_COLUMNS), EStyle::Plain});
-        line.push_back({FitText(GetText(status.robotStatus), ROBOT_STATUS_COLUMNS), GetStyle(status.robotStatus)});
-        line.push_back({FitText(CleanText(status.position.value_or("–")), PLACE_COLUMNS - 1) + " ", EStyle::Plain});
-    }
-    else
-    {
-        line.push_back({FitText("", TYPE_COLUMNS + ROBOT_STATUS_COLUMNS + PLACE_COLUMNS), EStyle::Plain});
-    }
+    AddStatus(robot, line);
     const bool bPosition = robot.position.has_value();
-    const std::string point = bPosition ? fmt::format("{:5.1f},{:5.1f}", robot.position->x, robot.position->y) : "";
+    const std::string point = bPosition ? fmt::format("{:.1f},{:5.1f}", robot.position->x, robot.position->y) : "";
     const std::string battery = bPosition ? fmt::format("{:.0f} %", robot.position->battery) : "";
-    line.push_back({FitText(point, POINT_COLUMNS), EStyle::Dim});
-    line.push_back({FitRight(battery, BATTERY_COLUMNS - 1) + "  ", EStyle::Plain});
+    line.push_back({FitRight(point, POINT_COLUMNS), EStyle::Dim});
+    line.push_back({FitRight(battery, BATTERY_COLUMNS) + "  ", EStyle::Plain});
     if (robot.status.has_value())
     {
-        const bool bWorks = robot.status->planID.has_value();
-        const std::string planID = bWorks ? ShortenID(*robot.status->planID) : "–";
-        const std::string work = bWorks ? DescribeWork(tracker, *robot.status) : "";
-        line.push_back({FitText(planID, WORK_ID_COLUMNS) + FitText(work, WORK_COLUMNS) + " ", EStyle::Plain});
+        const Work work = DescribeWork(tracker, *robot.status);
+        line.push_back(
+            {FitText(work.plan, SHORT_ID_COLUMNS) + FitText(work.step, SHARE_COLUMNS) + " "
+                 + FitText(work.job, SHARE_COLUMNS),
+             EStyle::Plain});
         line.push_back({DescribeCarriers(*robot.status), EStyle::Plain});
     }
     return line;
@@ -265,10 +286,11 @@ void LiveView::AddRobots(const PlanTracker& tracker, const RobotBoard& board, st
         return;
     }
     out.push_back(
-        {{" " + FitText("robot", ROBOT_COLUMNS) + FitText("type", TYPE_COLUMNS + 1)
-              + FitText("status", ROBOT_STATUS_COLUMNS - 1) + FitText("at", PLACE_COLUMNS)
-              + FitRight("x,    y", POINT_COLUMNS - 1) + FitRight("battery", BATTERY_COLUMNS + 1) + " "
-              + FitText("plan", WORK_ID_COLUMNS) + FitText("", WORK_COLUMNS) + " carriers",
+        {{" " + FitText("robot", ROBOT_COLUMNS) + FitText("type", TYPE_COLUMNS)
+              + FitText("status", ROBOT_STATUS_COLUMNS) + FitText("at", PLACE_COLUMNS)
+              + FitRight("x,    y", POINT_COLUMNS) + FitRight("batt", BATTERY_COLUMNS) + "  "
+              + FitText("plan", SHORT_ID_COLUMNS) + FitText("step", SHARE_COLUMNS + 1) + FitText("job", SHARE_COLUMNS)
+              + "carriers",
           EStyle::Dim}});
     for (const auto& [robotID, robot] : board.GetRobots())
     {
@@ -341,7 +363,7 @@ StyledLine LiveView::MakePlanLine(const TrackedPlan& plan, std::size_t idColumns
              + FitText(job, JOB_COLUMNS),
          EStyle::Plain});
     const std::size_t used = 1 + idColumns + ROBOT_COLUMNS + PLAN_STATUS_COLUMNS + STEP_COLUMNS + ACTION_COLUMNS
-        + JOB_COLUMNS + PERCENT_COLUMNS;
+        + JOB_COLUMNS + PERCENT_COLUMNS + FREE_COLUMNS;
     const std::size_t room = _columns > used ? _columns - used : 0;
     const double progress = GetProgress(plan);
     line.push_back({MakeBar(progress, std::clamp(room, MIN_BAR_COLUMNS, MAX_BAR_COLUMNS)), style});

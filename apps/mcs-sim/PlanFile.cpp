@@ -69,6 +69,7 @@ Core::Result<PlannedPlan> ParsePlanFile(std::string_view text)
 
 tl::expected<PlannedPlan, std::string> ReadPlanFile(const std::string& path)
 {
+    errno = 0;
     std::ifstream file(path, std::ios::binary);
     std::ostringstream content;
     if (file.is_open())

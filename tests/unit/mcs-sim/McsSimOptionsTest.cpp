@@ -1,0 +1,80 @@
+#include "McsSimOptions.hpp"
+
+#include "Catch.hpp"
+
+#include <iostream>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using ACS::McsSim::ELiveMode;
+using ACS::McsSim::McsSimOptions;
+
+namespace
+{
+
+struct Outcome
+{
+    std::optional<int> exitCode;
+    McsSimOptions options;
+    std::string errors;
+};
+
+Outcome Parse(std::vector<const char*> arguments)
+{
+    Outcome outcome;
+    arguments.insert(arguments.begin(), "mcs-sim");
+    const std::ostringstream errors;
+    std::streambuf* const before = std::cerr.rdbuf(errors.rdbuf());
+    outcome.exitCode =
+        ACS::McsSim::ParseOptionsOrNull(static_cast<int>(arguments.size()), arguments.data(), outcome.options);
+    std::cerr.rdbuf(before);
+    outcome.errors = errors.str();
+    return outcome;
+}
+
+} // namespace
+
+TEST_CASE("The command line has the documented defaults")
+{
+    const Outcome outcome = Parse({"--plan", "a.json"});
+    CHECK_FALSE(outcome.exitCode.has_value());
+    CHECK(MakeText(outcome.options.listen) == "127.0.0.1:9001");
+    CHECK(outcome.options.path == "/acs/");
+    CHECK(outcome.options.repeat == 1);
+    CHECK(outcome.options.liveMode == ELiveMode::Auto);
+    CHECK_FALSE(outcome.options.bFreshIDs);
+    CHECK_FALSE(outcome.options.bKeep);
+    CHECK_FALSE(outcome.options.bWaitForEnter);
+}
+
+TEST_CASE("Plans may follow one --plan or several, in order")
+{
+    const Outcome outcome =
+        Parse({"--plan", "a.json", "b.json", "--repeat", "3", "--live", "never", "--plan", "c.json", "--keep"});
+    CHECK_FALSE(outcome.exitCode.has_value());
+    CHECK(outcome.options.planFiles == std::vector<std::string>{"a.json", "b.json", "c.json"});
+    CHECK(outcome.options.repeat == 3);
+    CHECK(outcome.options.liveMode == ELiveMode::Never);
+    CHECK(outcome.options.bKeep);
+}
+
+TEST_CASE("A bad command line is told in one line, with exit code 2")
+{
+    using Arguments = std::vector<const char*>;
+    const auto arguments = GENERATE(
+        Arguments{"--frobnicate"},
+        Arguments{},
+        Arguments{"--plan", "a.json", "--repeat", "0"},
+        Arguments{"--plan", "a.json", "--live", "perhaps"},
+        Arguments{"--plan", "a.json", "--path", "acs"},
+        Arguments{"--plan", "a.json", "--listen", "nowhere"});
+    const Outcome outcome = Parse(arguments);
+    CHECK(outcome.exitCode == 2);
+    CHECK(outcome.errors.find('\n') == outcome.errors.size() - 1);
+    if (!arguments.empty())
+    {
+        CHECK(outcome.errors.find(arguments[arguments.size() == 1 ? 0 : 2]) != std::string::npos);
+    }
+}

@@ -1,0 +1,338 @@
+#include "McsSimulator.hpp"
+
+#include "Catch.hpp"
+#include "common/SystemClock.hpp"
+#include "SamplePlans.hpp"
+#include "Screen.hpp"
+#include "SeededRandom.hpp"
+#include <acs/core/Uuid.hpp>
+#include <acs/protocol_beast/AcsClient.hpp>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
+
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+using ACS::McsSim::McsSimulator;
+using ACS::McsSim::PlannedPlan;
+using ACS::Protocol::AcsPayload;
+using ACS::Protocol::EAckResult;
+using ACS::Protocol::EJobStatus;
+using ACS::Protocol::EPlanStatus;
+using ACS::Protocol::EStepStatus;
+using ACS::Testing::MakeJobReport;
+using ACS::Testing::MakePlanReport;
+using ACS::Testing::MakeSamplePlan;
+using ACS::Testing::MakeStepReport;
+using ACS::Testing::SeededRandom;
+
+namespace
+{
+
+constexpr std::chrono::seconds LONGEST{20};
+
+/// A small ACS: accepts every plan and reports it as done at once, but for what a test wants otherwise.
+class TinyAcs final : private ACS::ProtocolBeast::ISessionHandler
+{
+public:
+    std::optional<std::string> refusal;    ///< Refuses every plan for this reason.
+    std::optional<std::size_t> cutAfter;   ///< Leaves after so many plans without answering the last, and returns.
+    std::vector<AcsPayload> moreReports;   ///< After the reports of a plan.
+    std::vector<std::string> transactions; ///< Of the plans that came, in order.
+
+private:
+    const ACS::Core::IClock& _clock;
+    SeededRandom _random{7};
+    boost::asio::io_context& _context;
+    std::string _url;
+    std::unique_ptr<ACS::ProtocolBeast::AcsClient> _client;
+    std::deque<ACS::Protocol::AcsRequest> _outbox;
+
+public:
+    TinyAcs(boost::asio::io_context& context, const ACS::Core::IClock& clock, std::string url)
+        : _clock(clock),
+          _context(context),
+          _url(std::move(url))
+    {
+    }
+
+    void Connect()
+    {
+        ACS::ProtocolBeast::ClientOptions options;
+        options.url = _url;
+        auto client = ACS::ProtocolBeast::AcsClient::Create(
+            _context.get_executor(),
+            _clock,
+            _random,
+            ACS::Core::Logger(),
+            options,
+            *this);
+        REQUIRE(client.has_value());
+        _client = std::move(*client);
+        _client->Start();
+    }
+
+private:
+    void OnSessionEvent(const ACS::Protocol::SessionEvent& event) override
+    {
+        if (std::holds_alternative<ACS::Protocol::Registered>(event))
+        {
+            _client->ReplayDone();
+        }
+        else if (const auto* const acked = std::get_if<ACS::Protocol::Acked>(&event))
+        {
+            std::erase_if(_outbox, [acked](const auto& request) {
+                return request.transactionID == acked->transactionID;
+            });
+            SendNext();
+        }
+        else if (const auto* const received = std::get_if<ACS::Protocol::RequestReceived>(&event))
+        {
+            OnPlan(received->request);
+        }
+    }
+
+    void OnPlan(const ACS::Protocol::AcsRequest& request)
+    {
+        const auto& plan = std::get<ACS::Protocol::ExecutionPlan>(request.payload);
+        transactions.push_back(request.transactionID);
+        if (cutAfter == transactions.size())
+        {
+            // Not at once: this is called by the client that goes.
+            boost::asio::post(_context, [this] {
+                _client.reset();
+                Connect();
+            });
+            return;
+        }
+        _client->Answer(
+            ACS::Protocol::EAcsCommand::ExecutionPlan,
+            request.transactionID,
+            refusal.has_value() ? EAckResult::Fail : EAckResult::Success,
+            refusal.value_or(""),
+            ACS::Protocol::PlanAck{plan.planID});
+        if (!refusal.has_value())
+        {
+            ReportAll(plan.planID);
+            SendNext();
+        }
+    }
+
+    void ReportAll(const std::string& planID)
+    {
+        Queue(MakePlanReport(planID, EPlanStatus::InProgress));
+        const std::vector<std::vector<std::string>> jobs{{"J1"}, {"J2", "J3"}};
+        for (std::int32_t stepNo = 1; stepNo <= 2; ++stepNo)
+        {
+            Queue(MakeStepReport(planID, stepNo, EStepStatus::Dispatched));
+            Queue(MakeStepReport(planID, stepNo, EStepStatus::InProgress));
+            for (const std::string& jobID : jobs[static_cast<std::size_t>(stepNo - 1)])
+            {
+                for (const EJobStatus status : {EJobStatus::Instructed, EJobStatus::InProgress, EJobStatus::Completed})
+                {
+                    Queue(MakeJobReport(planID, stepNo, jobID, status));
+                }
+            }
+            Queue(MakeStepReport(planID, stepNo, EStepStatus::Completed));
+        }
+        Queue(MakePlanReport(planID, EPlanStatus::Completed));
+        for (const AcsPayload& report : moreReports)
+        {
+            Queue(report);
+        }
+    }
+
+    void Queue(AcsPayload payload)
+    {
+        _outbox.push_back({ACS::Core::MakeUuid(_random), {_clock.GetNow().wall, {}}, std::move(payload)});
+    }
+
+    void SendNext()
+    {
+        for (const ACS::Protocol::AcsRequest& request : _outbox)
+        {
+            if (!_client->TrySendDurable(request))
+            {
+                return;
+            }
+        }
+    }
+};
+
+/// The simulator with some sample plans, and an ACS at its other end.
+struct Bench
+{
+    boost::asio::io_context context{1};
+    ACS::Apps::SystemClock clock;
+    SeededRandom random;
+    std::ostringstream out;
+    ACS::McsSim::Screen screen{out, 100};
+    std::optional<int> exitCode;
+    ACS::Apps::Endpoint endpoint;
+    std::unique_ptr<McsSimulator> simulator;
+    std::unique_ptr<TinyAcs> acs;
+
+    explicit Bench(std::size_t plans, bool bLive = false)
+    {
+        std::vector<PlannedPlan> planned;
+        for (std::size_t i = 1; i <= plans; ++i)
+        {
+            planned.push_back(MakeSamplePlan("P" + std::to_string(i), "T" + std::to_string(i)));
+        }
+        simulator = std::make_unique<McsSimulator>(
+            context.get_executor(),
+            clock,
+            random,
+            ACS::Core::Logger(),
+            ACS::McsSim::SimulatorOptions(),
+            std::move(planned),
+            out,
+            bLive ? &screen : nullptr,
+            [this](int code) {
+                exitCode = code;
+                context.stop();
+            });
+        const auto started = simulator->Start();
+        REQUIRE(started.has_value());
+        endpoint = *started;
+        acs = std::make_unique<TinyAcs>(context, clock, "ws://" + MakeText(endpoint) + "/acs/");
+    }
+
+    /// Until the simulator is done, or too much time has passed. Its output.
+    std::string Run()
+    {
+        acs->Connect();
+        context.run_for(LONGEST);
+        REQUIRE(exitCode.has_value());
+        return out.str();
+    }
+};
+
+bool Contains(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+std::string GetLastLine(const std::string& text)
+{
+    const std::string trimmed = text.substr(0, text.size() - 1);
+    return trimmed.substr(trimmed.rfind('\n') + 1);
+}
+
+} // namespace
+
+TEST_CASE("Plans go to the ACS, its reports come back, and all end completed")
+{
+    Bench bench(3);
+    bench.simulator->Release();
+    const std::string output = bench.Run();
+    INFO(output);
+    CHECK(bench.exitCode == 0);
+    CHECK(GetLastLine(output) == "3 plans completed, 0 failed");
+    CHECK(bench.acs->transactions == std::vector<std::string>{"T1", "T2", "T3"});
+    CHECK(Contains(output, " ACS registered\n"));
+    CHECK(Contains(output, " P2 JobReport step 2 job 2/2 Completed (LR01)\n"));
+    CHECK(Contains(output, " JobReport                           27            27             0\n"));
+}
+
+TEST_CASE("Nothing is sent before the plans are released")
+{
+    Bench bench(1);
+    bench.acs->Connect();
+    while (!Contains(bench.out.str(), "ACS registered"))
+    {
+        REQUIRE(bench.context.run_one_for(LONGEST) > 0);
+    }
+    CHECK_FALSE(Contains(bench.out.str(), "P1"));
+    bench.simulator->Release();
+    bench.context.run_for(LONGEST);
+    CHECK(bench.exitCode == 0);
+}
+
+TEST_CASE("6.4 A refused plan makes the run fail, and the reason is told")
+{
+    Bench bench(1);
+    bench.acs->refusal = "no such place as A09.CP01";
+    bench.simulator->Release();
+    const std::string output = bench.Run();
+    CHECK(bench.exitCode == 1);
+    CHECK(GetLastLine(output) == "0 plans completed, 1 failed");
+    CHECK(Contains(output, " P1 refused: no such place as A09.CP01\n"));
+}
+
+TEST_CASE("A plan that was not acknowledged before the link was lost is sent again, with its transactionId")
+{
+    Bench bench(2);
+    bench.acs->cutAfter = 1;
+    bench.simulator->Release();
+    const std::string output = bench.Run();
+    INFO(output);
+    CHECK(bench.exitCode == 0);
+    CHECK(GetLastLine(output) == "2 plans completed, 0 failed");
+    REQUIRE(bench.acs->transactions.size() >= 3);
+    CHECK(bench.acs->transactions.front() == "T1");
+    CHECK(Contains(output, " P1 ExecutionPlan sent again\n"));
+    CHECK(Contains(output, " reconnects              1\n"));
+}
+
+TEST_CASE("A report after the final one makes the run fail, though the plan was completed")
+{
+    Bench bench(1);
+    bench.acs->moreReports = {MakePlanReport("P1", EPlanStatus::InProgress)};
+    bench.simulator->Release();
+    const std::string output = bench.Run();
+    CHECK(bench.exitCode == 1);
+    CHECK(GetLastLine(output) == "1 plans completed, 0 failed");
+    CHECK(Contains(output, " violation: P1 PlanReport after it was completed\n"));
+}
+
+TEST_CASE("An interruption before the end prints the table and fails")
+{
+    Bench bench(1);
+    bench.simulator->Release();
+    bench.simulator->Interrupt();
+    bench.context.run_for(LONGEST);
+    CHECK(bench.exitCode == 1);
+    CHECK(Contains(bench.out.str(), "1 unfinished"));
+    CHECK(GetLastLine(bench.out.str()) == "0 plans completed, 0 failed");
+}
+
+TEST_CASE("The live view is drawn in place, and the table stands below it")
+{
+    Bench bench(1, true);
+    bench.simulator->Release();
+    const std::string output = bench.Run();
+    CHECK(bench.exitCode == 0);
+    CHECK(Contains(output, "\x1b[?25l\r\x1b["));
+    CHECK_FALSE(Contains(output, "JobReport step"));
+    CHECK(output.rfind("\x1b[?25h") > output.rfind("\x1b[?25l"));
+    CHECK(GetLastLine(output) == "1 plans completed, 0 failed");
+}
+
+TEST_CASE("A port in use is named")
+{
+    Bench first(1);
+    ACS::McsSim::SimulatorOptions options;
+    options.listen = first.endpoint;
+    McsSimulator second(
+        first.context.get_executor(),
+        first.clock,
+        first.random,
+        ACS::Core::Logger(),
+        options,
+        {},
+        first.out,
+        nullptr,
+        [](int /*code*/) {});
+    const auto refused = second.Start();
+    REQUIRE_FALSE(refused.has_value());
+    CHECK(Contains(Describe(refused.error()), MakeText(first.endpoint)));
+}

@@ -1,0 +1,69 @@
+#include "Summary.hpp"
+
+#include "Catch.hpp"
+#include "ManualClock.hpp"
+#include "SamplePlans.hpp"
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+using ACS::McsSim::MakeLastLine;
+using ACS::McsSim::MakeSummary;
+using ACS::McsSim::PlanTracker;
+using ACS::McsSim::StyledLine;
+using ACS::Protocol::CommandCounters;
+using ACS::Protocol::EAckResult;
+using ACS::Protocol::EAcsCommand;
+using ACS::Protocol::EPlanStatus;
+using ACS::Protocol::SessionStatistics;
+using ACS::Testing::MakeAck;
+using ACS::Testing::MakePlanReport;
+using ACS::Testing::MakeSamplePlan;
+using ACS::Testing::ManualClock;
+
+namespace
+{
+
+CommandCounters MakeReceived(std::uint64_t received, std::uint64_t duplicates, std::uint64_t acknowledged)
+{
+    CommandCounters counters;
+    counters.received = received;
+    counters.duplicates = duplicates;
+    counters.acknowledged = acknowledged;
+    return counters;
+}
+
+} // namespace
+
+TEST_CASE("The closing table counts plans by outcome and messages by command, a repeated one once")
+{
+    PlanTracker tracker({MakeSamplePlan("P1", "T1"), MakeSamplePlan("P2", "T2"), MakeSamplePlan("P3", "T3")});
+    std::vector<std::string> lines;
+    const ManualClock clock;
+    tracker.OnRegistered();
+    for (const std::size_t index : {0U, 1U, 2U, 1U})
+    {
+        tracker.OnSent(index, clock.GetNow(), lines);
+    }
+    tracker.OnAck(MakeAck(tracker.GetPlans()[1].planned, EAckResult::Fail, "Queue Full"), lines);
+    tracker.OnRequest(MakePlanReport("P1", EPlanStatus::InProgress), lines);
+    tracker.OnRequest(MakePlanReport("P1", EPlanStatus::Completed), lines); // before its steps: a violation
+
+    SessionStatistics statistics;
+    statistics.registrations = 3;
+    statistics.Of(EAcsCommand::ExecutionPlan).sent = 4;
+    statistics.Of(EAcsCommand::ExecutionPlan).answered = 1;
+    statistics.Of(EAcsCommand::Registration) = MakeReceived(3, 0, 3);
+    statistics.Of(EAcsCommand::PlanReport) = MakeReceived(4, 2, 4);
+    statistics.Of(EAcsCommand::RobotPositionUpdate) = MakeReceived(500, 0, 0);
+
+    std::string text;
+    for (const StyledLine& line : MakeSummary(tracker, statistics, std::chrono::milliseconds(34'260)))
+    {
+        text += MakeText(line, 100, false) + "\n";
+    }
+    const char* const expected = R"()";
+    CHECK(text == expected);
+    CHECK(MakeLastLine(tracker) == "1 plans completed, 1 failed");
+}
