@@ -11,7 +11,6 @@
 namespace ACS::McsSim
 {
 
-using Protocol::EPlanStatus;
 using Protocol::ERobotStatus;
 
 namespace
@@ -279,7 +278,7 @@ StyledLines LiveView::Render(const PlanTracker& tracker, const RobotBoard& board
     return lines;
 }
 
-void LiveView::AddRobots(const PlanTracker& tracker, const RobotBoard& board, std::size_t most, StyledLines& out) const
+void LiveView::AddRobots(const PlanTracker& tracker, const RobotBoard& board, std::size_t most, StyledLines& out)
 {
     if (most == 0)
     {

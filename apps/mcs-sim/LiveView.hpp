@@ -39,7 +39,7 @@ public:
         const;
 
 private:
-    void AddRobots(const PlanTracker& tracker, const RobotBoard& board, std::size_t most, StyledLines& out) const;
+    static void AddRobots(const PlanTracker& tracker, const RobotBoard& board, std::size_t most, StyledLines& out);
     void AddPlans(const PlanTracker& tracker, std::size_t most, StyledLines& out) const;
     [[nodiscard]] StyledLine MakePlanLine(const TrackedPlan& plan, std::size_t idColumns) const;
 };

@@ -166,9 +166,9 @@ void PlanTracker::OnRequest(const Protocol::AcsPayload& payload, Lines& out)
             [this, &out](const Protocol::PlanReport& report) { Handle(report, out); },
             [this, &out](const Protocol::StepReport& report) { Handle(report, out); },
             [this, &out](const Protocol::JobReport& report) { Handle(report, out); },
-            [this, &out](const Protocol::ErrorReport& report) { Handle(report, out); },
+            [&out](const Protocol::ErrorReport& report) { Handle(report, out); },
             [this, &out](const Protocol::AcsCommStateUpdate& update) { Handle(update, out); },
-            [this, &out](const Protocol::TscStateUpdate& update) { Handle(update, out); },
+            [&out](const Protocol::TscStateUpdate& update) { Handle(update, out); },
             // The rest says nothing about a plan, or answers what is never asked here.
             [](const auto& /*other*/) {
             }},

@@ -94,9 +94,9 @@ private:
     void Handle(const Protocol::PlanReport& report, Lines& out);
     void Handle(const Protocol::StepReport& report, Lines& out);
     void Handle(const Protocol::JobReport& report, Lines& out);
-    void Handle(const Protocol::ErrorReport& report, Lines& out);
+    static void Handle(const Protocol::ErrorReport& report, Lines& out);
     void Handle(const Protocol::AcsCommStateUpdate& update, Lines& out);
-    void Handle(const Protocol::TscStateUpdate& update, Lines& out);
+    static void Handle(const Protocol::TscStateUpdate& update, Lines& out);
 };
 
 } // namespace ACS::McsSim

@@ -118,7 +118,18 @@ TEST_CASE("The live view has a line per robot and a line per plan")
 {
     const Scene scene;
     const StyledLines lines = LiveView(100, 24).Render(scene.tracker, scene.board, MakeHeading());
-    const char* const expected = R"()";
+    const char* const expected =
+        R"( MCS ws://127.0.0.1:9001/acs/   ACS registered   0/3 plans completed, 1 failed   12.3 s
+
+ robot type status       at           x,    y  batt  plan      step job carriers
+ CR01  CR   Disconnected –          9.0, 14.2 100 %  –                  TRAY_01-88c0 – TRAY_03-88c0
+ LR01  LR   Working      A02.CP03  32.5,  4.0  87 %  …001-3fa2 2/2  2/2 CASSETTE_01-3fa2
+
+ plan                    robot status     step action             job  progress
+ PLAN-20261121-0001-3fa2 LR01  InProgress 2/2  CassetteUnload     1/2  █████████████░░░░░░░░░  60 %
+ PLAN-20261121-0002-88c0       Refused    no such place as A09.CP01
+ PLAN-20261121-0003-07d1       Sent       1/2  CassetteLoad       1/1  ░░░░░░░░░░░░░░░░░░░░░░   0 %
+)";
     CHECK(Join(lines, 99) == expected);
 }
 

@@ -63,7 +63,25 @@ TEST_CASE("The closing table counts plans by outcome and messages by command, a 
     {
         text += MakeText(line, 100, false) + "\n";
     }
-    const char* const expected = R"()";
+    const char* const expected = R"( ──────────────────────────────────────────────────────────────────
+ plans                   1 completed, 0 failed, 1 refused, 1 unfinished
+ steps                   0 of 6 completed
+ jobs                    0 of 9 completed
+ violations              1
+ reconnects              2
+ duration                34.3 s
+
+ message to the ACS                sent  acknowledged    sent again
+ ExecutionPlan                        3             1             1
+
+ message from the ACS          received  acknowledged    sent again
+ Registration                         3             3             0
+ PlanReport                           2             2             2
+ RobotPositionUpdate                500             –             –
+ ──────────────────────────────────────────────────────────────────
+ P2 refused: Queue Full
+ violation: P1 PlanReport Completed before all its steps
+)";
     CHECK(text == expected);
     CHECK(MakeLastLine(tracker) == "1 plans completed, 1 failed");
 }
