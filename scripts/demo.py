@@ -37,6 +37,12 @@ def parse_arguments():
     return arguments
 
 
+def terminal_environment():
+    """mcs-sim writes into our pipe: it learns the size of the terminal behind it from its environment."""
+    size = shutil.get_terminal_size()
+    return {**os.environ, "COLUMNS": str(size.columns), "LINES": str(size.lines)}
+
+
 def forward(chunk):
     sys.stdout.buffer.write(chunk)
     sys.stdout.buffer.flush()
@@ -52,7 +58,7 @@ def start_line(line, arguments):
     mcs = line.start_mcs(
         PLANS, "--repeat", arguments.plans, "--fresh-ids", "--live", "always" if live else "never",
         *(["--keep"] if arguments.keep else []), *(["--wait-for-enter"] if wait else []),
-        on_output=forward, stdin=subprocess.PIPE if wait else subprocess.DEVNULL)
+        environment=terminal_environment(), on_output=forward, stdin=subprocess.PIPE if wait else subprocess.DEVNULL)
     mcs_address = mcs.wait_ready()["ws"]
     acsd = line.start_acsd(mcs_address, arm.wait_ready())
     acsd.wait_ready()
