@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace ACS::Planning
+{
+
+/// The state of a step (section 7 of MCS-ACS).
+enum class EStepState : std::uint8_t
+{
+    Pending,    ///< Not begun.
+    Dispatched, ///< Given to the robot.
+    InProgress, ///< The robot moves or works for it.
+    Completed,  ///< Final: all its jobs are done.
+    Failed,     ///< Final.
+    Skipped,    ///< Final: left out by an operator.
+};
+
+/// The word of section 3 ("Dispatched").
+[[nodiscard]] std::string_view GetText(EStepState value) noexcept;
+
+} // namespace ACS::Planning

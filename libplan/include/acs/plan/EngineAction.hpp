@@ -1,0 +1,110 @@
+#pragma once
+
+#include <acs/core/Now.hpp>
+#include <acs/plan/IPlanStore.hpp>
+#include <acs/plan/PlanCommand.hpp>
+#include <acs/plan/Report.hpp>
+#include <acs/plan/RobotCommand.hpp>
+#include <acs/plan/RobotStatus.hpp>
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+enum class EEngineTimer : std::uint8_t
+{
+    Dispatch,       ///< Look for work for the robots.
+    StoreRetry,     ///< Try again to store what could not be stored.
+    Acknowledged,   ///< Store which reports were acknowledged.
+    DriveExtension, ///< Of a robot: its drive has not been confirmed, release the next nodes anyway.
+    ControlConfirm, ///< Of a robot: it has not confirmed that it stopped.
+    JobTimeout,     ///< Of a robot: its job takes too long.
+    HomeRetry,      ///< Of a robot: try again to send it home.
+};
+
+/// One timer; of a robot or, with an empty robotID, of the engine.
+struct EngineTimer
+{
+    EEngineTimer kind = EEngineTimer::Dispatch;
+    std::string robotID;
+
+    bool operator==(const EngineTimer&) const = default;
+    auto operator<=>(const EngineTimer&) const = default;
+};
+
+/// Append the batch to the store, as one transaction, and go on with the next action only when it is on disk. On
+/// failure leave out all further actions of this call and hand them to PlanEngine::OnStoreFailed.
+struct StorePlans
+{
+    StoreBatch batch;
+
+    bool operator==(const StorePlans&) const = default;
+};
+
+/// The answer to SubmitPlan or ControlPlan: the Ack.
+struct ReplyCommand
+{
+    ReplyToken replyToken = 0;
+    bool bAccepted = false;
+    std::string message;
+
+    bool operator==(const ReplyCommand&) const = default;
+};
+
+/// Send the report, now or when the MCS is there again; tell MessageAcknowledged when it is acknowledged. Also kept:
+/// see PlanEngine::GetUnacknowledged.
+struct SendReport
+{
+    OutboxEntry entry;
+
+    bool operator==(const SendReport&) const = default;
+};
+
+struct CommandRobot
+{
+    std::string robotID;
+    RobotCommand command;
+
+    bool operator==(const CommandRobot&) const = default;
+};
+
+/// Something in the robot's status has changed (RobotStatusUpdate). Not stored: only the latest counts.
+struct RobotStatusChanged
+{
+    RobotStatus status;
+
+    bool operator==(const RobotStatusChanged&) const = default;
+};
+
+/// Call PlanEngine::OnTimer after the delay (zero: as soon as possible, but not inside this call). A running timer of
+/// this name starts again.
+struct StartEngineTimer
+{
+    EngineTimer timer;
+    Core::Duration delay{};
+
+    bool operator==(const StartEngineTimer&) const = default;
+};
+
+struct CancelEngineTimer
+{
+    EngineTimer timer;
+
+    bool operator==(const CancelEngineTimer&) const = default;
+};
+
+using EngineAction = std::variant<
+    StorePlans,
+    ReplyCommand,
+    SendReport,
+    CommandRobot,
+    RobotStatusChanged,
+    StartEngineTimer,
+    CancelEngineTimer>;
+using EngineActions = std::vector<EngineAction>;
+
+} // namespace ACS::Planning

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <acs/core/Location.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/core/Result.hpp>
+#include <acs/core/RobotID.hpp>
+#include <acs/plan/ERobotType.hpp>
+#include <acs/plan/SiteMap.hpp>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+/// What the from or the to of a job must be.
+enum class EPlaceRule : std::uint8_t
+{
+    None,          ///< Nothing; what is given is ignored.
+    FixedCassette, ///< A cassette port of the site.
+    FixedTray,     ///< A tray port of the site.
+    RobotCassette, ///< A cassette port of the robot.
+    RobotTray,     ///< A tray port of the robot.
+    Memory,        ///< A memory port, of the site or in a tray on the robot.
+};
+
+/// What a finished job does to the robot's ports.
+enum class EActionEffect : std::uint8_t
+{
+    None,
+    Load,   ///< The port in to has the carrier.
+    Unload, ///< The port in from is empty.
+};
+
+/// One action of the MCS (section 4.1 of MCS-ACS).
+struct ActionRule
+{
+    ERobotType robotType = ERobotType::LR;
+    EPlaceRule from = EPlaceRule::None;
+    EPlaceRule to = EPlaceRule::None;
+    EActionEffect effect = EActionEffect::None;
+    bool bJobsRequired = false;           ///< Whether a step without jobs is refused.
+    std::chrono::milliseconds timeout{0}; ///< A job that takes longer has failed; 0: no limit.
+
+    bool operator==(const ActionRule&) const = default;
+};
+
+using ActionTable = std::map<std::string, ActionRule, std::less<>>;
+
+/// The eight actions of the document with its rules.
+[[nodiscard]] ActionTable MakeStandardActions();
+
+struct RobotOptions
+{
+    Core::RobotID robotID;
+    ERobotType type = ERobotType::LR;
+    std::string vehicleTypeID;              ///< Of the map: which nodes and edges it may use.
+    std::optional<std::string> startNodeID; ///< Held for it until it tells where it stands.
+    std::optional<std::string>
+        homeStationID;                      ///< Where it goes when it has no work or stands in the way; one robot each.
+    std::vector<Core::Location> ports;      ///< Its carrier ports ("LR01.CP01"), in the order of carrierIds.
+    std::vector<Core::Location> childPorts; ///< Places inside its carriers ("CR01.TP01.MP01").
+    std::vector<std::string> rejectedActions; ///< Actions of its type that it cannot do (IRobotAdapter).
+};
+
+/// Everything that the engine is told at its start.
+struct EngineOptions
+{
+    std::vector<RobotOptions> robots;
+    ActionTable actions = MakeStandardActions();
+    std::vector<Core::Location> places; ///< Ports inside stations ("A01.CP01.TP01"); stations are known from the map.
+
+    std::size_t maximumPlans = 100; ///< Plans that are not finished; one more is refused.
+    std::int32_t defaultPriority = 0;
+    std::size_t baseLength = 3;                       ///< Nodes that a robot is released ahead; at least 1.
+    std::chrono::milliseconds extensionDelay{2'000};  ///< A drive that is not confirmed is extended after this.
+    std::chrono::milliseconds controlTimeout{30'000}; ///< For a robot to confirm that it stopped.
+    std::chrono::milliseconds homeRetry{5'000};       ///< Between attempts of a robot that refuses to drive home.
+    std::chrono::milliseconds storeRetry{1'000};
+    std::chrono::milliseconds acknowledgedDelay{200}; ///< Acknowledgements that are stored together.
+    std::size_t finishedPlansKept = 1'000;            ///< In memory, for history and against a planID that comes twice.
+};
+
+/// Every mistake of the options at once, each with a path ("robots.LR01.home"); empty where there is none. The engine
+/// takes only options without mistakes.
+[[nodiscard]] std::vector<Core::Error> FindMistakes(const EngineOptions& options, const SiteMap& site);
+
+} // namespace ACS::Planning

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <acs/core/Result.hpp>
+#include <acs/plan/PlanRecord.hpp>
+#include <acs/plan/Report.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+/// A plan was accepted.
+struct PlanAdded
+{
+    PlanRecord record;
+
+    bool operator==(const PlanAdded&) const = default;
+};
+
+/// The states of a plan changed; the plan itself never does.
+struct PlanProgressed
+{
+    std::string planID;
+    PlanProgress progress;
+
+    bool operator==(const PlanProgressed&) const = default;
+};
+
+/// A report waits for its acknowledgement.
+struct ReportAdded
+{
+    OutboxEntry entry;
+
+    bool operator==(const ReportAdded&) const = default;
+};
+
+/// A report was acknowledged.
+struct ReportRemoved
+{
+    std::uint64_t sequence = 0;
+
+    bool operator==(const ReportRemoved&) const = default;
+};
+
+/// What a robot has on its ports.
+struct CarriersChanged
+{
+    std::string robotID;
+    std::vector<std::optional<std::string>> carrierIDs; ///< One per port.
+
+    bool operator==(const CarriersChanged&) const = default;
+};
+
+struct AlarmSet
+{
+    Alarm alarm;
+
+    bool operator==(const AlarmSet&) const = default;
+};
+
+struct AlarmCleared
+{
+    Alarm alarm; ///< Its identity counts (Alarm::IsSameAs).
+
+    bool operator==(const AlarmCleared&) const = default;
+};
+
+using StoreChange =
+    std::variant<PlanAdded, PlanProgressed, ReportAdded, ReportRemoved, CarriersChanged, AlarmSet, AlarmCleared>;
+
+/// Changes that are stored together or not at all.
+struct StoreBatch
+{
+    std::vector<StoreChange> changes;
+
+    bool operator==(const StoreBatch&) const = default;
+};
+
+/// Everything that a store holds.
+struct StoredState
+{
+    std::vector<PlanRecord> plans;        ///< By ascending sequence; finished ones too.
+    std::vector<OutboxEntry> outbox;      ///< By ascending sequence.
+    std::uint64_t lastReportSequence = 0; ///< The highest ever given, acknowledged reports included.
+    std::vector<CarriersChanged> carriers;
+    std::vector<Alarm> alarms;
+
+    bool operator==(const StoredState&) const = default;
+};
+
+/// Where plans survive. Used by one thread; a call returns when the work is done.
+class IPlanStore
+{
+public:
+    IPlanStore() = default;
+    IPlanStore(const IPlanStore&) = delete;
+    IPlanStore& operator=(const IPlanStore&) = delete;
+    virtual ~IPlanStore() = default;
+
+    /// Everything stored. Errors: EPlanningError::StoreCorrupt, StoreFailed.
+    [[nodiscard]] virtual Core::Result<StoredState> Load() = 0;
+
+    /// All changes as one transaction, on disk on return; on error none of them. Errors: EPlanningError::StoreFailed.
+    [[nodiscard]] virtual Core::Result<void> Append(const StoreBatch& batch) = 0;
+};
+
+} // namespace ACS::Planning

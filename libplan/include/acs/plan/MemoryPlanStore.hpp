@@ -1,0 +1,20 @@
+#pragma once
+
+#include <acs/plan/IPlanStore.hpp>
+
+namespace ACS::Planning
+{
+
+/// Keeps everything in memory: for tests, examples and engines that need not survive. Never fails.
+class MemoryPlanStore final : public IPlanStore
+{
+    StoredState _state;
+
+public:
+    [[nodiscard]] Core::Result<StoredState> Load() override;
+    [[nodiscard]] Core::Result<void> Append(const StoreBatch& batch) override;
+
+    [[nodiscard]] const StoredState& GetState() const noexcept;
+};
+
+} // namespace ACS::Planning

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <acs/core/IRandom.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/plan/EngineAction.hpp>
+#include <acs/plan/EngineOptions.hpp>
+#include <acs/plan/IPlanObserver.hpp>
+#include <acs/plan/IPlanStore.hpp>
+#include <acs/plan/PlanCommand.hpp>
+#include <acs/plan/PlanRecord.hpp>
+#include <acs/plan/RobotEvent.hpp>
+#include <acs/plan/RobotStatus.hpp>
+#include <acs/plan/SiteMap.hpp>
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+/// Takes plans, chooses robots, drives them, has their jobs done and reports everything once and in order. Pure: no I/O,
+/// no clock, no thread; one thread at a time calls it. Every call appends actions to out, which the caller owns and
+/// executes strictly in order before the next call; see EngineAction.hpp for what each demands.
+///
+/// One call makes at most one StorePlans, and it is the first action that matters to others: what follows it (the reply,
+/// reports, commands) is told only once the state behind it is stored. A submitted plan is started by a later call
+/// (EEngineTimer::Dispatch), so that its refusal for a failed store leaves no trace.
+///
+/// Traffic: a node is held by one robot at a time. A drive is begun only when every node of its way is free, and takes
+/// them all at once; a node is given back when the robot has told of the next one. So a waiting robot always stands at
+/// the end of a way, and robots under way never wait for one another. Robots that wait for each other's places in a
+/// circle are parted by sending one of them home first.
+class PlanEngine
+{
+    class Impl;
+    std::unique_ptr<Impl> _impl;
+
+public:
+    /// The options must be without mistakes (FindMistakes). The random source makes transactionIDs and driveIDs; it
+    /// must outlive the engine.
+    PlanEngine(EngineOptions options, SiteMap site, Core::IRandom& random);
+    PlanEngine(const PlanEngine&) = delete;
+    PlanEngine& operator=(const PlanEngine&) = delete;
+    ~PlanEngine();
+
+    /// The observer must outlive the engine. At most one; call before anything else.
+    void SetObserver(IPlanObserver& observer);
+
+    /// Once, before any command or event: what the store held. Pending plans go on. Plans that were being worked on are
+    /// Failed, with a heavy alarm each, because nobody saw what became of the running job. Unacknowledged reports are
+    /// in GetUnacknowledged.
+    void Restore(StoredState state, Core::Now now, EngineActions& out);
+
+    void Handle(const PlanCommand& command, Core::Now now, EngineActions& out);
+
+    /// Events of robots that are not configured are ignored.
+    void Handle(std::string_view robotID, const RobotEvent& event, Core::Now now, EngineActions& out);
+
+    void OnTimer(const EngineTimer& timer, Core::Now now, EngineActions& out);
+
+    /// The batch could not be stored; skipped are the actions that stood behind it. Plans in it are refused, running ones
+    /// go on: commands are given again in out, reports are held back until the store works again.
+    void OnStoreFailed(
+        const StoreBatch& batch,
+        std::span<const EngineAction> skipped,
+        std::string_view reason,
+        Core::Now now,
+        EngineActions& out);
+
+    /// Reports that the MCS has not acknowledged, oldest first: what is sent again after a registration. Those that are
+    /// held back for a failing store are not in it.
+    [[nodiscard]] std::vector<OutboxEntry> GetUnacknowledged() const;
+
+    /// One per configured robot, in the order of the options.
+    [[nodiscard]] std::vector<RobotStatus> GetRobotStatuses() const;
+
+    /// Of the robots that have told their position.
+    [[nodiscard]] std::vector<RobotPose> GetRobotPoses() const;
+
+    /// In progress, then paused, then pending, each in the order of the queue.
+    [[nodiscard]] std::vector<PlanSummary> GetActivePlans() const;
+
+    /// nullopt where the plan is not known (any more).
+    [[nodiscard]] std::optional<PlanSummary> GetPlanOrNull(std::string_view planID) const;
+
+    [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;
+};
+
+} // namespace ACS::Planning

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <acs/plan/EJobState.hpp>
+#include <acs/plan/EPlanState.hpp>
+#include <acs/plan/EStepState.hpp>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace ACS::Planning
+{
+
+template <typename TState>
+struct Transition
+{
+    TState from;
+    TState to;
+};
+
+/// Every change of state that section 7 of MCS-ACS allows. The only truth: the engine changes no state but through it.
+inline constexpr std::array PLAN_TRANSITIONS{
+    Transition<EPlanState>{EPlanState::Pending, EPlanState::InProgress},
+    Transition<EPlanState>{EPlanState::Pending, EPlanState::Paused},
+    Transition<EPlanState>{EPlanState::Pending, EPlanState::Cancelled},
+    Transition<EPlanState>{EPlanState::Pending, EPlanState::Aborted},
+    Transition<EPlanState>{EPlanState::InProgress, EPlanState::Completed},
+    Transition<EPlanState>{EPlanState::InProgress, EPlanState::Failed},
+    Transition<EPlanState>{EPlanState::InProgress, EPlanState::Cancelled},
+    Transition<EPlanState>{EPlanState::InProgress, EPlanState::Aborted},
+    Transition<EPlanState>{EPlanState::InProgress, EPlanState::Paused},
+    Transition<EPlanState>{EPlanState::Paused, EPlanState::InProgress},
+    Transition<EPlanState>{EPlanState::Paused, EPlanState::Pending},
+    Transition<EPlanState>{EPlanState::Paused, EPlanState::Aborted},
+};
+
+inline constexpr std::array STEP_TRANSITIONS{
+    Transition<EStepState>{EStepState::Pending, EStepState::Dispatched},
+    Transition<EStepState>{EStepState::Pending, EStepState::Skipped},
+    Transition<EStepState>{EStepState::Dispatched, EStepState::InProgress},
+    Transition<EStepState>{EStepState::Dispatched, EStepState::Failed},
+    Transition<EStepState>{EStepState::InProgress, EStepState::Completed},
+    Transition<EStepState>{EStepState::InProgress, EStepState::Failed},
+};
+
+inline constexpr std::array JOB_TRANSITIONS{
+    Transition<EJobState>{EJobState::Pending, EJobState::Instructed},
+    Transition<EJobState>{EJobState::Instructed, EJobState::InProgress},
+    Transition<EJobState>{EJobState::Instructed, EJobState::Failed},
+    Transition<EJobState>{EJobState::InProgress, EJobState::Completed},
+    Transition<EJobState>{EJobState::InProgress, EJobState::Failed},
+};
+
+template <typename TState>
+[[nodiscard]] constexpr bool ContainsTransition(
+    std::span<const Transition<TState>> transitions,
+    TState from,
+    TState to) noexcept
+{
+    return std::ranges::any_of(transitions, [from, to](const Transition<TState>& transition) {
+        return transition.from == from && transition.to == to;
+    });
+}
+
+[[nodiscard]] constexpr bool CanChange(EPlanState from, EPlanState to) noexcept
+{
+    return ContainsTransition<EPlanState>(PLAN_TRANSITIONS, from, to);
+}
+
+[[nodiscard]] constexpr bool CanChange(EStepState from, EStepState to) noexcept
+{
+    return ContainsTransition<EStepState>(STEP_TRANSITIONS, from, to);
+}
+
+[[nodiscard]] constexpr bool CanChange(EJobState from, EJobState to) noexcept
+{
+    return ContainsTransition<EJobState>(JOB_TRANSITIONS, from, to);
+}
+
+/// Whether no transition leaves the state: a plan in it is never reported again.
+[[nodiscard]] constexpr bool IsFinal(EPlanState state) noexcept
+{
+    return std::ranges::none_of(PLAN_TRANSITIONS, [state](const Transition<EPlanState>& transition) {
+        return transition.from == state;
+    });
+}
+
+[[nodiscard]] constexpr bool IsFinal(EStepState state) noexcept
+{
+    return std::ranges::none_of(STEP_TRANSITIONS, [state](const Transition<EStepState>& transition) {
+        return transition.from == state;
+    });
+}
+
+[[nodiscard]] constexpr bool IsFinal(EJobState state) noexcept
+{
+    return std::ranges::none_of(JOB_TRANSITIONS, [state](const Transition<EJobState>& transition) {
+        return transition.from == state;
+    });
+}
+
+} // namespace ACS::Planning

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <acs/core/Now.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+/// A node on the way, as the robot's vehicle type sees it.
+struct RouteNode
+{
+    std::string nodeID;
+    double x = 0;                ///< Metres.
+    double y = 0;                ///< Metres.
+    std::optional<double> theta; ///< Radians; absent: any.
+    std::string mapID;           ///< May be empty.
+
+    bool operator==(const RouteNode&) const = default;
+};
+
+/// An edge on the way, as the robot's vehicle type sees it.
+struct RouteEdge
+{
+    std::string edgeID;
+    std::string startNodeID;
+    std::string endNodeID;
+    double length = 0;                      ///< Metres, as the crow flies.
+    std::optional<double> maxSpeed;         ///< Metres per second.
+    std::optional<double> maxRotationSpeed; ///< Radians per second.
+    std::optional<double> orientation;      ///< Radians; how the vehicle is turned while it drives along the edge.
+    std::string orientationType;            ///< "TANGENTIAL" or "GLOBAL"; empty: not given.
+    std::optional<bool> bRotationAllowed;
+
+    bool operator==(const RouteEdge&) const = default;
+};
+
+/// A way: edge i leads from node i to node i + 1.
+struct Route
+{
+    std::vector<RouteNode> nodes;
+    std::vector<RouteEdge> edges;
+    double travelSeconds = 0;
+
+    bool operator==(const Route&) const = default;
+};
+
+/// Drive along the route, whose first node is where the robot stands. It may go up to the last released node (the
+/// base) and will be given more (the rest is the horizon).
+struct Drive
+{
+    std::string driveID;           ///< A UUID; never used twice.
+    Route route;                   ///< Two nodes or more.
+    std::size_t releasedCount = 0; ///< Nodes released from the start on; 1 up to the number of nodes - 1.
+
+    bool operator==(const Drive&) const = default;
+};
+
+/// The base of the present drive has grown.
+struct ExtendDrive
+{
+    std::string driveID;
+    std::size_t releasedCount = 0;
+
+    bool operator==(const ExtendDrive&) const = default;
+};
+
+/// Stop, answered by DriveCancelled (or Arrived, where it was too late).
+struct CancelDrive
+{
+    std::string driveID;
+
+    bool operator==(const CancelDrive&) const = default;
+};
+
+/// Do a job here. All locations are canonical and name the robot itself ("LR01.CP01", never "AMR.CP01").
+struct StartJob
+{
+    std::string planID;
+    std::int32_t stepNo = 0;
+    std::string jobID; ///< Where the plan gave the step no job, one that the engine made: the MCS does not know it.
+    std::string action;
+    std::string position; ///< The station where the robot stands.
+    std::optional<std::string> from;
+    std::optional<std::string> to;
+    std::optional<std::string> carrierID;
+
+    bool operator==(const StartJob&) const = default;
+};
+
+/// Give the job up; answered by JobFailed or, where it was too late, JobFinished.
+struct CancelJob
+{
+    std::string jobID;
+
+    bool operator==(const CancelJob&) const = default;
+};
+
+/// Stop as soon as possible and stay able to go on; the state shows bPaused.
+struct Pause
+{
+    bool operator==(const Pause&) const = default;
+};
+
+struct Resume
+{
+    bool operator==(const Resume&) const = default;
+};
+
+/// What the engine asks of a robot. One drive or one job at a time, never both.
+using RobotCommand = std::variant<Drive, ExtendDrive, CancelDrive, StartJob, CancelJob, Pause, Resume>;
+
+} // namespace ACS::Planning

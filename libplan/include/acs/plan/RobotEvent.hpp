@@ -1,0 +1,121 @@
+#pragma once
+
+#include <acs/plan/EAlarmLevel.hpp>
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+/// An error that a robot has at present.
+struct RobotError
+{
+    std::string errorCode;                  ///< As the MCS will see it ("AGV-…", "ARM-…").
+    EAlarmLevel level = EAlarmLevel::Light; ///< Heavy: the robot takes no work while it lasts.
+    std::string message;
+
+    bool operator==(const RobotError&) const = default;
+};
+
+/// The robot has come into reach or gone out of it. A new link says nothing about the robot's place.
+struct LinkChanged
+{
+    bool bOnline = false;
+
+    bool operator==(const LinkChanged&) const = default;
+};
+
+/// The robot's present state; raised on every change, as often as the robot tells.
+struct StateChanged
+{
+    double x = 0;              ///< Metres.
+    double y = 0;              ///< Metres.
+    double theta = 0;          ///< Radians.
+    bool bPoseKnown = false;   ///< Whether x, y and theta say anything (localised).
+    double batteryPercent = 0; ///< 0 to 100.
+    std::string lastNodeID;    ///< The node it stands on or has passed last; empty: not known.
+    bool bDriving = false;
+    bool bCharging = false;
+    bool bPaused = false;
+    bool bAutomatic = true;   ///< Under our control: VDA5050 AUTOMATIC or SEMIAUTOMATIC, Hi6 remote and automatic.
+    bool bSafetyStop = false; ///< Emergency stop or protective field.
+    std::vector<RobotError> errors; ///< All that are active.
+
+    bool operator==(const StateChanged&) const = default;
+};
+
+/// The robot has passed or reached a node of the drive. Raised once for every node in the order of the route, the
+/// first one included: that one as soon as the robot has accepted the drive. The last one before Arrived.
+struct NodePassed
+{
+    std::string driveID;
+    std::string nodeID;
+
+    bool operator==(const NodePassed&) const = default;
+};
+
+/// The robot stands on the last node of the drive.
+struct Arrived
+{
+    std::string driveID;
+
+    bool operator==(const Arrived&) const = default;
+};
+
+/// The robot does not do the drive, or gave it up: it stands where it stands.
+struct DriveRejected
+{
+    std::string driveID;
+    std::string reason;
+
+    bool operator==(const DriveRejected&) const = default;
+};
+
+/// The answer to CancelDrive: the robot stands, on the node or past it. Arrived instead: it was too late.
+struct DriveCancelled
+{
+    std::string driveID;
+    std::string nodeID; ///< The last node of the drive that it passed or stands on.
+
+    bool operator==(const DriveCancelled&) const = default;
+};
+
+struct JobStarted
+{
+    std::string jobID;
+
+    bool operator==(const JobStarted&) const = default;
+};
+
+/// May come without JobStarted before it.
+struct JobFinished
+{
+    std::string jobID;
+
+    bool operator==(const JobFinished&) const = default;
+};
+
+struct JobFailed
+{
+    std::string jobID;
+    std::string reason;
+
+    bool operator==(const JobFailed&) const = default;
+};
+
+/// What an adapter tells the engine about its robot. What does not belong to the present drive or job is ignored, so
+/// an adapter may repeat itself.
+using RobotEvent = std::variant<
+    LinkChanged,
+    StateChanged,
+    NodePassed,
+    Arrived,
+    DriveRejected,
+    DriveCancelled,
+    JobStarted,
+    JobFinished,
+    JobFailed>;
+
+} // namespace ACS::Planning
