@@ -3,6 +3,7 @@
 #include <acs/core/Result.hpp>
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -94,6 +95,10 @@ class SiteMap
     Index _stationIndices;
 
     SiteMap() = default;
+
+    [[nodiscard]] Core::Result<void> IndexNodes();
+    [[nodiscard]] Core::Result<void> CheckEdges() const;
+    [[nodiscard]] Core::Result<void> IndexStations();
 
 public:
     /// Errors: EPlanningError::InvalidSite, with the path "nodes[3].nodeId" and so on.

@@ -1,0 +1,160 @@
+#include <acs/plan/EngineOptions.hpp>
+#include <acs/plan/EPlanningError.hpp>
+
+#include <fmt/format.h>
+
+#include <set>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+namespace
+{
+
+class MistakeFinder
+{
+    const SiteMap& _site;
+    std::vector<Core::Error> _mistakes;
+    std::set<std::string> _robotIDs;
+    std::set<std::string> _homes;
+    std::set<std::string> _starts;
+
+public:
+    explicit MistakeFinder(const SiteMap& site)
+        : _site(site)
+    {
+    }
+
+    void Add(std::string path, std::string expected, std::string found)
+    {
+        _mistakes.push_back(
+            {make_error_code(EPlanningError::InvalidOptions), std::move(path), std::move(expected), std::move(found)});
+    }
+
+    void Check(const RobotOptions& robot)
+    {
+        const std::string path = "robots." + robot.robotID.GetText();
+        if (robot.robotID.IsAlias() || !_robotIDs.insert(robot.robotID.GetText()).second)
+        {
+            Add(path, "a name that no other robot has", robot.robotID.GetText());
+        }
+        const bool bTypeKnown = _site.HasVehicleType(robot.vehicleTypeID);
+        if (!bTypeKnown)
+        {
+            Add(path + ".vehicle_type", "a vehicle type of the site map", robot.vehicleTypeID);
+        }
+        if (robot.startNodeID.has_value())
+        {
+            CheckStart(path + ".start_node", robot, bTypeKnown);
+        }
+        if (robot.homeStationID.has_value())
+        {
+            CheckHome(path + ".home", robot, bTypeKnown);
+        }
+        CheckPorts(path + ".ports", robot, robot.ports);
+        CheckPorts(path + ".child_ports", robot, robot.childPorts);
+    }
+
+    [[nodiscard]] std::vector<Core::Error> TakeMistakes()
+    {
+        return std::move(_mistakes);
+    }
+
+private:
+    [[nodiscard]] bool CanUse(const std::string& nodeID, const RobotOptions& robot) const
+    {
+        const SiteNode* nodeOrNull = _site.FindNodeOrNull(nodeID);
+        return nodeOrNull != nullptr && nodeOrNull->FindRuleOrNull(robot.vehicleTypeID) != nullptr;
+    }
+
+    void CheckStart(std::string path, const RobotOptions& robot, bool bTypeKnown)
+    {
+        if (bTypeKnown && !CanUse(*robot.startNodeID, robot))
+        {
+            Add(std::move(path), "a node of the site map that its vehicle type may use", *robot.startNodeID);
+        }
+        else if (!_starts.insert(*robot.startNodeID).second)
+        {
+            Add(std::move(path), "a node where no other robot starts", *robot.startNodeID);
+        }
+    }
+
+    void CheckHome(std::string path, const RobotOptions& robot, bool bTypeKnown)
+    {
+        const SiteStation* stationOrNull = _site.FindStationOrNull(*robot.homeStationID);
+        if (stationOrNull == nullptr)
+        {
+            Add(std::move(path), "a station of the site map", *robot.homeStationID);
+        }
+        else if (bTypeKnown && !CanUse(stationOrNull->nodeIDs.front(), robot))
+        {
+            Add(std::move(path), "a station whose node its vehicle type may use", *robot.homeStationID);
+        }
+        else if (!_homes.insert(stationOrNull->nodeIDs.front()).second)
+        {
+            Add(std::move(path), "a station that is home to no other robot", *robot.homeStationID);
+        }
+    }
+
+    void CheckPorts(const std::string& path, const RobotOptions& robot, const std::vector<Core::Location>& ports)
+    {
+        std::set<std::string> known;
+        for (const Core::Location& port : ports)
+        {
+            if (!port.IsRobotPort() || port.GetRobotOrNull() != robot.robotID || !known.insert(port.GetText()).second)
+            {
+                Add(path, "ports of this robot, each once", port.GetText());
+            }
+        }
+    }
+};
+
+ActionRule MakeRule(ERobotType type, EPlaceRule from, EPlaceRule to, EActionEffect effect)
+{
+    ActionRule rule;
+    rule.robotType = type;
+    rule.from = from;
+    rule.to = to;
+    rule.effect = effect;
+    rule.bJobsRequired = from != EPlaceRule::None;
+    return rule;
+}
+
+} // namespace
+
+ActionTable MakeStandardActions()
+{
+    using enum EPlaceRule;
+    const ActionRule plain = MakeRule(ERobotType::CR, None, None, EActionEffect::None);
+    return {
+        {"CassetteLoad", MakeRule(ERobotType::LR, FixedCassette, RobotCassette, EActionEffect::Load)},
+        {"CassetteUnload", MakeRule(ERobotType::LR, RobotCassette, FixedCassette, EActionEffect::Unload)},
+        {"TrayLoad", MakeRule(ERobotType::CR, FixedTray, RobotTray, EActionEffect::Load)},
+        {"TrayUnload", MakeRule(ERobotType::CR, RobotTray, FixedTray, EActionEffect::Unload)},
+        {"MemoryPickAndPlace", MakeRule(ERobotType::CR, Memory, Memory, EActionEffect::None)},
+        {"OpenSetCover", plain},
+        {"CloseSetCover", plain},
+        {"Start", plain},
+    };
+}
+
+std::vector<Core::Error> FindMistakes(const EngineOptions& options, const SiteMap& site)
+{
+    MistakeFinder finder(site);
+    for (const RobotOptions& robot : options.robots)
+    {
+        finder.Check(robot);
+    }
+    if (options.baseLength == 0)
+    {
+        finder.Add("traffic.base_length", "at least 1", "0");
+    }
+    if (options.maximumPlans == 0)
+    {
+        finder.Add("queue.max_plans", "at least 1", "0");
+    }
+    return finder.TakeMistakes();
+}
+
+} // namespace ACS::Planning

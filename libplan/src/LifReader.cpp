@@ -1,0 +1,252 @@
+#include <acs/core/ECoreError.hpp>
+#include <acs/json/JsonDecoder.hpp>
+#include <acs/json/JsonDocument.hpp>
+#include <acs/plan/LifReader.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+namespace
+{
+
+constexpr double HALF_TURN_DEGREES = 180.0;
+constexpr double FULL_TURN_DEGREES = 360.0;
+/// Files round half a turn up (3.1416).
+constexpr double MAXIMUM_THETA = 3.1416;
+constexpr std::size_t MAXIMUM_NAME = 256;
+constexpr std::size_t MAXIMUM_ELEMENTS = 100'000;
+constexpr std::size_t MAXIMUM_BYTES = 64U * 1024U * 1024U;
+
+struct LifMeta
+{
+    std::string projectIdentification;
+    std::string creator;
+    std::string exportTimestamp;
+    std::string lifVersion;
+};
+
+struct LifPosition
+{
+    double x = 0;
+    double y = 0;
+};
+
+struct LifNode
+{
+    std::string nodeID;
+    std::string mapID;
+    LifPosition position;
+    std::vector<SiteNodeRule> rules;
+};
+
+struct LifLayout
+{
+    std::string layoutID;
+    std::string layoutVersion;
+    std::vector<LifNode> nodes;
+    std::vector<SiteEdge> edges;
+    std::vector<SiteStation> stations;
+};
+
+struct LifFile
+{
+    LifMeta meta;
+    std::vector<LifLayout> layouts;
+};
+
+double ToRadians(double degrees)
+{
+    const double turned = degrees > HALF_TURN_DEGREES ? degrees - FULL_TURN_DEGREES : degrees;
+    return turned * std::numbers::pi / HALF_TURN_DEGREES;
+}
+
+/// Where the element of a joined list stood: "edges[3].x" of the second layout was "layouts[1].edges[1].x".
+std::string LocatePath(const std::string& path, const std::vector<std::vector<std::size_t>>& counts)
+{
+    static constexpr std::array<std::string_view, 3> LISTS{"nodes", "edges", "stations"};
+    const std::size_t open = path.find('[');
+    const std::size_t close = path.find(']');
+    if (open == std::string::npos || close == std::string::npos)
+    {
+        return "layouts";
+    }
+    const auto list = std::ranges::find(LISTS, std::string_view(path).substr(0, open));
+    std::size_t index = std::stoul(path.substr(open + 1, close - open - 1));
+    const auto listIndex = static_cast<std::size_t>(list - LISTS.begin());
+    std::size_t layout = 0;
+    while (layout + 1 < counts.size() && index >= counts[layout][listIndex])
+    {
+        index -= counts[layout][listIndex];
+        ++layout;
+    }
+    return fmt::format("layouts[{}].{}[{}]{}", layout, *list, index, path.substr(close + 1));
+}
+
+} // namespace
+
+} // namespace ACS::Planning
+
+namespace ACS::Json
+{
+
+template <>
+struct JsonFields<Planning::LifMeta>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("projectIdentification", &Planning::LifMeta::projectIdentification),
+        Required("creator", &Planning::LifMeta::creator),
+        Required("exportTimestamp", &Planning::LifMeta::exportTimestamp),
+        Required("lifVersion", &Planning::LifMeta::lifVersion));
+};
+
+template <>
+struct JsonFields<Planning::LifPosition>
+{
+    static constexpr auto FIELDS =
+        std::make_tuple(Required("x", &Planning::LifPosition::x), Required("y", &Planning::LifPosition::y));
+};
+
+template <>
+struct JsonFields<Planning::SiteNodeRule>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("vehicleTypeId", &Planning::SiteNodeRule::vehicleTypeID).WithLength(1, Planning::MAXIMUM_NAME),
+        Optional("theta", &Planning::SiteNodeRule::theta).Between(-Planning::MAXIMUM_THETA, Planning::MAXIMUM_THETA));
+};
+
+template <>
+struct JsonFields<Planning::LifNode>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("nodeId", &Planning::LifNode::nodeID).WithLength(1, Planning::MAXIMUM_NAME),
+        Optional("mapId", &Planning::LifNode::mapID),
+        Required("nodePosition", &Planning::LifNode::position),
+        Required("vehicleTypeNodeProperties", &Planning::LifNode::rules));
+};
+
+template <>
+struct JsonFields<Planning::SiteEdgeRule>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("vehicleTypeId", &Planning::SiteEdgeRule::vehicleTypeID).WithLength(1, Planning::MAXIMUM_NAME),
+        Optional("vehicleOrientation", &Planning::SiteEdgeRule::orientation).Between(0, Planning::FULL_TURN_DEGREES),
+        Optional("orientationType", &Planning::SiteEdgeRule::orientationType),
+        Optional("rotationAllowed", &Planning::SiteEdgeRule::bRotationAllowed),
+        Optional("maxSpeed", &Planning::SiteEdgeRule::maxSpeed),
+        Optional("maxRotationSpeed", &Planning::SiteEdgeRule::maxRotationSpeed));
+};
+
+template <>
+struct JsonFields<Planning::SiteEdge>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("edgeId", &Planning::SiteEdge::edgeID).WithLength(1, Planning::MAXIMUM_NAME),
+        Required("startNodeId", &Planning::SiteEdge::startNodeID),
+        Required("endNodeId", &Planning::SiteEdge::endNodeID),
+        Required("vehicleTypeEdgeProperties", &Planning::SiteEdge::rules));
+};
+
+template <>
+struct JsonFields<Planning::SiteStation>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("stationId", &Planning::SiteStation::stationID).WithLength(1, Planning::MAXIMUM_NAME),
+        Required("interactionNodeIds", &Planning::SiteStation::nodeIDs));
+};
+
+template <>
+struct JsonFields<Planning::LifLayout>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("layoutId", &Planning::LifLayout::layoutID),
+        Required("layoutVersion", &Planning::LifLayout::layoutVersion),
+        Required("nodes", &Planning::LifLayout::nodes),
+        Required("edges", &Planning::LifLayout::edges),
+        Required("stations", &Planning::LifLayout::stations));
+};
+
+template <>
+struct JsonFields<Planning::LifFile>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("metaInformation", &Planning::LifFile::meta),
+        Required("layouts", &Planning::LifFile::layouts));
+};
+
+} // namespace ACS::Json
+
+namespace ACS::Planning
+{
+
+Core::Result<SiteMap> DecodeLif(std::string_view text)
+{
+    Json::JsonDocument document;
+    Json::ParseLimits limits;
+    limits.bytes = MAXIMUM_BYTES;
+    const Core::Result<const Json::Value*> root = document.Parse(text, limits);
+    if (!root.has_value())
+    {
+        return tl::unexpected(root.error());
+    }
+    Json::DecodeOptions options;
+    options.maximumArray = MAXIMUM_ELEMENTS;
+    Json::DecodeContext context(options);
+    LifFile file;
+    if (!Json::TryDecode(**root, file, {}, context))
+    {
+        return tl::unexpected(context.TakeError());
+    }
+    if (!file.meta.lifVersion.starts_with("1."))
+    {
+        return Core::Fail(
+            Core::ECoreError::UnknownWord,
+            "metaInformation.lifVersion",
+            "a version 1 of LIF (1.0.0)",
+            file.meta.lifVersion);
+    }
+    std::vector<SiteNode> nodes;
+    std::vector<SiteEdge> edges;
+    std::vector<SiteStation> stations;
+    std::vector<std::vector<std::size_t>> counts;
+    for (LifLayout& layout : file.layouts)
+    {
+        counts.push_back({layout.nodes.size(), layout.edges.size(), layout.stations.size()});
+        for (LifNode& node : layout.nodes)
+        {
+            nodes.push_back(
+                {std::move(node.nodeID),
+                 node.position.x,
+                 node.position.y,
+                 std::move(node.mapID),
+                 std::move(node.rules)});
+        }
+        for (SiteEdge& edge : layout.edges)
+        {
+            for (SiteEdgeRule& rule : edge.rules)
+            {
+                rule.orientation =
+                    rule.orientation.has_value() ? std::optional(ToRadians(*rule.orientation)) : std::nullopt;
+            }
+            edges.push_back(std::move(edge));
+        }
+        std::ranges::move(layout.stations, std::back_inserter(stations));
+    }
+    Core::Result<SiteMap> site = SiteMap::Create(std::move(nodes), std::move(edges), std::move(stations));
+    if (!site.has_value())
+    {
+        site.error().path = LocatePath(site.error().path, counts);
+    }
+    return site;
+}
+
+} // namespace ACS::Planning

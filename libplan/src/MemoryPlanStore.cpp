@@ -1,0 +1,69 @@
+#include <acs/core/Overloaded.hpp>
+#include <acs/plan/MemoryPlanStore.hpp>
+
+#include <algorithm>
+
+namespace ACS::Planning
+{
+
+namespace
+{
+
+void ApplyChange(StoredState& state, const StoreChange& change)
+{
+    std::visit(
+        Core::Overloaded{
+            [&state](const PlanAdded& added) { state.plans.push_back(added.record); },
+            [&state](const PlanProgressed& progressed) {
+                const auto found = std::ranges::find_if(state.plans, [&progressed](const PlanRecord& record) {
+                    return record.plan.planID == progressed.planID;
+                });
+                if (found != state.plans.end())
+                {
+                    found->progress = progressed.progress;
+                }
+            },
+            [&state](const ReportAdded& added) {
+                state.outbox.push_back(added.entry);
+                state.lastReportSequence = std::max(state.lastReportSequence, added.entry.sequence);
+            },
+            [&state](const ReportRemoved& removed) {
+                std::erase_if(state.outbox, [&removed](const OutboxEntry& entry) {
+                    return entry.sequence == removed.sequence;
+                });
+            },
+            [&state](const CarriersChanged& changed) {
+                std::erase_if(state.carriers, [&changed](const CarriersChanged& known) {
+                    return known.robotID == changed.robotID;
+                });
+                state.carriers.push_back(changed);
+            },
+            [&state](const AlarmSet& set) { state.alarms.push_back(set.alarm); },
+            [&state](const AlarmCleared& cleared) {
+                std::erase_if(state.alarms, [&cleared](const Alarm& alarm) { return alarm.IsSameAs(cleared.alarm); });
+            }},
+        change);
+}
+
+} // namespace
+
+Core::Result<StoredState> MemoryPlanStore::Load()
+{
+    return _state;
+}
+
+Core::Result<void> MemoryPlanStore::Append(const StoreBatch& batch)
+{
+    for (const StoreChange& change : batch.changes)
+    {
+        ApplyChange(_state, change);
+    }
+    return {};
+}
+
+const StoredState& MemoryPlanStore::GetState() const noexcept
+{
+    return _state;
+}
+
+} // namespace ACS::Planning

@@ -1,0 +1,429 @@
+#include "PlanAdmission.hpp"
+
+#include <acs/core/ECoreError.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+namespace
+{
+
+using Core::ECoreError;
+
+constexpr std::size_t MAXIMUM_STEPS = 1'000;
+constexpr std::size_t MAXIMUM_JOBS = 1'000;
+
+tl::unexpected<Core::Error> Refuse(ECoreError code, std::string path, std::string expected, std::string found)
+{
+    return Core::Fail(make_error_code(code), std::move(path), std::move(expected), std::move(found));
+}
+
+Core::Result<void> CheckID(const std::string& text, std::string path, bool bMayBeEmpty)
+{
+    if (text.empty() && !bMayBeEmpty)
+    {
+        return Refuse(ECoreError::MissingField, std::move(path), "an id", "nothing");
+    }
+    if (text.size() > MAXIMUM_ID_LENGTH)
+    {
+        return Refuse(
+            ECoreError::InvalidIdentifier,
+            std::move(path),
+            fmt::format("at most {} bytes", MAXIMUM_ID_LENGTH),
+            fmt::format("{} bytes", text.size()));
+    }
+    return {};
+}
+
+std::string_view DescribeRule(EPlaceRule rule)
+{
+    switch (rule)
+    {
+        case EPlaceRule::None:
+            return "nothing";
+        case EPlaceRule::FixedCassette:
+            return "a cassette port of the site (A01.CP01)";
+        case EPlaceRule::FixedTray:
+            return "a tray port of the site (A01.CP01.TP01)";
+        case EPlaceRule::RobotCassette:
+            return "a cassette port of the robot (AMR.CP01)";
+        case EPlaceRule::RobotTray:
+            return "a tray port of the robot (AMR.TP01)";
+        case EPlaceRule::Memory:
+            return "a memory port (A01.SET01.MP01 or AMR.TP01.MP01)";
+        default:
+            return "a place";
+    }
+}
+
+bool Matches(const Core::Location& place, EPlaceRule rule)
+{
+    switch (rule)
+    {
+        case EPlaceRule::None:
+            return true;
+        case EPlaceRule::FixedCassette:
+            return place.IsCassettePort() && !place.IsRobotPort();
+        case EPlaceRule::FixedTray:
+            return place.IsTrayPort() && !place.IsRobotPort();
+        case EPlaceRule::RobotCassette:
+            return place.IsCassettePort() && place.IsRobotPort();
+        case EPlaceRule::RobotTray:
+            return place.IsTrayPort() && place.IsRobotPort();
+        case EPlaceRule::Memory:
+            return place.IsMemoryPort();
+        default:
+            return false;
+    }
+}
+
+std::string ListActions(const ActionTable& actions)
+{
+    std::string list = "one of ";
+    for (const auto& [name, rule] : actions)
+    {
+        list += list.size() > std::string_view("one of ").size() ? ", " : "";
+        list += name;
+    }
+    return list;
+}
+
+} // namespace
+
+void SortSteps(Plan& plan)
+{
+    std::ranges::stable_sort(plan.steps, {}, &Step::stepNo);
+}
+
+PlanAdmission::PlanAdmission(const EngineOptions& options, const SiteMap& site)
+    : _options(options),
+      _site(site),
+      _catalog(site)
+{
+    _catalog.Add(options.places);
+    for (const RobotOptions& robot : options.robots)
+    {
+        _catalog.Add(robot.ports);
+        _catalog.Add(robot.childPorts);
+    }
+}
+
+std::optional<std::size_t> PlanAdmission::FindDockOrNull(std::string_view stationID, std::string_view vehicleTypeID)
+    const
+{
+    const SiteStation* stationOrNull = _site.FindStationOrNull(stationID);
+    if (stationOrNull == nullptr)
+    {
+        return std::nullopt;
+    }
+    for (const std::string& nodeID : stationOrNull->nodeIDs)
+    {
+        const std::size_t node = *_site.FindNodeIndexOrNull(nodeID);
+        if (_site.GetNodes()[node].FindRuleOrNull(vehicleTypeID) != nullptr)
+        {
+            return node;
+        }
+    }
+    return std::nullopt;
+}
+
+Core::Result<ResolvedPlan> PlanAdmission::Resolve(const Plan& plan) const
+{
+    if (Core::Result<void> checked = CheckIDs(plan); !checked.has_value())
+    {
+        return tl::unexpected(std::move(checked.error()));
+    }
+    ResolvedPlan resolved;
+    for (std::size_t i = 0; i < plan.steps.size(); ++i)
+    {
+        Core::Result<ResolvedStep> step = ResolveStep(plan.steps[i], fmt::format("steps[{}]", i));
+        if (!step.has_value())
+        {
+            return tl::unexpected(std::move(step.error()));
+        }
+        resolved.steps.push_back(std::move(*step));
+        const ERobotType first = resolved.steps.front().rule->robotType;
+        if (resolved.steps.back().rule->robotType != first)
+        {
+            return Refuse(
+                ECoreError::UnknownWord,
+                fmt::format("steps[{}].action", i),
+                fmt::format("an action of {} robots, as in the steps before", GetText(first)),
+                plan.steps[i].action);
+        }
+    }
+    if (Core::Result<void> found = FindCandidates(plan, resolved); !found.has_value())
+    {
+        return tl::unexpected(std::move(found.error()));
+    }
+    return resolved;
+}
+
+Core::Result<void> PlanAdmission::CheckIDs(const Plan& plan) const
+{
+    if (Core::Result<void> checked = CheckID(plan.planID, "planId", false); !checked.has_value())
+    {
+        return checked;
+    }
+    if (Core::Result<void> checked = CheckID(plan.lotID, "lotId", true); !checked.has_value())
+    {
+        return checked;
+    }
+    if (plan.steps.empty() || plan.steps.size() > MAXIMUM_STEPS)
+    {
+        return Refuse(
+            ECoreError::OutOfRange,
+            "steps",
+            fmt::format("1 to {} steps", MAXIMUM_STEPS),
+            fmt::format("{}", plan.steps.size()));
+    }
+    std::set<std::string> jobIDs;
+    for (std::size_t i = 0; i < plan.steps.size(); ++i)
+    {
+        const Step& step = plan.steps[i];
+        if (step.stepNo < 1 || (i > 0 && plan.steps[i - 1].stepNo == step.stepNo))
+        {
+            return Refuse(
+                ECoreError::OutOfRange,
+                fmt::format("steps[{}].stepNo", i),
+                "a number from 1, once in the plan",
+                fmt::format("{}", step.stepNo));
+        }
+        for (std::size_t job = 0; job < step.jobs.size(); ++job)
+        {
+            const std::string path = fmt::format("steps[{}].jobs[{}].jobId", i, job);
+            if (Core::Result<void> checked = CheckID(step.jobs[job].jobID, path, false); !checked.has_value())
+            {
+                return checked;
+            }
+            if (!jobIDs.insert(step.jobs[job].jobID).second)
+            {
+                return Refuse(
+                    ECoreError::InvalidIdentifier,
+                    path,
+                    "a jobId that is once in the plan",
+                    step.jobs[job].jobID);
+            }
+        }
+    }
+    return {};
+}
+
+Core::Result<ResolvedStep> PlanAdmission::ResolveStep(const Step& step, const std::string& path) const
+{
+    const auto action = _options.actions.find(step.action);
+    if (action == _options.actions.end())
+    {
+        return Refuse(ECoreError::UnknownWord, path + ".action", ListActions(_options.actions), step.action);
+    }
+    ResolvedStep resolved;
+    resolved.rule = &action->second;
+    const Core::Result<Core::Location> position = ResolvePosition(step.position, path + ".position");
+    if (!position.has_value())
+    {
+        return tl::unexpected(position.error());
+    }
+    resolved.stationID = position->GetText();
+    if (step.jobs.size() > MAXIMUM_JOBS || (step.jobs.empty() && resolved.rule->bJobsRequired))
+    {
+        return Refuse(
+            ECoreError::OutOfRange,
+            path + ".jobs",
+            fmt::format("1 to {} jobs for {}", MAXIMUM_JOBS, step.action),
+            fmt::format("{}", step.jobs.size()));
+    }
+    for (std::size_t i = 0; i < step.carrierIDs.size(); ++i)
+    {
+        if (Core::Result<void> checked = CheckID(step.carrierIDs[i], fmt::format("{}.carrierIds[{}]", path, i), true);
+            !checked.has_value())
+        {
+            return tl::unexpected(std::move(checked.error()));
+        }
+    }
+    for (std::size_t i = 0; i < step.jobs.size(); ++i)
+    {
+        const std::string jobPath = fmt::format("{}.jobs[{}]", path, i);
+        auto from = ResolvePlace(step.jobs[i].from, resolved.rule->from, *position, jobPath + ".from");
+        auto to = ResolvePlace(step.jobs[i].to, resolved.rule->to, *position, jobPath + ".to");
+        if (!from.has_value() || !to.has_value())
+        {
+            return tl::unexpected(std::move(from.has_value() ? to.error() : from.error()));
+        }
+        resolved.jobs.push_back({std::move(*from), std::move(*to)});
+    }
+    return resolved;
+}
+
+Core::Result<Core::Location> PlanAdmission::ResolvePosition(const std::string& text, const std::string& path) const
+{
+    Core::Result<Core::Location> location = Core::Location::Parse(text);
+    if (!location.has_value())
+    {
+        location.error().path = path;
+        return location;
+    }
+    const bool bShortForm = location->GetSegments().front().kind == Core::ESegmentKind::Set;
+    if (bShortForm)
+    {
+        if (std::optional<Core::Location> complete = _catalog.CompleteSetOrNull(*location))
+        {
+            location = std::move(*complete);
+        }
+    }
+    Core::Location dock = location->GetDockingPlace();
+    if (_site.FindStationOrNull(dock.GetText()) == nullptr)
+    {
+        return Refuse(ECoreError::InvalidLocation, path, "a station of this site", text);
+    }
+    return dock;
+}
+
+Core::Result<std::optional<Core::Location>> PlanAdmission::ResolvePlace(
+    const std::optional<std::string>& text,
+    EPlaceRule rule,
+    const Core::Location& position,
+    const std::string& path) const
+{
+    if (rule == EPlaceRule::None)
+    {
+        return std::nullopt;
+    }
+    if (!text.has_value() || text->empty())
+    {
+        return Refuse(ECoreError::MissingField, path, std::string(DescribeRule(rule)), "nothing");
+    }
+    const Core::Result<Core::Location> location = Core::Location::Parse(*text);
+    if (!location.has_value())
+    {
+        Core::Error error = location.error();
+        error.path = path;
+        return tl::unexpected(std::move(error));
+    }
+    Core::Location place = location->WithAreaOf(position);
+    if (Core::Result<void> checked = CheckPlace(place, rule, path); !checked.has_value())
+    {
+        return tl::unexpected(std::move(checked.error()));
+    }
+    return std::optional(std::move(place));
+}
+
+Core::Result<void> PlanAdmission::CheckPlace(const Core::Location& place, EPlaceRule rule, const std::string& path)
+    const
+{
+    if (!Matches(place, rule))
+    {
+        return Refuse(ECoreError::InvalidLocation, path, std::string(DescribeRule(rule)), place.GetOriginalText());
+    }
+    if (!place.IsRobotPort())
+    {
+        return _catalog.Contains(place)
+            ? Core::Result<void>()
+            : Refuse(ECoreError::InvalidLocation, path, "a place of this site", place.GetOriginalText());
+    }
+    const Core::RobotID& named = *place.GetRobotOrNull();
+    const bool bKnown =
+        std::ranges::any_of(_options.robots, [&named](const RobotOptions& robot) { return robot.robotID == named; });
+    if (!named.IsAlias() && !bKnown)
+    {
+        return Refuse(ECoreError::InvalidLocation, path, "a robot of this site", named.GetText());
+    }
+    return {};
+}
+
+Core::Result<void> PlanAdmission::FindCandidates(const Plan& plan, ResolvedPlan& resolved) const
+{
+    std::set<std::string> namedRobots;
+    const auto note = [&namedRobots](const std::optional<Core::Location>& place) {
+        if (place.has_value() && place->IsRobotPort() && !place->GetRobotOrNull()->IsAlias())
+        {
+            namedRobots.insert(place->GetRobotOrNull()->GetText());
+        }
+    };
+    for (const ResolvedStep& step : resolved.steps)
+    {
+        for (const ResolvedJob& job : step.jobs)
+        {
+            note(job.from);
+            note(job.to);
+        }
+    }
+    if (namedRobots.size() > 1)
+    {
+        return Refuse(
+            ECoreError::InvalidLocation,
+            "steps",
+            "ports of one robot",
+            fmt::format("{} and {}", *namedRobots.begin(), *std::next(namedRobots.begin())));
+    }
+    std::string objections;
+    for (std::size_t i = 0; i < _options.robots.size(); ++i)
+    {
+        const std::optional<std::string> objectionOrNull =
+            GetRobotObjectionOrNull(_options.robots[i], plan, resolved, namedRobots);
+        if (!objectionOrNull.has_value())
+        {
+            resolved.candidates.push_back(i);
+            continue;
+        }
+        objections += objections.empty() ? "" : "; ";
+        objections += *objectionOrNull;
+    }
+    if (resolved.candidates.empty())
+    {
+        return Refuse(ECoreError::InvalidLocation, "steps", "work that a robot of this site can do", objections);
+    }
+    return {};
+}
+
+std::optional<std::string> PlanAdmission::GetRobotObjectionOrNull(
+    const RobotOptions& robot,
+    const Plan& plan,
+    const ResolvedPlan& resolved,
+    const std::set<std::string>& namedRobots) const
+{
+    const std::string& name = robot.robotID.GetText();
+    if (!namedRobots.empty() && *namedRobots.begin() != name)
+    {
+        return name + " is not the robot that is named";
+    }
+    if (resolved.steps.front().rule->robotType != robot.type)
+    {
+        return fmt::format("{} is {}", name, GetText(robot.type));
+    }
+    const auto hasPort = [this, &robot](const std::optional<Core::Location>& place) {
+        if (!place.has_value() || !place->IsRobotPort())
+        {
+            return true;
+        }
+        const Core::Result<Core::Location> port = place->WithRobot(robot.robotID);
+        return port.has_value() && _catalog.Contains(*port);
+    };
+    for (std::size_t i = 0; i < resolved.steps.size(); ++i)
+    {
+        const ResolvedStep& step = resolved.steps[i];
+        if (std::ranges::find(robot.rejectedActions, plan.steps[i].action) != robot.rejectedActions.end())
+        {
+            return fmt::format("{} cannot do {}", name, plan.steps[i].action);
+        }
+        if (!FindDockOrNull(step.stationID, robot.vehicleTypeID).has_value())
+        {
+            return fmt::format("{} cannot drive to {}", name, step.stationID);
+        }
+        for (const ResolvedJob& job : step.jobs)
+        {
+            if (!hasPort(job.from) || !hasPort(job.to))
+            {
+                return fmt::format("{} has no {}", name, (hasPort(job.from) ? job.to : job.from)->GetOriginalText());
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace ACS::Planning

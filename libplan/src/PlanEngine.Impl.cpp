@@ -1,0 +1,545 @@
+#include "PlanEngine.Impl.hpp"
+
+#include <acs/core/Overloaded.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <iterator>
+
+namespace ACS::Planning
+{
+
+PlanEngine::Impl::Impl(EngineOptions options, SiteMap site, Core::IRandom& random)
+    : _options(std::move(options)),
+      _site(std::move(site)),
+      _random(random),
+      _router(_site),
+      _admission(_options, _site),
+      _reservations(_site.GetNodes().size())
+{
+    assert(FindMistakes(_options, _site).empty());
+    _robots.resize(_options.robots.size());
+    for (std::size_t i = 0; i < _robots.size(); ++i)
+    {
+        Robot& robot = _robots[i];
+        robot.index = i;
+        robot.options = &_options.robots[i];
+        robot.carriers.resize(robot.options->ports.size());
+        _robotIndices.emplace(GetRobotID(robot), i);
+        if (robot.options->homeStationID.has_value())
+        {
+            robot.homeNode = _admission.FindDockOrNull(*robot.options->homeStationID, robot.options->vehicleTypeID);
+        }
+        if (robot.options->startNodeID.has_value())
+        {
+            const std::vector<std::size_t> start{*_site.FindNodeIndexOrNull(*robot.options->startNodeID)};
+            const bool bClaimed = _reservations.TryClaim(start, i);
+            assert(bClaimed);
+            static_cast<void>(bClaimed);
+        }
+        robot.lastStatus = MakeStatus(robot, DeriveStatus(robot));
+        robot.bTouched = false;
+    }
+}
+
+void PlanEngine::Impl::SetObserver(IPlanObserver& observer)
+{
+    _observerOrNull = &observer;
+}
+
+void PlanEngine::Impl::HandleCommand(const PlanCommand& command, Core::Now now, EngineActions& out)
+{
+    Begin(now);
+    std::visit(
+        Core::Overloaded{
+            [this](const SubmitPlan& submit) { Submit(submit); },
+            [this](const ControlPlan& control) { Control(control); },
+            [this](const MessageAcknowledged& acknowledged) {
+                Acknowledge(acknowledged);
+            }},
+        command);
+    End(out);
+}
+
+void PlanEngine::Impl::HandleEvent(std::string_view robotID, const RobotEvent& event, Core::Now now, EngineActions& out)
+{
+    const auto found = _robotIndices.find(robotID);
+    if (found == _robotIndices.end())
+    {
+        return;
+    }
+    Begin(now);
+    Robot& robot = _robots[found->second];
+    robot.bTouched = true;
+    std::visit(
+        Core::Overloaded{
+            [this, &robot](const LinkChanged& typed) { OnLink(robot, typed); },
+            [this, &robot](const StateChanged& typed) { OnState(robot, typed); },
+            [this, &robot](const NodePassed& typed) { OnNodePassed(robot, typed); },
+            [this, &robot](const Arrived& typed) { OnArrived(robot, typed); },
+            [this, &robot](const DriveRejected& typed) { OnDriveRejected(robot, typed); },
+            [this, &robot](const DriveCancelled& typed) { OnDriveCancelled(robot, typed); },
+            [this, &robot](const JobStarted& typed) { OnJobStarted(robot, typed); },
+            [this, &robot](const JobFinished& typed) { OnJobFinished(robot, typed); },
+            [this, &robot](const JobFailed& typed) {
+                OnJobFailed(robot, typed);
+            }},
+        event);
+    End(out);
+}
+
+void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineActions& out)
+{
+    Begin(now);
+    const auto found = _robotIndices.find(timer.robotID);
+    Robot* robotOrNull = found == _robotIndices.end() ? nullptr : &_robots[found->second];
+    switch (timer.kind)
+    {
+        case EEngineTimer::Dispatch:
+            _bDispatchNeeded = true;
+            break;
+        case EEngineTimer::StoreRetry:
+            break; // The end of the call stores what is left.
+        case EEngineTimer::Acknowledged:
+            std::ranges::move(_acknowledged, std::back_inserter(_changes));
+            _acknowledged.clear();
+            break;
+        case EEngineTimer::DriveExtension:
+            if (robotOrNull != nullptr && robotOrNull->drive.has_value() && !robotOrNull->drive->bConfirmed)
+            {
+                ExtendBase(*robotOrNull);
+            }
+            break;
+        case EEngineTimer::ControlConfirm:
+            if (robotOrNull != nullptr)
+            {
+                OnControlTimeout(*robotOrNull);
+            }
+            break;
+        case EEngineTimer::JobTimeout:
+            if (robotOrNull != nullptr)
+            {
+                OnJobTimeout(*robotOrNull);
+            }
+            break;
+        case EEngineTimer::HomeRetry:
+            if (robotOrNull != nullptr)
+            {
+                robotOrNull->bHomeRefused = false;
+                _bDispatchNeeded = true;
+            }
+            break;
+        default:
+            assert(false && "a timer has no case");
+            break;
+    }
+    End(out);
+}
+
+void PlanEngine::Impl::Begin(Core::Now now)
+{
+    _now = now;
+    _ended.clear();
+    NoteStoreSuccess();
+}
+
+/// One batch for the whole call, then everything that waits for it.
+void PlanEngine::Impl::End(EngineActions& out)
+{
+    if (_bDispatchNeeded)
+    {
+        Dispatch();
+    }
+    TellStatusChanges();
+    std::vector<StoreChange> changes = std::exchange(_unsaved, {});
+    for (const std::string& planID : _progressed)
+    {
+        const auto active = _plans.find(planID);
+        const PlanProgress& progress =
+            active != _plans.end() ? active->second->record.progress : _finished.at(planID).progress;
+        changes.emplace_back(PlanProgressed{planID, progress});
+    }
+    _progressed.clear();
+    std::ranges::move(_changes, std::back_inserter(changes));
+    _changes.clear();
+    if (!changes.empty())
+    {
+        std::ranges::move(_acknowledged, std::back_inserter(changes));
+        _acknowledged.clear();
+        _bStoreAttempted = true;
+        out.emplace_back(StorePlans{StoreBatch{std::move(changes)}});
+        if (_bStoreFailing)
+        {
+            // Whether it works again shows when this call is followed by another.
+            out.emplace_back(StartEngineTimer{{EEngineTimer::StoreRetry, {}}, _options.storeRetry});
+        }
+    }
+    for (OutboxEntry& entry : _held)
+    {
+        out.emplace_back(SendReport{std::move(entry)});
+    }
+    _held.clear();
+    std::ranges::move(_actions, std::back_inserter(out));
+    _actions.clear();
+}
+
+void PlanEngine::Impl::TellReport(Report report)
+{
+    const OutboxEntry& entry = _outbox.Add(std::move(report), _now.wall, _random);
+    _changes.emplace_back(ReportAdded{entry});
+    _actions.emplace_back(SendReport{entry});
+}
+
+void PlanEngine::Impl::TellStatusChanges()
+{
+    for (Robot& robot : _robots)
+    {
+        if (std::exchange(robot.bTouched, false))
+        {
+            TellStatus(robot, DeriveStatus(robot));
+        }
+    }
+}
+
+void PlanEngine::Impl::TellStatus(Robot& robot, ERobotStatus status)
+{
+    RobotStatus made = MakeStatus(robot, status);
+    if (made == robot.lastStatus)
+    {
+        return;
+    }
+    robot.lastStatus = std::move(made);
+    if (_observerOrNull != nullptr)
+    {
+        _observerOrNull->OnRobotStatusChanged(robot.lastStatus, _now);
+    }
+    _actions.emplace_back(RobotStatusChanged{robot.lastStatus});
+}
+
+void PlanEngine::Impl::StartTimer(EEngineTimer kind, const std::string& robotID, Core::Duration delay)
+{
+    _actions.emplace_back(StartEngineTimer{{kind, robotID}, delay});
+}
+
+void PlanEngine::Impl::CancelTimer(EEngineTimer kind, const std::string& robotID)
+{
+    _actions.emplace_back(CancelEngineTimer{{kind, robotID}});
+}
+
+void PlanEngine::Impl::Command(const Robot& robot, RobotCommand command)
+{
+    _actions.emplace_back(CommandRobot{GetRobotID(robot), std::move(command)});
+}
+
+void PlanEngine::Impl::Note(const Robot& robot, const std::string& text)
+{
+    if (_observerOrNull != nullptr)
+    {
+        _observerOrNull->OnNote(GetRobotID(robot), text, _now);
+    }
+}
+
+void PlanEngine::Impl::ChangePlan(ActivePlan& plan, EPlanState state, std::string message)
+{
+    PlanProgress& progress = plan.record.progress;
+    assert(CanChange(progress.state, state));
+    const EPlanState from = std::exchange(progress.state, state);
+    if (state == EPlanState::InProgress && !progress.startedAt.has_value())
+    {
+        progress.startedAt = _now.wall;
+    }
+    if (IsFinal(state))
+    {
+        progress.endedAt = _now.wall;
+    }
+    progress.message = message;
+    _progressed.insert(plan.record.plan.planID);
+    if (_observerOrNull != nullptr)
+    {
+        _observerOrNull->OnPlanChanged(plan.record, from, _now);
+    }
+    TellReport(PlanReport{plan.record.plan.planID, state, std::move(message)});
+}
+
+void PlanEngine::Impl::ChangeStep(ActivePlan& plan, EStepState state, std::string message)
+{
+    StepProgress& progress = plan.record.progress.steps[plan.step];
+    assert(CanChange(progress.state, state));
+    const EStepState from = std::exchange(progress.state, state);
+    _progressed.insert(plan.record.plan.planID);
+    if (_observerOrNull != nullptr)
+    {
+        _observerOrNull->OnStepChanged(plan.record, plan.step, from, _now);
+    }
+    TellReport(StepReport{
+        plan.record.plan.planID,
+        plan.record.progress.robotID,
+        plan.record.plan.steps[plan.step].stepNo,
+        state,
+        std::move(message)});
+}
+
+void PlanEngine::Impl::ChangeJob(ActivePlan& plan, EJobState state, std::string message)
+{
+    if (!HasJob(plan))
+    {
+        return; // The engine made this job: the MCS has no id for it.
+    }
+    EJobState& current = plan.record.progress.steps[plan.step].jobs[plan.job];
+    assert(CanChange(current, state));
+    const EJobState from = std::exchange(current, state);
+    _progressed.insert(plan.record.plan.planID);
+    if (_observerOrNull != nullptr)
+    {
+        _observerOrNull->OnJobChanged(plan.record, plan.step, plan.job, from, _now);
+    }
+    TellReport(JobReport{
+        plan.record.plan.planID,
+        plan.record.progress.robotID,
+        plan.record.plan.steps[plan.step].stepNo,
+        GetJobID(plan),
+        state,
+        std::move(message)});
+}
+
+void PlanEngine::Impl::RaiseAlarm(Alarm alarm)
+{
+    const bool bKnown = std::ranges::any_of(_alarms, [&alarm](const Alarm& known) { return known.IsSameAs(alarm); });
+    if (bKnown)
+    {
+        return;
+    }
+    _alarms.push_back(alarm);
+    _changes.emplace_back(AlarmSet{alarm});
+    if (_observerOrNull != nullptr)
+    {
+        _observerOrNull->OnAlarmChanged(alarm, true, _now);
+    }
+    TellReport(ErrorReport{std::move(alarm), true});
+}
+
+void PlanEngine::Impl::ClearAlarm(const Alarm& alarm)
+{
+    const auto found = std::ranges::find_if(_alarms, [&alarm](const Alarm& known) { return known.IsSameAs(alarm); });
+    if (found == _alarms.end())
+    {
+        return;
+    }
+    Alarm cleared = std::move(*found);
+    _alarms.erase(found);
+    _changes.emplace_back(AlarmCleared{cleared});
+    if (_observerOrNull != nullptr)
+    {
+        _observerOrNull->OnAlarmChanged(cleared, false, _now);
+    }
+    TellReport(ErrorReport{std::move(cleared), false});
+}
+
+void PlanEngine::Impl::RememberFinished(PlanRecord record)
+{
+    const std::string planID = record.plan.planID;
+    _finished.insert_or_assign(planID, std::move(record));
+    _finishedOrder.push_back(planID);
+    while (_finishedOrder.size() > _options.finishedPlansKept)
+    {
+        // What this call still has to store is not forgotten yet.
+        if (_progressed.contains(_finishedOrder.front()))
+        {
+            break;
+        }
+        _finished.erase(_finishedOrder.front());
+        _finishedOrder.pop_front();
+    }
+}
+
+/// Section 5: the first that holds.
+ERobotStatus PlanEngine::Impl::DeriveStatus(const Robot& robot) const
+{
+    if (!robot.bOnline)
+    {
+        return ERobotStatus::Disconnected;
+    }
+    if (!robot.state.has_value() || !robot.bPlaced)
+    {
+        return ERobotStatus::Init;
+    }
+    const StateChanged& state = *robot.state;
+    const bool bFatal =
+        std::ranges::any_of(state.errors, [](const RobotError& error) { return error.level == EAlarmLevel::Heavy; });
+    if (bFatal || state.bSafetyStop)
+    {
+        return ERobotStatus::Error;
+    }
+    if (state.bPaused)
+    {
+        return ERobotStatus::Stopped;
+    }
+    if (!state.bAutomatic)
+    {
+        return ERobotStatus::Manual;
+    }
+    if (robot.activity == EActivity::Works)
+    {
+        return ERobotStatus::Working;
+    }
+    if (robot.drive.has_value())
+    {
+        return ERobotStatus::Moving;
+    }
+    if (robot.planOrNull != nullptr)
+    {
+        return ERobotStatus::Working;
+    }
+    return state.bCharging ? ERobotStatus::Charging : ERobotStatus::Idle;
+}
+
+RobotStatus PlanEngine::Impl::MakeStatus(const Robot& robot, ERobotStatus status) const
+{
+    RobotStatus made;
+    made.robotID = GetRobotID(robot);
+    made.type = robot.options->type;
+    made.status = status;
+    made.position = robot.position;
+    made.carrierIDs = robot.carriers;
+    if (robot.planOrNull != nullptr)
+    {
+        const ActivePlan& plan = *robot.planOrNull;
+        made.planID = plan.record.plan.planID;
+        made.stepNo = plan.record.plan.steps[plan.step].stepNo;
+        if (robot.activity == EActivity::Works && HasJob(plan))
+        {
+            made.jobID = GetJobID(plan);
+        }
+    }
+    return made;
+}
+
+bool PlanEngine::Impl::IsUsable(const Robot& robot)
+{
+    if (!robot.bOnline || !robot.bPlaced || !robot.node.has_value() || !robot.state.has_value())
+    {
+        return false;
+    }
+    const StateChanged& state = *robot.state;
+    const bool bFatal =
+        std::ranges::any_of(state.errors, [](const RobotError& error) { return error.level == EAlarmLevel::Heavy; });
+    return !bFatal && !state.bSafetyStop && !state.bPaused && state.bAutomatic;
+}
+
+const std::string& PlanEngine::Impl::GetRobotID(const Robot& robot) const
+{
+    return _options.robots[robot.index].robotID.GetText();
+}
+
+PlanSummary MakeSummary(const PlanRecord& record)
+{
+    PlanSummary summary;
+    const PlanProgress& progress = record.progress;
+    summary.planID = record.plan.planID;
+    summary.state = progress.state;
+    summary.robotID = progress.robotID.empty() ? std::nullopt : std::optional(progress.robotID);
+    summary.startTime = progress.startedAt.value_or(record.acceptedAt);
+    summary.endTime = progress.endedAt;
+    if (progress.state == EPlanState::Completed)
+    {
+        return summary;
+    }
+    std::size_t step = 0;
+    while (
+        step + 1 < progress.steps.size()
+        && (progress.steps[step].state == EStepState::Completed || progress.steps[step].state == EStepState::Skipped))
+    {
+        ++step;
+    }
+    const std::vector<EJobState>& jobs = progress.steps[step].jobs;
+    std::size_t job = 0;
+    while (job + 1 < jobs.size() && jobs[job] == EJobState::Completed)
+    {
+        ++job;
+    }
+    summary.stepNo = record.plan.steps[step].stepNo;
+    summary.currentAction = record.plan.steps[step].action;
+    if (!jobs.empty())
+    {
+        summary.jobID = record.plan.steps[step].jobs[job].jobID;
+    }
+    return summary;
+}
+
+std::vector<OutboxEntry> PlanEngine::Impl::GetUnacknowledged() const
+{
+    std::vector<OutboxEntry> entries;
+    for (const OutboxEntry& entry : _outbox.GetUnacknowledged())
+    {
+        const bool bHeld =
+            std::ranges::any_of(_held, [&entry](const OutboxEntry& held) { return held.sequence == entry.sequence; });
+        if (!bHeld)
+        {
+            entries.push_back(entry);
+        }
+    }
+    return entries;
+}
+
+std::vector<RobotStatus> PlanEngine::Impl::GetRobotStatuses() const
+{
+    std::vector<RobotStatus> statuses;
+    for (const Robot& robot : _robots)
+    {
+        statuses.push_back(robot.lastStatus);
+    }
+    return statuses;
+}
+
+std::vector<RobotPose> PlanEngine::Impl::GetRobotPoses() const
+{
+    std::vector<RobotPose> poses;
+    for (const Robot& robot : _robots)
+    {
+        if (robot.state.has_value() && robot.state->bPoseKnown)
+        {
+            const StateChanged& state = *robot.state;
+            poses.push_back({GetRobotID(robot), state.x, state.y, state.theta, state.batteryPercent});
+        }
+    }
+    return poses;
+}
+
+std::vector<PlanSummary> PlanEngine::Impl::GetActivePlans() const
+{
+    const auto rank = [](const ActivePlan* plan) {
+        const EPlanState state = plan->record.progress.state;
+        return state == EPlanState::InProgress ? 0 : (state == EPlanState::Paused ? 1 : 2);
+    };
+    std::vector<const ActivePlan*> ordered;
+    for (const auto& [planID, plan] : _plans)
+    {
+        ordered.push_back(plan.get());
+    }
+    std::ranges::sort(ordered, [&rank](const ActivePlan* left, const ActivePlan* right) {
+        return std::pair(rank(left), left->key) < std::pair(rank(right), right->key);
+    });
+    std::vector<PlanSummary> summaries;
+    for (const ActivePlan* plan : ordered)
+    {
+        summaries.push_back(MakeSummary(plan->record));
+    }
+    return summaries;
+}
+
+std::optional<PlanSummary> PlanEngine::Impl::GetPlanOrNull(std::string_view planID) const
+{
+    if (const auto active = _plans.find(planID); active != _plans.end())
+    {
+        return MakeSummary(active->second->record);
+    }
+    const auto finished = _finished.find(std::string(planID));
+    return finished == _finished.end() ? std::nullopt : std::optional(MakeSummary(finished->second));
+}
+
+const std::vector<Alarm>& PlanEngine::Impl::GetActiveAlarms() const noexcept
+{
+    return _alarms;
+}
+
+} // namespace ACS::Planning

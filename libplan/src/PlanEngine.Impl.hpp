@@ -1,0 +1,256 @@
+#pragma once
+
+#include "PlanAdmission.hpp"
+#include "Reservations.hpp"
+#include <acs/plan/PlanEngine.hpp>
+#include <acs/plan/PlanTransitions.hpp>
+#include <acs/plan/ReportOutbox.hpp>
+#include <acs/plan/Router.hpp>
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+// Error codes of alarms that the engine itself raises.
+inline constexpr std::string_view ALARM_INTERRUPTED = "ACS-1001";
+inline constexpr std::string_view ALARM_LINK_LOST = "ACS-1002";
+inline constexpr std::string_view ALARM_PLACE = "ACS-1003";
+inline constexpr std::string_view ALARM_PORT = "ACS-1004";
+inline constexpr std::string_view ALARM_STORE = "ACS-1005";
+inline constexpr std::string_view ALARM_HOME = "ACS-1006";
+/// What alarms of the engine begin with; others are errors that robots told.
+inline constexpr std::string_view ALARM_PREFIX = "ACS-";
+/// The robotID of alarms about the engine itself.
+inline constexpr std::string_view OWN_ROBOT_ID = "ACS";
+
+class PlanEngine::Impl
+{
+public:
+    /// Higher priority first, then the order of acceptance.
+    struct QueueKey
+    {
+        std::int64_t negatedPriority = 0;
+        std::uint64_t sequence = 0;
+
+        auto operator<=>(const QueueKey&) const = default;
+    };
+
+    /// A plan that is not finished.
+    struct ActivePlan
+    {
+        PlanRecord record;
+        ResolvedPlan resolved;
+        QueueKey key;
+        std::size_t step = 0;
+        std::size_t job = 0;
+        std::string madeJobID; ///< Of a step without jobs.
+        std::optional<std::size_t> robot;
+        std::optional<EPlanControl> control; ///< Asked for, outcome not known.
+        bool bArrived = false;               ///< Its first step's place was reached.
+    };
+
+    enum class EActivity : std::uint8_t
+    {
+        Idle,  ///< No plan.
+        Waits, ///< Has a plan and must get to its step's place.
+        Works, ///< A job runs.
+    };
+
+    enum class EGoal : std::uint8_t
+    {
+        Step,
+        Home,
+    };
+
+    struct ActiveDrive
+    {
+        std::string driveID;
+        Route route;
+        std::vector<std::size_t> nodes; ///< Of the route, by index in the map.
+        std::size_t releasedCount = 0;
+        std::size_t passed = 0; ///< Index in the route of the last node passed.
+        EGoal goal = EGoal::Step;
+        bool bConfirmed = false;
+        bool bCancelling = false;
+    };
+
+    struct Robot
+    {
+        std::size_t index = 0;
+        const RobotOptions* options = nullptr;
+        bool bOnline = false;
+        bool bPlaced = false;      ///< Has told where it stands since the start.
+        bool bRetreats = false;    ///< Goes home first, out of the way of others.
+        bool bHomeRefused = false; ///< Until the timer HomeRetry.
+        bool bTouched = true;      ///< Its status may have changed.
+        std::optional<StateChanged> state;
+        std::optional<std::size_t> node; ///< Where it stands or passed last.
+        std::string position;            ///< The last station where it stood.
+        std::optional<std::size_t> homeNode;
+        EActivity activity = EActivity::Idle;
+        ActivePlan* planOrNull = nullptr;
+        std::optional<ActiveDrive> drive;
+        std::vector<std::optional<std::string>> carriers;
+        RobotStatus lastStatus;
+        /// The shortest way to where it wants to go, kept while it waits.
+        std::optional<Route> wish;
+        std::size_t wishTarget = 0;
+    };
+
+private:
+    EngineOptions _options;
+    SiteMap _site;
+    Core::IRandom& _random;
+    IPlanObserver* _observerOrNull = nullptr;
+    Router _router;
+    PlanAdmission _admission;
+    Reservations _reservations;
+
+    std::map<std::string, std::unique_ptr<ActivePlan>, std::less<>> _plans;
+    std::map<QueueKey, ActivePlan*> _pending;
+    std::vector<std::unique_ptr<ActivePlan>> _ended; ///< Kept to the end of the call that ended them.
+    std::unordered_map<std::string, PlanRecord> _finished;
+    std::deque<std::string> _finishedOrder;
+    std::uint64_t _lastPlanSequence = 0;
+
+    std::vector<Robot> _robots;
+    std::map<std::string, std::size_t, std::less<>> _robotIndices;
+    std::vector<Alarm> _alarms;
+    ReportOutbox _outbox;
+
+    // The present call: what is stored first, and what is told after it.
+    Core::Now _now;
+    std::vector<StoreChange> _changes;
+    std::set<std::string> _progressed;
+    EngineActions _actions;
+    bool _bDispatchNeeded = false;
+
+    // A store that fails: what is still to be stored, and the reports that wait for it.
+    std::vector<StoreChange> _unsaved;
+    std::vector<OutboxEntry> _held;
+    bool _bStoreFailing = false;
+    bool _bStoreAttempted = false;
+    std::vector<StoreChange> _acknowledged; ///< Stored with the next batch, or by the timer.
+
+public:
+    Impl(EngineOptions options, SiteMap site, Core::IRandom& random);
+
+    void SetObserver(IPlanObserver& observer);
+    void Restore(StoredState state, Core::Now now, EngineActions& out);
+    void HandleCommand(const PlanCommand& command, Core::Now now, EngineActions& out);
+    void HandleEvent(std::string_view robotID, const RobotEvent& event, Core::Now now, EngineActions& out);
+    void OnTimer(const EngineTimer& timer, Core::Now now, EngineActions& out);
+    void OnStoreFailed(
+        const StoreBatch& batch,
+        std::span<const EngineAction> skipped,
+        std::string_view reason,
+        Core::Now now,
+        EngineActions& out);
+
+    [[nodiscard]] std::vector<OutboxEntry> GetUnacknowledged() const;
+    [[nodiscard]] std::vector<RobotStatus> GetRobotStatuses() const;
+    [[nodiscard]] std::vector<RobotPose> GetRobotPoses() const;
+    [[nodiscard]] std::vector<PlanSummary> GetActivePlans() const;
+    [[nodiscard]] std::optional<PlanSummary> GetPlanOrNull(std::string_view planID) const;
+    [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;
+
+private:
+    // Of every call: begin, end, and the only places where states change (PlanEngine.Impl.cpp).
+    void Begin(Core::Now now);
+    void End(EngineActions& out);
+    void TellReport(Report report);
+    void TellStatusChanges();
+    void TellStatus(Robot& robot, ERobotStatus status);
+    void StartTimer(EEngineTimer kind, const std::string& robotID, Core::Duration delay);
+    void CancelTimer(EEngineTimer kind, const std::string& robotID);
+    void Command(const Robot& robot, RobotCommand command);
+    void Note(const Robot& robot, const std::string& text);
+    void ChangePlan(ActivePlan& plan, EPlanState state, std::string message);
+    void ChangeStep(ActivePlan& plan, EStepState state, std::string message);
+    void ChangeJob(ActivePlan& plan, EJobState state, std::string message);
+    void RaiseAlarm(Alarm alarm);
+    void ClearAlarm(const Alarm& alarm);
+    void RememberFinished(PlanRecord record);
+    [[nodiscard]] ERobotStatus DeriveStatus(const Robot& robot) const;
+    [[nodiscard]] RobotStatus MakeStatus(const Robot& robot, ERobotStatus status) const;
+    [[nodiscard]] static bool IsUsable(const Robot& robot);
+    [[nodiscard]] const std::string& GetRobotID(const Robot& robot) const;
+
+    // Commands (PlanEngine.Commands.cpp).
+    void Submit(const SubmitPlan& command);
+    void Control(const ControlPlan& command);
+    void Acknowledge(const MessageAcknowledged& command);
+    void Cancel(ActivePlan& plan);
+    void Abort(ActivePlan& plan);
+    void StopDrive(ActivePlan& plan, EPlanControl control);
+    void TellControlResult(EPlanControl control, const std::string& planID, bool bSucceeded, std::string message);
+    void EndByControl(ActivePlan& plan, EPlanControl control);
+    [[nodiscard]] Core::Result<ResolvedPlan> Admit(const Plan& plan) const;
+
+    // Events of robots (PlanEngine.Robots.cpp).
+    void OnLink(Robot& robot, const LinkChanged& event);
+    void OnState(Robot& robot, const StateChanged& event);
+    void OnNodePassed(Robot& robot, const NodePassed& event);
+    void OnArrived(Robot& robot, const Arrived& event);
+    void OnDriveRejected(Robot& robot, const DriveRejected& event);
+    void OnDriveCancelled(Robot& robot, const DriveCancelled& event);
+    void OnJobStarted(Robot& robot, const JobStarted& event);
+    void OnJobFinished(Robot& robot, const JobFinished& event);
+    void OnJobFailed(Robot& robot, const JobFailed& event);
+    void OnControlTimeout(Robot& robot);
+    void OnJobTimeout(Robot& robot);
+    void Place(Robot& robot, const std::string& nodeID);
+    void CompareErrors(Robot& robot);
+    void Advance(Robot& robot, std::size_t routeIndex);
+    void EndDrive(Robot& robot);
+    void ExtendBase(Robot& robot);
+
+    // Steps and jobs (PlanEngine.Work.cpp).
+    void BeginPlan(ActivePlan& plan, Robot& robot);
+    void BeginStep(ActivePlan& plan, Robot& robot);
+    void BeginWork(Robot& robot);
+    void BeginJob(Robot& robot);
+    void EndJob(Robot& robot);
+    void MarkStepBegun(ActivePlan& plan);
+    void FailPlan(ActivePlan& plan, const std::string& reason);
+    void EndPlan(ActivePlan& plan, EPlanState state, std::string message);
+    void MoveCarrier(Robot& robot);
+    [[nodiscard]] static bool HasJob(const ActivePlan& plan);
+    [[nodiscard]] static const std::string& GetJobID(const ActivePlan& plan);
+    [[nodiscard]] StartJob MakeStartJob(const Robot& robot) const;
+
+    // Who does what, and who drives when (PlanEngine.Dispatch.cpp).
+    void Dispatch();
+    void AssignPlans();
+    void MoveWaiting();
+    void SendIdleHome();
+    void PartCircles();
+    [[nodiscard]] Robot* FindNearestOrNull(const ActivePlan& plan);
+    [[nodiscard]] std::vector<Robot*> GetWaiting();
+    [[nodiscard]] std::optional<std::size_t> GetTargetOrNull(const Robot& robot) const;
+    [[nodiscard]] bool TryDrive(Robot& robot);
+    [[nodiscard]] bool TryBeginDrive(Robot& robot, const Route& route);
+    [[nodiscard]] bool TryFindWish(Robot& robot, std::size_t target);
+    [[nodiscard]] std::vector<std::size_t> GetStandingBlockers(Robot& robot);
+    [[nodiscard]] bool IsStanding(std::size_t robot) const;
+    [[nodiscard]] std::vector<std::size_t> GetIndices(const Route& route) const;
+    void OnNoRoute(Robot& robot, std::size_t target);
+
+    // Failures of the store (PlanEngine.Recovery.cpp).
+    void RestorePlan(PlanRecord record);
+    void EndInterrupted(ActivePlan& plan);
+    void NoteStoreSuccess();
+};
+
+/// What section 4.3 tells of a plan.
+[[nodiscard]] PlanSummary MakeSummary(const PlanRecord& record);
+
+} // namespace ACS::Planning

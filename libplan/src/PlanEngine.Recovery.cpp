@@ -1,0 +1,175 @@
+#include "PlanEngine.Impl.hpp"
+#include <acs/core/Overloaded.hpp>
+
+#include <algorithm>
+
+namespace ACS::Planning
+{
+
+void PlanEngine::Impl::Restore(StoredState state, Core::Now now, EngineActions& out)
+{
+    Begin(now);
+    _outbox.Restore(std::move(state.outbox), state.lastReportSequence);
+    _alarms = std::move(state.alarms);
+    for (const CarriersChanged& stored : state.carriers)
+    {
+        const auto found = _robotIndices.find(stored.robotID);
+        if (found != _robotIndices.end() && stored.carrierIDs.size() == _robots[found->second].carriers.size())
+        {
+            Robot& robot = _robots[found->second];
+            robot.carriers = stored.carrierIDs;
+            robot.lastStatus = MakeStatus(robot, DeriveStatus(robot));
+        }
+    }
+    std::ranges::sort(state.plans, {}, &PlanRecord::sequence);
+    for (PlanRecord& record : state.plans)
+    {
+        RestorePlan(std::move(record));
+    }
+    StartTimer(EEngineTimer::Dispatch, {}, {});
+    End(out);
+}
+
+void PlanEngine::Impl::RestorePlan(PlanRecord record)
+{
+    _lastPlanSequence = std::max(_lastPlanSequence, record.sequence);
+    if (IsFinal(record.progress.state))
+    {
+        RememberFinished(std::move(record));
+        return;
+    }
+    auto owned = std::make_unique<ActivePlan>();
+    ActivePlan& plan = *owned;
+    plan.record = std::move(record);
+    const std::int64_t priority = plan.record.plan.priority.value_or(_options.defaultPriority);
+    plan.key = {-priority, plan.record.sequence};
+    Core::Result<ResolvedPlan> resolved = _admission.Resolve(plan.record.plan);
+    _plans.emplace(plan.record.plan.planID, std::move(owned));
+    if (plan.record.progress.state != EPlanState::Pending)
+    {
+        EndInterrupted(plan);
+        return;
+    }
+    if (!resolved.has_value())
+    {
+        EndPlan(
+            plan,
+            EPlanState::Aborted,
+            "The site or the robots have changed while the ACS was down: " + Core::Describe(resolved.error()));
+        return;
+    }
+    plan.resolved = std::move(*resolved);
+    _pending.emplace(plan.key, &plan);
+}
+
+/// Nobody saw what became of the work: it is ended, with an alarm that says where to look.
+void PlanEngine::Impl::EndInterrupted(ActivePlan& plan)
+{
+    const PlanSummary summary = MakeSummary(plan.record);
+    Alarm alarm;
+    alarm.robotID = plan.record.progress.robotID;
+    alarm.errorCode = ALARM_INTERRUPTED;
+    alarm.level = EAlarmLevel::Heavy;
+    alarm.message = "The ACS stopped while this plan was worked on: look at the robot and its carriers.";
+    alarm.planID = summary.planID;
+    alarm.stepNo = summary.stepNo;
+    alarm.jobID = summary.jobID;
+    const std::vector<StepProgress>& steps = plan.record.progress.steps;
+    while (plan.step + 1 < steps.size() && IsFinal(steps[plan.step].state))
+    {
+        ++plan.step;
+    }
+    const std::vector<EJobState>& jobs = steps[plan.step].jobs;
+    while (plan.job + 1 < jobs.size() && IsFinal(jobs[plan.job]))
+    {
+        ++plan.job;
+    }
+    RaiseAlarm(std::move(alarm));
+    if (plan.record.progress.state == EPlanState::InProgress)
+    {
+        FailPlan(plan, "The ACS was restarted while the plan was worked on.");
+        return;
+    }
+    // Section 7 has no other way out of Paused.
+    EndPlan(plan, EPlanState::Aborted, "The ACS was restarted while the plan was paused.");
+}
+
+void PlanEngine::Impl::OnStoreFailed(
+    const StoreBatch& batch,
+    std::span<const EngineAction> skipped,
+    std::string_view reason,
+    Core::Now now,
+    EngineActions& out)
+{
+    _now = now;
+    _bStoreFailing = true;
+    _bStoreAttempted = false;
+    const std::string refusal = "The plan cannot be stored: " + std::string(reason);
+    bool bPlanRefused = false;
+    for (const StoreChange& change : batch.changes)
+    {
+        const auto* addedOrNull = std::get_if<PlanAdded>(&change);
+        if (addedOrNull == nullptr)
+        {
+            _unsaved.push_back(change);
+            continue;
+        }
+        // Not told to anybody and not begun: as if it had never come.
+        bPlanRefused = true;
+        const auto found = _plans.find(addedOrNull->record.plan.planID);
+        if (found != _plans.end())
+        {
+            _pending.erase(found->second->key);
+            _plans.erase(found);
+        }
+    }
+    Alarm alarm;
+    alarm.robotID = OWN_ROBOT_ID;
+    alarm.errorCode = ALARM_STORE;
+    alarm.level = EAlarmLevel::Heavy;
+    alarm.message = "Plans cannot be stored: " + std::string(reason);
+    for (const EngineAction& action : skipped)
+    {
+        std::visit(
+            Core::Overloaded{
+                [this](const StorePlans& typed) {
+                    _unsaved.insert(_unsaved.end(), typed.batch.changes.begin(), typed.batch.changes.end());
+                },
+                [this](const SendReport& typed) { _held.push_back(typed.entry); },
+                [&out, &refusal, bPlanRefused](const ReplyCommand& typed) {
+                    out.emplace_back(bPlanRefused ? ReplyCommand{typed.replyToken, false, refusal} : typed);
+                },
+                [&out](const auto& typed) {
+                    out.emplace_back(typed);
+                }},
+            action);
+    }
+    RaiseAlarm(std::move(alarm));
+    std::ranges::move(_changes, std::back_inserter(_unsaved));
+    _changes.clear();
+    for (EngineAction& action : _actions)
+    {
+        if (auto* reportOrNull = std::get_if<SendReport>(&action); reportOrNull != nullptr)
+        {
+            _held.push_back(std::move(reportOrNull->entry));
+        }
+    }
+    _actions.clear();
+    out.emplace_back(StartEngineTimer{{EEngineTimer::StoreRetry, {}}, _options.storeRetry});
+}
+
+/// A call after a batch that did not fail.
+void PlanEngine::Impl::NoteStoreSuccess()
+{
+    if (!_bStoreFailing || !_bStoreAttempted)
+    {
+        return;
+    }
+    _bStoreFailing = false;
+    Alarm alarm;
+    alarm.robotID = OWN_ROBOT_ID;
+    alarm.errorCode = ALARM_STORE;
+    ClearAlarm(alarm);
+}
+
+} // namespace ACS::Planning

@@ -1,0 +1,242 @@
+#include "PlanEngine.Impl.hpp"
+#include <acs/core/Uuid.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+namespace ACS::Planning
+{
+
+namespace
+{
+
+/// What stands for a carrier whose id the plan does not tell.
+constexpr std::string_view UNKNOWN_CARRIER = "UNKNOWN";
+
+std::optional<std::string> GetTextForOrNull(const std::optional<Core::Location>& place, const Core::RobotID& robotID)
+{
+    if (!place.has_value())
+    {
+        return std::nullopt;
+    }
+    const Core::Result<Core::Location> port = place->WithRobot(robotID);
+    return port.has_value() ? port->GetText() : place->GetText();
+}
+
+} // namespace
+
+bool PlanEngine::Impl::HasJob(const ActivePlan& plan)
+{
+    return !plan.record.plan.steps[plan.step].jobs.empty();
+}
+
+const std::string& PlanEngine::Impl::GetJobID(const ActivePlan& plan)
+{
+    return HasJob(plan) ? plan.record.plan.steps[plan.step].jobs[plan.job].jobID : plan.madeJobID;
+}
+
+void PlanEngine::Impl::BeginPlan(ActivePlan& plan, Robot& robot)
+{
+    _pending.erase(plan.key);
+    plan.robot = robot.index;
+    plan.record.progress.robotID = GetRobotID(robot);
+    robot.planOrNull = &plan;
+    robot.bHomeRefused = false;
+    ChangePlan(plan, EPlanState::InProgress, {});
+    BeginStep(plan, robot);
+}
+
+void PlanEngine::Impl::BeginStep(ActivePlan& plan, Robot& robot)
+{
+    plan.job = 0;
+    robot.activity = EActivity::Waits;
+    robot.bTouched = true;
+    robot.wish.reset();
+    ChangeStep(plan, EStepState::Dispatched, {});
+    _bDispatchNeeded = true;
+}
+
+void PlanEngine::Impl::MarkStepBegun(ActivePlan& plan)
+{
+    if (plan.record.progress.steps[plan.step].state == EStepState::Dispatched)
+    {
+        ChangeStep(plan, EStepState::InProgress, {});
+    }
+}
+
+/// The robot stands at its step's place.
+void PlanEngine::Impl::BeginWork(Robot& robot)
+{
+    ActivePlan& plan = *robot.planOrNull;
+    plan.bArrived = true;
+    MarkStepBegun(plan);
+    TellStatus(robot, ERobotStatus::Arrival);
+    robot.activity = EActivity::Works;
+    BeginJob(robot);
+}
+
+void PlanEngine::Impl::BeginJob(Robot& robot)
+{
+    ActivePlan& plan = *robot.planOrNull;
+    robot.bTouched = true;
+    if (!HasJob(plan))
+    {
+        plan.madeJobID = Core::MakeUuid(_random);
+    }
+    ChangeJob(plan, EJobState::Instructed, {});
+    Command(robot, MakeStartJob(robot));
+    const std::chrono::milliseconds timeout = plan.resolved.steps[plan.step].rule->timeout;
+    if (timeout.count() > 0)
+    {
+        StartTimer(EEngineTimer::JobTimeout, GetRobotID(robot), timeout);
+    }
+}
+
+StartJob PlanEngine::Impl::MakeStartJob(const Robot& robot) const
+{
+    const ActivePlan& plan = *robot.planOrNull;
+    const Step& step = plan.record.plan.steps[plan.step];
+    const ResolvedStep& resolved = plan.resolved.steps[plan.step];
+    const Core::RobotID& robotID = _options.robots[robot.index].robotID;
+    StartJob job;
+    job.planID = plan.record.plan.planID;
+    job.stepNo = step.stepNo;
+    job.jobID = GetJobID(plan);
+    job.action = step.action;
+    job.position = resolved.stationID;
+    if (HasJob(plan))
+    {
+        job.from = GetTextForOrNull(resolved.jobs[plan.job].from, robotID);
+        job.to = GetTextForOrNull(resolved.jobs[plan.job].to, robotID);
+    }
+    if (plan.job < step.carrierIDs.size() && !step.carrierIDs[plan.job].empty())
+    {
+        job.carrierID = step.carrierIDs[plan.job];
+    }
+    return job;
+}
+
+/// What a finished load or unload does to the robot's ports. What does not fit is told, not refused: the robot has
+/// done it, so the ports were not what the engine believed.
+void PlanEngine::Impl::MoveCarrier(Robot& robot)
+{
+    const ActivePlan& plan = *robot.planOrNull;
+    const EActionEffect effect = plan.resolved.steps[plan.step].rule->effect;
+    if (effect == EActionEffect::None || !HasJob(plan))
+    {
+        return;
+    }
+    const StartJob job = MakeStartJob(robot);
+    const std::optional<std::string>& portText = effect == EActionEffect::Load ? job.to : job.from;
+    const std::vector<Core::Location>& ports = robot.options->ports;
+    const auto found =
+        std::ranges::find_if(ports, [&portText](const Core::Location& port) { return portText == port.GetText(); });
+    if (found == ports.end())
+    {
+        return;
+    }
+    std::optional<std::string>& carrier = robot.carriers[static_cast<std::size_t>(found - ports.begin())];
+    Alarm alarm;
+    alarm.robotID = GetRobotID(robot);
+    alarm.errorCode = ALARM_PORT;
+    alarm.level = EAlarmLevel::Light;
+    const bool bLoad = effect == EActionEffect::Load;
+    if (bLoad == carrier.has_value())
+    {
+        alarm.message = bLoad ? fmt::format("{} was loaded though {} was in it.", *portText, *carrier)
+                              : fmt::format("{} was unloaded though nothing was in it.", *portText);
+        RaiseAlarm(std::move(alarm));
+    }
+    else
+    {
+        ClearAlarm(alarm);
+    }
+    carrier = bLoad ? std::optional(job.carrierID.value_or(std::string(UNKNOWN_CARRIER))) : std::nullopt;
+    robot.bTouched = true;
+    _changes.emplace_back(CarriersChanged{GetRobotID(robot), robot.carriers});
+}
+
+void PlanEngine::Impl::EndJob(Robot& robot)
+{
+    ActivePlan& plan = *robot.planOrNull;
+    if (plan.resolved.steps[plan.step].rule->timeout.count() > 0)
+    {
+        CancelTimer(EEngineTimer::JobTimeout, GetRobotID(robot));
+    }
+    MoveCarrier(robot);
+    ChangeJob(plan, EJobState::Completed, {});
+    if (plan.control == EPlanControl::Abort)
+    {
+        EndByControl(plan, EPlanControl::Abort);
+        return;
+    }
+    if (plan.job + 1 < plan.record.plan.steps[plan.step].jobs.size())
+    {
+        ++plan.job;
+        BeginJob(robot);
+        return;
+    }
+    ChangeStep(plan, EStepState::Completed, {});
+    if (plan.step + 1 < plan.record.plan.steps.size())
+    {
+        ++plan.step;
+        BeginStep(plan, robot);
+        return;
+    }
+    EndPlan(plan, EPlanState::Completed, {});
+}
+
+/// Section 6.14: the job, its step and the plan at once; nothing about what never ran.
+void PlanEngine::Impl::FailPlan(ActivePlan& plan, const std::string& reason)
+{
+    if (HasJob(plan))
+    {
+        const EJobState job = plan.record.progress.steps[plan.step].jobs[plan.job];
+        if (job == EJobState::Instructed || job == EJobState::InProgress)
+        {
+            ChangeJob(plan, EJobState::Failed, reason);
+        }
+    }
+    const EStepState step = plan.record.progress.steps[plan.step].state;
+    if (step == EStepState::Dispatched || step == EStepState::InProgress)
+    {
+        ChangeStep(plan, EStepState::Failed, reason);
+    }
+    const std::optional<EPlanControl> control = std::exchange(plan.control, std::nullopt);
+    EndPlan(plan, EPlanState::Failed, reason);
+    if (control.has_value())
+    {
+        TellControlResult(*control, plan.record.plan.planID, false, "The plan has failed: " + reason);
+    }
+}
+
+/// The robot is free again, the plan is history. The plan lives to the end of this call.
+void PlanEngine::Impl::EndPlan(ActivePlan& plan, EPlanState state, std::string message)
+{
+    ChangePlan(plan, state, std::move(message));
+    _pending.erase(plan.key);
+    if (plan.robot.has_value())
+    {
+        Robot& robot = _robots[*plan.robot];
+        const bool bTimed = plan.resolved.steps[plan.step].rule->timeout.count() > 0;
+        if (robot.activity == EActivity::Works && bTimed)
+        {
+            CancelTimer(EEngineTimer::JobTimeout, GetRobotID(robot));
+        }
+        robot.planOrNull = nullptr;
+        robot.activity = EActivity::Idle;
+        robot.bRetreats = false;
+        robot.bTouched = true;
+        robot.wish.reset();
+    }
+    _bDispatchNeeded = true;
+    const auto found = _plans.find(plan.record.plan.planID);
+    assert(found != _plans.end());
+    RememberFinished(plan.record);
+    _ended.push_back(std::move(found->second));
+    _plans.erase(found);
+}
+
+} // namespace ACS::Planning

@@ -1,0 +1,78 @@
+#include "PlanEngine.Impl.hpp"
+
+namespace ACS::Planning
+{
+
+PlanEngine::PlanEngine(EngineOptions options, SiteMap site, Core::IRandom& random)
+    : _impl(std::make_unique<Impl>(std::move(options), std::move(site), random))
+{
+}
+
+PlanEngine::~PlanEngine() = default;
+
+void PlanEngine::SetObserver(IPlanObserver& observer)
+{
+    _impl->SetObserver(observer);
+}
+
+void PlanEngine::Restore(StoredState state, Core::Now now, EngineActions& out)
+{
+    _impl->Restore(std::move(state), now, out);
+}
+
+void PlanEngine::Handle(const PlanCommand& command, Core::Now now, EngineActions& out)
+{
+    _impl->HandleCommand(command, now, out);
+}
+
+void PlanEngine::Handle(std::string_view robotID, const RobotEvent& event, Core::Now now, EngineActions& out)
+{
+    _impl->HandleEvent(robotID, event, now, out);
+}
+
+void PlanEngine::OnTimer(const EngineTimer& timer, Core::Now now, EngineActions& out)
+{
+    _impl->OnTimer(timer, now, out);
+}
+
+void PlanEngine::OnStoreFailed(
+    const StoreBatch& batch,
+    std::span<const EngineAction> skipped,
+    std::string_view reason,
+    Core::Now now,
+    EngineActions& out)
+{
+    _impl->OnStoreFailed(batch, skipped, reason, now, out);
+}
+
+std::vector<OutboxEntry> PlanEngine::GetUnacknowledged() const
+{
+    return _impl->GetUnacknowledged();
+}
+
+std::vector<RobotStatus> PlanEngine::GetRobotStatuses() const
+{
+    return _impl->GetRobotStatuses();
+}
+
+std::vector<RobotPose> PlanEngine::GetRobotPoses() const
+{
+    return _impl->GetRobotPoses();
+}
+
+std::vector<PlanSummary> PlanEngine::GetActivePlans() const
+{
+    return _impl->GetActivePlans();
+}
+
+std::optional<PlanSummary> PlanEngine::GetPlanOrNull(std::string_view planID) const
+{
+    return _impl->GetPlanOrNull(planID);
+}
+
+const std::vector<Alarm>& PlanEngine::GetActiveAlarms() const noexcept
+{
+    return _impl->GetActiveAlarms();
+}
+
+} // namespace ACS::Planning

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <acs/json/EnumWords.hpp>
+#include <acs/plan/EAlarmLevel.hpp>
+#include <acs/plan/EJobState.hpp>
+#include <acs/plan/EPlanControl.hpp>
+#include <acs/plan/EPlanState.hpp>
+#include <acs/plan/ERobotStatus.hpp>
+#include <acs/plan/ERobotType.hpp>
+#include <acs/plan/EStepState.hpp>
+
+#include <array>
+
+namespace ACS::Json
+{
+
+// The words of section 3 of MCS-ACS: for logs, texts and the store.
+
+template <>
+struct EnumWords<Planning::EPlanState>
+{
+    static constexpr std::array WORDS{
+        EnumWord<Planning::EPlanState>{Planning::EPlanState::Pending, "Pending"},
+        EnumWord<Planning::EPlanState>{Planning::EPlanState::InProgress, "InProgress"},
+        EnumWord<Planning::EPlanState>{Planning::EPlanState::Paused, "Paused"},
+        EnumWord<Planning::EPlanState>{Planning::EPlanState::Completed, "Completed"},
+        EnumWord<Planning::EPlanState>{Planning::EPlanState::Failed, "Failed"},
+        EnumWord<Planning::EPlanState>{Planning::EPlanState::Cancelled, "Cancelled"},
+        EnumWord<Planning::EPlanState>{Planning::EPlanState::Aborted, "Aborted"},
+    };
+};
+
+template <>
+struct EnumWords<Planning::EStepState>
+{
+    static constexpr std::array WORDS{
+        EnumWord<Planning::EStepState>{Planning::EStepState::Pending, "Pending"},
+        EnumWord<Planning::EStepState>{Planning::EStepState::Dispatched, "Dispatched"},
+        EnumWord<Planning::EStepState>{Planning::EStepState::InProgress, "InProgress"},
+        EnumWord<Planning::EStepState>{Planning::EStepState::Completed, "Completed"},
+        EnumWord<Planning::EStepState>{Planning::EStepState::Failed, "Failed"},
+        EnumWord<Planning::EStepState>{Planning::EStepState::Skipped, "Skipped"},
+    };
+};
+
+template <>
+struct EnumWords<Planning::EJobState>
+{
+    static constexpr std::array WORDS{
+        EnumWord<Planning::EJobState>{Planning::EJobState::Pending, "Pending"},
+        EnumWord<Planning::EJobState>{Planning::EJobState::Instructed, "Instructed"},
+        EnumWord<Planning::EJobState>{Planning::EJobState::InProgress, "InProgress"},
+        EnumWord<Planning::EJobState>{Planning::EJobState::Completed, "Completed"},
+        EnumWord<Planning::EJobState>{Planning::EJobState::Failed, "Failed"},
+    };
+};
+
+template <>
+struct EnumWords<Planning::ERobotType>
+{
+    static constexpr std::array WORDS{
+        EnumWord<Planning::ERobotType>{Planning::ERobotType::LR, "LR"},
+        EnumWord<Planning::ERobotType>{Planning::ERobotType::CR, "CR"},
+    };
+};
+
+template <>
+struct EnumWords<Planning::ERobotStatus>
+{
+    static constexpr std::array WORDS{
+        EnumWord<Planning::ERobotStatus>{Planning::ERobotStatus::Init, "Init"},
+        EnumWord<Planning::ERobotStatus>{Planning::ERobotStatus::Disconnected, "Disconnected"},
+        EnumWord<Planning::ERobotStatus>{Planning::ERobotStatus::Manual, "Manual"},
+        EnumWord<Planning::ERobotStatus>{Planning::ERobotStatus::Idle, "Idle"},
+        EnumWord<Planning::ERobotStatus>{Planning::ERobotStatus::Moving, "Moving"},
+        EnumWord<Planning::ERobotStatus>{Planning::ERobotStatus::Arrival, "Arrival"},
+        EnumWord<Planning::ERobotStatus>{Planning::ERobotStatus::Docking, "Docking"},
+        EnumWord<Planning::ERobotStatus>{Planning::ERobotStatus::UnDocking, "UnDocking"},
+        EnumWord<Planning::ERobotStatus>{Planning::ERobotStatus::Working, "Working"},
+        EnumWord<Planning::ERobotStatus>{Planning::ERobotStatus::Charging, "Charging"},
+        EnumWord<Planning::ERobotStatus>{Planning::ERobotStatus::Error, "Error"},
+        EnumWord<Planning::ERobotStatus>{Planning::ERobotStatus::Stopped, "Stopped"},
+    };
+};
+
+template <>
+struct EnumWords<Planning::EAlarmLevel>
+{
+    static constexpr std::array WORDS{
+        EnumWord<Planning::EAlarmLevel>{Planning::EAlarmLevel::Heavy, "heavy"},
+        EnumWord<Planning::EAlarmLevel>{Planning::EAlarmLevel::Light, "light"},
+    };
+};
+
+template <>
+struct EnumWords<Planning::EPlanControl>
+{
+    static constexpr std::array WORDS{
+        EnumWord<Planning::EPlanControl>{Planning::EPlanControl::Cancel, "Cancel"},
+        EnumWord<Planning::EPlanControl>{Planning::EPlanControl::Abort, "Abort"},
+        EnumWord<Planning::EPlanControl>{Planning::EPlanControl::Pause, "Pause"},
+        EnumWord<Planning::EPlanControl>{Planning::EPlanControl::Resume, "Resume"},
+    };
+};
+
+} // namespace ACS::Json

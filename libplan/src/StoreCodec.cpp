@@ -1,0 +1,358 @@
+#include "PlanWords.hpp"
+#include <acs/core/ECoreError.hpp>
+#include <acs/core/Overloaded.hpp>
+#include <acs/json/JsonDecoder.hpp>
+#include <acs/json/JsonEncoder.hpp>
+#include <acs/plan/StoreCodec.hpp>
+
+#include <chrono>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+namespace
+{
+
+enum class EReportKind : std::uint8_t
+{
+    Plan,
+    Step,
+    Job,
+    Error,
+    Control,
+};
+
+/// A report of any kind, for its JSON text: what a kind does not have is absent.
+struct ReportText
+{
+    EReportKind kind = EReportKind::Plan;
+    std::optional<std::string> planID;
+    std::optional<std::string> robotID;
+    std::optional<std::int32_t> stepNo;
+    std::optional<std::string> jobID;
+    std::optional<EPlanState> planState;
+    std::optional<EStepState> stepState;
+    std::optional<EJobState> jobState;
+    std::optional<EPlanControl> control;
+    std::optional<bool> bSucceeded;
+    std::optional<bool> bSet;
+    std::optional<Alarm> alarm;
+    std::string message;
+};
+
+} // namespace
+
+} // namespace ACS::Planning
+
+namespace ACS::Json
+{
+
+template <>
+struct ValueDecoder<Core::WallTime>
+{
+    [[nodiscard]] static bool TryDecode(
+        const Value& value,
+        Core::WallTime& out,
+        const FieldBounds& bounds,
+        DecodeContext& context)
+    {
+        std::int64_t count = 0;
+        if (!ValueDecoder<std::int64_t>::TryDecode(value, count, bounds, context))
+        {
+            return false;
+        }
+        out = Core::WallTime(Core::WallTime::duration(count));
+        return true;
+    }
+};
+
+template <>
+struct ValueEncoder<Core::WallTime>
+{
+    static void Encode(Core::WallTime value, JsonWriter& writer)
+    {
+        writer.WriteInteger(value.time_since_epoch().count());
+    }
+};
+
+template <>
+struct EnumWords<Planning::EReportKind>
+{
+    static constexpr std::array WORDS{
+        EnumWord<Planning::EReportKind>{Planning::EReportKind::Plan, "Plan"},
+        EnumWord<Planning::EReportKind>{Planning::EReportKind::Step, "Step"},
+        EnumWord<Planning::EReportKind>{Planning::EReportKind::Job, "Job"},
+        EnumWord<Planning::EReportKind>{Planning::EReportKind::Error, "Error"},
+        EnumWord<Planning::EReportKind>{Planning::EReportKind::Control, "Control"},
+    };
+};
+
+template <>
+struct JsonFields<Planning::Job>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("jobId", &Planning::Job::jobID),
+        Optional("from", &Planning::Job::from),
+        Optional("to", &Planning::Job::to));
+};
+
+template <>
+struct JsonFields<Planning::Step>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("stepNo", &Planning::Step::stepNo),
+        Required("action", &Planning::Step::action),
+        Required("position", &Planning::Step::position),
+        Optional("carrierIds", &Planning::Step::carrierIDs),
+        Optional("jobs", &Planning::Step::jobs));
+};
+
+template <>
+struct JsonFields<Planning::Plan>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("planId", &Planning::Plan::planID),
+        Optional("lotId", &Planning::Plan::lotID),
+        Optional("priority", &Planning::Plan::priority),
+        Required("steps", &Planning::Plan::steps));
+};
+
+template <>
+struct JsonFields<Planning::StepProgress>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("state", &Planning::StepProgress::state),
+        Optional("jobs", &Planning::StepProgress::jobs));
+};
+
+template <>
+struct JsonFields<Planning::PlanProgress>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("state", &Planning::PlanProgress::state),
+        Optional("robotId", &Planning::PlanProgress::robotID),
+        Optional("message", &Planning::PlanProgress::message),
+        Optional("startedAt", &Planning::PlanProgress::startedAt),
+        Optional("endedAt", &Planning::PlanProgress::endedAt),
+        Required("steps", &Planning::PlanProgress::steps));
+};
+
+template <>
+struct JsonFields<Planning::Alarm>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("robotId", &Planning::Alarm::robotID),
+        Required("errorCode", &Planning::Alarm::errorCode),
+        Required("level", &Planning::Alarm::level),
+        Required("message", &Planning::Alarm::message),
+        Optional("planId", &Planning::Alarm::planID),
+        Optional("stepNo", &Planning::Alarm::stepNo),
+        Optional("jobId", &Planning::Alarm::jobID));
+};
+
+template <>
+struct JsonFields<Planning::CarriersChanged>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("robotId", &Planning::CarriersChanged::robotID),
+        Required("carrierIds", &Planning::CarriersChanged::carrierIDs));
+};
+
+template <>
+struct JsonFields<Planning::ReportText>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("kind", &Planning::ReportText::kind),
+        Optional("planId", &Planning::ReportText::planID),
+        Optional("robotId", &Planning::ReportText::robotID),
+        Optional("stepNo", &Planning::ReportText::stepNo),
+        Optional("jobId", &Planning::ReportText::jobID),
+        Optional("planState", &Planning::ReportText::planState),
+        Optional("stepState", &Planning::ReportText::stepState),
+        Optional("jobState", &Planning::ReportText::jobState),
+        Optional("control", &Planning::ReportText::control),
+        Optional("succeeded", &Planning::ReportText::bSucceeded),
+        Optional("set", &Planning::ReportText::bSet),
+        Optional("alarm", &Planning::ReportText::alarm),
+        Optional("message", &Planning::ReportText::message));
+};
+
+} // namespace ACS::Json
+
+namespace ACS::Planning
+{
+
+namespace
+{
+
+template <typename TValue>
+std::string EncodeText(const TValue& value)
+{
+    std::string text;
+    Json::JsonWriter writer(text);
+    Json::Encode(value, writer);
+    return text;
+}
+
+template <typename TValue>
+Core::Result<TValue> DecodeText(std::string_view text)
+{
+    Json::JsonDocument document;
+    const Core::Result<const Json::Value*> root = document.Parse(text, Json::ParseLimits{});
+    if (!root.has_value())
+    {
+        return tl::unexpected(root.error());
+    }
+    Json::DecodeContext context;
+    TValue value;
+    if (!Json::TryDecode(**root, value, {}, context))
+    {
+        return tl::unexpected(context.TakeError());
+    }
+    return value;
+}
+
+ReportText MakeText(const PlanReport& report)
+{
+    ReportText text;
+    text.kind = EReportKind::Plan;
+    text.planID = report.planID;
+    text.planState = report.state;
+    text.message = report.message;
+    return text;
+}
+
+ReportText MakeText(const StepReport& report)
+{
+    ReportText text;
+    text.kind = EReportKind::Step;
+    text.planID = report.planID;
+    text.robotID = report.robotID;
+    text.stepNo = report.stepNo;
+    text.stepState = report.state;
+    text.message = report.message;
+    return text;
+}
+
+ReportText MakeText(const JobReport& report)
+{
+    ReportText text;
+    text.kind = EReportKind::Job;
+    text.planID = report.planID;
+    text.robotID = report.robotID;
+    text.stepNo = report.stepNo;
+    text.jobID = report.jobID;
+    text.jobState = report.state;
+    text.message = report.message;
+    return text;
+}
+
+ReportText MakeText(const ErrorReport& report)
+{
+    ReportText text;
+    text.kind = EReportKind::Error;
+    text.alarm = report.alarm;
+    text.bSet = report.bSet;
+    return text;
+}
+
+ReportText MakeText(const ControlResultReport& report)
+{
+    ReportText text;
+    text.kind = EReportKind::Control;
+    text.planID = report.planID;
+    text.control = report.control;
+    text.bSucceeded = report.bSucceeded;
+    text.message = report.message;
+    return text;
+}
+
+Core::Result<Report> MakeReport(ReportText text)
+{
+    const auto refuse = [] {
+        return Core::Fail(Core::ECoreError::MissingField, {}, "all members of this kind of report", "fewer");
+    };
+    switch (text.kind)
+    {
+        case EReportKind::Plan:
+            return text.planID && text.planState
+                ? Core::Result<Report>(PlanReport{*text.planID, *text.planState, text.message})
+                : refuse();
+        case EReportKind::Step:
+            return text.planID && text.robotID && text.stepNo && text.stepState ? Core::Result<Report>(
+                       StepReport{*text.planID, *text.robotID, *text.stepNo, *text.stepState, text.message})
+                                                                                : refuse();
+        case EReportKind::Job:
+            return text.planID && text.robotID && text.stepNo && text.jobID && text.jobState ? Core::Result<Report>(
+                       JobReport{*text.planID, *text.robotID, *text.stepNo, *text.jobID, *text.jobState, text.message})
+                                                                                             : refuse();
+        case EReportKind::Error:
+            return text.alarm && text.bSet ? Core::Result<Report>(ErrorReport{*text.alarm, *text.bSet}) : refuse();
+        case EReportKind::Control:
+            return text.planID && text.control && text.bSucceeded
+                ? Core::Result<Report>(ControlResultReport{*text.control, *text.planID, *text.bSucceeded, text.message})
+                : refuse();
+        default:
+            return refuse();
+    }
+}
+
+} // namespace
+
+std::string EncodePlan(const Plan& plan)
+{
+    return EncodeText(plan);
+}
+
+Core::Result<Plan> DecodePlan(std::string_view text)
+{
+    return DecodeText<Plan>(text);
+}
+
+std::string EncodeProgress(const PlanProgress& progress)
+{
+    return EncodeText(progress);
+}
+
+Core::Result<PlanProgress> DecodeProgress(std::string_view text)
+{
+    return DecodeText<PlanProgress>(text);
+}
+
+std::string EncodeReport(const Report& report)
+{
+    return std::visit([](const auto& typed) { return EncodeText(MakeText(typed)); }, report);
+}
+
+Core::Result<Report> DecodeReport(std::string_view text)
+{
+    Core::Result<ReportText> reportText = DecodeText<ReportText>(text);
+    if (!reportText.has_value())
+    {
+        return tl::unexpected(std::move(reportText.error()));
+    }
+    return MakeReport(std::move(*reportText));
+}
+
+std::string EncodeCarriers(const CarriersChanged& carriers)
+{
+    return EncodeText(carriers);
+}
+
+Core::Result<CarriersChanged> DecodeCarriers(std::string_view text)
+{
+    return DecodeText<CarriersChanged>(text);
+}
+
+std::string EncodeAlarm(const Alarm& alarm)
+{
+    return EncodeText(alarm);
+}
+
+Core::Result<Alarm> DecodeAlarm(std::string_view text)
+{
+    return DecodeText<Alarm>(text);
+}
+
+} // namespace ACS::Planning

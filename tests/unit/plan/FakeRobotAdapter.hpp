@@ -1,0 +1,239 @@
+#pragma once
+
+#include <acs/core/IRandom.hpp>
+#include <acs/core/Overloaded.hpp>
+#include <acs/plan/IRobotAdapter.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ACS::Testing
+{
+
+/// A robot in memory: drives along released nodes and does jobs, each with delays of its own from the random source.
+class FakeRobotAdapter final : public Planning::IRobotAdapter
+{
+    static constexpr Planning::AdapterTimerID MOVE_TIMER = 1;
+    static constexpr Planning::AdapterTimerID JOB_TIMER = 2;
+
+    Core::IRandom& _random;
+    std::string _nodeID;
+    Planning::Drive _drive;
+    std::size_t _index = 0;
+    bool _bDriving = false;
+    bool _bAccepted = false; ///< Has told the first node of its drive.
+    bool _bMoving = false;   ///< Between _index and the next node.
+    bool _bStopping = false;
+    std::string _jobID;
+    bool _bJobStarted = false;
+
+public:
+    std::set<std::string> failingJobs;
+    bool bRejectDrives = false;
+    std::size_t extensions = 0;
+    std::size_t drives = 0;
+    std::size_t ranOverBase = 0; ///< Extensions that were needed and had not come when the base ended.
+    std::vector<std::string> doneJobs;
+
+    FakeRobotAdapter(Core::IRandom& random, std::string nodeID)
+        : _random(random),
+          _nodeID(std::move(nodeID))
+    {
+    }
+
+    /// The nodes that the robot is on: one, or two while it is between them.
+    [[nodiscard]] std::vector<std::string> GetOccupied() const
+    {
+        std::vector<std::string> nodes{_nodeID};
+        if (_bMoving)
+        {
+            nodes.push_back(_drive.route.nodes[_index + 1].nodeID);
+        }
+        return nodes;
+    }
+
+    void Connect(Planning::AdapterActions& out)
+    {
+        Raise(Planning::LinkChanged{true}, out);
+        RaiseState(out);
+    }
+
+    void Handle(const Planning::RobotCommand& command, Core::Now /*now*/, Planning::AdapterActions& out) override
+    {
+        std::visit(
+            Core::Overloaded{
+                [this, &out](const Planning::Drive& drive) { BeginDrive(drive, out); },
+                [this, &out](const Planning::ExtendDrive& extend) { Extend(extend, out); },
+                [this, &out](const Planning::CancelDrive& cancel) { Cancel(cancel, out); },
+                [this, &out](const Planning::StartJob& job) {
+                    _jobID = job.jobID;
+                    _bJobStarted = false;
+                    StartTimer(JOB_TIMER, 500, out);
+                },
+                [this, &out](const Planning::CancelJob& job) {
+                    Raise(Planning::JobFailed{job.jobID, "cancelled"}, out);
+                    _jobID.clear();
+                },
+                [](const auto& /*other*/) {
+                }},
+            command);
+    }
+
+    void OnTimer(Planning::AdapterTimerID timer, Core::Now /*now*/, Planning::AdapterActions& out) override
+    {
+        if (timer == MOVE_TIMER)
+        {
+            Move(out);
+        }
+        else if (!_jobID.empty())
+        {
+            Work(out);
+        }
+    }
+
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(std::string_view /*action*/) const override
+    {
+        return std::nullopt;
+    }
+
+private:
+    static void Raise(Planning::RobotEvent event, Planning::AdapterActions& out)
+    {
+        out.emplace_back(Planning::RaiseEvent{std::move(event)});
+    }
+
+    void RaiseState(Planning::AdapterActions& out) const
+    {
+        Planning::StateChanged state;
+        state.bPoseKnown = true;
+        state.batteryPercent = 80;
+        state.lastNodeID = _nodeID;
+        state.bDriving = _bMoving;
+        Raise(std::move(state), out);
+    }
+
+    void StartTimer(Planning::AdapterTimerID timer, std::uint64_t maximum, Planning::AdapterActions& out)
+    {
+        const auto delay = std::chrono::milliseconds(1 + _random.GetNext() % maximum);
+        out.emplace_back(Planning::StartAdapterTimer{timer, delay});
+    }
+
+    void BeginDrive(const Planning::Drive& drive, Planning::AdapterActions& out)
+    {
+        if (bRejectDrives || drive.route.nodes.front().nodeID != _nodeID)
+        {
+            Raise(Planning::DriveRejected{drive.driveID, "the test says so"}, out);
+            return;
+        }
+        ++drives;
+        _drive = drive;
+        _index = 0;
+        _bDriving = true;
+        _bStopping = false;
+        _bAccepted = false;
+        StartTimer(MOVE_TIMER, 100, out);
+    }
+
+    void Extend(const Planning::ExtendDrive& extend, Planning::AdapterActions& out)
+    {
+        if (!_bDriving || extend.driveID != _drive.driveID)
+        {
+            return;
+        }
+        ++extensions;
+        const bool bWaits = _bAccepted && !_bMoving;
+        ranOverBase += bWaits && _index > 0 ? 1U : 0U;
+        _drive.releasedCount = extend.releasedCount;
+        if (bWaits)
+        {
+            GoOn(out);
+        }
+    }
+
+    void Cancel(const Planning::CancelDrive& cancel, Planning::AdapterActions& out)
+    {
+        if (!_bDriving || cancel.driveID != _drive.driveID)
+        {
+            return;
+        }
+        _bStopping = true;
+        if (!_bMoving)
+        {
+            Stop(out);
+        }
+    }
+
+    void Stop(Planning::AdapterActions& out)
+    {
+        _bDriving = false;
+        _bMoving = false;
+        Raise(Planning::DriveCancelled{_drive.driveID, _nodeID}, out);
+        RaiseState(out);
+    }
+
+    void Move(Planning::AdapterActions& out)
+    {
+        if (!_bDriving)
+        {
+            return;
+        }
+        _bAccepted = true;
+        if (_bMoving)
+        {
+            ++_index;
+            _nodeID = _drive.route.nodes[_index].nodeID;
+            _bMoving = false;
+        }
+        Raise(Planning::NodePassed{_drive.driveID, _nodeID}, out);
+        if (_index + 1 == _drive.route.nodes.size())
+        {
+            _bDriving = false;
+            Raise(Planning::Arrived{_drive.driveID}, out);
+            RaiseState(out);
+        }
+        else if (_bStopping)
+        {
+            Stop(out);
+        }
+        else
+        {
+            GoOn(out);
+        }
+    }
+
+    /// To the next node, where it is released.
+    void GoOn(Planning::AdapterActions& out)
+    {
+        if (_index + 1 < _drive.releasedCount)
+        {
+            _bMoving = true;
+            RaiseState(out);
+            StartTimer(MOVE_TIMER, 3'000, out);
+        }
+    }
+
+    void Work(Planning::AdapterActions& out)
+    {
+        if (!_bJobStarted)
+        {
+            _bJobStarted = true;
+            Raise(Planning::JobStarted{_jobID}, out);
+            StartTimer(JOB_TIMER, 5'000, out);
+            return;
+        }
+        const std::string jobID = std::exchange(_jobID, {});
+        if (failingJobs.contains(jobID))
+        {
+            Raise(Planning::JobFailed{jobID, "the gripper is empty"}, out);
+            return;
+        }
+        doneJobs.push_back(jobID);
+        Raise(Planning::JobFinished{jobID}, out);
+    }
+};
+
+} // namespace ACS::Testing

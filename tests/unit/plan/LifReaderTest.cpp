@@ -1,0 +1,108 @@
+#include "Catch.hpp"
+#include <acs/plan/EPlanningError.hpp>
+#include <acs/plan/LifReader.hpp>
+
+#include <numbers>
+#include <string>
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using namespace ACS;           // NOLINT(google-build-using-namespace)
+
+namespace
+{
+
+const std::string& GetLif()
+{
+    static const std::string TEXT = R"({
+      "metaInformation": {"projectIdentification": "p", "creator": "c", "exportTimestamp": "2025-01-01T00:00:00Z",
+        "lifVersion": "1.0.0"},
+      "layouts": [{"layoutId": "one", "layoutVersion": "1",
+        "nodes": [
+          {"nodeId": "N1", "mapId": "floor", "nodePosition": {"x": 0, "y": 0},
+           "vehicleTypeNodeProperties": [{"vehicleTypeId": "lr", "theta": 1.5}]},
+          {"nodeId": "N2", "nodePosition": {"x": 3, "y": 4}, "vehicleTypeNodeProperties": [{"vehicleTypeId": "lr"}]}],
+        "edges": [
+          {"edgeId": "E1", "startNodeId": "N1", "endNodeId": "N2", "vehicleTypeEdgeProperties":
+           [{"vehicleTypeId": "lr", "vehicleOrientation": 270.0, "orientationType": "TANGENTIAL",
+             "rotationAllowed": true, "maxSpeed": 1.2}]}],
+        "stations": [{"stationId": "A01.CP01", "interactionNodeIds": ["N2"]}]}]})";
+    return TEXT;
+}
+
+std::string Replace(std::string text, const std::string& from, const std::string& to)
+{
+    const std::size_t place = text.find(from);
+    REQUIRE(place != std::string::npos);
+    return text.replace(place, from.size(), to);
+}
+
+} // namespace
+
+TEST_CASE("LIF: nodes, edges and stations become a map, degrees become radians")
+{
+    const Core::Result<SiteMap> site = DecodeLif(GetLif());
+    REQUIRE(site.has_value());
+    REQUIRE(site->GetNodes().size() == 2);
+    CHECK(site->FindNodeOrNull("N1")->mapID == "floor");
+    CHECK(site->FindNodeOrNull("N1")->FindRuleOrNull("lr")->theta == 1.5);
+    CHECK(site->FindNodeOrNull("N2")->FindRuleOrNull("lr")->theta == std::nullopt);
+    CHECK(site->FindNodeOrNull("N2")->FindRuleOrNull("cr") == nullptr);
+    const SiteEdgeRule& rule = *site->GetEdges().front().FindRuleOrNull("lr");
+    CHECK(*rule.orientation == Approx(-std::numbers::pi / 2));
+    CHECK(rule.orientationType == "TANGENTIAL");
+    CHECK(rule.bRotationAllowed == true);
+    CHECK(rule.maxSpeed == 1.2);
+    CHECK(site->FindStationOrNull("A01.CP01")->nodeIDs == std::vector<std::string>{"N2"});
+    CHECK(site->FindStationAtOrNull("N2")->stationID == "A01.CP01");
+    CHECK(site->HasVehicleType("lr"));
+    CHECK_FALSE(site->HasVehicleType("cr"));
+}
+
+TEST_CASE("LIF: a file that is not LIF is refused at the place where it goes wrong")
+{
+    struct Case
+    {
+        std::string from;
+        std::string to;
+        std::string path;
+    };
+
+    const std::vector<Case> cases{
+        {"\"lifVersion\": \"1.0.0\"", "\"lifVersion\": \"2.0.0\"", "metaInformation.lifVersion"},
+        {"\"nodeId\": \"N2\"", "\"nodeId\": \"N1\"", "layouts[0].nodes[1].nodeId"},
+        {"\"edgeId\": \"E1\", ", "", "layouts[0].edges[0].edgeId"},
+        {"\"endNodeId\": \"N2\"", "\"endNodeId\": \"N9\"", "layouts[0].edges[0].endNodeId"},
+        {"270.0", "361.0", "layouts[0].edges[0].vehicleTypeEdgeProperties[0].vehicleOrientation"},
+        {"\"theta\": 1.5", "\"theta\": 90", "layouts[0].nodes[0].vehicleTypeNodeProperties[0].theta"},
+        {"\"maxSpeed\": 1.2", "\"maxSpeed\": 0", "layouts[0].edges[0].vehicleTypeEdgeProperties[0].maxSpeed"},
+        {"[\"N2\"]", "[\"N3\"]", "layouts[0].stations[0].interactionNodeIds[0]"},
+        {"[\"N2\"]", "[]", "layouts[0].stations[0].interactionNodeIds"},
+        {"\"x\": 3", "\"x\": \"3\"", "layouts[0].nodes[1].nodePosition.x"},
+    };
+    for (const Case& wrong : cases)
+    {
+        INFO(wrong.from << " -> " << wrong.to);
+        const Core::Result<SiteMap> site = DecodeLif(Replace(GetLif(), wrong.from, wrong.to));
+        REQUIRE_FALSE(site.has_value());
+        CHECK(site.error().path == wrong.path);
+    }
+    CHECK_FALSE(DecodeLif("").has_value());
+    CHECK_FALSE(DecodeLif("[]").has_value());
+}
+
+TEST_CASE("LIF: an error in the second layout is found there, and a map without nodes is none")
+{
+    const std::string second =
+        R"(, {"layoutId": "two", "layoutVersion": "1", "nodes": [{"nodeId": "N1", "nodePosition": {"x": 0, "y": 0},
+           "vehicleTypeNodeProperties": []}], "edges": [], "stations": []}]})";
+    const std::string text = GetLif();
+    const Core::Result<SiteMap> twice = DecodeLif(text.substr(0, text.size() - 2) + second);
+    REQUIRE_FALSE(twice.has_value());
+    CHECK(twice.error().path == "layouts[1].nodes[0].nodeId");
+    CHECK(twice.error().code == EPlanningError::InvalidSite);
+
+    const std::string empty = text.substr(0, text.find("\"layouts\"")) + "\"layouts\": []}";
+    const Core::Result<SiteMap> none = DecodeLif(empty);
+    REQUIRE_FALSE(none.has_value());
+    CHECK(none.error().path == "layouts");
+}

@@ -1,0 +1,146 @@
+#include "Catch.hpp"
+#include "PlanWorld.hpp"
+
+#include <functional>
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using ACS::Testing::MakeControlPlan;
+using ACS::Testing::MakeLogisticsPlan;
+using ACS::Testing::PlanWorld;
+
+TEST_CASE("4.1 What is wrong with a plan is refused with a message that names the field")
+{
+    struct Case
+    {
+        std::string name;
+        std::function<void(Plan&)> spoil;
+        std::string said;
+    };
+
+    const std::vector<Case> cases{
+        {"no planId", [](Plan& plan) { plan.planID.clear(); }, "planId"},
+        {"a long planId", [](Plan& plan) { plan.planID.assign(129, 'x'); }, "planId"},
+        {"no steps", [](Plan& plan) { plan.steps.clear(); }, "steps"},
+        {"stepNo 0", [](Plan& plan) { plan.steps[0].stepNo = 0; }, "steps[0].stepNo"},
+        {"a stepNo twice", [](Plan& plan) { plan.steps[1].stepNo = 1; }, "steps[1].stepNo"},
+        {"no jobId", [](Plan& plan) { plan.steps[0].jobs[0].jobID.clear(); }, "steps[0].jobs[0].jobId"},
+        {"a jobId twice",
+         [](Plan& plan) { plan.steps[1].jobs[0].jobID = plan.steps[0].jobs[0].jobID; },
+         "steps[1].jobs[0].jobId"},
+        {"an unknown action", [](Plan& plan) { plan.steps[0].action = "Fly"; }, "steps[0].action"},
+        {"a position that is no location", [](Plan& plan) { plan.steps[0].position = "here"; }, "steps[0].position"},
+        {"a position off the map", [](Plan& plan) { plan.steps[0].position = "A09.CP01"; }, "steps[0].position"},
+        {"a from off the map", [](Plan& plan) { plan.steps[0].jobs[0].from = "A01.CP77"; }, "steps[0].jobs[0].from"},
+        {"no from", [](Plan& plan) { plan.steps[0].jobs[0].from.reset(); }, "steps[0].jobs[0].from"},
+        {"a to of the wrong kind", [](Plan& plan) { plan.steps[0].jobs[0].to = "A01.CP02"; }, "steps[0].jobs[0].to"},
+        {"a port that no robot has", [](Plan& plan) { plan.steps[0].jobs[0].to = "AMR.CP09"; }, "AMR.CP09"},
+        {"an unknown robot", [](Plan& plan) { plan.steps[0].jobs[0].to = "RBT01.CP01"; }, "RBT01"},
+        {"a robot of the other type", [](Plan& plan) { plan.steps[0].jobs[0].to = "CR01.CP01"; }, "CR01"},
+        {"a load without jobs", [](Plan& plan) { plan.steps[0].jobs.clear(); }, "steps[0].jobs"},
+        {"both robot types",
+         [](Plan& plan) {
+             plan.steps[1] = MakeControlPlan("x").steps[0];
+             plan.steps[1].stepNo = 2;
+         },
+         "steps[1].action"},
+    };
+    for (const Case& wrong : cases)
+    {
+        INFO(wrong.name);
+        PlanWorld world;
+        Plan plan = MakeLogisticsPlan("P1");
+        wrong.spoil(plan);
+        world.Submit(plan, 7);
+        CHECK_FALSE(world.replies.at(7).bAccepted);
+        CHECK(world.replies.at(7).message.find(wrong.said) != std::string::npos);
+        INFO(world.replies.at(7).message);
+        CHECK(world.store.GetState().plans.empty());
+        CHECK(world.engine->GetActivePlans().empty());
+    }
+}
+
+TEST_CASE("4.1 Two robots named in one plan are refused, one of them pins the plan")
+{
+    PlanWorld world(1, true);
+    Plan mixed = MakeLogisticsPlan("P1");
+    mixed.steps[0].jobs[0].to = "LR01.CP01";
+    mixed.steps[1].jobs[0].from = "LR02.CP01";
+    world.Submit(mixed, 1);
+    CHECK_FALSE(world.replies.at(1).bAccepted);
+
+    Plan pinned = MakeLogisticsPlan("P2");
+    pinned.steps[0].jobs[0].to = "LR02.CP01";
+    world.Connect();
+    world.Submit(pinned, 2);
+    REQUIRE(world.TryRun());
+    CHECK(world.engine->GetPlanOrNull("P2")->robotID == "LR02");
+    CHECK(world.GetRobot("LR01").drives == 0);
+}
+
+TEST_CASE("4.1 Absent, null and superfluous places, lower case, gaps and disorder are no reason to refuse")
+{
+    PlanWorld world;
+    Plan plan;
+    plan.planID = "P1";
+    plan.steps = {
+        {7, "Start", "A01.SET01", {}, {{"J2", "ignored", ""}}},
+        {3, "OpenSetCover", "a01.set1", {}, {}},
+        {5, "MemoryPickAndPlace", "SET02", {}, {{"J1", "AMR.TP01.MP01", "SET02.MP05"}}}};
+    world.Connect();
+    world.Submit(plan, 1);
+    REQUIRE(world.replies.at(1).bAccepted);
+    REQUIRE(world.TryRun());
+    CHECK(
+        world.GetReportsOf("P1")
+        == std::vector<std::string>{
+            "Plan InProgress",
+            "Step 3 Dispatched",
+            "Step 3 InProgress",
+            "Step 3 Completed",
+            "Step 5 Dispatched",
+            "Step 5 InProgress",
+            "Job 5 J1 Instructed",
+            "Job 5 J1 InProgress",
+            "Job 5 J1 Completed",
+            "Step 5 Completed",
+            "Step 7 Dispatched",
+            "Step 7 InProgress",
+            "Job 7 J2 Instructed",
+            "Job 7 J2 InProgress",
+            "Job 7 J2 Completed",
+            "Step 7 Completed",
+            "Plan Completed"});
+}
+
+TEST_CASE("6.4 A planId that was used and a full queue are refused")
+{
+    EngineOptions options = ACS::Testing::MakeTestOptions(false);
+    options.maximumPlans = 2;
+    PlanWorld world(1, options, ACS::Testing::MakeTestSite());
+    world.Submit(MakeLogisticsPlan("P1"), 1);
+    world.Submit(MakeLogisticsPlan("P1"), 2);
+    world.Submit(MakeLogisticsPlan("P2"), 3);
+    world.Submit(MakeLogisticsPlan("P3"), 4);
+    CHECK(world.replies.at(1).bAccepted);
+    CHECK(world.replies.at(2).message.find("Duplicated Plan") != std::string::npos);
+    CHECK(world.replies.at(3).bAccepted);
+    CHECK(world.replies.at(4).message.find("Queue Full") != std::string::npos);
+    world.Connect();
+    REQUIRE(world.TryRun());
+    world.Submit(MakeLogisticsPlan("P1"), 5);
+    CHECK_FALSE(world.replies.at(5).bAccepted);
+}
+
+TEST_CASE("Options that do not fit the site are all told at once")
+{
+    EngineOptions options = ACS::Testing::MakeTestOptions(false);
+    CHECK(FindMistakes(options, ACS::Testing::MakeTestSite()).empty());
+    options.robots[0].vehicleTypeID = "zeppelin";
+    options.robots[1].homeStationID = "CHG99";
+    options.robots[1].startNodeID = "nowhere";
+    const std::vector<ACS::Core::Error> mistakes = FindMistakes(options, ACS::Testing::MakeTestSite());
+    REQUIRE(mistakes.size() == 3);
+    CHECK(mistakes[0].path == "robots.LR01.vehicle_type");
+    CHECK(mistakes[1].path == "robots.CR01.start_node");
+    CHECK(mistakes[2].path == "robots.CR01.home");
+}

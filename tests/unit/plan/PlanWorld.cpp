@@ -1,0 +1,512 @@
+#include "PlanWorld.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace ACS::Testing
+{
+
+using namespace Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+
+namespace
+{
+
+constexpr std::chrono::hours TIME_LIMIT{24 * 7};
+
+std::string DescribeReport(const Report& report)
+{
+    return std::visit(
+        Core::Overloaded{
+            [](const PlanReport& typed) { return fmt::format("{} Plan {}", typed.planID, GetText(typed.state)); },
+            [](const StepReport& typed) {
+                return fmt::format("{} Step {} {}", typed.planID, typed.stepNo, GetText(typed.state));
+            },
+            [](const JobReport& typed) {
+                return fmt::format("{} Job {} {} {}", typed.planID, typed.stepNo, typed.jobID, GetText(typed.state));
+            },
+            [](const ErrorReport& typed) {
+                return fmt::format(
+                    "{} Error {} {}",
+                    typed.alarm.planID.value_or("-"),
+                    typed.alarm.errorCode,
+                    typed.bSet ? "set" : "cleared");
+            },
+            [](const ControlResultReport& typed) {
+                return fmt::format(
+                    "{} {}Result {}",
+                    typed.planID,
+                    GetText(typed.control),
+                    typed.bSucceeded ? "Success" : "Failed");
+            }},
+        report);
+}
+
+std::string DescribeCommand(const RobotCommand& command)
+{
+    return std::visit(
+        Core::Overloaded{
+            [](const Drive& typed) {
+                return fmt::format(
+                    "Drive to {} released {} of {}",
+                    typed.route.nodes.back().nodeID,
+                    typed.releasedCount,
+                    typed.route.nodes.size());
+            },
+            [](const ExtendDrive& typed) { return fmt::format("ExtendDrive {}", typed.releasedCount); },
+            [](const CancelDrive&) { return std::string("CancelDrive"); },
+            [](const StartJob& typed) {
+                return fmt::format(
+                    "StartJob {} {} {} {}>{} {}",
+                    typed.jobID,
+                    typed.action,
+                    typed.position,
+                    typed.from.value_or("-"),
+                    typed.to.value_or("-"),
+                    typed.carrierID.value_or("-"));
+            },
+            [](const CancelJob&) { return std::string("CancelJob"); },
+            [](const Pause&) { return std::string("Pause"); },
+            [](const Resume&) {
+                return std::string("Resume");
+            }},
+        command);
+}
+
+SiteNode MakeNode(std::string nodeID, double x, double y)
+{
+    return {std::move(nodeID), x, y, "floor", {{"lr-base", std::nullopt}, {"cr-base", 1.5}}};
+}
+
+SiteEdge MakeEdge(const std::string& from, const std::string& to)
+{
+    const auto makeRule = [](std::string type) {
+        SiteEdgeRule rule;
+        rule.vehicleTypeID = std::move(type);
+        rule.maxSpeed = 1.2;
+        return rule;
+    };
+    return {from + ">" + to, from, to, {makeRule("lr-base"), makeRule("cr-base")}};
+}
+
+RobotOptions MakeRobot(const std::string& robotID, ERobotType type, const std::string& home)
+{
+    const bool bLogistics = type == ERobotType::LR;
+    RobotOptions robot{
+        *Core::RobotID::Parse(robotID),
+        type,
+        bLogistics ? "lr-base" : "cr-base",
+        "D-" + home,
+        home,
+        *Core::ParseLocationRange(robotID + (bLogistics ? ".CP01" : ".TP01-03")),
+        {},
+        {}};
+    for (int tray = 1; !bLogistics && tray <= 3; ++tray)
+    {
+        std::ranges::move(
+            *Core::ParseLocationRange(fmt::format("{}.TP{:02}.MP01-25", robotID, tray)),
+            std::back_inserter(robot.childPorts));
+    }
+    return robot;
+}
+
+} // namespace
+
+SiteMap MakeTestSite()
+{
+    const std::vector<std::string> stations{
+        "CHG01",
+        "CHG02",
+        "A01.CP01",
+        "A01.CP02",
+        "A01.CP03",
+        "A01.CP04",
+        "A01.CP05",
+        "A01.CP06",
+        "A02.CP03",
+        "A02.CP04",
+        "A01.SET01",
+        "A01.SET02",
+        "A01.SET03",
+        "A01.SET04",
+        "CHG03",
+        "CHG04"};
+    std::vector<SiteNode> nodes;
+    std::vector<SiteEdge> edges;
+    std::vector<SiteStation> sites;
+    for (std::size_t i = 0; i < stations.size(); ++i)
+    {
+        const auto lane = [&stations](std::size_t index) {
+            return fmt::format("L{:02}", index % stations.size() + 1);
+        };
+        const auto x = static_cast<double>(i);
+        const std::string dock = "D-" + stations[i];
+        nodes.push_back(MakeNode(lane(i), x, 0));
+        nodes.push_back(MakeNode(dock, x, 1));
+        edges.push_back(MakeEdge(lane(i), lane(i + 1)));
+        edges.push_back(MakeEdge(lane(i), dock));
+        edges.push_back(MakeEdge(dock, lane(i)));
+        sites.push_back({stations[i], {dock}});
+    }
+    return *SiteMap::Create(std::move(nodes), std::move(edges), std::move(sites));
+}
+
+EngineOptions MakeTestOptions(bool bFourRobots)
+{
+    EngineOptions options;
+    options.robots.push_back(MakeRobot("LR01", ERobotType::LR, "CHG01"));
+    options.robots.push_back(MakeRobot("CR01", ERobotType::CR, "CHG02"));
+    if (bFourRobots)
+    {
+        options.robots.push_back(MakeRobot("LR02", ERobotType::LR, "CHG03"));
+        options.robots.push_back(MakeRobot("CR02", ERobotType::CR, "CHG04"));
+    }
+    for (const std::string range :
+         {"A01.CP01.TP01-04",
+          "A01.CP02.TP01-04",
+          "A01.CP03.TP01-04",
+          "A01.SET01.MP01-32",
+          "A01.SET02.MP01-32",
+          "A01.SET03.MP01-32",
+          "A01.SET04.MP01-32"})
+    {
+        std::ranges::move(*Core::ParseLocationRange(range), std::back_inserter(options.places));
+    }
+    return options;
+}
+
+Plan MakeLogisticsPlan(const std::string& planID)
+{
+    return {
+        planID,
+        "LOTSAMPLE_0001",
+        10,
+        {{1, "CassetteLoad", "A01.CP01", {"CASSETTE_01"}, {{planID + "-a4", "A01.CP01", "AMR.CP01"}}},
+         {2, "CassetteUnload", "A02.CP03", {"CASSETTE_01"}, {{planID + "-b2", "AMR.CP01", "A02.CP03"}}}}};
+}
+
+Plan MakeControlPlan(const std::string& planID)
+{
+    return {
+        planID,
+        "LOTSAMPLE_0001",
+        10,
+        {{1,
+          "TrayLoad",
+          "A01.CP01",
+          {"TRAY_01", "TRAY_02"},
+          {{planID + "-cd", "A01.CP01.TP01", "AMR.TP01"}, {planID + "-b3", "A01.CP01.TP02", "AMR.TP02"}}},
+         {2,
+          "MemoryPickAndPlace",
+          "A01.SET01",
+          {},
+          {{planID + "-f3", "AMR.TP01.MP01", "A01.SET01.MP01"}, {planID + "-e0", "AMR.TP02.MP01", "A01.SET01.MP02"}}},
+         {3,
+          "TrayUnload",
+          "A01.CP01",
+          {"TRAY_01", "TRAY_02"},
+          {{planID + "-d1", "AMR.TP01", "A01.CP01.TP01"}, {planID + "-d2", "AMR.TP02", "A01.CP01.TP02"}}}}};
+}
+
+PlanWorld::PlanWorld(std::uint64_t seed, bool bFourRobots)
+    : PlanWorld(seed, MakeTestOptions(bFourRobots), MakeTestSite())
+{
+}
+
+PlanWorld::PlanWorld(std::uint64_t seed, EngineOptions options, SiteMap site)
+    : _random(seed)
+{
+    AddRobots(options);
+    engine = std::make_unique<PlanEngine>(std::move(options), std::move(site), _random);
+}
+
+void PlanWorld::AddRobots(const EngineOptions& options)
+{
+    for (const RobotOptions& robot : options.robots)
+    {
+        _robots.emplace(
+            robot.robotID.GetText(),
+            std::make_unique<FakeRobotAdapter>(_random, robot.startNodeID.value_or("")));
+    }
+}
+
+void PlanWorld::Connect()
+{
+    for (const auto& [robotID, robot] : _robots)
+    {
+        AdapterActions out;
+        robot->Connect(out);
+        ExecuteRobot(robotID, out);
+    }
+}
+
+void PlanWorld::Submit(Plan plan, ReplyToken token)
+{
+    EngineActions out;
+    engine->Handle(SubmitPlan{std::move(plan), token}, GetNow(), out);
+    Execute(std::move(out));
+}
+
+void PlanWorld::Control(EPlanControl control, const std::string& planID, ReplyToken token)
+{
+    EngineActions out;
+    engine->Handle(ControlPlan{control, planID, "", token}, GetNow(), out);
+    Execute(std::move(out));
+}
+
+void PlanWorld::Raise(const std::string& robotID, const RobotEvent& event)
+{
+    EngineActions out;
+    engine->Handle(robotID, event, GetNow(), out);
+    Execute(std::move(out));
+    CheckOccupancy();
+}
+
+void PlanWorld::Restart(EngineOptions options, SiteMap site)
+{
+    std::erase_if(_entries, [](const Entry& entry) { return entry.robotID.empty(); });
+    engine = std::make_unique<PlanEngine>(std::move(options), std::move(site), _random);
+    EngineActions out;
+    engine->Restore(*store.Load(), GetNow(), out);
+    Execute(std::move(out));
+}
+
+bool PlanWorld::TryRun(const std::function<bool()>& isReached)
+{
+    const Core::SteadyTime end = GetNow().steady + TIME_LIMIT;
+    while (!_entries.empty())
+    {
+        if (isReached && isReached())
+        {
+            return true;
+        }
+        const auto next = std::ranges::min_element(_entries, {}, [](const Entry& entry) {
+            return std::pair(entry.time, entry.order);
+        });
+        const Entry entry = *next;
+        _entries.erase(next);
+        if (entry.time > end)
+        {
+            return false;
+        }
+        _clock.Advance(std::chrono::duration_cast<std::chrono::milliseconds>(
+            std::max(entry.time, GetNow().steady) - GetNow().steady));
+        Fire(entry);
+    }
+    return !isReached || isReached();
+}
+
+void PlanWorld::Fire(const Entry& entry)
+{
+    if (entry.robotID.empty())
+    {
+        if (_engineTimers[entry.engineTimer] == entry.generation)
+        {
+            EngineActions out;
+            engine->OnTimer(entry.engineTimer, GetNow(), out);
+            Execute(std::move(out));
+        }
+    }
+    else if (_robotTimers[{entry.robotID, entry.robotTimer}] == entry.generation)
+    {
+        AdapterActions out;
+        GetRobot(entry.robotID).OnTimer(entry.robotTimer, GetNow(), out);
+        ExecuteRobot(entry.robotID, out);
+    }
+    CheckOccupancy();
+}
+
+FakeRobotAdapter& PlanWorld::GetRobot(const std::string& robotID)
+{
+    return *_robots.at(robotID);
+}
+
+Core::Now PlanWorld::GetNow() const
+{
+    return _clock.GetNow();
+}
+
+std::uint64_t PlanWorld::GetRandom(std::uint64_t below)
+{
+    return _random.GetNext() % below;
+}
+
+std::vector<std::string> PlanWorld::GetReportsOf(const std::string& planID) const
+{
+    return GetTraceOf("report " + planID + " ");
+}
+
+std::vector<std::string> PlanWorld::GetTraceOf(const std::string& prefix) const
+{
+    std::vector<std::string> lines;
+    for (const std::string& line : trace)
+    {
+        if (line.starts_with(prefix))
+        {
+            lines.push_back(line.substr(prefix.size()));
+        }
+    }
+    return lines;
+}
+
+void PlanWorld::Push(Entry entry, Core::Duration delay)
+{
+    ++_order;
+    entry.time = GetNow().steady + delay;
+    entry.order = _order;
+    entry.generation = _order;
+    if (entry.robotID.empty())
+    {
+        _engineTimers[entry.engineTimer] = _order;
+    }
+    else
+    {
+        _robotTimers[{entry.robotID, entry.robotTimer}] = _order;
+    }
+    _entries.push_back(std::move(entry));
+}
+
+/// The actions, then what robots and the MCS say to them.
+void PlanWorld::Execute(EngineActions actions)
+{
+    ExecuteAll(std::move(actions));
+    if (std::exchange(_bExecuting, true))
+    {
+        return;
+    }
+    while (!_delayed.empty())
+    {
+        const auto [robotID, event] = std::move(_delayed.front());
+        _delayed.pop_front();
+        Raise(robotID, event);
+    }
+    _bExecuting = false;
+}
+
+void PlanWorld::ExecuteAll(EngineActions actions)
+{
+    std::vector<std::uint64_t> acknowledged;
+    for (std::size_t i = 0; i < actions.size(); ++i)
+    {
+        const auto* storeOrNull = std::get_if<StorePlans>(&actions[i]);
+        if (storeOrNull == nullptr)
+        {
+            ExecuteAction(actions[i], acknowledged);
+            continue;
+        }
+        const Core::Result<void> stored = store.Append(storeOrNull->batch);
+        trace.push_back(stored.has_value() ? "store" : "store failed");
+        if (!stored.has_value())
+        {
+            EngineActions out;
+            engine->OnStoreFailed(
+                storeOrNull->batch,
+                std::span<const EngineAction>(actions).subspan(i + 1),
+                stored.error().found,
+                GetNow(),
+                out);
+            ExecuteAll(std::move(out));
+            return;
+        }
+    }
+    for (const std::uint64_t sequence : acknowledged)
+    {
+        EngineActions out;
+        engine->Handle(MessageAcknowledged{sequence}, GetNow(), out);
+        Execute(std::move(out));
+    }
+}
+
+void PlanWorld::ExecuteAction(const EngineAction& action, std::vector<std::uint64_t>& acknowledged)
+{
+    std::visit(
+        Core::Overloaded{
+            [](const StorePlans&) {},
+            [this](const ReplyCommand& typed) {
+                trace.push_back(typed.bAccepted ? "reply accepted" : "reply refused");
+                replies[typed.replyToken] = typed;
+            },
+            [this, &acknowledged](const SendReport& typed) {
+                const bool bStored = std::ranges::any_of(store.GetState().outbox, [&typed](const OutboxEntry& entry) {
+                    return entry == typed.entry;
+                });
+                if (!bStored)
+                {
+                    violations.push_back("sent before it was stored: " + DescribeReport(typed.entry.report));
+                }
+                trace.push_back("report " + DescribeReport(typed.entry.report));
+                reports.push_back(typed.entry);
+                if (bAcknowledges)
+                {
+                    acknowledged.push_back(typed.entry.sequence);
+                }
+            },
+            [this](const CommandRobot& typed) {
+                trace.push_back(fmt::format("command {} {}", typed.robotID, DescribeCommand(typed.command)));
+                AdapterActions out;
+                GetRobot(typed.robotID).Handle(typed.command, GetNow(), out);
+                // What a robot says to a command comes later, never inside the command.
+                for (const AdapterAction& robotAction : out)
+                {
+                    if (const auto* raiseOrNull = std::get_if<RaiseEvent>(&robotAction); raiseOrNull != nullptr)
+                    {
+                        _delayed.emplace_back(typed.robotID, raiseOrNull->event);
+                    }
+                }
+                std::erase_if(out, [](const AdapterAction& robotAction) {
+                    return std::holds_alternative<RaiseEvent>(robotAction);
+                });
+                ExecuteRobot(typed.robotID, out);
+            },
+            [this](const RobotStatusChanged& typed) {
+                trace.push_back(fmt::format(
+                    "status {} {} {}",
+                    typed.status.robotID,
+                    GetText(typed.status.status),
+                    typed.status.position));
+            },
+            [this](const StartEngineTimer& typed) {
+                Push({{}, 0, {}, typed.timer, 0, 0}, typed.delay);
+            },
+            [this](const CancelEngineTimer& typed) {
+                _engineTimers[typed.timer] = 0;
+            }},
+        action);
+}
+
+void PlanWorld::ExecuteRobot(const std::string& robotID, const AdapterActions& actions)
+{
+    for (const AdapterAction& action : actions)
+    {
+        std::visit(
+            Core::Overloaded{
+                [this, &robotID](const RaiseEvent& typed) { Raise(robotID, typed.event); },
+                [this, &robotID](const StartAdapterTimer& typed) {
+                    Push({{}, 0, robotID, {}, typed.timer, 0}, typed.delay);
+                },
+                [this, &robotID](const CancelAdapterTimer& typed) {
+                    _robotTimers[{robotID, typed.timer}] = 0;
+                }},
+            action);
+    }
+}
+
+/// Never two robots on one node.
+void PlanWorld::CheckOccupancy()
+{
+    std::map<std::string, std::string> holders;
+    for (const auto& [robotID, robot] : _robots)
+    {
+        for (const std::string& nodeID : robot->GetOccupied())
+        {
+            const auto [place, bNew] = holders.emplace(nodeID, robotID);
+            if (!bNew)
+            {
+                violations.push_back(fmt::format("{} and {} are on {}", place->second, robotID, nodeID));
+            }
+        }
+    }
+}
+
+} // namespace ACS::Testing

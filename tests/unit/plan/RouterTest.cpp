@@ -1,0 +1,85 @@
+#include "Catch.hpp"
+#include "PlanWorld.hpp"
+#include <acs/plan/Router.hpp>
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using ACS::Testing::MakeTestSite;
+
+namespace
+{
+
+SiteEdge MakeEdge(std::string edgeID, std::string from, std::string to, double speed)
+{
+    SiteEdgeRule rule;
+    rule.vehicleTypeID = "lr";
+    rule.maxSpeed = speed;
+    return {std::move(edgeID), std::move(from), std::move(to), {rule}};
+}
+
+SiteNode MakeNode(std::string nodeID, double x, double y)
+{
+    return {std::move(nodeID), x, y, "", {{"lr", std::nullopt}}};
+}
+
+std::vector<std::string> GetNodeIDs(const std::optional<Route>& route)
+{
+    std::vector<std::string> nodeIDs;
+    for (const RouteNode& node : route.value_or(Route{}).nodes)
+    {
+        nodeIDs.push_back(node.nodeID);
+    }
+    return nodeIDs;
+}
+
+} // namespace
+
+TEST_CASE("Routes: the quickest way, not the shortest one, and the quicker of two edges")
+{
+    const SiteMap site = *SiteMap::Create(
+        {MakeNode("A", 0, 0), MakeNode("B", 10, 0), MakeNode("C", 5, 5)},
+        {MakeEdge("slow", "A", "B", 0.1),
+         MakeEdge("up", "A", "C", 1),
+         MakeEdge("down", "C", "B", 1),
+         MakeEdge("downFast", "C", "B", 2)},
+        {});
+    const Router router(site);
+    const std::optional<Route> route = router.FindRouteOrNull("lr", "A", "B");
+    CHECK(GetNodeIDs(route) == std::vector<std::string>{"A", "C", "B"});
+    REQUIRE(route->edges.size() == 2);
+    CHECK(route->edges[1].edgeID == "downFast");
+    CHECK(route->travelSeconds == Approx(7.0711 * 1.5).epsilon(0.001));
+    CHECK(router.FindRouteOrNull("lr", "A", "A")->nodes.size() == 1);
+}
+
+TEST_CASE("Routes: against a one-way edge, for another vehicle type or to an unknown node there is none")
+{
+    const SiteMap site =
+        *SiteMap::Create({MakeNode("A", 0, 0), MakeNode("B", 10, 0)}, {MakeEdge("E", "A", "B", 1)}, {});
+    const Router router(site);
+    CHECK(router.FindRouteOrNull("lr", "A", "B").has_value());
+    CHECK_FALSE(router.FindRouteOrNull("lr", "B", "A").has_value());
+    CHECK_FALSE(router.FindRouteOrNull("cr", "A", "B").has_value());
+    CHECK_FALSE(router.FindRouteOrNull("lr", "A", "Z").has_value());
+}
+
+TEST_CASE("Routes: nodes that are excluded are driven around, the ends never are")
+{
+    const SiteMap site = *SiteMap::Create(
+        {MakeNode("A", 0, 0), MakeNode("B", 5, 0), MakeNode("C", 5, 5), MakeNode("D", 10, 0)},
+        {MakeEdge("AB", "A", "B", 1),
+         MakeEdge("BD", "B", "D", 1),
+         MakeEdge("AC", "A", "C", 1),
+         MakeEdge("CD", "C", "D", 1)},
+        {});
+    const Router router(site);
+    CHECK(GetNodeIDs(router.FindRouteOrNull("lr", "A", "D")) == std::vector<std::string>{"A", "B", "D"});
+    const auto isB = [](std::size_t node) {
+        return node == 1;
+    };
+    CHECK(GetNodeIDs(router.FindRouteOrNull("lr", "A", "D", isB)) == std::vector<std::string>{"A", "C", "D"});
+    const auto isAny = [](std::size_t) {
+        return true;
+    };
+    CHECK_FALSE(router.FindRouteOrNull("lr", "A", "D", isAny).has_value());
+    CHECK(GetNodeIDs(router.FindRouteOrNull("lr", "A", "B", isAny)) == std::vector<std::string>{"A", "B"});
+}

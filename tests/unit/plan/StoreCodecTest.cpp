@@ -1,0 +1,49 @@
+#include "Catch.hpp"
+#include "PlanWorld.hpp"
+#include <acs/plan/StoreCodec.hpp>
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using namespace ACS;           // NOLINT(google-build-using-namespace)
+
+TEST_CASE("Store texts: plans, states, carriers and alarms come back as they went")
+{
+    const Plan plan = Testing::MakeControlPlan("PLAN-\"1\" ä");
+    CHECK(DecodePlan(EncodePlan(plan)) == plan);
+
+    PlanProgress progress;
+    progress.state = EPlanState::InProgress;
+    progress.robotID = "CR01";
+    progress.startedAt = Testing::ManualClock().GetNow().wall + std::chrono::nanoseconds(1);
+    progress.steps = {{EStepState::Completed, {EJobState::Completed}}, {EStepState::Dispatched, {}}};
+    CHECK(DecodeProgress(EncodeProgress(progress)) == progress);
+
+    const CarriersChanged carriers{"CR01", {std::nullopt, "TRAY_02", std::nullopt}};
+    CHECK(DecodeCarriers(EncodeCarriers(carriers)) == carriers);
+
+    const Alarm alarm{"CR01", "ACS-1001", EAlarmLevel::Heavy, "look", "P1", 2, std::nullopt};
+    CHECK(DecodeAlarm(EncodeAlarm(alarm)) == alarm);
+}
+
+TEST_CASE("Store texts: every kind of report comes back as it went")
+{
+    const std::vector<Report> reports{
+        PlanReport{"P1", EPlanState::Failed, "why"},
+        StepReport{"P1", "LR01", 1, EStepState::InProgress, ""},
+        JobReport{"P1", "LR01", 1, "J1", EJobState::Instructed, ""},
+        ErrorReport{{"LR01", "AGV-x", EAlarmLevel::Light, "m", std::nullopt, std::nullopt, std::nullopt}, false},
+        ControlResultReport{EPlanControl::Abort, "P1", false, "late"}};
+    for (const Report& report : reports)
+    {
+        INFO(EncodeReport(report));
+        CHECK(DecodeReport(EncodeReport(report)) == report);
+    }
+}
+
+TEST_CASE("Store texts: what is damaged is refused and not guessed")
+{
+    CHECK_FALSE(DecodePlan("").has_value());
+    CHECK_FALSE(DecodePlan(R"({"steps":[]})").has_value());
+    CHECK_FALSE(DecodeReport(R"({"kind":"Step","planId":"P1"})").has_value());
+    CHECK_FALSE(DecodeReport(R"({"kind":"Nothing"})").has_value());
+    CHECK_FALSE(DecodeProgress(R"({"state":"Lost","steps":[]})").has_value());
+}
