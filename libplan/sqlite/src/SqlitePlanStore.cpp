@@ -1,0 +1,380 @@
+#include "SchemaMigrations.hpp"
+#include <acs/core/Overloaded.hpp>
+#include <acs/plan/EPlanningError.hpp>
+#include <acs/plan/StoreCodec.hpp>
+#include <acs/plan_sqlite/SqlitePlanStore.hpp>
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <utility>
+
+namespace ACS::Planning
+{
+
+namespace
+{
+
+constexpr int BUSY_MILLISECONDS = 1'000;
+
+std::int64_t ToCount(Core::WallTime time)
+{
+    return time.time_since_epoch().count();
+}
+
+Core::WallTime ToTime(std::int64_t count)
+{
+    return Core::WallTime(Core::WallTime::duration(count));
+}
+
+tl::unexpected<Core::Error> Refuse(
+    EPlanningError error,
+    const std::string& path,
+    std::string expected,
+    std::string found)
+{
+    return Core::Fail(make_error_code(error), path, std::move(expected), std::move(found));
+}
+
+tl::unexpected<Core::Error> RefuseFor(const SQLite::Exception& exception, const std::string& path)
+{
+    const int code = exception.getErrorCode();
+    const bool bCorrupt = code == SQLITE_CORRUPT || code == SQLITE_NOTADB;
+    return bCorrupt
+        ? Refuse(
+            EPlanningError::StoreCorrupt,
+            path,
+            "an undamaged plan store; restore it from a backup, or move it away to begin with an empty one",
+            exception.what())
+        : Refuse(EPlanningError::StoreFailed, path, "a file that can be read and written", exception.what());
+}
+
+int GetPragma(SQLite::Database& database, const char* pragma)
+{
+    return database.execAndGet(std::string("PRAGMA ") + pragma).getInt();
+}
+
+} // namespace
+
+class SqlitePlanStore::Impl
+{
+    std::string _path;
+    SQLite::Database _database;
+    // Prepared once; made after the migration, hence by pointer.
+    std::unique_ptr<SQLite::Statement> _addPlan;
+    std::unique_ptr<SQLite::Statement> _progressPlan;
+    std::unique_ptr<SQLite::Statement> _addReport;
+    std::unique_ptr<SQLite::Statement> _removeReport;
+    std::unique_ptr<SQLite::Statement> _setCarriers;
+    std::unique_ptr<SQLite::Statement> _setAlarm;
+    std::unique_ptr<SQLite::Statement> _clearAlarm;
+
+public:
+    /// Throws SQLite::Exception, as all of this class.
+    explicit Impl(const std::string& path)
+        : _path(path),
+          _database(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, BUSY_MILLISECONDS)
+    {
+    }
+
+    [[nodiscard]] const std::string& GetPath() const noexcept
+    {
+        return _path;
+    }
+
+    /// Before anything is written: is this a file of ours, undamaged, and not from the future?
+    [[nodiscard]] Core::Result<void> Check()
+    {
+        const int version = GetPragma(_database, "user_version");
+        const int applicationID = GetPragma(_database, "application_id");
+        const int tables = _database.execAndGet("SELECT count(*) FROM sqlite_master").getInt();
+        const bool bEmpty = version == 0 && applicationID == 0 && tables == 0;
+        if (!bEmpty && applicationID != STORE_APPLICATION_ID)
+        {
+            return Refuse(EPlanningError::StoreCorrupt, _path, "a plan store", "a database of another program");
+        }
+        if (version > GetNewestSchemaVersion())
+        {
+            return Refuse(
+                EPlanningError::StoreTooNew,
+                _path,
+                fmt::format("a schema up to version {}", GetNewestSchemaVersion()),
+                fmt::format("version {}", version));
+        }
+        const std::string verdict = _database.execAndGet("PRAGMA quick_check(1)").getString();
+        if (verdict != "ok")
+        {
+            return Refuse(
+                EPlanningError::StoreCorrupt,
+                _path,
+                "an undamaged plan store; restore it from a backup, or move it away to begin with an empty one",
+                verdict);
+        }
+        return {};
+    }
+
+    void Prepare()
+    {
+        _database.exec("PRAGMA journal_mode = WAL");
+        _database.exec("PRAGMA synchronous = FULL");
+        _database.exec("PRAGMA foreign_keys = ON");
+        MigrateSchema(_database, GetPragma(_database, "user_version"));
+        _addPlan = MakeStatement("INSERT INTO plans VALUES (?, ?, ?, ?, ?, ?)");
+        _progressPlan = MakeStatement("UPDATE plans SET state = ?, progress = ? WHERE plan_id = ?");
+        _addReport = MakeStatement("INSERT INTO reports VALUES (?, ?, ?, ?)");
+        _removeReport = MakeStatement("DELETE FROM reports WHERE sequence = ?");
+        _setCarriers = MakeStatement("INSERT OR REPLACE INTO carriers VALUES (?, ?)");
+        _setAlarm = MakeStatement("INSERT OR REPLACE INTO alarms VALUES (?, ?, ?, ?, ?)");
+        _clearAlarm =
+            MakeStatement("DELETE FROM alarms WHERE robot_id = ? AND error_code = ? AND plan_id = ? AND job_id = ?");
+    }
+
+    void Append(const StoreBatch& batch)
+    {
+        SQLite::Transaction transaction(_database);
+        for (const StoreChange& change : batch.changes)
+        {
+            std::visit([this](const auto& typed) { Write(typed); }, change);
+        }
+        transaction.commit();
+    }
+
+    [[nodiscard]] Core::Result<StoredState> Load()
+    {
+        StoredState state;
+        Core::Result<void> read = ReadPlans(state);
+        if (read.has_value())
+        {
+            read = ReadReports(state);
+        }
+        if (read.has_value())
+        {
+            read = ReadRows("SELECT carriers FROM carriers ORDER BY robot_id", DecodeCarriers, state.carriers);
+        }
+        if (read.has_value())
+        {
+            read = ReadRows("SELECT alarm FROM alarms", DecodeAlarm, state.alarms);
+        }
+        if (!read.has_value())
+        {
+            return tl::unexpected(std::move(read.error()));
+        }
+        return state;
+    }
+
+private:
+    [[nodiscard]] std::unique_ptr<SQLite::Statement> MakeStatement(const char* text)
+    {
+        return std::make_unique<SQLite::Statement>(_database, text);
+    }
+
+    /// Runs a prepared statement with these values and leaves it ready for the next time, also after a failure.
+    template <typename... TValues>
+    static void Run(SQLite::Statement& statement, const TValues&... values)
+    {
+        statement.tryReset();
+        int position = 0;
+        (statement.bind(++position, values), ...);
+        statement.exec();
+        statement.reset();
+    }
+
+    void Write(const PlanAdded& change)
+    {
+        const PlanRecord& record = change.record;
+        Run(*_addPlan,
+            static_cast<std::int64_t>(record.sequence),
+            record.plan.planID,
+            ToCount(record.acceptedAt),
+            EncodePlan(record.plan),
+            std::string(GetText(record.progress.state)),
+            EncodeProgress(record.progress));
+    }
+
+    void Write(const PlanProgressed& change)
+    {
+        Run(*_progressPlan,
+            std::string(GetText(change.progress.state)),
+            EncodeProgress(change.progress),
+            change.planID);
+    }
+
+    void Write(const ReportAdded& change)
+    {
+        Run(*_addReport,
+            static_cast<std::int64_t>(change.entry.sequence),
+            change.entry.transactionID,
+            ToCount(change.entry.time),
+            EncodeReport(change.entry.report));
+    }
+
+    void Write(const ReportRemoved& change)
+    {
+        Run(*_removeReport, static_cast<std::int64_t>(change.sequence));
+    }
+
+    void Write(const CarriersChanged& change)
+    {
+        Run(*_setCarriers, change.robotID, EncodeCarriers(change));
+    }
+
+    void Write(const AlarmSet& change)
+    {
+        const Alarm& alarm = change.alarm;
+        Run(*_setAlarm,
+            alarm.robotID,
+            alarm.errorCode,
+            alarm.planID.value_or(""),
+            alarm.jobID.value_or(""),
+            EncodeAlarm(alarm));
+    }
+
+    void Write(const AlarmCleared& change)
+    {
+        const Alarm& alarm = change.alarm;
+        Run(*_clearAlarm, alarm.robotID, alarm.errorCode, alarm.planID.value_or(""), alarm.jobID.value_or(""));
+    }
+
+    [[nodiscard]] tl::unexpected<Core::Error> RefuseRow(const std::string& row, const Core::Error& error) const
+    {
+        return Refuse(
+            EPlanningError::StoreCorrupt,
+            _path,
+            "rows that can be read",
+            fmt::format("{}: {}", row, Core::Describe(error)));
+    }
+
+    [[nodiscard]] Core::Result<void> ReadPlans(StoredState& state)
+    {
+        SQLite::Statement query(
+            _database,
+            "SELECT sequence, plan_id, accepted_at, plan, progress FROM plans ORDER BY sequence");
+        while (query.executeStep())
+        {
+            const std::string row = "plan " + query.getColumn(1).getString();
+            Core::Result<Plan> plan = DecodePlan(query.getColumn(3).getString());
+            Core::Result<PlanProgress> progress = DecodeProgress(query.getColumn(4).getString());
+            if (!plan.has_value() || !progress.has_value())
+            {
+                return RefuseRow(row, plan.has_value() ? progress.error() : plan.error());
+            }
+            if (!IsFitting(*plan, *progress))
+            {
+                return Refuse(EPlanningError::StoreCorrupt, _path, "a state for each step and job", row);
+            }
+            PlanRecord record;
+            record.sequence = static_cast<std::uint64_t>(query.getColumn(0).getInt64());
+            record.acceptedAt = ToTime(query.getColumn(2).getInt64());
+            record.plan = std::move(*plan);
+            record.progress = std::move(*progress);
+            state.plans.push_back(std::move(record));
+        }
+        return {};
+    }
+
+    [[nodiscard]] static bool IsFitting(const Plan& plan, const PlanProgress& progress)
+    {
+        bool bFitting = !plan.steps.empty() && plan.steps.size() == progress.steps.size();
+        for (std::size_t i = 0; bFitting && i < plan.steps.size(); ++i)
+        {
+            bFitting = plan.steps[i].jobs.size() == progress.steps[i].jobs.size();
+        }
+        return bFitting;
+    }
+
+    [[nodiscard]] Core::Result<void> ReadReports(StoredState& state)
+    {
+        SQLite::Statement query(
+            _database,
+            "SELECT sequence, transaction_id, time, report FROM reports ORDER BY sequence");
+        while (query.executeStep())
+        {
+            Core::Result<Report> report = DecodeReport(query.getColumn(3).getString());
+            if (!report.has_value())
+            {
+                return RefuseRow(fmt::format("report {}", query.getColumn(0).getInt64()), report.error());
+            }
+            state.outbox.push_back(
+                {static_cast<std::uint64_t>(query.getColumn(0).getInt64()),
+                 query.getColumn(1).getString(),
+                 ToTime(query.getColumn(2).getInt64()),
+                 std::move(*report)});
+        }
+        // AUTOINCREMENT remembers the highest number, acknowledged reports included.
+        SQLite::Statement last(_database, "SELECT seq FROM sqlite_sequence WHERE name = 'reports'");
+        if (last.executeStep())
+        {
+            state.lastReportSequence = static_cast<std::uint64_t>(last.getColumn(0).getInt64());
+        }
+        return {};
+    }
+
+    template <typename TDecode, typename TValue>
+    [[nodiscard]] Core::Result<void> ReadRows(const char* text, TDecode decode, std::vector<TValue>& out)
+    {
+        SQLite::Statement query(_database, text);
+        while (query.executeStep())
+        {
+            Core::Result<TValue> value = decode(query.getColumn(0).getString());
+            if (!value.has_value())
+            {
+                return RefuseRow(text, value.error());
+            }
+            out.push_back(std::move(*value));
+        }
+        return {};
+    }
+};
+
+SqlitePlanStore::SqlitePlanStore(std::unique_ptr<Impl> impl)
+    : _impl(std::move(impl))
+{
+}
+
+SqlitePlanStore::~SqlitePlanStore() = default;
+
+Core::Result<std::unique_ptr<SqlitePlanStore>> SqlitePlanStore::Open(const std::string& path)
+{
+    try
+    {
+        auto impl = std::make_unique<Impl>(path);
+        if (Core::Result<void> checked = impl->Check(); !checked.has_value())
+        {
+            return tl::unexpected(std::move(checked.error()));
+        }
+        impl->Prepare();
+        return std::unique_ptr<SqlitePlanStore>(new SqlitePlanStore(std::move(impl)));
+    }
+    catch (const SQLite::Exception& exception)
+    {
+        return RefuseFor(exception, path);
+    }
+}
+
+Core::Result<StoredState> SqlitePlanStore::Load()
+{
+    try
+    {
+        return _impl->Load();
+    }
+    catch (const SQLite::Exception& exception)
+    {
+        return RefuseFor(exception, _impl->GetPath());
+    }
+}
+
+Core::Result<void> SqlitePlanStore::Append(const StoreBatch& batch)
+{
+    try
+    {
+        _impl->Append(batch);
+        return {};
+    }
+    catch (const SQLite::Exception& exception)
+    {
+        return RefuseFor(exception, _impl->GetPath());
+    }
+}
+
+} // namespace ACS::Planning
