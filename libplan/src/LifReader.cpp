@@ -80,7 +80,7 @@ std::string LocatePath(const std::string& path, const std::vector<std::vector<st
     {
         return "layouts";
     }
-    const auto list = std::ranges::find(LISTS, std::string_view(path).substr(0, open));
+    const auto* const list = std::ranges::find(LISTS, std::string_view(path).substr(0, open));
     std::size_t index = std::stoul(path.substr(open + 1, close - open - 1));
     const auto listIndex = static_cast<std::size_t>(list - LISTS.begin());
     std::size_t layout = 0;

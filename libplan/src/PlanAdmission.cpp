@@ -94,6 +94,56 @@ std::string ListActions(const ActionTable& actions)
     return list;
 }
 
+Core::Result<void> CheckIDs(const Plan& plan)
+{
+    if (Core::Result<void> checked = CheckID(plan.planID, "planId", false); !checked.has_value())
+    {
+        return checked;
+    }
+    if (Core::Result<void> checked = CheckID(plan.lotID, "lotId", true); !checked.has_value())
+    {
+        return checked;
+    }
+    if (plan.steps.empty() || plan.steps.size() > MAXIMUM_STEPS)
+    {
+        return Refuse(
+            ECoreError::OutOfRange,
+            "steps",
+            fmt::format("1 to {} steps", MAXIMUM_STEPS),
+            fmt::format("{}", plan.steps.size()));
+    }
+    std::set<std::string> jobIDs;
+    for (std::size_t i = 0; i < plan.steps.size(); ++i)
+    {
+        const Step& step = plan.steps[i];
+        if (step.stepNo < 1 || (i > 0 && plan.steps[i - 1].stepNo == step.stepNo))
+        {
+            return Refuse(
+                ECoreError::OutOfRange,
+                fmt::format("steps[{}].stepNo", i),
+                "a number from 1, once in the plan",
+                fmt::format("{}", step.stepNo));
+        }
+        for (std::size_t job = 0; job < step.jobs.size(); ++job)
+        {
+            const std::string path = fmt::format("steps[{}].jobs[{}].jobId", i, job);
+            if (Core::Result<void> checked = CheckID(step.jobs[job].jobID, path, false); !checked.has_value())
+            {
+                return checked;
+            }
+            if (!jobIDs.insert(step.jobs[job].jobID).second)
+            {
+                return Refuse(
+                    ECoreError::InvalidIdentifier,
+                    path,
+                    "a jobId that is once in the plan",
+                    step.jobs[job].jobID);
+            }
+        }
+    }
+    return {};
+}
+
 } // namespace
 
 void SortSteps(Plan& plan)
@@ -163,56 +213,6 @@ Core::Result<ResolvedPlan> PlanAdmission::Resolve(const Plan& plan) const
         return tl::unexpected(std::move(found.error()));
     }
     return resolved;
-}
-
-Core::Result<void> PlanAdmission::CheckIDs(const Plan& plan) const
-{
-    if (Core::Result<void> checked = CheckID(plan.planID, "planId", false); !checked.has_value())
-    {
-        return checked;
-    }
-    if (Core::Result<void> checked = CheckID(plan.lotID, "lotId", true); !checked.has_value())
-    {
-        return checked;
-    }
-    if (plan.steps.empty() || plan.steps.size() > MAXIMUM_STEPS)
-    {
-        return Refuse(
-            ECoreError::OutOfRange,
-            "steps",
-            fmt::format("1 to {} steps", MAXIMUM_STEPS),
-            fmt::format("{}", plan.steps.size()));
-    }
-    std::set<std::string> jobIDs;
-    for (std::size_t i = 0; i < plan.steps.size(); ++i)
-    {
-        const Step& step = plan.steps[i];
-        if (step.stepNo < 1 || (i > 0 && plan.steps[i - 1].stepNo == step.stepNo))
-        {
-            return Refuse(
-                ECoreError::OutOfRange,
-                fmt::format("steps[{}].stepNo", i),
-                "a number from 1, once in the plan",
-                fmt::format("{}", step.stepNo));
-        }
-        for (std::size_t job = 0; job < step.jobs.size(); ++job)
-        {
-            const std::string path = fmt::format("steps[{}].jobs[{}].jobId", i, job);
-            if (Core::Result<void> checked = CheckID(step.jobs[job].jobID, path, false); !checked.has_value())
-            {
-                return checked;
-            }
-            if (!jobIDs.insert(step.jobs[job].jobID).second)
-            {
-                return Refuse(
-                    ECoreError::InvalidIdentifier,
-                    path,
-                    "a jobId that is once in the plan",
-                    step.jobs[job].jobID);
-            }
-        }
-    }
-    return {};
 }
 
 Core::Result<ResolvedStep> PlanAdmission::ResolveStep(const Step& step, const std::string& path) const

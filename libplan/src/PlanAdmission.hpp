@@ -44,7 +44,6 @@ class PlanAdmission
     const SiteMap& _site;
     PortCatalog _catalog;
 
-    [[nodiscard]] Core::Result<void> CheckIDs(const Plan& plan) const;
     [[nodiscard]] Core::Result<ResolvedStep> ResolveStep(const Step& step, const std::string& path) const;
     [[nodiscard]] Core::Result<Core::Location> ResolvePosition(const std::string& text, const std::string& path) const;
     [[nodiscard]] Core::Result<std::optional<Core::Location>> ResolvePlace(

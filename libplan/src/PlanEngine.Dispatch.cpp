@@ -89,7 +89,9 @@ std::vector<PlanEngine::Impl::Robot*> PlanEngine::Impl::GetWaiting()
             waiting.push_back(&robot);
         }
     }
-    std::ranges::sort(waiting, {}, [](const Robot* robot) { return robot->planOrNull->key; });
+    std::ranges::sort(waiting, [](const Robot* left, const Robot* right) {
+        return left->planOrNull->key < right->planOrNull->key;
+    });
     return waiting;
 }
 

@@ -12,6 +12,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -40,7 +41,10 @@ public:
         std::int64_t negatedPriority = 0;
         std::uint64_t sequence = 0;
 
-        auto operator<=>(const QueueKey&) const = default;
+        bool operator<(const QueueKey& other) const noexcept
+        {
+            return std::tie(negatedPriority, sequence) < std::tie(other.negatedPriority, other.sequence);
+        }
     };
 
     /// A plan that is not finished.

@@ -63,7 +63,6 @@ TEST_CASE("6.3 The logistics plan of the document completes and reports every st
             "Moving A01.CP01",
             "Arrival A02.CP03",
             "Working A02.CP03",
-            "Idle A02.CP03",
             "Moving A02.CP03",
             "Idle CHG01"});
 }

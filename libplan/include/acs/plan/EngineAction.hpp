@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -33,7 +34,11 @@ struct EngineTimer
     std::string robotID;
 
     bool operator==(const EngineTimer&) const = default;
-    auto operator<=>(const EngineTimer&) const = default;
+
+    bool operator<(const EngineTimer& other) const noexcept
+    {
+        return std::tie(kind, robotID) < std::tie(other.kind, other.robotID);
+    }
 };
 
 /// Append the batch to the store, as one transaction, and go on with the next action only when it is on disk. On
