@@ -353,7 +353,7 @@ void PlanEngine::Impl::RememberFinished(PlanRecord record)
 }
 
 /// Section 5: the first that holds.
-ERobotStatus PlanEngine::Impl::DeriveStatus(const Robot& robot) const
+ERobotStatus PlanEngine::Impl::DeriveStatus(const Robot& robot)
 {
     if (!robot.bOnline)
     {
@@ -484,6 +484,7 @@ std::vector<OutboxEntry> PlanEngine::Impl::GetUnacknowledged() const
 std::vector<RobotStatus> PlanEngine::Impl::GetRobotStatuses() const
 {
     std::vector<RobotStatus> statuses;
+    statuses.reserve(_robots.size());
     for (const Robot& robot : _robots)
     {
         statuses.push_back(robot.lastStatus);
@@ -512,6 +513,7 @@ std::vector<PlanSummary> PlanEngine::Impl::GetActivePlans() const
         return state == EPlanState::InProgress ? 0 : (state == EPlanState::Paused ? 1 : 2);
     };
     std::vector<const ActivePlan*> ordered;
+    ordered.reserve(_plans.size());
     for (const auto& [planID, plan] : _plans)
     {
         ordered.push_back(plan.get());
@@ -520,6 +522,7 @@ std::vector<PlanSummary> PlanEngine::Impl::GetActivePlans() const
         return std::pair(rank(left), left->key) < std::pair(rank(right), right->key);
     });
     std::vector<PlanSummary> summaries;
+    summaries.reserve(ordered.size());
     for (const ActivePlan* plan : ordered)
     {
         summaries.push_back(MakeSummary(plan->record));

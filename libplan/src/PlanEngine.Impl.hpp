@@ -183,7 +183,7 @@ private:
     void RaiseAlarm(Alarm alarm);
     void ClearAlarm(const Alarm& alarm);
     void RememberFinished(PlanRecord record);
-    [[nodiscard]] ERobotStatus DeriveStatus(const Robot& robot) const;
+    [[nodiscard]] static ERobotStatus DeriveStatus(const Robot& robot);
     [[nodiscard]] RobotStatus MakeStatus(const Robot& robot, ERobotStatus status) const;
     [[nodiscard]] static bool IsUsable(const Robot& robot);
     [[nodiscard]] const std::string& GetRobotID(const Robot& robot) const;

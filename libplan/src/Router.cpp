@@ -143,10 +143,12 @@ public:
         const boost::filtered_graph<Graph, boost::keep_all, NodePredicate> free(graph, boost::keep_all(), predicate);
         std::vector<std::size_t> predecessors(allowed.size());
         std::vector<double> seconds(allowed.size());
+        std::vector<boost::default_color_type> colors(allowed.size());
         boost::dijkstra_shortest_paths(
             free,
             *from,
             boost::weight_map(boost::get(&Lane::seconds, graph))
+                .color_map(boost::make_iterator_property_map(colors.begin(), boost::get(boost::vertex_index, graph)))
                 .predecessor_map(
                     boost::make_iterator_property_map(predecessors.begin(), boost::get(boost::vertex_index, graph)))
                 .distance_map(
