@@ -1,0 +1,440 @@
+#include "MosquittoConnection.hpp"
+
+#include "MosquittoError.hpp"
+
+#include <acs/core/Overloaded.hpp>
+
+#include <boost/asio/ip/address.hpp>
+#include <boost/asio/post.hpp>
+
+#include <mosquitto.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include <unistd.h>
+
+namespace ACS::VDA5050
+{
+namespace
+{
+
+constexpr std::chrono::seconds HOUSE_KEEPING_PERIOD{1}; ///< libmosquitto looks at its keep-alive then.
+constexpr int MAX_READS = 64;                           ///< Before others on the executor have their turn.
+constexpr int SUBSCRIPTION_REFUSED = 0x80;
+constexpr int PACKETS_PER_CALL = 1;
+
+/// libmosquitto's own state, once for the process.
+class LibraryUse
+{
+public:
+    LibraryUse()
+    {
+        mosquitto_lib_init();
+    }
+    LibraryUse(const LibraryUse&) = delete;
+    LibraryUse& operator=(const LibraryUse&) = delete;
+    ~LibraryUse()
+    {
+        mosquitto_lib_cleanup();
+    }
+};
+
+const char* GetTextOrNull(const std::string& text)
+{
+    return text.empty() ? nullptr : text.c_str();
+}
+
+/// A refused or accepted connect there is known at once, so the blocking form costs nothing and tries ::1 and 127.0.0.1.
+bool IsLoopback(const std::string& host)
+{
+    boost::system::error_code noAddress;
+    const boost::asio::ip::address address = boost::asio::ip::make_address(host, noAddress);
+    return noAddress ? host == "localhost" : address.is_loopback();
+}
+
+} // namespace
+
+void MosquittoConnection::ClientDeleter::operator()(mosquitto* client) const
+{
+    mosquitto_destroy(client);
+}
+
+MosquittoConnection::MosquittoConnection(
+    const boost::asio::any_io_executor& executor,
+    IMosquittoConnectionOwner& owner)
+    : _executor(executor)
+    , _ownerOrNull(&owner)
+    , _socket(executor)
+    , _houseKeeping(executor)
+    , _connectTimer(executor)
+{
+    static const LibraryUse libraryUse;
+}
+
+std::error_code MosquittoConnection::Open(const MosquittoOptions& options)
+{
+    errno = 0;
+    _client.reset(mosquitto_new(GetTextOrNull(options.clientID), options.bCleanSession, this));
+    if (_client == nullptr)
+    {
+        return MakeMosquittoError(MOSQ_ERR_ERRNO, errno);
+    }
+    _maxUnsent = options.maxUnsent;
+    SetCallbacks();
+    int code = Configure(options);
+    if (code == MOSQ_ERR_SUCCESS)
+    {
+        const auto keepAlive = static_cast<int>(options.keepAlive.count());
+        const auto connect = IsLoopback(options.host) ? &mosquitto_connect : &mosquitto_connect_async;
+        errno = 0;
+        code = connect(_client.get(), options.host.c_str(), options.port, keepAlive);
+    }
+    if (code != MOSQ_ERR_SUCCESS)
+    {
+        return MakeMosquittoError(code, errno);
+    }
+    // A duplicate, because libmosquitto closes its own descriptor whenever it likes.
+    const int descriptor = dup(mosquitto_socket(_client.get()));
+    boost::system::error_code refused;
+    _socket.assign(descriptor, refused); // NOLINT(bugprone-unused-return-value): refused says it
+    if (refused)
+    {
+        return refused;
+    }
+    _connectTimer.expires_after(options.connectTimeout);
+    _connectTimer.async_wait([weak = weak_from_this()](const boost::system::error_code& error) {
+        const std::shared_ptr<MosquittoConnection> self = weak.lock();
+        if (self != nullptr && !error && !self->_bUp)
+        {
+            self->Close(std::make_error_code(std::errc::timed_out));
+        }
+    });
+    WaitToRead();
+    WaitForHouseKeeping();
+    Settle(MOSQ_ERR_SUCCESS, 0);
+    return {};
+}
+
+int MosquittoConnection::Configure(const MosquittoOptions& options)
+{
+    mosquitto* const client = _client.get();
+    int code = mosquitto_int_option(client, MOSQ_OPT_TCP_NODELAY, 1);
+    if (code == MOSQ_ERR_SUCCESS && !options.username.empty())
+    {
+        code = mosquitto_username_pw_set(client, options.username.c_str(), GetTextOrNull(options.password));
+    }
+    if (code == MOSQ_ERR_SUCCESS && options.tls.has_value())
+    {
+        code = ConfigureTls(*options.tls);
+    }
+    if (code == MOSQ_ERR_SUCCESS && options.will.has_value())
+    {
+        const MqttMessage& will = options.will->message;
+        code = mosquitto_will_set(
+            client,
+            will.topic.c_str(),
+            static_cast<int>(will.payload.size()),
+            will.payload.data(),
+            will.qos,
+            will.bRetained);
+    }
+    return code;
+}
+
+int MosquittoConnection::ConfigureTls(const MosquittoTls& tls)
+{
+    if (tls.caFile.empty())
+    {
+        const int code = mosquitto_int_option(_client.get(), MOSQ_OPT_TLS_USE_OS_CERTS, 1);
+        if (code != MOSQ_ERR_SUCCESS)
+        {
+            return code;
+        }
+    }
+    return mosquitto_tls_set(
+        _client.get(),
+        GetTextOrNull(tls.caFile),
+        nullptr,
+        GetTextOrNull(tls.certFile),
+        GetTextOrNull(tls.keyFile),
+        nullptr);
+}
+
+void MosquittoConnection::SetCallbacks()
+{
+    mosquitto* const client = _client.get();
+    mosquitto_connect_callback_set(client, [](mosquitto*, void* self, int returnCode) {
+        static_cast<MosquittoConnection*>(self)->HandleConnect(returnCode);
+    });
+    mosquitto_disconnect_callback_set(client, [](mosquitto*, void* self, int code) {
+        static_cast<MosquittoConnection*>(self)->_closeCode = code;
+    });
+    mosquitto_message_callback_set(client, [](mosquitto*, void* self, const mosquitto_message* message) {
+        static_cast<MosquittoConnection*>(self)->HandleMessage(*message);
+    });
+    mosquitto_publish_callback_set(client, [](mosquitto*, void* self, int messageID) {
+        static_cast<MosquittoConnection*>(self)->_events.emplace_back(Sent{messageID});
+    });
+    mosquitto_subscribe_callback_set(
+        client,
+        [](mosquitto*, void* self, int messageID, int count, const int* grantedOrNull) {
+            const std::span<const int> granted(grantedOrNull, static_cast<std::size_t>(count));
+            const bool bGranted = std::ranges::find(granted, SUBSCRIPTION_REFUSED) == granted.end();
+            static_cast<MosquittoConnection*>(self)->_events.emplace_back(Subscribed{messageID, bGranted});
+        });
+}
+
+void MosquittoConnection::HandleConnect(int returnCode)
+{
+    if (returnCode != 0)
+    {
+        Close(MakeConnackError(returnCode));
+        return;
+    }
+    _bUp = true;
+    _connectTimer.cancel();
+    _events.emplace_back(Up{});
+}
+
+void MosquittoConnection::HandleMessage(const mosquitto_message& message)
+{
+    MqttMessage copy;
+    copy.topic = message.topic;
+    copy.payload.assign(static_cast<const char*>(message.payload), static_cast<std::size_t>(message.payloadlen));
+    copy.qos = static_cast<std::uint8_t>(message.qos);
+    copy.bRetained = message.retain;
+    _events.emplace_back(std::move(copy));
+}
+
+Core::Result<int> MosquittoConnection::Publish(const MqttMessage& message)
+{
+    if (!IsUp())
+    {
+        return Core::Fail(std::make_error_code(std::errc::not_connected));
+    }
+    if (_unsent >= _maxUnsent)
+    {
+        return Core::Fail(Core::ECoreError::QueueFull, message.topic);
+    }
+    int messageID = 0;
+    errno = 0;
+    const int code = mosquitto_publish(
+        _client.get(),
+        &messageID,
+        message.topic.c_str(),
+        static_cast<int>(message.payload.size()),
+        message.payload.data(),
+        message.qos,
+        message.bRetained);
+    if (code != MOSQ_ERR_SUCCESS)
+    {
+        // A broken socket shows itself to the waiting read; here the message is merely not sent.
+        return Core::Fail(MakeMosquittoError(code, errno), message.topic);
+    }
+    ++_unsent;
+    Settle(MOSQ_ERR_SUCCESS, 0);
+    return messageID;
+}
+
+std::optional<int> MosquittoConnection::SubscribeOrNull(const MqttSubscription& subscription)
+{
+    int messageID = 0;
+    if (!IsUp() || mosquitto_subscribe(
+                       _client.get(),
+                       &messageID,
+                       subscription.topicFilter.c_str(),
+                       subscription.qos) != MOSQ_ERR_SUCCESS)
+    {
+        return std::nullopt;
+    }
+    Settle(MOSQ_ERR_SUCCESS, 0);
+    return messageID;
+}
+
+void MosquittoConnection::TakeLeave()
+{
+    errno = 0;
+    const int code = mosquitto_disconnect(_client.get());
+    Settle(code, errno);
+}
+
+void MosquittoConnection::Abandon()
+{
+    _ownerOrNull = nullptr;
+    _events.clear();
+    Close({});
+}
+
+bool MosquittoConnection::IsUp() const
+{
+    return _bUp && !_bClosed;
+}
+
+void MosquittoConnection::WaitToRead()
+{
+    _socket.async_wait(
+        boost::asio::posix::stream_descriptor::wait_read,
+        [weak = weak_from_this()](const boost::system::error_code& error) {
+            const std::shared_ptr<MosquittoConnection> self = weak.lock();
+            if (self == nullptr || error || self->_bClosed)
+            {
+                return;
+            }
+            self->ReadAll();
+            if (!self->_bClosed)
+            {
+                self->WaitToRead();
+            }
+        });
+}
+
+void MosquittoConnection::WaitToWrite()
+{
+    _bWaitsToWrite = true;
+    _socket.async_wait(
+        boost::asio::posix::stream_descriptor::wait_write,
+        [weak = weak_from_this()](const boost::system::error_code& error) {
+            const std::shared_ptr<MosquittoConnection> self = weak.lock();
+            if (self == nullptr || error || self->_bClosed)
+            {
+                return;
+            }
+            self->_bWaitsToWrite = false;
+            errno = 0;
+            const int code = mosquitto_loop_write(self->_client.get(), PACKETS_PER_CALL);
+            self->Settle(code, errno);
+        });
+}
+
+void MosquittoConnection::WaitForHouseKeeping()
+{
+    _houseKeeping.expires_after(HOUSE_KEEPING_PERIOD);
+    _houseKeeping.async_wait([weak = weak_from_this()](const boost::system::error_code& error) {
+        const std::shared_ptr<MosquittoConnection> self = weak.lock();
+        if (self == nullptr || error || self->_bClosed)
+        {
+            return;
+        }
+        errno = 0;
+        const int code = mosquitto_loop_misc(self->_client.get());
+        self->Settle(code, errno);
+        if (!self->_bClosed)
+        {
+            self->WaitForHouseKeeping();
+        }
+    });
+}
+
+void MosquittoConnection::ReadAll()
+{
+    // With TLS bytes may wait where the socket does not show them: read until a read brings nothing.
+    for (int i = 0; i < MAX_READS && !_bClosed; ++i)
+    {
+        const std::size_t before = _events.size();
+        errno = 0;
+        const int code = mosquitto_loop_read(_client.get(), PACKETS_PER_CALL);
+        Settle(code, errno);
+        if (_events.size() == before)
+        {
+            return;
+        }
+    }
+}
+
+void MosquittoConnection::Settle(int code, int systemError)
+{
+    if (_bClosed)
+    {
+        return;
+    }
+    const bool bSocketGone = mosquitto_socket(_client.get()) < 0;
+    if (code != MOSQ_ERR_SUCCESS || bSocketGone)
+    {
+        const int reason = code != MOSQ_ERR_SUCCESS ? code : _closeCode;
+        Close(MakeMosquittoError(reason, systemError));
+        return;
+    }
+    if (!_bWaitsToWrite && mosquitto_want_write(_client.get()))
+    {
+        WaitToWrite();
+    }
+    if (!_events.empty())
+    {
+        PostDispatch();
+    }
+}
+
+void MosquittoConnection::Close(std::error_code reason)
+{
+    if (_bClosed)
+    {
+        return;
+    }
+    _bClosed = true;
+    _events.emplace_back(Closed{reason});
+    CloseSocket();
+    PostDispatch();
+}
+
+void MosquittoConnection::CloseSocket()
+{
+    _houseKeeping.cancel();
+    _connectTimer.cancel();
+    boost::system::error_code ignored;
+    _socket.close(ignored); // NOLINT(bugprone-unused-return-value): nothing to do about it
+    // The client itself goes with this object: this may be one of its own callbacks.
+}
+
+void MosquittoConnection::PostDispatch()
+{
+    if (_bDispatchPosted)
+    {
+        return;
+    }
+    _bDispatchPosted = true;
+    boost::asio::post(_executor, [weak = weak_from_this()]() {
+        const std::shared_ptr<MosquittoConnection> self = weak.lock();
+        if (self != nullptr)
+        {
+            self->_bDispatchPosted = false;
+            self->Dispatch();
+        }
+    });
+}
+
+void MosquittoConnection::Dispatch()
+{
+    // What the owner does adds events of its own: those are for the round that Settle has posted.
+    const std::vector<Event> events = std::exchange(_events, {});
+    for (const Event& event : events)
+    {
+        if (_ownerOrNull == nullptr)
+        {
+            return;
+        }
+        Tell(event);
+    }
+}
+
+void MosquittoConnection::Tell(const Event& event)
+{
+    IMosquittoConnectionOwner& owner = *_ownerOrNull;
+    std::visit(
+        Core::Overloaded{
+            [&owner](const Up&) { owner.OnConnectionUp(); },
+            [&owner](const MqttMessage& message) { owner.OnConnectionMessage(message); },
+            [this, &owner](const Sent& sent) {
+                --_unsent;
+                owner.OnSent(sent.messageID);
+            },
+            [&owner](const Subscribed& answer) { owner.OnSubscribed(answer.messageID, answer.bGranted); },
+            [&owner](const Closed& closed) { owner.OnConnectionClosed(closed.reason); }},
+        event);
+}
+
+} // namespace ACS::VDA5050

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <acs/core/Result.hpp>
+#include <acs/vda5050/IMqttLink.hpp>
+#include <acs/vda5050_mosquitto/MosquittoOptions.hpp>
+
+#include <boost/asio/any_io_executor.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <variant>
+#include <vector>
+
+struct mosquitto;
+struct mosquitto_message;
+
+namespace ACS::VDA5050
+{
+
+/// Told by one MosquittoConnection, never from inside a call of it.
+class IMosquittoConnectionOwner
+{
+public:
+    IMosquittoConnectionOwner() = default;
+    IMosquittoConnectionOwner(const IMosquittoConnectionOwner&) = delete;
+    IMosquittoConnectionOwner& operator=(const IMosquittoConnectionOwner&) = delete;
+    virtual ~IMosquittoConnectionOwner() = default;
+
+    virtual void OnConnectionUp() = 0;
+    virtual void OnConnectionMessage(const MqttMessage& message) = 0;
+    virtual void OnSent(int messageID) = 0;
+    /// The broker has answered a Subscribe; the id is the one that it returned.
+    virtual void OnSubscribed(int messageID, bool bGranted) = 0;
+    /// The last call. No reason where we took leave ourselves.
+    virtual void OnConnectionClosed(std::error_code reason) = 0;
+};
+
+/// One connection, from CONNECT to its end, as one libmosquitto client: a new one for each attempt, so that nothing of
+/// the attempt before (unacknowledged messages, an old will) leaks into it. Its socket is watched by the executor.
+class MosquittoConnection final : public std::enable_shared_from_this<MosquittoConnection>
+{
+    struct Up
+    {
+    };
+    struct Sent
+    {
+        int messageID = 0;
+    };
+    struct Subscribed
+    {
+        int messageID = 0;
+        bool bGranted = false;
+    };
+    struct Closed
+    {
+        std::error_code reason;
+    };
+    using Event = std::variant<Up, MqttMessage, Sent, Subscribed, Closed>;
+
+    struct ClientDeleter
+    {
+        void operator()(mosquitto* client) const;
+    };
+
+    boost::asio::any_io_executor _executor;
+    IMosquittoConnectionOwner* _ownerOrNull;
+    std::unique_ptr<mosquitto, ClientDeleter> _client;
+    boost::asio::posix::stream_descriptor _socket;
+    boost::asio::steady_timer _houseKeeping;
+    boost::asio::steady_timer _connectTimer;
+    std::vector<Event> _events;
+    std::size_t _unsent = 0;
+    std::size_t _maxUnsent = 0;
+    int _closeCode = 0;
+    bool _bUp = false;
+    bool _bClosed = false;
+    bool _bWaitsToWrite = false;
+    bool _bDispatchPosted = false;
+
+public:
+    MosquittoConnection(const boost::asio::any_io_executor& executor, IMosquittoConnectionOwner& owner);
+
+    /// Begins; an error means that nothing will follow.
+    [[nodiscard]] std::error_code Open(const MosquittoOptions& options);
+
+    /// The id of the message, with which OnSent comes. Fails with not_connected, QueueFull, or what libmosquitto says.
+    [[nodiscard]] Core::Result<int> Publish(const MqttMessage& message);
+    /// The id with which OnSubscribed comes; nothing where there is no connection or the filter is none.
+    [[nodiscard]] std::optional<int> SubscribeOrNull(const MqttSubscription& subscription);
+    /// Ends with OnConnectionClosed.
+    void TakeLeave();
+    /// Ends at once; the owner hears no more.
+    void Abandon();
+
+    [[nodiscard]] bool IsUp() const;
+
+private:
+    [[nodiscard]] int Configure(const MosquittoOptions& options);
+    [[nodiscard]] int ConfigureTls(const MosquittoTls& tls);
+    void SetCallbacks();
+    void WaitToRead();
+    void WaitToWrite();
+    void WaitForHouseKeeping();
+    void ReadAll();
+    /// After each call of libmosquitto: what it left to do.
+    void Settle(int code, int systemError);
+    void Close(std::error_code reason);
+    void CloseSocket();
+    void PostDispatch();
+    void Dispatch();
+    void Tell(const Event& event);
+
+    void HandleConnect(int returnCode);
+    void HandleMessage(const mosquitto_message& message);
+};
+
+} // namespace ACS::VDA5050

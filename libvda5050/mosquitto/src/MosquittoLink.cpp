@@ -1,0 +1,402 @@
+#include <acs/vda5050_mosquitto/MosquittoLink.hpp>
+
+#include "MosquittoConnection.hpp"
+#include "MosquittoError.hpp"
+
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+#include <fmt/format.h>
+
+#include <set>
+#include <utility>
+
+namespace ACS::VDA5050
+{
+
+/// Shared, so that a timer or a posted call that comes late finds either the whole of it or nothing.
+class MosquittoLink::Impl final : public IMosquittoConnectionOwner, public std::enable_shared_from_this<Impl>
+{
+    boost::asio::any_io_executor _executor;
+    Core::Logger _logger;
+    MosquittoOptions _options;
+    IMqttLinkListener* _listenerOrNull;
+    Core::IRandom* _random;
+    Core::Backoff _backoff;
+    boost::asio::steady_timer _timer; ///< Until the next attempt, until the backoff is forgotten, or until Stop is over.
+    std::shared_ptr<MosquittoConnection> _connectionOrNull;
+    std::vector<MqttSubscription> _subscriptions;
+    std::set<int> _unconfirmed;
+    std::vector<MqttMessage> _early;
+    std::optional<int> _lastMessageID;
+    StopHandler _stopHandler;
+    bool _bUp = false;
+    bool _bOutageLogged = false;
+    bool _bStopping = false;
+
+public:
+    Impl(
+        const boost::asio::any_io_executor& executor,
+        Core::IRandom& random,
+        Core::Logger logger,
+        MosquittoOptions options,
+        IMqttLinkListener& listener);
+
+    void Start();
+    void Abandon();
+    [[nodiscard]] Core::Result<void> Publish(const MqttMessage& message);
+    void Subscribe(const std::vector<MqttSubscription>& subscriptions);
+    void SetWill(const MqttWill& will);
+    [[nodiscard]] bool IsConnected() const;
+    void StopAsync(
+        const std::optional<MqttMessage>& lastMessageOrNull,
+        std::chrono::milliseconds timeout,
+        StopHandler handler);
+
+    void OnConnectionUp() override;
+    void OnConnectionMessage(const MqttMessage& message) override;
+    void OnSent(int messageID) override;
+    void OnSubscribed(int messageID, bool bGranted) override;
+    void OnConnectionClosed(std::error_code reason) override;
+
+private:
+    void Connect();
+    void Retry(std::error_code reason);
+    void LogOutage(bool bWasUp, const std::error_code& reason);
+    void AnnounceWhenConfirmed();
+    void FinishStop();
+    [[nodiscard]] std::string GetAddress() const;
+};
+
+namespace
+{
+
+/// A connection that holds this long was no mistake: the next outage begins with short pauses again.
+constexpr std::chrono::seconds STABLE_AFTER{5};
+
+} // namespace
+
+MosquittoLink::Impl::Impl(
+    const boost::asio::any_io_executor& executor,
+    Core::IRandom& random,
+    Core::Logger logger,
+    MosquittoOptions options,
+    IMqttLinkListener& listener)
+    : _executor(executor)
+    , _logger(std::move(logger))
+    , _options(std::move(options))
+    , _listenerOrNull(&listener)
+    , _random(&random)
+    , _backoff(_options.backoff)
+    , _timer(executor)
+{
+}
+
+void MosquittoLink::Impl::Start()
+{
+    boost::asio::post(_executor, [weak = weak_from_this()]() {
+        const std::shared_ptr<Impl> self = weak.lock();
+        if (self != nullptr && !self->_bStopping && self->_connectionOrNull == nullptr)
+        {
+            self->Connect();
+        }
+    });
+}
+
+void MosquittoLink::Impl::Abandon()
+{
+    _bStopping = true;
+    _listenerOrNull = nullptr;
+    _stopHandler = nullptr;
+    _timer.cancel();
+    if (_connectionOrNull != nullptr)
+    {
+        _connectionOrNull->Abandon();
+        _connectionOrNull.reset();
+    }
+}
+
+Core::Result<void> MosquittoLink::Impl::Publish(const MqttMessage& message)
+{
+    if (!IsConnected())
+    {
+        return Core::Fail(std::make_error_code(std::errc::not_connected));
+    }
+    const Core::Result<int> messageID = _connectionOrNull->Publish(message);
+    if (!messageID.has_value())
+    {
+        return tl::make_unexpected(messageID.error());
+    }
+    return {};
+}
+
+void MosquittoLink::Impl::Subscribe(const std::vector<MqttSubscription>& subscriptions)
+{
+    for (const MqttSubscription& subscription : subscriptions)
+    {
+        std::erase_if(_subscriptions, [&subscription](const MqttSubscription& known) {
+            return known.topicFilter == subscription.topicFilter;
+        });
+        _subscriptions.push_back(subscription);
+        if (_connectionOrNull != nullptr)
+        {
+            std::ignore = _connectionOrNull->SubscribeOrNull(subscription);
+        }
+    }
+}
+
+void MosquittoLink::Impl::SetWill(const MqttWill& will)
+{
+    _options.will = will;
+}
+
+bool MosquittoLink::Impl::IsConnected() const
+{
+    return _bUp && !_bStopping && _connectionOrNull != nullptr && _connectionOrNull->IsUp();
+}
+
+std::string MosquittoLink::Impl::GetAddress() const
+{
+    const bool bAddressV6 = _options.host.find(':') != std::string::npos;
+    return bAddressV6 ? fmt::format("[{}]:{}", _options.host, _options.port)
+                      : fmt::format("{}:{}", _options.host, _options.port);
+}
+
+void MosquittoLink::Impl::Connect()
+{
+    _unconfirmed.clear();
+    _early.clear();
+    _connectionOrNull = std::make_shared<MosquittoConnection>(_executor, *this);
+    const std::error_code refused = _connectionOrNull->Open(_options);
+    if (refused)
+    {
+        _connectionOrNull->Abandon();
+        _connectionOrNull.reset();
+        Retry(refused);
+    }
+}
+
+void MosquittoLink::Impl::Retry(std::error_code reason)
+{
+    LogOutage(false, reason);
+    _timer.expires_after(_backoff.GetNextDelay(*_random));
+    _timer.async_wait([weak = weak_from_this()](const boost::system::error_code& error) {
+        const std::shared_ptr<Impl> self = weak.lock();
+        if (self != nullptr && !error && !self->_bStopping)
+        {
+            self->Connect();
+        }
+    });
+}
+
+void MosquittoLink::Impl::LogOutage(bool bWasUp, const std::error_code& reason)
+{
+    if (_bOutageLogged)
+    {
+        _logger.Debug("still no MQTT broker", {{"broker", GetAddress()}, {"reason", reason.message()}});
+        return;
+    }
+    _bOutageLogged = true;
+    const std::string_view event = bWasUp ? "lost the MQTT broker at" : "cannot reach the MQTT broker at";
+    _logger.Warning(fmt::format(
+        "{} {} ({}): {}; trying again until it answers",
+        event,
+        GetAddress(),
+        reason.message(),
+        MakeConnectAdvice(reason)));
+}
+
+void MosquittoLink::Impl::OnConnectionUp()
+{
+    for (const MqttSubscription& subscription : _subscriptions)
+    {
+        const std::optional<int> messageID = _connectionOrNull->SubscribeOrNull(subscription);
+        if (messageID.has_value())
+        {
+            _unconfirmed.insert(*messageID);
+        }
+        else
+        {
+            _logger.Error("cannot subscribe", {{"filter", subscription.topicFilter}});
+        }
+    }
+    AnnounceWhenConfirmed();
+}
+
+void MosquittoLink::Impl::OnSubscribed(int messageID, bool bGranted)
+{
+    if (!bGranted)
+    {
+        _logger.Error("the MQTT broker refuses a subscription: check its access rules", {{"broker", GetAddress()}});
+    }
+    if (_unconfirmed.erase(messageID) > 0)
+    {
+        AnnounceWhenConfirmed();
+    }
+}
+
+void MosquittoLink::Impl::AnnounceWhenConfirmed()
+{
+    if (!_unconfirmed.empty() || _bUp || _bStopping)
+    {
+        return;
+    }
+    _bUp = true;
+    _bOutageLogged = false;
+    _logger.Info("connected to the MQTT broker", {{"broker", GetAddress()}, {"client", _options.clientID}});
+    _timer.expires_after(STABLE_AFTER);
+    _timer.async_wait([weak = weak_from_this()](const boost::system::error_code& error) {
+        const std::shared_ptr<Impl> self = weak.lock();
+        if (self != nullptr && !error)
+        {
+            self->_backoff.Reset();
+        }
+    });
+    _listenerOrNull->OnLinkUp();
+    for (const MqttMessage& message : std::exchange(_early, {}))
+    {
+        OnConnectionMessage(message);
+    }
+}
+
+void MosquittoLink::Impl::OnConnectionMessage(const MqttMessage& message)
+{
+    if (_bStopping)
+    {
+        return;
+    }
+    if (!_bUp)
+    {
+        _early.push_back(message);
+        return;
+    }
+    _listenerOrNull->OnMqttMessage(message);
+}
+
+void MosquittoLink::Impl::OnConnectionClosed(std::error_code reason)
+{
+    _connectionOrNull.reset();
+    const bool bWasUp = std::exchange(_bUp, false);
+    if (_bStopping)
+    {
+        FinishStop();
+        return;
+    }
+    if (!reason)
+    {
+        reason = MakeMosquittoError(MOSQ_ERR_CONN_LOST_CODE, 0);
+    }
+    if (bWasUp)
+    {
+        LogOutage(true, reason);
+    }
+    Retry(reason);
+    if (bWasUp)
+    {
+        _listenerOrNull->OnLinkDown(reason);
+    }
+}
+
+void MosquittoLink::Impl::OnSent(int messageID)
+{
+    if (_bStopping && _lastMessageID == messageID && _connectionOrNull != nullptr)
+    {
+        _connectionOrNull->TakeLeave();
+    }
+}
+
+void MosquittoLink::Impl::StopAsync(
+    const std::optional<MqttMessage>& lastMessageOrNull,
+    std::chrono::milliseconds timeout,
+    StopHandler handler)
+{
+    const bool bWasConnected = IsConnected();
+    _bStopping = true;
+    _stopHandler = std::move(handler);
+    _timer.cancel();
+    if (bWasConnected && lastMessageOrNull.has_value())
+    {
+        const Core::Result<int> messageID = _connectionOrNull->Publish(*lastMessageOrNull);
+        if (messageID.has_value())
+        {
+            _lastMessageID = *messageID;
+        }
+    }
+    if (_connectionOrNull != nullptr && !_lastMessageID.has_value())
+    {
+        _connectionOrNull->TakeLeave();
+    }
+    _timer.expires_after(_connectionOrNull != nullptr ? timeout : std::chrono::milliseconds::zero());
+    _timer.async_wait([weak = weak_from_this()](const boost::system::error_code& error) {
+        const std::shared_ptr<Impl> self = weak.lock();
+        if (self != nullptr && !error)
+        {
+            self->FinishStop();
+        }
+    });
+}
+
+void MosquittoLink::Impl::FinishStop()
+{
+    _timer.cancel();
+    if (_connectionOrNull != nullptr)
+    {
+        _connectionOrNull->Abandon();
+        _connectionOrNull.reset();
+    }
+    const StopHandler handler = std::exchange(_stopHandler, nullptr);
+    if (handler)
+    {
+        handler();
+    }
+}
+
+MosquittoLink::MosquittoLink(
+    const boost::asio::any_io_executor& executor,
+    Core::IRandom& random,
+    Core::Logger logger,
+    MosquittoOptions options,
+    IMqttLinkListener& listener)
+    : _impl(std::make_shared<Impl>(executor, random, std::move(logger), std::move(options), listener))
+{
+}
+
+MosquittoLink::~MosquittoLink()
+{
+    _impl->Abandon();
+}
+
+void MosquittoLink::Start()
+{
+    _impl->Start();
+}
+
+Core::Result<void> MosquittoLink::Publish(const MqttMessage& message)
+{
+    return _impl->Publish(message);
+}
+
+void MosquittoLink::Subscribe(const std::vector<MqttSubscription>& subscriptions)
+{
+    _impl->Subscribe(subscriptions);
+}
+
+void MosquittoLink::SetWill(const MqttWill& will)
+{
+    _impl->SetWill(will);
+}
+
+bool MosquittoLink::IsConnected() const
+{
+    return _impl->IsConnected();
+}
+
+void MosquittoLink::StopAsync(
+    const std::optional<MqttMessage>& lastMessageOrNull,
+    std::chrono::milliseconds timeout,
+    StopHandler handler)
+{
+    _impl->StopAsync(lastMessageOrNull, timeout, std::move(handler));
+}
+
+} // namespace ACS::VDA5050
