@@ -1,12 +1,10 @@
 #include "MosquittoConnection.hpp"
 
 #include "MosquittoError.hpp"
-
 #include <acs/core/Overloaded.hpp>
 
 #include <boost/asio/ip/address.hpp>
 #include <boost/asio/post.hpp>
-
 #include <mosquitto.h>
 
 #include <algorithm>
@@ -14,9 +12,8 @@
 #include <chrono>
 #include <cstdint>
 #include <span>
-#include <utility>
-
 #include <unistd.h>
+#include <utility>
 
 namespace ACS::VDA5050
 {
@@ -64,14 +61,12 @@ void MosquittoConnection::ClientDeleter::operator()(mosquitto* client) const
     mosquitto_destroy(client);
 }
 
-MosquittoConnection::MosquittoConnection(
-    const boost::asio::any_io_executor& executor,
-    IMosquittoConnectionOwner& owner)
-    : _executor(executor)
-    , _ownerOrNull(&owner)
-    , _socket(executor)
-    , _houseKeeping(executor)
-    , _connectTimer(executor)
+MosquittoConnection::MosquittoConnection(const boost::asio::any_io_executor& executor, IMosquittoConnectionOwner& owner)
+    : _executor(executor),
+      _ownerOrNull(&owner),
+      _socket(executor),
+      _houseKeeping(executor),
+      _connectTimer(executor)
 {
     static const LibraryUse libraryUse;
 }
@@ -244,11 +239,9 @@ Core::Result<int> MosquittoConnection::Publish(const MqttMessage& message)
 std::optional<int> MosquittoConnection::SubscribeOrNull(const MqttSubscription& subscription)
 {
     int messageID = 0;
-    if (!IsUp() || mosquitto_subscribe(
-                       _client.get(),
-                       &messageID,
-                       subscription.topicFilter.c_str(),
-                       subscription.qos) != MOSQ_ERR_SUCCESS)
+    if (!IsUp()
+        || mosquitto_subscribe(_client.get(), &messageID, subscription.topicFilter.c_str(), subscription.qos)
+            != MOSQ_ERR_SUCCESS)
     {
         return std::nullopt;
     }
@@ -433,7 +426,9 @@ void MosquittoConnection::Tell(const Event& event)
                 owner.OnSent(sent.messageID);
             },
             [&owner](const Subscribed& answer) { owner.OnSubscribed(answer.messageID, answer.bGranted); },
-            [&owner](const Closed& closed) { owner.OnConnectionClosed(closed.reason); }},
+            [&owner](const Closed& closed) {
+                owner.OnConnectionClosed(closed.reason);
+            }},
         event);
 }
 

@@ -67,18 +67,18 @@ std::string MakeConnectAdvice(const std::error_code& reason)
     }
     switch (reason.value())
     {
-    case MOSQ_ERR_AUTH:
-    case MOSQ_ERR_CONN_REFUSED:
-        return "check user name, password and client id";
-    case MOSQ_ERR_TLS:
-    case MOSQ_ERR_TLS_HANDSHAKE:
-    case MOSQ_ERR_INVAL:
-        return "check the certificates and whether it speaks TLS on this port";
-    case MOSQ_ERR_EAI:
-    case MOSQ_ERR_LOOKUP:
-        return "check the name of its host";
-    default:
-        return "start it or correct its address";
+        case MOSQ_ERR_AUTH:
+        case MOSQ_ERR_CONN_REFUSED:
+            return "check user name, password and client id";
+        case MOSQ_ERR_TLS:
+        case MOSQ_ERR_TLS_HANDSHAKE:
+        case MOSQ_ERR_INVAL:
+            return "check the certificates and whether it speaks TLS on this port";
+        case MOSQ_ERR_EAI:
+        case MOSQ_ERR_LOOKUP:
+            return "check the name of its host";
+        default:
+            return "start it or correct its address";
     }
 }
 

@@ -1,11 +1,9 @@
-#include <acs/vda5050_mosquitto/MosquittoLink.hpp>
-
 #include "MosquittoConnection.hpp"
 #include "MosquittoError.hpp"
+#include <acs/vda5050_mosquitto/MosquittoLink.hpp>
 
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
-
 #include <fmt/format.h>
 
 #include <set>
@@ -23,7 +21,8 @@ class MosquittoLink::Impl final : public IMosquittoConnectionOwner, public std::
     IMqttLinkListener* _listenerOrNull;
     Core::IRandom* _random;
     Core::Backoff _backoff;
-    boost::asio::steady_timer _timer; ///< Until the next attempt, until the backoff is forgotten, or until Stop is over.
+    boost::asio::steady_timer
+        _timer; ///< Until the next attempt, until the backoff is forgotten, or until Stop is over.
     std::shared_ptr<MosquittoConnection> _connectionOrNull;
     std::vector<MqttSubscription> _subscriptions;
     std::set<int> _unconfirmed;
@@ -82,13 +81,13 @@ MosquittoLink::Impl::Impl(
     Core::Logger logger,
     MosquittoOptions options,
     IMqttLinkListener& listener)
-    : _executor(executor)
-    , _logger(std::move(logger))
-    , _options(std::move(options))
-    , _listenerOrNull(&listener)
-    , _random(&random)
-    , _backoff(_options.backoff)
-    , _timer(executor)
+    : _executor(executor),
+      _logger(std::move(logger)),
+      _options(std::move(options)),
+      _listenerOrNull(&listener),
+      _random(&random),
+      _backoff(_options.backoff),
+      _timer(executor)
 {
 }
 
@@ -208,6 +207,7 @@ void MosquittoLink::Impl::LogOutage(bool bWasUp, const std::error_code& reason)
 
 void MosquittoLink::Impl::OnConnectionUp()
 {
+    const std::shared_ptr<Impl> self = shared_from_this(); // the listener may destroy the link
     for (const MqttSubscription& subscription : _subscriptions)
     {
         const std::optional<int> messageID = _connectionOrNull->SubscribeOrNull(subscription);
@@ -225,6 +225,7 @@ void MosquittoLink::Impl::OnConnectionUp()
 
 void MosquittoLink::Impl::OnSubscribed(int messageID, bool bGranted)
 {
+    const std::shared_ptr<Impl> self = shared_from_this(); // the listener may destroy the link
     if (!bGranted)
     {
         _logger.Error("the MQTT broker refuses a subscription: check its access rules", {{"broker", GetAddress()}});
@@ -261,6 +262,7 @@ void MosquittoLink::Impl::AnnounceWhenConfirmed()
 
 void MosquittoLink::Impl::OnConnectionMessage(const MqttMessage& message)
 {
+    const std::shared_ptr<Impl> self = shared_from_this(); // the listener may destroy the link
     if (_bStopping)
     {
         return;
@@ -275,6 +277,7 @@ void MosquittoLink::Impl::OnConnectionMessage(const MqttMessage& message)
 
 void MosquittoLink::Impl::OnConnectionClosed(std::error_code reason)
 {
+    const std::shared_ptr<Impl> self = shared_from_this(); // the listener may destroy the link
     _connectionOrNull.reset();
     const bool bWasUp = std::exchange(_bUp, false);
     if (_bStopping)
@@ -284,7 +287,7 @@ void MosquittoLink::Impl::OnConnectionClosed(std::error_code reason)
     }
     if (!reason)
     {
-        reason = MakeMosquittoError(MOSQ_ERR_CONN_LOST_CODE, 0);
+        reason = std::make_error_code(std::errc::connection_aborted);
     }
     if (bWasUp)
     {

@@ -30,8 +30,8 @@ struct MosquittoOptions
     std::string password;
     std::optional<MosquittoTls> tls;
     bool bCleanSession = true;
-    std::optional<MqttWill> will; ///< See also MosquittoLink::SetWill.
-    Core::BackoffOptions backoff; ///< Between attempts to connect.
+    std::optional<MqttWill> will;                     ///< See also MosquittoLink::SetWill.
+    Core::BackoffOptions backoff;                     ///< Between attempts to connect.
     std::chrono::milliseconds connectTimeout{10'000}; ///< From the attempt to the broker's acceptance.
     std::size_t maxUnsent = 1'000; ///< Messages that may wait for the socket or for the broker's acknowledgement.
 };

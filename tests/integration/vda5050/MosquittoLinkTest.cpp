@@ -1,0 +1,233 @@
+#include "Catch.hpp"
+#include "LinkFixture.hpp"
+
+#include <fstream>
+#include <memory>
+#include <optional>
+
+namespace ACS::Testing
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+using VDA5050::MqttMessage;
+using VDA5050::MqttWill;
+
+class LinkTest
+{
+protected:
+    boost::asio::io_context _context;
+    MosquittoBroker _broker;
+
+    [[nodiscard]] std::unique_ptr<TestLink> MakeConnected(const std::string& clientID, const std::string& filter)
+    {
+        auto made = std::make_unique<TestLink>(_context, MakeOptions(_broker.GetPort(), clientID));
+        if (!filter.empty())
+        {
+            made->link.Subscribe({{filter, 2}});
+        }
+        made->link.Start();
+        REQUIRE(TryRunUntil(_context, [&made]() { return made->listener.ups == 1; }));
+        return made;
+    }
+};
+
+} // namespace
+
+TEST_CASE_METHOD(LinkTest, "6.2 A message arrives with its quality of service, its bytes and nothing else")
+{
+    const auto receiver = MakeConnected("receiver", "uagv/v2/ACS/LR01/#");
+    const auto sender = MakeConnected("sender", "");
+    const std::string bytes("{\"a\":\0\xFF}", 8);
+    for (const std::uint8_t qos : {std::uint8_t{0}, std::uint8_t{1}, std::uint8_t{2}})
+    {
+        const MqttMessage message{"uagv/v2/ACS/LR01/order", bytes, qos, false};
+        REQUIRE(sender->link.Publish(message).has_value());
+        REQUIRE(TryRunUntil(_context, [&]() { return receiver->listener.messages.size() == qos + 1U; }));
+        CHECK(receiver->listener.messages.back() == message);
+    }
+    REQUIRE(sender->link.Publish({"uagv/v2/ACS/OTHER/order", "x", 0, false}).has_value());
+    REQUIRE(sender->link.Publish({"uagv/v2/ACS/LR01/state", "", 0, false}).has_value());
+    REQUIRE(TryRunUntil(_context, [&]() { return receiver->listener.messages.size() == 4; }));
+    CHECK(receiver->listener.messages.back().payload.empty());
+}
+
+TEST_CASE_METHOD(LinkTest, "6.5 A retained message meets who subscribes later, marked as retained, after OnLinkUp")
+{
+    const auto sender = MakeConnected("sender", "");
+    REQUIRE(sender->link.Publish({"uagv/v2/ACS/LR01/connection", "ONLINE", 1, true}).has_value());
+    const auto probe = MakeConnected("probe", "uagv/#");
+    REQUIRE(TryRunUntil(_context, [&]() { return !probe->listener.messages.empty(); }));
+
+    TestLink late(_context, MakeOptions(_broker.GetPort(), "late"));
+    std::size_t messagesBeforeUp = 99;
+    late.listener.whenUp = [&]() {
+        messagesBeforeUp = late.listener.messages.size();
+    };
+    late.link.Subscribe({{"uagv/v2/+/+/state", 1}, {"uagv/v2/+/+/connection", 1}});
+    late.link.Start();
+    REQUIRE(TryRunUntil(_context, [&]() { return !late.listener.messages.empty(); }));
+    CHECK(messagesBeforeUp == 0);
+    CHECK(late.listener.messages.front() == MqttMessage{"uagv/v2/ACS/LR01/connection", "ONLINE", 1, true});
+}
+
+TEST_CASE_METHOD(LinkTest, "6.14 The broker publishes the will of a link that vanishes, not of one that takes leave")
+{
+    const auto watcher = MakeConnected("watcher", "last/#");
+    for (const bool bTakesLeave : {true, false})
+    {
+        auto options = MakeOptions(_broker.GetPort(), "vehicle");
+        options.will = MqttWill{{"last/words", "CONNECTIONBROKEN", 1, true}};
+        auto vehicle = std::make_unique<TestLink>(_context, options);
+        vehicle->link.Start();
+        REQUIRE(TryRunUntil(_context, [&]() { return vehicle->listener.ups == 1; }));
+        if (bTakesLeave)
+        {
+            bool bStopped = false;
+            vehicle->link.StopAsync(MqttMessage{"last/words", "OFFLINE", 1, true}, 5s, [&]() { bStopped = true; });
+            CHECK_FALSE(vehicle->link.Publish({"last/words", "late", 0, false}).has_value());
+            REQUIRE(TryRunUntil(_context, [&]() { return bStopped; }));
+        }
+        vehicle.reset();
+        REQUIRE(TryRunUntil(_context, [&]() { return watcher->listener.messages.size() == (bTakesLeave ? 1U : 2U); }));
+    }
+    CHECK(watcher->listener.messages[0].payload == "OFFLINE");
+    CHECK(watcher->listener.messages[1].payload == "CONNECTIONBROKEN");
+}
+
+TEST_CASE_METHOD(LinkTest, "6.2 After an outage of the broker the link connects and subscribes again by itself")
+{
+    const auto link = MakeConnected("survivor", "topic");
+    const auto other = MakeConnected("other", "");
+    _broker.Kill();
+    REQUIRE(TryRunUntil(_context, [&]() { return link->listener.downs == 1 && other->listener.downs == 1; }));
+    const VDA5050::MqttMessage message{"topic", "text", 1, false};
+    const Core::Result<void> refused = other->link.Publish(message);
+    REQUIRE_FALSE(refused.has_value());
+    CHECK(refused.error().code == std::errc::not_connected);
+    _broker.Restart();
+    REQUIRE(TryRunUntil(_context, [&]() { return link->listener.ups == 2 && other->listener.ups == 2; }));
+    REQUIRE(other->link.Publish(message).has_value());
+    REQUIRE(TryRunUntil(_context, [&]() { return link->listener.messages.size() == 1; }));
+    CHECK(link->log.CountLevel(Core::ELogLevel::Warning) == 1);
+}
+
+TEST_CASE_METHOD(LinkTest, "A broker that is not there is named once, with what to do, and found when it comes")
+{
+    _broker.Kill();
+    TestLink link(_context, MakeOptions(_broker.GetPort(), "early"));
+    link.link.Start();
+    const auto countAttempts = [&]() {
+        return link.log.GetLines().size();
+    };
+    REQUIRE(TryRunUntil(_context, [&]() { return countAttempts() >= 4; }));
+    CHECK(link.log.CountLevel(Core::ELogLevel::Warning) == 1);
+    const std::string& sentence = link.log.GetLines().front().message;
+    CHECK_THAT(sentence, Catch::Contains("127.0.0.1:" + std::to_string(_broker.GetPort())));
+    CHECK_THAT(sentence, Catch::Contains("start it or correct its address"));
+    CHECK(link.listener.downs == 0);
+    _broker.Restart();
+    REQUIRE(TryRunUntil(_context, [&]() { return link.listener.ups == 1; }));
+}
+
+TEST_CASE("A broker that refuses the password is told apart from one that is not there")
+{
+    boost::asio::io_context context;
+    const MosquittoBroker broker("allow_anonymous false\n");
+    TestLink link(context, MakeOptions(broker.GetPort(), "stranger"));
+    link.link.Start();
+    REQUIRE(TryRunUntil(context, [&]() { return !link.log.GetLines().empty(); }));
+    CHECK_THAT(link.log.GetLines().front().message, Catch::Contains("check user name"));
+}
+
+TEST_CASE_METHOD(LinkTest, "Stopping a link that has no connection ends at once")
+{
+    _broker.Kill();
+    TestLink link(_context, MakeOptions(_broker.GetPort(), "lonely"));
+    link.link.Start();
+    REQUIRE(TryRunUntil(_context, [&]() { return !link.log.GetLines().empty(); }));
+    bool bStopped = false;
+    link.link.StopAsync(MqttMessage{"last", "OFFLINE", 1, true}, 60s, [&]() { bStopped = true; });
+    CHECK_FALSE(bStopped);
+    REQUIRE(TryRunUntil(
+        _context,
+        [&]() { return bStopped; },
+        5s));
+    _context.restart();
+    CHECK(_context.run_for(5s) == 0);
+    CHECK(_context.stopped()); // nothing is left that would keep a program running
+}
+
+TEST_CASE_METHOD(LinkTest, "A link may be destroyed by what it tells")
+{
+    const auto sender = MakeConnected("sender", "");
+    REQUIRE(sender->link.Publish({"first", "", 1, true}).has_value());
+    REQUIRE(sender->link.Publish({"second", "", 1, true}).has_value());
+
+    RecordingLogSink log;
+    SeededRandom random;
+    RecordingListener listener;
+    std::unique_ptr<VDA5050::MosquittoLink> link;
+    link = std::make_unique<VDA5050::MosquittoLink>(
+        _context.get_executor(),
+        random,
+        Core::Logger(log, "mqtt"),
+        MakeOptions(_broker.GetPort(), "short"),
+        listener);
+    listener.whenUp = [&]() {
+        link.reset();
+    };
+    link->Subscribe({{"#", 0}});
+    link->Start();
+    REQUIRE(TryRunUntil(_context, [&]() { return link == nullptr; }));
+    CHECK_FALSE(TryRunUntil(
+        _context,
+        [&]() { return !listener.messages.empty(); },
+        100ms));
+}
+
+TEST_CASE_METHOD(LinkTest, "6.2 A link holds an idle connection through the broker's keep-alive", "[.long]")
+{
+    auto options = MakeOptions(_broker.GetPort(), "idle");
+    options.keepAlive = 5s;
+    TestLink link(_context, options);
+    link.link.Start();
+    CHECK_FALSE(TryRunUntil(
+        _context,
+        [&]() { return link.listener.downs > 0; },
+        20s));
+    CHECK(link.link.IsConnected());
+}
+
+TEST_CASE_METHOD(LinkTest, "Many messages at once arrive complete and in order")
+{
+    const auto receiver = MakeConnected("receiver", "load");
+    const auto sender = MakeConnected("sender", "");
+    std::size_t sent = 0;
+    std::size_t refused = 0;
+    const auto pump = [&]() {
+        while (sent < 5000)
+        {
+            const Core::Result<void> result = sender->link.Publish({"load", std::to_string(sent), 1, false});
+            if (!result.has_value())
+            {
+                CHECK(result.error().code == Core::ECoreError::QueueFull);
+                ++refused;
+                return;
+            }
+            ++sent;
+        }
+    };
+    REQUIRE(TryRunUntil(_context, [&]() {
+        pump();
+        return receiver->listener.messages.size() >= 5000;
+    }));
+    CHECK(refused > 0);
+    for (std::size_t i = 0; i < 5000; ++i)
+    {
+        REQUIRE(receiver->listener.messages[i].payload == std::to_string(i));
+    }
+}
+
+} // namespace ACS::Testing
