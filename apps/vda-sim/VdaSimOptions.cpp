@@ -7,8 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -113,13 +112,17 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
 
 tl::expected<Planning::SiteMap, std::string> LoadSite(const std::string& path)
 {
-    std::ifstream file(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    if (!file.is_open() || file.bad())
+    std::error_code missing;
+    if (!std::filesystem::exists(path, missing) || std::filesystem::is_directory(path, missing))
     {
-        return tl::make_unexpected(
-            fmt::format("cannot read the site {}: {}", path, std::generic_category().message(errno)));
+        return tl::make_unexpected(fmt::format("the site {} is no file", path));
     }
+    std::ifstream file(path, std::ios::binary);
+    if (!file.is_open())
+    {
+        return tl::make_unexpected(fmt::format("the site {} cannot be read: check its permissions", path));
+    }
+    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     Core::Result<Planning::SiteMap> site = Planning::DecodeLif(text);
     if (!site.has_value())
     {

@@ -10,6 +10,7 @@ namespace
 {
 
 constexpr double ARRIVED = 1e-4; ///< m
+constexpr double AIMED = 1e-6;   ///< rad
 
 } // namespace
 
@@ -102,7 +103,7 @@ bool VehicleMotion::TryTurn(double theta, double seconds)
     const double turned = std::clamp(wanted, -possible, possible);
     _pose.theta = NormaliseAngle(_pose.theta + turned);
     _turnSpeed = turned / seconds;
-    return std::abs(wanted - turned) <= _limits.turnTolerance;
+    return std::abs(wanted - turned) <= AIMED;
 }
 
 double VehicleMotion::GetRemaining() const

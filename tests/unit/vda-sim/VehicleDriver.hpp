@@ -1,0 +1,280 @@
+#pragma once
+
+#include "ManualClock.hpp"
+#include "RecordingLogSink.hpp"
+#include "vda-sim/VirtualVehicle.hpp"
+#include <acs/core/Overloaded.hpp>
+#include <acs/vda5050/OrderBuilder.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace ACS::Testing
+{
+
+/// N0 --10 m--> N1 --5 m, to the north--> N2 --1 m--> CHG01's dock, a charger that is entered without rotation, and back.
+inline Planning::SiteMap MakeTestSite()
+{
+    const auto node = [](std::string nodeID, double x, double y, std::optional<double> theta) {
+        return Planning::SiteNode{std::move(nodeID), x, y, "floor", {{"any", theta}}};
+    };
+    const auto edge = [](std::string from, std::string to, double speed, double orientation, bool bRotation) {
+        Planning::SiteEdgeRule rule{"any", speed, std::nullopt, orientation, "TANGENTIAL", bRotation};
+        std::string edgeID = from + "-" + to;
+        return Planning::SiteEdge{std::move(edgeID), std::move(from), std::move(to), {std::move(rule)}};
+    };
+    auto site = Planning::SiteMap::Create(
+        {node("N0", 0.0, 0.0, std::nullopt),
+         node("N1", 10.0, 0.0, std::nullopt),
+         node("N2", 10.0, 5.0, std::nullopt),
+         node("DOCK", 11.0, 5.0, 0.0)},
+        {edge("N0", "N1", 1.2, 0.0, true),
+         edge("N1", "N2", 1.2, 0.0, true),
+         edge("N2", "DOCK", 0.4, 0.0, false),
+         edge("DOCK", "N2", 0.4, std::numbers::pi, false)},
+        {{"CHG01", {"DOCK"}}});
+    if (!site.has_value())
+    {
+        throw std::runtime_error(Core::Describe(site.error()));
+    }
+    return std::move(*site);
+}
+
+/// A virtual vehicle in virtual time: its timers fire when the test lets the time pass.
+class VehicleDriver
+{
+    Planning::SiteMap _site = MakeTestSite();
+    ManualClock _clock;
+    RecordingLogSink _log;
+    VdaSim::VirtualVehicle _vehicle;
+    VdaSim::VirtualActions _actions;
+    std::map<std::uint64_t, Core::SteadyTime> _timers;
+    std::vector<std::pair<Core::SteadyTime, VDA5050::MqttMessage>> _published;
+    VDA5050::Vda5050Codec _codec;
+    std::uint32_t _headerID = 0;
+
+public:
+    explicit VehicleDriver(std::string startNodeID, double timeScale = 1.0)
+        : _vehicle(
+            {VDA5050::VehicleAddress{"uagv", "ACS", "LR01"},
+             VDA5050::EVda5050Version::Version200,
+             VdaSim::EVehicleType::Logistics,
+             std::move(startNodeID),
+             timeScale,
+             {}},
+            _site,
+            Core::Logger(_log, "LR01"))
+    {
+        _vehicle.OnLinkUp(_clock.GetNow(), _actions);
+        Execute();
+    }
+
+    /// A builder for the route along these nodes, with what the site says of its edges.
+    [[nodiscard]] VDA5050::OrderBuilder MakeRoute(const std::string& orderID, const std::vector<std::string>& nodeIDs)
+    {
+        std::vector<VDA5050::OrderNode> nodes;
+        std::vector<VDA5050::OrderEdge> edges;
+        for (const std::string& nodeID : nodeIDs)
+        {
+            const Planning::SiteNode& known = *_site.FindNodeOrNull(nodeID);
+            VDA5050::OrderNode node;
+            node.nodeID = nodeID;
+            node.nodePosition = VDA5050::NodePosition{};
+            node.nodePosition->x = known.x;
+            node.nodePosition->y = known.y;
+            node.nodePosition->theta = known.rules.front().theta;
+            node.nodePosition->mapID = known.mapID;
+            if (!nodes.empty())
+            {
+                edges.push_back(MakeEdge(nodes.back().nodeID + "-" + nodeID));
+            }
+            nodes.push_back(std::move(node));
+        }
+        return Take(VDA5050::OrderBuilder::Create(orderID, std::move(nodes), std::move(edges)));
+    }
+
+    void Send(VDA5050::OrderMessage order)
+    {
+        order.header = MakeHeader();
+        Receive(VDA5050::ETopic::Order, _codec.Encode(order, VDA5050::EVda5050Version::Version200));
+    }
+
+    void SendInstantly(std::string_view actionType, std::string actionID)
+    {
+        VDA5050::InstantActionsMessage message;
+        message.header = MakeHeader();
+        VDA5050::Action action;
+        action.actionType = std::string(actionType);
+        action.actionID = std::move(actionID);
+        action.blockingType = VDA5050::EBlockingType::Hard;
+        message.actions.push_back(std::move(action));
+        Receive(VDA5050::ETopic::InstantActions, _codec.Encode(message, VDA5050::EVda5050Version::Version200));
+    }
+
+    /// Fires every timer that is due, each at its time; calls the watcher after each.
+    void Pass(std::chrono::milliseconds span, const std::function<void()>& watch = {})
+    {
+        const Core::SteadyTime end = _clock.GetNow().steady + span;
+        for (auto next = FindNext(); next != _timers.end() && next->second <= end; next = FindNext())
+        {
+            const std::uint64_t key = next->first;
+            MoveTo(next->second);
+            _timers.erase(next);
+            _vehicle.OnTimer(key, _clock.GetNow(), _actions);
+            Execute();
+            if (watch)
+            {
+                watch();
+            }
+        }
+        MoveTo(end);
+    }
+
+    /// Lets at most this time pass; false where the condition did not come true.
+    [[nodiscard]] bool TryPassUntil(const std::function<bool()>& isTrue, std::chrono::milliseconds limit)
+    {
+        const Core::SteadyTime end = _clock.GetNow().steady + limit;
+        while (!isTrue() && _clock.GetNow().steady < end)
+        {
+            Pass(std::chrono::milliseconds(10));
+        }
+        return isTrue();
+    }
+
+    [[nodiscard]] VDA5050::StateMessage GetState() const
+    {
+        return _vehicle.GetState();
+    }
+
+    [[nodiscard]] const VdaSim::Pose& GetPose() const
+    {
+        return _vehicle.GetPose();
+    }
+
+    [[nodiscard]] double GetSpeed() const
+    {
+        const VDA5050::Velocity velocity = GetState().velocity.value_or(VDA5050::Velocity{});
+        return std::hypot(velocity.vx.value_or(0.0), velocity.vy.value_or(0.0));
+    }
+
+    [[nodiscard]] VDA5050::EActionStatus GetStatus(std::string_view actionID) const
+    {
+        const VDA5050::StateMessage state = GetState();
+        const auto found = std::ranges::find(state.actionStates, actionID, &VDA5050::ActionState::actionID);
+        if (found == state.actionStates.end())
+        {
+            throw std::runtime_error("the vehicle does not know this action");
+        }
+        return found->actionStatus;
+    }
+
+    /// When messages of this topic were published.
+    [[nodiscard]] std::vector<Core::SteadyTime> GetTimes(VDA5050::ETopic topic) const
+    {
+        std::vector<Core::SteadyTime> times;
+        for (const auto& [time, message] : _published)
+        {
+            if (message.topic.ends_with(VDA5050::GetTopicName(topic)))
+            {
+                times.push_back(time);
+            }
+        }
+        return times;
+    }
+
+    [[nodiscard]] const VDA5050::MqttMessage& GetLast() const
+    {
+        return _published.back().second;
+    }
+
+    void Leave()
+    {
+        _vehicle.Leave(_clock.GetNow(), _actions);
+        Execute();
+    }
+
+    [[nodiscard]] Core::SteadyTime GetTime() const
+    {
+        return _clock.GetNow().steady;
+    }
+
+    [[nodiscard]] const RecordingLogSink& GetLog() const
+    {
+        return _log;
+    }
+
+    /// The value, or the end of the test.
+    template <typename TValue>
+    [[nodiscard]] static TValue Take(Core::Result<TValue> result)
+    {
+        if (!result.has_value())
+        {
+            throw std::runtime_error(Core::Describe(result.error()));
+        }
+        return std::move(*result);
+    }
+
+private:
+    [[nodiscard]] VDA5050::OrderEdge MakeEdge(const std::string& edgeID) const
+    {
+        const auto known = std::ranges::find(_site.GetEdges(), edgeID, &Planning::SiteEdge::edgeID);
+        VDA5050::OrderEdge edge;
+        edge.edgeID = edgeID;
+        edge.maxSpeed = known->rules.front().maxSpeed;
+        edge.orientation = known->rules.front().orientation;
+        edge.bRotationAllowed = known->rules.front().bRotationAllowed;
+        return edge;
+    }
+
+    [[nodiscard]] VDA5050::Header MakeHeader()
+    {
+        return {++_headerID, _clock.GetNow().wall, "2.0.0", "ACS", "LR01"};
+    }
+
+    void Receive(VDA5050::ETopic topic, const std::string& payload)
+    {
+        const std::string name = VDA5050::BuildTopic({"uagv", "ACS", "LR01"}, topic);
+        _vehicle.OnMessage({name, payload, 0, false}, _clock.GetNow(), _actions);
+        Execute();
+    }
+
+    [[nodiscard]] std::map<std::uint64_t, Core::SteadyTime>::iterator FindNext()
+    {
+        return std::ranges::min_element(_timers, {}, [](const auto& timer) { return timer.second; });
+    }
+
+    void MoveTo(Core::SteadyTime time)
+    {
+        _clock.Advance(std::chrono::ceil<std::chrono::milliseconds>(time - _clock.GetNow().steady));
+    }
+
+    void Execute()
+    {
+        for (const VdaSim::VirtualAction& action : std::exchange(_actions, {}))
+        {
+            std::visit(
+                Core::Overloaded{
+                    [this](const VDA5050::PublishMessage& publish) {
+                        _published.emplace_back(_clock.GetNow().steady, publish.message);
+                    },
+                    [this](const VdaSim::StartVirtualTimer& start) {
+                        _timers[start.key] = _clock.GetNow().steady + start.delay;
+                    },
+                    [this](const VdaSim::CancelVirtualTimer& cancel) {
+                        _timers.erase(cancel.key);
+                    }},
+                action);
+        }
+    }
+};
+
+} // namespace ACS::Testing
