@@ -177,13 +177,15 @@ TEST_CASE("vda-sim: ends with 0 also while its broker is not there")
 TEST_CASE("vda-sim: what it cannot use is one line with the thing's name, and exit code 2")
 {
     const std::string broker = "mqtt://127.0.0.1:1883";
+    std::vector<std::string> unknownOption = MakeCommand(broker, ACS_SITE_FILE, "LR01");
+    unknownOption.insert(unknownOption.end(), {"--colour", "red"});
     const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes{
         {MakeCommand(broker, ACS_SITE_FILE, "LR01,node=NOWHERE"), "NOWHERE"},
         {MakeCommand(broker, ACS_SITE_FILE, "LR01,type=XX"), "XX"},
         {MakeCommand(broker, "/etc/hostname", "LR01"), "/etc/hostname"},
         {MakeCommand(broker, "/nonexistent", "LR01"), "/nonexistent"},
         {MakeCommand("http://127.0.0.1", ACS_SITE_FILE, "LR01"), "http://127.0.0.1"},
-        {{ACS_VDA_SIM, "--colour", "red"}, "--colour"}};
+        {unknownOption, "--colour"}};
     for (const auto& [command, name] : mistakes)
     {
         CAPTURE(name);
