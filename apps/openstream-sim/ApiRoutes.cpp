@@ -1,0 +1,108 @@
+#include "ApiRoutes.hpp"
+
+#include "ApiAnswers.hpp"
+#include "ControlApi.hpp"
+#include "RobotApi.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace ACS::OpenStreamSim
+{
+
+namespace
+{
+
+using enum OpenStream::EApiMethod;
+
+struct ApiRoute
+{
+    OpenStream::EApiMethod method;
+    std::string_view pattern;
+    ApiHandler handler;
+};
+
+constexpr std::array ROUTES{
+    ApiRoute{Get, "/api/health", RobotApi::GetHealth},
+    ApiRoute{Get, "/api_ver", RobotApi::GetApiVersion},
+    ApiRoute{Get, "/versions/sysver", RobotApi::GetSystemVersions},
+
+    ApiRoute{Get, "/project/robot", RobotApi::GetRobot},
+    ApiRoute{Get, "/project/robot/joints/joint_states", RobotApi::GetJointStates},
+    ApiRoute{Get, "/project/robot/joint_states", RobotApi::GetJointStates},
+    ApiRoute{Get, "/project/robot/po_cur", RobotApi::GetPose},
+    ApiRoute{Get, "/project/rgen", RobotApi::GetGeneral},
+    ApiRoute{Get, "/project/robot/motor_on_state", RobotApi::GetMotorState},
+    ApiRoute{Post, "/project/robot/motor_on", RobotApi::SwitchMotorOn},
+    ApiRoute{Post, "/project/robot/motor_off", RobotApi::SwitchMotorOff},
+    ApiRoute{Get, "/project/robot/emergency_stop", RobotApi::GetEmergencyStop},
+    ApiRoute{Post, "/project/robot/emergency_stop", RobotApi::PressEmergencyStop},
+    ApiRoute{Get, "/project/robot/cur_tool_data", RobotApi::GetCurrentTool},
+    ApiRoute{Get, "/project/robot/tools", RobotApi::GetTools},
+    ApiRoute{Get, "/project/robot/tools/t_{}", RobotApi::GetTool},
+    ApiRoute{Post, "/project/robot/tool_no", RobotApi::SelectTool},
+    ApiRoute{Post, "/project/robot/crd_sys", RobotApi::SelectCoordinates},
+
+    ApiRoute{Post, "/project/robot/start", ControlApi::StartProgram},
+    ApiRoute{Post, "/project/robot/stop", ControlApi::StopProgram},
+    ApiRoute{Post, "/project/context/tasks/reset", ControlApi::ResetTasks},
+    ApiRoute{Post, "/project/context/tasks[{}]/reset", ControlApi::ResetTask},
+    ApiRoute{Post, "/project/context/tasks[0]/cur_prog_cnt", ControlApi::SetProgramCounter},
+    ApiRoute{Post, "/project/context/tasks[{}]/set_cur_pc_idx", ControlApi::SetPcIndex},
+
+    ApiRoute{Get, "/project/control/op_cnd", ControlApi::GetConditions},
+    ApiRoute{Put, "/project/control/op_cnd", ControlApi::SetConditions},
+    ApiRoute{Post, "/project/control/op_cnd", ControlApi::SetConditions},
+    ApiRoute{Get, "/project/control/ios/dio/di_val", ControlApi::GetInput},
+    ApiRoute{Get, "/project/control/ios/dio/do_val", ControlApi::GetOutput},
+    ApiRoute{Post, "/project/control/ios/dio/do_val", ControlApi::SetOutput},
+    ApiRoute{Get, "/project/control/ios/sio/si_val", ControlApi::GetSystemInput},
+    ApiRoute{Get, "/project/control/ios/sio/so_val", ControlApi::GetSystemOutput},
+    ApiRoute{Get, "/project/plc/{}/val_s32", ControlApi::GetRelayWords},
+    ApiRoute{Post, "/project/plc/set_relay_value", ControlApi::SetRelay}};
+
+} // namespace
+
+bool MatchesPattern(std::string_view path, std::string_view pattern, std::string_view& argumentOut)
+{
+    constexpr std::string_view PLACE = "{}";
+    const std::size_t place = pattern.find(PLACE);
+    if (place == std::string_view::npos)
+    {
+        return path == pattern;
+    }
+    const std::string_view before = pattern.substr(0, place);
+    const std::string_view after = pattern.substr(place + PLACE.size());
+    if (path.size() <= before.size() + after.size() || !path.starts_with(before) || !path.ends_with(after))
+    {
+        return false;
+    }
+    argumentOut = path.substr(before.size(), path.size() - before.size() - after.size());
+    return argumentOut.find('/') == std::string_view::npos;
+}
+
+OpenStream::ApiResponse Route(ControllerMachine& machine, const OpenStream::ApiRequest& request)
+{
+    bool bOtherMethod = false;
+    for (const ApiRoute& route : ROUTES)
+    {
+        ApiCall call{request, {}};
+        if (!MatchesPattern(request.path, route.pattern, call.argument))
+        {
+            continue;
+        }
+        if (route.method == request.method)
+        {
+            return route.handler(machine, call);
+        }
+        bOtherMethod = true;
+    }
+    return RefusePath(fmt::format(
+        "the simulator does not serve {} {}{}",
+        OpenStream::GetMethodText(request.method),
+        Core::QuoteForError(request.path),
+        bOtherMethod ? ", only another method" : ""));
+}
+
+} // namespace ACS::OpenStreamSim

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "ControllerMachine.hpp"
+#include <acs/openstream/ApiRequest.hpp>
+
+#include <string_view>
+
+namespace ACS::OpenStreamSim
+{
+
+/// One call as a handler sees it.
+struct ApiCall
+{
+    const OpenStream::ApiRequest& request;
+    std::string_view argument; ///< What stood in the place of the pattern's {}.
+};
+
+/// Answers one call; the machine has been brought to the present.
+using ApiHandler = OpenStream::ApiResponse (*)(ControllerMachine& machine, const ApiCall& call);
+
+/// Whether the path is of this pattern, in which {} stands for any text without a slash, once at most; the argument is a
+/// view of the path.
+[[nodiscard]] bool MatchesPattern(std::string_view path, std::string_view pattern, std::string_view& argumentOut);
+
+/// Finds the handler in the table of all endpoints and calls it; 404 where there is none. The path is in its plain form:
+/// brackets not encoded, /project/robot not shortened.
+[[nodiscard]] OpenStream::ApiResponse Route(ControllerMachine& machine, const OpenStream::ApiRequest& request);
+
+} // namespace ACS::OpenStreamSim

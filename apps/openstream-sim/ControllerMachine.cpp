@@ -1,0 +1,224 @@
+#include "ControllerMachine.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace ACS::OpenStreamSim
+{
+
+namespace
+{
+
+constexpr int STEPS = 10;
+constexpr RelayBlock PROGRAM_BLOCK{ERelayBus::None, 0, ERelayArea::M};
+
+} // namespace
+
+ControllerMachine::ControllerMachine(const ControllerOptions& options, Core::Now now, Core::Logger logger)
+    : _logger(std::move(logger)),
+      _timeScale(options.timeScale),
+      _startedAt(now.steady),
+      _motor(options.motorOnTime, options.bMotorOn),
+      _runner(options.programs, options.otherPrograms)
+{
+    Tool gripper;
+    gripper.x = 120.0;
+    gripper.z = 80.0;
+    gripper.mass = 4.5;
+    _settings.tools[0] = Tool{};
+    _settings.tools[1] = gripper;
+}
+
+void ControllerMachine::Advance(Core::Now now)
+{
+    using FloatingDuration = std::chrono::duration<double, Core::Duration::period>;
+    const FloatingDuration real = now.steady - _startedAt;
+    _now = std::chrono::duration_cast<Core::Duration>(real * _timeScale);
+    _motor.Advance(_now);
+    _runner.Advance(_now, _events);
+    HandleEvents(_runner.GetDuration());
+}
+
+void ControllerMachine::HandleEvents(Core::Duration elapsed)
+{
+    for (const ProgramEvent& event : _events)
+    {
+        const std::string number = fmt::to_string(event.number);
+        switch (event.kind)
+        {
+            case EProgramEvent::Started:
+                _logger.Info("program started", {{"program", number}});
+                _arm.Begin(_runner.GetDuration());
+                Count(STARTED_BYTE);
+                break;
+            case EProgramEvent::Finished:
+                _logger.Info("program finished", {{"program", number}});
+                _arm.End(elapsed);
+                Count(FINISHED_BYTE);
+                _relays.WriteU32(PROGRAM_BLOCK, LAST_BYTE, static_cast<std::uint32_t>(event.number));
+                break;
+            case EProgramEvent::Failed:
+                _logger.Warning("program failed", {{"program", number}});
+                _arm.End(elapsed);
+                Count(FAILED_BYTE);
+                _relays.WriteU32(PROGRAM_BLOCK, LAST_BYTE, static_cast<std::uint32_t>(event.number));
+                break;
+            default:
+                break;
+        }
+    }
+    _events.clear();
+}
+
+void ControllerMachine::Count(std::size_t byte)
+{
+    const auto counter = static_cast<std::uint32_t>(_relays.ReadS32(PROGRAM_BLOCK, byte));
+    _relays.WriteU32(PROGRAM_BLOCK, byte, counter + 1);
+}
+
+EApiError ControllerMachine::SwitchMotorOn()
+{
+    if (!_bRemote)
+    {
+        return EApiError::NotRemote;
+    }
+    if (_bEmergencyStop)
+    {
+        return EApiError::EmergencyStop;
+    }
+    _motor.SwitchOn(_now);
+    return EApiError::None;
+}
+
+void ControllerMachine::SwitchMotorOff()
+{
+    StopProgram();
+    _motor.SwitchOff();
+}
+
+EApiError ControllerMachine::StartProgram()
+{
+    if (!_bRemote)
+    {
+        return EApiError::NotRemote;
+    }
+    if (_motor.GetState() != EMotorState::On)
+    {
+        return EApiError::MotorOff;
+    }
+    if (_runner.IsRunning())
+    {
+        return EApiError::Playing;
+    }
+    if (_runner.GetSelected() == 0)
+    {
+        return EApiError::NoProgram;
+    }
+    _runner.Start(_now, _events);
+    HandleEvents({});
+    return EApiError::None;
+}
+
+EApiError ControllerMachine::SelectProgram(int number)
+{
+    if (_runner.IsRunning())
+    {
+        return EApiError::TaskPlaying;
+    }
+    const Core::Duration elapsed = _runner.GetElapsed(_now);
+    _runner.Select(number, _events);
+    HandleEvents(elapsed);
+    return EApiError::None;
+}
+
+void ControllerMachine::StopProgram()
+{
+    if (_runner.IsRunning())
+    {
+        _logger.Info("program stopped", {{"program", fmt::to_string(_runner.GetSelected())}});
+        _runner.Stop(_now);
+    }
+}
+
+void ControllerMachine::ResetTasks()
+{
+    StopProgram();
+    const Core::Duration elapsed = _runner.GetElapsed(_now);
+    _runner.Reset(_events);
+    HandleEvents(elapsed);
+}
+
+void ControllerMachine::PressEmergencyStop(bool bPressed)
+{
+    _bEmergencyStop = bPressed;
+    if (bPressed)
+    {
+        SwitchMotorOff();
+    }
+}
+
+void ControllerMachine::TurnModeSwitch(bool bRemote)
+{
+    _bRemote = bRemote;
+    if (!bRemote)
+    {
+        StopProgram();
+    }
+}
+
+RelayMemory& ControllerMachine::GetRelays() noexcept
+{
+    return _relays;
+}
+
+ControllerSettings& ControllerMachine::GetSettings() noexcept
+{
+    return _settings;
+}
+
+bool ControllerMachine::IsRemote() const noexcept
+{
+    return _bRemote;
+}
+
+bool ControllerMachine::IsEmergencyStop() const noexcept
+{
+    return _bEmergencyStop;
+}
+
+bool ControllerMachine::IsPlaying() const noexcept
+{
+    return _runner.IsRunning();
+}
+
+EMotorState ControllerMachine::GetMotorState() const noexcept
+{
+    return _motor.GetState();
+}
+
+int ControllerMachine::GetProgram() const noexcept
+{
+    return _runner.GetSelected();
+}
+
+int ControllerMachine::GetStep() const noexcept
+{
+    if (_runner.IsAtBeginning())
+    {
+        return 0;
+    }
+    return 1 + static_cast<int>(_runner.GetElapsed(_now) * (STEPS - 1) / _runner.GetDuration());
+}
+
+JointStates ControllerMachine::GetJointStates() const
+{
+    JointStates states = _arm.GetStates(_runner.GetElapsed(_now), _runner.IsRunning());
+    for (double& velocity : states.velocity)
+    {
+        velocity *= _timeScale;
+    }
+    return states;
+}
+
+} // namespace ACS::OpenStreamSim

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <chrono>
+#include <map>
+
+namespace ACS::OpenStreamSim
+{
+
+inline constexpr int FIRST_PROGRAM = 1;
+inline constexpr int LAST_PROGRAM = 9999;
+
+/// What a program of the controller does, as far as the simulator knows: it takes its time and ends, well or not.
+struct ProgramSpec
+{
+    std::chrono::milliseconds duration{2'000}; ///< Simulated.
+    bool bFails = false;                       ///< Gives up at its end.
+
+    bool operator==(const ProgramSpec&) const = default;
+};
+
+struct ControllerOptions
+{
+    double timeScale = 1.0;                       ///< Simulated seconds in a real one; above 0.
+    bool bMotorOn = false;                        ///< At the start.
+    std::chrono::milliseconds motorOnTime{1'000}; ///< Simulated, from the command to motor on.
+    std::map<int, ProgramSpec> programs;          ///< By number, FIRST_PROGRAM to LAST_PROGRAM.
+    ProgramSpec otherPrograms;                    ///< Every number that is not in `programs`.
+};
+
+} // namespace ACS::OpenStreamSim

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+
+namespace ACS::OpenStreamSim
+{
+
+/// The err_code of a refusal. What the manuals leave open has a small negative number of the simulator's own.
+enum class EApiError : std::int32_t
+{
+    None = 0,
+    BadInput = -1,        ///< 400: query or body. Own.
+    NotServed = -2,       ///< 404: no such path, or not with this method. Own.
+    NoProgram = -3,       ///< 403: start without a selected program. Own.
+    EmergencyStop = -4,   ///< 403: the emergency stop is pressed. Own.
+    NotRemote = -38500,   ///< 403
+    TaskPlaying = -38501, ///< 403
+    MotorOff = -1442071,  ///< 403
+    Playing = -1442080,   ///< 403: an automatic program runs.
+};
+
+} // namespace ACS::OpenStreamSim

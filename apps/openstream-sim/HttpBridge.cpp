@@ -1,0 +1,76 @@
+#include "HttpBridge.hpp"
+
+#include "ApiAnswers.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace ACS::OpenStreamSim
+{
+
+namespace
+{
+
+using enum OpenStream::EApiMethod;
+
+constexpr std::array METHODS{Get, Post, Put, Delete};
+
+/// The body as JSON; nothing with a GET.
+Core::Result<std::optional<Core::JsonText>> ReadJson(const Apps::HttpRequest& request, OpenStream::EApiMethod method)
+{
+    if (method == Get)
+    {
+        return std::nullopt;
+    }
+    if (request.body.empty())
+    {
+        return Core::JsonText::FromTrusted("{}");
+    }
+    Json::JsonDocument document;
+    const Core::Result<const Json::Value*> root = document.Parse(request.body, Json::ParseLimits{});
+    if (!root.has_value())
+    {
+        return tl::unexpected(root.error());
+    }
+    if (!(*root)->IsObject() && !(*root)->IsArray())
+    {
+        return Core::Fail(Core::ECoreError::WrongType, "body", "an object or an array", Json::ShortenForError(**root));
+    }
+    return Core::JsonText::FromTrusted(Json::WriteText(**root));
+}
+
+Apps::HttpResponse MakeHttpResponse(const OpenStream::ApiResponse& response)
+{
+    Apps::HttpResponse http;
+    http.status = static_cast<unsigned>(response.status);
+    http.contentType = "application/json; charset=utf-8";
+    http.body = response.body.has_value() ? response.body->GetText() : std::string();
+    return http;
+}
+
+} // namespace
+
+Apps::HttpResponse AnswerHttp(const Apps::HttpRequest& request, OpenStream::IOpenApiService& service, Core::Now now)
+{
+    const auto method = std::ranges::find(METHODS, std::string_view(request.method), OpenStream::GetMethodText);
+    if (method == METHODS.end())
+    {
+        return MakeHttpResponse(RefusePath("the Open API has GET, POST, PUT and DELETE"));
+    }
+    Core::Result<std::optional<Core::JsonText>> body = ReadJson(request, *method);
+    if (!body.has_value())
+    {
+        return MakeHttpResponse(Refuse(body.error()));
+    }
+    OpenStream::ApiRequest call;
+    call.method = *method;
+    call.path = request.path;
+    for (const auto& [name, value] : request.query)
+    {
+        call.query.push_back(OpenStream::QueryParameter{name, value});
+    }
+    call.body = std::move(*body);
+    return MakeHttpResponse(service.Call(call, now));
+}
+
+} // namespace ACS::OpenStreamSim

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "common/CommandLine.hpp"
+#include "ControllerHost.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace ACS::OpenStreamSim
+{
+
+inline constexpr std::string_view PROGRAM_NAME = "openstream-sim";
+
+struct OpenStreamSimOptions
+{
+    HostOptions host;
+    Apps::CommonOptions common;
+};
+
+/// "NUMBER=DURATION" or "NUMBER=DURATION,fail" into the options. Returns an empty text, or what was expected and found.
+[[nodiscard]] std::string TakeProgram(std::string_view text, ControllerOptions& options);
+
+/// Reads the command line. Nothing: go on; else the exit code to leave with.
+[[nodiscard]] std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, OpenStreamSimOptions& options);
+
+} // namespace ACS::OpenStreamSim

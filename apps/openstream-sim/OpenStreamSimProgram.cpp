@@ -1,0 +1,44 @@
+#include "OpenStreamSimProgram.hpp"
+
+#include "common/ReadyLine.hpp"
+#include "common/SignalWaiter.hpp"
+#include "common/SpdlogSink.hpp"
+#include "common/SystemClock.hpp"
+#include "OpenStreamSimOptions.hpp"
+
+#include <boost/asio/io_context.hpp>
+
+#include <optional>
+#include <string>
+
+namespace ACS::OpenStreamSim
+{
+
+int RunOpenStreamSim(int argc, const char* const* argv)
+{
+    OpenStreamSimOptions options;
+    const std::optional<int> exitCode = ParseOptionsOrNull(argc, argv, options);
+    if (exitCode.has_value())
+    {
+        return *exitCode;
+    }
+    Apps::SystemClock clock;
+    Apps::SpdlogSink sink(options.common.logLevel);
+    boost::asio::io_context context(1);
+    ControllerHost host(context.get_executor(), clock, Core::Logger(sink, std::string(PROGRAM_NAME)), options.host);
+    const Core::Result<void> started = host.Start();
+    if (!started.has_value())
+    {
+        Apps::PrintMistake(PROGRAM_NAME, Core::Describe(started.error()));
+        return EXIT_FAILURE;
+    }
+    const Apps::SignalWaiter signals(context.get_executor(), [&](int) {
+        host.Stop();
+        context.stop();
+    });
+    Apps::PrintReadyLine({{"stream", host.GetStreamEndpoint()}, {"http", host.GetHttpEndpoint()}});
+    context.run();
+    return EXIT_SUCCESS;
+}
+
+} // namespace ACS::OpenStreamSim

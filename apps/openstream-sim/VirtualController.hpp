@@ -1,0 +1,28 @@
+#pragma once
+
+#include "ControllerMachine.hpp"
+#include <acs/core/Logger.hpp>
+#include <acs/openstream/IOpenApiService.hpp>
+
+namespace ACS::OpenStreamSim
+{
+
+/// A Hi6 controller with its six-axis arm that exists in memory only: the Open API over a ControllerMachine, for Open
+/// Stream and HTTP alike. Pure: the time comes with each call, and what was due since the last one happens first.
+class VirtualController final : public OpenStream::IOpenApiService
+{
+    ControllerMachine _machine;
+
+public:
+    VirtualController(const ControllerOptions& options, Core::Now now, Core::Logger logger);
+
+    [[nodiscard]] OpenStream::ApiResponse Call(const OpenStream::ApiRequest& request, Core::Now now) override;
+
+    /// There is no trajectory to release; a program runs on.
+    void StopControl(Core::Now now) override;
+
+    /// By the operator's hand: out of remote mode, which stops the program, or into it.
+    void TurnModeSwitch(bool bRemote, Core::Now now);
+};
+
+} // namespace ACS::OpenStreamSim
