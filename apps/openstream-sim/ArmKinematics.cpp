@@ -75,7 +75,7 @@ FlangePose ComputeFlangePose(const JointVector& position)
     pose.y = reach * std::sin(angles[0]) + FLANGE * turn[1][0];
     pose.z = height + FLANGE * turn[2][0];
     pose.rx = std::atan2(turn[2][1], turn[2][2]) * DEGREES;
-    pose.ry = std::asin(std::clamp(-turn[2][0], -1.0, 1.0)) * DEGREES;
+    pose.ry = std::asin(std::clamp(0.0 - turn[2][0], -1.0, 1.0)) * DEGREES;
     pose.rz = std::atan2(turn[1][0], turn[0][0]) * DEGREES;
     return pose;
 }

@@ -1,0 +1,49 @@
+#include "HttpBridge.hpp"
+
+#include "Catch.hpp"
+#include "ControllerHarness.hpp"
+
+using ACS::Apps::HttpRequest;
+using ACS::Apps::HttpResponse;
+using ACS::Testing::ControllerHarness;
+
+namespace
+{
+
+HttpResponse Send(ControllerHarness& harness, const HttpRequest& request)
+{
+    return ACS::OpenStreamSim::AnswerHttp(request, harness.controller, harness.clock.GetNow());
+}
+
+} // namespace
+
+TEST_CASE("HTTP and Open Stream see the same controller")
+{
+    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    REQUIRE(Send(harness, {"POST", "/project/context/tasks[0]/cur_prog_cnt", {}, R"({ "pno" : 11 })"}).status == 200);
+    REQUIRE(Send(harness, {"POST", "/robot/start", {}, ""}).status == 200); // an empty body counts as {}
+    REQUIRE(harness.GetCounters() == "[1,0,0,0]");
+    const HttpResponse words = Send(harness, {"GET", "/project/plc/m/val_s32", {{"st", "400"}, {"len", "1"}}, ""});
+    REQUIRE(words.status == 200);
+    REQUIRE(words.contentType == "application/json; charset=utf-8");
+    REQUIRE(words.body == "[1]");
+    const HttpResponse refusal = Send(harness, {"POST", "/project/robot/start", {}, "{}"});
+    REQUIRE(refusal.status == 403);
+    REQUIRE(refusal.body.find(R"("err_code":-1442080)") != std::string::npos);
+    REQUIRE(Send(harness, {"PUT", "/project/control/op_cnd", {}, R"({"plc_mode":1})"}).status == 200);
+}
+
+TEST_CASE("A body that is no JSON object or array is refused, a method that the Open API has not is not found")
+{
+    ControllerHarness harness;
+    for (const char* body : {"{", "7", "\"x\"", "null", "{} {}", R"({"val":1,"val":2})", "\xFF"})
+    {
+        INFO(body);
+        const HttpResponse response = Send(harness, {"POST", "/project/robot/tool_no", {}, body});
+        REQUIRE(response.status == 400);
+        REQUIRE(response.body.find(R"("err_code":-1)") != std::string::npos);
+    }
+    REQUIRE(Send(harness, {"PATCH", "/project/robot", {}, "{}"}).status == 404);
+    REQUIRE(Send(harness, {"DELETE", "/project/robot", {}, ""}).status == 404);
+    REQUIRE(harness.Contains("/project/robot", R"("tool_no":0)"));
+}
