@@ -1,0 +1,242 @@
+#include "ControllerHost.hpp"
+
+#include "Catch.hpp"
+#include "common/SystemClock.hpp"
+#include "RecordingLogSink.hpp"
+#include "SeededRandom.hpp"
+#include <acs/openstream_asio/OpenStreamClient.hpp>
+
+#include <boost/asio/buffers_iterator.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/read.hpp>
+#include <boost/asio/write.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+using namespace ACS::OpenStream;    // NOLINT(google-build-using-namespace)
+using namespace ACS::OpenStreamSim; // NOLINT(google-build-using-namespace)
+using namespace std::chrono_literals;
+using ACS::Core::JsonText;
+using ACS::OpenStreamAsio::OpenStreamClient;
+using ACS::OpenStreamAsio::OpenStreamClientOptions;
+using Tcp = boost::asio::ip::tcp;
+
+namespace
+{
+
+constexpr auto LIMIT = 10s;
+
+/// A controller on free ports, ten times as fast as real, and an Open Stream client of it.
+class Fixture final
+{
+    ACS::Apps::SystemClock _clock;
+    ACS::Testing::SeededRandom _random;
+    ACS::Testing::RecordingLogSink _log;
+
+public:
+    boost::asio::io_context context;
+    std::vector<ClientEvent> events;
+    std::unique_ptr<ControllerHost> host;
+    std::unique_ptr<OpenStreamClient> client;
+
+    Fixture()
+    {
+        HostOptions options;
+        options.stream.port = 0;
+        options.http.port = 0;
+        options.controller.timeScale = 10.0;
+        host = MakeHost(options);
+        REQUIRE(host->Start().has_value());
+
+        OpenStreamClientOptions clientOptions;
+        clientOptions.port = host->GetStreamEndpoint().port;
+        clientOptions.session.controlWindow = 50ms;
+        client = std::make_unique<OpenStreamClient>(
+            context.get_executor(),
+            _clock,
+            _random,
+            ACS::Core::Logger(_log, "client"),
+            clientOptions,
+            [this](const ClientEvent& event, ACS::Core::Now /*now*/) { events.push_back(event); });
+        client->Start();
+    }
+
+    [[nodiscard]] std::unique_ptr<ControllerHost> MakeHost(const HostOptions& options)
+    {
+        return std::make_unique<ControllerHost>(
+            context.get_executor(),
+            _clock,
+            ACS::Core::Logger(_log, "sim"),
+            options);
+    }
+
+    [[nodiscard]] bool TryRunUntil(const std::function<bool()>& isReached)
+    {
+        const auto end = std::chrono::steady_clock::now() + LIMIT;
+        while (!isReached() && std::chrono::steady_clock::now() < end)
+        {
+            context.restart();
+            context.run_one_for(100ms);
+        }
+        return isReached();
+    }
+
+    void Monitor(const char* url, const char* args)
+    {
+        client->SetMonitor(MonitorRequest{url, 10ms, JsonText::FromTrusted(args), {}});
+    }
+
+    /// The text of the newest sample; empty where none has come.
+    [[nodiscard]] std::string GetSample() const
+    {
+        for (auto event = events.rbegin(); event != events.rend(); ++event)
+        {
+            const auto* const dataOrNull = std::get_if<ClientData>(&*event);
+            if (dataOrNull != nullptr)
+            {
+                return dataOrNull->line.result.value_or(JsonText()).GetText();
+            }
+        }
+        return {};
+    }
+
+    [[nodiscard]] bool TryAwaitSample(const std::string& text)
+    {
+        return TryRunUntil([this, &text]() { return GetSample() == text; });
+    }
+
+    /// What became of the CONTROL.
+    [[nodiscard]] ClientControlSettled Control(const char* url, const char* body)
+    {
+        const std::uint64_t token = client->SendControl(
+            ControlRequest{EApiMethod::Post, url, {}, JsonText::FromTrusted(body)},
+            EControlTracking::Tracked);
+        ClientControlSettled settled;
+        const auto isSettled = [&]() {
+            for (const ClientEvent& event : events)
+            {
+                const auto* const settledOrNull = std::get_if<ClientControlSettled>(&event);
+                if (settledOrNull != nullptr && settledOrNull->token == token)
+                {
+                    settled = *settledOrNull;
+                    return true;
+                }
+            }
+            return false;
+        };
+        REQUIRE(TryRunUntil(isSettled));
+        return settled;
+    }
+
+    /// The whole answer to bytes that were sent on a connection of their own.
+    [[nodiscard]] std::string SendHttp(const std::string& request)
+    {
+        Tcp::socket socket(context);
+        socket.connect({boost::asio::ip::address_v4::loopback(), host->GetHttpEndpoint().port});
+        boost::asio::write(socket, boost::asio::buffer(request));
+        std::string answer;
+        bool bEnded = false;
+        boost::asio::async_read(
+            socket,
+            boost::asio::dynamic_buffer(answer),
+            [&bEnded](const boost::system::error_code&, std::size_t) { bEnded = true; });
+        const bool bInTime = TryRunUntil([&bEnded]() { return bEnded; });
+        if (!bInTime)
+        {
+            socket.close();
+            context.restart();
+            context.poll();
+        }
+        REQUIRE(bInTime);
+        return answer;
+    }
+
+    [[nodiscard]] std::string GetOverHttp(const std::string& target)
+    {
+        return SendHttp("GET " + target + " HTTP/1.1\r\nHost: sim\r\nConnection: close\r\n\r\n");
+    }
+};
+
+bool IsAccepted(const ClientControlSettled& settled)
+{
+    return settled.outcome == EControlOutcome::Accepted;
+}
+
+bool Contains(const std::string& text, const std::string& part)
+{
+    INFO(text);
+    CHECK(text.find(part) != std::string::npos);
+    return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("3 A program is started by CONTROL, MONITOR shows its counters rise, HTTP sees the same controller")
+{
+    Fixture fixture;
+    fixture.Monitor("/project/robot/motor_on_state", "{}");
+    REQUIRE(fixture.TryAwaitSample(R"({"_type":"JObject","val":1})"));
+    REQUIRE(fixture.Control("/project/robot/start", "{}").status == 403); // the motor is off
+    REQUIRE(IsAccepted(fixture.Control("/project/robot/motor_on", "{}")));
+    REQUIRE(fixture.TryAwaitSample(R"({"_type":"JObject","val":0})"));
+
+    fixture.Monitor("/project/plc/m/val_s32", R"({"st":400,"len":4})");
+    REQUIRE(fixture.TryAwaitSample("[0,0,0,0]"));
+    REQUIRE(IsAccepted(fixture.Control("/project/context/tasks[0]/cur_prog_cnt", R"({"pno":11,"sno":0,"fno":0})")));
+    REQUIRE(Contains(fixture.GetOverHttp("/project/rgen"), R"("cur_prog_no":11)"));
+    REQUIRE(IsAccepted(fixture.Control("/project/robot/start", "{}")));
+    REQUIRE(fixture.TryAwaitSample("[1,0,0,0]"));
+    REQUIRE(fixture.TryAwaitSample("[1,1,0,11]"));
+    REQUIRE(Contains(fixture.GetOverHttp("/project/plc/m/val_s32?st=400&len=4"), "\r\n\r\n[1,1,0,11]"));
+}
+
+TEST_CASE("A Over HTTP the encoded path, the status and the content type are right")
+{
+    Fixture fixture;
+    const std::string body = R"({"pno":12})";
+    const std::string selected = fixture.SendHttp(
+        "POST /project/context/tasks%5B0%5D/cur_prog_cnt HTTP/1.1\r\nHost: sim\r\nConnection: close\r\n"
+        "Content-Type: text/plain\r\nContent-Length: "
+        + std::to_string(body.size()) + "\r\n\r\n" + body);
+    REQUIRE(Contains(selected, "HTTP/1.1 200 "));
+    REQUIRE(Contains(selected, "application/json; charset=utf-8"));
+    REQUIRE(Contains(selected, "sno_new"));
+    REQUIRE(Contains(fixture.GetOverHttp("/project/robot"), R"("cur_prog_no":12)"));
+    const std::string missing = fixture.GetOverHttp("/project/nothing");
+    REQUIRE(Contains(missing, "HTTP/1.1 404 "));
+    REQUIRE(Contains(missing, R"("err_code":-2)"));
+}
+
+TEST_CASE("7.28 A MONITOR of an unknown path goes on and tells 404 with every sample")
+{
+    Fixture fixture;
+    fixture.Monitor("/project/nothing", "{}");
+    const auto countTold = [&fixture]() {
+        return std::ranges::count_if(fixture.events, [](const ClientEvent& event) {
+            const auto* const dataOrNull = std::get_if<ClientData>(&event);
+            return dataOrNull != nullptr && dataOrNull->line.status == 404;
+        });
+    };
+    REQUIRE(fixture.TryRunUntil([&countTold]() { return countTold() >= 3; }));
+    fixture.Monitor("/api_ver", "{}");
+    REQUIRE(fixture.TryAwaitSample("5"));
+}
+
+TEST_CASE("1 A port in use of the Open API is named; without it nothing is served")
+{
+    Fixture fixture;
+    HostOptions options;
+    options.stream.port = 0;
+    options.http = fixture.host->GetHttpEndpoint();
+    const std::unique_ptr<ControllerHost> second = fixture.MakeHost(options);
+    const ACS::Core::Result<void> started = second->Start();
+    REQUIRE_FALSE(started.has_value());
+    REQUIRE(Contains(ACS::Core::Describe(started.error()), MakeText(options.http)));
+    REQUIRE(second->GetStreamEndpoint().port == 0);
+}
