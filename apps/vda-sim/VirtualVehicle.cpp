@@ -190,9 +190,11 @@ void VirtualVehicle::PassTime(Core::Now now, VirtualActions& out)
 
 void VirtualVehicle::Live(double seconds, Core::Now now, VirtualActions& out)
 {
-    for (double left = seconds; left > 0.0; left -= SLICE_SECONDS)
+    double left = seconds;
+    while (left > 0.0)
     {
         const double slice = std::min(left, SLICE_SECONDS);
+        left -= slice;
         const double drivenBefore = _motion.GetDriven();
         const bool bArrived = _motion.TryFinishLeg(slice);
         _charge = std::max(MIN_CHARGE, _charge - (_motion.GetDriven() - drivenBefore) * CHARGE_PER_METRE);
@@ -254,67 +256,73 @@ void VirtualVehicle::EndActions(Core::Now now, VirtualActions& out)
 
 void VirtualVehicle::Pump(Core::Now now, VirtualActions& out)
 {
-    // Carrying out one may append others, so that neither iterators nor references last.
-    for (std::size_t i = 0; i < _sessionActions.size(); ++i)
+    // Carrying out one may ask for others, which then are the next round.
+    while (!_sessionActions.empty())
     {
-        VDA5050::VehicleAction action = std::move(_sessionActions[i]);
-        std::visit(
-            Core::Overloaded{
-                [&](VDA5050::PublishMessage& publish) { out.emplace_back(std::move(publish)); },
-                [&](const VDA5050::StartVehicleTimer& start) {
-                    const bool bOften = _bDriving && start.timer == VDA5050::EVehicleTimer::MaximumStateInterval;
-                    const Core::Duration delay = bOften ? std::min(start.delay, STATE_WHILE_DRIVING) : start.delay;
-                    out.emplace_back(StartVirtualTimer{static_cast<std::uint64_t>(start.timer), delay});
-                },
-                [&](const VDA5050::CancelVehicleTimer& cancel) {
-                    out.emplace_back(CancelVirtualTimer{static_cast<std::uint64_t>(cancel.timer)});
-                },
-                [&](const VDA5050::DriveTo& drive) { Drive(drive, now); },
-                [&](const VDA5050::StopDriving&) {
-                    _motion.Brake();
-                    if (_motion.IsStanding())
-                    {
-                        _bDriving = false;
-                        _session.OnDrivingChanged(false, now, _sessionActions);
-                    }
-                },
-                [&](const VDA5050::StartAction& start) { Start(start, now); },
-                [&](const VDA5050::PauseAction& pause) {
-                    if (_hands.TryPause(pause.actionID))
-                    {
-                        SetStatus(pause.actionID, VDA5050::EActionStatus::Paused, {}, now);
-                    }
-                },
-                [&](const VDA5050::ResumeAction& resume) {
-                    if (_hands.TryResume(resume.actionID))
-                    {
-                        SetStatus(resume.actionID, VDA5050::EActionStatus::Running, {}, now);
-                    }
-                },
-                [&](const VDA5050::StopAction& stop) {
-                    if (_hands.TryStop(stop.actionID))
-                    {
-                        SetStatus(stop.actionID, VDA5050::EActionStatus::Failed, "stopped", now);
-                    }
-                },
-                [&](const VDA5050::OrderTaken& taken) {
-                    _logger.Info(taken.bUpdate ? "order update" : "order", {{"orderId", taken.orderID}});
-                },
-                [&](const VDA5050::OrderRefused& refused) { Log(refused); },
-                [&](const VDA5050::OrderCompleted& completed) {
-                    _logger.Info("order completed", {{"orderId", completed.orderID}});
-                },
-                [&](const VDA5050::OrderCleared& cleared) {
-                    _leg.reset();
-                    _motion.Abandon();
-                    _logger.Info("order cancelled", {{"orderId", cleared.orderID}});
-                },
-                [&](const VDA5050::MessageIgnored& ignored) {
-                    _logger.Warning("message ignored", {{"reason", Core::Describe(ignored.error)}});
-                }},
-            action);
+        for (VDA5050::VehicleAction& action : std::exchange(_sessionActions, {}))
+        {
+            CarryOut(action, now, out);
+        }
     }
-    _sessionActions.clear();
+}
+
+void VirtualVehicle::CarryOut(VDA5050::VehicleAction& action, Core::Now now, VirtualActions& out)
+{
+    std::visit(
+        Core::Overloaded{
+            [&](VDA5050::PublishMessage& publish) { out.emplace_back(std::move(publish)); },
+            [&](const VDA5050::StartVehicleTimer& start) {
+                const bool bOften = _bDriving && start.timer == VDA5050::EVehicleTimer::MaximumStateInterval;
+                const Core::Duration delay = bOften ? std::min(start.delay, STATE_WHILE_DRIVING) : start.delay;
+                out.emplace_back(StartVirtualTimer{static_cast<std::uint64_t>(start.timer), delay});
+            },
+            [&](const VDA5050::CancelVehicleTimer& cancel) {
+                out.emplace_back(CancelVirtualTimer{static_cast<std::uint64_t>(cancel.timer)});
+            },
+            [&](const VDA5050::DriveTo& drive) { Drive(drive, now); },
+            [&](const VDA5050::StopDriving&) {
+                _motion.Brake();
+                if (_motion.IsStanding())
+                {
+                    _bDriving = false;
+                    _session.OnDrivingChanged(false, now, _sessionActions);
+                }
+            },
+            [&](const VDA5050::StartAction& start) { Start(start, now); },
+            [&](const VDA5050::PauseAction& pause) {
+                if (_hands.TryPause(pause.actionID))
+                {
+                    SetStatus(pause.actionID, VDA5050::EActionStatus::Paused, {}, now);
+                }
+            },
+            [&](const VDA5050::ResumeAction& resume) {
+                if (_hands.TryResume(resume.actionID))
+                {
+                    SetStatus(resume.actionID, VDA5050::EActionStatus::Running, {}, now);
+                }
+            },
+            [&](const VDA5050::StopAction& stop) {
+                if (_hands.TryStop(stop.actionID))
+                {
+                    SetStatus(stop.actionID, VDA5050::EActionStatus::Failed, "stopped", now);
+                }
+            },
+            [&](const VDA5050::OrderTaken& taken) {
+                _logger.Info(taken.bUpdate ? "order update" : "order", {{"orderId", taken.orderID}});
+            },
+            [&](const VDA5050::OrderRefused& refused) { Log(refused); },
+            [&](const VDA5050::OrderCompleted& completed) {
+                _logger.Info("order completed", {{"orderId", completed.orderID}});
+            },
+            [&](const VDA5050::OrderCleared& cleared) {
+                _leg.reset();
+                _motion.Abandon();
+                _logger.Info("order cancelled", {{"orderId", cleared.orderID}});
+            },
+            [&](const VDA5050::MessageIgnored& ignored) {
+                _logger.Warning("message ignored", {{"reason", Core::Describe(ignored.error)}});
+            }},
+        action);
 }
 
 void VirtualVehicle::Log(const VDA5050::OrderRefused& refused) const

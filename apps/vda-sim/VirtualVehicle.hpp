@@ -90,6 +90,7 @@ private:
     void EndActions(Core::Now now, VirtualActions& out);
     /// Carries out what the session has asked for, and what that leads to.
     void Pump(Core::Now now, VirtualActions& out);
+    void CarryOut(VDA5050::VehicleAction& action, Core::Now now, VirtualActions& out);
     void TellPosition();
     void TellDriving(bool bDriving, Core::Now now);
     void TellBattery(Core::Now now);

@@ -68,7 +68,7 @@ MosquittoConnection::MosquittoConnection(const boost::asio::any_io_executor& exe
       _houseKeeping(executor),
       _connectTimer(executor)
 {
-    static const LibraryUse libraryUse;
+    static const LibraryUse LIBRARY_USE;
 }
 
 std::error_code MosquittoConnection::Open(const MosquittoOptions& options)

@@ -28,8 +28,8 @@ public:
 
 const std::error_category& GetMosquittoCategory()
 {
-    static const MosquittoCategory category;
-    return category;
+    static const MosquittoCategory CATEGORY;
+    return CATEGORY;
 }
 
 constexpr int CONNACK_BAD_LOGIN = 4;

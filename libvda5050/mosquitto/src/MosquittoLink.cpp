@@ -6,6 +6,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <fmt/format.h>
 
+#include <exception>
 #include <set>
 #include <utility>
 
@@ -366,7 +367,14 @@ MosquittoLink::MosquittoLink(
 
 MosquittoLink::~MosquittoLink()
 {
-    _impl->Abandon();
+    try
+    {
+        _impl->Abandon();
+    }
+    catch (const std::exception&)
+    {
+        // Asio's timers may throw; the connection goes with the last reference in any case.
+    }
 }
 
 void MosquittoLink::Start()
