@@ -1,6 +1,7 @@
 #include "ApiRoutes.hpp"
 
 #include "ApiAnswers.hpp"
+#include "ApiCall.hpp"
 #include "ControlApi.hpp"
 #include "RobotApi.hpp"
 

@@ -8,16 +8,6 @@
 namespace ACS::OpenStreamSim
 {
 
-/// One call as a handler sees it.
-struct ApiCall
-{
-    const OpenStream::ApiRequest& request;
-    std::string_view argument; ///< What stood in the place of the pattern's {}.
-};
-
-/// Answers one call; the machine has been brought to the present.
-using ApiHandler = OpenStream::ApiResponse (*)(ControllerMachine& machine, const ApiCall& call);
-
 /// Whether the path is of this pattern, in which {} stands for any text without a slash, once at most; the argument is a
 /// view of the path.
 [[nodiscard]] bool MatchesPattern(std::string_view path, std::string_view pattern, std::string_view& argumentOut);

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "ApiRoutes.hpp"
+#include "ApiCall.hpp"
+#include "ControllerMachine.hpp"
 
 /// The endpoints of the operating conditions, the signals, the relays and the tasks.
 namespace ACS::OpenStreamSim::ControlApi

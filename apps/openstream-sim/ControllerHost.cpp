@@ -43,7 +43,7 @@ Apps::HttpResponse ControllerHost::Handle(const Apps::HttpRequest& request)
 
 Core::Result<void> ControllerHost::Start()
 {
-    const Core::Result<void> streaming = _streamServer.Start();
+    Core::Result<void> streaming = _streamServer.Start();
     if (!streaming.has_value())
     {
         return streaming;

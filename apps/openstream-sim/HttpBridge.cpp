@@ -2,8 +2,10 @@
 
 #include "ApiAnswers.hpp"
 
-#include <algorithm>
 #include <array>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 namespace ACS::OpenStreamSim
 {
@@ -14,6 +16,18 @@ namespace
 using enum OpenStream::EApiMethod;
 
 constexpr std::array METHODS{Get, Post, Put, Delete};
+
+std::optional<OpenStream::EApiMethod> ParseMethodOrNull(std::string_view text)
+{
+    for (const OpenStream::EApiMethod method : METHODS)
+    {
+        if (OpenStream::GetMethodText(method) == text)
+        {
+            return method;
+        }
+    }
+    return std::nullopt;
+}
 
 /// The body as JSON; nothing with a GET.
 Core::Result<std::optional<Core::JsonText>> ReadJson(const Apps::HttpRequest& request, OpenStream::EApiMethod method)
@@ -52,8 +66,8 @@ Apps::HttpResponse MakeHttpResponse(const OpenStream::ApiResponse& response)
 
 Apps::HttpResponse AnswerHttp(const Apps::HttpRequest& request, OpenStream::IOpenApiService& service, Core::Now now)
 {
-    const auto method = std::ranges::find(METHODS, std::string_view(request.method), OpenStream::GetMethodText);
-    if (method == METHODS.end())
+    const std::optional<OpenStream::EApiMethod> method = ParseMethodOrNull(request.method);
+    if (!method.has_value())
     {
         return MakeHttpResponse(RefusePath("the Open API has GET, POST, PUT and DELETE"));
     }

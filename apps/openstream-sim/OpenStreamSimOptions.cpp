@@ -44,7 +44,7 @@ std::string MakeFooter()
 
 std::string TakeProgram(std::string_view text, ControllerOptions& options)
 {
-    const std::string mistake = fmt::format(
+    std::string mistake = fmt::format(
         "expected NUMBER=DURATION[,fail] with a number from {} to {} (11=3s), found '{}'",
         FIRST_PROGRAM,
         LAST_PROGRAM,

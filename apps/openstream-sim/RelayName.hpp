@@ -1,10 +1,10 @@
 #pragma once
 
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <tuple>
 
 namespace ACS::OpenStreamSim
 {
@@ -49,7 +49,12 @@ struct RelayBlock
     std::uint8_t index = 0;
     ERelayArea area = ERelayArea::M;
 
-    auto operator<=>(const RelayBlock&) const = default;
+    bool operator==(const RelayBlock&) const = default;
+
+    bool operator<(const RelayBlock& other) const
+    {
+        return std::tie(bus, index, area) < std::tie(other.bus, other.index, other.area);
+    }
 };
 
 /// An area and how wide its values are: "m", "dob", "dil".

@@ -1,11 +1,12 @@
 #include "RobotApi.hpp"
 
 #include "ApiAnswers.hpp"
-#include "ArmKinematics.hpp"
 #include "common/Version.hpp"
+#include "FlangePose.hpp"
 
 #include <algorithm>
 #include <charconv>
+#include <span>
 
 namespace ACS::OpenStreamSim::RobotApi
 {
@@ -65,8 +66,8 @@ void FillAxes(const JointVector& position, PoseAnswer& answer)
 
 std::vector<double> Cut(const JointVector& values, std::size_t first, std::size_t count)
 {
-    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
-    return {begin, begin + static_cast<std::ptrdiff_t>(count)};
+    const std::span<const double> part = std::span(values).subspan(first, count);
+    return {part.begin(), part.end()};
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "ApiRoutes.hpp"
+#include "ApiCall.hpp"
+#include "ControllerMachine.hpp"
 
 /// The endpoints below /project/robot and what tells about the controller as a whole.
 namespace ACS::OpenStreamSim::RobotApi

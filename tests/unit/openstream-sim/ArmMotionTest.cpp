@@ -1,7 +1,7 @@
 #include "ArmMotion.hpp"
 
-#include "ArmKinematics.hpp"
 #include "Catch.hpp"
+#include "FlangePose.hpp"
 
 #include <chrono>
 #include <cmath>

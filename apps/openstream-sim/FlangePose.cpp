@@ -1,4 +1,4 @@
-#include "ArmKinematics.hpp"
+#include "FlangePose.hpp"
 
 #include <algorithm>
 #include <cmath>
