@@ -87,7 +87,7 @@ public:
         return isReached();
     }
 
-    void Monitor(const char* url, const char* args)
+    void Monitor(const char* url, const char* args) const
     {
         client->SetMonitor(MonitorRequest{url, 10ms, JsonText::FromTrusted(args), {}});
     }
@@ -95,15 +95,16 @@ public:
     /// The text of the newest sample; empty where none has come.
     [[nodiscard]] std::string GetSample() const
     {
-        for (auto event = events.rbegin(); event != events.rend(); ++event)
+        std::string sample;
+        for (const ClientEvent& event : events)
         {
-            const auto* const dataOrNull = std::get_if<ClientData>(&*event);
+            const auto* const dataOrNull = std::get_if<ClientData>(&event);
             if (dataOrNull != nullptr)
             {
-                return dataOrNull->line.result.value_or(JsonText()).GetText();
+                sample = dataOrNull->line.result.value_or(JsonText()).GetText();
             }
         }
-        return {};
+        return sample;
     }
 
     [[nodiscard]] bool TryAwaitSample(const std::string& text)
