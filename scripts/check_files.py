@@ -45,6 +45,10 @@ def list_types(code):
     return found
 
 
+# A header of functions or tables may declare the struct that they use: it is named for what they do.
+FREE_DECLARATION = re.compile(r"^(\[\[nodiscard\]\]|inline|constexpr)\s", re.MULTILINE)
+
+
 def is_interface(name):
     return re.match(r"I[A-Z][a-z]", name) is not None
 
@@ -60,7 +64,8 @@ def check_header(path, text):
     defined = [name for _, kind, name in types if kind not in ("using", "concept")]
     if classes and stem not in names:
         yield classes[0][0], f"class {classes[0][1]} stands in a file of another name; call the file {classes[0][1]}.hpp"
-    elif len(defined) == 1 and stem not in names and stem not in text.split("#pragma once", 1)[-1]:
+    elif (len(defined) == 1 and stem not in names and stem not in text.split("#pragma once", 1)[-1]
+          and not FREE_DECLARATION.search(text)):
         yield 1, f"the file declares {defined[0]} only; call it {defined[0]}.hpp"
     for line, name in classes:
         if name != stem and stem in names:

@@ -37,7 +37,7 @@ THIRD_PARTY = {
     "json": ("fmt/", "tl/", "rapidjson/"),
     **{layer: ("fmt/", "tl/") for layer in PURE},
     "protocol_beast": ("fmt/", "tl/", "boost/", "openssl/"),
-    "vda5050_mosquitto": ("fmt/", "tl/", "boost/asio", "boost/system/", "mosquitto.h", "openssl/"),
+    "vda5050_mosquitto": ("fmt/", "tl/", "boost/asio", "boost/system/", "mosquitto.h", "openssl/", "unistd.h"),
     "openstream_asio": ("fmt/", "tl/", "boost/asio", "boost/system/"),
     "plan_sqlite": ("fmt/", "tl/", "SQLiteCpp/", "sqlite3.h"),
 }

@@ -5,7 +5,7 @@ import socket
 import subprocess
 import unittest
 
-from scenario_case import FINISH_SECONDS, SITE, ScenarioCase, main, write_plan
+from scenario_case import FINISH_SECONDS, PLANS, SITE, ScenarioCase, main, write_plan
 
 
 class BadInput(ScenarioCase):
@@ -21,9 +21,15 @@ class BadInput(ScenarioCase):
             self.assertIn(word, lines[0])
 
     def test_an_unknown_option_is_refused_by_every_program(self):
-        for name in ("acsd", "vda-sim", "openstream-sim", "mcs-sim"):
+        needed = {
+            "acsd": ["--config", SITE / "acsd.toml"],
+            "vda-sim": ["--broker", "mqtt://127.0.0.1:1", "--site", SITE / "site.lif.json", "--vehicle", "LR01"],
+            "openstream-sim": [],
+            "mcs-sim": ["--plan", PLANS[0]],
+        }
+        for name, arguments in needed.items():
             with self.subTest(name):
-                self.assert_refused(self.run_program(name, "--frobnicate"), 2, "--frobnicate")
+                self.assert_refused(self.run_program(name, *arguments, "--frobnicate"), 2, "--frobnicate")
 
     def test_help_and_version_work_in_every_program(self):
         for name in ("acsd", "vda-sim", "openstream-sim", "mcs-sim"):

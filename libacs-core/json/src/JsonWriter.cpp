@@ -84,8 +84,8 @@ void AppendNumber(std::string& out, TNumber value)
 } // namespace
 
 JsonWriter::JsonWriter(std::string& out, DialectFlags dialect)
-    : _out(out)
-    , _dialect(dialect)
+    : _out(out),
+      _dialect(dialect)
 {
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "MosquittoBroker.hpp"
+#include "RecordingListener.hpp"
 #include "RecordingLogSink.hpp"
 #include "SeededRandom.hpp"
 #include <acs/vda5050_mosquitto/MosquittoLink.hpp>
@@ -18,47 +19,6 @@
 
 namespace ACS::Testing
 {
-
-/// Remembers what a link tells.
-class RecordingListener final : public VDA5050::IMqttLinkListener
-{
-public:
-    std::size_t ups = 0;
-    std::size_t downs = 0;
-    std::vector<VDA5050::MqttMessage> messages;
-    std::function<void()> whenUp;
-
-    void OnLinkUp() override
-    {
-        ++ups;
-        if (whenUp)
-        {
-            whenUp();
-        }
-    }
-
-    void OnLinkDown(std::error_code /*reason*/) override
-    {
-        ++downs;
-    }
-
-    void OnMqttMessage(const VDA5050::MqttMessage& message) override
-    {
-        messages.push_back(message);
-    }
-
-    [[nodiscard]] std::size_t CountTopic(std::string_view topic) const
-    {
-        return static_cast<std::size_t>(std::ranges::count(messages, topic, &VDA5050::MqttMessage::topic));
-    }
-
-    [[nodiscard]] bool Contains(std::string_view topic, std::string_view part) const
-    {
-        return std::ranges::any_of(messages, [topic, part](const VDA5050::MqttMessage& message) {
-            return message.topic == topic && message.payload.find(part) != std::string::npos;
-        });
-    }
-};
 
 /// Runs the loop until the condition holds; false where the time was over first.
 inline bool TryRunUntil(

@@ -1,8 +1,8 @@
 // House rules that clang-tidy 14 has no check for; scripts/house-rules.clang-query must report each EXPECT-QUERY line
 // and no other.
 #include <atomic>
-#include <memory>
 #include <optional>
+#include <memory>
 
 namespace ACS
 {

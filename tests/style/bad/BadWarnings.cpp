@@ -27,7 +27,7 @@ class Derived : public Base // EXPECT-GNU -Wnon-virtual-dtor
 {
 public:
     void Draw(double count); // EXPECT-CLANG -Woverloaded-virtual
-    void Clear(){};          // EXPECT-WARNING -Wextra-semi
+    void Clear() {}; // EXPECT-WARNING -Wextra-semi
 };
 
 int Choose(EColour colour, int number, unsigned size)
@@ -38,10 +38,10 @@ int Choose(EColour colour, int number, unsigned size)
         number += total;
     }
     std::uint8_t small = 0;
-    small = number;            // EXPECT-WARNING conversion
-    size = number;             // EXPECT-WARNING -Wsign-conversion
+    small = number; // EXPECT-WARNING conversion
+    size = number; // EXPECT-WARNING -Wsign-conversion
     const Point point{.x = 1}; // EXPECT-GNU -Wmissing-field-initializers
-    switch (colour)            // EXPECT-WARNING -Wswitch
+    switch (colour) // EXPECT-WARNING -Wswitch
     {
         case EColour::Red:
             return point.y;
@@ -62,7 +62,7 @@ int Choose(EColour colour, int number, unsigned size)
     {
         total = 2;
     }
-    total += static_cast<int>(number);           // EXPECT-GNU -Wuseless-cast
+    total += static_cast<int>(number); // EXPECT-GNU -Wuseless-cast
     return number > 3 && number > 3 ? 1 : total; // EXPECT-GNU -Wlogical-op
 }
 

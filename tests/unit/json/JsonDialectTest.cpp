@@ -1,5 +1,4 @@
 #include "Catch.hpp"
-
 #include <acs/json/JsonDecoder.hpp>
 #include <acs/json/JsonEncoder.hpp>
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "FakeRobotAdapter.hpp"
+#include "FaultyPlanStore.hpp"
 #include "ManualClock.hpp"
 #include "SeededRandom.hpp"
 #include <acs/plan/EPlanningError.hpp>
@@ -18,31 +19,6 @@
 
 namespace ACS::Testing
 {
-
-/// A store that fails when it is told to.
-class FaultyPlanStore final : public Planning::IPlanStore
-{
-    Planning::MemoryPlanStore _store;
-
-public:
-    bool bFails = false;
-
-    [[nodiscard]] Core::Result<Planning::StoredState> Load() override
-    {
-        return _store.Load();
-    }
-
-    [[nodiscard]] Core::Result<void> Append(const Planning::StoreBatch& batch) override
-    {
-        return bFails ? Core::Fail(Planning::EPlanningError::StoreFailed, "acsd.db", "room", "disk full")
-                      : _store.Append(batch);
-    }
-
-    [[nodiscard]] const Planning::StoredState& GetState() const
-    {
-        return _store.GetState();
-    }
-};
 
 /// A one-way loop of lane nodes L01…L16 with a dock on each: six cassette ports, four sets, two ports of A02, a stocker
 /// port and three chargers. All edges for both vehicle types.

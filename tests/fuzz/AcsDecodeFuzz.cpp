@@ -1,0 +1,20 @@
+#include "FuzzCheck.hpp"
+#include <acs/protocol/AcsCodec.hpp>
+
+#include <string>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    using namespace ACS;
+    Protocol::AcsCodec codec;
+    const Protocol::DecodeOutcome first = codec.Decode(Fuzz::AsText(data, size));
+    if (first.message)
+    {
+        std::string text;
+        codec.Encode(*first.message, text);
+        const Protocol::DecodeOutcome second = codec.Decode(text);
+        Fuzz::Require(second.message.has_value(), "what was encoded can be decoded");
+        Fuzz::Require(*second.message == *first.message, "decode, encode, decode gives an equal message");
+    }
+    return 0;
+}

@@ -1,0 +1,17 @@
+#include "FuzzCheck.hpp"
+#include <acs/plan/LifReader.hpp>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    using namespace ACS;
+    const Core::Result<Planning::SiteMap> site = Planning::DecodeLif(Fuzz::AsText(data, size));
+    if (site)
+    {
+        for (const Planning::SiteEdge& edge : site->GetEdges())
+        {
+            Fuzz::Require(site->FindNodeOrNull(edge.startNodeID) != nullptr, "an edge starts at a known node");
+            Fuzz::Require(site->FindNodeOrNull(edge.endNodeID) != nullptr, "an edge ends at a known node");
+        }
+    }
+    return 0;
+}
