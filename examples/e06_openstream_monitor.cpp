@@ -1,0 +1,167 @@
+// Lesson 6: Hi6 Open Stream from both sides, over TCP on a free port: five samples of a MONITOR, then one CONTROL.
+//
+// The server stands in for the controller; what it serves is an IOpenApiService, here of one value that can be read and
+// set. The client is what an integrator writes against the real controller.
+
+#include <acs/openstream_asio/OpenStreamClient.hpp>
+#include <acs/openstream_asio/OpenStreamServer.hpp>
+
+#include <boost/asio/io_context.hpp>
+#include <fmt/core.h>
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <random>
+#include <utility>
+#include <variant>
+
+using namespace ACS; // NOLINT(google-build-using-namespace): an example reads better without the prefix
+using namespace std::chrono_literals;
+
+namespace
+{
+
+constexpr std::chrono::seconds PATIENCE{10}; ///< Never needed where all goes well.
+constexpr int WANTED_SAMPLES = 5;
+
+class SystemClock final : public Core::IClock
+{
+public:
+    [[nodiscard]] Core::Now GetNow() const override
+    {
+        return {std::chrono::steady_clock::now(), std::chrono::system_clock::now()};
+    }
+};
+
+class SystemRandom final : public Core::IRandom
+{
+    std::random_device _device;
+
+public:
+    [[nodiscard]] std::uint64_t GetNext() override
+    {
+        return (static_cast<std::uint64_t>(_device()) << 32U) | _device();
+    }
+};
+
+/// One counter behind /demo/counter: GET reads it and counts on, POST sets it to 0. Whatever else is asked gets a 404.
+class CounterService final : public OpenStream::IOpenApiService
+{
+    std::int64_t _counter = 0;
+
+public:
+    [[nodiscard]] OpenStream::ApiResponse Call(const OpenStream::ApiRequest& request, Core::Now /*now*/) override
+    {
+        if (request.path != "/demo/counter")
+        {
+            return {404, std::nullopt};
+        }
+        if (request.method == OpenStream::EApiMethod::Get)
+        {
+            return {200, Core::JsonText::FromInteger(++_counter)};
+        }
+        _counter = 0;
+        fmt::print("server: the counter is {}\n", _counter);
+        return {};
+    }
+
+    void StopControl(Core::Now /*now*/) override
+    {
+    }
+};
+
+/// Runs the lesson: each step follows from the event before it, nothing waits for time to pass.
+class Monitor
+{
+    OpenStreamAsio::OpenStreamServer& _server;
+    std::unique_ptr<OpenStreamAsio::OpenStreamClient> _client;
+    int _samples = 0;
+
+public:
+    bool bAccepted = false;
+    bool bEnded = false;
+
+    explicit Monitor(OpenStreamAsio::OpenStreamServer& server)
+        : _server(server)
+    {
+    }
+
+    void Start(std::unique_ptr<OpenStreamAsio::OpenStreamClient> client)
+    {
+        _client = std::move(client);
+        // A wish, not a command: the client establishes the MONITOR after this handshake and after every reconnect.
+        _client->SetMonitor(OpenStream::MonitorRequest{"/demo/counter", 20ms, std::nullopt, std::nullopt});
+        _client->Start();
+    }
+
+    void OnEvent(const OpenStream::ClientEvent& event)
+    {
+        if (const auto* dataOrNull = std::get_if<OpenStream::ClientData>(&event))
+        {
+            OnData(dataOrNull->line);
+        }
+        else if (const auto* settledOrNull = std::get_if<OpenStream::ClientControlSettled>(&event))
+        {
+            // Success is silence on the wire: Accepted says that no refusal came within the window.
+            bAccepted = settledOrNull->outcome == OpenStream::EControlOutcome::Accepted;
+            fmt::print("client: the CONTROL was {}\n", bAccepted ? "accepted" : "not accepted");
+            _client->Stop();
+        }
+        else if (std::holds_alternative<OpenStream::ClientEnded>(event))
+        {
+            bEnded = true;
+            _server.Stop(); // Now the io_context runs dry and main goes on.
+        }
+    }
+
+private:
+    void OnData(const OpenStream::DataLine& line)
+    {
+        if (_samples == WANTED_SAMPLES)
+        {
+            return; // One more was under way when the MONITOR was ended.
+        }
+        ++_samples;
+        fmt::print("client: sample {} is {}\n", _samples, line.result.has_value() ? line.result->GetText() : "missing");
+        if (_samples == WANTED_SAMPLES)
+        {
+            _client->SetMonitor(std::nullopt);
+            _client->SendControl({OpenStream::EApiMethod::Post, "/demo/counter", std::nullopt, std::nullopt});
+        }
+    }
+};
+
+} // namespace
+
+int main()
+{
+    boost::asio::io_context io; // Everything runs on its one thread, hence no locks anywhere.
+    SystemClock clock;
+    SystemRandom random;
+    CounterService service;
+
+    OpenStreamAsio::OpenStreamServerOptions serverOptions;
+    serverOptions.port = 0; // One that is free. A controller listens on 49000.
+    OpenStreamAsio::OpenStreamServer server(io.get_executor(), clock, {}, serverOptions, service);
+    if (const Core::Result<void> started = server.Start(); !started.has_value())
+    {
+        fmt::print("{}\n", Core::Describe(started.error()));
+        return 1;
+    }
+
+    Monitor monitor(server);
+    OpenStreamAsio::OpenStreamClientOptions clientOptions;
+    clientOptions.port = server.GetPort();
+    monitor.Start(std::make_unique<OpenStreamAsio::OpenStreamClient>(
+        io.get_executor(),
+        clock,
+        random,
+        Core::Logger(),
+        clientOptions,
+        [&monitor](const OpenStream::ClientEvent& event, Core::Now /*now*/) { monitor.OnEvent(event); }));
+
+    io.run_for(PATIENCE);
+    return monitor.bAccepted && monitor.bEnded ? 0 : 1;
+}
