@@ -10,11 +10,10 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <map>
-#include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -23,7 +22,7 @@ using namespace ACS; // NOLINT(google-build-using-namespace): an example reads b
 namespace
 {
 
-/// Always the same ids: a lesson wants to be repeatable. A program takes a real random source.
+/// Always the same ids: a lesson wants to be repeatable. A program takes a real random source (lesson 4).
 class CountingRandom final : public Core::IRandom
 {
     std::uint64_t _last = 0;
@@ -46,60 +45,62 @@ class Line
     Protocol::McsSession _mcs;
     Protocol::SessionActions _fromAcs;
     Protocol::SessionActions _fromMcs;
-    std::map<Protocol::ESessionTimer, Core::SteadyTime> _acsTimers;
+    std::map<Protocol::ESessionTimer, Core::SteadyTime> _acsTimers; ///< When each is due.
+
+    void Print(std::string_view who, std::string_view what) const
+    {
+        const auto time = std::chrono::duration_cast<std::chrono::milliseconds>(_now.steady.time_since_epoch());
+        fmt::print("[{:>4} ms] {}: {}\n", time.count(), who, what);
+    }
+
+    void ExecuteForAcs(const Protocol::SessionAction& action)
+    {
+        std::visit(
+            Core::Overloaded{
+                [this](const Protocol::Connect&) {
+                    _mcs.OnConnected(CONNECTION, _now, _fromMcs);
+                    _acs.OnConnected(_now, _fromAcs);
+                },
+                [this](const Protocol::SendText& send) {
+                    Print("ACS", send.text);
+                    _mcs.OnText(CONNECTION, send.text, _now, _fromMcs);
+                },
+                [this](const Protocol::Close& close) { _acs.OnClosed(close.reason, _now, _fromAcs); },
+                [this](const Protocol::StartTimer& start) { _acsTimers[start.timer] = _now.steady + start.delay; },
+                [this](const Protocol::CancelTimer& cancel) { _acsTimers.erase(cancel.timer); },
+                [this](const Protocol::Deliver& deliver) {
+                    bRegistered = bRegistered || std::holds_alternative<Protocol::Registered>(deliver.event);
+                    bAcked = bAcked || std::holds_alternative<Protocol::Acked>(deliver.event);
+                }},
+            action);
+    }
+
+    /// The MCS of this lesson only acknowledges, and for that it needs no timers.
+    void ExecuteForMcs(const Protocol::SessionAction& action)
+    {
+        const auto* sendOrNull = std::get_if<Protocol::SendText>(&action);
+        if (sendOrNull == nullptr)
+        {
+            return;
+        }
+        const bool bLost = std::exchange(bNextAckLost, false);
+        Print(bLost ? "lost" : "MCS", sendOrNull->text);
+        if (!bLost)
+        {
+            _acs.OnText(sendOrNull->text, _now, _fromAcs);
+        }
+    }
 
 public:
     bool bNextAckLost = false; ///< The line eats the next text from the MCS.
-    bool bFinished = false;    ///< The report was acknowledged.
+    bool bRegistered = false;
+    bool bAcked = false;
 
     explicit Line(const Protocol::SessionOptions& options)
         : _acs(options, _random),
           _mcs({}, _random)
     {
-    }
-
-    void Start()
-    {
         _acs.Start(_now, _fromAcs);
-        Settle();
-    }
-
-    [[nodiscard]] bool TryReport(const std::string& planID)
-    {
-        // The id and the time are the caller's, and the same on every attempt: that makes a repetition recognisable.
-        const Protocol::AcsRequest request{
-            "report-1",
-            {_now.wall, {}},
-            Protocol::PlanReport{planID, Protocol::EPlanStatus::InProgress, ""}};
-        const bool bTaken = _acs.TrySendDurable(request, _now, _fromAcs);
-        Settle();
-        return bTaken;
-    }
-
-    /// Time jumps to the next timer. False: there is none.
-    [[nodiscard]] bool TryAdvance()
-    {
-        const auto next =
-            std::min_element(_acsTimers.begin(), _acsTimers.end(), [](const auto& left, const auto& right) {
-                return left.second < right.second;
-            });
-        if (next == _acsTimers.end())
-        {
-            return false;
-        }
-        const Protocol::ESessionTimer timer = next->first;
-        _now.steady = next->second;
-        _acsTimers.erase(next);
-        fmt::print("[{:>5} ms] a timer of the ACS is due\n", GetMilliseconds());
-        _acs.OnTimer(timer, _now, _fromAcs);
-        Settle();
-        return true;
-    }
-
-private:
-    [[nodiscard]] long long GetMilliseconds() const
-    {
-        return std::chrono::duration_cast<std::chrono::milliseconds>(_now.steady.time_since_epoch()).count();
     }
 
     /// Carries out what both sides want until neither wants anything. Actions never run inside the call that made them.
@@ -118,54 +119,19 @@ private:
         }
     }
 
-    void ExecuteForAcs(const Protocol::SessionAction& action)
+    /// The id and the time of a report are the caller's, and the same on every attempt: so a repetition shows as one.
+    [[nodiscard]] bool TryReport(const Protocol::PlanReport& report)
     {
-        std::visit(
-            Core::Overloaded{
-                [this](const Protocol::Connect&) {
-                    _mcs.OnConnected(CONNECTION, _now, _fromMcs);
-                    _acs.OnConnected(_now, _fromAcs);
-                },
-                [this](const Protocol::SendText& send) {
-                    fmt::print("[{:>5} ms] ACS: {}\n", GetMilliseconds(), send.text);
-                    _mcs.OnText(CONNECTION, send.text, _now, _fromMcs);
-                },
-                [this](const Protocol::Close& close) { _acs.OnClosed(close.reason, _now, _fromAcs); },
-                [this](const Protocol::StartTimer& start) { _acsTimers[start.timer] = _now.steady + start.delay; },
-                [this](const Protocol::CancelTimer& cancel) { _acsTimers.erase(cancel.timer); },
-                [this](const Protocol::Deliver& deliver) {
-                    OnAcsEvent(deliver.event);
-                }},
-            action);
+        _acs.ReplayDone(_now, _fromAcs); // Nothing is left over from an earlier connection.
+        return _acs.TrySendDurable({"report-1", {_now.wall, {}}, report}, _now, _fromAcs);
     }
 
-    void OnAcsEvent(const Protocol::SessionEvent& event)
+    /// Time jumps to the deadline of the Ack.
+    void WaitForAck()
     {
-        if (std::holds_alternative<Protocol::Registered>(event))
-        {
-            _acs.ReplayDone(_now, _fromAcs); // Nothing is left over from an earlier connection.
-        }
-        else if (const auto* ackedOrNull = std::get_if<Protocol::Acked>(&event))
-        {
-            fmt::print("[{:>5} ms] {} is acknowledged\n", GetMilliseconds(), ackedOrNull->transactionID);
-            bFinished = true;
-        }
-    }
-
-    /// The MCS of this lesson only acknowledges, and for that it needs no timers.
-    void ExecuteForMcs(const Protocol::SessionAction& action)
-    {
-        const auto* sendOrNull = std::get_if<Protocol::SendText>(&action);
-        if (sendOrNull == nullptr)
-        {
-            return;
-        }
-        const bool bLost = std::exchange(bNextAckLost, false);
-        fmt::print("[{:>5} ms] MCS: {}{}\n", GetMilliseconds(), sendOrNull->text, bLost ? " (lost)" : "");
-        if (!bLost)
-        {
-            _acs.OnText(sendOrNull->text, _now, _fromAcs);
-        }
+        _now.steady = _acsTimers[Protocol::ESessionTimer::Ack];
+        Print("ACS", "no Ack, again");
+        _acs.OnTimer(Protocol::ESessionTimer::Ack, _now, _fromAcs);
     }
 };
 
@@ -176,15 +142,16 @@ int main()
     Protocol::SessionOptions options;
     options.positionInterval = {}; // No positions: they would fill the output five times a second.
     Line line(options);
-    line.Start();
+    line.Settle();
 
     line.bNextAckLost = true;
-    if (!line.TryReport("PLAN-1"))
+    if (!line.bRegistered || !line.TryReport({"PLAN-1", Protocol::EPlanStatus::InProgress, ""}))
     {
         return 1;
     }
-    while (!line.bFinished && line.TryAdvance())
-    {
-    }
-    return line.bFinished ? 0 : 1;
+    line.Settle();
+    line.WaitForAck();
+    line.Settle();
+    fmt::print("report-1 is {}acknowledged\n", line.bAcked ? "" : "not ");
+    return line.bAcked ? 0 : 1;
 }

@@ -42,7 +42,7 @@ class SystemRandom final : public Core::IRandom
 public:
     [[nodiscard]] std::uint64_t GetNext() override
     {
-        return (static_cast<std::uint64_t>(_device()) << 32U) | _device();
+        return (std::uint64_t{_device()} << 32U) | _device();
     }
 };
 
@@ -124,7 +124,6 @@ int main()
     const SystemClock clock;
     SystemRandom random;
     const Core::Logger logger; // Discards all; give it an ILogSink to see what goes on.
-
     McsSide mcs;
     const auto server = ProtocolBeast::McsServer::Create(io.get_executor(), clock, random, logger, {}, mcs);
     if (!server.has_value())
@@ -139,9 +138,8 @@ int main()
     ProtocolBeast::ClientOptions options;
     options.url = fmt::format("ws://127.0.0.1:{}/acs/", (*server)->GetPort());
     auto client = ProtocolBeast::AcsClient::Create(io.get_executor(), clock, random, logger, options, acs);
-    if (!client.has_value())
+    if (!client.has_value()) // The URL makes no sense. Nothing is connected yet.
     {
-        fmt::print("{}\n", Core::Describe(client.error()));
         return 1;
     }
     acs.client = std::move(*client);

@@ -42,11 +42,11 @@ class SystemRandom final : public Core::IRandom
 public:
     [[nodiscard]] std::uint64_t GetNext() override
     {
-        return (static_cast<std::uint64_t>(_device()) << 32U) | _device();
+        return (std::uint64_t{_device()} << 32U) | _device();
     }
 };
 
-/// One counter behind /demo/counter: GET reads it and counts on, POST sets it to 0. Whatever else is asked gets a 404.
+/// One counter: a GET of any path reads it and counts on, a POST sets it to 0. A real one answers 404 to what it has not.
 class CounterService final : public OpenStream::IOpenApiService
 {
     std::int64_t _counter = 0;
@@ -54,10 +54,6 @@ class CounterService final : public OpenStream::IOpenApiService
 public:
     [[nodiscard]] OpenStream::ApiResponse Call(const OpenStream::ApiRequest& request, Core::Now /*now*/) override
     {
-        if (request.path != "/demo/counter")
-        {
-            return {404, std::nullopt};
-        }
         if (request.method == OpenStream::EApiMethod::Get)
         {
             return {200, Core::JsonText::FromInteger(++_counter)};
