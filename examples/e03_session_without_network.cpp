@@ -2,8 +2,9 @@
 //
 // The sessions are pure: events and the time go in, actions come out. Whoever carries out the actions decides what the
 // network is; here it is two vectors, and the time is a variable. So a lost Ack and the five seconds after it cost
-// nothing, and every run is the same. AcsClient and McsServer (lesson 4) carry out the same actions over a WebSocket.
+// nothing. AcsClient and McsServer (lesson 4) carry out the same actions over a WebSocket.
 
+#include "ExampleRandom.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/protocol/AcsSession.hpp>
 #include <acs/protocol/McsSession.hpp>
@@ -22,24 +23,12 @@ using namespace ACS; // NOLINT(google-build-using-namespace): an example reads b
 namespace
 {
 
-/// Always the same ids: a lesson wants to be repeatable. A program takes a real random source (lesson 4).
-class CountingRandom final : public Core::IRandom
-{
-    std::uint64_t _last = 0;
-
-public:
-    [[nodiscard]] std::uint64_t GetNext() override
-    {
-        return ++_last;
-    }
-};
-
 /// The two sessions and what lies between them.
 class Line
 {
     static constexpr Protocol::ConnectionID CONNECTION = 1;
 
-    CountingRandom _random;
+    ExampleRandom _random;
     Core::Now _now;
     Protocol::AcsSession _acs;
     Protocol::McsSession _mcs;

@@ -3,6 +3,7 @@
 // The client registers, reconnects and resends by itself. What it asks of its user is an outbox: whatever must reach the
 // MCS is kept until it is acknowledged, and is given to the client again after every registration.
 
+#include "ExampleRandom.hpp"
 #include <acs/protocol_beast/AcsClient.hpp>
 #include <acs/protocol_beast/McsServer.hpp>
 
@@ -12,7 +13,6 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
-#include <random>
 #include <string>
 #include <utility>
 #include <variant>
@@ -25,24 +25,13 @@ namespace
 
 constexpr std::chrono::seconds PATIENCE{10}; ///< Never needed where all goes well.
 
-/// No library reads a clock or a random source: the program brings its own.
+/// No library reads a clock: the program brings its own.
 class SystemClock final : public Core::IClock
 {
 public:
     [[nodiscard]] Core::Now GetNow() const override
     {
         return {std::chrono::steady_clock::now(), std::chrono::system_clock::now()};
-    }
-};
-
-class SystemRandom final : public Core::IRandom
-{
-    std::random_device _device;
-
-public:
-    [[nodiscard]] std::uint64_t GetNext() override
-    {
-        return (std::uint64_t{_device()} << 32U) | _device();
     }
 };
 
@@ -122,7 +111,7 @@ int main()
 {
     boost::asio::io_context io; // Everything runs on its one thread, hence no locks anywhere.
     const SystemClock clock;
-    SystemRandom random;
+    ExampleRandom random;
     const Core::Logger logger; // Discards all; give it an ILogSink to see what goes on.
     McsSide mcs;
     const auto server = ProtocolBeast::McsServer::Create(io.get_executor(), clock, random, logger, {}, mcs);
@@ -140,6 +129,7 @@ int main()
     auto client = ProtocolBeast::AcsClient::Create(io.get_executor(), clock, random, logger, options, acs);
     if (!client.has_value()) // The URL makes no sense. Nothing is connected yet.
     {
+        fmt::print("{}\n", Core::Describe(client.error()));
         return 1;
     }
     acs.client = std::move(*client);

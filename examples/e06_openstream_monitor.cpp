@@ -3,6 +3,7 @@
 // The server stands in for the controller; what it serves is an IOpenApiService, here of one value that can be read and
 // set. The client is what an integrator writes against the real controller.
 
+#include "ExampleRandom.hpp"
 #include <acs/openstream_asio/OpenStreamClient.hpp>
 #include <acs/openstream_asio/OpenStreamServer.hpp>
 
@@ -13,7 +14,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <random>
 #include <utility>
 #include <variant>
 
@@ -32,17 +32,6 @@ public:
     [[nodiscard]] Core::Now GetNow() const override
     {
         return {std::chrono::steady_clock::now(), std::chrono::system_clock::now()};
-    }
-};
-
-class SystemRandom final : public Core::IRandom
-{
-    std::random_device _device;
-
-public:
-    [[nodiscard]] std::uint64_t GetNext() override
-    {
-        return (std::uint64_t{_device()} << 32U) | _device();
     }
 };
 
@@ -117,7 +106,7 @@ private:
     {
         if (_samples == WANTED_SAMPLES)
         {
-            return; // One more was under way when the MONITOR was ended.
+            return; // It was under way when the MONITOR was ended.
         }
         ++_samples;
         fmt::print("client: sample {} is {}\n", _samples, line.result.has_value() ? line.result->GetText() : "missing");
@@ -135,7 +124,7 @@ int main()
 {
     boost::asio::io_context io; // Everything runs on its one thread, hence no locks anywhere.
     SystemClock clock;
-    SystemRandom random;
+    ExampleRandom random;
     CounterService service;
 
     OpenStreamAsio::OpenStreamServerOptions serverOptions;

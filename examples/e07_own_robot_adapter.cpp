@@ -1,18 +1,21 @@
 // Lesson 7: a robot of one's own under the plan engine. An IRobotAdapter joins a make of robot to the SDK: it takes the
-// engine's commands and tells the robot's events. The one here stands in for its robot, too, in virtual time.
+// engine's commands and tells the robot's events. The one here stands in for its robot, too, in virtual time. EngineHost.hpp carries out what both want.
 
+#include "EngineHost.hpp"
 #include "ExampleFloor.hpp"
+#include "ExampleRandom.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/plan/IRobotAdapter.hpp>
-#include <acs/plan/MemoryPlanStore.hpp>
-#include <acs/plan/PlanEngine.hpp>
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <deque>
-#include <map>
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <variant>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): an example reads better without the prefix
 namespace Core = ACS::Core;
@@ -89,121 +92,6 @@ public:
     }
 };
 
-/// Joins engine, store and robot; what an own program does with real timers and a real MCS.
-class Host
-{
-    using Timer = std::variant<EngineTimer, AdapterTimerID>;
-
-    Core::Now _now;
-    MemoryPlanStore _store;
-    PlanEngine _engine;
-    SlowRobotAdapter _robot;
-    EngineActions _fromEngine;
-    AdapterActions _fromRobot;
-    std::deque<AdapterAction> _waiting;        ///< For the engine to be done with what came before.
-    std::map<Timer, Core::SteadyTime> _timers; ///< When each is due.
-
-    void Execute(const EngineAction& action)
-    {
-        std::visit(
-            Core::Overloaded{
-                [this](const StorePlans& store) { static_cast<void>(_store.Append(store.batch)); }, // Never fails.
-                [this](const CommandRobot& typed) { _robot.Handle(typed.command, _now, _fromRobot); },
-                [this](const StartEngineTimer& start) { _timers[start.timer] = _now.steady + start.delay; },
-                [this](const CancelEngineTimer& cancel) { _timers.erase(cancel.timer); },
-                [this](const SendReport& send) {
-                    if (const auto* reportOrNull = std::get_if<PlanReport>(&send.entry.report))
-                    {
-                        fmt::print("report: {} {}\n", reportOrNull->planID, GetText(reportOrNull->state));
-                        bCompleted = reportOrNull->state == EPlanState::Completed;
-                    }
-                },
-                [](const ReplyCommand& reply) { fmt::print("plan {}\n", reply.bAccepted ? "accepted" : "refused"); },
-                [](const RobotStatusChanged& typed) {
-                    fmt::print("status: {}\n", GetText(typed.status.status));
-                }},
-            action);
-    }
-
-    void Execute(const AdapterAction& action)
-    {
-        std::visit(
-            Core::Overloaded{
-                [this](const RaiseEvent& raise) {
-                    _engine.Handle(ExampleFloor::ROBOT, raise.event, _now, _fromEngine);
-                },
-                [this](const StartAdapterTimer& start) { _timers[start.timer] = _now.steady + start.delay; },
-                [this](const CancelAdapterTimer& cancel) {
-                    _timers.erase(cancel.timer);
-                }},
-            action);
-    }
-
-    /// One event at a time: all actions of a call are carried out before the engine's next call.
-    void Settle()
-    {
-        do
-        {
-            for (const EngineAction& action : std::exchange(_fromEngine, {}))
-            {
-                Execute(action);
-            }
-            std::ranges::move(std::exchange(_fromRobot, {}), std::back_inserter(_waiting));
-            if (!_waiting.empty())
-            {
-                Execute(std::exchange(_waiting.front(), {}));
-                _waiting.pop_front();
-            }
-        }
-        while (!_fromEngine.empty() || !_waiting.empty());
-    }
-
-public:
-    bool bCompleted = false;
-
-    Host(EngineOptions options, SiteMap site, Core::IRandom& random)
-        : _engine(std::move(options), std::move(site), random)
-    {
-        _robot.Connect("N-HOME", _fromRobot);
-        Settle();
-        _engine.Handle(SubmitPlan{ExampleFloor::MakePlan(), 1}, _now, _fromEngine);
-        Settle();
-    }
-
-    /// Time jumps to the next timer.
-    [[nodiscard]] bool TryAdvance()
-    {
-        const auto next = std::ranges::min_element(_timers, {}, &decltype(_timers)::value_type::second);
-        if (next == _timers.end())
-        {
-            return false;
-        }
-        const Timer timer = next->first;
-        _now.steady = next->second;
-        _timers.erase(next);
-        std::visit(
-            Core::Overloaded{
-                [this](const EngineTimer& typed) { _engine.OnTimer(typed, _now, _fromEngine); },
-                [this](AdapterTimerID typed) {
-                    _robot.OnTimer(typed, _now, _fromRobot);
-                }},
-            timer);
-        Settle();
-        return true;
-    }
-};
-
-class CountingRandom final : public Core::IRandom
-{
-    std::uint64_t _last = 0;
-
-public:
-    [[nodiscard]] std::uint64_t GetNext() override
-    {
-        return ++_last;
-    }
-};
-
 } // namespace
 
 int main()
@@ -215,10 +103,15 @@ int main()
         fmt::print("{}\n", Core::Describe(options.error()));
         return 1;
     }
-    CountingRandom random; // Ids that are the same in every run; a program takes a real source.
-    Host host(std::move(*options), std::move(*site), random);
-    while (!host.bCompleted && host.TryAdvance())
+    ExampleRandom random;
+    SlowRobotAdapter robot;
+    EngineHost host(std::move(*options), std::move(*site), random, ExampleFloor::ROBOT, robot);
+    AdapterActions actions;
+    robot.Connect("N-HOME", actions);
+    host.Run(std::move(actions));
+    host.Submit(ExampleFloor::MakePlan());
+    while (!host.IsCompleted() && host.TryAdvance())
     {
     }
-    return host.bCompleted ? 0 : 1;
+    return host.IsCompleted() ? 0 : 1;
 }

@@ -4,6 +4,7 @@
 // that it did not acknowledge is sent again as the very same message. SqlitePlanStore is the store that is on disk.
 
 #include "ExampleFloor.hpp"
+#include "ExampleRandom.hpp"
 #include <acs/plan/MemoryPlanStore.hpp>
 #include <acs/plan/PlanEngine.hpp>
 
@@ -19,17 +20,6 @@ namespace Core = ACS::Core;
 
 namespace
 {
-
-class CountingRandom final : public Core::IRandom
-{
-    std::uint64_t _last = 0;
-
-public:
-    [[nodiscard]] std::uint64_t GetNext() override
-    {
-        return ++_last;
-    }
-};
 
 /// Prints what a program would send, and stores what must survive.
 void Execute(PlanEngine& engine, IPlanStore& store, EngineActions& actions, Core::Now now)
@@ -95,6 +85,7 @@ void RunFirstEngine(const EngineOptions& options, const SiteMap& site, IPlanStor
     engine.OnTimer({EEngineTimer::Dispatch, {}}, now, actions);
     Execute(engine, store, actions, now);
 
+    // Acknowledgements are stored a little later, together: a crash before that only repeats a report.
     fmt::print("the MCS acknowledges the first report\n");
     engine.Handle(MessageAcknowledged{1}, now, actions);
     Execute(engine, store, actions, now);
@@ -113,7 +104,7 @@ int main()
         return 1;
     }
     MemoryPlanStore store;
-    CountingRandom random; // Ids that are the same in every run; a program takes a real source.
+    ExampleRandom random;
     RunFirstEngine(*options, *site, store, random);
 
     fmt::print("crash and restart\n");

@@ -1,0 +1,155 @@
+#pragma once
+
+#include <acs/core/Overloaded.hpp>
+#include <acs/plan/IRobotAdapter.hpp>
+#include <acs/plan/MemoryPlanStore.hpp>
+#include <acs/plan/PlanEngine.hpp>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <deque>
+#include <iterator>
+#include <map>
+#include <string>
+#include <utility>
+#include <variant>
+
+/// Joins a plan engine, a store and one robot in virtual time. A program does the same with real timers, the store on disk
+/// and reports that go to the MCS.
+class EngineHost
+{
+    using Timer = std::variant<ACS::Planning::EngineTimer, ACS::Planning::AdapterTimerID>;
+
+    ACS::Core::Now _now;
+    std::string _robotID;
+    ACS::Planning::IRobotAdapter& _robot;
+    ACS::Planning::MemoryPlanStore _store;
+    ACS::Planning::PlanEngine _engine;
+    ACS::Planning::EngineActions _fromEngine;
+    ACS::Planning::AdapterActions _fromRobot;
+    std::deque<ACS::Planning::AdapterAction> _waiting; ///< Until the engine is done with what came before.
+    std::map<Timer, ACS::Core::SteadyTime> _timers;    ///< When each is due.
+    bool _bCompleted = false;
+
+public:
+    /// The random source and the robot outlive the host.
+    EngineHost(
+        ACS::Planning::EngineOptions options,
+        ACS::Planning::SiteMap site,
+        ACS::Core::IRandom& random,
+        std::string robotID,
+        ACS::Planning::IRobotAdapter& robot)
+        : _robotID(std::move(robotID)),
+          _robot(robot),
+          _engine(std::move(options), std::move(site), random)
+    {
+    }
+
+    void Submit(ACS::Planning::Plan plan)
+    {
+        _engine.Handle(ACS::Planning::SubmitPlan{std::move(plan), 0}, _now, _fromEngine);
+        Settle();
+    }
+
+    /// Carries out what the robot said without being asked.
+    void Run(ACS::Planning::AdapterActions actions)
+    {
+        _fromRobot = std::move(actions);
+        Settle();
+    }
+
+    /// Time jumps to the next timer. False: there is none.
+    [[nodiscard]] bool TryAdvance()
+    {
+        const auto next = std::min_element(_timers.begin(), _timers.end(), [](const auto& left, const auto& right) {
+            return left.second < right.second;
+        });
+        if (next == _timers.end())
+        {
+            return false;
+        }
+        const Timer timer = next->first;
+        _now.steady = next->second;
+        _timers.erase(next);
+        std::visit(
+            ACS::Core::Overloaded{
+                [this](const ACS::Planning::EngineTimer& typed) { _engine.OnTimer(typed, _now, _fromEngine); },
+                [this](ACS::Planning::AdapterTimerID typed) {
+                    _robot.OnTimer(typed, _now, _fromRobot);
+                }},
+            timer);
+        Settle();
+        return true;
+    }
+
+    [[nodiscard]] bool IsCompleted() const noexcept
+    {
+        return _bCompleted;
+    }
+
+private:
+    /// One event at a time: all actions of a call are carried out before the engine's next call.
+    void Settle()
+    {
+        do
+        {
+            for (const ACS::Planning::EngineAction& action : std::exchange(_fromEngine, {}))
+            {
+                Execute(action);
+            }
+            std::ranges::move(std::exchange(_fromRobot, {}), std::back_inserter(_waiting));
+            if (!_waiting.empty())
+            {
+                const ACS::Planning::AdapterAction action = std::move(_waiting.front());
+                _waiting.pop_front();
+                Execute(action);
+            }
+        }
+        while (!_fromEngine.empty() || !_waiting.empty());
+    }
+
+    void Execute(const ACS::Planning::EngineAction& action)
+    {
+        using namespace ACS::Planning; // NOLINT(google-build-using-namespace): seven actions in a row
+        std::visit(
+            ACS::Core::Overloaded{
+                // This store never fails; lesson 8 shows what to do about one that does.
+                [this](const StorePlans& store) { static_cast<void>(_store.Append(store.batch)); },
+                [this](const CommandRobot& typed) { _robot.Handle(typed.command, _now, _fromRobot); },
+                [this](const StartEngineTimer& start) { _timers[start.timer] = _now.steady + start.delay; },
+                [this](const CancelEngineTimer& cancel) { _timers.erase(cancel.timer); },
+                [this](const SendReport& send) { Show(send.entry.report); },
+                [](const ReplyCommand& reply) { fmt::print("plan {}\n", reply.bAccepted ? "accepted" : "refused"); },
+                [](const RobotStatusChanged& typed) {
+                    fmt::print("status: {}\n", GetText(typed.status.status));
+                }},
+            action);
+    }
+
+    void Execute(const ACS::Planning::AdapterAction& action)
+    {
+        std::visit(
+            ACS::Core::Overloaded{
+                [this](const ACS::Planning::RaiseEvent& raise) {
+                    _engine.Handle(_robotID, raise.event, _now, _fromEngine);
+                },
+                [this](const ACS::Planning::StartAdapterTimer& start) {
+                    _timers[start.timer] = _now.steady + start.delay;
+                },
+                [this](const ACS::Planning::CancelAdapterTimer& cancel) {
+                    _timers.erase(cancel.timer);
+                }},
+            action);
+    }
+
+    void Show(const ACS::Planning::Report& report)
+    {
+        if (const auto* reportOrNull = std::get_if<ACS::Planning::PlanReport>(&report))
+        {
+            fmt::print("report: {} {}\n", reportOrNull->planID, GetText(reportOrNull->state));
+            _bCompleted = reportOrNull->state == ACS::Planning::EPlanState::Completed;
+        }
+    }
+};
