@@ -126,7 +126,7 @@ public:
 
 } // namespace
 
-int main()
+int main() // NOLINT(bugprone-exception-escape): nothing throws here but a full memory
 {
     Protocol::SessionOptions options;
     options.positionInterval = {}; // No positions: they would fill the output five times a second.

@@ -107,7 +107,7 @@ private:
 
 } // namespace
 
-int main()
+int main() // NOLINT(bugprone-exception-escape): nothing throws here but a full memory
 {
     boost::asio::io_context io; // Everything runs on its one thread, hence no locks anywhere.
     const SystemClock clock;

@@ -10,12 +10,13 @@
 
 #include <fmt/core.h>
 
-#include <string>
+#include <cstddef>
 #include <utility>
 #include <variant>
 #include <vector>
 
-using namespace ACS; // NOLINT(google-build-using-namespace): an example reads better without the prefix
+using namespace ACS::VDA5050; // NOLINT(google-build-using-namespace): an example reads better without the prefix
+namespace Core = ACS::Core;
 
 namespace
 {
@@ -23,48 +24,42 @@ namespace
 /// Two sessions and the messages between them. No timer is kept: nothing gets lost here, so nothing is sent again.
 class Line
 {
-    VDA5050::MasterSession _master;
-    VDA5050::VehicleSession _vehicle;
-    VDA5050::MasterActions _fromMaster;
-    VDA5050::VehicleActions _fromVehicle;
+    MasterSession _master;
+    VehicleSession _vehicle;
+    MasterActions _fromMaster;
+    VehicleActions _fromVehicle;
     Core::Now _now;
 
-    void ExecuteForMaster(const VDA5050::MasterAction& action)
+    void ExecuteForMaster(const MasterAction& action)
     {
         std::visit(
             Core::Overloaded{
-                [this](const VDA5050::PublishMessage& publish) {
-                    const VDA5050::MqttMessage& message = publish.message;
-                    _vehicle.OnMessage(message.topic, message.payload, message.bRetained, _now, _fromVehicle);
+                [this](const PublishMessage& publish) {
+                    _vehicle.OnMessage(publish.message.topic, publish.message.payload, false, _now, _fromVehicle);
                 },
-                [](const VDA5050::OrderAccepted& accepted) {
+                [](const OrderAccepted& accepted) {
                     fmt::print("master: update {} of {} is accepted\n", accepted.orderUpdateID, accepted.orderID);
                 },
-                [](const VDA5050::NodeReached& reached) { fmt::print("master: {} is reached\n", reached.nodeID); },
-                [this](const VDA5050::OrderFinished& finished) {
-                    fmt::print("master: {} is finished\n", finished.orderID);
-                    bFinished = true;
-                },
+                [](const NodeReached& reached) { fmt::print("master: {} is reached\n", reached.nodeID); },
+                [this](const OrderFinished& /*finished*/) { bFinished = true; },
                 [](const auto& /*other*/) {
-                }}, // Of no interest to this lesson: see MasterAction.hpp.
+                }}, // Of no interest to this lesson.
             action);
     }
 
-    void ExecuteForVehicle(const VDA5050::VehicleAction& action)
+    void ExecuteForVehicle(const VehicleAction& action)
     {
         std::visit(
             Core::Overloaded{
-                [this](const VDA5050::PublishMessage& publish) {
+                [this](const PublishMessage& publish) {
                     _master.OnMessage(publish.message.topic, publish.message.payload, _now, _fromMaster);
                 },
-                [this](const VDA5050::DriveTo& drive) {
-                    fmt::print("vehicle: drives to {}\n", drive.node.nodeID);
-                    _now.steady += std::chrono::seconds(3);
+                [this](const DriveTo& drive) {
+                    fmt::print("vehicle: drives to {}\n", drive.node.nodeID); // And is there at once.
                     _vehicle.TryReachNode(drive.node.sequenceID, _now, _fromVehicle);
                 },
-                [this](const VDA5050::StartVehicleTimer& start) {
-                    // A state waits until it may be sent; nothing else happens meanwhile, so it is sent now.
-                    if (start.timer == VDA5050::EVehicleTimer::MinimumStateInterval)
+                [this](const StartVehicleTimer& start) {
+                    if (start.timer == EVehicleTimer::MinimumStateInterval) // The next state waits for it.
                     {
                         _now.steady += start.delay;
                         _vehicle.OnTimer(start.timer, _now, _fromVehicle);
@@ -78,11 +73,11 @@ class Line
 public:
     bool bFinished = false;
 
-    Line(VDA5050::MasterOptions master, VDA5050::VehicleOptions vehicle)
+    Line(MasterOptions master, VehicleOptions vehicle)
         : _master(std::move(master)),
           _vehicle(std::move(vehicle))
     {
-        VDA5050::AgvPosition position; // A vehicle takes orders only when it knows where it is.
+        AgvPosition position; // A vehicle takes orders only when it knows where it is.
         position.bPositionInitialized = true;
         position.mapID = "hall";
         _vehicle.OnPosition(position, {});
@@ -96,11 +91,11 @@ public:
     {
         while (!_fromMaster.empty() || !_fromVehicle.empty())
         {
-            for (const VDA5050::MasterAction& action : std::exchange(_fromMaster, {}))
+            for (const MasterAction& action : std::exchange(_fromMaster, {}))
             {
                 ExecuteForMaster(action);
             }
-            for (const VDA5050::VehicleAction& action : std::exchange(_fromVehicle, {}))
+            for (const VehicleAction& action : std::exchange(_fromVehicle, {}))
             {
                 ExecuteForVehicle(action);
             }
@@ -108,9 +103,9 @@ public:
     }
 
     /// Whether the vehicle can be given it; what it makes of it comes as OrderAccepted or OrderRejected.
-    [[nodiscard]] bool TrySend(const Core::Result<VDA5050::OrderMessage>& order)
+    [[nodiscard]] bool TrySend(const Core::Result<OrderMessage>& order)
     {
-        const Core::Result<void> sent = order.and_then([this](const VDA5050::OrderMessage& message) {
+        const Core::Result<void> sent = order.and_then([this](const OrderMessage& message) {
             return message.orderUpdateID == 0 ? _master.SendOrder(message, _now, _fromMaster)
                                               : _master.SendOrderUpdate(message, _now, _fromMaster);
         });
@@ -119,34 +114,28 @@ public:
     }
 };
 
-/// Four nodes in a row, two metres apart. The builder fills in sequence ids and released flags.
-Core::Result<VDA5050::OrderBuilder> MakeRoute()
+} // namespace
+
+int main() // NOLINT(bugprone-exception-escape): nothing throws here but a full memory
 {
-    std::vector<VDA5050::OrderNode> nodes(4);
-    std::vector<VDA5050::OrderEdge> edges(3);
+    MasterOptions master;
+    master.address = {"uagv", "ExampleMaker", "LR01"};
+    VehicleOptions vehicle;
+    vehicle.address = master.address;
+    Line line(std::move(master), std::move(vehicle));
+
+    // Four nodes in a row, two metres apart. The builder fills in sequence ids and released flags.
+    std::vector<OrderNode> nodes(4);
+    std::vector<OrderEdge> edges(3);
     for (std::size_t i = 0; i < nodes.size(); ++i)
     {
         nodes[i].nodeID = fmt::format("N{}", i + 1);
         nodes[i].nodePosition = {2.0 * static_cast<double>(i), 0, {}, {}, {}, "hall", {}};
     }
-    for (std::size_t i = 0; i < edges.size(); ++i)
-    {
-        edges[i].edgeID = fmt::format("E{}", i + 1);
-    }
-    return VDA5050::OrderBuilder::Create("order-1", std::move(nodes), std::move(edges));
-}
-
-} // namespace
-
-int main()
-{
-    VDA5050::MasterOptions master;
-    master.address = {"uagv", "ExampleMaker", "LR01"};
-    VDA5050::VehicleOptions vehicle;
-    vehicle.address = master.address;
-    Line line(std::move(master), std::move(vehicle));
-
-    Core::Result<VDA5050::OrderBuilder> route = MakeRoute();
+    edges[0].edgeID = "E1";
+    edges[1].edgeID = "E2";
+    edges[2].edgeID = "E3";
+    Core::Result<OrderBuilder> route = OrderBuilder::Create("order-1", std::move(nodes), std::move(edges));
     if (!route.has_value())
     {
         return 1;
@@ -154,5 +143,6 @@ int main()
     // Two nodes of base, two of horizon: the vehicle drives to N2 and waits there. Then the rest of the route.
     const bool bOrdered = line.TrySend(route->MakeOrder(2));
     const bool bUpdated = line.TrySend(route->MakeUpdate(4));
+    fmt::print("order-1 is {}finished\n", line.bFinished ? "" : "not ");
     return bOrdered && bUpdated && line.bFinished ? 0 : 1;
 }

@@ -12,18 +12,17 @@
 
 #include <chrono>
 #include <cstdint>
-#include <memory>
 #include <optional>
-#include <utility>
 #include <variant>
 
-using namespace ACS; // NOLINT(google-build-using-namespace): an example reads better without the prefix
+using namespace ACS::OpenStream;     // NOLINT(google-build-using-namespace): an example reads better
+using namespace ACS::OpenStreamAsio; // NOLINT(google-build-using-namespace): without the prefixes
+namespace Core = ACS::Core;
 using namespace std::chrono_literals;
 
 namespace
 {
 
-constexpr std::chrono::seconds PATIENCE{10}; ///< Never needed where all goes well.
 constexpr int WANTED_SAMPLES = 5;
 
 class SystemClock final : public Core::IClock
@@ -35,15 +34,15 @@ public:
     }
 };
 
-/// One counter: a GET of any path reads it and counts on, a POST sets it to 0. A real one answers 404 to what it has not.
-class CounterService final : public OpenStream::IOpenApiService
+/// One counter: a GET of any path reads it and counts on, a POST sets it to 0. Others get a 404 from a real one.
+class CounterService final : public IOpenApiService
 {
     std::int64_t _counter = 0;
 
 public:
-    [[nodiscard]] OpenStream::ApiResponse Call(const OpenStream::ApiRequest& request, Core::Now /*now*/) override
+    [[nodiscard]] ApiResponse Call(const ApiRequest& request, Core::Now /*now*/) override
     {
-        if (request.method == OpenStream::EApiMethod::Get)
+        if (request.method == EApiMethod::Get)
         {
             return {200, Core::JsonText::FromInteger(++_counter)};
         }
@@ -60,93 +59,86 @@ public:
 /// Runs the lesson: each step follows from the event before it, nothing waits for time to pass.
 class Monitor
 {
-    OpenStreamAsio::OpenStreamServer& _server;
-    std::unique_ptr<OpenStreamAsio::OpenStreamClient> _client;
+    OpenStreamServer& _server;
+    OpenStreamClient _client;
     int _samples = 0;
 
 public:
     bool bAccepted = false;
     bool bEnded = false;
 
-    explicit Monitor(OpenStreamAsio::OpenStreamServer& server)
-        : _server(server)
+    Monitor(
+        const boost::asio::any_io_executor& executor,
+        Core::IClock& clock,
+        Core::IRandom& random,
+        const OpenStreamClientOptions& options,
+        OpenStreamServer& server)
+        : _server(server),
+          _client(executor, clock, random, {}, options, [this](const auto& event, Core::Now) { OnEvent(event); })
     {
-    }
-
-    void Start(std::unique_ptr<OpenStreamAsio::OpenStreamClient> client)
-    {
-        _client = std::move(client);
         // A wish, not a command: the client establishes the MONITOR after this handshake and after every reconnect.
-        _client->SetMonitor(OpenStream::MonitorRequest{"/demo/counter", 20ms, std::nullopt, std::nullopt});
-        _client->Start();
+        _client.SetMonitor(MonitorRequest{"/demo/counter", 20ms, std::nullopt, std::nullopt});
+        _client.Start();
     }
 
-    void OnEvent(const OpenStream::ClientEvent& event)
+private:
+    void OnEvent(const ClientEvent& event)
     {
-        if (const auto* dataOrNull = std::get_if<OpenStream::ClientData>(&event))
+        if (const auto* dataOrNull = std::get_if<ClientData>(&event))
         {
             OnData(dataOrNull->line);
         }
-        else if (const auto* settledOrNull = std::get_if<OpenStream::ClientControlSettled>(&event))
+        else if (const auto* settledOrNull = std::get_if<ClientControlSettled>(&event))
         {
             // Success is silence on the wire: Accepted says that no refusal came within the window.
-            bAccepted = settledOrNull->outcome == OpenStream::EControlOutcome::Accepted;
+            bAccepted = settledOrNull->outcome == EControlOutcome::Accepted;
             fmt::print("client: the CONTROL was {}\n", bAccepted ? "accepted" : "not accepted");
-            _client->Stop();
+            _client.Stop();
         }
-        else if (std::holds_alternative<OpenStream::ClientEnded>(event))
+        else if (std::holds_alternative<ClientEnded>(event))
         {
             bEnded = true;
             _server.Stop(); // Now the io_context runs dry and main goes on.
         }
     }
 
-private:
-    void OnData(const OpenStream::DataLine& line)
+    void OnData(const DataLine& line)
     {
-        if (_samples == WANTED_SAMPLES)
+        if (++_samples > WANTED_SAMPLES)
         {
             return; // It was under way when the MONITOR was ended.
         }
-        ++_samples;
         fmt::print("client: sample {} is {}\n", _samples, line.result.has_value() ? line.result->GetText() : "missing");
         if (_samples == WANTED_SAMPLES)
         {
-            _client->SetMonitor(std::nullopt);
-            _client->SendControl({OpenStream::EApiMethod::Post, "/demo/counter", std::nullopt, std::nullopt});
+            _client.SetMonitor(std::nullopt);
+            _client.SendControl({EApiMethod::Post, "/demo/counter", std::nullopt, std::nullopt});
         }
     }
 };
 
 } // namespace
 
-int main()
+int main() // NOLINT(bugprone-exception-escape): nothing throws here but a full memory
 {
     boost::asio::io_context io; // Everything runs on its one thread, hence no locks anywhere.
     SystemClock clock;
     ExampleRandom random;
     CounterService service;
 
-    OpenStreamAsio::OpenStreamServerOptions serverOptions;
+    OpenStreamServerOptions serverOptions;
     serverOptions.port = 0; // One that is free. A controller listens on 49000.
-    OpenStreamAsio::OpenStreamServer server(io.get_executor(), clock, {}, serverOptions, service);
+    OpenStreamServer server(io.get_executor(), clock, {}, serverOptions, service);
     if (const Core::Result<void> started = server.Start(); !started.has_value())
     {
         fmt::print("{}\n", Core::Describe(started.error()));
         return 1;
     }
 
-    Monitor monitor(server);
-    OpenStreamAsio::OpenStreamClientOptions clientOptions;
+    OpenStreamClientOptions clientOptions;
     clientOptions.port = server.GetPort();
-    monitor.Start(std::make_unique<OpenStreamAsio::OpenStreamClient>(
-        io.get_executor(),
-        clock,
-        random,
-        Core::Logger(),
-        clientOptions,
-        [&monitor](const OpenStream::ClientEvent& event, Core::Now /*now*/) { monitor.OnEvent(event); }));
+    Monitor monitor(io.get_executor(), clock, random, clientOptions, server);
 
-    io.run_for(PATIENCE);
+    io.run_for(10s); // Never needed where all goes well.
     return monitor.bAccepted && monitor.bEnded ? 0 : 1;
 }

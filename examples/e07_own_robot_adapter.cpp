@@ -34,7 +34,8 @@ class SlowRobotAdapter final : public IRobotAdapter
     std::string _jobID;
 
 public:
-    void Connect(const std::string& nodeID, AdapterActions& out)
+    /// What a robot tells when it comes into reach.
+    static void Connect(const std::string& nodeID, AdapterActions& out)
     {
         StateChanged state;
         state.lastNodeID = nodeID;
@@ -94,7 +95,7 @@ public:
 
 } // namespace
 
-int main()
+int main() // NOLINT(bugprone-exception-escape): nothing throws here but a full memory
 {
     Core::Result<SiteMap> site = ExampleFloor::MakeSite();
     Core::Result<EngineOptions> options = site.and_then(ExampleFloor::MakeOptions);
@@ -107,7 +108,7 @@ int main()
     SlowRobotAdapter robot;
     EngineHost host(std::move(*options), std::move(*site), random, ExampleFloor::ROBOT, robot);
     AdapterActions actions;
-    robot.Connect("N-HOME", actions);
+    SlowRobotAdapter::Connect("N-HOME", actions);
     host.Run(std::move(actions));
     host.Submit(ExampleFloor::MakePlan());
     while (!host.IsCompleted() && host.TryAdvance())
