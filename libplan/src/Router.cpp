@@ -65,13 +65,13 @@ public:
         }
         for (const std::string& type : types)
         {
-            _graphs.emplace(type, MakeGraph(type));
+            // Filled where it stands: Boost's graphs are copied where one would move them.
+            AddEdges(type, _graphs.try_emplace(type, site.GetNodes().size()).first->second);
         }
     }
 
-    [[nodiscard]] Graph MakeGraph(std::string_view vehicleTypeID) const
+    void AddEdges(std::string_view vehicleTypeID, Graph& graph) const
     {
-        Graph graph(_site.GetNodes().size());
         for (std::size_t i = 0; i < _site.GetEdges().size(); ++i)
         {
             const SiteEdge& edge = _site.GetEdges()[i];
@@ -88,7 +88,6 @@ public:
             const double seconds = GetDistance(startNode, endNode) / ruleOrNull->maxSpeed.value_or(DEFAULT_SPEED);
             boost::add_edge(start, end, Lane{i, seconds}, graph);
         }
-        return graph;
     }
 
     [[nodiscard]] RouteNode MakeNode(std::size_t nodeIndex, std::string_view vehicleTypeID) const
