@@ -4,5 +4,7 @@ target_compile_options(acs_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor
   -Woverloaded-virtual -Wformat=2 -Wswitch-enum -Wswitch-default -Wextra-semi -Wmissing-field-initializers
   $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond -Wduplicated-branches -Wlogical-op -Wuseless-cast>
+  # g++ 12 sees overlaps in std::string's own copying at -O2 that are none (GCC bug 105651).
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   $<$<CXX_COMPILER_ID:Clang>:-Wno-switch-default>
   $<$<BOOL:${ACS_WARNINGS_AS_ERRORS}>:-Werror>)
