@@ -19,7 +19,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BUILD = os.path.join(ROOT, "build", "tidy")
 # Compiled by other presets, by other projects, or not at all.
 ELSEWHERE = ("tests/fuzz/", "tests/install/", "tests/style/bad/", "tests/unit/compile_fail/")
-CACHE = os.path.join(BUILD, "lint-cache")
+# Shared by all clones of a machine, as the compiler's cache is: what passed in one need not be looked at in another.
+CACHE = os.path.join(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"), "acs-lint")
 QUERIES = os.path.join("scripts", "house-rules.clang-query")
 BROKEN_QUERY = re.compile(r"Error (?:parsing|building)|Matcher not found|Invalid token|unknown command", re.IGNORECASE)
 
@@ -47,7 +48,7 @@ class Fingerprints:
                 if target not in seen:
                     seen.add(target)
                     waiting.append(target)
-        digest = hashlib.sha256((self._rules + "\0" + command).encode())
+        digest = hashlib.sha256((self._rules + "\0" + command.replace(ROOT, "")).encode())
         for name in sorted(seen):
             digest.update((name + "\0" + read_text(ROOT, name)).encode())
         return digest.hexdigest()
