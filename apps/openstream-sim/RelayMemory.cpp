@@ -76,7 +76,11 @@ double RelayMemory::Read(const RelayName& name) const
         case ERelayWidth::Word:
             return static_cast<double>(static_cast<std::int16_t>(bits));
         case ERelayWidth::Float:
-            return static_cast<double>(std::bit_cast<float>(bits));
+        {
+            // Bits written through another width may spell an infinity or no number: JSON has neither.
+            const auto value = std::bit_cast<float>(bits);
+            return std::isfinite(value) ? static_cast<double>(value) : 0.0;
+        }
         case ERelayWidth::Long:
         default:
             return static_cast<double>(static_cast<std::int32_t>(bits));

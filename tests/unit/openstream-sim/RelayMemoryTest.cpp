@@ -94,6 +94,16 @@ TEST_CASE("Values are little-endian, signed, and leave their neighbours alone")
     REQUIRE(memory.Read(Name("fb0.dil100")) == 0.0);
 }
 
+TEST_CASE("Bits that are no finite number read as the float 0, whoever wrote them")
+{
+    RelayMemory memory;
+    for (const double bits : {double{0x7F800000}, double{0xFF800000}, double{0x7FC00000}})
+    {
+        REQUIRE(memory.Write(Name("ml1"), bits).has_value());
+        REQUIRE(memory.Read(Name("mf1")) == 0.0);
+    }
+}
+
 TEST_CASE("A value that its relay cannot hold is refused and changes nothing")
 {
     RelayMemory memory;
