@@ -428,8 +428,9 @@ MotionLeg VirtualVehicle::MakeLeg(const VDA5050::DriveTo& drive) const
     leg.target = GetNodePose(drive.node);
     const bool bSamePlace = leg.target.x == pose.x && leg.target.y == pose.y;
     leg.target.theta = bSamePlace ? pose.theta : GetHeading(GetDirection(pose, leg.target), edge.orientation, bGlobal);
-    leg.maxSpeed = edge.maxSpeed.value_or(DEFAULT_SPEED);
-    leg.maxTurnSpeed = edge.maxRotationSpeed.value_or(_options.limits.maxTurnSpeed);
+    // An order may state any number: below zero it allows no movement, as zero does.
+    leg.maxSpeed = std::max(edge.maxSpeed.value_or(DEFAULT_SPEED), 0.0);
+    leg.maxTurnSpeed = std::max(edge.maxRotationSpeed.value_or(_options.limits.maxTurnSpeed), 0.0);
     leg.bTurnBefore = !edge.bRotationAllowed.value_or(true);
     if (drive.node.nodePosition.has_value())
     {
