@@ -301,6 +301,7 @@ bool ServerSession::TryStopControl(ServerActions& out)
     // What waits is not executed any more; the one in flight cannot be taken back and keeps its place.
     bool bFirst = true;
     _controls.EraseIf([&bFirst](const ApiRequest&) { return !std::exchange(bFirst, false); });
+    _bRefusingControls = _bRefusingControls && _controls.IsFull();
     out.emplace_back(ServerStopControl{});
     return true;
 }

@@ -158,6 +158,23 @@ TEST_CASE("8 A full queue of CONTROLs stops reading; control_busy only where the
     REQUIRE(server.Count("control_busy") == 1);
 }
 
+TEST_CASE("8 STOP control makes room again: a queue that fills up later waits before it refuses")
+{
+    ServerSessionOptions options;
+    options.maximumControls = 2;
+    ServerHarness server(options);
+    server.bServiceAnswers = false;
+    server.Receive(HANDSHAKE);
+    server.Receive(std::string(CONTROL) + std::string(CONTROL) + std::string(CONTROL));
+    server.Pass(1'000ms);
+    REQUIRE(server.Count("control_busy") == 1);
+    server.Receive(MakeStopLine("control"));
+    server.Answer(server.unanswered.at(0));
+    server.Receive(std::string(CONTROL) + std::string(CONTROL) + std::string(CONTROL));
+    REQUIRE(server.Count("control_busy") == 1);
+    REQUIRE(server.bReadingPaused);
+}
+
 TEST_CASE("7.19 STOP of what is not there is nothing_to_stop, STOP session is always acknowledged")
 {
     ServerHarness server;
