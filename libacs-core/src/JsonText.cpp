@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <utility>
@@ -13,7 +14,8 @@ namespace ACS::Core
 namespace
 {
 
-constexpr unsigned FIRST_PRINTABLE = 0x20;
+constexpr std::string_view REPLACEMENT = "\xEF\xBF\xBD";
+constexpr std::string_view HEX = "0123456789abcdef";
 constexpr std::size_t HEX_DIGITS = 4;
 constexpr std::uint32_t HIGH_SURROGATE = 0xD800;
 constexpr std::uint32_t LOW_SURROGATE = 0xDC00;
@@ -21,6 +23,62 @@ constexpr std::uint32_t SURROGATE_SPAN = 0x400;
 constexpr std::uint32_t SURROGATE_OFFSET = 0x10000;
 constexpr std::uint32_t REPLACEMENT_CHARACTER = 0xFFFD;
 constexpr unsigned SIX_BITS = 0x3F;
+
+/// For each byte: 0 = stands for itself, 'u' = \u00XX, '8' = start of a UTF-8 sequence, else the letter behind '\'.
+constexpr std::array<char, 256> MakeEscapes()
+{
+    std::array<char, 256> table{};
+    for (std::size_t byte = 0; byte < 0x20; ++byte)
+    {
+        table[byte] = 'u';
+    }
+    for (std::size_t byte = 0x80; byte < table.size(); ++byte)
+    {
+        table[byte] = '8';
+    }
+    table['\b'] = 'b';
+    table['\f'] = 'f';
+    table['\n'] = 'n';
+    table['\r'] = 'r';
+    table['\t'] = 't';
+    table['"'] = '"';
+    table['\\'] = '\\';
+    return table;
+}
+
+constexpr std::array<char, 256> ESCAPES = MakeEscapes();
+
+bool IsInside(unsigned char byte, unsigned char lowest, unsigned char highest)
+{
+    return byte >= lowest && byte <= highest;
+}
+
+/// Length of the well-formed UTF-8 sequence at the front (Unicode 15, table 3-7), 0 where there is none.
+std::size_t GetSequenceLength(std::string_view text)
+{
+    const auto byteAt = [text](std::size_t index) -> unsigned char {
+        return index < text.size() ? static_cast<unsigned char>(text[index]) : 0;
+    };
+    const unsigned char first = byteAt(0);
+    if (IsInside(first, 0xC2, 0xDF))
+    {
+        return IsInside(byteAt(1), 0x80, 0xBF) ? 2 : 0;
+    }
+    if (IsInside(first, 0xE0, 0xEF))
+    {
+        const unsigned char lowest = first == 0xE0 ? 0xA0 : 0x80;
+        const unsigned char highest = first == 0xED ? 0x9F : 0xBF;
+        return IsInside(byteAt(1), lowest, highest) && IsInside(byteAt(2), 0x80, 0xBF) ? 3 : 0;
+    }
+    if (IsInside(first, 0xF0, 0xF4))
+    {
+        const unsigned char lowest = first == 0xF0 ? 0x90 : 0x80;
+        const unsigned char highest = first == 0xF4 ? 0x8F : 0xBF;
+        const bool bTail = IsInside(byteAt(2), 0x80, 0xBF) && IsInside(byteAt(3), 0x80, 0xBF);
+        return IsInside(byteAt(1), lowest, highest) && bTail ? 4 : 0;
+    }
+    return 0;
+}
 
 void AppendUtf8(std::string& out, std::uint32_t codePoint)
 {
@@ -135,26 +193,53 @@ JsonText::JsonText(std::string text)
 {
 }
 
-JsonText JsonText::FromString(std::string_view value)
+void JsonText::AppendString(std::string_view value, std::string& out)
 {
-    std::string text = "\"";
-    for (const char character : value)
+    out += '"';
+    std::size_t begin = 0;
+    for (std::size_t position = 0; position < value.size();)
     {
-        if (character == '"' || character == '\\')
+        const auto byte = static_cast<unsigned char>(value[position]);
+        const char escape = ESCAPES[byte];
+        if (escape == 0)
         {
-            text += '\\';
-            text += character;
+            ++position;
+            continue;
         }
-        else if (static_cast<unsigned char>(character) < FIRST_PRINTABLE)
+        const std::size_t sequence = escape == '8' ? GetSequenceLength(value.substr(position)) : 0;
+        if (sequence != 0)
         {
-            text += fmt::format("\\u{:04x}", static_cast<unsigned>(static_cast<unsigned char>(character)));
+            position += sequence;
+            continue;
+        }
+        out.append(value, begin, position - begin);
+        if (escape == '8')
+        {
+            out += REPLACEMENT;
+        }
+        else if (escape == 'u')
+        {
+            out += "\\u00";
+            out += HEX[byte >> 4U];
+            out += HEX[byte & 0xFU];
         }
         else
         {
-            text += character;
+            out += '\\';
+            out += escape;
         }
+        ++position;
+        begin = position;
     }
-    text += '"';
+    out.append(value, begin, value.size() - begin);
+    out += '"';
+}
+
+JsonText JsonText::FromString(std::string_view value)
+{
+    std::string text;
+    text.reserve(value.size() + 2);
+    AppendString(value, text);
     return JsonText(std::move(text));
 }
 

@@ -40,6 +40,12 @@ TEST_CASE("A JSON string escapes what JSON cannot hold and gives it back")
     CHECK(JsonText::FromString("").GetStringOrNull() == "");
 }
 
+TEST_CASE("What is no UTF-8 becomes the replacement character in a JSON string")
+{
+    CHECK(JsonText::FromString("a\xFFz").GetText() == "\"a\xEF\xBF\xBDz\"");
+    CHECK(JsonText::FromString("\xED\x95").GetText() == "\"\xEF\xBF\xBD\xEF\xBF\xBD\"");
+}
+
 TEST_CASE("Every escape of a JSON string is read")
 {
     CHECK(ReadStringOrNull(R"("\"\\\/\b\f\n\r\t")") == "\"\\/\b\f\n\r\t");

@@ -22,11 +22,14 @@ public:
     /// null
     JsonText() = default;
 
-    /// A JSON string (of UTF-8), a number (null where it is not finite), a boolean: made, not parsed.
+    /// A JSON string (what is no UTF-8 becomes U+FFFD), a number (null where it is not finite), a boolean: made, not parsed.
     [[nodiscard]] static JsonText FromString(std::string_view value);
     [[nodiscard]] static JsonText FromNumber(double value);
     [[nodiscard]] static JsonText FromInteger(std::int64_t value);
     [[nodiscard]] static JsonText FromBoolean(bool bValue);
+
+    /// Appends what FromString makes: the one place that writes JSON strings.
+    static void AppendString(std::string_view value, std::string& out);
 
     /// Text that is known to be JSON, such as what a codec of this SDK cut out of a parsed message. Not checked:
     /// text from outside goes through the parser of ACS::Json.
