@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -91,7 +92,12 @@ void Vda5050RobotAdapter::Handle(const Planning::RobotCommand& command, Core::No
             },
             [&](const Planning::CancelDrive& cancel) { CancelOrder(cancel.driveID, now, out); },
             [&](const Planning::StartJob& job) { StartJob(job, now, out); },
-            [&](const Planning::CancelJob& cancel) { CancelOrder(cancel.jobID, now, out); },
+            [&](const Planning::CancelJob& cancel) {
+                if (cancel.jobID == _jobID)
+                {
+                    CancelOrder(_jobOrderID, now, out);
+                }
+            },
             [&](const Planning::Pause&) { SendInstantAction(VDA5050::ActionTypes::START_PAUSE, now); },
             [&](const Planning::Resume&) {
                 SendInstantAction(VDA5050::ActionTypes::STOP_PAUSE, now);
@@ -174,6 +180,8 @@ void Vda5050RobotAdapter::StartDrive(const Planning::Drive& drive, Core::Now now
     _wantedReleased = drive.releasedCount;
     _lastPassedNodeID.clear();
     _bUpdateUnderWay = true;
+    _lastUpdate.reset();
+    _lossReason.reset();
     _pendingOrder = PendingOrder{std::move(*order)};
     SendPendingOrder(now, out);
 }
@@ -194,18 +202,20 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
     }
     VDA5050::Action action;
     action.actionType = _methods.find(job.action)->second.vehicleAction;
-    action.actionID = job.jobID;
+    action.actionID = job.commandID;
     action.blockingType = VDA5050::EBlockingType::Hard;
     AddParameter(action, "stationName", job.position);
     AddParameter(action, "loadId", job.carrierID);
 
     VDA5050::OrderMessage order;
-    order.orderID = job.jobID;
+    // Plans may name a job as one before did: a vehicle takes an orderId that it knows for a repetition.
+    order.orderID = job.commandID;
     VDA5050::OrderNode& node = order.nodes.emplace_back();
     node.nodeID = stateOrNull->lastNodeID;
     node.bReleased = true;
     node.actions.push_back(std::move(action));
     _jobID = job.jobID;
+    _jobOrderID = job.commandID;
     _bJobStarted = false;
     _pendingOrder = PendingOrder{std::move(order)};
     SendPendingOrder(now, out);
@@ -237,7 +247,7 @@ void Vda5050RobotAdapter::SendInstantAction(std::string_view actionType, Core::N
 
 void Vda5050RobotAdapter::SendPendingOrder(Core::Now now, AdapterActions& out)
 {
-    if (!_pendingOrder.has_value() || !_session.CanTakeOrder())
+    if (!_pendingOrder.has_value() || !_session.CanTakeOrder() || IsOccupied(*_session.GetStateOrNull()))
     {
         return;
     }
@@ -252,23 +262,39 @@ void Vda5050RobotAdapter::SendPendingOrder(Core::Now now, AdapterActions& out)
 
 void Vda5050RobotAdapter::SendPendingUpdate(Core::Now now, AdapterActions& out)
 {
-    if (!_route.has_value() || _bUpdateUnderWay || _wantedReleased <= _route->GetReleasedNodes())
+    // While it is being cancelled nothing is added to it: that may fail, and then it goes on.
+    const bool bCancelling = _session.GetOrderPhase() == VDA5050::EOrderPhase::Cancelling;
+    if (!_route.has_value() || _bUpdateUnderWay || _lossReason.has_value() || bCancelling
+        || _wantedReleased <= _route->GetReleasedNodes())
     {
         return;
     }
     Core::Result<VDA5050::OrderMessage> update = _route->MakeUpdate(_wantedReleased);
     if (!update)
     {
-        RefuseOrder(_route->GetOrderID(), Core::Describe(update.error()), out);
+        GiveDriveUp(Core::Describe(update.error()), now, out);
         return;
     }
+    _lastUpdate = *update;
     const Core::Result<void> sent = _session.SendOrderUpdate(std::move(*update), now, _sessionActions);
     if (!sent)
     {
-        RefuseOrder(_route->GetOrderID(), Core::Describe(sent.error()), out);
+        GiveDriveUp(Core::Describe(sent.error()), now, out);
         return;
     }
     _bUpdateUnderWay = true;
+}
+
+void Vda5050RobotAdapter::GiveDriveUp(const std::string& reason, Core::Now now, AdapterActions& out)
+{
+    const std::string orderID = _route->GetOrderID();
+    const bool bHeld = _session.GetOrderID() == orderID && _session.Cancel(now, _sessionActions).has_value();
+    if (bHeld)
+    {
+        _lossReason = reason;
+        return;
+    }
+    RefuseOrder(orderID, reason, out);
 }
 
 void Vda5050RobotAdapter::RefuseOrder(const std::string& orderID, const std::string& reason, AdapterActions& out)
@@ -276,12 +302,12 @@ void Vda5050RobotAdapter::RefuseOrder(const std::string& orderID, const std::str
     if (_route.has_value() && _route->GetOrderID() == orderID)
     {
         _route.reset();
+        _lossReason.reset();
         out.emplace_back(RaiseEvent{Planning::DriveRejected{orderID, reason}});
     }
-    else if (_jobID == orderID)
+    else if (!_jobID.empty() && _jobOrderID == orderID)
     {
-        _jobID.clear();
-        out.emplace_back(RaiseEvent{Planning::JobFailed{orderID, reason}});
+        out.emplace_back(RaiseEvent{Planning::JobFailed{std::exchange(_jobID, {}), reason}});
     }
 }
 
@@ -300,7 +326,7 @@ void Vda5050RobotAdapter::Drain(Core::Now now, AdapterActions& out)
     }
 }
 
-void Vda5050RobotAdapter::Take(const VDA5050::MasterAction& action, Core::Now /*now*/, AdapterActions& out)
+void Vda5050RobotAdapter::Take(const VDA5050::MasterAction& action, Core::Now now, AdapterActions& out)
 {
     std::visit(
         Core::Overloaded{
@@ -312,15 +338,17 @@ void Vda5050RobotAdapter::Take(const VDA5050::MasterAction& action, Core::Now /*
             [&](const VDA5050::CancelMasterTimer& cancel) {
                 out.emplace_back(Planning::CancelAdapterTimer{static_cast<Planning::AdapterTimerID>(cancel.timer)});
             },
-            [&](const VDA5050::StateReceived&) { TakeState(out); },
+            [&](const VDA5050::StateReceived&) { TakeState(now, out); },
             [&](const VDA5050::PositionReceived& received) { TakePosition(received, out); },
+            [&](const VDA5050::VehicleOnline&) { _foreignOrderID.clear(); },
             [&](const VDA5050::VehicleOffline&) { SetOnline(false, out); },
             [&](const VDA5050::VehicleBroken&) { SetOnline(false, out); },
             [&](const VDA5050::VehicleSilent&) { SetOnline(false, out); },
-            [&](const VDA5050::OrderAccepted&) { _bUpdateUnderWay = false; },
-            [&](const VDA5050::OrderRejected& rejected) {
-                RefuseOrder(rejected.orderID, "the vehicle refuses the order: " + rejected.reason, out);
+            [&](const VDA5050::OrderAccepted&) {
+                _bUpdateUnderWay = false;
+                _lastUpdate.reset();
             },
+            [&](const VDA5050::OrderRejected& rejected) { TakeRejected(rejected, now, out); },
             [&](const VDA5050::OrderLost& lost) {
                 RefuseOrder(lost.orderID, "the vehicle lost the order: " + lost.reason, out);
             },
@@ -333,20 +361,98 @@ void Vda5050RobotAdapter::Take(const VDA5050::MasterAction& action, Core::Now /*
             },
             [&](const VDA5050::ActionChanged& changed) { TakeAction(changed, out); },
             [&](const VDA5050::OrderFinished& finished) { TakeFinished(finished.orderID, out); },
-            [&](const VDA5050::OrderCancelled& cancelled) {
-                if (_route.has_value() && _route->GetOrderID() == cancelled.orderID)
-                {
-                    _route.reset();
-                    out.emplace_back(RaiseEvent{Planning::DriveCancelled{cancelled.orderID, _lastPassedNodeID}});
-                }
-                RefuseOrder(cancelled.orderID, "cancelled", out);
-            },
+            [&](const VDA5050::OrderCancelled& cancelled) { TakeCancelled(cancelled.orderID, out); },
+            [&](const VDA5050::CancelFailed&) { TakeCancelFailed(now, out); },
             [](const auto&) {
             }},
         action);
 }
 
-void Vda5050RobotAdapter::TakeState(AdapterActions& out)
+void Vda5050RobotAdapter::TakeRejected(const VDA5050::OrderRejected& rejected, Core::Now now, AdapterActions& out)
+{
+    const std::string reason = "the vehicle refuses the order: " + rejected.reason;
+    const bool bOfDrive = _route.has_value() && _route->GetOrderID() == rejected.orderID;
+    if (!bOfDrive || rejected.orderUpdateID == 0)
+    {
+        RefuseOrder(rejected.orderID, reason, out);
+    }
+    else if (!_lossReason.has_value())
+    {
+        // An update: the vehicle still drives along what it accepted before.
+        GiveDriveUp(reason, now, out);
+    }
+}
+
+void Vda5050RobotAdapter::TakeCancelled(const std::string& orderID, AdapterActions& out)
+{
+    if (const std::optional<std::string> reason = std::exchange(_lossReason, std::nullopt))
+    {
+        RefuseOrder(orderID, *reason, out);
+        return;
+    }
+    if (_route.has_value() && _route->GetOrderID() == orderID)
+    {
+        _route.reset();
+        out.emplace_back(RaiseEvent{Planning::DriveCancelled{orderID, _lastPassedNodeID}});
+    }
+    RefuseOrder(orderID, "cancelled", out);
+}
+
+/// The vehicle goes on. What was under way to it when the cancelling began was withdrawn and is sent again.
+void Vda5050RobotAdapter::TakeCancelFailed(Core::Now now, AdapterActions& out)
+{
+    const std::optional<std::string> reason = std::exchange(_lossReason, std::nullopt);
+    if (!_route.has_value())
+    {
+        return;
+    }
+    if (reason.has_value())
+    {
+        RefuseOrder(_route->GetOrderID(), *reason, out);
+        return;
+    }
+    if (!_lastUpdate.has_value())
+    {
+        return;
+    }
+    const Core::Result<void> sent = _session.SendOrderUpdate(*_lastUpdate, now, _sessionActions);
+    if (!sent)
+    {
+        RefuseOrder(_route->GetOrderID(), Core::Describe(sent.error()), out);
+    }
+}
+
+bool Vda5050RobotAdapter::IsOccupied(const VDA5050::StateMessage& state) const
+{
+    if (_session.GetOrderPhase() != VDA5050::EOrderPhase::None || state.orderID.empty())
+    {
+        return false;
+    }
+    const bool bActs = std::ranges::any_of(state.actionStates, [](const VDA5050::ActionState& action) {
+        return action.actionStatus == VDA5050::EActionStatus::Initializing
+            || action.actionStatus == VDA5050::EActionStatus::Running
+            || action.actionStatus == VDA5050::EActionStatus::Paused;
+    });
+    return bActs || !state.nodeStates.empty() || !state.edgeStates.empty();
+}
+
+void Vda5050RobotAdapter::CancelForeignOrder(Core::Now now)
+{
+    const VDA5050::StateMessage& state = *_session.GetStateOrNull();
+    const bool bDrives = !state.nodeStates.empty() || !state.edgeStates.empty();
+    if (!bDrives || _foreignOrderID == state.orderID)
+    {
+        return;
+    }
+    VDA5050::Action action;
+    action.actionType = VDA5050::ActionTypes::CANCEL_ORDER;
+    if (_session.SendInstantAction(std::move(action), now, _sessionActions))
+    {
+        _foreignOrderID = state.orderID;
+    }
+}
+
+void Vda5050RobotAdapter::TakeState(Core::Now now, AdapterActions& out)
 {
     const VDA5050::StateMessage& state = *_session.GetStateOrNull();
     if (state.agvPosition.has_value())
@@ -370,8 +476,13 @@ void Vda5050RobotAdapter::TakeState(AdapterActions& out)
     {
         _state.errors.push_back(MakeError(error));
     }
+    _state.bOccupied = IsOccupied(state);
     SetOnline(_session.IsReady(), out);
     out.emplace_back(RaiseEvent{_state});
+    if (_state.bOccupied)
+    {
+        CancelForeignOrder(now);
+    }
 }
 
 void Vda5050RobotAdapter::TakePosition(const VDA5050::PositionReceived& received, AdapterActions& out)
@@ -388,7 +499,7 @@ void Vda5050RobotAdapter::TakePosition(const VDA5050::PositionReceived& received
 
 void Vda5050RobotAdapter::TakeAction(const VDA5050::ActionChanged& action, AdapterActions& out)
 {
-    if (_jobID.empty() || action.actionID != _jobID)
+    if (_jobID.empty() || action.actionID != _jobOrderID)
     {
         return;
     }
@@ -422,6 +533,7 @@ void Vda5050RobotAdapter::TakeFinished(const std::string& orderID, AdapterAction
     if (_route.has_value() && _route->GetOrderID() == orderID)
     {
         _route.reset();
+        _lossReason.reset();
         out.emplace_back(RaiseEvent{Planning::Arrived{orderID}});
     }
     RefuseOrder(orderID, "the order ended without a word of the action", out);

@@ -37,9 +37,13 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
     std::size_t _wantedReleased = 0;             ///< Nodes that the engine has released.
     bool _bUpdateUnderWay = false;               ///< The vehicle has not shown the last message of the drive yet.
     std::string _lastPassedNodeID;
-    std::string _jobID; ///< Empty: no job.
+    std::string _jobID;      ///< Empty: no job.
+    std::string _jobOrderID; ///< What the vehicle knows the job by, as order and as action.
     bool _bJobStarted = false;
     std::optional<PendingOrder> _pendingOrder;
+    std::optional<VDA5050::OrderMessage> _lastUpdate; ///< Sent and not shown yet.
+    std::optional<std::string> _lossReason;           ///< Why the present drive is given up; told when it is cancelled.
+    std::string _foreignOrderID;                      ///< Of an order that is not ours and was asked to be cancelled.
 
     void StartDrive(const Planning::Drive& drive, Core::Now now, Planning::AdapterActions& out);
     void StartJob(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
@@ -49,10 +53,21 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
     void SendPendingUpdate(Core::Now now, Planning::AdapterActions& out);
     void RefuseOrder(const std::string& orderID, const std::string& reason, Planning::AdapterActions& out);
 
+    /// The vehicle holds the drive and will not be brought further: it is told as refused once it stands.
+    void GiveDriveUp(const std::string& reason, Core::Now now, Planning::AdapterActions& out);
+
+    /// Whether the vehicle works on an order that this adapter did not give it, or gave it before a restart. What is left
+    /// to drive is cancelled, once per order; running actions come to their end.
+    [[nodiscard]] bool IsOccupied(const VDA5050::StateMessage& state) const;
+    void CancelForeignOrder(Core::Now now);
+    void TakeCancelled(const std::string& orderID, Planning::AdapterActions& out);
+    void TakeCancelFailed(Core::Now now, Planning::AdapterActions& out);
+    void TakeRejected(const VDA5050::OrderRejected& rejected, Core::Now now, Planning::AdapterActions& out);
+
     /// Carries out what the session asked for, and tells the engine what it told.
     void Drain(Core::Now now, Planning::AdapterActions& out);
     void Take(const VDA5050::MasterAction& action, Core::Now now, Planning::AdapterActions& out);
-    void TakeState(Planning::AdapterActions& out);
+    void TakeState(Core::Now now, Planning::AdapterActions& out);
     void TakePosition(const VDA5050::PositionReceived& received, Planning::AdapterActions& out);
     void TakeAction(const VDA5050::ActionChanged& action, Planning::AdapterActions& out);
     void TakeFinished(const std::string& orderID, Planning::AdapterActions& out);

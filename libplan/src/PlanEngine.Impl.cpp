@@ -386,7 +386,11 @@ ERobotStatus PlanEngine::Impl::DeriveStatus(const Robot& robot)
     {
         return ERobotStatus::Moving;
     }
-    if (robot.planOrNull != nullptr)
+    if (state.bOccupied && state.bDriving)
+    {
+        return ERobotStatus::Moving;
+    }
+    if (robot.planOrNull != nullptr || state.bOccupied)
     {
         return ERobotStatus::Working;
     }
@@ -423,7 +427,7 @@ bool PlanEngine::Impl::IsUsable(const Robot& robot)
     const StateChanged& state = *robot.state;
     const bool bFatal =
         std::ranges::any_of(state.errors, [](const RobotError& error) { return error.level == EAlarmLevel::Heavy; });
-    return !bFatal && !state.bSafetyStop && !state.bPaused && state.bAutomatic;
+    return !bFatal && !state.bSafetyStop && !state.bPaused && !state.bOccupied && state.bAutomatic;
 }
 
 const std::string& PlanEngine::Impl::GetRobotID(const Robot& robot) const

@@ -86,7 +86,9 @@ void PlanEngine::Impl::BeginJob(Robot& robot)
         plan.madeJobID = Core::MakeUuid(_random);
     }
     ChangeJob(plan, EJobState::Instructed, {});
-    Command(robot, MakeStartJob(robot));
+    StartJob job = MakeStartJob(robot);
+    job.commandID = Core::MakeUuid(_random);
+    Command(robot, std::move(job));
     const std::chrono::milliseconds timeout = plan.resolved.steps[plan.step].rule->timeout;
     if (timeout.count() > 0)
     {

@@ -146,6 +146,7 @@ Planning::StartJob MakeJob(const std::string& action)
 {
     Planning::StartJob job;
     job.jobID = "J";
+    job.commandID = "U1";
     job.action = action;
     job.position = "A01.CP01";
     job.carrierID = "C1";
@@ -212,7 +213,7 @@ TEST_CASE("Nodes are told once each, and the arrival when the whole route is dri
     CHECK(vehicle.TakeEvents<Planning::Arrived>() == std::vector<Planning::Arrived>{{"D"}});
 }
 
-TEST_CASE("A job is an order of the node where the vehicle stands, whose action is named by the jobId")
+TEST_CASE("A job is an order of the node where the vehicle stands, whose action is named by the commandID")
 {
     VehicleFixture vehicle;
     vehicle.ComeOnline();
@@ -223,12 +224,13 @@ TEST_CASE("A job is an order of the node where the vehicle stands, whose action 
     CHECK(orders[0].edges.empty());
     CHECK(orders[0].nodes[0].nodeID == "A");
     const VDA5050::Action& action = orders[0].nodes[0].actions.at(0);
-    CHECK(action.actionID == "J");
+    CHECK(action.actionID == "U1");
+    CHECK(orders[0].orderID == "U1");
     CHECK(action.actionType == "pick");
     CHECK(action.blockingType == VDA5050::EBlockingType::Hard);
 
     vehicle.ShowOrder(orders[0], {});
-    vehicle.state.actionStates = {{"J", "pick", "", VDA5050::EActionStatus::Running, ""}};
+    vehicle.state.actionStates = {{"U1", "pick", "", VDA5050::EActionStatus::Running, ""}};
     vehicle.ShowState();
     vehicle.ShowState();
     CHECK(vehicle.TakeEvents<Planning::JobStarted>() == std::vector<Planning::JobStarted>{{"J"}});
@@ -245,7 +247,7 @@ TEST_CASE("A failed action fails the job with the vehicle's words")
     vehicle.ComeOnline();
     vehicle.Command(MakeJob("CassetteLoad"));
     vehicle.ShowOrder(vehicle.TakeOrders().at(0), {});
-    vehicle.state.actionStates = {{"J", "pick", "", VDA5050::EActionStatus::Failed, "station is empty"}};
+    vehicle.state.actionStates = {{"U1", "pick", "", VDA5050::EActionStatus::Failed, "station is empty"}};
     vehicle.ShowState();
     CHECK(vehicle.TakeEvents<Planning::JobFailed>() == std::vector<Planning::JobFailed>{{"J", "station is empty"}});
 }
@@ -274,7 +276,7 @@ TEST_CASE("A command that comes before the vehicle has finished waits and is sen
     vehicle.Command(MakeJob("CassetteLoad"));
     const auto order = vehicle.TakeOrders().at(0);
     vehicle.ShowOrder(order, {});
-    vehicle.state.actionStates = {{"J", "pick", "", VDA5050::EActionStatus::Running, ""}};
+    vehicle.state.actionStates = {{"U1", "pick", "", VDA5050::EActionStatus::Running, ""}};
     vehicle.ShowState();
     vehicle.Command(MakeDrive());
     CHECK(vehicle.TakeOrders().empty());
@@ -283,6 +285,122 @@ TEST_CASE("A command that comes before the vehicle has finished waits and is sen
     const auto orders = vehicle.TakeOrders();
     REQUIRE(orders.size() == 1);
     CHECK(orders[0].orderID == "D");
+}
+
+TEST_CASE("A job whose jobId an earlier plan had is another order: the vehicle would take the first one for it")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.Command(MakeJob("CassetteLoad"));
+    const auto first = vehicle.TakeOrders().at(0);
+    vehicle.ShowOrder(first, {});
+    vehicle.state.actionStates = {{"U1", "pick", "", VDA5050::EActionStatus::Failed, "jammed"}};
+    vehicle.ShowState();
+    Planning::StartJob again = MakeJob("CassetteLoad");
+    again.commandID = "U2";
+    vehicle.Command(again);
+    const auto second = vehicle.TakeOrders().at(0);
+    CHECK(second.orderID == "U2");
+    vehicle.ShowState();
+    vehicle.ShowOrder(second, {});
+    vehicle.state.actionStates = {{"U2", "pick", "", VDA5050::EActionStatus::Finished, ""}};
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::JobFailed>().size() == 1);
+    CHECK(vehicle.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
+}
+
+TEST_CASE("An order of before a restart is cancelled once, and the robot is occupied until it is gone")
+{
+    VehicleFixture vehicle;
+    vehicle.state.orderID = "old";
+    vehicle.state.lastNodeSequenceID = 2;
+    vehicle.state.nodeStates.push_back({"C", 4, "", false, std::nullopt});
+    vehicle.adapter.OnLinkUp(vehicle.clock.GetNow(), vehicle.actions);
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::StateChanged>().back().bOccupied);
+    vehicle.ShowState();
+    const auto isCancel = [](const VDA5050::MqttMessage& message) {
+        return message.payload.find("cancelOrder") != std::string::npos;
+    };
+    CHECK(std::count_if(vehicle.outputs.messages.begin(), vehicle.outputs.messages.end(), isCancel) == 1);
+    vehicle.Command(MakeDrive());
+    CHECK(vehicle.TakeOrders().empty());
+    vehicle.state.nodeStates.clear();
+    vehicle.ShowState();
+    CHECK_FALSE(vehicle.TakeEvents<Planning::StateChanged>().back().bOccupied);
+    CHECK(vehicle.TakeOrders().size() == 1);
+}
+
+TEST_CASE("An action of before a restart is let to its end")
+{
+    VehicleFixture vehicle;
+    vehicle.state.orderID = "old";
+    vehicle.state.actionStates = {{"U0", "pick", "", VDA5050::EActionStatus::Running, ""}};
+    vehicle.adapter.OnLinkUp(vehicle.clock.GetNow(), vehicle.actions);
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::StateChanged>().back().bOccupied);
+    CHECK(vehicle.outputs.messages.empty());
+    vehicle.state.actionStates[0].actionStatus = VDA5050::EActionStatus::Finished;
+    vehicle.ShowState();
+    CHECK_FALSE(vehicle.TakeEvents<Planning::StateChanged>().back().bOccupied);
+}
+
+TEST_CASE("A drive whose update is refused is given up only when the vehicle stands: until then it drives on its base")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.Command(MakeDrive());
+    const auto order = vehicle.TakeOrders().at(0);
+    vehicle.ShowOrder(order, {"B", "C"});
+    vehicle.ShowState();
+    vehicle.Command(Planning::ExtendDrive{"D", 3});
+    REQUIRE(vehicle.TakeOrders().size() == 1);
+    VDA5050::VehicleError error;
+    error.errorType = "orderUpdateError";
+    error.errorDescription = "no such edge";
+    error.errorReferences = {{"orderId", "D"}, {"orderUpdateId", "1"}, {"topic", "order"}};
+    vehicle.state.errors = {error};
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::DriveRejected>().empty());
+    REQUIRE_FALSE(vehicle.outputs.messages.empty());
+    const std::string& payload = vehicle.outputs.messages.back().payload;
+    const auto cancel = vehicle.codec.Decode<VDA5050::InstantActionsMessage>(payload);
+    REQUIRE(cancel);
+    REQUIRE(cancel->actions.at(0).actionType == "cancelOrder");
+    vehicle.ShowAt("B", 2);
+    vehicle.state.nodeStates.clear();
+    vehicle.state.actionStates = {
+        {cancel->actions[0].actionID, "cancelOrder", "", VDA5050::EActionStatus::Finished, ""}};
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::NodePassed>().back() == Planning::NodePassed{"D", "B"});
+    const auto rejected = vehicle.TakeEvents<Planning::DriveRejected>();
+    REQUIRE(rejected.size() == 1);
+    CHECK(rejected[0].reason.find("no such edge") != std::string::npos);
+    CHECK(vehicle.TakeEvents<Planning::DriveCancelled>().empty());
+}
+
+TEST_CASE("When cancelling fails, the update that was withdrawn for it is sent again, and the drive goes on")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.Command(MakeDrive());
+    const auto order = vehicle.TakeOrders().at(0);
+    vehicle.ShowOrder(order, {"B", "C"});
+    vehicle.ShowState();
+    vehicle.Command(Planning::ExtendDrive{"D", 3});
+    REQUIRE(vehicle.TakeOrders().size() == 1);
+    vehicle.Command(Planning::CancelDrive{"D"});
+    const auto cancel = vehicle.codec.Decode<VDA5050::InstantActionsMessage>(vehicle.outputs.messages.back().payload);
+    REQUIRE(cancel);
+    vehicle.outputs.messages.clear();
+    vehicle.state.actionStates = {
+        {cancel->actions[0].actionID, "cancelOrder", "", VDA5050::EActionStatus::Failed, "not now"}};
+    vehicle.ShowState();
+    const auto updates = vehicle.TakeOrders();
+    REQUIRE(updates.size() == 1);
+    CHECK(updates[0].nodes.front().nodeID == "B");
+    CHECK(updates[0].nodes.back().bReleased);
+    CHECK(vehicle.TakeEvents<Planning::DriveRejected>().empty());
 }
 
 TEST_CASE("An action that the vehicle has no name for fails the job with a reason")

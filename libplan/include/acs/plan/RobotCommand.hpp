@@ -89,6 +89,7 @@ struct StartJob
     std::optional<std::string> from;
     std::optional<std::string> to;
     std::optional<std::string> carrierID;
+    std::string commandID; ///< A UUID; never used twice, where another plan may bring the same jobID.
 
     bool operator==(const StartJob&) const = default;
 };

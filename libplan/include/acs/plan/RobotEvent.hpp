@@ -41,6 +41,7 @@ struct StateChanged
     bool bPaused = false;
     bool bAutomatic = true;   ///< Under our control: VDA5050 AUTOMATIC or SEMIAUTOMATIC, Hi6 remote and automatic.
     bool bSafetyStop = false; ///< Emergency stop or protective field.
+    bool bOccupied = false;   ///< Busy with work that the engine did not give it, or gave it before a restart.
     std::vector<RobotError> errors; ///< All that are active.
 
     bool operator==(const StateChanged&) const = default;
