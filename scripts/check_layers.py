@@ -17,6 +17,7 @@ IO = {"protocol_beast": "protocol", "vda5050_mosquitto": "vda5050", "openstream_
 FOLDERS = {
     "libacs-core/": "core",
     "libacs-core/json/": "json",
+    "libacs-core/net/": "net",
     "libacs-protocol/": "protocol",
     "libacs-protocol/beast/": "protocol_beast",
     "libvda5050/": "vda5050",
@@ -35,6 +36,7 @@ LIBRARIES = {"core", *PURE, *IO}
 THIRD_PARTY = {
     "core": ("fmt/", "tl/"),
     "json": ("fmt/", "tl/", "rapidjson/"),
+    "net": ("fmt/", "tl/", "boost/asio", "boost/system/"),
     **{layer: ("fmt/", "tl/") for layer in PURE},
     "protocol_beast": ("fmt/", "tl/", "boost/", "openssl/"),
     "vda5050_mosquitto": ("fmt/", "tl/", "boost/asio", "boost/system/", "mosquitto.h", "openssl/", "unistd.h"),
@@ -88,9 +90,13 @@ def explain_refusal(path, layer, used):
         if layer in PURE and (path.endswith(".cpp") or "/src/codec/" in path):
             return None
         return "is internal; only .cpp files and src/codec/ of the pure libraries may include acs/json"
+    if used == "net":
+        if layer in IO and "/src/" in path:
+            return None
+        return "is internal; only src/ of the I/O libraries and apps/ may include acs/net"
     if layer == "examples":
         return None
-    if layer in ("core", "json"):
+    if layer in ("core", "json", "net"):
         return None if used == "core" else "lies above the base libraries; turn the dependency round"
     if layer in PURE:
         if used == "core":

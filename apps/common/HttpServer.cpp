@@ -1,9 +1,8 @@
 #include "common/HttpServer.hpp"
 
-#include "common/TcpListen.hpp"
+#include <acs/net/TcpListener.hpp>
 
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
@@ -29,9 +28,6 @@ using ErrorCode = boost::system::error_code;
 /// system drop the refusal, too.
 constexpr std::chrono::seconds DRAIN_TIME{2};
 constexpr std::size_t DRAIN_BYTES = 16U * 1024U;
-
-/// How long to wait before the next accept after the system refused one (no file descriptors left).
-constexpr std::chrono::milliseconds ACCEPT_PAUSE{100};
 
 HttpResponse MakeRefusal(Http::status status, std::string reason)
 {
@@ -71,32 +67,30 @@ struct HttpServer::Impl : std::enable_shared_from_this<Impl>
     class Connection;
     using ConnectionList = std::list<std::shared_ptr<Connection>>;
 
-    Asio::any_io_executor executor;
     Handler handler;
     Core::Logger logger;
     HttpLimits limits;
-    Tcp::acceptor acceptor;
-    Asio::steady_timer acceptPause;
+    std::shared_ptr<Net::TcpListener> listener;
     ConnectionList connections;
-    bool bAccepting = false;
 
     Impl(
-        Asio::any_io_executor serverExecutor,
+        const Asio::any_io_executor& executor,
         Handler handlerToCall,
         Core::Logger serverLogger,
         HttpLimits serverLimits)
-        : executor(std::move(serverExecutor)),
-          handler(std::move(handlerToCall)),
+        : handler(std::move(handlerToCall)),
           logger(std::move(serverLogger)),
           limits(serverLimits),
-          acceptor(executor),
-          acceptPause(executor)
+          listener(std::make_shared<Net::TcpListener>(executor, logger, [this](Tcp::socket socket) {
+              OnAccepted(std::move(socket));
+              return HasRoom();
+          }))
     {
     }
 
     Core::Result<Endpoint> Listen(const Endpoint& endpoint);
-    void AcceptAsync();
-    void OnAccepted(const ErrorCode& error, Tcp::socket socket);
+    [[nodiscard]] bool HasRoom() const;
+    void OnAccepted(Tcp::socket socket);
     void OnClosed(ConnectionList::iterator place);
     void Stop();
 };
@@ -251,53 +245,25 @@ private:
 
 Core::Result<Endpoint> HttpServer::Impl::Listen(const Endpoint& endpoint)
 {
-    Core::Result<Endpoint> actual = ListenOn(acceptor, endpoint);
-    if (actual.has_value())
+    const Core::Result<std::uint16_t> port = listener->Listen(endpoint.host, endpoint.port);
+    if (!port.has_value())
     {
-        AcceptAsync();
+        return tl::make_unexpected(port.error());
     }
-    return actual;
+    return Endpoint{endpoint.host, *port};
 }
 
-void HttpServer::Impl::AcceptAsync()
+bool HttpServer::Impl::HasRoom() const
 {
-    if (bAccepting || !acceptor.is_open() || connections.size() >= limits.maxConnections)
-    {
-        return;
-    }
-    bAccepting = true;
-    acceptor.async_accept([weak = weak_from_this()](const ErrorCode& error, Tcp::socket socket) {
-        if (const std::shared_ptr<Impl> server = weak.lock())
-        {
-            server->bAccepting = false;
-            server->OnAccepted(error, std::move(socket));
-        }
-    });
+    return connections.size() < limits.maxConnections;
 }
 
-void HttpServer::Impl::OnAccepted(const ErrorCode& error, Tcp::socket socket)
+void HttpServer::Impl::OnAccepted(Tcp::socket socket)
 {
-    if (!acceptor.is_open())
-    {
-        return;
-    }
-    if (error.failed())
-    {
-        logger.Warning("Could not accept an HTTP connection", {{"reason", error.message()}});
-        acceptPause.expires_after(ACCEPT_PAUSE);
-        acceptPause.async_wait([weak = weak_from_this()](const ErrorCode&) {
-            if (const std::shared_ptr<Impl> server = weak.lock())
-            {
-                server->AcceptAsync();
-            }
-        });
-        return;
-    }
     const auto connection = std::make_shared<Connection>(shared_from_this(), std::move(socket));
     connections.push_back(connection);
     connection->place = std::prev(connections.end());
     connection->ReadAsync();
-    AcceptAsync();
 }
 
 void HttpServer::Impl::OnClosed(ConnectionList::iterator place)
@@ -305,15 +271,13 @@ void HttpServer::Impl::OnClosed(ConnectionList::iterator place)
     if (place != connections.end())
     {
         connections.erase(place);
-        AcceptAsync();
+        listener->AcceptAsync();
     }
 }
 
 void HttpServer::Impl::Stop()
 {
-    ErrorCode ignored;
-    acceptor.close(ignored);
-    acceptPause.cancel(ignored);
+    listener->Stop();
     for (const std::shared_ptr<Connection>& connection : connections)
     {
         connection->place = connections.end();

@@ -17,6 +17,7 @@ CHECKS = {"layers": check_layers, "files": check_files}
 
 RIGHT = {
     "libacs-core/include/acs/core/Location.hpp": "#pragma once\n#include <fmt/core.h>\nclass Location\n{\n};\n",
+    "libacs-core/net/include/acs/net/Listener.hpp": "#pragma once\n#include <boost/asio/ip/tcp.hpp>\n",
     "libacs-core/json/include/acs/json/JsonReader.hpp": "#pragma once\n#include <rapidjson/reader.h>\n",
     "libacs-protocol/include/acs/protocol/Codec.hpp": "#pragma once\n#include <acs/core/Location.hpp>\n",
     "libacs-protocol/src/codec/Codec.cpp": "#include <acs/json/JsonReader.hpp>\n// steady_clock::now() is a comment\n",
@@ -62,6 +63,9 @@ PLANTED = [
     ("layers", "libplan/src/Engine.cpp", "#include <acs/protocol/Codec.hpp>\n", 1, "another library"),
     ("layers", "libacs-protocol/beast/src/Bad.cpp", "#include <acs/vda5050/Header.hpp>\n", 1, "out of reach"),
     ("layers", "libacs-protocol/beast/src/Bad.cpp", "#include <acs/json/JsonReader.hpp>\n", 1, "internal"),
+    ("layers", "libacs-protocol/src/Bad.cpp", "#include <acs/net/Listener.hpp>\n", 1, "internal"),
+    ("layers", "libacs-protocol/beast/include/acs/protocol_beast/Bad.hpp", "#pragma once\n#include <acs/net/Listener.hpp>\n",
+     2, "internal"),
     ("layers", "libacs-protocol/beast/src/Bad.cpp", "#include <mosquitto.h>\n", 1, "layer 'protocol_beast'"),
     ("layers", "libvda5050/mosquitto/src/Bad.cpp", "#include <boost/beast/core.hpp>\n", 1, "layer 'vda5050_mosquitto'"),
     ("layers", "libopenstream/asio/src/Bad.cpp", "#include <SQLiteCpp/Database.h>\n", 1, "layer 'openstream_asio'"),

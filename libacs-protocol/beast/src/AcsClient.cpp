@@ -1,9 +1,9 @@
 #include "ActionPump.hpp"
 #include "BeastLink.hpp"
 #include "EventQueue.hpp"
-#include "SessionTimers.hpp"
 #include "WebSocketUrl.hpp"
 #include <acs/core/Overloaded.hpp>
+#include <acs/net/TimerArray.hpp>
 #include <acs/protocol/AcsSession.hpp>
 #include <acs/protocol_beast/AcsClient.hpp>
 
@@ -17,6 +17,8 @@ namespace ACS::ProtocolBeast
 
 using Tcp = boost::asio::ip::tcp;
 using ErrorCode = boost::beast::error_code;
+
+using SessionTimers = Net::TimerArray<Protocol::ESessionTimer, Protocol::TIMER_COUNT>;
 
 class AcsClient::Impl : public std::enable_shared_from_this<AcsClient::Impl>
 {
@@ -48,25 +50,19 @@ public:
           _url(std::move(url)),
           _session(options.session, random),
           _events(std::make_shared<EventQueue>(executor, handler)),
+          _timers(std::make_shared<SessionTimers>(
+              executor,
+              [this](Protocol::ESessionTimer timer) {
+                  Run([timer](auto& session, Core::Now now, auto& out) { session.OnTimer(timer, now, out); });
+              })),
           _resolver(executor)
     {
-    }
-
-    /// What needs shared_from_this.
-    void Prepare()
-    {
-        _timers = std::make_shared<SessionTimers>(_executor, [weak = weak_from_this()](Protocol::ESessionTimer timer) {
-            if (const auto self = weak.lock())
-            {
-                self->Run([timer](auto& session, Core::Now now, auto& out) { session.OnTimer(timer, now, out); });
-            }
-        });
     }
 
     void Detach()
     {
         _events->Detach();
-        _timers->Detach();
+        _timers->CancelAll();
         _resolver.cancel();
         if (_linkOrNull != nullptr)
         {
@@ -111,7 +107,7 @@ private:
                         _linkOrNull->Close(close.code, close.reason);
                     }
                 },
-                [this](const Protocol::StartTimer& start) { _timers->Start(start); },
+                [this](const Protocol::StartTimer& start) { _timers->Start(start.timer, start.delay); },
                 [this](const Protocol::CancelTimer& cancel) { _timers->Cancel(cancel.timer); },
                 [this](const Protocol::Deliver& deliver) { _events->Push(deliver.event); },
             },
@@ -216,7 +212,6 @@ Core::Result<std::unique_ptr<AcsClient>> AcsClient::Create(
         return tl::unexpected<Core::Error>(std::move(url.error()));
     }
     auto impl = std::make_shared<Impl>(executor, clock, random, logger, options, std::move(*url), handler);
-    impl->Prepare();
     return std::unique_ptr<AcsClient>(new AcsClient(std::move(impl))); // the constructor is private
 }
 

@@ -1,9 +1,10 @@
 #include "ActionPump.hpp"
 #include "BeastLink.hpp"
 #include "EventQueue.hpp"
-#include "SessionTimers.hpp"
 #include "UpgradeGate.hpp"
 #include <acs/core/Overloaded.hpp>
+#include <acs/net/TcpListener.hpp>
+#include <acs/net/TimerArray.hpp>
 #include <acs/protocol/McsSession.hpp>
 #include <acs/protocol_beast/McsServer.hpp>
 
@@ -21,9 +22,7 @@ namespace
 namespace http = boost::beast::http;
 
 using Tcp = boost::asio::ip::tcp;
-using ErrorCode = boost::beast::error_code;
-
-constexpr std::chrono::milliseconds ACCEPT_PAUSE{200};
+using SessionTimers = Net::TimerArray<Protocol::ESessionTimer, Protocol::TIMER_COUNT>;
 
 std::string_view StripTarget(std::string_view target)
 {
@@ -39,15 +38,13 @@ std::string_view StripTarget(std::string_view target)
 
 class McsServer::Impl : public std::enable_shared_from_this<McsServer::Impl>
 {
-    boost::asio::any_io_executor _executor;
     const Core::IClock& _clock;
     Core::Logger _logger;
     ServerOptions _options;
     Protocol::McsSession _session;
     std::shared_ptr<EventQueue> _events;
     std::shared_ptr<SessionTimers> _timers;
-    Tcp::acceptor _acceptor;
-    boost::asio::steady_timer _acceptTimer;
+    std::shared_ptr<Net::TcpListener> _listener;
     std::map<Protocol::ConnectionID, std::shared_ptr<UpgradeGate>> _gates;
     std::map<Protocol::ConnectionID, std::shared_ptr<TcpLink>> _links;
     Protocol::ConnectionID _lastID = 0;
@@ -61,64 +58,39 @@ public:
         const Core::Logger& logger,
         const ServerOptions& options,
         ISessionHandler& handler)
-        : _executor(executor),
-          _clock(clock),
+        : _clock(clock),
           _logger(logger),
           _options(options),
           _session(options.session, random),
           _events(std::make_shared<EventQueue>(executor, handler)),
-          _acceptor(executor),
-          _acceptTimer(executor)
+          _timers(std::make_shared<SessionTimers>(
+              executor,
+              [this](Protocol::ESessionTimer timer) {
+                  Run([timer](auto& session, Core::Now now, auto& out) { session.OnTimer(timer, now, out); });
+              })),
+          _listener(std::make_shared<Net::TcpListener>(executor, logger, [this](Tcp::socket socket) {
+              OnAccepted(std::move(socket));
+              return true;
+          }))
     {
     }
 
     Core::Result<void> Listen()
     {
-        _timers = std::make_shared<SessionTimers>(_executor, [weak = weak_from_this()](Protocol::ESessionTimer timer) {
-            if (const auto self = weak.lock())
-            {
-                self->Run([timer](auto& session, Core::Now now, auto& out) { session.OnTimer(timer, now, out); });
-            }
-        });
-        const std::string where = _options.address + ":" + std::to_string(_options.port);
-        ErrorCode error;
-        const auto address = boost::asio::ip::make_address(_options.address, error);
-        if (error)
+        const Core::Result<std::uint16_t> port = _listener->Listen(_options.address, _options.port);
+        if (!port.has_value())
         {
-            return Core::Fail(error, where, "a numeric IP address to listen on, such as 127.0.0.1", _options.address);
+            return tl::make_unexpected(port.error());
         }
-        const Tcp::endpoint endpoint(address, _options.port);
-        _acceptor.open(endpoint.protocol(), error);
-        if (!error)
-        {
-            _acceptor.set_option(Tcp::acceptor::reuse_address(true), error);
-        }
-        if (!error)
-        {
-            _acceptor.bind(endpoint, error);
-        }
-        if (!error)
-        {
-            _acceptor.listen(boost::asio::socket_base::max_listen_connections, error);
-        }
-        if (error)
-        {
-            const char* const advice =
-                "an address and port free to listen on (stop the program that has it, or take another port)";
-            return Core::Fail(error, where, advice, error.message());
-        }
-        AcceptAsync();
+        _options.port = *port;
         return {};
     }
 
     void Detach()
     {
         _events->Detach();
-        if (_timers != nullptr)
-        {
-            _timers->Detach();
-        }
-        StopListening();
+        _timers->CancelAll();
+        _listener->Stop();
         for (const auto& [connection, gate] : std::exchange(_gates, {}))
         {
             gate->Kill();
@@ -131,7 +103,7 @@ public:
 
     void Stop()
     {
-        StopListening();
+        _listener->Stop();
         for (const auto& [connection, gate] : std::exchange(_gates, {}))
         {
             gate->Kill();
@@ -161,9 +133,7 @@ public:
 
     [[nodiscard]] std::uint16_t GetPort() const
     {
-        ErrorCode error;
-        const Tcp::endpoint endpoint = _acceptor.local_endpoint(error);
-        return error ? _options.port : endpoint.port();
+        return _options.port;
     }
 
     [[nodiscard]] const Protocol::McsSession& GetSession() const
@@ -172,46 +142,6 @@ public:
     }
 
 private:
-    void StopListening()
-    {
-        ErrorCode ignored;
-        _options.port = GetPort();
-        _acceptor.close(ignored);
-        _acceptTimer.cancel();
-    }
-
-    void AcceptAsync()
-    {
-        _acceptor.async_accept([weak = weak_from_this()](ErrorCode error, Tcp::socket socket) {
-            const auto self = weak.lock();
-            if (self == nullptr || !self->_acceptor.is_open())
-            {
-                return;
-            }
-            if (error)
-            {
-                self->PauseAsync(error);
-                return;
-            }
-            self->OnAccepted(std::move(socket));
-            self->AcceptAsync();
-        });
-    }
-
-    /// No descriptor is free, for example: trying again at once would only burn the processor.
-    void PauseAsync(ErrorCode error)
-    {
-        _logger.Warning("cannot accept a connection", {{"reason", error.message()}});
-        _acceptTimer.expires_after(ACCEPT_PAUSE);
-        _acceptTimer.async_wait([weak = weak_from_this()](ErrorCode waitError) {
-            const auto self = weak.lock();
-            if (!waitError && self != nullptr && self->_acceptor.is_open())
-            {
-                self->AcceptAsync();
-            }
-        });
-    }
-
     void OnAccepted(Tcp::socket socket)
     {
         if (_gates.size() + _links.size() >= _options.maximumClients)
@@ -323,7 +253,7 @@ private:
                         found->second->Close(close.code, close.reason);
                     }
                 },
-                [this](const Protocol::StartTimer& start) { _timers->Start(start); },
+                [this](const Protocol::StartTimer& start) { _timers->Start(start.timer, start.delay); },
                 [this](const Protocol::CancelTimer& cancel) { _timers->Cancel(cancel.timer); },
                 [this](const Protocol::Deliver& deliver) { _events->Push(deliver.event); },
             },

@@ -1,11 +1,11 @@
 #include "SocketOptions.hpp"
+#include <acs/net/TimerArray.hpp>
 #include <acs/openstream_asio/OpenStreamClient.hpp>
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/error.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/write.hpp>
 #include <fmt/format.h>
 
@@ -24,6 +24,8 @@ using Tcp = boost::asio::ip::tcp;
 
 class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStreamClient::Impl>
 {
+    using Timers = Net::TimerArray<OpenStream::EClientTimer, OpenStream::CLIENT_TIMER_COUNT>;
+
     static constexpr std::size_t READ_BYTES = 64U * 1024U;
 
     Core::IClock& _clock;
@@ -34,9 +36,7 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
     ClientActions _actions;
     Tcp::resolver _resolver;
     Tcp::socket _socket;
-    std::array<boost::asio::steady_timer, OpenStream::CLIENT_TIMER_COUNT> _timers;
-    /// How often each timer was started or cancelled: one that had fired just then is too late.
-    std::array<std::uint64_t, OpenStream::CLIENT_TIMER_COUNT> _timerTurns{};
+    std::shared_ptr<Timers> _timers;
     std::array<char, READ_BYTES> _input{};
     std::uint64_t _connection = 0; ///< Handlers of an earlier connection do nothing.
     bool _bExecuting = false;
@@ -198,31 +198,18 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
 
     void Do(const OpenStream::ClientStartTimer& action)
     {
-        const auto index = static_cast<std::size_t>(action.timer);
-        const std::uint64_t turn = ++_timerTurns.at(index);
-        _timers.at(index).expires_after(action.deadline - _clock.GetNow().steady);
-        _timers.at(index).async_wait(std::bind_front(&Impl::OnTimerFired, weak_from_this(), action.timer, turn));
+        _timers->Start(action.timer, action.deadline - _clock.GetNow().steady);
     }
 
-    static void OnTimerFired(
-        const std::weak_ptr<Impl>& weak,
-        OpenStream::EClientTimer timer,
-        std::uint64_t turn,
-        const boost::system::error_code& error)
+    void OnTimer(OpenStream::EClientTimer timer)
     {
-        const std::shared_ptr<Impl> self = weak.lock();
-        if (!error && self != nullptr && !self->_bDown && self->_timerTurns.at(static_cast<std::size_t>(timer)) == turn)
-        {
-            self->_session.OnTimer(timer, self->_clock.GetNow(), self->_actions);
-            self->Execute();
-        }
+        _session.OnTimer(timer, _clock.GetNow(), _actions);
+        Execute();
     }
 
     void Do(const OpenStream::ClientCancelTimer& action)
     {
-        const auto index = static_cast<std::size_t>(action.timer);
-        ++_timerTurns.at(index);
-        _timers.at(index).cancel();
+        _timers->Cancel(action.timer);
     }
 
 public:
@@ -240,11 +227,7 @@ public:
           _session(_options.session, random),
           _resolver(executor),
           _socket(executor),
-          _timers{
-              boost::asio::steady_timer(executor),
-              boost::asio::steady_timer(executor),
-              boost::asio::steady_timer(executor),
-              boost::asio::steady_timer(executor)}
+          _timers(std::make_shared<Timers>(executor, [this](OpenStream::EClientTimer timer) { OnTimer(timer); }))
     {
     }
 
@@ -283,11 +266,8 @@ public:
     {
         _bDown = true;
         _resolver.cancel();
+        _timers->CancelAll();
         boost::system::error_code ignored;
-        for (boost::asio::steady_timer& timer : _timers)
-        {
-            static_cast<void>(timer.cancel(ignored));
-        }
         static_cast<void>(_socket.close(ignored));
     }
 

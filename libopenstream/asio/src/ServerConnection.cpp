@@ -66,11 +66,8 @@ ServerConnection::ServerConnection(
       _onClosed(std::move(onClosed)),
       _peer(DescribePeer(_socket)),
       _session(options),
-      _timers{
-          boost::asio::steady_timer(_socket.get_executor()),
-          boost::asio::steady_timer(_socket.get_executor()),
-          boost::asio::steady_timer(_socket.get_executor()),
-          boost::asio::steady_timer(_socket.get_executor())}
+      _timers(
+          std::make_shared<Timers>(_socket.get_executor(), [this](OpenStream::EServerTimer timer) { OnTimer(timer); }))
 {
 }
 
@@ -95,11 +92,8 @@ void ServerConnection::Reject(std::string_view message)
 void ServerConnection::Abort()
 {
     _bClosed = true;
+    _timers->CancelAll();
     boost::system::error_code ignored;
-    for (boost::asio::steady_timer& timer : _timers)
-    {
-        static_cast<void>(timer.cancel(ignored));
-    }
     static_cast<void>(_socket.close(ignored));
 }
 
@@ -155,30 +149,19 @@ void ServerConnection::Do(const OpenStream::ServerStopControl& /*action*/)
 
 void ServerConnection::Do(const OpenStream::ServerStartTimer& action)
 {
-    const auto index = static_cast<std::size_t>(action.timer);
-    const std::uint64_t turn = ++_timerTurns.at(index);
-    _timers.at(index).expires_after(action.deadline - _clock.GetNow().steady);
-    _timers.at(index).async_wait(
-        std::bind_front(&ServerConnection::OnTimerFired, shared_from_this(), action.timer, turn));
+    _timers->Start(action.timer, action.deadline - _clock.GetNow().steady);
 }
 
-void ServerConnection::OnTimerFired(
-    OpenStream::EServerTimer timer,
-    std::uint64_t turn,
-    const boost::system::error_code& error)
+void ServerConnection::OnTimer(OpenStream::EServerTimer timer)
 {
-    if (!error && !_bClosed && _timerTurns.at(static_cast<std::size_t>(timer)) == turn)
-    {
-        _session.OnTimer(timer, _clock.GetNow(), _actions);
-        Execute();
-    }
+    const std::shared_ptr<ServerConnection> self = shared_from_this(); // the closed handler lets go of it
+    _session.OnTimer(timer, _clock.GetNow(), _actions);
+    Execute();
 }
 
 void ServerConnection::Do(const OpenStream::ServerCancelTimer& action)
 {
-    const auto index = static_cast<std::size_t>(action.timer);
-    ++_timerTurns.at(index);
-    _timers.at(index).cancel();
+    _timers->Cancel(action.timer);
 }
 
 void ServerConnection::Do(const OpenStream::ServerPauseReading& /*action*/)

@@ -2,15 +2,14 @@
 
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
+#include <acs/net/TimerArray.hpp>
 #include <acs/openstream/IOpenApiService.hpp>
 #include <acs/openstream/ServerSession.hpp>
 
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/steady_timer.hpp>
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -27,6 +26,8 @@ public:
     using ClosedHandler = std::function<void(ServerConnection& connection)>;
 
 private:
+    using Timers = Net::TimerArray<OpenStream::EServerTimer, OpenStream::SERVER_TIMER_COUNT>;
+
     static constexpr std::size_t READ_BYTES = 64U * 1024U;
 
     boost::asio::ip::tcp::socket _socket;
@@ -37,9 +38,7 @@ private:
     std::string _peer;
     OpenStream::ServerSession _session;
     OpenStream::ServerActions _actions;
-    std::array<boost::asio::steady_timer, OpenStream::SERVER_TIMER_COUNT> _timers;
-    /// How often each timer was started or cancelled: one that had fired just then is too late.
-    std::array<std::uint64_t, OpenStream::SERVER_TIMER_COUNT> _timerTurns{};
+    std::shared_ptr<Timers> _timers;
     std::array<char, READ_BYTES> _input{};
     bool _bReading = false;
     bool _bPaused = false;
@@ -60,7 +59,7 @@ private:
     void ReadMoreAsync();
     void OnRead(const boost::system::error_code& error, std::size_t size);
     void OnWritten(const boost::system::error_code& error, std::size_t size);
-    void OnTimerFired(OpenStream::EServerTimer timer, std::uint64_t turn, const boost::system::error_code& error);
+    void OnTimer(OpenStream::EServerTimer timer);
     void OnContinue();
 
 public:

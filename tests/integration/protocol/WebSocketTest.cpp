@@ -310,8 +310,16 @@ TEST_CASE("A port in use and a bad address are refused with a sentence that name
     REQUIRE_FALSE(second.has_value());
     const std::string sentence = Core::Describe(second.error());
     CHECK(sentence.find("127.0.0.1:" + std::to_string(rig.serverOptions.port)) != std::string::npos);
-    CHECK(sentence.find("take another port") != std::string::npos);
+    CHECK(sentence.find("choose another") != std::string::npos);
     CHECK(sentence.find("Address already in use") != std::string::npos);
+}
+
+TEST_CASE("An MCS listens on a name, too")
+{
+    Rig rig;
+    rig.serverOptions.address = "localhost";
+    rig.Listen();
+    CHECK(rig.server->GetPort() != 0);
 }
 
 TEST_CASE("A URL that is none is refused with a sentence")

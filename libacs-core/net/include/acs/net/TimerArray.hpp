@@ -1,0 +1,78 @@
+#pragma once
+
+#include <acs/core/Now.hpp>
+
+#include <boost/asio/any_io_executor.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace ACS::Net
+{
+
+/// The timers that a session asks for, one for each enumerator. Its owner alone holds it, so that the handler, which may
+/// destroy the owner, is never called without one. One thread: the executor's.
+template <typename TTimer, std::size_t COUNT>
+class TimerArray final : public std::enable_shared_from_this<TimerArray<TTimer, COUNT>>
+{
+public:
+    using Handler = std::function<void(TTimer timer)>;
+
+private:
+    std::vector<boost::asio::steady_timer> _timers;
+    /// A wait that has expired cannot be cancelled any more: the round tells whether it still counts.
+    std::array<std::uint64_t, COUNT> _rounds{};
+    Handler _handler;
+
+public:
+    TimerArray(const boost::asio::any_io_executor& executor, Handler handler)
+        : _handler(std::move(handler))
+    {
+        _timers.reserve(COUNT);
+        for (std::size_t index = 0; index < COUNT; ++index)
+        {
+            _timers.emplace_back(executor);
+        }
+    }
+
+    /// Anew where it runs already.
+    void Start(TTimer timer, Core::Duration delay)
+    {
+        const auto index = static_cast<std::size_t>(timer);
+        const std::uint64_t round = ++_rounds.at(index);
+        _timers.at(index).expires_after(delay);
+        _timers.at(index).async_wait(
+            [weak = this->weak_from_this(), timer, index, round](const boost::system::error_code& error) {
+                const std::shared_ptr<TimerArray> self = weak.lock();
+                if (!error && self != nullptr && self->_rounds.at(index) == round)
+                {
+                    self->_handler(timer);
+                }
+            });
+    }
+
+    void Cancel(TTimer timer)
+    {
+        const auto index = static_cast<std::size_t>(timer);
+        ++_rounds.at(index);
+        boost::system::error_code ignored;
+        static_cast<void>(_timers.at(index).cancel(ignored));
+    }
+
+    /// Nothing that was started before fires any more.
+    void CancelAll()
+    {
+        for (std::size_t index = 0; index < COUNT; ++index)
+        {
+            Cancel(static_cast<TTimer>(index));
+        }
+    }
+};
+
+} // namespace ACS::Net
