@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 namespace ACS::Planning
 {
@@ -97,9 +99,9 @@ std::vector<PlanEngine::Impl::Robot*> PlanEngine::Impl::GetWaiting()
 
 std::optional<std::size_t> PlanEngine::Impl::GetTargetOrNull(const Robot& robot) const
 {
-    if (robot.planOrNull == nullptr || robot.bRetreats)
+    if (robot.retreatNode.has_value() || robot.planOrNull == nullptr)
     {
-        return robot.homeNode;
+        return robot.retreatNode.has_value() ? robot.retreatNode : robot.homeNode;
     }
     return _admission.FindDockOrNull(
         robot.planOrNull->resolved.steps[robot.planOrNull->step].stationID,
@@ -114,15 +116,106 @@ void PlanEngine::Impl::MoveWaiting()
     }
 }
 
-void PlanEngine::Impl::SendIdleHome()
+/// Robots without work that stand elsewhere than at home.
+std::vector<PlanEngine::Impl::Robot*> PlanEngine::Impl::GetHomeless()
 {
+    std::vector<Robot*> homeless;
     for (Robot& robot : _robots)
     {
         const bool bIdle = robot.planOrNull == nullptr && !robot.drive.has_value() && !robot.bHomeRefused;
         if (bIdle && IsUsable(robot) && robot.homeNode.has_value() && robot.homeNode != robot.node)
         {
-            static_cast<void>(TryDrive(robot));
+            homeless.push_back(&robot);
         }
+    }
+    return homeless;
+}
+
+/// The next way of a robot with a plan: the one that it waits for, else the one after the place where it works or to
+/// which it drives. nullopt where it has none.
+std::optional<Route> PlanEngine::Impl::FindComingRouteOrNull(const Robot& robot) const
+{
+    if (robot.planOrNull == nullptr || !IsUsable(robot))
+    {
+        return std::nullopt;
+    }
+    const std::string& vehicleTypeID = robot.options->vehicleTypeID;
+    const bool bWaits = robot.activity == EActivity::Waits && !robot.drive.has_value();
+    const std::size_t from = robot.drive.has_value() ? robot.drive->nodes.back() : *robot.node;
+    const bool bRetreating = robot.drive.has_value() && robot.drive->goal == EGoal::Home;
+    const std::vector<ResolvedStep>& steps = robot.planOrNull->resolved.steps;
+    for (std::size_t step = robot.planOrNull->step + (bWaits || bRetreating ? 0 : 1); step < steps.size(); ++step)
+    {
+        const std::optional<std::size_t> dock = _admission.FindDockOrNull(steps[step].stationID, vehicleTypeID);
+        if (dock.has_value() && dock != from)
+        {
+            return _router.FindRouteOrNull(
+                vehicleTypeID,
+                _site.GetNodes()[from].nodeID,
+                _site.GetNodes()[*dock].nodeID);
+        }
+    }
+    return std::nullopt;
+}
+
+/// A way home is taken whole and may be long: it is put off while a robot with a plan comes next along any of it. Not by
+/// who stands in the way of a robot with a plan, or in the way of one who does: nobody waits for one who stays.
+void PlanEngine::Impl::SendIdleHome()
+{
+    std::vector<Robot*> homeless = GetHomeless();
+    if (homeless.empty())
+    {
+        return;
+    }
+    std::vector<bool> coming(_site.GetNodes().size(), false); // Robots with plans come here next.
+    std::vector<bool> cleared(coming.size(), false);          // Nobody may stay here.
+    const auto mark = [this](const std::optional<Route>& route, std::vector<bool>& nodes) {
+        for (const std::size_t node : route.has_value() ? GetIndices(*route) : std::vector<std::size_t>())
+        {
+            nodes[node] = true;
+        }
+    };
+    for (Robot& robot : _robots)
+    {
+        const std::optional<Route> route = FindComingRouteOrNull(robot);
+        mark(route, coming);
+        mark(route, cleared);
+        // One that waits may have to go home first (PartCircles).
+        if (robot.activity == EActivity::Waits && IsUsable(robot) && robot.homeNode.has_value())
+        {
+            mark(
+                _router.FindRouteOrNull(
+                    robot.options->vehicleTypeID,
+                    _site.GetNodes()[*robot.node].nodeID,
+                    _site.GetNodes()[*robot.homeNode].nodeID),
+                cleared);
+        }
+    }
+    const auto isPutOff = [this, &coming, &cleared](Robot* robot) {
+        const bool bFound = TryFindWish(*robot, *robot->homeNode);
+        if (!bFound || cleared[*robot->node])
+        {
+            return false;
+        }
+        return std::ranges::any_of(GetIndices(*robot->wish), [&coming](std::size_t node) { return coming[node]; });
+    };
+    // Who must go may itself find another in its way, who must go then, too.
+    std::vector<Robot*> leaving;
+    for (bool bChanged = true; std::exchange(bChanged, false);)
+    {
+        for (Robot*& robotOrNull : homeless)
+        {
+            if (robotOrNull != nullptr && !isPutOff(robotOrNull))
+            {
+                leaving.push_back(std::exchange(robotOrNull, nullptr));
+                mark(leaving.back()->wish, cleared);
+                bChanged = true;
+            }
+        }
+    }
+    for (Robot* robot : leaving)
+    {
+        static_cast<void>(TryDrive(*robot));
     }
 }
 
@@ -136,7 +229,7 @@ bool PlanEngine::Impl::TryDrive(Robot& robot)
     }
     if (robot.node == target)
     {
-        robot.bRetreats = false;
+        robot.retreatNode.reset();
         if (robot.planOrNull != nullptr && GetTargetOrNull(robot) == target)
         {
             BeginWork(robot);
@@ -190,12 +283,12 @@ void PlanEngine::Impl::OnNoRoute(Robot& robot, std::size_t target)
         GetRobotID(robot),
         _site.GetNodes()[*robot.node].nodeID,
         _site.GetNodes()[target].nodeID);
-    if (robot.planOrNull != nullptr && !robot.bRetreats)
+    if (robot.planOrNull != nullptr && !robot.retreatNode.has_value())
     {
         FailPlan(*robot.planOrNull, text);
         return;
     }
-    robot.bRetreats = false;
+    robot.retreatNode.reset();
     robot.bHomeRefused = true;
     StartTimer(EEngineTimer::HomeRetry, GetRobotID(robot), _options.homeRetry);
     Note(robot, text);
@@ -222,7 +315,7 @@ bool PlanEngine::Impl::TryBeginDrive(Robot& robot, const Route& route)
     drive.driveID = Core::MakeUuid(_random);
     drive.route = route;
     drive.releasedCount = std::min(_options.baseLength, drive.nodes.size() - 1);
-    drive.goal = robot.planOrNull == nullptr || robot.bRetreats ? EGoal::Home : EGoal::Step;
+    drive.goal = robot.planOrNull == nullptr || robot.retreatNode.has_value() ? EGoal::Home : EGoal::Step;
     robot.bTouched = true;
     Command(robot, Drive{drive.driveID, drive.route, drive.releasedCount});
     StartTimer(EEngineTimer::DriveExtension, GetRobotID(robot), _options.extensionDelay);
@@ -256,14 +349,9 @@ std::vector<std::size_t> PlanEngine::Impl::GetStandingBlockers(Robot& robot)
     return blockers;
 }
 
-/// Robots that stand and wait for each other in a circle stay so for ever: the least urgent one that can goes home first.
-void PlanEngine::Impl::PartCircles()
+/// Robots that stand and wait for each other, the least urgent first: of those with plans the latest, then those without.
+std::vector<PlanEngine::Impl::Robot*> PlanEngine::Impl::GetInCircles()
 {
-    std::vector<Robot*> waiting = GetWaiting();
-    if (waiting.empty())
-    {
-        return;
-    }
     std::vector<std::vector<std::size_t>> blockers(_robots.size());
     for (Robot& robot : _robots)
     {
@@ -272,9 +360,9 @@ void PlanEngine::Impl::PartCircles()
             blockers[robot.index] = GetStandingBlockers(robot);
         }
     }
-    const auto isInCircle = [&blockers](std::size_t start) {
+    const auto isFree = [&blockers](const Robot* start) {
         std::vector<bool> reached(blockers.size(), false);
-        std::vector<std::size_t> open = blockers[start];
+        std::vector<std::size_t> open = blockers[start->index];
         while (!open.empty())
         {
             const std::size_t robot = open.back();
@@ -285,25 +373,91 @@ void PlanEngine::Impl::PartCircles()
                 open.insert(open.end(), blockers[robot].begin(), blockers[robot].end());
             }
         }
-        return static_cast<bool>(reached[start]);
+        return !reached[start->index];
     };
-    std::ranges::reverse(waiting);
-    for (Robot* robot : waiting)
+    std::vector<Robot*> standing = GetWaiting();
+    std::ranges::reverse(standing);
+    std::ranges::copy(GetHomeless(), std::back_inserter(standing));
+    std::erase_if(standing, isFree);
+    return standing;
+}
+
+/// Circles last for ever: one robot of them goes home first. Where none can get there, one goes to any place that is in
+/// nobody's way, and whoever put off going home does so no longer.
+void PlanEngine::Impl::PartCircles()
+{
+    if (GetWaiting().empty())
     {
-        const bool bCanRetreat =
-            !robot->bRetreats && !robot->bHomeRefused && robot->homeNode.has_value() && robot->homeNode != robot->node;
-        if (!bCanRetreat || !isInCircle(robot->index))
+        return;
+    }
+    const std::vector<Robot*> robots = GetInCircles();
+    const bool bParted = std::ranges::any_of(robots, [this](Robot* robot) {
+        return robot->homeNode.has_value() && TryRetreat(*robot, *robot->homeNode);
+    });
+    if (bParted || robots.empty()
+        || std::ranges::any_of(robots, [this](Robot* robot) { return TryRetreatAnywhere(*robot); }))
+    {
+        return;
+    }
+    for (Robot* robot : GetHomeless())
+    {
+        static_cast<void>(TryDrive(*robot));
+    }
+}
+
+bool PlanEngine::Impl::TryRetreat(Robot& robot, std::size_t node)
+{
+    if (robot.bHomeRefused || robot.retreatNode.has_value() || robot.node == node || !TryFindWish(robot, node))
+    {
+        return false;
+    }
+    robot.retreatNode = node;
+    if (TryDrive(robot))
+    {
+        Note(robot, fmt::format("goes to {} first, out of the way of others", _site.GetNodes()[node].nodeID));
+        return true;
+    }
+    robot.retreatNode.reset();
+    return false;
+}
+
+bool PlanEngine::Impl::TryRetreatAnywhere(Robot& robot)
+{
+    std::vector<bool> wished(_site.GetNodes().size(), false);
+    for (Robot& other : _robots)
+    {
+        const std::optional<std::size_t> target = GetTargetOrNull(other);
+        const bool bWishes = &other != &robot && target.has_value() && IsStanding(other.index) && other.node != target;
+        if (bWishes && TryFindWish(other, *target))
+        {
+            for (const std::size_t node : GetIndices(*other.wish))
+            {
+                wished[node] = true;
+            }
+        }
+    }
+    const std::string& vehicleTypeID = robot.options->vehicleTypeID;
+    std::vector<std::pair<double, std::size_t>> refuges;
+    for (const SiteStation& station : _site.GetStations())
+    {
+        const std::optional<std::size_t> dock = _admission.FindDockOrNull(station.stationID, vehicleTypeID);
+        if (!dock.has_value() || wished[*dock] || !_reservations.IsFreeFor(*dock, robot.index))
         {
             continue;
         }
-        robot->bRetreats = true;
-        if (TryDrive(*robot))
+        const std::optional<Route> route = _router.FindRouteOrNull(
+            vehicleTypeID,
+            _site.GetNodes()[*robot.node].nodeID,
+            _site.GetNodes()[*dock].nodeID);
+        if (route.has_value())
         {
-            Note(*robot, "goes home first, out of the way of robots that wait for its place");
-            return;
+            refuges.emplace_back(route->travelSeconds, *dock);
         }
-        robot->bRetreats = false;
     }
+    std::ranges::sort(refuges);
+    return std::ranges::any_of(refuges, [this, &robot](const std::pair<double, std::size_t>& refuge) {
+        return TryRetreat(robot, refuge.second);
+    });
 }
 
 } // namespace ACS::Planning

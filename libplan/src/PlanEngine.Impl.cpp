@@ -390,7 +390,7 @@ ERobotStatus PlanEngine::Impl::DeriveStatus(const Robot& robot)
     {
         return ERobotStatus::Moving;
     }
-    if (robot.planOrNull != nullptr || state.bOccupied)
+    if (robot.planOrNull != nullptr || state.bOccupied || robot.overdueJobID.has_value())
     {
         return ERobotStatus::Working;
     }
@@ -427,7 +427,8 @@ bool PlanEngine::Impl::IsUsable(const Robot& robot)
     const StateChanged& state = *robot.state;
     const bool bFatal =
         std::ranges::any_of(state.errors, [](const RobotError& error) { return error.level == EAlarmLevel::Heavy; });
-    return !bFatal && !state.bSafetyStop && !state.bPaused && !state.bOccupied && state.bAutomatic;
+    return !bFatal && !state.bSafetyStop && !state.bPaused && !state.bOccupied && state.bAutomatic
+        && !robot.overdueJobID.has_value();
 }
 
 const std::string& PlanEngine::Impl::GetRobotID(const Robot& robot) const

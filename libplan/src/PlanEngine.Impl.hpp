@@ -59,6 +59,7 @@ public:
         std::optional<std::size_t> robot;
         std::optional<EPlanControl> control; ///< Asked for, outcome not known.
         bool bArrived = false;               ///< Its first step's place was reached.
+        bool bStepArrived = false;           ///< The present step's place was reached, and told.
     };
 
     enum class EActivity : std::uint8_t
@@ -92,15 +93,18 @@ public:
         const RobotOptions* options = nullptr;
         bool bOnline = false;
         bool bPlaced = false;      ///< Has told where it stands since the start.
-        bool bRetreats = false;    ///< Goes home first, out of the way of others.
         bool bHomeRefused = false; ///< Until the timer HomeRetry.
         bool bTouched = true;      ///< Its status may have changed.
         std::optional<StateChanged> state;
         std::optional<std::size_t> node; ///< Where it stands or passed last.
         std::string position;            ///< The last station where it stood.
         std::optional<std::size_t> homeNode;
+        std::optional<std::size_t> retreatNode; ///< Goes here first, out of the way of others.
         EActivity activity = EActivity::Idle;
         ActivePlan* planOrNull = nullptr;
+        /// A job of a plan that has failed for its time limit, and may still be running: until its end is told, the robot
+        /// neither drives nor works.
+        std::optional<std::string> overdueJobID;
         std::optional<ActiveDrive> drive;
         std::vector<std::optional<std::string>> carriers;
         RobotStatus lastStatus;
@@ -220,12 +224,14 @@ private:
     // Steps and jobs (PlanEngine.Work.cpp).
     void BeginPlan(ActivePlan& plan, Robot& robot);
     void BeginStep(ActivePlan& plan, Robot& robot);
+    void MarkArrived(Robot& robot);
     void BeginWork(Robot& robot);
     void BeginJob(Robot& robot);
     void EndJob(Robot& robot);
     void MarkStepBegun(ActivePlan& plan);
     void FailPlan(ActivePlan& plan, const std::string& reason);
     void EndPlan(ActivePlan& plan, EPlanState state, std::string message);
+    void ClearInterrupted(const std::string& robotID);
     void MoveCarrier(Robot& robot);
     [[nodiscard]] static bool HasJob(const ActivePlan& plan);
     [[nodiscard]] static const std::string& GetJobID(const ActivePlan& plan);
@@ -236,7 +242,13 @@ private:
     void AssignPlans();
     void MoveWaiting();
     void SendIdleHome();
+    [[nodiscard]] std::vector<Robot*> GetHomeless();
+    [[nodiscard]] std::optional<Route> FindComingRouteOrNull(const Robot& robot) const;
+    [[nodiscard]] bool TryEndOverdueJob(Robot& robot, const std::string& jobID);
     void PartCircles();
+    [[nodiscard]] std::vector<Robot*> GetInCircles();
+    [[nodiscard]] bool TryRetreat(Robot& robot, std::size_t node);
+    [[nodiscard]] bool TryRetreatAnywhere(Robot& robot);
     [[nodiscard]] Robot* FindNearestOrNull(const ActivePlan& plan);
     [[nodiscard]] std::vector<Robot*> GetWaiting();
     [[nodiscard]] std::optional<std::size_t> GetTargetOrNull(const Robot& robot) const;
@@ -250,6 +262,7 @@ private:
 
     // Failures of the store (PlanEngine.Recovery.cpp).
     void RestorePlan(PlanRecord record);
+    void RestoreAlarms(std::vector<Alarm> alarms);
     void EndInterrupted(ActivePlan& plan);
     void NoteStoreSuccess();
 };

@@ -10,7 +10,7 @@ void PlanEngine::Impl::Restore(StoredState state, Core::Now now, EngineActions& 
 {
     Begin(now);
     _outbox.Restore(std::move(state.outbox), state.lastReportSequence);
-    _alarms = std::move(state.alarms);
+    RestoreAlarms(std::move(state.alarms));
     for (const CarriersChanged& stored : state.carriers)
     {
         const auto found = _robotIndices.find(stored.robotID);
@@ -28,6 +28,26 @@ void PlanEngine::Impl::Restore(StoredState state, Core::Now now, EngineActions& 
     }
     StartTimer(EEngineTimer::Dispatch, {}, {});
     End(out);
+}
+
+/// An alarm about a robot that is gone would have nobody to clear it.
+void PlanEngine::Impl::RestoreAlarms(std::vector<Alarm> alarms)
+{
+    _alarms = std::move(alarms);
+    std::vector<Alarm> orphans;
+    for (const Alarm& alarm : _alarms)
+    {
+        if (alarm.robotID != OWN_ROBOT_ID && !_robotIndices.contains(alarm.robotID))
+        {
+            orphans.push_back(alarm);
+        }
+        // Set when the store worked again, to be cleared by what was not called any more.
+        _bStoreFailing = _bStoreFailing || alarm.errorCode == ALARM_STORE;
+    }
+    for (const Alarm& orphan : orphans)
+    {
+        ClearAlarm(orphan);
+    }
 }
 
 void PlanEngine::Impl::RestorePlan(PlanRecord record)

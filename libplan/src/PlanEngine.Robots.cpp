@@ -27,6 +27,7 @@ void PlanEngine::Impl::OnLink(Robot& robot, const LinkChanged& event)
     }
     // Where it is and how it does is old news when it comes back.
     robot.state.reset();
+    _bDispatchNeeded = true;
     RaiseAlarm(std::move(alarm));
 }
 
@@ -205,7 +206,7 @@ void PlanEngine::Impl::OnArrived(Robot& robot, const Arrived& event)
     }
     if (goal == EGoal::Home)
     {
-        robot.bRetreats = false;
+        robot.retreatNode.reset();
         return;
     }
     if (robot.planOrNull == nullptr)
@@ -223,7 +224,12 @@ void PlanEngine::Impl::OnArrived(Robot& robot, const Arrived& event)
     {
         TellControlResult(*control, plan.record.plan.planID, false, "The robot has arrived; the plan goes on.");
     }
-    BeginWork(robot);
+    MarkArrived(robot);
+    // Otherwise the work begins when the robot is there again: the drive may well end while its arm is out of reach.
+    if (IsUsable(robot))
+    {
+        BeginWork(robot);
+    }
 }
 
 void PlanEngine::Impl::OnDriveRejected(Robot& robot, const DriveRejected& event)
@@ -237,6 +243,7 @@ void PlanEngine::Impl::OnDriveRejected(Robot& robot, const DriveRejected& event)
     Note(robot, "did not do its drive: " + event.reason);
     if (goal == EGoal::Home)
     {
+        robot.retreatNode.reset();
         robot.bHomeRefused = true;
         StartTimer(EEngineTimer::HomeRetry, GetRobotID(robot), _options.homeRetry);
         return;
@@ -301,8 +308,23 @@ void PlanEngine::Impl::OnJobStarted(Robot& robot, const JobStarted& event)
     }
 }
 
+bool PlanEngine::Impl::TryEndOverdueJob(Robot& robot, const std::string& jobID)
+{
+    if (robot.overdueJobID != jobID)
+    {
+        return false;
+    }
+    robot.overdueJobID.reset();
+    _bDispatchNeeded = true;
+    return true;
+}
+
 void PlanEngine::Impl::OnJobFinished(Robot& robot, const JobFinished& event)
 {
+    if (TryEndOverdueJob(robot, event.jobID))
+    {
+        return;
+    }
     if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID)
     {
         return;
@@ -313,6 +335,10 @@ void PlanEngine::Impl::OnJobFinished(Robot& robot, const JobFinished& event)
 
 void PlanEngine::Impl::OnJobFailed(Robot& robot, const JobFailed& event)
 {
+    if (TryEndOverdueJob(robot, event.jobID))
+    {
+        return;
+    }
     if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID)
     {
         return;
@@ -326,7 +352,8 @@ void PlanEngine::Impl::OnJobTimeout(Robot& robot)
     {
         return;
     }
-    Command(robot, CancelJob{GetJobID(*robot.planOrNull)});
+    robot.overdueJobID = GetJobID(*robot.planOrNull);
+    Command(robot, CancelJob{*robot.overdueJobID});
     FailPlan(*robot.planOrNull, "The job took longer than its limit.");
 }
 

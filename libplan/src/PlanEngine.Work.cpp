@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
+#include <utility>
 
 namespace ACS::Planning
 {
@@ -51,6 +53,7 @@ void PlanEngine::Impl::BeginPlan(ActivePlan& plan, Robot& robot)
 void PlanEngine::Impl::BeginStep(ActivePlan& plan, Robot& robot)
 {
     plan.job = 0;
+    plan.bStepArrived = false;
     robot.activity = EActivity::Waits;
     robot.bTouched = true;
     robot.wish.reset();
@@ -67,12 +70,21 @@ void PlanEngine::Impl::MarkStepBegun(ActivePlan& plan)
 }
 
 /// The robot stands at its step's place.
-void PlanEngine::Impl::BeginWork(Robot& robot)
+void PlanEngine::Impl::MarkArrived(Robot& robot)
 {
     ActivePlan& plan = *robot.planOrNull;
     plan.bArrived = true;
     MarkStepBegun(plan);
-    TellStatus(robot, ERobotStatus::Arrival);
+    if (!std::exchange(plan.bStepArrived, true))
+    {
+        TellStatus(robot, ERobotStatus::Arrival);
+    }
+}
+
+/// The robot stands at its step's place and can work.
+void PlanEngine::Impl::BeginWork(Robot& robot)
+{
+    MarkArrived(robot);
     robot.activity = EActivity::Works;
     BeginJob(robot);
 }
@@ -214,6 +226,19 @@ void PlanEngine::Impl::FailPlan(ActivePlan& plan, const std::string& reason)
     }
 }
 
+/// Who has done a whole plan since was looked at; the list of alarms would only grow otherwise.
+void PlanEngine::Impl::ClearInterrupted(const std::string& robotID)
+{
+    std::vector<Alarm> spent;
+    std::ranges::copy_if(_alarms, std::back_inserter(spent), [&robotID](const Alarm& alarm) {
+        return alarm.robotID == robotID && alarm.errorCode == ALARM_INTERRUPTED;
+    });
+    for (const Alarm& alarm : spent)
+    {
+        ClearAlarm(alarm);
+    }
+}
+
 /// The robot is free again, the plan is history. The plan lives to the end of this call.
 void PlanEngine::Impl::EndPlan(ActivePlan& plan, EPlanState state, std::string message)
 {
@@ -229,13 +254,17 @@ void PlanEngine::Impl::EndPlan(ActivePlan& plan, EPlanState state, std::string m
         }
         robot.planOrNull = nullptr;
         robot.activity = EActivity::Idle;
-        robot.bRetreats = false;
+        robot.retreatNode.reset();
         robot.bTouched = true;
         robot.wish.reset();
     }
     _bDispatchNeeded = true;
     const auto found = _plans.find(plan.record.plan.planID);
     assert(found != _plans.end());
+    if (state == EPlanState::Completed)
+    {
+        ClearInterrupted(plan.record.progress.robotID);
+    }
     RememberFinished(plan.record);
     _ended.push_back(std::move(found->second));
     _plans.erase(found);

@@ -34,6 +34,7 @@ class FakeRobotAdapter final : public Planning::IRobotAdapter
 public:
     std::set<std::string> failingJobs;
     bool bRejectDrives = false;
+    bool bIgnoresJobCancel = false; ///< As an arm, whose program is never broken off.
     std::size_t extensions = 0;
     std::size_t drives = 0;
     std::size_t ranOverBase = 0; ///< Extensions that were needed and had not come when the base ended.
@@ -75,6 +76,10 @@ public:
                     StartTimer(JOB_TIMER, 500, out);
                 },
                 [this, &out](const Planning::CancelJob& job) {
+                    if (bIgnoresJobCancel)
+                    {
+                        return;
+                    }
                     Raise(Planning::JobFailed{job.jobID, "cancelled"}, out);
                     _jobID.clear();
                 },

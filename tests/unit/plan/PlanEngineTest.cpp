@@ -118,6 +118,94 @@ TEST_CASE("Two robots that wait for each other's place are parted by one going h
     CHECK(std::ranges::count_if(drives, [](const std::string& drive) { return drive.starts_with("D-CHG02"); }) == 2);
 }
 
+TEST_CASE("Robots that stand on the lane and keep each other from home are parted by one going to a free place")
+{
+    EngineOptions options = MakeTestOptions(true);
+    options.robots[0].startNodeID = "L05";
+    options.robots[1].startNodeID = "D-A01.SET03";
+    options.robots[2].startNodeID = "L16";
+    options.robots[3].startNodeID = "D-A01.CP02";
+    PlanWorld world(1, options, MakeTestSite());
+    world.Submit({"P1", "", 0, {{1, "TrayLoad", "A01.CP01", {}, {{"J", "A01.CP01.TP01", "CR01.TP01"}}}}});
+    world.Submit({"P2", "", 0, {{1, "CassetteLoad", "A01.CP01", {}, {{"J", "A01.CP01", "LR01.CP01"}}}}});
+    world.Submit({"P3", "", 0, {{1, "CassetteLoad", "A01.CP02", {}, {{"J", "A01.CP02", "LR02.CP01"}}}}});
+    const Job place{"J", "CR02.TP01.MP01", "A01.SET01.MP01"};
+    world.Submit({"P4", "", 0, {{1, "MemoryPickAndPlace", "A01.SET01", {}, {place}}}});
+    world.Connect();
+    REQUIRE(world.TryRun());
+    CHECK(world.violations == Lines{});
+    for (const std::string planID : {"P1", "P2", "P3", "P4"})
+    {
+        INFO(planID);
+        CHECK(world.GetReportsOf(planID).back() == "Plan Completed");
+    }
+}
+
+TEST_CASE("A robot without work does not go home where one with a plan comes next, and goes when that one has passed")
+{
+    for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    {
+        INFO("seed " << seed);
+        PlanWorld world(seed);
+        world.Connect();
+        Plan control = MakeControlPlan("P2");
+        for (int job = 0; job < 20; ++job)
+        {
+            Job more = control.steps[1].jobs.front();
+            more.jobID += "-" + std::to_string(job);
+            control.steps[1].jobs.push_back(more);
+        }
+        Plan logistics = MakeLogisticsPlan("P1");
+        logistics.steps.erase(logistics.steps.begin());
+        world.Submit(logistics);
+        world.Submit(control);
+        REQUIRE(TryRunUntil(world, "P1", "Plan Completed"));
+        REQUIRE_FALSE(Contains(world.GetReportsOf("P2"), "Step 2 Completed"));
+        REQUIRE(TryRunUntil(world, "P2", "Step 3 Dispatched"));
+        CHECK(world.GetRobot("LR01").GetOccupied() == Lines{"D-A02.CP03"});
+        const Lines drives = world.GetTraceOf("command CR01 Drive to ");
+        CHECK(drives.back().starts_with("D-A01.CP01"));
+        REQUIRE(world.TryRun());
+        CHECK(world.GetRobot("LR01").GetOccupied() == Lines{"D-CHG01"});
+        CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
+    }
+}
+
+TEST_CASE("A robot without work that stands in the way of one with a plan goes home at once")
+{
+    PlanWorld world;
+    world.Connect();
+    Plan logistics = MakeLogisticsPlan("P1");
+    logistics.steps.pop_back();
+    Plan control = MakeControlPlan("P2");
+    control.steps.erase(control.steps.begin(), control.steps.begin() + 2);
+    world.Submit(logistics);
+    REQUIRE(TryRunUntil(world, "P1", "Job 1 P1-a4 InProgress"));
+    world.Submit(control);
+    REQUIRE(world.TryRun());
+    CHECK(world.violations == Lines{});
+    CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
+}
+
+TEST_CASE("5.9, 6.5 Work waits for a robot that arrives while a part of it is out of reach; the arrival is told once")
+{
+    PlanWorld world;
+    world.Connect();
+    world.Submit(MakeControlPlan("P1"));
+    REQUIRE(TryRunUntil(world, "P1", "Step 1 InProgress"));
+    world.Raise("CR01", LinkChanged{false});
+    REQUIRE(world.TryRun());
+    CHECK(world.GetRobot("CR01").GetOccupied() == Lines{"D-A01.CP01"});
+    CHECK(world.GetReportsOf("P1").back() == "Step 1 InProgress");
+    world.Control(EPlanControl::Cancel, "P1");
+    CHECK(world.GetReportsOf("P1").back() == "CancelResult Failed");
+    world.Connect();
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+    const Lines statuses = world.GetTraceOf("status CR01 ");
+    CHECK(std::ranges::count(statuses, "Arrival A01.CP01") == 2); // step 1 and step 3
+}
+
 TEST_CASE("VDA5050: every drive has a base and is extended before the robot reaches its end")
 {
     PlanWorld world;
@@ -388,6 +476,56 @@ TEST_CASE("A job that takes longer than its limit has failed")
     REQUIRE(world.TryRun());
     CHECK(world.GetReportsOf("P1").back() == "Plan Failed");
     CHECK(Contains(world.trace, "command LR01 CancelJob"));
+}
+
+TEST_CASE("A robot whose job took too long neither drives nor works before the job has come to its end")
+{
+    EngineOptions options = MakeTestOptions(false);
+    options.actions.at("CassetteLoad").timeout = std::chrono::milliseconds(1);
+    PlanWorld world(1, options, MakeTestSite());
+    world.Connect();
+    world.GetRobot("LR01").bIgnoresJobCancel = true;
+    Plan next = MakeLogisticsPlan("P2");
+    next.steps.erase(next.steps.begin());
+    world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(TryRunUntil(world, "P1", "Plan Failed"));
+    const std::size_t drives = world.GetRobot("LR01").drives;
+    world.Submit(next);
+    std::size_t left = 2; // the dispatching, and that the job has begun
+    REQUIRE(world.TryRun([&left] { return left-- == 0; }));
+    CHECK(world.GetRobot("LR01").doneJobs.empty());
+    CHECK(world.GetRobot("LR01").drives == drives);
+    CHECK(world.engine->GetRobotStatuses()[0].status == ERobotStatus::Working);
+    CHECK(world.GetReportsOf("P1").back() == "Plan Failed");
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
+}
+
+TEST_CASE("5.8 After a restart alarms that nobody else can clear are cleared")
+{
+    PlanWorld world;
+    world.bAcknowledges = false;
+    Alarm gone;
+    gone.robotID = "LR77";
+    gone.errorCode = "AGV-motor";
+    Alarm store;
+    store.robotID = "ACS";
+    store.errorCode = "ACS-1005";
+    REQUIRE(world.store.Append({{AlarmSet{gone}, AlarmSet{store}}}).has_value());
+    world.Restart(MakeTestOptions(false), MakeTestSite());
+    world.Connect();
+    world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(TryRunUntil(world, "P1", "Job 1 P1-a4 InProgress"));
+    world.Restart(MakeTestOptions(false), MakeTestSite());
+    world.Connect();
+    REQUIRE(world.engine->GetActiveAlarms().size() == 1);
+    CHECK(world.engine->GetActiveAlarms().front().errorCode == "ACS-1001");
+    REQUIRE(world.TryRun());
+    world.Submit(MakeControlPlan("P2"));
+    world.Submit(MakeLogisticsPlan("P3"));
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P3").back() == "Plan Completed");
+    CHECK(world.engine->GetActiveAlarms().empty());
 }
 
 TEST_CASE("After a restart pending plans go on, interrupted ones fail with an alarm, reports are kept for replay")

@@ -33,7 +33,8 @@ namespace ACS::Planning
 /// Traffic: a node is held by one robot at a time. A drive is begun only when every node of its way is free, and takes
 /// them all at once; a node is given back when the robot has told of the next one. So a waiting robot always stands at
 /// the end of a way, and robots under way never wait for one another. Robots that wait for each other's places in a
-/// circle are parted by sending one of them home first.
+/// circle are parted by sending one of them home first. A robot without work goes home, but lets robots with a plan go
+/// first where their next ways meet, unless it stands in somebody's way.
 class PlanEngine
 {
     class Impl;
@@ -51,8 +52,8 @@ public:
     void SetObserver(IPlanObserver& observer);
 
     /// Once, before any command or event: what the store held. Pending plans go on. Plans that were being worked on are
-    /// Failed, with a heavy alarm each, because nobody saw what became of the running job. Unacknowledged reports are
-    /// in GetUnacknowledged.
+    /// Failed, with a heavy alarm each, because nobody saw what became of the running job; the alarm is cleared when the
+    /// robot has completed a plan. Unacknowledged reports are in GetUnacknowledged.
     void Restore(StoredState state, Core::Now now, EngineActions& out);
 
     void Handle(const PlanCommand& command, Core::Now now, EngineActions& out);
