@@ -42,6 +42,9 @@ using Planning::RaiseEvent;
 
 /// The base's session has the numbers of its own timers, which are fewer.
 constexpr Planning::AdapterTimerID MOTOR_TIMER = 100;
+constexpr Planning::AdapterTimerID START_TIMER = 101;
+/// For a program to raise its first counter when nobody knows whether its start arrived.
+constexpr std::chrono::milliseconds START_LIMIT = 10s;
 constexpr std::chrono::milliseconds MOTOR_PERIOD = 200ms;
 constexpr std::chrono::milliseconds MOTOR_RETRY = 5s;
 /// The only value on which the manuals of all versions agree.
@@ -52,6 +55,12 @@ constexpr std::string_view MOTOR_STATE_URL = "/project/robot/motor_on_state";
 constexpr std::string_view MOTOR_ON_URL = "/project/robot/motor_on";
 constexpr std::string_view SELECT_URL = "/project/context/tasks[0]/cur_prog_cnt";
 constexpr std::string_view START_URL = "/project/robot/start";
+
+/// Counters are raised, and wrap around: anything else is the work of a restart.
+bool HasFallen(std::int64_t before, std::int64_t after)
+{
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(after) - static_cast<std::uint32_t>(before)) < 0;
+}
 
 template <typename T>
 std::optional<T> ReadOrNull(const Core::JsonText& text)
@@ -111,6 +120,11 @@ void OpenStreamRobotAdapter::Handle(const Planning::RobotCommand& command, Core:
 
 void OpenStreamRobotAdapter::OnTimer(Planning::AdapterTimerID timer, Core::Now now, AdapterActions& out)
 {
+    if (timer == START_TIMER)
+    {
+        CheckDoubtfulStart(out);
+        return;
+    }
     if (timer != MOTOR_TIMER)
     {
         _base.OnTimer(timer, now, _baseActions);
@@ -166,6 +180,7 @@ void OpenStreamRobotAdapter::OnArmEvent(const OpenStream::ClientEvent& event, Co
             [&](const OpenStream::ClientControlSettled& settled) { TakeSettled(settled, out); },
             [&](const OpenStream::ClientLost&) {
                 out.emplace_back(Planning::CancelAdapterTimer{MOTOR_TIMER});
+                out.emplace_back(Planning::CancelAdapterTimer{START_TIMER});
                 SetArmState(EArmState::Lost, out);
             },
             [](const auto&) {
@@ -185,6 +200,7 @@ void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, AdapterActi
 {
     _jobID = job.jobID;
     _bJobStarted = false;
+    _bStartDoubtful = false;
     const std::optional<std::string> rejection = GetRejectionReasonOrNull(job.action);
     if (rejection.has_value())
     {
@@ -262,6 +278,7 @@ void OpenStreamRobotAdapter::TakeSettled(const OpenStream::ClientControlSettled&
             {
                 // Started or not: the counters will tell after the reconnect. It is never started a second time.
                 _phase = EJobPhase::Running;
+                _bStartDoubtful = true;
             }
             break;
         default:
@@ -308,9 +325,32 @@ void OpenStreamRobotAdapter::TakeCounters(const Core::JsonText& result, AdapterA
     {
         return; // a late sample of the MONITOR before, or a controller that lacks these relays
     }
-    _counters = {(*words)[_options.startedIndex], (*words)[_options.finishedIndex], (*words)[_options.failedIndex]};
+    const Counters before = std::exchange(
+        _counters,
+        {(*words)[_options.startedIndex], (*words)[_options.finishedIndex], (*words)[_options.failedIndex]});
+    const bool bFirst = _armState != EArmState::Ready;
     SetArmState(EArmState::Ready, out);
+    const bool bReset = HasFallen(before.started, _counters.started) || HasFallen(before.finished, _counters.finished)
+        || HasFallen(before.failed, _counters.failed);
+    if (bReset && _phase != EJobPhase::None)
+    {
+        FailJob("the arm's controller was restarted while its program ran: its counters began again", out);
+        return;
+    }
     FollowJob(out);
+    if (bFirst && _bStartDoubtful && !_bJobStarted && _phase == EJobPhase::Running)
+    {
+        out.emplace_back(Planning::StartAdapterTimer{START_TIMER, START_LIMIT});
+    }
+}
+
+/// A start that got lost on the way would leave the job running for ever.
+void OpenStreamRobotAdapter::CheckDoubtfulStart(AdapterActions& out)
+{
+    if (_bStartDoubtful && !_bJobStarted && _phase == EJobPhase::Running && _armState == EArmState::Ready)
+    {
+        FailJob("the connection to the arm broke while its program was being started, and it did not begin", out);
+    }
 }
 
 void OpenStreamRobotAdapter::FollowJob(AdapterActions& out)

@@ -67,8 +67,9 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     EJobPhase _phase = EJobPhase::None;
     std::string _jobID;
     bool _bJobStarted = false;
-    Counters _counters; ///< The latest.
-    Counters _counted;  ///< Those of the moment when the job was commanded.
+    bool _bStartDoubtful = false; ///< The connection broke while the program was being started.
+    Counters _counters;           ///< The latest.
+    Counters _counted;            ///< Those of the moment when the job was commanded.
 
     void StartJob(const Planning::StartJob& job, Planning::AdapterActions& out);
     void FailJob(const std::string& reason, Planning::AdapterActions& out);
@@ -77,6 +78,7 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     void TakeMotor(const Core::JsonText& result, Planning::AdapterActions& out);
     void TakeCounters(const Core::JsonText& result, Planning::AdapterActions& out);
     void FollowJob(Planning::AdapterActions& out);
+    void CheckDoubtfulStart(Planning::AdapterActions& out);
     void TakeSettled(const OpenStream::ClientControlSettled& settled, Planning::AdapterActions& out);
     void TakeData(const OpenStream::DataLine& line, Planning::AdapterActions& out);
     void SetArmState(EArmState state, Planning::AdapterActions& out);

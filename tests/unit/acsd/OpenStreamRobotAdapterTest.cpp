@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -199,6 +200,56 @@ TEST_CASE("A start whose fate is not known is never sent again: the counters dec
         CHECK(request != START);
         CHECK(request != SELECT);
     }
+}
+
+TEST_CASE("A start that got lost with the connection fails its job when the program does not begin")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Settle(OpenStream::EControlOutcome::Unknown);
+    arm.Tell(OpenStream::ClientLost{});
+    arm.Tell(OpenStream::ClientReady{});
+    arm.TellData(R"({"val":0})");
+    arm.actions.clear();
+    arm.TellData("[5,5,0]");
+    const auto isTimer = [](const Planning::AdapterAction& action) {
+        return std::holds_alternative<Planning::StartAdapterTimer>(action);
+    };
+    const auto timer = std::find_if(arm.actions.begin(), arm.actions.end(), isTimer);
+    REQUIRE(timer != arm.actions.end());
+    const Planning::AdapterTimerID timerID = std::get<Planning::StartAdapterTimer>(*timer).timer;
+    SECTION("It does not begin")
+    {
+        arm.adapter.OnTimer(timerID, arm.clock.GetNow(), arm.actions);
+        CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+    }
+    SECTION("It has begun")
+    {
+        arm.TellData("[6,5,0]");
+        arm.adapter.OnTimer(timerID, arm.clock.GetNow(), arm.actions);
+        CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+        arm.TellData("[6,6,0]");
+        CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+    }
+}
+
+TEST_CASE("Counters that begin again are the work of a restart: the job has failed, not finished")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.TellData("[6,5,0]");
+    arm.Tell(OpenStream::ClientLost{});
+    arm.Tell(OpenStream::ClientReady{});
+    arm.TellData(R"({"val":0})");
+    arm.TellData("[0,0,0]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
+    REQUIRE(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+    CHECK(arm.TakeEvents<Planning::JobFailed>().front().reason.find("restarted") != std::string::npos);
 }
 
 TEST_CASE("A job before the motor is on, or of an action without a program, fails with a reason")
