@@ -7,7 +7,10 @@
 #include <acs/core/Overloaded.hpp>
 #include <acs/openstream_asio/OpenStreamClient.hpp>
 
+#include <algorithm>
 #include <chrono>
+#include <deque>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -51,6 +54,8 @@ struct RobotHost::Impl
     std::unique_ptr<IMqttRobotAdapter> adapter;
     OpenStreamRobotAdapter* armAdapterOrNull = nullptr;
     std::optional<Apps::TimerSet> timers;
+    std::deque<Planning::AdapterAction> actions; ///< Still to be carried out.
+    bool bExecuting = false;
     std::unique_ptr<OpenStreamAsio::OpenStreamClient> armClient;
 
     Impl(Surroundings around, const AcsdConfig& config, const RobotLinkConfig& link, EventHandler eventHandler)
@@ -77,16 +82,30 @@ struct RobotHost::Impl
         });
     }
 
-    /// Calls the adapter and carries out what it wants.
+    /// Calls the adapter and carries out what it wants. What an event leads to may call the adapter again: that call's
+    /// actions come after the rest of this one's, which may for instance cancel a timer that the new call starts.
     template <typename TCall>
     void Call(TCall call)
     {
-        Planning::AdapterActions actions;
-        call(surroundings.clock.GetNow(), actions);
-        for (const Planning::AdapterAction& action : actions)
+        Planning::AdapterActions wanted;
+        call(surroundings.clock.GetNow(), wanted);
+        std::ranges::move(wanted, std::back_inserter(actions));
+        if (std::exchange(bExecuting, true))
         {
+            return;
+        }
+        while (!actions.empty())
+        {
+            const Planning::AdapterAction action = std::move(actions.front());
+            actions.pop_front();
             Execute(action);
         }
+        bExecuting = false;
+        SendAll();
+    }
+
+    void SendAll()
+    {
         for (const VDA5050::MqttMessage& message : std::exchange(outputs.messages, {}))
         {
             Publish(message);

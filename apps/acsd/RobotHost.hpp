@@ -25,7 +25,7 @@ class RobotHost final
     std::unique_ptr<Impl> _impl;
 
 public:
-    /// Called from within the host's calls and from its timers; must not call the host.
+    /// Called from within the host's calls and from its timers; may call Handle.
     using EventHandler = std::function<void(const std::string& robotID, const Planning::RobotEvent& event)>;
 
     /// What a host needs from the program; everything outlives it.
