@@ -31,7 +31,7 @@ namespace
 
 using namespace std::chrono_literals;
 
-/// How long the broker may be away before the MCS is told that no work can be taken (`comm.grace`).
+/// How long the broker or all robots may be away before the MCS is told that no work can be taken (`comm.grace`).
 constexpr std::chrono::milliseconds WORK_GRACE = 10s;
 constexpr std::chrono::milliseconds STOP_LIMIT = 5s;
 
@@ -89,6 +89,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     std::map<Planning::EngineTimer, std::uint64_t> _timerKeys;
     std::map<std::uint64_t, Planning::EngineTimer> _engineTimers;
     bool _bMqttUp = false;
+    bool _bWorks = false; ///< Whether work can be taken at this moment.
     bool _bStopping = false;
     std::size_t _stopsOpen = 0;
     StopHandler _stopHandler;
@@ -161,7 +162,10 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
                 [&](const Planning::ReplyCommand& reply) { _mcs.Reply(reply); },
                 [&](const Planning::SendReport& report) { _mcs.Report(report.entry); },
                 [&](const Planning::CommandRobot& command) { CommandRobot(command); },
-                [&](const Planning::RobotStatusChanged& changed) { _mcs.TellStatus(changed.status); },
+                [&](const Planning::RobotStatusChanged& changed) {
+                    _mcs.TellStatus(changed.status);
+                    TellWorking();
+                },
                 [&](const Planning::StartEngineTimer& start) { _timers.Start(GetTimerKey(start.timer), start.delay); },
                 [&](const Planning::CancelEngineTimer& cancel) {
                     _timers.Cancel(GetTimerKey(cancel.timer));
@@ -203,11 +207,41 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         }
     }
 
+    /// 5.3: no work can be taken while the broker is away, or all robots are; told after a grace.
+    void TellWorking()
+    {
+        if (_bStopping)
+        {
+            return;
+        }
+        const bool bWorks =
+            _bMqttUp && std::ranges::any_of(_engine.GetRobotStatuses(), [](const Planning::RobotStatus& robot) {
+                return robot.status != Planning::ERobotStatus::Disconnected;
+            });
+        if (bWorks == _bWorks)
+        {
+            return;
+        }
+        _bWorks = bWorks;
+        if (bWorks)
+        {
+            _timers.Cancel(GRACE_TIMER);
+            _mcs.TellWorking(true);
+        }
+        else
+        {
+            _timers.Start(GRACE_TIMER, WORK_GRACE);
+        }
+    }
+
     void OnLinkUp() override
     {
         _bMqttUp = true;
-        _timers.Cancel(GRACE_TIMER);
-        _mcs.TellWorking(true);
+        if (_bStopping)
+        {
+            return;
+        }
+        TellWorking();
         for (const auto& robot : _robots)
         {
             robot->OnLinkUp();
@@ -221,7 +255,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         {
             return;
         }
-        _timers.Start(GRACE_TIMER, WORK_GRACE);
+        TellWorking();
         for (const auto& robot : _robots)
         {
             robot->OnLinkDown();
