@@ -116,12 +116,13 @@ Protocol::RobotPositionUpdate MakePositionUpdate(const std::vector<Planning::Rob
     update.robots.reserve(poses.size());
     for (const Planning::RobotPose& pose : poses)
     {
-        const double degrees = std::fmod(pose.theta * (FULL_CIRCLE / 2) / std::numbers::pi, FULL_CIRCLE);
+        const double turned = std::fmod(pose.theta * (FULL_CIRCLE / 2) / std::numbers::pi, FULL_CIRCLE);
+        const double degrees = turned < 0 ? turned + FULL_CIRCLE : turned;
         update.robots.push_back(Protocol::RobotPosition{
             pose.robotID,
             pose.x,
             pose.y,
-            degrees < 0 ? degrees + FULL_CIRCLE : degrees,
+            degrees < FULL_CIRCLE ? degrees : 0.0, // a hair under 0 is rounded to the full circle
             std::round(pose.batteryPercent)});
     }
     return update;

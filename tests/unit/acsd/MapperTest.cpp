@@ -109,8 +109,11 @@ TEST_CASE("5.7 The outcome of each control command has its own report, with Fail
 TEST_CASE("5.10 Positions are metres, degrees from 0 to below 360, and a whole battery percentage")
 {
     const auto update = MakePositionUpdate(
-        {{"LR01", 1.5, 2.5, std::numbers::pi / 2, 75.4}, {"CR01", 0, 0, -std::numbers::pi / 2, 75.5}});
-    REQUIRE(update.robots.size() == 2);
+        {{"LR01", 1.5, 2.5, std::numbers::pi / 2, 75.4},
+         {"CR01", 0, 0, -std::numbers::pi / 2, 75.5},
+         {"CR02", 0, 0, -1e-17, 0}});
+    REQUIRE(update.robots.size() == 3);
+    CHECK(update.robots[2].angle == 0.0);
     CHECK(update.robots[0].x == 1.5);
     CHECK(update.robots[0].angle == Approx(90.0));
     CHECK(update.robots[0].battery == 75.0);
