@@ -13,9 +13,9 @@ namespace ACS::ProtocolBeast
 struct ServerOptions
 {
     std::string address = "127.0.0.1"; ///< An address, or a name that resolves to one.
-    std::uint16_t port = 0;          ///< 0: one that is free; GetPort tells.
-    std::string path = "/acs/";      ///< With or without the last slash; every other path gets 404.
-    std::size_t maximumClients = 16; ///< Connections at a time, those without an upgrade included.
+    std::uint16_t port = 0;            ///< 0: one that is free; GetPort tells.
+    std::string path = "/acs/";        ///< With or without the last slash; every other path gets 404.
+    std::size_t maximumClients = 16;   ///< Connections at a time, those without an upgrade included.
     LinkOptions link{};
     Protocol::McsSessionOptions session{};
 };
