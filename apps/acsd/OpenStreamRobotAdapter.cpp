@@ -49,7 +49,6 @@ constexpr std::chrono::milliseconds MOTOR_PERIOD = 200ms;
 constexpr std::chrono::milliseconds MOTOR_RETRY = 5s;
 /// The only value on which the manuals of all versions agree.
 constexpr std::int64_t MOTOR_IS_ON = 0;
-constexpr std::int64_t BYTES_PER_WORD = 4;
 
 constexpr std::string_view MOTOR_STATE_URL = "/project/robot/motor_on_state";
 constexpr std::string_view MOTOR_ON_URL = "/project/robot/motor_on";

@@ -140,7 +140,7 @@ struct RobotHost::Impl
         }
     }
 
-    void Send(const ArmRequest& request)
+    void Send(const ArmRequest& request) const
     {
         std::visit(
             Core::Overloaded{

@@ -15,7 +15,7 @@ namespace
 {
 
 template <typename TRule>
-const TRule* FindRule(const std::vector<TRule>& rules, std::string_view vehicleTypeID) noexcept
+const TRule* FindAmongOrNull(const std::vector<TRule>& rules, std::string_view vehicleTypeID) noexcept
 {
     const auto found = std::ranges::find(rules, vehicleTypeID, &TRule::vehicleTypeID);
     return found == rules.end() ? nullptr : &*found;
@@ -30,12 +30,12 @@ tl::unexpected<Core::Error> Refuse(std::string path, std::string expected, std::
 
 const SiteNodeRule* SiteNode::FindRuleOrNull(std::string_view vehicleTypeID) const noexcept
 {
-    return FindRule(rules, vehicleTypeID);
+    return FindAmongOrNull(rules, vehicleTypeID);
 }
 
 const SiteEdgeRule* SiteEdge::FindRuleOrNull(std::string_view vehicleTypeID) const noexcept
 {
-    return FindRule(rules, vehicleTypeID);
+    return FindAmongOrNull(rules, vehicleTypeID);
 }
 
 Core::Result<SiteMap> SiteMap::Create(
