@@ -112,8 +112,11 @@ class Interruption:
     def __init__(self):
         self._armed = False
         self._pending = False
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+        for number in numbers:
             signal.signal(number, self._handle)
+        # scripts/demo has them blocked while the interpreter starts, which answers a Ctrl-C with a traceback.
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, numbers)
 
     def _handle(self, *_):
         if self._armed:

@@ -42,7 +42,7 @@ class Demo(unittest.TestCase):
     def start(self, *arguments):
         environment = {**os.environ, "TMPDIR": self.folder, MARK: self.mark, "PYTHONDONTWRITEBYTECODE": "1"}
         return subprocess.Popen(
-            [sys.executable, REPOSITORY / "scripts" / "demo.py", "--bin", ScenarioCase.bin_dir, *arguments],
+            ["env", "--block-signal=INT,TERM,HUP", sys.executable, REPOSITORY / "scripts" / "demo.py", "--bin", ScenarioCase.bin_dir, *arguments],
             env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
     def assert_nothing_left(self):
