@@ -41,7 +41,7 @@ THIRD_PARTY = {
     "protocol_beast": ("fmt/", "tl/", "boost/", "openssl/"),
     "vda5050_mosquitto": ("fmt/", "tl/", "boost/asio", "boost/system/", "mosquitto.h", "openssl/", "unistd.h"),
     "openstream_asio": ("fmt/", "tl/", "boost/asio", "boost/system/"),
-    "plan_sqlite": ("fmt/", "tl/", "SQLiteCpp/", "sqlite3.h"),
+    "plan_sqlite": ("fmt/", "tl/", "SQLiteCpp/", "sqlite3.h", "fcntl.h", "sys/file.h", "unistd.h"),
 }
 PUBLIC_THIRD_PARTY = ("fmt/", "tl/", "boost/asio/any_io_executor.hpp")
 IMPURE_STANDARD = ("thread", "mutex", "shared_mutex", "condition_variable", "future", "semaphore", "latch", "barrier",

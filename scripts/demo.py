@@ -43,26 +43,60 @@ def terminal_environment():
     return {**os.environ, "COLUMNS": str(size.columns), "LINES": str(size.lines)}
 
 
-def forward(chunk):
-    sys.stdout.buffer.write(chunk)
-    sys.stdout.buffer.flush()
+def open_missing_streams():
+    """A stream that the caller has closed (`>&-`) is /dev/null, so that no file of ours takes its number."""
+    for number, name in enumerate(("stdin", "stdout", "stderr")):
+        if getattr(sys, name) is None:
+            stream = open(os.devnull, "w" if number else "r")
+            if stream.fileno() != number:
+                os.dup2(stream.fileno(), number)
+            setattr(sys, name, stream)
 
 
-def start_line(line, arguments):
+def is_live_terminal():
+    """One that can draw in place: no pipe, no file, and not a terminal that only prints."""
+    return sys.stdout.isatty() and os.environ.get("TERM", "dumb") != "dumb"
+
+
+class Output:
+    """What mcs-sim writes goes on to our own output; when nobody reads that any more, the play is over."""
+
+    def __init__(self):
+        self.error = None
+
+    def forward(self, chunk):
+        if self.error is not None:
+            return
+        try:
+            sys.stdout.buffer.write(chunk)
+            sys.stdout.buffer.flush()
+        except OSError as error:
+            self.error = error
+            # Else Python tries once more to write what is left, when it ends.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+    def check(self):
+        if self.error is not None:
+            raise LineError(f"the output cannot be written: {self.error.strerror}")
+
+
+def start_line(line, arguments, output):
     """The order is that of a plant: first what others connect to. Everybody retries, so it does not matter."""
     line.start_broker()
     vehicles = line.start_vehicles(arguments.time_scale)
     arm = line.start_arm(arguments.time_scale)
-    live = sys.stdout.isatty()
+    live = is_live_terminal()
     wait = arguments.keep and sys.stdin.isatty()
     mcs = line.start_mcs(
         PLANS, "--repeat", arguments.plans, "--fresh-ids", "--live", "always" if live else "never",
         *(["--keep"] if arguments.keep else []), *(["--wait-for-enter"] if wait else []),
-        environment=terminal_environment(), on_output=forward, stdin=subprocess.PIPE if wait else subprocess.DEVNULL)
+        environment=terminal_environment(), on_output=output.forward,
+        stdin=subprocess.PIPE if wait else subprocess.DEVNULL)
     mcs_address = mcs.wait_ready()["ws"]
     acsd = line.start_acsd(mcs_address, arm.wait_ready())
     acsd.wait_ready()
     vehicles.wait_ready()
+    output.check()
     if arguments.keep:
         print(f"broker      mqtt://127.0.0.1:{line.broker_port}\n"
               f"MCS         ws://{mcs_address}/acs/\n"
@@ -77,9 +111,10 @@ def start_line(line, arguments):
     return mcs
 
 
-def watch(line, mcs):
+def watch(line, mcs, output):
     """Until mcs-sim ends; a program that dies under it is a failure at once."""
     while mcs.is_running():
+        output.check()
         for program in line.programs:
             if program is not mcs and not program.is_running():
                 raise LineError(f"{program.name} ended with exit code {program.wait()} while plans were running",
@@ -88,7 +123,9 @@ def watch(line, mcs):
             mcs.process.wait(0.2)
         except subprocess.TimeoutExpired:
             pass
-    return mcs.wait()
+    code = mcs.wait()
+    output.check()
+    return code
 
 
 def save_logs(line, folder):
@@ -98,7 +135,10 @@ def save_logs(line, folder):
 
 
 def report(error):
-    sys.stdout.flush()
+    try:
+        sys.stdout.flush()
+    except OSError:
+        pass  # this may be what is reported
     print(f"demo: {error}", file=sys.stderr)
     if getattr(error, "program", None) is not None:
         print(f"--- the end of {error.program.name}'s log ---", file=sys.stderr)
@@ -135,14 +175,16 @@ class Interruption:
 
 
 def main():
+    open_missing_streams()
     arguments = parse_arguments()
     interruption = Interruption()
+    output = Output()
     mcs = None
     with Line(arguments.bin, REPOSITORY / "examples" / "site") as line:
         try:
             interruption.arm()
-            mcs = start_line(line, arguments)
-            code = watch(line, mcs)
+            mcs = start_line(line, arguments, output)
+            code = watch(line, mcs, output)
         except (KeyboardInterrupt, EOFError):
             # mcs-sim knows what came of the plans: its exit code is ours.
             code = mcs.stop() if mcs is not None else 1

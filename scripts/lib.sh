@@ -32,15 +32,20 @@ setup()
 }
 
 # configure PRESET: runs CMake where the folder has never been configured, or the presets or the list of folders have
-# changed since. Changes inside a CMakeLists.txt are the build's own business: Ninja reruns CMake by itself.
+# changed since. A clone that was moved or copied begins anew: its build folder would build the old place. Changes
+# inside a CMakeLists.txt are the build's own business: Ninja reruns CMake by itself.
 configure()
 {
-    local preset="$1" folder="$ACS_ROOT/build/$1" log state
-    state="$(cd "$ACS_ROOT" && { cat CMakePresets.json; find . -name build -prune -o -name CMakeLists.txt -print | sort; } | cksum)"
+    local preset="$1" folder="$ACS_ROOT/build/$1" log state home
+    state="$(cd "$ACS_ROOT" && { pwd -P; cat CMakePresets.json; find . -name build -prune -o -name CMakeLists.txt -print | sort; } | cksum)"
     if [ -f "$folder/build.ninja" ] && [ "$(cat "$folder/.configured" 2>/dev/null)" = "$state" ]; then
         return
     fi
     note "configure $preset"
+    home="$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$folder/CMakeCache.txt" 2>/dev/null || true)"
+    if [ -n "$home" ] && [ "$home" != "$ACS_ROOT" ]; then
+        rm -rf "$folder"
+    fi
     mkdir -p "$folder"
     log="$folder/configure.log"
     if ! (cd "$ACS_ROOT" && cmake --preset "$preset") >"$log" 2>&1 </dev/null; then

@@ -100,8 +100,9 @@ class Program:
             self.process.kill()
             code = self.process.wait()
         self._reader.join(timeout)
-        if not self._log_file.closed:
-            self._log_file.close()
+        if not self._reader.is_alive():
+            self.process.stdout.close()
+        self._log_file.close()
         return code
 
     def tail(self, lines=20):

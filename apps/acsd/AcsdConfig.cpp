@@ -1,5 +1,6 @@
 #include "AcsdConfig.hpp"
 
+#include "common/TextFile.hpp"
 #include <acs/core/Location.hpp>
 #include <acs/plan/LifReader.hpp>
 #include <acs/vda5050/Topic.hpp>
@@ -8,8 +9,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -110,15 +109,15 @@ void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig
     {
         return;
     }
-    std::ifstream file(config.siteFile);
-    std::ostringstream text;
-    text << file.rdbuf();
-    if (!file)
+    const tl::expected<std::string, std::string> text = Apps::ReadTextFile(config.siteFile);
+    if (!text.has_value())
     {
-        section.AddMistake("map", fmt::format("{} cannot be read; give the path of a LIF file", config.siteFile));
+        section.AddMistake(
+            "map",
+            fmt::format("{} cannot be read ({}); give the path of a LIF file", config.siteFile, text.error()));
         return;
     }
-    Core::Result<Planning::SiteMap> site = Planning::DecodeLif(text.str());
+    Core::Result<Planning::SiteMap> site = Planning::DecodeLif(*text);
     if (site)
     {
         config.site = std::move(*site);
@@ -129,6 +128,18 @@ void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig
             "map",
             fmt::format("{} is no LIF layout: {}", config.siteFile, Core::Describe(site.error())));
     }
+}
+
+void ReadStore(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
+{
+    const ConfigSection section = root.GetSection("store");
+    const bool bThere = section.HasKey("path");
+    const std::string path = section.GetString("path");
+    if (bThere && path.empty())
+    {
+        section.AddMistake("path", "is empty; give the path of a file, such as \"acsd.db\"");
+    }
+    config.storeFile = ResolvePath(fileName, path);
 }
 
 std::optional<ArmConfig> ReadArmOrNull(const ConfigSection& robot, bool bNeeded)
@@ -173,6 +184,15 @@ void ReadRobot(const ConfigSection& section, const std::string& name, AcsdConfig
     if (!VDA5050::IsValidAddress({config.mqtt.interfaceName, link.manufacturer, link.serialNumber}))
     {
         section.AddMistake("serial", "manufacturer and serial are levels of a topic: not empty, without / + #");
+    }
+    const auto twin = std::ranges::find_if(config.robots, [&link](const RobotLinkConfig& other) {
+        return other.manufacturer == link.manufacturer && other.serialNumber == link.serialNumber;
+    });
+    if (twin != config.robots.end() && !link.serialNumber.empty())
+    {
+        section.AddMistake(
+            "serial",
+            fmt::format("{} has the same manufacturer and serial: one vehicle cannot be two robots", twin->robotID));
     }
     config.engine.robots.push_back(std::move(options));
     config.robots.push_back(std::move(link));
@@ -249,7 +269,7 @@ AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::st
     const ConfigSection root = reader.GetRoot();
     ReadLinks(root, config);
     ReadSite(root, fileName, config);
-    config.storeFile = ResolvePath(fileName, root.GetSection("store").GetString("path"));
+    ReadStore(root, fileName, config);
     config.httpListen = root.GetSection("http").GetEndpoint("listen", config.httpListen);
     config.engine.maximumPlans = static_cast<std::size_t>(
         root.GetSection("queue")

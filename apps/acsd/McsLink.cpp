@@ -67,6 +67,7 @@ Core::Result<void> McsLink::Open(
         return tl::unexpected<Core::Error>(client.error());
     }
     _client = std::move(*client);
+    _url = Apps::MakeText(config.mcs.url);
     _client->SetSiteOffset(GetOffset());
     return {};
 }
@@ -141,6 +142,7 @@ void McsLink::OnSessionEvent(const Protocol::SessionEvent& event)
         Core::Overloaded{
             [&](const Protocol::Registered&) {
                 _logger.Info("registered with the MCS");
+                _bOutageLogged = false;
                 BeginReplay();
             },
             [&](const Protocol::RegistrationRefused& refused) {
@@ -158,7 +160,8 @@ void McsLink::OnSessionEvent(const Protocol::SessionEvent& event)
                 _client->SetSiteOffset(GetOffset());
                 _client->SendPosition(MakePositionUpdate(_engine.GetRobotPoses()));
             },
-            [&](const Protocol::LinkLost&) {
+            [&](const Protocol::LinkLost& lost) {
+                LogOutage(lost);
                 _unsent.clear();
                 _sequences.clear();
             },
@@ -171,6 +174,19 @@ void McsLink::OnSessionEvent(const Protocol::SessionEvent& event)
             [](const auto&) {
             }},
         event);
+}
+
+void McsLink::LogOutage(const Protocol::LinkLost& lost)
+{
+    // Once: every further try fails for the same reason.
+    if (_stopHandler || std::exchange(_bOutageLogged, true))
+    {
+        return;
+    }
+    _logger.Warning(
+        lost.bWasRegistered ? "lost the MCS, trying again until it answers"
+                            : "cannot reach the MCS: start it or correct mcs.url; trying again until it answers",
+        {{"url", _url}, {"reason", lost.reason}});
 }
 
 void McsLink::TakeRequest(const Protocol::AcsRequest& request)

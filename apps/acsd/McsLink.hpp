@@ -54,8 +54,11 @@ private:
     std::deque<Planning::OutboxEntry> _unsent; ///< Only while registered: what this connection has not been given yet.
     std::unordered_map<std::string, std::uint64_t> _sequences; ///< By transactionId, of what was given to the session.
     bool _bReplaying = false;
+    std::string _url;
+    bool _bOutageLogged = false; ///< Of the outage that goes on.
 
     void OnSessionEvent(const Protocol::SessionEvent& event) override;
+    void LogOutage(const Protocol::LinkLost& lost);
     void TakeRequest(const Protocol::AcsRequest& request);
     void AnswerQuery(const Protocol::AcsRequest& request);
     void AnswerHistory(const Protocol::AcsRequest& request, const Protocol::RequestAcsPlanHistory& query);

@@ -1,44 +1,14 @@
 #include "common/ConfigReader.hpp"
 
 #include "common/ConfigDocument.hpp"
+#include "common/TextFile.hpp"
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cerrno>
-#include <fstream>
-#include <system_error>
 #include <utility>
 
 namespace ACS::Apps
 {
-
-namespace
-{
-
-constexpr std::size_t CHUNK_BYTES = 4096;
-
-/// 0, or the system's error number.
-int ReadAll(const std::string& fileName, std::string& text)
-{
-    errno = 0;
-    std::ifstream file(fileName, std::ios::binary);
-    std::array<char, CHUNK_BYTES> chunk{};
-    while (file)
-    {
-        // A folder can be opened, not read.
-        file.read(chunk.data(), chunk.size());
-        text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
-    }
-    const bool bReadToEnd = file.is_open() && file.eof() && !file.bad();
-    if (bReadToEnd)
-    {
-        return 0;
-    }
-    return errno != 0 ? errno : EIO;
-}
-
-} // namespace
 
 ConfigReader::ConfigReader(std::shared_ptr<ConfigDocument> document)
     : _document(std::move(document))
@@ -47,16 +17,14 @@ ConfigReader::ConfigReader(std::shared_ptr<ConfigDocument> document)
 
 ConfigReader ConfigReader::ReadFile(const std::string& fileName, const std::vector<std::string>& overrides)
 {
-    std::string text;
-    const int systemError = ReadAll(fileName, text);
-    if (systemError != 0)
+    const tl::expected<std::string, std::string> text = ReadTextFile(fileName);
+    if (!text.has_value())
     {
-        const std::string reason = std::generic_category().message(systemError);
         return ConfigReader(ConfigDocument::MakeUnreadable(
             fileName,
-            fmt::format("cannot be read ({}); give the path of a configuration file", reason)));
+            fmt::format("cannot be read ({}); give the path of a configuration file", text.error())));
     }
-    return ReadText(text, fileName, overrides);
+    return ReadText(*text, fileName, overrides);
 }
 
 ConfigReader ConfigReader::ReadText(

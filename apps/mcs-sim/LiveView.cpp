@@ -40,6 +40,9 @@ constexpr std::size_t JOB_COLUMNS = 5;
 constexpr std::size_t PERCENT_COLUMNS = 6;
 constexpr std::size_t MIN_BAR_COLUMNS = 5;
 constexpr std::size_t MAX_BAR_COLUMNS = 40;
+/// A plan's line without its id and its bar.
+constexpr std::size_t PLAN_COLUMNS = 1 + ROBOT_COLUMNS + PLAN_STATUS_COLUMNS + STEP_COLUMNS + ACTION_COLUMNS
+    + JOB_COLUMNS + PERCENT_COLUMNS + FREE_COLUMNS;
 
 EStyle GetStyle(const TrackedPlan& plan)
 {
@@ -111,15 +114,15 @@ std::string MakeShare(std::size_t index, std::size_t count)
 }
 
 /// The end of a long planId tells plans apart.
-std::string ShortenID(const std::string& planID)
+std::string ShortenID(const std::string& planID, std::size_t columns)
 {
     const std::string clean = CleanText(planID);
     const std::size_t length = GetColumns(clean);
-    if (length < SHORT_ID_COLUMNS || length != clean.size())
+    if (length <= columns || length != clean.size())
     {
-        return CutText(clean, SHORT_ID_COLUMNS - 1);
+        return CutText(clean, columns);
     }
-    return "…" + clean.substr(clean.size() - (SHORT_ID_COLUMNS - 2));
+    return "…" + clean.substr(clean.size() - (columns - 1));
 }
 
 /// What a robot works on: plan, step and job.
@@ -137,7 +140,7 @@ Work DescribeWork(const PlanTracker& tracker, const Protocol::RobotStatusUpdate&
     {
         return work;
     }
-    work.plan = ShortenID(*status.planID);
+    work.plan = ShortenID(*status.planID, SHORT_ID_COLUMNS - 1);
     work.step = status.stepNo.has_value() ? fmt::format("{}", *status.stepNo) : "";
     const TrackedPlan* const planOrNull = tracker.FindPlanOrNull(*status.planID);
     if (planOrNull == nullptr || !status.stepNo.has_value())
@@ -312,7 +315,10 @@ void LiveView::AddPlans(const PlanTracker& tracker, std::size_t most, StyledLine
     {
         idColumns = std::max(idColumns, GetColumns(CleanText(plans[index].planned.plan.planID)) + 1);
     }
-    idColumns = std::min(idColumns, MAX_ID_COLUMNS);
+    // A narrow terminal takes them from the ids: how far a plan has come must stay to be seen.
+    const std::size_t others = PLAN_COLUMNS + MIN_BAR_COLUMNS;
+    const std::size_t room = _columns > others ? _columns - others : 0;
+    idColumns = std::min({idColumns, MAX_ID_COLUMNS, std::max(room, SHORT_ID_COLUMNS)});
     out.push_back(
         {{" " + FitText("plan", idColumns) + FitText("robot", ROBOT_COLUMNS) + FitText("status", PLAN_STATUS_COLUMNS)
               + FitText("step", STEP_COLUMNS) + FitText("action", ACTION_COLUMNS) + FitText("job", JOB_COLUMNS)
@@ -341,7 +347,7 @@ StyledLine LiveView::MakePlanLine(const TrackedPlan& plan, std::size_t idColumns
 {
     const EStyle style = GetStyle(plan);
     StyledLine line{
-        {" " + FitText(CleanText(plan.planned.plan.planID), idColumns - 1) + " ", EStyle::Plain},
+        {" " + FitText(ShortenID(plan.planned.plan.planID, idColumns - 1), idColumns - 1) + " ", EStyle::Plain},
         {FitText(CleanText(plan.robotID), ROBOT_COLUMNS - 1) + " ", EStyle::Bold},
         {FitText(DescribeStatus(plan), PLAN_STATUS_COLUMNS), style}};
     if (style == EStyle::Bad && !plan.reason.empty())
@@ -361,8 +367,7 @@ StyledLine LiveView::MakePlanLine(const TrackedPlan& plan, std::size_t idColumns
         {FitText(MakeShare(step, plan.steps.size()), STEP_COLUMNS) + FitText(action, ACTION_COLUMNS - 1) + " "
              + FitText(job, JOB_COLUMNS),
          EStyle::Plain});
-    const std::size_t used = 1 + idColumns + ROBOT_COLUMNS + PLAN_STATUS_COLUMNS + STEP_COLUMNS + ACTION_COLUMNS
-        + JOB_COLUMNS + PERCENT_COLUMNS + FREE_COLUMNS;
+    const std::size_t used = PLAN_COLUMNS + idColumns;
     const std::size_t room = _columns > used ? _columns - used : 0;
     const double progress = GetProgress(plan);
     line.push_back({MakeBar(progress, std::clamp(room, MIN_BAR_COLUMNS, MAX_BAR_COLUMNS)), style});

@@ -31,6 +31,8 @@ enum class ETimer : std::uint8_t
     Close,  ///< The ACS does not answer the closing handshake.
 };
 
+/// The summary is written once: a terminal may wrap a long reason, cut off it would be of no use.
+constexpr std::size_t MAX_SUMMARY_COLUMNS = 1000;
 constexpr std::chrono::milliseconds TICK{100};
 constexpr std::chrono::milliseconds LINGER{300};
 constexpr std::chrono::milliseconds CLOSE_LIMIT{1'500};
@@ -301,7 +303,7 @@ private:
         }
         for (const StyledLine& line : MakeSummary(_tracker, statistics, duration))
         {
-            _out << MakeText(line, _options.columns, _screenOrNull != nullptr) << '\n';
+            _out << MakeText(line, MAX_SUMMARY_COLUMNS, _screenOrNull != nullptr) << '\n';
         }
         _out << MakeLastLine(_tracker) << std::endl;
         _onDone(_tracker.IsSuccess() ? 0 : 1);

@@ -1,11 +1,8 @@
 #include "PlanFile.hpp"
 
+#include "common/TextFile.hpp"
 #include <acs/protocol/AcsCodec.hpp>
 
-#include <cerrno>
-#include <fstream>
-#include <sstream>
-#include <system_error>
 #include <utility>
 #include <variant>
 
@@ -69,20 +66,13 @@ Core::Result<PlannedPlan> ParsePlanFile(std::string_view text)
 
 tl::expected<PlannedPlan, std::string> ReadPlanFile(const std::string& path)
 {
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream content;
-    if (file.is_open())
+    const tl::expected<std::string, std::string> content = Apps::ReadTextFile(path);
+    if (!content.has_value() || content->empty())
     {
-        content << file.rdbuf();
-    }
-    if (!file.is_open() || file.bad() || content.fail())
-    {
-        // An empty file sets failbit too: it is then refused as no JSON would be.
-        const std::string reason = errno != 0 ? std::generic_category().message(errno) : "it is empty";
+        const std::string reason = content.has_value() ? "it is empty" : content.error();
         return tl::make_unexpected("the plan file " + path + " cannot be read: " + reason);
     }
-    Core::Result<PlannedPlan> planned = ParsePlanFile(content.str());
+    Core::Result<PlannedPlan> planned = ParsePlanFile(*content);
     if (!planned.has_value())
     {
         return tl::make_unexpected("the plan file " + path + " holds no ExecutionPlan: " + Describe(planned.error()));

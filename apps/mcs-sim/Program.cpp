@@ -21,6 +21,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <unistd.h>
 #include <utility>
 
@@ -62,9 +63,17 @@ tl::expected<std::vector<PlannedPlan>, std::string> LoadPlans(
     return plans;
 }
 
+/// Some terminals only print: an editor's, a log's.
+bool CanTerminalDraw()
+{
+    const char* const typeOrNull = std::getenv("TERM"); // NOLINT(concurrency-mt-unsafe): one thread
+    const std::string_view type = typeOrNull == nullptr ? "" : typeOrNull;
+    return ::isatty(STDOUT_FILENO) != 0 && !type.empty() && type != "dumb";
+}
+
 bool ShouldDraw(ELiveMode mode)
 {
-    return mode == ELiveMode::Always || (mode == ELiveMode::Auto && ::isatty(STDOUT_FILENO) != 0);
+    return mode == ELiveMode::Always || (mode == ELiveMode::Auto && CanTerminalDraw());
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "vda-sim/VdaSimOptions.hpp"
 
+#include "common/TextFile.hpp"
 #include <acs/plan/LifReader.hpp>
 #include <acs/vda5050/Topic.hpp>
 
@@ -7,10 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <system_error>
 
 namespace ACS::VdaSim
 {
@@ -112,18 +109,13 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
 
 tl::expected<Planning::SiteMap, std::string> LoadSite(const std::string& path)
 {
-    std::error_code missing;
-    if (!std::filesystem::exists(path, missing) || std::filesystem::is_directory(path, missing))
+    const tl::expected<std::string, std::string> text = Apps::ReadTextFile(path);
+    if (!text.has_value())
     {
-        return tl::make_unexpected(fmt::format("the site {} is no file", path));
+        return tl::make_unexpected(
+            fmt::format("the site {} cannot be read ({}); give the path of a LIF file", path, text.error()));
     }
-    std::ifstream file(path, std::ios::binary);
-    if (!file.is_open())
-    {
-        return tl::make_unexpected(fmt::format("the site {} cannot be read: check its permissions", path));
-    }
-    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    Core::Result<Planning::SiteMap> site = Planning::DecodeLif(text);
+    Core::Result<Planning::SiteMap> site = Planning::DecodeLif(*text);
     if (!site.has_value())
     {
         return tl::make_unexpected(

@@ -3,6 +3,7 @@
 
 import socket
 import subprocess
+import time
 import unittest
 
 from scenario_case import FINISH_SECONDS, PLANS, SITE, ScenarioCase, main, write_plan
@@ -80,6 +81,35 @@ class BadInput(ScenarioCase):
             self.assertEqual(len(lines), 1, result.stderr)
             self.assertRegex(lines[0], r"acsd\.toml:\d+: ")
 
+    def check_config(self, *overrides):
+        sets = [part for override in overrides for part in ("--set", override)]
+        return self.run_program("acsd", "--config", SITE / "acsd.toml", "--check-config", *sets)
+
+    def test_a_folder_and_an_endless_file_are_no_files(self):
+        broker = ["--broker", "mqtt://127.0.0.1:1", "--vehicle", "LR01"]
+        for path, reason in ((self.line.folder, "Is a directory"), ("/dev/zero", "longer than")):
+            with self.subTest(path):
+                self.assert_refused(self.check_config(f"site.map={path}"), 2, "site.map", str(path), reason)
+                self.assert_refused(self.run_program("acsd", "--config", path), 2, str(path), reason)
+                self.assert_refused(self.run_program("vda-sim", "--site", path, *broker), 2, str(path), reason)
+                self.assert_refused(self.run_program("mcs-sim", "--plan", path), 2, str(path), reason)
+
+    def test_one_vehicle_cannot_be_two_robots(self):
+        self.assert_refused(self.check_config("robots.CR01.serial=LR01"), 2, "robots.", "serial", "LR01")
+        self.assert_refused(self.check_config("store.path="), 2, "store.path", "empty")
+
+    def test_a_store_is_one_acsd_s_at_a_time(self):
+        arguments = ["--config", SITE / "acsd.toml", "--set", "mcs.url=ws://127.0.0.1:1/acs/", "--set",
+                     "mqtt.url=mqtt://127.0.0.1:1", "--set", "http.listen=127.0.0.1:0", "--set",
+                     f"store.path={self.line.folder / 'acsd.db'}"]
+        first = self.line.start("acsd", *arguments)
+        first.wait_ready()
+        self.assert_refused(self.run_program("acsd", *arguments), 1, "acsd.db", "another program")
+        self.line.forget(first)
+        self.assertEqual(first.stop(), 0)
+        second = self.line.start("acsd", *arguments)
+        self.assertIn("http", second.wait_ready())
+
     def test_the_example_configuration_is_good(self):
         result = self.run_program("acsd", "--config", SITE / "acsd.toml", "--check-config")
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -87,10 +117,22 @@ class BadInput(ScenarioCase):
     def test_acsd_is_ready_without_broker_and_mcs_and_ends_cleanly(self):
         acsd = self.line.start("acsd", "--config", SITE / "acsd.toml", "--set", "mcs.url=ws://127.0.0.1:1/acs/",
                                "--set", "mqtt.url=mqtt://127.0.0.1:1", "--set", "http.listen=127.0.0.1:0",
+                               "--set", "robots.CR01.arm.url=tcp://127.0.0.1:1",
                                "--set", f"store.path={self.line.folder / 'acsd.db'}")
         self.assertIn("http", acsd.wait_ready())
+        missing = ("cannot reach the MCS", "cannot reach the MQTT broker", "no Open Stream session")
+        self.wait_for_log(acsd, *missing)
         self.line.forget(acsd)
         self.assertEqual(acsd.stop(), 0)
+        warnings = [line for line in acsd.tail(1000) if " warning " in line]
+        self.assertEqual(len(warnings), len(missing), "an outage is told once, not at every try")
+
+    def wait_for_log(self, program, *sentences):
+        deadline = time.monotonic() + FINISH_SECONDS
+        while not all(sentence in program.log.read_text() for sentence in sentences):
+            self.assertLess(time.monotonic(), deadline, program.log.read_text())
+            with self.assertRaises(subprocess.TimeoutExpired, msg="it ended"):
+                program.process.wait(0.05)
 
     def test_a_plan_for_a_location_that_the_site_lacks_is_refused_with_a_reason(self):
         def change(plan):

@@ -3,6 +3,7 @@
 
 import os
 import pathlib
+import pty
 import random
 import signal
 import subprocess
@@ -55,6 +56,48 @@ class Demo(unittest.TestCase):
         self.assertEqual(demo.returncode, 0, output)
         self.assertEqual(output.splitlines()[-1], "2 plans completed, 0 failed")
         self.assert_nothing_left()
+
+    def run_in_shell(self, redirections):
+        """The demo behind redirections that only a shell can make."""
+        return subprocess.run(
+            ["bash", "-c", f'exec python3 "$1" --bin "$2" --time-scale 20 {redirections}', "bash",
+             REPOSITORY / "scripts" / "demo.py", ScenarioCase.bin_dir],
+            env={**os.environ, "TMPDIR": self.folder, MARK: self.mark, "PYTHONDONTWRITEBYTECODE": "1"},
+            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+            timeout=FINISH_SECONDS, check=False)
+
+    def test_an_output_that_nobody_reads_ends_the_demo_with_one_sentence(self):
+        for redirections in (">/dev/full", "> >(head -n 1 >/dev/null)"):
+            with self.subTest(redirections):
+                demo = self.run_in_shell(redirections)
+                self.assertEqual(demo.returncode, 1, demo.stderr)
+                self.assertEqual(len(demo.stderr.splitlines()), 1, demo.stderr)
+                self.assertIn("demo: the output cannot be written", demo.stderr)
+                self.assert_nothing_left()
+
+    def test_closed_streams_are_no_failure(self):
+        demo = self.run_in_shell("<&- >&-")
+        self.assertEqual((demo.returncode, demo.stderr), (0, ""))
+        self.assert_nothing_left()
+
+    def test_a_terminal_that_only_prints_gets_plain_lines(self):
+        master, slave = pty.openpty()
+        with subprocess.Popen(
+                [sys.executable, REPOSITORY / "scripts" / "demo.py", "--bin", ScenarioCase.bin_dir, "--time-scale", "20"],
+                env={**os.environ, "TMPDIR": self.folder, MARK: self.mark, "PYTHONDONTWRITEBYTECODE": "1",
+                     "TERM": "dumb"},
+                stdin=slave, stdout=slave, stderr=slave) as demo:
+            os.close(slave)
+            output = b""
+            try:
+                while chunk := os.read(master, 65536):
+                    output += chunk
+            except OSError:
+                pass  # the end of a pseudo terminal
+            os.close(master)
+            self.assertEqual(demo.wait(FINISH_SECONDS), 0)
+        self.assertNotIn(b"\x1b", output)
+        self.assertIn(b"JobReport", output)
 
     def test_an_interruption_at_any_moment_leaves_nothing(self):
         seed = int.from_bytes(os.urandom(4), "big")

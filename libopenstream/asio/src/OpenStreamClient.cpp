@@ -41,6 +41,8 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
     std::uint64_t _connection = 0; ///< Handlers of an earlier connection do nothing.
     bool _bExecuting = false;
     bool _bDown = false;
+    bool _bWasReady = false;   ///< Since the last loss.
+    bool _bLossLogged = false; ///< Of the outage that goes on.
 
     /// Calls a method as long as the client lives and the connection is the one that it was made for. No lambda: the
     /// handlers of one operation start the next one, which is no recursion.
@@ -102,11 +104,26 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
     {
         if (const auto* lost = std::get_if<OpenStream::ClientLost>(&event))
         {
-            _logger.Warning(
-                "the Open Stream session was lost",
-                {{"host", _options.host}, {"port", std::to_string(_options.port)}, {"reason", lost->detail}});
+            LogLoss(lost->detail);
+        }
+        else if (std::holds_alternative<OpenStream::ClientReady>(event))
+        {
+            _bWasReady = true;
+            _bLossLogged = false;
         }
         _handler(event, _clock.GetNow());
+    }
+
+    /// Once per outage: the further tries fail for the same reason.
+    void LogLoss(const std::string& reason)
+    {
+        const std::string_view sentence = std::exchange(_bWasReady, false)
+            ? "lost the Open Stream session, trying again until the server answers"
+            : "no Open Stream session: start the server or correct its address; trying again until it answers";
+        _logger.Write(
+            std::exchange(_bLossLogged, true) ? Core::ELogLevel::Debug : Core::ELogLevel::Warning,
+            sentence,
+            {{"host", _options.host}, {"port", std::to_string(_options.port)}, {"reason", reason}});
     }
 
     void Do(const OpenStream::ClientConnect& /*action*/)

@@ -1,4 +1,5 @@
 #include "SchemaMigrations.hpp"
+#include "StoreLock.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/plan/EPlanningError.hpp>
 #include <acs/plan/StoreCodec.hpp>
@@ -60,6 +61,7 @@ int GetPragma(SQLite::Database& database, const char* pragma)
 class SqlitePlanStore::Impl
 {
     std::string _path;
+    StoreLock _lock; ///< Outlives the database.
     SQLite::Database _database;
     // Prepared once; made after the migration, hence by pointer.
     std::unique_ptr<SQLite::Statement> _addPlan;
@@ -81,6 +83,17 @@ public:
     [[nodiscard]] const std::string& GetPath() const noexcept
     {
         return _path;
+    }
+
+    [[nodiscard]] Core::Result<void> Lock()
+    {
+        Core::Result<StoreLock> lock = StoreLock::Acquire(_path);
+        if (!lock.has_value())
+        {
+            return tl::unexpected(std::move(lock.error()));
+        }
+        _lock = std::move(*lock);
+        return {};
     }
 
     /// Before anything is written: is this a file of ours, undamaged, and not from the future?
@@ -342,6 +355,10 @@ Core::Result<std::unique_ptr<SqlitePlanStore>> SqlitePlanStore::Open(const std::
         if (Core::Result<void> checked = impl->Check(); !checked.has_value())
         {
             return tl::unexpected(std::move(checked.error()));
+        }
+        if (Core::Result<void> locked = impl->Lock(); !locked.has_value())
+        {
+            return tl::unexpected(std::move(locked.error()));
         }
         impl->Prepare();
         return std::unique_ptr<SqlitePlanStore>(new SqlitePlanStore(std::move(impl)));

@@ -195,6 +195,21 @@ TEST_CASE("Store: damage, another program's file and a newer version are told ap
     }
 }
 
+TEST_CASE("Store: a file is one program's at a time, and free again when that one has closed it")
+{
+    const TemporaryFolder folder;
+    {
+        const std::unique_ptr<SqlitePlanStore> first = OpenStore(folder.GetFile());
+        const Core::Result<std::unique_ptr<SqlitePlanStore>> second = SqlitePlanStore::Open(folder.GetFile());
+        REQUIRE_FALSE(second.has_value());
+        CHECK(second.error().code == EPlanningError::StoreFailed);
+        CHECK(second.error().path == folder.GetFile());
+        CHECK(Core::Describe(second.error()).find("another program") != std::string::npos);
+        CHECK(first->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
+    }
+    CHECK(OpenStore(folder.GetFile())->Load()->plans.size() == 1);
+}
+
 TEST_CASE("Store: a folder that is not there is a failure that names the file")
 {
     const Core::Result<std::unique_ptr<SqlitePlanStore>> store = SqlitePlanStore::Open("/nonexistent/acsd.db");

@@ -133,6 +133,14 @@ TEST_CASE("The live view has a line per robot and a line per plan")
     CHECK(Join(lines, 99) == expected);
 }
 
+TEST_CASE("On a narrow terminal plans lose the front of their ids, not how far they have come")
+{
+    const Scene scene;
+    const std::string text = Join(LiveView(80, 24).Render(scene.tracker, scene.board, MakeHeading()), 79);
+    CHECK(text.find(" …-20261121-0001-3fa2 LR01  InProgress 2/2") != std::string::npos);
+    CHECK(text.find("███░░  60 %\n") != std::string::npos);
+}
+
 TEST_CASE("No line of the live view is wider than the terminal, whatever stands in it")
 {
     Scene scene;

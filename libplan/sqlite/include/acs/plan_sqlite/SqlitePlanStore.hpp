@@ -10,7 +10,8 @@ namespace ACS::Planning
 {
 
 /// Plans in one SQLite file, with a write-ahead log and full synchronisation: what Append returned for is on disk. The
-/// schema is brought up to date on opening. One store per file, one thread.
+/// schema is brought up to date on opening. One store per file, which a lock on a file beside it (".lock") sees to; one
+/// thread.
 class SqlitePlanStore final : public IPlanStore
 {
     class Impl;
