@@ -5,13 +5,17 @@ includes, its compile command and the rules."""
 
 import argparse
 import hashlib
+import itertools
 import json
 import os
 import re
+import shlex
+import shutil
 import subprocess
 import sys
+import tempfile
 import time
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 
 from source_tree import CPP_SUFFIXES, IncludeResolver, list_files, list_includes, read_text
 
@@ -22,6 +26,12 @@ ELSEWHERE = ("tests/fuzz/", "tests/install/", "tests/style/bad/", "tests/unit/co
 # Shared by all clones of a machine, as the compiler's cache is: what passed in one need not be looked at in another.
 CACHE = os.path.join(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"), "acs-lint")
 QUERIES = os.path.join("scripts", "house-rules.clang-query")
+MAX_BUNDLE = 12
+WITHOUT_ANALYZER = "-clang-analyzer-*"
+# The static analyzer looks at one source at a time, which is most of the work: only where others link what we write.
+ONLY_ANALYZER = "-*,clang-analyzer-*,-clang-analyzer-optin.cplusplus.VirtualCall"
+ANALYZED = ("lib",)
+ANALYZED_DEEP = ("lib", "apps/", "examples/")
 BROKEN_QUERY = re.compile(r"Error (?:parsing|building)|Matcher not found|Invalid token|unknown command", re.IGNORECASE)
 
 
@@ -60,18 +70,128 @@ def run(*command):
     return done.returncode, done.stdout
 
 
-def lint(path):
-    """What is wrong with one source; empty where nothing is."""
-    source = os.path.join(ROOT, path)
-    code, output = run("clang-tidy-14", "--quiet", "--warnings-as-errors=*", "-p", BUILD, source)
-    complaint = output if code != 0 else ""
-    _, output = run("clang-query-14", "-p", BUILD, "-f", QUERIES, source)
+class Source:
+    def __init__(self, path, command, stamp):
+        self.path = path
+        self.full_path = os.path.join(ROOT, path)
+        self.stamp = stamp
+        self.complaint = ""
+        words = shlex.split(command)[1:]
+        out = words.index("-o")
+        del words[out:out + 2]
+        #: All that the compiler is told but the names of the files.
+        self.arguments = [word for word in words if word != "-c" and os.path.join(ROOT, word) != self.full_path]
+        #: What must be equal for two sources to be looked at together: the arguments and the rules.
+        self.kind = (*self.arguments, *(folder for folder in self.get_folders()
+                                        if os.path.exists(os.path.join(ROOT, folder, ".clang-tidy"))))
+
+    def get_folders(self):
+        folder = os.path.dirname(self.path)
+        while folder:
+            yield folder
+            folder = os.path.dirname(folder)
+
+
+class Bundle:
+    """One file that includes several sources of one kind: most of the time goes into the headers that they share."""
+
+    def __init__(self, folder, number, sources):
+        self._sources = sources
+        # A place of the same depth: clang-tidy looks for rules in the folders above.
+        place = os.path.join(folder, os.path.dirname(sources[0].path))
+        os.makedirs(place, exist_ok=True)
+        for level in sources[0].get_folders():
+            rules = os.path.join(ROOT, level, ".clang-tidy")
+            if os.path.exists(rules):
+                shutil.copy(rules, os.path.join(folder, level))
+        self._path = os.path.join(place, f"bundle{number}.cpp")
+        with open(self._path, "w", encoding="utf-8") as file:
+            file.writelines(f'#include "{source.full_path}" // NOLINT\n' for source in sources)
+
+    def find_misfits(self):
+        """Sources that do not compile behind the others, as when two have a helper of one name."""
+        _, output = run("clang++-14", "-fsyntax-only", "-w", "-ferror-limit=0", *self._sources[0].arguments, self._path)
+        broken = set(re.findall(r"^(\S+?):\d+:\d+: (?:fatal )?error: ", output, re.MULTILINE))
+        return [source for source in self._sources if source.full_path in broken]
+
+    def is_clean(self):
+        code, _ = run("clang-tidy-14", "--quiet", "--warnings-as-errors=*", "--checks=" + WITHOUT_ANALYZER,
+                      f"--header-filter=^{re.escape(ROOT)}/(lib|apps/|examples/|tests/)", self._path, "--",
+                      *self._sources[0].arguments)
+        return code == 0 and not query(self._path, "--", *self._sources[0].arguments)
+
+
+def query(*arguments):
+    """What breaks a house rule."""
+    complaint = ""
+    _, output = run("clang-query-14", "-f", QUERIES, *arguments)
     places = re.findall(r"^(\S+:\d+:\d+): note: \"root\" binds here\n(.*)$", output, re.MULTILINE)
     if BROKEN_QUERY.search(output) or ": error: " in output or output.count(" matches.") + output.count(" match.") == 0:
         complaint += output
     for place, line in dict.fromkeys(places):
         complaint += f"{place}: breaks a rule of {QUERIES}: {line.strip()}\n"
     return complaint
+
+
+def tidy(path, checks):
+    code, output = run("clang-tidy-14", "--quiet", "--warnings-as-errors=*", "-p", BUILD, "--checks=" + checks, path)
+    return output if code != 0 else ""
+
+
+class Linter:
+    """Looks at bundles of sources; where one is not clean, at its halves, so that a complaint is always one about a
+    source that was looked at alone."""
+
+    def __init__(self, pool, folder, analyzed, progress):
+        self._pool = pool
+        self._analyzed = analyzed
+        self._folder = folder
+        self._progress = progress
+        self._numbers = itertools.count()
+        self._jobs = set()
+
+    def _submit(self, function, *arguments):
+        self._jobs.add(self._pool.submit(function, *arguments))
+
+    def run(self, sources):
+        kinds = {}
+        for source in sources:
+            kinds.setdefault(source.kind, []).append(source)
+        for members in kinds.values():
+            count = -(-len(members) // MAX_BUNDLE)
+            for part in range(count):
+                self._submit(self._look_at, members[part::count], False)
+        for source in sources:
+            if source.path.startswith(self._analyzed):
+                self._submit(self._analyze, source)
+        while self._jobs:
+            done, self._jobs = wait(self._jobs, return_when=FIRST_COMPLETED)
+            for job in done:
+                for function, *arguments in job.result():
+                    self._submit(function, *arguments)
+
+    def _look_at(self, sources, compiles):
+        """Further calls to make."""
+        if len(sources) == 1:
+            source = sources[0]
+            source.complaint += tidy(source.full_path, WITHOUT_ANALYZER) + query("-p", BUILD, source.full_path)
+            self._progress("style", sources)
+            return []
+        bundle = Bundle(self._folder, next(self._numbers), sources)
+        misfits = [] if compiles else bundle.find_misfits()
+        if misfits:
+            others = [source for source in sources if source not in misfits] or [misfits.pop(0)]
+            return [(self._look_at, part, False) for part in (others, misfits) if part]
+        if not bundle.is_clean():
+            half = len(sources) // 2
+            return [(self._look_at, sources[:half], True), (self._look_at, sources[half:], True)]
+        self._progress("style", sources)
+        return []
+
+    def _analyze(self, source):
+        source.complaint += tidy(source.full_path, ONLY_ANALYZER)
+        self._progress("analysis", [source])
+        return []
 
 
 def select(arguments):
@@ -93,39 +213,44 @@ def select(arguments):
     fingerprints = Fingerprints()
     chosen = []
     for path, command in sorted(commands.items()):
-        stamp = os.path.join(CACHE, fingerprints.make(path, command))
-        if arguments.all or not os.path.exists(stamp):
-            chosen.append((path, stamp))
+        source = Source(path, command, os.path.join(CACHE, fingerprints.make(path, command)))
+        if arguments.all or arguments.deep or not os.path.exists(source.stamp):
+            chosen.append(source)
     return chosen, len(commands), bool(unknown)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--all", action="store_true")
+    parser.add_argument("--deep", action="store_true", help="the static analyzer also over programs and examples")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("files", nargs="*")
     arguments = parser.parse_args()
     os.makedirs(CACHE, exist_ok=True)
-    chosen, total, bOrphans = select(arguments)
+    chosen, total, orphans = select(arguments)
     print(f"{len(chosen)} of {total} sources to look at", flush=True)
-    failed = []
     begin = time.monotonic()
-    with ThreadPoolExecutor(max_workers=arguments.jobs) as pool:
-        jobs = {pool.submit(lint, path): (path, stamp) for path, stamp in chosen}
-        for number, job in enumerate(as_completed(jobs), 1):
-            path, stamp = jobs[job]
-            complaint = job.result()
-            verdict = "FAILED" if complaint else "ok"
-            print(f"[{number}/{len(chosen)} {time.monotonic() - begin:.0f}s] {verdict} {path}", flush=True)
-            if complaint:
-                print(complaint, flush=True)
-                failed.append(path)
-            else:
-                with open(stamp, "w", encoding="utf-8") as file:
-                    file.write(path + "\n")
+    analyzed = ANALYZED_DEEP if arguments.deep else ANALYZED
+    steps = sum(2 if source.path.startswith(analyzed) else 1 for source in chosen)
+    made = itertools.count(1)
+
+    def progress(what, sources):
+        for source in sources:
+            print(f"[{next(made)}/{steps} {time.monotonic() - begin:.0f}s] {what} {source.path}", flush=True)
+
+    with tempfile.TemporaryDirectory(prefix="lint-", dir=BUILD) as folder:
+        with ThreadPoolExecutor(max_workers=arguments.jobs) as pool:
+            Linter(pool, folder, analyzed, progress).run(chosen)
+    failed = [source for source in chosen if source.complaint]
+    for source in chosen:
+        if not source.complaint:
+            with open(source.stamp, "w", encoding="utf-8") as file:
+                file.write(source.path + "\n")
+    for source in failed:
+        print(f"FAILED {source.path}\n{source.complaint}")
     if failed:
-        print("failed: " + " ".join(sorted(failed)))
-    return 1 if failed or bOrphans else 0
+        print("failed: " + " ".join(source.path for source in failed))
+    return 1 if failed or orphans else 0
 
 
 if __name__ == "__main__":

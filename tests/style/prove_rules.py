@@ -9,6 +9,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 from concurrent.futures import ThreadPoolExecutor
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -24,9 +25,9 @@ def run(*command):
     return done.returncode, done.stdout, done.stdout + done.stderr
 
 
-def tidy(path):
+def tidy(path, *options):
     # The root's rules: those for tests are looser.
-    return run("clang-tidy-14", "--quiet", "--config-file=" + RULES, path, "--", "-std=c++20")[1]
+    return run("clang-tidy-14", "--quiet", "--config-file=" + RULES, *options, path, "--", "-std=c++20")[1]
 
 
 def query(path):
@@ -60,9 +61,18 @@ def check_format(path, expect_clean):
         yield f"{path}: clang-format {'refuses the good' if expect_clean else 'accepts the bad'} sample\n{output}"
 
 
-def check_bad_tidy(path):
+def tidy_in_bundle(path):
+    """As scripts/lint looks at it: included by a file of its making."""
+    with tempfile.TemporaryDirectory() as folder:
+        bundle = os.path.join(folder, "bundle.cpp")
+        with open(bundle, "w", encoding="utf-8") as file:
+            file.write(f'#include "{path}" // NOLINT\n')
+        return tidy(bundle, "--header-filter=" + re.escape(path))
+
+
+def check_bad_tidy(path, output):
     reported = {}
-    for line, check in re.findall(re.escape(path) + r":(\d+):\d+: (?:warning|error): .*\[([^\]]+)\]", tidy(path)):
+    for line, check in re.findall(re.escape(path) + r":(\d+):\d+: (?:warning|error): .*\[([^\]]+)\]", output):
         reported.setdefault(int(line), "")
         reported[int(line)] += check + ","
     count = 0
@@ -121,7 +131,9 @@ def main():
         jobs = [pool.submit(lambda path: list(check_good(path, arguments.compiler, flags)), path) for path in good]
         jobs += [pool.submit(lambda path: list(check_format(path, True)), path) for path in good + headers]
         jobs.append(pool.submit(lambda: list(check_format(os.path.join(bad, "Unformatted.cpp"), False))))
-        jobs.append(pool.submit(lambda: list(check_bad_tidy(os.path.join(bad, "Bad.cpp")))))
+        for look in (tidy, tidy_in_bundle):
+            path = os.path.join(bad, "Bad.cpp")
+            jobs.append(pool.submit(lambda look=look, path=path: list(check_bad_tidy(path, look(path)))))
         jobs.append(pool.submit(lambda: list(check_bad_warnings(os.path.join(bad, "BadWarnings.cpp"), arguments.compiler,
                                                                 flags))))
         jobs.append(pool.submit(lambda: list(check_bad_query(os.path.join(bad, "BadHouse.cpp")))))

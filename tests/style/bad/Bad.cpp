@@ -69,7 +69,7 @@ const int retryCount = 3; // EXPECT readability-identifier-naming
 int globalCount = 0; // EXPECT cppcoreguidelines-avoid-non-const-global-variables
 const std::string GREETING = std::string(100, 'x'); // EXPECT cert-err58-cpp
 
-#define TWICE(x) ((x) * 2) // EXPECT readability-identifier-naming
+#define TWICE(x) ((x) * 2) // EXPECT cppcoreguidelines-macro-usage
 #define THREE 3 // EXPECT cppcoreguidelines-macro-usage
 
 int count_all(int Start) // EXPECT readability-identifier-naming
