@@ -169,7 +169,7 @@ public:
         ++_output.statistics.connects;
         _state = EState::Registering;
         _registrationID = Core::MakeUuid(_random);
-        _codec.EncodeRequest({_registrationID, Detail::MakeTimestamp(now, _siteOffset), Registration{}}, _scratch);
+        AcsCodec::EncodeRequest({_registrationID, Detail::MakeTimestamp(now, _siteOffset), Registration{}}, _scratch);
         ++_output.statistics.Of(EAcsCommand::Registration).sent;
         out.emplace_back(SendText{0, _scratch, false});
         _output.Start(ESessionTimer::Registration, _options.ackTimeout, out);
@@ -311,7 +311,9 @@ public:
         {
             return;
         }
-        _codec.EncodeRequest({Core::MakeUuid(_random), Detail::MakeTimestamp(now, _siteOffset), positions}, _scratch);
+        AcsCodec::EncodeRequest(
+            {Core::MakeUuid(_random), Detail::MakeTimestamp(now, _siteOffset), positions},
+            _scratch);
         ++_output.statistics.Of(EAcsCommand::RobotPositionUpdate).sent;
         out.emplace_back(SendText{0, _scratch, true});
     }
@@ -326,7 +328,7 @@ public:
         AcsAck ack = answer;
         ack.timestamp = Detail::MakeTimestamp(now, _siteOffset);
         ack.bLegacyName = entryOrNull != nullptr && entryOrNull->bLegacyName;
-        _codec.EncodeAck(ack, _scratch);
+        AcsCodec::EncodeAck(ack, _scratch);
         if (entryOrNull != nullptr)
         {
             entryOrNull->text = _scratch;
@@ -406,7 +408,7 @@ private:
         entry.deadline = now.steady + _options.ackTimeout;
         entry.bDurable = bDurable;
         entry.statusKey = std::move(statusKey);
-        _codec.EncodeRequest(request, entry.text);
+        AcsCodec::EncodeRequest(request, entry.text);
         ++_output.statistics.Of(entry.command).sent;
         out.emplace_back(SendText{0, entry.text, false});
     }
@@ -546,11 +548,16 @@ private:
             AcsAck ack{*failure.command, failure.transactionID, timestamp, EAckResult::Fail, {}, {}, bLegacyName};
             ack.message = Detail::MakeRefusal(failure);
             ack.payload = Detail::MakeRefusalPayload(failure);
-            _codec.EncodeAck(ack, _scratch);
+            AcsCodec::EncodeAck(ack, _scratch);
         }
         else
         {
-            _codec.EncodeRefusal(failure.commandName, failure.transactionID, timestamp, Detail::UNSUPPORTED, _scratch);
+            AcsCodec::EncodeRefusal(
+                failure.commandName,
+                failure.transactionID,
+                timestamp,
+                Detail::UNSUPPORTED,
+                _scratch);
         }
         out.emplace_back(SendText{0, _scratch, false});
     }
@@ -592,7 +599,7 @@ private:
         if (HasAck(command))
         {
             CountAnswer(command, EAckResult::Fail);
-            _codec.EncodeRefusal(
+            AcsCodec::EncodeRefusal(
                 GetText(command),
                 request.transactionID,
                 Detail::MakeTimestamp(now, _siteOffset),

@@ -126,7 +126,7 @@ public:
             return false;
         }
         const EAcsCommand command = GetCommand(request);
-        _codec.EncodeRequest(request, _scratch);
+        AcsCodec::EncodeRequest(request, _scratch);
         ++_output.statistics.Of(command).sent;
         out.emplace_back(SendText{*_registered, _scratch, false});
         _pending.push_back({command, request.transactionID, now.steady + _options.ackTimeout});
@@ -200,7 +200,7 @@ private:
         ++counters.acknowledged;
         counters.refused += result == EAckResult::Fail ? 1U : 0U;
         const Core::Timestamp timestamp = Detail::MakeTimestamp(now, _siteOffset);
-        _codec.EncodeAck(
+        AcsCodec::EncodeAck(
             {command, request.transactionID, timestamp, result, std::string(message), EmptyAck{}, false},
             _scratch);
         out.emplace_back(SendText{connection, _scratch, false});
@@ -227,7 +227,7 @@ private:
             ++counters.acknowledged;
             ++counters.refused;
         }
-        _codec.EncodeRefusal(
+        AcsCodec::EncodeRefusal(
             failure.commandName,
             failure.transactionID,
             Detail::MakeTimestamp(now, _siteOffset),

@@ -1,7 +1,7 @@
 #include <acs/plan/Router.hpp>
 
 #include <boost/graph/adjacency_list.hpp>
-#include <boost/graph/dijkstra_shortest_paths.hpp>
+#include <boost/graph/dijkstra_shortest_paths_no_color_map.hpp>
 #include <boost/graph/filtered_graph.hpp>
 
 #include <algorithm>
@@ -142,12 +142,10 @@ public:
         const boost::filtered_graph<Graph, boost::keep_all, NodePredicate> free(graph, boost::keep_all(), predicate);
         std::vector<std::size_t> predecessors(allowed.size());
         std::vector<double> seconds(allowed.size());
-        std::vector<boost::default_color_type> colors(allowed.size());
-        boost::dijkstra_shortest_paths(
+        boost::dijkstra_shortest_paths_no_color_map(
             free,
             *from,
             boost::weight_map(boost::get(&Lane::seconds, graph))
-                .color_map(boost::make_iterator_property_map(colors.begin(), boost::get(boost::vertex_index, graph)))
                 .predecessor_map(
                     boost::make_iterator_property_map(predecessors.begin(), boost::get(boost::vertex_index, graph)))
                 .distance_map(

@@ -30,7 +30,7 @@ void EncodeMonitorData(benchmark::State& state)
     const ApiResponse response = MakeJointStates();
     std::string line;
     std::int64_t ts = 0;
-    for (auto _ : state)
+    for (auto iteration : state)
     {
         line.clear();
         ts += 2;
@@ -47,7 +47,7 @@ void FrameAndDecodeMonitorData(benchmark::State& state)
     OpenStreamCodec::EncodeData(2, 0.012345, MakeJointStates(), std::nullopt, bytes);
     OpenStreamCodec codec;
     LineFramer framer(ACS::OpenStream::LONGEST_LINE);
-    for (auto _ : state)
+    for (auto iteration : state)
     {
         framer.Feed(bytes);
         while (const auto line = framer.TakeLineOrNull())

@@ -33,7 +33,7 @@ std::string MakePlanText()
         throw std::runtime_error("the fixture does not decode");
     }
     std::string compact;
-    codec.Encode(*outcome.message, compact);
+    AcsCodec::Encode(*outcome.message, compact);
     return compact;
 }
 
@@ -73,7 +73,7 @@ void EncodePlan(benchmark::State& state)
     std::string out;
     for ([[maybe_unused]] auto round : state)
     {
-        codec.Encode(*outcome.message, out);
+        AcsCodec::Encode(*outcome.message, out);
         benchmark::DoNotOptimize(out.data());
     }
     SetBytes(state, text);

@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (first.message)
     {
         std::string text;
-        codec.Encode(*first.message, text);
+        Protocol::AcsCodec::Encode(*first.message, text);
         const Protocol::DecodeOutcome second = codec.Decode(text);
         Fuzz::Require(second.message.has_value(), "what was encoded can be decoded");
         Fuzz::Require(*second.message == *first.message, "decode, encode, decode gives an equal message");

@@ -12,7 +12,7 @@ int main()
     std::string text;
     if (outcome.message.has_value())
     {
-        codec.Encode(*outcome.message, text);
+        ACS::Protocol::AcsCodec::Encode(*outcome.message, text);
     }
     std::puts(text.c_str());
     return text.find(R"("planId":"P")") == std::string::npos ? 1 : 0;

@@ -303,7 +303,8 @@ private:
             return;
         }
         _bFinished = true;
-        _closeTimer.cancel();
+        ErrorCode ignored;
+        static_cast<void>(_closeTimer.cancel(ignored));
         boost::beast::get_lowest_layer(_stream).close();
         const LinkOwner owner = std::exchange(_owner, {});
         if (owner.onClosed)

@@ -364,7 +364,7 @@ DecodeOutcome AcsCodec::Decode(std::string_view text)
     return outcome;
 }
 
-void AcsCodec::Encode(const AcsMessage& message, std::string& out) const
+void AcsCodec::Encode(const AcsMessage& message, std::string& out)
 {
     if (const AcsRequest* requestOrNull = std::get_if<AcsRequest>(&message))
     {
@@ -376,7 +376,7 @@ void AcsCodec::Encode(const AcsMessage& message, std::string& out) const
     }
 }
 
-void AcsCodec::EncodeRequest(const AcsRequest& request, std::string& out) const
+void AcsCodec::EncodeRequest(const AcsRequest& request, std::string& out)
 {
     out.clear();
     Json::JsonWriter writer(out);
@@ -422,7 +422,7 @@ void BeginResponse(
 
 } // namespace
 
-void AcsCodec::EncodeAck(const AcsAck& ack, std::string& out) const
+void AcsCodec::EncodeAck(const AcsAck& ack, std::string& out)
 {
     out.clear();
     Json::JsonWriter writer(out);
@@ -437,7 +437,7 @@ void AcsCodec::EncodeRefusal(
     std::string_view transactionID,
     const Core::Timestamp& timestamp,
     std::string_view reason,
-    std::string& out) const
+    std::string& out)
 {
     out.clear();
     Json::JsonWriter writer(out);

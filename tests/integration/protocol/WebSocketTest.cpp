@@ -20,7 +20,6 @@
 using namespace ACS; // NOLINT(google-build-using-namespace)
 using namespace std::chrono_literals;
 using Protocol::EAckResult;
-using Protocol::EAcsCommand;
 using Tcp = boost::asio::ip::tcp;
 
 namespace

@@ -113,7 +113,7 @@ struct VehicleFixture
     }
 
     template <typename TEvent>
-    std::vector<TEvent> TakeEvents() const
+    [[nodiscard]] std::vector<TEvent> TakeEvents() const
     {
         std::vector<TEvent> events;
         for (const Planning::AdapterAction& action : actions)

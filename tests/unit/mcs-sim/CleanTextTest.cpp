@@ -19,7 +19,7 @@ TEST_CASE("Control characters and what is no UTF-8 become question marks")
     CHECK(CleanText("\xC3(\xED\xA0\x80\xFF") == "?(????");
     CHECK(CleanText("\xC2\x9B") == "?");
     CHECK(CleanText("\xE2\x82") == "??");
-    CHECK(CleanText("\xE2\x80\xAE") == "?");
+    CHECK(CleanText(std::string{'\xE2', '\x80', '\xAE'}) == "?");
 }
 
 TEST_CASE("Columns are counted as a terminal does")

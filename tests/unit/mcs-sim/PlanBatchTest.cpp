@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-using ACS::McsSim::BatchOptions;
 using ACS::McsSim::FindSharedTransactionOrNull;
 using ACS::McsSim::MakeBatch;
 using ACS::McsSim::PlannedPlan;

@@ -68,16 +68,16 @@ TEST_CASE("LIF: a file that is not LIF is refused at the place where it goes wro
     };
 
     const std::vector<Case> cases{
-        {"\"lifVersion\": \"1.0.0\"", "\"lifVersion\": \"2.0.0\"", "metaInformation.lifVersion"},
-        {"\"nodeId\": \"N2\"", "\"nodeId\": \"N1\"", "layouts[0].nodes[1].nodeId"},
-        {"\"edgeId\": \"E1\", ", "", "layouts[0].edges[0].edgeId"},
-        {"\"endNodeId\": \"N2\"", "\"endNodeId\": \"N9\"", "layouts[0].edges[0].endNodeId"},
+        {R"("lifVersion": "1.0.0")", R"("lifVersion": "2.0.0")", "metaInformation.lifVersion"},
+        {R"("nodeId": "N2")", R"("nodeId": "N1")", "layouts[0].nodes[1].nodeId"},
+        {R"("edgeId": "E1", )", "", "layouts[0].edges[0].edgeId"},
+        {R"("endNodeId": "N2")", R"("endNodeId": "N9")", "layouts[0].edges[0].endNodeId"},
         {"270.0", "361.0", "layouts[0].edges[0].vehicleTypeEdgeProperties[0].vehicleOrientation"},
-        {"\"theta\": 1.5", "\"theta\": 90", "layouts[0].nodes[0].vehicleTypeNodeProperties[0].theta"},
-        {"\"maxSpeed\": 1.2", "\"maxSpeed\": 0", "layouts[0].edges[0].vehicleTypeEdgeProperties[0].maxSpeed"},
-        {"[\"N2\"]", "[\"N3\"]", "layouts[0].stations[0].interactionNodeIds[0]"},
-        {"[\"N2\"]", "[]", "layouts[0].stations[0].interactionNodeIds"},
-        {"\"x\": 3", "\"x\": \"3\"", "layouts[0].nodes[1].nodePosition.x"},
+        {R"("theta": 1.5)", R"("theta": 90)", "layouts[0].nodes[0].vehicleTypeNodeProperties[0].theta"},
+        {R"("maxSpeed": 1.2)", R"("maxSpeed": 0)", "layouts[0].edges[0].vehicleTypeEdgeProperties[0].maxSpeed"},
+        {R"(["N2"])", R"(["N3"])", "layouts[0].stations[0].interactionNodeIds[0]"},
+        {R"(["N2"])", "[]", "layouts[0].stations[0].interactionNodeIds"},
+        {R"("x": 3)", R"("x": "3")", "layouts[0].nodes[1].nodePosition.x"},
     };
     for (const Case& wrong : cases)
     {
@@ -95,7 +95,7 @@ TEST_CASE("LIF: an error in the second layout is found there, and a map without 
     const std::string second =
         R"(, {"layoutId": "two", "layoutVersion": "1", "nodes": [{"nodeId": "N1", "nodePosition": {"x": 0, "y": 0},
            "vehicleTypeNodeProperties": []}], "edges": [], "stations": []}]})";
-    const std::string text = GetLif();
+    const std::string& text = GetLif();
     const Core::Result<SiteMap> twice = DecodeLif(text.substr(0, text.size() - 2) + second);
     REQUIRE_FALSE(twice.has_value());
     CHECK(twice.error().path == "layouts[1].nodes[0].nodeId");

@@ -396,7 +396,7 @@ void PlanWorld::ExecuteAll(EngineActions actions)
             continue;
         }
         const Core::Result<void> stored = store.Append(storeOrNull->batch);
-        trace.push_back(stored.has_value() ? "store" : "store failed");
+        trace.emplace_back(stored.has_value() ? "store" : "store failed");
         if (!stored.has_value())
         {
             EngineActions out;
@@ -424,7 +424,7 @@ void PlanWorld::ExecuteAction(const EngineAction& action, std::vector<std::uint6
         Core::Overloaded{
             [](const StorePlans&) {},
             [this](const ReplyCommand& typed) {
-                trace.push_back(typed.bAccepted ? "reply accepted" : "reply refused");
+                trace.emplace_back(typed.bAccepted ? "reply accepted" : "reply refused");
                 replies[typed.replyToken] = typed;
             },
             [this, &acknowledged](const SendReport& typed) {

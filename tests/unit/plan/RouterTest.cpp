@@ -3,7 +3,6 @@
 #include <acs/plan/Router.hpp>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
-using ACS::Testing::MakeTestSite;
 
 namespace
 {

@@ -125,7 +125,7 @@ TEST_CASE("6.2-6.21 Every example decodes, and encodes to the same JSON")
         const std::string text = ReadFixture(name);
         const AcsMessage message = DecodeOrFail(codec, text);
         std::string encoded;
-        codec.Encode(message, encoded);
+        AcsCodec::Encode(message, encoded);
         INFO(encoded);
         CHECK(IsSameJson(encoded, text));
         CHECK(DecodeOrFail(codec, encoded) == message);
@@ -143,7 +143,7 @@ TEST_CASE("6.10, 6.14, D-2, D-3 The document's odd spellings are read, noted, an
         CHECK(codec.Decode(text).notes.lenientWords == 1);
         const AcsMessage message = DecodeOrFail(codec, text);
         std::string encoded;
-        codec.Encode(message, encoded);
+        AcsCodec::Encode(message, encoded);
         CHECK(DecodeOrFail(codec, encoded) == message);
         CHECK(codec.Decode(encoded).notes == Protocol::DecodeNotes{});
         CHECK_FALSE(IsSameJson(encoded, text));
@@ -170,7 +170,7 @@ TEST_CASE("R18 carrierIds of MemoryPickAndPlace is written, and empty")
     AcsMessage message = DecodeOrFail(codec, ReadFixture("ExecutionPlanCR"));
     CHECK(GetPlan(message).steps[1].carrierIDs.empty());
     std::string encoded;
-    codec.Encode(message, encoded);
+    AcsCodec::Encode(message, encoded);
     CHECK(encoded.find(R"("carrierIds":[],"jobs")") != std::string::npos);
 }
 
@@ -182,7 +182,7 @@ TEST_CASE("R13 An empty port is null in carrierIds, in both directions")
     REQUIRE(status.carrierIDs.size() == 3);
     CHECK_FALSE(status.carrierIDs[0].has_value());
     std::string encoded;
-    codec.Encode(message, encoded);
+    AcsCodec::Encode(message, encoded);
     CHECK(encoded.find(R"("carrierIds":[null,"TRAY_02","TRAY_03"])") != std::string::npos);
 }
 
@@ -205,7 +205,7 @@ TEST_CASE("R19 Timestamps are written as local time with offset, and read in any
         local,
         R"({"command":"RequestAcsPlans","transactionId":"t","timestamp":"2025-07-02T21:00:00.123","payload":{}})");
     std::string encoded;
-    local.Encode(message, encoded);
+    AcsCodec::Encode(message, encoded);
     CHECK(encoded.find(R"("timestamp":"2025-07-02T21:00:00.123+09:00")") != std::string::npos);
 }
 
@@ -251,7 +251,7 @@ TEST_CASE("13.2 Actions on a set need no jobs, and their locations may be null o
     CHECK(plan.steps[0].jobs.empty());
     CHECK(plan.steps[1].stepNo == 2);
     std::string encoded;
-    codec.Encode(message, encoded);
+    AcsCodec::Encode(message, encoded);
     CHECK(encoded.find(R"("jobs":[{"jobId":"J"}])") != std::string::npos);
     CHECK(encoded.find("priority") == std::string::npos);
 }
@@ -283,7 +283,7 @@ TEST_CASE("D-1 Success is success or ok in any case; everything else is a failur
     const AcsMessage report =
         DecodeOrFail(codec, MakeRequestText("CancelResultReport", R"({"planId":"P","result":"fail","message":""})"));
     std::string encoded;
-    codec.Encode(report, encoded);
+    AcsCodec::Encode(report, encoded);
     CHECK(encoded.find(R"("result":"Failed")") != std::string::npos);
 }
 
@@ -299,7 +299,7 @@ TEST_CASE("D-5 The old name of RequestAcsPlans is an alias, answered under the o
     ack.payload = Protocol::PlanListAck{};
     ack.bLegacyName = true;
     std::string encoded;
-    codec.EncodeAck(ack, encoded);
+    AcsCodec::EncodeAck(ack, encoded);
     CHECK(encoded.find(R"("command":"RequestAcsStatusAck")") != std::string::npos);
 
     Protocol::CodecOptions options;
@@ -312,10 +312,10 @@ TEST_CASE("6.15 What does not apply to an error is left out; 6.16 to a status it
 {
     AcsCodec codec;
     std::string encoded;
-    codec.EncodeRequest({"t", {}, Protocol::ErrorReport{}}, encoded);
+    AcsCodec::EncodeRequest({"t", {}, Protocol::ErrorReport{}}, encoded);
     CHECK(encoded.find("null") == std::string::npos);
     CHECK(encoded.find("stepNo") == std::string::npos);
-    codec.EncodeRequest({"t", {}, Protocol::RobotStatusUpdate{}}, encoded);
+    AcsCodec::EncodeRequest({"t", {}, Protocol::RobotStatusUpdate{}}, encoded);
     CHECK(encoded.find(R"("planId":null,"stepNo":null,"jobId":null)") != std::string::npos);
 }
 
@@ -412,7 +412,7 @@ TEST_CASE("6.9 SyncConfig carries any object")
     const std::string text = MakeRequestText("SyncConfig", R"({"ports":[1,{"x":null}]})");
     const AcsMessage message = DecodeOrFail(codec, text);
     std::string encoded;
-    codec.Encode(message, encoded);
+    AcsCodec::Encode(message, encoded);
     CHECK(encoded == text);
 }
 

@@ -88,7 +88,12 @@ public:
         VehicleActions up;
         _vehicle.OnLinkUp(_clock.GetNow(), up);
         ToMaster(up);
-        _lossPercent = lossPercent;
+        SetLoss(lossPercent); // who connects is heard
+    }
+
+    void SetLoss(std::uint32_t percent)
+    {
+        _lossPercent = percent;
     }
 
     [[nodiscard]] MasterSession& GetMaster()

@@ -29,17 +29,17 @@ public:
     [[nodiscard]] DecodeOutcome Decode(std::string_view text);
 
     /// Replaces out by the compact JSON of the message, in the document's member order and exact spellings.
-    void Encode(const AcsMessage& message, std::string& out) const;
-    void EncodeRequest(const AcsRequest& request, std::string& out) const;
-    void EncodeAck(const AcsAck& ack, std::string& out) const;
+    static void Encode(const AcsMessage& message, std::string& out);
+    static void EncodeRequest(const AcsRequest& request, std::string& out);
+    static void EncodeAck(const AcsAck& ack, std::string& out);
 
     /// The refusal of a command that AcsAck cannot name: `commandName` + Ack, Fail, empty payload.
-    void EncodeRefusal(
+    static void EncodeRefusal(
         std::string_view commandName,
         std::string_view transactionID,
         const Core::Timestamp& timestamp,
         std::string_view reason,
-        std::string& out) const;
+        std::string& out);
 };
 
 } // namespace ACS::Protocol

@@ -39,7 +39,6 @@ class VehicleSession
     Vda5050Codec _codec;
     std::array<std::uint32_t, TOPIC_COUNT> _headerIDs{};
     std::array<std::string, TOPIC_COUNT> _topics;
-    bool _bLinkUp = false;
 
     // What the owner says.
     std::optional<AgvPosition> _position;
@@ -48,32 +47,33 @@ class VehicleSession
     std::optional<std::vector<Load>> _loads;
     std::optional<std::vector<MapState>> _maps;
     BatteryState _battery;
-    EOperatingMode _operatingMode = EOperatingMode::Automatic;
     SafetyState _safety;
     std::vector<VehicleError> _ownerErrors;
     std::vector<Information> _information;
+    EOperatingMode _operatingMode = EOperatingMode::Automatic;
     bool _bDriving = false;
 
     // The order.
     std::string _orderID;
-    std::uint32_t _orderUpdateID = 0;
     std::string _zoneSetID;
     std::string _lastNodeID;
+    std::uint32_t _orderUpdateID = 0;
     std::uint32_t _lastNodeSequenceID = 0;
     std::deque<OrderNode> _nodes; ///< Still to be reached.
     std::deque<OrderEdge> _edges; ///< Edge n leads to node n.
     std::vector<TrackedAction> _actions;
     std::deque<std::string> _actionQueue; ///< Of what was reached or entered, not yet started.
     std::vector<VehicleError> _sessionErrors;
+    std::vector<std::string> _pauseActionIDs; ///< startPause that waits for the vehicle to stand.
+    std::vector<std::string> _cancelActionIDs;
     bool _bOrderRunning = false; ///< Taken and not yet told as completed.
     bool _bEdgeEntered = false;
     bool _bLegActive = false;
     bool _bLegStops = true;
     bool _bPaused = false;
-    std::vector<std::string> _pauseActionIDs; ///< startPause that waits for the vehicle to stand.
-    std::vector<std::string> _cancelActionIDs;
 
     // Publishing.
+    bool _bLinkUp = false;
     bool _bStateDue = false;
     bool _bMinimumTimerRuns = false;
     std::optional<Core::SteadyTime> _lastStateTime;
@@ -109,7 +109,7 @@ class VehicleSession
         const std::string& elementID,
         std::uint32_t sequenceID);
     void Enqueue(const std::vector<Action>& actions);
-    void Start(TrackedAction& tracked, VehicleActions& out);
+    static void Start(TrackedAction& tracked, VehicleActions& out);
     [[nodiscard]] TrackedAction* FindActionOrNull(std::string_view actionID);
     void SetStatus(std::string_view actionID, EActionStatus status, const std::string& result = {});
     void AddInstantAction(const Action& action, EActionStatus status, const std::string& result = {});

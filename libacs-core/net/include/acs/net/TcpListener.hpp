@@ -40,6 +40,7 @@ private:
     Tcp::acceptor _acceptor;
     boost::asio::steady_timer _pause;
     std::uint64_t _run = 0; ///< Handlers of the time before a Stop do nothing.
+    std::uint16_t _port = 0;
     bool _bAccepting = false;
 
 public:
@@ -72,8 +73,9 @@ public:
             Stop();
             return Fail(host, port, error);
         }
+        _port = _acceptor.local_endpoint(error).port();
         AcceptAsync();
-        return GetPort();
+        return _port;
     }
 
     /// Where none is awaited already.
@@ -98,17 +100,16 @@ public:
     {
         ++_run;
         _bAccepting = false;
+        _port = 0;
         ErrorCode ignored;
         static_cast<void>(_acceptor.close(ignored));
         static_cast<void>(_pause.cancel(ignored));
     }
 
     /// 0 where it does not listen.
-    [[nodiscard]] std::uint16_t GetPort() const
+    [[nodiscard]] std::uint16_t GetPort() const noexcept
     {
-        ErrorCode error;
-        const Tcp::endpoint endpoint = _acceptor.local_endpoint(error);
-        return error ? std::uint16_t{0} : endpoint.port();
+        return _port;
     }
 
 private:

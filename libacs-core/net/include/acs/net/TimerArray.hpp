@@ -45,12 +45,12 @@ public:
     void Start(TTimer timer, Core::Duration delay)
     {
         const auto index = static_cast<std::size_t>(timer);
-        const std::uint64_t round = ++_rounds.at(index);
-        _timers.at(index).expires_after(delay);
-        _timers.at(index).async_wait(
+        const std::uint64_t round = ++_rounds[index];
+        _timers[index].expires_after(delay);
+        _timers[index].async_wait(
             [weak = this->weak_from_this(), timer, index, round](const boost::system::error_code& error) {
                 const std::shared_ptr<TimerArray> self = weak.lock();
-                if (!error && self != nullptr && self->_rounds.at(index) == round)
+                if (!error && self != nullptr && self->_rounds[index] == round)
                 {
                     self->_handler(timer);
                 }
@@ -60,9 +60,9 @@ public:
     void Cancel(TTimer timer)
     {
         const auto index = static_cast<std::size_t>(timer);
-        ++_rounds.at(index);
+        ++_rounds[index];
         boost::system::error_code ignored;
-        static_cast<void>(_timers.at(index).cancel(ignored));
+        static_cast<void>(_timers[index].cancel(ignored));
     }
 
     /// Nothing that was started before fires any more.
