@@ -33,7 +33,7 @@ std::string MakePlanText()
         throw std::runtime_error("the fixture does not decode");
     }
     std::string compact;
-    AcsCodec::Encode(*outcome.message, compact);
+    Protocol::AcsCodec::Encode(*outcome.message, compact);
     return compact;
 }
 
@@ -73,7 +73,7 @@ void EncodePlan(benchmark::State& state)
     std::string out;
     for ([[maybe_unused]] auto round : state)
     {
-        AcsCodec::Encode(*outcome.message, out);
+        Protocol::AcsCodec::Encode(*outcome.message, out);
         benchmark::DoNotOptimize(out.data());
     }
     SetBytes(state, text);
