@@ -2,6 +2,8 @@
 
 #include <acs/vda5050/Topic.hpp>
 
+#include <set>
+
 namespace ACS::VdaSim
 {
 namespace
@@ -16,10 +18,14 @@ std::string_view TakePart(std::string_view& text)
     return part;
 }
 
-Core::Result<void> ReadPart(std::string_view part, VehicleSpec& spec)
+Core::Result<void> ReadPart(std::string_view part, VehicleSpec& spec, std::set<std::string_view>& known)
 {
     const std::size_t equals = part.find('=');
     const std::string_view key = part.substr(0, equals);
+    if (!known.insert(key).second)
+    {
+        return Core::Fail(Core::ECoreError::UnknownWord, {}, "each of type and node once", Core::QuoteForError(part));
+    }
     const std::string_view value = equals == std::string_view::npos ? std::string_view{} : part.substr(equals + 1);
     if (key == "type" && (value == "LR" || value == "CR"))
     {
@@ -53,9 +59,10 @@ Core::Result<VehicleSpec> ParseVehicleSpec(std::string_view text)
             "NAME[,type=LR|CR][,node=NODEID], NAME without /, + and #",
             Core::QuoteForError(spec.name));
     }
+    std::set<std::string_view> known;
     while (!text.empty())
     {
-        const Core::Result<void> part = ReadPart(TakePart(text), spec);
+        const Core::Result<void> part = ReadPart(TakePart(text), spec, known);
         if (!part.has_value())
         {
             return tl::make_unexpected(part.error());

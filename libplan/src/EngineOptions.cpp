@@ -56,6 +56,19 @@ public:
         CheckPorts(path + ".child_ports", robot, robot.childPorts);
     }
 
+    void CheckPlaces(const std::vector<Core::Location>& places)
+    {
+        std::set<std::string> strangers;
+        for (const Core::Location& place : places)
+        {
+            std::string station = place.GetDockingPlace().GetText();
+            if (_site.FindStationOrNull(station) == nullptr && strangers.insert(std::move(station)).second)
+            {
+                Add("site.ports", "ports at stations of the site map", place.GetText());
+            }
+        }
+    }
+
     [[nodiscard]] std::vector<Core::Error> TakeMistakes()
     {
         return std::move(_mistakes);
@@ -146,6 +159,7 @@ std::vector<Core::Error> FindMistakes(const EngineOptions& options, const SiteMa
     {
         finder.Check(robot);
     }
+    finder.CheckPlaces(options.places);
     if (options.baseLength == 0)
     {
         finder.Add("traffic.base_length", "at least 1", "0");

@@ -138,9 +138,13 @@ TEST_CASE("Options that do not fit the site are all told at once")
     options.robots[0].vehicleTypeID = "zeppelin";
     options.robots[1].homeStationID = "CHG99";
     options.robots[1].startNodeID = "nowhere";
+    options.places.push_back(*ACS::Core::Location::Parse("A77.CP01.TP01"));
+    options.places.push_back(*ACS::Core::Location::Parse("A77.CP01.TP02"));
     const std::vector<ACS::Core::Error> mistakes = FindMistakes(options, ACS::Testing::MakeTestSite());
-    REQUIRE(mistakes.size() == 3);
+    REQUIRE(mistakes.size() == 4);
     CHECK(mistakes[0].path == "robots.LR01.vehicle_type");
     CHECK(mistakes[1].path == "robots.CR01.start_node");
     CHECK(mistakes[2].path == "robots.CR01.home");
+    CHECK(mistakes[3].path == "site.ports");
+    CHECK(mistakes[3].found == "A77.CP01.TP01");
 }

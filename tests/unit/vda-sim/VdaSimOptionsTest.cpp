@@ -18,7 +18,18 @@ TEST_CASE("A vehicle is its name, and optionally its type and its node, in any o
 
 TEST_CASE("What is no vehicle is told with what would be one")
 {
-    for (const std::string text : {"", ",type=LR", "A/B", "A+", "A,type=", "A,type=lr", "A,node=", "A,speed=3", "A,,"})
+    for (const std::string text :
+         {"",
+          ",type=LR",
+          "A/B",
+          "A+",
+          "A,type=",
+          "A,type=lr",
+          "A,node=",
+          "A,speed=3",
+          "A,type=LR,type=CR",
+          "A,node=N1,node=N2",
+          "A,,"})
     {
         CAPTURE(text);
         const Core::Result<VehicleSpec> spec = VdaSim::ParseVehicleSpec(text);
