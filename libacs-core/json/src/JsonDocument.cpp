@@ -22,6 +22,7 @@ constexpr std::size_t FIRST_STACK_BYTES = 1024;
 constexpr std::size_t LONGEST_FOUND = 40;
 constexpr unsigned PARSE_FLAGS =
     rapidjson::kParseIterativeFlag | rapidjson::kParseValidateEncodingFlag | rapidjson::kParseFullPrecisionFlag;
+constexpr unsigned LENIENT_FLAGS = PARSE_FLAGS | rapidjson::kParseCommentsFlag | rapidjson::kParseTrailingCommasFlag;
 
 /// Passes the parser's events on to the document and ends the parse at the depth limit.
 class DepthLimitedHandler
@@ -147,7 +148,7 @@ JsonDocument::JsonDocument()
 
 JsonDocument::~JsonDocument() = default;
 
-Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const ParseLimits& limits)
+Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const ParseLimits& limits, bool bLenient)
 {
     if (text.size() > limits.bytes)
     {
@@ -169,7 +170,7 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
     rapidjson::ParseResult outcome;
     const auto generate = [&](Document& target) {
         DepthLimitedHandler handler(target, limits.depth);
-        outcome = reader.Parse<PARSE_FLAGS>(stream, handler);
+        outcome = bLenient ? reader.Parse<LENIENT_FLAGS>(stream, handler) : reader.Parse<PARSE_FLAGS>(stream, handler);
         return !outcome.IsError();
     };
     document.Populate(generate);
@@ -191,6 +192,17 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
         return Core::Fail(Core::ECoreError::InvalidJson, {}, "JSON", fmt::format("a NUL at byte {}", stream.Tell()));
     }
     return &document;
+}
+
+const Value* FindFirstOrNull(const Value& object, std::string_view name)
+{
+    if (!object.IsObject())
+    {
+        return nullptr;
+    }
+    const auto length = static_cast<rapidjson::SizeType>(name.size());
+    const auto found = object.FindMember(Value(rapidjson::StringRef(name.data(), length)));
+    return found == object.MemberEnd() || found->value.IsNull() ? nullptr : &found->value;
 }
 
 std::string WriteText(const Value& value)
