@@ -19,7 +19,7 @@ namespace ACS::Protocol
 namespace
 {
 
-constexpr std::size_t RECENT_COUNT = 256;
+constexpr std::size_t RECENT_COUNT = 128;
 
 ///                Start        OnConnected   RegistrationAck    OnClosed    Reconnect timer   Stop
 /// Stopped        Connecting
@@ -49,6 +49,7 @@ struct Status
 {
     AcsPayload payload;
     bool bPending = false;
+    bool bGivenUp = false; ///< The MCS may not know it.
 };
 
 struct InFlight
@@ -298,7 +299,7 @@ public:
     void SendStatus(const AcsPayload& status, Core::Now now, SessionActions& out)
     {
         assert(IsStatus(status));
-        if (IsStatus(status))
+        if (IsStatus(status) && !IsKnownState(status))
         {
             _statuses.insert_or_assign(MakeStatusKey(status), Status{status, true});
             UseRoom(now, out);
@@ -365,6 +366,14 @@ private:
     [[nodiscard]] bool IsUp() const noexcept
     {
         return _state == EState::Registered || _state == EState::Farewell;
+    }
+
+    /// A state is told on change only (sections 6.20, 6.21); the status of a robot whenever the caller likes.
+    [[nodiscard]] bool IsKnownState(const AcsPayload& status) const
+    {
+        const auto found = _statuses.find(MakeStatusKey(status));
+        return !std::holds_alternative<RobotStatusUpdate>(status) && found != _statuses.end() && !found->second.bGivenUp
+            && found->second.payload == status;
     }
 
     /// Closes the connection; OnClosed goes on from the given state.
@@ -505,6 +514,10 @@ private:
         if (entry.bDurable)
         {
             out.emplace_back(Deliver{RequestUnanswered{entry.command, entry.transactionID}});
+        }
+        else if (const auto status = _statuses.find(entry.statusKey); status != _statuses.end())
+        {
+            status->second.bGivenUp = true;
         }
     }
 

@@ -1,7 +1,9 @@
 #include "Fields.hpp"
+#include <acs/core/Location.hpp>
 #include <acs/json/JsonDocument.hpp>
 #include <acs/protocol/AcsCodec.hpp>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -211,6 +213,57 @@ WireKind ReadKind(std::string_view commandName, const CodecOptions& options, Jso
     return kind;
 }
 
+/// Section 4.1: what these say about from and to means nothing, so that it is not looked at either.
+bool HasPlaces(std::string_view action)
+{
+    constexpr std::array<std::string_view, 3> PLACELESS{"CloseSetCover", "OpenSetCover", "Start"};
+    return std::ranges::none_of(PLACELESS, [action](std::string_view placeless) {
+        return Json::IsEqualIgnoringCase(placeless, action);
+    });
+}
+
+/// Whether the member is a location; or nothing, where that is allowed.
+bool TryCheckLocation(std::string_view name, const std::string& text, bool bEmptyAllowed, Json::DecodeContext& context)
+{
+    if ((bEmptyAllowed && text.empty()) || Core::Location::IsLocation(text))
+    {
+        return true;
+    }
+    Core::Error error = Core::Location::Parse(text).error();
+    static_cast<void>(context.IsFailedWith(error.code, std::move(error.expected), std::move(error.found)));
+    return context.IsFailedAt(name);
+}
+
+bool TryCheckJobs(const std::vector<PlanJob>& jobs, Json::DecodeContext& context)
+{
+    for (std::size_t i = 0; i < jobs.size(); ++i)
+    {
+        if (!TryCheckLocation("from", jobs[i].from, true, context)
+            || !TryCheckLocation("to", jobs[i].to, true, context))
+        {
+            static_cast<void>(context.IsFailedAt(i));
+            return context.IsFailedAt("jobs");
+        }
+    }
+    return true;
+}
+
+/// Section 10: a plan's locations follow the grammar. Whether the site has them is not the codec's to say.
+bool TryCheckLocations(const ExecutionPlan& plan, Json::DecodeContext& context)
+{
+    for (std::size_t i = 0; i < plan.steps.size(); ++i)
+    {
+        const PlanStep& step = plan.steps[i];
+        const bool bJobs = !HasPlaces(step.action) || TryCheckJobs(step.jobs, context);
+        if (!bJobs || !TryCheckLocation("position", step.position, false, context))
+        {
+            static_cast<void>(context.IsFailedAt(i));
+            return context.IsFailedAt("steps");
+        }
+    }
+    return true;
+}
+
 Json::DecodeOptions MakeDecodeOptions(const CodecOptions& options)
 {
     Json::DecodeOptions decodeOptions;
@@ -272,7 +325,10 @@ public:
             return context.IsFailedAt("payload");
         }
         const PayloadDecoder decoder = PAYLOAD_DECODERS[static_cast<std::size_t>(command)];
-        return decoder(*envelope.payload.valueOrNull, request.payload, context) || context.IsFailedAt("payload");
+        const bool bDecoded = decoder(*envelope.payload.valueOrNull, request.payload, context);
+        const ExecutionPlan* planOrNull = std::get_if<ExecutionPlan>(&request.payload);
+        const bool bChecked = planOrNull != nullptr && options.bLocationsChecked;
+        return (bDecoded && (!bChecked || TryCheckLocations(*planOrNull, context))) || context.IsFailedAt("payload");
     }
 
     [[nodiscard]] bool TryDecodeAck(
