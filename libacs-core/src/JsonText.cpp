@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 namespace ACS::Core
@@ -47,6 +48,38 @@ constexpr std::array<char, 256> MakeEscapes()
 }
 
 constexpr std::array<char, 256> ESCAPES = MakeEscapes();
+
+/// Whether one of eight bytes does not stand for itself: a quote, a backslash, a control character, or no ASCII.
+bool NeedsLook(std::uint64_t bytes)
+{
+    constexpr std::uint64_t ONES = 0x0101010101010101;
+    constexpr std::uint64_t HIGHS = 0x8080808080808080;
+    const std::uint64_t quotes = bytes ^ (ONES * '"');
+    const std::uint64_t backslashes = bytes ^ (ONES * '\\');
+    // A byte below n borrows in `- n`; one of 0x80 and more is caught by `bytes` itself.
+    const std::uint64_t found = (quotes - ONES) | (backslashes - ONES) | (bytes - ONES * ' ') | bytes;
+    return (found & HIGHS) != 0;
+}
+
+/// Where the first byte may be that does not stand for itself; all before it does.
+std::size_t SkipPlain(std::string_view text, std::size_t position)
+{
+    std::uint64_t bytes = 0;
+    while (position + sizeof bytes <= text.size())
+    {
+        std::memcpy(&bytes, text.data() + position, sizeof bytes);
+        if (NeedsLook(bytes))
+        {
+            break;
+        }
+        position += sizeof bytes;
+    }
+    while (position < text.size() && ESCAPES[static_cast<unsigned char>(text[position])] == 0)
+    {
+        ++position;
+    }
+    return position;
+}
 
 bool IsInside(unsigned char byte, unsigned char lowest, unsigned char highest)
 {
@@ -199,13 +232,13 @@ void JsonText::AppendString(std::string_view value, std::string& out)
     std::size_t begin = 0;
     for (std::size_t position = 0; position < value.size();)
     {
+        position = SkipPlain(value, position);
+        if (position == value.size())
+        {
+            break;
+        }
         const auto byte = static_cast<unsigned char>(value[position]);
         const char escape = ESCAPES[byte];
-        if (escape == 0)
-        {
-            ++position;
-            continue;
-        }
         const std::size_t sequence = escape == '8' ? GetSequenceLength(value.substr(position)) : 0;
         if (sequence != 0)
         {

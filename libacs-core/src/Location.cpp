@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <charconv>
 #include <iterator>
 #include <utility>
@@ -51,7 +52,7 @@ bool CanBegin(ESegmentKind kind)
 }
 
 /// Whether the segments, each a kind with a valid number, make a location.
-bool IsLocation(std::span<const LocationSegment> segments)
+bool IsChain(std::span<const LocationSegment> segments)
 {
     if (segments.empty() || !CanBegin(segments.front().kind))
     {
@@ -96,15 +97,64 @@ std::optional<LocationSegment> ReadSegmentOrNull(std::string_view text)
     return LocationSegment{elementOrNull->kind, *numberOrNull};
 }
 
-/// The robot that the first segment names; nullopt where it reads as something else.
-std::optional<RobotID> ReadRobotOrNull(std::string_view text)
+/// A text taken apart: valid segments in a valid order.
+struct Parts
 {
-    Result<RobotID> robotID = RobotID::Parse(Detail::IsSameWord(text, RobotID::ALIAS) ? RobotID::ALIAS : text);
-    if (!robotID.has_value())
+    std::array<LocationSegment, Location::MAX_SEGMENTS> segments{};
+    std::size_t count = 0;
+    std::string_view robotName; ///< Of a robot port, as the sender spelled it.
+
+    [[nodiscard]] std::span<const LocationSegment> GetSegments() const
+    {
+        return std::span(segments).first(count);
+    }
+};
+
+/// What the first segment names where it is no element: a robot or nothing.
+std::optional<LocationSegment> ReadRobotOrNull(std::string_view text)
+{
+    return RobotID::IsRobotID(text) ? std::optional(LocationSegment{ESegmentKind::Robot, 0}) : std::nullopt;
+}
+
+std::optional<Parts> SplitOrNull(std::string_view text)
+{
+    Parts parts;
+    if (text.size() > Location::MAX_LENGTH)
     {
         return std::nullopt;
     }
-    return std::move(*robotID);
+    for (std::size_t begin = 0; begin <= text.size();)
+    {
+        const std::size_t end = std::min(text.find('.', begin), text.size());
+        const std::string_view part = text.substr(begin, end - begin);
+        std::optional<LocationSegment> segmentOrNull = ReadSegmentOrNull(part);
+        if (parts.count == 0 && !segmentOrNull.has_value())
+        {
+            segmentOrNull = ReadRobotOrNull(part);
+            parts.robotName = part;
+        }
+        if (!segmentOrNull.has_value() || parts.count == Location::MAX_SEGMENTS)
+        {
+            return std::nullopt;
+        }
+        parts.segments[parts.count] = *segmentOrNull;
+        ++parts.count;
+        begin = end + 1;
+    }
+    return IsChain(parts.GetSegments()) ? std::optional(parts) : std::nullopt;
+}
+
+/// Of what Print would make.
+std::size_t GetPrintedLength(const Parts& parts)
+{
+    std::size_t length = parts.count - 1;
+    for (const LocationSegment& segment : parts.GetSegments())
+    {
+        const std::size_t digits = segment.number < 100 ? 2 : segment.number < 1000 ? 3 : 4;
+        length += segment.kind == ESegmentKind::Robot ? parts.robotName.size()
+                                                      : Detail::GetPrefix(segment.kind).size() + digits;
+    }
+    return length;
 }
 
 std::string Print(std::span<const LocationSegment> segments, const std::optional<RobotID>& robotOrNull)
@@ -141,48 +191,28 @@ Location::Location(std::span<const LocationSegment> segments, std::optional<Robo
 
 Result<Location> Location::Parse(std::string_view text)
 {
-    const auto refuse = [text] {
+    const std::optional<Parts> partsOrNull = SplitOrNull(text);
+    if (!partsOrNull.has_value() || GetPrintedLength(*partsOrNull) > MAX_LENGTH)
+    {
         return Fail(ECoreError::InvalidLocation, {}, std::string(EXPECTED), QuoteForError(text));
-    };
-    std::array<LocationSegment, MAX_SEGMENTS> segments{};
-    std::size_t count = 0;
+    }
     std::optional<RobotID> robotOrNull;
-    if (text.size() > MAX_LENGTH)
+    if (!partsOrNull->robotName.empty())
     {
-        return refuse();
+        const bool bAlias = Detail::IsSameWord(partsOrNull->robotName, RobotID::ALIAS);
+        robotOrNull = RobotID::Parse(bAlias ? RobotID::ALIAS : partsOrNull->robotName).value();
     }
-    for (std::size_t begin = 0; begin <= text.size();)
-    {
-        const std::size_t end = std::min(text.find('.', begin), text.size());
-        const std::string_view part = text.substr(begin, end - begin);
-        std::optional<LocationSegment> segmentOrNull = ReadSegmentOrNull(part);
-        if (count == 0 && !segmentOrNull.has_value())
-        {
-            robotOrNull = ReadRobotOrNull(part);
-            segmentOrNull =
-                robotOrNull.has_value() ? std::optional(LocationSegment{ESegmentKind::Robot, 0}) : std::nullopt;
-        }
-        if (!segmentOrNull.has_value() || count == MAX_SEGMENTS)
-        {
-            return refuse();
-        }
-        segments[count] = *segmentOrNull;
-        ++count;
-        begin = end + 1;
-    }
-    const std::span<const LocationSegment> used = std::span(segments).first(count);
-    if (!IsLocation(used))
-    {
-        return refuse();
-    }
-    Location location(used, std::move(robotOrNull));
-    if (location._text.size() > MAX_LENGTH)
-    {
-        return refuse();
-    }
+    Location location(partsOrNull->GetSegments(), std::move(robotOrNull));
+    assert(location._text.size() == GetPrintedLength(*partsOrNull));
     location._originalText = text;
     location._bNormalised = location._originalText != location._text;
     return location;
+}
+
+bool Location::IsLocation(std::string_view text) noexcept
+{
+    const std::optional<Parts> partsOrNull = SplitOrNull(text);
+    return partsOrNull.has_value() && GetPrintedLength(*partsOrNull) <= MAX_LENGTH;
 }
 
 const std::string& Location::GetText() const noexcept

@@ -16,6 +16,11 @@ bool IsNameCharacter(char character)
         || (character >= '0' && character <= '9') || character == '_' || character == '-';
 }
 
+bool IsName(std::string_view text)
+{
+    return !text.empty() && text.size() <= RobotID::MAX_LENGTH && std::ranges::all_of(text, IsNameCharacter);
+}
+
 } // namespace
 
 RobotID::RobotID(std::string text)
@@ -23,9 +28,14 @@ RobotID::RobotID(std::string text)
 {
 }
 
+bool RobotID::IsRobotID(std::string_view text) noexcept
+{
+    return IsName(text) && !Detail::SplitElementOrNull(text).has_value();
+}
+
 Result<RobotID> RobotID::Parse(std::string_view text)
 {
-    if (text.empty() || text.size() > MAX_LENGTH || !std::ranges::all_of(text, IsNameCharacter))
+    if (!IsName(text))
     {
         return Fail(
             ECoreError::InvalidIdentifier,

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <utility>
 
 namespace ACS::Core
 {
@@ -20,7 +19,6 @@ constexpr int MAX_HOUR = 23;
 constexpr int MAX_MINUTE = 59;
 constexpr int MAX_SECOND = 59;
 constexpr std::size_t MAX_FRACTION_DIGITS = 9;
-constexpr std::size_t LOCAL_LENGTH = 29;
 constexpr std::size_t UTC_LENGTH = 24;
 
 bool IsDigit(char character)
@@ -157,17 +155,13 @@ std::optional<minutes> ReadOffsetOrNull(Scanner& scanner, minutes defaultOffset)
 }
 
 /// Fills a text of a fixed length from the left.
+template <std::size_t LENGTH>
 class Printer
 {
-    std::string _text;
+    std::array<char, LENGTH> _text{};
     std::size_t _position = 0;
 
 public:
-    explicit Printer(std::size_t length)
-        : _text(length, '0')
-    {
-    }
-
     void Put(char character)
     {
         _text[_position] = character;
@@ -206,10 +200,10 @@ public:
         PutNumber(3, timeOfDay.subseconds().count());
     }
 
-    [[nodiscard]] std::string TakeText()
+    [[nodiscard]] const std::array<char, LENGTH>& GetText() const
     {
-        assert(_position == _text.size());
-        return std::move(_text);
+        assert(_position == LENGTH);
+        return _text;
     }
 };
 
@@ -232,25 +226,31 @@ Result<Timestamp> ParseTimestamp(std::string_view text, std::chrono::minutes def
     return Fail(ECoreError::InvalidTimestamp, {}, "an ISO 8601 date and time", QuoteForError(text));
 }
 
-std::string FormatLocal(WallTime time, std::chrono::minutes offset)
+LocalTimeText PrintLocal(WallTime time, std::chrono::minutes offset)
 {
     assert(std::chrono::abs(offset) < std::chrono::days(1));
     const auto distance = std::chrono::abs(offset) % std::chrono::days(1);
-    Printer printer(LOCAL_LENGTH);
+    Printer<LOCAL_TIME_LENGTH> printer;
     printer.PutDateAndTime(time + offset);
     printer.Put(offset < minutes(0) ? '-' : '+');
     printer.PutNumber(2, distance / std::chrono::hours(1));
     printer.Put(':');
     printer.PutNumber(2, distance % std::chrono::hours(1) / minutes(1));
-    return printer.TakeText();
+    return printer.GetText();
+}
+
+std::string FormatLocal(WallTime time, std::chrono::minutes offset)
+{
+    const LocalTimeText text = PrintLocal(time, offset);
+    return {text.data(), text.size()};
 }
 
 std::string FormatUtc(WallTime time)
 {
-    Printer printer(UTC_LENGTH);
+    Printer<UTC_LENGTH> printer;
     printer.PutDateAndTime(time);
     printer.Put('Z');
-    return printer.TakeText();
+    return {printer.GetText().data(), UTC_LENGTH};
 }
 
 } // namespace ACS::Core

@@ -36,6 +36,7 @@ class McsSession::Impl
 
     std::vector<ConnectionID> _connections;
     std::optional<ConnectionID> _registered;
+    bool _bAcsConnected = true; ///< What the registered ACS said of itself last.
     std::vector<PendingRequest> _pending;
     std::unordered_set<std::string> _seen;
     std::deque<std::string> _seenOrder;
@@ -126,6 +127,10 @@ public:
             return false;
         }
         const EAcsCommand command = GetCommand(request);
+        if (command == EAcsCommand::ExecutionPlan && _options.bPlansWithheld && !_bAcsConnected)
+        {
+            return false;
+        }
         AcsCodec::EncodeRequest(request, _scratch);
         ++_output.statistics.Of(command).sent;
         out.emplace_back(SendText{*_registered, _scratch, false});
@@ -145,6 +150,11 @@ public:
     [[nodiscard]] const std::optional<ConnectionID>& GetRegisteredOrNull() const noexcept
     {
         return _registered;
+    }
+
+    [[nodiscard]] bool IsTakingPlans() const noexcept
+    {
+        return _registered.has_value() && _bAcsConnected;
     }
 
     [[nodiscard]] std::size_t GetPendingCount() const noexcept
@@ -262,6 +272,11 @@ private:
         const bool bDuplicate = HasAck(command) && !WasNew(command, request.transactionID);
         counters.duplicates += bDuplicate ? 1U : 0U;
         Acknowledge(connection, request, EAckResult::Success, "Received.", now, out);
+        if (const AcsCommStateUpdate* stateOrNull = std::get_if<AcsCommStateUpdate>(&request.payload);
+            stateOrNull != nullptr && !bDuplicate)
+        {
+            _bAcsConnected = stateOrNull->bConnected;
+        }
         out.emplace_back(Deliver{RequestReceived{std::move(request), bDuplicate}});
     }
 
@@ -301,6 +316,7 @@ private:
         Acknowledge(connection, request, EAckResult::Success, "Registered.", now, out);
         if (!bAgain)
         {
+            _bAcsConnected = true;
             ++_output.statistics.registrations;
             out.emplace_back(Deliver{Registered{}});
         }
@@ -384,6 +400,11 @@ std::optional<ConnectionID> McsSession::GetRegisteredOrNull() const noexcept
 bool McsSession::IsRegistered() const noexcept
 {
     return _impl->GetRegisteredOrNull().has_value();
+}
+
+bool McsSession::IsTakingPlans() const noexcept
+{
+    return _impl->IsTakingPlans();
 }
 
 std::size_t McsSession::GetPendingCount() const noexcept

@@ -17,44 +17,22 @@ PortCatalog::PortCatalog(const SiteMap& site)
 
 void PortCatalog::Add(const Core::Location& location)
 {
-    _places.insert(location.GetText());
+    _places.Add(location);
 }
 
 void PortCatalog::Add(std::span<const Core::Location> locations)
 {
-    for (const Core::Location& location : locations)
-    {
-        Add(location);
-    }
+    _places.Add(locations);
 }
 
 bool PortCatalog::Contains(const Core::Location& location) const
 {
-    return _places.contains(location.GetText());
+    return _places.Contains(location);
 }
 
 std::optional<Core::Location> PortCatalog::CompleteSetOrNull(const Core::Location& shortForm) const
 {
-    const std::string ending = "." + shortForm.GetText();
-    const std::string* foundOrNull = nullptr;
-    for (const std::string& place : _places)
-    {
-        if (!place.ends_with(ending))
-        {
-            continue;
-        }
-        if (foundOrNull != nullptr)
-        {
-            return std::nullopt;
-        }
-        foundOrNull = &place;
-    }
-    if (foundOrNull == nullptr)
-    {
-        return std::nullopt;
-    }
-    Core::Result<Core::Location> location = Core::Location::Parse(*foundOrNull);
-    return location.has_value() ? std::optional(std::move(*location)) : std::nullopt;
+    return _places.CompleteSetOrNull(shortForm);
 }
 
 } // namespace ACS::Planning

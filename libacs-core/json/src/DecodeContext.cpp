@@ -12,6 +12,22 @@ namespace
 {
 
 constexpr std::size_t PAIRWISE_LIMIT = 16;
+constexpr std::size_t LONGEST_NAME = 64;
+
+/// A member's name as a path shows it: a peer may send one of any length.
+std::string ShortenName(std::string_view name)
+{
+    if (name.size() <= LONGEST_NAME)
+    {
+        return std::string(name);
+    }
+    std::size_t end = LONGEST_NAME;
+    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U)
+    {
+        --end;
+    }
+    return std::string(name.substr(0, end)) + "...";
+}
 
 } // namespace
 
@@ -58,7 +74,7 @@ bool DecodeContext::IsFailedAt(std::string_view memberName)
 {
     const bool bJoins = _error.path.empty() || _error.path.front() == '[';
     _error.path.insert(0, bJoins ? "" : ".");
-    _error.path.insert(0, memberName);
+    _error.path.insert(0, ShortenName(memberName));
     return false;
 }
 

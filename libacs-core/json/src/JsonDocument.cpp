@@ -17,26 +17,59 @@ namespace ACS::Json
 namespace
 {
 
-constexpr std::size_t POOL_BYTES = 64U * 1024U;
+// Enough for a plan of 75 jobs, and little enough for a session to stay below 64 KiB.
+constexpr std::size_t VALUE_POOL_BYTES = 24U * 1024U;
+constexpr std::size_t STACK_POOL_BYTES = 12U * 1024U;
 constexpr std::size_t FIRST_STACK_BYTES = 1024;
 constexpr std::size_t LONGEST_FOUND = 40;
 constexpr unsigned PARSE_FLAGS =
     rapidjson::kParseIterativeFlag | rapidjson::kParseValidateEncodingFlag | rapidjson::kParseFullPrecisionFlag;
+constexpr unsigned LENIENT_FLAGS = PARSE_FLAGS | rapidjson::kParseCommentsFlag | rapidjson::kParseTrailingCommasFlag;
 
-/// Passes the parser's events on to the document and ends the parse at the depth limit.
-class DepthLimitedHandler
+/// Whether a string has half a surrogate pair in it. RapidJSON refuses an escaped first half that stands alone, but
+/// writes a second one as three bytes that are no UTF-8; nothing else makes such bytes, as it checks what is not escaped.
+bool HasHalfSurrogate(std::string_view text)
+{
+    constexpr char SURROGATE_LEAD = '\xED';
+    for (std::size_t at = text.find(SURROGATE_LEAD); at != std::string_view::npos;
+         at = text.find(SURROGATE_LEAD, at + 1))
+    {
+        if (at + 1 < text.size() && static_cast<unsigned char>(text[at + 1]) >= 0xA0U)
+        {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Passes the parser's events on to the document, and ends the parse at the depth limit and at half a surrogate pair.
+class StrictHandler
 {
     Document& _document;
     std::size_t _depth = 0;
     const std::size_t _maximumDepth;
+    const bool _bEscaped; ///< The text has escapes at all: without them there are no half pairs to look for.
+    bool _bHalfSurrogate = false;
+
+    [[nodiscard]] bool IsWhole(const char* text, rapidjson::SizeType length)
+    {
+        _bHalfSurrogate = _bEscaped && HasHalfSurrogate({text, length});
+        return !_bHalfSurrogate;
+    }
 
 public:
     using Ch = char;
 
-    DepthLimitedHandler(Document& document, std::size_t maximumDepth)
+    StrictHandler(Document& document, std::size_t maximumDepth, bool bEscaped)
         : _document(document),
-          _maximumDepth(maximumDepth)
+          _maximumDepth(maximumDepth),
+          _bEscaped(bEscaped)
     {
+    }
+
+    [[nodiscard]] bool HasFoundHalfSurrogate() const
+    {
+        return _bHalfSurrogate;
     }
 
     bool Null()
@@ -81,7 +114,7 @@ public:
 
     bool String(const char* text, rapidjson::SizeType length, bool bCopy)
     {
-        return _document.String(text, length, bCopy);
+        return IsWhole(text, length) && _document.String(text, length, bCopy);
     }
 
     bool StartObject()
@@ -91,7 +124,7 @@ public:
 
     bool Key(const char* text, rapidjson::SizeType length, bool bCopy)
     {
-        return _document.Key(text, length, bCopy);
+        return IsWhole(text, length) && _document.Key(text, length, bCopy);
     }
 
     bool EndObject(rapidjson::SizeType count)
@@ -138,16 +171,16 @@ bool HasDuplicateNamesHere(const Value& object)
 } // namespace
 
 JsonDocument::JsonDocument()
-    : _valueBuffer(std::make_unique<char[]>(POOL_BYTES)), // NOLINT(modernize-avoid-c-arrays)
-      _stackBuffer(std::make_unique<char[]>(POOL_BYTES)), // NOLINT(modernize-avoid-c-arrays)
-      _valuePool(_valueBuffer.get(), POOL_BYTES),
-      _stackPool(_stackBuffer.get(), POOL_BYTES)
+    : _valueBuffer(std::make_unique<char[]>(VALUE_POOL_BYTES)), // NOLINT(modernize-avoid-c-arrays)
+      _stackBuffer(std::make_unique<char[]>(STACK_POOL_BYTES)), // NOLINT(modernize-avoid-c-arrays)
+      _valuePool(_valueBuffer.get(), VALUE_POOL_BYTES),
+      _stackPool(_stackBuffer.get(), STACK_POOL_BYTES)
 {
 }
 
 JsonDocument::~JsonDocument() = default;
 
-Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const ParseLimits& limits)
+Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const ParseLimits& limits, bool bLenient)
 {
     if (text.size() > limits.bytes)
     {
@@ -167,12 +200,16 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
         FIRST_STACK_BYTES);
     rapidjson::MemoryStream stream(body.data(), body.size());
     rapidjson::ParseResult outcome;
-    const auto generate = [&](Document& target) {
-        DepthLimitedHandler handler(target, limits.depth);
-        outcome = reader.Parse<PARSE_FLAGS>(stream, handler);
+    StrictHandler handler(document, limits.depth, body.find('\\') != std::string_view::npos);
+    const auto generate = [&](Document& /*target*/) {
+        outcome = bLenient ? reader.Parse<LENIENT_FLAGS>(stream, handler) : reader.Parse<PARSE_FLAGS>(stream, handler);
         return !outcome.IsError();
     };
     document.Populate(generate);
+    if (handler.HasFoundHalfSurrogate())
+    {
+        return Core::Fail(Core::ECoreError::InvalidJson, {}, "JSON", "half a surrogate pair");
+    }
     if (outcome.Code() == rapidjson::kParseErrorTermination)
     {
         return Core::Fail(Core::ECoreError::TooLarge, {}, fmt::format("at most {} levels of nesting", limits.depth));
@@ -191,6 +228,17 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
         return Core::Fail(Core::ECoreError::InvalidJson, {}, "JSON", fmt::format("a NUL at byte {}", stream.Tell()));
     }
     return &document;
+}
+
+const Value* FindFirstOrNull(const Value& object, std::string_view name)
+{
+    if (!object.IsObject())
+    {
+        return nullptr;
+    }
+    const auto length = static_cast<rapidjson::SizeType>(name.size());
+    const auto found = object.FindMember(Value(rapidjson::StringRef(name.data(), length)));
+    return found == object.MemberEnd() || found->value.IsNull() ? nullptr : &found->value;
 }
 
 std::string WriteText(const Value& value)

@@ -31,19 +31,6 @@ JsonWriter::JsonWriter(std::string& out, DialectFlags dialect)
 {
 }
 
-void JsonWriter::Separate()
-{
-    if (_out.empty())
-    {
-        return;
-    }
-    const char last = _out.back();
-    if (last != '{' && last != '[' && last != ':' && last != ',' && last != '\n')
-    {
-        _out += ',';
-    }
-}
-
 void JsonWriter::BeginObject()
 {
     Separate();
@@ -76,6 +63,22 @@ void JsonWriter::WriteString(std::string_view value)
 {
     Separate();
     Core::JsonText::AppendString(value, _out);
+}
+
+void JsonWriter::WriteString(std::string_view front, std::string_view back)
+{
+    WriteString(front);
+    _out.pop_back();
+    const std::size_t joint = _out.size();
+    Core::JsonText::AppendString(back, _out);
+    _out.erase(joint, 1);
+}
+
+void JsonWriter::WritePlainString(std::string_view value)
+{
+    _out += NeedsComma() ? std::string_view(",\"") : std::string_view("\"");
+    _out += value;
+    _out += '"';
 }
 
 void JsonWriter::WriteNumber(double value)

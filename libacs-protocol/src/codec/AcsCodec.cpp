@@ -1,7 +1,9 @@
 #include "Fields.hpp"
+#include <acs/core/Location.hpp>
 #include <acs/json/JsonDocument.hpp>
 #include <acs/protocol/AcsCodec.hpp>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -10,39 +12,22 @@
 namespace ACS::Json
 {
 
-namespace
-{
-
-Core::Timestamp CutToMilliseconds(const Core::Timestamp& timestamp)
-{
-    return {std::chrono::floor<std::chrono::milliseconds>(timestamp.time), timestamp.offset};
-}
-
-} // namespace
-
-bool ValueDecoder<Core::Timestamp>::TryDecode(
+bool ValueDecoder<std::optional<Core::Timestamp>>::TryDecode(
     const Value& value,
-    Core::Timestamp& out,
-    const FieldBounds& bounds,
+    std::optional<Core::Timestamp>& out,
+    const FieldBounds& /*bounds*/,
     DecodeContext& context)
 {
-    std::string_view text;
-    if (!TryDecodeString(value, text, bounds, context))
-    {
-        return false;
-    }
-    const Core::Result<Core::Timestamp> timestamp = Core::ParseTimestamp(text);
-    if (!timestamp.has_value())
-    {
-        return context.IsFailedWith(Core::ECoreError::InvalidTimestamp, timestamp.error().expected, &value);
-    }
-    out = CutToMilliseconds(*timestamp);
+    out = value.IsNull() ? std::nullopt
+                         : Protocol::Detail::ReadTimestampOrNull(value, context.GetOptions().assumedOffset);
+    context.GetNotes().badTimestamps += out.has_value() || value.IsNull() ? 0U : 1U;
     return true;
 }
 
 void ValueEncoder<Core::Timestamp>::Encode(const Core::Timestamp& value, JsonWriter& writer)
 {
-    writer.WriteString(Core::FormatLocal(value.time, value.offset));
+    const Core::LocalTimeText text = Core::PrintLocal(value.time, value.offset);
+    writer.WritePlainString({text.data(), text.size()});
 }
 
 bool ValueDecoder<Protocol::EReportResult>::TryDecode(
@@ -99,6 +84,21 @@ bool IsSuccess(std::string_view text, std::string_view failureWord, Json::Decode
     return Json::IsEqualIgnoringCase(text, successWord) || Json::IsEqualIgnoringCase(text, "ok");
 }
 
+std::optional<Core::Timestamp> ReadTimestampOrNull(const Json::Value& value, std::chrono::minutes assumedOffset)
+{
+    if (!value.IsString())
+    {
+        return std::nullopt;
+    }
+    const std::string_view text(value.GetString(), value.GetStringLength());
+    const Core::Result<Core::Timestamp> timestamp = Core::ParseTimestamp(text, assumedOffset);
+    if (!timestamp.has_value())
+    {
+        return std::nullopt;
+    }
+    return Core::Timestamp{std::chrono::floor<std::chrono::milliseconds>(timestamp->time), timestamp->offset};
+}
+
 } // namespace Detail
 
 namespace
@@ -149,17 +149,29 @@ std::string_view GetStringOrEmpty(const Json::DeferredValue& value)
                    : std::string_view();
 }
 
-/// Reads what can still be told about a payload that could not be decoded.
-std::string FindPlanID(const Json::DeferredValue& payload)
+/// What a message that could not be decoded still tells; empty where it is missing or too long to be an identifier.
+std::string FindIdentifier(const Json::DeferredValue& payload, std::string_view name)
 {
     if (payload.valueOrNull == nullptr || !payload.valueOrNull->IsObject())
     {
         return {};
     }
-    const auto found = payload.valueOrNull->FindMember("planId");
-    const bool bUsable = found != payload.valueOrNull->MemberEnd() && found->value.IsString()
-        && found->value.GetStringLength() <= Detail::LONGEST_ID;
-    return bUsable ? std::string(found->value.GetString(), found->value.GetStringLength()) : std::string();
+    const std::string_view text = GetStringOrEmpty({Json::FindFirstOrNull(*payload.valueOrNull, name)});
+    return std::string(text.size() <= Detail::LONGEST_ID ? text : std::string_view());
+}
+
+/// What a text that names a member twice said first: it is refused, but it can be answered.
+Detail::WireEnvelope FindEnvelope(const Json::Value& root)
+{
+    Detail::WireEnvelope envelope;
+    if (root.IsObject())
+    {
+        envelope.command.valueOrNull = Json::FindFirstOrNull(root, "command");
+        envelope.transactionID.valueOrNull = Json::FindFirstOrNull(root, "transactionId");
+        envelope.timestamp.valueOrNull = Json::FindFirstOrNull(root, "timestamp");
+        envelope.payload.valueOrNull = Json::FindFirstOrNull(root, "payload");
+    }
+    return envelope;
 }
 
 /// Takes the suffix off; false where there is none.
@@ -201,6 +213,57 @@ WireKind ReadKind(std::string_view commandName, const CodecOptions& options, Jso
     return kind;
 }
 
+/// Section 4.1: what these say about from and to means nothing, so that it is not looked at either.
+bool HasPlaces(std::string_view action)
+{
+    constexpr std::array<std::string_view, 3> PLACELESS{"CloseSetCover", "OpenSetCover", "Start"};
+    return std::ranges::none_of(PLACELESS, [action](std::string_view placeless) {
+        return Json::IsEqualIgnoringCase(placeless, action);
+    });
+}
+
+/// Whether the member is a location; or nothing, where that is allowed.
+bool TryCheckLocation(std::string_view name, const std::string& text, bool bEmptyAllowed, Json::DecodeContext& context)
+{
+    if ((bEmptyAllowed && text.empty()) || Core::Location::IsLocation(text))
+    {
+        return true;
+    }
+    Core::Error error = Core::Location::Parse(text).error();
+    static_cast<void>(context.IsFailedWith(error.code, std::move(error.expected), std::move(error.found)));
+    return context.IsFailedAt(name);
+}
+
+bool TryCheckJobs(const std::vector<PlanJob>& jobs, Json::DecodeContext& context)
+{
+    for (std::size_t i = 0; i < jobs.size(); ++i)
+    {
+        if (!TryCheckLocation("from", jobs[i].from, true, context)
+            || !TryCheckLocation("to", jobs[i].to, true, context))
+        {
+            static_cast<void>(context.IsFailedAt(i));
+            return context.IsFailedAt("jobs");
+        }
+    }
+    return true;
+}
+
+/// Section 10: a plan's locations follow the grammar. Whether the site has them is not the codec's to say.
+bool TryCheckLocations(const ExecutionPlan& plan, Json::DecodeContext& context)
+{
+    for (std::size_t i = 0; i < plan.steps.size(); ++i)
+    {
+        const PlanStep& step = plan.steps[i];
+        const bool bJobs = !HasPlaces(step.action) || TryCheckJobs(step.jobs, context);
+        if (!bJobs || !TryCheckLocation("position", step.position, false, context))
+        {
+            static_cast<void>(context.IsFailedAt(i));
+            return context.IsFailedAt("steps");
+        }
+    }
+    return true;
+}
+
 Json::DecodeOptions MakeDecodeOptions(const CodecOptions& options)
 {
     Json::DecodeOptions decodeOptions;
@@ -208,6 +271,7 @@ Json::DecodeOptions MakeDecodeOptions(const CodecOptions& options)
     decodeOptions.bNumericStringsAccepted = true;
     decodeOptions.maximumString = options.maximumString;
     decodeOptions.maximumArray = options.maximumArray;
+    decodeOptions.assumedOffset = options.siteOffset;
     return decodeOptions;
 }
 
@@ -224,23 +288,24 @@ public:
     {
     }
 
-    [[nodiscard]] Core::Timestamp ReadTimestamp(const Json::DeferredValue& value, DecodeNotes& notes) const
+    [[nodiscard]] std::optional<Core::Timestamp> ReadTimestampOrNull(const Json::DeferredValue& value) const
     {
-        const Core::Result<Core::Timestamp> timestamp =
-            Core::ParseTimestamp(GetStringOrEmpty(value), options.siteOffset);
-        if (!timestamp.has_value())
-        {
-            ++notes.badTimestamps;
-            return {};
-        }
-        return {std::chrono::floor<std::chrono::milliseconds>(timestamp->time), timestamp->offset};
+        return value.valueOrNull == nullptr ? std::nullopt
+                                            : Detail::ReadTimestampOrNull(*value.valueOrNull, options.siteOffset);
+    }
+
+    /// The epoch, and counted, where there is none.
+    [[nodiscard]] Core::Timestamp ReadTimestamp(const Json::DeferredValue& value, Json::DecodeContext& context) const
+    {
+        const std::optional<Core::Timestamp> timestampOrNull = ReadTimestampOrNull(value);
+        context.GetNotes().badTimestamps += timestampOrNull.has_value() ? 0U : 1U;
+        return timestampOrNull.value_or(Core::Timestamp{});
     }
 
     [[nodiscard]] bool TryDecodeRequest(
         const Detail::WireEnvelope& envelope,
         EAcsCommand command,
         AcsRequest& request,
-        DecodeNotes& notes,
         Json::DecodeContext& context) const
     {
         request.transactionID = GetStringOrEmpty(envelope.transactionID);
@@ -252,7 +317,7 @@ public:
                 envelope.transactionID.valueOrNull));
             return context.IsFailedAt("transactionId");
         }
-        request.timestamp = ReadTimestamp(envelope.timestamp, notes);
+        request.timestamp = ReadTimestamp(envelope.timestamp, context);
         if (envelope.payload.valueOrNull == nullptr)
         {
             static_cast<void>(
@@ -260,26 +325,30 @@ public:
             return context.IsFailedAt("payload");
         }
         const PayloadDecoder decoder = PAYLOAD_DECODERS[static_cast<std::size_t>(command)];
-        return decoder(*envelope.payload.valueOrNull, request.payload, context) || context.IsFailedAt("payload");
+        const bool bDecoded = decoder(*envelope.payload.valueOrNull, request.payload, context);
+        const ExecutionPlan* planOrNull = std::get_if<ExecutionPlan>(&request.payload);
+        const bool bChecked = planOrNull != nullptr && options.bLocationsChecked;
+        return (bDecoded && (!bChecked || TryCheckLocations(*planOrNull, context))) || context.IsFailedAt("payload");
     }
 
     [[nodiscard]] bool TryDecodeAck(
         const Detail::WireEnvelope& envelope,
         const WireKind& kind,
         AcsAck& ack,
-        DecodeNotes& notes,
         Json::DecodeContext& context) const
     {
         ack.command = *kind.command;
         ack.bLegacyName = kind.bLegacyName;
         ack.transactionID = GetStringOrEmpty(envelope.transactionID);
-        ack.timestamp = ReadTimestamp(envelope.timestamp, notes);
+        ack.timestamp = ReadTimestamp(envelope.timestamp, context);
         const std::string_view failureWord = Json::GetWord(EAckResult::Fail);
         const bool bSuccess = Detail::IsSuccess(GetStringOrEmpty(envelope.result), failureWord, context.GetNotes());
         ack.result = bSuccess ? EAckResult::Success : EAckResult::Fail;
         ack.message = GetStringOrEmpty(envelope.message);
         ack.payload = MakeAckPayload(ack.command);
-        if (envelope.payload.valueOrNull == nullptr || std::holds_alternative<EmptyAck>(ack.payload))
+        const bool bMeaningless = std::holds_alternative<EmptyAck>(ack.payload)
+            && envelope.payload.valueOrNull != nullptr && !envelope.payload.valueOrNull->IsObject();
+        if (envelope.payload.valueOrNull == nullptr || bMeaningless)
         {
             return true;
         }
@@ -312,10 +381,10 @@ public:
         }
         if (kind.bAck)
         {
-            return TryDecodeAck(envelope, kind, outcome.message->emplace<AcsAck>(), outcome.notes, context);
+            return TryDecodeAck(envelope, kind, outcome.message->emplace<AcsAck>(), context);
         }
         AcsRequest& request = std::get<AcsRequest>(*outcome.message);
-        return TryDecodeRequest(envelope, *kind.command, request, outcome.notes, context);
+        return TryDecodeRequest(envelope, *kind.command, request, context);
     }
 };
 
@@ -330,15 +399,21 @@ DecodeOutcome AcsCodec::Decode(std::string_view text)
 {
     DecodeOutcome outcome;
     const Json::ParseLimits limits{_impl->options.maximumBytes, _impl->options.maximumDepth};
-    Core::Result<const Json::Value*> root = _impl->document.Parse(text, limits);
+    Core::Result<const Json::Value*> root = _impl->document.Parse(text, limits, _impl->options.bLenientJson);
     if (!root.has_value())
     {
-        outcome.message = tl::unexpected<DecodeFailure>(DecodeFailure{std::move(root.error()), {}, {}, {}, {}, false});
+        DecodeFailure failure;
+        failure.error = std::move(root.error());
+        outcome.message = tl::unexpected<DecodeFailure>(std::move(failure));
         return outcome;
     }
     Json::DecodeContext context(MakeDecodeOptions(_impl->options));
     Detail::WireEnvelope envelope;
     const bool bEnvelope = Json::TryDecode(**root, envelope, {}, context);
+    if (!bEnvelope)
+    {
+        envelope = FindEnvelope(**root);
+    }
     const std::string_view commandName = GetStringOrEmpty(envelope.command);
     const WireKind kind = ReadKind(commandName, _impl->options, context.GetNotes());
     outcome.bLegacyName = kind.bLegacyName;
@@ -352,7 +427,10 @@ DecodeOutcome AcsCodec::Decode(std::string_view text)
         const std::string_view transactionID = GetStringOrEmpty(envelope.transactionID);
         failure.transactionID =
             transactionID.substr(0, transactionID.size() <= Detail::LONGEST_ID ? std::string_view::npos : 0);
-        failure.planID = FindPlanID(envelope.payload);
+        failure.timestamp = _impl->ReadTimestampOrNull(envelope.timestamp);
+        failure.planID = FindIdentifier(envelope.payload, "planId");
+        failure.robotID = FindIdentifier(envelope.payload, "robotId");
+        failure.jobID = FindIdentifier(envelope.payload, "jobId");
         failure.bAck = kind.bAck;
         outcome.message = tl::unexpected<DecodeFailure>(std::move(failure));
     }
@@ -361,6 +439,7 @@ DecodeOutcome AcsCodec::Decode(std::string_view text)
     outcome.notes.nullOptionals = notes.nullOptionals;
     outcome.notes.lenientWords = notes.lenientWords;
     outcome.notes.lenientNumbers = notes.lenientNumbers;
+    outcome.notes.badTimestamps = notes.badTimestamps;
     return outcome;
 }
 
@@ -406,9 +485,7 @@ void BeginResponse(
 {
     writer.BeginObject();
     writer.Key("command");
-    std::string name(commandName);
-    name += ACK_SUFFIX;
-    writer.WriteString(name);
+    writer.WriteString(commandName, ACK_SUFFIX);
     writer.Key("transactionId");
     writer.WriteString(transactionID);
     writer.Key("timestamp");

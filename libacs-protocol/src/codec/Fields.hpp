@@ -5,8 +5,10 @@
 #include <acs/json/JsonEncoder.hpp>
 #include <acs/protocol/AcsMessage.hpp>
 
+#include <chrono>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <tuple>
 
@@ -32,6 +34,11 @@ struct WireEnvelope
 
 /// D-1: success and ok in any case; everything else is a failure. Notes every spelling but the exact two.
 [[nodiscard]] bool IsSuccess(std::string_view text, std::string_view failureWord, Json::DecodeNotes& notes);
+
+/// A time of the wire, to the millisecond; nullopt where it is none.
+[[nodiscard]] std::optional<Core::Timestamp> ReadTimestampOrNull(
+    const Json::Value& value,
+    std::chrono::minutes assumedOffset);
 
 } // namespace ACS::Protocol::Detail
 
@@ -69,7 +76,7 @@ struct JsonFields<Protocol::PlanStep>
         Required("stepNo", &Message::stepNo).Between(1, Protocol::Detail::HIGHEST_STEP),
         Required("action", &Message::action).WithLength(1, Protocol::Detail::LONGEST_ID),
         Required("position", &Message::position).WithLength(1, Protocol::Detail::LONGEST_ID),
-        Defaulted("carrierIds", &Message::carrierIDs),
+        Defaulted("carrierIds", &Message::carrierIDs).WithElements(0, Protocol::Detail::LONGEST_ID),
         Defaulted("jobs", &Message::jobs));
 };
 
@@ -113,7 +120,8 @@ template <>
 struct JsonFields<Protocol::RequestAcsPlanHistory>
 {
     using Message = Protocol::RequestAcsPlanHistory;
-    static constexpr auto FIELDS = std::make_tuple(Required("planIds", &Message::planIDs));
+    static constexpr auto FIELDS =
+        std::make_tuple(Required("planIds", &Message::planIDs).WithElements(1, Protocol::Detail::LONGEST_ID));
 };
 
 template <>
@@ -216,7 +224,7 @@ struct JsonFields<Protocol::RobotStatusUpdate>
         Required("robotType", &Message::robotType),
         Required("robotStatus", &Message::robotStatus),
         Nullable("position", &Message::position),
-        Defaulted("carrierIds", &Message::carrierIDs),
+        Defaulted("carrierIds", &Message::carrierIDs).WithElements(0, Protocol::Detail::LONGEST_ID),
         Nullable("planId", &Message::planID),
         Nullable("stepNo", &Message::stepNo),
         Nullable("jobId", &Message::jobID),
@@ -269,12 +277,13 @@ struct JsonFields<Protocol::ErrorListAck>
     static constexpr auto FIELDS = std::make_tuple(Defaulted("errors", &Message::errors));
 };
 
+/// A time that cannot be read is none, and counted (section 2).
 template <>
-struct ValueDecoder<Core::Timestamp>
+struct ValueDecoder<std::optional<Core::Timestamp>>
 {
     [[nodiscard]] static bool TryDecode(
         const Value& value,
-        Core::Timestamp& out,
+        std::optional<Core::Timestamp>& out,
         const FieldBounds& bounds,
         DecodeContext& context);
 };

@@ -27,6 +27,7 @@ void CheckRefused(std::string_view text)
     const Result<Location> location = Location::Parse(text);
     REQUIRE_FALSE(location.has_value());
     CHECK(location.error().code == ECoreError::InvalidLocation);
+    CHECK_FALSE(Location::IsLocation(text));
 }
 
 struct Example
@@ -81,6 +82,7 @@ TEST_CASE("10 Every fixed place of the document is a location in its canonical f
         INFO("location " << example.text);
         const Result<Location> location = Location::Parse(example.text);
         REQUIRE(location.has_value());
+        CHECK(Location::IsLocation(example.text));
         CHECK(location->GetText() == example.text);
         CHECK(location->GetOriginalText() == example.text);
         CHECK_FALSE(location->WasNormalised());
@@ -115,6 +117,7 @@ TEST_CASE("10 Every robot port of the document, and those of named robots, are l
         INFO("location " << text);
         const Result<Location> location = Location::Parse(text);
         REQUIRE(location.has_value());
+        CHECK(Location::IsLocation(text));
         CHECK(location->GetText() == text);
         CHECK_FALSE(location->WasNormalised());
         CHECK(location->IsRobotPort());
@@ -205,9 +208,34 @@ TEST_CASE("10 Lower case and missing or spare padding are accepted and marked")
         INFO("location " << spelling.text);
         const Result<Location> location = Location::Parse(spelling.text);
         REQUIRE(location.has_value());
+        CHECK(Location::IsLocation(spelling.text));
         CHECK(location->GetText() == spelling.canonical);
         CHECK(location->GetOriginalText() == spelling.text);
         CHECK(location->WasNormalised());
+    }
+}
+
+TEST_CASE("R17 Every number below ten is written with two digits, whatever the sender wrote")
+{
+    for (unsigned number = 1; number <= 12; ++number)
+    {
+        const std::string bare = std::to_string(number);
+        const std::string padded = number < 10 ? "0" + bare : bare;
+        const auto expand = [](std::string text, const std::string& digits) {
+            for (std::size_t at = text.find('#'); at != std::string::npos; at = text.find('#'))
+            {
+                text.replace(at, 1, digits);
+            }
+            return text;
+        };
+        for (const std::string form :
+             {"ST#.CP#.TP#.MP#", "A#.CP#.TP#.MP#", "A#.SET#.MP#", "A#.T#", "SET#.MP#", "AMR.CP#", "AMR.TP#.MP#"})
+        {
+            const Location location = Make(expand(form, bare));
+            CHECK(location.GetText() == expand(form, padded));
+            CHECK(location.WasNormalised() == (number < 10));
+            CHECK(Make(expand(form, padded)).GetText() == expand(form, padded));
+        }
     }
 }
 

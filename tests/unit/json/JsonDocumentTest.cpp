@@ -41,6 +41,22 @@ TEST_CASE("A text longer than the limit is refused before it is parsed")
     CHECK_FALSE(GetParseError("[1,2,3]", {7, 3}));
 }
 
+TEST_CASE("Half a surrogate pair is refused, in a value and in a name, and a whole one is read")
+{
+    for (const std::string_view text :
+         {R"("\ud83d")", R"("\uddDD")", R"("\ude00\ud83d")", R"("x\uDFFFy")", R"({"\udc00":1})", R"(["\ud83d\u0041"])"})
+    {
+        INFO(text);
+        CHECK(GetParseError(text) == Core::ECoreError::InvalidJson);
+    }
+    for (const std::string_view text :
+         {R"("\ud83d\ude00")", R"("\ud7ff")", R"("\ue000")", "\"\xED\x95\x9C\\n\"", "\"\xED\x9F\xBF\\t\xEE\x80\x80\""})
+    {
+        INFO(text);
+        CHECK_FALSE(GetParseError(text));
+    }
+}
+
 TEST_CASE("What is no JSON is refused")
 {
     using namespace std::string_view_literals;

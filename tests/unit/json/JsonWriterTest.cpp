@@ -19,6 +19,41 @@ std::string WriteOne(std::string_view value)
 
 } // namespace
 
+TEST_CASE("A string of any length and content is escaped byte for byte alike")
+{
+    // Each position in and around a block of eight, so that no way through the scan stays untried.
+    for (std::size_t length = 0; length < 20; ++length)
+    {
+        const std::string plain(length, 'x');
+        CHECK(WriteOne(plain) == '"' + plain + '"');
+        for (std::size_t i = 0; i < length; ++i)
+        {
+            const std::string front = plain.substr(0, i);
+            const std::string back = plain.substr(i + 1);
+            CHECK(WriteOne(front + '"' + back) == '"' + front + "\\\"" + back + '"');
+            CHECK(WriteOne(front + '\\' + back) == '"' + front + "\\\\" + back + '"');
+            CHECK(WriteOne(front + '\x1F' + back) == '"' + front + "\\u001f" + back + '"');
+            CHECK(WriteOne(front + '\0' + back) == '"' + front + "\\u0000" + back + '"');
+            CHECK(WriteOne(front + "\x7F\x20!#[]" + back) == '"' + front + "\x7F\x20!#[]" + back + '"');
+            CHECK(WriteOne(front + "\xED\x95\x9C" + back) == '"' + front + "\xED\x95\x9C" + back + '"');
+            CHECK(WriteOne(front + '\xFF' + back) == '"' + front + "\xEF\xBF\xBD" + back + '"');
+        }
+    }
+}
+
+TEST_CASE("A string in two parts is one string, and a plain one is what the full one would be")
+{
+    std::string text;
+    JsonWriter writer(text);
+    writer.BeginArray();
+    writer.WriteString("Plan\"", "Ack\n");
+    writer.WriteString("", "");
+    writer.WriteString("", "b");
+    writer.WritePlainString("Auto");
+    writer.EndArray();
+    CHECK(text == R"(["Plan\"Ack\n","","b","Auto"])");
+}
+
 TEST_CASE("Objects and arrays are separated by commas where they belong")
 {
     std::string text;

@@ -423,3 +423,162 @@ TEST_CASE("3 A struck out job status is refused")
         R"({"planId":"P","robotId":"R","stepNo":1,"jobId":"J","status":"Timeout","message":""})";
     CHECK(FailOrDecode(codec, MakeRequestText("JobReport", payload)).error.path == "payload.status");
 }
+
+TEST_CASE("2 A plan's times are read like any time: without offset as the site's, and unreadable ones as none")
+{
+    Protocol::CodecOptions options;
+    options.siteOffset = std::chrono::hours(9);
+    AcsCodec codec(options);
+    const auto decode = [&codec](const std::string& startTime) {
+        return codec.Decode(
+            R"({"command":"RequestAcsPlansAck","transactionId":"t","timestamp":"2025-07-02T21:00:00.123+09:00",)"
+            R"("result":"Success","message":"","payload":{"plans":[{"planId":"P","robotId":null,"status":"Pending",)"
+            R"("stepNo":1,"jobId":null,"currentAction":null,"startTime":)"
+            + startTime + R"(,"endTime":null}]}})");
+    };
+    const auto getStart = [](const DecodeOutcome& outcome) {
+        return std::get<Protocol::PlanListAck>(std::get<AcsAck>(outcome.message.value()).payload).plans.at(0).startTime;
+    };
+    const DecodeOutcome local = decode(R"("2025-07-02T21:00:00.1234567")");
+    CHECK(getStart(local).value() == std::get<AcsAck>(local.message.value()).timestamp);
+    CHECK(local.notes == Protocol::DecodeNotes{});
+    for (const std::string bad : {R"("soon")", "7", "{}"})
+    {
+        INFO(bad);
+        const DecodeOutcome outcome = decode(bad);
+        CHECK_FALSE(getStart(outcome).has_value());
+        CHECK(outcome.notes.badTimestamps == 1);
+    }
+}
+
+TEST_CASE("2 What could not be decoded still tells its ids and its time")
+{
+    AcsCodec codec;
+    const DecodeFailure failure = FailOrDecode(
+        codec,
+        MakeRequestText("JobReport", R"({"planId":"P","robotId":"R","stepNo":1,"jobId":"J","status":"Dancing"})"));
+    CHECK(failure.error.path == "payload.status");
+    CHECK(failure.command == EAcsCommand::JobReport);
+    CHECK(failure.transactionID == "t-1");
+    CHECK(failure.planID == "P");
+    CHECK(failure.robotID == "R");
+    CHECK(failure.jobID == "J");
+    REQUIRE(failure.timestamp.has_value());
+    CHECK(failure.timestamp->offset == std::chrono::hours(9));
+}
+
+TEST_CASE("2 A member of the envelope that is named twice is refused, and the rest can still be answered")
+{
+    AcsCodec codec;
+    for (const std::string text :
+         {R"({"command":"CancelPlan","command":"AbortPlan","transactionId":"t-1","payload":{"planId":"P"}})",
+          R"({"payload":{"planId":"P"},"payload":{},"transactionId":"t-1","command":"CancelPlan"})",
+          R"({"x":1,"x":1,"command":"CancelPlan","transactionId":"t-1","payload":{"planId":"P"}})"})
+    {
+        const DecodeFailure failure = FailOrDecode(codec, text);
+        CHECK(failure.error.code == Core::ECoreError::InvalidJson);
+        CHECK(failure.command == EAcsCommand::CancelPlan);
+        CHECK(failure.transactionID == "t-1");
+        CHECK(failure.planID == "P");
+    }
+}
+
+TEST_CASE("2 The payload of an Ack that should be empty is counted, and refused where it names a member twice")
+{
+    AcsCodec codec;
+    const auto decode = [&codec](const std::string& payload) {
+        return codec.Decode(
+            R"({"command":"PlanReportAck","transactionId":"t","timestamp":"2025-07-02T21:00:00.123+09:00",)"
+            R"("result":"Success","message":"","payload":)"
+            + payload + "}");
+    };
+    CHECK(decode("{}").notes == Protocol::DecodeNotes{});
+    CHECK(decode(R"({"planId":"P"})").notes.unknownMembers == 1);
+    CHECK(decode("null").message.has_value());
+    CHECK(decode("7").message.has_value());
+    CHECK_FALSE(decode(R"({"planId":"P","planId":"Q"})").message.has_value());
+}
+
+TEST_CASE("2 Identifiers in lists have the bounds of identifiers")
+{
+    AcsCodec codec;
+    const auto decode = [&codec](const std::string& planIDs) {
+        return codec.Decode(MakeRequestText("RequestAcsPlanHistory", R"({"planIds":)" + planIDs + "}"));
+    };
+    CHECK(decode("[]").message.has_value());
+    CHECK(decode(R"(["P"])").message.has_value());
+    for (const std::string& bad : {std::string(R"(["P",""])"), R"(["P",")" + std::string(513, 'x') + R"("])"})
+    {
+        const DecodeOutcome outcome = decode(bad);
+        REQUIRE_FALSE(outcome.message.has_value());
+        CHECK(outcome.message.error().error.path == "payload.planIds[1]");
+    }
+}
+
+TEST_CASE("D-11 Comments and spare commas are refused, and read by option only")
+{
+    const std::string text = R"({"command":"CancelPlan",// stops it
+        "transactionId":"t","timestamp":"2025-07-02T21:00:00.123+09:00","payload":{"planId":"P","reason":"r",},})";
+    AcsCodec codec;
+    CHECK(FailOrDecode(codec, text).error.code == Core::ECoreError::InvalidJson);
+    Protocol::CodecOptions options;
+    options.bLenientJson = true;
+    AcsCodec lenient(options);
+    CHECK(
+        std::get<AcsRequest>(DecodeOrFail(lenient, text)).payload
+        == Protocol::AcsPayload(Protocol::CancelPlan{"P", "r"}));
+}
+
+namespace
+{
+
+struct LimitCase
+{
+    std::string within;
+    std::string beyond;
+    Protocol::CodecOptions options;
+};
+
+LimitCase MakeLimitCase(
+    std::size_t Protocol::CodecOptions::*limit,
+    std::size_t value,
+    std::string within,
+    std::string beyond)
+{
+    LimitCase limitCase{std::move(within), std::move(beyond), {}};
+    limitCase.options.*limit = value;
+    return limitCase;
+}
+
+} // namespace
+
+TEST_CASE("1 Each limit is an option: message size, depth, strings, arrays")
+{
+    using Options = Protocol::CodecOptions;
+    const std::string sized = MakeRequestText("SyncConfig", "{}");
+    const auto message = [](const std::string& text) {
+        return MakeRequestText("PlanReport", R"({"planId":"P","status":"Failed","message":")" + text + R"("})");
+    };
+    const auto nested = [](const std::string& text) {
+        return MakeRequestText("SyncConfig", R"({"x":)" + text + "}");
+    };
+    const auto history = [](const std::string& text) {
+        return MakeRequestText("RequestAcsPlanHistory", R"({"planIds":[)" + text + "]}");
+    };
+    const std::vector<LimitCase> cases{
+        MakeLimitCase(&Options::maximumBytes, sized.size(), sized, sized + " "),
+        MakeLimitCase(&Options::maximumDepth, 4, nested("[[]]"), nested("[[[]]]")),
+        MakeLimitCase(&Options::maximumString, 8, message("12345678"), message("123456789")),
+        MakeLimitCase(&Options::maximumArray, 2, history(R"("a","b")"), history(R"("a","b","c")")),
+    };
+    for (const LimitCase& limitCase : cases)
+    {
+        INFO(limitCase.beyond);
+        AcsCodec codec(limitCase.options);
+        CHECK(codec.Decode(limitCase.within).message.has_value());
+        const std::error_code code = FailOrDecode(codec, limitCase.beyond).error.code;
+        CHECK((code == Core::ECoreError::TooLarge || code == Core::ECoreError::OutOfRange));
+        AcsCodec usual;
+        CHECK(usual.Decode(limitCase.beyond).message.has_value());
+    }
+}

@@ -1,9 +1,6 @@
+#include "AcsSessionBench.hpp"
 #include "Catch.hpp"
 #include "Fixture.hpp"
-#include "ManualClock.hpp"
-#include "SeededRandom.hpp"
-#include "SessionProbe.hpp"
-#include <acs/protocol/AcsSession.hpp>
 
 #include <chrono>
 #include <string>
@@ -16,112 +13,13 @@ using Protocol::EAckResult;
 using Protocol::EAcsCommand;
 using Protocol::EProtocolNote;
 using Protocol::ESessionTimer;
+using Bench = Testing::AcsSessionBench;
 using Testing::MakeAckText;
+using Testing::MakeOptions;
 using Testing::MakeRequestText;
+using Testing::MakeStatus;
 using Strings = std::vector<std::string>;
 using Notes = std::vector<EProtocolNote>;
-
-namespace
-{
-
-AcsRequest MakeReport(const std::string& transactionID)
-{
-    return {
-        transactionID,
-        {Core::WallTime(1'751'457'600s), 9h},
-        Protocol::PlanReport{"P", Protocol::EPlanStatus::InProgress, "fine"}};
-}
-
-Protocol::AcsPayload MakeStatus(const std::string& robotID, Protocol::ERobotStatus status)
-{
-    Protocol::RobotStatusUpdate update;
-    update.robotID = robotID;
-    update.robotStatus = status;
-    return update;
-}
-
-Protocol::SessionOptions MakeOptions()
-{
-    Protocol::SessionOptions options;
-    options.positionInterval = 0ms;
-    return options;
-}
-
-/// A session with its clock, and shorthands for what happens to it.
-class Bench
-{
-public:
-    Testing::ManualClock clock;
-    Testing::SeededRandom random;
-    Protocol::AcsSession session;
-    Testing::SessionProbe probe;
-
-    explicit Bench(const Protocol::SessionOptions& options = MakeOptions())
-        : session(options, random)
-    {
-    }
-
-    void Text(const std::string& text)
-    {
-        probe.Clear();
-        session.OnText(text, clock.GetNow(), probe.out);
-    }
-
-    void Timer(ESessionTimer timer, std::chrono::milliseconds after)
-    {
-        probe.Clear();
-        clock.Advance(after);
-        session.OnTimer(timer, clock.GetNow(), probe.out);
-    }
-
-    void Closed()
-    {
-        probe.Clear();
-        session.OnClosed("gone", clock.GetNow(), probe.out);
-    }
-
-    [[nodiscard]] bool TrySend(const std::string& transactionID)
-    {
-        return session.TrySendDurable(MakeReport(transactionID), clock.GetNow(), probe.out);
-    }
-
-    /// From Connecting to Registered.
-    void Register()
-    {
-        probe.Clear();
-        session.OnConnected(clock.GetNow(), probe.out);
-        const std::vector<AcsRequest> requests = probe.GetRequests();
-        REQUIRE(requests.size() == 1);
-        Text(MakeAckText("Registration", requests[0].transactionID));
-        REQUIRE(probe.GetEvents<Protocol::Registered>().size() == 1);
-    }
-
-    void StartAndRegister()
-    {
-        session.Start(clock.GetNow(), probe.out);
-        Register();
-    }
-
-    void StartAndReplay()
-    {
-        StartAndRegister();
-        probe.Clear();
-        session.ReplayDone(clock.GetNow(), probe.out);
-    }
-
-    void AckAllRequests()
-    {
-        for (const AcsRequest& request : probe.GetRequests())
-        {
-            session.OnText(
-                MakeAckText(std::string(GetText(GetCommand(request))), request.transactionID),
-                clock.GetNow(),
-                probe.out);
-        }
-    }
-};
-
-} // namespace
 
 TEST_CASE("1, 5 Registration is the first message, and nothing follows before its Ack")
 {

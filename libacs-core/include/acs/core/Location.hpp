@@ -51,6 +51,9 @@ public:
     /// robot's name keeps its case. Fails with ECoreError::InvalidLocation.
     [[nodiscard]] static Result<Location> Parse(std::string_view text);
 
+    /// Whether Parse would take this text, without making anything of it.
+    [[nodiscard]] static bool IsLocation(std::string_view text) noexcept;
+
     /// Upper case, numbers of two digits or more.
     [[nodiscard]] const std::string& GetText() const noexcept;
 

@@ -24,6 +24,9 @@ public:
     /// What MCS-ACS writes for whichever robot executes the plan (section 10).
     static constexpr std::string_view ALIAS = "AMR";
 
+    /// Whether Parse would take this text.
+    [[nodiscard]] static bool IsRobotID(std::string_view text) noexcept;
+
     /// Fails with ECoreError::InvalidIdentifier.
     [[nodiscard]] static Result<RobotID> Parse(std::string_view text);
 

@@ -3,7 +3,9 @@
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
 
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -27,6 +29,12 @@ struct Timestamp
 /// Local time with offset, as MCS-ACS writes it (section 2): 2025-07-02T21:00:00.123+09:00. Cuts below a millisecond.
 /// The offset is that of the site, less than 24 hours either way.
 [[nodiscard]] std::string FormatLocal(WallTime time, std::chrono::minutes offset);
+
+inline constexpr std::size_t LOCAL_TIME_LENGTH = 29;
+using LocalTimeText = std::array<char, LOCAL_TIME_LENGTH>;
+
+/// As FormatLocal, without memory from the heap.
+[[nodiscard]] LocalTimeText PrintLocal(WallTime time, std::chrono::minutes offset);
 
 /// UTC, as VDA5050 writes it: 2025-07-02T12:00:00.123Z. Cuts below a millisecond.
 [[nodiscard]] std::string FormatUtc(WallTime time);

@@ -65,7 +65,8 @@ public:
     void ReplayDone(Core::Now now, SessionActions& out);
 
     /// A TscStateUpdate, AcsCommStateUpdate or RobotStatusUpdate: the latest of each kind and robot is kept, sent at once
-    /// where possible and after every ReplayDone again. SendText, StartTimer. Other payloads are a defect of the caller.
+    /// where possible and after every ReplayDone again; a TSC or comm state that has not changed is not sent. SendText,
+    /// StartTimer. Other payloads are a defect of the caller.
     void SendStatus(const AcsPayload& status, Core::Now now, SessionActions& out);
 
     /// SendText that may be dropped; nothing at all before ReplayDone.

@@ -15,6 +15,8 @@ struct CodecOptions
     std::size_t maximumArray = 10'000;             ///< Elements of one array.
     bool bUnknownMembersRefused = false;           ///< `mcs.unknown_fields`: else they are ignored and counted.
     bool bLegacyNames = true;                      ///< `mcs.legacy_aliases`: RequestAcsStatus is RequestAcsPlans (D-5).
+    bool bLenientJson = false;                     ///< `mcs.json_lenient`: read over comments and spare commas (D-11).
+    bool bLocationsChecked = true;                 ///< Refuse a plan with a location that does not parse.
     std::chrono::minutes siteOffset{0};            ///< Assumed for a timestamp without an offset.
 };
 

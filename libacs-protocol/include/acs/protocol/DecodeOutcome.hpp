@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/core/Result.hpp>
+#include <acs/core/Timestamp.hpp>
 #include <acs/protocol/AcsMessage.hpp>
 
 #include <cstdint>
@@ -27,10 +28,13 @@ struct DecodeFailure
 {
     Core::Error error;
     std::string commandName; ///< As sent, the Ack suffix included; empty: there was none, no answer possible.
-    std::optional<EAcsCommand> command; ///< Nullopt: a command that the protocol does not have.
-    std::string transactionID;          ///< May be empty.
-    std::string planID;                 ///< Of the payload; may be empty.
-    bool bAck = false;                  ///< It was a response: never answered.
+    std::optional<EAcsCommand> command;       ///< Nullopt: a command that the protocol does not have.
+    std::string transactionID;                ///< May be empty.
+    std::optional<Core::Timestamp> timestamp; ///< Nullopt: missing or unreadable.
+    std::string planID;                       ///< Of the payload, like the next two; may be empty.
+    std::string robotID;
+    std::string jobID;
+    bool bAck = false; ///< It was a response: never answered.
 };
 
 struct DecodeOutcome

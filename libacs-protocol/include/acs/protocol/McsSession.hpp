@@ -49,13 +49,18 @@ public:
     /// A request with a fresh transactionID and the present as its timestamp, to be sent once or more often.
     [[nodiscard]] AcsRequest MakeRequest(AcsPayload payload, Core::Now now);
 
-    /// SendText, StartTimer. False, and nothing done, where no ACS is registered or too many requests wait.
+    /// SendText, StartTimer. False, and nothing done, where no ACS is registered, too many requests wait, or the request
+    /// is a plan and IsTakingPlans says no.
     [[nodiscard]] bool TrySend(const AcsRequest& request, Core::Now now, SessionActions& out);
 
     /// Close of the registered connection, for example to show what a cut does. Nothing where there is none.
     void Drop(std::uint16_t code, std::string_view reason, SessionActions& out);
 
     [[nodiscard]] bool IsRegistered() const noexcept;
+
+    /// Whether an ACS is registered and its last AcsCommStateUpdate on this connection, if any, said isConnected=true:
+    /// until then the MCS keeps its plans (section 6.21). Changes with a RequestReceived of AcsCommStateUpdate.
+    [[nodiscard]] bool IsTakingPlans() const noexcept;
 
     /// Which connection is registered; nullopt: none.
     [[nodiscard]] std::optional<ConnectionID> GetRegisteredOrNull() const noexcept;

@@ -30,6 +30,7 @@ struct McsSessionOptions
     std::chrono::milliseconds ackTimeout{5'000}; ///< Then RequestUnanswered is delivered; an MCS does not resend.
     std::size_t maximumPending = 1024;           ///< Requests that wait for their Ack.
     std::size_t duplicateMemory = 65'536;        ///< Transactions remembered, to count repeated reports.
+    bool bPlansWithheld = true;  ///< Send no ExecutionPlan while the ACS has said isConnected=false (section 6.21).
     bool bSecondRefused = false; ///< Refuse a second client (403, 1008) while one is there; else replace.
     CodecOptions codec{};
 };

@@ -1,22 +1,19 @@
 #pragma once
 
 #include <acs/core/Location.hpp>
+#include <acs/core/LocationMap.hpp>
 #include <acs/plan/SiteMap.hpp>
 
 #include <optional>
 #include <span>
-#include <string>
-#include <string_view>
-#include <unordered_set>
 
 namespace ACS::Planning
 {
 
-/// The set of all places that plans may name: the map's stations, the ports inside them, the robots' ports. Canonical
-/// texts.
+/// The set of all places that plans may name: the map's stations, the ports inside them, the robots' ports.
 class PortCatalog
 {
-    std::unordered_set<std::string> _places;
+    Core::LocationMap _places;
 
 public:
     PortCatalog() = default;

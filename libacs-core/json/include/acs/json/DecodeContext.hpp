@@ -3,6 +3,7 @@
 #include <acs/core/Result.hpp>
 #include <acs/json/JsonDocument.hpp>
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -20,6 +21,7 @@ struct DecodeNotes
     std::uint32_t nullOptionals = 0;
     std::uint32_t lenientWords = 0;
     std::uint32_t lenientNumbers = 0;
+    std::uint32_t badTimestamps = 0; ///< Of codecs that read past an unreadable time.
 
     bool operator==(const DecodeNotes&) const = default;
 };
@@ -31,6 +33,7 @@ struct DecodeOptions
     bool bWordsInAnyCase = true;
     std::size_t maximumString = 64U * 1024U; ///< Bytes of a string that its field does not bound.
     std::size_t maximumArray = 10'000;       ///< Elements of an array that its field does not bound.
+    std::chrono::minutes assumedOffset{0};   ///< Of a timestamp without one, in codecs that read such.
 };
 
 /// What a decode carries along: options in; notes and the first error out. The error's path is put together from the

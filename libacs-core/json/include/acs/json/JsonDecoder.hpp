@@ -183,10 +183,13 @@ struct ValueDecoder<std::vector<T>>
         {
             return false;
         }
+        FieldBounds elementBounds;
+        elementBounds.minimumLength = bounds.minimumElement;
+        elementBounds.maximumLength = bounds.maximumElement;
         out.reserve(value.Size());
         for (const Value& element : value.GetArray())
         {
-            if (!ValueDecoder<T>::TryDecode(element, out.emplace_back(), FieldBounds{}, context))
+            if (!ValueDecoder<T>::TryDecode(element, out.emplace_back(), elementBounds, context))
             {
                 return context.IsFailedAt(out.size() - 1);
             }

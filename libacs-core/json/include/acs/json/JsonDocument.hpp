@@ -40,9 +40,16 @@ public:
     JsonDocument& operator=(const JsonDocument&) = delete;
     ~JsonDocument();
 
-    /// The value is valid until the next Parse. Errors: TooLarge, InvalidJson (with the byte offset).
-    [[nodiscard]] Core::Result<const Value*> Parse(std::string_view text, const ParseLimits& limits);
+    /// The value is valid until the next Parse. Errors: TooLarge, InvalidJson (with the byte offset). With bLenient,
+    /// comments and commas behind the last member or element are read over.
+    [[nodiscard]] Core::Result<const Value*> Parse(
+        std::string_view text,
+        const ParseLimits& limits,
+        bool bLenient = false);
 };
+
+/// The first member of this name; nullptr where there is none, or a null, or no object.
+[[nodiscard]] const Value* FindFirstOrNull(const Value& object, std::string_view name);
 
 /// Compact text of a value, for errors: at most 40 bytes, cut at a character.
 [[nodiscard]] std::string ShortenForError(const Value& value);

@@ -4,11 +4,16 @@
 #include <acs/json/JsonFields.hpp>
 #include <acs/json/JsonWriter.hpp>
 
+#include <algorithm>
+#include <array>
 #include <concepts>
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace ACS::Json
@@ -82,7 +87,7 @@ struct ValueEncoder<T>
 {
     static void Encode(T value, JsonWriter& writer)
     {
-        writer.WriteString(GetWord(value));
+        writer.WritePlainString(GetWord(value));
     }
 };
 
@@ -133,29 +138,63 @@ template <typename T>
     }
 }
 
-template <typename TField, typename TStruct>
-void EncodeField(const TField& field, const TStruct& object, JsonWriter& writer)
+/// `,"name":` of a field, made by the compiler: writing a key is then one copy.
+template <DescribedStruct T, std::size_t INDEX>
+struct KeyText
 {
-    const auto& member = field.accessor(object);
-    if (field.presence == EPresence::Alias || (field.dialects & writer.GetDialect()) == 0)
+    static constexpr std::string_view NAME = std::get<INDEX>(EXPANDED_FIELDS<T>).name;
+    static constexpr std::string_view FRONT = ",\"";
+    static constexpr std::string_view BACK = "\":";
+    static constexpr std::size_t LENGTH = FRONT.size() + NAME.size() + BACK.size();
+
+    [[nodiscard]] static constexpr bool IsPlain()
     {
-        return;
+        return std::ranges::all_of(NAME, [](char letter) {
+            return letter >= ' ' && letter <= '~' && letter != '"' && letter != '\\';
+        });
     }
-    if (field.presence == EPresence::Optional && IsLeftOut(member))
+    static_assert(IsPlain(), "a member's name needs no escapes");
+
+    [[nodiscard]] static constexpr std::array<char, LENGTH> MakeText()
     {
-        return;
+        std::array<char, LENGTH> text{};
+        auto end = std::ranges::copy(FRONT, text.begin()).out;
+        end = std::ranges::copy(NAME, end).out;
+        std::ranges::copy(BACK, end);
+        return text;
     }
-    writer.Key(field.name);
-    ValueEncoder<std::remove_cvref_t<decltype(member)>>::Encode(member, writer);
+
+    static constexpr std::array<char, LENGTH> TEXT = MakeText();
+};
+
+template <DescribedStruct T, std::size_t INDEX>
+void EncodeField(const T& object, JsonWriter& writer)
+{
+    constexpr auto FIELD = std::get<INDEX>(EXPANDED_FIELDS<T>);
+    if constexpr (FIELD.presence != EPresence::Alias)
+    {
+        const auto& member = FIELD.accessor(object);
+        if ((FIELD.dialects & writer.GetDialect()) == 0 || (FIELD.presence == EPresence::Optional && IsLeftOut(member)))
+        {
+            return;
+        }
+        using Key = KeyText<T, INDEX>;
+        writer.WriteKeyText({Key::TEXT.data(), Key::LENGTH});
+        ValueEncoder<std::remove_cvref_t<decltype(member)>>::Encode(member, writer);
+    }
+}
+
+template <DescribedStruct T, std::size_t... INDEX>
+void EncodeFields(const T& object, JsonWriter& writer, std::index_sequence<INDEX...> /*all*/)
+{
+    (EncodeField<T, INDEX>(object, writer), ...);
 }
 
 /// The members of a described struct, without the braces: for an object to which the caller adds members of its own.
 template <DescribedStruct T>
 void EncodeMembers(const T& object, JsonWriter& writer)
 {
-    std::apply(
-        [&object, &writer](const auto&... fields) { (EncodeField(fields, object, writer), ...); },
-        EXPANDED_FIELDS<T>);
+    EncodeFields(object, writer, std::make_index_sequence<FIELD_COUNT<T>>{});
 }
 
 template <DescribedStruct T>

@@ -25,13 +25,15 @@ enum class EPresence : std::uint8_t
 using DialectFlags = std::uint8_t;
 inline constexpr DialectFlags ALL_DIALECTS = 0xFF;
 
-/// Bounds of a number, or of a string's bytes, or of an array's elements.
+/// Bounds of a number, or of a string's bytes, or of an array's elements and the bytes of each.
 struct FieldBounds
 {
     double minimum = -std::numeric_limits<double>::infinity();
     double maximum = std::numeric_limits<double>::infinity();
     std::size_t minimumLength = 0;
     std::size_t maximumLength = std::numeric_limits<std::size_t>::max();
+    std::size_t minimumElement = 0;
+    std::size_t maximumElement = std::numeric_limits<std::size_t>::max();
 };
 
 /// One member of a message: its JSON name, where it stands in the struct, and its rules. This one description drives
@@ -66,6 +68,15 @@ struct JsonField
         JsonField field = *this;
         field.bounds.minimumLength = minimum;
         field.bounds.maximumLength = maximum;
+        return field;
+    }
+
+    /// Of an array of strings: the bytes of each.
+    [[nodiscard]] constexpr JsonField WithElements(std::size_t minimum, std::size_t maximum) const
+    {
+        JsonField field = *this;
+        field.bounds.minimumElement = minimum;
+        field.bounds.maximumElement = maximum;
         return field;
     }
 };

@@ -17,7 +17,20 @@ class JsonWriter
     std::string& _out;
     DialectFlags _dialect;
 
-    void Separate();
+    /// Whether what comes next stands behind another member or element.
+    [[nodiscard]] bool NeedsComma() const noexcept
+    {
+        const char last = _out.empty() ? '\n' : _out.back();
+        return last != '{' && last != '[' && last != ':' && last != ',' && last != '\n';
+    }
+
+    void Separate()
+    {
+        if (NeedsComma())
+        {
+            _out += ',';
+        }
+    }
 
 public:
     /// Of the fields that are bound to dialects, those of this one are written.
@@ -34,7 +47,18 @@ public:
     void EndArray();
     void Key(std::string_view name);
 
+    /// A key that was made in advance (KeyText): `,"name":` with the comma that a first member leaves out.
+    void WriteKeyText(std::string_view text)
+    {
+        text.remove_prefix(NeedsComma() ? 0 : 1);
+        _out += text;
+    }
+
     void WriteString(std::string_view value);
+    /// A string in two parts.
+    void WriteString(std::string_view front, std::string_view back);
+    /// A string of printable ASCII without quotes and backslashes: the words of an enumeration, a time.
+    void WritePlainString(std::string_view value);
     /// Finite: JSON has no word for anything else.
     void WriteNumber(double value);
     void WriteInteger(std::int64_t value);

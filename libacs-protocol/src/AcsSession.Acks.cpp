@@ -1,0 +1,146 @@
+#include "AcsSession.Impl.hpp"
+#include "PendingRequests.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace ACS::Protocol
+{
+
+namespace
+{
+
+constexpr std::size_t RECENT_COUNT = 128;
+
+} // namespace
+
+void AcsSession::Impl::ArmAckTimer(Core::Now now, SessionActions& out)
+{
+    if (IsUp() && !_inFlight.empty() && !_output.IsRunning(ESessionTimer::Ack))
+    {
+        _output.Start(ESessionTimer::Ack, Detail::GetNextDelay(_inFlight, now), out);
+    }
+}
+
+void AcsSession::Impl::ResendLate(Core::Now now, SessionActions& out)
+{
+    std::vector<InFlight> entries = std::exchange(_inFlight, {});
+    for (InFlight& entry : entries)
+    {
+        if (entry.deadline > now.steady)
+        {
+            _inFlight.push_back(std::move(entry));
+        }
+        else if (entry.bSuperseded)
+        {
+            Remember(entry, true);
+        }
+        else if (entry.resends < _options.ackRetries)
+        {
+            ++entry.resends;
+            entry.deadline = now.steady + _options.ackTimeout;
+            ++_output.statistics.Of(entry.command).sent;
+            out.emplace_back(SendText{0, entry.text, false});
+            _inFlight.push_back(std::move(entry));
+        }
+        else
+        {
+            GiveUp(entry, out);
+        }
+    }
+    if (_unansweredInRow >= _options.ackDeadAfter && _state == EState::Registered)
+    {
+        Leave(EState::Closing, CLOSE_NORMAL, "no acknowledgements", out);
+    }
+}
+
+void AcsSession::Impl::GiveUp(const InFlight& entry, SessionActions& out)
+{
+    ++_unansweredInRow;
+    Remember(entry, true);
+    if (entry.bDurable)
+    {
+        out.emplace_back(Deliver{RequestUnanswered{entry.command, entry.transactionID}});
+    }
+    else if (const auto status = _statuses.find(entry.statusKey); status != _statuses.end())
+    {
+        status->second.bGivenUp = true;
+    }
+}
+
+void AcsSession::Impl::Remember(const InFlight& entry, bool bUnanswered)
+{
+    if (_recent.size() >= RECENT_COUNT)
+    {
+        _recent.pop_front();
+    }
+    _recent.push_back({entry.command, entry.transactionID, bUnanswered && entry.bDurable});
+}
+
+void AcsSession::Impl::HandleAck(const AcsAck& ack, SessionActions& out)
+{
+    if (_state == EState::Registering && ack.command == EAcsCommand::Registration)
+    {
+        HandleRegistrationAck(ack, out);
+        return;
+    }
+    Detail::PendingMatch match = Detail::FindPendingByID(_inFlight, ack.command, ack.transactionID);
+    if (!match.bFound)
+    {
+        if (IsLateAck(ack, out))
+        {
+            return;
+        }
+        match = Detail::FindPendingByCommand(_inFlight, ack.command);
+    }
+    if (!match.bFound)
+    {
+        _output.Note(EProtocolNote::AckUnexpected, std::string(GetText(ack.command)), out);
+        return;
+    }
+    if (match.bByCommand)
+    {
+        _output.Note(EProtocolNote::AckMismatched, std::string(GetText(ack.command)), out);
+    }
+    const InFlight entry = std::move(_inFlight[match.index]);
+    _inFlight.erase(_inFlight.begin() + static_cast<std::ptrdiff_t>(match.index));
+    Remember(entry, false);
+    _unansweredInRow = 0;
+    ++_output.statistics.Of(ack.command).answered;
+    if (entry.bDurable)
+    {
+        out.emplace_back(Deliver{Acked{ack.command, entry.transactionID, ack.result, ack.message}});
+    }
+    else if (ack.result == EAckResult::Fail)
+    {
+        _output.Note(EProtocolNote::AckFailed, ack.message, out);
+    }
+    if (_state == EState::Farewell && entry.transactionID == _farewellID)
+    {
+        Leave(EState::Stopping, CLOSE_NORMAL, "shutting down", out);
+    }
+}
+
+bool AcsSession::Impl::IsLateAck(const AcsAck& ack, SessionActions& out)
+{
+    const auto found = std::find_if(_recent.begin(), _recent.end(), [&ack](const RecentTransaction& recent) {
+        return recent.command == ack.command && recent.transactionID == ack.transactionID;
+    });
+    if (found == _recent.end())
+    {
+        return false;
+    }
+    if (std::exchange(found->bUnanswered, false))
+    {
+        _unansweredInRow = 0;
+        ++_output.statistics.Of(ack.command).answered;
+        out.emplace_back(Deliver{Acked{ack.command, ack.transactionID, ack.result, ack.message}});
+    }
+    else
+    {
+        _output.Note(EProtocolNote::AckUnexpected, std::string(GetText(ack.command)), out);
+    }
+    return true;
+}
+
+} // namespace ACS::Protocol

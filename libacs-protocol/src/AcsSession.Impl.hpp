@@ -1,0 +1,158 @@
+#pragma once
+
+#include "AnswerStore.hpp"
+#include "SessionOutput.hpp"
+#include <acs/core/Backoff.hpp>
+#include <acs/protocol/AcsCodec.hpp>
+#include <acs/protocol/AcsSession.hpp>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace ACS::Protocol
+{
+
+namespace Detail
+{
+
+///                Start        OnConnected   RegistrationAck    OnClosed    Reconnect timer   Stop
+/// Stopped        Connecting
+/// Connecting                  Registering                      Waiting                       Stopping
+/// Registering                               Registered/Closing Waiting                       Stopping
+/// Registered                                                   Waiting                       Farewell
+/// Closing                                                      Waiting                       Stopping
+/// Waiting                                                                  Connecting        Stopped
+/// Farewell       (its Ack or the grace: Stopping)              Stopped
+/// Stopping                                                     Stopped
+enum class EAcsSessionState : std::uint8_t
+{
+    Stopped,
+    Connecting,
+    Registering,
+    Registered,
+    Closing,
+    Waiting,
+    Farewell,
+    Stopping,
+};
+
+/// What is kept of a status: the latest of its kind and robot. The map's order is the order of section 6.
+using StatusKey = std::pair<EAcsCommand, std::string>;
+
+struct Status
+{
+    AcsPayload payload;
+    bool bPending = false;
+    bool bGivenUp = false; ///< The MCS may not know it.
+};
+
+struct InFlight
+{
+    EAcsCommand command = EAcsCommand::Registration;
+    std::string transactionID;
+    std::string text;
+    Core::SteadyTime deadline{};
+    std::size_t resends = 0;
+    bool bDurable = false;
+    bool bSuperseded = false; ///< A newer status of this robot has gone out: this one would go back in time.
+    StatusKey statusKey{};
+};
+
+/// A transaction that has left the window: its late or second Ack must not be taken for that of another one.
+struct RecentTransaction
+{
+    EAcsCommand command = EAcsCommand::Registration;
+    std::string transactionID;
+    bool bUnanswered = false;
+};
+
+} // namespace Detail
+
+/// The session itself: connection and timers in AcsSession.Impl.cpp, what goes out in AcsSession.Sending.cpp, what waits
+/// for its Ack in AcsSession.Acks.cpp, the requests of the MCS in AcsSession.Requests.cpp.
+class AcsSession::Impl
+{
+    using EState = Detail::EAcsSessionState;
+    using StatusKey = Detail::StatusKey;
+    using Status = Detail::Status;
+    using InFlight = Detail::InFlight;
+    using RecentTransaction = Detail::RecentTransaction;
+
+    SessionOptions _options;
+    Core::IRandom& _random;
+    AcsCodec _codec;
+    Core::Backoff _backoff;
+    std::chrono::minutes _siteOffset;
+    Detail::AnswerStore _answers;
+    Detail::SessionOutput _output;
+
+    EState _state = EState::Stopped;
+    bool _bWasRegistered = false; ///< On this connection.
+    bool _bReplayDone = false;
+    bool _bRoomWanted = false;
+    std::string _registrationID;
+    std::string _farewellID;
+    std::vector<InFlight> _inFlight;
+    std::deque<RecentTransaction> _recent;
+    std::size_t _unansweredInRow = 0;
+    std::map<StatusKey, Status> _statuses;
+    Core::SteadyTime _nextPosition{};
+    std::string _scratch;
+
+public:
+    Impl(const SessionOptions& options, Core::IRandom& random);
+    void Start(SessionActions& out);
+    void Stop(Core::Now now, SessionActions& out);
+    void OnConnected(Core::Now now, SessionActions& out);
+    void OnText(std::string_view text, Core::Now now, SessionActions& out);
+    void OnClosed(std::string_view reason, Core::Now /*now*/, SessionActions& out);
+    void OnTimer(ESessionTimer timer, Core::Now now, SessionActions& out);
+    bool TrySendDurable(const AcsRequest& request, Core::Now now, SessionActions& out);
+    void ReplayDone(Core::Now now, SessionActions& out);
+    void SendStatus(const AcsPayload& status, Core::Now now, SessionActions& out);
+    void SendPosition(const RobotPositionUpdate& positions, Core::Now now, SessionActions& out);
+    void Answer(const AcsAck& answer, Core::Now now, SessionActions& out);
+    [[nodiscard]] bool IsRegistered() const noexcept;
+    [[nodiscard]] std::size_t GetRoom() const noexcept;
+    void SetSiteOffset(std::chrono::minutes offset) noexcept;
+    [[nodiscard]] const SessionStatistics& GetStatistics() const noexcept;
+
+private:
+    [[nodiscard]] bool IsUp() const noexcept;
+    /// A state is told on change only (sections 6.20, 6.21); the status of a robot whenever the caller likes.
+    [[nodiscard]] bool IsKnownState(const AcsPayload& status) const;
+    /// Closes the connection; OnClosed goes on from the given state.
+    void Leave(EState state, std::uint16_t code, std::string reason, SessionActions& out);
+    /// Everything that ends with the connection.
+    void Forget(SessionActions& out);
+    void End(SessionActions& out);
+    void CountAnswer(EAcsCommand command, EAckResult result);
+    void Send(const AcsRequest& request, bool bDurable, StatusKey statusKey, Core::Now now, SessionActions& out);
+    std::string SendPayload(AcsPayload payload, StatusKey statusKey, Core::Now now, SessionActions& out);
+    /// After anything that may have made room or work: statuses first, then whoever was turned away.
+    void UseRoom(Core::Now now, SessionActions& out);
+    void SendStatuses(Core::Now now, SessionActions& out);
+    /// All deadlines lie equally far ahead, so that a timer that runs is never too late; one that is too early finds
+    /// nothing and is started again.
+    void ArmAckTimer(Core::Now now, SessionActions& out);
+    void ResendLate(Core::Now now, SessionActions& out);
+    void GiveUp(const InFlight& entry, SessionActions& out);
+    void Remember(const InFlight& entry, bool bUnanswered);
+    void SchedulePosition(Core::Now now, SessionActions& out);
+    void Refuse(const DecodeFailure& failure, bool bLegacyName, Core::Now now, SessionActions& out);
+    void HandleRequest(AcsRequest& request, bool bLegacyName, Core::Now now, SessionActions& out);
+    void RefuseForeign(const AcsRequest& request, Core::Now now, SessionActions& out);
+    void HandleAck(const AcsAck& ack, SessionActions& out);
+    /// Whether the Ack belongs to what has left the window: the second one after a resend, or one that comes too late.
+    [[nodiscard]] bool IsLateAck(const AcsAck& ack, SessionActions& out);
+    void HandleRegistrationAck(const AcsAck& ack, SessionActions& out);
+};
+
+} // namespace ACS::Protocol

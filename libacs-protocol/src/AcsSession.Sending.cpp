@@ -1,0 +1,171 @@
+#include "AcsSession.Impl.hpp"
+#include "PendingRequests.hpp"
+#include <acs/core/Uuid.hpp>
+
+#include <cassert>
+#include <utility>
+
+namespace ACS::Protocol
+{
+
+namespace
+{
+
+using Detail::StatusKey;
+
+StatusKey MakeStatusKey(const AcsPayload& payload)
+{
+    const RobotStatusUpdate* robotOrNull = std::get_if<RobotStatusUpdate>(&payload);
+    return {GetCommand(payload), robotOrNull == nullptr ? std::string() : robotOrNull->robotID};
+}
+
+bool IsStatus(const AcsPayload& payload)
+{
+    return std::holds_alternative<TscStateUpdate>(payload) || std::holds_alternative<AcsCommStateUpdate>(payload)
+        || std::holds_alternative<RobotStatusUpdate>(payload);
+}
+
+} // namespace
+
+bool AcsSession::Impl::TrySendDurable(const AcsRequest& request, Core::Now now, SessionActions& out)
+{
+    if (_state != EState::Registered)
+    {
+        return false;
+    }
+    const EAcsCommand command = GetCommand(request);
+    if (Detail::FindPendingByID(_inFlight, command, request.transactionID).bFound)
+    {
+        return true;
+    }
+    if (GetRoom() == 0)
+    {
+        _bRoomWanted = true;
+        return false;
+    }
+    std::erase_if(_recent, [&request](const RecentTransaction& recent) {
+        return recent.transactionID == request.transactionID;
+    });
+    Send(request, true, {}, now, out);
+    ArmAckTimer(now, out);
+    return true;
+}
+
+void AcsSession::Impl::ReplayDone(Core::Now now, SessionActions& out)
+{
+    if (_state != EState::Registered || _bReplayDone)
+    {
+        return;
+    }
+    _bReplayDone = true;
+    UseRoom(now, out);
+    if (_options.positionInterval.count() > 0)
+    {
+        _nextPosition = now.steady;
+        SchedulePosition(now, out);
+    }
+}
+
+void AcsSession::Impl::SendStatus(const AcsPayload& status, Core::Now now, SessionActions& out)
+{
+    assert(IsStatus(status));
+    if (IsStatus(status) && !IsKnownState(status))
+    {
+        _statuses.insert_or_assign(MakeStatusKey(status), Status{status, true});
+        UseRoom(now, out);
+    }
+}
+
+void AcsSession::Impl::SendPosition(const RobotPositionUpdate& positions, Core::Now now, SessionActions& out)
+{
+    if (_state != EState::Registered || !_bReplayDone)
+    {
+        return;
+    }
+    AcsCodec::EncodeRequest({Core::MakeUuid(_random), Detail::MakeTimestamp(now, _siteOffset), positions}, _scratch);
+    ++_output.statistics.Of(EAcsCommand::RobotPositionUpdate).sent;
+    out.emplace_back(SendText{0, _scratch, true});
+}
+
+std::size_t AcsSession::Impl::GetRoom() const noexcept
+{
+    return _state == EState::Registered && _inFlight.size() < _options.window ? _options.window - _inFlight.size() : 0;
+}
+
+bool AcsSession::Impl::IsKnownState(const AcsPayload& status) const
+{
+    const auto found = _statuses.find(MakeStatusKey(status));
+    return !std::holds_alternative<RobotStatusUpdate>(status) && found != _statuses.end() && !found->second.bGivenUp
+        && found->second.payload == status;
+}
+
+void AcsSession::Impl::Send(
+    const AcsRequest& request,
+    bool bDurable,
+    StatusKey statusKey,
+    Core::Now now,
+    SessionActions& out)
+{
+    InFlight& entry = _inFlight.emplace_back();
+    entry.command = GetCommand(request);
+    entry.transactionID = request.transactionID;
+    entry.deadline = now.steady + _options.ackTimeout;
+    entry.bDurable = bDurable;
+    entry.statusKey = std::move(statusKey);
+    AcsCodec::EncodeRequest(request, entry.text);
+    ++_output.statistics.Of(entry.command).sent;
+    out.emplace_back(SendText{0, entry.text, false});
+}
+
+std::string AcsSession::Impl::SendPayload(AcsPayload payload, StatusKey statusKey, Core::Now now, SessionActions& out)
+{
+    AcsRequest request{Core::MakeUuid(_random), Detail::MakeTimestamp(now, _siteOffset), std::move(payload)};
+    Send(request, false, std::move(statusKey), now, out);
+    return std::move(request.transactionID);
+}
+
+void AcsSession::Impl::UseRoom(Core::Now now, SessionActions& out)
+{
+    if (_bReplayDone)
+    {
+        SendStatuses(now, out);
+    }
+    if (_bRoomWanted && GetRoom() > 0)
+    {
+        _bRoomWanted = false;
+        out.emplace_back(Deliver{WindowOpened{}});
+    }
+    ArmAckTimer(now, out);
+}
+
+void AcsSession::Impl::SendStatuses(Core::Now now, SessionActions& out)
+{
+    for (auto& [key, status] : _statuses)
+    {
+        if (!status.bPending)
+        {
+            continue;
+        }
+        if (GetRoom() == 0)
+        {
+            return;
+        }
+        for (InFlight& entry : _inFlight)
+        {
+            entry.bSuperseded = entry.bSuperseded || (!entry.bDurable && entry.statusKey == key);
+        }
+        status.bPending = false;
+        static_cast<void>(SendPayload(status.payload, key, now, out));
+    }
+}
+
+void AcsSession::Impl::SchedulePosition(Core::Now now, SessionActions& out)
+{
+    const auto late = now.steady - _nextPosition;
+    _nextPosition += _options.positionInterval * (late / _options.positionInterval + 1);
+    const auto delay = std::chrono::ceil<std::chrono::milliseconds>(_nextPosition - now.steady);
+    _output.Start(ESessionTimer::Position, delay, out);
+    out.emplace_back(Deliver{PositionDue{}});
+}
+
+} // namespace ACS::Protocol

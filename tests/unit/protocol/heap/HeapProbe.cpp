@@ -1,0 +1,99 @@
+#include "HeapProbe.hpp"
+
+#include <cstdlib>
+#include <malloc.h>
+#include <new>
+
+// The linker's --wrap gives these two names to each of malloc, calloc, realloc and free.
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming,cppcoreguidelines-no-malloc)
+extern "C"
+{
+    void* __real_malloc(std::size_t size);
+    void* __real_calloc(std::size_t count, std::size_t size);
+    void* __real_realloc(void* block, std::size_t size);
+    void __real_free(void* block);
+}
+
+namespace
+{
+
+constinit std::uint64_t takenBlocks = 0;
+constinit std::int64_t liveBytes = 0;
+
+void* Count(void* block) noexcept
+{
+    if (block != nullptr)
+    {
+        ++takenBlocks;
+        liveBytes += static_cast<std::int64_t>(malloc_usable_size(block));
+    }
+    return block;
+}
+
+void Release(void* block) noexcept
+{
+    liveBytes -= static_cast<std::int64_t>(malloc_usable_size(block));
+    __real_free(block);
+}
+
+} // namespace
+
+extern "C"
+{
+    void* __wrap_malloc(std::size_t size)
+    {
+        return Count(__real_malloc(size));
+    }
+
+    void* __wrap_calloc(std::size_t count, std::size_t size)
+    {
+        return Count(__real_calloc(count, size));
+    }
+
+    void* __wrap_realloc(void* block, std::size_t size)
+    {
+        liveBytes -= static_cast<std::int64_t>(malloc_usable_size(block));
+        return Count(__real_realloc(block, size));
+    }
+
+    void __wrap_free(void* block)
+    {
+        Release(block);
+    }
+}
+
+void* operator new(std::size_t size)
+{
+    void* block = Count(__real_malloc(size == 0 ? 1 : size));
+    if (block == nullptr)
+    {
+        throw std::bad_alloc();
+    }
+    return block;
+}
+
+void operator delete(void* block) noexcept
+{
+    Release(block);
+}
+
+void operator delete(void* block, std::size_t /*size*/) noexcept
+{
+    Release(block);
+}
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming,cppcoreguidelines-no-malloc)
+
+namespace ACS::Testing
+{
+
+std::uint64_t HeapProbe::GetBlockCount() noexcept
+{
+    return takenBlocks;
+}
+
+std::int64_t HeapProbe::GetLiveBytes() noexcept
+{
+    return liveBytes;
+}
+
+} // namespace ACS::Testing
