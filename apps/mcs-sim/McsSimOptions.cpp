@@ -51,7 +51,10 @@ void AddTlsOptions(CLI::App& app, ProtocolBeast::TlsOptions& tls)
             help)
             .type_name("FILE.pem");
     };
-    addFile("--tls-certificate", tls.certificateFile, "Speak wss, with this certificate (and those between it and its CA)");
+    addFile(
+        "--tls-certificate",
+        tls.certificateFile,
+        "Speak wss, with this certificate (and those between it and its CA)");
     addFile("--tls-key", tls.keyFile, "The private key of --tls-certificate, without a passphrase");
     addFile("--tls-client-ca", tls.caFile, "Take only an ACS that shows a certificate of this CA");
 }

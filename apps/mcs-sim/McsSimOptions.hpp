@@ -30,7 +30,7 @@ struct McsSimOptions
     Apps::Endpoint listen{"127.0.0.1", 9001};
     std::string path = "/acs/";
     std::optional<ProtocolBeast::TlsOptions> tls; ///< There: wss.
-    std::vector<std::string> planFiles; ///< At least one.
+    std::vector<std::string> planFiles;           ///< At least one.
     std::size_t repeat = 1;
     bool bFreshIDs = false;
     ELiveMode liveMode = ELiveMode::Auto;

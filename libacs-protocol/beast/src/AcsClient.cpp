@@ -250,15 +250,8 @@ Core::Result<std::unique_ptr<AcsClient>> AcsClient::Create(
     {
         return tl::unexpected<Core::Error>(std::move(transport.error()));
     }
-    auto impl = std::make_shared<Impl>(
-        executor,
-        clock,
-        random,
-        logger,
-        options,
-        std::move(*url),
-        std::move(*transport),
-        handler);
+    auto impl = std::make_shared<
+        Impl>(executor, clock, random, logger, options, std::move(*url), std::move(*transport), handler);
     return std::unique_ptr<AcsClient>(new AcsClient(std::move(impl))); // the constructor is private
 }
 

@@ -158,11 +158,8 @@ private:
             return;
         }
         const Protocol::ConnectionID connection = ++_lastID;
-        const std::shared_ptr<IGate> gate = _transport->MakeGate(
-            std::move(socket),
-            _options.link,
-            MakeGateOwner(connection),
-            MakeOwner(connection));
+        const std::shared_ptr<IGate> gate =
+            _transport->MakeGate(std::move(socket), _options.link, MakeGateOwner(connection), MakeOwner(connection));
         _gates.emplace(connection, gate);
         gate->RunAsync();
     }
@@ -205,9 +202,7 @@ private:
         }
         if (!request.bWebSocket)
         {
-            return UpgradeRefusal{
-                HTTP_UPGRADE_REQUIRED,
-                "This is the MCS end of MCS-ACS: connect with a WebSocket.\n"};
+            return UpgradeRefusal{HTTP_UPGRADE_REQUIRED, "This is the MCS end of MCS-ACS: connect with a WebSocket.\n"};
         }
         if (_session.ShouldRefuseUpgrade())
         {
@@ -300,8 +295,7 @@ Core::Result<std::unique_ptr<McsServer>> McsServer::Create(
     {
         return tl::unexpected<Core::Error>(std::move(transport.error()));
     }
-    auto impl =
-        std::make_shared<Impl>(executor, clock, random, logger, options, std::move(*transport), handler);
+    auto impl = std::make_shared<Impl>(executor, clock, random, logger, options, std::move(*transport), handler);
     Core::Result<void> listened = impl->Listen();
     if (!listened.has_value())
     {

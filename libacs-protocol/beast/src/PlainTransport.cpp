@@ -36,10 +36,7 @@ public:
         const LinkOptions& options,
         LinkOwner owner) override
     {
-        return std::make_shared<BeastLink<PlainLayer>>(
-            boost::beast::tcp_stream(executor),
-            options,
-            std::move(owner));
+        return std::make_shared<BeastLink<PlainLayer>>(boost::beast::tcp_stream(executor), options, std::move(owner));
     }
 
     [[nodiscard]] std::shared_ptr<IGate> MakeGate(

@@ -48,7 +48,9 @@ std::string MakeAccept(const std::string& key)
 std::string FindHeader(const std::string& request, std::string name)
 {
     std::string lowered = request;
-    const auto lower = [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); };
+    const auto lower = [](unsigned char letter) {
+        return static_cast<char>(std::tolower(letter));
+    };
     std::ranges::transform(lowered, lowered.begin(), lower);
     std::ranges::transform(name, name.begin(), lower);
     const std::size_t found = lowered.find("\r\n" + name + ": ");
@@ -66,7 +68,9 @@ std::string MakeFrameHead(const RawFrame& frame, std::uint64_t size, bool bMaske
 {
     const unsigned mask = bMasked ? MASK_BIT : 0U;
     std::string bytes;
-    const auto add = [&bytes](std::uint64_t value) { bytes.push_back(static_cast<char>(value & 0xFFU)); };
+    const auto add = [&bytes](std::uint64_t value) {
+        bytes.push_back(static_cast<char>(value & 0xFFU));
+    };
     add((frame.bFinal ? FINAL_BIT : 0U) | static_cast<unsigned>(frame.kind));
     std::size_t lengthBytes = 0;
     if (size < TWO_BYTES)

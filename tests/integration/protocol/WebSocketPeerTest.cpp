@@ -3,8 +3,6 @@
 #include <acs/core/Overloaded.hpp>
 #include <acs/protocol/AcsCodec.hpp>
 
-#include <sys/resource.h>
-
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <sys/resource.h>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -45,11 +44,19 @@ std::string Encode(const Protocol::AcsMessage& message)
     return text;
 }
 
+/// Reads also the long texts that fill a socket.
+Protocol::CodecOptions MakeCodecOptions()
+{
+    Protocol::CodecOptions options;
+    options.maximumString = options.maximumBytes;
+    return options;
+}
+
 /// An MCS by hand, on one connection: keeps what comes, and acknowledges it if it is to.
 class RawMcs
 {
     RawPeer& _peer;
-    Protocol::AcsCodec _codec;
+    Protocol::AcsCodec _codec{MakeCodecOptions()};
 
 public:
     std::vector<Protocol::AcsRequest> requests;
@@ -61,7 +68,9 @@ public:
     explicit RawMcs(RawPeer& peer)
         : _peer(peer)
     {
-        peer.onChange = [this] { OnChange(); };
+        peer.onChange = [this] {
+            OnChange();
+        };
         peer.ReadAsync();
     }
 
@@ -125,7 +134,9 @@ private:
         std::visit(
             Core::Overloaded{
                 [this](const Protocol::AcsAck& ack) { acks.push_back(ack); },
-                [this](const Protocol::AcsRequest& request) { OnRequest(request); }},
+                [this](const Protocol::AcsRequest& request) {
+                    OnRequest(request);
+                }},
             *outcome.message);
     }
 
@@ -364,8 +375,7 @@ TEST_CASE("1 A peer that says nothing does not hold a connection for longer than
         rig.clientOptions.link.handshakeTimeout = 20ms;
         rig.ConnectTo(silent.GetUrl());
         REQUIRE(rig.WasLost(2));
-        CHECK(
-            rig.acsEvents.GetFirstLoss() == "the WebSocket handshake failed: the other side did not answer in time");
+        CHECK(rig.acsEvents.GetFirstLoss() == "the WebSocket handshake failed: the other side did not answer in time");
     }
 }
 
@@ -397,7 +407,8 @@ TEST_CASE("1 Extra headers and another Host stand in the upgrade; what would bre
     CHECK_FALSE(rig.TryMakeClient(rig.acsEvents).has_value());
 }
 
-TEST_CASE("13.10 After RST in mid frame, 403 and 1008 the client connects again, registers, replays and tells its state")
+TEST_CASE(
+    "13.10 After RST in mid frame, 403 and 1008 the client connects again, registers, replays and tells its state")
 {
     ClientRig rig;
     // What a connection does with the first report: each kind of loss in turn, then nothing bad any more.
@@ -439,8 +450,10 @@ TEST_CASE("13.10 After RST in mid frame, 403 and 1008 the client connects again,
     rig.client->SendStatus(Protocol::TscStateUpdate{});
     rig.client->SendStatus(Protocol::AcsCommStateUpdate{});
     rig.client->SendStatus(MakeStatus());
-    REQUIRE(rig.WasReached([&rig] { return !rig.acsEvents.GetAll<Protocol::PositionDue>().empty()
-            && rig.connections.size() == 4 && rig.connections[3]->requests.size() >= 6; }));
+    REQUIRE(rig.WasReached([&rig] {
+        return !rig.acsEvents.GetAll<Protocol::PositionDue>().empty() && rig.connections.size() == 4
+            && rig.connections[3]->requests.size() >= 6;
+    }));
 
     const auto losses = rig.acsEvents.GetAll<Protocol::LinkLost>();
     REQUIRE(losses.size() == 3);

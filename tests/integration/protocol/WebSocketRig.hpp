@@ -140,13 +140,14 @@ public:
     [[nodiscard]] bool WasReached(const std::function<bool()>& condition)
     {
         const auto deadline = std::chrono::steady_clock::now() + PATIENCE;
-        io.restart();
-        while (!condition() && std::chrono::steady_clock::now() < deadline)
+        bool bReached = condition();
+        while (!bReached && std::chrono::steady_clock::now() < deadline)
         {
-            static_cast<void>(io.run_one_for(std::chrono::milliseconds(100)));
             io.restart();
+            static_cast<void>(io.run_one_for(std::chrono::milliseconds(100)));
+            bReached = condition();
         }
-        return condition();
+        return bReached;
     }
 
     [[nodiscard]] bool WasRegistered(std::size_t times = 1)
@@ -170,10 +171,7 @@ public:
 
 [[nodiscard]] inline Protocol::AcsRequest MakeReport(const std::string& transactionID, std::string message = "fine")
 {
-    return {
-        transactionID,
-        {},
-        Protocol::PlanReport{"P", Protocol::EPlanStatus::InProgress, std::move(message)}};
+    return {transactionID, {}, Protocol::PlanReport{"P", Protocol::EPlanStatus::InProgress, std::move(message)}};
 }
 
 [[nodiscard]] inline Protocol::ExecutionPlan MakePlan(std::size_t jobCount)

@@ -303,7 +303,7 @@ TEST_CASE("1 wss: TLS before 1.2 is refused")
     peer->Write(MakeOldHello());
     peer->ReadAsync();
     REQUIRE(rig.WasReached([&peer] { return peer->HasEnded(); }));
-    CHECK(peer->GetReceived().substr(0, 1) == "\x15");                         // an alert,
+    CHECK(peer->GetReceived().substr(0, 1) == "\x15");                          // an alert,
     CHECK(peer->GetReceived().substr(3) == std::string("\x00\x02\x02\x46", 4)); // fatal, protocol_version
     CHECK(rig.WasLogged("the TLS handshake failed: the other side speaks only versions of TLS before 1.2"));
 }
@@ -324,7 +324,9 @@ TEST_CASE("1 wss: a peer that says nothing does not hold a connection for longer
     SECTION("client")
     {
         RawServer silent(rig.io);
-        silent.onPeer = [](std::size_t /*index*/, RawPeer& peer) { peer.ReadAsync(); };
+        silent.onPeer = [](std::size_t /*index*/, RawPeer& peer) {
+            peer.ReadAsync();
+        };
         rig.clientOptions.link.handshakeTimeout = 20ms;
         rig.ConnectTo(silent.GetUrl("wss", "localhost"));
         REQUIRE(rig.WasLost(2));

@@ -33,12 +33,12 @@ TEST_CASE("mcs.tls is read, its relative paths count from the folder of the conf
     Testing::CertificateMaker maker(folder.GetPath());
     const Testing::CertificateFiles ca = maker.MakeCA("ca");
     const Testing::CertificateFiles own = maker.Make(ca, {});
-    const Acsd::AcsdConfig config =
-        Read({"mcs.url=wss://10.0.0.1:9001/acs/",
-              "mcs.tls.ca=" + ca.certificate,
-              "mcs.tls.certificate=" + own.certificate,
-              "mcs.tls.key=" + own.key,
-              "mcs.tls.server_name=mcs.example"});
+    const Acsd::AcsdConfig config = Read(
+        {"mcs.url=wss://10.0.0.1:9001/acs/",
+         "mcs.tls.ca=" + ca.certificate,
+         "mcs.tls.certificate=" + own.certificate,
+         "mcs.tls.key=" + own.key,
+         "mcs.tls.server_name=mcs.example"});
     CHECK(config.mistakes.empty());
     CHECK(config.mcs.tls == ProtocolBeast::TlsOptions{ca.certificate, own.certificate, own.key, "mcs.example"});
 

@@ -63,8 +63,8 @@ TEST_CASE("Plans may follow one --plan or several, in order")
 
 TEST_CASE("A certificate and its key make it wss, a client CA asks for certificates")
 {
-    const Outcome outcome = Parse(
-        {"--plan", "a.json", "--tls-certificate", "a.pem", "--tls-key", "a.key", "--tls-client-ca", "ca.pem"});
+    const Outcome outcome =
+        Parse({"--plan", "a.json", "--tls-certificate", "a.pem", "--tls-key", "a.key", "--tls-client-ca", "ca.pem"});
     CHECK_FALSE(outcome.exitCode.has_value());
     REQUIRE(outcome.options.tls.has_value());
     CHECK(*outcome.options.tls == ACS::ProtocolBeast::TlsOptions{"ca.pem", "a.pem", "a.key", {}});

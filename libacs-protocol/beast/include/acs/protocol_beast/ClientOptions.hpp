@@ -26,8 +26,8 @@ struct LinkOptions
 /// Where and how an AcsClient connects.
 struct ClientOptions
 {
-    std::string url;  ///< `mcs.url`: ws://host[:port][/path] or wss://…
-    std::string host; ///< Host header, where it must differ from the URL's.
+    std::string url;                                          ///< `mcs.url`: ws://host[:port][/path] or wss://…
+    std::string host;                                         ///< Host header, where it must differ from the URL's.
     std::vector<std::pair<std::string, std::string>> headers; ///< `mcs.headers`, for example Authorization.
     TlsOptions tls{};                                         ///< For wss; refused with ws where anything is in it.
     LinkOptions link{};

@@ -17,8 +17,9 @@ struct TlsOptions
     std::string caFile;
     /// `mcs.tls.certificate`: the own certificate, then those between it and its CA. A server needs one.
     std::string certificateFile;
-    std::string keyFile;    ///< `mcs.tls.key`: the private key of the certificate, without a passphrase.
-    std::string serverName; ///< `mcs.tls.server_name`: whom the server's certificate must be for; empty: the URL's host.
+    std::string keyFile; ///< `mcs.tls.key`: the private key of the certificate, without a passphrase.
+    std::string
+        serverName; ///< `mcs.tls.server_name`: whom the server's certificate must be for; empty: the URL's host.
 
     bool operator==(const TlsOptions&) const = default;
 };
