@@ -57,10 +57,45 @@ Planning::ERobotType ReadRobotType(const ConfigSection& section, const std::stri
     return section.GetWord(key, {"LR", "CR"}) == "CR" ? Planning::ERobotType::CR : Planning::ERobotType::LR;
 }
 
-void ReadLinks(const ConfigSection& root, AcsdConfig& config)
+/// Certificates are read when the client is made; what is wrong with them is a mistake of the configuration all the same.
+void ReadMcsTls(const ConfigSection& mcs, const std::string& fileName, McsConfig& config)
+{
+    if (!mcs.HasKey("tls"))
+    {
+        return;
+    }
+    const ConfigSection section = mcs.GetSection("tls");
+    const auto readFile = [&](const std::string& key) {
+        const std::string path = section.GetString(key, "");
+        return path.empty() ? path : ResolvePath(fileName, path);
+    };
+    config.tls.caFile = readFile("ca");
+    config.tls.certificateFile = readFile("certificate");
+    config.tls.keyFile = readFile("key");
+    config.tls.serverName = section.GetString("server_name", "");
+    if (config.url.scheme == EUrlScheme::Ws)
+    {
+        mcs.AddMistake("tls", "is for wss:// only, and mcs.url is ws://, which encrypts nothing");
+    }
+    if (config.url.scheme != EUrlScheme::Wss)
+    {
+        return;
+    }
+    const Core::Result<void> checked = ProtocolBeast::CheckClientTls(config.tls, config.url.peer.host);
+    if (!checked.has_value())
+    {
+        Core::Error error = checked.error();
+        const std::string key = error.path.substr(error.path.find('.') + 1);
+        error.path.clear();
+        section.AddMistake(key, Core::Describe(error));
+    }
+}
+
+void ReadLinks(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
 {
     const ConfigSection mcs = root.GetSection("mcs");
     config.mcs.url = mcs.GetUrl("url", {EUrlScheme::Ws, EUrlScheme::Wss});
+    ReadMcsTls(mcs, fileName, config.mcs);
     config.mcs.ackTimeout = mcs.GetDuration("ack_timeout", 10ms, 10min, config.mcs.ackTimeout);
     config.mcs.ackRetries =
         static_cast<unsigned>(mcs.GetInteger("ack_retries", 0, MOST_RETRIES, config.mcs.ackRetries));
@@ -267,7 +302,7 @@ AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::st
     AcsdConfig config;
     const Apps::ConfigReader reader = Apps::ConfigReader::ReadFile(fileName, overrides);
     const ConfigSection root = reader.GetRoot();
-    ReadLinks(root, config);
+    ReadLinks(root, fileName, config);
     ReadSite(root, fileName, config);
     ReadStore(root, fileName, config);
     config.httpListen = root.GetSection("http").GetEndpoint("listen", config.httpListen);

@@ -19,6 +19,7 @@ ProtocolBeast::ClientOptions MakeOptions(const AcsdConfig& config)
 {
     ProtocolBeast::ClientOptions options;
     options.url = Apps::MakeText(config.mcs.url);
+    options.tls = config.mcs.tls;
     options.link.pingInterval = config.mcs.pingInterval;
     options.session.ackTimeout = config.mcs.ackTimeout;
     options.session.ackRetries = config.mcs.ackRetries;

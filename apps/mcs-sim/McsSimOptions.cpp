@@ -38,6 +38,27 @@ std::string TakeLiveMode(const std::string& text, ELiveMode& mode)
     return "expected auto, always or never, found '" + text + "'";
 }
 
+void AddTlsOptions(CLI::App& app, ProtocolBeast::TlsOptions& tls)
+{
+    const auto addFile = [&app](const std::string& name, std::string& file, const std::string& help) {
+        Apps::AddTextOption(
+            app,
+            name,
+            [&file](const std::string& text) {
+                file = text;
+                return std::string();
+            },
+            help)
+            .type_name("FILE.pem");
+    };
+    addFile(
+        "--tls-certificate",
+        tls.certificateFile,
+        "Speak wss, with this certificate (and those between it and its CA)");
+    addFile("--tls-key", tls.keyFile, "The private key of --tls-certificate, without a passphrase");
+    addFile("--tls-client-ca", tls.caFile, "Take only an ACS that shows a certificate of this CA");
+}
+
 } // namespace
 
 std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimOptions& options)
@@ -54,6 +75,8 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimO
         "Path of the WebSocket")
         .type_name("PATH")
         ->default_str(options.path);
+    ProtocolBeast::TlsOptions tls;
+    AddTlsOptions(app, tls);
     Apps::AddRepeatedOption(
         app,
         "--plan",
@@ -83,6 +106,15 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimO
     {
         Apps::PrintMistake(PROGRAM_NAME, "no plan to send: give --plan FILE.json; try mcs-sim --help");
         return Apps::EXIT_BAD_COMMAND_LINE;
+    }
+    if (!exitCode.has_value() && tls != ProtocolBeast::TlsOptions())
+    {
+        if (tls.certificateFile.empty() || tls.keyFile.empty())
+        {
+            Apps::PrintMistake(PROGRAM_NAME, "wss needs both --tls-certificate FILE.pem and --tls-key FILE.pem");
+            return Apps::EXIT_BAD_COMMAND_LINE;
+        }
+        options.tls = std::move(tls);
     }
     return exitCode;
 }

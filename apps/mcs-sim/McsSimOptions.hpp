@@ -2,6 +2,7 @@
 
 #include "common/CommandLine.hpp"
 #include "common/Endpoint.hpp"
+#include <acs/protocol_beast/TlsOptions.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -28,7 +29,8 @@ struct McsSimOptions
     Apps::CommonOptions common;
     Apps::Endpoint listen{"127.0.0.1", 9001};
     std::string path = "/acs/";
-    std::vector<std::string> planFiles; ///< At least one.
+    std::optional<ProtocolBeast::TlsOptions> tls; ///< There: wss.
+    std::vector<std::string> planFiles;           ///< At least one.
     std::size_t repeat = 1;
     bool bFreshIDs = false;
     ELiveMode liveMode = ELiveMode::Auto;

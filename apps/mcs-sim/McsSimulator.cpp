@@ -107,6 +107,7 @@ public:
         server.address = _options.listen.host;
         server.port = _options.listen.port;
         server.path = _options.path;
+        server.tls = _options.tls;
         server.session.ackTimeout = PlanTracker::RESEND_AFTER;
         server.session.codec.siteOffset = _options.siteOffset;
         auto created = ProtocolBeast::McsServer::Create(_executor, _clock, _random, _logger, server, *this);
@@ -116,7 +117,7 @@ public:
         }
         _server = std::move(*created);
         const Apps::Endpoint endpoint{_options.listen.host, _server->GetPort()};
-        _heading.address = "ws://" + MakeText(endpoint) + _options.path;
+        _heading.address = (_options.tls.has_value() ? "wss://" : "ws://") + MakeText(endpoint) + _options.path;
         _timers.Start(MakeKey(ETimer::Tick), TICK);
         return endpoint;
     }

@@ -6,6 +6,7 @@
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
+#include <acs/protocol_beast/TlsOptions.hpp>
 
 #include <boost/asio/any_io_executor.hpp>
 
@@ -13,6 +14,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -30,6 +32,7 @@ struct SimulatorOptions
     bool bKeep = false;                 ///< Do not end by itself.
     std::size_t columns = 100;          ///< Of the live view and the closing table.
     std::size_t rows = 24;
+    std::optional<ProtocolBeast::TlsOptions> tls{}; ///< There: wss.
 };
 
 /// The MCS of a run: serves one ACS at a time, sends it the plans, shows what it reports, and closes with a table.

@@ -107,7 +107,7 @@ int Run(const McsSimOptions& options)
         clock,
         random,
         Core::Logger(sink, std::string(PROGRAM_NAME)),
-        {options.listen, options.path, offset, options.bKeep, size.columns, size.rows},
+        {options.listen, options.path, offset, options.bKeep, size.columns, size.rows, options.tls},
         std::move(*plans),
         std::cout,
         bLive ? &screen : nullptr,

@@ -1,7 +1,10 @@
 #include "ActionPump.hpp"
-#include "BeastLink.hpp"
 #include "EventQueue.hpp"
+#include "HttpHeaders.hpp"
+#include "PlainTransport.hpp"
+#include "TlsTransport.hpp"
 #include "WebSocketUrl.hpp"
+#include <acs/core/ECoreError.hpp>
 #include <acs/core/Overloaded.hpp>
 #include <acs/net/TimerArray.hpp>
 #include <acs/protocol/AcsSession.hpp>
@@ -31,7 +34,8 @@ class AcsClient::Impl : public std::enable_shared_from_this<AcsClient::Impl>
     std::shared_ptr<EventQueue> _events;
     std::shared_ptr<SessionTimers> _timers;
     Tcp::resolver _resolver;
-    std::shared_ptr<TcpLink> _linkOrNull;
+    std::unique_ptr<ITransport> _transport;
+    std::shared_ptr<ILink> _linkOrNull;
     ActionPump _pump;
 
 public:
@@ -42,6 +46,7 @@ public:
         const Core::Logger& logger,
         const ClientOptions& options,
         WebSocketUrl url,
+        std::unique_ptr<ITransport> transport,
         ISessionHandler& handler)
         : _executor(executor),
           _clock(clock),
@@ -55,7 +60,8 @@ public:
               [this](Protocol::ESessionTimer timer) {
                   Run([timer](auto& session, Core::Now now, auto& out) { session.OnTimer(timer, now, out); });
               })),
-          _resolver(executor)
+          _resolver(executor),
+          _transport(std::move(transport))
     {
     }
 
@@ -117,9 +123,8 @@ private:
     void ConnectAsync()
     {
         _logger.Debug("connecting", {{"url", _options.url}});
-        auto link = std::make_shared<TcpLink>(boost::beast::tcp_stream(_executor), _options.link, MakeOwner());
+        const std::shared_ptr<ILink> link = _transport->MakeClientLink(_executor, _options.link, MakeOwner());
         _linkOrNull = link;
-        link->GetStream().expires_after(_options.link.handshakeTimeout);
         _resolver.async_resolve(
             _url.host,
             _url.port,
@@ -138,9 +143,10 @@ private:
             });
     }
 
-    void ConnectToAsync(const std::shared_ptr<TcpLink>& link, const Tcp::resolver::results_type& results)
+    void ConnectToAsync(const std::shared_ptr<ILink>& link, const Tcp::resolver::results_type& results)
     {
-        link->GetStream().async_connect(
+        link->GetTcpStream().expires_after(_options.link.handshakeTimeout);
+        link->GetTcpStream().async_connect(
             results,
             [weak = weak_from_this(), link](ErrorCode error, const Tcp::endpoint& /*endpoint*/) {
                 const auto self = weak.lock();
@@ -155,7 +161,7 @@ private:
                     return;
                 }
                 const std::string& host = self->_options.host.empty() ? self->_url.hostHeader : self->_options.host;
-                link->HandshakeAsync(host, self->_url.target, self->_options.headers);
+                link->HandshakeAsync({host, self->_url.target, self->_options.headers});
             });
     }
 
@@ -188,6 +194,29 @@ private:
     }
 };
 
+namespace
+{
+
+Core::Result<std::unique_ptr<ITransport>> MakeTransport(const ClientOptions& options, const WebSocketUrl& url)
+{
+    if (url.bSecure)
+    {
+        return MakeTlsClientTransport(options.tls, url.host);
+    }
+    if (options.tls != TlsOptions())
+    {
+        // Whoever names certificates does not want to talk in the open.
+        return Core::Fail(
+            Core::ECoreError::OutOfRange,
+            "url",
+            "wss://…, because options for TLS are given",
+            Core::QuoteForError(options.url));
+    }
+    return MakePlainTransport();
+}
+
+} // namespace
+
 AcsClient::AcsClient(std::shared_ptr<Impl> impl)
     : _impl(std::move(impl))
 {
@@ -211,7 +240,18 @@ Core::Result<std::unique_ptr<AcsClient>> AcsClient::Create(
     {
         return tl::unexpected<Core::Error>(std::move(url.error()));
     }
-    auto impl = std::make_shared<Impl>(executor, clock, random, logger, options, std::move(*url), handler);
+    Core::Result<void> headers = CheckHeaders(options);
+    if (!headers.has_value())
+    {
+        return tl::unexpected<Core::Error>(std::move(headers.error()));
+    }
+    Core::Result<std::unique_ptr<ITransport>> transport = MakeTransport(options, *url);
+    if (!transport.has_value())
+    {
+        return tl::unexpected<Core::Error>(std::move(transport.error()));
+    }
+    auto impl = std::make_shared<
+        Impl>(executor, clock, random, logger, options, std::move(*url), std::move(*transport), handler);
     return std::unique_ptr<AcsClient>(new AcsClient(std::move(impl))); // the constructor is private
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "CutText.hpp"
+#include "ILink.hpp"
 #include <acs/protocol_beast/ClientOptions.hpp>
 
 #include <boost/asio/ip/tcp.hpp>
@@ -9,10 +11,10 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -21,23 +23,17 @@
 namespace ACS::ProtocolBeast
 {
 
-/// Who owns a link. Called on the executor, never from within a call of the owner; nothing after onClosed or Kill.
-struct LinkOwner
+/// One WebSocket connection of either role: reads whole messages, writes one unfragmented text frame after the other,
+/// pings, closes. The one place that touches Beast's WebSocket. TLayer tells what it runs over: the type Stream,
+/// HandshakeAsync(stream, handler), which may call the handler at once, and Describe(stream, error).
+template <typename TLayer>
+class BeastLink final : public ILink, public std::enable_shared_from_this<BeastLink<TLayer>>
 {
-    std::function<void()> onOpen;
-    std::function<void(std::string_view text)> onText;
-    std::function<void(const std::string& reason)> onClosed; ///< Once.
-};
-
-/// One WebSocket connection of either role over any stream of Beast: reads whole messages, writes one unfragmented text
-/// frame after the other, pings, closes. The one place that touches Beast's WebSocket.
-template <typename TStream>
-class BeastLink : public std::enable_shared_from_this<BeastLink<TStream>>
-{
+    using Stream = typename TLayer::Stream;
     using ErrorCode = boost::beast::error_code;
     using Tcp = boost::asio::ip::tcp;
 
-    boost::beast::websocket::stream<TStream> _stream;
+    boost::beast::websocket::stream<Stream> _stream;
     LinkOptions _options;
     LinkOwner _owner;
     boost::beast::flat_buffer _buffer;
@@ -51,7 +47,7 @@ class BeastLink : public std::enable_shared_from_this<BeastLink<TStream>>
     boost::asio::steady_timer _closeTimer;
 
 public:
-    BeastLink(TStream&& stream, const LinkOptions& options, LinkOwner owner)
+    BeastLink(Stream&& stream, const LinkOptions& options, LinkOwner owner)
         : _stream(std::move(stream)),
           _options(options),
           _owner(std::move(owner)),
@@ -69,39 +65,18 @@ public:
         _stream.text(true);
     }
 
-    [[nodiscard]] TStream& GetStream()
+    [[nodiscard]] boost::beast::tcp_stream& GetTcpStream() override
     {
-        return _stream.next_layer();
+        return boost::beast::get_lowest_layer(_stream);
     }
 
-    /// As a client, over a stream that is connected.
-    void HandshakeAsync(
-        const std::string& hostHeader,
-        const std::string& target,
-        std::vector<std::pair<std::string, std::string>> headers)
+    void HandshakeAsync(UpgradeOffer offer) override
     {
-        PrepareSocket();
-        namespace websocket = boost::beast::websocket;
-        _stream.set_option(
-            websocket::stream_base::decorator([headers = std::move(headers)](websocket::request_type& request) {
-                for (const auto& [name, value] : headers)
-                {
-                    request.set(name, value);
-                }
-            }));
-        auto response = std::make_shared<websocket::response_type>();
-        _stream.async_handshake(
-            *response,
-            hostHeader,
-            target,
-            [self = this->shared_from_this(), response](ErrorCode error) {
-                if (error == boost::beast::websocket::error::upgrade_declined)
-                {
-                    self->Finish(
-                        "the server refused the connection with HTTP " + std::to_string(response->result_int()));
-                    return;
-                }
-                self->OnOpen(error);
+        GetTcpStream().expires_after(_options.handshakeTimeout);
+        TLayer::HandshakeAsync(
+            _stream.next_layer(),
+            [self = this->shared_from_this(), offer = std::move(offer)](ErrorCode error) {
+                self->OnSecured(error, offer);
             });
     }
 
@@ -113,8 +88,7 @@ public:
         _stream.async_accept(request, [self = this->shared_from_this()](ErrorCode error) { self->OnOpen(error); });
     }
 
-    /// False where it is left out because others still wait to be written.
-    void Send(std::string text, bool bDroppable)
+    void Send(std::string text, bool bDroppable) override
     {
         if (!_bOpen || _bCloseWanted || _bFinished || (bDroppable && !_queue.empty()))
         {
@@ -132,8 +106,7 @@ public:
         }
     }
 
-    /// After what waits to be written; bounded by the close timeout.
-    void Close(std::uint16_t code, const std::string& reason)
+    void Close(std::uint16_t code, const std::string& reason) override
     {
         if (_bCloseWanted || _bFinished)
         {
@@ -141,7 +114,8 @@ public:
         }
         _bCloseWanted = true;
         _closeReason.code = code;
-        _closeReason.reason.assign(reason.data(), std::min(reason.size(), _closeReason.reason.max_size()));
+        const std::string_view shown = CutAtCharacter(reason, _closeReason.reason.max_size());
+        _closeReason.reason.assign(shown.data(), shown.size());
         if (!_bOpen)
         {
             Abort(reason);
@@ -161,19 +135,16 @@ public:
         }
     }
 
-    /// Closes the socket without a handshake; onClosed follows. With a reset, so that the other side notices at once.
-    void Abort(std::string reason)
+    void Abort(std::string reason) override
     {
         ErrorCode ignored;
-        auto& socket = boost::beast::get_lowest_layer(_stream).socket();
-        socket.set_option(boost::asio::socket_base::linger(true, 0), ignored);
+        static_cast<void>(GetTcpStream().socket().set_option(boost::asio::socket_base::linger(true, 0), ignored));
         boost::asio::post(_stream.get_executor(), [self = this->shared_from_this(), reason = std::move(reason)] {
             self->Finish(reason);
         });
     }
 
-    /// Closes the socket; the owner hears nothing any more.
-    void Kill()
+    void Kill() override
     {
         _owner = {};
         Finish({});
@@ -182,10 +153,51 @@ public:
 private:
     void PrepareSocket()
     {
-        auto& lowest = boost::beast::get_lowest_layer(_stream);
-        lowest.expires_never();
+        GetTcpStream().expires_never();
         ErrorCode ignored;
-        lowest.socket().set_option(Tcp::no_delay(true), ignored);
+        static_cast<void>(GetTcpStream().socket().set_option(Tcp::no_delay(true), ignored));
+    }
+
+    void OnSecured(ErrorCode error, const UpgradeOffer& offer)
+    {
+        namespace websocket = boost::beast::websocket;
+        if (_bFinished)
+        {
+            return;
+        }
+        if (error)
+        {
+            Finish("the TLS handshake failed: " + Describe(error));
+            return;
+        }
+        PrepareSocket();
+        _stream.set_option(
+            websocket::stream_base::decorator([headers = offer.headers](websocket::request_type& request) {
+                for (const auto& [name, value] : headers)
+                {
+                    request.set(name, value);
+                }
+            }));
+        auto response = std::make_shared<websocket::response_type>();
+        _stream.async_handshake(
+            *response,
+            offer.host,
+            offer.target,
+            [self = this->shared_from_this(), response](ErrorCode handshakeError) {
+                if (handshakeError == websocket::error::upgrade_declined)
+                {
+                    self->Finish(
+                        "the server refused the connection with HTTP " + std::to_string(response->result_int()));
+                    return;
+                }
+                self->OnOpen(handshakeError);
+            });
+    }
+
+    [[nodiscard]] std::string Describe(ErrorCode error)
+    {
+        return error == boost::beast::error::timeout ? "the other side did not answer in time"
+                                                     : TLayer::Describe(_stream.next_layer(), error);
     }
 
     void OnOpen(ErrorCode error)
@@ -196,7 +208,7 @@ private:
         }
         if (error)
         {
-            Finish("the WebSocket handshake failed: " + error.message());
+            Finish("the WebSocket handshake failed: " + Describe(error));
             return;
         }
         _bOpen = true;
@@ -240,7 +252,7 @@ private:
         }
     }
 
-    [[nodiscard]] std::string DescribeReadError(ErrorCode error) const
+    [[nodiscard]] std::string DescribeReadError(ErrorCode error)
     {
         namespace websocket = boost::beast::websocket;
         if (error == websocket::error::closed)
@@ -254,7 +266,7 @@ private:
         {
             return "the other side has not answered any ping";
         }
-        return "the connection broke: " + error.message();
+        return "the connection broke: " + Describe(error);
     }
 
     void WriteAsync()
@@ -273,7 +285,7 @@ private:
         }
         if (error)
         {
-            Finish("the connection broke: " + error.message());
+            Finish("the connection broke: " + Describe(error));
             return;
         }
         _queuedBytes -= _queue.front().size();
@@ -305,7 +317,7 @@ private:
         _bFinished = true;
         ErrorCode ignored;
         static_cast<void>(_closeTimer.cancel(ignored));
-        boost::beast::get_lowest_layer(_stream).close();
+        GetTcpStream().close();
         const LinkOwner owner = std::exchange(_owner, {});
         if (owner.onClosed)
         {
@@ -313,7 +325,5 @@ private:
         }
     }
 };
-
-using TcpLink = BeastLink<boost::beast::tcp_stream>;
 
 } // namespace ACS::ProtocolBeast

@@ -1,7 +1,7 @@
 #include "ActionPump.hpp"
-#include "BeastLink.hpp"
 #include "EventQueue.hpp"
-#include "UpgradeGate.hpp"
+#include "PlainTransport.hpp"
+#include "TlsTransport.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/net/TcpListener.hpp>
 #include <acs/net/TimerArray.hpp>
@@ -11,6 +11,8 @@
 #include <boost/asio/ip/tcp.hpp>
 
 #include <map>
+#include <memory>
+#include <optional>
 #include <utility>
 
 namespace ACS::ProtocolBeast
@@ -19,10 +21,13 @@ namespace ACS::ProtocolBeast
 namespace
 {
 
-namespace http = boost::beast::http;
-
 using Tcp = boost::asio::ip::tcp;
 using SessionTimers = Net::TimerArray<Protocol::ESessionTimer, Protocol::TIMER_COUNT>;
+
+constexpr unsigned HTTP_FORBIDDEN = 403;
+constexpr unsigned HTTP_NOT_FOUND = 404;
+constexpr unsigned HTTP_UPGRADE_REQUIRED = 426;
+constexpr unsigned HTTP_UNAVAILABLE = 503;
 
 std::string_view StripTarget(std::string_view target)
 {
@@ -44,9 +49,10 @@ class McsServer::Impl : public std::enable_shared_from_this<McsServer::Impl>
     Protocol::McsSession _session;
     std::shared_ptr<EventQueue> _events;
     std::shared_ptr<SessionTimers> _timers;
+    std::unique_ptr<ITransport> _transport;
     std::shared_ptr<Net::TcpListener> _listener;
-    std::map<Protocol::ConnectionID, std::shared_ptr<UpgradeGate>> _gates;
-    std::map<Protocol::ConnectionID, std::shared_ptr<TcpLink>> _links;
+    std::map<Protocol::ConnectionID, std::shared_ptr<IGate>> _gates;
+    std::map<Protocol::ConnectionID, std::shared_ptr<ILink>> _links;
     Protocol::ConnectionID _lastID = 0;
     ActionPump _pump;
 
@@ -57,6 +63,7 @@ public:
         Core::IRandom& random,
         const Core::Logger& logger,
         const ServerOptions& options,
+        std::unique_ptr<ITransport> transport,
         ISessionHandler& handler)
         : _clock(clock),
           _logger(logger),
@@ -68,6 +75,7 @@ public:
               [this](Protocol::ESessionTimer timer) {
                   Run([timer](auto& session, Core::Now now, auto& out) { session.OnTimer(timer, now, out); });
               })),
+          _transport(std::move(transport)),
           _listener(std::make_shared<Net::TcpListener>(executor, logger, [this](Tcp::socket socket) {
               OnAccepted(std::move(socket));
               return true;
@@ -150,55 +158,57 @@ private:
             return;
         }
         const Protocol::ConnectionID connection = ++_lastID;
-        const std::weak_ptr<Impl> weak = weak_from_this();
-        const auto gate = std::make_shared<UpgradeGate>(
-            boost::beast::tcp_stream(std::move(socket)),
-            [weak](const UpgradeRequest& request) -> std::optional<UpgradeRefusal> {
-                const auto self = weak.lock();
-                return self == nullptr ? UpgradeRefusal{http::status::service_unavailable, {}}
-                                       : self->JudgeOrNull(request);
-            },
-            [weak, connection](boost::beast::tcp_stream&& stream, const UpgradeRequest& request) {
-                if (const auto self = weak.lock())
-                {
-                    self->OnUpgrade(connection, std::move(stream), request);
-                }
-            },
-            [weak, connection] {
-                if (const auto self = weak.lock())
-                {
-                    self->_gates.erase(connection);
-                }
-            });
+        const std::shared_ptr<IGate> gate =
+            _transport->MakeGate(std::move(socket), _options.link, MakeGateOwner(connection), MakeOwner(connection));
         _gates.emplace(connection, gate);
-        gate->RunAsync(_options.link.handshakeTimeout);
+        gate->RunAsync();
+    }
+
+    GateOwner MakeGateOwner(Protocol::ConnectionID connection)
+    {
+        const std::weak_ptr<Impl> weak = weak_from_this();
+        GateOwner owner;
+        owner.judge = [weak](const UpgradeRequest& request) -> std::optional<UpgradeRefusal> {
+            const auto self = weak.lock();
+            return self == nullptr ? UpgradeRefusal{HTTP_UNAVAILABLE, {}} : self->JudgeOrNull(request);
+        };
+        owner.onAccepted = [weak, connection](std::shared_ptr<ILink> link) {
+            if (const auto self = weak.lock())
+            {
+                self->_gates.erase(connection);
+                self->_links.emplace(connection, std::move(link));
+            }
+        };
+        owner.onRefused = [weak](const std::string& reason) {
+            if (const auto self = weak.lock())
+            {
+                self->_logger.Warning("a connection did not become a WebSocket", {{"reason", reason}});
+            }
+        };
+        owner.onEnded = [weak, connection] {
+            if (const auto self = weak.lock())
+            {
+                self->_gates.erase(connection);
+            }
+        };
+        return owner;
     }
 
     [[nodiscard]] std::optional<UpgradeRefusal> JudgeOrNull(const UpgradeRequest& request) const
     {
-        const std::string_view target(request.target().data(), request.target().size());
-        if (StripTarget(target) != StripTarget(_options.path))
+        if (StripTarget(request.target) != StripTarget(_options.path))
         {
-            return UpgradeRefusal{http::status::not_found, "The ACS connects at " + _options.path + ".\n"};
+            return UpgradeRefusal{HTTP_NOT_FOUND, "The ACS connects at " + _options.path + ".\n"};
         }
-        if (!boost::beast::websocket::is_upgrade(request))
+        if (!request.bWebSocket)
         {
-            return UpgradeRefusal{
-                http::status::upgrade_required,
-                "This is the MCS end of MCS-ACS: connect with a WebSocket.\n"};
+            return UpgradeRefusal{HTTP_UPGRADE_REQUIRED, "This is the MCS end of MCS-ACS: connect with a WebSocket.\n"};
         }
         if (_session.ShouldRefuseUpgrade())
         {
-            return UpgradeRefusal{http::status::forbidden, "An ACS is connected already.\n"};
+            return UpgradeRefusal{HTTP_FORBIDDEN, "An ACS is connected already.\n"};
         }
         return std::nullopt;
-    }
-
-    void OnUpgrade(Protocol::ConnectionID connection, boost::beast::tcp_stream&& stream, const UpgradeRequest& request)
-    {
-        const auto link = std::make_shared<TcpLink>(std::move(stream), _options.link, MakeOwner(connection));
-        _links.emplace(connection, link);
-        link->AcceptAsync(request);
     }
 
     LinkOwner MakeOwner(Protocol::ConnectionID connection)
@@ -279,7 +289,13 @@ Core::Result<std::unique_ptr<McsServer>> McsServer::Create(
     const ServerOptions& options,
     ISessionHandler& handler)
 {
-    auto impl = std::make_shared<Impl>(executor, clock, random, logger, options, handler);
+    Core::Result<std::unique_ptr<ITransport>> transport =
+        options.tls.has_value() ? MakeTlsServerTransport(*options.tls) : MakePlainTransport();
+    if (!transport.has_value())
+    {
+        return tl::unexpected<Core::Error>(std::move(transport.error()));
+    }
+    auto impl = std::make_shared<Impl>(executor, clock, random, logger, options, std::move(*transport), handler);
     Core::Result<void> listened = impl->Listen();
     if (!listened.has_value())
     {

@@ -1,57 +1,186 @@
 #pragma once
 
 #include "BeastLink.hpp"
+#include "IGate.hpp"
 
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl/error.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 
-#include <functional>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace ACS::ProtocolBeast
 {
 
-using UpgradeRequest = boost::beast::http::request<boost::beast::http::empty_body>;
-
-/// Why a request is refused.
-struct UpgradeRefusal
+/// Reads the HTTP request at the beginning of a connection and makes a link of it if it asks for a WebSocket that may be;
+/// else answers politely and closes. Lives as long as it has work. TLayer: see BeastLink.
+template <typename TLayer>
+class UpgradeGate final : public IGate, public std::enable_shared_from_this<UpgradeGate<TLayer>>
 {
-    boost::beast::http::status status = boost::beast::http::status::not_found;
-    std::string text;
-};
-
-/// Reads the HTTP request at the beginning of a connection and hands it on if it asks for a WebSocket that may be; else
-/// answers politely and closes. Lives as long as it has work.
-class UpgradeGate : public std::enable_shared_from_this<UpgradeGate>
-{
-public:
-    using Judge = std::function<std::optional<UpgradeRefusal>(const UpgradeRequest& request)>;
-    using AcceptedHandler = std::function<void(boost::beast::tcp_stream&& stream, const UpgradeRequest& request)>;
-    using EndedHandler = std::function<void()>;
-
-private:
+    using Stream = typename TLayer::Stream;
     using ErrorCode = boost::beast::error_code;
 
-    boost::beast::tcp_stream _stream;
+    static constexpr std::uint32_t LONGEST_HEADER = 16U * 1024U;
+
+    Stream _stream;
+    LinkOptions _options;
+    GateOwner _owner;
+    LinkOwner _linkOwner;
     boost::beast::flat_buffer _buffer;
     boost::beast::http::request_parser<boost::beast::http::empty_body> _parser;
     boost::beast::http::response<boost::beast::http::string_body> _response;
-    Judge _judge;
-    AcceptedHandler _onAccepted;
-    EndedHandler _onEnded;
+    std::array<char, 4096> _scrap{};
 
 public:
-    UpgradeGate(boost::beast::tcp_stream&& stream, Judge judge, AcceptedHandler onAccepted, EndedHandler onEnded);
+    UpgradeGate(Stream&& stream, const LinkOptions& options, GateOwner owner, LinkOwner linkOwner)
+        : _stream(std::move(stream)),
+          _options(options),
+          _owner(std::move(owner)),
+          _linkOwner(std::move(linkOwner))
+    {
+        _parser.header_limit(LONGEST_HEADER);
+    }
 
-    void RunAsync(std::chrono::milliseconds timeout);
-    void Kill();
+    void RunAsync() override
+    {
+        boost::beast::get_lowest_layer(_stream).expires_after(_options.handshakeTimeout);
+        TLayer::HandshakeAsync(_stream, [self = this->shared_from_this()](ErrorCode error) { self->OnSecured(error); });
+    }
+
+    void Kill() override
+    {
+        _owner = {};
+        boost::beast::get_lowest_layer(_stream).close();
+    }
 
 private:
-    void OnRead(ErrorCode error);
-    void RefuseAsync(const UpgradeRefusal& refusal);
-    void End();
+    void OnSecured(ErrorCode error)
+    {
+        if (!_owner.judge)
+        {
+            return;
+        }
+        if (error)
+        {
+            LeaveAsync(IsSilence(error) ? "" : "the TLS handshake failed: " + TLayer::Describe(_stream, error));
+            return;
+        }
+        boost::beast::http::async_read_header(
+            _stream,
+            _buffer,
+            _parser,
+            [self = this->shared_from_this()](ErrorCode readError, std::size_t /*count*/) { self->OnRead(readError); });
+    }
+
+    void OnRead(ErrorCode error)
+    {
+        namespace http = boost::beast::http;
+        if (!_owner.judge)
+        {
+            return;
+        }
+        const bool bHttp = error.category() == ErrorCode(http::error::bad_method).category();
+        if (error && (!bHttp || error == http::error::end_of_stream))
+        {
+            LeaveAsync(IsSilence(error) ? "" : "no request came: " + TLayer::Describe(_stream, error));
+            return;
+        }
+        if (error)
+        {
+            RefuseAsync(
+                {static_cast<unsigned>(http::status::bad_request),
+                 "This is no HTTP request: " + error.message() + ".\n"});
+            return;
+        }
+        const auto& request = _parser.get();
+        const std::optional<UpgradeRefusal> refusal = _owner.judge(
+            {std::string_view(request.target().data(), request.target().size()),
+             boost::beast::websocket::is_upgrade(request)});
+        if (refusal.has_value())
+        {
+            RefuseAsync(*refusal);
+            return;
+        }
+        const GateOwner owner = std::exchange(_owner, {});
+        const auto link = std::make_shared<BeastLink<TLayer>>(std::move(_stream), _options, std::move(_linkOwner));
+        owner.onAccepted(link);
+        link->AcceptAsync(request);
+    }
+
+    void RefuseAsync(const UpgradeRefusal& refusal)
+    {
+        namespace http = boost::beast::http;
+        _response.result(refusal.status);
+        _response.set(http::field::content_type, "text/plain");
+        if (refusal.status == static_cast<unsigned>(http::status::upgrade_required))
+        {
+            _response.set(http::field::upgrade, "websocket");
+        }
+        _response.keep_alive(false);
+        _response.body() = refusal.text;
+        _response.prepare_payload();
+        http::async_write(
+            _stream,
+            _response,
+            [self = this->shared_from_this()](ErrorCode /*error*/, std::size_t /*count*/) {
+                self->LeaveAsync("answered with HTTP " + std::to_string(self->_response.result_int()));
+            });
+    }
+
+    /// A probe that connects and goes, or says nothing.
+    [[nodiscard]] static bool IsSilence(ErrorCode error)
+    {
+        return error == boost::asio::error::eof || error == boost::asio::error::connection_reset
+            || error == boost::asio::ssl::error::stream_truncated || error == boost::beast::error::timeout
+            || error == boost::beast::http::error::end_of_stream;
+    }
+
+    /// Says no more and waits for the other side to go: closing with something unread would take back what was said.
+    void LeaveAsync(const std::string& reason)
+    {
+        if (!reason.empty() && _owner.onRefused)
+        {
+            _owner.onRefused(reason);
+        }
+        auto& lowest = boost::beast::get_lowest_layer(_stream);
+        ErrorCode ignored;
+        static_cast<void>(lowest.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored));
+        lowest.expires_after(_options.closeTimeout);
+        DrainAsync();
+    }
+
+    void End()
+    {
+        boost::beast::get_lowest_layer(_stream).close();
+        const GateOwner owner = std::exchange(_owner, {});
+        if (owner.onEnded)
+        {
+            owner.onEnded();
+        }
+    }
+
+    void DrainAsync()
+    {
+        auto& lowest = boost::beast::get_lowest_layer(_stream);
+        lowest.async_read_some(
+            boost::asio::buffer(_scrap),
+            [self = this->shared_from_this()](ErrorCode error, std::size_t /*count*/) {
+                if (error)
+                {
+                    self->End();
+                    return;
+                }
+                self->DrainAsync();
+            });
+    }
 };
 
 } // namespace ACS::ProtocolBeast

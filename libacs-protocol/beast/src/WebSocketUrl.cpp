@@ -12,12 +12,18 @@ namespace ACS::ProtocolBeast
 namespace
 {
 
-constexpr std::string_view EXPECTED = "ws://host[:port][/path]";
-constexpr std::string_view DEFAULT_PORT = "80";
+constexpr std::string_view PLAIN = "ws://";
+constexpr std::string_view SECURE = "wss://";
+constexpr std::string_view PLAIN_PORT = "80";
+constexpr std::string_view SECURE_PORT = "443";
 
-tl::unexpected<Core::Error> Refuse(std::string_view expected, std::string_view text)
+tl::unexpected<Core::Error> Refuse(std::string_view text)
 {
-    return Core::Fail(Core::ECoreError::OutOfRange, "url", std::string(expected), std::string(text));
+    return Core::Fail(
+        Core::ECoreError::OutOfRange,
+        "url",
+        "ws://host[:port][/path] or wss://host[:port][/path]",
+        Core::QuoteForError(text));
 }
 
 bool IsPort(std::string_view text)
@@ -39,17 +45,12 @@ bool HasForbiddenByte(std::string_view text)
 
 Core::Result<WebSocketUrl> ParseWebSocketUrl(std::string_view text)
 {
-    constexpr std::string_view PLAIN = "ws://";
-    constexpr std::string_view SECURE = "wss://";
-    if (text.substr(0, SECURE.size()) == SECURE)
+    const bool bSecure = text.starts_with(SECURE);
+    if ((!bSecure && !text.starts_with(PLAIN)) || HasForbiddenByte(text))
     {
-        return Refuse("ws:// (TLS is not supported by this version; put a TLS proxy in front)", text);
+        return Refuse(text);
     }
-    if (text.substr(0, PLAIN.size()) != PLAIN || HasForbiddenByte(text))
-    {
-        return Refuse(EXPECTED, text);
-    }
-    const std::string_view rest = text.substr(PLAIN.size());
+    const std::string_view rest = text.substr(bSecure ? SECURE.size() : PLAIN.size());
     const std::size_t authorityEnd = std::min(rest.find_first_of("/?#"), rest.size());
     const std::string_view authority = rest.substr(0, authorityEnd);
     std::string_view target = rest.substr(authorityEnd);
@@ -71,11 +72,13 @@ Core::Result<WebSocketUrl> ParseWebSocketUrl(std::string_view text)
     if (host.empty() || host.find_first_of("@[]") != std::string_view::npos
         || (colon != std::string_view::npos && !IsPort(port)))
     {
-        return Refuse(EXPECTED, text);
+        return Refuse(text);
     }
+    const std::string_view defaultPort = bSecure ? SECURE_PORT : PLAIN_PORT;
     WebSocketUrl url;
+    url.bSecure = bSecure;
     url.host = host;
-    url.port = port.empty() ? DEFAULT_PORT : port;
+    url.port = port.empty() ? defaultPort : port;
     url.hostHeader = authority;
     url.target = target.empty() || target.front() != '/' ? "/" + std::string(target) : std::string(target);
     return url;

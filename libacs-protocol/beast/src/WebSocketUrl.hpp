@@ -8,9 +8,10 @@
 namespace ACS::ProtocolBeast
 {
 
-/// ws://host[:port][/path]
+/// ws://host[:port][/path] or wss://…
 struct WebSocketUrl
 {
+    bool bSecure = false;
     std::string host; ///< Without the brackets of an IPv6 address.
     std::string port;
     std::string hostHeader; ///< Host and, where it is given, port, as the URL has them.

@@ -1,183 +1,58 @@
-#include "Catch.hpp"
-#include "RecordingLogSink.hpp"
-#include "SeededRandom.hpp"
-#include <acs/protocol_beast/AcsClient.hpp>
-#include <acs/protocol_beast/McsServer.hpp>
-
-#include <boost/asio/connect.hpp>
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/read.hpp>
-#include <boost/asio/steady_timer.hpp>
-#include <boost/asio/write.hpp>
+#include "CertificateMaker.hpp"
+#include "RawPeer.hpp"
+#include "TemporaryFolder.hpp"
+#include "WebSocketRig.hpp"
 
 #include <chrono>
-#include <functional>
 #include <memory>
 #include <string>
-#include <vector>
+#include <variant>
 
 using namespace ACS; // NOLINT(google-build-using-namespace)
 using namespace std::chrono_literals;
 using Protocol::EAckResult;
-using Tcp = boost::asio::ip::tcp;
+using Testing::MakePlan;
+using Testing::MakeReport;
+using Testing::PATIENCE;
+using Recorder = Testing::SessionRecorder;
 
 namespace
 {
 
-constexpr std::chrono::seconds PATIENCE{10};
-
-class SystemClock final : public Core::IClock
+/// Over TLS where it is wanted.
+class Rig : public Testing::WebSocketRig
 {
+    Testing::TemporaryFolder _folder;
+
 public:
-    [[nodiscard]] Core::Now GetNow() const override
+    explicit Rig(bool bSecure = false)
     {
-        return {std::chrono::steady_clock::now(), std::chrono::system_clock::now()};
-    }
-};
-
-/// Keeps the events and does what a test wants on each.
-class Recorder final : public ProtocolBeast::ISessionHandler
-{
-public:
-    std::vector<Protocol::SessionEvent> events;
-    std::function<void(const Protocol::SessionEvent&)> onEvent;
-
-    void OnSessionEvent(const Protocol::SessionEvent& event) override
-    {
-        events.push_back(event);
-        if (onEvent)
+        if (bSecure)
         {
-            onEvent(event);
+            Testing::CertificateMaker maker(_folder.GetPath());
+            const Testing::CertificateFiles ca = maker.MakeCA("ca");
+            const Testing::CertificateFiles files = maker.Make(ca, {});
+            serverOptions.tls = ProtocolBeast::TlsOptions{{}, files.certificate, files.key, {}};
+            clientOptions.tls.caFile = ca.certificate;
         }
-    }
-
-    template <typename TEvent>
-    [[nodiscard]] std::vector<TEvent> GetAll() const
-    {
-        std::vector<TEvent> found;
-        for (const Protocol::SessionEvent& event : events)
-        {
-            if (const TEvent* eventOrNull = std::get_if<TEvent>(&event))
-            {
-                found.push_back(*eventOrNull);
-            }
-        }
-        return found;
-    }
-};
-
-/// A server, a client and the loop that runs them.
-class Rig
-{
-public:
-    boost::asio::io_context io;
-    SystemClock clock;
-    Testing::SeededRandom random;
-    Testing::RecordingLogSink sink;
-    Core::Logger logger{sink, "test"};
-    Recorder mcsEvents;
-    Recorder acsEvents;
-    ProtocolBeast::ServerOptions serverOptions;
-    ProtocolBeast::ClientOptions clientOptions;
-    std::unique_ptr<ProtocolBeast::McsServer> server;
-    std::unique_ptr<ProtocolBeast::AcsClient> client;
-
-    Rig()
-    {
-        clientOptions.session.reconnect.initial = 20ms;
-        clientOptions.session.reconnect.maximum = 50ms;
-        clientOptions.session.positionInterval = 0ms;
-    }
-
-    void Listen()
-    {
-        auto created =
-            ProtocolBeast::McsServer::Create(io.get_executor(), clock, random, logger, serverOptions, mcsEvents);
-        REQUIRE(created.has_value());
-        server = std::move(*created);
-        serverOptions.port = server->GetPort();
-    }
-
-    [[nodiscard]] std::string GetUrl(const std::string& path = "/acs/") const
-    {
-        return "ws://127.0.0.1:" + std::to_string(serverOptions.port) + path;
-    }
-
-    void Connect(const std::string& path = "/acs/")
-    {
-        clientOptions.url = GetUrl(path);
-        client = MakeClient(acsEvents);
-        client->Start();
-    }
-
-    [[nodiscard]] std::unique_ptr<ProtocolBeast::AcsClient> MakeClient(Recorder& events)
-    {
-        auto created =
-            ProtocolBeast::AcsClient::Create(io.get_executor(), clock, random, logger, clientOptions, events);
-        REQUIRE(created.has_value());
-        return std::move(*created);
-    }
-
-    /// Runs the loop until the condition holds; false where it never does.
-    [[nodiscard]] bool WasReached(const std::function<bool()>& condition)
-    {
-        const auto deadline = std::chrono::steady_clock::now() + PATIENCE;
-        io.restart();
-        while (!condition() && std::chrono::steady_clock::now() < deadline)
-        {
-            static_cast<void>(io.run_one_for(100ms));
-            io.restart();
-        }
-        return condition();
-    }
-
-    void RegisterBoth()
-    {
-        Listen();
-        Connect();
-        REQUIRE(WasReached([this] { return !acsEvents.GetAll<Protocol::Registered>().empty(); }));
-        client->ReplayDone();
     }
 
     /// What a client gets that speaks no WebSocket.
     [[nodiscard]] std::string TalkRaw(const std::string& text)
     {
-        Tcp::socket socket(io);
-        socket.connect({boost::asio::ip::make_address("127.0.0.1"), serverOptions.port});
-        boost::asio::write(socket, boost::asio::buffer(text));
-        std::string answer;
-        bool bEnded = false;
-        boost::asio::async_read(
-            socket,
-            boost::asio::dynamic_buffer(answer),
-            [&bEnded](const boost::system::error_code& /*error*/, std::size_t /*count*/) { bEnded = true; });
-        CHECK(WasReached([&bEnded] { return bEnded; }));
-        return answer;
+        const auto peer = Testing::RawPeer::Connect(io, serverOptions.port);
+        peer->Write(text);
+        peer->ReadAsync();
+        CHECK(WasReached([&peer] { return peer->HasEnded(); }));
+        return peer->GetReceived();
     }
 };
 
-Protocol::AcsRequest MakeReport(const std::string& transactionID)
-{
-    return {transactionID, {}, Protocol::PlanReport{"P", Protocol::EPlanStatus::InProgress, "fine"}};
-}
-
-Protocol::ExecutionPlan MakePlan(std::size_t jobCount)
-{
-    Protocol::ExecutionPlan plan{"P", "L", 10, {{1, "MemoryPickAndPlace", "A01.SET01", {}, {}}}};
-    for (std::size_t index = 0; index < jobCount; ++index)
-    {
-        plan.steps[0].jobs.push_back(
-            {"cd3a109a-8f19-4f19-86ea-" + std::to_string(552'200'000'000 + index), "AMR.TP01.MP01", "A01.SET01.MP01"});
-    }
-    return plan;
-}
-
 } // namespace
 
-TEST_CASE("6 Over a real socket: register, plan, Ack, reports, goodbye")
+TEST_CASE("6 Over a real socket, ws and wss: register, plan, Ack, reports, goodbye")
 {
-    Rig rig;
+    Rig rig(GENERATE(false, true));
     rig.RegisterBoth();
     CHECK(rig.server->IsRegistered());
 
@@ -212,9 +87,9 @@ TEST_CASE("6 Over a real socket: register, plan, Ack, reports, goodbye")
     CHECK(reports.back().request.payload == Protocol::AcsPayload(Protocol::AcsCommStateUpdate{false}));
 }
 
-TEST_CASE("1 After a cut the client registers again and what was not acknowledged is fed again")
+TEST_CASE("1 After a cut, ws and wss, the client registers again and what was not acknowledged is fed again")
 {
-    Rig rig;
+    Rig rig(GENERATE(false, true));
     rig.RegisterBoth();
     REQUIRE(rig.client->TrySendDurable(MakeReport("a")));
     rig.server->Cut();
@@ -249,6 +124,21 @@ TEST_CASE("12.3 A close with 1008 is followed by another attempt")
     rig.server->Drop(1008, "not today");
     REQUIRE(rig.WasReached([&rig] { return rig.acsEvents.GetAll<Protocol::Registered>().size() == 2; }));
     CHECK(rig.acsEvents.GetAll<Protocol::LinkLost>().at(0).reason.find("1008: not today") != std::string::npos);
+}
+
+TEST_CASE("1 A close reason that is too long for its frame is cut between characters")
+{
+    Rig rig;
+    rig.RegisterBoth();
+    std::string reason = "x"; // the 123 bytes of a close frame end within the 41st of the characters that follow
+    for (int i = 0; i < 50; ++i)
+    {
+        reason += "\xEA\xB0\x80";
+    }
+    rig.server->Drop(1008, reason);
+    REQUIRE(rig.WasLost());
+    CHECK(rig.acsEvents.GetFirstLoss().find("1008: " + reason.substr(0, 121)) != std::string::npos);
+    CHECK(rig.acsEvents.GetFirstLoss().find("1008: " + reason.substr(0, 122)) == std::string::npos);
 }
 
 TEST_CASE("12.3 A second client is refused with 403 where the option says so, and goes on trying")
@@ -299,13 +189,7 @@ TEST_CASE("A port in use and a bad address are refused with a sentence that name
 {
     Rig rig;
     rig.Listen();
-    const auto second = ProtocolBeast::McsServer::Create(
-        rig.io.get_executor(),
-        rig.clock,
-        rig.random,
-        rig.logger,
-        rig.serverOptions,
-        rig.mcsEvents);
+    const auto second = rig.TryListen();
     REQUIRE_FALSE(second.has_value());
     const std::string sentence = Core::Describe(second.error());
     CHECK(sentence.find("127.0.0.1:" + std::to_string(rig.serverOptions.port)) != std::string::npos);
@@ -333,24 +217,20 @@ TEST_CASE("A URL that is none is refused with a sentence")
           "ws://x:99999/",
           "ws://u@x/",
           "ws://x/\r\nEvil: 1",
-          "wss://x/"})
+          "wss://",
+          "wss://x:0/"})
     {
         INFO(url);
         rig.clientOptions.url = url;
-        CHECK_FALSE(ProtocolBeast::AcsClient::Create(
-                        rig.io.get_executor(),
-                        rig.clock,
-                        rig.random,
-                        rig.logger,
-                        rig.clientOptions,
-                        rig.acsEvents)
-                        .has_value());
+        const auto refused = rig.TryMakeClient(rig.acsEvents);
+        REQUIRE_FALSE(refused.has_value());
+        CHECK(Core::Describe(refused.error()).find("wss://host[:port][/path]") != std::string::npos);
     }
 }
 
-TEST_CASE("After destruction no handler is called and nothing is left to run")
+TEST_CASE("After destruction, ws and wss, no handler is called and nothing is left to run")
 {
-    Rig rig;
+    Rig rig(GENERATE(false, true));
     rig.RegisterBoth();
     REQUIRE(rig.client->TrySendDurable(MakeReport("a")));
     REQUIRE(rig.server->TrySend(rig.server->MakeRequest(Protocol::RequestAcsPlans{})));

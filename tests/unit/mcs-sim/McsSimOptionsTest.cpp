@@ -44,6 +44,7 @@ TEST_CASE("The command line has the documented defaults")
     CHECK(outcome.options.path == "/acs/");
     CHECK(outcome.options.repeat == 1);
     CHECK(outcome.options.liveMode == ELiveMode::Auto);
+    CHECK_FALSE(outcome.options.tls.has_value());
     CHECK_FALSE(outcome.options.bFreshIDs);
     CHECK_FALSE(outcome.options.bKeep);
     CHECK_FALSE(outcome.options.bWaitForEnter);
@@ -60,6 +61,15 @@ TEST_CASE("Plans may follow one --plan or several, in order")
     CHECK(outcome.options.bKeep);
 }
 
+TEST_CASE("A certificate and its key make it wss, a client CA asks for certificates")
+{
+    const Outcome outcome =
+        Parse({"--plan", "a.json", "--tls-certificate", "a.pem", "--tls-key", "a.key", "--tls-client-ca", "ca.pem"});
+    CHECK_FALSE(outcome.exitCode.has_value());
+    REQUIRE(outcome.options.tls.has_value());
+    CHECK(*outcome.options.tls == ACS::ProtocolBeast::TlsOptions{"ca.pem", "a.pem", "a.key", {}});
+}
+
 TEST_CASE("A bad command line is told in one line, with exit code 2")
 {
     using Arguments = std::vector<const char*>;
@@ -69,6 +79,8 @@ TEST_CASE("A bad command line is told in one line, with exit code 2")
         Arguments{"--plan", "a.json", "--repeat", "0"},
         Arguments{"--plan", "a.json", "--live", "perhaps"},
         Arguments{"--plan", "a.json", "--path", "acs"},
+        Arguments{"--plan", "a.json", "--tls-key", "a.key"},
+        Arguments{"--plan", "a.json", "--tls-certificate", "a.pem"},
         Arguments{"--plan", "a.json", "--listen", "nowhere"});
     const Outcome outcome = Parse(arguments);
     CHECK(outcome.exitCode == 2);

@@ -28,8 +28,8 @@ class AcsClient
     explicit AcsClient(std::shared_ptr<Impl> impl);
 
 public:
-    /// Fails with a sentence about the URL; opens no connection. Clock, random source, log sink
-    /// and handler outlive the client.
+    /// Fails with a sentence about the URL, a header or a file for TLS; opens no connection. Clock, random source, log
+    /// sink and handler outlive the client.
     [[nodiscard]] static Core::Result<std::unique_ptr<AcsClient>> Create(
         const boost::asio::any_io_executor& executor,
         const Core::IClock& clock,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/protocol/SessionOptions.hpp>
+#include <acs/protocol_beast/TlsOptions.hpp>
 
 #include <chrono>
 #include <cstddef>
@@ -14,7 +15,7 @@ namespace ACS::ProtocolBeast
 /// How a WebSocket connection behaves; the same on both sides.
 struct LinkOptions
 {
-    std::chrono::milliseconds handshakeTimeout{10'000}; ///< From the first packet to the end of the upgrade.
+    std::chrono::milliseconds handshakeTimeout{10'000}; ///< For TCP, for TLS, for the upgrade; a server: for all three.
     std::chrono::milliseconds closeTimeout{2'000};      ///< For the closing handshake; then the socket is closed.
     std::chrono::milliseconds pingInterval{10'000};     ///< `mcs.ping_interval`: silence after which a ping is sent.
     std::size_t pingMisses = 2;                         ///< Unanswered intervals after which the link is dead.
@@ -25,9 +26,10 @@ struct LinkOptions
 /// Where and how an AcsClient connects.
 struct ClientOptions
 {
-    std::string url;  ///< `mcs.url`: ws://host[:port][/path]; wss is refused with a sentence.
-    std::string host; ///< Host header, where it must differ from the URL's.
+    std::string url;                                          ///< `mcs.url`: ws://host[:port][/path] or wss://…
+    std::string host;                                         ///< Host header, where it must differ from the URL's.
     std::vector<std::pair<std::string, std::string>> headers; ///< `mcs.headers`, for example Authorization.
+    TlsOptions tls{};                                         ///< For wss; refused with ws where anything is in it.
     LinkOptions link{};
     Protocol::SessionOptions session{};
 };

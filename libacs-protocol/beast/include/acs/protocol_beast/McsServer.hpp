@@ -29,8 +29,8 @@ class McsServer
     explicit McsServer(std::shared_ptr<Impl> impl);
 
 public:
-    /// Listens. Fails with a sentence that names the address and says what to do. Clock, random source, log sink and
-    /// handler outlive the server.
+    /// Listens. Fails with a sentence that names the address, or the file for TLS, and says what to do. Clock, random
+    /// source, log sink and handler outlive the server.
     [[nodiscard]] static Core::Result<std::unique_ptr<McsServer>> Create(
         const boost::asio::any_io_executor& executor,
         const Core::IClock& clock,

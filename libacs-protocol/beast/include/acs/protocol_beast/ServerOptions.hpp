@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace ACS::ProtocolBeast
@@ -16,6 +17,7 @@ struct ServerOptions
     std::uint16_t port = 0;            ///< 0: one that is free; GetPort tells.
     std::string path = "/acs/";        ///< With or without the last slash; every other path gets 404.
     std::size_t maximumClients = 16;   ///< Connections at a time, those without an upgrade included.
+    std::optional<TlsOptions> tls{};   ///< There: wss and nothing else, with certificate and key.
     LinkOptions link{};
     Protocol::McsSessionOptions session{};
 };

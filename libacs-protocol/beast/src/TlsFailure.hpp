@@ -1,0 +1,15 @@
+#pragma once
+
+#include <boost/asio/ssl/detail/openssl_types.hpp>
+#include <boost/system/error_code.hpp>
+
+#include <string>
+
+namespace ACS::ProtocolBeast
+{
+
+/// Why a TLS stream failed, in a few words for an operator: which certificate is wrong and what about it, where it is
+/// that; else what the library says.
+[[nodiscard]] std::string DescribeTlsFailure(SSL* stream, const boost::system::error_code& error);
+
+} // namespace ACS::ProtocolBeast

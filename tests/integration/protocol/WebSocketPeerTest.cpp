@@ -1,0 +1,544 @@
+#include "RawPeer.hpp"
+#include "WebSocketRig.hpp"
+#include <acs/core/Overloaded.hpp>
+#include <acs/protocol/AcsCodec.hpp>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <sys/resource.h>
+#include <utility>
+#include <variant>
+#include <vector>
+
+// Peers that no library would make: what a client or server of ours does when the other side is odd, slow or gone.
+
+using namespace ACS; // NOLINT(google-build-using-namespace)
+using namespace std::chrono_literals;
+using Protocol::EAcsCommand;
+using Testing::EFrame;
+using Testing::MakeFrame;
+using Testing::MakeFrameHead;
+using Testing::MakePlan;
+using Testing::MakeReport;
+using Testing::RawFrame;
+using Testing::RawPeer;
+using Testing::RawServer;
+using Rig = Testing::WebSocketRig;
+
+namespace
+{
+
+constexpr std::uint64_t HUGE_FRAME = 100'000'000;
+constexpr std::string_view REGISTRATION =
+    R"({"command":"Registration","transactionId":"t-1","timestamp":"2025-07-02T21:00:00.123+09:00","payload":{}})";
+
+std::string Encode(const Protocol::AcsMessage& message)
+{
+    std::string text;
+    Protocol::AcsCodec::Encode(message, text);
+    return text;
+}
+
+/// Reads also the long texts that fill a socket.
+Protocol::CodecOptions MakeCodecOptions()
+{
+    Protocol::CodecOptions options;
+    options.maximumString = options.maximumBytes;
+    return options;
+}
+
+/// An MCS by hand, on one connection: keeps what comes, and acknowledges it if it is to.
+class RawMcs
+{
+    RawPeer& _peer;
+    Protocol::AcsCodec _codec{MakeCodecOptions()};
+
+public:
+    std::vector<Protocol::AcsRequest> requests;
+    std::vector<Protocol::AcsAck> acks;
+    std::vector<RawFrame> closes;
+    /// Whether the request is to be acknowledged; may do to the connection what it likes.
+    std::function<bool(const Protocol::AcsRequest& request)> onRequest;
+
+    explicit RawMcs(RawPeer& peer)
+        : _peer(peer)
+    {
+        peer.onChange = [this] {
+            OnChange();
+        };
+        peer.ReadAsync();
+    }
+
+    void Send(const std::string& text, EFrame kind = EFrame::Text, bool bFinal = true)
+    {
+        _peer.Write(MakeFrame({kind, text, bFinal}, false));
+    }
+
+    [[nodiscard]] std::vector<EAcsCommand> GetCommands() const
+    {
+        std::vector<EAcsCommand> commands;
+        for (const Protocol::AcsRequest& request : requests)
+        {
+            commands.push_back(GetCommand(request));
+        }
+        return commands;
+    }
+
+    [[nodiscard]] std::size_t Count(EAcsCommand command) const
+    {
+        std::size_t count = 0;
+        for (const Protocol::AcsRequest& request : requests)
+        {
+            count += GetCommand(request) == command ? 1U : 0U;
+        }
+        return count;
+    }
+
+    [[nodiscard]] RawPeer& GetPeer()
+    {
+        return _peer;
+    }
+
+private:
+    void OnChange()
+    {
+        if (!_peer.TryUpgrade())
+        {
+            return;
+        }
+        for (std::optional<RawFrame> frame = _peer.TakeFrameOrNull(); frame.has_value();
+             frame = _peer.TakeFrameOrNull())
+        {
+            if (frame->kind == EFrame::Close)
+            {
+                closes.push_back(*frame);
+                _peer.Close(); // as a server does it, first
+            }
+            else if (frame->kind == EFrame::Text)
+            {
+                CHECK(frame->bFinal); // one unfragmented frame per message
+                OnText(frame->payload);
+            }
+        }
+    }
+
+    void OnText(const std::string& text)
+    {
+        const Protocol::DecodeOutcome outcome = _codec.Decode(text);
+        REQUIRE(outcome.message.has_value());
+        std::visit(
+            Core::Overloaded{
+                [this](const Protocol::AcsAck& ack) { acks.push_back(ack); },
+                [this](const Protocol::AcsRequest& request) {
+                    OnRequest(request);
+                }},
+            *outcome.message);
+    }
+
+    void OnRequest(const Protocol::AcsRequest& request)
+    {
+        requests.push_back(request);
+        const bool bAcknowledged = onRequest ? onRequest(request) : true;
+        if (bAcknowledged && GetCommand(request) != EAcsCommand::RobotPositionUpdate)
+        {
+            Send(Encode(Protocol::AcsAck{GetCommand(request), request.transactionID, request.timestamp, {}, {}, {}}));
+        }
+    }
+};
+
+/// A client of ours against MCS's by hand, one for each connection.
+class ClientRig : public Rig
+{
+public:
+    RawServer raw{io};
+    std::vector<std::unique_ptr<RawMcs>> connections;
+    std::function<void(std::size_t index, RawMcs& mcs)> onConnection;
+
+    ClientRig()
+    {
+        raw.onPeer = [this](std::size_t index, RawPeer& peer) {
+            connections.push_back(std::make_unique<RawMcs>(peer));
+            if (onConnection)
+            {
+                onConnection(index, *connections.back());
+            }
+        };
+    }
+
+    void RegisterWithRaw()
+    {
+        ConnectTo(raw.GetUrl());
+        REQUIRE(WasRegistered());
+        client->ReplayDone();
+    }
+};
+
+/// A server of ours against a client by hand that is registered.
+class ServerRig : public Rig
+{
+public:
+    std::shared_ptr<RawPeer> peer;
+
+    void RegisterRaw()
+    {
+        Listen();
+        ConnectRaw();
+        peer->Write(MakeFrame({EFrame::Text, std::string(REGISTRATION), true}, true));
+        REQUIRE(WasReached([this] { return server->IsRegistered(); }));
+        std::optional<RawFrame> answer;
+        REQUIRE(WasReached([this, &answer] {
+            answer = peer->TakeFrameOrNull();
+            return answer.has_value();
+        }));
+        CHECK(answer->payload.find("RegistrationAck") != std::string::npos);
+    }
+
+    void ConnectRaw()
+    {
+        peer = RawPeer::Connect(io, serverOptions.port);
+        peer->WriteUpgrade();
+        peer->ReadAsync();
+        std::string head;
+        REQUIRE(WasReached([this, &head] {
+            head = peer->TakeHead();
+            return !head.empty();
+        }));
+        REQUIRE(head.find("HTTP/1.1 101") == 0);
+    }
+
+    [[nodiscard]] std::string GetFirstMcsLoss() const
+    {
+        return mcsEvents.GetFirstLoss();
+    }
+
+    /// The code of the close frame that comes; 0 where none does.
+    [[nodiscard]] unsigned WaitForCloseCode()
+    {
+        std::optional<RawFrame> frame;
+        static_cast<void>(WasReached([this, &frame] {
+            frame = peer->TakeFrameOrNull();
+            return frame.has_value() && frame->kind == EFrame::Close;
+        }));
+        return frame.has_value() && frame->payload.size() >= 2
+            ? static_cast<unsigned char>(frame->payload[0]) * 256U + static_cast<unsigned char>(frame->payload[1])
+            : 0U;
+    }
+};
+
+long GetPeakKilobytes()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+}
+
+Protocol::RobotStatusUpdate MakeStatus()
+{
+    Protocol::RobotStatusUpdate status;
+    status.robotID = "LR01";
+    return status;
+}
+
+} // namespace
+
+TEST_CASE("13.11 A plan of 75 jobs in three fragments, text or binary, is one request")
+{
+    ClientRig rig;
+    rig.RegisterWithRaw();
+    const EFrame kind = GENERATE(EFrame::Text, EFrame::Binary);
+    const Protocol::AcsRequest plan{"p-1", {}, MakePlan(75)};
+    const std::string text = Encode(plan);
+    const std::size_t third = text.size() / 3;
+    REQUIRE(third > 2'000);
+
+    RawMcs& mcs = *rig.connections.at(0);
+    mcs.Send(text.substr(0, third), kind, false);
+    mcs.GetPeer().Write(MakeFrame({EFrame::Ping, "between", true}, false)); // control frames may stand between
+    mcs.Send(text.substr(third, third), EFrame::Continuation, false);
+    mcs.Send(text.substr(2 * third), EFrame::Continuation, true);
+    REQUIRE(rig.WasReached([&rig] { return !rig.acsEvents.GetAll<Protocol::RequestReceived>().empty(); }));
+    CHECK(rig.acsEvents.GetAll<Protocol::RequestReceived>()[0].request == plan);
+
+    rig.client->Answer(EAcsCommand::ExecutionPlan, "p-1", Protocol::EAckResult::Success, "", Protocol::PlanAck{"P"});
+    REQUIRE(rig.WasReached([&mcs] { return !mcs.acks.empty(); }));
+    CHECK(mcs.acks[0].transactionID == "p-1");
+}
+
+TEST_CASE("1 A server takes text and binary, whole and in fragments, and a PONG that nobody asked for")
+{
+    ServerRig rig;
+    rig.Listen();
+    rig.ConnectRaw();
+    rig.peer->Write(MakeFrame({EFrame::Pong, "unasked", true}, true));
+    rig.peer->Write(MakeFrame({EFrame::Binary, std::string(REGISTRATION.substr(0, 30)), false}, true));
+    rig.peer->Write(MakeFrame({EFrame::Continuation, std::string(REGISTRATION.substr(30)), true}, true));
+    REQUIRE(rig.WasReached([&rig] { return rig.server->IsRegistered(); }));
+    rig.peer->Write(MakeFrame({EFrame::Text, Encode(MakeReport("r-1")), true}, true));
+    REQUIRE(rig.WasReached([&rig] { return !rig.mcsEvents.GetAll<Protocol::RequestReceived>().empty(); }));
+    CHECK(rig.mcsEvents.GetAll<Protocol::RequestReceived>()[0].request == MakeReport("r-1"));
+}
+
+TEST_CASE("1 Garbage in frames is counted and the connection goes on")
+{
+    ServerRig rig;
+    rig.RegisterRaw();
+    for (const std::string garbage : {"", "no json", "[[[[[[", "{\"command\":", "null"})
+    {
+        rig.peer->Write(MakeFrame({EFrame::Binary, garbage, true}, true));
+    }
+    rig.peer->Write(MakeFrame({EFrame::Text, Encode(MakeReport("r-1")), true}, true));
+    REQUIRE(rig.WasReached([&rig] { return !rig.mcsEvents.GetAll<Protocol::RequestReceived>().empty(); }));
+    CHECK(rig.server->GetStatistics().CountOf(Protocol::EProtocolNote::Undecodable) == 5);
+    CHECK(rig.server->IsRegistered());
+}
+
+TEST_CASE("1 A frame that announces 100 MB is answered with 1009 before a byte of it has come, by either side")
+{
+    const long before = GetPeakKilobytes();
+    SECTION("server")
+    {
+        ServerRig rig;
+        rig.RegisterRaw();
+        rig.peer->Write(MakeFrameHead({EFrame::Text, {}, true}, HUGE_FRAME, true));
+        CHECK(rig.WaitForCloseCode() == 1009);
+        rig.peer->Close();
+        CHECK(rig.WasReached([&rig] { return !rig.GetFirstMcsLoss().empty(); }));
+    }
+    SECTION("client")
+    {
+        ClientRig rig;
+        rig.RegisterWithRaw();
+        RawMcs& mcs = *rig.connections.at(0);
+        mcs.GetPeer().Write(MakeFrameHead({EFrame::Text, {}, true}, HUGE_FRAME, false));
+        REQUIRE(rig.WasReached([&mcs] { return !mcs.closes.empty(); }));
+        CHECK(mcs.closes[0].payload.substr(0, 2) == "\x03\xF1");
+        CHECK(rig.WasRegistered(2));
+    }
+    CHECK(GetPeakKilobytes() - before < 50'000);
+}
+
+TEST_CASE("1 Fragments that are too long together are answered with 1009")
+{
+    ServerRig rig;
+    rig.serverOptions.link.maximumRead = 1'000;
+    rig.RegisterRaw();
+    rig.peer->Write(MakeFrame({EFrame::Text, std::string(900, ' '), false}, true));
+    rig.peer->Write(MakeFrame({EFrame::Continuation, std::string(101, ' '), true}, true));
+    CHECK(rig.WaitForCloseCode() == 1009);
+}
+
+TEST_CASE("1 A half-open peer that answers no ping is dropped, by either side")
+{
+    SECTION("server")
+    {
+        ServerRig rig;
+        rig.serverOptions.link.pingInterval = 20ms;
+        rig.RegisterRaw();
+        REQUIRE(rig.WasReached([&rig] { return !rig.GetFirstMcsLoss().empty(); }));
+        CHECK(rig.GetFirstMcsLoss() == "the other side has not answered any ping");
+        CHECK(rig.peer->TakeFrameOrNull().value_or(RawFrame{}).kind == EFrame::Ping);
+    }
+    SECTION("client")
+    {
+        ClientRig rig;
+        rig.clientOptions.link.pingInterval = 20ms;
+        rig.RegisterWithRaw();
+        REQUIRE(rig.WasLost());
+        CHECK(rig.acsEvents.GetFirstLoss() == "the other side has not answered any ping");
+        CHECK(rig.WasRegistered(2));
+    }
+}
+
+TEST_CASE("1 A peer that says nothing does not hold a connection for longer than the handshake may take")
+{
+    SECTION("server")
+    {
+        ServerRig rig;
+        rig.serverOptions.link.handshakeTimeout = 20ms;
+        rig.serverOptions.maximumClients = 1;
+        rig.Listen();
+        rig.peer = RawPeer::Connect(rig.io, rig.serverOptions.port);
+        rig.peer->ReadAsync();
+        REQUIRE(rig.WasReached([&rig] { return rig.peer->HasEnded(); }));
+        rig.Connect(); // for whom there is room again
+        CHECK(rig.WasRegistered());
+    }
+    SECTION("client")
+    {
+        Rig rig;
+        const RawServer silent(rig.io);
+        rig.clientOptions.link.handshakeTimeout = 20ms;
+        rig.ConnectTo(silent.GetUrl());
+        REQUIRE(rig.WasLost(2));
+        CHECK(rig.acsEvents.GetFirstLoss() == "the WebSocket handshake failed: the other side did not answer in time");
+    }
+}
+
+TEST_CASE("1 Extra headers and another Host stand in the upgrade; what would break the request is refused")
+{
+    ClientRig rig;
+    rig.clientOptions.host = "127.0.0.1:9001";
+    rig.clientOptions.headers = {{"Authorization", "Bearer secret"}, {"X-Site", "A"}};
+    rig.RegisterWithRaw();
+    const std::string& request = rig.connections.at(0)->GetPeer().GetRequest();
+    CHECK(request.find("GET /acs/ HTTP/1.1\r\n") == 0);
+    CHECK(request.find("\r\nHost: 127.0.0.1:9001\r\n") != std::string::npos);
+    CHECK(request.find("\r\nAuthorization: Bearer secret\r\n") != std::string::npos);
+    CHECK(request.find("\r\nX-Site: A\r\n") != std::string::npos);
+    CHECK(request.find("permessage-deflate") == std::string::npos);
+
+    using Header = std::pair<std::string, std::string>;
+    for (const Header& bad :
+         {Header{"X-A", "secret\r\nEvil: 1"}, Header{"X A", "1"}, Header{"", "1"}, Header{"X-A:", "1"}})
+    {
+        rig.clientOptions.headers = {bad};
+        const auto refused = rig.TryMakeClient(rig.acsEvents);
+        REQUIRE_FALSE(refused.has_value());
+        CHECK(Core::Describe(refused.error()).find("headers") == 0);
+        CHECK(Core::Describe(refused.error()).find("secret") == std::string::npos);
+    }
+    rig.clientOptions.headers.clear();
+    rig.clientOptions.host = "x\r\nEvil: 1";
+    CHECK_FALSE(rig.TryMakeClient(rig.acsEvents).has_value());
+}
+
+TEST_CASE(
+    "13.10 After RST in mid frame, 403 and 1008 the client connects again, registers, replays and tells its state")
+{
+    ClientRig rig;
+    // What a connection does with the first report: each kind of loss in turn, then nothing bad any more.
+    rig.onConnection = [&rig](std::size_t index, RawMcs& mcs) {
+        if (index == 1)
+        {
+            mcs.GetPeer().onChange = [&mcs] {
+                if (!mcs.GetPeer().TakeHead().empty())
+                {
+                    mcs.GetPeer().Write("HTTP/1.1 403 Forbidden\r\nContent-Length: 0\r\n\r\n");
+                }
+            };
+            return;
+        }
+        mcs.onRequest = [index, &mcs](const Protocol::AcsRequest& request) {
+            const bool bReport = GetCommand(request) == EAcsCommand::PlanReport;
+            if (bReport && index == 0)
+            {
+                mcs.GetPeer().Write(MakeFrameHead({EFrame::Text, {}, true}, 5'000, false) + "{\"command\":\"Exec");
+                mcs.GetPeer().Reset();
+            }
+            if (bReport && index == 2)
+            {
+                mcs.Send("\x03\xF0not today", EFrame::Close);
+            }
+            return !bReport || index == 3;
+        };
+    };
+    rig.acsEvents.onEvent = [&rig](const Protocol::SessionEvent& event) {
+        if (std::holds_alternative<Protocol::Registered>(event))
+        {
+            CHECK(rig.client->TrySendDurable(MakeReport("a")));
+            CHECK(rig.client->TrySendDurable(MakeReport("b")));
+            rig.client->ReplayDone();
+        }
+    };
+    rig.clientOptions.session.positionInterval = 10ms;
+    rig.ConnectTo(rig.raw.GetUrl());
+    rig.client->SendStatus(Protocol::TscStateUpdate{});
+    rig.client->SendStatus(Protocol::AcsCommStateUpdate{});
+    rig.client->SendStatus(MakeStatus());
+    REQUIRE(rig.WasReached([&rig] {
+        return !rig.acsEvents.GetAll<Protocol::PositionDue>().empty() && rig.connections.size() == 4
+            && rig.connections[3]->requests.size() >= 6;
+    }));
+
+    const auto losses = rig.acsEvents.GetAll<Protocol::LinkLost>();
+    REQUIRE(losses.size() == 3);
+    CHECK(losses[0].bWasRegistered);
+    CHECK(losses[0].reason.find("the connection broke: ") == 0);
+    CHECK(losses[1].reason == "the server refused the connection with HTTP 403");
+    CHECK(losses[2].reason == "closed by the other side with code 1008: not today");
+    const std::vector<EAcsCommand> commands = rig.connections[3]->GetCommands();
+    const std::vector<EAcsCommand> wanted{
+        EAcsCommand::Registration,
+        EAcsCommand::PlanReport,
+        EAcsCommand::PlanReport,
+        EAcsCommand::TscStateUpdate,
+        EAcsCommand::AcsCommStateUpdate,
+        EAcsCommand::RobotStatusUpdate};
+    CHECK(std::vector<EAcsCommand>(commands.begin(), commands.begin() + 6) == wanted);
+    CHECK(rig.connections[3]->requests[1] == MakeReport("a"));
+    CHECK(rig.connections[3]->requests[2] == MakeReport("b"));
+    CHECK(rig.connections[0]->requests[1] == MakeReport("a"));
+}
+
+TEST_CASE("1 A client that is cut off with RST in mid frame is forgotten, and the next one is served")
+{
+    ServerRig rig;
+    rig.RegisterRaw();
+    rig.peer->Write(MakeFrameHead({EFrame::Text, {}, true}, 5'000, true) + "{\"command\":");
+    rig.peer->Reset();
+    REQUIRE(rig.WasReached([&rig] { return !rig.GetFirstMcsLoss().empty(); }));
+    CHECK(rig.GetFirstMcsLoss().find("the connection broke: ") == 0);
+    rig.Connect();
+    CHECK(rig.WasRegistered());
+}
+
+TEST_CASE("13.12 While the socket is blocked positions are left out, and none of them follows when it flows again")
+{
+    constexpr std::size_t POSITIONS = 50;
+    constexpr std::size_t WINDOW = 12;
+    ClientRig rig;
+    rig.raw.SetReceiveBuffer(16'384);
+    rig.clientOptions.session.positionInterval = 1ms;
+    rig.clientOptions.session.ackTimeout = 60s; // nothing is sent again
+    rig.RegisterWithRaw();
+    RawMcs& mcs = *rig.connections.at(0);
+
+    // 12 MB that nobody reads are more than the system takes.
+    mcs.GetPeer().StopReading();
+    for (std::size_t i = 0; i < WINDOW; ++i)
+    {
+        REQUIRE(rig.client->TrySendDurable(MakeReport("big-" + std::to_string(i), std::string(1'000'000, 'x'))));
+    }
+    std::size_t due = 0;
+    rig.acsEvents.onEvent = [&rig, &due](const Protocol::SessionEvent& event) {
+        if (std::holds_alternative<Protocol::PositionDue>(event))
+        {
+            ++due;
+            rig.client->SendPosition({{{"LR01", static_cast<double>(due), 0.0, 0.0, 100.0}}});
+        }
+    };
+    REQUIRE(rig.WasReached([&due] { return due >= POSITIONS; }));
+    rig.acsEvents.onEvent = nullptr;
+
+    mcs.GetPeer().ReadAsync();
+    REQUIRE(rig.WasReached([&mcs] { return mcs.Count(EAcsCommand::PlanReport) == WINDOW; }));
+    REQUIRE(rig.client->TrySendDurable(MakeReport("end")));
+    REQUIRE(rig.WasReached([&mcs] { return mcs.Count(EAcsCommand::PlanReport) == WINDOW + 1; }));
+    CHECK(mcs.Count(EAcsCommand::RobotPositionUpdate) == 0);
+
+    // Fresh ones go out again.
+    rig.client->SendPosition({{{"LR01", 1.0, 0.0, 0.0, 100.0}}});
+    REQUIRE(rig.WasReached([&mcs] { return mcs.Count(EAcsCommand::RobotPositionUpdate) == 1; }));
+    CHECK(rig.acsEvents.GetAll<Protocol::LinkLost>().empty());
+}
+
+TEST_CASE("1 Where more waits to be written than the limit the link is dropped and made anew")
+{
+    ClientRig rig;
+    rig.raw.SetReceiveBuffer(16'384);
+    rig.clientOptions.link.maximumQueued = 2'000'000;
+    rig.RegisterWithRaw();
+    rig.connections.at(0)->GetPeer().StopReading();
+    for (int i = 0; i < 3; ++i)
+    {
+        REQUIRE(rig.client->TrySendDurable(MakeReport(std::to_string(i), std::string(900'000, 'x'))));
+    }
+    REQUIRE(rig.WasLost());
+    CHECK(rig.acsEvents.GetFirstLoss() == "the other side does not read: too much waits to be written");
+    CHECK(rig.WasRegistered(2));
+}
