@@ -216,6 +216,7 @@ private:
         owner.onText = [weak, connection](std::string_view text) {
             if (const auto self = weak.lock())
             {
+                self->Observe(EWireDirection::In, connection, text);
                 self->Run([connection, text](auto& session, Core::Now now, auto& out) {
                     session.OnText(connection, text, now, out);
                 });
@@ -234,6 +235,14 @@ private:
         return owner;
     }
 
+    void Observe(EWireDirection direction, Protocol::ConnectionID connection, std::string_view text) const
+    {
+        if (_options.onWire)
+        {
+            _options.onWire(direction, connection, text);
+        }
+    }
+
     void Act(const Protocol::SessionAction& action)
     {
         std::visit(
@@ -242,6 +251,7 @@ private:
                     const auto found = _links.find(send.connection);
                     if (found != _links.end())
                     {
+                        Observe(EWireDirection::Out, send.connection, send.text);
                         found->second->Send(send.text, send.bDroppable);
                     }
                 },

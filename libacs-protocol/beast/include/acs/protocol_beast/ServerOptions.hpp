@@ -1,13 +1,27 @@
 #pragma once
 
+#include <acs/protocol/SessionAction.hpp>
 #include <acs/protocol_beast/ClientOptions.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <string_view>
 
 namespace ACS::ProtocolBeast
 {
+
+enum class EWireDirection : std::uint8_t
+{
+    In,
+    Out,
+};
+
+/// Sees every text: what comes before the session judges it, what goes as it is handed to the connection. The view is
+/// valid during the call, which is made on the executor and must not call the server.
+using WireObserver =
+    std::function<void(EWireDirection direction, Protocol::ConnectionID connection, std::string_view text)>;
 
 /// Where an McsServer listens.
 struct ServerOptions
@@ -18,6 +32,7 @@ struct ServerOptions
     std::size_t maximumClients = 16;   ///< Connections at a time, those without an upgrade included.
     LinkOptions link{};
     Protocol::McsSessionOptions session{};
+    WireObserver onWire; ///< May be empty.
 };
 
 } // namespace ACS::ProtocolBeast
