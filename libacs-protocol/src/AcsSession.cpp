@@ -250,8 +250,9 @@ public:
             case ESessionTimer::Shutdown:
                 Leave(EState::Stopping, CLOSE_NORMAL, "shutting down", out);
                 break;
+            case ESessionTimer::DelayedAck:
             default:
-                assert(false && "an enumerator has no case");
+                assert(false && "not a timer of this side");
                 break;
         }
     }

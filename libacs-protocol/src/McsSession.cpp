@@ -24,6 +24,19 @@ struct PendingRequest
     Core::SteadyTime deadline{};
 };
 
+struct RunningHold
+{
+    AckHold hold;
+    Core::SteadyTime end{};
+};
+
+struct DelayedAck
+{
+    ConnectionID connection = 0;
+    std::string text;
+    Core::SteadyTime deadline{};
+};
+
 } // namespace
 
 class McsSession::Impl
@@ -39,6 +52,10 @@ class McsSession::Impl
     std::vector<PendingRequest> _pending;
     std::unordered_set<std::string> _seen;
     std::deque<std::string> _seenOrder;
+    std::vector<RunningHold> _holds;
+    std::vector<DelayedAck> _delayed;
+    std::size_t _refusalsLeft = 0;
+    std::string _refusalMessage;
     std::string _scratch;
 
 public:
@@ -91,6 +108,7 @@ public:
     void OnClosed(ConnectionID connection, std::string_view reason, SessionActions& out)
     {
         std::erase(_connections, connection);
+        std::erase_if(_delayed, [connection](const DelayedAck& ack) { return ack.connection == connection; });
         if (_registered == connection)
         {
             LoseRegistered(reason, out);
@@ -99,7 +117,15 @@ public:
 
     void OnTimer(ESessionTimer timer, Core::Now now, SessionActions& out)
     {
-        if (!_output.TryExpire(timer) || timer != ESessionTimer::Ack)
+        if (!_output.TryExpire(timer))
+        {
+            return;
+        }
+        if (timer == ESessionTimer::DelayedAck)
+        {
+            SendDelayed(now, out);
+        }
+        if (timer != ESessionTimer::Ack)
         {
             return;
         }
@@ -132,6 +158,27 @@ public:
         _pending.push_back({command, request.transactionID, now.steady + _options.ackTimeout});
         ArmAckTimer(now, out);
         return true;
+    }
+
+    bool TrySendText(std::string_view text, SessionActions& out) const
+    {
+        if (_registered.has_value())
+        {
+            out.emplace_back(SendText{*_registered, std::string(text), false});
+        }
+        return _registered.has_value();
+    }
+
+    void HoldAcks(const AckHold& hold, Core::Now now)
+    {
+        std::erase_if(_holds, [now](const RunningHold& running) { return running.end <= now.steady; });
+        _holds.push_back({hold, now.steady + hold.duration});
+    }
+
+    void RefuseRegistrations(std::size_t count, std::string_view message)
+    {
+        _refusalsLeft = count;
+        _refusalMessage = message;
     }
 
     void Drop(std::uint16_t code, std::string_view reason, SessionActions& out) const
@@ -173,7 +220,7 @@ private:
 
     void LoseRegistered(std::string_view reason, SessionActions& out)
     {
-        _output.CancelAll(out);
+        _output.Cancel(ESessionTimer::Ack, out);
         _registered.reset();
         ++_output.statistics.linkLosses;
         for (const PendingRequest& request : std::exchange(_pending, {}))
@@ -196,6 +243,11 @@ private:
         {
             return;
         }
+        const AckHold* const holdOrNull = FindHoldOrNull(command, now);
+        if (holdOrNull != nullptr && !holdOrNull->delay.has_value())
+        {
+            return;
+        }
         CommandCounters& counters = _output.statistics.Of(command);
         ++counters.acknowledged;
         counters.refused += result == EAckResult::Fail ? 1U : 0U;
@@ -203,7 +255,37 @@ private:
         AcsCodec::EncodeAck(
             {command, request.transactionID, timestamp, result, std::string(message), EmptyAck{}, false},
             _scratch);
-        out.emplace_back(SendText{connection, _scratch, false});
+        if (holdOrNull == nullptr)
+        {
+            out.emplace_back(SendText{connection, _scratch, false});
+            return;
+        }
+        _delayed.push_back({connection, _scratch, now.steady + *holdOrNull->delay});
+        _output.Start(ESessionTimer::DelayedAck, Detail::GetNextDelay(_delayed, now), out);
+    }
+
+    [[nodiscard]] const AckHold* FindHoldOrNull(EAcsCommand command, Core::Now now) const
+    {
+        const auto found = std::find_if(_holds.rbegin(), _holds.rend(), [command, now](const RunningHold& running) {
+            return running.hold.command.value_or(command) == command && now.steady < running.end;
+        });
+        return found == _holds.rend() ? nullptr : &found->hold;
+    }
+
+    void SendDelayed(Core::Now now, SessionActions& out)
+    {
+        for (const DelayedAck& ack : _delayed)
+        {
+            if (ack.deadline <= now.steady)
+            {
+                out.emplace_back(SendText{ack.connection, ack.text, false});
+            }
+        }
+        std::erase_if(_delayed, [now](const DelayedAck& ack) { return ack.deadline <= now.steady; });
+        if (!_delayed.empty())
+        {
+            _output.Start(ESessionTimer::DelayedAck, Detail::GetNextDelay(_delayed, now), out);
+        }
     }
 
     void Refuse(ConnectionID connection, const DecodeFailure& failure, Core::Now now, SessionActions& out)
@@ -285,6 +367,17 @@ private:
 
     void Register(ConnectionID connection, const AcsRequest& request, Core::Now now, SessionActions& out)
     {
+        if (_refusalsLeft > 0)
+        {
+            --_refusalsLeft;
+            Acknowledge(connection, request, EAckResult::Fail, _refusalMessage, now, out);
+            return;
+        }
+        const AckHold* const holdOrNull = FindHoldOrNull(EAcsCommand::Registration, now);
+        if (holdOrNull != nullptr && !holdOrNull->delay.has_value())
+        {
+            return; // The ACS will not know that it is registered, so it is not.
+        }
         if (_registered.has_value() && _options.bSecondRefused)
         {
             Acknowledge(connection, request, EAckResult::Fail, "An ACS is registered already.", now, out);
@@ -369,6 +462,21 @@ AcsRequest McsSession::MakeRequest(AcsPayload payload, Core::Now now)
 bool McsSession::TrySend(const AcsRequest& request, Core::Now now, SessionActions& out)
 {
     return _impl->TrySend(request, now, out);
+}
+
+bool McsSession::TrySendText(std::string_view text, SessionActions& out)
+{
+    return _impl->TrySendText(text, out);
+}
+
+void McsSession::HoldAcks(const AckHold& hold, Core::Now now)
+{
+    _impl->HoldAcks(hold, now);
+}
+
+void McsSession::RefuseRegistrations(std::size_t count, std::string_view message)
+{
+    _impl->RefuseRegistrations(count, message);
 }
 
 void McsSession::Drop(std::uint16_t code, std::string_view reason, SessionActions& out)

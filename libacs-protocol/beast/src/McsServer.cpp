@@ -324,6 +324,26 @@ bool McsServer::TrySend(const Protocol::AcsRequest& request)
     return bTaken;
 }
 
+bool McsServer::TrySendText(std::string_view text)
+{
+    bool bTaken = false;
+    _impl->Run(
+        [text, &bTaken](auto& session, Core::Now /*now*/, auto& out) { bTaken = session.TrySendText(text, out); });
+    return bTaken;
+}
+
+void McsServer::HoldAcks(const Protocol::AckHold& hold)
+{
+    _impl->Run([&hold](auto& session, Core::Now now, auto& /*out*/) { session.HoldAcks(hold, now); });
+}
+
+void McsServer::RefuseRegistrations(std::size_t count, std::string_view message)
+{
+    _impl->Run([count, message](auto& session, Core::Now /*now*/, auto& /*out*/) {
+        session.RefuseRegistrations(count, message);
+    });
+}
+
 void McsServer::Drop(std::uint16_t code, std::string_view reason)
 {
     _impl->Run([code, reason](auto& session, Core::Now /*now*/, auto& out) { session.Drop(code, reason, out); });

@@ -256,3 +256,90 @@ TEST_CASE("6 Both sessions together: a plan, its reports, a cut and a second reg
     CHECK(mcs.GetStatistics().Of(EAcsCommand::PlanReport).received == 2);
     CHECK(mcs.GetStatistics().Of(EAcsCommand::PlanReport).duplicates == 1);
 }
+
+TEST_CASE("An Ack that is withheld never goes, what it would have answered is delivered, and a repetition is answered")
+{
+    McsBench bench;
+    bench.Register(1);
+    bench.session.HoldAcks({EAcsCommand::PlanReport, std::nullopt, 6s}, bench.clock.GetNow());
+    bench.Text(1, MakeRequestText("PlanReport", PLAN_REPORT, "a"));
+    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
+    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().size() == 1);
+    CHECK(bench.session.GetStatistics().Of(EAcsCommand::PlanReport).acknowledged == 0);
+    bench.Text(1, MakeRequestText("TscStateUpdate", R"({"state":"Auto"})", "b"));
+    CHECK(bench.probe.GetAcks().size() == 1);
+    bench.clock.Advance(6s);
+    bench.Text(1, MakeRequestText("PlanReport", PLAN_REPORT, "a"));
+    CHECK(bench.probe.GetAcks().size() == 1);
+    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().at(0).bDuplicate);
+}
+
+TEST_CASE("An Ack that is delayed goes when its time has come, unless its connection has gone before")
+{
+    McsBench bench;
+    bench.Register(1);
+    bench.session.HoldAcks({std::nullopt, 2s, 10s}, bench.clock.GetNow());
+    bench.Text(1, MakeRequestText("PlanReport", PLAN_REPORT, "a"));
+    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
+    CHECK(bench.probe.GetDelayOrNull(Protocol::ESessionTimer::DelayedAck) == 2s);
+    bench.clock.Advance(1s);
+    bench.Text(1, MakeRequestText("PlanReport", PLAN_REPORT, "b"));
+    CHECK(bench.probe.GetDelayOrNull(Protocol::ESessionTimer::DelayedAck) == 1s);
+    bench.clock.Advance(1s);
+    SECTION("in time")
+    {
+        bench.probe.Clear();
+        bench.session.OnTimer(Protocol::ESessionTimer::DelayedAck, bench.clock.GetNow(), bench.probe.out);
+        REQUIRE(bench.probe.GetAcks().size() == 1);
+        CHECK(bench.probe.GetAcks()[0].transactionID == "a");
+        CHECK(bench.probe.GetDelayOrNull(Protocol::ESessionTimer::DelayedAck) == 1s);
+    }
+    SECTION("too late")
+    {
+        bench.session.OnClosed(1, "gone", bench.clock.GetNow(), bench.probe.out);
+        bench.probe.Clear();
+        bench.session.OnTimer(Protocol::ESessionTimer::DelayedAck, bench.clock.GetNow(), bench.probe.out);
+        CHECK(bench.probe.out.empty());
+    }
+}
+
+TEST_CASE("Of two holds on one command the latest counts")
+{
+    McsBench bench;
+    bench.Register(1);
+    bench.session.HoldAcks({std::nullopt, std::nullopt, 10s}, bench.clock.GetNow());
+    bench.session.HoldAcks({EAcsCommand::PlanReport, 0ms, 10s}, bench.clock.GetNow());
+    bench.Text(1, MakeRequestText("PlanReport", PLAN_REPORT, "a"));
+    CHECK(bench.probe.GetDelayOrNull(Protocol::ESessionTimer::DelayedAck) == 0ms);
+    bench.Text(1, MakeRequestText("TscStateUpdate", R"({"state":"Auto"})", "b"));
+    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
+}
+
+TEST_CASE("6.2 Registrations are refused as often as asked, and unheard of where their Ack is withheld")
+{
+    McsBench bench;
+    bench.session.RefuseRegistrations(1, "Maintenance.");
+    bench.Register(1);
+    REQUIRE(bench.probe.GetAcks().size() == 1);
+    CHECK(bench.probe.GetAcks()[0].result == EAckResult::Fail);
+    CHECK(bench.probe.GetAcks()[0].message == "Maintenance.");
+    CHECK_FALSE(bench.session.IsRegistered());
+    bench.session.HoldAcks({EAcsCommand::Registration, std::nullopt, 5s}, bench.clock.GetNow());
+    bench.Register(2);
+    CHECK(bench.probe.out.empty());
+    CHECK_FALSE(bench.session.IsRegistered());
+    bench.clock.Advance(5s);
+    bench.Register(3);
+    CHECK(bench.session.GetRegisteredOrNull() == Protocol::ConnectionID(3));
+}
+
+TEST_CASE("Any text at all can be sent to the ACS that is registered")
+{
+    McsBench bench;
+    CHECK_FALSE(bench.session.TrySendText("{", bench.probe.out));
+    bench.Register(1);
+    bench.probe.Clear();
+    CHECK(bench.session.TrySendText("{", bench.probe.out));
+    CHECK(bench.probe.GetAll<Protocol::SendText>().at(0).text == "{");
+    CHECK(bench.session.GetPendingCount() == 0);
+}
