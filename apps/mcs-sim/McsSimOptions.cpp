@@ -77,6 +77,15 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimO
         ->default_str("auto");
     app.add_flag("--keep", options.bKeep, "Stay when all plans have ended, until SIGINT or SIGTERM");
     app.add_flag("--wait-for-enter", options.bWaitForEnter, "Send the plans only after a line came on standard input");
+    Apps::AddTextOption(
+        app,
+        "--trace",
+        [&options](const std::string& text) {
+            options.traceFile = text;
+            return text.empty() ? "expected the name of a file, found nothing" : std::string();
+        },
+        "Write every message of both directions to this file, a line of JSON each, with time and connection")
+        .type_name("FILE");
     Apps::AddCommonOptions(app, options.common);
     const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
     if (!exitCode.has_value() && options.planFiles.empty())

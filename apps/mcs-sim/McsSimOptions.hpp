@@ -34,6 +34,7 @@ struct McsSimOptions
     ELiveMode liveMode = ELiveMode::Auto;
     bool bKeep = false;
     bool bWaitForEnter = false;
+    std::string traceFile; ///< Empty: none.
 };
 
 /// Fills the options. Nullopt: go on; else the exit code to leave with, everything having been said.

@@ -107,6 +107,7 @@ public:
         server.address = _options.listen.host;
         server.port = _options.listen.port;
         server.path = _options.path;
+        server.onWire = _options.onWire;
         server.session.ackTimeout = PlanTracker::RESEND_AFTER;
         server.session.codec.siteOffset = _options.siteOffset;
         auto created = ProtocolBeast::McsServer::Create(_executor, _clock, _random, _logger, server, *this);

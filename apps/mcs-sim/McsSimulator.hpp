@@ -6,6 +6,7 @@
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
+#include <acs/protocol_beast/ServerOptions.hpp>
 
 #include <boost/asio/any_io_executor.hpp>
 
@@ -30,6 +31,7 @@ struct SimulatorOptions
     bool bKeep = false;                 ///< Do not end by itself.
     std::size_t columns = 100;          ///< Of the live view and the closing table.
     std::size_t rows = 24;
+    ProtocolBeast::WireObserver onWire; ///< For a trace; may be empty.
 };
 
 /// The MCS of a run: serves one ACS at a time, sends it the plans, shows what it reports, and closes with a table.

@@ -12,6 +12,7 @@
 #include "PlanFile.hpp"
 #include "Screen.hpp"
 #include "ScreenLogSink.hpp"
+#include "TraceFile.hpp"
 #include <acs/core/Timestamp.hpp>
 
 #include <boost/asio/io_context.hpp>
@@ -100,14 +101,31 @@ int Run(const McsSimOptions& options)
     const bool bMixed = bLive && ::isatty(STDERR_FILENO) != 0;
     Core::ILogSink& sink = bMixed ? static_cast<Core::ILogSink&>(screenSink) : plainSink;
 
+    const Core::Logger logger(sink, std::string(PROGRAM_NAME));
+    SimulatorOptions simulated{options.listen, options.path, offset, options.bKeep, size.columns, size.rows, {}};
+    std::unique_ptr<TraceFile> trace;
+    if (!options.traceFile.empty())
+    {
+        auto created = TraceFile::Create(options.traceFile, clock, offset, logger);
+        if (!created.has_value())
+        {
+            Apps::PrintMistake(PROGRAM_NAME, created.error());
+            return Apps::EXIT_BAD_COMMAND_LINE;
+        }
+        trace = std::move(*created);
+        simulated.onWire = [&trace](auto direction, auto connection, std::string_view text) {
+            trace->Write(direction, connection, text);
+        };
+    }
+
     boost::asio::io_context context(1);
     int exitCode = EXIT_FAILURE;
     McsSimulator simulator(
         context.get_executor(),
         clock,
         random,
-        Core::Logger(sink, std::string(PROGRAM_NAME)),
-        {options.listen, options.path, offset, options.bKeep, size.columns, size.rows},
+        logger,
+        simulated,
         std::move(*plans),
         std::cout,
         bLive ? &screen : nullptr,
