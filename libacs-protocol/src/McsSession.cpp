@@ -35,6 +35,7 @@ struct DelayedAck
     ConnectionID connection = 0;
     std::string text;
     Core::SteadyTime deadline{};
+    bool bRegisters = false;
 };
 
 } // namespace
@@ -84,7 +85,7 @@ public:
         {
             return;
         }
-        DecodeOutcome outcome = _codec.Decode(text);
+        DecodeOutcome outcome = _codec.Decode(GetReadPart(text));
         _output.NoteAll(outcome.notes, out);
         if (!outcome.message.has_value())
         {
@@ -153,6 +154,11 @@ public:
         }
         const EAcsCommand command = GetCommand(request);
         AcsCodec::EncodeRequest(request, _scratch);
+        if (_options.bNullResults)
+        {
+            _scratch.pop_back(); // the brace
+            _scratch += R"(,"result":null,"message":null})";
+        }
         ++_output.statistics.Of(command).sent;
         out.emplace_back(SendText{*_registered, _scratch, false});
         _pending.push_back({command, request.transactionID, now.steady + _options.ackTimeout});
@@ -179,6 +185,12 @@ public:
     {
         _refusalsLeft = count;
         _refusalMessage = message;
+    }
+
+    void EndFaults() noexcept
+    {
+        _holds.clear();
+        _refusalsLeft = 0;
     }
 
     void Drop(std::uint16_t code, std::string_view reason, SessionActions& out) const
@@ -210,6 +222,13 @@ public:
     }
 
 private:
+    /// What a receiver with a fixed buffer reads that forgets all chunks of a text but the last.
+    [[nodiscard]] std::string_view GetReadPart(std::string_view text) const
+    {
+        const std::size_t chunk = _options.finalChunkBytes;
+        return chunk == 0 || text.size() <= chunk ? text : text.substr((text.size() - 1) / chunk * chunk);
+    }
+
     void ArmAckTimer(Core::Now now, SessionActions& out)
     {
         if (!_pending.empty() && !_output.IsRunning(ESessionTimer::Ack))
@@ -260,7 +279,8 @@ private:
             out.emplace_back(SendText{connection, _scratch, false});
             return;
         }
-        _delayed.push_back({connection, _scratch, now.steady + *holdOrNull->delay});
+        const bool bRegisters = command == EAcsCommand::Registration && result == EAckResult::Success;
+        _delayed.push_back({connection, _scratch, now.steady + *holdOrNull->delay, bRegisters});
         _output.Start(ESessionTimer::DelayedAck, Detail::GetNextDelay(_delayed, now), out);
     }
 
@@ -276,9 +296,14 @@ private:
     {
         for (const DelayedAck& ack : _delayed)
         {
-            if (ack.deadline <= now.steady)
+            if (ack.deadline > now.steady)
             {
-                out.emplace_back(SendText{ack.connection, ack.text, false});
+                continue;
+            }
+            out.emplace_back(SendText{ack.connection, ack.text, false});
+            if (ack.bRegisters)
+            {
+                TakeRegistered(ack.connection, out);
             }
         }
         std::erase_if(_delayed, [now](const DelayedAck& ack) { return ack.deadline <= now.steady; });
@@ -298,7 +323,7 @@ private:
             out);
         const bool bAnswerable =
             !failure.commandName.empty() && !failure.bAck && (!failure.command.has_value() || HasAck(*failure.command));
-        if (_registered != connection || !bAnswerable)
+        if (_registered != connection || !bAnswerable || _options.bErrorsUnanswered)
         {
             return;
         }
@@ -334,7 +359,7 @@ private:
         }
         CommandCounters& counters = _output.statistics.Of(command);
         ++counters.received;
-        if (IsSentByMcs(command))
+        if (IsSentByMcs(command) || (_options.bPositionsUnknown && command == EAcsCommand::RobotPositionUpdate))
         {
             _output.Note(EProtocolNote::UnknownCommand, std::string(GetText(command)), out);
             Acknowledge(connection, request, EAckResult::Fail, Detail::UNSUPPORTED, now, out);
@@ -373,11 +398,6 @@ private:
             Acknowledge(connection, request, EAckResult::Fail, _refusalMessage, now, out);
             return;
         }
-        const AckHold* const holdOrNull = FindHoldOrNull(EAcsCommand::Registration, now);
-        if (holdOrNull != nullptr && !holdOrNull->delay.has_value())
-        {
-            return; // The ACS will not know that it is registered, so it is not.
-        }
         if (_registered.has_value() && _options.bSecondRefused)
         {
             Acknowledge(connection, request, EAckResult::Fail, "An ACS is registered already.", now, out);
@@ -389,11 +409,19 @@ private:
             out.emplace_back(Close{*_registered, CLOSE_POLICY, "replaced by a new connection"});
             LoseRegistered("replaced by a new connection", out);
         }
-        const bool bAgain = _registered == connection;
-        _registered = connection;
         Acknowledge(connection, request, EAckResult::Success, "Registered.", now, out);
-        if (!bAgain)
+        // The ACS is registered when it can know that it is.
+        if (FindHoldOrNull(EAcsCommand::Registration, now) == nullptr)
         {
+            TakeRegistered(connection, out);
+        }
+    }
+
+    void TakeRegistered(ConnectionID connection, SessionActions& out)
+    {
+        if (_registered != connection)
+        {
+            _registered = connection;
             ++_output.statistics.registrations;
             out.emplace_back(Deliver{Registered{}});
         }
@@ -477,6 +505,11 @@ void McsSession::HoldAcks(const AckHold& hold, Core::Now now)
 void McsSession::RefuseRegistrations(std::size_t count, std::string_view message)
 {
     _impl->RefuseRegistrations(count, message);
+}
+
+void McsSession::EndFaults() noexcept
+{
+    _impl->EndFaults();
 }
 
 void McsSession::Drop(std::uint16_t code, std::string_view reason, SessionActions& out)

@@ -344,6 +344,11 @@ void McsServer::RefuseRegistrations(std::size_t count, std::string_view message)
     });
 }
 
+void McsServer::EndFaults()
+{
+    _impl->Run([](auto& session, Core::Now /*now*/, auto& /*out*/) { session.EndFaults(); });
+}
+
 void McsServer::Drop(std::uint16_t code, std::string_view reason)
 {
     _impl->Run([code, reason](auto& session, Core::Now /*now*/, auto& out) { session.Drop(code, reason, out); });

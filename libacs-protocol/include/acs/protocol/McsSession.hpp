@@ -80,6 +80,9 @@ public:
     /// that. No action.
     void RefuseRegistrations(std::size_t count, std::string_view message);
 
+    /// No holds and no refusals from now on; Acks that are held back come when they would have. No action.
+    void EndFaults() noexcept;
+
     /// Which connection is registered; nullopt: none.
     [[nodiscard]] std::optional<ConnectionID> GetRegisteredOrNull() const noexcept;
 

@@ -60,6 +60,7 @@ public:
     [[nodiscard]] bool TrySendText(std::string_view text);
     void HoldAcks(const Protocol::AckHold& hold);
     void RefuseRegistrations(std::size_t count, std::string_view message);
+    void EndFaults();
     void Drop(std::uint16_t code, std::string_view reason);
 
     /// Closes the registered connection's socket without a handshake, as a cut cable would.
