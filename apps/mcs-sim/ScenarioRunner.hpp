@@ -1,7 +1,7 @@
 #pragma once
 
 #include "PatternMatch.hpp"
-#include "PlanBatch.hpp"
+#include "PlanRefresher.hpp"
 #include "ScenarioAction.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/protocol/AcsCodec.hpp>
