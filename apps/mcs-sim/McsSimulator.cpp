@@ -600,7 +600,7 @@ private:
             _out << MakeText(line, MAX_SUMMARY_COLUMNS, _screenOrNull != nullptr) << '\n';
         }
         _out << MakeScenarioLastLine(results, _tracker.CountViolations()) << std::endl;
-        _onDone(_scenarios.HaveAllHeld() && _tracker.CountViolations() == 0 ? 0 : 1);
+        _onDone(_scenarios.HasHeld() && _tracker.CountViolations() == 0 ? 0 : 1);
     }
 
     void Draw()

@@ -77,7 +77,7 @@ std::string ObjectReader::TakeText(std::string_view name, std::string_view other
     return HasMember(name) ? TakeText(name) : std::string(otherwise);
 }
 
-bool ObjectReader::TakeBoolean(std::string_view name, bool bOtherwise)
+bool ObjectReader::IsTrue(std::string_view name, bool bOtherwise)
 {
     const Json::Value* const valueOrNull = TakeOrNull(name);
     if (valueOrNull == nullptr)

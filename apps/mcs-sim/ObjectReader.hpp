@@ -31,7 +31,8 @@ public:
     [[nodiscard]] const Json::Value* TakeOrNull(std::string_view name);
     [[nodiscard]] std::string TakeText(std::string_view name);
     [[nodiscard]] std::string TakeText(std::string_view name, std::string_view otherwise);
-    [[nodiscard]] bool TakeBoolean(std::string_view name, bool bOtherwise);
+    /// Takes true or false.
+    [[nodiscard]] bool IsTrue(std::string_view name, bool bOtherwise);
     [[nodiscard]] std::uint32_t TakeNumber(
         std::string_view name,
         std::uint32_t otherwise,

@@ -25,10 +25,10 @@ std::string MakePath(std::string_view path, std::string_view name)
     return path.empty() ? std::string(name) : fmt::format("{}.{}", path, name);
 }
 
-void WriteFilledRecursive(
+void WriteFilledRecursive( // NOLINT(misc-no-recursion): as deep as the parser's limit
     const Value& value,
     const PlaceholderReader& read,
-    Json::JsonWriter& writer) // NOLINT(misc-no-recursion): as deep as the parser's limit
+    Json::JsonWriter& writer)
 {
     if (value.IsString())
     {
@@ -71,7 +71,7 @@ public:
     }
 
     /// A value that is absent is a null one. As deep as the parser's limit.
-    [[nodiscard]] std::optional<std::string> FindRecursiveOrNull( // NOLINT(misc-no-recursion)
+    [[nodiscard]] std::optional<std::string> FindOrNullRecursive( // NOLINT(misc-no-recursion)
         const Value* valueOrNull,
         const Value& pattern,
         const std::string& path) const
@@ -86,11 +86,11 @@ public:
         }
         if (pattern.IsObject() && valueOrNull->IsObject())
         {
-            return FindInObjectRecursiveOrNull(*valueOrNull, pattern, path);
+            return FindInObjectOrNullRecursive(*valueOrNull, pattern, path);
         }
         if (pattern.IsArray() && valueOrNull->IsArray() && pattern.Size() == valueOrNull->Size())
         {
-            return FindInArrayRecursiveOrNull(*valueOrNull, pattern, path);
+            return FindInArrayOrNullRecursive(*valueOrNull, pattern, path);
         }
         return IsSameLeaf(*valueOrNull, pattern)
             ? std::nullopt
@@ -98,7 +98,7 @@ public:
     }
 
 private:
-    [[nodiscard]] std::optional<std::string> FindInObjectRecursiveOrNull( // NOLINT(misc-no-recursion)
+    [[nodiscard]] std::optional<std::string> FindInObjectOrNullRecursive( // NOLINT(misc-no-recursion)
         const Value& object,
         const Value& pattern,
         const std::string& path) const
@@ -106,7 +106,7 @@ private:
         for (const auto& member : pattern.GetObject())
         {
             const auto found = object.FindMember(member.name);
-            std::optional<std::string> mismatch = FindRecursiveOrNull(
+            std::optional<std::string> mismatch = FindOrNullRecursive(
                 found == object.MemberEnd() ? nullptr : &found->value,
                 member.value,
                 MakePath(path, GetView(member.name)));
@@ -118,7 +118,7 @@ private:
         return std::nullopt;
     }
 
-    [[nodiscard]] std::optional<std::string> FindInArrayRecursiveOrNull( // NOLINT(misc-no-recursion)
+    [[nodiscard]] std::optional<std::string> FindInArrayOrNullRecursive( // NOLINT(misc-no-recursion)
         const Value& array,
         const Value& pattern,
         const std::string& path) const
@@ -126,7 +126,7 @@ private:
         for (rapidjson::SizeType i = 0; i < pattern.Size(); ++i)
         {
             std::optional<std::string> mismatch =
-                FindRecursiveOrNull(&array[i], pattern[i], fmt::format("{}[{}]", path, i));
+                FindOrNullRecursive(&array[i], pattern[i], fmt::format("{}[{}]", path, i));
             if (mismatch.has_value())
             {
                 return mismatch;
@@ -239,7 +239,7 @@ std::optional<std::string> FindMismatchOrNull(
     {
         return "no JSON";
     }
-    return Matcher(read).FindRecursiveOrNull(*value, **members, {});
+    return Matcher(read).FindOrNullRecursive(*value, **members, {});
 }
 
 } // namespace ACS::McsSim

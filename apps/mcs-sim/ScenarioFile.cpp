@@ -163,7 +163,7 @@ ScenarioStep ReadSendPlan(StepsContext& context, ObjectReader& reader)
 {
     SendPlanStep step;
     step.name = reader.TakeText("as", "plan");
-    step.bFreshIDs = reader.TakeBoolean("freshIds", true);
+    step.bFreshIDs = reader.IsTrue("freshIds", true);
     step.times = reader.TakeNumber("times", 1, 1, MAX_TIMES);
     if (step.times > 1 && !step.bFreshIDs)
     {
@@ -216,7 +216,7 @@ ScenarioStep ReadSendAgain(StepsContext& context, ObjectReader& reader, const Ve
 {
     SendAgainStep step;
     step.name = TakeName(context, reader, "sendAgain");
-    step.bFreshTransaction = reader.TakeBoolean("freshTransaction", false);
+    step.bFreshTransaction = reader.IsTrue("freshTransaction", false);
     std::string title = fmt::format(
         "send ExecutionPlan {} again{}",
         step.name,

@@ -74,7 +74,7 @@ std::vector<ScenarioResult> ScenarioSequence::GetResults() const
     return results;
 }
 
-bool ScenarioSequence::HaveAllHeld() const
+bool ScenarioSequence::HasHeld() const
 {
     return std::all_of(_runners.begin(), _runners.end(), [](const auto& runner) { return runner->HasHeld(); });
 }

@@ -43,7 +43,7 @@ public:
     [[nodiscard]] bool IsFinished() const noexcept;
     [[nodiscard]] bool IsEmpty() const noexcept;
     [[nodiscard]] std::vector<ScenarioResult> GetResults() const;
-    [[nodiscard]] bool HaveAllHeld() const;
+    [[nodiscard]] bool HasHeld() const;
 
 private:
     /// Calls the runner whose turn it is, and begins the next one where that has ended it.

@@ -14,14 +14,14 @@ using ACS::McsSim::MatchesGlob;
 namespace
 {
 
-std::optional<std::string> ReadA(std::string_view name)
+std::optional<std::string> ReadAOrNull(std::string_view name)
 {
     return name == "A" ? std::optional<std::string>("PLAN-7") : std::nullopt;
 }
 
 std::string Find(const std::string& message, const std::string& members)
 {
-    return FindMismatchOrNull(message, {"PlanReport", JsonText::FromTrusted(members)}, ReadA).value_or("");
+    return FindMismatchOrNull(message, {"PlanReport", JsonText::FromTrusted(members)}, ReadAOrNull).value_or("");
 }
 
 } // namespace
@@ -41,10 +41,10 @@ TEST_CASE("A star stands for any characters, and nothing else does")
 
 TEST_CASE("Placeholders are filled in, other braces stay")
 {
-    CHECK(FillPlaceholders("{A} and {B}, {{A}} {", ReadA) == "PLAN-7 and {B}, {PLAN-7} {");
-    CHECK(FillPlaceholders("", ReadA).empty());
+    CHECK(FillPlaceholders("{A} and {B}, {{A}} {", ReadAOrNull) == "PLAN-7 and {B}, {PLAN-7} {");
+    CHECK(FillPlaceholders("", ReadAOrNull).empty());
     const JsonText json = JsonText::FromTrusted(R"({"{A}":["{A}",1.5,null,true,{"x":"\"{A}"}]})");
-    CHECK(FillPlaceholders(json, ReadA).GetText() == R"({"{A}":["PLAN-7",1.5,null,true,{"x":"\"PLAN-7"}]})");
+    CHECK(FillPlaceholders(json, ReadAOrNull).GetText() == R"({"{A}":["PLAN-7",1.5,null,true,{"x":"\"PLAN-7"}]})");
 }
 
 TEST_CASE("A message matches where it has every member of the pattern, whatever else it has")

@@ -308,7 +308,7 @@ TEST_CASE("Scenarios follow one another, the faults of one end with it, and the 
     clock.Advance(1s);
     sequence.OnTimer(clock.GetNow(), out);
     CHECK(sequence.IsFinished());
-    CHECK_FALSE(sequence.HaveAllHeld());
+    CHECK_FALSE(sequence.HasHeld());
     std::string table;
     for (const StyledLine& line : MakeScenarioTable(sequence.GetResults()))
     {
