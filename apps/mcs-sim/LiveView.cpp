@@ -240,7 +240,7 @@ std::vector<std::size_t> ChoosePlans(const std::vector<TrackedPlan>& plans, std:
 StyledLine MakeHeading(const PlanTracker& tracker, const ViewHeading& heading)
 {
     std::string state = heading.bRegistered ? "ACS registered" : "waiting for the ACS";
-    state = heading.bKept ? "all plans finished, Ctrl-C ends" : state;
+    state = heading.bKept ? "all is finished, Ctrl-C ends" : state;
     StyledLine line{
         {" MCS ", EStyle::Bold},
         {CleanText(heading.address), EStyle::Dim},

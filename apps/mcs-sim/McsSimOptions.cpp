@@ -59,13 +59,46 @@ void AddTlsOptions(CLI::App& app, ProtocolBeast::TlsOptions& tls)
     addFile("--tls-client-ca", tls.caFile, "Take only an ACS that shows a certificate of this CA");
 }
 
+std::string TakeProfile(const std::string& text, EProfile& profile)
+{
+    for (const auto& [word, value] : {std::pair{"spec", EProfile::Spec}, std::pair{"nexus", EProfile::Nexus}})
+    {
+        if (text == word)
+        {
+            profile = value;
+            return {};
+        }
+    }
+    return "expected spec or nexus, found '" + text + "'";
+}
+
+/// What is wrong with options that do not go together; empty: nothing.
+std::string FindContradiction(const McsSimOptions& options)
+{
+    const bool bScenarios = !options.scenarioFiles.empty();
+    if (options.planFiles.empty() && !bScenarios && !options.bConsole)
+    {
+        return "nothing to send: give --plan FILE.json or --scenario FILE.json; try mcs-sim --help";
+    }
+    if (bScenarios && !options.planFiles.empty())
+    {
+        return "--plan and --scenario do not go together: let a scenario send the plan";
+    }
+    if (options.bConsole && (bScenarios || options.bWaitForEnter))
+    {
+        return "--console does not go together with --scenario and --wait-for-enter: it reads standard input itself";
+    }
+    return {};
+}
+
 } // namespace
 
 std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimOptions& options)
 {
     CLI::App app{
         "Plays the MCS: waits for an ACS on a WebSocket, sends it plans and shows what it reports until all have "
-        "ended. Exit code 0 when every plan was completed and every report was right, else 1.",
+        "ended, or plays scenarios. Exit code 0 when every plan was completed, or every expectation of the scenarios "
+        "held, and every report was right, else 1; 2 for a command line or a file that is wrong.",
         std::string(PROGRAM_NAME)};
     Apps::AddEndpointOption(app, "--listen", options.listen, "Where to wait for the ACS; port 0 takes a free one");
     Apps::AddTextOption(
@@ -87,6 +120,17 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimO
         "Plans to send: files with the payload of an ExecutionPlan or the whole message")
         .type_name("FILE.json")
         ->allow_extra_args();
+    Apps::AddRepeatedOption(
+        app,
+        "--scenario",
+        [&options](const std::string& text) {
+            options.scenarioFiles.push_back(text);
+            return std::string();
+        },
+        "Scenarios to play instead of plans, one after the other: files of what to send and what to expect "
+        "(docs/mcs-sim.md has the format)")
+        .type_name("FILE.json")
+        ->allow_extra_args();
     app.add_option("--repeat", options.repeat, "Send every file so often, in rotation, with fresh ids")
         ->check(CLI::Range(std::size_t{1}, MAX_REPEAT))
         ->capture_default_str();
@@ -100,14 +144,40 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimO
         ->default_str("auto");
     app.add_flag("--keep", options.bKeep, "Stay when all plans have ended, until SIGINT or SIGTERM");
     app.add_flag("--wait-for-enter", options.bWaitForEnter, "Send the plans only after a line came on standard input");
+    Apps::AddTextOption(
+        app,
+        "--trace",
+        [&options](const std::string& text) {
+            options.traceFile = text;
+            return text.empty() ? "expected the name of a file, found nothing" : std::string();
+        },
+        "Write every message of both directions to this file, a line of JSON each, with time and connection")
+        .type_name("FILE");
+    Apps::AddTextOption(
+        app,
+        "--profile",
+        [&options](const std::string& text) { return TakeProfile(text, options.profile); },
+        "Whose habits to have: spec, those of the document, or nexus, those of the public MCS (what is longer than 4096 "
+        "bytes is lost, a second client is refused, nothing is sent again, plans with fresh ids name their robot)")
+        .type_name("NAME")
+        ->default_str("spec");
+    app.add_flag(
+        "--console",
+        options.bConsole,
+        "Read lines from standard input: plan FILE, cancel PLANID, abort, pause, resume, drop, list, help, quit");
     Apps::AddCommonOptions(app, options.common);
     const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
-    if (!exitCode.has_value() && options.planFiles.empty())
+    if (exitCode.has_value())
     {
-        Apps::PrintMistake(PROGRAM_NAME, "no plan to send: give --plan FILE.json; try mcs-sim --help");
+        return exitCode;
+    }
+    const std::string contradiction = FindContradiction(options);
+    if (!contradiction.empty())
+    {
+        Apps::PrintMistake(PROGRAM_NAME, contradiction);
         return Apps::EXIT_BAD_COMMAND_LINE;
     }
-    if (!exitCode.has_value() && tls != ProtocolBeast::TlsOptions())
+    if (tls != ProtocolBeast::TlsOptions())
     {
         if (tls.certificateFile.empty() || tls.keyFile.empty())
         {
@@ -116,7 +186,7 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimO
         }
         options.tls = std::move(tls);
     }
-    return exitCode;
+    return std::nullopt;
 }
 
 } // namespace ACS::McsSim

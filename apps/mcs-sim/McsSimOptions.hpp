@@ -2,6 +2,7 @@
 
 #include "common/CommandLine.hpp"
 #include "common/Endpoint.hpp"
+#include "Profile.hpp"
 #include <acs/protocol_beast/TlsOptions.hpp>
 
 #include <cstddef>
@@ -30,12 +31,16 @@ struct McsSimOptions
     Apps::Endpoint listen{"127.0.0.1", 9001};
     std::string path = "/acs/";
     std::optional<ProtocolBeast::TlsOptions> tls; ///< There: wss.
-    std::vector<std::string> planFiles;           ///< At least one.
+    std::vector<std::string> planFiles; ///< At least one, or scenarios instead, or the console.
+    std::vector<std::string> scenarioFiles;
     std::size_t repeat = 1;
     bool bFreshIDs = false;
     ELiveMode liveMode = ELiveMode::Auto;
     bool bKeep = false;
     bool bWaitForEnter = false;
+    std::string traceFile; ///< Empty: none.
+    EProfile profile = EProfile::Spec;
+    bool bConsole = false;
 };
 
 /// Fills the options. Nullopt: go on; else the exit code to leave with, everything having been said.

@@ -2,9 +2,15 @@
 
 #include "CleanText.hpp"
 #include "common/TimerSet.hpp"
+#include "ConsoleCommand.hpp"
 #include "LiveView.hpp"
+#include "PlanFile.hpp"
+#include "PlanRefresher.hpp"
 #include "PlanTracker.hpp"
 #include "RobotBoard.hpp"
+#include "RobotNaming.hpp"
+#include "ScenarioSequence.hpp"
+#include "ScenarioSummary.hpp"
 #include "Screen.hpp"
 #include "Summary.hpp"
 #include <acs/core/Overloaded.hpp>
@@ -14,7 +20,9 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <deque>
 #include <optional>
+#include <set>
 #include <utility>
 #include <variant>
 
@@ -29,10 +37,13 @@ enum class ETimer : std::uint8_t
     Tick,   ///< Time to draw, and to see whether an Ack is overdue.
     Linger, ///< All plans have ended: what the ACS still says, right or wrong, is heard for so long.
     Close,  ///< The ACS does not answer the closing handshake.
+    Inbox,  ///< A text has come that the scenario has not seen yet.
+    Scenario,
 };
 
 /// The summary is written once: a terminal may wrap a long reason, cut off it would be of no use.
 constexpr std::size_t MAX_SUMMARY_COLUMNS = 1000;
+constexpr const char* CONSOLE_REASON = "asked for at the console";
 constexpr std::chrono::milliseconds TICK{100};
 constexpr std::chrono::milliseconds LINGER{300};
 constexpr std::chrono::milliseconds CLOSE_LIMIT{1'500};
@@ -61,7 +72,13 @@ class McsSimulator::Impl final : private ProtocolBeast::ISessionHandler
     boost::asio::any_io_executor _executor;
 
     PlanTracker _tracker;
+    std::size_t _freshCount; ///< The first plans of the tracker, made for this run.
+    PlanRefresher _refresher;
+    std::set<std::size_t> _freshPlans;  ///< More plans that were made for this run.
+    std::deque<std::size_t> _heldPlans; ///< Of a scenario, until the ACS has told of a robot for them.
     RobotBoard _board;
+    ScenarioSequence _scenarios;
+    std::deque<std::string> _inbox; ///< What came from the ACS, for the scenarios.
     LiveView _view;
     ViewHeading _heading;
     PlanTracker::Lines _lines;
@@ -94,7 +111,10 @@ public:
           _screenOrNull(screenOrNull),
           _onDone(std::move(onDone)),
           _executor(executor),
-          _tracker(std::move(plans)),
+          _tracker(std::move(plans), options.profile == EProfile::Spec),
+          _freshCount(options.bFreshPlans ? _tracker.GetPlans().size() : 0),
+          _refresher(random, options.date),
+          _scenarios(options.scenarios, random, options.date),
           _view(options.columns, options.rows),
           _started(clock.GetNow().steady),
           _timers(executor, [this](std::uint64_t key) { OnTimer(static_cast<ETimer>(key)); })
@@ -108,6 +128,10 @@ public:
         server.port = _options.listen.port;
         server.path = _options.path;
         server.tls = _options.tls;
+        server.onWire = [this](auto direction, auto connection, std::string_view text) {
+            OnWire(direction, connection, text);
+        };
+        server.session = MakeSessionOptions(_options.profile);
         server.session.ackTimeout = PlanTracker::RESEND_AFTER;
         server.session.codec.siteOffset = _options.siteOffset;
         auto created = ProtocolBeast::McsServer::Create(_executor, _clock, _random, _logger, server, *this);
@@ -127,6 +151,7 @@ public:
         if (!_bReleased)
         {
             _bReleased = true;
+            PlayScenario([this](Core::Now now, ScenarioActions& out) { _scenarios.Start(now, out); });
             SendDue();
             Flush();
         }
@@ -142,13 +167,104 @@ public:
         End();
     }
 
+    void Execute(const std::string& line)
+    {
+        const tl::expected<ConsoleCommand, std::string> command = ParseConsoleLine(line);
+        if (!command.has_value())
+        {
+            _lines.push_back(command.error());
+        }
+        else
+        {
+            Execute(*command);
+        }
+        Flush();
+    }
+
 private:
+    void Execute(const ConsoleCommand& command)
+    {
+        switch (command.verb)
+        {
+            case EConsoleVerb::Nothing:
+                break;
+            case EConsoleVerb::Plan:
+                AddPlanOfFile(command.argument);
+                break;
+            case EConsoleVerb::Cancel:
+                SendControl(Protocol::CancelPlan{command.argument, CONSOLE_REASON});
+                break;
+            case EConsoleVerb::Abort:
+                SendControl(Protocol::AbortPlan{command.argument, CONSOLE_REASON});
+                break;
+            case EConsoleVerb::Pause:
+                SendControl(Protocol::PausePlan{command.argument, CONSOLE_REASON});
+                break;
+            case EConsoleVerb::Resume:
+                SendControl(Protocol::ResumePlan{command.argument, {}});
+                break;
+            case EConsoleVerb::Drop:
+                _lines.emplace_back(_server->IsRegistered() ? "the connection is cut" : "no ACS is registered");
+                _server->Cut();
+                break;
+            case EConsoleVerb::List:
+                List();
+                break;
+            case EConsoleVerb::Help:
+                _out << GetConsoleHelp() << std::endl;
+                break;
+            case EConsoleVerb::Quit:
+                Interrupt();
+                break;
+            default:
+                break;
+        }
+    }
+
+    void AddPlanOfFile(const std::string& path)
+    {
+        tl::expected<PlannedPlan, std::string> planned = ReadPlanFile(path);
+        if (!planned.has_value())
+        {
+            _lines.push_back(planned.error());
+            return;
+        }
+        _refresher.Refresh(*planned);
+        _lines.push_back(planned->plan.planID + " is the plan of " + CleanText(path));
+        _freshPlans.insert(_tracker.AddPlan(std::move(*planned)));
+        SendDue();
+    }
+
+    void SendControl(const Protocol::AcsPayload& payload)
+    {
+        const bool bSent = _server->TrySend(_server->MakeRequest(payload));
+        _lines.push_back(bSent ? fmt::format("{} sent", GetText(GetCommand(payload))) : "no ACS is registered");
+    }
+
+    void List()
+    {
+        for (const TrackedPlan& plan : _tracker.GetPlans())
+        {
+            _lines.push_back(fmt::format(
+                "{} {}{}{}",
+                CleanText(plan.planned.plan.planID),
+                plan.delivery == EDelivery::Refused ? "refused" : GetText(plan.status),
+                plan.robotID.empty() ? "" : " (" + CleanText(plan.robotID) + ")",
+                plan.reason.empty() ? "" : ": " + CleanText(plan.reason)));
+        }
+        if (_tracker.GetPlans().empty())
+        {
+            _lines.emplace_back("no plans");
+        }
+    }
+
     void OnSessionEvent(const Protocol::SessionEvent& event) override
     {
         if (_bDone)
         {
             return;
         }
+        ReadInbox();
         std::visit(
             Core::Overloaded{
                 [this](const Protocol::Registered& /*event*/) { OnRegistered(); },
@@ -165,10 +281,106 @@ private:
         {
             FinishRun();
         }
-        else if (_tracker.IsFinished() && !_finished.has_value())
+        else
+        {
+            CheckFinished();
+        }
+    }
+
+    void CheckFinished()
+    {
+        const bool bFinished = _scenarios.IsEmpty() ? _tracker.IsFinished() : _bReleased && _scenarios.IsFinished();
+        if (bFinished && !_options.bConsole && !_finished.has_value() && !_bEnding)
         {
             OnFinished();
         }
+    }
+
+    void OnWire(ProtocolBeast::EWireDirection direction, Protocol::ConnectionID connection, std::string_view text)
+    {
+        if (_options.onWire)
+        {
+            _options.onWire(direction, connection, text);
+        }
+        if (direction == ProtocolBeast::EWireDirection::In && !_scenarios.IsFinished())
+        {
+            // Not here: what a scenario does then must not come between the server and its session.
+            _inbox.emplace_back(text);
+            _timers.Start(MakeKey(ETimer::Inbox), std::chrono::milliseconds(0));
+        }
+    }
+
+    void ReadInbox()
+    {
+        while (!_inbox.empty())
+        {
+            const std::string text = std::move(_inbox.front());
+            _inbox.pop_front();
+            PlayScenario([this, &text](Core::Now now, ScenarioActions& out) { _scenarios.OnMessage(text, now, out); });
+        }
+    }
+
+    void PlayScenario(const std::function<void(Core::Now now, ScenarioActions& out)>& call)
+    {
+        if (_bEnding)
+        {
+            return;
+        }
+        ScenarioActions actions;
+        call(_clock.GetNow(), actions);
+        for (std::size_t i = 0; i < actions.size(); ++i)
+        {
+            const ScenarioAction action = actions[i]; // A copy: a failure appends to what it is part of.
+            if (!CanPerform(action))
+            {
+                _scenarios.OnSendFailed(_clock.GetNow(), actions);
+            }
+        }
+    }
+
+    /// Does it. False where there is no ACS to send to.
+    [[nodiscard]] bool CanPerform(const ScenarioAction& action)
+    {
+        return std::visit(
+            Core::Overloaded{
+                [this](const SendPlannedPlan& send) { return TrySendOrHold(send); },
+                [this](const SendPayload& send) {
+                    _lines.push_back(fmt::format("{} sent", GetText(GetCommand(send.payload))));
+                    return _server->TrySend(_server->MakeRequest(send.payload));
+                },
+                [this](const SendRawText& send) { return _server->TrySendText(send.text); },
+                [this](const DropStep& drop) {
+                    if (drop.how == EDrop::Cut)
+                    {
+                        _server->Cut();
+                    }
+                    else
+                    {
+                        _server->Drop(drop.code, "asked for by a scenario");
+                    }
+                    return true;
+                },
+                [this](const HoldAcksStep& step) {
+                    _server->HoldAcks(step.hold);
+                    return true;
+                },
+                [this](const RefuseRegistrationStep& step) {
+                    _server->RefuseRegistrations(step.times, step.message);
+                    return true;
+                },
+                [this](const EndFaults& /*action*/) {
+                    _server->EndFaults();
+                    return true;
+                },
+                [this](const StartScenarioTimer& start) {
+                    _timers.Start(MakeKey(ETimer::Scenario), start.delay);
+                    return true;
+                },
+                [this](const TellLine& line) {
+                    _lines.push_back(line.text);
+                    return true;
+                }},
+            action);
     }
 
     void OnRegistered()
@@ -176,6 +388,7 @@ private:
         _heading.bRegistered = true;
         _tracker.OnRegistered();
         _lines.emplace_back("ACS registered");
+        PlayScenario([this](Core::Now now, ScenarioActions& out) { _scenarios.OnRegistered(now, out); });
     }
 
     void OnLinkLost(const Protocol::LinkLost& lost)
@@ -186,6 +399,7 @@ private:
         }
         _heading.bRegistered = false;
         _tracker.OnLinkLost();
+        _scenarios.OnLinkLost();
         if (!_bEnding)
         {
             _lines.push_back("ACS link lost: " + CleanText(lost.reason));
@@ -219,21 +433,79 @@ private:
         {
             return;
         }
-        const Core::Now now = _clock.GetNow();
-        std::optional<std::size_t> next = _tracker.GetNextToSendOrNull(now);
-        while (next.has_value())
+        SendHeld();
+        if (!_scenarios.IsEmpty())
         {
-            const PlannedPlan& planned = _tracker.GetPlans()[*next].planned;
-            Protocol::AcsRequest request = _server->MakeRequest(planned.plan);
-            request.transactionID = planned.transactionID;
-            if (!_server->TrySend(request))
-            {
-                return; // The link has just gone, or is full: the next event or tick tries again.
-            }
-            _firstSent = _firstSent.value_or(now.steady);
-            _tracker.OnSent(*next, now, _lines);
-            next = _tracker.GetNextToSendOrNull(now);
+            return;
         }
+        std::optional<std::size_t> next = _tracker.GetNextToSendOrNull(_clock.GetNow());
+        // Where the link has just gone, or is full, the next event or tick tries again.
+        while (next.has_value() && TrySendPlan(*next))
+        {
+            next = _tracker.GetNextToSendOrNull(_clock.GetNow());
+        }
+    }
+
+    /// True where it was sent, or waits for a robot.
+    [[nodiscard]] bool TrySendOrHold(const SendPlannedPlan& send)
+    {
+        const std::size_t index = _tracker.AddPlan(send.planned);
+        if (send.bFreshIDs)
+        {
+            _freshPlans.insert(index);
+        }
+        if (IsNamed(index))
+        {
+            return TrySendPlan(index);
+        }
+        _heldPlans.push_back(index);
+        return true;
+    }
+
+    void SendHeld()
+    {
+        while (!_heldPlans.empty() && IsNamed(_heldPlans.front()) && TrySendPlan(_heldPlans.front()))
+        {
+            _heldPlans.pop_front();
+        }
+    }
+
+    /// Whether the plan can go as it is. Names its robot where the profile wants that and one is known.
+    [[nodiscard]] bool IsNamed(std::size_t index)
+    {
+        const TrackedPlan& tracked = _tracker.GetPlans()[index];
+        const bool bFresh = index < _freshCount || _freshPlans.contains(index);
+        if (_options.profile != EProfile::Nexus || !bFresh || !NeedsRobot(tracked.planned.plan))
+        {
+            return true;
+        }
+        const std::optional<std::string> robotID = ChooseRobotOrNull(tracked.planned.plan, _board, index);
+        if (robotID.has_value())
+        {
+            Protocol::ExecutionPlan named = tracked.planned.plan;
+            NameRobot(named, *robotID);
+            _tracker.ReplacePlan(index, named);
+        }
+        return robotID.has_value();
+    }
+
+    [[nodiscard]] bool TrySendPlan(std::size_t index)
+    {
+        if (!IsNamed(index))
+        {
+            return false;
+        }
+        const PlannedPlan& planned = _tracker.GetPlans()[index].planned;
+        Protocol::AcsRequest request = _server->MakeRequest(planned.plan);
+        request.transactionID = planned.transactionID;
+        if (!_server->TrySend(request))
+        {
+            return false;
+        }
+        const Core::Now now = _clock.GetNow();
+        _firstSent = _firstSent.value_or(now.steady);
+        _tracker.OnSent(index, now, _lines);
+        return true;
     }
 
     void OnTimer(ETimer timer)
@@ -248,6 +520,17 @@ private:
                 break;
             case ETimer::Linger:
                 End();
+                break;
+            case ETimer::Inbox:
+                ReadInbox();
+                Flush();
+                CheckFinished();
+                break;
+            case ETimer::Scenario:
+                ReadInbox();
+                PlayScenario([this](Core::Now now, ScenarioActions& out) { _scenarios.OnTimer(now, out); });
+                Flush();
+                CheckFinished();
                 break;
             case ETimer::Close:
                 FinishRun();
@@ -266,7 +549,7 @@ private:
             return;
         }
         _heading.bKept = true;
-        _lines.emplace_back("all plans finished, Ctrl-C ends");
+        _lines.emplace_back("all is finished, Ctrl-C ends");
         Flush();
     }
 
@@ -306,8 +589,19 @@ private:
         {
             _out << MakeText(line, MAX_SUMMARY_COLUMNS, _screenOrNull != nullptr) << '\n';
         }
-        _out << MakeLastLine(_tracker) << std::endl;
-        _onDone(_tracker.IsSuccess() ? 0 : 1);
+        if (_scenarios.IsEmpty())
+        {
+            _out << MakeLastLine(_tracker) << std::endl;
+            _onDone(_tracker.IsSuccess() ? 0 : 1);
+            return;
+        }
+        const std::vector<ScenarioResult> results = _scenarios.GetResults();
+        for (const StyledLine& line : MakeScenarioTable(results))
+        {
+            _out << MakeText(line, MAX_SUMMARY_COLUMNS, _screenOrNull != nullptr) << '\n';
+        }
+        _out << MakeScenarioLastLine(results, _tracker.CountViolations()) << std::endl;
+        _onDone(_scenarios.HasHeld() && _tracker.CountViolations() == 0 ? 0 : 1);
     }
 
     void Draw()
@@ -361,6 +655,11 @@ Core::Result<Apps::Endpoint> McsSimulator::Start()
 void McsSimulator::Release()
 {
     _impl->Release();
+}
+
+void McsSimulator::Execute(const std::string& line)
+{
+    _impl->Execute(line);
 }
 
 void McsSimulator::Interrupt()

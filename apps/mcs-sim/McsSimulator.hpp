@@ -2,11 +2,13 @@
 
 #include "common/Endpoint.hpp"
 #include "PlannedPlan.hpp"
+#include "Profile.hpp"
+#include "Scenario.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
-#include <acs/protocol_beast/TlsOptions.hpp>
+#include <acs/protocol_beast/ServerOptions.hpp>
 
 #include <boost/asio/any_io_executor.hpp>
 
@@ -33,9 +35,16 @@ struct SimulatorOptions
     std::size_t columns = 100;          ///< Of the live view and the closing table.
     std::size_t rows = 24;
     std::optional<ProtocolBeast::TlsOptions> tls{}; ///< There: wss.
+    ProtocolBeast::WireObserver onWire; ///< For a trace; may be empty.
+    std::vector<Scenario> scenarios;    ///< Where there are any, they decide what is sent, and there are no plans.
+    std::string date; ///< Eight digits (20261121), for the fresh planIds of scenarios and of the console.
+    EProfile profile = EProfile::Spec;
+    bool bFreshPlans = false; ///< The plans were made for this run: in the profile nexus they name their robot.
+    bool bConsole = false;    ///< Execute is called; the run ends when it is told to.
 };
 
-/// The MCS of a run: serves one ACS at a time, sends it the plans, shows what it reports, and closes with a table.
+/// The MCS of a run: serves one ACS at a time, sends it the plans or plays scenarios, shows what it reports, and closes
+/// with a table.
 /// One thread: the executor's.
 class McsSimulator
 {
@@ -43,7 +52,8 @@ class McsSimulator
     std::unique_ptr<Impl> _impl;
 
 public:
-    /// Called once, when the table stands on the output: 0 where every plan was completed and no report was wrong.
+    /// Called once, when the table stands on the output: 0 where every plan was completed (with scenarios:
+    /// every expectation held) and no report was wrong.
     using DoneHandler = std::function<void(int exitCode)>;
 
     /// Clock, random source, log sink and output outlive the simulator; so does the screen. Without a screen the output
@@ -67,6 +77,9 @@ public:
 
     /// From now on plans are sent, and the live view is drawn.
     void Release();
+
+    /// A line of the console (GetConsoleHelp); what it does, or why not, goes to the output.
+    void Execute(const std::string& line);
 
     /// Ends the run now, whatever its state. Harmless when it is ending already.
     void Interrupt();

@@ -20,9 +20,8 @@ struct BatchOptions
     std::string date;       ///< Eight digits (20261121), for the fresh planIds.
 };
 
-/// The plans to send, in order. Fresh ids are a planId such as PLAN-20261121-0001-3fa2, UUIDs for the transaction and
-/// the jobs, and the carriers' own ids followed by the planId's last part: the same carrier within a plan keeps one id.
-/// The lotId stays. A plan without a transactionId gets one in any case.
+/// The plans to send, in order. Fresh ids are those of a PlanRefresher. A plan without a transactionId gets one in any
+/// case.
 [[nodiscard]] std::vector<PlannedPlan> MakeBatch(
     const std::vector<PlannedPlan>& files,
     const BatchOptions& options,

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 #include <variant>
 
@@ -53,16 +54,26 @@ std::string MakeTail(std::string_view robotID, std::string_view text)
 
 } // namespace
 
-PlanTracker::PlanTracker(std::vector<PlannedPlan> plans)
+PlanTracker::PlanTracker(std::vector<PlannedPlan> plans, bool bResending)
+    : _bResending(bResending)
 {
     _plans.reserve(plans.size());
     for (PlannedPlan& planned : plans)
     {
-        _byPlanID[planned.plan.planID].push_back(_plans.size());
-        _byTransaction[planned.transactionID] = _plans.size();
-        _plans.push_back(MakeTracked(std::move(planned)));
+        static_cast<void>(AddPlan(std::move(planned)));
     }
-    _outcomes.front() = _plans.size();
+}
+
+std::size_t PlanTracker::AddPlan(PlannedPlan plan)
+{
+    const auto [entry, bNew] = _byTransaction.emplace(plan.transactionID, _plans.size());
+    if (bNew)
+    {
+        _byPlanID[plan.plan.planID].push_back(_plans.size());
+        _plans.push_back(MakeTracked(std::move(plan)));
+        ++_outcomes.front();
+    }
+    return entry->second;
 }
 
 void PlanTracker::OnRegistered()
@@ -71,7 +82,7 @@ void PlanTracker::OnRegistered()
     _firstWaiting = 0;
     for (TrackedPlan& plan : _plans)
     {
-        if (plan.delivery == EDelivery::Sent)
+        if (plan.delivery == EDelivery::Sent && _bResending)
         {
             plan.delivery = EDelivery::Waiting;
         }
@@ -95,13 +106,14 @@ std::optional<std::size_t> PlanTracker::GetNextToSendOrNull(Core::Now now)
         const TrackedPlan& plan = _plans[i];
         const bool bOpen = GetOutcome(plan) == EOutcome::Open;
         const bool bSent = bOpen && plan.delivery == EDelivery::Sent;
-        if ((bOpen && plan.delivery == EDelivery::Waiting) || (bSent && now.steady - plan.lastSent >= RESEND_AFTER))
+        const bool bLate = bSent && _bResending && now.steady - plan.lastSent >= RESEND_AFTER;
+        if ((bOpen && plan.delivery == EDelivery::Waiting) || bLate)
         {
             return i;
         }
         _firstWaiting += !bSent && i == _firstWaiting ? 1U : 0U;
         unanswered += bSent ? 1U : 0U;
-        if (unanswered >= SEND_WINDOW)
+        if (unanswered >= SEND_WINDOW && _bResending)
         {
             return std::nullopt;
         }
@@ -109,10 +121,17 @@ std::optional<std::size_t> PlanTracker::GetNextToSendOrNull(Core::Now now)
     return std::nullopt;
 }
 
+void PlanTracker::ReplacePlan(std::size_t index, const Protocol::ExecutionPlan& plan)
+{
+    assert(_plans[index].sends == 0);
+    _plans[index].planned.plan = plan;
+}
+
 void PlanTracker::OnSent(std::size_t index, Core::Now now, Lines& out)
 {
     TrackedPlan& plan = _plans[index];
-    plan.delivery = EDelivery::Sent;
+    // What was answered once stays answered, though it goes again.
+    plan.delivery = plan.delivery == EDelivery::Waiting ? EDelivery::Sent : plan.delivery;
     plan.lastSent = now.steady;
     ++plan.sends;
     out.push_back(fmt::format(

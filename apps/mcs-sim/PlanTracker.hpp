@@ -46,11 +46,16 @@ private:
     std::size_t _violationCount = 0;
     std::array<std::size_t, OUTCOME_COUNT> _outcomes{};
     std::size_t _firstWaiting = 0;
+    bool _bResending = true;
     bool _bAcsReady = false;
 
 public:
-    /// Transaction ids differ; planIds may repeat, which the ACS then refuses.
-    explicit PlanTracker(std::vector<PlannedPlan> plans);
+    /// Transaction ids differ; planIds may repeat, which the ACS then refuses. Without resending a plan goes once, also
+    /// where it is not acknowledged.
+    explicit PlanTracker(std::vector<PlannedPlan> plans, bool bResending = true);
+
+    /// One plan more, by its index; one with the transaction of another is that one.
+    std::size_t AddPlan(PlannedPlan plan);
 
     /// An ACS has registered, on a first or a new connection: what it has not acknowledged is due again.
     void OnRegistered();
@@ -59,6 +64,8 @@ public:
     /// The plan to send now, by its index: none while no ACS is there or it cannot take work (section 6.21), or while too
     /// many wait for their Ack.
     [[nodiscard]] std::optional<std::size_t> GetNextToSendOrNull(Core::Now now);
+    /// Other places than before, in a plan that was not sent yet.
+    void ReplacePlan(std::size_t index, const Protocol::ExecutionPlan& plan);
     void OnSent(std::size_t index, Core::Now now, Lines& out);
 
     void OnAck(const Protocol::AcsAck& ack, Lines& out);

@@ -6,12 +6,14 @@
 #include "common/SpdlogSink.hpp"
 #include "common/SystemClock.hpp"
 #include "common/SystemRandom.hpp"
-#include "InputLine.hpp"
+#include "InputLines.hpp"
 #include "McsSimulator.hpp"
 #include "PlanBatch.hpp"
 #include "PlanFile.hpp"
+#include "ScenarioFile.hpp"
 #include "Screen.hpp"
 #include "ScreenLogSink.hpp"
+#include "TraceFile.hpp"
 #include <acs/core/Timestamp.hpp>
 
 #include <boost/asio/io_context.hpp>
@@ -63,6 +65,22 @@ tl::expected<std::vector<PlannedPlan>, std::string> LoadPlans(
     return plans;
 }
 
+/// All scenarios of the run, or a sentence about the first thing that is wrong.
+tl::expected<std::vector<Scenario>, std::string> LoadScenarios(const McsSimOptions& options)
+{
+    std::vector<Scenario> scenarios;
+    for (const std::string& path : options.scenarioFiles)
+    {
+        tl::expected<Scenario, std::string> scenario = ReadScenarioFile(path);
+        if (!scenario.has_value())
+        {
+            return tl::make_unexpected(std::move(scenario.error()));
+        }
+        scenarios.push_back(std::move(*scenario));
+    }
+    return scenarios;
+}
+
 /// Some terminals only print: an editor's, a log's.
 bool CanTerminalDraw()
 {
@@ -84,21 +102,54 @@ int Run(const McsSimOptions& options)
     Apps::SystemRandom random;
     const Core::WallTime wall = clock.GetNow().wall;
     const std::chrono::minutes offset = Apps::LocalOffset().GetAt(wall);
-    tl::expected<std::vector<PlannedPlan>, std::string> plans = LoadPlans(options, MakeDate(wall, offset), random);
-    if (!plans.has_value())
+    const std::string date = MakeDate(wall, offset);
+    tl::expected<std::vector<PlannedPlan>, std::string> plans = LoadPlans(options, date, random);
+    tl::expected<std::vector<Scenario>, std::string> scenarios = LoadScenarios(options);
+    if (!plans.has_value() || !scenarios.has_value())
     {
-        Apps::PrintMistake(PROGRAM_NAME, plans.error());
+        Apps::PrintMistake(PROGRAM_NAME, plans.has_value() ? scenarios.error() : plans.error());
         return Apps::EXIT_BAD_COMMAND_LINE;
     }
-    const std::size_t count = plans->size();
+    const std::string work = scenarios->empty() ? fmt::format("send {} plans", plans->size())
+                                                : fmt::format("play {} scenarios", scenarios->size());
 
     const TerminalSize size = ReadTerminalSize();
     Screen screen(std::cout, size.columns);
-    const bool bLive = ShouldDraw(options.liveMode);
+    const bool bLive = !options.bConsole && ShouldDraw(options.liveMode);
     Apps::SpdlogSink plainSink(options.common.logLevel);
     ScreenLogSink screenSink(plainSink, screen);
     const bool bMixed = bLive && ::isatty(STDERR_FILENO) != 0;
     Core::ILogSink& sink = bMixed ? static_cast<Core::ILogSink&>(screenSink) : plainSink;
+
+    const Core::Logger logger(sink, std::string(PROGRAM_NAME));
+    SimulatorOptions simulated{
+        options.listen,
+        options.path,
+        offset,
+        options.bKeep,
+        size.columns,
+        size.rows,
+        options.tls,
+        {},
+        std::move(*scenarios),
+        date,
+        options.profile,
+        options.bFreshIDs || options.repeat > 1,
+        options.bConsole};
+    std::unique_ptr<TraceFile> trace;
+    if (!options.traceFile.empty())
+    {
+        auto created = TraceFile::Create(options.traceFile, clock, offset, logger);
+        if (!created.has_value())
+        {
+            Apps::PrintMistake(PROGRAM_NAME, created.error());
+            return Apps::EXIT_BAD_COMMAND_LINE;
+        }
+        trace = std::move(*created);
+        simulated.onWire = [&trace](auto direction, auto connection, std::string_view text) {
+            trace->Write(direction, connection, text);
+        };
+    }
 
     boost::asio::io_context context(1);
     int exitCode = EXIT_FAILURE;
@@ -106,8 +157,8 @@ int Run(const McsSimOptions& options)
         context.get_executor(),
         clock,
         random,
-        Core::Logger(sink, std::string(PROGRAM_NAME)),
-        {options.listen, options.path, offset, options.bKeep, size.columns, size.rows, options.tls},
+        logger,
+        simulated,
         std::move(*plans),
         std::cout,
         bLive ? &screen : nullptr,
@@ -123,18 +174,31 @@ int Run(const McsSimOptions& options)
         return EXIT_FAILURE;
     }
     Apps::PrintReadyLine({{"ws", *endpoint}});
-    std::unique_ptr<InputLine> input;
+    std::unique_ptr<InputLines> input;
     if (options.bWaitForEnter)
     {
         if (::isatty(STDIN_FILENO) != 0)
         {
-            std::cout << fmt::format("Press Enter to send {} plans.", count) << std::endl;
+            std::cout << fmt::format("Press Enter to {}.", work) << std::endl;
         }
-        input = std::make_unique<InputLine>(context.get_executor(), [&simulator] { simulator.Release(); });
+        const auto release = [&simulator] {
+            simulator.Release();
+        };
+        input = std::make_unique<InputLines>(
+            context.get_executor(),
+            [release](const std::string& /*line*/) { release(); },
+            release);
     }
     else
     {
         simulator.Release();
+    }
+    if (options.bConsole)
+    {
+        input = std::make_unique<InputLines>(
+            context.get_executor(),
+            [&simulator](const std::string& line) { simulator.Execute(line); },
+            [&simulator] { simulator.Interrupt(); });
     }
     context.run();
     return exitCode;

@@ -24,6 +24,20 @@ struct PendingRequest
     Core::SteadyTime deadline{};
 };
 
+struct RunningHold
+{
+    AckHold hold;
+    Core::SteadyTime end{};
+};
+
+struct DelayedAck
+{
+    ConnectionID connection = 0;
+    std::string text;
+    Core::SteadyTime deadline{};
+    bool bRegisters = false;
+};
+
 } // namespace
 
 class McsSession::Impl
@@ -40,6 +54,10 @@ class McsSession::Impl
     std::vector<PendingRequest> _pending;
     std::unordered_set<std::string> _seen;
     std::deque<std::string> _seenOrder;
+    std::vector<RunningHold> _holds;
+    std::vector<DelayedAck> _delayed;
+    std::size_t _refusalsLeft = 0;
+    std::string _refusalMessage;
     std::string _scratch;
 
 public:
@@ -68,7 +86,7 @@ public:
         {
             return;
         }
-        DecodeOutcome outcome = _codec.Decode(text);
+        DecodeOutcome outcome = _codec.Decode(GetReadPart(text));
         _output.NoteAll(outcome.notes, out);
         if (!outcome.message.has_value())
         {
@@ -92,6 +110,7 @@ public:
     void OnClosed(ConnectionID connection, std::string_view reason, SessionActions& out)
     {
         std::erase(_connections, connection);
+        std::erase_if(_delayed, [connection](const DelayedAck& ack) { return ack.connection == connection; });
         if (_registered == connection)
         {
             LoseRegistered(reason, out);
@@ -100,7 +119,15 @@ public:
 
     void OnTimer(ESessionTimer timer, Core::Now now, SessionActions& out)
     {
-        if (!_output.TryExpire(timer) || timer != ESessionTimer::Ack)
+        if (!_output.TryExpire(timer))
+        {
+            return;
+        }
+        if (timer == ESessionTimer::DelayedAck)
+        {
+            SendDelayed(now, out);
+        }
+        if (timer != ESessionTimer::Ack)
         {
             return;
         }
@@ -132,11 +159,43 @@ public:
             return false;
         }
         AcsCodec::EncodeRequest(request, _scratch);
+        if (_options.bNullResults)
+        {
+            _scratch.pop_back(); // the brace
+            _scratch += R"(,"result":null,"message":null})";
+        }
         ++_output.statistics.Of(command).sent;
         out.emplace_back(SendText{*_registered, _scratch, false});
         _pending.push_back({command, request.transactionID, now.steady + _options.ackTimeout});
         ArmAckTimer(now, out);
         return true;
+    }
+
+    bool TrySendText(std::string_view text, SessionActions& out) const
+    {
+        if (_registered.has_value())
+        {
+            out.emplace_back(SendText{*_registered, std::string(text), false});
+        }
+        return _registered.has_value();
+    }
+
+    void HoldAcks(const AckHold& hold, Core::Now now)
+    {
+        std::erase_if(_holds, [now](const RunningHold& running) { return running.end <= now.steady; });
+        _holds.push_back({hold, now.steady + hold.duration});
+    }
+
+    void RefuseRegistrations(std::size_t count, std::string_view message)
+    {
+        _refusalsLeft = count;
+        _refusalMessage = message;
+    }
+
+    void EndFaults() noexcept
+    {
+        _holds.clear();
+        _refusalsLeft = 0;
     }
 
     void Drop(std::uint16_t code, std::string_view reason, SessionActions& out) const
@@ -173,6 +232,13 @@ public:
     }
 
 private:
+    /// What a receiver with a fixed buffer reads that forgets all chunks of a text but the last.
+    [[nodiscard]] std::string_view GetReadPart(std::string_view text) const
+    {
+        const std::size_t chunk = _options.finalChunkBytes;
+        return chunk == 0 || text.size() <= chunk ? text : text.substr((text.size() - 1) / chunk * chunk);
+    }
+
     void ArmAckTimer(Core::Now now, SessionActions& out)
     {
         if (!_pending.empty() && !_output.IsRunning(ESessionTimer::Ack))
@@ -183,7 +249,7 @@ private:
 
     void LoseRegistered(std::string_view reason, SessionActions& out)
     {
-        _output.CancelAll(out);
+        _output.Cancel(ESessionTimer::Ack, out);
         _registered.reset();
         ++_output.statistics.linkLosses;
         for (const PendingRequest& request : std::exchange(_pending, {}))
@@ -206,6 +272,11 @@ private:
         {
             return;
         }
+        const AckHold* const holdOrNull = FindHoldOrNull(command, now);
+        if (holdOrNull != nullptr && !holdOrNull->delay.has_value())
+        {
+            return;
+        }
         CommandCounters& counters = _output.statistics.Of(command);
         ++counters.acknowledged;
         counters.refused += result == EAckResult::Fail ? 1U : 0U;
@@ -213,7 +284,43 @@ private:
         AcsCodec::EncodeAck(
             {command, request.transactionID, timestamp, result, std::string(message), EmptyAck{}, false},
             _scratch);
-        out.emplace_back(SendText{connection, _scratch, false});
+        if (holdOrNull == nullptr)
+        {
+            out.emplace_back(SendText{connection, _scratch, false});
+            return;
+        }
+        const bool bRegisters = command == EAcsCommand::Registration && result == EAckResult::Success;
+        _delayed.push_back({connection, _scratch, now.steady + *holdOrNull->delay, bRegisters});
+        _output.Start(ESessionTimer::DelayedAck, Detail::GetNextDelay(_delayed, now), out);
+    }
+
+    [[nodiscard]] const AckHold* FindHoldOrNull(EAcsCommand command, Core::Now now) const
+    {
+        const auto found = std::find_if(_holds.rbegin(), _holds.rend(), [command, now](const RunningHold& running) {
+            return running.hold.command.value_or(command) == command && now.steady < running.end;
+        });
+        return found == _holds.rend() ? nullptr : &found->hold;
+    }
+
+    void SendDelayed(Core::Now now, SessionActions& out)
+    {
+        for (const DelayedAck& ack : _delayed)
+        {
+            if (ack.deadline > now.steady)
+            {
+                continue;
+            }
+            out.emplace_back(SendText{ack.connection, ack.text, false});
+            if (ack.bRegisters)
+            {
+                TakeRegistered(ack.connection, out);
+            }
+        }
+        std::erase_if(_delayed, [now](const DelayedAck& ack) { return ack.deadline <= now.steady; });
+        if (!_delayed.empty())
+        {
+            _output.Start(ESessionTimer::DelayedAck, Detail::GetNextDelay(_delayed, now), out);
+        }
     }
 
     void Refuse(ConnectionID connection, const DecodeFailure& failure, Core::Now now, SessionActions& out)
@@ -226,7 +333,7 @@ private:
             out);
         const bool bAnswerable =
             !failure.commandName.empty() && !failure.bAck && (!failure.command.has_value() || HasAck(*failure.command));
-        if (_registered != connection || !bAnswerable)
+        if (_registered != connection || !bAnswerable || _options.bErrorsUnanswered)
         {
             return;
         }
@@ -262,7 +369,7 @@ private:
         }
         CommandCounters& counters = _output.statistics.Of(command);
         ++counters.received;
-        if (IsSentByMcs(command))
+        if (IsSentByMcs(command) || (_options.bPositionsUnknown && command == EAcsCommand::RobotPositionUpdate))
         {
             _output.Note(EProtocolNote::UnknownCommand, std::string(GetText(command)), out);
             Acknowledge(connection, request, EAckResult::Fail, Detail::UNSUPPORTED, now, out);
@@ -300,6 +407,12 @@ private:
 
     void Register(ConnectionID connection, const AcsRequest& request, Core::Now now, SessionActions& out)
     {
+        if (_refusalsLeft > 0)
+        {
+            --_refusalsLeft;
+            Acknowledge(connection, request, EAckResult::Fail, _refusalMessage, now, out);
+            return;
+        }
         if (_registered.has_value() && _options.bSecondRefused)
         {
             Acknowledge(connection, request, EAckResult::Fail, "An ACS is registered already.", now, out);
@@ -311,11 +424,19 @@ private:
             out.emplace_back(Close{*_registered, CLOSE_POLICY, "replaced by a new connection"});
             LoseRegistered("replaced by a new connection", out);
         }
-        const bool bAgain = _registered == connection;
-        _registered = connection;
         Acknowledge(connection, request, EAckResult::Success, "Registered.", now, out);
-        if (!bAgain)
+        // The ACS is registered when it can know that it is.
+        if (FindHoldOrNull(EAcsCommand::Registration, now) == nullptr)
         {
+            TakeRegistered(connection, out);
+        }
+    }
+
+    void TakeRegistered(ConnectionID connection, SessionActions& out)
+    {
+        if (_registered != connection)
+        {
+            _registered = connection;
             _bAcsConnected = true;
             ++_output.statistics.registrations;
             out.emplace_back(Deliver{Registered{}});
@@ -385,6 +506,26 @@ AcsRequest McsSession::MakeRequest(AcsPayload payload, Core::Now now)
 bool McsSession::TrySend(const AcsRequest& request, Core::Now now, SessionActions& out)
 {
     return _impl->TrySend(request, now, out);
+}
+
+bool McsSession::TrySendText(std::string_view text, SessionActions& out)
+{
+    return _impl->TrySendText(text, out);
+}
+
+void McsSession::HoldAcks(const AckHold& hold, Core::Now now)
+{
+    _impl->HoldAcks(hold, now);
+}
+
+void McsSession::RefuseRegistrations(std::size_t count, std::string_view message)
+{
+    _impl->RefuseRegistrations(count, message);
+}
+
+void McsSession::EndFaults() noexcept
+{
+    _impl->EndFaults();
 }
 
 void McsSession::Drop(std::uint16_t code, std::string_view reason, SessionActions& out)

@@ -226,6 +226,7 @@ private:
         owner.onText = [weak, connection](std::string_view text) {
             if (const auto self = weak.lock())
             {
+                self->Observe(EWireDirection::In, connection, text);
                 self->Run([connection, text](auto& session, Core::Now now, auto& out) {
                     session.OnText(connection, text, now, out);
                 });
@@ -244,6 +245,14 @@ private:
         return owner;
     }
 
+    void Observe(EWireDirection direction, Protocol::ConnectionID connection, std::string_view text) const
+    {
+        if (_options.onWire)
+        {
+            _options.onWire(direction, connection, text);
+        }
+    }
+
     void Act(const Protocol::SessionAction& action)
     {
         std::visit(
@@ -252,6 +261,7 @@ private:
                     const auto found = _links.find(send.connection);
                     if (found != _links.end())
                     {
+                        Observe(EWireDirection::Out, send.connection, send.text);
                         found->second->Send(send.text, send.bDroppable);
                     }
                 },
@@ -328,6 +338,31 @@ bool McsServer::TrySend(const Protocol::AcsRequest& request)
     _impl->Run(
         [&request, &bTaken](auto& session, Core::Now now, auto& out) { bTaken = session.TrySend(request, now, out); });
     return bTaken;
+}
+
+bool McsServer::TrySendText(std::string_view text)
+{
+    bool bTaken = false;
+    _impl->Run(
+        [text, &bTaken](auto& session, Core::Now /*now*/, auto& out) { bTaken = session.TrySendText(text, out); });
+    return bTaken;
+}
+
+void McsServer::HoldAcks(const Protocol::AckHold& hold)
+{
+    _impl->Run([&hold](auto& session, Core::Now now, auto& /*out*/) { session.HoldAcks(hold, now); });
+}
+
+void McsServer::RefuseRegistrations(std::size_t count, std::string_view message)
+{
+    _impl->Run([count, message](auto& session, Core::Now /*now*/, auto& /*out*/) {
+        session.RefuseRegistrations(count, message);
+    });
+}
+
+void McsServer::EndFaults()
+{
+    _impl->Run([](auto& session, Core::Now /*now*/, auto& /*out*/) { session.EndFaults(); });
 }
 
 void McsServer::Drop(std::uint16_t code, std::string_view reason)

@@ -245,3 +245,19 @@ TEST_CASE("After destruction, ws and wss, no handler is called and nothing is le
     CHECK(rig.acsEvents.events.size() == acsCount);
     CHECK(rig.mcsEvents.events.size() == mcsCount);
 }
+
+TEST_CASE("An observer sees every text of both directions before the session judges it")
+{
+    Rig rig;
+    std::vector<std::string> seen;
+    rig.serverOptions.onWire =
+        [&seen](ProtocolBeast::EWireDirection direction, Protocol::ConnectionID connection, std::string_view text) {
+            const std::string arrow = direction == ProtocolBeast::EWireDirection::In ? "in " : "out ";
+            const std::size_t start = text.find("\"command\":\"") + 11;
+            seen.push_back(
+                arrow + std::to_string(connection) + " "
+                + std::string(text.substr(start, text.find('"', start) - start)));
+        };
+    rig.RegisterBoth();
+    CHECK(seen == std::vector<std::string>{"in 1 Registration", "out 1 RegistrationAck"});
+}

@@ -76,6 +76,9 @@ TEST_CASE("A bad command line is told in one line, with exit code 2")
     const auto arguments = GENERATE(
         Arguments{"--frobnicate"},
         Arguments{},
+        Arguments{"--plan", "a.json", "--scenario", "b.json"},
+        Arguments{"--plan", "a.json", "--profile", "both"},
+        Arguments{"--console", "--scenario", "b.json"},
         Arguments{"--plan", "a.json", "--repeat", "0"},
         Arguments{"--plan", "a.json", "--live", "perhaps"},
         Arguments{"--plan", "a.json", "--path", "acs"},
@@ -85,8 +88,19 @@ TEST_CASE("A bad command line is told in one line, with exit code 2")
     const Outcome outcome = Parse(arguments);
     CHECK(outcome.exitCode == 2);
     CHECK(outcome.errors.find('\n') == outcome.errors.size() - 1);
-    if (!arguments.empty())
+    if (arguments.size() != 3 && !arguments.empty())
     {
         CHECK(outcome.errors.find(arguments[arguments.size() == 1 ? 0 : 2]) != std::string::npos);
     }
+}
+
+TEST_CASE("Scenarios, a profile, a trace and the console have their options")
+{
+    const Outcome outcome = Parse({"--scenario", "a.json", "b.json", "--profile", "nexus", "--trace", "t.ndjson"});
+    CHECK_FALSE(outcome.exitCode.has_value());
+    CHECK(outcome.options.scenarioFiles == std::vector<std::string>{"a.json", "b.json"});
+    CHECK(outcome.options.profile == ACS::McsSim::EProfile::Nexus);
+    CHECK(outcome.options.traceFile == "t.ndjson");
+    CHECK_FALSE(outcome.options.bConsole);
+    CHECK(Parse({"--console"}).options.bConsole);
 }

@@ -3,6 +3,7 @@
 #include "Catch.hpp"
 #include "common/SystemClock.hpp"
 #include "SamplePlans.hpp"
+#include "ScenarioFile.hpp"
 #include "Screen.hpp"
 #include "SeededRandom.hpp"
 #include <acs/core/Uuid.hpp>
@@ -96,7 +97,10 @@ private:
         }
         else if (const auto* const received = std::get_if<ACS::Protocol::RequestReceived>(&event))
         {
-            OnPlan(received->request);
+            if (std::holds_alternative<ACS::Protocol::ExecutionPlan>(received->request.payload))
+            {
+                OnPlan(received->request);
+            }
         }
     }
 
@@ -121,15 +125,20 @@ private:
             ACS::Protocol::PlanAck{plan.planID});
         if (!refusal.has_value())
         {
-            ReportAll(plan.planID);
+            ReportAll(plan);
             SendNext();
         }
     }
 
-    void ReportAll(const std::string& planID)
+    /// The steps of a sample plan stand in no order.
+    void ReportAll(const ACS::Protocol::ExecutionPlan& plan)
     {
+        const std::string& planID = plan.planID;
         Queue(MakePlanReport(planID, EPlanStatus::InProgress));
-        const std::vector<std::vector<std::string>> jobs{{"J1"}, {"J2", "J3"}};
+        const auto& last = plan.steps.at(0).jobs;
+        const std::vector<std::vector<std::string>> jobs{
+            {plan.steps.at(1).jobs.at(0).jobID},
+            {last.at(0).jobID, last.at(1).jobID}};
         for (std::int32_t stepNo = 1; stepNo <= 2; ++stepNo)
         {
             Queue(MakeStepReport(planID, stepNo, EStepStatus::Dispatched));
@@ -180,7 +189,7 @@ struct Bench
     std::unique_ptr<McsSimulator> simulator;
     std::unique_ptr<TinyAcs> acs;
 
-    explicit Bench(std::size_t plans, bool bLive = false)
+    explicit Bench(std::size_t plans, bool bLive = false, const ACS::McsSim::SimulatorOptions& options = {})
     {
         std::vector<PlannedPlan> planned;
         for (std::size_t i = 1; i <= plans; ++i)
@@ -192,7 +201,7 @@ struct Bench
             clock,
             random,
             ACS::Core::Logger(),
-            ACS::McsSim::SimulatorOptions(),
+            options,
             std::move(planned),
             out,
             bLive ? &screen : nullptr,
@@ -335,4 +344,56 @@ TEST_CASE("A port in use is named")
     const auto refused = second.Start();
     REQUIRE_FALSE(refused.has_value());
     CHECK(Contains(Describe(refused.error()), MakeText(first.endpoint)));
+}
+
+TEST_CASE("A scenario sends its plan, sees what the ACS does, and its verdicts stand in the table")
+{
+    const std::string wanted = GENERATE("Success", "Fail");
+    ACS::McsSim::SimulatorOptions options;
+    options.date = "20250702";
+    const auto scenario = ACS::McsSim::ParseScenario(
+        R"({"name":"test","steps":[{"send":"ExecutionPlan","file":"p","as":"A"},
+            {"expect":"ExecutionPlanAck","result":")"
+            + wanted + R"(","payload":{"planId":"{A}"},"within":"1s"},{"waitFor":"A","status":"Completed"}]})",
+        [](const std::string& /*path*/) { return tl::expected<PlannedPlan, std::string>(MakeSamplePlan("P", "T")); });
+    REQUIRE(scenario.has_value());
+    options.scenarios = {*scenario};
+    Bench bench(0, false, options);
+    bench.simulator->Release();
+    const std::string output = bench.Run();
+    INFO(output);
+    const bool bHeld = wanted == "Success";
+    CHECK(bench.exitCode == (bHeld ? 0 : 1));
+    CHECK(Contains(output, bHeld ? " scenario test: passed\n" : " scenario test: FAILED\n"));
+    CHECK(
+        GetLastLine(output)
+        == (bHeld ? "1 of 1 scenarios passed, 2 of 2 expectations held, 0 violations"
+                  : "0 of 1 scenarios passed, 0 of 2 expectations held, 0 violations"));
+}
+
+TEST_CASE("The console sends what it is told, lists plans and ends the run")
+{
+    ACS::McsSim::SimulatorOptions options;
+    options.bConsole = true;
+    Bench bench(1, false, options);
+    bench.simulator->Release();
+    bench.acs->Connect();
+    while (!Contains(bench.out.str(), "P1 PlanReport Completed"))
+    {
+        REQUIRE(bench.context.run_one_for(LONGEST) > 0);
+    }
+    CHECK_FALSE(bench.exitCode.has_value());
+    bench.simulator->Execute("list");
+    bench.simulator->Execute("cancel P1");
+    bench.simulator->Execute("plan nowhere.json");
+    bench.simulator->Execute("dance");
+    bench.simulator->Execute("quit");
+    bench.context.run_for(LONGEST);
+    const std::string output = bench.out.str();
+    INFO(output);
+    CHECK(bench.exitCode == 0);
+    CHECK(Contains(output, " P1 Completed (LR01)\n"));
+    CHECK(Contains(output, " CancelPlan sent\n"));
+    CHECK(Contains(output, " the plan file nowhere.json cannot be read: No such file or directory\n"));
+    CHECK(Contains(output, " there is no 'dance': try help\n"));
 }

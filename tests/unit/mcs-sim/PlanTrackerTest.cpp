@@ -398,3 +398,28 @@ TEST_CASE("What a peer sends cannot forge a line or a terminal's sequence")
     bench.Ack(0, EAckResult::Fail, "bad\n0.1 P1 PlanReport Completed\x1b[2J");
     CHECK(bench.lines.back() == "P1 ExecutionPlanAck Fail: bad?0.1 P1 PlanReport Completed?[2J");
 }
+
+TEST_CASE("12.6 Without resending a plan goes once, however long its Ack takes, and on a new connection too")
+{
+    ACS::Testing::ManualClock clock;
+    PlanTracker tracker({MakeSamplePlan("P1", "T1")}, false);
+    PlanTracker::Lines lines;
+    tracker.OnRegistered();
+    REQUIRE(tracker.GetNextToSendOrNull(clock.GetNow()) == std::size_t{0});
+    tracker.OnSent(0, clock.GetNow(), lines);
+    clock.Advance(PlanTracker::RESEND_AFTER);
+    CHECK_FALSE(tracker.GetNextToSendOrNull(clock.GetNow()).has_value());
+    tracker.OnRegistered();
+    CHECK_FALSE(tracker.GetNextToSendOrNull(clock.GetNow()).has_value());
+}
+
+TEST_CASE("A plan can be added to the run; the same message again is the same plan, and stays answered")
+{
+    Bench bench;
+    bench.RunFirstJob();
+    CHECK(bench.tracker.AddPlan(MakeSamplePlan("P1", "T1")) == 0);
+    bench.tracker.OnSent(0, bench.clock.GetNow(), bench.lines);
+    CHECK(bench.GetFirst().delivery == EDelivery::Accepted);
+    CHECK(bench.tracker.AddPlan(MakeSamplePlan("P2", "T2")) == 1);
+    CHECK(bench.tracker.CountOutcome(EOutcome::Open) == 2);
+}

@@ -3,11 +3,13 @@
 #include "ManualClock.hpp"
 #include "SeededRandom.hpp"
 #include "SessionProbe.hpp"
+#include <acs/protocol/AcsCodec.hpp>
 #include <acs/protocol/AcsSession.hpp>
 #include <acs/protocol/McsSession.hpp>
 
 #include <chrono>
 #include <string>
+#include <variant>
 #include <vector>
 
 using namespace ACS; // NOLINT(google-build-using-namespace)
@@ -32,7 +34,12 @@ public:
     Testing::SessionProbe probe;
 
     explicit McsBench(bool bSecondRefused = false)
-        : session(MakeOptions(bSecondRefused), random)
+        : McsBench(MakeOptions(bSecondRefused))
+    {
+    }
+
+    explicit McsBench(const Protocol::McsSessionOptions& options)
+        : session(options, random)
     {
     }
 
@@ -255,4 +262,173 @@ TEST_CASE("6 Both sessions together: a plan, its reports, a cut and a second reg
     CHECK(mcsProbe.GetEvents<Protocol::RequestReceived>().at(0).bDuplicate);
     CHECK(mcs.GetStatistics().Of(EAcsCommand::PlanReport).received == 2);
     CHECK(mcs.GetStatistics().Of(EAcsCommand::PlanReport).duplicates == 1);
+}
+
+TEST_CASE("An Ack that is withheld never goes, what it would have answered is delivered, and a repetition is answered")
+{
+    McsBench bench;
+    bench.Register(1);
+    bench.session.HoldAcks({EAcsCommand::PlanReport, std::nullopt, 6s}, bench.clock.GetNow());
+    bench.Text(1, MakeRequestText("PlanReport", PLAN_REPORT, "a"));
+    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
+    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().size() == 1);
+    CHECK(bench.session.GetStatistics().Of(EAcsCommand::PlanReport).acknowledged == 0);
+    bench.Text(1, MakeRequestText("TscStateUpdate", R"({"state":"Auto"})", "b"));
+    CHECK(bench.probe.GetAcks().size() == 1);
+    bench.clock.Advance(6s);
+    bench.Text(1, MakeRequestText("PlanReport", PLAN_REPORT, "a"));
+    CHECK(bench.probe.GetAcks().size() == 1);
+    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().at(0).bDuplicate);
+}
+
+TEST_CASE("An Ack that is delayed goes when its time has come, unless its connection has gone before")
+{
+    McsBench bench;
+    bench.Register(1);
+    bench.session.HoldAcks({std::nullopt, 2s, 10s}, bench.clock.GetNow());
+    bench.Text(1, MakeRequestText("PlanReport", PLAN_REPORT, "a"));
+    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
+    CHECK(bench.probe.GetDelayOrNull(Protocol::ESessionTimer::DelayedAck) == 2s);
+    bench.clock.Advance(1s);
+    bench.Text(1, MakeRequestText("PlanReport", PLAN_REPORT, "b"));
+    CHECK(bench.probe.GetDelayOrNull(Protocol::ESessionTimer::DelayedAck) == 1s);
+    bench.clock.Advance(1s);
+    SECTION("in time")
+    {
+        bench.probe.Clear();
+        bench.session.OnTimer(Protocol::ESessionTimer::DelayedAck, bench.clock.GetNow(), bench.probe.out);
+        REQUIRE(bench.probe.GetAcks().size() == 1);
+        CHECK(bench.probe.GetAcks()[0].transactionID == "a");
+        CHECK(bench.probe.GetDelayOrNull(Protocol::ESessionTimer::DelayedAck) == 1s);
+    }
+    SECTION("too late")
+    {
+        bench.session.OnClosed(1, "gone", bench.clock.GetNow(), bench.probe.out);
+        bench.probe.Clear();
+        bench.session.OnTimer(Protocol::ESessionTimer::DelayedAck, bench.clock.GetNow(), bench.probe.out);
+        CHECK(bench.probe.out.empty());
+    }
+}
+
+TEST_CASE("Of two holds on one command the latest counts")
+{
+    McsBench bench;
+    bench.Register(1);
+    bench.session.HoldAcks({std::nullopt, std::nullopt, 10s}, bench.clock.GetNow());
+    bench.session.HoldAcks({EAcsCommand::PlanReport, 0ms, 10s}, bench.clock.GetNow());
+    bench.Text(1, MakeRequestText("PlanReport", PLAN_REPORT, "a"));
+    CHECK(bench.probe.GetDelayOrNull(Protocol::ESessionTimer::DelayedAck) == 0ms);
+    bench.Text(1, MakeRequestText("TscStateUpdate", R"({"state":"Auto"})", "b"));
+    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
+}
+
+TEST_CASE("6.2 Registrations are refused as often as asked, and unheard of where their Ack is withheld")
+{
+    McsBench bench;
+    bench.session.RefuseRegistrations(1, "Maintenance.");
+    bench.Register(1);
+    REQUIRE(bench.probe.GetAcks().size() == 1);
+    CHECK(bench.probe.GetAcks()[0].result == EAckResult::Fail);
+    CHECK(bench.probe.GetAcks()[0].message == "Maintenance.");
+    CHECK_FALSE(bench.session.IsRegistered());
+    bench.session.HoldAcks({EAcsCommand::Registration, std::nullopt, 5s}, bench.clock.GetNow());
+    bench.Register(2);
+    CHECK(bench.probe.out.empty());
+    CHECK_FALSE(bench.session.IsRegistered());
+    bench.clock.Advance(5s);
+    bench.Register(3);
+    CHECK(bench.session.GetRegisteredOrNull() == Protocol::ConnectionID(3));
+}
+
+TEST_CASE("6.2 An ACS is registered when the Ack of its registration leaves, however late")
+{
+    McsBench bench;
+    bench.session.HoldAcks({std::nullopt, 1s, 10s}, bench.clock.GetNow());
+    bench.Register(1);
+    CHECK_FALSE(bench.session.IsRegistered());
+    bench.clock.Advance(1s);
+    bench.probe.Clear();
+    bench.session.OnTimer(Protocol::ESessionTimer::DelayedAck, bench.clock.GetNow(), bench.probe.out);
+    CHECK(bench.session.IsRegistered());
+    CHECK(bench.probe.GetEvents<Protocol::Registered>().size() == 1);
+    REQUIRE(bench.probe.out.size() == 2);
+    CHECK(std::holds_alternative<Protocol::SendText>(bench.probe.out[0]));
+}
+
+TEST_CASE("Any text at all can be sent to the ACS that is registered")
+{
+    McsBench bench;
+    CHECK_FALSE(bench.session.TrySendText("{", bench.probe.out));
+    bench.Register(1);
+    bench.probe.Clear();
+    CHECK(bench.session.TrySendText("{", bench.probe.out));
+    CHECK(bench.probe.GetAll<Protocol::SendText>().at(0).text == "{");
+    CHECK(bench.session.GetPendingCount() == 0);
+}
+
+TEST_CASE("Faults end when they are told to")
+{
+    McsBench bench;
+    bench.session.HoldAcks({std::nullopt, std::nullopt, 1h}, bench.clock.GetNow());
+    bench.session.RefuseRegistrations(5, "no");
+    bench.session.EndFaults();
+    bench.Register(1);
+    CHECK(bench.session.IsRegistered());
+    CHECK(bench.probe.GetAcks().size() == 1);
+}
+
+TEST_CASE("12.1 By option only the last chunk of a long text is read, so that it is lost without an Ack")
+{
+    Protocol::McsSessionOptions options;
+    options.finalChunkBytes = 4096;
+    McsBench bench(options);
+    bench.Register(1);
+    const std::string head = R"({"planId":"P","status":"Completed","message":")";
+    const auto makeText = [&head](std::size_t size) {
+        const std::size_t rest = MakeRequestText("PlanReport", head + "\"}").size();
+        return MakeRequestText("PlanReport", head + std::string(size - rest, 'x') + "\"}");
+    };
+    bench.Text(1, makeText(4096));
+    CHECK(bench.probe.GetAcks().size() == 1);
+    for (const std::size_t size : {std::size_t{4097}, std::size_t{8192}, std::size_t{9000}})
+    {
+        bench.Text(1, makeText(size));
+        CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
+        CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().empty());
+        CHECK(bench.probe.GetNotes() == std::vector<EProtocolNote>{EProtocolNote::Undecodable});
+    }
+    // A message of its own at a chunk's beginning is what that receiver takes it for.
+    bench.Text(1, std::string(4096, ' ') + MakeRequestText("PlanReport", PLAN_REPORT, "z"));
+    CHECK(bench.probe.GetAcks().at(0).transactionID == "z");
+}
+
+TEST_CASE("12.2, 12.5 By option errors are not answered, and positions are an unknown command")
+{
+    Protocol::McsSessionOptions options;
+    options.bErrorsUnanswered = true;
+    options.bPositionsUnknown = true;
+    McsBench bench(options);
+    bench.Register(1);
+    bench.Text(1, MakeRequestText("PlanReport", R"({"planId":3})"));
+    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
+    bench.Text(1, MakeRequestText("RobotPositionUpdate", R"({"robots":[]})"));
+    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
+    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().empty());
+    CHECK(bench.probe.GetNotes() == std::vector<EProtocolNote>{EProtocolNote::UnknownCommand});
+}
+
+TEST_CASE("12.8 By option requests bear a null result and message")
+{
+    Protocol::McsSessionOptions options;
+    options.bNullResults = true;
+    McsBench bench(options);
+    bench.Register(1);
+    bench.probe.Clear();
+    const Protocol::AcsRequest request = bench.session.MakeRequest(Protocol::RequestAcsPlans{}, bench.clock.GetNow());
+    REQUIRE(bench.session.TrySend(request, bench.clock.GetNow(), bench.probe.out));
+    const std::string text = bench.probe.GetAll<Protocol::SendText>().at(0).text;
+    CHECK(text.find(R"("payload":{},"result":null,"message":null})") != std::string::npos);
+    const Protocol::DecodeOutcome outcome = Protocol::AcsCodec().Decode(text);
+    REQUIRE(outcome.message.has_value());
+    CHECK(std::get<Protocol::AcsRequest>(*outcome.message) == request);
 }

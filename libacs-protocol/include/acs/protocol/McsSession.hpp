@@ -8,6 +8,8 @@
 #include <acs/protocol/SessionStatistics.hpp>
 
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +17,16 @@
 
 namespace ACS::Protocol
 {
+
+/// A fault that a test tool plays: Acks come late or never.
+struct AckHold
+{
+    std::optional<EAcsCommand> command;             ///< Whose Acks; nullopt: those of every command.
+    std::optional<std::chrono::milliseconds> delay; ///< Nullopt: they are never sent.
+    std::chrono::milliseconds duration{0};          ///< How long from now on.
+
+    bool operator==(const AckHold&) const = default;
+};
 
 /// The MCS's side of the protocol as a pure state machine over all connections of a server: one ACS is registered at a
 /// time. Built like AcsSession. Every report is acknowledged at once with Success, a repeated one again.
@@ -43,7 +55,7 @@ public:
     /// Where it was the registered one: Deliver RequestUnanswered for all that waits, then LinkLost; CancelTimer.
     void OnClosed(ConnectionID connection, std::string_view reason, Core::Now now, SessionActions& out);
 
-    /// Deliver RequestUnanswered, StartTimer.
+    /// Deliver RequestUnanswered, SendText (Acks that were held back), StartTimer.
     void OnTimer(ESessionTimer timer, Core::Now now, SessionActions& out);
 
     /// A request with a fresh transactionID and the present as its timestamp, to be sent once or more often.
@@ -61,6 +73,19 @@ public:
     /// Whether an ACS is registered and its last AcsCommStateUpdate on this connection, if any, said isConnected=true:
     /// until then the MCS keeps its plans (section 6.21). Changes with a RequestReceived of AcsCommStateUpdate.
     [[nodiscard]] bool IsTakingPlans() const noexcept;
+    /// SendText of any text at all, which is not followed to an Ack. False where no ACS is registered.
+    [[nodiscard]] bool TrySendText(std::string_view text, SessionActions& out);
+
+    /// From now on Acks come late or never. What is reported is delivered all the same. A report that an earlier hold
+    /// names too is subject to the latest. No action.
+    void HoldAcks(const AckHold& hold, Core::Now now);
+
+    /// The next registrations are answered with Fail and this message, and the connection is left to the ACS; zero ends
+    /// that. No action.
+    void RefuseRegistrations(std::size_t count, std::string_view message);
+
+    /// No holds and no refusals from now on; Acks that are held back come when they would have. No action.
+    void EndFaults() noexcept;
 
     /// Which connection is registered; nullopt: none.
     [[nodiscard]] std::optional<ConnectionID> GetRegisteredOrNull() const noexcept;

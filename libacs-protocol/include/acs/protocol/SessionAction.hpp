@@ -22,9 +22,10 @@ enum class ESessionTimer : std::uint8_t
     Reconnect,    ///< ACS side.
     Position,     ///< ACS side.
     Shutdown,     ///< ACS side.
+    DelayedAck,   ///< MCS side: the earliest Ack that is held back (McsSession::HoldAcks).
 };
 
-inline constexpr std::size_t TIMER_COUNT = 5;
+inline constexpr std::size_t TIMER_COUNT = 6;
 
 /// Close codes of RFC 6455 that the sessions use.
 inline constexpr std::uint16_t CLOSE_NORMAL = 1000;

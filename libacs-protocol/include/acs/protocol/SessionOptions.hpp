@@ -32,6 +32,12 @@ struct McsSessionOptions
     std::size_t duplicateMemory = 65'536;        ///< Transactions remembered, to count repeated reports.
     bool bPlansWithheld = true;  ///< Send no ExecutionPlan while the ACS has said isConnected=false (section 6.21).
     bool bSecondRefused = false; ///< Refuse a second client (403, 1008) while one is there; else replace.
+    /// Habits of the public MCS (section 12), off by default. Of a text longer than this its last chunk of this size is
+    /// read, as if it were all of it; 0: every text is read whole.
+    std::size_t finalChunkBytes = 0;
+    bool bErrorsUnanswered = false; ///< What cannot be read gets no Ack.
+    bool bPositionsUnknown = false; ///< RobotPositionUpdate is noted as an unknown command, not delivered.
+    bool bNullResults = false;      ///< Requests bear `"result":null,"message":null`.
     CodecOptions codec{};
 };
 

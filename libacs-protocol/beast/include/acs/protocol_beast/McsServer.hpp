@@ -5,12 +5,14 @@
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/protocol/AcsMessage.hpp>
+#include <acs/protocol/McsSession.hpp>
 #include <acs/protocol/SessionStatistics.hpp>
 #include <acs/protocol_beast/ISessionHandler.hpp>
 #include <acs/protocol_beast/ServerOptions.hpp>
 
 #include <boost/asio/any_io_executor.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -55,6 +57,10 @@ public:
     /// the call has returned.
     [[nodiscard]] Protocol::AcsRequest MakeRequest(Protocol::AcsPayload payload);
     [[nodiscard]] bool TrySend(const Protocol::AcsRequest& request);
+    [[nodiscard]] bool TrySendText(std::string_view text);
+    void HoldAcks(const Protocol::AckHold& hold);
+    void RefuseRegistrations(std::size_t count, std::string_view message);
+    void EndFaults();
     void Drop(std::uint16_t code, std::string_view reason);
 
     /// Closes the registered connection's socket without a handshake, as a cut cable would.

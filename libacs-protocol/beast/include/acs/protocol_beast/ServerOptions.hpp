@@ -1,14 +1,28 @@
 #pragma once
 
+#include <acs/protocol/SessionAction.hpp>
 #include <acs/protocol_beast/ClientOptions.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace ACS::ProtocolBeast
 {
+
+enum class EWireDirection : std::uint8_t
+{
+    In,
+    Out,
+};
+
+/// Sees every text: what comes before the session judges it, what goes as it is handed to the connection. The view is
+/// valid during the call, which is made on the executor and must not call the server.
+using WireObserver =
+    std::function<void(EWireDirection direction, Protocol::ConnectionID connection, std::string_view text)>;
 
 /// Where an McsServer listens.
 struct ServerOptions
@@ -20,6 +34,7 @@ struct ServerOptions
     std::optional<TlsOptions> tls{};   ///< There: wss and nothing else, with certificate and key.
     LinkOptions link{};
     Protocol::McsSessionOptions session{};
+    WireObserver onWire; ///< May be empty.
 };
 
 } // namespace ACS::ProtocolBeast
