@@ -129,25 +129,29 @@ public:
     bool RawNumber(const char* text, rapidjson::SizeType length, bool /*bCopy*/)
     {
         const std::string_view number(text, length);
-        const std::size_t mark = number.find_first_of(".eE");
+        const bool bInteger =
+            std::ranges::none_of(number, [](char sign) { return sign == '.' || sign == 'e' || sign == 'E'; });
         std::int64_t integer = 0;
         std::uint64_t positive = 0;
-        if (mark == std::string_view::npos && TryRead(number, integer))
+        if (bInteger && TryRead(number, integer))
         {
             return _document.Int64(integer);
         }
-        if (mark == std::string_view::npos && TryRead(number, positive))
+        if (bInteger && TryRead(number, positive))
         {
             return _document.Uint64(positive);
         }
         double value = 0.0;
-        const std::errc error = std::from_chars(number.data(), number.data() + number.size(), value).ec;
+        if (TryRead(number, value))
+        {
+            return _document.Double(value);
+        }
         // Too small for a double is zero; too large has no value.
         const std::size_t exponent = number.find_first_of("eE");
         const bool bSmall = exponent == std::string_view::npos ? number.starts_with("0.") || number.starts_with("-0.")
                                                                : number[exponent + 1] == '-';
-        _bNumberTooLarge = error != std::errc() && !bSmall;
-        return !_bNumberTooLarge && _document.Double(error == std::errc() ? value : 0.0);
+        _bNumberTooLarge = !bSmall;
+        return bSmall && _document.Double(0.0);
     }
 
     bool String(const char* text, rapidjson::SizeType length, bool bCopy)
