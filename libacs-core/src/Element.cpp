@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 namespace ACS::Core::Detail
 {
@@ -25,6 +26,13 @@ constexpr std::array<Prefix, 7> PREFIXES{{
     {ESegmentKind::MemoryPort, "MP"},
 }};
 
+constexpr std::size_t LONGEST_PREFIX = 3;
+
+bool IsDigit(char character)
+{
+    return character >= '0' && character <= '9';
+}
+
 char ToUpper(char character)
 {
     return character >= 'a' && character <= 'z' ? static_cast<char>(character - 'a' + 'A') : character;
@@ -34,9 +42,13 @@ char ToUpper(char character)
 
 std::optional<Element> SplitElementOrNull(std::string_view text)
 {
-    const std::size_t firstDigit = text.find_first_of("0123456789");
-    if (firstDigit == std::string_view::npos
-        || text.find_first_not_of("0123456789", firstDigit) != std::string_view::npos)
+    std::size_t firstDigit = 0;
+    while (firstDigit < text.size() && firstDigit <= LONGEST_PREFIX && !IsDigit(text[firstDigit]))
+    {
+        ++firstDigit;
+    }
+    if (firstDigit > LONGEST_PREFIX || firstDigit == text.size()
+        || !std::all_of(text.begin() + static_cast<std::ptrdiff_t>(firstDigit), text.end(), IsDigit))
     {
         return std::nullopt;
     }
@@ -58,7 +70,7 @@ std::string_view GetPrefix(ESegmentKind kind)
 
 bool IsSameWord(std::string_view text, std::string_view upperWord)
 {
-    return std::ranges::equal(text, upperWord, {}, ToUpper);
+    return text.size() == upperWord.size() && std::ranges::equal(text, upperWord, {}, ToUpper);
 }
 
 } // namespace ACS::Core::Detail

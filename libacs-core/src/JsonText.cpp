@@ -268,6 +268,32 @@ void JsonText::AppendString(std::string_view value, std::string& out)
     out += '"';
 }
 
+bool JsonText::IsUtf8(std::string_view text) noexcept
+{
+    constexpr std::uint64_t HIGHS = 0x8080808080808080;
+    std::uint64_t bytes = 0;
+    for (std::size_t position = 0; position < text.size();)
+    {
+        if (position + sizeof bytes <= text.size())
+        {
+            std::memcpy(&bytes, text.data() + position, sizeof bytes);
+            if ((bytes & HIGHS) == 0)
+            {
+                position += sizeof bytes;
+                continue;
+            }
+        }
+        const bool bAscii = static_cast<unsigned char>(text[position]) < 0x80U;
+        const std::size_t length = bAscii ? 1 : GetSequenceLength(text.substr(position));
+        if (length == 0)
+        {
+            return false;
+        }
+        position += length;
+    }
+    return true;
+}
+
 JsonText JsonText::FromString(std::string_view value)
 {
     std::string text;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <iterator>
 #include <utility>
 
@@ -73,16 +72,19 @@ bool IsChain(std::span<const LocationSegment> segments)
 std::optional<std::uint16_t> ReadNumberOrNull(std::string_view digits)
 {
     std::uint16_t number = 0;
-    if (digits.empty() || digits.size() > MAX_DIGITS)
+    if (digits.size() > MAX_DIGITS)
     {
         return std::nullopt;
     }
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    if (error != std::errc() || end != digits.data() + digits.size() || number == 0)
+    for (const char digit : digits)
     {
-        return std::nullopt;
+        if (digit < '0' || digit > '9')
+        {
+            return std::nullopt;
+        }
+        number = static_cast<std::uint16_t>(number * 10 + (digit - '0'));
     }
-    return number;
+    return number == 0 ? std::nullopt : std::optional(number);
 }
 
 std::optional<LocationSegment> ReadSegmentOrNull(std::string_view text)

@@ -1,3 +1,4 @@
+#include <acs/core/JsonText.hpp>
 #include <acs/json/JsonDocument.hpp>
 
 #include <fmt/format.h>
@@ -8,6 +9,8 @@
 #include <rapidjson/writer.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -22,8 +25,10 @@ constexpr std::size_t VALUE_POOL_BYTES = 24U * 1024U;
 constexpr std::size_t STACK_POOL_BYTES = 12U * 1024U;
 constexpr std::size_t FIRST_STACK_BYTES = 1024;
 constexpr std::size_t LONGEST_FOUND = 40;
-constexpr unsigned PARSE_FLAGS =
-    rapidjson::kParseIterativeFlag | rapidjson::kParseValidateEncodingFlag | rapidjson::kParseFullPrecisionFlag;
+/// The encoding is checked before, many bytes at a time: RapidJSON would look at each byte by itself.
+/// Numbers come as text: the full precision of RapidJSON 1.1.0 reads past its tables where a long fraction has a low
+/// exponent, which any peer may send.
+constexpr unsigned PARSE_FLAGS = rapidjson::kParseIterativeFlag | rapidjson::kParseNumbersAsStringsFlag;
 constexpr unsigned LENIENT_FLAGS = PARSE_FLAGS | rapidjson::kParseCommentsFlag | rapidjson::kParseTrailingCommasFlag;
 
 /// Whether a string has half a surrogate pair in it. RapidJSON refuses an escaped first half that stands alone, but
@@ -50,6 +55,14 @@ class StrictHandler
     const std::size_t _maximumDepth;
     const bool _bEscaped; ///< The text has escapes at all: without them there are no half pairs to look for.
     bool _bHalfSurrogate = false;
+    bool _bNumberTooLarge = false;
+
+    template <typename TNumber>
+    [[nodiscard]] static bool TryRead(std::string_view text, TNumber& out)
+    {
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+        return error == std::errc() && end == text.data() + text.size();
+    }
 
     [[nodiscard]] bool IsWhole(const char* text, rapidjson::SizeType length)
     {
@@ -65,6 +78,11 @@ public:
           _maximumDepth(maximumDepth),
           _bEscaped(bEscaped)
     {
+    }
+
+    [[nodiscard]] bool HasFoundLargeNumber() const
+    {
+        return _bNumberTooLarge;
     }
 
     [[nodiscard]] bool HasFoundHalfSurrogate() const
@@ -107,9 +125,33 @@ public:
         return _document.Double(value);
     }
 
-    bool RawNumber(const char* text, rapidjson::SizeType length, bool bCopy)
+    /// Text that follows JSON's grammar of a number.
+    bool RawNumber(const char* text, rapidjson::SizeType length, bool /*bCopy*/)
     {
-        return _document.RawNumber(text, length, bCopy);
+        const std::string_view number(text, length);
+        const bool bInteger =
+            std::ranges::none_of(number, [](char sign) { return sign == '.' || sign == 'e' || sign == 'E'; });
+        std::int64_t integer = 0;
+        std::uint64_t positive = 0;
+        if (bInteger && TryRead(number, integer))
+        {
+            return _document.Int64(integer);
+        }
+        if (bInteger && TryRead(number, positive))
+        {
+            return _document.Uint64(positive);
+        }
+        double value = 0.0;
+        if (TryRead(number, value))
+        {
+            return _document.Double(value);
+        }
+        // Too small for a double is zero; too large has no value.
+        const std::size_t exponent = number.find_first_of("eE");
+        const bool bSmall = exponent == std::string_view::npos ? number.starts_with("0.") || number.starts_with("-0.")
+                                                               : number[exponent + 1] == '-';
+        _bNumberTooLarge = !bSmall;
+        return bSmall && _document.Double(0.0);
     }
 
     bool String(const char* text, rapidjson::SizeType length, bool bCopy)
@@ -191,6 +233,10 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
             fmt::format("{} bytes", text.size()));
     }
     const std::string_view body = SkipByteOrderMark(text);
+    if (!Core::JsonText::IsUtf8(body))
+    {
+        return Core::Fail(Core::ECoreError::InvalidJson, {}, "JSON", "bytes that are no UTF-8");
+    }
     _document.reset();
     _valuePool.Clear();
     _stackPool.Clear();
@@ -209,6 +255,10 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
     if (handler.HasFoundHalfSurrogate())
     {
         return Core::Fail(Core::ECoreError::InvalidJson, {}, "JSON", "half a surrogate pair");
+    }
+    if (handler.HasFoundLargeNumber())
+    {
+        return Core::Fail(Core::ECoreError::InvalidJson, {}, "JSON", "a number beyond the range of a double");
     }
     if (outcome.Code() == rapidjson::kParseErrorTermination)
     {

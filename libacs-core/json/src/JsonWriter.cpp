@@ -1,9 +1,12 @@
 #include <acs/json/JsonWriter.hpp>
 
+#include <fmt/compile.h>
+
 #include <array>
 #include <cassert>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 
 namespace ACS::Json
 {
@@ -12,6 +15,41 @@ namespace
 {
 
 constexpr std::size_t LONGEST_NUMBER = 32;
+
+/// Whole numbers and thousandths, which is most of what robots send, without the search for the shortest text: where k
+/// thousandths are this number, no shorter text is. False for all others.
+bool TryAppendThousandths(std::string& out, double value)
+{
+    constexpr double SCALE = 1000.0;
+    constexpr double LIMIT = 1e12;
+    const double magnitude = std::abs(value);
+    if (!(magnitude < LIMIT))
+    {
+        return false;
+    }
+    const auto thousandths = static_cast<std::uint64_t>(magnitude * SCALE + 0.5);
+    if (static_cast<double>(thousandths) / SCALE != magnitude)
+    {
+        return false;
+    }
+    std::array<char, LONGEST_NUMBER> digits{};
+    char* end = digits.data();
+    *end = '-';
+    end += value < 0 ? 1 : 0;
+    end = std::to_chars(end, digits.data() + digits.size(), thousandths / 1000).ptr;
+    std::uint64_t rest = thousandths % 1000;
+    if (rest != 0)
+    {
+        *end++ = '.';
+        for (std::uint64_t unit = 100; rest != 0; unit /= 10)
+        {
+            *end++ = static_cast<char>('0' + rest / unit);
+            rest %= unit;
+        }
+    }
+    out.append(digits.data(), end);
+    return true;
+}
 
 template <typename TNumber>
 void AppendNumber(std::string& out, TNumber value)
@@ -85,7 +123,12 @@ void JsonWriter::WriteNumber(double value)
 {
     assert(std::isfinite(value));
     Separate();
-    AppendNumber(_out, std::isfinite(value) ? value : 0.0);
+    const double finite = std::isfinite(value) ? value : 0.0;
+    if (!TryAppendThousandths(_out, finite))
+    {
+        std::array<char, LONGEST_NUMBER> digits{};
+        _out.append(digits.data(), fmt::format_to(digits.data(), FMT_COMPILE("{}"), finite));
+    }
 }
 
 void JsonWriter::WriteInteger(std::int64_t value)

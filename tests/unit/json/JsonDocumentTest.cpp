@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ACS::Json::Test
 {
@@ -39,6 +40,43 @@ TEST_CASE("A text longer than the limit is refused before it is parsed")
 {
     CHECK(GetParseError("[1,2,3]", {6, 3}) == Core::ECoreError::TooLarge);
     CHECK_FALSE(GetParseError("[1,2,3]", {7, 3}));
+}
+
+TEST_CASE("A number of any length and exponent is read exactly, as zero, or refused")
+{
+    struct Number
+    {
+        std::string text;
+        double value;
+    };
+    const std::string zeros(200, '0');
+    const std::vector<Number> numbers{
+        {"-22222222222222222.000123423577" + zeros + "20496382104121721e-373", 0.0},
+        {"-2.5e-320", -2.5e-320},
+        {"1e-400", 0.0},
+        {"0." + zeros + zeros + "1", 0.0},
+        {"0.1", 0.1},
+        {"9007199254740993", 9007199254740992.0},
+        {"18446744073709551615", 18446744073709551615.0},
+        {"18446744073709551616", 18446744073709551616.0},
+        {"-9223372036854775809", -9223372036854775809.0},
+        {"-0", 0.0},
+        {"1.7976931348623157e308", 1.7976931348623157e308},
+    };
+    for (const Number& number : numbers)
+    {
+        INFO(number.text);
+        JsonDocument document;
+        const auto root = document.Parse(number.text, {});
+        REQUIRE(root.has_value());
+        CHECK((*root)->GetDouble() == number.value);
+    }
+    for (const std::string& text :
+         {std::string("1e309"), std::string("1.8e308"), "1" + zeros + zeros, std::string("01"), std::string("1.")})
+    {
+        INFO(text);
+        CHECK(GetParseError(text) == Core::ECoreError::InvalidJson);
+    }
 }
 
 TEST_CASE("Half a surrogate pair is refused, in a value and in a name, and a whole one is read")

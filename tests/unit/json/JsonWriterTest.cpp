@@ -1,6 +1,7 @@
 #include "Catch.hpp"
 #include <acs/json/JsonWriter.hpp>
 
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -38,6 +39,34 @@ TEST_CASE("A string of any length and content is escaped byte for byte alike")
             CHECK(WriteOne(front + "\xED\x95\x9C" + back) == '"' + front + "\xED\x95\x9C" + back + '"');
             CHECK(WriteOne(front + '\xFF' + back) == '"' + front + "\xEF\xBF\xBD" + back + '"');
         }
+    }
+}
+
+TEST_CASE("A number's text is the shortest that reads as the same number, whichever way it was written")
+{
+    const auto write = [](double value) {
+        std::string text;
+        JsonWriter(text).WriteNumber(value);
+        return text;
+    };
+    CHECK(write(0) == "0");
+    CHECK(write(-0.001) == "-0.001");
+    CHECK(write(0.1) == "0.1");
+    CHECK(write(10.24) == "10.24");
+    CHECK(write(-12.305) == "-12.305");
+    CHECK(write(1e11) == "100000000000");
+    CHECK(write(1e300) == "1e+300");
+    CHECK(write(0.0005) == "0.0005");
+    CHECK(write(1.0 / 3.0) == "0.3333333333333333");
+    // Every neighbour of many thousandths is another number and must stay one.
+    for (int step = -20'000; step <= 20'000; step += 7)
+    {
+        const double value = step / 1000.0;
+        for (const double near : {value, std::nextafter(value, 1e9), std::nextafter(value, -1e9), value * 1e9})
+        {
+            REQUIRE(std::stod(write(near)) == near);
+        }
+        REQUIRE(write(value).size() <= 7);
     }
 }
 

@@ -31,6 +31,9 @@ public:
     /// Appends what FromString makes: the one place that writes JSON strings.
     static void AppendString(std::string_view value, std::string& out);
 
+    /// Whether JSON may carry this text as it is: well-formed UTF-8, without halves of surrogate pairs.
+    [[nodiscard]] static bool IsUtf8(std::string_view text) noexcept;
+
     /// Text that is known to be JSON, such as what a codec of this SDK cut out of a parsed message. Not checked:
     /// text from outside goes through the parser of ACS::Json.
     [[nodiscard]] static JsonText FromTrusted(std::string text);
