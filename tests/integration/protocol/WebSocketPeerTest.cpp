@@ -1,4 +1,5 @@
 #include "RawPeer.hpp"
+#include "RawServer.hpp"
 #include "WebSocketRig.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/protocol/AcsCodec.hpp>
