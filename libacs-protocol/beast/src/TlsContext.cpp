@@ -67,7 +67,7 @@ Core::Result<void> Load(const char* key, const char* expected, const std::string
 
 Core::Result<void> LoadKey(ssl::context& context, const TlsOptions& options)
 {
-    const Core::Result<void> loaded = Load(KEY_KEY, KEY_EXPECTED, options.keyFile, [&](ErrorCode& error) {
+    Core::Result<void> loaded = Load(KEY_KEY, KEY_EXPECTED, options.keyFile, [&](ErrorCode& error) {
         static_cast<void>(context.use_private_key_file(options.keyFile, ssl::context::pem, error));
         if (error && ERR_GET_REASON(static_cast<unsigned long>(error.value())) == X509_R_KEY_VALUES_MISMATCH)
         {
@@ -91,7 +91,7 @@ Core::Result<void> LoadKey(ssl::context& context, const TlsOptions& options)
 
 Core::Result<void> LoadIdentity(ssl::context& context, const TlsOptions& options)
 {
-    const Core::Result<void> loaded =
+    Core::Result<void> loaded =
         Load(CERTIFICATE_KEY, CERTIFICATE_EXPECTED, options.certificateFile, [&](ErrorCode& error) {
             static_cast<void>(context.use_certificate_chain_file(options.certificateFile, error));
         });

@@ -6,7 +6,7 @@
 #include "UpgradeGate.hpp"
 
 #include <boost/asio/ssl.hpp>
-#include <boost/beast/ssl.hpp>
+#include <boost/beast/websocket/ssl.hpp>
 
 #include <string>
 #include <utility>
@@ -21,7 +21,7 @@ namespace ssl = boost::asio::ssl;
 
 struct TlsLayer
 {
-    using Stream = boost::beast::ssl_stream<boost::beast::tcp_stream>;
+    using Stream = ssl::stream<boost::beast::tcp_stream>;
     using ErrorCode = boost::beast::error_code;
 
     template <typename THandler>

@@ -1,4 +1,5 @@
 #include "RawPeer.hpp"
+#include "RawServer.hpp"
 #include "WebSocketRig.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/protocol/AcsCodec.hpp>
@@ -412,7 +413,7 @@ TEST_CASE(
 {
     ClientRig rig;
     // What a connection does with the first report: each kind of loss in turn, then nothing bad any more.
-    rig.onConnection = [&rig](std::size_t index, RawMcs& mcs) {
+    rig.onConnection = [](std::size_t index, RawMcs& mcs) {
         if (index == 1)
         {
             mcs.GetPeer().onChange = [&mcs] {

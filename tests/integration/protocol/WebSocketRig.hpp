@@ -3,6 +3,8 @@
 #include "Catch.hpp"
 #include "RecordingLogSink.hpp"
 #include "SeededRandom.hpp"
+#include "SessionRecorder.hpp"
+#include "SteadySystemClock.hpp"
 #include <acs/protocol_beast/AcsClient.hpp>
 #include <acs/protocol_beast/McsServer.hpp>
 
@@ -14,61 +16,12 @@
 #include <memory>
 #include <string>
 #include <utility>
-#include <variant>
-#include <vector>
 
 namespace ACS::Testing
 {
 
 /// Bounds a wait for what must come; nothing depends on how long it takes.
 inline constexpr std::chrono::seconds PATIENCE{10};
-
-class SteadySystemClock final : public Core::IClock
-{
-public:
-    [[nodiscard]] Core::Now GetNow() const override
-    {
-        return {std::chrono::steady_clock::now(), std::chrono::system_clock::now()};
-    }
-};
-
-/// Keeps the events and does what a test wants on each.
-class SessionRecorder final : public ProtocolBeast::ISessionHandler
-{
-public:
-    std::vector<Protocol::SessionEvent> events;
-    std::function<void(const Protocol::SessionEvent&)> onEvent;
-
-    void OnSessionEvent(const Protocol::SessionEvent& event) override
-    {
-        events.push_back(event);
-        if (onEvent)
-        {
-            onEvent(event);
-        }
-    }
-
-    template <typename TEvent>
-    [[nodiscard]] std::vector<TEvent> GetAll() const
-    {
-        std::vector<TEvent> found;
-        for (const Protocol::SessionEvent& event : events)
-        {
-            if (const TEvent* eventOrNull = std::get_if<TEvent>(&event))
-            {
-                found.push_back(*eventOrNull);
-            }
-        }
-        return found;
-    }
-
-    /// Why the first link that was lost was lost; empty where none was.
-    [[nodiscard]] std::string GetFirstLoss() const
-    {
-        const auto losses = GetAll<Protocol::LinkLost>();
-        return losses.empty() ? std::string() : losses.front().reason;
-    }
-};
 
 /// A server, a client and the loop that runs them.
 class WebSocketRig

@@ -1,5 +1,6 @@
 #include "CertificateMaker.hpp"
 #include "RawPeer.hpp"
+#include "RawServer.hpp"
 #include "TemporaryFolder.hpp"
 #include "WebSocketRig.hpp"
 
