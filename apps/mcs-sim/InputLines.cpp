@@ -24,6 +24,7 @@ struct InputLines::Impl : std::enable_shared_from_this<InputLines::Impl>
     std::string buffer;
     std::function<void(const std::string& line)> onLine;
     std::function<void()> onEnd;
+    std::function<void()> onMore; ///< Reads on: a handler of its own, for Asio's templates are not to call each other.
 
     Impl(
         const boost::asio::any_io_executor& executor,
@@ -63,7 +64,7 @@ struct InputLines::Impl : std::enable_shared_from_this<InputLines::Impl>
         onLine(line);
         if (onLine)
         {
-            ReadAsync();
+            onMore();
         }
     }
 };
@@ -77,6 +78,9 @@ InputLines::InputLines(
     // A copy, so that closing it leaves standard input alone.
     boost::system::error_code code;
     _impl->input.assign(::dup(STDIN_FILENO), code); // NOLINT(android-cloexec-dup): starts no programs
+    _impl->onMore = [impl = _impl.get()] {
+        impl->ReadAsync();
+    };
     _impl->ReadAsync();
 }
 

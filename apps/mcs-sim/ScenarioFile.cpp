@@ -315,7 +315,7 @@ ScenarioStep ReadWaitFor(StepsContext& context, ObjectReader& reader, const Verb
         EPlanStatus::Failed,
         EPlanStatus::Cancelled,
         EPlanStatus::Aborted};
-    const auto found =
+    const auto* const found =
         std::find_if(STATES.begin(), STATES.end(), [&word](EPlanStatus status) { return GetText(status) == word; });
     if (found == STATES.end())
     {
