@@ -31,7 +31,7 @@ struct McsSimOptions
     Apps::Endpoint listen{"127.0.0.1", 9001};
     std::string path = "/acs/";
     std::optional<ProtocolBeast::TlsOptions> tls; ///< There: wss.
-    std::vector<std::string> planFiles; ///< At least one, or scenarios instead, or the console.
+    std::vector<std::string> planFiles;           ///< At least one, or scenarios instead, or the console.
     std::vector<std::string> scenarioFiles;
     std::size_t repeat = 1;
     bool bFreshIDs = false;

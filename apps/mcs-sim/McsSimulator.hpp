@@ -35,8 +35,8 @@ struct SimulatorOptions
     std::size_t columns = 100;          ///< Of the live view and the closing table.
     std::size_t rows = 24;
     std::optional<ProtocolBeast::TlsOptions> tls{}; ///< There: wss.
-    ProtocolBeast::WireObserver onWire; ///< For a trace; may be empty.
-    std::vector<Scenario> scenarios;    ///< Where there are any, they decide what is sent, and there are no plans.
+    ProtocolBeast::WireObserver onWire;             ///< For a trace; may be empty.
+    std::vector<Scenario> scenarios; ///< Where there are any, they decide what is sent, and there are no plans.
     std::string date; ///< Eight digits (20261121), for the fresh planIds of scenarios and of the console.
     EProfile profile = EProfile::Spec;
     bool bFreshPlans = false; ///< The plans were made for this run: in the profile nexus they name their robot.
