@@ -72,6 +72,11 @@ void* operator new(std::size_t size)
     return block;
 }
 
+void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept
+{
+    return Count(__real_malloc(size == 0 ? 1 : size));
+}
+
 void operator delete(void* block) noexcept
 {
     Release(block);
