@@ -3,7 +3,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    using namespace ACS;
+    using namespace ACS; // NOLINT(google-build-using-namespace)
     const Core::Result<Planning::SiteMap> site = Planning::DecodeLif(Fuzz::AsText(data, size));
     if (site)
     {

@@ -3,7 +3,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    using namespace ACS;
+    using namespace ACS; // NOLINT(google-build-using-namespace)
     const Core::Result<Core::Location> first = Core::Location::Parse(Fuzz::AsText(data, size));
     Fuzz::Require(Core::Location::IsLocation(Fuzz::AsText(data, size)) == first.has_value(), "both say the same");
     if (first)

@@ -7,7 +7,7 @@
 namespace
 {
 
-using namespace ACS;
+using namespace ACS; // NOLINT(google-build-using-namespace)
 
 template <typename TMessage>
 void CheckMessage(VDA5050::Vda5050Codec& codec, std::string_view payload)

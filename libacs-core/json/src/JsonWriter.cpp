@@ -27,7 +27,7 @@ bool TryAppendThousandths(std::string& out, double value)
     {
         return false;
     }
-    const auto thousandths = static_cast<std::uint64_t>(magnitude * SCALE + 0.5);
+    const auto thousandths = static_cast<std::uint64_t>(std::llround(magnitude * SCALE));
     if (static_cast<double>(thousandths) / SCALE != magnitude)
     {
         return false;

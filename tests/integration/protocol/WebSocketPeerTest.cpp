@@ -428,7 +428,7 @@ TEST_CASE(
             const bool bReport = GetCommand(request) == EAcsCommand::PlanReport;
             if (bReport && index == 0)
             {
-                mcs.GetPeer().Write(MakeFrameHead({EFrame::Text, {}, true}, 5'000, false) + "{\"command\":\"Exec");
+                mcs.GetPeer().Write(MakeFrameHead({EFrame::Text, {}, true}, 5'000, false) + R"({"command":"Exec)");
                 mcs.GetPeer().Reset();
             }
             if (bReport && index == 2)

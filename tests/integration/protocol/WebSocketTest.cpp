@@ -253,7 +253,7 @@ TEST_CASE("An observer sees every text of both directions before the session jud
     rig.serverOptions.onWire =
         [&seen](ProtocolBeast::EWireDirection direction, Protocol::ConnectionID connection, std::string_view text) {
             const std::string arrow = direction == ProtocolBeast::EWireDirection::In ? "in " : "out ";
-            const std::size_t start = text.find("\"command\":\"") + 11;
+            const std::size_t start = text.find(R"("command":")") + 11;
             seen.push_back(
                 arrow + std::to_string(connection) + " "
                 + std::string(text.substr(start, text.find('"', start) - start)));

@@ -1,9 +1,12 @@
 #include "Catch.hpp"
 #include <acs/json/JsonWriter.hpp>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 
 namespace ACS::Json::Test
 {
@@ -31,13 +34,17 @@ TEST_CASE("A string of any length and content is escaped byte for byte alike")
         {
             const std::string front = plain.substr(0, i);
             const std::string back = plain.substr(i + 1);
-            CHECK(WriteOne(front + '"' + back) == '"' + front + "\\\"" + back + '"');
-            CHECK(WriteOne(front + '\\' + back) == '"' + front + "\\\\" + back + '"');
-            CHECK(WriteOne(front + '\x1F' + back) == '"' + front + "\\u001f" + back + '"');
-            CHECK(WriteOne(front + '\0' + back) == '"' + front + "\\u0000" + back + '"');
-            CHECK(WriteOne(front + "\x7F\x20!#[]" + back) == '"' + front + "\x7F\x20!#[]" + back + '"');
-            CHECK(WriteOne(front + "\xED\x95\x9C" + back) == '"' + front + "\xED\x95\x9C" + back + '"');
-            CHECK(WriteOne(front + '\xFF' + back) == '"' + front + "\xEF\xBF\xBD" + back + '"');
+            const auto writes = [&front, &back](std::string_view raw, std::string_view written) {
+                return WriteOne(fmt::format("{}{}{}", front, raw, back))
+                    == fmt::format("\"{}{}{}\"", front, written, back);
+            };
+            CHECK(writes("\"", R"(\")"));
+            CHECK(writes("\\", R"(\\)"));
+            CHECK(writes("\x1F", R"(\u001f)"));
+            CHECK(writes(std::string_view("\0", 1), R"(\u0000)"));
+            CHECK(writes("\x7F\x20!#[]", "\x7F\x20!#[]"));
+            CHECK(writes("\xED\x95\x9C", "\xED\x95\x9C"));
+            CHECK(writes("\xFF", "\xEF\xBF\xBD"));
         }
     }
 }

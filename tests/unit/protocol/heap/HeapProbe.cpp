@@ -6,11 +6,15 @@
 
 // The linker's --wrap gives these two names to each of malloc, calloc, realloc and free.
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming,cppcoreguidelines-no-malloc)
+// NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables)
+/// Whoever asks for one looks whether it is there.
+using Block = void*;
+
 extern "C"
 {
-    void* __real_malloc(std::size_t size);
-    void* __real_calloc(std::size_t count, std::size_t size);
-    void* __real_realloc(void* block, std::size_t size);
+    Block __real_malloc(std::size_t size);
+    Block __real_calloc(std::size_t count, std::size_t size);
+    Block __real_realloc(void* block, std::size_t size);
     void __real_free(void* block);
 }
 
@@ -20,7 +24,7 @@ namespace
 constinit std::uint64_t takenBlocks = 0;
 constinit std::int64_t liveBytes = 0;
 
-void* Count(void* block) noexcept
+Block Count(void* block) noexcept
 {
     if (block != nullptr)
     {
@@ -40,17 +44,17 @@ void Release(void* block) noexcept
 
 extern "C"
 {
-    void* __wrap_malloc(std::size_t size)
+    Block __wrap_malloc(std::size_t size)
     {
         return Count(__real_malloc(size));
     }
 
-    void* __wrap_calloc(std::size_t count, std::size_t size)
+    Block __wrap_calloc(std::size_t count, std::size_t size)
     {
         return Count(__real_calloc(count, size));
     }
 
-    void* __wrap_realloc(void* block, std::size_t size)
+    Block __wrap_realloc(void* block, std::size_t size)
     {
         liveBytes -= static_cast<std::int64_t>(malloc_usable_size(block));
         return Count(__real_realloc(block, size));
@@ -87,6 +91,7 @@ void operator delete(void* block, std::size_t /*size*/) noexcept
     Release(block);
 }
 // NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming,cppcoreguidelines-no-malloc)
+// NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
 
 namespace ACS::Testing
 {

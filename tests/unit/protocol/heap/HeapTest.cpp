@@ -15,7 +15,6 @@
 #include <vector>
 
 using namespace ACS; // NOLINT(google-build-using-namespace)
-using Protocol::AcsAck;
 using Protocol::AcsCodec;
 using Protocol::AcsMessage;
 using Protocol::AcsRequest;
