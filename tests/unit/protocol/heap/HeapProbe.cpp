@@ -90,8 +90,8 @@ void operator delete(void* block, std::size_t /*size*/) noexcept
 {
     Release(block);
 }
-// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming,cppcoreguidelines-no-malloc)
 // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming,cppcoreguidelines-no-malloc)
 
 namespace ACS::Testing
 {
