@@ -14,6 +14,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 
@@ -76,6 +77,7 @@ class Source:
         self.full_path = os.path.join(ROOT, path)
         self.stamp = stamp
         self.complaint = ""
+        self.looks = 0  # still to come
         words = shlex.split(command)[1:]
         out = words.index("-o")
         del words[out:out + 2]
@@ -237,23 +239,27 @@ def main():
     print(f"{len(chosen)} of {total} sources to look at", flush=True)
     begin = time.monotonic()
     analyzed = ANALYZED_DEEP if arguments.deep else ANALYZED
-    steps = sum(2 if source.path.startswith(analyzed) else 1 for source in chosen)
+    for source in chosen:
+        source.looks = 2 if source.path.startswith(analyzed) else 1
+    steps = sum(source.looks for source in chosen)
     made = itertools.count(1)
+    lock = threading.Lock()
 
     def progress(what, sources):
-        for source in sources:
-            print(f"[{next(made)}/{steps} {time.monotonic() - begin:.0f}s] {what} {source.path}", flush=True)
+        with lock:
+            for source in sources:
+                source.looks -= 1
+                if source.complaint:
+                    print(f"FAILED {source.path}\n{source.complaint}", flush=True)
+                elif source.looks == 0:
+                    with open(source.stamp, "w", encoding="utf-8") as file:
+                        file.write(source.path + "\n")
+                print(f"[{next(made)}/{steps} {time.monotonic() - begin:.0f}s] {what} {source.path}", flush=True)
 
     with tempfile.TemporaryDirectory(prefix="lint-", dir=BUILD) as folder:
         with ThreadPoolExecutor(max_workers=arguments.jobs) as pool:
             Linter(pool, folder, analyzed, progress).run(chosen)
     failed = [source for source in chosen if source.complaint]
-    for source in chosen:
-        if not source.complaint:
-            with open(source.stamp, "w", encoding="utf-8") as file:
-                file.write(source.path + "\n")
-    for source in failed:
-        print(f"FAILED {source.path}\n{source.complaint}")
     if failed:
         print("failed: " + " ".join(source.path for source in failed))
     return 1 if failed or orphans else 0
