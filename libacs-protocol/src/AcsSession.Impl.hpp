@@ -133,7 +133,6 @@ private:
     /// Everything that ends with the connection.
     void Forget(SessionActions& out);
     void End(SessionActions& out);
-    void CountAnswer(EAcsCommand command, EAckResult result);
     void Send(const AcsRequest& request, bool bDurable, StatusKey statusKey, Core::Now now, SessionActions& out);
     std::string SendPayload(AcsPayload payload, StatusKey statusKey, Core::Now now, SessionActions& out);
     /// After anything that may have made room or work: statuses first, then whoever was turned away.

@@ -22,37 +22,24 @@ void AcsSession::Impl::Answer(const AcsAck& answer, Core::Now now, SessionAction
     }
     if (IsUp())
     {
-        CountAnswer(answer.command, answer.result);
+        _output.statistics.Of(answer.command).CountAnswer(answer.result);
         out.emplace_back(SendText{0, _scratch, false});
     }
 }
 
-void AcsSession::Impl::CountAnswer(EAcsCommand command, EAckResult result)
-{
-    CommandCounters& counters = _output.statistics.Of(command);
-    ++counters.acknowledged;
-    counters.refused += result == EAckResult::Fail ? 1U : 0U;
-}
-
 void AcsSession::Impl::Refuse(const DecodeFailure& failure, bool bLegacyName, Core::Now now, SessionActions& out)
 {
-    const bool bForUs = failure.command.has_value() && IsSentByMcs(*failure.command);
-    const bool bKnown = failure.commandName.empty() || failure.bAck || bForUs;
-    _output.Note(
-        bKnown ? EProtocolNote::Undecodable : EProtocolNote::UnknownCommand,
-        Core::Describe(failure.error),
-        out);
-    const bool bAnswerable =
-        !failure.commandName.empty() && !failure.bAck && (!failure.command.has_value() || HasAck(*failure.command));
-    if (!IsUp() || !bAnswerable)
+    const Detail::ERefusal refusal = _output.NoteFailure(failure, true, out);
+    if (!IsUp() || refusal == Detail::ERefusal::None)
     {
         return;
     }
     const Core::Timestamp timestamp = Detail::MakeTimestamp(now, _siteOffset);
-    if (bForUs)
+    if (refusal == Detail::ERefusal::Failed)
     {
-        ++_output.statistics.Of(*failure.command).received;
-        CountAnswer(*failure.command, EAckResult::Fail);
+        CommandCounters& counters = _output.statistics.Of(*failure.command);
+        ++counters.received;
+        counters.CountAnswer(EAckResult::Fail);
         AcsAck ack{*failure.command, failure.transactionID, timestamp, EAckResult::Fail, {}, {}, bLegacyName};
         ack.message = Detail::MakeRefusal(failure);
         ack.payload = Detail::MakeRefusalPayload(failure);
@@ -101,7 +88,7 @@ void AcsSession::Impl::RefuseForeign(const AcsRequest& request, Core::Now now, S
     _output.Note(EProtocolNote::UnknownCommand, std::string(GetText(command)), out);
     if (HasAck(command))
     {
-        CountAnswer(command, EAckResult::Fail);
+        _output.statistics.Of(command).CountAnswer(EAckResult::Fail);
         AcsCodec::EncodeRefusal(
             GetText(command),
             request.transactionID,

@@ -277,9 +277,7 @@ private:
         {
             return;
         }
-        CommandCounters& counters = _output.statistics.Of(command);
-        ++counters.acknowledged;
-        counters.refused += result == EAckResult::Fail ? 1U : 0U;
+        _output.statistics.Of(command).CountAnswer(result);
         const Core::Timestamp timestamp = Detail::MakeTimestamp(now, _siteOffset);
         AcsCodec::EncodeAck(
             {command, request.transactionID, timestamp, result, std::string(message), EmptyAck{}, false},
@@ -325,30 +323,22 @@ private:
 
     void Refuse(ConnectionID connection, const DecodeFailure& failure, Core::Now now, SessionActions& out)
     {
-        const bool bForUs = failure.command.has_value() && !IsSentByMcs(*failure.command);
-        const bool bKnown = failure.commandName.empty() || failure.bAck || bForUs;
-        _output.Note(
-            bKnown ? EProtocolNote::Undecodable : EProtocolNote::UnknownCommand,
-            Core::Describe(failure.error),
-            out);
-        const bool bAnswerable =
-            !failure.commandName.empty() && !failure.bAck && (!failure.command.has_value() || HasAck(*failure.command));
-        if (_registered != connection || !bAnswerable || _options.bErrorsUnanswered)
+        const Detail::ERefusal refusal = _output.NoteFailure(failure, false, out);
+        if (_registered != connection || refusal == Detail::ERefusal::None || _options.bErrorsUnanswered)
         {
             return;
         }
-        if (bForUs)
+        if (refusal == Detail::ERefusal::Failed)
         {
             CommandCounters& counters = _output.statistics.Of(*failure.command);
             ++counters.received;
-            ++counters.acknowledged;
-            ++counters.refused;
+            counters.CountAnswer(EAckResult::Fail);
         }
         AcsCodec::EncodeRefusal(
             failure.commandName,
             failure.transactionID,
             Detail::MakeTimestamp(now, _siteOffset),
-            bForUs ? Detail::MakeRefusal(failure) : std::string(Detail::UNSUPPORTED),
+            refusal == Detail::ERefusal::Failed ? Detail::MakeRefusal(failure) : std::string(Detail::UNSUPPORTED),
             _scratch);
         out.emplace_back(SendText{connection, _scratch, false});
     }

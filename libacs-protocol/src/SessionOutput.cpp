@@ -1,5 +1,8 @@
 #include "SessionOutput.hpp"
 
+#include <acs/core/Result.hpp>
+#include <acs/protocol/EAcsCommand.hpp>
+
 #include <utility>
 
 namespace ACS::Protocol::Detail
@@ -43,6 +46,19 @@ void SessionOutput::CancelAll(SessionActions& out)
     {
         Cancel(static_cast<ESessionTimer>(index), out);
     }
+}
+
+ERefusal SessionOutput::NoteFailure(const DecodeFailure& failure, bool bTakesFromMcs, SessionActions& out)
+{
+    const bool bForUs = failure.command.has_value() && IsSentByMcs(*failure.command) == bTakesFromMcs;
+    const bool bKnown = failure.commandName.empty() || failure.bAck || bForUs;
+    Note(bKnown ? EProtocolNote::Undecodable : EProtocolNote::UnknownCommand, Core::Describe(failure.error), out);
+    const bool bHasAck = !failure.command.has_value() || HasAck(*failure.command);
+    if (failure.commandName.empty() || failure.bAck || !bHasAck)
+    {
+        return ERefusal::None;
+    }
+    return bForUs ? ERefusal::Failed : ERefusal::Unsupported;
 }
 
 bool SessionOutput::TryExpire(ESessionTimer timer)

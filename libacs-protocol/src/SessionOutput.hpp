@@ -14,6 +14,14 @@
 namespace ACS::Protocol::Detail
 {
 
+/// Which answer a message gets that cannot be read.
+enum class ERefusal : std::uint8_t
+{
+    None,       ///< No command, an Ack, or a command that has none: it is counted, that is all.
+    Failed,     ///< A command of the other side's: Fail, and what is wrong with it.
+    Unsupported ///< Any other command: Fail, "unsupported command".
+};
+
 /// What both sessions do alike when they put out actions: counting what they note, and knowing which timers run.
 class SessionOutput
 {
@@ -24,6 +32,10 @@ public:
 
     void Note(EProtocolNote what, std::string detail, SessionActions& out, std::uint32_t count = 1);
     void NoteAll(const DecodeNotes& notes, SessionActions& out);
+
+    /// Counts a message that cannot be read, and says how it is answered by a side that takes such commands from the
+    /// MCS, or from the ACS.
+    [[nodiscard]] ERefusal NoteFailure(const DecodeFailure& failure, bool bTakesFromMcs, SessionActions& out);
 
     void Start(ESessionTimer timer, std::chrono::milliseconds delay, SessionActions& out);
     /// Nothing where it does not run.

@@ -345,16 +345,21 @@ TEST_CASE("An action of before a restart is let to its end")
     CHECK_FALSE(vehicle.TakeEvents<Planning::StateChanged>().back().bOccupied);
 }
 
-TEST_CASE("A drive whose update is refused is given up only when the vehicle stands: until then it drives on its base")
+/// The vehicle drives from A towards B; the update that releases C is sent, and not yet shown.
+void SendUnseenUpdate(VehicleFixture& vehicle)
 {
-    VehicleFixture vehicle;
     vehicle.ComeOnline();
     vehicle.Command(MakeDrive());
-    const auto order = vehicle.TakeOrders().at(0);
-    vehicle.ShowOrder(order, {"B", "C"});
+    vehicle.ShowOrder(vehicle.TakeOrders().at(0), {"B", "C"});
     vehicle.ShowState();
     vehicle.Command(Planning::ExtendDrive{"D", 3});
     REQUIRE(vehicle.TakeOrders().size() == 1);
+}
+
+TEST_CASE("A drive whose update is refused is given up only when the vehicle stands: until then it drives on its base")
+{
+    VehicleFixture vehicle;
+    SendUnseenUpdate(vehicle);
     VDA5050::VehicleError error;
     error.errorType = "orderUpdateError";
     error.errorDescription = "no such edge";
@@ -382,13 +387,7 @@ TEST_CASE("A drive whose update is refused is given up only when the vehicle sta
 TEST_CASE("When cancelling fails, the update that was withdrawn for it is sent again, and the drive goes on")
 {
     VehicleFixture vehicle;
-    vehicle.ComeOnline();
-    vehicle.Command(MakeDrive());
-    const auto order = vehicle.TakeOrders().at(0);
-    vehicle.ShowOrder(order, {"B", "C"});
-    vehicle.ShowState();
-    vehicle.Command(Planning::ExtendDrive{"D", 3});
-    REQUIRE(vehicle.TakeOrders().size() == 1);
+    SendUnseenUpdate(vehicle);
     vehicle.Command(Planning::CancelDrive{"D"});
     const auto cancel = vehicle.codec.Decode<VDA5050::InstantActionsMessage>(vehicle.outputs.messages.back().payload);
     REQUIRE(cancel);

@@ -229,20 +229,6 @@ TEST_CASE("9 Every connection begins with the present status of every robot")
     CHECK(std::get<Protocol::RobotStatusUpdate>(requests[0].payload).robotStatus == Protocol::ERobotStatus::Error);
 }
 
-TEST_CASE("13.9 An Ack with a foreign transactionId belongs to the oldest request of its command")
-{
-    Bench bench;
-    bench.StartAndReplay();
-    REQUIRE(bench.TrySend("a"));
-    REQUIRE(bench.TrySend("b"));
-    bench.Text(MakeAckText("PlanReport", "zzz"));
-    CHECK(bench.probe.GetEvents<Protocol::Acked>().at(0).transactionID == "a");
-    CHECK(bench.probe.GetNotes() == Notes{EProtocolNote::AckMismatched});
-    CHECK(bench.session.GetStatistics().CountOf(EProtocolNote::AckMismatched) == 1);
-    bench.Text(MakeAckText("StepReport", "zzz"));
-    CHECK(bench.probe.GetNotes() == Notes{EProtocolNote::AckUnexpected});
-}
-
 TEST_CASE("D-4 The second Ack of a message that was sent twice is not taken for that of another one")
 {
     Bench bench;

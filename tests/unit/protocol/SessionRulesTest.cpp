@@ -419,6 +419,8 @@ TEST_CASE("13.9 An Ack with a wrong transactionId counts for the oldest request 
     bench.Text(MakeAckText("PlanReport", "wrong"));
     CHECK(bench.probe.GetEvents<Protocol::Acked>().at(0).transactionID == "a");
     CHECK(bench.session.GetStatistics().CountOf(EProtocolNote::AckMismatched) == 1);
+    bench.Text(MakeAckText("StepReport", "wrong"));
+    CHECK(bench.session.GetStatistics().CountOf(EProtocolNote::AckUnexpected) == 1);
 
     McsSide side;
     REQUIRE(side.TrySend(Protocol::CancelPlan{"P", ""}));

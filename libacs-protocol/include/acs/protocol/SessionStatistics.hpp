@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/protocol/EAckResult.hpp>
 #include <acs/protocol/EAcsCommand.hpp>
 #include <acs/protocol/SessionEvent.hpp>
 
@@ -19,6 +20,13 @@ struct CommandCounters
     std::uint64_t acknowledged = 0; ///< Requests of the other side that were answered, with either result.
     std::uint64_t refused = 0;      ///< Of these with Fail.
     std::uint64_t answered = 0;     ///< Own requests for which an Ack came.
+
+    /// A request of the other side is answered.
+    void CountAnswer(EAckResult result)
+    {
+        ++acknowledged;
+        refused += result == EAckResult::Fail ? 1U : 0U;
+    }
 
     bool operator==(const CommandCounters&) const = default;
 };
