@@ -6,9 +6,9 @@
 #include "LiveView.hpp"
 #include "PlanFile.hpp"
 #include "PlanRefresher.hpp"
+#include "PlanSender.hpp"
 #include "PlanTracker.hpp"
 #include "RobotBoard.hpp"
-#include "RobotNaming.hpp"
 #include "ScenarioSequence.hpp"
 #include "ScenarioSummary.hpp"
 #include "Screen.hpp"
@@ -22,7 +22,6 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <set>
 #include <utility>
 #include <variant>
 
@@ -72,18 +71,15 @@ class McsSimulator::Impl final : private ProtocolBeast::ISessionHandler
     boost::asio::any_io_executor _executor;
 
     PlanTracker _tracker;
-    std::size_t _freshCount; ///< The first plans of the tracker, made for this run.
     PlanRefresher _refresher;
-    std::set<std::size_t> _freshPlans;  ///< More plans that were made for this run.
-    std::deque<std::size_t> _heldPlans; ///< Of a scenario, until the ACS has told of a robot for them.
     RobotBoard _board;
+    PlanSender _sender;
     ScenarioSequence _scenarios;
     std::deque<std::string> _inbox; ///< What came from the ACS, for the scenarios.
     LiveView _view;
     ViewHeading _heading;
     PlanTracker::Lines _lines;
     Core::SteadyTime _started;
-    std::optional<Core::SteadyTime> _firstSent;
     std::optional<Core::SteadyTime> _finished;
     bool _bReleased = false;
     bool _bEnding = false;
@@ -112,8 +108,15 @@ public:
           _onDone(std::move(onDone)),
           _executor(executor),
           _tracker(std::move(plans), options.profile == EProfile::Spec),
-          _freshCount(options.bFreshPlans ? _tracker.GetPlans().size() : 0),
           _refresher(random, options.date),
+          _sender(
+              _tracker,
+              _board,
+              options.profile,
+              options.bFreshPlans,
+              [this](const Protocol::ExecutionPlan& plan, const std::string& transactionID) {
+                  return TrySendPlan(plan, transactionID);
+              }),
           _scenarios(options.scenarios, random, options.date),
           _view(options.columns, options.rows),
           _started(clock.GetNow().steady),
@@ -231,7 +234,7 @@ private:
         }
         _refresher.Refresh(*planned);
         _lines.push_back(planned->plan.planID + " is the plan of " + CleanText(path));
-        _freshPlans.insert(_tracker.AddPlan(std::move(*planned)));
+        _sender.Add(std::move(*planned), true);
         SendDue();
     }
 
@@ -343,7 +346,9 @@ private:
     {
         return std::visit(
             Core::Overloaded{
-                [this](const SendPlannedPlan& send) { return TrySendOrHold(send); },
+                [this](const SendPlannedPlan& send) {
+                    return _sender.TrySendOrHold(send.planned, send.bFreshIDs, _clock.GetNow(), _lines);
+                },
                 [this](const SendPayload& send) {
                     _lines.push_back(fmt::format("{} sent", GetText(GetCommand(send.payload))));
                     return _server->TrySend(_server->MakeRequest(send.payload));
@@ -433,79 +438,19 @@ private:
         {
             return;
         }
-        SendHeld();
-        if (!_scenarios.IsEmpty())
-        {
-            return;
-        }
-        std::optional<std::size_t> next = _tracker.GetNextToSendOrNull(_clock.GetNow());
-        // Where the link has just gone, or is full, the next event or tick tries again.
-        while (next.has_value() && TrySendPlan(*next))
-        {
-            next = _tracker.GetNextToSendOrNull(_clock.GetNow());
-        }
-    }
-
-    /// True where it was sent, or waits for a robot.
-    [[nodiscard]] bool TrySendOrHold(const SendPlannedPlan& send)
-    {
-        const std::size_t index = _tracker.AddPlan(send.planned);
-        if (send.bFreshIDs)
-        {
-            _freshPlans.insert(index);
-        }
-        if (IsNamed(index))
-        {
-            return TrySendPlan(index);
-        }
-        _heldPlans.push_back(index);
-        return true;
-    }
-
-    void SendHeld()
-    {
-        while (!_heldPlans.empty() && IsNamed(_heldPlans.front()) && TrySendPlan(_heldPlans.front()))
-        {
-            _heldPlans.pop_front();
-        }
-    }
-
-    /// Whether the plan can go as it is. Names its robot where the profile wants that and one is known.
-    [[nodiscard]] bool IsNamed(std::size_t index)
-    {
-        const TrackedPlan& tracked = _tracker.GetPlans()[index];
-        const bool bFresh = index < _freshCount || _freshPlans.contains(index);
-        if (_options.profile != EProfile::Nexus || !bFresh || !NeedsRobot(tracked.planned.plan))
-        {
-            return true;
-        }
-        const std::optional<std::string> robotID = ChooseRobotOrNull(tracked.planned.plan, _board, index);
-        if (robotID.has_value())
-        {
-            Protocol::ExecutionPlan named = tracked.planned.plan;
-            NameRobot(named, *robotID);
-            _tracker.ReplacePlan(index, named);
-        }
-        return robotID.has_value();
-    }
-
-    [[nodiscard]] bool TrySendPlan(std::size_t index)
-    {
-        if (!IsNamed(index))
-        {
-            return false;
-        }
-        const PlannedPlan& planned = _tracker.GetPlans()[index].planned;
-        Protocol::AcsRequest request = _server->MakeRequest(planned.plan);
-        request.transactionID = planned.transactionID;
-        if (!_server->TrySend(request))
-        {
-            return false;
-        }
         const Core::Now now = _clock.GetNow();
-        _firstSent = _firstSent.value_or(now.steady);
-        _tracker.OnSent(index, now, _lines);
-        return true;
+        _sender.SendHeld(now, _lines);
+        if (_scenarios.IsEmpty())
+        {
+            _sender.SendDue(now, _lines);
+        }
+    }
+
+    [[nodiscard]] bool TrySendPlan(const Protocol::ExecutionPlan& plan, const std::string& transactionID)
+    {
+        Protocol::AcsRequest request = _server->MakeRequest(plan);
+        request.transactionID = transactionID;
+        return _server->TrySend(request);
     }
 
     void OnTimer(ETimer timer)
@@ -578,7 +523,7 @@ private:
         Flush();
         Draw();
         const Core::SteadyTime end = _finished.value_or(_clock.GetNow().steady);
-        const auto duration = GetMilliseconds(end - _firstSent.value_or(end));
+        const auto duration = GetMilliseconds(end - _sender.GetFirstSentOrNull().value_or(end));
         const Protocol::SessionStatistics none{};
         const auto& statistics = _server == nullptr ? none : _server->GetStatistics();
         if (_screenOrNull != nullptr)

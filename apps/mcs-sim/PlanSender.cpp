@@ -1,0 +1,103 @@
+#include "PlanSender.hpp"
+
+#include "RobotNaming.hpp"
+
+#include <utility>
+
+namespace ACS::McsSim
+{
+
+PlanSender::PlanSender(
+    PlanTracker& tracker,
+    const RobotBoard& board,
+    EProfile profile,
+    bool bFreshPlans,
+    TrySendPlan trySend)
+    : _tracker(tracker),
+      _board(board),
+      _profile(profile),
+      _trySend(std::move(trySend))
+{
+    for (std::size_t i = 0; bFreshPlans && i < tracker.GetPlans().size(); ++i)
+    {
+        _freshPlans.insert(i);
+    }
+}
+
+void PlanSender::Add(PlannedPlan planned, bool bFresh)
+{
+    const std::size_t index = _tracker.AddPlan(std::move(planned));
+    if (bFresh)
+    {
+        _freshPlans.insert(index);
+    }
+}
+
+bool PlanSender::TrySendOrHold(const PlannedPlan& planned, bool bFresh, Core::Now now, PlanTracker::Lines& lines)
+{
+    Add(planned, bFresh);
+    const std::size_t index = _tracker.GetPlans().size() - 1;
+    if (IsNamed(index))
+    {
+        return TrySend(index, now, lines);
+    }
+    _heldPlans.push_back(index);
+    return true;
+}
+
+void PlanSender::SendHeld(Core::Now now, PlanTracker::Lines& lines)
+{
+    while (!_heldPlans.empty() && TrySend(_heldPlans.front(), now, lines))
+    {
+        _heldPlans.pop_front();
+    }
+}
+
+void PlanSender::SendDue(Core::Now now, PlanTracker::Lines& lines)
+{
+    std::optional<std::size_t> next = _tracker.GetNextToSendOrNull(now);
+    while (next.has_value() && TrySend(*next, now, lines))
+    {
+        next = _tracker.GetNextToSendOrNull(now);
+    }
+}
+
+std::optional<Core::SteadyTime> PlanSender::GetFirstSentOrNull() const noexcept
+{
+    return _firstSent;
+}
+
+bool PlanSender::TrySend(std::size_t index, Core::Now now, PlanTracker::Lines& lines)
+{
+    if (!IsNamed(index))
+    {
+        return false;
+    }
+    const PlannedPlan& planned = _tracker.GetPlans()[index].planned;
+    if (!_trySend(planned.plan, planned.transactionID))
+    {
+        return false;
+    }
+    _firstSent = _firstSent.value_or(now.steady);
+    _tracker.OnSent(index, now, lines);
+    return true;
+}
+
+bool PlanSender::IsNamed(std::size_t index)
+{
+    const TrackedPlan& tracked = _tracker.GetPlans()[index];
+    if (_profile != EProfile::Nexus || !_freshPlans.contains(index) || !NeedsRobot(tracked.planned.plan))
+    {
+        return true;
+    }
+    const std::optional<std::string> robotID = ChooseRobotOrNull(tracked.planned.plan, _board, index);
+    if (robotID.has_value())
+    {
+        Protocol::ExecutionPlan named = tracked.planned.plan;
+        NameRobot(named, *robotID);
+        _tracker.ReplacePlan(index, named);
+    }
+    return robotID.has_value();
+}
+
+} // namespace ACS::McsSim
