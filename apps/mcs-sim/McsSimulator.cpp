@@ -135,6 +135,7 @@ public:
             OnWire(direction, connection, text);
         };
         server.session = MakeSessionOptions(_options.profile);
+        server.link.bLastFrameOnly = _options.profile == EProfile::Nexus;
         server.session.ackTimeout = PlanTracker::RESEND_AFTER;
         server.session.codec.siteOffset = _options.siteOffset;
         auto created = ProtocolBeast::McsServer::Create(_executor, _clock, _random, _logger, server, *this);

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -221,9 +222,37 @@ private:
 
     void ReadAsync()
     {
+        if (_options.bLastFrameOnly)
+        {
+            ReadPieceAsync();
+            return;
+        }
         _stream.async_read(_buffer, [self = this->shared_from_this()](ErrorCode error, std::size_t /*count*/) {
             self->OnRead(error);
         });
+    }
+
+    void ReadPieceAsync()
+    {
+        _stream.async_read_some(_buffer, 0, [self = this->shared_from_this()](ErrorCode error, std::size_t /*count*/) {
+            self->OnPiece(error);
+        });
+    }
+
+    void OnPiece(ErrorCode error)
+    {
+        if (error || _bFinished || _stream.is_message_done())
+        {
+            OnRead(error);
+            return;
+        }
+        // Beast does not tell where frames end, but its hint is the rest of the frame only where that is the last one.
+        constexpr std::size_t unknown = std::numeric_limits<std::size_t>::max();
+        if (_stream.read_size_hint(unknown) == unknown)
+        {
+            _buffer.consume(_buffer.size());
+        }
+        ReadPieceAsync();
     }
 
     void OnRead(ErrorCode error)

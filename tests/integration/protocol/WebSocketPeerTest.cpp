@@ -333,6 +333,25 @@ TEST_CASE("1 Fragments that are too long together are answered with 1009")
     CHECK(rig.WaitForCloseCode() == 1009);
 }
 
+TEST_CASE("12.1 By option only the last frame of a fragmented message is read; a long frame is read whole")
+{
+    ServerRig rig;
+    rig.serverOptions.link.bLastFrameOnly = true;
+    rig.RegisterRaw();
+    const std::string lost = Encode(MakeReport("lost"));
+    rig.peer->Write(MakeFrame({EFrame::Text, lost.substr(0, 20), false}, true));
+    rig.peer->Write(MakeFrame({EFrame::Continuation, lost.substr(20, 20), false}, true));
+    rig.peer->Write(MakeFrame({EFrame::Continuation, lost.substr(40), true}, true));
+    rig.peer->Write(MakeFrame({EFrame::Text, "lost as well", false}, true));
+    rig.peer->Write(MakeFrame({EFrame::Continuation, Encode(MakeReport("end")), true}, true));
+    rig.peer->Write(MakeFrame({EFrame::Text, std::string(1'000'000, ' ') + Encode(MakeReport("long")), true}, true));
+    const auto& events = rig.mcsEvents;
+    REQUIRE(rig.WasReached([&events] { return events.GetAll<Protocol::RequestReceived>().size() == 2; }));
+    CHECK(events.GetAll<Protocol::RequestReceived>()[0].request == MakeReport("end"));
+    CHECK(events.GetAll<Protocol::RequestReceived>()[1].request == MakeReport("long"));
+    CHECK(rig.server->GetStatistics().CountOf(Protocol::EProtocolNote::Undecodable) == 1);
+}
+
 TEST_CASE("1 A half-open peer that answers no ping is dropped, by either side")
 {
     SECTION("server")
@@ -395,7 +414,11 @@ TEST_CASE("1 Extra headers and another Host stand in the upgrade; what would bre
 
     using Header = std::pair<std::string, std::string>;
     for (const Header& bad :
-         {Header{"X-A", "secret\r\nEvil: 1"}, Header{"X A", "1"}, Header{"", "1"}, Header{"X-A:", "1"}})
+         {Header{"X-A", "secret\r\nEvil: 1"},
+          Header{"X A", "1"},
+          Header{"", "1"},
+          Header{"X-A:", "1"},
+          Header{"upgrade", "h2c"}})
     {
         rig.clientOptions.headers = {bad};
         const auto refused = rig.TryMakeClient(rig.acsEvents);
