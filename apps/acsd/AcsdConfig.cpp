@@ -91,11 +91,34 @@ void ReadMcsTls(const ConfigSection& mcs, const std::string& fileName, McsConfig
     }
 }
 
+void ReadMcsHeaders(const ConfigSection& mcs, McsConfig& config)
+{
+    if (!mcs.HasKey("headers"))
+    {
+        return;
+    }
+    const ConfigSection section = mcs.GetSection("headers");
+    for (const std::string& name : section.GetNames())
+    {
+        const ProtocolBeast::HttpHeaders header{{name, section.GetString(name)}};
+        const Core::Result<void> checked = ProtocolBeast::CheckHttpHeaders(header);
+        if (checked.has_value())
+        {
+            config.headers.push_back(header[0]);
+        }
+        else
+        {
+            section.AddMistake(name, "expected " + checked.error().expected);
+        }
+    }
+}
+
 void ReadLinks(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
 {
     const ConfigSection mcs = root.GetSection("mcs");
     config.mcs.url = mcs.GetUrl("url", {EUrlScheme::Ws, EUrlScheme::Wss});
     ReadMcsTls(mcs, fileName, config.mcs);
+    ReadMcsHeaders(mcs, config.mcs);
     config.mcs.ackTimeout = mcs.GetDuration("ack_timeout", 10ms, 10min, config.mcs.ackTimeout);
     config.mcs.ackRetries =
         static_cast<unsigned>(mcs.GetInteger("ack_retries", 0, MOST_RETRIES, config.mcs.ackRetries));

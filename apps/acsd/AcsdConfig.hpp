@@ -5,6 +5,7 @@
 #include "common/Url.hpp"
 #include <acs/plan/EngineOptions.hpp>
 #include <acs/plan/SiteMap.hpp>
+#include <acs/protocol_beast/HttpHeaders.hpp>
 #include <acs/protocol_beast/TlsOptions.hpp>
 
 #include <chrono>
@@ -22,7 +23,8 @@ namespace ACS::Acsd
 struct McsConfig
 {
     Apps::Url url;
-    ProtocolBeast::TlsOptions tls{}; ///< For wss; its files are good.
+    ProtocolBeast::TlsOptions tls{};    ///< For wss; its files are good.
+    ProtocolBeast::HttpHeaders headers; ///< Of the upgrade, besides its own.
     std::chrono::milliseconds ackTimeout{5'000};
     unsigned ackRetries = 3;
     std::chrono::milliseconds pingInterval{10'000};

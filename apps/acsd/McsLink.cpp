@@ -20,6 +20,7 @@ ProtocolBeast::ClientOptions MakeOptions(const AcsdConfig& config)
     ProtocolBeast::ClientOptions options;
     options.url = Apps::MakeText(config.mcs.url);
     options.tls = config.mcs.tls;
+    options.headers = config.mcs.headers;
     options.link.pingInterval = config.mcs.pingInterval;
     options.session.ackTimeout = config.mcs.ackTimeout;
     options.session.ackRetries = config.mcs.ackRetries;

@@ -1,6 +1,5 @@
 #include "ActionPump.hpp"
 #include "EventQueue.hpp"
-#include "HttpHeaders.hpp"
 #include "PlainTransport.hpp"
 #include "TlsTransport.hpp"
 #include "WebSocketUrl.hpp"
@@ -240,7 +239,8 @@ Core::Result<std::unique_ptr<AcsClient>> AcsClient::Create(
     {
         return tl::unexpected<Core::Error>(std::move(url.error()));
     }
-    Core::Result<void> headers = CheckHeaders(options);
+    Core::Result<void> headers =
+        CheckHostHeader(options.host).and_then([&] { return CheckHttpHeaders(options.headers); });
     if (!headers.has_value())
     {
         return tl::unexpected<Core::Error>(std::move(headers.error()));

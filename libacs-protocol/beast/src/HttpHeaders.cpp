@@ -1,8 +1,9 @@
-#include "HttpHeaders.hpp"
-
 #include <acs/core/ECoreError.hpp>
+#include <acs/protocol_beast/HttpHeaders.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <string>
 #include <string_view>
 
@@ -28,19 +29,28 @@ bool IsFieldValue(std::string_view text)
     });
 }
 
+std::string MakeLower(std::string_view text)
+{
+    std::string lower(text);
+    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char letter) {
+        return static_cast<char>(std::tolower(letter));
+    });
+    return lower;
+}
+
+bool IsMadeByUpgrade(std::string_view name)
+{
+    constexpr std::array<std::string_view, 5> MADE =
+        {"host", "connection", "upgrade", "content-length", "transfer-encoding"};
+    const std::string lower = MakeLower(name);
+    return lower.starts_with("sec-websocket-") || std::find(MADE.begin(), MADE.end(), lower) != MADE.end();
+}
+
 } // namespace
 
-Core::Result<void> CheckHeaders(const ClientOptions& options)
+Core::Result<void> CheckHttpHeaders(const HttpHeaders& headers)
 {
-    if (!IsFieldValue(options.host))
-    {
-        return Core::Fail(
-            Core::ECoreError::OutOfRange,
-            "host",
-            "a host without control characters",
-            Core::QuoteForError(options.host));
-    }
-    for (const auto& [name, value] : options.headers)
+    for (const auto& [name, value] : headers)
     {
         if (!IsToken(name))
         {
@@ -50,13 +60,30 @@ Core::Result<void> CheckHeaders(const ClientOptions& options)
                 "the name of an HTTP header",
                 Core::QuoteForError(name));
         }
-        if (!IsFieldValue(value))
+        if (IsMadeByUpgrade(name))
         {
             return Core::Fail(
                 Core::ECoreError::OutOfRange,
                 "headers." + name,
-                "a value without control characters"); // which may be a password: not shown
+                "a header that the WebSocket upgrade does not make itself");
         }
+        if (!IsFieldValue(value))
+        {
+            return Core::Fail(Core::ECoreError::OutOfRange, "headers." + name, "a value without control characters");
+        }
+    }
+    return {};
+}
+
+Core::Result<void> CheckHostHeader(std::string_view host)
+{
+    if (!IsFieldValue(host))
+    {
+        return Core::Fail(
+            Core::ECoreError::OutOfRange,
+            "host",
+            "a host without control characters",
+            Core::QuoteForError(host));
     }
     return {};
 }

@@ -71,3 +71,20 @@ TEST_CASE("mcs.tls with a ws URL is a mistake: it would encrypt nothing")
     REQUIRE(mistakes.size() == 1);
     CHECK(mistakes[0].find("mcs.tls: is for wss:// only") != std::string::npos);
 }
+
+TEST_CASE("mcs.headers go with the upgrade; what would break it is a mistake that does not show the value")
+{
+    CHECK(Read({}).mcs.headers.empty());
+    const Acsd::AcsdConfig config = Read({"mcs.headers.Authorization=Bearer secret", "mcs.headers.X-Site=A"});
+    CHECK(config.mistakes.empty());
+    CHECK(config.mcs.headers == ProtocolBeast::HttpHeaders{{"Authorization", "Bearer secret"}, {"X-Site", "A"}});
+
+    const auto control = Read({R"(mcs.headers.X-Key="secret\r\nX-Other: 1")"}).mistakes;
+    REQUIRE(control.size() == 1);
+    CHECK(control[0].find("mcs.headers.X-Key: expected a value without control characters") != std::string::npos);
+    CHECK(control[0].find("secret") == std::string::npos);
+    const auto own = Read({"mcs.headers.Sec-WebSocket-Key=x"}).mistakes;
+    REQUIRE(own.size() == 1);
+    CHECK(own[0].find("mcs.headers.Sec-WebSocket-Key: expected a header that") != std::string::npos);
+    CHECK(Read({"mcs.headers.X-Number=1"}).mistakes.size() == 1);
+}

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <acs/protocol/SessionOptions.hpp>
+#include <acs/protocol_beast/HttpHeaders.hpp>
 #include <acs/protocol_beast/TlsOptions.hpp>
 
 #include <chrono>
 #include <cstddef>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace ACS::ProtocolBeast
 {
@@ -21,15 +20,17 @@ struct LinkOptions
     std::size_t pingMisses = 2;                         ///< Unanswered intervals after which the link is dead.
     std::size_t maximumRead = 4U * 1024U * 1024U;       ///< `mcs.max_rx_bytes`: longest message.
     std::size_t maximumQueued = 16U * 1024U * 1024U; ///< Bytes that wait to be written; beyond it the link is dropped.
+    bool bLastFrameOnly =
+        false; ///< A habit of the public MCS (section 12): of a fragmented message its end is read only.
 };
 
 /// Where and how an AcsClient connects.
 struct ClientOptions
 {
-    std::string url;                                          ///< `mcs.url`: ws://host[:port][/path] or wss://…
-    std::string host;                                         ///< Host header, where it must differ from the URL's.
-    std::vector<std::pair<std::string, std::string>> headers; ///< `mcs.headers`, for example Authorization.
-    TlsOptions tls{};                                         ///< For wss; refused with ws where anything is in it.
+    std::string url;     ///< `mcs.url`: ws://host[:port][/path] or wss://…
+    std::string host;    ///< Host header, where it must differ from the URL's.
+    HttpHeaders headers; ///< `mcs.headers`, for example Authorization.
+    TlsOptions tls{};    ///< For wss; refused with ws where anything is in it.
     LinkOptions link{};
     Protocol::SessionOptions session{};
 };
