@@ -39,6 +39,19 @@ class WholeLine(ScenarioCase):
         self.assertEqual(self.exit_code, 0)
         self.assert_last_line(mcs, "2 plans completed, 0 failed")
 
+    def test_acsd_starts_again_on_what_it_has_stored(self):
+        arm = self.start_robots()
+        mcs = self.line.start_mcs(PLANS[:1], "--fresh-ids")
+        acsd = self.line.start_acsd(mcs.wait_ready()["ws"], arm)
+        acsd.wait_ready()
+        self.assertEqual(mcs.wait(FINISH_SECONDS), 0)
+        self.line.forget(acsd)
+        self.assertEqual(acsd.stop(), 0)
+        again = self.line.start_mcs(PLANS[:1])  # under its own ids: the store knows none of them
+        self.line.start_acsd(again.wait_ready()["ws"], arm).wait_ready()
+        self.assertEqual(again.wait(FINISH_SECONDS), 0)
+        self.assert_last_line(again, "1 plans completed, 0 failed")
+
     def test_a_cut_of_three_seconds_in_mid_plan_costs_nothing(self):
         reports = []
         cut_once = threading.Event()

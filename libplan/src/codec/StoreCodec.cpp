@@ -41,40 +41,23 @@ struct ReportText
     std::string message;
 };
 
+/// A PlanProgress whose times are counted: nothing of them is lost.
+struct ProgressText
+{
+    EPlanState state = EPlanState::Pending;
+    std::string robotID;
+    std::string message;
+    std::optional<std::int64_t> startedAt;
+    std::optional<std::int64_t> endedAt;
+    std::vector<StepProgress> steps;
+};
+
 } // namespace
 
 } // namespace ACS::Planning
 
 namespace ACS::Json
 {
-
-template <>
-struct ValueDecoder<Core::WallTime>
-{
-    [[nodiscard]] static bool TryDecode(
-        const Value& value,
-        Core::WallTime& out,
-        const FieldBounds& bounds,
-        DecodeContext& context)
-    {
-        std::int64_t count = 0;
-        if (!ValueDecoder<std::int64_t>::TryDecode(value, count, bounds, context))
-        {
-            return false;
-        }
-        out = Core::WallTime(Core::WallTime::duration(count));
-        return true;
-    }
-};
-
-template <>
-struct ValueEncoder<Core::WallTime>
-{
-    static void Encode(Core::WallTime value, JsonWriter& writer)
-    {
-        writer.WriteInteger(value.time_since_epoch().count());
-    }
-};
 
 template <>
 struct EnumWords<Planning::EReportKind>
@@ -127,15 +110,15 @@ struct JsonFields<Planning::StepProgress>
 };
 
 template <>
-struct JsonFields<Planning::PlanProgress>
+struct JsonFields<Planning::ProgressText>
 {
     static constexpr auto FIELDS = std::make_tuple(
-        Required("state", &Planning::PlanProgress::state),
-        Optional("robotId", &Planning::PlanProgress::robotID),
-        Optional("message", &Planning::PlanProgress::message),
-        Optional("startedAt", &Planning::PlanProgress::startedAt),
-        Optional("endedAt", &Planning::PlanProgress::endedAt),
-        Required("steps", &Planning::PlanProgress::steps));
+        Required("state", &Planning::ProgressText::state),
+        Optional("robotId", &Planning::ProgressText::robotID),
+        Optional("message", &Planning::ProgressText::message),
+        Optional("startedAt", &Planning::ProgressText::startedAt),
+        Optional("endedAt", &Planning::ProgressText::endedAt),
+        Required("steps", &Planning::ProgressText::steps));
 };
 
 template <>
@@ -211,6 +194,16 @@ Core::Result<TValue> DecodeText(std::string_view text)
         return tl::unexpected(context.TakeError());
     }
     return value;
+}
+
+std::optional<std::int64_t> MakeCountOrNull(const std::optional<Core::WallTime>& time)
+{
+    return time.has_value() ? std::optional<std::int64_t>(time->time_since_epoch().count()) : std::nullopt;
+}
+
+std::optional<Core::WallTime> MakeTimeOrNull(std::optional<std::int64_t> count)
+{
+    return count.has_value() ? std::optional(Core::WallTime(Core::WallTime::duration(*count))) : std::nullopt;
 }
 
 ReportText MakeText(const PlanReport& report)
@@ -312,12 +305,26 @@ Core::Result<Plan> DecodePlan(std::string_view text)
 
 std::string EncodeProgress(const PlanProgress& progress)
 {
-    return EncodeText(progress);
+    return EncodeText(ProgressText{
+        progress.state,
+        progress.robotID,
+        progress.message,
+        MakeCountOrNull(progress.startedAt),
+        MakeCountOrNull(progress.endedAt),
+        progress.steps});
 }
 
 Core::Result<PlanProgress> DecodeProgress(std::string_view text)
 {
-    return DecodeText<PlanProgress>(text);
+    return DecodeText<ProgressText>(text).map([](ProgressText&& read) {
+        return PlanProgress{
+            read.state,
+            std::move(read.robotID),
+            std::move(read.message),
+            MakeTimeOrNull(read.startedAt),
+            MakeTimeOrNull(read.endedAt),
+            std::move(read.steps)};
+    });
 }
 
 std::string EncodeReport(const Report& report)
