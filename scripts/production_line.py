@@ -37,7 +37,7 @@ def _die_with_parent():
 class Program:
     """A child process whose output goes to a log file; its standard output is watched for the ready line too."""
 
-    def __init__(self, name, argv, folder, on_output=None, stdin=subprocess.DEVNULL, environment=None):
+    def __init__(self, name, argv, folder, on_output=None, stdin=subprocess.DEVNULL, environment=None, bufsize=-1):
         self.name = name
         self.log = pathlib.Path(folder) / f"{name}.log"
         self.addresses = {}
@@ -47,7 +47,7 @@ class Program:
         try:
             self.process = subprocess.Popen(
                 argv, cwd=folder, env=environment, stdin=stdin, stdout=subprocess.PIPE, stderr=self._log_file,
-                start_new_session=True, preexec_fn=_die_with_parent)
+                bufsize=bufsize, start_new_session=True, preexec_fn=_die_with_parent)
         except OSError as error:
             raise LineError(f"{name} cannot be started: {error.strerror}: {argv[0]}") from error
         self._reader = threading.Thread(target=self._read, daemon=True)

@@ -348,7 +348,8 @@ private:
         return std::visit(
             Core::Overloaded{
                 [this](const SendPlannedPlan& send) {
-                    return _sender.TrySendOrHold(send.planned, send.bFreshIDs, _clock.GetNow(), _lines);
+                    const bool bTaken = !_server->IsRegistered() || _server->IsTakingPlans();
+                    return _sender.TrySendOrHold(send.planned, send.bFreshIDs, bTaken, _clock.GetNow(), _lines);
                 },
                 [this](const SendPayload& send) {
                     _lines.push_back(fmt::format("{} sent", GetText(GetCommand(send.payload))));

@@ -33,11 +33,16 @@ void PlanSender::Add(PlannedPlan planned, bool bFresh)
     }
 }
 
-bool PlanSender::TrySendOrHold(const PlannedPlan& planned, bool bFresh, Core::Now now, PlanTracker::Lines& lines)
+bool PlanSender::TrySendOrHold(
+    const PlannedPlan& planned,
+    bool bFresh,
+    bool bPlansTaken,
+    Core::Now now,
+    PlanTracker::Lines& lines)
 {
     Add(planned, bFresh);
     const std::size_t index = _tracker.GetPlans().size() - 1;
-    if (IsNamed(index))
+    if (bPlansTaken && IsNamed(index))
     {
         return TrySend(index, now, lines);
     }

@@ -31,7 +31,7 @@ private:
     EProfile _profile;
     TrySendPlan _trySend;
     std::set<std::size_t> _freshPlans;  ///< Made for this run; the others go as they were written.
-    std::deque<std::size_t> _heldPlans; ///< Of a scenario, until the ACS has told of a robot for them.
+    std::deque<std::size_t> _heldPlans; ///< Of a scenario, until the ACS takes plans and has told of a robot.
     std::optional<Core::SteadyTime> _firstSent;
 
 public:
@@ -42,10 +42,15 @@ public:
     /// One more plan, for SendDue.
     void Add(PlannedPlan planned, bool bFresh);
 
-    /// One more plan, now. True where it was sent, or waits for a robot.
-    [[nodiscard]] bool TrySendOrHold(const PlannedPlan& planned, bool bFresh, Core::Now now, PlanTracker::Lines& lines);
+    /// One more plan, now. True where it was sent, or waits for a robot, or for an ACS that takes plans again.
+    [[nodiscard]] bool TrySendOrHold(
+        const PlannedPlan& planned,
+        bool bFresh,
+        bool bPlansTaken,
+        Core::Now now,
+        PlanTracker::Lines& lines);
 
-    /// The plans that wait for a robot, as far as there are robots.
+    /// The plans that wait, as far as they can go now.
     void SendHeld(Core::Now now, PlanTracker::Lines& lines);
 
     /// Every plan whose time has come. What cannot go now is tried at the next call.

@@ -19,6 +19,7 @@
 #include <boost/asio/io_context.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
@@ -26,6 +27,8 @@
 #include <string_view>
 #include <unistd.h>
 #include <utility>
+#include <variant>
+#include <vector>
 
 namespace ACS::McsSim
 {
@@ -63,6 +66,15 @@ tl::expected<std::vector<PlannedPlan>, std::string> LoadPlans(
         return tl::make_unexpected("two plans have the transactionId " + *shared + ": use --fresh-ids");
     }
     return plans;
+}
+
+bool AsksForHelp(const std::vector<Scenario>& scenarios)
+{
+    return std::any_of(scenarios.begin(), scenarios.end(), [](const Scenario& scenario) {
+        return std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const ScenarioStep& step) {
+            return std::holds_alternative<AskStep>(step.kind);
+        });
+    });
 }
 
 /// All scenarios of the run, or a sentence about the first thing that is wrong.
@@ -115,7 +127,8 @@ int Run(const McsSimOptions& options)
 
     const TerminalSize size = ReadTerminalSize();
     Screen screen(std::cout, size.columns);
-    const bool bLive = !options.bConsole && ShouldDraw(options.liveMode);
+    // Whoever is asked for something must see it as a line.
+    const bool bLive = !options.bConsole && !AsksForHelp(*scenarios) && ShouldDraw(options.liveMode);
     Apps::SpdlogSink plainSink(options.common.logLevel);
     ScreenLogSink screenSink(plainSink, screen);
     const bool bMixed = bLive && ::isatty(STDERR_FILENO) != 0;

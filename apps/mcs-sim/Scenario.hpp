@@ -97,6 +97,14 @@ struct WaitStep
     bool operator==(const WaitStep&) const = default;
 };
 
+/// What a person, or a program beside, is to do now at the ACS.
+struct AskStep
+{
+    std::string text;
+
+    bool operator==(const AskStep&) const = default;
+};
+
 enum class EDrop : std::uint8_t
 {
     Cut,   ///< The socket goes, as with a cut cable.
@@ -135,6 +143,7 @@ using ScenarioStepKind = std::variant<
     ExpectNothingStep,
     WaitForPlanStep,
     WaitStep,
+    AskStep,
     DropStep,
     HoldAcksStep,
     RefuseRegistrationStep>;

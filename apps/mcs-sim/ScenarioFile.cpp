@@ -335,6 +335,13 @@ ScenarioStep ReadWait(StepsContext& /*context*/, ObjectReader& reader, const Ver
     return {WaitStep{duration}, "wait " + Apps::MakeDurationText(duration)};
 }
 
+ScenarioStep ReadAsk(StepsContext& /*context*/, ObjectReader& reader, const Verb& verb)
+{
+    AskStep step{reader.TakeText(verb.name)};
+    std::string title = "ask: " + step.text;
+    return {std::move(step), std::move(title)};
+}
+
 ScenarioStep ReadDrop(StepsContext& /*context*/, ObjectReader& reader, const Verb& verb)
 {
     const std::string how = reader.TakeText(verb.name);
@@ -396,7 +403,7 @@ ScenarioStep ReadRefuse(StepsContext& /*context*/, ObjectReader& reader, const V
     return {std::move(step), std::move(title)};
 }
 
-constexpr std::array<Verb, 15> VERBS{
+constexpr std::array<Verb, 16> VERBS{
     {{"send", ReadSend},
      {"sendAgain", ReadSendAgain},
      {"sendText", ReadSendText},
@@ -408,6 +415,7 @@ constexpr std::array<Verb, 15> VERBS{
      {"expectNothing", ReadExpectNothing},
      {"waitFor", ReadWaitFor},
      {"wait", ReadWait},
+     {"ask", ReadAsk},
      {"drop", ReadDrop},
      {"withholdAcks", ReadWithhold},
      {"delayAcks", ReadDelay},

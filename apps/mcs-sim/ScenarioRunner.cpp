@@ -375,6 +375,17 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const WaitStep& /*step*/, Core::Now
     return now.steady < _deadline ? EProgress::Waiting : EProgress::Done;
 }
 
+ScenarioRunner::EProgress ScenarioRunner::Do(const AskStep& step, Core::Now now, ScenarioActions& out)
+{
+    const EProgress progress = AwaitAcs(now);
+    if (progress == EProgress::Done)
+    {
+        Forget(_kept.size());
+        out.emplace_back(TellLine{"asked for: " + CleanText(step.text)});
+    }
+    return progress;
+}
+
 ScenarioRunner::EProgress ScenarioRunner::Do(const DropStep& step, Core::Now now, ScenarioActions& out)
 {
     const EProgress progress = AwaitAcs(now);

@@ -113,6 +113,7 @@ private:
     [[nodiscard]] EProgress Do(const ExpectNothingStep& step, Core::Now now, ScenarioActions& out);
     [[nodiscard]] EProgress Do(const WaitForPlanStep& step, Core::Now now, ScenarioActions& out);
     [[nodiscard]] EProgress Do(const WaitStep& step, Core::Now now, ScenarioActions& out);
+    [[nodiscard]] EProgress Do(const AskStep& step, Core::Now now, ScenarioActions& out);
     [[nodiscard]] EProgress Do(const DropStep& step, Core::Now now, ScenarioActions& out);
     [[nodiscard]] EProgress Do(const HoldAcksStep& step, Core::Now now, ScenarioActions& out);
     [[nodiscard]] EProgress Do(const RefuseRegistrationStep& step, Core::Now now, ScenarioActions& out);

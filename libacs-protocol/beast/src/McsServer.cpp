@@ -375,6 +375,11 @@ void McsServer::Cut()
     _impl->Cut();
 }
 
+bool McsServer::IsTakingPlans() const
+{
+    return _impl->GetSession().IsTakingPlans();
+}
+
 bool McsServer::IsRegistered() const
 {
     return _impl->GetSession().IsRegistered();

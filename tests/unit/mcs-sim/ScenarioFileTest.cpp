@@ -115,6 +115,7 @@ TEST_CASE("Faults are read with their command and duration")
     CHECK(ParseOne<DropStep>(R"({"drop":"cut"})").how == EDrop::Cut);
     CHECK(ParseOne<DropStep>(R"({"drop":"close","code":1008})").code == 1008);
     CHECK(ParseOne<WaitStep>(R"({"wait":"2s"})").duration == 2s);
+    CHECK(ParseOne<AskStep>(R"({"ask":"open the door"})").text == "open the door");
     CHECK(ParseOne<SendTextStep>(R"({"sendText":"{"})").text == "{");
     CHECK(ParseOne<SendTextStep>(R"({"sendText":{"command":"Dance"}})").text == R"({"command":"Dance"})");
 }

@@ -265,6 +265,22 @@ TEST_CASE("Faults go out as they stand in the file, and a drop waits for the nex
     CHECK(bench.runner.HasHeld());
 }
 
+TEST_CASE("Somebody is asked for something once an ACS is there, and what came before does not answer it")
+{
+    Bench bench(R"({"drop":"cut"},{"ask":"open the door"},{"expect":"ErrorReport"})");
+    bench.runner.OnLinkLost();
+    const auto count = [&bench] {
+        const auto lines = bench.GetAll<TellLine>();
+        return std::count(lines.begin(), lines.end(), TellLine{"asked for: open the door"});
+    };
+    CHECK(count() == 0);
+    bench.runner.OnRegistered(bench.clock.GetNow(), bench.out);
+    CHECK(count() == 1);
+    CHECK_FALSE(bench.runner.IsFinished());
+    bench.Receive(R"({"command":"ErrorReport"})");
+    CHECK(bench.runner.HasHeld());
+}
+
 TEST_CASE("A message that could not be sent fails the scenario")
 {
     Bench bench(SEND + R"({"expect":"PlanReport"})");

@@ -73,6 +73,7 @@ public:
     /// Whether an ACS is registered and its last AcsCommStateUpdate on this connection, if any, said isConnected=true:
     /// until then the MCS keeps its plans (section 6.21). Changes with a RequestReceived of AcsCommStateUpdate.
     [[nodiscard]] bool IsTakingPlans() const noexcept;
+
     /// SendText of any text at all, which is not followed to an Ack. False where no ACS is registered.
     [[nodiscard]] bool TrySendText(std::string_view text, SessionActions& out);
 

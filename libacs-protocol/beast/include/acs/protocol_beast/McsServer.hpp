@@ -67,6 +67,7 @@ public:
     void Cut();
 
     [[nodiscard]] bool IsRegistered() const;
+    [[nodiscard]] bool IsTakingPlans() const;
     [[nodiscard]] std::size_t GetPendingCount() const;
     [[nodiscard]] const Protocol::SessionStatistics& GetStatistics() const;
 };
