@@ -7,13 +7,6 @@
 namespace ACS::Protocol
 {
 
-namespace
-{
-
-constexpr std::size_t RECENT_COUNT = 128;
-
-} // namespace
-
 void AcsSession::Impl::ArmAckTimer(Core::Now now, SessionActions& out)
 {
     if (IsUp() && !_inFlight.empty() && !_output.IsRunning(ESessionTimer::Ack))
@@ -33,7 +26,7 @@ void AcsSession::Impl::ResendLate(Core::Now now, SessionActions& out)
         }
         else if (entry.bSuperseded)
         {
-            Remember(entry, true);
+            _recent.Remember(entry.command, entry.transactionID, entry.bDurable);
         }
         else if (entry.resends < _options.ackRetries)
         {
@@ -57,7 +50,7 @@ void AcsSession::Impl::ResendLate(Core::Now now, SessionActions& out)
 void AcsSession::Impl::GiveUp(const InFlight& entry, SessionActions& out)
 {
     ++_unansweredInRow;
-    Remember(entry, true);
+    _recent.Remember(entry.command, entry.transactionID, entry.bDurable);
     if (entry.bDurable)
     {
         out.emplace_back(Deliver{RequestUnanswered{entry.command, entry.transactionID}});
@@ -66,15 +59,6 @@ void AcsSession::Impl::GiveUp(const InFlight& entry, SessionActions& out)
     {
         status->second.bGivenUp = true;
     }
-}
-
-void AcsSession::Impl::Remember(const InFlight& entry, bool bUnanswered)
-{
-    if (_recent.size() >= RECENT_COUNT)
-    {
-        _recent.pop_front();
-    }
-    _recent.push_back({entry.command, entry.transactionID, bUnanswered && entry.bDurable});
 }
 
 void AcsSession::Impl::HandleAck(const AcsAck& ack, SessionActions& out)
@@ -104,7 +88,7 @@ void AcsSession::Impl::HandleAck(const AcsAck& ack, SessionActions& out)
     }
     const InFlight entry = std::move(_inFlight[match.index]);
     _inFlight.erase(_inFlight.begin() + static_cast<std::ptrdiff_t>(match.index));
-    Remember(entry, false);
+    _recent.Remember(entry.command, entry.transactionID, false);
     _unansweredInRow = 0;
     ++_output.statistics.Of(ack.command).answered;
     if (entry.bDurable)
@@ -123,14 +107,12 @@ void AcsSession::Impl::HandleAck(const AcsAck& ack, SessionActions& out)
 
 bool AcsSession::Impl::IsLateAck(const AcsAck& ack, SessionActions& out)
 {
-    const auto found = std::find_if(_recent.begin(), _recent.end(), [&ack](const RecentTransaction& recent) {
-        return recent.command == ack.command && recent.transactionID == ack.transactionID;
-    });
-    if (found == _recent.end())
+    const Detail::ELateAck late = _recent.TakeAck(ack.command, ack.transactionID);
+    if (late == Detail::ELateAck::Unknown)
     {
         return false;
     }
-    if (std::exchange(found->bUnanswered, false))
+    if (late == Detail::ELateAck::Late)
     {
         _unansweredInRow = 0;
         ++_output.statistics.Of(ack.command).answered;

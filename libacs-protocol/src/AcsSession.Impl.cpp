@@ -15,7 +15,7 @@ AcsSession::Impl::Impl(const SessionOptions& options, Core::IRandom& random)
       _codec(options.codec),
       _backoff(options.reconnect),
       _siteOffset(options.codec.siteOffset),
-      _answers(options.answerMemory, options.answerCount)
+      _answers(options.answerMemory, options.answerCount, options.answerBytes)
 {
     _options.window = std::max<std::size_t>(_options.window, 1);
     _inFlight.reserve(_options.window + 1);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "AnswerStore.hpp"
+#include "RecentTransactions.hpp"
 #include "SessionOutput.hpp"
 #include <acs/core/Backoff.hpp>
 #include <acs/protocol/AcsCodec.hpp>
@@ -65,14 +66,6 @@ struct InFlight
     StatusKey statusKey{};
 };
 
-/// A transaction that has left the window: its late or second Ack must not be taken for that of another one.
-struct RecentTransaction
-{
-    EAcsCommand command = EAcsCommand::Registration;
-    std::string transactionID;
-    bool bUnanswered = false;
-};
-
 } // namespace Detail
 
 /// The session itself: connection and timers in AcsSession.Impl.cpp, what goes out in AcsSession.Sending.cpp, what waits
@@ -83,7 +76,6 @@ class AcsSession::Impl
     using StatusKey = Detail::StatusKey;
     using Status = Detail::Status;
     using InFlight = Detail::InFlight;
-    using RecentTransaction = Detail::RecentTransaction;
 
     SessionOptions _options;
     Core::IRandom& _random;
@@ -100,7 +92,7 @@ class AcsSession::Impl
     std::string _registrationID;
     std::string _farewellID;
     std::vector<InFlight> _inFlight;
-    std::deque<RecentTransaction> _recent;
+    Detail::RecentTransactions _recent;
     std::size_t _unansweredInRow = 0;
     std::map<StatusKey, Status> _statuses;
     Core::SteadyTime _nextPosition{};
@@ -143,7 +135,6 @@ private:
     void ArmAckTimer(Core::Now now, SessionActions& out);
     void ResendLate(Core::Now now, SessionActions& out);
     void GiveUp(const InFlight& entry, SessionActions& out);
-    void Remember(const InFlight& entry, bool bUnanswered);
     void SchedulePosition(Core::Now now, SessionActions& out);
     void Refuse(const DecodeFailure& failure, bool bLegacyName, Core::Now now, SessionActions& out);
     void HandleRequest(AcsRequest& request, bool bLegacyName, Core::Now now, SessionActions& out);

@@ -7,7 +7,7 @@ namespace ACS::Protocol
 
 void AcsSession::Impl::Answer(const AcsAck& answer, Core::Now now, SessionActions& out)
 {
-    Detail::AnswerStore::Entry* entryOrNull = _answers.FindOrNull(answer.command, answer.transactionID, now);
+    const Detail::AnswerStore::Entry* entryOrNull = _answers.FindOrNull(answer.command, answer.transactionID, now);
     if (entryOrNull != nullptr && !entryOrNull->text.empty())
     {
         return;
@@ -18,7 +18,7 @@ void AcsSession::Impl::Answer(const AcsAck& answer, Core::Now now, SessionAction
     AcsCodec::EncodeAck(ack, _scratch);
     if (entryOrNull != nullptr)
     {
-        entryOrNull->text = _scratch;
+        _answers.KeepText(answer.command, answer.transactionID, _scratch);
     }
     if (IsUp())
     {

@@ -43,9 +43,7 @@ bool AcsSession::Impl::TrySendDurable(const AcsRequest& request, Core::Now now, 
         _bRoomWanted = true;
         return false;
     }
-    std::erase_if(_recent, [&request](const RecentTransaction& recent) {
-        return recent.transactionID == request.transactionID;
-    });
+    _recent.Forget(GetCommand(request), request.transactionID);
     Send(request, true, {}, now, out);
     ArmAckTimer(now, out);
     return true;

@@ -1,5 +1,7 @@
 #include "AnswerStore.hpp"
 
+#include "TransactionMemory.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -9,26 +11,26 @@ namespace ACS::Protocol::Detail
 namespace
 {
 
-std::string MakeKey(EAcsCommand command, std::string_view transactionID)
+/// Answering it anew does no harm.
+bool IsQuestion(EAcsCommand command)
 {
-    std::string key(GetText(command));
-    key += ' ';
-    key += transactionID;
-    return key;
+    return command == EAcsCommand::RequestAcsPlans || command == EAcsCommand::RequestAcsPlanHistory
+        || command == EAcsCommand::RequestAcsErrorList;
 }
 
 } // namespace
 
-AnswerStore::AnswerStore(std::chrono::milliseconds memory, std::size_t capacity)
+AnswerStore::AnswerStore(std::chrono::milliseconds memory, std::size_t capacity, std::size_t maximumBytes)
     : _memory(memory),
-      _capacity(std::max<std::size_t>(capacity, 1))
+      _capacity(std::max<std::size_t>(capacity, 1)),
+      _maximumBytes(maximumBytes)
 {
 }
 
-AnswerStore::Entry* AnswerStore::FindOrNull(EAcsCommand command, std::string_view transactionID, Core::Now now)
+const AnswerStore::Entry* AnswerStore::FindOrNull(EAcsCommand command, std::string_view transactionID, Core::Now now)
 {
     Forget(now);
-    const auto found = _entries.find(MakeKey(command, transactionID));
+    const auto found = _entries.find(MakeTransactionKey(command, transactionID));
     return found == _entries.end() ? nullptr : &found->second;
 }
 
@@ -36,14 +38,31 @@ void AnswerStore::Insert(EAcsCommand command, std::string_view transactionID, bo
 {
     if (_order.size() >= _capacity)
     {
-        _entries.erase(_order.front());
-        _order.pop_front();
+        Erase(_order.begin());
     }
-    std::string key = MakeKey(command, transactionID);
-    const bool bNew = _entries.insert_or_assign(key, Entry{{}, now.steady, bLegacyName}).second;
-    if (bNew)
+    std::string key = MakeTransactionKey(command, transactionID);
+    if (_entries.try_emplace(key, Entry{command, {}, now.steady, bLegacyName}).second)
     {
         _order.push_back(std::move(key));
+    }
+}
+
+void AnswerStore::KeepText(EAcsCommand command, std::string_view transactionID, const std::string& text)
+{
+    const auto found = _entries.find(MakeTransactionKey(command, transactionID));
+    if (found == _entries.end())
+    {
+        return;
+    }
+    _bytes += text.size() - found->second.text.size();
+    found->second.text = text;
+    while (_bytes > _maximumBytes)
+    {
+        const auto question = std::find_if(_order.begin(), _order.end(), [this](const std::string& key) {
+            const Entry& entry = _entries.at(key);
+            return IsQuestion(entry.command) && !entry.text.empty();
+        });
+        Erase(question == _order.end() ? _order.begin() : question);
     }
 }
 
@@ -51,9 +70,16 @@ void AnswerStore::Forget(Core::Now now)
 {
     while (!_order.empty() && _entries.at(_order.front()).receivedAt + _memory < now.steady)
     {
-        _entries.erase(_order.front());
-        _order.pop_front();
+        Erase(_order.begin());
     }
+}
+
+void AnswerStore::Erase(std::deque<std::string>::const_iterator place)
+{
+    const auto found = _entries.find(*place);
+    _bytes -= found->second.text.size();
+    _entries.erase(found);
+    _order.erase(place);
 }
 
 } // namespace ACS::Protocol::Detail

@@ -1,13 +1,14 @@
 #include "PendingRequests.hpp"
+#include "RecentTransactions.hpp"
 #include "SessionOutput.hpp"
+#include "TransactionMemory.hpp"
 #include <acs/core/Uuid.hpp>
 #include <acs/protocol/AcsCodec.hpp>
 #include <acs/protocol/McsSession.hpp>
 
 #include <algorithm>
-#include <deque>
+#include <cassert>
 #include <optional>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,12 @@ struct PendingRequest
     EAcsCommand command = EAcsCommand::ExecutionPlan;
     std::string transactionID;
     Core::SteadyTime deadline{};
+};
+
+struct Connection
+{
+    ConnectionID id = 0;
+    Core::SteadyTime deadline{}; ///< Of its Registration.
 };
 
 struct RunningHold
@@ -48,12 +55,13 @@ class McsSession::Impl
     std::chrono::minutes _siteOffset;
     Detail::SessionOutput _output;
 
-    std::vector<ConnectionID> _connections;
+    std::vector<ConnectionID> _connections; ///< All that are open.
+    std::vector<Connection> _strangers;     ///< Those of them from which no Registration has come.
     std::optional<ConnectionID> _registered;
     bool _bAcsConnected = true; ///< What the registered ACS said of itself last.
     std::vector<PendingRequest> _pending;
-    std::unordered_set<std::string> _seen;
-    std::deque<std::string> _seenOrder;
+    Detail::RecentTransactions _recent;
+    Detail::TransactionMemory _seen;
     std::vector<RunningHold> _holds;
     std::vector<DelayedAck> _delayed;
     std::size_t _refusalsLeft = 0;
@@ -65,7 +73,8 @@ public:
         : _options(options),
           _random(random),
           _codec(options.codec),
-          _siteOffset(options.codec.siteOffset)
+          _siteOffset(options.codec.siteOffset),
+          _seen(options.duplicateMemory)
     {
     }
 
@@ -74,10 +83,12 @@ public:
         return _options.bSecondRefused && !_connections.empty();
     }
 
-    void OnConnected(ConnectionID connection)
+    void OnConnected(ConnectionID connection, Core::Now now, SessionActions& out)
     {
         ++_output.statistics.connects;
         _connections.push_back(connection);
+        _strangers.push_back({connection, now.steady + _options.registrationTimeout});
+        ArmRegistrationTimer(now, out);
     }
 
     void OnText(ConnectionID connection, std::string_view text, Core::Now now, SessionActions& out)
@@ -110,6 +121,7 @@ public:
     void OnClosed(ConnectionID connection, std::string_view reason, SessionActions& out)
     {
         std::erase(_connections, connection);
+        Know(connection);
         std::erase_if(_delayed, [connection](const DelayedAck& ack) { return ack.connection == connection; });
         if (_registered == connection)
         {
@@ -123,23 +135,24 @@ public:
         {
             return;
         }
-        if (timer == ESessionTimer::DelayedAck)
+        switch (timer)
         {
-            SendDelayed(now, out);
+            case ESessionTimer::Registration:
+                CloseStrangers(now, out);
+                break;
+            case ESessionTimer::DelayedAck:
+                SendDelayed(now, out);
+                break;
+            case ESessionTimer::Ack:
+                GiveUpLate(now, out);
+                break;
+            case ESessionTimer::Reconnect:
+            case ESessionTimer::Position:
+            case ESessionTimer::Shutdown:
+            default:
+                assert(false && "a timer of the other side");
+                break;
         }
-        if (timer != ESessionTimer::Ack)
-        {
-            return;
-        }
-        for (const PendingRequest& request : _pending)
-        {
-            if (request.deadline <= now.steady)
-            {
-                out.emplace_back(Deliver{RequestUnanswered{request.command, request.transactionID}});
-            }
-        }
-        std::erase_if(_pending, [now](const PendingRequest& request) { return request.deadline <= now.steady; });
-        ArmAckTimer(now, out);
     }
 
     AcsRequest MakeRequest(AcsPayload payload, Core::Now now)
@@ -239,6 +252,46 @@ private:
         return chunk == 0 || text.size() <= chunk ? text : text.substr((text.size() - 1) / chunk * chunk);
     }
 
+    void ArmRegistrationTimer(Core::Now now, SessionActions& out)
+    {
+        if (!_strangers.empty() && !_output.IsRunning(ESessionTimer::Registration))
+        {
+            _output.Start(ESessionTimer::Registration, Detail::GetNextDelay(_strangers, now), out);
+        }
+    }
+
+    void Know(ConnectionID connection)
+    {
+        std::erase_if(_strangers, [connection](const Connection& stranger) { return stranger.id == connection; });
+    }
+
+    void CloseStrangers(Core::Now now, SessionActions& out)
+    {
+        for (const Connection& stranger : _strangers)
+        {
+            if (stranger.deadline <= now.steady)
+            {
+                out.emplace_back(Close{stranger.id, CLOSE_POLICY, "no Registration has come"});
+            }
+        }
+        std::erase_if(_strangers, [now](const Connection& stranger) { return stranger.deadline <= now.steady; });
+        ArmRegistrationTimer(now, out);
+    }
+
+    void GiveUpLate(Core::Now now, SessionActions& out)
+    {
+        for (const PendingRequest& request : _pending)
+        {
+            if (request.deadline <= now.steady)
+            {
+                _recent.Remember(request.command, request.transactionID, true);
+                out.emplace_back(Deliver{RequestUnanswered{request.command, request.transactionID}});
+            }
+        }
+        std::erase_if(_pending, [now](const PendingRequest& request) { return request.deadline <= now.steady; });
+        ArmAckTimer(now, out);
+    }
+
     void ArmAckTimer(Core::Now now, SessionActions& out)
     {
         if (!_pending.empty() && !_output.IsRunning(ESessionTimer::Ack))
@@ -254,6 +307,7 @@ private:
         ++_output.statistics.linkLosses;
         for (const PendingRequest& request : std::exchange(_pending, {}))
         {
+            _recent.Remember(request.command, request.transactionID, true);
             out.emplace_back(Deliver{RequestUnanswered{request.command, request.transactionID}});
         }
         out.emplace_back(Deliver{LinkLost{std::string(reason), true}});
@@ -324,7 +378,7 @@ private:
     void Refuse(ConnectionID connection, const DecodeFailure& failure, Core::Now now, SessionActions& out)
     {
         const Detail::ERefusal refusal = _output.NoteFailure(failure, false, out);
-        if (_registered != connection || refusal == Detail::ERefusal::None || _options.bErrorsUnanswered)
+        if (refusal == Detail::ERefusal::None || _options.bErrorsUnanswered)
         {
             return;
         }
@@ -355,6 +409,10 @@ private:
         if (_registered != connection)
         {
             _output.Note(EProtocolNote::BeforeRegistered, std::string(GetText(command)), out);
+            if (!_options.bErrorsUnanswered)
+            {
+                Acknowledge(connection, request, EAckResult::Fail, "Register first.", now, out);
+            }
             return;
         }
         CommandCounters& counters = _output.statistics.Of(command);
@@ -362,11 +420,14 @@ private:
         if (IsSentByMcs(command) || (_options.bPositionsUnknown && command == EAcsCommand::RobotPositionUpdate))
         {
             _output.Note(EProtocolNote::UnknownCommand, std::string(GetText(command)), out);
-            Acknowledge(connection, request, EAckResult::Fail, Detail::UNSUPPORTED, now, out);
+            if (!_options.bErrorsUnanswered)
+            {
+                Acknowledge(connection, request, EAckResult::Fail, Detail::UNSUPPORTED, now, out);
+            }
             return;
         }
         // Positions come five times a second and are never sent again.
-        const bool bDuplicate = HasAck(command) && !WasNew(command, request.transactionID);
+        const bool bDuplicate = HasAck(command) && !_seen.TryInsert(command, request.transactionID);
         counters.duplicates += bDuplicate ? 1U : 0U;
         Acknowledge(connection, request, EAckResult::Success, "Received.", now, out);
         if (const AcsCommStateUpdate* stateOrNull = std::get_if<AcsCommStateUpdate>(&request.payload);
@@ -377,24 +438,6 @@ private:
         out.emplace_back(Deliver{RequestReceived{std::move(request), bDuplicate}});
     }
 
-    [[nodiscard]] bool WasNew(EAcsCommand command, std::string_view transactionID)
-    {
-        std::string key(GetText(command));
-        key += ' ';
-        key += transactionID;
-        if (!_seen.insert(key).second)
-        {
-            return false;
-        }
-        _seenOrder.push_back(std::move(key));
-        if (_seenOrder.size() > _options.duplicateMemory)
-        {
-            _seen.erase(_seenOrder.front());
-            _seenOrder.pop_front();
-        }
-        return true;
-    }
-
     void Register(ConnectionID connection, const AcsRequest& request, Core::Now now, SessionActions& out)
     {
         if (_refusalsLeft > 0)
@@ -403,17 +446,14 @@ private:
             Acknowledge(connection, request, EAckResult::Fail, _refusalMessage, now, out);
             return;
         }
-        if (_registered.has_value() && _options.bSecondRefused)
+        if (IsTaken(connection) && _options.bSecondRefused)
         {
             Acknowledge(connection, request, EAckResult::Fail, "An ACS is registered already.", now, out);
             out.emplace_back(Close{connection, CLOSE_POLICY, "an ACS is registered already"});
             return;
         }
-        if (_registered.has_value() && *_registered != connection)
-        {
-            out.emplace_back(Close{*_registered, CLOSE_POLICY, "replaced by a new connection"});
-            LoseRegistered("replaced by a new connection", out);
-        }
+        Know(connection);
+        Replace(connection, out);
         Acknowledge(connection, request, EAckResult::Success, "Registered.", now, out);
         // The ACS is registered when it can know that it is.
         if (FindHoldOrNull(EAcsCommand::Registration, now) == nullptr)
@@ -422,8 +462,27 @@ private:
         }
     }
 
+    /// Whether one is registered, or another one will be as soon as its delayed Ack has gone.
+    [[nodiscard]] bool IsTaken(ConnectionID connection) const
+    {
+        const bool bSoon = std::any_of(_delayed.begin(), _delayed.end(), [connection](const DelayedAck& ack) {
+            return ack.bRegisters && ack.connection != connection;
+        });
+        return _registered.has_value() || bSoon;
+    }
+
+    void Replace(ConnectionID connection, SessionActions& out)
+    {
+        if (_registered.value_or(connection) != connection)
+        {
+            out.emplace_back(Close{*_registered, CLOSE_POLICY, "replaced by a new connection"});
+            LoseRegistered("replaced by a new connection", out);
+        }
+    }
+
     void TakeRegistered(ConnectionID connection, SessionActions& out)
     {
+        Replace(connection, out);
         if (_registered != connection)
         {
             _registered = connection;
@@ -438,6 +497,18 @@ private:
         Detail::PendingMatch match = Detail::FindPendingByID(_pending, ack.command, ack.transactionID);
         if (!match.bFound)
         {
+            const Detail::ELateAck late = _recent.TakeAck(ack.command, ack.transactionID);
+            if (late == Detail::ELateAck::Late)
+            {
+                ++_output.statistics.Of(ack.command).answered;
+                out.emplace_back(Deliver{AckReceived{std::move(ack)}});
+                return;
+            }
+            if (late == Detail::ELateAck::Repeated)
+            {
+                _output.Note(EProtocolNote::AckUnexpected, std::string(GetText(ack.command)), out);
+                return;
+            }
             match = Detail::FindPendingByCommand(_pending, ack.command);
         }
         if (!match.bFound)
@@ -451,6 +522,7 @@ private:
         }
         ++_output.statistics.Of(ack.command).answered;
         ack.transactionID = std::move(_pending[match.index].transactionID);
+        _recent.Remember(ack.command, ack.transactionID, false);
         _pending.erase(_pending.begin() + static_cast<std::ptrdiff_t>(match.index));
         out.emplace_back(Deliver{AckReceived{std::move(ack)}});
     }
@@ -468,9 +540,9 @@ bool McsSession::ShouldRefuseUpgrade() const noexcept
     return _impl->ShouldRefuseUpgrade();
 }
 
-void McsSession::OnConnected(ConnectionID connection, Core::Now /*now*/, SessionActions& /*out*/)
+void McsSession::OnConnected(ConnectionID connection, Core::Now now, SessionActions& out)
 {
-    _impl->OnConnected(connection);
+    _impl->OnConnected(connection, now, out);
 }
 
 void McsSession::OnText(ConnectionID connection, std::string_view text, Core::Now now, SessionActions& out)

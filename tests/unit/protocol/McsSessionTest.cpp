@@ -65,18 +65,99 @@ public:
 
 } // namespace
 
-TEST_CASE("6.2 The MCS acknowledges a registration and drops what comes before it")
+TEST_CASE("6.2 The MCS acknowledges a registration; what comes before it is answered with Fail and goes no further")
 {
     McsBench bench;
     bench.session.OnConnected(1, bench.clock.GetNow(), bench.probe.out);
     bench.Text(1, MakeRequestText("PlanReport", PLAN_REPORT));
-    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
+    REQUIRE(bench.probe.GetAcks().size() == 1);
+    CHECK(bench.probe.GetAcks()[0].result == EAckResult::Fail);
+    CHECK(bench.probe.GetAcks()[0].message == "Register first.");
+    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().empty());
     CHECK(bench.probe.GetNotes() == std::vector<EProtocolNote>{EProtocolNote::BeforeRegistered});
     bench.Text(1, MakeRequestText("Registration", "{}", "r"));
     REQUIRE(bench.probe.GetAcks().size() == 1);
     CHECK(bench.probe.GetAcks()[0].transactionID == "r");
     CHECK(bench.probe.GetAcks()[0].result == EAckResult::Success);
     CHECK(bench.session.IsRegistered());
+}
+
+TEST_CASE("R3 A Registration that cannot be read is answered with Fail, and a good one may follow")
+{
+    McsBench bench;
+    bench.session.OnConnected(1, bench.clock.GetNow(), bench.probe.out);
+    bench.Text(1, MakeRequestText("Registration", "null", "r0"));
+    const auto refusals = bench.probe.GetAll<Protocol::SendText>();
+    REQUIRE(refusals.size() == 1);
+    CHECK(refusals[0].text.find(R"("command":"RegistrationAck","transactionId":"r0")") != std::string::npos);
+    CHECK(refusals[0].text.find(R"("result":"Fail")") != std::string::npos);
+    CHECK_FALSE(bench.session.IsRegistered());
+    bench.Text(1, MakeRequestText("Registration", "{}", "r1"));
+    CHECK(bench.session.IsRegistered());
+}
+
+TEST_CASE("6.2 A connection from which no Registration comes is closed, so that idle ones do not keep the ACS out")
+{
+    McsBench bench;
+    bench.session.OnConnected(1, bench.clock.GetNow(), bench.probe.out);
+    bench.clock.Advance(4s);
+    bench.session.OnConnected(2, bench.clock.GetNow(), bench.probe.out);
+    bench.Text(2, MakeRequestText("Registration", "{}", "r"));
+    bench.clock.Advance(6s);
+    bench.probe.Clear();
+    bench.session.OnTimer(Protocol::ESessionTimer::Registration, bench.clock.GetNow(), bench.probe.out);
+    const auto closes = bench.probe.GetAll<Protocol::Close>();
+    REQUIRE(closes.size() == 1);
+    CHECK(closes[0].connection == 1);
+    CHECK(closes[0].code == 1008);
+    CHECK(bench.session.IsRegistered());
+    CHECK(bench.probe.GetAll<Protocol::StartTimer>().empty());
+}
+
+TEST_CASE("D-4 An Ack that comes after its request was given up is that request's, not the next one's of its command")
+{
+    McsBench bench;
+    bench.Register(1);
+    const auto send = [&bench](const std::string& planID) {
+        const Protocol::AcsRequest request =
+            bench.session.MakeRequest(Protocol::CancelPlan{planID, ""}, bench.clock.GetNow());
+        REQUIRE(bench.session.TrySend(request, bench.clock.GetNow(), bench.probe.out));
+        return request.transactionID;
+    };
+    const std::string late = send("A");
+    bench.clock.Advance(6s);
+    bench.probe.Clear();
+    bench.session.OnTimer(Protocol::ESessionTimer::Ack, bench.clock.GetNow(), bench.probe.out);
+    REQUIRE(bench.probe.GetEvents<Protocol::RequestUnanswered>().size() == 1);
+    const std::string present = send("B");
+    for (const std::string& transactionID : {late, present})
+    {
+        bench.Text(1, MakeAckText("CancelPlan", transactionID));
+        REQUIRE(bench.probe.GetEvents<Protocol::AckReceived>().size() == 1);
+        CHECK(bench.probe.GetEvents<Protocol::AckReceived>()[0].ack.transactionID == transactionID);
+        CHECK(bench.probe.GetNotes().empty());
+    }
+    bench.Text(1, MakeAckText("CancelPlan", present));
+    CHECK(bench.probe.GetEvents<Protocol::AckReceived>().empty());
+    CHECK(bench.probe.GetNotes() == std::vector<EProtocolNote>{EProtocolNote::AckUnexpected});
+}
+
+TEST_CASE("12.3 A registration whose Ack was delayed replaces the one that came in between, or keeps it out by option")
+{
+    const bool bSecondRefused = GENERATE(false, true);
+    McsBench bench(bSecondRefused);
+    bench.session.HoldAcks({Protocol::EAcsCommand::Registration, 2s, 1s}, bench.clock.GetNow());
+    bench.Register(1);
+    bench.clock.Advance(1500ms);
+    bench.Register(2);
+    CHECK((bench.session.GetRegisteredOrNull() == Protocol::ConnectionID(2)) == !bSecondRefused);
+    bench.clock.Advance(500ms);
+    bench.probe.Clear();
+    bench.session.OnTimer(Protocol::ESessionTimer::DelayedAck, bench.clock.GetNow(), bench.probe.out);
+    CHECK(bench.session.GetRegisteredOrNull() == Protocol::ConnectionID(1));
+    const auto closes = bench.probe.GetAll<Protocol::Close>();
+    CHECK(closes.size() == (bSecondRefused ? 0U : 1U));
+    CHECK(bench.probe.GetEvents<Protocol::LinkLost>().size() == (bSecondRefused ? 0U : 1U));
 }
 
 TEST_CASE("R1, R2 The MCS acknowledges each report once, a repeated one again, positions never")

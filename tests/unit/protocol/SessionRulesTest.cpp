@@ -410,6 +410,35 @@ TEST_CASE("13.5 The same plan under a new transactionId is a new request, which 
     CHECK(counters.refused == 1);
 }
 
+TEST_CASE("D-23 The Acks that are kept are bounded in bytes: questions are forgotten before what was executed")
+{
+    Protocol::SessionOptions options;
+    options.answerBytes = 10'000;
+    AcsSessionBench bench(options);
+    bench.StartAndReplay();
+    const auto answer = [&bench](EAcsCommand command, const std::string& id, const Protocol::AckPayload& payload) {
+        const std::string message(3'000, 'x');
+        bench.session.Answer(command, id, EAckResult::Success, message, payload, bench.clock.GetNow(), bench.probe.out);
+    };
+    const std::string cancel = MakeRequestText("CancelPlan", R"({"planId":"P"})", "c");
+    bench.Text(cancel);
+    answer(EAcsCommand::CancelPlan, "c", Protocol::PlanAck{"P"});
+    for (int i = 0; i < 20; ++i)
+    {
+        const std::string id = "q" + std::to_string(i);
+        bench.Text(MakeRequestText("RequestAcsErrorList", "{}", id));
+        REQUIRE(bench.probe.GetEvents<Protocol::RequestReceived>().size() == 1);
+        answer(EAcsCommand::RequestAcsErrorList, id, Protocol::ErrorListAck{});
+    }
+    bench.Text(cancel);
+    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().empty());
+    CHECK(bench.probe.GetAll<Protocol::SendText>().size() == 1);
+    bench.Text(MakeRequestText("RequestAcsErrorList", "{}", "q19"));
+    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().empty());
+    bench.Text(MakeRequestText("RequestAcsErrorList", "{}", "q0"));
+    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().size() == 1);
+}
+
 TEST_CASE("13.9 An Ack with a wrong transactionId counts for the oldest request of its command, on either side")
 {
     AcsSessionBench bench;

@@ -45,7 +45,7 @@ public:
     /// Whether an upgrade is to be refused with 403 now (option bSecondRefused, and a connection is there).
     [[nodiscard]] bool ShouldRefuseUpgrade() const noexcept;
 
-    /// A client has connected; no action. Ids are the caller's, never used twice.
+    /// A client has connected: StartTimer. Ids are the caller's, never used twice.
     void OnConnected(ConnectionID connection, Core::Now now, SessionActions& out);
 
     /// SendText (Acks), Close (a connection that is replaced, or the second one where that is refused), CancelTimer,
@@ -55,14 +55,15 @@ public:
     /// Where it was the registered one: Deliver RequestUnanswered for all that waits, then LinkLost; CancelTimer.
     void OnClosed(ConnectionID connection, std::string_view reason, Core::Now now, SessionActions& out);
 
-    /// Deliver RequestUnanswered, SendText (Acks that were held back), StartTimer.
+    /// Deliver RequestUnanswered, SendText (Acks that were held back), Close (no Registration in time, or replaced),
+    /// Deliver of Registered and LinkLost (a Registration whose Ack was held back), StartTimer.
     void OnTimer(ESessionTimer timer, Core::Now now, SessionActions& out);
 
     /// A request with a fresh transactionID and the present as its timestamp, to be sent once or more often.
     [[nodiscard]] AcsRequest MakeRequest(AcsPayload payload, Core::Now now);
 
     /// SendText, StartTimer. False, and nothing done, where no ACS is registered, too many requests wait, or the request
-    /// is a plan and IsTakingPlans says no.
+    /// is a plan, IsTakingPlans says no and bPlansWithheld is set.
     [[nodiscard]] bool TrySend(const AcsRequest& request, Core::Now now, SessionActions& out);
 
     /// Close of the registered connection, for example to show what a cut does. Nothing where there is none.

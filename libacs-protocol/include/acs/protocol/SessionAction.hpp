@@ -17,7 +17,7 @@ using ConnectionID = std::uint64_t;
 
 enum class ESessionTimer : std::uint8_t
 {
-    Registration, ///< ACS side: the Ack of Registration.
+    Registration, ///< ACS side: the Ack of Registration. MCS side: the earliest Registration that has to come.
     Ack,          ///< The earliest deadline of what waits for an Ack.
     Reconnect,    ///< ACS side.
     Position,     ///< ACS side.

@@ -54,7 +54,8 @@ struct AckReceived
 };
 
 /// No Ack in time. ACS side: after all resends; the caller keeps the request and feeds it again after the next
-/// Registered. MCS side: after the ack timeout, or because the link was lost.
+/// Registered. MCS side: after the ack timeout, or because the link was lost; an Ack that comes late is delivered as
+/// AckReceived all the same.
 struct RequestUnanswered
 {
     EAcsCommand command = EAcsCommand::PlanReport;

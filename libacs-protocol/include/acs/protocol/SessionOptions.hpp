@@ -18,7 +18,8 @@ struct SessionOptions
     std::size_t window = 16;                         ///< `mcs.window`: messages that wait for their Ack; at least 1.
     std::chrono::milliseconds positionInterval{200}; ///< `position.interval_ms`; zero: no PositionDue.
     std::chrono::milliseconds answerMemory{600'000}; ///< How long an Ack is kept for a repeated request.
-    std::size_t answerCount = 1024;                  ///< And how many at most.
+    std::size_t answerCount = 1024;                  ///< And how many at most,
+    std::size_t answerBytes = 4U * 1024U * 1024U;    ///< and how many bytes of Acks together.
     std::chrono::milliseconds shutdownGrace{2'000};  ///< Stop waits so long for its last Ack.
     Core::BackoffOptions reconnect{};                ///< 0.5 s to 10 s.
     CodecOptions codec{};                            ///< Its siteOffset is also that of the timestamps sent.
@@ -29,7 +30,8 @@ struct McsSessionOptions
 {
     std::chrono::milliseconds ackTimeout{5'000}; ///< Then RequestUnanswered is delivered; an MCS does not resend.
     std::size_t maximumPending = 1024;           ///< Requests that wait for their Ack.
-    std::size_t duplicateMemory = 65'536;        ///< Transactions remembered, to count repeated reports.
+    std::size_t duplicateMemory = 4'096;         ///< Transactions remembered, to tell repeated reports.
+    std::chrono::milliseconds registrationTimeout{10'000}; ///< A connection without Registration is closed (1008).
     bool bPlansWithheld = true;  ///< Send no ExecutionPlan while the ACS has said isConnected=false (section 6.21).
     bool bSecondRefused = false; ///< Refuse a second client (403, 1008) while one is there; else replace.
     /// Habits of the public MCS (section 12), off by default. Of a text longer than this its last chunk of this size is
