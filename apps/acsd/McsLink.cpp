@@ -6,8 +6,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+#include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -38,6 +42,48 @@ std::string GetPlanID(const Planning::PlanCommand& command)
                 return std::string();
             }},
         command);
+}
+
+/// Habits that cost nothing.
+bool IsHarmless(Protocol::EProtocolNote what)
+{
+    switch (what)
+    {
+        case Protocol::EProtocolNote::UnknownMember:
+        case Protocol::EProtocolNote::NullOptional:
+        case Protocol::EProtocolNote::LenientWord:
+        case Protocol::EProtocolNote::LenientNumber:
+        case Protocol::EProtocolNote::BadTimestamp:
+        case Protocol::EProtocolNote::DuplicateRequest:
+            return true;
+        case Protocol::EProtocolNote::Undecodable:
+        case Protocol::EProtocolNote::UnknownCommand:
+        case Protocol::EProtocolNote::AckMismatched:
+        case Protocol::EProtocolNote::AckUnexpected:
+        case Protocol::EProtocolNote::AckFailed:
+        case Protocol::EProtocolNote::BeforeRegistered:
+        case Protocol::EProtocolNote::RegistrationUnanswered:
+        default:
+            return false;
+    }
+}
+
+std::size_t CountDigits(std::uint64_t number)
+{
+    return fmt::format_int(number).size();
+}
+
+/// Some by name: what the MCS has asked for may be longer than what it can read.
+std::string DescribeUnknown(const std::vector<std::string_view>& planIDs)
+{
+    constexpr std::size_t MAX_NAMED = 20;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(planIDs.size(), MAX_NAMED); ++i)
+    {
+        text += text.empty() ? "Unknown: " : ", ";
+        text += planIDs[i];
+    }
+    return planIDs.size() > MAX_NAMED ? text + fmt::format(" and {} more", planIDs.size() - MAX_NAMED) : text;
 }
 
 } // namespace
@@ -144,7 +190,7 @@ void McsLink::OnSessionEvent(const Protocol::SessionEvent& event)
         Core::Overloaded{
             [&](const Protocol::Registered&) {
                 _logger.Info("registered with the MCS");
-                _bOutageLogged = false;
+                _loggedOutage.clear();
                 BeginReplay();
             },
             [&](const Protocol::RegistrationRefused& refused) {
@@ -173,18 +219,34 @@ void McsLink::OnSessionEvent(const Protocol::SessionEvent& event)
                     std::exchange(_stopHandler, nullptr)();
                 }
             },
-            [](const auto&) {
-            }},
+            [&](const Protocol::ProtocolNoted& noted) { LogNote(noted); },
+            [](const Protocol::AckReceived&) { /* of the MCS's side */ }},
         event);
+}
+
+void McsLink::LogNote(const Protocol::ProtocolNoted& noted)
+{
+    // The first, the tenth, the hundredth: an MCS that repeats its mistake does not fill the log.
+    const std::uint64_t total = GetStatistics().CountOf(noted.what);
+    const std::uint64_t before = total - std::min<std::uint64_t>(noted.count, total);
+    if (before > 0 && CountDigits(before) == CountDigits(total))
+    {
+        return;
+    }
+    _logger.Write(
+        IsHarmless(noted.what) ? Core::ELogLevel::Debug : Core::ELogLevel::Warning,
+        "the MCS departs from the protocol",
+        {{"what", GetText(noted.what)}, {"detail", noted.detail}, {"count", fmt::format_int(total).str()}});
 }
 
 void McsLink::LogOutage(const Protocol::LinkLost& lost)
 {
-    // Once: every further try fails for the same reason.
-    if (_stopHandler || std::exchange(_bOutageLogged, true))
+    // Once per reason: every further try fails for the same one, or tells something new.
+    if (_stopHandler || lost.reason == _loggedOutage)
     {
         return;
     }
+    _loggedOutage = lost.reason;
     _logger.Warning(
         lost.bWasRegistered ? "lost the MCS, trying again until it answers"
                             : "cannot reach the MCS: start it or correct mcs.url; trying again until it answers",
@@ -240,9 +302,14 @@ void McsLink::AnswerQuery(const Protocol::AcsRequest& request)
 void McsLink::AnswerHistory(const Protocol::AcsRequest& request, const Protocol::RequestAcsPlanHistory& query)
 {
     Protocol::PlanListAck list;
-    std::string unknown;
+    std::vector<std::string_view> unknown;
+    std::set<std::string_view> seen;
     for (const std::string& planID : query.planIDs)
     {
+        if (!seen.insert(planID).second)
+        {
+            continue;
+        }
         const std::optional<Planning::PlanSummary> summary = _engine.GetPlanOrNull(planID);
         if (summary.has_value())
         {
@@ -250,11 +317,11 @@ void McsLink::AnswerHistory(const Protocol::AcsRequest& request, const Protocol:
         }
         else
         {
-            unknown += unknown.empty() ? "Unknown: " : ", ";
-            unknown += planID;
+            unknown.push_back(planID);
         }
     }
-    _client->Answer(Protocol::GetCommand(request), request.transactionID, Protocol::EAckResult::Success, unknown, list);
+    const std::string message = DescribeUnknown(unknown);
+    _client->Answer(Protocol::GetCommand(request), request.transactionID, Protocol::EAckResult::Success, message, list);
 }
 
 void McsLink::TakeAck(const Protocol::Acked& acked)

@@ -55,9 +55,10 @@ private:
     std::unordered_map<std::string, std::uint64_t> _sequences; ///< By transactionId, of what was given to the session.
     bool _bReplaying = false;
     std::string _url;
-    bool _bOutageLogged = false; ///< Of the outage that goes on.
+    std::string _loggedOutage; ///< The reason that was told last, of the outage that goes on.
 
     void OnSessionEvent(const Protocol::SessionEvent& event) override;
+    void LogNote(const Protocol::ProtocolNoted& noted);
     void LogOutage(const Protocol::LinkLost& lost);
     void TakeRequest(const Protocol::AcsRequest& request);
     void AnswerQuery(const Protocol::AcsRequest& request);
