@@ -38,7 +38,7 @@ THIRD_PARTY = {
     "json": ("fmt/", "tl/", "rapidjson/"),
     "net": ("fmt/", "tl/", "boost/asio", "boost/system/"),
     **{layer: ("fmt/", "tl/") for layer in PURE},
-    "protocol_beast": ("fmt/", "tl/", "boost/", "openssl/"),
+    "protocol_beast": ("fmt/", "tl/", "boost/", "openssl/", "linux/sockios.h", "sys/ioctl.h"),
     "vda5050_mosquitto": ("fmt/", "tl/", "boost/asio", "boost/system/", "mosquitto.h", "openssl/", "unistd.h"),
     "openstream_asio": ("fmt/", "tl/", "boost/asio", "boost/system/"),
     "plan_sqlite": ("fmt/", "tl/", "SQLiteCpp/", "sqlite3.h", "fcntl.h", "sys/file.h", "unistd.h"),

@@ -2,6 +2,7 @@
 
 #include "CutText.hpp"
 #include "ILink.hpp"
+#include "SocketQueue.hpp"
 #include <acs/protocol_beast/ClientOptions.hpp>
 
 #include <boost/asio/ip/tcp.hpp>
@@ -91,7 +92,7 @@ public:
 
     void Send(std::string text, bool bDroppable) override
     {
-        if (!_bOpen || _bCloseWanted || _bFinished || (bDroppable && !_queue.empty()))
+        if (!_bOpen || _bCloseWanted || _bFinished || (bDroppable && IsHeldUp(text.size())))
         {
             return;
         }
@@ -127,7 +128,8 @@ public:
             const auto self = weak.lock();
             if (!error && self != nullptr)
             {
-                self->Finish("the closing handshake took too long");
+                self->Finish(
+                    "closed: " + self->GetCloseReason() + "; the other side did not answer the closing handshake");
             }
         });
         if (_queue.empty())
@@ -152,6 +154,13 @@ public:
     }
 
 private:
+    /// Whether what was sent before still waits, here or in the system: what may be left out would come late. One text
+    /// that is on its way is no delay.
+    [[nodiscard]] bool IsHeldUp(std::size_t size)
+    {
+        return !_queue.empty() || CountUntaken(GetTcpStream().socket().native_handle()) > 2 * size;
+    }
+
     void PrepareSocket()
     {
         GetTcpStream().expires_never();
@@ -189,6 +198,11 @@ private:
                 {
                     self->Finish(
                         "the server refused the connection with HTTP " + std::to_string(response->result_int()));
+                    return;
+                }
+                if (handshakeError == boost::beast::http::error::end_of_stream)
+                {
+                    self->Finish("the server closed the connection instead of an upgrade (wss where ws was meant?)");
                     return;
                 }
                 self->OnOpen(handshakeError);
@@ -333,8 +347,13 @@ private:
     {
         _bCloseSent = true;
         _stream.async_close(_closeReason, [self = this->shared_from_this()](ErrorCode /*error*/) {
-            self->Finish("closed: " + std::string(self->_closeReason.reason.data(), self->_closeReason.reason.size()));
+            self->Finish("closed: " + self->GetCloseReason());
         });
+    }
+
+    [[nodiscard]] std::string GetCloseReason() const
+    {
+        return {_closeReason.reason.data(), _closeReason.reason.size()};
     }
 
     void Finish(const std::string& reason)

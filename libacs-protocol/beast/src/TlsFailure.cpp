@@ -75,6 +75,8 @@ std::string_view GetSentence(int reason)
             return "the client shows no certificate";
         case SSL_R_TLSV13_ALERT_CERTIFICATE_REQUIRED:
             return "the other side demands a client certificate";
+        case SSL_R_SSLV3_ALERT_HANDSHAKE_FAILURE: // what TLS 1.2 says where a certificate is missing
+            return "the other side refuses the handshake (it may demand a client certificate)";
         case SSL_R_TLSV1_ALERT_UNKNOWN_CA:
             return "the other side does not know the CA of our certificate";
         case SSL_R_SSLV3_ALERT_CERTIFICATE_EXPIRED:

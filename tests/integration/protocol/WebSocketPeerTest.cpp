@@ -551,6 +551,32 @@ TEST_CASE("13.12 While the socket is blocked positions are left out, and none of
     CHECK(rig.acsEvents.GetAll<Protocol::LinkLost>().empty());
 }
 
+TEST_CASE("13.12 Positions alone do not pile up in the system either, while the other side takes nothing")
+{
+    constexpr std::size_t POSITIONS = 1'000;
+    ClientRig rig;
+    rig.raw.SetReceiveBuffer(4'096);
+    rig.clientOptions.session.positionInterval = 1ms;
+    rig.RegisterWithRaw();
+    RawMcs& mcs = *rig.connections.at(0);
+    mcs.GetPeer().StopReading();
+    std::size_t due = 0;
+    rig.acsEvents.onEvent = [&rig, &due](const Protocol::SessionEvent& event) {
+        if (std::holds_alternative<Protocol::PositionDue>(event))
+        {
+            rig.client->SendPosition({{{"LR01", static_cast<double>(++due), 0.0, 0.0, 100.0}}});
+        }
+    };
+    REQUIRE(rig.WasReached([&due] { return due >= POSITIONS; }));
+    rig.acsEvents.onEvent = nullptr;
+    mcs.GetPeer().ReadAsync();
+    REQUIRE(rig.client->TrySendDurable(MakeReport("end")));
+    REQUIRE(rig.WasReached([&mcs] { return mcs.Count(EAcsCommand::PlanReport) == 1; }));
+    // What had gone before the other side's own buffer was full, and nothing of the rest.
+    CHECK(mcs.Count(EAcsCommand::RobotPositionUpdate) < POSITIONS / 2);
+    CHECK(rig.acsEvents.GetAll<Protocol::LinkLost>().empty());
+}
+
 TEST_CASE("1 Where more waits to be written than the limit the link is dropped and made anew")
 {
     ClientRig rig;

@@ -16,9 +16,10 @@ struct LinkOptions
 {
     std::chrono::milliseconds handshakeTimeout{10'000}; ///< For TCP, for TLS, for the upgrade; a server: for all three.
     std::chrono::milliseconds closeTimeout{2'000};      ///< For the closing handshake; then the socket is closed.
-    std::chrono::milliseconds pingInterval{10'000};     ///< `mcs.ping_interval`: silence after which a ping is sent.
-    std::size_t pingMisses = 2;                         ///< Unanswered intervals after which the link is dead.
-    std::size_t maximumRead = 4U * 1024U * 1024U;       ///< `mcs.max_rx_bytes`: longest message.
+    /// `mcs.ping_interval`. A link is dead after `pingMisses` intervals of silence; a ping goes out after half of that.
+    std::chrono::milliseconds pingInterval{10'000};
+    std::size_t pingMisses = 2;                      ///< At least 1.
+    std::size_t maximumRead = 4U * 1024U * 1024U;    ///< `mcs.max_rx_bytes`: longest message.
     std::size_t maximumQueued = 16U * 1024U * 1024U; ///< Bytes that wait to be written; beyond it the link is dropped.
     bool bLastFrameOnly =
         false; ///< A habit of the public MCS (section 12): of a fragmented message its end is read only.
