@@ -37,6 +37,7 @@ void AcsSession::Impl::Stop(Core::Now now, SessionActions& out)
         case EState::Registered:
             _output.Cancel(ESessionTimer::Position, out);
             _state = EState::Farewell;
+            Supersede(AcsCommStateUpdate{false});
             _farewellID = SendPayload(AcsCommStateUpdate{false}, {}, now, out);
             _output.Start(ESessionTimer::Shutdown, _options.shutdownGrace, out);
             ArmAckTimer(now, out);

@@ -130,6 +130,8 @@ private:
     /// After anything that may have made room or work: statuses first, then whoever was turned away.
     void UseRoom(Core::Now now, SessionActions& out);
     void SendStatuses(Core::Now now, SessionActions& out);
+    /// What is in flight of this kind and robot is not sent again.
+    void Supersede(const AcsPayload& status);
     /// All deadlines lie equally far ahead, so that a timer that runs is never too late; one that is too early finds
     /// nothing and is started again.
     void ArmAckTimer(Core::Now now, SessionActions& out);

@@ -136,6 +136,15 @@ void AcsSession::Impl::UseRoom(Core::Now now, SessionActions& out)
     ArmAckTimer(now, out);
 }
 
+void AcsSession::Impl::Supersede(const AcsPayload& status)
+{
+    const StatusKey key = MakeStatusKey(status);
+    for (InFlight& entry : _inFlight)
+    {
+        entry.bSuperseded = entry.bSuperseded || (!entry.bDurable && entry.statusKey == key);
+    }
+}
+
 void AcsSession::Impl::SendStatuses(Core::Now now, SessionActions& out)
 {
     for (auto& [key, status] : _statuses)
@@ -148,10 +157,7 @@ void AcsSession::Impl::SendStatuses(Core::Now now, SessionActions& out)
         {
             return;
         }
-        for (InFlight& entry : _inFlight)
-        {
-            entry.bSuperseded = entry.bSuperseded || (!entry.bDurable && entry.statusKey == key);
-        }
+        Supersede(status.payload);
         status.bPending = false;
         static_cast<void>(SendPayload(status.payload, key, now, out));
     }

@@ -3,7 +3,9 @@
 
 import json
 import sqlite3
+import subprocess
 import threading
+import time
 import unittest
 
 from link_proxy import LinkProxy
@@ -51,6 +53,34 @@ class WholeLine(ScenarioCase):
         self.line.start_acsd(again.wait_ready()["ws"], arm).wait_ready()
         self.assertEqual(again.wait(FINISH_SECONDS), 0)
         self.assert_last_line(again, "1 plans completed, 0 failed")
+
+    def test_a_plan_goes_over_wss(self):
+        """With a certificate of its own CA; the same certificate without that CA is refused with a sentence."""
+        key, certificate = self.line.folder / "mcs.key", self.line.folder / "mcs.pem"
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
+                        "-keyout", key, "-out", certificate, "-days", "2", "-subj", "/CN=mcs",
+                        "-addext", "subjectAltName=IP:127.0.0.1"], check=True, capture_output=True)
+        arm = self.start_robots()
+        mcs = self.line.start_mcs(PLANS[:1], "--tls-certificate", certificate, "--tls-key", key)
+        url = f"mcs.url=wss://{next(iter(mcs.wait_ready().values()))}/acs/"
+        stranger = self.line.start_acsd("127.0.0.1:1", arm, url, f"store.path={self.line.folder / 'stranger.db'}")
+        stranger.wait_ready()
+        self.wait_for_line(stranger, "cannot reach the MCS")
+        self.assertIn("self-signed", stranger.log.read_text())
+        self.line.forget(stranger)
+        stranger.stop()
+        self.line.start_acsd("127.0.0.1:1", arm, url, f"mcs.tls.ca={certificate}").wait_ready()
+        self.assertEqual(mcs.wait(FINISH_SECONDS), 0)
+        self.assert_last_line(mcs, "1 plans completed, 0 failed")
+
+    def wait_for_line(self, program, text):
+        deadline = time.monotonic() + FINISH_SECONDS
+        while text not in program.log.read_text() and time.monotonic() < deadline:
+            try:
+                program.process.wait(0.05)
+            except subprocess.TimeoutExpired:
+                pass
+        self.assertIn(text, program.log.read_text())
 
     def test_a_cut_of_three_seconds_in_mid_plan_costs_nothing(self):
         reports = []

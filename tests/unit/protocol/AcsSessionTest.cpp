@@ -466,6 +466,17 @@ TEST_CASE("1 Stop says goodbye, waits for the Ack a while, and closes with 1000"
     CHECK(bench.probe.out.empty());
 }
 
+TEST_CASE("6.21 After the goodbye an older isConnected=true is not sent again")
+{
+    Bench bench;
+    bench.StartAndReplay();
+    bench.session.SendStatus(Protocol::AcsCommStateUpdate{true}, bench.clock.GetNow(), bench.probe.out);
+    bench.clock.Advance(4s);
+    bench.session.Stop(bench.clock.GetNow(), bench.probe.out);
+    bench.Timer(ESessionTimer::Ack, 1s);
+    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
+}
+
 TEST_CASE("1 Stop between two attempts ends at once, and Start begins again")
 {
     Bench bench;
