@@ -74,7 +74,7 @@ void AnswerStore::Forget(Core::Now now)
     }
 }
 
-void AnswerStore::Erase(std::deque<std::string>::const_iterator place)
+void AnswerStore::Erase(const std::deque<std::string>::const_iterator& place)
 {
     const auto found = _entries.find(*place);
     _bytes -= found->second.text.size();

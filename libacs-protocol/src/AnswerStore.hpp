@@ -47,7 +47,7 @@ public:
 
 private:
     void Forget(Core::Now now);
-    void Erase(std::deque<std::string>::const_iterator place);
+    void Erase(const std::deque<std::string>::const_iterator& place);
 };
 
 } // namespace ACS::Protocol::Detail

@@ -261,8 +261,8 @@ private:
             return;
         }
         // Beast does not tell where frames end, but its hint is the rest of the frame only where that is the last one.
-        constexpr std::size_t unknown = std::numeric_limits<std::size_t>::max();
-        if (_stream.read_size_hint(unknown) == unknown)
+        constexpr std::size_t UNKNOWN = std::numeric_limits<std::size_t>::max();
+        if (_stream.read_size_hint(UNKNOWN) == UNKNOWN)
         {
             _buffer.consume(_buffer.size());
         }
