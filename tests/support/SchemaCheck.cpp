@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -30,7 +31,6 @@ namespace
 using VDA5050::ETopic;
 using VDA5050::EVda5050Version;
 
-constexpr std::array VERSIONS{EVda5050Version::Version200, EVda5050Version::Version210};
 constexpr unsigned FLAGS =
     rapidjson::kParseIterativeFlag | rapidjson::kParseValidateEncodingFlag | rapidjson::kParseFullPrecisionFlag;
 
@@ -89,7 +89,7 @@ void CloseObjects(rapidjson::Document& schema)
         {
             node.AddMember("additionalProperties", false, schema.GetAllocator());
         }
-        for (auto& member : node.GetObject())
+        for (const auto& member : std::as_const(node).GetObject())
         {
             const std::string_view keyword = GetText(member.name);
             if (std::ranges::find(KNOWN_KEYWORDS, keyword) == KNOWN_KEYWORDS.end()
@@ -97,61 +97,100 @@ void CloseObjects(rapidjson::Document& schema)
             {
                 throw std::runtime_error("a schema asks for what is not checked: " + std::string(keyword));
             }
+            rapidjson::Value& inner = node[member.name];
             if (keyword == "items")
             {
-                open.push_back({&member.value, keyword});
+                open.push_back({&inner, keyword});
             }
             if (keyword == "properties" || keyword == "definitions")
             {
-                for (auto& inner : member.value.GetObject())
+                for (const auto& named : std::as_const(inner).GetObject())
                 {
-                    open.push_back({&inner.value, GetText(inner.name)});
+                    open.push_back({&inner[named.name], GetText(named.name)});
                 }
             }
         }
     }
 }
 
-std::unique_ptr<rapidjson::SchemaDocument> LoadSchema(const std::filesystem::path& path)
+/// A schema as it was read, and as the validator follows it.
+struct Schema
 {
-    std::ifstream file(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    rapidjson::Document schema;
-    schema.Parse<FLAGS>(text.data(), text.size());
-    if (schema.HasParseError())
-    {
-        throw std::runtime_error("no schema in " + path.string());
-    }
-    CloseObjects(schema);
-    return std::make_unique<rapidjson::SchemaDocument>(schema);
-}
+    rapidjson::Document text;
+    std::unique_ptr<rapidjson::SchemaDocument> compiled;
 
-/// All schemas, read once.
-class SchemaShelf
-{
-    std::array<std::array<std::unique_ptr<rapidjson::SchemaDocument>, VDA5050::TOPIC_COUNT>, VERSIONS.size()> _schemas;
-
-public:
-    SchemaShelf()
+    explicit Schema(const std::filesystem::path& path)
     {
-        for (const EVda5050Version version : VERSIONS)
+        std::ifstream file(path, std::ios::binary);
+        const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+        text.Parse<FLAGS>(bytes.data(), bytes.size());
+        if (text.HasParseError())
         {
-            const std::string folder = std::string(VDA5050::GetVersionText(version)) + "-repaired";
-            for (std::size_t index = 0; index < VDA5050::TOPIC_COUNT; ++index)
-            {
-                const auto topic = static_cast<ETopic>(index);
-                const std::string name = std::string(VDA5050::GetTopicName(topic)) + ".schema";
-                _schemas.at(static_cast<std::size_t>(version)).at(index) =
-                    LoadSchema(GetSchemaFolder() / folder / name);
-            }
+            throw std::runtime_error("no schema in " + path.string());
         }
-    }
-
-    [[nodiscard]] const rapidjson::SchemaDocument& GetSchema(EVda5050Version version, ETopic topic) const
-    {
-        return *_schemas.at(static_cast<std::size_t>(version)).at(static_cast<std::size_t>(topic));
+        CloseObjects(text);
+        compiled = std::make_unique<rapidjson::SchemaDocument>(text);
     }
 };
+
+using Shelf = std::map<std::pair<EVda5050Version, ETopic>, Schema>;
+
+Shelf LoadSchemas()
+{
+    Shelf shelf;
+    for (const EVda5050Version version : {EVda5050Version::Version200, EVda5050Version::Version210})
+    {
+        const std::string folder = std::string(VDA5050::GetVersionText(version)) + "-repaired";
+        for (std::size_t index = 0; index < VDA5050::TOPIC_COUNT; ++index)
+        {
+            const auto topic = static_cast<ETopic>(index);
+            const std::string name = std::string(VDA5050::GetTopicName(topic)) + ".schema";
+            shelf.try_emplace({version, topic}, GetSchemaFolder() / folder / name);
+        }
+    }
+    return shelf;
+}
+
+const Schema& GetSchema(EVda5050Version version, ETopic topic)
+{
+    static const Shelf shelf = LoadSchemas();
+    return shelf.at({version, topic});
+}
+
+/// A place of a schema with all the values that a payload has there.
+struct Place
+{
+    const rapidjson::Value* schema = nullptr;
+    std::vector<const rapidjson::Value*> values;
+    std::string path;
+};
+
+Place EnterItems(const Place& place, const rapidjson::Value& items)
+{
+    Place inner{&items, {}, place.path + "[]"};
+    for (const rapidjson::Value* value : place.values)
+    {
+        for (const auto& item : value->GetArray())
+        {
+            inner.values.push_back(&item);
+        }
+    }
+    return inner;
+}
+
+Place EnterProperty(const Place& place, const rapidjson::Value& name, const rapidjson::Value& property)
+{
+    const std::string text(GetText(name));
+    Place inner{&property, {}, place.path.empty() ? text : place.path + "." + text};
+    for (const rapidjson::Value* value : place.values)
+    {
+        if (value->HasMember(name))
+        {
+            inner.values.push_back(&(*value)[name]);
+        }
+    }
+    return inner;
+}
 
 /// A name that stands twice in one object: JSON parsers differ in which of the two they take.
 std::optional<std::string> FindDoubleNameOrNull(const rapidjson::Value& root)
@@ -221,7 +260,6 @@ bool HasSchemas()
 
 std::optional<std::string> FindSchemaFaultOrNull(EVda5050Version version, ETopic topic, std::string_view payload)
 {
-    static const SchemaShelf SHELF;
     rapidjson::Document message;
     message.Parse<FLAGS>(payload.data(), payload.size());
     if (message.HasParseError())
@@ -229,7 +267,7 @@ std::optional<std::string> FindSchemaFaultOrNull(EVda5050Version version, ETopic
         return "no JSON at byte " + std::to_string(message.GetErrorOffset()) + ": "
             + rapidjson::GetParseError_En(message.GetParseError());
     }
-    rapidjson::SchemaValidator validator(SHELF.GetSchema(version, topic));
+    rapidjson::SchemaValidator validator(*GetSchema(version, topic).compiled);
     if (!message.Accept(validator))
     {
         return ToText(validator.GetInvalidDocumentPointer()) + " breaks " + validator.GetInvalidSchemaKeyword() + " of "
@@ -237,6 +275,42 @@ std::optional<std::string> FindSchemaFaultOrNull(EVda5050Version version, ETopic
     }
     std::optional<std::string> fault = FindDoubleNameOrNull(message);
     return fault.has_value() ? fault : FindHeaderFaultOrNull(message, version);
+}
+
+std::vector<std::string> ListAbsentMembers(EVda5050Version version, ETopic topic, std::string_view payload)
+{
+    const rapidjson::Document& schema = GetSchema(version, topic).text;
+    rapidjson::Document message;
+    message.Parse<FLAGS>(payload.data(), payload.size());
+    std::vector<std::string> absent;
+    std::vector<Place> open{{&schema, {&message}, ""}};
+    while (!open.empty())
+    {
+        const Place place = std::move(open.back());
+        open.pop_back();
+        if (place.values.empty())
+        {
+            absent.push_back(place.path);
+            continue;
+        }
+        const rapidjson::Value& node = *place.schema;
+        if (node.HasMember("$ref"))
+        {
+            open.push_back({rapidjson::Pointer(node["$ref"].GetString()).Get(schema), place.values, place.path});
+        }
+        if (node.HasMember("items"))
+        {
+            open.push_back(EnterItems(place, node["items"]));
+        }
+        if (node.HasMember("properties"))
+        {
+            for (const auto& property : node["properties"].GetObject())
+            {
+                open.push_back(EnterProperty(place, property.name, property.value));
+            }
+        }
+    }
+    return absent;
 }
 
 void CheckValid(EVda5050Version version, std::string_view topic, std::string_view payload)
@@ -264,12 +338,7 @@ void CheckValid(std::string_view topic, std::string_view payload)
 {
     rapidjson::Document message;
     message.Parse<FLAGS>(payload.data(), payload.size());
-    bool bNewer = false;
-    if (message.IsObject())
-    {
-        const auto version = message.FindMember("version");
-        bNewer = version != message.MemberEnd() && version->value == "2.1.0";
-    }
+    const bool bNewer = message.IsObject() && message.HasMember("version") && message["version"] == "2.1.0";
     CheckValid(bNewer ? EVda5050Version::Version210 : EVda5050Version::Version200, topic, payload);
 }
 

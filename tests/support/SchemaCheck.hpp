@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ACS::Testing
 {
@@ -18,6 +19,12 @@ namespace ACS::Testing
 /// not know is checked beside it: timestamps, names that stand twice, and that the header says this version. Throws
 /// std::runtime_error where there are no schemas, or where one asks for what nothing here checks. Any thread.
 [[nodiscard]] std::optional<std::string> FindSchemaFaultOrNull(
+    VDA5050::EVda5050Version version,
+    VDA5050::ETopic topic,
+    std::string_view payload);
+
+/// The members that the schema names and the payload, which keeps to it, has nowhere: "nodes[].nodePosition.theta".
+[[nodiscard]] std::vector<std::string> ListAbsentMembers(
     VDA5050::EVda5050Version version,
     VDA5050::ETopic topic,
     std::string_view payload);

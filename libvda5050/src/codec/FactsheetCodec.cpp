@@ -47,8 +47,8 @@ struct JsonFields<VDA5050::PhysicalParameters>
     static constexpr auto FIELDS = std::make_tuple(
         Required("speedMin", &Type::speedMin),
         Required("speedMax", &Type::speedMax),
-        Optional("angularSpeedMin", &Type::angularSpeedMin),
-        Optional("angularSpeedMax", &Type::angularSpeedMax),
+        Optional("angularSpeedMin", &Type::angularSpeedMin).WrittenIn(VDA5050::Dialects::VERSION_210),
+        Optional("angularSpeedMax", &Type::angularSpeedMax).WrittenIn(VDA5050::Dialects::VERSION_210),
         Required("accelerationMax", &Type::accelerationMax),
         Required("decelerationMax", &Type::decelerationMax),
         Defaulted("heightMin", &Type::heightMin),
@@ -252,7 +252,7 @@ struct JsonFields<VDA5050::Envelope3D>
         Required("format", &Type::format),
         Optional("data", &Type::data),
         Optional("url", &Type::url),
-        Optional("description", &Type::description));
+        Optional("description", &Type::description).WrittenIn(VDA5050::Dialects::VERSION_200));
 };
 
 template <>
@@ -276,6 +276,7 @@ struct JsonFields<VDA5050::LoadSet>
         Optional("boundingBoxReference", &Type::boundingBoxReference),
         Optional("loadDimensions", &Type::loadDimensions),
         Optional("maxWeight", &Type::maxWeight),
+        Alias("maxWeigth", &Type::maxWeight),
         Optional("minLoadhandlingHeight", &Type::minLoadhandlingHeight),
         Optional("maxLoadhandlingHeight", &Type::maxLoadhandlingHeight),
         Optional("minLoadhandlingDepth", &Type::minLoadhandlingDepth),

@@ -48,7 +48,7 @@ struct PhysicalParameters
 {
     double speedMin = 0.0;
     double speedMax = 0.0;
-    std::optional<double> angularSpeedMin;
+    std::optional<double> angularSpeedMin; ///< Written from 2.1 on, by its text: its schema forgot the two.
     std::optional<double> angularSpeedMax;
     double accelerationMax = 0.0;
     double decelerationMax = 0.0;
@@ -235,7 +235,7 @@ struct Envelope3D
     std::string format;
     std::optional<Core::JsonText> data; ///< An object whose form the format says.
     std::string url;
-    std::optional<Core::JsonText> description; ///< A string by the text, an integer by the schema of 2.1.
+    std::optional<Core::JsonText> description; ///< A string, but an integer in the schema of 2.1: written in 2.0 only.
 
     bool operator==(const Envelope3D&) const = default;
 };
