@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "GoldenFiles.hpp"
+#include "MessageSample.hpp"
 #include "SchemaCheck.hpp"
 #include <acs/vda5050/Vda5050Codec.hpp>
 
@@ -13,8 +13,6 @@ namespace ACS::VDA5050::Test
 
 namespace
 {
-
-constexpr std::array VERSIONS{EVda5050Version::Version200, EVda5050Version::Version210};
 
 struct Rewritten
 {
@@ -59,16 +57,6 @@ constexpr std::array<Kind, TOPIC_COUNT> KINDS{
     Kind{ETopic::Connection, &Rewrite<ConnectionMessage>, false},
     Kind{ETopic::Factsheet, &Rewrite<FactsheetMessage>, true}};
 
-std::string MakeName(ETopic topic, EVda5050Version version, const std::string& variant)
-{
-    return std::string(GetTopicName(topic)) + "." + std::string(GetVersionText(version)) + "." + variant + ".json";
-}
-
-std::string ReadGolden(ETopic topic, EVda5050Version version, const std::string& variant)
-{
-    return Testing::ReadGolden(ACS_FIXTURES "/golden", MakeName(topic, version, variant));
-}
-
 void CheckSchema(EVda5050Version version, ETopic topic, const std::string& text)
 {
     Testing::CheckValid(version, BuildTopic(VehicleAddress{"uagv", "KIT", "1"}, topic), text);
@@ -85,7 +73,7 @@ TEST_CASE(
         {
             for (const std::string variant : {"full", "minimal"})
             {
-                INFO(MakeName(kind.topic, version, variant));
+                INFO(MakeGoldenName(kind.topic, version, variant));
                 const std::string text = ReadGolden(kind.topic, version, variant);
                 const Rewritten rewritten = kind.rewrite(text, version);
                 CHECK(rewritten.text == text);
@@ -107,7 +95,7 @@ TEST_CASE(
             {
                 continue;
             }
-            INFO(MakeName(kind.topic, version, "null"));
+            INFO(MakeGoldenName(kind.topic, version, "null"));
             const std::string text = ReadGolden(kind.topic, version, "null");
             const std::string minimal = ReadGolden(kind.topic, version, "minimal");
             const Rewritten rewritten = kind.rewrite(text, version);
@@ -127,7 +115,7 @@ TEST_CASE("3 What one version knows more than the other is left out there: each 
     {
         for (const std::string variant : {"full", "minimal"})
         {
-            INFO(MakeName(kind.topic, EVda5050Version::Version210, variant));
+            INFO(MakeGoldenName(kind.topic, EVda5050Version::Version210, variant));
             const std::string newer = ReadGolden(kind.topic, EVda5050Version::Version210, variant);
             CheckSchema(EVda5050Version::Version200, kind.topic, kind.rewrite(newer, EVda5050Version::Version200).text);
             const std::string older = ReadGolden(kind.topic, EVda5050Version::Version200, variant);
@@ -147,7 +135,7 @@ TEST_CASE("3 The full messages have every member that their schemas name")
     {
         for (const Kind& kind : KINDS)
         {
-            INFO(MakeName(kind.topic, version, "full"));
+            INFO(MakeGoldenName(kind.topic, version, "full"));
             std::vector<std::string> expected;
             if (kind.topic == ETopic::Factsheet)
             {
@@ -181,11 +169,11 @@ TEST_CASE("3 There is a golden file of each kind for every message, and none bes
     {
         for (const Kind& kind : KINDS)
         {
-            expected.insert(MakeName(kind.topic, version, "full"));
-            expected.insert(MakeName(kind.topic, version, "minimal"));
+            expected.insert(MakeGoldenName(kind.topic, version, "full"));
+            expected.insert(MakeGoldenName(kind.topic, version, "minimal"));
             if (kind.bOptionals)
             {
-                expected.insert(MakeName(kind.topic, version, "null"));
+                expected.insert(MakeGoldenName(kind.topic, version, "null"));
             }
         }
     }
