@@ -191,9 +191,18 @@ void EncodeField(const T& object, JsonWriter& writer)
         {
             return;
         }
+        constexpr bool B_FREE = FIELD.written.firstLetter != WrittenForm::ANY;
+        if constexpr (B_FREE)
+        {
+            static_assert(FIELD.presence == EPresence::Optional, "only what may be missing is left out");
+            if (!member->GetText().starts_with(FIELD.written.firstLetter))
+            {
+                return;
+            }
+        }
         using Key = KeyText<T, INDEX>;
         writer.WriteKeyText({Key::TEXT.data(), Key::LENGTH});
-        if constexpr (FIELD.written == WrittenForm{})
+        if constexpr (B_FREE || FIELD.written == WrittenForm{})
         {
             ValueEncoder<std::remove_cvref_t<decltype(member)>>::Encode(member, writer);
         }

@@ -36,12 +36,18 @@ struct FieldBounds
     std::size_t maximumElement = std::numeric_limits<std::size_t>::max();
 };
 
-/// How a number is brought into the form that a strict reader takes. A value that Between tolerates is written in here.
+/// The form that a strict reader takes: the range in which a number is written that Between tolerates, and the first
+/// letter of the only kind of free value that is written.
 struct WrittenForm
 {
+    static constexpr char ANY = '\0';
+    static constexpr char OBJECT = '{';
+    static constexpr char STRING = '"';
+
     double minimum = -std::numeric_limits<double>::infinity();
     double maximum = std::numeric_limits<double>::infinity();
     DialectFlags wholeIn = 0;
+    char firstLetter = ANY;
 
     constexpr bool operator==(const WrittenForm&) const = default;
 };
@@ -88,6 +94,22 @@ struct JsonField
     {
         JsonField field = *this;
         field.written.wholeIn = flags;
+        return field;
+    }
+
+    /// Of an optional free value: left out where it is anything but an object.
+    [[nodiscard]] constexpr JsonField WrittenIfObject() const
+    {
+        JsonField field = *this;
+        field.written.firstLetter = WrittenForm::OBJECT;
+        return field;
+    }
+
+    /// Of an optional free value: left out where it is anything but a string.
+    [[nodiscard]] constexpr JsonField WrittenIfString() const
+    {
+        JsonField field = *this;
+        field.written.firstLetter = WrittenForm::STRING;
         return field;
     }
 
