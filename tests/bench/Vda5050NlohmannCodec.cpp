@@ -41,7 +41,7 @@ void ReadWord(const Json& value, const std::array<const char*, COUNT>& words, TE
 }
 
 template <typename TEnum, std::size_t COUNT>
-const char* GetWord(TEnum value, const std::array<const char*, COUNT>& words)
+std::string_view GetWord(TEnum value, const std::array<const char*, COUNT>& words)
 {
     return words.at(static_cast<std::size_t>(value));
 }

@@ -153,8 +153,8 @@ Shelf LoadSchemas()
 
 const Schema& GetSchema(EVda5050Version version, ETopic topic)
 {
-    static const Shelf shelf = LoadSchemas();
-    return shelf.at({version, topic});
+    static const Shelf SHELF = LoadSchemas();
+    return SHELF.at({version, topic});
 }
 
 /// A place of a schema with all the values that a payload has there.

@@ -250,9 +250,9 @@ struct JsonFields<VDA5050::Envelope3D>
     static constexpr auto FIELDS = std::make_tuple(
         Required("set", &Type::set),
         Required("format", &Type::format),
-        Optional("data", &Type::data),
+        Optional("data", &Type::data).WrittenIfObject(),
         Optional("url", &Type::url),
-        Optional("description", &Type::description).WrittenIn(VDA5050::Dialects::VERSION_200));
+        Optional("description", &Type::description).WrittenIn(VDA5050::Dialects::VERSION_200).WrittenIfString());
 };
 
 template <>
@@ -342,7 +342,9 @@ struct JsonFields<VDA5050::FactsheetMessage>
         Required("protocolFeatures", &Type::protocolFeatures),
         Required("agvGeometry", &Type::agvGeometry),
         Required("loadSpecification", &Type::loadSpecification),
-        Optional("localizationParameters", &Type::localizationParameters).WrittenIn(VDA5050::Dialects::VERSION_200),
+        Optional("localizationParameters", &Type::localizationParameters)
+            .WrittenIn(VDA5050::Dialects::VERSION_200)
+            .WrittenIfObject(),
         Optional("vehicleConfig", &Type::vehicleConfig).WrittenIn(VDA5050::Dialects::VERSION_210));
 };
 
