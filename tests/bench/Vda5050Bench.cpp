@@ -1,14 +1,13 @@
+#include "CodecTable.hpp"
+#include "Vda5050NlohmannCodec.hpp"
 #include <acs/vda5050/OrderBuilder.hpp>
 #include <acs/vda5050/Vda5050Codec.hpp>
-
-#include <benchmark/benchmark.h>
-#include <rapidjson/document.h>
-#include <rapidjson/stringbuffer.h>
-#include <rapidjson/writer.h>
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,10 +20,6 @@ namespace
 
 using namespace VDA5050; // NOLINT(google-build-using-namespace)
 
-constexpr unsigned FLAGS =
-    rapidjson::kParseIterativeFlag | rapidjson::kParseValidateEncodingFlag | rapidjson::kParseFullPrecisionFlag;
-constexpr std::size_t STATE_NODES = 10;
-constexpr std::size_t ORDER_NODES = 50;
 constexpr std::chrono::milliseconds WALL{1'763'681'832'345};
 
 Header MakeHeader()
@@ -37,11 +32,11 @@ double MakeCoordinate(std::size_t index, double step)
     return 12.345 + step * static_cast<double>(index);
 }
 
-OrderMessage MakeOrder()
+OrderMessage MakeOrder(std::size_t nodeCount)
 {
-    std::vector<OrderNode> nodes(ORDER_NODES);
-    std::vector<OrderEdge> edges(ORDER_NODES - 1);
-    for (std::size_t index = 0; index < ORDER_NODES; ++index)
+    std::vector<OrderNode> nodes(nodeCount);
+    std::vector<OrderEdge> edges(nodeCount - 1);
+    for (std::size_t index = 0; index < nodeCount; ++index)
     {
         OrderNode& node = nodes[index];
         node.nodeID = "WP-" + std::to_string(1000 + index);
@@ -69,21 +64,21 @@ OrderMessage MakeOrder()
     }
     Core::Result<OrderBuilder> builder =
         OrderBuilder::Create("order-5f3e2c1a-7788-4c3d-9a10-2b3c4d5e6f70", std::move(nodes), std::move(edges));
-    OrderMessage order = *builder->MakeOrder(ORDER_NODES / 2);
+    OrderMessage order = *builder->MakeOrder(nodeCount / 2);
     order.header = MakeHeader();
     return order;
 }
 
-StateMessage MakeState()
+StateMessage MakeState(std::size_t nodeCount)
 {
-    const OrderMessage order = MakeOrder();
+    const OrderMessage order = MakeOrder(nodeCount);
     StateMessage state;
     state.header = MakeHeader();
     state.orderID = order.orderID;
     state.orderUpdateID = 3;
     state.lastNodeID = "WP-0116";
     state.lastNodeSequenceID = 6;
-    for (std::size_t index = 0; index < STATE_NODES; ++index)
+    for (std::size_t index = 0; index < nodeCount; ++index)
     {
         const OrderNode& node = order.nodes[index];
         state.nodeStates.push_back(NodeState{
@@ -92,7 +87,7 @@ StateMessage MakeState()
             {},
             node.bReleased,
             NodeStatePosition{node.nodePosition->x, node.nodePosition->y, 0.61, "hall-2-floor-0"}});
-        if (index + 1 < STATE_NODES)
+        if (index + 1 < nodeCount)
         {
             const OrderEdge& edge = order.edges[index];
             state.edgeStates.push_back(EdgeState{edge.edgeID, edge.sequenceID, {}, edge.bReleased, {}});
@@ -133,70 +128,64 @@ StateMessage MakeState()
     return state;
 }
 
+/// A row whose message all codecs read alike.
 template <typename TMessage>
-void Decode(benchmark::State& state, const TMessage& message)
+CodecRow MakeRow(std::string name, const TMessage& message)
 {
-    Vda5050Codec codec;
-    const std::string text = codec.Encode(message, EVda5050Version::Version200);
-    for ([[maybe_unused]] auto round : state)
+    constexpr EVda5050Version VERSION = EVda5050Version::Version200;
+    std::string text = Vda5050Codec().Encode(message, VERSION);
+    const std::string other = Vda5050NlohmannCodec::Encode(message);
+    if (!(Vda5050Codec().Decode<TMessage>(text) == message) || !(Vda5050Codec().Decode<TMessage>(other) == message)
+        || !(Vda5050NlohmannCodec::Decode<TMessage>(text) == message))
     {
-        benchmark::DoNotOptimize(codec.Decode<TMessage>(text));
+        throw std::runtime_error("the codecs do not agree about " + name);
     }
-    state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(text.size()));
+    return CodecRow{
+        std::move(name),
+        text,
+        [text](benchmark::State& state) {
+            Vda5050Codec codec;
+            for ([[maybe_unused]] auto round : state)
+            {
+                benchmark::DoNotOptimize(codec.Decode<TMessage>(text));
+            }
+        },
+        [message](benchmark::State& state) {
+            const Vda5050Codec codec;
+            std::string out;
+            for ([[maybe_unused]] auto round : state)
+            {
+                codec.Encode(message, VERSION, out);
+                benchmark::DoNotOptimize(out.data());
+                benchmark::ClobberMemory();
+            }
+        },
+        [text](benchmark::State& state) {
+            for ([[maybe_unused]] auto round : state)
+            {
+                benchmark::DoNotOptimize(Vda5050NlohmannCodec::Decode<TMessage>(text));
+            }
+        },
+        [message](benchmark::State& state) {
+            for ([[maybe_unused]] auto round : state)
+            {
+                benchmark::DoNotOptimize(Vda5050NlohmannCodec::Encode(message));
+            }
+        }};
 }
-
-template <typename TMessage>
-void Encode(benchmark::State& state, const TMessage& message)
-{
-    const Vda5050Codec codec;
-    std::string text;
-    for ([[maybe_unused]] auto round : state)
-    {
-        codec.Encode(message, EVda5050Version::Version200, text);
-        benchmark::DoNotOptimize(text.data());
-    }
-    state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(text.size()));
-}
-
-template <typename TMessage>
-void ParseBare(benchmark::State& state, const TMessage& message)
-{
-    const std::string text = Vda5050Codec().Encode(message, EVda5050Version::Version200);
-    for ([[maybe_unused]] auto round : state)
-    {
-        rapidjson::Document document;
-        document.Parse<FLAGS>(text.data(), text.size());
-        benchmark::DoNotOptimize(document.IsObject());
-    }
-    state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(text.size()));
-}
-
-template <typename TMessage>
-void SerialiseBare(benchmark::State& state, const TMessage& message)
-{
-    const std::string text = Vda5050Codec().Encode(message, EVda5050Version::Version200);
-    rapidjson::Document document;
-    document.Parse<FLAGS>(text.data(), text.size());
-    rapidjson::StringBuffer buffer;
-    for ([[maybe_unused]] auto round : state)
-    {
-        buffer.Clear();
-        rapidjson::Writer<rapidjson::StringBuffer> writer(buffer);
-        document.Accept(writer);
-        benchmark::DoNotOptimize(buffer.GetString());
-    }
-    state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(text.size()));
-}
-
-BENCHMARK_CAPTURE(Decode, State, MakeState());
-BENCHMARK_CAPTURE(ParseBare, State, MakeState());
-BENCHMARK_CAPTURE(Encode, State, MakeState());
-BENCHMARK_CAPTURE(SerialiseBare, State, MakeState());
-BENCHMARK_CAPTURE(Decode, Order, MakeOrder());
-BENCHMARK_CAPTURE(ParseBare, Order, MakeOrder());
-BENCHMARK_CAPTURE(Encode, Order, MakeOrder());
-BENCHMARK_CAPTURE(SerialiseBare, Order, MakeOrder());
 
 } // namespace
 
 } // namespace ACS::Bench
+
+int main(int argumentCount, char** arguments)
+{
+    using namespace ACS::Bench; // NOLINT(google-build-using-namespace)
+    return RunCodecTable(
+        argumentCount,
+        arguments,
+        {MakeRow("state, 10 nodes", MakeState(10)),
+         MakeRow("order, 50 nodes", MakeOrder(50)),
+         MakeRow("state, 100 nodes", MakeState(100)),
+         MakeRow("order, 100 nodes", MakeOrder(100))});
+}

@@ -208,7 +208,12 @@ bool ValueDecoder<Core::JsonText>::TryDecode(
     const FieldBounds& /*bounds*/,
     DecodeContext& context)
 {
-    if (HasDuplicateNames(value))
+    if (value.IsString())
+    {
+        out = Core::JsonText::FromString({value.GetString(), value.GetStringLength()});
+        return true;
+    }
+    if ((value.IsObject() || value.IsArray()) && HasDuplicateNames(value))
     {
         return context.IsFailedWith(
             make_error_code(Core::ECoreError::InvalidJson),

@@ -6,6 +6,7 @@
 #include <acs/vda5050/Vda5050Codec.hpp>
 
 #include <cassert>
+#include <concepts>
 #include <string>
 #include <string_view>
 
@@ -17,21 +18,27 @@ struct Vda5050Codec::Scratch
     Json::JsonDocument document;
 };
 
-/// What WrittenIn takes: a version of the protocol is a dialect.
+/// What WrittenIn takes: a version of the protocol is a dialect, and has another one for visualization, whose schemas know
+/// less of a position than those of state.
 namespace Dialects
 {
 inline constexpr Json::DialectFlags VERSION_200 = 1U << 0U;
 inline constexpr Json::DialectFlags VERSION_210 = 1U << 1U;
+inline constexpr Json::DialectFlags VISUALIZATION_200 = 1U << 4U;
+inline constexpr Json::DialectFlags VISUALIZATION_210 = 1U << 5U;
+inline constexpr Json::DialectFlags OUTSIDE_VISUALIZATION = VERSION_200 | VERSION_210;
 } // namespace Dialects
 
+template <typename TMessage>
 [[nodiscard]] constexpr Json::DialectFlags GetDialect(EVda5050Version version)
 {
+    constexpr bool B_VISUALIZATION = std::same_as<TMessage, VisualizationMessage>;
     switch (version)
     {
         case EVda5050Version::Version200:
-            return Dialects::VERSION_200;
+            return B_VISUALIZATION ? Dialects::VISUALIZATION_200 : Dialects::VERSION_200;
         case EVda5050Version::Version210:
-            return Dialects::VERSION_210;
+            return B_VISUALIZATION ? Dialects::VISUALIZATION_210 : Dialects::VERSION_210;
         default:
             assert(false && "a version has no dialect");
             return Json::ALL_DIALECTS;
@@ -63,7 +70,7 @@ template <typename TMessage>
 void Vda5050Codec::Encode(const TMessage& message, EVda5050Version version, std::string& out) const
 {
     out.clear();
-    Json::JsonWriter writer(out, GetDialect(version));
+    Json::JsonWriter writer(out, GetDialect<TMessage>(version));
     Json::Encode(message, writer);
 }
 

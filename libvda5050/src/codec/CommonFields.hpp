@@ -9,14 +9,16 @@
 
 #include <array>
 #include <limits>
+#include <numbers>
 #include <string_view>
 #include <tuple>
 
 namespace ACS::VDA5050
 {
 
-/// Pi with the room that a peer needs who computes in single precision.
+/// Pi with the room that a peer needs who computes in single precision; written is never more than pi itself.
 inline constexpr double PI_BOUND = 3.1416;
+inline constexpr double PI = std::numbers::pi;
 inline constexpr double NO_MAXIMUM = std::numeric_limits<double>::infinity();
 
 } // namespace ACS::VDA5050
@@ -75,7 +77,7 @@ template <typename TMessage, typename TMember>
     using Outer = MemberAccessor<TMessage, VDA5050::Header>;
     using Inner = MemberAccessor<VDA5050::Header, TMember>;
     using Nested = NestedAccessor<Outer, Inner>;
-    return JsonField<Nested>{name, Nested{{&TMessage::header}, {member}}, EPresence::Defaulted, {}, ALL_DIALECTS};
+    return JsonField<Nested>{name, Nested{{&TMessage::header}, {member}}, EPresence::Defaulted, {}, ALL_DIALECTS, {}};
 }
 
 template <>
@@ -123,7 +125,7 @@ struct JsonFields<VDA5050::Trajectory>
 {
     static constexpr auto FIELDS = std::make_tuple(
         Defaulted("degree", &VDA5050::Trajectory::degree).Between(1, VDA5050::NO_MAXIMUM),
-        Required("knotVector", &VDA5050::Trajectory::knotVector),
+        Required("knotVector", &VDA5050::Trajectory::knotVector).Between(0, 1),
         Required("controlPoints", &VDA5050::Trajectory::controlPoints));
 };
 

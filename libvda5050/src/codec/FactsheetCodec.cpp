@@ -47,8 +47,8 @@ struct JsonFields<VDA5050::PhysicalParameters>
     static constexpr auto FIELDS = std::make_tuple(
         Required("speedMin", &Type::speedMin),
         Required("speedMax", &Type::speedMax),
-        Optional("angularSpeedMin", &Type::angularSpeedMin),
-        Optional("angularSpeedMax", &Type::angularSpeedMax),
+        Optional("angularSpeedMin", &Type::angularSpeedMin).WrittenIn(VDA5050::Dialects::VERSION_210),
+        Optional("angularSpeedMax", &Type::angularSpeedMax).WrittenIn(VDA5050::Dialects::VERSION_210),
         Required("accelerationMax", &Type::accelerationMax),
         Required("decelerationMax", &Type::decelerationMax),
         Defaulted("heightMin", &Type::heightMin),
@@ -250,9 +250,9 @@ struct JsonFields<VDA5050::Envelope3D>
     static constexpr auto FIELDS = std::make_tuple(
         Required("set", &Type::set),
         Required("format", &Type::format),
-        Optional("data", &Type::data),
+        Optional("data", &Type::data).WrittenIfObject(),
         Optional("url", &Type::url),
-        Optional("description", &Type::description));
+        Optional("description", &Type::description).WrittenIn(VDA5050::Dialects::VERSION_200).WrittenIfString());
 };
 
 template <>
@@ -276,6 +276,7 @@ struct JsonFields<VDA5050::LoadSet>
         Optional("boundingBoxReference", &Type::boundingBoxReference),
         Optional("loadDimensions", &Type::loadDimensions),
         Optional("maxWeight", &Type::maxWeight),
+        Alias("maxWeigth", &Type::maxWeight),
         Optional("minLoadhandlingHeight", &Type::minLoadhandlingHeight),
         Optional("maxLoadhandlingHeight", &Type::maxLoadhandlingHeight),
         Optional("minLoadhandlingDepth", &Type::minLoadhandlingDepth),
@@ -341,7 +342,9 @@ struct JsonFields<VDA5050::FactsheetMessage>
         Required("protocolFeatures", &Type::protocolFeatures),
         Required("agvGeometry", &Type::agvGeometry),
         Required("loadSpecification", &Type::loadSpecification),
-        Optional("localizationParameters", &Type::localizationParameters).WrittenIn(VDA5050::Dialects::VERSION_200),
+        Optional("localizationParameters", &Type::localizationParameters)
+            .WrittenIn(VDA5050::Dialects::VERSION_200)
+            .WrittenIfObject(),
         Optional("vehicleConfig", &Type::vehicleConfig).WrittenIn(VDA5050::Dialects::VERSION_210));
 };
 

@@ -12,10 +12,14 @@ struct JsonFields<VDA5050::NodePosition>
     static constexpr auto FIELDS = std::make_tuple(
         Required("x", &Type::x),
         Required("y", &Type::y),
-        Optional("theta", &Type::theta).Between(-VDA5050::PI_BOUND, VDA5050::PI_BOUND),
+        Optional("theta", &Type::theta)
+            .Between(-VDA5050::PI_BOUND, VDA5050::PI_BOUND)
+            .WrittenBetween(-VDA5050::PI, VDA5050::PI),
         Optional("allowedDeviationXY", &Type::allowedDeviationXY).Between(0, VDA5050::NO_MAXIMUM),
         Alias("allowedDeviationXy", &Type::allowedDeviationXY).Between(0, VDA5050::NO_MAXIMUM),
-        Optional("allowedDeviationTheta", &Type::allowedDeviationTheta).Between(0, VDA5050::PI_BOUND),
+        Optional("allowedDeviationTheta", &Type::allowedDeviationTheta)
+            .Between(0, VDA5050::PI_BOUND)
+            .WrittenBetween(0, VDA5050::PI),
         Required("mapId", &Type::mapID),
         Optional("mapDescription", &Type::mapDescription));
 };
@@ -75,7 +79,9 @@ struct JsonFields<VDA5050::OrderEdge>
         Optional("maxSpeed", &Type::maxSpeed),
         Optional("maxHeight", &Type::maxHeight),
         Optional("minHeight", &Type::minHeight),
-        Optional("orientation", &Type::orientation).Between(-VDA5050::PI_BOUND, VDA5050::PI_BOUND),
+        Optional("orientation", &Type::orientation)
+            .Between(-VDA5050::PI_BOUND, VDA5050::PI_BOUND)
+            .WrittenBetween(-VDA5050::PI, VDA5050::PI),
         Optional("orientationType", &Type::orientationType),
         Optional("direction", &Type::direction),
         Optional("rotationAllowed", &Type::bRotationAllowed),

@@ -32,7 +32,10 @@ struct JsonFields<VDA5050::NodeStatePosition>
         Required("x", &Type::x),
         Required("y", &Type::y),
         Optional("theta", &Type::theta),
-        Required("mapId", &Type::mapID));
+        Optional("allowedDeviationXY", &Type::allowedDeviationXY).WrittenIn(VDA5050::Dialects::VERSION_200),
+        Optional("allowedDeviationTheta", &Type::allowedDeviationTheta).WrittenIn(VDA5050::Dialects::VERSION_200),
+        Required("mapId", &Type::mapID),
+        Optional("mapDescription", &Type::mapDescription).WrittenIn(VDA5050::Dialects::VERSION_200));
 };
 
 template <>
@@ -66,11 +69,13 @@ struct JsonFields<VDA5050::AgvPosition>
     static constexpr auto FIELDS = std::make_tuple(
         Required("x", &Type::x),
         Required("y", &Type::y),
-        Required("theta", &Type::theta).Between(-VDA5050::PI_BOUND, VDA5050::PI_BOUND),
+        Required("theta", &Type::theta)
+            .Between(-VDA5050::PI_BOUND, VDA5050::PI_BOUND)
+            .WrittenBetween(-VDA5050::PI, VDA5050::PI),
         Required("mapId", &Type::mapID),
-        Optional("mapDescription", &Type::mapDescription),
+        Optional("mapDescription", &Type::mapDescription).WrittenIn(VDA5050::Dialects::OUTSIDE_VISUALIZATION),
         Required("positionInitialized", &Type::bPositionInitialized),
-        Optional("localizationScore", &Type::localizationScore).Between(0, 1),
+        Optional("localizationScore", &Type::localizationScore).Between(0, 1).WrittenBetween(0, 1),
         Optional("deviationRange", &Type::deviationRange));
 };
 
@@ -92,7 +97,7 @@ struct JsonFields<VDA5050::Load>
         Optional("loadPosition", &Type::loadPosition),
         Optional("boundingBoxReference", &Type::boundingBoxReference),
         Optional("loadDimensions", &Type::loadDimensions),
-        Optional("weight", &Type::weight).Between(0, VDA5050::NO_MAXIMUM));
+        Optional("weight", &Type::weight).Between(0, VDA5050::NO_MAXIMUM).WrittenBetween(0, VDA5050::NO_MAXIMUM));
 };
 
 template <>
@@ -127,9 +132,12 @@ struct JsonFields<VDA5050::BatteryState>
     static constexpr auto FIELDS = std::make_tuple(
         Required("batteryCharge", &Type::batteryCharge),
         Optional("batteryVoltage", &Type::batteryVoltage),
-        Optional("batteryHealth", &Type::batteryHealth).Between(0, 100),
+        Optional("batteryHealth", &Type::batteryHealth)
+            .Between(0, 100)
+            .WrittenBetween(0, 100)
+            .WholeIn(VDA5050::Dialects::VERSION_200),
         Required("charging", &Type::bCharging),
-        Optional("reach", &Type::reach).Between(0, VDA5050::NO_MAXIMUM));
+        Optional("reach", &Type::reach).Between(0, VDA5050::NO_MAXIMUM).WrittenBetween(0, VDA5050::NO_MAXIMUM));
 };
 
 template <>

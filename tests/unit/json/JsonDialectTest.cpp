@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ACS::Json::Test
 {
@@ -17,8 +18,18 @@ struct Dialects
     std::string name;
     std::optional<double> speed;
     std::optional<double> added;
+    std::optional<double> angle;
+    double charge = 0.0;
+    std::vector<double> knots;
 
     bool operator==(const Dialects&) const = default;
+};
+
+struct Free
+{
+    Core::JsonText value;
+    std::optional<Core::JsonText> object;
+    std::optional<Core::JsonText> text;
 };
 
 } // namespace ACS::Json::Test
@@ -34,7 +45,19 @@ struct JsonFields<Test::Dialects>
         Alias("nom", &Test::Dialects::name),
         Optional("speed", &Test::Dialects::speed),
         Alias("Speed", &Test::Dialects::speed),
-        Optional("added", &Test::Dialects::added).WrittenIn(Test::NEW));
+        Optional("added", &Test::Dialects::added).WrittenIn(Test::NEW),
+        Optional("angle", &Test::Dialects::angle).Between(-3.2, 3.2).WrittenBetween(-3.0, 3.0),
+        Defaulted("charge", &Test::Dialects::charge).WholeIn(Test::OLD).WrittenIn(Test::OLD),
+        Optional("knots", &Test::Dialects::knots).Between(0, 1));
+};
+
+template <>
+struct JsonFields<Test::Free>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("value", &Test::Free::value),
+        Optional("object", &Test::Free::object).WrittenIfObject(),
+        Optional("text", &Test::Free::text).WrittenIfString());
 };
 
 } // namespace ACS::Json
@@ -45,12 +68,13 @@ namespace ACS::Json::Test
 namespace
 {
 
-std::optional<Dialects> ReadOrNull(std::string_view text)
+template <typename T = Dialects>
+std::optional<T> ReadOrNull(std::string_view text)
 {
     JsonDocument document;
     const Core::Result<const Value*> root = document.Parse(text, {});
     DecodeContext context;
-    Dialects message;
+    T message;
     if (!root || !TryDecode(**root, message, {}, context))
     {
         return std::nullopt;
@@ -58,7 +82,8 @@ std::optional<Dialects> ReadOrNull(std::string_view text)
     return message;
 }
 
-std::string Write(const Dialects& message, DialectFlags dialect)
+template <typename T>
+std::string Write(const T& message, DialectFlags dialect)
 {
     std::string text;
     JsonWriter writer(text, dialect);
@@ -70,8 +95,8 @@ std::string Write(const Dialects& message, DialectFlags dialect)
 
 TEST_CASE("A field is read by its other name, required or optional")
 {
-    CHECK(ReadOrNull(R"({"nom":"x","Speed":2})") == Dialects{"x", 2.0, {}});
-    CHECK(ReadOrNull(R"({"name":"x","speed":2})") == Dialects{"x", 2.0, {}});
+    CHECK(ReadOrNull(R"({"nom":"x","Speed":2})") == Dialects{"x", 2.0, {}, {}, 0.0, {}});
+    CHECK(ReadOrNull(R"({"name":"x","speed":2})") == Dialects{"x", 2.0, {}, {}, 0.0, {}});
 }
 
 TEST_CASE("A field under both of its names is a repeated member, under none a missing one")
@@ -84,10 +109,43 @@ TEST_CASE("A field under both of its names is a repeated member, under none a mi
 
 TEST_CASE("A field is written under its own name, and only in its dialects")
 {
-    const Dialects message{"x", 2.5, 1.5};
-    CHECK(Write(message, OLD) == R"({"name":"x","speed":2.5})");
+    const Dialects message{"x", 2.5, 1.5, {}, 0.0, {}};
+    CHECK(Write(message, OLD) == R"({"name":"x","speed":2.5,"charge":0})");
     CHECK(Write(message, NEW) == R"({"name":"x","speed":2.5,"added":1.5})");
-    CHECK(ReadOrNull(R"({"name":"x","added":1.5})") == Dialects{"x", {}, 1.5});
+    CHECK(ReadOrNull(R"({"name":"x","added":1.5})") == Dialects{"x", {}, 1.5, {}, 0.0, {}});
+}
+
+TEST_CASE("A number is written within narrower bounds than it is read in, and whole where a dialect wants it whole")
+{
+    const std::optional<Dialects> read = ReadOrNull(R"({"name":"x","angle":3.1,"charge":97.5})");
+    REQUIRE(read.has_value());
+    CHECK(read->angle == 3.1);
+    CHECK(Write(*read, OLD) == R"({"name":"x","angle":3,"charge":98})");
+    CHECK(
+        Write(*ReadOrNull(R"({"name":"x","angle":-3.1,"charge":0})"), OLD) == R"({"name":"x","angle":-3,"charge":0})");
+    CHECK(
+        Write(*ReadOrNull(R"({"name":"x","angle":2.5,"charge":0})"), OLD) == R"({"name":"x","angle":2.5,"charge":0})");
+    CHECK_FALSE(ReadOrNull(R"({"name":"x","angle":3.3})").has_value());
+}
+
+TEST_CASE("The bounds of an array of numbers are those of each")
+{
+    CHECK(ReadOrNull(R"({"name":"x","knots":[0,0.5,1]})")->knots == std::vector{0.0, 0.5, 1.0});
+    CHECK_FALSE(ReadOrNull(R"({"name":"x","knots":[0,1.5]})").has_value());
+    CHECK_FALSE(ReadOrNull(R"({"name":"x","knots":[-0.5,1]})").has_value());
+}
+
+TEST_CASE("A free value of another kind than a strict reader takes is read and left out")
+{
+    const std::string strict = R"({"value":1.5,"object":{"a":1},"text":"b"})";
+    CHECK(Write(*ReadOrNull<Free>(strict), OLD) == strict);
+    CHECK(Write(*ReadOrNull<Free>(R"({"value":"","object":[],"text":{}})"), OLD) == R"({"value":""})");
+}
+
+TEST_CASE("A free value that is required is anything but null")
+{
+    CHECK(ReadOrNull<Free>(R"({"value":{"a":[null]}})")->value.GetText() == R"({"a":[null]})");
+    CHECK_FALSE(ReadOrNull<Free>(R"({"value":null})").has_value());
 }
 
 } // namespace ACS::Json::Test

@@ -1,10 +1,8 @@
 #include "Catch.hpp"
-#include "Fixture.hpp"
+#include "GoldenFiles.hpp"
 #include <acs/protocol/AcsCodec.hpp>
 
 #include <cstddef>
-#include <filesystem>
-#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,7 +12,6 @@ using Protocol::AcsCodec;
 using Protocol::AcsMessage;
 using Protocol::DecodeOutcome;
 using Protocol::EAcsCommand;
-using Testing::ReadFixture;
 
 namespace
 {
@@ -44,13 +41,9 @@ std::vector<Kind> ListKinds()
     return kinds;
 }
 
-/// A golden file without its line end.
 std::string ReadGolden(const Kind& kind, const std::string& variant)
 {
-    std::string text = ReadFixture("golden/" + kind.name + "." + variant);
-    REQUIRE(text.back() == '\n');
-    text.pop_back();
-    return text;
+    return Testing::ReadGolden(ACS_FIXTURES "/golden", kind.name + "." + variant + ".json");
 }
 
 AcsMessage Decode(AcsCodec& codec, const std::string& text)
@@ -77,14 +70,6 @@ void CheckKind(const Kind& kind, const AcsMessage& message)
     const EAcsCommand command =
         kind.bAck ? std::get<Protocol::AcsAck>(message).command : GetCommand(std::get<Protocol::AcsRequest>(message));
     CHECK(command == kind.command);
-}
-
-/// The same text with every member left out that is null.
-std::string DropNullMembers(const std::string& text)
-{
-    static const std::regex NULL_MEMBER(R"RE("[A-Za-z]+":null,?)RE");
-    static const std::regex LAST_COMMA(R"RE(,\})RE");
-    return std::regex_replace(std::regex_replace(text, NULL_MEMBER, ""), LAST_COMMA, "}");
 }
 
 } // namespace
@@ -123,7 +108,7 @@ TEST_CASE("2, D-27 Every message with null, or nothing, for all that may be miss
         const std::string minimal = ReadGolden(kind, "minimal");
         CHECK(text.find("null") != std::string::npos);
         CHECK(Encode(Decode(codec, text)) == minimal);
-        const std::string bare = DropNullMembers(text);
+        const std::string bare = Testing::DropNullMembers(text);
         CHECK(bare.find("null") == std::string::npos);
         CHECK(codec.Decode(bare).notes == Protocol::DecodeNotes{});
         CHECK(Encode(Decode(codec, bare)) == minimal);
@@ -140,10 +125,5 @@ TEST_CASE("4, 5 There is a golden file of each kind for every message, and none 
             expected.insert(kind.name + "." + variant + ".json");
         }
     }
-    std::set<std::string> found;
-    for (const auto& entry : std::filesystem::directory_iterator(ACS_FIXTURES "/golden"))
-    {
-        found.insert(entry.path().filename().string());
-    }
-    CHECK(found == expected);
+    CHECK(Testing::ListGolden(ACS_FIXTURES "/golden") == expected);
 }

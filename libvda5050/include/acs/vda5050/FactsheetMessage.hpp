@@ -37,7 +37,7 @@ struct TypeSpecification
     EAgvClass agvClass = EAgvClass::Carrier;
     double maxLoadMass = 0.0; ///< kg
     std::vector<std::string>
-        localizationTypes; ///< NATURAL, REFLECTOR, RFID, DMC, SPOT, GRID: examples, not a closed set.
+        localizationTypes; ///< NATURAL, REFLECTOR, RFID, DMC, SPOT, GRID: examples in the text, all there is in the schema of 2.1.
     std::vector<std::string> navigationTypes; ///< By priority: PHYSICAL_LINE_GUIDED, VIRTUAL_LINE_GUIDED, AUTONOMOUS.
 
     bool operator==(const TypeSpecification&) const = default;
@@ -48,7 +48,7 @@ struct PhysicalParameters
 {
     double speedMin = 0.0;
     double speedMax = 0.0;
-    std::optional<double> angularSpeedMin;
+    std::optional<double> angularSpeedMin; ///< Written from 2.1 on, by its text: its schema forgot the two.
     std::optional<double> angularSpeedMax;
     double accelerationMax = 0.0;
     double decelerationMax = 0.0;
@@ -235,7 +235,8 @@ struct Envelope3D
     std::string format;
     std::optional<Core::JsonText> data; ///< An object whose form the format says.
     std::string url;
-    std::optional<Core::JsonText> description; ///< A string by the text, an integer by the schema of 2.1.
+    /// A string, but an integer in the schema of 2.1: written in 2.0 only.
+    std::optional<Core::JsonText> description;
 
     bool operator==(const Envelope3D&) const = default;
 };
@@ -318,7 +319,7 @@ struct FactsheetMessage
     ProtocolFeatures protocolFeatures;
     AgvGeometry agvGeometry;
     LoadSpecification loadSpecification;
-    std::optional<Core::JsonText> localizationParameters; ///< 2.0 only; its contents are not defined.
+    std::optional<Core::JsonText> localizationParameters; ///< 2.0 only; an object, its contents are not defined.
     std::optional<VehicleConfig> vehicleConfig;           ///< Written from 2.1 on.
 
     bool operator==(const FactsheetMessage&) const = default;

@@ -28,13 +28,16 @@ struct MapState
     bool operator==(const MapState&) const = default;
 };
 
-/// The position of a node as a state repeats it: without the tolerances of the order.
+/// The position of a node as a state repeats it. What only the schema of 2.0.0 has is written there alone.
 struct NodeStatePosition
 {
     double x = 0.0;
     double y = 0.0;
     std::optional<double> theta;
     std::string mapID;
+    std::optional<double> allowedDeviationXY = std::nullopt;    ///< Written in 2.0 only.
+    std::optional<double> allowedDeviationTheta = std::nullopt; ///< Written in 2.0 only.
+    std::string mapDescription = {};                            ///< Written in 2.0 only.
 
     bool operator==(const NodeStatePosition&) const = default;
 };

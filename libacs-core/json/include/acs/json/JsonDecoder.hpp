@@ -184,6 +184,8 @@ struct ValueDecoder<std::vector<T>>
             return false;
         }
         FieldBounds elementBounds;
+        elementBounds.minimum = bounds.minimum;
+        elementBounds.maximum = bounds.maximum;
         elementBounds.minimumLength = bounds.minimumElement;
         elementBounds.maximumLength = bounds.maximumElement;
         out.reserve(value.Size());
@@ -212,6 +214,14 @@ template <DescribedStruct T, std::size_t INDEX>
             context.GetNotes().nullOptionals += FIELD.presence == EPresence::Nullable ? 0U : 1U;
             member = Member{};
             return true;
+        }
+    }
+    else if constexpr (std::same_as<Member, Core::JsonText>)
+    {
+        if (value.IsNull())
+        {
+            return context.IsFailedWith(Core::ECoreError::WrongType, "a value", &value)
+                || context.IsFailedAt(FIELD.name);
         }
     }
     return ValueDecoder<Member>::TryDecode(value, member, FIELD.bounds, context) || context.IsFailedAt(FIELD.name);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <optional>
@@ -167,6 +168,18 @@ struct KeyText
     static constexpr std::array<char, LENGTH> TEXT = MakeText();
 };
 
+/// The number as a strict reader takes it.
+[[nodiscard]] inline double Shape(double value, const WrittenForm& form, DialectFlags dialect)
+{
+    const double bounded = std::clamp(value, form.minimum, form.maximum);
+    return (form.wholeIn & dialect) != 0 ? std::round(bounded) : bounded;
+}
+
+[[nodiscard]] inline double Shape(const std::optional<double>& value, const WrittenForm& form, DialectFlags dialect)
+{
+    return Shape(*value, form, dialect);
+}
+
 template <DescribedStruct T, std::size_t INDEX>
 void EncodeField(const T& object, JsonWriter& writer)
 {
@@ -178,9 +191,26 @@ void EncodeField(const T& object, JsonWriter& writer)
         {
             return;
         }
+        constexpr bool B_FREE = FIELD.written.firstLetter != WrittenForm::ANY;
+        if constexpr (B_FREE)
+        {
+            static_assert(FIELD.presence == EPresence::Optional, "only what may be missing is left out");
+            if (!member->GetText().starts_with(FIELD.written.firstLetter))
+            {
+                return;
+            }
+        }
         using Key = KeyText<T, INDEX>;
         writer.WriteKeyText({Key::TEXT.data(), Key::LENGTH});
-        ValueEncoder<std::remove_cvref_t<decltype(member)>>::Encode(member, writer);
+        if constexpr (B_FREE || FIELD.written == WrittenForm{})
+        {
+            ValueEncoder<std::remove_cvref_t<decltype(member)>>::Encode(member, writer);
+        }
+        else
+        {
+            static_assert(FIELD.presence != EPresence::Nullable, "null has no form");
+            writer.WriteNumber(Shape(member, FIELD.written, writer.GetDialect()));
+        }
     }
 }
 

@@ -25,7 +25,7 @@ enum class EPresence : std::uint8_t
 using DialectFlags = std::uint8_t;
 inline constexpr DialectFlags ALL_DIALECTS = 0xFF;
 
-/// Bounds of a number, or of a string's bytes, or of an array's elements and the bytes of each.
+/// Bounds of a number or of each number of an array, of a string's bytes, or of an array's elements and the bytes of each.
 struct FieldBounds
 {
     double minimum = -std::numeric_limits<double>::infinity();
@@ -34,6 +34,22 @@ struct FieldBounds
     std::size_t maximumLength = std::numeric_limits<std::size_t>::max();
     std::size_t minimumElement = 0;
     std::size_t maximumElement = std::numeric_limits<std::size_t>::max();
+};
+
+/// The form that a strict reader takes: the range in which a number is written that Between tolerates, and the first
+/// letter of the only kind of free value that is written.
+struct WrittenForm
+{
+    static constexpr char ANY = '\0';
+    static constexpr char OBJECT = '{';
+    static constexpr char STRING = '"';
+
+    double minimum = -std::numeric_limits<double>::infinity();
+    double maximum = std::numeric_limits<double>::infinity();
+    DialectFlags wholeIn = 0;
+    char firstLetter = ANY;
+
+    constexpr bool operator==(const WrittenForm&) const = default;
 };
 
 /// One member of a message: its JSON name, where it stands in the struct, and its rules. This one description drives
@@ -46,6 +62,7 @@ struct JsonField
     EPresence presence = EPresence::Required;
     FieldBounds bounds{};
     DialectFlags dialects = ALL_DIALECTS;
+    WrittenForm written{};
 
     /// Written in these dialects only; read in all.
     [[nodiscard]] constexpr JsonField WrittenIn(DialectFlags flags) const
@@ -60,6 +77,39 @@ struct JsonField
         JsonField field = *this;
         field.bounds.minimum = minimum;
         field.bounds.maximum = maximum;
+        return field;
+    }
+
+    /// What lies outside is written as the nearer bound: for the rounding errors that a lenient reader lets in.
+    [[nodiscard]] constexpr JsonField WrittenBetween(double minimum, double maximum) const
+    {
+        JsonField field = *this;
+        field.written.minimum = minimum;
+        field.written.maximum = maximum;
+        return field;
+    }
+
+    /// Written as a whole number in these dialects.
+    [[nodiscard]] constexpr JsonField WholeIn(DialectFlags flags) const
+    {
+        JsonField field = *this;
+        field.written.wholeIn = flags;
+        return field;
+    }
+
+    /// Of an optional free value: left out where it is anything but an object.
+    [[nodiscard]] constexpr JsonField WrittenIfObject() const
+    {
+        JsonField field = *this;
+        field.written.firstLetter = WrittenForm::OBJECT;
+        return field;
+    }
+
+    /// Of an optional free value: left out where it is anything but a string.
+    [[nodiscard]] constexpr JsonField WrittenIfString() const
+    {
+        JsonField field = *this;
+        field.written.firstLetter = WrittenForm::STRING;
         return field;
     }
 
@@ -125,32 +175,32 @@ concept DescribedStruct = requires
 template <typename TStruct, typename TMember>
 [[nodiscard]] constexpr auto Required(std::string_view name, TMember TStruct::*member)
 {
-    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Required, {}, ALL_DIALECTS};
+    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Required, {}, ALL_DIALECTS, {}};
 }
 
 template <typename TStruct, typename TMember>
 [[nodiscard]] constexpr auto Optional(std::string_view name, TMember TStruct::*member)
 {
-    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Optional, {}, ALL_DIALECTS};
+    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Optional, {}, ALL_DIALECTS, {}};
 }
 
 template <typename TStruct, typename TMember>
 [[nodiscard]] constexpr auto Nullable(std::string_view name, TMember TStruct::*member)
 {
-    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Nullable, {}, ALL_DIALECTS};
+    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Nullable, {}, ALL_DIALECTS, {}};
 }
 
 template <typename TStruct, typename TMember>
 [[nodiscard]] constexpr auto Defaulted(std::string_view name, TMember TStruct::*member)
 {
-    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Defaulted, {}, ALL_DIALECTS};
+    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Defaulted, {}, ALL_DIALECTS, {}};
 }
 
 /// Stands right behind the field that it names again, with the same member.
 template <typename TStruct, typename TMember>
 [[nodiscard]] constexpr auto Alias(std::string_view name, TMember TStruct::*member)
 {
-    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Alias, {}, ALL_DIALECTS};
+    return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Alias, {}, ALL_DIALECTS, {}};
 }
 
 /// A struct whose fields stand flat in the JSON object of the struct that holds it (a message's header).
@@ -184,7 +234,8 @@ template <typename TStruct, typename TMember>
                 Nested{flat.accessor, field.accessor},
                 field.presence,
                 field.bounds,
-                field.dialects};
+                field.dialects,
+                field.written};
         };
         return std::make_tuple(wrap(fields)...);
     };
