@@ -1,0 +1,181 @@
+#include <acs/vda5050/VehicleSession.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace ACS::VDA5050
+{
+
+void VehicleSession::StopMoving(VehicleActions& out)
+{
+    if (_bLegActive)
+    {
+        _bLegActive = false;
+        out.emplace_back(StopDriving{});
+    }
+}
+
+void VehicleSession::StartPause(const Action& action, VehicleActions& out)
+{
+    AddInstantAction(action, EActionStatus::Running);
+    _pauseActionIDs.push_back(action.actionID);
+    if (_bPaused)
+    {
+        return;
+    }
+    _bPaused = true;
+    StopMoving(out);
+    for (const TrackedAction& tracked : _actions)
+    {
+        const bool bRuns = tracked.scope != EActionScope::Instant && tracked.bStarted;
+        if (bRuns && !IsTerminal(tracked.machine.GetStatus()))
+        {
+            out.emplace_back(PauseAction{tracked.action.actionID});
+        }
+    }
+}
+
+void VehicleSession::FinishPauseIfStanding()
+{
+    if (_bDriving)
+    {
+        return;
+    }
+    for (const std::string& actionID : std::exchange(_pauseActionIDs, {}))
+    {
+        SetStatus(actionID, EActionStatus::Finished);
+    }
+}
+
+void VehicleSession::StopPause(const Action& action, VehicleActions& out)
+{
+    for (const std::string& actionID : std::exchange(_pauseActionIDs, {}))
+    {
+        SetStatus(actionID, EActionStatus::Failed, "stopPause came first");
+    }
+    _bPaused = false;
+    AddInstantAction(action, EActionStatus::Finished);
+    for (const TrackedAction& tracked : _actions)
+    {
+        if (tracked.machine.GetStatus() == EActionStatus::Paused)
+        {
+            out.emplace_back(ResumeAction{tracked.action.actionID});
+        }
+    }
+}
+
+void VehicleSession::StartCancel(const Action& action, const Header& header, VehicleActions& out)
+{
+    if (!IsExecuting())
+    {
+        FailInstantAction(action, header, ErrorTypes::NO_ORDER_TO_CANCEL, "there is no order to cancel");
+        return;
+    }
+    const bool bFirst = _cancelActionIDs.empty();
+    AddInstantAction(action, EActionStatus::Running);
+    _cancelActionIDs.push_back(action.actionID);
+    if (!bFirst)
+    {
+        return;
+    }
+    StopOrderActions(out);
+    if (_options.bStopsBetweenNodes || !_bLegActive)
+    {
+        StopMoving(out);
+        return;
+    }
+    // Bound to nodes: drives on to the next one, whose actions have failed already.
+    if (!_bLegStops)
+    {
+        _bLegStops = true;
+        out.emplace_back(DriveTo{_edges.front(), _nodes.front(), true});
+    }
+    _nodes.erase(_nodes.begin() + 1, _nodes.end());
+    _nodes.front().actions.clear();
+    _edges.clear();
+}
+
+/// Those that wait have failed; those that run are told to stop.
+void VehicleSession::StopOrderActions(VehicleActions& out)
+{
+    _actionQueue.clear();
+    for (TrackedAction& tracked : _actions)
+    {
+        const EActionStatus status = tracked.machine.GetStatus();
+        if (tracked.scope == EActionScope::Instant || IsTerminal(status))
+        {
+            continue;
+        }
+        if (tracked.bStarted)
+        {
+            out.emplace_back(StopAction{tracked.action.actionID, false});
+        }
+        if (!tracked.bStarted || status == EActionStatus::Paused)
+        {
+            static_cast<void>(tracked.machine.TrySet(EActionStatus::Failed, "the order was cancelled"));
+        }
+    }
+}
+
+void VehicleSession::FinishCancelIfStanding(VehicleActions& out)
+{
+    const bool bRuns = std::ranges::any_of(_actions, [](const TrackedAction& tracked) {
+        return tracked.scope != EActionScope::Instant && !IsTerminal(tracked.machine.GetStatus());
+    });
+    if (!_cancelActionIDs.empty() && !_bDriving && !_bLegActive && !bRuns)
+    {
+        ClearOrder(out);
+    }
+}
+
+void VehicleSession::ClearOrder(VehicleActions& out)
+{
+    _nodes.clear();
+    _edges.clear();
+    _actionQueue.clear();
+    _bEdgeEntered = false;
+    _bLegActive = false;
+    _bOrderRunning = false;
+    _bStateDue = true;
+    for (const std::string& actionID : std::exchange(_cancelActionIDs, {}))
+    {
+        SetStatus(actionID, EActionStatus::Finished);
+    }
+    out.emplace_back(OrderCleared{_orderID});
+}
+
+void VehicleSession::OnOperatingMode(EOperatingMode mode, Core::Now now, VehicleActions& out)
+{
+    if (mode == _operatingMode)
+    {
+        return;
+    }
+    const bool bManual = mode == EOperatingMode::Manual || _operatingMode == EOperatingMode::Manual;
+    _operatingMode = mode;
+    _bStateDue = true;
+    if (!CanMoveByItself())
+    {
+        StopMoving(out);
+    }
+    if (bManual && IsExecuting())
+    {
+        StopOrderActions(out);
+        for (TrackedAction& tracked : _actions)
+        {
+            if (tracked.scope != EActionScope::Instant && !IsTerminal(tracked.machine.GetStatus()))
+            {
+                static_cast<void>(tracked.machine.TrySet(EActionStatus::Failed, "the operating mode changed"));
+            }
+        }
+        ClearOrder(out);
+    }
+    Advance(out);
+    Settle(now, out);
+}
+
+bool VehicleSession::CanMoveByItself() const
+{
+    return _operatingMode == EOperatingMode::Automatic || _operatingMode == EOperatingMode::SemiAutomatic;
+}
+
+} // namespace ACS::VDA5050
