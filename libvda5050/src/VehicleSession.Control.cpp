@@ -11,19 +11,91 @@ void VehicleSession::StopMoving(VehicleActions& out)
     if (_bLegActive)
     {
         _bLegActive = false;
+        _bHalting = true;
         out.emplace_back(StopDriving{});
     }
 }
 
-void VehicleSession::StartPause(const Action& action, VehicleActions& out)
+/// What was told to stop counts as moving until the owner says that it stands.
+bool VehicleSession::IsStanding() const
 {
-    AddInstantAction(action, EActionStatus::Running);
-    _pauseActionIDs.push_back(action.actionID);
-    if (_bPaused)
+    return !_bDriving && !_bHalting;
+}
+
+void VehicleSession::StartPause(const Action& action, const Header& header, VehicleActions& out)
+{
+    if (_bPauseOverridden)
     {
+        FailInstantAction(
+            action,
+            header,
+            ErrorTypes::INSTANT_ACTION_ERROR,
+            "the vehicle's own switch overrides startPause");
         return;
     }
-    _bPaused = true;
+    AddInstantAction(action, EActionStatus::Running);
+    _pauseActionIDs.push_back(action.actionID);
+    const bool bWasPaused = IsHeldByPause();
+    _bMasterPause = true;
+    if (!bWasPaused)
+    {
+        EnterPause(out);
+    }
+}
+
+void VehicleSession::StopPause(const Action& action, const Header& header, VehicleActions& out)
+{
+    if (_bPauseOverridden)
+    {
+        FailInstantAction(
+            action,
+            header,
+            ErrorTypes::INSTANT_ACTION_ERROR,
+            "the vehicle's own switch overrides stopPause");
+        return;
+    }
+    for (const std::string& actionID : std::exchange(_pauseActionIDs, {}))
+    {
+        SetStatus(actionID, EActionStatus::Failed, "stopPause came first");
+    }
+    const bool bWasPaused = IsHeldByPause();
+    _bMasterPause = false;
+    _bHardwarePause = false;
+    AddInstantAction(action, EActionStatus::Finished);
+    if (bWasPaused)
+    {
+        LeavePause(out);
+    }
+}
+
+void VehicleSession::OnHardwarePause(bool bPaused, bool bOverridesMaster, Core::Now now, VehicleActions& out)
+{
+    const bool bWasPaused = IsHeldByPause();
+    _bHardwarePause = bPaused;
+    _bPauseOverridden = bOverridesMaster;
+    if (IsHeldByPause() != bWasPaused)
+    {
+        _bStateDue = true;
+        if (bWasPaused)
+        {
+            LeavePause(out);
+        }
+        else
+        {
+            EnterPause(out);
+        }
+    }
+    Advance(out);
+    Settle(now, out);
+}
+
+bool VehicleSession::IsHeldByPause() const noexcept
+{
+    return _bMasterPause || _bHardwarePause;
+}
+
+void VehicleSession::EnterPause(VehicleActions& out)
+{
     StopMoving(out);
     for (const TrackedAction& tracked : _actions)
     {
@@ -35,32 +107,26 @@ void VehicleSession::StartPause(const Action& action, VehicleActions& out)
     }
 }
 
-void VehicleSession::FinishPauseIfStanding()
+void VehicleSession::LeavePause(VehicleActions& out) const
 {
-    if (_bDriving)
-    {
-        return;
-    }
-    for (const std::string& actionID : std::exchange(_pauseActionIDs, {}))
-    {
-        SetStatus(actionID, EActionStatus::Finished);
-    }
-}
-
-void VehicleSession::StopPause(const Action& action, VehicleActions& out)
-{
-    for (const std::string& actionID : std::exchange(_pauseActionIDs, {}))
-    {
-        SetStatus(actionID, EActionStatus::Failed, "stopPause came first");
-    }
-    _bPaused = false;
-    AddInstantAction(action, EActionStatus::Finished);
     for (const TrackedAction& tracked : _actions)
     {
         if (tracked.machine.GetStatus() == EActionStatus::Paused)
         {
             out.emplace_back(ResumeAction{tracked.action.actionID});
         }
+    }
+}
+
+void VehicleSession::FinishPauseIfStanding()
+{
+    if (!IsStanding())
+    {
+        return;
+    }
+    for (const std::string& actionID : std::exchange(_pauseActionIDs, {}))
+    {
+        SetStatus(actionID, EActionStatus::Finished);
     }
 }
 
@@ -79,20 +145,16 @@ void VehicleSession::StartCancel(const Action& action, const Header& header, Veh
         return;
     }
     StopOrderActions(out);
-    if (_options.bStopsBetweenNodes || !_bLegActive)
+    if (_options.bStopsBetweenNodes || !_bLegBegun)
     {
         StopMoving(out);
         return;
     }
-    // Bound to nodes: drives on to the next one, whose actions have failed already.
-    if (!_bLegStops)
-    {
-        _bLegStops = true;
-        out.emplace_back(DriveTo{_edges.front(), _nodes.front(), true});
-    }
+    // Bound to nodes, and between two of them, be it paused: drives on to the next one, whose actions have failed.
+    _bLastLeg = true;
     _nodes.erase(_nodes.begin() + 1, _nodes.end());
+    _edges.erase(_edges.begin() + 1, _edges.end());
     _nodes.front().actions.clear();
-    _edges.clear();
 }
 
 /// Those that wait have failed; those that run are told to stop.
@@ -122,7 +184,8 @@ void VehicleSession::FinishCancelIfStanding(VehicleActions& out)
     const bool bRuns = std::ranges::any_of(_actions, [](const TrackedAction& tracked) {
         return tracked.scope != EActionScope::Instant && !IsTerminal(tracked.machine.GetStatus());
     });
-    if (!_cancelActionIDs.empty() && !_bDriving && !_bLegActive && !bRuns)
+    const bool bOnTheWay = _bLegActive || (_bLastLeg && !_nodes.empty());
+    if (!_cancelActionIDs.empty() && IsStanding() && !bOnTheWay && !bRuns)
     {
         ClearOrder(out);
     }
@@ -135,6 +198,8 @@ void VehicleSession::ClearOrder(VehicleActions& out)
     _actionQueue.clear();
     _bEdgeEntered = false;
     _bLegActive = false;
+    _bLegBegun = false;
+    _bLastLeg = false;
     _bOrderRunning = false;
     _bStateDue = true;
     for (const std::string& actionID : std::exchange(_cancelActionIDs, {}))

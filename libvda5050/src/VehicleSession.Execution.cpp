@@ -37,12 +37,15 @@ bool VehicleSession::TryReachNode(std::uint32_t sequenceID, Core::Now now, Vehic
 
 void VehicleSession::OnDrivingChanged(bool bDriving, Core::Now now, VehicleActions& out)
 {
-    if (bDriving == _bDriving)
+    const bool bHalted = _bHalting && !bDriving;
+    if (bDriving == _bDriving && !bHalted)
     {
         return;
     }
-    _bDriving = bDriving;
+    // A halt may end without a change of driving: what was stopped had not begun to move. paused is told only now.
     _bStateDue = true;
+    _bDriving = bDriving;
+    _bHalting = _bHalting && bDriving;
     FinishPauseIfStanding();
     FinishCancelIfStanding(out);
     Settle(now, out);
@@ -110,8 +113,13 @@ void VehicleSession::Start(TrackedAction& tracked, VehicleActions& out)
 
 void VehicleSession::Advance(VehicleActions& out)
 {
-    if (_bPaused || !_cancelActionIDs.empty() || !CanMoveByItself())
+    if (IsHeldByPause() || !CanMoveByItself())
     {
+        return;
+    }
+    if (!_cancelActionIDs.empty())
+    {
+        DriveLastLeg(out);
         return;
     }
     StartQueuedActions(out);
@@ -169,8 +177,7 @@ void VehicleSession::DriveOn(VehicleActions& out)
     {
         if (NeedsStopAtFront() != _bLegStops)
         {
-            _bLegStops = !_bLegStops;
-            out.emplace_back(DriveTo{_edges.front(), _nodes.front(), _bLegStops});
+            DriveToFront(!_bLegStops, out);
         }
         return;
     }
@@ -189,9 +196,26 @@ void VehicleSession::DriveOn(VehicleActions& out)
             return;
         }
     }
+    DriveToFront(NeedsStopAtFront(), out);
+}
+
+void VehicleSession::DriveToFront(bool bStopAtNode, VehicleActions& out)
+{
     _bLegActive = true;
-    _bLegStops = NeedsStopAtFront();
-    out.emplace_back(DriveTo{_edges.front(), _nodes.front(), _bLegStops});
+    _bLegBegun = true;
+    _bLegStops = bStopAtNode;
+    _bHalting = false;
+    out.emplace_back(DriveTo{_edges.front(), _nodes.front(), bStopAtNode});
+}
+
+/// 6.6.3: a cancelled vehicle that is bound to nodes still has one to reach.
+void VehicleSession::DriveLastLeg(VehicleActions& out)
+{
+    const bool bTold = _bLegActive && _bLegStops;
+    if (_bLastLeg && !_nodes.empty() && !bTold)
+    {
+        DriveToFront(true, out);
+    }
 }
 
 /// 6.10.2: what one traversal changes belongs to one state.
@@ -225,6 +249,7 @@ void VehicleSession::ReachFront(VehicleActions& out)
     _distanceSinceLastNode.reset();
     _bEdgeEntered = false;
     _bLegActive = false;
+    _bLegBegun = false;
     _bStateDue = true;
     Enqueue(node.actions);
 }

@@ -95,11 +95,11 @@ void VehicleSession::PerformOwnInstantAction(
     }
     else if (action.actionType == ActionTypes::START_PAUSE)
     {
-        StartPause(action, out);
+        StartPause(action, header, out);
     }
     else if (action.actionType == ActionTypes::STOP_PAUSE)
     {
-        StopPause(action, out);
+        StopPause(action, header, out);
     }
     else if (CanPerform(_options.factsheet, action.actionType, EActionScope::Instant))
     {

@@ -225,6 +225,7 @@ void VehicleSession::TakeNewOrder(OrderMessage order, VehicleActions& out)
     _nodes.clear();
     _edges.clear();
     _bEdgeEntered = false;
+    _bLegBegun = false;
     _bOrderRunning = true;
     _orderID = order.orderID;
     _orderUpdateID = order.orderUpdateID;

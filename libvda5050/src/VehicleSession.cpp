@@ -86,7 +86,7 @@ StateMessage VehicleSession::GetState() const
 
 bool VehicleSession::IsPaused() const noexcept
 {
-    return _bPaused;
+    return IsHeldByPause();
 }
 
 bool VehicleSession::IsOrderRunning() const noexcept

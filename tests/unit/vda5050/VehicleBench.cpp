@@ -62,11 +62,15 @@ void VehicleBench::Payload(ETopic topic, std::string_view payload, bool bRetaine
     _session.OnMessage(BuildTopic(MakeAddress(), topic), payload, bRetained, _clock.GetNow(), _out);
 }
 
-void VehicleBench::Instant(std::string_view actionType, const std::string& actionID)
+void VehicleBench::Instant(
+    std::string_view actionType,
+    const std::string& actionID,
+    std::vector<ActionParameter> parameters)
 {
     InstantActionsMessage message;
     message.header = Header{_headerID++, _clock.GetNow().wall, "2.0.0", "ACS", "LR01"};
     message.actions.push_back(MakeAction(actionID, EBlockingType::Hard, std::string(actionType)));
+    message.actions.back().actionParameters = std::move(parameters);
     Payload(ETopic::InstantActions, Vda5050Codec().Encode(message, EVda5050Version::Version200));
 }
 
@@ -92,6 +96,16 @@ void VehicleBench::StandAt(double x)
     position.x = x;
     position.mapID = "floor";
     _session.OnPosition(position, Velocity{});
+}
+
+void VehicleBench::Mode(EOperatingMode mode)
+{
+    _session.OnOperatingMode(mode, _clock.GetNow(), _out);
+}
+
+void VehicleBench::HardwarePause(bool bPaused, bool bOverridesMaster)
+{
+    _session.OnHardwarePause(bPaused, bOverridesMaster, _clock.GetNow(), _out);
 }
 
 std::vector<StateMessage> VehicleBench::GetPublishedStates() const

@@ -68,9 +68,14 @@ class VehicleSession
     std::vector<std::string> _cancelActionIDs;
     bool _bOrderRunning = false; ///< Taken and not yet told as completed.
     bool _bEdgeEntered = false;
-    bool _bLegActive = false;
+    bool _bLegActive = false; ///< DriveTo was told last.
+    bool _bLegBegun = false;  ///< Between two nodes, driving or not.
     bool _bLegStops = true;
-    bool _bPaused = false;
+    bool _bLastLeg = false; ///< A cancelled vehicle that is bound to nodes drives to the next one.
+    bool _bHalting = false; ///< StopDriving was told, and not yet that the vehicle stands.
+    bool _bMasterPause = false;
+    bool _bHardwarePause = false;
+    bool _bPauseOverridden = false;
 
     // Publishing.
     bool _bLinkUp = false;
@@ -95,6 +100,8 @@ class VehicleSession
     void Advance(VehicleActions& out);
     void StartQueuedActions(VehicleActions& out);
     void DriveOn(VehicleActions& out);
+    void DriveToFront(bool bStopAtNode, VehicleActions& out);
+    void DriveLastLeg(VehicleActions& out);
     void FinishOrderIfDone(VehicleActions& out);
     void ReachFront(VehicleActions& out);
     [[nodiscard]] bool CanDrive() const;
@@ -118,8 +125,12 @@ class VehicleSession
         const Header& header,
         std::string_view errorType,
         const std::string& reason);
-    void StartPause(const Action& action, VehicleActions& out);
-    void StopPause(const Action& action, VehicleActions& out);
+    void StartPause(const Action& action, const Header& header, VehicleActions& out);
+    void StopPause(const Action& action, const Header& header, VehicleActions& out);
+    void EnterPause(VehicleActions& out);
+    void LeavePause(VehicleActions& out) const;
+    [[nodiscard]] bool IsHeldByPause() const noexcept;
+    [[nodiscard]] bool IsStanding() const;
     void StartCancel(const Action& action, const Header& header, VehicleActions& out);
     void StopOrderActions(VehicleActions& out);
     void StopMoving(VehicleActions& out);
@@ -168,6 +179,8 @@ public:
         const AgvPosition& position,
         const Velocity& velocity,
         std::optional<double> distanceSinceLastNode = {});
+    /// After StopDriving always told, false, once the vehicle stands: what waits for that (startPause, cancelOrder) ends
+    /// then.
     void OnDrivingChanged(bool bDriving, Core::Now now, VehicleActions& out);
     /// Ignored (false) for an unknown action and for a change that the table of ActionMachine forbids.
     bool TrySetActionStatus(
@@ -184,6 +197,9 @@ public:
     void OnErrors(std::vector<VehicleError> errors, Core::Now now, VehicleActions& out);
     void OnInformation(std::vector<Information> information);
     void OnSafetyState(const SafetyState& safety, Core::Now now, VehicleActions& out);
+    /// A pause at the vehicle itself. Where its switch overrides master control, startPause and stopPause fail; else
+    /// stopPause ends it.
+    void OnHardwarePause(bool bPaused, bool bOverridesMaster, Core::Now now, VehicleActions& out);
     /// Entering and leaving MANUAL clears the order (2.x, section 6.10.6).
     void OnOperatingMode(EOperatingMode mode, Core::Now now, VehicleActions& out);
 
