@@ -37,6 +37,16 @@ public:
         session.OnLinkUp(_clock.GetNow(), _out);
     }
 
+    MasterBench(const MasterBench&) = delete;
+    MasterBench& operator=(const MasterBench&) = delete;
+    MasterBench(MasterBench&&) = delete;
+    MasterBench& operator=(MasterBench&&) = delete;
+
+    ~MasterBench() // as Clear: what was published is held against the schemas
+    {
+        CheckPublished(_out);
+    }
+
     [[nodiscard]] const MasterActions& GetOutput() const
     {
         return _out;
@@ -44,6 +54,7 @@ public:
 
     MasterActions& Clear()
     {
+        CheckPublished(_out);
         _out.clear();
         return _out;
     }
@@ -76,7 +87,7 @@ public:
     {
         Connect(EConnectionState::Online);
         SendState();
-        _out.clear();
+        Clear();
     }
 
     void Wait(std::chrono::milliseconds span, EMasterTimer timer)

@@ -40,6 +40,7 @@ class Line
 
     void ToVehicle(const MasterActions& actions)
     {
+        CheckPublished(actions);
         for (const PublishMessage& publish : Pick<PublishMessage>(actions))
         {
             if (!IsLost())
@@ -54,6 +55,7 @@ class Line
 
     void ToMaster(const VehicleActions& actions)
     {
+        CheckPublished(actions);
         for (const DriveTo& drive : Pick<DriveTo>(actions))
         {
             _goal = drive.node.sequenceID;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ManualClock.hpp"
+#include "SchemaCheck.hpp"
 #include <acs/vda5050/MasterAction.hpp>
 #include <acs/vda5050/OrderBuilder.hpp>
 #include <acs/vda5050/OrderMessage.hpp>
@@ -39,6 +40,16 @@ template <typename TWanted, typename TAction>
         }
     }
     return picked;
+}
+
+/// Whatever a session published among these keeps to the official schema of its version.
+template <typename TAction>
+void CheckPublished(const std::vector<TAction>& actions)
+{
+    for (const PublishMessage& publish : Pick<PublishMessage>(actions))
+    {
+        Testing::CheckValid(publish.message.topic, publish.message.payload);
+    }
 }
 
 [[nodiscard]] std::vector<std::string> ListNodes(const StateMessage& state);

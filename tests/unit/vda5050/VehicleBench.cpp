@@ -26,6 +26,11 @@ VehicleBench::VehicleBench(VehicleOptions options)
     Clear();
 }
 
+VehicleBench::~VehicleBench()
+{
+    CheckPublished(_out);
+}
+
 VehicleSession& VehicleBench::GetSession()
 {
     return _session;
@@ -43,6 +48,7 @@ const VehicleActions& VehicleBench::GetOutput() const
 
 void VehicleBench::Clear()
 {
+    CheckPublished(_out);
     _out.clear();
 }
 

@@ -23,6 +23,11 @@ class VehicleBench
 
 public:
     explicit VehicleBench(VehicleOptions options = MakeOptions());
+    VehicleBench(const VehicleBench&) = delete;
+    VehicleBench& operator=(const VehicleBench&) = delete;
+    VehicleBench(VehicleBench&&) = delete;
+    VehicleBench& operator=(VehicleBench&&) = delete;
+    ~VehicleBench(); ///< As Clear: what was published is held against the schemas.
 
     [[nodiscard]] static VehicleOptions MakeOptions();
 

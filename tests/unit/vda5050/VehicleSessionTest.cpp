@@ -272,8 +272,10 @@ TEST_CASE("4.6 States that are due close together are merged, and one comes afte
     CHECK(
         Pick<StartVehicleTimer>(out).back()
         == StartVehicleTimer{EVehicleTimer::MaximumStateInterval, std::chrono::seconds(30)});
+    CheckPublished(out);
     out.clear();
     bench.GetSession().OnTimer(EVehicleTimer::MaximumStateInterval, bench.GetNow(), out);
+    CheckPublished(out);
     CHECK(Pick<PublishMessage>(out).size() == 1);
 }
 
@@ -427,6 +429,8 @@ TEST_CASE("6 The vehicle says ONLINE, leaves a will, and says OFFLINE when it go
     VehicleActions out;
     session.OnLinkUp(clock.GetNow(), out);
     session.Leave(clock.GetNow(), out);
+    CheckPublished(out);
+    Testing::CheckValid(will.topic, will.payload);
     std::vector<MqttMessage> messages{will};
     for (const PublishMessage& publish : Pick<PublishMessage>(out))
     {
@@ -459,6 +463,7 @@ TEST_CASE("8.6 MANUAL clears the order and takes no other")
     bench.Order(order);
     VehicleActions out;
     bench.GetSession().OnOperatingMode(EOperatingMode::Manual, bench.GetNow(), out);
+    CheckPublished(out);
     CHECK(Pick<StopDriving>(out).size() == 1);
     CHECK(bench.GetSession().GetState().nodeStates.empty());
     CHECK(bench.GetStatus("a1") == EActionStatus::Failed);
@@ -474,6 +479,7 @@ TEST_CASE("3.5 Visualization has the position at its own rate")
     VehicleBench bench(options);
     VehicleActions out;
     bench.GetSession().OnTimer(EVehicleTimer::Visualization, bench.GetNow(), out);
+    CheckPublished(out);
     REQUIRE(Pick<PublishMessage>(out).size() == 1);
     CHECK(Pick<PublishMessage>(out)[0].message.topic == "uagv/v2/ACS/LR01/visualization");
     CHECK(
