@@ -200,6 +200,7 @@ void VehicleSession::ClearOrder(VehicleActions& out)
     _bLegActive = false;
     _bLegBegun = false;
     _bLastLeg = false;
+    _bCleared = true;
     _bOrderRunning = false;
     _bStateDue = true;
     for (const std::string& actionID : std::exchange(_cancelActionIDs, {}))

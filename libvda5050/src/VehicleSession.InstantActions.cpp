@@ -1,3 +1,4 @@
+#include "ActionFault.hpp"
 #include "OrderErrors.hpp"
 #include <acs/vda5050/EVda5050Error.hpp>
 #include <acs/vda5050/VehicleSession.hpp>
@@ -101,18 +102,17 @@ void VehicleSession::PerformOwnInstantAction(
     {
         StopPause(action, header, out);
     }
-    else if (CanPerform(_options.factsheet, action.actionType, EActionScope::Instant))
-    {
-        AddInstantAction(action, EActionStatus::Waiting);
-        Start(_actions.back(), out);
-    }
     else
     {
-        FailInstantAction(
-            action,
-            header,
-            ErrorTypes::INSTANT_ACTION_ERROR,
-            "the vehicle cannot perform " + action.actionType + " as an instant action");
+        const std::optional<ActionFault> fault =
+            FindActionFaultOrNull(_options.factsheet, action, EActionScope::Instant);
+        if (fault.has_value())
+        {
+            FailInstantAction(action, header, ErrorTypes::INSTANT_ACTION_ERROR, fault->rule);
+            return;
+        }
+        AddInstantAction(action, EActionStatus::Waiting);
+        Start(_actions.back(), out);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -160,7 +161,9 @@ void VehicleSession::OnOrder(std::string_view payload, VehicleActions& out)
         RefuseVersion(ETopic::Order, order->header, out);
         return;
     }
-    OrderJudgement judgement = JudgeOrder(*order, MakeContext());
+    OrderContext context = MakeContext();
+    context.payloadBytes = payload.size();
+    OrderJudgement judgement = JudgeOrder(*order, context);
     switch (judgement.verdict)
     {
         case EOrderVerdict::NewOrder:
@@ -201,7 +204,29 @@ OrderContext VehicleSession::MakeContext() const
     context.position = _position;
     context.defaultDeviationXY = _options.defaultDeviationXY;
     context.mapIDs = _options.mapIDs;
+    if (_maps.has_value())
+    {
+        context.bMapsKnown = true;
+        std::ranges::transform(*_maps, std::back_inserter(context.mapIDs), &MapState::mapID);
+    }
     context.factsheet = &_options.factsheet;
+    context.bCleared = _bCleared;
+    context.orderCheck = _options.orderCheck;
+    const auto firstUnreleased = std::ranges::find(_nodes, false, &OrderNode::bReleased);
+    const std::uint32_t baseEnd =
+        firstUnreleased == _nodes.end() ? std::numeric_limits<std::uint32_t>::max() : firstUnreleased->sequenceID - 1;
+    for (const TrackedAction& tracked : _actions)
+    {
+        const bool bInstant = tracked.scope == EActionScope::Instant;
+        if (bInstant && !IsTerminal(tracked.machine.GetStatus()))
+        {
+            context.instantActionIDs.push_back(tracked.action.actionID);
+        }
+        if (bInstant || tracked.sequenceID < baseEnd)
+        {
+            context.actionIDs.push_back(tracked.action.actionID);
+        }
+    }
     return context;
 }
 
@@ -226,6 +251,7 @@ void VehicleSession::TakeNewOrder(OrderMessage order, VehicleActions& out)
     _edges.clear();
     _bEdgeEntered = false;
     _bLegBegun = false;
+    _bCleared = false;
     _bOrderRunning = true;
     _orderID = order.orderID;
     _orderUpdateID = order.orderUpdateID;
@@ -246,6 +272,7 @@ void VehicleSession::TakeUpdate(OrderMessage order, VehicleActions& out)
 {
     _sessionErrors.clear();
     DropHorizon();
+    _bCleared = false;
     _bOrderRunning = true;
     _orderUpdateID = order.orderUpdateID;
     if (!order.zoneSetID.empty())

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "../AngleBound.hpp"
 #include "CodecBody.hpp"
 #include <acs/core/Timestamp.hpp>
 #include <acs/vda5050/Action.hpp>
@@ -15,8 +16,6 @@
 namespace ACS::VDA5050
 {
 
-/// Pi with the room that a peer needs who computes in single precision.
-inline constexpr double PI_BOUND = 3.1416;
 inline constexpr double NO_MAXIMUM = std::numeric_limits<double>::infinity();
 
 } // namespace ACS::VDA5050

@@ -95,11 +95,12 @@ void VehicleBench::Status(std::string_view actionID, EActionStatus status)
     CHECK(_session.TrySetActionStatus(actionID, status, {}, _clock.GetNow(), _out));
 }
 
-void VehicleBench::StandAt(double x)
+void VehicleBench::StandAt(double x, double theta)
 {
     AgvPosition position;
     position.bPositionInitialized = true;
     position.x = x;
+    position.theta = theta;
     position.mapID = "floor";
     _session.OnPosition(position, Velocity{});
 }

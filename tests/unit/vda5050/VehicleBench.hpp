@@ -46,7 +46,7 @@ public:
     void Reach(std::uint32_t sequenceID);
     void Drive(bool bDriving);
     void Status(std::string_view actionID, EActionStatus status);
-    void StandAt(double x);
+    void StandAt(double x, double theta = 0.0);
     void Mode(EOperatingMode mode);
     void HardwarePause(bool bPaused, bool bOverridesMaster);
 

@@ -67,6 +67,7 @@ class VehicleSession
     std::vector<std::string> _pauseActionIDs; ///< startPause that waits for the vehicle to stand.
     std::vector<std::string> _cancelActionIDs;
     bool _bOrderRunning = false; ///< Taken and not yet told as completed.
+    bool _bCleared = false;      ///< The order was cancelled.
     bool _bEdgeEntered = false;
     bool _bLegActive = false; ///< DriveTo was told last.
     bool _bLegBegun = false;  ///< Between two nodes, driving or not.
