@@ -101,6 +101,13 @@ std::optional<ActionFault> FindActionFaultOrNull(
     const Action& action,
     EActionScope scope)
 {
+    for (const ActionParameter& given : action.actionParameters)
+    {
+        if (given.value.GetText() == "null")
+        {
+            return ActionFault{"the parameter " + given.key + " of " + action.actionType + " is null", given.key};
+        }
+    }
     const std::vector<AgvAction>& listed = factsheet.protocolFeatures.agvActions;
     const AgvAction* predefined = FindPredefinedActionOrNull(action.actionType);
     const auto row = std::ranges::find(listed, action.actionType, &AgvAction::actionType);

@@ -168,6 +168,7 @@ void VehicleSession::StopOrderActions(VehicleActions& out)
         {
             continue;
         }
+        tracked.bCancelled = true;
         if (tracked.bStarted)
         {
             out.emplace_back(StopAction{tracked.action.actionID, false});
@@ -201,6 +202,7 @@ void VehicleSession::ClearOrder(VehicleActions& out)
     _bLegBegun = false;
     _bLastLeg = false;
     _bCleared = true;
+    _bHeldByFailure = false;
     _bOrderRunning = false;
     _bStateDue = true;
     for (const std::string& actionID : std::exchange(_cancelActionIDs, {}))
@@ -222,6 +224,12 @@ void VehicleSession::OnOperatingMode(EOperatingMode mode, Core::Now now, Vehicle
     if (!CanMoveByItself())
     {
         StopMoving(out);
+    }
+    else
+    {
+        std::erase_if(_sessionErrors, [](const SessionError& known) {
+            return known.lifetime == EErrorLifetime::UntilMode;
+        });
     }
     if (bManual && IsExecuting())
     {

@@ -59,11 +59,20 @@ bool VehicleSession::TrySetActionStatus(
     VehicleActions& out)
 {
     TrackedAction* trackedOrNull = FindActionOrNull(actionID);
-    if (trackedOrNull == nullptr || !trackedOrNull->machine.TrySet(status, std::move(resultDescription)))
+    if (trackedOrNull == nullptr || !trackedOrNull->bStarted
+        || !trackedOrNull->machine.TrySet(status, std::move(resultDescription)))
     {
         return false;
     }
     _bStateDue = true;
+    if (status == EActionStatus::Finished)
+    {
+        ApplyOwnEffect(trackedOrNull->action, trackedOrNull->scope);
+    }
+    else if (status == EActionStatus::Failed && trackedOrNull->scope != EActionScope::Instant)
+    {
+        OnOrderActionFailed(*trackedOrNull, out);
+    }
     FinishCancelIfStanding(out);
     Advance(out);
     Settle(now, out);
@@ -79,7 +88,8 @@ void VehicleSession::AddActions(
     for (const Action& action : actions)
     {
         ActionState state{action.actionID, action.actionType, action.actionDescription, EActionStatus::Waiting, {}};
-        _actions.push_back(TrackedAction{action, ActionMachine(std::move(state)), scope, elementID, sequenceID, false});
+        _actions.push_back(
+            TrackedAction{action, ActionMachine(std::move(state)), scope, elementID, sequenceID, false, false});
     }
 }
 
@@ -105,8 +115,18 @@ void VehicleSession::SetStatus(std::string_view actionID, EActionStatus status, 
     }
 }
 
+/// One that cannot succeed, by what the session knows itself, fails instead.
 void VehicleSession::Start(TrackedAction& tracked, VehicleActions& out)
 {
+    std::string fault =
+        tracked.scope == EActionScope::Instant ? std::string() : FindOwnFault(tracked.action, tracked.scope);
+    if (!fault.empty())
+    {
+        static_cast<void>(tracked.machine.TrySet(EActionStatus::Failed, std::move(fault)));
+        _bStateDue = true;
+        OnOrderActionFailed(tracked, out);
+        return;
+    }
     tracked.bStarted = true;
     out.emplace_back(StartAction{tracked.action, tracked.scope, tracked.elementID, tracked.sequenceID});
 }
@@ -123,14 +143,17 @@ void VehicleSession::Advance(VehicleActions& out)
         return;
     }
     StartQueuedActions(out);
-    DriveOn(out);
+    if (!_bHeldByFailure)
+    {
+        DriveOn(out);
+    }
     FinishOrderIfDone(out);
 }
 
 /// 6.11: None and Soft run beside each other; Hard waits for all of them and holds up all that follow.
 void VehicleSession::StartQueuedActions(VehicleActions& out)
 {
-    while (!_actionQueue.empty())
+    while (!_actionQueue.empty() && !_bHeldByFailure)
     {
         TrackedAction* nextOrNull = FindActionOrNull(_actionQueue.front());
         if (nextOrNull == nullptr || nextOrNull->bStarted || nextOrNull->machine.GetStatus() != EActionStatus::Waiting)
@@ -241,6 +264,7 @@ void VehicleSession::ReachFront(VehicleActions& out)
             else
             {
                 static_cast<void>(tracked.machine.TrySet(EActionStatus::Failed, "its edge was left"));
+                OnOrderActionFailed(tracked, out);
             }
         }
     }

@@ -4,6 +4,7 @@
 #include <acs/vda5050/VehicleSession.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -34,16 +35,35 @@ void VehicleSession::OnInstantActions(std::string_view payload, Core::Now now, V
         RefuseVersion(ETopic::InstantActions, message->header, out);
         return;
     }
-    for (const Action& action : message->actions)
+    for (SessionError& known : _sessionErrors)
     {
-        OnInstantAction(action, message->header, now, out);
+        known.bShown = true;
+    }
+    const std::size_t allowed = _options.factsheet.protocolLimits.maxArrayLengths.instantActions.value_or(0);
+    bool bTaken = false;
+    for (std::size_t index = 0; index < message->actions.size(); ++index)
+    {
+        const bool bTooMany = allowed != 0 && index >= allowed;
+        bTaken = TryTakeInstantAction(message->actions[index], message->header, bTooMany, now, out) || bTaken;
+    }
+    if (bTaken)
+    {
+        // Those of this message have yet to be seen.
+        std::erase_if(_sessionErrors, [](const SessionError& known) {
+            return known.lifetime == EErrorLifetime::UntilInstantAction && known.bShown;
+        });
     }
     FinishPauseIfStanding();
     FinishCancelIfStanding(out);
     Advance(out);
 }
 
-void VehicleSession::OnInstantAction(const Action& action, const Header& header, Core::Now now, VehicleActions& out)
+bool VehicleSession::TryTakeInstantAction(
+    const Action& action,
+    const Header& header,
+    bool bTooMany,
+    Core::Now now,
+    VehicleActions& out)
 {
     _bStateDue = true;
     if (action.actionID.empty())
@@ -51,28 +71,40 @@ void VehicleSession::OnInstantAction(const Action& action, const Header& header,
         VehicleError error;
         error.errorType = ErrorTypes::VALIDATION_ERROR;
         error.errorDescription = "an instant action has no actionId";
-        AddReference(error, ReferenceKeys::TOPIC, std::string(GetTopicName(ETopic::InstantActions)));
+        AddReference(error, ReferenceKeys::TOPIC, GetTopicName(ETopic::InstantActions));
         AddReference(error, ReferenceKeys::HEADER_ID, std::to_string(header.headerID));
-        AddSessionError(std::move(error));
-        return;
+        AddSessionError(std::move(error), EErrorLifetime::UntilInstantAction);
+        return false;
     }
     // A repeated id is the same action, sent again by a master that has not seen it in a state.
     if (FindActionOrNull(action.actionID) != nullptr)
     {
-        return;
+        return false;
     }
     const bool bRequest =
         action.actionType == ActionTypes::STATE_REQUEST || action.actionType == ActionTypes::FACTSHEET_REQUEST;
-    if (_operatingMode == EOperatingMode::Manual && !bRequest)
+    if (bTooMany)
     {
         FailInstantAction(
             action,
             header,
             ErrorTypes::INSTANT_ACTION_ERROR,
-            "in manual mode the vehicle takes no instant actions");
-        return;
+            "the message has more instant actions than the vehicle takes");
     }
-    PerformOwnInstantAction(action, header, now, out);
+    else if (!CanMoveByItself() && !bRequest)
+    {
+        FailInstantAction(
+            action,
+            header,
+            ErrorTypes::INSTANT_ACTION_ERROR,
+            "the operating mode takes no instant actions");
+    }
+    else
+    {
+        PerformOwnInstantAction(action, header, now, out);
+    }
+    const TrackedAction* trackedOrNull = FindActionOrNull(action.actionID);
+    return trackedOrNull != nullptr && trackedOrNull->machine.GetStatus() != EActionStatus::Failed;
 }
 
 void VehicleSession::PerformOwnInstantAction(
@@ -106,9 +138,10 @@ void VehicleSession::PerformOwnInstantAction(
     {
         const std::optional<ActionFault> fault =
             FindActionFaultOrNull(_options.factsheet, action, EActionScope::Instant);
-        if (fault.has_value())
+        const std::string reason = fault.has_value() ? fault->rule : FindOwnFault(action, EActionScope::Instant);
+        if (!reason.empty())
         {
-            FailInstantAction(action, header, ErrorTypes::INSTANT_ACTION_ERROR, fault->rule);
+            FailInstantAction(action, header, ErrorTypes::INSTANT_ACTION_ERROR, reason);
             return;
         }
         AddInstantAction(action, EActionStatus::Waiting);
@@ -126,7 +159,8 @@ void VehicleSession::AddInstantAction(const Action& action, EActionStatus status
         _actions.erase(std::ranges::find_if(_actions, isEnded));
     }
     ActionState state{action.actionID, action.actionType, action.actionDescription, status, result};
-    _actions.push_back(TrackedAction{action, ActionMachine(std::move(state)), EActionScope::Instant, {}, 0, false});
+    _actions.push_back(
+        TrackedAction{action, ActionMachine(std::move(state)), EActionScope::Instant, {}, 0, false, false});
 }
 
 void VehicleSession::FailInstantAction(
@@ -139,10 +173,12 @@ void VehicleSession::FailInstantAction(
     VehicleError error;
     error.errorType = errorType;
     error.errorDescription = reason;
-    AddReference(error, ReferenceKeys::TOPIC, std::string(GetTopicName(ETopic::InstantActions)));
+    AddReference(error, ReferenceKeys::TOPIC, GetTopicName(ETopic::InstantActions));
     AddReference(error, ReferenceKeys::HEADER_ID, std::to_string(header.headerID));
     AddReference(error, ReferenceKeys::ACTION_ID, action.actionID);
-    AddSessionError(std::move(error));
+    AddSessionError(
+        std::move(error),
+        errorType == ErrorTypes::NO_ORDER_TO_CANCEL ? EErrorLifetime::UntilOrder : EErrorLifetime::UntilInstantAction);
 }
 
 } // namespace ACS::VDA5050

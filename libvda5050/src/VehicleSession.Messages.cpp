@@ -92,14 +92,14 @@ bool VehicleSession::IsForeign(ETopic topic, const Header& header, VehicleAction
     return true;
 }
 
-void VehicleSession::AddSessionError(VehicleError error)
+void VehicleSession::AddSessionError(VehicleError error, EErrorLifetime lifetime)
 {
-    std::erase_if(_sessionErrors, [&error](const VehicleError& known) { return IsSameReport(error, known); });
+    std::erase_if(_sessionErrors, [&error](const SessionError& known) { return IsSameReport(error, known.error); });
     if (_sessionErrors.size() >= MAXIMUM_SESSION_ERRORS)
     {
         _sessionErrors.erase(_sessionErrors.begin());
     }
-    _sessionErrors.push_back(std::move(error));
+    _sessionErrors.push_back(SessionError{std::move(error), lifetime, false});
     _bStateDue = true;
 }
 
@@ -127,7 +127,9 @@ void VehicleSession::RefusePayload(
         AddReference(report, ReferenceKeys::ORDER_ID, identity->orderID);
         AddReference(report, ReferenceKeys::ORDER_UPDATE_ID, std::to_string(identity->orderUpdateID.value_or(0)));
     }
-    AddSessionError(std::move(report));
+    AddSessionError(
+        std::move(report),
+        topic == ETopic::Order ? EErrorLifetime::UntilOrder : EErrorLifetime::UntilInstantAction);
     out.emplace_back(MessageIgnored{topic, error});
 }
 
@@ -138,7 +140,9 @@ void VehicleSession::RefuseVersion(ETopic topic, const Header& header, VehicleAc
     report.errorDescription = "protocol version 2.x expected, found " + header.version;
     AddReference(report, ReferenceKeys::TOPIC, std::string(GetTopicName(topic)));
     AddReference(report, ReferenceKeys::HEADER_ID, std::to_string(header.headerID));
-    AddSessionError(std::move(report));
+    AddSessionError(
+        std::move(report),
+        topic == ETopic::Order ? EErrorLifetime::UntilOrder : EErrorLifetime::UntilInstantAction);
     out.emplace_back(MessageIgnored{
         topic,
         Core::Error{make_error_code(EVda5050Error::UnsupportedVersion), "version", "2.x", header.version}});
@@ -236,7 +240,8 @@ void VehicleSession::RefuseOrder(const OrderMessage& order, OrderJudgement judge
     out.emplace_back(OrderRefused{order.orderID, order.orderUpdateID, first.error.errorType, first.rule});
     for (OrderViolation& violation : judgement.violations)
     {
-        AddSessionError(std::move(violation.error));
+        const bool bMode = violation.rule == MODE_TAKES_NO_ORDERS;
+        AddSessionError(std::move(violation.error), bMode ? EErrorLifetime::UntilMode : EErrorLifetime::UntilOrder);
     }
 }
 
@@ -252,6 +257,7 @@ void VehicleSession::TakeNewOrder(OrderMessage order, VehicleActions& out)
     _bEdgeEntered = false;
     _bLegBegun = false;
     _bCleared = false;
+    _bHeldByFailure = false;
     _bOrderRunning = true;
     _orderID = order.orderID;
     _orderUpdateID = order.orderUpdateID;

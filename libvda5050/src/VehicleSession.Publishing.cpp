@@ -158,7 +158,7 @@ StateMessage VehicleSession::BuildState() const
     }
     state.operatingMode = _operatingMode;
     state.errors = _ownerErrors;
-    std::ranges::copy(_sessionErrors, std::back_inserter(state.errors));
+    std::ranges::transform(_sessionErrors, std::back_inserter(state.errors), &SessionError::error);
     state.information = _information;
     state.safetyState = _safety;
     return state;

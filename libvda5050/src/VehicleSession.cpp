@@ -1,5 +1,6 @@
 #include <acs/vda5050/VehicleSession.hpp>
 
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -14,12 +15,26 @@ bool IsFinite(const AgvPosition& position)
     return std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.theta);
 }
 
+double ToSeconds(std::chrono::milliseconds interval)
+{
+    return std::chrono::duration<double>(interval).count();
+}
+
 } // namespace
 
 VehicleSession::VehicleSession(VehicleOptions options)
     : _options(std::move(options)),
       _lastNodeID(_options.initialNodeID)
 {
+    // What the factsheet says about timing is what the vehicle does.
+    ProtocolTiming& timing = _options.factsheet.protocolLimits.timing;
+    timing.minStateInterval = ToSeconds(_options.minimumStateInterval);
+    timing.defaultStateInterval = ToSeconds(_options.maximumStateInterval);
+    timing.visualizationInterval.reset();
+    if (_options.visualizationInterval.count() > 0)
+    {
+        timing.visualizationInterval = ToSeconds(_options.visualizationInterval);
+    }
     for (std::size_t index = 0; index < TOPIC_COUNT; ++index)
     {
         _topics.at(index) = BuildTopic(_options.address, static_cast<ETopic>(index));

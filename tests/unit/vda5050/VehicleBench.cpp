@@ -73,10 +73,16 @@ void VehicleBench::Instant(
     const std::string& actionID,
     std::vector<ActionParameter> parameters)
 {
+    Action action = MakeAction(actionID, EBlockingType::Hard, std::string(actionType));
+    action.actionParameters = std::move(parameters);
+    Instant({std::move(action)});
+}
+
+void VehicleBench::Instant(std::vector<Action> actions)
+{
     InstantActionsMessage message;
     message.header = Header{_headerID++, _clock.GetNow().wall, "2.0.0", "ACS", "LR01"};
-    message.actions.push_back(MakeAction(actionID, EBlockingType::Hard, std::string(actionType)));
-    message.actions.back().actionParameters = std::move(parameters);
+    message.actions = std::move(actions);
     Payload(ETopic::InstantActions, Vda5050Codec().Encode(message, EVda5050Version::Version200));
 }
 

@@ -43,6 +43,7 @@ public:
         std::string_view actionType,
         const std::string& actionID,
         std::vector<ActionParameter> parameters = {});
+    void Instant(std::vector<Action> actions);
     void Reach(std::uint32_t sequenceID);
     void Drive(bool bDriving);
     void Status(std::string_view actionID, EActionStatus status);

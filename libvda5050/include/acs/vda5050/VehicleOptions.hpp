@@ -33,6 +33,8 @@ struct VehicleOptions
     std::size_t lowBaseNodes = 1;
     /// Metres: how far from its first node a vehicle may stand where the order states no deviation, or 0.
     double defaultDeviationXY = 0.5;
+    /// An order does not go on after one of these has failed: the error is FATAL, and master control has to cancel it.
+    std::vector<std::string> criticalActionTypes;
     /// Whether a cancel stops the vehicle between two nodes; else it drives to the next one (line guided).
     bool bStopsBetweenNodes = true;
     /// Asked before an order or update is taken that is right in all else; not for a resent one.
