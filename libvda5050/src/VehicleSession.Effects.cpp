@@ -149,10 +149,10 @@ void VehicleSession::ApplyMapEffect(const Action& action)
     }
 }
 
+/// lastNodeSequenceId stays: it counts within the order that is held, and an update may still follow.
 void VehicleSession::SetLastNode(std::string nodeID)
 {
     _lastNodeID = std::move(nodeID);
-    _lastNodeSequenceID = 0;
     _distanceSinceLastNode.reset();
     _bCleared = false;
     _bStateDue = true;
