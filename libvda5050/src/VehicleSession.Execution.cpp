@@ -133,20 +133,19 @@ void VehicleSession::Start(TrackedAction& tracked, VehicleActions& out)
 
 void VehicleSession::Advance(VehicleActions& out)
 {
-    if (IsHeldByPause() || !CanMoveByItself())
+    if (!IsHeldByPause() && CanMoveByItself())
     {
-        return;
+        if (_cancelActionIDs.empty())
+        {
+            StartQueuedActions(out);
+            DriveOn(out);
+        }
+        else
+        {
+            DriveLastLeg(out);
+        }
     }
-    if (!_cancelActionIDs.empty())
-    {
-        DriveLastLeg(out);
-        return;
-    }
-    StartQueuedActions(out);
-    if (!_bHeldByFailure)
-    {
-        DriveOn(out);
-    }
+    // Its last action may end while the vehicle is held.
     FinishOrderIfDone(out);
 }
 
@@ -192,7 +191,7 @@ bool VehicleSession::NeedsStopAtFront() const
 
 void VehicleSession::DriveOn(VehicleActions& out)
 {
-    if (_nodes.empty() || !_nodes.front().bReleased)
+    if (_nodes.empty() || !_nodes.front().bReleased || _bHeldByFailure)
     {
         return;
     }

@@ -50,6 +50,21 @@ TEST_CASE("5.3 A paused vehicle takes orders and updates, and does not move befo
     CHECK(bench.GetPublishedState().bPaused == false);
 }
 
+TEST_CASE("5.3 An order whose last action ends during a pause is complete at once")
+{
+    VehicleBench bench;
+    OrderMessage order = MakeOrder(1, 1);
+    order.nodes[0].actions.push_back(MakeAction("stubborn", EBlockingType::None));
+    bench.Order(order);
+    bench.Status("stubborn", EActionStatus::Running);
+    bench.Instant("startPause", "p1");
+    CHECK(Pick<OrderCompleted>(bench.GetOutput()).empty());
+    bench.Status("stubborn", EActionStatus::Finished);
+    CHECK(Pick<OrderCompleted>(bench.GetOutput()).size() == 1);
+    bench.Order(MakeOrder(1, 1, "order-2")); // nothing to do
+    CHECK(Pick<OrderCompleted>(bench.GetOutput()).size() == 2);
+}
+
 TEST_CASE("5.3 startPause and stopPause while paused or not are finished: both can be repeated")
 {
     VehicleBench bench;
