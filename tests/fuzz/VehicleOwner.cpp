@@ -302,7 +302,10 @@ void VehicleOwner::Finish()
         for (const auto& entry : running)
         {
             static_cast<void>(_session.TrySetActionStatus(entry.first, EActionStatus::Running, {}, _now, _out));
-            static_cast<void>(_session.TrySetActionStatus(entry.first, EActionStatus::Finished, {}, _now, _out));
+            if (_session.TrySetActionStatus(entry.first, EActionStatus::Finished, {}, _now, _out))
+            {
+                _running.erase(entry.first);
+            }
             Obey();
         }
         if (!_leg.has_value() && _running.empty())

@@ -126,15 +126,16 @@ OrderMessage MakeOrder(const StateMessage& state, Fuzz::Choices& choices)
     return order;
 }
 
-/// One byte of some texts is another one.
-std::string Spoil(std::string text, Fuzz::Choices& choices)
+/// Some texts have a wrong byte, some come retained.
+void Send(Fuzz::VehicleOwner& owner, ETopic topic, std::string payload, Fuzz::Choices& choices)
 {
-    if (choices.Take(8) == 0 && !text.empty())
+    if (choices.Take(8) == 0 && !payload.empty())
     {
-        const std::size_t place = (choices.TakeByte() * std::size_t{256} + choices.TakeByte()) % text.size();
-        text[place] = static_cast<char>(choices.TakeByte());
+        const std::size_t high = choices.TakeByte();
+        const std::size_t low = choices.TakeByte();
+        payload[(high * 256 + low) % payload.size()] = static_cast<char>(choices.TakeByte());
     }
-    return text;
+    owner.Receive(topic, payload, choices.Take(32) == 1);
 }
 
 VehicleOptions MakeOptions(Fuzz::Choices& choices)
@@ -172,7 +173,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             {
                 const std::string payload =
                     codec.Encode(MakeOrder(owner.GetState(), choices), EVda5050Version::Version210);
-                owner.Receive(ETopic::Order, Spoil(payload, choices), choices.Take(32) == 1);
+                Send(owner, ETopic::Order, payload, choices);
                 break;
             }
             case 1:
@@ -181,7 +182,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 message.header = Header{0, {}, "2.1.0", "ACS", "LR01"};
                 message.actions.push_back(MakeAction(choices));
                 const std::string payload = codec.Encode(message, EVda5050Version::Version210);
-                owner.Receive(ETopic::InstantActions, Spoil(payload, choices), choices.Take(32) == 1);
+                Send(owner, ETopic::InstantActions, payload, choices);
                 break;
             }
             case 2:
