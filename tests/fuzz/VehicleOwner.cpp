@@ -24,7 +24,6 @@ VehicleOwner::VehicleOwner(VehicleOptions options)
     : _session(std::move(options))
 {
     _session.OnLinkUp(_now, _out);
-    _bLinked = true;
     Obey();
 }
 

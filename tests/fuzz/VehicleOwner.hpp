@@ -36,7 +36,7 @@ class VehicleOwner
     std::string _orderID;
     std::uint32_t _lastSequenceID = 0;
     bool _bOrderRuns = false;
-    bool _bLinked = false;
+    bool _bLinked = true;
 
     void Obey();
     void Watch(const VDA5050::VehicleAction& action);
