@@ -1,14 +1,15 @@
 #pragma once
 
-#include <acs/vda5050/OrderMessage.hpp>
 #include <acs/vda5050/StateMessage.hpp>
 
 #include <string>
 #include <string_view>
-#include <utility>
 
 namespace ACS::VDA5050
 {
+
+/// Why an order is refused outside of the automatic modes; the report ends with the mode.
+inline constexpr std::string_view MODE_TAKES_NO_ORDERS = "the operating mode takes no orders";
 
 /// The keys of references (best practice of section 7.1). topic is always sent: some masters know a rejection by it.
 namespace ReferenceKeys
@@ -21,27 +22,12 @@ inline constexpr std::string_view ACTION_ID = "actionId";
 inline constexpr std::string_view NODE_ID = "nodeId";
 inline constexpr std::string_view EDGE_ID = "edgeId";
 inline constexpr std::string_view MAP_ID = "mapId";
+inline constexpr std::string_view PARAMETER = "parameter"; ///< The name of the wrong field.
 } // namespace ReferenceKeys
 
-inline void AddReference(VehicleError& error, std::string_view key, std::string value)
+inline void AddReference(VehicleError& error, std::string_view key, std::string_view value)
 {
-    error.errorReferences.push_back(ErrorReference{std::string(key), std::move(value)});
-}
-
-/// A warning about an order message, with the references that every such error has.
-[[nodiscard]] inline VehicleError MakeOrderError(
-    const OrderMessage& order,
-    std::string_view errorType,
-    std::string description)
-{
-    VehicleError error;
-    error.errorType = errorType;
-    error.errorDescription = std::move(description);
-    AddReference(error, ReferenceKeys::TOPIC, "order");
-    AddReference(error, ReferenceKeys::HEADER_ID, std::to_string(order.header.headerID));
-    AddReference(error, ReferenceKeys::ORDER_ID, order.orderID);
-    AddReference(error, ReferenceKeys::ORDER_UPDATE_ID, std::to_string(order.orderUpdateID));
-    return error;
+    error.errorReferences.push_back(ErrorReference{std::string(key), std::string(value)});
 }
 
 } // namespace ACS::VDA5050

@@ -1,8 +1,11 @@
+#include "OrderCapability.hpp"
 #include "OrderErrors.hpp"
 #include <acs/vda5050/OrderValidator.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numbers>
 #include <string_view>
 #include <utility>
 
@@ -12,6 +15,8 @@ namespace ACS::VDA5050
 namespace
 {
 
+constexpr double FULL_TURN = 2.0 * std::numbers::pi;
+
 OrderJudgement Reject(std::vector<OrderViolation> violations)
 {
     return OrderJudgement{EOrderVerdict::Reject, std::move(violations)};
@@ -19,57 +24,7 @@ OrderJudgement Reject(std::vector<OrderViolation> violations)
 
 OrderJudgement Reject(const OrderMessage& order, std::string_view errorType, const std::string& rule)
 {
-    return Reject({OrderViolation{rule, MakeOrderError(order, errorType, rule)}});
-}
-
-void CheckActions(
-    const std::vector<Action>& actions,
-    EActionScope scope,
-    const OrderMessage& order,
-    const OrderContext& context,
-    std::vector<OrderViolation>& out)
-{
-    for (const Action& action : actions)
-    {
-        if (!CanPerform(*context.factsheet, action.actionType, scope))
-        {
-            const std::string rule = "the vehicle cannot perform " + action.actionType + " here";
-            OrderViolation& violation =
-                out.emplace_back(OrderViolation{rule, MakeOrderError(order, ErrorTypes::ORDER_ERROR, rule)});
-            AddReference(violation.error, ReferenceKeys::ACTION_ID, action.actionID);
-        }
-    }
-}
-
-/// Actions that the vehicle cannot perform, and maps that it does not have.
-std::vector<OrderViolation> FindImpossible(const OrderMessage& order, const OrderContext& context)
-{
-    std::vector<OrderViolation> violations;
-    const bool bActionsKnown = context.factsheet != nullptr && !context.factsheet->protocolFeatures.agvActions.empty();
-    for (const OrderNode& node : order.nodes)
-    {
-        if (bActionsKnown)
-        {
-            CheckActions(node.actions, EActionScope::Node, order, context, violations);
-        }
-        const bool bMapKnown = context.mapIDs.empty() || !node.nodePosition.has_value()
-            || std::ranges::find(context.mapIDs, node.nodePosition->mapID) != context.mapIDs.end();
-        if (!bMapKnown)
-        {
-            const std::string rule = "the vehicle does not have the map " + node.nodePosition->mapID;
-            OrderViolation& violation =
-                violations.emplace_back(OrderViolation{rule, MakeOrderError(order, ErrorTypes::ORDER_ERROR, rule)});
-            AddReference(violation.error, ReferenceKeys::MAP_ID, node.nodePosition->mapID);
-        }
-    }
-    if (bActionsKnown)
-    {
-        for (const OrderEdge& edge : order.edges)
-        {
-            CheckActions(edge.actions, EActionScope::Edge, order, context, violations);
-        }
-    }
-    return violations;
+    return Reject({MakeOrderViolation(order, errorType, rule)});
 }
 
 /// 6.6.4: on the first node, or inside its range. Where both positions are known they decide: a vehicle that was
@@ -84,11 +39,60 @@ bool IsAtFirstNode(const OrderNode& node, const OrderContext& context)
     {
         return false;
     }
-    const double stated = node.nodePosition->allowedDeviationXY.value_or(0.0);
+    const NodePosition& target = *node.nodePosition;
+    const double stated = target.allowedDeviationXY.value_or(0.0);
     const double allowed = stated > 0.0 ? stated : context.defaultDeviationXY;
-    const double distance =
-        std::hypot(node.nodePosition->x - context.position->x, node.nodePosition->y - context.position->y);
-    return distance <= allowed;
+    if (std::hypot(target.x - context.position->x, target.y - context.position->y) > allowed)
+    {
+        return false;
+    }
+    // On the node itself the vehicle may still turn.
+    const bool bOnNode = node.nodeID == context.lastNodeID && !context.bCleared;
+    if (bOnNode || !target.theta.has_value() || !target.allowedDeviationTheta.has_value())
+    {
+        return true;
+    }
+    return std::abs(std::remainder(*target.theta - context.position->theta, FULL_TURN))
+        <= *target.allowedDeviationTheta;
+}
+
+OrderJudgement RejectUnreachable(const OrderMessage& order)
+{
+    const std::string& nodeID = order.nodes.front().nodeID;
+    OrderJudgement judgement =
+        Reject(order, ErrorTypes::NO_ROUTE_ERROR, "the vehicle is not at the first node, " + nodeID);
+    AddReference(judgement.violations.front().error, ReferenceKeys::NODE_ID, nodeID);
+    return judgement;
+}
+
+/// An id of an order is the key of its state: none that the report still needs may come again.
+std::vector<OrderViolation> FindRepeatedActions(const OrderMessage& order, const OrderContext& context, bool bUpdate)
+{
+    const std::vector<std::string>& known = bUpdate ? context.actionIDs : context.instantActionIDs;
+    std::vector<OrderViolation> violations;
+    const auto check = [&order, &known, &violations](const std::vector<Action>& actions) {
+        for (const Action& action : actions)
+        {
+            if (std::ranges::find(known, action.actionID) != known.end())
+            {
+                violations.push_back(MakeOrderViolation(
+                    order,
+                    ErrorTypes::VALIDATION_ERROR,
+                    "the actionId " + action.actionID + " is in use already"));
+                AddReference(violations.back().error, ReferenceKeys::ACTION_ID, action.actionID);
+            }
+        }
+    };
+    // The stitching node of an update comes with the actions that it had.
+    for (std::size_t index = bUpdate ? 1 : 0; index < order.nodes.size(); ++index)
+    {
+        check(order.nodes[index].actions);
+    }
+    for (const OrderEdge& edge : order.edges)
+    {
+        check(edge.actions);
+    }
+    return violations;
 }
 
 OrderJudgement JudgeNewOrder(const OrderMessage& order, const OrderContext& context)
@@ -104,13 +108,13 @@ OrderJudgement JudgeNewOrder(const OrderMessage& order, const OrderContext& cont
     {
         return Reject(order, ErrorTypes::NO_ROUTE_ERROR, "the vehicle does not know where it is");
     }
-    const OrderNode& first = order.nodes.front();
-    if (!IsAtFirstNode(first, context))
+    if (order.nodes.front().sequenceID != 0)
     {
-        OrderJudgement judgement =
-            Reject(order, ErrorTypes::NO_ROUTE_ERROR, "the vehicle is not at the first node, " + first.nodeID);
-        AddReference(judgement.violations.front().error, ReferenceKeys::NODE_ID, first.nodeID);
-        return judgement;
+        return Reject(order, ErrorTypes::VALIDATION_ERROR, "a new order begins with the sequenceId 0");
+    }
+    if (!IsAtFirstNode(order.nodes.front(), context))
+    {
+        return RejectUnreachable(order);
     }
     return OrderJudgement{EOrderVerdict::NewOrder, {}};
 }
@@ -137,6 +141,11 @@ OrderJudgement JudgeUpdate(const OrderMessage& order, const OrderContext& contex
             "an update begins at the node " + context.decisionNodeID + ", sequenceId "
                 + std::to_string(context.decisionSequenceID));
     }
+    // After a cancel lastNodeId is where the vehicle was last, and maybe not where it stands.
+    if (!context.bExecuting && context.bCleared && !IsAtFirstNode(first, context))
+    {
+        return RejectUnreachable(order);
+    }
     return OrderJudgement{EOrderVerdict::Update, {}};
 }
 
@@ -144,27 +153,36 @@ OrderJudgement JudgeUpdate(const OrderMessage& order, const OrderContext& contex
 
 OrderJudgement JudgeOrder(const OrderMessage& order, const OrderContext& context)
 {
-    const bool bHeld = !context.heldOrderID.empty() && order.orderID == context.heldOrderID;
-    // Before everything else: a resent message is no error, whatever has changed since.
-    if (bHeld && order.orderUpdateID == context.heldOrderUpdateID)
-    {
-        return OrderJudgement{EOrderVerdict::Discard, {}};
-    }
     std::vector<OrderViolation> violations = ValidateOrder(order);
     if (!violations.empty())
     {
         return Reject(std::move(violations));
     }
+    const bool bHeld = !context.heldOrderID.empty() && order.orderID == context.heldOrderID;
+    // A resent message is no error, whatever has changed since.
+    if (bHeld && order.orderUpdateID == context.heldOrderUpdateID)
+    {
+        return OrderJudgement{EOrderVerdict::Discard, {}};
+    }
     if (context.operatingMode != EOperatingMode::Automatic && context.operatingMode != EOperatingMode::SemiAutomatic)
     {
-        return Reject(order, ErrorTypes::ORDER_ERROR, "the operating mode takes no orders");
+        return Reject(order, ErrorTypes::ORDER_ERROR, std::string(MODE_TAKES_NO_ORDERS));
     }
-    violations = FindImpossible(order, context);
+    violations = FindUnusable(order, context);
     if (!violations.empty())
     {
         return Reject(std::move(violations));
     }
-    return bHeld ? JudgeUpdate(order, context) : JudgeNewOrder(order, context);
+    OrderJudgement judgement = bHeld ? JudgeUpdate(order, context) : JudgeNewOrder(order, context);
+    if (judgement.verdict != EOrderVerdict::Reject)
+    {
+        violations = FindRepeatedActions(order, context, bHeld);
+        if (violations.empty() && context.orderCheck)
+        {
+            violations = context.orderCheck(order);
+        }
+    }
+    return violations.empty() ? judgement : Reject(std::move(violations));
 }
 
 } // namespace ACS::VDA5050

@@ -1,8 +1,13 @@
+#include "AngleBound.hpp"
 #include "OrderErrors.hpp"
 #include <acs/vda5050/OrderValidator.hpp>
+#include <acs/vda5050/Topic.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -13,6 +18,7 @@ namespace
 {
 
 constexpr std::uint32_t SEQUENCE_STEP = 2;
+constexpr double NO_BOUND = std::numeric_limits<double>::max();
 
 /// Collects the violations of one order.
 class Findings
@@ -28,8 +34,7 @@ public:
 
     void Add(std::string rule)
     {
-        VehicleError error = MakeOrderError(_order, ErrorTypes::VALIDATION_ERROR, rule);
-        _violations.push_back(OrderViolation{std::move(rule), std::move(error)});
+        _violations.push_back(MakeOrderViolation(_order, ErrorTypes::VALIDATION_ERROR, std::move(rule)));
     }
 
     void Add(const std::string& rule, std::string_view key, const std::string& value)
@@ -109,6 +114,42 @@ void CheckTrajectory(const OrderEdge& edge, Findings& findings)
     }
 }
 
+/// NaN is out of every range.
+bool IsWithin(const std::optional<double>& value, double minimum, double maximum)
+{
+    return !value.has_value() || (*value >= minimum && *value <= maximum);
+}
+
+bool HasBadNumbers(const NodePosition& position)
+{
+    return !std::isfinite(position.x) || !std::isfinite(position.y) || !IsWithin(position.theta, -PI_BOUND, PI_BOUND)
+        || !IsWithin(position.allowedDeviationXY, 0.0, NO_BOUND)
+        || !IsWithin(position.allowedDeviationTheta, 0.0, PI_BOUND);
+}
+
+bool HasBadNumbers(const OrderEdge& edge)
+{
+    const bool bCorridor = !edge.corridor.has_value()
+        || (IsWithin(edge.corridor->leftWidth, 0.0, NO_BOUND) && IsWithin(edge.corridor->rightWidth, 0.0, NO_BOUND));
+    return !bCorridor || !IsWithin(edge.orientation, -PI_BOUND, PI_BOUND) || !IsWithin(edge.maxSpeed, 0.0, NO_BOUND)
+        || !IsWithin(edge.maxRotationSpeed, 0.0, NO_BOUND) || !IsWithin(edge.length, 0.0, NO_BOUND);
+}
+
+void CheckNodes(const OrderMessage& order, Findings& findings)
+{
+    for (const OrderNode& node : order.nodes)
+    {
+        if (node.nodeID.empty())
+        {
+            findings.Add("a node has a nodeId");
+        }
+        if (node.nodePosition.has_value() && HasBadNumbers(*node.nodePosition))
+        {
+            findings.Add("a node's position is inside its ranges", ReferenceKeys::NODE_ID, node.nodeID);
+        }
+    }
+}
+
 void CheckEdges(const OrderMessage& order, Findings& findings)
 {
     for (std::size_t index = 0; index < order.edges.size(); ++index)
@@ -117,6 +158,14 @@ void CheckEdges(const OrderMessage& order, Findings& findings)
         if (edge.startNodeID != order.nodes[index].nodeID || edge.endNodeID != order.nodes[index + 1].nodeID)
         {
             findings.Add("an edge names the nodes beside it", ReferenceKeys::EDGE_ID, edge.edgeID);
+        }
+        if (edge.edgeID.empty())
+        {
+            findings.Add("an edge has an edgeId");
+        }
+        if (HasBadNumbers(edge))
+        {
+            findings.Add("an edge's numbers are inside their ranges", ReferenceKeys::EDGE_ID, edge.edgeID);
         }
         CheckTrajectory(edge, findings);
     }
@@ -159,6 +208,18 @@ void CheckActions(const OrderMessage& order, Findings& findings)
 
 } // namespace
 
+OrderViolation MakeOrderViolation(const OrderMessage& order, std::string_view errorType, std::string rule)
+{
+    VehicleError error;
+    error.errorType = errorType;
+    error.errorDescription = rule;
+    AddReference(error, ReferenceKeys::TOPIC, GetTopicName(ETopic::Order));
+    AddReference(error, ReferenceKeys::HEADER_ID, std::to_string(order.header.headerID));
+    AddReference(error, ReferenceKeys::ORDER_ID, order.orderID);
+    AddReference(error, ReferenceKeys::ORDER_UPDATE_ID, std::to_string(order.orderUpdateID));
+    return OrderViolation{std::move(rule), std::move(error)};
+}
+
 std::vector<OrderViolation> ValidateOrder(const OrderMessage& order)
 {
     Findings findings(order);
@@ -173,6 +234,7 @@ std::vector<OrderViolation> ValidateOrder(const OrderMessage& order)
     }
     CheckSequence(order, findings);
     CheckBase(order, findings);
+    CheckNodes(order, findings);
     CheckEdges(order, findings);
     CheckActions(order, findings);
     return findings.Take();

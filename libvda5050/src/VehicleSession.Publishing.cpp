@@ -132,8 +132,10 @@ StateMessage VehicleSession::BuildState() const
         }
     }
     state.edgeStates.reserve(_edges.size());
-    for (const OrderEdge& edge : _edges)
+    // 6.6.3: a cancelled vehicle on its way to the next node shows that node alone.
+    for (std::size_t index = 0; index < (_bLastLeg ? 0 : _edges.size()); ++index)
     {
+        const OrderEdge& edge = _edges[index];
         state.edgeStates.push_back(
             EdgeState{edge.edgeID, edge.sequenceID, edge.edgeDescription, edge.bReleased, edge.trajectory});
     }
@@ -141,7 +143,7 @@ StateMessage VehicleSession::BuildState() const
     state.velocity = _velocity;
     state.loads = _loads;
     state.bDriving = _bDriving;
-    state.bPaused = _bPaused && _pauseActionIDs.empty();
+    state.bPaused = IsHeldByPause() && IsStanding();
     state.bNewBaseRequest = NeedsNewBase();
     state.distanceSinceLastNode = _distanceSinceLastNode;
     state.actionStates.reserve(_actions.size());
@@ -156,7 +158,7 @@ StateMessage VehicleSession::BuildState() const
     }
     state.operatingMode = _operatingMode;
     state.errors = _ownerErrors;
-    std::ranges::copy(_sessionErrors, std::back_inserter(state.errors));
+    std::ranges::transform(_sessionErrors, std::back_inserter(state.errors), &SessionError::error);
     state.information = _information;
     state.safetyState = _safety;
     return state;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "../AngleBound.hpp"
 #include "CodecBody.hpp"
 #include <acs/core/Timestamp.hpp>
 #include <acs/vda5050/Action.hpp>
@@ -16,8 +17,7 @@
 namespace ACS::VDA5050
 {
 
-/// Pi with the room that a peer needs who computes in single precision; written is never more than pi itself.
-inline constexpr double PI_BOUND = 3.1416;
+/// Written is never more than pi itself.
 inline constexpr double PI = std::numbers::pi;
 inline constexpr double NO_MAXIMUM = std::numeric_limits<double>::infinity();
 

@@ -3,6 +3,7 @@
 #include <acs/vda5050/OrderValidator.hpp>
 
 #include <functional>
+#include <limits>
 
 namespace ACS::VDA5050::Test
 {
@@ -68,6 +69,60 @@ TEST_CASE("4.1 Each rule of an order's structure is told by itself")
          [](OrderMessage& order) {
              order.nodes[1].actions.push_back(MakeAction("a", EBlockingType::None));
              order.nodes[1].actions[0].actionParameters.push_back(ActionParameter{"key", {}});
+         }},
+        {"node without id",
+         [](OrderMessage& order) {
+             order.nodes[2].nodeID.clear();
+             order.edges[1].endNodeID.clear();
+             order.edges[2].startNodeID.clear();
+         }},
+        {"edge without id",
+         [](OrderMessage& order) {
+             order.edges[2].edgeID.clear();
+         }},
+        {"a position that is no number",
+         [](OrderMessage& order) {
+             order.nodes[1].nodePosition->x = std::numeric_limits<double>::quiet_NaN();
+         }},
+        {"theta beyond pi",
+         [](OrderMessage& order) {
+             order.nodes[1].nodePosition->theta = -3.2;
+         }},
+        {"negative deviation",
+         [](OrderMessage& order) {
+             order.nodes[1].nodePosition->allowedDeviationXY = -0.1;
+         }},
+        {"negative angle of deviation",
+         [](OrderMessage& order) {
+             order.nodes[1].nodePosition->allowedDeviationTheta = -0.1;
+         }},
+        {"orientation beyond pi",
+         [](OrderMessage& order) {
+             order.edges[1].orientation = 3.2;
+         }},
+        {"negative speed",
+         [](OrderMessage& order) {
+             order.edges[1].maxSpeed = -1.0;
+         }},
+        {"negative rotation speed",
+         [](OrderMessage& order) {
+             order.edges[1].maxRotationSpeed = -1.0;
+         }},
+        {"negative length",
+         [](OrderMessage& order) {
+             order.edges[1].length = -1.0;
+         }},
+        {"negative corridor",
+         [](OrderMessage& order) {
+             order.edges[1].corridor = Corridor{1.0, -1.0, {}};
+         }},
+        {"knots beyond 1",
+         [](OrderMessage& order) {
+             order.edges[0].trajectory = Trajectory{1, {0.0, 0.0, 1.0, 1.5}, {ControlPoint{}, ControlPoint{}}};
+         }},
+        {"falling knots",
+         [](OrderMessage& order) {
+             order.edges[0].trajectory = Trajectory{1, {0.0, 1.0, 0.5, 1.0}, {ControlPoint{}, ControlPoint{}}};
          }},
         {"too few knots",
          [](OrderMessage& order) {

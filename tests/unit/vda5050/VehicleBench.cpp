@@ -68,11 +68,21 @@ void VehicleBench::Payload(ETopic topic, std::string_view payload, bool bRetaine
     _session.OnMessage(BuildTopic(MakeAddress(), topic), payload, bRetained, _clock.GetNow(), _out);
 }
 
-void VehicleBench::Instant(std::string_view actionType, const std::string& actionID)
+void VehicleBench::Instant(
+    std::string_view actionType,
+    const std::string& actionID,
+    std::vector<ActionParameter> parameters)
+{
+    Action action = MakeAction(actionID, EBlockingType::Hard, std::string(actionType));
+    action.actionParameters = std::move(parameters);
+    Instant({std::move(action)});
+}
+
+void VehicleBench::Instant(std::vector<Action> actions)
 {
     InstantActionsMessage message;
     message.header = Header{_headerID++, _clock.GetNow().wall, "2.0.0", "ACS", "LR01"};
-    message.actions.push_back(MakeAction(actionID, EBlockingType::Hard, std::string(actionType)));
+    message.actions = std::move(actions);
     Payload(ETopic::InstantActions, Vda5050Codec().Encode(message, EVda5050Version::Version200));
 }
 
@@ -91,13 +101,24 @@ void VehicleBench::Status(std::string_view actionID, EActionStatus status)
     CHECK(_session.TrySetActionStatus(actionID, status, {}, _clock.GetNow(), _out));
 }
 
-void VehicleBench::StandAt(double x)
+void VehicleBench::StandAt(double x, double theta)
 {
     AgvPosition position;
     position.bPositionInitialized = true;
     position.x = x;
+    position.theta = theta;
     position.mapID = "floor";
     _session.OnPosition(position, Velocity{});
+}
+
+void VehicleBench::Mode(EOperatingMode mode)
+{
+    _session.OnOperatingMode(mode, _clock.GetNow(), _out);
+}
+
+void VehicleBench::HardwarePause(bool bPaused, bool bOverridesMaster)
+{
+    _session.OnHardwarePause(bPaused, bOverridesMaster, _clock.GetNow(), _out);
 }
 
 std::vector<StateMessage> VehicleBench::GetPublishedStates() const

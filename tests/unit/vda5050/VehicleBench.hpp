@@ -39,11 +39,17 @@ public:
 
     void Order(OrderMessage order);
     void Payload(ETopic topic, std::string_view payload, bool bRetained = false);
-    void Instant(std::string_view actionType, const std::string& actionID);
+    void Instant(
+        std::string_view actionType,
+        const std::string& actionID,
+        std::vector<ActionParameter> parameters = {});
+    void Instant(std::vector<Action> actions);
     void Reach(std::uint32_t sequenceID);
     void Drive(bool bDriving);
     void Status(std::string_view actionID, EActionStatus status);
-    void StandAt(double x);
+    void StandAt(double x, double theta = 0.0);
+    void Mode(EOperatingMode mode);
+    void HardwarePause(bool bPaused, bool bOverridesMaster);
 
     /// The last state that was published, or the present one where none was.
     [[nodiscard]] StateMessage GetPublishedState() const;

@@ -392,6 +392,7 @@ TEST_CASE("5.4.7 After a cancel between two nodes an order must begin where the 
     bench.Order(MakeOrder(2, 2));
     bench.StandAt(5.0);
     bench.Instant("cancelOrder", "c1");
+    bench.Drive(false);
     bench.Order(MakeOrder(2, 2, "order-2"));
     CHECK(bench.HasError(ErrorTypes::NO_ROUTE_ERROR));
     OrderMessage wide = MakeOrder(2, 2, "order-3");

@@ -41,7 +41,7 @@ struct Action
 /// The parameter of this key, null where there is none.
 [[nodiscard]] const ActionParameter* FindParameterOrNull(const Action& action, std::string_view key);
 
-/// The predefined actions that the sessions themselves know (section 6.8.2).
+/// The predefined actions of 2.x (section 6.8.2); PredefinedActions.hpp has their scopes and parameters.
 namespace ActionTypes
 {
 inline constexpr std::string_view CANCEL_ORDER = "cancelOrder";
@@ -49,6 +49,18 @@ inline constexpr std::string_view START_PAUSE = "startPause";
 inline constexpr std::string_view STOP_PAUSE = "stopPause";
 inline constexpr std::string_view STATE_REQUEST = "stateRequest";
 inline constexpr std::string_view FACTSHEET_REQUEST = "factsheetRequest";
+inline constexpr std::string_view START_CHARGING = "startCharging";
+inline constexpr std::string_view STOP_CHARGING = "stopCharging";
+inline constexpr std::string_view INIT_POSITION = "initPosition";
+inline constexpr std::string_view ENABLE_MAP = "enableMap";
+inline constexpr std::string_view DOWNLOAD_MAP = "downloadMap";
+inline constexpr std::string_view DELETE_MAP = "deleteMap";
+inline constexpr std::string_view LOG_REPORT = "logReport";
+inline constexpr std::string_view PICK = "pick";
+inline constexpr std::string_view DROP = "drop";
+inline constexpr std::string_view DETECT_OBJECT = "detectObject";
+inline constexpr std::string_view FINE_POSITIONING = "finePositioning";
+inline constexpr std::string_view WAIT_FOR_TRIGGER = "waitForTrigger";
 } // namespace ActionTypes
 
 } // namespace ACS::VDA5050

@@ -4,9 +4,12 @@
 #include <acs/vda5050/OrderMessage.hpp>
 #include <acs/vda5050/StateMessage.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ACS::VDA5050
@@ -21,9 +24,19 @@ struct OrderViolation
     bool operator==(const OrderViolation&) const = default;
 };
 
+/// A violation as a vehicle reports it: a warning that refers to topic, headerId, orderId and orderUpdateId. For checks
+/// of the caller's own.
+[[nodiscard]] OrderViolation MakeOrderViolation(
+    const OrderMessage& order,
+    std::string_view errorType,
+    std::string rule);
+
 /// Checks an order by itself: counts, sequence ids, base before horizon, neighbours of edges, unique action ids, curve
 /// and angle ranges. Empty where it keeps all rules.
 [[nodiscard]] std::vector<OrderViolation> ValidateOrder(const OrderMessage& order);
+
+/// A check of the vehicle's own: orders that its control cannot drive, say. Empty where the order can be taken.
+using OrderCheck = std::function<std::vector<OrderViolation>(const OrderMessage&)>;
 
 /// What a vehicle knows when an order arrives.
 struct OrderContext
@@ -39,7 +52,13 @@ struct OrderContext
     std::optional<AgvPosition> position;
     double defaultDeviationXY = 0.5;             ///< Metres, where the first node states none or 0.
     std::vector<std::string> mapIDs;             ///< Maps on the vehicle; empty: not checked.
-    const FactsheetMessage* factsheet = nullptr; ///< Which actions it can perform; null: all.
+    bool bMapsKnown = false;                     ///< mapIDs is checked even where it is empty.
+    const FactsheetMessage* factsheet = nullptr; ///< What it can do: actions, optional members, sizes; null: all.
+    std::size_t payloadBytes = 0;                ///< Of the message, held against the factsheet's msgLen.
+    bool bCleared = false;                     ///< The last order was cancelled: the vehicle may have left lastNodeID.
+    std::vector<std::string> actionIDs;        ///< Reported actions that an update does not remove.
+    std::vector<std::string> instantActionIDs; ///< Instant actions that outlive a new order.
+    OrderCheck orderCheck;                     ///< Asked last; empty: none.
 };
 
 enum class EOrderVerdict : std::uint8_t

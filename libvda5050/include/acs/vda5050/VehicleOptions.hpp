@@ -2,6 +2,7 @@
 
 #include <acs/vda5050/EVda5050Version.hpp>
 #include <acs/vda5050/FactsheetMessage.hpp>
+#include <acs/vda5050/OrderValidator.hpp>
 #include <acs/vda5050/QosTable.hpp>
 #include <acs/vda5050/Topic.hpp>
 
@@ -18,7 +19,8 @@ struct VehicleOptions
     VehicleAddress address;
     EVda5050Version version = EVda5050Version::Version200;
     QosTable qos;
-    /// What the vehicle can do; its header is filled in by the session. Without any agvActions every action is taken.
+    /// What the vehicle can do; header and timing are filled in by the session. An order is held against it: an action,
+    /// a parameter, an optional member or a size that it does not list is refused. Lists that are empty refuse nothing.
     FactsheetMessage factsheet;
 
     /// Changes closer together than this go into one state.
@@ -31,9 +33,13 @@ struct VehicleOptions
     std::size_t lowBaseNodes = 1;
     /// Metres: how far from its first node a vehicle may stand where the order states no deviation, or 0.
     double defaultDeviationXY = 0.5;
+    /// An order does not go on after one of these has failed: the error is FATAL, and master control has to cancel it.
+    std::vector<std::string> criticalActionTypes;
     /// Whether a cancel stops the vehicle between two nodes; else it drives to the next one (line guided).
     bool bStopsBetweenNodes = true;
-    /// Orders with other maps are refused; empty: every map is known.
+    /// Asked before an order or update is taken that is right in all else; not for a resent one.
+    OrderCheck orderCheck;
+    /// Maps that the vehicle has beside those of OnMaps. Orders with other maps are refused; where both are empty, none.
     std::vector<std::string> mapIDs;
     /// Where the vehicle stands at first; empty: not on a node.
     std::string initialNodeID;

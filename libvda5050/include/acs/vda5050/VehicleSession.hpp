@@ -33,6 +33,22 @@ class VehicleSession
         std::string elementID;
         std::uint32_t sequenceID = 0; ///< Of its node or edge.
         bool bStarted = false;        ///< The owner was told to.
+        bool bCancelled = false;
+    };
+
+    /// All end with an order that is taken; some earlier.
+    enum class EErrorLifetime : std::uint8_t
+    {
+        UntilOrder,
+        UntilInstantAction, ///< Taken in a later message.
+        UntilMode,          ///< Until orders can be taken.
+    };
+
+    struct SessionError
+    {
+        VehicleError error;
+        EErrorLifetime lifetime = EErrorLifetime::UntilOrder;
+        bool bShown = false; ///< Of an earlier message.
     };
 
     VehicleOptions _options;
@@ -63,14 +79,21 @@ class VehicleSession
     std::deque<OrderEdge> _edges; ///< Edge n leads to node n.
     std::vector<TrackedAction> _actions;
     std::deque<std::string> _actionQueue; ///< Of what was reached or entered, not yet started.
-    std::vector<VehicleError> _sessionErrors;
+    std::vector<SessionError> _sessionErrors;
     std::vector<std::string> _pauseActionIDs; ///< startPause that waits for the vehicle to stand.
     std::vector<std::string> _cancelActionIDs;
     bool _bOrderRunning = false; ///< Taken and not yet told as completed.
+    bool _bCleared = false;      ///< The order was cancelled.
     bool _bEdgeEntered = false;
-    bool _bLegActive = false;
+    bool _bHeldByFailure = false; ///< A critical action failed.
+    bool _bLegActive = false;     ///< DriveTo was told last.
+    bool _bLegBegun = false;      ///< Between two nodes, driving or not.
     bool _bLegStops = true;
-    bool _bPaused = false;
+    bool _bLastLeg = false; ///< A cancelled vehicle that is bound to nodes drives to the next one.
+    bool _bHalting = false; ///< StopDriving was told, and not yet that the vehicle stands.
+    bool _bMasterPause = false;
+    bool _bHardwarePause = false;
+    bool _bPauseOverridden = false;
 
     // Publishing.
     bool _bLinkUp = false;
@@ -80,11 +103,16 @@ class VehicleSession
 
     void OnOrder(std::string_view payload, VehicleActions& out);
     void OnInstantActions(std::string_view payload, Core::Now now, VehicleActions& out);
-    void OnInstantAction(const Action& action, const Header& header, Core::Now now, VehicleActions& out);
+    [[nodiscard]] bool TryTakeInstantAction(
+        const Action& action,
+        const Header& header,
+        bool bTooMany,
+        Core::Now now,
+        VehicleActions& out);
     [[nodiscard]] bool IsForeign(ETopic topic, const Header& header, VehicleActions& out) const;
     void RefusePayload(ETopic topic, std::string_view payload, const Core::Error& error, VehicleActions& out);
     void RefuseVersion(ETopic topic, const Header& header, VehicleActions& out);
-    void AddSessionError(VehicleError error);
+    void AddSessionError(VehicleError error, EErrorLifetime lifetime);
     [[nodiscard]] OrderContext MakeContext() const;
     void RefuseOrder(const OrderMessage& order, OrderJudgement judgement, VehicleActions& out);
     void TakeNewOrder(OrderMessage order, VehicleActions& out);
@@ -95,6 +123,8 @@ class VehicleSession
     void Advance(VehicleActions& out);
     void StartQueuedActions(VehicleActions& out);
     void DriveOn(VehicleActions& out);
+    void DriveToFront(bool bStopAtNode, VehicleActions& out);
+    void DriveLastLeg(VehicleActions& out);
     void FinishOrderIfDone(VehicleActions& out);
     void ReachFront(VehicleActions& out);
     [[nodiscard]] bool CanDrive() const;
@@ -109,7 +139,7 @@ class VehicleSession
         const std::string& elementID,
         std::uint32_t sequenceID);
     void Enqueue(const std::vector<Action>& actions);
-    static void Start(TrackedAction& tracked, VehicleActions& out);
+    void Start(TrackedAction& tracked, VehicleActions& out);
     [[nodiscard]] TrackedAction* FindActionOrNull(std::string_view actionID);
     void SetStatus(std::string_view actionID, EActionStatus status, const std::string& result = {});
     void AddInstantAction(const Action& action, EActionStatus status, const std::string& result = {});
@@ -118,14 +148,24 @@ class VehicleSession
         const Header& header,
         std::string_view errorType,
         const std::string& reason);
-    void StartPause(const Action& action, VehicleActions& out);
-    void StopPause(const Action& action, VehicleActions& out);
+    void StartPause(const Action& action, const Header& header, VehicleActions& out);
+    void StopPause(const Action& action, const Header& header, VehicleActions& out);
+    void EnterPause(VehicleActions& out);
+    void LeavePause(VehicleActions& out) const;
+    [[nodiscard]] bool IsHeldByPause() const noexcept;
+    [[nodiscard]] bool IsStanding() const;
     void StartCancel(const Action& action, const Header& header, VehicleActions& out);
     void StopOrderActions(VehicleActions& out);
     void StopMoving(VehicleActions& out);
     void ClearOrder(VehicleActions& out);
     void FinishCancelIfStanding(VehicleActions& out);
     void FinishPauseIfStanding();
+    [[nodiscard]] std::string FindOwnFault(const Action& action, EActionScope scope);
+    [[nodiscard]] std::string FindPoseFault(const Action& action, EActionScope scope) const;
+    void ApplyOwnEffect(const Action& action, EActionScope scope);
+    void ApplyMapEffect(const Action& action);
+    void SetLastNode(std::string nodeID);
+    void OnOrderActionFailed(const TrackedAction& tracked, VehicleActions& out);
     void PerformOwnInstantAction(const Action& action, const Header& header, Core::Now now, VehicleActions& out);
 
     [[nodiscard]] Header MakeHeader(ETopic topic, Core::Now now);
@@ -163,13 +203,19 @@ public:
 
     /// The node of the last DriveTo, by its sequenceID; any other is ignored. False then.
     bool TryReachNode(std::uint32_t sequenceID, Core::Now now, VehicleActions& out);
+    /// The vehicle has found itself on this node (moved by hand, a tag); empty: on none. False while an order runs.
+    bool TrySetLastNode(std::string nodeID, Core::Now now, VehicleActions& out);
     /// No reason to send a state: it goes into the next one and into visualization.
     void OnPosition(
         const AgvPosition& position,
         const Velocity& velocity,
         std::optional<double> distanceSinceLastNode = {});
+    /// After StopDriving always told, false, once the vehicle stands: what waits for that (startPause, cancelOrder) ends
+    /// then.
     void OnDrivingChanged(bool bDriving, Core::Now now, VehicleActions& out);
-    /// Ignored (false) for an unknown action and for a change that the table of ActionMachine forbids.
+    /// Ignored (false) for an action that the owner was not told to start, and for a change that the table of
+    /// ActionMachine forbids. With Finished of a map action or of initPosition maps, position and last node change by
+    /// themselves.
     bool TrySetActionStatus(
         std::string_view actionID,
         EActionStatus status,
@@ -184,6 +230,9 @@ public:
     void OnErrors(std::vector<VehicleError> errors, Core::Now now, VehicleActions& out);
     void OnInformation(std::vector<Information> information);
     void OnSafetyState(const SafetyState& safety, Core::Now now, VehicleActions& out);
+    /// A pause at the vehicle itself. Where its switch overrides master control, startPause and stopPause fail; else
+    /// stopPause ends it.
+    void OnHardwarePause(bool bPaused, bool bOverridesMaster, Core::Now now, VehicleActions& out);
     /// Entering and leaving MANUAL clears the order (2.x, section 6.10.6).
     void OnOperatingMode(EOperatingMode mode, Core::Now now, VehicleActions& out);
 

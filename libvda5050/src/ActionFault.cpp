@@ -1,0 +1,152 @@
+#include "ActionFault.hpp"
+
+#include <acs/vda5050/PredefinedActions.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+namespace ACS::VDA5050
+{
+
+namespace
+{
+
+/// A number, or a string that holds one: there are masters that write every value as a string.
+std::optional<double> ReadNumberOrNull(const Core::JsonText& value)
+{
+    const std::optional<std::string> text = value.GetStringOrNull();
+    if (!text.has_value())
+    {
+        return value.GetNumberOrNull();
+    }
+    double number = 0.0;
+    const char* const end = text->data() + text->size();
+    const auto [rest, error] = std::from_chars(text->data(), end, number);
+    return error == std::errc() && rest == end && std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
+
+bool IsOfType(const Core::JsonText& value, EValueDataType type)
+{
+    const char first = value.GetText().empty() ? '\0' : value.GetText().front();
+    switch (type)
+    {
+        case EValueDataType::Bool:
+            return value.GetBooleanOrNull().has_value() || value.GetText() == R"("true")"
+                || value.GetText() == R"("false")";
+        case EValueDataType::Number:
+        case EValueDataType::Float:
+            return ReadNumberOrNull(value).has_value();
+        case EValueDataType::Integer:
+        {
+            const std::optional<double> number = ReadNumberOrNull(value);
+            return number.has_value() && std::trunc(*number) == *number;
+        }
+        case EValueDataType::String:
+            return first == '"';
+        case EValueDataType::Object:
+            return first == '{';
+        case EValueDataType::Array:
+            return first == '[';
+        default:
+            return false;
+    }
+}
+
+std::optional<ActionFault> FindParameterFaultOrNull(const Action& action, const AgvAction& row, bool bClosed)
+{
+    for (const AgvActionParameter& known : row.actionParameters)
+    {
+        const ActionParameter* given = FindParameterOrNull(action, known.key);
+        if (given == nullptr && !known.bOptional.value_or(false))
+        {
+            return ActionFault{"the parameter " + known.key + " of " + action.actionType + " is missing", known.key};
+        }
+        if (given != nullptr && !IsOfType(given->value, known.valueDataType))
+        {
+            return ActionFault{
+                "the parameter " + known.key + " of " + action.actionType + " has the wrong type",
+                known.key};
+        }
+    }
+    for (const ActionParameter& given : action.actionParameters)
+    {
+        const bool bKnown =
+            std::ranges::find(row.actionParameters, given.key, &AgvActionParameter::key) != row.actionParameters.end();
+        if (bClosed && !bKnown)
+        {
+            return ActionFault{"the vehicle knows no parameter " + given.key + " of " + action.actionType, given.key};
+        }
+    }
+    return std::nullopt;
+}
+
+bool IsInScope(const AgvAction& row, EActionScope scope)
+{
+    return std::ranges::find(row.actionScopes, scope) != row.actionScopes.end();
+}
+
+/// Instant actions run beside everything: a master may send any blocking type with them.
+bool IsBlockingTypeKnown(const AgvAction& row, const Action& action, EActionScope scope)
+{
+    return scope == EActionScope::Instant || row.blockingTypes.empty()
+        || std::ranges::find(row.blockingTypes, action.blockingType) != row.blockingTypes.end();
+}
+
+} // namespace
+
+std::optional<ActionFault> FindActionFaultOrNull(
+    const FactsheetMessage& factsheet,
+    const Action& action,
+    EActionScope scope)
+{
+    for (const ActionParameter& given : action.actionParameters)
+    {
+        if (given.value.GetText() == "null")
+        {
+            return ActionFault{"the parameter " + given.key + " of " + action.actionType + " is null", given.key};
+        }
+    }
+    const std::vector<AgvAction>& listed = factsheet.protocolFeatures.agvActions;
+    const AgvAction* predefined = FindPredefinedActionOrNull(action.actionType);
+    const auto row = std::ranges::find(listed, action.actionType, &AgvAction::actionType);
+    const bool bListed = row != listed.end();
+    // A vehicle that lists nothing takes all actions of an order, each where the standard has it.
+    const bool bPossible = bListed
+        ? IsInScope(*row, scope)
+        : listed.empty() && scope != EActionScope::Instant && (predefined == nullptr || IsInScope(*predefined, scope));
+    if (!bPossible)
+    {
+        return ActionFault{"the vehicle cannot perform " + action.actionType + " here", "actionType"};
+    }
+    if (!bListed)
+    {
+        return std::nullopt;
+    }
+    if (!IsBlockingTypeKnown(*row, action, scope))
+    {
+        return ActionFault{
+            "the vehicle does not perform " + action.actionType + " with this blocking type",
+            "blockingType"};
+    }
+    if (!row->actionParameters.empty())
+    {
+        return FindParameterFaultOrNull(action, *row, true);
+    }
+    return predefined == nullptr ? std::nullopt : FindParameterFaultOrNull(action, *predefined, false);
+}
+
+std::optional<std::string> GetTextParameterOrNull(const Action& action, std::string_view key)
+{
+    const ActionParameter* parameter = FindParameterOrNull(action, key);
+    return parameter == nullptr ? std::nullopt : parameter->value.GetStringOrNull();
+}
+
+std::optional<double> GetNumberParameterOrNull(const Action& action, std::string_view key)
+{
+    const ActionParameter* parameter = FindParameterOrNull(action, key);
+    return parameter == nullptr ? std::nullopt : ReadNumberOrNull(parameter->value);
+}
+
+} // namespace ACS::VDA5050

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <acs/vda5050/Action.hpp>
+#include <acs/vda5050/FactsheetMessage.hpp>
+
+#include <optional>
+#include <string>
+
+namespace ACS::VDA5050
+{
+
+/// Why a vehicle cannot perform an action, and the field that is to blame.
+struct ActionFault
+{
+    std::string rule;
+    std::string field; ///< "actionType", "blockingType", or the key of a parameter.
+};
+
+/// Holds an action against the factsheet's row for it, and where the row has no parameters against the standard's.
+/// Without any agvActions only the scope of predefined actions is checked.
+[[nodiscard]] std::optional<ActionFault> FindActionFaultOrNull(
+    const FactsheetMessage& factsheet,
+    const Action& action,
+    EActionScope scope);
+
+/// The parameter as text or as a number, which may be written as text too; nullopt where it is absent or something else.
+[[nodiscard]] std::optional<std::string> GetTextParameterOrNull(const Action& action, std::string_view key);
+[[nodiscard]] std::optional<double> GetNumberParameterOrNull(const Action& action, std::string_view key);
+
+} // namespace ACS::VDA5050

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <acs/vda5050/OrderValidator.hpp>
+
+#include <vector>
+
+namespace ACS::VDA5050
+{
+
+/// What of an order the vehicle cannot do: actions, optional members, sizes, maps. Each an orderError that refers to the
+/// field.
+[[nodiscard]] std::vector<OrderViolation> FindUnusable(const OrderMessage& order, const OrderContext& context);
+
+} // namespace ACS::VDA5050

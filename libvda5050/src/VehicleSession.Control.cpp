@@ -1,0 +1,255 @@
+#include <acs/vda5050/VehicleSession.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace ACS::VDA5050
+{
+
+void VehicleSession::StopMoving(VehicleActions& out)
+{
+    if (_bLegActive)
+    {
+        _bLegActive = false;
+        _bHalting = true;
+        out.emplace_back(StopDriving{});
+    }
+}
+
+/// What was told to stop counts as moving until the owner says that it stands.
+bool VehicleSession::IsStanding() const
+{
+    return !_bDriving && !_bHalting;
+}
+
+void VehicleSession::StartPause(const Action& action, const Header& header, VehicleActions& out)
+{
+    if (_bPauseOverridden)
+    {
+        FailInstantAction(
+            action,
+            header,
+            ErrorTypes::INSTANT_ACTION_ERROR,
+            "the vehicle's own switch overrides startPause");
+        return;
+    }
+    AddInstantAction(action, EActionStatus::Running);
+    _pauseActionIDs.push_back(action.actionID);
+    const bool bWasPaused = IsHeldByPause();
+    _bMasterPause = true;
+    if (!bWasPaused)
+    {
+        EnterPause(out);
+    }
+}
+
+void VehicleSession::StopPause(const Action& action, const Header& header, VehicleActions& out)
+{
+    if (_bPauseOverridden)
+    {
+        FailInstantAction(
+            action,
+            header,
+            ErrorTypes::INSTANT_ACTION_ERROR,
+            "the vehicle's own switch overrides stopPause");
+        return;
+    }
+    for (const std::string& actionID : std::exchange(_pauseActionIDs, {}))
+    {
+        SetStatus(actionID, EActionStatus::Failed, "stopPause came first");
+    }
+    const bool bWasPaused = IsHeldByPause();
+    _bMasterPause = false;
+    _bHardwarePause = false;
+    AddInstantAction(action, EActionStatus::Finished);
+    if (bWasPaused)
+    {
+        LeavePause(out);
+    }
+}
+
+void VehicleSession::OnHardwarePause(bool bPaused, bool bOverridesMaster, Core::Now now, VehicleActions& out)
+{
+    const bool bWasPaused = IsHeldByPause();
+    _bHardwarePause = bPaused;
+    _bPauseOverridden = bOverridesMaster;
+    if (IsHeldByPause() != bWasPaused)
+    {
+        _bStateDue = true;
+        if (bWasPaused)
+        {
+            LeavePause(out);
+        }
+        else
+        {
+            EnterPause(out);
+        }
+    }
+    Advance(out);
+    Settle(now, out);
+}
+
+bool VehicleSession::IsHeldByPause() const noexcept
+{
+    return _bMasterPause || _bHardwarePause;
+}
+
+void VehicleSession::EnterPause(VehicleActions& out)
+{
+    StopMoving(out);
+    for (const TrackedAction& tracked : _actions)
+    {
+        const bool bRuns = tracked.scope != EActionScope::Instant && tracked.bStarted;
+        if (bRuns && !IsTerminal(tracked.machine.GetStatus()))
+        {
+            out.emplace_back(PauseAction{tracked.action.actionID});
+        }
+    }
+}
+
+void VehicleSession::LeavePause(VehicleActions& out) const
+{
+    for (const TrackedAction& tracked : _actions)
+    {
+        if (tracked.machine.GetStatus() == EActionStatus::Paused)
+        {
+            out.emplace_back(ResumeAction{tracked.action.actionID});
+        }
+    }
+}
+
+void VehicleSession::FinishPauseIfStanding()
+{
+    if (!IsStanding())
+    {
+        return;
+    }
+    for (const std::string& actionID : std::exchange(_pauseActionIDs, {}))
+    {
+        SetStatus(actionID, EActionStatus::Finished);
+    }
+}
+
+void VehicleSession::StartCancel(const Action& action, const Header& header, VehicleActions& out)
+{
+    if (!IsExecuting())
+    {
+        FailInstantAction(action, header, ErrorTypes::NO_ORDER_TO_CANCEL, "there is no order to cancel");
+        return;
+    }
+    const bool bFirst = _cancelActionIDs.empty();
+    AddInstantAction(action, EActionStatus::Running);
+    _cancelActionIDs.push_back(action.actionID);
+    if (!bFirst)
+    {
+        return;
+    }
+    StopOrderActions(out);
+    if (_options.bStopsBetweenNodes || !_bLegBegun)
+    {
+        StopMoving(out);
+        return;
+    }
+    // Bound to nodes, and between two of them, be it paused: drives on to the next one, whose actions have failed.
+    _bLastLeg = true;
+    _nodes.erase(_nodes.begin() + 1, _nodes.end());
+    _edges.erase(_edges.begin() + 1, _edges.end());
+    _nodes.front().actions.clear();
+}
+
+/// Those that wait have failed; those that run are told to stop.
+void VehicleSession::StopOrderActions(VehicleActions& out)
+{
+    _actionQueue.clear();
+    for (TrackedAction& tracked : _actions)
+    {
+        const EActionStatus status = tracked.machine.GetStatus();
+        if (tracked.scope == EActionScope::Instant || IsTerminal(status))
+        {
+            continue;
+        }
+        tracked.bCancelled = true;
+        if (tracked.bStarted)
+        {
+            out.emplace_back(StopAction{tracked.action.actionID, false});
+        }
+        if (!tracked.bStarted || status == EActionStatus::Paused)
+        {
+            static_cast<void>(tracked.machine.TrySet(EActionStatus::Failed, "the order was cancelled"));
+        }
+    }
+}
+
+void VehicleSession::FinishCancelIfStanding(VehicleActions& out)
+{
+    const bool bRuns = std::ranges::any_of(_actions, [](const TrackedAction& tracked) {
+        return tracked.scope != EActionScope::Instant && !IsTerminal(tracked.machine.GetStatus());
+    });
+    const bool bOnTheWay = _bLegActive || (_bLastLeg && !_nodes.empty());
+    if (!_cancelActionIDs.empty() && IsStanding() && !bOnTheWay && !bRuns)
+    {
+        ClearOrder(out);
+    }
+}
+
+void VehicleSession::ClearOrder(VehicleActions& out)
+{
+    _nodes.clear();
+    _edges.clear();
+    _actionQueue.clear();
+    _bEdgeEntered = false;
+    _bLegActive = false;
+    _bLegBegun = false;
+    _bLastLeg = false;
+    _bCleared = true;
+    _bHeldByFailure = false;
+    _bOrderRunning = false;
+    _bStateDue = true;
+    for (const std::string& actionID : std::exchange(_cancelActionIDs, {}))
+    {
+        SetStatus(actionID, EActionStatus::Finished);
+    }
+    out.emplace_back(OrderCleared{_orderID});
+}
+
+void VehicleSession::OnOperatingMode(EOperatingMode mode, Core::Now now, VehicleActions& out)
+{
+    if (mode == _operatingMode)
+    {
+        return;
+    }
+    const bool bManual = mode == EOperatingMode::Manual || _operatingMode == EOperatingMode::Manual;
+    _operatingMode = mode;
+    _bStateDue = true;
+    if (!CanMoveByItself())
+    {
+        StopMoving(out);
+    }
+    else
+    {
+        std::erase_if(_sessionErrors, [](const SessionError& known) {
+            return known.lifetime == EErrorLifetime::UntilMode;
+        });
+    }
+    if (bManual && IsExecuting())
+    {
+        StopOrderActions(out);
+        for (TrackedAction& tracked : _actions)
+        {
+            if (tracked.scope != EActionScope::Instant && !IsTerminal(tracked.machine.GetStatus()))
+            {
+                static_cast<void>(tracked.machine.TrySet(EActionStatus::Failed, "the operating mode changed"));
+            }
+        }
+        ClearOrder(out);
+    }
+    Advance(out);
+    Settle(now, out);
+}
+
+bool VehicleSession::CanMoveByItself() const
+{
+    return _operatingMode == EOperatingMode::Automatic || _operatingMode == EOperatingMode::SemiAutomatic;
+}
+
+} // namespace ACS::VDA5050

@@ -1,0 +1,328 @@
+#include "OrderErrors.hpp"
+#include <acs/vda5050/EVda5050Error.hpp>
+#include <acs/vda5050/VehicleSession.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+namespace ACS::VDA5050
+{
+
+namespace
+{
+
+/// Errors about orders and instant actions live until an order is taken; a peer that never gets one right must not fill
+/// the state.
+constexpr std::size_t MAXIMUM_SESSION_ERRORS = 16;
+
+bool IsSameReport(const VehicleError& left, const VehicleError& right)
+{
+    const auto isSameReference = [&right](const ErrorReference& reference) {
+        const std::string* other = FindReferenceOrNull(right, reference.referenceKey);
+        return reference.referenceKey == ReferenceKeys::HEADER_ID
+            || (other != nullptr && *other == reference.referenceValue);
+    };
+    return left.errorType == right.errorType && left.errorDescription == right.errorDescription
+        && std::ranges::all_of(left.errorReferences, isSameReference);
+}
+
+} // namespace
+
+std::vector<MqttSubscription> VehicleSession::GetSubscriptions() const
+{
+    std::vector<MqttSubscription> subscriptions;
+    for (const ETopic topic : {ETopic::Order, ETopic::InstantActions})
+    {
+        subscriptions.push_back(MqttSubscription{_topics.at(static_cast<std::size_t>(topic)), _options.qos.Get(topic)});
+    }
+    return subscriptions;
+}
+
+void VehicleSession::OnMessage(
+    std::string_view topic,
+    std::string_view payload,
+    bool bRetained,
+    Core::Now now,
+    VehicleActions& out)
+{
+    const bool bOrder = topic == _topics.at(static_cast<std::size_t>(ETopic::Order));
+    if (!bOrder && topic != _topics.at(static_cast<std::size_t>(ETopic::InstantActions)))
+    {
+        return;
+    }
+    if (bRetained)
+    {
+        // An order of yesterday, replayed by the broker to a vehicle that has restarted.
+        out.emplace_back(MessageIgnored{
+            bOrder ? ETopic::Order : ETopic::InstantActions,
+            Core::Error{make_error_code(EVda5050Error::InvalidOrder), {}, "a message sent now", "a retained one"}});
+        return;
+    }
+    if (bOrder)
+    {
+        OnOrder(payload, out);
+    }
+    else
+    {
+        OnInstantActions(payload, now, out);
+    }
+    Settle(now, out);
+}
+
+bool VehicleSession::IsForeign(ETopic topic, const Header& header, VehicleActions& out) const
+{
+    // Empty names are tolerated: there are masters that leave them out, and the topic has said it already.
+    const auto isOther = [](const std::string& said, const std::string& own) {
+        return !said.empty() && said != own;
+    };
+    if (!isOther(header.manufacturer, _options.address.manufacturer)
+        && !isOther(header.serialNumber, _options.address.serialNumber))
+    {
+        return false;
+    }
+    out.emplace_back(MessageIgnored{
+        topic,
+        Core::Error{
+            make_error_code(EVda5050Error::InvalidTopic),
+            "serialNumber",
+            _options.address.manufacturer + "/" + _options.address.serialNumber,
+            header.manufacturer + "/" + header.serialNumber}});
+    return true;
+}
+
+void VehicleSession::AddSessionError(VehicleError error, EErrorLifetime lifetime)
+{
+    std::erase_if(_sessionErrors, [&error](const SessionError& known) { return IsSameReport(error, known.error); });
+    if (_sessionErrors.size() >= MAXIMUM_SESSION_ERRORS)
+    {
+        _sessionErrors.erase(_sessionErrors.begin());
+    }
+    _sessionErrors.push_back(SessionError{std::move(error), lifetime, false});
+    _bStateDue = true;
+}
+
+void VehicleSession::RefusePayload(
+    ETopic topic,
+    std::string_view payload,
+    const Core::Error& error,
+    VehicleActions& out)
+{
+    const Core::Result<MessageIdentity> identity = _codec.DecodeIdentity(payload);
+    if (identity && IsForeign(topic, identity->header, out))
+    {
+        return;
+    }
+    VehicleError report;
+    report.errorType = ErrorTypes::VALIDATION_ERROR;
+    report.errorDescription = Core::Describe(error);
+    AddReference(report, ReferenceKeys::TOPIC, std::string(GetTopicName(topic)));
+    if (identity)
+    {
+        AddReference(report, ReferenceKeys::HEADER_ID, std::to_string(identity->header.headerID));
+    }
+    if (identity && topic == ETopic::Order)
+    {
+        AddReference(report, ReferenceKeys::ORDER_ID, identity->orderID);
+        AddReference(report, ReferenceKeys::ORDER_UPDATE_ID, std::to_string(identity->orderUpdateID.value_or(0)));
+    }
+    AddSessionError(
+        std::move(report),
+        topic == ETopic::Order ? EErrorLifetime::UntilOrder : EErrorLifetime::UntilInstantAction);
+    out.emplace_back(MessageIgnored{topic, error});
+}
+
+void VehicleSession::RefuseVersion(ETopic topic, const Header& header, VehicleActions& out)
+{
+    VehicleError report;
+    report.errorType = ErrorTypes::VALIDATION_ERROR;
+    report.errorDescription = "protocol version 2.x expected, found " + header.version;
+    AddReference(report, ReferenceKeys::TOPIC, std::string(GetTopicName(topic)));
+    AddReference(report, ReferenceKeys::HEADER_ID, std::to_string(header.headerID));
+    AddSessionError(
+        std::move(report),
+        topic == ETopic::Order ? EErrorLifetime::UntilOrder : EErrorLifetime::UntilInstantAction);
+    out.emplace_back(MessageIgnored{
+        topic,
+        Core::Error{make_error_code(EVda5050Error::UnsupportedVersion), "version", "2.x", header.version}});
+}
+
+void VehicleSession::OnOrder(std::string_view payload, VehicleActions& out)
+{
+    Core::Result<OrderMessage> order = _codec.Decode<OrderMessage>(payload);
+    if (!order)
+    {
+        RefusePayload(ETopic::Order, payload, order.error(), out);
+        return;
+    }
+    if (IsForeign(ETopic::Order, order->header, out))
+    {
+        return;
+    }
+    if (!ReadVersionOrNull(order->header.version).has_value())
+    {
+        RefuseVersion(ETopic::Order, order->header, out);
+        return;
+    }
+    OrderContext context = MakeContext();
+    context.payloadBytes = payload.size();
+    OrderJudgement judgement = JudgeOrder(*order, context);
+    switch (judgement.verdict)
+    {
+        case EOrderVerdict::NewOrder:
+            TakeNewOrder(std::move(*order), out);
+            break;
+        case EOrderVerdict::Update:
+            TakeUpdate(std::move(*order), out);
+            break;
+        case EOrderVerdict::Reject:
+            RefuseOrder(*order, std::move(judgement), out);
+            break;
+        case EOrderVerdict::Discard:
+        default:
+            // The master did not see the echo: show it again.
+            _bStateDue = true;
+            break;
+    }
+}
+
+OrderContext VehicleSession::MakeContext() const
+{
+    OrderContext context;
+    context.heldOrderID = _orderID;
+    context.heldOrderUpdateID = _orderUpdateID;
+    context.bExecuting = IsExecuting();
+    context.bCancelling = !_cancelActionIDs.empty();
+    context.operatingMode = _operatingMode;
+    context.decisionNodeID = _lastNodeID;
+    context.decisionSequenceID = _lastNodeSequenceID;
+    const auto lastReleased =
+        std::find_if(_nodes.rbegin(), _nodes.rend(), [](const OrderNode& node) { return node.bReleased; });
+    if (lastReleased != _nodes.rend())
+    {
+        context.decisionNodeID = lastReleased->nodeID;
+        context.decisionSequenceID = lastReleased->sequenceID;
+    }
+    context.lastNodeID = _lastNodeID;
+    context.position = _position;
+    context.defaultDeviationXY = _options.defaultDeviationXY;
+    context.mapIDs = _options.mapIDs;
+    if (_maps.has_value())
+    {
+        context.bMapsKnown = true;
+        std::ranges::transform(*_maps, std::back_inserter(context.mapIDs), &MapState::mapID);
+    }
+    context.factsheet = &_options.factsheet;
+    context.bCleared = _bCleared;
+    context.orderCheck = _options.orderCheck;
+    const auto firstUnreleased = std::ranges::find(_nodes, false, &OrderNode::bReleased);
+    const std::uint32_t baseEnd =
+        firstUnreleased == _nodes.end() ? std::numeric_limits<std::uint32_t>::max() : firstUnreleased->sequenceID - 1;
+    for (const TrackedAction& tracked : _actions)
+    {
+        const bool bInstant = tracked.scope == EActionScope::Instant;
+        if (bInstant && !IsTerminal(tracked.machine.GetStatus()))
+        {
+            context.instantActionIDs.push_back(tracked.action.actionID);
+        }
+        if (bInstant || tracked.sequenceID < baseEnd)
+        {
+            context.actionIDs.push_back(tracked.action.actionID);
+        }
+    }
+    return context;
+}
+
+void VehicleSession::RefuseOrder(const OrderMessage& order, OrderJudgement judgement, VehicleActions& out)
+{
+    const OrderViolation& first = judgement.violations.front();
+    out.emplace_back(OrderRefused{order.orderID, order.orderUpdateID, first.error.errorType, first.rule});
+    for (OrderViolation& violation : judgement.violations)
+    {
+        const bool bMode = violation.rule == MODE_TAKES_NO_ORDERS;
+        AddSessionError(std::move(violation.error), bMode ? EErrorLifetime::UntilMode : EErrorLifetime::UntilOrder);
+    }
+}
+
+void VehicleSession::TakeNewOrder(OrderMessage order, VehicleActions& out)
+{
+    std::erase_if(_actions, [](const TrackedAction& tracked) {
+        return tracked.scope != EActionScope::Instant || IsTerminal(tracked.machine.GetStatus());
+    });
+    _sessionErrors.clear();
+    _actionQueue.clear();
+    _nodes.clear();
+    _edges.clear();
+    _bEdgeEntered = false;
+    _bLegBegun = false;
+    _bCleared = false;
+    _bHeldByFailure = false;
+    _bOrderRunning = true;
+    _orderID = order.orderID;
+    _orderUpdateID = order.orderUpdateID;
+    _zoneSetID = order.zoneSetID;
+    _bStateDue = true;
+    out.emplace_back(OrderTaken{_orderID, _orderUpdateID, false});
+    // The first node is where the vehicle stands: reached with the acceptance, never in nodeStates.
+    const OrderNode first = order.nodes.front();
+    _lastNodeID = first.nodeID;
+    _lastNodeSequenceID = first.sequenceID;
+    AddActions(first.actions, EActionScope::Node, first.nodeID, first.sequenceID);
+    AppendElements(std::move(order));
+    Enqueue(first.actions);
+    Advance(out);
+}
+
+void VehicleSession::TakeUpdate(OrderMessage order, VehicleActions& out)
+{
+    _sessionErrors.clear();
+    DropHorizon();
+    _bCleared = false;
+    _bOrderRunning = true;
+    _orderUpdateID = order.orderUpdateID;
+    if (!order.zoneSetID.empty())
+    {
+        _zoneSetID = order.zoneSetID;
+    }
+    _bStateDue = true;
+    out.emplace_back(OrderTaken{_orderID, _orderUpdateID, true});
+    // The stitching node keeps the contents that it came with first.
+    AppendElements(std::move(order));
+    Advance(out);
+}
+
+/// All but the first node, which the vehicle knows already.
+void VehicleSession::AppendElements(OrderMessage order)
+{
+    for (std::size_t index = 0; index < order.edges.size(); ++index)
+    {
+        OrderEdge& edge = order.edges[index];
+        OrderNode& node = order.nodes[index + 1];
+        AddActions(edge.actions, EActionScope::Edge, edge.edgeID, edge.sequenceID);
+        AddActions(node.actions, EActionScope::Node, node.nodeID, node.sequenceID);
+        _edges.push_back(std::move(edge));
+        _nodes.push_back(std::move(node));
+    }
+}
+
+void VehicleSession::DropHorizon()
+{
+    const auto firstUnreleased = std::ranges::find(_nodes, false, &OrderNode::bReleased);
+    const auto kept = std::distance(_nodes.begin(), firstUnreleased);
+    std::vector<std::uint32_t> dropped;
+    for (auto node = firstUnreleased; node != _nodes.end(); ++node)
+    {
+        dropped.push_back(node->sequenceID);
+        dropped.push_back(node->sequenceID - 1); // its edge
+    }
+    _nodes.erase(firstUnreleased, _nodes.end());
+    _edges.erase(_edges.begin() + kept, _edges.end());
+    // Gone from the report: an id that comes back with the update would else have to leave a terminal status.
+    std::erase_if(_actions, [&dropped](const TrackedAction& tracked) {
+        return tracked.scope != EActionScope::Instant
+            && std::ranges::find(dropped, tracked.sequenceID) != dropped.end();
+    });
+}
+
+} // namespace ACS::VDA5050

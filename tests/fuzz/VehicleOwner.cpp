@@ -1,0 +1,339 @@
+#include "VehicleOwner.hpp"
+
+#include "FuzzCheck.hpp"
+#include <acs/vda5050/Topic.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <utility>
+
+namespace ACS::Fuzz
+{
+
+namespace
+{
+
+using namespace VDA5050; // NOLINT(google-build-using-namespace)
+
+constexpr int MAXIMUM_STEPS = 400; ///< To the end of the longest order that the target builds.
+
+} // namespace
+
+VehicleOwner::VehicleOwner(VehicleOptions options)
+    : _session(std::move(options))
+{
+    _session.OnLinkUp(_now, _out);
+    Obey();
+}
+
+StateMessage VehicleOwner::GetState() const
+{
+    return _session.GetState();
+}
+
+void VehicleOwner::PassTime(std::uint32_t milliseconds)
+{
+    _now.steady += std::chrono::milliseconds(milliseconds);
+    _now.wall += std::chrono::milliseconds(milliseconds);
+}
+
+void VehicleOwner::Receive(ETopic topic, std::string_view payload, bool bRetained)
+{
+    _session.OnMessage(BuildTopic(VehicleAddress{"uagv", "ACS", "LR01"}, topic), payload, bRetained, _now, _out);
+    Obey();
+}
+
+void VehicleOwner::SendInstant(std::string_view actionType, const std::string& actionID)
+{
+    InstantActionsMessage message;
+    message.header = Header{0, _now.wall, "2.1.0", "ACS", "LR01"};
+    Action& action = message.actions.emplace_back();
+    action.actionType = actionType;
+    action.actionID = actionID;
+    Receive(ETopic::InstantActions, _codec.Encode(message, EVda5050Version::Version210), false);
+}
+
+void VehicleOwner::ReachNode()
+{
+    if (_leg.has_value())
+    {
+        const std::uint32_t sequenceID = std::exchange(_leg, std::nullopt)->node.sequenceID;
+        static_cast<void>(_session.TryReachNode(sequenceID, _now, _out));
+        Obey();
+    }
+}
+
+void VehicleOwner::SetStatus(Choices& choices)
+{
+    const auto status = static_cast<EActionStatus>(choices.Take(6));
+    std::string actionID = "a" + std::to_string(choices.Take(8));
+    if (!_running.empty() && choices.Take(4) != 0)
+    {
+        actionID = std::next(_running.begin(), choices.Take(static_cast<std::uint32_t>(_running.size())))->first;
+    }
+    const bool bTaken = _session.TrySetActionStatus(actionID, status, "result", _now, _out);
+    Require(!bTaken || _running.contains(actionID), "only what was started has a status by the owner");
+    if (bTaken && IsTerminal(status))
+    {
+        _running.erase(actionID);
+    }
+    Obey();
+}
+
+void VehicleOwner::Happen(Choices& choices)
+{
+    constexpr std::uint32_t KINDS = 10;
+    switch (choices.Take(KINDS))
+    {
+        case 0:
+            ReachNode();
+            return;
+        case 1:
+            static_cast<void>(_session.TryReachNode(choices.Take(16), _now, _out));
+            break;
+        case 2:
+            _session.OnDrivingChanged(choices.Take(2) == 0, _now, _out);
+            break;
+        case 3:
+            _session.OnOperatingMode(static_cast<EOperatingMode>(choices.Take(5)), _now, _out);
+            break;
+        case 4:
+        {
+            const bool bPaused = choices.Take(2) == 0;
+            _session.OnHardwarePause(bPaused, choices.Take(2) == 0, _now, _out);
+            break;
+        }
+        case 5:
+        {
+            AgvPosition position;
+            position.bPositionInitialized = choices.Take(8) != 0;
+            position.x = choices.Take(4);
+            position.mapID = "floor";
+            _session.OnPosition(position, Velocity{});
+            break;
+        }
+        case 6:
+            _session.OnTimer(static_cast<EVehicleTimer>(choices.Take(3)), _now, _out);
+            break;
+        case 7:
+            _bLinked = !_bLinked;
+            if (_bLinked)
+            {
+                _session.OnLinkUp(_now, _out);
+            }
+            else
+            {
+                _session.OnLinkDown(_now, _out);
+            }
+            break;
+        case 8:
+        {
+            const auto status = choices.Take(2) == 0 ? EMapStatus::Enabled : EMapStatus::Disabled;
+            _session.OnMaps(std::vector{MapState{"floor", "1", status, {}}}, _now, _out);
+            break;
+        }
+        default:
+            static_cast<void>(_session.TrySetLastNode("n" + std::to_string(choices.Take(4)), _now, _out));
+            break;
+    }
+    Obey();
+}
+
+bool VehicleOwner::IsBlocked() const
+{
+    return std::ranges::any_of(_running, [](const auto& entry) {
+        const StartAction& start = entry.second.start;
+        return start.scope != EActionScope::Instant && start.action.blockingType != EBlockingType::None;
+    });
+}
+
+void VehicleOwner::WatchStart(const StartAction& start)
+{
+    const bool bHard = start.action.blockingType == EBlockingType::Hard;
+    if (start.scope != EActionScope::Instant)
+    {
+        for (const auto& [actionID, other] : _running)
+        {
+            const bool bBeside = other.start.scope == EActionScope::Instant
+                || (!bHard && other.start.action.blockingType != EBlockingType::Hard);
+            Require(bBeside, "HARD runs alone");
+        }
+    }
+    const bool bNew = _running.emplace(start.action.actionID, Running{start, false}).second;
+    Require(bNew, "an action is started once");
+}
+
+void VehicleOwner::WatchDrive(const DriveTo& drive) const
+{
+    Require(!IsBlocked(), "nobody drives beside SOFT or HARD");
+    Require(drive.node.bReleased && drive.edge.bReleased, "nobody drives into the horizon");
+    Require(_bOrderRuns, "nobody drives without an order");
+}
+
+void VehicleOwner::WatchPublished(const MqttMessage& message)
+{
+    const Core::Result<MessageIdentity> identity = _codec.DecodeIdentity(message.payload);
+    Require(identity.has_value(), "what is published can be read");
+    const auto [known, bFirst] = _headerIDs.try_emplace(message.topic, identity->header.headerID);
+    Require(bFirst || identity->header.headerID == known->second + 1, "headerId counts by one on each topic");
+    known->second = identity->header.headerID;
+    if (message.topic.ends_with("/state"))
+    {
+        Require(_codec.Decode<StateMessage>(message.payload).has_value(), "a state can be read");
+    }
+}
+
+void VehicleOwner::WatchTaken(const OrderTaken& taken)
+{
+    if (taken.bUpdate)
+    {
+        Require(taken.orderID == _orderID, "an update belongs to the order that is held");
+    }
+    else
+    {
+        Require(!_bOrderRuns, "never two orders");
+        _lastSequenceID = 0;
+        std::erase_if(_statuses, [](const auto& entry) { return IsTerminal(entry.second); });
+    }
+    _orderID = taken.orderID;
+    _bOrderRuns = true;
+}
+
+void VehicleOwner::Watch(const VehicleAction& action)
+{
+    if (const auto* publish = std::get_if<PublishMessage>(&action))
+    {
+        WatchPublished(publish->message);
+    }
+    else if (const auto* taken = std::get_if<OrderTaken>(&action))
+    {
+        WatchTaken(*taken);
+    }
+    else if (std::holds_alternative<OrderCompleted>(action) || std::holds_alternative<OrderCleared>(action))
+    {
+        _bOrderRuns = false;
+        _leg.reset();
+    }
+    else if (const auto* drive = std::get_if<DriveTo>(&action))
+    {
+        WatchDrive(*drive);
+        _leg = *drive;
+    }
+    else if (const auto* start = std::get_if<StartAction>(&action))
+    {
+        WatchStart(*start);
+    }
+}
+
+void VehicleOwner::Obey()
+{
+    for (const VehicleAction& action : std::exchange(_out, {}))
+    {
+        Watch(action);
+    }
+    WatchState();
+}
+
+void VehicleOwner::WatchRoute(const StateMessage& state)
+{
+    std::uint32_t last = state.lastNodeSequenceID;
+    for (const NodeState& node : state.nodeStates)
+    {
+        Require(node.sequenceID > last, "the nodes that are left follow each other");
+        last = node.sequenceID;
+    }
+    Require(state.edgeStates.size() <= state.nodeStates.size(), "no edge without its node");
+    for (std::size_t index = 0; index < state.edgeStates.size(); ++index)
+    {
+        Require(
+            state.edgeStates[index].sequenceID + 1 == state.nodeStates[index].sequenceID,
+            "each edge leads to its node");
+    }
+    if (_bOrderRuns)
+    {
+        Require(state.orderID == _orderID, "the order that was taken is the one that is shown");
+        Require(state.lastNodeSequenceID >= _lastSequenceID, "lastNodeSequenceId rises");
+        _lastSequenceID = state.lastNodeSequenceID;
+    }
+    else
+    {
+        Require(state.nodeStates.empty() && state.edgeStates.empty(), "nothing is left of an order that is over");
+    }
+}
+
+void VehicleOwner::WatchActions(const StateMessage& state)
+{
+    std::map<std::string, EActionStatus> statuses;
+    for (const ActionState& action : state.actionStates)
+    {
+        Require(statuses.emplace(action.actionID, action.actionStatus).second, "an actionId is shown once");
+        const auto known = _statuses.find(action.actionID);
+        const bool bLeft =
+            known != _statuses.end() && IsTerminal(known->second) && action.actionStatus != known->second;
+        Require(!bLeft, "FINISHED and FAILED are never left");
+    }
+    _statuses = std::move(statuses);
+    // What the session has failed by itself the owner has stopped.
+    std::erase_if(_running, [this](const auto& entry) {
+        const auto known = _statuses.find(entry.first);
+        return known == _statuses.end() || IsTerminal(known->second);
+    });
+}
+
+void VehicleOwner::WatchState()
+{
+    const StateMessage state = _session.GetState();
+    WatchRoute(state);
+    WatchActions(state);
+    Require(_session.IsOrderRunning() == _bOrderRuns, "the owner is told when an order begins and ends");
+}
+
+/// Until there is nothing to do: reaches nodes and finishes actions.
+void VehicleOwner::Finish()
+{
+    for (int step = 0; step < MAXIMUM_STEPS; ++step)
+    {
+        ReachNode();
+        _session.OnDrivingChanged(false, _now, _out);
+        Obey();
+        const std::map<std::string, Running> running = _running;
+        for (const auto& entry : running)
+        {
+            static_cast<void>(_session.TrySetActionStatus(entry.first, EActionStatus::Running, {}, _now, _out));
+            if (_session.TrySetActionStatus(entry.first, EActionStatus::Finished, {}, _now, _out))
+            {
+                _running.erase(entry.first);
+            }
+            Obey();
+        }
+        if (!_leg.has_value() && _running.empty())
+        {
+            return;
+        }
+    }
+    Require(false, "a vehicle that is left alone comes to an end");
+}
+
+void VehicleOwner::End()
+{
+    _session.OnOperatingMode(EOperatingMode::Automatic, _now, _out);
+    Obey();
+    _session.OnHardwarePause(false, false, _now, _out);
+    Obey();
+    SendInstant(ActionTypes::STOP_PAUSE, "end-pause");
+    Finish();
+    if (_bOrderRuns)
+    {
+        SendInstant(ActionTypes::CANCEL_ORDER, "end-cancel");
+        Finish();
+    }
+    const StateMessage state = _session.GetState();
+    const bool bAllEnded = std::ranges::all_of(state.actionStates, [](const ActionState& action) {
+        return IsTerminal(action.actionStatus);
+    });
+    Require(bAllEnded, "every action ends");
+    Require(!_bOrderRuns && state.nodeStates.empty(), "every order ends");
+}
+
+} // namespace ACS::Fuzz

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "Choices.hpp"
+#include <acs/vda5050/StateMessage.hpp>
+#include <acs/vda5050/Vda5050Codec.hpp>
+#include <acs/vda5050/VehicleSession.hpp>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::Fuzz
+{
+
+/// The owner of a VehicleSession who obeys it, and who watches that it keeps its rules: never two orders, sequence ids
+/// that rise, actions by their blocking types, no status that leaves its end, nothing published that cannot be read.
+class VehicleOwner
+{
+    struct Running
+    {
+        VDA5050::StartAction start;
+        bool bTold = false; ///< Has been reported as running.
+    };
+
+    VDA5050::VehicleSession _session;
+    VDA5050::Vda5050Codec _codec;
+    Core::Now _now;
+    VDA5050::VehicleActions _out;
+    std::map<std::string, Running> _running;
+    std::map<std::string, VDA5050::EActionStatus> _statuses;
+    std::map<std::string, std::uint32_t> _headerIDs;
+    std::optional<VDA5050::DriveTo> _leg;
+    std::string _orderID;
+    std::uint32_t _lastSequenceID = 0;
+    bool _bOrderRuns = false;
+    bool _bLinked = true;
+
+    void Obey();
+    void Watch(const VDA5050::VehicleAction& action);
+    void WatchStart(const VDA5050::StartAction& start);
+    void WatchDrive(const VDA5050::DriveTo& drive) const;
+    void WatchPublished(const VDA5050::MqttMessage& message);
+    void WatchTaken(const VDA5050::OrderTaken& taken);
+    void WatchState();
+    void WatchRoute(const VDA5050::StateMessage& state);
+    void WatchActions(const VDA5050::StateMessage& state);
+    [[nodiscard]] bool IsBlocked() const;
+    void Finish();
+
+public:
+    explicit VehicleOwner(VDA5050::VehicleOptions options);
+
+    [[nodiscard]] VDA5050::StateMessage GetState() const;
+
+    void PassTime(std::uint32_t milliseconds);
+    void Receive(VDA5050::ETopic topic, std::string_view payload, bool bRetained);
+    void SendInstant(std::string_view actionType, const std::string& actionID);
+    /// One of the things that can happen to a vehicle by itself.
+    void Happen(Choices& choices);
+    void ReachNode();
+    void SetStatus(Choices& choices);
+    /// Ends what can be ended, as a vehicle does that is left alone; then cancels what is left, and all must be over.
+    void End();
+};
+
+} // namespace ACS::Fuzz

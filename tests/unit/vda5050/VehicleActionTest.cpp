@@ -1,0 +1,518 @@
+#include "Catch.hpp"
+#include "VehicleBench.hpp"
+#include <acs/vda5050/PredefinedActions.hpp>
+
+#include <algorithm>
+
+namespace ACS::VDA5050::Test
+{
+
+namespace
+{
+
+using Names = std::vector<std::string>;
+
+constexpr EBlockingType NONE = EBlockingType::None;
+constexpr EBlockingType SOFT = EBlockingType::Soft;
+constexpr EBlockingType HARD = EBlockingType::Hard;
+
+Core::JsonText Text(std::string_view text)
+{
+    return Core::JsonText::FromString(text);
+}
+
+Core::JsonText Number(double number)
+{
+    return Core::JsonText::FromNumber(number);
+}
+
+VehicleOptions MakeAble()
+{
+    VehicleOptions options = VehicleBench::MakeOptions();
+    options.factsheet.protocolFeatures.agvActions = GetPredefinedActions();
+    return options;
+}
+
+std::vector<ActionParameter> MakeMapParameters(const char* mapID, const char* mapVersion)
+{
+    return {{"mapId", Text(mapID)}, {"mapVersion", Text(mapVersion)}, {"mapDownloadLink", Text("https://maps")}};
+}
+
+std::vector<ActionParameter> MakePose(double x, double theta, const char* mapID = "floor")
+{
+    return {
+        {"x", Number(x)},
+        {"y", Number(0.0)},
+        {"theta", Number(theta)},
+        {"mapId", Text(mapID)},
+        {"lastNodeId", Text("N7")}};
+}
+
+void SetMaps(VehicleBench& bench, std::vector<MapState> maps)
+{
+    VehicleActions out;
+    bench.GetSession().OnMaps(std::move(maps), bench.GetNow(), out);
+}
+
+std::vector<MapState> MakeMaps()
+{
+    return {
+        MapState{"floor", "1", EMapStatus::Enabled, {}},
+        MapState{"floor", "2", EMapStatus::Disabled, {}},
+        MapState{"roof", "1", EMapStatus::Enabled, {}}};
+}
+
+/// "floor 1 +" for an enabled map, "-" for a disabled one.
+Names ListMaps(const StateMessage& state)
+{
+    Names maps;
+    for (const MapState& map : state.maps.value_or(std::vector<MapState>()))
+    {
+        const char* status = map.mapStatus == EMapStatus::Enabled ? " +" : " -";
+        maps.push_back(map.mapID + " " + map.mapVersion + status);
+    }
+    return maps;
+}
+
+} // namespace
+
+TEST_CASE("5.2 Which actions of a node run beside each other, by their blocking types")
+{
+    struct Case
+    {
+        std::vector<EBlockingType> types; ///< Of a, b, c, … at the first node.
+        std::vector<std::string> groups;  ///< Started together, each when the group before has ended.
+        std::size_t drivesAfter;          ///< Groups that have ended when the vehicle may drive.
+    };
+    const std::vector<Case> cases{
+        {{NONE}, {"a"}, 0},
+        {{SOFT}, {"a"}, 1},
+        {{HARD}, {"a"}, 1},
+        {{NONE, NONE}, {"ab"}, 0},
+        {{NONE, SOFT}, {"ab"}, 1},
+        {{SOFT, NONE}, {"ab"}, 1},
+        {{SOFT, SOFT}, {"ab"}, 1},
+        {{NONE, HARD}, {"a", "b"}, 2},
+        {{HARD, NONE}, {"a", "b"}, 1},
+        {{SOFT, HARD}, {"a", "b"}, 2},
+        {{HARD, SOFT}, {"a", "b"}, 2},
+        {{HARD, HARD}, {"a", "b"}, 2},
+        {{NONE, SOFT, HARD, NONE, SOFT}, {"ab", "c", "de"}, 3},
+        {{HARD, NONE, HARD, NONE}, {"a", "b", "c", "d"}, 3},
+        {{NONE, HARD, HARD, SOFT, NONE}, {"a", "b", "c", "de"}, 4},
+    };
+    for (std::size_t index = 0; index < cases.size(); ++index)
+    {
+        const Case& scheduling = cases[index];
+        CAPTURE(index);
+        VehicleBench bench;
+        OrderMessage order = MakeOrder(2, 2);
+        for (std::size_t action = 0; action < scheduling.types.size(); ++action)
+        {
+            const std::string name(1, static_cast<char>('a' + action));
+            order.nodes[0].actions.push_back(MakeAction(name, scheduling.types[action]));
+        }
+        bench.Order(order);
+        for (std::size_t group = 0; group < scheduling.groups.size(); ++group)
+        {
+            CAPTURE(group);
+            CHECK(Pick<DriveTo>(bench.GetOutput()).empty() == (group < scheduling.drivesAfter));
+            std::string started;
+            for (const std::string& name : bench.GetStartedActions())
+            {
+                started += name;
+            }
+            std::string expected;
+            for (std::size_t before = 0; before <= group; ++before)
+            {
+                expected += scheduling.groups[before];
+            }
+            CHECK(started == expected);
+            for (const char name : scheduling.groups[group])
+            {
+                bench.Status(std::string(1, name), EActionStatus::Running);
+                // A failed one counts as done.
+                bench.Status(std::string(1, name), group % 2 == 0 ? EActionStatus::Finished : EActionStatus::Failed);
+            }
+        }
+        CHECK(Pick<DriveTo>(bench.GetOutput()).size() == 1);
+    }
+}
+
+TEST_CASE("5.2 A HARD action waits for one that still runs from the node before, and the vehicle stops there")
+{
+    VehicleBench bench;
+    OrderMessage order = MakeOrder(3, 3);
+    order.nodes[0].actions.push_back(MakeAction("long", NONE));
+    order.nodes[1].actions.push_back(MakeAction("alone", HARD));
+    bench.Order(order);
+    bench.Status("long", EActionStatus::Running);
+    REQUIRE(Pick<DriveTo>(bench.GetOutput()).size() == 1);
+    CHECK(Pick<DriveTo>(bench.GetOutput())[0].bStopAtNode);
+    bench.Reach(2);
+    CHECK(bench.GetStartedActions() == Names{"long"});
+    CHECK(Pick<DriveTo>(bench.GetOutput()).size() == 1);
+    bench.Status("long", EActionStatus::Finished);
+    CHECK(bench.GetStartedActions() == Names{"long", "alone"});
+}
+
+TEST_CASE("5.2 SOFT and HARD actions of an edge run before the edge is entered, NONE while it is driven")
+{
+    for (const EBlockingType blocking : {NONE, SOFT, HARD})
+    {
+        CAPTURE(static_cast<int>(blocking));
+        VehicleBench bench;
+        OrderMessage order = MakeOrder(3, 3);
+        order.edges[1].actions.push_back(MakeAction("e", blocking));
+        bench.Order(order);
+        CHECK(Pick<DriveTo>(bench.GetOutput())[0].bStopAtNode == (blocking != NONE));
+        bench.Reach(2);
+        CHECK(bench.GetStartedActions() == Names{"e"});
+        CHECK(bench.GetSession().GetState().edgeStates.size() == 1);
+        CHECK(Pick<DriveTo>(bench.GetOutput()).size() == (blocking == NONE ? 2 : 1));
+        bench.Status("e", EActionStatus::Running);
+        bench.Status("e", EActionStatus::Finished);
+        CHECK(Pick<DriveTo>(bench.GetOutput()).size() == 2);
+    }
+}
+
+TEST_CASE("5.2 Edge actions end with the edge: FINISHED where the owner can end them so, else FAILED with a warning")
+{
+    for (const EActionStatus end : {EActionStatus::Finished, EActionStatus::Failed})
+    {
+        VehicleBench bench;
+        OrderMessage order = MakeOrder(2, 2);
+        order.edges[0].actions.push_back(MakeAction("e", NONE, "detectObject"));
+        bench.Order(order);
+        bench.Status("e", EActionStatus::Running);
+        bench.Clear();
+        bench.Reach(2);
+        CHECK(Pick<StopAction>(bench.GetOutput()) == std::vector{StopAction{"e", true}});
+        bench.Status("e", end);
+        CHECK(bench.HasError(ErrorTypes::ACTION_ERROR) == (end == EActionStatus::Failed));
+        CHECK(Pick<OrderCompleted>(bench.GetOutput()).size() == 1);
+    }
+}
+
+TEST_CASE("5.1 An action that is not yet begun cannot be told to run, and none leaves its end")
+{
+    VehicleBench bench;
+    OrderMessage order = MakeOrder(3, 2);
+    order.nodes[1].actions.push_back(MakeAction("later", NONE));
+    bench.Order(order);
+    VehicleActions out;
+    CHECK_FALSE(bench.GetSession().TrySetActionStatus("later", EActionStatus::Running, {}, bench.GetNow(), out));
+    CHECK(bench.GetStatus("later") == EActionStatus::Waiting);
+    bench.Reach(2);
+    bench.Status("later", EActionStatus::Running);
+    bench.Status("later", EActionStatus::Finished);
+    CHECK_FALSE(bench.GetSession().TrySetActionStatus("later", EActionStatus::Failed, {}, bench.GetNow(), out));
+    CHECK_FALSE(bench.GetSession().TrySetActionStatus("nobody", EActionStatus::Running, {}, bench.GetNow(), out));
+    bench.Instant("startPause", "p1");
+    CHECK_FALSE(bench.GetSession().TrySetActionStatus("p1", EActionStatus::Failed, {}, bench.GetNow(), out));
+}
+
+TEST_CASE("5.5 What is removed from actionStates, and when")
+{
+    VehicleBench bench(MakeAble());
+    OrderMessage order = MakeOrder(3, 2);
+    order.nodes[1].actions.push_back(MakeAction("base", NONE, "startCharging"));
+    order.nodes[2].actions.push_back(MakeAction("horizon", NONE, "startCharging"));
+    bench.Order(order);
+    bench.Instant("stateRequest", "ended");
+    bench.Instant("logReport", "runs", {{"reason", Text("test")}});
+    bench.Status("runs", EActionStatus::Running);
+    const auto list = [&bench] {
+        Names ids;
+        for (const ActionState& action : bench.GetSession().GetState().actionStates)
+        {
+            ids.push_back(action.actionID);
+        }
+        return ids;
+    };
+    CHECK(list() == Names{"base", "horizon", "ended", "runs"});
+    OrderBuilder builder = MakeBuilder(3);
+    REQUIRE(builder.MakeOrder(2).has_value());
+    bench.Order(*builder.MakeUpdate(3)); // drops the horizon's action and nothing else
+    CHECK(list() == Names{"base", "ended", "runs"});
+    bench.Reach(2);
+    bench.Status("base", EActionStatus::Running);
+    bench.Status("base", EActionStatus::Finished);
+    bench.Reach(4);
+    CHECK(list() == Names{"base", "ended", "runs"});
+    OrderMessage next = MakeOrder(1, 1, "order-2");
+    next.nodes[0].nodeID = "N2";
+    bench.Order(next); // all but the instant action that runs
+    CHECK(list() == Names{"runs"});
+}
+
+TEST_CASE("5.6 Instant actions do not make the vehicle busy, and do not wait for the order's actions")
+{
+    VehicleBench bench(MakeAble());
+    bench.Instant("startCharging", "charge");
+    bench.Status("charge", EActionStatus::Running);
+    OrderMessage order = MakeOrder(2, 2);
+    order.nodes[0].actions.push_back(MakeAction("hard", HARD, "startCharging"));
+    bench.Order(order);
+    CHECK(bench.GetSession().GetState().orderID == "order-1");
+    CHECK(bench.GetStartedActions() == Names{"charge", "hard"});
+    bench.Status("hard", EActionStatus::Running);
+    bench.Instant("logReport", "log", {{"reason", Text("test")}});
+    CHECK(bench.GetStartedActions() == Names{"charge", "hard", "log"});
+}
+
+TEST_CASE("5.6 What is wrong with an instant action fails it alone, with a warning that names it")
+{
+    struct Case
+    {
+        const char* name;
+        Action action;
+    };
+    Action unknown = MakeAction("bad", HARD, "makeCoffee");
+    Action inOrder = MakeAction("bad", HARD, "drop");
+    Action without = MakeAction("bad", HARD, "logReport");
+    Action null = MakeAction("bad", HARD, "startCharging");
+    null.actionParameters = {{"what", Core::JsonText()}};
+    const std::vector<Case> cases{
+        {"unknown", unknown},
+        {"not instant", inOrder},
+        {"a parameter missing", without},
+        {"a parameter null", null}};
+    for (const Case& instant : cases)
+    {
+        CAPTURE(instant.name);
+        VehicleBench bench(MakeAble());
+        bench.Instant(
+            {MakeAction("good1", NONE, "startCharging"), instant.action, MakeAction("good2", NONE, "stateRequest")});
+        if (instant.action.actionParameters.empty())
+        {
+            CHECK(bench.GetStatus("good2") == EActionStatus::Finished);
+            CHECK(bench.GetStartedActions() == Names{"good1"});
+            CHECK(bench.GetStatus("bad") == EActionStatus::Failed);
+            const StateMessage state = bench.GetPublishedState();
+            REQUIRE(state.errors.size() == 1);
+            CHECK(state.errors[0].errorType == ErrorTypes::INSTANT_ACTION_ERROR);
+            CHECK(state.errors[0].errorLevel == EErrorLevel::Warning);
+            CHECK(*FindReferenceOrNull(state.errors[0], "actionId") == "bad");
+        }
+        else
+        {
+            // null may be refused with the whole message; it is not performed.
+            CHECK(bench.GetSession().GetState().errors.size() == 1);
+        }
+    }
+}
+
+TEST_CASE("5.6 More instant actions than the factsheet allows fail, an action without an id is a validationError")
+{
+    VehicleOptions options = MakeAble();
+    options.factsheet.protocolLimits.maxArrayLengths.instantActions = 1;
+    VehicleBench bench(options);
+    bench.Instant({MakeAction("i1", NONE, "stateRequest"), MakeAction("i2", NONE, "stateRequest")});
+    CHECK(bench.GetStatus("i1") == EActionStatus::Finished);
+    CHECK(bench.GetStatus("i2") == EActionStatus::Failed);
+    bench.Instant({MakeAction("", NONE, "stateRequest")});
+    CHECK(bench.HasError(ErrorTypes::VALIDATION_ERROR));
+}
+
+TEST_CASE("5.7 enableMap, downloadMap and deleteMap: what they change, and what they fail for")
+{
+    struct Case
+    {
+        const char* actionType;
+        const char* mapID;
+        const char* mapVersion;
+        bool bFails;
+        Names after;
+    };
+    const Names unchanged{"floor 1 +", "floor 2 -", "roof 1 +"};
+    const std::vector<Case> cases{
+        {"enableMap", "floor", "2", false, {"floor 1 -", "floor 2 +", "roof 1 +"}},
+        {"enableMap", "floor", "1", false, unchanged},
+        {"enableMap", "floor", "9", true, unchanged},
+        {"enableMap", "cellar", "1", true, unchanged},
+        {"downloadMap", "floor", "3", false, {"floor 1 +", "floor 2 -", "roof 1 +", "floor 3 -"}},
+        {"downloadMap", "cellar", "1", false, {"floor 1 +", "floor 2 -", "roof 1 +", "cellar 1 -"}},
+        {"downloadMap", "floor", "2", true, unchanged},
+        {"deleteMap", "floor", "2", false, {"floor 1 +", "roof 1 +"}},
+        {"deleteMap", "floor", "1", true, unchanged},
+        {"deleteMap", "cellar", "1", true, unchanged},
+    };
+    for (const Case& change : cases)
+    {
+        CAPTURE(change.actionType, change.mapID, change.mapVersion);
+        VehicleBench bench(MakeAble());
+        SetMaps(bench, MakeMaps());
+        std::vector<ActionParameter> parameters = MakeMapParameters(change.mapID, change.mapVersion);
+        if (std::string_view(change.actionType) != "downloadMap")
+        {
+            parameters.pop_back();
+        }
+        bench.Instant(change.actionType, "m1", parameters);
+        CHECK(bench.GetStartedActions().empty() == change.bFails);
+        if (!change.bFails)
+        {
+            bench.Status("m1", EActionStatus::Running);
+            CHECK(ListMaps(bench.GetSession().GetState()) == unchanged); // only what is usable is shown
+            bench.Status("m1", EActionStatus::Finished);
+        }
+        CHECK(bench.GetStatus("m1") == (change.bFails ? EActionStatus::Failed : EActionStatus::Finished));
+        CHECK(bench.HasError(ErrorTypes::INSTANT_ACTION_ERROR) == change.bFails);
+        CHECK(ListMaps(bench.GetSession().GetState()) == change.after);
+    }
+}
+
+TEST_CASE("5.7 A download that fails leaves the maps as they are")
+{
+    VehicleBench bench(MakeAble());
+    SetMaps(bench, MakeMaps());
+    bench.Instant("downloadMap", "m1", MakeMapParameters("cellar", "1"));
+    bench.Status("m1", EActionStatus::Running);
+    bench.Status("m1", EActionStatus::Failed);
+    CHECK(bench.GetSession().GetState().maps == MakeMaps());
+}
+
+TEST_CASE("5.7 enableMap on a node: enabled when the node is reached, failed where the map is not there")
+{
+    for (const char* mapVersion : {"2", "9"})
+    {
+        const bool bThere = std::string_view(mapVersion) == "2";
+        VehicleBench bench(MakeAble());
+        SetMaps(bench, MakeMaps());
+        OrderMessage order = MakeOrder(2, 2);
+        order.nodes[1].actions.push_back(MakeAction("m1", HARD, "enableMap"));
+        order.nodes[1].actions[0].actionParameters = {{"mapId", Text("floor")}, {"mapVersion", Text(mapVersion)}};
+        bench.Order(order);
+        bench.Reach(2);
+        if (bThere)
+        {
+            bench.Status("m1", EActionStatus::Running);
+            bench.Status("m1", EActionStatus::Finished);
+            CHECK(ListMaps(bench.GetSession().GetState()) == Names{"floor 1 -", "floor 2 +", "roof 1 +"});
+        }
+        CHECK(bench.GetStatus("m1") == (bThere ? EActionStatus::Finished : EActionStatus::Failed));
+        CHECK(bench.HasError(ErrorTypes::ACTION_ERROR) == !bThere);
+        CHECK(Pick<OrderCompleted>(bench.GetOutput()).size() == 1);
+    }
+}
+
+TEST_CASE("7 An order with a map that is not on the vehicle is refused; one that is DISABLED is the master's matter")
+{
+    struct Case
+    {
+        const char* mapID;
+        bool bTaken;
+    };
+    const std::vector<Case> cases{{"floor", true}, {"cellar", false}, {"attic", true}};
+    for (const Case& map : cases)
+    {
+        CAPTURE(map.mapID);
+        VehicleBench bench;
+        std::vector<MapState> maps = MakeMaps();
+        maps.push_back(MapState{"attic", "1", EMapStatus::Disabled, {}});
+        SetMaps(bench, maps);
+        OrderMessage order = MakeOrder(2, 2);
+        order.nodes[1].nodePosition->mapID = map.mapID;
+        bench.Order(order);
+        CHECK(bench.GetSession().GetState().orderID.empty() != map.bTaken);
+        CHECK(bench.HasError(ErrorTypes::ORDER_ERROR) != map.bTaken);
+    }
+    VehicleBench empty;
+    SetMaps(empty, {});
+    empty.Order(MakeOrder(2, 2));
+    CHECK(empty.HasError(ErrorTypes::ORDER_ERROR));
+}
+
+TEST_CASE("5.7 initPosition sets pose, map and last node, and fails for what is no pose or while an order runs")
+{
+    struct Case
+    {
+        const char* name;
+        std::vector<ActionParameter> pose;
+        bool bOrderRuns;
+        bool bFails;
+    };
+    const std::vector<Case> cases{
+        {"a pose", MakePose(42.0, 1.5), false, false},
+        {"theta beyond pi", MakePose(42.0, 4.0), false, true},
+        {"a map that is not there", MakePose(42.0, 1.5, "cellar"), false, true},
+        {"an order runs", MakePose(42.0, 1.5), true, true},
+    };
+    for (const Case& pose : cases)
+    {
+        CAPTURE(pose.name);
+        VehicleBench bench(MakeAble());
+        SetMaps(bench, MakeMaps());
+        if (pose.bOrderRuns)
+        {
+            bench.Order(MakeOrder(2, 2));
+        }
+        bench.Instant("initPosition", "i1", pose.pose);
+        CHECK(bench.GetStartedActions().empty() == pose.bFails);
+        if (!pose.bFails)
+        {
+            bench.Status("i1", EActionStatus::Running);
+            bench.Status("i1", EActionStatus::Finished);
+        }
+        const StateMessage state = bench.GetSession().GetState();
+        CHECK(bench.GetStatus("i1") == (pose.bFails ? EActionStatus::Failed : EActionStatus::Finished));
+        CHECK(state.lastNodeID == (pose.bFails ? "N0" : "N7"));
+        CHECK(state.agvPosition->x == (pose.bFails ? 0.0 : 42.0));
+        CHECK(state.agvPosition->theta == (pose.bFails ? 0.0 : 1.5));
+    }
+}
+
+TEST_CASE("5.7 initPosition on a node changes pose and map; the order says which node it is")
+{
+    VehicleBench bench(MakeAble());
+    OrderMessage order = MakeOrder(2, 2);
+    order.nodes[1].actions.push_back(MakeAction("i1", HARD, "initPosition"));
+    order.nodes[1].actions[0].actionParameters = MakePose(3.0, 0.5, "roof");
+    bench.Order(order);
+    bench.Reach(2);
+    bench.Status("i1", EActionStatus::Running);
+    bench.Status("i1", EActionStatus::Finished);
+    CHECK(bench.GetSession().GetState().agvPosition->mapID == "roof");
+    CHECK(bench.GetSession().GetState().lastNodeID == "N1");
+    CHECK(bench.GetSession().GetState().lastNodeSequenceID == 2);
+}
+
+TEST_CASE("5.7 An action of an order that fails is a warning; the order goes on, but for a critical one")
+{
+    for (const bool bCritical : {false, true})
+    {
+        CAPTURE(bCritical);
+        VehicleOptions options = VehicleBench::MakeOptions();
+        if (bCritical)
+        {
+            options.criticalActionTypes = {"pick"};
+        }
+        VehicleBench bench(options);
+        OrderMessage order = MakeOrder(2, 2);
+        order.nodes[0].actions = {MakeAction("fails", HARD), MakeAction("next", NONE)};
+        bench.Order(order);
+        bench.Status("fails", EActionStatus::Running);
+        bench.Clear();
+        bench.Status("fails", EActionStatus::Failed);
+        const StateMessage state = bench.GetPublishedState();
+        REQUIRE(state.errors.size() == 1);
+        CHECK(state.errors[0].errorType == ErrorTypes::ACTION_ERROR);
+        CHECK(state.errors[0].errorLevel == (bCritical ? EErrorLevel::Fatal : EErrorLevel::Warning));
+        CHECK(*FindReferenceOrNull(state.errors[0], "actionId") == "fails");
+        CHECK(*FindReferenceOrNull(state.errors[0], "nodeId") == "N0");
+        CHECK(bench.GetStartedActions().empty() == bCritical);
+        CHECK(Pick<DriveTo>(bench.GetOutput()).empty() == bCritical);
+        bench.Instant("cancelOrder", "c1");
+        if (!bCritical)
+        {
+            bench.Status("next", EActionStatus::Running);
+            bench.Status("next", EActionStatus::Failed);
+        }
+        bench.Drive(false);
+        CHECK(bench.GetStatus("c1") == EActionStatus::Finished);
+        bench.Order(MakeOrder(2, 2, "order-2"));
+        CHECK(bench.GetPublishedState().errors.empty());
+    }
+}
+
+} // namespace ACS::VDA5050::Test

@@ -1,0 +1,145 @@
+#include "Catch.hpp"
+#include "VehicleBench.hpp"
+
+namespace ACS::VDA5050::Test
+{
+
+TEST_CASE("5.3 What a pause does to an order action, by its status")
+{
+    VehicleBench bench;
+    OrderMessage order = MakeOrder(2, 2);
+    order.nodes[0].actions = {
+        MakeAction("pausable", EBlockingType::None),
+        MakeAction("stubborn", EBlockingType::None),
+        MakeAction("ended", EBlockingType::None),
+        MakeAction("later", EBlockingType::Hard)};
+    bench.Order(order);
+    bench.Status("pausable", EActionStatus::Running);
+    bench.Status("stubborn", EActionStatus::Running);
+    bench.Status("ended", EActionStatus::Running);
+    bench.Status("ended", EActionStatus::Finished);
+    bench.Clear();
+    bench.Instant("startPause", "p1");
+    CHECK(Pick<PauseAction>(bench.GetOutput()) == std::vector{PauseAction{"pausable"}, PauseAction{"stubborn"}});
+    CHECK(bench.GetStatus("p1") == EActionStatus::Finished);
+    bench.Status("pausable", EActionStatus::Paused);
+    // One that cannot be paused goes on and ends; what waits stays waiting, and nothing begins.
+    bench.Status("stubborn", EActionStatus::Finished);
+    CHECK(bench.GetStatus("later") == EActionStatus::Waiting);
+    CHECK(bench.GetStartedActions().empty());
+    bench.Instant("stopPause", "p2");
+    CHECK(Pick<ResumeAction>(bench.GetOutput()) == std::vector{ResumeAction{"pausable"}});
+    bench.Status("pausable", EActionStatus::Running);
+    bench.Status("pausable", EActionStatus::Finished);
+    CHECK(bench.GetStartedActions() == std::vector<std::string>{"later"});
+}
+
+TEST_CASE("5.3 A paused vehicle takes orders and updates, and does not move before stopPause")
+{
+    VehicleBench bench;
+    bench.Instant("startPause", "p1");
+    CHECK(bench.GetPublishedState().bPaused == true);
+    bench.Clear();
+    OrderBuilder builder = MakeBuilder(3);
+    bench.Order(*builder.MakeOrder(2));
+    bench.Order(*builder.MakeUpdate(3));
+    CHECK(bench.GetPublishedState().orderUpdateID == 1);
+    CHECK(Pick<DriveTo>(bench.GetOutput()).empty());
+    bench.Instant("stopPause", "p2");
+    CHECK(Pick<DriveTo>(bench.GetOutput()).size() == 1);
+    CHECK(bench.GetPublishedState().bPaused == false);
+}
+
+TEST_CASE("5.3 An order whose last action ends during a pause is complete at once")
+{
+    VehicleBench bench;
+    OrderMessage order = MakeOrder(1, 1);
+    order.nodes[0].actions.push_back(MakeAction("stubborn", EBlockingType::None));
+    bench.Order(order);
+    bench.Status("stubborn", EActionStatus::Running);
+    bench.Instant("startPause", "p1");
+    CHECK(Pick<OrderCompleted>(bench.GetOutput()).empty());
+    bench.Status("stubborn", EActionStatus::Finished);
+    CHECK(Pick<OrderCompleted>(bench.GetOutput()).size() == 1);
+    bench.Order(MakeOrder(1, 1, "order-2")); // nothing to do
+    CHECK(Pick<OrderCompleted>(bench.GetOutput()).size() == 2);
+}
+
+TEST_CASE("5.3 startPause and stopPause while paused or not are finished: both can be repeated")
+{
+    VehicleBench bench;
+    bench.Instant("stopPause", "p1");
+    bench.Instant("startPause", "p2");
+    bench.Instant("startPause", "p3");
+    bench.Instant("stopPause", "p4");
+    bench.Instant("stopPause", "p5");
+    for (const char* actionID : {"p1", "p2", "p3", "p4", "p5"})
+    {
+        CAPTURE(actionID);
+        CHECK(bench.GetStatus(actionID) == EActionStatus::Finished);
+    }
+    CHECK(bench.GetPublishedState().bPaused == false);
+}
+
+TEST_CASE("5.3 stopPause before the vehicle stands ends startPause with a failure")
+{
+    VehicleBench bench;
+    bench.Order(MakeOrder(2, 2));
+    bench.Drive(true);
+    bench.Instant("startPause", "p1");
+    CHECK(bench.GetStatus("p1") == EActionStatus::Running);
+    bench.Clear();
+    bench.Instant("stopPause", "p2");
+    CHECK(bench.GetStatus("p1") == EActionStatus::Failed);
+    CHECK(bench.GetStatus("p2") == EActionStatus::Finished);
+    CHECK(Pick<DriveTo>(bench.GetOutput()).size() == 1);
+}
+
+TEST_CASE("5.3 A pause at the vehicle itself: paused is true, and who may end it")
+{
+    struct Case
+    {
+        bool bOverridesMaster;
+        EActionStatus status;
+        bool bPausedAfter;
+    };
+    const std::vector<Case> cases{{false, EActionStatus::Finished, false}, {true, EActionStatus::Failed, true}};
+    for (const Case& button : cases)
+    {
+        CAPTURE(button.bOverridesMaster);
+        VehicleBench bench;
+        bench.Order(MakeOrder(2, 2));
+        bench.Drive(true);
+        bench.Clear();
+        bench.HardwarePause(true, button.bOverridesMaster);
+        CHECK(Pick<StopDriving>(bench.GetOutput()).size() == 1);
+        CHECK(bench.GetPublishedState().bPaused == false);
+        bench.Drive(false);
+        CHECK(bench.GetPublishedState().bPaused == true);
+        bench.Instant("startPause", "p1");
+        CHECK(bench.GetStatus("p1") == button.status);
+        bench.Instant("stopPause", "p2");
+        CHECK(bench.GetStatus("p2") == button.status);
+        CHECK(bench.GetPublishedState().bPaused == button.bPausedAfter);
+        CHECK(bench.HasError(ErrorTypes::INSTANT_ACTION_ERROR) == button.bOverridesMaster);
+        bench.HardwarePause(false, false);
+        CHECK(bench.GetPublishedState().bPaused == false);
+        CHECK(Pick<DriveTo>(bench.GetOutput()).size() == 1);
+    }
+}
+
+TEST_CASE("5.3 A cancel during a pause leaves paused true until stopPause")
+{
+    VehicleBench bench;
+    bench.Order(MakeOrder(2, 2));
+    bench.Drive(true);
+    bench.Instant("startPause", "p1");
+    bench.Drive(false);
+    bench.Instant("cancelOrder", "c1");
+    CHECK(bench.GetStatus("c1") == EActionStatus::Finished);
+    CHECK(bench.GetPublishedState().bPaused == true);
+    bench.Instant("stopPause", "p2");
+    CHECK(bench.GetPublishedState().bPaused == false);
+}
+
+} // namespace ACS::VDA5050::Test
