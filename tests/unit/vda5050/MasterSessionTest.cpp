@@ -438,6 +438,64 @@ TEST_CASE("2 A state that is older than one that came is ignored; ids that begin
     CHECK(bench.session.GetStatistics().statesReceived == 2);
 }
 
+TEST_CASE("2 A retained state is no news: it brings no vehicle online and speaks for no order")
+{
+    MasterBench bench;
+    StateMessage state;
+    state.header = Header{7, bench.GetNow().wall, "2.0.0", "ACS", "LR01"};
+    const MqttMessage message{
+        BuildTopic(MakeAddress(), ETopic::State),
+        Vda5050Codec().Encode(state, EVda5050Version::Version200),
+        1,
+        true};
+    bench.session.OnMessage(message, bench.GetNow(), bench.Clear());
+    CHECK(bench.GetOutput().empty());
+    CHECK(bench.session.GetLink() == EVehicleLink::Unknown);
+    CHECK(bench.session.GetStateOrNull() == nullptr);
+    CHECK(bench.session.GetStatistics().retainedIgnored == 1);
+    MqttMessage live = message;
+    live.bRetained = false;
+    bench.session.OnMessage(live, bench.GetNow(), bench.Clear());
+    CHECK(bench.session.GetLink() == EVehicleLink::Online);
+    CHECK(bench.session.IsReady());
+}
+
+TEST_CASE("6 After an outage of our link the retained ONLINE alone makes no vehicle ready: its state is of before")
+{
+    MasterBench bench;
+    bench.BeReady();
+    REQUIRE(bench.session.IsReady());
+    bench.session.OnLinkDown(bench.GetNow(), bench.Clear());
+    bench.session.OnLinkUp(bench.GetNow(), bench.Clear());
+    bench.Connect(EConnectionState::Online);
+    CHECK(bench.session.GetLink() == EVehicleLink::Online);
+    CHECK_FALSE(bench.session.IsReady());
+    CHECK_FALSE(bench.session.CanTakeOrder());
+    bench.SendState();
+    CHECK(bench.session.CanTakeOrder());
+}
+
+TEST_CASE("3.1 A header of another vehicle or another major version is refused; empty names are tolerated")
+{
+    MasterBench bench;
+    bench.BeReady();
+    StateMessage state = bench.state;
+    const auto say = [&](const std::string& version, const std::string& manufacturer, const std::string& serial) {
+        state.header = Header{99, bench.GetNow().wall + std::chrono::seconds(1), version, manufacturer, serial};
+        bench.Clear();
+        bench.Say(ETopic::State, Vda5050Codec().Encode(state, EVda5050Version::Version200));
+        return Pick<MessageRefused>(bench.GetOutput()).size() == 1;
+    };
+    CHECK(say("2.0.0", "OTHER", "LR01"));
+    CHECK(say("2.0.0", "ACS", "LR02"));
+    CHECK(say("3.0.0", "ACS", "LR01"));
+    CHECK(Pick<MessageRefused>(bench.GetOutput())[0].error.code == EVda5050Error::UnsupportedVersion);
+    CHECK(bench.session.GetStatistics().messagesRefused == 3);
+    CHECK(bench.session.GetStatistics().statesReceived == 1);
+    CHECK_FALSE(say("2.1.0", "", ""));
+    CHECK(bench.session.GetStatistics().statesReceived == 2);
+}
+
 TEST_CASE("13 Broken payloads are counted and told, nothing else happens")
 {
     MasterBench bench;

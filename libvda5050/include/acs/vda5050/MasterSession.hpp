@@ -40,7 +40,8 @@ enum class EOrderPhase : std::uint8_t
 struct MasterStatistics
 {
     std::uint64_t statesReceived = 0;
-    std::uint64_t statesIgnored = 0; ///< Older than one that came before it.
+    std::uint64_t statesIgnored = 0;   ///< Older than one that came before it.
+    std::uint64_t retainedIgnored = 0; ///< States and visualizations that somebody had retained: of unknown age.
     std::uint64_t messagesRefused = 0;
     std::uint64_t messagesSent = 0;
     std::uint64_t ordersResent = 0;
@@ -75,6 +76,7 @@ class MasterSession
     bool _bLinkUp = false;
     EVehicleLink _link = EVehicleLink::Unknown;
     bool _bSilent = false;
+    bool _bStateFresh = false; ///< A state came since the vehicle is online.
     Core::SteadyTime _lastStateTime;
     std::optional<StateMessage> _state;
     std::optional<FactsheetMessage> _factsheet;
@@ -93,6 +95,8 @@ class MasterSession
     std::string _cancelActionID;
     std::uint32_t _ownActionCount = 0;
 
+    void Read(std::string_view topic, std::string_view payload, bool bRetained, Core::Now now, MasterActions& out);
+    [[nodiscard]] bool IsForeign(ETopic topic, const Header& header, MasterActions& out);
     void OnConnection(std::string_view payload, Core::Now now, MasterActions& out);
     void OnState(std::string_view payload, Core::Now now, MasterActions& out);
     void OnVisualization(std::string_view payload, MasterActions& out);
@@ -139,7 +143,10 @@ public:
     void OnLinkUp(Core::Now now, MasterActions& out);
     /// Our own link is down: the vehicle is Unknown from now on, orders stay as they are and are resent after OnLinkUp.
     void OnLinkDown(Core::Now now, MasterActions& out);
-    /// Messages of other vehicles and topics are ignored.
+    /// Messages of other vehicles and topics are ignored. A header with another vehicle's name or another major version
+    /// is refused; a state or visualization that was retained is no news, and only counted.
+    void OnMessage(const MqttMessage& message, Core::Now now, MasterActions& out);
+    /// As a message that was not retained.
     void OnMessage(std::string_view topic, std::string_view payload, Core::Now now, MasterActions& out);
     void OnTimer(EMasterTimer timer, Core::Now now, MasterActions& out);
 
@@ -162,7 +169,7 @@ public:
     [[nodiscard]] const std::string& GetOrderID() const noexcept;
     /// Online, a state has come, mode AUTOMATIC or SEMIAUTOMATIC, and no order runs.
     [[nodiscard]] bool CanTakeOrder() const;
-    /// Online, a state has come and is not overdue.
+    /// Online, a state has come since then and is not overdue.
     [[nodiscard]] bool IsReady() const;
     /// The last state, null before the first.
     [[nodiscard]] const StateMessage* GetStateOrNull() const noexcept;
