@@ -186,7 +186,7 @@ void MasterSession::ComeOnline(Core::Now now, MasterActions& out)
     _bStateFresh = false;
     _lastStateTime = now.steady;
     out.emplace_back(VehicleOnline{});
-    out.emplace_back(StartMasterTimer{EMasterTimer::Silence, _options.stateInterval + _options.stateMargin});
+    out.emplace_back(StartMasterTimer{EMasterTimer::Silence, GetAllowedSilence()});
     std::vector<Action> requests;
     const auto ask = [this, now, &requests](std::string_view actionType) {
         Action& action = requests.emplace_back();
@@ -239,7 +239,7 @@ void MasterSession::CheckSilence(Core::Now now, MasterActions& out)
     {
         return;
     }
-    const Core::Duration allowed = _options.stateInterval + _options.stateMargin;
+    const Core::Duration allowed = GetAllowedSilence();
     const Core::Duration age = now.steady - _lastStateTime;
     if (age < allowed)
     {
@@ -285,7 +285,7 @@ void MasterSession::OnState(std::string_view payload, Core::Now now, MasterActio
     if (_bSilent && _link == EVehicleLink::Online)
     {
         _bSilent = false;
-        out.emplace_back(StartMasterTimer{EMasterTimer::Silence, _options.stateInterval + _options.stateMargin});
+        out.emplace_back(StartMasterTimer{EMasterTimer::Silence, GetAllowedSilence()});
     }
     const std::optional<StateMessage> previous = std::exchange(_state, std::move(*state));
     out.emplace_back(StateReceived{});
@@ -296,8 +296,10 @@ void MasterSession::OnState(std::string_view payload, Core::Now now, MasterActio
     SettleInFlight(now, out);
     TellDifferences(previous, out);
     SettlePendingActions(out);
+    FollowActions(out);
     FollowOrder(out);
     FollowCancel(out);
+    CancelReappeared(now, out);
 }
 
 void MasterSession::OnVisualization(std::string_view payload, MasterActions& out)
