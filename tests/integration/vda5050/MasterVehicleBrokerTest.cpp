@@ -1,5 +1,6 @@
 #include "Catch.hpp"
-#include "LinkedSessions.hpp"
+#include "LinkedMaster.hpp"
+#include "LinkedVehicle.hpp"
 
 namespace ACS::Testing
 {
@@ -9,7 +10,6 @@ namespace
 using namespace std::chrono_literals;
 using namespace VDA5050;
 using VDA5050::Test::MakeAction;
-using VDA5050::Test::MakeBuilder;
 using VDA5050::Test::MakeEdges;
 using VDA5050::Test::MakeNodes;
 
@@ -133,8 +133,7 @@ TEST_CASE_METHOD(BrokerTest, "5.3 Over a broker a vehicle is paused and goes on"
     vehicle->LetReach(2);
     REQUIRE(master->SendOrder(*route.MakeOrder(5)));
     REQUIRE(WaitUntil([&]() { return master->ListReached().size() == 2; }));
-    Action pause = MakeAction("pause-1", EBlockingType::None, "startPause");
-    REQUIRE(master->SendAction(pause));
+    REQUIRE(master->SendAction(MakeAction("pause-1", EBlockingType::None, "startPause")));
     REQUIRE(WaitUntil([&]() { return master->GetStatusOrNull("pause-1") == EActionStatus::Finished; }));
     CHECK(master->session.GetStateOrNull()->bPaused == true);
     vehicle->LetReach(EVERYWHERE);
