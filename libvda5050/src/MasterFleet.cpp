@@ -36,6 +36,7 @@ std::vector<MqttSubscription> MasterFleet::GetSubscriptions() const
 {
     std::vector<MqttSubscription> subscriptions;
     const MasterOptions& vehicle = _options.vehicle;
+    subscriptions.reserve(LISTENED_TOPICS.size());
     for (const ETopic topic : LISTENED_TOPICS)
     {
         subscriptions.push_back(
