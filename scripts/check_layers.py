@@ -39,7 +39,8 @@ THIRD_PARTY = {
     "net": ("fmt/", "tl/", "boost/asio", "boost/system/"),
     **{layer: ("fmt/", "tl/") for layer in PURE},
     "protocol_beast": ("fmt/", "tl/", "boost/", "openssl/", "linux/sockios.h", "sys/ioctl.h"),
-    "vda5050_mosquitto": ("fmt/", "tl/", "boost/asio", "boost/system/", "mosquitto.h", "openssl/", "unistd.h"),
+    "vda5050_mosquitto": (
+        "fmt/", "tl/", "boost/asio", "boost/system/", "mosquitto.h", "mqtt_protocol.h", "openssl/", "unistd.h"),
     "openstream_asio": ("fmt/", "tl/", "boost/asio", "boost/system/"),
     "plan_sqlite": ("fmt/", "tl/", "SQLiteCpp/", "sqlite3.h", "fcntl.h", "sys/file.h", "unistd.h"),
 }

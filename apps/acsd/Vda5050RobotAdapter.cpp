@@ -142,7 +142,7 @@ void Vda5050RobotAdapter::OnLinkDown(Core::Now now, AdapterActions& out)
 
 void Vda5050RobotAdapter::OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, AdapterActions& out)
 {
-    _session.OnMessage(message.topic, message.payload, now, _sessionActions);
+    _session.OnMessage(message, now, _sessionActions);
     Drain(now, out);
 }
 

@@ -34,6 +34,8 @@ public:
                 return "there is no order";
             case EVda5050Error::UpdatePending:
                 return "an order update already waits";
+            case EVda5050Error::NotSupported:
+                return "the vehicle's factsheet does not support it";
             default:
                 return "unknown VDA5050 error";
         }

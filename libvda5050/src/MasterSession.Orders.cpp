@@ -54,8 +54,15 @@ Core::Result<void> CheckStructure(const OrderMessage& order)
 
 Header MasterSession::MakeHeader(ETopic topic, Core::Now now)
 {
+    Header header = PeekHeader(topic, now);
+    ++_headerIDs.at(static_cast<std::size_t>(topic));
+    return header;
+}
+
+Header MasterSession::PeekHeader(ETopic topic, Core::Now now) const
+{
     return Header{
-        _headerIDs.at(static_cast<std::size_t>(topic))++,
+        _headerIDs.at(static_cast<std::size_t>(topic)),
         now.wall,
         std::string(GetVersionText(_options.version)),
         _options.address.manufacturer,
@@ -88,6 +95,13 @@ void MasterSession::PublishOrder(Core::Now now, MasterActions& out)
     {
         return; // sent when it comes online
     }
+    const Core::SteadyTime earliest = _lastOrderTime.value_or(now.steady) + GetOrderInterval();
+    if (_lastOrderTime.has_value() && now.steady < earliest)
+    {
+        out.emplace_back(StartMasterTimer{EMasterTimer::ResendOrder, earliest - now.steady});
+        return;
+    }
+    _lastOrderTime = now.steady;
     _inFlight->header = MakeHeader(ETopic::Order, now);
     PublishPayload(ETopic::Order, _codec.Encode(*_inFlight, _options.version), out);
     ++_sendCount;
@@ -105,16 +119,23 @@ void MasterSession::ResendOrder(Core::Now now, MasterActions& out)
         RejectInFlight({}, "the vehicle never showed the order", out);
         return;
     }
-    _statistics.ordersResent += _sendCount == 0 ? 0U : 1U;
+    const std::uint32_t sentBefore = _sendCount;
     PublishOrder(now, out);
+    _statistics.ordersResent += sentBefore != 0 && _sendCount != sentBefore ? 1U : 0U;
 }
 
 void MasterSession::PublishInstantActions(std::vector<Action> actions, Core::Now now, MasterActions& out)
 {
-    InstantActionsMessage message;
-    message.header = MakeHeader(ETopic::InstantActions, now);
-    message.actions = std::move(actions);
-    PublishPayload(ETopic::InstantActions, _codec.Encode(message, _options.version), out);
+    const std::size_t most = GetMaximumInstantActions();
+    while (!actions.empty())
+    {
+        const auto end = actions.begin() + static_cast<std::ptrdiff_t>(std::min(most, actions.size()));
+        InstantActionsMessage message;
+        message.header = MakeHeader(ETopic::InstantActions, now);
+        message.actions.assign(std::move_iterator(actions.begin()), std::move_iterator(end));
+        actions.erase(actions.begin(), end);
+        PublishPayload(ETopic::InstantActions, _codec.Encode(message, _options.version), out);
+    }
 }
 
 void MasterSession::ResendInstantActions(Core::Now now, MasterActions& out)
@@ -128,6 +149,7 @@ void MasterSession::ResendInstantActions(Core::Now now, MasterActions& out)
         if (_options.resendCount != 0 && pending.sendCount > _options.resendCount)
         {
             out.emplace_back(InstantActionRejected{pending.action.actionID, {}, "the vehicle never showed the action"});
+            ForgetAction(pending.action.actionID);
             return true;
         }
         ++pending.sendCount;
@@ -166,10 +188,15 @@ Core::Result<void> MasterSession::SendOrder(OrderMessage order, Core::Now now, M
             _options.address.serialNumber);
     }
     Core::Result<void> check = CheckStructure(order);
+    if (check)
+    {
+        check = FitOrder(order, now);
+    }
     if (!check)
     {
         return check;
     }
+    _withdrawnOrderID.clear();
     _phase = EOrderPhase::Sent;
     _orderID = order.orderID;
     _lastSentUpdateID = order.orderUpdateID;
@@ -213,6 +240,10 @@ Core::Result<void> MasterSession::SendOrderUpdate(OrderMessage update, Core::Now
     }
     update.orderID = _orderID;
     Core::Result<void> check = CheckStructure(update);
+    if (check)
+    {
+        check = FitOrder(update, now);
+    }
     if (!check)
     {
         return check;
@@ -255,10 +286,16 @@ Core::Result<std::string> MasterSession::SendInstantAction(Action action, Core::
         action.actionID = MakeActionID(action.actionType, now);
     }
     action.blockingType = ChooseBlockingType(action);
+    const Core::Result<void> fit = FitInstantAction(action);
+    if (!fit)
+    {
+        return tl::unexpected(fit.error());
+    }
     std::string actionID = action.actionID;
     if (!IsRequest(action.actionType))
     {
         _pendingActions.push_back(PendingAction{action, 1});
+        _tracked.push_back(TrackedAction{action.actionID, action.actionType, true, false});
         out.emplace_back(StartMasterTimer{EMasterTimer::ResendInstantActions, _options.resendInterval});
     }
     PublishInstantActions({std::move(action)}, now, out);
@@ -285,7 +322,11 @@ Core::Result<void> MasterSession::Cancel(Core::Now now, MasterActions& out)
     _phase = EOrderPhase::Cancelling;
     _cancelActionID = std::move(*actionID);
     // Whether the vehicle has seen what is in flight or not: it must not come again.
-    _inFlight.reset();
+    _withdrawn = std::exchange(_inFlight, std::nullopt);
+    if (_sendCount == 0)
+    {
+        _withdrawn.reset();
+    }
     _queued.reset();
     out.emplace_back(CancelMasterTimer{EMasterTimer::ResendOrder});
     return {};
@@ -319,6 +360,7 @@ void MasterSession::SettlePendingActions(MasterActions& out)
             return false;
         }
         out.emplace_back(InstantActionRejected{actionID, refused->errorType, refused->errorDescription});
+        ForgetAction(actionID);
         return true;
     };
     std::erase_if(_pendingActions, isSettled);
@@ -369,7 +411,10 @@ void MasterSession::ExtendRoute(const OrderMessage& order)
 void MasterSession::AcceptInFlight(Core::Now now, MasterActions& out)
 {
     ExtendRoute(*_inFlight);
-    _acceptedUpdateID = _inFlight->orderUpdateID;
+    TrackOrderActions(*_inFlight);
+    // A master that takes an order up again may know less of it than the vehicle has.
+    _acceptedUpdateID = std::max(_inFlight->orderUpdateID, _state->orderUpdateID);
+    _lastSentUpdateID = std::max(_lastSentUpdateID, _acceptedUpdateID);
     _bAccepted = true;
     _phase = EOrderPhase::Active;
     _inFlight.reset();
@@ -527,12 +572,14 @@ void MasterSession::EndCancel(EActionStatus status, MasterActions& out)
         out.emplace_back(CancelFailed{_orderID, "the vehicle still holds the order"});
         _phase = EOrderPhase::Active;
         _cancelActionID.clear();
+        _withdrawn.reset();
         return;
     }
     else
     {
         out.emplace_back(OrderCancelled{_orderID});
     }
+    _withdrawnOrderID = bHeld ? std::string() : _orderID;
     EndOrder(out);
 }
 
@@ -542,8 +589,10 @@ void MasterSession::EndOrder(MasterActions& out)
     {
         out.emplace_back(CancelMasterTimer{EMasterTimer::ResendOrder});
     }
+    EndOrderActions(out);
     _phase = EOrderPhase::None;
     _orderID.clear();
+    _withdrawn.reset();
     _cancelActionID.clear();
     _inFlight.reset();
     _queued.reset();

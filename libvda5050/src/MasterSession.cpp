@@ -35,6 +35,7 @@ void MasterSession::OnLinkUp(Core::Now /*now*/, MasterActions& /*out*/)
 void MasterSession::OnLinkDown(Core::Now /*now*/, MasterActions& out)
 {
     _bLinkUp = false;
+    _bStateFresh = false;
     _link = EVehicleLink::Unknown;
     for (const EMasterTimer timer :
          {EMasterTimer::ResendOrder, EMasterTimer::ResendInstantActions, EMasterTimer::Silence})
@@ -45,12 +46,34 @@ void MasterSession::OnLinkDown(Core::Now /*now*/, MasterActions& out)
 
 void MasterSession::OnMessage(std::string_view topic, std::string_view payload, Core::Now now, MasterActions& out)
 {
+    Read(topic, payload, false, now, out);
+}
+
+void MasterSession::OnMessage(const MqttMessage& message, Core::Now now, MasterActions& out)
+{
+    Read(message.topic, message.payload, message.bRetained, now, out);
+}
+
+void MasterSession::Read(
+    std::string_view topic,
+    std::string_view payload,
+    bool bRetained,
+    Core::Now now,
+    MasterActions& out)
+{
     const auto* const found = std::ranges::find(_topics, topic);
     if (found == _topics.end() || !_bLinkUp)
     {
         return;
     }
-    switch (static_cast<ETopic>(found - _topics.begin()))
+    const auto said = static_cast<ETopic>(found - _topics.begin());
+    if (bRetained && !IsRetained(said))
+    {
+        // Nobody is to retain it, so nobody knows how old it is: no sign of life, and no word about an order.
+        ++_statistics.retainedIgnored;
+        return;
+    }
+    switch (said)
     {
         case ETopic::State:
             OnState(payload, now, out);
@@ -95,12 +118,46 @@ void MasterSession::Refuse(ETopic topic, Core::Error error, MasterActions& out)
     out.emplace_back(MessageRefused{topic, std::move(error)});
 }
 
+/// Empty names and versions are tolerated: the topic has said it already.
+bool MasterSession::IsForeign(ETopic topic, const Header& header, MasterActions& out)
+{
+    const auto isOther = [](const std::string& found, const std::string& own) {
+        return !found.empty() && found != own;
+    };
+    const VehicleAddress& own = _options.address;
+    if (isOther(header.manufacturer, own.manufacturer) || isOther(header.serialNumber, own.serialNumber))
+    {
+        Refuse(
+            topic,
+            Core::Error{
+                make_error_code(EVda5050Error::InvalidTopic),
+                "serialNumber",
+                own.manufacturer + "/" + own.serialNumber,
+                header.manufacturer + "/" + header.serialNumber},
+            out);
+        return true;
+    }
+    if (!header.version.empty() && !ReadVersionOrNull(header.version).has_value())
+    {
+        Refuse(
+            topic,
+            Core::Error{make_error_code(EVda5050Error::UnsupportedVersion), "version", "2.x", header.version},
+            out);
+        return true;
+    }
+    return false;
+}
+
 void MasterSession::OnConnection(std::string_view payload, Core::Now now, MasterActions& out)
 {
     const Core::Result<ConnectionMessage> message = _codec.Decode<ConnectionMessage>(payload);
     if (!message)
     {
         Refuse(ETopic::Connection, message.error(), out);
+        return;
+    }
+    if (IsForeign(ETopic::Connection, message->header, out))
+    {
         return;
     }
     switch (message->connectionState)
@@ -126,9 +183,10 @@ void MasterSession::ComeOnline(Core::Now now, MasterActions& out)
 {
     _link = EVehicleLink::Online;
     _bSilent = false;
+    _bStateFresh = false;
     _lastStateTime = now.steady;
     out.emplace_back(VehicleOnline{});
-    out.emplace_back(StartMasterTimer{EMasterTimer::Silence, _options.stateInterval + _options.stateMargin});
+    out.emplace_back(StartMasterTimer{EMasterTimer::Silence, GetAllowedSilence()});
     std::vector<Action> requests;
     const auto ask = [this, now, &requests](std::string_view actionType) {
         Action& action = requests.emplace_back();
@@ -158,6 +216,7 @@ void MasterSession::GoAway(EVehicleLink link, MasterActions& out)
         return; // a repeated retained message, or a will after it was read once
     }
     _link = link;
+    _bStateFresh = false;
     for (const EMasterTimer timer :
          {EMasterTimer::ResendOrder, EMasterTimer::ResendInstantActions, EMasterTimer::Silence})
     {
@@ -180,7 +239,7 @@ void MasterSession::CheckSilence(Core::Now now, MasterActions& out)
     {
         return;
     }
-    const Core::Duration allowed = _options.stateInterval + _options.stateMargin;
+    const Core::Duration allowed = GetAllowedSilence();
     const Core::Duration age = now.steady - _lastStateTime;
     if (age < allowed)
     {
@@ -206,6 +265,10 @@ void MasterSession::OnState(std::string_view payload, Core::Now now, MasterActio
         Refuse(ETopic::State, state.error(), out);
         return;
     }
+    if (IsForeign(ETopic::State, state->header, out))
+    {
+        return;
+    }
     if (IsStale(*state))
     {
         ++_statistics.statesIgnored;
@@ -214,14 +277,15 @@ void MasterSession::OnState(std::string_view payload, Core::Now now, MasterActio
     ++_statistics.statesReceived;
     if (_link == EVehicleLink::Unknown)
     {
-        // States are never retained: it lives, whatever became of its connection message.
+        // It lives, whatever became of its connection message.
         ComeOnline(now, out);
     }
     _lastStateTime = now.steady;
+    _bStateFresh = true;
     if (_bSilent && _link == EVehicleLink::Online)
     {
         _bSilent = false;
-        out.emplace_back(StartMasterTimer{EMasterTimer::Silence, _options.stateInterval + _options.stateMargin});
+        out.emplace_back(StartMasterTimer{EMasterTimer::Silence, GetAllowedSilence()});
     }
     const std::optional<StateMessage> previous = std::exchange(_state, std::move(*state));
     out.emplace_back(StateReceived{});
@@ -232,8 +296,10 @@ void MasterSession::OnState(std::string_view payload, Core::Now now, MasterActio
     SettleInFlight(now, out);
     TellDifferences(previous, out);
     SettlePendingActions(out);
+    FollowActions(out);
     FollowOrder(out);
     FollowCancel(out);
+    CancelReappeared(now, out);
 }
 
 void MasterSession::OnVisualization(std::string_view payload, MasterActions& out)
@@ -242,6 +308,10 @@ void MasterSession::OnVisualization(std::string_view payload, MasterActions& out
     if (!message)
     {
         Refuse(ETopic::Visualization, message.error(), out);
+        return;
+    }
+    if (IsForeign(ETopic::Visualization, message->header, out))
+    {
         return;
     }
     if (message->agvPosition.has_value())
@@ -256,6 +326,10 @@ void MasterSession::OnFactsheet(std::string_view payload, MasterActions& out)
     if (!message)
     {
         Refuse(ETopic::Factsheet, message.error(), out);
+        return;
+    }
+    if (IsForeign(ETopic::Factsheet, message->header, out))
+    {
         return;
     }
     _factsheet = std::move(*message);
@@ -307,7 +381,7 @@ const std::string& MasterSession::GetOrderID() const noexcept
 
 bool MasterSession::IsReady() const
 {
-    return _link == EVehicleLink::Online && _state.has_value() && !_bSilent;
+    return _link == EVehicleLink::Online && _bStateFresh && !_bSilent;
 }
 
 bool MasterSession::CanTakeOrder() const

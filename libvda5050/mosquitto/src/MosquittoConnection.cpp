@@ -1,5 +1,6 @@
 #include "MosquittoConnection.hpp"
 
+#include "DescriptorDuplicate.hpp"
 #include "MosquittoError.hpp"
 #include <acs/core/Overloaded.hpp>
 
@@ -11,8 +12,8 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
+#include <mqtt_protocol.h>
 #include <span>
-#include <unistd.h>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -22,7 +23,7 @@ namespace
 
 constexpr std::chrono::seconds HOUSE_KEEPING_PERIOD{1}; ///< libmosquitto looks at its keep-alive then.
 constexpr int MAX_READS = 64;                           ///< Before others on the executor have their turn.
-constexpr int SUBSCRIPTION_REFUSED = 0x80;
+constexpr int SUBSCRIPTION_REFUSED = 0x80;              ///< And above: the reasons of MQTT 5.
 constexpr int PACKETS_PER_CALL = 1;
 
 /// libmosquitto's own state, once for the process.
@@ -84,19 +85,14 @@ std::error_code MosquittoConnection::Open(const MosquittoOptions& options)
     int code = Configure(options);
     if (code == MOSQ_ERR_SUCCESS)
     {
-        const auto keepAlive = static_cast<int>(options.keepAlive.count());
-        const auto connect = IsLoopback(options.host) ? &mosquitto_connect : &mosquitto_connect_async;
-        errno = 0;
-        code = connect(_client.get(), options.host.c_str(), options.port, keepAlive);
+        code = Connect(options);
     }
     if (code != MOSQ_ERR_SUCCESS)
     {
         return MakeMosquittoError(code, errno);
     }
     // A duplicate, because libmosquitto closes its own descriptor whenever it likes.
-    const int descriptor = dup(mosquitto_socket(_client.get()));
-    boost::system::error_code refused;
-    _socket.assign(descriptor, refused); // NOLINT(bugprone-unused-return-value): refused says it
+    const std::error_code refused = AssignDuplicate(_socket, mosquitto_socket(_client.get()));
     if (refused)
     {
         return refused;
@@ -104,7 +100,7 @@ std::error_code MosquittoConnection::Open(const MosquittoOptions& options)
     _connectTimer.expires_after(options.connectTimeout);
     _connectTimer.async_wait([weak = weak_from_this()](const boost::system::error_code& error) {
         const std::shared_ptr<MosquittoConnection> self = weak.lock();
-        if (self != nullptr && !error && !self->_bUp)
+        if (self != nullptr && !error)
         {
             self->Close(std::make_error_code(std::errc::timed_out));
         }
@@ -119,6 +115,11 @@ int MosquittoConnection::Configure(const MosquittoOptions& options)
 {
     mosquitto* const client = _client.get();
     int code = mosquitto_int_option(client, MOSQ_OPT_TCP_NODELAY, 1);
+    if (code == MOSQ_ERR_SUCCESS)
+    {
+        const int version = options.version == EMqttVersion::Version5 ? MQTT_PROTOCOL_V5 : MQTT_PROTOCOL_V311;
+        code = mosquitto_int_option(client, MOSQ_OPT_PROTOCOL_VERSION, version);
+    }
     if (code == MOSQ_ERR_SUCCESS && !options.username.empty())
     {
         code = mosquitto_username_pw_set(client, options.username.c_str(), GetTextOrNull(options.password));
@@ -138,6 +139,37 @@ int MosquittoConnection::Configure(const MosquittoOptions& options)
             will.qos,
             will.bRetained);
     }
+    return code;
+}
+
+int MosquittoConnection::Connect(const MosquittoOptions& options)
+{
+    mosquitto_property* properties = nullptr;
+    int code = MOSQ_ERR_SUCCESS;
+    if (options.version == EMqttVersion::Version5 && !options.bCleanSession)
+    {
+        const auto expiry = static_cast<std::uint32_t>(options.sessionExpiry.count());
+        code = mosquitto_property_add_int32(&properties, MQTT_PROP_SESSION_EXPIRY_INTERVAL, expiry);
+    }
+    mosquitto* const client = _client.get();
+    const auto keepAlive = static_cast<int>(options.keepAlive.count());
+    const char* const host = options.host.c_str();
+    errno = 0;
+    if (code == MOSQ_ERR_SUCCESS && IsLoopback(options.host))
+    {
+        code = mosquitto_connect_bind_v5(client, host, options.port, keepAlive, nullptr, properties);
+    }
+    else if (code == MOSQ_ERR_SUCCESS)
+    {
+        if (properties != nullptr)
+        {
+            // Only the blocking form takes properties. Without a host it keeps them for the next connect, and fails.
+            mosquitto_connect_bind_v5(client, nullptr, 0, 0, nullptr, properties);
+        }
+        errno = 0;
+        code = mosquitto_connect_async(client, host, options.port, keepAlive);
+    }
+    mosquitto_property_free_all(&properties);
     return code;
 }
 
@@ -179,7 +211,7 @@ void MosquittoConnection::SetCallbacks()
         client,
         [](mosquitto*, void* self, int messageID, int count, const int* grantedOrNull) {
             const std::span<const int> granted(grantedOrNull, static_cast<std::size_t>(count));
-            const bool bGranted = std::ranges::find(granted, SUBSCRIPTION_REFUSED) == granted.end();
+            const bool bGranted = std::ranges::none_of(granted, [](int code) { return code >= SUBSCRIPTION_REFUSED; });
             static_cast<MosquittoConnection*>(self)->_events.emplace_back(Subscribed{messageID, bGranted});
         });
 }
@@ -192,7 +224,6 @@ void MosquittoConnection::HandleConnect(int returnCode)
         return;
     }
     _bUp = true;
-    _connectTimer.cancel();
     _events.emplace_back(Up{});
 }
 
@@ -247,6 +278,11 @@ std::optional<int> MosquittoConnection::SubscribeOrNull(const MqttSubscription& 
     }
     Settle(MOSQ_ERR_SUCCESS, 0);
     return messageID;
+}
+
+void MosquittoConnection::Confirm()
+{
+    _connectTimer.cancel();
 }
 
 void MosquittoConnection::TakeLeave()

@@ -8,6 +8,7 @@
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/steady_timer.hpp>
 
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -92,6 +93,8 @@ public:
     [[nodiscard]] Core::Result<int> Publish(const MqttMessage& message);
     /// The id with which OnSubscribed comes; nothing where there is no connection or the filter is none.
     [[nodiscard]] std::optional<int> SubscribeOrNull(const MqttSubscription& subscription);
+    /// The owner has all that it waited for: the time to connect is no longer counted.
+    void Confirm();
     /// Ends with OnConnectionClosed.
     void TakeLeave();
     /// Ends at once; the owner hears no more.
@@ -102,6 +105,7 @@ public:
 private:
     [[nodiscard]] int Configure(const MosquittoOptions& options);
     [[nodiscard]] int ConfigureTls(const MosquittoTls& tls);
+    [[nodiscard]] int Connect(const MosquittoOptions& options);
     void SetCallbacks();
     void WaitToRead();
     void WaitToWrite();

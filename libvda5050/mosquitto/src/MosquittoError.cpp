@@ -2,10 +2,16 @@
 
 #include <mosquitto.h>
 
+#include <algorithm>
+#include <array>
+#include <mqtt_protocol.h>
+
 namespace ACS::VDA5050
 {
 namespace
 {
+
+constexpr int FIRST_REASON = 0x80; ///< From here on the reasons of MQTT 5; libmosquitto's own codes are smaller.
 
 class MosquittoCategory final : public std::error_category
 {
@@ -17,7 +23,7 @@ public:
 
     [[nodiscard]] std::string message(int code) const override
     {
-        std::string text = mosquitto_strerror(code);
+        std::string text = code >= FIRST_REASON ? mosquitto_reason_string(code) : mosquitto_strerror(code);
         while (text.ends_with('.'))
         {
             text.pop_back();
@@ -34,6 +40,11 @@ const std::error_category& GetMosquittoCategory()
 
 constexpr int CONNACK_BAD_LOGIN = 4;
 constexpr int CONNACK_NOT_AUTHORISED = 5;
+constexpr std::array LOGIN_REFUSALS{
+    CONNACK_BAD_LOGIN,
+    CONNACK_NOT_AUTHORISED,
+    static_cast<int>(MQTT_RC_BAD_USERNAME_OR_PASSWORD),
+    static_cast<int>(MQTT_RC_NOT_AUTHORIZED)};
 
 } // namespace
 
@@ -52,11 +63,11 @@ std::error_code MakeMosquittoError(int code, int systemError)
 
 std::error_code MakeConnackError(int returnCode)
 {
-    if (returnCode == CONNACK_BAD_LOGIN || returnCode == CONNACK_NOT_AUTHORISED)
+    if (std::ranges::find(LOGIN_REFUSALS, returnCode) != LOGIN_REFUSALS.end())
     {
         return MakeMosquittoError(MOSQ_ERR_AUTH, 0);
     }
-    return MakeMosquittoError(MOSQ_ERR_CONN_REFUSED, 0);
+    return MakeMosquittoError(returnCode >= FIRST_REASON ? returnCode : MOSQ_ERR_CONN_REFUSED, 0);
 }
 
 std::string MakeConnectAdvice(const std::error_code& reason)

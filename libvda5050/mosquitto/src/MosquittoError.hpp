@@ -10,7 +10,8 @@ namespace ACS::VDA5050
 /// Zero is no error.
 [[nodiscard]] std::error_code MakeMosquittoError(int code, int systemError);
 
-/// What the broker answered to CONNECT, 1 to 5 of MQTT 3.1.1: 4 and 5 are MOSQ_ERR_AUTH, others MOSQ_ERR_CONN_REFUSED.
+/// What the broker answered to CONNECT: a wrong login is MOSQ_ERR_AUTH; 1 to 3 of MQTT 3.1.1 are MOSQ_ERR_CONN_REFUSED,
+/// a reason of MQTT 5 stays what it is.
 [[nodiscard]] std::error_code MakeConnackError(int returnCode);
 
 /// What a person can do about it, as the end of a sentence.

@@ -28,6 +28,7 @@ class MosquittoLink::Impl final : public IMosquittoConnectionOwner, public std::
     std::vector<MqttSubscription> _subscriptions;
     std::set<int> _unconfirmed;
     std::vector<MqttMessage> _early;
+    std::size_t _earlyDropped = 0;
     std::optional<int> _lastMessageID;
     StopHandler _stopHandler;
     bool _bUp = false;
@@ -166,6 +167,7 @@ void MosquittoLink::Impl::Connect()
 {
     _unconfirmed.clear();
     _early.clear();
+    _earlyDropped = 0;
     _connectionOrNull = std::make_shared<MosquittoConnection>(_executor, *this);
     const std::error_code refused = _connectionOrNull->Open(_options);
     if (refused)
@@ -245,7 +247,14 @@ void MosquittoLink::Impl::AnnounceWhenConfirmed()
     }
     _bUp = true;
     _bOutageLogged = false;
+    _connectionOrNull->Confirm();
     _logger.Info("connected to the MQTT broker", {{"broker", GetAddress()}, {"client", _options.clientID}});
+    if (_earlyDropped > 0)
+    {
+        _logger.Error(
+            "too many retained messages at once: the rest is dropped",
+            {{"broker", GetAddress()}, {"dropped", std::to_string(_earlyDropped)}});
+    }
     _timer.expires_after(STABLE_AFTER);
     _timer.async_wait([weak = weak_from_this()](const boost::system::error_code& error) {
         const std::shared_ptr<Impl> self = weak.lock();
@@ -270,7 +279,14 @@ void MosquittoLink::Impl::OnConnectionMessage(const MqttMessage& message)
     }
     if (!_bUp)
     {
-        _early.push_back(message);
+        if (_early.size() < _options.maxEarly)
+        {
+            _early.push_back(message);
+        }
+        else
+        {
+            ++_earlyDropped;
+        }
         return;
     }
     _listenerOrNull->OnMqttMessage(message);

@@ -11,6 +11,7 @@ namespace
 {
 
 using namespace std::chrono_literals;
+using VDA5050::EMqttVersion;
 using VDA5050::MqttMessage;
 using VDA5050::MqttWill;
 
@@ -18,11 +19,20 @@ class LinkTest
 {
 protected:
     boost::asio::io_context _context;
-    MosquittoBroker _broker;
+    /// Without a bound of its own: what it drops for a slow receiver is no matter of the link.
+    MosquittoBroker _broker{"allow_anonymous true\nmax_queued_messages 0\n"};
+    EMqttVersion _version = EMqttVersion::Version311;
+
+    [[nodiscard]] VDA5050::MosquittoOptions MakeVersionOptions(const std::string& clientID) const
+    {
+        VDA5050::MosquittoOptions options = MakeOptions(_broker.GetPort(), clientID);
+        options.version = _version;
+        return options;
+    }
 
     [[nodiscard]] std::unique_ptr<TestLink> MakeConnected(const std::string& clientID, const std::string& filter)
     {
-        auto made = std::make_unique<TestLink>(_context, MakeOptions(_broker.GetPort(), clientID));
+        auto made = std::make_unique<TestLink>(_context, MakeVersionOptions(clientID));
         if (!filter.empty())
         {
             made->link.Subscribe({{filter, 2}});
@@ -37,6 +47,7 @@ protected:
 
 TEST_CASE_METHOD(LinkTest, "6.2 A message arrives with its quality of service, its bytes and nothing else")
 {
+    _version = GENERATE(EMqttVersion::Version311, EMqttVersion::Version5);
     const auto receiver = MakeConnected("receiver", "uagv/v2/ACS/LR01/#");
     const auto sender = MakeConnected("sender", "");
     const std::string bytes("{\"a\":\0\xFF}", 8);
@@ -55,12 +66,13 @@ TEST_CASE_METHOD(LinkTest, "6.2 A message arrives with its quality of service, i
 
 TEST_CASE_METHOD(LinkTest, "6.5 A retained message meets who subscribes later, marked as retained, after OnLinkUp")
 {
+    _version = GENERATE(EMqttVersion::Version311, EMqttVersion::Version5);
     const auto sender = MakeConnected("sender", "");
     REQUIRE(sender->link.Publish({"uagv/v2/ACS/LR01/connection", "ONLINE", 1, true}).has_value());
     const auto probe = MakeConnected("probe", "uagv/#");
     REQUIRE(TryRunUntil(_context, [&]() { return !probe->listener.messages.empty(); }));
 
-    TestLink late(_context, MakeOptions(_broker.GetPort(), "late"));
+    TestLink late(_context, MakeVersionOptions("late"));
     std::size_t messagesBeforeUp = 99;
     late.listener.whenUp = [&]() {
         messagesBeforeUp = late.listener.messages.size();
@@ -74,10 +86,11 @@ TEST_CASE_METHOD(LinkTest, "6.5 A retained message meets who subscribes later, m
 
 TEST_CASE_METHOD(LinkTest, "6.14 The broker publishes the will of a link that vanishes, not of one that takes leave")
 {
+    _version = GENERATE(EMqttVersion::Version311, EMqttVersion::Version5);
     const auto watcher = MakeConnected("watcher", "last/#");
     for (const bool bTakesLeave : {true, false})
     {
-        auto options = MakeOptions(_broker.GetPort(), "vehicle");
+        auto options = MakeVersionOptions("vehicle");
         options.will = MqttWill{{"last/words", "CONNECTIONBROKEN", 1, true}};
         auto vehicle = std::make_unique<TestLink>(_context, options);
         vehicle->link.Start();
@@ -98,6 +111,7 @@ TEST_CASE_METHOD(LinkTest, "6.14 The broker publishes the will of a link that va
 
 TEST_CASE_METHOD(LinkTest, "6.2 After an outage of the broker the link connects and subscribes again by itself")
 {
+    _version = GENERATE(EMqttVersion::Version311, EMqttVersion::Version5);
     const auto link = MakeConnected("survivor", "topic");
     const auto other = MakeConnected("other", "");
     _broker.Kill();
@@ -129,6 +143,36 @@ TEST_CASE_METHOD(LinkTest, "A broker that is not there is named once, with what 
     CHECK(link.listener.downs == 0);
     _broker.Restart();
     REQUIRE(TryRunUntil(_context, [&]() { return link.listener.ups == 1; }));
+}
+
+TEST_CASE_METHOD(
+    LinkTest,
+    "2 A persistent session is kept by the broker with what came for it meanwhile, a clean one is not")
+{
+    _version = GENERATE(EMqttVersion::Version311, EMqttVersion::Version5);
+    const bool bCleanSession = GENERATE(false, true);
+    const auto sender = MakeConnected("sender", "");
+    auto options = MakeVersionOptions("sleeper");
+    options.bCleanSession = bCleanSession;
+    const auto connect = [&]() {
+        auto link = std::make_unique<TestLink>(_context, options);
+        link->link.Subscribe({{"topic", 2}});
+        link->link.Start();
+        REQUIRE(TryRunUntil(_context, [&]() { return link->listener.ups == 1; }));
+        return link;
+    };
+    auto sleeper = connect();
+    bool bStopped = false;
+    sleeper->link.StopAsync(std::nullopt, 5s, [&]() { bStopped = true; });
+    REQUIRE(TryRunUntil(_context, [&]() { return bStopped; }));
+    REQUIRE(sender->link.Publish({"topic", "meanwhile", 2, false}).has_value());
+    const auto probe = MakeConnected("probe", "topic");
+    REQUIRE(sender->link.Publish({"topic", "before", 2, false}).has_value());
+    REQUIRE(TryRunUntil(_context, [&]() { return probe->listener.Contains("topic", "before"); }));
+    sleeper = connect();
+    REQUIRE(sender->link.Publish({"topic", "now", 2, false}).has_value());
+    REQUIRE(TryRunUntil(_context, [&]() { return sleeper->listener.Contains("topic", "now"); }));
+    CHECK(sleeper->listener.Contains("topic", "meanwhile") == !bCleanSession);
 }
 
 TEST_CASE("A broker that refuses the password is told apart from one that is not there")

@@ -1,162 +1,11 @@
 #include "Catch.hpp"
-#include "ManualClock.hpp"
-#include "Vda5050Sample.hpp"
+#include "MasterBench.hpp"
 #include <acs/vda5050/EVda5050Error.hpp>
-#include <acs/vda5050/MasterSession.hpp>
 
 #include <algorithm>
 
 namespace ACS::VDA5050::Test
 {
-
-namespace
-{
-
-MasterOptions MakeMasterOptions()
-{
-    MasterOptions options;
-    options.address = MakeAddress();
-    return options;
-}
-
-/// A master whose vehicle is written by the test.
-class MasterBench
-{
-    Testing::ManualClock _clock;
-    MasterActions _out;
-    std::uint32_t _headerID = 0;
-
-public:
-    MasterSession session;
-    StateMessage state;
-
-    explicit MasterBench(MasterOptions options = MakeMasterOptions())
-        : session(std::move(options))
-    {
-        state.lastNodeID = "N0";
-        session.OnLinkUp(_clock.GetNow(), _out);
-    }
-
-    MasterBench(const MasterBench&) = delete;
-    MasterBench& operator=(const MasterBench&) = delete;
-    MasterBench(MasterBench&&) = delete;
-    MasterBench& operator=(MasterBench&&) = delete;
-
-    ~MasterBench() // as Clear: what was published is held against the schemas
-    {
-        CheckPublished(_out);
-    }
-
-    [[nodiscard]] const MasterActions& GetOutput() const
-    {
-        return _out;
-    }
-
-    MasterActions& Clear()
-    {
-        CheckPublished(_out);
-        _out.clear();
-        return _out;
-    }
-
-    [[nodiscard]] Core::Now GetNow() const
-    {
-        return _clock.GetNow();
-    }
-
-    void Connect(EConnectionState connection)
-    {
-        ConnectionMessage message;
-        message.header = Header{_headerID++, _clock.GetNow().wall, "2.0.0", "ACS", "LR01"};
-        message.connectionState = connection;
-        Say(ETopic::Connection, Vda5050Codec().Encode(message, EVda5050Version::Version200));
-    }
-
-    void Say(ETopic topic, std::string_view payload)
-    {
-        session.OnMessage(BuildTopic(MakeAddress(), topic), payload, _clock.GetNow(), _out);
-    }
-
-    void SendState()
-    {
-        state.header = Header{_headerID++, _clock.GetNow().wall, "2.0.0", "ACS", "LR01"};
-        Say(ETopic::State, Vda5050Codec().Encode(state, EVda5050Version::Version200));
-    }
-
-    void BeReady()
-    {
-        Connect(EConnectionState::Online);
-        SendState();
-        Clear();
-    }
-
-    void Wait(std::chrono::milliseconds span, EMasterTimer timer)
-    {
-        _clock.Advance(span);
-        session.OnTimer(timer, _clock.GetNow(), _out);
-    }
-
-    /// As a vehicle shows an order that it has taken.
-    void Hold(const OrderMessage& order, std::size_t nodesLeft)
-    {
-        state.orderID = order.orderID;
-        state.orderUpdateID = order.orderUpdateID;
-        state.nodeStates.clear();
-        state.edgeStates.clear();
-        for (std::size_t index = order.nodes.size() - nodesLeft; index < order.nodes.size(); ++index)
-        {
-            const OrderNode& node = order.nodes[index];
-            state.nodeStates.push_back(NodeState{node.nodeID, node.sequenceID, {}, node.bReleased, {}});
-        }
-        const OrderNode& last = order.nodes[order.nodes.size() - nodesLeft - 1];
-        state.lastNodeID = last.nodeID;
-        state.lastNodeSequenceID = last.sequenceID;
-    }
-
-    void Refuse(std::string_view errorType, const std::vector<ErrorReference>& references)
-    {
-        VehicleError error;
-        error.errorType = errorType;
-        error.errorReferences = references;
-        error.errorDescription = "because";
-        state.errors = {error};
-        SendState();
-    }
-
-    [[nodiscard]] std::vector<MqttMessage> GetSent(ETopic topic) const
-    {
-        std::vector<MqttMessage> sent;
-        for (const PublishMessage& publish : Pick<PublishMessage>(_out))
-        {
-            if (publish.message.topic == BuildTopic(MakeAddress(), topic))
-            {
-                sent.push_back(publish.message);
-            }
-        }
-        return sent;
-    }
-
-    [[nodiscard]] OrderMessage GetSentOrder() const
-    {
-        const std::vector<MqttMessage> sent = GetSent(ETopic::Order);
-        REQUIRE_FALSE(sent.empty());
-        const Core::Result<OrderMessage> order = Vda5050Codec().Decode<OrderMessage>(sent.back().payload);
-        REQUIRE(order.has_value());
-        return *order;
-    }
-};
-
-std::vector<std::string> ListReached(const MasterActions& actions)
-{
-    std::vector<std::string> ids;
-    for (const NodeReached& node : Pick<NodeReached>(actions))
-    {
-        ids.push_back(node.nodeID);
-    }
-    return ids;
-}
-
-} // namespace
 
 TEST_CASE("6 ONLINE asks for state and factsheet; OFFLINE, the will and repeated retained messages are told once")
 {
@@ -435,6 +284,64 @@ TEST_CASE("2 A state that is older than one that came is ignored; ids that begin
     CHECK(bench.session.GetStatistics().statesIgnored == 1);
     old.header.timestamp += std::chrono::seconds(2);
     bench.Say(ETopic::State, Vda5050Codec().Encode(old, EVda5050Version::Version200));
+    CHECK(bench.session.GetStatistics().statesReceived == 2);
+}
+
+TEST_CASE("2 A retained state is no news: it brings no vehicle online and speaks for no order")
+{
+    MasterBench bench;
+    StateMessage state;
+    state.header = Header{7, bench.GetNow().wall, "2.0.0", "ACS", "LR01"};
+    const MqttMessage message{
+        BuildTopic(MakeAddress(), ETopic::State),
+        Vda5050Codec().Encode(state, EVda5050Version::Version200),
+        1,
+        true};
+    bench.session.OnMessage(message, bench.GetNow(), bench.Clear());
+    CHECK(bench.GetOutput().empty());
+    CHECK(bench.session.GetLink() == EVehicleLink::Unknown);
+    CHECK(bench.session.GetStateOrNull() == nullptr);
+    CHECK(bench.session.GetStatistics().retainedIgnored == 1);
+    MqttMessage live = message;
+    live.bRetained = false;
+    bench.session.OnMessage(live, bench.GetNow(), bench.Clear());
+    CHECK(bench.session.GetLink() == EVehicleLink::Online);
+    CHECK(bench.session.IsReady());
+}
+
+TEST_CASE("6 After an outage of our link the retained ONLINE alone makes no vehicle ready: its state is of before")
+{
+    MasterBench bench;
+    bench.BeReady();
+    REQUIRE(bench.session.IsReady());
+    bench.session.OnLinkDown(bench.GetNow(), bench.Clear());
+    bench.session.OnLinkUp(bench.GetNow(), bench.Clear());
+    bench.Connect(EConnectionState::Online);
+    CHECK(bench.session.GetLink() == EVehicleLink::Online);
+    CHECK_FALSE(bench.session.IsReady());
+    CHECK_FALSE(bench.session.CanTakeOrder());
+    bench.SendState();
+    CHECK(bench.session.CanTakeOrder());
+}
+
+TEST_CASE("3.1 A header of another vehicle or another major version is refused; empty names are tolerated")
+{
+    MasterBench bench;
+    bench.BeReady();
+    StateMessage state = bench.state;
+    const auto say = [&](const std::string& version, const std::string& manufacturer, const std::string& serial) {
+        state.header = Header{99, bench.GetNow().wall + std::chrono::seconds(1), version, manufacturer, serial};
+        bench.Clear();
+        bench.Say(ETopic::State, Vda5050Codec().Encode(state, EVda5050Version::Version200));
+        return Pick<MessageRefused>(bench.GetOutput()).size() == 1;
+    };
+    CHECK(say("2.0.0", "OTHER", "LR01"));
+    CHECK(say("2.0.0", "ACS", "LR02"));
+    CHECK(say("3.0.0", "ACS", "LR01"));
+    CHECK(Pick<MessageRefused>(bench.GetOutput())[0].error.code == EVda5050Error::UnsupportedVersion);
+    CHECK(bench.session.GetStatistics().messagesRefused == 3);
+    CHECK(bench.session.GetStatistics().statesReceived == 1);
+    CHECK_FALSE(say("2.1.0", "", ""));
     CHECK(bench.session.GetStatistics().statesReceived == 2);
 }
 

@@ -15,6 +15,7 @@ enum class EVda5050Error
     OrderActive = 5,        ///< Another order is not finished; cancel it or wait.
     NoOrder = 6,            ///< There is no order to update or to cancel.
     UpdatePending = 7,      ///< An update already waits until the one before is echoed.
+    NotSupported = 8,       ///< The vehicle's factsheet has no such action, optional member or size; it was not sent.
 };
 
 [[nodiscard]] std::error_code make_error_code(EVda5050Error error) noexcept;

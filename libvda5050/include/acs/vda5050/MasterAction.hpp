@@ -133,6 +133,16 @@ struct ActionChanged
     bool operator==(const ActionChanged&) const = default;
 };
 
+/// An action that was seen, or belonged to an order that has ended, and whose end nobody will hear of any more.
+struct ActionLost
+{
+    std::string actionID;
+    std::string actionType;
+    std::string reason;
+
+    bool operator==(const ActionLost&) const = default;
+};
+
 /// The vehicle refuses an instant action by an error, or never showed it.
 struct InstantActionRejected
 {
@@ -157,6 +167,15 @@ struct OrderCancelled
     std::string orderID;
 
     bool operator==(const OrderCancelled&) const = default;
+};
+
+/// The vehicle runs an order that was cancelled before it had seen it: a message that came late. Cancelled once more by
+/// itself; the end of that is told as that of any cancel.
+struct OrderReappeared
+{
+    std::string orderID;
+
+    bool operator==(const OrderReappeared&) const = default;
 };
 
 /// The cancelOrder action failed though the vehicle still holds the order, or was refused.
@@ -211,9 +230,11 @@ using MasterAction = std::variant<
     OrderRejected,
     NodeReached,
     ActionChanged,
+    ActionLost,
     InstantActionRejected,
     OrderFinished,
     OrderCancelled,
+    OrderReappeared,
     CancelFailed,
     OrderLost,
     VehicleErrorChanged,

@@ -26,6 +26,8 @@ struct MasterOptions
     std::chrono::milliseconds stateMargin{5'000};
     /// Ask for the factsheet at online unless the retained one has come.
     bool bFactsheetRequested = true;
+    /// Send only what the factsheet supports, once it has come: see MasterSession::SendOrder.
+    bool bFactsheetObeyed = true;
     /// Ask for a state at online: the retained ONLINE may be the only thing that the broker still has.
     bool bStateRequested = true;
     /// Prefix of the ids of the session's own actions (cancelOrder, stateRequest, …). They are made unique by the wall

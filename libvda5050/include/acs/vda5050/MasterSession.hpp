@@ -36,11 +36,23 @@ enum class EOrderPhase : std::uint8_t
     Cancelling, ///< Cancel was asked for.
 };
 
+/// A node or an edge on which the vehicle may drive without another word from us.
+struct ReservedElement
+{
+    std::string elementID;
+    std::uint32_t sequenceID = 0;
+    bool bEdge = false;
+    bool bShown = false; ///< By the vehicle's state; else sent to it and not yet answered.
+
+    bool operator==(const ReservedElement&) const = default;
+};
+
 /// What a session has counted since it was made.
 struct MasterStatistics
 {
     std::uint64_t statesReceived = 0;
-    std::uint64_t statesIgnored = 0; ///< Older than one that came before it.
+    std::uint64_t statesIgnored = 0;   ///< Older than one that came before it.
+    std::uint64_t retainedIgnored = 0; ///< States and visualizations that somebody had retained: of unknown age.
     std::uint64_t messagesRefused = 0;
     std::uint64_t messagesSent = 0;
     std::uint64_t ordersResent = 0;
@@ -59,6 +71,14 @@ class MasterSession
         std::uint32_t sendCount = 0;
     };
 
+    struct TrackedAction
+    {
+        std::string actionID;
+        std::string actionType;
+        bool bInstant = false;
+        bool bShown = false;
+    };
+
     struct RouteNode
     {
         std::string nodeID;
@@ -75,6 +95,7 @@ class MasterSession
     bool _bLinkUp = false;
     EVehicleLink _link = EVehicleLink::Unknown;
     bool _bSilent = false;
+    bool _bStateFresh = false; ///< A state came since the vehicle is online.
     Core::SteadyTime _lastStateTime;
     std::optional<StateMessage> _state;
     std::optional<FactsheetMessage> _factsheet;
@@ -86,6 +107,10 @@ class MasterSession
     std::optional<OrderMessage> _inFlight; ///< Sent and not yet echoed.
     std::optional<OrderMessage> _queued;   ///< Waits for the echo of the one in flight.
     std::uint32_t _sendCount = 0;
+    std::optional<Core::SteadyTime> _lastOrderTime; ///< When one was published last.
+    std::optional<OrderMessage> _withdrawn;         ///< In flight when the cancel was sent: the vehicle may have it.
+    std::string _withdrawnOrderID;                  ///< Cancelled without having been seen.
+    std::vector<TrackedAction> _tracked;            ///< Not yet ended.
     std::vector<VehicleError> _errorsBeforeSend;
     std::vector<RouteNode> _route; ///< Accepted nodes, base and horizon.
     std::size_t _reachedNodes = 0; ///< How many of _route were told.
@@ -93,6 +118,8 @@ class MasterSession
     std::string _cancelActionID;
     std::uint32_t _ownActionCount = 0;
 
+    void Read(std::string_view topic, std::string_view payload, bool bRetained, Core::Now now, MasterActions& out);
+    [[nodiscard]] bool IsForeign(ETopic topic, const Header& header, MasterActions& out);
     void OnConnection(std::string_view payload, Core::Now now, MasterActions& out);
     void OnState(std::string_view payload, Core::Now now, MasterActions& out);
     void OnVisualization(std::string_view payload, MasterActions& out);
@@ -121,6 +148,21 @@ class MasterSession
     [[nodiscard]] std::pair<std::string, std::uint32_t> GetDecisionPoint() const;
     [[nodiscard]] bool IsPending(std::string_view actionID) const;
 
+    void TrackOrderActions(const OrderMessage& order);
+    void FollowActions(MasterActions& out);
+    void EndOrderActions(MasterActions& out);
+    void ForgetAction(std::string_view actionID);
+    void CancelReappeared(Core::Now now, MasterActions& out);
+
+    /// Null where there is no factsheet, or it is not to be obeyed.
+    [[nodiscard]] const FactsheetMessage* GetRulesOrNull() const;
+    [[nodiscard]] Core::Result<void> FitOrder(OrderMessage& order, Core::Now now) const;
+    [[nodiscard]] Core::Result<void> FitInstantAction(Action& action) const;
+    [[nodiscard]] Core::Duration GetOrderInterval() const;
+    [[nodiscard]] Core::Duration GetAllowedSilence() const;
+    [[nodiscard]] std::size_t GetMaximumInstantActions() const;
+
+    [[nodiscard]] Header PeekHeader(ETopic topic, Core::Now now) const;
     [[nodiscard]] Header MakeHeader(ETopic topic, Core::Now now);
     void PublishPayload(ETopic topic, std::string payload, MasterActions& out);
     void PublishOrder(Core::Now now, MasterActions& out);
@@ -139,30 +181,42 @@ public:
     void OnLinkUp(Core::Now now, MasterActions& out);
     /// Our own link is down: the vehicle is Unknown from now on, orders stay as they are and are resent after OnLinkUp.
     void OnLinkDown(Core::Now now, MasterActions& out);
-    /// Messages of other vehicles and topics are ignored.
+    /// Messages of other vehicles and topics are ignored. A header with another vehicle's name or another major version
+    /// is refused; a state or visualization that was retained is no news, and only counted.
+    void OnMessage(const MqttMessage& message, Core::Now now, MasterActions& out);
+    /// As a message that was not retained.
     void OnMessage(std::string_view topic, std::string_view payload, Core::Now now, MasterActions& out);
     void OnTimer(EMasterTimer timer, Core::Now now, MasterActions& out);
 
     /// Sends an order (orderID and its route filled in, its header not) and resends it until the vehicle shows it. The
     /// orderUpdateID is sent as given: 0, or that of an order which is taken up again after a restart of the master (the
-    /// vehicle discards what it has already, and shows it). Errors: VehicleNotReady, OrderActive, InvalidOrder.
+    /// vehicle discards what it has already, and shows it).
+    /// Held against the factsheet, if one has come: unlisted tolerances and lengths are left out, any other optional
+    /// member, action, parameter or size that it does not list is an error; an empty list refuses nothing.
+    /// Errors: VehicleNotReady, OrderActive, InvalidOrder, NotSupported.
     [[nodiscard]] Core::Result<void> SendOrder(OrderMessage order, Core::Now now, MasterActions& out);
     /// The next update of the running order: nodes from the decision point on. Its orderID and orderUpdateID are set
-    /// here. Waits for the echo of the message before it; one may wait. Errors: NoOrder, UpdatePending, InvalidOrder.
+    /// here. Waits for the echo of the message before it; one may wait.
+    /// Errors: NoOrder, UpdatePending, InvalidOrder, NotSupported.
     [[nodiscard]] Core::Result<void> SendOrderUpdate(OrderMessage update, Core::Now now, MasterActions& out);
     /// Sends an instant action until the vehicle shows its id. blockingType is set as vehicles of 2.x want it.
-    /// An empty actionID is filled in; the result is the id. Errors: VehicleNotReady.
+    /// An empty actionID is filled in; the result is the id. Errors: VehicleNotReady, NotSupported
+    /// (never for cancelOrder, startPause, stopPause, stateRequest and factsheetRequest).
     [[nodiscard]] Core::Result<std::string> SendInstantAction(Action action, Core::Now now, MasterActions& out);
     /// Cancels the order: not yet seen by the vehicle, or running. Ends with OrderCancelled, OrderFinished (it was
     /// quicker), OrderLost or CancelFailed. Errors: NoOrder, VehicleNotReady.
     [[nodiscard]] Core::Result<void> Cancel(Core::Now now, MasterActions& out);
+
+    /// What must be kept free for the vehicle: its last node and the base that its last state shows, by whoever gave it
+    /// and however old the state is, and then the base of the message that it has not answered.
+    [[nodiscard]] std::vector<ReservedElement> ListReserved() const;
 
     [[nodiscard]] EVehicleLink GetLink() const noexcept;
     [[nodiscard]] EOrderPhase GetOrderPhase() const noexcept;
     [[nodiscard]] const std::string& GetOrderID() const noexcept;
     /// Online, a state has come, mode AUTOMATIC or SEMIAUTOMATIC, and no order runs.
     [[nodiscard]] bool CanTakeOrder() const;
-    /// Online, a state has come and is not overdue.
+    /// Online, a state has come since then and is not overdue.
     [[nodiscard]] bool IsReady() const;
     /// The last state, null before the first.
     [[nodiscard]] const StateMessage* GetStateOrNull() const noexcept;

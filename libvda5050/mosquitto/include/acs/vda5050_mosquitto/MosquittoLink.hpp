@@ -17,7 +17,7 @@
 namespace ACS::VDA5050
 {
 
-/// One connection to an MQTT 3.1.1 broker through libmosquitto, on the caller's executor and without a thread of its
+/// One connection to an MQTT 3.1.1 or 5 broker through libmosquitto, on the caller's executor and without a thread of its
 /// own. Connects, and connects again for ever with growing pauses; says so in the log once per outage, not per attempt.
 /// What is published while there is no connection is refused: the sessions above send again.
 ///

@@ -20,8 +20,15 @@ struct MosquittoTls
     std::string keyFile;  ///< Its key, not encrypted; given exactly if certFile is.
 };
 
+enum class EMqttVersion : std::uint8_t
+{
+    Version311,
+    Version5,
+};
+
 struct MosquittoOptions
 {
+    EMqttVersion version = EMqttVersion::Version311;
     std::string host = "127.0.0.1"; ///< A name or an address (IPv6 without brackets).
     std::uint16_t port = 1883;
     std::string clientID; ///< Unique on the broker; empty: the broker or the library makes one (clean session only).
@@ -29,11 +36,18 @@ struct MosquittoOptions
     std::string username;               ///< Empty: none.
     std::string password;
     std::optional<MosquittoTls> tls;
+    /// False: the broker keeps the subscriptions, and what comes for them with QoS 1 or 2, while there is no connection.
+    /// Needs a client id. A message of QoS 2 that was half handed over when the connection broke may be lost or doubled.
     bool bCleanSession = true;
-    std::optional<MqttWill> will;                     ///< See also MosquittoLink::SetWill.
-    Core::BackoffOptions backoff;                     ///< Between attempts to connect.
-    std::chrono::milliseconds connectTimeout{10'000}; ///< From the attempt to the broker's acceptance.
-    std::size_t maxUnsent = 1'000; ///< Messages that may wait for the socket or for the broker's acknowledgement.
+    std::chrono::seconds sessionExpiry{
+        86'400};                  ///< How long MQTT 5 keeps such a session; 3.1.1 leaves it to the broker.
+    std::optional<MqttWill> will; ///< See also MosquittoLink::SetWill.
+    Core::BackoffOptions backoff; ///< Between attempts to connect.
+    std::chrono::milliseconds connectTimeout{10'000}; ///< From the attempt to the last answer to a subscription.
+    /// Messages that may wait for the socket or for the broker's acknowledgement; one more is refused (QueueFull).
+    std::size_t maxUnsent = 1'000;
+    /// Messages that may come in before the broker has answered all subscriptions; more are dropped, with a word in the log.
+    std::size_t maxEarly = 10'000;
 };
 
 } // namespace ACS::VDA5050

@@ -1,0 +1,146 @@
+#include "ActionFault.hpp"
+#include "OrderCapability.hpp"
+#include "OrderErrors.hpp"
+#include <acs/vda5050/EVda5050Error.hpp>
+#include <acs/vda5050/MasterSession.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <string_view>
+#include <utility>
+
+namespace ACS::VDA5050
+{
+
+namespace
+{
+
+/// Members that a vehicle can do without: it keeps its own tolerance, and measures the edge itself. True: left out.
+bool TryLeaveOut(OrderMessage& order, std::string_view path)
+{
+    const auto forPositions = [&order](const auto& change) {
+        for (OrderNode& node : order.nodes)
+        {
+            if (node.nodePosition.has_value())
+            {
+                change(*node.nodePosition);
+            }
+        }
+        return true;
+    };
+    if (path == "order.nodes.nodePosition.allowedDeviationXY")
+    {
+        return forPositions([](NodePosition& position) { position.allowedDeviationXY.reset(); });
+    }
+    if (path == "order.nodes.nodePosition.allowedDeviationTheta")
+    {
+        return forPositions([](NodePosition& position) { position.allowedDeviationTheta.reset(); });
+    }
+    if (path == "order.edges.length")
+    {
+        std::ranges::for_each(order.edges, [](OrderEdge& edge) { edge.length.reset(); });
+        return true;
+    }
+    return false;
+}
+
+Core::Duration ToDuration(double seconds)
+{
+    return std::chrono::duration_cast<Core::Duration>(std::chrono::duration<double>(seconds));
+}
+
+/// A vehicle without these could not be led at all: they are sent whatever its factsheet says.
+bool IsAlwaysSent(std::string_view actionType)
+{
+    return actionType == ActionTypes::CANCEL_ORDER || actionType == ActionTypes::START_PAUSE
+        || actionType == ActionTypes::STOP_PAUSE || actionType == ActionTypes::STATE_REQUEST
+        || actionType == ActionTypes::FACTSHEET_REQUEST;
+}
+
+} // namespace
+
+const FactsheetMessage* MasterSession::GetRulesOrNull() const
+{
+    return _options.bFactsheetObeyed && _factsheet.has_value() ? &*_factsheet : nullptr;
+}
+
+Core::Result<void> MasterSession::FitOrder(OrderMessage& order, Core::Now now) const
+{
+    OrderContext context;
+    context.factsheet = GetRulesOrNull();
+    if (context.factsheet == nullptr)
+    {
+        return {};
+    }
+    for (const OrderViolation& violation : FindUnusable(order, context))
+    {
+        const std::string* const path = FindReferenceOrNull(violation.error, ReferenceKeys::PARAMETER);
+        if (path == nullptr || !TryLeaveOut(order, *path))
+        {
+            break; // found again below
+        }
+    }
+    if (context.factsheet->protocolLimits.maxStringLengths.message.value_or(0) != 0)
+    {
+        order.header = PeekHeader(ETopic::Order, now);
+        context.payloadBytes = _codec.Encode(order, _options.version).size();
+    }
+    const std::vector<OrderViolation> violations = FindUnusable(order, context);
+    if (violations.empty())
+    {
+        return {};
+    }
+    const std::string* const path = FindReferenceOrNull(violations.front().error, ReferenceKeys::PARAMETER);
+    return Core::Fail(
+        EVda5050Error::NotSupported,
+        path == nullptr ? std::string() : *path,
+        violations.front().rule,
+        "order " + order.orderID);
+}
+
+Core::Result<void> MasterSession::FitInstantAction(Action& action) const
+{
+    const FactsheetMessage* const rules = GetRulesOrNull();
+    if (rules == nullptr || rules->protocolFeatures.agvActions.empty())
+    {
+        return {};
+    }
+    const std::optional<ActionFault> fault = FindActionFaultOrNull(*rules, action, EActionScope::Instant);
+    if (fault.has_value() && !IsAlwaysSent(action.actionType))
+    {
+        return Core::Fail(EVda5050Error::NotSupported, fault->field, fault->rule, action.actionType);
+    }
+    const auto row = std::ranges::find(rules->protocolFeatures.agvActions, action.actionType, &AgvAction::actionType);
+    if (row != rules->protocolFeatures.agvActions.end() && !row->blockingTypes.empty()
+        && std::ranges::find(row->blockingTypes, action.blockingType) == row->blockingTypes.end())
+    {
+        action.blockingType = row->blockingTypes.front();
+    }
+    return {};
+}
+
+Core::Duration MasterSession::GetOrderInterval() const
+{
+    const FactsheetMessage* const rules = GetRulesOrNull();
+    return rules == nullptr ? Core::Duration::zero() : ToDuration(rules->protocolLimits.timing.minOrderInterval);
+}
+
+Core::Duration MasterSession::GetAllowedSilence() const
+{
+    Core::Duration interval = _options.stateInterval;
+    if (_factsheet.has_value())
+    {
+        const double announced = _factsheet->protocolLimits.timing.defaultStateInterval.value_or(0.0);
+        interval = std::max(interval, ToDuration(announced));
+    }
+    return interval + _options.stateMargin;
+}
+
+std::size_t MasterSession::GetMaximumInstantActions() const
+{
+    const FactsheetMessage* const rules = GetRulesOrNull();
+    const std::uint32_t limit = rules == nullptr ? 0 : rules->protocolLimits.maxArrayLengths.instantActions.value_or(0);
+    return limit == 0 ? std::string::npos : limit;
+}
+
+} // namespace ACS::VDA5050

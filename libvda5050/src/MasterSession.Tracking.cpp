@@ -1,0 +1,147 @@
+#include <acs/vda5050/ActionMachine.hpp>
+#include <acs/vda5050/MasterSession.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace ACS::VDA5050
+{
+
+void MasterSession::TrackOrderActions(const OrderMessage& order)
+{
+    const auto isDropped = [this](const TrackedAction& tracked) {
+        return !tracked.bInstant && std::ranges::none_of(_route, [&tracked](const RouteNode& node) {
+            return std::ranges::find(node.actionIDs, tracked.actionID) != node.actionIDs.end();
+        });
+    };
+    std::erase_if(_tracked, isDropped);
+    const auto track = [this](const std::vector<Action>& actions) {
+        for (const Action& action : actions)
+        {
+            if (std::ranges::find(_tracked, action.actionID, &TrackedAction::actionID) == _tracked.end())
+            {
+                _tracked.push_back(TrackedAction{action.actionID, action.actionType, false, false});
+            }
+        }
+    };
+    // The node where an update begins has been tracked with the message before it.
+    const std::size_t first = _bAccepted ? 1 : 0;
+    for (std::size_t index = first; index < order.nodes.size(); ++index)
+    {
+        track(order.nodes[index].actions);
+    }
+    for (const OrderEdge& edge : order.edges)
+    {
+        track(edge.actions);
+    }
+}
+
+void MasterSession::FollowActions(MasterActions& out)
+{
+    const auto isEnded = [this, &out](TrackedAction& tracked) {
+        const auto state = std::ranges::find(_state->actionStates, tracked.actionID, &ActionState::actionID);
+        if (state != _state->actionStates.end())
+        {
+            tracked.bShown = true;
+            return IsTerminal(state->actionStatus);
+        }
+        if (tracked.bShown)
+        {
+            out.emplace_back(ActionLost{tracked.actionID, tracked.actionType, "the vehicle no longer reports it"});
+        }
+        return tracked.bShown;
+    };
+    std::erase_if(_tracked, isEnded);
+}
+
+void MasterSession::EndOrderActions(MasterActions& out)
+{
+    const auto isOfOrder = [&out](const TrackedAction& tracked) {
+        if (!tracked.bInstant)
+        {
+            out.emplace_back(ActionLost{tracked.actionID, tracked.actionType, "the order ended without word of it"});
+        }
+        return !tracked.bInstant;
+    };
+    std::erase_if(_tracked, isOfOrder);
+}
+
+void MasterSession::ForgetAction(std::string_view actionID)
+{
+    std::erase_if(_tracked, [actionID](const TrackedAction& tracked) { return tracked.actionID == actionID; });
+}
+
+/// The order of a cancel that the vehicle answered before it had the order: that may come late, from a queue.
+void MasterSession::CancelReappeared(Core::Now now, MasterActions& out)
+{
+    const bool bRuns = _state->orderID == _withdrawnOrderID && !_state->nodeStates.empty();
+    if (_phase != EOrderPhase::None || _withdrawnOrderID.empty() || !bRuns || _link != EVehicleLink::Online)
+    {
+        return;
+    }
+    _orderID = std::exchange(_withdrawnOrderID, {});
+    _bAccepted = true;
+    _phase = EOrderPhase::Active;
+    out.emplace_back(OrderReappeared{_orderID});
+    std::ignore = Cancel(now, out);
+}
+
+std::vector<ReservedElement> MasterSession::ListReserved() const
+{
+    std::vector<ReservedElement> reserved;
+    if (_state.has_value())
+    {
+        if (!_state->lastNodeID.empty())
+        {
+            reserved.push_back(ReservedElement{_state->lastNodeID, _state->lastNodeSequenceID, false, true});
+        }
+        for (const NodeState& node : _state->nodeStates)
+        {
+            if (node.bReleased)
+            {
+                reserved.push_back(ReservedElement{node.nodeID, node.sequenceID, false, true});
+            }
+        }
+        for (const EdgeState& edge : _state->edgeStates)
+        {
+            if (edge.bReleased)
+            {
+                reserved.push_back(ReservedElement{edge.edgeID, edge.sequenceID, true, true});
+            }
+        }
+        std::ranges::stable_sort(reserved, {}, &ReservedElement::sequenceID);
+    }
+    const std::optional<OrderMessage>& open = _inFlight.has_value() ? _inFlight : _withdrawn;
+    if (!open.has_value() || (_inFlight.has_value() && _sendCount == 0))
+    {
+        return reserved;
+    }
+    std::vector<ReservedElement> sent;
+    const auto add = [&reserved, &sent](const std::string& elementID, std::uint32_t sequenceID, bool bEdge) {
+        const ReservedElement element{elementID, sequenceID, bEdge, true};
+        if (std::ranges::find(reserved, element) == reserved.end())
+        {
+            sent.push_back(ReservedElement{elementID, sequenceID, bEdge, false});
+        }
+    };
+    for (const OrderNode& node : open->nodes)
+    {
+        if (node.bReleased)
+        {
+            add(node.nodeID, node.sequenceID, false);
+        }
+    }
+    for (const OrderEdge& edge : open->edges)
+    {
+        if (edge.bReleased)
+        {
+            add(edge.edgeID, edge.sequenceID, true);
+        }
+    }
+    std::ranges::stable_sort(sent, {}, &ReservedElement::sequenceID);
+    std::ranges::move(sent, std::back_inserter(reserved));
+    return reserved;
+}
+
+} // namespace ACS::VDA5050

@@ -1,0 +1,262 @@
+#include "Catch.hpp"
+#include "LinkedMaster.hpp"
+#include "LinkedVehicle.hpp"
+
+namespace ACS::Testing
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+using namespace VDA5050;
+using VDA5050::Test::MakeAction;
+using VDA5050::Test::MakeEdges;
+using VDA5050::Test::MakeNodes;
+
+constexpr std::uint32_t EVERYWHERE = 1'000;
+
+/// A master and a vehicle on a real broker.
+class BrokerTest
+{
+protected:
+    boost::asio::io_context _context;
+    MosquittoBroker _broker;
+    QosTable _qos;
+    EMqttVersion _mqttVersion = EMqttVersion::Version311;
+    EVda5050Version _version = EVda5050Version::Version200;
+
+    [[nodiscard]] MosquittoOptions MakeLinkOptions(const std::string& clientID) const
+    {
+        MosquittoOptions options = MakeOptions(_broker.GetPort(), clientID);
+        options.version = _mqttVersion;
+        return options;
+    }
+
+    [[nodiscard]] std::unique_ptr<LinkedVehicle> MakeVehicle()
+    {
+        VehicleOptions options = LinkedVehicle::MakeOptions(_version);
+        options.qos = _qos;
+        return std::make_unique<LinkedVehicle>(_context, MakeLinkOptions("vehicle"), options);
+    }
+
+    [[nodiscard]] std::unique_ptr<LinkedMaster> MakeMaster()
+    {
+        MasterOptions options;
+        options.address = VDA5050::Test::MakeAddress();
+        options.version = _version;
+        options.qos = _qos;
+        options.resendInterval = 200ms;
+        return std::make_unique<LinkedMaster>(_context, MakeLinkOptions("master"), options);
+    }
+
+    [[nodiscard]] bool WaitUntil(const std::function<bool()>& isTrue)
+    {
+        return TryRunUntil(_context, isTrue);
+    }
+
+    [[nodiscard]] bool WaitUntilReady(const std::unique_ptr<LinkedMaster>& master)
+    {
+        return WaitUntil([&]() { return master->session.CanTakeOrder(); });
+    }
+
+    /// N0 to N4; an action on N1 and on N3.
+    [[nodiscard]] static OrderBuilder MakeRoute()
+    {
+        std::vector<OrderNode> nodes = MakeNodes(5);
+        nodes[1].actions.push_back(MakeAction("a1", EBlockingType::Hard, "detectObject"));
+        nodes[3].actions.push_back(MakeAction("a3", EBlockingType::Soft, "detectObject"));
+        return *OrderBuilder::Create("order-1", nodes, MakeEdges(4));
+    }
+};
+
+} // namespace
+
+TEST_CASE_METHOD(BrokerTest, "13 Over a broker an order and its update are driven, each node and action once")
+{
+    _version = GENERATE(EVda5050Version::Version200, EVda5050Version::Version210);
+    const auto profile = GENERATE(EQosProfile::Project, EQosProfile::Standard);
+    _qos = QosTable(profile);
+    _mqttVersion = profile == EQosProfile::Project ? EMqttVersion::Version311 : EMqttVersion::Version5;
+    const auto vehicle = MakeVehicle();
+    const auto master = MakeMaster();
+    vehicle->LetReach(EVERYWHERE);
+    REQUIRE(WaitUntilReady(master));
+    REQUIRE(WaitUntil([&]() { return master->session.GetFactsheetOrNull() != nullptr; }));
+
+    OrderBuilder route = MakeRoute();
+    REQUIRE(master->SendOrder(*route.MakeOrder(2)));
+    REQUIRE(WaitUntil([&]() { return master->ListReached().size() == 2; }));
+    REQUIRE(master->SendUpdate(*route.MakeUpdate(5)));
+    REQUIRE(WaitUntil([&]() { return master->Count<OrderFinished>() == 1; }));
+
+    CHECK(master->ListReached() == std::vector<std::uint32_t>{0, 2, 4, 6, 8});
+    CHECK(master->Count<OrderAccepted>() == 2);
+    CHECK(master->GetStatusOrNull("a1") == EActionStatus::Finished);
+    CHECK(master->GetStatusOrNull("a3") == EActionStatus::Finished);
+    CHECK(vehicle->CountStarts("a1") == 1);
+    CHECK(vehicle->CountStarts("a3") == 1);
+    CHECK(vehicle->Count<OrderRefused>() == 0);
+    CHECK(master->Count<MessageRefused>() == 0);
+}
+
+TEST_CASE_METHOD(BrokerTest, "5.4 Over a broker an order is cancelled on its way, and another is taken after it")
+{
+    const auto vehicle = MakeVehicle();
+    const auto master = MakeMaster();
+    REQUIRE(WaitUntilReady(master));
+    OrderBuilder route = MakeRoute();
+    vehicle->LetReach(2);
+    REQUIRE(master->SendOrder(*route.MakeOrder(5)));
+    REQUIRE(WaitUntil([&]() { return master->ListReached().size() == 2; }));
+    REQUIRE(master->Do([](auto& session, Core::Now now, auto& out) { return session.Cancel(now, out); }));
+    REQUIRE(WaitUntil([&]() { return master->Count<OrderCancelled>() == 1; }));
+    CHECK(vehicle->CountStarts("a3") == 0);
+    CHECK(vehicle->Count<OrderCleared>() == 1);
+    REQUIRE(WaitUntil([&]() { return master->GetStatusOrNull("a3") == EActionStatus::Failed; }));
+
+    // From where it stands: the temporary first node of 5.4.
+    vehicle->LetReach(EVERYWHERE);
+    std::vector<OrderNode> nodes = MakeNodes(3);
+    nodes.erase(nodes.begin());
+    OrderBuilder next = *OrderBuilder::Create("order-2", nodes, MakeEdges(1));
+    REQUIRE(master->SendOrder(*next.MakeOrder(2)));
+    REQUIRE(WaitUntil([&]() { return master->Count<OrderFinished>() == 1; }));
+    CHECK(vehicle->Count<OrderTaken>() == 2);
+}
+
+TEST_CASE_METHOD(BrokerTest, "5.3 Over a broker a vehicle is paused and goes on")
+{
+    const auto vehicle = MakeVehicle();
+    const auto master = MakeMaster();
+    REQUIRE(WaitUntilReady(master));
+    OrderBuilder route = MakeRoute();
+    vehicle->LetReach(2);
+    REQUIRE(master->SendOrder(*route.MakeOrder(5)));
+    REQUIRE(WaitUntil([&]() { return master->ListReached().size() == 2; }));
+    REQUIRE(master->SendAction(MakeAction("pause-1", EBlockingType::None, "startPause")));
+    REQUIRE(WaitUntil([&]() { return master->GetStatusOrNull("pause-1") == EActionStatus::Finished; }));
+    CHECK(master->session.GetStateOrNull()->bPaused == true);
+    vehicle->LetReach(EVERYWHERE);
+    REQUIRE(master->SendAction(MakeAction("status-1", EBlockingType::None, "stateRequest")));
+    REQUIRE(WaitUntil([&]() { return master->GetStatusOrNull("status-1") == EActionStatus::Finished; }));
+    CHECK(master->ListReached().size() == 2);
+    REQUIRE(master->SendAction(MakeAction("pause-2", EBlockingType::None, "stopPause")));
+    REQUIRE(WaitUntil([&]() { return master->Count<OrderFinished>() == 1; }));
+    CHECK(master->GetStatusOrNull("pause-2") == EActionStatus::Finished);
+    CHECK(master->ListReached() == std::vector<std::uint32_t>{0, 2, 4, 6, 8});
+}
+
+TEST_CASE_METHOD(BrokerTest, "5.7 Over a broker a map is downloaded, enabled and deleted, and the state shows it")
+{
+    _version = EVda5050Version::Version210;
+    const auto vehicle = MakeVehicle();
+    const auto master = MakeMaster();
+    REQUIRE(WaitUntilReady(master));
+    const auto getMaps = [&]() {
+        return master->session.GetStateOrNull()->maps.value_or(std::vector<MapState>{});
+    };
+    const auto run = [&](std::string_view type, const std::string& id) {
+        Action action = MakeAction(id, EBlockingType::None, std::string(type));
+        action.actionParameters.push_back({"mapId", Core::JsonText::FromString("hall-2")});
+        action.actionParameters.push_back({"mapVersion", Core::JsonText::FromString("1")});
+        if (type == ActionTypes::DOWNLOAD_MAP)
+        {
+            action.actionParameters.push_back({"mapDownloadLink", Core::JsonText::FromString("https://maps.test/2")});
+        }
+        REQUIRE(master->SendAction(action));
+        REQUIRE(WaitUntil([&]() { return master->GetStatusOrNull(id) == EActionStatus::Finished; }));
+    };
+    run(ActionTypes::DOWNLOAD_MAP, "m1");
+    REQUIRE(getMaps().size() == 1);
+    CHECK(getMaps().front().mapStatus == EMapStatus::Disabled);
+    run(ActionTypes::ENABLE_MAP, "m2");
+    CHECK(getMaps().front().mapStatus == EMapStatus::Enabled);
+    run(ActionTypes::DELETE_MAP, "m3");
+    CHECK(getMaps().empty());
+    CHECK(vehicle->Count<StartAction>() == 3);
+}
+
+TEST_CASE_METHOD(BrokerTest, "13 A broker that restarts in the middle of an order costs no node and runs nothing twice")
+{
+    _qos = QosTable(GENERATE(EQosProfile::Project, EQosProfile::Standard));
+    const auto vehicle = MakeVehicle();
+    const auto master = MakeMaster();
+    REQUIRE(WaitUntilReady(master));
+    OrderBuilder route = MakeRoute();
+    vehicle->LetReach(2);
+    REQUIRE(master->SendOrder(*route.MakeOrder(4)));
+    REQUIRE(WaitUntil([&]() { return master->ListReached().size() == 2; }));
+    _broker.Kill();
+    REQUIRE(WaitUntil([&]() { return master->session.GetLink() == EVehicleLink::Unknown; }));
+    // The update is asked for while there is no broker; the vehicle drives to the end of its base meanwhile.
+    REQUIRE(master->SendUpdate(*route.MakeUpdate(5)));
+    vehicle->LetReach(EVERYWHERE);
+    REQUIRE(WaitUntil([&]() { return vehicle->GetSession().GetState().lastNodeSequenceID == 6; }));
+    CHECK(master->ListReached().size() == 2);
+    _broker.Restart();
+    REQUIRE(WaitUntil([&]() { return master->Count<OrderFinished>() == 1; }));
+    CHECK(master->ListReached() == std::vector<std::uint32_t>{0, 2, 4, 6, 8});
+    CHECK(vehicle->Count<OrderTaken>() == 2);
+    CHECK(vehicle->Count<OrderRefused>() == 0);
+    CHECK(vehicle->CountStarts("a1") == 1);
+    CHECK(vehicle->CountStarts("a3") == 1);
+    CHECK(master->Count<OrderLost>() == 0);
+    CHECK(master->Count<OrderRejected>() == 0);
+}
+
+TEST_CASE_METHOD(
+    BrokerTest,
+    "6 A vehicle that is killed is told by its will, and one that comes back empty has lost its order")
+{
+    auto vehicle = MakeVehicle();
+    const auto master = MakeMaster();
+    REQUIRE(WaitUntilReady(master));
+    OrderBuilder route = MakeRoute();
+    vehicle->LetReach(2);
+    REQUIRE(master->SendOrder(*route.MakeOrder(5)));
+    REQUIRE(WaitUntil([&]() { return master->ListReached().size() == 2; }));
+    vehicle.reset();
+    REQUIRE(WaitUntil([&]() { return master->Count<VehicleBroken>() == 1; }));
+    CHECK(master->session.GetLink() == EVehicleLink::Broken);
+    CHECK(master->session.GetOrderPhase() == EOrderPhase::Active); // it may still be driving
+    const auto reborn = MakeVehicle();
+    REQUIRE(WaitUntil([&]() { return master->Count<OrderLost>() == 1; }));
+    CHECK(master->session.CanTakeOrder());
+    CHECK(reborn->Count<OrderTaken>() == 0); // nothing of before was sent again
+}
+
+TEST_CASE_METHOD(
+    BrokerTest,
+    "13 A master that is killed and comes back takes its order up again, and nothing is done twice")
+{
+    const auto vehicle = MakeVehicle();
+    auto master = MakeMaster();
+    REQUIRE(WaitUntilReady(master));
+    OrderBuilder route = MakeRoute();
+    const OrderMessage order = *route.MakeOrder(3);
+    vehicle->LetReach(2);
+    REQUIRE(master->SendOrder(order));
+    REQUIRE(WaitUntil([&]() { return master->ListReached().size() == 2; }));
+    const bool bFinishedMeanwhile = GENERATE(false, true);
+    master.reset();
+    if (bFinishedMeanwhile)
+    {
+        vehicle->LetReach(EVERYWHERE);
+        REQUIRE(WaitUntil([&]() { return vehicle->GetSession().GetState().lastNodeSequenceID == 4; }));
+    }
+    master = MakeMaster();
+    REQUIRE(WaitUntilReady(master));
+    REQUIRE(master->SendOrder(order)); // as it was written down before it was sent
+    REQUIRE(WaitUntil([&]() { return master->Count<OrderAccepted>() == 1; }));
+    const OrderMessage update = *route.MakeUpdate(5);
+    REQUIRE(master->SendUpdate(update));
+    vehicle->LetReach(EVERYWHERE);
+    REQUIRE(WaitUntil([&]() { return master->Count<OrderFinished>() == 1; }));
+    CHECK(master->ListReached() == std::vector<std::uint32_t>{0, 2, 4, 6, 8});
+    CHECK(vehicle->Count<OrderTaken>() == 2);
+    CHECK(vehicle->Count<OrderRefused>() == 0);
+    CHECK(vehicle->CountStarts("a1") == 1);
+    CHECK(vehicle->CountStarts("a3") == 1);
+}
+
+} // namespace ACS::Testing

@@ -1,0 +1,87 @@
+#include "Catch.hpp"
+#include "DescriptorDuplicate.hpp"
+#include "LinkFixture.hpp"
+#include "RawBroker.hpp"
+
+#include <boost/asio/posix/stream_descriptor.hpp>
+
+#include <filesystem>
+#include <iterator>
+#include <unistd.h>
+
+namespace ACS::Testing
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+
+std::ptrdiff_t CountDescriptors()
+{
+    return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), std::filesystem::directory_iterator{});
+}
+
+} // namespace
+
+TEST_CASE("2 A broker that never answers a subscription is left and tried again, as one that never answers at all")
+{
+    boost::asio::io_context context;
+    RawBroker broker(context);
+    auto options = MakeOptions(broker.GetPort(), "patient");
+    options.connectTimeout = 50ms;
+    TestLink link(context, options);
+    link.link.Subscribe({{"topic", 1}});
+    link.link.Start();
+    REQUIRE(TryRunUntil(context, [&]() { return broker.connections >= 3; }));
+    CHECK(link.listener.ups == 0);
+    CHECK(link.log.CountLevel(Core::ELogLevel::Warning) == 1);
+
+    broker.answerSubscribe = [](std::string_view packetID) {
+        return "\x90\x03" + std::string(packetID) + "\x01";
+    };
+    REQUIRE(TryRunUntil(context, [&]() { return link.listener.ups == 1; }));
+    CHECK_FALSE(TryRunUntil(
+        context,
+        [&]() { return link.listener.downs > 0; },
+        200ms)); // the time to connect is over and no longer counted
+}
+
+TEST_CASE("2 What comes before the subscriptions are answered is kept up to a bound, and what is dropped is told")
+{
+    boost::asio::io_context context;
+    RawBroker broker(context);
+    broker.answerSubscribe = [](std::string_view packetID) {
+        std::string answer;
+        for (int i = 0; i < 50; ++i)
+        {
+            answer += RawBroker::MakePublish("topic", std::to_string(i));
+        }
+        return answer + "\x90\x03" + std::string(packetID) + "\x01";
+    };
+    auto options = MakeOptions(broker.GetPort(), "flooded");
+    options.maxEarly = 20;
+    TestLink link(context, options);
+    link.link.Subscribe({{"topic", 1}});
+    link.link.Start();
+    REQUIRE(TryRunUntil(context, [&]() { return link.listener.messages.size() >= 20; }));
+    CHECK(link.listener.ups == 1);
+    CHECK(link.listener.messages.front().payload == "0");
+    CHECK(link.listener.messages.back().payload == "19");
+    CHECK(link.log.CountLevel(Core::ELogLevel::Error) == 1);
+    const auto& lines = link.log.GetLines();
+    CHECK(std::ranges::any_of(lines, [](const RecordedLine& line) { return line.HasField("dropped", "30"); }));
+}
+
+TEST_CASE("A descriptor that the executor does not take is closed again")
+{
+    boost::asio::io_context context;
+    boost::asio::posix::stream_descriptor stream(context);
+    const std::ptrdiff_t before = CountDescriptors();
+    REQUIRE_FALSE(VDA5050::AssignDuplicate(stream, STDOUT_FILENO));
+    CHECK(CountDescriptors() == before + 1);
+    CHECK(VDA5050::AssignDuplicate(stream, STDOUT_FILENO)); // it has one already
+    CHECK(CountDescriptors() == before + 1);
+    CHECK(VDA5050::AssignDuplicate(stream, -1) == std::errc::bad_file_descriptor);
+}
+
+} // namespace ACS::Testing

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/write.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace ACS::Testing
+{
+
+/// A peer that takes every MQTT 3.1.1 client and says what the test wants to its packets: nothing, unless it is told to.
+class RawBroker
+{
+    struct Client
+    {
+        boost::asio::ip::tcp::socket socket;
+        std::array<char, 4096> buffer{};
+
+        explicit Client(boost::asio::ip::tcp::socket accepted)
+            : socket(std::move(accepted))
+        {
+        }
+    };
+
+    boost::asio::ip::tcp::acceptor _acceptor;
+
+public:
+    static constexpr char SUBSCRIBE = '\x82';
+
+    std::size_t connections = 0;
+    /// What is sent after a SUBSCRIBE, by its packet id.
+    std::function<std::string(std::string_view packetID)> answerSubscribe;
+
+    explicit RawBroker(boost::asio::io_context& context)
+        : _acceptor(context, boost::asio::ip::tcp::endpoint(boost::asio::ip::address_v4::loopback(), 0))
+    {
+        Accept();
+    }
+
+    [[nodiscard]] std::uint16_t GetPort() const
+    {
+        return _acceptor.local_endpoint().port();
+    }
+
+    /// A PUBLISH with QoS 0; topic and payload together less than 120 bytes.
+    [[nodiscard]] static std::string MakePublish(const std::string& topic, const std::string& payload)
+    {
+        std::string packet = "\x30";
+        packet += static_cast<char>(2 + topic.size() + payload.size());
+        packet += '\0';
+        packet += static_cast<char>(topic.size());
+        return packet + topic + payload;
+    }
+
+private:
+    void Accept()
+    {
+        _acceptor.async_accept([this](const boost::system::error_code& error, boost::asio::ip::tcp::socket socket) {
+            if (error)
+            {
+                return;
+            }
+            ++connections;
+            Read(std::make_shared<Client>(std::move(socket)));
+            Accept();
+        });
+    }
+
+    void Read(const std::shared_ptr<Client>& client)
+    {
+        client->socket.async_read_some(
+            boost::asio::buffer(client->buffer),
+            [this, client](const boost::system::error_code& error, std::size_t length) {
+                if (error)
+                {
+                    return;
+                }
+                const std::string_view packet(client->buffer.data(), length);
+                std::string answer;
+                if (packet.front() == '\x10')
+                {
+                    answer = std::string("\x20\x02\x00\x00", 4);
+                }
+                else if (packet.front() == SUBSCRIBE && answerSubscribe)
+                {
+                    answer = answerSubscribe(packet.substr(2, 2));
+                }
+                boost::system::error_code ignored;
+                boost::asio::write(client->socket, boost::asio::buffer(answer), ignored);
+                Read(client);
+            });
+    }
+};
+
+} // namespace ACS::Testing

@@ -1,0 +1,178 @@
+#include "MasterBench.hpp"
+#include <acs/vda5050/EVda5050Error.hpp>
+
+namespace ACS::VDA5050::Test
+{
+
+namespace
+{
+
+/// A vehicle that can pick on nodes and take pictures at any time, in numbers that the test changes.
+FactsheetMessage MakeFactsheet()
+{
+    FactsheetMessage factsheet;
+    factsheet.header = Header{0, {}, "2.0.0", "ACS", "LR01"};
+    AgvAction& pick = factsheet.protocolFeatures.agvActions.emplace_back();
+    pick.actionType = "pickAll";
+    pick.actionScopes = {EActionScope::Node};
+    AgvAction& picture = factsheet.protocolFeatures.agvActions.emplace_back();
+    picture.actionType = "takePicture";
+    picture.actionScopes = {EActionScope::Instant};
+    picture.blockingTypes = {EBlockingType::Soft};
+    return factsheet;
+}
+
+void Tell(MasterBench& bench, const FactsheetMessage& factsheet)
+{
+    bench.Say(ETopic::Factsheet, Vda5050Codec().Encode(factsheet, EVda5050Version::Version210));
+    REQUIRE(bench.session.GetFactsheetOrNull() != nullptr);
+}
+
+Core::Result<void> Send(MasterBench& bench, const OrderMessage& order)
+{
+    return bench.session.SendOrder(order, bench.GetNow(), bench.Clear());
+}
+
+} // namespace
+
+TEST_CASE("3.7 An order with an action that the factsheet does not list is not sent, and the error names it")
+{
+    MasterBench bench;
+    bench.BeReady();
+    OrderMessage order = MakeOrder(2, 2);
+    order.nodes[1].actions.push_back(MakeAction("a1", EBlockingType::Hard, "pickAll"));
+    order.edges[0].actions.push_back(MakeAction("a2", EBlockingType::None, "takePicture"));
+    Tell(bench, MakeFactsheet());
+    const auto refused = Send(bench, order);
+    REQUIRE_FALSE(refused.has_value());
+    CHECK(refused.error().code == EVda5050Error::NotSupported);
+    CHECK_THAT(Core::Describe(refused.error()), Catch::Contains("takePicture"));
+    CHECK(bench.GetSent(ETopic::Order).empty());
+    CHECK(bench.session.CanTakeOrder());
+    order.edges[0].actions.clear();
+    CHECK(Send(bench, order).has_value());
+}
+
+TEST_CASE("3.7 Tolerances that are not listed are left out, a limit that is not listed refuses the order")
+{
+    MasterBench bench;
+    bench.BeReady();
+    FactsheetMessage factsheet = MakeFactsheet();
+    factsheet.protocolFeatures.optionalParameters = {{"order.nodes.nodePosition", EParameterSupport::Supported, {}}};
+    Tell(bench, factsheet);
+    OrderMessage order = MakeOrder(2, 2);
+    order.nodes[1].nodePosition->allowedDeviationXY = 0.5;
+    order.edges[0].length = 10.0;
+    order.edges[0].maxSpeed = 1.0;
+    const auto refused = Send(bench, order);
+    REQUIRE_FALSE(refused.has_value());
+    CHECK(refused.error().code == EVda5050Error::NotSupported);
+    CHECK(refused.error().path == "order.edges.maxSpeed");
+    order.edges[0].maxSpeed.reset();
+    REQUIRE(Send(bench, order).has_value());
+    CHECK_FALSE(bench.GetSentOrder().nodes[1].nodePosition->allowedDeviationXY.has_value());
+    CHECK_FALSE(bench.GetSentOrder().edges[0].length.has_value());
+}
+
+TEST_CASE("3.7 A factsheet that requires a member, or limits a size, refuses the order that breaks it")
+{
+    MasterBench bench;
+    bench.BeReady();
+    FactsheetMessage factsheet = MakeFactsheet();
+    OrderMessage order = MakeOrder(3, 3);
+    SECTION("a required member")
+    {
+        factsheet.protocolFeatures.optionalParameters = {
+            {"order.nodes.nodePosition.theta", EParameterSupport::Required, {}}};
+    }
+    SECTION("nodes")
+    {
+        factsheet.protocolLimits.maxArrayLengths.orderNodes = 2;
+    }
+    SECTION("bytes")
+    {
+        factsheet.protocolLimits.maxStringLengths.message = 200;
+    }
+    Tell(bench, factsheet);
+    const auto refused = Send(bench, order);
+    REQUIRE_FALSE(refused.has_value());
+    CHECK(refused.error().code == EVda5050Error::NotSupported);
+    MasterOptions careless = MakeMasterOptions();
+    careless.bFactsheetObeyed = false;
+    MasterBench other(careless);
+    other.BeReady();
+    Tell(other, factsheet);
+    CHECK(Send(other, order).has_value());
+}
+
+TEST_CASE("5.6 Instant actions are held against the factsheet too, but for those without which nobody can lead")
+{
+    MasterBench bench;
+    bench.BeReady();
+    Tell(bench, MakeFactsheet());
+    const auto send = [&](std::string type) {
+        return bench.session.SendInstantAction(
+            MakeAction({}, EBlockingType::None, std::move(type)),
+            bench.GetNow(),
+            bench.Clear());
+    };
+    const auto refused = send("pickAll");
+    REQUIRE_FALSE(refused.has_value());
+    CHECK(refused.error().code == EVda5050Error::NotSupported);
+    CHECK(send("startPause").has_value());
+    REQUIRE(send("takePicture").has_value());
+    const auto message =
+        Vda5050Codec().Decode<InstantActionsMessage>(bench.GetSent(ETopic::InstantActions).back().payload);
+    CHECK(message->actions[0].blockingType == EBlockingType::Soft); // the one that the vehicle takes
+}
+
+TEST_CASE("13 Between two order messages the vehicle has its minOrderInterval, and instant actions their number")
+{
+    MasterBench bench;
+    bench.BeReady();
+    FactsheetMessage factsheet = MakeFactsheet();
+    factsheet.protocolLimits.timing.minOrderInterval = 5.0;
+    factsheet.protocolLimits.maxArrayLengths.instantActions = 1;
+    Tell(bench, factsheet);
+    OrderBuilder builder = MakeBuilder(3);
+    const OrderMessage order = *builder.MakeOrder(2);
+    REQUIRE(Send(bench, order).has_value());
+    CHECK(bench.GetSent(ETopic::Order).size() == 1);
+    bench.Hold(order, 2);
+    bench.SendState();
+    bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendInstantActions);
+    REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear()).has_value());
+    CHECK(bench.GetSent(ETopic::Order).empty());
+    CHECK(
+        Pick<StartMasterTimer>(bench.GetOutput())
+        == std::vector{StartMasterTimer{EMasterTimer::ResendOrder, std::chrono::seconds(3)}});
+    bench.Wait(std::chrono::seconds(3), EMasterTimer::ResendOrder);
+    CHECK(bench.GetSent(ETopic::Order).size() == 1);
+    CHECK(bench.session.GetStatistics().ordersResent == 0);
+
+    for (int i = 0; i < 2; ++i)
+    {
+        REQUIRE(
+            bench.session
+                .SendInstantAction(MakeAction({}, EBlockingType::None, "takePicture"), bench.GetNow(), bench.Clear())
+                .has_value());
+    }
+    bench.Clear();
+    bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendInstantActions);
+    CHECK(bench.GetSent(ETopic::InstantActions).size() == 2);
+}
+
+TEST_CASE("4.6 A vehicle that announces a longer state interval is given it before it counts as silent")
+{
+    MasterBench bench;
+    FactsheetMessage factsheet = MakeFactsheet();
+    factsheet.protocolLimits.timing.defaultStateInterval = 60.0;
+    Tell(bench, factsheet);
+    bench.BeReady();
+    bench.Wait(std::chrono::seconds(64), EMasterTimer::Silence);
+    CHECK(Pick<VehicleSilent>(bench.GetOutput()).empty());
+    bench.Wait(std::chrono::seconds(1), EMasterTimer::Silence);
+    CHECK(Pick<VehicleSilent>(bench.GetOutput()).size() == 1);
+}
+
+} // namespace ACS::VDA5050::Test

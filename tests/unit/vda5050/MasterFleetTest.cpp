@@ -1,0 +1,170 @@
+#include "Catch.hpp"
+#include "ManualClock.hpp"
+#include "Vda5050Sample.hpp"
+#include <acs/vda5050/EVda5050Error.hpp>
+#include <acs/vda5050/MasterFleet.hpp>
+
+namespace ACS::VDA5050::Test
+{
+
+namespace
+{
+
+VehicleAddress MakeVehicle(int number)
+{
+    return VehicleAddress{"uagv", "ACS", "LR" + std::to_string(number)};
+}
+
+class FleetBench
+{
+    Testing::ManualClock _clock;
+
+public:
+    MasterFleet fleet;
+    FleetActions out;
+
+    explicit FleetBench(FleetOptions options = {})
+        : fleet(std::move(options))
+    {
+        fleet.OnLinkUp(_clock.GetNow(), out);
+    }
+
+    [[nodiscard]] Core::Now GetNow() const
+    {
+        return _clock.GetNow();
+    }
+
+    void Connect(const VehicleAddress& address, EVda5050Version version = EVda5050Version::Version200)
+    {
+        ConnectionMessage message;
+        message.header = MakeHeader(address, version);
+        message.connectionState = EConnectionState::Online;
+        Say(address, ETopic::Connection, Vda5050Codec().Encode(message, version), true);
+    }
+
+    void SendState(const VehicleAddress& address, bool bRetained = false)
+    {
+        StateMessage message;
+        message.header = MakeHeader(address, EVda5050Version::Version200);
+        Say(address, ETopic::State, Vda5050Codec().Encode(message, EVda5050Version::Version200), bRetained);
+    }
+
+    void Say(const VehicleAddress& address, ETopic topic, std::string payload, bool bRetained)
+    {
+        fleet.OnMessage(MqttMessage{BuildTopic(address, topic), std::move(payload), 1, bRetained}, GetNow(), out);
+    }
+
+    template <typename TTold>
+    [[nodiscard]] std::vector<std::size_t> ListTellers() const
+    {
+        std::vector<std::size_t> vehicles;
+        for (const FleetAction& action : out)
+        {
+            if (std::holds_alternative<TTold>(action.action))
+            {
+                vehicles.push_back(action.vehicle);
+            }
+        }
+        return vehicles;
+    }
+
+private:
+    [[nodiscard]] Header MakeHeader(const VehicleAddress& address, EVda5050Version version) const
+    {
+        return Header{
+            0,
+            _clock.GetNow().wall,
+            std::string(GetVersionText(version)),
+            address.manufacturer,
+            address.serialNumber};
+    }
+};
+
+} // namespace
+
+TEST_CASE("6 A fleet discovers its vehicles from retained connection messages, each with its own version and session")
+{
+    FleetBench bench;
+    CHECK(bench.fleet.GetSubscriptions().size() == 4);
+    CHECK(bench.fleet.GetSubscriptions()[2].topicFilter == "uagv/v2/+/+/connection");
+    bench.Connect(MakeVehicle(1));
+    bench.Connect(MakeVehicle(2), EVda5050Version::Version210);
+    bench.Connect(MakeVehicle(1));
+    REQUIRE(bench.fleet.GetSize() == 2);
+    CHECK(bench.ListTellers<VehicleOnline>() == std::vector<std::size_t>{0, 1});
+    CHECK(bench.fleet.GetSession(0).GetOptions().version == EVda5050Version::Version200);
+    CHECK(bench.fleet.GetSession(1).GetOptions().version == EVda5050Version::Version210);
+    CHECK(bench.fleet.FindOrNull(MakeVehicle(2)) == std::optional<std::size_t>(1));
+    CHECK_FALSE(bench.fleet.FindOrNull(MakeVehicle(3)).has_value());
+    bench.out.clear();
+    bench.SendState(MakeVehicle(2));
+    CHECK(bench.ListTellers<StateReceived>() == std::vector<std::size_t>{1});
+    CHECK(bench.fleet.GetSession(1).CanTakeOrder());
+    CHECK_FALSE(bench.fleet.GetSession(0).CanTakeOrder());
+}
+
+TEST_CASE("6 A live state makes a vehicle known too, a retained one or another topic does not")
+{
+    FleetBench bench;
+    bench.SendState(MakeVehicle(1), true);
+    bench.Say(MakeVehicle(1), ETopic::Order, "{}", false);
+    bench.Say(VehicleAddress{"other", "ACS", "LR1"}, ETopic::State, "{}", false);
+    CHECK(bench.fleet.GetSize() == 0);
+    bench.SendState(MakeVehicle(1));
+    CHECK(bench.fleet.GetSize() == 1);
+    CHECK(bench.ListTellers<VehicleOnline>() == std::vector<std::size_t>{0});
+}
+
+TEST_CASE("13 What nobody can read, another major version, and more vehicles than allowed are left out and counted")
+{
+    FleetOptions options;
+    options.maxVehicles = 2;
+    FleetBench bench(options);
+    bench.Say(MakeVehicle(1), ETopic::Connection, "ONLINE", true);
+    bench.Say(MakeVehicle(1), ETopic::Connection, R"({"headerId":1,"version":"3.0.0"})", true);
+    CHECK(bench.fleet.GetLeftOutCount() == 2);
+    for (int i = 1; i <= 3; ++i)
+    {
+        bench.Connect(MakeVehicle(i));
+    }
+    CHECK(bench.fleet.GetSize() == 2);
+    CHECK(bench.fleet.GetLeftOutCount() == 3);
+}
+
+TEST_CASE("13 Without discovery a fleet listens to the vehicles that were added, and no others")
+{
+    FleetOptions options;
+    options.bDiscovery = false;
+    FleetBench bench(options);
+    const auto first = bench.fleet.Add(MakeVehicle(1), bench.GetNow(), bench.out);
+    REQUIRE(first.has_value());
+    CHECK(bench.fleet.Add(MakeVehicle(1), bench.GetNow(), bench.out).value_or(99) == *first);
+    const auto wrong = bench.fleet.Add(VehicleAddress{"uagv", "A/B", "1"}, bench.GetNow(), bench.out);
+    REQUIRE_FALSE(wrong.has_value());
+    CHECK(wrong.error().code == EVda5050Error::InvalidTopic);
+    bench.Connect(MakeVehicle(2));
+    bench.Connect(MakeVehicle(1));
+    CHECK(bench.fleet.GetSize() == 1);
+    CHECK(bench.ListTellers<VehicleOnline>() == std::vector<std::size_t>{0});
+}
+
+TEST_CASE("13 The link's outage is every vehicle's, and a timer is one vehicle's")
+{
+    FleetBench bench;
+    bench.Connect(MakeVehicle(1));
+    bench.Connect(MakeVehicle(2));
+    bench.SendState(MakeVehicle(1));
+    bench.SendState(MakeVehicle(2));
+    bench.out.clear();
+    const MasterOptions& options = bench.fleet.GetSession(1).GetOptions();
+    Core::Now late = bench.GetNow();
+    late.steady += options.stateInterval + options.stateMargin;
+    bench.fleet.OnTimer(1, EMasterTimer::Silence, late, bench.out);
+    CHECK(bench.ListTellers<VehicleSilent>() == std::vector<std::size_t>{1});
+    CHECK(bench.fleet.GetSession(0).IsReady());
+    bench.fleet.OnLinkDown(bench.GetNow(), bench.out);
+    CHECK(bench.fleet.GetSession(0).GetLink() == EVehicleLink::Unknown);
+    CHECK(bench.fleet.GetSession(1).GetLink() == EVehicleLink::Unknown);
+}
+
+} // namespace ACS::VDA5050::Test

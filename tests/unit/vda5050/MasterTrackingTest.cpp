@@ -1,0 +1,186 @@
+#include "MasterBench.hpp"
+
+namespace ACS::VDA5050::Test
+{
+
+namespace
+{
+
+/// An order over three nodes with an action on the last, taken by the vehicle.
+OrderMessage Run(MasterBench& bench)
+{
+    bench.BeReady();
+    OrderMessage order = MakeOrder(3, 3);
+    order.nodes[2].actions.push_back(MakeAction("a1", EBlockingType::Hard));
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    bench.Hold(order, 2);
+    bench.state.actionStates = {ActionState{"a1", "pick", {}, EActionStatus::Waiting, {}}};
+    bench.SendState();
+    REQUIRE(bench.session.GetOrderPhase() == EOrderPhase::Active);
+    bench.Clear();
+    return order;
+}
+
+std::string CancelOrder(MasterBench& bench)
+{
+    REQUIRE(bench.session.Cancel(bench.GetNow(), bench.Clear()).has_value());
+    const auto message =
+        Vda5050Codec().Decode<InstantActionsMessage>(bench.GetSent(ETopic::InstantActions).back().payload);
+    return message->actions.front().actionID;
+}
+
+} // namespace
+
+TEST_CASE("5.5 An action that vanishes before its end is told as lost, once; one that ended is not")
+{
+    MasterBench bench;
+    Run(bench);
+    const bool bEnded = GENERATE(true, false);
+    bench.state.actionStates[0].actionStatus = bEnded ? EActionStatus::Failed : EActionStatus::Running;
+    bench.SendState();
+    bench.state.actionStates.clear();
+    bench.SendState();
+    bench.SendState();
+    const auto lost = Pick<ActionLost>(bench.GetOutput());
+    REQUIRE(lost.size() == (bEnded ? 0 : 1));
+    CHECK((bEnded || lost[0] == ActionLost{"a1", "pick", "the vehicle no longer reports it"}));
+}
+
+TEST_CASE("5.5 The actions of an order that is lost end with it, and so does an instant action of a restarted vehicle")
+{
+    MasterBench bench;
+    Run(bench);
+    Action picture = MakeAction("i1", EBlockingType::None, "takePicture");
+    REQUIRE(bench.session.SendInstantAction(picture, bench.GetNow(), bench.Clear()).has_value());
+    bench.state.actionStates.push_back(ActionState{"i1", "takePicture", {}, EActionStatus::Running, {}});
+    bench.SendState();
+    CHECK(Pick<ActionLost>(bench.GetOutput()).empty());
+    bench.state = StateMessage{};
+    bench.SendState();
+    CHECK(Pick<OrderLost>(bench.GetOutput()).size() == 1);
+    CHECK(Pick<ActionLost>(bench.GetOutput()).size() == 2);
+}
+
+TEST_CASE("5.5 An action that an update drops with its horizon is not lost")
+{
+    MasterBench bench;
+    bench.BeReady();
+    OrderBuilder builder = MakeBuilder(4);
+    OrderMessage order = *builder.MakeOrder(2);
+    order.nodes[3].actions.push_back(MakeAction("a3", EBlockingType::Hard));
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    bench.Hold(order, 3);
+    bench.state.actionStates = {ActionState{"a3", "pick", {}, EActionStatus::Waiting, {}}};
+    bench.SendState();
+    const OrderMessage update = *builder.MakeUpdate(3, 0);
+    REQUIRE(bench.session.SendOrderUpdate(update, bench.GetNow(), bench.Clear()).has_value());
+    bench.state.actionStates.clear();
+    bench.Hold(bench.GetSentOrder(), 1);
+    bench.SendState();
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()).size() == 1);
+    CHECK(Pick<ActionLost>(bench.GetOutput()).empty());
+}
+
+TEST_CASE("5.4 A cancel of an order that has just ended finishes it")
+{
+    MasterBench bench;
+    const OrderMessage order = Run(bench);
+    const std::string cancelID = CancelOrder(bench);
+    bench.Hold(order, 0);
+    bench.state.actionStates[0].actionStatus = EActionStatus::Finished;
+    bench.state.actionStates.push_back(ActionState{cancelID, "cancelOrder", {}, EActionStatus::Failed, {}});
+    bench.Refuse(ErrorTypes::NO_ORDER_TO_CANCEL, {{"actionId", cancelID}});
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
+    CHECK(Pick<OrderCancelled>(bench.GetOutput()).empty());
+    CHECK(Pick<ActionLost>(bench.GetOutput()).empty());
+}
+
+TEST_CASE("5.4 A cancel that the vehicle fails while it goes on leaves the order running")
+{
+    MasterBench bench;
+    Run(bench);
+    const std::string cancelID = CancelOrder(bench);
+    bench.state.actionStates.push_back(ActionState{cancelID, "cancelOrder", {}, EActionStatus::Failed, {}});
+    bench.SendState();
+    CHECK(Pick<CancelFailed>(bench.GetOutput()).size() == 1);
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
+    CHECK(bench.session.Cancel(bench.GetNow(), bench.Clear()).has_value()); // and may be tried again
+}
+
+TEST_CASE("5.4 An order that comes to the vehicle after its cancel is cancelled once more by itself")
+{
+    MasterBench bench;
+    bench.BeReady();
+    const OrderMessage order = MakeOrder(3, 3);
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    const std::string first = CancelOrder(bench);
+    bench.state.actionStates = {ActionState{first, "cancelOrder", {}, EActionStatus::Failed, {}}};
+    bench.SendState();
+    REQUIRE(Pick<OrderCancelled>(bench.GetOutput()).size() == 1);
+    bench.Clear();
+    bench.Hold(order, 2);
+    bench.SendState();
+    CHECK(Pick<OrderReappeared>(bench.GetOutput()) == std::vector{OrderReappeared{"order-1"}});
+    REQUIRE(bench.GetSent(ETopic::InstantActions).size() == 1);
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::Cancelling);
+    const auto again =
+        Vda5050Codec().Decode<InstantActionsMessage>(bench.GetSent(ETopic::InstantActions).back().payload);
+    bench.state.nodeStates.clear();
+    bench.state.actionStates.push_back(
+        ActionState{again->actions[0].actionID, "cancelOrder", {}, EActionStatus::Finished, {}});
+    bench.SendState();
+    CHECK(Pick<OrderCancelled>(bench.GetOutput()).size() == 1);
+    bench.SendState();
+    CHECK(Pick<OrderReappeared>(bench.GetOutput()).size() == 1);
+}
+
+TEST_CASE("13 Reserved is what the vehicle says, and what was sent and is not answered; a rejection frees it")
+{
+    MasterBench bench;
+    bench.BeReady();
+    CHECK(bench.session.ListReserved() == std::vector{ReservedElement{"N0", 0, false, true}});
+    OrderBuilder builder = MakeBuilder(4);
+    const OrderMessage order = *builder.MakeOrder(2);
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    const std::vector<ReservedElement> sent{{"N0", 0, false, true}, {"E0", 1, true, false}, {"N1", 2, false, false}};
+    CHECK(bench.session.ListReserved() == sent);
+    bench.Hold(order, 3);
+    bench.state.edgeStates = {EdgeState{}};
+    bench.state.edgeStates[0].edgeID = "E0";
+    bench.state.edgeStates[0].sequenceID = 1;
+    bench.state.edgeStates[0].bReleased = true;
+    bench.SendState();
+    std::vector<ReservedElement> base{{"N0", 0, false, true}, {"E0", 1, true, true}, {"N1", 2, false, true}};
+    CHECK(bench.session.ListReserved() == base); // the horizon is not
+    REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear()).has_value());
+    CHECK(bench.session.ListReserved().size() == 5);
+    // A cancel does not free anything by itself: the vehicle may have the update already.
+    const std::string cancelID = CancelOrder(bench);
+    CHECK(bench.session.ListReserved().size() == 5);
+    bench.Connect(EConnectionState::ConnectionBroken);
+    CHECK(bench.session.ListReserved().size() == 5);
+    bench.Connect(EConnectionState::Online);
+    bench.state.nodeStates.clear();
+    bench.state.edgeStates.clear();
+    bench.state.actionStates = {ActionState{cancelID, "cancelOrder", {}, EActionStatus::Finished, {}}};
+    bench.SendState();
+    CHECK(bench.session.ListReserved() == std::vector{ReservedElement{"N0", 0, false, true}});
+}
+
+TEST_CASE("13 A master that takes up an order of which the vehicle has a later update counts on from that")
+{
+    MasterBench bench;
+    bench.BeReady();
+    OrderBuilder builder = MakeBuilder(4);
+    const OrderMessage order = *builder.MakeOrder(2);
+    bench.Hold(order, 3);
+    bench.state.orderUpdateID = 5;
+    bench.SendState();
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    bench.SendState();
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()) == std::vector{OrderAccepted{"order-1", 5}});
+    REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear()).has_value());
+    CHECK(bench.GetSentOrder().orderUpdateID == 6);
+}
+
+} // namespace ACS::VDA5050::Test
