@@ -100,7 +100,7 @@ VDA5050::FactsheetMessage MakeFactsheet(EVehicleType type, const MotionLimits& l
     factsheet.typeSpecification.localizationTypes = {"NATURAL"};
     factsheet.typeSpecification.navigationTypes = {"VIRTUAL_LINE_GUIDED"};
     factsheet.physicalParameters.speedMax = limits.maxSpeed;
-    factsheet.physicalParameters.angularSpeedMax = limits.maxTurnSpeed;
+    // No angularSpeedMax: the text of 2.1 has it, and its schema does not.
     factsheet.physicalParameters.accelerationMax = limits.acceleration;
     factsheet.physicalParameters.decelerationMax = limits.deceleration;
     factsheet.physicalParameters.heightMin = 1.2;

@@ -2,6 +2,7 @@
 
 #include "ManualClock.hpp"
 #include "RecordingLogSink.hpp"
+#include "SchemaCheck.hpp"
 #include "SeededRandom.hpp"
 #include "vda-sim/VirtualVehicle.hpp"
 #include <acs/core/Overloaded.hpp>
@@ -51,13 +52,15 @@ inline Planning::SiteMap MakeTestSite()
     return std::move(*site);
 }
 
-/// A virtual vehicle in virtual time: its timers fire when the test lets the time pass.
+/// A virtual vehicle in virtual time: its timers fire when the test lets the time pass. What it publishes is held against
+/// the official schemas.
 class VehicleDriver
 {
     Planning::SiteMap _site = MakeTestSite();
     ManualClock _clock;
     RecordingLogSink _log;
     SeededRandom _random;
+    VDA5050::EVda5050Version _version;
     VdaSim::VirtualVehicle _vehicle;
     VdaSim::VirtualActions _actions;
     std::map<std::uint64_t, Core::SteadyTime> _timers;
@@ -75,6 +78,7 @@ public:
 
     explicit VehicleDriver(VdaSim::VirtualVehicleOptions options, std::uint64_t seed = 1)
         : _random(seed),
+          _version(options.version),
           _vehicle(std::move(options), _site, _random, Core::Logger(_log, "LR01"))
     {
         _vehicle.OnLinkUp(_clock.GetNow(), _actions);
@@ -319,6 +323,7 @@ private:
             std::visit(
                 Core::Overloaded{
                     [this](const VDA5050::PublishMessage& publish) {
+                        CheckValid(_version, publish.message.topic, publish.message.payload);
                         _published.emplace_back(_clock.GetNow().steady, publish.message);
                     },
                     [this](const VdaSim::StartVirtualTimer& start) {
