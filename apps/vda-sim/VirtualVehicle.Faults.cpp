@@ -22,7 +22,6 @@ constexpr std::string_view ERROR_BLOCKED = "blockedByObstacle";
 constexpr std::string_view ERROR_LOST = "localizationError";
 constexpr std::string_view ERROR_EMERGENCY_STOP = "emergencyStop";
 constexpr std::string_view ERROR_BATTERY_LOW = "batteryLow";
-constexpr std::string_view ERROR_ACTION = "actionError";
 
 constexpr double HALF_WIDTH = 0.4; ///< m, as the factsheet says: a corridor for the contour has this much less room.
 
@@ -33,11 +32,6 @@ VehicleError MakeError(std::string_view type, EErrorLevel level, std::string des
     error.errorLevel = level;
     error.errorDescription = std::move(description);
     return error;
-}
-
-std::string GetErrorType(const Fault& fault, std::string_view usual)
-{
-    return fault.errorType.empty() ? std::string(usual) : fault.errorType;
 }
 
 } // namespace
@@ -217,8 +211,13 @@ std::vector<VehicleError> VirtualVehicle::MakeErrors() const
     return errors;
 }
 
+/// One without a type is none: what becomes of the action says it all.
 void VirtualVehicle::AddOrderError(VehicleError error, Core::Now now)
 {
+    if (error.errorType.empty())
+    {
+        return;
+    }
     constexpr std::size_t MAX_ORDER_ERRORS = 16;
     if (_orderErrors.size() >= MAX_ORDER_ERRORS)
     {
@@ -243,7 +242,7 @@ bool VirtualVehicle::TryRefuse(const VDA5050::MqttMessage& message, Core::Now no
         return false; // the session has its own word for that
     }
     VehicleError error = MakeError(
-        GetErrorType(*refusal, VDA5050::ErrorTypes::ORDER_ERROR),
+        refusal->errorType.empty() ? VDA5050::ErrorTypes::ORDER_ERROR : refusal->errorType,
         refusal->errorLevel,
         "this order is refused by a fault that was asked for");
     error.errorReferences = {
@@ -271,7 +270,7 @@ std::optional<VehicleError> VirtualVehicle::TakeActionFaultOrNull(const VDA5050:
         return std::nullopt;
     }
     VehicleError error = MakeError(
-        GetErrorType(*fault, ERROR_ACTION),
+        fault->errorType,
         fault->errorLevel,
         fmt::format("the {} fails by a fault that was asked for", action.actionType));
     error.errorReferences = {{"actionId", action.actionID}};

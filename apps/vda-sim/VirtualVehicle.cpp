@@ -94,7 +94,7 @@ void VirtualVehicle::OnLinkUp(Core::Now now, VirtualActions& out)
 {
     PassTime(now, out);
     _session.OnLoads(_hands.GetLoads(), now, _sessionActions);
-    if (!_mapID.empty())
+    if (!_bWasOnline && !_mapID.empty())
     {
         const VDA5050::MapState map{_mapID, "1", VDA5050::EMapStatus::Enabled, {}};
         _session.OnMaps(std::vector<VDA5050::MapState>{map}, now, _sessionActions);
@@ -309,6 +309,11 @@ void VirtualVehicle::CarryOut(VDA5050::VehicleAction& action, Core::Now now, Vir
             [&](const VDA5050::StopDriving&) {
                 _bStopWanted = true;
                 UpdateBrake(now);
+                if (_motion.IsStanding())
+                {
+                    // Said although it may have been said before: the session waits for it.
+                    _session.OnDrivingChanged(false, now, _sessionActions);
+                }
             },
             [&](const VDA5050::StartAction& start) { Start(start, now); },
             [&](const VDA5050::PauseAction& pause) {

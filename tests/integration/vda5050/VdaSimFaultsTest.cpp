@@ -110,8 +110,8 @@ TEST_CASE_METHOD(FaultsTest, "vda-sim: each fault comes by the control topic, sh
     CHECK(GetLastState().orderID.empty());
 
     CHECK(
-        Command("LR01 action-fails type=pick\nLR01 stuck")
-        == "ok: vehicles=1 action-fails type=pick\nok: vehicles=1 stuck");
+        Command("LR01 action-fails type=pick error=jammed\nLR01 stuck")
+        == "ok: vehicles=1 action-fails type=pick error=jammed\nok: vehicles=1 stuck");
     Send(MakeOrder(2));
     Send(MakeOrder(4));
     WaitFor([](const StateMessage& state) { return state.orderID == "order-1" && state.orderUpdateID == 1; });
@@ -119,7 +119,7 @@ TEST_CASE_METHOD(FaultsTest, "vda-sim: each fault comes by the control topic, sh
     CHECK(Command("LR01 end stuck") == "ok: vehicles=1 ended=1");
     WaitFor([](const StateMessage& state) {
         return state.nodeStates.empty() && !state.actionStates.empty()
-            && state.actionStates[0].actionStatus == EActionStatus::Failed && HasError(state, "actionError");
+            && state.actionStates[0].actionStatus == EActionStatus::Failed && HasError(state, "jammed");
     });
 
     program.Signal(SIGTERM);

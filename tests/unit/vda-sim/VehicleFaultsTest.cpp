@@ -48,6 +48,10 @@ VDA5050::OrderMessage MakeOrderWith(VehicleDriver& driver, std::string_view acti
     action.actionType = std::string(actionType);
     action.actionID = actionID;
     action.blockingType = VDA5050::EBlockingType::Hard;
+    if (actionType == VdaSim::ACTION_WAIT_FOR_TRIGGER)
+    {
+        action.actionParameters.push_back({"triggerType", Core::JsonText::FromString("LOCAL")});
+    }
     order.nodes[1].actions.push_back(action);
     return order;
 }
@@ -237,12 +241,13 @@ TEST_CASE("lost on the way: the vehicle brakes, and goes on when it knows its pl
 }
 
 TEST_CASE(
-    "action-fails: the next action that fits fails, at its end or at its start, with an error; the one after it not")
+    "action-fails: the next action that fits fails, at its end or at its start, with the error; the one after it not")
 {
     for (const bool bAtStart : {false, true})
     {
         VehicleDriver driver("N0");
-        driver.Inject(bAtStart ? "action-fails type=pick when=start" : "action-fails type=pick");
+        driver.Inject(
+            bAtStart ? "action-fails type=pick error=jammed when=start" : "action-fails type=pick error=jammed");
         driver.Send(MakeOrderWith(driver, VdaSim::ACTION_FINE_POSITIONING, "fine"));
         driver.Pass(60s);
         CHECK(driver.GetStatus("fine") == EActionStatus::Finished);
@@ -263,8 +268,8 @@ TEST_CASE(
         CHECK(driver.GetStatus("second") == EActionStatus::Finished);
         CHECK(driver.GetState().loads->size() == 1);
         const VDA5050::StateMessage state = driver.GetState();
-        REQUIRE(FindErrorOrNull(state, "actionError") != nullptr);
-        CHECK(*VDA5050::FindReferenceOrNull(*FindErrorOrNull(state, "actionError"), "actionId") == "first");
+        REQUIRE(FindErrorOrNull(state, "jammed") != nullptr);
+        CHECK(*VDA5050::FindReferenceOrNull(*FindErrorOrNull(state, "jammed"), "actionId") == "first");
         driver.Pass(30s);
         CHECK(driver.GetState().lastNodeID == "DOCK");
         auto next = driver.MakeRoute("next", {"DOCK", "N2"});
