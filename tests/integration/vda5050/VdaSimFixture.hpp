@@ -75,14 +75,23 @@ inline VDA5050::OrderMessage MakeOrder(std::size_t releasedNodes)
 /// A broker, and a master that hears all that vehicles publish; every test ends with a look at whether it is valid.
 class VdaSimFixture
 {
+public:
+    VdaSimFixture(const VdaSimFixture&) = delete;
+    VdaSimFixture& operator=(const VdaSimFixture&) = delete;
+
 protected:
     boost::asio::io_context _context;
     MosquittoBroker _broker;
     VDA5050::Vda5050Codec _codec;
     std::unique_ptr<TestLink> _master;
 
-    VdaSimFixture(const VdaSimFixture&) = delete;
-    VdaSimFixture& operator=(const VdaSimFixture&) = delete;
+    VdaSimFixture()
+    {
+        _master = std::make_unique<TestLink>(_context, MakeOptions(_broker.GetPort(), "master"));
+        _master->link.Subscribe({{"uagv/#", 1}});
+        _master->link.Start();
+        REQUIRE(TryRunUntil(_context, [this]() { return _master->listener.ups == 1; }));
+    }
 
     ~VdaSimFixture()
     {
@@ -93,14 +102,6 @@ protected:
                 CheckValid(message.topic, message.payload);
             }
         }
-    }
-
-    VdaSimFixture()
-    {
-        _master = std::make_unique<TestLink>(_context, MakeOptions(_broker.GetPort(), "master"));
-        _master->link.Subscribe({{"uagv/#", 1}});
-        _master->link.Start();
-        REQUIRE(TryRunUntil(_context, [this]() { return _master->listener.ups == 1; }));
     }
 
     void Send(const VDA5050::OrderMessage& order)
