@@ -334,7 +334,7 @@ private:
                         _bConnected = false;
                         _cuts.push_back(cut.bWill);
                     },
-                    [this, &bOpens](const VdaSim::OpenLink&) {
+                    [&bOpens](const VdaSim::OpenLink&) {
                         bOpens = true;
                     }},
                 action);
