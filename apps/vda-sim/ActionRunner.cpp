@@ -3,7 +3,9 @@
 #include "vda-sim/VehicleFactsheet.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
+#include <utility>
 
 namespace ACS::VdaSim
 {
@@ -31,9 +33,30 @@ VDA5050::Load MakeLoad(const VDA5050::Action& action)
 
 } // namespace
 
-std::string ActionRunner::Start(const VDA5050::Action& action, bool bAtCharger)
+ActionRunner::ActionRunner(std::map<std::string, double, std::less<>> seconds)
+    : _seconds(std::move(seconds))
 {
-    const bool bHandling = action.actionType == ACTION_PICK || action.actionType == ACTION_DROP;
+}
+
+double ActionRunner::GetSeconds(std::string_view actionType) const
+{
+    const auto known = _seconds.find(actionType);
+    if (known != _seconds.end())
+    {
+        return known->second;
+    }
+    if (actionType == ACTION_WAIT_FOR_TRIGGER)
+    {
+        return std::numeric_limits<double>::infinity();
+    }
+    return actionType == ACTION_PICK || actionType == ACTION_DROP ? HANDLING_SECONDS : SHORT_SECONDS;
+}
+
+std::string ActionRunner::Start(
+    const VDA5050::Action& action,
+    bool bAtCharger,
+    std::optional<VDA5050::VehicleError> failureOrNull)
+{
     if (action.actionType == ACTION_DROP && _loads.empty())
     {
         return "there is no load on board";
@@ -42,8 +65,22 @@ std::string ActionRunner::Start(const VDA5050::Action& action, bool bAtCharger)
     {
         return "there is no charger here";
     }
-    _running.push_back({action, bHandling ? HANDLING_SECONDS : SHORT_SECONDS, false});
+    _running.push_back({action, GetSeconds(action.actionType), std::move(failureOrNull), false});
     return {};
+}
+
+std::size_t ActionRunner::Trigger()
+{
+    std::size_t count = 0;
+    for (RunningAction& running : _running)
+    {
+        if (running.action.actionType == ACTION_WAIT_FOR_TRIGGER)
+        {
+            running.secondsLeft = 0.0;
+            ++count;
+        }
+    }
+    return count;
 }
 
 std::vector<ActionRunner::RunningAction>::iterator ActionRunner::Find(std::string_view actionID)
@@ -99,14 +136,19 @@ void ActionRunner::Advance(double seconds, std::vector<ActionOutcome>& out)
     {
         if (isDone(running))
         {
-            out.push_back(Finish(running.action));
+            out.push_back(Finish(running));
         }
     }
     std::erase_if(_running, isDone);
 }
 
-ActionOutcome ActionRunner::Finish(const VDA5050::Action& action)
+ActionOutcome ActionRunner::Finish(const RunningAction& running)
 {
+    const VDA5050::Action& action = running.action;
+    if (running.failure.has_value())
+    {
+        return {action.actionID, VDA5050::EActionStatus::Failed, running.failure->errorDescription, running.failure};
+    }
     if (action.actionType == ACTION_PICK)
     {
         _loads.push_back(MakeLoad(action));
@@ -123,7 +165,12 @@ ActionOutcome ActionRunner::Finish(const VDA5050::Action& action)
     {
         _bCharging = false;
     }
-    return {action.actionID, VDA5050::EActionStatus::Finished, {}};
+    ActionOutcome outcome{action.actionID, VDA5050::EActionStatus::Finished, {}, {}};
+    if (action.actionType == ACTION_LOG_REPORT)
+    {
+        outcome.result = "log-" + action.actionID + ".txt";
+    }
+    return outcome;
 }
 
 ActionOutcome ActionRunner::PutDown(const VDA5050::Action& action)
@@ -139,10 +186,10 @@ ActionOutcome ActionRunner::PutDown(const VDA5050::Action& action)
     }
     if (found == _loads.end())
     {
-        return {action.actionID, VDA5050::EActionStatus::Failed, "this load is not on board"};
+        return {action.actionID, VDA5050::EActionStatus::Failed, "this load is not on board", {}};
     }
     _loads.erase(found);
-    return {action.actionID, VDA5050::EActionStatus::Finished, {}};
+    return {action.actionID, VDA5050::EActionStatus::Finished, {}, {}};
 }
 
 void ActionRunner::Undock()

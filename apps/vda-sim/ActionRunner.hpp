@@ -3,6 +3,9 @@
 #include <acs/vda5050/Action.hpp>
 #include <acs/vda5050/StateMessage.hpp>
 
+#include <functional>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +19,7 @@ struct ActionOutcome
     std::string actionID;
     VDA5050::EActionStatus status = VDA5050::EActionStatus::Finished;
     std::string result;
+    std::optional<VDA5050::VehicleError> error; ///< Of one that failed by a fault.
 
     bool operator==(const ActionOutcome&) const = default;
 };
@@ -27,9 +31,12 @@ class ActionRunner
     struct RunningAction
     {
         VDA5050::Action action;
-        double secondsLeft = 0.0;
+        double secondsLeft = 0.0;                     ///< Infinite: until it is triggered.
+        std::optional<VDA5050::VehicleError> failure; ///< It fails at its end with this.
         bool bPaused = false;
     };
+
+    std::map<std::string, double, std::less<>> _seconds;
 
     std::vector<RunningAction> _running;
     std::vector<VDA5050::Load> _loads;
@@ -40,8 +47,16 @@ public:
     static constexpr double HANDLING_SECONDS = 3.0; ///< pick, drop
     static constexpr double SHORT_SECONDS = 1.0;    ///< all others
 
-    /// Begins; the empty text, or why it cannot.
-    [[nodiscard]] std::string Start(const VDA5050::Action& action, bool bAtCharger);
+    /// How long actions of a type take, where it is not as above; seconds of simulated time by actionType.
+    explicit ActionRunner(std::map<std::string, double, std::less<>> seconds = {});
+
+    /// Begins; the empty text, or why it cannot. With a failure it ends with that instead of doing its work.
+    [[nodiscard]] std::string Start(
+        const VDA5050::Action& action,
+        bool bAtCharger,
+        std::optional<VDA5050::VehicleError> failureOrNull = {});
+    /// What every waitForTrigger waits for; how many there were.
+    std::size_t Trigger();
     /// False where no such action runs.
     [[nodiscard]] bool TryPause(std::string_view actionID);
     [[nodiscard]] bool TryResume(std::string_view actionID);
@@ -58,8 +73,9 @@ public:
     [[nodiscard]] const std::vector<VDA5050::Load>& GetLoads() const noexcept;
 
 private:
+    [[nodiscard]] double GetSeconds(std::string_view actionType) const;
     [[nodiscard]] std::vector<RunningAction>::iterator Find(std::string_view actionID);
-    [[nodiscard]] ActionOutcome Finish(const VDA5050::Action& action);
+    [[nodiscard]] ActionOutcome Finish(const RunningAction& running);
     [[nodiscard]] ActionOutcome PutDown(const VDA5050::Action& action);
 };
 

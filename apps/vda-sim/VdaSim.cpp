@@ -5,14 +5,21 @@
 #include "common/SpdlogSink.hpp"
 #include "common/SystemClock.hpp"
 #include "common/SystemRandom.hpp"
+#include "vda-sim/ControlChannel.hpp"
+#include "vda-sim/VehicleRandom.hpp"
 #include "vda-sim/VehicleRunner.hpp"
 
 #include <boost/asio/io_context.hpp>
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
+#include <sys/resource.h>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -21,88 +28,202 @@ namespace ACS::VdaSim
 namespace
 {
 
-/// The vehicles of one process, and how many are connected or gone.
+/// The vehicles of one process, how many are connected or gone, and what is commanded to them.
 class Fleet
 {
+    struct Member
+    {
+        std::string name;
+        std::unique_ptr<VehicleRandom> random;
+        std::unique_ptr<VehicleRunner> runner;
+    };
+
     const VdaSimOptions* _options;
     boost::asio::io_context _context;
     Apps::SystemClock _clock;
     Apps::SystemRandom _random;
     Apps::SpdlogSink _log;
-    std::vector<std::unique_ptr<VehicleRunner>> _runners;
-    std::set<std::size_t> _connected;
+    Core::Logger _logger;
+    std::uint64_t _seed;
+    std::vector<Member> _members;
+    std::optional<ControlChannel> _control;
+    std::set<std::size_t> _connected; ///< The control channel's number is that after the last vehicle.
     bool _bReady = false;
 
 public:
     explicit Fleet(const VdaSimOptions& options)
         : _options(&options),
-          _log(options.common.logLevel)
+          _log(options.common.logLevel),
+          _logger(_log, "vda-sim"),
+          _seed(options.seed.has_value() ? *options.seed : _random.GetNext())
     {
+        if (!_options->controlTopic.empty())
+        {
+            VDA5050::MosquittoOptions link = MakeLinkOptions(fmt::format("vda-sim-control-{:016x}", _random.GetNext()));
+            _control.emplace(
+                _context.get_executor(),
+                _random,
+                _logger,
+                std::move(link),
+                _options->controlTopic,
+                [this](std::string_view text) { return Command(text); });
+        }
     }
 
     void Add(const VehicleSpec& spec, const std::string& startNodeID, const Planning::SiteMap& site)
     {
         VirtualVehicleOptions vehicle;
         vehicle.address = {_options->interfaceName, _options->manufacturer, spec.name};
-        vehicle.version = _options->version;
+        vehicle.version = spec.version.value_or(_options->version);
         vehicle.type = spec.type;
         vehicle.startNodeID = startNodeID;
         vehicle.timeScale = _options->timeScale;
+        vehicle.charge = spec.charge;
+        vehicle.actionSeconds = _options->actionSeconds;
 
-        VDA5050::MosquittoOptions link;
-        link.host = _options->broker.peer.host;
-        link.port = _options->broker.peer.port;
-        link.clientID = fmt::format("vda-sim-{}-{}", _options->manufacturer, spec.name);
-        if (Apps::IsSecure(_options->broker.scheme))
-        {
-            link.tls = VDA5050::MosquittoTls{};
-        }
         const Core::Logger logger(_log, spec.name);
-        _runners.push_back(std::make_unique<VehicleRunner>(
+        Member& member = _members.emplace_back();
+        member.name = spec.name;
+        member.random = std::make_unique<VehicleRandom>(_seed, spec.name);
+        member.runner = std::make_unique<VehicleRunner>(
             _context.get_executor(),
             _clock,
             _random,
             logger,
-            VirtualVehicle(std::move(vehicle), site, logger),
-            std::move(link)));
+            VirtualVehicle(std::move(vehicle), site, *member.random, logger),
+            MakeLinkOptions(fmt::format("vda-sim-{}-{}", _options->manufacturer, spec.name)));
     }
 
     void Run()
     {
+        _logger.Info("vehicles start", {{"count", std::to_string(_members.size())}, {"seed", std::to_string(_seed)}});
         Apps::SignalWaiter signals(_context.get_executor(), [this](int /*signal*/) { Stop(); });
-        for (std::size_t i = 0; i < _runners.size(); ++i)
+        for (const FaultCommand& command : _options->faults)
         {
-            _runners[i]->Start([this, i]() { CountConnected(i); });
+            std::ignore = Apply(command);
+        }
+        for (std::size_t i = 0; i < _members.size(); ++i)
+        {
+            _members[i].runner->Start([this, i]() { CountConnected(i); });
+        }
+        if (_control.has_value())
+        {
+            _control->Start([this]() { CountConnected(_members.size()); });
         }
         _context.run();
     }
 
 private:
+    [[nodiscard]] VDA5050::MosquittoOptions MakeLinkOptions(std::string clientID) const
+    {
+        VDA5050::MosquittoOptions link;
+        link.host = _options->broker.peer.host;
+        link.port = _options->broker.peer.port;
+        link.clientID = std::move(clientID);
+        if (Apps::IsSecure(_options->broker.scheme))
+        {
+            link.tls = VDA5050::MosquittoTls{};
+        }
+        return link;
+    }
+
     void CountConnected(std::size_t index)
     {
         _connected.insert(index);
-        if (!_bReady && _connected.size() == _runners.size())
+        if (!_bReady && _connected.size() == _members.size() + (_control.has_value() ? 1 : 0))
         {
             _bReady = true;
             Apps::PrintReadyLine({{"broker", _options->broker.peer}});
         }
     }
 
+    /// The answer to a message on the control topic.
+    [[nodiscard]] std::string Command(std::string_view text)
+    {
+        const Core::Result<std::vector<FaultCommand>> commands = ParseFaultCommands(text);
+        if (!commands.has_value())
+        {
+            const std::string mistake = Core::Describe(commands.error());
+            _logger.Warning("a command is wrong, none of the message is done", {{"reason", mistake}});
+            return "error: " + mistake;
+        }
+        std::string answer;
+        for (const FaultCommand& command : *commands)
+        {
+            answer += (answer.empty() ? "" : "\n") + Apply(command);
+        }
+        return answer.empty() ? "error: there is no command in it" : answer;
+    }
+
+    /// One line that says what was done.
+    [[nodiscard]] std::string Apply(const FaultCommand& command)
+    {
+        std::size_t vehicles = 0;
+        std::size_t ended = 0;
+        for (const Member& member : _members)
+        {
+            if (IsFor(command, member.name))
+            {
+                ++vehicles;
+                ended += ApplyTo(*member.runner, command);
+            }
+        }
+        if (vehicles == 0)
+        {
+            return fmt::format("error: no vehicle is called {}; {} is one", command.vehicles, _members.front().name);
+        }
+        const std::string what =
+            command.verb == EFaultVerb::Begin ? command.fault.text : fmt::format("ended={}", ended);
+        return fmt::format("ok: vehicles={} {}", vehicles, what);
+    }
+
+    /// How many faults or actions it ended.
+    [[nodiscard]] static std::size_t ApplyTo(VehicleRunner& runner, const FaultCommand& command)
+    {
+        switch (command.verb)
+        {
+            case EFaultVerb::End:
+                return runner.EndFaults(command.kindToEnd);
+            case EFaultVerb::Trigger:
+                return runner.Trigger();
+            case EFaultVerb::Begin:
+            default:
+                runner.Inject(command.fault);
+                return 0;
+        }
+    }
+
     void Stop()
     {
-        const auto left = std::make_shared<std::size_t>(_runners.size());
-        for (const std::unique_ptr<VehicleRunner>& runner : _runners)
+        const auto left = std::make_shared<std::size_t>(_members.size() + (_control.has_value() ? 1 : 0));
+        const auto countOut = [this, left]() {
+            --*left;
+            if (*left == 0)
+            {
+                _context.stop();
+            }
+        };
+        for (const Member& member : _members)
         {
-            runner->StopAsync([this, left]() {
-                --*left;
-                if (*left == 0)
-                {
-                    _context.stop();
-                }
-            });
+            member.runner->StopAsync(countOut);
+        }
+        if (_control.has_value())
+        {
+            _control->StopAsync(countOut);
         }
     }
 };
+
+/// Each vehicle has two descriptors; the usual limit of 1024 is soft, and may be raised.
+void RaiseFileLimit()
+{
+    rlimit limit{};
+    if (getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < limit.rlim_max)
+    {
+        limit.rlim_cur = limit.rlim_max;
+        std::ignore = setrlimit(RLIMIT_NOFILE, &limit);
+    }
+}
 
 int Refuse(const std::string& mistake)
 {
@@ -119,6 +240,7 @@ int RunVdaSim(const VdaSimOptions& options)
     {
         return Refuse(site.error());
     }
+    RaiseFileLimit();
     Fleet fleet(options);
     for (std::size_t i = 0; i < options.vehicles.size(); ++i)
     {

@@ -1,5 +1,6 @@
 #include "vda-sim/VdaSimOptions.hpp"
 
+#include "common/DurationText.hpp"
 #include "common/TextFile.hpp"
 #include <acs/plan/LifReader.hpp>
 #include <acs/vda5050/Topic.hpp>
@@ -8,6 +9,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <utility>
 
 namespace ACS::VdaSim
 {
@@ -17,33 +21,137 @@ namespace
 // The readers return what is wrong with a value, or nothing.
 
 constexpr const char* PROGRAM = "vda-sim";
+constexpr std::size_t MAX_VEHICLES = 10'000;
 
-std::string AddVehicle(const std::string& text, std::vector<VehicleSpec>& vehicles)
+std::string AddVehicle(VehicleSpec spec, std::vector<VehicleSpec>& vehicles)
 {
-    Core::Result<VehicleSpec> spec = ParseVehicleSpec(text);
-    if (!spec.has_value())
+    if (std::ranges::find(vehicles, spec.name, &VehicleSpec::name) != vehicles.end())
     {
-        return Core::Describe(spec.error());
+        return fmt::format("the vehicle {} is there twice", spec.name);
     }
-    if (std::ranges::find(vehicles, spec->name, &VehicleSpec::name) != vehicles.end())
-    {
-        return fmt::format("the vehicle {} is there twice", spec->name);
-    }
-    vehicles.push_back(std::move(*spec));
+    vehicles.push_back(std::move(spec));
     return {};
 }
 
-std::string ReadVersion(const std::string& text, VDA5050::EVda5050Version& version)
+template <typename TValue, typename TStore>
+std::string Read(Core::Result<TValue> value, TStore store)
 {
-    for (const auto known : {VDA5050::EVda5050Version::Version200, VDA5050::EVda5050Version::Version210})
+    if (!value.has_value())
     {
-        if (text == VDA5050::GetVersionText(known))
+        return Core::Describe(value.error());
+    }
+    return store(std::move(*value));
+}
+
+/// What a --count, its --prefix and its --type make.
+struct VehicleRow
+{
+    std::size_t count = 0;
+    std::string prefix = "LR";
+    EVehicleType type = EVehicleType::Logistics;
+};
+
+std::string AddVehicles(const VehicleRow& row, std::vector<VehicleSpec>& vehicles)
+{
+    for (std::size_t number = 1; number <= row.count; ++number)
+    {
+        VehicleSpec spec;
+        spec.name = MakeVehicleName(row.prefix, number, row.count);
+        spec.type = row.type;
+        std::string mistake = AddVehicle(std::move(spec), vehicles);
+        if (!mistake.empty())
         {
-            version = known;
-            return {};
+            return mistake + "; give --count another --prefix";
         }
     }
-    return fmt::format("expected 2.0.0 or 2.1.0, found {}", Core::QuoteForError(text));
+    return vehicles.empty() ? "there are no vehicles: give --vehicle NAME or --count N" : "";
+}
+
+std::string ReadActionTime(const std::string& text, std::map<std::string, double, std::less<>>& seconds)
+{
+    const std::size_t equals = text.find('=');
+    const Core::Result<std::chrono::milliseconds> duration = Apps::ParseDuration(
+        equals == std::string::npos ? std::string_view{} : std::string_view(text).substr(equals + 1));
+    if (equals == 0 || !duration.has_value())
+    {
+        return fmt::format("expected ACTIONTYPE=DURATION (pick=5s), found {}", Core::QuoteForError(text));
+    }
+    seconds[text.substr(0, equals)] = std::chrono::duration<double>(*duration).count();
+    return {};
+}
+
+std::string AddFaults(std::vector<FaultCommand> commands, std::vector<FaultCommand>& faults)
+{
+    for (FaultCommand& command : commands)
+    {
+        if (command.verb != EFaultVerb::Begin)
+        {
+            return fmt::format("{}: at the start there is no fault to end and no action to trigger", command.vehicles);
+        }
+        faults.push_back(std::move(command));
+    }
+    return {};
+}
+
+std::string ReadFaultFile(const std::string& path, std::vector<FaultCommand>& faults)
+{
+    const tl::expected<std::string, std::string> text = Apps::ReadTextFile(path);
+    if (!text.has_value())
+    {
+        return fmt::format("{} cannot be read: {}", path, text.error());
+    }
+    Core::Result<std::vector<FaultCommand>> commands = ParseFaultCommands(*text);
+    if (!commands.has_value())
+    {
+        return fmt::format("{}: {}", path, Core::Describe(commands.error()));
+    }
+    std::string mistake = AddFaults(std::move(*commands), faults);
+    return mistake.empty() ? mistake : fmt::format("{}: {}", path, mistake);
+}
+
+std::string ReadControlTopic(const std::string& text, std::string& topic)
+{
+    if (text.empty() || text.find_first_of("+#") != std::string::npos || text.starts_with('$'))
+    {
+        return fmt::format("expected a topic without + and #, found {}", Core::QuoteForError(text));
+    }
+    topic = text;
+    return {};
+}
+
+/// A fault for a vehicle that is not there would be waited for in vain.
+std::string CheckFaults(const std::vector<FaultCommand>& faults, const std::vector<VehicleSpec>& vehicles)
+{
+    for (const FaultCommand& command : faults)
+    {
+        const bool bKnown = std::ranges::any_of(vehicles, [&command](const VehicleSpec& vehicle) {
+            return IsFor(command, vehicle.name);
+        });
+        if (!bKnown)
+        {
+            return fmt::format(
+                "the fault '{} {}' is for no vehicle that there is; {} is one",
+                command.vehicles,
+                command.fault.text,
+                vehicles.front().name);
+        }
+    }
+    return {};
+}
+
+std::string MakeFooter()
+{
+    return fmt::format(
+        "Faults, on the command line, in a file (a line each, # for remarks) and on the control topic:\n"
+        "  VEHICLE FAULT [KEY=VALUE]...  begins one; VEHICLE is a name, or its beginning and *\n"
+        "      at=DURATION later, node=NODEID once this node is reached, for=DURATION so long\n"
+        "  VEHICLE end [FAULT]           ends it, or all (control topic)\n"
+        "  VEHICLE trigger               ends a waitForTrigger (control topic)\n"
+        "{}"
+        "Example: vda-sim ... --fault 'LR01 blocked node=N045 for=10s' --fault 'LR* loss percent=5'\n"
+        "         mosquitto_pub -t vda-sim/control -m 'LR01 estop for=5s'\n"
+        "docs/vda-sim.md explains each.",
+        MakeFaultHelp());
 }
 
 /// A word that is to stand as one level of a topic.
@@ -65,6 +173,8 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         "Virtual VDA5050 vehicles: drive orders on a site, perform their actions, report over MQTT.\n"
         "Example: vda-sim --broker mqtt://127.0.0.1:1883 --site site.lif.json --vehicle LR01 --vehicle CR01,type=CR",
         PROGRAM};
+    app.footer(MakeFooter());
+    VehicleRow row;
     Apps::AddUrlOption(
         app,
         "--broker",
@@ -78,12 +188,36 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
     Apps::AddRepeatedOption(
         app,
         "--vehicle",
-        [&options](const std::string& text) { return AddVehicle(text, options.vehicles); },
+        [&options](const std::string& text) {
+            return Read(ParseVehicleSpec(text), [&options](VehicleSpec spec) {
+                return AddVehicle(std::move(spec), options.vehicles);
+            });
+        },
         "a vehicle: its serialNumber; type LR (default) carries cassettes, CR is the base of an arm; node is where it "
         "stands at first, by default the dock of the charger CHG01 for the first vehicle, CHG02 for the second and so "
-        "on, else the first node of the site. May be repeated")
-        .required()
-        ->type_name("NAME[,type=LR|CR][,node=NODEID]");
+        "on, else a node of the site; protocol, where it differs from --protocol; battery is its charge at first. May be "
+        "repeated")
+        .type_name("NAME[,type=LR|CR][,node=NODEID][,protocol=VERSION][,battery=PERCENT]");
+    app.add_option("--count", row.count, "so many vehicles more, named by --prefix and a number: LR01, LR02, ...")
+        ->check(CLI::Range(std::size_t{1}, MAX_VEHICLES))
+        ->type_name("N");
+    Apps::AddTextOption(
+        app,
+        "--prefix",
+        [&row](const std::string& text) { return ReadLevel(text, row.prefix); },
+        "how the names of --count begin")
+        .default_str(row.prefix);
+    Apps::AddTextOption(
+        app,
+        "--type",
+        [&row](const std::string& text) {
+            return Read(ParseVehicleType(text), [&row](EVehicleType type) {
+                row.type = type;
+                return std::string();
+            });
+        },
+        "the type of the vehicles of --count: LR or CR")
+        .default_str("LR");
     Apps::AddTextOption(
         app,
         "--manufacturer",
@@ -99,12 +233,63 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
     Apps::AddTextOption(
         app,
         "--protocol",
-        [&options](const std::string& text) { return ReadVersion(text, options.version); },
+        [&options](const std::string& text) {
+            return Read(ParseProtocol(text), [&options](VDA5050::EVda5050Version version) {
+                options.version = version;
+                return std::string();
+            });
+        },
         "VDA5050 version: 2.0.0 or 2.1.0")
         .default_str("2.0.0");
     Apps::AddTimeScaleOption(app, options.timeScale);
+    Apps::AddRepeatedOption(
+        app,
+        "--action-time",
+        [&options](const std::string& text) { return ReadActionTime(text, options.actionSeconds); },
+        "how long the actions of a type take, in simulated time; else pick and drop 3 s, waitForTrigger until it is "
+        "triggered, others 1 s. May be repeated")
+        .type_name("ACTIONTYPE=DURATION");
+    Apps::AddRepeatedOption(
+        app,
+        "--fault",
+        [&options](const std::string& text) {
+            return Read(ParseFaultCommand(text), [&options](FaultCommand command) {
+                return AddFaults({std::move(command)}, options.faults);
+            });
+        },
+        "what goes wrong, see below; its time counts from when the vehicle is online. May be repeated")
+        .type_name("'VEHICLE FAULT [KEY=VALUE]...'");
+    Apps::AddRepeatedOption(
+        app,
+        "--fault-file",
+        [&options](const std::string& path) { return ReadFaultFile(path, options.faults); },
+        "a file with a fault on each line. May be repeated")
+        .type_name("FILE");
+    Apps::AddTextOption(
+        app,
+        "--control-topic",
+        [&options](const std::string& text) { return ReadControlTopic(text, options.controlTopic); },
+        "where faults are taken from while the vehicles run; answers come on TOPIC/result")
+        .default_str(options.controlTopic);
+    bool bNoControl = false;
+    app.add_flag("--no-control", bNoControl, "takes no faults from the broker");
+    app.add_option("--seed", options.seed, "the same losses and delays each time; by default other ones, see the log")
+        ->type_name("N");
     Apps::AddCommonOptions(app, options.common);
-    return Apps::ParseCommandLineOrNull(app, argc, argv);
+    const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
+    if (exitCode.has_value())
+    {
+        return exitCode;
+    }
+    options.controlTopic = bNoControl ? std::string() : options.controlTopic;
+    std::string mistake = AddVehicles(row, options.vehicles);
+    mistake = mistake.empty() ? CheckFaults(options.faults, options.vehicles) : mistake;
+    if (!mistake.empty())
+    {
+        Apps::PrintMistake(PROGRAM, mistake);
+        return Apps::EXIT_BAD_COMMAND_LINE;
+    }
+    return std::nullopt;
 }
 
 tl::expected<Planning::SiteMap, std::string> LoadSite(const std::string& path)
@@ -139,7 +324,8 @@ tl::expected<std::string, std::string> GetStartNode(
         return *vehicle.startNodeID;
     }
     const Planning::SiteStation* const charger = site.FindStationOrNull(fmt::format("CHG{:02}", index + 1));
-    return charger != nullptr ? charger->nodeIDs.front() : site.GetNodes().front().nodeID;
+    const auto& nodes = site.GetNodes();
+    return charger != nullptr ? charger->nodeIDs.front() : nodes[index % nodes.size()].nodeID;
 }
 
 } // namespace ACS::VdaSim

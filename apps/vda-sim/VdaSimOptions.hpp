@@ -1,11 +1,15 @@
 #pragma once
 
 #include "common/CommandLine.hpp"
+#include "vda-sim/FaultCommand.hpp"
 #include "vda-sim/VehicleSpec.hpp"
 #include <acs/core/Result.hpp>
 #include <acs/plan/SiteMap.hpp>
 #include <acs/vda5050/EVda5050Version.hpp>
 
+#include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,16 +28,21 @@ struct VdaSimOptions
     std::string interfaceName = "uagv";
     VDA5050::EVda5050Version version = VDA5050::EVda5050Version::Version200;
     double timeScale = 1.0;
+    std::optional<std::uint64_t> seed; ///< Absent: another one each time, told on the log.
+    std::map<std::string, double, std::less<>> actionSeconds;
+    std::vector<FaultCommand> faults;             ///< Of --fault and --fault-file; all of them begin one.
+    std::string controlTopic = "vda-sim/control"; ///< Empty: none.
 };
 
-/// Fills the options; the exit code where the program shall not go on. Checks what needs no file.
+/// Fills the options; the exit code where the program shall not go on. Reads the fault files; the site is for LoadSite.
 [[nodiscard]] std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaSimOptions& options);
 
 /// Reads the LIF file; the error is one sentence that names it.
 [[nodiscard]] tl::expected<Planning::SiteMap, std::string> LoadSite(const std::string& path);
 
 /// Where the vehicle (the first one has index 0) stands at first: its own node, else the dock of the charger CHG01 for
-/// the first vehicle, CHG02 for the second and so on, else the first node of the site. The error is one sentence.
+/// the first vehicle, CHG02 for the second and so on; who finds none stands on the node of the site that has its number,
+/// round and round. The error is one sentence.
 [[nodiscard]] tl::expected<std::string, std::string> GetStartNode(
     const VehicleSpec& vehicle,
     std::size_t index,

@@ -31,6 +31,16 @@ AgvAction MakeAction(
     return action;
 }
 
+AgvAction MakeInitPosition()
+{
+    AgvAction action = MakeAction(ACTION_INIT_POSITION, {EActionScope::Instant}, {"mapId", "lastNodeId"});
+    for (const std::string_view key : {"x", "y", "theta"})
+    {
+        action.actionParameters.push_back(AgvActionParameter{std::string(key), EValueDataType::Float, {}, false});
+    }
+    return action;
+}
+
 std::vector<AgvAction> MakeActions()
 {
     const std::vector<EActionScope> onNode{EActionScope::Node};
@@ -41,6 +51,10 @@ std::vector<AgvAction> MakeActions()
         MakeAction(ACTION_PICK, onNode, handling),
         MakeAction(ACTION_DROP, onNode, handling),
         MakeAction(ACTION_FINE_POSITIONING, onNode, {"stationType", "stationName"}),
+        MakeAction(ACTION_DETECT_OBJECT, onNode, {"objectType"}),
+        MakeAction(ACTION_WAIT_FOR_TRIGGER, onNode, {"triggerType"}),
+        MakeAction(ACTION_LOG_REPORT, instant, {"reason"}),
+        MakeInitPosition(),
         MakeAction(ACTION_START_CHARGING, both),
         MakeAction(ACTION_STOP_CHARGING, both),
         MakeAction(VDA5050::ActionTypes::CANCEL_ORDER, instant),
@@ -63,7 +77,9 @@ std::vector<VDA5050::OptionalParameter> MakeOptionalParameters()
           "order.edges.orientation",
           "order.edges.orientationType",
           "order.edges.rotationAllowed",
-          "order.edges.length"})
+          "order.edges.length",
+          "order.edges.trajectory",
+          "order.edges.corridor"})
     {
         parameters.push_back({std::string(name), VDA5050::EParameterSupport::Supported, {}});
     }
@@ -84,9 +100,9 @@ VDA5050::FactsheetMessage MakeFactsheet(EVehicleType type, const MotionLimits& l
     factsheet.typeSpecification.localizationTypes = {"NATURAL"};
     factsheet.typeSpecification.navigationTypes = {"VIRTUAL_LINE_GUIDED"};
     factsheet.physicalParameters.speedMax = limits.maxSpeed;
-    factsheet.physicalParameters.angularSpeedMax = limits.maxTurnSpeed;
+    // No angularSpeedMax: the text of 2.1 has it, and its schema does not.
     factsheet.physicalParameters.accelerationMax = limits.acceleration;
-    factsheet.physicalParameters.decelerationMax = limits.acceleration;
+    factsheet.physicalParameters.decelerationMax = limits.deceleration;
     factsheet.physicalParameters.heightMin = 1.2;
     factsheet.physicalParameters.heightMax = 1.2;
     factsheet.physicalParameters.width = 0.8;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace ACS::VdaSim
 {
@@ -25,12 +26,13 @@ VehicleMotion::VehicleMotion(const MotionLimits& limits, const Pose& pose)
 {
 }
 
-void VehicleMotion::Begin(const MotionLeg& leg)
+void VehicleMotion::Begin(MotionLeg leg)
 {
-    _leg = leg;
+    _leg = std::move(leg);
     _driven = 0.0;
-    _bBraking = false;
+    _offset = 0.0;
     _bAtTarget = false;
+    PlanSpeed();
 }
 
 void VehicleMotion::SetExitSpeed(double exitSpeed)
@@ -38,25 +40,41 @@ void VehicleMotion::SetExitSpeed(double exitSpeed)
     if (_leg.has_value())
     {
         _leg->exitSpeed = exitSpeed;
+        PlanSpeed();
     }
 }
 
-void VehicleMotion::Brake()
+void VehicleMotion::PlanSpeed()
 {
-    _bBraking = _leg.has_value();
+    const double turnSpeed = std::min(_leg->maxTurnSpeed, _limits.maxTurnSpeed);
+    _leg->path.Plan(turnSpeed, _limits.lateralAcceleration, _limits.cornerSpeed, _limits.deceleration, _leg->exitSpeed);
 }
 
-void VehicleMotion::Resume()
+void VehicleMotion::SetBrake(EBrake brake)
 {
-    _bBraking = false;
+    _brake = brake;
+    if (_brake == EBrake::Block)
+    {
+        _speed = 0.0;
+        _turnSpeed = 0.0;
+    }
+}
+
+void VehicleMotion::SetOffset(double offset)
+{
+    _wantedOffset = offset;
 }
 
 void VehicleMotion::Abandon()
 {
     _leg.reset();
-    _bBraking = false;
     _speed = 0.0;
     _turnSpeed = 0.0;
+}
+
+void VehicleMotion::Place(const Pose& pose)
+{
+    _pose = pose;
 }
 
 bool VehicleMotion::TryFinishLeg(double seconds)
@@ -66,14 +84,17 @@ bool VehicleMotion::TryFinishLeg(double seconds)
     {
         return false;
     }
-    if (_bBraking)
+    if (_brake != EBrake::None)
     {
-        Drive(seconds);
+        if (_speed > 0.0)
+        {
+            Drive(seconds);
+        }
         return false;
     }
     if (!_bAtTarget)
     {
-        const bool bAimed = TryTurn(_leg->target.theta, seconds);
+        const bool bAimed = TryTurn(GetHeading(), seconds);
         if (!bAimed && _leg->bTurnBefore && _driven <= 0.0)
         {
             _speed = 0.0;
@@ -108,36 +129,63 @@ bool VehicleMotion::TryTurn(double theta, double seconds)
 
 double VehicleMotion::GetRemaining() const
 {
-    return std::hypot(_leg->target.x - _pose.x, _leg->target.y - _pose.y);
+    return _leg->path.GetLength() - _driven;
 }
 
 double VehicleMotion::GetDirection() const
 {
-    return std::atan2(_leg->target.y - _pose.y, _leg->target.x - _pose.x);
+    return _leg->path.GetDirectionOrNull(_driven).value_or(_pose.theta);
+}
+
+double VehicleMotion::GetHeading() const
+{
+    if (_leg->heading.has_value())
+    {
+        return *_leg->heading;
+    }
+    const std::optional<double> direction = _leg->path.GetDirectionOrNull(_driven);
+    return direction.has_value() ? NormaliseAngle(*direction + _leg->relativeHeading) : _pose.theta;
+}
+
+void VehicleMotion::ChangeSpeed(double seconds)
+{
+    if (_brake != EBrake::None)
+    {
+        const double deceleration = _brake == EBrake::Service ? _limits.deceleration : _limits.emergencyDeceleration;
+        _speed = std::max(0.0, _speed - deceleration * seconds);
+        return;
+    }
+    const double stoppable = _leg->path.GetAllowedSpeed(_driven, _limits.deceleration);
+    const double wanted = std::min({stoppable, _leg->maxSpeed, _limits.maxSpeed});
+    const double low = _speed - _limits.deceleration * seconds;
+    const double high = _speed + _limits.acceleration * seconds;
+    _speed = std::min(std::clamp(wanted, low, high), stoppable);
 }
 
 void VehicleMotion::Drive(double seconds)
 {
-    const double remaining = GetRemaining();
-    const double change = _limits.acceleration * seconds;
-    // As fast as the brakes allow for the speed at the end, by v² = v0² + 2as.
-    const double exitSpeed = _leg->exitSpeed;
-    const double stoppable = std::sqrt(exitSpeed * exitSpeed + 2.0 * _limits.acceleration * remaining);
-    const double allowed = std::min({stoppable, _leg->maxSpeed, _limits.maxSpeed});
-    const double wanted = _bBraking ? 0.0 : allowed;
-    _speed = std::min(std::clamp(wanted, _speed - change, _speed + change), stoppable);
-    const double way = std::min(_speed * seconds, remaining);
-    if (remaining - way <= ARRIVED)
-    {
-        _pose.x = _leg->target.x;
-        _pose.y = _leg->target.y;
-        _driven += remaining;
-        return;
-    }
-    const double direction = GetDirection();
-    _pose.x += way * std::cos(direction);
-    _pose.y += way * std::sin(direction);
+    ChangeSpeed(seconds);
+    const double length = _leg->path.GetLength();
+    const double way = std::min(_speed * seconds, length - _driven);
     _driven += way;
+    if (length - _driven <= ARRIVED)
+    {
+        _driven = length;
+    }
+    // Back on the way before its end.
+    const double room = SWERVE_SLOPE * (length - _driven);
+    const double wanted = std::clamp(_wantedOffset, -room, room);
+    const double aside = SWERVE_SLOPE * way;
+    _offset = std::clamp(std::clamp(wanted, _offset - aside, _offset + aside), -room, room);
+    const MapPoint point = _leg->path.GetPoint(_driven);
+    const double direction = GetDirection();
+    _pose.x = point.x;
+    _pose.y = point.y;
+    if (_offset != 0.0)
+    {
+        _pose.x -= _offset * std::sin(direction);
+        _pose.y += _offset * std::cos(direction);
+    }
 }
 
 const Pose& VehicleMotion::GetPose() const noexcept
@@ -175,14 +223,9 @@ bool VehicleMotion::HasLeg() const noexcept
     return _leg.has_value();
 }
 
-bool VehicleMotion::IsBraking() const noexcept
-{
-    return _bBraking;
-}
-
 bool VehicleMotion::IsStanding() const noexcept
 {
-    return _speed <= 0.0 && (!_leg.has_value() || _bBraking);
+    return _speed <= 0.0 && (!_leg.has_value() || _brake != EBrake::None);
 }
 
 } // namespace ACS::VdaSim

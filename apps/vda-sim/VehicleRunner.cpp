@@ -4,8 +4,9 @@
 #include <acs/core/Overloaded.hpp>
 #include <acs/vda5050_mosquitto/MosquittoLink.hpp>
 
-#include <fmt/format.h>
+#include <boost/asio/post.hpp>
 
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -14,12 +15,16 @@ namespace ACS::VdaSim
 
 class VehicleRunner::Impl final : public VDA5050::IMqttLinkListener
 {
+    boost::asio::any_io_executor _executor;
     const Core::IClock* _clock;
+    Core::IRandom* _random;
     Core::Logger _logger;
     VirtualVehicle _vehicle;
     VirtualActions _actions;
     Apps::TimerSet _timers;
-    VDA5050::MosquittoLink _link;
+    VDA5050::MosquittoOptions _linkOptions;
+    std::unique_ptr<VDA5050::MosquittoLink> _linkOrNull;    ///< None while a fault has cut the connection.
+    std::unique_ptr<VDA5050::MosquittoLink> _leavingOrNull; ///< One that takes leave without OFFLINE.
     Handler _onConnected;
     bool _bStopping = false;
 
@@ -31,20 +36,40 @@ public:
         const Core::Logger& logger,
         VirtualVehicle vehicle,
         VDA5050::MosquittoOptions linkOptions)
-        : _clock(&clock),
+        : _executor(executor),
+          _clock(&clock),
+          _random(&random),
           _logger(logger),
           _vehicle(std::move(vehicle)),
           _timers(executor, [this](std::uint64_t key) { OnTimer(key); }),
-          _link(executor, random, logger, std::move(linkOptions), *this)
+          _linkOptions(std::move(linkOptions))
     {
-        _link.Subscribe(_vehicle.GetSubscriptions());
-        _link.SetWill(_vehicle.MakeWill(_clock->GetNow()));
     }
 
     void Start(Handler onConnected)
     {
         _onConnected = std::move(onConnected);
-        _link.Start();
+        Open();
+    }
+
+    void Inject(const Fault& fault)
+    {
+        _vehicle.Inject(fault, _clock->GetNow(), _actions);
+        Execute();
+    }
+
+    std::size_t EndFaults(std::optional<EFaultKind> kindOrNull)
+    {
+        const std::size_t count = _vehicle.EndFaults(kindOrNull, _clock->GetNow(), _actions);
+        Execute();
+        return count;
+    }
+
+    std::size_t Trigger()
+    {
+        const std::size_t count = _vehicle.Trigger(_clock->GetNow(), _actions);
+        Execute();
+        return count;
     }
 
     void StopAsync(Handler onStopped)
@@ -66,13 +91,18 @@ public:
             }
             lastMessage = std::move(publish->message);
         }
-        _link.StopAsync(lastMessage, VDA5050::MosquittoLink::DEFAULT_STOP_TIMEOUT, std::move(onStopped));
+        if (_linkOrNull == nullptr)
+        {
+            boost::asio::post(_executor, std::move(onStopped));
+            return;
+        }
+        _linkOrNull->StopAsync(lastMessage, VDA5050::MosquittoLink::DEFAULT_STOP_TIMEOUT, std::move(onStopped));
     }
 
     void OnLinkUp() override
     {
         const Core::Now now = _clock->GetNow();
-        _link.SetWill(_vehicle.MakeWill(now)); // for the connection after this one
+        _linkOrNull->SetWill(_vehicle.MakeWill(now)); // for the connection after this one
         _vehicle.OnLinkUp(now, _actions);
         Execute();
         if (_onConnected)
@@ -113,16 +143,49 @@ private:
                             _timers.Start(start.key, start.delay);
                         }
                     },
-                    [this](const CancelVirtualTimer& cancel) {
-                        _timers.Cancel(cancel.key);
+                    [this](const CancelVirtualTimer& cancel) { _timers.Cancel(cancel.key); },
+                    [this](const CutLink& cut) { Cut(cut.bWill); },
+                    [this](const OpenLink&) {
+                        Open();
                     }},
                 action);
         }
     }
 
+    void Open()
+    {
+        if (_bStopping || _linkOrNull != nullptr)
+        {
+            return;
+        }
+        _leavingOrNull.reset(); // else two would have one client id
+        _linkOrNull = std::make_unique<VDA5050::MosquittoLink>(_executor, *_random, _logger, _linkOptions, *this);
+        _linkOrNull->Subscribe(_vehicle.GetSubscriptions());
+        _linkOrNull->SetWill(_vehicle.MakeWill(_clock->GetNow()));
+        _linkOrNull->Start();
+    }
+
+    void Cut(bool bWill)
+    {
+        if (_bStopping || _linkOrNull == nullptr)
+        {
+            return;
+        }
+        if (!bWill)
+        {
+            _leavingOrNull = std::move(_linkOrNull);
+            _leavingOrNull->StopAsync(std::nullopt, VDA5050::MosquittoLink::DEFAULT_STOP_TIMEOUT, []() {});
+        }
+        _linkOrNull.reset();
+    }
+
     void Publish(const VDA5050::MqttMessage& message)
     {
-        const Core::Result<void> sent = _link.Publish(message);
+        if (_linkOrNull == nullptr)
+        {
+            return;
+        }
+        const Core::Result<void> sent = _linkOrNull->Publish(message);
         if (!sent.has_value())
         {
             _logger.Debug("not sent", {{"topic", message.topic}, {"reason", Core::Describe(sent.error())}});
@@ -146,6 +209,21 @@ VehicleRunner::~VehicleRunner() = default;
 void VehicleRunner::Start(Handler onConnected)
 {
     _impl->Start(std::move(onConnected));
+}
+
+void VehicleRunner::Inject(const Fault& fault)
+{
+    _impl->Inject(fault);
+}
+
+std::size_t VehicleRunner::EndFaults(std::optional<EFaultKind> kindOrNull)
+{
+    return _impl->EndFaults(kindOrNull);
+}
+
+std::size_t VehicleRunner::Trigger()
+{
+    return _impl->Trigger();
 }
 
 void VehicleRunner::StopAsync(Handler onStopped)

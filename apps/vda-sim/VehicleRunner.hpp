@@ -7,8 +7,10 @@
 
 #include <boost/asio/any_io_executor.hpp>
 
+#include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace ACS::VdaSim
 {
@@ -24,7 +26,7 @@ public:
     /// Both are called from the executor.
     using Handler = std::function<void()>;
 
-    /// The link's client id and will are filled in here.
+    /// The link's will is filled in here. The random source is for the pauses between attempts to connect.
     VehicleRunner(
         const boost::asio::any_io_executor& executor,
         const Core::IClock& clock,
@@ -38,6 +40,12 @@ public:
 
     /// Begins to connect; the handler is called each time that the vehicle is online.
     void Start(Handler onConnected);
+
+    void Inject(const Fault& fault);
+    /// How many there were.
+    std::size_t EndFaults(std::optional<EFaultKind> kindOrNull);
+    /// How many actions waited for it.
+    std::size_t Trigger();
 
     /// Says OFFLINE and disconnects, then calls back, once.
     void StopAsync(Handler onStopped);

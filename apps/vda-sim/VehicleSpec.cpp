@@ -2,7 +2,12 @@
 
 #include <acs/vda5050/Topic.hpp>
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
 #include <set>
+#include <utility>
 
 namespace ACS::VdaSim
 {
@@ -18,30 +23,60 @@ std::string_view TakePart(std::string_view& text)
     return part;
 }
 
+template <typename TValue, typename TTarget>
+Core::Result<void> Store(Core::Result<TValue> value, TTarget& target)
+{
+    if (!value.has_value())
+    {
+        return tl::make_unexpected(std::move(value.error()));
+    }
+    target = std::move(*value);
+    return {};
+}
+
+Core::Result<double> ParsePercent(std::string_view text)
+{
+    constexpr double FULL = 100.0;
+    double percent = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), percent);
+    if (error != std::errc() || end != text.data() + text.size() || !(percent >= 0.0 && percent <= FULL))
+    {
+        return Core::Fail(Core::ECoreError::OutOfRange, "battery", "a number from 0 to 100", Core::QuoteForError(text));
+    }
+    return percent;
+}
+
 Core::Result<void> ReadPart(std::string_view part, VehicleSpec& spec, std::set<std::string_view>& known)
 {
     const std::size_t equals = part.find('=');
     const std::string_view key = part.substr(0, equals);
     if (!known.insert(key).second)
     {
-        return Core::Fail(Core::ECoreError::UnknownWord, {}, "each of type and node once", Core::QuoteForError(part));
+        return Core::Fail(Core::ECoreError::UnknownWord, {}, "each key once", Core::QuoteForError(part));
     }
     const std::string_view value = equals == std::string_view::npos ? std::string_view{} : part.substr(equals + 1);
-    if (key == "type" && (value == "LR" || value == "CR"))
-    {
-        spec.type = value == "LR" ? EVehicleType::Logistics : EVehicleType::Control;
-        return {};
-    }
     if (key == "type")
     {
-        return Core::Fail(Core::ECoreError::UnknownWord, "type", "LR or CR", Core::QuoteForError(value));
+        return Store(ParseVehicleType(value), spec.type);
+    }
+    if (key == "protocol")
+    {
+        return Store(ParseProtocol(value), spec.version);
+    }
+    if (key == "battery")
+    {
+        return Store(ParsePercent(value), spec.charge);
     }
     if (key == "node" && !value.empty())
     {
         spec.startNodeID = std::string(value);
         return {};
     }
-    return Core::Fail(Core::ECoreError::UnknownWord, {}, "type=LR|CR or node=NODEID", Core::QuoteForError(part));
+    return Core::Fail(
+        Core::ECoreError::UnknownWord,
+        {},
+        "type=LR|CR, node=NODEID, protocol=VERSION or battery=PERCENT",
+        Core::QuoteForError(part));
 }
 
 } // namespace
@@ -56,7 +91,7 @@ Core::Result<VehicleSpec> ParseVehicleSpec(std::string_view text)
         return Core::Fail(
             Core::ECoreError::InvalidIdentifier,
             {},
-            "NAME[,type=LR|CR][,node=NODEID], NAME without /, + and #",
+            "NAME[,type=LR|CR][,node=NODEID][,protocol=VERSION][,battery=PERCENT], NAME without /, + and #",
             Core::QuoteForError(spec.name));
     }
     std::set<std::string_view> known;
@@ -69,6 +104,36 @@ Core::Result<VehicleSpec> ParseVehicleSpec(std::string_view text)
         }
     }
     return spec;
+}
+
+Core::Result<EVehicleType> ParseVehicleType(std::string_view text)
+{
+    for (const EVehicleType type : {EVehicleType::Logistics, EVehicleType::Control})
+    {
+        if (text == GetTypeText(type))
+        {
+            return type;
+        }
+    }
+    return Core::Fail(Core::ECoreError::UnknownWord, "type", "LR or CR", Core::QuoteForError(text));
+}
+
+Core::Result<VDA5050::EVda5050Version> ParseProtocol(std::string_view text)
+{
+    for (const auto known : {VDA5050::EVda5050Version::Version200, VDA5050::EVda5050Version::Version210})
+    {
+        if (text == VDA5050::GetVersionText(known))
+        {
+            return known;
+        }
+    }
+    return Core::Fail(Core::ECoreError::UnknownWord, "protocol", "2.0.0 or 2.1.0", Core::QuoteForError(text));
+}
+
+std::string MakeVehicleName(std::string_view prefix, std::size_t number, std::size_t count)
+{
+    constexpr std::size_t MIN_DIGITS = 2;
+    return fmt::format("{}{:0{}}", prefix, number, std::max(MIN_DIGITS, std::to_string(count).size()));
 }
 
 std::string_view GetTypeText(EVehicleType type)

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <acs/core/Result.hpp>
+#include <acs/vda5050/EVda5050Version.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,18 +19,30 @@ enum class EVehicleType : std::uint8_t
     Control,   ///< CR: the mobile base of an arm.
 };
 
-/// One `--vehicle NAME[,type=LR|CR][,node=NODEID]`.
+/// One `--vehicle NAME[,type=LR|CR][,node=NODEID][,protocol=VERSION][,battery=PERCENT]`.
 struct VehicleSpec
 {
     std::string name; ///< The serialNumber.
     EVehicleType type = EVehicleType::Logistics;
-    std::optional<std::string> startNodeID; ///< Absent: a charger of the site.
+    std::optional<std::string> startNodeID;          ///< Absent: a charger of the site.
+    std::optional<VDA5050::EVda5050Version> version; ///< Absent: what --protocol says.
+    double charge = 100.0;                           ///< %
 
     bool operator==(const VehicleSpec&) const = default;
 };
 
-/// Fails with ECoreError::InvalidIdentifier (a name that no topic can have) or UnknownWord (a key or a type).
+/// Fails with ECoreError::InvalidIdentifier (a name that no topic can have), UnknownWord (a key, a type or a version) or
+/// OutOfRange.
 [[nodiscard]] Core::Result<VehicleSpec> ParseVehicleSpec(std::string_view text);
+
+/// "LR" or "CR". Fails with ECoreError::UnknownWord.
+[[nodiscard]] Core::Result<EVehicleType> ParseVehicleType(std::string_view text);
+
+/// "2.0.0" or "2.1.0". Fails with ECoreError::UnknownWord.
+[[nodiscard]] Core::Result<VDA5050::EVda5050Version> ParseProtocol(std::string_view text);
+
+/// The prefix and the number, from 1: "LR01", with as many digits as the count has, and at least two.
+[[nodiscard]] std::string MakeVehicleName(std::string_view prefix, std::size_t number, std::size_t count);
 
 /// "LR" or "CR".
 [[nodiscard]] std::string_view GetTypeText(EVehicleType type);

@@ -16,11 +16,8 @@ namespace
 
 using namespace std::chrono_literals;
 
-constexpr std::uint64_t KEY_TICK = 100;  ///< Above the keys of the session's own timers.
 constexpr double SLICE_SECONDS = 0.02;   ///< Of simulated time: the grain of all motion.
 constexpr double MAX_TICK_SECONDS = 5.0; ///< Of real time: a vehicle that was suspended does not leap.
-constexpr double DEFAULT_SPEED = 1.0;    ///< m/s where an order states none.
-constexpr double CORNER_ANGLE = 0.1;     ///< rad: a smaller change of direction is no corner.
 constexpr double CHARGE_PER_METRE = 0.02;
 constexpr double CHARGE_PER_SECOND = 0.5;
 constexpr double MIN_CHARGE = 5.0;
@@ -50,26 +47,6 @@ VDA5050::VehicleOptions MakeSessionOptions(const VirtualVehicleOptions& options,
     return session;
 }
 
-/// VDA5050, orientation of an edge: against the map or against the direction of travel.
-double GetHeading(double direction, std::optional<double> orientationOrNull, bool bGlobal)
-{
-    if (bGlobal)
-    {
-        return orientationOrNull.value_or(direction);
-    }
-    return NormaliseAngle(direction + orientationOrNull.value_or(0.0));
-}
-
-double GetDirection(const Pose& from, const Pose& to)
-{
-    return std::atan2(to.y - from.y, to.x - from.x);
-}
-
-double GetTurn(double from, double to)
-{
-    return std::abs(NormaliseAngle(to - from));
-}
-
 } // namespace
 
 Pose GetStartPose(const Planning::SiteNode& node)
@@ -80,13 +57,20 @@ Pose GetStartPose(const Planning::SiteNode& node)
     return {node.x, node.y, rule != node.rules.end() ? NormaliseAngle(rule->theta.value_or(0.0)) : 0.0};
 }
 
-VirtualVehicle::VirtualVehicle(VirtualVehicleOptions options, const Planning::SiteMap& site, Core::Logger logger)
+VirtualVehicle::VirtualVehicle(
+    VirtualVehicleOptions options,
+    const Planning::SiteMap& site,
+    Core::IRandom& random,
+    Core::Logger logger)
     : _options(std::move(options)),
       _site(&site),
+      _random(&random),
       _logger(std::move(logger)),
       _session(MakeSessionOptions(_options, site)),
       _motion(_options.limits, {}),
-      _nodeID(_options.startNodeID)
+      _hands(_options.actionSeconds),
+      _nodeID(_options.startNodeID),
+      _charge(_options.charge)
 {
     const Planning::SiteNode* const node = site.FindNodeOrNull(_nodeID);
     if (node != nullptr)
@@ -110,7 +94,7 @@ void VirtualVehicle::OnLinkUp(Core::Now now, VirtualActions& out)
 {
     PassTime(now, out);
     _session.OnLoads(_hands.GetLoads(), now, _sessionActions);
-    if (!_mapID.empty())
+    if (!_bWasOnline && !_mapID.empty())
     {
         const VDA5050::MapState map{_mapID, "1", VDA5050::EMapStatus::Enabled, {}};
         _session.OnMaps(std::vector<VDA5050::MapState>{map}, now, _sessionActions);
@@ -119,21 +103,33 @@ void VirtualVehicle::OnLinkUp(Core::Now now, VirtualActions& out)
     TellBattery(now);
     _session.OnLinkUp(now, _sessionActions);
     Pump(now, out);
+    _bWasOnline = true;
+    for (Fault& fault : std::exchange(_waitingFaults, {}))
+    {
+        _faults.Add(std::move(fault), now.steady, _faultChanges);
+    }
+    Settle(now, out);
 }
 
 void VirtualVehicle::OnLinkDown(Core::Now now, VirtualActions& out)
 {
     PassTime(now, out);
     _session.OnLinkDown(now, _sessionActions);
-    Pump(now, out);
+    _incoming.Clear();
+    _outgoing.Clear();
+    Settle(now, out);
 }
 
 void VirtualVehicle::OnMessage(const VDA5050::MqttMessage& message, Core::Now now, VirtualActions& out)
 {
     PassTime(now, out);
-    _session.OnMessage(message.topic, message.payload, message.bRetained, now, _sessionActions);
-    Pump(now, out);
-    KeepTicking(out);
+    std::vector<VDA5050::MqttMessage> passed;
+    _incoming.Pass(message, _faults, *_random, now.steady, passed);
+    for (const VDA5050::MqttMessage& through : passed)
+    {
+        Deliver(through, now, out);
+    }
+    Settle(now, out);
 }
 
 void VirtualVehicle::OnTimer(std::uint64_t key, Core::Now now, VirtualActions& out)
@@ -143,12 +139,17 @@ void VirtualVehicle::OnTimer(std::uint64_t key, Core::Now now, VirtualActions& o
     {
         _bTicking = false;
     }
+    else if (key == KEY_EVENT)
+    {
+        _nextEvent.reset();
+        _faults.OnTime(now.steady, _faultChanges);
+        ReleaseMessages(now, out);
+    }
     else
     {
         _session.OnTimer(static_cast<VDA5050::EVehicleTimer>(key), now, _sessionActions);
-        Pump(now, out);
     }
-    KeepTicking(out);
+    Settle(now, out);
 }
 
 void VirtualVehicle::Leave(Core::Now now, VirtualActions& out)
@@ -156,6 +157,15 @@ void VirtualVehicle::Leave(Core::Now now, VirtualActions& out)
     PassTime(now, out);
     _session.Leave(now, _sessionActions);
     Pump(now, out);
+    ReleaseMessages({Core::SteadyTime::max(), now.wall}, out);
+}
+
+void VirtualVehicle::Settle(Core::Now now, VirtualActions& out)
+{
+    Pump(now, out);
+    ApplyFaults(now, out);
+    KeepTicking(out);
+    ScheduleEvents(now, out);
 }
 
 VDA5050::StateMessage VirtualVehicle::GetState() const
@@ -182,40 +192,50 @@ void VirtualVehicle::PassTime(Core::Now now, VirtualActions& out)
         return; // it stood still, with nothing to do
     }
     const double passed = std::chrono::duration<double>(now.steady - last).count();
-    Live(std::clamp(passed, 0.0, MAX_TICK_SECONDS) * _options.timeScale, now, out);
+    // Whole slices alone, so that the way does not depend on when the timers happen to fire.
+    _unlivedSeconds += std::clamp(passed, 0.0, MAX_TICK_SECONDS) * _options.timeScale;
+    while (_unlivedSeconds >= SLICE_SECONDS)
+    {
+        _unlivedSeconds -= SLICE_SECONDS;
+        LiveSlice(now, out);
+    }
     TellPosition();
     TellBattery(now);
     Pump(now, out);
 }
 
-void VirtualVehicle::Live(double seconds, Core::Now now, VirtualActions& out)
+void VirtualVehicle::LiveSlice(Core::Now now, VirtualActions& out)
 {
-    double left = seconds;
-    while (left > 0.0)
+    const double drivenBefore = _motion.GetDriven();
+    const bool bArrived = _motion.TryFinishLeg(SLICE_SECONDS);
+    const double driven = std::max(0.0, _motion.GetDriven() - drivenBefore);
+    // Driving alone never empties it; what is below the reserve already stays there.
+    _charge = std::max(std::min(_charge, MIN_CHARGE), _charge - driven * CHARGE_PER_METRE);
+    if (_hands.IsCharging())
     {
-        const double slice = std::min(left, SLICE_SECONDS);
-        left -= slice;
-        const double drivenBefore = _motion.GetDriven();
-        const bool bArrived = _motion.TryFinishLeg(slice);
-        _charge = std::max(MIN_CHARGE, _charge - (_motion.GetDriven() - drivenBefore) * CHARGE_PER_METRE);
-        if (_hands.IsCharging())
-        {
-            _charge = std::min(FULL_CHARGE, _charge + slice * CHARGE_PER_SECOND);
-        }
-        _hands.Advance(slice, _outcomes);
-        if (bArrived)
-        {
-            ReachNode(now, out);
-        }
-        if (!_outcomes.empty())
-        {
-            EndActions(now, out);
-        }
-        if (_bDriving && _motion.IsStanding())
-        {
-            TellDriving(false, now);
-            Pump(now, out);
-        }
+        _charge = std::min(FULL_CHARGE, _charge + SLICE_SECONDS * CHARGE_PER_SECOND);
+    }
+    if (!_faults.IsActive(EFaultKind::EmergencyStop))
+    {
+        _hands.Advance(SLICE_SECONDS, _outcomes);
+    }
+    if (bArrived)
+    {
+        ReachNode(now, out);
+    }
+    if (!_outcomes.empty())
+    {
+        EndActions(now, out);
+    }
+    if (_bAbandons && _motion.IsStanding())
+    {
+        _bAbandons = false;
+        _motion.Abandon();
+    }
+    if (_bDriving && _motion.IsStanding())
+    {
+        TellDriving(false, now);
+        Pump(now, out);
     }
 }
 
@@ -241,6 +261,8 @@ void VirtualVehicle::ReachNode(Core::Now now, VirtualActions& out)
     {
         _motion.Abandon(); // it passed the node at speed, but the order has changed: nothing follows
     }
+    _faults.OnNode(_nodeID, now.steady, _faultChanges);
+    ApplyFaults(now, out);
 }
 
 void VirtualVehicle::EndActions(Core::Now now, VirtualActions& out)
@@ -249,6 +271,10 @@ void VirtualVehicle::EndActions(Core::Now now, VirtualActions& out)
     TellBattery(now);
     for (ActionOutcome& outcome : std::exchange(_outcomes, {}))
     {
+        if (outcome.error.has_value())
+        {
+            AddOrderError(std::move(*outcome.error), now);
+        }
         SetStatus(outcome.actionID, outcome.status, std::move(outcome.result), now);
     }
     Pump(now, out);
@@ -270,7 +296,7 @@ void VirtualVehicle::CarryOut(VDA5050::VehicleAction& action, Core::Now now, Vir
 {
     std::visit(
         Core::Overloaded{
-            [&](VDA5050::PublishMessage& publish) { out.emplace_back(std::move(publish)); },
+            [&](VDA5050::PublishMessage& publish) { Send(std::move(publish.message), now, out); },
             [&](const VDA5050::StartVehicleTimer& start) {
                 const bool bOften = _bDriving && start.timer == VDA5050::EVehicleTimer::MaximumStateInterval;
                 const Core::Duration delay = bOften ? std::min(start.delay, STATE_WHILE_DRIVING) : start.delay;
@@ -281,10 +307,11 @@ void VirtualVehicle::CarryOut(VDA5050::VehicleAction& action, Core::Now now, Vir
             },
             [&](const VDA5050::DriveTo& drive) { Drive(drive, now); },
             [&](const VDA5050::StopDriving&) {
-                _motion.Brake();
+                _bStopWanted = true;
+                UpdateBrake(now);
                 if (_motion.IsStanding())
                 {
-                    _bDriving = false;
+                    // Said although it may have been said before: the session waits for it.
                     _session.OnDrivingChanged(false, now, _sessionActions);
                 }
             },
@@ -308,6 +335,8 @@ void VirtualVehicle::CarryOut(VDA5050::VehicleAction& action, Core::Now now, Vir
                 }
             },
             [&](const VDA5050::OrderTaken& taken) {
+                _orderErrors.clear();
+                _session.OnErrors(MakeErrors(), now, _sessionActions);
                 _logger.Info(taken.bUpdate ? "order update" : "order", {{"orderId", taken.orderID}});
             },
             [&](const VDA5050::OrderRefused& refused) { Log(refused); },
@@ -316,7 +345,11 @@ void VirtualVehicle::CarryOut(VDA5050::VehicleAction& action, Core::Now now, Vir
             },
             [&](const VDA5050::OrderCleared& cleared) {
                 _leg.reset();
-                _motion.Abandon();
+                _bAbandons = !_motion.IsStanding();
+                if (!_bAbandons)
+                {
+                    _motion.Abandon();
+                }
                 _logger.Info("order cancelled", {{"orderId", cleared.orderID}});
             },
             [&](const VDA5050::MessageIgnored& ignored) {
@@ -336,8 +369,8 @@ void VirtualVehicle::TellPosition()
 {
     const Pose& pose = _motion.GetPose();
     VDA5050::AgvPosition position;
-    position.bPositionInitialized = true;
-    position.localizationScore = 1.0;
+    position.bPositionInitialized = !_faults.IsActive(EFaultKind::Lost);
+    position.localizationScore = position.bPositionInitialized ? 1.0 : 0.0;
     position.x = pose.x;
     position.y = pose.y;
     position.theta = pose.theta;
@@ -365,6 +398,11 @@ void VirtualVehicle::TellBattery(Core::Now now)
     battery.bCharging = _hands.IsCharging();
     battery.reach = std::floor(_charge * REACH_PER_PERCENT);
     _session.OnBattery(battery, now, _sessionActions);
+    if (_bBatteryLow != (_charge < LOW_CHARGE))
+    {
+        _bBatteryLow = !_bBatteryLow;
+        _session.OnErrors(MakeErrors(), now, _sessionActions);
+    }
 }
 
 void VirtualVehicle::TellLoads(Core::Now now)
@@ -389,107 +427,55 @@ void VirtualVehicle::KeepTicking(VirtualActions& out)
     out.emplace_back(StartVirtualTimer{KEY_TICK, tick});
 }
 
-void VirtualVehicle::Drive(const VDA5050::DriveTo& drive, Core::Now now)
-{
-    const bool bSameLeg = _motion.HasLeg() && _leg.has_value() && _leg->node.sequenceID == drive.node.sequenceID
-        && _leg->edge.edgeID == drive.edge.edgeID;
-    MotionLeg leg = MakeLeg(drive);
-    if (bSameLeg)
-    {
-        _motion.SetExitSpeed(leg.exitSpeed);
-        _motion.Resume();
-    }
-    else
-    {
-        _motion.Begin(leg);
-    }
-    _leg = drive;
-    _hands.Undock();
-    TellDriving(true, now);
-    TellBattery(now);
-}
-
-Pose VirtualVehicle::GetNodePose(const VDA5050::OrderNode& node) const
-{
-    if (node.nodePosition.has_value())
-    {
-        return {node.nodePosition->x, node.nodePosition->y, 0.0};
-    }
-    const Planning::SiteNode* const known = _site->FindNodeOrNull(node.nodeID);
-    return known != nullptr ? Pose{known->x, known->y, 0.0} : _motion.GetPose();
-}
-
-MotionLeg VirtualVehicle::MakeLeg(const VDA5050::DriveTo& drive) const
-{
-    const Pose& pose = _motion.GetPose();
-    const VDA5050::OrderEdge& edge = drive.edge;
-    const bool bGlobal = edge.orientationType == VDA5050::EOrientationType::Global;
-    MotionLeg leg;
-    leg.target = GetNodePose(drive.node);
-    const bool bSamePlace = leg.target.x == pose.x && leg.target.y == pose.y;
-    leg.target.theta = bSamePlace ? pose.theta : GetHeading(GetDirection(pose, leg.target), edge.orientation, bGlobal);
-    // An order may state any number: below zero it allows no movement, as zero does.
-    leg.maxSpeed = std::max(edge.maxSpeed.value_or(DEFAULT_SPEED), 0.0);
-    leg.maxTurnSpeed = std::max(edge.maxRotationSpeed.value_or(_options.limits.maxTurnSpeed), 0.0);
-    leg.bTurnBefore = !edge.bRotationAllowed.value_or(true);
-    if (drive.node.nodePosition.has_value())
-    {
-        leg.finalTheta = drive.node.nodePosition->theta;
-    }
-    leg.exitSpeed = GetExitSpeed(drive, leg);
-    return leg;
-}
-
-double VirtualVehicle::GetExitSpeed(const VDA5050::DriveTo& drive, const MotionLeg& leg) const
-{
-    const bool bTurnsThere =
-        leg.finalTheta.has_value() && GetTurn(leg.target.theta, *leg.finalTheta) > _options.limits.turnTolerance;
-    if (drive.bStopAtNode || bTurnsThere)
-    {
-        return 0.0;
-    }
-    const VDA5050::StateMessage state = _session.GetState();
-    const auto node = std::ranges::find(state.nodeStates, drive.node.sequenceID + 2, &VDA5050::NodeState::sequenceID);
-    const auto edge = std::ranges::find(state.edgeStates, drive.node.sequenceID + 1, &VDA5050::EdgeState::sequenceID);
-    if (node == state.nodeStates.end() || edge == state.edgeStates.end())
-    {
-        return 0.0;
-    }
-    VDA5050::OrderNode nextNode;
-    nextNode.nodeID = node->nodeID;
-    if (node->nodePosition.has_value())
-    {
-        nextNode.nodePosition = VDA5050::NodePosition{};
-        nextNode.nodePosition->x = node->nodePosition->x;
-        nextNode.nodePosition->y = node->nodePosition->y;
-    }
-    const double direction = GetDirection(leg.target, GetNodePose(nextNode));
-    const bool bCorner = GetTurn(GetDirection(_motion.GetPose(), leg.target), direction) > CORNER_ANGLE;
-    const double speed = bCorner ? std::min(leg.maxSpeed, _options.limits.cornerSpeed) : leg.maxSpeed;
-    const auto known = std::ranges::find(_site->GetEdges(), edge->edgeID, &Planning::SiteEdge::edgeID);
-    if (known == _site->GetEdges().end() || known->rules.empty())
-    {
-        return speed;
-    }
-    const Planning::SiteEdgeRule& rule = known->rules.front();
-    const double heading = GetHeading(direction, rule.orientation, rule.orientationType == "GLOBAL");
-    const bool bMustTurn = GetTurn(leg.target.theta, heading) > _options.limits.turnTolerance;
-    if (bMustTurn && !rule.bRotationAllowed.value_or(true))
-    {
-        return 0.0;
-    }
-    return std::min(speed, rule.maxSpeed.value_or(speed));
-}
-
 void VirtualVehicle::Start(const VDA5050::StartAction& start, Core::Now now)
 {
-    std::string refusal = _hands.Start(start.action, IsAtCharger());
+    std::string refusal;
+    if (std::optional<VDA5050::VehicleError> error = TakeActionFaultOrNull(start.action, true); error.has_value())
+    {
+        refusal = error->errorDescription;
+        AddOrderError(std::move(*error), now);
+    }
+    if (refusal.empty() && start.action.actionType == ACTION_INIT_POSITION)
+    {
+        refusal = InitialisePosition(start.action, now);
+    }
+    if (refusal.empty())
+    {
+        refusal = _hands.Start(start.action, IsAtCharger(), TakeActionFaultOrNull(start.action, false));
+    }
     const bool bRuns = refusal.empty();
     SetStatus(start.action.actionID, VDA5050::EActionStatus::Running, {}, now);
     if (!bRuns)
     {
         SetStatus(start.action.actionID, VDA5050::EActionStatus::Failed, std::move(refusal), now);
     }
+}
+
+/// Why it cannot be, or nothing: the vehicle is where the action says then.
+std::string VirtualVehicle::InitialisePosition(const VDA5050::Action& action, Core::Now now)
+{
+    const auto getNumber = [&action](std::string_view key) {
+        const VDA5050::ActionParameter* const parameter = VDA5050::FindParameterOrNull(action, key);
+        return parameter != nullptr ? parameter->value.GetNumberOrNull() : std::nullopt;
+    };
+    const std::optional<double> x = getNumber("x");
+    const std::optional<double> y = getNumber("y");
+    const std::optional<double> theta = getNumber("theta");
+    const VDA5050::ActionParameter* const map = VDA5050::FindParameterOrNull(action, "mapId");
+    const std::optional<std::string> mapID = map != nullptr ? map->value.GetStringOrNull() : std::nullopt;
+    if (!x.has_value() || !y.has_value() || !theta.has_value() || !mapID.has_value())
+    {
+        return "x, y and theta have to be numbers, mapId a string";
+    }
+    if (_motion.HasLeg() && !_motion.IsStanding())
+    {
+        return "the vehicle drives";
+    }
+    _motion.Place({*x, *y, NormaliseAngle(*theta)});
+    _mapID = *mapID;
+    _faults.End(EFaultKind::Lost, "initPosition", _faultChanges);
+    TellCondition(now);
+    return {};
 }
 
 void VirtualVehicle::SetStatus(

@@ -1,14 +1,20 @@
 #pragma once
 
 #include "vda-sim/ActionRunner.hpp"
+#include "vda-sim/FaultBoard.hpp"
+#include "vda-sim/MessageGate.hpp"
 #include "vda-sim/VehicleMotion.hpp"
 #include "vda-sim/VehicleSpec.hpp"
+#include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/plan/SiteMap.hpp>
 #include <acs/vda5050/VehicleSession.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,8 +36,20 @@ struct CancelVirtualTimer
     std::uint64_t key = 0;
 };
 
+/// To do: end the connection, and do not open another until OpenLink. With a will: as a cable that is pulled; else by
+/// MQTT's rules, but without OFFLINE. The vehicle counts it as down already: no OnLinkDown.
+struct CutLink
+{
+    bool bWill = true;
+};
+
+/// To do: connect again.
+struct OpenLink
+{
+};
+
 /// What a VirtualVehicle asks of its owner.
-using VirtualAction = std::variant<VDA5050::PublishMessage, StartVirtualTimer, CancelVirtualTimer>;
+using VirtualAction = std::variant<VDA5050::PublishMessage, StartVirtualTimer, CancelVirtualTimer, CutLink, OpenLink>;
 using VirtualActions = std::vector<VirtualAction>;
 
 struct VirtualVehicleOptions
@@ -40,17 +58,24 @@ struct VirtualVehicleOptions
     VDA5050::EVda5050Version version = VDA5050::EVda5050Version::Version200;
     EVehicleType type = EVehicleType::Logistics;
     std::string startNodeID; ///< A node of the site.
-    double timeScale = 1.0;  ///< Simulated seconds per second: of driving and handling, not of messages.
-    MotionLimits limits;
+    double timeScale = 1.0;  ///< Simulated seconds per second: of driving and handling, not of messages or faults.
+    MotionLimits limits{};
+    double charge = 100.0;                                      ///< % at first.
+    std::map<std::string, double, std::less<>> actionSeconds{}; ///< Simulated, by actionType.
 };
 
-/// A whole vehicle in software: a VehicleSession, the motion that carries out its legs, the actions, a battery.
-/// Pure: time comes in, actions are appended to out. The site must outlive it; from it come the start position and,
-/// ahead of a node that is passed, the speed for the way that follows.
+/// A whole vehicle in software: a VehicleSession, the motion that carries out its legs, the actions, a battery, and
+/// what goes wrong with them. Pure: time comes in, actions are appended to out. The site and the random source must
+/// outlive it; from the site come the start position and, ahead of a node that is passed, the speed for the way that
+/// follows.
 class VirtualVehicle
 {
+    static constexpr std::uint64_t KEY_TICK = 100;  ///< Above the keys of the session's own timers.
+    static constexpr std::uint64_t KEY_EVENT = 101; ///< A fault, or a message that was held back.
+
     VirtualVehicleOptions _options;
     const Planning::SiteMap* _site;
+    Core::IRandom* _random;
     Core::Logger _logger;
     VDA5050::VehicleSession _session;
     VDA5050::VehicleActions _sessionActions;
@@ -61,13 +86,33 @@ class VirtualVehicle
     std::optional<Core::SteadyTime> _lastTime;
     std::string _nodeID; ///< Where it stands or was last.
     std::string _mapID;
-    double _charge = 100.0; ///< %
+    double _charge;               ///< %
+    double _unlivedSeconds = 0.0; ///< Simulated: less than a slice.
     std::size_t _reportedLoads = 0;
     bool _bDriving = false;
     bool _bTicking = false;
+    bool _bStopWanted = false; ///< By the session.
+    bool _bAbandons = false;   ///< The order is gone, and it still brakes.
+
+    FaultBoard _faults;
+    FaultChanges _faultChanges;
+    std::vector<Fault> _waitingFaults; ///< Until it is online for the first time.
+    MessageGate _incoming{EFaultDirection::In};
+    MessageGate _outgoing{EFaultDirection::Out};
+    std::vector<VDA5050::VehicleError> _orderErrors; ///< Until an order is taken.
+    std::optional<Core::SteadyTime> _nextEvent;      ///< What the event timer runs for.
+    bool _bWasOnline = false;
+    bool _bBatteryLow = false;
 
 public:
-    VirtualVehicle(VirtualVehicleOptions options, const Planning::SiteMap& site, Core::Logger logger);
+    /// A lower charge is reported as an error; %.
+    static constexpr double LOW_CHARGE = 15.0;
+
+    VirtualVehicle(
+        VirtualVehicleOptions options,
+        const Planning::SiteMap& site,
+        Core::IRandom& random,
+        Core::Logger logger);
 
     [[nodiscard]] std::vector<VDA5050::MqttSubscription> GetSubscriptions() const;
     [[nodiscard]] VDA5050::MqttWill MakeWill(Core::Now now);
@@ -79,13 +124,20 @@ public:
     /// Publishes OFFLINE, as the last message.
     void Leave(Core::Now now, VirtualActions& out);
 
+    /// Its delay counts from now, or from the first OnLinkUp where that is still to come.
+    void Inject(const Fault& fault, Core::Now now, VirtualActions& out);
+    /// Ends the faults of the kind (absent: all), also those to come; how many there were.
+    std::size_t EndFaults(std::optional<EFaultKind> kindOrNull, Core::Now now, VirtualActions& out);
+    /// Ends every waitForTrigger that runs; how many there were.
+    std::size_t Trigger(Core::Now now, VirtualActions& out);
+
     [[nodiscard]] VDA5050::StateMessage GetState() const;
     [[nodiscard]] const Pose& GetPose() const noexcept;
     [[nodiscard]] const std::string& GetName() const noexcept;
 
 private:
     void PassTime(Core::Now now, VirtualActions& out);
-    void Live(double seconds, Core::Now now, VirtualActions& out);
+    void LiveSlice(Core::Now now, VirtualActions& out);
     void ReachNode(Core::Now now, VirtualActions& out);
     void EndActions(Core::Now now, VirtualActions& out);
     /// Carries out what the session has asked for, and what that leads to.
@@ -96,12 +148,32 @@ private:
     void TellBattery(Core::Now now);
     void TellLoads(Core::Now now);
     void KeepTicking(VirtualActions& out);
+    /// Ends each call from outside: what the session asks for, and the timers.
+    void Settle(Core::Now now, VirtualActions& out);
+
+    void ApplyFaults(Core::Now now, VirtualActions& out);
+    void ApplyFault(const FaultChange& change, Core::Now now, VirtualActions& out);
+    void TellCondition(Core::Now now);
+    void UpdateBrake(Core::Now now);
+    [[nodiscard]] bool IsBlocked() const;
+    [[nodiscard]] std::optional<double> GetSwerveOrNull(const Fault& obstacle) const;
+    [[nodiscard]] std::vector<VDA5050::VehicleError> MakeErrors() const;
+    void AddOrderError(VDA5050::VehicleError error, Core::Now now);
+    [[nodiscard]] bool TryRefuse(const VDA5050::MqttMessage& message, Core::Now now, VirtualActions& out);
+    [[nodiscard]] std::optional<VDA5050::VehicleError> TakeActionFaultOrNull(
+        const VDA5050::Action& action,
+        bool bAtStart);
+    void Deliver(const VDA5050::MqttMessage& message, Core::Now now, VirtualActions& out);
+    void Send(VDA5050::MqttMessage message, Core::Now now, VirtualActions& out);
+    void ReleaseMessages(Core::Now now, VirtualActions& out);
+    void ScheduleEvents(Core::Now now, VirtualActions& out);
 
     void Drive(const VDA5050::DriveTo& drive, Core::Now now);
     [[nodiscard]] MotionLeg MakeLeg(const VDA5050::DriveTo& drive) const;
     [[nodiscard]] double GetExitSpeed(const VDA5050::DriveTo& drive, const MotionLeg& leg) const;
     [[nodiscard]] Pose GetNodePose(const VDA5050::OrderNode& node) const;
     void Start(const VDA5050::StartAction& start, Core::Now now);
+    [[nodiscard]] std::string InitialisePosition(const VDA5050::Action& action, Core::Now now);
     void SetStatus(std::string_view actionID, VDA5050::EActionStatus status, std::string result, Core::Now now);
     void Log(const VDA5050::OrderRefused& refused) const;
     [[nodiscard]] bool IsAtCharger() const;

@@ -45,6 +45,15 @@ public:
         return static_cast<std::size_t>(std::ranges::count(messages, topic, &VDA5050::MqttMessage::topic));
     }
 
+    [[nodiscard]] const VDA5050::MqttMessage* FindLastOrNull(std::string_view topic) const
+    {
+        const auto found =
+            std::find_if(messages.rbegin(), messages.rend(), [topic](const VDA5050::MqttMessage& message) {
+                return message.topic == topic;
+            });
+        return found != messages.rend() ? &*found : nullptr;
+    }
+
     [[nodiscard]] bool Contains(std::string_view topic, std::string_view part) const
     {
         return std::ranges::any_of(messages, [topic, part](const VDA5050::MqttMessage& message) {

@@ -1,7 +1,10 @@
 #include "vda-sim/VdaSimOptions.hpp"
 
 #include "Catch.hpp"
+#include "TemporaryFolder.hpp"
 #include "VehicleDriver.hpp"
+
+#include <fstream>
 
 namespace ACS::Testing
 {
@@ -11,9 +14,12 @@ using VdaSim::VehicleSpec;
 
 TEST_CASE("A vehicle is its name, and optionally its type and its node, in any order")
 {
-    CHECK(VdaSim::ParseVehicleSpec("LR01") == VehicleSpec{"LR01", EVehicleType::Logistics, std::nullopt});
-    CHECK(VdaSim::ParseVehicleSpec("CR01,type=CR") == VehicleSpec{"CR01", EVehicleType::Control, std::nullopt});
-    CHECK(VdaSim::ParseVehicleSpec("X,node=N1,type=LR") == VehicleSpec{"X", EVehicleType::Logistics, "N1"});
+    CHECK(VdaSim::ParseVehicleSpec("LR01") == VehicleSpec{"LR01", EVehicleType::Logistics, {}, {}, 100.0});
+    CHECK(VdaSim::ParseVehicleSpec("CR01,type=CR") == VehicleSpec{"CR01", EVehicleType::Control, {}, {}, 100.0});
+    CHECK(VdaSim::ParseVehicleSpec("X,node=N1,type=LR") == VehicleSpec{"X", EVehicleType::Logistics, "N1", {}, 100.0});
+    CHECK(
+        VdaSim::ParseVehicleSpec("X,battery=7.5,protocol=2.1.0")
+        == VehicleSpec{"X", EVehicleType::Logistics, {}, VDA5050::EVda5050Version::Version210, 7.5});
 }
 
 TEST_CASE("What is no vehicle is told with what would be one")
@@ -27,6 +33,11 @@ TEST_CASE("What is no vehicle is told with what would be one")
           "A,type=lr",
           "A,node=",
           "A,speed=3",
+          "A,protocol=3.0.0",
+          "A,battery=101",
+          "A,battery=-1",
+          "A,battery=nan",
+          "A,battery=5%",
           "A,type=LR,type=CR",
           "A,node=N1,node=N2",
           "A,,"})
@@ -38,14 +49,18 @@ TEST_CASE("What is no vehicle is told with what would be one")
     }
 }
 
-TEST_CASE("A vehicle begins at its own node, else at the charger of its number, else at the first node")
+TEST_CASE("A vehicle begins at its own node, else at the charger of its number, else at some node")
 {
     const Planning::SiteMap site = MakeTestSite();
-    const VehicleSpec plain{"A", EVehicleType::Logistics, std::nullopt};
-    CHECK(VdaSim::GetStartNode(plain, 0, site) == "DOCK");
-    CHECK(VdaSim::GetStartNode(plain, 1, site) == "N0");
-    CHECK(VdaSim::GetStartNode({"A", EVehicleType::Logistics, "N2"}, 0, site) == "N2");
-    const auto unknown = VdaSim::GetStartNode({"A", EVehicleType::Logistics, "N9"}, 0, site);
+    VehicleSpec vehicle;
+    vehicle.name = "A";
+    CHECK(VdaSim::GetStartNode(vehicle, 0, site) == "DOCK");
+    CHECK(VdaSim::GetStartNode(vehicle, 1, site) == "N1");
+    CHECK(VdaSim::GetStartNode(vehicle, 4, site) == "N0");
+    vehicle.startNodeID = "N2";
+    CHECK(VdaSim::GetStartNode(vehicle, 0, site) == "N2");
+    vehicle.startNodeID = "N9";
+    const auto unknown = VdaSim::GetStartNode(vehicle, 0, site);
     REQUIRE_FALSE(unknown.has_value());
     CHECK(unknown.error() == "vehicle A: the site has no node N9");
 }
@@ -56,6 +71,104 @@ TEST_CASE("A site that is no file is named")
     REQUIRE_FALSE(site.has_value());
     CHECK_THAT(site.error(), Catch::Contains("/nonexistent/site.lif.json"));
     CHECK_FALSE(VdaSim::LoadSite("/").has_value());
+}
+
+TEST_CASE("--count names its vehicles by the prefix and a number of at least two digits")
+{
+    CHECK(VdaSim::MakeVehicleName("LR", 1, 3) == "LR01");
+    CHECK(VdaSim::MakeVehicleName("CR", 99, 500) == "CR099");
+    CHECK(VdaSim::MakeVehicleName("CR", 500, 500) == "CR500");
+}
+
+namespace
+{
+
+struct ReadOptions
+{
+    VdaSim::VdaSimOptions options;
+    std::optional<int> exitCode;
+};
+
+ReadOptions ReadOptionsFrom(std::vector<const char*> arguments)
+{
+    arguments.insert(arguments.begin(), {"vda-sim", "--broker", "mqtt://127.0.0.1:1", "--site", "x"});
+    ReadOptions read;
+    read.exitCode = VdaSim::ReadCommandLineOrNull(static_cast<int>(arguments.size()), arguments.data(), read.options);
+    return read;
+}
+
+} // namespace
+
+TEST_CASE("The command line counts vehicles, and takes faults, their files, action times and the seed")
+{
+    const TemporaryFolder folder;
+    const std::string file = (folder.GetPath() / "faults.txt").string();
+    std::ofstream(file) << "# two of them\nC* loss percent=5\n\nC2* estop at=3s for=1s # late\n";
+    const ReadOptions read = ReadOptionsFrom(
+        {"--count",
+         "3",
+         "--prefix",
+         "C",
+         "--type",
+         "CR",
+         "--vehicle",
+         "X,protocol=2.1.0",
+         "--fault",
+         "X stuck",
+         "--fault-file",
+         file.c_str(),
+         "--action-time",
+         "pick=250ms",
+         "--seed",
+         "42",
+         "--no-control"});
+    // C2* names no vehicle of C01 to C03.
+    CHECK(read.exitCode == 2);
+    std::ofstream(file) << "C* loss percent=5\n";
+    const ReadOptions good = ReadOptionsFrom(
+        {"--count",
+         "3",
+         "--prefix",
+         "C",
+         "--type",
+         "CR",
+         "--fault-file",
+         file.c_str(),
+         "--seed",
+         "42",
+         "--action-time",
+         "pick=250ms",
+         "--no-control"});
+    REQUIRE_FALSE(good.exitCode.has_value());
+    REQUIRE(good.options.vehicles.size() == 3);
+    CHECK(good.options.vehicles.back().name == "C03");
+    CHECK(good.options.vehicles.back().type == EVehicleType::Control);
+    REQUIRE(good.options.faults.size() == 1);
+    CHECK(good.options.faults[0].fault.percent == 5.0);
+    CHECK(good.options.seed == 42);
+    CHECK(good.options.controlTopic.empty());
+    CHECK(good.options.actionSeconds.at("pick") == 0.25);
+}
+
+TEST_CASE("A command line that cannot be meant ends the program with 2")
+{
+    for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{
+             {},
+             {"--count", "0"},
+             {"--count", "2", "--prefix", "a/b"},
+             {"--count", "2", "--type", "XR"},
+             {"--count", "2", "--vehicle", "LR01"},
+             {"--vehicle", "A", "--fault", "B stuck"},
+             {"--vehicle", "A", "--fault", "A end"},
+             {"--vehicle", "A", "--fault", "A stuck for=soon"},
+             {"--vehicle", "A", "--fault-file", "/nonexistent/faults"},
+             {"--vehicle", "A", "--action-time", "pick"},
+             {"--vehicle", "A", "--action-time", "=1s"},
+             {"--vehicle", "A", "--control-topic", "a/#"}})
+    {
+        CAPTURE(arguments);
+        CHECK(ReadOptionsFrom(arguments).exitCode == 2);
+    }
 }
 
 } // namespace ACS::Testing

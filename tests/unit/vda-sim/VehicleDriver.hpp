@@ -2,6 +2,8 @@
 
 #include "ManualClock.hpp"
 #include "RecordingLogSink.hpp"
+#include "SchemaCheck.hpp"
+#include "SeededRandom.hpp"
 #include "vda-sim/VirtualVehicle.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/vda5050/OrderBuilder.hpp>
@@ -12,6 +14,7 @@
 #include <functional>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -49,33 +52,73 @@ inline Planning::SiteMap MakeTestSite()
     return std::move(*site);
 }
 
-/// A virtual vehicle in virtual time: its timers fire when the test lets the time pass.
+/// A virtual vehicle in virtual time: its timers fire when the test lets the time pass. What it publishes is held against
+/// the official schemas.
 class VehicleDriver
 {
     Planning::SiteMap _site = MakeTestSite();
     ManualClock _clock;
     RecordingLogSink _log;
+    SeededRandom _random;
+    VDA5050::EVda5050Version _version;
     VdaSim::VirtualVehicle _vehicle;
     VdaSim::VirtualActions _actions;
     std::map<std::uint64_t, Core::SteadyTime> _timers;
     std::vector<std::pair<Core::SteadyTime, VDA5050::MqttMessage>> _published;
     VDA5050::Vda5050Codec _codec;
     std::uint32_t _headerID = 0;
+    bool _bConnected = true;
+    std::vector<bool> _cuts; ///< With the will or without.
 
 public:
     explicit VehicleDriver(std::string startNodeID, double timeScale = 1.0)
-        : _vehicle(
-            {VDA5050::VehicleAddress{"uagv", "ACS", "LR01"},
-             VDA5050::EVda5050Version::Version200,
-             VdaSim::EVehicleType::Logistics,
-             std::move(startNodeID),
-             timeScale,
-             {}},
-            _site,
-            Core::Logger(_log, "LR01"))
+        : VehicleDriver(MakeOptions(std::move(startNodeID), timeScale))
+    {
+    }
+
+    explicit VehicleDriver(VdaSim::VirtualVehicleOptions options, std::uint64_t seed = 1)
+        : _random(seed),
+          _version(options.version),
+          _vehicle(std::move(options), _site, _random, Core::Logger(_log, "LR01"))
     {
         _vehicle.OnLinkUp(_clock.GetNow(), _actions);
         Execute();
+    }
+
+    [[nodiscard]] static VdaSim::VirtualVehicleOptions MakeOptions(std::string startNodeID, double timeScale = 1.0)
+    {
+        VdaSim::VirtualVehicleOptions options;
+        options.address = {"uagv", "ACS", "LR01"};
+        options.startNodeID = std::move(startNodeID);
+        options.timeScale = timeScale;
+        return options;
+    }
+
+    /// "stuck for=5s"
+    void Inject(std::string_view fault)
+    {
+        _vehicle.Inject(Take(VdaSim::ParseFault(fault)), _clock.GetNow(), _actions);
+        Execute();
+    }
+
+    std::size_t EndFaults(std::optional<VdaSim::EFaultKind> kindOrNull = {})
+    {
+        const std::size_t count = _vehicle.EndFaults(kindOrNull, _clock.GetNow(), _actions);
+        Execute();
+        return count;
+    }
+
+    std::size_t Trigger()
+    {
+        const std::size_t count = _vehicle.Trigger(_clock.GetNow(), _actions);
+        Execute();
+        return count;
+    }
+
+    /// Whether the vehicle wants a connection; it has one then.
+    [[nodiscard]] bool IsConnected() const noexcept
+    {
+        return _bConnected;
     }
 
     /// A builder for the route along these nodes, with what the site says of its edges.
@@ -102,13 +145,16 @@ public:
         return Take(VDA5050::OrderBuilder::Create(orderID, std::move(nodes), std::move(edges)));
     }
 
-    void Send(VDA5050::OrderMessage order)
+    void Send(VDA5050::OrderMessage order, VDA5050::EVda5050Version version = VDA5050::EVda5050Version::Version200)
     {
         order.header = MakeHeader();
-        Receive(VDA5050::ETopic::Order, _codec.Encode(order, VDA5050::EVda5050Version::Version200));
+        Receive(VDA5050::ETopic::Order, _codec.Encode(order, version));
     }
 
-    void SendInstantly(std::string_view actionType, std::string actionID)
+    void SendInstantly(
+        std::string_view actionType,
+        std::string actionID,
+        std::vector<VDA5050::ActionParameter> parameters = {})
     {
         VDA5050::InstantActionsMessage message;
         message.header = MakeHeader();
@@ -116,6 +162,7 @@ public:
         action.actionType = std::string(actionType);
         action.actionID = std::move(actionID);
         action.blockingType = VDA5050::EBlockingType::Hard;
+        action.actionParameters = std::move(parameters);
         message.actions.push_back(std::move(action));
         Receive(VDA5050::ETopic::InstantActions, _codec.Encode(message, VDA5050::EVda5050Version::Version200));
     }
@@ -191,6 +238,17 @@ public:
         return times;
     }
 
+    /// Whether each cut of the connection was one with the will.
+    [[nodiscard]] const std::vector<bool>& GetCuts() const
+    {
+        return _cuts;
+    }
+
+    [[nodiscard]] const std::vector<std::pair<Core::SteadyTime, VDA5050::MqttMessage>>& GetPublished() const
+    {
+        return _published;
+    }
+
     [[nodiscard]] const VDA5050::MqttMessage& GetLast() const
     {
         return _published.back().second;
@@ -259,20 +317,33 @@ private:
 
     void Execute()
     {
+        bool bOpens = false;
         for (const VdaSim::VirtualAction& action : std::exchange(_actions, {}))
         {
             std::visit(
                 Core::Overloaded{
                     [this](const VDA5050::PublishMessage& publish) {
+                        CheckValid(_version, publish.message.topic, publish.message.payload);
                         _published.emplace_back(_clock.GetNow().steady, publish.message);
                     },
                     [this](const VdaSim::StartVirtualTimer& start) {
                         _timers[start.key] = _clock.GetNow().steady + start.delay;
                     },
-                    [this](const VdaSim::CancelVirtualTimer& cancel) {
-                        _timers.erase(cancel.key);
+                    [this](const VdaSim::CancelVirtualTimer& cancel) { _timers.erase(cancel.key); },
+                    [this](const VdaSim::CutLink& cut) {
+                        _bConnected = false;
+                        _cuts.push_back(cut.bWill);
+                    },
+                    [&bOpens](const VdaSim::OpenLink&) {
+                        bOpens = true;
                     }},
                 action);
+        }
+        if (bOpens)
+        {
+            _bConnected = true;
+            _vehicle.OnLinkUp(_clock.GetNow(), _actions);
+            Execute();
         }
     }
 };

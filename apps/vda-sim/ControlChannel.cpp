@@ -1,0 +1,74 @@
+#include "vda-sim/ControlChannel.hpp"
+
+#include <optional>
+#include <utility>
+
+namespace ACS::VdaSim
+{
+namespace
+{
+
+constexpr std::uint8_t CONTROL_QOS = 1;
+constexpr std::string_view RESULT_LEVEL = "/result";
+
+} // namespace
+
+ControlChannel::ControlChannel(
+    const boost::asio::any_io_executor& executor,
+    Core::IRandom& random,
+    Core::Logger logger,
+    VDA5050::MosquittoOptions options,
+    std::string topic,
+    CommandHandler onCommand)
+    : _topic(std::move(topic)),
+      _logger(logger),
+      _onCommand(std::move(onCommand)),
+      _link(executor, random, std::move(logger), std::move(options), *this)
+{
+    _link.Subscribe({{_topic, CONTROL_QOS}});
+}
+
+void ControlChannel::Start(ConnectedHandler onConnected)
+{
+    _onConnected = std::move(onConnected);
+    _link.Start();
+}
+
+void ControlChannel::StopAsync(std::function<void()> onStopped)
+{
+    _link.StopAsync(std::nullopt, VDA5050::MosquittoLink::DEFAULT_STOP_TIMEOUT, std::move(onStopped));
+}
+
+void ControlChannel::OnLinkUp()
+{
+    if (_onConnected)
+    {
+        _onConnected();
+    }
+}
+
+void ControlChannel::OnLinkDown(std::error_code /*reason*/)
+{
+    // The link says so itself, and connects again.
+}
+
+void ControlChannel::OnMqttMessage(const VDA5050::MqttMessage& message)
+{
+    if (message.bRetained)
+    {
+        _logger.Warning("a retained command is ignored: it would come again at each start", {{"topic", message.topic}});
+        return;
+    }
+    const VDA5050::MqttMessage answer{
+        _topic + std::string(RESULT_LEVEL),
+        _onCommand(message.payload),
+        CONTROL_QOS,
+        false};
+    const Core::Result<void> sent = _link.Publish(answer);
+    if (!sent.has_value())
+    {
+        _logger.Warning("cannot answer a command", {{"reason", Core::Describe(sent.error())}});
+    }
+}
+
+} // namespace ACS::VdaSim

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <acs/core/IRandom.hpp>
+#include <acs/core/Logger.hpp>
+#include <acs/vda5050_mosquitto/MosquittoLink.hpp>
+
+#include <boost/asio/any_io_executor.hpp>
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace ACS::VdaSim
+{
+
+/// Commands over MQTT, on a connection of its own: each message on the topic is handed over, and what comes back is
+/// published on TOPIC/result. One thread: the executor's.
+class ControlChannel final : public VDA5050::IMqttLinkListener
+{
+public:
+    /// Returns the answer.
+    using CommandHandler = std::function<std::string(std::string_view text)>;
+    using ConnectedHandler = std::function<void()>;
+
+private:
+    std::string _topic;
+    Core::Logger _logger;
+    CommandHandler _onCommand;
+    ConnectedHandler _onConnected;
+    VDA5050::MosquittoLink _link;
+
+public:
+    ControlChannel(
+        const boost::asio::any_io_executor& executor,
+        Core::IRandom& random,
+        Core::Logger logger,
+        VDA5050::MosquittoOptions options,
+        std::string topic,
+        CommandHandler onCommand);
+
+    /// Begins to connect; the handler is called each time that commands can come.
+    void Start(ConnectedHandler onConnected);
+
+    void StopAsync(std::function<void()> onStopped);
+
+    void OnLinkUp() override;
+    void OnLinkDown(std::error_code reason) override;
+    void OnMqttMessage(const VDA5050::MqttMessage& message) override;
+};
+
+} // namespace ACS::VdaSim

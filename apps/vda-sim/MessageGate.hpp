@@ -1,0 +1,49 @@
+#pragma once
+
+#include "vda-sim/FaultBoard.hpp"
+#include <acs/core/IRandom.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/vda5050/IMqttLink.hpp>
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace ACS::VdaSim
+{
+
+/// One direction of a vehicle's messages: lets them through, loses them or holds them back, as the faults say. None
+/// overtakes another. Pure.
+class MessageGate
+{
+    struct Held
+    {
+        Core::SteadyTime due;
+        VDA5050::MqttMessage message;
+    };
+
+    EFaultDirection _direction; ///< In or Out.
+    std::deque<Held> _held;
+
+public:
+    explicit MessageGate(EFaultDirection direction);
+
+    /// Appends the message to out where it goes through at once.
+    void Pass(
+        VDA5050::MqttMessage message,
+        const FaultBoard& faults,
+        Core::IRandom& random,
+        Core::SteadyTime now,
+        std::vector<VDA5050::MqttMessage>& out);
+
+    /// Appends what was held back long enough.
+    void Release(Core::SteadyTime now, std::vector<VDA5050::MqttMessage>& out);
+
+    /// When Release has something to do next.
+    [[nodiscard]] std::optional<Core::SteadyTime> GetNextTimeOrNull() const;
+
+    /// The connection is gone, and with it what was on its way.
+    void Clear();
+};
+
+} // namespace ACS::VdaSim

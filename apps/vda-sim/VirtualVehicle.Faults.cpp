@@ -1,0 +1,338 @@
+#include "vda-sim/VirtualVehicle.hpp"
+
+#include "vda-sim/VehicleFactsheet.hpp"
+#include <acs/vda5050/Vda5050Codec.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace ACS::VdaSim
+{
+namespace
+{
+
+using VDA5050::EErrorLevel;
+using VDA5050::VehicleError;
+
+// The errorTypes that the standard does not name.
+constexpr std::string_view ERROR_BLOCKED = "blockedByObstacle";
+constexpr std::string_view ERROR_LOST = "localizationError";
+constexpr std::string_view ERROR_EMERGENCY_STOP = "emergencyStop";
+constexpr std::string_view ERROR_BATTERY_LOW = "batteryLow";
+
+constexpr double HALF_WIDTH = 0.4; ///< m, as the factsheet says: a corridor for the contour has this much less room.
+
+VehicleError MakeError(std::string_view type, EErrorLevel level, std::string description)
+{
+    VehicleError error;
+    error.errorType = std::string(type);
+    error.errorLevel = level;
+    error.errorDescription = std::move(description);
+    return error;
+}
+
+} // namespace
+
+void VirtualVehicle::Inject(const Fault& fault, Core::Now now, VirtualActions& out)
+{
+    PassTime(now, out);
+    if (!_bWasOnline)
+    {
+        _waitingFaults.push_back(fault);
+        return;
+    }
+    _faults.Add(fault, now.steady, _faultChanges);
+    Settle(now, out);
+}
+
+std::size_t VirtualVehicle::EndFaults(std::optional<EFaultKind> kindOrNull, Core::Now now, VirtualActions& out)
+{
+    PassTime(now, out);
+    const std::size_t waiting = std::erase_if(_waitingFaults, [kindOrNull](const Fault& fault) {
+        return !kindOrNull.has_value() || fault.kind == *kindOrNull;
+    });
+    const std::size_t ended = _faults.End(kindOrNull, "it was ended", _faultChanges);
+    Settle(now, out);
+    return waiting + ended;
+}
+
+std::size_t VirtualVehicle::Trigger(Core::Now now, VirtualActions& out)
+{
+    PassTime(now, out);
+    const std::size_t count = _hands.Trigger();
+    Settle(now, out);
+    return count;
+}
+
+void VirtualVehicle::ApplyFaults(Core::Now now, VirtualActions& out)
+{
+    // What one brings about may use up another.
+    while (!_faultChanges.empty())
+    {
+        for (const FaultChange& change : std::exchange(_faultChanges, {}))
+        {
+            ApplyFault(change, now, out);
+        }
+        TellCondition(now);
+        Pump(now, out);
+    }
+}
+
+void VirtualVehicle::ApplyFault(const FaultChange& change, Core::Now now, VirtualActions& out)
+{
+    const Fault& fault = change.fault;
+    if (change.bBegun)
+    {
+        _logger.Info("fault begins", {{"fault", fault.text}});
+    }
+    else
+    {
+        _logger.Info("fault ended", {{"fault", fault.text}, {"reason", change.reason}});
+    }
+    if (fault.kind == EFaultKind::Battery && change.bBegun)
+    {
+        _charge = fault.charge;
+        TellBattery(now);
+    }
+    if (fault.kind == EFaultKind::Drop && change.bBegun)
+    {
+        _session.OnLinkDown(now, _sessionActions);
+        _incoming.Clear();
+        _outgoing.Clear();
+        Pump(now, out);
+        out.emplace_back(CutLink{fault.bWill});
+    }
+    if (fault.kind == EFaultKind::Drop && !change.bBegun && !_faults.IsActive(EFaultKind::Drop))
+    {
+        out.emplace_back(OpenLink{});
+    }
+}
+
+/// All that the faults change in what the vehicle says of itself, and how it stands or goes on.
+void VirtualVehicle::TellCondition(Core::Now now)
+{
+    TellPosition();
+    const Fault* const mode = _faults.FindOrNull(EFaultKind::Mode);
+    _session.OnOperatingMode(mode != nullptr ? mode->mode : VDA5050::EOperatingMode::Automatic, now, _sessionActions);
+    UpdateBrake(now);
+    const Fault* const stop = _faults.FindOrNull(EFaultKind::EmergencyStop);
+    VDA5050::SafetyState safety;
+    safety.emergencyStop = stop != nullptr ? stop->emergencyStop : VDA5050::EEmergencyStop::None;
+    safety.bFieldViolation = IsBlocked();
+    _session.OnSafetyState(safety, now, _sessionActions);
+    _session.OnErrors(MakeErrors(), now, _sessionActions);
+}
+
+void VirtualVehicle::UpdateBrake(Core::Now now)
+{
+    EBrake brake = EBrake::None;
+    if (_faults.IsActive(EFaultKind::Stuck))
+    {
+        brake = EBrake::Block;
+    }
+    else if (_faults.IsActive(EFaultKind::EmergencyStop))
+    {
+        brake = EBrake::Emergency;
+    }
+    else if (_bStopWanted || _bAbandons || IsBlocked() || _faults.IsActive(EFaultKind::Lost))
+    {
+        brake = EBrake::Service;
+    }
+    const Fault* const obstacle = _faults.FindOrNull(EFaultKind::Blocked);
+    _motion.SetOffset(obstacle != nullptr ? GetSwerveOrNull(*obstacle).value_or(0.0) : 0.0);
+    _motion.SetBrake(brake);
+    TellDriving(_motion.HasLeg() && !_motion.IsStanding(), now);
+}
+
+/// Section 6.10.4 of 2.1: within the corridor of its edge a vehicle may leave the way to pass an obstacle. Metres to the
+/// left; nothing where there is no room.
+std::optional<double> VirtualVehicle::GetSwerveOrNull(const Fault& obstacle) const
+{
+    if (obstacle.swerve <= 0.0 || !_leg.has_value() || !_leg->edge.corridor.has_value())
+    {
+        return std::nullopt;
+    }
+    const VDA5050::Corridor& corridor = *_leg->edge.corridor;
+    const bool bContour = corridor.corridorReferencePoint == VDA5050::ECorridorReferencePoint::Contour;
+    const double needed = obstacle.swerve + (bContour ? HALF_WIDTH : 0.0);
+    if (corridor.leftWidth >= needed)
+    {
+        return obstacle.swerve;
+    }
+    return corridor.rightWidth >= needed ? std::optional(-obstacle.swerve) : std::nullopt;
+}
+
+bool VirtualVehicle::IsBlocked() const
+{
+    const Fault* const obstacle = _faults.FindOrNull(EFaultKind::Blocked);
+    if (obstacle == nullptr)
+    {
+        return false;
+    }
+    // Whether there is room shows on an edge.
+    return _leg.has_value() ? !GetSwerveOrNull(*obstacle).has_value() : obstacle->swerve <= 0.0;
+}
+
+std::vector<VehicleError> VirtualVehicle::MakeErrors() const
+{
+    std::vector<VehicleError> errors;
+    if (IsBlocked())
+    {
+        VehicleError& error = errors.emplace_back(
+            MakeError(ERROR_BLOCKED, EErrorLevel::Warning, "an obstacle is in the way; goes on when it is gone"));
+        if (_leg.has_value())
+        {
+            error.errorReferences.push_back({"edgeId", _leg->edge.edgeID});
+            error.errorReferences.push_back({"nodeId", _leg->node.nodeID});
+        }
+    }
+    const Fault* const stuck = _faults.FindOrNull(EFaultKind::Stuck);
+    if (stuck != nullptr && !stuck->errorType.empty())
+    {
+        errors.push_back(MakeError(stuck->errorType, stuck->errorLevel, "the vehicle cannot move"));
+    }
+    if (_faults.IsActive(EFaultKind::Lost))
+    {
+        errors.push_back(MakeError(ERROR_LOST, EErrorLevel::Fatal, "the vehicle does not know where it is"));
+    }
+    if (_faults.IsActive(EFaultKind::EmergencyStop))
+    {
+        errors.push_back(MakeError(ERROR_EMERGENCY_STOP, EErrorLevel::Fatal, "the emergency stop is pressed"));
+    }
+    if (_bBatteryLow)
+    {
+        errors.push_back(
+            MakeError(ERROR_BATTERY_LOW, EErrorLevel::Warning, fmt::format("the battery is below {} %", LOW_CHARGE)));
+    }
+    std::ranges::copy(_orderErrors, std::back_inserter(errors));
+    return errors;
+}
+
+/// One without a type is none: what becomes of the action says it all.
+void VirtualVehicle::AddOrderError(VehicleError error, Core::Now now)
+{
+    if (error.errorType.empty())
+    {
+        return;
+    }
+    constexpr std::size_t MAX_ORDER_ERRORS = 16;
+    if (_orderErrors.size() >= MAX_ORDER_ERRORS)
+    {
+        _orderErrors.erase(_orderErrors.begin());
+    }
+    _orderErrors.push_back(std::move(error));
+    _session.OnErrors(MakeErrors(), now, _sessionActions);
+}
+
+bool VirtualVehicle::TryRefuse(const VDA5050::MqttMessage& message, Core::Now now, VirtualActions& out)
+{
+    const Fault* const refusal = _faults.FindOrNull(EFaultKind::Refuse);
+    const Core::Result<VDA5050::ParsedTopic> topic = VDA5050::ParseTopic(message.topic);
+    if (refusal == nullptr || !topic.has_value() || topic->topic != VDA5050::ETopic::Order)
+    {
+        return false;
+    }
+    VDA5050::Vda5050Codec codec;
+    const Core::Result<VDA5050::MessageIdentity> identity = codec.DecodeIdentity(message.payload);
+    if (!identity.has_value() || identity->orderID.empty())
+    {
+        return false; // the session has its own word for that
+    }
+    VehicleError error = MakeError(
+        refusal->errorType.empty() ? VDA5050::ErrorTypes::ORDER_ERROR : refusal->errorType,
+        refusal->errorLevel,
+        "this order is refused by a fault that was asked for");
+    error.errorReferences = {
+        {"topic", "order"},
+        {"headerId", std::to_string(identity->header.headerID)},
+        {"orderId", identity->orderID},
+        {"orderUpdateId", std::to_string(identity->orderUpdateID.value_or(0))}};
+    _logger.Warning("order refused", {{"orderId", identity->orderID}, {"error", error.errorType}, {"reason", "fault"}});
+    AddOrderError(std::move(error), now);
+    _faults.Use(*refusal, _faultChanges);
+    Pump(now, out);
+    return true;
+}
+
+/// With what the action is to fail.
+std::optional<VehicleError> VirtualVehicle::TakeActionFaultOrNull(const VDA5050::Action& action, bool bAtStart)
+{
+    const Fault* const fault = _faults.FindOrNull(EFaultKind::ActionFails, [&](const Fault& candidate) {
+        return candidate.bAtStart == bAtStart
+            && (candidate.actionType.empty() || candidate.actionType == action.actionType)
+            && (candidate.actionID.empty() || candidate.actionID == action.actionID);
+    });
+    if (fault == nullptr)
+    {
+        return std::nullopt;
+    }
+    VehicleError error = MakeError(
+        fault->errorType,
+        fault->errorLevel,
+        fmt::format("the {} fails by a fault that was asked for", action.actionType));
+    error.errorReferences = {{"actionId", action.actionID}};
+    _faults.Use(*fault, _faultChanges);
+    return error;
+}
+
+void VirtualVehicle::Deliver(const VDA5050::MqttMessage& message, Core::Now now, VirtualActions& out)
+{
+    if (!TryRefuse(message, now, out))
+    {
+        _session.OnMessage(message.topic, message.payload, message.bRetained, now, _sessionActions);
+        Pump(now, out);
+    }
+}
+
+void VirtualVehicle::Send(VDA5050::MqttMessage message, Core::Now now, VirtualActions& out)
+{
+    std::vector<VDA5050::MqttMessage> passed;
+    _outgoing.Pass(std::move(message), _faults, *_random, now.steady, passed);
+    for (VDA5050::MqttMessage& through : passed)
+    {
+        out.emplace_back(VDA5050::PublishMessage{std::move(through)});
+    }
+}
+
+void VirtualVehicle::ReleaseMessages(Core::Now now, VirtualActions& out)
+{
+    std::vector<VDA5050::MqttMessage> released;
+    _outgoing.Release(now.steady, released);
+    for (VDA5050::MqttMessage& message : released)
+    {
+        out.emplace_back(VDA5050::PublishMessage{std::move(message)});
+    }
+    released.clear();
+    _incoming.Release(now.steady, released);
+    for (const VDA5050::MqttMessage& message : released)
+    {
+        Deliver(message, now, out);
+    }
+}
+
+void VirtualVehicle::ScheduleEvents(Core::Now now, VirtualActions& out)
+{
+    std::optional<Core::SteadyTime> next = _faults.GetNextTimeOrNull();
+    for (const std::optional<Core::SteadyTime>& other : {_incoming.GetNextTimeOrNull(), _outgoing.GetNextTimeOrNull()})
+    {
+        next = !next.has_value() || (other.has_value() && *other < *next) ? other : next;
+    }
+    if (next == _nextEvent)
+    {
+        return;
+    }
+    _nextEvent = next;
+    if (next.has_value())
+    {
+        out.emplace_back(StartVirtualTimer{KEY_EVENT, std::max(*next - now.steady, Core::Duration::zero())});
+    }
+    else
+    {
+        out.emplace_back(CancelVirtualTimer{KEY_EVENT});
+    }
+}
+
+} // namespace ACS::VdaSim

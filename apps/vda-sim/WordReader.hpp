@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string_view>
+
+namespace ACS::VdaSim
+{
+
+/// Cuts the next word, without the blanks before it, off the front; empty where there is none left.
+[[nodiscard]] inline std::string_view TakeWord(std::string_view& text)
+{
+    constexpr std::string_view BLANKS = " \t\r";
+    const std::size_t begin = text.find_first_not_of(BLANKS);
+    if (begin == std::string_view::npos)
+    {
+        text = {};
+        return {};
+    }
+    text.remove_prefix(begin);
+    const std::string_view word = text.substr(0, text.find_first_of(BLANKS));
+    text.remove_prefix(word.size());
+    return word;
+}
+
+} // namespace ACS::VdaSim

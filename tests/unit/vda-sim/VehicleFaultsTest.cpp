@@ -1,0 +1,538 @@
+#include "Catch.hpp"
+#include "vda-sim/VehicleFactsheet.hpp"
+#include "VehicleDriver.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ACS::Testing
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+using VDA5050::EActionStatus;
+using VDA5050::EErrorLevel;
+using VDA5050::EOperatingMode;
+using VDA5050::ETopic;
+using VdaSim::EFaultKind;
+
+/// Ten metres, from N0 to N1, and on to N2.
+void SendRoute(VehicleDriver& driver, const std::string& orderID = "order-1")
+{
+    auto route = driver.MakeRoute(orderID, {"N0", "N1", "N2"});
+    driver.Send(VehicleDriver::Take(route.MakeOrder(3)));
+}
+
+const VDA5050::VehicleError* FindErrorOrNull(const VDA5050::StateMessage& state, std::string_view type)
+{
+    const auto found = std::ranges::find(state.errors, type, &VDA5050::VehicleError::errorType);
+    return found != state.errors.end() ? &*found : nullptr;
+}
+
+bool HasLine(const VehicleDriver& driver, std::string_view message, std::string_view fault)
+{
+    return std::ranges::any_of(driver.GetLog().GetLines(), [&](const RecordedLine& line) {
+        return line.message == message && line.HasField("fault", fault);
+    });
+}
+
+/// The order of the route, its second node with this action on it.
+VDA5050::OrderMessage MakeOrderWith(VehicleDriver& driver, std::string_view actionType, const std::string& actionID)
+{
+    auto route = driver.MakeRoute("with-" + actionID, {"N0", "N1", "N2"});
+    VDA5050::OrderMessage order = VehicleDriver::Take(route.MakeOrder(3));
+    VDA5050::Action action;
+    action.actionType = std::string(actionType);
+    action.actionID = actionID;
+    action.blockingType = VDA5050::EBlockingType::Hard;
+    if (actionType == VdaSim::ACTION_WAIT_FOR_TRIGGER)
+    {
+        action.actionParameters.push_back({"triggerType", Core::JsonText::FromString("LOCAL")});
+    }
+    order.nodes[1].actions.push_back(action);
+    return order;
+}
+
+} // namespace
+
+TEST_CASE("drop: the connection is cut with the will, the vehicle drives on, and comes back by itself")
+{
+    VehicleDriver driver("N0");
+    SendRoute(driver);
+    driver.Pass(2s);
+    driver.Inject("drop for=5s");
+    CHECK_FALSE(driver.IsConnected());
+    CHECK(driver.GetCuts() == std::vector<bool>{true});
+    const std::size_t before = driver.GetPublished().size();
+    const double place = driver.GetPose().x;
+    driver.Pass(4900ms);
+    CHECK(driver.GetPublished().size() == before);
+    CHECK(driver.GetPose().x > place + 4.0);
+    driver.Pass(200ms);
+    CHECK(driver.IsConnected());
+    REQUIRE(driver.GetPublished().size() > before);
+    CHECK(driver.GetPublished()[before].second.topic == "uagv/v2/ACS/LR01/connection");
+    CHECK_THAT(driver.GetPublished()[before].second.payload, Catch::Contains("\"ONLINE\""));
+    driver.Pass(60s);
+    CHECK(driver.GetState().lastNodeID == "N2");
+    CHECK(HasLine(driver, "fault begins", "drop for=5s"));
+    CHECK(HasLine(driver, "fault ended", "drop for=5s"));
+}
+
+TEST_CASE("drop will=no: the link is told to go without a will; two drops end with the last of them")
+{
+    VehicleDriver driver("N0");
+    driver.Inject("drop will=no for=2s");
+    driver.Inject("drop for=5s");
+    CHECK(driver.GetCuts() == std::vector<bool>{false, true});
+    driver.Pass(3s);
+    CHECK_FALSE(driver.IsConnected());
+    driver.Pass(3s);
+    CHECK(driver.IsConnected());
+}
+
+TEST_CASE("silence: nothing is published, and the vehicle works on")
+{
+    VehicleDriver driver("N0");
+    SendRoute(driver);
+    driver.Inject("silence for=8s");
+    const std::size_t before = driver.GetPublished().size();
+    driver.Pass(7900ms);
+    CHECK(driver.GetPublished().size() == before);
+    CHECK(driver.GetPose().x > 5.0);
+    driver.Pass(1500ms);
+    CHECK(driver.GetPublished().size() > before);
+}
+
+TEST_CASE("stuck: the vehicle stands at once, says nothing of why, and goes on when it is over")
+{
+    VehicleDriver driver("N0");
+    SendRoute(driver);
+    driver.Pass(4s);
+    const double place = driver.GetPose().x;
+    driver.Inject("stuck");
+    CHECK(driver.GetPose().x == place);
+    CHECK_FALSE(driver.GetState().bDriving);
+    CHECK(driver.GetState().errors.empty());
+    driver.Pass(60s);
+    CHECK(driver.GetPose().x == place);
+    CHECK(driver.EndFaults(EFaultKind::Stuck) == 1);
+    CHECK(driver.GetState().bDriving);
+    driver.Pass(60s);
+    CHECK(driver.GetState().lastNodeID == "N2");
+}
+
+TEST_CASE("stuck error=: the vehicle says why; an order that comes meanwhile is taken and waits")
+{
+    VehicleDriver driver("N0");
+    driver.Inject("stuck error=driveFault level=FATAL");
+    SendRoute(driver);
+    driver.Pass(10s);
+    const VDA5050::StateMessage state = driver.GetState();
+    REQUIRE(FindErrorOrNull(state, "driveFault") != nullptr);
+    CHECK(FindErrorOrNull(state, "driveFault")->errorLevel == EErrorLevel::Fatal);
+    CHECK(state.orderID == "order-1");
+    CHECK_FALSE(state.bDriving);
+    CHECK(driver.GetPose().x == 0.0);
+    driver.EndFaults();
+    driver.Pass(60s);
+    CHECK(driver.GetState().lastNodeID == "N2");
+    CHECK(driver.GetState().errors.empty());
+}
+
+TEST_CASE("blocked: the vehicle brakes, its field is violated, and it goes on when the way is free")
+{
+    VehicleDriver driver("N0");
+    SendRoute(driver);
+    driver.Pass(4s);
+    const double place = driver.GetPose().x;
+    driver.Inject("blocked for=10s");
+    CHECK(driver.GetState().safetyState.bFieldViolation);
+    driver.Pass(9s);
+    CHECK(driver.GetPose().x - place == Approx(1.2).margin(0.1));
+    const VDA5050::StateMessage state = driver.GetState();
+    CHECK_FALSE(state.bDriving);
+    REQUIRE(FindErrorOrNull(state, "blockedByObstacle") != nullptr);
+    CHECK(*VDA5050::FindReferenceOrNull(*FindErrorOrNull(state, "blockedByObstacle"), "edgeId") == "N0-N1");
+    driver.Pass(60s);
+    CHECK(driver.GetState().lastNodeID == "N2");
+    CHECK_FALSE(driver.GetState().safetyState.bFieldViolation);
+    CHECK(driver.GetState().errors.empty());
+}
+
+TEST_CASE("6.10.4 blocked swerve=: the obstacle is passed within a corridor that is wide enough, on its side, else not")
+{
+    struct Row
+    {
+        std::optional<VDA5050::Corridor> corridor;
+        double side;
+    };
+    using VDA5050::Corridor;
+    const auto contour = VDA5050::ECorridorReferencePoint::Contour;
+    for (const auto& [corridor, side] : std::vector<Row>{
+             {std::nullopt, 0.0},
+             {Corridor{0.4, 0.4, {}}, 0.0},
+             {Corridor{0.6, 2.0, {}}, 0.5},
+             {Corridor{0.4, 0.6, {}}, -0.5},
+             {Corridor{0.6, 0.6, contour}, 0.0},
+             {Corridor{0.0, 0.9, contour}, -0.5}})
+    {
+        VehicleDriver driver("N0");
+        VDA5050::OrderMessage order = VehicleDriver::Take(driver.MakeRoute("o", {"N0", "N1"}).MakeOrder(2));
+        order.edges[0].corridor = corridor;
+        driver.Inject("blocked swerve=0.5");
+        driver.Send(order, VDA5050::EVda5050Version::Version210);
+        double left = 0.0;
+        double right = 0.0;
+        driver.Pass(60s, [&]() {
+            left = std::max(left, driver.GetPose().y);
+            right = std::min(right, driver.GetPose().y);
+        });
+        CHECK(left + right == Approx(side).margin(0.001));
+        CHECK((driver.GetState().lastNodeID == "N1") == (side != 0.0));
+        CHECK(driver.GetState().safetyState.bFieldViolation == (side == 0.0));
+    }
+}
+
+TEST_CASE("lost: the vehicle stands and says that it does not know where; orders are refused until initPosition")
+{
+    VehicleDriver driver("N0");
+    driver.Inject("lost");
+    const VDA5050::StateMessage lost = driver.GetState();
+    CHECK_FALSE(lost.agvPosition->bPositionInitialized);
+    CHECK(FindErrorOrNull(lost, "localizationError") != nullptr);
+    SendRoute(driver);
+    CHECK(driver.GetState().orderID.empty());
+    CHECK(FindErrorOrNull(driver.GetState(), VDA5050::ErrorTypes::NO_ROUTE_ERROR) != nullptr);
+    driver.SendInstantly("initPosition", "half", {{"x", Core::JsonText::FromNumber(0.25)}});
+    CHECK(driver.GetStatus("half") == EActionStatus::Failed);
+    driver.SendInstantly(
+        "initPosition",
+        "whole",
+        {{"x", Core::JsonText::FromNumber(0.25)},
+         {"y", Core::JsonText::FromNumber(0.0)},
+         {"theta", Core::JsonText::FromNumber(1.0)},
+         {"mapId", Core::JsonText::FromString("floor")},
+         {"lastNodeId", Core::JsonText::FromString("N0")}});
+    CHECK(driver.GetState().agvPosition->bPositionInitialized);
+    CHECK(driver.GetState().agvPosition->x == 0.25);
+    driver.Pass(2s);
+    CHECK(driver.GetStatus("whole") == EActionStatus::Finished);
+    CHECK(FindErrorOrNull(driver.GetState(), "localizationError") == nullptr);
+    SendRoute(driver);
+    driver.Pass(60s);
+    CHECK(driver.GetState().lastNodeID == "N2");
+}
+
+TEST_CASE("lost on the way: the vehicle brakes, and goes on when it knows its place again")
+{
+    VehicleDriver driver("N0");
+    SendRoute(driver);
+    driver.Pass(4s);
+    driver.Inject("lost for=10s");
+    driver.Pass(9s);
+    CHECK_FALSE(driver.GetState().bDriving);
+    CHECK(driver.GetState().lastNodeID == "N0");
+    driver.Pass(60s);
+    CHECK(driver.GetState().lastNodeID == "N2");
+}
+
+TEST_CASE(
+    "action-fails: the next action that fits fails, at its end or at its start, with the error; the one after it not")
+{
+    for (const bool bAtStart : {false, true})
+    {
+        VehicleDriver driver("N0");
+        driver.Inject(
+            bAtStart ? "action-fails type=pick error=jammed when=start" : "action-fails type=pick error=jammed");
+        driver.Send(MakeOrderWith(driver, VdaSim::ACTION_FINE_POSITIONING, "fine"));
+        driver.Pass(60s);
+        CHECK(driver.GetStatus("fine") == EActionStatus::Finished);
+        auto back = driver.MakeRoute("pick", {"N2", "DOCK"});
+        VDA5050::OrderMessage order = VehicleDriver::Take(back.MakeOrder(2));
+        VDA5050::Action pick;
+        pick.actionType = VdaSim::ACTION_PICK;
+        pick.blockingType = VDA5050::EBlockingType::Hard;
+        pick.actionID = "first";
+        order.nodes[0].actions.push_back(pick);
+        pick.actionID = "second";
+        order.nodes[0].actions.push_back(pick);
+        driver.Send(order);
+        driver.Pass(100ms);
+        CHECK(driver.GetStatus("first") == (bAtStart ? EActionStatus::Failed : EActionStatus::Running));
+        driver.Pass(10s);
+        CHECK(driver.GetStatus("first") == EActionStatus::Failed);
+        CHECK(driver.GetStatus("second") == EActionStatus::Finished);
+        CHECK(driver.GetState().loads->size() == 1);
+        const VDA5050::StateMessage state = driver.GetState();
+        REQUIRE(FindErrorOrNull(state, "jammed") != nullptr);
+        CHECK(*VDA5050::FindReferenceOrNull(*FindErrorOrNull(state, "jammed"), "actionId") == "first");
+        driver.Pass(30s);
+        CHECK(driver.GetState().lastNodeID == "DOCK");
+        auto next = driver.MakeRoute("next", {"DOCK", "N2"});
+        driver.Send(VehicleDriver::Take(next.MakeOrder(2)));
+        CHECK(driver.GetState().errors.empty());
+    }
+}
+
+TEST_CASE("estop: the vehicle stands hard, its actions wait, and all goes on after it")
+{
+    VehicleDriver driver("N0");
+    driver.Send(MakeOrderWith(driver, VdaSim::ACTION_PICK, "pick"));
+    driver.Pass(4s);
+    const double place = driver.GetPose().x;
+    driver.Inject("estop ack=REMOTE for=5s");
+    driver.Pass(4s);
+    const VDA5050::StateMessage state = driver.GetState();
+    CHECK(driver.GetPose().x - place == Approx(0.24).margin(0.05)); // 1.2 m/s at 3 m/s²
+    CHECK(state.safetyState.emergencyStop == VDA5050::EEmergencyStop::Remote);
+    REQUIRE(FindErrorOrNull(state, "emergencyStop") != nullptr);
+    CHECK(FindErrorOrNull(state, "emergencyStop")->errorLevel == EErrorLevel::Fatal);
+    REQUIRE(driver.TryPassUntil([&]() { return driver.GetStatus("pick") == EActionStatus::Running; }, 60s));
+    CHECK(driver.GetState().safetyState.emergencyStop == VDA5050::EEmergencyStop::None);
+    driver.Inject("estop for=10s");
+    driver.Pass(9s);
+    CHECK(driver.GetStatus("pick") == EActionStatus::Running);
+    driver.Pass(5s);
+    CHECK(driver.GetStatus("pick") == EActionStatus::Finished);
+}
+
+TEST_CASE("6.10.6 mode: MANUAL clears the order and refuses others; the vehicle brakes and is free when it is over")
+{
+    VehicleDriver driver("N0");
+    SendRoute(driver);
+    driver.Pass(4s);
+    driver.Inject("mode for=20s");
+    CHECK(driver.GetState().operatingMode == EOperatingMode::Manual);
+    CHECK(driver.GetState().nodeStates.empty());
+    CHECK(driver.GetSpeed() > 0.0);
+    driver.Pass(5s);
+    CHECK(driver.GetSpeed() == 0.0);
+    CHECK_FALSE(driver.GetState().bDriving);
+    const double place = driver.GetPose().x;
+    SendRoute(driver, "order-2");
+    CHECK(driver.GetState().orderID == "order-1");
+    driver.Pass(60s);
+    CHECK(driver.GetPose().x == place);
+    CHECK(driver.GetState().operatingMode == EOperatingMode::Automatic);
+}
+
+TEST_CASE("6.10.6 mode SERVICE: the order is kept, and goes on after it")
+{
+    VehicleDriver driver("N0");
+    SendRoute(driver);
+    driver.Pass(4s);
+    driver.Inject("mode mode=SERVICE for=20s");
+    driver.Pass(10s);
+    CHECK(driver.GetState().operatingMode == EOperatingMode::Service);
+    CHECK_FALSE(driver.GetState().bDriving);
+    CHECK(driver.GetState().nodeStates.size() == 2);
+    driver.Pass(60s);
+    CHECK(driver.GetState().lastNodeID == "N2");
+}
+
+TEST_CASE("battery: the charge is set, below 15 % it is an error, and charging mends it")
+{
+    VehicleDriver driver("DOCK");
+    driver.Inject("battery charge=12");
+    CHECK(driver.GetState().batteryState.batteryCharge == 12.0);
+    CHECK(FindErrorOrNull(driver.GetState(), "batteryLow") != nullptr);
+    driver.SendInstantly(VdaSim::ACTION_START_CHARGING, "charge");
+    driver.Pass(4s);
+    CHECK(driver.GetState().batteryState.bCharging);
+    CHECK(FindErrorOrNull(driver.GetState(), "batteryLow") != nullptr);
+    driver.Pass(6s);
+    CHECK(driver.GetState().batteryState.batteryCharge > 15.0);
+    CHECK(FindErrorOrNull(driver.GetState(), "batteryLow") == nullptr);
+}
+
+TEST_CASE("Driving never empties a battery below its reserve, and leaves one that was set below it as it is")
+{
+    VehicleDriver driver("N0");
+    driver.Inject("battery charge=2");
+    SendRoute(driver);
+    driver.Pass(60s);
+    CHECK(driver.GetState().batteryState.batteryCharge == 2.0);
+    driver.Inject("battery charge=5.1");
+    driver.Send(VehicleDriver::Take(driver.MakeRoute("order-2", {"N2", "DOCK"}).MakeOrder(2)));
+    driver.Pass(60s);
+    CHECK(driver.GetState().batteryState.batteryCharge == Approx(5.08));
+}
+
+TEST_CASE("refuse: the next order is refused with the error that was asked for, the one after it taken")
+{
+    VehicleDriver driver("N0");
+    driver.Inject("refuse error=noRouteError");
+    SendRoute(driver, "order-1");
+    const VDA5050::StateMessage state = driver.GetState();
+    CHECK(state.orderID.empty());
+    REQUIRE(FindErrorOrNull(state, "noRouteError") != nullptr);
+    CHECK(*VDA5050::FindReferenceOrNull(*FindErrorOrNull(state, "noRouteError"), "orderId") == "order-1");
+    CHECK(HasLine(driver, "fault ended", "refuse error=noRouteError"));
+    SendRoute(driver, "order-2");
+    CHECK(driver.GetState().orderID == "order-2");
+    CHECK(driver.GetState().errors.empty());
+}
+
+TEST_CASE("loss and delay: an order that is lost never comes, one that is held back comes late")
+{
+    VehicleDriver driver("N0");
+    driver.Inject("loss topic=order for=1s");
+    SendRoute(driver, "lost");
+    driver.Pass(1s);
+    CHECK(driver.GetState().orderID.empty());
+    driver.Inject("delay time=700ms direction=in");
+    SendRoute(driver, "late");
+    driver.Pass(690ms);
+    CHECK(driver.GetState().orderID.empty());
+    driver.Pass(20ms);
+    CHECK(driver.GetState().orderID == "late");
+}
+
+TEST_CASE("delay: what is published comes late and in its order; a vehicle that leaves holds nothing back")
+{
+    VehicleDriver driver("N0");
+    driver.Inject("delay time=1s jitter=500ms direction=out");
+    const std::size_t before = driver.GetPublished().size();
+    SendRoute(driver);
+    driver.Pass(950ms);
+    CHECK(driver.GetPublished().size() == before);
+    driver.Pass(8s);
+    VDA5050::Vda5050Codec codec;
+    std::optional<std::uint32_t> last;
+    for (std::size_t i = before; i < driver.GetPublished().size(); ++i)
+    {
+        const VDA5050::MqttMessage& message = driver.GetPublished()[i].second;
+        if (message.topic.ends_with("/state"))
+        {
+            const VDA5050::StateMessage state =
+                VehicleDriver::Take(codec.Decode<VDA5050::StateMessage>(message.payload));
+            CHECK((!last.has_value() || state.header.headerID == *last + 1));
+            last = state.header.headerID;
+        }
+    }
+    CHECK(last.has_value());
+    driver.Leave();
+    CHECK_THAT(driver.GetLast().payload, Catch::Contains("\"OFFLINE\""));
+}
+
+TEST_CASE("A fault that waits for a node begins there")
+{
+    VehicleDriver driver("N0");
+    driver.Inject("stuck node=N1 for=5s");
+    SendRoute(driver);
+    REQUIRE(driver.TryPassUntil([&]() { return driver.GetState().lastNodeID == "N1"; }, 60s));
+    driver.Pass(1s);
+    CHECK_FALSE(driver.GetState().bDriving);
+    CHECK(driver.GetPose().y < 0.1);
+    driver.Pass(60s);
+    CHECK(driver.GetState().lastNodeID == "N2");
+}
+
+TEST_CASE("The time of a fault is that of the clock, also where the simulated time runs ten times as fast")
+{
+    VehicleDriver driver("N0", 10.0);
+    driver.Inject("stuck at=200ms for=3s");
+    SendRoute(driver);
+    driver.Pass(300ms);
+    CHECK_FALSE(driver.GetState().bDriving);
+    driver.Pass(2800ms);
+    CHECK_FALSE(driver.GetState().bDriving);
+    driver.Pass(200ms);
+    CHECK(driver.GetState().bDriving);
+}
+
+TEST_CASE("A pause and a fault are two reasons to stand, and each has to end")
+{
+    VehicleDriver driver("N0");
+    SendRoute(driver);
+    driver.Pass(2s);
+    driver.Inject("blocked");
+    driver.SendInstantly(VDA5050::ActionTypes::START_PAUSE, "pause");
+    driver.Pass(10s);
+    CHECK(driver.GetStatus("pause") == EActionStatus::Finished);
+    driver.EndFaults();
+    driver.Pass(5s);
+    CHECK_FALSE(driver.GetState().bDriving);
+    driver.Inject("blocked");
+    driver.SendInstantly(VDA5050::ActionTypes::STOP_PAUSE, "go");
+    driver.Pass(5s);
+    CHECK_FALSE(driver.GetState().bDriving);
+    driver.EndFaults();
+    driver.Pass(60s);
+    CHECK(driver.GetState().lastNodeID == "N2");
+}
+
+TEST_CASE("6.8 waitForTrigger waits for its trigger, however long that takes")
+{
+    VehicleDriver driver("N0");
+    driver.Send(MakeOrderWith(driver, VdaSim::ACTION_WAIT_FOR_TRIGGER, "wait"));
+    driver.Pass(300s);
+    CHECK(driver.GetStatus("wait") == EActionStatus::Running);
+    CHECK(driver.Trigger() == 1);
+    driver.Pass(100ms);
+    CHECK(driver.GetStatus("wait") == EActionStatus::Finished);
+    CHECK(driver.Trigger() == 0);
+    driver.Pass(60s);
+    CHECK(driver.GetState().lastNodeID == "N2");
+}
+
+TEST_CASE("6.8 logReport names its log, and the time of an action's type can be set")
+{
+    VdaSim::VirtualVehicleOptions options = VehicleDriver::MakeOptions("N0");
+    options.actionSeconds["logReport"] = 7.0;
+    VehicleDriver driver(std::move(options));
+    driver.SendInstantly(VdaSim::ACTION_LOG_REPORT, "log", {{"reason", Core::JsonText::FromString("test")}});
+    driver.Pass(6900ms);
+    CHECK(driver.GetStatus("log") == EActionStatus::Running);
+    driver.Pass(200ms);
+    CHECK(driver.GetStatus("log") == EActionStatus::Finished);
+    CHECK_FALSE(driver.GetState().actionStates.front().resultDescription.empty());
+}
+
+TEST_CASE("7 A vehicle drives along the trajectory of its edge")
+{
+    VehicleDriver driver("N0");
+    VDA5050::OrderMessage order = VehicleDriver::Take(driver.MakeRoute("curve", {"N0", "N1"}).MakeOrder(2));
+    VDA5050::Trajectory curve;
+    curve.degree = 2;
+    curve.knotVector = {0.0, 0.0, 0.0, 1.0, 1.0, 1.0};
+    curve.controlPoints = {{0.0, 0.0, {}}, {5.0, 6.0, {}}, {10.0, 0.0, {}}};
+    order.edges[0].trajectory = curve;
+    driver.Send(order);
+    CHECK(driver.GetState().edgeStates.front().trajectory == curve);
+    double highest = 0.0;
+    driver.Pass(60s, [&]() { highest = std::max(highest, driver.GetPose().y); });
+    CHECK(highest == Approx(3.0).margin(0.01));
+    CHECK(driver.GetState().lastNodeID == "N1");
+    CHECK(driver.GetPose().x == 10.0);
+    CHECK(driver.GetPose().y == 0.0);
+}
+
+TEST_CASE("The same seed and the same messages give the same run, to the last byte")
+{
+    const auto run = [](std::uint64_t seed) {
+        VehicleDriver driver(VehicleDriver::MakeOptions("N0"), seed);
+        driver.Inject("loss percent=20");
+        driver.Inject("delay time=50ms jitter=200ms direction=out");
+        for (int i = 0; i < 20; ++i)
+        {
+            SendRoute(driver, "order-" + std::to_string(i));
+            driver.Pass(3s);
+        }
+        std::string all;
+        for (const auto& [time, message] : driver.GetPublished())
+        {
+            all += std::to_string(time.time_since_epoch().count()) + message.topic + message.payload;
+        }
+        return all;
+    };
+    const std::string first = run(7);
+    CHECK(first == run(7));
+    CHECK(first != run(8));
+}
+
+} // namespace ACS::Testing
