@@ -4,6 +4,7 @@
 #include "common/TimerSet.hpp"
 #include "ConsoleCommand.hpp"
 #include "LiveView.hpp"
+#include "NoteJudge.hpp"
 #include "PlanFile.hpp"
 #include "PlanRefresher.hpp"
 #include "PlanSender.hpp"
@@ -75,6 +76,7 @@ class McsSimulator::Impl final : private ProtocolBeast::ISessionHandler
     RobotBoard _board;
     PlanSender _sender;
     ScenarioSequence _scenarios;
+    NoteJudge _notes;
     std::deque<std::string> _inbox; ///< What came from the ACS, for the scenarios.
     LiveView _view;
     ViewHeading _heading;
@@ -275,7 +277,9 @@ private:
                 [this](const Protocol::LinkLost& lost) { OnLinkLost(lost); },
                 [this](const Protocol::RequestReceived& received) { OnRequest(received); },
                 [this](const Protocol::AckReceived& received) { _tracker.OnAck(received.ack, _lines); },
-                // Overdue Acks are the tracker's to see; the rest is of no interest here, or the ACS's side.
+                [this](const Protocol::RequestUnanswered& unanswered) { OnUnanswered(unanswered); },
+                [this](const Protocol::ProtocolNoted& noted) { OnNoted(noted); },
+                // The rest is the ACS's side.
                 [](const auto& /*other*/) {
                 }},
             event);
@@ -305,6 +309,11 @@ private:
         if (_options.onWire)
         {
             _options.onWire(direction, connection, text);
+        }
+        if (direction == ProtocolBeast::EWireDirection::In && _options.profile == EProfile::Nexus
+            && text.size() > NEXUS_BUFFER_BYTES)
+        {
+            _notes.Excuse(); // Cut by us.
         }
         if (direction == ProtocolBeast::EWireDirection::In && !_scenarios.IsFinished())
         {
@@ -355,7 +364,10 @@ private:
                     _lines.push_back(fmt::format("{} sent", GetText(GetCommand(send.payload))));
                     return _server->TrySend(_server->MakeRequest(send.payload));
                 },
-                [this](const SendRawText& send) { return _server->TrySendText(send.text); },
+                [this](const SendRawText& send) {
+                    _notes.OnTextSent(send.text);
+                    return _server->TrySendText(send.text);
+                },
                 [this](const DropStep& drop) {
                     if (drop.how == EDrop::Cut)
                     {
@@ -410,6 +422,33 @@ private:
         if (!_bEnding)
         {
             _lines.push_back("ACS link lost: " + CleanText(lost.reason));
+        }
+    }
+
+    void OnUnanswered(const Protocol::RequestUnanswered& unanswered)
+    {
+        _notes.Excuse();
+        // Overdue Acks of plans are the tracker's to see.
+        if (unanswered.command != Protocol::EAcsCommand::ExecutionPlan)
+        {
+            _lines.push_back(fmt::format("{} was not answered", GetText(unanswered.command)));
+        }
+    }
+
+    void OnNoted(const Protocol::ProtocolNoted& noted)
+    {
+        std::optional<NoteJudge::Verdict> verdict = _notes.JudgeOrNull(noted);
+        if (!verdict.has_value())
+        {
+            return;
+        }
+        if (verdict->bViolation)
+        {
+            _tracker.AddViolation(std::move(verdict->text), _lines);
+        }
+        else
+        {
+            _lines.push_back(std::move(verdict->text));
         }
     }
 

@@ -1,11 +1,15 @@
 #include "Summary.hpp"
 
 #include "CleanText.hpp"
+#include "NoteJudge.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace ACS::McsSim
 {
@@ -17,8 +21,8 @@ namespace
 {
 
 constexpr std::size_t LABEL_COLUMNS = 24;
-constexpr std::size_t NUMBER_COLUMNS = 14;
-constexpr std::size_t RULE_COLUMNS = LABEL_COLUMNS + 1 + 3 * NUMBER_COLUMNS;
+constexpr std::size_t NUMBER_COLUMNS = 13;
+constexpr std::size_t RULE_COLUMNS = LABEL_COLUMNS + 1 + 4 * NUMBER_COLUMNS;
 constexpr std::size_t MAX_FAILURES = 20;
 
 StyledLine MakeRule()
@@ -36,17 +40,19 @@ StyledLine MakeRow(std::string_view label, const std::string& text, EStyle style
     return {{" " + FitText(label, LABEL_COLUMNS), EStyle::Plain}, {text, style}};
 }
 
-StyledLine MakeNumbers(
-    std::string_view label,
-    const std::string& first,
-    const std::string& second,
-    const std::string& third,
-    EStyle style)
+StyledLine MakeNumbers(std::string_view label, const std::vector<std::string>& numbers, EStyle style)
 {
-    return {
-        {" " + FitText(label, LABEL_COLUMNS) + FitRight(first, NUMBER_COLUMNS) + FitRight(second, NUMBER_COLUMNS)
-             + FitRight(third, NUMBER_COLUMNS),
-         style}};
+    std::string text = " " + FitText(label, LABEL_COLUMNS);
+    for (const std::string& number : numbers)
+    {
+        text += FitRight(number, NUMBER_COLUMNS);
+    }
+    return {{std::move(text), style}};
+}
+
+std::string MakeDifference(std::uint64_t all, std::uint64_t others)
+{
+    return fmt::format("{}", all - std::min(all, others));
 }
 
 std::string MakeOutcomes(const PlanTracker& tracker)
@@ -71,17 +77,16 @@ std::string MakeDone(const DoneCount& count)
 
 void AddMessages(const PlanTracker& tracker, const Protocol::SessionStatistics& statistics, StyledLines& out)
 {
-    out.push_back(MakeNumbers("message to the ACS", "sent", "acknowledged", "sent again", EStyle::Dim));
+    out.push_back(MakeNumbers("message to the ACS", {"sent", "acknowledged", "sent again"}, EStyle::Dim));
     const CommandCounters& plans = statistics.Of(EAcsCommand::ExecutionPlan);
     const std::size_t resends = tracker.CountResends();
     out.push_back(MakeNumbers(
         GetText(EAcsCommand::ExecutionPlan),
-        fmt::format("{}", plans.sent - std::min<std::uint64_t>(plans.sent, resends)),
-        fmt::format("{}", plans.answered),
-        fmt::format("{}", resends),
+        {MakeDifference(plans.sent, resends), fmt::format("{}", plans.answered), fmt::format("{}", resends)},
         EStyle::Plain));
     out.emplace_back();
-    out.push_back(MakeNumbers("message from the ACS", "received", "acknowledged", "sent again", EStyle::Dim));
+    out.push_back(
+        MakeNumbers("message from the ACS", {"received", "acknowledged", "sent again", "refused"}, EStyle::Dim));
     for (std::size_t i = 0; i < Protocol::COMMAND_COUNT; ++i)
     {
         const auto command = static_cast<EAcsCommand>(i);
@@ -90,14 +95,40 @@ void AddMessages(const PlanTracker& tracker, const Protocol::SessionStatistics& 
         {
             continue;
         }
-        // A message that came twice was answered twice, and counts once.
-        const std::uint64_t answered = counters.acknowledged - std::min(counters.acknowledged, counters.duplicates);
-        out.push_back(MakeNumbers(
-            GetText(command),
-            fmt::format("{}", counters.received - counters.duplicates),
-            HasAck(command) ? fmt::format("{}", answered) : "–",
-            HasAck(command) ? fmt::format("{}", counters.duplicates) : "–",
-            EStyle::Plain));
+        // A message that came twice was answered twice, and counts once; one that was refused was none.
+        const std::uint64_t others = counters.duplicates + counters.refused;
+        const std::string received = MakeDifference(counters.received, others);
+        out.push_back(
+            HasAck(command) ? MakeNumbers(
+                GetText(command),
+                {received,
+                 MakeDifference(counters.acknowledged, others),
+                 fmt::format("{}", counters.duplicates),
+                 fmt::format("{}", counters.refused)},
+                counters.refused > 0 ? EStyle::Bad : EStyle::Plain)
+                            : MakeNumbers(GetText(command), {received, "–", "–", "–"}, EStyle::Plain));
+    }
+}
+
+void AddNotes(const Protocol::SessionStatistics& statistics, StyledLines& out)
+{
+    StyledLines rows;
+    for (std::size_t i = 0; i < Protocol::NOTE_COUNT; ++i)
+    {
+        const auto note = static_cast<Protocol::EProtocolNote>(i);
+        const std::uint64_t count = statistics.CountOf(note);
+        if (count > 0 && GetBlame(note) != EBlame::None)
+        {
+            rows.push_back(
+                {{fmt::format(" {} {}", FitRight(fmt::format("{}", count), 6), GetMeaning(note)),
+                  GetBlame(note) == EBlame::Habit ? EStyle::Plain : EStyle::Bad}});
+        }
+    }
+    if (!rows.empty())
+    {
+        out.emplace_back();
+        out.push_back({{" noticed in what the ACS sent", EStyle::Dim}});
+        out.insert(out.end(), rows.begin(), rows.end());
     }
 }
 
@@ -149,6 +180,7 @@ StyledLines MakeSummary(
         MakeRow("duration", fmt::format("{:.1f} s", static_cast<double>(duration.count()) / 1000.0), EStyle::Plain));
     lines.emplace_back();
     AddMessages(tracker, statistics, lines);
+    AddNotes(statistics, lines);
     lines.push_back(MakeRule());
     AddFailures(tracker, lines);
     return lines;

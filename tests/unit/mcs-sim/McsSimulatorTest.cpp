@@ -2,6 +2,7 @@
 
 #include "Catch.hpp"
 #include "common/SystemClock.hpp"
+#include "RawPeer.hpp"
 #include "SamplePlans.hpp"
 #include "ScenarioFile.hpp"
 #include "Screen.hpp"
@@ -249,7 +250,7 @@ TEST_CASE("Plans go to the ACS, its reports come back, and all end completed")
     CHECK(bench.acs->transactions == std::vector<std::string>{"T1", "T2", "T3"});
     CHECK(Contains(output, " ACS registered\n"));
     CHECK(Contains(output, " P2 JobReport step 2 job 2/2 Completed (LR01)\n"));
-    CHECK(Contains(output, " JobReport                           27            27             0\n"));
+    CHECK(Contains(output, " JobReport                          27           27            0            0\n"));
 }
 
 TEST_CASE("Nothing is sent before the plans are released")
@@ -301,6 +302,44 @@ TEST_CASE("A report after the final one makes the run fail, though the plan was 
     CHECK(bench.exitCode == 1);
     CHECK(GetLastLine(output) == "1 plans completed, 0 failed");
     CHECK(Contains(output, " violation: P1 PlanReport after it was completed\n"));
+}
+
+TEST_CASE("R1, R2 What an ACS may not send makes the run fail, and is told of")
+{
+    ACS::McsSim::SimulatorOptions options;
+    options.bConsole = true;
+    Bench bench(0, false, options);
+    bench.simulator->Release();
+    ACS::Testing::RawPeer peer(
+        bench.context,
+        {ACS::Testing::MakeText("TscStateUpdate", "T0", R"({"state":"Auto"})"),
+         ACS::Testing::MakeText("Registration", "T1", "{}"),
+         "no JSON",
+         ACS::Testing::MakeText("PlanReport", "T2", R"({"planId":"P1","status":"Dancing","message":""})"),
+         ACS::Testing::MakeText("ResumePlan", "T3", R"({"planId":"P1"})"),
+         R"({"command":"CancelPlanAck","transactionId":"T4","timestamp":"2025-07-02T21:00:00.123+09:00",)"
+         R"("result":"Success","message":"","payload":{"planId":"P1"}})",
+         ACS::Testing::MakeText("TscStateUpdate", "T5", R"({"state":"auto","mood":"fine"})")});
+    peer.ConnectAsync(bench.endpoint.port);
+    while (!Contains(bench.out.str(), "ACS TscStateUpdate Auto"))
+    {
+        REQUIRE(bench.context.run_one_for(LONGEST) > 0);
+    }
+    bench.simulator->Execute("quit");
+    bench.context.run_for(LONGEST);
+    const std::string output = bench.out.str();
+    INFO(output);
+    CHECK(bench.exitCode == 1);
+    CHECK(Contains(output, " VIOLATION ACS message before the registration: TscStateUpdate\n"));
+    CHECK(Contains(output, " VIOLATION ACS unreadable message: expected JSON"));
+    CHECK(Contains(output, " VIOLATION ACS unreadable message: payload.status: expected "));
+    CHECK(Contains(output, " VIOLATION ACS command that an ACS does not send: ResumePlan\n"));
+    CHECK(Contains(output, " VIOLATION ACS Ack of nothing that was asked: CancelPlan\n"));
+    CHECK(Contains(output, " ACS word in another case than the document's (told once)\n"));
+    CHECK(Contains(output, " ACS member that the document does not have (told once)\n"));
+    CHECK(Contains(output, "\n violations              5\n"));
+    CHECK(Contains(output, "\n PlanReport                          0            0            0            1\n"));
+    CHECK(Contains(output, "\n      2 unreadable message\n"));
 }
 
 TEST_CASE("An interruption before the end prints the table and fails")
