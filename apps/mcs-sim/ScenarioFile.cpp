@@ -4,6 +4,7 @@
 #include "common/TextFile.hpp"
 #include "ObjectReader.hpp"
 #include "PayloadText.hpp"
+#include "Placeholders.hpp"
 #include "PlanFile.hpp"
 #include <acs/json/JsonDocument.hpp>
 
@@ -13,7 +14,6 @@
 #include <array>
 #include <charconv>
 #include <filesystem>
-#include <set>
 #include <utility>
 
 namespace ACS::McsSim
@@ -34,6 +34,9 @@ constexpr std::string_view EVERY_COMMAND = "*";
 
 /// The members of a message that an expectation may name.
 constexpr std::array MESSAGE_MEMBERS{"transactionId", "timestamp", "result", "message", "payload"};
+
+/// The members of a step in which placeholders are replaced.
+constexpr std::array FILLED_MEMBERS{"transactionId", "timestamp", "result", "message", "payload", "reason", "sendText"};
 
 /// "planId={A}, status=Completed": the leaves of a pattern.
 void DescribeLeavesRecursive( // NOLINT(misc-no-recursion): as deep as the parser's limit
@@ -109,7 +112,7 @@ struct StepsContext
 {
     const PlanReader& readPlan;
     std::chrono::milliseconds within;
-    std::set<std::string> names;
+    ScenarioNames names;
 };
 
 /// The member that makes a step what it is.
@@ -130,6 +133,35 @@ std::string TakeName(const StepsContext& context, ObjectReader& reader, std::str
         reader.Refuse(member, std::move(expected), Core::QuoteForError(name));
     }
     return name;
+}
+
+/// The name that a step gives.
+std::string TakeNewName(ObjectReader& reader, std::string_view otherwise)
+{
+    std::string name = reader.TakeText("as", otherwise);
+    if (!IsScenarioName(name))
+    {
+        reader.Refuse("as", "a name of letters, digits, '_' and '-'", Core::QuoteForError(name));
+    }
+    return name;
+}
+
+/// What looks like a placeholder must stand for something: a misspelt one would match anything but what is meant.
+void CheckPlaceholders(const StepsContext& context, const Value& step, ObjectReader& reader)
+{
+    for (const char* const name : FILLED_MEMBERS)
+    {
+        const auto member = step.FindMember(name);
+        if (member != step.MemberEnd())
+        {
+            std::optional<Core::Error> mistake =
+                FindBadPlaceholderOrNullRecursive(member->value, reader.GetPath(name), context.names);
+            if (mistake.has_value())
+            {
+                reader.Refuse(std::move(*mistake));
+            }
+        }
+    }
 }
 
 void ReadPlan(const StepsContext& context, ObjectReader& reader, PlannedPlan& plan)
@@ -162,7 +194,7 @@ void TakePlan(ObjectReader& reader, std::string_view member, Core::Result<Planne
 ScenarioStep ReadSendPlan(StepsContext& context, ObjectReader& reader)
 {
     SendPlanStep step;
-    step.name = reader.TakeText("as", "plan");
+    step.name = TakeNewName(reader, "plan");
     step.bFreshIDs = reader.IsTrue("freshIds", true);
     step.times = reader.TakeNumber("times", 1, 1, MAX_TIMES);
     if (step.times > 1 && !step.bFreshIDs)
@@ -178,7 +210,7 @@ ScenarioStep ReadSendPlan(StepsContext& context, ObjectReader& reader)
     {
         ReadPlan(context, reader, step.plan);
     }
-    context.names.insert(step.name);
+    context.names.insert_or_assign(step.name, step.plan);
     std::string title = fmt::format("send ExecutionPlan {}", step.name);
     title += step.times > 1 ? fmt::format(", {} times", step.times) : "";
     return {std::move(step), std::move(title)};
@@ -438,6 +470,7 @@ Core::Result<ScenarioStep> ReadStep(StepsContext& context, const Value& value, c
         reader.Refuse({Core::ECoreError::MissingField, path, "a step with one of the members " + names, "none"});
         return tl::make_unexpected(reader.Finish().error());
     }
+    CheckPlaceholders(context, value, reader);
     ScenarioStep step = verb->read(context, reader, *verb);
     step.title = reader.TakeText("note", step.title);
     Core::Result<void> finished = reader.Finish();

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <utility>
 
 namespace ACS::McsSim
@@ -74,33 +73,6 @@ std::chrono::milliseconds GetLimit(const ScenarioStep& step, std::chrono::millis
     }
     const auto* const waitOrNull = std::get_if<WaitStep>(&step.kind);
     return waitOrNull == nullptr ? otherwise : waitOrNull->duration;
-}
-
-std::size_t ReadNumber(std::string_view text)
-{
-    std::size_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return error == std::errc() && end == text.data() + text.size() ? number : 0;
-}
-
-/// "2.1": the first job of the step with the number 2.
-std::optional<std::string> FindJobOrNull(const Protocol::ExecutionPlan& plan, std::string_view place)
-{
-    const std::size_t point = place.find('.');
-    if (point == std::string_view::npos)
-    {
-        return std::nullopt;
-    }
-    const std::size_t stepNo = ReadNumber(place.substr(0, point));
-    const std::size_t number = ReadNumber(place.substr(point + 1));
-    for (const Protocol::PlanStep& step : plan.steps)
-    {
-        if (std::cmp_equal(step.stepNo, stepNo) && number > 0 && number <= step.jobs.size())
-        {
-            return step.jobs[number - 1].jobID;
-        }
-    }
-    return std::nullopt;
 }
 
 } // namespace
@@ -266,7 +238,7 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const SendPlanStep& step, Core::Now
         {
             planned.transactionID = Core::MakeUuid(_random);
         }
-        _plans.insert_or_assign(step.name, planned);
+        _names.insert_or_assign(step.name, planned);
         out.emplace_back(SendPlannedPlan{std::move(planned), step.bFreshIDs});
     }
     return EProgress::Done;
@@ -280,7 +252,7 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const SendAgainStep& step, Core::No
         return progress;
     }
     Forget(_kept.size());
-    PlannedPlan planned = _plans.at(step.name);
+    PlannedPlan planned = _names.at(step.name);
     planned.transactionID = step.bFreshTransaction ? Core::MakeUuid(_random) : planned.transactionID;
     out.emplace_back(SendPlannedPlan{std::move(planned), false});
     return EProgress::Done;
@@ -350,7 +322,7 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const ExpectNothingStep& step, Core
 
 ScenarioRunner::EProgress ScenarioRunner::Do(const WaitForPlanStep& step, Core::Now now, ScenarioActions& /*out*/)
 {
-    const auto found = _planStatus.find(_plans.at(step.name).plan.planID);
+    const auto found = _planStatus.find(_names.at(step.name).plan.planID);
     if (found != _planStatus.end() && found->second == step.status)
     {
         Forget(_kept.size());
@@ -469,25 +441,8 @@ void ScenarioRunner::Forget(std::size_t count)
 PlaceholderReader ScenarioRunner::MakeReader() const
 {
     return [this](std::string_view name) {
-        return ReadPlaceholderOrNull(name);
+        return ReadPlaceholderOrNull(_names, name);
     };
-}
-
-std::optional<std::string> ScenarioRunner::ReadPlaceholderOrNull(std::string_view name) const
-{
-    const std::size_t point = name.find('.');
-    const auto found = _plans.find(name.substr(0, point));
-    if (found == _plans.end())
-    {
-        return std::nullopt;
-    }
-    if (point == std::string_view::npos)
-    {
-        return found->second.plan.planID;
-    }
-    const std::string_view part = name.substr(point + 1);
-    return part == "transactionId" ? std::optional(found->second.transactionID)
-                                   : FindJobOrNull(found->second.plan, part);
 }
 
 } // namespace ACS::McsSim

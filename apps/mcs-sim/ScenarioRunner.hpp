@@ -1,6 +1,7 @@
 #pragma once
 
 #include "PatternMatch.hpp"
+#include "Placeholders.hpp"
 #include "PlanRefresher.hpp"
 #include "ScenarioAction.hpp"
 #include <acs/core/Now.hpp>
@@ -64,7 +65,7 @@ private:
     PlanRefresher& _refresher;
     Core::IRandom& _random;
     Protocol::AcsCodec _codec;
-    std::map<std::string, PlannedPlan, std::less<>> _plans;
+    ScenarioNames _names;
     std::map<std::string, Protocol::EPlanStatus> _planStatus;
     std::deque<KeptMessage> _kept;
     std::size_t _scanned = 0; ///< So many of those that are kept the present step has looked at.
@@ -125,7 +126,6 @@ private:
     [[nodiscard]] bool IsAskedFor(const std::string& command) const;
     void Forget(std::size_t count);
     [[nodiscard]] PlaceholderReader MakeReader() const;
-    [[nodiscard]] std::optional<std::string> ReadPlaceholderOrNull(std::string_view name) const;
 };
 
 } // namespace ACS::McsSim

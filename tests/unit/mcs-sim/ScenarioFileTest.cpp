@@ -72,7 +72,7 @@ TEST_CASE("A plan is sent from a file or from the scenario itself, with fresh id
 TEST_CASE("Every other command of an MCS is sent with its payload, or an empty one")
 {
     const auto history =
-        ParseOne<SendRequestStep>(R"({"send":"RequestAcsPlanHistory","payload":{"planIds":["{A}","x"]}})");
+        ParseOne<SendRequestStep>(SEND + R"(,{"send":"RequestAcsPlanHistory","payload":{"planIds":["{A}","x"]}})");
     CHECK(history.command == EAcsCommand::RequestAcsPlanHistory);
     CHECK(history.payload.GetText() == R"({"planIds":["{A}","x"]})");
     CHECK(ParseOne<SendRequestStep>(R"({"send":"SyncConfig"})").payload.GetText() == "{}");
@@ -161,6 +161,31 @@ TEST_CASE("A mistake in a scenario is told with its place, what was expected and
     const std::string mistake = FindMistake(row.first);
     CAPTURE(row.first, mistake);
     CHECK(mistake.find(row.second) == 0);
+}
+
+TEST_CASE("A placeholder that stands for nothing is a mistake of the file, other braces are text")
+{
+    using Row = std::pair<std::string, std::string>;
+    const auto row = GENERATE(
+        Row{R"({"expect":"PlanReport","payload":{"planId":"{a}"}})",
+            R"(steps[1].payload.planId: expected a placeholder of )"},
+        Row{R"({"expect":"JobReport","payload":{"jobId":"{A.9.9}"}})", "steps[1].payload.jobId: "},
+        Row{R"({"expect":"JobReport","payload":{"jobId":"{A.1.0}"}})", "steps[1].payload.jobId: "},
+        Row{R"({"expect":"JobReport","payload":{"jobId":"{A.job}"}})", "steps[1].payload.jobId: "},
+        Row{R"({"expect":"RobotStatusUpdate","payload":{"carrierIds":["{A.1.carrier.9}"]}})",
+            "steps[1].payload.carrierIds[0]: "},
+        Row{R"({"expectNothing":"PlanReport","transactionId":"*{A.transaction}","for":"1s"})",
+            "steps[1].transactionId: "},
+        Row{R"({"send":"CancelPlan","payload":{"planId":"{B}"}})", "steps[1].payload.planId: "},
+        Row{R"({"sendText":"{\"planId\":\"{B}\"}"})", R"(steps[1].sendText: )"},
+        Row{R"({"cancel":"A","reason":"{reason}"})", "steps[1].reason: "},
+        Row{R"({"send":"ExecutionPlan","file":"plan.json","as":"the plan"})",
+            "steps[1].as: expected a name of letters, "});
+    const std::string mistake = FindMistake(SEND + "," + row.first);
+    CAPTURE(row.first, mistake);
+    CHECK(mistake.find(row.second) == 0);
+    CHECK(Parse(
+        SEND + R"(,{"expect":"PlanReport","message":"{} { A } {\"A\"} {A}{A.transactionId}{A.2.1}{A.1.carrier.1}"})"));
 }
 
 TEST_CASE("The head of a scenario is checked as its steps are")

@@ -116,8 +116,8 @@ TEST_CASE("A plan goes with fresh ids as often as asked, and is spoken of by its
 {
     Bench bench(
         R"({"send":"ExecutionPlan","file":"p","as":"A","times":3},{"cancel":"A"},
-           {"send":"RequestAcsPlanHistory","payload":{"planIds":["{A}","{A.transactionId}","{A.2.1}","{A.9.1}"]}},
-           {"sendAgain":"A"},{"sendAgain":"A","freshTransaction":true},{"sendText":"{A} {"})");
+           {"send":"RequestAcsPlanHistory","payload":{"planIds":["{A}","{A.transactionId}","{A.2.1}","{A.1.carrier.1}"]}},
+           {"sendAgain":"A"},{"sendAgain":"A","freshTransaction":true},{"sendText":"{A} { {} { A } {\"A\"}"})");
     const std::vector<SendPlannedPlan> plans = bench.GetAll<SendPlannedPlan>();
     REQUIRE(plans.size() == 5);
     CHECK(plans[0].planned.plan.planID != plans[1].planned.plan.planID);
@@ -131,8 +131,12 @@ TEST_CASE("A plan goes with fresh ids as often as asked, and is spoken of by its
     CHECK(std::get<ACS::Protocol::CancelPlan>(requests[0].payload).planID == last.plan.planID);
     CHECK(
         std::get<ACS::Protocol::RequestAcsPlanHistory>(requests[1].payload).planIDs
-        == std::vector<std::string>{last.plan.planID, last.transactionID, last.plan.steps[0].jobs[0].jobID, "{A.9.1}"});
-    CHECK(bench.GetAll<SendRawText>().at(0).text == last.plan.planID + " {");
+        == std::vector<std::string>{
+            last.plan.planID,
+            last.transactionID,
+            last.plan.steps[0].jobs[0].jobID,
+            last.plan.steps[1].carrierIDs[0]});
+    CHECK(bench.GetAll<SendRawText>().at(0).text == last.plan.planID + R"( { {} { A } {"A"})");
     CHECK(bench.runner.HasHeld());
 }
 
