@@ -14,6 +14,7 @@
 #include "ScenarioSummary.hpp"
 #include "Screen.hpp"
 #include "Summary.hpp"
+#include "WireFilter.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/protocol_beast/ISessionHandler.hpp>
 #include <acs/protocol_beast/McsServer.hpp>
@@ -77,6 +78,7 @@ class McsSimulator::Impl final : private ProtocolBeast::ISessionHandler
     PlanSender _sender;
     ScenarioSequence _scenarios;
     NoteJudge _notes;
+    WireFilter _wireFilter;
     std::deque<std::string> _inbox; ///< What came from the ACS, for the scenarios.
     LiveView _view;
     ViewHeading _heading;
@@ -315,7 +317,7 @@ private:
         {
             _notes.Excuse(); // Cut by us.
         }
-        if (direction == ProtocolBeast::EWireDirection::In && !_scenarios.IsFinished())
+        if (!_scenarios.IsFinished() && _wireFilter.ShouldPass(direction, connection, text))
         {
             // Not here: what a scenario does then must not come between the server and its session.
             _inbox.emplace_back(text);

@@ -410,6 +410,30 @@ TEST_CASE("A scenario sends its plan, sees what the ACS does, and its verdicts s
                   : "0 of 1 scenarios passed, 0 of 2 expectations held, 0 violations"));
 }
 
+TEST_CASE("A connection that is not the registered ACS fulfils no expectation")
+{
+    ACS::McsSim::SimulatorOptions options;
+    const auto scenario = ACS::McsSim::ParseScenario(
+        R"({"name":"test","steps":[{"expect":"ErrorReport","within":"300ms"}]})",
+        [](const std::string& /*path*/) { return tl::expected<PlannedPlan, std::string>(PlannedPlan()); });
+    REQUIRE(scenario.has_value());
+    options.scenarios = {*scenario};
+    Bench bench(0, false, options);
+    bench.simulator->Release();
+    ACS::Testing::RawPeer peer(
+        bench.context,
+        {ACS::Testing::MakeText(
+            "ErrorReport",
+            "T1",
+            R"({"robotId":"LR01","state":true,"errorCode":"E","level":"heavy","message":""})")});
+    peer.ConnectAsync(bench.endpoint.port);
+    const std::string output = bench.Run();
+    INFO(output);
+    CHECK(bench.exitCode == 1);
+    CHECK(Contains(output, " message before the registration: ErrorReport\n"));
+    CHECK(Contains(output, "no ErrorReport came within 300ms"));
+}
+
 TEST_CASE("The console sends what it is told, lists plans and ends the run")
 {
     ACS::McsSim::SimulatorOptions options;
