@@ -69,6 +69,15 @@ std::optional<std::string> ReadPlanPartOrNull(const PlannedPlan& planned, std::s
     return step == steps.end() ? std::nullopt : ReadStepPartOrNull(*step, part.substr(point + 1));
 }
 
+std::optional<std::string> ReadMessagePartOrNull(const FoundMessage& message, std::string_view part)
+{
+    if (part == "transactionId")
+    {
+        return message.transactionID;
+    }
+    return part == "timestamp" ? std::optional(message.timestamp) : std::nullopt;
+}
+
 std::optional<Core::Error> FindInTextOrNull(std::string_view text, const std::string& path, const ScenarioNames& names)
 {
     for (std::size_t start = text.find('{'); start != std::string_view::npos; start = text.find('{', start + 1))
@@ -102,8 +111,13 @@ std::optional<std::string> ReadPlaceholderOrNull(const ScenarioNames& names, std
     {
         return std::nullopt;
     }
-    return point == std::string_view::npos ? found->second.plan.planID
-                                           : ReadPlanPartOrNull(found->second, name.substr(point + 1));
+    const std::string_view part = point == std::string_view::npos ? "" : name.substr(point + 1);
+    const auto* const planOrNull = std::get_if<PlannedPlan>(&found->second);
+    if (planOrNull == nullptr)
+    {
+        return ReadMessagePartOrNull(std::get<FoundMessage>(found->second), part);
+    }
+    return point == std::string_view::npos ? planOrNull->plan.planID : ReadPlanPartOrNull(*planOrNull, part);
 }
 
 // As deep as the parser's limit.

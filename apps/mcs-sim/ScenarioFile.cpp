@@ -3,6 +3,7 @@
 #include "common/DurationText.hpp"
 #include "common/TextFile.hpp"
 #include "ObjectReader.hpp"
+#include "PatternMatch.hpp"
 #include "PayloadText.hpp"
 #include "Placeholders.hpp"
 #include "PlanFile.hpp"
@@ -95,10 +96,30 @@ bool IsAckedByMcs(EAcsCommand command)
     return IsSentByAcs(command) && HasAck(command);
 }
 
+constexpr std::string_view ACK = "Ack";
+
+/// Whether '*' in the name stands for something.
+bool MatchesAnyFromAcs(std::string_view name)
+{
+    for (std::size_t i = 0; i < Protocol::COMMAND_COUNT; ++i)
+    {
+        const auto command = static_cast<EAcsCommand>(i);
+        const std::string sent = std::string(GetText(command)) + (IsSentByAcs(command) ? "" : std::string(ACK));
+        if (MatchesGlob(sent, name))
+        {
+            return true;
+        }
+    }
+    return false;
+}
+
 /// What an ACS may send: its own commands, and the Acks of the MCS's.
 bool CanComeFromAcs(std::string_view name)
 {
-    constexpr std::string_view ACK = "Ack";
+    if (name.find('*') != std::string_view::npos)
+    {
+        return MatchesAnyFromAcs(name);
+    }
     const bool bAck = name.ends_with(ACK);
     const std::optional<EAcsCommand> command =
         FindCommandOrNull(bAck ? name.substr(0, name.size() - ACK.size()) : name);
@@ -127,7 +148,8 @@ struct Verb
 std::string TakeName(const StepsContext& context, ObjectReader& reader, std::string_view member)
 {
     std::string name = reader.TakeText(member);
-    if (!context.names.contains(name))
+    const auto found = context.names.find(name);
+    if (found == context.names.end() || !std::holds_alternative<PlannedPlan>(found->second))
     {
         std::string expected = "the name that a send step before gave to a plan (\"as\")";
         reader.Refuse(member, std::move(expected), Core::QuoteForError(name));
@@ -149,6 +171,10 @@ std::string TakeNewName(ObjectReader& reader, std::string_view otherwise)
 /// What looks like a placeholder must stand for something: a misspelt one would match anything but what is meant.
 void CheckPlaceholders(const StepsContext& context, const Value& step, ObjectReader& reader)
 {
+    if (!step.IsObject())
+    {
+        return;
+    }
     for (const char* const name : FILLED_MEMBERS)
     {
         const auto member = step.FindMember(name);
@@ -287,11 +313,11 @@ MessagePattern ReadPattern(ObjectReader& reader, std::string_view member, std::s
 {
     MessagePattern pattern;
     pattern.command = reader.TakeText(member);
-    if (!reader.HasFailed() && pattern.command != EVERY_COMMAND && !CanComeFromAcs(pattern.command))
+    if (!reader.HasFailed() && !CanComeFromAcs(pattern.command))
     {
         reader.Refuse(
             member,
-            "\"*\", the Ack of a command of the MCS, or one of " + ListCommands(IsSentByAcs),
+            "the Ack of a command of the MCS, a name with '*', or one of " + ListCommands(IsSentByAcs),
             Core::QuoteForError(pattern.command));
     }
     std::string members = "{";
@@ -310,6 +336,8 @@ MessagePattern ReadPattern(ObjectReader& reader, std::string_view member, std::s
     }
     description += leaves;
     pattern.members = Core::JsonText::FromTrusted(members + "}");
+    pattern.bRepeated = reader.IsTrue("repeated", false);
+    description += pattern.bRepeated ? " repeated" : "";
     return pattern;
 }
 
@@ -319,7 +347,46 @@ ScenarioStep ReadExpect(StepsContext& context, ObjectReader& reader, const Verb&
     ExpectStep step;
     step.pattern = ReadPattern(reader, verb.name, description);
     step.within = reader.TakeDuration("within", context.within);
+    if (reader.HasMember("as"))
+    {
+        step.name = TakeNewName(reader, "");
+        context.names.insert_or_assign(step.name, FoundMessage{});
+    }
     return {std::move(step), "expect " + description};
+}
+
+/// One message, or several in any order: an array of objects with a "command".
+ScenarioStep ReadExpectNext(StepsContext& context, ObjectReader& reader, const Verb& verb)
+{
+    ExpectNextStep step;
+    std::string description;
+    const Value* const groupOrNull = reader.TakeOrNull(verb.name);
+    if (groupOrNull != nullptr && groupOrNull->IsArray() && !groupOrNull->Empty())
+    {
+        for (const Value& value : groupOrNull->GetArray())
+        {
+            ObjectReader element(value, fmt::format("{}[{}]", reader.GetPath(verb.name), step.patterns.size()));
+            std::string part;
+            CheckPlaceholders(context, value, element);
+            step.patterns.push_back(ReadPattern(element, "command", part));
+            description += (description.empty() ? "" : " and ") + part;
+            if (const Core::Result<void> finished = element.Finish(); !finished.has_value())
+            {
+                reader.Refuse(finished.error());
+            }
+        }
+    }
+    else
+    {
+        step.patterns.push_back(ReadPattern(reader, verb.name, description));
+    }
+    step.within = reader.TakeDuration("within", context.within);
+    step.besides = reader.HasMember("besides") ? reader.TakeText("besides") : std::string();
+    if (!step.besides.empty() && !CanComeFromAcs(step.besides))
+    {
+        reader.Refuse("besides", "the name of a message of the ACS", Core::QuoteForError(step.besides));
+    }
+    return {std::move(step), "expect next " + description};
 }
 
 ScenarioStep ReadExpectNothing(StepsContext& /*context*/, ObjectReader& reader, const Verb& verb)
@@ -435,7 +502,7 @@ ScenarioStep ReadRefuse(StepsContext& /*context*/, ObjectReader& reader, const V
     return {std::move(step), std::move(title)};
 }
 
-constexpr std::array<Verb, 16> VERBS{
+constexpr std::array<Verb, 17> VERBS{
     {{"send", ReadSend},
      {"sendAgain", ReadSendAgain},
      {"sendText", ReadSendText},
@@ -444,6 +511,7 @@ constexpr std::array<Verb, 16> VERBS{
      {"pause", ReadControl, EAcsCommand::PausePlan},
      {"resume", ReadControl, EAcsCommand::ResumePlan},
      {"expect", ReadExpect},
+     {"expectNext", ReadExpectNext},
      {"expectNothing", ReadExpectNothing},
      {"waitFor", ReadWaitFor},
      {"wait", ReadWait},

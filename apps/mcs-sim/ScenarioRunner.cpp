@@ -5,6 +5,7 @@
 #include "PayloadText.hpp"
 #include "TrackedPlan.hpp"
 #include <acs/core/Uuid.hpp>
+#include <acs/json/JsonDocument.hpp>
 
 #include <fmt/format.h>
 
@@ -33,6 +34,25 @@ std::string GetCommandName(const Protocol::DecodeOutcome& outcome)
     return ack.bLegacyName ? "RequestAcsStatusAck" : std::string(GetText(ack.command)) + "Ack";
 }
 
+/// What a message says of itself, as it is on the wire.
+FoundMessage ReadEnvelope(std::string_view text)
+{
+    FoundMessage envelope;
+    Json::JsonDocument document;
+    const Core::Result<const Json::Value*> value = document.Parse(text, {});
+    if (value.has_value() && (*value)->IsObject())
+    {
+        const auto read = [value](const char* name) {
+            const auto member = (*value)->FindMember(name);
+            return member != (*value)->MemberEnd() && member->value.IsString()
+                ? std::string(member->value.GetString(), member->value.GetStringLength())
+                : std::string();
+        };
+        envelope = {read("transactionId"), read("timestamp")};
+    }
+    return envelope;
+}
+
 const Protocol::PlanReport* FindPlanReportOrNull(const Protocol::DecodeOutcome& outcome)
 {
     const auto* const requestOrNull =
@@ -42,8 +62,8 @@ const Protocol::PlanReport* FindPlanReportOrNull(const Protocol::DecodeOutcome& 
 
 bool IsExpectation(const ScenarioStep& step)
 {
-    return std::holds_alternative<ExpectStep>(step.kind) || std::holds_alternative<ExpectNothingStep>(step.kind)
-        || std::holds_alternative<WaitForPlanStep>(step.kind);
+    return std::holds_alternative<ExpectStep>(step.kind) || std::holds_alternative<ExpectNextStep>(step.kind)
+        || std::holds_alternative<ExpectNothingStep>(step.kind) || std::holds_alternative<WaitForPlanStep>(step.kind);
 }
 
 const MessagePattern* FindPatternOrNull(const ScenarioStep& step)
@@ -62,6 +82,10 @@ std::chrono::milliseconds GetLimit(const ScenarioStep& step, std::chrono::millis
     if (const auto* const expectOrNull = std::get_if<ExpectStep>(&step.kind))
     {
         return expectOrNull->within;
+    }
+    if (const auto* const nextOrNull = std::get_if<ExpectNextStep>(&step.kind))
+    {
+        return nextOrNull->within;
     }
     if (const auto* const nothingOrNull = std::get_if<ExpectNothingStep>(&step.kind))
     {
@@ -122,13 +146,14 @@ void ScenarioRunner::OnMessage(std::string_view text, Core::Now now, ScenarioAct
         _planStatus[reportOrNull->planID] = reportOrNull->status;
     }
     std::string command = GetCommandName(outcome);
+    const bool bRepeated = WasSeen(command, ReadEnvelope(text));
     if (IsAskedFor(command))
     {
         if (_kept.size() == MAX_KEPT)
         {
             Forget(1);
         }
-        _kept.push_back({std::move(command), std::string(text)});
+        _kept.push_back({std::move(command), std::string(text), bRepeated});
     }
     Advance(now, out);
 }
@@ -194,6 +219,8 @@ void ScenarioRunner::Enter(Core::Now now, ScenarioActions& out)
     _scanned = 0;
     _candidates = 0;
     _mismatch.clear();
+    const auto* const nextOrNull = std::get_if<ExpectNextStep>(&_scenario.steps[_index].kind);
+    _open = nextOrNull == nullptr ? std::vector<MessagePattern>() : nextOrNull->patterns;
     out.emplace_back(StartScenarioTimer{limit});
 }
 
@@ -252,7 +279,7 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const SendAgainStep& step, Core::No
         return progress;
     }
     Forget(_kept.size());
-    PlannedPlan planned = _names.at(step.name);
+    PlannedPlan planned = std::get<PlannedPlan>(_names.at(step.name));
     planned.transactionID = step.bFreshTransaction ? Core::MakeUuid(_random) : planned.transactionID;
     out.emplace_back(SendPlannedPlan{std::move(planned), false});
     return EProgress::Done;
@@ -292,6 +319,10 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const ExpectStep& step, Core::Now n
     const std::optional<std::size_t> found = FindMatchOrNull(step.pattern);
     if (found.has_value())
     {
+        if (!step.name.empty())
+        {
+            _names.insert_or_assign(step.name, ReadEnvelope(_kept[*found].text));
+        }
         Forget(*found + 1);
         return EProgress::Done;
     }
@@ -310,6 +341,22 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const ExpectStep& step, Core::Now n
                              CleanText(_mismatch)));
 }
 
+ScenarioRunner::EProgress ScenarioRunner::Do(const ExpectNextStep& step, Core::Now now, ScenarioActions& /*out*/)
+{
+    std::optional<std::string> misfit = TakeNextOrNull(step);
+    if (misfit.has_value())
+    {
+        return Fail(std::move(*misfit));
+    }
+    if (_open.empty())
+    {
+        return EProgress::Done;
+    }
+    return now.steady < _deadline
+        ? EProgress::Waiting
+        : Fail(fmt::format("no {} came within {}", _open.front().command, Apps::MakeDurationText(step.within)));
+}
+
 ScenarioRunner::EProgress ScenarioRunner::Do(const ExpectNothingStep& step, Core::Now now, ScenarioActions& /*out*/)
 {
     const std::optional<std::size_t> found = FindMatchOrNull(step.pattern);
@@ -322,7 +369,7 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const ExpectNothingStep& step, Core
 
 ScenarioRunner::EProgress ScenarioRunner::Do(const WaitForPlanStep& step, Core::Now now, ScenarioActions& /*out*/)
 {
-    const auto found = _planStatus.find(_names.at(step.name).plan.planID);
+    const auto found = _planStatus.find(std::get<PlannedPlan>(_names.at(step.name)).plan.planID);
     if (found != _planStatus.end() && found->second == step.status)
     {
         Forget(_kept.size());
@@ -405,7 +452,6 @@ ScenarioRunner::EProgress ScenarioRunner::AwaitAcs(Core::Now now)
 
 std::optional<std::size_t> ScenarioRunner::FindMatchOrNull(const MessagePattern& pattern)
 {
-    const PlaceholderReader reader = MakeReader();
     for (; _scanned < _kept.size(); ++_scanned)
     {
         const KeptMessage& message = _kept[_scanned];
@@ -413,7 +459,7 @@ std::optional<std::size_t> ScenarioRunner::FindMatchOrNull(const MessagePattern&
         {
             continue;
         }
-        std::optional<std::string> mismatch = FindMismatchOrNull(message.text, pattern, reader);
+        std::optional<std::string> mismatch = FindMismatchOfOrNull(message, pattern);
         if (!mismatch.has_value())
         {
             return _scanned;
@@ -424,12 +470,65 @@ std::optional<std::size_t> ScenarioRunner::FindMatchOrNull(const MessagePattern&
     return std::nullopt;
 }
 
+std::optional<std::string> ScenarioRunner::TakeNextOrNull(const ExpectNextStep& step)
+{
+    while (!_open.empty() && !_kept.empty())
+    {
+        const KeptMessage& message = _kept.front();
+        std::string mismatch;
+        const auto fits = [this, &message, &mismatch](const MessagePattern& pattern) {
+            mismatch = MatchesGlob(message.command, pattern.command)
+                ? FindMismatchOfOrNull(message, pattern).value_or("")
+                : fmt::format("{} came before {}: {}", message.command, pattern.command, CleanText(message.text));
+            return mismatch.empty();
+        };
+        const auto found = std::find_if(_open.begin(), _open.end(), fits);
+        if (found != _open.end())
+        {
+            _open.erase(found);
+        }
+        else if (!MatchesGlob(message.command, step.besides))
+        {
+            return mismatch;
+        }
+        Forget(1);
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> ScenarioRunner::FindMismatchOfOrNull(
+    const KeptMessage& message,
+    const MessagePattern& pattern) const
+{
+    if (pattern.bRepeated && !message.bRepeated)
+    {
+        return "its transactionId is new";
+    }
+    return FindMismatchOrNull(message.text, pattern, MakeReader());
+}
+
 bool ScenarioRunner::IsAskedFor(const std::string& command) const
 {
     return std::any_of(_scenario.steps.begin(), _scenario.steps.end(), [&command](const ScenarioStep& step) {
+        // Whatever comes may be what must not come in between.
         const MessagePattern* const patternOrNull = FindPatternOrNull(step);
-        return patternOrNull != nullptr && MatchesGlob(command, patternOrNull->command);
+        return std::holds_alternative<ExpectNextStep>(step.kind)
+            || (patternOrNull != nullptr && MatchesGlob(command, patternOrNull->command));
     });
+}
+
+bool ScenarioRunner::WasSeen(const std::string& command, const FoundMessage& envelope)
+{
+    std::string key = command + ' ' + envelope.transactionID;
+    if (_transactions.contains(key))
+    {
+        return true;
+    }
+    if (_transactions.size() < MAX_TRANSACTIONS && !envelope.transactionID.empty())
+    {
+        _transactions.insert(std::move(key));
+    }
+    return false;
 }
 
 void ScenarioRunner::Forget(std::size_t count)

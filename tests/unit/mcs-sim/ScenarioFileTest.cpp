@@ -97,6 +97,7 @@ TEST_CASE("An expectation takes its members from the message, and the time limit
     CHECK(expect.pattern.members.GetText() == R"({"result":"Fail","message":"*no*","payload":{"planId":"x"}})");
     CHECK(expect.within == 7s);
     CHECK(ParseOne<ExpectStep>(R"({"expect":"*","within":"200ms"})").within == 200ms);
+    CHECK(ParseOne<ExpectStep>(R"({"expect":"*ResultReport"})").pattern.command == "*ResultReport");
     CHECK(ParseOne<ExpectNothingStep>(R"({"expectNothing":"StepReport","for":"2s"})").duration == 2s);
     const auto wait = ParseOne<WaitForPlanStep>(SEND + R"(,{"waitFor":"A","status":"Cancelled"})");
     CHECK(wait.status == ACS::Protocol::EPlanStatus::Cancelled);
@@ -147,7 +148,8 @@ TEST_CASE("A mistake in a scenario is told with its place, what was expected and
         Row{R"({"send":"CancelPlan","payload":{"planId":3}})", "steps[0].payload.planId: "},
         Row{R"({"cancel":"A"})",
             R"(steps[0].cancel: expected the name that a send step before gave to a plan ("as"), )"},
-        Row{R"({"expect":"ExecutionPlan"})", R"(steps[0].expect: expected "*", the Ack of )"},
+        Row{R"({"expect":"ExecutionPlan"})", R"(steps[0].expect: expected the Ack of )"},
+        Row{R"({"expect":"*Rapport"})", R"(steps[0].expect: expected the Ack of )"},
         Row{R"({"expect":"PlanReport","status":"Failed"})", "steps[0]: expected one of the members expect, "},
         Row{R"({"expect":"PlanReport","within":5})", "steps[0].within: expected a duration such as '200ms', "},
         Row{R"({"expectNothing":"PlanReport"})", "steps[0].for: expected a duration"},
@@ -179,6 +181,16 @@ TEST_CASE("A placeholder that stands for nothing is a mistake of the file, other
         Row{R"({"send":"CancelPlan","payload":{"planId":"{B}"}})", "steps[1].payload.planId: "},
         Row{R"({"sendText":"{\"planId\":\"{B}\"}"})", R"(steps[1].sendText: )"},
         Row{R"({"cancel":"A","reason":"{reason}"})", "steps[1].reason: "},
+        Row{R"({"expect":"StepReport","as":"S","transactionId":"{S.transactionId}"})", "steps[1].transactionId: "},
+        Row{R"({"expect":"StepReport","as":"S"},{"expect":"StepReport","timestamp":"{S.payload}"})",
+            "steps[2].timestamp: "},
+        Row{R"({"expect":"StepReport","as":"S"},{"cancel":"S"})", "steps[2].cancel: expected the name that a send "},
+        Row{R"({"expectNext":[{"command":"PlanReport","payload":{"planId":"{B}"}}]})",
+            "steps[1].expectNext[0].payload.planId: "},
+        Row{R"({"expectNext":[{"command":"PlanReport","for":"1s"}]})", "steps[1].expectNext[0]: expected one of "},
+        Row{R"({"expectNext":[]})", "steps[1].expectNext: expected a text, found an array"},
+        Row{R"({"expectNext":"PlanReport","besides":"ExecutionPlan"})", "steps[1].besides: "},
+        Row{R"({"expectNext":"PlanReport","as":"S"})", "steps[1]: expected one of the members expectNext, "},
         Row{R"({"send":"ExecutionPlan","file":"plan.json","as":"the plan"})",
             "steps[1].as: expected a name of letters, "});
     const std::string mistake = FindMistake(SEND + "," + row.first);
