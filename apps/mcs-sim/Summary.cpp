@@ -84,6 +84,19 @@ void AddMessages(const PlanTracker& tracker, const Protocol::SessionStatistics& 
         GetText(EAcsCommand::ExecutionPlan),
         {MakeDifference(plans.sent, resends), fmt::format("{}", plans.answered), fmt::format("{}", resends)},
         EStyle::Plain));
+    for (std::size_t i = 0; i < Protocol::COMMAND_COUNT; ++i)
+    {
+        const auto command = static_cast<EAcsCommand>(i);
+        const CommandCounters& counters = statistics.Of(command);
+        if (command != EAcsCommand::ExecutionPlan && IsSentByMcs(command) && counters.sent > 0)
+        {
+            // Nothing but a plan is ever sent again.
+            out.push_back(MakeNumbers(
+                GetText(command),
+                {fmt::format("{}", counters.sent), fmt::format("{}", counters.answered), "–"},
+                EStyle::Plain));
+        }
+    }
     out.emplace_back();
     out.push_back(
         MakeNumbers("message from the ACS", {"received", "acknowledged", "sent again", "refused"}, EStyle::Dim));

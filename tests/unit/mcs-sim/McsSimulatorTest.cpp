@@ -98,9 +98,24 @@ private:
         }
         else if (const auto* const received = std::get_if<ACS::Protocol::RequestReceived>(&event))
         {
+            const auto* const cancelOrNull = std::get_if<ACS::Protocol::CancelPlan>(&received->request.payload);
             if (std::holds_alternative<ACS::Protocol::ExecutionPlan>(received->request.payload))
             {
                 OnPlan(received->request);
+            }
+            else if (cancelOrNull != nullptr)
+            {
+                _client->Answer(
+                    ACS::Protocol::EAcsCommand::CancelPlan,
+                    received->request.transactionID,
+                    EAckResult::Success,
+                    "looking into it",
+                    ACS::Protocol::PlanAck{cancelOrNull->planID});
+                Queue(ACS::Protocol::CancelResultReport{
+                    cancelOrNull->planID,
+                    ACS::Protocol::EReportResult::Failed,
+                    "it is over"});
+                SendNext();
             }
         }
     }
@@ -448,6 +463,10 @@ TEST_CASE("The console sends what it is told, lists plans and ends the run")
     CHECK_FALSE(bench.exitCode.has_value());
     bench.simulator->Execute("list");
     bench.simulator->Execute("cancel P1");
+    while (!Contains(bench.out.str(), "CancelResultReport"))
+    {
+        REQUIRE(bench.context.run_one_for(LONGEST) > 0);
+    }
     bench.simulator->Execute("plan nowhere.json");
     bench.simulator->Execute("dance");
     bench.simulator->Execute("quit");
@@ -457,6 +476,9 @@ TEST_CASE("The console sends what it is told, lists plans and ends the run")
     CHECK(bench.exitCode == 0);
     CHECK(Contains(output, " P1 Completed (LR01)\n"));
     CHECK(Contains(output, " CancelPlan sent\n"));
+    CHECK(Contains(output, " P1 CancelPlanAck Success: looking into it\n"));
+    CHECK(Contains(output, " P1 CancelResultReport Failed: it is over\n"));
+    CHECK(Contains(output, "\n CancelPlan                          1            1            –\n"));
     CHECK(Contains(output, " the plan file nowhere.json cannot be read: No such file or directory\n"));
     CHECK(Contains(output, " there is no 'dance': try help\n"));
 }

@@ -60,6 +60,8 @@ TEST_CASE("The closing table counts plans by outcome and messages by command, a 
     statistics.registrations = 3;
     statistics.Of(EAcsCommand::ExecutionPlan).sent = 4;
     statistics.Of(EAcsCommand::ExecutionPlan).answered = 1;
+    statistics.Of(EAcsCommand::CancelPlan).sent = 2;
+    statistics.Of(EAcsCommand::CancelPlan).answered = 1;
     statistics.Of(EAcsCommand::Registration) = MakeReceived(3, 0, 3);
     statistics.Of(EAcsCommand::PlanReport) = MakeReceived(7, 2, 7, 3); // those that were refused were none
     statistics.Of(EAcsCommand::RobotPositionUpdate) = MakeReceived(500, 0, 0);
@@ -82,6 +84,7 @@ TEST_CASE("The closing table counts plans by outcome and messages by command, a 
 
  message to the ACS               sent acknowledged   sent again
  ExecutionPlan                       3            1            1
+ CancelPlan                          2            1            –
 
  message from the ACS         received acknowledged   sent again      refused
  Registration                        3            3            0            0
