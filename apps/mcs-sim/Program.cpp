@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
@@ -66,6 +67,26 @@ tl::expected<std::vector<PlannedPlan>, std::string> LoadPlans(
         return tl::make_unexpected("two plans have the transactionId " + *shared + ": use --fresh-ids");
     }
     return plans;
+}
+
+/// The option that an error of the server is about; nullopt: it is about no file for TLS.
+std::optional<std::string_view> FindOptionOrNull(const Core::Error& error)
+{
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 3> OPTIONS{
+        {{"tls.certificate", "--tls-certificate"}, {"tls.key", "--tls-key"}, {"tls.ca", "--tls-client-ca"}}};
+    const auto* const found = std::find_if(OPTIONS.begin(), OPTIONS.end(), [&error](const auto& option) {
+        return option.first == error.path;
+    });
+    return found == OPTIONS.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// Tells why the server cannot start; the exit code.
+int TellStartFailure(Core::Error error)
+{
+    const std::optional<std::string_view> option = FindOptionOrNull(error);
+    error.path = option.value_or(error.path);
+    Apps::PrintMistake(PROGRAM_NAME, Describe(error));
+    return option.has_value() ? Apps::EXIT_BAD_COMMAND_LINE : EXIT_FAILURE;
 }
 
 bool AsksForHelp(const std::vector<Scenario>& scenarios)
@@ -183,10 +204,9 @@ int Run(const McsSimOptions& options)
     const Core::Result<Apps::Endpoint> endpoint = simulator.Start();
     if (!endpoint.has_value())
     {
-        Apps::PrintMistake(PROGRAM_NAME, Describe(endpoint.error()));
-        return EXIT_FAILURE;
+        return TellStartFailure(endpoint.error());
     }
-    Apps::PrintReadyLine({{"ws", *endpoint}});
+    Apps::PrintReadyLine({{options.tls.has_value() ? "wss" : "ws", *endpoint}});
     std::unique_ptr<InputLines> input;
     if (options.bWaitForEnter)
     {

@@ -157,6 +157,41 @@ class Scenarios(ScenarioCase):
         self.assertEqual(ids["SyncConfig"], ids["SyncConfigAck"])
         self.assertEqual(sorted(line["time"] for line in lines), [line["time"] for line in lines])
 
+    def make_certificate(self, name):
+        certificate, key = self.line.folder / f"{name}.pem", self.line.folder / f"{name}.key"
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
+                        "-subj", "/CN=localhost", "-keyout", key, "-out", certificate], check=True, capture_output=True)
+        return certificate, key
+
+    def test_a_file_for_tls_that_is_wrong_is_refused_by_its_option(self):
+        certificate, key = self.make_certificate("one")
+        _, foreign = self.make_certificate("two")
+        junk = self.line.folder / "junk.pem"
+        junk.write_text("junk")
+        rows = {
+            "--tls-certificate": [("--tls-certificate", "nowhere.pem", "--tls-key", key),
+                                  ("--tls-certificate", junk, "--tls-key", key)],
+            "--tls-key": [("--tls-certificate", certificate, "--tls-key", "nowhere.key"),
+                          ("--tls-certificate", certificate, "--tls-key", junk),
+                          ("--tls-certificate", certificate, "--tls-key", foreign)],
+            "--tls-client-ca": [("--tls-certificate", certificate, "--tls-key", key, "--tls-client-ca", junk)],
+        }
+        for option, lines in rows.items():
+            for arguments in lines:
+                with self.subTest(arguments=arguments):
+                    result = subprocess.run(
+                        [self.bin_dir / "mcs-sim", "--listen", "127.0.0.1:0", "--plan", PLANS[0], *arguments],
+                        capture_output=True, text=True, timeout=20, check=False)
+                    self.assertEqual(result.returncode, 2, result.stderr)
+                    self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+                    self.assertIn(f"{option}: expected ", result.stderr)
+
+    def test_the_ready_line_says_whether_it_is_wss(self):
+        certificate, key = self.make_certificate("one")
+        mcs = self.line.start("mcs-sim", "--listen", "127.0.0.1:0", "--plan", PLANS[0], "--tls-certificate", certificate,
+                              "--tls-key", key)
+        self.assertEqual(list(mcs.wait_ready()), ["wss"])
+
     def test_a_scenario_that_is_none_is_refused_with_its_place(self):
         path = self.write_scenario({"wait": "1s"}, {"cancel": "A"})
         result = subprocess.run([self.bin_dir / "mcs-sim", "--scenario", path], capture_output=True, text=True,
