@@ -234,6 +234,11 @@ int Run(const McsSimOptions& options)
             [&simulator] { simulator.Interrupt(); });
     }
     context.run();
+    if (trace != nullptr && !trace->IsComplete())
+    {
+        Apps::PrintMistake(PROGRAM_NAME, "the trace file " + options.traceFile + " is incomplete");
+        return exitCode == EXIT_SUCCESS ? EXIT_FAILURE : exitCode;
+    }
     return exitCode;
 }
 

@@ -192,6 +192,10 @@ class Scenarios(ScenarioCase):
                               "--tls-key", key)
         self.assertEqual(list(mcs.wait_ready()), ["wss"])
 
+    def test_a_trace_that_could_not_be_written_makes_the_run_fail(self):
+        _, code = self.play("--scenario", SCENARIOS / "sync-config.json", "--trace", "/dev/full")
+        self.assertEqual(code, 1)
+
     def test_a_scenario_that_is_none_is_refused_with_its_place(self):
         path = self.write_scenario({"wait": "1s"}, {"cancel": "A"})
         result = subprocess.run([self.bin_dir / "mcs-sim", "--scenario", path], capture_output=True, text=True,
