@@ -31,6 +31,8 @@ constexpr std::uint32_t MAX_TIMES = 1000;
 constexpr std::uint32_t MAX_REFUSALS = 1000;
 constexpr std::uint32_t MIN_CLOSE_CODE = 1000;
 constexpr std::uint32_t MAX_CLOSE_CODE = 4999;
+/// Reserved for what ends a connection without a code (RFC 6455, 7.4.1).
+constexpr std::array<std::uint16_t, 4> UNSENT_CLOSE_CODES{1004, 1005, 1006, 1015};
 constexpr std::string_view EVERY_COMMAND = "*";
 
 /// The members of a message that an expectation may name.
@@ -455,6 +457,10 @@ ScenarioStep ReadDrop(StepsContext& /*context*/, ObjectReader& reader, const Ver
     }
     const auto code =
         static_cast<std::uint16_t>(reader.TakeNumber("code", Protocol::CLOSE_NORMAL, MIN_CLOSE_CODE, MAX_CLOSE_CODE));
+    if (std::find(UNSENT_CLOSE_CODES.begin(), UNSENT_CLOSE_CODES.end(), code) != UNSENT_CLOSE_CODES.end())
+    {
+        reader.Refuse("code", "a code that may be sent", fmt::format("{}", code));
+    }
     return {DropStep{EDrop::Close, code}, fmt::format("close the connection with {}", code)};
 }
 
@@ -571,7 +577,10 @@ Core::Result<Scenario> ParseScenario(std::string_view text, const PlanReader& re
     const Value* const stepsOrNull = reader.TakeOrNull("steps");
     if (stepsOrNull == nullptr || !stepsOrNull->IsArray() || stepsOrNull->Empty())
     {
-        reader.Refuse("steps", "an array of steps", stepsOrNull == nullptr ? "nothing" : "none");
+        reader.Refuse(
+            "steps",
+            "an array of one step or more",
+            stepsOrNull == nullptr ? "nothing" : Json::ShortenForError(*stepsOrNull));
     }
     Core::Result<void> finished = reader.Finish();
     if (!finished.has_value())

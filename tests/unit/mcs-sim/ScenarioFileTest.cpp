@@ -158,6 +158,8 @@ TEST_CASE("A mistake in a scenario is told with its place, what was expected and
         Row{R"({"delayAcks":"*","for":"1s"})", "steps[0].by: expected a duration"},
         Row{R"({"drop":"softly"})", R"(steps[0].drop: expected cut or close, found "softly")"},
         Row{R"({"drop":"close","code":99})", "steps[0].code: expected a whole number from 1000 to 4999, found 99"},
+        Row{R"({"drop":"close","code":1005})", "steps[0].code: expected a code that may be sent, found 1005"},
+        Row{R"({"drop":"close","code":1015})", "steps[0].code: expected a code that may be sent, found 1015"},
         Row{R"({"wait":"2s","wait":"3s"})", "expected each member once"},
         Row{R"({"wait":"2s","note":""})", R"(steps[0].note: expected a text, found "")"});
     const std::string mistake = FindMistake(row.first);
@@ -205,7 +207,14 @@ TEST_CASE("The head of a scenario is checked as its steps are")
     CHECK(
         Describe(ParseScenario(R"({"steps":[{"wait":"1s"}]})", ReadSample).error())
         == "name: expected a text, found nothing");
-    CHECK(Describe(ParseScenario(R"({"name":"x","steps":[]})", ReadSample).error()).find("steps: ") == 0);
+    const std::pair<std::string, std::string> row = GENERATE(
+        std::pair<std::string, std::string>{R"({"name":"x","steps":[]})", "an array"},
+        std::pair<std::string, std::string>{R"({"name":"x","steps":{}})", "an object"},
+        std::pair<std::string, std::string>{R"({"name":"x","steps":3})", "3"},
+        std::pair<std::string, std::string>{R"({"name":"x"})", "nothing"});
+    CHECK(
+        Describe(ParseScenario(row.first, ReadSample).error())
+        == "steps: expected an array of one step or more, found " + row.second);
     CHECK(Describe(ParseScenario("[]", ReadSample).error()).find("expected an object") == 0);
     CHECK(
         Describe(ParseScenario(R"({"name":"x","stepps":[],"steps":[{"wait":"1s"}]})", ReadSample).error())
