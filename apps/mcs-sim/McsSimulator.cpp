@@ -21,6 +21,7 @@
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -225,6 +226,7 @@ private:
                 Interrupt();
                 break;
             default:
+                assert(false);
                 break;
         }
     }
@@ -467,7 +469,7 @@ private:
         }
         else if (const auto* const positionOrNull = std::get_if<Protocol::RobotPositionUpdate>(&payload))
         {
-            _board.OnPosition(*positionOrNull);
+            _board.OnPosition(*positionOrNull, _lines);
         }
         else
         {
@@ -524,6 +526,7 @@ private:
                 FinishRun();
                 break;
             default:
+                assert(false);
                 break;
         }
     }
@@ -579,6 +582,10 @@ private:
         }
         if (_scenarios.IsEmpty())
         {
+            if (!_options.bFreshPlans && WasDuplicateRefused(_tracker))
+            {
+                _out << " The ACS knows a planId already: with --fresh-ids plans go under new ids.\n";
+            }
             _out << MakeLastLine(_tracker) << std::endl;
             _onDone(_tracker.IsSuccess() ? 0 : 1);
             return;

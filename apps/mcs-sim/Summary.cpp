@@ -199,6 +199,15 @@ StyledLines MakeSummary(
     return lines;
 }
 
+bool WasDuplicateRefused(const PlanTracker& tracker)
+{
+    const std::vector<TrackedPlan>& plans = tracker.GetPlans();
+    return std::any_of(plans.begin(), plans.end(), [](const TrackedPlan& plan) {
+        // In whatever case, and beside "Queue Full".
+        return GetOutcome(plan) == EOutcome::Refused && plan.reason.find("uplicate") != std::string::npos;
+    });
+}
+
 std::string MakeLastLine(const PlanTracker& tracker)
 {
     return fmt::format(

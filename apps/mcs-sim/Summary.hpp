@@ -16,6 +16,9 @@ namespace ACS::McsSim
     const Protocol::SessionStatistics& statistics,
     std::chrono::milliseconds duration);
 
+/// Whether a plan was refused because of its planId (section 6.4: "Duplicated Plan").
+[[nodiscard]] bool WasDuplicateRefused(const PlanTracker& tracker);
+
 /// The very last line: "2 plans completed, 0 failed".
 [[nodiscard]] std::string MakeLastLine(const PlanTracker& tracker);
 

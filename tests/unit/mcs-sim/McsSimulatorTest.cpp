@@ -293,6 +293,16 @@ TEST_CASE("6.4 A refused plan makes the run fail, and the reason is told")
     CHECK(Contains(output, " P1 refused: no such place as A09.CP01\n"));
 }
 
+TEST_CASE("6.4 A planId that the ACS knows already is refused with what to do about it")
+{
+    Bench bench(1);
+    bench.acs->refusal = "Duplicated Plan";
+    bench.simulator->Release();
+    const std::string output = bench.Run();
+    INFO(output);
+    CHECK(Contains(output, "\n The ACS knows a planId already: with --fresh-ids plans go under new ids.\n"));
+}
+
 TEST_CASE("A plan that was not acknowledged before the link was lost is sent again, with its transactionId")
 {
     Bench bench(2);
