@@ -21,9 +21,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cstdint>
 #include <deque>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -217,7 +219,7 @@ private:
                 _server->Cut();
                 break;
             case EConsoleVerb::List:
-                List();
+                std::ranges::copy(DescribePlans(_tracker), std::back_inserter(_lines));
                 break;
             case EConsoleVerb::Help:
                 _out << GetConsoleHelp() << std::endl;
@@ -249,23 +251,6 @@ private:
     {
         const bool bSent = _server->TrySend(_server->MakeRequest(payload));
         _lines.push_back(bSent ? fmt::format("{} sent", GetText(GetCommand(payload))) : "no ACS is registered");
-    }
-
-    void List()
-    {
-        for (const TrackedPlan& plan : _tracker.GetPlans())
-        {
-            _lines.push_back(fmt::format(
-                "{} {}{}{}",
-                CleanText(plan.planned.plan.planID),
-                plan.delivery == EDelivery::Refused ? "refused" : GetText(plan.status),
-                plan.robotID.empty() ? "" : " (" + CleanText(plan.robotID) + ")",
-                plan.reason.empty() ? "" : ": " + CleanText(plan.reason)));
-        }
-        if (_tracker.GetPlans().empty())
-        {
-            _lines.emplace_back("no plans");
-        }
     }
 
     void OnSessionEvent(const Protocol::SessionEvent& event) override

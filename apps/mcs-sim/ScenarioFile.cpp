@@ -1,9 +1,9 @@
 #include "ScenarioFile.hpp"
 
+#include "CommandNames.hpp"
 #include "common/DurationText.hpp"
 #include "common/TextFile.hpp"
 #include "ObjectReader.hpp"
-#include "PatternMatch.hpp"
 #include "PayloadText.hpp"
 #include "Placeholders.hpp"
 #include "PlanFile.hpp"
@@ -59,75 +59,6 @@ void DescribeLeavesRecursive( // NOLINT(misc-no-recursion): as deep as the parse
     out += name;
     out += '=';
     out += value.IsString() ? std::string(value.GetString(), value.GetStringLength()) : Json::WriteText(value);
-}
-
-std::optional<EAcsCommand> FindCommandOrNull(std::string_view name)
-{
-    for (std::size_t i = 0; i < Protocol::COMMAND_COUNT; ++i)
-    {
-        if (GetText(static_cast<EAcsCommand>(i)) == name)
-        {
-            return static_cast<EAcsCommand>(i);
-        }
-    }
-    return std::nullopt;
-}
-
-std::string ListCommands(bool (*isListed)(EAcsCommand))
-{
-    std::string list;
-    for (std::size_t i = 0; i < Protocol::COMMAND_COUNT; ++i)
-    {
-        const auto command = static_cast<EAcsCommand>(i);
-        if (isListed(command))
-        {
-            list += list.empty() ? "" : ", ";
-            list += GetText(command);
-        }
-    }
-    return list;
-}
-
-bool IsSentByAcs(EAcsCommand command)
-{
-    return !Protocol::IsSentByMcs(command);
-}
-
-bool IsAckedByMcs(EAcsCommand command)
-{
-    return IsSentByAcs(command) && HasAck(command);
-}
-
-constexpr std::string_view ACK = "Ack";
-
-/// Whether '*' in the name stands for something.
-bool MatchesAnyFromAcs(std::string_view name)
-{
-    for (std::size_t i = 0; i < Protocol::COMMAND_COUNT; ++i)
-    {
-        const auto command = static_cast<EAcsCommand>(i);
-        const std::string sent = std::string(GetText(command)) + (IsSentByAcs(command) ? "" : std::string(ACK));
-        if (MatchesGlob(sent, name))
-        {
-            return true;
-        }
-    }
-    return false;
-}
-
-/// What an ACS may send: its own commands, and the Acks of the MCS's.
-bool CanComeFromAcs(std::string_view name)
-{
-    if (name.find('*') != std::string_view::npos)
-    {
-        return MatchesAnyFromAcs(name);
-    }
-    const bool bAck = name.ends_with(ACK);
-    const std::optional<EAcsCommand> command =
-        FindCommandOrNull(bAck ? name.substr(0, name.size() - ACK.size()) : name);
-    // Unknown commands are refused by the ACS under their own name.
-    return bAck ? !command.has_value() || Protocol::IsSentByMcs(*command)
-                : command.has_value() && IsSentByAcs(*command);
 }
 
 /// What the steps of one file know of each other: a plan must have been sent before it is spoken of.

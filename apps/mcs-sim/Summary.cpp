@@ -199,6 +199,25 @@ StyledLines MakeSummary(
     return lines;
 }
 
+std::vector<std::string> DescribePlans(const PlanTracker& tracker)
+{
+    std::vector<std::string> lines;
+    for (const TrackedPlan& plan : tracker.GetPlans())
+    {
+        lines.push_back(fmt::format(
+            "{} {}{}{}",
+            CleanText(plan.planned.plan.planID),
+            plan.delivery == EDelivery::Refused ? "refused" : GetText(plan.status),
+            plan.robotID.empty() ? "" : " (" + CleanText(plan.robotID) + ")",
+            plan.reason.empty() ? "" : ": " + CleanText(plan.reason)));
+    }
+    if (lines.empty())
+    {
+        lines.emplace_back("no plans");
+    }
+    return lines;
+}
+
 bool WasDuplicateRefused(const PlanTracker& tracker)
 {
     const std::vector<TrackedPlan>& plans = tracker.GetPlans();

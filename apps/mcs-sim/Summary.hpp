@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <string>
+#include <vector>
 
 namespace ACS::McsSim
 {
@@ -15,6 +16,9 @@ namespace ACS::McsSim
     const PlanTracker& tracker,
     const Protocol::SessionStatistics& statistics,
     std::chrono::milliseconds duration);
+
+/// A line per plan and what became of it so far; one that says so where there are none.
+[[nodiscard]] std::vector<std::string> DescribePlans(const PlanTracker& tracker);
 
 /// Whether a plan was refused because of its planId (section 6.4: "Duplicated Plan").
 [[nodiscard]] bool WasDuplicateRefused(const PlanTracker& tracker);
