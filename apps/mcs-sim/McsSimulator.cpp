@@ -561,7 +561,7 @@ private:
         {
             _screenOrNull->Leave();
         }
-        for (const StyledLine& line : MakeSummary(_tracker, statistics, duration))
+        for (const StyledLine& line : MakeSummary(_tracker, statistics, _notes.GetCounts(), duration))
         {
             _out << MakeText(line, MAX_SUMMARY_COLUMNS, _screenOrNull != nullptr) << '\n';
         }

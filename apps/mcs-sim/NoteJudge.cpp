@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
 #include <variant>
 
 namespace ACS::McsSim
@@ -100,8 +99,16 @@ void NoteJudge::OnTextSent(std::string_view text)
 std::optional<NoteJudge::Verdict> NoteJudge::JudgeOrNull(const Protocol::ProtocolNoted& noted)
 {
     const EBlame blame = GetBlame(noted.what);
-    const bool bFirst = !std::exchange(_told[static_cast<std::size_t>(noted.what)], true);
-    if (blame == EBlame::None || IsOwnHabit(noted) || (blame == EBlame::Habit && !bFirst))
+    if (blame == EBlame::None || IsOwnHabit(noted))
+    {
+        return std::nullopt;
+    }
+    const bool bExcused = blame == EBlame::BadAnswer && _excuses > 0;
+    _excuses -= bExcused ? 1U : 0U;
+    std::uint64_t& count = _counts[static_cast<std::size_t>(noted.what)];
+    const bool bFirst = count == 0;
+    count += bExcused ? 0U : noted.count;
+    if (blame == EBlame::Habit && !bFirst)
     {
         return std::nullopt;
     }
@@ -111,9 +118,12 @@ std::optional<NoteJudge::Verdict> NoteJudge::JudgeOrNull(const Protocol::Protoco
     {
         return Verdict{text + " (told once)", false};
     }
-    const bool bExcused = blame == EBlame::BadAnswer && _excuses > 0;
-    _excuses -= bExcused ? 1U : 0U;
     return Verdict{text + (bExcused ? " (as asked for)" : ""), !bExcused};
+}
+
+const NoteCounts& NoteJudge::GetCounts() const noexcept
+{
+    return _counts;
 }
 
 } // namespace ACS::McsSim

@@ -25,11 +25,14 @@ enum class EBlame : std::uint8_t
 /// For people: "member that the document does not have"; never empty.
 [[nodiscard]] std::string_view GetMeaning(Protocol::EProtocolNote note);
 
+/// By EProtocolNote.
+using NoteCounts = std::array<std::uint64_t, Protocol::NOTE_COUNT>;
+
 /// Says of each thing that the session put up with or threw away whether it is a fault of the ACS. Pure.
 class NoteJudge
 {
     std::size_t _excuses = 0;
-    std::array<bool, Protocol::NOTE_COUNT> _told{};
+    NoteCounts _counts{};
 
 public:
     /// A line for people, and whether it is a violation.
@@ -50,6 +53,9 @@ public:
 
     /// Nullopt: nothing to tell, it is only counted.
     [[nodiscard]] std::optional<Verdict> JudgeOrNull(const Protocol::ProtocolNoted& noted);
+
+    /// Faults and habits of the ACS; what is excused is none.
+    [[nodiscard]] const NoteCounts& GetCounts() const noexcept;
 };
 
 } // namespace ACS::McsSim

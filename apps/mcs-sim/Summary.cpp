@@ -1,7 +1,6 @@
 #include "Summary.hpp"
 
 #include "CleanText.hpp"
-#include "NoteJudge.hpp"
 
 #include <fmt/format.h>
 
@@ -123,17 +122,16 @@ void AddMessages(const PlanTracker& tracker, const Protocol::SessionStatistics& 
     }
 }
 
-void AddNotes(const Protocol::SessionStatistics& statistics, StyledLines& out)
+void AddNotes(const NoteCounts& notes, StyledLines& out)
 {
     StyledLines rows;
     for (std::size_t i = 0; i < Protocol::NOTE_COUNT; ++i)
     {
         const auto note = static_cast<Protocol::EProtocolNote>(i);
-        const std::uint64_t count = statistics.CountOf(note);
-        if (count > 0 && GetBlame(note) != EBlame::None)
+        if (notes[i] > 0)
         {
             rows.push_back(
-                {{fmt::format(" {} {}", FitRight(fmt::format("{}", count), 6), GetMeaning(note)),
+                {{fmt::format(" {} {}", FitRight(fmt::format("{}", notes[i]), 6), GetMeaning(note)),
                   GetBlame(note) == EBlame::Habit ? EStyle::Plain : EStyle::Bad}});
         }
     }
@@ -177,6 +175,7 @@ void AddFailures(const PlanTracker& tracker, StyledLines& out)
 StyledLines MakeSummary(
     const PlanTracker& tracker,
     const Protocol::SessionStatistics& statistics,
+    const NoteCounts& notes,
     std::chrono::milliseconds duration)
 {
     const bool bAllCompleted = tracker.CountOutcome(EOutcome::Completed) == tracker.GetPlans().size();
@@ -193,7 +192,7 @@ StyledLines MakeSummary(
         MakeRow("duration", fmt::format("{:.1f} s", static_cast<double>(duration.count()) / 1000.0), EStyle::Plain));
     lines.emplace_back();
     AddMessages(tracker, statistics, lines);
-    AddNotes(statistics, lines);
+    AddNotes(notes, lines);
     lines.push_back(MakeRule());
     AddFailures(tracker, lines);
     return lines;

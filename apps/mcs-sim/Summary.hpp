@@ -1,5 +1,6 @@
 #pragma once
 
+#include "NoteJudge.hpp"
 #include "PlanTracker.hpp"
 #include "StyledLine.hpp"
 #include <acs/protocol/SessionStatistics.hpp>
@@ -15,6 +16,7 @@ namespace ACS::McsSim
 [[nodiscard]] StyledLines MakeSummary(
     const PlanTracker& tracker,
     const Protocol::SessionStatistics& statistics,
+    const NoteCounts& notes,
     std::chrono::milliseconds duration);
 
 /// A line per plan and what became of it so far; one that says so where there are none.

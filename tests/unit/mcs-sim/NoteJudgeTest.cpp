@@ -34,6 +34,8 @@ TEST_CASE("R1, R2, 6.1 What breaks a rule is a violation each time, what the doc
     REQUIRE(first.has_value());
     CHECK_FALSE(first->bViolation);
     CHECK_FALSE(judge.JudgeOrNull({habit, 1, ""}).has_value());
+    CHECK(judge.GetCounts()[static_cast<std::size_t>(habit)] == 4);
+    CHECK(judge.GetCounts()[static_cast<std::size_t>(fault)] == 2);
 }
 
 TEST_CASE("What only an ACS notes, and what the public MCS does not know, is nobody's fault here")
@@ -43,6 +45,7 @@ TEST_CASE("What only an ACS notes, and what the public MCS does not know, is nob
     CHECK_FALSE(judge.JudgeOrNull({EProtocolNote::DuplicateRequest, 1, "PlanReport"}).has_value());
     CHECK_FALSE(judge.JudgeOrNull({EProtocolNote::RegistrationUnanswered, 1, ""}).has_value());
     CHECK_FALSE(judge.JudgeOrNull({EProtocolNote::UnknownCommand, 1, "RobotPositionUpdate"}).has_value());
+    CHECK(judge.GetCounts() == NoteCounts{});
 }
 
 TEST_CASE("The Ack of a text that went past the session is excused once, where the text can be answered")
@@ -67,4 +70,5 @@ TEST_CASE("The Ack of a text that went past the session is excused once, where t
     CHECK(judge.JudgeOrNull({EProtocolNote::BeforeRegistered, 1, ""})->bViolation);
     CHECK(judge.JudgeOrNull({EProtocolNote::AckUnexpected, 1, "Dance"})->bViolation == !row.bAnswerable);
     CHECK(judge.JudgeOrNull({EProtocolNote::AckUnexpected, 1, "Dance"})->bViolation);
+    CHECK(judge.GetCounts()[static_cast<std::size_t>(EProtocolNote::AckUnexpected)] == (row.bAnswerable ? 1 : 2));
 }

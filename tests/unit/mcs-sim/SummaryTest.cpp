@@ -65,12 +65,12 @@ TEST_CASE("The closing table counts plans by outcome and messages by command, a 
     statistics.Of(EAcsCommand::Registration) = MakeReceived(3, 0, 3);
     statistics.Of(EAcsCommand::PlanReport) = MakeReceived(7, 2, 7, 3); // those that were refused were none
     statistics.Of(EAcsCommand::RobotPositionUpdate) = MakeReceived(500, 0, 0);
-    statistics.notes[static_cast<std::size_t>(EProtocolNote::NullOptional)] = 12;
-    statistics.notes[static_cast<std::size_t>(EProtocolNote::Undecodable)] = 3;
-    statistics.notes[static_cast<std::size_t>(EProtocolNote::DuplicateRequest)] = 2;
+    ACS::McsSim::NoteCounts notes{};
+    notes[static_cast<std::size_t>(EProtocolNote::NullOptional)] = 12;
+    notes[static_cast<std::size_t>(EProtocolNote::Undecodable)] = 3;
 
     std::string text;
-    for (const StyledLine& line : MakeSummary(tracker, statistics, std::chrono::milliseconds(34'260)))
+    for (const StyledLine& line : MakeSummary(tracker, statistics, notes, std::chrono::milliseconds(34'260)))
     {
         text += MakeText(line, 100, false) + "\n";
     }
