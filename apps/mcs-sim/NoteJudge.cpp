@@ -39,7 +39,7 @@ constexpr std::array<NoteRule, Protocol::NOTE_COUNT> RULES{
      {EProtocolNote::BeforeRegistered, EBlame::Fault, "message before the registration"},
      {EProtocolNote::RegistrationUnanswered, EBlame::None, "registration without an answer"}}};
 
-constexpr bool AreRulesInOrder()
+constexpr bool IsTableInOrder()
 {
     for (std::size_t i = 0; i < RULES.size(); ++i)
     {
@@ -51,7 +51,7 @@ constexpr bool AreRulesInOrder()
     return true;
 }
 
-static_assert(AreRulesInOrder(), "the table is indexed by the enumerator");
+static_assert(IsTableInOrder(), "the table is indexed by the enumerator");
 
 const NoteRule& GetRule(EProtocolNote note)
 {

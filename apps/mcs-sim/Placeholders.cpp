@@ -22,7 +22,7 @@ bool IsNameCharacter(char character)
         || (character >= '0' && character <= '9') || character == '_' || character == '-';
 }
 
-bool LooksLikePlaceholder(std::string_view text)
+bool IsPlaceholderLike(std::string_view text)
 {
     return !text.empty() && std::all_of(text.begin(), text.end(), [](char character) {
         return character == '.' || IsNameCharacter(character);
@@ -84,7 +84,7 @@ std::optional<Core::Error> FindInTextOrNull(std::string_view text, const std::st
     {
         const std::size_t end = text.find('}', start);
         const std::string_view name = end == std::string_view::npos ? "" : text.substr(start + 1, end - start - 1);
-        if (LooksLikePlaceholder(name) && !ReadPlaceholderOrNull(names, name).has_value())
+        if (IsPlaceholderLike(name) && !ReadPlaceholderOrNull(names, name).has_value())
         {
             return Core::Error{
                 Core::ECoreError::OutOfRange,

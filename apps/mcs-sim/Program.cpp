@@ -89,7 +89,7 @@ int TellStartFailure(Core::Error error)
     return option.has_value() ? Apps::EXIT_BAD_COMMAND_LINE : EXIT_FAILURE;
 }
 
-bool AsksForHelp(const std::vector<Scenario>& scenarios)
+bool NeedsHelp(const std::vector<Scenario>& scenarios)
 {
     return std::any_of(scenarios.begin(), scenarios.end(), [](const Scenario& scenario) {
         return std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const ScenarioStep& step) {
@@ -149,7 +149,7 @@ int Run(const McsSimOptions& options)
     const TerminalSize size = ReadTerminalSize();
     Screen screen(std::cout, size.columns);
     // Whoever is asked for something must see it as a line.
-    const bool bLive = !options.bConsole && !AsksForHelp(*scenarios) && ShouldDraw(options.liveMode);
+    const bool bLive = !options.bConsole && !NeedsHelp(*scenarios) && ShouldDraw(options.liveMode);
     Apps::SpdlogSink plainSink(options.common.logLevel);
     ScreenLogSink screenSink(plainSink, screen);
     const bool bMixed = bLive && ::isatty(STDERR_FILENO) != 0;

@@ -335,6 +335,9 @@ TEST_CASE("R1, R2 What an ACS may not send makes the run fail, and is told of")
     options.bConsole = true;
     Bench bench(0, false, options);
     bench.simulator->Release();
+    const std::string strayAck = R"({"command":"CancelPlanAck","transactionId":"T4",)"
+                                 R"("timestamp":"2025-07-02T21:00:00.123+09:00","result":"Success","message":"",)"
+                                 R"("payload":{"planId":"P1"}})";
     ACS::Testing::RawPeer peer(
         bench.context,
         {ACS::Testing::MakeText("TscStateUpdate", "T0", R"({"state":"Auto"})"),
@@ -342,8 +345,7 @@ TEST_CASE("R1, R2 What an ACS may not send makes the run fail, and is told of")
          "no JSON",
          ACS::Testing::MakeText("PlanReport", "T2", R"({"planId":"P1","status":"Dancing","message":""})"),
          ACS::Testing::MakeText("ResumePlan", "T3", R"({"planId":"P1"})"),
-         R"({"command":"CancelPlanAck","transactionId":"T4","timestamp":"2025-07-02T21:00:00.123+09:00",)"
-         R"("result":"Success","message":"","payload":{"planId":"P1"}})",
+         strayAck,
          ACS::Testing::MakeText("TscStateUpdate", "T5", R"({"state":"auto","mood":"fine"})")});
     peer.ConnectAsync(bench.endpoint.port);
     while (!Contains(bench.out.str(), "ACS TscStateUpdate Auto"))
