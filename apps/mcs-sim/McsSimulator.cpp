@@ -4,6 +4,7 @@
 #include "common/TimerSet.hpp"
 #include "ConsoleCommand.hpp"
 #include "LiveView.hpp"
+#include "NoteJudge.hpp"
 #include "PlanFile.hpp"
 #include "PlanRefresher.hpp"
 #include "PlanSender.hpp"
@@ -13,14 +14,18 @@
 #include "ScenarioSummary.hpp"
 #include "Screen.hpp"
 #include "Summary.hpp"
+#include "WireFilter.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/protocol_beast/ISessionHandler.hpp>
 #include <acs/protocol_beast/McsServer.hpp>
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <deque>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -75,6 +80,8 @@ class McsSimulator::Impl final : private ProtocolBeast::ISessionHandler
     RobotBoard _board;
     PlanSender _sender;
     ScenarioSequence _scenarios;
+    NoteJudge _notes;
+    WireFilter _wireFilter;
     std::deque<std::string> _inbox; ///< What came from the ACS, for the scenarios.
     LiveView _view;
     ViewHeading _heading;
@@ -212,7 +219,7 @@ private:
                 _server->Cut();
                 break;
             case EConsoleVerb::List:
-                List();
+                std::ranges::copy(DescribePlans(_tracker), std::back_inserter(_lines));
                 break;
             case EConsoleVerb::Help:
                 _out << GetConsoleHelp() << std::endl;
@@ -221,6 +228,7 @@ private:
                 Interrupt();
                 break;
             default:
+                assert(false);
                 break;
         }
     }
@@ -245,23 +253,6 @@ private:
         _lines.push_back(bSent ? fmt::format("{} sent", GetText(GetCommand(payload))) : "no ACS is registered");
     }
 
-    void List()
-    {
-        for (const TrackedPlan& plan : _tracker.GetPlans())
-        {
-            _lines.push_back(fmt::format(
-                "{} {}{}{}",
-                CleanText(plan.planned.plan.planID),
-                plan.delivery == EDelivery::Refused ? "refused" : GetText(plan.status),
-                plan.robotID.empty() ? "" : " (" + CleanText(plan.robotID) + ")",
-                plan.reason.empty() ? "" : ": " + CleanText(plan.reason)));
-        }
-        if (_tracker.GetPlans().empty())
-        {
-            _lines.emplace_back("no plans");
-        }
-    }
-
     void OnSessionEvent(const Protocol::SessionEvent& event) override
     {
         if (_bDone)
@@ -275,7 +266,9 @@ private:
                 [this](const Protocol::LinkLost& lost) { OnLinkLost(lost); },
                 [this](const Protocol::RequestReceived& received) { OnRequest(received); },
                 [this](const Protocol::AckReceived& received) { _tracker.OnAck(received.ack, _lines); },
-                // Overdue Acks are the tracker's to see; the rest is of no interest here, or the ACS's side.
+                [this](const Protocol::RequestUnanswered& unanswered) { OnUnanswered(unanswered); },
+                [this](const Protocol::ProtocolNoted& noted) { OnNoted(noted); },
+                // The rest is the ACS's side.
                 [](const auto& /*other*/) {
                 }},
             event);
@@ -306,7 +299,12 @@ private:
         {
             _options.onWire(direction, connection, text);
         }
-        if (direction == ProtocolBeast::EWireDirection::In && !_scenarios.IsFinished())
+        if (direction == ProtocolBeast::EWireDirection::In && _options.profile == EProfile::Nexus
+            && text.size() > NEXUS_BUFFER_BYTES)
+        {
+            _notes.Excuse(); // Cut by us.
+        }
+        if (!_scenarios.IsFinished() && _wireFilter.ShouldPass(direction, connection, text))
         {
             // Not here: what a scenario does then must not come between the server and its session.
             _inbox.emplace_back(text);
@@ -355,7 +353,10 @@ private:
                     _lines.push_back(fmt::format("{} sent", GetText(GetCommand(send.payload))));
                     return _server->TrySend(_server->MakeRequest(send.payload));
                 },
-                [this](const SendRawText& send) { return _server->TrySendText(send.text); },
+                [this](const SendRawText& send) {
+                    _notes.OnTextSent(send.text);
+                    return _server->TrySendText(send.text);
+                },
                 [this](const DropStep& drop) {
                     if (drop.how == EDrop::Cut)
                     {
@@ -413,6 +414,33 @@ private:
         }
     }
 
+    void OnUnanswered(const Protocol::RequestUnanswered& unanswered)
+    {
+        _notes.Excuse();
+        // Overdue Acks of plans are the tracker's to see.
+        if (unanswered.command != Protocol::EAcsCommand::ExecutionPlan)
+        {
+            _lines.push_back(fmt::format("{} was not answered", GetText(unanswered.command)));
+        }
+    }
+
+    void OnNoted(const Protocol::ProtocolNoted& noted)
+    {
+        std::optional<NoteJudge::Verdict> verdict = _notes.JudgeOrNull(noted);
+        if (!verdict.has_value())
+        {
+            return;
+        }
+        if (verdict->bViolation)
+        {
+            _tracker.AddViolation(std::move(verdict->text), _lines);
+        }
+        else
+        {
+            _lines.push_back(std::move(verdict->text));
+        }
+    }
+
     void OnRequest(const Protocol::RequestReceived& received)
     {
         if (received.bDuplicate)
@@ -426,7 +454,7 @@ private:
         }
         else if (const auto* const positionOrNull = std::get_if<Protocol::RobotPositionUpdate>(&payload))
         {
-            _board.OnPosition(*positionOrNull);
+            _board.OnPosition(*positionOrNull, _lines);
         }
         else
         {
@@ -483,6 +511,7 @@ private:
                 FinishRun();
                 break;
             default:
+                assert(false);
                 break;
         }
     }
@@ -532,12 +561,16 @@ private:
         {
             _screenOrNull->Leave();
         }
-        for (const StyledLine& line : MakeSummary(_tracker, statistics, duration))
+        for (const StyledLine& line : MakeSummary(_tracker, statistics, _notes.GetCounts(), duration))
         {
             _out << MakeText(line, MAX_SUMMARY_COLUMNS, _screenOrNull != nullptr) << '\n';
         }
         if (_scenarios.IsEmpty())
         {
+            if (!_options.bFreshPlans && WasDuplicateRefused(_tracker))
+            {
+                _out << " The ACS knows a planId already: with --fresh-ids plans go under new ids.\n";
+            }
             _out << MakeLastLine(_tracker) << std::endl;
             _onDone(_tracker.IsSuccess() ? 0 : 1);
             return;

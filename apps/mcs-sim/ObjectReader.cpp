@@ -43,7 +43,10 @@ const Json::Value* ObjectReader::TakeOrNull(std::string_view name)
         return nullptr;
     }
     const auto found = _object.FindMember(Json::Value(rapidjson::StringRef(name.data(), name.size())));
-    _taken.push_back(name);
+    if (std::find(_taken.begin(), _taken.end(), name) == _taken.end())
+    {
+        _taken.push_back(name);
+    }
     return found == _object.MemberEnd() ? nullptr : &found->value;
 }
 

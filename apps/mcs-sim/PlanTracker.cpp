@@ -47,6 +47,14 @@ std::string MakeTail(std::string_view text)
     return text.empty() ? std::string() : ": " + CleanText(text);
 }
 
+/// What became of a request to cancel, abort, pause or resume.
+template <typename TReport>
+void TellResult(std::string_view name, const TReport& report, PlanTracker::Lines& out)
+{
+    out.push_back(
+        fmt::format("{} {} {}{}", CleanText(report.planID), name, GetText(report.result), MakeTail(report.message)));
+}
+
 std::string MakeTail(std::string_view robotID, std::string_view text)
 {
     return (robotID.empty() ? std::string() : " (" + CleanText(robotID) + ")") + MakeTail(text);
@@ -144,6 +152,13 @@ void PlanTracker::OnAck(const Protocol::AcsAck& ack, Lines& out)
 {
     if (ack.command != EAcsCommand::ExecutionPlan)
     {
+        const auto* const planAckOrNull = std::get_if<Protocol::PlanAck>(&ack.payload);
+        out.push_back(fmt::format(
+            "{} {}Ack {}{}",
+            CleanText(planAckOrNull == nullptr || planAckOrNull->planID.empty() ? "ACS" : planAckOrNull->planID),
+            GetText(ack.command),
+            GetText(ack.result),
+            MakeTail(ack.message)));
         return;
     }
     const auto found = _byTransaction.find(ack.transactionID);
@@ -188,6 +203,10 @@ void PlanTracker::OnRequest(const Protocol::AcsPayload& payload, Lines& out)
             [&out](const Protocol::ErrorReport& report) { Handle(report, out); },
             [this, &out](const Protocol::AcsCommStateUpdate& update) { Handle(update, out); },
             [&out](const Protocol::TscStateUpdate& update) { Handle(update, out); },
+            [&out](const Protocol::CancelResultReport& report) { TellResult("CancelResultReport", report, out); },
+            [&out](const Protocol::AbortResultReport& report) { TellResult("AbortResultReport", report, out); },
+            [&out](const Protocol::PauseResultReport& report) { TellResult("PauseResultReport", report, out); },
+            [&out](const Protocol::ResumeResultReport& report) { TellResult("ResumeResultReport", report, out); },
             // The rest says nothing about a plan, or answers what is never asked here.
             [](const auto& /*other*/) {
             }},

@@ -73,6 +73,9 @@ public:
     /// Any request of the ACS that was not seen before.
     void OnRequest(const Protocol::AcsPayload& payload, Lines& out);
 
+    /// Something else is wrong with what came from the ACS.
+    void AddViolation(std::string text, Lines& out);
+
     [[nodiscard]] const std::vector<TrackedPlan>& GetPlans() const noexcept;
     [[nodiscard]] const TrackedPlan* FindPlanOrNull(const std::string& planID) const;
     [[nodiscard]] std::size_t CountOutcome(EOutcome outcome) const noexcept;
@@ -89,7 +92,6 @@ public:
     [[nodiscard]] bool IsSuccess() const noexcept;
 
 private:
-    void AddViolation(std::string text, Lines& out);
     void ChangePlan(TrackedPlan& plan, const std::function<void()>& change);
     [[nodiscard]] TrackedPlan* FindReportedOrNull(std::string_view what, const std::string& planID, Lines& out);
     [[nodiscard]] TrackedStep* FindStepOrNull(

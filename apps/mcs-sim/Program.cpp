@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
@@ -68,7 +69,27 @@ tl::expected<std::vector<PlannedPlan>, std::string> LoadPlans(
     return plans;
 }
 
-bool AsksForHelp(const std::vector<Scenario>& scenarios)
+/// The option that an error of the server is about; nullopt: it is about no file for TLS.
+std::optional<std::string_view> FindOptionOrNull(const Core::Error& error)
+{
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 3> OPTIONS{
+        {{"tls.certificate", "--tls-certificate"}, {"tls.key", "--tls-key"}, {"tls.ca", "--tls-client-ca"}}};
+    const auto* const found = std::find_if(OPTIONS.begin(), OPTIONS.end(), [&error](const auto& option) {
+        return option.first == error.path;
+    });
+    return found == OPTIONS.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// Tells why the server cannot start; the exit code.
+int TellStartFailure(Core::Error error)
+{
+    const std::optional<std::string_view> option = FindOptionOrNull(error);
+    error.path = option.value_or(error.path);
+    Apps::PrintMistake(PROGRAM_NAME, Describe(error));
+    return option.has_value() ? Apps::EXIT_BAD_COMMAND_LINE : EXIT_FAILURE;
+}
+
+bool NeedsHelp(const std::vector<Scenario>& scenarios)
 {
     return std::any_of(scenarios.begin(), scenarios.end(), [](const Scenario& scenario) {
         return std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const ScenarioStep& step) {
@@ -128,7 +149,7 @@ int Run(const McsSimOptions& options)
     const TerminalSize size = ReadTerminalSize();
     Screen screen(std::cout, size.columns);
     // Whoever is asked for something must see it as a line.
-    const bool bLive = !options.bConsole && !AsksForHelp(*scenarios) && ShouldDraw(options.liveMode);
+    const bool bLive = !options.bConsole && !NeedsHelp(*scenarios) && ShouldDraw(options.liveMode);
     Apps::SpdlogSink plainSink(options.common.logLevel);
     ScreenLogSink screenSink(plainSink, screen);
     const bool bMixed = bLive && ::isatty(STDERR_FILENO) != 0;
@@ -183,10 +204,9 @@ int Run(const McsSimOptions& options)
     const Core::Result<Apps::Endpoint> endpoint = simulator.Start();
     if (!endpoint.has_value())
     {
-        Apps::PrintMistake(PROGRAM_NAME, Describe(endpoint.error()));
-        return EXIT_FAILURE;
+        return TellStartFailure(endpoint.error());
     }
-    Apps::PrintReadyLine({{"ws", *endpoint}});
+    Apps::PrintReadyLine({{options.tls.has_value() ? "wss" : "ws", *endpoint}});
     std::unique_ptr<InputLines> input;
     if (options.bWaitForEnter)
     {
@@ -214,6 +234,11 @@ int Run(const McsSimOptions& options)
             [&simulator] { simulator.Interrupt(); });
     }
     context.run();
+    if (trace != nullptr && !trace->IsComplete())
+    {
+        Apps::PrintMistake(PROGRAM_NAME, "the trace file " + options.traceFile + " is incomplete");
+        return exitCode == EXIT_SUCCESS ? EXIT_FAILURE : exitCode;
+    }
     return exitCode;
 }
 

@@ -20,9 +20,13 @@ bool IsSameForPeople(const Protocol::RobotStatusUpdate& left, const Protocol::Ro
 
 void RobotBoard::OnStatus(const Protocol::RobotStatusUpdate& update, std::vector<std::string>& out)
 {
-    RobotEntry& robot = _robots[update.robotID];
-    const bool bChanged = !robot.status.has_value() || !IsSameForPeople(*robot.status, update);
-    robot.status = update;
+    RobotEntry* const robotOrNull = TakeEntryOrNull(update.robotID, out);
+    if (robotOrNull == nullptr)
+    {
+        return;
+    }
+    const bool bChanged = !robotOrNull->status.has_value() || !IsSameForPeople(*robotOrNull->status, update);
+    robotOrNull->status = update;
     if (!bChanged)
     {
         return;
@@ -34,17 +38,36 @@ void RobotBoard::OnStatus(const Protocol::RobotStatusUpdate& update, std::vector
     out.push_back(std::move(line));
 }
 
-void RobotBoard::OnPosition(const Protocol::RobotPositionUpdate& update)
+void RobotBoard::OnPosition(const Protocol::RobotPositionUpdate& update, std::vector<std::string>& out)
 {
     for (const Protocol::RobotPosition& position : update.robots)
     {
-        _robots[position.robotID].position = position;
+        RobotEntry* const robotOrNull = TakeEntryOrNull(position.robotID, out);
+        if (robotOrNull != nullptr)
+        {
+            robotOrNull->position = position;
+        }
     }
 }
 
 const std::map<std::string, RobotEntry>& RobotBoard::GetRobots() const noexcept
 {
     return _robots;
+}
+
+RobotEntry* RobotBoard::TakeEntryOrNull(const std::string& robotID, std::vector<std::string>& out)
+{
+    const auto found = _robots.find(robotID);
+    if (found != _robots.end() || _robots.size() < MAX_ROBOTS)
+    {
+        return found != _robots.end() ? &found->second : &_robots[robotID];
+    }
+    if (!_bFullTold)
+    {
+        _bFullTold = true;
+        out.push_back(fmt::format("ACS has more than {} robots: nothing is kept of the others", MAX_ROBOTS));
+    }
+    return nullptr;
 }
 
 std::string DescribeCarriers(const Protocol::RobotStatusUpdate& status)

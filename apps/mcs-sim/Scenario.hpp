@@ -22,6 +22,7 @@ struct MessagePattern
 {
     std::string command;    ///< As on the wire, "PlanReport" or "CancelPlanAck".
     Core::JsonText members; ///< An object; each of its members must be in the message and match.
+    bool bRepeated = false; ///< Only a message whose transactionId came before, in the same scenario.
 
     bool operator==(const MessagePattern&) const = default;
 };
@@ -67,8 +68,19 @@ struct ExpectStep
 {
     MessagePattern pattern;
     std::chrono::milliseconds within{0};
+    std::string name; ///< By which the message is spoken of later; may be empty.
 
     bool operator==(const ExpectStep&) const = default;
+};
+
+/// Waits for these messages, in any order, and none may come in between.
+struct ExpectNextStep
+{
+    std::vector<MessagePattern> patterns; ///< At least one.
+    std::chrono::milliseconds within{0};
+    std::string besides; ///< But for those of this command; may be empty.
+
+    bool operator==(const ExpectNextStep&) const = default;
 };
 
 /// Waits, and no such message may come.
@@ -140,6 +152,7 @@ using ScenarioStepKind = std::variant<
     SendRequestStep,
     SendTextStep,
     ExpectStep,
+    ExpectNextStep,
     ExpectNothingStep,
     WaitForPlanStep,
     WaitStep,

@@ -1,9 +1,11 @@
 #include "ScenarioFile.hpp"
 
+#include "CommandNames.hpp"
 #include "common/DurationText.hpp"
 #include "common/TextFile.hpp"
 #include "ObjectReader.hpp"
 #include "PayloadText.hpp"
+#include "Placeholders.hpp"
 #include "PlanFile.hpp"
 #include <acs/json/JsonDocument.hpp>
 
@@ -13,7 +15,6 @@
 #include <array>
 #include <charconv>
 #include <filesystem>
-#include <set>
 #include <utility>
 
 namespace ACS::McsSim
@@ -30,10 +31,15 @@ constexpr std::uint32_t MAX_TIMES = 1000;
 constexpr std::uint32_t MAX_REFUSALS = 1000;
 constexpr std::uint32_t MIN_CLOSE_CODE = 1000;
 constexpr std::uint32_t MAX_CLOSE_CODE = 4999;
+/// Reserved for what ends a connection without a code (RFC 6455, 7.4.1).
+constexpr std::array<std::uint16_t, 4> UNSENT_CLOSE_CODES{1004, 1005, 1006, 1015};
 constexpr std::string_view EVERY_COMMAND = "*";
 
 /// The members of a message that an expectation may name.
 constexpr std::array MESSAGE_MEMBERS{"transactionId", "timestamp", "result", "message", "payload"};
+
+/// The members of a step in which placeholders are replaced.
+constexpr std::array FILLED_MEMBERS{"transactionId", "timestamp", "result", "message", "payload", "reason", "sendText"};
 
 /// "planId={A}, status=Completed": the leaves of a pattern.
 void DescribeLeavesRecursive( // NOLINT(misc-no-recursion): as deep as the parser's limit
@@ -55,61 +61,12 @@ void DescribeLeavesRecursive( // NOLINT(misc-no-recursion): as deep as the parse
     out += value.IsString() ? std::string(value.GetString(), value.GetStringLength()) : Json::WriteText(value);
 }
 
-std::optional<EAcsCommand> FindCommandOrNull(std::string_view name)
-{
-    for (std::size_t i = 0; i < Protocol::COMMAND_COUNT; ++i)
-    {
-        if (GetText(static_cast<EAcsCommand>(i)) == name)
-        {
-            return static_cast<EAcsCommand>(i);
-        }
-    }
-    return std::nullopt;
-}
-
-std::string ListCommands(bool (*isListed)(EAcsCommand))
-{
-    std::string list;
-    for (std::size_t i = 0; i < Protocol::COMMAND_COUNT; ++i)
-    {
-        const auto command = static_cast<EAcsCommand>(i);
-        if (isListed(command))
-        {
-            list += list.empty() ? "" : ", ";
-            list += GetText(command);
-        }
-    }
-    return list;
-}
-
-bool IsSentByAcs(EAcsCommand command)
-{
-    return !Protocol::IsSentByMcs(command);
-}
-
-bool IsAckedByMcs(EAcsCommand command)
-{
-    return IsSentByAcs(command) && HasAck(command);
-}
-
-/// What an ACS may send: its own commands, and the Acks of the MCS's.
-bool CanComeFromAcs(std::string_view name)
-{
-    constexpr std::string_view ACK = "Ack";
-    const bool bAck = name.ends_with(ACK);
-    const std::optional<EAcsCommand> command =
-        FindCommandOrNull(bAck ? name.substr(0, name.size() - ACK.size()) : name);
-    // Unknown commands are refused by the ACS under their own name.
-    return bAck ? !command.has_value() || Protocol::IsSentByMcs(*command)
-                : command.has_value() && IsSentByAcs(*command);
-}
-
 /// What the steps of one file know of each other: a plan must have been sent before it is spoken of.
 struct StepsContext
 {
     const PlanReader& readPlan;
     std::chrono::milliseconds within;
-    std::set<std::string> names;
+    ScenarioNames names;
 };
 
 /// The member that makes a step what it is.
@@ -124,12 +81,46 @@ struct Verb
 std::string TakeName(const StepsContext& context, ObjectReader& reader, std::string_view member)
 {
     std::string name = reader.TakeText(member);
-    if (!context.names.contains(name))
+    const auto found = context.names.find(name);
+    if (found == context.names.end() || !std::holds_alternative<PlannedPlan>(found->second))
     {
         std::string expected = "the name that a send step before gave to a plan (\"as\")";
         reader.Refuse(member, std::move(expected), Core::QuoteForError(name));
     }
     return name;
+}
+
+/// The name that a step gives.
+std::string TakeNewName(ObjectReader& reader, std::string_view otherwise)
+{
+    std::string name = reader.TakeText("as", otherwise);
+    if (!IsScenarioName(name))
+    {
+        reader.Refuse("as", "a name of letters, digits, '_' and '-'", Core::QuoteForError(name));
+    }
+    return name;
+}
+
+/// What looks like a placeholder must stand for something: a misspelt one would match anything but what is meant.
+void CheckPlaceholders(const StepsContext& context, const Value& step, ObjectReader& reader)
+{
+    if (!step.IsObject())
+    {
+        return;
+    }
+    for (const char* const name : FILLED_MEMBERS)
+    {
+        const auto member = step.FindMember(name);
+        if (member != step.MemberEnd())
+        {
+            std::optional<Core::Error> mistake =
+                FindBadPlaceholderOrNullRecursive(member->value, reader.GetPath(name), context.names);
+            if (mistake.has_value())
+            {
+                reader.Refuse(std::move(*mistake));
+            }
+        }
+    }
 }
 
 void ReadPlan(const StepsContext& context, ObjectReader& reader, PlannedPlan& plan)
@@ -162,7 +153,7 @@ void TakePlan(ObjectReader& reader, std::string_view member, Core::Result<Planne
 ScenarioStep ReadSendPlan(StepsContext& context, ObjectReader& reader)
 {
     SendPlanStep step;
-    step.name = reader.TakeText("as", "plan");
+    step.name = TakeNewName(reader, "plan");
     step.bFreshIDs = reader.IsTrue("freshIds", true);
     step.times = reader.TakeNumber("times", 1, 1, MAX_TIMES);
     if (step.times > 1 && !step.bFreshIDs)
@@ -178,7 +169,7 @@ ScenarioStep ReadSendPlan(StepsContext& context, ObjectReader& reader)
     {
         ReadPlan(context, reader, step.plan);
     }
-    context.names.insert(step.name);
+    context.names.insert_or_assign(step.name, step.plan);
     std::string title = fmt::format("send ExecutionPlan {}", step.name);
     title += step.times > 1 ? fmt::format(", {} times", step.times) : "";
     return {std::move(step), std::move(title)};
@@ -255,11 +246,11 @@ MessagePattern ReadPattern(ObjectReader& reader, std::string_view member, std::s
 {
     MessagePattern pattern;
     pattern.command = reader.TakeText(member);
-    if (!reader.HasFailed() && pattern.command != EVERY_COMMAND && !CanComeFromAcs(pattern.command))
+    if (!reader.HasFailed() && !CanComeFromAcs(pattern.command))
     {
         reader.Refuse(
             member,
-            "\"*\", the Ack of a command of the MCS, or one of " + ListCommands(IsSentByAcs),
+            "the Ack of a command of the MCS, a name with '*', or one of " + ListCommands(IsSentByAcs),
             Core::QuoteForError(pattern.command));
     }
     std::string members = "{";
@@ -278,6 +269,8 @@ MessagePattern ReadPattern(ObjectReader& reader, std::string_view member, std::s
     }
     description += leaves;
     pattern.members = Core::JsonText::FromTrusted(members + "}");
+    pattern.bRepeated = reader.IsTrue("repeated", false);
+    description += pattern.bRepeated ? " repeated" : "";
     return pattern;
 }
 
@@ -287,7 +280,46 @@ ScenarioStep ReadExpect(StepsContext& context, ObjectReader& reader, const Verb&
     ExpectStep step;
     step.pattern = ReadPattern(reader, verb.name, description);
     step.within = reader.TakeDuration("within", context.within);
+    if (reader.HasMember("as"))
+    {
+        step.name = TakeNewName(reader, "");
+        context.names.insert_or_assign(step.name, FoundMessage{});
+    }
     return {std::move(step), "expect " + description};
+}
+
+/// One message, or several in any order: an array of objects with a "command".
+ScenarioStep ReadExpectNext(StepsContext& context, ObjectReader& reader, const Verb& verb)
+{
+    ExpectNextStep step;
+    std::string description;
+    const Value* const groupOrNull = reader.TakeOrNull(verb.name);
+    if (groupOrNull != nullptr && groupOrNull->IsArray() && !groupOrNull->Empty())
+    {
+        for (const Value& value : groupOrNull->GetArray())
+        {
+            ObjectReader element(value, fmt::format("{}[{}]", reader.GetPath(verb.name), step.patterns.size()));
+            std::string part;
+            CheckPlaceholders(context, value, element);
+            step.patterns.push_back(ReadPattern(element, "command", part));
+            description += (description.empty() ? "" : " and ") + part;
+            if (const Core::Result<void> finished = element.Finish(); !finished.has_value())
+            {
+                reader.Refuse(finished.error());
+            }
+        }
+    }
+    else
+    {
+        step.patterns.push_back(ReadPattern(reader, verb.name, description));
+    }
+    step.within = reader.TakeDuration("within", context.within);
+    step.besides = reader.HasMember("besides") ? reader.TakeText("besides") : std::string();
+    if (!step.besides.empty() && !CanComeFromAcs(step.besides))
+    {
+        reader.Refuse("besides", "the name of a message of the ACS", Core::QuoteForError(step.besides));
+    }
+    return {std::move(step), "expect next " + description};
 }
 
 ScenarioStep ReadExpectNothing(StepsContext& /*context*/, ObjectReader& reader, const Verb& verb)
@@ -356,6 +388,10 @@ ScenarioStep ReadDrop(StepsContext& /*context*/, ObjectReader& reader, const Ver
     }
     const auto code =
         static_cast<std::uint16_t>(reader.TakeNumber("code", Protocol::CLOSE_NORMAL, MIN_CLOSE_CODE, MAX_CLOSE_CODE));
+    if (std::find(UNSENT_CLOSE_CODES.begin(), UNSENT_CLOSE_CODES.end(), code) != UNSENT_CLOSE_CODES.end())
+    {
+        reader.Refuse("code", "a code that may be sent", fmt::format("{}", code));
+    }
     return {DropStep{EDrop::Close, code}, fmt::format("close the connection with {}", code)};
 }
 
@@ -403,7 +439,7 @@ ScenarioStep ReadRefuse(StepsContext& /*context*/, ObjectReader& reader, const V
     return {std::move(step), std::move(title)};
 }
 
-constexpr std::array<Verb, 16> VERBS{
+constexpr std::array<Verb, 17> VERBS{
     {{"send", ReadSend},
      {"sendAgain", ReadSendAgain},
      {"sendText", ReadSendText},
@@ -412,6 +448,7 @@ constexpr std::array<Verb, 16> VERBS{
      {"pause", ReadControl, EAcsCommand::PausePlan},
      {"resume", ReadControl, EAcsCommand::ResumePlan},
      {"expect", ReadExpect},
+     {"expectNext", ReadExpectNext},
      {"expectNothing", ReadExpectNothing},
      {"waitFor", ReadWaitFor},
      {"wait", ReadWait},
@@ -438,6 +475,7 @@ Core::Result<ScenarioStep> ReadStep(StepsContext& context, const Value& value, c
         reader.Refuse({Core::ECoreError::MissingField, path, "a step with one of the members " + names, "none"});
         return tl::make_unexpected(reader.Finish().error());
     }
+    CheckPlaceholders(context, value, reader);
     ScenarioStep step = verb->read(context, reader, *verb);
     step.title = reader.TakeText("note", step.title);
     Core::Result<void> finished = reader.Finish();
@@ -470,7 +508,10 @@ Core::Result<Scenario> ParseScenario(std::string_view text, const PlanReader& re
     const Value* const stepsOrNull = reader.TakeOrNull("steps");
     if (stepsOrNull == nullptr || !stepsOrNull->IsArray() || stepsOrNull->Empty())
     {
-        reader.Refuse("steps", "an array of steps", stepsOrNull == nullptr ? "nothing" : "none");
+        reader.Refuse(
+            "steps",
+            "an array of one step or more",
+            stepsOrNull == nullptr ? "nothing" : Json::ShortenForError(*stepsOrNull));
     }
     Core::Result<void> finished = reader.Finish();
     if (!finished.has_value())

@@ -5,12 +5,12 @@
 #include "PayloadText.hpp"
 #include "TrackedPlan.hpp"
 #include <acs/core/Uuid.hpp>
+#include <acs/json/JsonDocument.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <utility>
 
 namespace ACS::McsSim
@@ -34,6 +34,25 @@ std::string GetCommandName(const Protocol::DecodeOutcome& outcome)
     return ack.bLegacyName ? "RequestAcsStatusAck" : std::string(GetText(ack.command)) + "Ack";
 }
 
+/// What a message says of itself, as it is on the wire.
+FoundMessage ReadEnvelope(std::string_view text)
+{
+    FoundMessage envelope;
+    Json::JsonDocument document;
+    const Core::Result<const Json::Value*> value = document.Parse(text, {});
+    if (value.has_value() && (*value)->IsObject())
+    {
+        const auto read = [value](const char* name) {
+            const auto member = (*value)->FindMember(name);
+            return member != (*value)->MemberEnd() && member->value.IsString()
+                ? std::string(member->value.GetString(), member->value.GetStringLength())
+                : std::string();
+        };
+        envelope = {read("transactionId"), read("timestamp")};
+    }
+    return envelope;
+}
+
 const Protocol::PlanReport* FindPlanReportOrNull(const Protocol::DecodeOutcome& outcome)
 {
     const auto* const requestOrNull =
@@ -43,8 +62,8 @@ const Protocol::PlanReport* FindPlanReportOrNull(const Protocol::DecodeOutcome& 
 
 bool IsExpectation(const ScenarioStep& step)
 {
-    return std::holds_alternative<ExpectStep>(step.kind) || std::holds_alternative<ExpectNothingStep>(step.kind)
-        || std::holds_alternative<WaitForPlanStep>(step.kind);
+    return std::holds_alternative<ExpectStep>(step.kind) || std::holds_alternative<ExpectNextStep>(step.kind)
+        || std::holds_alternative<ExpectNothingStep>(step.kind) || std::holds_alternative<WaitForPlanStep>(step.kind);
 }
 
 const MessagePattern* FindPatternOrNull(const ScenarioStep& step)
@@ -64,6 +83,10 @@ std::chrono::milliseconds GetLimit(const ScenarioStep& step, std::chrono::millis
     {
         return expectOrNull->within;
     }
+    if (const auto* const nextOrNull = std::get_if<ExpectNextStep>(&step.kind))
+    {
+        return nextOrNull->within;
+    }
     if (const auto* const nothingOrNull = std::get_if<ExpectNothingStep>(&step.kind))
     {
         return nothingOrNull->duration;
@@ -74,33 +97,6 @@ std::chrono::milliseconds GetLimit(const ScenarioStep& step, std::chrono::millis
     }
     const auto* const waitOrNull = std::get_if<WaitStep>(&step.kind);
     return waitOrNull == nullptr ? otherwise : waitOrNull->duration;
-}
-
-std::size_t ReadNumber(std::string_view text)
-{
-    std::size_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return error == std::errc() && end == text.data() + text.size() ? number : 0;
-}
-
-/// "2.1": the first job of the step with the number 2.
-std::optional<std::string> FindJobOrNull(const Protocol::ExecutionPlan& plan, std::string_view place)
-{
-    const std::size_t point = place.find('.');
-    if (point == std::string_view::npos)
-    {
-        return std::nullopt;
-    }
-    const std::size_t stepNo = ReadNumber(place.substr(0, point));
-    const std::size_t number = ReadNumber(place.substr(point + 1));
-    for (const Protocol::PlanStep& step : plan.steps)
-    {
-        if (std::cmp_equal(step.stepNo, stepNo) && number > 0 && number <= step.jobs.size())
-        {
-            return step.jobs[number - 1].jobID;
-        }
-    }
-    return std::nullopt;
 }
 
 } // namespace
@@ -150,13 +146,14 @@ void ScenarioRunner::OnMessage(std::string_view text, Core::Now now, ScenarioAct
         _planStatus[reportOrNull->planID] = reportOrNull->status;
     }
     std::string command = GetCommandName(outcome);
+    const bool bRepeated = WasSeen(command, ReadEnvelope(text));
     if (IsAskedFor(command))
     {
         if (_kept.size() == MAX_KEPT)
         {
             Forget(1);
         }
-        _kept.push_back({std::move(command), std::string(text)});
+        _kept.push_back({std::move(command), std::string(text), bRepeated});
     }
     Advance(now, out);
 }
@@ -222,6 +219,8 @@ void ScenarioRunner::Enter(Core::Now now, ScenarioActions& out)
     _scanned = 0;
     _candidates = 0;
     _mismatch.clear();
+    const auto* const nextOrNull = std::get_if<ExpectNextStep>(&_scenario.steps[_index].kind);
+    _open = nextOrNull == nullptr ? std::vector<MessagePattern>() : nextOrNull->patterns;
     out.emplace_back(StartScenarioTimer{limit});
 }
 
@@ -266,7 +265,7 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const SendPlanStep& step, Core::Now
         {
             planned.transactionID = Core::MakeUuid(_random);
         }
-        _plans.insert_or_assign(step.name, planned);
+        _names.insert_or_assign(step.name, planned);
         out.emplace_back(SendPlannedPlan{std::move(planned), step.bFreshIDs});
     }
     return EProgress::Done;
@@ -280,7 +279,7 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const SendAgainStep& step, Core::No
         return progress;
     }
     Forget(_kept.size());
-    PlannedPlan planned = _plans.at(step.name);
+    PlannedPlan planned = std::get<PlannedPlan>(_names.at(step.name));
     planned.transactionID = step.bFreshTransaction ? Core::MakeUuid(_random) : planned.transactionID;
     out.emplace_back(SendPlannedPlan{std::move(planned), false});
     return EProgress::Done;
@@ -320,6 +319,10 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const ExpectStep& step, Core::Now n
     const std::optional<std::size_t> found = FindMatchOrNull(step.pattern);
     if (found.has_value())
     {
+        if (!step.name.empty())
+        {
+            _names.insert_or_assign(step.name, ReadEnvelope(_kept[*found].text));
+        }
         Forget(*found + 1);
         return EProgress::Done;
     }
@@ -338,6 +341,22 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const ExpectStep& step, Core::Now n
                              CleanText(_mismatch)));
 }
 
+ScenarioRunner::EProgress ScenarioRunner::Do(const ExpectNextStep& step, Core::Now now, ScenarioActions& /*out*/)
+{
+    std::optional<std::string> misfit = TakeNextOrNull(step);
+    if (misfit.has_value())
+    {
+        return Fail(std::move(*misfit));
+    }
+    if (_open.empty())
+    {
+        return EProgress::Done;
+    }
+    return now.steady < _deadline
+        ? EProgress::Waiting
+        : Fail(fmt::format("no {} came within {}", _open.front().command, Apps::MakeDurationText(step.within)));
+}
+
 ScenarioRunner::EProgress ScenarioRunner::Do(const ExpectNothingStep& step, Core::Now now, ScenarioActions& /*out*/)
 {
     const std::optional<std::size_t> found = FindMatchOrNull(step.pattern);
@@ -350,7 +369,7 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const ExpectNothingStep& step, Core
 
 ScenarioRunner::EProgress ScenarioRunner::Do(const WaitForPlanStep& step, Core::Now now, ScenarioActions& /*out*/)
 {
-    const auto found = _planStatus.find(_plans.at(step.name).plan.planID);
+    const auto found = _planStatus.find(std::get<PlannedPlan>(_names.at(step.name)).plan.planID);
     if (found != _planStatus.end() && found->second == step.status)
     {
         Forget(_kept.size());
@@ -433,7 +452,6 @@ ScenarioRunner::EProgress ScenarioRunner::AwaitAcs(Core::Now now)
 
 std::optional<std::size_t> ScenarioRunner::FindMatchOrNull(const MessagePattern& pattern)
 {
-    const PlaceholderReader reader = MakeReader();
     for (; _scanned < _kept.size(); ++_scanned)
     {
         const KeptMessage& message = _kept[_scanned];
@@ -441,7 +459,7 @@ std::optional<std::size_t> ScenarioRunner::FindMatchOrNull(const MessagePattern&
         {
             continue;
         }
-        std::optional<std::string> mismatch = FindMismatchOrNull(message.text, pattern, reader);
+        std::optional<std::string> mismatch = FindMismatchOfOrNull(message, pattern);
         if (!mismatch.has_value())
         {
             return _scanned;
@@ -452,12 +470,65 @@ std::optional<std::size_t> ScenarioRunner::FindMatchOrNull(const MessagePattern&
     return std::nullopt;
 }
 
+std::optional<std::string> ScenarioRunner::TakeNextOrNull(const ExpectNextStep& step)
+{
+    while (!_open.empty() && !_kept.empty())
+    {
+        const KeptMessage& message = _kept.front();
+        std::string mismatch;
+        const auto fits = [this, &message, &mismatch](const MessagePattern& pattern) {
+            mismatch = MatchesGlob(message.command, pattern.command)
+                ? FindMismatchOfOrNull(message, pattern).value_or("")
+                : fmt::format("{} came before {}: {}", message.command, pattern.command, CleanText(message.text));
+            return mismatch.empty();
+        };
+        const auto found = std::find_if(_open.begin(), _open.end(), fits);
+        if (found != _open.end())
+        {
+            _open.erase(found);
+        }
+        else if (!MatchesGlob(message.command, step.besides))
+        {
+            return mismatch;
+        }
+        Forget(1);
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> ScenarioRunner::FindMismatchOfOrNull(
+    const KeptMessage& message,
+    const MessagePattern& pattern) const
+{
+    if (pattern.bRepeated && !message.bRepeated)
+    {
+        return "its transactionId is new";
+    }
+    return FindMismatchOrNull(message.text, pattern, MakeReader());
+}
+
 bool ScenarioRunner::IsAskedFor(const std::string& command) const
 {
     return std::any_of(_scenario.steps.begin(), _scenario.steps.end(), [&command](const ScenarioStep& step) {
+        // Whatever comes may be what must not come in between.
         const MessagePattern* const patternOrNull = FindPatternOrNull(step);
-        return patternOrNull != nullptr && MatchesGlob(command, patternOrNull->command);
+        return std::holds_alternative<ExpectNextStep>(step.kind)
+            || (patternOrNull != nullptr && MatchesGlob(command, patternOrNull->command));
     });
+}
+
+bool ScenarioRunner::WasSeen(const std::string& command, const FoundMessage& envelope)
+{
+    std::string key = command + ' ' + envelope.transactionID;
+    if (_transactions.contains(key))
+    {
+        return true;
+    }
+    if (_transactions.size() < MAX_TRANSACTIONS && !envelope.transactionID.empty())
+    {
+        _transactions.insert(std::move(key));
+    }
+    return false;
 }
 
 void ScenarioRunner::Forget(std::size_t count)
@@ -469,25 +540,8 @@ void ScenarioRunner::Forget(std::size_t count)
 PlaceholderReader ScenarioRunner::MakeReader() const
 {
     return [this](std::string_view name) {
-        return ReadPlaceholderOrNull(name);
+        return ReadPlaceholderOrNull(_names, name);
     };
-}
-
-std::optional<std::string> ScenarioRunner::ReadPlaceholderOrNull(std::string_view name) const
-{
-    const std::size_t point = name.find('.');
-    const auto found = _plans.find(name.substr(0, point));
-    if (found == _plans.end())
-    {
-        return std::nullopt;
-    }
-    if (point == std::string_view::npos)
-    {
-        return found->second.plan.planID;
-    }
-    const std::string_view part = name.substr(point + 1);
-    return part == "transactionId" ? std::optional(found->second.transactionID)
-                                   : FindJobOrNull(found->second.plan, part);
 }
 
 } // namespace ACS::McsSim

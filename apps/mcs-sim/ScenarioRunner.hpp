@@ -1,6 +1,7 @@
 #pragma once
 
 #include "PatternMatch.hpp"
+#include "Placeholders.hpp"
 #include "PlanRefresher.hpp"
 #include "ScenarioAction.hpp"
 #include <acs/core/Now.hpp>
@@ -14,6 +15,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 namespace ACS::McsSim
@@ -45,6 +47,8 @@ class ScenarioRunner
 public:
     /// Of the messages that an expectation may ask for so many are kept; then the oldest goes.
     static constexpr std::size_t MAX_KEPT = 10'000;
+    /// So many transactions are remembered to tell what is repeated.
+    static constexpr std::size_t MAX_TRANSACTIONS = 100'000;
 
 private:
     enum class EProgress : std::uint8_t
@@ -58,16 +62,19 @@ private:
     {
         std::string command;
         std::string text;
+        bool bRepeated = false; ///< Its transactionId came before.
     };
 
     Scenario _scenario;
     PlanRefresher& _refresher;
     Core::IRandom& _random;
     Protocol::AcsCodec _codec;
-    std::map<std::string, PlannedPlan, std::less<>> _plans;
+    ScenarioNames _names;
     std::map<std::string, Protocol::EPlanStatus> _planStatus;
     std::deque<KeptMessage> _kept;
-    std::size_t _scanned = 0; ///< So many of those that are kept the present step has looked at.
+    std::unordered_set<std::string> _transactions; ///< Of all messages so far, each with its command.
+    std::vector<MessagePattern> _open;             ///< Of the present step: those of a group that have not come yet.
+    std::size_t _scanned = 0;                      ///< So many of those that are kept the present step has looked at.
     std::vector<StepVerdict> _verdicts;
     std::size_t _index = 0;
     bool _bStarted = false;
@@ -110,6 +117,7 @@ private:
     [[nodiscard]] EProgress Do(const SendRequestStep& step, Core::Now now, ScenarioActions& out);
     [[nodiscard]] EProgress Do(const SendTextStep& step, Core::Now now, ScenarioActions& out);
     [[nodiscard]] EProgress Do(const ExpectStep& step, Core::Now now, ScenarioActions& out);
+    [[nodiscard]] EProgress Do(const ExpectNextStep& step, Core::Now now, ScenarioActions& out);
     [[nodiscard]] EProgress Do(const ExpectNothingStep& step, Core::Now now, ScenarioActions& out);
     [[nodiscard]] EProgress Do(const WaitForPlanStep& step, Core::Now now, ScenarioActions& out);
     [[nodiscard]] EProgress Do(const WaitStep& step, Core::Now now, ScenarioActions& out);
@@ -122,10 +130,15 @@ private:
     [[nodiscard]] EProgress AwaitAcs(Core::Now now);
     /// Looks on through what is kept; nullopt where nothing matches so far.
     [[nodiscard]] std::optional<std::size_t> FindMatchOrNull(const MessagePattern& pattern);
+    /// Takes what is kept for the group; why it does not fit, where it does not.
+    [[nodiscard]] std::optional<std::string> TakeNextOrNull(const ExpectNextStep& step);
+    [[nodiscard]] std::optional<std::string> FindMismatchOfOrNull(
+        const KeptMessage& message,
+        const MessagePattern& pattern) const;
     [[nodiscard]] bool IsAskedFor(const std::string& command) const;
+    [[nodiscard]] bool WasSeen(const std::string& command, const FoundMessage& envelope);
     void Forget(std::size_t count);
     [[nodiscard]] PlaceholderReader MakeReader() const;
-    [[nodiscard]] std::optional<std::string> ReadPlaceholderOrNull(std::string_view name) const;
 };
 
 } // namespace ACS::McsSim

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace ACS::McsSim
 {
@@ -17,8 +20,8 @@ namespace
 {
 
 constexpr std::size_t LABEL_COLUMNS = 24;
-constexpr std::size_t NUMBER_COLUMNS = 14;
-constexpr std::size_t RULE_COLUMNS = LABEL_COLUMNS + 1 + 3 * NUMBER_COLUMNS;
+constexpr std::size_t NUMBER_COLUMNS = 13;
+constexpr std::size_t RULE_COLUMNS = LABEL_COLUMNS + 1 + 4 * NUMBER_COLUMNS;
 constexpr std::size_t MAX_FAILURES = 20;
 
 StyledLine MakeRule()
@@ -36,17 +39,19 @@ StyledLine MakeRow(std::string_view label, const std::string& text, EStyle style
     return {{" " + FitText(label, LABEL_COLUMNS), EStyle::Plain}, {text, style}};
 }
 
-StyledLine MakeNumbers(
-    std::string_view label,
-    const std::string& first,
-    const std::string& second,
-    const std::string& third,
-    EStyle style)
+StyledLine MakeNumbers(std::string_view label, const std::vector<std::string>& numbers, EStyle style)
 {
-    return {
-        {" " + FitText(label, LABEL_COLUMNS) + FitRight(first, NUMBER_COLUMNS) + FitRight(second, NUMBER_COLUMNS)
-             + FitRight(third, NUMBER_COLUMNS),
-         style}};
+    std::string text = " " + FitText(label, LABEL_COLUMNS);
+    for (const std::string& number : numbers)
+    {
+        text += FitRight(number, NUMBER_COLUMNS);
+    }
+    return {{std::move(text), style}};
+}
+
+std::string MakeDifference(std::uint64_t all, std::uint64_t others)
+{
+    return fmt::format("{}", all - std::min(all, others));
 }
 
 std::string MakeOutcomes(const PlanTracker& tracker)
@@ -71,17 +76,29 @@ std::string MakeDone(const DoneCount& count)
 
 void AddMessages(const PlanTracker& tracker, const Protocol::SessionStatistics& statistics, StyledLines& out)
 {
-    out.push_back(MakeNumbers("message to the ACS", "sent", "acknowledged", "sent again", EStyle::Dim));
+    out.push_back(MakeNumbers("message to the ACS", {"sent", "acknowledged", "sent again"}, EStyle::Dim));
     const CommandCounters& plans = statistics.Of(EAcsCommand::ExecutionPlan);
     const std::size_t resends = tracker.CountResends();
     out.push_back(MakeNumbers(
         GetText(EAcsCommand::ExecutionPlan),
-        fmt::format("{}", plans.sent - std::min<std::uint64_t>(plans.sent, resends)),
-        fmt::format("{}", plans.answered),
-        fmt::format("{}", resends),
+        {MakeDifference(plans.sent, resends), fmt::format("{}", plans.answered), fmt::format("{}", resends)},
         EStyle::Plain));
+    for (std::size_t i = 0; i < Protocol::COMMAND_COUNT; ++i)
+    {
+        const auto command = static_cast<EAcsCommand>(i);
+        const CommandCounters& counters = statistics.Of(command);
+        if (command != EAcsCommand::ExecutionPlan && IsSentByMcs(command) && counters.sent > 0)
+        {
+            // Nothing but a plan is ever sent again.
+            out.push_back(MakeNumbers(
+                GetText(command),
+                {fmt::format("{}", counters.sent), fmt::format("{}", counters.answered), "–"},
+                EStyle::Plain));
+        }
+    }
     out.emplace_back();
-    out.push_back(MakeNumbers("message from the ACS", "received", "acknowledged", "sent again", EStyle::Dim));
+    out.push_back(
+        MakeNumbers("message from the ACS", {"received", "acknowledged", "sent again", "refused"}, EStyle::Dim));
     for (std::size_t i = 0; i < Protocol::COMMAND_COUNT; ++i)
     {
         const auto command = static_cast<EAcsCommand>(i);
@@ -90,14 +107,39 @@ void AddMessages(const PlanTracker& tracker, const Protocol::SessionStatistics& 
         {
             continue;
         }
-        // A message that came twice was answered twice, and counts once.
-        const std::uint64_t answered = counters.acknowledged - std::min(counters.acknowledged, counters.duplicates);
-        out.push_back(MakeNumbers(
-            GetText(command),
-            fmt::format("{}", counters.received - counters.duplicates),
-            HasAck(command) ? fmt::format("{}", answered) : "–",
-            HasAck(command) ? fmt::format("{}", counters.duplicates) : "–",
-            EStyle::Plain));
+        // A message that came twice was answered twice, and counts once; one that was refused was none.
+        const std::uint64_t others = counters.duplicates + counters.refused;
+        const std::string received = MakeDifference(counters.received, others);
+        out.push_back(
+            HasAck(command) ? MakeNumbers(
+                GetText(command),
+                {received,
+                 MakeDifference(counters.acknowledged, others),
+                 fmt::format("{}", counters.duplicates),
+                 fmt::format("{}", counters.refused)},
+                counters.refused > 0 ? EStyle::Bad : EStyle::Plain)
+                            : MakeNumbers(GetText(command), {received, "–", "–", "–"}, EStyle::Plain));
+    }
+}
+
+void AddNotes(const NoteCounts& notes, StyledLines& out)
+{
+    StyledLines rows;
+    for (std::size_t i = 0; i < Protocol::NOTE_COUNT; ++i)
+    {
+        const auto note = static_cast<Protocol::EProtocolNote>(i);
+        if (notes[i] > 0)
+        {
+            rows.push_back(
+                {{fmt::format(" {} {}", FitRight(fmt::format("{}", notes[i]), 6), GetMeaning(note)),
+                  GetBlame(note) == EBlame::Habit ? EStyle::Plain : EStyle::Bad}});
+        }
+    }
+    if (!rows.empty())
+    {
+        out.emplace_back();
+        out.push_back({{" noticed in what the ACS sent", EStyle::Dim}});
+        out.insert(out.end(), rows.begin(), rows.end());
     }
 }
 
@@ -133,6 +175,7 @@ void AddFailures(const PlanTracker& tracker, StyledLines& out)
 StyledLines MakeSummary(
     const PlanTracker& tracker,
     const Protocol::SessionStatistics& statistics,
+    const NoteCounts& notes,
     std::chrono::milliseconds duration)
 {
     const bool bAllCompleted = tracker.CountOutcome(EOutcome::Completed) == tracker.GetPlans().size();
@@ -149,9 +192,38 @@ StyledLines MakeSummary(
         MakeRow("duration", fmt::format("{:.1f} s", static_cast<double>(duration.count()) / 1000.0), EStyle::Plain));
     lines.emplace_back();
     AddMessages(tracker, statistics, lines);
+    AddNotes(notes, lines);
     lines.push_back(MakeRule());
     AddFailures(tracker, lines);
     return lines;
+}
+
+std::vector<std::string> DescribePlans(const PlanTracker& tracker)
+{
+    std::vector<std::string> lines;
+    for (const TrackedPlan& plan : tracker.GetPlans())
+    {
+        lines.push_back(fmt::format(
+            "{} {}{}{}",
+            CleanText(plan.planned.plan.planID),
+            plan.delivery == EDelivery::Refused ? "refused" : GetText(plan.status),
+            plan.robotID.empty() ? "" : " (" + CleanText(plan.robotID) + ")",
+            plan.reason.empty() ? "" : ": " + CleanText(plan.reason)));
+    }
+    if (lines.empty())
+    {
+        lines.emplace_back("no plans");
+    }
+    return lines;
+}
+
+bool WasDuplicateRefused(const PlanTracker& tracker)
+{
+    const std::vector<TrackedPlan>& plans = tracker.GetPlans();
+    return std::any_of(plans.begin(), plans.end(), [](const TrackedPlan& plan) {
+        // In whatever case, and beside "Queue Full".
+        return GetOutcome(plan) == EOutcome::Refused && plan.reason.find("uplicate") != std::string::npos;
+    });
 }
 
 std::string MakeLastLine(const PlanTracker& tracker)

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "NoteJudge.hpp"
 #include "PlanTracker.hpp"
 #include "StyledLine.hpp"
 #include <acs/protocol/SessionStatistics.hpp>
 
 #include <chrono>
 #include <string>
+#include <vector>
 
 namespace ACS::McsSim
 {
@@ -14,7 +16,14 @@ namespace ACS::McsSim
 [[nodiscard]] StyledLines MakeSummary(
     const PlanTracker& tracker,
     const Protocol::SessionStatistics& statistics,
+    const NoteCounts& notes,
     std::chrono::milliseconds duration);
+
+/// A line per plan and what became of it so far; one that says so where there are none.
+[[nodiscard]] std::vector<std::string> DescribePlans(const PlanTracker& tracker);
+
+/// Whether a plan was refused because of its planId (section 6.4: "Duplicated Plan").
+[[nodiscard]] bool WasDuplicateRefused(const PlanTracker& tracker);
 
 /// The very last line: "2 plans completed, 0 failed".
 [[nodiscard]] std::string MakeLastLine(const PlanTracker& tracker);

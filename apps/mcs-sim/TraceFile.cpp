@@ -94,4 +94,9 @@ void TraceFile::Write(ProtocolBeast::EWireDirection direction, Protocol::Connect
     }
 }
 
+bool TraceFile::IsComplete() const noexcept
+{
+    return !_bBroken;
+}
+
 } // namespace ACS::McsSim

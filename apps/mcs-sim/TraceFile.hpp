@@ -51,6 +51,9 @@ public:
 
     /// What cannot be written any more is told once, in the log; the run goes on.
     void Write(ProtocolBeast::EWireDirection direction, Protocol::ConnectionID connection, std::string_view text);
+
+    /// Whether every message so far is in the file.
+    [[nodiscard]] bool IsComplete() const noexcept;
 };
 
 } // namespace ACS::McsSim

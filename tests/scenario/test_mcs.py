@@ -5,36 +5,84 @@ import json
 import subprocess
 import unittest
 
-from scenario_case import FINISH_SECONDS, PLANS, REPOSITORY, TIME_SCALE, ScenarioCase, main
+from scenario_case import FINISH_SECONDS, PLANS, REPOSITORY, SITE, TIME_SCALE, Line, ScenarioCase, main
 
 SCENARIOS = REPOSITORY / "examples" / "scenarios"
-# What the arm must be like for a scenario.
+# Each batch is played by one mcs-sim over a line of its own, all of them at the same time. What leaves the ACS other than
+# it was stands at the end.
+BATCHES = [
+    ["lr-plan", "robot-status", "abort-while-driving", "cancel-before-arrival", "cancel-after-arrival", "cancel-waiting",
+     "abort-waiting", "control-finished-plan", "pinned-robot"],
+    ["plan-list", "plan-history", "plan-history-ended", "repeated-request", "duplicate-plan", "connection-drop",
+     "replay-after-drop", "connect", "close-1008", "job-failure-lr"],
+    ["error-list", "cr-plan", "cr-carriers", "set-cover", "control-unknown-plan", "unknown-location", "unknown-robot",
+     "mixed-robots", "bad-messages", "null-result-request", "old-name", "sync-config", "robot-positions",
+     "registration-refused", "registration-unanswered", "abort-running-job", "queue-full"],
+    ["lost-ack", "late-acks", "wrong-ack-id", "job-failure"],
+]
+# What the arm must be like for a batch that ends with this scenario.
 ARM_OPTIONS = {"job-failure": ["--program", "12=500ms,fail"]}
 # acsd cannot do yet what these need: the ACS of the examples plays them, and its operator types what it is asked for.
-SMALL_ACS = {"pause-resume": {}, "pause-refused": {},
-             "tsc-paused": {"pause the TSC": b"pause\n", "resume the TSC": b"auto\n"}}
+SMALL_ACS = ["pause-resume", "pause-refused", "abort-paused", "tsc-paused"]
+TYPED = {"pause the TSC": b"pause\n", "resume the TSC": b"auto\n"}
+# Somebody has to do something beside: a test each.
+ATTENDED = ["comm-loss", "error-set-cleared"]
+
+
+def get_paths(names):
+    return [SCENARIOS / f"{name}.json" for name in names]
 
 
 class Scenarios(ScenarioCase):
-    def play(self, *arguments, arm_options=()):
-        """Runs mcs-sim against a whole line; returns it after it has ended, with its exit code."""
-        self.line.start_broker()
-        vehicles = self.line.start_vehicles(TIME_SCALE)
-        arm = self.line.start("openstream-sim", "--listen", "127.0.0.1:0", "--http", "127.0.0.1:0", "--time-scale",
-                              TIME_SCALE, *arm_options)
+    def start_play(self, line, *arguments, arm_options=()):
+        """mcs-sim, and a whole line for it."""
+        line.start_broker()
+        vehicles = line.start_vehicles(TIME_SCALE)
+        arm = line.start("openstream-sim", "--listen", "127.0.0.1:0", "--http", "127.0.0.1:0", "--time-scale", TIME_SCALE,
+                         *arm_options)
         vehicles.wait_ready()
-        mcs = self.line.start("mcs-sim", "--listen", "127.0.0.1:0", *arguments)
-        self.line.start_acsd(mcs.wait_ready()["ws"], arm.wait_ready()).wait_ready()
+        mcs = line.start("mcs-sim", "--listen", "127.0.0.1:0", *arguments)
+        line.start_acsd(mcs.wait_ready()["ws"], arm.wait_ready()).wait_ready()
+        return mcs
+
+    def play(self, *arguments):
+        """Runs mcs-sim against a whole line; returns it after it has ended, with its exit code."""
+        mcs = self.start_play(self.line, *arguments)
         return mcs, mcs.wait(FINISH_SECONDS)
 
-    def play_with_small_acs(self, path, typed):
+    def start_play_with_small_acs(self, line, paths, typed):
         acs = []
-        mcs = self.line.start("mcs-sim", "--listen", "127.0.0.1:0", "--scenario", path, on_output=self.answer({
-            text: (lambda line=line: acs[0].process.stdin.write(line)) for text, line in typed.items()}))
-        acs.append(self.line.start("e09_small_acs", f"ws://{mcs.wait_ready()['ws']}/acs/", stdin=subprocess.PIPE,
-                                   bufsize=0))
+        mcs = line.start("mcs-sim", "--listen", "127.0.0.1:0", "--scenario", *paths, on_output=self.answer({
+            text: (lambda typing=typing: acs[0].process.stdin.write(typing)) for text, typing in typed.items()}))
+        acs.append(line.start("e09_small_acs", f"ws://{mcs.wait_ready()['ws']}/acs/", stdin=subprocess.PIPE, bufsize=0))
         self.addCleanup(acs[0].process.stdin.close)
-        return mcs, mcs.wait(FINISH_SECONDS)
+        return mcs
+
+    def start_line(self):
+        line = Line(self.bin_dir, SITE)
+        line.__enter__()
+        self.addCleanup(line.stop)
+        return line
+
+    def test_each_ready_scenario_is_played(self):
+        played = [name for batch in [*BATCHES, SMALL_ACS, ATTENDED] for name in batch]
+        self.assertEqual(sorted(played), sorted(path.stem for path in SCENARIOS.glob("*.json")))
+
+    def test_each_ready_scenario_has_its_row_for_the_reader(self):
+        rows = [line.split("]")[0][3:] for line in (SCENARIOS / "README.md").read_text().splitlines()
+                if line.startswith("| [")]
+        self.assertEqual(rows, sorted(path.stem for path in SCENARIOS.glob("*.json")))
+
+    def test_the_ready_scenarios_pass(self):
+        plays = [(batch, self.start_play(self.start_line(), "--scenario", *get_paths(batch),
+                                         arm_options=ARM_OPTIONS.get(batch[-1], ()))) for batch in BATCHES]
+        plays.append((SMALL_ACS, self.start_play_with_small_acs(self.start_line(), get_paths(SMALL_ACS), TYPED)))
+        for batch, mcs in plays:
+            with self.subTest(batch=batch):
+                code = mcs.wait(FINISH_SECONDS)
+                output = mcs.log.read_text()
+                self.assertEqual(code, 0, output)
+                self.assertEqual([name for name in batch if f" scenario {name}: passed\n" not in output], [])
 
     @staticmethod
     def answer(answers):
@@ -109,6 +157,45 @@ class Scenarios(ScenarioCase):
         self.assertEqual(ids["SyncConfig"], ids["SyncConfigAck"])
         self.assertEqual(sorted(line["time"] for line in lines), [line["time"] for line in lines])
 
+    def make_certificate(self, name):
+        certificate, key = self.line.folder / f"{name}.pem", self.line.folder / f"{name}.key"
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
+                        "-subj", "/CN=localhost", "-keyout", key, "-out", certificate], check=True, capture_output=True)
+        return certificate, key
+
+    def test_a_file_for_tls_that_is_wrong_is_refused_by_its_option(self):
+        certificate, key = self.make_certificate("one")
+        _, foreign = self.make_certificate("two")
+        junk = self.line.folder / "junk.pem"
+        junk.write_text("junk")
+        rows = {
+            "--tls-certificate": [("--tls-certificate", "nowhere.pem", "--tls-key", key),
+                                  ("--tls-certificate", junk, "--tls-key", key)],
+            "--tls-key": [("--tls-certificate", certificate, "--tls-key", "nowhere.key"),
+                          ("--tls-certificate", certificate, "--tls-key", junk),
+                          ("--tls-certificate", certificate, "--tls-key", foreign)],
+            "--tls-client-ca": [("--tls-certificate", certificate, "--tls-key", key, "--tls-client-ca", junk)],
+        }
+        for option, lines in rows.items():
+            for arguments in lines:
+                with self.subTest(arguments=arguments):
+                    result = subprocess.run(
+                        [self.bin_dir / "mcs-sim", "--listen", "127.0.0.1:0", "--plan", PLANS[0], *arguments],
+                        capture_output=True, text=True, timeout=20, check=False)
+                    self.assertEqual(result.returncode, 2, result.stderr)
+                    self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+                    self.assertIn(f"{option}: expected ", result.stderr)
+
+    def test_the_ready_line_says_whether_it_is_wss(self):
+        certificate, key = self.make_certificate("one")
+        mcs = self.line.start("mcs-sim", "--listen", "127.0.0.1:0", "--plan", PLANS[0], "--tls-certificate", certificate,
+                              "--tls-key", key)
+        self.assertEqual(list(mcs.wait_ready()), ["wss"])
+
+    def test_a_trace_that_could_not_be_written_makes_the_run_fail(self):
+        _, code = self.play("--scenario", SCENARIOS / "sync-config.json", "--trace", "/dev/full")
+        self.assertEqual(code, 1)
+
     def test_a_scenario_that_is_none_is_refused_with_its_place(self):
         path = self.write_scenario({"wait": "1s"}, {"cancel": "A"})
         result = subprocess.run([self.bin_dir / "mcs-sim", "--scenario", path], capture_output=True, text=True,
@@ -117,22 +204,6 @@ class Scenarios(ScenarioCase):
         self.assertEqual(len(result.stderr.splitlines()), 1)
         self.assertIn(f"{path}: steps[1].cancel: expected the name", result.stderr)
 
-
-def make_test(path):
-    def test(self):
-        if path.stem in SMALL_ACS:
-            mcs, code = self.play_with_small_acs(path, SMALL_ACS[path.stem])
-        else:
-            mcs, code = self.play("--scenario", path, arm_options=ARM_OPTIONS.get(path.stem, ()))
-        self.assertEqual(code, 0, mcs.log.read_text())
-
-    return test
-
-
-for scenario in sorted(SCENARIOS.glob("*.json")):
-    name = "test_scenario_" + scenario.stem.replace("-", "_")
-    if not hasattr(Scenarios, name):
-        setattr(Scenarios, name, make_test(scenario))
 
 if __name__ == "__main__":
     main()

@@ -108,7 +108,7 @@ struct Scene
              std::nullopt,
              ""},
             lines);
-        board.OnPosition({{{"LR01", 32.456, 4.0, 90.0, 87.0}, {"CR01", 9.0, 14.25, 0.0, 100.0}}});
+        board.OnPosition({{{"LR01", 32.456, 4.0, 90.0, 87.0}, {"CR01", 9.0, 14.25, 0.0, 100.0}}}, lines);
     }
 };
 
@@ -194,7 +194,7 @@ TEST_CASE("The live view never has more lines than the terminal")
     for (std::size_t i = 10; i < 40; ++i)
     {
         plans.push_back(MakeSamplePlan("P" + std::to_string(i), "T" + std::to_string(i)));
-        board.OnPosition({{{"R" + std::to_string(i), 0.0, 0.0, 0.0, 50.0}}});
+        board.OnPosition({{{"R" + std::to_string(i), 0.0, 0.0, 0.0, 50.0}}}, lines);
     }
     const PlanTracker tracker(plans);
     for (const std::size_t rows : {8U, 12U, 24U, 40U})
@@ -228,7 +228,7 @@ TEST_CASE("Positions make no lines, and a status only when something changed")
         ""};
     board.OnStatus(status, lines);
     board.OnStatus(status, lines);
-    board.OnPosition({{{"LR01", 1.0, 2.0, 3.0, 4.0}}});
+    board.OnPosition({{{"LR01", 1.0, 2.0, 3.0, 4.0}}}, lines);
     status.carrierIDs = {"CASSETTE_01"};
     board.OnStatus(status, lines);
     CHECK(

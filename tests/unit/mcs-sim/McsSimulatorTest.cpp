@@ -2,6 +2,7 @@
 
 #include "Catch.hpp"
 #include "common/SystemClock.hpp"
+#include "RawPeer.hpp"
 #include "SamplePlans.hpp"
 #include "ScenarioFile.hpp"
 #include "Screen.hpp"
@@ -97,9 +98,24 @@ private:
         }
         else if (const auto* const received = std::get_if<ACS::Protocol::RequestReceived>(&event))
         {
+            const auto* const cancelOrNull = std::get_if<ACS::Protocol::CancelPlan>(&received->request.payload);
             if (std::holds_alternative<ACS::Protocol::ExecutionPlan>(received->request.payload))
             {
                 OnPlan(received->request);
+            }
+            else if (cancelOrNull != nullptr)
+            {
+                _client->Answer(
+                    ACS::Protocol::EAcsCommand::CancelPlan,
+                    received->request.transactionID,
+                    EAckResult::Success,
+                    "looking into it",
+                    ACS::Protocol::PlanAck{cancelOrNull->planID});
+                Queue(ACS::Protocol::CancelResultReport{
+                    cancelOrNull->planID,
+                    ACS::Protocol::EReportResult::Failed,
+                    "it is over"});
+                SendNext();
             }
         }
     }
@@ -249,7 +265,7 @@ TEST_CASE("Plans go to the ACS, its reports come back, and all end completed")
     CHECK(bench.acs->transactions == std::vector<std::string>{"T1", "T2", "T3"});
     CHECK(Contains(output, " ACS registered\n"));
     CHECK(Contains(output, " P2 JobReport step 2 job 2/2 Completed (LR01)\n"));
-    CHECK(Contains(output, " JobReport                           27            27             0\n"));
+    CHECK(Contains(output, " JobReport                          27           27            0            0\n"));
 }
 
 TEST_CASE("Nothing is sent before the plans are released")
@@ -277,6 +293,16 @@ TEST_CASE("6.4 A refused plan makes the run fail, and the reason is told")
     CHECK(Contains(output, " P1 refused: no such place as A09.CP01\n"));
 }
 
+TEST_CASE("6.4 A planId that the ACS knows already is refused with what to do about it")
+{
+    Bench bench(1);
+    bench.acs->refusal = "Duplicated Plan";
+    bench.simulator->Release();
+    const std::string output = bench.Run();
+    INFO(output);
+    CHECK(Contains(output, "\n The ACS knows a planId already: with --fresh-ids plans go under new ids.\n"));
+}
+
 TEST_CASE("A plan that was not acknowledged before the link was lost is sent again, with its transactionId")
 {
     Bench bench(2);
@@ -301,6 +327,46 @@ TEST_CASE("A report after the final one makes the run fail, though the plan was 
     CHECK(bench.exitCode == 1);
     CHECK(GetLastLine(output) == "1 plans completed, 0 failed");
     CHECK(Contains(output, " violation: P1 PlanReport after it was completed\n"));
+}
+
+TEST_CASE("R1, R2 What an ACS may not send makes the run fail, and is told of")
+{
+    ACS::McsSim::SimulatorOptions options;
+    options.bConsole = true;
+    Bench bench(0, false, options);
+    bench.simulator->Release();
+    const std::string strayAck = R"({"command":"CancelPlanAck","transactionId":"T4",)"
+                                 R"("timestamp":"2025-07-02T21:00:00.123+09:00","result":"Success","message":"",)"
+                                 R"("payload":{"planId":"P1"}})";
+    ACS::Testing::RawPeer peer(
+        bench.context,
+        {ACS::Testing::MakeText("TscStateUpdate", "T0", R"({"state":"Auto"})"),
+         ACS::Testing::MakeText("Registration", "T1", "{}"),
+         "no JSON",
+         ACS::Testing::MakeText("PlanReport", "T2", R"({"planId":"P1","status":"Dancing","message":""})"),
+         ACS::Testing::MakeText("ResumePlan", "T3", R"({"planId":"P1"})"),
+         strayAck,
+         ACS::Testing::MakeText("TscStateUpdate", "T5", R"({"state":"auto","mood":"fine"})")});
+    peer.ConnectAsync(bench.endpoint.port);
+    while (!Contains(bench.out.str(), "ACS TscStateUpdate Auto"))
+    {
+        REQUIRE(bench.context.run_one_for(LONGEST) > 0);
+    }
+    bench.simulator->Execute("quit");
+    bench.context.run_for(LONGEST);
+    const std::string output = bench.out.str();
+    INFO(output);
+    CHECK(bench.exitCode == 1);
+    CHECK(Contains(output, " VIOLATION ACS message before the registration: TscStateUpdate\n"));
+    CHECK(Contains(output, " VIOLATION ACS unreadable message: expected JSON"));
+    CHECK(Contains(output, " VIOLATION ACS unreadable message: payload.status: expected "));
+    CHECK(Contains(output, " VIOLATION ACS command that an ACS does not send: ResumePlan\n"));
+    CHECK(Contains(output, " VIOLATION ACS Ack of nothing that was asked: CancelPlan\n"));
+    CHECK(Contains(output, " ACS word in another case than the document's (told once)\n"));
+    CHECK(Contains(output, " ACS member that the document does not have (told once)\n"));
+    CHECK(Contains(output, "\n violations              5\n"));
+    CHECK(Contains(output, "\n PlanReport                          0            0            0            1\n"));
+    CHECK(Contains(output, "\n      2 unreadable message\n"));
 }
 
 TEST_CASE("An interruption before the end prints the table and fails")
@@ -371,6 +437,30 @@ TEST_CASE("A scenario sends its plan, sees what the ACS does, and its verdicts s
                   : "0 of 1 scenarios passed, 0 of 2 expectations held, 0 violations"));
 }
 
+TEST_CASE("A connection that is not the registered ACS fulfils no expectation")
+{
+    ACS::McsSim::SimulatorOptions options;
+    const auto scenario = ACS::McsSim::ParseScenario(
+        R"({"name":"test","steps":[{"expect":"ErrorReport","within":"300ms"}]})",
+        [](const std::string& /*path*/) { return tl::expected<PlannedPlan, std::string>(PlannedPlan()); });
+    REQUIRE(scenario.has_value());
+    options.scenarios = {*scenario};
+    Bench bench(0, false, options);
+    bench.simulator->Release();
+    ACS::Testing::RawPeer peer(
+        bench.context,
+        {ACS::Testing::MakeText(
+            "ErrorReport",
+            "T1",
+            R"({"robotId":"LR01","state":true,"errorCode":"E","level":"heavy","message":""})")});
+    peer.ConnectAsync(bench.endpoint.port);
+    const std::string output = bench.Run();
+    INFO(output);
+    CHECK(bench.exitCode == 1);
+    CHECK(Contains(output, " message before the registration: ErrorReport\n"));
+    CHECK(Contains(output, "no ErrorReport came within 300ms"));
+}
+
 TEST_CASE("The console sends what it is told, lists plans and ends the run")
 {
     ACS::McsSim::SimulatorOptions options;
@@ -385,6 +475,10 @@ TEST_CASE("The console sends what it is told, lists plans and ends the run")
     CHECK_FALSE(bench.exitCode.has_value());
     bench.simulator->Execute("list");
     bench.simulator->Execute("cancel P1");
+    while (!Contains(bench.out.str(), "CancelResultReport"))
+    {
+        REQUIRE(bench.context.run_one_for(LONGEST) > 0);
+    }
     bench.simulator->Execute("plan nowhere.json");
     bench.simulator->Execute("dance");
     bench.simulator->Execute("quit");
@@ -394,6 +488,9 @@ TEST_CASE("The console sends what it is told, lists plans and ends the run")
     CHECK(bench.exitCode == 0);
     CHECK(Contains(output, " P1 Completed (LR01)\n"));
     CHECK(Contains(output, " CancelPlan sent\n"));
+    CHECK(Contains(output, " P1 CancelPlanAck Success: looking into it\n"));
+    CHECK(Contains(output, " P1 CancelResultReport Failed: it is over\n"));
+    CHECK(Contains(output, "\n CancelPlan                          1            1            –\n"));
     CHECK(Contains(output, " the plan file nowhere.json cannot be read: No such file or directory\n"));
     CHECK(Contains(output, " there is no 'dance': try help\n"));
 }

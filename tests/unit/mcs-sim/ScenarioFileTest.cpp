@@ -72,7 +72,7 @@ TEST_CASE("A plan is sent from a file or from the scenario itself, with fresh id
 TEST_CASE("Every other command of an MCS is sent with its payload, or an empty one")
 {
     const auto history =
-        ParseOne<SendRequestStep>(R"({"send":"RequestAcsPlanHistory","payload":{"planIds":["{A}","x"]}})");
+        ParseOne<SendRequestStep>(SEND + R"(,{"send":"RequestAcsPlanHistory","payload":{"planIds":["{A}","x"]}})");
     CHECK(history.command == EAcsCommand::RequestAcsPlanHistory);
     CHECK(history.payload.GetText() == R"({"planIds":["{A}","x"]})");
     CHECK(ParseOne<SendRequestStep>(R"({"send":"SyncConfig"})").payload.GetText() == "{}");
@@ -97,6 +97,7 @@ TEST_CASE("An expectation takes its members from the message, and the time limit
     CHECK(expect.pattern.members.GetText() == R"({"result":"Fail","message":"*no*","payload":{"planId":"x"}})");
     CHECK(expect.within == 7s);
     CHECK(ParseOne<ExpectStep>(R"({"expect":"*","within":"200ms"})").within == 200ms);
+    CHECK(ParseOne<ExpectStep>(R"({"expect":"*ResultReport"})").pattern.command == "*ResultReport");
     CHECK(ParseOne<ExpectNothingStep>(R"({"expectNothing":"StepReport","for":"2s"})").duration == 2s);
     const auto wait = ParseOne<WaitForPlanStep>(SEND + R"(,{"waitFor":"A","status":"Cancelled"})");
     CHECK(wait.status == ACS::Protocol::EPlanStatus::Cancelled);
@@ -147,7 +148,8 @@ TEST_CASE("A mistake in a scenario is told with its place, what was expected and
         Row{R"({"send":"CancelPlan","payload":{"planId":3}})", "steps[0].payload.planId: "},
         Row{R"({"cancel":"A"})",
             R"(steps[0].cancel: expected the name that a send step before gave to a plan ("as"), )"},
-        Row{R"({"expect":"ExecutionPlan"})", R"(steps[0].expect: expected "*", the Ack of )"},
+        Row{R"({"expect":"ExecutionPlan"})", R"(steps[0].expect: expected the Ack of )"},
+        Row{R"({"expect":"*Rapport"})", R"(steps[0].expect: expected the Ack of )"},
         Row{R"({"expect":"PlanReport","status":"Failed"})", "steps[0]: expected one of the members expect, "},
         Row{R"({"expect":"PlanReport","within":5})", "steps[0].within: expected a duration such as '200ms', "},
         Row{R"({"expectNothing":"PlanReport"})", "steps[0].for: expected a duration"},
@@ -156,6 +158,8 @@ TEST_CASE("A mistake in a scenario is told with its place, what was expected and
         Row{R"({"delayAcks":"*","for":"1s"})", "steps[0].by: expected a duration"},
         Row{R"({"drop":"softly"})", R"(steps[0].drop: expected cut or close, found "softly")"},
         Row{R"({"drop":"close","code":99})", "steps[0].code: expected a whole number from 1000 to 4999, found 99"},
+        Row{R"({"drop":"close","code":1005})", "steps[0].code: expected a code that may be sent, found 1005"},
+        Row{R"({"drop":"close","code":1015})", "steps[0].code: expected a code that may be sent, found 1015"},
         Row{R"({"wait":"2s","wait":"3s"})", "expected each member once"},
         Row{R"({"wait":"2s","note":""})", R"(steps[0].note: expected a text, found "")"});
     const std::string mistake = FindMistake(row.first);
@@ -163,12 +167,54 @@ TEST_CASE("A mistake in a scenario is told with its place, what was expected and
     CHECK(mistake.find(row.second) == 0);
 }
 
+TEST_CASE("A placeholder that stands for nothing is a mistake of the file, other braces are text")
+{
+    using Row = std::pair<std::string, std::string>;
+    const auto row = GENERATE(
+        Row{R"({"expect":"PlanReport","payload":{"planId":"{a}"}})",
+            R"(steps[1].payload.planId: expected a placeholder of )"},
+        Row{R"({"expect":"JobReport","payload":{"jobId":"{A.9.9}"}})", "steps[1].payload.jobId: "},
+        Row{R"({"expect":"JobReport","payload":{"jobId":"{A.1.0}"}})", "steps[1].payload.jobId: "},
+        Row{R"({"expect":"JobReport","payload":{"jobId":"{A.job}"}})", "steps[1].payload.jobId: "},
+        Row{R"({"expect":"RobotStatusUpdate","payload":{"carrierIds":["{A.1.carrier.9}"]}})",
+            "steps[1].payload.carrierIds[0]: "},
+        Row{R"({"expectNothing":"PlanReport","transactionId":"*{A.transaction}","for":"1s"})",
+            "steps[1].transactionId: "},
+        Row{R"({"send":"CancelPlan","payload":{"planId":"{B}"}})", "steps[1].payload.planId: "},
+        Row{R"({"sendText":"{\"planId\":\"{B}\"}"})", R"(steps[1].sendText: )"},
+        Row{R"({"cancel":"A","reason":"{reason}"})", "steps[1].reason: "},
+        Row{R"({"expect":"StepReport","as":"S","transactionId":"{S.transactionId}"})", "steps[1].transactionId: "},
+        Row{R"({"expect":"StepReport","as":"S"},{"expect":"StepReport","timestamp":"{S.payload}"})",
+            "steps[2].timestamp: "},
+        Row{R"({"expect":"StepReport","as":"S"},{"cancel":"S"})", "steps[2].cancel: expected the name that a send "},
+        Row{R"({"expectNext":[{"command":"PlanReport","payload":{"planId":"{B}"}}]})",
+            "steps[1].expectNext[0].payload.planId: "},
+        Row{R"({"expectNext":[{"command":"PlanReport","for":"1s"}]})", "steps[1].expectNext[0]: expected one of "},
+        Row{R"({"expectNext":[]})", "steps[1].expectNext: expected a text, found an array"},
+        Row{R"({"expectNext":"PlanReport","besides":"ExecutionPlan"})", "steps[1].besides: "},
+        Row{R"({"expectNext":"PlanReport","as":"S"})", "steps[1]: expected one of the members expectNext, "},
+        Row{R"({"send":"ExecutionPlan","file":"plan.json","as":"the plan"})",
+            "steps[1].as: expected a name of letters, "});
+    const std::string mistake = FindMistake(SEND + "," + row.first);
+    CAPTURE(row.first, mistake);
+    CHECK(mistake.find(row.second) == 0);
+    CHECK(Parse(
+        SEND + R"(,{"expect":"PlanReport","message":"{} { A } {\"A\"} {A}{A.transactionId}{A.2.1}{A.1.carrier.1}"})"));
+}
+
 TEST_CASE("The head of a scenario is checked as its steps are")
 {
     CHECK(
         Describe(ParseScenario(R"({"steps":[{"wait":"1s"}]})", ReadSample).error())
         == "name: expected a text, found nothing");
-    CHECK(Describe(ParseScenario(R"({"name":"x","steps":[]})", ReadSample).error()).find("steps: ") == 0);
+    const std::pair<std::string, std::string> row = GENERATE(
+        std::pair<std::string, std::string>{R"({"name":"x","steps":[]})", "an array"},
+        std::pair<std::string, std::string>{R"({"name":"x","steps":{}})", "an object"},
+        std::pair<std::string, std::string>{R"({"name":"x","steps":3})", "3"},
+        std::pair<std::string, std::string>{R"({"name":"x"})", "nothing"});
+    CHECK(
+        Describe(ParseScenario(row.first, ReadSample).error())
+        == "steps: expected an array of one step or more, found " + row.second);
     CHECK(Describe(ParseScenario("[]", ReadSample).error()).find("expected an object") == 0);
     CHECK(
         Describe(ParseScenario(R"({"name":"x","stepps":[],"steps":[{"wait":"1s"}]})", ReadSample).error())

@@ -2,6 +2,7 @@
 
 #include "Catch.hpp"
 #include "ManualClock.hpp"
+#include "RawPeer.hpp"
 #include "SamplePlans.hpp"
 #include "ScenarioFile.hpp"
 #include "ScenarioSequence.hpp"
@@ -116,8 +117,8 @@ TEST_CASE("A plan goes with fresh ids as often as asked, and is spoken of by its
 {
     Bench bench(
         R"({"send":"ExecutionPlan","file":"p","as":"A","times":3},{"cancel":"A"},
-           {"send":"RequestAcsPlanHistory","payload":{"planIds":["{A}","{A.transactionId}","{A.2.1}","{A.9.1}"]}},
-           {"sendAgain":"A"},{"sendAgain":"A","freshTransaction":true},{"sendText":"{A} {"})");
+           {"send":"RequestAcsPlanHistory","payload":{"planIds":["{A}","{A.transactionId}","{A.2.1}","{A.1.carrier.1}"]}},
+           {"sendAgain":"A"},{"sendAgain":"A","freshTransaction":true},{"sendText":"{A} { {} { A } {\"A\"}"})");
     const std::vector<SendPlannedPlan> plans = bench.GetAll<SendPlannedPlan>();
     REQUIRE(plans.size() == 5);
     CHECK(plans[0].planned.plan.planID != plans[1].planned.plan.planID);
@@ -131,8 +132,12 @@ TEST_CASE("A plan goes with fresh ids as often as asked, and is spoken of by its
     CHECK(std::get<ACS::Protocol::CancelPlan>(requests[0].payload).planID == last.plan.planID);
     CHECK(
         std::get<ACS::Protocol::RequestAcsPlanHistory>(requests[1].payload).planIDs
-        == std::vector<std::string>{last.plan.planID, last.transactionID, last.plan.steps[0].jobs[0].jobID, "{A.9.1}"});
-    CHECK(bench.GetAll<SendRawText>().at(0).text == last.plan.planID + " {");
+        == std::vector<std::string>{
+            last.plan.planID,
+            last.transactionID,
+            last.plan.steps[0].jobs[0].jobID,
+            last.plan.steps[1].carrierIDs[0]});
+    CHECK(bench.GetAll<SendRawText>().at(0).text == last.plan.planID + R"( { {} { A } {"A"})");
     CHECK(bench.runner.HasHeld());
 }
 
@@ -225,6 +230,82 @@ TEST_CASE("An expectation may follow one of nothing and see the same messages")
     bench.Receive(MakeReport("Failed"));
     bench.Pass(2s);
     CHECK(bench.runner.HasHeld());
+}
+
+TEST_CASE(
+    "The next message must be the one that is expected, or one of a group, but for a command that may come between")
+{
+    const std::string tsc = ACS::Testing::MakeText("TscStateUpdate", "t1", R"({"state":"Auto"})");
+    const std::string comm = ACS::Testing::MakeText("AcsCommStateUpdate", "t2", R"({"isConnected":true})");
+    const std::string position = ACS::Testing::MakeText("RobotPositionUpdate", "t3", R"({"robots":[]})");
+    Bench bench(
+        R"({"expectNext":"TscStateUpdate","besides":"RobotPositionUpdate","within":"5s"},
+           {"expectNext":[{"command":"PlanReport","payload":{"planId":"1"}},
+                          {"command":"PlanReport","payload":{"planId":"2"}}],"within":"5s"})");
+    SECTION("in any order within the group")
+    {
+        bench.Receive(position);
+        bench.Receive(tsc);
+        bench.Receive(MakeReport("InProgress", "2"));
+        CHECK_FALSE(bench.runner.IsFinished());
+        bench.Receive(MakeReport("InProgress", "1"));
+        CHECK(bench.runner.HasHeld());
+    }
+    SECTION("another command")
+    {
+        bench.Receive(comm);
+        CHECK(bench.GetVerdict(1).reason.find("AcsCommStateUpdate came before TscStateUpdate: ") == 0);
+    }
+    SECTION("one of the group twice")
+    {
+        bench.Receive(tsc);
+        bench.Receive(MakeReport("InProgress", "2"));
+        bench.Receive(MakeReport("InProgress", "2"));
+        CHECK(bench.GetVerdict(2).reason == R"(payload.planId: expected "1", found "2")");
+    }
+    SECTION("what may come between here may not there")
+    {
+        bench.Receive(tsc);
+        bench.Receive(position);
+        CHECK(bench.GetVerdict(2).verdict == EVerdict::Failed);
+    }
+    SECTION("nothing in time")
+    {
+        bench.Receive(tsc);
+        bench.Receive(MakeReport("InProgress", "1"));
+        bench.Pass(5s);
+        CHECK(bench.GetVerdict(2).reason == "no PlanReport came within 5s");
+    }
+}
+
+TEST_CASE("A message is remembered by its name, and what is sent again is told from what is new")
+{
+    const auto make = [](const std::string& transactionID) {
+        return ACS::Testing::MakeText(
+            "PlanReport",
+            transactionID,
+            R"({"planId":"P","status":"InProgress","message":""})");
+    };
+    Bench bench(
+        R"({"expect":"PlanReport","as":"S"},
+           {"expect":"PlanReport","repeated":true,"transactionId":"{S.transactionId}","timestamp":"{S.timestamp}"},
+           {"expectNothing":"*","repeated":true,"for":"5s"})");
+    bench.Receive(make("t1"));
+    bench.Receive(make("t2"));
+    CHECK(bench.GetVerdict(2).verdict == EVerdict::NotReached);
+    bench.Receive(make("t1"));
+    CHECK(bench.GetVerdict(2).verdict == EVerdict::Held);
+    bench.Receive(make("t3"));
+    SECTION("nothing more comes again")
+    {
+        bench.Pass(5s);
+        CHECK(bench.runner.HasHeld());
+    }
+    SECTION("another one comes again")
+    {
+        bench.Receive(make("t2"));
+        CHECK(bench.GetVerdict(3).reason == "it came: " + make("t2"));
+    }
 }
 
 TEST_CASE("A plan is waited for until its last report says so, or can never say so")

@@ -16,6 +16,7 @@ using ACS::Protocol::CommandCounters;
 using ACS::Protocol::EAckResult;
 using ACS::Protocol::EAcsCommand;
 using ACS::Protocol::EPlanStatus;
+using ACS::Protocol::EProtocolNote;
 using ACS::Protocol::SessionStatistics;
 using ACS::Testing::MakeAck;
 using ACS::Testing::MakePlanReport;
@@ -25,12 +26,17 @@ using ACS::Testing::ManualClock;
 namespace
 {
 
-CommandCounters MakeReceived(std::uint64_t received, std::uint64_t duplicates, std::uint64_t acknowledged)
+CommandCounters MakeReceived(
+    std::uint64_t received,
+    std::uint64_t duplicates,
+    std::uint64_t acknowledged,
+    std::uint64_t refused = 0)
 {
     CommandCounters counters;
     counters.received = received;
     counters.duplicates = duplicates;
     counters.acknowledged = acknowledged;
+    counters.refused = refused;
     return counters;
 }
 
@@ -54,16 +60,21 @@ TEST_CASE("The closing table counts plans by outcome and messages by command, a 
     statistics.registrations = 3;
     statistics.Of(EAcsCommand::ExecutionPlan).sent = 4;
     statistics.Of(EAcsCommand::ExecutionPlan).answered = 1;
+    statistics.Of(EAcsCommand::CancelPlan).sent = 2;
+    statistics.Of(EAcsCommand::CancelPlan).answered = 1;
     statistics.Of(EAcsCommand::Registration) = MakeReceived(3, 0, 3);
-    statistics.Of(EAcsCommand::PlanReport) = MakeReceived(4, 2, 4);
+    statistics.Of(EAcsCommand::PlanReport) = MakeReceived(7, 2, 7, 3); // those that were refused were none
     statistics.Of(EAcsCommand::RobotPositionUpdate) = MakeReceived(500, 0, 0);
+    ACS::McsSim::NoteCounts notes{};
+    notes[static_cast<std::size_t>(EProtocolNote::NullOptional)] = 12;
+    notes[static_cast<std::size_t>(EProtocolNote::Undecodable)] = 3;
 
     std::string text;
-    for (const StyledLine& line : MakeSummary(tracker, statistics, std::chrono::milliseconds(34'260)))
+    for (const StyledLine& line : MakeSummary(tracker, statistics, notes, std::chrono::milliseconds(34'260)))
     {
         text += MakeText(line, 100, false) + "\n";
     }
-    const char* const expected = R"( ──────────────────────────────────────────────────────────────────
+    const char* const expected = R"( ────────────────────────────────────────────────────────────────────────────
  plans                   1 completed, 0 failed, 1 refused, 1 unfinished
  steps                   0 of 6 completed
  jobs                    0 of 9 completed
@@ -71,14 +82,19 @@ TEST_CASE("The closing table counts plans by outcome and messages by command, a 
  reconnects              2
  duration                34.3 s
 
- message to the ACS                sent  acknowledged    sent again
- ExecutionPlan                        3             1             1
+ message to the ACS               sent acknowledged   sent again
+ ExecutionPlan                       3            1            1
+ CancelPlan                          2            1            –
 
- message from the ACS          received  acknowledged    sent again
- Registration                         3             3             0
- PlanReport                           2             2             2
- RobotPositionUpdate                500             –             –
- ──────────────────────────────────────────────────────────────────
+ message from the ACS         received acknowledged   sent again      refused
+ Registration                        3            3            0            0
+ PlanReport                          2            2            2            3
+ RobotPositionUpdate               500            –            –            –
+
+ noticed in what the ACS sent
+     12 null where a member is left out
+      3 unreadable message
+ ────────────────────────────────────────────────────────────────────────────
  P2 refused: Queue Full
  violation: P1 PlanReport Completed before all its steps
 )";

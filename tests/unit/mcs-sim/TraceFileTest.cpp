@@ -55,3 +55,13 @@ TEST_CASE("A trace replaces the file that was there, and a place that cannot be 
     REQUIRE_FALSE(refused.has_value());
     CHECK(refused.error().find("Is a directory") != std::string::npos);
 }
+
+TEST_CASE("A trace says that it is incomplete when its disk is full")
+{
+    const ACS::Testing::ManualClock clock;
+    const auto trace = TraceFile::Create("/dev/full", clock, std::chrono::minutes(0), ACS::Core::Logger());
+    REQUIRE(trace.has_value());
+    CHECK((*trace)->IsComplete());
+    (*trace)->Write(EWireDirection::In, 1, "{}");
+    CHECK_FALSE((*trace)->IsComplete());
+}

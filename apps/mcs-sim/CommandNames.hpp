@@ -1,0 +1,24 @@
+#pragma once
+
+#include <acs/protocol/EAcsCommand.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace ACS::McsSim
+{
+
+/// Exactly as spelled on the wire.
+[[nodiscard]] std::optional<Protocol::EAcsCommand> FindCommandOrNull(std::string_view name);
+
+/// "ExecutionPlan, CancelPlan": the names of all for which the function says yes.
+[[nodiscard]] std::string ListCommands(bool (*isListed)(Protocol::EAcsCommand));
+
+[[nodiscard]] bool IsSentByAcs(Protocol::EAcsCommand command);
+[[nodiscard]] bool IsAckedByMcs(Protocol::EAcsCommand command);
+
+/// What an ACS may send: its own commands, the Acks of the MCS's, and a name in which '*' makes it one of these.
+[[nodiscard]] bool CanComeFromAcs(std::string_view name);
+
+} // namespace ACS::McsSim

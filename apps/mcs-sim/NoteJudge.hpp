@@ -1,0 +1,61 @@
+#pragma once
+
+#include <acs/protocol/SessionEvent.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace ACS::McsSim
+{
+
+/// What the ACS's part in a note is.
+enum class EBlame : std::uint8_t
+{
+    None,      ///< Nothing of the ACS's, or only noted on its side of a link.
+    Habit,     ///< Put up with, but not what the document says: told once per kind, then only counted.
+    Fault,     ///< A violation.
+    BadAnswer, ///< A violation, unless what was sent asked for it: a text that is no message of this session.
+};
+
+[[nodiscard]] EBlame GetBlame(Protocol::EProtocolNote note);
+/// For people: "member that the document does not have"; never empty.
+[[nodiscard]] std::string_view GetMeaning(Protocol::EProtocolNote note);
+
+/// By EProtocolNote.
+using NoteCounts = std::array<std::uint64_t, Protocol::NOTE_COUNT>;
+
+/// Says of each thing that the session put up with or threw away whether it is a fault of the ACS. Pure.
+class NoteJudge
+{
+    std::size_t _excuses = 0;
+    NoteCounts _counts{};
+
+public:
+    /// A line for people, and whether it is a violation.
+    struct Verdict
+    {
+        std::string text;
+        bool bViolation = false;
+
+        bool operator==(const Verdict&) const = default;
+    };
+
+    /// One answer that fits nothing will come through no fault of the ACS: a request was given up, of which the Ack may
+    /// still come, or a message was cut on purpose.
+    void Excuse() noexcept;
+
+    /// A text was sent past the session. Where it can be answered, that is excused, as the session will not know the Ack.
+    void OnTextSent(std::string_view text);
+
+    /// Nullopt: nothing to tell, it is only counted.
+    [[nodiscard]] std::optional<Verdict> JudgeOrNull(const Protocol::ProtocolNoted& noted);
+
+    /// Faults and habits of the ACS; what is excused is none.
+    [[nodiscard]] const NoteCounts& GetCounts() const noexcept;
+};
+
+} // namespace ACS::McsSim
