@@ -39,7 +39,6 @@ class LinkedVehicle final : VDA5050::IMqttLinkListener
     VDA5050::MosquittoLink _link;
     std::optional<VDA5050::DriveTo> _goal;
     std::uint32_t _mayReach = 0;
-    std::vector<VDA5050::MapState> _maps;
     bool _bDriveDue = false;
     std::shared_ptr<bool> _alive = std::make_shared<bool>(true); ///< What was posted looks for it first.
 
@@ -164,36 +163,8 @@ private:
                 });
             };
             set(VDA5050::EActionStatus::Running);
-            ChangeMaps(action);
             set(VDA5050::EActionStatus::Finished);
         });
-    }
-
-    void ChangeMaps(const VDA5050::Action& action)
-    {
-        const VDA5050::ActionParameter* mapID = VDA5050::FindParameterOrNull(action, "mapId");
-        if (mapID == nullptr)
-        {
-            return;
-        }
-        const std::string name = mapID->value.GetStringOrNull().value_or("");
-        const auto known = std::ranges::find(_maps, name, &VDA5050::MapState::mapID);
-        if (action.actionType == VDA5050::ActionTypes::DOWNLOAD_MAP && known == _maps.end())
-        {
-            VDA5050::MapState& map = _maps.emplace_back();
-            map.mapID = name;
-            map.mapVersion = "1";
-            map.mapStatus = VDA5050::EMapStatus::Disabled;
-        }
-        else if (action.actionType == VDA5050::ActionTypes::ENABLE_MAP && known != _maps.end())
-        {
-            known->mapStatus = VDA5050::EMapStatus::Enabled;
-        }
-        else if (action.actionType == VDA5050::ActionTypes::DELETE_MAP && known != _maps.end())
-        {
-            _maps.erase(known);
-        }
-        Do([this](auto& vehicle, Core::Now now, auto& out) { vehicle.OnMaps(_maps, now, out); });
     }
 
     void Execute(const VDA5050::VehicleActions& actions)

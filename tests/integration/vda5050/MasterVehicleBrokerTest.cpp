@@ -155,10 +155,10 @@ TEST_CASE_METHOD(BrokerTest, "5.7 Over a broker a map is downloaded, enabled and
     const auto getMaps = [&]() {
         return master->session.GetStateOrNull()->maps.value_or(std::vector<MapState>{});
     };
-    const auto run = [&](std::string_view type, const std::string& id) {
+    const auto run = [&](std::string_view type, const std::string& mapVersion, const std::string& id) {
         Action action = MakeAction(id, EBlockingType::None, std::string(type));
         action.actionParameters.push_back({"mapId", Core::JsonText::FromString("hall-2")});
-        action.actionParameters.push_back({"mapVersion", Core::JsonText::FromString("1")});
+        action.actionParameters.push_back({"mapVersion", Core::JsonText::FromString(mapVersion)});
         if (type == ActionTypes::DOWNLOAD_MAP)
         {
             action.actionParameters.push_back({"mapDownloadLink", Core::JsonText::FromString("https://maps.test/2")});
@@ -166,14 +166,17 @@ TEST_CASE_METHOD(BrokerTest, "5.7 Over a broker a map is downloaded, enabled and
         REQUIRE(master->SendAction(action));
         REQUIRE(WaitUntil([&]() { return master->GetStatusOrNull(id) == EActionStatus::Finished; }));
     };
-    run(ActionTypes::DOWNLOAD_MAP, "m1");
+    run(ActionTypes::DOWNLOAD_MAP, "1", "m1");
     REQUIRE(getMaps().size() == 1);
     CHECK(getMaps().front().mapStatus == EMapStatus::Disabled);
-    run(ActionTypes::ENABLE_MAP, "m2");
+    run(ActionTypes::ENABLE_MAP, "1", "m2");
     CHECK(getMaps().front().mapStatus == EMapStatus::Enabled);
-    run(ActionTypes::DELETE_MAP, "m3");
-    CHECK(getMaps().empty());
-    CHECK(vehicle->Count<StartAction>() == 3);
+    run(ActionTypes::DOWNLOAD_MAP, "2", "m3");
+    run(ActionTypes::ENABLE_MAP, "2", "m4");
+    run(ActionTypes::DELETE_MAP, "1", "m5"); // which is not in use any more
+    REQUIRE(getMaps().size() == 1);
+    CHECK(getMaps().front().mapVersion == "2");
+    CHECK(vehicle->Count<StartAction>() == 5);
 }
 
 TEST_CASE_METHOD(BrokerTest, "13 A broker that restarts in the middle of an order costs no node and runs nothing twice")
