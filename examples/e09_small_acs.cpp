@@ -13,15 +13,15 @@
 #include <acs/core/Overloaded.hpp>
 #include <acs/protocol_beast/AcsClient.hpp>
 
+#include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
-#include <boost/asio/read_until.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <boost/asio/streambuf.hpp>
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstddef>
@@ -29,11 +29,11 @@
 #include <cstdio>
 #include <deque>
 #include <functional>
-#include <istream>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <unistd.h>
 #include <utility>
 #include <variant>
@@ -473,44 +473,48 @@ private:
 /// Reads the operator's lines; at the end of the input the ACS simply goes on.
 class Keyboard
 {
+    static constexpr std::size_t MAX_LINE = 1000; ///< The rest of a longer one is forgotten.
+
     boost::asio::posix::stream_descriptor _input;
-    boost::asio::streambuf _buffer;
+    std::array<char, 256> _chunk{};
+    std::string _line;
     SmallAcs& _acs;
 
 public:
     Keyboard(boost::asio::io_context& io, SmallAcs& acs)
         : _input(io, ::dup(STDIN_FILENO)),
-          _buffer(MAX_LINE),
           _acs(acs)
     {
         ReadAsync();
     }
 
-    void Stop()
-    {
-        _input.close();
-    }
-
 private:
-    static constexpr std::size_t MAX_LINE = 1000;
-
     void ReadAsync()
     {
-        boost::asio::async_read_until(
-            _input,
-            _buffer,
-            '\n',
-            [this](const boost::system::error_code& error, std::size_t /*count*/) {
-                if (error)
+        _input.async_read_some(
+            boost::asio::buffer(_chunk),
+            [this](const boost::system::error_code& error, std::size_t count) {
+                if (!error)
                 {
-                    return;
+                    OnRead({_chunk.data(), count});
+                    ReadAsync();
                 }
-                std::istream stream(&_buffer);
-                std::string line;
-                std::getline(stream, line);
-                _acs.OnOperator(line);
-                ReadAsync();
             });
+    }
+
+    void OnRead(std::string_view text)
+    {
+        for (const char letter : text)
+        {
+            if (letter == '\n')
+            {
+                _acs.OnOperator(std::exchange(_line, {}));
+            }
+            else if (_line.size() < MAX_LINE)
+            {
+                _line += letter;
+            }
+        }
     }
 };
 
