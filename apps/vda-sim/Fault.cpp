@@ -109,7 +109,7 @@ struct FaultParameter
     FaultReader read;
 };
 
-const std::array<FaultParameter, 19> PARAMETERS{
+constexpr std::array<FaultParameter, 19> PARAMETERS{
     {{"at",
       "DURATION",
       [](std::string_view text, Fault& fault) {

@@ -8,7 +8,7 @@ namespace
 {
 
 using namespace std::chrono_literals;
-using namespace VDA5050;
+using namespace VDA5050; // NOLINT(google-build-using-namespace): nearly every name of the test is one of it
 using VDA5050::Test::MakeAction;
 using VDA5050::Test::MakeEdges;
 using VDA5050::Test::MakeNodes;
@@ -49,14 +49,14 @@ protected:
         return std::make_unique<LinkedMaster>(_context, MakeLinkOptions("master"), options);
     }
 
-    [[nodiscard]] bool WaitUntil(const std::function<bool()>& isTrue)
+    [[nodiscard]] bool WasReached(const std::function<bool()>& isTrue)
     {
         return TryRunUntil(_context, isTrue);
     }
 
-    [[nodiscard]] bool WaitUntilReady(const std::unique_ptr<LinkedMaster>& master)
+    [[nodiscard]] bool WasReady(const std::unique_ptr<LinkedMaster>& master)
     {
-        return WaitUntil([&]() { return master->session.CanTakeOrder(); });
+        return WasReached([&]() { return master->session.CanTakeOrder(); });
     }
 
     /// N0 to N4; an action on N1 and on N3.
@@ -80,14 +80,14 @@ TEST_CASE_METHOD(BrokerTest, "13 Over a broker an order and its update are drive
     const auto vehicle = MakeVehicle();
     const auto master = MakeMaster();
     vehicle->LetReach(EVERYWHERE);
-    REQUIRE(WaitUntilReady(master));
-    REQUIRE(WaitUntil([&]() { return master->session.GetFactsheetOrNull() != nullptr; }));
+    REQUIRE(WasReady(master));
+    REQUIRE(WasReached([&]() { return master->session.GetFactsheetOrNull() != nullptr; }));
 
     OrderBuilder route = MakeRoute();
     REQUIRE(master->SendOrder(*route.MakeOrder(2)));
-    REQUIRE(WaitUntil([&]() { return master->ListReached().size() == 2; }));
+    REQUIRE(WasReached([&]() { return master->ListReached().size() == 2; }));
     REQUIRE(master->SendUpdate(*route.MakeUpdate(5)));
-    REQUIRE(WaitUntil([&]() { return master->Count<OrderFinished>() == 1; }));
+    REQUIRE(WasReached([&]() { return master->Count<OrderFinished>() == 1; }));
 
     CHECK(master->ListReached() == std::vector<std::uint32_t>{0, 2, 4, 6, 8});
     CHECK(master->Count<OrderAccepted>() == 2);
@@ -103,16 +103,16 @@ TEST_CASE_METHOD(BrokerTest, "5.4 Over a broker an order is cancelled on its way
 {
     const auto vehicle = MakeVehicle();
     const auto master = MakeMaster();
-    REQUIRE(WaitUntilReady(master));
+    REQUIRE(WasReady(master));
     OrderBuilder route = MakeRoute();
     vehicle->LetReach(2);
     REQUIRE(master->SendOrder(*route.MakeOrder(5)));
-    REQUIRE(WaitUntil([&]() { return master->ListReached().size() == 2; }));
+    REQUIRE(WasReached([&]() { return master->ListReached().size() == 2; }));
     REQUIRE(master->Do([](auto& session, Core::Now now, auto& out) { return session.Cancel(now, out); }));
-    REQUIRE(WaitUntil([&]() { return master->Count<OrderCancelled>() == 1; }));
+    REQUIRE(WasReached([&]() { return master->Count<OrderCancelled>() == 1; }));
     CHECK(vehicle->CountStarts("a3") == 0);
     CHECK(vehicle->Count<OrderCleared>() == 1);
-    REQUIRE(WaitUntil([&]() { return master->GetStatusOrNull("a3") == EActionStatus::Failed; }));
+    REQUIRE(WasReached([&]() { return master->GetStatusOrNull("a3") == EActionStatus::Failed; }));
 
     // From where it stands: the temporary first node of 5.4.
     vehicle->LetReach(EVERYWHERE);
@@ -120,7 +120,7 @@ TEST_CASE_METHOD(BrokerTest, "5.4 Over a broker an order is cancelled on its way
     nodes.erase(nodes.begin());
     OrderBuilder next = *OrderBuilder::Create("order-2", nodes, MakeEdges(1));
     REQUIRE(master->SendOrder(*next.MakeOrder(2)));
-    REQUIRE(WaitUntil([&]() { return master->Count<OrderFinished>() == 1; }));
+    REQUIRE(WasReached([&]() { return master->Count<OrderFinished>() == 1; }));
     CHECK(vehicle->Count<OrderTaken>() == 2);
 }
 
@@ -128,20 +128,20 @@ TEST_CASE_METHOD(BrokerTest, "5.3 Over a broker a vehicle is paused and goes on"
 {
     const auto vehicle = MakeVehicle();
     const auto master = MakeMaster();
-    REQUIRE(WaitUntilReady(master));
+    REQUIRE(WasReady(master));
     OrderBuilder route = MakeRoute();
     vehicle->LetReach(2);
     REQUIRE(master->SendOrder(*route.MakeOrder(5)));
-    REQUIRE(WaitUntil([&]() { return master->ListReached().size() == 2; }));
+    REQUIRE(WasReached([&]() { return master->ListReached().size() == 2; }));
     REQUIRE(master->SendAction(MakeAction("pause-1", EBlockingType::None, "startPause")));
-    REQUIRE(WaitUntil([&]() { return master->GetStatusOrNull("pause-1") == EActionStatus::Finished; }));
+    REQUIRE(WasReached([&]() { return master->GetStatusOrNull("pause-1") == EActionStatus::Finished; }));
     CHECK(master->session.GetStateOrNull()->bPaused == true);
     vehicle->LetReach(EVERYWHERE);
     REQUIRE(master->SendAction(MakeAction("status-1", EBlockingType::None, "stateRequest")));
-    REQUIRE(WaitUntil([&]() { return master->GetStatusOrNull("status-1") == EActionStatus::Finished; }));
+    REQUIRE(WasReached([&]() { return master->GetStatusOrNull("status-1") == EActionStatus::Finished; }));
     CHECK(master->ListReached().size() == 2);
     REQUIRE(master->SendAction(MakeAction("pause-2", EBlockingType::None, "stopPause")));
-    REQUIRE(WaitUntil([&]() { return master->Count<OrderFinished>() == 1; }));
+    REQUIRE(WasReached([&]() { return master->Count<OrderFinished>() == 1; }));
     CHECK(master->GetStatusOrNull("pause-2") == EActionStatus::Finished);
     CHECK(master->ListReached() == std::vector<std::uint32_t>{0, 2, 4, 6, 8});
 }
@@ -151,7 +151,7 @@ TEST_CASE_METHOD(BrokerTest, "5.7 Over a broker a map is downloaded, enabled and
     _version = EVda5050Version::Version210;
     const auto vehicle = MakeVehicle();
     const auto master = MakeMaster();
-    REQUIRE(WaitUntilReady(master));
+    REQUIRE(WasReady(master));
     const auto getMaps = [&]() {
         return master->session.GetStateOrNull()->maps.value_or(std::vector<MapState>{});
     };
@@ -164,7 +164,7 @@ TEST_CASE_METHOD(BrokerTest, "5.7 Over a broker a map is downloaded, enabled and
             action.actionParameters.push_back({"mapDownloadLink", Core::JsonText::FromString("https://maps.test/2")});
         }
         REQUIRE(master->SendAction(action));
-        REQUIRE(WaitUntil([&]() { return master->GetStatusOrNull(id) == EActionStatus::Finished; }));
+        REQUIRE(WasReached([&]() { return master->GetStatusOrNull(id) == EActionStatus::Finished; }));
     };
     run(ActionTypes::DOWNLOAD_MAP, "1", "m1");
     REQUIRE(getMaps().size() == 1);
@@ -184,20 +184,20 @@ TEST_CASE_METHOD(BrokerTest, "13 A broker that restarts in the middle of an orde
     _qos = QosTable(GENERATE(EQosProfile::Project, EQosProfile::Standard));
     const auto vehicle = MakeVehicle();
     const auto master = MakeMaster();
-    REQUIRE(WaitUntilReady(master));
+    REQUIRE(WasReady(master));
     OrderBuilder route = MakeRoute();
     vehicle->LetReach(2);
     REQUIRE(master->SendOrder(*route.MakeOrder(4)));
-    REQUIRE(WaitUntil([&]() { return master->ListReached().size() == 2; }));
+    REQUIRE(WasReached([&]() { return master->ListReached().size() == 2; }));
     _broker.Kill();
-    REQUIRE(WaitUntil([&]() { return master->session.GetLink() == EVehicleLink::Unknown; }));
+    REQUIRE(WasReached([&]() { return master->session.GetLink() == EVehicleLink::Unknown; }));
     // The update is asked for while there is no broker; the vehicle drives to the end of its base meanwhile.
     REQUIRE(master->SendUpdate(*route.MakeUpdate(5)));
     vehicle->LetReach(EVERYWHERE);
-    REQUIRE(WaitUntil([&]() { return vehicle->GetSession().GetState().lastNodeSequenceID == 6; }));
+    REQUIRE(WasReached([&]() { return vehicle->GetSession().GetState().lastNodeSequenceID == 6; }));
     CHECK(master->ListReached().size() == 2);
     _broker.Restart();
-    REQUIRE(WaitUntil([&]() { return master->Count<OrderFinished>() == 1; }));
+    REQUIRE(WasReached([&]() { return master->Count<OrderFinished>() == 1; }));
     CHECK(master->ListReached() == std::vector<std::uint32_t>{0, 2, 4, 6, 8});
     CHECK(vehicle->Count<OrderTaken>() == 2);
     CHECK(vehicle->Count<OrderRefused>() == 0);
@@ -213,17 +213,17 @@ TEST_CASE_METHOD(
 {
     auto vehicle = MakeVehicle();
     const auto master = MakeMaster();
-    REQUIRE(WaitUntilReady(master));
+    REQUIRE(WasReady(master));
     OrderBuilder route = MakeRoute();
     vehicle->LetReach(2);
     REQUIRE(master->SendOrder(*route.MakeOrder(5)));
-    REQUIRE(WaitUntil([&]() { return master->ListReached().size() == 2; }));
+    REQUIRE(WasReached([&]() { return master->ListReached().size() == 2; }));
     vehicle.reset();
-    REQUIRE(WaitUntil([&]() { return master->Count<VehicleBroken>() == 1; }));
+    REQUIRE(WasReached([&]() { return master->Count<VehicleBroken>() == 1; }));
     CHECK(master->session.GetLink() == EVehicleLink::Broken);
     CHECK(master->session.GetOrderPhase() == EOrderPhase::Active); // it may still be driving
     const auto reborn = MakeVehicle();
-    REQUIRE(WaitUntil([&]() { return master->Count<OrderLost>() == 1; }));
+    REQUIRE(WasReached([&]() { return master->Count<OrderLost>() == 1; }));
     CHECK(master->session.CanTakeOrder());
     CHECK(reborn->Count<OrderTaken>() == 0); // nothing of before was sent again
 }
@@ -234,27 +234,27 @@ TEST_CASE_METHOD(
 {
     const auto vehicle = MakeVehicle();
     auto master = MakeMaster();
-    REQUIRE(WaitUntilReady(master));
+    REQUIRE(WasReady(master));
     OrderBuilder route = MakeRoute();
     const OrderMessage order = *route.MakeOrder(3);
     vehicle->LetReach(2);
     REQUIRE(master->SendOrder(order));
-    REQUIRE(WaitUntil([&]() { return master->ListReached().size() == 2; }));
+    REQUIRE(WasReached([&]() { return master->ListReached().size() == 2; }));
     const bool bFinishedMeanwhile = GENERATE(false, true);
     master.reset();
     if (bFinishedMeanwhile)
     {
         vehicle->LetReach(EVERYWHERE);
-        REQUIRE(WaitUntil([&]() { return vehicle->GetSession().GetState().lastNodeSequenceID == 4; }));
+        REQUIRE(WasReached([&]() { return vehicle->GetSession().GetState().lastNodeSequenceID == 4; }));
     }
     master = MakeMaster();
-    REQUIRE(WaitUntilReady(master));
+    REQUIRE(WasReady(master));
     REQUIRE(master->SendOrder(order)); // as it was written down before it was sent
-    REQUIRE(WaitUntil([&]() { return master->Count<OrderAccepted>() == 1; }));
+    REQUIRE(WasReached([&]() { return master->Count<OrderAccepted>() == 1; }));
     const OrderMessage update = *route.MakeUpdate(5);
     REQUIRE(master->SendUpdate(update));
     vehicle->LetReach(EVERYWHERE);
-    REQUIRE(WaitUntil([&]() { return master->Count<OrderFinished>() == 1; }));
+    REQUIRE(WasReached([&]() { return master->Count<OrderFinished>() == 1; }));
     CHECK(master->ListReached() == std::vector<std::uint32_t>{0, 2, 4, 6, 8});
     CHECK(vehicle->Count<OrderTaken>() == 2);
     CHECK(vehicle->Count<OrderRefused>() == 0);

@@ -54,7 +54,7 @@ public:
     /// A PUBLISH with QoS 0; topic and payload together less than 120 bytes.
     [[nodiscard]] static std::string MakePublish(const std::string& topic, const std::string& payload)
     {
-        std::string packet = "\x30";
+        std::string packet(1, '\x30');
         packet += static_cast<char>(2 + topic.size() + payload.size());
         packet += '\0';
         packet += static_cast<char>(topic.size());

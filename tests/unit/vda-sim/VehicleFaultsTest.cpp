@@ -16,7 +16,6 @@ using namespace std::chrono_literals;
 using VDA5050::EActionStatus;
 using VDA5050::EErrorLevel;
 using VDA5050::EOperatingMode;
-using VDA5050::ETopic;
 using VdaSim::EFaultKind;
 
 /// Ten metres, from N0 to N1, and on to N2.

@@ -85,15 +85,16 @@ TEST_CASE("7 A NURBS without weights and with inner knots goes where the recursi
     // The definition by Cox and de Boor, as slow as it is.
     const auto& knots = curve.knotVector;
     const std::function<double(std::size_t, std::size_t, double)> getBasis =
-        [&](std::size_t i, std::size_t degree, double place) -> double {
+        [&](std::size_t index, std::size_t degree, double place) -> double {
         if (degree == 0)
         {
-            return knots[i] <= place && place < knots[i + 1] ? 1.0 : 0.0;
+            return knots[index] <= place && place < knots[index + 1] ? 1.0 : 0.0;
         }
-        const double left = knots[i + degree] - knots[i];
-        const double right = knots[i + degree + 1] - knots[i + 1];
-        return (left > 0.0 ? (place - knots[i]) / left * getBasis(i, degree - 1, place) : 0.0)
-            + (right > 0.0 ? (knots[i + degree + 1] - place) / right * getBasis(i + 1, degree - 1, place) : 0.0);
+        const double left = knots[index + degree] - knots[index];
+        const double right = knots[index + degree + 1] - knots[index + 1];
+        return (left > 0.0 ? (place - knots[index]) / left * getBasis(index, degree - 1, place) : 0.0)
+            + (right > 0.0 ? (knots[index + degree + 1] - place) / right * getBasis(index + 1, degree - 1, place)
+                           : 0.0);
     };
     const NurbsCurve nurbs(curve);
     for (int step = 0; step < 50; ++step)
