@@ -2,6 +2,7 @@
 
 #include "ActionFault.hpp"
 #include "OrderErrors.hpp"
+#include "OrderFindings.hpp"
 
 #include <algorithm>
 #include <array>
@@ -114,34 +115,6 @@ constexpr std::array ORDER_MEMBERS{
         }},
 };
 
-/// Collects the violations of one order.
-class Unusable
-{
-    const OrderMessage& _order;
-    std::vector<OrderViolation> _violations;
-
-public:
-    explicit Unusable(const OrderMessage& order)
-        : _order(order)
-    {
-    }
-
-    VehicleError& Add(std::string rule)
-    {
-        return _violations.emplace_back(MakeOrderViolation(_order, ErrorTypes::ORDER_ERROR, std::move(rule))).error;
-    }
-
-    [[nodiscard]] const OrderMessage& GetOrder() const
-    {
-        return _order;
-    }
-
-    [[nodiscard]] std::vector<OrderViolation> Take()
-    {
-        return std::move(_violations);
-    }
-};
-
 void AddElement(VehicleError& error, const OrderNode& node)
 {
     AddReference(error, ReferenceKeys::NODE_ID, node.nodeID);
@@ -179,7 +152,7 @@ void CheckMembers(
     const TElements& elements,
     const TMembers& members,
     const FactsheetMessage& factsheet,
-    Unusable& unusable)
+    OrderFindings& unusable)
 {
     for (const auto& member : members)
     {
@@ -204,7 +177,11 @@ void CheckMembers(
 }
 
 template <typename TElement>
-void CheckActions(const TElement& element, EActionScope scope, const FactsheetMessage& factsheet, Unusable& unusable)
+void CheckActions(
+    const TElement& element,
+    EActionScope scope,
+    const FactsheetMessage& factsheet,
+    OrderFindings& unusable)
 {
     for (const Action& action : element.actions)
     {
@@ -262,7 +239,7 @@ OrderSizes Measure(const OrderMessage& order)
     return sizes;
 }
 
-void CheckSizes(const OrderContext& context, Unusable& unusable)
+void CheckSizes(const OrderContext& context, OrderFindings& unusable)
 {
     struct Limit
     {
@@ -309,7 +286,7 @@ void CheckSizes(const OrderContext& context, Unusable& unusable)
     }
 }
 
-void CheckMaps(const OrderContext& context, Unusable& unusable)
+void CheckMaps(const OrderContext& context, OrderFindings& unusable)
 {
     if (context.mapIDs.empty() && !context.bMapsKnown)
     {
@@ -332,7 +309,7 @@ void CheckMaps(const OrderContext& context, Unusable& unusable)
 
 std::vector<OrderViolation> FindUnusable(const OrderMessage& order, const OrderContext& context)
 {
-    Unusable unusable(order);
+    OrderFindings unusable(order, ErrorTypes::ORDER_ERROR);
     if (context.factsheet != nullptr)
     {
         const FactsheetMessage& factsheet = *context.factsheet;

@@ -1,5 +1,6 @@
 #include "AngleBound.hpp"
 #include "OrderErrors.hpp"
+#include "OrderFindings.hpp"
 #include <acs/vda5050/OrderValidator.hpp>
 #include <acs/vda5050/Topic.hpp>
 
@@ -20,36 +21,7 @@ namespace
 constexpr std::uint32_t SEQUENCE_STEP = 2;
 constexpr double NO_BOUND = std::numeric_limits<double>::max();
 
-/// Collects the violations of one order.
-class Findings
-{
-    const OrderMessage& _order;
-    std::vector<OrderViolation> _violations;
-
-public:
-    explicit Findings(const OrderMessage& order)
-        : _order(order)
-    {
-    }
-
-    void Add(std::string rule)
-    {
-        _violations.push_back(MakeOrderViolation(_order, ErrorTypes::VALIDATION_ERROR, std::move(rule)));
-    }
-
-    void Add(const std::string& rule, std::string_view key, const std::string& value)
-    {
-        Add(rule + ": " + value);
-        AddReference(_violations.back().error, key, value);
-    }
-
-    [[nodiscard]] std::vector<OrderViolation> Take()
-    {
-        return std::move(_violations);
-    }
-};
-
-void CheckSequence(const OrderMessage& order, Findings& findings)
+void CheckSequence(const OrderMessage& order, OrderFindings& findings)
 {
     std::uint32_t expected = order.nodes.front().sequenceID;
     if (expected % SEQUENCE_STEP != 0)
@@ -74,7 +46,7 @@ void CheckSequence(const OrderMessage& order, Findings& findings)
     }
 }
 
-void CheckBase(const OrderMessage& order, Findings& findings)
+void CheckBase(const OrderMessage& order, OrderFindings& findings)
 {
     if (!order.nodes.front().bReleased)
     {
@@ -95,7 +67,7 @@ void CheckBase(const OrderMessage& order, Findings& findings)
     }
 }
 
-void CheckTrajectory(const OrderEdge& edge, Findings& findings)
+void CheckTrajectory(const OrderEdge& edge, OrderFindings& findings)
 {
     if (!edge.trajectory.has_value())
     {
@@ -135,7 +107,7 @@ bool HasBadNumbers(const OrderEdge& edge)
         || !IsWithin(edge.maxRotationSpeed, 0.0, NO_BOUND) || !IsWithin(edge.length, 0.0, NO_BOUND);
 }
 
-void CheckNodes(const OrderMessage& order, Findings& findings)
+void CheckNodes(const OrderMessage& order, OrderFindings& findings)
 {
     for (const OrderNode& node : order.nodes)
     {
@@ -150,7 +122,7 @@ void CheckNodes(const OrderMessage& order, Findings& findings)
     }
 }
 
-void CheckEdges(const OrderMessage& order, Findings& findings)
+void CheckEdges(const OrderMessage& order, OrderFindings& findings)
 {
     for (std::size_t index = 0; index < order.edges.size(); ++index)
     {
@@ -171,7 +143,7 @@ void CheckEdges(const OrderMessage& order, Findings& findings)
     }
 }
 
-void CheckActions(const OrderMessage& order, Findings& findings)
+void CheckActions(const OrderMessage& order, OrderFindings& findings)
 {
     std::vector<std::string_view> ids;
     const auto check = [&ids, &findings](const std::vector<Action>& actions) {
@@ -222,7 +194,7 @@ OrderViolation MakeOrderViolation(const OrderMessage& order, std::string_view er
 
 std::vector<OrderViolation> ValidateOrder(const OrderMessage& order)
 {
-    Findings findings(order);
+    OrderFindings findings(order, ErrorTypes::VALIDATION_ERROR);
     if (order.orderID.empty())
     {
         findings.Add("an order has an orderId");

@@ -22,7 +22,7 @@ bool VehicleSession::IsStanding() const
     return !_bDriving && !_bHalting;
 }
 
-void VehicleSession::StartPause(const Action& action, const Header& header, VehicleActions& out)
+bool VehicleSession::IsPauseOverridden(const Action& action, const Header& header)
 {
     if (_bPauseOverridden)
     {
@@ -30,7 +30,15 @@ void VehicleSession::StartPause(const Action& action, const Header& header, Vehi
             action,
             header,
             ErrorTypes::INSTANT_ACTION_ERROR,
-            "the vehicle's own switch overrides startPause");
+            "the vehicle's own switch overrides " + action.actionType);
+    }
+    return _bPauseOverridden;
+}
+
+void VehicleSession::StartPause(const Action& action, const Header& header, VehicleActions& out)
+{
+    if (IsPauseOverridden(action, header))
+    {
         return;
     }
     AddInstantAction(action, EActionStatus::Running);
@@ -45,13 +53,8 @@ void VehicleSession::StartPause(const Action& action, const Header& header, Vehi
 
 void VehicleSession::StopPause(const Action& action, const Header& header, VehicleActions& out)
 {
-    if (_bPauseOverridden)
+    if (IsPauseOverridden(action, header))
     {
-        FailInstantAction(
-            action,
-            header,
-            ErrorTypes::INSTANT_ACTION_ERROR,
-            "the vehicle's own switch overrides stopPause");
         return;
     }
     for (const std::string& actionID : std::exchange(_pauseActionIDs, {}))
@@ -192,17 +195,22 @@ void VehicleSession::FinishCancelIfStanding(VehicleActions& out)
     }
 }
 
-void VehicleSession::ClearOrder(VehicleActions& out)
+void VehicleSession::ForgetRoute()
 {
     _nodes.clear();
     _edges.clear();
     _actionQueue.clear();
     _bEdgeEntered = false;
-    _bLegActive = false;
     _bLegBegun = false;
+    _bHeldByFailure = false;
+}
+
+void VehicleSession::ClearOrder(VehicleActions& out)
+{
+    ForgetRoute();
+    _bLegActive = false;
     _bLastLeg = false;
     _bCleared = true;
-    _bHeldByFailure = false;
     _bOrderRunning = false;
     _bStateDue = true;
     for (const std::string& actionID : std::exchange(_cancelActionIDs, {}))

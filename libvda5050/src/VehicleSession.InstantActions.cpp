@@ -26,13 +26,8 @@ void VehicleSession::OnInstantActions(std::string_view payload, Core::Now now, V
         RefusePayload(ETopic::InstantActions, payload, message.error(), out);
         return;
     }
-    if (IsForeign(ETopic::InstantActions, message->header, out))
+    if (!ShouldTake(ETopic::InstantActions, message->header, out))
     {
-        return;
-    }
-    if (!ReadVersionOrNull(message->header.version).has_value())
-    {
-        RefuseVersion(ETopic::InstantActions, message->header, out);
         return;
     }
     for (SessionError& known : _sessionErrors)

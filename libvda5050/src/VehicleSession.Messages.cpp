@@ -133,8 +133,16 @@ void VehicleSession::RefusePayload(
     out.emplace_back(MessageIgnored{topic, error});
 }
 
-void VehicleSession::RefuseVersion(ETopic topic, const Header& header, VehicleActions& out)
+bool VehicleSession::ShouldTake(ETopic topic, const Header& header, VehicleActions& out)
 {
+    if (IsForeign(topic, header, out))
+    {
+        return false;
+    }
+    if (ReadVersionOrNull(header.version).has_value())
+    {
+        return true;
+    }
     VehicleError report;
     report.errorType = ErrorTypes::VALIDATION_ERROR;
     report.errorDescription = "protocol version 2.x expected, found " + header.version;
@@ -146,6 +154,7 @@ void VehicleSession::RefuseVersion(ETopic topic, const Header& header, VehicleAc
     out.emplace_back(MessageIgnored{
         topic,
         Core::Error{make_error_code(EVda5050Error::UnsupportedVersion), "version", "2.x", header.version}});
+    return false;
 }
 
 void VehicleSession::OnOrder(std::string_view payload, VehicleActions& out)
@@ -156,13 +165,8 @@ void VehicleSession::OnOrder(std::string_view payload, VehicleActions& out)
         RefusePayload(ETopic::Order, payload, order.error(), out);
         return;
     }
-    if (IsForeign(ETopic::Order, order->header, out))
+    if (!ShouldTake(ETopic::Order, order->header, out))
     {
-        return;
-    }
-    if (!ReadVersionOrNull(order->header.version).has_value())
-    {
-        RefuseVersion(ETopic::Order, order->header, out);
         return;
     }
     OrderContext context = MakeContext();
@@ -251,13 +255,8 @@ void VehicleSession::TakeNewOrder(OrderMessage order, VehicleActions& out)
         return tracked.scope != EActionScope::Instant || IsTerminal(tracked.machine.GetStatus());
     });
     _sessionErrors.clear();
-    _actionQueue.clear();
-    _nodes.clear();
-    _edges.clear();
-    _bEdgeEntered = false;
-    _bLegBegun = false;
+    ForgetRoute();
     _bCleared = false;
-    _bHeldByFailure = false;
     _bOrderRunning = true;
     _orderID = order.orderID;
     _orderUpdateID = order.orderUpdateID;

@@ -67,6 +67,18 @@ protected:
         nodes[3].actions.push_back(MakeAction("a3", EBlockingType::Soft, "detectObject"));
         return *OrderBuilder::Create("order-1", nodes, MakeEdges(4));
     }
+
+    /// The vehicle has passed N0 and N1 and is held before N2.
+    void DriveToFirstAction(
+        const std::unique_ptr<LinkedVehicle>& vehicle,
+        const std::unique_ptr<LinkedMaster>& master,
+        const OrderMessage& order)
+    {
+        REQUIRE(WasReady(master));
+        vehicle->LetReach(2);
+        REQUIRE(master->SendOrder(order));
+        REQUIRE(WasReached([&]() { return master->ListReached().size() == 2; }));
+    }
 };
 
 } // namespace
@@ -103,11 +115,7 @@ TEST_CASE_METHOD(BrokerTest, "5.4 Over a broker an order is cancelled on its way
 {
     const auto vehicle = MakeVehicle();
     const auto master = MakeMaster();
-    REQUIRE(WasReady(master));
-    OrderBuilder route = MakeRoute();
-    vehicle->LetReach(2);
-    REQUIRE(master->SendOrder(*route.MakeOrder(5)));
-    REQUIRE(WasReached([&]() { return master->ListReached().size() == 2; }));
+    DriveToFirstAction(vehicle, master, *MakeRoute().MakeOrder(5));
     REQUIRE(master->Do([](auto& session, Core::Now now, auto& out) { return session.Cancel(now, out); }));
     REQUIRE(WasReached([&]() { return master->Count<OrderCancelled>() == 1; }));
     CHECK(vehicle->CountStarts("a3") == 0);
@@ -128,11 +136,7 @@ TEST_CASE_METHOD(BrokerTest, "5.3 Over a broker a vehicle is paused and goes on"
 {
     const auto vehicle = MakeVehicle();
     const auto master = MakeMaster();
-    REQUIRE(WasReady(master));
-    OrderBuilder route = MakeRoute();
-    vehicle->LetReach(2);
-    REQUIRE(master->SendOrder(*route.MakeOrder(5)));
-    REQUIRE(WasReached([&]() { return master->ListReached().size() == 2; }));
+    DriveToFirstAction(vehicle, master, *MakeRoute().MakeOrder(5));
     REQUIRE(master->SendAction(MakeAction("pause-1", EBlockingType::None, "startPause")));
     REQUIRE(WasReached([&]() { return master->GetStatusOrNull("pause-1") == EActionStatus::Finished; }));
     CHECK(master->session.GetStateOrNull()->bPaused == true);
@@ -184,11 +188,8 @@ TEST_CASE_METHOD(BrokerTest, "13 A broker that restarts in the middle of an orde
     _qos = QosTable(GENERATE(EQosProfile::Project, EQosProfile::Standard));
     const auto vehicle = MakeVehicle();
     const auto master = MakeMaster();
-    REQUIRE(WasReady(master));
     OrderBuilder route = MakeRoute();
-    vehicle->LetReach(2);
-    REQUIRE(master->SendOrder(*route.MakeOrder(4)));
-    REQUIRE(WasReached([&]() { return master->ListReached().size() == 2; }));
+    DriveToFirstAction(vehicle, master, *route.MakeOrder(4));
     _broker.Kill();
     REQUIRE(WasReached([&]() { return master->session.GetLink() == EVehicleLink::Unknown; }));
     // The update is asked for while there is no broker; the vehicle drives to the end of its base meanwhile.
@@ -213,11 +214,7 @@ TEST_CASE_METHOD(
 {
     auto vehicle = MakeVehicle();
     const auto master = MakeMaster();
-    REQUIRE(WasReady(master));
-    OrderBuilder route = MakeRoute();
-    vehicle->LetReach(2);
-    REQUIRE(master->SendOrder(*route.MakeOrder(5)));
-    REQUIRE(WasReached([&]() { return master->ListReached().size() == 2; }));
+    DriveToFirstAction(vehicle, master, *MakeRoute().MakeOrder(5));
     vehicle.reset();
     REQUIRE(WasReached([&]() { return master->Count<VehicleBroken>() == 1; }));
     CHECK(master->session.GetLink() == EVehicleLink::Broken);
@@ -234,12 +231,9 @@ TEST_CASE_METHOD(
 {
     const auto vehicle = MakeVehicle();
     auto master = MakeMaster();
-    REQUIRE(WasReady(master));
     OrderBuilder route = MakeRoute();
     const OrderMessage order = *route.MakeOrder(3);
-    vehicle->LetReach(2);
-    REQUIRE(master->SendOrder(order));
-    REQUIRE(WasReached([&]() { return master->ListReached().size() == 2; }));
+    DriveToFirstAction(vehicle, master, order);
     const bool bFinishedMeanwhile = GENERATE(false, true);
     master.reset();
     if (bFinishedMeanwhile)

@@ -111,7 +111,7 @@ class VehicleSession
         VehicleActions& out);
     [[nodiscard]] bool IsForeign(ETopic topic, const Header& header, VehicleActions& out) const;
     void RefusePayload(ETopic topic, std::string_view payload, const Core::Error& error, VehicleActions& out);
-    void RefuseVersion(ETopic topic, const Header& header, VehicleActions& out);
+    [[nodiscard]] bool ShouldTake(ETopic topic, const Header& header, VehicleActions& out);
     void AddSessionError(VehicleError error, EErrorLifetime lifetime);
     [[nodiscard]] OrderContext MakeContext() const;
     void RefuseOrder(const OrderMessage& order, OrderJudgement judgement, VehicleActions& out);
@@ -148,6 +148,7 @@ class VehicleSession
         const Header& header,
         std::string_view errorType,
         const std::string& reason);
+    [[nodiscard]] bool IsPauseOverridden(const Action& action, const Header& header);
     void StartPause(const Action& action, const Header& header, VehicleActions& out);
     void StopPause(const Action& action, const Header& header, VehicleActions& out);
     void EnterPause(VehicleActions& out);
@@ -157,6 +158,7 @@ class VehicleSession
     void StartCancel(const Action& action, const Header& header, VehicleActions& out);
     void StopOrderActions(VehicleActions& out);
     void StopMoving(VehicleActions& out);
+    void ForgetRoute();
     void ClearOrder(VehicleActions& out);
     void FinishCancelIfStanding(VehicleActions& out);
     void FinishPauseIfStanding();

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "OrderErrors.hpp"
+#include <acs/vda5050/OrderValidator.hpp>
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace ACS::VDA5050
+{
+
+/// Collects the violations of one order, all of one errorType.
+class OrderFindings
+{
+    const OrderMessage& _order;
+    std::string_view _errorType;
+    std::vector<OrderViolation> _violations;
+
+public:
+    /// The order outlives the findings; so does the text of the type.
+    OrderFindings(const OrderMessage& order, std::string_view errorType)
+        : _order(order),
+          _errorType(errorType)
+    {
+    }
+
+    /// The error as it will be reported, for further references; valid until the next call.
+    VehicleError& Add(std::string rule)
+    {
+        return _violations.emplace_back(MakeOrderViolation(_order, _errorType, std::move(rule))).error;
+    }
+
+    /// With the value that breaks the rule, and a reference to it.
+    void Add(const std::string& rule, std::string_view key, const std::string& value)
+    {
+        AddReference(Add(rule + ": " + value), key, value);
+    }
+
+    [[nodiscard]] const OrderMessage& GetOrder() const noexcept
+    {
+        return _order;
+    }
+
+    [[nodiscard]] std::vector<OrderViolation> Take()
+    {
+        return std::move(_violations);
+    }
+};
+
+} // namespace ACS::VDA5050
