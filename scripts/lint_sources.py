@@ -59,7 +59,9 @@ class Fingerprints:
                 if target not in seen:
                     seen.add(target)
                     waiting.append(target)
-        digest = hashlib.sha256((self._rules + "\0" + command.replace(ROOT, "")).encode())
+        # Word by word: a clone in a folder with a space in its name has quotes that mean nothing.
+        words = " ".join(shlex.split(command)).replace(ROOT, "")
+        digest = hashlib.sha256((self._rules + "\0" + words).encode())
         for name in sorted(seen):
             digest.update((name + "\0" + read_text(ROOT, name)).encode())
         return digest.hexdigest()
