@@ -64,6 +64,17 @@ void FillRequest(
 
 } // namespace
 
+ServerSessionStats& ServerSessionStats::operator+=(const ServerSessionStats& other) noexcept
+{
+    dataLines += other.dataLines;
+    replacedLines += other.replacedLines;
+    skippedTicks += other.skippedTicks;
+    commands += other.commands;
+    errorLines += other.errorLines;
+    controlErrors += other.controlErrors;
+    return *this;
+}
+
 ServerSession::ServerSession(const ServerSessionOptions& options)
     : _options(options),
       _framer(options.longestLine),

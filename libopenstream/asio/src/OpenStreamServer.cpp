@@ -26,6 +26,7 @@ class OpenStreamServer::Impl final : public std::enable_shared_from_this<OpenStr
     OpenStream::IOpenApiService& _service;
     std::shared_ptr<Net::TcpListener> _listener;
     std::vector<std::shared_ptr<ServerConnection>> _connections;
+    OpenStream::ServerSessionStats _endedStats;
 
     void OnAccepted(boost::asio::ip::tcp::socket socket)
     {
@@ -58,6 +59,7 @@ class OpenStreamServer::Impl final : public std::enable_shared_from_this<OpenStr
 
     void Forget(const ServerConnection& closed)
     {
+        _endedStats += closed.GetStats();
         std::erase_if(_connections, [&closed](const auto& connection) { return connection.get() == &closed; });
     }
 
@@ -99,6 +101,7 @@ public:
     {
         for (const std::shared_ptr<ServerConnection>& connection : std::exchange(_connections, {}))
         {
+            _endedStats += connection->GetStats();
             connection->Abort();
         }
     }
@@ -111,6 +114,16 @@ public:
     [[nodiscard]] std::size_t GetSessionCount() const noexcept
     {
         return _connections.size();
+    }
+
+    [[nodiscard]] OpenStream::ServerSessionStats GetStats() const noexcept
+    {
+        OpenStream::ServerSessionStats total = _endedStats;
+        for (const std::shared_ptr<ServerConnection>& connection : _connections)
+        {
+            total += connection->GetStats();
+        }
+        return total;
     }
 };
 
@@ -152,6 +165,11 @@ std::uint16_t OpenStreamServer::GetPort() const noexcept
 std::size_t OpenStreamServer::GetSessionCount() const noexcept
 {
     return _impl->GetSessionCount();
+}
+
+OpenStream::ServerSessionStats OpenStreamServer::GetStats() const noexcept
+{
+    return _impl->GetStats();
 }
 
 } // namespace ACS::OpenStreamAsio

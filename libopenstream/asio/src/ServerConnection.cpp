@@ -97,6 +97,11 @@ void ServerConnection::Abort()
     static_cast<void>(_socket.close(ignored));
 }
 
+const OpenStream::ServerSessionStats& ServerConnection::GetStats() const noexcept
+{
+    return _session.GetStats();
+}
+
 /// Carries out the batch. What it leads to at once (the answer of a service) joins the batch.
 void ServerConnection::Execute()
 {

@@ -76,6 +76,8 @@ public:
     void Reject(std::string_view message);
     /// Closes at once. The closed handler is not called.
     void Abort();
+
+    [[nodiscard]] const OpenStream::ServerSessionStats& GetStats() const noexcept;
 };
 
 } // namespace ACS::OpenStreamAsio

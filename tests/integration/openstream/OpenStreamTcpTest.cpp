@@ -1,6 +1,7 @@
 #include "Catch.hpp"
 #include "RecordingLogSink.hpp"
 #include "SeededRandom.hpp"
+#include "SteadySystemClock.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/openstream_asio/OpenStreamClient.hpp>
 #include <acs/openstream_asio/OpenStreamServer.hpp>
@@ -31,15 +32,6 @@ namespace
 
 constexpr std::chrono::seconds LIMIT{10};
 
-class SystemClock final : public ACS::Core::IClock
-{
-public:
-    [[nodiscard]] ACS::Core::Now GetNow() const override
-    {
-        return ACS::Core::Now{std::chrono::steady_clock::now(), std::chrono::system_clock::now()};
-    }
-};
-
 class CountingService final : public IOpenApiService
 {
 public:
@@ -69,7 +61,7 @@ class Fixture
 {
 public:
     boost::asio::io_context context;
-    SystemClock clock;
+    ACS::Testing::SteadySystemClock clock;
     ACS::Testing::SeededRandom random;
     ACS::Testing::RecordingLogSink log;
     CountingService service;
@@ -259,6 +251,10 @@ TEST_CASE("3 Handshake, a MONITOR at 20 ms delivers, a good CONTROL is accepted,
     client->Stop();
     REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientEnded>() == 1; }));
     REQUIRE(fixture.TryRunUntil([&]() { return server->GetSessionCount() == 0; }));
+    const ServerSessionStats stats = server->GetStats(); // of the session that has ended
+    REQUIRE(stats.dataLines >= fixture.Count<ClientData>());
+    REQUIRE(stats.controlErrors == 1);
+    REQUIRE(stats.errorLines == 0);
 }
 
 TEST_CASE("8 A server that comes back finds the client again, with its MONITOR")
@@ -304,6 +300,7 @@ TEST_CASE("8 Sessions that are dropped without a line come back")
     REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientReady>() == 1; }));
     server->DropSessions();
     REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientReady>() == 2; }));
+    REQUIRE(server->GetStats().commands == 2); // a HANDSHAKE of each session
 }
 
 TEST_CASE("1 7.33 7.34 Half lines, CRLF and garbage over a real socket")

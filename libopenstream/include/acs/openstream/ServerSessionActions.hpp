@@ -131,6 +131,7 @@ struct ServerSessionStats
     std::uint64_t controlErrors = 0; ///< control_err lines.
 
     bool operator==(const ServerSessionStats&) const = default;
+    ServerSessionStats& operator+=(const ServerSessionStats& other) noexcept;
 };
 
 } // namespace ACS::OpenStream

@@ -55,6 +55,9 @@ public:
     /// The port that it listens on; 0 where it does not.
     [[nodiscard]] std::uint16_t GetPort() const noexcept;
     [[nodiscard]] std::size_t GetSessionCount() const noexcept;
+
+    /// What all sessions did since the server was made, those that have ended too.
+    [[nodiscard]] OpenStream::ServerSessionStats GetStats() const noexcept;
 };
 
 } // namespace ACS::OpenStreamAsio

@@ -1,0 +1,177 @@
+#include "BareStream.hpp"
+
+#include "ContextThread.hpp"
+
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/write.hpp>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace ACS::Load
+{
+
+namespace
+{
+
+using Tcp = boost::asio::ip::tcp;
+
+constexpr std::size_t LINE_BYTES = 200;
+constexpr std::chrono::milliseconds WARM_UP{200};
+constexpr std::chrono::seconds LAST_LINES{5};
+
+class BareSender
+{
+    Tcp::acceptor _acceptor;
+    Tcp::socket _socket;
+    boost::asio::steady_timer _timer;
+    std::string _line = std::string(LINE_BYTES - 1, 'x') + '\n';
+    Core::SteadyTime _next;
+    bool _bStopped = false;
+
+    void WaitAsync()
+    {
+        _timer.expires_at(_next);
+        _timer.async_wait([this](const boost::system::error_code& error) {
+            if (!error && !_bStopped)
+            {
+                Tick();
+            }
+        });
+    }
+
+    void Tick()
+    {
+        const auto missed = (std::chrono::steady_clock::now() - _next) / Core::Duration(PERIOD);
+        skipped += static_cast<std::uint64_t>(missed);
+        _next += PERIOD * (missed + 1);
+        WaitAsync();
+        boost::asio::async_write(
+            _socket,
+            boost::asio::buffer(_line),
+            [this](const boost::system::error_code& error, std::size_t /*size*/) { sent += error ? 0U : 1U; });
+    }
+
+public:
+    std::uint64_t sent = 0;
+    std::uint64_t skipped = 0;
+
+    explicit BareSender(boost::asio::io_context& context)
+        : _acceptor(context, Tcp::endpoint(boost::asio::ip::address_v4::loopback(), 0)),
+          _socket(context),
+          _timer(context)
+    {
+        _acceptor.async_accept(_socket, [this](const boost::system::error_code& error) {
+            if (!error)
+            {
+                _socket.set_option(Tcp::no_delay(true));
+                _next = std::chrono::steady_clock::now() + PERIOD;
+                WaitAsync();
+            }
+        });
+    }
+
+    [[nodiscard]] Tcp::endpoint GetEndpoint() const
+    {
+        return _acceptor.local_endpoint();
+    }
+
+    void Stop()
+    {
+        _bStopped = true;
+        _timer.cancel();
+    }
+};
+
+class BareReader
+{
+    Tcp::socket _socket;
+    GapLog& _log;
+    std::array<char, 4096> _input{};
+    std::optional<Core::SteadyTime> _last;
+
+    void ReadAsync()
+    {
+        _socket.async_read_some(
+            boost::asio::buffer(_input),
+            [this](const boost::system::error_code& error, std::size_t size) {
+                if (!error)
+                {
+                    Take(size);
+                    ReadAsync();
+                }
+            });
+    }
+
+    void Take(std::size_t size)
+    {
+        const Core::SteadyTime now = std::chrono::steady_clock::now();
+        const auto lines =
+            std::count(_input.begin(), std::next(_input.begin(), static_cast<std::ptrdiff_t>(size)), '\n');
+        for (std::ptrdiff_t line = 0; line < lines; ++line)
+        {
+            ++received;
+            if (bRecording && _last.has_value())
+            {
+                _log.Note(*_last, now);
+            }
+            _last = bRecording ? std::optional(now) : std::nullopt;
+        }
+    }
+
+public:
+    std::uint64_t received = 0;
+    bool bRecording = false;
+
+    BareReader(boost::asio::io_context& context, const Tcp::endpoint& endpoint, GapLog& log)
+        : _socket(context),
+          _log(log)
+    {
+        _socket.connect(endpoint);
+        ReadAsync();
+    }
+};
+
+} // namespace
+
+void RunBareTurn(std::chrono::milliseconds duration, StreamFigures& figures)
+{
+    ContextThread server;
+    boost::asio::io_context context(1);
+    std::optional<BareSender> sender;
+    server.Call([&]() { sender.emplace(server.GetContext()); });
+    BareReader reader(context, sender->GetEndpoint(), figures.frames);
+    context.run_for(WARM_UP);
+
+    const Core::Duration serverBefore = server.GetProcessorTime();
+    const Core::Duration clientBefore = GetOwnProcessorTime();
+    reader.bRecording = true;
+    context.run_for(duration);
+    reader.bRecording = false;
+    figures.elapsed += duration;
+    figures.serverTime += server.GetProcessorTime() - serverBefore;
+    figures.clientTime += GetOwnProcessorTime() - clientBefore;
+
+    server.Call([&]() { sender->Stop(); });
+    const Core::SteadyTime end = std::chrono::steady_clock::now() + LAST_LINES;
+    std::uint64_t sent = 0;
+    do
+    {
+        server.Call([&]() { sent = sender->sent; });
+        context.run_for(PERIOD);
+    }
+    while (reader.received < sent && std::chrono::steady_clock::now() < end);
+    figures.framesSent += sent;
+    figures.framesReceived += reader.received;
+    figures.framesAtPeriod += reader.received;
+    figures.ticksSkipped += sender->skipped;
+    figures.periods += static_cast<std::int64_t>(sent + sender->skipped);
+    server.Stop();
+}
+
+} // namespace ACS::Load
