@@ -213,8 +213,8 @@ bool HasDuplicateNamesHere(const Value& object)
 } // namespace
 
 JsonDocument::JsonDocument()
-    : _valueBuffer(std::make_unique<char[]>(VALUE_POOL_BYTES)), // NOLINT(modernize-avoid-c-arrays)
-      _stackBuffer(std::make_unique<char[]>(STACK_POOL_BYTES)), // NOLINT(modernize-avoid-c-arrays)
+    : _valueBuffer(std::make_unique_for_overwrite<char[]>(VALUE_POOL_BYTES)), // NOLINT(modernize-avoid-c-arrays)
+      _stackBuffer(std::make_unique_for_overwrite<char[]>(STACK_POOL_BYTES)), // NOLINT(modernize-avoid-c-arrays)
       _valuePool(_valueBuffer.get(), VALUE_POOL_BYTES),
       _stackPool(_stackBuffer.get(), STACK_POOL_BYTES)
 {

@@ -13,11 +13,6 @@
 namespace ACS::VDA5050
 {
 
-struct Vda5050Codec::Scratch
-{
-    Json::JsonDocument document;
-};
-
 /// What WrittenIn takes: a version of the protocol is a dialect, and has another one for visualization, whose schemas know
 /// less of a position than those of state.
 namespace Dialects
@@ -49,8 +44,9 @@ template <typename TMessage>
 Core::Result<TMessage> Vda5050Codec::Decode(std::string_view payload)
 {
     _tolerance = {};
+    Json::JsonDocument document;
     const Core::Result<const Json::Value*> root =
-        _scratch->document.Parse(payload, Json::ParseLimits{_limits.payloadBytes, _limits.depth});
+        document.Parse(payload, Json::ParseLimits{_limits.payloadBytes, _limits.depth});
     if (!root)
     {
         return tl::unexpected(root.error());

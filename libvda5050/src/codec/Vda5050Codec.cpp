@@ -23,14 +23,9 @@ namespace ACS::VDA5050
 {
 
 Vda5050Codec::Vda5050Codec(const CodecLimits& limits)
-    : _scratch(std::make_unique<Scratch>()),
-      _limits(limits)
+    : _limits(limits)
 {
 }
-
-Vda5050Codec::Vda5050Codec(Vda5050Codec&& other) noexcept = default;
-Vda5050Codec& Vda5050Codec::operator=(Vda5050Codec&& other) noexcept = default;
-Vda5050Codec::~Vda5050Codec() = default;
 
 const DecodeTolerance& Vda5050Codec::GetTolerance() const noexcept
 {
@@ -39,8 +34,9 @@ const DecodeTolerance& Vda5050Codec::GetTolerance() const noexcept
 
 Core::Result<MessageIdentity> Vda5050Codec::DecodeIdentity(std::string_view payload)
 {
+    Json::JsonDocument document;
     const Core::Result<const Json::Value*> root =
-        _scratch->document.Parse(payload, Json::ParseLimits{_limits.payloadBytes, _limits.depth});
+        document.Parse(payload, Json::ParseLimits{_limits.payloadBytes, _limits.depth});
     if (!root)
     {
         return tl::unexpected(root.error());

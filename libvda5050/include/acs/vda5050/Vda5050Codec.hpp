@@ -11,7 +11,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -50,22 +49,15 @@ struct MessageIdentity
 
 /// Turns payloads into messages and back. Reads 2.0 and 2.1 and what their schemas misspell (allowedDeviationXy,
 /// actionName, instantActions); writes one version strictly: members that it does not know are left out.
-/// Total: bad input is an error value with its JSON path. Keeps its buffers between calls; one thread at a time.
+/// Total: bad input is an error value with its JSON path. Holds no buffers between calls, so that hundreds of sessions
+/// with a codec each cost nothing; one thread at a time.
 class Vda5050Codec
 {
-    struct Scratch;
-
-    std::unique_ptr<Scratch> _scratch;
     CodecLimits _limits;
     DecodeTolerance _tolerance;
 
 public:
     explicit Vda5050Codec(const CodecLimits& limits = {});
-    Vda5050Codec(const Vda5050Codec&) = delete;
-    Vda5050Codec& operator=(const Vda5050Codec&) = delete;
-    Vda5050Codec(Vda5050Codec&& other) noexcept;
-    Vda5050Codec& operator=(Vda5050Codec&& other) noexcept;
-    ~Vda5050Codec();
 
     /// TMessage is one of the six messages. Errors are Core::ECoreError with the path, expected and found.
     template <typename TMessage>
