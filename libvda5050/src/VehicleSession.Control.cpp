@@ -155,9 +155,8 @@ void VehicleSession::StartCancel(const Action& action, const Header& header, Veh
     }
     // Bound to nodes, and between two of them, be it paused: drives on to the next one, whose actions have failed.
     _bLastLeg = true;
-    _nodes.erase(_nodes.begin() + 1, _nodes.end());
-    _edges.erase(_edges.begin() + 1, _edges.end());
-    _nodes.front().actions.clear();
+    _route.Cut(1);
+    _route.DropFrontActions();
 }
 
 /// Those that wait have failed; those that run are told to stop.
@@ -188,7 +187,7 @@ void VehicleSession::FinishCancelIfStanding(VehicleActions& out)
     const bool bRuns = std::ranges::any_of(_actions, [](const TrackedAction& tracked) {
         return tracked.scope != EActionScope::Instant && !IsTerminal(tracked.machine.GetStatus());
     });
-    const bool bOnTheWay = _bLegActive || (_bLastLeg && !_nodes.empty());
+    const bool bOnTheWay = _bLegActive || (_bLastLeg && !_route.IsEmpty());
     if (!_cancelActionIDs.empty() && IsStanding() && !bOnTheWay && !bRuns)
     {
         ClearOrder(out);
@@ -197,8 +196,7 @@ void VehicleSession::FinishCancelIfStanding(VehicleActions& out)
 
 void VehicleSession::ForgetRoute()
 {
-    _nodes.clear();
-    _edges.clear();
+    _route.Clear();
     _actionQueue.clear();
     _bEdgeEntered = false;
     _bLegBegun = false;

@@ -24,7 +24,7 @@ bool HasBlocking(const std::vector<Action>& actions)
 
 bool VehicleSession::TryReachNode(std::uint32_t sequenceID, Core::Now now, VehicleActions& out)
 {
-    if (_nodes.empty() || !_bEdgeEntered || _nodes.front().sequenceID != sequenceID)
+    if (_route.IsEmpty() || !_bEdgeEntered || _route.GetNodeSequenceID(0) != sequenceID)
     {
         return false;
     }
@@ -185,13 +185,12 @@ bool VehicleSession::CanDrive() const
 
 bool VehicleSession::NeedsStopAtFront() const
 {
-    return _nodes.size() < 2 || !_nodes[1].bReleased || HasBlocking(_nodes[0].actions)
-        || HasBlocking(_edges[1].actions);
+    return _route.CountReleased() < 2 || HasBlocking(_route.GetNodeActions(0)) || HasBlocking(_route.GetEdgeActions(1));
 }
 
 void VehicleSession::DriveOn(VehicleActions& out)
 {
-    if (_nodes.empty() || !_nodes.front().bReleased || _bHeldByFailure)
+    if (_route.CountReleased() == 0 || _bHeldByFailure)
     {
         return;
     }
@@ -211,7 +210,7 @@ void VehicleSession::DriveOn(VehicleActions& out)
     {
         // Entered only now: while an action held the vehicle at the node, the edge's actions stayed Waiting.
         _bEdgeEntered = true;
-        Enqueue(_edges.front().actions);
+        Enqueue(_route.GetEdgeActions(0));
         StartQueuedActions(out);
         if (!CanDrive())
         {
@@ -227,14 +226,14 @@ void VehicleSession::DriveToFront(bool bStopAtNode, VehicleActions& out)
     _bLegBegun = true;
     _bLegStops = bStopAtNode;
     _bHalting = false;
-    out.emplace_back(DriveTo{_edges.front(), _nodes.front(), bStopAtNode});
+    out.emplace_back(DriveTo{_route.GetEdge(0), _route.GetNode(0), bStopAtNode});
 }
 
 /// 6.6.3: a cancelled vehicle that is bound to nodes still has one to reach.
 void VehicleSession::DriveLastLeg(VehicleActions& out)
 {
     const bool bTold = _bLegActive && _bLegStops;
-    if (_bLastLeg && !_nodes.empty() && !bTold)
+    if (_bLastLeg && !_route.IsEmpty() && !bTold)
     {
         DriveToFront(true, out);
     }
@@ -243,43 +242,38 @@ void VehicleSession::DriveLastLeg(VehicleActions& out)
 /// 6.10.2: what one traversal changes belongs to one state.
 void VehicleSession::ReachFront(VehicleActions& out)
 {
-    const OrderNode node = std::move(_nodes.front());
-    _nodes.pop_front();
-    if (!_edges.empty())
+    const std::uint32_t edgeSequenceID = _route.GetEdgeSequenceID(0);
+    for (TrackedAction& tracked : _actions)
     {
-        const std::uint32_t edgeSequenceID = _edges.front().sequenceID;
-        _edges.pop_front();
-        for (TrackedAction& tracked : _actions)
+        const bool bOfEdge = tracked.scope == EActionScope::Edge && tracked.sequenceID == edgeSequenceID;
+        if (!bOfEdge || IsTerminal(tracked.machine.GetStatus()))
         {
-            const bool bOfEdge = tracked.scope == EActionScope::Edge && tracked.sequenceID == edgeSequenceID;
-            if (!bOfEdge || IsTerminal(tracked.machine.GetStatus()))
-            {
-                continue;
-            }
-            if (tracked.bStarted)
-            {
-                out.emplace_back(StopAction{tracked.action.actionID, true});
-            }
-            else
-            {
-                static_cast<void>(tracked.machine.TrySet(EActionStatus::Failed, "its edge was left"));
-                OnOrderActionFailed(tracked, out);
-            }
+            continue;
+        }
+        if (tracked.bStarted)
+        {
+            out.emplace_back(StopAction{tracked.action.actionID, true});
+        }
+        else
+        {
+            static_cast<void>(tracked.machine.TrySet(EActionStatus::Failed, "its edge was left"));
+            OnOrderActionFailed(tracked, out);
         }
     }
-    _lastNodeID = node.nodeID;
-    _lastNodeSequenceID = node.sequenceID;
+    _lastNodeID = _route.GetNodeID(0);
+    _lastNodeSequenceID = _route.GetNodeSequenceID(0);
     _distanceSinceLastNode.reset();
     _bEdgeEntered = false;
     _bLegActive = false;
     _bLegBegun = false;
     _bStateDue = true;
-    Enqueue(node.actions);
+    Enqueue(_route.GetNodeActions(0));
+    _route.DropFront();
 }
 
 bool VehicleSession::IsExecuting() const
 {
-    return !_nodes.empty() || !_cancelActionIDs.empty()
+    return !_route.IsEmpty() || !_cancelActionIDs.empty()
         || std::ranges::any_of(_actions, [](const TrackedAction& tracked) {
                return tracked.scope != EActionScope::Instant && !IsTerminal(tracked.machine.GetStatus());
            });
@@ -296,8 +290,8 @@ void VehicleSession::FinishOrderIfDone(VehicleActions& out)
 
 bool VehicleSession::NeedsNewBase() const
 {
-    const auto released = static_cast<std::size_t>(std::ranges::count(_nodes, true, &OrderNode::bReleased));
-    return released < _nodes.size() && released <= _options.lowBaseNodes && _cancelActionIDs.empty();
+    const std::size_t released = _route.CountReleased();
+    return released < _route.GetSize() && released <= _options.lowBaseNodes && _cancelActionIDs.empty();
 }
 
 } // namespace ACS::VDA5050

@@ -201,12 +201,11 @@ OrderContext VehicleSession::MakeContext() const
     context.operatingMode = _operatingMode;
     context.decisionNodeID = _lastNodeID;
     context.decisionSequenceID = _lastNodeSequenceID;
-    const auto lastReleased =
-        std::find_if(_nodes.rbegin(), _nodes.rend(), [](const OrderNode& node) { return node.bReleased; });
-    if (lastReleased != _nodes.rend())
+    const std::size_t released = _route.CountReleased();
+    if (released > 0)
     {
-        context.decisionNodeID = lastReleased->nodeID;
-        context.decisionSequenceID = lastReleased->sequenceID;
+        context.decisionNodeID = _route.GetNodeID(released - 1);
+        context.decisionSequenceID = _route.GetNodeSequenceID(released - 1);
     }
     context.lastNodeID = _lastNodeID;
     context.position = _position;
@@ -220,9 +219,8 @@ OrderContext VehicleSession::MakeContext() const
     context.factsheet = &_options.factsheet;
     context.bCleared = _bCleared;
     context.orderCheck = _options.orderCheck;
-    const auto firstUnreleased = std::ranges::find(_nodes, false, &OrderNode::bReleased);
     const std::uint32_t baseEnd =
-        firstUnreleased == _nodes.end() ? std::numeric_limits<std::uint32_t>::max() : firstUnreleased->sequenceID - 1;
+        released == _route.GetSize() ? std::numeric_limits<std::uint32_t>::max() : _route.GetEdgeSequenceID(released);
     for (const TrackedAction& tracked : _actions)
     {
         const bool bInstant = tracked.scope == EActionScope::Instant;
@@ -296,27 +294,24 @@ void VehicleSession::AppendElements(OrderMessage order)
 {
     for (std::size_t index = 0; index < order.edges.size(); ++index)
     {
-        OrderEdge& edge = order.edges[index];
-        OrderNode& node = order.nodes[index + 1];
+        const OrderEdge& edge = order.edges[index];
+        const OrderNode& node = order.nodes[index + 1];
         AddActions(edge.actions, EActionScope::Edge, edge.edgeID, edge.sequenceID);
         AddActions(node.actions, EActionScope::Node, node.nodeID, node.sequenceID);
-        _edges.push_back(std::move(edge));
-        _nodes.push_back(std::move(node));
     }
+    _route.Append(std::move(order));
 }
 
 void VehicleSession::DropHorizon()
 {
-    const auto firstUnreleased = std::ranges::find(_nodes, false, &OrderNode::bReleased);
-    const auto kept = std::distance(_nodes.begin(), firstUnreleased);
+    const std::size_t kept = _route.CountReleased();
     std::vector<std::uint32_t> dropped;
-    for (auto node = firstUnreleased; node != _nodes.end(); ++node)
+    for (std::size_t index = kept; index < _route.GetSize(); ++index)
     {
-        dropped.push_back(node->sequenceID);
-        dropped.push_back(node->sequenceID - 1); // its edge
+        dropped.push_back(_route.GetEdgeSequenceID(index));
+        dropped.push_back(_route.GetNodeSequenceID(index));
     }
-    _nodes.erase(firstUnreleased, _nodes.end());
-    _edges.erase(_edges.begin() + kept, _edges.end());
+    _route.Cut(kept);
     // Gone from the report: an id that comes back with the update would else have to leave a terminal status.
     std::erase_if(_actions, [&dropped](const TrackedAction& tracked) {
         return tracked.scope != EActionScope::Instant

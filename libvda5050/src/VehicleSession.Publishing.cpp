@@ -19,13 +19,15 @@ Header VehicleSession::MakeHeader(ETopic topic, Core::Now now)
 }
 
 template <typename TMessage>
-MqttMessage VehicleSession::MakeMessage(ETopic topic, const TMessage& message) const
+MqttMessage VehicleSession::MakeMessage(ETopic topic, const TMessage& message)
 {
-    return MqttMessage{
-        _topics.at(static_cast<std::size_t>(topic)),
-        _codec.Encode(message, _options.version),
-        _options.qos.Get(topic),
-        IsRetained(topic)};
+    constexpr std::size_t SLACK = 64; // numbers have more digits at one time than at another
+    const auto index = static_cast<std::size_t>(topic);
+    MqttMessage made{_topics.at(index), {}, _options.qos.Get(topic), IsRetained(topic)};
+    made.payload.reserve(_payloadBytes.at(index) + SLACK);
+    _codec.Encode(message, _options.version, made.payload);
+    _payloadBytes.at(index) = made.payload.size();
+    return made;
 }
 
 MqttWill VehicleSession::MakeWill(Core::Now now)
@@ -120,24 +122,17 @@ StateMessage VehicleSession::BuildState() const
     state.zoneSetID = _zoneSetID;
     state.lastNodeID = _lastNodeID;
     state.lastNodeSequenceID = _lastNodeSequenceID;
-    state.nodeStates.reserve(_nodes.size());
-    for (const OrderNode& node : _nodes)
+    state.nodeStates.reserve(_route.GetSize());
+    for (std::size_t index = 0; index < _route.GetSize(); ++index)
     {
-        NodeState& entry = state.nodeStates.emplace_back(
-            NodeState{node.nodeID, node.sequenceID, node.nodeDescription, node.bReleased, std::nullopt});
-        if (node.nodePosition.has_value())
-        {
-            const NodePosition& position = *node.nodePosition;
-            entry.nodePosition = NodeStatePosition{position.x, position.y, position.theta, position.mapID};
-        }
+        state.nodeStates.push_back(_route.GetNodeState(index));
     }
-    state.edgeStates.reserve(_edges.size());
     // 6.6.3: a cancelled vehicle on its way to the next node shows that node alone.
-    for (std::size_t index = 0; index < (_bLastLeg ? 0 : _edges.size()); ++index)
+    const std::size_t shownEdges = _bLastLeg ? 0 : _route.GetSize();
+    state.edgeStates.reserve(shownEdges);
+    for (std::size_t index = 0; index < shownEdges; ++index)
     {
-        const OrderEdge& edge = _edges[index];
-        state.edgeStates.push_back(
-            EdgeState{edge.edgeID, edge.sequenceID, edge.edgeDescription, edge.bReleased, edge.trajectory});
+        state.edgeStates.push_back(_route.GetEdgeState(index));
     }
     state.agvPosition = _position;
     state.velocity = _velocity;

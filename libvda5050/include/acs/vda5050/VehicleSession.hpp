@@ -2,6 +2,7 @@
 
 #include <acs/core/Now.hpp>
 #include <acs/vda5050/ActionMachine.hpp>
+#include <acs/vda5050/HeldRoute.hpp>
 #include <acs/vda5050/OrderValidator.hpp>
 #include <acs/vda5050/Vda5050Codec.hpp>
 #include <acs/vda5050/VehicleAction.hpp>
@@ -55,6 +56,7 @@ class VehicleSession
     Vda5050Codec _codec;
     std::array<std::uint32_t, TOPIC_COUNT> _headerIDs{};
     std::array<std::string, TOPIC_COUNT> _topics;
+    std::array<std::size_t, TOPIC_COUNT> _payloadBytes{}; ///< Of the last message: the next one will be about as long.
 
     // What the owner says.
     std::optional<AgvPosition> _position;
@@ -75,8 +77,7 @@ class VehicleSession
     std::string _lastNodeID;
     std::uint32_t _orderUpdateID = 0;
     std::uint32_t _lastNodeSequenceID = 0;
-    std::deque<OrderNode> _nodes; ///< Still to be reached.
-    std::deque<OrderEdge> _edges; ///< Edge n leads to node n.
+    HeldRoute _route; ///< Still to be driven.
     std::vector<TrackedAction> _actions;
     std::deque<std::string> _actionQueue; ///< Of what was reached or entered, not yet started.
     std::vector<SessionError> _sessionErrors;
@@ -173,7 +174,7 @@ class VehicleSession
     [[nodiscard]] Header MakeHeader(ETopic topic, Core::Now now);
     [[nodiscard]] StateMessage BuildState() const;
     template <typename TMessage>
-    [[nodiscard]] MqttMessage MakeMessage(ETopic topic, const TMessage& message) const;
+    [[nodiscard]] MqttMessage MakeMessage(ETopic topic, const TMessage& message);
     void PublishState(Core::Now now, VehicleActions& out);
     void PublishFactsheet(Core::Now now, VehicleActions& out);
     void PublishVisualization(Core::Now now, VehicleActions& out);

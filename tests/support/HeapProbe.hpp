@@ -7,8 +7,7 @@ namespace ACS::Testing
 {
 
 /// What a test program takes from the heap, through operator new and, in what is linked into it statically, through
-/// malloc. Counts from the start of the program, for one
-/// thread.
+/// malloc. Counts from the start of the program, for one thread.
 class HeapProbe
 {
 public:

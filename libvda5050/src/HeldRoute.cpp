@@ -1,0 +1,251 @@
+#include <acs/vda5050/HeldRoute.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace ACS::VDA5050
+{
+namespace
+{
+
+/// Null where they say nothing.
+template <typename TExtras>
+std::unique_ptr<TExtras> KeepOrNull(TExtras extras)
+{
+    return extras == TExtras() ? nullptr : std::make_unique<TExtras>(std::move(extras));
+}
+
+const std::vector<Action>& GetNoActions()
+{
+    static const std::vector<Action> NO_ACTIONS;
+    return NO_ACTIONS;
+}
+
+} // namespace
+
+HeldRoute::Step HeldRoute::MakeStep(OrderEdge edge, OrderNode node)
+{
+    Step step;
+    step.edgeID = std::move(edge.edgeID);
+    step.edgeSequenceID = edge.sequenceID;
+    step.bEdgeReleased = edge.bReleased;
+    step.maxSpeed = edge.maxSpeed;
+    step.orientation = edge.orientation;
+    step.maxRotationSpeed = edge.maxRotationSpeed;
+    step.length = edge.length;
+    step.orientationType = edge.orientationType;
+    step.bRotationAllowed = edge.bRotationAllowed;
+    step.edgeExtrasOrNull = KeepOrNull(EdgeExtras{
+        std::move(edge.edgeDescription),
+        std::move(edge.direction),
+        edge.maxHeight,
+        edge.minHeight,
+        std::move(edge.trajectory),
+        edge.corridor,
+        std::move(edge.actions)});
+    step.nodeID = std::move(node.nodeID);
+    step.nodeSequenceID = node.sequenceID;
+    step.bNodeReleased = node.bReleased;
+    NodeExtras extras{std::move(node.nodeDescription), {}, std::move(node.actions)};
+    if (node.nodePosition.has_value())
+    {
+        NodePosition& position = *node.nodePosition;
+        extras.mapDescription = std::move(position.mapDescription);
+        step.position = Position{
+            position.x,
+            position.y,
+            position.theta,
+            position.allowedDeviationXY,
+            position.allowedDeviationTheta,
+            std::move(position.mapID)};
+    }
+    step.nodeExtrasOrNull = KeepOrNull(std::move(extras));
+    return step;
+}
+
+void HeldRoute::Append(OrderMessage order)
+{
+    assert(order.nodes.size() == order.edges.size() + 1);
+    if (_steps.empty())
+    {
+        _startNodeID = order.nodes.front().nodeID;
+    }
+    for (std::size_t index = 0; index < order.edges.size(); ++index)
+    {
+        _steps.push_back(MakeStep(std::move(order.edges[index]), std::move(order.nodes[index + 1])));
+    }
+}
+
+void HeldRoute::DropFront()
+{
+    assert(!_steps.empty());
+    _startNodeID = std::move(_steps.front().nodeID);
+    _steps.pop_front();
+}
+
+void HeldRoute::Cut(std::size_t size)
+{
+    while (_steps.size() > size)
+    {
+        _steps.pop_back();
+    }
+}
+
+void HeldRoute::DropFrontActions()
+{
+    if (_steps.front().nodeExtrasOrNull != nullptr)
+    {
+        _steps.front().nodeExtrasOrNull->actions.clear();
+    }
+}
+
+void HeldRoute::Clear()
+{
+    _steps.clear();
+}
+
+bool HeldRoute::IsEmpty() const noexcept
+{
+    return _steps.empty();
+}
+
+std::size_t HeldRoute::GetSize() const noexcept
+{
+    return _steps.size();
+}
+
+std::size_t HeldRoute::CountReleased() const
+{
+    const auto firstUnreleased = std::ranges::find(_steps, false, &Step::bNodeReleased);
+    return static_cast<std::size_t>(firstUnreleased - _steps.begin());
+}
+
+const std::string& HeldRoute::GetStartNodeID(std::size_t index) const
+{
+    return index == 0 ? _startNodeID : _steps[index - 1].nodeID;
+}
+
+OrderEdge HeldRoute::GetEdge(std::size_t index) const
+{
+    const Step& step = _steps[index];
+    OrderEdge edge;
+    edge.edgeID = step.edgeID;
+    edge.sequenceID = step.edgeSequenceID;
+    edge.bReleased = step.bEdgeReleased;
+    edge.startNodeID = GetStartNodeID(index);
+    edge.endNodeID = step.nodeID;
+    edge.maxSpeed = step.maxSpeed;
+    edge.orientation = step.orientation;
+    edge.maxRotationSpeed = step.maxRotationSpeed;
+    edge.length = step.length;
+    edge.orientationType = step.orientationType;
+    edge.bRotationAllowed = step.bRotationAllowed;
+    if (step.edgeExtrasOrNull != nullptr)
+    {
+        const EdgeExtras& extras = *step.edgeExtrasOrNull;
+        edge.edgeDescription = extras.edgeDescription;
+        edge.direction = extras.direction;
+        edge.maxHeight = extras.maxHeight;
+        edge.minHeight = extras.minHeight;
+        edge.trajectory = extras.trajectory;
+        edge.corridor = extras.corridor;
+        edge.actions = extras.actions;
+    }
+    return edge;
+}
+
+OrderNode HeldRoute::GetNode(std::size_t index) const
+{
+    const Step& step = _steps[index];
+    OrderNode node;
+    node.nodeID = step.nodeID;
+    node.sequenceID = step.nodeSequenceID;
+    node.bReleased = step.bNodeReleased;
+    if (step.position.has_value())
+    {
+        const Position& held = *step.position;
+        node.nodePosition = NodePosition{
+            held.x,
+            held.y,
+            held.theta,
+            held.allowedDeviationXY,
+            held.allowedDeviationTheta,
+            held.mapID,
+            {}};
+    }
+    if (step.nodeExtrasOrNull != nullptr)
+    {
+        const NodeExtras& extras = *step.nodeExtrasOrNull;
+        node.nodeDescription = extras.nodeDescription;
+        node.actions = extras.actions;
+        if (node.nodePosition.has_value())
+        {
+            node.nodePosition->mapDescription = extras.mapDescription;
+        }
+    }
+    return node;
+}
+
+const std::string& HeldRoute::GetNodeID(std::size_t index) const
+{
+    return _steps[index].nodeID;
+}
+
+std::uint32_t HeldRoute::GetNodeSequenceID(std::size_t index) const
+{
+    return _steps[index].nodeSequenceID;
+}
+
+std::uint32_t HeldRoute::GetEdgeSequenceID(std::size_t index) const
+{
+    return _steps[index].edgeSequenceID;
+}
+
+const std::vector<Action>& HeldRoute::GetNodeActions(std::size_t index) const
+{
+    const Step& step = _steps[index];
+    return step.nodeExtrasOrNull != nullptr ? step.nodeExtrasOrNull->actions : GetNoActions();
+}
+
+const std::vector<Action>& HeldRoute::GetEdgeActions(std::size_t index) const
+{
+    const Step& step = _steps[index];
+    return step.edgeExtrasOrNull != nullptr ? step.edgeExtrasOrNull->actions : GetNoActions();
+}
+
+NodeState HeldRoute::GetNodeState(std::size_t index) const
+{
+    const Step& step = _steps[index];
+    NodeState state;
+    state.nodeID = step.nodeID;
+    state.sequenceID = step.nodeSequenceID;
+    state.bReleased = step.bNodeReleased;
+    if (step.nodeExtrasOrNull != nullptr)
+    {
+        state.nodeDescription = step.nodeExtrasOrNull->nodeDescription;
+    }
+    if (step.position.has_value())
+    {
+        const Position& held = *step.position;
+        state.nodePosition = NodeStatePosition{held.x, held.y, held.theta, held.mapID};
+    }
+    return state;
+}
+
+EdgeState HeldRoute::GetEdgeState(std::size_t index) const
+{
+    const Step& step = _steps[index];
+    EdgeState state;
+    state.edgeID = step.edgeID;
+    state.sequenceID = step.edgeSequenceID;
+    state.bReleased = step.bEdgeReleased;
+    if (step.edgeExtrasOrNull != nullptr)
+    {
+        state.edgeDescription = step.edgeExtrasOrNull->edgeDescription;
+        state.trajectory = step.edgeExtrasOrNull->trajectory;
+    }
+    return state;
+}
+
+} // namespace ACS::VDA5050
