@@ -125,6 +125,11 @@ public:
         }
     }
 
+    [[nodiscard]] pid_t GetProcessID() const noexcept
+    {
+        return _processID;
+    }
+
     /// All that it printed so far, as far as it was read.
     [[nodiscard]] const std::string& GetText() const noexcept
     {

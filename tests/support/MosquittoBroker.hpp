@@ -84,6 +84,11 @@ public:
         return _folder.GetPath();
     }
 
+    [[nodiscard]] pid_t GetProcessID() const noexcept
+    {
+        return _process->GetProcessID();
+    }
+
     /// As a power cut does it: nothing is said to the clients, nothing kept.
     void Kill()
     {

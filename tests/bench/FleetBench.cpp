@@ -1,0 +1,310 @@
+#include "fleet/FleetMaster.hpp"
+#include "fleet/ProcessProbe.hpp"
+#include "fleet/RingSite.hpp"
+#include "MosquittoBroker.hpp"
+
+#include <benchmark/benchmark.h>
+#include <boost/asio/io_context.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <unistd.h>
+#include <vector>
+
+// A whole fleet: vda-sim on one core, a master control on the other, a real mosquitto wherever there is room.
+
+namespace ACS::Bench
+{
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::duration;
+using std::chrono::seconds;
+
+constexpr std::size_t SIMULATOR_CORE = 0;
+constexpr std::size_t MASTER_CORE = 1;
+constexpr seconds START_TIMEOUT{60};
+constexpr seconds STOP_TIMEOUT{10};
+constexpr seconds WARM_UP{10}; ///< While all drive.
+
+// What the fleet is to keep.
+constexpr double STATES_PER_SECOND = 1.0;
+constexpr double VISUALIZATIONS_PER_SECOND = 5.0;
+constexpr double TOLERANCE = 0.05;
+constexpr double MOST_KIB = 64.0;
+constexpr double ONE_CORE = 100.0;
+
+struct Rate
+{
+    double slowest = 0.0; ///< Messages of one vehicle per second.
+    double mean = 0.0;
+    double fastest = 0.0;
+    double longestPause = 0.0; ///< s
+    std::uint64_t missing = 0;
+};
+
+struct FleetFigures
+{
+    std::size_t vehicles = 0;
+    double seconds = 0.0;
+    Rate states;
+    Rate visualizations;
+    double simulatorCpu = 0.0; ///< % of a core.
+    double masterCpu = 0.0;
+    double brokerCpu = 0.0;
+    std::int64_t residentKiB = 0;
+    std::size_t driving = 0;
+    MasterCount master;
+};
+
+std::size_t ReadSetting(const char* name, std::size_t otherwise)
+{
+    const char* const text = std::getenv(name); // NOLINT(concurrency-mt-unsafe): nobody sets it
+    const std::size_t value = text != nullptr ? std::strtoul(text, nullptr, 10) : 0;
+    return value > 0 ? value : otherwise;
+}
+
+Rate MakeRate(const std::vector<VehicleCount>& counts, const TopicCount VehicleCount::*topic, double measured)
+{
+    Rate rate;
+    rate.slowest = static_cast<double>((counts.front().*topic).messages) / measured;
+    std::uint64_t all = 0;
+    for (const VehicleCount& count : counts)
+    {
+        const TopicCount& counted = count.*topic;
+        const double perSecond = static_cast<double>(counted.messages) / measured;
+        rate.slowest = std::min(rate.slowest, perSecond);
+        rate.fastest = std::max(rate.fastest, perSecond);
+        rate.longestPause = std::max(rate.longestPause, duration<double>(counted.longestPause).count());
+        rate.missing += counted.missing;
+        all += counted.messages;
+    }
+    rate.mean = static_cast<double>(all) / measured / static_cast<double>(counts.size());
+    return rate;
+}
+
+/// A broker, a simulator and a master of their own, for as long as it lives.
+class FleetRun
+{
+    Testing::MosquittoBroker _broker{"allow_anonymous true\nmax_queued_messages 0\n"};
+    boost::asio::io_context _context;
+    FleetMaster _master;
+    std::size_t _vehicles;
+    std::optional<Testing::ChildProcess> _simulator;
+
+public:
+    explicit FleetRun(std::size_t vehicles)
+        : _master(_context, _broker.GetPort()),
+          _vehicles(vehicles)
+    {
+        const std::string site = (_broker.GetFolder() / "ring.lif.json").string();
+        std::ofstream(site) << RingSite::WriteLif();
+        ProcessProbe::KeepOnCore(getpid(), MASTER_CORE);
+        _context.run_for(std::chrono::milliseconds(200)); // the master listens before the fleet comes
+        _simulator.emplace(std::vector<std::string>{
+            ACS_VDA_SIM,
+            "--broker",
+            _broker.GetUrl(),
+            "--site",
+            site,
+            "--count",
+            std::to_string(vehicles),
+            "--no-control",
+            "--seed",
+            "1",
+            "--log-level",
+            "warning"});
+        ProcessProbe::KeepOnCore(_simulator->GetProcessID(), SIMULATOR_CORE);
+    }
+
+    FleetRun(const FleetRun&) = delete;
+    FleetRun& operator=(const FleetRun&) = delete;
+
+    ~FleetRun()
+    {
+        _simulator->Signal(SIGTERM);
+        std::ignore = _simulator->WaitForExitOrNull(STOP_TIMEOUT);
+    }
+
+    [[nodiscard]] FleetFigures Measure(seconds howLong)
+    {
+        RunUntil([this]() { return _master.CountDriving() == _vehicles; });
+        _context.run_for(WARM_UP);
+        _master.CountAnew();
+        const pid_t simulator = _simulator->GetProcessID();
+        const double simulatorBefore = ProcessProbe::GetCpuSeconds(simulator);
+        const double masterBefore = ProcessProbe::GetCpuSeconds(getpid());
+        const double brokerBefore = ProcessProbe::GetCpuSeconds(_broker.GetProcessID());
+        const Clock::time_point begin = Clock::now();
+        _context.run_for(howLong);
+        const double measured = duration<double>(Clock::now() - begin).count();
+
+        FleetFigures figures;
+        figures.vehicles = _vehicles;
+        figures.seconds = measured;
+        figures.simulatorCpu = (ProcessProbe::GetCpuSeconds(simulator) - simulatorBefore) / measured * ONE_CORE;
+        figures.masterCpu = (ProcessProbe::GetCpuSeconds(getpid()) - masterBefore) / measured * ONE_CORE;
+        figures.brokerCpu = (ProcessProbe::GetCpuSeconds(_broker.GetProcessID()) - brokerBefore) / measured * ONE_CORE;
+        figures.residentKiB = ProcessProbe::GetResidentKiB(simulator);
+        figures.states = MakeRate(_master.GetCounts(), &VehicleCount::states, measured);
+        figures.visualizations = MakeRate(_master.GetCounts(), &VehicleCount::visualizations, measured);
+        figures.driving = _master.CountDriving();
+        figures.master = _master.GetTotal();
+        return figures;
+    }
+
+private:
+    void RunUntil(const std::function<bool()>& isTrue)
+    {
+        const Clock::time_point deadline = Clock::now() + START_TIMEOUT;
+        while (!isTrue())
+        {
+            if (Clock::now() > deadline)
+            {
+                throw std::runtime_error(fmt::format(
+                    "{} of {} vehicles drive after {} s; {}; vda-sim says: {}",
+                    _master.CountDriving(),
+                    _vehicles,
+                    START_TIMEOUT.count(),
+                    _master.GetTotal().firstError,
+                    _simulator->GetText()));
+            }
+            _context.run_for(std::chrono::milliseconds(100));
+        }
+    }
+};
+
+void PrintLine(const std::string& what, const std::string& measured, bool bKept, const std::string& bound)
+{
+    fmt::print("{:<36}{:<52}{} {}\n", what, measured, bKept ? "within" : "BEYOND", bound);
+}
+
+void PrintNote(const std::string& what, const std::string& measured)
+{
+    fmt::print("{:<36}{}\n", what, measured);
+}
+
+std::string Describe(const Rate& rate)
+{
+    return fmt::format(
+        "{:.3f}, slowest {:.3f}, fastest {:.3f}, pause {:.2f} s",
+        rate.mean,
+        rate.slowest,
+        rate.fastest,
+        rate.longestPause);
+}
+
+void PrintTable(const FleetFigures& fleet, const FleetFigures& single)
+{
+    const double perVehicle = static_cast<double>(fleet.residentKiB - single.residentKiB)
+        / static_cast<double>(std::max<std::size_t>(fleet.vehicles - single.vehicles, 1));
+    fmt::print("\nvda-sim, {} vehicles driving, measured for {:.0f} s\n", fleet.vehicles, fleet.seconds);
+    // A vehicle that passes nodes says so: states may come more often than each second.
+    PrintLine(
+        "state, a vehicle's per s",
+        Describe(fleet.states),
+        fleet.states.slowest >= STATES_PER_SECOND * (1.0 - TOLERANCE),
+        "1.0 or more, less 5 %");
+    PrintLine(
+        "visualization, a vehicle's per s",
+        Describe(fleet.visualizations),
+        fleet.visualizations.slowest >= VISUALIZATIONS_PER_SECOND * (1.0 - TOLERANCE)
+            && fleet.visualizations.fastest <= VISUALIZATIONS_PER_SECOND * (1.0 + TOLERANCE),
+        "5.0, 5 % more or less");
+    const std::uint64_t missing = fleet.states.missing + fleet.visualizations.missing;
+    PrintLine("messages lost on the way", fmt::format("{}", missing), missing == 0, "none");
+    PrintLine(
+        "memory of vda-sim, a vehicle",
+        fmt::format("{:.1f} KiB (all {} KiB, one alone {} KiB)", perVehicle, fleet.residentKiB, single.residentKiB),
+        perVehicle < MOST_KIB,
+        fmt::format("{:.0f} KiB", MOST_KIB));
+    PrintLine(
+        "CPU of vda-sim",
+        fmt::format("{:.1f} % of a core", fleet.simulatorCpu),
+        fleet.simulatorCpu < ONE_CORE,
+        "one core");
+    PrintLine(
+        "CPU of the master",
+        fmt::format("{:.1f} % of a core", fleet.masterCpu),
+        fleet.masterCpu < ONE_CORE,
+        "one core");
+    PrintNote("CPU of mosquitto", fmt::format("{:.1f} % of a core", fleet.brokerCpu));
+    PrintLine(
+        "vehicles that the master follows",
+        fmt::format("{}; {} nodes reached", fleet.driving, fleet.master.nodesReached),
+        fleet.driving * 100 >= fleet.vehicles * 95,
+        "95 %: some have ended an order");
+    PrintNote("orders and updates sent", fmt::format("{} and {}", fleet.master.ordersSent, fleet.master.updatesSent));
+    PrintLine(
+        "errors that the master saw",
+        fmt::format("{} {}", fleet.master.errors, fleet.master.firstError),
+        fleet.master.errors == 0,
+        "none");
+}
+
+/// The last run, for the table.
+struct Outcome
+{
+    std::optional<FleetFigures> fleet;
+    std::optional<FleetFigures> single;
+};
+
+void RunFleet(benchmark::State& state, Outcome& outcome, std::size_t vehicles, seconds howLong)
+{
+    for ([[maybe_unused]] auto round : state)
+    {
+        try
+        {
+            outcome.single = FleetRun(1).Measure(seconds(1));
+            outcome.fleet = FleetRun(vehicles).Measure(howLong);
+        }
+        catch (const std::exception& error)
+        {
+            state.SkipWithError(error.what());
+            return;
+        }
+    }
+}
+
+} // namespace
+} // namespace ACS::Bench
+
+int main(int argumentCount, char** arguments)
+{
+    using namespace ACS::Bench; // NOLINT(google-build-using-namespace)
+    const std::size_t vehicles = ReadSetting("ACS_BENCH_VEHICLES", 500);
+    const std::chrono::seconds howLong(ReadSetting("ACS_BENCH_SECONDS", 60));
+    benchmark::Initialize(&argumentCount, arguments);
+    if (benchmark::ReportUnrecognizedArguments(argumentCount, arguments))
+    {
+        return 1;
+    }
+    Outcome outcome;
+    benchmark::RegisterBenchmark(
+        fmt::format("vda-sim, {} vehicles driving", vehicles).c_str(),
+        [&](benchmark::State& state) { RunFleet(state, outcome, vehicles, howLong); })
+        ->Iterations(1)
+        ->Repetitions(1)
+        ->Unit(benchmark::kSecond)
+        ->UseRealTime();
+    benchmark::RunSpecifiedBenchmarks();
+    if (outcome.fleet.has_value() && outcome.single.has_value())
+    {
+        PrintTable(*outcome.fleet, *outcome.single);
+    }
+    benchmark::Shutdown();
+    return 0;
+}
