@@ -112,15 +112,21 @@ bool ActionRunner::TryResume(std::string_view actionID)
     return true;
 }
 
-bool ActionRunner::TryStop(std::string_view actionID)
+std::optional<ActionOutcome> ActionRunner::StopOrNull(std::string_view actionID, bool bEdgeEnded)
 {
     const auto found = Find(actionID);
     if (found == _running.end())
     {
-        return false;
+        return std::nullopt;
     }
+    const RunningAction stopped = std::move(*found);
     _running.erase(found);
-    return true;
+    if (bEdgeEnded && stopped.action.actionType == ACTION_DETECT_OBJECT)
+    {
+        return Finish(stopped);
+    }
+    const std::string reason = bEdgeEnded ? "its edge has ended before it" : "stopped";
+    return ActionOutcome{stopped.action.actionID, VDA5050::EActionStatus::Failed, reason, {}};
 }
 
 void ActionRunner::Advance(double seconds, std::vector<ActionOutcome>& out)

@@ -60,7 +60,9 @@ public:
     /// False where no such action runs.
     [[nodiscard]] bool TryPause(std::string_view actionID);
     [[nodiscard]] bool TryResume(std::string_view actionID);
-    [[nodiscard]] bool TryStop(std::string_view actionID);
+    /// Ends it before its time: by a cancel, or because its edge has come to its end, up to where an object may have been
+    /// looked for. Nothing where no such action runs.
+    [[nodiscard]] std::optional<ActionOutcome> StopOrNull(std::string_view actionID, bool bEdgeEnded);
 
     /// Lets the time pass, and appends what ended.
     void Advance(double seconds, std::vector<ActionOutcome>& out);

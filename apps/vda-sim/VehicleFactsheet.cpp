@@ -1,5 +1,7 @@
 #include "vda-sim/VehicleFactsheet.hpp"
 
+#include <acs/vda5050/PredefinedActions.hpp>
+
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,57 +13,31 @@ namespace
 
 using VDA5050::AgvAction;
 using VDA5050::AgvActionParameter;
-using VDA5050::EActionScope;
 using VDA5050::EBlockingType;
-using VDA5050::EValueDataType;
 
-AgvAction MakeAction(
-    std::string_view type,
-    std::vector<EActionScope> scopes,
-    std::vector<std::string> textParameters = {})
+/// Whether a vehicle could not do without it; loads and stations may stay unnamed, logs and triggers too.
+bool IsNeeded(const AgvAction& action, const AgvActionParameter& parameter)
 {
-    AgvAction action;
-    action.actionType = std::string(type);
-    action.actionScopes = std::move(scopes);
-    for (std::string& key : textParameters)
-    {
-        action.actionParameters.push_back(AgvActionParameter{std::move(key), EValueDataType::String, {}, true});
-    }
-    action.blockingTypes = {EBlockingType::None, EBlockingType::Soft, EBlockingType::Hard};
-    return action;
+    const bool bOfMap = action.actionType == VDA5050::ActionTypes::ENABLE_MAP
+        || action.actionType == VDA5050::ActionTypes::DOWNLOAD_MAP
+        || action.actionType == VDA5050::ActionTypes::DELETE_MAP;
+    const bool bOfPose = action.actionType == ACTION_INIT_POSITION && parameter.key != "lastNodeId";
+    return !parameter.bOptional.value_or(false) && (bOfMap || bOfPose);
 }
 
-AgvAction MakeInitPosition()
-{
-    AgvAction action = MakeAction(ACTION_INIT_POSITION, {EActionScope::Instant}, {"mapId", "lastNodeId"});
-    for (const std::string_view key : {"x", "y", "theta"})
-    {
-        action.actionParameters.push_back(AgvActionParameter{std::string(key), EValueDataType::Float, {}, false});
-    }
-    return action;
-}
-
+/// All that the standard names, as it names them.
 std::vector<AgvAction> MakeActions()
 {
-    const std::vector<EActionScope> onNode{EActionScope::Node};
-    const std::vector<EActionScope> instant{EActionScope::Instant};
-    const std::vector<EActionScope> both{EActionScope::Instant, EActionScope::Node};
-    const std::vector<std::string> handling{"lhd", "stationType", "stationName", "loadType", "loadId"};
-    return {
-        MakeAction(ACTION_PICK, onNode, handling),
-        MakeAction(ACTION_DROP, onNode, handling),
-        MakeAction(ACTION_FINE_POSITIONING, onNode, {"stationType", "stationName"}),
-        MakeAction(ACTION_DETECT_OBJECT, onNode, {"objectType"}),
-        MakeAction(ACTION_WAIT_FOR_TRIGGER, onNode, {"triggerType"}),
-        MakeAction(ACTION_LOG_REPORT, instant, {"reason"}),
-        MakeInitPosition(),
-        MakeAction(ACTION_START_CHARGING, both),
-        MakeAction(ACTION_STOP_CHARGING, both),
-        MakeAction(VDA5050::ActionTypes::CANCEL_ORDER, instant),
-        MakeAction(VDA5050::ActionTypes::START_PAUSE, instant),
-        MakeAction(VDA5050::ActionTypes::STOP_PAUSE, instant),
-        MakeAction(VDA5050::ActionTypes::STATE_REQUEST, instant),
-        MakeAction(VDA5050::ActionTypes::FACTSHEET_REQUEST, instant)};
+    std::vector<AgvAction> actions = VDA5050::GetPredefinedActions();
+    for (AgvAction& action : actions)
+    {
+        for (AgvActionParameter& parameter : action.actionParameters)
+        {
+            parameter.bOptional = !IsNeeded(action, parameter);
+        }
+        action.blockingTypes = {EBlockingType::None, EBlockingType::Soft, EBlockingType::Hard};
+    }
+    return actions;
 }
 
 std::vector<VDA5050::OptionalParameter> MakeOptionalParameters()

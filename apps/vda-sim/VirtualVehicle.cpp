@@ -329,9 +329,9 @@ void VirtualVehicle::CarryOut(VDA5050::VehicleAction& action, Core::Now now, Vir
                 }
             },
             [&](const VDA5050::StopAction& stop) {
-                if (_hands.TryStop(stop.actionID))
+                if (auto ended = _hands.StopOrNull(stop.actionID, stop.bEdgeEnded); ended.has_value())
                 {
-                    SetStatus(stop.actionID, VDA5050::EActionStatus::Failed, "stopped", now);
+                    SetStatus(stop.actionID, ended->status, std::move(ended->result), now);
                 }
             },
             [&](const VDA5050::OrderTaken& taken) {

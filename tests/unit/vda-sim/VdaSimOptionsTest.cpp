@@ -104,41 +104,24 @@ TEST_CASE("The command line counts vehicles, and takes faults, their files, acti
     const TemporaryFolder folder;
     const std::string file = (folder.GetPath() / "faults.txt").string();
     std::ofstream(file) << "# two of them\nC* loss percent=5\n\nC2* estop at=3s for=1s # late\n";
-    const ReadOptions read = ReadOptionsFrom(
-        {"--count",
-         "3",
-         "--prefix",
-         "C",
-         "--type",
-         "CR",
-         "--vehicle",
-         "X,protocol=2.1.0",
-         "--fault",
-         "X stuck",
-         "--fault-file",
-         file.c_str(),
-         "--action-time",
-         "pick=250ms",
-         "--seed",
-         "42",
-         "--no-control"});
+    const std::vector<const char*> arguments{
+        "--count",
+        "3",
+        "--prefix",
+        "C",
+        "--type",
+        "CR",
+        "--fault-file",
+        file.c_str(),
+        "--seed",
+        "42",
+        "--action-time",
+        "pick=250ms",
+        "--no-control"};
     // C2* names no vehicle of C01 to C03.
-    CHECK(read.exitCode == 2);
+    CHECK(ReadOptionsFrom(arguments).exitCode == 2);
     std::ofstream(file) << "C* loss percent=5\n";
-    const ReadOptions good = ReadOptionsFrom(
-        {"--count",
-         "3",
-         "--prefix",
-         "C",
-         "--type",
-         "CR",
-         "--fault-file",
-         file.c_str(),
-         "--seed",
-         "42",
-         "--action-time",
-         "pick=250ms",
-         "--no-control"});
+    const ReadOptions good = ReadOptionsFrom(arguments);
     REQUIRE_FALSE(good.exitCode.has_value());
     REQUIRE(good.options.vehicles.size() == 3);
     CHECK(good.options.vehicles.back().name == "C03");

@@ -1,0 +1,223 @@
+#include "Catch.hpp"
+#include "vda-sim/VehicleFactsheet.hpp"
+#include "VehicleDriver.hpp"
+#include <acs/vda5050/PredefinedActions.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::Testing
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+using VDA5050::Action;
+using VDA5050::ActionParameter;
+using VDA5050::AgvAction;
+using VDA5050::EActionScope;
+using VDA5050::EActionStatus;
+namespace ActionTypes = VDA5050::ActionTypes;
+
+ActionParameter MakeText(std::string_view key, std::string_view value)
+{
+    return {std::string(key), Core::JsonText::FromString(value)};
+}
+
+std::vector<AgvAction> ListActions()
+{
+    return VdaSim::MakeFactsheet(VdaSim::EVehicleType::Logistics, {}).protocolFeatures.agvActions;
+}
+
+/// With what the row asks for.
+std::vector<ActionParameter> MakeParameters(const AgvAction& row)
+{
+    std::vector<ActionParameter> parameters;
+    for (const VDA5050::AgvActionParameter& parameter : row.actionParameters)
+    {
+        const bool bNewMap = row.actionType == ActionTypes::DOWNLOAD_MAP || row.actionType == ActionTypes::DELETE_MAP;
+        if (parameter.bOptional.value_or(false))
+        {
+            continue;
+        }
+        if (parameter.valueDataType == VDA5050::EValueDataType::Number)
+        {
+            parameters.push_back({parameter.key, Core::JsonText::FromNumber(0.5)});
+        }
+        else if (parameter.key == "mapId")
+        {
+            parameters.push_back(MakeText("mapId", bNewMap ? "cellar" : "floor"));
+        }
+        else
+        {
+            parameters.push_back(MakeText(parameter.key, "1"));
+        }
+    }
+    return parameters;
+}
+
+/// A vehicle at its charger, where everything can be done at once, in half a second.
+VdaSim::VirtualVehicleOptions MakeOptions()
+{
+    VdaSim::VirtualVehicleOptions options = VehicleDriver::MakeOptions("DOCK");
+    for (const AgvAction& action : ListActions())
+    {
+        options.actionSeconds[action.actionType] = 0.5;
+    }
+    options.actionSeconds.erase(std::string(ActionTypes::WAIT_FOR_TRIGGER));
+    return options;
+}
+
+Action MakeAction(std::string_view type, std::vector<ActionParameter> parameters)
+{
+    Action action;
+    action.actionType = type;
+    action.actionID = "work";
+    action.blockingType = VDA5050::EBlockingType::None;
+    action.actionParameters = std::move(parameters);
+    return action;
+}
+
+void SendOrder(VehicleDriver& driver, const Action& action, EActionScope scope)
+{
+    auto route = driver.MakeRoute("order-work", {"DOCK", "N2"});
+    auto order = VehicleDriver::Take(route.MakeOrder(2));
+    (scope == EActionScope::Node ? order.nodes.front().actions : order.edges.front().actions).push_back(action);
+    driver.Send(std::move(order));
+}
+
+/// What has to be so that the action can do its work.
+void Prepare(VehicleDriver& driver, std::string_view actionType)
+{
+    if (actionType == ActionTypes::DROP)
+    {
+        auto route = driver.MakeRoute("order-pick", {"DOCK"});
+        auto order = VehicleDriver::Take(route.MakeOrder(1));
+        order.nodes.front().actions.push_back(MakeAction(ActionTypes::PICK, {}));
+        order.nodes.front().actions.front().actionID = "pick";
+        driver.Send(std::move(order));
+    }
+    else if (actionType == ActionTypes::DELETE_MAP)
+    {
+        driver.SendInstantly(
+            ActionTypes::DOWNLOAD_MAP,
+            "download",
+            {MakeText("mapId", "cellar"), MakeText("mapVersion", "1"), MakeText("mapDownloadLink", "1")});
+    }
+    else if (actionType == ActionTypes::STOP_PAUSE)
+    {
+        driver.SendInstantly(ActionTypes::START_PAUSE, "pause");
+    }
+    else if (actionType == ActionTypes::CANCEL_ORDER)
+    {
+        auto route = driver.MakeRoute("order-cancel", {"DOCK", "N2"});
+        driver.Send(VehicleDriver::Take(route.MakeOrder(2)));
+    }
+    driver.Pass(1s);
+}
+
+} // namespace
+
+TEST_CASE("6.8.2 The factsheet lists every action that the standard names, with its scopes and parameters")
+{
+    const std::vector<AgvAction> listed = ListActions();
+    CHECK(listed.size() == VDA5050::GetPredefinedActions().size());
+    for (const AgvAction& standard : VDA5050::GetPredefinedActions())
+    {
+        CAPTURE(standard.actionType);
+        const auto row = std::ranges::find(listed, standard.actionType, &AgvAction::actionType);
+        REQUIRE(row != listed.end());
+        CHECK(row->actionScopes == standard.actionScopes);
+        REQUIRE(row->actionParameters.size() == standard.actionParameters.size());
+        for (std::size_t index = 0; index < row->actionParameters.size(); ++index)
+        {
+            CHECK(row->actionParameters[index].key == standard.actionParameters[index].key);
+            CHECK(row->actionParameters[index].valueDataType == standard.actionParameters[index].valueDataType);
+        }
+        CHECK(row->blockingTypes.size() == 3);
+    }
+}
+
+TEST_CASE("6.8.2 Every action of the factsheet comes to its end in each of its scopes")
+{
+    for (const AgvAction& row : ListActions())
+    {
+        for (const EActionScope scope : row.actionScopes)
+        {
+            CAPTURE(row.actionType, static_cast<int>(scope));
+            VehicleDriver driver(MakeOptions());
+            Prepare(driver, row.actionType);
+            if (scope == EActionScope::Instant)
+            {
+                driver.SendInstantly(row.actionType, "work", MakeParameters(row));
+            }
+            else
+            {
+                SendOrder(driver, MakeAction(row.actionType, MakeParameters(row)), scope);
+            }
+            driver.Pass(1s);
+            if (row.actionType == ActionTypes::WAIT_FOR_TRIGGER)
+            {
+                CHECK(driver.GetStatus("work") == EActionStatus::Running);
+                CHECK(driver.Trigger() == 1);
+            }
+            driver.Pass(20s);
+            CHECK(driver.GetStatus("work") == EActionStatus::Finished);
+        }
+    }
+}
+
+TEST_CASE("6.8.2 Maps are downloaded, enabled and deleted, and a factsheet without a needed parameter refuses them")
+{
+    VehicleDriver driver(MakeOptions());
+    const auto send = [&driver](std::string_view type, const std::string& actionID, const std::string& version) {
+        driver.SendInstantly(
+            type,
+            actionID,
+            {MakeText("mapId", "floor"),
+             MakeText("mapVersion", version),
+             MakeText("mapDownloadLink", "http://maps/2")});
+        driver.Pass(1s);
+    };
+    const auto getMaps = [&driver]() {
+        return driver.GetState().maps.value_or(std::vector<VDA5050::MapState>());
+    };
+    send(ActionTypes::DOWNLOAD_MAP, "download", "2");
+    REQUIRE(getMaps().size() == 2);
+    CHECK(getMaps()[1] == VDA5050::MapState{"floor", "2", VDA5050::EMapStatus::Disabled, {}});
+    driver.SendInstantly(ActionTypes::ENABLE_MAP, "enable", {MakeText("mapId", "floor"), MakeText("mapVersion", "2")});
+    driver.Pass(1s);
+    CHECK(getMaps()[0].mapStatus == VDA5050::EMapStatus::Disabled);
+    CHECK(getMaps()[1].mapStatus == VDA5050::EMapStatus::Enabled);
+    driver.SendInstantly(ActionTypes::DELETE_MAP, "delete", {MakeText("mapId", "floor"), MakeText("mapVersion", "1")});
+    driver.Pass(1s);
+    REQUIRE(getMaps().size() == 1);
+    CHECK(getMaps()[0].mapVersion == "2");
+    driver.SendInstantly(ActionTypes::DELETE_MAP, "without", {MakeText("mapId", "floor")});
+    driver.Pass(1s);
+    CHECK(driver.GetStatus("without") == EActionStatus::Failed);
+}
+
+TEST_CASE("6.8 What is looked for along an edge is found by its end; a pick that is not done by then has failed")
+{
+    for (const std::string_view type : {ActionTypes::DETECT_OBJECT, ActionTypes::PICK})
+    {
+        CAPTURE(type);
+        VdaSim::VirtualVehicleOptions options = VehicleDriver::MakeOptions("DOCK");
+        options.actionSeconds[std::string(type)] = 1000.0;
+        VehicleDriver driver(std::move(options));
+        SendOrder(driver, MakeAction(type, {}), EActionScope::Edge);
+        driver.Pass(1s);
+        CHECK(driver.GetStatus("work") == EActionStatus::Running);
+        driver.Pass(30s);
+        CHECK(driver.GetState().lastNodeID == "N2");
+        const bool bFound = driver.GetStatus("work") == EActionStatus::Finished;
+        CHECK(bFound == (type == ActionTypes::DETECT_OBJECT));
+        CHECK(driver.GetState().loads->empty());
+    }
+}
+
+} // namespace ACS::Testing
