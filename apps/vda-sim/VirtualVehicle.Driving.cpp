@@ -22,6 +22,17 @@ double GetEdgeHeading(double direction, std::optional<double> orientationOrNull,
     return NormaliseAngle(direction + orientationOrNull.value_or(0.0));
 }
 
+/// An order may state any number: below zero it allows no movement, as zero does.
+double GetMaxSpeed(const VDA5050::OrderEdge& edge)
+{
+    return std::max(edge.maxSpeed.value_or(DEFAULT_SPEED), 0.0);
+}
+
+double GetMaxTurnSpeed(const VDA5050::OrderEdge& edge, const MotionLimits& limits)
+{
+    return std::max(edge.maxRotationSpeed.value_or(limits.maxTurnSpeed), 0.0);
+}
+
 double GetTurn(double from, double to)
 {
     return std::abs(NormaliseAngle(to - from));
@@ -76,9 +87,8 @@ MotionLeg VirtualVehicle::MakeLeg(const VDA5050::DriveTo& drive) const
     {
         leg.relativeHeading = edge.orientation.value_or(0.0);
     }
-    // An order may state any number: below zero it allows no movement, as zero does.
-    leg.maxSpeed = std::max(edge.maxSpeed.value_or(DEFAULT_SPEED), 0.0);
-    leg.maxTurnSpeed = std::max(edge.maxRotationSpeed.value_or(_options.limits.maxTurnSpeed), 0.0);
+    leg.maxSpeed = GetMaxSpeed(edge);
+    leg.maxTurnSpeed = GetMaxTurnSpeed(edge, _options.limits);
     leg.bTurnBefore = !edge.bRotationAllowed.value_or(true);
     if (drive.node.nodePosition.has_value())
     {
@@ -95,44 +105,31 @@ double VirtualVehicle::GetExitSpeed(const VDA5050::DriveTo& drive, const MotionL
     const double heading = leg.heading.value_or(NormaliseAngle(direction + leg.relativeHeading));
     const bool bTurnsThere =
         leg.finalTheta.has_value() && GetTurn(heading, *leg.finalTheta) > _options.limits.turnTolerance;
-    if (drive.bStopAtNode || bTurnsThere)
+    if (drive.bStopAtNode || bTurnsThere || !drive.next.has_value())
     {
         return 0.0;
     }
-    const VDA5050::StateMessage state = _session.GetState();
-    const auto node = std::ranges::find(state.nodeStates, drive.node.sequenceID + 2, &VDA5050::NodeState::sequenceID);
-    const auto edge = std::ranges::find(state.edgeStates, drive.node.sequenceID + 1, &VDA5050::EdgeState::sequenceID);
-    if (node == state.nodeStates.end() || edge == state.edgeStates.end())
-    {
-        return 0.0;
-    }
-    VDA5050::OrderNode nextNode;
-    nextNode.nodeID = node->nodeID;
-    if (node->nodePosition.has_value())
-    {
-        nextNode.nodePosition = VDA5050::NodePosition{};
-        nextNode.nodePosition->x = node->nodePosition->x;
-        nextNode.nodePosition->y = node->nodePosition->y;
-    }
-    const Pose nextPose = GetNodePose(nextNode);
-    const LegPath next =
-        LegPath::Create(leg.path.GetPoint(leg.path.GetLength()), {nextPose.x, nextPose.y}, edge->trajectory);
+    const VDA5050::OrderEdge& edge = drive.next->edge;
+    const Pose nextPose = GetNodePose(drive.next->node);
+    LegPath next = LegPath::Create(leg.path.GetPoint(leg.path.GetLength()), {nextPose.x, nextPose.y}, edge.trajectory);
     const double nextDirection = next.GetDirectionOrNull(0.0).value_or(direction);
-    const bool bCorner = GetTurn(direction, nextDirection) > CORNER_ANGLE;
-    const double speed = bCorner ? std::min(leg.maxSpeed, _options.limits.cornerSpeed) : leg.maxSpeed;
-    const auto known = std::ranges::find(_site->GetEdges(), edge->edgeID, &Planning::SiteEdge::edgeID);
-    if (known == _site->GetEdges().end() || known->rules.empty())
-    {
-        return speed;
-    }
-    const Planning::SiteEdgeRule& rule = known->rules.front();
-    const double nextHeading = GetEdgeHeading(nextDirection, rule.orientation, rule.orientationType == "GLOBAL");
+    const bool bGlobal = edge.orientationType == VDA5050::EOrientationType::Global;
+    const double nextHeading = GetEdgeHeading(nextDirection, edge.orientation, bGlobal);
     const bool bMustTurn = GetTurn(heading, nextHeading) > _options.limits.turnTolerance;
-    if (bMustTurn && !rule.bRotationAllowed.value_or(true))
+    if (bMustTurn && !edge.bRotationAllowed.value_or(true))
     {
         return 0.0;
     }
-    return std::min(speed, rule.maxSpeed.value_or(speed));
+    const bool bCorner = GetTurn(direction, nextDirection) > CORNER_ANGLE;
+    // What comes behind the next leg shows when that begins: until then the vehicle has to be able to stop at its end.
+    const MotionLimits& limits = _options.limits;
+    const double turnSpeed = std::min(GetMaxTurnSpeed(edge, limits), limits.maxTurnSpeed);
+    next.Plan(turnSpeed, limits.lateralAcceleration, limits.cornerSpeed, limits.deceleration, 0.0);
+    return std::min(
+        {leg.maxSpeed,
+         GetMaxSpeed(edge),
+         next.GetAllowedSpeed(0.0, limits.deceleration),
+         bCorner ? limits.cornerSpeed : limits.maxSpeed});
 }
 
 } // namespace ACS::VdaSim

@@ -66,8 +66,7 @@ struct VirtualVehicleOptions
 
 /// A whole vehicle in software: a VehicleSession, the motion that carries out its legs, the actions, a battery, and
 /// what goes wrong with them. Pure: time comes in, actions are appended to out. The site and the random source must
-/// outlive it; from the site come the start position and, ahead of a node that is passed, the speed for the way that
-/// follows.
+/// outlive it; from the site come the start position and the places of nodes that an order does not place.
 class VirtualVehicle
 {
     static constexpr std::uint64_t KEY_TICK = 100;  ///< Above the keys of the session's own timers.

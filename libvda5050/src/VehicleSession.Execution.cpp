@@ -226,7 +226,12 @@ void VehicleSession::DriveToFront(bool bStopAtNode, VehicleActions& out)
     _bLegBegun = true;
     _bLegStops = bStopAtNode;
     _bHalting = false;
-    out.emplace_back(DriveTo{_route.GetEdge(0), _route.GetNode(0), bStopAtNode});
+    std::optional<NextLeg> next;
+    if (!bStopAtNode)
+    {
+        next = NextLeg{_route.GetEdge(1), _route.GetNode(1)};
+    }
+    out.emplace_back(DriveTo{_route.GetEdge(0), _route.GetNode(0), bStopAtNode, std::move(next)});
 }
 
 /// 6.6.3: a cancelled vehicle that is bound to nodes still has one to reach.

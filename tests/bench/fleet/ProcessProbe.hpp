@@ -3,12 +3,10 @@
 #include <cstdint>
 #include <sys/types.h>
 
-namespace ACS::Bench
+/// What the system says of a process of ours, this one included.
+namespace ACS::Bench::ProcessProbe
 {
 
-/// What the system says of a process of ours, this one included.
-namespace ProcessProbe
-{
 /// Seconds of a core that it has used so far.
 [[nodiscard]] double GetCpuSeconds(pid_t process);
 
@@ -17,6 +15,5 @@ namespace ProcessProbe
 
 /// Keeps it, and the threads that it starts from now on, on one core; nothing where there is no core of that number.
 void KeepOnCore(pid_t process, std::size_t core);
-} // namespace ProcessProbe
 
-} // namespace ACS::Bench
+} // namespace ACS::Bench::ProcessProbe

@@ -5,12 +5,10 @@
 #include <cstddef>
 #include <string>
 
-namespace ACS::Bench
+/// A ring of nodes some metres apart, wide enough to be driven round without a brake: as long a way as one likes.
+namespace ACS::Bench::RingSite
 {
 
-/// A ring of nodes some metres apart, wide enough to be driven round without a brake: as long a way as one likes.
-namespace RingSite
-{
 inline constexpr std::size_t NODES = 500;
 inline constexpr double METRES_APART = 4.0;
 inline constexpr double METRES_PER_SECOND = 1.2;
@@ -22,6 +20,5 @@ inline constexpr double METRES_PER_SECOND = 1.2;
 
 /// Round the ring from this node on.
 [[nodiscard]] VDA5050::OrderBuilder MakeRoute(std::string orderID, std::size_t firstNode, std::size_t edges);
-} // namespace RingSite
 
-} // namespace ACS::Bench
+} // namespace ACS::Bench::RingSite

@@ -105,6 +105,37 @@ TEST_CASE("6.6 An update that comes in time is driven through without a stop, sl
     CHECK(speedAtNode < 0.45);
 }
 
+TEST_CASE("6.6 A node is passed no faster than the order allows on the way behind it, nor than that can be braked on")
+{
+    VehicleDriver driver("N0");
+    const auto getSpeedAtNode = [&driver](const std::string& orderID, double secondSpeed, double secondNodeX) {
+        auto route = driver.MakeRoute(orderID, {"N0", "N1", "N2"});
+        auto order = VehicleDriver::Take(route.MakeOrder(3));
+        order.edges[1].maxSpeed = secondSpeed;
+        order.nodes[2].nodePosition->x = secondNodeX;
+        order.nodes[2].nodePosition->y = 0.0;
+        driver.Send(std::move(order));
+        REQUIRE(driver.TryPassUntil([&]() { return driver.GetState().lastNodeID == "N1"; }, 60s));
+        const double speed = driver.GetSpeed();
+        driver.Pass(120s);
+        CHECK(driver.GetState().lastNodeID == "N2");
+        driver.SendInstantly(
+            VDA5050::ActionTypes::INIT_POSITION,
+            orderID + "-back",
+            {{"x", Core::JsonText::FromNumber(0.0)},
+             {"y", Core::JsonText::FromNumber(0.0)},
+             {"theta", Core::JsonText::FromNumber(0.0)},
+             {"mapId", Core::JsonText::FromString("floor")},
+             {"lastNodeId", Core::JsonText::FromString("N0")}});
+        driver.Pass(2s);
+        return speed;
+    };
+    CHECK(getSpeedAtNode("as-fast", 1.2, 20.0) == Approx(1.2).margin(0.02));
+    CHECK(getSpeedAtNode("slow", 0.3, 20.0) == Approx(0.3).margin(0.02));
+    // 0.3 m with 0.6 m/s²: 0.6 m/s.
+    CHECK(getSpeedAtNode("short", 1.2, 10.3) == Approx(0.6).margin(0.02));
+}
+
 TEST_CASE("A vehicle keeps to the speed of the edge and to its own acceleration")
 {
     VehicleDriver driver("N0");

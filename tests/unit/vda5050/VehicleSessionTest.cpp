@@ -152,6 +152,7 @@ TEST_CASE("4.3 An update extends the base at the decision point and replaces the
     bench.Order(MakeOrder(5, 2));
     REQUIRE(Pick<DriveTo>(bench.GetOutput()).size() == 1);
     CHECK(Pick<DriveTo>(bench.GetOutput())[0].bStopAtNode);
+    CHECK_FALSE(Pick<DriveTo>(bench.GetOutput())[0].next.has_value());
     bench.Clear();
     bench.Order(MakeUpdate(4, 2, 3));
     const StateMessage state = bench.GetPublishedState();
@@ -163,6 +164,11 @@ TEST_CASE("4.3 An update extends the base at the decision point and replaces the
     REQUIRE(Pick<DriveTo>(bench.GetOutput()).size() == 1);
     CHECK(Pick<DriveTo>(bench.GetOutput())[0].node.nodeID == "N1");
     CHECK_FALSE(Pick<DriveTo>(bench.GetOutput())[0].bStopAtNode);
+    const std::optional<NextLeg> next = Pick<DriveTo>(bench.GetOutput())[0].next;
+    REQUIRE(next.has_value());
+    CHECK(next->edge.edgeID == "E1");
+    CHECK(next->edge.startNodeID == "N1");
+    CHECK(next->node.nodeID == "N2");
 }
 
 TEST_CASE("4.3 After the base is done an update that begins at the last node is taken")

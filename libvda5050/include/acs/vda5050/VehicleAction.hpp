@@ -8,6 +8,7 @@
 #include <acs/vda5050/OrderMessage.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -38,6 +39,15 @@ struct CancelVehicleTimer
     bool operator==(const CancelVehicleTimer&) const = default;
 };
 
+/// The leg behind a node that is passed without a stop.
+struct NextLeg
+{
+    OrderEdge edge;
+    OrderNode node;
+
+    bool operator==(const NextLeg&) const = default;
+};
+
 /// To do: drive along the edge to its end node, then call OnNodeReached with the node's sequenceID. One leg at a time.
 /// The same sequenceID again, while on the way: only bStopAtNode has changed; after StopDriving: drive on.
 struct DriveTo
@@ -45,6 +55,9 @@ struct DriveTo
     OrderEdge edge;
     OrderNode node;
     bool bStopAtNode = true; ///< False: the next leg is released and nothing is to be done at the node: do not brake.
+    /// Just where it does not stop: how fast and how turned the vehicle has to be there. Its own DriveTo follows at the
+    /// node.
+    std::optional<NextLeg> next;
 
     bool operator==(const DriveTo&) const = default;
 };
