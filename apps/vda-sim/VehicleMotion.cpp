@@ -10,8 +10,9 @@ namespace ACS::VdaSim
 namespace
 {
 
-constexpr double ARRIVED = 1e-4; ///< m
-constexpr double AIMED = 1e-6;   ///< rad
+constexpr double ARRIVED = 1e-4;      ///< m
+constexpr double AIMED = 1e-6;        ///< rad
+constexpr double SHARPEST_BEND = 0.1; ///< rad between two pieces of a curve; more is a corner.
 
 } // namespace
 
@@ -79,17 +80,14 @@ void VehicleMotion::Place(const Pose& pose)
 
 bool VehicleMotion::TryFinishLeg(double seconds)
 {
-    _turnSpeed = 0.0;
     if (!_leg.has_value())
     {
+        _turnSpeed = 0.0;
         return false;
     }
     if (_brake != EBrake::None)
     {
-        if (_speed > 0.0)
-        {
-            Drive(seconds);
-        }
+        Brake(seconds);
         return false;
     }
     if (!_bAtTarget)
@@ -106,25 +104,63 @@ bool VehicleMotion::TryFinishLeg(double seconds)
             return false;
         }
         _bAtTarget = true;
+        _bFollows = false;
     }
-    if (_leg->finalTheta.has_value() && !TryTurn(*_leg->finalTheta, seconds))
+    return TryArrive(seconds);
+}
+
+bool VehicleMotion::TryArrive(double seconds)
+{
+    if (_leg->finalTheta.has_value())
     {
-        _speed = 0.0;
-        return false;
+        const bool bPasses =
+            _leg->exitSpeed > 0.0 && std::abs(NormaliseAngle(*_leg->finalTheta - _pose.theta)) <= _limits.turnTolerance;
+        if (!bPasses && !TryTurn(*_leg->finalTheta, seconds))
+        {
+            _speed = 0.0;
+            return false;
+        }
     }
     _speed = std::min(_speed, _leg->exitSpeed);
     _leg.reset();
     return true;
 }
 
+/// The turn comes to its end as the way does.
+void VehicleMotion::Brake(double seconds)
+{
+    const double less = std::min(std::abs(_turnSpeed), _limits.turnAcceleration * seconds);
+    _turnSpeed -= std::copysign(less, _turnSpeed);
+    _pose.theta = NormaliseAngle(_pose.theta + _turnSpeed * seconds);
+    if (_speed > 0.0)
+    {
+        Drive(seconds);
+    }
+}
+
 bool VehicleMotion::TryTurn(double theta, double seconds)
 {
     const double wanted = NormaliseAngle(theta - _pose.theta);
-    const double possible = std::min(_leg->maxTurnSpeed, _limits.maxTurnSpeed) * seconds;
-    const double turned = std::clamp(wanted, -possible, possible);
-    _pose.theta = NormaliseAngle(_pose.theta + turned);
+    const double fastest = std::min(_leg->maxTurnSpeed, _limits.maxTurnSpeed);
+    double turned = std::clamp(wanted, -fastest * seconds, fastest * seconds);
+    // Any turn has to gain speed and to lose it again, but in bends, which are as soft as the way itself.
+    _bFollows = _bFollows && std::abs(wanted) <= SHARPEST_BEND;
+    if (!_bFollows)
+    {
+        const double change = _limits.turnAcceleration * seconds;
+        // Kept for these seconds, and then lost within what is left.
+        const double stoppable =
+            std::sqrt(change * change + 2.0 * _limits.turnAcceleration * std::abs(wanted)) - change;
+        const double aim = std::copysign(std::min(fastest, stoppable), wanted);
+        const double turnSpeed = std::clamp(aim, _turnSpeed - change, _turnSpeed + change);
+        const bool bOvershoots = turnSpeed * wanted > 0.0 && std::abs(turnSpeed * seconds) > std::abs(wanted);
+        turned = bOvershoots ? wanted : turnSpeed * seconds;
+    }
+    const bool bAimed = std::abs(wanted - turned) <= AIMED;
+    _pose.theta = NormaliseAngle(bAimed ? theta : _pose.theta + turned);
     _turnSpeed = turned / seconds;
-    return std::abs(wanted - turned) <= AIMED;
+    _bFollows = _bFollows || bAimed;
+    return bAimed;
 }
 
 double VehicleMotion::GetRemaining() const
@@ -225,7 +261,7 @@ bool VehicleMotion::HasLeg() const noexcept
 
 bool VehicleMotion::IsStanding() const noexcept
 {
-    return _speed <= 0.0 && (!_leg.has_value() || _brake != EBrake::None);
+    return _speed <= 0.0 && (!_leg.has_value() || (_brake != EBrake::None && _turnSpeed == 0.0));
 }
 
 } // namespace ACS::VdaSim

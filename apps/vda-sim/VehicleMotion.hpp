@@ -27,8 +27,9 @@ struct MotionLimits
     double lateralAcceleration = 0.5;   ///< m/s², in bends.
     double maxSpeed = 1.5;              ///< m/s
     double maxTurnSpeed = 1.2;          ///< rad/s
+    double turnAcceleration = 2.0;      ///< rad/s², but in bends, which it takes as they come.
     double cornerSpeed = 0.3;           ///< m/s where the direction changes without a stop.
-    double turnTolerance = 0.02;        ///< rad: less needs no turning.
+    double turnTolerance = 0.02;        ///< rad: a vehicle that passes a node turns no less than this there.
 };
 
 /// One way to a node.
@@ -70,6 +71,7 @@ class VehicleMotion
     double _wantedOffset = 0.0;
     EBrake _brake = EBrake::None;
     bool _bAtTarget = false; ///< There, and turning to finalTheta.
+    bool _bFollows = false;  ///< Looks where it should, and from now on where the bends lead.
 
 public:
     /// A vehicle leaves its way no steeper than this: metres aside for each metre driven.
@@ -106,6 +108,8 @@ public:
 
 private:
     [[nodiscard]] bool TryTurn(double theta, double seconds);
+    [[nodiscard]] bool TryArrive(double seconds);
+    void Brake(double seconds);
     [[nodiscard]] double GetRemaining() const;
     [[nodiscard]] double GetDirection() const;
     [[nodiscard]] double GetHeading() const;

@@ -249,6 +249,56 @@ TEST_CASE("Each brake has its own way to stand, and the leg goes on when it is r
     }
 }
 
+TEST_CASE("A turn on the spot is a trapezoid of turn speed, there and at the end of a way")
+{
+    const VdaSim::MotionLimits limits;
+    for (const bool bBefore : {true, false})
+    {
+        VehicleMotion motion(limits, {});
+        MotionLeg leg = MakeStraight(bBefore ? 1.0 : 0.0);
+        leg.bTurnBefore = bBefore;
+        leg.heading = bBefore ? std::optional(2.0 * QUARTER) : std::optional(0.0);
+        leg.finalTheta = 2.0 * QUARTER;
+        motion.Begin(std::move(leg));
+        double last = 0.0;
+        double fastest = 0.0;
+        double turning = 0.0;
+        RunLeg(motion, [&]() {
+            const double turnSpeed = std::abs(motion.GetTurnSpeed());
+            CHECK(std::abs(turnSpeed - last) <= limits.turnAcceleration * SLICE * 1.5);
+            turning += turnSpeed > 0.0 ? SLICE : 0.0;
+            fastest = std::max(fastest, turnSpeed);
+            last = turnSpeed;
+        });
+        CHECK(fastest == Approx(limits.maxTurnSpeed));
+        // pi rad: 0.6 s to 1.2 rad/s (0.36 rad), as long to a stand, the rest at 1.2 rad/s.
+        CHECK(turning == Approx(1.2 + (2.0 * QUARTER - 0.72) / 1.2).margin(0.1));
+        CHECK(std::abs(motion.GetPose().theta) == Approx(2.0 * QUARTER).margin(EXACT));
+    }
+}
+
+TEST_CASE("A vehicle that brakes while it turns ends its turn as smoothly, and stands only then")
+{
+    const VdaSim::MotionLimits limits;
+    VehicleMotion motion(limits, {});
+    MotionLeg leg = MakeStraight(1.0);
+    leg.bTurnBefore = true;
+    leg.heading = 2.0 * QUARTER;
+    motion.Begin(std::move(leg));
+    RunLeg(motion, {}, 1.0);
+    const double before = motion.GetPose().theta;
+    REQUIRE(motion.GetTurnSpeed() == Approx(limits.maxTurnSpeed));
+    motion.SetBrake(EBrake::Service);
+    CHECK_FALSE(motion.IsStanding());
+    RunLeg(motion, {}, 1.0);
+    CHECK(motion.IsStanding());
+    CHECK(motion.GetTurnSpeed() == 0.0);
+    CHECK(motion.GetPose().theta - before == Approx(0.36).margin(0.03)); // 1.2² / (2 * 2)
+    motion.SetBrake(EBrake::None);
+    RunLeg(motion);
+    CHECK(motion.GetPose().theta == Approx(2.0 * QUARTER).margin(EXACT));
+}
+
 TEST_CASE("A vehicle swerves gently, as far as it was told, and is back on its way at the end")
 {
     VehicleMotion motion({}, {});
