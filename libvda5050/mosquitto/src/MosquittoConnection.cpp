@@ -304,6 +304,11 @@ bool MosquittoConnection::IsUp() const
     return _bUp && !_bClosed;
 }
 
+bool MosquittoConnection::HasUnsent() const
+{
+    return _unsent > 0;
+}
+
 void MosquittoConnection::WaitToRead()
 {
     _socket.async_wait(

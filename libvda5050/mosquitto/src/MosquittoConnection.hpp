@@ -101,6 +101,8 @@ public:
     void Abandon();
 
     [[nodiscard]] bool IsUp() const;
+    /// Whether a message waits for the socket or for the broker's acknowledgement.
+    [[nodiscard]] bool HasUnsent() const;
 
 private:
     [[nodiscard]] int Configure(const MosquittoOptions& options);

@@ -29,7 +29,6 @@ class MosquittoLink::Impl final : public IMosquittoConnectionOwner, public std::
     std::set<int> _unconfirmed;
     std::vector<MqttMessage> _early;
     std::size_t _earlyDropped = 0;
-    std::optional<int> _lastMessageID;
     StopHandler _stopHandler;
     bool _bUp = false;
     bool _bOutageLogged = false;
@@ -317,9 +316,9 @@ void MosquittoLink::Impl::OnConnectionClosed(std::error_code reason)
     }
 }
 
-void MosquittoLink::Impl::OnSent(int messageID)
+void MosquittoLink::Impl::OnSent(int /*messageID*/)
 {
-    if (_bStopping && _lastMessageID == messageID && _connectionOrNull != nullptr)
+    if (_bStopping && _connectionOrNull != nullptr && !_connectionOrNull->HasUnsent())
     {
         _connectionOrNull->TakeLeave();
     }
@@ -336,13 +335,11 @@ void MosquittoLink::Impl::StopAsync(
     _timer.cancel();
     if (bWasConnected && lastMessageOrNull.has_value())
     {
-        const Core::Result<int> messageID = _connectionOrNull->Publish(*lastMessageOrNull);
-        if (messageID.has_value())
-        {
-            _lastMessageID = *messageID;
-        }
+        std::ignore = _connectionOrNull->Publish(*lastMessageOrNull);
     }
-    if (_connectionOrNull != nullptr && !_lastMessageID.has_value())
+    // libmosquitto closes the socket with its DISCONNECT. A broker that cannot hand over an acknowledgement any more takes
+    // the connection for broken before it has read so far, and publishes the will.
+    if (_connectionOrNull != nullptr && (!bWasConnected || !_connectionOrNull->HasUnsent()))
     {
         _connectionOrNull->TakeLeave();
     }

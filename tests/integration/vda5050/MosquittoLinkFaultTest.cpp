@@ -72,6 +72,34 @@ TEST_CASE("2 What comes before the subscriptions are answered is kept up to a bo
     CHECK(std::ranges::any_of(lines, [](const RecordedLine& line) { return line.HasField("dropped", "30"); }));
 }
 
+TEST_CASE("2 A link that stops takes leave only when the broker has acknowledged all, so that no will is sent")
+{
+    boost::asio::io_context context;
+    RawBroker broker(context);
+    broker.answerSubscribe = [](std::string_view packetID) {
+        return "\x90\x03" + std::string(packetID) + "\x01";
+    };
+    TestLink link(context, MakeOptions(broker.GetPort(), "leaving"));
+    link.link.Subscribe({{"topic", 1}});
+    link.link.Start();
+    REQUIRE(TryRunUntil(context, [&]() { return link.listener.ups == 1; }));
+    REQUIRE(link.link.Publish({"state", "{}", 1, false}).has_value());
+    bool bStopped = false;
+    link.link.StopAsync(std::nullopt, 15s, [&]() { bStopped = true; });
+    const std::string disconnect("\xE0\x00", 2);
+    const auto hasReceived = [&broker](const std::string& bytes) {
+        return broker.received.find(bytes) != std::string::npos;
+    };
+    REQUIRE(TryRunUntil(context, [&]() { return hasReceived("{}"); }));
+    CHECK_FALSE(TryRunUntil(
+        context,
+        [&]() { return hasReceived(disconnect); },
+        50ms));
+    const std::size_t packetID = broker.received.find("state") + 5;
+    broker.Send(std::string("\x40\x02", 2) + broker.received.substr(packetID, 2));
+    CHECK(TryRunUntil(context, [&]() { return hasReceived(disconnect) && bStopped; }));
+}
+
 TEST_CASE("A descriptor that the executor does not take is closed again")
 {
     boost::asio::io_context context;

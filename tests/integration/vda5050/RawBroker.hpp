@@ -32,11 +32,13 @@ class RawBroker
     };
 
     boost::asio::ip::tcp::acceptor _acceptor;
+    std::shared_ptr<Client> _lastClient;
 
 public:
     static constexpr char SUBSCRIBE = '\x82';
 
     std::size_t connections = 0;
+    std::string received; ///< By all clients.
     /// What is sent after a SUBSCRIBE, by its packet id.
     std::function<std::string(std::string_view packetID)> answerSubscribe;
 
@@ -61,6 +63,12 @@ public:
         return packet + topic + payload;
     }
 
+    /// To the client that came last.
+    void Send(const std::string& bytes)
+    {
+        boost::asio::write(_lastClient->socket, boost::asio::buffer(bytes));
+    }
+
 private:
     void Accept()
     {
@@ -70,7 +78,8 @@ private:
                 return;
             }
             ++connections;
-            Read(std::make_shared<Client>(std::move(socket)));
+            _lastClient = std::make_shared<Client>(std::move(socket));
+            Read(_lastClient);
             Accept();
         });
     }
@@ -85,6 +94,7 @@ private:
                     return;
                 }
                 const std::string_view packet(client->buffer.data(), length);
+                received += packet;
                 std::string answer;
                 if (packet.front() == '\x10')
                 {

@@ -64,8 +64,9 @@ public:
     /// Between OnLinkUp and OnLinkDown.
     [[nodiscard]] bool IsConnected() const;
 
-    /// Publishes the last message (OFFLINE), waits until the broker has acknowledged it (or the time is over), takes
-    /// leave so that no will is sent, and then calls back, once, from the executor. Nothing is received any more.
+    /// Publishes the last message (OFFLINE), waits until the broker has acknowledged it and all before it (or the time is
+    /// over), takes leave so that no will is sent, and then calls back, once, from the executor. Nothing is received any
+    /// more.
     void StopAsync(
         const std::optional<MqttMessage>& lastMessageOrNull,
         std::chrono::milliseconds timeout,
