@@ -16,12 +16,6 @@ std::unique_ptr<TExtras> KeepOrNull(TExtras extras)
     return extras == TExtras() ? nullptr : std::make_unique<TExtras>(std::move(extras));
 }
 
-const std::vector<Action>& GetNoActions()
-{
-    static const std::vector<Action> NO_ACTIONS;
-    return NO_ACTIONS;
-}
-
 } // namespace
 
 HeldRoute::Step HeldRoute::MakeStep(OrderEdge edge, OrderNode node)
@@ -202,16 +196,16 @@ std::uint32_t HeldRoute::GetEdgeSequenceID(std::size_t index) const
     return _steps[index].edgeSequenceID;
 }
 
-const std::vector<Action>& HeldRoute::GetNodeActions(std::size_t index) const
+std::span<const Action> HeldRoute::GetNodeActions(std::size_t index) const
 {
-    const Step& step = _steps[index];
-    return step.nodeExtrasOrNull != nullptr ? step.nodeExtrasOrNull->actions : GetNoActions();
+    const std::unique_ptr<NodeExtras>& extrasOrNull = _steps[index].nodeExtrasOrNull;
+    return extrasOrNull != nullptr ? std::span<const Action>(extrasOrNull->actions) : std::span<const Action>();
 }
 
-const std::vector<Action>& HeldRoute::GetEdgeActions(std::size_t index) const
+std::span<const Action> HeldRoute::GetEdgeActions(std::size_t index) const
 {
-    const Step& step = _steps[index];
-    return step.edgeExtrasOrNull != nullptr ? step.edgeExtrasOrNull->actions : GetNoActions();
+    const std::unique_ptr<EdgeExtras>& extrasOrNull = _steps[index].edgeExtrasOrNull;
+    return extrasOrNull != nullptr ? std::span<const Action>(extrasOrNull->actions) : std::span<const Action>();
 }
 
 NodeState HeldRoute::GetNodeState(std::size_t index) const

@@ -15,7 +15,7 @@ bool IsBlockingDriving(const Action& action)
     return action.blockingType != EBlockingType::None;
 }
 
-bool HasBlocking(const std::vector<Action>& actions)
+bool HasBlocking(std::span<const Action> actions)
 {
     return std::ranges::any_of(actions, IsBlockingDriving);
 }
@@ -93,7 +93,7 @@ void VehicleSession::AddActions(
     }
 }
 
-void VehicleSession::Enqueue(const std::vector<Action>& actions)
+void VehicleSession::Enqueue(std::span<const Action> actions)
 {
     std::ranges::transform(actions, std::back_inserter(_actionQueue), &Action::actionID);
 }

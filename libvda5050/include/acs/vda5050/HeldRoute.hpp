@@ -8,6 +8,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -99,8 +100,8 @@ public:
     [[nodiscard]] const std::string& GetNodeID(std::size_t index) const;
     [[nodiscard]] std::uint32_t GetNodeSequenceID(std::size_t index) const;
     [[nodiscard]] std::uint32_t GetEdgeSequenceID(std::size_t index) const;
-    [[nodiscard]] const std::vector<Action>& GetNodeActions(std::size_t index) const;
-    [[nodiscard]] const std::vector<Action>& GetEdgeActions(std::size_t index) const;
+    [[nodiscard]] std::span<const Action> GetNodeActions(std::size_t index) const;
+    [[nodiscard]] std::span<const Action> GetEdgeActions(std::size_t index) const;
     /// As states show them.
     [[nodiscard]] NodeState GetNodeState(std::size_t index) const;
     [[nodiscard]] EdgeState GetEdgeState(std::size_t index) const;

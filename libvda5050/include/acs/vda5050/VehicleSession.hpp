@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -139,7 +140,7 @@ class VehicleSession
         EActionScope scope,
         const std::string& elementID,
         std::uint32_t sequenceID);
-    void Enqueue(const std::vector<Action>& actions);
+    void Enqueue(std::span<const Action> actions);
     void Start(TrackedAction& tracked, VehicleActions& out);
     [[nodiscard]] TrackedAction* FindActionOrNull(std::string_view actionID);
     void SetStatus(std::string_view actionID, EActionStatus status, const std::string& result = {});
