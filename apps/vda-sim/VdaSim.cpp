@@ -75,6 +75,7 @@ public:
         VirtualVehicleOptions vehicle;
         vehicle.address = {_options->interfaceName, _options->manufacturer, spec.name};
         vehicle.version = spec.version.value_or(_options->version);
+        vehicle.qos = _options->link.qos;
         vehicle.type = spec.type;
         vehicle.startNodeID = startNodeID;
         vehicle.timeScale = _options->timeScale;
@@ -120,9 +121,12 @@ private:
         link.host = _options->broker.peer.host;
         link.port = _options->broker.peer.port;
         link.clientID = std::move(clientID);
+        link.version = _options->link.version;
+        link.username = _options->link.username;
+        link.password = _options->link.password;
         if (Apps::IsSecure(_options->broker.scheme))
         {
-            link.tls = VDA5050::MosquittoTls{};
+            link.tls = _options->link.tls;
         }
         return link;
     }

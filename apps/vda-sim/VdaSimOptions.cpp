@@ -182,6 +182,7 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         {Apps::EUrlScheme::Mqtt, Apps::EUrlScheme::Mqtts},
         "MQTT broker, mqtt://HOST:PORT or mqtts://HOST:PORT; tried again until it answers")
         .required();
+    AddBrokerOptions(app, options.link);
     app.add_option("--site", options.sitePath, "layout of the site, a VDMA LIF 1.0 file")
         ->required()
         ->type_name("FILE.lif.json");
@@ -282,7 +283,8 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         return exitCode;
     }
     options.controlTopic = bNoControl ? std::string() : options.controlTopic;
-    std::string mistake = AddVehicles(row, options.vehicles);
+    std::string mistake = CheckBrokerOptions(options.link, options.broker.scheme);
+    mistake = mistake.empty() ? AddVehicles(row, options.vehicles) : mistake;
     mistake = mistake.empty() ? CheckFaults(options.faults, options.vehicles) : mistake;
     if (!mistake.empty())
     {

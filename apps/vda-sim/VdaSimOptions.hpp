@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/CommandLine.hpp"
+#include "vda-sim/BrokerOptions.hpp"
 #include "vda-sim/FaultCommand.hpp"
 #include "vda-sim/VehicleSpec.hpp"
 #include <acs/core/Result.hpp>
@@ -22,6 +23,7 @@ struct VdaSimOptions
 {
     Apps::CommonOptions common;
     Apps::Url broker{Apps::EUrlScheme::Mqtt, {}, {}};
+    BrokerOptions link;
     std::string sitePath;
     std::vector<VehicleSpec> vehicles;
     std::string manufacturer = "ACS";

@@ -31,6 +31,7 @@ VDA5050::VehicleOptions MakeSessionOptions(const VirtualVehicleOptions& options,
     VDA5050::VehicleOptions session;
     session.address = options.address;
     session.version = options.version;
+    session.qos = options.qos;
     session.factsheet = MakeFactsheet(options.type, options.limits);
     session.visualizationInterval = 200ms;
     session.bStopsBetweenNodes = false; // as a line-guided vehicle: a cancelled order ends on a node

@@ -56,6 +56,7 @@ struct VirtualVehicleOptions
 {
     VDA5050::VehicleAddress address;
     VDA5050::EVda5050Version version = VDA5050::EVda5050Version::Version200;
+    VDA5050::QosTable qos{};
     EVehicleType type = EVehicleType::Logistics;
     std::string startNodeID; ///< A node of the site.
     double timeScale = 1.0;  ///< Simulated seconds per second: of driving and handling, not of messages or faults.

@@ -1,7 +1,12 @@
 #include "VdaSimFixture.hpp"
 
+#ifdef ACS_TEST_CERTIFICATES
+#include "CertificateMaker.hpp"
+#endif
+
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -77,6 +82,57 @@ TEST_CASE("vda-sim: ends with 0 also while its broker is not there")
     REQUIRE(program.TryWaitForText("cannot reach the MQTT broker", PATIENCE));
     program.Signal(SIGTERM);
     CHECK(program.WaitForExitOrNull(PATIENCE) == 0);
+}
+
+#ifdef ACS_TEST_CERTIFICATES
+TEST_CASE("vda-sim: joins a broker that asks for TLS, a certificate, a user and a password, by MQTT 5")
+{
+    const TemporaryFolder folder;
+    CertificateMaker maker(folder.GetPath());
+    const CertificateFiles ca = maker.MakeCA("ca");
+    const CertificateFiles server = maker.Make(ca, {});
+    const CertificateFiles client = maker.Make(ca, {});
+    const std::string passwords = maker.WriteFile("passwords", "");
+    std::filesystem::permissions(passwords, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+    ChildProcess entry({"/usr/bin/mosquitto_passwd", "-b", passwords, "fleet", "secret"});
+    REQUIRE(entry.WaitForExitOrNull(PATIENCE) == 0);
+    const MosquittoBroker broker(
+        "allow_anonymous false\npassword_file " + passwords + "\ncafile " + ca.certificate + "\ncertfile "
+        + server.certificate + "\nkeyfile " + server.key + "\nrequire_certificate true\n");
+    std::vector<std::string> command =
+        MakeCommand("mqtts://127.0.0.1:" + std::to_string(broker.GetPort()), ACS_SITE_FILE, "LR01");
+    command.insert(
+        command.end(),
+        {"--mqtt",
+         "5",
+         "--user",
+         "fleet",
+         "--password-file",
+         maker.WriteFile("secret", "secret\n"),
+         "--tls-ca",
+         ca.certificate,
+         "--tls-certificate",
+         client.certificate,
+         "--tls-key",
+         client.key});
+    ChildProcess program(command);
+    CHECK(program.TryWaitForText("ready: broker=", PATIENCE));
+    program.Signal(SIGTERM);
+    CHECK(program.WaitForExitOrNull(PATIENCE) == 0);
+    CAPTURE(program.GetText());
+    CHECK_THAT(program.GetText(), !Catch::Contains("warning"));
+}
+#endif
+
+TEST_CASE_METHOD(VdaSimFixture, "vda-sim: with --qos standard a state comes with quality of service 0, else with 1")
+{
+    const bool bStandard = GENERATE(false, true);
+    std::vector<std::string> command = MakeCommand(_broker.GetUrl(), ACS_SITE_FILE, "LR01");
+    command.insert(command.end(), {"--qos", bStandard ? "standard" : "project"});
+    ChildProcess program(command);
+    REQUIRE(TryRunUntil(_context, [this]() { return _master->listener.CountTopic(STATE_TOPIC) > 0; }));
+    CHECK(_master->listener.FindLastOrNull(STATE_TOPIC)->qos == (bStandard ? 0 : 1));
+    CHECK(_master->listener.FindLastOrNull(CONNECTION_TOPIC)->qos == 1);
 }
 
 TEST_CASE("vda-sim: what it cannot use is one line with the thing's name, and exit code 2")

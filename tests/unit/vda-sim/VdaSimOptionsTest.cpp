@@ -133,6 +133,45 @@ TEST_CASE("The command line counts vehicles, and takes faults, their files, acti
     CHECK(good.options.actionSeconds.at("pick") == 0.25);
 }
 
+TEST_CASE("The command line says how to speak to the broker: MQTT's version, qualities of service, user and password")
+{
+    const TemporaryFolder folder;
+    const std::string file = (folder.GetPath() / "password").string();
+    std::ofstream(file) << "secret word\nnot this\n";
+    const ReadOptions plain = ReadOptionsFrom({"--vehicle", "A"});
+    CHECK(plain.options.link.version == VDA5050::EMqttVersion::Version311);
+    CHECK(plain.options.link.qos == VDA5050::QosTable());
+    const ReadOptions read = ReadOptionsFrom(
+        {"--vehicle", "A", "--mqtt", "5", "--qos", "standard", "--user", "acs", "--password-file", file.c_str()});
+    REQUIRE_FALSE(read.exitCode.has_value());
+    CHECK(read.options.link.version == VDA5050::EMqttVersion::Version5);
+    CHECK(read.options.link.qos == VDA5050::QosTable(VDA5050::EQosProfile::Standard));
+    CHECK(read.options.link.username == "acs");
+    CHECK(read.options.link.password == "secret word");
+    std::ofstream(file) << "\n";
+    const std::string other = "/etc/hostname";
+    for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{
+             {"--user", "acs", "--password-file", file.c_str()},
+             {"--user", "acs", "--password-file", "/nonexistent/password"},
+             {"--password-file", other.c_str()},
+             {"--mqtt", "4"},
+             {"--qos", "2"},
+             {"--tls-ca", other.c_str()}, // at mqtt://
+             {"--tls-key", "/nonexistent/key.pem"}})
+    {
+        CAPTURE(arguments);
+        std::vector<const char*> all{"--vehicle", "A"};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        CHECK(ReadOptionsFrom(all).exitCode == 2);
+    }
+    VdaSim::BrokerOptions half;
+    CHECK(VdaSim::CheckBrokerOptions(half, Apps::EUrlScheme::Mqtts).empty());
+    half.tls.certFile = "vehicle.pem";
+    CHECK_THAT(VdaSim::CheckBrokerOptions(half, Apps::EUrlScheme::Mqtts), Catch::Contains("--tls-key"));
+    half.tls.keyFile = "vehicle-key.pem";
+    CHECK(VdaSim::CheckBrokerOptions(half, Apps::EUrlScheme::Mqtts).empty());
+}
+
 TEST_CASE("A command line that cannot be meant ends the program with 2")
 {
     for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{
