@@ -171,17 +171,26 @@ void VehicleOwner::WatchDrive(const DriveTo& drive) const
     Require(_bOrderRuns, "nobody drives without an order");
 }
 
-void VehicleOwner::WatchPublished(const MqttMessage& message)
+std::uint32_t VehicleOwner::ReadHeaderID(const MqttMessage& message)
 {
-    const Core::Result<MessageIdentity> identity = _codec.DecodeIdentity(message.payload);
-    Require(identity.has_value(), "what is published can be read");
-    const auto [known, bFirst] = _headerIDs.try_emplace(message.topic, identity->header.headerID);
-    Require(bFirst || identity->header.headerID == known->second + 1, "headerId counts by one on each topic");
-    known->second = identity->header.headerID;
+    // A state is most of what is sent: read wholly, and once.
     if (message.topic.ends_with("/state"))
     {
-        Require(_codec.Decode<StateMessage>(message.payload).has_value(), "a state can be read");
+        const Core::Result<StateMessage> state = _codec.Decode<StateMessage>(message.payload);
+        Require(state.has_value(), "a state can be read");
+        return state->header.headerID;
     }
+    const Core::Result<MessageIdentity> identity = _codec.DecodeIdentity(message.payload);
+    Require(identity.has_value(), "what is published can be read");
+    return identity->header.headerID;
+}
+
+void VehicleOwner::WatchPublished(const MqttMessage& message)
+{
+    const std::uint32_t headerID = ReadHeaderID(message);
+    const auto [known, bFirst] = _headerIDs.try_emplace(message.topic, headerID);
+    Require(bFirst || headerID == known->second + 1, "headerId counts by one on each topic");
+    known->second = headerID;
 }
 
 void VehicleOwner::WatchTaken(const OrderTaken& taken)
@@ -272,6 +281,10 @@ void VehicleOwner::WatchActions(const StateMessage& state)
         const bool bLeft =
             known != _statuses.end() && IsTerminal(known->second) && action.actionStatus != known->second;
         Require(!bLeft, "FINISHED and FAILED are never left");
+    }
+    for (const auto& [actionID, status] : _statuses)
+    {
+        Require(!IsTerminal(status) || statuses.contains(actionID), "what has ended is shown until a new order");
     }
     _statuses = std::move(statuses);
     // What the session has failed by itself the owner has stopped.

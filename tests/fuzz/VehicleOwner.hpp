@@ -42,6 +42,7 @@ class VehicleOwner
     void Watch(const VDA5050::VehicleAction& action);
     void WatchStart(const VDA5050::StartAction& start);
     void WatchDrive(const VDA5050::DriveTo& drive) const;
+    [[nodiscard]] std::uint32_t ReadHeaderID(const VDA5050::MqttMessage& message);
     void WatchPublished(const VDA5050::MqttMessage& message);
     void WatchTaken(const VDA5050::OrderTaken& taken);
     void WatchState();
