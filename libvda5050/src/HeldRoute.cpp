@@ -94,6 +94,21 @@ void HeldRoute::DropFrontActions()
     }
 }
 
+bool HeldRoute::TrySetTrajectory(std::uint32_t edgeSequenceID, Trajectory trajectory)
+{
+    const auto step = std::ranges::find(_steps, edgeSequenceID, &Step::edgeSequenceID);
+    if (step == _steps.end() || (step->edgeExtrasOrNull != nullptr && step->edgeExtrasOrNull->trajectory.has_value()))
+    {
+        return false;
+    }
+    if (step->edgeExtrasOrNull == nullptr)
+    {
+        step->edgeExtrasOrNull = std::make_unique<EdgeExtras>();
+    }
+    step->edgeExtrasOrNull->trajectory = std::move(trajectory);
+    return true;
+}
+
 void HeldRoute::Clear()
 {
     _steps.clear();
@@ -179,6 +194,17 @@ OrderNode HeldRoute::GetNode(std::size_t index) const
         }
     }
     return node;
+}
+
+const std::string& HeldRoute::GetEdgeID(std::size_t index) const
+{
+    return _steps[index].edgeID;
+}
+
+bool HeldRoute::HasCorridor(std::size_t index) const
+{
+    const std::unique_ptr<EdgeExtras>& extrasOrNull = _steps[index].edgeExtrasOrNull;
+    return extrasOrNull != nullptr && extrasOrNull->corridor.has_value();
 }
 
 const std::string& HeldRoute::GetNodeID(std::size_t index) const

@@ -1,8 +1,10 @@
 #include "OrderCapability.hpp"
 
 #include "ActionFault.hpp"
+#include "MessageSizes.hpp"
 #include "OrderErrors.hpp"
 #include "OrderFindings.hpp"
+#include "OrderGeometry.hpp"
 
 #include <algorithm>
 #include <array>
@@ -196,93 +198,24 @@ void CheckActions(
     }
 }
 
-/// The sizes of an order that a factsheet can limit.
-struct OrderSizes
-{
-    std::size_t nodeActions = 0;
-    std::size_t edgeActions = 0;
-    std::size_t parameters = 0;
-    std::size_t knots = 0;
-    std::size_t controlPoints = 0;
-    std::vector<std::string_view> ids;
-};
-
-void MeasureActions(const std::vector<Action>& actions, std::size_t& most, OrderSizes& sizes)
-{
-    most = std::max(most, actions.size());
-    for (const Action& action : actions)
-    {
-        sizes.parameters = std::max(sizes.parameters, action.actionParameters.size());
-        sizes.ids.emplace_back(action.actionID);
-    }
-}
-
-OrderSizes Measure(const OrderMessage& order)
-{
-    OrderSizes sizes;
-    sizes.ids.emplace_back(order.orderID);
-    for (const OrderNode& node : order.nodes)
-    {
-        MeasureActions(node.actions, sizes.nodeActions, sizes);
-        sizes.ids.emplace_back(node.nodeID);
-    }
-    for (const OrderEdge& edge : order.edges)
-    {
-        MeasureActions(edge.actions, sizes.edgeActions, sizes);
-        sizes.ids.emplace_back(edge.edgeID);
-        if (edge.trajectory.has_value())
-        {
-            sizes.knots = std::max(sizes.knots, edge.trajectory->knotVector.size());
-            sizes.controlPoints = std::max(sizes.controlPoints, edge.trajectory->controlPoints.size());
-        }
-    }
-    return sizes;
-}
-
 void CheckSizes(const OrderContext& context, OrderFindings& unusable)
 {
-    struct Limit
-    {
-        std::string_view name;
-        std::size_t found;
-        std::optional<std::uint32_t> allowed;
-    };
     const OrderMessage& order = unusable.GetOrder();
-    const MaximumArrayLengths& arrays = context.factsheet->protocolLimits.maxArrayLengths;
-    const MaximumStringLengths& strings = context.factsheet->protocolLimits.maxStringLengths;
-    const OrderSizes sizes = Measure(order);
-    const auto longest = std::ranges::max_element(sizes.ids, {}, &std::string_view::size);
-    const std::array limits{
-        Limit{"maxStringLens.msgLen", context.payloadBytes, strings.message},
-        Limit{"maxStringLens.idLen", longest->size(), strings.identifier},
-        Limit{"maxArrayLens.order.nodes", order.nodes.size(), arrays.orderNodes},
-        Limit{"maxArrayLens.order.edges", order.edges.size(), arrays.orderEdges},
-        Limit{"maxArrayLens.node.actions", sizes.nodeActions, arrays.nodeActions},
-        Limit{"maxArrayLens.edge.actions", sizes.edgeActions, arrays.edgeActions},
-        Limit{"maxArrayLens.actions.actionsParameters", sizes.parameters, arrays.actionParameters},
-        Limit{"maxArrayLens.trajectory.knotVector", sizes.knots, arrays.trajectoryKnotVector},
-        Limit{"maxArrayLens.trajectory.controlPoints", sizes.controlPoints, arrays.trajectoryControlPoints}};
-    for (const Limit& limit : limits)
+    const bool bUpdate = order.orderID == context.heldOrderID;
+    MessageSizes sizes = Measure(order);
+    sizes.payload = context.payloadBytes;
+    // What the state would have to show: of an update the first node and its actions are there already.
+    sizes.edgeStates = (bUpdate ? context.keptNodes : 0) + order.edges.size();
+    sizes.nodeStates = sizes.edgeStates;
+    sizes.actionStates =
+        bUpdate ? context.keptActions : context.instantActionIDs.size() + order.nodes[0].actions.size();
+    for (std::size_t index = 0; index < order.edges.size(); ++index)
     {
-        const std::uint32_t allowed = limit.allowed.value_or(0);
-        if (allowed != 0 && limit.found > allowed)
-        {
-            const std::string name(limit.name);
-            VehicleError& error = unusable.Add(
-                "the order is too large: " + name + " is " + std::to_string(allowed) + ", found "
-                + std::to_string(limit.found));
-            AddReference(error, ReferenceKeys::PARAMETER, name);
-        }
+        sizes.actionStates += order.edges[index].actions.size() + order.nodes[index + 1].actions.size();
     }
-    const auto isNumerical = [](std::string_view text) {
-        return std::ranges::all_of(text, [](char letter) { return letter >= '0' && letter <= '9'; });
-    };
-    if (strings.bIdentifierNumericalOnly.value_or(false) && !std::ranges::all_of(sizes.ids, isNumerical))
+    for (const ActionFault& fault : FindSizeFaults(sizes, context.factsheet->protocolLimits))
     {
-        AddReference(
-            unusable.Add("the vehicle takes numbers as ids only"),
-            ReferenceKeys::PARAMETER,
-            "maxStringLens.idNumericalOnly");
+        AddReference(unusable.Add(fault.rule), ReferenceKeys::PARAMETER, fault.field);
     }
 }
 
@@ -303,6 +236,19 @@ void CheckMaps(const OrderContext& context, OrderFindings& unusable)
         AddReference(error, ReferenceKeys::MAP_ID, node.nodePosition->mapID);
         AddElement(error, node);
     }
+}
+
+/// 6.10 of 2.0: an order for another zone set than the vehicle's is refused.
+void CheckZoneSet(const OrderContext& context, OrderFindings& unusable)
+{
+    const std::string& zoneSetID = unusable.GetOrder().zoneSetID;
+    if (zoneSetID.empty() || context.zoneSetIDs.empty()
+        || std::ranges::find(context.zoneSetIDs, zoneSetID) != context.zoneSetIDs.end())
+    {
+        return;
+    }
+    VehicleError& error = unusable.Add("the vehicle does not have the zone set " + zoneSetID);
+    AddReference(error, ReferenceKeys::PARAMETER, "order.zoneSetId");
 }
 
 } // namespace
@@ -330,6 +276,8 @@ std::vector<OrderViolation> FindUnusable(const OrderMessage& order, const OrderC
         CheckSizes(context, unusable);
     }
     CheckMaps(context, unusable);
+    CheckZoneSet(context, unusable);
+    CheckGeometry(context, unusable);
     return unusable.Take();
 }
 

@@ -1,5 +1,6 @@
 #include "OrderCapability.hpp"
 #include "OrderErrors.hpp"
+#include "OrderGeometry.hpp"
 #include <acs/vda5050/OrderValidator.hpp>
 
 #include <algorithm>
@@ -40,9 +41,8 @@ bool IsAtFirstNode(const OrderNode& node, const OrderContext& context)
         return false;
     }
     const NodePosition& target = *node.nodePosition;
-    const double stated = target.allowedDeviationXY.value_or(0.0);
-    const double allowed = stated > 0.0 ? stated : context.defaultDeviationXY;
-    if (std::hypot(target.x - context.position->x, target.y - context.position->y) > allowed)
+    if (std::hypot(target.x - context.position->x, target.y - context.position->y)
+        > GetAllowedDeviation(target, context))
     {
         return false;
     }

@@ -1,6 +1,7 @@
 #include "AngleBound.hpp"
 #include "OrderErrors.hpp"
 #include "OrderFindings.hpp"
+#include "OrderGeometry.hpp"
 #include <acs/vda5050/OrderValidator.hpp>
 #include <acs/vda5050/Topic.hpp>
 
@@ -67,25 +68,6 @@ void CheckBase(const OrderMessage& order, OrderFindings& findings)
     }
 }
 
-void CheckTrajectory(const OrderEdge& edge, OrderFindings& findings)
-{
-    if (!edge.trajectory.has_value())
-    {
-        return;
-    }
-    const Trajectory& curve = *edge.trajectory;
-    const bool bCounts = curve.controlPoints.size() > curve.degree
-        && curve.knotVector.size() == curve.controlPoints.size() + curve.degree + 1;
-    const bool bRange = std::ranges::all_of(curve.knotVector, [](double knot) { return knot >= 0.0 && knot <= 1.0; });
-    if (!bCounts || !bRange || !std::ranges::is_sorted(curve.knotVector))
-    {
-        findings.Add(
-            "a trajectory has control points + degree + 1 rising knots from 0 to 1",
-            ReferenceKeys::EDGE_ID,
-            edge.edgeID);
-    }
-}
-
 /// NaN is out of every range.
 bool IsWithin(const std::optional<double>& value, double minimum, double maximum)
 {
@@ -104,7 +86,8 @@ bool HasBadNumbers(const OrderEdge& edge)
     const bool bCorridor = !edge.corridor.has_value()
         || (IsWithin(edge.corridor->leftWidth, 0.0, NO_BOUND) && IsWithin(edge.corridor->rightWidth, 0.0, NO_BOUND));
     return !bCorridor || !IsWithin(edge.orientation, -PI_BOUND, PI_BOUND) || !IsWithin(edge.maxSpeed, 0.0, NO_BOUND)
-        || !IsWithin(edge.maxRotationSpeed, 0.0, NO_BOUND) || !IsWithin(edge.length, 0.0, NO_BOUND);
+        || !IsWithin(edge.maxRotationSpeed, 0.0, NO_BOUND) || !IsWithin(edge.length, 0.0, NO_BOUND)
+        || !IsWithin(edge.maxHeight, -NO_BOUND, NO_BOUND) || !IsWithin(edge.minHeight, -NO_BOUND, NO_BOUND);
 }
 
 void CheckNodes(const OrderMessage& order, OrderFindings& findings)
@@ -139,7 +122,12 @@ void CheckEdges(const OrderMessage& order, OrderFindings& findings)
         {
             findings.Add("an edge's numbers are inside their ranges", ReferenceKeys::EDGE_ID, edge.edgeID);
         }
-        CheckTrajectory(edge, findings);
+        const std::string_view fault =
+            edge.trajectory.has_value() ? FindTrajectoryFault(*edge.trajectory) : std::string_view();
+        if (!fault.empty())
+        {
+            findings.Add(std::string(fault), ReferenceKeys::EDGE_ID, edge.edgeID);
+        }
     }
 }
 

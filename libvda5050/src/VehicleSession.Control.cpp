@@ -1,3 +1,4 @@
+#include "OrderErrors.hpp"
 #include <acs/vda5050/VehicleSession.hpp>
 
 #include <algorithm>
@@ -148,7 +149,7 @@ void VehicleSession::StartCancel(const Action& action, const Header& header, Veh
         return;
     }
     StopOrderActions(out);
-    if (_options.bStopsBetweenNodes || !_bLegBegun)
+    if (_options.bStopsBetweenNodes || !_bLegBegun || _corridorError.has_value())
     {
         StopMoving(out);
         return;
@@ -187,7 +188,8 @@ void VehicleSession::FinishCancelIfStanding(VehicleActions& out)
     const bool bRuns = std::ranges::any_of(_actions, [](const TrackedAction& tracked) {
         return tracked.scope != EActionScope::Instant && !IsTerminal(tracked.machine.GetStatus());
     });
-    const bool bOnTheWay = _bLegActive || (_bLastLeg && !_route.IsEmpty());
+    // Outside of its corridor a vehicle does not get to the next node by itself.
+    const bool bOnTheWay = _bLegActive || (_bLastLeg && !_route.IsEmpty() && !_corridorError.has_value());
     if (!_cancelActionIDs.empty() && IsStanding() && !bOnTheWay && !bRuns)
     {
         ClearOrder(out);
@@ -201,6 +203,7 @@ void VehicleSession::ForgetRoute()
     _bEdgeEntered = false;
     _bLegBegun = false;
     _bHeldByFailure = false;
+    _corridorError.reset();
 }
 
 void VehicleSession::ClearOrder(VehicleActions& out)
@@ -216,6 +219,34 @@ void VehicleSession::ClearOrder(VehicleActions& out)
         SetStatus(actionID, EActionStatus::Finished);
     }
     out.emplace_back(OrderCleared{_orderID});
+}
+
+bool VehicleSession::TrySetOutsideCorridor(bool bOutside, Core::Now now, VehicleActions& out)
+{
+    if (!_bEdgeEntered || _route.IsEmpty() || !_route.HasCorridor(0))
+    {
+        return false;
+    }
+    if (bOutside != _corridorError.has_value())
+    {
+        _bStateDue = true;
+        _corridorError.reset();
+    }
+    if (bOutside)
+    {
+        const std::string& edgeID = _route.GetEdgeID(0);
+        VehicleError& error = _corridorError.emplace();
+        error.errorType = ErrorTypes::OUTSIDE_OF_CORRIDOR;
+        error.errorLevel = EErrorLevel::Fatal;
+        error.errorDescription = "outside of the corridor of " + edgeID;
+        AddReference(error, ReferenceKeys::TOPIC, GetTopicName(ETopic::Order));
+        AddReference(error, ReferenceKeys::EDGE_ID, edgeID);
+        StopMoving(out);
+        FinishCancelIfStanding(out);
+    }
+    Advance(out);
+    Settle(now, out);
+    return true;
 }
 
 void VehicleSession::OnOperatingMode(EOperatingMode mode, Core::Now now, VehicleActions& out)

@@ -183,7 +183,8 @@ void VehicleSession::OnOrderActionFailed(const TrackedAction& tracked, VehicleAc
     error.errorType = ErrorTypes::ACTION_ERROR;
     error.errorLevel = bCritical ? EErrorLevel::Fatal : EErrorLevel::Warning;
     error.errorDescription = actionType + " failed: " + tracked.machine.GetState().resultDescription;
-    // No orderId: some masters take every error with one for the refusal of the order.
+    // No orderId: some masters take every error with one for the refusal of the order; and others one without a topic.
+    AddReference(error, ReferenceKeys::TOPIC, GetTopicName(ETopic::Order));
     AddReference(error, ReferenceKeys::ACTION_ID, tracked.action.actionID);
     AddReference(
         error,

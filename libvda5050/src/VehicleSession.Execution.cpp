@@ -1,3 +1,4 @@
+#include "OrderGeometry.hpp"
 #include <acs/vda5050/VehicleSession.hpp>
 
 #include <algorithm>
@@ -49,6 +50,21 @@ void VehicleSession::OnDrivingChanged(bool bDriving, Core::Now now, VehicleActio
     FinishPauseIfStanding();
     FinishCancelIfStanding(out);
     Settle(now, out);
+}
+
+bool VehicleSession::TrySetTrajectory(
+    std::uint32_t edgeSequenceID,
+    Trajectory trajectory,
+    Core::Now now,
+    VehicleActions& out)
+{
+    if (!FindTrajectoryFault(trajectory).empty() || !_route.TrySetTrajectory(edgeSequenceID, std::move(trajectory)))
+    {
+        return false;
+    }
+    _bStateDue = true;
+    Settle(now, out);
+    return true;
 }
 
 bool VehicleSession::TrySetActionStatus(
@@ -190,7 +206,7 @@ bool VehicleSession::NeedsStopAtFront() const
 
 void VehicleSession::DriveOn(VehicleActions& out)
 {
-    if (_route.CountReleased() == 0 || _bHeldByFailure)
+    if (_route.CountReleased() == 0 || _bHeldByFailure || _corridorError.has_value())
     {
         return;
     }
@@ -238,7 +254,7 @@ void VehicleSession::DriveToFront(bool bStopAtNode, VehicleActions& out)
 void VehicleSession::DriveLastLeg(VehicleActions& out)
 {
     const bool bTold = _bLegActive && _bLegStops;
-    if (_bLastLeg && !_route.IsEmpty() && !bTold)
+    if (_bLastLeg && !_route.IsEmpty() && !bTold && !_corridorError.has_value())
     {
         DriveToFront(true, out);
     }
@@ -271,6 +287,7 @@ void VehicleSession::ReachFront(VehicleActions& out)
     _bEdgeEntered = false;
     _bLegActive = false;
     _bLegBegun = false;
+    _corridorError.reset();
     _bStateDue = true;
     Enqueue(_route.GetNodeActions(0));
     _route.DropFront();

@@ -1,4 +1,5 @@
 #include "ActionFault.hpp"
+#include "MessageSizes.hpp"
 #include "OrderErrors.hpp"
 #include <acs/vda5050/EVda5050Error.hpp>
 #include <acs/vda5050/VehicleSession.hpp>
@@ -15,6 +16,13 @@ namespace
 
 /// Ended instant actions live until a new order; a peer that only asks for states must not fill the state.
 constexpr std::size_t MAXIMUM_INSTANT_ACTIONS = 128;
+
+/// A vehicle can always be stopped, and set free again, even where its state has no room to show it.
+bool IsControl(const Action& action)
+{
+    return action.actionType == ActionTypes::CANCEL_ORDER || action.actionType == ActionTypes::START_PAUSE
+        || action.actionType == ActionTypes::STOP_PAUSE;
+}
 
 } // namespace
 
@@ -34,7 +42,20 @@ void VehicleSession::OnInstantActions(std::string_view payload, Core::Now now, V
     {
         known.bShown = true;
     }
-    const std::size_t allowed = _options.factsheet.protocolLimits.maxArrayLengths.instantActions.value_or(0);
+    const ProtocolLimits& limits = _options.factsheet.protocolLimits;
+    MessageSizes sizes;
+    sizes.payload = payload.size();
+    const std::vector<ActionFault> faults = FindSizeFaults(sizes, limits);
+    if (!faults.empty())
+    {
+        RefusePayload(
+            ETopic::InstantActions,
+            payload,
+            Core::Error{make_error_code(EVda5050Error::NotSupported), {}, "what the vehicle can take", faults[0].rule},
+            out);
+        return;
+    }
+    const std::size_t allowed = limits.maxArrayLengths.instantActions.value_or(0);
     bool bTaken = false;
     for (std::size_t index = 0; index < message->actions.size(); ++index)
     {
@@ -76,30 +97,43 @@ bool VehicleSession::TryTakeInstantAction(
     {
         return false;
     }
+    const std::string reason = FindRefusal(action, bTooMany);
+    if (!TryMakeRoom(1) && !IsControl(action))
+    {
+        ReportInstantAction(
+            action,
+            header,
+            ErrorTypes::INSTANT_ACTION_ERROR,
+            "the state has no room for another action: maxArrayLens.state.actionStates");
+        return false;
+    }
+    if (reason.empty())
+    {
+        PerformOwnInstantAction(action, header, now, out);
+    }
+    else
+    {
+        FailInstantAction(action, header, ErrorTypes::INSTANT_ACTION_ERROR, reason);
+    }
+    const TrackedAction* trackedOrNull = FindActionOrNull(action.actionID);
+    return trackedOrNull != nullptr && trackedOrNull->machine.GetStatus() != EActionStatus::Failed;
+}
+
+/// Why an instant action fails whatever it is; empty where it is looked at.
+std::string VehicleSession::FindRefusal(const Action& action, bool bTooMany) const
+{
     const bool bRequest =
         action.actionType == ActionTypes::STATE_REQUEST || action.actionType == ActionTypes::FACTSHEET_REQUEST;
     if (bTooMany)
     {
-        FailInstantAction(
-            action,
-            header,
-            ErrorTypes::INSTANT_ACTION_ERROR,
-            "the message has more instant actions than the vehicle takes");
+        return "the message has more instant actions than the vehicle takes";
     }
-    else if (!CanMoveByItself() && !bRequest)
+    if (!CanMoveByItself() && !bRequest)
     {
-        FailInstantAction(
-            action,
-            header,
-            ErrorTypes::INSTANT_ACTION_ERROR,
-            "the operating mode takes no instant actions");
+        return "the operating mode takes no instant actions";
     }
-    else
-    {
-        PerformOwnInstantAction(action, header, now, out);
-    }
-    const TrackedAction* trackedOrNull = FindActionOrNull(action.actionID);
-    return trackedOrNull != nullptr && trackedOrNull->machine.GetStatus() != EActionStatus::Failed;
+    const std::vector<ActionFault> faults = FindSizeFaults(Measure(action), _options.factsheet.protocolLimits);
+    return faults.empty() ? std::string() : faults[0].rule;
 }
 
 void VehicleSession::PerformOwnInstantAction(
@@ -144,15 +178,35 @@ void VehicleSession::PerformOwnInstantAction(
     }
 }
 
+bool VehicleSession::IsEndedInstantAction(const TrackedAction& tracked)
+{
+    return tracked.scope == EActionScope::Instant && IsTerminal(tracked.machine.GetStatus());
+}
+
+/// The oldest instant actions that have ended make way where the factsheet limits actionStates.
+bool VehicleSession::TryMakeRoom(std::size_t count)
+{
+    const std::uint32_t allowed = _options.factsheet.protocolLimits.maxArrayLengths.stateActionStates.value_or(0);
+    while (allowed != 0 && _actions.size() + count > allowed)
+    {
+        const auto oldest = std::ranges::find_if(_actions, IsEndedInstantAction);
+        if (oldest == _actions.end())
+        {
+            return false;
+        }
+        _actions.erase(oldest);
+    }
+    return true;
+}
+
 void VehicleSession::AddInstantAction(const Action& action, EActionStatus status, const std::string& result)
 {
-    const auto isEnded = [](const TrackedAction& tracked) {
-        return tracked.scope == EActionScope::Instant && IsTerminal(tracked.machine.GetStatus());
-    };
-    if (static_cast<std::size_t>(std::ranges::count_if(_actions, isEnded)) >= MAXIMUM_INSTANT_ACTIONS)
+    const auto ended = std::ranges::count_if(_actions, IsEndedInstantAction);
+    if (static_cast<std::size_t>(ended) >= MAXIMUM_INSTANT_ACTIONS)
     {
-        _actions.erase(std::ranges::find_if(_actions, isEnded));
+        _actions.erase(std::ranges::find_if(_actions, IsEndedInstantAction));
     }
+    static_cast<void>(TryMakeRoom(1));
     ActionState state{action.actionID, action.actionType, action.actionDescription, status, result};
     _actions.push_back(
         TrackedAction{action, ActionMachine(std::move(state)), EActionScope::Instant, {}, 0, false, false});
@@ -165,6 +219,15 @@ void VehicleSession::FailInstantAction(
     const std::string& reason)
 {
     AddInstantAction(action, EActionStatus::Failed, reason);
+    ReportInstantAction(action, header, errorType, reason);
+}
+
+void VehicleSession::ReportInstantAction(
+    const Action& action,
+    const Header& header,
+    std::string_view errorType,
+    const std::string& reason)
+{
     VehicleError error;
     error.errorType = errorType;
     error.errorDescription = reason;

@@ -216,22 +216,27 @@ OrderContext VehicleSession::MakeContext() const
         context.bMapsKnown = true;
         std::ranges::transform(*_maps, std::back_inserter(context.mapIDs), &MapState::mapID);
     }
+    context.zoneSetIDs = _options.zoneSetIDs;
     context.factsheet = &_options.factsheet;
     context.bCleared = _bCleared;
     context.orderCheck = _options.orderCheck;
+    context.keptNodes = released;
     const std::uint32_t baseEnd =
         released == _route.GetSize() ? std::numeric_limits<std::uint32_t>::max() : _route.GetEdgeSequenceID(released);
     for (const TrackedAction& tracked : _actions)
     {
         const bool bInstant = tracked.scope == EActionScope::Instant;
-        if (bInstant && !IsTerminal(tracked.machine.GetStatus()))
+        const bool bInstantRuns = bInstant && !IsTerminal(tracked.machine.GetStatus());
+        const bool bOfBase = !bInstant && tracked.sequenceID < baseEnd;
+        if (bInstantRuns)
         {
             context.instantActionIDs.push_back(tracked.action.actionID);
         }
-        if (bInstant || tracked.sequenceID < baseEnd)
+        if (bInstant || bOfBase)
         {
             context.actionIDs.push_back(tracked.action.actionID);
         }
+        context.keptActions += bInstantRuns || bOfBase ? 1 : 0;
     }
     return context;
 }
@@ -286,6 +291,7 @@ void VehicleSession::TakeUpdate(OrderMessage order, VehicleActions& out)
     out.emplace_back(OrderTaken{_orderID, _orderUpdateID, true});
     // The stitching node keeps the contents that it came with first.
     AppendElements(std::move(order));
+    static_cast<void>(TryMakeRoom(0));
     Advance(out);
 }
 

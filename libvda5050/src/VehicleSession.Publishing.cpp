@@ -1,7 +1,7 @@
+#include "StateBounds.hpp"
 #include <acs/vda5050/VehicleSession.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -147,15 +147,16 @@ StateMessage VehicleSession::BuildState() const
         state.actionStates.push_back(tracked.machine.GetState());
     }
     state.batteryState = _battery;
-    if (state.batteryState.batteryHealth.has_value())
-    {
-        state.batteryState.batteryHealth = std::round(*state.batteryState.batteryHealth);
-    }
     state.operatingMode = _operatingMode;
     state.errors = _ownerErrors;
     std::ranges::transform(_sessionErrors, std::back_inserter(state.errors), &SessionError::error);
     state.information = _information;
+    if (_corridorError.has_value())
+    {
+        state.errors.push_back(*_corridorError);
+    }
     state.safetyState = _safety;
+    FitState(state, _options.factsheet.protocolLimits.maxArrayLengths);
     return state;
 }
 

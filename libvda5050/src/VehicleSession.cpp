@@ -1,7 +1,12 @@
+#include "AngleBound.hpp"
+#include "OrderErrors.hpp"
+#include "StateBounds.hpp"
 #include <acs/vda5050/VehicleSession.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -46,23 +51,45 @@ void VehicleSession::OnPosition(
     const Velocity& velocity,
     std::optional<double> distanceSinceLastNode)
 {
-    if (IsFinite(position))
+    if (!IsFinite(position))
     {
-        _position = position;
-        _velocity = velocity;
-        _distanceSinceLastNode = distanceSinceLastNode;
+        return;
+    }
+    _position = position;
+    DropNonFinite(*_position);
+    // A heading that was counted on past a half turn; what rounding added is the codec's.
+    if (std::abs(position.theta) > PI_BOUND)
+    {
+        _position->theta = std::remainder(position.theta, 2.0 * std::numbers::pi);
+    }
+    _velocity = velocity;
+    DropNonFinite(*_velocity);
+    _distanceSinceLastNode = distanceSinceLastNode;
+    if (!std::isfinite(distanceSinceLastNode.value_or(0.0)))
+    {
+        _distanceSinceLastNode.reset();
     }
 }
 
 void VehicleSession::OnBattery(const BatteryState& battery, Core::Now now, VehicleActions& out)
 {
     _bStateDue = _bStateDue || battery.bCharging != _battery.bCharging;
+    const double lastCharge = _battery.batteryCharge;
     _battery = battery;
+    DropNonFinite(_battery);
+    if (!std::isfinite(_battery.batteryCharge))
+    {
+        _battery.batteryCharge = lastCharge;
+    }
     Settle(now, out);
 }
 
 void VehicleSession::OnLoads(std::optional<std::vector<Load>> loads, Core::Now now, VehicleActions& out)
 {
+    if (loads.has_value())
+    {
+        std::ranges::for_each(*loads, [](Load& load) { DropNonFinite(load); });
+    }
     _bStateDue = _bStateDue || loads != _loads;
     _loads = std::move(loads);
     Settle(now, out);
@@ -77,6 +104,14 @@ void VehicleSession::OnMaps(std::optional<std::vector<MapState>> maps, Core::Now
 
 void VehicleSession::OnErrors(std::vector<VehicleError> errors, Core::Now now, VehicleActions& out)
 {
+    for (VehicleError& error : errors)
+    {
+        // There are masters that take every error without an orderId and a topic for the refusal of the last order.
+        if (FindReferenceOrNull(error, ReferenceKeys::TOPIC) == nullptr)
+        {
+            AddReference(error, ReferenceKeys::TOPIC, GetTopicName(ETopic::State));
+        }
+    }
     _bStateDue = _bStateDue || errors != _ownerErrors;
     _ownerErrors = std::move(errors);
     Settle(now, out);

@@ -87,6 +87,8 @@ public:
     void Cut(std::size_t size);
     /// The first node is only to be reached: its actions are forgotten.
     void DropFrontActions();
+    /// False where there is no such edge, and where it has a trajectory already.
+    bool TrySetTrajectory(std::uint32_t edgeSequenceID, Trajectory trajectory);
     void Clear();
 
     [[nodiscard]] bool IsEmpty() const noexcept;
@@ -97,6 +99,8 @@ public:
     // Of an index below GetSize: edge n leads to node n.
     [[nodiscard]] OrderEdge GetEdge(std::size_t index) const;
     [[nodiscard]] OrderNode GetNode(std::size_t index) const;
+    [[nodiscard]] const std::string& GetEdgeID(std::size_t index) const;
+    [[nodiscard]] bool HasCorridor(std::size_t index) const;
     [[nodiscard]] const std::string& GetNodeID(std::size_t index) const;
     [[nodiscard]] std::uint32_t GetNodeSequenceID(std::size_t index) const;
     [[nodiscard]] std::uint32_t GetEdgeSequenceID(std::size_t index) const;

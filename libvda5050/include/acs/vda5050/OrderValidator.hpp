@@ -48,11 +48,14 @@ struct OrderContext
     EOperatingMode operatingMode = EOperatingMode::Automatic;
     std::string decisionNodeID; ///< Last released node; lastNode where no order runs.
     std::uint32_t decisionSequenceID = 0;
+    std::size_t keptNodes = 0;   ///< Released ones still to be reached: what an update adds to.
+    std::size_t keptActions = 0; ///< Those of the order that an update leaves, and instant ones that run.
     std::string lastNodeID;
     std::optional<AgvPosition> position;
     double defaultDeviationXY = 0.5;             ///< Metres, where the first node states none or 0.
     std::vector<std::string> mapIDs;             ///< Maps on the vehicle; empty: not checked.
     bool bMapsKnown = false;                     ///< mapIDs is checked even where it is empty.
+    std::vector<std::string> zoneSetIDs;         ///< Zone sets on the vehicle; empty: not checked.
     const FactsheetMessage* factsheet = nullptr; ///< What it can do: actions, optional members, sizes; null: all.
     std::size_t payloadBytes = 0;                ///< Of the message, held against the factsheet's msgLen.
     bool bCleared = false;                     ///< The last order was cancelled: the vehicle may have left lastNodeID.

@@ -187,7 +187,7 @@ struct VehicleError
     bool operator==(const VehicleError&) const = default;
 };
 
-/// The error types that 2.x names; instantActionError and actionError are this library's.
+/// The error types that 2.x names; instantActionError, actionError and outsideOfCorridor are this library's.
 namespace ErrorTypes
 {
 inline constexpr std::string_view VALIDATION_ERROR = "validationError";
@@ -197,6 +197,7 @@ inline constexpr std::string_view NO_ROUTE_ERROR = "noRouteError";
 inline constexpr std::string_view NO_ORDER_TO_CANCEL = "noOrderToCancel";
 inline constexpr std::string_view INSTANT_ACTION_ERROR = "instantActionError";
 inline constexpr std::string_view ACTION_ERROR = "actionError"; ///< An action of an order failed.
+inline constexpr std::string_view OUTSIDE_OF_CORRIDOR = "outsideOfCorridor";
 } // namespace ErrorTypes
 
 /// The value of the reference with this key, null where there is none.

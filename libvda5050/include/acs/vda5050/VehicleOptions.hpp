@@ -41,6 +41,8 @@ struct VehicleOptions
     OrderCheck orderCheck;
     /// Maps that the vehicle has beside those of OnMaps. Orders with other maps are refused; where both are empty, none.
     std::vector<std::string> mapIDs;
+    /// Zone sets that the vehicle has. Orders for another one are refused; where empty, none.
+    std::vector<std::string> zoneSetIDs;
     /// Where the vehicle stands at first; empty: not on a node.
     std::string initialNodeID;
 };

@@ -82,7 +82,8 @@ class VehicleSession
     std::vector<TrackedAction> _actions;
     std::deque<std::string> _actionQueue; ///< Of what was reached or entered, not yet started.
     std::vector<SessionError> _sessionErrors;
-    std::vector<std::string> _pauseActionIDs; ///< startPause that waits for the vehicle to stand.
+    std::optional<VehicleError> _corridorError; ///< While the vehicle is outside of its edge's corridor.
+    std::vector<std::string> _pauseActionIDs;   ///< startPause that waits for the vehicle to stand.
     std::vector<std::string> _cancelActionIDs;
     bool _bOrderRunning = false; ///< Taken and not yet told as completed.
     bool _bCleared = false;      ///< The order was cancelled.
@@ -145,6 +146,14 @@ class VehicleSession
     [[nodiscard]] TrackedAction* FindActionOrNull(std::string_view actionID);
     void SetStatus(std::string_view actionID, EActionStatus status, const std::string& result = {});
     void AddInstantAction(const Action& action, EActionStatus status, const std::string& result = {});
+    [[nodiscard]] static bool IsEndedInstantAction(const TrackedAction& tracked);
+    [[nodiscard]] bool TryMakeRoom(std::size_t count);
+    [[nodiscard]] std::string FindRefusal(const Action& action, bool bTooMany) const;
+    void ReportInstantAction(
+        const Action& action,
+        const Header& header,
+        std::string_view errorType,
+        const std::string& reason);
     void FailInstantAction(
         const Action& action,
         const Header& header,
@@ -209,7 +218,15 @@ public:
     bool TryReachNode(std::uint32_t sequenceID, Core::Now now, VehicleActions& out);
     /// The vehicle has found itself on this node (moved by hand, a tag); empty: on none. False while an order runs.
     bool TrySetLastNode(std::string nodeID, Core::Now now, VehicleActions& out);
-    /// No reason to send a state: it goes into the next one and into visualization.
+    /// The vehicle has left the corridor of the edge that it drives, or is back inside: it watches that itself, for its
+    /// centre or its contour. Outside it stops, with a FATAL error, until it is back or the order is cancelled. False
+    /// where it is on no edge with a corridor.
+    bool TrySetOutsideCorridor(bool bOutside, Core::Now now, VehicleActions& out);
+    /// The way that a vehicle has planned by itself along an edge of its order, for the state's edgeStates (a NURBS). One
+    /// that an edge has, sent or planned, stays: false then, and where there is no such edge or the curve is none.
+    bool TrySetTrajectory(std::uint32_t edgeSequenceID, Trajectory trajectory, Core::Now now, VehicleActions& out);
+    /// No reason to send a state: it goes into the next one and into visualization. A position that is no number is
+    /// ignored, other members that are none are left out, here and in OnBattery and OnLoads.
     void OnPosition(
         const AgvPosition& position,
         const Velocity& velocity,
@@ -226,11 +243,13 @@ public:
         std::string resultDescription,
         Core::Now now,
         VehicleActions& out);
-    /// A state is sent when charging begins or ends; a level alone waits for the next state.
+    /// A state is sent when charging begins or ends; a level alone waits for the next state. One that is no number is not
+    /// taken: the last one stays.
     void OnBattery(const BatteryState& battery, Core::Now now, VehicleActions& out);
     void OnLoads(std::optional<std::vector<Load>> loads, Core::Now now, VehicleActions& out);
     void OnMaps(std::optional<std::vector<MapState>> maps, Core::Now now, VehicleActions& out);
-    /// All active errors of the vehicle itself; those about orders are kept by the session.
+    /// All active errors of the vehicle itself; those about orders are kept by the session. One without a reference to a
+    /// topic gets one, to the state.
     void OnErrors(std::vector<VehicleError> errors, Core::Now now, VehicleActions& out);
     void OnInformation(std::vector<Information> information);
     void OnSafetyState(const SafetyState& safety, Core::Now now, VehicleActions& out);

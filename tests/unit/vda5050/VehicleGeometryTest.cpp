@@ -1,0 +1,333 @@
+#include "Catch.hpp"
+#include "VehicleBench.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+namespace ACS::VDA5050::Test
+{
+
+namespace
+{
+
+constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+
+/// From N0 to N1 in a straight line.
+Trajectory MakeLine()
+{
+    return Trajectory{1, {0.0, 0.0, 1.0, 1.0}, {ControlPoint{0.0, 0.0, {}}, ControlPoint{10.0, 0.0, {}}}};
+}
+
+OrderMessage MakeCurved(std::size_t nodes, std::size_t released)
+{
+    OrderMessage order = MakeOrder(nodes, released);
+    order.edges[0].trajectory = MakeLine();
+    return order;
+}
+
+/// Two nodes; the edge has a corridor. The order goes in as 2.1 writes it.
+void OrderWithCorridor(VehicleBench& bench, std::size_t nodes = 2)
+{
+    OrderMessage order = MakeOrder(nodes, nodes);
+    order.edges[0].corridor = Corridor{1.0, 1.0, {}};
+    order.header = Header{0, bench.GetNow().wall, "2.1.0", "ACS", "LR01"};
+    bench.Payload(ETopic::Order, Vda5050Codec().Encode(order, EVda5050Version::Version210));
+    REQUIRE(bench.GetSession().GetState().orderID == "order-1");
+}
+
+bool TryCorridor(VehicleBench& bench, bool bOutside, VehicleActions& out)
+{
+    out.clear();
+    return bench.GetSession().TrySetOutsideCorridor(bOutside, bench.GetNow(), out);
+}
+
+bool IsOutside(const VehicleBench& bench)
+{
+    return std::ranges::count(
+               bench.GetPublishedState().errors,
+               ErrorTypes::OUTSIDE_OF_CORRIDOR,
+               &VehicleError::errorType)
+        > 0;
+}
+
+} // namespace
+
+TEST_CASE("7 What is no NURBS is told as a validationError")
+{
+    struct Case
+    {
+        const char* name;
+        std::function<void(Trajectory&)> change;
+        bool bRight;
+    };
+    const std::vector<Case> cases{
+        {"a line", [](Trajectory&) {}, true},
+        {"degree 0",
+         [](Trajectory& curve) {
+             curve = Trajectory{0, {0.0, 0.5, 1.0}, curve.controlPoints};
+         },
+         false},
+        {"fewer points than the degree needs",
+         [](Trajectory& curve) {
+             curve = Trajectory{2, {0.0, 0.0, 0.5, 1.0, 1.0}, curve.controlPoints};
+         },
+         false},
+        {"a knot too many", [](Trajectory& curve) { curve.knotVector.push_back(1.0); }, false},
+        {"a knot below 0", [](Trajectory& curve) { curve.knotVector[0] = -0.1; }, false},
+        {"knots that fall",
+         [](Trajectory& curve) {
+             curve.knotVector = {0.0, 0.6, 0.4, 1.0};
+         },
+         false},
+        {"a knot that is no number", [](Trajectory& curve) { curve.knotVector[1] = NOT_A_NUMBER; }, false},
+        {"a point that is no number", [](Trajectory& curve) { curve.controlPoints[1].y = NOT_A_NUMBER; }, false},
+        {"a weight", [](Trajectory& curve) { curve.controlPoints[0].weight = 3.0; }, true},
+        {"a negative weight", [](Trajectory& curve) { curve.controlPoints[0].weight = -1.0; }, false},
+        {"a weight that is no number", [](Trajectory& curve) { curve.controlPoints[0].weight = NOT_A_NUMBER; }, false},
+        {"an end without weight", [](Trajectory& curve) { curve.controlPoints[1].weight = 0.0; }, false},
+        {"an inner point without weight",
+         [](Trajectory& curve) {
+             curve.knotVector = {0.0, 0.0, 0.5, 1.0, 1.0};
+             curve.controlPoints.insert(curve.controlPoints.begin() + 1, ControlPoint{5.0, 0.0, 0.0});
+         },
+         true},
+        {"two in turn without weight, which degree 1 needs",
+         [](Trajectory& curve) {
+             curve.knotVector = {0.0, 0.0, 0.3, 0.6, 1.0, 1.0};
+             curve.controlPoints.insert(curve.controlPoints.begin() + 1, 2, ControlPoint{5.0, 0.0, 0.0});
+         },
+         false},
+    };
+    for (const Case& curve : cases)
+    {
+        CAPTURE(curve.name);
+        OrderMessage order = MakeCurved(2, 2);
+        curve.change(*order.edges[0].trajectory);
+        const std::vector<OrderViolation> violations = ValidateOrder(order);
+        REQUIRE(violations.empty() == curve.bRight);
+        if (!curve.bRight)
+        {
+            CHECK(violations[0].error.errorType == ErrorTypes::VALIDATION_ERROR);
+            CHECK(*FindReferenceOrNull(violations[0].error, "edgeId") == "E0");
+        }
+    }
+}
+
+TEST_CASE("4.1 Heights that are no numbers are told")
+{
+    for (std::optional<double> OrderEdge::*const member : {&OrderEdge::maxHeight, &OrderEdge::minHeight})
+    {
+        OrderMessage order = MakeOrder(2, 2);
+        order.edges[0].*member = 2.0;
+        CHECK(ValidateOrder(order).empty());
+        order.edges[0].*member = NOT_A_NUMBER;
+        CHECK(ValidateOrder(order).size() == 1);
+    }
+}
+
+TEST_CASE("7 A trajectory that does not begin and end at its nodes is refused with orderError")
+{
+    struct Case
+    {
+        const char* name;
+        std::function<void(OrderMessage&)> change;
+        const char* nodeID; ///< Empty: taken.
+    };
+    const std::vector<Case> cases{
+        {"from node to node", [](OrderMessage&) {}, ""},
+        {"begins beside its node",
+         [](OrderMessage& order) { order.edges[0].trajectory->controlPoints[0].y = 0.6; },
+         "N0"},
+        {"ends beside its node",
+         [](OrderMessage& order) { order.edges[0].trajectory->controlPoints[1].y = 0.6; },
+         "N1"},
+        {"ends within the vehicle's own deviation",
+         [](OrderMessage& order) { order.edges[0].trajectory->controlPoints[1].y = 0.4; },
+         ""},
+        {"ends within the deviation that its node states",
+         [](OrderMessage& order) {
+             order.edges[0].trajectory->controlPoints[1].y = 2.0;
+             order.nodes[1].nodePosition->allowedDeviationXY = 2.5;
+         },
+         ""},
+        {"ends beyond the deviation that its node states",
+         [](OrderMessage& order) {
+             order.edges[0].trajectory->controlPoints[1].y = 0.2;
+             order.nodes[1].nodePosition->allowedDeviationXY = 0.1;
+         },
+         "N1"},
+        {"ends at a node without a position",
+         [](OrderMessage& order) {
+             order.edges[0].trajectory->controlPoints[1].y = 99.0;
+             order.nodes[1].nodePosition.reset();
+         },
+         ""},
+        {"in the horizon",
+         [](OrderMessage& order) {
+             order.edges[1].trajectory = MakeLine();
+             order.edges[1].trajectory->controlPoints[0].x = 10.0;
+         },
+         "N2"},
+    };
+    for (const Case& curve : cases)
+    {
+        CAPTURE(curve.name);
+        VehicleBench bench;
+        OrderMessage order = MakeCurved(3, 2);
+        curve.change(order);
+        bench.Order(order);
+        const StateMessage state = bench.GetPublishedState();
+        const std::string nodeID = curve.nodeID;
+        CHECK(state.orderID == (nodeID.empty() ? "order-1" : ""));
+        REQUIRE(state.errors.size() == (nodeID.empty() ? 0 : 1));
+        if (!nodeID.empty())
+        {
+            CHECK(state.errors[0].errorType == ErrorTypes::ORDER_ERROR);
+            CHECK(state.errors[0].errorLevel == EErrorLevel::Warning);
+            CHECK(*FindReferenceOrNull(state.errors[0], "nodeId") == nodeID);
+            CHECK(*FindReferenceOrNull(state.errors[0], "edgeId") == (nodeID == "N2" ? "E1" : "E0"));
+            CHECK(*FindReferenceOrNull(state.errors[0], "parameter") == "order.edges.trajectory");
+        }
+    }
+}
+
+TEST_CASE("3.4 An order for a zone set that the vehicle does not have is refused; one without is taken")
+{
+    struct Case
+    {
+        const char* zoneSetID;
+        bool bTaken;
+    };
+    for (const Case& order : std::vector<Case>{{"", true}, {"day", true}, {"night", false}})
+    {
+        CAPTURE(order.zoneSetID);
+        VehicleOptions options = VehicleBench::MakeOptions();
+        options.zoneSetIDs = {"day"};
+        VehicleBench bench(options);
+        OrderMessage message = MakeOrder(2, 2);
+        message.zoneSetID = order.zoneSetID;
+        bench.Order(message);
+        CHECK(bench.HasError(ErrorTypes::ORDER_ERROR) != order.bTaken);
+        CHECK(bench.GetPublishedState().zoneSetID == (order.bTaken ? order.zoneSetID : ""));
+    }
+    VehicleBench any;
+    OrderMessage message = MakeOrder(2, 2);
+    message.zoneSetID = "night";
+    any.Order(message);
+    CHECK(any.GetPublishedState().zoneSetID == "night");
+}
+
+TEST_CASE("7 Outside of its corridor the vehicle stops and says so, until it is back inside")
+{
+    VehicleBench bench;
+    OrderWithCorridor(bench);
+    bench.Drive(true);
+    VehicleActions out;
+    CHECK(TryCorridor(bench, false, out));
+    CHECK(out.empty());
+    bench.Clear();
+    CHECK(TryCorridor(bench, true, out));
+    CHECK(Pick<StopDriving>(out).size() == 1);
+    CHECK(Pick<PublishMessage>(out).size() == 1);
+    CheckPublished(out);
+    const StateMessage state = bench.GetSession().GetState();
+    REQUIRE(state.errors.size() == 1);
+    CHECK(state.errors[0].errorType == ErrorTypes::OUTSIDE_OF_CORRIDOR);
+    CHECK(state.errors[0].errorLevel == EErrorLevel::Fatal);
+    CHECK(*FindReferenceOrNull(state.errors[0], "edgeId") == "E0");
+    CHECK(*FindReferenceOrNull(state.errors[0], "topic") == "order");
+    CHECK(FindReferenceOrNull(state.errors[0], "orderId") == nullptr);
+    CHECK(TryCorridor(bench, true, out));
+    CHECK(out.empty()); // said already
+    bench.Drive(false);
+    bench.Instant("startPause", "p1");
+    bench.Instant("stopPause", "p2");
+    CHECK(Pick<DriveTo>(bench.GetOutput()).empty());
+    CHECK(IsOutside(bench));
+    CHECK(TryCorridor(bench, false, out));
+    CHECK(Pick<DriveTo>(out).size() == 1);
+    CHECK(bench.GetSession().GetState().errors.empty());
+}
+
+TEST_CASE("7 The error about a corridor ends with its edge, with a cancel, and comes for no other edge")
+{
+    VehicleActions out;
+    VehicleBench none;
+    CHECK_FALSE(TryCorridor(none, true, out));
+    none.Order(MakeOrder(2, 2));
+    CHECK_FALSE(TryCorridor(none, true, out));
+    CHECK(none.GetSession().GetState().errors.empty());
+
+    VehicleBench reached;
+    OrderWithCorridor(reached, 3);
+    CHECK(TryCorridor(reached, true, out));
+    reached.Reach(2); // while it brakes
+    CHECK_FALSE(IsOutside(reached));
+    CHECK(Pick<DriveTo>(reached.GetOutput()).back().node.nodeID == "N2");
+
+    VehicleBench cancelled;
+    OrderWithCorridor(cancelled);
+    CHECK(TryCorridor(cancelled, true, out));
+    cancelled.Instant("cancelOrder", "c1");
+    CHECK(IsOutside(cancelled));
+    cancelled.Drive(false);
+    CHECK(cancelled.GetStatus("c1") == EActionStatus::Finished);
+    CHECK_FALSE(IsOutside(cancelled));
+}
+
+TEST_CASE("7 A vehicle that is bound to nodes and outside of its corridor ends a cancel where it stands")
+{
+    for (const bool bCancelFirst : {false, true})
+    {
+        CAPTURE(bCancelFirst);
+        VehicleOptions options = VehicleBench::MakeOptions();
+        options.bStopsBetweenNodes = false;
+        VehicleBench bench(options);
+        OrderWithCorridor(bench);
+        bench.Drive(true);
+        VehicleActions out;
+        if (bCancelFirst)
+        {
+            bench.Instant("cancelOrder", "c1");
+            CHECK(TryCorridor(bench, true, out));
+        }
+        else
+        {
+            CHECK(TryCorridor(bench, true, out));
+            bench.Instant("cancelOrder", "c1");
+        }
+        CHECK(Pick<StopDriving>(out).size() == 1);
+        CHECK(bench.GetStatus("c1") == EActionStatus::Running);
+        bench.Drive(false);
+        CHECK(bench.GetStatus("c1") == EActionStatus::Finished);
+        CHECK(bench.GetSession().GetState().nodeStates.empty());
+    }
+}
+
+TEST_CASE("4.4 A vehicle that plans its own way shows it in edgeStates, and does not change it")
+{
+    VehicleBench bench;
+    OrderMessage order = MakeCurved(3, 3);
+    bench.Order(order);
+    bench.Clear();
+    VehicleActions out;
+    const auto trySet = [&bench, &out](std::uint32_t sequenceID, const Trajectory& trajectory) {
+        out.clear();
+        return bench.GetSession().TrySetTrajectory(sequenceID, trajectory, bench.GetNow(), out);
+    };
+    Trajectory planned = MakeLine();
+    planned.controlPoints[1].y = 3.0;
+    CHECK_FALSE(trySet(1, planned)); // master control has said which way
+    CHECK_FALSE(trySet(5, planned)); // no such edge
+    CHECK_FALSE(trySet(3, Trajectory{1, {0.0}, {}}));
+    CHECK(trySet(3, planned));
+    CheckPublished(out);
+    CHECK(Pick<PublishMessage>(out).size() == 1);
+    CHECK(bench.GetSession().GetState().edgeStates[0].trajectory == MakeLine());
+    CHECK(bench.GetSession().GetState().edgeStates[1].trajectory == planned);
+    CHECK_FALSE(trySet(3, MakeLine()));
+    CHECK(bench.GetSession().GetState().edgeStates[1].trajectory == planned);
+}
+
+} // namespace ACS::VDA5050::Test
