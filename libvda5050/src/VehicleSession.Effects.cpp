@@ -169,6 +169,22 @@ bool VehicleSession::TrySetLastNode(std::string nodeID, Core::Now now, VehicleAc
     return true;
 }
 
+/// The owner's word that an action did not succeed.
+void VehicleSession::OnActionFailed(const TrackedAction& tracked, VehicleActions& out)
+{
+    if (tracked.scope != EActionScope::Instant)
+    {
+        OnOrderActionFailed(tracked, out);
+        return;
+    }
+    const ActionState& state = tracked.machine.GetState();
+    ReportInstantAction(
+        tracked.action,
+        std::nullopt,
+        ErrorTypes::ACTION_ERROR,
+        state.actionType + " failed: " + state.resultDescription);
+}
+
 /// 2.x does not stop an order for a failed action; a vehicle may, for the kinds that it names.
 void VehicleSession::OnOrderActionFailed(const TrackedAction& tracked, VehicleActions& out)
 {

@@ -85,9 +85,9 @@ bool VehicleSession::TrySetActionStatus(
     {
         ApplyOwnEffect(trackedOrNull->action, trackedOrNull->scope);
     }
-    else if (status == EActionStatus::Failed && trackedOrNull->scope != EActionScope::Instant)
+    else if (status == EActionStatus::Failed)
     {
-        OnOrderActionFailed(*trackedOrNull, out);
+        OnActionFailed(*trackedOrNull, out);
     }
     FinishCancelIfStanding(out);
     Advance(out);

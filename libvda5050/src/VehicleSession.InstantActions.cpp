@@ -102,7 +102,7 @@ bool VehicleSession::TryTakeInstantAction(
     {
         ReportInstantAction(
             action,
-            header,
+            header.headerID,
             ErrorTypes::INSTANT_ACTION_ERROR,
             "the state has no room for another action: maxArrayLens.state.actionStates");
         return false;
@@ -219,12 +219,12 @@ void VehicleSession::FailInstantAction(
     const std::string& reason)
 {
     AddInstantAction(action, EActionStatus::Failed, reason);
-    ReportInstantAction(action, header, errorType, reason);
+    ReportInstantAction(action, header.headerID, errorType, reason);
 }
 
 void VehicleSession::ReportInstantAction(
     const Action& action,
-    const Header& header,
+    std::optional<std::uint32_t> headerIDOrNull,
     std::string_view errorType,
     const std::string& reason)
 {
@@ -232,7 +232,10 @@ void VehicleSession::ReportInstantAction(
     error.errorType = errorType;
     error.errorDescription = reason;
     AddReference(error, ReferenceKeys::TOPIC, GetTopicName(ETopic::InstantActions));
-    AddReference(error, ReferenceKeys::HEADER_ID, std::to_string(header.headerID));
+    if (headerIDOrNull.has_value())
+    {
+        AddReference(error, ReferenceKeys::HEADER_ID, std::to_string(*headerIDOrNull));
+    }
     AddReference(error, ReferenceKeys::ACTION_ID, action.actionID);
     AddSessionError(
         std::move(error),

@@ -196,7 +196,7 @@ inline constexpr std::string_view ORDER_UPDATE_ERROR = "orderUpdateError";
 inline constexpr std::string_view NO_ROUTE_ERROR = "noRouteError";
 inline constexpr std::string_view NO_ORDER_TO_CANCEL = "noOrderToCancel";
 inline constexpr std::string_view INSTANT_ACTION_ERROR = "instantActionError";
-inline constexpr std::string_view ACTION_ERROR = "actionError"; ///< An action of an order failed.
+inline constexpr std::string_view ACTION_ERROR = "actionError"; ///< An action failed after it had been started.
 inline constexpr std::string_view OUTSIDE_OF_CORRIDOR = "outsideOfCorridor";
 } // namespace ErrorTypes
 

@@ -151,7 +151,7 @@ class VehicleSession
     [[nodiscard]] std::string FindRefusal(const Action& action, bool bTooMany) const;
     void ReportInstantAction(
         const Action& action,
-        const Header& header,
+        std::optional<std::uint32_t> headerIDOrNull,
         std::string_view errorType,
         const std::string& reason);
     void FailInstantAction(
@@ -178,6 +178,7 @@ class VehicleSession
     void ApplyOwnEffect(const Action& action, EActionScope scope);
     void ApplyMapEffect(const Action& action);
     void SetLastNode(std::string nodeID);
+    void OnActionFailed(const TrackedAction& tracked, VehicleActions& out);
     void OnOrderActionFailed(const TrackedAction& tracked, VehicleActions& out);
     void PerformOwnInstantAction(const Action& action, const Header& header, Core::Now now, VehicleActions& out);
 

@@ -1,0 +1,343 @@
+#include "Catch.hpp"
+#include "VehicleBench.hpp"
+#include <acs/vda5050/ActionMachine.hpp>
+#include <acs/vda5050/PredefinedActions.hpp>
+
+#include <algorithm>
+#include <optional>
+
+namespace ACS::VDA5050::Test
+{
+
+namespace
+{
+
+using Names = std::vector<std::string>;
+
+VehicleOptions MakeAble()
+{
+    VehicleOptions options = VehicleBench::MakeOptions();
+    options.factsheet.protocolFeatures.agvActions = GetPredefinedActions();
+    return options;
+}
+
+/// Reaches the end of two nodes.
+void Complete(VehicleBench& bench, const OrderMessage& order)
+{
+    bench.Order(order);
+    bench.Drive(true);
+    bench.Reach(2);
+    bench.Drive(false);
+    REQUIRE(Pick<OrderCompleted>(bench.GetOutput()).size() == 1);
+    bench.Clear();
+}
+
+const VehicleError* FindErrorOrNull(const StateMessage& state, std::string_view errorType)
+{
+    const auto found = std::ranges::find(state.errors, errorType, &VehicleError::errorType);
+    return found == state.errors.end() ? nullptr : &*found;
+}
+
+} // namespace
+
+TEST_CASE("4.3 The stitching node keeps the contents that it came with, whatever the update says of it")
+{
+    VehicleBench bench;
+    OrderBuilder builder = MakeBuilder(3);
+    OrderMessage order = *builder.MakeOrder(2, 0);
+    order.nodes[1].actions.push_back(MakeAction("first", EBlockingType::None));
+    order.nodes[1].nodePosition->allowedDeviationXY = 0.25;
+    bench.Order(order);
+    bench.Clear();
+    OrderMessage update = *builder.MakeUpdate(3);
+    update.nodes[0].actions.push_back(MakeAction("second", EBlockingType::Hard));
+    update.nodes[0].nodePosition->allowedDeviationXY = 3.0;
+    bench.Order(update);
+    CHECK(bench.GetPublishedState().orderUpdateID == 1);
+    REQUIRE(Pick<DriveTo>(bench.GetOutput()).size() == 1);
+    const DriveTo& drive = Pick<DriveTo>(bench.GetOutput())[0];
+    CHECK(drive.node.nodePosition->allowedDeviationXY == 0.25);
+    CHECK_FALSE(drive.bStopAtNode);
+    bench.Reach(2);
+    CHECK(bench.GetStartedActions() == Names{"first"});
+    CHECK(bench.GetSession().GetState().actionStates.size() == 1);
+}
+
+TEST_CASE("4.3 An update may replace, shorten or drop the horizon; what is assigned keeps its sequenceId")
+{
+    struct Case
+    {
+        std::size_t released;
+        std::size_t horizon;
+        Names nodes;
+    };
+    const std::vector<Case> cases{
+        {2, 3, {"N1", "N2", "N3", "N4"}},
+        {2, 1, {"N1", "N2"}},
+        {2, 0, {"N1"}},
+        {4, 0, {"N1", "N2", "N3"}},
+    };
+    for (const Case& horizon : cases)
+    {
+        CAPTURE(horizon.released, horizon.horizon);
+        VehicleBench bench;
+        OrderBuilder builder = MakeBuilder(5);
+        OrderMessage order = *builder.MakeOrder(2, 2);
+        order.nodes[3].actions.push_back(MakeAction("dropped", EBlockingType::None));
+        bench.Order(order);
+        bench.Order(*builder.MakeUpdate(horizon.released, horizon.horizon));
+        const StateMessage state = bench.GetPublishedState();
+        CHECK(ListNodes(state) == horizon.nodes);
+        CHECK(state.actionStates.empty());
+        CHECK(state.edgeStates.size() == horizon.nodes.size());
+        for (std::size_t index = 0; index < state.nodeStates.size(); ++index)
+        {
+            CHECK(state.nodeStates[index].sequenceID == 2 * (index + 1));
+            CHECK(state.edgeStates[index].sequenceID == 2 * index + 1);
+            CHECK(state.nodeStates[index].bReleased == (index + 1 < horizon.released));
+        }
+    }
+}
+
+TEST_CASE("4.3 New actions where the vehicle stands come with a node more of the same name")
+{
+    VehicleBench bench;
+    OrderBuilder builder = MakeBuilder(2);
+    Complete(bench, *builder.MakeOrder(2));
+    OrderNode again = builder.GetNodes()[1];
+    again.actions.push_back(MakeAction("more", EBlockingType::Hard));
+    OrderEdge logical;
+    logical.edgeID = "stay";
+    REQUIRE(builder.Append({again}, {logical}).has_value());
+    bench.Order(*builder.MakeUpdate(3));
+    REQUIRE(Pick<DriveTo>(bench.GetOutput()).size() == 1);
+    CHECK(Pick<DriveTo>(bench.GetOutput())[0].edge.startNodeID == "N1");
+    CHECK(Pick<DriveTo>(bench.GetOutput())[0].edge.endNodeID == "N1");
+    bench.Reach(4);
+    CHECK(bench.GetSession().GetState().lastNodeID == "N1");
+    CHECK(bench.GetSession().GetState().lastNodeSequenceID == 4);
+    CHECK(bench.GetStartedActions() == Names{"more"});
+}
+
+TEST_CASE("4.4 4.5 A vehicle that never had an order and stands on no node says so with empty ids")
+{
+    VehicleOptions options = VehicleBench::MakeOptions();
+    options.initialNodeID.clear();
+    VehicleBench bench(options);
+    const StateMessage state = bench.GetSession().GetState();
+    CHECK(state.orderID.empty());
+    CHECK(state.orderUpdateID == 0);
+    CHECK(state.lastNodeID.empty());
+    CHECK(state.lastNodeSequenceID == 0);
+    CHECK(state.nodeStates.empty());
+    CHECK(state.actionStates.empty());
+    CHECK(state.bNewBaseRequest == false);
+}
+
+TEST_CASE("5.1 With which status an action may begin")
+{
+    for (const EActionStatus status :
+         {EActionStatus::Waiting,
+          EActionStatus::Initializing,
+          EActionStatus::Running,
+          EActionStatus::Paused,
+          EActionStatus::Finished,
+          EActionStatus::Failed})
+    {
+        CHECK(CanBeginWith(status) == (status != EActionStatus::Paused));
+    }
+}
+
+TEST_CASE("5.3 An action that is being initialised is paused too, one that has not begun stays WAITING")
+{
+    VehicleBench bench;
+    OrderMessage order = MakeOrder(2, 2);
+    order.nodes[0].actions = {MakeAction("init", EBlockingType::Hard), MakeAction("later", EBlockingType::Hard)};
+    bench.Order(order);
+    bench.Status("init", EActionStatus::Initializing);
+    bench.Instant("startPause", "p1");
+    CHECK(Pick<PauseAction>(bench.GetOutput()) == std::vector{PauseAction{"init"}});
+    bench.Status("init", EActionStatus::Paused);
+    CHECK(bench.GetStatus("later") == EActionStatus::Waiting);
+    bench.Instant("stopPause", "p2");
+    bench.Status("init", EActionStatus::Initializing);
+    CHECK(bench.GetStatus("init") == EActionStatus::Initializing);
+}
+
+TEST_CASE("5.4.7 After a cancel between two nodes an order may begin at a temporary node where the vehicle stands")
+{
+    VehicleBench bench;
+    bench.Order(MakeOrder(2, 2));
+    bench.Drive(true);
+    bench.StandAt(5.0);
+    bench.Instant("cancelOrder", "c1");
+    bench.Drive(false);
+    OrderMessage next = MakeOrder(2, 2, "order-2");
+    next.nodes[0].nodeID = "temporary";
+    next.nodes[0].nodePosition->x = 5.0;
+    next.edges[0].startNodeID = "temporary";
+    bench.Order(next);
+    CHECK(bench.GetPublishedState().orderID == "order-2");
+    CHECK(bench.GetPublishedState().lastNodeID == "temporary");
+}
+
+TEST_CASE("5.7 After initPosition the vehicle is on the node that it was told, and counts within its old order")
+{
+    VehicleBench bench(MakeAble());
+    OrderBuilder builder = MakeBuilder(2);
+    Complete(bench, *builder.MakeOrder(2));
+    std::vector<ActionParameter> pose;
+    for (const auto& [key, value] :
+         std::vector<std::pair<const char*, double>>{{"x", 70.0}, {"y", 0.0}, {"theta", 0.0}})
+    {
+        pose.push_back({key, Core::JsonText::FromNumber(value)});
+    }
+    pose.push_back({"mapId", Core::JsonText::FromString("floor")});
+    pose.push_back({"lastNodeId", Core::JsonText::FromString("N7")});
+    bench.Instant("initPosition", "i1", pose);
+    bench.Status("i1", EActionStatus::Running);
+    bench.Status("i1", EActionStatus::Finished);
+    CHECK(bench.GetPublishedState().lastNodeID == "N7");
+    CHECK(bench.GetPublishedState().lastNodeSequenceID == 2);
+    CHECK(bench.GetPublishedState().orderID == "order-1");
+    CHECK_FALSE(bench.GetPublishedState().distanceSinceLastNode.has_value());
+    // The old order ended at N1: an update from there would begin where the vehicle is not any more.
+    REQUIRE(builder.Append({OrderNode{"N2", 0, {}, false, {}, {}}}, {OrderEdge{}}).has_value());
+    OrderMessage update = *builder.MakeUpdate(3);
+    update.edges[0].edgeID = "E1";
+    bench.Order(update);
+    CHECK(bench.HasError(ErrorTypes::ORDER_UPDATE_ERROR));
+    // A new order counts from 0 again, and upwards.
+    OrderMessage next = MakeOrder(2, 2, "order-2");
+    next.nodes[0].nodeID = "N7";
+    next.nodes[0].nodePosition->x = 70.0;
+    next.edges[0].startNodeID = "N7";
+    bench.Order(next);
+    CHECK(bench.GetPublishedState().lastNodeID == "N7");
+    CHECK(bench.GetPublishedState().lastNodeSequenceID == 0);
+    bench.Reach(2);
+    CHECK(bench.GetPublishedState().lastNodeSequenceID == 2);
+}
+
+TEST_CASE("5.7 What an action came to is its resultDescription: the name of a logReport, of an order's action too")
+{
+    VehicleBench bench(MakeAble());
+    OrderMessage order = MakeOrder(1, 1);
+    order.nodes[0].actions.push_back(MakeAction("find", EBlockingType::None, "detectObject"));
+    bench.Order(order);
+    bench.Instant("logReport", "log", {{"reason", Core::JsonText::FromString("test")}});
+    VehicleActions out;
+    for (const char* actionID : {"find", "log"})
+    {
+        bench.Status(actionID, EActionStatus::Running);
+        CHECK(bench.GetSession().TrySetActionStatus(
+            actionID,
+            EActionStatus::Finished,
+            "of " + std::string(actionID),
+            bench.GetNow(),
+            out));
+    }
+    const StateMessage state = bench.GetSession().GetState();
+    REQUIRE(state.actionStates.size() == 2);
+    CHECK(state.actionStates[0].resultDescription == "of find");
+    CHECK(state.actionStates[1].resultDescription == "of log");
+    CHECK(state.errors.empty());
+    CheckPublished(out);
+}
+
+TEST_CASE("5.7 An instant action that fails after it was started is a warning until another one is taken")
+{
+    VehicleBench bench(MakeAble());
+    bench.Instant("startCharging", "charge");
+    bench.Status("charge", EActionStatus::Running);
+    VehicleActions out;
+    CHECK(bench.GetSession().TrySetActionStatus("charge", EActionStatus::Failed, "not aligned", bench.GetNow(), out));
+    CheckPublished(out);
+    const StateMessage state = bench.GetSession().GetState();
+    const VehicleError* error = FindErrorOrNull(state, ErrorTypes::ACTION_ERROR);
+    REQUIRE(error != nullptr);
+    CHECK(error->errorLevel == EErrorLevel::Warning);
+    CHECK(error->errorDescription == "startCharging failed: not aligned");
+    CHECK(*FindReferenceOrNull(*error, "topic") == "instantActions");
+    CHECK(*FindReferenceOrNull(*error, "actionId") == "charge");
+    CHECK(FindReferenceOrNull(*error, "headerId") == nullptr);
+    bench.Instant("makeCoffee", "i1"); // none that is taken
+    CHECK(FindErrorOrNull(bench.GetSession().GetState(), ErrorTypes::ACTION_ERROR) != nullptr);
+    bench.Instant("stateRequest", "i2");
+    CHECK(FindErrorOrNull(bench.GetSession().GetState(), ErrorTypes::ACTION_ERROR) == nullptr);
+}
+
+TEST_CASE("5.7 charging and loads are what the vehicle measures, not what an action should have changed")
+{
+    VehicleBench bench(MakeAble());
+    bench.Instant("startCharging", "charge");
+    bench.Status("charge", EActionStatus::Running);
+    bench.Status("charge", EActionStatus::Finished);
+    CHECK_FALSE(bench.GetSession().GetState().batteryState.bCharging);
+    BatteryState battery;
+    battery.bCharging = true;
+    VehicleActions out;
+    bench.GetSession().OnBattery(battery, bench.GetNow(), out);
+    CHECK(bench.GetSession().GetState().batteryState.bCharging);
+    CHECK(Pick<PublishMessage>(out).size() == 1);
+}
+
+TEST_CASE("7 How far from its first node a vehicle may stand: what the node states, where that is absent or 0 its own")
+{
+    struct Case
+    {
+        std::optional<double> stated;
+        double own;
+        double distance;
+        bool bTaken;
+    };
+    const std::vector<Case> cases{
+        {std::nullopt, 0.5, 0.4, true},
+        {std::nullopt, 0.5, 0.6, false},
+        {std::nullopt, 1.0, 0.6, true},
+        {0.0, 0.5, 0.4, true},
+        {0.0, 0.5, 0.6, false},
+        {0.1, 0.5, 0.4, false},
+        {0.7, 0.5, 0.6, true},
+    };
+    for (const Case& deviation : cases)
+    {
+        CAPTURE(deviation.stated, deviation.own, deviation.distance);
+        VehicleOptions options = VehicleBench::MakeOptions();
+        options.defaultDeviationXY = deviation.own;
+        VehicleBench bench(options);
+        bench.StandAt(deviation.distance);
+        OrderMessage order = MakeOrder(2, 2);
+        order.nodes[0].nodePosition->allowedDeviationXY = deviation.stated;
+        bench.Order(order);
+        CHECK(bench.HasError(ErrorTypes::NO_ROUTE_ERROR) != deviation.bTaken);
+    }
+}
+
+TEST_CASE("12 An orderId that comes again after its order is done is an update, or the one that is known")
+{
+    VehicleBench bench;
+    Complete(bench, MakeOrder(2, 2));
+    bench.Order(MakeOrder(2, 2)); // the same once more: nothing is done twice
+    CHECK(Pick<OrderTaken>(bench.GetOutput()).empty());
+    CHECK(bench.GetPublishedState().errors.empty());
+    OrderMessage again = MakeOrder(2, 2);
+    again.orderUpdateID = 1;
+    bench.Order(again);
+    CHECK(bench.HasError(ErrorTypes::ORDER_UPDATE_ERROR));
+    CHECK(Pick<DriveTo>(bench.GetOutput()).empty());
+}
+
+TEST_CASE("12 An order that comes sooner than minOrderInterval is taken: the interval binds the master")
+{
+    VehicleOptions options = VehicleBench::MakeOptions();
+    options.factsheet.protocolLimits.timing.minOrderInterval = 10.0;
+    VehicleBench bench(options);
+    OrderBuilder builder = MakeBuilder(3);
+    bench.Order(*builder.MakeOrder(2));
+    bench.Order(*builder.MakeUpdate(3));
+    CHECK(bench.GetPublishedState().orderUpdateID == 1);
+    CHECK(bench.GetPublishedState().errors.empty());
+}
+
+} // namespace ACS::VDA5050::Test
