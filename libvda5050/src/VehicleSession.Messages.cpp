@@ -227,7 +227,9 @@ OrderContext VehicleSession::MakeContext() const
     {
         const bool bInstant = tracked.scope == EActionScope::Instant;
         const bool bInstantRuns = bInstant && !IsTerminal(tracked.machine.GetStatus());
-        const bool bOfBase = !bInstant && tracked.sequenceID < baseEnd;
+        // What has ended may be of a route that was cancelled and had the same sequenceIds.
+        const bool bOfBase =
+            !bInstant && (tracked.sequenceID < baseEnd || IsTerminal(tracked.machine.GetStatus()));
         if (bInstantRuns)
         {
             context.instantActionIDs.push_back(tracked.action.actionID);
@@ -320,7 +322,7 @@ void VehicleSession::DropHorizon()
     _route.Cut(kept);
     // Gone from the report: an id that comes back with the update would else have to leave a terminal status.
     std::erase_if(_actions, [&dropped](const TrackedAction& tracked) {
-        return tracked.scope != EActionScope::Instant
+        return tracked.scope != EActionScope::Instant && !IsTerminal(tracked.machine.GetStatus())
             && std::ranges::find(dropped, tracked.sequenceID) != dropped.end();
     });
 }

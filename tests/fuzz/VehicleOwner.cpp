@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace ACS::Fuzz
@@ -18,10 +20,25 @@ using namespace VDA5050; // NOLINT(google-build-using-namespace)
 
 constexpr int MAXIMUM_STEPS = 400; ///< To the end of the longest order that the target builds.
 
+constexpr std::uint32_t UNLIMITED = std::numeric_limits<std::uint32_t>::max();
+
+bool HasError(const StateMessage& state, std::string_view errorType)
+{
+    return std::ranges::find(state.errors, errorType, &VehicleError::errorType) != state.errors.end();
+}
+
+/// What a sensor says, and what it says when it is broken.
+double Measure(Choices& choices)
+{
+    const std::uint32_t value = choices.Take(8);
+    return value == 7 ? std::numeric_limits<double>::quiet_NaN() : value;
+}
+
 } // namespace
 
 VehicleOwner::VehicleOwner(VehicleOptions options)
-    : _session(std::move(options))
+    : _limits(options.factsheet.protocolLimits.maxArrayLengths),
+      _session(std::move(options))
 {
     _session.OnLinkUp(_now, _out);
     Obey();
@@ -83,7 +100,7 @@ void VehicleOwner::SetStatus(Choices& choices)
 
 void VehicleOwner::Happen(Choices& choices)
 {
-    constexpr std::uint32_t KINDS = 10;
+    constexpr std::uint32_t KINDS = 12;
     switch (choices.Take(KINDS))
     {
         case 0:
@@ -108,9 +125,9 @@ void VehicleOwner::Happen(Choices& choices)
         {
             AgvPosition position;
             position.bPositionInitialized = choices.Take(8) != 0;
-            position.x = choices.Take(4);
+            position.x = Measure(choices);
             position.mapID = "floor";
-            _session.OnPosition(position, Velocity{});
+            _session.OnPosition(position, Velocity{Measure(choices), {}, {}});
             break;
         }
         case 6:
@@ -133,11 +150,43 @@ void VehicleOwner::Happen(Choices& choices)
             _session.OnMaps(std::vector{MapState{"floor", "1", status, {}}}, _now, _out);
             break;
         }
+        case 9:
+            LeaveCorridor(choices.Take(2) == 0);
+            return;
+        case 10:
+            Sense(choices);
+            break;
         default:
             static_cast<void>(_session.TrySetLastNode("n" + std::to_string(choices.Take(4)), _now, _out));
             break;
     }
     Obey();
+}
+
+void VehicleOwner::LeaveCorridor(bool bOutside)
+{
+    if (_session.TrySetOutsideCorridor(bOutside, _now, _out))
+    {
+        _bOutside = bOutside;
+    }
+    Obey();
+}
+
+void VehicleOwner::Sense(Choices& choices)
+{
+    BatteryState battery;
+    battery.batteryCharge = Measure(choices);
+    battery.reach = Measure(choices);
+    battery.bCharging = choices.Take(2) == 0;
+    _session.OnBattery(battery, _now, _out);
+    Load load;
+    load.weight = Measure(choices);
+    _session.OnLoads(std::vector(choices.Take(3), load), _now, _out);
+    VehicleError error;
+    error.errorLevel = choices.Take(2) == 0 ? EErrorLevel::Warning : EErrorLevel::Fatal;
+    _session.OnErrors(std::vector(choices.Take(5), error), _now, _out);
+    const Trajectory line{1, {0.0, 0.0, 1.0, 1.0}, {ControlPoint{}, ControlPoint{1.0, Measure(choices), {}}}};
+    static_cast<void>(_session.TrySetTrajectory(choices.Take(8), line, _now, _out));
 }
 
 bool VehicleOwner::IsBlocked() const
@@ -160,6 +209,10 @@ void VehicleOwner::WatchStart(const StartAction& start)
             Require(bBeside, "HARD runs alone");
         }
     }
+    const std::vector<EdgeState> edges = _session.GetState().edgeStates;
+    Require(
+        start.scope != EActionScope::Edge || (!edges.empty() && edges.front().sequenceID == start.sequenceID),
+        "an action of an edge begins on its edge");
     const bool bNew = _running.emplace(start.action.actionID, Running{start, false}).second;
     Require(bNew, "an action is started once");
 }
@@ -169,6 +222,7 @@ void VehicleOwner::WatchDrive(const DriveTo& drive) const
     Require(!IsBlocked(), "nobody drives beside SOFT or HARD");
     Require(drive.node.bReleased && drive.edge.bReleased, "nobody drives into the horizon");
     Require(_bOrderRuns, "nobody drives without an order");
+    Require(!_bOutside, "nobody drives outside of a corridor");
 }
 
 std::uint32_t VehicleOwner::ReadHeaderID(const MqttMessage& message)
@@ -284,7 +338,8 @@ void VehicleOwner::WatchActions(const StateMessage& state)
     }
     for (const auto& [actionID, status] : _statuses)
     {
-        Require(!IsTerminal(status) || statuses.contains(actionID), "what has ended is shown until a new order");
+        const bool bShown = !IsTerminal(status) || statuses.contains(actionID);
+        Require(bShown || _limits.stateActionStates.has_value(), "what has ended is shown until a new order");
     }
     _statuses = std::move(statuses);
     // What the session has failed by itself the owner has stopped.
@@ -294,11 +349,26 @@ void VehicleOwner::WatchActions(const StateMessage& state)
     });
 }
 
+void VehicleOwner::WatchBounds(const StateMessage& state) const
+{
+    Require(state.nodeStates.size() <= _limits.stateNodeStates.value_or(UNLIMITED), "no more nodeStates than stated");
+    Require(state.errors.size() <= _limits.stateErrors.value_or(UNLIMITED), "no more errors than stated");
+    const bool bPosition = !state.agvPosition.has_value() || std::isfinite(state.agvPosition->x);
+    const bool bBattery =
+        std::isfinite(state.batteryState.batteryCharge) && std::isfinite(state.batteryState.reach.value_or(0.0));
+    const bool bLoads = std::ranges::all_of(state.loads.value_or(std::vector<Load>()), [](const Load& load) {
+        return std::isfinite(load.weight.value_or(0.0));
+    });
+    Require(bPosition && bBattery && bLoads, "what is published is a number");
+}
+
 void VehicleOwner::WatchState()
 {
     const StateMessage state = _session.GetState();
+    _bOutside = _bOutside && HasError(state, ErrorTypes::OUTSIDE_OF_CORRIDOR);
     WatchRoute(state);
     WatchActions(state);
+    WatchBounds(state);
     Require(_session.IsOrderRunning() == _bOrderRuns, "the owner is told when an order begins and ends");
 }
 
@@ -334,6 +404,7 @@ void VehicleOwner::End()
     Obey();
     _session.OnHardwarePause(false, false, _now, _out);
     Obey();
+    LeaveCorridor(false);
     SendInstant(ActionTypes::STOP_PAUSE, "end-pause");
     Finish();
     if (_bOrderRuns)

@@ -25,6 +25,7 @@ class VehicleOwner
         bool bTold = false; ///< Has been reported as running.
     };
 
+    VDA5050::MaximumArrayLengths _limits; ///< Of what it publishes.
     VDA5050::VehicleSession _session;
     VDA5050::Vda5050Codec _codec;
     Core::Now _now;
@@ -37,6 +38,7 @@ class VehicleOwner
     std::uint32_t _lastSequenceID = 0;
     bool _bOrderRuns = false;
     bool _bLinked = true;
+    bool _bOutside = false; ///< Of the corridor of the edge that it drives.
 
     void Obey();
     void Watch(const VDA5050::VehicleAction& action);
@@ -48,7 +50,10 @@ class VehicleOwner
     void WatchState();
     void WatchRoute(const VDA5050::StateMessage& state);
     void WatchActions(const VDA5050::StateMessage& state);
+    void WatchBounds(const VDA5050::StateMessage& state) const;
     [[nodiscard]] bool IsBlocked() const;
+    void LeaveCorridor(bool bOutside);
+    void Sense(Choices& choices);
     void Finish();
 
 public:

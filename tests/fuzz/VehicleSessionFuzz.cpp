@@ -75,6 +75,36 @@ OrderNode MakeNode(std::uint32_t sequenceID, bool bReleased, Fuzz::Choices& choi
     return node;
 }
 
+/// What a way can have beside its ends, right and wrong.
+void AddGeometry(OrderEdge& edge, Fuzz::Choices& choices)
+{
+    switch (choices.Take(8))
+    {
+        case 0:
+            edge.corridor = Corridor{1.0, choices.Take(8) == 0 ? -1.0 : 1.0, {}};
+            break;
+        case 1:
+        {
+            // It fits where its nodes have no positions.
+            Trajectory line{1, {0.0, 0.0, 1.0, 1.0}, {ControlPoint{}, ControlPoint{NODE_DISTANCE, 0.0, {}}}};
+            line.controlPoints[1].weight = choices.Take(4);
+            edge.trajectory = std::move(line);
+            break;
+        }
+        case 2:
+            edge.maxSpeed = 1.0 - choices.Take(3);
+            break;
+        default:
+            break;
+    }
+}
+
+/// Mostly the next one.
+std::uint32_t StepSequence(std::uint32_t sequenceID, Fuzz::Choices& choices)
+{
+    return sequenceID + (choices.Take(16) == 1 ? choices.Take(6) : 2);
+}
+
 /// Where a right update would begin.
 std::pair<std::string, std::uint32_t> GetDecisionPoint(const StateMessage& state)
 {
@@ -110,6 +140,7 @@ OrderMessage MakeOrder(const StateMessage& state, Fuzz::Choices& choices)
             edge.bReleased = index < released;
             edge.startNodeID = order.nodes.back().nodeID;
             edge.actions = MakeActions(choices);
+            AddGeometry(edge, choices);
             order.edges.push_back(std::move(edge));
         }
         order.nodes.push_back(MakeNode(sequenceID, index < released, choices));
@@ -121,7 +152,7 @@ OrderMessage MakeOrder(const StateMessage& state, Fuzz::Choices& choices)
         {
             order.edges.back().endNodeID = order.nodes.back().nodeID;
         }
-        sequenceID += 2;
+        sequenceID = StepSequence(sequenceID, choices);
     }
     return order;
 }
@@ -153,6 +184,13 @@ VehicleOptions MakeOptions(Fuzz::Choices& choices)
     if (choices.Take(2) == 0)
     {
         options.factsheet.protocolFeatures.agvActions = GetPredefinedActions();
+    }
+    if (choices.Take(4) == 0)
+    {
+        MaximumArrayLengths& limits = options.factsheet.protocolLimits.maxArrayLengths;
+        limits.stateNodeStates = 4;
+        limits.stateActionStates = 5;
+        limits.stateErrors = 3;
     }
     return options;
 }

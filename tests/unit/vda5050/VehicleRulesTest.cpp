@@ -181,6 +181,28 @@ TEST_CASE("5.4.7 After a cancel between two nodes an order may begin at a tempor
     CHECK(bench.GetPublishedState().lastNodeID == "temporary");
 }
 
+TEST_CASE("5.5 What a cancel has failed stays in the report when the order goes on and drops its horizon again")
+{
+    VehicleBench bench;
+    const auto make = [](std::uint32_t updateID, std::size_t released, const char* actionID) {
+        OrderMessage order = MakeOrder(2, released);
+        order.orderUpdateID = updateID;
+        order.nodes[1].actions.push_back(MakeAction(actionID, EBlockingType::None));
+        return order;
+    };
+    bench.Order(make(0, 1, "old"));
+    bench.Instant("cancelOrder", "c1");
+    CHECK(bench.GetStatus("old") == EActionStatus::Failed);
+    bench.Order(make(1, 1, "new"));
+    bench.Order(make(2, 1, "old")); // its end is reported still: the id cannot come again
+    CHECK(bench.HasError(ErrorTypes::VALIDATION_ERROR));
+    bench.Order(make(3, 2, "newer"));
+    CHECK(bench.GetPublishedState().orderUpdateID == 3);
+    CHECK(bench.GetStatus("old") == EActionStatus::Failed);
+    CHECK(bench.GetStatus("newer") == EActionStatus::Waiting);
+    CHECK(bench.GetPublishedState().actionStates.size() == 3); // with the cancel
+}
+
 TEST_CASE("5.7 After initPosition the vehicle is on the node that it was told, and counts within its old order")
 {
     VehicleBench bench(MakeAble());
