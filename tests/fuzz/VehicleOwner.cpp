@@ -22,11 +22,6 @@ constexpr int MAXIMUM_STEPS = 400; ///< To the end of the longest order that the
 
 constexpr std::uint32_t UNLIMITED = std::numeric_limits<std::uint32_t>::max();
 
-bool HasError(const StateMessage& state, std::string_view errorType)
-{
-    return std::ranges::find(state.errors, errorType, &VehicleError::errorType) != state.errors.end();
-}
-
 /// What a sensor says, and what it says when it is broken.
 double Measure(Choices& choices)
 {
@@ -165,9 +160,10 @@ void VehicleOwner::Happen(Choices& choices)
 
 void VehicleOwner::LeaveCorridor(bool bOutside)
 {
+    const std::vector<EdgeState> edges = _session.GetState().edgeStates;
     if (_session.TrySetOutsideCorridor(bOutside, _now, _out))
     {
-        _bOutside = bOutside;
+        _outsideEdge = bOutside && !edges.empty() ? std::optional(edges.front().sequenceID) : std::nullopt;
     }
     Obey();
 }
@@ -222,7 +218,7 @@ void VehicleOwner::WatchDrive(const DriveTo& drive) const
     Require(!IsBlocked(), "nobody drives beside SOFT or HARD");
     Require(drive.node.bReleased && drive.edge.bReleased, "nobody drives into the horizon");
     Require(_bOrderRuns, "nobody drives without an order");
-    Require(!_bOutside, "nobody drives outside of a corridor");
+    Require(drive.edge.sequenceID != _outsideEdge, "nobody drives outside of a corridor");
 }
 
 std::uint32_t VehicleOwner::ReadHeaderID(const MqttMessage& message)
@@ -277,6 +273,7 @@ void VehicleOwner::Watch(const VehicleAction& action)
     {
         _bOrderRuns = false;
         _leg.reset();
+        _outsideEdge.reset();
     }
     else if (const auto* drive = std::get_if<DriveTo>(&action))
     {
@@ -365,7 +362,6 @@ void VehicleOwner::WatchBounds(const StateMessage& state) const
 void VehicleOwner::WatchState()
 {
     const StateMessage state = _session.GetState();
-    _bOutside = _bOutside && HasError(state, ErrorTypes::OUTSIDE_OF_CORRIDOR);
     WatchRoute(state);
     WatchActions(state);
     WatchBounds(state);

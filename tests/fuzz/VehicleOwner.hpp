@@ -34,11 +34,11 @@ class VehicleOwner
     std::map<std::string, VDA5050::EActionStatus> _statuses;
     std::map<std::string, std::uint32_t> _headerIDs;
     std::optional<VDA5050::DriveTo> _leg;
+    std::optional<std::uint32_t> _outsideEdge; ///< Whose corridor it has left.
     std::string _orderID;
     std::uint32_t _lastSequenceID = 0;
     bool _bOrderRuns = false;
     bool _bLinked = true;
-    bool _bOutside = false; ///< Of the corridor of the edge that it drives.
 
     void Obey();
     void Watch(const VDA5050::VehicleAction& action);
