@@ -105,6 +105,7 @@ void VehicleSession::ApplyOwnEffect(const Action& action, EActionScope scope)
         position.y = GetNumberParameterOrNull(action, "y").value_or(0.0);
         position.theta = GetNumberParameterOrNull(action, "theta").value_or(0.0);
         position.mapID = GetMapKey(action).mapID;
+        EnableOnlyVersion(position.mapID);
         _position = std::move(position);
         if (scope == EActionScope::Instant)
         {
@@ -114,6 +115,18 @@ void VehicleSession::ApplyOwnEffect(const Action& action, EActionScope scope)
     else if (IsMapAction(action))
     {
         ApplyMapEffect(action);
+    }
+}
+
+/// A vehicle that finds itself on a map uses it, and a map in use is ENABLED. Of several versions it is not said which.
+void VehicleSession::EnableOnlyVersion(const std::string& mapID)
+{
+    const auto isVersion = [&mapID](const MapState& map) {
+        return map.mapID == mapID;
+    };
+    if (_maps.has_value() && std::ranges::count_if(*_maps, isVersion) == 1)
+    {
+        std::ranges::find_if(*_maps, isVersion)->mapStatus = EMapStatus::Enabled;
     }
 }
 

@@ -206,7 +206,6 @@ void VehicleSession::AddInstantAction(const Action& action, EActionStatus status
     {
         _actions.erase(std::ranges::find_if(_actions, IsEndedInstantAction));
     }
-    static_cast<void>(TryMakeRoom(1));
     ActionState state{action.actionID, action.actionType, action.actionDescription, status, result};
     _actions.push_back(
         TrackedAction{action, ActionMachine(std::move(state)), EActionScope::Instant, {}, 0, false, false});

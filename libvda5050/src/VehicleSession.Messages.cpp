@@ -228,8 +228,7 @@ OrderContext VehicleSession::MakeContext() const
         const bool bInstant = tracked.scope == EActionScope::Instant;
         const bool bInstantRuns = bInstant && !IsTerminal(tracked.machine.GetStatus());
         // What has ended may be of a route that was cancelled and had the same sequenceIds.
-        const bool bOfBase =
-            !bInstant && (tracked.sequenceID < baseEnd || IsTerminal(tracked.machine.GetStatus()));
+        const bool bOfBase = !bInstant && (tracked.sequenceID < baseEnd || IsTerminal(tracked.machine.GetStatus()));
         if (bInstantRuns)
         {
             context.instantActionIDs.push_back(tracked.action.actionID);

@@ -85,6 +85,13 @@ TEST_CASE("7 What is no NURBS is told as a validationError")
         {"a weight", [](Trajectory& curve) { curve.controlPoints[0].weight = 3.0; }, true},
         {"a negative weight", [](Trajectory& curve) { curve.controlPoints[0].weight = -1.0; }, false},
         {"a weight that is no number", [](Trajectory& curve) { curve.controlPoints[0].weight = NOT_A_NUMBER; }, false},
+        {"a negative weight inside",
+         [](Trajectory& curve) {
+             curve.knotVector = {0.0, 0.0, 0.5, 1.0, 1.0};
+             curve.controlPoints.insert(curve.controlPoints.begin() + 1, ControlPoint{5.0, 0.0, -0.5});
+         },
+         false},
+        {"a begin without weight", [](Trajectory& curve) { curve.controlPoints[0].weight = 0.0; }, false},
         {"an end without weight", [](Trajectory& curve) { curve.controlPoints[1].weight = 0.0; }, false},
         {"an inner point without weight",
          [](Trajectory& curve) {
@@ -209,6 +216,10 @@ TEST_CASE("3.4 An order for a zone set that the vehicle does not have is refused
         message.zoneSetID = order.zoneSetID;
         bench.Order(message);
         CHECK(bench.HasError(ErrorTypes::ORDER_ERROR) != order.bTaken);
+        if (!order.bTaken)
+        {
+            CHECK(*FindReferenceOrNull(bench.GetPublishedState().errors.at(0), "parameter") == "order.zoneSetId");
+        }
         CHECK(bench.GetPublishedState().zoneSetID == (order.bTaken ? order.zoneSetID : ""));
     }
     VehicleBench any;

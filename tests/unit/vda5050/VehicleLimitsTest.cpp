@@ -151,12 +151,44 @@ TEST_CASE("3.7 An order whose state would be larger than the factsheet says is r
         updated.Order(first);
         check(updated, true);
         OrderBuilder longer = builder;
-        updated.Order(WithActions(*longer.MakeUpdate(5), 3));
+        updated.Order(WithActions(*longer.MakeUpdate(5, 0), 3));
         check(updated, false);
         updated.Order(WithActions(*builder.MakeUpdate(4, 0), 2));
         check(updated, true);
         CHECK(updated.GetSession().GetState().orderUpdateID == 1);
     }
+}
+
+TEST_CASE("3.7 What counts for the limit of actionStates: the first node's actions, and instant ones that run")
+{
+    for (const bool bRuns : {false, true})
+    {
+        CAPTURE(bRuns);
+        VehicleBench bench(MakeLimited([](ProtocolLimits& limits) { limits.maxArrayLengths.stateActionStates = 4; }));
+        bench.Instant("startCharging", "i1");
+        bench.Status("i1", EActionStatus::Running);
+        if (!bRuns)
+        {
+            bench.Status("i1", EActionStatus::Finished);
+        }
+        bench.Order(WithActions(MakeOrder(1, 1), 4));
+        CHECK(bench.HasError(ErrorTypes::ORDER_ERROR) == bRuns);
+
+        VehicleBench updated(MakeLimited([](ProtocolLimits& limits) { limits.maxArrayLengths.stateActionStates = 4; }));
+        OrderBuilder builder = MakeBuilder(3);
+        updated.Order(*builder.MakeOrder(2, 0));
+        updated.Instant("startCharging", "i1");
+        updated.Status("i1", EActionStatus::Running);
+        if (!bRuns)
+        {
+            updated.Status("i1", EActionStatus::Finished);
+        }
+        updated.Order(WithActions(*builder.MakeUpdate(3), 4));
+        CHECK(updated.HasError(ErrorTypes::ORDER_ERROR) == bRuns);
+    }
+    VehicleBench first(MakeLimited([](ProtocolLimits& limits) { limits.maxArrayLengths.stateActionStates = 4; }));
+    first.Order(WithActions(MakeOrder(1, 1), 5));
+    CHECK(first.HasError(ErrorTypes::ORDER_ERROR));
 }
 
 TEST_CASE("3.7 Where actionStates is limited instant actions that have ended make way; a vehicle can always be stopped")

@@ -32,6 +32,20 @@ void Complete(VehicleBench& bench, const OrderMessage& order)
     bench.Clear();
 }
 
+/// At x 70 and on N7.
+std::vector<ActionParameter> MakePose(const char* mapID)
+{
+    std::vector<ActionParameter> pose;
+    for (const auto& [key, value] :
+         std::vector<std::pair<const char*, double>>{{"x", 70.0}, {"y", 0.0}, {"theta", 0.0}})
+    {
+        pose.push_back({key, Core::JsonText::FromNumber(value)});
+    }
+    pose.push_back({"mapId", Core::JsonText::FromString(mapID)});
+    pose.push_back({"lastNodeId", Core::JsonText::FromString("N7")});
+    return pose;
+}
+
 const VehicleError* FindErrorOrNull(const StateMessage& state, std::string_view errorType)
 {
     const auto found = std::ranges::find(state.errors, errorType, &VehicleError::errorType);
@@ -203,20 +217,68 @@ TEST_CASE("5.5 What a cancel has failed stays in the report when the order goes 
     CHECK(bench.GetPublishedState().actionStates.size() == 3); // with the cancel
 }
 
+TEST_CASE("8.6 An update of an order that MANUAL has cleared is judged as one after a cancel")
+{
+    struct Case
+    {
+        std::size_t releasedBefore; ///< Of the update's order: it begins at the last of them.
+        double standsAt;
+        std::string_view errorType;
+    };
+    const std::vector<Case> cases{
+        {2, 0.0, ErrorTypes::ORDER_UPDATE_ERROR},
+        {1, 5.0, ErrorTypes::NO_ROUTE_ERROR},
+        {1, 0.0, {}},
+    };
+    for (const Case& cleared : cases)
+    {
+        CAPTURE(cleared.releasedBefore, cleared.standsAt);
+        VehicleBench bench;
+        bench.Order(MakeOrder(3, 2));
+        bench.Mode(EOperatingMode::Manual);
+        bench.StandAt(cleared.standsAt);
+        bench.Drive(false);
+        bench.Mode(EOperatingMode::Automatic);
+        OrderBuilder builder = MakeBuilder(3);
+        REQUIRE(builder.MakeOrder(cleared.releasedBefore).has_value());
+        bench.Order(*builder.MakeUpdate(3));
+        const StateMessage state = bench.GetPublishedState();
+        CHECK(state.orderUpdateID == (cleared.errorType.empty() ? 1 : 0));
+        REQUIRE(state.errors.size() == (cleared.errorType.empty() ? 0 : 1));
+        if (!cleared.errorType.empty())
+        {
+            CHECK(state.errors[0].errorType == cleared.errorType);
+        }
+    }
+}
+
+TEST_CASE("5.7 initPosition enables the only version of its map, and chooses none of several")
+{
+    for (const bool bSeveral : {false, true})
+    {
+        VehicleBench bench(MakeAble());
+        std::vector<MapState> maps{{"roof", "1", EMapStatus::Disabled, {}}, {"floor", "1", EMapStatus::Enabled, {}}};
+        if (bSeveral)
+        {
+            maps.push_back({"roof", "2", EMapStatus::Disabled, {}});
+        }
+        VehicleActions out;
+        bench.GetSession().OnMaps(maps, bench.GetNow(), out);
+        bench.Instant("initPosition", "i1", MakePose("roof"));
+        bench.Status("i1", EActionStatus::Running);
+        bench.Status("i1", EActionStatus::Finished);
+        maps[0].mapStatus = bSeveral ? EMapStatus::Disabled : EMapStatus::Enabled;
+        CHECK(bench.GetSession().GetState().maps == maps);
+        CHECK(bench.GetSession().GetState().agvPosition->mapID == "roof");
+    }
+}
+
 TEST_CASE("5.7 After initPosition the vehicle is on the node that it was told, and counts within its old order")
 {
     VehicleBench bench(MakeAble());
     OrderBuilder builder = MakeBuilder(2);
     Complete(bench, *builder.MakeOrder(2));
-    std::vector<ActionParameter> pose;
-    for (const auto& [key, value] :
-         std::vector<std::pair<const char*, double>>{{"x", 70.0}, {"y", 0.0}, {"theta", 0.0}})
-    {
-        pose.push_back({key, Core::JsonText::FromNumber(value)});
-    }
-    pose.push_back({"mapId", Core::JsonText::FromString("floor")});
-    pose.push_back({"lastNodeId", Core::JsonText::FromString("N7")});
-    bench.Instant("initPosition", "i1", pose);
+    bench.Instant("initPosition", "i1", MakePose("floor"));
     bench.Status("i1", EActionStatus::Running);
     bench.Status("i1", EActionStatus::Finished);
     CHECK(bench.GetPublishedState().lastNodeID == "N7");

@@ -176,6 +176,7 @@ class VehicleSession
     [[nodiscard]] std::string FindOwnFault(const Action& action, EActionScope scope);
     [[nodiscard]] std::string FindPoseFault(const Action& action, EActionScope scope) const;
     void ApplyOwnEffect(const Action& action, EActionScope scope);
+    void EnableOnlyVersion(const std::string& mapID);
     void ApplyMapEffect(const Action& action);
     void SetLastNode(std::string nodeID);
     void OnActionFailed(const TrackedAction& tracked, VehicleActions& out);
