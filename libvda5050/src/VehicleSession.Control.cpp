@@ -149,7 +149,7 @@ void VehicleSession::StartCancel(const Action& action, const Header& header, Veh
         return;
     }
     StopOrderActions(out);
-    if (_options.bStopsBetweenNodes || !_bLegBegun || _corridorError.has_value())
+    if (_options.bStopsBetweenNodes || !_bLegBegun)
     {
         StopMoving(out);
         return;

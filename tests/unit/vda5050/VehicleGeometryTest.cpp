@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <utility>
 
 namespace ACS::VDA5050::Test
 {
@@ -27,9 +28,10 @@ OrderMessage MakeCurved(std::size_t nodes, std::size_t released)
 }
 
 /// Two nodes; the edge has a corridor. The order goes in as 2.1 writes it.
-void OrderWithCorridor(VehicleBench& bench, std::size_t nodes = 2)
+void OrderWithCorridor(VehicleBench& bench, std::size_t nodes = 2, std::vector<Action> actions = {})
 {
     OrderMessage order = MakeOrder(nodes, nodes);
+    order.nodes[0].actions = std::move(actions);
     order.edges[0].corridor = Corridor{1.0, 1.0, {}};
     order.header = Header{0, bench.GetNow().wall, "2.1.0", "ACS", "LR01"};
     bench.Payload(ETopic::Order, Vda5050Codec().Encode(order, EVda5050Version::Version210));
@@ -270,6 +272,10 @@ TEST_CASE("7 The error about a corridor ends with its edge, with a cancel, and c
     CHECK_FALSE(TryCorridor(none, true, out));
     CHECK(none.GetSession().GetState().errors.empty());
 
+    VehicleBench waiting; // at the node before the edge
+    OrderWithCorridor(waiting, 2, {MakeAction("a1", EBlockingType::Hard)});
+    CHECK_FALSE(TryCorridor(waiting, true, out));
+
     VehicleBench reached;
     OrderWithCorridor(reached, 3);
     CHECK(TryCorridor(reached, true, out));
@@ -314,6 +320,23 @@ TEST_CASE("7 A vehicle that is bound to nodes and outside of its corridor ends a
         CHECK(bench.GetStatus("c1") == EActionStatus::Finished);
         CHECK(bench.GetSession().GetState().nodeStates.empty());
     }
+}
+
+TEST_CASE("7 A cancelled vehicle that is moved out of its corridor while it is paused has nothing to drive to")
+{
+    VehicleOptions options = VehicleBench::MakeOptions();
+    options.bStopsBetweenNodes = false;
+    VehicleBench bench(options);
+    OrderWithCorridor(bench);
+    bench.Drive(true);
+    bench.Instant("startPause", "p1");
+    bench.Drive(false);
+    bench.Instant("cancelOrder", "c1");
+    CHECK(bench.GetStatus("c1") == EActionStatus::Running);
+    VehicleActions out;
+    CHECK(TryCorridor(bench, true, out));
+    CHECK(bench.GetStatus("c1") == EActionStatus::Finished);
+    CHECK_FALSE(IsOutside(bench));
 }
 
 TEST_CASE("4.4 A vehicle that plans its own way shows it in edgeStates, and does not change it")

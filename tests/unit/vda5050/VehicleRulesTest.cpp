@@ -69,7 +69,7 @@ TEST_CASE("4.3 The stitching node keeps the contents that it came with, whatever
     bench.Order(update);
     CHECK(bench.GetPublishedState().orderUpdateID == 1);
     REQUIRE(Pick<DriveTo>(bench.GetOutput()).size() == 1);
-    const DriveTo& drive = Pick<DriveTo>(bench.GetOutput())[0];
+    const DriveTo drive = Pick<DriveTo>(bench.GetOutput())[0];
     CHECK(drive.node.nodePosition->allowedDeviationXY == 0.25);
     CHECK_FALSE(drive.bStopAtNode);
     bench.Reach(2);
