@@ -4,7 +4,6 @@
 #include "MessageSizes.hpp"
 #include "OrderErrors.hpp"
 #include "OrderFindings.hpp"
-#include "OrderGeometry.hpp"
 
 #include <algorithm>
 #include <array>
@@ -277,7 +276,6 @@ std::vector<OrderViolation> FindUnusable(const OrderMessage& order, const OrderC
     }
     CheckMaps(context, unusable);
     CheckZoneSet(context, unusable);
-    CheckGeometry(context, unusable);
     return unusable.Take();
 }
 

@@ -7,8 +7,8 @@
 namespace ACS::VDA5050
 {
 
-/// What of an order the vehicle cannot do: actions, optional members, sizes, maps. Each an orderError that refers to the
-/// field.
+/// What of an order the vehicle cannot do: actions, optional members, sizes, maps, zone sets. Each an orderError that refers
+/// to the field.
 [[nodiscard]] std::vector<OrderViolation> FindUnusable(const OrderMessage& order, const OrderContext& context);
 
 } // namespace ACS::VDA5050

@@ -1,5 +1,7 @@
 #include "OrderGeometry.hpp"
 
+#include "OrderFindings.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -86,9 +88,9 @@ double GetAllowedDeviation(const NodePosition& position, const OrderContext& con
     return stated > 0.0 ? stated : context.defaultDeviationXY;
 }
 
-void CheckGeometry(const OrderContext& context, OrderFindings& unusable)
+std::vector<OrderViolation> FindLooseEnds(const OrderMessage& order, const OrderContext& context)
 {
-    const OrderMessage& order = unusable.GetOrder();
+    OrderFindings unusable(order, ErrorTypes::ORDER_ERROR);
     for (std::size_t index = 0; index < order.edges.size(); ++index)
     {
         const OrderEdge& edge = order.edges[index];
@@ -99,6 +101,7 @@ void CheckGeometry(const OrderContext& context, OrderFindings& unusable)
             CheckEnd(edge, CurveEnd{points.back(), order.nodes[index + 1], "end"}, context, unusable);
         }
     }
+    return unusable.Take();
 }
 
 } // namespace ACS::VDA5050

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "OrderFindings.hpp"
 #include <acs/vda5050/OrderValidator.hpp>
 
 #include <string_view>
+#include <vector>
 
 namespace ACS::VDA5050
 {
@@ -15,7 +15,8 @@ namespace ACS::VDA5050
 /// What a node's position allows in metres: the deviation that it states, or the vehicle's own.
 [[nodiscard]] double GetAllowedDeviation(const NodePosition& position, const OrderContext& context);
 
-/// Curves that do not join their nodes: an order that no vehicle can drive as it is written.
-void CheckGeometry(const OrderContext& context, OrderFindings& unusable);
+/// Curves that do not join their nodes within what these and the vehicle allow: an order that it cannot drive as it is
+/// written. Each an orderError that refers to edge and node.
+[[nodiscard]] std::vector<OrderViolation> FindLooseEnds(const OrderMessage& order, const OrderContext& context);
 
 } // namespace ACS::VDA5050

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <numbers>
 #include <string_view>
 #include <utility>
@@ -169,6 +170,7 @@ OrderJudgement JudgeOrder(const OrderMessage& order, const OrderContext& context
         return Reject(order, ErrorTypes::ORDER_ERROR, std::string(MODE_TAKES_NO_ORDERS));
     }
     violations = FindUnusable(order, context);
+    std::ranges::move(FindLooseEnds(order, context), std::back_inserter(violations));
     if (!violations.empty())
     {
         return Reject(std::move(violations));
