@@ -19,7 +19,7 @@ double GetWeight(const ControlPoint& point)
 }
 
 /// Negative ones pull the curve out of the hull of its points; where all that bear on a place are 0 there is no curve.
-bool AreWeightsUsable(const Trajectory& curve)
+bool HasUsableWeights(const Trajectory& curve)
 {
     const auto isUsable = [](const ControlPoint& point) {
         return std::isfinite(GetWeight(point)) && GetWeight(point) >= 0.0;
@@ -75,7 +75,7 @@ std::string_view FindTrajectoryFault(const Trajectory& curve)
     const bool bFinite = std::ranges::all_of(curve.controlPoints, [](const ControlPoint& point) {
         return std::isfinite(point.x) && std::isfinite(point.y);
     });
-    if (!bFinite || !AreWeightsUsable(curve))
+    if (!bFinite || !HasUsableWeights(curve))
     {
         return "a trajectory's control points have a place, and weights that leave a curve";
     }

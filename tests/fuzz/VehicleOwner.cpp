@@ -102,7 +102,7 @@ void VehicleOwner::Happen(Choices& choices)
             ReachNode();
             return;
         case 1:
-            static_cast<void>(_session.TryReachNode(choices.Take(16), _now, _out));
+            ReachUnasked(choices);
             break;
         case 2:
             _session.OnDrivingChanged(choices.Take(2) == 0, _now, _out);
@@ -156,6 +156,15 @@ void VehicleOwner::Happen(Choices& choices)
             break;
     }
     Obey();
+}
+
+/// The next node, without having been told to drive there, or any.
+void VehicleOwner::ReachUnasked(Choices& choices)
+{
+    const std::vector<NodeState> nodes = _session.GetState().nodeStates;
+    const std::uint32_t any = choices.Take(16);
+    const bool bNext = any > 7 && !nodes.empty();
+    static_cast<void>(_session.TryReachNode(bNext ? nodes.front().sequenceID : any, _now, _out));
 }
 
 void VehicleOwner::LeaveCorridor(bool bOutside)

@@ -52,6 +52,7 @@ class VehicleOwner
     void WatchActions(const VDA5050::StateMessage& state);
     void WatchBounds(const VDA5050::StateMessage& state) const;
     [[nodiscard]] bool IsBlocked() const;
+    void ReachUnasked(Choices& choices);
     void LeaveCorridor(bool bOutside);
     void Sense(Choices& choices);
     void Finish();

@@ -162,6 +162,24 @@ TEST_CASE("5.1 With which status an action may begin")
     }
 }
 
+TEST_CASE(
+    "5.2 An edge's action that has not begun when the edge is left behind fails with a warning, and begins no more")
+{
+    VehicleBench bench;
+    OrderMessage order = MakeOrder(2, 2);
+    order.nodes[0].actions.push_back(MakeAction("long", EBlockingType::None));
+    order.edges[0].actions.push_back(MakeAction("late", EBlockingType::Hard));
+    bench.Order(order);
+    bench.Status("long", EActionStatus::Running);
+    CHECK(bench.GetStartedActions() == Names{"long"});
+    bench.Reach(2); // moved there by hand
+    CHECK(bench.GetStatus("late") == EActionStatus::Failed);
+    CHECK(bench.HasError(ErrorTypes::ACTION_ERROR));
+    bench.Status("long", EActionStatus::Finished);
+    CHECK(bench.GetStartedActions() == Names{"long"});
+    CHECK(Pick<OrderCompleted>(bench.GetOutput()).size() == 1);
+}
+
 TEST_CASE("5.3 An action that is being initialised is paused too, one that has not begun stays WAITING")
 {
     VehicleBench bench;
