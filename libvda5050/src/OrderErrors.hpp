@@ -2,6 +2,7 @@
 
 #include <acs/vda5050/StateMessage.hpp>
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -25,9 +26,27 @@ inline constexpr std::string_view MAP_ID = "mapId";
 inline constexpr std::string_view PARAMETER = "parameter"; ///< The name of the wrong field.
 } // namespace ReferenceKeys
 
+/// Of a text that came from outside, in bytes: an error repeats it, and a state repeats the error.
+inline constexpr std::size_t LONGEST_FOREIGN_TEXT = 1024;
+
+/// The text, or as much of it as an error may repeat; no character is cut in two.
+[[nodiscard]] inline std::string_view CutForeignText(std::string_view text)
+{
+    std::size_t size = text.size();
+    if (size > LONGEST_FOREIGN_TEXT)
+    {
+        size = LONGEST_FOREIGN_TEXT;
+        while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0U) == 0x80U)
+        {
+            --size;
+        }
+    }
+    return text.substr(0, size);
+}
+
 inline void AddReference(VehicleError& error, std::string_view key, std::string_view value)
 {
-    error.errorReferences.push_back(ErrorReference{std::string(key), std::string(value)});
+    error.errorReferences.push_back(ErrorReference{std::string(key), std::string(CutForeignText(value))});
 }
 
 } // namespace ACS::VDA5050

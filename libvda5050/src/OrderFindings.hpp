@@ -3,6 +3,7 @@
 #include "OrderErrors.hpp"
 #include <acs/vda5050/OrderValidator.hpp>
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,12 +12,16 @@
 namespace ACS::VDA5050
 {
 
-/// Collects the violations of one order, all of one errorType.
+/// More are not told: nobody mends an order by them, and each repeats what the order is called.
+inline constexpr std::size_t MAXIMUM_VIOLATIONS = 16;
+
+/// Collects the first violations of one order, all of one errorType.
 class OrderFindings
 {
     const OrderMessage& _order;
     std::string_view _errorType;
     std::vector<OrderViolation> _violations;
+    OrderViolation _surplus; ///< Beyond what is told.
 
 public:
     /// The order outlives the findings; so does the text of the type.
@@ -29,7 +34,13 @@ public:
     /// The error as it will be reported, for further references; valid until the next call.
     VehicleError& Add(std::string rule)
     {
-        return _violations.emplace_back(MakeOrderViolation(_order, _errorType, std::move(rule))).error;
+        OrderViolation violation = MakeOrderViolation(_order, _errorType, std::move(rule));
+        if (_violations.size() < MAXIMUM_VIOLATIONS)
+        {
+            return _violations.emplace_back(std::move(violation)).error;
+        }
+        _surplus = std::move(violation);
+        return _surplus.error;
     }
 
     /// With the value that breaks the rule, and a reference to it.

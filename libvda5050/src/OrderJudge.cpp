@@ -1,5 +1,6 @@
 #include "OrderCapability.hpp"
 #include "OrderErrors.hpp"
+#include "OrderFindings.hpp"
 #include "OrderGeometry.hpp"
 #include <acs/vda5050/OrderValidator.hpp>
 
@@ -9,6 +10,7 @@
 #include <iterator>
 #include <numbers>
 #include <string_view>
+#include <unordered_set>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -69,18 +71,15 @@ OrderJudgement RejectUnreachable(const OrderMessage& order)
 /// An id of an order is the key of its state: none that the report still needs may come again.
 std::vector<OrderViolation> FindRepeatedActions(const OrderMessage& order, const OrderContext& context, bool bUpdate)
 {
-    const std::vector<std::string>& known = bUpdate ? context.actionIDs : context.instantActionIDs;
-    std::vector<OrderViolation> violations;
-    const auto check = [&order, &known, &violations](const std::vector<Action>& actions) {
+    const std::vector<std::string>& reported = bUpdate ? context.actionIDs : context.instantActionIDs;
+    const std::unordered_set<std::string_view> known(reported.begin(), reported.end());
+    OrderFindings repeated(order, ErrorTypes::VALIDATION_ERROR);
+    const auto check = [&known, &repeated](const std::vector<Action>& actions) {
         for (const Action& action : actions)
         {
-            if (std::ranges::find(known, action.actionID) != known.end())
+            if (known.contains(action.actionID))
             {
-                violations.push_back(MakeOrderViolation(
-                    order,
-                    ErrorTypes::VALIDATION_ERROR,
-                    "the actionId " + action.actionID + " is in use already"));
-                AddReference(violations.back().error, ReferenceKeys::ACTION_ID, action.actionID);
+                repeated.Add("the actionId is in use already", ReferenceKeys::ACTION_ID, action.actionID);
             }
         }
     };
@@ -93,7 +92,7 @@ std::vector<OrderViolation> FindRepeatedActions(const OrderMessage& order, const
     {
         check(edge.actions);
     }
-    return violations;
+    return repeated.Take();
 }
 
 OrderJudgement JudgeNewOrder(const OrderMessage& order, const OrderContext& context)

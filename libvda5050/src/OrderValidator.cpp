@@ -166,10 +166,42 @@ void CheckActions(const OrderMessage& order, OrderFindings& findings)
     }
 }
 
+/// Names that states repeat for as long as the order lasts.
+void CheckNames(const OrderMessage& order, OrderFindings& findings)
+{
+    const auto check = [&findings](std::string_view name) {
+        if (name.size() > LONGEST_FOREIGN_TEXT)
+        {
+            findings.Add("a name has at most " + std::to_string(LONGEST_FOREIGN_TEXT) + " bytes: " + std::string(name));
+        }
+    };
+    const auto checkActions = [&check](const std::vector<Action>& actions) {
+        for (const Action& action : actions)
+        {
+            check(action.actionID);
+            check(action.actionType);
+        }
+    };
+    check(order.orderID);
+    check(order.zoneSetID);
+    for (const OrderNode& node : order.nodes)
+    {
+        check(node.nodeID);
+        check(node.nodePosition.has_value() ? node.nodePosition->mapID : std::string_view());
+        checkActions(node.actions);
+    }
+    for (const OrderEdge& edge : order.edges)
+    {
+        check(edge.edgeID);
+        checkActions(edge.actions);
+    }
+}
+
 } // namespace
 
 OrderViolation MakeOrderViolation(const OrderMessage& order, std::string_view errorType, std::string rule)
 {
+    rule.resize(CutForeignText(rule).size());
     VehicleError error;
     error.errorType = errorType;
     error.errorDescription = rule;
@@ -197,6 +229,7 @@ std::vector<OrderViolation> ValidateOrder(const OrderMessage& order)
     CheckNodes(order, findings);
     CheckEdges(order, findings);
     CheckActions(order, findings);
+    CheckNames(order, findings);
     return findings.Take();
 }
 

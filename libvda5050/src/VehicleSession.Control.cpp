@@ -148,7 +148,7 @@ void VehicleSession::StartCancel(const Action& action, const Header& header, Veh
     {
         return;
     }
-    StopOrderActions(out);
+    StopOrderActions("the order was cancelled", out);
     if (_options.bStopsBetweenNodes || !_bLegBegun)
     {
         StopMoving(out);
@@ -161,7 +161,7 @@ void VehicleSession::StartCancel(const Action& action, const Header& header, Veh
 }
 
 /// Those that wait have failed; those that run are told to stop.
-void VehicleSession::StopOrderActions(VehicleActions& out)
+void VehicleSession::StopOrderActions(const std::string& reason, VehicleActions& out)
 {
     _actionQueue.clear();
     for (TrackedAction& tracked : _actions)
@@ -178,7 +178,7 @@ void VehicleSession::StopOrderActions(VehicleActions& out)
         }
         if (!tracked.bStarted || status == EActionStatus::Paused)
         {
-            static_cast<void>(tracked.machine.TrySet(EActionStatus::Failed, "the order was cancelled"));
+            static_cast<void>(tracked.machine.TrySet(EActionStatus::Failed, reason));
         }
     }
 }
@@ -270,12 +270,13 @@ void VehicleSession::OnOperatingMode(EOperatingMode mode, Core::Now now, Vehicle
     }
     if (bManual && IsExecuting())
     {
-        StopOrderActions(out);
+        const std::string reason = "the operating mode changed";
+        StopOrderActions(reason, out);
         for (TrackedAction& tracked : _actions)
         {
             if (tracked.scope != EActionScope::Instant && !IsTerminal(tracked.machine.GetStatus()))
             {
-                static_cast<void>(tracked.machine.TrySet(EActionStatus::Failed, "the operating mode changed"));
+                static_cast<void>(tracked.machine.TrySet(EActionStatus::Failed, reason));
             }
         }
         ClearOrder(out);

@@ -92,9 +92,21 @@ bool VehicleSession::TryTakeInstantAction(
         AddSessionError(std::move(error), EErrorLifetime::UntilInstantAction);
         return false;
     }
-    // A repeated id is the same action, sent again by a master that has not seen it in a state.
-    if (FindActionOrNull(action.actionID) != nullptr)
+    const TrackedAction* const knownOrNull = FindActionOrNull(action.actionID);
+    if (knownOrNull != nullptr || std::max(action.actionID.size(), action.actionType.size()) > LONGEST_FOREIGN_TEXT)
     {
+        // A repeated id is the same action, sent again by a master that has not seen it in a state. Another action with
+        // that id cannot be shown; a cancel that is not done must not look as if it were.
+        const bool bSame = knownOrNull != nullptr && knownOrNull->scope == EActionScope::Instant
+            && knownOrNull->action.actionType == action.actionType;
+        if (!bSame)
+        {
+            ReportInstantAction(
+                action,
+                header.headerID,
+                ErrorTypes::INSTANT_ACTION_ERROR,
+                knownOrNull != nullptr ? "the actionId is in use already" : "actionId or actionType is too long");
+        }
         return false;
     }
     const std::string reason = FindRefusal(action, bTooMany);
@@ -217,7 +229,7 @@ void VehicleSession::FailInstantAction(
     std::string_view errorType,
     const std::string& reason)
 {
-    AddInstantAction(action, EActionStatus::Failed, reason);
+    AddInstantAction(action, EActionStatus::Failed, std::string(CutForeignText(reason)));
     ReportInstantAction(action, header.headerID, errorType, reason);
 }
 

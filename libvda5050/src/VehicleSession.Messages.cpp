@@ -94,6 +94,7 @@ bool VehicleSession::IsForeign(ETopic topic, const Header& header, VehicleAction
 
 void VehicleSession::AddSessionError(VehicleError error, EErrorLifetime lifetime)
 {
+    error.errorDescription.resize(CutForeignText(error.errorDescription).size());
     std::erase_if(_sessionErrors, [&error](const SessionError& known) { return IsSameReport(error, known.error); });
     if (_sessionErrors.size() >= MAXIMUM_SESSION_ERRORS)
     {
@@ -124,8 +125,15 @@ void VehicleSession::RefusePayload(
     }
     if (identity && topic == ETopic::Order)
     {
-        AddReference(report, ReferenceKeys::ORDER_ID, identity->orderID);
-        AddReference(report, ReferenceKeys::ORDER_UPDATE_ID, std::to_string(identity->orderUpdateID.value_or(0)));
+        // What could not be read is not made up: a master would take it for the refusal of another message.
+        if (!identity->orderID.empty())
+        {
+            AddReference(report, ReferenceKeys::ORDER_ID, identity->orderID);
+        }
+        if (identity->orderUpdateID.has_value())
+        {
+            AddReference(report, ReferenceKeys::ORDER_UPDATE_ID, std::to_string(*identity->orderUpdateID));
+        }
     }
     AddSessionError(
         std::move(report),

@@ -388,4 +388,108 @@ TEST_CASE("8.4 Every error refers to a topic: without one some masters take it f
     }
 }
 
+TEST_CASE("4.2 What comes from outside is repeated in part: texts of any length leave a short state")
+{
+    constexpr std::size_t LENGTH = 60'000;
+    constexpr std::size_t ENOUGH = 20'000;
+    const std::string text = "x" + [] {
+        std::string twoBytes;
+        for (std::size_t index = 0; index < LENGTH / 2; ++index)
+        {
+            twoBytes += "\u00e4";
+        }
+        return twoBytes;
+    }();
+    const std::vector<std::function<void(VehicleBench&)>> attacks{
+        [&text](VehicleBench& bench) { bench.Instant(text, "i1"); },
+        [&text](VehicleBench& bench) { bench.Instant("stateRequest", text); },
+        [&text](VehicleBench& bench) {
+            bench.Instant("logReport", "i1", {{text, Core::JsonText::FromString("")}});
+        },
+        [&text](VehicleBench& bench) { bench.Order(MakeOrder(2, 2, text)); },
+        [&text](VehicleBench& bench) {
+            OrderMessage order = MakeOrder(2, 2);
+            order.nodes[1].actions.push_back(MakeAction("a1", EBlockingType::None, text));
+            bench.Order(order);
+        },
+        [&text](VehicleBench& bench) {
+            OrderMessage order = MakeOrder(2, 2);
+            order.nodes[1].nodePosition->mapID = text;
+            bench.Order(order);
+        },
+        [&text](VehicleBench& bench) {
+            OrderMessage order = MakeOrder(2, 2);
+            order.zoneSetID = text;
+            bench.Order(order);
+        },
+    };
+    for (std::size_t index = 0; index < attacks.size(); ++index)
+    {
+        CAPTURE(index);
+        VehicleOptions options = MakeLimited([](ProtocolLimits&) {});
+        VehicleBench bench(options);
+        attacks[index](bench);
+        const std::vector<PublishMessage> sent = Pick<PublishMessage>(bench.GetOutput());
+        REQUIRE(sent.size() == 1);
+        CHECK(sent[0].message.payload.size() < ENOUGH);
+        CHECK(Vda5050Codec().Decode<StateMessage>(sent[0].message.payload).has_value());
+        CHECK_FALSE(bench.GetPublishedState().errors.empty());
+        CHECK(bench.GetPublishedState().orderID.empty());
+    }
+}
+
+TEST_CASE("4.1 Of an order that breaks a thousand rules the first few are told")
+{
+    OrderMessage order = MakeOrder(500, 500);
+    for (OrderNode& node : order.nodes)
+    {
+        node.nodePosition->theta = 9.0;
+        node.sequenceID += 1;
+    }
+    CHECK(ValidateOrder(order).size() == 16);
+    VehicleBench bench;
+    OrderMessage first = WithActions(MakeOrder(2, 1), 0);
+    for (int i = 0; i < 40; ++i)
+    {
+        first.nodes[0].actions.push_back(MakeAction("a" + std::to_string(i), EBlockingType::None, "pick"));
+    }
+    bench.Order(first);
+    OrderMessage update = MakeOrder(2, 1);
+    update.orderUpdateID = 1;
+    update.nodes[1].actions = first.nodes[0].actions;
+    bench.Order(update);
+    CHECK(bench.GetSession().GetState().errors.size() == 16);
+}
+
+TEST_CASE("4.2 The error about an order that cannot be read names what could be read, and nothing else")
+{
+    struct Case
+    {
+        const char* rest;
+        const char* orderID;
+        const char* orderUpdateID;
+    };
+    const std::vector<Case> cases{
+        {R"("orderId":"A")", "A", nullptr},
+        {R"("orderId":"A","orderUpdateId":3)", "A", "3"},
+        {R"("orderUpdateId":3)", nullptr, "3"},
+    };
+    for (const Case& payload : cases)
+    {
+        CAPTURE(payload.rest);
+        VehicleBench bench;
+        bench.Payload(
+            ETopic::Order,
+            R"({"headerId":7,"timestamp":"2025-01-01T00:00:00Z","version":"2.0.0","manufacturer":"ACS","serialNumber":"LR01",)"
+                + std::string(payload.rest) + "}");
+        const VehicleError error = bench.GetPublishedState().errors.at(0);
+        const std::string* orderID = FindReferenceOrNull(error, "orderId");
+        const std::string* updateID = FindReferenceOrNull(error, "orderUpdateId");
+        CHECK((orderID == nullptr) == (payload.orderID == nullptr));
+        CHECK((updateID == nullptr) == (payload.orderUpdateID == nullptr));
+        CHECK((orderID == nullptr || *orderID == payload.orderID));
+        CHECK((updateID == nullptr || *updateID == payload.orderUpdateID));
+    }
+}
+
 } // namespace ACS::VDA5050::Test

@@ -270,6 +270,45 @@ TEST_CASE("8.6 An update of an order that MANUAL has cleared is judged as one af
     }
 }
 
+TEST_CASE("5.6 Another action with the id of one that is reported is told as an error; the same one again is not")
+{
+    VehicleBench bench;
+    OrderMessage order = MakeOrder(2, 2);
+    order.nodes[1].actions.push_back(MakeAction("a1", EBlockingType::None));
+    bench.Order(order);
+    bench.Instant("stateRequest", "s1");
+    bench.Instant("stateRequest", "s1");
+    CHECK(bench.GetPublishedState().errors.empty());
+    for (const char* actionID : {"a1", "s1"})
+    {
+        bench.Instant("cancelOrder", actionID);
+        const StateMessage state = bench.GetPublishedState();
+        const VehicleError* error = FindErrorOrNull(state, ErrorTypes::INSTANT_ACTION_ERROR);
+        REQUIRE(error != nullptr);
+        CHECK(*FindReferenceOrNull(state.errors.back(), "actionId") == actionID);
+        CHECK(state.actionStates.size() == 2);
+    }
+    CHECK(bench.GetStatus("a1") == EActionStatus::Waiting);
+}
+
+TEST_CASE("8.6 What MANUAL ends says so, paused or not")
+{
+    VehicleBench bench;
+    OrderMessage order = MakeOrder(2, 2);
+    order.nodes[0].actions = {MakeAction("paused", EBlockingType::None), MakeAction("runs", EBlockingType::None)};
+    order.nodes[1].actions = {MakeAction("waits", EBlockingType::None)};
+    bench.Order(order);
+    bench.Status("paused", EActionStatus::Running);
+    bench.Status("paused", EActionStatus::Paused);
+    bench.Status("runs", EActionStatus::Running);
+    bench.Mode(EOperatingMode::Manual);
+    for (const ActionState& action : bench.GetSession().GetState().actionStates)
+    {
+        CHECK(action.actionStatus == EActionStatus::Failed);
+        CHECK(action.resultDescription == "the operating mode changed");
+    }
+}
+
 TEST_CASE("5.7 initPosition enables the only version of its map, and chooses none of several")
 {
     for (const bool bSeveral : {false, true})

@@ -48,7 +48,7 @@ struct NextLeg
     bool operator==(const NextLeg&) const = default;
 };
 
-/// To do: drive along the edge to its end node, then call OnNodeReached with the node's sequenceID. One leg at a time.
+/// To do: drive along the edge to its end node, then call TryReachNode with the node's sequenceID. One leg at a time.
 /// The same sequenceID again, while on the way: only bStopAtNode has changed; after StopDriving: drive on.
 struct DriveTo
 {
@@ -68,7 +68,7 @@ struct StopDriving
     bool operator==(const StopDriving&) const = default;
 };
 
-/// To do: perform it, and tell with OnActionStatus: Initializing or Running, then Finished or Failed.
+/// To do: perform it, and tell with TrySetActionStatus: Initializing or Running, then Finished or Failed.
 struct StartAction
 {
     Action action;
@@ -79,7 +79,7 @@ struct StartAction
     bool operator==(const StartAction&) const = default;
 };
 
-/// To do, if it can be: OnActionStatus(Paused) follows; an action that cannot be paused goes on.
+/// To do, if it can be: TrySetActionStatus(Paused) follows; an action that cannot be paused goes on.
 struct PauseAction
 {
     std::string actionID;
@@ -87,7 +87,7 @@ struct PauseAction
     bool operator==(const PauseAction&) const = default;
 };
 
-/// To do: OnActionStatus(Running) follows.
+/// To do: TrySetActionStatus(Running) follows.
 struct ResumeAction
 {
     std::string actionID;

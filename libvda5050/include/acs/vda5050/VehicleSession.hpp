@@ -167,7 +167,7 @@ class VehicleSession
     [[nodiscard]] bool IsHeldByPause() const noexcept;
     [[nodiscard]] bool IsStanding() const;
     void StartCancel(const Action& action, const Header& header, VehicleActions& out);
-    void StopOrderActions(VehicleActions& out);
+    void StopOrderActions(const std::string& reason, VehicleActions& out);
     void StopMoving(VehicleActions& out);
     void ForgetRoute();
     void ClearOrder(VehicleActions& out);
