@@ -98,24 +98,26 @@ void MasterSession::ExtendRoute(const OrderMessage& order)
     }
 }
 
+void MasterSession::TakeIntoRoute(const OrderMessage& order)
+{
+    ExtendRoute(order);
+    TrackOrderActions(order);
+    _bAccepted = true;
+    _phase = EOrderPhase::Active;
+}
+
 void MasterSession::AcceptInFlight(Core::Now now, MasterActions& out)
 {
-    ExtendRoute(*_inFlight);
-    TrackOrderActions(*_inFlight);
+    TakeIntoRoute(*_inFlight);
     // A master that takes an order up again may know less of it than the vehicle has.
     _acceptedUpdateID = std::max(_inFlight->orderUpdateID, _state->orderUpdateID);
     _lastSentUpdateID = std::max(_lastSentUpdateID, _acceptedUpdateID);
-    _bAccepted = true;
-    _phase = EOrderPhase::Active;
     _inFlight.reset();
     out.emplace_back(CancelMasterTimer{EMasterTimer::ResendOrder});
     out.emplace_back(OrderAccepted{_orderID, _acceptedUpdateID});
     if (_queued.has_value())
     {
-        _inFlight = std::exchange(_queued, std::nullopt);
-        _errorsBeforeSend = _state->errors;
-        _sendCount = 0;
-        PublishOrder(now, out);
+        PutInFlight(*std::exchange(_queued, std::nullopt), now, out);
     }
 }
 

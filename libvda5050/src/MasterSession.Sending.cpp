@@ -41,6 +41,64 @@ Core::Result<void> CheckStructure(const OrderMessage& order)
     return Core::Fail(EVda5050Error::InvalidOrder, {}, violations.front().rule, "order " + order.orderID);
 }
 
+/// An update begins at the node at which the base before it ends.
+Core::Result<void> CheckBegin(const OrderMessage& update, const std::pair<std::string, std::uint32_t>& decisionPoint)
+{
+    const auto& [nodeID, sequenceID] = decisionPoint;
+    const OrderNode& first = update.nodes.front();
+    if (first.nodeID == nodeID && first.sequenceID == sequenceID)
+    {
+        return {};
+    }
+    return Core::Fail(
+        EVda5050Error::InvalidOrder,
+        "nodes[0]",
+        "the last released node, " + nodeID + " (" + std::to_string(sequenceID) + ")",
+        first.nodeID + " (" + std::to_string(first.sequenceID) + ")");
+}
+
+std::pair<std::string, std::uint32_t> FindDecisionPoint(const OrderMessage& order)
+{
+    std::pair<std::string, std::uint32_t> point;
+    for (const OrderNode& node : order.nodes)
+    {
+        point = node.bReleased ? std::pair(node.nodeID, node.sequenceID) : point;
+    }
+    return point;
+}
+
+/// One order, whose messages follow each other.
+Core::Result<void> CheckRecord(const std::vector<OrderMessage>& messages)
+{
+    if (messages.empty())
+    {
+        return Core::Fail(EVda5050Error::InvalidOrder, {}, "a message of the order at least", "none");
+    }
+    for (std::size_t index = 0; index < messages.size(); ++index)
+    {
+        const OrderMessage& message = messages[index];
+        Core::Result<void> check = CheckStructure(message);
+        if (check && index > 0)
+        {
+            const OrderMessage& before = messages[index - 1];
+            if (message.orderID != before.orderID || message.orderUpdateID <= before.orderUpdateID)
+            {
+                return Core::Fail(
+                    EVda5050Error::InvalidOrder,
+                    {},
+                    "updates of one order, each with a higher orderUpdateId",
+                    message.orderID + " " + std::to_string(message.orderUpdateID));
+            }
+            check = CheckBegin(message, FindDecisionPoint(before));
+        }
+        if (!check)
+        {
+            return check;
+        }
+    }
+    return {};
+}
+
 } // namespace
 
 Header MasterSession::MakeHeader(ETopic topic, Core::Now now)
@@ -164,6 +222,25 @@ void MasterSession::ResendInstantActions(Core::Now now, MasterActions& out)
     FollowCancel(out);
 }
 
+void MasterSession::BeginOrder(std::string orderID, std::uint32_t lastUpdateID)
+{
+    _withdrawnOrderID.clear();
+    _phase = EOrderPhase::Sent;
+    _orderID = std::move(orderID);
+    _lastSentUpdateID = lastUpdateID;
+    _bAccepted = false;
+    _route.clear();
+    _reachedNodes = 0;
+}
+
+void MasterSession::PutInFlight(OrderMessage order, Core::Now now, MasterActions& out)
+{
+    _errorsBeforeSend = _state->errors;
+    _sendCount = 0;
+    _inFlight = std::move(order);
+    PublishOrder(now, out);
+}
+
 Core::Result<void> MasterSession::SendOrder(OrderMessage order, Core::Now now, MasterActions& out)
 {
     if (_phase != EOrderPhase::None)
@@ -187,31 +264,18 @@ Core::Result<void> MasterSession::SendOrder(OrderMessage order, Core::Now now, M
     {
         return check;
     }
-    _withdrawnOrderID.clear();
-    _phase = EOrderPhase::Sent;
-    _orderID = order.orderID;
-    _lastSentUpdateID = order.orderUpdateID;
-    _bAccepted = false;
-    _route.clear();
-    _reachedNodes = 0;
-    _errorsBeforeSend = _state->errors;
-    _sendCount = 0;
-    _inFlight = std::move(order);
-    PublishOrder(now, out);
+    BeginOrder(order.orderID, order.orderUpdateID);
+    PutInFlight(std::move(order), now, out);
     return {};
 }
 
 std::pair<std::string, std::uint32_t> MasterSession::GetDecisionPoint() const
 {
-    std::pair<std::string, std::uint32_t> point;
     if (_inFlight.has_value())
     {
-        for (const OrderNode& node : _inFlight->nodes)
-        {
-            point = node.bReleased ? std::pair(node.nodeID, node.sequenceID) : point;
-        }
-        return point;
+        return FindDecisionPoint(*_inFlight);
     }
+    std::pair<std::string, std::uint32_t> point;
     for (const RouteNode& node : _route)
     {
         point = node.bReleased ? std::pair(node.nodeID, node.sequenceID) : point;
@@ -239,15 +303,10 @@ Core::Result<void> MasterSession::SendOrderUpdate(OrderMessage update, Core::Now
     {
         return check;
     }
-    const auto [nodeID, sequenceID] = GetDecisionPoint();
-    const OrderNode& first = update.nodes.front();
-    if (first.nodeID != nodeID || first.sequenceID != sequenceID)
+    check = CheckBegin(update, GetDecisionPoint());
+    if (!check)
     {
-        return Core::Fail(
-            EVda5050Error::InvalidOrder,
-            "nodes[0]",
-            "the last released node, " + nodeID + " (" + std::to_string(sequenceID) + ")",
-            first.nodeID + " (" + std::to_string(first.sequenceID) + ")");
+        return check;
     }
     update.orderUpdateID = ++_lastSentUpdateID;
     if (_inFlight.has_value())
@@ -255,11 +314,86 @@ Core::Result<void> MasterSession::SendOrderUpdate(OrderMessage update, Core::Now
         _queued = std::move(update);
         return {};
     }
-    _errorsBeforeSend = _state->errors;
-    _sendCount = 0;
-    _inFlight = std::move(update);
-    PublishOrder(now, out);
+    PutInFlight(std::move(update), now, out);
     return {};
+}
+
+Core::Result<void> MasterSession::ResumeOrder(OrderRecord record, Core::Now now, MasterActions& out)
+{
+    if (_phase != EOrderPhase::None)
+    {
+        return Core::Fail(EVda5050Error::OrderActive, {}, "no order", _orderID);
+    }
+    std::vector<OrderMessage>& messages = record.messages;
+    Core::Result<void> check = CheckRecord(messages);
+    if (!check)
+    {
+        return check;
+    }
+    const std::string orderID = messages.front().orderID;
+    const bool bShown = IsReady() && _state->orderID == orderID;
+    // Whose order was lost needs not be able to take another.
+    if (bShown || record.acceptedUpdateID.has_value() ? !IsReady() : !CanTakeOrder())
+    {
+        return Core::Fail(
+            EVda5050Error::VehicleNotReady,
+            {},
+            "a vehicle that is online, has sent a state and, for what it has not shown, drives by itself",
+            _options.address.serialNumber);
+    }
+    if (!bShown && record.acceptedUpdateID.has_value())
+    {
+        out.emplace_back(OrderLost{orderID, "the vehicle does not hold it any more"});
+        return {};
+    }
+    const auto open = std::ranges::find_if(messages, [this, bShown](const OrderMessage& message) {
+        return !bShown || message.orderUpdateID > _state->orderUpdateID;
+    });
+    constexpr std::ptrdiff_t MOST_OPEN = 2; // one in flight, one that waits for its echo
+    if (messages.end() - open > MOST_OPEN)
+    {
+        return Core::Fail(EVda5050Error::InvalidOrder, {}, "two messages at most that were not shown", orderID);
+    }
+    for (auto message = open; message != messages.end(); ++message)
+    {
+        check = FitOrder(*message, now);
+        if (!check)
+        {
+            return check;
+        }
+    }
+    BeginOrder(orderID, messages.back().orderUpdateID);
+    for (auto message = messages.begin(); message != open; ++message)
+    {
+        TakeIntoRoute(*message);
+    }
+    if (_bAccepted)
+    {
+        _acceptedUpdateID = _state->orderUpdateID;
+        _lastSentUpdateID = std::max(_lastSentUpdateID, _acceptedUpdateID);
+        out.emplace_back(OrderAccepted{orderID, _acceptedUpdateID});
+    }
+    if (messages.end() - open == MOST_OPEN)
+    {
+        _queued = std::move(messages.back());
+    }
+    if (open != messages.end())
+    {
+        PutInFlight(std::move(*open), now, out);
+    }
+    FollowActions(out);
+    FollowOrder(out);
+    return {};
+}
+
+const ActionState* MasterSession::FindShownOrNull(std::string_view actionID) const
+{
+    if (!_state.has_value())
+    {
+        return nullptr;
+    }
+    const auto found = std::ranges::find(_state->actionStates, actionID, &ActionState::actionID);
+    return found == _state->actionStates.end() ? nullptr : &*found;
 }
 
 Core::Result<std::string> MasterSession::SendInstantAction(Action action, Core::Now now, MasterActions& out)
@@ -285,6 +419,15 @@ Core::Result<std::string> MasterSession::SendInstantAction(Action action, Core::
     std::string actionID = action.actionID;
     if (!IsRequest(action.actionType))
     {
+        const ActionState* const shown = FindShownOrNull(actionID);
+        if (shown != nullptr)
+        {
+            if (!IsTerminal(shown->actionStatus))
+            {
+                _tracked.push_back(TrackedAction{action.actionID, action.actionType, true, true});
+            }
+            return actionID;
+        }
         _pendingActions.push_back(PendingAction{action, 1});
         _tracked.push_back(TrackedAction{action.actionID, action.actionType, true, false});
         out.emplace_back(StartMasterTimer{EMasterTimer::ResendInstantActions, _options.resendInterval});

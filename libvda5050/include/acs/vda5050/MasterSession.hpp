@@ -47,6 +47,16 @@ struct ReservedElement
     bool operator==(const ReservedElement&) const = default;
 };
 
+/// An order as a master wrote it down, to go on with it after a restart: each message before SendOrder or SendOrderUpdate
+/// was called, and what OrderAccepted told.
+struct OrderRecord
+{
+    std::vector<OrderMessage> messages; ///< All of the order, the first one first, each with its orderUpdateID.
+    std::optional<std::uint32_t> acceptedUpdateID;
+
+    bool operator==(const OrderRecord&) const = default;
+};
+
 /// What a session has counted since it was made.
 struct MasterStatistics
 {
@@ -144,9 +154,15 @@ class MasterSession
     void EndCancel(EActionStatus status, MasterActions& out);
     void EndOrder(MasterActions& out);
     void ExtendRoute(const OrderMessage& order);
+    /// Forgets the order before it.
+    void BeginOrder(std::string orderID, std::uint32_t lastUpdateID);
+    void TakeIntoRoute(const OrderMessage& order);
+    /// From now on this message waits for its echo.
+    void PutInFlight(OrderMessage order, Core::Now now, MasterActions& out);
     /// Where an update has to begin: the last released node of what was sent last.
     [[nodiscard]] std::pair<std::string, std::uint32_t> GetDecisionPoint() const;
     [[nodiscard]] bool IsPending(std::string_view actionID) const;
+    [[nodiscard]] const ActionState* FindShownOrNull(std::string_view actionID) const;
 
     void TrackOrderActions(const OrderMessage& order);
     void FollowActions(MasterActions& out);
@@ -189,8 +205,7 @@ public:
     void OnTimer(EMasterTimer timer, Core::Now now, MasterActions& out);
 
     /// Sends an order (orderID and its route filled in, its header not) and resends it until the vehicle shows it. The
-    /// orderUpdateID is sent as given: 0, or that of an order which is taken up again after a restart of the master (the
-    /// vehicle discards what it has already, and shows it).
+    /// orderUpdateID is sent as given. See also ResumeOrder.
     /// Held against the factsheet, if one has come: unlisted tolerances and lengths are left out, any other optional
     /// member, action, parameter or size that it does not list is an error; an empty list refuses nothing.
     /// Errors: VehicleNotReady, OrderActive, InvalidOrder, NotSupported.
@@ -199,7 +214,13 @@ public:
     /// here. Waits for the echo of the message before it; one may wait.
     /// Errors: NoOrder, UpdatePending, InvalidOrder, NotSupported.
     [[nodiscard]] Core::Result<void> SendOrderUpdate(OrderMessage update, Core::Now now, MasterActions& out);
-    /// Sends an instant action until the vehicle shows its id. blockingType is set as vehicles of 2.x want it.
+    /// Takes up an order after a restart of the master. What the vehicle's state shows of it is taken as accepted and not
+    /// sent; the messages behind that, two at most, are. An order that was accepted and that the vehicle no longer shows
+    /// is told as lost and not sent a second time. NodeReached counts from the first node again.
+    /// Errors: OrderActive, VehicleNotReady, InvalidOrder, NotSupported.
+    [[nodiscard]] Core::Result<void> ResumeOrder(OrderRecord record, Core::Now now, MasterActions& out);
+    /// Sends an instant action until the vehicle shows its id. One with an id that it shows already is not sent: a master
+    /// that wrote its ids down may ask again after a restart. blockingType is set as vehicles of 2.x want it.
     /// An empty actionID is filled in; the result is the id. Errors: VehicleNotReady, NotSupported
     /// (never for cancelOrder, startPause, stopPause, stateRequest and factsheetRequest).
     [[nodiscard]] Core::Result<std::string> SendInstantAction(Action action, Core::Now now, MasterActions& out);
