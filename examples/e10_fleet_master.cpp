@@ -177,7 +177,7 @@ public:
         }
         else if (verb == "cancel" && !_vehicles[*number].jobs.empty())
         {
-            _vehicles[*number].jobs.front().bCancelAsked = Write("cancel", name, {});
+            _vehicles[*number].jobs.front().bCancelAsked = TryWrite("cancel", name, {});
         }
         else if (verb == "do" && !text.empty())
         {
@@ -229,7 +229,8 @@ public:
         _fleet.OnMessage(message, ReadClock(), out);
         if (_fleet.GetLeftOutCount() != leftOut)
         {
-            fmt::print("left out: {} messages, the last one on {}\n", leftOut + 1, message.topic);
+            const LeftOutMessage& last = *_fleet.GetLastLeftOutOrNull();
+            fmt::print("left out: {}: {}\n", last.topic, Core::Describe(last.reason));
         }
         Settle(std::move(out));
     }
@@ -272,7 +273,7 @@ private:
     }
 
     /// Ends the program where the disk takes no more: an order that it does not remember must not be sent.
-    [[nodiscard]] bool Write(std::string_view verb, const std::string& name, const std::string& text)
+    [[nodiscard]] bool TryWrite(std::string_view verb, const std::string& name, const std::string& text)
     {
         if (_journal.TryAppend(fmt::format("{} {} {}", verb, name, text)))
         {
@@ -306,7 +307,7 @@ private:
         {
             fmt::print("known: {} for {}\n", orderID, name);
         }
-        else if (Write("order", name, text))
+        else if (TryWrite("order", name, text))
         {
             _vehicles[number].orderIDs.insert(orderID);
             _vehicles[number].jobs.push_back(std::move(*job));
@@ -429,7 +430,7 @@ private:
         fmt::print("{}: {}\n", GetName(number), Core::Describe(done.error()));
         if (bRuns)
         {
-            job.bCancelAsked = Write("cancel", GetName(number), {}); // An update that the vehicle cannot be sent.
+            job.bCancelAsked = TryWrite("cancel", GetName(number), {}); // An update that the vehicle cannot be sent.
         }
         else
         {
@@ -440,7 +441,7 @@ private:
     [[nodiscard]] Core::Result<void> Begin(std::size_t number, MasterSession& session, Job& job, MasterActions& out)
     {
         const std::size_t nodes = std::min(NODES_AHEAD, job.route.GetNodes().size());
-        if (!Write("release", GetName(number), std::to_string(nodes)) || !TryRelease(job, nodes))
+        if (!TryWrite("release", GetName(number), std::to_string(nodes)) || !TryRelease(job, nodes))
         {
             return {};
         }
@@ -454,7 +455,7 @@ private:
         const std::size_t nodes = std::min(job.reached + NODES_AHEAD, job.route.GetNodes().size());
         const bool bShown = job.record.acceptedUpdateID >= job.record.messages.back().orderUpdateID;
         if (!bShown || nodes <= job.route.GetReleasedNodes()
-            || !Write("release", GetName(number), std::to_string(nodes)) || !TryRelease(job, nodes))
+            || !TryWrite("release", GetName(number), std::to_string(nodes)) || !TryRelease(job, nodes))
         {
             return {};
         }
@@ -513,7 +514,7 @@ private:
     void EndJob(std::size_t number, const std::string& orderID, std::string_view how)
     {
         std::deque<Job>& jobs = _vehicles[number].jobs;
-        if (!jobs.empty() && jobs.front().route.GetOrderID() == orderID && Write("ended", GetName(number), orderID))
+        if (!jobs.empty() && jobs.front().route.GetOrderID() == orderID && TryWrite("ended", GetName(number), orderID))
         {
             fmt::print("{}: {} {}\n", GetName(number), orderID, how);
             jobs.pop_front();
@@ -524,7 +525,7 @@ private:
     {
         std::deque<Job>& jobs = _vehicles[number].jobs;
         const std::string update = std::to_string(accepted.orderUpdateID);
-        if (!jobs.empty() && Write("accepted", GetName(number), update))
+        if (!jobs.empty() && TryWrite("accepted", GetName(number), update))
         {
             jobs.front().record.acceptedUpdateID = accepted.orderUpdateID;
             fmt::print("{}: {} update {} accepted\n", GetName(number), accepted.orderID, update);
@@ -547,7 +548,8 @@ private:
         }
         else if (!jobs.empty())
         {
-            jobs.front().bCancelAsked = Write("cancel", GetName(number), {}); // Its route cannot be driven to the end.
+            jobs.front().bCancelAsked =
+                TryWrite("cancel", GetName(number), {}); // Its route cannot be driven to the end.
         }
     }
 
