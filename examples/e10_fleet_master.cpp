@@ -27,12 +27,12 @@
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
-#include <boost/asio/read_until.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <chrono>
 #include <csignal>
@@ -668,7 +668,8 @@ private:
 class Commands
 {
     boost::asio::posix::stream_descriptor _input;
-    std::string _text;
+    std::array<char, 4096> _chunk{};
+    std::string _line;
     FleetMaster& _master;
 
 public:
@@ -682,20 +683,32 @@ public:
 private:
     void ReadAsync()
     {
-        boost::asio::async_read_until(
-            _input,
-            boost::asio::dynamic_buffer(_text),
-            '\n',
-            [this](const boost::system::error_code& error, std::size_t length) {
+        _input.async_read_some(
+            boost::asio::buffer(_chunk),
+            [this](const boost::system::error_code& error, std::size_t count) {
                 if (error)
                 {
                     OnEnd(error);
                     return;
                 }
-                _master.OnCommand(_text.substr(0, length - 1));
-                _text.erase(0, length);
+                OnRead({_chunk.data(), count});
                 ReadAsync();
             });
+    }
+
+    void OnRead(std::string_view text)
+    {
+        for (const char letter : text)
+        {
+            if (letter == '\n')
+            {
+                _master.OnCommand(std::exchange(_line, {}));
+            }
+            else
+            {
+                _line += letter;
+            }
+        }
     }
 
     void OnEnd(const boost::system::error_code& error)

@@ -14,7 +14,6 @@
 #include <cstdint>
 #include <mqtt_protocol.h>
 #include <span>
-#include <sys/socket.h>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -480,11 +479,6 @@ std::optional<MosquittoClient> MosquittoConnection::TakeClientOrNull()
     if (!bKept)
     {
         return std::nullopt;
-    }
-    const int socket = mosquitto_socket(GetClient());
-    if (socket >= 0)
-    {
-        shutdown(socket, SHUT_RDWR); // libmosquitto itself closes it with the next connect only
     }
     mosquitto_user_data_set(GetClient(), nullptr);
     return std::exchange(_client, std::nullopt);
