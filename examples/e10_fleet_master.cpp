@@ -101,7 +101,7 @@ public:
     }
 
     /// False where the disk takes no more: then nothing may be sent either.
-    [[nodiscard]] bool TryAppend(std::string line)
+    [[nodiscard]] bool TryAppend(std::string line) const
     {
         line += '\n';
         return ::write(_file, line.data(), line.size()) == static_cast<ssize_t>(line.size()) && ::fdatasync(_file) == 0;

@@ -149,13 +149,23 @@ bool MasterSession::IsRejection(const VehicleError& error) const
     const std::string* updateOrNull = FindReferenceOrNull(error, ReferenceKeys::ORDER_UPDATE_ID);
     // An error of before the sending may stay until an order is taken; after a resend it is an answer to that.
     const bool bOld = _sendCount < 2 && std::ranges::find(_errorsBeforeSend, error) != _errorsBeforeSend.end();
-    if (orderOrNull != nullptr)
+    const bool bAnswer =
+        topicOrNull != nullptr || std::ranges::find(ORDER_ERROR_TYPES, error.errorType) != ORDER_ERROR_TYPES.end();
+    if (orderOrNull == nullptr)
     {
-        const bool bUpdate = updateOrNull == nullptr || *updateOrNull == std::to_string(_inFlight->orderUpdateID);
-        return *orderOrNull == _inFlight->orderID && bUpdate && !bOld;
+        const bool bNew = std::ranges::find(_errorsBeforeSend, error) == _errorsBeforeSend.end();
+        return bNew && bAnswer;
     }
-    const bool bNew = std::ranges::find(_errorsBeforeSend, error) == _errorsBeforeSend.end();
-    return bNew && std::ranges::find(ORDER_ERROR_TYPES, error.errorType) != ORDER_ERROR_TYPES.end();
+    if (*orderOrNull != _inFlight->orderID || bOld)
+    {
+        return false;
+    }
+    if (updateOrNull != nullptr)
+    {
+        return *updateOrNull == std::to_string(_inFlight->orderUpdateID);
+    }
+    // Of an order that runs it may be any trouble, such as an action that failed, and no word about the update.
+    return bAnswer || !_bAccepted;
 }
 
 const VehicleError* MasterSession::FindRejectionOrNull() const

@@ -4,7 +4,6 @@
 #include <acs/vda5050/OrderValidator.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <iterator>
 #include <utility>
 
@@ -118,16 +117,6 @@ Header MasterSession::PeekHeader(ETopic topic, Core::Now now) const
         _options.address.serialNumber};
 }
 
-std::string MasterSession::MakeActionID(std::string_view actionType, Core::Now now)
-{
-    const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(now.wall.time_since_epoch());
-    std::string id = _options.actionIDPrefix;
-    id += '-';
-    id += actionType;
-    id += '-' + std::to_string(milliseconds.count()) + '-' + std::to_string(++_ownActionCount);
-    return id;
-}
-
 void MasterSession::PublishPayload(ETopic topic, std::string payload, MasterActions& out)
 {
     ++_statistics.messagesSent;
@@ -140,9 +129,9 @@ void MasterSession::PublishPayload(ETopic topic, std::string payload, MasterActi
 
 void MasterSession::PublishOrder(Core::Now now, MasterActions& out)
 {
-    if (_link != EVehicleLink::Online)
+    if (_link != EVehicleLink::Online || !IsLed())
     {
-        return; // sent when it comes online
+        return; // sent when it comes online, and back to a mode that takes orders
     }
     const Core::SteadyTime earliest = _lastOrderTime.value_or(now.steady) + GetOrderInterval();
     if (_lastOrderTime.has_value() && now.steady < earliest)
@@ -159,7 +148,7 @@ void MasterSession::PublishOrder(Core::Now now, MasterActions& out)
 
 void MasterSession::ResendOrder(Core::Now now, MasterActions& out)
 {
-    if (!_inFlight.has_value() || _link != EVehicleLink::Online)
+    if (!_inFlight.has_value() || _link != EVehicleLink::Online || !IsLed())
     {
         return;
     }
@@ -189,7 +178,7 @@ void MasterSession::PublishInstantActions(std::vector<Action> actions, Core::Now
 
 void MasterSession::ResendInstantActions(Core::Now now, MasterActions& out)
 {
-    if (_link != EVehicleLink::Online)
+    if (_link != EVehicleLink::Online || !IsLed())
     {
         return;
     }
@@ -398,12 +387,13 @@ const ActionState* MasterSession::FindShownOrNull(std::string_view actionID) con
 
 Core::Result<std::string> MasterSession::SendInstantAction(Action action, Core::Now now, MasterActions& out)
 {
-    if (_link != EVehicleLink::Online)
+    const bool bTaken = IsLed() || IsRequest(action.actionType);
+    if (_link != EVehicleLink::Online || !bTaken)
     {
         return Core::Fail(
             EVda5050Error::VehicleNotReady,
             {},
-            "a vehicle that is online",
+            bTaken ? "a vehicle that is online" : "a mode that takes instant actions",
             _options.address.serialNumber);
     }
     if (action.actionID.empty())
@@ -411,7 +401,7 @@ Core::Result<std::string> MasterSession::SendInstantAction(Action action, Core::
         action.actionID = MakeActionID(action.actionType, now);
     }
     action.blockingType = ChooseBlockingType(action);
-    const Core::Result<void> fit = FitInstantAction(action);
+    const Core::Result<void> fit = FitInstantAction(action, now);
     if (!fit)
     {
         return tl::unexpected(fit.error());

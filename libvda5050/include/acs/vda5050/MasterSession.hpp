@@ -105,7 +105,8 @@ class MasterSession
     bool _bLinkUp = false;
     EVehicleLink _link = EVehicleLink::Unknown;
     bool _bSilent = false;
-    bool _bStateFresh = false; ///< A state came since the vehicle is online.
+    bool _bStateFresh = false;   ///< A state came since the vehicle is online.
+    bool _bNumbersKnown = false; ///< A state came since the vehicle said ONLINE last: before, its headerIds count anew.
     Core::SteadyTime _lastStateTime;
     std::optional<StateMessage> _state;
     std::optional<FactsheetMessage> _factsheet;
@@ -139,6 +140,8 @@ class MasterSession
     void GoAway(EVehicleLink link, MasterActions& out);
     void CheckSilence(Core::Now now, MasterActions& out);
     [[nodiscard]] bool IsStale(const StateMessage& state) const;
+    /// Whether its mode takes orders and instant actions, as far as is known.
+    [[nodiscard]] bool IsLed() const;
 
     void TellDifferences(const std::optional<StateMessage>& previous, MasterActions& out) const;
     void SettlePendingActions(MasterActions& out);
@@ -173,7 +176,7 @@ class MasterSession
     /// Null where there is no factsheet, or it is not to be obeyed.
     [[nodiscard]] const FactsheetMessage* GetRulesOrNull() const;
     [[nodiscard]] Core::Result<void> FitOrder(OrderMessage& order, Core::Now now) const;
-    [[nodiscard]] Core::Result<void> FitInstantAction(Action& action) const;
+    [[nodiscard]] Core::Result<void> FitInstantAction(Action& action, Core::Now now) const;
     [[nodiscard]] Core::Duration GetOrderInterval() const;
     [[nodiscard]] Core::Duration GetAllowedSilence() const;
     [[nodiscard]] std::size_t GetMaximumInstantActions() const;
@@ -221,8 +224,9 @@ public:
     [[nodiscard]] Core::Result<void> ResumeOrder(OrderRecord record, Core::Now now, MasterActions& out);
     /// Sends an instant action until the vehicle shows its id. One with an id that it shows already is not sent: a master
     /// that wrote its ids down may ask again after a restart. blockingType is set as vehicles of 2.x want it.
-    /// An empty actionID is filled in; the result is the id. Errors: VehicleNotReady, NotSupported
-    /// (never for cancelOrder, startPause, stopPause, stateRequest and factsheetRequest).
+    /// An empty actionID is filled in; the result is the id. Errors: VehicleNotReady (also in a mode that takes none, but
+    /// for stateRequest and factsheetRequest), NotSupported (for cancelOrder, startPause, stopPause, stateRequest and
+    /// factsheetRequest only where their id is not as the vehicle wants ids).
     [[nodiscard]] Core::Result<std::string> SendInstantAction(Action action, Core::Now now, MasterActions& out);
     /// Cancels the order: not yet seen by the vehicle, or running. Ends with OrderCancelled, OrderFinished (it was
     /// quicker), OrderLost or CancelFailed. Errors: NoOrder, VehicleNotReady.
