@@ -50,7 +50,7 @@ MosquittoClient::MosquittoClient(mosquitto* client)
 {
 }
 
-mosquitto* MosquittoClient::GetHandle() const noexcept
+mosquitto* MosquittoClient::GetHandleOrNull() const noexcept
 {
     return _handle.get();
 }

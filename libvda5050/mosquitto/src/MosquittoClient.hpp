@@ -46,7 +46,8 @@ public:
     /// Takes the client.
     explicit MosquittoClient(mosquitto* client);
 
-    [[nodiscard]] mosquitto* GetHandle() const noexcept;
+    /// Null only where the object was moved from.
+    [[nodiscard]] mosquitto* GetHandleOrNull() const noexcept;
 
     void OnSending(int messageID);
     /// Whether it was one with QoS 1 or 2.

@@ -68,9 +68,9 @@ MosquittoConnection::MosquittoConnection(const boost::asio::any_io_executor& exe
     static const LibraryUse LIBRARY_USE;
 }
 
-mosquitto* MosquittoConnection::GetClient() const
+mosquitto* MosquittoConnection::GetClientOrNull() const
 {
-    return _client.has_value() ? _client->GetHandle() : nullptr;
+    return _client.has_value() ? _client->GetHandleOrNull() : nullptr;
 }
 
 std::error_code MosquittoConnection::Open(const MosquittoOptions& options, std::optional<MosquittoClient> clientOrNull)
@@ -80,7 +80,7 @@ std::error_code MosquittoConnection::Open(const MosquittoOptions& options, std::
     if (_bGoesOn)
     {
         _client = std::move(clientOrNull);
-        mosquitto_user_data_set(GetClient(), this);
+        mosquitto_user_data_set(GetClientOrNull(), this);
     }
     else
     {
@@ -104,7 +104,7 @@ std::error_code MosquittoConnection::Open(const MosquittoOptions& options, std::
         return MakeMosquittoError(code, errno);
     }
     // A duplicate, because libmosquitto closes its own descriptor whenever it likes.
-    const std::error_code refused = AssignDuplicate(_socket, mosquitto_socket(GetClient()));
+    const std::error_code refused = AssignDuplicate(_socket, mosquitto_socket(GetClientOrNull()));
     if (refused)
     {
         return refused;
@@ -125,7 +125,7 @@ std::error_code MosquittoConnection::Open(const MosquittoOptions& options, std::
 
 int MosquittoConnection::Configure(const MosquittoOptions& options)
 {
-    mosquitto* const client = GetClient();
+    mosquitto* const client = GetClientOrNull();
     int code = mosquitto_int_option(client, MOSQ_OPT_TCP_NODELAY, 1);
     if (code == MOSQ_ERR_SUCCESS)
     {
@@ -163,7 +163,7 @@ int MosquittoConnection::Connect(const MosquittoOptions& options)
         const auto expiry = static_cast<std::uint32_t>(options.sessionExpiry.count());
         code = mosquitto_property_add_int32(&properties, MQTT_PROP_SESSION_EXPIRY_INTERVAL, expiry);
     }
-    mosquitto* const client = GetClient();
+    mosquitto* const client = GetClientOrNull();
     const auto keepAlive = static_cast<int>(options.keepAlive.count());
     const char* const host = options.host.c_str();
     errno = 0;
@@ -189,14 +189,14 @@ int MosquittoConnection::ConfigureTls(const MosquittoTls& tls)
 {
     if (tls.caFile.empty())
     {
-        const int code = mosquitto_int_option(GetClient(), MOSQ_OPT_TLS_USE_OS_CERTS, 1);
+        const int code = mosquitto_int_option(GetClientOrNull(), MOSQ_OPT_TLS_USE_OS_CERTS, 1);
         if (code != MOSQ_ERR_SUCCESS)
         {
             return code;
         }
     }
     return mosquitto_tls_set(
-        GetClient(),
+        GetClientOrNull(),
         GetTextOrNull(tls.caFile),
         nullptr,
         GetTextOrNull(tls.certFile),
@@ -206,7 +206,7 @@ int MosquittoConnection::ConfigureTls(const MosquittoTls& tls)
 
 void MosquittoConnection::SetCallbacks()
 {
-    mosquitto* const client = GetClient();
+    mosquitto* const client = GetClientOrNull();
     mosquitto_connect_with_flags_callback_set(client, [](mosquitto*, void* self, int returnCode, int flags) {
         constexpr unsigned SESSION_PRESENT = 1;
         const bool bPresent = (static_cast<unsigned>(flags) & SESSION_PRESENT) != 0;
@@ -252,7 +252,7 @@ void MosquittoConnection::HandleConnect(int returnCode, bool bSessionPresent)
         // The packet ids of the one side mean nothing to the other any more. Leaving comes before what libmosquitto
         // would send again as soon as this call is over.
         _bForgotten = true;
-        mosquitto_disconnect(GetClient());
+        mosquitto_disconnect(GetClientOrNull());
         Close({});
         return;
     }
@@ -296,7 +296,7 @@ Core::Result<int> MosquittoConnection::Publish(const MqttMessage& message)
     int messageID = 0;
     errno = 0;
     const int code = mosquitto_publish(
-        GetClient(),
+        GetClientOrNull(),
         &messageID,
         message.topic.c_str(),
         static_cast<int>(message.payload.size()),
@@ -324,7 +324,7 @@ std::optional<int> MosquittoConnection::SubscribeOrNull(const MqttSubscription& 
 {
     int messageID = 0;
     if (!IsUp()
-        || mosquitto_subscribe(GetClient(), &messageID, subscription.topicFilter.c_str(), subscription.qos)
+        || mosquitto_subscribe(GetClientOrNull(), &messageID, subscription.topicFilter.c_str(), subscription.qos)
             != MOSQ_ERR_SUCCESS)
     {
         return std::nullopt;
@@ -341,7 +341,7 @@ void MosquittoConnection::Confirm()
 void MosquittoConnection::TakeLeave()
 {
     errno = 0;
-    const int code = mosquitto_disconnect(GetClient());
+    const int code = mosquitto_disconnect(GetClientOrNull());
     Settle(code, errno);
 }
 
@@ -388,7 +388,7 @@ void MosquittoConnection::WaitToWrite()
             }
             self->_bWaitsToWrite = false;
             errno = 0;
-            const int code = mosquitto_loop_write(self->GetClient(), PACKETS_PER_CALL);
+            const int code = mosquitto_loop_write(self->GetClientOrNull(), PACKETS_PER_CALL);
             self->Settle(code, errno);
         });
 }
@@ -403,7 +403,7 @@ void MosquittoConnection::WaitForHouseKeeping()
             return;
         }
         errno = 0;
-        const int code = mosquitto_loop_misc(self->GetClient());
+        const int code = mosquitto_loop_misc(self->GetClientOrNull());
         self->Settle(code, errno);
         if (!self->_bClosed)
         {
@@ -419,7 +419,7 @@ void MosquittoConnection::ReadAll()
     {
         const std::size_t before = _events.size();
         errno = 0;
-        const int code = mosquitto_loop_read(GetClient(), PACKETS_PER_CALL);
+        const int code = mosquitto_loop_read(GetClientOrNull(), PACKETS_PER_CALL);
         Settle(code, errno);
         if (_events.size() == before)
         {
@@ -434,14 +434,14 @@ void MosquittoConnection::Settle(int code, int systemError)
     {
         return;
     }
-    const bool bSocketGone = mosquitto_socket(GetClient()) < 0;
+    const bool bSocketGone = mosquitto_socket(GetClientOrNull()) < 0;
     if (code != MOSQ_ERR_SUCCESS || bSocketGone)
     {
         const int reason = code != MOSQ_ERR_SUCCESS ? code : _closeCode;
         Close(MakeMosquittoError(reason, systemError));
         return;
     }
-    if (!_bWaitsToWrite && mosquitto_want_write(GetClient()))
+    if (!_bWaitsToWrite && mosquitto_want_write(GetClientOrNull()))
     {
         WaitToWrite();
     }
@@ -480,7 +480,7 @@ std::optional<MosquittoClient> MosquittoConnection::TakeClientOrNull()
     {
         return std::nullopt;
     }
-    mosquitto_user_data_set(GetClient(), nullptr);
+    mosquitto_user_data_set(GetClientOrNull(), nullptr);
     return std::exchange(_client, std::nullopt);
 }
 

@@ -126,7 +126,8 @@ private:
     void Tell(const Event& event);
 
     void RenewWhenSpoilt();
-    [[nodiscard]] mosquitto* GetClient() const;
+    /// Null before Open and after TakeClientOrNull.
+    [[nodiscard]] mosquitto* GetClientOrNull() const;
 
     void HandleConnect(int returnCode, bool bSessionPresent);
     void HandleMessage(const mosquitto_message& message);
