@@ -17,13 +17,14 @@
 namespace ACS::Testing
 {
 
-/// MQTT's control packets that hand a message over.
+/// MQTT's control packets that hand a message over, and the answer to a subscription.
 enum class EPacket : std::uint8_t
 {
     Publish = 3,
     Pubrec = 5,
     Pubrel = 6,
     Pubcomp = 7,
+    Suback = 9,
 };
 
 /// Stands between clients and a broker, knows where one packet ends and the next begins, and cuts the connection at one.

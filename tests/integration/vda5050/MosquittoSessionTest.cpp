@@ -126,6 +126,30 @@ TEST_CASE_METHOD(
         100ms));
 }
 
+TEST_CASE_METHOD(
+    SessionTest,
+    "2 What was acknowledged before the subscriptions stood is handed over after the next connection")
+{
+    const EMqttVersion version = GENERATE(EMqttVersion::Version311, EMqttVersion::Version5);
+    auto receiver = MakeConnected(_proxy.GetPort(), "receiver", version);
+    bool bStopped = false;
+    receiver->link.StopAsync(std::nullopt, 5s, [&]() { bStopped = true; });
+    REQUIRE(TryRunUntil(_context, [&]() { return bStopped; }));
+    const auto probe = MakeConnected(_broker.GetPort(), "probe", version);
+    const auto sender = MakeConnected(_broker.GetPort(), "sender", version);
+    REQUIRE(sender->link.Publish({"to/receiver", "kept", 1, false}).has_value());
+    REQUIRE(sender->link.Publish({"to/probe", "behind it", 1, false}).has_value());
+    REQUIRE(TryRunUntil(_context, [&]() { return !probe->listener.messages.empty(); }));
+
+    const std::size_t connections = _proxy.connections;
+    _proxy.cutOrNull = CuttingProxy::Cut{EPacket::Suback, false, false};
+    receiver = MakeConnected(_proxy.GetPort(), "receiver", version);
+    CHECK(_proxy.connections == connections + 2);
+    REQUIRE(sender->link.Publish({"to/receiver", "new", 1, false}).has_value());
+    REQUIRE(TryRunUntil(_context, [&]() { return receiver->listener.Contains("to/receiver", "new"); }));
+    CHECK(ListPayloads(*receiver) == std::vector<std::string>{"kept", "new"});
+}
+
 TEST_CASE_METHOD(SessionTest, "2 A broker that has forgotten the session is not told of its messages")
 {
     const EMqttVersion version = GENERATE(EMqttVersion::Version311, EMqttVersion::Version5);
