@@ -1,9 +1,11 @@
+#include <acs/core/ECoreError.hpp>
 #include <acs/vda5050/EVda5050Error.hpp>
 #include <acs/vda5050/MasterFleet.hpp>
 
 #include <array>
 #include <cassert>
 #include <utility>
+#include <variant>
 
 namespace ACS::VDA5050
 {
@@ -60,23 +62,19 @@ void MasterFleet::Append(std::size_t vehicle, FleetActions& out)
     _scratch.clear();
 }
 
-std::size_t MasterFleet::Insert(
-    const VehicleAddress& address,
-    EVda5050Version version,
-    Core::Now now,
-    FleetActions& out)
+std::unique_ptr<MasterSession> MasterFleet::MakeSession(const VehicleAddress& address, EVda5050Version version) const
 {
     MasterOptions options = _options.vehicle;
     options.address = address;
     options.version = version;
+    return std::make_unique<MasterSession>(std::move(options));
+}
+
+std::size_t MasterFleet::Insert(std::unique_ptr<MasterSession> session)
+{
     const std::size_t vehicle = _sessions.size();
-    _sessions.push_back(std::make_unique<MasterSession>(std::move(options)));
-    _numbers.emplace(MakeKey(address), vehicle);
-    if (_bLinkUp)
-    {
-        _sessions.back()->OnLinkUp(now, _scratch);
-        Append(vehicle, out);
-    }
+    _numbers.emplace(MakeKey(session->GetOptions().address), vehicle);
+    _sessions.push_back(std::move(session));
     return vehicle;
 }
 
@@ -91,7 +89,47 @@ Core::Result<std::size_t> MasterFleet::Add(const VehicleAddress& address, Core::
             address.manufacturer + "/" + address.serialNumber);
     }
     const std::optional<std::size_t> known = FindOrNull(address);
-    return known.has_value() ? *known : Insert(address, _options.vehicle.version, now, out);
+    if (known.has_value())
+    {
+        return *known;
+    }
+    const std::size_t vehicle = Insert(MakeSession(address, _options.vehicle.version));
+    if (_bLinkUp)
+    {
+        _sessions.back()->OnLinkUp(now, _scratch);
+        Append(vehicle, out);
+    }
+    return vehicle;
+}
+
+void MasterFleet::LeaveOut(const MqttMessage& message, Core::Error reason)
+{
+    ++_leftOut;
+    _lastLeftOut = LeftOutMessage{message.topic, std::move(reason)};
+}
+
+Core::Result<EVda5050Version> MasterFleet::ReadVersion(const MqttMessage& message)
+{
+    if (!_options.bDiscovery)
+    {
+        return Core::Fail(EVda5050Error::InvalidTopic, {}, "a vehicle that was added", message.topic);
+    }
+    if (_sessions.size() >= _options.maxVehicles)
+    {
+        return Core::Fail(Core::ECoreError::QueueFull, {}, std::to_string(_options.maxVehicles) + " vehicles", "more");
+    }
+    const Core::Result<MessageIdentity> identity = _codec.DecodeIdentity(message.payload);
+    if (!identity)
+    {
+        return tl::unexpected(identity.error());
+    }
+    const std::string& text = identity->header.version;
+    const std::optional<EVda5050Version> version = ReadVersionOrNull(text);
+    if (!text.empty() && !version.has_value())
+    {
+        return Core::Fail(EVda5050Error::UnsupportedVersion, "version", "2.x", text);
+    }
+    return version.value_or(_options.vehicle.version);
 }
 
 void MasterFleet::Discover(const MqttMessage& message, Core::Now now, FleetActions& out)
@@ -104,19 +142,29 @@ void MasterFleet::Discover(const MqttMessage& message, Core::Now now, FleetActio
     {
         return; // a factsheet or a visualization: its connection message comes as well
     }
-    const Core::Result<MessageIdentity> identity = _codec.DecodeIdentity(message.payload);
-    const bool bRoom = _sessions.size() < _options.maxVehicles;
-    const std::optional<EVda5050Version> version =
-        identity ? ReadVersionOrNull(identity->header.version) : std::nullopt;
-    const bool bNamesVersion = identity && !identity->header.version.empty();
-    if (!_options.bDiscovery || !bRoom || !identity || (bNamesVersion && !version.has_value()))
+    const Core::Result<EVda5050Version> version = ReadVersion(message);
+    if (!version)
     {
-        ++_leftOut;
+        LeaveOut(message, version.error());
         return;
     }
-    const std::size_t vehicle = Insert(topic->address, version.value_or(_options.vehicle.version), now, out);
-    _sessions.at(vehicle)->OnMessage(message, now, _scratch);
-    Append(vehicle, out);
+    std::unique_ptr<MasterSession> session = MakeSession(topic->address, *version);
+    if (_bLinkUp)
+    {
+        session->OnLinkUp(now, _scratch);
+    }
+    session->OnMessage(message, now, _scratch);
+    // What its own session refuses makes no vehicle known: anybody may write to a broker.
+    for (const MasterAction& action : _scratch)
+    {
+        if (const auto* const refused = std::get_if<MessageRefused>(&action))
+        {
+            LeaveOut(message, refused->error);
+            _scratch.clear();
+            return;
+        }
+    }
+    Append(Insert(std::move(session)), out);
 }
 
 void MasterFleet::OnLinkUp(Core::Now now, FleetActions& out)
@@ -183,6 +231,27 @@ std::optional<std::size_t> MasterFleet::FindOrNull(const VehicleAddress& address
 std::uint64_t MasterFleet::GetLeftOutCount() const noexcept
 {
     return _leftOut;
+}
+
+const LeftOutMessage* MasterFleet::GetLastLeftOutOrNull() const noexcept
+{
+    return _lastLeftOut.has_value() ? &*_lastLeftOut : nullptr;
+}
+
+MasterStatistics MasterFleet::GetStatistics() const
+{
+    MasterStatistics sum;
+    for (const std::unique_ptr<MasterSession>& session : _sessions)
+    {
+        const MasterStatistics& one = session->GetStatistics();
+        sum.statesReceived += one.statesReceived;
+        sum.statesIgnored += one.statesIgnored;
+        sum.retainedIgnored += one.retainedIgnored;
+        sum.messagesRefused += one.messagesRefused;
+        sum.messagesSent += one.messagesSent;
+        sum.ordersResent += one.ordersResent;
+    }
+    return sum;
 }
 
 } // namespace ACS::VDA5050

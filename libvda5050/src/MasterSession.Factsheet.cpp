@@ -5,9 +5,14 @@
 #include <acs/vda5050/MasterSession.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
 #include <string_view>
-#include <utility>
+#include <vector>
 
 namespace ACS::VDA5050
 {
@@ -57,6 +62,13 @@ bool IsAlwaysSent(std::string_view actionType)
         || actionType == ActionTypes::FACTSHEET_REQUEST;
 }
 
+struct SizeLimit
+{
+    std::string_view name;
+    std::size_t found = 0;
+    std::optional<std::uint32_t> most; ///< Absent or 0: none.
+};
+
 } // namespace
 
 const FactsheetMessage* MasterSession::GetRulesOrNull() const
@@ -98,23 +110,75 @@ Core::Result<void> MasterSession::FitOrder(OrderMessage& order, Core::Now now) c
         "order " + order.orderID);
 }
 
-Core::Result<void> MasterSession::FitInstantAction(Action& action) const
+std::string MasterSession::MakeActionID(std::string_view actionType, Core::Now now)
+{
+    const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(now.wall.time_since_epoch());
+    const std::string moment = std::to_string(milliseconds.count());
+    const std::string count = std::to_string(++_ownActionCount);
+    const FactsheetMessage* const rules = GetRulesOrNull();
+    const MaximumStringLengths limits =
+        rules == nullptr ? MaximumStringLengths{} : rules->protocolLimits.maxStringLengths;
+    std::string id = limits.bIdentifierNumericalOnly.value_or(false)
+        ? moment + count
+        : _options.actionIDPrefix + "-" + std::string(actionType) + "-" + moment + "-" + count;
+    const std::size_t most = limits.identifier.value_or(0);
+    if (most != 0 && id.size() > most)
+    {
+        id.erase(0, id.size() - most); // its end is what differs
+    }
+    return id;
+}
+
+Core::Result<void> MasterSession::FitInstantAction(Action& action, Core::Now now) const
 {
     const FactsheetMessage* const rules = GetRulesOrNull();
-    if (rules == nullptr || rules->protocolFeatures.agvActions.empty())
+    if (rules == nullptr)
     {
         return {};
     }
-    const std::optional<ActionFault> fault = FindActionFaultOrNull(*rules, action, EActionScope::Instant);
+    const std::vector<AgvAction>& rows = rules->protocolFeatures.agvActions;
+    const std::optional<ActionFault> fault =
+        rows.empty() ? std::nullopt : FindActionFaultOrNull(*rules, action, EActionScope::Instant);
     if (fault.has_value() && !IsAlwaysSent(action.actionType))
     {
         return Core::Fail(EVda5050Error::NotSupported, fault->field, fault->rule, action.actionType);
     }
-    const auto row = std::ranges::find(rules->protocolFeatures.agvActions, action.actionType, &AgvAction::actionType);
-    if (row != rules->protocolFeatures.agvActions.end() && !row->blockingTypes.empty()
+    const auto row = std::ranges::find(rows, action.actionType, &AgvAction::actionType);
+    if (row != rows.end() && !row->blockingTypes.empty()
         && std::ranges::find(row->blockingTypes, action.blockingType) == row->blockingTypes.end())
     {
         action.blockingType = row->blockingTypes.front();
+    }
+    InstantActionsMessage message;
+    message.header = PeekHeader(ETopic::InstantActions, now);
+    message.actions.push_back(action);
+    const ProtocolLimits& limits = rules->protocolLimits;
+    const std::array sizes{
+        SizeLimit{"maxStringLens.idLen", action.actionID.size(), limits.maxStringLengths.identifier},
+        SizeLimit{
+            "maxArrayLens.actions.actionsParameters",
+            action.actionParameters.size(),
+            limits.maxArrayLengths.actionParameters},
+        SizeLimit{
+            "maxStringLens.msgLen",
+            _codec.Encode(message, _options.version).size(),
+            limits.maxStringLengths.message}};
+    for (const SizeLimit& size : sizes)
+    {
+        if (size.most.value_or(0) != 0 && size.found > *size.most)
+        {
+            return Core::Fail(
+                EVda5050Error::NotSupported,
+                std::string(size.name),
+                "at most " + std::to_string(*size.most),
+                std::to_string(size.found));
+        }
+    }
+    const bool bDigits =
+        std::ranges::all_of(action.actionID, [](char letter) { return letter >= '0' && letter <= '9'; });
+    if (limits.maxStringLengths.bIdentifierNumericalOnly.value_or(false) && !bDigits)
+    {
+        return Core::Fail(EVda5050Error::NotSupported, "maxStringLens.idNumericalOnly", "digits", action.actionID);
     }
     return {};
 }
@@ -139,6 +203,10 @@ Core::Duration MasterSession::GetAllowedSilence() const
 std::size_t MasterSession::GetMaximumInstantActions() const
 {
     const FactsheetMessage* const rules = GetRulesOrNull();
+    if (rules != nullptr && rules->protocolLimits.maxStringLengths.message.value_or(0) != 0)
+    {
+        return 1; // each was measured alone
+    }
     const std::uint32_t limit = rules == nullptr ? 0 : rules->protocolLimits.maxArrayLengths.instantActions.value_or(0);
     return limit == 0 ? std::string::npos : limit;
 }

@@ -72,21 +72,6 @@ void MasterSession::ForgetAction(std::string_view actionID)
     std::erase_if(_tracked, [actionID](const TrackedAction& tracked) { return tracked.actionID == actionID; });
 }
 
-/// The order of a cancel that the vehicle answered before it had the order: that may come late, from a queue.
-void MasterSession::CancelReappeared(Core::Now now, MasterActions& out)
-{
-    const bool bRuns = _state->orderID == _withdrawnOrderID && !_state->nodeStates.empty();
-    if (_phase != EOrderPhase::None || _withdrawnOrderID.empty() || !bRuns || _link != EVehicleLink::Online)
-    {
-        return;
-    }
-    _orderID = std::exchange(_withdrawnOrderID, {});
-    _bAccepted = true;
-    _phase = EOrderPhase::Active;
-    out.emplace_back(OrderReappeared{_orderID});
-    std::ignore = Cancel(now, out);
-}
-
 std::vector<ReservedElement> MasterSession::ListReserved() const
 {
     std::vector<ReservedElement> reserved;

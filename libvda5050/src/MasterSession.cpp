@@ -163,6 +163,7 @@ void MasterSession::OnConnection(std::string_view payload, Core::Now now, Master
     switch (message->connectionState)
     {
         case EConnectionState::Online:
+            _bNumbersKnown = false;
             if (_link != EVehicleLink::Online)
             {
                 ComeOnline(now, out);
@@ -250,10 +251,10 @@ void MasterSession::CheckSilence(Core::Now now, MasterActions& out)
     out.emplace_back(VehicleSilent{age});
 }
 
-/// Both must be older: headerIds begin again when a vehicle restarts, and clocks are set.
+/// Both must be older: clocks are set. After a restart both may be, and its ONLINE comes first.
 bool MasterSession::IsStale(const StateMessage& state) const
 {
-    return _state.has_value() && state.header.headerID < _state->header.headerID
+    return _bNumbersKnown && _state.has_value() && state.header.headerID < _state->header.headerID
         && state.header.timestamp < _state->header.timestamp;
 }
 
@@ -282,6 +283,8 @@ void MasterSession::OnState(std::string_view payload, Core::Now now, MasterActio
     }
     _lastStateTime = now.steady;
     _bStateFresh = true;
+    _bNumbersKnown = true;
+    const bool bWasLed = IsLed();
     if (_bSilent && _link == EVehicleLink::Online)
     {
         _bSilent = false;
@@ -300,6 +303,11 @@ void MasterSession::OnState(std::string_view payload, Core::Now now, MasterActio
     FollowOrder(out);
     FollowCancel(out);
     CancelReappeared(now, out);
+    if (!bWasLed && IsLed())
+    {
+        ResendOrder(now, out);
+        ResendInstantActions(now, out);
+    }
 }
 
 void MasterSession::OnVisualization(std::string_view payload, MasterActions& out)
@@ -386,9 +394,13 @@ bool MasterSession::IsReady() const
 
 bool MasterSession::CanTakeOrder() const
 {
-    return IsReady() && _phase == EOrderPhase::None
-        && (_state->operatingMode == EOperatingMode::Automatic
-            || _state->operatingMode == EOperatingMode::SemiAutomatic);
+    return IsReady() && _phase == EOrderPhase::None && IsLed();
+}
+
+bool MasterSession::IsLed() const
+{
+    return !_state.has_value() || _state->operatingMode == EOperatingMode::Automatic
+        || _state->operatingMode == EOperatingMode::SemiAutomatic;
 }
 
 const StateMessage* MasterSession::GetStateOrNull() const noexcept

@@ -25,6 +25,7 @@ constexpr std::chrono::seconds HOUSE_KEEPING_PERIOD{1}; ///< libmosquitto looks 
 constexpr int MAX_READS = 64;                           ///< Before others on the executor have their turn.
 constexpr int SUBSCRIPTION_REFUSED = 0x80;              ///< And above: the reasons of MQTT 5.
 constexpr int PACKETS_PER_CALL = 1;
+constexpr int EXACTLY_ONCE = 2;
 
 /// libmosquitto's own state, once for the process.
 class LibraryUse
@@ -57,11 +58,6 @@ bool IsLoopback(const std::string& host)
 
 } // namespace
 
-void MosquittoConnection::ClientDeleter::operator()(mosquitto* client) const
-{
-    mosquitto_destroy(client);
-}
-
 MosquittoConnection::MosquittoConnection(const boost::asio::any_io_executor& executor, IMosquittoConnectionOwner& owner)
     : _executor(executor),
       _ownerOrNull(&owner),
@@ -72,13 +68,29 @@ MosquittoConnection::MosquittoConnection(const boost::asio::any_io_executor& exe
     static const LibraryUse LIBRARY_USE;
 }
 
-std::error_code MosquittoConnection::Open(const MosquittoOptions& options)
+mosquitto* MosquittoConnection::GetClientOrNull() const
 {
-    errno = 0;
-    _client.reset(mosquitto_new(GetTextOrNull(options.clientID), options.bCleanSession, this));
-    if (_client == nullptr)
+    return _client.has_value() ? _client->GetHandleOrNull() : nullptr;
+}
+
+std::error_code MosquittoConnection::Open(const MosquittoOptions& options, std::optional<MosquittoClient> clientOrNull)
+{
+    _bPersistent = !options.bCleanSession;
+    _bGoesOn = clientOrNull.has_value();
+    if (_bGoesOn)
     {
-        return MakeMosquittoError(MOSQ_ERR_ERRNO, errno);
+        _client = std::move(clientOrNull);
+        mosquitto_user_data_set(GetClientOrNull(), this);
+    }
+    else
+    {
+        errno = 0;
+        mosquitto* const made = mosquitto_new(GetTextOrNull(options.clientID), options.bCleanSession, this);
+        if (made == nullptr)
+        {
+            return MakeMosquittoError(MOSQ_ERR_ERRNO, errno);
+        }
+        _client.emplace(made);
     }
     _maxUnsent = options.maxUnsent;
     SetCallbacks();
@@ -92,7 +104,7 @@ std::error_code MosquittoConnection::Open(const MosquittoOptions& options)
         return MakeMosquittoError(code, errno);
     }
     // A duplicate, because libmosquitto closes its own descriptor whenever it likes.
-    const std::error_code refused = AssignDuplicate(_socket, mosquitto_socket(_client.get()));
+    const std::error_code refused = AssignDuplicate(_socket, mosquitto_socket(GetClientOrNull()));
     if (refused)
     {
         return refused;
@@ -113,7 +125,7 @@ std::error_code MosquittoConnection::Open(const MosquittoOptions& options)
 
 int MosquittoConnection::Configure(const MosquittoOptions& options)
 {
-    mosquitto* const client = _client.get();
+    mosquitto* const client = GetClientOrNull();
     int code = mosquitto_int_option(client, MOSQ_OPT_TCP_NODELAY, 1);
     if (code == MOSQ_ERR_SUCCESS)
     {
@@ -151,7 +163,7 @@ int MosquittoConnection::Connect(const MosquittoOptions& options)
         const auto expiry = static_cast<std::uint32_t>(options.sessionExpiry.count());
         code = mosquitto_property_add_int32(&properties, MQTT_PROP_SESSION_EXPIRY_INTERVAL, expiry);
     }
-    mosquitto* const client = _client.get();
+    mosquitto* const client = GetClientOrNull();
     const auto keepAlive = static_cast<int>(options.keepAlive.count());
     const char* const host = options.host.c_str();
     errno = 0;
@@ -177,14 +189,14 @@ int MosquittoConnection::ConfigureTls(const MosquittoTls& tls)
 {
     if (tls.caFile.empty())
     {
-        const int code = mosquitto_int_option(_client.get(), MOSQ_OPT_TLS_USE_OS_CERTS, 1);
+        const int code = mosquitto_int_option(GetClientOrNull(), MOSQ_OPT_TLS_USE_OS_CERTS, 1);
         if (code != MOSQ_ERR_SUCCESS)
         {
             return code;
         }
     }
     return mosquitto_tls_set(
-        _client.get(),
+        GetClientOrNull(),
         GetTextOrNull(tls.caFile),
         nullptr,
         GetTextOrNull(tls.certFile),
@@ -194,10 +206,22 @@ int MosquittoConnection::ConfigureTls(const MosquittoTls& tls)
 
 void MosquittoConnection::SetCallbacks()
 {
-    mosquitto* const client = _client.get();
-    mosquitto_connect_callback_set(client, [](mosquitto*, void* self, int returnCode) {
-        static_cast<MosquittoConnection*>(self)->HandleConnect(returnCode);
+    mosquitto* const client = GetClientOrNull();
+    mosquitto_connect_with_flags_callback_set(client, [](mosquitto*, void* self, int returnCode, int flags) {
+        constexpr unsigned SESSION_PRESENT = 1;
+        const bool bPresent = (static_cast<unsigned>(flags) & SESSION_PRESENT) != 0;
+        static_cast<MosquittoConnection*>(self)->HandleConnect(returnCode, bPresent);
     });
+    if (_bPersistent)
+    {
+        mosquitto_log_callback_set(client, [](mosquitto*, void* self, int, const char* line) {
+            const std::optional<ReceivedPublish> publish = ReadPublishLineOrNull(line);
+            if (publish.has_value() && publish->qos == EXACTLY_ONCE)
+            {
+                static_cast<MosquittoConnection*>(self)->_client->OnPublishCame(publish->messageID);
+            }
+        });
+    }
     mosquitto_disconnect_callback_set(client, [](mosquitto*, void* self, int code) {
         static_cast<MosquittoConnection*>(self)->_closeCode = code;
     });
@@ -205,7 +229,7 @@ void MosquittoConnection::SetCallbacks()
         static_cast<MosquittoConnection*>(self)->HandleMessage(*message);
     });
     mosquitto_publish_callback_set(client, [](mosquitto*, void* self, int messageID) {
-        static_cast<MosquittoConnection*>(self)->_events.emplace_back(Sent{messageID});
+        static_cast<MosquittoConnection*>(self)->HandleSent(messageID);
     });
     mosquitto_subscribe_callback_set(
         client,
@@ -216,11 +240,20 @@ void MosquittoConnection::SetCallbacks()
         });
 }
 
-void MosquittoConnection::HandleConnect(int returnCode)
+void MosquittoConnection::HandleConnect(int returnCode, bool bSessionPresent)
 {
     if (returnCode != 0)
     {
         Close(MakeConnackError(returnCode));
+        return;
+    }
+    if (_bGoesOn && !bSessionPresent && !(_client->IsQuiet() && !_client->IsSpoilt()))
+    {
+        // The packet ids of the one side mean nothing to the other any more. Leaving comes before what libmosquitto
+        // would send again as soon as this call is over.
+        _bForgotten = true;
+        mosquitto_disconnect(GetClientOrNull());
+        Close({});
         return;
     }
     _bUp = true;
@@ -234,7 +267,20 @@ void MosquittoConnection::HandleMessage(const mosquitto_message& message)
     copy.payload.assign(static_cast<const char*>(message.payload), static_cast<std::size_t>(message.payloadlen));
     copy.qos = static_cast<std::uint8_t>(message.qos);
     copy.bRetained = message.retain;
+    if (message.qos == EXACTLY_ONCE)
+    {
+        _client->OnReleased(message.mid);
+    }
     _events.emplace_back(std::move(copy));
+}
+
+void MosquittoConnection::HandleSent(int messageID)
+{
+    if (!_client->TryAcknowledge(messageID) && _unsent > 0)
+    {
+        --_unsent;
+    }
+    _events.emplace_back(Sent{messageID});
 }
 
 Core::Result<int> MosquittoConnection::Publish(const MqttMessage& message)
@@ -243,14 +289,14 @@ Core::Result<int> MosquittoConnection::Publish(const MqttMessage& message)
     {
         return Core::Fail(std::make_error_code(std::errc::not_connected));
     }
-    if (_unsent >= _maxUnsent)
+    if (_unsent + _client->CountUnacknowledged() >= _maxUnsent)
     {
         return Core::Fail(Core::ECoreError::QueueFull, message.topic);
     }
     int messageID = 0;
     errno = 0;
     const int code = mosquitto_publish(
-        _client.get(),
+        GetClientOrNull(),
         &messageID,
         message.topic.c_str(),
         static_cast<int>(message.payload.size()),
@@ -262,7 +308,14 @@ Core::Result<int> MosquittoConnection::Publish(const MqttMessage& message)
         // A broken socket shows itself to the waiting read; here the message is merely not sent.
         return Core::Fail(MakeMosquittoError(code, errno), message.topic);
     }
-    ++_unsent;
+    if (message.qos == 0)
+    {
+        ++_unsent;
+    }
+    else
+    {
+        _client->OnSending(messageID);
+    }
     Settle(MOSQ_ERR_SUCCESS, 0);
     return messageID;
 }
@@ -271,7 +324,7 @@ std::optional<int> MosquittoConnection::SubscribeOrNull(const MqttSubscription& 
 {
     int messageID = 0;
     if (!IsUp()
-        || mosquitto_subscribe(_client.get(), &messageID, subscription.topicFilter.c_str(), subscription.qos)
+        || mosquitto_subscribe(GetClientOrNull(), &messageID, subscription.topicFilter.c_str(), subscription.qos)
             != MOSQ_ERR_SUCCESS)
     {
         return std::nullopt;
@@ -288,7 +341,7 @@ void MosquittoConnection::Confirm()
 void MosquittoConnection::TakeLeave()
 {
     errno = 0;
-    const int code = mosquitto_disconnect(_client.get());
+    const int code = mosquitto_disconnect(GetClientOrNull());
     Settle(code, errno);
 }
 
@@ -340,7 +393,7 @@ void MosquittoConnection::WaitToWrite()
             }
             self->_bWaitsToWrite = false;
             errno = 0;
-            const int code = mosquitto_loop_write(self->_client.get(), PACKETS_PER_CALL);
+            const int code = mosquitto_loop_write(self->GetClientOrNull(), PACKETS_PER_CALL);
             self->Settle(code, errno);
         });
 }
@@ -355,7 +408,7 @@ void MosquittoConnection::WaitForHouseKeeping()
             return;
         }
         errno = 0;
-        const int code = mosquitto_loop_misc(self->_client.get());
+        const int code = mosquitto_loop_misc(self->GetClientOrNull());
         self->Settle(code, errno);
         if (!self->_bClosed)
         {
@@ -371,7 +424,7 @@ void MosquittoConnection::ReadAll()
     {
         const std::size_t before = _events.size();
         errno = 0;
-        const int code = mosquitto_loop_read(_client.get(), PACKETS_PER_CALL);
+        const int code = mosquitto_loop_read(GetClientOrNull(), PACKETS_PER_CALL);
         Settle(code, errno);
         if (_events.size() == before)
         {
@@ -386,14 +439,14 @@ void MosquittoConnection::Settle(int code, int systemError)
     {
         return;
     }
-    const bool bSocketGone = mosquitto_socket(_client.get()) < 0;
+    const bool bSocketGone = mosquitto_socket(GetClientOrNull()) < 0;
     if (code != MOSQ_ERR_SUCCESS || bSocketGone)
     {
         const int reason = code != MOSQ_ERR_SUCCESS ? code : _closeCode;
         Close(MakeMosquittoError(reason, systemError));
         return;
     }
-    if (!_bWaitsToWrite && mosquitto_want_write(_client.get()))
+    if (!_bWaitsToWrite && mosquitto_want_write(GetClientOrNull()))
     {
         WaitToWrite();
     }
@@ -421,7 +474,34 @@ void MosquittoConnection::CloseSocket()
     _connectTimer.cancel();
     boost::system::error_code ignored;
     _socket.close(ignored); // NOLINT(bugprone-unused-return-value): nothing to do about it
-    // The client itself goes with this object: this may be one of its own callbacks.
+    // The client itself goes with this object, or to the next one: this may be one of its own callbacks.
+}
+
+std::optional<MosquittoClient> MosquittoConnection::TakeClientOrNull()
+{
+    const bool bKept =
+        _client.has_value() && _bPersistent && !_bForgotten && !(_client->IsSpoilt() && _client->IsQuiet());
+    if (!bKept)
+    {
+        return std::nullopt;
+    }
+    mosquitto_user_data_set(GetClientOrNull(), nullptr);
+    return std::exchange(_client, std::nullopt);
+}
+
+bool MosquittoConnection::IsRenewal() const
+{
+    return _bForgotten || _bRenewing;
+}
+
+void MosquittoConnection::RenewWhenSpoilt()
+{
+    if (_bUp && !_bClosed && !_bRenewing && _ownerOrNull != nullptr && _client->IsSpoilt() && _client->IsQuiet()
+        && _events.empty())
+    {
+        _bRenewing = true;
+        TakeLeave();
+    }
 }
 
 void MosquittoConnection::PostDispatch()
@@ -453,6 +533,7 @@ void MosquittoConnection::Dispatch()
         }
         Tell(event);
     }
+    RenewWhenSpoilt();
 }
 
 void MosquittoConnection::Tell(const Event& event)
@@ -462,10 +543,7 @@ void MosquittoConnection::Tell(const Event& event)
         Core::Overloaded{
             [&owner](const Up&) { owner.OnConnectionUp(); },
             [&owner](const MqttMessage& message) { owner.OnConnectionMessage(message); },
-            [this, &owner](const Sent& sent) {
-                --_unsent;
-                owner.OnSent(sent.messageID);
-            },
+            [&owner](const Sent& sent) { owner.OnSent(sent.messageID); },
             [&owner](const Subscribed& answer) { owner.OnSubscribed(answer.messageID, answer.bGranted); },
             [&owner](const Closed& closed) {
                 owner.OnConnectionClosed(closed.reason);

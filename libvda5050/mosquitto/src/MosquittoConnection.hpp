@@ -1,5 +1,6 @@
 #pragma once
 
+#include "MosquittoClient.hpp"
 #include <acs/core/Result.hpp>
 #include <acs/vda5050/IMqttLink.hpp>
 #include <acs/vda5050_mosquitto/MosquittoOptions.hpp>
@@ -41,8 +42,9 @@ public:
     virtual void OnConnectionClosed(std::error_code reason) = 0;
 };
 
-/// One connection, from CONNECT to its end, as one libmosquitto client: a new one for each attempt, so that nothing of
-/// the attempt before (unacknowledged messages, an old will) leaks into it. Its socket is watched by the executor.
+/// One connection, from CONNECT to its end. With a clean session it has a libmosquitto client of its own, so that nothing
+/// of the attempt before (unacknowledged messages, an old will) leaks into it; a persistent session hands its client on
+/// from one connection to the next. Its socket is watched by the executor.
 class MosquittoConnection final : public std::enable_shared_from_this<MosquittoConnection>
 {
     struct Up
@@ -63,21 +65,20 @@ class MosquittoConnection final : public std::enable_shared_from_this<MosquittoC
     };
     using Event = std::variant<Up, MqttMessage, Sent, Subscribed, Closed>;
 
-    struct ClientDeleter
-    {
-        void operator()(mosquitto* client) const;
-    };
-
     boost::asio::any_io_executor _executor;
     IMosquittoConnectionOwner* _ownerOrNull;
-    std::unique_ptr<mosquitto, ClientDeleter> _client;
+    std::optional<MosquittoClient> _client;
     boost::asio::posix::stream_descriptor _socket;
     boost::asio::steady_timer _houseKeeping;
     boost::asio::steady_timer _connectTimer;
     std::vector<Event> _events;
-    std::size_t _unsent = 0;
+    std::size_t _unsent = 0; ///< Of QoS 0.
     std::size_t _maxUnsent = 0;
     int _closeCode = 0;
+    bool _bPersistent = false;
+    bool _bGoesOn = false;    ///< With the client of a connection before.
+    bool _bForgotten = false; ///< By the broker, with the session that the client goes on with.
+    bool _bRenewing = false;
     bool _bUp = false;
     bool _bClosed = false;
     bool _bWaitsToWrite = false;
@@ -86,8 +87,13 @@ class MosquittoConnection final : public std::enable_shared_from_this<MosquittoC
 public:
     MosquittoConnection(const boost::asio::any_io_executor& executor, IMosquittoConnectionOwner& owner);
 
-    /// Begins; an error means that nothing will follow.
-    [[nodiscard]] std::error_code Open(const MosquittoOptions& options);
+    /// Begins, with the client that a connection before has left or with a new one; an error means that nothing will
+    /// follow but TakeClientOrNull.
+    [[nodiscard]] std::error_code Open(const MosquittoOptions& options, std::optional<MosquittoClient> clientOrNull);
+    /// After the end: what the next connection of a persistent session goes on with.
+    [[nodiscard]] std::optional<MosquittoClient> TakeClientOrNull();
+    /// After the end: it was ended to begin anew with a fresh client, or because the broker had forgotten the session.
+    [[nodiscard]] bool IsRenewal() const;
 
     /// The id of the message, with which OnSent comes. Fails with not_connected, QueueFull, or what libmosquitto says.
     [[nodiscard]] Core::Result<int> Publish(const MqttMessage& message);
@@ -121,8 +127,13 @@ private:
     void Dispatch();
     void Tell(const Event& event);
 
-    void HandleConnect(int returnCode);
+    void RenewWhenSpoilt();
+    /// Null before Open and after TakeClientOrNull.
+    [[nodiscard]] mosquitto* GetClientOrNull() const;
+
+    void HandleConnect(int returnCode, bool bSessionPresent);
     void HandleMessage(const mosquitto_message& message);
+    void HandleSent(int messageID);
 };
 
 } // namespace ACS::VDA5050

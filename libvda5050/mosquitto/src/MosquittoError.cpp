@@ -70,6 +70,11 @@ std::error_code MakeConnackError(int returnCode)
     return MakeMosquittoError(returnCode >= FIRST_REASON ? returnCode : MOSQ_ERR_CONN_REFUSED, 0);
 }
 
+bool IsSessionTakenOver(const std::error_code& reason)
+{
+    return reason.category() == GetMosquittoCategory() && reason.value() == MQTT_RC_SESSION_TAKEN_OVER;
+}
+
 std::string MakeConnectAdvice(const std::error_code& reason)
 {
     if (reason.category() != GetMosquittoCategory())

@@ -14,6 +14,9 @@ namespace ACS::VDA5050
 /// a reason of MQTT 5 stays what it is.
 [[nodiscard]] std::error_code MakeConnackError(int returnCode);
 
+/// A word of MQTT 5: another client with the same id has connected.
+[[nodiscard]] bool IsSessionTakenOver(const std::error_code& reason);
+
 /// What a person can do about it, as the end of a sentence.
 [[nodiscard]] std::string MakeConnectAdvice(const std::error_code& reason);
 

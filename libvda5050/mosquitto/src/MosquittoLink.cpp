@@ -6,6 +6,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <fmt/format.h>
 
+#include <chrono>
 #include <exception>
 #include <set>
 #include <utility>
@@ -25,13 +26,17 @@ class MosquittoLink::Impl final : public IMosquittoConnectionOwner, public std::
     boost::asio::steady_timer
         _timer; ///< Until the next attempt, until the backoff is forgotten, or until Stop is over.
     std::shared_ptr<MosquittoConnection> _connectionOrNull;
+    std::optional<MosquittoClient> _clientOrNull; ///< Of a persistent session, between two connections.
     std::vector<MqttSubscription> _subscriptions;
     std::set<int> _unconfirmed;
     std::vector<MqttMessage> _early;
     std::size_t _earlyDropped = 0;
     StopHandler _stopHandler;
+    std::chrono::steady_clock::time_point _upSince;
+    std::size_t _shortLives = 0; ///< Connections in a row that ended as soon as they stood.
     bool _bUp = false;
     bool _bOutageLogged = false;
+    bool _bRivalTold = false;
     bool _bStopping = false;
 
 public:
@@ -61,7 +66,10 @@ public:
 
 private:
     void Connect();
-    void Retry(std::error_code reason);
+    void Retry(std::chrono::milliseconds pause);
+    [[nodiscard]] bool HasRival(bool bWasUp, const std::error_code& reason);
+    void LogEnd(bool bWasUp, bool bRenewal, bool bRival, const std::error_code& reason);
+    void LogRival(const std::error_code& reason);
     void LogOutage(bool bWasUp, const std::error_code& reason);
     void AnnounceWhenConfirmed();
     void FinishStop();
@@ -73,6 +81,7 @@ namespace
 
 /// A connection that holds this long was no mistake: the next outage begins with short pauses again.
 constexpr std::chrono::seconds STABLE_AFTER{5};
+constexpr std::size_t SUSPICIOUS_LIVES = 3;
 
 } // namespace
 
@@ -165,22 +174,26 @@ std::string MosquittoLink::Impl::GetAddress() const
 void MosquittoLink::Impl::Connect()
 {
     _unconfirmed.clear();
-    _early.clear();
+    if (_options.bCleanSession)
+    {
+        _early.clear(); // else the broker has its acknowledgement for it, and will not send it again
+    }
     _earlyDropped = 0;
     _connectionOrNull = std::make_shared<MosquittoConnection>(_executor, *this);
-    const std::error_code refused = _connectionOrNull->Open(_options);
+    const std::error_code refused = _connectionOrNull->Open(_options, std::exchange(_clientOrNull, std::nullopt));
     if (refused)
     {
+        _clientOrNull = _connectionOrNull->TakeClientOrNull();
         _connectionOrNull->Abandon();
         _connectionOrNull.reset();
-        Retry(refused);
+        LogOutage(false, refused);
+        Retry(_backoff.GetNextDelay(*_random));
     }
 }
 
-void MosquittoLink::Impl::Retry(std::error_code reason)
+void MosquittoLink::Impl::Retry(std::chrono::milliseconds pause)
 {
-    LogOutage(false, reason);
-    _timer.expires_after(_backoff.GetNextDelay(*_random));
+    _timer.expires_after(pause);
     _timer.async_wait([weak = weak_from_this()](const boost::system::error_code& error) {
         const std::shared_ptr<Impl> self = weak.lock();
         if (self != nullptr && !error && !self->_bStopping)
@@ -205,6 +218,62 @@ void MosquittoLink::Impl::LogOutage(bool bWasUp, const std::error_code& reason)
         GetAddress(),
         reason.message(),
         MakeConnectAdvice(reason)));
+}
+
+/// MQTT 5 says so, 3.1.1 only closes: there it shows by connections that end as soon as they stand.
+bool MosquittoLink::Impl::HasRival(bool bWasUp, const std::error_code& reason)
+{
+    const auto life =
+        bWasUp ? std::chrono::steady_clock::now() - _upSince : std::chrono::steady_clock::duration::zero();
+    if (life > 2 * _options.backoff.maximum + STABLE_AFTER)
+    {
+        _bRivalTold = false; // he would have been back
+    }
+    if (IsSessionTakenOver(reason))
+    {
+        return true;
+    }
+    _shortLives = life >= STABLE_AFTER ? 0 : _shortLives + (bWasUp ? 1 : 0);
+    return bWasUp && _shortLives >= SUSPICIOUS_LIVES;
+}
+
+void MosquittoLink::Impl::LogEnd(bool bWasUp, bool bRenewal, bool bRival, const std::error_code& reason)
+{
+    if (bRival)
+    {
+        LogRival(reason);
+    }
+    else if (bRenewal)
+    {
+        _logger.Info("begins its session on the MQTT broker anew", {{"broker", GetAddress()}});
+    }
+    else
+    {
+        LogOutage(bWasUp, reason);
+    }
+}
+
+void MosquittoLink::Impl::LogRival(const std::error_code& reason)
+{
+    if (_bRivalTold)
+    {
+        _logger.Debug("lost the MQTT broker to another client again", {{"client", _options.clientID}});
+        return;
+    }
+    _bRivalTold = true;
+    const std::string what = IsSessionTakenOver(reason)
+        ? fmt::format(
+            "another client took over the client id {} at the MQTT broker {}",
+            _options.clientID,
+            GetAddress())
+        : fmt::format(
+            "the MQTT broker {} ends each connection at once: does another client use the client id {}",
+            GetAddress(),
+            _options.clientID);
+    _logger.Error(fmt::format(
+        "{}; give each client an id of its own. Trying again every {} ms",
+        what,
+        _options.backoff.maximum.count()));
 }
 
 void MosquittoLink::Impl::OnConnectionUp()
@@ -247,7 +316,11 @@ void MosquittoLink::Impl::AnnounceWhenConfirmed()
     _bUp = true;
     _bOutageLogged = false;
     _connectionOrNull->Confirm();
-    _logger.Info("connected to the MQTT broker", {{"broker", GetAddress()}, {"client", _options.clientID}});
+    _upSince = std::chrono::steady_clock::now();
+    _logger.Write(
+        _bRivalTold ? Core::ELogLevel::Debug : Core::ELogLevel::Info,
+        "connected to the MQTT broker",
+        {{"broker", GetAddress()}, {"client", _options.clientID}});
     if (_earlyDropped > 0)
     {
         _logger.Error(
@@ -294,6 +367,8 @@ void MosquittoLink::Impl::OnConnectionMessage(const MqttMessage& message)
 void MosquittoLink::Impl::OnConnectionClosed(std::error_code reason)
 {
     const std::shared_ptr<Impl> self = shared_from_this(); // the listener may destroy the link
+    const bool bRenewal = _connectionOrNull->IsRenewal();
+    _clientOrNull = _connectionOrNull->TakeClientOrNull();
     _connectionOrNull.reset();
     const bool bWasUp = std::exchange(_bUp, false);
     if (_bStopping)
@@ -305,11 +380,9 @@ void MosquittoLink::Impl::OnConnectionClosed(std::error_code reason)
     {
         reason = std::make_error_code(std::errc::connection_aborted);
     }
-    if (bWasUp)
-    {
-        LogOutage(true, reason);
-    }
-    Retry(reason);
+    const bool bRival = HasRival(bWasUp, reason);
+    LogEnd(bWasUp, bRenewal, bRival, reason);
+    Retry(bRival ? _options.backoff.maximum : _backoff.GetNextDelay(*_random));
     if (bWasUp)
     {
         _listenerOrNull->OnLinkDown(reason);

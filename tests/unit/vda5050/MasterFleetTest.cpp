@@ -123,12 +123,51 @@ TEST_CASE("13 What nobody can read, another major version, and more vehicles tha
     bench.Say(MakeVehicle(1), ETopic::Connection, "ONLINE", true);
     bench.Say(MakeVehicle(1), ETopic::Connection, R"({"headerId":1,"version":"3.0.0"})", true);
     CHECK(bench.fleet.GetLeftOutCount() == 2);
+    CHECK(bench.fleet.GetLastLeftOutOrNull()->reason.code == EVda5050Error::UnsupportedVersion);
+    CHECK(bench.fleet.GetLastLeftOutOrNull()->topic == "uagv/v2/ACS/LR1/connection");
     for (int i = 1; i <= 3; ++i)
     {
         bench.Connect(MakeVehicle(i));
     }
     CHECK(bench.fleet.GetSize() == 2);
     CHECK(bench.fleet.GetLeftOutCount() == 3);
+    CHECK(bench.fleet.GetLastLeftOutOrNull()->reason.code == Core::ECoreError::QueueFull);
+}
+
+TEST_CASE("3.1 A message that its own vehicle would not be believed makes no vehicle known")
+{
+    FleetBench bench;
+    CHECK(bench.fleet.GetLastLeftOutOrNull() == nullptr);
+    ConnectionMessage message;
+    message.header = Header{0, {}, "2.0.0", "ACS", "LR1"};
+    message.connectionState = EConnectionState::Online;
+    const std::string payload = Vda5050Codec().Encode(message, EVda5050Version::Version200);
+    bench.Say(VehicleAddress{"uagv", "OTHER", "LR1"}, ETopic::Connection, payload, true);
+    bench.Say(MakeVehicle(2), ETopic::Connection, payload, true);
+    bench.Say(MakeVehicle(1), ETopic::State, payload, false); // which is no state
+    CHECK(bench.fleet.GetSize() == 0);
+    CHECK(bench.fleet.GetLeftOutCount() == 3);
+    CHECK(bench.out.empty());
+    bench.Say(MakeVehicle(1), ETopic::Connection, payload, true);
+    CHECK(bench.fleet.GetSize() == 1);
+    CHECK(bench.ListTellers<VehicleOnline>() == std::vector<std::size_t>{0});
+}
+
+TEST_CASE("13 What was counted of each vehicle is summed up for the fleet")
+{
+    FleetBench bench;
+    for (int i = 1; i <= 2; ++i)
+    {
+        bench.Connect(MakeVehicle(i));
+        bench.SendState(MakeVehicle(i));
+        bench.SendState(MakeVehicle(i), true);
+        bench.Say(MakeVehicle(i), ETopic::State, "{}", false);
+    }
+    const MasterStatistics statistics = bench.fleet.GetStatistics();
+    CHECK(statistics.statesReceived == 2);
+    CHECK(statistics.retainedIgnored == 2);
+    CHECK(statistics.messagesRefused == 2);
+    CHECK(statistics.messagesSent == 2); // what is asked for when a vehicle comes online
 }
 
 TEST_CASE("13 Without discovery a fleet listens to the vehicles that were added, and no others")

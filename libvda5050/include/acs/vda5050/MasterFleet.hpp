@@ -36,6 +36,15 @@ struct FleetAction
 
 using FleetActions = std::vector<FleetAction>;
 
+/// A message that made no vehicle known, and why.
+struct LeftOutMessage
+{
+    std::string topic;
+    Core::Error reason;
+
+    bool operator==(const LeftOutMessage&) const = default;
+};
+
 /// A MasterSession for each vehicle on a broker, added by its address or discovered by its connection message (retained:
 /// all are known at once) or a live state. Vehicles are numbered from 0 as they come, and never leave. Pure like its
 /// sessions. Four subscriptions serve all vehicles; a message costs one look-up, however many there are.
@@ -45,13 +54,19 @@ class MasterFleet
     std::vector<std::unique_ptr<MasterSession>> _sessions;
     std::map<std::string, std::size_t, std::less<>> _numbers; ///< By the topic without its last level.
     std::uint64_t _leftOut = 0;
+    std::optional<LeftOutMessage> _lastLeftOut;
     Vda5050Codec _codec;
     MasterActions _scratch;
     bool _bLinkUp = false;
 
     [[nodiscard]] const std::size_t* FindNumberOrNull(std::string_view topic) const;
     void Discover(const MqttMessage& message, Core::Now now, FleetActions& out);
-    std::size_t Insert(const VehicleAddress& address, EVda5050Version version, Core::Now now, FleetActions& out);
+    void LeaveOut(const MqttMessage& message, Core::Error reason);
+    /// The version that an unknown vehicle's message names, or why it makes none known.
+    [[nodiscard]] Core::Result<EVda5050Version> ReadVersion(const MqttMessage& message);
+    [[nodiscard]] std::unique_ptr<MasterSession> MakeSession(const VehicleAddress& address, EVda5050Version version)
+        const;
+    std::size_t Insert(std::unique_ptr<MasterSession> session);
     void Append(std::size_t vehicle, FleetActions& out);
 
 public:
@@ -75,8 +90,13 @@ public:
     [[nodiscard]] MasterSession& GetSession(std::size_t vehicle);
     [[nodiscard]] const MasterSession& GetSession(std::size_t vehicle) const;
     [[nodiscard]] std::optional<std::size_t> FindOrNull(const VehicleAddress& address) const;
-    /// Messages of vehicles that were not taken in: too many, unreadable, or not discovered.
+    /// Messages of vehicles that were not taken in: too many, unreadable, of another vehicle or major version than their
+    /// topic says, or not discovered.
     [[nodiscard]] std::uint64_t GetLeftOutCount() const noexcept;
+    /// The last of them, for the log; null where there was none.
+    [[nodiscard]] const LeftOutMessage* GetLastLeftOutOrNull() const noexcept;
+    /// The sum over all vehicles.
+    [[nodiscard]] MasterStatistics GetStatistics() const;
 };
 
 } // namespace ACS::VDA5050

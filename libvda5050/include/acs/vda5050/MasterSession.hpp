@@ -47,6 +47,16 @@ struct ReservedElement
     bool operator==(const ReservedElement&) const = default;
 };
 
+/// An order as a master wrote it down, to go on with it after a restart: each message before SendOrder or SendOrderUpdate
+/// was called, and what OrderAccepted told.
+struct OrderRecord
+{
+    std::vector<OrderMessage> messages; ///< All of the order, the first one first, each with its orderUpdateID.
+    std::optional<std::uint32_t> acceptedUpdateID;
+
+    bool operator==(const OrderRecord&) const = default;
+};
+
 /// What a session has counted since it was made.
 struct MasterStatistics
 {
@@ -95,7 +105,8 @@ class MasterSession
     bool _bLinkUp = false;
     EVehicleLink _link = EVehicleLink::Unknown;
     bool _bSilent = false;
-    bool _bStateFresh = false; ///< A state came since the vehicle is online.
+    bool _bStateFresh = false;   ///< A state came since the vehicle is online.
+    bool _bNumbersKnown = false; ///< A state came since the vehicle said ONLINE last: before, its headerIds count anew.
     Core::SteadyTime _lastStateTime;
     std::optional<StateMessage> _state;
     std::optional<FactsheetMessage> _factsheet;
@@ -129,6 +140,8 @@ class MasterSession
     void GoAway(EVehicleLink link, MasterActions& out);
     void CheckSilence(Core::Now now, MasterActions& out);
     [[nodiscard]] bool IsStale(const StateMessage& state) const;
+    /// Whether its mode takes orders and instant actions, as far as is known.
+    [[nodiscard]] bool IsLed() const;
 
     void TellDifferences(const std::optional<StateMessage>& previous, MasterActions& out) const;
     void SettlePendingActions(MasterActions& out);
@@ -144,9 +157,15 @@ class MasterSession
     void EndCancel(EActionStatus status, MasterActions& out);
     void EndOrder(MasterActions& out);
     void ExtendRoute(const OrderMessage& order);
+    /// Forgets the order before it.
+    void BeginOrder(std::string orderID, std::uint32_t lastUpdateID);
+    void TakeIntoRoute(const OrderMessage& order);
+    /// From now on this message waits for its echo.
+    void PutInFlight(OrderMessage order, Core::Now now, MasterActions& out);
     /// Where an update has to begin: the last released node of what was sent last.
     [[nodiscard]] std::pair<std::string, std::uint32_t> GetDecisionPoint() const;
     [[nodiscard]] bool IsPending(std::string_view actionID) const;
+    [[nodiscard]] const ActionState* FindShownOrNull(std::string_view actionID) const;
 
     void TrackOrderActions(const OrderMessage& order);
     void FollowActions(MasterActions& out);
@@ -157,7 +176,7 @@ class MasterSession
     /// Null where there is no factsheet, or it is not to be obeyed.
     [[nodiscard]] const FactsheetMessage* GetRulesOrNull() const;
     [[nodiscard]] Core::Result<void> FitOrder(OrderMessage& order, Core::Now now) const;
-    [[nodiscard]] Core::Result<void> FitInstantAction(Action& action) const;
+    [[nodiscard]] Core::Result<void> FitInstantAction(Action& action, Core::Now now) const;
     [[nodiscard]] Core::Duration GetOrderInterval() const;
     [[nodiscard]] Core::Duration GetAllowedSilence() const;
     [[nodiscard]] std::size_t GetMaximumInstantActions() const;
@@ -189,8 +208,7 @@ public:
     void OnTimer(EMasterTimer timer, Core::Now now, MasterActions& out);
 
     /// Sends an order (orderID and its route filled in, its header not) and resends it until the vehicle shows it. The
-    /// orderUpdateID is sent as given: 0, or that of an order which is taken up again after a restart of the master (the
-    /// vehicle discards what it has already, and shows it).
+    /// orderUpdateID is sent as given. See also ResumeOrder.
     /// Held against the factsheet, if one has come: unlisted tolerances and lengths are left out, any other optional
     /// member, action, parameter or size that it does not list is an error; an empty list refuses nothing.
     /// Errors: VehicleNotReady, OrderActive, InvalidOrder, NotSupported.
@@ -199,9 +217,16 @@ public:
     /// here. Waits for the echo of the message before it; one may wait.
     /// Errors: NoOrder, UpdatePending, InvalidOrder, NotSupported.
     [[nodiscard]] Core::Result<void> SendOrderUpdate(OrderMessage update, Core::Now now, MasterActions& out);
-    /// Sends an instant action until the vehicle shows its id. blockingType is set as vehicles of 2.x want it.
-    /// An empty actionID is filled in; the result is the id. Errors: VehicleNotReady, NotSupported
-    /// (never for cancelOrder, startPause, stopPause, stateRequest and factsheetRequest).
+    /// Takes up an order after a restart of the master. What the vehicle's state shows of it is taken as accepted and not
+    /// sent; the messages behind that, two at most, are. An order that was accepted and that the vehicle no longer shows
+    /// is told as lost and not sent a second time. NodeReached counts from the first node again.
+    /// Errors: OrderActive, VehicleNotReady, InvalidOrder, NotSupported.
+    [[nodiscard]] Core::Result<void> ResumeOrder(OrderRecord record, Core::Now now, MasterActions& out);
+    /// Sends an instant action until the vehicle shows its id. One with an id that it shows already is not sent: a master
+    /// that wrote its ids down may ask again after a restart. blockingType is set as vehicles of 2.x want it.
+    /// An empty actionID is filled in; the result is the id. Errors: VehicleNotReady (also in a mode that takes none, but
+    /// for stateRequest and factsheetRequest), NotSupported (for cancelOrder, startPause, stopPause, stateRequest and
+    /// factsheetRequest only where their id is not as the vehicle wants ids).
     [[nodiscard]] Core::Result<std::string> SendInstantAction(Action action, Core::Now now, MasterActions& out);
     /// Cancels the order: not yet seen by the vehicle, or running. Ends with OrderCancelled, OrderFinished (it was
     /// quicker), OrderLost or CancelFailed. Errors: NoOrder, VehicleNotReady.

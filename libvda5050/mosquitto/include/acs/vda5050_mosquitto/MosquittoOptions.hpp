@@ -36,8 +36,10 @@ struct MosquittoOptions
     std::string username;               ///< Empty: none.
     std::string password;
     std::optional<MosquittoTls> tls;
-    /// False: the broker keeps the subscriptions, and what comes for them with QoS 1 or 2, while there is no connection.
-    /// Needs a client id. A message of QoS 2 that was half handed over when the connection broke may be lost or doubled.
+    /// False: the broker keeps the subscriptions, and what comes for them with QoS 1 or 2, while there is no connection;
+    /// and what was published with QoS 1 or 2 is sent again until it is acknowledged, a message of QoS 2 exactly once,
+    /// both ways, however often the connection breaks. As long as the link and the broker's session live. Needs a client
+    /// id.
     bool bCleanSession = true;
     std::chrono::seconds sessionExpiry{
         86'400};                  ///< How long MQTT 5 keeps such a session; 3.1.1 leaves it to the broker.

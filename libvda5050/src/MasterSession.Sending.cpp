@@ -1,0 +1,429 @@
+#include <acs/vda5050/ActionMachine.hpp>
+#include <acs/vda5050/EVda5050Error.hpp>
+#include <acs/vda5050/MasterSession.hpp>
+#include <acs/vda5050/OrderValidator.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace ACS::VDA5050
+{
+
+namespace
+{
+
+bool IsRequest(std::string_view actionType)
+{
+    return actionType == ActionTypes::STATE_REQUEST || actionType == ActionTypes::FACTSHEET_REQUEST;
+}
+
+/// There are vehicles that take these with exactly this blocking type only.
+EBlockingType ChooseBlockingType(const Action& action)
+{
+    if (IsRequest(action.actionType))
+    {
+        return EBlockingType::None;
+    }
+    const bool bHard = action.actionType == ActionTypes::CANCEL_ORDER || action.actionType == ActionTypes::START_PAUSE
+        || action.actionType == ActionTypes::STOP_PAUSE;
+    return bHard ? EBlockingType::Hard : action.blockingType;
+}
+
+Core::Result<void> CheckStructure(const OrderMessage& order)
+{
+    const std::vector<OrderViolation> violations = ValidateOrder(order);
+    if (violations.empty())
+    {
+        return {};
+    }
+    return Core::Fail(EVda5050Error::InvalidOrder, {}, violations.front().rule, "order " + order.orderID);
+}
+
+/// An update begins at the node at which the base before it ends.
+Core::Result<void> CheckBegin(const OrderMessage& update, const std::pair<std::string, std::uint32_t>& decisionPoint)
+{
+    const auto& [nodeID, sequenceID] = decisionPoint;
+    const OrderNode& first = update.nodes.front();
+    if (first.nodeID == nodeID && first.sequenceID == sequenceID)
+    {
+        return {};
+    }
+    return Core::Fail(
+        EVda5050Error::InvalidOrder,
+        "nodes[0]",
+        "the last released node, " + nodeID + " (" + std::to_string(sequenceID) + ")",
+        first.nodeID + " (" + std::to_string(first.sequenceID) + ")");
+}
+
+std::pair<std::string, std::uint32_t> FindDecisionPoint(const OrderMessage& order)
+{
+    std::pair<std::string, std::uint32_t> point;
+    for (const OrderNode& node : order.nodes)
+    {
+        point = node.bReleased ? std::pair(node.nodeID, node.sequenceID) : point;
+    }
+    return point;
+}
+
+/// One order, whose messages follow each other.
+Core::Result<void> CheckRecord(const std::vector<OrderMessage>& messages)
+{
+    if (messages.empty())
+    {
+        return Core::Fail(EVda5050Error::InvalidOrder, {}, "a message of the order at least", "none");
+    }
+    for (std::size_t index = 0; index < messages.size(); ++index)
+    {
+        const OrderMessage& message = messages[index];
+        Core::Result<void> check = CheckStructure(message);
+        if (check && index > 0)
+        {
+            const OrderMessage& before = messages[index - 1];
+            if (message.orderID != before.orderID || message.orderUpdateID <= before.orderUpdateID)
+            {
+                return Core::Fail(
+                    EVda5050Error::InvalidOrder,
+                    {},
+                    "updates of one order, each with a higher orderUpdateId",
+                    message.orderID + " " + std::to_string(message.orderUpdateID));
+            }
+            check = CheckBegin(message, FindDecisionPoint(before));
+        }
+        if (!check)
+        {
+            return check;
+        }
+    }
+    return {};
+}
+
+} // namespace
+
+Header MasterSession::MakeHeader(ETopic topic, Core::Now now)
+{
+    Header header = PeekHeader(topic, now);
+    ++_headerIDs.at(static_cast<std::size_t>(topic));
+    return header;
+}
+
+Header MasterSession::PeekHeader(ETopic topic, Core::Now now) const
+{
+    return Header{
+        _headerIDs.at(static_cast<std::size_t>(topic)),
+        now.wall,
+        std::string(GetVersionText(_options.version)),
+        _options.address.manufacturer,
+        _options.address.serialNumber};
+}
+
+void MasterSession::PublishPayload(ETopic topic, std::string payload, MasterActions& out)
+{
+    ++_statistics.messagesSent;
+    out.emplace_back(PublishMessage{MqttMessage{
+        _topics.at(static_cast<std::size_t>(topic)),
+        std::move(payload),
+        _options.qos.Get(topic),
+        IsRetained(topic)}});
+}
+
+void MasterSession::PublishOrder(Core::Now now, MasterActions& out)
+{
+    if (_link != EVehicleLink::Online || !IsLed())
+    {
+        return; // sent when it comes online, and back to a mode that takes orders
+    }
+    const Core::SteadyTime earliest = _lastOrderTime.value_or(now.steady) + GetOrderInterval();
+    if (_lastOrderTime.has_value() && now.steady < earliest)
+    {
+        out.emplace_back(StartMasterTimer{EMasterTimer::ResendOrder, earliest - now.steady});
+        return;
+    }
+    _lastOrderTime = now.steady;
+    _inFlight->header = MakeHeader(ETopic::Order, now);
+    PublishPayload(ETopic::Order, _codec.Encode(*_inFlight, _options.version), out);
+    ++_sendCount;
+    out.emplace_back(StartMasterTimer{EMasterTimer::ResendOrder, _options.resendInterval});
+}
+
+void MasterSession::ResendOrder(Core::Now now, MasterActions& out)
+{
+    if (!_inFlight.has_value() || _link != EVehicleLink::Online || !IsLed())
+    {
+        return;
+    }
+    if (_options.resendCount != 0 && _sendCount > _options.resendCount)
+    {
+        RejectInFlight({}, "the vehicle never showed the order", out);
+        return;
+    }
+    const std::uint32_t sentBefore = _sendCount;
+    PublishOrder(now, out);
+    _statistics.ordersResent += sentBefore != 0 && _sendCount != sentBefore ? 1U : 0U;
+}
+
+void MasterSession::PublishInstantActions(std::vector<Action> actions, Core::Now now, MasterActions& out)
+{
+    const std::size_t most = GetMaximumInstantActions();
+    while (!actions.empty())
+    {
+        const auto end = actions.begin() + static_cast<std::ptrdiff_t>(std::min(most, actions.size()));
+        InstantActionsMessage message;
+        message.header = MakeHeader(ETopic::InstantActions, now);
+        message.actions.assign(std::move_iterator(actions.begin()), std::move_iterator(end));
+        actions.erase(actions.begin(), end);
+        PublishPayload(ETopic::InstantActions, _codec.Encode(message, _options.version), out);
+    }
+}
+
+void MasterSession::ResendInstantActions(Core::Now now, MasterActions& out)
+{
+    if (_link != EVehicleLink::Online || !IsLed())
+    {
+        return;
+    }
+    std::vector<Action> actions;
+    const auto isSpent = [this, &actions, &out](PendingAction& pending) {
+        if (_options.resendCount != 0 && pending.sendCount > _options.resendCount)
+        {
+            out.emplace_back(InstantActionRejected{pending.action.actionID, {}, "the vehicle never showed the action"});
+            ForgetAction(pending.action.actionID);
+            return true;
+        }
+        ++pending.sendCount;
+        actions.push_back(pending.action);
+        return false;
+    };
+    std::vector<PendingAction> kept;
+    for (PendingAction& pending : _pendingActions)
+    {
+        if (!isSpent(pending))
+        {
+            kept.push_back(std::move(pending));
+        }
+    }
+    _pendingActions = std::move(kept);
+    if (!actions.empty())
+    {
+        PublishInstantActions(std::move(actions), now, out);
+        out.emplace_back(StartMasterTimer{EMasterTimer::ResendInstantActions, _options.resendInterval});
+    }
+    FollowCancel(out);
+}
+
+void MasterSession::BeginOrder(std::string orderID, std::uint32_t lastUpdateID)
+{
+    _withdrawnOrderID.clear();
+    _phase = EOrderPhase::Sent;
+    _orderID = std::move(orderID);
+    _lastSentUpdateID = lastUpdateID;
+    _bAccepted = false;
+    _route.clear();
+    _reachedNodes = 0;
+}
+
+void MasterSession::PutInFlight(OrderMessage order, Core::Now now, MasterActions& out)
+{
+    _errorsBeforeSend = _state->errors;
+    _sendCount = 0;
+    _inFlight = std::move(order);
+    PublishOrder(now, out);
+}
+
+Core::Result<void> MasterSession::SendOrder(OrderMessage order, Core::Now now, MasterActions& out)
+{
+    if (_phase != EOrderPhase::None)
+    {
+        return Core::Fail(EVda5050Error::OrderActive, {}, "no order", _orderID);
+    }
+    if (!CanTakeOrder())
+    {
+        return Core::Fail(
+            EVda5050Error::VehicleNotReady,
+            {},
+            "a vehicle that is online, has sent a state and drives by itself",
+            _options.address.serialNumber);
+    }
+    Core::Result<void> check = CheckStructure(order);
+    if (check)
+    {
+        check = FitOrder(order, now);
+    }
+    if (!check)
+    {
+        return check;
+    }
+    BeginOrder(order.orderID, order.orderUpdateID);
+    PutInFlight(std::move(order), now, out);
+    return {};
+}
+
+std::pair<std::string, std::uint32_t> MasterSession::GetDecisionPoint() const
+{
+    if (_inFlight.has_value())
+    {
+        return FindDecisionPoint(*_inFlight);
+    }
+    std::pair<std::string, std::uint32_t> point;
+    for (const RouteNode& node : _route)
+    {
+        point = node.bReleased ? std::pair(node.nodeID, node.sequenceID) : point;
+    }
+    return point;
+}
+
+Core::Result<void> MasterSession::SendOrderUpdate(OrderMessage update, Core::Now now, MasterActions& out)
+{
+    if (_phase != EOrderPhase::Sent && _phase != EOrderPhase::Active)
+    {
+        return Core::Fail(EVda5050Error::NoOrder, {}, "an order that runs", update.orderID);
+    }
+    if (_queued.has_value())
+    {
+        return Core::Fail(EVda5050Error::UpdatePending, {}, "at most one update that waits", _orderID);
+    }
+    update.orderID = _orderID;
+    Core::Result<void> check = CheckStructure(update);
+    if (check)
+    {
+        check = FitOrder(update, now);
+    }
+    if (!check)
+    {
+        return check;
+    }
+    check = CheckBegin(update, GetDecisionPoint());
+    if (!check)
+    {
+        return check;
+    }
+    update.orderUpdateID = ++_lastSentUpdateID;
+    if (_inFlight.has_value())
+    {
+        _queued = std::move(update);
+        return {};
+    }
+    PutInFlight(std::move(update), now, out);
+    return {};
+}
+
+Core::Result<void> MasterSession::ResumeOrder(OrderRecord record, Core::Now now, MasterActions& out)
+{
+    if (_phase != EOrderPhase::None)
+    {
+        return Core::Fail(EVda5050Error::OrderActive, {}, "no order", _orderID);
+    }
+    std::vector<OrderMessage>& messages = record.messages;
+    Core::Result<void> check = CheckRecord(messages);
+    if (!check)
+    {
+        return check;
+    }
+    const std::string orderID = messages.front().orderID;
+    const bool bShown = IsReady() && _state->orderID == orderID;
+    // Whose order was lost needs not be able to take another.
+    if (bShown || record.acceptedUpdateID.has_value() ? !IsReady() : !CanTakeOrder())
+    {
+        return Core::Fail(
+            EVda5050Error::VehicleNotReady,
+            {},
+            "a vehicle that is online, has sent a state and, for what it has not shown, drives by itself",
+            _options.address.serialNumber);
+    }
+    if (!bShown && record.acceptedUpdateID.has_value())
+    {
+        out.emplace_back(OrderLost{orderID, "the vehicle does not hold it any more"});
+        return {};
+    }
+    const auto open = std::ranges::find_if(messages, [this, bShown](const OrderMessage& message) {
+        return !bShown || message.orderUpdateID > _state->orderUpdateID;
+    });
+    constexpr std::ptrdiff_t MOST_OPEN = 2; // one in flight, one that waits for its echo
+    if (messages.end() - open > MOST_OPEN)
+    {
+        return Core::Fail(EVda5050Error::InvalidOrder, {}, "two messages at most that were not shown", orderID);
+    }
+    for (auto message = open; message != messages.end(); ++message)
+    {
+        check = FitOrder(*message, now);
+        if (!check)
+        {
+            return check;
+        }
+    }
+    BeginOrder(orderID, messages.back().orderUpdateID);
+    for (auto message = messages.begin(); message != open; ++message)
+    {
+        TakeIntoRoute(*message);
+    }
+    if (_bAccepted)
+    {
+        _acceptedUpdateID = _state->orderUpdateID;
+        _lastSentUpdateID = std::max(_lastSentUpdateID, _acceptedUpdateID);
+        out.emplace_back(OrderAccepted{orderID, _acceptedUpdateID});
+    }
+    if (messages.end() - open == MOST_OPEN)
+    {
+        _queued = std::move(messages.back());
+    }
+    if (open != messages.end())
+    {
+        PutInFlight(std::move(*open), now, out);
+    }
+    FollowActions(out);
+    FollowOrder(out);
+    return {};
+}
+
+const ActionState* MasterSession::FindShownOrNull(std::string_view actionID) const
+{
+    if (!_state.has_value())
+    {
+        return nullptr;
+    }
+    const auto found = std::ranges::find(_state->actionStates, actionID, &ActionState::actionID);
+    return found == _state->actionStates.end() ? nullptr : &*found;
+}
+
+Core::Result<std::string> MasterSession::SendInstantAction(Action action, Core::Now now, MasterActions& out)
+{
+    const bool bTaken = IsLed() || IsRequest(action.actionType);
+    if (_link != EVehicleLink::Online || !bTaken)
+    {
+        return Core::Fail(
+            EVda5050Error::VehicleNotReady,
+            {},
+            bTaken ? "a vehicle that is online" : "a mode that takes instant actions",
+            _options.address.serialNumber);
+    }
+    if (action.actionID.empty())
+    {
+        action.actionID = MakeActionID(action.actionType, now);
+    }
+    action.blockingType = ChooseBlockingType(action);
+    const Core::Result<void> fit = FitInstantAction(action, now);
+    if (!fit)
+    {
+        return tl::unexpected(fit.error());
+    }
+    std::string actionID = action.actionID;
+    if (!IsRequest(action.actionType))
+    {
+        const ActionState* const shown = FindShownOrNull(actionID);
+        if (shown != nullptr)
+        {
+            if (!IsTerminal(shown->actionStatus))
+            {
+                _tracked.push_back(TrackedAction{action.actionID, action.actionType, true, true});
+            }
+            return actionID;
+        }
+        _pendingActions.push_back(PendingAction{action, 1});
+        _tracked.push_back(TrackedAction{action.actionID, action.actionType, true, false});
+        out.emplace_back(StartMasterTimer{EMasterTimer::ResendInstantActions, _options.resendInterval});
+    }
+    PublishInstantActions({std::move(action)}, now, out);
+    return actionID;
+}
+
+} // namespace ACS::VDA5050

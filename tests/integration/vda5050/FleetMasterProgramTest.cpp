@@ -1,0 +1,303 @@
+#include "Catch.hpp"
+#include "ChildProcess.hpp"
+#include "LinkedVehicle.hpp"
+#include "TemporaryFolder.hpp"
+
+#include <boost/asio/steady_timer.hpp>
+
+#include <csignal>
+#include <fstream>
+
+namespace ACS::Testing
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+using namespace VDA5050; // NOLINT(google-build-using-namespace): nearly every name of the test is one of it
+using VDA5050::Test::MakeAction;
+using VDA5050::Test::MakeEdges;
+using VDA5050::Test::MakeNodes;
+
+constexpr std::uint32_t EVERYWHERE = 1'000;
+constexpr std::size_t FEWEST_MESSAGES = 4; ///< Of order-1 over five nodes and order-2; more where it drives slowly.
+
+/// examples/e10_fleet_master as a process of its own, that is killed; a vehicle in this one, that lives on.
+class FleetMasterTest
+{
+protected:
+    boost::asio::io_context _context;
+    MosquittoBroker _broker;
+    TemporaryFolder _folder;
+    std::unique_ptr<LinkedVehicle> _vehicle;
+    std::unique_ptr<ChildProcess> _master;
+    boost::asio::steady_timer _tick{_context};
+
+    FleetMasterTest()
+    {
+        Tick();
+    }
+
+    /// The master speaks through a pipe, which the loop does not know: so it comes by to look.
+    void Tick()
+    {
+        _tick.expires_after(10ms);
+        _tick.async_wait([this](const boost::system::error_code& error) {
+            if (!error)
+            {
+                Tick();
+            }
+        });
+    }
+
+    void StartVehicle()
+    {
+        _vehicle = std::make_unique<LinkedVehicle>(
+            _context,
+            MakeOptions(_broker.GetPort(), "vehicle"),
+            LinkedVehicle::MakeOptions(EVda5050Version::Version200));
+    }
+
+    [[nodiscard]] std::filesystem::path GetJournal() const
+    {
+        return _folder.GetPath() / "fleet.journal";
+    }
+
+    void WriteCommands(const std::vector<std::string>& commands) const
+    {
+        std::ofstream file(_folder.GetPath() / "commands");
+        for (const std::string& command : commands)
+        {
+            file << command << '\n';
+        }
+    }
+
+    void StartMaster()
+    {
+        _master = std::make_unique<ChildProcess>(std::vector<std::string>{
+            "sh",
+            "-c",
+            R"(exec "$0" 127.0.0.1 "$1" "$2" < "$3")",
+            ACS_FLEET_MASTER,
+            std::to_string(_broker.GetPort()),
+            GetJournal().string(),
+            (_folder.GetPath() / "commands").string()});
+    }
+
+    void KillMaster()
+    {
+        _master->Signal(SIGKILL);
+        REQUIRE(_master->WaitForExitOrNull(10s) == 128 + SIGKILL);
+    }
+
+    [[nodiscard]] bool WasReached(const std::function<bool()>& isTrue)
+    {
+        return TryRunUntil(_context, isTrue, 30s);
+    }
+
+    [[nodiscard]] bool WasPrinted(std::string_view text)
+    {
+        return WasReached([&]() { return _master->TryWaitForText(text, 0ms); });
+    }
+
+    [[nodiscard]] static std::string MakeCommand(std::string orderID, std::vector<OrderNode> nodes)
+    {
+        const std::vector<OrderEdge> edges = MakeEdges(nodes.size() - 1);
+        OrderMessage order = *OrderBuilder::Create(std::move(orderID), std::move(nodes), edges)->MakeOrder(1);
+        order.header.version = "2.0.0";
+        const VehicleAddress address = VDA5050::Test::MakeAddress();
+        return "order " + address.manufacturer + "/" + address.serialNumber + " "
+            + Vda5050Codec().Encode(order, EVda5050Version::Version200);
+    }
+
+    /// N0 to N4 with an action on N1 and on N3; then one on the spot.
+    [[nodiscard]] static std::vector<std::string> MakeCommands()
+    {
+        std::vector<OrderNode> nodes = MakeNodes(5);
+        nodes[1].actions.push_back(MakeAction("a1", EBlockingType::Hard, "detectObject"));
+        nodes[3].actions.push_back(MakeAction("a3", EBlockingType::Soft, "detectObject"));
+        std::vector<OrderNode> last{nodes.back()};
+        last.front().actions.push_back(MakeAction("b1", EBlockingType::Hard, "detectObject"));
+        return {MakeCommand("order-1", nodes), MakeCommand("order-2", last)};
+    }
+
+    [[nodiscard]] std::string ReadJournal() const
+    {
+        std::ifstream journal(GetJournal());
+        return {std::istreambuf_iterator<char>(journal), {}};
+    }
+
+    /// Each message that was ever written down.
+    [[nodiscard]] std::size_t CountReleases() const
+    {
+        std::size_t count = 0;
+        std::ifstream journal(GetJournal());
+        for (std::string line; std::getline(journal, line);)
+        {
+            count += line.starts_with("release ") ? 1U : 0U;
+        }
+        return count;
+    }
+
+    void CheckDoneOnce()
+    {
+        REQUIRE(WasPrinted("all orders have ended"));
+        CHECK(_master->WaitForExitOrNull(10s) == 0);
+        CHECK(_vehicle->CountStarts("a1") == 1);
+        CHECK(_vehicle->CountStarts("a3") == 1);
+        CHECK(_vehicle->CountStarts("b1") == 1);
+        CHECK(CountReleases() >= FEWEST_MESSAGES);
+        CHECK(_vehicle->Count<OrderTaken>() == CountReleases());
+        CHECK(_vehicle->Count<OrderRefused>() == 0);
+        CHECK(_vehicle->GetSession().GetState().errors.empty());
+    }
+};
+
+} // namespace
+
+TEST_CASE_METHOD(FleetMasterTest, "13 A fleet master that nobody kills drives its orders to their end")
+{
+    WriteCommands(MakeCommands());
+    StartMaster();
+    StartVehicle();
+    _vehicle->LetReach(EVERYWHERE);
+    CheckDoneOnce();
+    for (const char* const line :
+         {"taken: order-1 for ACS/LR01",
+          "ACS/LR01: online",
+          "ACS/LR01: order-1 update 2 accepted",
+          "ACS/LR01: node N4 reached",
+          "ACS/LR01: action a3 finished",
+          "ACS/LR01: order-1 finished",
+          "ACS/LR01: order-2 finished"})
+    {
+        CHECK_THAT(_master->GetText(), Catch::Contains(line));
+    }
+}
+
+TEST_CASE_METHOD(
+    FleetMasterTest,
+    "13 A master killed by SIGKILL after any of its messages loses nothing, does nothing twice")
+{
+    const auto messages = static_cast<std::size_t>(GENERATE(range(1, 6)));
+    CAPTURE(messages);
+    TestLink spy(_context, MakeOptions(_broker.GetPort(), "spy"));
+    spy.link.Subscribe({{"uagv/v2/+/+/order", 2}, {"uagv/v2/+/+/instantActions", 2}});
+    spy.link.Start();
+    REQUIRE(WasReached([&]() { return spy.listener.ups == 1; }));
+    WriteCommands(MakeCommands());
+    StartMaster();
+    StartVehicle();
+    _vehicle->LetReach(EVERYWHERE);
+    // Besides the order messages: one of instant actions, when the vehicle comes online.
+    REQUIRE(WasReached([&]() { return spy.listener.messages.size() >= messages; }));
+    KillMaster();
+    StartMaster(); // with the same commands
+    CheckDoneOnce();
+}
+
+TEST_CASE_METHOD(
+    FleetMasterTest,
+    "13 A master killed by SIGKILL at each step of its vehicle goes on where the vehicle is")
+{
+    const std::vector<std::function<bool()>> moments{
+        [this]() { return _vehicle->Count<OrderTaken>() >= 1; },
+        [this]() { return _vehicle->CountStarts("a1") >= 1; },
+        [this]() { return _vehicle->GetSession().GetState().lastNodeSequenceID >= 4; },
+        [this]() { return _vehicle->Count<OrderTaken>() >= 4; },
+        [this]() { return _vehicle->CountStarts("a3") >= 1; },
+        [this]() { return _vehicle->CountStarts("b1") >= 1; },
+        [this]() {
+            return _vehicle->GetSession().GetState().orderID == "order-2";
+        }};
+    const std::size_t chosen = GENERATE(range(std::size_t{0}, std::size_t{8})); // the last: all of them, in one run
+    CAPTURE(chosen);
+    WriteCommands(MakeCommands());
+    StartMaster();
+    REQUIRE(WasPrinted("taken: order-2"));
+    KillMaster(); // with two orders in its journal, and no vehicle in sight
+    StartVehicle();
+    _vehicle->LetReach(EVERYWHERE);
+    WriteCommands({});
+    StartMaster();
+    for (std::size_t index = 0; index < moments.size(); ++index)
+    {
+        if (index == chosen || chosen == moments.size())
+        {
+            REQUIRE(WasReached(moments[index]));
+            KillMaster();
+            StartMaster();
+        }
+    }
+    CheckDoneOnce();
+}
+
+TEST_CASE_METHOD(FleetMasterTest, "5.4 A master killed in the middle of a cancel ends it when it is back")
+{
+    const bool bBeforeCancel = GENERATE(true, false);
+    WriteCommands({MakeCommands().front()});
+    StartMaster();
+    StartVehicle();
+    _vehicle->LetReach(2);
+    REQUIRE(WasReached([this]() { return _vehicle->CountStarts("a1") == 1; }));
+    KillMaster();
+    WriteCommands({"cancel ACS/LR01"});
+    if (bBeforeCancel)
+    {
+        _broker.Kill(); // so the command is written down and nothing more
+    }
+    StartMaster();
+    if (bBeforeCancel)
+    {
+        REQUIRE(WasReached([this]() { return ReadJournal().find("\ncancel ACS/LR01") != std::string::npos; }));
+        KillMaster();
+        _broker.Restart();
+    }
+    else
+    {
+        REQUIRE(WasReached([this]() { return _vehicle->Count<OrderCleared>() == 1; }));
+        KillMaster();
+    }
+    WriteCommands({});
+    StartMaster();
+    REQUIRE(WasPrinted("ACS/LR01: order-1 cancelled"));
+    REQUIRE(WasPrinted("all orders have ended"));
+    CHECK(_vehicle->Count<OrderCleared>() == 1);
+    CHECK(_vehicle->CountStarts("a3") == 0);
+    CHECK(_vehicle->Count<OrderRefused>() == 0);
+}
+
+TEST_CASE_METHOD(
+    FleetMasterTest,
+    "13 An order that the vehicle lost while its master was dead is told, and not done again")
+{
+    WriteCommands(MakeCommands());
+    StartMaster();
+    StartVehicle();
+    _vehicle->LetReach(2);
+    REQUIRE(WasPrinted("ACS/LR01: order-1 update 0 accepted"));
+    REQUIRE(WasReached([this]() { return _vehicle->CountStarts("a1") == 1; }));
+    KillMaster();
+    _vehicle.reset();
+    StartVehicle();
+    _vehicle->LetReach(EVERYWHERE);
+    StartMaster();
+    REQUIRE(WasPrinted("ACS/LR01: order-1 lost: the vehicle does not hold it any more"));
+    CHECK(_vehicle->CountStarts("a1") == 0);
+    CHECK_THAT(_master->GetText(), Catch::Contains("known: order-1 for ACS/LR01"));
+}
+
+TEST_CASE_METHOD(FleetMasterTest, "13 A line that a kill tore off is as if it had never been written")
+{
+    const std::vector<std::string> commands = MakeCommands();
+    std::ofstream(GetJournal()) << commands[0] << '\n' << commands[1].substr(0, 50);
+    WriteCommands(commands);
+    StartMaster();
+    StartVehicle();
+    _vehicle->LetReach(EVERYWHERE);
+    CheckDoneOnce();
+    CHECK_THAT(_master->GetText(), Catch::Contains("known: order-1"));
+    CHECK_THAT(_master->GetText(), Catch::Contains("taken: order-2"));
+}
+
+} // namespace ACS::Testing

@@ -1,0 +1,174 @@
+#include "MasterBench.hpp"
+#include <acs/vda5050/EVda5050Error.hpp>
+
+namespace ACS::VDA5050::Test
+{
+
+namespace
+{
+
+/// What a master wrote down before it was killed: N0 to N4, an action on N1 and N3; two messages of it.
+struct Record
+{
+    OrderMessage order;
+    OrderMessage update;
+
+    Record()
+    {
+        std::vector<OrderNode> nodes = MakeNodes(5);
+        nodes[1].actions.push_back(MakeAction("a1", EBlockingType::Hard));
+        nodes[3].actions.push_back(MakeAction("a3", EBlockingType::Hard));
+        OrderBuilder builder = *OrderBuilder::Create("order-1", nodes, MakeEdges(4));
+        order = *builder.MakeOrder(2);
+        update = *builder.MakeUpdate(5);
+    }
+};
+
+Core::Result<void> Resume(MasterBench& bench, OrderRecord record)
+{
+    return bench.session.ResumeOrder(std::move(record), bench.GetNow(), bench.Clear());
+}
+
+void Show(MasterBench& bench, std::string actionID, EActionStatus status)
+{
+    bench.state.actionStates.push_back(ActionState{std::move(actionID), "pick", {}, status, {}});
+}
+
+} // namespace
+
+TEST_CASE("13 A master that comes back sends nothing that the vehicle shows, and goes on from there")
+{
+    const Record record;
+    MasterBench bench;
+    bench.Hold(record.order, 3);
+    Show(bench, "a1", EActionStatus::Running);
+    bench.BeReady();
+    REQUIRE(Resume(bench, {{record.order}, 0}));
+    CHECK(bench.GetSent(ETopic::Order).empty());
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()) == std::vector{OrderAccepted{"order-1", 0}});
+    CHECK(ListReached(bench.GetOutput()) == std::vector<std::string>{"N0", "N1"});
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
+
+    REQUIRE(bench.session.SendOrderUpdate(record.update, bench.GetNow(), bench.Clear()));
+    CHECK(bench.GetSentOrder().orderUpdateID == 1);
+    bench.Hold(record.update, 0);
+    Show(bench, "a3", EActionStatus::Finished);
+    bench.SendState();
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).empty()); // a1 still runs, though the update does not name it
+    bench.state.actionStates.front().actionStatus = EActionStatus::Finished;
+    bench.SendState();
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
+}
+
+TEST_CASE("13 What the vehicle has not shown of a resumed order is sent, one message after the other")
+{
+    const Record record;
+    MasterBench bench;
+    const bool bFirstShown = GENERATE(true, false);
+    if (bFirstShown)
+    {
+        bench.Hold(record.order, 3);
+    }
+    bench.BeReady();
+    REQUIRE(Resume(bench, {{record.order, record.update}, {}}));
+    if (!bFirstShown)
+    {
+        CHECK(bench.session.GetOrderPhase() == EOrderPhase::Sent);
+        CHECK(bench.GetSentOrder().orderUpdateID == 0);
+        bench.Hold(record.order, 3);
+        bench.SendState();
+    }
+    CHECK(bench.GetSent(ETopic::Order).size() == (bFirstShown ? 1 : 2));
+    CHECK(bench.GetSentOrder().orderUpdateID == 1);
+    bench.Hold(record.update, 0);
+    bench.SendState();
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
+    CHECK(ListReached(bench.GetOutput()).size() == 5);
+}
+
+TEST_CASE("13 A resumed order that was finished meanwhile is told as finished at once")
+{
+    const Record record;
+    MasterBench bench;
+    bench.Hold(record.update, 0);
+    Show(bench, "a1", EActionStatus::Finished);
+    Show(bench, "a3", EActionStatus::Failed);
+    bench.BeReady();
+    REQUIRE(Resume(bench, {{record.order, record.update}, 0}));
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
+    CHECK(bench.GetSent(ETopic::Order).empty());
+    CHECK(bench.session.CanTakeOrder());
+}
+
+TEST_CASE("13 A resumed order that had been accepted and that the vehicle has lost is told, and never sent again")
+{
+    const Record record;
+    MasterBench bench;
+    bench.state.orderID = GENERATE("", "order-2");
+    bench.state.operatingMode = GENERATE(EOperatingMode::Automatic, EOperatingMode::Manual);
+    bench.BeReady();
+    REQUIRE(Resume(bench, {{record.order}, 0}));
+    CHECK(Pick<OrderLost>(bench.GetOutput()).size() == 1);
+    CHECK(bench.GetSent(ETopic::Order).empty());
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::None);
+}
+
+TEST_CASE("13 A resumed order counts on from the update that the vehicle shows")
+{
+    const Record record;
+    MasterBench bench;
+    bench.Hold(record.order, 3);
+    bench.state.orderUpdateID = 7;
+    bench.BeReady();
+    REQUIRE(Resume(bench, {{record.order}, {}}));
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()) == std::vector{OrderAccepted{"order-1", 7}});
+    REQUIRE(bench.session.SendOrderUpdate(record.update, bench.GetNow(), bench.Clear()));
+    CHECK(bench.GetSentOrder().orderUpdateID == 8);
+}
+
+TEST_CASE("13 A record that does not fit together, a vehicle that is not ready and a running order resume nothing")
+{
+    const Record record;
+    MasterBench bench;
+    CHECK(Resume(bench, {{record.order}, {}}).error().code == EVda5050Error::VehicleNotReady);
+    CHECK(Resume(bench, {{record.order}, 0}).error().code == EVda5050Error::VehicleNotReady);
+    bench.state.operatingMode = EOperatingMode::Manual;
+    bench.BeReady();
+    CHECK(Resume(bench, {{record.order}, {}}).error().code == EVda5050Error::VehicleNotReady);
+    bench.state.operatingMode = EOperatingMode::Automatic;
+    bench.SendState();
+    CHECK(Resume(bench, {}).error().code == EVda5050Error::InvalidOrder);
+    CHECK(Resume(bench, {{record.update, record.order}, {}}).error().code == EVda5050Error::InvalidOrder);
+    OrderMessage other = record.update;
+    other.orderID = "order-2";
+    CHECK(Resume(bench, {{record.order, other}, {}}).error().code == EVda5050Error::InvalidOrder);
+    OrderMessage gap = MakeOrder(5, 5);
+    gap.orderUpdateID = 1;
+    CHECK(Resume(bench, {{record.order, gap}, {}}).error().code == EVda5050Error::InvalidOrder);
+    OrderMessage third = record.update;
+    third.nodes.erase(third.nodes.begin(), third.nodes.begin() + 3);
+    third.edges.clear();
+    third.orderUpdateID = 2;
+    CHECK(Resume(bench, {{record.order, record.update, third}, {}}).error().code == EVda5050Error::InvalidOrder);
+    CHECK(bench.GetSent(ETopic::Order).empty());
+    REQUIRE(Resume(bench, {{record.order}, {}}));
+    CHECK(Resume(bench, {{record.order}, {}}).error().code == EVda5050Error::OrderActive);
+}
+
+TEST_CASE("5.6 An instant action that the vehicle shows already is not sent again, and followed to its end")
+{
+    MasterBench bench;
+    const bool bEnded = GENERATE(true, false);
+    Show(bench, "i1", bEnded ? EActionStatus::Finished : EActionStatus::Running);
+    bench.BeReady();
+    const auto sent =
+        bench.session.SendInstantAction(MakeAction("i1", EBlockingType::None), bench.GetNow(), bench.Clear());
+    REQUIRE(sent);
+    CHECK(*sent == "i1");
+    CHECK(bench.GetSent(ETopic::InstantActions).empty());
+    bench.state.actionStates.clear();
+    bench.SendState();
+    CHECK(Pick<ActionLost>(bench.GetOutput()).size() == (bEnded ? 0 : 1));
+}
+
+} // namespace ACS::VDA5050::Test

@@ -1,0 +1,226 @@
+#include "MasterBench.hpp"
+#include <acs/vda5050/EVda5050Error.hpp>
+
+#include <algorithm>
+
+namespace ACS::VDA5050::Test
+{
+
+namespace
+{
+
+/// The first message of an order over four nodes, two of them released, taken by the vehicle; and the rest of its route.
+OrderBuilder Run(MasterBench& bench)
+{
+    bench.BeReady();
+    OrderBuilder builder = MakeBuilder(4);
+    const OrderMessage order = *builder.MakeOrder(2);
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    bench.Hold(order, 3);
+    bench.SendState();
+    REQUIRE(bench.session.GetOrderPhase() == EOrderPhase::Active);
+    return builder;
+}
+
+Core::Result<std::string> SendAction(MasterBench& bench, std::string actionID, std::string actionType)
+{
+    return bench.session.SendInstantAction(
+        MakeAction(std::move(actionID), EBlockingType::None, std::move(actionType)),
+        bench.GetNow(),
+        bench.Clear());
+}
+
+std::string GetSentActionID(const MasterBench& bench)
+{
+    const auto message =
+        Vda5050Codec().Decode<InstantActionsMessage>(bench.GetSent(ETopic::InstantActions).back().payload);
+    REQUIRE(message.has_value());
+    return message->actions.back().actionID;
+}
+
+void Tell(MasterBench& bench, FactsheetMessage factsheet)
+{
+    factsheet.header = Header{0, {}, "2.0.0", "ACS", "LR01"};
+    bench.Say(ETopic::Factsheet, Vda5050Codec().Encode(factsheet, EVda5050Version::Version210));
+    REQUIRE(bench.session.GetFactsheetOrNull() != nullptr);
+}
+
+} // namespace
+
+TEST_CASE("4.2 An error about the running order is no answer to an update, unless it is known as one")
+{
+    struct Row
+    {
+        std::string_view type;
+        std::vector<ErrorReference> references;
+        bool bRejection;
+    };
+    const Row row = GENERATE(
+        Row{"actionError", {{"orderId", "order-1"}, {"actionId", "a1"}}, false},
+        Row{"blockedByObstacle", {{"orderId", "order-1"}}, false},
+        Row{"orderUpdateError", {{"orderId", "order-1"}, {"orderUpdateId", "0"}}, false},
+        Row{"orderUpdateError", {{"orderId", "order-1"}}, true},
+        Row{"badHorizon", {{"orderId", "order-1"}, {"orderUpdateId", "1"}}, true},
+        Row{"badHorizon", {{"topic", "order"}, {"orderId", "order-1"}}, true},
+        Row{"badHorizon", {{"topic", "order"}, {"headerId", "1"}}, true},
+        Row{"badHorizon", {{"topic", "instantAction"}, {"orderId", "order-1"}}, false});
+    CAPTURE(row.type);
+    MasterBench bench;
+    OrderBuilder builder = Run(bench);
+    REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear()).has_value());
+    bench.Refuse(row.type, row.references);
+    CHECK(Pick<OrderRejected>(bench.GetOutput()).size() == (row.bRejection ? 1 : 0));
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
+}
+
+TEST_CASE("4.3 An update replaces the horizon: its nodes are told, those that it dropped never")
+{
+    MasterBench bench;
+    Run(bench);
+    std::vector<OrderNode> nodes = MakeNodes(3);
+    nodes[2].nodeID = "OTHER";
+    OrderBuilder other = *OrderBuilder::Create("order-1", nodes, MakeEdges(2));
+    REQUIRE(other.MakeOrder(2).has_value());
+    const OrderMessage update = *other.MakeUpdate(3);
+    REQUIRE(bench.session.SendOrderUpdate(update, bench.GetNow(), bench.Clear()).has_value());
+    bench.Hold(update, 0);
+    bench.SendState();
+    CHECK(ListReached(bench.GetOutput()) == std::vector<std::string>{"N1", "OTHER"});
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
+    CHECK(Pick<OrderLost>(bench.GetOutput()).empty());
+}
+
+TEST_CASE("2 After ONLINE a vehicle counts anew, also one whose clock is behind")
+{
+    MasterBench bench;
+    const bool bRepeated = GENERATE(false, true); // an ONLINE without a will before it
+    bench.BeReady();
+    StateMessage reborn = bench.state;
+    reborn.header = Header{0, bench.GetNow().wall - std::chrono::hours(1), "2.0.0", "ACS", "LR01"};
+    const std::string payload = Vda5050Codec().Encode(reborn, EVda5050Version::Version200);
+    bench.Say(ETopic::State, payload);
+    CHECK(bench.session.GetStatistics().statesIgnored == 1);
+    if (!bRepeated)
+    {
+        bench.Connect(EConnectionState::ConnectionBroken);
+    }
+    bench.Connect(EConnectionState::Online);
+    bench.Say(ETopic::State, payload);
+    CHECK(bench.session.GetStatistics().statesIgnored == 1);
+    CHECK(bench.session.IsReady());
+}
+
+TEST_CASE("8.6 In a mode that is not the master's nothing is sent but requests, and what waits goes when it is back")
+{
+    const EOperatingMode mode = GENERATE(EOperatingMode::Manual, EOperatingMode::Service, EOperatingMode::TeachIn);
+    MasterBench bench;
+    OrderBuilder builder = Run(bench);
+    REQUIRE(SendAction(bench, "i1", "startPause").has_value());
+    bench.state.operatingMode = mode;
+    bench.SendState();
+    REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear()).has_value());
+    CHECK(bench.GetSent(ETopic::Order).empty());
+    CHECK(SendAction(bench, "i2", "stopPause").error().code == EVda5050Error::VehicleNotReady);
+    CHECK(bench.session.Cancel(bench.GetNow(), bench.Clear()).error().code == EVda5050Error::VehicleNotReady);
+    CHECK(SendAction(bench, "i3", "stateRequest").has_value());
+    bench.Clear();
+    bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendOrder);
+    bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendInstantActions);
+    CHECK(Pick<PublishMessage>(bench.GetOutput()).empty());
+    bench.state.operatingMode = EOperatingMode::SemiAutomatic;
+    bench.SendState();
+    CHECK(bench.GetSentOrder().orderUpdateID == 1);
+    CHECK(GetSentActionID(bench) == "i1");
+}
+
+TEST_CASE("3.7 The session's own ids are as the vehicle wants them, and other ids are refused")
+{
+    MasterBench bench;
+    FactsheetMessage factsheet;
+    MaximumStringLengths& limits = factsheet.protocolLimits.maxStringLengths;
+    limits.identifier = 12;
+    limits.bIdentifierNumericalOnly = GENERATE(false, true);
+    Tell(bench, factsheet);
+    bench.BeReady();
+    REQUIRE(SendAction(bench, {}, "startPause").has_value());
+    const std::string first = GetSentActionID(bench);
+    CHECK(first.size() <= 12);
+    CHECK((!*limits.bIdentifierNumericalOnly || first.find_first_not_of("0123456789") == std::string::npos));
+    REQUIRE(SendAction(bench, {}, "stopPause").has_value());
+    CHECK(GetSentActionID(bench) != first);
+    CHECK(SendAction(bench, "1234567890123", "startPause").error().path == "maxStringLens.idLen");
+    CHECK(SendAction(bench, "pause-1", "startPause").has_value() == !*limits.bIdentifierNumericalOnly);
+}
+
+TEST_CASE("3.7 An instant action beyond the vehicle's sizes is not sent, and those of one message fit one by one")
+{
+    MasterBench bench;
+    FactsheetMessage factsheet;
+    factsheet.protocolLimits.maxStringLengths.message = 400;
+    factsheet.protocolLimits.maxArrayLengths.actionParameters = 1;
+    Tell(bench, factsheet);
+    bench.BeReady();
+    Action action = MakeAction("i1", EBlockingType::None, "takePicture");
+    action.actionParameters = {{"a", Core::JsonText::FromString("1")}, {"b", Core::JsonText::FromString("2")}};
+    const auto send = [&]() {
+        return bench.session.SendInstantAction(action, bench.GetNow(), bench.Clear());
+    };
+    CHECK(send().error().path == "maxArrayLens.actions.actionsParameters");
+    action.actionParameters.pop_back();
+    action.actionDescription = std::string(400, 'x');
+    CHECK(send().error().path == "maxStringLens.msgLen");
+    CHECK(bench.GetSent(ETopic::InstantActions).empty());
+    action.actionDescription.clear();
+    REQUIRE(send());
+    action.actionID = "i2";
+    REQUIRE(send());
+    bench.Clear();
+    bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendInstantActions);
+    const auto sent = bench.GetSent(ETopic::InstantActions);
+    REQUIRE(sent.size() == 2);
+    CHECK(std::ranges::all_of(sent, [](const MqttMessage& message) { return message.payload.size() <= 400; }));
+}
+
+TEST_CASE("13 Each bad message is counted and told, whatever is wrong with it, and changes nothing")
+{
+    const ETopic topic = GENERATE(ETopic::State, ETopic::Connection, ETopic::Factsheet);
+    const std::string header =
+        R"("headerId":9,"timestamp":"2030-01-01T00:00:00Z","version":"2.0.0","manufacturer":"ACS","serialNumber":"LR01")";
+    const auto with = [&header](const std::string& part, const std::string& other) {
+        return "{" + std::string(header).replace(header.find(part), part.size(), other) + "}";
+    };
+    const std::vector<std::string> bad{
+        "",
+        "no JSON",
+        "null",
+        "[]",
+        "{",
+        "{" + header + "}", // nothing but the header
+        with("9,", "-1,"),
+        with("9,", "4294967296,"),
+        with("9,", "NaN,"),
+        with("9,", R"("9",)"),
+        with("9,", "null,"),
+        with("2.0.0", "3.0.0"),
+        with(R"("ACS")", R"("OTHER")"),
+        with("LR01", "LR/01"),
+        std::string(1'000, '{')};
+    MasterBench bench;
+    Run(bench);
+    const StateMessage before = *bench.session.GetStateOrNull();
+    bench.Clear();
+    for (const std::string& payload : bad)
+    {
+        CAPTURE(payload);
+        bench.Say(topic, payload);
+        CHECK(bench.GetOutput().size() == 1);
+        CHECK(Pick<MessageRefused>(bench.GetOutput()).size() == 1);
+        bench.Clear();
+    }
+    CHECK(bench.session.GetStatistics().messagesRefused == bad.size());
+    CHECK(*bench.session.GetStateOrNull() == before);
+    CHECK(bench.session.IsReady());
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
+}
+
+} // namespace ACS::VDA5050::Test
