@@ -40,15 +40,16 @@ class CounterService final : public IOpenApiService
     std::int64_t _counter = 0;
 
 public:
-    [[nodiscard]] ApiResponse Call(const ApiRequest& request, Core::Now /*now*/) override
+    void Call(const ApiRequest& request, Core::Now /*now*/, ApiResponse& response) override
     {
+        response = ApiResponse{};
         if (request.method == EApiMethod::Get)
         {
-            return {200, Core::JsonText::FromInteger(++_counter)};
+            response.body = Core::JsonText::FromInteger(++_counter);
+            return;
         }
         _counter = 0;
         fmt::print("server: the counter is {}\n", _counter);
-        return {};
     }
 
     void StopControl(Core::Now /*now*/) override

@@ -19,11 +19,13 @@ namespace ACS::OpenStreamSim
 
 inline constexpr std::string_view OBJECT_TYPE = "JObject";
 
-/// 200 with an object that carries its "_type".
+/// 200 with an object that carries its "_type", written into the text, which is empty.
 template <typename TAnswer>
-[[nodiscard]] OpenStream::ApiResponse Succeed(const TAnswer& answer, std::string_view type = OBJECT_TYPE)
+[[nodiscard]] OpenStream::ApiResponse Succeed(
+    const TAnswer& answer,
+    std::string_view type = OBJECT_TYPE,
+    std::string text = {})
 {
-    std::string text;
     Json::JsonWriter writer(text);
     writer.BeginObject();
     writer.Key("_type");

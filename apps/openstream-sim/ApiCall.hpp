@@ -2,6 +2,7 @@
 
 #include <acs/openstream/ApiRequest.hpp>
 
+#include <string>
 #include <string_view>
 
 namespace ACS::OpenStreamSim
@@ -14,6 +15,7 @@ struct ApiCall
 {
     const OpenStream::ApiRequest& request;
     std::string_view argument; ///< What stood in the place of the pattern's {}.
+    std::string& room;         ///< Empty: for the answer of what is asked hundreds of times a second.
 };
 
 /// Answers one call; the machine has been brought to the present.

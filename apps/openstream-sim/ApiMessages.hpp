@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,15 +26,15 @@ struct RobotAnswer
     int isRemoteMode = 0;
     int toolNo = 0;
     int programNo = 0;
-    std::vector<double> position; ///< deg
+    std::span<const double> position; ///< deg
 };
 
-/// GET …/joint_states
+/// GET …/joint_states. Views, as it is asked at the shortest period.
 struct JointStatesAnswer
 {
-    std::vector<double> position; ///< deg
-    std::vector<double> velocity; ///< deg/s
-    std::vector<double> effort;   ///< Nm
+    std::span<const double> position; ///< deg
+    std::span<const double> velocity; ///< deg/s
+    std::span<const double> effort;   ///< Nm
 };
 
 /// GET /project/robot/po_cur. What the asked coordinates do not have is left out.

@@ -83,12 +83,12 @@ bool MatchesPattern(std::string_view path, std::string_view pattern, std::string
     return argumentOut.find('/') == std::string_view::npos;
 }
 
-OpenStream::ApiResponse Route(ControllerMachine& machine, const OpenStream::ApiRequest& request)
+OpenStream::ApiResponse Route(ControllerMachine& machine, const OpenStream::ApiRequest& request, std::string room)
 {
     bool bOtherMethod = false;
     for (const ApiRoute& route : ROUTES)
     {
-        ApiCall call{request, {}};
+        ApiCall call{request, {}, room};
         if (!MatchesPattern(request.path, route.pattern, call.argument))
         {
             continue;

@@ -3,6 +3,7 @@
 #include "ControllerMachine.hpp"
 #include <acs/openstream/ApiRequest.hpp>
 
+#include <string>
 #include <string_view>
 
 namespace ACS::OpenStreamSim
@@ -13,7 +14,10 @@ namespace ACS::OpenStreamSim
 [[nodiscard]] bool MatchesPattern(std::string_view path, std::string_view pattern, std::string_view& argumentOut);
 
 /// Finds the handler in the table of all endpoints and calls it; 404 where there is none. The path is in its plain form:
-/// brackets not encoded, /project/robot not shortened.
-[[nodiscard]] OpenStream::ApiResponse Route(ControllerMachine& machine, const OpenStream::ApiRequest& request);
+/// brackets not encoded, /project/robot not shortened. The room is ApiCall's.
+[[nodiscard]] OpenStream::ApiResponse Route(
+    ControllerMachine& machine,
+    const OpenStream::ApiRequest& request,
+    std::string room);
 
 } // namespace ACS::OpenStreamSim

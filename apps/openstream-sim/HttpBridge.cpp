@@ -84,7 +84,9 @@ Apps::HttpResponse AnswerHttp(const Apps::HttpRequest& request, OpenStream::IOpe
         call.query.push_back(OpenStream::QueryParameter{name, value});
     }
     call.body = std::move(*body);
-    return MakeHttpResponse(service.Call(call, now));
+    OpenStream::ApiResponse response;
+    service.Call(call, now, response);
+    return MakeHttpResponse(response);
 }
 
 } // namespace ACS::OpenStreamSim

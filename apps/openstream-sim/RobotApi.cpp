@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <span>
+#include <utility>
 
 namespace ACS::OpenStreamSim::RobotApi
 {
@@ -64,10 +65,9 @@ void FillAxes(const JointVector& position, PoseAnswer& answer)
     answer.j6 = position[5];
 }
 
-std::vector<double> Cut(const JointVector& values, std::size_t first, std::size_t count)
+std::span<const double> Cut(const JointVector& values, std::size_t first, std::size_t count)
 {
-    const std::span<const double> part = std::span(values).subspan(first, count);
-    return {part.begin(), part.end()};
+    return std::span(values).subspan(first, count);
 }
 
 } // namespace
@@ -93,7 +93,7 @@ ApiResponse GetSystemVersions(ControllerMachine& /*machine*/, const ApiCall& /*c
     return Succeed(answer);
 }
 
-ApiResponse GetRobot(ControllerMachine& machine, const ApiCall& /*call*/)
+ApiResponse GetRobot(ControllerMachine& machine, const ApiCall& call)
 {
     RobotAnswer answer;
     answer.motorOnState = static_cast<int>(machine.GetMotorState());
@@ -101,8 +101,9 @@ ApiResponse GetRobot(ControllerMachine& machine, const ApiCall& /*call*/)
     answer.isRemoteMode = ToInteger(machine.IsRemote());
     answer.toolNo = machine.GetSettings().toolNo;
     answer.programNo = machine.GetProgram();
-    answer.position = Cut(machine.GetJointStates().position, 0, AXES);
-    return Succeed(answer);
+    const JointVector position = machine.GetJointStates().position;
+    answer.position = position;
+    return Succeed(answer, OBJECT_TYPE, std::move(call.room));
 }
 
 ApiResponse GetJointStates(ControllerMachine& machine, const ApiCall& call)
@@ -122,10 +123,11 @@ ApiResponse GetJointStates(ControllerMachine& machine, const ApiCall& call)
     const auto first = static_cast<std::size_t>(*start - 1);
     const auto size = static_cast<std::size_t>(*count);
     const JointStates states = machine.GetJointStates();
-    return Succeed(JointStatesAnswer{
+    const JointStatesAnswer answer{
         Cut(states.position, first, size),
         Cut(states.velocity, first, size),
-        Cut(states.effort, first, size)});
+        Cut(states.effort, first, size)};
+    return Succeed(answer, OBJECT_TYPE, std::move(call.room));
 }
 
 ApiResponse GetPose(ControllerMachine& machine, const ApiCall& call)
@@ -152,7 +154,7 @@ ApiResponse GetPose(ControllerMachine& machine, const ApiCall& call)
     {
         FillCartesian(position, answer);
         FillAxes(position, answer);
-        return Succeed(answer, "Pose");
+        return Succeed(answer, "Pose", std::move(call.room));
     }
     const bool bAxes = machine.GetSettings().coordinates == AXIS_COORDINATES;
     const EPoseCoordinates current = bAxes ? EPoseCoordinates::Axis : EPoseCoordinates::Base;
@@ -161,7 +163,7 @@ ApiResponse GetPose(ControllerMachine& machine, const ApiCall& call)
         case EPoseCoordinates::Axis:
             answer.crd = "joint";
             FillAxes(position, answer);
-            return Succeed(answer, "Pose");
+            return Succeed(answer, "Pose", std::move(call.room));
         case EPoseCoordinates::Encoder:
             return RefuseInput("crd", "0, 1, 2 or 4, as a simulated arm has no encoders", "3");
         case EPoseCoordinates::Robot:
@@ -175,7 +177,7 @@ ApiResponse GetPose(ControllerMachine& machine, const ApiCall& call)
             break;
     }
     FillCartesian(position, answer);
-    return Succeed(answer, "Pose");
+    return Succeed(answer, "Pose", std::move(call.room));
 }
 
 ApiResponse GetGeneral(ControllerMachine& machine, const ApiCall& /*call*/)

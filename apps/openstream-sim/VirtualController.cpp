@@ -54,16 +54,17 @@ VirtualController::VirtualController(const ControllerOptions& options, Core::Now
 {
 }
 
-OpenStream::ApiResponse VirtualController::Call(const OpenStream::ApiRequest& request, Core::Now now)
+void VirtualController::Call(const OpenStream::ApiRequest& request, Core::Now now, OpenStream::ApiResponse& response)
 {
     _machine.Advance(now);
     if (IsPlainPath(request.path))
     {
-        return Route(_machine, request);
+        response = Route(_machine, request, response.TakeRoom());
+        return;
     }
     OpenStream::ApiRequest plain = request;
     plain.path = MakePlainPath(std::move(plain.path));
-    return Route(_machine, plain);
+    response = Route(_machine, plain, response.TakeRoom());
 }
 
 void VirtualController::StopControl(Core::Now now)

@@ -16,7 +16,7 @@ class VirtualController final : public OpenStream::IOpenApiService
 public:
     VirtualController(const ControllerOptions& options, Core::Now now, Core::Logger logger);
 
-    [[nodiscard]] OpenStream::ApiResponse Call(const OpenStream::ApiRequest& request, Core::Now now) override;
+    void Call(const OpenStream::ApiRequest& request, Core::Now now, OpenStream::ApiResponse& response) override;
 
     /// There is no trajectory to release; a program runs on.
     void StopControl(Core::Now now) override;

@@ -327,6 +327,11 @@ const std::string& JsonText::GetText() const noexcept
     return _text;
 }
 
+std::string JsonText::TakeText()
+{
+    return std::exchange(_text, "null");
+}
+
 std::optional<std::string> JsonText::GetStringOrNull() const
 {
     if (_text.size() < 2 || _text.front() != '"' || _text.back() != '"')

@@ -55,6 +55,19 @@ bool ApiResponse::IsSuccess() const noexcept
     return status >= FIRST_SUCCESS && status < BEYOND_SUCCESS;
 }
 
+std::string ApiResponse::TakeRoom()
+{
+    std::string room;
+    if (body.has_value())
+    {
+        room = body->TakeText();
+        room.clear();
+    }
+    status = FIRST_SUCCESS;
+    body.reset();
+    return room;
+}
+
 void SplitUrl(std::string_view url, ApiRequest& request)
 {
     request.query.clear();

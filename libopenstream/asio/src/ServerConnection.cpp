@@ -2,6 +2,7 @@
 
 #include "SocketOptions.hpp"
 
+#include <boost/asio/bind_allocator.hpp>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/error.hpp>
 #include <boost/asio/post.hpp>
@@ -118,7 +119,9 @@ void ServerConnection::Do(const OpenStream::ServerSend& action)
     boost::asio::async_write(
         _socket,
         boost::asio::buffer(action.text),
-        std::bind_front(&ServerConnection::OnWritten, shared_from_this()));
+        boost::asio::bind_allocator(
+            HandlerAllocator<std::byte>(_writeMemory),
+            std::bind_front(&ServerConnection::OnWritten, shared_from_this())));
 }
 
 void ServerConnection::OnWritten(const boost::system::error_code& error, std::size_t /*size*/)
@@ -140,7 +143,8 @@ void ServerConnection::OnWritten(const boost::system::error_code& error, std::si
 
 void ServerConnection::Do(const OpenStream::ServerCall& action)
 {
-    const OpenStream::ApiResponse response = _service.Call(*action.request, _clock.GetNow());
+    OpenStream::ApiResponse& response = action.request->method == OpenStream::EApiMethod::Get ? _sample : _answer;
+    _service.Call(*action.request, _clock.GetNow(), response);
     if (!_bClosed)
     {
         _session.OnServiceAnswer(action.token, response, _clock.GetNow(), _actions);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "HandlerMemory.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/net/TimerArray.hpp>
@@ -30,6 +31,7 @@ private:
 
     static constexpr std::size_t READ_BYTES = 64U * 1024U;
 
+    HandlerMemory _writeMemory;
     boost::asio::ip::tcp::socket _socket;
     Core::IClock& _clock;
     Core::Logger _logger;
@@ -38,6 +40,8 @@ private:
     std::string _peer;
     OpenStream::ServerSession _session;
     OpenStream::ServerActions _actions;
+    OpenStream::ApiResponse _sample; ///< Of the last GET: the next one uses its room.
+    OpenStream::ApiResponse _answer; ///< Of the last CONTROL.
     std::shared_ptr<Timers> _timers;
     std::array<char, READ_BYTES> _input{};
     bool _bReading = false;

@@ -39,15 +39,16 @@ public:
     int controls = 0;
     int stops = 0;
 
-    [[nodiscard]] ApiResponse Call(const ApiRequest& request, ACS::Core::Now /*now*/) override
+    void Call(const ApiRequest& request, ACS::Core::Now /*now*/, ApiResponse& response) override
     {
         if (request.method == EApiMethod::Get)
         {
-            return ApiResponse{200, JsonText::FromInteger(++gets)};
+            response = ApiResponse{200, JsonText::FromInteger(++gets)};
+            return;
         }
         ++controls;
-        return request.path == "/refused" ? ApiResponse{403, JsonText::FromTrusted(R"({"err_code":-38500})")}
-                                          : ApiResponse{};
+        response = request.path == "/refused" ? ApiResponse{403, JsonText::FromTrusted(R"({"err_code":-38500})")}
+                                              : ApiResponse{};
     }
 
     void StopControl(ACS::Core::Now /*now*/) override

@@ -37,22 +37,24 @@ constexpr const char* URL = "/project/robot/joints/joint_states";
 /// Data lines of 200 bytes; a CONTROL is counted.
 class LoadService final : public IOpenApiService
 {
-    ApiResponse _jointStates{
-        200,
-        Core::JsonText::FromTrusted(R"({"_type":"JObject","position":[0.949533,90.949655,-1.5,0.25,45.125,3.75],)"
-                                    R"("velocity":[-0.0,0.1,0.2,0.3,0.4,0.5],"effort":[0.0,93.98,94.02,0.5]})")};
+    static constexpr std::string_view JOINT_STATES =
+        R"({"_type":"JObject","position":[0.949533,90.949655,-1.5,0.25,45.125,3.75],)"
+        R"("velocity":[-0.0,0.1,0.2,0.3,0.4,0.5],"effort":[0.0,93.98,94.02,0.5]})";
 
 public:
     std::uint64_t controls = 0;
 
-    [[nodiscard]] ApiResponse Call(const ApiRequest& request, Core::Now /*now*/) override
+    void Call(const ApiRequest& request, Core::Now /*now*/, ApiResponse& response) override
     {
         if (request.method == EApiMethod::Get)
         {
-            return _jointStates;
+            std::string text = response.TakeRoom();
+            text = JOINT_STATES;
+            response.body = Core::JsonText::FromTrusted(std::move(text));
+            return;
         }
         ++controls;
-        return {};
+        response = {};
     }
 
     void StopControl(Core::Now /*now*/) override

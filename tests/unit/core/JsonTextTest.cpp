@@ -98,3 +98,10 @@ TEST_CASE("A JSON boolean is true or false and nothing else")
     CHECK(JsonText::FromBoolean(false).GetBooleanOrNull() == false);
     CHECK_FALSE(JsonText::FromInteger(1).GetBooleanOrNull().has_value());
 }
+
+TEST_CASE("A JSON text gives its text away, and is null then")
+{
+    JsonText text = JsonText::FromTrusted(R"({"a":1})");
+    CHECK(text.TakeText() == R"({"a":1})");
+    CHECK(text == JsonText());
+}

@@ -43,7 +43,9 @@ public:
         {
             request.body = Core::JsonText::FromTrusted(std::move(body));
         }
-        return controller.Call(request, clock.GetNow());
+        OpenStream::ApiResponse response;
+        controller.Call(request, clock.GetNow(), response);
+        return response;
     }
 
     /// The body of a GET.

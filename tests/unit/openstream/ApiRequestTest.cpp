@@ -56,3 +56,14 @@ TEST_CASE("7.17 Every 2xx is a success")
         REQUIRE_FALSE(ApiResponse{status, {}}.IsSuccess());
     }
 }
+
+TEST_CASE("8 The room of an answer is used again for the next one")
+{
+    ApiResponse response{403, JsonText::FromTrusted(std::string(1000, '7'))};
+    const char* const place = response.body->GetText().data();
+    std::string room = response.TakeRoom();
+    REQUIRE(room.empty());
+    REQUIRE(room.data() == place);
+    REQUIRE(response == ApiResponse{});
+    REQUIRE(response.TakeRoom().empty());
+}

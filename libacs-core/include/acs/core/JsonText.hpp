@@ -40,6 +40,9 @@ public:
 
     [[nodiscard]] const std::string& GetText() const noexcept;
 
+    /// Gives the text away, with its room on the heap; what is left is null.
+    [[nodiscard]] std::string TakeText();
+
     /// The text of a JSON string without quotes and escapes, half a surrogate pair replaced by U+FFFD; nullopt where
     /// this is no string.
     [[nodiscard]] std::optional<std::string> GetStringOrNull() const;

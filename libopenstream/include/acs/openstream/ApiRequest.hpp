@@ -42,6 +42,10 @@ struct ApiResponse
 
     [[nodiscard]] bool IsSuccess() const noexcept;
 
+    /// Makes this 200 without a body, and gives back the text that its body had, emptied: the next one is written into it
+    /// without taking room anew.
+    [[nodiscard]] std::string TakeRoom();
+
     bool operator==(const ApiResponse&) const = default;
 };
 

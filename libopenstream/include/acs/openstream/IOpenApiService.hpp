@@ -17,8 +17,9 @@ public:
     virtual ~IOpenApiService() = default;
 
     /// Any method and path: 404 for one that it does not have. A status of 500 or more says that the service itself
-    /// failed.
-    [[nodiscard]] virtual ApiResponse Call(const ApiRequest& request, Core::Now now) = 0;
+    /// failed. Sets all of the response, which holds what an earlier call left: a service that is asked at a short period
+    /// writes into ApiResponse::TakeRoom and so takes nothing from the heap; others assign a new ApiResponse.
+    virtual void Call(const ApiRequest& request, Core::Now now, ApiResponse& response) = 0;
 
     /// A client sent STOP control: what is buffered is released, such as the points of a trajectory.
     virtual void StopControl(Core::Now now) = 0;

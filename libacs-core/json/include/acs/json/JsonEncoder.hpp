@@ -10,6 +10,7 @@
 #include <concepts>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -109,9 +110,9 @@ struct ValueEncoder<std::optional<T>>
 };
 
 template <typename T>
-struct ValueEncoder<std::vector<T>>
+struct ValueEncoder<std::span<const T>>
 {
-    static void Encode(const std::vector<T>& values, JsonWriter& writer)
+    static void Encode(std::span<const T> values, JsonWriter& writer)
     {
         writer.BeginArray();
         for (const T& value : values)
@@ -119,6 +120,15 @@ struct ValueEncoder<std::vector<T>>
             ValueEncoder<T>::Encode(value, writer);
         }
         writer.EndArray();
+    }
+};
+
+template <typename T>
+struct ValueEncoder<std::vector<T>>
+{
+    static void Encode(const std::vector<T>& values, JsonWriter& writer)
+    {
+        ValueEncoder<std::span<const T>>::Encode(values, writer);
     }
 };
 

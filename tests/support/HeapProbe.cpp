@@ -4,7 +4,7 @@
 #include <malloc.h>
 #include <new>
 
-// The linker's --wrap gives these two names to each of malloc, calloc, realloc and free.
+// The linker's --wrap gives these two names to each of malloc, calloc, realloc, aligned_alloc and free.
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming,cppcoreguidelines-no-malloc)
 // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables)
 /// Whoever asks for one looks whether it is there.
@@ -15,6 +15,7 @@ extern "C"
     Block __real_malloc(std::size_t size);
     Block __real_calloc(std::size_t count, std::size_t size);
     Block __real_realloc(void* block, std::size_t size);
+    Block __real_aligned_alloc(std::size_t alignment, std::size_t size);
     void __real_free(void* block);
 }
 
@@ -58,6 +59,12 @@ extern "C"
     {
         liveBytes -= static_cast<std::int64_t>(malloc_usable_size(block));
         return Count(__real_realloc(block, size));
+    }
+
+    /// What Asio takes its handlers' memory with.
+    Block __wrap_aligned_alloc(std::size_t alignment, std::size_t size)
+    {
+        return Count(__real_aligned_alloc(alignment, size));
     }
 
     void __wrap_free(void* block)

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <new>
+
+namespace ACS::OpenStreamAsio
+{
+
+/// Room for what Asio keeps about the one write that is in flight, so that no write takes it from the heap: what Asio keeps
+/// back by itself serves writes and timers in turns, and fits one of them only. One thread; outlives its handlers.
+class HandlerMemory
+{
+    static constexpr std::size_t BLOCK_BYTES = 512;
+
+    struct Block
+    {
+        alignas(std::max_align_t) std::array<std::byte, BLOCK_BYTES> bytes{};
+        bool bInUse = false;
+    };
+
+    std::array<Block, 2> _blocks; ///< The operation, and the call of its handler.
+
+public:
+    HandlerMemory() = default;
+    HandlerMemory(const HandlerMemory&) = delete;
+    HandlerMemory& operator=(const HandlerMemory&) = delete;
+    ~HandlerMemory() = default;
+
+    /// From the heap where it does not fit.
+    [[nodiscard]] void* Allocate(std::size_t size)
+    {
+        for (Block& block : _blocks)
+        {
+            if (!block.bInUse && size <= block.bytes.size())
+            {
+                block.bInUse = true;
+                return block.bytes.data();
+            }
+        }
+        return ::operator new(size);
+    }
+
+    void Deallocate(void* memory) noexcept
+    {
+        for (Block& block : _blocks)
+        {
+            if (memory == block.bytes.data())
+            {
+                block.bInUse = false;
+                return;
+            }
+        }
+        ::operator delete(memory);
+    }
+};
+
+/// A HandlerMemory as an allocator of the standard library. The names are the standard's.
+template <typename T>
+class HandlerAllocator
+{
+    template <typename TOther>
+    friend class HandlerAllocator;
+
+    HandlerMemory* _memory;
+
+public:
+    using value_type = T;
+
+    explicit HandlerAllocator(HandlerMemory& memory) noexcept
+        : _memory(&memory)
+    {
+    }
+
+    template <typename TOther>
+    // NOLINTNEXTLINE(google-explicit-constructor,hicpp-explicit-conversions): an allocator's rebinding is implicit.
+    HandlerAllocator(const HandlerAllocator<TOther>& other) noexcept
+        : _memory(other._memory)
+    {
+    }
+
+    [[nodiscard]] T* allocate(std::size_t count) // NOLINT(readability-identifier-naming)
+    {
+        static_assert(alignof(T) <= alignof(std::max_align_t));
+        return static_cast<T*>(_memory->Allocate(count * sizeof(T)));
+    }
+
+    void deallocate(T* memory, std::size_t /*count*/) noexcept // NOLINT(readability-identifier-naming)
+    {
+        _memory->Deallocate(memory);
+    }
+
+    bool operator==(const HandlerAllocator&) const noexcept = default;
+};
+
+} // namespace ACS::OpenStreamAsio
