@@ -158,7 +158,9 @@ void JsonWriter::WriteNull()
 void JsonWriter::WriteRaw(const Core::JsonText& value)
 {
     Separate();
-    _out += value.GetText();
+    // A line end at its end would look like the beginning of a text to what follows.
+    const std::string_view text = value.GetText();
+    _out += text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
 }
 
 } // namespace ACS::Json

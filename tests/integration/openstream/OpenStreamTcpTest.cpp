@@ -1,214 +1,17 @@
-#include "Catch.hpp"
-#include "RecordingLogSink.hpp"
-#include "SeededRandom.hpp"
-#include "SteadySystemClock.hpp"
-#include <acs/core/Overloaded.hpp>
-#include <acs/openstream_asio/OpenStreamClient.hpp>
-#include <acs/openstream_asio/OpenStreamServer.hpp>
+#include "TcpFixture.hpp"
 
-#include <boost/asio/connect.hpp>
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/read_until.hpp>
-#include <boost/asio/write.hpp>
-
-#include <algorithm>
 #include <chrono>
-#include <functional>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 using namespace ACS::OpenStream;     // NOLINT(google-build-using-namespace)
 using namespace ACS::OpenStreamAsio; // NOLINT(google-build-using-namespace)
+using namespace ACS::Testing;        // NOLINT(google-build-using-namespace)
 using namespace std::chrono_literals;
-using ACS::Core::JsonText;
-using ACS::Core::Logger;
-using Tcp = boost::asio::ip::tcp;
 
 namespace
 {
-
-constexpr std::chrono::seconds LIMIT{10};
-
-class CountingService final : public IOpenApiService
-{
-public:
-    int gets = 0;
-    int controls = 0;
-    int stops = 0;
-
-    void Call(const ApiRequest& request, ACS::Core::Now /*now*/, ApiResponse& response) override
-    {
-        if (request.method == EApiMethod::Get)
-        {
-            response = ApiResponse{200, JsonText::FromInteger(++gets)};
-            return;
-        }
-        ++controls;
-        response = request.path == "/refused" ? ApiResponse{403, JsonText::FromTrusted(R"({"err_code":-38500})")}
-                                              : ApiResponse{};
-    }
-
-    void StopControl(ACS::Core::Now /*now*/) override
-    {
-        ++stops;
-    }
-};
-
-/// A server on a free port, and what the tests need around it.
-class Fixture
-{
-public:
-    boost::asio::io_context context;
-    ACS::Testing::SteadySystemClock clock;
-    ACS::Testing::SeededRandom random;
-    ACS::Testing::RecordingLogSink log;
-    CountingService service;
-    std::vector<ClientEvent> events;
-
-    [[nodiscard]] std::unique_ptr<OpenStreamServer> MakeServer(const OpenStreamServerOptions& options)
-    {
-        return std::make_unique<OpenStreamServer>(
-            context.get_executor(),
-            clock,
-            Logger(log, "server"),
-            options,
-            service);
-    }
-
-    [[nodiscard]] std::unique_ptr<OpenStreamServer> StartServer(const OpenStreamServerOptions& options = MakeOptions())
-    {
-        std::unique_ptr<OpenStreamServer> server = MakeServer(options);
-        const auto started = server->Start();
-        REQUIRE(started.has_value());
-        REQUIRE(server->GetPort() != 0);
-        return server;
-    }
-
-    [[nodiscard]] static OpenStreamServerOptions MakeOptions()
-    {
-        OpenStreamServerOptions options;
-        options.port = 0;
-        return options;
-    }
-
-    [[nodiscard]] std::unique_ptr<OpenStreamClient> MakeClient(std::uint16_t port)
-    {
-        OpenStreamClientOptions options;
-        options.port = port;
-        options.session.controlWindow = 100ms;
-        options.session.reconnect.initial = 20ms;
-        options.session.reconnect.maximum = 50ms;
-        return std::make_unique<OpenStreamClient>(
-            context.get_executor(),
-            clock,
-            random,
-            Logger(log, "client"),
-            options,
-            [this](const ClientEvent& event, ACS::Core::Now /*now*/) { events.push_back(event); });
-    }
-
-    /// Runs handlers until the condition holds; false where it did not in time.
-    [[nodiscard]] bool TryRunUntil(const std::function<bool()>& isReached)
-    {
-        const auto end = std::chrono::steady_clock::now() + LIMIT;
-        while (!isReached() && std::chrono::steady_clock::now() < end)
-        {
-            context.restart();
-            context.run_one_for(100ms);
-        }
-        return isReached();
-    }
-
-    template <typename TEvent>
-    [[nodiscard]] std::size_t Count() const
-    {
-        return static_cast<std::size_t>(std::ranges::count_if(events, [](const ClientEvent& event) {
-            return std::holds_alternative<TEvent>(event);
-        }));
-    }
-};
-
-/// A plain socket, as any client in any language has it.
-class RawPeer
-{
-    /// Outlives the peer in the handler that its end aborts.
-    struct Reader : std::enable_shared_from_this<Reader>
-    {
-        Tcp::socket socket;
-        std::string received;
-        std::array<char, 4096> input{};
-        bool bClosed = false;
-
-        explicit Reader(boost::asio::io_context& context)
-            : socket(context)
-        {
-        }
-
-        void ReadAsync()
-        {
-            socket.async_read_some(boost::asio::buffer(input), std::bind_front(&Reader::OnRead, shared_from_this()));
-        }
-
-        void OnRead(const boost::system::error_code& error, std::size_t size)
-        {
-            bClosed = static_cast<bool>(error);
-            received.append(input.data(), size);
-            if (!error)
-            {
-                ReadAsync();
-            }
-        }
-    };
-
-    Fixture& _fixture;
-    std::shared_ptr<Reader> _reader;
-
-public:
-    RawPeer(Fixture& fixture, std::uint16_t port)
-        : _fixture(fixture),
-          _reader(std::make_shared<Reader>(fixture.context))
-    {
-        _reader->socket.connect(Tcp::endpoint(boost::asio::ip::address_v4::loopback(), port));
-        _reader->ReadAsync();
-    }
-
-    RawPeer(const RawPeer&) = delete;
-    RawPeer& operator=(const RawPeer&) = delete;
-
-    ~RawPeer()
-    {
-        boost::system::error_code ignored;
-        static_cast<void>(_reader->socket.close(ignored));
-    }
-
-    void Send(std::string_view bytes)
-    {
-        boost::asio::write(_reader->socket, boost::asio::buffer(bytes));
-    }
-
-    void CloseSending()
-    {
-        _reader->socket.shutdown(Tcp::socket::shutdown_send);
-    }
-
-    [[nodiscard]] bool TryAwait(std::string_view part)
-    {
-        return _fixture.TryRunUntil([this, part]() { return _reader->received.find(part) != std::string::npos; });
-    }
-
-    [[nodiscard]] bool TryAwaitClose()
-    {
-        return _fixture.TryRunUntil([this]() { return _reader->bClosed; });
-    }
-
-    [[nodiscard]] const std::string& GetReceived() const
-    {
-        return _reader->received;
-    }
-};
 
 const MonitorRequest MONITOR{"/project/rgen", 20ms, {}, {}}; // NOLINT(cert-err58-cpp)
 
@@ -216,7 +19,7 @@ const MonitorRequest MONITOR{"/project/rgen", 20ms, {}, {}}; // NOLINT(cert-err5
 
 TEST_CASE("3 Handshake, a MONITOR at 20 ms delivers, a good CONTROL is accepted, a refused one tells why")
 {
-    Fixture fixture;
+    TcpFixture fixture;
     const auto server = fixture.StartServer();
     const auto client = fixture.MakeClient(server->GetPort());
     client->SetMonitor(MONITOR);
@@ -260,9 +63,9 @@ TEST_CASE("3 Handshake, a MONITOR at 20 ms delivers, a good CONTROL is accepted,
 
 TEST_CASE("8 A server that comes back finds the client again, with its MONITOR")
 {
-    Fixture fixture;
+    TcpFixture fixture;
     auto server = fixture.StartServer();
-    OpenStreamServerOptions options = Fixture::MakeOptions();
+    OpenStreamServerOptions options = TcpFixture::MakeOptions();
     options.port = server->GetPort();
     const auto client = fixture.MakeClient(options.port);
     client->SetMonitor(MONITOR);
@@ -280,7 +83,7 @@ TEST_CASE("8 A server that comes back finds the client again, with its MONITOR")
 
 TEST_CASE("8 A server that is stopped and started again at once accepts as before, and warns of nothing")
 {
-    Fixture fixture;
+    TcpFixture fixture;
     const auto server = fixture.StartServer();
     server->Stop();
     REQUIRE(server->GetPort() == 0);
@@ -294,7 +97,7 @@ TEST_CASE("8 A server that is stopped and started again at once accepts as befor
 
 TEST_CASE("8 Sessions that are dropped without a line come back")
 {
-    Fixture fixture;
+    TcpFixture fixture;
     const auto server = fixture.StartServer();
     const auto client = fixture.MakeClient(server->GetPort());
     client->Start();
@@ -306,7 +109,7 @@ TEST_CASE("8 Sessions that are dropped without a line come back")
 
 TEST_CASE("1 7.33 7.34 Half lines, CRLF and garbage over a real socket")
 {
-    Fixture fixture;
+    TcpFixture fixture;
     const auto server = fixture.StartServer();
     RawPeer peer(fixture, server->GetPort());
     peer.Send("\xFF\xFEgarbage\r\n\r\n{\"cmd\":\"HAND");
@@ -320,7 +123,7 @@ TEST_CASE("1 7.33 7.34 Half lines, CRLF and garbage over a real socket")
 
 TEST_CASE("7.20 An overlong line gets its error and the close, other sessions do not notice")
 {
-    Fixture fixture;
+    TcpFixture fixture;
     const auto server = fixture.StartServer();
     const auto client = fixture.MakeClient(server->GetPort());
     client->SetMonitor(MONITOR);
@@ -343,7 +146,7 @@ TEST_CASE("7.20 An overlong line gets its error and the close, other sessions do
 
 TEST_CASE("7.39 Half-close: the answers come, then the server closes")
 {
-    Fixture fixture;
+    TcpFixture fixture;
     const auto server = fixture.StartServer();
     RawPeer peer(fixture, server->GetPort());
     peer.Send("{\"cmd\":\"HANDSHAKE\",\"payload\":{\"major\":1}}\n"
@@ -357,8 +160,8 @@ TEST_CASE("7.39 Half-close: the answers come, then the server closes")
 
 TEST_CASE("7.12 The session too many is rejected with a line, and its place is free again later")
 {
-    Fixture fixture;
-    OpenStreamServerOptions options = Fixture::MakeOptions();
+    TcpFixture fixture;
+    OpenStreamServerOptions options = TcpFixture::MakeOptions();
     options.maximumSessions = 1;
     const auto server = fixture.StartServer(options);
     {
@@ -377,9 +180,9 @@ TEST_CASE("7.12 The session too many is rejected with a line, and its place is f
 
 TEST_CASE("1 A port in use is a sentence that names the address and what to do")
 {
-    Fixture fixture;
+    TcpFixture fixture;
     const auto server = fixture.StartServer();
-    OpenStreamServerOptions options = Fixture::MakeOptions();
+    OpenStreamServerOptions options = TcpFixture::MakeOptions();
     options.port = server->GetPort();
     const auto second = fixture.MakeServer(options);
     const auto started = second->Start();
@@ -392,7 +195,7 @@ TEST_CASE("1 A port in use is a sentence that names the address and what to do")
 
 TEST_CASE("8 Destroying both ends in mid stream leaves no handler behind")
 {
-    Fixture fixture;
+    TcpFixture fixture;
     auto server = fixture.StartServer();
     auto client = fixture.MakeClient(server->GetPort());
     client->SetMonitor(MonitorRequest{"/project/rgen", 2ms, {}, {}});

@@ -1,196 +1,14 @@
 #include "Catch.hpp"
-#include "ManualClock.hpp"
-#include "SeededRandom.hpp"
-#include <acs/openstream/ClientSession.hpp>
+#include "ClientHarness.hpp"
 
-#include <array>
 #include <chrono>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 using namespace ACS::OpenStream; // NOLINT(google-build-using-namespace)
 using namespace ACS::Testing;    // NOLINT(google-build-using-namespace)
 using namespace std::chrono_literals;
-
-namespace
-{
-
-constexpr std::string_view ACK = "{\"type\":\"handshake_ack\",\"ok\":true,\"version\":\"1.0.0\"}\n";
-constexpr std::string_view MONITOR_ACK = "{\"type\":\"monitor_ack\"}\n";
-
-/// A ClientSession in virtual time. A send leaves at once unless bSocketTakes is false.
-class ClientHarness
-{
-public:
-    ManualClock clock;
-    SeededRandom random;
-    ClientSession session;
-    std::vector<std::string> lines;
-    std::vector<ClientEvent> events;
-    int connects = 0;
-    int closes = 0;
-    bool bSocketTakes = true;
-
-private:
-    std::array<std::optional<ACS::Core::SteadyTime>, CLIENT_TIMER_COUNT> _deadlines;
-
-    void Do(const ClientEvent& event)
-    {
-        events.push_back(event);
-    }
-
-    void Do(const ClientConnect& /*action*/)
-    {
-        ++connects;
-    }
-
-    void Do(const ClientSend& action)
-    {
-        std::string_view rest = action.text;
-        while (!rest.empty())
-        {
-            const std::size_t end = rest.find('\n');
-            lines.emplace_back(rest.substr(0, end));
-            rest.remove_prefix(end + 1);
-        }
-        if (bSocketTakes)
-        {
-            session.OnSendCompleted(clock.GetNow(), actions);
-        }
-    }
-
-    void Do(const ClientClose& /*action*/)
-    {
-        ++closes;
-    }
-
-    void Do(const ClientStartTimer& action)
-    {
-        _deadlines.at(static_cast<std::size_t>(action.timer)) = action.deadline;
-    }
-
-    void Do(const ClientCancelTimer& action)
-    {
-        _deadlines.at(static_cast<std::size_t>(action.timer)).reset();
-    }
-
-public:
-    ClientActions actions;
-
-    explicit ClientHarness(const ClientSessionOptions& options = {})
-        : session(options, random)
-    {
-    }
-
-    [[nodiscard]] ACS::Core::Now GetNow() const
-    {
-        return clock.GetNow();
-    }
-
-    void Execute()
-    {
-        std::size_t index = 0;
-        while (index < actions.size()) // grows underway
-        {
-            const ClientAction action = actions[index];
-            std::visit([this](const auto& content) { Do(content); }, action);
-            ++index;
-        }
-        actions.clear();
-    }
-
-    void Receive(std::string_view bytes)
-    {
-        session.OnBytes(bytes, GetNow(), actions);
-        Execute();
-    }
-
-    void Start()
-    {
-        session.Start(GetNow(), actions);
-        Execute();
-    }
-
-    void ConnectAndShake()
-    {
-        session.OnConnected(GetNow(), actions);
-        Execute();
-        Receive(ACK);
-    }
-
-    void SetMonitor(std::chrono::milliseconds period)
-    {
-        session.SetMonitor(MonitorRequest{"/project/rgen", period, {}, {}}, GetNow(), actions);
-        Execute();
-    }
-
-    std::uint64_t Control(const std::string& url, EControlTracking tracking = EControlTracking::Tracked)
-    {
-        const std::uint64_t token =
-            session.SendControl(ControlRequest{EApiMethod::Post, url, {}, {}}, tracking, GetNow(), actions);
-        Execute();
-        return token;
-    }
-
-    void Pass(std::chrono::milliseconds span)
-    {
-        for (std::chrono::milliseconds passed{0}; passed < span; ++passed)
-        {
-            clock.Advance(1ms);
-            for (std::size_t index = 0; index < _deadlines.size(); ++index)
-            {
-                if (_deadlines.at(index).has_value() && *_deadlines.at(index) <= GetNow().steady)
-                {
-                    _deadlines.at(index).reset();
-                    session.OnTimer(static_cast<EClientTimer>(index), GetNow(), actions);
-                    Execute();
-                }
-            }
-        }
-    }
-
-    template <typename TEvent>
-    [[nodiscard]] std::vector<TEvent> Take()
-    {
-        std::vector<TEvent> taken;
-        for (const ClientEvent& event : events)
-        {
-            if (const auto* match = std::get_if<TEvent>(&event))
-            {
-                taken.push_back(*match);
-            }
-        }
-        std::erase_if(events, [](const ClientEvent& event) { return std::holds_alternative<TEvent>(event); });
-        return taken;
-    }
-
-    [[nodiscard]] std::size_t CountLines(std::string_view part) const
-    {
-        std::size_t count = 0;
-        for (const std::string& line : lines)
-        {
-            count += line.find(part) == std::string::npos ? 0U : 1U;
-        }
-        return count;
-    }
-};
-
-void MakeReady(ClientHarness& client)
-{
-    client.Start();
-    client.ConnectAndShake();
-    client.lines.clear();
-    client.events.clear();
-}
-
-std::string MakeData(int ts)
-{
-    return R"({"type":"data","ts":)" + std::to_string(ts) + R"(,"svc_dur_ms":0.1,"result":{"a":1}})" + "\n";
-}
-
-} // namespace
 
 TEST_CASE("3 The client shakes hands first and sets up the MONITOR that it was given")
 {
@@ -201,7 +19,7 @@ TEST_CASE("3 The client shakes hands first and sets up the MONITOR that it was g
     client.session.OnConnected(client.GetNow(), client.actions);
     client.Execute();
     REQUIRE(client.lines == std::vector<std::string>{R"({"cmd":"HANDSHAKE","payload":{"major":1}})"});
-    client.Receive(ACK);
+    client.Receive(HANDSHAKE_ACK);
     REQUIRE(client.Take<ClientReady>().at(0).version == "1.0.0");
     // 7.1: never outside 2 to 30000
     REQUIRE(
@@ -420,7 +238,7 @@ TEST_CASE("4 Only the codes that end a session cost the connection")
     {
         ClientHarness client;
         MakeReady(client);
-        client.Receive(std::string(R"({"error":")") + code + "\",\"message\":\"m\"}\n" + std::string(ACK));
+        client.Receive(std::string(R"({"error":")") + code + "\",\"message\":\"m\"}\n" + std::string(HANDSHAKE_ACK));
         REQUIRE(client.Take<ClientLost>().at(0).reason == EClientLossReason::SessionEnded);
         REQUIRE(client.session.GetState() == EClientState::Waiting);
     }
