@@ -4,22 +4,21 @@
 #include "RecordingLogSink.hpp"
 #include "SeededRandom.hpp"
 #include "SteadySystemClock.hpp"
-#include <acs/core/Overloaded.hpp>
 #include <acs/openstream_asio/OpenStreamClient.hpp>
 #include <acs/openstream_asio/OpenStreamServer.hpp>
 
-#include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/read_until.hpp>
 #include <boost/asio/write.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 namespace ACS::Testing
@@ -33,17 +32,32 @@ public:
     int gets = 0;
     int controls = 0;
     int stops = 0;
+    std::chrono::milliseconds duration{0}; ///< Of a call: how slow the service is.
 
     void Call(const OpenStream::ApiRequest& request, Core::Now /*now*/, OpenStream::ApiResponse& response) override
     {
         if (request.method == OpenStream::EApiMethod::Get)
         {
-            response = OpenStream::ApiResponse{200, Core::JsonText::FromInteger(++gets)};
+            ++gets;
+            std::this_thread::sleep_for(duration);
+            response = OpenStream::ApiResponse{200, MakeSample(request.path)};
             return;
         }
         ++controls;
-        response = request.path == "/refused" ? OpenStream::ApiResponse{403, Core::JsonText::FromTrusted(R"({"err_code":-38500})")}
-                                              : OpenStream::ApiResponse{};
+        response = request.path == "/refused"
+            ? OpenStream::ApiResponse{403, Core::JsonText::FromTrusted(R"({"err_code":-38500})")}
+            : OpenStream::ApiResponse{};
+    }
+
+    /// "/big" is 16 KiB, "/path…" says its own path, any other counts.
+    [[nodiscard]] Core::JsonText MakeSample(const std::string& path) const
+    {
+        if (path == "/big")
+        {
+            constexpr std::size_t BIG = 16U * 1024U;
+            return Core::JsonText::FromString(std::string(BIG, 'b'));
+        }
+        return path.starts_with("/path") ? Core::JsonText::FromString(path) : Core::JsonText::FromInteger(gets);
     }
 
     void StopControl(Core::Now /*now*/) override
@@ -63,7 +77,8 @@ public:
     CountingService service;
     std::vector<OpenStream::ClientEvent> events;
 
-    [[nodiscard]] std::unique_ptr<OpenStreamAsio::OpenStreamServer> MakeServer(const OpenStreamAsio::OpenStreamServerOptions& options)
+    [[nodiscard]] std::unique_ptr<OpenStreamAsio::OpenStreamServer> MakeServer(
+        const OpenStreamAsio::OpenStreamServerOptions& options)
     {
         return std::make_unique<OpenStreamAsio::OpenStreamServer>(
             context.get_executor(),
@@ -73,7 +88,8 @@ public:
             service);
     }
 
-    [[nodiscard]] std::unique_ptr<OpenStreamAsio::OpenStreamServer> StartServer(const OpenStreamAsio::OpenStreamServerOptions& options = MakeOptions())
+    [[nodiscard]] std::unique_ptr<OpenStreamAsio::OpenStreamServer> StartServer(
+        const OpenStreamAsio::OpenStreamServerOptions& options = MakeOptions())
     {
         std::unique_ptr<OpenStreamAsio::OpenStreamServer> server = MakeServer(options);
         const auto started = server->Start();
@@ -163,10 +179,27 @@ class RawPeer
 
 public:
     RawPeer(TcpFixture& fixture, std::uint16_t port)
+        : RawPeer(fixture, port, 0)
+    {
+        Read();
+    }
+
+    /// With a receive buffer of that many bytes, 0 for the system's own; reads nothing before Read.
+    RawPeer(TcpFixture& fixture, std::uint16_t port, int receiveBuffer)
         : _fixture(fixture),
           _reader(std::make_shared<Reader>(fixture.context))
     {
-        _reader->socket.connect(boost::asio::ip::tcp::endpoint(boost::asio::ip::address_v4::loopback(), port));
+        const boost::asio::ip::tcp::endpoint server(boost::asio::ip::address_v4::loopback(), port);
+        _reader->socket.open(server.protocol());
+        if (receiveBuffer != 0)
+        {
+            _reader->socket.set_option(boost::asio::socket_base::receive_buffer_size(receiveBuffer));
+        }
+        _reader->socket.connect(server);
+    }
+
+    void Read()
+    {
         _reader->ReadAsync();
     }
 
@@ -192,6 +225,35 @@ public:
     [[nodiscard]] bool TryAwait(std::string_view part)
     {
         return _fixture.TryRunUntil([this, part]() { return _reader->received.find(part) != std::string::npos; });
+    }
+
+    /// As many lines with this in them.
+    [[nodiscard]] bool TryAwaitCount(std::string_view part, std::size_t count)
+    {
+        return _fixture.TryRunUntil([this, part, count]() { return CountLines(part) >= count; });
+    }
+
+    [[nodiscard]] std::size_t CountLines(std::string_view part) const
+    {
+        std::size_t count = 0;
+        for (const std::string& line : GetLines())
+        {
+            count += line.find(part) == std::string::npos ? 0U : 1U;
+        }
+        return count;
+    }
+
+    /// The whole lines so far.
+    [[nodiscard]] std::vector<std::string> GetLines() const
+    {
+        std::vector<std::string> lines;
+        std::string_view rest = _reader->received;
+        for (std::size_t end = rest.find('\n'); end != std::string_view::npos; end = rest.find('\n'))
+        {
+            lines.emplace_back(rest.substr(0, end));
+            rest.remove_prefix(end + 1);
+        }
+        return lines;
     }
 
     [[nodiscard]] bool TryAwaitClose()

@@ -122,10 +122,15 @@ public:
         Execute();
     }
 
-    std::uint64_t Control(const std::string& url, OpenStream::EControlTracking tracking = OpenStream::EControlTracking::Tracked)
+    std::uint64_t Control(
+        const std::string& url,
+        OpenStream::EControlTracking tracking = OpenStream::EControlTracking::Tracked)
     {
-        const std::uint64_t token =
-            session.SendControl(OpenStream::ControlRequest{OpenStream::EApiMethod::Post, url, {}, {}}, tracking, GetNow(), actions);
+        const std::uint64_t token = session.SendControl(
+            OpenStream::ControlRequest{OpenStream::EApiMethod::Post, url, {}, {}},
+            tracking,
+            GetNow(),
+            actions);
         Execute();
         return token;
     }
@@ -158,7 +163,9 @@ public:
                 taken.push_back(*match);
             }
         }
-        std::erase_if(events, [](const OpenStream::ClientEvent& event) { return std::holds_alternative<TEvent>(event); });
+        std::erase_if(events, [](const OpenStream::ClientEvent& event) {
+            return std::holds_alternative<TEvent>(event);
+        });
         return taken;
     }
 

@@ -111,7 +111,8 @@ TEST_CASE("4 Each code of a HANDSHAKE that is wrong: one error line, and another
     }
 }
 
-TEST_CASE("7.2 7.8 7.23 7.29 7.30 7.31 7.32 7.34 7.35 7.36 7.37 7.38 Each bad line costs one error line and nothing else")
+TEST_CASE(
+    "7.2 7.8 7.23 7.29 7.30 7.31 7.32 7.34 7.35 7.36 7.37 7.38 Each bad line costs one error line and nothing else")
 {
     const std::string url = R"("url":"/a",)";
     const std::string get = url + R"("method":"GET",)";
