@@ -268,6 +268,7 @@ void OpenStreamRobotAdapter::TakeSettled(const OpenStream::ClientControlSettled&
         case OpenStream::EControlOutcome::NotSent:
             FailJob("the arm's controller could not be reached: " + settled.detail, out);
             break;
+        case OpenStream::EControlOutcome::Unconfirmed: // not asked for
         case OpenStream::EControlOutcome::Unknown:
             if (_phase == EJobPhase::Selecting)
             {

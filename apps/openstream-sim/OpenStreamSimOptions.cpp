@@ -92,6 +92,10 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, OpenStr
         "How long a program takes, and whether it fails at its end: 11=3s or 12=500ms,fail")
         .type_name("NUMBER=DURATION[,fail]");
     app.add_flag("--ready", options.host.controller.bMotorOn, "Begin with the motor on");
+    app.add_flag(
+        "--realtime",
+        options.bRealTime,
+        "Ask the system for a real-time priority, precise timers and locked memory; go on without what it refuses");
     Apps::AddCommonOptions(app, options.common);
     return Apps::ParseCommandLineOrNull(app, argc, argv);
 }

@@ -15,6 +15,7 @@ inline constexpr std::string_view PROGRAM_NAME = "openstream-sim";
 struct OpenStreamSimOptions
 {
     HostOptions host;
+    bool bRealTime = false;
     Apps::CommonOptions common;
 };
 

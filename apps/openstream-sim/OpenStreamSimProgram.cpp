@@ -5,6 +5,7 @@
 #include "common/SpdlogSink.hpp"
 #include "common/SystemClock.hpp"
 #include "OpenStreamSimOptions.hpp"
+#include <acs/openstream_asio/RealTime.hpp>
 
 #include <boost/asio/io_context.hpp>
 
@@ -25,7 +26,15 @@ int RunOpenStreamSim(int argc, const char* const* argv)
     Apps::SystemClock clock;
     Apps::SpdlogSink sink(options.common.logLevel);
     boost::asio::io_context context(1);
-    ControllerHost host(context.get_executor(), clock, Core::Logger(sink, std::string(PROGRAM_NAME)), options.host);
+    const Core::Logger logger(sink, std::string(PROGRAM_NAME));
+    if (options.bRealTime)
+    {
+        for (const std::string& refusal : OpenStreamAsio::TuneThread(OpenStreamAsio::RealTimeOptions::MakeAll()))
+        {
+            logger.Warning(refusal);
+        }
+    }
+    ControllerHost host(context.get_executor(), clock, logger, options.host);
     const Core::Result<void> started = host.Start();
     if (!started.has_value())
     {

@@ -1,10 +1,10 @@
+#include "ClientEvents.hpp"
 #include <acs/openstream/ClientSession.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <utility>
 
 namespace ACS::OpenStream
@@ -18,13 +18,9 @@ std::string Describe(const ErrorLine& error)
     return fmt::format("{}: {}{}{}", error.codeText, error.message, error.hint.empty() ? "" : "; hint: ", error.hint);
 }
 
-template <typename TEvent>
-void Report(TEvent event, ClientActions& out)
-{
-    out.emplace_back(ClientEvent(std::move(event)));
-}
-
 } // namespace
+
+using Detail::Report;
 
 ClientSession::ClientSession(const ClientSessionOptions& options, Core::IRandom& random)
     : _options(options),
@@ -69,59 +65,6 @@ void ClientSession::Stop(Core::Now now, ClientActions& out)
     SettleWaiting("the session was stopped", out);
     _state = EClientState::Ending;
     SendAwaited(StopRequest{EStopTarget::Session}, EInFlight::StopSession, now, out);
-}
-
-void ClientSession::SetMonitor(std::optional<MonitorRequest> monitorOrNull, Core::Now now, ClientActions& out)
-{
-    _monitor = std::move(monitorOrNull);
-    if (_monitor.has_value())
-    {
-        _monitor->period = std::clamp(_monitor->period, MINIMUM_PERIOD, MAXIMUM_PERIOD);
-    }
-    _bMonitorDue = true;
-    SendNext(now, out);
-}
-
-std::uint64_t ClientSession::SendControl(
-    const ControlRequest& request,
-    EControlTracking tracking,
-    Core::Now now,
-    ClientActions& out)
-{
-    const std::uint64_t token = ++_lastToken;
-    const bool bReady = _state == EClientState::Ready && !_outbox.IsFull();
-    const std::string_view obstacle = bReady ? "too many CONTROLs wait" : "there is no session with the controller";
-    if (tracking == EControlTracking::Streamed)
-    {
-        if (bReady)
-        {
-            SendNow(request, out);
-        }
-        else
-        {
-            Report(ClientControlFault{0, std::nullopt, fmt::format("not sent: {}", obstacle)}, out);
-        }
-        return token;
-    }
-    if (!bReady || !_controls.TryPush(PendingControl{token, request}))
-    {
-        Report(ClientControlSettled{token, EControlOutcome::NotSent, 0, std::nullopt, std::string(obstacle)}, out);
-        return token;
-    }
-    SendNext(now, out);
-    return token;
-}
-
-void ClientSession::StopControl(Core::Now now, ClientActions& out)
-{
-    if (_state != EClientState::Ready)
-    {
-        return;
-    }
-    SettleInFlight(EControlOutcome::Unknown, "STOP control followed it", out);
-    SettleWaiting("STOP control went before it", out);
-    SendNow(StopRequest{EStopTarget::Control}, out);
-    SendNext(now, out);
 }
 
 void ClientSession::OnConnected(Core::Now now, ClientActions& out)
@@ -200,49 +143,6 @@ void ClientSession::Handle(HandshakeAck& ack, Core::Now now, ClientActions& out)
     SendNext(now, out);
 }
 
-void ClientSession::Handle(MonitorAck& /*ack*/, Core::Now now, ClientActions& out)
-{
-    if (_inFlight != EInFlight::Monitor)
-    {
-        return;
-    }
-    FinishInFlight(out);
-    _bMonitorOn = true;
-    _bStale = false;
-    _lastTs.reset();
-    _lastDataAt = now.steady;
-    Report(ClientMonitorStarted{}, out);
-    ArmDataAge(out);
-    SendNext(now, out);
-}
-
-void ClientSession::Handle(DataLine& line, Core::Now now, ClientActions& out)
-{
-    if (_state != EClientState::Ready || !_monitor.has_value())
-    {
-        return; // still on its way when the stream was stopped
-    }
-    CountMissing(line);
-    _lastDataAt = now.steady;
-    _bStale = false;
-    ArmDataAge(out);
-    Report(ClientData{std::move(line), now}, out);
-}
-
-void ClientSession::CountMissing(const DataLine& line)
-{
-    ++_stats.dataLines;
-    const double period = static_cast<double>(_monitor->period.count());
-    const double steps = _lastTs.has_value() ? std::round((line.ts - *_lastTs) / period) : 1.0;
-    // A step beyond a day's is no loss but another clock.
-    constexpr double MOST = 50'000'000.0;
-    if (steps > 1.0 && steps < MOST)
-    {
-        _stats.missingLines += static_cast<std::uint64_t>(steps) - 1;
-    }
-    _lastTs = line.ts;
-}
-
 void ClientSession::Handle(StopAck& ack, Core::Now now, ClientActions& out)
 {
     if (_state == EClientState::Ending && ack.target == EStopTarget::Session)
@@ -257,16 +157,6 @@ void ClientSession::Handle(StopAck& ack, Core::Now now, ClientActions& out)
         _bMonitorStopFirst = false;
     }
     Report(ClientStopped{ack.target}, out);
-    SendNext(now, out);
-}
-
-void ClientSession::Handle(ControlError& error, Core::Now now, ClientActions& out)
-{
-    RefuseControl(
-        error.status,
-        std::move(error.body),
-        fmt::format("the controller refused the CONTROL with status {}", error.status),
-        out);
     SendNext(now, out);
 }
 
@@ -321,19 +211,6 @@ void ClientSession::HandleErrorWhenReady(ErrorLine& error, Core::Now now, Client
     SendNext(now, out);
 }
 
-void ClientSession::HandleMonitorError(ErrorLine& error, ClientActions& out)
-{
-    FinishInFlight(out);
-    if (error.code == EOpenStreamErrorCode::MonitorAlreadyActive && !std::exchange(_bMonitorStopFirst, true))
-    {
-        _bMonitorOn = true;
-        _bMonitorDue = true;
-        return;
-    }
-    _bMonitorStopFirst = false;
-    Report(ClientMonitorRefused{std::move(error)}, out);
-}
-
 void ClientSession::HandleStopError(ErrorLine& error, ClientActions& out)
 {
     const bool bOfMonitor = _inFlight == EInFlight::StopMonitor;
@@ -353,43 +230,6 @@ void ClientSession::HandleStopError(ErrorLine& error, ClientActions& out)
     }
 }
 
-void ClientSession::RefuseControl(
-    int status,
-    std::optional<Core::JsonText> body,
-    std::string detail,
-    ClientActions& out)
-{
-    if (_inFlight != EInFlight::Control)
-    {
-        Report(ClientControlFault{status, std::move(body), std::move(detail)}, out);
-        return;
-    }
-    FinishInFlight(out);
-    Report(
-        ClientControlSettled{_controlToken, EControlOutcome::Refused, status, std::move(body), std::move(detail)},
-        out);
-}
-
-/// Ends the tracking of a CONTROL in flight, if there is one.
-void ClientSession::SettleInFlight(EControlOutcome outcome, std::string_view detail, ClientActions& out)
-{
-    if (_inFlight == EInFlight::Control)
-    {
-        FinishInFlight(out);
-        Report(ClientControlSettled{_controlToken, outcome, 0, std::nullopt, std::string(detail)}, out);
-    }
-}
-
-void ClientSession::SettleWaiting(std::string_view detail, ClientActions& out)
-{
-    while (const std::optional<PendingControl> control = _controls.PopFrontOrNull())
-    {
-        Report(
-            ClientControlSettled{control->token, EControlOutcome::NotSent, 0, std::nullopt, std::string(detail)},
-            out);
-    }
-}
-
 void ClientSession::FinishInFlight(ClientActions& out)
 {
     _inFlight = EInFlight::Nothing;
@@ -403,35 +243,10 @@ void ClientSession::SendNext(Core::Now now, ClientActions& out)
     {
         return;
     }
-    if (const std::optional<PendingControl> control = _controls.PopFrontOrNull())
+    if (std::optional<PendingControl> control = _controls.PopFrontOrNull())
     {
-        _controlToken = control->token;
-        _bControlLeft = false;
-        _inFlight = EInFlight::Control;
-        OpenStreamCodec::EncodeRequest(control->request, _outbox.GetLines());
-        _controlMark = _outbox.GetMark();
-        Flush(out);
+        SendControlInTurn(std::move(*control), out);
     }
-}
-
-bool ClientSession::TrySendMonitorWish(Core::Now now, ClientActions& out)
-{
-    if (!_bMonitorDue)
-    {
-        return false;
-    }
-    if (_bMonitorOn && (!_monitor.has_value() || _bMonitorStopFirst))
-    {
-        _bMonitorDue = _monitor.has_value();
-        SendAwaited(StopRequest{EStopTarget::Monitor}, EInFlight::StopMonitor, now, out);
-        return true;
-    }
-    _bMonitorDue = false;
-    if (_monitor.has_value())
-    {
-        SendAwaited(*_monitor, EInFlight::Monitor, now, out);
-    }
-    return _monitor.has_value();
 }
 
 void ClientSession::SendNow(const OpenStreamRequest& request, ClientActions& out)
@@ -465,6 +280,7 @@ void ClientSession::OnSendCompleted(Core::Now now, ClientActions& out)
     if (_inFlight == EInFlight::Control && !_bControlLeft && _outbox.WasSent(_controlMark))
     {
         _bControlLeft = true;
+        _controlLeftAt = now.steady;
         out.emplace_back(ClientStartTimer{EClientTimer::Answer, now.steady + _options.controlWindow});
     }
     Flush(out);
@@ -509,6 +325,10 @@ void ClientSession::OnTimer(EClientTimer timer, Core::Now now, ClientActions& ou
             _bDataAgeArmed = false;
             CheckDataAge(now, out);
             break;
+        case EClientTimer::Control:
+            _bControlTimerArmed = false;
+            CheckControls(now, out);
+            break;
         case EClientTimer::Retry:
             if (_state == EClientState::Waiting)
             {
@@ -528,7 +348,7 @@ void ClientSession::OnAnswerTimeout(Core::Now now, ClientActions& out)
         case EInFlight::Nothing:
             break;
         case EInFlight::Control:
-            SettleInFlight(EControlOutcome::Accepted, {}, out);
+            FinishControlWindow(now, out);
             SendNext(now, out);
             break;
         case EInFlight::StopSession:
@@ -543,50 +363,6 @@ void ClientSession::OnAnswerTimeout(Core::Now now, ClientActions& out)
             assert(false && "unhandled EInFlight");
             break;
     }
-}
-
-std::chrono::milliseconds ClientSession::GetDataLimit() const noexcept
-{
-    const bool bWaitsForStale = !_bStale && _options.staleAfter.count() > 0;
-    return bWaitsForStale ? _options.staleAfter : _options.lostAfter;
-}
-
-/// Started forward only, and again where it fires early: see the watchdog of ServerSession.
-void ClientSession::ArmDataAge(ClientActions& out)
-{
-    const std::chrono::milliseconds limit = GetDataLimit();
-    if (!_bMonitorOn || !_monitor.has_value() || limit.count() <= 0)
-    {
-        return;
-    }
-    const Core::SteadyTime deadline = _lastDataAt + _monitor->period + limit;
-    if (!_bDataAgeArmed || deadline < _dataAgeAt)
-    {
-        _bDataAgeArmed = true;
-        _dataAgeAt = deadline;
-        out.emplace_back(ClientStartTimer{EClientTimer::DataAge, deadline});
-    }
-}
-
-void ClientSession::CheckDataAge(Core::Now now, ClientActions& out)
-{
-    if (_state != EClientState::Ready || !_bMonitorOn || !_monitor.has_value())
-    {
-        return;
-    }
-    const auto age = std::chrono::duration_cast<std::chrono::milliseconds>(now.steady - _lastDataAt);
-    const std::chrono::milliseconds overdue = age - _monitor->period;
-    if (!_bStale && _options.staleAfter.count() > 0 && overdue >= _options.staleAfter)
-    {
-        _bStale = true;
-        Report(ClientMonitorStale{age}, out);
-    }
-    if (_options.lostAfter.count() > 0 && overdue >= _options.lostAfter)
-    {
-        Lose(EClientLossReason::DataSilent, "the controller sent no data", now, out);
-        return;
-    }
-    ArmDataAge(out);
 }
 
 bool ClientSession::IsConnected() const noexcept
@@ -609,13 +385,20 @@ void ClientSession::DropConnection(std::string_view detail, ClientActions& out)
 {
     const bool bLeft = _outbox.WasTaken(_controlMark);
     SettleInFlight(bLeft ? EControlOutcome::Unknown : EControlOutcome::NotSent, detail, out);
+    SettleConfirmations(detail, out);
     SettleWaiting(detail, out);
     _inFlight = EInFlight::Nothing;
+    _latest.reset();
+    _bControlTimerArmed = false;
     _bMonitorOn = false;
     _bStale = false;
     _bDataAgeArmed = false;
     for (const EClientTimer timer :
-         {EClientTimer::Connect, EClientTimer::Answer, EClientTimer::DataAge, EClientTimer::Retry})
+         {EClientTimer::Connect,
+          EClientTimer::Answer,
+          EClientTimer::DataAge,
+          EClientTimer::Retry,
+          EClientTimer::Control})
     {
         out.emplace_back(ClientCancelTimer{timer});
     }

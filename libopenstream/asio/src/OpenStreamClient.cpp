@@ -273,6 +273,13 @@ public:
         return token;
     }
 
+    std::uint64_t SendControl(OpenStream::ControlCall call)
+    {
+        const std::uint64_t token = _session.SendControl(std::move(call), _clock.GetNow(), _actions);
+        Execute();
+        return token;
+    }
+
     void StopControl()
     {
         _session.StopControl(_clock.GetNow(), _actions);
@@ -332,6 +339,11 @@ std::uint64_t OpenStreamClient::SendControl(
     return _impl->SendControl(request, tracking);
 }
 
+std::uint64_t OpenStreamClient::SendControl(OpenStream::ControlCall call)
+{
+    return _impl->SendControl(std::move(call));
+}
+
 void OpenStreamClient::StopControl()
 {
     _impl->StopControl();
@@ -345,6 +357,16 @@ OpenStream::EClientState OpenStreamClient::GetState() const noexcept
 const OpenStream::ClientSessionStats& OpenStreamClient::GetStats() const noexcept
 {
     return _impl->GetSession().GetStats();
+}
+
+const OpenStream::ClientData* OpenStreamClient::GetLatestOrNull() const noexcept
+{
+    return _impl->GetSession().GetLatestOrNull();
+}
+
+OpenStream::StreamQuality OpenStreamClient::GetQuality() const
+{
+    return _impl->GetSession().GetQuality();
 }
 
 } // namespace ACS::OpenStreamAsio

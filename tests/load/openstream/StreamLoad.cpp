@@ -2,6 +2,7 @@
 #include "common/CommandLine.hpp"
 #include "ServedStream.hpp"
 #include "StallWatch.hpp"
+#include <acs/openstream_asio/RealTime.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -33,6 +34,7 @@ struct Options
 {
     int seconds = 30;
     bool bSoak = false;
+    bool bRealTime = false;
 };
 
 struct Row
@@ -194,6 +196,14 @@ void Measure(const Options& options, std::vector<Row>& rows)
 
 int Run(const Options& options)
 {
+    if (options.bRealTime)
+    {
+        // All threads are started later and inherit it.
+        for (const std::string& refusal : OpenStreamAsio::TuneThread(OpenStreamAsio::RealTimeOptions::MakeAll()))
+        {
+            fmt::print("{}\n", refusal);
+        }
+    }
     std::vector<Row> rows = MakeRows(options);
     StallWatch watch;
     Measure(options, rows);
@@ -247,6 +257,10 @@ int main(int argc, char** argv)
             "--soak",
             options.bSoak,
             "8 sessions with MONITOR and CONTROL on one connection each, without a turn in between");
+        app.add_flag(
+            "--realtime",
+            options.bRealTime,
+            "asks the system for a real-time priority, precise timers and locked memory, for the bare loop as well");
         const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
         return exitCode.has_value() ? *exitCode : Load::Run(options);
     });

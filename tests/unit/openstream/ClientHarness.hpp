@@ -135,6 +135,13 @@ public:
         return token;
     }
 
+    std::uint64_t Call(OpenStream::ControlCall call)
+    {
+        const std::uint64_t token = session.SendControl(std::move(call), GetNow(), actions);
+        Execute();
+        return token;
+    }
+
     void Pass(std::chrono::milliseconds span)
     {
         for (std::chrono::milliseconds passed{0}; passed < span; ++passed)

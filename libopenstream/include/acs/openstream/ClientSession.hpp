@@ -8,11 +8,14 @@
 #include <acs/openstream/LineFramer.hpp>
 #include <acs/openstream/LineOutbox.hpp>
 #include <acs/openstream/OpenStreamCodec.hpp>
+#include <acs/openstream/StreamMeter.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ACS::OpenStream
 {
@@ -43,7 +46,16 @@ class ClientSession
     struct PendingControl
     {
         std::uint64_t token = 0;
-        ControlRequest request;
+        Core::SteadyTime deadline; ///< By then it has left.
+        ControlCall call;
+    };
+
+    /// Of a CONTROL whose window has passed.
+    struct Confirmation
+    {
+        std::uint64_t token = 0;
+        Core::SteadyTime deadline;
+        std::function<bool(const DataLine& sample)> isConfirmed;
     };
 
     enum class EInFlight : std::uint8_t
@@ -66,9 +78,14 @@ class ClientSession
     EClientState _state = EClientState::Stopped;
 
     EInFlight _inFlight = EInFlight::Nothing;
-    std::uint64_t _controlToken = 0; ///< Of the CONTROL in flight.
-    std::uint64_t _controlMark = 0;  ///< Of its last byte in the outbox.
+    PendingControl _control;        ///< The one in flight.
+    std::uint64_t _controlMark = 0; ///< Of its last byte in the outbox.
+    Core::SteadyTime _controlLeftAt;
     bool _bControlLeft = false;
+    bool _bControlConfirmed = false;
+    std::vector<Confirmation> _confirmations;
+    Core::SteadyTime _controlTimerAt;
+    bool _bControlTimerArmed = false;
 
     std::optional<MonitorRequest> _monitor;
     bool _bMonitorDue = false;       ///< The wish has changed and the server does not know.
@@ -78,7 +95,8 @@ class ClientSession
     bool _bDataAgeArmed = false;
     Core::SteadyTime _dataAgeAt;
     Core::SteadyTime _lastDataAt;
-    std::optional<double> _lastTs;
+    StreamMeter _meter;
+    std::optional<ClientData> _latest;
 
     Core::BoundedQueue<PendingControl> _controls;
     std::uint64_t _lastToken = 0;
@@ -103,7 +121,12 @@ class ClientSession
     void SendNow(const OpenStreamRequest& request, ClientActions& out);
     void SendAwaited(const OpenStreamRequest& request, EInFlight kind, Core::Now now, ClientActions& out);
     void Flush(ClientActions& out);
-    void CountMissing(const DataLine& line);
+    void FinishControlWindow(Core::Now now, ClientActions& out);
+    void Confirm(const DataLine& sample, ClientActions& out);
+    void CheckControls(Core::Now now, ClientActions& out);
+    void ArmControlTimer(ClientActions& out);
+    void SettleConfirmations(std::string_view detail, ClientActions& out);
+    void SendControlInTurn(PendingControl control, ClientActions& out);
     [[nodiscard]] bool IsConnected() const noexcept;
     [[nodiscard]] std::chrono::milliseconds GetDataLimit() const noexcept;
     void ArmDataAge(ClientActions& out);
@@ -137,8 +160,11 @@ public:
         Core::Now now,
         ClientActions& out);
 
+    /// Likewise, with a time limit and a confirmation of its own.
+    std::uint64_t SendControl(ControlCall call, Core::Now now, ClientActions& out);
+
     /// STOP control: the hard stop. Goes at once, whatever is in flight: a CONTROL that is becomes Unknown, those that
-    /// wait are settled as NotSent. Nothing without a session. → Send, timers, ClientControlSettled, later ClientStopped.
+    /// wait are settled as NotSent, those that wait for a confirmation as Unknown. Nothing without a session. → Send, timers, ClientControlSettled, later ClientStopped.
     void StopControl(Core::Now now, ClientActions& out);
 
     /// → Send, timers.
@@ -158,6 +184,13 @@ public:
 
     [[nodiscard]] EClientState GetState() const noexcept;
     [[nodiscard]] const ClientSessionStats& GetStats() const noexcept;
+
+    /// The newest sample of the present MONITOR; null before its first one and without a connection. Valid until the next
+    /// event. How old it is tells its receivedAt.
+    [[nodiscard]] const ClientData* GetLatestOrNull() const noexcept;
+
+    /// How good the present MONITOR is, since it was (re-)established.
+    [[nodiscard]] StreamQuality GetQuality() const;
 };
 
 } // namespace ACS::OpenStream

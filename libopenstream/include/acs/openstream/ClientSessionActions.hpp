@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,6 +28,10 @@ struct ClientSessionOptions
     std::chrono::milliseconds staleAfter{500};      ///< Data overdue for so long: MonitorStale. 0: never.
     std::chrono::milliseconds lostAfter{3'000};     ///< Data overdue for so long: reconnect. 0: never.
     Core::BackoffOptions reconnect;
+    /// A tracked CONTROL that has not left for so long: NotSent where it waits for its turn; where the socket does not take
+    /// it, the connection is given up, so that it cannot leave later. 0: waits for ever.
+    std::chrono::milliseconds controlTimeout{5'000};
+    bool bSampleEvents = true; ///< Every sample as ClientData. Off, only GetLatestOrNull shows them, the newest one.
     std::size_t longestLine = LONGEST_LINE;
     std::size_t maximumControls = 64;          ///< Waiting for their turn.
     std::size_t maximumOutput = 1024U * 1024U; ///< Bytes unsent, beyond which a CONTROL is not taken.
@@ -38,9 +43,10 @@ enum class EClientTimer : std::uint8_t
     Answer, ///< To the command in flight, or the end of a CONTROL's window.
     DataAge,
     Retry,
+    Control, ///< CONTROLs that do not leave, confirmations that do not come.
 };
 
-inline constexpr std::size_t CLIENT_TIMER_COUNT = 4;
+inline constexpr std::size_t CLIENT_TIMER_COUNT = 5;
 
 /// How a CONTROL is sent.
 enum class EControlTracking : std::uint8_t
@@ -49,12 +55,26 @@ enum class EControlTracking : std::uint8_t
     Streamed, ///< At once, between others, with no outcome but ClientControlFault. For points at a short period.
 };
 
+/// A CONTROL, and what its outcome depends on.
+struct ControlCall
+{
+    ControlRequest request;
+    EControlTracking tracking = EControlTracking::Tracked;
+    /// For this one in place of ClientSessionOptions::controlTimeout; 0: that.
+    std::chrono::milliseconds timeout{0};
+    /// Tracked: what a sample must show that comes after the CONTROL has left, or else silence is no success. Called for
+    /// each sample, on the session's thread, from within the session, and must not call it.
+    std::function<bool(const DataLine& sample)> isConfirmed;
+    std::chrono::milliseconds confirmWithin{1'000}; ///< Of having left. The window passes in any case.
+};
+
 enum class EControlOutcome : std::uint8_t
 {
-    Accepted, ///< No refusal came within the window.
+    Accepted, ///< No refusal came within the window, and a sample confirmed it where that was asked for.
     Refused,  ///< A control_err or an error line came; whether it was this one's, see ClientSession.
-    Unknown,  ///< It left, or partly left, and the connection was lost within the window.
-    NotSent,  ///< It surely never left: no session, queue full, or the connection was lost before its turn.
+    Unknown,  ///< It left, or partly left, and the connection was lost within the window or before it was confirmed.
+    NotSent,  ///< It surely never left: no session, queue full, too late, or the connection was lost before its turn.
+    Unconfirmed, ///< No refusal came, but no sample confirmed it in time.
 };
 
 enum class EClientLossReason : std::uint8_t
@@ -67,6 +87,7 @@ enum class EClientLossReason : std::uint8_t
     SocketError,
     SessionEnded, ///< An error line that ends the session, such as session_timeout.
     DataSilent,   ///< ClientSessionOptions::lostAfter.
+    SendTimeout,  ///< The socket did not take a CONTROL in time.
     LineTooLong,
 };
 

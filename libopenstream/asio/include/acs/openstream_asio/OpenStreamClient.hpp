@@ -53,10 +53,13 @@ public:
     std::uint64_t SendControl(
         const OpenStream::ControlRequest& request,
         OpenStream::EControlTracking tracking = OpenStream::EControlTracking{});
+    std::uint64_t SendControl(OpenStream::ControlCall call);
     void StopControl();
 
     [[nodiscard]] OpenStream::EClientState GetState() const noexcept;
     [[nodiscard]] const OpenStream::ClientSessionStats& GetStats() const noexcept;
+    [[nodiscard]] const OpenStream::ClientData* GetLatestOrNull() const noexcept;
+    [[nodiscard]] OpenStream::StreamQuality GetQuality() const;
 };
 
 } // namespace ACS::OpenStreamAsio

@@ -1,0 +1,226 @@
+#include "ClientEvents.hpp"
+#include <acs/openstream/ClientSession.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace ACS::OpenStream
+{
+
+using Detail::Report;
+
+std::uint64_t ClientSession::SendControl(
+    const ControlRequest& request,
+    EControlTracking tracking,
+    Core::Now now,
+    ClientActions& out)
+{
+    if (tracking == EControlTracking::Streamed && _state == EClientState::Ready && !_outbox.IsFull())
+    {
+        SendNow(request, out); // without a copy
+        return ++_lastToken;
+    }
+    ControlCall call;
+    call.request = request;
+    call.tracking = tracking;
+    return SendControl(std::move(call), now, out);
+}
+
+std::uint64_t ClientSession::SendControl(ControlCall call, Core::Now now, ClientActions& out)
+{
+    const std::uint64_t token = ++_lastToken;
+    const bool bReady = _state == EClientState::Ready && !_outbox.IsFull();
+    const std::string_view obstacle = bReady ? "too many CONTROLs wait" : "there is no session with the controller";
+    if (call.tracking == EControlTracking::Streamed)
+    {
+        if (bReady)
+        {
+            SendNow(call.request, out);
+        }
+        else
+        {
+            Report(ClientControlFault{0, std::nullopt, fmt::format("not sent: {}", obstacle)}, out);
+        }
+        return token;
+    }
+    const std::chrono::milliseconds timeout = call.timeout.count() > 0 ? call.timeout : _options.controlTimeout;
+    const Core::SteadyTime deadline = timeout.count() > 0 ? now.steady + timeout : Core::SteadyTime::max();
+    if (!bReady || !_controls.TryPush(PendingControl{token, deadline, std::move(call)}))
+    {
+        Report(ClientControlSettled{token, EControlOutcome::NotSent, 0, std::nullopt, std::string(obstacle)}, out);
+        return token;
+    }
+    SendNext(now, out);
+    ArmControlTimer(out);
+    return token;
+}
+
+void ClientSession::SendControlInTurn(PendingControl control, ClientActions& out)
+{
+    _control = std::move(control);
+    _bControlLeft = false;
+    _bControlConfirmed = false;
+    _inFlight = EInFlight::Control;
+    OpenStreamCodec::EncodeRequest(_control.call.request, _outbox.GetLines());
+    _controlMark = _outbox.GetMark();
+    Flush(out);
+}
+
+/// No refusal came: that is success, unless a sample has to show it and none has yet.
+void ClientSession::FinishControlWindow(Core::Now now, ClientActions& out)
+{
+    if (!_control.call.isConfirmed || _bControlConfirmed)
+    {
+        SettleInFlight(EControlOutcome::Accepted, {}, out);
+        return;
+    }
+    FinishInFlight(out);
+    _confirmations.push_back(Confirmation{
+        _control.token,
+        _controlLeftAt + _control.call.confirmWithin,
+        std::move(_control.call.isConfirmed)});
+    CheckControls(now, out);
+}
+
+void ClientSession::Confirm(const DataLine& sample, ClientActions& out)
+{
+    const bool bAsked = _inFlight == EInFlight::Control && _bControlLeft && _control.call.isConfirmed != nullptr;
+    _bControlConfirmed = _bControlConfirmed || (bAsked && _control.call.isConfirmed(sample));
+    std::erase_if(_confirmations, [&sample, &out](const Confirmation& confirmation) {
+        const bool bHolds = confirmation.isConfirmed(sample);
+        if (bHolds)
+        {
+            Report(ClientControlSettled{confirmation.token, EControlOutcome::Accepted, 0, std::nullopt, {}}, out);
+        }
+        return bHolds;
+    });
+}
+
+/// Ends what has waited for too long: for the socket, for its turn, for its confirmation.
+void ClientSession::CheckControls(Core::Now now, ClientActions& out)
+{
+    if (_inFlight == EInFlight::Control && !_bControlLeft && now.steady >= _control.deadline)
+    {
+        Lose(EClientLossReason::SendTimeout, "the connection did not take a CONTROL in time", now, out);
+        return;
+    }
+    _controls.EraseIf([now, &out](const PendingControl& control) {
+        const bool bLate = now.steady >= control.deadline;
+        if (bLate)
+        {
+            constexpr const char* DETAIL = "its turn did not come in time";
+            Report(ClientControlSettled{control.token, EControlOutcome::NotSent, 0, std::nullopt, DETAIL}, out);
+        }
+        return bLate;
+    });
+    std::erase_if(_confirmations, [now, &out](const Confirmation& confirmation) {
+        const bool bLate = now.steady >= confirmation.deadline;
+        if (bLate)
+        {
+            constexpr const char* DETAIL = "no refusal came, and no sample showed its effect in time";
+            Report(
+                ClientControlSettled{confirmation.token, EControlOutcome::Unconfirmed, 0, std::nullopt, DETAIL},
+                out);
+        }
+        return bLate;
+    });
+    ArmControlTimer(out);
+}
+
+/// Started forward only, and again where it fires early: see the watchdog of ServerSession.
+void ClientSession::ArmControlTimer(ClientActions& out)
+{
+    Core::SteadyTime earliest = Core::SteadyTime::max();
+    if (_inFlight == EInFlight::Control && !_bControlLeft)
+    {
+        earliest = _control.deadline;
+    }
+    for (const PendingControl& control : std::as_const(_controls))
+    {
+        earliest = std::min(earliest, control.deadline);
+    }
+    for (const Confirmation& confirmation : _confirmations)
+    {
+        earliest = std::min(earliest, confirmation.deadline);
+    }
+    if (earliest != Core::SteadyTime::max() && (!_bControlTimerArmed || earliest < _controlTimerAt))
+    {
+        _bControlTimerArmed = true;
+        _controlTimerAt = earliest;
+        out.emplace_back(ClientStartTimer{EClientTimer::Control, earliest});
+    }
+}
+
+void ClientSession::SettleConfirmations(std::string_view detail, ClientActions& out)
+{
+    for (const Confirmation& confirmation : std::exchange(_confirmations, {}))
+    {
+        Report(
+            ClientControlSettled{confirmation.token, EControlOutcome::Unknown, 0, std::nullopt, std::string(detail)},
+            out);
+    }
+}
+
+void ClientSession::StopControl(Core::Now now, ClientActions& out)
+{
+    if (_state != EClientState::Ready)
+    {
+        return;
+    }
+    SettleInFlight(EControlOutcome::Unknown, "STOP control followed it", out);
+    SettleConfirmations("STOP control followed it", out);
+    SettleWaiting("STOP control went before it", out);
+    SendNow(StopRequest{EStopTarget::Control}, out);
+    SendNext(now, out);
+}
+
+void ClientSession::Handle(ControlError& error, Core::Now now, ClientActions& out)
+{
+    RefuseControl(
+        error.status,
+        std::move(error.body),
+        fmt::format("the controller refused the CONTROL with status {}", error.status),
+        out);
+    SendNext(now, out);
+}
+
+void ClientSession::RefuseControl(
+    int status,
+    std::optional<Core::JsonText> body,
+    std::string detail,
+    ClientActions& out)
+{
+    if (_inFlight != EInFlight::Control)
+    {
+        Report(ClientControlFault{status, std::move(body), std::move(detail)}, out);
+        return;
+    }
+    FinishInFlight(out);
+    Report(
+        ClientControlSettled{_control.token, EControlOutcome::Refused, status, std::move(body), std::move(detail)},
+        out);
+}
+
+/// Ends the tracking of a CONTROL in flight, if there is one.
+void ClientSession::SettleInFlight(EControlOutcome outcome, std::string_view detail, ClientActions& out)
+{
+    if (_inFlight == EInFlight::Control)
+    {
+        FinishInFlight(out);
+        Report(ClientControlSettled{_control.token, outcome, 0, std::nullopt, std::string(detail)}, out);
+    }
+}
+
+void ClientSession::SettleWaiting(std::string_view detail, ClientActions& out)
+{
+    while (const std::optional<PendingControl> control = _controls.PopFrontOrNull())
+    {
+        Report(
+            ClientControlSettled{control->token, EControlOutcome::NotSent, 0, std::nullopt, std::string(detail)},
+            out);
+    }
+}
+
+} // namespace ACS::OpenStream

@@ -1,0 +1,147 @@
+#include "ClientEvents.hpp"
+#include <acs/openstream/ClientSession.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace ACS::OpenStream
+{
+
+using Detail::Report;
+
+void ClientSession::SetMonitor(std::optional<MonitorRequest> monitorOrNull, Core::Now now, ClientActions& out)
+{
+    _monitor = std::move(monitorOrNull);
+    if (_monitor.has_value())
+    {
+        _monitor->period = std::clamp(_monitor->period, MINIMUM_PERIOD, MAXIMUM_PERIOD);
+    }
+    _bMonitorDue = true;
+    _latest.reset();
+    SendNext(now, out);
+}
+
+void ClientSession::Handle(MonitorAck& /*ack*/, Core::Now now, ClientActions& out)
+{
+    if (_inFlight != EInFlight::Monitor)
+    {
+        return;
+    }
+    FinishInFlight(out);
+    _bMonitorOn = true;
+    _bStale = false;
+    _meter.Begin(_monitor.has_value() ? _monitor->period : MINIMUM_PERIOD);
+    _lastDataAt = now.steady;
+    Report(ClientMonitorStarted{}, out);
+    ArmDataAge(out);
+    SendNext(now, out);
+}
+
+void ClientSession::Handle(DataLine& line, Core::Now now, ClientActions& out)
+{
+    if (_state != EClientState::Ready || !_monitor.has_value())
+    {
+        return; // still on its way when the stream was stopped
+    }
+    ++_stats.dataLines;
+    _stats.missingLines += _meter.Add(line.ts, now.steady);
+    _lastDataAt = now.steady;
+    _bStale = false;
+    ArmDataAge(out);
+    Confirm(line, out);
+    if (_options.bSampleEvents)
+    {
+        Report(ClientData{line, now}, out);
+    }
+    _latest = ClientData{std::move(line), now};
+}
+
+void ClientSession::HandleMonitorError(ErrorLine& error, ClientActions& out)
+{
+    FinishInFlight(out);
+    if (error.code == EOpenStreamErrorCode::MonitorAlreadyActive && !std::exchange(_bMonitorStopFirst, true))
+    {
+        _bMonitorOn = true;
+        _bMonitorDue = true;
+        return;
+    }
+    _bMonitorStopFirst = false;
+    Report(ClientMonitorRefused{std::move(error)}, out);
+}
+
+bool ClientSession::TrySendMonitorWish(Core::Now now, ClientActions& out)
+{
+    if (!_bMonitorDue)
+    {
+        return false;
+    }
+    if (_bMonitorOn && (!_monitor.has_value() || _bMonitorStopFirst))
+    {
+        _bMonitorDue = _monitor.has_value();
+        SendAwaited(StopRequest{EStopTarget::Monitor}, EInFlight::StopMonitor, now, out);
+        return true;
+    }
+    _bMonitorDue = false;
+    if (_monitor.has_value())
+    {
+        _meter.Begin(_monitor->period);
+        SendAwaited(*_monitor, EInFlight::Monitor, now, out);
+    }
+    return _monitor.has_value();
+}
+
+std::chrono::milliseconds ClientSession::GetDataLimit() const noexcept
+{
+    const bool bWaitsForStale = !_bStale && _options.staleAfter.count() > 0;
+    return bWaitsForStale ? _options.staleAfter : _options.lostAfter;
+}
+
+/// Started forward only, and again where it fires early: see the watchdog of ServerSession.
+void ClientSession::ArmDataAge(ClientActions& out)
+{
+    const std::chrono::milliseconds limit = GetDataLimit();
+    if (!_bMonitorOn || !_monitor.has_value() || limit.count() <= 0)
+    {
+        return;
+    }
+    const Core::SteadyTime deadline = _lastDataAt + _monitor->period + limit;
+    if (!_bDataAgeArmed || deadline < _dataAgeAt)
+    {
+        _bDataAgeArmed = true;
+        _dataAgeAt = deadline;
+        out.emplace_back(ClientStartTimer{EClientTimer::DataAge, deadline});
+    }
+}
+
+void ClientSession::CheckDataAge(Core::Now now, ClientActions& out)
+{
+    if (_state != EClientState::Ready || !_bMonitorOn || !_monitor.has_value())
+    {
+        return;
+    }
+    const auto age = std::chrono::duration_cast<std::chrono::milliseconds>(now.steady - _lastDataAt);
+    const std::chrono::milliseconds overdue = age - _monitor->period;
+    if (!_bStale && _options.staleAfter.count() > 0 && overdue >= _options.staleAfter)
+    {
+        _bStale = true;
+        Report(ClientMonitorStale{age}, out);
+    }
+    if (_options.lostAfter.count() > 0 && overdue >= _options.lostAfter)
+    {
+        Lose(EClientLossReason::DataSilent, "the controller sent no data", now, out);
+        return;
+    }
+    ArmDataAge(out);
+}
+
+const ClientData* ClientSession::GetLatestOrNull() const noexcept
+{
+    return _latest.has_value() ? &*_latest : nullptr;
+}
+
+StreamQuality ClientSession::GetQuality() const
+{
+    return _meter.GetQuality();
+}
+
+} // namespace ACS::OpenStream

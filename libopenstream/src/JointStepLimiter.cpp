@@ -1,0 +1,47 @@
+#include <acs/openstream/JointStepLimiter.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ACS::OpenStream
+{
+
+JointStepLimiter::JointStepLimiter(std::vector<double> largestSteps)
+    : _largestSteps(std::move(largestSteps))
+{
+}
+
+void JointStepLimiter::Begin(std::span<const double> position)
+{
+    _last.assign(position.begin(), position.end());
+}
+
+std::span<const double> JointStepLimiter::Limit(std::span<const double> wanted)
+{
+    _bLimited = false;
+    const std::size_t known = _last.size();
+    _last.resize(wanted.size(), 0.0);
+    for (std::size_t joint = 0; joint < wanted.size(); ++joint)
+    {
+        double& value = _last[joint];
+        if (!std::isfinite(wanted[joint]))
+        {
+            _bLimited = true;
+            continue;
+        }
+        const bool bBounded = joint < known && joint < _largestSteps.size();
+        const double step = bBounded ? std::max(_largestSteps[joint], 0.0) : 0.0;
+        const double next = bBounded ? std::clamp(wanted[joint], value - step, value + step) : wanted[joint];
+        _bLimited = _bLimited || next != wanted[joint];
+        value = next;
+    }
+    return _last;
+}
+
+bool JointStepLimiter::WasLimited() const noexcept
+{
+    return _bLimited;
+}
+
+} // namespace ACS::OpenStream

@@ -1,0 +1,141 @@
+#include "Catch.hpp"
+#include <acs/openstream/JointStepLimiter.hpp>
+#include <acs/openstream/StreamMeter.hpp>
+
+#include <array>
+#include <chrono>
+#include <limits>
+#include <vector>
+
+using namespace ACS::OpenStream; // NOLINT(google-build-using-namespace)
+using namespace std::chrono_literals;
+
+namespace
+{
+
+/// Samples that arrive when they were taken.
+class Feed
+{
+    ACS::Core::SteadyTime _now;
+    double _ts = 0.0;
+
+public:
+    StreamMeter meter;
+
+    std::uint64_t Add(double serverGap, std::chrono::microseconds arrivalGap)
+    {
+        _ts += serverGap;
+        _now += arrivalGap;
+        return meter.Add(_ts, _now);
+    }
+};
+
+std::vector<double> Limit(JointStepLimiter& limiter, const std::vector<double>& wanted)
+{
+    const auto point = limiter.Limit(wanted);
+    return {point.begin(), point.end()};
+}
+
+} // namespace
+
+TEST_CASE("11 Mean, largest gap and percentiles, of the controller and of the arrivals")
+{
+    Feed feed;
+    feed.meter.Begin(2ms);
+    feed.Add(2.0, 2ms);
+    for (int count = 0; count < 990; ++count)
+    {
+        feed.Add(2.0, 2ms);
+    }
+    for (int count = 0; count < 9; ++count)
+    {
+        feed.Add(4.0, 5ms);
+    }
+    CHECK(feed.Add(100.0, 101ms) == 49);
+    const StreamQuality quality = feed.meter.GetQuality();
+    CHECK(quality.samples == 1001);
+    CHECK(quality.missing == 9 + 49);
+    CHECK(quality.byServer.count == 1000);
+    CHECK(quality.byServer.mean == Approx((990 * 2.0 + 9 * 4.0 + 100.0) / 1000));
+    CHECK(quality.byServer.p50 == Approx(2.0).epsilon(1.0 / 16));
+    CHECK(quality.byServer.p99 == Approx(2.0).epsilon(1.0 / 16));
+    CHECK(quality.byServer.p999 == Approx(4.0).epsilon(1.0 / 16));
+    CHECK(quality.byServer.largest == 100.0);
+    CHECK(quality.byArrival.p999 == Approx(5.0).epsilon(1.0 / 16));
+    CHECK(quality.byArrival.largest == 101.0);
+}
+
+TEST_CASE("11 A percentile is never below what it stands for, over nine orders of magnitude")
+{
+    for (double gap = 0.001; gap < 1e6; gap *= 1.37)
+    {
+        INFO(gap);
+        GapHistogram histogram;
+        histogram.Add(gap);
+        histogram.Add(gap * 1000.0);
+        const GapFigures figures = histogram.GetFigures();
+        CHECK(figures.p50 >= gap - 0.0006);
+        CHECK(figures.p50 <= gap * (1.0 + 1.0 / 16) + 0.0006);
+        CHECK(figures.p99 == figures.largest);
+    }
+    GapHistogram histogram;
+    histogram.Add(-1.0);
+    histogram.Add(std::numeric_limits<double>::quiet_NaN());
+    CHECK(histogram.GetFigures() == GapFigures{});
+    histogram.Add(1e30);
+    CHECK(histogram.GetFigures().largest == 1e30);
+}
+
+TEST_CASE("11 The share of samples in time slides over the last hundred periods")
+{
+    Feed feed;
+    feed.meter.Begin(10ms);
+    CHECK(feed.meter.GetQuality().inTime == 1.0);
+    for (int count = 0; count < 200; ++count)
+    {
+        feed.Add(10.0, 10ms);
+    }
+    CHECK(feed.meter.GetQuality().inTime == 1.0);
+    feed.Add(10.0, 15ms); // half a period late is in time
+    CHECK(feed.meter.GetQuality().inTime == 1.0);
+    feed.Add(10.0, 16ms);
+    CHECK(feed.meter.GetQuality().inTime == Approx(0.99));
+    feed.Add(40.0, 40ms); // three are missing, the one behind them is there
+    CHECK(feed.meter.GetQuality().inTime == Approx(0.96));
+    for (int count = 0; count < 100; ++count)
+    {
+        feed.Add(10.0, 10ms);
+    }
+    CHECK(feed.meter.GetQuality().inTime == 1.0);
+    feed.Add(100'000.0, 100'000ms);
+    CHECK(feed.meter.GetQuality().inTime == Approx(0.01));
+    CHECK(feed.Add(-5.0, 10ms) == 0);
+    CHECK(feed.Add(1e12, 10ms) == 0); // another clock
+}
+
+TEST_CASE("11 A joint moves no further from one point to the next than its limit, and catches up")
+{
+    JointStepLimiter limiter({1.0, 0.0, std::numeric_limits<double>::infinity()});
+    limiter.Begin(std::array{10.0, 20.0, 30.0});
+    CHECK(Limit(limiter, {10.5, 20.0, 300.0}) == std::vector<double>{10.5, 20.0, 300.0});
+    CHECK_FALSE(limiter.WasLimited());
+    CHECK(Limit(limiter, {13.0, 21.0, -300.0}) == std::vector<double>{11.5, 20.0, -300.0});
+    CHECK(limiter.WasLimited());
+    CHECK(Limit(limiter, {13.0, 20.0, 0.0}) == std::vector<double>{12.5, 20.0, 0.0});
+    CHECK(Limit(limiter, {13.0, 20.0, 0.0}) == std::vector<double>{13.0, 20.0, 0.0});
+    CHECK_FALSE(limiter.WasLimited());
+    CHECK(Limit(limiter, {-100.0, 20.0, 0.0}) == std::vector<double>{12.0, 20.0, 0.0});
+    limiter.Begin(std::array{-99.5, 20.0, 0.0});
+    CHECK(Limit(limiter, {-100.0, 20.0, 0.0}) == std::vector<double>{-100.0, 20.0, 0.0});
+}
+
+TEST_CASE("11 What is no number moves no joint, and a first point without a position passes")
+{
+    constexpr double NO_NUMBER = std::numeric_limits<double>::quiet_NaN();
+    JointStepLimiter limiter({1.0, 1.0});
+    CHECK(Limit(limiter, {50.0, NO_NUMBER}) == std::vector<double>{50.0, 0.0});
+    CHECK(limiter.WasLimited());
+    CHECK(Limit(limiter, {NO_NUMBER, 0.5}) == std::vector<double>{50.0, 0.5});
+    CHECK(Limit(limiter, {std::numeric_limits<double>::infinity(), 5.0}) == std::vector<double>{50.0, 1.5});
+    CHECK(Limit(limiter, {50.0}).size() == 1);
+}
