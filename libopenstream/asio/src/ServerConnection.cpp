@@ -1,5 +1,6 @@
 #include "ServerConnection.hpp"
 
+#include "HandlerAllocator.hpp"
 #include "SocketOptions.hpp"
 
 #include <boost/asio/bind_allocator.hpp>

@@ -1,4 +1,4 @@
-#include "TcpFixture.hpp"
+#include "RawPeer.hpp"
 
 #include <chrono>
 #include <string>

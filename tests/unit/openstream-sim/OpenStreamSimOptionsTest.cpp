@@ -15,6 +15,7 @@ TEST_CASE("Without options it serves the manuals' ports on the loopback, with th
     REQUIRE(options.host.stream == ACS::Apps::Endpoint{"127.0.0.1", 49000});
     REQUIRE(options.host.http == ACS::Apps::Endpoint{"127.0.0.1", 8888});
     REQUIRE_FALSE(options.host.controller.bMotorOn);
+    REQUIRE_FALSE(options.bRealTime);
     REQUIRE(options.host.controller.timeScale == 1.0);
     REQUIRE(options.host.controller.otherPrograms == ProgramSpec{2s, false});
 }
@@ -34,6 +35,7 @@ TEST_CASE("Every option reaches its place")
         "11=3s",
         "--program=12=500ms,fail",
         "--ready",
+        "--realtime",
         "--log-level",
         "error"};
     REQUIRE_FALSE(ParseOptionsOrNull(static_cast<int>(arguments.size()), arguments.data(), options).has_value());
@@ -41,6 +43,7 @@ TEST_CASE("Every option reaches its place")
     REQUIRE(options.host.http == ACS::Apps::Endpoint{"::1", 1});
     REQUIRE(options.host.controller.timeScale == 20.0);
     REQUIRE(options.host.controller.bMotorOn);
+    REQUIRE(options.bRealTime);
     REQUIRE(options.host.controller.programs.size() == 2);
     REQUIRE(options.host.controller.programs.at(11) == ProgramSpec{3s, false});
     REQUIRE(options.host.controller.programs.at(12) == ProgramSpec{500ms, true});

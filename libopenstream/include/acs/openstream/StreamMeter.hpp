@@ -1,8 +1,8 @@
 #pragma once
 
 #include <acs/core/Now.hpp>
+#include <acs/openstream/GapHistogram.hpp>
 
-#include <array>
 #include <bitset>
 #include <chrono>
 #include <cstddef>
@@ -11,19 +11,6 @@
 
 namespace ACS::OpenStream
 {
-
-/// Gaps between samples, in milliseconds. Percentiles are the upper bounds of classes that are at most a sixteenth wide.
-struct GapFigures
-{
-    std::uint64_t count = 0;
-    double mean = 0.0;
-    double p50 = 0.0;
-    double p99 = 0.0;
-    double p999 = 0.0;
-    double largest = 0.0;
-
-    bool operator==(const GapFigures&) const = default;
-};
 
 /// How good a MONITOR is, since its ack.
 struct StreamQuality
@@ -37,26 +24,6 @@ struct StreamQuality
     double inTime = 1.0;
 
     bool operator==(const StreamQuality&) const = default;
-};
-
-/// Gaps in fixed room: sixteen classes an octave of microseconds.
-class GapHistogram
-{
-    static constexpr std::size_t OCTAVES = 37; ///< Up to days.
-    static constexpr std::size_t CLASSES = 16;
-
-    std::array<std::uint64_t, OCTAVES * CLASSES> _counts{};
-    std::uint64_t _count = 0;
-    double _sum = 0.0;
-    double _largest = 0.0;
-
-    [[nodiscard]] double GetPercentile(double share) const;
-
-public:
-    /// Of 0 or more; what is not is left out.
-    void Add(double milliseconds);
-    void Clear();
-    [[nodiscard]] GapFigures GetFigures() const;
 };
 
 /// Measures a stream by its samples.

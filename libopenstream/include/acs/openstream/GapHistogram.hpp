@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace ACS::OpenStream
+{
+
+/// Gaps between samples, in milliseconds. Percentiles are the upper bounds of classes that are at most a sixteenth wide.
+struct GapFigures
+{
+    std::uint64_t count = 0;
+    double mean = 0.0;
+    double p50 = 0.0;
+    double p99 = 0.0;
+    double p999 = 0.0;
+    double largest = 0.0;
+
+    bool operator==(const GapFigures&) const = default;
+};
+
+/// Gaps in fixed room: sixteen classes an octave of microseconds.
+class GapHistogram
+{
+    static constexpr std::size_t OCTAVES = 37; ///< Up to days.
+    static constexpr std::size_t CLASSES = 16;
+
+    std::array<std::uint64_t, OCTAVES * CLASSES> _counts{};
+    std::uint64_t _count = 0;
+    double _sum = 0.0;
+    double _largest = 0.0;
+
+    [[nodiscard]] double GetPercentile(double share) const;
+
+public:
+    /// Of 0 or more; what is not is left out.
+    void Add(double milliseconds);
+    void Clear();
+    [[nodiscard]] GapFigures GetFigures() const;
+};
+
+} // namespace ACS::OpenStream
