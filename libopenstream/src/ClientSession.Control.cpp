@@ -25,10 +25,10 @@ std::uint64_t ClientSession::SendControl(
     ControlCall call;
     call.request = request;
     call.tracking = tracking;
-    return SendControl(std::move(call), now, out);
+    return SendControlCall(std::move(call), now, out);
 }
 
-std::uint64_t ClientSession::SendControl(ControlCall call, Core::Now now, ClientActions& out)
+std::uint64_t ClientSession::SendControlCall(ControlCall call, Core::Now now, ClientActions& out)
 {
     const std::uint64_t token = ++_lastToken;
     const bool bReady = _state == EClientState::Ready && !_outbox.IsFull();

@@ -18,6 +18,7 @@ class HandlerAllocator
 
 public:
     using value_type = T;
+    using pointer = T*;
 
     explicit HandlerAllocator(HandlerMemory& memory) noexcept
         : _memory(&memory)
@@ -31,7 +32,7 @@ public:
     {
     }
 
-    [[nodiscard]] T* allocate(std::size_t count) // NOLINT(readability-identifier-naming)
+    [[nodiscard]] pointer allocate(std::size_t count) // NOLINT(readability-identifier-naming)
     {
         static_assert(alignof(T) <= alignof(std::max_align_t));
         return static_cast<T*>(_memory->Allocate(count * sizeof(T)));

@@ -11,6 +11,10 @@ namespace ACS::OpenStreamAsio
 /// back by itself serves writes and timers in turns, and fits one of them only. One thread; outlives its handlers.
 class HandlerMemory
 {
+public:
+    using Room = void*; ///< Never null.
+
+private:
     static constexpr std::size_t BLOCK_BYTES = 512;
 
     struct Block
@@ -28,7 +32,7 @@ public:
     ~HandlerMemory() = default;
 
     /// From the heap where it does not fit.
-    [[nodiscard]] void* Allocate(std::size_t size)
+    [[nodiscard]] Room Allocate(std::size_t size)
     {
         for (Block& block : _blocks)
         {

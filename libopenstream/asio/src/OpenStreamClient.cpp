@@ -273,9 +273,9 @@ public:
         return token;
     }
 
-    std::uint64_t SendControl(OpenStream::ControlCall call)
+    std::uint64_t SendControlCall(OpenStream::ControlCall call)
     {
-        const std::uint64_t token = _session.SendControl(std::move(call), _clock.GetNow(), _actions);
+        const std::uint64_t token = _session.SendControlCall(std::move(call), _clock.GetNow(), _actions);
         Execute();
         return token;
     }
@@ -339,9 +339,9 @@ std::uint64_t OpenStreamClient::SendControl(
     return _impl->SendControl(request, tracking);
 }
 
-std::uint64_t OpenStreamClient::SendControl(OpenStream::ControlCall call)
+std::uint64_t OpenStreamClient::SendControlCall(OpenStream::ControlCall call)
 {
-    return _impl->SendControl(std::move(call));
+    return _impl->SendControlCall(std::move(call));
 }
 
 void OpenStreamClient::StopControl()

@@ -208,8 +208,8 @@ TEST_CASE("7.27 A service slower than the period: ticks are skipped and counted,
     peer.Send(MakeStopLine("monitor"));
     REQUIRE(peer.TryAwait("stop_ack"));
     CheckLines(peer);
-    // At least two ticks fall into each call.
-    CHECK(server->GetStats().skippedTicks >= 2U * 9U);
+    // At least one more tick falls due within each call.
+    CHECK(server->GetStats().skippedTicks >= 9U);
     CHECK(server->GetStats().dataLines <= static_cast<std::uint64_t>(fixture.service.gets));
 }
 

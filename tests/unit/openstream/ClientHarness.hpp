@@ -137,7 +137,7 @@ public:
 
     std::uint64_t Call(OpenStream::ControlCall call)
     {
-        const std::uint64_t token = session.SendControl(std::move(call), GetNow(), actions);
+        const std::uint64_t token = session.SendControlCall(std::move(call), GetNow(), actions);
         Execute();
         return token;
     }

@@ -67,8 +67,10 @@ TEST_CASE("11 Mean, largest gap and percentiles, of the controller and of the ar
 
 TEST_CASE("11 A percentile is never below what it stands for, over nine orders of magnitude")
 {
-    for (double gap = 0.001; gap < 1e6; gap *= 1.37)
+    double gap = 0.001;
+    for (int step = 0; step < 65; ++step)
     {
+        gap *= 1.37;
         INFO(gap);
         GapHistogram histogram;
         histogram.Add(gap);

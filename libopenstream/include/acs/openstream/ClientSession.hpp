@@ -161,7 +161,7 @@ public:
         ClientActions& out);
 
     /// Likewise, with a time limit and a confirmation of its own.
-    std::uint64_t SendControl(ControlCall call, Core::Now now, ClientActions& out);
+    std::uint64_t SendControlCall(ControlCall call, Core::Now now, ClientActions& out);
 
     /// STOP control: the hard stop. Goes at once, whatever is in flight: a CONTROL that is becomes Unknown, those that
     /// wait are settled as NotSent, those that wait for a confirmation as Unknown. Nothing without a session. → Send, timers, ClientControlSettled, later ClientStopped.

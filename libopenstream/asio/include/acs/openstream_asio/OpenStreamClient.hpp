@@ -53,7 +53,7 @@ public:
     std::uint64_t SendControl(
         const OpenStream::ControlRequest& request,
         OpenStream::EControlTracking tracking = OpenStream::EControlTracking{});
-    std::uint64_t SendControl(OpenStream::ControlCall call);
+    std::uint64_t SendControlCall(OpenStream::ControlCall call);
     void StopControl();
 
     [[nodiscard]] OpenStream::EClientState GetState() const noexcept;
