@@ -359,7 +359,7 @@ bool MosquittoConnection::IsUp() const
 
 bool MosquittoConnection::HasUnsent() const
 {
-    return _unsent > 0;
+    return _unsent + _client->CountUnacknowledged() > 0;
 }
 
 void MosquittoConnection::WaitToRead()
