@@ -359,7 +359,7 @@ bool MosquittoConnection::IsUp() const
 
 bool MosquittoConnection::HasUnsent() const
 {
-    return _unsent > 0;
+    return _unsent > 0 || (_client.has_value() && _client->CountUnacknowledged() > 0);
 }
 
 void MosquittoConnection::WaitToRead()
