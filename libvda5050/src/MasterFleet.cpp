@@ -22,6 +22,11 @@ std::string_view CutTopic(std::string_view topic)
     return topic.substr(0, end == std::string_view::npos ? 0 : end);
 }
 
+bool IsValidInterface(const FleetOptions& options)
+{
+    return IsValidAddress(VehicleAddress{options.vehicle.address.interfaceName, "any", "any"});
+}
+
 std::string MakeKey(const VehicleAddress& address)
 {
     return std::string(CutTopic(BuildTopic(address, ETopic::State)));
@@ -32,6 +37,20 @@ std::string MakeKey(const VehicleAddress& address)
 MasterFleet::MasterFleet(FleetOptions options)
     : _options(std::move(options))
 {
+    assert(IsValidInterface(_options));
+}
+
+Core::Result<MasterFleet> MasterFleet::Create(FleetOptions options)
+{
+    if (!IsValidInterface(options))
+    {
+        return Core::Fail(
+            EVda5050Error::InvalidTopic,
+            "interfaceName",
+            "a name that may stand in a topic",
+            Core::QuoteForError(options.vehicle.address.interfaceName));
+    }
+    return MasterFleet(std::move(options));
 }
 
 std::vector<MqttSubscription> MasterFleet::GetSubscriptions() const
@@ -72,9 +91,9 @@ std::unique_ptr<MasterSession> MasterFleet::MakeSession(const VehicleAddress& ad
 
 std::size_t MasterFleet::Insert(std::unique_ptr<MasterSession> session)
 {
-    const std::size_t vehicle = _sessions.size();
+    const std::size_t vehicle = _sessionsOrNull.size();
     _numbers.emplace(MakeKey(session->GetOptions().address), vehicle);
-    _sessions.push_back(std::move(session));
+    _sessionsOrNull.push_back(std::move(session));
     return vehicle;
 }
 
@@ -96,7 +115,7 @@ Core::Result<std::size_t> MasterFleet::Add(const VehicleAddress& address, Core::
     const std::size_t vehicle = Insert(MakeSession(address, _options.vehicle.version));
     if (_bLinkUp)
     {
-        _sessions.back()->OnLinkUp(now, _scratch);
+        _sessionsOrNull.back()->OnLinkUp(now, _scratch);
         Append(vehicle, out);
     }
     return vehicle;
@@ -114,7 +133,7 @@ Core::Result<EVda5050Version> MasterFleet::ReadVersion(const MqttMessage& messag
     {
         return Core::Fail(EVda5050Error::InvalidTopic, {}, "a vehicle that was added", message.topic);
     }
-    if (_sessions.size() >= _options.maxVehicles)
+    if (_numbers.size() >= _options.maxVehicles)
     {
         return Core::Fail(Core::ECoreError::QueueFull, {}, std::to_string(_options.maxVehicles) + " vehicles", "more");
     }
@@ -141,6 +160,11 @@ void MasterFleet::Discover(const MqttMessage& message, Core::Now now, FleetActio
     if (!bTells)
     {
         return; // a factsheet or a visualization: its connection message comes as well
+    }
+    if (_options.bDiscovery && _options.isWelcome && !_options.isWelcome(topic->address))
+    {
+        LeaveOut(message, Core::Error{EVda5050Error::InvalidTopic, {}, "a vehicle that is welcome", message.topic});
+        return;
     }
     const Core::Result<EVda5050Version> version = ReadVersion(message);
     if (!version)
@@ -170,9 +194,9 @@ void MasterFleet::Discover(const MqttMessage& message, Core::Now now, FleetActio
 void MasterFleet::OnLinkUp(Core::Now now, FleetActions& out)
 {
     _bLinkUp = true;
-    for (std::size_t vehicle = 0; vehicle < _sessions.size(); ++vehicle)
+    for (const auto& [key, vehicle] : _numbers)
     {
-        _sessions[vehicle]->OnLinkUp(now, _scratch);
+        _sessionsOrNull[vehicle]->OnLinkUp(now, _scratch);
         Append(vehicle, out);
     }
 }
@@ -180,9 +204,9 @@ void MasterFleet::OnLinkUp(Core::Now now, FleetActions& out)
 void MasterFleet::OnLinkDown(Core::Now now, FleetActions& out)
 {
     _bLinkUp = false;
-    for (std::size_t vehicle = 0; vehicle < _sessions.size(); ++vehicle)
+    for (const auto& [key, vehicle] : _numbers)
     {
-        _sessions[vehicle]->OnLinkDown(now, _scratch);
+        _sessionsOrNull[vehicle]->OnLinkDown(now, _scratch);
         Append(vehicle, out);
     }
 }
@@ -195,31 +219,55 @@ void MasterFleet::OnMessage(const MqttMessage& message, Core::Now now, FleetActi
         Discover(message, now, out);
         return;
     }
-    _sessions.at(*number)->OnMessage(message, now, _scratch);
+    _sessionsOrNull.at(*number)->OnMessage(message, now, _scratch);
     Append(*number, out);
 }
 
 void MasterFleet::OnTimer(std::size_t vehicle, EMasterTimer timer, Core::Now now, FleetActions& out)
 {
-    GetSession(vehicle).OnTimer(timer, now, _scratch);
-    Append(vehicle, out);
+    if (Contains(vehicle))
+    {
+        _sessionsOrNull[vehicle]->OnTimer(timer, now, _scratch);
+        Append(vehicle, out);
+    }
+}
+
+bool MasterFleet::TryRemove(std::size_t vehicle, FleetActions& out)
+{
+    if (!Contains(vehicle))
+    {
+        return false;
+    }
+    _numbers.erase(MakeKey(_sessionsOrNull[vehicle]->GetOptions().address));
+    _sessionsOrNull[vehicle].reset();
+    for (const EMasterTimer timer :
+         {EMasterTimer::ResendOrder, EMasterTimer::ResendInstantActions, EMasterTimer::Silence})
+    {
+        out.push_back(FleetAction{vehicle, CancelMasterTimer{timer}});
+    }
+    return true;
+}
+
+bool MasterFleet::Contains(std::size_t vehicle) const noexcept
+{
+    return vehicle < _sessionsOrNull.size() && _sessionsOrNull[vehicle] != nullptr;
 }
 
 std::size_t MasterFleet::GetSize() const noexcept
 {
-    return _sessions.size();
+    return _sessionsOrNull.size();
 }
 
 MasterSession& MasterFleet::GetSession(std::size_t vehicle)
 {
-    assert(vehicle < _sessions.size());
-    return *_sessions[vehicle];
+    assert(Contains(vehicle));
+    return *_sessionsOrNull[vehicle];
 }
 
 const MasterSession& MasterFleet::GetSession(std::size_t vehicle) const
 {
-    assert(vehicle < _sessions.size());
-    return *_sessions[vehicle];
+    assert(Contains(vehicle));
+    return *_sessionsOrNull[vehicle];
 }
 
 std::optional<std::size_t> MasterFleet::FindOrNull(const VehicleAddress& address) const
@@ -241,9 +289,9 @@ const LeftOutMessage* MasterFleet::GetLastLeftOutOrNull() const noexcept
 MasterStatistics MasterFleet::GetStatistics() const
 {
     MasterStatistics sum;
-    for (const std::unique_ptr<MasterSession>& session : _sessions)
+    for (const auto& [key, vehicle] : _numbers)
     {
-        const MasterStatistics& one = session->GetStatistics();
+        const MasterStatistics& one = _sessionsOrNull[vehicle]->GetStatistics();
         sum.statesReceived += one.statesReceived;
         sum.statesIgnored += one.statesIgnored;
         sum.retainedIgnored += one.retainedIgnored;

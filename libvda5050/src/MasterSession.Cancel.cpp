@@ -3,6 +3,7 @@
 #include <acs/vda5050/MasterSession.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -76,22 +77,67 @@ void MasterSession::EndCancel(EActionStatus status, MasterActions& out)
     {
         out.emplace_back(OrderCancelled{_orderID});
     }
-    _withdrawnOrderID = bHeld ? std::string() : _orderID;
+    if (!bHeld)
+    {
+        Withdraw(_withdrawn.has_value() ? &*_withdrawn : nullptr, false);
+    }
     EndOrder(out);
 }
 
-/// The order of a cancel that the vehicle answered before it had the order: that may come late, from a queue.
+void MasterSession::Withdraw(const OrderMessage* messageOrNull, bool bRejected)
+{
+    WithdrawnOrder order{_orderID, {}, bRejected};
+    const auto add = [&order](const auto& elements) {
+        for (const auto& element : elements)
+        {
+            std::ranges::transform(element.actions, std::back_inserter(order.actionIDs), &Action::actionID);
+        }
+    };
+    if (messageOrNull != nullptr)
+    {
+        add(messageOrNull->nodes);
+        add(messageOrNull->edges);
+    }
+    constexpr std::size_t MOST_WITHDRAWN = 16;
+    if (_withdrawnOrders.size() == MOST_WITHDRAWN)
+    {
+        _withdrawnOrders.erase(_withdrawnOrders.begin());
+    }
+    std::ranges::sort(order.actionIDs);
+    _withdrawnOrders.push_back(std::move(order));
+}
+
+bool MasterSession::IsRunning(const WithdrawnOrder& order) const
+{
+    return IsBusy() || std::ranges::any_of(_state->actionStates, [&order](const ActionState& action) {
+               return !IsTerminal(action.actionStatus) && std::ranges::binary_search(order.actionIDs, action.actionID);
+           });
+}
+
+/// An order that ended for us before the vehicle had it: that may come late, from a queue.
 void MasterSession::CancelReappeared(Core::Now now, MasterActions& out)
 {
-    const bool bRuns = _state->orderID == _withdrawnOrderID && !_state->nodeStates.empty();
-    if (_phase != EOrderPhase::None || _withdrawnOrderID.empty() || !bRuns || _link != EVehicleLink::Online)
+    const auto found = std::ranges::find(_withdrawnOrders, _state->orderID, &WithdrawnOrder::orderID);
+    if (_phase != EOrderPhase::None || found == _withdrawnOrders.end() || _link != EVehicleLink::Online || !IsLed())
     {
         return;
     }
-    _orderID = std::exchange(_withdrawnOrderID, {});
+    const bool bRuns = IsRunning(*found);
+    if (!bRuns && !found->bRejected)
+    {
+        return; // one that was cancelled as soon as it came
+    }
+    const std::string orderID = std::move(found->orderID);
+    _withdrawnOrders.erase(found);
+    out.emplace_back(OrderReappeared{orderID});
+    if (!bRuns)
+    {
+        out.emplace_back(OrderFinished{orderID});
+        return;
+    }
+    BeginOrder(orderID, _state->orderUpdateID);
     _bAccepted = true;
     _phase = EOrderPhase::Active;
-    out.emplace_back(OrderReappeared{_orderID});
     std::ignore = Cancel(now, out);
 }
 

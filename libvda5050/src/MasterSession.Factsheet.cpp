@@ -112,6 +112,17 @@ Core::Result<void> MasterSession::FitOrder(OrderMessage& order, Core::Now now) c
 
 std::string MasterSession::MakeActionID(std::string_view actionType, Core::Now now)
 {
+    constexpr int MOST_TRIES = 100; // an id that has to be short may be in use
+    std::string id = MakeNextActionID(actionType, now);
+    for (int i = 1; i < MOST_TRIES && (IsTracked(id) || FindShownOrNull(id) != nullptr); ++i)
+    {
+        id = MakeNextActionID(actionType, now);
+    }
+    return id;
+}
+
+std::string MasterSession::MakeNextActionID(std::string_view actionType, Core::Now now)
+{
     const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(now.wall.time_since_epoch());
     const std::string moment = std::to_string(milliseconds.count());
     const std::string count = std::to_string(++_ownActionCount);

@@ -1,9 +1,11 @@
+#include "ActionIndex.hpp"
 #include "OrderErrors.hpp"
 #include <acs/vda5050/ActionMachine.hpp>
 #include <acs/vda5050/MasterSession.hpp>
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <iterator>
 #include <utility>
 
@@ -29,15 +31,20 @@ bool MasterSession::IsPending(std::string_view actionID) const
     });
 }
 
-void MasterSession::SettlePendingActions(MasterActions& out)
+bool MasterSession::IsTracked(std::string_view actionID) const
+{
+    return std::ranges::find(_tracked, actionID, &TrackedAction::actionID) != _tracked.end();
+}
+
+void MasterSession::SettlePendingActions(const ActionIndex& shown, MasterActions& out)
 {
     if (_pendingActions.empty())
     {
         return;
     }
-    const auto isSettled = [this, &out](const PendingAction& pending) {
+    const auto isSettled = [this, &shown, &out](const PendingAction& pending) {
         const std::string& actionID = pending.action.actionID;
-        if (std::ranges::find(_state->actionStates, actionID, &ActionState::actionID) != _state->actionStates.end())
+        if (shown.FindOrNull(actionID) != nullptr)
         {
             return true;
         }
@@ -130,12 +137,24 @@ void MasterSession::RejectInFlight(const std::string& errorType, const std::stri
     {
         out.emplace_back(OrderRejected{_orderID, _queued->orderUpdateID, errorType, reason});
     }
+    if (!_bAccepted)
+    {
+        Withdraw(&*_inFlight, true);
+    }
     _inFlight.reset();
     _queued.reset();
     if (!_bAccepted)
     {
         EndOrder(out);
     }
+}
+
+bool MasterSession::IsSentHeader(std::string_view headerID) const
+{
+    std::uint32_t number = 0;
+    const char* const end = headerID.data() + headerID.size();
+    const auto [rest, error] = std::from_chars(headerID.data(), end, number);
+    return error == std::errc() && rest == end && number - _firstHeaderID < _sendCount;
 }
 
 bool MasterSession::IsRejection(const VehicleError& error) const
@@ -148,13 +167,15 @@ bool MasterSession::IsRejection(const VehicleError& error) const
     const std::string* orderOrNull = FindReferenceOrNull(error, ReferenceKeys::ORDER_ID);
     const std::string* updateOrNull = FindReferenceOrNull(error, ReferenceKeys::ORDER_UPDATE_ID);
     // An error of before the sending may stay until an order is taken; after a resend it is an answer to that.
-    const bool bOld = _sendCount < 2 && std::ranges::find(_errorsBeforeSend, error) != _errorsBeforeSend.end();
+    const bool bBefore = std::ranges::binary_search(_errorsBeforeSend, error);
+    const bool bOld = _sendCount < 2 && bBefore;
     const bool bAnswer =
         topicOrNull != nullptr || std::ranges::find(ORDER_ERROR_TYPES, error.errorType) != ORDER_ERROR_TYPES.end();
     if (orderOrNull == nullptr)
     {
-        const bool bNew = std::ranges::find(_errorsBeforeSend, error) == _errorsBeforeSend.end();
-        return bNew && bAnswer;
+        // Where a header is named it must be of ours: others may write to the topic, and their junk is no word about us.
+        const std::string* headerOrNull = FindReferenceOrNull(error, ReferenceKeys::HEADER_ID);
+        return !bBefore && bAnswer && (headerOrNull == nullptr || IsSentHeader(*headerOrNull));
     }
     if (*orderOrNull != _inFlight->orderID || bOld)
     {
@@ -202,11 +223,9 @@ bool MasterSession::IsOrderDone() const
     {
         return false;
     }
-    return std::ranges::none_of(_state->actionStates, [this](const ActionState& action) {
-        const bool bOfOrder = std::ranges::any_of(_route, [&action](const RouteNode& node) {
-            return std::ranges::find(node.actionIDs, action.actionID) != node.actionIDs.end();
-        });
-        return bOfOrder && !IsTerminal(action.actionStatus);
+    // FollowActions has dropped what has ended.
+    return std::ranges::none_of(_tracked, [](const TrackedAction& tracked) {
+        return !tracked.bInstant && tracked.bShown;
     });
 }
 

@@ -1,3 +1,4 @@
+#include "ActionIndex.hpp"
 #include <acs/vda5050/ActionMachine.hpp>
 #include <acs/vda5050/EVda5050Error.hpp>
 #include <acs/vda5050/MasterSession.hpp>
@@ -136,12 +137,18 @@ void MasterSession::PublishOrder(Core::Now now, MasterActions& out)
     const Core::SteadyTime earliest = _lastOrderTime.value_or(now.steady) + GetOrderInterval();
     if (_lastOrderTime.has_value() && now.steady < earliest)
     {
-        out.emplace_back(StartMasterTimer{EMasterTimer::ResendOrder, earliest - now.steady});
+        const Core::Duration delay = earliest - now.steady;
+        out.emplace_back(StartMasterTimer{EMasterTimer::ResendOrder, delay});
+        if (_sendCount == 0)
+        {
+            out.emplace_back(OrderDelayed{_inFlight->orderID, _inFlight->orderUpdateID, delay});
+        }
         return;
     }
     _lastOrderTime = now.steady;
     _inFlight->header = MakeHeader(ETopic::Order, now);
     PublishPayload(ETopic::Order, _codec.Encode(*_inFlight, _options.version), out);
+    _firstHeaderID = _sendCount == 0 ? _inFlight->header.headerID : _firstHeaderID;
     ++_sendCount;
     out.emplace_back(StartMasterTimer{EMasterTimer::ResendOrder, _options.resendInterval});
 }
@@ -213,7 +220,7 @@ void MasterSession::ResendInstantActions(Core::Now now, MasterActions& out)
 
 void MasterSession::BeginOrder(std::string orderID, std::uint32_t lastUpdateID)
 {
-    _withdrawnOrderID.clear();
+    std::erase_if(_withdrawnOrders, [&orderID](const WithdrawnOrder& order) { return order.orderID == orderID; });
     _phase = EOrderPhase::Sent;
     _orderID = std::move(orderID);
     _lastSentUpdateID = lastUpdateID;
@@ -225,6 +232,7 @@ void MasterSession::BeginOrder(std::string orderID, std::uint32_t lastUpdateID)
 void MasterSession::PutInFlight(OrderMessage order, Core::Now now, MasterActions& out)
 {
     _errorsBeforeSend = _state->errors;
+    std::ranges::sort(_errorsBeforeSend);
     _sendCount = 0;
     _inFlight = std::move(order);
     PublishOrder(now, out);
@@ -235,6 +243,18 @@ Core::Result<void> MasterSession::SendOrder(OrderMessage order, Core::Now now, M
     if (_phase != EOrderPhase::None)
     {
         return Core::Fail(EVda5050Error::OrderActive, {}, "no order", _orderID);
+    }
+    if (IsReady() && IsLed() && _state->orderID == order.orderID)
+    {
+        return Core::Fail(
+            EVda5050Error::InvalidOrder,
+            "orderId",
+            "an id that the vehicle does not show, or else ResumeOrder",
+            order.orderID);
+    }
+    if (IsReady() && IsLed() && IsBusy())
+    {
+        return Core::Fail(EVda5050Error::OrderActive, {}, "no order", _state->orderID);
     }
     if (!CanTakeOrder())
     {
@@ -370,7 +390,7 @@ Core::Result<void> MasterSession::ResumeOrder(OrderRecord record, Core::Now now,
     {
         PutInFlight(std::move(*open), now, out);
     }
-    FollowActions(out);
+    FollowActions(ActionIndex(_state->actionStates), out);
     FollowOrder(out);
     return {};
 }
@@ -407,17 +427,23 @@ Core::Result<std::string> MasterSession::SendInstantAction(Action action, Core::
         return tl::unexpected(fit.error());
     }
     std::string actionID = action.actionID;
+    const ActionState* const shown = FindShownOrNull(actionID);
+    if (IsTracked(actionID) || (shown != nullptr && shown->actionType != action.actionType))
+    {
+        return Core::Fail(EVda5050Error::InvalidOrder, "actionId", "an id of its own", actionID);
+    }
+    if (shown != nullptr)
+    {
+        out.emplace_back(
+            ActionChanged{shown->actionID, shown->actionType, shown->actionStatus, shown->resultDescription});
+        if (!IsTerminal(shown->actionStatus))
+        {
+            _tracked.push_back(TrackedAction{action.actionID, action.actionType, true, true});
+        }
+        return actionID;
+    }
     if (!IsRequest(action.actionType))
     {
-        const ActionState* const shown = FindShownOrNull(actionID);
-        if (shown != nullptr)
-        {
-            if (!IsTerminal(shown->actionStatus))
-            {
-                _tracked.push_back(TrackedAction{action.actionID, action.actionType, true, true});
-            }
-            return actionID;
-        }
         _pendingActions.push_back(PendingAction{action, 1});
         _tracked.push_back(TrackedAction{action.actionID, action.actionType, true, false});
         out.emplace_back(StartMasterTimer{EMasterTimer::ResendInstantActions, _options.resendInterval});

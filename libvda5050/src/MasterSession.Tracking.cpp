@@ -1,8 +1,10 @@
+#include "ActionIndex.hpp"
 #include <acs/vda5050/ActionMachine.hpp>
 #include <acs/vda5050/MasterSession.hpp>
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -10,16 +12,24 @@ namespace ACS::VDA5050
 
 void MasterSession::TrackOrderActions(const OrderMessage& order)
 {
-    const auto isDropped = [this](const TrackedAction& tracked) {
-        return !tracked.bInstant && std::ranges::none_of(_route, [&tracked](const RouteNode& node) {
-            return std::ranges::find(node.actionIDs, tracked.actionID) != node.actionIDs.end();
-        });
+    std::set<std::string_view> ofRoute;
+    for (const RouteNode& node : _route)
+    {
+        ofRoute.insert(node.actionIDs.begin(), node.actionIDs.end());
+    }
+    const auto isDropped = [&ofRoute](const TrackedAction& tracked) {
+        return !tracked.bInstant && !ofRoute.contains(tracked.actionID);
     };
     std::erase_if(_tracked, isDropped);
-    const auto track = [this](const std::vector<Action>& actions) {
+    std::set<std::string> known;
+    for (const TrackedAction& tracked : _tracked)
+    {
+        known.insert(tracked.actionID);
+    }
+    const auto track = [this, &known](const std::vector<Action>& actions) {
         for (const Action& action : actions)
         {
-            if (std::ranges::find(_tracked, action.actionID, &TrackedAction::actionID) == _tracked.end())
+            if (known.insert(action.actionID).second)
             {
                 _tracked.push_back(TrackedAction{action.actionID, action.actionType, false, false});
             }
@@ -37,11 +47,11 @@ void MasterSession::TrackOrderActions(const OrderMessage& order)
     }
 }
 
-void MasterSession::FollowActions(MasterActions& out)
+void MasterSession::FollowActions(const ActionIndex& shown, MasterActions& out)
 {
-    const auto isEnded = [this, &out](TrackedAction& tracked) {
-        const auto state = std::ranges::find(_state->actionStates, tracked.actionID, &ActionState::actionID);
-        if (state != _state->actionStates.end())
+    const auto isEnded = [&shown, &out](TrackedAction& tracked) {
+        const ActionState* const state = shown.FindOrNull(tracked.actionID);
+        if (state != nullptr)
         {
             tracked.bShown = true;
             return IsTerminal(state->actionStatus);

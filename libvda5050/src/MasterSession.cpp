@@ -1,3 +1,4 @@
+#include "ActionIndex.hpp"
 #include <acs/vda5050/ActionMachine.hpp>
 #include <acs/vda5050/EVda5050Error.hpp>
 #include <acs/vda5050/MasterSession.hpp>
@@ -15,6 +16,20 @@ MasterSession::MasterSession(MasterOptions options)
     {
         _topics.at(index) = BuildTopic(_options.address, static_cast<ETopic>(index));
     }
+}
+
+Core::Result<MasterSession> MasterSession::Create(MasterOptions options)
+{
+    if (!IsValidAddress(options.address))
+    {
+        const VehicleAddress& address = options.address;
+        return Core::Fail(
+            EVda5050Error::InvalidTopic,
+            "address",
+            "names that may stand in a topic",
+            Core::QuoteForError(address.interfaceName + "/" + address.manufacturer + "/" + address.serialNumber));
+    }
+    return MasterSession(std::move(options));
 }
 
 std::vector<MqttSubscription> MasterSession::GetSubscriptions() const
@@ -298,8 +313,9 @@ void MasterSession::OnState(std::string_view payload, Core::Now now, MasterActio
     }
     SettleInFlight(now, out);
     TellDifferences(previous, out);
-    SettlePendingActions(out);
-    FollowActions(out);
+    const ActionIndex shown(_state->actionStates);
+    SettlePendingActions(shown, out);
+    FollowActions(shown, out);
     FollowOrder(out);
     FollowCancel(out);
     CancelReappeared(now, out);
@@ -348,10 +364,11 @@ void MasterSession::TellDifferences(const std::optional<StateMessage>& previous,
 {
     const StateMessage none;
     const StateMessage& before = previous.has_value() ? *previous : none;
+    const ActionIndex actionsBefore(before.actionStates);
     for (const ActionState& action : _state->actionStates)
     {
-        const auto known = std::ranges::find(before.actionStates, action.actionID, &ActionState::actionID);
-        const bool bSame = known != before.actionStates.end() && known->actionStatus == action.actionStatus
+        const ActionState* const known = actionsBefore.FindOrNull(action.actionID);
+        const bool bSame = known != nullptr && known->actionStatus == action.actionStatus
             && known->resultDescription == action.resultDescription;
         if (!bSame)
         {
@@ -360,9 +377,10 @@ void MasterSession::TellDifferences(const std::optional<StateMessage>& previous,
         }
     }
     const auto tell = [&out](const StateMessage& from, const StateMessage& other, bool bActive) {
+        const SortedIndex<VehicleError> known(other.errors);
         for (const VehicleError& error : from.errors)
         {
-            if (std::ranges::find(other.errors, error) == other.errors.end())
+            if (known.FindOrNull(error) == nullptr)
             {
                 out.emplace_back(VehicleErrorChanged{error, bActive});
             }
@@ -394,7 +412,12 @@ bool MasterSession::IsReady() const
 
 bool MasterSession::CanTakeOrder() const
 {
-    return IsReady() && _phase == EOrderPhase::None && IsLed();
+    return IsReady() && _phase == EOrderPhase::None && IsLed() && !IsBusy();
+}
+
+bool MasterSession::IsBusy() const
+{
+    return _state.has_value() && !(_state->nodeStates.empty() && _state->edgeStates.empty());
 }
 
 bool MasterSession::IsLed() const

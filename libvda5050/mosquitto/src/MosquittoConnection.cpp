@@ -93,6 +93,7 @@ std::error_code MosquittoConnection::Open(const MosquittoOptions& options, std::
         _client.emplace(made);
     }
     _maxUnsent = options.maxUnsent;
+    _maxPayloadBytes = options.maxPayloadBytes;
     SetCallbacks();
     int code = Configure(options);
     if (code == MOSQ_ERR_SUCCESS)
@@ -262,15 +263,21 @@ void MosquittoConnection::HandleConnect(int returnCode, bool bSessionPresent)
 
 void MosquittoConnection::HandleMessage(const mosquitto_message& message)
 {
-    MqttMessage copy;
-    copy.topic = message.topic;
-    copy.payload.assign(static_cast<const char*>(message.payload), static_cast<std::size_t>(message.payloadlen));
-    copy.qos = static_cast<std::uint8_t>(message.qos);
-    copy.bRetained = message.retain;
     if (message.qos == EXACTLY_ONCE)
     {
         _client->OnReleased(message.mid);
     }
+    const auto length = static_cast<std::size_t>(message.payloadlen);
+    if (length > _maxPayloadBytes)
+    {
+        _events.emplace_back(TooLong{message.topic, length});
+        return;
+    }
+    MqttMessage copy;
+    copy.topic = message.topic;
+    copy.payload.assign(static_cast<const char*>(message.payload), length);
+    copy.qos = static_cast<std::uint8_t>(message.qos);
+    copy.bRetained = message.retain;
     _events.emplace_back(std::move(copy));
 }
 
@@ -359,7 +366,7 @@ bool MosquittoConnection::IsUp() const
 
 bool MosquittoConnection::HasUnsent() const
 {
-    return _unsent + _client->CountUnacknowledged() > 0;
+    return _unsent > 0 || (_client.has_value() && _client->CountUnacknowledged() > 0);
 }
 
 void MosquittoConnection::WaitToRead()
@@ -543,6 +550,7 @@ void MosquittoConnection::Tell(const Event& event)
         Core::Overloaded{
             [&owner](const Up&) { owner.OnConnectionUp(); },
             [&owner](const MqttMessage& message) { owner.OnConnectionMessage(message); },
+            [&owner](const TooLong& dropped) { owner.OnTooLong(dropped.topic, dropped.bytes); },
             [&owner](const Sent& sent) { owner.OnSent(sent.messageID); },
             [&owner](const Subscribed& answer) { owner.OnSubscribed(answer.messageID, answer.bGranted); },
             [&owner](const Closed& closed) {

@@ -35,6 +35,8 @@ public:
 
     virtual void OnConnectionUp() = 0;
     virtual void OnConnectionMessage(const MqttMessage& message) = 0;
+    /// A message was dropped because of its length.
+    virtual void OnTooLong(const std::string& topic, std::size_t bytes) = 0;
     virtual void OnSent(int messageID) = 0;
     /// The broker has answered a Subscribe; the id is the one that it returned.
     virtual void OnSubscribed(int messageID, bool bGranted) = 0;
@@ -63,7 +65,12 @@ class MosquittoConnection final : public std::enable_shared_from_this<MosquittoC
     {
         std::error_code reason;
     };
-    using Event = std::variant<Up, MqttMessage, Sent, Subscribed, Closed>;
+    struct TooLong
+    {
+        std::string topic;
+        std::size_t bytes = 0;
+    };
+    using Event = std::variant<Up, MqttMessage, TooLong, Sent, Subscribed, Closed>;
 
     boost::asio::any_io_executor _executor;
     IMosquittoConnectionOwner* _ownerOrNull;
@@ -74,6 +81,7 @@ class MosquittoConnection final : public std::enable_shared_from_this<MosquittoC
     std::vector<Event> _events;
     std::size_t _unsent = 0; ///< Of QoS 0.
     std::size_t _maxUnsent = 0;
+    std::size_t _maxPayloadBytes = 0;
     int _closeCode = 0;
     bool _bPersistent = false;
     bool _bGoesOn = false;    ///< With the client of a connection before.

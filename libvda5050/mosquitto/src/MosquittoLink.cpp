@@ -8,7 +8,7 @@
 
 #include <chrono>
 #include <exception>
-#include <set>
+#include <map>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -28,16 +28,22 @@ class MosquittoLink::Impl final : public IMosquittoConnectionOwner, public std::
     std::shared_ptr<MosquittoConnection> _connectionOrNull;
     std::optional<MosquittoClient> _clientOrNull; ///< Of a persistent session, between two connections.
     std::vector<MqttSubscription> _subscriptions;
-    std::set<int> _unconfirmed;
+    std::map<int, std::string> _unconfirmed; ///< The filters that OnLinkUp waits for, by the id of their message.
+    std::map<int, std::string> _later;       ///< Those that came after them.
+    std::string _refusedFilter;              ///< Because of which the connection is given up.
     std::vector<MqttMessage> _early;
+    std::size_t _earlyBytes = 0;
     std::size_t _earlyDropped = 0;
-    StopHandler _stopHandler;
+    std::vector<StopHandler> _stopHandlers;
     std::chrono::steady_clock::time_point _upSince;
     std::size_t _shortLives = 0; ///< Connections in a row that ended as soon as they stood.
     bool _bUp = false;
     bool _bOutageLogged = false;
+    bool _bRefusalLogged = false;
+    bool _bTooLongLogged = false; ///< In this connection.
     bool _bRivalTold = false;
     bool _bStopping = false;
+    bool _bStopped = false;
 
 public:
     Impl(
@@ -60,6 +66,7 @@ public:
 
     void OnConnectionUp() override;
     void OnConnectionMessage(const MqttMessage& message) override;
+    void OnTooLong(const std::string& topic, std::size_t bytes) override;
     void OnSent(int messageID) override;
     void OnSubscribed(int messageID, bool bGranted) override;
     void OnConnectionClosed(std::error_code reason) override;
@@ -71,6 +78,8 @@ private:
     void LogEnd(bool bWasUp, bool bRenewal, bool bRival, const std::error_code& reason);
     void LogRival(const std::error_code& reason);
     void LogOutage(bool bWasUp, const std::error_code& reason);
+    void LogRefusal(const std::string& filter);
+    void GiveUp(const std::string& filter);
     void AnnounceWhenConfirmed();
     void FinishStop();
     [[nodiscard]] std::string GetAddress() const;
@@ -116,7 +125,7 @@ void MosquittoLink::Impl::Abandon()
 {
     _bStopping = true;
     _listenerOrNull = nullptr;
-    _stopHandler = nullptr;
+    _stopHandlers.clear();
     _timer.cancel();
     if (_connectionOrNull != nullptr)
     {
@@ -149,7 +158,15 @@ void MosquittoLink::Impl::Subscribe(const std::vector<MqttSubscription>& subscri
         _subscriptions.push_back(subscription);
         if (_connectionOrNull != nullptr)
         {
-            std::ignore = _connectionOrNull->SubscribeOrNull(subscription);
+            const std::optional<int> messageID = _connectionOrNull->SubscribeOrNull(subscription);
+            if (messageID.has_value())
+            {
+                _later[*messageID] = subscription.topicFilter;
+            }
+            else if (_connectionOrNull->IsUp())
+            {
+                _logger.Error("cannot subscribe", {{"filter", subscription.topicFilter}});
+            }
         }
     }
 }
@@ -174,8 +191,12 @@ std::string MosquittoLink::Impl::GetAddress() const
 void MosquittoLink::Impl::Connect()
 {
     _unconfirmed.clear();
+    _later.clear();
+    _refusedFilter.clear();
+    _bTooLongLogged = false;
     if (_options.bCleanSession)
     {
+        _earlyBytes = 0;
         _early.clear(); // else the broker has its acknowledgement for it, and will not send it again
     }
     _earlyDropped = 0;
@@ -239,7 +260,11 @@ bool MosquittoLink::Impl::HasRival(bool bWasUp, const std::error_code& reason)
 
 void MosquittoLink::Impl::LogEnd(bool bWasUp, bool bRenewal, bool bRival, const std::error_code& reason)
 {
-    if (bRival)
+    if (!_refusedFilter.empty())
+    {
+        LogRefusal(_refusedFilter);
+    }
+    else if (bRival)
     {
         LogRival(reason);
     }
@@ -251,6 +276,19 @@ void MosquittoLink::Impl::LogEnd(bool bWasUp, bool bRenewal, bool bRival, const 
     {
         LogOutage(bWasUp, reason);
     }
+}
+
+void MosquittoLink::Impl::LogRefusal(const std::string& filter)
+{
+    if (std::exchange(_bRefusalLogged, true))
+    {
+        _logger.Debug("the MQTT broker refuses a subscription still", {{"filter", filter}});
+        return;
+    }
+    _logger.Warning(fmt::format(
+        "the MQTT broker {} does not take the subscription {}: check its access rules; trying again until it does",
+        GetAddress(),
+        filter));
 }
 
 void MosquittoLink::Impl::LogRival(const std::error_code& reason)
@@ -282,14 +320,12 @@ void MosquittoLink::Impl::OnConnectionUp()
     for (const MqttSubscription& subscription : _subscriptions)
     {
         const std::optional<int> messageID = _connectionOrNull->SubscribeOrNull(subscription);
-        if (messageID.has_value())
+        if (!messageID.has_value())
         {
-            _unconfirmed.insert(*messageID);
+            GiveUp(subscription.topicFilter);
+            return;
         }
-        else
-        {
-            _logger.Error("cannot subscribe", {{"filter", subscription.topicFilter}});
-        }
+        _unconfirmed[*messageID] = subscription.topicFilter;
     }
     AnnounceWhenConfirmed();
 }
@@ -297,24 +333,52 @@ void MosquittoLink::Impl::OnConnectionUp()
 void MosquittoLink::Impl::OnSubscribed(int messageID, bool bGranted)
 {
     const std::shared_ptr<Impl> self = shared_from_this(); // the listener may destroy the link
+    const auto later = _later.find(messageID);
+    if (later != _later.end())
+    {
+        if (!bGranted)
+        {
+            _logger.Error(
+                "the MQTT broker refuses a subscription: check its access rules",
+                {{"broker", GetAddress()}, {"filter", later->second}});
+        }
+        _later.erase(later);
+        return;
+    }
+    const auto found = _unconfirmed.find(messageID);
+    if (found == _unconfirmed.end())
+    {
+        return;
+    }
     if (!bGranted)
     {
-        _logger.Error("the MQTT broker refuses a subscription: check its access rules", {{"broker", GetAddress()}});
+        GiveUp(found->second);
+        return;
     }
-    if (_unconfirmed.erase(messageID) > 0)
+    _unconfirmed.erase(found);
+    AnnounceWhenConfirmed();
+}
+
+/// A session above that believes that it is heard, and is not, is worse than none. Takes leave, so that no will is sent.
+void MosquittoLink::Impl::GiveUp(const std::string& filter)
+{
+    if (!_refusedFilter.empty() || _bStopping)
     {
-        AnnounceWhenConfirmed();
+        return;
     }
+    _refusedFilter = filter;
+    _connectionOrNull->TakeLeave();
 }
 
 void MosquittoLink::Impl::AnnounceWhenConfirmed()
 {
-    if (!_unconfirmed.empty() || _bUp || _bStopping)
+    if (!_unconfirmed.empty() || !_refusedFilter.empty() || _bUp || _bStopping)
     {
         return;
     }
     _bUp = true;
     _bOutageLogged = false;
+    _bRefusalLogged = false;
     _connectionOrNull->Confirm();
     _upSince = std::chrono::steady_clock::now();
     _logger.Write(
@@ -324,7 +388,7 @@ void MosquittoLink::Impl::AnnounceWhenConfirmed()
     if (_earlyDropped > 0)
     {
         _logger.Error(
-            "too many retained messages at once: the rest is dropped",
+            "too much came in before the subscriptions stood: the rest is dropped",
             {{"broker", GetAddress()}, {"dropped", std::to_string(_earlyDropped)}});
     }
     _timer.expires_after(STABLE_AFTER);
@@ -335,6 +399,7 @@ void MosquittoLink::Impl::AnnounceWhenConfirmed()
             self->_backoff.Reset();
         }
     });
+    _earlyBytes = 0;
     _listenerOrNull->OnLinkUp();
     for (const MqttMessage& message : std::exchange(_early, {}))
     {
@@ -351,9 +416,11 @@ void MosquittoLink::Impl::OnConnectionMessage(const MqttMessage& message)
     }
     if (!_bUp)
     {
-        if (_early.size() < _options.maxEarly)
+        const std::size_t bytes = message.topic.size() + message.payload.size();
+        if (_early.size() < _options.maxEarly && bytes <= _options.maxEarlyBytes - _earlyBytes)
         {
             _early.push_back(message);
+            _earlyBytes += bytes;
         }
         else
         {
@@ -362,6 +429,14 @@ void MosquittoLink::Impl::OnConnectionMessage(const MqttMessage& message)
         return;
     }
     _listenerOrNull->OnMqttMessage(message);
+}
+
+void MosquittoLink::Impl::OnTooLong(const std::string& topic, std::size_t bytes)
+{
+    _logger.Write(
+        std::exchange(_bTooLongLogged, true) ? Core::ELogLevel::Debug : Core::ELogLevel::Warning,
+        "a message that is too long is dropped",
+        {{"topic", Core::QuoteForError(topic)}, {"bytes", std::to_string(bytes)}});
 }
 
 void MosquittoLink::Impl::OnConnectionClosed(std::error_code reason)
@@ -402,9 +477,23 @@ void MosquittoLink::Impl::StopAsync(
     std::chrono::milliseconds timeout,
     StopHandler handler)
 {
+    _stopHandlers.push_back(std::move(handler));
+    if (_bStopping)
+    {
+        if (_bStopped)
+        {
+            boost::asio::post(_executor, [weak = weak_from_this()]() {
+                const std::shared_ptr<Impl> self = weak.lock();
+                if (self != nullptr)
+                {
+                    self->FinishStop();
+                }
+            });
+        }
+        return;
+    }
     const bool bWasConnected = IsConnected();
     _bStopping = true;
-    _stopHandler = std::move(handler);
     _timer.cancel();
     if (bWasConnected && lastMessageOrNull.has_value())
     {
@@ -428,16 +517,20 @@ void MosquittoLink::Impl::StopAsync(
 
 void MosquittoLink::Impl::FinishStop()
 {
+    const std::shared_ptr<Impl> self = shared_from_this(); // a handler may destroy the link
+    _bStopped = true;
     _timer.cancel();
     if (_connectionOrNull != nullptr)
     {
         _connectionOrNull->Abandon();
         _connectionOrNull.reset();
     }
-    const StopHandler handler = std::exchange(_stopHandler, nullptr);
-    if (handler)
+    for (const StopHandler& handler : std::exchange(_stopHandlers, {}))
     {
-        handler();
+        if (handler)
+        {
+            handler();
+        }
     }
 }
 

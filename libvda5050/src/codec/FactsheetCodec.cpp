@@ -100,10 +100,10 @@ struct JsonFields<VDA5050::ProtocolTiming>
 {
     using Type = VDA5050::ProtocolTiming;
     static constexpr auto FIELDS = std::make_tuple(
-        Required("minOrderInterval", &Type::minOrderInterval),
-        Required("minStateInterval", &Type::minStateInterval),
-        Optional("defaultStateInterval", &Type::defaultStateInterval),
-        Optional("visualizationInterval", &Type::visualizationInterval));
+        Required("minOrderInterval", &Type::minOrderInterval).Between(0, VDA5050::LONGEST_INTERVAL),
+        Required("minStateInterval", &Type::minStateInterval).Between(0, VDA5050::LONGEST_INTERVAL),
+        Optional("defaultStateInterval", &Type::defaultStateInterval).Between(0, VDA5050::LONGEST_INTERVAL),
+        Optional("visualizationInterval", &Type::visualizationInterval).Between(0, VDA5050::LONGEST_INTERVAL));
 };
 
 template <>

@@ -72,6 +72,116 @@ TEST_CASE("2 What comes before the subscriptions are answered is kept up to a bo
     CHECK(std::ranges::any_of(lines, [](const RecordedLine& line) { return line.HasField("dropped", "30"); }));
 }
 
+TEST_CASE("2 What comes before the subscriptions are answered is bounded in bytes too")
+{
+    boost::asio::io_context context;
+    RawBroker broker(context);
+    broker.answerSubscribe = [](std::string_view packetID) {
+        std::string answer;
+        for (int i = 0; i < 5; ++i)
+        {
+            answer += RawBroker::MakePublish("topic", std::string(50, 'x'));
+        }
+        return answer + "\x90\x03" + std::string(packetID) + "\x01";
+    };
+    auto options = MakeOptions(broker.GetPort(), "flooded");
+    options.maxEarlyBytes = 120; // two of them
+    TestLink link(context, options);
+    link.link.Subscribe({{"topic", 1}});
+    link.link.Start();
+    REQUIRE(TryRunUntil(context, [&]() { return link.listener.messages.size() >= 2; }));
+    const auto& lines = link.log.GetLines();
+    CHECK(std::ranges::any_of(lines, [](const RecordedLine& line) { return line.HasField("dropped", "3"); }));
+}
+
+TEST_CASE("2 A payload that is longer than allowed is dropped and told, and what comes after it is heard")
+{
+    boost::asio::io_context context;
+    RawBroker broker(context);
+    broker.answerSubscribe = [](std::string_view packetID) {
+        return "\x90\x03" + std::string(packetID) + "\x01";
+    };
+    auto options = MakeOptions(broker.GetPort(), "brief");
+    options.maxPayloadBytes = 20;
+    TestLink link(context, options);
+    link.link.Subscribe({{"topic", 1}});
+    link.link.Start();
+    REQUIRE(TryRunUntil(context, [&]() { return link.listener.ups == 1; }));
+    broker.Send(RawBroker::MakePublish("topic", std::string(21, 'x')));
+    broker.Send(RawBroker::MakePublish("topic", std::string(22, 'x')));
+    broker.Send(RawBroker::MakePublish("topic", std::string(20, 'x')));
+    REQUIRE(TryRunUntil(context, [&]() { return !link.listener.messages.empty(); }));
+    CHECK(link.listener.messages.front().payload.size() == 20);
+    CHECK(link.log.CountLevel(Core::ELogLevel::Warning) == 1); // and no more in this connection
+    const auto& lines = link.log.GetLines();
+    CHECK(std::ranges::any_of(lines, [](const RecordedLine& line) { return line.HasField("bytes", "21"); }));
+}
+
+TEST_CASE(
+    "2 A subscription that the broker refuses brings no link up; it is told once, with its filter, and tried again")
+{
+    boost::asio::io_context context;
+    RawBroker broker(context);
+    std::string code = "\x80";
+    broker.answerSubscribe = [&code](std::string_view packetID) {
+        return "\x90\x03" + std::string(packetID) + code;
+    };
+    TestLink link(context, MakeOptions(broker.GetPort(), "refused"));
+    link.link.Subscribe({{"uagv/v2/+/+/state", 1}});
+    link.link.Start();
+    REQUIRE(TryRunUntil(context, [&]() { return broker.connections >= 3; }));
+    CHECK(link.listener.ups == 0);
+    CHECK(link.log.CountLevel(Core::ELogLevel::Warning) == 1);
+    const auto& lines = link.log.GetLines();
+    CHECK(std::ranges::any_of(lines, [](const RecordedLine& line) {
+        return line.message.find("uagv/v2/+/+/state") != std::string::npos;
+    }));
+    // It takes leave, so that a vehicle's will is not sent again and again.
+    const std::string disconnect("\xE0\x00", 2);
+    CHECK(TryRunUntil(context, [&]() { return broker.received.find(disconnect) != std::string::npos; }));
+    code = "\x01";
+    REQUIRE(TryRunUntil(context, [&]() { return link.listener.ups == 1; }));
+
+    code = "\x80"; // a later one is told and no more
+    link.link.Subscribe({{"later", 0}});
+    REQUIRE(TryRunUntil(context, [&]() { return link.log.CountLevel(Core::ELogLevel::Error) == 1; }));
+    CHECK(std::ranges::any_of(lines, [](const RecordedLine& line) { return line.HasField("filter", "later"); }));
+    CHECK(link.link.IsConnected());
+}
+
+TEST_CASE("2 A filter that is none brings no link up, and is told")
+{
+    boost::asio::io_context context;
+    RawBroker broker(context);
+    TestLink link(context, MakeOptions(broker.GetPort(), "wrong"));
+    link.link.Subscribe({{"a/#/b", 0}});
+    link.link.Start();
+    REQUIRE(TryRunUntil(context, [&]() { return broker.connections >= 2; }));
+    CHECK(link.listener.ups == 0);
+    CHECK(link.log.CountLevel(Core::ELogLevel::Warning) == 1);
+}
+
+TEST_CASE("2 Each StopAsync calls back once: while the first one waits, and when all is over")
+{
+    boost::asio::io_context context;
+    RawBroker broker(context);
+    broker.answerSubscribe = [](std::string_view packetID) {
+        return "\x90\x03" + std::string(packetID) + "\x01";
+    };
+    TestLink link(context, MakeOptions(broker.GetPort(), "leaving twice"));
+    link.link.Subscribe({{"topic", 1}});
+    link.link.Start();
+    REQUIRE(TryRunUntil(context, [&]() { return link.listener.ups == 1; }));
+    std::vector<int> called;
+    link.link.StopAsync(std::nullopt, 15s, [&]() { called.push_back(1); });
+    link.link.StopAsync(std::nullopt, 15s, [&]() { called.push_back(2); });
+    REQUIRE(TryRunUntil(context, [&]() { return called.size() == 2; }));
+    link.link.StopAsync(std::nullopt, 15s, [&]() { called.push_back(3); });
+    CHECK(called.size() == 2); // never from inside the call
+    REQUIRE(TryRunUntil(context, [&]() { return called.size() == 3; }));
+    CHECK(called == std::vector{1, 2, 3});
+}
+
 TEST_CASE("2 A link that stops takes leave only when the broker has acknowledged all, so that no will is sent")
 {
     boost::asio::io_context context;

@@ -1,6 +1,8 @@
 #include "MasterBench.hpp"
 #include <acs/vda5050/EVda5050Error.hpp>
 
+#include <array>
+
 namespace ACS::VDA5050::Test
 {
 
@@ -146,9 +148,15 @@ TEST_CASE("13 Between two order messages the vehicle has its minOrderInterval, a
     CHECK(
         Pick<StartMasterTimer>(bench.GetOutput())
         == std::vector{StartMasterTimer{EMasterTimer::ResendOrder, std::chrono::seconds(3)}});
+    CHECK(Pick<OrderDelayed>(bench.GetOutput()) == std::vector{OrderDelayed{"order-1", 1, std::chrono::seconds(3)}});
+    bench.Clear();
     bench.Wait(std::chrono::seconds(3), EMasterTimer::ResendOrder);
     CHECK(bench.GetSent(ETopic::Order).size() == 1);
     CHECK(bench.session.GetStatistics().ordersResent == 0);
+    bench.Wait(
+        std::chrono::seconds(2),
+        EMasterTimer::ResendOrder); // a resend that waits is none of the master's concern
+    CHECK(Pick<OrderDelayed>(bench.GetOutput()).empty());
 
     for (int i = 0; i < 2; ++i)
     {
@@ -160,6 +168,56 @@ TEST_CASE("13 Between two order messages the vehicle has its minOrderInterval, a
     bench.Clear();
     bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendInstantActions);
     CHECK(bench.GetSent(ETopic::InstantActions).size() == 2);
+}
+
+TEST_CASE("3.7 A factsheet with an interval below 0 or above a day is refused: nobody could keep it")
+{
+    struct Row
+    {
+        double interval;
+        bool bTaken;
+    };
+    const Row row = GENERATE(Row{1e300, false}, Row{86'400.5, false}, Row{-0.5, false}, Row{86'400.0, true});
+    CAPTURE(row.interval);
+    const std::size_t member = GENERATE(as<std::size_t>(), 0, 1, 2, 3);
+    FactsheetMessage factsheet = MakeFactsheet();
+    ProtocolTiming& timing = factsheet.protocolLimits.timing;
+    timing.defaultStateInterval = 1.0;
+    timing.visualizationInterval = 1.0;
+    const std::array<double*, 4> members{
+        &timing.minOrderInterval,
+        &timing.minStateInterval,
+        &*timing.defaultStateInterval,
+        &*timing.visualizationInterval};
+    *members.at(member) = row.interval;
+    MasterBench bench;
+    bench.Say(ETopic::Factsheet, Vda5050Codec().Encode(factsheet, EVda5050Version::Version210));
+    CHECK((bench.session.GetFactsheetOrNull() != nullptr) == row.bTaken);
+    CHECK(Pick<MessageRefused>(bench.GetOutput()).size() == (row.bTaken ? 0 : 1));
+}
+
+TEST_CASE("3.7 Own ids that have to be short are taken anew where they are in use")
+{
+    MasterBench bench;
+    FactsheetMessage factsheet = MakeFactsheet();
+    factsheet.protocolLimits.maxStringLengths.identifier = 1;
+    Tell(bench, factsheet);
+    bench.BeReady();
+    for (int i = 0; i < 8; ++i)
+    {
+        bench.state.actionStates.push_back(
+            ActionState{std::to_string(i), "startPause", {}, EActionStatus::Finished, {}});
+    }
+    bench.SendState();
+    for (int i = 0; i < 2; ++i)
+    {
+        const auto sent = bench.session.SendInstantAction(
+            MakeAction({}, EBlockingType::None, "startPause"),
+            bench.GetNow(),
+            bench.Clear());
+        REQUIRE(sent);
+        CHECK(bench.GetSent(ETopic::InstantActions).size() == 1);
+    }
 }
 
 TEST_CASE("4.6 A vehicle that announces a longer state interval is given it before it counts as silent")

@@ -187,6 +187,77 @@ TEST_CASE("13 Without discovery a fleet listens to the vehicles that were added,
     CHECK(bench.ListTellers<VehicleOnline>() == std::vector<std::size_t>{0});
 }
 
+TEST_CASE("13 A vehicle that is removed is forgotten, its number stays its own, and others have its room")
+{
+    FleetOptions options;
+    options.maxVehicles = 2;
+    FleetBench bench(options);
+    bench.Connect(MakeVehicle(1));
+    bench.Connect(MakeVehicle(2));
+    bench.Connect(MakeVehicle(3));
+    REQUIRE(bench.fleet.GetLeftOutCount() == 1);
+    bench.out.clear();
+    REQUIRE(bench.fleet.TryRemove(0, bench.out));
+    CHECK(bench.ListTellers<CancelMasterTimer>() == std::vector<std::size_t>{0, 0, 0});
+    CHECK_FALSE(bench.fleet.TryRemove(0, bench.out));
+    CHECK_FALSE(bench.fleet.TryRemove(7, bench.out));
+    CHECK_FALSE(bench.fleet.Contains(0));
+    CHECK_FALSE(bench.fleet.FindOrNull(MakeVehicle(1)).has_value());
+    bench.out.clear();
+    Core::Now late = bench.GetNow();
+    late.steady += std::chrono::hours(1);
+    bench.fleet.OnTimer(0, EMasterTimer::Silence, late, bench.out);
+    CHECK(bench.out.empty());
+    bench.fleet.OnLinkDown(bench.GetNow(), bench.out);
+    bench.fleet.OnLinkUp(bench.GetNow(), bench.out);
+    bench.Connect(MakeVehicle(3));
+    CHECK(bench.fleet.FindOrNull(MakeVehicle(3)) == std::optional<std::size_t>(2));
+    CHECK(bench.fleet.GetStatistics().messagesSent == 2); // of those that are there
+    CHECK(bench.fleet.GetSize() == 3);
+}
+
+TEST_CASE("13 Only welcome vehicles are discovered, and one that is added finds room in a full fleet")
+{
+    FleetOptions options;
+    options.maxVehicles = 1;
+    options.isWelcome = [](const VehicleAddress& address) {
+        return address.serialNumber != "LR1";
+    };
+    FleetBench bench(options);
+    bench.Connect(MakeVehicle(1));
+    CHECK(bench.fleet.GetSize() == 0);
+    REQUIRE(bench.fleet.GetLastLeftOutOrNull() != nullptr);
+    CHECK(bench.fleet.GetLastLeftOutOrNull()->reason.code == EVda5050Error::InvalidTopic);
+    bench.Connect(MakeVehicle(2));
+    bench.Connect(MakeVehicle(3));
+    CHECK(bench.fleet.GetSize() == 1);
+    CHECK(bench.fleet.Add(MakeVehicle(1), bench.GetNow(), bench.out).value_or(99) == 1);
+    bench.Connect(MakeVehicle(1));
+    CHECK(bench.fleet.GetSession(1).GetLink() == EVehicleLink::Online);
+}
+
+TEST_CASE("2 An address that cannot stand in a topic makes no session and no fleet")
+{
+    const VehicleAddress wrong = GENERATE(
+        VehicleAddress{"uagv", "#", "+"},
+        VehicleAddress{"", "ACS", "LR1"},
+        VehicleAddress{"a/b", "ACS", "LR1"});
+    MasterOptions options;
+    options.address = wrong;
+    const auto session = MasterSession::Create(options);
+    REQUIRE_FALSE(session.has_value());
+    CHECK(session.error().code == EVda5050Error::InvalidTopic);
+    FleetOptions fleetOptions;
+    fleetOptions.vehicle = options;
+    const bool bInterface = wrong.interfaceName == "uagv"; // a fleet has no vehicle yet
+    const auto fleet = MasterFleet::Create(fleetOptions);
+    CHECK(fleet.has_value() == bInterface);
+    CHECK((bInterface || fleet.error().code == EVda5050Error::InvalidTopic));
+    options.address = MakeVehicle(1);
+    REQUIRE(MasterSession::Create(options).has_value());
+    CHECK(MasterSession::Create(options)->GetSubscriptions()[0].topicFilter == "uagv/v2/ACS/LR1/state");
+}
+
 TEST_CASE("13 The link's outage is every vehicle's, and a timer is one vehicle's")
 {
     FleetBench bench;

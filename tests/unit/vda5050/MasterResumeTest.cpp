@@ -166,9 +166,44 @@ TEST_CASE("5.6 An instant action that the vehicle shows already is not sent agai
     REQUIRE(sent);
     CHECK(*sent == "i1");
     CHECK(bench.GetSent(ETopic::InstantActions).empty());
+    const EActionStatus status = bEnded ? EActionStatus::Finished : EActionStatus::Running;
+    CHECK(Pick<ActionChanged>(bench.GetOutput()) == std::vector{ActionChanged{"i1", "pick", status, {}}});
     bench.state.actionStates.clear();
     bench.SendState();
     CHECK(Pick<ActionLost>(bench.GetOutput()).size() == (bEnded ? 0 : 1));
+}
+
+TEST_CASE("5.6 An instant action with the id of another one, or of one that has not ended, is not sent")
+{
+    MasterBench bench;
+    Show(bench, "a1", EActionStatus::Finished);
+    bench.BeReady();
+    const auto send = [&bench](std::string actionID, std::string actionType) {
+        return bench.session.SendInstantAction(
+            MakeAction(std::move(actionID), EBlockingType::None, std::move(actionType)),
+            bench.GetNow(),
+            bench.Clear());
+    };
+    CHECK(send("a1", "startPause").error().code == EVda5050Error::InvalidOrder);
+    CHECK(send("a1", "stateRequest").error().code == EVda5050Error::InvalidOrder);
+    CHECK(bench.GetSent(ETopic::InstantActions).empty());
+    REQUIRE(send("i1", "pick"));
+    CHECK(send("i1", "pick").error().code == EVda5050Error::InvalidOrder);
+    CHECK(bench.GetSent(ETopic::InstantActions).empty());
+}
+
+TEST_CASE("4.1 An order with the id that the vehicle shows is not sent: it would be taken for the one that it had")
+{
+    MasterBench bench;
+    const OrderMessage order = MakeOrder(3, 3);
+    bench.Hold(order, GENERATE(as<std::size_t>(), 0, 2));
+    bench.BeReady();
+    const auto sent = bench.session.SendOrder(order, bench.GetNow(), bench.Clear());
+    REQUIRE_FALSE(sent);
+    CHECK(sent.error().code == EVda5050Error::InvalidOrder);
+    CHECK(sent.error().path == "orderId");
+    CHECK(bench.GetSent(ETopic::Order).empty());
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::None);
 }
 
 } // namespace ACS::VDA5050::Test

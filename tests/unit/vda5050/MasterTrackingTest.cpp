@@ -1,4 +1,7 @@
 #include "MasterBench.hpp"
+#include <acs/vda5050/EVda5050Error.hpp>
+
+#include <algorithm>
 
 namespace ACS::VDA5050::Test
 {
@@ -176,11 +179,143 @@ TEST_CASE("13 A master that takes up an order of which the vehicle has a later u
     bench.Hold(order, 3);
     bench.state.orderUpdateID = 5;
     bench.SendState();
-    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
-    bench.SendState();
+    REQUIRE(bench.session.ResumeOrder({{order}, {}}, bench.GetNow(), bench.Clear()).has_value());
     CHECK(Pick<OrderAccepted>(bench.GetOutput()) == std::vector{OrderAccepted{"order-1", 5}});
     REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear()).has_value());
     CHECK(bench.GetSentOrder().orderUpdateID == 6);
+}
+
+TEST_CASE("4.2 An order that was rejected, or never shown, and that the vehicle takes after all is told and cancelled")
+{
+    MasterOptions options = MakeMasterOptions();
+    options.resendCount = 1;
+    MasterBench bench(options);
+    bench.BeReady();
+    OrderMessage order = MakeOrder(3, 3);
+    order.nodes[2].actions.push_back(MakeAction("a1", EBlockingType::Hard));
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    if (GENERATE(true, false))
+    {
+        bench.Refuse(ErrorTypes::NO_ROUTE_ERROR, {{"orderId", "order-1"}, {"orderUpdateId", "0"}});
+    }
+    else
+    {
+        bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendOrder);
+        bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendOrder);
+    }
+    REQUIRE(Pick<OrderRejected>(bench.GetOutput()).size() == 1);
+    CHECK(bench.session.CanTakeOrder());
+    if (GENERATE(true, false))
+    {
+        // Another order meanwhile, which the vehicle refuses because of the first.
+        OrderMessage other = MakeOrder(3, 3);
+        other.orderID = "order-2";
+        REQUIRE(bench.session.SendOrder(other, bench.GetNow(), bench.Clear()).has_value());
+        bench.Hold(order, 2);
+        bench.Refuse(ErrorTypes::ORDER_UPDATE_ERROR, {{"orderId", "order-2"}, {"orderUpdateId", "0"}});
+    }
+    const bool bNodesLeft = GENERATE(true, false);
+    bench.Clear();
+    bench.Hold(order, bNodesLeft ? 2 : 0);
+    bench.state.actionStates = {ActionState{"a1", "pick", {}, EActionStatus::Running, {}}};
+    if (bench.session.GetOrderPhase() == EOrderPhase::None)
+    {
+        bench.SendState();
+        CHECK(Pick<OrderReappeared>(bench.GetOutput()) == std::vector{OrderReappeared{"order-1"}});
+        CHECK(bench.GetSent(ETopic::InstantActions).size() == 1);
+    }
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::Cancelling);
+    CHECK(bench.session.GetOrderID() == "order-1");
+    CHECK_FALSE(bench.session.CanTakeOrder());
+}
+
+TEST_CASE("4.2 A rejected order that the vehicle took and finished between two states is told as both")
+{
+    MasterBench bench;
+    bench.BeReady();
+    const OrderMessage order = MakeOrder(3, 3);
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    bench.Refuse(ErrorTypes::NO_ROUTE_ERROR, {{"orderId", "order-1"}, {"orderUpdateId", "0"}});
+    bench.Hold(order, 0);
+    bench.Clear();
+    bench.SendState();
+    bench.SendState();
+    CHECK(Pick<OrderReappeared>(bench.GetOutput()).size() == 1);
+    CHECK(Pick<OrderFinished>(bench.GetOutput()) == std::vector{OrderFinished{"order-1"}});
+    CHECK(bench.GetSent(ETopic::InstantActions).empty());
+    CHECK(bench.session.CanTakeOrder());
+}
+
+TEST_CASE("4.2 A vehicle that runs the order of somebody else takes none, and the error says so")
+{
+    MasterBench bench;
+    OrderMessage foreign = MakeOrder(3, 3);
+    foreign.orderID = "foreign";
+    bench.Hold(foreign, 2);
+    bench.BeReady();
+    CHECK_FALSE(bench.session.CanTakeOrder());
+    const auto sent = bench.session.SendOrder(MakeOrder(3, 3), bench.GetNow(), bench.Clear());
+    REQUIRE_FALSE(sent);
+    CHECK(sent.error().code == EVda5050Error::OrderActive);
+    CHECK(sent.error().found == "foreign");
+    bench.Hold(foreign, 0);
+    bench.SendState();
+    CHECK(bench.session.CanTakeOrder());
+}
+
+TEST_CASE("4.2 An error that names the header of a message that is none of ours is no rejection")
+{
+    MasterBench bench;
+    bench.BeReady();
+    REQUIRE(bench.session.SendOrder(MakeOrder(2, 2), bench.GetNow(), bench.Clear()).has_value());
+    bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendOrder);
+    const std::string headerID = GENERATE("2", "99", "-1", "1x", "");
+    bench.Refuse(ErrorTypes::VALIDATION_ERROR, {{"topic", "order"}, {"headerId", headerID}});
+    CHECK(Pick<OrderRejected>(bench.GetOutput()).empty());
+    bench.Refuse(ErrorTypes::VALIDATION_ERROR, {{"topic", "order"}, {"headerId", GENERATE("0", "1")}});
+    CHECK(Pick<OrderRejected>(bench.GetOutput()).size() == 1);
+}
+
+TEST_CASE("5.5 Of thousands of actions and errors each change is told once, in the order of the state")
+{
+    constexpr std::size_t COUNT = 5'000;
+    MasterBench bench;
+    bench.BeReady();
+    OrderMessage order = MakeOrder(2, 2);
+    for (std::size_t index = 0; index < COUNT; ++index)
+    {
+        const std::string actionID = "a" + std::to_string(index);
+        order.nodes[1].actions.push_back(MakeAction(actionID, EBlockingType::None));
+        bench.state.actionStates.push_back(ActionState{actionID, "pick", {}, EActionStatus::Waiting, {}});
+        VehicleError error;
+        error.errorType = "error" + std::to_string(index);
+        bench.state.errors.push_back(error);
+    }
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    bench.Hold(order, 0);
+    bench.SendState();
+    CHECK(Pick<ActionChanged>(bench.GetOutput()).size() == COUNT);
+    CHECK(Pick<VehicleErrorChanged>(bench.GetOutput()).size() == COUNT);
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).empty());
+    bench.Clear();
+    std::ranges::reverse(bench.state.actionStates);
+    std::ranges::reverse(bench.state.errors);
+    bench.state.errors.pop_back();
+    bench.SendState();
+    CHECK(Pick<ActionChanged>(bench.GetOutput()).empty());
+    REQUIRE(Pick<VehicleErrorChanged>(bench.GetOutput()).size() == 1);
+    CHECK(Pick<VehicleErrorChanged>(bench.GetOutput())[0].error.errorType == "error0");
+    bench.Clear();
+    for (ActionState& action : bench.state.actionStates)
+    {
+        action.actionStatus = EActionStatus::Finished;
+    }
+    bench.SendState();
+    const auto changes = Pick<ActionChanged>(bench.GetOutput());
+    REQUIRE(changes.size() == COUNT);
+    CHECK(changes.front().actionID == "a4999");
+    CHECK(changes.back().actionID == "a0");
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
 }
 
 } // namespace ACS::VDA5050::Test

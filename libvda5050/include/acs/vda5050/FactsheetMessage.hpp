@@ -97,7 +97,10 @@ struct MaximumArrayLengths
     bool operator==(const MaximumArrayLengths&) const = default;
 };
 
-/// Seconds.
+/// The longest interval of ProtocolTiming that is read, in seconds: a day.
+inline constexpr double LONGEST_INTERVAL = 86'400.0;
+
+/// Seconds, 0 to LONGEST_INTERVAL.
 struct ProtocolTiming
 {
     double minOrderInterval = 0.0;

@@ -113,6 +113,16 @@ struct OrderRejected
     bool operator==(const OrderRejected&) const = default;
 };
 
+/// A message of the order waits until the vehicle takes another: its factsheet's minOrderInterval. Sent by itself then.
+struct OrderDelayed
+{
+    std::string orderID;
+    std::uint32_t orderUpdateID = 0;
+    Core::Duration delay{};
+
+    bool operator==(const OrderDelayed&) const = default;
+};
+
 /// Each node of the order once and in order, also when the states in between were lost.
 struct NodeReached
 {
@@ -169,8 +179,9 @@ struct OrderCancelled
     bool operator==(const OrderCancelled&) const = default;
 };
 
-/// The vehicle runs an order that was cancelled before it had seen it: a message that came late. Cancelled once more by
-/// itself; the end of that is told as that of any cancel.
+/// The vehicle has taken an order that was cancelled before it had seen it, or rejected, or never shown (OrderRejected): a
+/// message that came late. Where it still runs it is cancelled once more by itself, and the end of that is told as that of
+/// any cancel; else OrderFinished follows.
 struct OrderReappeared
 {
     std::string orderID;
@@ -228,6 +239,7 @@ using MasterAction = std::variant<
     PositionReceived,
     OrderAccepted,
     OrderRejected,
+    OrderDelayed,
     NodeReached,
     ActionChanged,
     ActionLost,

@@ -57,6 +57,8 @@ struct OrderRecord
     bool operator==(const OrderRecord&) const = default;
 };
 
+class ActionIndex;
+
 /// What a session has counted since it was made.
 struct MasterStatistics
 {
@@ -87,6 +89,14 @@ class MasterSession
         std::string actionType;
         bool bInstant = false;
         bool bShown = false;
+    };
+
+    /// One that has ended for us, though the vehicle may still have it in a queue.
+    struct WithdrawnOrder
+    {
+        std::string orderID;
+        std::vector<std::string> actionIDs;
+        bool bRejected = false; ///< Or never shown; else cancelled.
     };
 
     struct RouteNode
@@ -120,11 +130,12 @@ class MasterSession
     std::uint32_t _sendCount = 0;
     std::optional<Core::SteadyTime> _lastOrderTime; ///< When one was published last.
     std::optional<OrderMessage> _withdrawn;         ///< In flight when the cancel was sent: the vehicle may have it.
-    std::string _withdrawnOrderID;                  ///< Cancelled without having been seen.
+    std::vector<WithdrawnOrder> _withdrawnOrders;   ///< Without having been seen; the last ones.
     std::vector<TrackedAction> _tracked;            ///< Not yet ended.
-    std::vector<VehicleError> _errorsBeforeSend;
-    std::vector<RouteNode> _route; ///< Accepted nodes, base and horizon.
-    std::size_t _reachedNodes = 0; ///< How many of _route were told.
+    std::vector<VehicleError> _errorsBeforeSend;    ///< Sorted.
+    std::uint32_t _firstHeaderID = 0;               ///< Of the message in flight; each resend has the next one.
+    std::vector<RouteNode> _route;                  ///< Accepted nodes, base and horizon.
+    std::size_t _reachedNodes = 0;                  ///< How many of _route were told.
     std::vector<PendingAction> _pendingActions;
     std::string _cancelActionID;
     std::uint32_t _ownActionCount = 0;
@@ -144,7 +155,7 @@ class MasterSession
     [[nodiscard]] bool IsLed() const;
 
     void TellDifferences(const std::optional<StateMessage>& previous, MasterActions& out) const;
-    void SettlePendingActions(MasterActions& out);
+    void SettlePendingActions(const ActionIndex& shown, MasterActions& out);
     void SettleInFlight(Core::Now now, MasterActions& out);
     void AcceptInFlight(Core::Now now, MasterActions& out);
     void RejectInFlight(const std::string& errorType, const std::string& reason, MasterActions& out);
@@ -165,13 +176,21 @@ class MasterSession
     /// Where an update has to begin: the last released node of what was sent last.
     [[nodiscard]] std::pair<std::string, std::uint32_t> GetDecisionPoint() const;
     [[nodiscard]] bool IsPending(std::string_view actionID) const;
+    /// Whether an action with this id, of an order or not, has not ended yet.
+    [[nodiscard]] bool IsTracked(std::string_view actionID) const;
+    [[nodiscard]] bool IsSentHeader(std::string_view headerID) const;
     [[nodiscard]] const ActionState* FindShownOrNull(std::string_view actionID) const;
 
     void TrackOrderActions(const OrderMessage& order);
-    void FollowActions(MasterActions& out);
+    void FollowActions(const ActionIndex& shown, MasterActions& out);
     void EndOrderActions(MasterActions& out);
     void ForgetAction(std::string_view actionID);
+    /// Remembers it in case that it comes late. The message that the vehicle may have; null where none was sent.
+    void Withdraw(const OrderMessage* messageOrNull, bool bRejected);
+    [[nodiscard]] bool IsRunning(const WithdrawnOrder& order) const;
     void CancelReappeared(Core::Now now, MasterActions& out);
+    /// Whether the vehicle has nodes or edges left, of whatever order.
+    [[nodiscard]] bool IsBusy() const;
 
     /// Null where there is no factsheet, or it is not to be obeyed.
     [[nodiscard]] const FactsheetMessage* GetRulesOrNull() const;
@@ -189,9 +208,14 @@ class MasterSession
     void ResendOrder(Core::Now now, MasterActions& out);
     void ResendInstantActions(Core::Now now, MasterActions& out);
     [[nodiscard]] std::string MakeActionID(std::string_view actionType, Core::Now now);
+    [[nodiscard]] std::string MakeNextActionID(std::string_view actionType, Core::Now now);
 
 public:
+    /// The address must be one (IsValidAddress): see Create.
     explicit MasterSession(MasterOptions options);
+
+    /// For an address that comes from outside. Fails with InvalidTopic where a part of it cannot stand in a topic.
+    [[nodiscard]] static Core::Result<MasterSession> Create(MasterOptions options);
 
     /// What to subscribe to before OnLinkUp: state, visualization, connection and factsheet of this vehicle.
     [[nodiscard]] std::vector<MqttSubscription> GetSubscriptions() const;
@@ -208,10 +232,12 @@ public:
     void OnTimer(EMasterTimer timer, Core::Now now, MasterActions& out);
 
     /// Sends an order (orderID and its route filled in, its header not) and resends it until the vehicle shows it. The
-    /// orderUpdateID is sent as given. See also ResumeOrder.
+    /// orderUpdateID is sent as given. The orderID is one that the vehicle does not show: it would take the order for the
+    /// one that it has, or had last; see ResumeOrder.
     /// Held against the factsheet, if one has come: unlisted tolerances and lengths are left out, any other optional
     /// member, action, parameter or size that it does not list is an error; an empty list refuses nothing.
-    /// Errors: VehicleNotReady, OrderActive, InvalidOrder, NotSupported.
+    /// Errors: VehicleNotReady, OrderActive (also where the vehicle runs an order of somebody else), InvalidOrder,
+    /// NotSupported.
     [[nodiscard]] Core::Result<void> SendOrder(OrderMessage order, Core::Now now, MasterActions& out);
     /// The next update of the running order: nodes from the decision point on. Its orderID and orderUpdateID are set
     /// here. Waits for the echo of the message before it; one may wait.
@@ -222,10 +248,11 @@ public:
     /// is told as lost and not sent a second time. NodeReached counts from the first node again.
     /// Errors: OrderActive, VehicleNotReady, InvalidOrder, NotSupported.
     [[nodiscard]] Core::Result<void> ResumeOrder(OrderRecord record, Core::Now now, MasterActions& out);
-    /// Sends an instant action until the vehicle shows its id. One with an id that it shows already is not sent: a master
-    /// that wrote its ids down may ask again after a restart. blockingType is set as vehicles of 2.x want it.
-    /// An empty actionID is filled in; the result is the id. Errors: VehicleNotReady (also in a mode that takes none, but
-    /// for stateRequest and factsheetRequest), NotSupported (for cancelOrder, startPause, stopPause, stateRequest and
+    /// Sends an instant action until the vehicle shows its id. One that it shows already is not sent, and its status is
+    /// told (ActionChanged): a master that wrote its ids down may ask again after a restart. blockingType is set as vehicles
+    /// of 2.x want it. An empty actionID is filled in; the result is the id. Errors: VehicleNotReady (also in a mode that
+    /// takes none, but for stateRequest and factsheetRequest), InvalidOrder (the id of another action that the vehicle
+    /// shows, or of one that has not ended), NotSupported (for cancelOrder, startPause, stopPause, stateRequest and
     /// factsheetRequest only where their id is not as the vehicle wants ids).
     [[nodiscard]] Core::Result<std::string> SendInstantAction(Action action, Core::Now now, MasterActions& out);
     /// Cancels the order: not yet seen by the vehicle, or running. Ends with OrderCancelled, OrderFinished (it was
@@ -239,7 +266,7 @@ public:
     [[nodiscard]] EVehicleLink GetLink() const noexcept;
     [[nodiscard]] EOrderPhase GetOrderPhase() const noexcept;
     [[nodiscard]] const std::string& GetOrderID() const noexcept;
-    /// Online, a state has come, mode AUTOMATIC or SEMIAUTOMATIC, and no order runs.
+    /// Online, a state has come, mode AUTOMATIC or SEMIAUTOMATIC, and no order runs, nor one of somebody else.
     [[nodiscard]] bool CanTakeOrder() const;
     /// Online, a state has come since then and is not overdue.
     [[nodiscard]] bool IsReady() const;

@@ -3,6 +3,7 @@
 #include <acs/vda5050/Header.hpp>
 #include <acs/vda5050/OrderMessage.hpp>
 
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -173,6 +174,7 @@ struct ErrorReference
     std::string referenceValue;
 
     bool operator==(const ErrorReference&) const = default;
+    std::strong_ordering operator<=>(const ErrorReference&) const = default;
 };
 
 /// An active error of a vehicle.
@@ -185,6 +187,7 @@ struct VehicleError
     EErrorLevel errorLevel = EErrorLevel::Warning;
 
     bool operator==(const VehicleError&) const = default;
+    std::strong_ordering operator<=>(const VehicleError&) const = default;
 };
 
 /// The error types that 2.x names; instantActionError, actionError and outsideOfCorridor are this library's.

@@ -55,7 +55,8 @@ public:
     [[nodiscard]] Core::Result<void> Publish(const MqttMessage& message) override;
 
     /// Kept for every connection to come; sent at once where there is one. The listener's OnLinkUp waits for those
-    /// that were there before the connection; what comes in before it is handed over after it.
+    /// that were there before the connection; what comes in before it is handed over after it. Where the broker refuses
+    /// one of them the connection is left and tried again; the refusal of a later one is logged.
     void Subscribe(const std::vector<MqttSubscription>& subscriptions) override;
 
     /// Used from the next connect on.
@@ -66,7 +67,7 @@ public:
 
     /// Publishes the last message (OFFLINE), waits until the broker has acknowledged it and all before it (or the time is
     /// over), takes leave so that no will is sent, and then calls back, once, from the executor. Nothing is received any
-    /// more.
+    /// more. Called again, it calls back as well, with the first or after it; the other arguments of then do not count.
     void StopAsync(
         const std::optional<MqttMessage>& lastMessageOrNull,
         std::chrono::milliseconds timeout,

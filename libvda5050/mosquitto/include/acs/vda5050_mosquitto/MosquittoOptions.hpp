@@ -48,8 +48,12 @@ struct MosquittoOptions
     std::chrono::milliseconds connectTimeout{10'000}; ///< From the attempt to the last answer to a subscription.
     /// Messages that may wait for the socket or for the broker's acknowledgement; one more is refused (QueueFull).
     std::size_t maxUnsent = 1'000;
-    /// Messages that may come in before the broker has answered all subscriptions; more are dropped, with a word in the log.
+    /// Messages that may come in before the broker has answered all subscriptions, and the bytes of their topics and
+    /// payloads; more are dropped, with a word in the log.
     std::size_t maxEarly = 10'000;
+    std::size_t maxEarlyBytes = 64U << 20U;
+    /// A longer payload that comes in is dropped before it is copied, with a word in the log.
+    std::size_t maxPayloadBytes = 4U << 20U;
 };
 
 } // namespace ACS::VDA5050
