@@ -1,5 +1,6 @@
 #include "vda-sim/VirtualVehicle.hpp"
 
+#include "vda-sim/OrderLimits.hpp"
 #include "vda-sim/VehicleFactsheet.hpp"
 #include <acs/core/Overloaded.hpp>
 
@@ -32,10 +33,13 @@ VDA5050::VehicleOptions MakeSessionOptions(const VirtualVehicleOptions& options,
     session.address = options.address;
     session.version = options.version;
     session.qos = options.qos;
-    session.factsheet = MakeFactsheet(options.type, options.limits);
+    session.factsheet = MakeFactsheet(options.type, options.limits, options.version);
     session.visualizationInterval = 200ms;
     session.bStopsBetweenNodes = false; // as a line-guided vehicle: a cancelled order ends on a node
     session.initialNodeID = options.startNodeID;
+    session.orderCheck = [&site](const VDA5050::OrderMessage& order) {
+        return FindUndrivable(order, site);
+    };
     std::set<std::string> mapIDs;
     for (const Planning::SiteNode& node : site.GetNodes())
     {
@@ -69,7 +73,7 @@ VirtualVehicle::VirtualVehicle(
       _logger(std::move(logger)),
       _session(MakeSessionOptions(_options, site)),
       _motion(_options.limits, {}),
-      _hands(_options.actionSeconds),
+      _hands(_options.actionSeconds, GetLoadPositions(_options.type)),
       _nodeID(_options.startNodeID),
       _charge(_options.charge)
 {
@@ -467,6 +471,10 @@ std::string VirtualVehicle::InitialisePosition(const VDA5050::Action& action, Co
     if (!x.has_value() || !y.has_value() || !theta.has_value() || !mapID.has_value())
     {
         return "x, y and theta have to be numbers, mapId a string";
+    }
+    if (!IsInReach(*_site, *x, *y))
+    {
+        return "this is too far from the site";
     }
     if (_motion.HasLeg() && !_motion.IsStanding())
     {

@@ -179,7 +179,9 @@ TEST_CASE("6.10.4 blocked swerve=: the obstacle is passed within a corridor that
              {Corridor{0.6, 0.6, contour}, 0.0},
              {Corridor{0.0, 0.9, contour}, -0.5}})
     {
-        VehicleDriver driver("N0");
+        VdaSim::VirtualVehicleOptions options = VehicleDriver::MakeOptions("N0");
+        options.version = VDA5050::EVda5050Version::Version210;
+        VehicleDriver driver(std::move(options));
         VDA5050::OrderMessage order = VehicleDriver::Take(driver.MakeRoute("o", {"N0", "N1"}).MakeOrder(2));
         order.edges[0].corridor = corridor;
         driver.Inject("blocked swerve=0.5");
