@@ -33,8 +33,9 @@ VDA5050::Load MakeLoad(const VDA5050::Action& action)
 
 } // namespace
 
-ActionRunner::ActionRunner(std::map<std::string, double, std::less<>> seconds)
-    : _seconds(std::move(seconds))
+ActionRunner::ActionRunner(std::map<std::string, double, std::less<>> seconds, std::vector<std::string> loadPositions)
+    : _seconds(std::move(seconds)),
+      _loadPositions(std::move(loadPositions))
 {
 }
 
@@ -157,13 +158,13 @@ ActionOutcome ActionRunner::Finish(const RunningAction& running)
     }
     if (action.actionType == ACTION_PICK)
     {
-        _loads.push_back(MakeLoad(action));
+        return PickUp(action);
     }
-    else if (action.actionType == ACTION_DROP)
+    if (action.actionType == ACTION_DROP)
     {
         return PutDown(action);
     }
-    else if (action.actionType == ACTION_START_CHARGING)
+    if (action.actionType == ACTION_START_CHARGING)
     {
         _bCharging = true;
     }
@@ -177,6 +178,41 @@ ActionOutcome ActionRunner::Finish(const RunningAction& running)
         outcome.result = "log-" + action.actionID + ".txt";
     }
     return outcome;
+}
+
+ActionOutcome ActionRunner::PickUp(const VDA5050::Action& action)
+{
+    const auto fail = [&action](std::string reason) {
+        return ActionOutcome{action.actionID, VDA5050::EActionStatus::Failed, std::move(reason), {}};
+    };
+    const auto isFree = [this](std::string_view position) {
+        return std::ranges::find(_loads, position, &VDA5050::Load::loadPosition) == _loads.end();
+    };
+    VDA5050::Load load = MakeLoad(action);
+    if (std::max(load.loadID->size(), load.loadType.size()) > MAX_ID_LENGTH)
+    {
+        return fail("the load's id or type is too long");
+    }
+    if (!load.loadID->empty() && std::ranges::find(_loads, load.loadID, &VDA5050::Load::loadID) != _loads.end())
+    {
+        return fail("this load is on board already");
+    }
+    // The place that is named, else the first free one.
+    const auto place = std::ranges::find_if(_loadPositions, [&](const std::string& position) {
+        return load.loadPosition.empty() ? isFree(position) : position == load.loadPosition;
+    });
+    if (place == _loadPositions.end())
+    {
+        return fail(
+            load.loadPosition.empty() ? "there is no free place for a load" : "there is no such place for a load");
+    }
+    if (!isFree(*place))
+    {
+        return fail("there is a load in this place already");
+    }
+    load.loadPosition = *place;
+    _loads.push_back(std::move(load));
+    return {action.actionID, VDA5050::EActionStatus::Finished, {}, {}};
 }
 
 ActionOutcome ActionRunner::PutDown(const VDA5050::Action& action)

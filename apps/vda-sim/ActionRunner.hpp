@@ -37,6 +37,7 @@ class ActionRunner
     };
 
     std::map<std::string, double, std::less<>> _seconds;
+    std::vector<std::string> _loadPositions;
 
     std::vector<RunningAction> _running;
     std::vector<VDA5050::Load> _loads;
@@ -47,8 +48,9 @@ public:
     static constexpr double HANDLING_SECONDS = 3.0; ///< pick, drop
     static constexpr double SHORT_SECONDS = 1.0;    ///< all others
 
-    /// How long actions of a type take, where it is not as above; seconds of simulated time by actionType.
-    explicit ActionRunner(std::map<std::string, double, std::less<>> seconds = {});
+    /// How long actions of a type take, where it is not as above: seconds of simulated time by actionType. And the
+    /// places that a load each can be in.
+    ActionRunner(std::map<std::string, double, std::less<>> seconds, std::vector<std::string> loadPositions);
 
     /// Begins; the empty text, or why it cannot. With a failure it ends with that instead of doing its work.
     [[nodiscard]] std::string Start(
@@ -78,6 +80,7 @@ private:
     [[nodiscard]] double GetSeconds(std::string_view actionType) const;
     [[nodiscard]] std::vector<RunningAction>::iterator Find(std::string_view actionID);
     [[nodiscard]] ActionOutcome Finish(const RunningAction& running);
+    [[nodiscard]] ActionOutcome PickUp(const VDA5050::Action& action);
     [[nodiscard]] ActionOutcome PutDown(const VDA5050::Action& action);
 };
 

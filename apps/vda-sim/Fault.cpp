@@ -40,12 +40,12 @@ constexpr Words<EEmergencyStop, 3> EMERGENCY_STOPS{
     {{"AUTOACK", EEmergencyStop::AutoAcknowledge},
      {"MANUAL", EEmergencyStop::Manual},
      {"REMOTE", EEmergencyStop::Remote}}};
-constexpr Words<EOperatingMode, 5> MODES{
+/// AUTOMATIC is no fault: the end of one brings it back.
+constexpr Words<EOperatingMode, 4> MODES{
     {{"MANUAL", EOperatingMode::Manual},
      {"SERVICE", EOperatingMode::Service},
      {"TEACHIN", EOperatingMode::TeachIn},
-     {"SEMIAUTOMATIC", EOperatingMode::SemiAutomatic},
-     {"AUTOMATIC", EOperatingMode::Automatic}}};
+     {"SEMIAUTOMATIC", EOperatingMode::SemiAutomatic}}};
 constexpr Words<EErrorLevel, 2> LEVELS{{{"WARNING", EErrorLevel::Warning}, {"FATAL", EErrorLevel::Fatal}}};
 
 template <typename TValue, std::size_t Count>
@@ -295,8 +295,52 @@ Core::Result<void> ReadParameter(std::string_view word, const FaultRow& row, Fau
     return {};
 }
 
-Core::Result<void> CheckWhole(const Fault& fault)
+/// Else the vehicle hears it.
+bool IsPublished(ETopic topic)
 {
+    return topic != ETopic::Order && topic != ETopic::InstantActions;
+}
+
+/// A topic that the fault would never meet.
+Core::Result<void> CheckTopic(const Fault& fault, ETopic topic)
+{
+    const bool bPublished = IsPublished(topic);
+    if (fault.kind == EFaultKind::Silence && (!bPublished || topic == ETopic::Connection))
+    {
+        return Core::Fail(
+            Core::ECoreError::OutOfRange,
+            "silence topic",
+            "one of state, visualization, factsheet",
+            Core::QuoteForError(VDA5050::GetTopicName(topic)));
+    }
+    if (fault.direction == (bPublished ? EFaultDirection::In : EFaultDirection::Out))
+    {
+        return Core::Fail(
+            Core::ECoreError::OutOfRange,
+            fmt::format("{} direction", GetRow(fault.kind).name),
+            fmt::format(
+                "{}: a vehicle {} the topic {}",
+                bPublished ? "out" : "in",
+                bPublished ? "publishes" : "hears",
+                VDA5050::GetTopicName(topic)));
+    }
+    return {};
+}
+
+/// What together makes no fault, or one that could never show.
+Core::Result<void> CheckWhole(const Fault& fault, bool bHasLevel)
+{
+    if (bHasLevel && fault.errorType.empty() && fault.kind != EFaultKind::Refuse)
+    {
+        return Core::Fail(
+            Core::ECoreError::MissingField,
+            fmt::format("{} level", GetRow(fault.kind).name),
+            "error=ERRORTYPE, whose level it is");
+    }
+    if (fault.topic.has_value())
+    {
+        return CheckTopic(fault, *fault.topic);
+    }
     if (fault.kind == EFaultKind::Delay && fault.hold + fault.jitter == Core::Duration::zero())
     {
         return Core::Fail(Core::ECoreError::MissingField, "delay", "time=DURATION, jitter=DURATION or both");
@@ -356,7 +400,7 @@ Core::Result<Fault> ParseFault(std::string_view text)
         }
         fault.text.append(" ").append(word);
     }
-    const Core::Result<void> whole = CheckWhole(fault);
+    const Core::Result<void> whole = CheckWhole(fault, known.contains("level"));
     if (!whole.has_value())
     {
         return tl::make_unexpected(whole.error());

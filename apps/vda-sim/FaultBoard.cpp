@@ -6,8 +6,14 @@
 namespace ACS::VdaSim
 {
 
+std::size_t FaultBoard::CountFaults() const noexcept
+{
+    return _entries.size();
+}
+
 void FaultBoard::Add(Fault fault, Core::SteadyTime now, FaultChanges& out)
 {
+    assert(_entries.size() < MAX_FAULTS);
     Entry& entry = _entries.emplace_back();
     entry.fault = std::move(fault);
     entry.bWaitsForNode = !entry.fault.nodeID.empty();
@@ -16,7 +22,26 @@ void FaultBoard::Add(Fault fault, Core::SteadyTime now, FaultChanges& out)
         return;
     }
     entry.due = now + entry.fault.delay;
-    OnTime(now, out);
+    // The others have their time; looking at all of them for each would take its square.
+    if (*entry.due <= now)
+    {
+        Begin(entry, now, out);
+        if (TryEnd(entry, now, out))
+        {
+            _entries.pop_back();
+        }
+    }
+}
+
+bool FaultBoard::TryEnd(const Entry& entry, Core::SteadyTime now, FaultChanges& out)
+{
+    const bool bOver = entry.bActive && entry.due.has_value() && *entry.due <= now;
+    if (bOver)
+    {
+        out.push_back({entry.fault, false, "its time is over"});
+    }
+    // What is set once is over as soon as it has begun.
+    return bOver || (entry.bActive && entry.fault.kind == EFaultKind::Battery);
 }
 
 void FaultBoard::Begin(Entry& entry, Core::SteadyTime now, FaultChanges& out)
@@ -60,15 +85,7 @@ void FaultBoard::OnTime(Core::SteadyTime now, FaultChanges& out)
             Begin(entry, *entry.due, out);
         }
     }
-    std::erase_if(_entries, [&](const Entry& entry) {
-        // What is set once is over as soon as it has begun.
-        const bool bOver = entry.bActive && entry.due.has_value() && *entry.due <= now;
-        if (bOver)
-        {
-            out.push_back({entry.fault, false, "its time is over"});
-        }
-        return bOver || (entry.bActive && entry.fault.kind == EFaultKind::Battery);
-    });
+    std::erase_if(_entries, [&](const Entry& entry) { return TryEnd(entry, now, out); });
 }
 
 std::optional<Core::SteadyTime> FaultBoard::GetNextTimeOrNull() const

@@ -4,6 +4,7 @@
 #include <acs/core/Now.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -40,6 +41,10 @@ class FaultBoard
     std::vector<Entry> _entries;
 
 public:
+    /// Active and to come. The owner asks first: one more is its mistake.
+    static constexpr std::size_t MAX_FAULTS = 1000;
+    [[nodiscard]] std::size_t CountFaults() const noexcept;
+
     /// Begins at once where neither a delay nor a node says otherwise.
     void Add(Fault fault, Core::SteadyTime now, FaultChanges& out);
 
@@ -76,6 +81,8 @@ public:
 
 private:
     static void Begin(Entry& entry, Core::SteadyTime now, FaultChanges& out);
+    /// Whether an active one has come to its end; told then.
+    [[nodiscard]] static bool TryEnd(const Entry& entry, Core::SteadyTime now, FaultChanges& out);
 };
 
 } // namespace ACS::VdaSim

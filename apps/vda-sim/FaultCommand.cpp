@@ -1,6 +1,7 @@
 #include "vda-sim/FaultCommand.hpp"
 
 #include "vda-sim/WordReader.hpp"
+#include <acs/core/JsonText.hpp>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,9 @@ namespace ACS::VdaSim
 namespace
 {
 
+constexpr std::size_t MAX_LINE_LENGTH = 1000; ///< A fault's words come back in the log and in states.
+constexpr std::size_t MAX_COMMANDS = 1000;
+constexpr std::string_view BYTE_ORDER_MARK = "\xEF\xBB\xBF";
 constexpr char EVERY = '*';
 constexpr char REMARK = '#';
 constexpr std::string_view VERB_END = "end";
@@ -30,6 +34,18 @@ Core::Result<FaultCommand> Finish(FaultCommand command, std::string_view rest)
 
 Core::Result<FaultCommand> ParseFaultCommand(std::string_view line)
 {
+    if (line.size() > MAX_LINE_LENGTH)
+    {
+        return Core::Fail(
+            Core::ECoreError::TooLarge,
+            {},
+            fmt::format("at most {} bytes", MAX_LINE_LENGTH),
+            fmt::format("{} bytes", line.size()));
+    }
+    if (!Core::JsonText::IsUtf8(line))
+    {
+        return Core::Fail(Core::ECoreError::InvalidIdentifier, {}, "text in UTF-8", Core::QuoteForError(line));
+    }
     FaultCommand command;
     command.vehicles = std::string(TakeWord(line));
     std::string_view rest = line;
@@ -74,6 +90,10 @@ Core::Result<FaultCommand> ParseFaultCommand(std::string_view line)
 Core::Result<std::vector<FaultCommand>> ParseFaultCommands(std::string_view text)
 {
     std::vector<FaultCommand> commands;
+    if (text.starts_with(BYTE_ORDER_MARK))
+    {
+        text.remove_prefix(BYTE_ORDER_MARK.size());
+    }
     for (std::size_t number = 1; !text.empty(); ++number)
     {
         const std::size_t end = text.find('\n');
@@ -84,6 +104,13 @@ Core::Result<std::vector<FaultCommand>> ParseFaultCommands(std::string_view text
         if (TakeWord(probe).empty())
         {
             continue;
+        }
+        if (commands.size() >= MAX_COMMANDS)
+        {
+            return Core::Fail(
+                Core::ECoreError::TooLarge,
+                fmt::format("line {}", number),
+                fmt::format("at most {} commands", MAX_COMMANDS));
         }
         Core::Result<FaultCommand> command = ParseFaultCommand(line);
         if (!command.has_value())

@@ -31,10 +31,10 @@ struct FaultCommand
     bool operator==(const FaultCommand&) const = default;
 };
 
-/// The error is about this one line.
+/// At most 1000 bytes of UTF-8. The error is about this one line.
 [[nodiscard]] Core::Result<FaultCommand> ParseFaultCommand(std::string_view line);
 
-/// A whole file or message; empty lines and what follows a `#` are passed over. The path of an error begins with
+/// A whole file or message of at most 1000 commands; empty lines and what follows a `#` are passed over. The path of an error begins with
 /// "line N".
 [[nodiscard]] Core::Result<std::vector<FaultCommand>> ParseFaultCommands(std::string_view text);
 

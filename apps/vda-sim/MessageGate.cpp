@@ -22,6 +22,11 @@ double Draw(Core::IRandom& random)
     return static_cast<double>(random.GetNext() & ~LAST_BITS) / RANDOM_RANGE;
 }
 
+std::size_t GetSize(const VDA5050::MqttMessage& message)
+{
+    return message.topic.size() + message.payload.size();
+}
+
 bool IsOn(const Fault& fault, std::optional<VDA5050::ETopic> topicOrNull)
 {
     return !fault.topic.has_value() || fault.topic == topicOrNull;
@@ -73,6 +78,13 @@ void MessageGate::Pass(
         out.push_back(std::move(message));
         return;
     }
+    const std::size_t bytes = GetSize(message);
+    if (_held.size() >= MAX_MESSAGES || _heldBytes + bytes > MAX_BYTES)
+    {
+        ++_overflow;
+        return;
+    }
+    _heldBytes += bytes;
     _held.push_back({due, std::move(message)});
 }
 
@@ -80,6 +92,7 @@ void MessageGate::Release(Core::SteadyTime now, std::vector<VDA5050::MqttMessage
 {
     while (!_held.empty() && _held.front().due <= now)
     {
+        _heldBytes -= GetSize(_held.front().message);
         out.push_back(std::move(_held.front().message));
         _held.pop_front();
     }
@@ -93,6 +106,12 @@ std::optional<Core::SteadyTime> MessageGate::GetNextTimeOrNull() const
 void MessageGate::Clear()
 {
     _held.clear();
+    _heldBytes = 0;
+}
+
+std::size_t MessageGate::TakeOverflow() noexcept
+{
+    return std::exchange(_overflow, 0);
 }
 
 } // namespace ACS::VdaSim

@@ -5,6 +5,7 @@
 #include <acs/core/Now.hpp>
 #include <acs/vda5050/IMqttLink.hpp>
 
+#include <cstddef>
 #include <deque>
 #include <optional>
 #include <vector>
@@ -24,8 +25,14 @@ class MessageGate
 
     EFaultDirection _direction; ///< In or Out.
     std::deque<Held> _held;
+    std::size_t _heldBytes = 0;
+    std::size_t _overflow = 0;
 
 public:
+    /// What is held back at most; what comes then is lost, as where the buffers of a network are full.
+    static constexpr std::size_t MAX_MESSAGES = 10'000;
+    static constexpr std::size_t MAX_BYTES = 16U * 1024U * 1024U;
+
     explicit MessageGate(EFaultDirection direction);
 
     /// Appends the message to out where it goes through at once.
@@ -41,6 +48,9 @@ public:
 
     /// When Release has something to do next.
     [[nodiscard]] std::optional<Core::SteadyTime> GetNextTimeOrNull() const;
+
+    /// How many were lost for want of room since the last call.
+    [[nodiscard]] std::size_t TakeOverflow() noexcept;
 
     /// The connection is gone, and with it what was on its way.
     void Clear();

@@ -69,21 +69,38 @@ MapPoint NurbsCurve::GetPoint(double parameter) const
                                : MapPoint{_points.back().x, _points.back().y};
 }
 
-std::vector<MapPoint> NurbsCurve::Sample(double spacing, std::size_t maxPoints) const
+std::vector<double> NurbsCurve::FindSpans(std::size_t maxSpans) const
 {
-    std::vector<double> spans{GetBegin()};
+    std::vector<double> places{GetBegin()};
     for (std::size_t i = _degree + 1; i <= _points.size(); ++i)
     {
-        if (_knots[i] > spans.back())
+        if (_knots[i] > places.back())
         {
-            spans.push_back(_knots[i]);
+            places.push_back(_knots[i]);
         }
     }
-    // A first look, coarse, at how long each span is.
-    constexpr std::size_t LOOKS = 8;
-    const bool bCorners = _degree <= 1;
+    const std::size_t count = places.size() - 1;
+    if (count <= maxSpans)
+    {
+        return places;
+    }
+    std::vector<double> fewer;
+    for (std::size_t i = 0; i <= maxSpans; ++i)
+    {
+        fewer.push_back(places[i * count / maxSpans]);
+    }
+    return fewer;
+}
+
+std::vector<MapPoint> NurbsCurve::Sample(double spacing, std::size_t maxPoints) const
+{
+    assert(maxPoints >= 2);
+    const std::vector<double> spans = FindSpans(maxPoints - 1);
     std::vector<MapPoint> samples{GetPoint(spans.front())};
-    const std::size_t limit = std::max<std::size_t>(1, (maxPoints - 1) / std::max<std::size_t>(1, spans.size() - 1));
+    const std::size_t limit = (maxPoints - 1) / std::max<std::size_t>(1, spans.size() - 1);
+    // A first look, coarse, at how long each span is; not where it leads straight to the next corner.
+    constexpr std::size_t MAX_LOOKS = 8;
+    const std::size_t looks = _degree <= 1 ? 0 : std::min(limit, MAX_LOOKS);
     for (std::size_t i = 1; i < spans.size(); ++i)
     {
         const auto at = [&](std::size_t step, std::size_t steps) {
@@ -91,11 +108,12 @@ std::vector<MapPoint> NurbsCurve::Sample(double spacing, std::size_t maxPoints) 
             return GetPoint(step == steps ? spans[i] : std::lerp(spans[i - 1], spans[i], part));
         };
         double length = 0.0;
-        for (std::size_t step = 1; step <= LOOKS && !bCorners; ++step)
+        MapPoint from = samples.back();
+        for (std::size_t step = 1; step <= looks; ++step)
         {
-            const MapPoint from = at(step - 1, LOOKS);
-            const MapPoint to = at(step, LOOKS);
+            const MapPoint to = at(step, looks);
             length += std::hypot(to.x - from.x, to.y - from.y);
+            from = to;
         }
         const double wanted = std::isfinite(length) ? std::ceil(length / spacing) : 1.0;
         const auto steps = static_cast<std::size_t>(std::clamp(wanted, 1.0, static_cast<double>(limit)));

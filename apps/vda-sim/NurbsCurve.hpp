@@ -40,11 +40,13 @@ public:
     [[nodiscard]] double GetBegin() const;
     [[nodiscard]] double GetEnd() const;
 
-    /// Points along the curve, its ends and knots among them, no more than the limit and about `spacing` metres apart; a
-    /// curve of degree 1 is its corners.
+    /// Points along the curve, its ends among them, about `spacing` metres apart, and no more than the limit, two or more:
+    /// also of work. Its knots are among them, and a curve of degree 1 is its corners, where the limit leaves room.
     [[nodiscard]] std::vector<MapPoint> Sample(double spacing, std::size_t maxPoints) const;
 
 private:
+    /// The places of the knots, each once; so few that there are no more spans between them than the limit.
+    [[nodiscard]] std::vector<double> FindSpans(std::size_t maxSpans) const;
     [[nodiscard]] std::size_t FindSpan(double parameter) const;
 };
 

@@ -39,6 +39,7 @@ class Fleet
     };
 
     const VdaSimOptions* _options;
+    const Planning::SiteMap* _site;
     boost::asio::io_context _context;
     Apps::SystemClock _clock;
     Apps::SystemRandom _random;
@@ -51,8 +52,10 @@ class Fleet
     bool _bReady = false;
 
 public:
-    explicit Fleet(const VdaSimOptions& options)
+    /// Both outlive it.
+    Fleet(const VdaSimOptions& options, const Planning::SiteMap& site)
         : _options(&options),
+          _site(&site),
           _log(options.common.logLevel),
           _logger(_log, "vda-sim"),
           _seed(options.seed.has_value() ? *options.seed : _random.GetNext())
@@ -70,7 +73,7 @@ public:
         }
     }
 
-    void Add(const VehicleSpec& spec, const std::string& startNodeID, const Planning::SiteMap& site)
+    void Add(const VehicleSpec& spec, const std::string& startNodeID)
     {
         VirtualVehicleOptions vehicle;
         vehicle.address = {_options->interfaceName, _options->manufacturer, spec.name};
@@ -91,7 +94,7 @@ public:
             _clock,
             _random,
             logger,
-            VirtualVehicle(std::move(vehicle), site, *member.random, logger),
+            VirtualVehicle(std::move(vehicle), *_site, *member.random, logger),
             MakeLinkOptions(fmt::format("vda-sim-{}-{}", _options->manufacturer, spec.name)));
     }
 
@@ -101,7 +104,13 @@ public:
         Apps::SignalWaiter signals(_context.get_executor(), [this](int /*signal*/) { Stop(); });
         for (const FaultCommand& command : _options->faults)
         {
-            std::ignore = Apply(command);
+            const std::string result = Apply(command);
+            if (!result.starts_with("ok: "))
+            {
+                _logger.Warning(
+                    "a fault is not as it may be meant",
+                    {{"fault", command.fault.text}, {"result", result}});
+            }
         }
         for (std::size_t i = 0; i < _members.size(); ++i)
         {
@@ -163,25 +172,45 @@ private:
     [[nodiscard]] std::string Apply(const FaultCommand& command)
     {
         std::size_t vehicles = 0;
-        std::size_t ended = 0;
+        std::size_t count = 0;
         for (const Member& member : _members)
         {
             if (IsFor(command, member.name))
             {
                 ++vehicles;
-                ended += ApplyTo(*member.runner, command);
+                count += ApplyTo(*member.runner, command);
             }
         }
         if (vehicles == 0)
         {
             return fmt::format("error: no vehicle is called {}; {} is one", command.vehicles, _members.front().name);
         }
-        const std::string what =
-            command.verb == EFaultVerb::Begin ? command.fault.text : fmt::format("ended={}", ended);
-        return fmt::format("ok: vehicles={} {}", vehicles, what);
+        if (command.verb != EFaultVerb::Begin)
+        {
+            const std::string_view done = command.verb == EFaultVerb::Trigger ? "triggered" : "ended";
+            return fmt::format("ok: vehicles={} {}={}", vehicles, done, count);
+        }
+        if (count < vehicles)
+        {
+            return fmt::format(
+                "error: {} of {} vehicles have {} faults already",
+                vehicles - count,
+                vehicles,
+                FaultBoard::MAX_FAULTS);
+        }
+        const std::string& nodeID = command.fault.nodeID;
+        if (!nodeID.empty() && _site->FindNodeOrNull(nodeID) == nullptr)
+        {
+            return fmt::format(
+                "warning: vehicles={} {}; the site has no node {}: it begins only where an order brings it along",
+                vehicles,
+                command.fault.text,
+                nodeID);
+        }
+        return fmt::format("ok: vehicles={} {}", vehicles, command.fault.text);
     }
 
-    /// How many faults or actions it ended.
+    /// How many faults it took or ended, or actions.
     [[nodiscard]] static std::size_t ApplyTo(VehicleRunner& runner, const FaultCommand& command)
     {
         switch (command.verb)
@@ -192,8 +221,7 @@ private:
                 return runner.Trigger();
             case EFaultVerb::Begin:
             default:
-                runner.Inject(command.fault);
-                return 0;
+                return runner.TryInject(command.fault) ? 1 : 0;
         }
     }
 
@@ -245,7 +273,7 @@ int RunVdaSim(const VdaSimOptions& options)
         return Refuse(site.error());
     }
     RaiseFileLimit();
-    Fleet fleet(options);
+    Fleet fleet(options, *site);
     for (std::size_t i = 0; i < options.vehicles.size(); ++i)
     {
         const VehicleSpec& vehicle = options.vehicles[i];
@@ -254,7 +282,7 @@ int RunVdaSim(const VdaSimOptions& options)
         {
             return Refuse(startNodeID.error());
         }
-        fleet.Add(vehicle, *startNodeID, *site);
+        fleet.Add(vehicle, *startNodeID);
     }
     fleet.Run();
     return 0;

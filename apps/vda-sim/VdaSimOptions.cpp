@@ -3,14 +3,19 @@
 #include "common/DurationText.hpp"
 #include "common/TextFile.hpp"
 #include <acs/plan/LifReader.hpp>
-#include <acs/vda5050/Topic.hpp>
+#include <acs/vda5050/PredefinedActions.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <string_view>
 #include <utility>
 
 namespace ACS::VdaSim
@@ -67,6 +72,31 @@ std::string AddVehicles(const VehicleRow& row, std::vector<VehicleSpec>& vehicle
     return vehicles.empty() ? "there are no vehicles: give --vehicle NAME or --count N" : "";
 }
 
+/// Whether vehicles perform it, and not at once, as the session does with the others.
+bool TakesTime(std::string_view actionType)
+{
+    constexpr std::array AT_ONCE{
+        VDA5050::ActionTypes::START_PAUSE,
+        VDA5050::ActionTypes::STOP_PAUSE,
+        VDA5050::ActionTypes::STATE_REQUEST,
+        VDA5050::ActionTypes::FACTSHEET_REQUEST,
+        VDA5050::ActionTypes::CANCEL_ORDER};
+    return VDA5050::FindPredefinedActionOrNull(actionType) != nullptr
+        && std::ranges::find(AT_ONCE, actionType) == AT_ONCE.end();
+}
+
+std::string ReadSeed(const std::string& text, std::optional<std::uint64_t>& seed)
+{
+    std::uint64_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size())
+    {
+        return fmt::format("expected a number from 0 to {}, found {}", UINT64_MAX, Core::QuoteForError(text));
+    }
+    seed = number;
+    return {};
+}
+
 std::string ReadActionTime(const std::string& text, std::map<std::string, double, std::less<>>& seconds)
 {
     const std::size_t equals = text.find('=');
@@ -76,7 +106,14 @@ std::string ReadActionTime(const std::string& text, std::map<std::string, double
     {
         return fmt::format("expected ACTIONTYPE=DURATION (pick=5s), found {}", Core::QuoteForError(text));
     }
-    seconds[text.substr(0, equals)] = std::chrono::duration<double>(*duration).count();
+    const std::string actionType = text.substr(0, equals);
+    if (!TakesTime(actionType))
+    {
+        return fmt::format(
+            "no action {} of a vehicle takes time; pick, drop or startCharging do",
+            Core::QuoteForError(actionType));
+    }
+    seconds[actionType] = std::chrono::duration<double>(*duration).count();
     return {};
 }
 
@@ -157,9 +194,9 @@ std::string MakeFooter()
 /// A word that is to stand as one level of a topic.
 std::string ReadLevel(const std::string& text, std::string& level)
 {
-    if (!VDA5050::IsValidAddress({.interfaceName = "x", .manufacturer = text, .serialNumber = "x"}))
+    if (!IsPlainLevel(text))
     {
-        return fmt::format("expected a word without /, + and #, found {}", Core::QuoteForError(text));
+        return fmt::format("expected {}, found {}", PLAIN_LEVEL, Core::QuoteForError(text));
     }
     level = text;
     return {};
@@ -242,7 +279,12 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         },
         "VDA5050 version: 2.0.0 or 2.1.0")
         .default_str("2.0.0");
-    Apps::AddTimeScaleOption(app, options.timeScale);
+    // A range alone lets pass what is no number.
+    Apps::AddTimeScaleOption(app, options.timeScale).check([](const std::string& text) {
+        double scale = 0.0;
+        const bool bNumber = CLI::detail::lexical_cast(text, scale) && std::isfinite(scale);
+        return bNumber ? std::string() : "expected a number, found " + Core::QuoteForError(text);
+    });
     Apps::AddRepeatedOption(
         app,
         "--action-time",
@@ -266,16 +308,20 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         [&options](const std::string& path) { return ReadFaultFile(path, options.faults); },
         "a file with a fault on each line. May be repeated")
         .type_name("FILE");
-    Apps::AddTextOption(
+    CLI::Option& controlTopic = Apps::AddTextOption(
         app,
         "--control-topic",
         [&options](const std::string& text) { return ReadControlTopic(text, options.controlTopic); },
-        "where faults are taken from while the vehicles run; answers come on TOPIC/result")
-        .default_str(options.controlTopic);
+        "where faults are taken from while the vehicles run; answers come on TOPIC/result");
+    controlTopic.default_str(options.controlTopic);
     bool bNoControl = false;
-    app.add_flag("--no-control", bNoControl, "takes no faults from the broker");
-    app.add_option("--seed", options.seed, "the same losses and delays each time; by default other ones, see the log")
-        ->type_name("N");
+    app.add_flag("--no-control", bNoControl, "takes no faults from the broker")->excludes(&controlTopic);
+    Apps::AddTextOption(
+        app,
+        "--seed",
+        [&options](const std::string& text) { return ReadSeed(text, options.seed); },
+        "the same losses and delays each time; by default other ones, see the log")
+        .type_name("N");
     Apps::AddCommonOptions(app, options.common);
     const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
     if (exitCode.has_value())

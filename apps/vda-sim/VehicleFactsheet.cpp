@@ -1,6 +1,8 @@
 #include "vda-sim/VehicleFactsheet.hpp"
 
+#include "vda-sim/OrderLimits.hpp"
 #include <acs/vda5050/PredefinedActions.hpp>
+#include <acs/vda5050/Vda5050Codec.hpp>
 
 #include <string>
 #include <utility>
@@ -25,10 +27,16 @@ bool IsNeeded(const AgvAction& action, const AgvActionParameter& parameter)
     return !parameter.bOptional.value_or(false) && (bOfMap || bOfPose);
 }
 
-/// All that the standard names, as it names them.
-std::vector<AgvAction> MakeActions()
+/// All that the standard names, as it names them; without a place for loads all but pick and drop.
+std::vector<AgvAction> MakeActions(bool bHandlesLoads)
 {
     std::vector<AgvAction> actions = VDA5050::GetPredefinedActions();
+    if (!bHandlesLoads)
+    {
+        std::erase_if(actions, [](const AgvAction& action) {
+            return action.actionType == ACTION_PICK || action.actionType == ACTION_DROP;
+        });
+    }
     for (AgvAction& action : actions)
     {
         for (AgvActionParameter& parameter : action.actionParameters)
@@ -40,7 +48,39 @@ std::vector<AgvAction> MakeActions()
     return actions;
 }
 
-std::vector<VDA5050::OptionalParameter> MakeOptionalParameters()
+/// The sizes that the session holds messages against, and keeps to.
+VDA5050::ProtocolLimits MakeLimits(EVehicleType type)
+{
+    constexpr std::uint32_t MAX_NODES = 1000;
+    constexpr std::uint32_t MAX_OF_ONE = 100; ///< Actions of a node, an edge or a message, parameters of an action.
+    constexpr std::uint32_t MAX_ACTION_STATES = 2000;
+    constexpr std::uint32_t MAX_ERRORS = 64;
+    VDA5050::ProtocolLimits limits;
+    limits.maxStringLengths.message = static_cast<std::uint32_t>(VDA5050::CodecLimits{}.payloadBytes);
+    limits.maxStringLengths.identifier = MAX_ID_LENGTH;
+    limits.maxStringLengths.loadID = MAX_ID_LENGTH;
+    VDA5050::MaximumArrayLengths& arrays = limits.maxArrayLengths;
+    arrays.orderNodes = MAX_NODES;
+    arrays.orderEdges = MAX_NODES;
+    arrays.nodeActions = MAX_OF_ONE;
+    arrays.edgeActions = MAX_OF_ONE;
+    arrays.actionParameters = MAX_OF_ONE;
+    arrays.instantActions = MAX_OF_ONE;
+    arrays.trajectoryKnotVector = MAX_CONTROL_POINTS + MAX_DEGREE + 1;
+    arrays.trajectoryControlPoints = MAX_CONTROL_POINTS;
+    arrays.stateNodeStates = MAX_NODES;
+    arrays.stateEdgeStates = MAX_NODES;
+    arrays.stateActionStates = MAX_ACTION_STATES;
+    arrays.stateErrors = MAX_ERRORS;
+    const std::size_t loads = GetLoadPositions(type).size();
+    if (loads > 0) // 0 would say that there is no limit
+    {
+        arrays.stateLoads = static_cast<std::uint32_t>(loads);
+    }
+    return limits;
+}
+
+std::vector<VDA5050::OptionalParameter> MakeOptionalParameters(VDA5050::EVda5050Version version)
 {
     std::vector<VDA5050::OptionalParameter> parameters;
     for (const std::string_view name :
@@ -54,17 +94,26 @@ std::vector<VDA5050::OptionalParameter> MakeOptionalParameters()
           "order.edges.orientationType",
           "order.edges.rotationAllowed",
           "order.edges.length",
-          "order.edges.trajectory",
-          "order.edges.corridor"})
+          "order.edges.trajectory"})
     {
         parameters.push_back({std::string(name), VDA5050::EParameterSupport::Supported, {}});
+    }
+    if (version != VDA5050::EVda5050Version::Version200)
+    {
+        parameters.push_back({"order.edges.corridor", VDA5050::EParameterSupport::Supported, {}}); // new in 2.1
     }
     return parameters;
 }
 
 } // namespace
 
-VDA5050::FactsheetMessage MakeFactsheet(EVehicleType type, const MotionLimits& limits)
+std::vector<std::string> GetLoadPositions(EVehicleType type)
+{
+    return type == EVehicleType::Logistics ? std::vector<std::string>{"CP01", "CP02", "CP03", "CP04"}
+                                           : std::vector<std::string>{};
+}
+
+VDA5050::FactsheetMessage MakeFactsheet(EVehicleType type, const MotionLimits& limits, VDA5050::EVda5050Version version)
 {
     const bool bCarriesCassettes = type == EVehicleType::Logistics;
     VDA5050::FactsheetMessage factsheet;
@@ -75,6 +124,7 @@ VDA5050::FactsheetMessage MakeFactsheet(EVehicleType type, const MotionLimits& l
     factsheet.typeSpecification.maxLoadMass = 50.0;
     factsheet.typeSpecification.localizationTypes = {"NATURAL"};
     factsheet.typeSpecification.navigationTypes = {"VIRTUAL_LINE_GUIDED"};
+    factsheet.physicalParameters.speedMin = MIN_SPEED;
     factsheet.physicalParameters.speedMax = limits.maxSpeed;
     // No angularSpeedMax: the text of 2.1 has it, and its schema does not.
     factsheet.physicalParameters.accelerationMax = limits.acceleration;
@@ -83,9 +133,11 @@ VDA5050::FactsheetMessage MakeFactsheet(EVehicleType type, const MotionLimits& l
     factsheet.physicalParameters.heightMax = 1.2;
     factsheet.physicalParameters.width = 0.8;
     factsheet.physicalParameters.length = 0.8;
+    factsheet.protocolLimits = MakeLimits(type);
     factsheet.protocolLimits.timing.visualizationInterval = 0.2;
-    factsheet.protocolFeatures.agvActions = MakeActions();
-    factsheet.protocolFeatures.optionalParameters = MakeOptionalParameters();
+    factsheet.loadSpecification.loadPositions = GetLoadPositions(type);
+    factsheet.protocolFeatures.agvActions = MakeActions(!factsheet.loadSpecification.loadPositions.empty());
+    factsheet.protocolFeatures.optionalParameters = MakeOptionalParameters(version);
     return factsheet;
 }
 

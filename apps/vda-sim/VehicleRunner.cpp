@@ -52,10 +52,11 @@ public:
         Open();
     }
 
-    void Inject(const Fault& fault)
+    bool TryInject(const Fault& fault)
     {
-        _vehicle.Inject(fault, _clock->GetNow(), _actions);
+        const bool bTaken = _vehicle.TryInject(fault, _clock->GetNow(), _actions);
         Execute();
+        return bTaken;
     }
 
     std::size_t EndFaults(std::optional<EFaultKind> kindOrNull)
@@ -211,9 +212,9 @@ void VehicleRunner::Start(Handler onConnected)
     _impl->Start(std::move(onConnected));
 }
 
-void VehicleRunner::Inject(const Fault& fault)
+bool VehicleRunner::TryInject(const Fault& fault)
 {
-    _impl->Inject(fault);
+    return _impl->TryInject(fault);
 }
 
 std::size_t VehicleRunner::EndFaults(std::optional<EFaultKind> kindOrNull)

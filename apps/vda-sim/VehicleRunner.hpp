@@ -41,7 +41,8 @@ public:
     /// Begins to connect; the handler is called each time that the vehicle is online.
     void Start(Handler onConnected);
 
-    void Inject(const Fault& fault);
+    /// False where it has too many already.
+    [[nodiscard]] bool TryInject(const Fault& fault);
     /// How many there were.
     std::size_t EndFaults(std::optional<EFaultKind> kindOrNull);
     /// How many actions waited for it.

@@ -1,7 +1,5 @@
 #include "vda-sim/VehicleSpec.hpp"
 
-#include <acs/vda5050/Topic.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -81,17 +79,25 @@ Core::Result<void> ReadPart(std::string_view part, VehicleSpec& spec, std::set<s
 
 } // namespace
 
+bool IsPlainLevel(std::string_view text)
+{
+    constexpr std::string_view MARKS = "/+#$";
+    return !text.empty() && std::ranges::all_of(text, [MARKS](char letter) {
+        return letter > ' ' && letter <= '~' && MARKS.find(letter) == std::string_view::npos;
+    });
+}
+
 Core::Result<VehicleSpec> ParseVehicleSpec(std::string_view text)
 {
     VehicleSpec spec;
     spec.name = std::string(TakePart(text));
-    const VDA5050::VehicleAddress address{.interfaceName = "x", .manufacturer = "x", .serialNumber = spec.name};
-    if (!VDA5050::IsValidAddress(address))
+    constexpr std::string_view COMMAND_MARKS = "*="; // of fault commands, which begin with a name
+    if (!IsPlainLevel(spec.name) || spec.name.find_first_of(COMMAND_MARKS) != std::string::npos)
     {
         return Core::Fail(
             Core::ECoreError::InvalidIdentifier,
             {},
-            "NAME[,type=LR|CR][,node=NODEID][,protocol=VERSION][,battery=PERCENT], NAME without /, + and #",
+            "NAME[,type=LR|CR][,node=NODEID][,protocol=VERSION][,battery=PERCENT], NAME without blanks, /, +, #, $, * and =",
             Core::QuoteForError(spec.name));
     }
     std::set<std::string_view> known;

@@ -31,6 +31,10 @@ struct VehicleSpec
     bool operator==(const VehicleSpec&) const = default;
 };
 
+/// What may stand as one level of a topic: VDA5050, section 6.3, and no character that nobody sees.
+constexpr std::string_view PLAIN_LEVEL = "a word without blanks, /, +, # and $";
+[[nodiscard]] bool IsPlainLevel(std::string_view text);
+
 /// Fails with ECoreError::InvalidIdentifier (a name that no topic can have), UnknownWord (a key, a type or a version) or
 /// OutOfRange.
 [[nodiscard]] Core::Result<VehicleSpec> ParseVehicleSpec(std::string_view text);

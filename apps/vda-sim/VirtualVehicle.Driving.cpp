@@ -22,15 +22,14 @@ double GetEdgeHeading(double direction, std::optional<double> orientationOrNull,
     return NormaliseAngle(direction + orientationOrNull.value_or(0.0));
 }
 
-/// An order may state any number: below zero it allows no movement, as zero does.
 double GetMaxSpeed(const VDA5050::OrderEdge& edge)
 {
-    return std::max(edge.maxSpeed.value_or(DEFAULT_SPEED), 0.0);
+    return edge.maxSpeed.value_or(DEFAULT_SPEED);
 }
 
 double GetMaxTurnSpeed(const VDA5050::OrderEdge& edge, const MotionLimits& limits)
 {
-    return std::max(edge.maxRotationSpeed.value_or(limits.maxTurnSpeed), 0.0);
+    return edge.maxRotationSpeed.value_or(limits.maxTurnSpeed);
 }
 
 double GetTurn(double from, double to)

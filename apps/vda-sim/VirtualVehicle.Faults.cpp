@@ -36,16 +36,21 @@ VehicleError MakeError(std::string_view type, EErrorLevel level, std::string des
 
 } // namespace
 
-void VirtualVehicle::Inject(const Fault& fault, Core::Now now, VirtualActions& out)
+bool VirtualVehicle::TryInject(const Fault& fault, Core::Now now, VirtualActions& out)
 {
     PassTime(now, out);
-    if (!_bWasOnline)
+    const bool bRoom = _faults.CountFaults() + _waitingFaults.size() < FaultBoard::MAX_FAULTS;
+    if (bRoom && !_bWasOnline)
     {
         _waitingFaults.push_back(fault);
-        return;
+        return true;
     }
-    _faults.Add(fault, now.steady, _faultChanges);
+    if (bRoom)
+    {
+        _faults.Add(fault, now.steady, _faultChanges);
+    }
     Settle(now, out);
+    return bRoom;
 }
 
 std::size_t VirtualVehicle::EndFaults(std::optional<EFaultKind> kindOrNull, Core::Now now, VirtualActions& out)
@@ -237,7 +242,9 @@ bool VirtualVehicle::TryRefuse(const VDA5050::MqttMessage& message, Core::Now no
     }
     VDA5050::Vda5050Codec codec;
     const Core::Result<VDA5050::MessageIdentity> identity = codec.DecodeIdentity(message.payload);
-    if (!identity.has_value() || identity->orderID.empty())
+    if (!identity.has_value() || identity->orderID.empty()
+        || identity->header.manufacturer != _options.address.manufacturer
+        || identity->header.serialNumber != _options.address.serialNumber)
     {
         return false; // the session has its own word for that
     }
@@ -250,7 +257,7 @@ bool VirtualVehicle::TryRefuse(const VDA5050::MqttMessage& message, Core::Now no
         {"headerId", std::to_string(identity->header.headerID)},
         {"orderId", identity->orderID},
         {"orderUpdateId", std::to_string(identity->orderUpdateID.value_or(0))}};
-    _logger.Warning("order refused", {{"orderId", identity->orderID}, {"error", error.errorType}, {"reason", "fault"}});
+    LogRefusal({identity->orderID, identity->orderUpdateID.value_or(0), error.errorType, "fault"}, now);
     AddOrderError(std::move(error), now);
     _faults.Use(*refusal, _faultChanges);
     Pump(now, out);
@@ -291,6 +298,7 @@ void VirtualVehicle::Send(VDA5050::MqttMessage message, Core::Now now, VirtualAc
 {
     std::vector<VDA5050::MqttMessage> passed;
     _outgoing.Pass(std::move(message), _faults, *_random, now.steady, passed);
+    LogOverflow(_outgoing.TakeOverflow(), now);
     for (VDA5050::MqttMessage& through : passed)
     {
         out.emplace_back(VDA5050::PublishMessage{std::move(through)});

@@ -1,5 +1,6 @@
 #include "vda-sim/VirtualVehicle.hpp"
 
+#include "vda-sim/OrderLimits.hpp"
 #include "vda-sim/VehicleFactsheet.hpp"
 #include <acs/core/Overloaded.hpp>
 
@@ -32,10 +33,13 @@ VDA5050::VehicleOptions MakeSessionOptions(const VirtualVehicleOptions& options,
     session.address = options.address;
     session.version = options.version;
     session.qos = options.qos;
-    session.factsheet = MakeFactsheet(options.type, options.limits);
+    session.factsheet = MakeFactsheet(options.type, options.limits, options.version);
     session.visualizationInterval = 200ms;
     session.bStopsBetweenNodes = false; // as a line-guided vehicle: a cancelled order ends on a node
     session.initialNodeID = options.startNodeID;
+    session.orderCheck = [&site](const VDA5050::OrderMessage& order) {
+        return FindUndrivable(order, site);
+    };
     std::set<std::string> mapIDs;
     for (const Planning::SiteNode& node : site.GetNodes())
     {
@@ -69,7 +73,7 @@ VirtualVehicle::VirtualVehicle(
       _logger(std::move(logger)),
       _session(MakeSessionOptions(_options, site)),
       _motion(_options.limits, {}),
-      _hands(_options.actionSeconds),
+      _hands(_options.actionSeconds, GetLoadPositions(_options.type)),
       _nodeID(_options.startNodeID),
       _charge(_options.charge)
 {
@@ -126,6 +130,7 @@ void VirtualVehicle::OnMessage(const VDA5050::MqttMessage& message, Core::Now no
     PassTime(now, out);
     std::vector<VDA5050::MqttMessage> passed;
     _incoming.Pass(message, _faults, *_random, now.steady, passed);
+    LogOverflow(_incoming.TakeOverflow(), now);
     for (const VDA5050::MqttMessage& through : passed)
     {
         Deliver(through, now, out);
@@ -338,11 +343,11 @@ void VirtualVehicle::CarryOut(VDA5050::VehicleAction& action, Core::Now now, Vir
             [&](const VDA5050::OrderTaken& taken) {
                 _orderErrors.clear();
                 _session.OnErrors(MakeErrors(), now, _sessionActions);
-                _logger.Info(taken.bUpdate ? "order update" : "order", {{"orderId", taken.orderID}});
+                _logger.Info(taken.bUpdate ? "order update" : "order", {{"orderId", CutForLog(taken.orderID)}});
             },
-            [&](const VDA5050::OrderRefused& refused) { Log(refused); },
+            [&](const VDA5050::OrderRefused& refused) { LogRefusal(refused, now); },
             [&](const VDA5050::OrderCompleted& completed) {
-                _logger.Info("order completed", {{"orderId", completed.orderID}});
+                _logger.Info("order completed", {{"orderId", CutForLog(completed.orderID)}});
             },
             [&](const VDA5050::OrderCleared& cleared) {
                 _leg.reset();
@@ -351,19 +356,44 @@ void VirtualVehicle::CarryOut(VDA5050::VehicleAction& action, Core::Now now, Vir
                 {
                     _motion.Abandon();
                 }
-                _logger.Info("order cancelled", {{"orderId", cleared.orderID}});
+                _logger.Info("order cancelled", {{"orderId", CutForLog(cleared.orderID)}});
             },
             [&](const VDA5050::MessageIgnored& ignored) {
-                _logger.Warning("message ignored", {{"reason", Core::Describe(ignored.error)}});
+                LogIgnored(ignored, now);
             }},
         action);
 }
 
-void VirtualVehicle::Log(const VDA5050::OrderRefused& refused) const
+void VirtualVehicle::LogRefusal(const VDA5050::OrderRefused& refused, Core::Now now)
 {
-    _logger.Warning(
-        "order refused",
-        {{"orderId", refused.orderID}, {"error", refused.errorType}, {"reason", refused.reason}});
+    const std::optional<std::uint64_t> unsaid = _refusals.PassOrNull(now.steady);
+    if (unsaid.has_value())
+    {
+        _logger.Warning(
+            "order refused",
+            {{"orderId", CutForLog(refused.orderID)},
+             {"error", CutForLog(refused.errorType)},
+             {"reason", CutForLog(refused.reason)},
+             {"unsaid", std::to_string(*unsaid)}});
+    }
+}
+
+void VirtualVehicle::LogIgnored(const VDA5050::MessageIgnored& ignored, Core::Now now)
+{
+    const std::optional<std::uint64_t> unsaid = _ignored.PassOrNull(now.steady);
+    if (unsaid.has_value())
+    {
+        const std::string reason = Core::Describe(ignored.error);
+        _logger.Warning("message ignored", {{"reason", CutForLog(reason)}, {"unsaid", std::to_string(*unsaid)}});
+    }
+}
+
+void VirtualVehicle::LogOverflow(std::size_t lost, Core::Now now)
+{
+    if (lost > 0 && _overflows.PassOrNull(now.steady).has_value())
+    {
+        _logger.Warning("more is delayed than a network holds: messages are lost");
+    }
 }
 
 void VirtualVehicle::TellPosition()
@@ -468,6 +498,10 @@ std::string VirtualVehicle::InitialisePosition(const VDA5050::Action& action, Co
     {
         return "x, y and theta have to be numbers, mapId a string";
     }
+    if (!IsInReach(*_site, *x, *y))
+    {
+        return "this is too far from the site";
+    }
     if (_motion.HasLeg() && !_motion.IsStanding())
     {
         return "the vehicle drives";
@@ -485,10 +519,10 @@ void VirtualVehicle::SetStatus(
     std::string result,
     Core::Now now)
 {
-    _logger.Debug("action", {{"actionId", actionID}, {"status", VDA5050::GetStatusText(status)}});
+    _logger.Debug("action", {{"actionId", CutForLog(actionID)}, {"status", VDA5050::GetStatusText(status)}});
     if (!_session.TrySetActionStatus(actionID, status, std::move(result), now, _sessionActions))
     {
-        _logger.Warning("the session does not take a status", {{"actionId", actionID}});
+        _logger.Warning("the session does not take a status", {{"actionId", CutForLog(actionID)}});
     }
 }
 

@@ -5,6 +5,7 @@
 #include "vda-sim/MessageGate.hpp"
 #include "vda-sim/VehicleMotion.hpp"
 #include "vda-sim/VehicleSpec.hpp"
+#include "vda-sim/WarningLimiter.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
@@ -101,6 +102,9 @@ class VirtualVehicle
     MessageGate _outgoing{EFaultDirection::Out};
     std::vector<VDA5050::VehicleError> _orderErrors; ///< Until an order is taken.
     std::optional<Core::SteadyTime> _nextEvent;      ///< What the event timer runs for.
+    WarningLimiter _refusals;
+    WarningLimiter _ignored;
+    WarningLimiter _overflows;
     bool _bWasOnline = false;
     bool _bBatteryLow = false;
 
@@ -125,7 +129,8 @@ public:
     void Leave(Core::Now now, VirtualActions& out);
 
     /// Its delay counts from now, or from the first OnLinkUp where that is still to come.
-    void Inject(const Fault& fault, Core::Now now, VirtualActions& out);
+    /// False where it has FaultBoard::MAX_FAULTS already.
+    [[nodiscard]] bool TryInject(const Fault& fault, Core::Now now, VirtualActions& out);
     /// Ends the faults of the kind (absent: all), also those to come; how many there were.
     std::size_t EndFaults(std::optional<EFaultKind> kindOrNull, Core::Now now, VirtualActions& out);
     /// Ends every waitForTrigger that runs; how many there were.
@@ -175,7 +180,9 @@ private:
     void Start(const VDA5050::StartAction& start, Core::Now now);
     [[nodiscard]] std::string InitialisePosition(const VDA5050::Action& action, Core::Now now);
     void SetStatus(std::string_view actionID, VDA5050::EActionStatus status, std::string result, Core::Now now);
-    void Log(const VDA5050::OrderRefused& refused) const;
+    void LogRefusal(const VDA5050::OrderRefused& refused, Core::Now now);
+    void LogIgnored(const VDA5050::MessageIgnored& ignored, Core::Now now);
+    void LogOverflow(std::size_t lost, Core::Now now);
     [[nodiscard]] bool IsAtCharger() const;
 };
 

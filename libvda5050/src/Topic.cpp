@@ -39,10 +39,19 @@ const TopicRule& GetRule(ETopic topic)
     return RULES[index];
 }
 
+bool IsControl(char letter)
+{
+    constexpr unsigned char FIRST_PRINTABLE = 0x20;
+    constexpr unsigned char DELETE = 0x7F;
+    const auto code = static_cast<unsigned char>(letter);
+    return code < FIRST_PRINTABLE || code == DELETE;
+}
+
+/// A $ at the beginning is the broker's own; elsewhere section 6.3 only advises against it.
 bool IsValidLevel(std::string_view level)
 {
-    return !level.empty() && level.find_first_of("/+#") == std::string_view::npos
-        && level.find('\0') == std::string_view::npos;
+    return !level.empty() && level.find_first_of("/+#") == std::string_view::npos && !level.starts_with('$')
+        && std::ranges::none_of(level, IsControl);
 }
 
 } // namespace

@@ -168,6 +168,16 @@ TEST_CASE_METHOD(
     CHECK_THAT(Command("   "), Catch::StartsWith("error: "));
     CHECK_THAT(Command(std::string("\0\xff\n\r;", 5)), Catch::StartsWith("error: "));
     CHECK(Command("LR01 end") == "ok: vehicles=1 ended=0");
+    CHECK(Command("LR01 trigger") == "ok: vehicles=1 triggered=0");
+    CHECK_THAT(Command("LR01 stuck node=NOPE"), Catch::StartsWith("warning: vehicles=1 stuck node=NOPE; "));
+    std::string many;
+    for (int i = 0; i < 999; ++i)
+    {
+        many += "LR01 stuck at=1h\n";
+    }
+    CHECK_THAT(Command(many), Catch::StartsWith("ok: ") && !Catch::Contains("error"));
+    CHECK(Command("LR01 lost") == "error: 1 of 1 vehicles have 1000 faults already");
+    CHECK(Command("LR01 end") == "ok: vehicles=1 ended=1000");
 }
 
 TEST_CASE_METHOD(FaultsTest, "vda-sim: a fleet speaks each vehicle's version, and leaves with an OFFLINE from each")

@@ -4,6 +4,7 @@
 #include "vda-sim/FaultCommand.hpp"
 #include "vda-sim/MessageGate.hpp"
 #include "vda-sim/VehicleRandom.hpp"
+#include "vda-sim/WarningLimiter.hpp"
 
 #include <chrono>
 #include <set>
@@ -70,6 +71,7 @@ TEST_CASE("A fault is its name and its parameters, in any order, between any bla
     CHECK(loss.percent == 2.5);
     CHECK(loss.topic == VDA5050::ETopic::State);
     CHECK(loss.direction == EFaultDirection::Out);
+    CHECK(MakeFault("refuse level=FATAL").errorLevel == VDA5050::EErrorLevel::Fatal);
     CHECK(MakeFault("drop will=no").bWill == false);
     CHECK(MakeFault("mode mode=SERVICE node=N1").nodeID == "N1");
     CHECK(MakeFault("action-fails type=pick when=start count=3").maxUses == 3U);
@@ -93,6 +95,13 @@ TEST_CASE("What is no fault is told with what would be one")
              {"refuse count=0", "a number from 1 to"},
              {"refuse count=-1", "a number from 1 to"},
              {"mode mode=manual", "one of MANUAL"},
+             {"mode mode=AUTOMATIC", "one of MANUAL"},
+             {"silence topic=order", "one of state, visualization, factsheet"},
+             {"silence topic=connection", "one of state, visualization, factsheet"},
+             {"loss topic=order direction=out", "in: a vehicle hears the topic order"},
+             {"delay time=1s topic=state direction=in", "out: a vehicle publishes the topic state"},
+             {"stuck level=FATAL", "error=ERRORTYPE"},
+             {"action-fails level=FATAL", "error=ERRORTYPE"},
              {"delay", "time=DURATION"}})
     {
         CAPTURE(text);
@@ -136,6 +145,28 @@ TEST_CASE("A file of faults has a line for each, remarks and empty lines; a mist
     const auto wrong = VdaSim::ParseFaultCommands("A stuck\n\nA stuck for=long\n");
     REQUIRE_FALSE(wrong.has_value());
     CHECK(wrong.error().path == "line 3, stuck for");
+}
+
+TEST_CASE("A fault file may begin with a byte order mark; what is no UTF-8, too long or too much is refused")
+{
+    const auto marked = VdaSim::ParseFaultCommands("\xEF\xBB\xBF"
+                                                   "LR01 stuck\n");
+    REQUIRE(marked.has_value());
+    CHECK(marked->front().vehicles == "LR01");
+    CHECK_FALSE(VdaSim::ParseFaultCommands("LR01 stuck error=\xFF\xFE").has_value());
+    CHECK_FALSE(VdaSim::ParseFaultCommand("\xC3 stuck").has_value());
+    CHECK(VdaSim::ParseFaultCommand("LR01 stuck error=M\xC3\xBCller").has_value());
+    CHECK(VdaSim::ParseFaultCommand("LR01 stuck error=" + std::string(900, 'x')).has_value());
+    CHECK_FALSE(VdaSim::ParseFaultCommand("LR01 stuck error=" + std::string(1000, 'x')).has_value());
+    std::string many;
+    for (int i = 0; i < 1000; ++i)
+    {
+        many += "A stuck\n";
+    }
+    CHECK(VdaSim::ParseFaultCommands(many)->size() == 1000);
+    const auto tooMany = VdaSim::ParseFaultCommands(many + "# one more\nA stuck\n");
+    REQUIRE_FALSE(tooMany.has_value());
+    CHECK(tooMany.error().path == "line 1002");
 }
 
 TEST_CASE("The help has a line for every fault")
@@ -338,6 +369,71 @@ TEST_CASE("A jitter draws each delay anew, within its bounds")
         times.insert(due);
     }
     CHECK(times.size() > 90);
+}
+
+TEST_CASE("A delay holds no more than a network would: what comes then is lost, and there is room again later")
+{
+    FaultBoard board;
+    FaultChanges changes;
+    board.Add(MakeFault("delay time=1h"), START, changes);
+    SeededRandom random;
+    std::vector<VDA5050::MqttMessage> out;
+    const auto fill = [&](VdaSim::MessageGate& gate, std::size_t count, std::size_t bytes) {
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            gate.Pass(MakeMessage("state", std::string(bytes, 'x')), board, random, START, out);
+        }
+        return gate.TakeOverflow();
+    };
+    VdaSim::MessageGate large(EFaultDirection::Out);
+    CHECK(fill(large, 20, 1'000'000) == 4); // 16 MiB
+    CHECK(fill(large, 1, 1) == 0);
+    large.Release(START + 1h, out);
+    CHECK(out.size() == 17);
+    CHECK(fill(large, 16, 1'000'000) == 0);
+    large.Clear();
+    CHECK(fill(large, 16, 1'000'000) == 0);
+    VdaSim::MessageGate small(EFaultDirection::Out);
+    CHECK(fill(small, VdaSim::MessageGate::MAX_MESSAGES + 3, 1) == 3);
+    CHECK(small.TakeOverflow() == 0);
+}
+
+TEST_CASE("A fault that ends as it begins leaves the others alone")
+{
+    FaultBoard board;
+    FaultChanges changes;
+    board.Add(MakeFault("lost at=1s"), START, changes);
+    board.Add(MakeFault("stuck for=0ms"), START + 2s, changes);
+    CHECK(TakeTexts(changes) == Texts{"+stuck", "-stuck its time is over"});
+    CHECK(board.CountFaults() == 1);
+    board.OnTime(START + 2s, changes);
+    CHECK(TakeTexts(changes) == Texts{"+lost"});
+}
+
+TEST_CASE("Of warnings of one kind some pass in a span of time, and the next one says how many did not")
+{
+    VdaSim::WarningLimiter limiter;
+    for (std::uint32_t i = 0; i < VdaSim::WarningLimiter::MOST; ++i)
+    {
+        CHECK(limiter.PassOrNull(START) == 0U);
+    }
+    CHECK_FALSE(limiter.PassOrNull(START).has_value());
+    CHECK_FALSE(limiter.PassOrNull(START + VdaSim::WarningLimiter::SPAN - 1ms).has_value());
+    CHECK(limiter.PassOrNull(START + VdaSim::WarningLimiter::SPAN) == 2U);
+    CHECK(limiter.PassOrNull(START + VdaSim::WarningLimiter::SPAN) == 0U);
+}
+
+TEST_CASE("What a log repeats of a text from outside is short, and whole characters")
+{
+    CHECK(VdaSim::CutForLog("short") == "short");
+    CHECK(VdaSim::CutForLog(std::string(300, 'x')).size() == 200);
+    CHECK(
+        VdaSim::CutForLog(
+            std::string(199, 'x')
+            + "\xC3\xBC"
+              "y")
+            .size()
+        == 199);
 }
 
 TEST_CASE("A silent vehicle publishes nothing but its connection, or is silent on one topic, and hears on")

@@ -28,6 +28,14 @@ TEST_CASE("What is no vehicle is told with what would be one")
          {"",
           ",type=LR",
           "A/B",
+          "A B",
+          "$A",
+          "A$",
+          "A\tB",
+          "A\x7F",
+          "M\xC3\xBCller",
+          "A*",
+          "A=B",
           "A+",
           "A,type=",
           "A,type=lr",
@@ -186,7 +194,16 @@ TEST_CASE("A command line that cannot be meant ends the program with 2")
              {"--vehicle", "A", "--fault-file", "/nonexistent/faults"},
              {"--vehicle", "A", "--action-time", "pick"},
              {"--vehicle", "A", "--action-time", "=1s"},
-             {"--vehicle", "A", "--control-topic", "a/#"}})
+             {"--vehicle", "A", "--action-time", "foo=1s"},
+             {"--vehicle", "A", "--action-time", "cancelOrder=1s"},
+             {"--vehicle", "A", "--control-topic", "a/#"},
+             {"--vehicle", "A", "--control-topic", "x", "--no-control"},
+             {"--vehicle", "A", "--seed", "-1"},
+             {"--vehicle", "A", "--seed", "1x"},
+             {"--vehicle", "A", "--time-scale", "nan"},
+             {"--vehicle", "A", "--time-scale", "0"},
+             {"--vehicle", "A", "--manufacturer", "K T"},
+             {"--vehicle", "A", "--interface-name", "$SYS"}})
     {
         CAPTURE(arguments);
         CHECK(ReadOptionsFrom(arguments).exitCode == 2);

@@ -20,6 +20,7 @@ using VDA5050::ActionParameter;
 using VDA5050::AgvAction;
 using VDA5050::EActionScope;
 using VDA5050::EActionStatus;
+using VdaSim::EVehicleType;
 namespace ActionTypes = VDA5050::ActionTypes;
 
 ActionParameter MakeText(std::string_view key, std::string_view value)
@@ -27,9 +28,16 @@ ActionParameter MakeText(std::string_view key, std::string_view value)
     return {std::string(key), Core::JsonText::FromString(value)};
 }
 
+VDA5050::FactsheetMessage MakeFactsheet(
+    EVehicleType type,
+    VDA5050::EVda5050Version version = VDA5050::EVda5050Version::Version210)
+{
+    return VdaSim::MakeFactsheet(type, {}, version);
+}
+
 std::vector<AgvAction> ListActions()
 {
-    return VdaSim::MakeFactsheet(VdaSim::EVehicleType::Logistics, {}).protocolFeatures.agvActions;
+    return MakeFactsheet(EVehicleType::Logistics).protocolFeatures.agvActions;
 }
 
 /// With what the row asks for.
@@ -218,6 +226,97 @@ TEST_CASE("6.8 What is looked for along an edge is found by its end; a pick that
         CHECK(bFound == (type == ActionTypes::DETECT_OBJECT));
         CHECK(driver.GetState().loads->empty());
     }
+}
+
+TEST_CASE(
+    "7.4 The factsheet says what a vehicle keeps to: the sizes of messages, its places for loads, its version's members")
+{
+    const VDA5050::FactsheetMessage factsheet = MakeFactsheet(EVehicleType::Logistics);
+    const VDA5050::ProtocolLimits& limits = factsheet.protocolLimits;
+    CHECK(limits.maxStringLengths.message == VDA5050::CodecLimits{}.payloadBytes);
+    CHECK(limits.maxStringLengths.identifier == 1024U);
+    CHECK(limits.maxStringLengths.loadID == 1024U);
+    const VDA5050::MaximumArrayLengths& arrays = limits.maxArrayLengths;
+    CHECK(arrays.orderNodes == 1000U);
+    CHECK(arrays.orderEdges == 1000U);
+    CHECK(arrays.nodeActions == 100U);
+    CHECK(arrays.edgeActions == 100U);
+    CHECK(arrays.actionParameters == 100U);
+    CHECK(arrays.instantActions == 100U);
+    CHECK(arrays.trajectoryKnotVector == 111U);
+    CHECK(arrays.trajectoryControlPoints == 100U);
+    CHECK(arrays.stateNodeStates == 1000U);
+    CHECK(arrays.stateEdgeStates == 1000U);
+    CHECK(arrays.stateActionStates == 2000U);
+    CHECK(arrays.stateErrors == 64U);
+    CHECK(arrays.stateLoads == 4U);
+    CHECK(factsheet.loadSpecification.loadPositions == std::vector<std::string>{"CP01", "CP02", "CP03", "CP04"});
+
+    const VDA5050::FactsheetMessage base = MakeFactsheet(EVehicleType::Control);
+    CHECK(base.loadSpecification.loadPositions.empty());
+    CHECK_FALSE(base.protocolLimits.maxArrayLengths.stateLoads.has_value());
+    CHECK_FALSE(VDA5050::CanPerform(base, ActionTypes::PICK, EActionScope::Node));
+    CHECK_FALSE(VDA5050::CanPerform(base, ActionTypes::DROP, EActionScope::Node));
+    CHECK(VDA5050::CanPerform(base, ActionTypes::FINE_POSITIONING, EActionScope::Node));
+
+    const auto hasCorridor = [](VDA5050::EVda5050Version version) {
+        return std::ranges::any_of(
+            MakeFactsheet(EVehicleType::Logistics, version).protocolFeatures.optionalParameters,
+            [](const VDA5050::OptionalParameter& listed) { return listed.parameter == "order.edges.corridor"; });
+    };
+    CHECK(hasCorridor(VDA5050::EVda5050Version::Version210));
+    CHECK_FALSE(hasCorridor(VDA5050::EVda5050Version::Version200));
+}
+
+TEST_CASE("6.8 A pick takes the place that it names, or the first free one, and fails where that cannot be")
+{
+    VehicleDriver driver(MakeOptions());
+    auto route = driver.MakeRoute("order-loads", {"DOCK"});
+    auto order = VehicleDriver::Take(route.MakeOrder(1));
+    const auto add = [&order](std::string_view type, const std::string& actionID, std::vector<ActionParameter> with) {
+        order.nodes[0].actions.push_back(MakeAction(type, std::move(with)));
+        order.nodes[0].actions.back().actionID = actionID;
+        order.nodes[0].actions.back().blockingType = VDA5050::EBlockingType::Hard;
+    };
+    add(ActionTypes::PICK, "second", {MakeText("lhd", "CP02"), MakeText("loadId", "A")});
+    add(ActionTypes::PICK, "taken", {MakeText("lhd", "CP02")});
+    add(ActionTypes::PICK, "twice", {MakeText("loadId", "A")});
+    add(ActionTypes::PICK, "nowhere", {MakeText("lhd", "CP05")});
+    add(ActionTypes::PICK, "long", {MakeText("loadId", std::string(1025, 'L'))});
+    add(ActionTypes::PICK, "first", {});
+    add(ActionTypes::PICK, "third", {});
+    add(ActionTypes::PICK, "fourth", {});
+    add(ActionTypes::PICK, "full", {});
+    add(ActionTypes::DROP, "drop", {MakeText("lhd", "CP03")});
+    driver.Send(std::move(order));
+    driver.Pass(30s);
+    for (const std::string failed : {"taken", "twice", "nowhere", "long", "full"})
+    {
+        CAPTURE(failed);
+        CHECK(driver.GetStatus(failed) == EActionStatus::Failed);
+    }
+    for (const std::string done : {"second", "first", "third", "fourth", "drop"})
+    {
+        CAPTURE(done);
+        CHECK(driver.GetStatus(done) == EActionStatus::Finished);
+    }
+    std::vector<std::string> places;
+    for (const VDA5050::Load& load : driver.GetState().loads.value_or(std::vector<VDA5050::Load>()))
+    {
+        places.push_back(load.loadPosition);
+    }
+    CHECK(places == std::vector<std::string>{"CP02", "CP01", "CP04"});
+}
+
+TEST_CASE("6.6 The base of an arm has no place for loads: an order that has it pick is refused")
+{
+    VdaSim::VirtualVehicleOptions options = MakeOptions();
+    options.type = EVehicleType::Control;
+    VehicleDriver driver(std::move(options));
+    SendOrder(driver, MakeAction(ActionTypes::PICK, {}), EActionScope::Node);
+    CHECK(driver.GetState().orderID.empty());
+    REQUIRE(driver.GetState().errors.size() == 1);
+    CHECK(driver.GetState().errors[0].errorType == VDA5050::ErrorTypes::ORDER_ERROR);
 }
 
 } // namespace ACS::Testing

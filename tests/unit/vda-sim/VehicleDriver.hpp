@@ -97,8 +97,17 @@ public:
     /// "stuck for=5s"
     void Inject(std::string_view fault)
     {
-        _vehicle.Inject(Take(VdaSim::ParseFault(fault)), _clock.GetNow(), _actions);
+        if (!TryInject(fault))
+        {
+            throw std::runtime_error("the vehicle has too many faults");
+        }
+    }
+
+    [[nodiscard]] bool TryInject(std::string_view fault)
+    {
+        const bool bTaken = _vehicle.TryInject(Take(VdaSim::ParseFault(fault)), _clock.GetNow(), _actions);
         Execute();
+        return bTaken;
     }
 
     std::size_t EndFaults(std::optional<VdaSim::EFaultKind> kindOrNull = {})
@@ -143,6 +152,20 @@ public:
             nodes.push_back(std::move(node));
         }
         return Take(VDA5050::OrderBuilder::Create(orderID, std::move(nodes), std::move(edges)));
+    }
+
+    /// Whatever it is, on the topic order.
+    void SendRaw(const std::string& payload)
+    {
+        Receive(VDA5050::ETopic::Order, payload);
+    }
+
+    /// With the header of a message for another vehicle.
+    void SendToOther(VDA5050::OrderMessage order)
+    {
+        order.header = MakeHeader();
+        order.header.serialNumber = "LR02";
+        Receive(VDA5050::ETopic::Order, _codec.Encode(order, VDA5050::EVda5050Version::Version200));
     }
 
     void Send(VDA5050::OrderMessage order, VDA5050::EVda5050Version version = VDA5050::EVda5050Version::Version200)

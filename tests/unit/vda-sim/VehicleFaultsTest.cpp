@@ -93,6 +93,64 @@ TEST_CASE("drop will=no: the link is told to go without a will; two drops end wi
     CHECK(driver.IsConnected());
 }
 
+TEST_CASE("refuse: an order for another vehicle uses none up")
+{
+    VehicleDriver driver("N0");
+    driver.Inject("refuse");
+    auto route = driver.MakeRoute("order-1", {"N0", "N1"});
+    const VDA5050::OrderMessage order = VehicleDriver::Take(route.MakeOrder(2));
+    driver.SendToOther(order);
+    driver.Pass(1s);
+    CHECK(driver.GetState().errors.empty());
+    driver.Send(order);
+    driver.Pass(1s);
+    CHECK(FindErrorOrNull(driver.GetState(), VDA5050::ErrorTypes::ORDER_ERROR) != nullptr);
+    CHECK(driver.GetState().orderID.empty());
+}
+
+TEST_CASE("A vehicle takes a thousand faults, those to come among them, and no more until some have ended")
+{
+    VehicleDriver driver("N0");
+    for (std::size_t i = 0; i < VdaSim::FaultBoard::MAX_FAULTS; ++i)
+    {
+        driver.Inject("stuck at=1h");
+    }
+    CHECK_FALSE(driver.TryInject("lost"));
+    CHECK(driver.GetState().agvPosition->bPositionInitialized);
+    CHECK(driver.EndFaults(EFaultKind::Stuck) == VdaSim::FaultBoard::MAX_FAULTS);
+    CHECK(driver.TryInject("lost"));
+}
+
+TEST_CASE("The log says of a flood of bad messages the first ones, each in a short line")
+{
+    VehicleDriver driver("N0");
+    auto route = driver.MakeRoute("order-" + std::string(900, 'x'), {"N1", "N2"});
+    const VDA5050::OrderMessage order = VehicleDriver::Take(route.MakeOrder(2));
+    for (int i = 0; i < 100; ++i)
+    {
+        driver.Send(order); // N1 is not where the vehicle is
+        driver.SendRaw("{" + std::string(900, '"'));
+    }
+    driver.Inject("delay time=1h direction=in");
+    for (int i = 0; i < 40; ++i)
+    {
+        driver.SendRaw(std::string(1'000'000, ' '));
+    }
+    const auto count = [&driver](std::string_view message) {
+        return std::ranges::count(driver.GetLog().GetLines(), message, &RecordedLine::message);
+    };
+    CHECK(count("order refused") == VdaSim::WarningLimiter::MOST);
+    CHECK(count("more is delayed than a network holds: messages are lost") == VdaSim::WarningLimiter::MOST);
+    for (const RecordedLine& line : driver.GetLog().GetLines())
+    {
+        for (const auto& [key, value] : line.fields)
+        {
+            CAPTURE(line.message, key);
+            CHECK(value.size() <= 200);
+        }
+    }
+}
+
 TEST_CASE("silence: nothing is published, and the vehicle works on")
 {
     VehicleDriver driver("N0");
@@ -179,7 +237,9 @@ TEST_CASE("6.10.4 blocked swerve=: the obstacle is passed within a corridor that
              {Corridor{0.6, 0.6, contour}, 0.0},
              {Corridor{0.0, 0.9, contour}, -0.5}})
     {
-        VehicleDriver driver("N0");
+        VdaSim::VirtualVehicleOptions options = VehicleDriver::MakeOptions("N0");
+        options.version = VDA5050::EVda5050Version::Version210;
+        VehicleDriver driver(std::move(options));
         VDA5050::OrderMessage order = VehicleDriver::Take(driver.MakeRoute("o", {"N0", "N1"}).MakeOrder(2));
         order.edges[0].corridor = corridor;
         driver.Inject("blocked swerve=0.5");

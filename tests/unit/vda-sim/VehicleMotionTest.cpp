@@ -135,6 +135,29 @@ TEST_CASE("However long a curve is, it has no more than some hundred samples")
     CHECK(LegPath::Create({1.0, 0.0}, {0.0, 1.0}, endless).CountSamples() <= 402);
 }
 
+TEST_CASE("7 A curve has no more samples than asked for, also where it has more knots; its ends are among them")
+{
+    VDA5050::Trajectory curve;
+    curve.degree = 2;
+    curve.knotVector = {0.0, 0.0, 0.0};
+    for (int i = 0; i <= 1000; ++i)
+    {
+        curve.controlPoints.push_back({1.0 * i, i % 2 == 0 ? 0.0 : 1.0, {}});
+    }
+    for (int i = 1; i <= 998; ++i)
+    {
+        curve.knotVector.push_back(i / 999.0);
+    }
+    curve.knotVector.insert(curve.knotVector.end(), 3, 1.0);
+    for (const std::size_t most : {std::size_t{2}, std::size_t{100}, std::size_t{400}})
+    {
+        const std::vector<MapPoint> samples = NurbsCurve(curve).Sample(0.05, most);
+        CHECK(samples.size() == most);
+        CHECK(samples.front() == MapPoint{0.0, 0.0});
+        CHECK(samples.back() == MapPoint{1000.0, 0.0});
+    }
+}
+
 TEST_CASE("A vehicle that has left the beginning of the curve joins it at the nearest place")
 {
     const MapPoint middle{std::numbers::sqrt2, std::numbers::sqrt2};

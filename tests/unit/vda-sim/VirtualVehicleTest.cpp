@@ -160,27 +160,6 @@ TEST_CASE("A vehicle keeps to the speed of the edge and to its own acceleration"
     CHECK(std::chrono::duration<double>(end - start).count() == Approx(10.33).margin(0.3));
 }
 
-TEST_CASE("A speed below zero in an order allows no movement, and no way back")
-{
-    VehicleDriver driver("N0");
-    auto route = driver.MakeRoute("order-1", {"N0", "N1", "N2"});
-    VDA5050::OrderMessage order = VehicleDriver::Take(route.MakeOrder(2));
-    SECTION("driving")
-    {
-        order.edges[0].maxSpeed = -1.0;
-    }
-    SECTION("turning")
-    {
-        order.edges[0].orientation = NORTH;
-        order.edges[0].bRotationAllowed = false;
-        order.edges[0].maxRotationSpeed = -1.0;
-    }
-    driver.Send(order);
-    driver.Pass(5s);
-    CHECK(driver.GetPose().x == 0.0);
-    CHECK(driver.GetPose().theta == 0.0);
-}
-
 TEST_CASE("7 Where an edge allows no rotation, the vehicle turns on the node before it enters")
 {
     VehicleDriver driver("N0");

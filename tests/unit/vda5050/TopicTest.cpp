@@ -26,7 +26,9 @@ TEST_CASE("2 Other topics are refused")
         "uagv/v2/KIT//order",
         "uagv/v2/KIT/0001/orders",
         "uagv/v2/+/0001/order",
-        "uagv/v2/KIT/#/order");
+        "uagv/v2/KIT/#/order",
+        "uagv/v2/KIT/00\n01/order",
+        "$SYS/v2/KIT/0001/order");
     const auto parsed = ParseTopic(text);
     REQUIRE_FALSE(parsed.has_value());
     CHECK(parsed.error().code == EVda5050Error::InvalidTopic);
@@ -50,6 +52,10 @@ TEST_CASE("2 A level of an address has no separator and no wildcard")
     CHECK_FALSE(IsValidAddress({"uagv", "K/T", "0001"}));
     CHECK_FALSE(IsValidAddress({"uagv", "KIT", ""}));
     CHECK_FALSE(IsValidAddress({"uagv", "KIT", "+"}));
+    CHECK_FALSE(IsValidAddress({"uagv", "KIT", "00\x01"}));
+    CHECK_FALSE(IsValidAddress({"uagv", "KIT\x7F", "0001"}));
+    CHECK_FALSE(IsValidAddress({"$SYS", "KIT", "0001"}));
+    CHECK(IsValidAddress({"uagv", "K$T", "M\xC3\xBCller"}));
 }
 
 TEST_CASE("2 Quality of service: the project's profile, the standard's, and single topics set")

@@ -1,0 +1,155 @@
+#include "vda-sim/OrderLimits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace ACS::VdaSim
+{
+namespace
+{
+
+using VDA5050::ErrorReference;
+using VDA5050::OrderEdge;
+using VDA5050::OrderNode;
+using VDA5050::OrderViolation;
+
+/// The first rules that an order breaks; nobody mends one by more of them.
+class Findings
+{
+    static constexpr std::size_t MOST = 16;
+
+    const VDA5050::OrderMessage* _order;
+    std::vector<OrderViolation> _violations;
+
+public:
+    explicit Findings(const VDA5050::OrderMessage& order)
+        : _order(&order)
+    {
+    }
+
+    void Add(std::string_view errorType, std::string rule, std::vector<ErrorReference> references)
+    {
+        if (_violations.size() >= MOST)
+        {
+            return;
+        }
+        OrderViolation& violation =
+            _violations.emplace_back(VDA5050::MakeOrderViolation(*_order, errorType, std::move(rule)));
+        std::ranges::move(references, std::back_inserter(violation.error.errorReferences));
+    }
+
+    void AddOfEdge(const OrderEdge& edge, std::string_view parameter, std::string rule)
+    {
+        Add(VDA5050::ErrorTypes::ORDER_ERROR,
+            std::move(rule),
+            {{"edgeId", edge.edgeID}, {"parameter", std::string(parameter)}});
+    }
+
+    [[nodiscard]] std::vector<OrderViolation> Take()
+    {
+        return std::move(_violations);
+    }
+};
+
+std::string MakeTooFar()
+{
+    return fmt::format("farther than {} m from the site", MAX_REACH);
+}
+
+void CheckPlaces(const VDA5050::OrderMessage& order, const Planning::SiteMap& site, Findings& findings)
+{
+    for (std::size_t index = 0; index < order.nodes.size(); ++index)
+    {
+        const OrderNode& node = order.nodes[index];
+        // On the first one the vehicle stands, or will: it is where an order begins and an update goes on.
+        if (!node.nodePosition.has_value() && index > 0 && site.FindNodeOrNull(node.nodeID) == nullptr)
+        {
+            findings.Add(
+                VDA5050::ErrorTypes::NO_ROUTE_ERROR,
+                "the vehicle does not know this node, and the order does not say where it is",
+                {{"nodeId", node.nodeID}, {"parameter", "order.nodes.nodePosition"}});
+        }
+        if (node.nodePosition.has_value() && !IsInReach(site, node.nodePosition->x, node.nodePosition->y))
+        {
+            findings.Add(
+                VDA5050::ErrorTypes::NO_ROUTE_ERROR,
+                "a node is " + MakeTooFar(),
+                {{"nodeId", node.nodeID}, {"parameter", "order.nodes.nodePosition"}});
+        }
+    }
+}
+
+void CheckCurve(
+    const OrderEdge& edge,
+    const VDA5050::Trajectory& curve,
+    const Planning::SiteMap& site,
+    Findings& findings)
+{
+    constexpr std::string_view PARAMETER = "order.edges.trajectory";
+    if (curve.degree > MAX_DEGREE)
+    {
+        findings.AddOfEdge(
+            edge,
+            PARAMETER,
+            fmt::format("the vehicle drives trajectories up to the degree {}, not {}", MAX_DEGREE, curve.degree));
+    }
+    const bool bNear = std::ranges::all_of(curve.controlPoints, [&site](const VDA5050::ControlPoint& point) {
+        return IsInReach(site, point.x, point.y);
+    });
+    if (!bNear)
+    {
+        findings.AddOfEdge(edge, PARAMETER, "a control point of a trajectory is " + MakeTooFar());
+    }
+}
+
+void CheckEdge(const OrderEdge& edge, const Planning::SiteMap& site, Findings& findings)
+{
+    if (edge.maxSpeed.has_value() && *edge.maxSpeed < MIN_SPEED)
+    {
+        findings.AddOfEdge(
+            edge,
+            "order.edges.maxSpeed",
+            fmt::format("the vehicle drives no slower than {} m/s", MIN_SPEED));
+    }
+    if (edge.maxRotationSpeed.has_value() && *edge.maxRotationSpeed < MIN_TURN_SPEED)
+    {
+        findings.AddOfEdge(
+            edge,
+            "order.edges.maxRotationSpeed",
+            fmt::format("the vehicle turns no slower than {} rad/s", MIN_TURN_SPEED));
+    }
+    if (edge.trajectory.has_value())
+    {
+        CheckCurve(edge, *edge.trajectory, site, findings);
+    }
+}
+
+} // namespace
+
+bool IsInReach(const Planning::SiteMap& site, double x, double y)
+{
+    const std::vector<Planning::SiteNode>& nodes = site.GetNodes();
+    const double fromX = nodes.empty() ? 0.0 : nodes.front().x;
+    const double fromY = nodes.empty() ? 0.0 : nodes.front().y;
+    return std::hypot(x - fromX, y - fromY) <= MAX_REACH;
+}
+
+std::vector<OrderViolation> FindUndrivable(const VDA5050::OrderMessage& order, const Planning::SiteMap& site)
+{
+    Findings findings(order);
+    CheckPlaces(order, site, findings);
+    for (const OrderEdge& edge : order.edges)
+    {
+        CheckEdge(edge, site, findings);
+    }
+    return findings.Take();
+}
+
+} // namespace ACS::VdaSim
