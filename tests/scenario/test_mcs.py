@@ -2,6 +2,7 @@
 """mcs-sim as a tool: every ready scenario passes against acsd, a scenario that must fail does, and the trace has it all."""
 
 import json
+import signal
 import subprocess
 import unittest
 
@@ -101,6 +102,10 @@ class Scenarios(ScenarioCase):
         self.line.forget(program)
         program.stop()
 
+    def kill_program(self, program):
+        program.send_signal(signal.SIGKILL)
+        self.stop_program(program)
+
     def test_scenario_comm_loss(self):
         mcs = self.line.start("mcs-sim", "--listen", "127.0.0.1:0", "--scenario", SCENARIOS / "comm-loss.json",
                               on_output=self.answer({
@@ -112,7 +117,7 @@ class Scenarios(ScenarioCase):
         self.assertEqual(mcs.wait(FINISH_SECONDS), 0, mcs.log.read_text())
 
     def test_scenario_error_set_cleared(self):
-        """The base of LR01 goes and comes back; the will of its connection makes it an error at once."""
+        """The base of LR01 dies and comes back; the will of its connection makes it an error at once."""
         self.line.start_broker()
         arm = self.line.start_arm(TIME_SCALE)
         logistics, control = (self.line.start_vehicles(TIME_SCALE, (name,)) for name in ("LR01,type=LR", "CR01,type=CR"))
@@ -120,7 +125,7 @@ class Scenarios(ScenarioCase):
             vehicle.wait_ready()
         mcs = self.line.start("mcs-sim", "--listen", "127.0.0.1:0", "--scenario", SCENARIOS / "error-set-cleared.json",
                               on_output=self.answer({
-                                  "let an error come up": lambda: self.stop_program(logistics),
+                                  "let an error come up": lambda: self.kill_program(logistics),
                                   "clear the error": lambda: self.line.start_vehicles(TIME_SCALE, ("LR01,type=LR",))}))
         self.line.start_acsd(mcs.wait_ready()["ws"], arm.wait_ready()).wait_ready()
         self.assertEqual(mcs.wait(FINISH_SECONDS), 0, mcs.log.read_text())
