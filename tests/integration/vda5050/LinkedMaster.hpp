@@ -67,6 +67,11 @@ public:
         return Do([&order](auto& master, Core::Now now, auto& out) { return master.SendOrder(order, now, out); });
     }
 
+    [[nodiscard]] Core::Result<void> ResumeOrder(const VDA5050::OrderRecord& record)
+    {
+        return Do([&record](auto& master, Core::Now now, auto& out) { return master.ResumeOrder(record, now, out); });
+    }
+
     [[nodiscard]] Core::Result<void> SendUpdate(const VDA5050::OrderMessage& order)
     {
         return Do([&order](auto& master, Core::Now now, auto& out) { return master.SendOrderUpdate(order, now, out); });

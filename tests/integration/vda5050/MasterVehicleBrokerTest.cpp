@@ -242,8 +242,8 @@ TEST_CASE_METHOD(
         REQUIRE(WasReached([&]() { return vehicle->GetSession().GetState().lastNodeSequenceID == 4; }));
     }
     master = MakeMaster();
-    REQUIRE(WasReady(master));
-    REQUIRE(master->SendOrder(order)); // as it was written down before it was sent
+    REQUIRE(WasReached([&]() { return master->session.IsReady(); }));
+    REQUIRE(master->ResumeOrder({{order}, {}})); // as it was written down before it was sent
     REQUIRE(WasReached([&]() { return master->Count<OrderAccepted>() == 1; }));
     const OrderMessage update = *route.MakeUpdate(5);
     REQUIRE(master->SendUpdate(update));
