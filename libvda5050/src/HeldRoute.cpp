@@ -1,3 +1,4 @@
+#include "StateRoom.hpp"
 #include <acs/vda5050/HeldRoute.hpp>
 
 #include <algorithm>
@@ -67,7 +68,10 @@ void HeldRoute::Append(OrderMessage order)
     }
     for (std::size_t index = 0; index < order.edges.size(); ++index)
     {
+        const bool bReleased = order.nodes[index + 1].bReleased && _released == _steps.size();
         _steps.push_back(MakeStep(std::move(order.edges[index]), std::move(order.nodes[index + 1])));
+        _released += bReleased ? 1U : 0U;
+        _bytes += Measure(_steps.size() - 1);
     }
 }
 
@@ -75,15 +79,19 @@ void HeldRoute::DropFront()
 {
     assert(!_steps.empty());
     _startNodeID = std::move(_steps.front().nodeID);
+    _bytes -= Measure(0);
     _steps.pop_front();
+    _released -= std::min<std::size_t>(_released, 1);
 }
 
 void HeldRoute::Cut(std::size_t size)
 {
     while (_steps.size() > size)
     {
+        _bytes -= Measure(_steps.size() - 1);
         _steps.pop_back();
     }
+    _released = std::min(_released, size);
 }
 
 void HeldRoute::DropFrontActions()
@@ -101,6 +109,12 @@ bool HeldRoute::TrySetTrajectory(std::uint32_t edgeSequenceID, Trajectory trajec
     {
         return false;
     }
+    const std::size_t added = MeasureTrajectory(trajectory);
+    if (_bytes + added > StateRoom::ORDER_BYTES)
+    {
+        return false;
+    }
+    _bytes += added;
     if (step->edgeExtrasOrNull == nullptr)
     {
         step->edgeExtrasOrNull = std::make_unique<EdgeExtras>();
@@ -112,6 +126,8 @@ bool HeldRoute::TrySetTrajectory(std::uint32_t edgeSequenceID, Trajectory trajec
 void HeldRoute::Clear()
 {
     _steps.clear();
+    _released = 0;
+    _bytes = 0;
 }
 
 bool HeldRoute::IsEmpty() const noexcept
@@ -126,8 +142,22 @@ std::size_t HeldRoute::GetSize() const noexcept
 
 std::size_t HeldRoute::CountReleased() const
 {
-    const auto firstUnreleased = std::ranges::find(_steps, false, &Step::bNodeReleased);
-    return static_cast<std::size_t>(firstUnreleased - _steps.begin());
+    return _released;
+}
+
+std::size_t HeldRoute::Measure(std::size_t index) const
+{
+    return MeasureEdgeState(GetEdgeState(index)) + MeasureNodeState(GetNodeState(index));
+}
+
+std::size_t HeldRoute::GetReleasedBytes() const
+{
+    std::size_t bytes = _bytes;
+    for (std::size_t index = _released; index < _steps.size(); ++index)
+    {
+        bytes -= Measure(index);
+    }
+    return bytes;
 }
 
 const std::string& HeldRoute::GetStartNodeID(std::size_t index) const

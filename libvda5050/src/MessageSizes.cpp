@@ -1,8 +1,11 @@
 #include "MessageSizes.hpp"
 
+#include "StateRoom.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -68,6 +71,7 @@ std::vector<ActionFault> FindSizeFaults(const MessageSizes& sizes, const Protoco
         std::string_view name;
         std::size_t found;
         std::optional<std::uint32_t> allowed;
+        std::size_t most = std::numeric_limits<std::size_t>::max();
     };
     const MaximumArrayLengths& arrays = limits.maxArrayLengths;
     const MaximumStringLengths& strings = limits.maxStringLengths;
@@ -82,14 +86,20 @@ std::vector<ActionFault> FindSizeFaults(const MessageSizes& sizes, const Protoco
         Limit{"maxArrayLens.actions.actionsParameters", sizes.parameters, arrays.actionParameters},
         Limit{"maxArrayLens.trajectory.knotVector", sizes.knots, arrays.trajectoryKnotVector},
         Limit{"maxArrayLens.trajectory.controlPoints", sizes.controlPoints, arrays.trajectoryControlPoints},
-        Limit{"maxArrayLens.state.nodeStates", sizes.nodeStates, arrays.stateNodeStates},
-        Limit{"maxArrayLens.state.edgeStates", sizes.edgeStates, arrays.stateEdgeStates},
-        Limit{"maxArrayLens.state.actionStates", sizes.actionStates, arrays.stateActionStates}};
+        Limit{"maxArrayLens.state.nodeStates", sizes.nodeStates, arrays.stateNodeStates, StateRoom::ARRAY},
+        Limit{"maxArrayLens.state.edgeStates", sizes.edgeStates, arrays.stateEdgeStates, StateRoom::ARRAY},
+        Limit{
+            "maxArrayLens.state.actionStates",
+            sizes.actionStates,
+            arrays.stateActionStates,
+            StateRoom::ORDER_ACTIONS},
+        Limit{"the length of the state", sizes.stateBytes, std::nullopt, StateRoom::ORDER_BYTES}};
     std::vector<ActionFault> faults;
     for (const Limit& limit : table)
     {
-        const std::uint32_t allowed = limit.allowed.value_or(0);
-        if (allowed != 0 && limit.found > allowed)
+        const std::size_t stated = limit.allowed.value_or(0);
+        const std::size_t allowed = stated == 0 ? limit.most : std::min(stated, limit.most);
+        if (limit.found > allowed)
         {
             const std::string name(limit.name);
             faults.push_back(ActionFault{

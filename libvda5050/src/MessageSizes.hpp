@@ -26,13 +26,14 @@ struct MessageSizes
     std::size_t nodeStates = 0;
     std::size_t edgeStates = 0;
     std::size_t actionStates = 0;
+    std::size_t stateBytes = 0; ///< Of what follows from orders.
     std::vector<std::string_view> ids;
 };
 
 [[nodiscard]] MessageSizes Measure(const OrderMessage& order);
 [[nodiscard]] MessageSizes Measure(const Action& action);
 
-/// What is larger than the vehicle allows; the field is the name of the limit.
+/// What is larger than the vehicle allows, or than a state has room for; the field is the name of the limit.
 [[nodiscard]] std::vector<ActionFault> FindSizeFaults(const MessageSizes& sizes, const ProtocolLimits& limits);
 
 } // namespace ACS::VDA5050

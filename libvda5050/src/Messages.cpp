@@ -13,6 +13,11 @@ const ActionParameter* FindParameterOrNull(const Action& action, std::string_vie
     return found == action.actionParameters.end() ? nullptr : &*found;
 }
 
+bool IsLedByMaster(EOperatingMode mode)
+{
+    return mode == EOperatingMode::Automatic || mode == EOperatingMode::SemiAutomatic;
+}
+
 const std::string* FindReferenceOrNull(const VehicleError& error, std::string_view key)
 {
     const auto found = std::ranges::find(error.errorReferences, key, &ErrorReference::referenceKey);

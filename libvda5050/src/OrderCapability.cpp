@@ -4,11 +4,13 @@
 #include "MessageSizes.hpp"
 #include "OrderErrors.hpp"
 #include "OrderFindings.hpp"
+#include "StateRoom.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstddef>
+#include <numeric>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -197,6 +199,13 @@ void CheckActions(
     }
 }
 
+std::size_t MeasureActionStates(const std::vector<Action>& actions)
+{
+    return std::accumulate(actions.begin(), actions.end(), std::size_t{0}, [](std::size_t sum, const Action& action) {
+        return sum + MeasureActionState(action);
+    });
+}
+
 void CheckSizes(const OrderContext& context, OrderFindings& unusable)
 {
     const OrderMessage& order = unusable.GetOrder();
@@ -208,9 +217,14 @@ void CheckSizes(const OrderContext& context, OrderFindings& unusable)
     sizes.nodeStates = sizes.edgeStates;
     sizes.actionStates =
         bUpdate ? context.keptActions : context.instantActionIDs.size() + order.nodes[0].actions.size();
+    sizes.stateBytes = bUpdate ? context.keptBytes : MeasureActionStates(order.nodes[0].actions);
     for (std::size_t index = 0; index < order.edges.size(); ++index)
     {
-        sizes.actionStates += order.edges[index].actions.size() + order.nodes[index + 1].actions.size();
+        const OrderEdge& edge = order.edges[index];
+        const OrderNode& node = order.nodes[index + 1];
+        sizes.stateBytes += MeasureEdgeState(edge) + MeasureNodeState(node) + MeasureActionStates(edge.actions)
+            + MeasureActionStates(node.actions);
+        sizes.actionStates += edge.actions.size() + node.actions.size();
     }
     for (const ActionFault& fault : FindSizeFaults(sizes, context.factsheet->protocolLimits))
     {

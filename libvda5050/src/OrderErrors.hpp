@@ -9,9 +9,6 @@
 namespace ACS::VDA5050
 {
 
-/// Why an order is refused outside of the automatic modes; the report ends with the mode.
-inline constexpr std::string_view MODE_TAKES_NO_ORDERS = "the operating mode takes no orders";
-
 /// The keys of references (best practice of section 7.1). topic is always sent: some masters know a rejection by it.
 namespace ReferenceKeys
 {
@@ -29,13 +26,13 @@ inline constexpr std::string_view PARAMETER = "parameter"; ///< The name of the 
 /// Of a text that came from outside, in bytes: an error repeats it, and a state repeats the error.
 inline constexpr std::size_t LONGEST_FOREIGN_TEXT = 1024;
 
-/// The text, or as much of it as an error may repeat; no character is cut in two.
-[[nodiscard]] inline std::string_view CutForeignText(std::string_view text)
+/// The text, or as many bytes of it; no character is cut in two.
+[[nodiscard]] inline std::string_view CutForeignText(std::string_view text, std::size_t maximum = LONGEST_FOREIGN_TEXT)
 {
     std::size_t size = text.size();
-    if (size > LONGEST_FOREIGN_TEXT)
+    if (size > maximum)
     {
-        size = LONGEST_FOREIGN_TEXT;
+        size = maximum;
         while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0U) == 0x80U)
         {
             --size;

@@ -23,7 +23,7 @@ constexpr double FULL_TURN = 2.0 * std::numbers::pi;
 
 OrderJudgement Reject(std::vector<OrderViolation> violations)
 {
-    return OrderJudgement{EOrderVerdict::Reject, std::move(violations)};
+    return OrderJudgement{EOrderVerdict::Reject, std::move(violations), false};
 }
 
 OrderJudgement Reject(const OrderMessage& order, std::string_view errorType, const std::string& rule)
@@ -116,7 +116,7 @@ OrderJudgement JudgeNewOrder(const OrderMessage& order, const OrderContext& cont
     {
         return RejectUnreachable(order);
     }
-    return OrderJudgement{EOrderVerdict::NewOrder, {}};
+    return OrderJudgement{EOrderVerdict::NewOrder, {}, false};
 }
 
 OrderJudgement JudgeUpdate(const OrderMessage& order, const OrderContext& context)
@@ -146,7 +146,7 @@ OrderJudgement JudgeUpdate(const OrderMessage& order, const OrderContext& contex
     {
         return RejectUnreachable(order);
     }
-    return OrderJudgement{EOrderVerdict::Update, {}};
+    return OrderJudgement{EOrderVerdict::Update, {}, false};
 }
 
 } // namespace
@@ -162,11 +162,13 @@ OrderJudgement JudgeOrder(const OrderMessage& order, const OrderContext& context
     // A resent message is no error, whatever has changed since.
     if (bHeld && order.orderUpdateID == context.heldOrderUpdateID)
     {
-        return OrderJudgement{EOrderVerdict::Discard, {}};
+        return OrderJudgement{EOrderVerdict::Discard, {}, false};
     }
-    if (context.operatingMode != EOperatingMode::Automatic && context.operatingMode != EOperatingMode::SemiAutomatic)
+    if (!IsLedByMaster(context.operatingMode))
     {
-        return Reject(order, ErrorTypes::ORDER_ERROR, std::string(MODE_TAKES_NO_ORDERS));
+        OrderJudgement judgement = Reject(order, ErrorTypes::ORDER_ERROR, "the operating mode takes no orders");
+        judgement.bUntilMode = true;
+        return judgement;
     }
     violations = FindUnusable(order, context);
     std::ranges::move(FindLooseEnds(order, context), std::back_inserter(violations));

@@ -1,5 +1,7 @@
 #include "StateBounds.hpp"
 
+#include "StateRoom.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -21,9 +23,15 @@ void DropNonFinite(std::optional<double>& number)
     }
 }
 
+/// As stated, and no more than is read.
+std::size_t GetMost(std::optional<std::uint32_t> limit)
+{
+    return limit.value_or(0) == 0 ? StateRoom::ARRAY : std::min<std::size_t>(*limit, StateRoom::ARRAY);
+}
+
 bool IsTooLong(std::size_t size, std::optional<std::uint32_t> limit)
 {
-    return limit.value_or(0) != 0 && size > *limit;
+    return size > GetMost(limit);
 }
 
 template <typename TItem>
@@ -31,7 +39,7 @@ void Cut(std::vector<TItem>& items, std::optional<std::uint32_t> limit)
 {
     if (IsTooLong(items.size(), limit))
     {
-        items.erase(items.begin() + *limit, items.end());
+        items.resize(GetMost(limit));
     }
 }
 
@@ -91,6 +99,10 @@ void DropNonFinite(Load& load)
 
 void FitState(StateMessage& state, const MaximumArrayLengths& limits)
 {
+    if (state.maps.has_value())
+    {
+        Cut(*state.maps, std::nullopt);
+    }
     if (state.loads.has_value())
     {
         Cut(*state.loads, limits.stateLoads);

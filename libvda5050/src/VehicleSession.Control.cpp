@@ -101,10 +101,9 @@ bool VehicleSession::IsHeldByPause() const noexcept
 void VehicleSession::EnterPause(VehicleActions& out)
 {
     StopMoving(out);
-    for (const TrackedAction& tracked : _actions)
+    for (const HeldAction& tracked : _actions)
     {
-        const bool bRuns = tracked.scope != EActionScope::Instant && tracked.bStarted;
-        if (bRuns && !IsTerminal(tracked.machine.GetStatus()))
+        if (tracked.IsRunningInOrder())
         {
             out.emplace_back(PauseAction{tracked.action.actionID});
         }
@@ -113,7 +112,7 @@ void VehicleSession::EnterPause(VehicleActions& out)
 
 void VehicleSession::LeavePause(VehicleActions& out) const
 {
-    for (const TrackedAction& tracked : _actions)
+    for (const HeldAction& tracked : _actions)
     {
         if (tracked.machine.GetStatus() == EActionStatus::Paused)
         {
@@ -164,10 +163,9 @@ void VehicleSession::StartCancel(const Action& action, const Header& header, Veh
 void VehicleSession::StopOrderActions(const std::string& reason, VehicleActions& out)
 {
     _actionQueue.clear();
-    for (TrackedAction& tracked : _actions)
+    for (HeldAction& tracked : _actions)
     {
-        const EActionStatus status = tracked.machine.GetStatus();
-        if (tracked.scope == EActionScope::Instant || IsTerminal(status))
+        if (tracked.IsInstant() || tracked.IsEnded())
         {
             continue;
         }
@@ -176,21 +174,18 @@ void VehicleSession::StopOrderActions(const std::string& reason, VehicleActions&
         {
             out.emplace_back(StopAction{tracked.action.actionID, false});
         }
-        if (!tracked.bStarted || status == EActionStatus::Paused)
+        if (!tracked.bStarted || tracked.machine.GetStatus() == EActionStatus::Paused)
         {
-            static_cast<void>(tracked.machine.TrySet(EActionStatus::Failed, reason));
+            static_cast<void>(_actions.TrySetStatus(tracked, EActionStatus::Failed, reason));
         }
     }
 }
 
 void VehicleSession::FinishCancelIfStanding(VehicleActions& out)
 {
-    const bool bRuns = std::ranges::any_of(_actions, [](const TrackedAction& tracked) {
-        return tracked.scope != EActionScope::Instant && !IsTerminal(tracked.machine.GetStatus());
-    });
     // Outside of its corridor a vehicle does not get to the next node by itself.
     const bool bOnTheWay = _bLegActive || (_bLastLeg && !_route.IsEmpty() && !_corridorError.has_value());
-    if (!_cancelActionIDs.empty() && IsStanding() && !bOnTheWay && !bRuns)
+    if (!_cancelActionIDs.empty() && IsStanding() && !bOnTheWay && _actions.CountOpen() == 0)
     {
         ClearOrder(out);
     }
@@ -272,11 +267,11 @@ void VehicleSession::OnOperatingMode(EOperatingMode mode, Core::Now now, Vehicle
     {
         const std::string reason = "the operating mode changed";
         StopOrderActions(reason, out);
-        for (TrackedAction& tracked : _actions)
+        for (HeldAction& tracked : _actions)
         {
-            if (tracked.scope != EActionScope::Instant && !IsTerminal(tracked.machine.GetStatus()))
+            if (!tracked.IsInstant() && !tracked.IsEnded())
             {
-                static_cast<void>(tracked.machine.TrySet(EActionStatus::Failed, reason));
+                static_cast<void>(_actions.TrySetStatus(tracked, EActionStatus::Failed, reason));
             }
         }
         ClearOrder(out);
@@ -287,7 +282,7 @@ void VehicleSession::OnOperatingMode(EOperatingMode mode, Core::Now now, Vehicle
 
 bool VehicleSession::CanMoveByItself() const
 {
-    return _operatingMode == EOperatingMode::Automatic || _operatingMode == EOperatingMode::SemiAutomatic;
+    return IsLedByMaster(_operatingMode);
 }
 
 } // namespace ACS::VDA5050

@@ -50,6 +50,13 @@ MapState* FindMapOrNull(std::optional<std::vector<MapState>>& maps, const MapKey
 /// Why an action fails before it begins, by what the session itself knows; empty where it may begin.
 std::string VehicleSession::FindOwnFault(const Action& action, EActionScope scope)
 {
+    for (const std::string_view key : {"mapId", "mapVersion", "lastNodeId"})
+    {
+        if (GetTextParameterOrNull(action, key).value_or(std::string()).size() > LONGEST_FOREIGN_TEXT)
+        {
+            return "too long to be shown in states: " + std::string(key);
+        }
+    }
     if (action.actionType == ActionTypes::INIT_POSITION)
     {
         return FindPoseFault(action, scope);
@@ -183,9 +190,9 @@ bool VehicleSession::TrySetLastNode(std::string nodeID, Core::Now now, VehicleAc
 }
 
 /// The owner's word that an action did not succeed.
-void VehicleSession::OnActionFailed(const TrackedAction& tracked, VehicleActions& out)
+void VehicleSession::OnActionFailed(const HeldAction& tracked, VehicleActions& out)
 {
-    if (tracked.scope != EActionScope::Instant)
+    if (!tracked.IsInstant())
     {
         OnOrderActionFailed(tracked, out);
         return;
@@ -199,7 +206,7 @@ void VehicleSession::OnActionFailed(const TrackedAction& tracked, VehicleActions
 }
 
 /// 2.x does not stop an order for a failed action; a vehicle may, for the kinds that it names.
-void VehicleSession::OnOrderActionFailed(const TrackedAction& tracked, VehicleActions& out)
+void VehicleSession::OnOrderActionFailed(const HeldAction& tracked, VehicleActions& out)
 {
     if (tracked.bCancelled)
     {

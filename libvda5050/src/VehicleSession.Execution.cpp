@@ -74,9 +74,9 @@ bool VehicleSession::TrySetActionStatus(
     Core::Now now,
     VehicleActions& out)
 {
-    TrackedAction* trackedOrNull = FindActionOrNull(actionID);
+    HeldAction* trackedOrNull = _actions.FindOrNull(actionID);
     if (trackedOrNull == nullptr || !trackedOrNull->bStarted
-        || !trackedOrNull->machine.TrySet(status, std::move(resultDescription)))
+        || !_actions.TrySetStatus(*trackedOrNull, status, std::move(resultDescription)))
     {
         return false;
     }
@@ -104,8 +104,7 @@ void VehicleSession::AddActions(
     for (const Action& action : actions)
     {
         ActionState state{action.actionID, action.actionType, action.actionDescription, EActionStatus::Waiting, {}};
-        _actions.push_back(
-            TrackedAction{action, ActionMachine(std::move(state)), scope, elementID, sequenceID, false, false});
+        _actions.Add(HeldAction{action, ActionMachine(std::move(state)), scope, elementID, sequenceID});
     }
 }
 
@@ -114,36 +113,27 @@ void VehicleSession::Enqueue(std::span<const Action> actions)
     std::ranges::transform(actions, std::back_inserter(_actionQueue), &Action::actionID);
 }
 
-VehicleSession::TrackedAction* VehicleSession::FindActionOrNull(std::string_view actionID)
-{
-    const auto found = std::ranges::find_if(_actions, [actionID](const TrackedAction& tracked) {
-        return tracked.action.actionID == actionID;
-    });
-    return found == _actions.end() ? nullptr : &*found;
-}
-
 void VehicleSession::SetStatus(std::string_view actionID, EActionStatus status, const std::string& result)
 {
-    TrackedAction* trackedOrNull = FindActionOrNull(actionID);
-    if (trackedOrNull != nullptr && trackedOrNull->machine.TrySet(status, result))
+    HeldAction* trackedOrNull = _actions.FindOrNull(actionID);
+    if (trackedOrNull != nullptr && _actions.TrySetStatus(*trackedOrNull, status, result))
     {
         _bStateDue = true;
     }
 }
 
 /// One that cannot succeed, by what the session knows itself, fails instead.
-void VehicleSession::Start(TrackedAction& tracked, VehicleActions& out)
+void VehicleSession::Start(HeldAction& tracked, VehicleActions& out)
 {
-    std::string fault =
-        tracked.scope == EActionScope::Instant ? std::string() : FindOwnFault(tracked.action, tracked.scope);
+    std::string fault = tracked.IsInstant() ? std::string() : FindOwnFault(tracked.action, tracked.scope);
     if (!fault.empty())
     {
-        static_cast<void>(tracked.machine.TrySet(EActionStatus::Failed, std::move(fault)));
+        static_cast<void>(_actions.TrySetStatus(tracked, EActionStatus::Failed, std::move(fault)));
         _bStateDue = true;
         OnOrderActionFailed(tracked, out);
         return;
     }
-    tracked.bStarted = true;
+    _actions.MarkStarted(tracked);
     out.emplace_back(StartAction{tracked.action, tracked.scope, tracked.elementID, tracked.sequenceID});
 }
 
@@ -170,19 +160,14 @@ void VehicleSession::StartQueuedActions(VehicleActions& out)
 {
     while (!_actionQueue.empty() && !_bHeldByFailure)
     {
-        TrackedAction* nextOrNull = FindActionOrNull(_actionQueue.front());
+        HeldAction* nextOrNull = _actions.FindOrNull(_actionQueue.front());
         if (nextOrNull == nullptr || nextOrNull->bStarted || nextOrNull->machine.GetStatus() != EActionStatus::Waiting)
         {
             _actionQueue.pop_front();
             continue;
         }
         const bool bHard = nextOrNull->action.blockingType == EBlockingType::Hard;
-        const bool bHeldUp = std::ranges::any_of(_actions, [bHard](const TrackedAction& other) {
-            const bool bRuns =
-                other.scope != EActionScope::Instant && other.bStarted && !IsTerminal(other.machine.GetStatus());
-            return bRuns && (bHard || other.action.blockingType == EBlockingType::Hard);
-        });
-        if (bHeldUp)
+        if (_actions.CountRunningHard() > 0 || (bHard && _actions.CountRunning() > 0))
         {
             return;
         }
@@ -193,10 +178,7 @@ void VehicleSession::StartQueuedActions(VehicleActions& out)
 
 bool VehicleSession::CanDrive() const
 {
-    return _actionQueue.empty() && std::ranges::none_of(_actions, [](const TrackedAction& tracked) {
-               return tracked.scope != EActionScope::Instant && tracked.bStarted
-                   && !IsTerminal(tracked.machine.GetStatus()) && IsBlockingDriving(tracked.action);
-           });
+    return _actionQueue.empty() && _actions.CountRunningBlocking() == 0;
 }
 
 bool VehicleSession::NeedsStopAtFront() const
@@ -263,22 +245,21 @@ void VehicleSession::DriveLastLeg(VehicleActions& out)
 /// 6.10.2: what one traversal changes belongs to one state.
 void VehicleSession::ReachFront(VehicleActions& out)
 {
-    const std::uint32_t edgeSequenceID = _route.GetEdgeSequenceID(0);
-    for (TrackedAction& tracked : _actions)
+    for (const Action& action : _route.GetEdgeActions(0))
     {
-        const bool bOfEdge = tracked.scope == EActionScope::Edge && tracked.sequenceID == edgeSequenceID;
-        if (!bOfEdge || IsTerminal(tracked.machine.GetStatus()))
+        HeldAction* trackedOrNull = _actions.FindOrNull(action.actionID);
+        if (trackedOrNull == nullptr || trackedOrNull->IsEnded())
         {
             continue;
         }
-        if (tracked.bStarted)
+        if (trackedOrNull->bStarted)
         {
-            out.emplace_back(StopAction{tracked.action.actionID, true});
+            out.emplace_back(StopAction{action.actionID, true});
         }
         else
         {
-            static_cast<void>(tracked.machine.TrySet(EActionStatus::Failed, "its edge was left"));
-            OnOrderActionFailed(tracked, out);
+            static_cast<void>(_actions.TrySetStatus(*trackedOrNull, EActionStatus::Failed, "its edge was left"));
+            OnOrderActionFailed(*trackedOrNull, out);
         }
     }
     _lastNodeID = _route.GetNodeID(0);
@@ -295,10 +276,7 @@ void VehicleSession::ReachFront(VehicleActions& out)
 
 bool VehicleSession::IsExecuting() const
 {
-    return !_route.IsEmpty() || !_cancelActionIDs.empty()
-        || std::ranges::any_of(_actions, [](const TrackedAction& tracked) {
-               return tracked.scope != EActionScope::Instant && !IsTerminal(tracked.machine.GetStatus());
-           });
+    return !_route.IsEmpty() || !_cancelActionIDs.empty() || _actions.CountOpen() > 0;
 }
 
 void VehicleSession::FinishOrderIfDone(VehicleActions& out)

@@ -1,6 +1,7 @@
 #include "ActionFault.hpp"
 #include "MessageSizes.hpp"
 #include "OrderErrors.hpp"
+#include "StateRoom.hpp"
 #include <acs/vda5050/EVda5050Error.hpp>
 #include <acs/vda5050/VehicleSession.hpp>
 
@@ -14,14 +15,25 @@ namespace ACS::VDA5050
 namespace
 {
 
-/// Ended instant actions live until a new order; a peer that only asks for states must not fill the state.
-constexpr std::size_t MAXIMUM_INSTANT_ACTIONS = 128;
+/// Of evicted actions, whose ids still must not be performed anew.
+constexpr std::size_t MAXIMUM_EVICTED = 256;
 
 /// A vehicle can always be stopped, and set free again, even where its state has no room to show it.
 bool IsControl(const Action& action)
 {
     return action.actionType == ActionTypes::CANCEL_ORDER || action.actionType == ActionTypes::START_PAUSE
         || action.actionType == ActionTypes::STOP_PAUSE;
+}
+
+/// As it waits.
+ActionState MakeInstantState(const Action& action)
+{
+    return ActionState{
+        action.actionID,
+        action.actionType,
+        std::string(CutForeignText(action.actionDescription)),
+        EActionStatus::Waiting,
+        {}};
 }
 
 } // namespace
@@ -92,33 +104,21 @@ bool VehicleSession::TryTakeInstantAction(
         AddSessionError(std::move(error), EErrorLifetime::UntilInstantAction);
         return false;
     }
-    const TrackedAction* const knownOrNull = FindActionOrNull(action.actionID);
-    if (knownOrNull != nullptr || std::max(action.actionID.size(), action.actionType.size()) > LONGEST_FOREIGN_TEXT)
+    if (IsRepeated(action))
     {
-        // A repeated id is the same action, sent again by a master that has not seen it in a state. Another action with
-        // that id cannot be shown; a cancel that is not done must not look as if it were.
-        const bool bSame = knownOrNull != nullptr && knownOrNull->scope == EActionScope::Instant
-            && knownOrNull->action.actionType == action.actionType;
-        if (!bSame)
-        {
-            ReportInstantAction(
-                action,
-                header.headerID,
-                ErrorTypes::INSTANT_ACTION_ERROR,
-                knownOrNull != nullptr ? "the actionId is in use already" : "actionId or actionType is too long");
-        }
+        return false;
+    }
+    std::string clash = FindClash(action);
+    if (clash.empty() && !TryMakeRoomFor(action))
+    {
+        clash = "the state has no room for another action: maxArrayLens.state.actionStates";
+    }
+    if (!clash.empty())
+    {
+        ReportInstantAction(action, header.headerID, ErrorTypes::INSTANT_ACTION_ERROR, clash);
         return false;
     }
     const std::string reason = FindRefusal(action, bTooMany);
-    if (!TryMakeRoom(1) && !IsControl(action))
-    {
-        ReportInstantAction(
-            action,
-            header.headerID,
-            ErrorTypes::INSTANT_ACTION_ERROR,
-            "the state has no room for another action: maxArrayLens.state.actionStates");
-        return false;
-    }
     if (reason.empty())
     {
         PerformOwnInstantAction(action, header, now, out);
@@ -127,8 +127,31 @@ bool VehicleSession::TryTakeInstantAction(
     {
         FailInstantAction(action, header, ErrorTypes::INSTANT_ACTION_ERROR, reason);
     }
-    const TrackedAction* trackedOrNull = FindActionOrNull(action.actionID);
+    const HeldAction* trackedOrNull = _actions.FindOrNull(action.actionID);
     return trackedOrNull != nullptr && trackedOrNull->machine.GetStatus() != EActionStatus::Failed;
+}
+
+/// A repeated id is the same action, sent again by a master that has not seen it in a state.
+bool VehicleSession::IsRepeated(const Action& action)
+{
+    const HeldAction* const knownOrNull = _actions.FindOrNull(action.actionID);
+    const bool bHeld =
+        knownOrNull != nullptr && knownOrNull->IsInstant() && knownOrNull->action.actionType == action.actionType;
+    return bHeld || std::ranges::any_of(_evicted, [&action](const EvictedAction& evicted) {
+               return evicted.actionID == action.actionID && evicted.actionType == action.actionType;
+           });
+}
+
+/// Why an action cannot even be shown; empty where it can. A cancel that is not done must not look as if it were.
+std::string VehicleSession::FindClash(const Action& action)
+{
+    if (std::max(action.actionID.size(), action.actionType.size()) > LONGEST_FOREIGN_TEXT)
+    {
+        return "actionId or actionType is too long";
+    }
+    const bool bUsed = _actions.FindOrNull(action.actionID) != nullptr
+        || std::ranges::find(_evicted, action.actionID, &EvictedAction::actionID) != _evicted.end();
+    return bUsed ? "the actionId is in use already" : std::string();
 }
 
 /// Why an instant action fails whatever it is; empty where it is looked at.
@@ -185,42 +208,58 @@ void VehicleSession::PerformOwnInstantAction(
             FailInstantAction(action, header, ErrorTypes::INSTANT_ACTION_ERROR, reason);
             return;
         }
-        AddInstantAction(action, EActionStatus::Waiting);
-        Start(_actions.back(), out);
+        Start(AddInstantAction(action, EActionStatus::Waiting), out);
     }
 }
 
-bool VehicleSession::IsEndedInstantAction(const TrackedAction& tracked)
+/// The oldest instant action that has ended, and was seen to, makes way. False where there is none.
+bool VehicleSession::TryEvict()
 {
-    return tracked.scope == EActionScope::Instant && IsTerminal(tracked.machine.GetStatus());
-}
-
-/// The oldest instant actions that have ended make way where the factsheet limits actionStates.
-bool VehicleSession::TryMakeRoom(std::size_t count)
-{
-    const std::uint32_t allowed = _options.factsheet.protocolLimits.maxArrayLengths.stateActionStates.value_or(0);
-    while (allowed != 0 && _actions.size() + count > allowed)
+    const auto oldest = std::ranges::find_if(_actions, [](const HeldAction& tracked) {
+        return tracked.IsInstant() && tracked.IsEnded() && tracked.bShown;
+    });
+    if (oldest == _actions.end())
     {
-        const auto oldest = std::ranges::find_if(_actions, IsEndedInstantAction);
-        if (oldest == _actions.end())
-        {
-            return false;
-        }
-        _actions.erase(oldest);
+        return false;
     }
+    if (_evicted.size() >= MAXIMUM_EVICTED)
+    {
+        _evicted.erase(_evicted.begin());
+    }
+    _evicted.push_back(EvictedAction{oldest->action.actionID, oldest->action.actionType});
+    _actions.Erase(oldest);
     return true;
 }
 
-void VehicleSession::AddInstantAction(const Action& action, EActionStatus status, const std::string& result)
+/// False where the state cannot show another action. The factsheet's limit does not keep a vehicle from being stopped.
+bool VehicleSession::TryMakeRoomFor(const Action& action)
 {
-    const auto ended = std::ranges::count_if(_actions, IsEndedInstantAction);
-    if (static_cast<std::size_t>(ended) >= MAXIMUM_INSTANT_ACTIONS)
+    const bool bControl = IsControl(action);
+    const std::size_t mostActions = bControl ? StateRoom::CONTROL_ACTIONS : StateRoom::INSTANT_ACTIONS;
+    const std::size_t mostBytes = bControl ? StateRoom::CONTROL_BYTES : StateRoom::INSTANT_BYTES;
+    const std::size_t bytes = MeasureActionState(MakeInstantState(action));
+    const std::size_t stated = _options.factsheet.protocolLimits.maxArrayLengths.stateActionStates.value_or(0);
+    while (true)
     {
-        _actions.erase(std::ranges::find_if(_actions, IsEndedInstantAction));
+        const bool bFull = _actions.CountInstant() >= mostActions || _actions.GetInstantBytes() + bytes > mostBytes;
+        const bool bBeyond = stated != 0 && _actions.GetSize() >= stated;
+        if (!bFull && !bBeyond)
+        {
+            return true;
+        }
+        if (!TryEvict())
+        {
+            return bControl && !bFull;
+        }
     }
-    ActionState state{action.actionID, action.actionType, action.actionDescription, status, result};
-    _actions.push_back(
-        TrackedAction{action, ActionMachine(std::move(state)), EActionScope::Instant, {}, 0, false, false});
+}
+
+HeldAction& VehicleSession::AddInstantAction(const Action& action, EActionStatus status, const std::string& result)
+{
+    ActionState state = MakeInstantState(action);
+    state.actionStatus = status;
+    state.resultDescription = result;
+    return _actions.Add(HeldAction{action, ActionMachine(std::move(state)), EActionScope::Instant});
 }
 
 void VehicleSession::FailInstantAction(

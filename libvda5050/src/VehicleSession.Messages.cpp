@@ -1,4 +1,5 @@
 #include "OrderErrors.hpp"
+#include "StateRoom.hpp"
 #include <acs/vda5050/EVda5050Error.hpp>
 #include <acs/vda5050/VehicleSession.hpp>
 
@@ -71,6 +72,11 @@ void VehicleSession::OnMessage(
     Settle(now, out);
 }
 
+void VehicleSession::OnMessage(const MqttMessage& message, Core::Now now, VehicleActions& out)
+{
+    OnMessage(message.topic, message.payload, message.bRetained, now, out);
+}
+
 bool VehicleSession::IsForeign(ETopic topic, const Header& header, VehicleActions& out) const
 {
     // Empty names are tolerated: there are masters that leave them out, and the topic has said it already.
@@ -119,7 +125,7 @@ void VehicleSession::RefusePayload(
     report.errorType = ErrorTypes::VALIDATION_ERROR;
     report.errorDescription = Core::Describe(error);
     AddReference(report, ReferenceKeys::TOPIC, std::string(GetTopicName(topic)));
-    if (identity)
+    if (identity && identity->bHeaderIDGiven)
     {
         AddReference(report, ReferenceKeys::HEADER_ID, std::to_string(identity->header.headerID));
     }
@@ -229,14 +235,15 @@ OrderContext VehicleSession::MakeContext() const
     context.bCleared = _bCleared;
     context.orderCheck = _options.orderCheck;
     context.keptNodes = released;
+    context.keptBytes = _route.GetReleasedBytes();
     const std::uint32_t baseEnd =
         released == _route.GetSize() ? std::numeric_limits<std::uint32_t>::max() : _route.GetEdgeSequenceID(released);
-    for (const TrackedAction& tracked : _actions)
+    for (const HeldAction& tracked : _actions)
     {
-        const bool bInstant = tracked.scope == EActionScope::Instant;
-        const bool bInstantRuns = bInstant && !IsTerminal(tracked.machine.GetStatus());
+        const bool bInstant = tracked.IsInstant();
+        const bool bInstantRuns = bInstant && !tracked.IsEnded();
         // What has ended may be of a route that was cancelled and had the same sequenceIds.
-        const bool bOfBase = !bInstant && (tracked.sequenceID < baseEnd || IsTerminal(tracked.machine.GetStatus()));
+        const bool bOfBase = !bInstant && (tracked.sequenceID < baseEnd || tracked.IsEnded());
         if (bInstantRuns)
         {
             context.instantActionIDs.push_back(tracked.action.actionID);
@@ -245,7 +252,10 @@ OrderContext VehicleSession::MakeContext() const
         {
             context.actionIDs.push_back(tracked.action.actionID);
         }
-        context.keptActions += bInstantRuns || bOfBase ? 1 : 0;
+        // An end that no state has shown yet makes no way.
+        const bool bStays = bOfBase || (bInstant && !(tracked.IsEnded() && tracked.bShown));
+        context.keptActions += bStays ? 1U : 0U;
+        context.keptBytes += bOfBase ? MeasureActionState(tracked.machine.GetState()) : 0;
     }
     return context;
 }
@@ -256,16 +266,16 @@ void VehicleSession::RefuseOrder(const OrderMessage& order, OrderJudgement judge
     out.emplace_back(OrderRefused{order.orderID, order.orderUpdateID, first.error.errorType, first.rule});
     for (OrderViolation& violation : judgement.violations)
     {
-        const bool bMode = violation.rule == MODE_TAKES_NO_ORDERS;
-        AddSessionError(std::move(violation.error), bMode ? EErrorLifetime::UntilMode : EErrorLifetime::UntilOrder);
+        AddSessionError(
+            std::move(violation.error),
+            judgement.bUntilMode ? EErrorLifetime::UntilMode : EErrorLifetime::UntilOrder);
     }
 }
 
 void VehicleSession::TakeNewOrder(OrderMessage order, VehicleActions& out)
 {
-    std::erase_if(_actions, [](const TrackedAction& tracked) {
-        return tracked.scope != EActionScope::Instant || IsTerminal(tracked.machine.GetStatus());
-    });
+    _actions.EraseIf([](const HeldAction& tracked) { return !tracked.IsInstant() || tracked.IsEnded(); });
+    _evicted.clear();
     _sessionErrors.clear();
     ForgetRoute();
     _bCleared = false;
@@ -300,7 +310,10 @@ void VehicleSession::TakeUpdate(OrderMessage order, VehicleActions& out)
     out.emplace_back(OrderTaken{_orderID, _orderUpdateID, true});
     // The stitching node keeps the contents that it came with first.
     AppendElements(std::move(order));
-    static_cast<void>(TryMakeRoom(0));
+    const std::size_t stated = _options.factsheet.protocolLimits.maxArrayLengths.stateActionStates.value_or(0);
+    while (stated != 0 && _actions.GetSize() > stated && TryEvict())
+    {
+    }
     Advance(out);
 }
 
@@ -320,17 +333,15 @@ void VehicleSession::AppendElements(OrderMessage order)
 void VehicleSession::DropHorizon()
 {
     const std::size_t kept = _route.CountReleased();
-    std::vector<std::uint32_t> dropped;
-    for (std::size_t index = kept; index < _route.GetSize(); ++index)
+    if (kept == _route.GetSize())
     {
-        dropped.push_back(_route.GetEdgeSequenceID(index));
-        dropped.push_back(_route.GetNodeSequenceID(index));
+        return;
     }
+    const std::uint32_t firstDropped = _route.GetEdgeSequenceID(kept);
     _route.Cut(kept);
     // Gone from the report: an id that comes back with the update would else have to leave a terminal status.
-    std::erase_if(_actions, [&dropped](const TrackedAction& tracked) {
-        return tracked.scope != EActionScope::Instant && !IsTerminal(tracked.machine.GetStatus())
-            && std::ranges::find(dropped, tracked.sequenceID) != dropped.end();
+    _actions.EraseIf([firstDropped](const HeldAction& tracked) {
+        return !tracked.IsInstant() && !tracked.IsEnded() && tracked.sequenceID >= firstDropped;
     });
 }
 

@@ -1,4 +1,5 @@
 #include "StateBounds.hpp"
+#include "StateRoom.hpp"
 #include <acs/vda5050/VehicleSession.hpp>
 
 #include <algorithm>
@@ -141,8 +142,8 @@ StateMessage VehicleSession::BuildState() const
     state.bPaused = IsHeldByPause() && IsStanding();
     state.bNewBaseRequest = NeedsNewBase();
     state.distanceSinceLastNode = _distanceSinceLastNode;
-    state.actionStates.reserve(_actions.size());
-    for (const TrackedAction& tracked : _actions)
+    state.actionStates.reserve(_actions.GetSize());
+    for (const HeldAction& tracked : _actions)
     {
         state.actionStates.push_back(tracked.machine.GetState());
     }
@@ -168,7 +169,17 @@ void VehicleSession::PublishState(Core::Now now, VehicleActions& out)
     }
     StateMessage state = BuildState();
     state.header = MakeHeader(ETopic::State, now);
-    out.emplace_back(PublishMessage{MakeMessage(ETopic::State, state)});
+    MqttMessage message = MakeMessage(ETopic::State, state);
+    if (message.payload.size() > CodecLimits{}.payloadBytes)
+    {
+        DropTextsForPeople(state);
+        message = MakeMessage(ETopic::State, state);
+    }
+    out.emplace_back(PublishMessage{std::move(message)});
+    for (HeldAction& tracked : _actions)
+    {
+        tracked.bShown = tracked.IsEnded();
+    }
     if (_bMinimumTimerRuns)
     {
         _bMinimumTimerRuns = false;

@@ -1,26 +1,30 @@
 #include "CodecBody.hpp"
-#include "CommonFields.hpp"
-
-namespace ACS::Json
-{
-
-template <>
-struct JsonFields<VDA5050::MessageIdentity>
-{
-    using Type = VDA5050::MessageIdentity;
-    static constexpr auto FIELDS = std::make_tuple(
-        DefaultedInHeader<Type>("headerId", &VDA5050::Header::headerID),
-        DefaultedInHeader<Type>("version", &VDA5050::Header::version),
-        DefaultedInHeader<Type>("manufacturer", &VDA5050::Header::manufacturer),
-        DefaultedInHeader<Type>("serialNumber", &VDA5050::Header::serialNumber),
-        Optional("orderId", &Type::orderID),
-        Optional("orderUpdateId", &Type::orderUpdateID));
-};
-
-} // namespace ACS::Json
 
 namespace ACS::VDA5050
 {
+
+namespace
+{
+
+template <typename TValue>
+std::optional<TValue> ReadMemberOrNull(const Json::Value& object, std::string_view name)
+{
+    const Json::Value* const valueOrNull = Json::FindFirstOrNull(object, name);
+    Json::DecodeContext context;
+    TValue value{};
+    if (valueOrNull == nullptr || !Json::TryDecode(*valueOrNull, value, {}, context))
+    {
+        return std::nullopt;
+    }
+    return value;
+}
+
+std::string ReadText(const Json::Value& object, std::string_view name)
+{
+    return ReadMemberOrNull<std::string>(object, name).value_or(std::string());
+}
+
+} // namespace
 
 Vda5050Codec::Vda5050Codec(const CodecLimits& limits)
     : _limits(limits)
@@ -41,12 +45,16 @@ Core::Result<MessageIdentity> Vda5050Codec::DecodeIdentity(std::string_view payl
     {
         return tl::unexpected(root.error());
     }
-    Json::DecodeContext context;
+    // Each by itself: the message is a bad one, and what is right in it still says which.
+    const std::optional<std::uint32_t> headerID = ReadMemberOrNull<std::uint32_t>(**root, "headerId");
     MessageIdentity identity;
-    if (!Json::TryDecode(**root, identity, {}, context))
-    {
-        return tl::unexpected(context.TakeError());
-    }
+    identity.bHeaderIDGiven = headerID.has_value();
+    identity.header.headerID = headerID.value_or(0);
+    identity.header.version = ReadText(**root, "version");
+    identity.header.manufacturer = ReadText(**root, "manufacturer");
+    identity.header.serialNumber = ReadText(**root, "serialNumber");
+    identity.orderID = ReadText(**root, "orderId");
+    identity.orderUpdateID = ReadMemberOrNull<std::uint32_t>(**root, "orderUpdateId");
     return identity;
 }
 

@@ -73,10 +73,13 @@ class HeldRoute
     };
 
     std::deque<Step> _steps;
-    std::string _startNodeID; ///< Where the first edge begins.
+    std::size_t _released = 0; ///< They come first.
+    std::size_t _bytes = 0;    ///< In a state, at most.
+    std::string _startNodeID;  ///< Where the first edge begins.
 
     [[nodiscard]] static Step MakeStep(OrderEdge edge, OrderNode node);
     [[nodiscard]] const std::string& GetStartNodeID(std::size_t index) const;
+    [[nodiscard]] std::size_t Measure(std::size_t index) const;
 
 public:
     /// All of the order but its first node.
@@ -87,7 +90,7 @@ public:
     void Cut(std::size_t size);
     /// The first node is only to be reached: its actions are forgotten.
     void DropFrontActions();
-    /// False where there is no such edge, and where it has a trajectory already.
+    /// False where there is no such edge, where it has a trajectory already, and where a state has no room for it.
     bool TrySetTrajectory(std::uint32_t edgeSequenceID, Trajectory trajectory);
     void Clear();
 
@@ -95,6 +98,8 @@ public:
     [[nodiscard]] std::size_t GetSize() const noexcept;
     /// How many nodes are released; the base comes first.
     [[nodiscard]] std::size_t CountReleased() const;
+    /// What the released part takes in a state, at most.
+    [[nodiscard]] std::size_t GetReleasedBytes() const;
 
     // Of an index below GetSize: edge n leads to node n.
     [[nodiscard]] OrderEdge GetEdge(std::size_t index) const;

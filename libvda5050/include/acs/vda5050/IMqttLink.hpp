@@ -20,6 +20,14 @@ struct MqttMessage
     bool operator==(const MqttMessage&) const = default;
 };
 
+/// What a session asks of its owner: hand the message to the link.
+struct PublishMessage
+{
+    MqttMessage message;
+
+    bool operator==(const PublishMessage&) const = default;
+};
+
 /// What the broker publishes for a client that vanishes; handed over before connecting.
 struct MqttWill
 {

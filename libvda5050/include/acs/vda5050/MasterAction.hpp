@@ -15,14 +15,6 @@
 namespace ACS::VDA5050
 {
 
-/// To do: hand the message to the link.
-struct PublishMessage
-{
-    MqttMessage message;
-
-    bool operator==(const PublishMessage&) const = default;
-};
-
 enum class EMasterTimer : std::uint8_t
 {
     ResendOrder,

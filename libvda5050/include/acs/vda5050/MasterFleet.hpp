@@ -49,8 +49,9 @@ struct LeftOutMessage
 };
 
 /// A MasterSession for each vehicle on a broker, added by its address or discovered by its connection message (retained:
-/// all are known at once) or a live state. Vehicles are numbered from 0 as they come; a number is never
-/// given twice. Pure like its sessions. Four subscriptions serve all vehicles; a message costs one look-up, however many there are.
+/// all are known at once) or a live state. Vehicles are numbered from 0 as they come; a number is never given twice. Pure
+/// like its sessions. Four subscriptions serve all vehicles; a message costs one look-up, however many there are. All
+/// calls on one thread; and none while its out is iterated, as calls append to it.
 class MasterFleet
 {
     FleetOptions _options;

@@ -74,7 +74,8 @@ struct MasterStatistics
 
 /// One vehicle as master control sees it: sends orders and instant actions until the vehicle shows them, and draws from
 /// its states what became of them. Pure: no clock, no I/O; all output is appended to out, which the caller reuses.
-/// The truth is what the vehicle says: lost states, repeated retained messages and old wills do no harm.
+/// The truth is what the vehicle says: lost states, repeated retained messages and old wills do no harm. All calls on one
+/// thread; and none while its out is iterated, as calls append to it.
 class MasterSession
 {
     struct PendingAction

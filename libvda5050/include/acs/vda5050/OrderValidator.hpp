@@ -49,7 +49,8 @@ struct OrderContext
     std::string decisionNodeID; ///< Last released node; lastNode where no order runs.
     std::uint32_t decisionSequenceID = 0;
     std::size_t keptNodes = 0;   ///< Released ones still to be reached: what an update adds to.
-    std::size_t keptActions = 0; ///< Those of the order that an update leaves, and instant ones that run.
+    std::size_t keptActions = 0; ///< Those of the order that an update leaves, and instant ones that stay.
+    std::size_t keptBytes = 0;   ///< What the kept nodes, edges and order actions take in a state, at most.
     std::string lastNodeID;
     std::optional<AgvPosition> position;
     double defaultDeviationXY = 0.5;             ///< Metres, where the first node states none or 0.
@@ -76,6 +77,7 @@ struct OrderJudgement
 {
     EOrderVerdict verdict = EOrderVerdict::Reject;
     std::vector<OrderViolation> violations; ///< Of a rejected order: at least one.
+    bool bUntilMode = false;                ///< Rejected for the operating mode alone.
 };
 
 /// The acceptance tree of 2.x (section 6.6.4): what a vehicle does with an order that its codec could read.

@@ -162,6 +162,9 @@ enum class EOperatingMode : std::uint8_t
     TeachIn,
 };
 
+/// Whether orders and instant actions are taken in this mode (section 6.10.6).
+[[nodiscard]] bool IsLedByMaster(EOperatingMode mode);
+
 enum class EErrorLevel : std::uint8_t
 {
     Warning,

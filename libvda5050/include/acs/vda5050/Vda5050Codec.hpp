@@ -40,7 +40,8 @@ struct DecodeTolerance
 /// Whose a message is, and which order it belongs to.
 struct MessageIdentity
 {
-    Header header; ///< Without its timestamp.
+    Header header; ///< Without its timestamp; empty where a member is missing or of another type.
+    bool bHeaderIDGiven = false;
     std::string orderID;
     std::optional<std::uint32_t> orderUpdateID;
 
@@ -66,7 +67,8 @@ public:
     /// Tolerances of the last Decode.
     [[nodiscard]] const DecodeTolerance& GetTolerance() const noexcept;
 
-    /// What names a message, as far as it can be read: for the error report about a payload that Decode refused.
+    /// What names a message, as far as it can be read: for the error report about a payload that Decode refused. A member
+    /// of the wrong type is left out; an error is only what is no JSON.
     [[nodiscard]] Core::Result<MessageIdentity> DecodeIdentity(std::string_view payload);
 
     /// Replaces out by the payload; out is reused by the caller, so that writing allocates nothing once it has grown.

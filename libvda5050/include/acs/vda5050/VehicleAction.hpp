@@ -4,8 +4,9 @@
 #include <acs/core/Result.hpp>
 #include <acs/vda5050/Action.hpp>
 #include <acs/vda5050/FactsheetMessage.hpp>
-#include <acs/vda5050/MasterAction.hpp>
+#include <acs/vda5050/IMqttLink.hpp>
 #include <acs/vda5050/OrderMessage.hpp>
+#include <acs/vda5050/Topic.hpp>
 
 #include <cstdint>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <acs/core/Now.hpp>
-#include <acs/vda5050/ActionMachine.hpp>
+#include <acs/vda5050/HeldActions.hpp>
 #include <acs/vda5050/HeldRoute.hpp>
 #include <acs/vda5050/OrderValidator.hpp>
 #include <acs/vda5050/Vda5050Codec.hpp>
@@ -23,21 +23,11 @@ namespace ACS::VDA5050
 
 /// The vehicle's side of the protocol: takes orders and instant actions by the rules of 2.x, tells its owner (the
 /// vehicle's control, or a simulator) where to drive and what to do, and publishes what becomes of it. Pure: no clock, no
-/// I/O; all output is appended to out, which the caller reuses. Changes are told through the On… calls; states are
+/// I/O; all output is appended to out, which the caller reuses. All calls on one thread, whichever that is; and none while
+/// its out is iterated: calls append to it. Take the actions out first, then obey them. Changes are told through the On… calls; states are
 /// merged and sent as section 6.10 asks.
 class VehicleSession
 {
-    struct TrackedAction
-    {
-        Action action;
-        ActionMachine machine;
-        EActionScope scope = EActionScope::Node;
-        std::string elementID;
-        std::uint32_t sequenceID = 0; ///< Of its node or edge.
-        bool bStarted = false;        ///< The owner was told to.
-        bool bCancelled = false;
-    };
-
     /// All end with an order that is taken; some earlier.
     enum class EErrorLifetime : std::uint8_t
     {
@@ -51,6 +41,12 @@ class VehicleSession
         VehicleError error;
         EErrorLifetime lifetime = EErrorLifetime::UntilOrder;
         bool bShown = false; ///< Of an earlier message.
+    };
+
+    struct EvictedAction
+    {
+        std::string actionID;
+        std::string actionType;
     };
 
     VehicleOptions _options;
@@ -79,8 +75,9 @@ class VehicleSession
     std::uint32_t _orderUpdateID = 0;
     std::uint32_t _lastNodeSequenceID = 0;
     HeldRoute _route; ///< Still to be driven.
-    std::vector<TrackedAction> _actions;
+    HeldActions _actions;
     std::deque<std::string> _actionQueue; ///< Of what was reached or entered, not yet started.
+    std::vector<EvictedAction> _evicted;  ///< Instant actions that were shown and made way, the latest.
     std::vector<SessionError> _sessionErrors;
     std::optional<VehicleError> _corridorError; ///< While the vehicle is outside of its edge's corridor.
     std::vector<std::string> _pauseActionIDs;   ///< startPause that waits for the vehicle to stand.
@@ -142,12 +139,13 @@ class VehicleSession
         const std::string& elementID,
         std::uint32_t sequenceID);
     void Enqueue(std::span<const Action> actions);
-    void Start(TrackedAction& tracked, VehicleActions& out);
-    [[nodiscard]] TrackedAction* FindActionOrNull(std::string_view actionID);
+    void Start(HeldAction& tracked, VehicleActions& out);
     void SetStatus(std::string_view actionID, EActionStatus status, const std::string& result = {});
-    void AddInstantAction(const Action& action, EActionStatus status, const std::string& result = {});
-    [[nodiscard]] static bool IsEndedInstantAction(const TrackedAction& tracked);
-    [[nodiscard]] bool TryMakeRoom(std::size_t count);
+    HeldAction& AddInstantAction(const Action& action, EActionStatus status, const std::string& result = {});
+    [[nodiscard]] bool TryEvict();
+    [[nodiscard]] bool TryMakeRoomFor(const Action& action);
+    [[nodiscard]] bool IsRepeated(const Action& action);
+    [[nodiscard]] std::string FindClash(const Action& action);
     [[nodiscard]] std::string FindRefusal(const Action& action, bool bTooMany) const;
     void ReportInstantAction(
         const Action& action,
@@ -179,8 +177,8 @@ class VehicleSession
     void EnableOnlyVersion(const std::string& mapID);
     void ApplyMapEffect(const Action& action);
     void SetLastNode(std::string nodeID);
-    void OnActionFailed(const TrackedAction& tracked, VehicleActions& out);
-    void OnOrderActionFailed(const TrackedAction& tracked, VehicleActions& out);
+    void OnActionFailed(const HeldAction& tracked, VehicleActions& out);
+    void OnOrderActionFailed(const HeldAction& tracked, VehicleActions& out);
     void PerformOwnInstantAction(const Action& action, const Header& header, Core::Now now, VehicleActions& out);
 
     [[nodiscard]] Header MakeHeader(ETopic topic, Core::Now now);
@@ -214,6 +212,8 @@ public:
         bool bRetained,
         Core::Now now,
         VehicleActions& out);
+    /// As a link delivers it.
+    void OnMessage(const MqttMessage& message, Core::Now now, VehicleActions& out);
     void OnTimer(EVehicleTimer timer, Core::Now now, VehicleActions& out);
 
     /// The node of the last DriveTo, by its sequenceID; any other is ignored. False then.
@@ -263,6 +263,7 @@ public:
 
     /// The state as it would be sent, its header but for the names left empty.
     [[nodiscard]] StateMessage GetState() const;
+    /// Whether a pause holds the vehicle up, from the moment that it is asked for; a state says paused once it stands.
     [[nodiscard]] bool IsPaused() const noexcept;
     [[nodiscard]] bool IsOrderRunning() const noexcept;
 };
