@@ -73,7 +73,7 @@ std::string AddVehicles(const VehicleRow& row, std::vector<VehicleSpec>& vehicle
 }
 
 /// Whether vehicles perform it, and not at once, as the session does with the others.
-bool TakesTime(std::string_view actionType)
+bool HasDuration(std::string_view actionType)
 {
     constexpr std::array AT_ONCE{
         VDA5050::ActionTypes::START_PAUSE,
@@ -107,7 +107,7 @@ std::string ReadActionTime(const std::string& text, std::map<std::string, double
         return fmt::format("expected ACTIONTYPE=DURATION (pick=5s), found {}", Core::QuoteForError(text));
     }
     const std::string actionType = text.substr(0, equals);
-    if (!TakesTime(actionType))
+    if (!HasDuration(actionType))
     {
         return fmt::format(
             "no action {} of a vehicle takes time; pick, drop or startCharging do",
