@@ -301,6 +301,8 @@ Core::Result<int> MosquittoConnection::Publish(const MqttMessage& message)
         return Core::Fail(Core::ECoreError::QueueFull, message.topic);
     }
     int messageID = 0;
+    const std::size_t ofQosZero = message.qos == 0 ? 1U : 0U;
+    _unsent += ofQosZero; // before the call: such a message may be told as sent from within
     errno = 0;
     const int code = mosquitto_publish(
         GetClientOrNull(),
@@ -313,13 +315,10 @@ Core::Result<int> MosquittoConnection::Publish(const MqttMessage& message)
     if (code != MOSQ_ERR_SUCCESS)
     {
         // A broken socket shows itself to the waiting read; here the message is merely not sent.
+        _unsent -= std::min(_unsent, ofQosZero);
         return Core::Fail(MakeMosquittoError(code, errno), message.topic);
     }
-    if (message.qos == 0)
-    {
-        ++_unsent;
-    }
-    else
+    if (message.qos != 0)
     {
         _client->OnSending(messageID);
     }

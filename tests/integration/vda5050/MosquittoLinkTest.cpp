@@ -244,6 +244,24 @@ TEST_CASE_METHOD(LinkTest, "6.2 A link holds an idle connection through the brok
     CHECK(link.link.IsConnected());
 }
 
+TEST_CASE_METHOD(LinkTest, "Messages of QoS 0 that have left make room, and do not hold up the leave")
+{
+    const auto receiver = MakeConnected("receiver", "load");
+    VDA5050::MosquittoOptions options = MakeOptions(_broker.GetPort(), "sender");
+    options.maxUnsent = 5;
+    TestLink sender(_context, options);
+    sender.link.Start();
+    REQUIRE(TryRunUntil(_context, [&]() { return sender.listener.ups == 1; }));
+    for (std::size_t sent = 1; sent <= 20; ++sent)
+    {
+        REQUIRE(sender.link.Publish({"load", "x", 0, false}).has_value());
+        REQUIRE(TryRunUntil(_context, [&]() { return receiver->listener.messages.size() == sent; }));
+    }
+    bool bStopped = false;
+    sender.link.StopAsync(std::nullopt, 60s, [&bStopped]() { bStopped = true; });
+    CHECK(TryRunUntil(_context, [&bStopped]() { return bStopped; }));
+}
+
 TEST_CASE_METHOD(LinkTest, "Many messages at once arrive complete and in order")
 {
     const auto receiver = MakeConnected("receiver", "load");
