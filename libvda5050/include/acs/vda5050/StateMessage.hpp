@@ -177,7 +177,7 @@ struct ErrorReference
     std::string referenceValue;
 
     bool operator==(const ErrorReference&) const = default;
-    std::strong_ordering operator<=>(const ErrorReference&) const = default;
+    std::strong_ordering operator<=>(const ErrorReference&) const = default; // NOLINT(modernize-use-nullptr)
 };
 
 /// An active error of a vehicle.
@@ -190,7 +190,7 @@ struct VehicleError
     EErrorLevel errorLevel = EErrorLevel::Warning;
 
     bool operator==(const VehicleError&) const = default;
-    std::strong_ordering operator<=>(const VehicleError&) const = default;
+    std::strong_ordering operator<=>(const VehicleError&) const = default; // NOLINT(modernize-use-nullptr)
 };
 
 /// The error types that 2.x names; instantActionError, actionError and outsideOfCorridor are this library's.
