@@ -9,7 +9,7 @@
 namespace
 {
 
-using namespace ACS;
+using namespace ACS; // NOLINT(google-build-using-namespace)
 
 void CheckLine(OpenStream::OpenStreamCodec& codec, std::string_view line)
 {
