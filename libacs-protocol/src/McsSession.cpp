@@ -121,7 +121,7 @@ public:
     void OnClosed(ConnectionID connection, std::string_view reason, SessionActions& out)
     {
         std::erase(_connections, connection);
-        Know(connection);
+        Know(connection, out);
         std::erase_if(_delayed, [connection](const DelayedAck& ack) { return ack.connection == connection; });
         if (_registered == connection)
         {
@@ -260,9 +260,13 @@ private:
         }
     }
 
-    void Know(ConnectionID connection)
+    void Know(ConnectionID connection, SessionActions& out)
     {
         std::erase_if(_strangers, [connection](const Connection& stranger) { return stranger.id == connection; });
+        if (_strangers.empty())
+        {
+            _output.Cancel(ESessionTimer::Registration, out);
+        }
     }
 
     void CloseStrangers(Core::Now now, SessionActions& out)
@@ -452,7 +456,7 @@ private:
             out.emplace_back(Close{connection, CLOSE_POLICY, "an ACS is registered already"});
             return;
         }
-        Know(connection);
+        Know(connection, out);
         Replace(connection, out);
         Acknowledge(connection, request, EAckResult::Success, "Registered.", now, out);
         // The ACS is registered when it can know that it is.

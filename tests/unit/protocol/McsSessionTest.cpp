@@ -114,6 +114,20 @@ TEST_CASE("6.2 A connection from which no Registration comes is closed, so that 
     CHECK(bench.probe.GetAll<Protocol::StartTimer>().empty());
 }
 
+TEST_CASE("6.2 Nobody is waited for any more once all connections have registered or gone")
+{
+    McsBench bench;
+    bench.session.OnConnected(1, bench.clock.GetNow(), bench.probe.out);
+    bench.session.OnConnected(2, bench.clock.GetNow(), bench.probe.out);
+    bench.probe.Clear();
+    bench.Text(1, MakeRequestText("Registration", "{}", "r"));
+    CHECK(bench.probe.GetAll<Protocol::CancelTimer>().empty());
+    bench.session.OnClosed(2, "", bench.clock.GetNow(), bench.probe.out);
+    const auto cancels = bench.probe.GetAll<Protocol::CancelTimer>();
+    REQUIRE(cancels.size() == 1);
+    CHECK(cancels[0].timer == Protocol::ESessionTimer::Registration);
+}
+
 TEST_CASE("D-4 An Ack that comes after its request was given up is that request's, not the next one's of its command")
 {
     McsBench bench;
