@@ -2,7 +2,9 @@
 #include "StateRoom.hpp"
 #include <acs/vda5050/HeldActions.hpp>
 
+#include <algorithm>
 #include <cassert>
+#include <functional>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -23,30 +25,38 @@ bool HeldAction::IsRunningInOrder() const noexcept
     return !IsInstant() && bStarted && !IsEnded();
 }
 
+HeldActions::Counts HeldActions::Measure(const HeldAction& held)
+{
+    Counts counts{};
+    const auto set = [&counts](ECount count, bool bCounts) {
+        counts.at(static_cast<std::size_t>(count)) = bCounts ? 1U : 0U;
+    };
+    const bool bRuns = held.IsRunningInOrder();
+    set(ECount::Open, !held.IsInstant() && !held.IsEnded());
+    set(ECount::Running, bRuns);
+    set(ECount::RunningBlocking, bRuns && held.action.blockingType != EBlockingType::None);
+    set(ECount::RunningHard, bRuns && held.action.blockingType == EBlockingType::Hard);
+    set(ECount::Instant, held.IsInstant());
+    if (held.IsInstant())
+    {
+        counts.at(static_cast<std::size_t>(ECount::InstantBytes)) = MeasureActionState(held.machine.GetState());
+    }
+    return counts;
+}
+
 void HeldActions::Count(const HeldAction& held)
 {
-    _instant += held.IsInstant() ? 1U : 0U;
-    _instantBytes += held.IsInstant() ? MeasureActionState(held.machine.GetState()) : 0;
-    _open += !held.IsInstant() && !held.IsEnded() ? 1U : 0U;
-    if (held.IsRunningInOrder())
-    {
-        _running += 1;
-        _runningBlocking += held.action.blockingType != EBlockingType::None ? 1U : 0U;
-        _runningHard += held.action.blockingType == EBlockingType::Hard ? 1U : 0U;
-    }
+    std::ranges::transform(_counts, Measure(held), _counts.begin(), std::plus<>());
 }
 
 void HeldActions::Discount(const HeldAction& held)
 {
-    _instant -= held.IsInstant() ? 1U : 0U;
-    _instantBytes -= held.IsInstant() ? MeasureActionState(held.machine.GetState()) : 0;
-    _open -= !held.IsInstant() && !held.IsEnded() ? 1U : 0U;
-    if (held.IsRunningInOrder())
-    {
-        _running -= 1;
-        _runningBlocking -= held.action.blockingType != EBlockingType::None ? 1U : 0U;
-        _runningHard -= held.action.blockingType == EBlockingType::Hard ? 1U : 0U;
-    }
+    std::ranges::transform(_counts, Measure(held), _counts.begin(), std::minus<>());
+}
+
+std::size_t HeldActions::Get(ECount count) const noexcept
+{
+    return _counts[static_cast<std::size_t>(count)];
 }
 
 HeldAction& HeldActions::Add(HeldAction held)
@@ -95,32 +105,32 @@ std::size_t HeldActions::GetSize() const noexcept
 
 std::size_t HeldActions::CountInstant() const noexcept
 {
-    return _instant;
+    return Get(ECount::Instant);
 }
 
 std::size_t HeldActions::GetInstantBytes() const noexcept
 {
-    return _instantBytes;
+    return Get(ECount::InstantBytes);
 }
 
 std::size_t HeldActions::CountOpen() const noexcept
 {
-    return _open;
+    return Get(ECount::Open);
 }
 
 std::size_t HeldActions::CountRunning() const noexcept
 {
-    return _running;
+    return Get(ECount::Running);
 }
 
 std::size_t HeldActions::CountRunningBlocking() const noexcept
 {
-    return _runningBlocking;
+    return Get(ECount::RunningBlocking);
 }
 
 std::size_t HeldActions::CountRunningHard() const noexcept
 {
-    return _runningHard;
+    return Get(ECount::RunningHard);
 }
 
 HeldActions::Iterator HeldActions::begin() noexcept

@@ -4,6 +4,7 @@
 #include <acs/vda5050/ActionMachine.hpp>
 #include <acs/vda5050/FactsheetMessage.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -42,17 +43,27 @@ public:
     using ConstIterator = std::list<HeldAction>::const_iterator;
 
 private:
+    /// See the functions that tell them.
+    enum class ECount : std::uint8_t
+    {
+        Open,
+        Running,
+        RunningBlocking,
+        RunningHard,
+        Instant,
+        InstantBytes,
+    };
+
+    using Counts = std::array<std::size_t, 6>;
+
     std::list<HeldAction> _held;
     std::unordered_map<std::string_view, Iterator> _index; ///< The keys lie in _held, whose elements never move.
-    std::size_t _open = 0;
-    std::size_t _running = 0;
-    std::size_t _runningBlocking = 0;
-    std::size_t _runningHard = 0;
-    std::size_t _instant = 0;
-    std::size_t _instantBytes = 0;
+    Counts _counts{};
 
+    [[nodiscard]] static Counts Measure(const HeldAction& held);
     void Count(const HeldAction& held);
     void Discount(const HeldAction& held);
+    [[nodiscard]] std::size_t Get(ECount count) const noexcept;
 
 public:
     HeldActions() = default;
