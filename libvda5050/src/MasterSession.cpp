@@ -133,23 +133,12 @@ void MasterSession::Refuse(ETopic topic, Core::Error error, MasterActions& out)
     out.emplace_back(MessageRefused{topic, std::move(error)});
 }
 
-/// Empty names and versions are tolerated: the topic has said it already.
+/// An empty version is tolerated, as empty names are: the topic has said it already.
 bool MasterSession::IsForeign(ETopic topic, const Header& header, MasterActions& out)
 {
-    const auto isOther = [](const std::string& found, const std::string& own) {
-        return !found.empty() && found != own;
-    };
-    const VehicleAddress& own = _options.address;
-    if (isOther(header.manufacturer, own.manufacturer) || isOther(header.serialNumber, own.serialNumber))
+    if (std::optional<Core::Error> foreign = FindForeignNameOrNull(header, _options.address))
     {
-        Refuse(
-            topic,
-            Core::Error{
-                make_error_code(EVda5050Error::InvalidTopic),
-                "serialNumber",
-                own.manufacturer + "/" + own.serialNumber,
-                header.manufacturer + "/" + header.serialNumber},
-            out);
+        Refuse(topic, std::move(*foreign), out);
         return true;
     }
     if (!header.version.empty() && !ReadVersionOrNull(header.version).has_value())
@@ -422,8 +411,7 @@ bool MasterSession::IsBusy() const
 
 bool MasterSession::IsLed() const
 {
-    return !_state.has_value() || _state->operatingMode == EOperatingMode::Automatic
-        || _state->operatingMode == EOperatingMode::SemiAutomatic;
+    return !_state.has_value() || IsLedByMaster(_state->operatingMode);
 }
 
 const StateMessage* MasterSession::GetStateOrNull() const noexcept

@@ -78,6 +78,22 @@ bool IsValidAddress(const VehicleAddress& address)
         && IsValidLevel(address.serialNumber);
 }
 
+std::optional<Core::Error> FindForeignNameOrNull(const Header& header, const VehicleAddress& address)
+{
+    const auto isOther = [](const std::string& said, const std::string& own) {
+        return !said.empty() && said != own;
+    };
+    if (!isOther(header.manufacturer, address.manufacturer) && !isOther(header.serialNumber, address.serialNumber))
+    {
+        return std::nullopt;
+    }
+    return Core::Error{
+        make_error_code(EVda5050Error::InvalidTopic),
+        "serialNumber",
+        address.manufacturer + "/" + address.serialNumber,
+        header.manufacturer + "/" + header.serialNumber};
+}
+
 std::string BuildTopic(const VehicleAddress& address, ETopic topic)
 {
     assert(IsValidAddress(address));

@@ -79,23 +79,12 @@ void VehicleSession::OnMessage(const MqttMessage& message, Core::Now now, Vehicl
 
 bool VehicleSession::IsForeign(ETopic topic, const Header& header, VehicleActions& out) const
 {
-    // Empty names are tolerated: there are masters that leave them out, and the topic has said it already.
-    const auto isOther = [](const std::string& said, const std::string& own) {
-        return !said.empty() && said != own;
-    };
-    if (!isOther(header.manufacturer, _options.address.manufacturer)
-        && !isOther(header.serialNumber, _options.address.serialNumber))
+    std::optional<Core::Error> foreign = FindForeignNameOrNull(header, _options.address);
+    if (foreign.has_value())
     {
-        return false;
+        out.emplace_back(MessageIgnored{topic, std::move(*foreign)});
     }
-    out.emplace_back(MessageIgnored{
-        topic,
-        Core::Error{
-            make_error_code(EVda5050Error::InvalidTopic),
-            "serialNumber",
-            _options.address.manufacturer + "/" + _options.address.serialNumber,
-            header.manufacturer + "/" + header.serialNumber}});
-    return true;
+    return foreign.has_value();
 }
 
 void VehicleSession::AddSessionError(VehicleError error, EErrorLifetime lifetime)

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <acs/core/Result.hpp>
+#include <acs/vda5050/Header.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -39,7 +41,8 @@ enum class EQosProfile : std::uint8_t
 /// The quality of service of a profile; QosTable changes single topics of it.
 [[nodiscard]] std::uint8_t GetQos(ETopic topic, EQosProfile profile);
 
-/// Where a vehicle lives on the broker. A level has no `/`, `+`, `#` and is not empty.
+/// Where a vehicle lives on the broker. A level has no `/`, `+`, `#` and no control characters, does not begin with `$`, and
+/// is not empty.
 struct VehicleAddress
 {
     std::string interfaceName = "uagv";
@@ -51,6 +54,10 @@ struct VehicleAddress
 
 /// Whether each level may stand in a topic.
 [[nodiscard]] bool IsValidAddress(const VehicleAddress& address);
+
+/// Why a message whose topic is the vehicle's is another's by its header; nothing where it is not. Empty names are
+/// tolerated: there are senders that leave them out, and the topic has said it already.
+[[nodiscard]] std::optional<Core::Error> FindForeignNameOrNull(const Header& header, const VehicleAddress& address);
 
 /// "uagv/v2/KIT/0001/order"
 [[nodiscard]] std::string BuildTopic(const VehicleAddress& address, ETopic topic);
