@@ -9,19 +9,17 @@
 // second, a job takes another. What a real ACS has besides is a store: here the outbox is lost with the program, see
 // libplan's IPlanStore.
 
+#include "ExampleLines.hpp"
 #include "ExampleRandom.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/protocol_beast/AcsClient.hpp>
 
-#include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstddef>
@@ -33,8 +31,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <string_view>
-#include <unistd.h>
 #include <utility>
 #include <variant>
 
@@ -470,54 +466,6 @@ private:
     }
 };
 
-/// Reads the operator's lines; at the end of the input the ACS simply goes on.
-class Keyboard
-{
-    static constexpr std::size_t MAX_LINE = 1000; ///< The rest of a longer one is forgotten.
-
-    boost::asio::posix::stream_descriptor _input;
-    std::array<char, 256> _chunk{};
-    std::string _line;
-    SmallAcs& _acs;
-
-public:
-    Keyboard(boost::asio::io_context& io, SmallAcs& acs)
-        : _input(io, ::dup(STDIN_FILENO)),
-          _acs(acs)
-    {
-        ReadAsync();
-    }
-
-private:
-    void ReadAsync()
-    {
-        _input.async_read_some(
-            boost::asio::buffer(_chunk),
-            [this](const boost::system::error_code& error, std::size_t count) {
-                if (!error)
-                {
-                    OnRead({_chunk.data(), count});
-                    ReadAsync();
-                }
-            });
-    }
-
-    void OnRead(std::string_view text)
-    {
-        for (const char letter : text)
-        {
-            if (letter == '\n')
-            {
-                _acs.OnOperator(std::exchange(_line, {}));
-            }
-            else if (_line.size() < MAX_LINE)
-            {
-                _line += letter;
-            }
-        }
-    }
-};
-
 } // namespace
 
 int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing throws here but a full memory
@@ -541,7 +489,10 @@ int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing th
         return 2;
     }
     acs.client = std::move(*client);
-    Keyboard keyboard(io, acs);
+    const ExampleLines operatorLines(
+        io,
+        [&acs](const std::string& line) { acs.OnOperator(line); },
+        []() {}); // at the end of the input the ACS simply goes on
     boost::asio::signal_set signals(io, SIGINT, SIGTERM);
     signals.async_wait([&acs](const boost::system::error_code& error, int /*number*/) {
         if (!error)

@@ -17,32 +17,27 @@
 // After the last command the program ends when all orders have ended. What waits for the vehicle is the MasterSession's
 // business: nothing here sends a message a second time. The journal only grows: delete it when no order is open.
 
+#include "ExampleBroker.hpp"
+#include "ExampleLines.hpp"
 #include "ExampleRandom.hpp"
+#include "FleetOrders.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/vda5050/EVda5050Error.hpp>
 #include <acs/vda5050/MasterFleet.hpp>
-#include <acs/vda5050/OrderBuilder.hpp>
 #include <acs/vda5050_mosquitto/MosquittoLink.hpp>
 
-#include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <deque>
-#include <fcntl.h>
-#include <fstream>
-#include <iostream>
 #include <map>
 #include <memory>
 #include <optional>
@@ -69,69 +64,13 @@ Core::Now ReadClock()
     return {std::chrono::steady_clock::now(), std::chrono::system_clock::now()};
 }
 
-/// Lines that are on the disk when Append returns. The last one may be torn by a kill: it counts as never written.
-class Journal
-{
-    int _file = -1;
-
-public:
-    Journal() = default;
-    Journal(const Journal&) = delete;
-    Journal& operator=(const Journal&) = delete;
-
-    ~Journal()
-    {
-        ::close(_file);
-    }
-
-    /// The lines that were there; nothing where the file cannot be used.
-    [[nodiscard]] std::optional<std::vector<std::string>> OpenOrNull(const std::string& path)
-    {
-        std::vector<std::string> lines;
-        off_t wholeBytes = 0;
-        std::ifstream old(path);
-        for (std::string line; std::getline(old, line) && !old.eof();)
-        {
-            wholeBytes += static_cast<off_t>(line.size() + 1);
-            lines.push_back(std::move(line));
-        }
-        _file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, S_IRUSR | S_IWUSR);
-        const bool bUsable = _file >= 0 && ::ftruncate(_file, wholeBytes) == 0;
-        return bUsable ? std::optional(std::move(lines)) : std::nullopt;
-    }
-
-    /// False where the disk takes no more: then nothing may be sent either.
-    [[nodiscard]] bool TryAppend(std::string line) const
-    {
-        line += '\n';
-        return ::write(_file, line.data(), line.size()) == static_cast<ssize_t>(line.size()) && ::fdatasync(_file) == 0;
-    }
-};
-
-/// One order of the journal.
-struct Job
-{
-    OrderBuilder route;
-    OrderRecord record;      ///< What was sent of it, and accepted.
-    std::size_t reached = 0; ///< Nodes.
-    bool bGiven = false;     ///< The session has it.
-    bool bCancelAsked = false;
-};
-
-struct Vehicle
-{
-    std::deque<Job> jobs;             ///< The first one is the one that runs.
-    std::set<std::string> orderIDs;   ///< Of all orders that were ever taken.
-    std::vector<std::string> actions; ///< Instant actions that wait for the vehicle to be ready.
-};
-
 class FleetMaster final : public IMqttLinkListener
 {
     boost::asio::io_context& _io;
-    Journal _journal;
-    MasterFleet _fleet;
-    Vda5050Codec _codec;
-    std::map<std::size_t, Vehicle> _vehicles; ///< By the fleet's number.
+    FleetOrders _orders;
+    MasterFleet _fleet; ///< Numbers the vehicles; the orders know them by their names.
+    std::map<std::size_t, std::vector<std::string>>
+        _actions; ///< Instant actions that wait for the vehicle to be ready.
     std::map<std::pair<std::size_t, EMasterTimer>, boost::asio::steady_timer> _timers;
     bool _bInputEnded = false;
     bool _bStopping = false;
@@ -143,19 +82,23 @@ public:
         : _io(io),
           _fleet(FleetOptions{})
     {
+        // An order that the journal does not remember must not be sent.
+        _orders.onBroken = [this](const std::string& reason) {
+            fmt::print("cannot write the journal: {}\n", reason);
+            Stop();
+        };
     }
 
     /// False where the journal cannot be read and written.
     [[nodiscard]] bool TryStart(const std::string& journal)
     {
-        const std::optional<std::vector<std::string>> lines = _journal.OpenOrNull(journal);
-        if (!lines.has_value())
+        if (!_orders.TryOpen(journal))
         {
             return false;
         }
-        for (const std::string& line : *lines)
+        for (const std::string& name : _orders.ListVehicles())
         {
-            Replay(line);
+            std::ignore = FindVehicleOrNull(name);
         }
         link->Subscribe(_fleet.GetSubscriptions());
         link->Start();
@@ -164,24 +107,24 @@ public:
 
     void OnCommand(const std::string& line)
     {
-        const auto [verb, name, text] = Split(line);
-        const std::optional<std::size_t> number = FindVehicleOrNull(name);
+        const FleetLine command = FleetLine::Split(line);
+        const std::optional<std::size_t> number = FindVehicleOrNull(command.vehicle);
         if (!number.has_value())
         {
             fmt::print("refused: '{}' names no vehicle as MANUFACTURER/SERIALNUMBER\n", line);
             return;
         }
-        if (verb == "order")
+        if (command.verb == "order")
         {
-            TakeOrder(*number, name, text);
+            TakeOrder(command.vehicle, command.text);
         }
-        else if (verb == "cancel" && !_vehicles[*number].jobs.empty())
+        else if (command.verb == "cancel" && _orders.GetFirstOrNull(command.vehicle) != nullptr)
         {
-            _vehicles[*number].jobs.front().bCancelAsked = TryWrite("cancel", name, {});
+            std::ignore = _orders.TryAskCancel(command.vehicle);
         }
-        else if (verb == "do" && !text.empty())
+        else if (command.verb == "do" && !command.text.empty())
         {
-            _vehicles[*number].actions.push_back(text);
+            _actions[*number].push_back(command.text);
         }
         else
         {
@@ -236,24 +179,7 @@ public:
     }
 
 private:
-    // ---- commands and the journal: the same lines, and one reader for both
-
-    struct Words
-    {
-        std::string verb;
-        std::string name;
-        std::string text;
-    };
-
-    [[nodiscard]] static Words Split(const std::string& line)
-    {
-        const std::size_t first = std::min(line.find(' '), line.size());
-        const std::size_t second = std::min(line.find(' ', first + 1), line.size());
-        const auto cut = [&line](std::size_t begin, std::size_t end) {
-            return begin < end ? line.substr(begin, end - begin) : std::string();
-        };
-        return {line.substr(0, first), cut(first + 1, second), cut(second + 1, line.size())};
-    }
+    // ---- commands
 
     [[nodiscard]] std::optional<std::size_t> FindVehicleOrNull(const std::string& name)
     {
@@ -272,100 +198,18 @@ private:
         return address.manufacturer + "/" + address.serialNumber;
     }
 
-    /// Ends the program where the disk takes no more: an order that it does not remember must not be sent.
-    [[nodiscard]] bool TryWrite(std::string_view verb, const std::string& name, const std::string& text)
+    void TakeOrder(const std::string& name, const std::string& text)
     {
-        if (_journal.TryAppend(fmt::format("{} {} {}", verb, name, text)))
+        const Core::Result<FleetOrders::Taking> taking = _orders.Take(name, text);
+        if (!taking)
         {
-            return true;
+            fmt::print("refused: an order for {}: {}\n", name, Core::Describe(taking.error()));
         }
-        fmt::print("cannot write the journal: {}\n", std::generic_category().message(errno));
-        Stop();
-        return false;
-    }
-
-    [[nodiscard]] Core::Result<Job> MakeJob(const std::string& text)
-    {
-        return _codec.Decode<OrderMessage>(text).and_then([](OrderMessage order) {
-            return OrderBuilder::Create(order.orderID, std::move(order.nodes), std::move(order.edges))
-                .map([](OrderBuilder route) {
-                    return Job{std::move(route), {}, 0, false, false};
-                });
-        });
-    }
-
-    void TakeOrder(std::size_t number, const std::string& name, const std::string& text)
-    {
-        Core::Result<Job> job = MakeJob(text);
-        if (!job)
+        else if (taking->result != FleetOrders::ETaking::Broken)
         {
-            fmt::print("refused: an order for {}: {}\n", name, Core::Describe(job.error()));
-            return;
+            const bool bTaken = taking->result == FleetOrders::ETaking::Taken;
+            fmt::print("{}: {} for {}\n", bTaken ? "taken" : "known", taking->orderID, name);
         }
-        const std::string orderID = job->route.GetOrderID();
-        if (_vehicles[number].orderIDs.contains(orderID))
-        {
-            fmt::print("known: {} for {}\n", orderID, name);
-        }
-        else if (TryWrite("order", name, text))
-        {
-            _vehicles[number].orderIDs.insert(orderID);
-            _vehicles[number].jobs.push_back(std::move(*job));
-            fmt::print("taken: {} for {}\n", orderID, name);
-        }
-    }
-
-    void Replay(const std::string& line)
-    {
-        const auto [verb, name, text] = Split(line);
-        const std::optional<std::size_t> number = FindVehicleOrNull(name);
-        if (!number.has_value())
-        {
-            return;
-        }
-        Vehicle& vehicle = _vehicles[*number];
-        std::size_t count = 0;
-        std::from_chars(text.data(), text.data() + text.size(), count);
-        if (verb == "order")
-        {
-            if (Core::Result<Job> job = MakeJob(text))
-            {
-                vehicle.orderIDs.insert(job->route.GetOrderID());
-                vehicle.jobs.push_back(std::move(*job));
-            }
-        }
-        else if (vehicle.jobs.empty())
-        {
-            return;
-        }
-        else if (verb == "release")
-        {
-            std::ignore = TryRelease(vehicle.jobs.front(), count);
-        }
-        else if (verb == "accepted")
-        {
-            vehicle.jobs.front().record.acceptedUpdateID = static_cast<std::uint32_t>(count);
-        }
-        else if (verb == "cancel")
-        {
-            vehicle.jobs.front().bCancelAsked = true;
-        }
-        else if (verb == "ended")
-        {
-            vehicle.jobs.pop_front();
-        }
-    }
-
-    /// The builder makes the same messages from the same numbers, so the numbers are all that the journal needs.
-    [[nodiscard]] static bool TryRelease(Job& job, std::size_t nodes)
-    {
-        Core::Result<OrderMessage> message =
-            job.record.messages.empty() ? job.route.MakeOrder(nodes) : job.route.MakeUpdate(nodes);
-        if (message)
-        {
-            job.record.messages.push_back(std::move(*message));
-        }
-        return message.has_value();
     }
 
     // ---- what is to be done for a vehicle, after each thing that happened
@@ -373,93 +217,95 @@ private:
     void Advance(std::size_t number, FleetActions& out)
     {
         MasterSession& session = _fleet.GetSession(number);
-        Vehicle& vehicle = _vehicles[number];
         MasterActions actions;
         if (session.IsReady() && !_bStopping)
         {
-            for (const std::string& type : std::exchange(vehicle.actions, {}))
+            for (const std::string& type : std::exchange(_actions[number], {}))
             {
                 Action action;
                 action.actionType = type;
                 const Core::Result<std::string> sent = session.SendInstantAction(action, ReadClock(), actions);
                 fmt::print("{}: {} {}\n", GetName(number), type, sent ? "is " + *sent : Core::Describe(sent.error()));
             }
-            if (!vehicle.jobs.empty())
+            if (FleetOrder* const orderOrNull = _orders.GetFirstOrNull(GetName(number)))
             {
-                AdvanceJob(number, session, vehicle.jobs.front(), actions);
+                AdvanceOrder(GetName(number), session, *orderOrNull, actions);
             }
         }
-        for (MasterAction& action : actions)
-        {
-            out.push_back(FleetAction{number, std::move(action)});
-        }
+        AppendActions(number, actions, out);
     }
 
-    void AdvanceJob(std::size_t number, MasterSession& session, Job& job, MasterActions& out)
+    void AdvanceOrder(const std::string& name, MasterSession& session, FleetOrder& order, MasterActions& out)
     {
         const EOrderPhase phase = session.GetOrderPhase();
         const bool bRuns = phase == EOrderPhase::Sent || phase == EOrderPhase::Active;
         Core::Result<void> done;
-        const bool bShown = session.GetStateOrNull()->orderID == job.route.GetOrderID();
-        const bool bUnknown = !bShown && !job.record.acceptedUpdateID.has_value();
-        if (!job.bGiven && bUnknown && job.bCancelAsked)
+        const bool bShown = session.GetStateOrNull()->orderID == order.route.GetOrderID();
+        const bool bUnknown = !bShown && !order.record.acceptedUpdateID.has_value();
+        if (!order.bGiven && bUnknown && order.bCancelAsked)
         {
-            out.emplace_back(OrderCancelled{job.route.GetOrderID()}); // The vehicle never had it.
+            out.emplace_back(OrderCancelled{order.route.GetOrderID()}); // The vehicle never had it.
         }
-        else if (!job.bGiven && !job.record.messages.empty())
+        else if (!order.bGiven && !order.record.messages.empty())
         {
-            done = session.ResumeOrder(job.record, ReadClock(), out);
-            job.bGiven = done.has_value();
+            done = session.ResumeOrder(order.record, ReadClock(), out);
+            order.bGiven = done.has_value();
         }
-        else if (!job.bGiven && session.CanTakeOrder())
+        else if (!order.bGiven && session.CanTakeOrder())
         {
-            done = Begin(number, session, job, out);
+            done = Begin(name, session, order, out);
         }
-        else if (job.bGiven && bRuns && job.bCancelAsked)
+        else if (order.bGiven && bRuns && order.bCancelAsked)
         {
             done = session.Cancel(ReadClock(), out);
         }
-        else if (job.bGiven && phase == EOrderPhase::Active)
+        else if (order.bGiven && phase == EOrderPhase::Active)
         {
-            done = Extend(number, session, job, out);
+            done = Extend(name, session, order, out);
         }
         if (done || done.error().code == EVda5050Error::VehicleNotReady)
         {
             return;
         }
-        fmt::print("{}: {}\n", GetName(number), Core::Describe(done.error()));
+        fmt::print("{}: {}\n", name, Core::Describe(done.error()));
         if (bRuns)
         {
-            job.bCancelAsked = TryWrite("cancel", GetName(number), {}); // An update that the vehicle cannot be sent.
+            std::ignore = _orders.TryAskCancel(name); // An update that the vehicle cannot be sent.
         }
         else
         {
-            out.emplace_back(OrderLost{job.route.GetOrderID(), "it cannot be sent"});
+            out.emplace_back(OrderLost{order.route.GetOrderID(), "it cannot be sent"});
         }
     }
 
-    [[nodiscard]] Core::Result<void> Begin(std::size_t number, MasterSession& session, Job& job, MasterActions& out)
+    [[nodiscard]] Core::Result<void> Begin(
+        const std::string& name,
+        MasterSession& session,
+        FleetOrder& order,
+        MasterActions& out)
     {
-        const std::size_t nodes = std::min(NODES_AHEAD, job.route.GetNodes().size());
-        if (!TryWrite("release", GetName(number), std::to_string(nodes)) || !TryRelease(job, nodes))
+        if (!_orders.TryRelease(name, std::min(NODES_AHEAD, order.route.GetNodes().size())))
         {
             return {};
         }
-        job.bGiven = true;
-        return session.SendOrder(job.record.messages.back(), ReadClock(), out);
+        order.bGiven = true;
+        return session.SendOrder(order.record.messages.back(), ReadClock(), out);
     }
 
     /// Only behind what the vehicle has shown: so never more than one message waits for an answer.
-    [[nodiscard]] Core::Result<void> Extend(std::size_t number, MasterSession& session, Job& job, MasterActions& out)
+    [[nodiscard]] Core::Result<void> Extend(
+        const std::string& name,
+        MasterSession& session,
+        FleetOrder& order,
+        MasterActions& out)
     {
-        const std::size_t nodes = std::min(job.reached + NODES_AHEAD, job.route.GetNodes().size());
-        const bool bShown = job.record.acceptedUpdateID >= job.record.messages.back().orderUpdateID;
-        if (!bShown || nodes <= job.route.GetReleasedNodes()
-            || !TryWrite("release", GetName(number), std::to_string(nodes)) || !TryRelease(job, nodes))
+        const std::size_t nodes = std::min(order.reached + NODES_AHEAD, order.route.GetNodes().size());
+        const bool bShown = order.record.acceptedUpdateID >= order.record.messages.back().orderUpdateID;
+        if (!bShown || nodes <= order.route.GetReleasedNodes() || !_orders.TryRelease(name, nodes))
         {
             return {};
         }
-        return session.SendOrderUpdate(job.record.messages.back(), ReadClock(), out);
+        return session.SendOrderUpdate(order.record.messages.back(), ReadClock(), out);
     }
 
     // ---- what the sessions want and tell
@@ -486,9 +332,8 @@ private:
 
     void StopWhenDone()
     {
-        const bool bIdle = std::ranges::all_of(_vehicles, [](const auto& vehicle) {
-            return vehicle.second.jobs.empty() && vehicle.second.actions.empty();
-        });
+        const bool bIdle = _orders.IsEmpty()
+            && std::ranges::all_of(_actions, [](const auto& vehicle) { return vehicle.second.empty(); });
         if (_bInputEnded && bIdle && !_bStopping)
         {
             fmt::print("all orders have ended\n");
@@ -511,64 +356,67 @@ private:
         });
     }
 
-    void EndJob(std::size_t number, const std::string& orderID, std::string_view how)
+    void EndOrder(std::size_t number, const std::string& orderID, std::string_view how)
     {
-        std::deque<Job>& jobs = _vehicles[number].jobs;
-        if (!jobs.empty() && jobs.front().route.GetOrderID() == orderID && TryWrite("ended", GetName(number), orderID))
+        const std::string name = GetName(number);
+        const FleetOrder* const orderOrNull = _orders.GetFirstOrNull(name);
+        if (orderOrNull != nullptr && orderOrNull->route.GetOrderID() == orderID && _orders.TryEnd(name))
         {
-            fmt::print("{}: {} {}\n", GetName(number), orderID, how);
-            jobs.pop_front();
+            fmt::print("{}: {} {}\n", name, orderID, how);
         }
     }
 
     void OnAccepted(std::size_t number, const OrderAccepted& accepted)
     {
-        std::deque<Job>& jobs = _vehicles[number].jobs;
-        const std::string update = std::to_string(accepted.orderUpdateID);
-        if (!jobs.empty() && TryWrite("accepted", GetName(number), update))
+        const std::string name = GetName(number);
+        if (_orders.GetFirstOrNull(name) != nullptr && _orders.TryAccept(name, accepted.orderUpdateID))
         {
-            jobs.front().record.acceptedUpdateID = accepted.orderUpdateID;
-            fmt::print("{}: {} update {} accepted\n", GetName(number), accepted.orderID, update);
+            fmt::print("{}: {} update {} accepted\n", name, accepted.orderID, accepted.orderUpdateID);
         }
     }
 
     void OnRejected(std::size_t number, const OrderRejected& rejected)
     {
+        const std::string name = GetName(number);
         fmt::print(
             "{}: {} update {} rejected: {} {}\n",
-            GetName(number),
+            name,
             rejected.orderID,
             rejected.orderUpdateID,
             rejected.errorType,
             rejected.reason);
-        std::deque<Job>& jobs = _vehicles[number].jobs;
         if (rejected.orderUpdateID == 0)
         {
-            EndJob(number, rejected.orderID, "rejected");
+            EndOrder(number, rejected.orderID, "rejected");
         }
-        else if (!jobs.empty())
+        else if (_orders.GetFirstOrNull(name) != nullptr)
         {
-            jobs.front().bCancelAsked =
-                TryWrite("cancel", GetName(number), {}); // Its route cannot be driven to the end.
+            std::ignore = _orders.TryAskCancel(name); // Its route cannot be driven to the end.
         }
+    }
+
+    void OnLost(std::size_t number, const OrderLost& lost)
+    {
+        // A master that was killed in the middle of a cancel finds the order cleared.
+        const FleetOrder* const orderOrNull = _orders.GetFirstOrNull(GetName(number));
+        const bool bCancelled = orderOrNull != nullptr && orderOrNull->bCancelAsked;
+        EndOrder(number, lost.orderID, bCancelled ? "cancelled" : "lost: " + lost.reason);
     }
 
     void OnCancelFailed(std::size_t number, const CancelFailed& failed)
     {
         fmt::print("{}: {} is not cancelled: {}\n", GetName(number), failed.orderID, failed.reason);
-        std::deque<Job>& jobs = _vehicles[number].jobs;
-        if (!jobs.empty())
+        if (FleetOrder* const orderOrNull = _orders.GetFirstOrNull(GetName(number)))
         {
-            jobs.front().bCancelAsked = false;
+            orderOrNull->bCancelAsked = false;
         }
     }
 
     void OnReached(std::size_t number, const NodeReached& node)
     {
-        std::deque<Job>& jobs = _vehicles[number].jobs;
-        if (!jobs.empty())
+        if (FleetOrder* const orderOrNull = _orders.GetFirstOrNull(GetName(number)))
         {
-            ++jobs.front().reached;
+            ++orderOrNull->reached;
         }
         fmt::print("{}: node {} reached\n", GetName(number), node.nodeID);
     }
@@ -586,14 +434,9 @@ private:
                 },
                 [&](const OrderAccepted& accepted) { OnAccepted(number, accepted); },
                 [&](const OrderRejected& rejected) { OnRejected(number, rejected); },
-                [&](const OrderFinished& order) { EndJob(number, order.orderID, "finished"); },
-                [&](const OrderCancelled& order) { EndJob(number, order.orderID, "cancelled"); },
-                [&](const OrderLost& order) {
-                    // A master that was killed in the middle of a cancel finds the order cleared.
-                    const std::deque<Job>& jobs = _vehicles[number].jobs;
-                    const bool bCancelled = !jobs.empty() && jobs.front().bCancelAsked;
-                    EndJob(number, order.orderID, bCancelled ? "cancelled" : "lost: " + order.reason);
-                },
+                [&](const OrderFinished& order) { EndOrder(number, order.orderID, "finished"); },
+                [&](const OrderCancelled& order) { EndOrder(number, order.orderID, "cancelled"); },
+                [&](const OrderLost& lost) { OnLost(number, lost); },
                 [&](const CancelFailed& failed) { OnCancelFailed(number, failed); },
                 [&](const NodeReached& node) { OnReached(number, node); },
                 [&](const auto& other) {
@@ -664,91 +507,24 @@ private:
     }
 };
 
-/// Reads the standard input line by line: a keyboard, a pipe or a file.
-class Commands
-{
-    boost::asio::posix::stream_descriptor _input;
-    std::array<char, 4096> _chunk{};
-    std::string _line;
-    FleetMaster& _master;
-
-public:
-    Commands(boost::asio::io_context& io, FleetMaster& master)
-        : _input(io, ::dup(STDIN_FILENO)),
-          _master(master)
-    {
-        ReadAsync();
-    }
-
-private:
-    void ReadAsync()
-    {
-        _input.async_read_some(
-            boost::asio::buffer(_chunk),
-            [this](const boost::system::error_code& error, std::size_t count) {
-                if (error)
-                {
-                    OnEnd(error);
-                    return;
-                }
-                OnRead({_chunk.data(), count});
-                ReadAsync();
-            });
-    }
-
-    void OnRead(std::string_view text)
-    {
-        for (const char letter : text)
-        {
-            if (letter == '\n')
-            {
-                _master.OnCommand(std::exchange(_line, {}));
-            }
-            else
-            {
-                _line += letter;
-            }
-        }
-    }
-
-    void OnEnd(const boost::system::error_code& error)
-    {
-        if (error == boost::asio::error::operation_not_supported) // A file is not to be waited for: it is all there.
-        {
-            for (std::string line; std::getline(std::cin, line);)
-            {
-                _master.OnCommand(line);
-            }
-        }
-        _master.OnInputEnded();
-    }
-};
-
 } // namespace
 
 int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing throws here but a full memory
 {
     const std::span<char*> arguments(argv, static_cast<std::size_t>(argc));
-    MosquittoOptions options;
-    std::size_t port = 0;
-    if (argc == 4)
-    {
-        const std::string_view text(arguments[2]);
-        std::from_chars(text.data(), text.data() + text.size(), port);
-    }
-    if (port == 0 || port > UINT16_MAX)
+    std::optional<MosquittoOptions> brokerOrNull =
+        argc == 4 ? ReadBrokerOrNull(arguments[1], arguments[2]) : std::nullopt;
+    if (!brokerOrNull.has_value())
     {
         fmt::print("Usage: e10_fleet_master HOST PORT JOURNAL < COMMANDS\n");
         return 2;
     }
     std::setvbuf(stdout, nullptr, _IOLBF, 0); // Each line at once, also into a pipe.
-    options.host = arguments[1];
-    options.port = static_cast<std::uint16_t>(port);
-    options.clientID = fmt::format("fleet-master-{}", ::getpid());
+    brokerOrNull->clientID = fmt::format("fleet-master-{}", ::getpid());
     boost::asio::io_context io;
     ExampleRandom random;
     FleetMaster master(io);
-    master.link = std::make_unique<MosquittoLink>(io.get_executor(), random, Core::Logger(), options, master);
+    master.link = std::make_unique<MosquittoLink>(io.get_executor(), random, Core::Logger(), *brokerOrNull, master);
     if (!master.TryStart(arguments[3]))
     {
         fmt::print("cannot use {} as journal: {}\n", arguments[3], std::generic_category().message(errno));
@@ -761,7 +537,10 @@ int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing th
             master.Stop();
         }
     });
-    Commands commands(io, master);
+    const ExampleLines commands(
+        io,
+        [&master](const std::string& line) { master.OnCommand(line); },
+        [&master]() { master.OnInputEnded(); });
     io.run();
     return 0;
 }

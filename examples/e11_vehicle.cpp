@@ -4,6 +4,7 @@
 //     mosquitto -p 1883
 //     e11_vehicle 127.0.0.1 1883 V1        (VDA5050 2.0, uagv/v2/Example/V1/...; Ctrl-C ends it)
 
+#include "ExampleBroker.hpp"
 #include "ExampleRandom.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/vda5050/PredefinedActions.hpp>
@@ -15,7 +16,6 @@
 #include <boost/asio/steady_timer.hpp>
 #include <fmt/core.h>
 
-#include <charconv>
 #include <chrono>
 #include <csignal>
 #include <cstdint>
@@ -25,7 +25,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -298,25 +297,18 @@ private:
 int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing throws here but a full memory
 {
     const std::span<char*> arguments(argv, static_cast<std::size_t>(argc));
-    MosquittoOptions broker;
-    std::uint16_t port = 0;
-    if (argc == 4)
-    {
-        const std::string_view text(arguments[2]);
-        std::from_chars(text.data(), text.data() + text.size(), port);
-    }
-    if (port == 0)
+    std::optional<MosquittoOptions> brokerOrNull =
+        argc == 4 ? ReadBrokerOrNull(arguments[1], arguments[2]) : std::nullopt;
+    if (!brokerOrNull.has_value())
     {
         fmt::print("Usage: e11_vehicle HOST PORT SERIALNUMBER\n");
         return 2;
     }
     std::setvbuf(stdout, nullptr, _IOLBF, 0); // each line at once, also into a pipe
-    broker.host = arguments[1];
-    broker.port = port;
-    broker.clientID = fmt::format("example-vehicle-{}", arguments[3]);
+    brokerOrNull->clientID = fmt::format("example-vehicle-{}", arguments[3]);
     boost::asio::io_context io;
     ExampleRandom random;
-    ExampleVehicle vehicle(io, random, broker, MakeVehicleOptions(arguments[3]));
+    ExampleVehicle vehicle(io, random, *brokerOrNull, MakeVehicleOptions(arguments[3]));
     boost::asio::signal_set signals(io, SIGINT, SIGTERM);
     signals.async_wait([&vehicle](const boost::system::error_code& error, int /*number*/) {
         if (!error)

@@ -34,6 +34,15 @@ std::string MakeKey(const VehicleAddress& address)
 
 } // namespace
 
+void AppendActions(std::size_t vehicle, MasterActions& actions, FleetActions& out)
+{
+    for (MasterAction& action : actions)
+    {
+        out.push_back(FleetAction{vehicle, std::move(action)});
+    }
+    actions.clear();
+}
+
 MasterFleet::MasterFleet(FleetOptions options)
     : _options(std::move(options))
 {
@@ -72,15 +81,6 @@ const std::size_t* MasterFleet::FindNumberOrNull(std::string_view topic) const
     return found == _numbers.end() ? nullptr : &found->second;
 }
 
-void MasterFleet::Append(std::size_t vehicle, FleetActions& out)
-{
-    for (MasterAction& action : _scratch)
-    {
-        out.push_back(FleetAction{vehicle, std::move(action)});
-    }
-    _scratch.clear();
-}
-
 std::unique_ptr<MasterSession> MasterFleet::MakeSession(const VehicleAddress& address, EVda5050Version version) const
 {
     MasterOptions options = _options.vehicle;
@@ -116,7 +116,7 @@ Core::Result<std::size_t> MasterFleet::Add(const VehicleAddress& address, Core::
     if (_bLinkUp)
     {
         _sessionsOrNull.back()->OnLinkUp(now, _scratch);
-        Append(vehicle, out);
+        AppendActions(vehicle, _scratch, out);
     }
     return vehicle;
 }
@@ -188,7 +188,7 @@ void MasterFleet::Discover(const MqttMessage& message, Core::Now now, FleetActio
             return;
         }
     }
-    Append(Insert(std::move(session)), out);
+    AppendActions(Insert(std::move(session)), _scratch, out);
 }
 
 void MasterFleet::OnLinkUp(Core::Now now, FleetActions& out)
@@ -197,7 +197,7 @@ void MasterFleet::OnLinkUp(Core::Now now, FleetActions& out)
     for (const auto& [key, vehicle] : _numbers)
     {
         _sessionsOrNull[vehicle]->OnLinkUp(now, _scratch);
-        Append(vehicle, out);
+        AppendActions(vehicle, _scratch, out);
     }
 }
 
@@ -207,7 +207,7 @@ void MasterFleet::OnLinkDown(Core::Now now, FleetActions& out)
     for (const auto& [key, vehicle] : _numbers)
     {
         _sessionsOrNull[vehicle]->OnLinkDown(now, _scratch);
-        Append(vehicle, out);
+        AppendActions(vehicle, _scratch, out);
     }
 }
 
@@ -220,7 +220,7 @@ void MasterFleet::OnMessage(const MqttMessage& message, Core::Now now, FleetActi
         return;
     }
     _sessionsOrNull.at(*number)->OnMessage(message, now, _scratch);
-    Append(*number, out);
+    AppendActions(*number, _scratch, out);
 }
 
 void MasterFleet::OnTimer(std::size_t vehicle, EMasterTimer timer, Core::Now now, FleetActions& out)
@@ -228,7 +228,7 @@ void MasterFleet::OnTimer(std::size_t vehicle, EMasterTimer timer, Core::Now now
     if (Contains(vehicle))
     {
         _sessionsOrNull[vehicle]->OnTimer(timer, now, _scratch);
-        Append(vehicle, out);
+        AppendActions(vehicle, _scratch, out);
     }
 }
 

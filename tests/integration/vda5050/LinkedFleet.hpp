@@ -48,10 +48,7 @@ public:
         VDA5050::MasterActions out;
         Core::Result<void> sent = fleet.GetSession(vehicle).SendOrder(order, ReadClock(), out);
         VDA5050::FleetActions actions;
-        for (VDA5050::MasterAction& action : out)
-        {
-            actions.push_back(VDA5050::FleetAction{vehicle, std::move(action)});
-        }
+        VDA5050::AppendActions(vehicle, out, actions);
         Execute(actions);
         return sent;
     }

@@ -48,6 +48,9 @@ struct LeftOutMessage
     bool operator==(const LeftOutMessage&) const = default;
 };
 
+/// What calls of one vehicle's session appended becomes the fleet's: moves the actions behind out and leaves none.
+void AppendActions(std::size_t vehicle, MasterActions& actions, FleetActions& out);
+
 /// A MasterSession for each vehicle on a broker, added by its address or discovered by its connection message (retained:
 /// all are known at once) or a live state. Vehicles are numbered from 0 as they come; a number is never given twice. Pure
 /// like its sessions. Four subscriptions serve all vehicles; a message costs one look-up, however many there are. All
@@ -71,7 +74,6 @@ class MasterFleet
     [[nodiscard]] std::unique_ptr<MasterSession> MakeSession(const VehicleAddress& address, EVda5050Version version)
         const;
     std::size_t Insert(std::unique_ptr<MasterSession> session);
-    void Append(std::size_t vehicle, FleetActions& out);
 
 public:
     /// The interfaceName must be one: see Create.
@@ -102,7 +104,7 @@ public:
     [[nodiscard]] std::size_t GetSize() const noexcept;
     /// Whether there is a vehicle with this number, not removed.
     [[nodiscard]] bool Contains(std::size_t vehicle) const noexcept;
-    /// The session of a vehicle, for orders and questions. What its calls append is of this vehicle. The reference holds
+    /// The session of a vehicle, for orders and questions. What its calls append is of this vehicle: see AppendActions. The reference holds
     /// until the vehicle is removed. Contains(vehicle) is true.
     [[nodiscard]] MasterSession& GetSession(std::size_t vehicle);
     [[nodiscard]] const MasterSession& GetSession(std::size_t vehicle) const;
