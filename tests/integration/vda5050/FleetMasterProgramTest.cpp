@@ -19,7 +19,6 @@ using VDA5050::Test::MakeAction;
 using VDA5050::Test::MakeEdges;
 using VDA5050::Test::MakeNodes;
 
-constexpr std::uint32_t EVERYWHERE = 1'000;
 constexpr std::size_t FEWEST_MESSAGES = 4; ///< Of order-1 over five nodes and order-2; more where it drives slowly.
 
 /// examples/e10_fleet_master as a process of its own, that is killed; a vehicle in this one, that lives on.
@@ -72,13 +71,13 @@ protected:
         }
     }
 
-    void StartMaster()
+    void StartMaster(const std::string& script = R"(exec "$0" 127.0.0.1 "$1" "$2" < "$3")")
     {
         _master = std::make_unique<ChildProcess>(std::vector<std::string>{
             "sh",
             "-c",
-            R"(exec "$0" 127.0.0.1 "$1" "$2" < "$3")",
-            ACS_FLEET_MASTER,
+            script,
+            ACS_EXAMPLE,
             std::to_string(_broker.GetPort()),
             GetJournal().string(),
             (_folder.GetPath() / "commands").string()});
@@ -160,7 +159,7 @@ TEST_CASE_METHOD(FleetMasterTest, "13 A fleet master that nobody kills drives it
     WriteCommands(MakeCommands());
     StartMaster();
     StartVehicle();
-    _vehicle->LetReach(EVERYWHERE);
+    _vehicle->LetReach(LinkedVehicle::EVERYWHERE);
     CheckDoneOnce();
     for (const char* const line :
          {"taken: order-1 for ACS/LR01",
@@ -188,7 +187,7 @@ TEST_CASE_METHOD(
     WriteCommands(MakeCommands());
     StartMaster();
     StartVehicle();
-    _vehicle->LetReach(EVERYWHERE);
+    _vehicle->LetReach(LinkedVehicle::EVERYWHERE);
     // Besides the order messages: one of instant actions, when the vehicle comes online.
     REQUIRE(WasReached([&]() { return spy.listener.messages.size() >= messages; }));
     KillMaster();
@@ -217,7 +216,7 @@ TEST_CASE_METHOD(
     REQUIRE(WasPrinted("taken: order-2"));
     KillMaster(); // with two orders in its journal, and no vehicle in sight
     StartVehicle();
-    _vehicle->LetReach(EVERYWHERE);
+    _vehicle->LetReach(LinkedVehicle::EVERYWHERE);
     WriteCommands({});
     StartMaster();
     for (std::size_t index = 0; index < moments.size(); ++index)
@@ -260,8 +259,11 @@ TEST_CASE_METHOD(FleetMasterTest, "5.4 A master killed in the middle of a cancel
     }
     WriteCommands({});
     StartMaster();
-    REQUIRE(WasPrinted("ACS/LR01: order-1 cancelled"));
-    REQUIRE(WasPrinted("all orders have ended"));
+    REQUIRE(WasPrinted("all orders have ended")); // by the first one, where it heard of the cancel before it died
+    const std::string journal = ReadJournal();
+    const std::size_t ended = journal.find("\nended ACS/LR01 order-1\n");
+    REQUIRE(ended != std::string::npos);
+    CHECK(journal.find("\nended", ended + 1) == std::string::npos);
     CHECK(_vehicle->Count<OrderCleared>() == 1);
     CHECK(_vehicle->CountStarts("a3") == 0);
     CHECK(_vehicle->Count<OrderRefused>() == 0);
@@ -280,7 +282,7 @@ TEST_CASE_METHOD(
     KillMaster();
     _vehicle.reset();
     StartVehicle();
-    _vehicle->LetReach(EVERYWHERE);
+    _vehicle->LetReach(LinkedVehicle::EVERYWHERE);
     StartMaster();
     REQUIRE(WasPrinted("ACS/LR01: order-1 lost: the vehicle does not hold it any more"));
     CHECK(_vehicle->CountStarts("a1") == 0);
@@ -294,10 +296,23 @@ TEST_CASE_METHOD(FleetMasterTest, "13 A line that a kill tore off is as if it ha
     WriteCommands(commands);
     StartMaster();
     StartVehicle();
-    _vehicle->LetReach(EVERYWHERE);
+    _vehicle->LetReach(LinkedVehicle::EVERYWHERE);
     CheckDoneOnce();
     CHECK_THAT(_master->GetText(), Catch::Contains("known: order-1"));
     CHECK_THAT(_master->GetText(), Catch::Contains("taken: order-2"));
+}
+
+TEST_CASE_METHOD(FleetMasterTest, "13 A last command without its line end is one, from a pipe as from a file")
+{
+    const bool bPipe = GENERATE(false, true);
+    StartVehicle();
+    _vehicle->LetReach(LinkedVehicle::EVERYWHERE);
+    WriteCommands(MakeCommands());
+    const std::filesystem::path commands = _folder.GetPath() / "commands";
+    std::filesystem::resize_file(commands, std::filesystem::file_size(commands) - 1);
+    bPipe ? StartMaster(R"(cat "$3" | "$0" 127.0.0.1 "$1" "$2")") : StartMaster();
+    REQUIRE(WasPrinted("taken: order-2"));
+    REQUIRE(WasPrinted("all orders have ended"));
 }
 
 } // namespace ACS::Testing

@@ -43,6 +43,8 @@ class LinkedVehicle final : VDA5050::IMqttLinkListener
     std::shared_ptr<bool> _alive = std::make_shared<bool>(true); ///< What was posted looks for it first.
 
 public:
+    static constexpr std::uint32_t EVERYWHERE = 1'000; ///< No test's order goes that far.
+
     VDA5050::VehicleActions told;
 
     LinkedVehicle(

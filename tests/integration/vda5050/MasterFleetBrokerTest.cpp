@@ -16,8 +16,6 @@ using VDA5050::Test::MakeAction;
 using VDA5050::Test::MakeEdges;
 using VDA5050::Test::MakeNodes;
 
-constexpr std::uint32_t EVERYWHERE = 1'000;
-
 /// A fleet of vehicles and their one master on a real broker, and a stranger who writes to it what he likes.
 class FleetTest
 {
@@ -51,7 +49,7 @@ protected:
         VehicleOptions options = LinkedVehicle::MakeOptions(version);
         options.address = MakeName(serialNumber);
         auto vehicle = std::make_unique<LinkedVehicle>(_context, MakeOptions(_broker.GetPort(), serialNumber), options);
-        vehicle->LetReach(EVERYWHERE);
+        vehicle->LetReach(LinkedVehicle::EVERYWHERE);
         _vehicles[serialNumber] = std::move(vehicle);
     }
 

@@ -13,8 +13,6 @@ using VDA5050::Test::MakeAction;
 using VDA5050::Test::MakeEdges;
 using VDA5050::Test::MakeNodes;
 
-constexpr std::uint32_t EVERYWHERE = 1'000;
-
 /// A master and a vehicle on a real broker.
 class BrokerTest
 {
@@ -91,7 +89,7 @@ TEST_CASE_METHOD(BrokerTest, "13 Over a broker an order and its update are drive
     _mqttVersion = profile == EQosProfile::Project ? EMqttVersion::Version311 : EMqttVersion::Version5;
     const auto vehicle = MakeVehicle();
     const auto master = MakeMaster();
-    vehicle->LetReach(EVERYWHERE);
+    vehicle->LetReach(LinkedVehicle::EVERYWHERE);
     REQUIRE(WasReady(master));
     REQUIRE(WasReached([&]() { return master->session.GetFactsheetOrNull() != nullptr; }));
 
@@ -123,7 +121,7 @@ TEST_CASE_METHOD(BrokerTest, "5.4 Over a broker an order is cancelled on its way
     REQUIRE(WasReached([&]() { return master->GetStatusOrNull("a3") == EActionStatus::Failed; }));
 
     // From where it stands: the temporary first node of 5.4.
-    vehicle->LetReach(EVERYWHERE);
+    vehicle->LetReach(LinkedVehicle::EVERYWHERE);
     std::vector<OrderNode> nodes = MakeNodes(3);
     nodes.erase(nodes.begin());
     OrderBuilder next = *OrderBuilder::Create("order-2", nodes, MakeEdges(1));
@@ -140,7 +138,7 @@ TEST_CASE_METHOD(BrokerTest, "5.3 Over a broker a vehicle is paused and goes on"
     REQUIRE(master->SendAction(MakeAction("pause-1", EBlockingType::None, "startPause")));
     REQUIRE(WasReached([&]() { return master->GetStatusOrNull("pause-1") == EActionStatus::Finished; }));
     CHECK(master->session.GetStateOrNull()->bPaused == true);
-    vehicle->LetReach(EVERYWHERE);
+    vehicle->LetReach(LinkedVehicle::EVERYWHERE);
     REQUIRE(master->SendAction(MakeAction("status-1", EBlockingType::None, "stateRequest")));
     REQUIRE(WasReached([&]() { return master->GetStatusOrNull("status-1") == EActionStatus::Finished; }));
     CHECK(master->ListReached().size() == 2);
@@ -194,7 +192,7 @@ TEST_CASE_METHOD(BrokerTest, "13 A broker that restarts in the middle of an orde
     REQUIRE(WasReached([&]() { return master->session.GetLink() == EVehicleLink::Unknown; }));
     // The update is asked for while there is no broker; the vehicle drives to the end of its base meanwhile.
     REQUIRE(master->SendUpdate(*route.MakeUpdate(5)));
-    vehicle->LetReach(EVERYWHERE);
+    vehicle->LetReach(LinkedVehicle::EVERYWHERE);
     REQUIRE(WasReached([&]() { return vehicle->GetSession().GetState().lastNodeSequenceID == 6; }));
     CHECK(master->ListReached().size() == 2);
     _broker.Restart();
@@ -238,7 +236,7 @@ TEST_CASE_METHOD(
     master.reset();
     if (bFinishedMeanwhile)
     {
-        vehicle->LetReach(EVERYWHERE);
+        vehicle->LetReach(LinkedVehicle::EVERYWHERE);
         REQUIRE(WasReached([&]() { return vehicle->GetSession().GetState().lastNodeSequenceID == 4; }));
     }
     master = MakeMaster();
@@ -247,7 +245,7 @@ TEST_CASE_METHOD(
     REQUIRE(WasReached([&]() { return master->Count<OrderAccepted>() == 1; }));
     const OrderMessage update = *route.MakeUpdate(5);
     REQUIRE(master->SendUpdate(update));
-    vehicle->LetReach(EVERYWHERE);
+    vehicle->LetReach(LinkedVehicle::EVERYWHERE);
     REQUIRE(WasReached([&]() { return master->Count<OrderFinished>() == 1; }));
     CHECK(master->ListReached() == std::vector<std::uint32_t>{0, 2, 4, 6, 8});
     CHECK(vehicle->Count<OrderTaken>() == 2);

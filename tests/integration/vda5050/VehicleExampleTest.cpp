@@ -22,7 +22,7 @@ TEST_CASE("The vehicle example: an order with an action, one that is cancelled, 
 {
     boost::asio::io_context context;
     const MosquittoBroker broker;
-    ChildProcess program({ACS_VEHICLE_EXAMPLE, "127.0.0.1", std::to_string(broker.GetPort()), "V1"});
+    ChildProcess program({ACS_EXAMPLE, "127.0.0.1", std::to_string(broker.GetPort()), "V1"});
     MasterOptions options;
     options.address = {"uagv", "Example", "V1"};
     options.resendInterval = 1s;
