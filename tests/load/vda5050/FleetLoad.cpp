@@ -1,10 +1,12 @@
-#include "fleet/FleetMaster.hpp"
-#include "fleet/ProcessProbe.hpp"
-#include "fleet/RingSite.hpp"
+#include "BoundLine.hpp"
+#include "common/CommandLine.hpp"
+#include "FleetMaster.hpp"
 #include "MosquittoBroker.hpp"
+#include "ProcessProbe.hpp"
+#include "RingSite.hpp"
 
-#include <benchmark/benchmark.h>
 #include <boost/asio/io_context.hpp>
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,8 +14,6 @@
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <exception>
 #include <fstream>
 #include <functional>
 #include <optional>
@@ -25,7 +25,7 @@
 
 // A whole fleet: vda-sim on one core, a master control on the other, a real mosquitto wherever there is room.
 
-namespace ACS::Bench
+namespace ACS::Load
 {
 namespace
 {
@@ -38,7 +38,7 @@ constexpr std::size_t SIMULATOR_CORE = 0;
 constexpr std::size_t MASTER_CORE = 1;
 constexpr seconds START_TIMEOUT{60};
 constexpr seconds STOP_TIMEOUT{10};
-constexpr seconds WARM_UP{10}; ///< While all drive.
+constexpr seconds LONGEST_WARM_UP{10}; ///< While all drive.
 
 // What the fleet is to keep.
 constexpr double STATES_PER_SECOND = 1.0;
@@ -69,13 +69,6 @@ struct FleetFigures
     std::size_t driving = 0;
     MasterCount master;
 };
-
-std::size_t ReadSetting(const char* name, std::size_t otherwise)
-{
-    const char* const text = std::getenv(name); // NOLINT(concurrency-mt-unsafe): nobody sets it
-    const std::size_t value = text != nullptr ? std::strtoul(text, nullptr, 10) : 0;
-    return value > 0 ? value : otherwise;
-}
 
 Rate MakeRate(const std::vector<VehicleCount>& counts, const TopicCount VehicleCount::*topic, double measured)
 {
@@ -142,7 +135,7 @@ public:
     [[nodiscard]] FleetFigures Measure(seconds howLong)
     {
         RunUntil([this]() { return _master.CountDriving() == _vehicles; });
-        _context.run_for(WARM_UP);
+        _context.run_for(std::min(howLong, LONGEST_WARM_UP));
         _master.CountAnew();
         const pid_t simulator = _simulator->GetProcessID();
         const double simulatorBefore = ProcessProbe::GetCpuSeconds(simulator);
@@ -187,16 +180,6 @@ private:
     }
 };
 
-void PrintLine(const std::string& what, const std::string& measured, bool bKept, const std::string& bound)
-{
-    fmt::print("{:<36}{:<52}{} {}\n", what, measured, bKept ? "within" : "BEYOND", bound);
-}
-
-void PrintNote(const std::string& what, const std::string& measured)
-{
-    fmt::print("{:<36}{}\n", what, measured);
-}
-
 std::string Describe(const Rate& rate)
 {
     return fmt::format(
@@ -213,98 +196,83 @@ void PrintTable(const FleetFigures& fleet, const FleetFigures& single)
         / static_cast<double>(std::max<std::size_t>(fleet.vehicles - single.vehicles, 1));
     fmt::print("\nvda-sim, {} vehicles driving, measured for {:.0f} s\n", fleet.vehicles, fleet.seconds);
     // A vehicle that passes nodes says so: states may come more often than each second.
-    PrintLine(
+    PrintBound(
         "state, a vehicle's per s",
         Describe(fleet.states),
         fleet.states.slowest >= STATES_PER_SECOND * (1.0 - TOLERANCE),
         "1.0 or more, less 5 %");
-    PrintLine(
+    PrintBound(
         "visualization, a vehicle's per s",
         Describe(fleet.visualizations),
         fleet.visualizations.slowest >= VISUALIZATIONS_PER_SECOND * (1.0 - TOLERANCE)
             && fleet.visualizations.fastest <= VISUALIZATIONS_PER_SECOND * (1.0 + TOLERANCE),
         "5.0, 5 % more or less");
     const std::uint64_t missing = fleet.states.missing + fleet.visualizations.missing;
-    PrintLine("messages lost on the way", fmt::format("{}", missing), missing == 0, "none");
-    PrintLine(
+    PrintBound("messages lost on the way", fmt::format("{}", missing), missing == 0, "none");
+    PrintBound(
         "memory of vda-sim, a vehicle",
         fmt::format("{:.1f} KiB (all {} KiB, one alone {} KiB)", perVehicle, fleet.residentKiB, single.residentKiB),
         perVehicle < MOST_KIB,
         fmt::format("{:.0f} KiB", MOST_KIB));
-    PrintLine(
+    PrintBound(
         "CPU of vda-sim",
         fmt::format("{:.1f} % of a core", fleet.simulatorCpu),
         fleet.simulatorCpu < ONE_CORE,
         "one core");
-    PrintLine(
+    PrintBound(
         "CPU of the master",
         fmt::format("{:.1f} % of a core", fleet.masterCpu),
         fleet.masterCpu < ONE_CORE,
         "one core");
-    PrintNote("CPU of mosquitto", fmt::format("{:.1f} % of a core", fleet.brokerCpu));
-    PrintLine(
+    PrintFigure("CPU of mosquitto", fmt::format("{:.1f} % of a core", fleet.brokerCpu));
+    PrintBound(
         "vehicles that the master follows",
         fmt::format("{}; {} nodes reached", fleet.driving, fleet.master.nodesReached),
         fleet.driving * 100 >= fleet.vehicles * 95,
         "95 %: some have ended an order");
-    PrintNote("orders and updates sent", fmt::format("{} and {}", fleet.master.ordersSent, fleet.master.updatesSent));
-    PrintLine(
+    PrintFigure("orders and updates sent", fmt::format("{} and {}", fleet.master.ordersSent, fleet.master.updatesSent));
+    PrintBound(
         "errors that the master saw",
         fmt::format("{} {}", fleet.master.errors, fleet.master.firstError),
         fleet.master.errors == 0,
         "none");
 }
 
-/// The last run, for the table.
-struct Outcome
+struct Options
 {
-    std::optional<FleetFigures> fleet;
-    std::optional<FleetFigures> single;
+    std::size_t vehicles = 500;
+    int seconds = 60;
 };
 
-void RunFleet(benchmark::State& state, Outcome& outcome, std::size_t vehicles, seconds howLong)
+int Run(const Options& options)
 {
-    for ([[maybe_unused]] auto round : state)
-    {
-        try
-        {
-            outcome.single = FleetRun(1).Measure(seconds(1));
-            outcome.fleet = FleetRun(vehicles).Measure(howLong);
-        }
-        catch (const std::exception& error)
-        {
-            state.SkipWithError(error.what());
-            return;
-        }
-    }
+    const FleetFigures single = FleetRun(1).Measure(seconds(1));
+    const FleetFigures fleet = FleetRun(options.vehicles).Measure(seconds(options.seconds));
+    PrintTable(fleet, single);
+    // What may never be, however busy the machine is.
+    const bool bWell = fleet.states.missing + fleet.visualizations.missing == 0 && fleet.master.errors == 0;
+    return bWell ? 0 : 1;
 }
 
 } // namespace
-} // namespace ACS::Bench
+} // namespace ACS::Load
 
-int main(int argumentCount, char** arguments)
+int main(int argc, char** argv)
 {
-    using namespace ACS::Bench; // NOLINT(google-build-using-namespace)
-    const std::size_t vehicles = ReadSetting("ACS_BENCH_VEHICLES", 500);
-    const std::chrono::seconds howLong(ReadSetting("ACS_BENCH_SECONDS", 60));
-    benchmark::Initialize(&argumentCount, arguments);
-    if (benchmark::ReportUnrecognizedArguments(argumentCount, arguments))
-    {
-        return 1;
-    }
-    Outcome outcome;
-    benchmark::RegisterBenchmark(
-        fmt::format("vda-sim, {} vehicles driving", vehicles).c_str(),
-        [&](benchmark::State& state) { RunFleet(state, outcome, vehicles, howLong); })
-        ->Iterations(1)
-        ->Repetitions(1)
-        ->Unit(benchmark::kSecond)
-        ->UseRealTime();
-    benchmark::RunSpecifiedBenchmarks();
-    if (outcome.fleet.has_value() && outcome.single.has_value())
-    {
-        PrintTable(*outcome.fleet, *outcome.single);
-    }
-    benchmark::Shutdown();
-    return 0;
+    using namespace ACS; // NOLINT(google-build-using-namespace)
+    return Apps::RunProgram("fleet_load", [argc, argv]() {
+        Load::Options options;
+        CLI::App app{
+            "measures a fleet of vda-sim that drives, and a master control that follows it, on a broker of their own; "
+            "fails where a message is lost or refused",
+            "fleet_load"};
+        app.add_option("--vehicles", options.vehicles, "how many drive")
+            ->check(CLI::Range(1, 5000))
+            ->capture_default_str();
+        app.add_option("--seconds", options.seconds, "how long they are measured")
+            ->check(CLI::Range(1, 100'000))
+            ->capture_default_str();
+        const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
+        return exitCode.has_value() ? *exitCode : Load::Run(options);
+    });
 }

@@ -1,0 +1,18 @@
+#include "BoundLine.hpp"
+
+#include <fmt/format.h>
+
+namespace ACS::Load
+{
+
+void PrintBound(std::string_view what, std::string_view measured, bool bKept, std::string_view bound)
+{
+    fmt::print("{:<36}{:<52}{} {}\n", what, measured, bKept ? "within" : "BEYOND", bound);
+}
+
+void PrintFigure(std::string_view what, std::string_view measured)
+{
+    fmt::print("{:<36}{}\n", what, measured);
+}
+
+} // namespace ACS::Load
