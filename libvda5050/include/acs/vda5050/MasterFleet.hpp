@@ -104,8 +104,8 @@ public:
     [[nodiscard]] std::size_t GetSize() const noexcept;
     /// Whether there is a vehicle with this number, not removed.
     [[nodiscard]] bool Contains(std::size_t vehicle) const noexcept;
-    /// The session of a vehicle, for orders and questions. What its calls append is of this vehicle: see AppendActions. The reference holds
-    /// until the vehicle is removed. Contains(vehicle) is true.
+    /// The session of a vehicle, for orders and questions. What its calls append is of this vehicle: see AppendActions.
+    /// The reference holds until the vehicle is removed. Contains(vehicle) is true.
     [[nodiscard]] MasterSession& GetSession(std::size_t vehicle);
     [[nodiscard]] const MasterSession& GetSession(std::size_t vehicle) const;
     [[nodiscard]] std::optional<std::size_t> FindOrNull(const VehicleAddress& address) const;
