@@ -7,15 +7,16 @@
 #include <acs/openstream_asio/OpenStreamServer.hpp>
 
 #include <boost/asio/steady_timer.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <functional>
 #include <memory>
 #include <numeric>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <unistd.h>
 #include <utility>
@@ -31,7 +32,9 @@ namespace
 using namespace OpenStream; // NOLINT(google-build-using-namespace)
 
 constexpr std::chrono::milliseconds WARM_UP{200};
-constexpr std::chrono::seconds LIMIT{10};
+constexpr std::chrono::seconds STANDSTILL{30}; ///< Nothing at all moves for so long: given up.
+constexpr std::chrono::minutes PATIENCE{5};    ///< Of both ends, for whatever a busy machine delays.
+constexpr std::uint64_t CONTROLS_AHEAD = 64;   ///< Of each connection, sent and not served yet: beyond, none is sent.
 constexpr const char* URL = "/project/robot/joints/joint_states";
 
 /// Data lines of 200 bytes; a CONTROL is counted.
@@ -42,7 +45,7 @@ class LoadService final : public IOpenApiService
         R"("velocity":[-0.0,0.1,0.2,0.3,0.4,0.5],"effort":[0.0,93.98,94.02,0.5]})";
 
 public:
-    std::uint64_t controls = 0;
+    std::atomic<std::uint64_t> controls{0};
 
     void Call(const ApiRequest& request, Core::Now /*now*/, ApiResponse& response) override
     {
@@ -53,7 +56,7 @@ public:
             response.body = Core::JsonText::FromTrusted(std::move(text));
             return;
         }
-        ++controls;
+        controls.fetch_add(1, std::memory_order_relaxed);
         response = {};
     }
 
@@ -65,6 +68,7 @@ public:
 /// A client with its MONITOR, and what it notes.
 class LoadClient
 {
+    boost::asio::io_context& _context;
     StreamFigures& _figures;
     std::optional<Core::SteadyTime> _last;
     double _lastTs = 0.0;
@@ -108,7 +112,8 @@ class LoadClient
         }
         if (const auto* lost = std::get_if<ClientLost>(&event))
         {
-            throw std::runtime_error("the connection was lost: " + lost->detail);
+            _figures.failure = "a connection was lost: " + lost->detail;
+            _context.stop();
         }
     }
 
@@ -123,10 +128,14 @@ public:
         Core::IRandom& random,
         std::uint16_t port,
         StreamFigures& figures)
-        : _figures(figures)
+        : _context(context),
+          _figures(figures)
     {
         OpenStreamAsio::OpenStreamClientOptions options;
         options.port = port;
+        options.session.connectTimeout = PATIENCE;
+        options.session.answerTimeout = PATIENCE;
+        options.session.lostAfter = PATIENCE;
         _client = std::make_unique<OpenStreamAsio::OpenStreamClient>(
             context.get_executor(),
             clock,
@@ -160,11 +169,14 @@ std::uint64_t CountReceived(const std::vector<std::unique_ptr<LoadClient>>& clie
         [](const auto& client) { return client->received; });
 }
 
-/// One point for each client at each period. Destroyed after the last handler has run.
+/// One point for each client at each period, unless too many have not been served yet: all that waits in the sockets would
+/// have to be served before the clients' next command. Destroyed after the last handler has run.
 class ControlLoop
 {
     std::vector<std::unique_ptr<LoadClient>>& _clients;
+    const LoadService& _service;
     StreamFigures& _figures;
+    std::uint64_t _sent = 0;
     boost::asio::steady_timer _timer;
     Core::SteadyTime _next = std::chrono::steady_clock::now();
     std::optional<Core::SteadyTime> _last;
@@ -198,19 +210,27 @@ class ControlLoop
         }
         _last = now;
         _next = std::max(_next, now - PERIOD); // what was missed is not made up for
+        if (_sent - _service.controls.load(std::memory_order_relaxed) > CONTROLS_AHEAD * _clients.size())
+        {
+            _figures.controlsHeldBack += _clients.size();
+            return;
+        }
         for (const std::unique_ptr<LoadClient>& client : _clients)
         {
             client->SendControl(_point);
-            ++_figures.controlsSent;
         }
+        _sent += _clients.size();
+        _figures.controlsSent += _clients.size();
     }
 
 public:
     ControlLoop(
         boost::asio::io_context& context,
         std::vector<std::unique_ptr<LoadClient>>& clients,
+        const LoadService& service,
         StreamFigures& figures)
         : _clients(clients),
+          _service(service),
           _figures(figures),
           _timer(context)
     {
@@ -234,106 +254,181 @@ std::uint64_t ReadResidentBytes()
     return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
-void RunUntil(boost::asio::io_context& context, const std::function<bool()>& isReached, const char* what)
+/// One turn of a kind of traffic, from the server's start to the last line.
+class ServedTurn
 {
-    const Core::SteadyTime end = std::chrono::steady_clock::now() + LIMIT;
-    while (!isReached())
+    const StreamKind& _kind;
+    StreamFigures& _figures;
+    Apps::SystemClock _clock;
+    Apps::SystemRandom _random;
+    LoadService _service;
+    ContextThread _server;
+    std::unique_ptr<OpenStreamAsio::OpenStreamServer> _stream;
+    boost::asio::io_context _context{1};
+    std::vector<std::unique_ptr<LoadClient>> _clients;
+    std::optional<ControlLoop> _controls;
+
+    /// Runs for as long as anything moves. False where nothing does any more, or a connection was lost; the failure is noted.
+    bool TryRunUntil(const std::function<bool()>& isReached, const char* what)
     {
-        if (std::chrono::steady_clock::now() > end)
+        std::uint64_t moved = GetProgress();
+        Core::SteadyTime end = std::chrono::steady_clock::now() + STANDSTILL;
+        while (!isReached())
         {
-            throw std::runtime_error(what);
+            _context.run_for(PERIOD);
+            if (!_figures.failure.empty())
+            {
+                return false;
+            }
+            const std::uint64_t progress = GetProgress();
+            const Core::SteadyTime now = std::chrono::steady_clock::now();
+            if (std::exchange(moved, progress) != progress)
+            {
+                end = now + STANDSTILL;
+            }
+            else if (now > end)
+            {
+                _figures.failure = fmt::format("{}: nothing moved for {} s", what, STANDSTILL.count());
+                return false;
+            }
         }
-        context.run_one_for(LIMIT);
+        return true;
     }
-}
+
+    [[nodiscard]] std::uint64_t GetProgress() const
+    {
+        std::uint64_t progress = CountReceived(_clients) + _service.controls.load(std::memory_order_relaxed);
+        for (const std::unique_ptr<LoadClient>& client : _clients)
+        {
+            progress += client->starts;
+        }
+        return progress;
+    }
+
+    [[nodiscard]] bool HasEachStarted(std::size_t times) const
+    {
+        return std::ranges::all_of(_clients, [times](const auto& client) { return client->starts == times; });
+    }
+
+    bool TryStartServer()
+    {
+        Core::Result<void> started;
+        _server.Call([this, &started]() {
+            OpenStreamAsio::OpenStreamServerOptions options;
+            options.port = 0;
+            options.maximumSessions = _kind.connections;
+            options.session.streamingTimeout = PATIENCE;
+            _stream = std::make_unique<OpenStreamAsio::OpenStreamServer>(
+                _server.GetContext().get_executor(),
+                _clock,
+                Core::Logger(),
+                options,
+                _service);
+            started = _stream->Start();
+        });
+        if (!started.has_value())
+        {
+            _figures.failure = Core::Describe(started.error());
+        }
+        return started.has_value();
+    }
+
+    void StartClients()
+    {
+        for (std::size_t index = 0; index < _kind.connections; ++index)
+        {
+            _clients.push_back(std::make_unique<LoadClient>(_context, _clock, _random, _stream->GetPort(), _figures));
+        }
+    }
+
+    void Measure(std::chrono::milliseconds duration)
+    {
+        const Core::Duration serverBefore = _server.GetProcessorTime();
+        const Core::Duration clientBefore = GetOwnProcessorTime();
+        std::ranges::for_each(_clients, [](const auto& client) { client->bRecording = true; });
+        _figures.residentBefore = ReadResidentBytes();
+        _context.run_for(duration);
+        _figures.residentAfter = ReadResidentBytes();
+        _figures.elapsed += duration;
+        _figures.serverTime += _server.GetProcessorTime() - serverBefore;
+        _figures.clientTime += GetOwnProcessorTime() - clientBefore;
+    }
+
+    /// Ends the traffic and waits for the last line.
+    bool TryFinish()
+    {
+        if (_controls.has_value())
+        {
+            _controls->Stop();
+        }
+        std::ranges::for_each(_clients, [](const auto& client) {
+            client->bRecording = false;
+            client->SlowDown();
+        });
+        if (!TryRunUntil([this]() { return HasEachStarted(2); }, "not every MONITOR slowed down"))
+        {
+            return false;
+        }
+        ServerSessionStats stats;
+        const auto hasAllArrived = [this, &stats]() {
+            _server.Call([this, &stats]() { stats = _stream->GetStats(); });
+            return stats.dataLines == CountReceived(_clients);
+        };
+        // The tick that was due when the MONITOR changed still comes.
+        _context.run_for(2 * PERIOD);
+        if (!TryRunUntil(hasAllArrived, "not every line arrived"))
+        {
+            return false;
+        }
+        _figures.framesSent += stats.dataLines;
+        _figures.framesReplaced += stats.replacedLines;
+        _figures.ticksSkipped += stats.skippedTicks;
+        _figures.framesReceived += CountReceived(_clients);
+        _figures.controlsServed += _service.controls.load();
+        return true;
+    }
+
+public:
+    ServedTurn(const StreamKind& kind, StreamFigures& figures)
+        : _kind(kind),
+          _figures(figures)
+    {
+    }
+
+    ServedTurn(const ServedTurn&) = delete;
+    ServedTurn& operator=(const ServedTurn&) = delete;
+
+    ~ServedTurn()
+    {
+        _server.Stop();
+    }
+
+    bool TryRun(std::chrono::milliseconds duration)
+    {
+        if (!TryStartServer())
+        {
+            return false;
+        }
+        StartClients();
+        if (!TryRunUntil([this]() { return HasEachStarted(1); }, "not every MONITOR began"))
+        {
+            return false;
+        }
+        if (_kind.bControls)
+        {
+            _controls.emplace(_context, _clients, _service, _figures);
+        }
+        _context.run_for(WARM_UP);
+        Measure(duration);
+        return TryFinish();
+    }
+};
 
 } // namespace
 
-void RunServedTurn(const StreamKind& kind, std::chrono::milliseconds duration, StreamFigures& figures)
+bool TryRunServedTurn(const StreamKind& kind, std::chrono::milliseconds duration, StreamFigures& figures)
 {
-    Apps::SystemClock clock;
-    Apps::SystemRandom random;
-    LoadService service;
-    ContextThread server;
-    std::unique_ptr<OpenStreamAsio::OpenStreamServer> stream;
-    Core::Result<void> started;
-    server.Call([&]() {
-        OpenStreamAsio::OpenStreamServerOptions options;
-        options.port = 0;
-        options.maximumSessions = kind.connections;
-        stream = std::make_unique<OpenStreamAsio::OpenStreamServer>(
-            server.GetContext().get_executor(),
-            clock,
-            Core::Logger(),
-            options,
-            service);
-        started = stream->Start();
-    });
-    if (!started.has_value())
-    {
-        throw std::runtime_error(Core::Describe(started.error()));
-    }
-
-    boost::asio::io_context context(1);
-    std::vector<std::unique_ptr<LoadClient>> clients;
-    for (std::size_t index = 0; index < kind.connections; ++index)
-    {
-        clients.push_back(std::make_unique<LoadClient>(context, clock, random, stream->GetPort(), figures));
-    }
-    const auto haveStarted = [&clients](std::size_t times) {
-        return std::ranges::all_of(clients, [times](const auto& client) { return client->starts == times; });
-    };
-    RunUntil(
-        context,
-        [&haveStarted]() { return haveStarted(1); },
-        "not every MONITOR began in time");
-    std::optional<ControlLoop> controls;
-    if (kind.bControls)
-    {
-        controls.emplace(context, clients, figures);
-    }
-    context.run_for(WARM_UP);
-
-    const Core::Duration serverBefore = server.GetProcessorTime();
-    const Core::Duration clientBefore = GetOwnProcessorTime();
-    std::ranges::for_each(clients, [](const auto& client) { client->bRecording = true; });
-    figures.residentBefore = ReadResidentBytes();
-    context.run_for(duration);
-    figures.residentAfter = ReadResidentBytes();
-    figures.elapsed += duration;
-    figures.serverTime += server.GetProcessorTime() - serverBefore;
-    figures.clientTime += GetOwnProcessorTime() - clientBefore;
-
-    if (controls.has_value())
-    {
-        controls->Stop();
-    }
-    std::ranges::for_each(clients, [](const auto& client) {
-        client->bRecording = false;
-        client->SlowDown();
-    });
-    RunUntil(
-        context,
-        [&haveStarted]() { return haveStarted(2); },
-        "not every MONITOR slowed down in time");
-    ServerSessionStats stats;
-    const auto hasAllArrived = [&]() {
-        server.Call([&]() { stats = stream->GetStats(); });
-        return stats.dataLines == CountReceived(clients);
-    };
-    // The tick that was due when the MONITOR changed still comes.
-    context.run_for(2 * PERIOD);
-    const Core::SteadyTime end = std::chrono::steady_clock::now() + LIMIT;
-    while (!hasAllArrived() && std::chrono::steady_clock::now() < end)
-    {
-        context.run_for(PERIOD);
-    }
-    figures.framesSent += stats.dataLines;
-    figures.framesReplaced += stats.replacedLines;
-    figures.ticksSkipped += stats.skippedTicks;
-    figures.framesReceived += CountReceived(clients);
-    server.Call([&]() { figures.controlsServed += service.controls; });
-    server.Stop();
+    return ServedTurn(kind, figures).TryRun(duration);
 }
 
 } // namespace ACS::Load

@@ -33,8 +33,10 @@ struct StreamFigures
     std::uint64_t ticksSkipped = 0;
     std::uint64_t controlsSent = 0;
     std::uint64_t controlsServed = 0;
-    std::uint64_t linesRefused = 0; ///< error and control_err lines: there is nothing to refuse.
+    std::uint64_t controlsHeldBack = 0; ///< Not sent, as too many before them had not been served.
+    std::uint64_t linesRefused = 0;     ///< error and control_err lines: there is nothing to refuse.
     std::string firstRefusal;
+    std::string failure;              ///< Why a turn was given up; empty where none was.
     std::uint64_t framesAtPeriod = 0; ///< Of those received: until the clients asked for a longer period at the end.
     std::int64_t periods = 0;         ///< That went by until the last frame, by the server's clock.
     Core::Duration elapsed{};         ///< Measured, of what went into the gaps.

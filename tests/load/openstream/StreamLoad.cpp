@@ -28,11 +28,12 @@ constexpr double CONTROL_BOUND = 1.5;
 constexpr double RESOLUTION = 0.001; ///< ms: a difference that the figures cannot show.
 constexpr std::chrono::seconds LONGEST_TURN{5};
 constexpr std::size_t SOAK_SESSIONS = 8;
-constexpr std::size_t CROWD = 64;
+constexpr std::size_t MOST_SESSIONS = 1'000;
 
 struct Options
 {
     int seconds = 30;
+    std::size_t sessions = 64;
     bool bSoak = false;
     bool bRealTime = false;
 };
@@ -98,7 +99,7 @@ void PrintRow(const Row& row, const std::vector<StallWatch::Stall>& stalls)
             "{:<30}{:>9} {:>8} {:>5}  {}\n",
             "  its CONTROLs",
             figures.controlsServed,
-            "",
+            figures.controlsHeldBack,
             figures.controlsSent - figures.controlsServed,
             DescribeGaps(figures.controls.Evaluate(stalls)));
     }
@@ -169,11 +170,11 @@ std::vector<Row> MakeRows(const Options& options)
         Row{StreamKind{"bare loop, 200 bytes", 1, true, false}, {}},
         Row{StreamKind{"MONITOR", 1, false, false}, {}},
         Row{StreamKind{"MONITOR and CONTROL", 1, false, true}, {}},
-        Row{StreamKind{"64 x MONITOR and CONTROL", CROWD, false, true}, {}}};
+        Row{StreamKind{fmt::format("{} x MONITOR and CONTROL", options.sessions), options.sessions, false, true}, {}}};
 }
 
-/// The kinds in turns, so that all meet the same machine.
-void Measure(const Options& options, std::vector<Row>& rows)
+/// The kinds in turns, so that all meet the same machine. False where a turn was given up.
+bool TryMeasure(const Options& options, std::vector<Row>& rows)
 {
     const std::chrono::milliseconds total = std::chrono::seconds(options.seconds);
     const std::chrono::milliseconds turn =
@@ -188,10 +189,19 @@ void Measure(const Options& options, std::vector<Row>& rows)
                 Seconds(done).count(),
                 options.seconds,
                 row.kind.name);
-            row.kind.bBare ? RunBareTurn(turn, row.figures) : RunServedTurn(row.kind, turn, row.figures);
+            if (row.kind.bBare)
+            {
+                RunBareTurn(turn, row.figures);
+            }
+            else if (!TryRunServedTurn(row.kind, turn, row.figures))
+            {
+                fmt::print(stderr, "\r{:<70}\ropenstream_load: {}: {}\n", "", row.kind.name, row.figures.failure);
+                return false;
+            }
         }
     }
     fmt::print(stderr, "\r{:<70}\r", "");
+    return true;
 }
 
 int Run(const Options& options)
@@ -206,7 +216,10 @@ int Run(const Options& options)
     }
     std::vector<Row> rows = MakeRows(options);
     StallWatch watch;
-    Measure(options, rows);
+    if (!TryMeasure(options, rows))
+    {
+        return 1;
+    }
     const std::vector<StallWatch::Stall> stalls = watch.Stop();
     PrintHeader();
     std::ranges::for_each(rows, [&stalls](const Row& row) { PrintRow(row, stalls); });
@@ -224,7 +237,7 @@ int Run(const Options& options)
         PrintBounds(rows[1], bare, stalls);
         PrintBounds(rows[2], bare, stalls);
         PrintBound(
-            "64 x MONITOR and CONTROL: server, of a core",
+            rows[3].kind.name + ": server, of a core",
             GetCoreShare(rows[3].figures.serverTime, rows[3].figures.elapsed),
             100.0,
             "%");
@@ -253,10 +266,15 @@ int main(int argc, char** argv)
         app.add_option("--seconds", options.seconds, "how long each kind of traffic runs, in all")
             ->check(CLI::Range(1, 100'000))
             ->capture_default_str();
+        CLI::Option* const sessions =
+            app.add_option("--sessions", options.sessions, "how many at once make the crowd of the last row")
+                ->check(CLI::Range(std::size_t{1}, Load::MOST_SESSIONS))
+                ->capture_default_str();
         app.add_flag(
-            "--soak",
-            options.bSoak,
-            "8 sessions with MONITOR and CONTROL on one connection each, without a turn in between");
+               "--soak",
+               options.bSoak,
+               "8 sessions with MONITOR and CONTROL on one connection each, without a turn in between")
+            ->excludes(sessions);
         app.add_flag(
             "--realtime",
             options.bRealTime,
