@@ -7,12 +7,12 @@ namespace ACS::Load
 
 void PrintBound(std::string_view what, std::string_view measured, bool bKept, std::string_view bound)
 {
-    fmt::print("{:<36}{:<52}{} {}\n", what, measured, bKept ? "within" : "BEYOND", bound);
+    fmt::print("{:<46}{:<52}{} {}\n", what, measured, bKept ? "within" : "BEYOND", bound);
 }
 
 void PrintFigure(std::string_view what, std::string_view measured)
 {
-    fmt::print("{:<36}{}\n", what, measured);
+    fmt::print("{:<46}{}\n", what, measured);
 }
 
 } // namespace ACS::Load

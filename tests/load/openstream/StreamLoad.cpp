@@ -1,4 +1,5 @@
 #include "BareStream.hpp"
+#include "BoundLine.hpp"
 #include "common/CommandLine.hpp"
 #include "ServedStream.hpp"
 #include "StallWatch.hpp"
@@ -105,16 +106,9 @@ void PrintRow(const Row& row, const std::vector<StallWatch::Stall>& stalls)
     }
 }
 
-void PrintBound(const std::string& what, double value, double bound, const char* unit)
+void PrintMost(const std::string& what, double value, double bound, const char* unit)
 {
-    fmt::print(
-        "{:<58}{:>8.3f}{}  {} of {}{}\n",
-        what,
-        value,
-        unit,
-        value <= bound ? "within the bound" : "BEYOND the bound",
-        bound,
-        unit);
+    PrintBound(what, fmt::format("{:.3f}{}", value, unit), value <= bound, fmt::format("{}{}", bound, unit));
 }
 
 /// Ratios to the bare loop of the same run.
@@ -126,13 +120,13 @@ void PrintBounds(const Row& row, const GapFigures& bare, const std::vector<Stall
         return std::max(ours, RESOLUTION) / std::max(theirs, RESOLUTION);
     };
     const double period = std::chrono::duration<double, std::milli>(PERIOD).count();
-    PrintBound(
+    PrintMost(
         row.kind.name + ": mean, off the period",
         100.0 * std::abs(gaps.mean / period - 1.0),
         100.0 * MEAN_BOUND,
         "%");
-    PrintBound(row.kind.name + ": p50 of the bare loop's", compare(gaps.p50, bare.p50), bound, "x");
-    PrintBound(row.kind.name + ": p99 of the bare loop's", compare(gaps.p99, bare.p99), bound, "x");
+    PrintMost(row.kind.name + ": p50 of the bare loop's", compare(gaps.p50, bare.p50), bound, "x");
+    PrintMost(row.kind.name + ": p99 of the bare loop's", compare(gaps.p99, bare.p99), bound, "x");
 }
 
 /// What may never be, however busy the machine is: true where all is well.
@@ -236,7 +230,7 @@ int Run(const Options& options)
         const GapFigures bare = rows.front().figures.frames.Evaluate(stalls);
         PrintBounds(rows[1], bare, stalls);
         PrintBounds(rows[2], bare, stalls);
-        PrintBound(
+        PrintMost(
             rows[3].kind.name + ": server, of a core",
             GetCoreShare(rows[3].figures.serverTime, rows[3].figures.elapsed),
             100.0,
