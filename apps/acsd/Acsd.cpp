@@ -4,9 +4,11 @@
 #include "common/HttpServer.hpp"
 #include "common/MetricsEndpoint.hpp"
 #include "common/TimerSet.hpp"
+#include "EngineLoop.hpp"
 #include "McsLink.hpp"
 #include "PlanLog.hpp"
 #include "RobotHost.hpp"
+#include "StoreWorker.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/core/Uuid.hpp>
 #include <acs/plan/PlanEngine.hpp>
@@ -16,9 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <deque>
 #include <map>
-#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -62,21 +62,13 @@ VDA5050::MosquittoOptions MakeMqttOptions(const AcsdConfig& config, Core::IRando
 
 class Acsd::Impl final : public VDA5050::IMqttLinkListener
 {
-    struct RobotEventTask
-    {
-        std::string robotID;
-        Planning::RobotEvent event;
-    };
-
-    /// What waits for the engine: it is called for one at a time, and its actions are carried out before the next.
-    using Task = std::variant<Planning::PlanCommand, RobotEventTask, Planning::EngineTimer>;
-
     Surroundings _surroundings;
     AcsdConfig _config;
     Apps::MetricsEndpoint _metrics;
     PlanLog _planLog;
-    std::unique_ptr<Planning::IPlanStore> _store;
     Planning::PlanEngine _engine;
+    EngineLoop _loop;
+    StoreWorker _store;
     McsLink _mcs;
     VDA5050::MosquittoLink _mqtt;
     std::vector<std::unique_ptr<RobotHost>> _robots;
@@ -84,8 +76,6 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     Apps::HttpServer _http;
     Apps::Endpoint _httpEndpoint;
 
-    std::deque<Task> _tasks;
-    bool _bWorking = false; ///< A task is being worked on: what comes in meanwhile is queued.
     std::map<Planning::EngineTimer, std::uint64_t> _timerKeys;
     std::map<std::uint64_t, Planning::EngineTimer> _engineTimers;
     bool _bMqttUp = false;
@@ -94,63 +84,16 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     std::size_t _stopsOpen = 0;
     StopHandler _stopHandler;
 
-    void Enqueue(Task task)
+    void OnStored(const Core::Result<void>& result)
     {
-        if (_bStopping)
+        if (!result)
         {
-            return; // what is not stored by now is asked for again after the next start
+            _surroundings.logger.Error("the store fails", {{"reason", Core::Describe(result.error())}});
         }
-        _tasks.push_back(std::move(task));
-        if (std::exchange(_bWorking, true))
+        _loop.OnStored(result);
+        if (_bStopping && !_loop.IsStoring() && _stopsOpen == 0)
         {
-            return;
-        }
-        while (!_tasks.empty())
-        {
-            const Task next = std::move(_tasks.front());
-            _tasks.pop_front();
-            Work(next);
-        }
-        _bWorking = false;
-    }
-
-    void Work(const Task& task)
-    {
-        const Core::Now now = _surroundings.clock.GetNow();
-        Planning::EngineActions actions;
-        std::visit(
-            Core::Overloaded{
-                [&](const Planning::PlanCommand& command) { _engine.Handle(command, now, actions); },
-                [&](const RobotEventTask& robot) { _engine.Handle(robot.robotID, robot.event, now, actions); },
-                [&](const Planning::EngineTimer& timer) {
-                    _engine.OnTimer(timer, now, actions);
-                }},
-            task);
-        Execute(actions, now);
-    }
-
-    /// In order. When the store fails, the engine decides anew about what stood behind it.
-    void Execute(Planning::EngineActions& actions, Core::Now now)
-    {
-        for (std::size_t i = 0; i < actions.size(); ++i)
-        {
-            const Planning::StorePlans* storeOrNull = std::get_if<Planning::StorePlans>(&actions[i]);
-            if (storeOrNull == nullptr)
-            {
-                Execute(actions[i]);
-                continue;
-            }
-            const Core::Result<void> stored = _store->Append(storeOrNull->batch);
-            if (!stored)
-            {
-                const std::string reason = Core::Describe(stored.error());
-                _surroundings.logger.Error("the store fails", {{"reason", reason}});
-                Planning::EngineActions instead;
-                const std::span<const Planning::EngineAction> skipped = std::span(actions).subspan(i + 1);
-                _engine.OnStoreFailed(storeOrNull->batch, skipped, reason, now, instead);
-                actions = std::move(instead);
-                i = static_cast<std::size_t>(-1);
-            }
+            StopLinks();
         }
     }
 
@@ -203,7 +146,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         }
         else
         {
-            Enqueue(_engineTimers.at(key));
+            _loop.Push(_engineTimers.at(key));
         }
     }
 
@@ -336,6 +279,17 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         }
     }
 
+    void StopLinks()
+    {
+        _stopsOpen = 2;
+        for (const auto& robot : _robots)
+        {
+            robot->Stop();
+        }
+        _mqtt.StopAsync(std::nullopt, VDA5050::MosquittoLink::DEFAULT_STOP_TIMEOUT, [this] { CountStop(); });
+        _mcs.StopAsync([this] { CountStop(); });
+    }
+
     void CountStop()
     {
         if (--_stopsOpen == 0)
@@ -349,14 +303,22 @@ public:
         : _surroundings(std::move(surroundings)),
           _config(std::move(config)),
           _planLog(_surroundings.logger.MakeFor("plan"), _metrics),
-          _store(std::move(store)),
           _engine(_config.engine, *_config.site, _surroundings.random),
+          _loop(
+              _engine,
+              _surroundings.clock,
+              [this](const Planning::EngineAction& action) { Execute(action); },
+              [this](const Planning::StoreBatch& batch) { _store.Append(batch); }),
+          _store(
+              _surroundings.executor,
+              std::move(store),
+              [this](const Core::Result<void>& result) { OnStored(result); }),
           _mcs(
               _surroundings.clock,
               _surroundings.logger.MakeFor("mcs"),
               _config.localOffset,
               _engine,
-              [this](Planning::PlanCommand command) { Enqueue(std::move(command)); }),
+              [this](Planning::PlanCommand command) { _loop.Push(std::move(command)); }),
           _mqtt(
               _surroundings.executor,
               _surroundings.random,
@@ -386,7 +348,7 @@ public:
                 _config,
                 robot,
                 [this](const std::string& robotID, const Planning::RobotEvent& event) {
-                    Enqueue(RobotEventTask{robotID, event});
+                    _loop.Push(RobotTask{robotID, event});
                 }));
         }
     }
@@ -404,10 +366,7 @@ public:
             return tl::unexpected<Core::Error>(endpoint.error());
         }
         _httpEndpoint = *endpoint;
-        const Core::Now now = _surroundings.clock.GetNow();
-        Planning::EngineActions actions;
-        _engine.Restore(std::move(state), now, actions);
-        Execute(actions, now);
+        _loop.Restore(std::move(state));
         return {};
     }
 
@@ -426,15 +385,13 @@ public:
     {
         _bStopping = true;
         _stopHandler = std::move(handler);
-        _stopsOpen = 2;
+        _loop.Close();
         _timers.CancelAll();
         _timers.Start(STOP_TIMER, STOP_LIMIT);
-        for (const auto& robot : _robots)
+        if (!_loop.IsStoring()) // else what stands behind the batch is told first
         {
-            robot->Stop();
+            StopLinks();
         }
-        _mqtt.StopAsync(std::nullopt, VDA5050::MosquittoLink::DEFAULT_STOP_TIMEOUT, [this] { CountStop(); });
-        _mcs.StopAsync([this] { CountStop(); });
     }
 
     [[nodiscard]] const Apps::Endpoint& GetHttpEndpoint() const noexcept

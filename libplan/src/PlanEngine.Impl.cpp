@@ -61,6 +61,13 @@ void PlanEngine::Impl::HandleCommand(const PlanCommand& command, Core::Now now, 
     End(out);
 }
 
+void PlanEngine::Impl::SubmitAll(std::span<const SubmitPlan> plans, Core::Now now, EngineActions& out)
+{
+    Begin(now);
+    std::ranges::for_each(plans, [this](const SubmitPlan& plan) { Submit(plan); });
+    End(out);
+}
+
 void PlanEngine::Impl::HandleEvent(std::string_view robotID, const RobotEvent& event, Core::Now now, EngineActions& out)
 {
     const auto found = _robotIndices.find(robotID);

@@ -154,6 +154,7 @@ public:
     void SetObserver(IPlanObserver& observer);
     void Restore(StoredState state, Core::Now now, EngineActions& out);
     void HandleCommand(const PlanCommand& command, Core::Now now, EngineActions& out);
+    void SubmitAll(std::span<const SubmitPlan> plans, Core::Now now, EngineActions& out);
     void HandleEvent(std::string_view robotID, const RobotEvent& event, Core::Now now, EngineActions& out);
     void OnTimer(const EngineTimer& timer, Core::Now now, EngineActions& out);
     void OnStoreFailed(

@@ -157,7 +157,8 @@ void PlanEngine::Impl::OnStoreFailed(
                 },
                 [this](const SendReport& typed) { _held.push_back(typed.entry); },
                 [&out, &refusal, bPlanRefused](const ReplyCommand& typed) {
-                    out.emplace_back(bPlanRefused ? ReplyCommand{typed.replyToken, false, refusal} : typed);
+                    const bool bRefusedNow = bPlanRefused && typed.bAccepted;
+                    out.emplace_back(bRefusedNow ? ReplyCommand{typed.replyToken, false, refusal} : typed);
                 },
                 [&out](const auto& typed) {
                     out.emplace_back(typed);

@@ -25,6 +25,11 @@ void PlanEngine::Handle(const PlanCommand& command, Core::Now now, EngineActions
     _impl->HandleCommand(command, now, out);
 }
 
+void PlanEngine::Submit(std::span<const SubmitPlan> plans, Core::Now now, EngineActions& out)
+{
+    _impl->SubmitAll(plans, now, out);
+}
+
 void PlanEngine::Handle(std::string_view robotID, const RobotEvent& event, Core::Now now, EngineActions& out)
 {
     _impl->HandleEvent(robotID, event, now, out);

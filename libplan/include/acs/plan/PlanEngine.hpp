@@ -58,6 +58,10 @@ public:
 
     void Handle(const PlanCommand& command, Core::Now now, EngineActions& out);
 
+    /// Plans that have come together, with one StorePlans for all of them: a store on disk takes many in the time of one.
+    /// Otherwise as if each had been handled by itself, in this order.
+    void Submit(std::span<const SubmitPlan> plans, Core::Now now, EngineActions& out);
+
     /// Events of robots that are not configured are ignored.
     void Handle(std::string_view robotID, const RobotEvent& event, Core::Now now, EngineActions& out);
 

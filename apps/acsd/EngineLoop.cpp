@@ -1,0 +1,138 @@
+#include "EngineLoop.hpp"
+
+#include <acs/core/Overloaded.hpp>
+
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+Planning::SubmitPlan* GetPlanOrNull(EngineTask& task)
+{
+    auto* const commandOrNull = std::get_if<Planning::PlanCommand>(&task);
+    return commandOrNull == nullptr ? nullptr : std::get_if<Planning::SubmitPlan>(commandOrNull);
+}
+
+} // namespace
+
+EngineLoop::EngineLoop(
+    Planning::PlanEngine& engine,
+    const Core::IClock& clock,
+    ExecuteHandler execute,
+    StoreHandler store)
+    : _engine(engine),
+      _clock(clock),
+      _execute(std::move(execute)),
+      _store(std::move(store))
+{
+}
+
+void EngineLoop::Restore(Planning::StoredState state)
+{
+    _engine.Restore(std::move(state), _clock.GetNow(), _actions);
+    Work();
+}
+
+void EngineLoop::Push(EngineTask task)
+{
+    if (!_bClosed)
+    {
+        _tasks.push_back(std::move(task));
+        Work();
+    }
+}
+
+void EngineLoop::OnStored(const Core::Result<void>& result)
+{
+    const Planning::StoreBatch batch = std::move(*std::exchange(_storing, std::nullopt));
+    if (!result)
+    {
+        Planning::EngineActions instead;
+        const std::span<const Planning::EngineAction> skipped = std::span(_actions).subspan(_executed);
+        _engine.OnStoreFailed(batch, skipped, Core::Describe(result.error()), _clock.GetNow(), instead);
+        _actions = std::move(instead);
+        _executed = 0;
+    }
+    Work();
+}
+
+void EngineLoop::Close()
+{
+    _bClosed = true;
+    _tasks.clear();
+}
+
+bool EngineLoop::IsStoring() const noexcept
+{
+    return _storing.has_value();
+}
+
+void EngineLoop::Work()
+{
+    if (std::exchange(_bWorking, true))
+    {
+        return; // an action has brought a task: the call below sees it
+    }
+    while (!_storing.has_value() && (_executed < _actions.size() || !_tasks.empty()))
+    {
+        if (_executed < _actions.size())
+        {
+            ExecuteNext();
+        }
+        else
+        {
+            CallEngine();
+        }
+    }
+    _bWorking = false;
+}
+
+void EngineLoop::ExecuteNext()
+{
+    const Planning::EngineAction action = std::move(_actions[_executed]);
+    ++_executed;
+    if (const auto* const storeOrNull = std::get_if<Planning::StorePlans>(&action))
+    {
+        _storing = storeOrNull->batch;
+        _store(*_storing);
+    }
+    else
+    {
+        _execute(action);
+    }
+}
+
+void EngineLoop::CallEngine()
+{
+    _actions.clear();
+    _executed = 0;
+    const Core::Now now = _clock.GetNow();
+    std::vector<Planning::SubmitPlan> plans;
+    while (!_tasks.empty() && GetPlanOrNull(_tasks.front()) != nullptr)
+    {
+        plans.push_back(std::move(*GetPlanOrNull(_tasks.front())));
+        _tasks.pop_front();
+    }
+    if (!plans.empty())
+    {
+        _engine.Submit(plans, now, _actions);
+        return;
+    }
+    const EngineTask task = std::move(_tasks.front());
+    _tasks.pop_front();
+    std::visit(
+        Core::Overloaded{
+            [&](const Planning::PlanCommand& command) { _engine.Handle(command, now, _actions); },
+            [&](const RobotTask& robot) { _engine.Handle(robot.robotID, robot.event, now, _actions); },
+            [&](const Planning::EngineTimer& timer) {
+                _engine.OnTimer(timer, now, _actions);
+            }},
+        task);
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <acs/core/Now.hpp>
+#include <acs/core/Result.hpp>
+#include <acs/plan/PlanEngine.hpp>
+
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+
+namespace ACS::Acsd
+{
+
+/// What a robot has told.
+struct RobotTask
+{
+    std::string robotID;
+    Planning::RobotEvent event;
+};
+
+/// What the engine is to be called for.
+using EngineTask = std::variant<Planning::PlanCommand, RobotTask, Planning::EngineTimer>;
+
+/// Calls the engine for one task at a time and has its actions carried out strictly in order. While a batch is on its way
+/// to the disk nothing else happens to the engine: tasks wait. Plans that wait together are handed over together, so that
+/// one transaction serves a burst of them. Pure; the store and everything else are the caller's.
+class EngineLoop
+{
+public:
+    /// Carries one action out, never a StorePlans; may push tasks.
+    using ExecuteHandler = std::function<void(const Planning::EngineAction& action)>;
+    /// Begins to store the batch; OnStored is called when that is done, never from within.
+    using StoreHandler = std::function<void(const Planning::StoreBatch& batch)>;
+
+private:
+    Planning::PlanEngine& _engine;
+    const Core::IClock& _clock;
+    ExecuteHandler _execute;
+    StoreHandler _store;
+    std::deque<EngineTask> _tasks;
+    Planning::EngineActions _actions; ///< Of the last call.
+    std::size_t _executed = 0;        ///< So many of them are done.
+    std::optional<Planning::StoreBatch> _storing;
+    bool _bWorking = false;
+    bool _bClosed = false;
+
+public:
+    /// Engine and clock must outlive the loop.
+    EngineLoop(Planning::PlanEngine& engine, const Core::IClock& clock, ExecuteHandler execute, StoreHandler store);
+
+    /// Once, before anything else: what the store held.
+    void Restore(Planning::StoredState state);
+
+    void Push(EngineTask task);
+
+    /// The batch is on disk, or could not be stored: then the engine decides anew about what stood behind it.
+    void OnStored(const Core::Result<void>& result);
+
+    /// Forgets the tasks that wait and takes no more; what is being stored is still brought to its end.
+    void Close();
+
+    [[nodiscard]] bool IsStoring() const noexcept;
+
+private:
+    void Work();
+    void CallEngine();
+    void ExecuteNext();
+};
+
+} // namespace ACS::Acsd

@@ -1,0 +1,157 @@
+#include "EngineLoop.hpp"
+
+#include "Catch.hpp"
+#include "PlanWorld.hpp"
+
+#include <algorithm>
+
+namespace ACS::Testing
+{
+namespace
+{
+
+using namespace Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using Acsd::EngineLoop;
+using Acsd::RobotTask;
+
+/// The loop with an engine, and a disk that answers when the test says so.
+class LoopTest
+{
+protected:
+    ManualClock _clock;
+    SeededRandom _random{1};
+    PlanEngine _engine{MakeTestOptions(false), MakeTestSite(), _random};
+    EngineLoop _loop{
+        _engine,
+        _clock,
+        [this](const EngineAction& action) { OnAction(action); },
+        [this](const StoreBatch& batch) {
+            batches.push_back(batch);
+        }};
+
+    std::vector<StoreBatch> batches;
+    std::vector<ReplyCommand> replies;
+    std::vector<EngineTimer> timers; ///< That were started.
+
+    void OnAction(const EngineAction& action)
+    {
+        REQUIRE_FALSE(std::holds_alternative<StorePlans>(action));
+        if (const auto* const replyOrNull = std::get_if<ReplyCommand>(&action))
+        {
+            replies.push_back(*replyOrNull);
+        }
+        if (const auto* const startOrNull = std::get_if<StartEngineTimer>(&action))
+        {
+            timers.push_back(startOrNull->timer);
+        }
+    }
+
+    void Submit(const std::string& planID, ReplyToken token)
+    {
+        _loop.Push(SubmitPlan{MakeLogisticsPlan(planID), token});
+    }
+
+    [[nodiscard]] static std::vector<std::string> ListAdded(const StoreBatch& batch)
+    {
+        std::vector<std::string> planIDs;
+        for (const StoreChange& change : batch.changes)
+        {
+            if (const auto* const addedOrNull = std::get_if<PlanAdded>(&change))
+            {
+                planIDs.push_back(addedOrNull->record.plan.planID);
+            }
+        }
+        return planIDs;
+    }
+
+    [[nodiscard]] std::vector<std::pair<ReplyToken, bool>> ListReplies() const
+    {
+        std::vector<std::pair<ReplyToken, bool>> list;
+        for (const ReplyCommand& reply : replies)
+        {
+            list.emplace_back(reply.replyToken, reply.bAccepted);
+        }
+        return list;
+    }
+};
+
+using Texts = std::vector<std::string>;
+using Replies = std::vector<std::pair<ReplyToken, bool>>;
+
+const Core::Error DISK_FULL{make_error_code(EPlanningError::StoreFailed), "acsd.db", "room", "disk full"};
+
+} // namespace
+
+TEST_CASE_METHOD(
+    LoopTest,
+    "4.1 Plans that come while the disk works share the next commit, and each has its own Ack behind it")
+{
+    Submit("P1", 1);
+    REQUIRE(batches.size() == 1);
+    CHECK(_loop.IsStoring());
+    Submit("P2", 2);
+    Submit("P3", 3);
+    Submit("P2", 4);
+    CHECK(batches.size() == 1);
+    CHECK(replies.empty());
+    _loop.OnStored({});
+    CHECK(ListReplies() == Replies{{1, true}});
+    REQUIRE(batches.size() == 2);
+    CHECK(ListAdded(batches[1]) == Texts{"P2", "P3"});
+    _loop.OnStored({});
+    CHECK(ListReplies() == Replies{{1, true}, {2, true}, {3, true}, {4, false}});
+    CHECK_FALSE(_loop.IsStoring());
+}
+
+TEST_CASE_METHOD(
+    LoopTest,
+    "4.1 A burst that cannot be stored is refused as a whole, with the reason, and nothing of it is left")
+{
+    Submit("P0", 10);
+    Submit("P1", 1);
+    Submit("P2", 2);
+    Submit("P1", 3);
+    _loop.OnStored({});
+    REQUIRE(ListAdded(batches.back()) == Texts{"P1", "P2"});
+    _loop.OnStored(tl::unexpected(DISK_FULL));
+    CHECK(ListReplies() == Replies{{10, true}, {1, false}, {2, false}, {3, false}});
+    CHECK(replies[1].message.find("disk full") != std::string::npos);
+    CHECK(replies[3].message.find("Duplicated Plan") != std::string::npos); // refused before it, for its own reason
+    CHECK_FALSE(_engine.GetPlanOrNull("P1").has_value());
+    CHECK_FALSE(_engine.GetPlanOrNull("P2").has_value());
+    CHECK(_engine.GetPlanOrNull("P0").has_value());
+}
+
+TEST_CASE_METHOD(LoopTest, "What comes between two plans keeps its place")
+{
+    Submit("P1", 1);
+    Submit("P2", 2);
+    _loop.Push(RobotTask{"LR01", LinkChanged{true}});
+    Submit("P3", 3);
+    _loop.OnStored({});
+    REQUIRE(ListAdded(batches.back()) == Texts{"P2"});
+    CHECK(_engine.GetRobotStatuses().front().status == ERobotStatus::Disconnected);
+    _loop.OnStored({});
+    CHECK(_engine.GetRobotStatuses().front().status != ERobotStatus::Disconnected);
+    while (_loop.IsStoring())
+    {
+        _loop.OnStored({});
+    }
+    CHECK(ListReplies() == Replies{{1, true}, {2, true}, {3, true}});
+}
+
+TEST_CASE_METHOD(
+    LoopTest,
+    "A loop that is closed still tells what stands behind the batch on its way, and takes no more")
+{
+    Submit("P1", 1);
+    Submit("P2", 2);
+    _loop.Close();
+    Submit("P3", 3);
+    _loop.OnStored({});
+    CHECK(ListReplies() == Replies{{1, true}});
+    CHECK(batches.size() == 1);
+    CHECK(std::ranges::count(timers, EngineTimer{EEngineTimer::Dispatch, {}}) == 1);
+}
+
+} // namespace ACS::Testing
