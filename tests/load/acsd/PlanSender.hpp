@@ -1,0 +1,53 @@
+#pragma once
+
+#include "common/SystemClock.hpp"
+#include "common/SystemRandom.hpp"
+#include <acs/core/Now.hpp>
+#include <acs/protocol_beast/ISessionHandler.hpp>
+#include <acs/protocol_beast/McsServer.hpp>
+
+#include <boost/asio/io_context.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace ACS::Load
+{
+
+/// The example site's transport of a cassette.
+[[nodiscard]] Protocol::ExecutionPlan MakePlan(std::size_t number);
+
+/// An MCS that sends plans and counts their Acks. Throws std::runtime_error with a sentence where it waits in vain.
+class PlanSender final : private ProtocolBeast::ISessionHandler
+{
+    boost::asio::io_context& _context;
+    Apps::SystemClock _clock;
+    Apps::SystemRandom _random;
+    std::unique_ptr<ProtocolBeast::McsServer> _server;
+    std::size_t _sent = 0;
+    std::size_t _accepted = 0;
+    std::size_t _refused = 0;
+    std::string _firstRefusal;
+
+    void OnSessionEvent(const Protocol::SessionEvent& event) override;
+    void RunUntil(const std::function<bool()>& isTrue, std::string_view what);
+
+public:
+    explicit PlanSender(boost::asio::io_context& context);
+
+    [[nodiscard]] std::uint16_t GetPort() const;
+    void WaitForAcs();
+
+    /// So many at once; returns when each has its Ack.
+    [[nodiscard]] Core::Duration Send(std::size_t plans);
+
+    [[nodiscard]] std::size_t GetAccepted() const noexcept;
+    /// Empty where none was refused.
+    [[nodiscard]] const std::string& GetFirstRefusal() const noexcept;
+};
+
+} // namespace ACS::Load
