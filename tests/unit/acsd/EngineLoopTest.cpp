@@ -26,23 +26,23 @@ protected:
         _clock,
         [this](const EngineAction& action) { OnAction(action); },
         [this](const StoreBatch& batch) {
-            batches.push_back(batch);
+            _batches.push_back(batch);
         }};
 
-    std::vector<StoreBatch> batches;
-    std::vector<ReplyCommand> replies;
-    std::vector<EngineTimer> timers; ///< That were started.
+    std::vector<StoreBatch> _batches;
+    std::vector<ReplyCommand> _replies;
+    std::vector<EngineTimer> _timers; ///< That were started.
 
     void OnAction(const EngineAction& action)
     {
         REQUIRE_FALSE(std::holds_alternative<StorePlans>(action));
         if (const auto* const replyOrNull = std::get_if<ReplyCommand>(&action))
         {
-            replies.push_back(*replyOrNull);
+            _replies.push_back(*replyOrNull);
         }
         if (const auto* const startOrNull = std::get_if<StartEngineTimer>(&action))
         {
-            timers.push_back(startOrNull->timer);
+            _timers.push_back(startOrNull->timer);
         }
     }
 
@@ -67,7 +67,7 @@ protected:
     [[nodiscard]] std::vector<std::pair<ReplyToken, bool>> ListReplies() const
     {
         std::vector<std::pair<ReplyToken, bool>> list;
-        for (const ReplyCommand& reply : replies)
+        for (const ReplyCommand& reply : _replies)
         {
             list.emplace_back(reply.replyToken, reply.bAccepted);
         }
@@ -87,17 +87,17 @@ TEST_CASE_METHOD(
     "4.1 Plans that come while the disk works share the next commit, and each has its own Ack behind it")
 {
     Submit("P1", 1);
-    REQUIRE(batches.size() == 1);
+    REQUIRE(_batches.size() == 1);
     CHECK(_loop.IsStoring());
     Submit("P2", 2);
     Submit("P3", 3);
     Submit("P2", 4);
-    CHECK(batches.size() == 1);
-    CHECK(replies.empty());
+    CHECK(_batches.size() == 1);
+    CHECK(_replies.empty());
     _loop.OnStored({});
     CHECK(ListReplies() == Replies{{1, true}});
-    REQUIRE(batches.size() == 2);
-    CHECK(ListAdded(batches[1]) == Texts{"P2", "P3"});
+    REQUIRE(_batches.size() == 2);
+    CHECK(ListAdded(_batches[1]) == Texts{"P2", "P3"});
     _loop.OnStored({});
     CHECK(ListReplies() == Replies{{1, true}, {2, true}, {3, true}, {4, false}});
     CHECK_FALSE(_loop.IsStoring());
@@ -112,11 +112,11 @@ TEST_CASE_METHOD(
     Submit("P2", 2);
     Submit("P1", 3);
     _loop.OnStored({});
-    REQUIRE(ListAdded(batches.back()) == Texts{"P1", "P2"});
+    REQUIRE(ListAdded(_batches.back()) == Texts{"P1", "P2"});
     _loop.OnStored(tl::unexpected(DISK_FULL));
     CHECK(ListReplies() == Replies{{10, true}, {1, false}, {2, false}, {3, false}});
-    CHECK(replies[1].message.find("disk full") != std::string::npos);
-    CHECK(replies[3].message.find("Duplicated Plan") != std::string::npos); // refused before it, for its own reason
+    CHECK(_replies[1].message.find("disk full") != std::string::npos);
+    CHECK(_replies[3].message.find("Duplicated Plan") != std::string::npos); // refused before it, for its own reason
     CHECK_FALSE(_engine.GetPlanOrNull("P1").has_value());
     CHECK_FALSE(_engine.GetPlanOrNull("P2").has_value());
     CHECK(_engine.GetPlanOrNull("P0").has_value());
@@ -129,7 +129,7 @@ TEST_CASE_METHOD(LoopTest, "What comes between two plans keeps its place")
     _loop.Push(RobotTask{"LR01", LinkChanged{true}});
     Submit("P3", 3);
     _loop.OnStored({});
-    REQUIRE(ListAdded(batches.back()) == Texts{"P2"});
+    REQUIRE(ListAdded(_batches.back()) == Texts{"P2"});
     CHECK(_engine.GetRobotStatuses().front().status == ERobotStatus::Disconnected);
     _loop.OnStored({});
     CHECK(_engine.GetRobotStatuses().front().status != ERobotStatus::Disconnected);
@@ -150,8 +150,8 @@ TEST_CASE_METHOD(
     Submit("P3", 3);
     _loop.OnStored({});
     CHECK(ListReplies() == Replies{{1, true}});
-    CHECK(batches.size() == 1);
-    CHECK(std::ranges::count(timers, EngineTimer{EEngineTimer::Dispatch, {}}) == 1);
+    CHECK(_batches.size() == 1);
+    CHECK(std::ranges::count(_timers, EngineTimer{EEngineTimer::Dispatch, {}}) == 1);
 }
 
 } // namespace ACS::Testing
