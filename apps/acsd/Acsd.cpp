@@ -13,12 +13,15 @@
 #include <acs/core/Uuid.hpp>
 #include <acs/plan/PlanEngine.hpp>
 #include <acs/plan_sqlite/SqlitePlanStore.hpp>
+#include <acs/vda5050/Topic.hpp>
 #include <acs/vda5050_mosquitto/MosquittoLink.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <map>
+#include <set>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -71,7 +74,10 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     StoreWorker _store;
     McsLink _mcs;
     VDA5050::MosquittoLink _mqtt;
-    std::vector<std::unique_ptr<RobotHost>> _robots;
+    std::map<std::string, std::unique_ptr<RobotHost>, std::less<>> _robots;
+    /// By manufacturer and serial number: a message costs one look-up, however many robots there are.
+    std::map<std::pair<std::string, std::string>, RobotHost*> _vehicles;
+    std::set<std::string> _reachable; ///< Robots that are not Disconnected.
     Apps::TimerSet _timers;
     Apps::HttpServer _http;
     Apps::Endpoint _httpEndpoint;
@@ -107,6 +113,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
                 [&](const Planning::CommandRobot& command) { CommandRobot(command); },
                 [&](const Planning::RobotStatusChanged& changed) {
                     _mcs.TellStatus(changed.status);
+                    NoteReachable(changed.status);
                     TellWorking();
                 },
                 [&](const Planning::StartEngineTimer& start) { _timers.Start(GetTimerKey(start.timer), start.delay); },
@@ -118,10 +125,9 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
 
     void CommandRobot(const Planning::CommandRobot& command)
     {
-        const auto found =
-            std::ranges::find(_robots, command.robotID, [](const auto& robot) { return robot->GetRobotID(); });
+        const auto found = _robots.find(command.robotID);
         assert(found != _robots.end());
-        (*found)->Handle(command.command);
+        found->second->Handle(command.command);
     }
 
     std::uint64_t GetTimerKey(const Planning::EngineTimer& timer)
@@ -150,6 +156,18 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         }
     }
 
+    void NoteReachable(const Planning::RobotStatus& status)
+    {
+        if (status.status == Planning::ERobotStatus::Disconnected)
+        {
+            _reachable.erase(status.robotID);
+        }
+        else
+        {
+            _reachable.insert(status.robotID);
+        }
+    }
+
     /// 5.3: no work can be taken while the broker is away, or all robots are; told after a grace.
     void TellWorking()
     {
@@ -157,10 +175,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         {
             return;
         }
-        const bool bWorks =
-            _bMqttUp && std::ranges::any_of(_engine.GetRobotStatuses(), [](const Planning::RobotStatus& robot) {
-                return robot.status != Planning::ERobotStatus::Disconnected;
-            });
+        const bool bWorks = _bMqttUp && !_reachable.empty();
         if (bWorks == _bWorks)
         {
             return;
@@ -185,7 +200,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
             return;
         }
         TellWorking();
-        for (const auto& robot : _robots)
+        for (const auto& [robotID, robot] : _robots)
         {
             robot->OnLinkUp();
         }
@@ -199,7 +214,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
             return;
         }
         TellWorking();
-        for (const auto& robot : _robots)
+        for (const auto& [robotID, robot] : _robots)
         {
             robot->OnLinkDown();
         }
@@ -211,9 +226,12 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         {
             return;
         }
-        for (const auto& robot : _robots)
+        const Core::Result<VDA5050::ParsedTopic> topic = VDA5050::ParseTopic(message.topic);
+        const auto found =
+            topic ? _vehicles.find({topic->address.manufacturer, topic->address.serialNumber}) : _vehicles.end();
+        if (found != _vehicles.end())
         {
-            robot->OnMqttMessage(message);
+            found->second->OnMqttMessage(message);
         }
     }
 
@@ -282,7 +300,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     void StopLinks()
     {
         _stopsOpen = 2;
-        for (const auto& robot : _robots)
+        for (const auto& [robotID, robot] : _robots)
         {
             robot->Stop();
         }
@@ -338,7 +356,7 @@ public:
         _metrics.AddCounter(MESSAGES_SENT, "Requests sent to the MCS, resends included");
         for (const RobotLinkConfig& robot : _config.robots)
         {
-            _robots.push_back(std::make_unique<RobotHost>(
+            auto host = std::make_unique<RobotHost>(
                 RobotHost::Surroundings{
                     _surroundings.executor,
                     _surroundings.clock,
@@ -349,7 +367,9 @@ public:
                 robot,
                 [this](const std::string& robotID, const Planning::RobotEvent& event) {
                     _loop.Push(RobotTask{robotID, event});
-                }));
+                });
+            _vehicles[{robot.manufacturer, robot.serialNumber}] = host.get();
+            _robots.emplace(robot.robotID, std::move(host));
         }
     }
 
@@ -372,7 +392,7 @@ public:
 
     void Start()
     {
-        for (const auto& robot : _robots)
+        for (const auto& [robotID, robot] : _robots)
         {
             robot->Start();
         }
