@@ -5,8 +5,13 @@
 #include <boost/asio/streambuf.hpp>
 
 #include <chrono>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <sys/socket.h>
+#include <utility>
 
 using namespace ACS::OpenStream;     // NOLINT(google-build-using-namespace)
 using namespace ACS::OpenStreamAsio; // NOLINT(google-build-using-namespace)
@@ -34,6 +39,7 @@ class DeafController
             {
                 ++connections;
                 _socket.emplace(std::move(socket));
+                _socket->set_option(Tcp::no_delay(true));
                 ReadLineAsync();
             }
         });
@@ -77,6 +83,20 @@ public:
     {
         return _acceptor.local_endpoint().port();
     }
+
+    void Send(std::string_view text)
+    {
+        boost::asio::write(*_socket, boost::asio::buffer(text));
+    }
+
+    /// Whether the client's system has acknowledged every byte.
+    [[nodiscard]] bool IsAcknowledged()
+    {
+        tcp_info info{};
+        socklen_t size = sizeof info;
+        REQUIRE(getsockopt(_socket->native_handle(), IPPROTO_TCP, TCP_INFO, &info, &size) == 0);
+        return info.tcpi_unacked == 0;
+    }
 };
 
 std::optional<EClientLossReason> GetLossOrNull(const TcpFixture& fixture)
@@ -116,4 +136,25 @@ TEST_CASE("3 A controller that does not read loses the connection before old str
     REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientReady>() == 2; }));
     REQUIRE(controller.connections == 2);
     REQUIRE(controller.firstLine.find("HANDSHAKE") != std::string::npos);
+}
+
+TEST_CASE("1 A client that only listens acknowledges each line as it reads it, not each second one")
+{
+    TcpFixture fixture;
+    DeafController controller(fixture.context);
+    const auto client = fixture.MakeClient(controller.GetPort());
+    client->SetMonitor(MonitorRequest{"/a", 2ms, {}, {}});
+    client->Start();
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientReady>() == 1; }));
+    controller.Send("{\"type\":\"monitor_ack\"}\n");
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientMonitorStarted>() == 1; }));
+    constexpr std::size_t LINES = 40;
+    std::size_t late = 0;
+    for (std::size_t count = 1; count <= LINES; ++count)
+    {
+        controller.Send(R"({"type":"data","ts":)" + std::to_string(2 * count) + ",\"svc_dur_ms\":0,\"result\":1}\n");
+        REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientData>() == count; }));
+        late += controller.IsAcknowledged() ? 0U : 1U;
+    }
+    CHECK(late < LINES / 4);
 }
