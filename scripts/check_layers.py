@@ -42,7 +42,8 @@ THIRD_PARTY = {
     "vda5050_mosquitto": (
         "fmt/", "tl/", "boost/asio", "boost/system/", "mosquitto.h", "mqtt_protocol.h", "openssl/", "unistd.h"),
     "openstream_asio": (
-        "fmt/", "tl/", "boost/asio", "boost/system/", "pthread.h", "sched.h", "sys/mman.h", "sys/prctl.h"),
+        "fmt/", "tl/", "boost/asio", "boost/system/", "netinet/", "pthread.h", "sched.h", "sys/mman.h", "sys/prctl.h",
+        "sys/socket.h"),
     "plan_sqlite": ("fmt/", "tl/", "SQLiteCpp/", "sqlite3.h", "fcntl.h", "sys/file.h", "unistd.h"),
 }
 PUBLIC_THIRD_PARTY = ("fmt/", "tl/", "boost/asio/any_io_executor.hpp")

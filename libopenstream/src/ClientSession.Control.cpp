@@ -19,7 +19,7 @@ std::uint64_t ClientSession::SendControl(
 {
     if (tracking == EControlTracking::Streamed && _state == EClientState::Ready && !_outbox.IsFull())
     {
-        SendNow(request, out); // without a copy
+        SendUntil(request, GetControlDeadline({}, now), out); // without a copy
         return ++_lastToken;
     }
     ControlCall call;
@@ -37,7 +37,7 @@ std::uint64_t ClientSession::SendControlCall(ControlCall call, Core::Now now, Cl
     {
         if (bReady)
         {
-            SendNow(call.request, out);
+            SendUntil(call.request, GetControlDeadline(call.timeout, now), out);
         }
         else
         {
@@ -45,8 +45,7 @@ std::uint64_t ClientSession::SendControlCall(ControlCall call, Core::Now now, Cl
         }
         return token;
     }
-    const std::chrono::milliseconds timeout = call.timeout.count() > 0 ? call.timeout : _options.controlTimeout;
-    const Core::SteadyTime deadline = timeout.count() > 0 ? now.steady + timeout : Core::SteadyTime::max();
+    const Core::SteadyTime deadline = GetControlDeadline(call.timeout, now);
     if (!bReady || !_controls.TryPush(PendingControl{token, deadline, std::move(call)}))
     {
         Report(ClientControlSettled{token, EControlOutcome::NotSent, 0, std::nullopt, std::string(obstacle)}, out);
@@ -55,6 +54,20 @@ std::uint64_t ClientSession::SendControlCall(ControlCall call, Core::Now now, Cl
     SendNext(now, out);
     ArmControlTimer(out);
     return token;
+}
+
+Core::SteadyTime ClientSession::GetControlDeadline(std::chrono::milliseconds own, Core::Now now) const
+{
+    const std::chrono::milliseconds timeout = own.count() > 0 ? own : _options.controlTimeout;
+    return timeout.count() > 0 ? now.steady + timeout : Core::SteadyTime::max();
+}
+
+/// Sends what must not leave later.
+void ClientSession::SendUntil(const OpenStreamRequest& request, Core::SteadyTime deadline, ClientActions& out)
+{
+    _waitingDue = std::min(_waitingDue, deadline);
+    SendNow(request, out);
+    ArmControlTimer(out);
 }
 
 void ClientSession::SendControlInTurn(PendingControl control, ClientActions& out)
@@ -101,7 +114,7 @@ void ClientSession::Confirm(const DataLine& sample, ClientActions& out)
 /// Ends what has waited for too long: for the socket, for its turn, for its confirmation.
 void ClientSession::CheckControls(Core::Now now, ClientActions& out)
 {
-    if (_inFlight == EInFlight::Control && !_bControlLeft && now.steady >= _control.deadline)
+    if (_state == EClientState::Ready && now.steady >= GetSendDeadline())
     {
         Lose(EClientLossReason::SendTimeout, "the connection did not take a CONTROL in time", now, out);
         return;
@@ -129,14 +142,17 @@ void ClientSession::CheckControls(Core::Now now, ClientActions& out)
     ArmControlTimer(out);
 }
 
+/// When the first of the CONTROLs that have been given to the socket has to have left.
+Core::SteadyTime ClientSession::GetSendDeadline() const noexcept
+{
+    const bool bTracked = _inFlight == EInFlight::Control && !_bControlLeft;
+    return std::min({_waitingDue, _sendingDue, bTracked ? _control.deadline : Core::SteadyTime::max()});
+}
+
 /// Started forward only, and again where it fires early: see the watchdog of ServerSession.
 void ClientSession::ArmControlTimer(ClientActions& out)
 {
-    Core::SteadyTime earliest = Core::SteadyTime::max();
-    if (_inFlight == EInFlight::Control && !_bControlLeft)
-    {
-        earliest = _control.deadline;
-    }
+    Core::SteadyTime earliest = GetSendDeadline();
     for (const PendingControl& control : std::as_const(_controls))
     {
         earliest = std::min(earliest, control.deadline);
@@ -172,7 +188,7 @@ void ClientSession::StopControl(Core::Now now, ClientActions& out)
     SettleInFlight(EControlOutcome::Unknown, "STOP control followed it", out);
     SettleConfirmations("STOP control followed it", out);
     SettleWaiting("STOP control went before it", out);
-    SendNow(StopRequest{EStopTarget::Control}, out);
+    SendUntil(StopRequest{EStopTarget::Control}, GetControlDeadline({}, now), out);
     SendNext(now, out);
 }
 

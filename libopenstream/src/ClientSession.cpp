@@ -45,6 +45,8 @@ void ClientSession::Connect(Core::Now now, ClientActions& out)
 {
     _framer.Reset();
     _outbox.Reset();
+    _waitingDue = Core::SteadyTime::max();
+    _sendingDue = Core::SteadyTime::max();
     _state = EClientState::Connecting;
     out.emplace_back(ClientStartTimer{EClientTimer::Connect, now.steady + _options.connectTimeout});
     out.emplace_back(ClientConnect{});
@@ -266,6 +268,7 @@ void ClientSession::Flush(ClientActions& out)
 {
     if (const std::string_view text = _outbox.TakeForSend(); !text.empty())
     {
+        _sendingDue = std::exchange(_waitingDue, Core::SteadyTime::max());
         out.emplace_back(ClientSend{text});
     }
 }
@@ -277,6 +280,7 @@ void ClientSession::OnSendCompleted(Core::Now now, ClientActions& out)
         return;
     }
     static_cast<void>(_outbox.CompleteSend());
+    _sendingDue = Core::SteadyTime::max();
     if (_inFlight == EInFlight::Control && !_bControlLeft && _outbox.WasSent(_controlMark))
     {
         _bControlLeft = true;

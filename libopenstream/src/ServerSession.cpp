@@ -1,10 +1,10 @@
-#include <acs/core/Overloaded.hpp>
 #include <acs/openstream/ServerSession.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <ratio>
+#include <string>
+#include <utility>
 
 namespace ACS::OpenStream
 {
@@ -13,7 +13,6 @@ namespace
 {
 
 constexpr std::string_view VERSION = "1.0.0";
-constexpr int FIRST_SERVICE_FAILURE = 500;
 
 enum class EVerdict : std::uint8_t
 {
@@ -46,20 +45,6 @@ std::string_view GetRefusalMessage(EOpenStreamErrorCode code)
     return code == EOpenStreamErrorCode::BusySessionActive
         ? "a MONITOR is active or a CONTROL is being worked on: STOP it before another HANDSHAKE"
         : "send HANDSHAKE first";
-}
-
-void FillRequest(
-    EApiMethod method,
-    std::string_view url,
-    const std::optional<Core::JsonText>& args,
-    ApiRequest& request)
-{
-    request.method = method;
-    SplitUrl(url, request);
-    if (args.has_value())
-    {
-        AddArguments(*args, request);
-    }
 }
 
 } // namespace
@@ -219,45 +204,18 @@ void ServerSession::Handle(const HandshakeRequest& request, Core::Now /*now*/, S
     OpenStreamCodec::EncodeLine(HandshakeAck{true, std::string(VERSION)}, _outbox.GetLines());
 }
 
-void ServerSession::Handle(const MonitorRequest& request, Core::Now now, ServerActions& out)
+void ServerSession::FillRequest(
+    EApiMethod method,
+    std::string_view url,
+    const std::optional<Core::JsonText>& args,
+    ApiRequest& request)
 {
-    // No line of the old recipe may come behind this ack.
-    _outbox.SealData();
-    OpenStreamCodec::EncodeLine(MonitorAck{}, _outbox.GetLines());
-    FillRequest(EApiMethod::Get, request.url, request.args, _monitorCall);
-    _monitorID = request.id;
-    _period = request.period;
-    _monitorToken = 0;
-    _bMonitorFailing = false;
-    const Core::SteadyTime firstTick = now.steady + _period;
-    if (_state == EServerState::Streaming)
+    request.method = method;
+    SplitUrl(url, request);
+    if (args.has_value())
     {
-        // The earlier tick stays: a client that sends MONITOR at every period would otherwise starve the stream.
-        _nextTick = std::min(_nextTick, firstTick);
+        AddArguments(*args, request);
     }
-    else
-    {
-        _state = EServerState::Streaming;
-        _monitorBegin = now.steady;
-        _lastDataAt = now.steady;
-        _nextTick = firstTick;
-    }
-    out.emplace_back(ServerStartTimer{EServerTimer::MonitorTick, _nextTick});
-    ArmWatchdog(out);
-}
-
-void ServerSession::Handle(const ControlRequest& request, Core::Now /*now*/, ServerActions& out)
-{
-    ApiRequest call;
-    FillRequest(request.method, request.url, request.args, call);
-    call.body = request.body.value_or(Core::JsonText::FromTrusted("{}"));
-    if (!_controls.TryPush(std::move(call)))
-    {
-        AppendError(EOpenStreamErrorCode::ControlBusy, "too many CONTROLs wait for the controller");
-        return;
-    }
-    _bControlled = true;
-    CallNextControl(out);
 }
 
 void ServerSession::Handle(const StopRequest& request, Core::Now now, ServerActions& out)
@@ -290,43 +248,6 @@ void ServerSession::Handle(const StopRequest& request, Core::Now now, ServerActi
     ArmWatchdog(out);
 }
 
-void ServerSession::StopMonitor(ServerActions& out)
-{
-    if (_state != EServerState::Streaming)
-    {
-        return;
-    }
-    _outbox.SealData();
-    _state = EServerState::Ready;
-    _monitorToken = 0;
-    out.emplace_back(ServerCancelTimer{EServerTimer::MonitorTick});
-}
-
-bool ServerSession::TryStopControl(ServerActions& out)
-{
-    if (!_bControlled)
-    {
-        return false;
-    }
-    _bControlled = false;
-    // What waits is not executed any more; the one in flight cannot be taken back and keeps its place.
-    bool bFirst = true;
-    _controls.EraseIf([&bFirst](const ApiRequest&) { return !std::exchange(bFirst, false); });
-    _bRefusingControls = _bRefusingControls && _controls.IsFull();
-    out.emplace_back(ServerStopControl{});
-    return true;
-}
-
-void ServerSession::CallNextControl(ServerActions& out)
-{
-    const ApiRequest* next = _controls.GetFrontOrNull();
-    if (_controlToken == 0 && next != nullptr)
-    {
-        _controlToken = ++_lastToken;
-        out.emplace_back(ServerCall{_controlToken, next});
-    }
-}
-
 void ServerSession::OnServiceAnswer(std::uint64_t token, const ApiResponse& response, Core::Now now, ServerActions& out)
 {
     if (token == 0 || _state == EServerState::Closed)
@@ -342,54 +263,6 @@ void ServerSession::OnServiceAnswer(std::uint64_t token, const ApiResponse& resp
         FinishMonitor(response, now, out);
     }
     Flush(out);
-}
-
-void ServerSession::FinishControl(const ApiResponse& response, Core::Now now, ServerActions& out)
-{
-    if (!response.IsSuccess())
-    {
-        ++_stats.controlErrors;
-        OpenStreamCodec::EncodeLine(ControlError{response.status, response.body}, _outbox.GetLines());
-    }
-    const bool bWasFull = _controls.IsFull();
-    static_cast<void>(_controls.PopFrontOrNull());
-    _controlToken = 0;
-    CallNextControl(out);
-    if (bWasFull)
-    {
-        _bRefusingControls = false;
-        out.emplace_back(ServerCancelTimer{EServerTimer::ControlBusy});
-        ProcessLines(now, out);
-    }
-}
-
-void ServerSession::FinishMonitor(const ApiResponse& response, Core::Now now, ServerActions& /*out*/)
-{
-    using Milliseconds = std::chrono::duration<double, std::milli>;
-    _monitorToken = 0;
-    if (response.status >= FIRST_SERVICE_FAILURE)
-    {
-        ReportMonitorFailure();
-    }
-    else
-    {
-        _bMonitorFailing = false;
-    }
-    bool bReplaced = false;
-    std::string& data = _outbox.BeginData(bReplaced);
-    _stats.replacedLines += bReplaced ? 1U : 0U;
-    const auto ts = std::chrono::duration_cast<std::chrono::milliseconds>(_monitorAskedAt - _monitorBegin);
-    const Milliseconds duration = std::max(now.steady - _monitorAskedAt, Core::Duration::zero());
-    OpenStreamCodec::EncodeData(ts.count(), duration.count(), response, _monitorID, data);
-}
-
-void ServerSession::ReportMonitorFailure()
-{
-    if (!_bMonitorFailing)
-    {
-        _bMonitorFailing = true;
-        AppendError(EOpenStreamErrorCode::MonitorInternalError, "the controller's service failed");
-    }
 }
 
 void ServerSession::OnTimer(EServerTimer timer, Core::Now now, ServerActions& out)
@@ -421,36 +294,6 @@ void ServerSession::OnTimer(EServerTimer timer, Core::Now now, ServerActions& ou
             break;
     }
     Flush(out);
-}
-
-void ServerSession::Tick(Core::Now now, ServerActions& out)
-{
-    if (_state != EServerState::Streaming)
-    {
-        return;
-    }
-    if (now.steady < _nextTick)
-    {
-        out.emplace_back(ServerStartTimer{EServerTimer::MonitorTick, _nextTick});
-        return;
-    }
-    // The phase stays: a late tick moves none of those behind it, and those that it has missed are not made up for.
-    const auto missed = (now.steady - _nextTick) / std::chrono::duration_cast<Core::Duration>(_period);
-    _stats.skippedTicks += static_cast<std::uint64_t>(missed);
-    _nextTick += _period * (missed + 1);
-    out.emplace_back(ServerStartTimer{EServerTimer::MonitorTick, _nextTick});
-    if (_monitorToken != 0)
-    {
-        ++_stats.skippedTicks;
-        if (now.steady - _monitorAskedAt >= _options.serviceTimeout)
-        {
-            ReportMonitorFailure();
-        }
-        return;
-    }
-    _monitorToken = ++_lastToken;
-    _monitorAskedAt = now.steady;
-    out.emplace_back(ServerCall{_monitorToken, &_monitorCall});
 }
 
 Core::SteadyTime ServerSession::GetWatchdogDeadline() const

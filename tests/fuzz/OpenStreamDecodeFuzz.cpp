@@ -2,9 +2,13 @@
 #include <acs/openstream/LineFramer.hpp>
 #include <acs/openstream/OpenStreamCodec.hpp>
 
+#include <algorithm>
+#include <limits>
 #include <optional>
+#include <random>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace
 {
@@ -31,29 +35,99 @@ void CheckLine(OpenStream::OpenStreamCodec& codec, std::string_view line)
     }
 }
 
+/// What a framer makes of a stream.
+struct Framing
+{
+    std::vector<std::string> lines;
+    bool bOverflown = false;
+    bool bPartial = false; ///< Means nothing after an overflow.
+
+    bool operator==(const Framing&) const = default;
+};
+
+/// The rule, told once more for a stream that is there as a whole.
+Framing SplitWhole(std::string_view stream, std::size_t bound)
+{
+    Framing framing;
+    for (std::size_t end = stream.find('\n'); end != std::string_view::npos; end = stream.find('\n'))
+    {
+        std::string_view line = stream.substr(0, end);
+        stream.remove_prefix(end + 1);
+        if (line.size() > bound)
+        {
+            framing.bOverflown = true;
+            return framing;
+        }
+        if (!line.empty() && line.back() == '\r')
+        {
+            line.remove_suffix(1);
+        }
+        const auto isBlank = [](char letter) {
+            return letter == ' ' || letter == '\t' || letter == '\r';
+        };
+        if (!std::ranges::all_of(line, isBlank))
+        {
+            framing.lines.emplace_back(line);
+        }
+    }
+    framing.bOverflown = stream.size() > bound;
+    framing.bPartial = !framing.bOverflown && !stream.empty();
+    return framing;
+}
+
+/// Pieces of any length, each copied so that a use after its time is seen; now and then lines are left for later.
+Framing SplitInPieces(std::string_view stream, std::size_t bound, std::uint32_t seed)
+{
+    std::minstd_rand random(seed);
+    OpenStream::LineFramer framer(bound);
+    Framing framing;
+    const auto take = [&framer, &framing](std::uint32_t limit) {
+        for (std::uint32_t count = 0; count < limit; ++count)
+        {
+            const std::optional<std::string_view> line = framer.TakeLineOrNull();
+            if (!line.has_value())
+            {
+                return;
+            }
+            framing.lines.emplace_back(*line);
+        }
+    };
+    const std::size_t longest = 1U + random() % 100U;
+    while (!stream.empty())
+    {
+        const std::string piece(stream.substr(0, 1U + random() % longest));
+        stream.remove_prefix(piece.size());
+        framer.Feed(piece);
+        take(random() % 4U == 0U ? random() % 3U : std::numeric_limits<std::uint32_t>::max());
+        framer.Keep();
+    }
+    take(std::numeric_limits<std::uint32_t>::max());
+    framing.bOverflown = framer.HasOverflown();
+    framing.bPartial = !framing.bOverflown && framer.HasPartialLine();
+    Fuzz::Require(!framer.TakeLineOrNull().has_value(), "there is nothing behind the end");
+    return framing;
+}
+
 } // namespace
 
-/// The first byte says into which pieces the stream is cut, so that every split is tried.
+/// The first byte says into which pieces the stream is cut and, besides the real one, how long a line may be.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     if (size == 0)
     {
         return 0;
     }
-    const std::size_t piece = 1U + data[0];
-    std::string_view rest = Fuzz::AsText(data, size).substr(1);
-    OpenStream::OpenStreamCodec codec;
-    OpenStream::LineFramer framer(OpenStream::LONGEST_LINE);
-    while (!rest.empty())
+    const std::string_view stream = Fuzz::AsText(data, size).substr(1);
+    for (const std::size_t bound : {OpenStream::LONGEST_LINE, std::size_t{data[0]}})
     {
-        framer.Feed(rest.substr(0, piece));
-        while (const std::optional<std::string_view> line = framer.TakeLineOrNull())
-        {
-            Fuzz::Require(line->find('\n') == std::string_view::npos, "a line has no line end in it");
-            CheckLine(codec, *line);
-        }
-        framer.Keep();
-        rest.remove_prefix(std::min(piece, rest.size()));
+        Fuzz::Require(
+            SplitInPieces(stream, bound, 1U + data[0]) == SplitWhole(stream, bound),
+            "a stream in pieces makes the lines of the whole");
+    }
+    OpenStream::OpenStreamCodec codec;
+    for (const std::string& line : SplitWhole(stream, OpenStream::LONGEST_LINE).lines)
+    {
+        CheckLine(codec, line);
     }
     return 0;
 }

@@ -39,6 +39,8 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
     std::shared_ptr<Timers> _timers;
     std::array<char, READ_BYTES> _input{};
     std::uint64_t _connection = 0; ///< Handlers of an earlier connection do nothing.
+    bool _bWrote = false;          ///< Since the last read.
+    bool _bAcknowledging = false;  ///< At once, as long as nothing is written.
     bool _bExecuting = false;
     bool _bDown = false;
     bool _bWasReady = false;   ///< Since the last loss.
@@ -179,6 +181,7 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
             _session.OnSocketError(error.message(), now, _actions);
             return;
         }
+        AcknowledgeAtOnce();
         const std::uint64_t connection = _connection;
         _session.OnBytes(std::string_view(_input.data(), size), now, _actions);
         Execute();
@@ -188,8 +191,21 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
         }
     }
 
+    /// To a client that has written, the system leaves the acknowledgement of each first line for its next words, or 40 ms,
+    /// and sends it with that of each second line: so every second read takes longer, and a controller that holds small
+    /// lines back until then (Nagle) stands still. A client that only listens has it told so, until it writes again.
+    void AcknowledgeAtOnce()
+    {
+        if (!std::exchange(_bWrote, false) && !std::exchange(_bAcknowledging, true))
+        {
+            SetQuickAcknowledgement(_socket);
+        }
+    }
+
     void Do(const OpenStream::ClientSend& action)
     {
+        _bWrote = true;
+        _bAcknowledging = false;
         boost::asio::async_write(_socket, boost::asio::buffer(action.text), Guard(&Impl::OnWritten));
     }
 

@@ -60,9 +60,10 @@ public:
         return options;
     }
 
-    [[nodiscard]] std::unique_ptr<OpenStreamAsio::OpenStreamClient> MakeClient(std::uint16_t port)
+    [[nodiscard]] std::unique_ptr<OpenStreamAsio::OpenStreamClient> MakeClient(
+        std::uint16_t port,
+        OpenStreamAsio::OpenStreamClientOptions options = {})
     {
-        OpenStreamAsio::OpenStreamClientOptions options;
         options.port = port;
         options.session.controlWindow = std::chrono::milliseconds(100);
         options.session.reconnect.initial = std::chrono::milliseconds(20);

@@ -12,6 +12,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace ACS::Load
 {
@@ -33,6 +34,7 @@ class BareSender
     std::string _line = std::string(LINE_BYTES - 1, 'x') + '\n';
     Core::SteadyTime _next;
     bool _bStopped = false;
+    bool _bWriting = false;
 
     void WaitAsync()
     {
@@ -51,10 +53,18 @@ class BareSender
         skipped += static_cast<std::uint64_t>(missed);
         _next += PERIOD * (missed + 1);
         WaitAsync();
+        if (std::exchange(_bWriting, true))
+        {
+            ++skipped; // two writes at once would tear lines
+            return;
+        }
         boost::asio::async_write(
             _socket,
             boost::asio::buffer(_line),
-            [this](const boost::system::error_code& error, std::size_t /*size*/) { sent += error ? 0U : 1U; });
+            [this](const boost::system::error_code& error, std::size_t /*size*/) {
+                _bWriting = false;
+                sent += error ? 0U : 1U;
+            });
     }
 
 public:

@@ -83,17 +83,18 @@ class LoadClient
         }
     }
 
-    void Take(const ClientEvent& event, Core::Now now)
+    void Take(const ClientEvent& event)
     {
         if (const auto* data = std::get_if<ClientData>(&event))
         {
             ++received;
             _lastTs = data->line.ts;
+            const Core::SteadyTime arrival = data->receivedAt.steady; // as the bare reader takes it
             if (bRecording && _last.has_value())
             {
-                _figures.frames.Note(*_last, now.steady);
+                _figures.frames.Note(*_last, arrival);
             }
-            _last = bRecording ? std::optional(now.steady) : std::nullopt;
+            _last = bRecording ? std::optional(arrival) : std::nullopt;
             return;
         }
         if (const auto* fault = std::get_if<ClientControlFault>(&event))
@@ -142,7 +143,7 @@ public:
             random,
             Core::Logger(),
             options,
-            [this](const ClientEvent& event, Core::Now now) { Take(event, now); });
+            [this](const ClientEvent& event, Core::Now /*now*/) { Take(event); });
         _client->SetMonitor(MonitorRequest{URL, PERIOD, {}, {}});
         _client->Start();
     }

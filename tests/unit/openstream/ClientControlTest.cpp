@@ -172,6 +172,101 @@ TEST_CASE("3 A CONTROL that the socket does not take costs the connection, so th
     CHECK(client.closes == 1);
 }
 
+TEST_CASE("3 A streamed CONTROL that the socket does not take costs the connection, so that it cannot leave later")
+{
+    ClientHarness client;
+    MakeReady(client);
+    client.bSocketTakes = false;
+    client.Control("/a", EControlTracking::Streamed);
+    client.Pass(1'000ms);
+    client.Control("/b", EControlTracking::Streamed); // waits until the first one has left
+    SECTION("5 s after it was given")
+    {
+        client.Pass(3'999ms);
+        CHECK(client.Take<ClientLost>().empty());
+        client.Pass(1ms);
+    }
+    SECTION("or when the next one's time is up, where it left meanwhile")
+    {
+        client.Pass(3'000ms);
+        client.CompleteSend();
+        CHECK(client.CountLines("/b") == 1);
+        client.Pass(1'999ms);
+        CHECK(client.Take<ClientLost>().empty());
+        client.Pass(1ms);
+    }
+    SECTION("or in its own time")
+    {
+        ControlCall call = MakeCall("/c");
+        call.tracking = EControlTracking::Streamed;
+        call.timeout = 200ms;
+        client.Call(std::move(call));
+        client.Control("/d", EControlTracking::Streamed);
+        client.Pass(199ms);
+        CHECK(client.Take<ClientLost>().empty());
+        client.Pass(1ms);
+    }
+    const auto lost = client.Take<ClientLost>();
+    REQUIRE(lost.size() == 1);
+    CHECK(lost.at(0).reason == EClientLossReason::SendTimeout);
+    CHECK(client.closes == 1);
+    // The next connection begins with nothing of it, and with the whole time.
+    client.lines.clear();
+    client.Pass(lost.at(0).retryIn);
+    client.ConnectAndShake();
+    client.Pass(10s);
+    CHECK(client.CountLines("CONTROL") == 0);
+    client.Control("/e", EControlTracking::Streamed);
+    client.Pass(4'999ms);
+    CHECK(client.Take<ClientLost>().empty());
+    client.CompleteSend(); // of the HANDSHAKE
+    CHECK(client.CountLines("CONTROL") == 1);
+}
+
+TEST_CASE("3 Streamed CONTROLs that leave in time cost nothing, however many there are")
+{
+    ClientHarness client;
+    MakeReady(client);
+    for (int count = 0; count < 20; ++count)
+    {
+        client.bSocketTakes = false;
+        client.Control("/a", EControlTracking::Streamed);
+        client.Control("/b", EControlTracking::Streamed);
+        client.Pass(4'999ms);
+        client.bSocketTakes = true;
+        client.CompleteSend();
+    }
+    client.Pass(60s);
+    CHECK(client.Take<ClientLost>().empty());
+    CHECK(client.CountLines("CONTROL") == 40);
+}
+
+TEST_CASE("3 STOP control has its time to leave as well, a session that ends does not come back for it")
+{
+    ClientHarness client;
+    MakeReady(client);
+    client.bSocketTakes = false;
+    client.session.StopControl(client.GetNow(), client.actions);
+    client.Execute();
+    SECTION("STOP control")
+    {
+        client.Pass(4'999ms);
+        CHECK(client.Take<ClientLost>().empty());
+        client.Pass(1ms);
+        REQUIRE(client.Take<ClientLost>().size() == 1);
+    }
+    SECTION("the end of the session")
+    {
+        client.Pass(4'000ms);
+        client.session.Stop(client.GetNow(), client.actions);
+        client.Execute();
+        client.Pass(2'000ms);
+        CHECK(client.Take<ClientLost>().empty());
+        CHECK(client.Take<ClientEnded>().size() == 1);
+        CHECK(client.session.GetState() == EClientState::Stopped);
+    }
+}
+
 TEST_CASE("3 Without a time limit a CONTROL waits for ever")
 {
     ClientSessionOptions options;
@@ -179,9 +274,17 @@ TEST_CASE("3 Without a time limit a CONTROL waits for ever")
     ClientHarness client(options);
     MakeReady(client);
     client.bSocketTakes = false;
-    client.Control("/a");
+    SECTION("a tracked one")
+    {
+        client.Control("/a");
+    }
+    SECTION("a streamed one")
+    {
+        client.Control("/a", EControlTracking::Streamed);
+    }
     client.Pass(60s);
     CHECK(client.Take<ClientControlSettled>().empty());
+    CHECK(client.Take<ClientLost>().empty());
 }
 
 TEST_CASE("11 The newest sample can be read at any time, and never one of another MONITOR or connection")

@@ -103,6 +103,13 @@ public:
         Execute();
     }
 
+    /// What a socket does later that does not take at once.
+    void CompleteSend()
+    {
+        session.OnSendCompleted(GetNow(), actions);
+        Execute();
+    }
+
     void Start()
     {
         session.Start(GetNow(), actions);

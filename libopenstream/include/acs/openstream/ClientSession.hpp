@@ -84,6 +84,9 @@ class ClientSession
     bool _bControlLeft = false;
     bool _bControlConfirmed = false;
     std::vector<Confirmation> _confirmations;
+    Core::SteadyTime _waitingDue =
+        Core::SteadyTime::max(); ///< When the CONTROLs that wait in the outbox have to have left.
+    Core::SteadyTime _sendingDue = Core::SteadyTime::max(); ///< Likewise those in flight, the tracked one apart.
     Core::SteadyTime _controlTimerAt;
     bool _bControlTimerArmed = false;
 
@@ -119,6 +122,9 @@ class ClientSession
     void SendNext(Core::Now now, ClientActions& out);
     [[nodiscard]] bool TrySendMonitorWish(Core::Now now, ClientActions& out);
     void SendNow(const OpenStreamRequest& request, ClientActions& out);
+    void SendUntil(const OpenStreamRequest& request, Core::SteadyTime deadline, ClientActions& out);
+    [[nodiscard]] Core::SteadyTime GetControlDeadline(std::chrono::milliseconds own, Core::Now now) const;
+    [[nodiscard]] Core::SteadyTime GetSendDeadline() const noexcept;
     void SendAwaited(const OpenStreamRequest& request, EInFlight kind, Core::Now now, ClientActions& out);
     void Flush(ClientActions& out);
     void FinishControlWindow(Core::Now now, ClientActions& out);

@@ -28,8 +28,8 @@ struct ClientSessionOptions
     std::chrono::milliseconds staleAfter{500};      ///< Data overdue for so long: MonitorStale. 0: never.
     std::chrono::milliseconds lostAfter{3'000};     ///< Data overdue for so long: reconnect. 0: never.
     Core::BackoffOptions reconnect;
-    /// A tracked CONTROL that has not left for so long: NotSent where it waits for its turn; where the socket does not take
-    /// it, the connection is given up, so that it cannot leave later. 0: waits for ever.
+    /// A CONTROL or a STOP control that has not left for so long: where it is tracked and waits for its turn, NotSent; where
+    /// the socket does not take it, the connection is given up, so that it cannot leave later. 0: waits for ever.
     std::chrono::milliseconds controlTimeout{5'000};
     bool bSampleEvents = true; ///< Every sample as ClientData. Off, only GetLatestOrNull shows them, the newest one.
     std::size_t longestLine = LONGEST_LINE;

@@ -67,10 +67,14 @@ class ServerSession
     void Handle(const MonitorRequest& request, Core::Now now, ServerActions& out);
     void Handle(const ControlRequest& request, Core::Now now, ServerActions& out);
     void Handle(const StopRequest& request, Core::Now now, ServerActions& out);
+    static void FillRequest(
+        EApiMethod method,
+        std::string_view url,
+        const std::optional<Core::JsonText>& args,
+        ApiRequest& request);
     void StopMonitor(ServerActions& out);
     [[nodiscard]] bool TryStopControl(ServerActions& out);
     void CallNextControl(ServerActions& out);
-    void ResumeControls(Core::Now now, ServerActions& out);
     void FinishControl(const ApiResponse& response, Core::Now now, ServerActions& out);
     void FinishMonitor(const ApiResponse& response, Core::Now now, ServerActions& out);
     void Tick(Core::Now now, ServerActions& out);

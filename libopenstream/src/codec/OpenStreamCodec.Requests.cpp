@@ -1,7 +1,4 @@
-#include <acs/core/Overloaded.hpp>
-#include <acs/json/JsonDecoder.hpp>
-#include <acs/json/JsonEncoder.hpp>
-#include <acs/openstream/OpenStreamCodec.hpp>
+#include "CodecParts.hpp"
 
 #include <fmt/format.h>
 
@@ -14,14 +11,7 @@
 namespace ACS::Json
 {
 
-using OpenStream::ControlError;
-using OpenStream::DataLine;
-using OpenStream::EApiMethod;
 using OpenStream::EOpenStreamCommand;
-using OpenStream::ErrorLine;
-using OpenStream::EStopTarget;
-using OpenStream::HandshakeAck;
-using OpenStream::StopAck;
 
 template <>
 struct EnumWords<EOpenStreamCommand>
@@ -33,65 +23,6 @@ struct EnumWords<EOpenStreamCommand>
         EnumWord<EOpenStreamCommand>{EOpenStreamCommand::Stop, "STOP"}};
 };
 
-template <>
-struct EnumWords<EStopTarget>
-{
-    static constexpr std::array WORDS{
-        EnumWord<EStopTarget>{EStopTarget::Monitor, "monitor"},
-        EnumWord<EStopTarget>{EStopTarget::Control, "control"},
-        EnumWord<EStopTarget>{EStopTarget::Session, "session"}};
-};
-
-template <>
-struct EnumWords<EApiMethod>
-{
-    static constexpr std::array WORDS{
-        EnumWord<EApiMethod>{EApiMethod::Get, "GET"},
-        EnumWord<EApiMethod>{EApiMethod::Post, "POST"},
-        EnumWord<EApiMethod>{EApiMethod::Put, "PUT"},
-        EnumWord<EApiMethod>{EApiMethod::Delete, "DELETE"}};
-};
-
-template <>
-struct JsonFields<HandshakeAck>
-{
-    static constexpr auto FIELDS =
-        std::make_tuple(Required("ok", &HandshakeAck::bOk), Optional("version", &HandshakeAck::version));
-};
-
-template <>
-struct JsonFields<DataLine>
-{
-    static constexpr auto FIELDS = std::make_tuple(
-        Required("ts", &DataLine::ts),
-        Defaulted("svc_dur_ms", &DataLine::serviceDurationMs),
-        Optional("result", &DataLine::result),
-        Optional("status", &DataLine::status),
-        Optional("id", &DataLine::id));
-};
-
-template <>
-struct JsonFields<StopAck>
-{
-    static constexpr auto FIELDS = std::make_tuple(Required("target", &StopAck::target));
-};
-
-template <>
-struct JsonFields<ControlError>
-{
-    static constexpr auto FIELDS =
-        std::make_tuple(Required("status", &ControlError::status), Optional("body", &ControlError::body));
-};
-
-template <>
-struct JsonFields<ErrorLine>
-{
-    static constexpr auto FIELDS = std::make_tuple(
-        Required("error", &ErrorLine::codeText),
-        Optional("message", &ErrorLine::message),
-        Optional("hint", &ErrorLine::hint));
-};
-
 } // namespace ACS::Json
 
 namespace ACS::OpenStream
@@ -100,32 +31,12 @@ namespace ACS::OpenStream
 namespace
 {
 
+using Detail::FindMemberOrNull;
+using Detail::GetText;
+using Detail::WriteOptional;
 using Json::Value;
 
-constexpr Json::ParseLimits LIMITS{LONGEST_LINE, DEEPEST_NESTING};
 constexpr double INTEGER_LIMIT = 9223372036854775807.0;
-constexpr unsigned char FIRST_PRINTABLE = 0x21;
-constexpr unsigned char RUBOUT = 0x7F;
-
-constexpr std::string_view KEY_TYPE = "type";
-constexpr std::string_view KEY_ERROR = "error";
-constexpr std::string_view TYPE_HANDSHAKE_ACK = "handshake_ack";
-constexpr std::string_view TYPE_MONITOR_ACK = "monitor_ack";
-constexpr std::string_view TYPE_DATA = "data";
-constexpr std::string_view TYPE_DATA_OF_EXAMPLE = "monitor_data"; // what the vendor's Python example listens for
-constexpr std::string_view TYPE_STOP_ACK = "stop_ack";
-constexpr std::string_view TYPE_CONTROL_ERR = "control_err";
-
-std::string_view GetText(const Value& value)
-{
-    return {value.GetString(), value.GetStringLength()};
-}
-
-const Value* FindMemberOrNull(const Value& object, const char* name)
-{
-    const auto member = object.FindMember(name);
-    return member == object.MemberEnd() ? nullptr : &member->value;
-}
 
 tl::unexpected<Core::Error> Refuse(
     EOpenStreamErrorCode code,
@@ -328,79 +239,6 @@ OpenStreamRequest ReadPayload(EOpenStreamCommand command, PayloadReader& reader)
     }
 }
 
-template <typename TLine>
-Core::Result<OpenStreamLine> DecodeFields(const Value& root)
-{
-    TLine line;
-    Json::DecodeContext context(Json::DecodeOptions{false, false, false, LONGEST_LINE, LONGEST_LINE});
-    if (!Json::TryDecode(root, line, {}, context))
-    {
-        return tl::unexpected(context.TakeError());
-    }
-    return OpenStreamLine(std::move(line));
-}
-
-Core::Result<OpenStreamLine> DecodeError(const Value& root)
-{
-    Core::Result<OpenStreamLine> line = DecodeFields<ErrorLine>(root);
-    if (line.has_value())
-    {
-        auto& error = std::get<ErrorLine>(*line);
-        error.code = GetErrorCode(error.codeText);
-    }
-    return line;
-}
-
-Core::Result<OpenStreamLine> DecodeTyped(std::string_view type, const Value& root)
-{
-    if (type == TYPE_DATA || type == TYPE_DATA_OF_EXAMPLE)
-    {
-        return DecodeFields<DataLine>(root);
-    }
-    if (type == TYPE_CONTROL_ERR)
-    {
-        return DecodeFields<ControlError>(root);
-    }
-    if (type == TYPE_MONITOR_ACK)
-    {
-        return OpenStreamLine(MonitorAck{});
-    }
-    if (type == TYPE_HANDSHAKE_ACK)
-    {
-        return DecodeFields<HandshakeAck>(root);
-    }
-    if (type == TYPE_STOP_ACK)
-    {
-        return DecodeFields<StopAck>(root);
-    }
-    return Core::Fail(Core::ECoreError::UnknownWord, std::string(KEY_TYPE), "a type of the Open Stream");
-}
-
-/// JSON may hold line ends between its tokens, a line may not.
-void RemoveLineEnds(std::string& out, std::size_t begin)
-{
-    const auto isLineEnd = [](char letter) {
-        return letter == '\n' || letter == '\r';
-    };
-    std::replace_if(out.begin() + static_cast<std::ptrdiff_t>(begin), out.end(), isLineEnd, ' ');
-}
-
-void EndLine(std::size_t begin, Json::JsonWriter& writer, std::string& out)
-{
-    writer.EndObject();
-    RemoveLineEnds(out, begin);
-    out += '\n';
-}
-
-void WriteOptional(std::string_view name, const std::optional<Core::JsonText>& value, Json::JsonWriter& writer)
-{
-    if (value.has_value())
-    {
-        writer.Key(name);
-        writer.WriteRaw(*value);
-    }
-}
-
 void WritePayload(const HandshakeRequest& request, Json::JsonWriter& writer)
 {
     writer.Key("major");
@@ -435,75 +273,12 @@ void WritePayload(const StopRequest& request, Json::JsonWriter& writer)
     writer.WriteString(Json::GetWord(request.target));
 }
 
-template <typename TLine>
-void WriteTyped(std::string_view type, const TLine& line, Json::JsonWriter& writer)
-{
-    writer.Key(KEY_TYPE);
-    writer.WriteString(type);
-    Json::EncodeMembers(line, writer);
-}
-
-void WriteLine(const HandshakeAck& line, Json::JsonWriter& writer)
-{
-    WriteTyped(TYPE_HANDSHAKE_ACK, line, writer);
-}
-
-void WriteLine(const MonitorAck& /*line*/, Json::JsonWriter& writer)
-{
-    writer.Key(KEY_TYPE);
-    writer.WriteString(TYPE_MONITOR_ACK);
-}
-
-void WriteLine(const DataLine& line, Json::JsonWriter& writer)
-{
-    WriteTyped(TYPE_DATA, line, writer);
-}
-
-void WriteLine(const StopAck& line, Json::JsonWriter& writer)
-{
-    WriteTyped(TYPE_STOP_ACK, line, writer);
-}
-
-void WriteLine(const ControlError& line, Json::JsonWriter& writer)
-{
-    WriteTyped(TYPE_CONTROL_ERR, line, writer);
-}
-
-void WriteLine(const ErrorLine& line, Json::JsonWriter& writer)
-{
-    writer.Key(KEY_ERROR);
-    writer.WriteString(GetErrorText(line.code));
-    writer.Key("message");
-    writer.WriteString(line.message);
-    if (!line.hint.empty())
-    {
-        writer.Key("hint");
-        writer.WriteString(line.hint);
-    }
-}
-
 } // namespace
-
-struct OpenStreamCodec::Scratch
-{
-    Json::JsonDocument document;
-    const Value* requestOrNull = nullptr;
-    EOpenStreamCommand command = EOpenStreamCommand::Handshake;
-};
-
-OpenStreamCodec::OpenStreamCodec()
-    : _scratch(std::make_unique<Scratch>())
-{
-}
-
-OpenStreamCodec::OpenStreamCodec(OpenStreamCodec&&) noexcept = default;
-OpenStreamCodec& OpenStreamCodec::operator=(OpenStreamCodec&&) noexcept = default;
-OpenStreamCodec::~OpenStreamCodec() = default;
 
 Core::Result<EOpenStreamCommand> OpenStreamCodec::ReadCommand(std::string_view line)
 {
     _scratch->requestOrNull = nullptr;
-    const auto parsed = _scratch->document.Parse(line, LIMITS);
+    const auto parsed = _scratch->document.Parse(line, Detail::LIMITS);
     if (!parsed.has_value())
     {
         Core::Error error = parsed.error();
@@ -557,32 +332,6 @@ Core::Result<OpenStreamRequest> OpenStreamCodec::DecodeRequest(std::string_view 
     return ReadRequest();
 }
 
-Core::Result<OpenStreamLine> OpenStreamCodec::DecodeLine(std::string_view line)
-{
-    const auto parsed = _scratch->document.Parse(line, LIMITS);
-    if (!parsed.has_value())
-    {
-        return tl::unexpected(parsed.error());
-    }
-    const Value& root = **parsed;
-    if (!root.IsObject())
-    {
-        return Core::Fail(Core::ECoreError::WrongType, {}, "an object", Json::ShortenForError(root));
-    }
-    const Value* error = FindMemberOrNull(root, "error");
-    const Value* type = FindMemberOrNull(root, "type");
-    const bool bControlError = type != nullptr && type->IsString() && GetText(*type) == TYPE_CONTROL_ERR;
-    if (error != nullptr && !bControlError)
-    {
-        return DecodeError(root);
-    }
-    if (type == nullptr || !type->IsString())
-    {
-        return Core::Fail(Core::ECoreError::MissingField, std::string(KEY_TYPE), "a member type or error");
-    }
-    return DecodeTyped(GetText(*type), root);
-}
-
 void OpenStreamCodec::EncodeRequest(const OpenStreamRequest& request, std::string& out)
 {
     const std::size_t begin = out.size();
@@ -594,56 +343,7 @@ void OpenStreamCodec::EncodeRequest(const OpenStreamRequest& request, std::strin
     writer.BeginObject();
     std::visit([&writer](const auto& payload) { WritePayload(payload, writer); }, request);
     writer.EndObject();
-    EndLine(begin, writer, out);
-}
-
-void OpenStreamCodec::EncodeLine(const OpenStreamLine& line, std::string& out)
-{
-    const std::size_t begin = out.size();
-    Json::JsonWriter writer(out);
-    writer.BeginObject();
-    std::visit([&writer](const auto& content) { WriteLine(content, writer); }, line);
-    EndLine(begin, writer, out);
-}
-
-void OpenStreamCodec::EncodeData(
-    std::int64_t ts,
-    double serviceDurationMs,
-    const ApiResponse& response,
-    const std::optional<Core::JsonText>& id,
-    std::string& out)
-{
-    const std::size_t begin = out.size();
-    Json::JsonWriter writer(out);
-    writer.BeginObject();
-    writer.Key(KEY_TYPE);
-    writer.WriteString(TYPE_DATA);
-    writer.Key("ts");
-    writer.WriteInteger(ts);
-    writer.Key("svc_dur_ms");
-    writer.WriteNumber(serviceDurationMs);
-    WriteOptional("result", response.body, writer);
-    if (!response.body.has_value() || !response.IsSuccess())
-    {
-        writer.Key("status");
-        writer.WriteInteger(response.status);
-    }
-    WriteOptional("id", id, writer);
-    EndLine(begin, writer, out);
-}
-
-bool IsUrl(std::string_view url) noexcept
-{
-    const auto isRefused = [](char letter) {
-        const auto byte = static_cast<unsigned char>(letter);
-        return byte < FIRST_PRINTABLE || byte == RUBOUT;
-    };
-    return url.starts_with('/') && std::ranges::none_of(url, isRefused);
-}
-
-std::string_view GetMethodText(EApiMethod method) noexcept
-{
-    return Json::GetWord(method);
+    Detail::EndLine(begin, writer, out);
 }
 
 } // namespace ACS::OpenStream

@@ -1,0 +1,229 @@
+#include "CodecParts.hpp"
+
+namespace ACS::Json
+{
+
+using OpenStream::ControlError;
+using OpenStream::DataLine;
+using OpenStream::ErrorLine;
+using OpenStream::HandshakeAck;
+using OpenStream::StopAck;
+
+template <>
+struct JsonFields<HandshakeAck>
+{
+    static constexpr auto FIELDS =
+        std::make_tuple(Required("ok", &HandshakeAck::bOk), Optional("version", &HandshakeAck::version));
+};
+
+template <>
+struct JsonFields<DataLine>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("ts", &DataLine::ts),
+        Defaulted("svc_dur_ms", &DataLine::serviceDurationMs),
+        Optional("result", &DataLine::result),
+        Optional("status", &DataLine::status),
+        Optional("id", &DataLine::id));
+};
+
+template <>
+struct JsonFields<StopAck>
+{
+    static constexpr auto FIELDS = std::make_tuple(Required("target", &StopAck::target));
+};
+
+template <>
+struct JsonFields<ControlError>
+{
+    static constexpr auto FIELDS =
+        std::make_tuple(Required("status", &ControlError::status), Optional("body", &ControlError::body));
+};
+
+template <>
+struct JsonFields<ErrorLine>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("error", &ErrorLine::codeText),
+        Optional("message", &ErrorLine::message),
+        Optional("hint", &ErrorLine::hint));
+};
+
+} // namespace ACS::Json
+
+namespace ACS::OpenStream
+{
+
+namespace
+{
+
+using Json::Value;
+
+constexpr std::string_view KEY_TYPE = "type";
+constexpr std::string_view KEY_ERROR = "error";
+constexpr std::string_view TYPE_HANDSHAKE_ACK = "handshake_ack";
+constexpr std::string_view TYPE_MONITOR_ACK = "monitor_ack";
+constexpr std::string_view TYPE_DATA = "data";
+constexpr std::string_view TYPE_DATA_OF_EXAMPLE = "monitor_data"; // what the vendor's Python example listens for
+constexpr std::string_view TYPE_STOP_ACK = "stop_ack";
+constexpr std::string_view TYPE_CONTROL_ERR = "control_err";
+
+template <typename TLine>
+Core::Result<OpenStreamLine> DecodeFields(const Value& root)
+{
+    TLine line;
+    Json::DecodeContext context(Json::DecodeOptions{false, false, false, LONGEST_LINE, LONGEST_LINE});
+    if (!Json::TryDecode(root, line, {}, context))
+    {
+        return tl::unexpected(context.TakeError());
+    }
+    return OpenStreamLine(std::move(line));
+}
+
+Core::Result<OpenStreamLine> DecodeError(const Value& root)
+{
+    Core::Result<OpenStreamLine> line = DecodeFields<ErrorLine>(root);
+    if (line.has_value())
+    {
+        auto& error = std::get<ErrorLine>(*line);
+        error.code = GetErrorCode(error.codeText);
+    }
+    return line;
+}
+
+Core::Result<OpenStreamLine> DecodeTyped(std::string_view type, const Value& root)
+{
+    if (type == TYPE_DATA || type == TYPE_DATA_OF_EXAMPLE)
+    {
+        return DecodeFields<DataLine>(root);
+    }
+    if (type == TYPE_CONTROL_ERR)
+    {
+        return DecodeFields<ControlError>(root);
+    }
+    if (type == TYPE_MONITOR_ACK)
+    {
+        return OpenStreamLine(MonitorAck{});
+    }
+    if (type == TYPE_HANDSHAKE_ACK)
+    {
+        return DecodeFields<HandshakeAck>(root);
+    }
+    if (type == TYPE_STOP_ACK)
+    {
+        return DecodeFields<StopAck>(root);
+    }
+    return Core::Fail(Core::ECoreError::UnknownWord, std::string(KEY_TYPE), "a type of the Open Stream");
+}
+
+template <typename TLine>
+void WriteTyped(std::string_view type, const TLine& line, Json::JsonWriter& writer)
+{
+    writer.Key(KEY_TYPE);
+    writer.WriteString(type);
+    Json::EncodeMembers(line, writer);
+}
+
+void WriteLine(const HandshakeAck& line, Json::JsonWriter& writer)
+{
+    WriteTyped(TYPE_HANDSHAKE_ACK, line, writer);
+}
+
+void WriteLine(const MonitorAck& /*line*/, Json::JsonWriter& writer)
+{
+    writer.Key(KEY_TYPE);
+    writer.WriteString(TYPE_MONITOR_ACK);
+}
+
+void WriteLine(const DataLine& line, Json::JsonWriter& writer)
+{
+    WriteTyped(TYPE_DATA, line, writer);
+}
+
+void WriteLine(const StopAck& line, Json::JsonWriter& writer)
+{
+    WriteTyped(TYPE_STOP_ACK, line, writer);
+}
+
+void WriteLine(const ControlError& line, Json::JsonWriter& writer)
+{
+    WriteTyped(TYPE_CONTROL_ERR, line, writer);
+}
+
+void WriteLine(const ErrorLine& line, Json::JsonWriter& writer)
+{
+    writer.Key(KEY_ERROR);
+    writer.WriteString(GetErrorText(line.code));
+    writer.Key("message");
+    writer.WriteString(line.message);
+    if (!line.hint.empty())
+    {
+        writer.Key("hint");
+        writer.WriteString(line.hint);
+    }
+}
+
+} // namespace
+
+Core::Result<OpenStreamLine> OpenStreamCodec::DecodeLine(std::string_view line)
+{
+    const auto parsed = _scratch->document.Parse(line, Detail::LIMITS);
+    if (!parsed.has_value())
+    {
+        return tl::unexpected(parsed.error());
+    }
+    const Value& root = **parsed;
+    if (!root.IsObject())
+    {
+        return Core::Fail(Core::ECoreError::WrongType, {}, "an object", Json::ShortenForError(root));
+    }
+    const Value* error = Detail::FindMemberOrNull(root, "error");
+    const Value* type = Detail::FindMemberOrNull(root, "type");
+    const bool bControlError = type != nullptr && type->IsString() && Detail::GetText(*type) == TYPE_CONTROL_ERR;
+    if (error != nullptr && !bControlError)
+    {
+        return DecodeError(root);
+    }
+    if (type == nullptr || !type->IsString())
+    {
+        return Core::Fail(Core::ECoreError::MissingField, std::string(KEY_TYPE), "a member type or error");
+    }
+    return DecodeTyped(Detail::GetText(*type), root);
+}
+
+void OpenStreamCodec::EncodeLine(const OpenStreamLine& line, std::string& out)
+{
+    const std::size_t begin = out.size();
+    Json::JsonWriter writer(out);
+    writer.BeginObject();
+    std::visit([&writer](const auto& content) { WriteLine(content, writer); }, line);
+    Detail::EndLine(begin, writer, out);
+}
+
+void OpenStreamCodec::EncodeData(
+    std::int64_t ts,
+    double serviceDurationMs,
+    const ApiResponse& response,
+    const std::optional<Core::JsonText>& id,
+    std::string& out)
+{
+    const std::size_t begin = out.size();
+    Json::JsonWriter writer(out);
+    writer.BeginObject();
+    writer.Key(KEY_TYPE);
+    writer.WriteString(TYPE_DATA);
+    writer.Key("ts");
+    writer.WriteInteger(ts);
+    writer.Key("svc_dur_ms");
+    writer.WriteNumber(serviceDurationMs);
+    Detail::WriteOptional("result", response.body, writer);
+    if (!response.body.has_value() || !response.IsSuccess())
+    {
+        writer.Key("status");
+        writer.WriteInteger(response.status);
+    }
+    Detail::WriteOptional("id", id, writer);
+    Detail::EndLine(begin, writer, out);
+}
+
+} // namespace ACS::OpenStream
