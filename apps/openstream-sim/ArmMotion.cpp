@@ -17,6 +17,8 @@ using Seconds = std::chrono::duration<double>;
 constexpr JointVector AMPLITUDES{30.0, 15.0, 20.0, 40.0, 25.0, 60.0}; ///< deg
 constexpr double SWING_SECONDS = 4.0;                                 ///< About the time of one swing.
 constexpr double FULL_AMPLITUDE_SECONDS = 2.0; ///< A shorter program moves less, so that no axis goes too fast.
+constexpr double HOMING_SHARE = 0.5;           ///< Of an axis's speed; the swing has the rest.
+constexpr double HOMING_PEAK = 1.5;            ///< The fastest of a smooth step, of its mean.
 constexpr double GRAVITY_EFFORT = 94.0;        ///< Nm, of a level axis 2 or 3.
 constexpr double WRIST_EFFORT = 6.0;           ///< Nm
 
@@ -24,6 +26,8 @@ double ToRadians(double degrees)
 {
     return degrees * pi / 180.0;
 }
+
+} // namespace
 
 JointVector ComputeEffort(const JointVector& position)
 {
@@ -38,11 +42,25 @@ JointVector ComputeEffort(const JointVector& position)
         0.0};
 }
 
-} // namespace
+void ArmMotion::Place(const JointVector& position)
+{
+    _from = position;
+    _seconds = 0.0;
+}
 
 void ArmMotion::Begin(Core::Duration duration)
 {
     _seconds = Seconds(duration).count();
+    const double scale = std::min(1.0, _seconds / FULL_AMPLITUDE_SECONDS);
+    for (std::size_t axis = 0; axis < AXES; ++axis)
+    {
+        const AxisLimits& limits = AXIS_LIMITS.at(axis);
+        const double from = _from.at(axis);
+        const double reach = HOMING_SHARE * limits.speed * _seconds / HOMING_PEAK;
+        _toHome.at(axis) = std::clamp(HOME.at(axis) - from, -reach, reach);
+        const double room = std::max(0.0, std::min(limits.highest - from, from - limits.lowest));
+        _amplitudes.at(axis) = std::min(AMPLITUDES.at(axis) * scale, room);
+    }
 }
 
 void ArmMotion::End(Core::Duration elapsed)
@@ -59,7 +77,6 @@ JointStates ArmMotion::GetStates(Core::Duration elapsed, bool bMoving) const
     {
         const double progress = std::clamp(Seconds(elapsed).count() / _seconds, 0.0, 1.0);
         const double swings = std::max(1.0, std::round(_seconds / SWING_SECONDS));
-        const double scale = std::min(1.0, _seconds / FULL_AMPLITUDE_SECONDS);
         const double window = std::pow(std::sin(pi * progress), 2.0);
         const double windowRate = pi * std::sin(2.0 * pi * progress);
         const double swing = std::sin(2.0 * pi * swings * progress);
@@ -68,12 +85,11 @@ JointStates ArmMotion::GetStates(Core::Duration elapsed, bool bMoving) const
         const double homingRate = 6.0 * progress * (1.0 - progress);
         for (std::size_t axis = 0; axis < AXES; ++axis)
         {
-            const double amplitude = AMPLITUDES[axis] * scale;
-            const double toHome = HOME[axis] - _from[axis];
-            states.position[axis] += amplitude * window * swing + toHome * homing;
+            const double amplitude = _amplitudes[axis];
+            states.position[axis] += amplitude * window * swing + _toHome[axis] * homing;
             if (bMoving)
             {
-                const double rate = amplitude * (windowRate * swing + window * swingRate) + toHome * homingRate;
+                const double rate = amplitude * (windowRate * swing + window * swingRate) + _toHome[axis] * homingRate;
                 states.velocity[axis] = rate / _seconds;
             }
         }
