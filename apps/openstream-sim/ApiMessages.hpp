@@ -49,7 +49,7 @@ struct PoseAnswer
     std::optional<double> j1, j2, j3, j4, j5, j6; ///< deg
 };
 
-/// GET /project/rgen
+/// GET /project/rgen. The lists are views.
 struct GeneralAnswer
 {
     std::string robotModel = "ACS-SIM-6";
@@ -89,9 +89,9 @@ struct GeneralAnswer
     int eidLastConOut = -1;
     int eidLastStartStop = -1;
     int eidLastHistory = -1;
-    std::vector<int> inPosition; ///< By task: its mechanism stands.
-    std::vector<int> taskEnable;
-    std::vector<int> axisCtrl;
+    std::span<const int> inPosition; ///< By task: its mechanism stands.
+    std::span<const int> taskEnable;
+    std::span<const int> axisCtrl;
 };
 
 /// One number: motor_on_state, emergency_stop, di_val …

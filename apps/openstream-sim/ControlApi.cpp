@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <utility>
 
 namespace ACS::OpenStreamSim::ControlApi
 {
@@ -166,7 +167,7 @@ ApiResponse GetRelayWords(ControllerMachine& machine, const ApiCall& call)
     {
         return Refuse(count.error());
     }
-    std::string text;
+    std::string text = std::move(call.room);
     Json::JsonWriter writer(text);
     writer.BeginArray();
     for (std::int64_t word = 0; word < *count; ++word)

@@ -5,6 +5,7 @@
 #include "FlangePose.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <span>
@@ -195,7 +196,7 @@ ApiResponse GetPose(ControllerMachine& machine, const ApiCall& call)
     return Succeed(answer, "Pose", std::move(call.room));
 }
 
-ApiResponse GetGeneral(ControllerMachine& machine, const ApiCall& /*call*/)
+ApiResponse GetGeneral(ControllerMachine& machine, const ApiCall& call)
 {
     const ControllerSettings& settings = machine.GetSettings();
     GeneralAnswer answer;
@@ -218,18 +219,22 @@ ApiResponse GetGeneral(ControllerMachine& machine, const ApiCall& /*call*/)
     answer.axisLock = settings.conditions.robotLock;
     answer.curMechAxisInfo = ALL_AXES;
     answer.eidLastErr = static_cast<int>(machine.GetAlarm());
-    answer.inPosition.assign(TASKS, 0);
-    answer.inPosition.front() = ToInteger(IsStanding(machine.GetJointStates().velocity));
-    answer.taskEnable.assign(TASKS, 0);
-    answer.taskEnable.front() = 1;
-    answer.axisCtrl.assign(AXIS_SLOTS, 0);
-    std::fill_n(answer.axisCtrl.begin(), AXES, 1);
-    return Succeed(answer);
+    std::array<int, TASKS> inPosition{};
+    inPosition.front() = ToInteger(IsStanding(machine.GetJointStates().velocity));
+    answer.inPosition = inPosition;
+    std::array<int, TASKS> taskEnable{};
+    taskEnable.front() = 1;
+    answer.taskEnable = taskEnable;
+    std::array<int, AXIS_SLOTS> axisCtrl{};
+    std::fill_n(axisCtrl.begin(), AXES, 1);
+    answer.axisCtrl = axisCtrl;
+    return Succeed(answer, OBJECT_TYPE, std::move(call.room));
 }
 
-ApiResponse GetMotorState(ControllerMachine& machine, const ApiCall& /*call*/)
+ApiResponse GetMotorState(ControllerMachine& machine, const ApiCall& call)
 {
-    return Succeed(NumberAnswer{static_cast<std::int64_t>(machine.GetMotorState())});
+    const NumberAnswer answer{static_cast<std::int64_t>(machine.GetMotorState())};
+    return Succeed(answer, OBJECT_TYPE, std::move(call.room));
 }
 
 ApiResponse SwitchMotorOn(ControllerMachine& machine, const ApiCall& /*call*/)

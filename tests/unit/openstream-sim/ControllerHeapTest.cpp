@@ -45,8 +45,11 @@ std::uint64_t CountBlocks(Testing::ControllerHarness& harness, std::string_view 
 
 TEST_CASE("What is read at the shortest period takes nothing from the heap")
 {
-    constexpr std::array<std::string_view, 4> URLS{
+    constexpr std::array<std::string_view, 7> URLS{
         "/project/robot/joints/joint_states?jno_start=1&jno_n=6",
+        "/project/rgen",
+        "/project/robot/motor_on_state",
+        "/project/plc/m/val_s32?st=400&len=4",
         "/project/robot/joint_states",
         "/project/robot/po_cur",
         "/project/robot/po_cur?crd=2&task_no=0"};
