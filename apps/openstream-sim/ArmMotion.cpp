@@ -51,15 +51,10 @@ void ArmMotion::Place(const JointVector& position)
 void ArmMotion::Begin(Core::Duration duration)
 {
     _seconds = Seconds(duration).count();
-    const double scale = std::min(1.0, _seconds / FULL_AMPLITUDE_SECONDS);
     for (std::size_t axis = 0; axis < AXES; ++axis)
     {
-        const AxisLimits& limits = AXIS_LIMITS.at(axis);
-        const double from = _from.at(axis);
-        const double reach = HOMING_SHARE * limits.speed * _seconds / HOMING_PEAK;
-        _toHome.at(axis) = std::clamp(HOME.at(axis) - from, -reach, reach);
-        const double room = std::max(0.0, std::min(limits.highest - from, from - limits.lowest));
-        _amplitudes.at(axis) = std::min(AMPLITUDES.at(axis) * scale, room);
+        const double reach = HOMING_SHARE * AXIS_LIMITS.at(axis).speed * _seconds / HOMING_PEAK;
+        _toHome.at(axis) = std::clamp(HOME.at(axis) - _from.at(axis), -reach, reach);
     }
 }
 
@@ -77,6 +72,7 @@ JointStates ArmMotion::GetStates(Core::Duration elapsed, bool bMoving) const
     {
         const double progress = std::clamp(Seconds(elapsed).count() / _seconds, 0.0, 1.0);
         const double swings = std::max(1.0, std::round(_seconds / SWING_SECONDS));
+        const double scale = std::min(1.0, _seconds / FULL_AMPLITUDE_SECONDS);
         const double window = std::pow(std::sin(pi * progress), 2.0);
         const double windowRate = pi * std::sin(2.0 * pi * progress);
         const double swing = std::sin(2.0 * pi * swings * progress);
@@ -85,7 +81,7 @@ JointStates ArmMotion::GetStates(Core::Duration elapsed, bool bMoving) const
         const double homingRate = 6.0 * progress * (1.0 - progress);
         for (std::size_t axis = 0; axis < AXES; ++axis)
         {
-            const double amplitude = _amplitudes[axis];
+            const double amplitude = AMPLITUDES[axis] * scale;
             states.position[axis] += amplitude * window * swing + _toHome[axis] * homing;
             if (bMoving)
             {

@@ -21,9 +21,8 @@ struct JointStates
 class ArmMotion
 {
     JointVector _from = HOME;
-    JointVector _toHome{};     ///< deg
-    JointVector _amplitudes{}; ///< deg, of the swing.
-    double _seconds = 0.0;     ///< Of the whole motion; 0 where it rests.
+    JointVector _toHome{}; ///< deg
+    double _seconds = 0.0; ///< Of the whole motion; 0 where it rests.
 
 public:
     /// Rests there.

@@ -199,7 +199,6 @@ EApiError ControllerMachine::StartConsole()
     GiveProgramUp();
     _logger.Info("console program started");
     _console.Start();
-    _console.Advance(_now, _now, _arm, _relays);
     return EApiError::None;
 }
 

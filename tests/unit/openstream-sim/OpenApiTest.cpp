@@ -190,6 +190,10 @@ TEST_CASE("A What is set is what is read")
     REQUIRE(harness.Contains("/project/control/op_cnd", R"("playback_mode":1)"));
     REQUIRE(harness.Contains("/project/control/op_cnd", R"("playback_spd_rate":40)"));
     REQUIRE(harness.Contains("/project/control/op_cnd", R"("plc_mode":2)"));
+    REQUIRE(harness.Post("/project/control/op_cnd", R"({"intp_base":1,"robot_lock":1})") == 200);
+    REQUIRE(harness.Contains("/project/rgen", R"("auto_spd":40)"));
+    REQUIRE(harness.Contains("/project/rgen", R"("base_intp":1,"plc_mode":2,"task_no":0,"axis_lock":1)"));
+    REQUIRE(harness.Contains("/project/rgen", R"("cur_mech_axis_info":63)"));
 
     REQUIRE(harness.Post("/project/robot/tool_no", R"({"val":1})") == 200);
     REQUIRE(harness.Contains("/project/robot", R"("tool_no":1)"));
@@ -199,6 +203,9 @@ TEST_CASE("A What is set is what is read")
     REQUIRE(harness.Post("/project/robot/crd_sys", R"({"val":3})") == 200);
     REQUIRE(harness.Post("/project/robot/crd_sys", R"({"val":-1})") == 200); // the next one is axis again
     REQUIRE(harness.Contains("/project/robot/po_cur?crd=-1", R"("crd":"joint")"));
+    REQUIRE(harness.Contains("/project/rgen", R"("cur_crd":0)"));
+    REQUIRE(harness.Post("/project/robot/crd_sys", R"({"val":2})") == 200);
+    REQUIRE(harness.Contains("/project/rgen", R"("cur_crd":2)"));
 
     REQUIRE(
         harness.Post("/project/control/ios/dio/do_val", R"({"type":"dob","blk_no":2,"sig_no":3,"val":-99})") == 200);

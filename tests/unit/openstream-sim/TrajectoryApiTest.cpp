@@ -517,6 +517,20 @@ TEST_CASE("C.1 What ends the playback stops the arm; what is left of the points 
     }
 }
 
+TEST_CASE("A joint_traject_ready: a point that comes while it is false raises E01554 and clears what a stop has left")
+{
+    ControllerHarness harness(MakePlayingOptions());
+    REQUIRE(harness.Post(INSERT_POINTS, MakePair()) == 200);
+    harness.clock.Advance(500ms);
+    REQUIRE(harness.Post("/project/robot/stop") == 200);
+    REQUIRE_FALSE(IsReady(harness));
+    REQUIRE(GetFree(harness) == "2047");
+    REQUIRE(harness.PostForCode(INSERT_POINT, GOOD_POINT) == "403 -1554");
+    REQUIRE(GetFree(harness) == "2048");
+    REQUIRE(harness.Start() == 200);
+    REQUIRE(IsReady(harness));
+}
+
 TEST_CASE(
     "C.1 The wait ends when its relay is set; the arm then stands, and a program swings it from there without a jump")
 {

@@ -63,6 +63,19 @@ TEST_CASE("C.2 Fewer points than the look-ahead start when the first of them has
     REQUIRE(follower.GetStates(49ms).position[0] > 0.0);
 }
 
+TEST_CASE("C.2 When the buffer has run empty, the next points gather anew")
+{
+    TrajectoryFollower follower;
+    AppendRamp(follower, 20, 0.1, 40ms, 0ms);
+    REQUIRE(follower.TryAdvance(1s));
+    REQUIRE(follower.GetHeld() == MakePosition(2.0));
+    AppendRamp(follower, 19, 0.1, 40ms, 1s);
+    REQUIRE(follower.TryAdvance(1s + 39ms));
+    REQUIRE(follower.GetFree() == 2048 - 19);
+    REQUIRE(follower.TryAdvance(1s + 78ms));
+    REQUIRE(follower.GetFree() == 2048);
+}
+
 TEST_CASE("C.2 Five points of 2 ms to 0.10 deg: the arm lags, is near 0.07 deg 50 ms later, and ends at the last point")
 {
     TrajectoryFollower follower;
