@@ -14,9 +14,9 @@ constexpr int BAD_INPUT_STATUS = 400;
 constexpr int NOT_NOW_STATUS = 403;
 constexpr int NO_PATH_STATUS = 404;
 
-OpenStream::ApiResponse MakeRefusal(int status, EApiError code, std::string sentence)
+OpenStream::ApiResponse MakeRefusal(int status, std::int32_t code, std::string sentence)
 {
-    OpenStream::ApiResponse response = Succeed(ErrorAnswer{static_cast<std::int32_t>(code), std::move(sentence)});
+    OpenStream::ApiResponse response = Succeed(ErrorAnswer{code, std::move(sentence)});
     response.status = status;
     return response;
 }
@@ -37,6 +37,16 @@ std::string_view GetSentence(EApiError error)
             return "no program is selected; POST /project/context/tasks[0]/cur_prog_cnt with its pno";
         case EApiError::EmergencyStop:
             return "the emergency stop is pressed; release it first";
+        case EApiError::BufferFull:
+            return "the trajectory buffer is full";
+        case EApiError::BufferLeft:
+            return "points of a trajectory that was stopped are in the buffer; POST joint_traject_init first";
+        case EApiError::AxisTooFast:
+            return "E159: the trajectory was too fast for an axis; POST joint_traject_init first";
+        case EApiError::NotWaiting:
+            return "E01554: no program waits in playback; start one that does (wait di1)";
+        case EApiError::Language:
+            return "no statement of the robot language, or an axis cannot be there";
         case EApiError::None:
         case EApiError::BadInput:
         case EApiError::NotServed:
@@ -54,12 +64,18 @@ OpenStream::ApiResponse Succeed()
 
 OpenStream::ApiResponse Answer(EApiError error)
 {
-    return error == EApiError::None ? Succeed() : MakeRefusal(NOT_NOW_STATUS, error, std::string(GetSentence(error)));
+    return error == EApiError::None ? Succeed()
+                                    : Forbid(static_cast<std::int32_t>(error), std::string(GetSentence(error)));
+}
+
+OpenStream::ApiResponse Forbid(std::int32_t code, std::string sentence)
+{
+    return MakeRefusal(NOT_NOW_STATUS, code, std::move(sentence));
 }
 
 OpenStream::ApiResponse Refuse(const Core::Error& error)
 {
-    return MakeRefusal(BAD_INPUT_STATUS, EApiError::BadInput, Core::Describe(error));
+    return MakeRefusal(BAD_INPUT_STATUS, static_cast<std::int32_t>(EApiError::BadInput), Core::Describe(error));
 }
 
 OpenStream::ApiResponse RefuseInput(std::string name, std::string expected, std::string found)
@@ -69,7 +85,7 @@ OpenStream::ApiResponse RefuseInput(std::string name, std::string expected, std:
 
 OpenStream::ApiResponse RefusePath(const std::string& sentence)
 {
-    return MakeRefusal(NO_PATH_STATUS, EApiError::NotServed, sentence);
+    return MakeRefusal(NO_PATH_STATUS, static_cast<std::int32_t>(EApiError::NotServed), sentence);
 }
 
 Core::Result<std::int64_t> ReadInteger(

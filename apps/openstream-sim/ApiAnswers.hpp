@@ -41,6 +41,9 @@ template <typename TAnswer>
 /// 403 with the code and a sentence, for what is not allowed now. None succeeds.
 [[nodiscard]] OpenStream::ApiResponse Answer(EApiError error);
 
+/// Likewise, where an endpoint has a number of its own or a sentence that says more.
+[[nodiscard]] OpenStream::ApiResponse Forbid(std::int32_t code, std::string sentence);
+
 /// 400
 [[nodiscard]] OpenStream::ApiResponse Refuse(const Core::Error& error);
 

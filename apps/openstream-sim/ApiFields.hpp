@@ -1,6 +1,8 @@
 #pragma once
 
 #include "ApiMessages.hpp"
+#include "TrajectoryFollower.hpp"
+#include "TrajectoryPoints.hpp"
 #include <acs/json/JsonFields.hpp>
 
 // The members of the Open API's bodies and their ranges: the only place that spells them.
@@ -22,6 +24,7 @@ struct ACS::Json::JsonFields<ACS::OpenStreamSim::RobotAnswer>
         Required("is_remote_mode", &Message::isRemoteMode),
         Required("tool_no", &Message::toolNo),
         Required("cur_prog_no", &Message::programNo),
+        Required("alarm", &Message::alarm),
         Required("position", &Message::position));
 };
 
@@ -83,6 +86,23 @@ struct ACS::Json::JsonFields<ACS::OpenStreamSim::GeneralAnswer>
         Required("cont_path", &Message::contPath),
         Required("tool_no", &Message::toolNo),
         Required("ucrd_no", &Message::ucrdNo),
+        Required("cur_crd", &Message::curCrd),
+        Required("base_intp", &Message::baseIntp),
+        Required("plc_mode", &Message::plcMode),
+        Required("task_no", &Message::taskNo),
+        Required("axis_lock", &Message::axisLock),
+        Required("call_depth", &Message::callDepth),
+        Required("call_pno", &Message::callPno),
+        Required("next_exe_pno", &Message::nextExePno),
+        Required("cur_mech_no", &Message::curMechNo),
+        Required("cur_mech_axis_info", &Message::curMechAxisInfo),
+        Required("eid_last_err", &Message::eidLastErr),
+        Required("eid_last_warn", &Message::eidLastWarn),
+        Required("eid_last_noti", &Message::eidLastNoti),
+        Required("eid_last_con_out", &Message::eidLastConOut),
+        Required("eid_last_start_stop", &Message::eidLastStartStop),
+        Required("eid_last_history", &Message::eidLastHistory),
+        Required("in_position", &Message::inPosition),
         Required("task_enable", &Message::taskEnable),
         Required("axis_ctrl", &Message::axisCtrl));
 };
@@ -210,6 +230,65 @@ struct ACS::Json::JsonFields<ACS::OpenStreamSim::ProgramCounterAnswer>
         Required("fno_new", &Message::fnoNew),
         Required("ln_new", &Message::lnNew),
         Required("ofs_moved", &Message::ofsMoved));
+};
+
+template <>
+struct ACS::Json::JsonFields<ACS::OpenStreamSim::MoveCommand>
+{
+    static constexpr auto FIELDS =
+        std::make_tuple(Required("stmt", &OpenStreamSim::MoveCommand::stmt).WithLength(0, 1'000));
+};
+
+template <>
+struct ACS::Json::JsonFields<ACS::OpenStreamSim::ConsoleCommand>
+{
+    static constexpr auto FIELDS =
+        std::make_tuple(Required("cmd_line", &OpenStreamSim::ConsoleCommand::cmdLine).WithLength(0, 1'000));
+};
+
+template <>
+struct ACS::Json::JsonFields<ACS::OpenStreamSim::ConsoleAnswer>
+{
+    static constexpr auto FIELDS = std::make_tuple(Required("ecode", &OpenStreamSim::ConsoleAnswer::ecode));
+};
+
+/// The body of joint_traject_init, and the answer of joint_traject_agility_info.
+template <>
+struct ACS::Json::JsonFields<ACS::OpenStreamSim::TrajectoryAgility>
+{
+    using Message = OpenStreamSim::TrajectoryAgility;
+    static constexpr auto FIELDS = std::make_tuple(
+        Defaulted("agility_mode", &Message::bOn),
+        Defaulted("agility_freq", &Message::frequency).Between(0.0, 500.0));
+};
+
+template <>
+struct ACS::Json::JsonFields<ACS::OpenStreamSim::StreamedPoint>
+{
+    using Message = OpenStreamSim::StreamedPoint;
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("interval", &Message::interval).Between(0.0001, 60.0),
+        Defaulted("time_from_start", &Message::timeFromStart).Between(-1.0, OpenStreamSim::LONGEST_TRAJECTORY),
+        Required("look_ahead_time", &Message::lookAheadTime).Between(0.0, 60.0),
+        Required("point", &Message::point).WithLength(OpenStreamSim::AXES, OpenStreamSim::AXES));
+};
+
+template <>
+struct ACS::Json::JsonFields<ACS::OpenStreamSim::ModeAnswer>
+{
+    static constexpr auto FIELDS = std::make_tuple(Required("mode", &OpenStreamSim::ModeAnswer::bMode));
+};
+
+template <>
+struct ACS::Json::JsonFields<ACS::OpenStreamSim::ReadyAnswer>
+{
+    static constexpr auto FIELDS = std::make_tuple(Required("ready", &OpenStreamSim::ReadyAnswer::bReady));
+};
+
+template <>
+struct ACS::Json::JsonFields<ACS::OpenStreamSim::LogCommand>
+{
+    static constexpr auto FIELDS = std::make_tuple(Required("enable", &OpenStreamSim::LogCommand::bEnable));
 };
 
 template <>

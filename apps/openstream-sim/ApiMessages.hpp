@@ -26,6 +26,7 @@ struct RobotAnswer
     int isRemoteMode = 0;
     int toolNo = 0;
     int programNo = 0;
+    int alarm = -1;                   ///< The last one; -1: none.
     std::span<const double> position; ///< deg
 };
 
@@ -48,7 +49,7 @@ struct PoseAnswer
     std::optional<double> j1, j2, j3, j4, j5, j6; ///< deg
 };
 
-/// GET /project/rgen
+/// GET /project/rgen. The lists are views.
 struct GeneralAnswer
 {
     std::string robotModel = "ACS-SIM-6";
@@ -72,8 +73,25 @@ struct GeneralAnswer
     int contPath = 0;
     int toolNo = 0;
     int ucrdNo = 0;
-    std::vector<int> taskEnable;
-    std::vector<int> axisCtrl;
+    int curCrd = 0;
+    int baseIntp = 0;
+    int plcMode = 0;
+    int taskNo = 0;
+    int axisLock = 0;
+    int callDepth = 0;
+    int callPno = -1;
+    int nextExePno = -1;
+    int curMechNo = 0;
+    int curMechAxisInfo = 0; ///< A bit for each axis.
+    int eidLastErr = -1;     ///< Of the last alarm.
+    int eidLastWarn = -1;
+    int eidLastNoti = -1;
+    int eidLastConOut = -1;
+    int eidLastStartStop = -1;
+    int eidLastHistory = -1;
+    std::span<const int> inPosition; ///< By task: its mechanism stands.
+    std::span<const int> taskEnable;
+    std::span<const int> axisCtrl;
 };
 
 /// One number: motor_on_state, emergency_stop, di_val …
@@ -170,6 +188,42 @@ struct ProgramCounterAnswer
     int fnoNew = 0;
     int lnNew = 0;
     int ofsMoved = 0;
+};
+
+/// POST …/execute_move
+struct MoveCommand
+{
+    std::string stmt;
+};
+
+/// POST /console/execute_cmd
+struct ConsoleCommand
+{
+    std::string cmdLine;
+};
+
+/// What the robot language makes of a console command that it does not know.
+struct ConsoleAnswer
+{
+    int ecode = 1;
+};
+
+/// GET …/joint_traject_mode
+struct ModeAnswer
+{
+    bool bMode = false;
+};
+
+/// GET …/joint_traject_ready
+struct ReadyAnswer
+{
+    bool bReady = false;
+};
+
+/// POST …/joint_traject_log
+struct LogCommand
+{
+    bool bEnable = false;
 };
 
 /// POST …/set_cur_pc_idx

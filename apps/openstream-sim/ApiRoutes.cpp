@@ -4,6 +4,7 @@
 #include "ApiCall.hpp"
 #include "ControlApi.hpp"
 #include "RobotApi.hpp"
+#include "TrajectoryApi.hpp"
 
 #include <fmt/format.h>
 
@@ -45,12 +46,25 @@ constexpr std::array ROUTES{
     ApiRoute{Post, "/project/robot/tool_no", RobotApi::SelectTool},
     ApiRoute{Post, "/project/robot/crd_sys", RobotApi::SelectCoordinates},
 
+    ApiRoute{Post, "/project/robot/trajectory/joint_traject_init", TrajectoryApi::Init},
+    ApiRoute{Post, "/project/robot/trajectory/joint_traject_insert_point", TrajectoryApi::InsertPoint},
+    ApiRoute{Post, "/project/robot/trajectory/joint_traject_insert_points", TrajectoryApi::InsertPoints},
+    ApiRoute{Get, "/project/robot/trajectory/joint_traject_buf_avail", TrajectoryApi::GetFree},
+    ApiRoute{Get, "/project/robot/trajectory/joint_traject_agility_info", TrajectoryApi::GetAgility},
+    ApiRoute{Get, "/project/robot/trajectory/joint_traject_mode", TrajectoryApi::GetMode},
+    ApiRoute{Get, "/project/robot/trajectory/joint_traject_ready", TrajectoryApi::GetReady},
+    ApiRoute{Post, "/project/robot/trajectory/joint_traject_off", TrajectoryApi::Finish},
+    ApiRoute{Get, "/project/robot/trajectory/joint_traject_log", TrajectoryApi::GetLog},
+    ApiRoute{Post, "/project/robot/trajectory/joint_traject_log", TrajectoryApi::SetLog},
+
     ApiRoute{Post, "/project/robot/start", ControlApi::StartProgram},
     ApiRoute{Post, "/project/robot/stop", ControlApi::StopProgram},
     ApiRoute{Post, "/project/context/tasks/reset", ControlApi::ResetTasks},
     ApiRoute{Post, "/project/context/tasks[{}]/reset", ControlApi::ResetTask},
     ApiRoute{Post, "/project/context/tasks[0]/cur_prog_cnt", ControlApi::SetProgramCounter},
     ApiRoute{Post, "/project/context/tasks[{}]/set_cur_pc_idx", ControlApi::SetPcIndex},
+    ApiRoute{Post, "/project/context/tasks[{}]/execute_move", ControlApi::ExecuteMove},
+    ApiRoute{Post, "/console/execute_cmd", ControlApi::ExecuteCommand},
 
     ApiRoute{Get, "/project/control/op_cnd", ControlApi::GetConditions},
     ApiRoute{Put, "/project/control/op_cnd", ControlApi::SetConditions},

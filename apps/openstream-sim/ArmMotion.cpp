@@ -17,6 +17,8 @@ using Seconds = std::chrono::duration<double>;
 constexpr JointVector AMPLITUDES{30.0, 15.0, 20.0, 40.0, 25.0, 60.0}; ///< deg
 constexpr double SWING_SECONDS = 4.0;                                 ///< About the time of one swing.
 constexpr double FULL_AMPLITUDE_SECONDS = 2.0; ///< A shorter program moves less, so that no axis goes too fast.
+constexpr double HOMING_SHARE = 0.5;           ///< Of an axis's speed; the swing has the rest.
+constexpr double HOMING_PEAK = 1.5;            ///< The fastest of a smooth step, of its mean.
 constexpr double GRAVITY_EFFORT = 94.0;        ///< Nm, of a level axis 2 or 3.
 constexpr double WRIST_EFFORT = 6.0;           ///< Nm
 
@@ -24,6 +26,8 @@ double ToRadians(double degrees)
 {
     return degrees * pi / 180.0;
 }
+
+} // namespace
 
 JointVector ComputeEffort(const JointVector& position)
 {
@@ -38,11 +42,20 @@ JointVector ComputeEffort(const JointVector& position)
         0.0};
 }
 
-} // namespace
+void ArmMotion::Place(const JointVector& position)
+{
+    _from = position;
+    _seconds = 0.0;
+}
 
 void ArmMotion::Begin(Core::Duration duration)
 {
     _seconds = Seconds(duration).count();
+    for (std::size_t axis = 0; axis < AXES; ++axis)
+    {
+        const double reach = HOMING_SHARE * AXIS_LIMITS.at(axis).speed * _seconds / HOMING_PEAK;
+        _toHome.at(axis) = std::clamp(HOME.at(axis) - _from.at(axis), -reach, reach);
+    }
 }
 
 void ArmMotion::End(Core::Duration elapsed)
@@ -69,11 +82,10 @@ JointStates ArmMotion::GetStates(Core::Duration elapsed, bool bMoving) const
         for (std::size_t axis = 0; axis < AXES; ++axis)
         {
             const double amplitude = AMPLITUDES[axis] * scale;
-            const double toHome = HOME[axis] - _from[axis];
-            states.position[axis] += amplitude * window * swing + toHome * homing;
+            states.position[axis] += amplitude * window * swing + _toHome[axis] * homing;
             if (bMoving)
             {
-                const double rate = amplitude * (windowRate * swing + window * swingRate) + toHome * homingRate;
+                const double rate = amplitude * (windowRate * swing + window * swingRate) + _toHome[axis] * homingRate;
                 states.velocity[axis] = rate / _seconds;
             }
         }

@@ -1,19 +1,10 @@
 #pragma once
 
+#include "AxisLimits.hpp"
 #include <acs/core/Now.hpp>
-
-#include <array>
-#include <cstddef>
 
 namespace ACS::OpenStreamSim
 {
-
-inline constexpr std::size_t AXES = 6;
-
-using JointVector = std::array<double, AXES>;
-
-/// Where the arm stands when nothing has moved it, in degrees.
-inline constexpr JointVector HOME{0.0, 90.0, 0.0, 0.0, 0.0, 0.0};
 
 struct JointStates
 {
@@ -22,14 +13,21 @@ struct JointStates
     JointVector effort{};   ///< Nm
 };
 
-/// What the arm does while a program runs: it swings, begins and ends at rest, and ends at home. Always the same for the
-/// same program; continuous whatever was stopped or given up before.
+/// Of an arm that stands there: gravity's on the axes that lift.
+[[nodiscard]] JointVector ComputeEffort(const JointVector& position);
+
+/// What the arm does while a program runs: it swings, begins and ends at rest, and ends at home, or as far on its way there
+/// as the axes' speed lets it come. Always the same for the same program; continuous whatever was before.
 class ArmMotion
 {
     JointVector _from = HOME;
+    JointVector _toHome{}; ///< deg
     double _seconds = 0.0; ///< Of the whole motion; 0 where it rests.
 
 public:
+    /// Rests there.
+    void Place(const JointVector& position);
+
     /// From where it rests.
     void Begin(Core::Duration duration);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <utility>
 
 namespace ACS::OpenStreamSim::ControlApi
 {
@@ -166,7 +167,7 @@ ApiResponse GetRelayWords(ControllerMachine& machine, const ApiCall& call)
     {
         return Refuse(count.error());
     }
-    std::string text;
+    std::string text = std::move(call.room);
     Json::JsonWriter writer(text);
     writer.BeginArray();
     for (std::int64_t word = 0; word < *count; ++word)
@@ -269,6 +270,43 @@ ApiResponse SetPcIndex(ControllerMachine& machine, const ApiCall& call)
         return Refuse(command.error());
     }
     return Answer(machine.IsPlaying() ? EApiError::TaskPlaying : EApiError::None);
+}
+
+ApiResponse ExecuteMove(ControllerMachine& machine, const ApiCall& call)
+{
+    if (!IsTask(call.argument))
+    {
+        return RefuseTask();
+    }
+    const Core::Result<MoveCommand> command = ReadBody<MoveCommand>(call.request);
+    return command.has_value() ? Answer(machine.ExecuteMove(command->stmt)) : Refuse(command.error());
+}
+
+ApiResponse ExecuteCommand(ControllerMachine& machine, const ApiCall& call)
+{
+    constexpr std::string_view ADD = "rl.i ";
+    const Core::Result<ConsoleCommand> command = ReadBody<ConsoleCommand>(call.request);
+    if (!command.has_value())
+    {
+        return Refuse(command.error());
+    }
+    const std::string_view line = command->cmdLine;
+    if (line == "rl.start")
+    {
+        return Answer(machine.StartConsole());
+    }
+    if (line == "rl.stop")
+    {
+        machine.StopProgram();
+        return Succeed();
+    }
+    if (line == "rl.reinit")
+    {
+        machine.ClearConsole();
+        return Succeed();
+    }
+    const bool bAdded = line.starts_with(ADD) && machine.AddStatement(line.substr(ADD.size())) == EApiError::None;
+    return bAdded ? Succeed() : Succeed(ConsoleAnswer{});
 }
 
 } // namespace ACS::OpenStreamSim::ControlApi

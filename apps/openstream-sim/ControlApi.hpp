@@ -3,7 +3,7 @@
 #include "ApiCall.hpp"
 #include "ControllerMachine.hpp"
 
-/// The endpoints of the operating conditions, the signals, the relays and the tasks.
+/// The endpoints of the operating conditions, the signals, the relays, the tasks and the console.
 namespace ACS::OpenStreamSim::ControlApi
 {
 
@@ -22,5 +22,7 @@ namespace ACS::OpenStreamSim::ControlApi
 [[nodiscard]] OpenStream::ApiResponse ResetTask(ControllerMachine& machine, const ApiCall& call);
 [[nodiscard]] OpenStream::ApiResponse SetProgramCounter(ControllerMachine& machine, const ApiCall& call);
 [[nodiscard]] OpenStream::ApiResponse SetPcIndex(ControllerMachine& machine, const ApiCall& call);
+[[nodiscard]] OpenStream::ApiResponse ExecuteMove(ControllerMachine& machine, const ApiCall& call);
+[[nodiscard]] OpenStream::ApiResponse ExecuteCommand(ControllerMachine& machine, const ApiCall& call);
 
 } // namespace ACS::OpenStreamSim::ControlApi

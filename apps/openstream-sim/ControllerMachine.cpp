@@ -11,6 +11,7 @@ namespace
 {
 
 constexpr int STEPS = 10;
+constexpr std::string_view WAITING_STATEMENT = "wait di1";
 constexpr RelayBlock PROGRAM_BLOCK{ERelayBus::None, 0, ERelayArea::M};
 
 } // namespace
@@ -19,7 +20,7 @@ ControllerMachine::ControllerMachine(const ControllerOptions& options, Core::Now
     : _logger(std::move(logger)),
       _timeScale(options.timeScale),
       _startedAt(now.steady),
-      _motor(options.motorOnTime, options.bMotorOn),
+      _motor(options.motorOnTime, options.bMotorOn || options.bWaiting),
       _runner(options.programs, options.otherPrograms)
 {
     Tool gripper;
@@ -28,14 +29,24 @@ ControllerMachine::ControllerMachine(const ControllerOptions& options, Core::Now
     gripper.mass = 4.5;
     _settings.tools[0] = Tool{};
     _settings.tools[1] = gripper;
+    if (options.bWaiting && _console.TryAdd(WAITING_STATEMENT))
+    {
+        _console.Start();
+    }
 }
 
 void ControllerMachine::Advance(Core::Now now)
 {
     using FloatingDuration = std::chrono::duration<double, Core::Duration::period>;
     const FloatingDuration real = now.steady - _startedAt;
+    const Core::Duration before = _now;
     _now = std::chrono::duration_cast<Core::Duration>(real * _timeScale);
     _motor.Advance(_now);
+    _console.Advance(before, _now, _arm, _relays);
+    if (!_arm.TryAdvance(_now))
+    {
+        RaiseAlarm(EAlarm::AxisTooFast);
+    }
     _runner.Advance(_now, _events);
     HandleEvents(_runner.GetDuration());
 }
@@ -49,18 +60,18 @@ void ControllerMachine::HandleEvents(Core::Duration elapsed)
         {
             case EProgramEvent::Started:
                 _logger.Info("program started", {{"program", number}});
-                _arm.Begin(_runner.GetDuration());
+                _arm.BeginProgram(_runner.GetDuration(), _now);
                 Count(STARTED_BYTE);
                 break;
             case EProgramEvent::Finished:
                 _logger.Info("program finished", {{"program", number}});
-                _arm.End(elapsed);
+                _arm.EndProgram(elapsed);
                 Count(FINISHED_BYTE);
                 _relays.WriteU32(PROGRAM_BLOCK, LAST_BYTE, static_cast<std::uint32_t>(event.number));
                 break;
             case EProgramEvent::Failed:
                 _logger.Warning("program failed", {{"program", number}});
-                _arm.End(elapsed);
+                _arm.EndProgram(elapsed);
                 Count(FAILED_BYTE);
                 _relays.WriteU32(PROGRAM_BLOCK, LAST_BYTE, static_cast<std::uint32_t>(event.number));
                 break;
@@ -75,6 +86,33 @@ void ControllerMachine::Count(std::size_t byte)
 {
     const auto counter = static_cast<std::uint32_t>(_relays.ReadS32(PROGRAM_BLOCK, byte));
     _relays.WriteU32(PROGRAM_BLOCK, byte, counter + 1);
+}
+
+void ControllerMachine::GiveProgramUp()
+{
+    const Core::Duration elapsed = _runner.GetElapsed(_now);
+    _runner.Reset(_events);
+    HandleEvents(elapsed);
+}
+
+void ControllerMachine::RaiseAlarm(EAlarm alarm)
+{
+    _alarm = alarm;
+    _logger.Warning("alarm", {{"number", fmt::to_string(static_cast<std::int32_t>(alarm))}});
+}
+
+ProgramProgress ControllerMachine::GetProgress() const
+{
+    return ProgramProgress{_runner.GetElapsed(_now), _runner.IsRunning()};
+}
+
+EApiError ControllerMachine::CheckMotion() const
+{
+    if (!_bRemote)
+    {
+        return EApiError::NotRemote;
+    }
+    return _motor.GetState() == EMotorState::On ? EApiError::None : EApiError::MotorOff;
 }
 
 EApiError ControllerMachine::SwitchMotorOn()
@@ -99,17 +137,18 @@ void ControllerMachine::SwitchMotorOff()
 
 EApiError ControllerMachine::StartProgram()
 {
-    if (!_bRemote)
+    const EApiError error = CheckMotion();
+    if (error != EApiError::None)
     {
-        return EApiError::NotRemote;
+        return error;
     }
-    if (_motor.GetState() != EMotorState::On)
-    {
-        return EApiError::MotorOff;
-    }
-    if (_runner.IsRunning())
+    if (IsPlaying() || _arm.IsMoving(_now))
     {
         return EApiError::Playing;
+    }
+    if (_console.IsHalted() || (_runner.GetSelected() == 0 && !_console.IsEmpty()))
+    {
+        return StartConsole();
     }
     if (_runner.GetSelected() == 0)
     {
@@ -120,12 +159,67 @@ EApiError ControllerMachine::StartProgram()
     return EApiError::None;
 }
 
+EApiError ControllerMachine::ExecuteMove(std::string_view statement)
+{
+    const EApiError error = CheckMotion();
+    if (error != EApiError::None)
+    {
+        return error;
+    }
+    if (IsPlaying() || _arm.IsMoving(_now))
+    {
+        return EApiError::Playing;
+    }
+    const std::optional<MoveStatement> move = ParseMoveOrNull(statement);
+    if (!move.has_value())
+    {
+        return EApiError::Language;
+    }
+    GiveProgramUp();
+    const JointVector from = _arm.GetStates(_now, GetProgress()).position;
+    _arm.BeginMove(move->target, ComputeMoveSeconds(*move, from), _now);
+    return EApiError::None;
+}
+
+EApiError ControllerMachine::StartConsole()
+{
+    const EApiError error = CheckMotion();
+    if (error != EApiError::None)
+    {
+        return error;
+    }
+    if (IsPlaying() || _arm.IsMoving(_now))
+    {
+        return EApiError::Playing;
+    }
+    if (_console.IsEmpty())
+    {
+        return EApiError::NoProgram;
+    }
+    GiveProgramUp();
+    _logger.Info("console program started");
+    _console.Start();
+    return EApiError::None;
+}
+
+EApiError ControllerMachine::AddStatement(std::string_view statement)
+{
+    return _console.TryAdd(statement) ? EApiError::None : EApiError::Language;
+}
+
+void ControllerMachine::ClearConsole()
+{
+    ResetTasks();
+    _console.Clear();
+}
+
 EApiError ControllerMachine::SelectProgram(int number)
 {
-    if (_runner.IsRunning())
+    if (IsPlaying())
     {
         return EApiError::TaskPlaying;
     }
+    _console.Reset();
     const Core::Duration elapsed = _runner.GetElapsed(_now);
     _runner.Select(number, _events);
     HandleEvents(elapsed);
@@ -139,14 +233,15 @@ void ControllerMachine::StopProgram()
         _logger.Info("program stopped", {{"program", fmt::to_string(_runner.GetSelected())}});
         _runner.Stop(_now);
     }
+    _console.Stop();
+    _arm.Stop(_now);
 }
 
 void ControllerMachine::ResetTasks()
 {
     StopProgram();
-    const Core::Duration elapsed = _runner.GetElapsed(_now);
-    _runner.Reset(_events);
-    HandleEvents(elapsed);
+    GiveProgramUp();
+    _console.Reset();
 }
 
 void ControllerMachine::PressEmergencyStop(bool bPressed)
@@ -189,7 +284,7 @@ bool ControllerMachine::IsEmergencyStop() const noexcept
 
 bool ControllerMachine::IsPlaying() const noexcept
 {
-    return _runner.IsRunning();
+    return _runner.IsRunning() || _console.IsRunning();
 }
 
 EMotorState ControllerMachine::GetMotorState() const noexcept
@@ -213,7 +308,7 @@ int ControllerMachine::GetStep() const noexcept
 
 JointStates ControllerMachine::GetJointStates() const
 {
-    JointStates states = _arm.GetStates(_runner.GetElapsed(_now), _runner.IsRunning());
+    JointStates states = _arm.GetStates(_now, GetProgress());
     for (double& velocity : states.velocity)
     {
         velocity *= _timeScale;

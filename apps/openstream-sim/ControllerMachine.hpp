@@ -1,18 +1,22 @@
 #pragma once
 
 #include "ApiMessages.hpp"
-#include "ArmMotion.hpp"
+#include "Arm.hpp"
+#include "ConsoleProgram.hpp"
 #include "ControllerOptions.hpp"
 #include "EApiError.hpp"
 #include "MotorSwitch.hpp"
 #include "ProgramRunner.hpp"
 #include "RelayMemory.hpp"
+#include "TrajectoryPoints.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <string_view>
 
 namespace ACS::OpenStreamSim
 {
@@ -25,6 +29,14 @@ inline constexpr std::size_t FINISHED_BYTE = 404; ///< Counts programs that ende
 inline constexpr std::size_t FAILED_BYTE = 408;   ///< Counts programs that gave up.
 inline constexpr std::size_t LAST_BYTE = 412;     ///< The number of the program that ended last.
 
+/// What the controller warns of, by the number that rgen shows.
+enum class EAlarm : std::int32_t
+{
+    None = -1,
+    AxisTooFast = 159,    ///< E159: an axis would have had to go faster than it can.
+    NotExecutable = 1554, ///< E01554: a trajectory's point came while no program waited in playback.
+};
+
 /// What an operator or a client has set and what nothing but the answers depends on.
 struct ControllerSettings
 {
@@ -33,6 +45,7 @@ struct ControllerSettings
     int coordinates = 1; ///< As crd_sys has it: 0 axis, 1 orthogonal, 2 user, 3 tool.
     int userCoordinates = 0;
     OperatingConditions conditions;
+    bool bTrajectoryLog = false;
 };
 
 /// The simulated controller behind the endpoints: motor, base task, relays, arm. Advance brings it to the present; the
@@ -47,13 +60,20 @@ class ControllerMachine
     bool _bEmergencyStop = false;
     MotorSwitch _motor;
     ProgramRunner _runner;
-    ArmMotion _arm;
+    ConsoleProgram _console;
+    Arm _arm;
+    EAlarm _alarm = EAlarm::None;
     ProgramEvents _events;
     RelayMemory _relays;
     ControllerSettings _settings;
 
     void HandleEvents(Core::Duration elapsed);
     void Count(std::size_t byte);
+    void GiveProgramUp();
+    void RaiseAlarm(EAlarm alarm);
+    [[nodiscard]] ProgramProgress GetProgress() const;
+    [[nodiscard]] EApiError CheckMotion() const;
+    [[nodiscard]] EApiError AcceptTrajectory();
 
 public:
     ControllerMachine(const ControllerOptions& options, Core::Now now, Core::Logger logger);
@@ -64,6 +84,25 @@ public:
     [[nodiscard]] EApiError SwitchMotorOn();
     [[nodiscard]] EApiError StartProgram();
     [[nodiscard]] EApiError SelectProgram(int number);
+
+    /// The base task's single move; the program must not run. Gives up a program that was stopped in its middle.
+    [[nodiscard]] EApiError ExecuteMove(std::string_view statement);
+    /// Runs what AddStatement has put together.
+    [[nodiscard]] EApiError StartConsole();
+    /// Language where it is no statement that the simulator knows.
+    [[nodiscard]] EApiError AddStatement(std::string_view statement);
+    void ClearConsole();
+
+    /// joint_traject_init: the arm stops where it is, the buffer is empty, the alarm forgotten.
+    [[nodiscard]] EApiError InitTrajectory(const TrajectoryAgility& agility);
+    /// joint_traject_insert_point; BadInput where its time is not after that of the point before.
+    [[nodiscard]] EApiError InsertPoint(const StreamedPoint& point);
+    /// joint_traject_insert_points, all or nothing.
+    [[nodiscard]] TrajectoryMistake InsertPoints(const TimedPoints& points);
+    /// joint_traject_off: the rest of the points is dropped.
+    [[nodiscard]] EApiError FinishTrajectory();
+    /// STOP control: nothing is left in the buffer, the arm stands. A program runs on.
+    void StopTrajectory();
 
     void SwitchMotorOff();
     void StopProgram();
@@ -81,6 +120,13 @@ public:
     [[nodiscard]] bool IsPlaying() const noexcept;
     [[nodiscard]] EMotorState GetMotorState() const noexcept;
     [[nodiscard]] int GetProgram() const noexcept;
+
+    [[nodiscard]] EAlarm GetAlarm() const noexcept;
+    [[nodiscard]] const TrajectoryFollower& GetTrajectory() const noexcept;
+    /// A trajectory moves the arm, is about to, or is being cleaned up.
+    [[nodiscard]] bool IsTrajectoryActive() const;
+    /// A trajectory's point would be taken.
+    [[nodiscard]] bool IsTrajectoryReady() const;
 
     /// 0 at the program's beginning, else 1 to 10 in step with its time.
     [[nodiscard]] int GetStep() const noexcept;

@@ -22,6 +22,7 @@ struct ControllerOptions
 {
     double timeScale = 1.0;                       ///< Simulated seconds in a real one; above 0.
     bool bMotorOn = false;                        ///< At the start.
+    bool bWaiting = false;                        ///< At the start the motor is on and a program waits for di1.
     std::chrono::milliseconds motorOnTime{1'000}; ///< Simulated, from the command to motor on.
     std::map<int, ProgramSpec> programs;          ///< By number, FIRST_PROGRAM to LAST_PROGRAM.
     ProgramSpec otherPrograms;                    ///< Every number that is not in `programs`.

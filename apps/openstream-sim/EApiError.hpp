@@ -13,8 +13,13 @@ enum class EApiError : std::int32_t
     NotServed = -2,       ///< 404: no such path, or not with this method. Own.
     NoProgram = -3,       ///< 403: start without a selected program. Own.
     EmergencyStop = -4,   ///< 403: the emergency stop is pressed. Own.
+    BufferFull = -8,      ///< 403: more points than the trajectory buffer has room for.
+    BufferLeft = -101,    ///< 403: points of a stopped trajectory are still in the buffer. Own.
+    AxisTooFast = -159,   ///< 403: likewise, after alarm E159. Own.
+    NotWaiting = -1554,   ///< 403: no program waits in playback (alarm E01554). Own.
     NotRemote = -38500,   ///< 403
     TaskPlaying = -38501, ///< 403
+    Language = -1376272,  ///< 403: no statement of the robot language.
     MotorOff = -1442071,  ///< 403
     Playing = -1442080,   ///< 403: an automatic program runs.
 };

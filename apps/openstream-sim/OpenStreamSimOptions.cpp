@@ -93,6 +93,10 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, OpenStr
         .type_name("NUMBER=DURATION[,fail]");
     app.add_flag("--ready", options.host.controller.bMotorOn, "Begin with the motor on");
     app.add_flag(
+        "--playing",
+        options.host.controller.bWaiting,
+        "Begin with the motor on and a program in playback that waits for di1, so that trajectories are taken");
+    app.add_flag(
         "--realtime",
         options.bRealTime,
         "Ask the system for a real-time priority, precise timers and locked memory; go on without what it refuses");

@@ -5,7 +5,9 @@
 #include "FlangePose.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -25,6 +27,9 @@ constexpr std::size_t TASKS = 8;
 constexpr std::size_t AXIS_SLOTS = 32;
 constexpr int COORDINATE_SYSTEMS = 4;
 constexpr int ALL_MECHANISMS = 65'535;
+constexpr int ALL_AXES = (1 << AXES) - 1;
+constexpr double STANDING_SPEED = 0.01;     ///< deg/s, at most.
+constexpr double ENCODER_COUNTS = 10'000.0; ///< In a degree.
 
 /// The `crd` of po_cur.
 enum class EPoseCoordinates : std::uint8_t
@@ -65,6 +70,11 @@ void FillAxes(const JointVector& position, PoseAnswer& answer)
     answer.j6 = position[5];
 }
 
+bool IsStanding(const JointVector& velocity)
+{
+    return std::ranges::all_of(velocity, [](double speed) { return std::abs(speed) <= STANDING_SPEED; });
+}
+
 std::span<const double> Cut(const JointVector& values, std::size_t first, std::size_t count)
 {
     return std::span(values).subspan(first, count);
@@ -101,6 +111,7 @@ ApiResponse GetRobot(ControllerMachine& machine, const ApiCall& call)
     answer.isRemoteMode = ToInteger(machine.IsRemote());
     answer.toolNo = machine.GetSettings().toolNo;
     answer.programNo = machine.GetProgram();
+    answer.alarm = static_cast<int>(machine.GetAlarm());
     const JointVector position = machine.GetJointStates().position;
     answer.position = position;
     return Succeed(answer, OBJECT_TYPE, std::move(call.room));
@@ -146,7 +157,7 @@ ApiResponse GetPose(ControllerMachine& machine, const ApiCall& call)
             return Refuse(value->error());
         }
     }
-    const JointVector position = machine.GetJointStates().position;
+    JointVector position = machine.GetJointStates().position;
     PoseAnswer answer;
     answer.mechinfo = *mechanisms == -1 ? ALL_MECHANISMS : static_cast<int>(*mechanisms);
     answer.crd = "base";
@@ -165,7 +176,12 @@ ApiResponse GetPose(ControllerMachine& machine, const ApiCall& call)
             FillAxes(position, answer);
             return Succeed(answer, "Pose", std::move(call.room));
         case EPoseCoordinates::Encoder:
-            return RefuseInput("crd", "0, 1, 2 or 4, as a simulated arm has no encoders", "3");
+            answer.crd = "encoder";
+            std::ranges::transform(position, position.begin(), [](double angle) {
+                return std::round(angle * ENCODER_COUNTS);
+            });
+            FillAxes(position, answer);
+            return Succeed(answer, "Pose", std::move(call.room));
         case EPoseCoordinates::Robot:
             answer.crd = "robot";
             break;
@@ -180,7 +196,7 @@ ApiResponse GetPose(ControllerMachine& machine, const ApiCall& call)
     return Succeed(answer, "Pose", std::move(call.room));
 }
 
-ApiResponse GetGeneral(ControllerMachine& machine, const ApiCall& /*call*/)
+ApiResponse GetGeneral(ControllerMachine& machine, const ApiCall& call)
 {
     const ControllerSettings& settings = machine.GetSettings();
     GeneralAnswer answer;
@@ -197,16 +213,28 @@ ApiResponse GetGeneral(ControllerMachine& machine, const ApiCall& /*call*/)
     answer.autoSpd = settings.conditions.playbackSpdRate;
     answer.toolNo = settings.toolNo;
     answer.ucrdNo = settings.userCoordinates;
-    answer.taskEnable.assign(TASKS, 0);
-    answer.taskEnable.front() = 1;
-    answer.axisCtrl.assign(AXIS_SLOTS, 0);
-    std::fill_n(answer.axisCtrl.begin(), AXES, 1);
-    return Succeed(answer);
+    answer.curCrd = settings.coordinates;
+    answer.baseIntp = settings.conditions.intpBase;
+    answer.plcMode = settings.conditions.plcMode;
+    answer.axisLock = settings.conditions.robotLock;
+    answer.curMechAxisInfo = ALL_AXES;
+    answer.eidLastErr = static_cast<int>(machine.GetAlarm());
+    std::array<int, TASKS> inPosition{};
+    inPosition.front() = ToInteger(IsStanding(machine.GetJointStates().velocity));
+    answer.inPosition = inPosition;
+    std::array<int, TASKS> taskEnable{};
+    taskEnable.front() = 1;
+    answer.taskEnable = taskEnable;
+    std::array<int, AXIS_SLOTS> axisCtrl{};
+    std::fill_n(axisCtrl.begin(), AXES, 1);
+    answer.axisCtrl = axisCtrl;
+    return Succeed(answer, OBJECT_TYPE, std::move(call.room));
 }
 
-ApiResponse GetMotorState(ControllerMachine& machine, const ApiCall& /*call*/)
+ApiResponse GetMotorState(ControllerMachine& machine, const ApiCall& call)
 {
-    return Succeed(NumberAnswer{static_cast<std::int64_t>(machine.GetMotorState())});
+    const NumberAnswer answer{static_cast<std::int64_t>(machine.GetMotorState())};
+    return Succeed(answer, OBJECT_TYPE, std::move(call.room));
 }
 
 ApiResponse SwitchMotorOn(ControllerMachine& machine, const ApiCall& /*call*/)

@@ -70,6 +70,7 @@ void VirtualController::Call(const OpenStream::ApiRequest& request, Core::Now no
 void VirtualController::StopControl(Core::Now now)
 {
     _machine.Advance(now);
+    _machine.StopTrajectory();
 }
 
 void VirtualController::TurnModeSwitch(bool bRemote, Core::Now now)

@@ -18,7 +18,7 @@ public:
 
     void Call(const OpenStream::ApiRequest& request, Core::Now now, OpenStream::ApiResponse& response) override;
 
-    /// There is no trajectory to release; a program runs on.
+    /// A trajectory ends where the arm is, and its buffer is empty; a program runs on.
     void StopControl(Core::Now now) override;
 
     /// By the operator's hand: out of remote mode, which stops the program, or into it.

@@ -79,6 +79,57 @@ TEST_CASE("A halted arm has no velocity, gravity's effort is about 94 Nm on axes
     REQUIRE(motion.GetStates(500ms, true).velocity != JointVector{});
 }
 
+TEST_CASE(
+    "C From the ends of the axes' ranges no program drives an axis too fast or too far, and it comes nearer to home")
+{
+    for (const bool bHighest : {false, true})
+    {
+        for (const auto duration : {200ms, 2'000ms, 5'900ms, 6'100ms, 30'000ms, 600'000ms})
+        {
+            ArmMotion motion;
+            JointVector start{};
+            for (std::size_t axis = 0; axis < AXES; ++axis)
+            {
+                start.at(axis) = bHighest ? AXIS_LIMITS.at(axis).highest : AXIS_LIMITS.at(axis).lowest;
+            }
+            motion.Place(start);
+            REQUIRE(motion.GetStates(1s, false).position == start);
+            motion.Begin(duration);
+            for (auto now = 0ms; now <= duration; now += 20ms)
+            {
+                const JointStates states = motion.GetStates(now, true);
+                INFO(now.count() << " of " << duration.count() << " ms");
+                REQUIRE(FindAxisOutside(states.position) == AXES);
+                for (std::size_t axis = 0; axis < AXES; ++axis)
+                {
+                    REQUIRE(std::abs(states.velocity.at(axis)) <= AXIS_LIMITS.at(axis).speed);
+                }
+            }
+            motion.End(duration);
+            const JointVector end = motion.GetStates(0ms, false).position;
+            REQUIRE(std::abs(end[0]) < std::abs(start[0]));
+            REQUIRE((end[0] == Approx(0.0).margin(1e-9)) == (duration >= 5'900ms));
+        }
+    }
+}
+
+TEST_CASE("C From home no program drives an axis too fast, whatever its duration")
+{
+    for (auto duration = 100ms; duration <= 20'000ms; duration += 100ms)
+    {
+        ArmMotion motion;
+        motion.Begin(duration);
+        for (int part = 0; part <= 200; ++part)
+        {
+            const JointStates states = motion.GetStates(duration * part / 200, true);
+            for (std::size_t axis = 0; axis < AXES; ++axis)
+            {
+                REQUIRE(std::abs(states.velocity.at(axis)) <= AXIS_LIMITS.at(axis).speed);
+            }
+        }
+    }
+}
+
 TEST_CASE("The flange follows the axes: a turn of axis 1 turns it about the base, a level wrist keeps it level")
 {
     const FlangePose home = ComputeFlangePose(HOME);

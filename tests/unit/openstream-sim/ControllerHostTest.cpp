@@ -10,6 +10,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/read.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/write.hpp>
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 using namespace ACS::OpenStream;    // NOLINT(google-build-using-namespace)
@@ -41,16 +43,22 @@ class Fixture final
 
 public:
     boost::asio::io_context context;
+    boost::asio::steady_timer pointTimer{context};
     std::vector<ClientEvent> events;
     std::unique_ptr<ControllerHost> host;
     std::unique_ptr<OpenStreamClient> client;
 
     Fixture()
+        : Fixture(MakeFastOptions())
+    {
+    }
+
+    explicit Fixture(const ControllerOptions& controller)
     {
         HostOptions options;
         options.stream.port = 0;
         options.http.port = 0;
-        options.controller.timeScale = 10.0;
+        options.controller = controller;
         host = MakeHost(options);
         REQUIRE(host->Start().has_value());
 
@@ -65,6 +73,21 @@ public:
             clientOptions,
             [this](const ClientEvent& event, ACS::Core::Now /*now*/) { events.push_back(event); });
         client->Start();
+    }
+
+    [[nodiscard]] static ControllerOptions MakeFastOptions()
+    {
+        ControllerOptions options;
+        options.timeScale = 10.0;
+        return options;
+    }
+
+    /// As fast as real, and a program waits in playback.
+    [[nodiscard]] static ControllerOptions MakePlayingOptions()
+    {
+        ControllerOptions options;
+        options.bWaiting = true;
+        return options;
     }
 
     [[nodiscard]] std::unique_ptr<ControllerHost> MakeHost(const HostOptions& options)
@@ -87,9 +110,71 @@ public:
         return isReached();
     }
 
-    void Monitor(const char* url, const char* args) const
+    void Monitor(const char* url, const char* args, std::chrono::milliseconds period = 10ms) const
     {
-        client->SetMonitor(MonitorRequest{url, 10ms, JsonText::FromTrusted(args), {}});
+        client->SetMonitor(MonitorRequest{url, period, JsonText::FromTrusted(args), {}});
+    }
+
+    /// Sends so many points of axis 1, evenly from one angle to another, 2 ms apart.
+    void StreamPoints(double from, double to, int count)
+    {
+        pointTimer.expires_after(2ms);
+        AwaitPoint(from, (to - from) / count, 1, count);
+    }
+
+    void AwaitPoint(double from, double step, int number, int count)
+    {
+        pointTimer.async_wait([this, from, step, number, count](const boost::system::error_code& error) {
+            if (error)
+            {
+                return;
+            }
+            SendPoint(from + step * number, 0.002 * number);
+            if (number < count)
+            {
+                pointTimer.expires_at(pointTimer.expiry() + 2ms);
+                AwaitPoint(from, step, number + 1, count);
+            }
+        });
+    }
+
+    void SendPoint(double angle, double time) const
+    {
+        const std::string body = R"({"interval":0.002,"time_from_start":)" + std::to_string(time)
+            + R"(,"look_ahead_time":0.04,"point":[)" + std::to_string(angle) + ",90,0,0,0,0]}";
+        static_cast<void>(client->SendControl(
+            ControlRequest{
+                EApiMethod::Post,
+                "/project/robot/trajectory/joint_traject_insert_point",
+                {},
+                JsonText::FromTrusted(body)},
+            EControlTracking::Streamed));
+    }
+
+    /// The first angle of each sample of joint_states.
+    [[nodiscard]] std::vector<double> GetAngles() const
+    {
+        constexpr std::string_view KEY = "\"position\":[";
+        std::vector<double> angles;
+        for (const ClientEvent& event : events)
+        {
+            const auto* const dataOrNull = std::get_if<ClientData>(&event);
+            if (dataOrNull != nullptr)
+            {
+                const std::string text = dataOrNull->line.result.value_or(JsonText()).GetText();
+                angles.push_back(std::stod(text.substr(text.find(KEY) + KEY.size())));
+            }
+        }
+        return angles;
+    }
+
+    /// Until the newest sample's first angle lies there.
+    [[nodiscard]] bool TryAwaitAngle(double lowest, double highest)
+    {
+        return TryRunUntil([this, lowest, highest]() {
+            const std::vector<double> angles = GetAngles();
+            return !angles.empty() && angles.back() >= lowest && angles.back() <= highest;
+        });
     }
 
     /// The text of the newest sample; empty where none has come.
@@ -195,6 +280,44 @@ TEST_CASE("3 A program is started by CONTROL, MONITOR shows its counters rise, H
     REQUIRE(fixture.TryAwaitSample("[1,0,0,0]"));
     REQUIRE(fixture.TryAwaitSample("[1,1,0,11]"));
     REQUIRE(Contains(fixture.GetOverHttp("/project/plc/m/val_s32?st=400&len=4"), "\r\n\r\n[1,1,0,11]"));
+}
+
+TEST_CASE(
+    "C.2 C.4 A client streams points by CONTROL at 2 ms and sees the arm follow in MONITOR, until STOP control holds it")
+{
+    constexpr int POINTS = 150;
+    constexpr double MIDDLE = 3.0; // deg
+    constexpr double LAST = 6.0;   // deg
+    Fixture fixture(Fixture::MakePlayingOptions());
+    fixture.Monitor("/project/robot/joints/joint_states", R"({"jno_start":1,"jno_n":1})", 2ms);
+    REQUIRE(fixture.TryAwaitAngle(0.0, 0.0));
+    REQUIRE(IsAccepted(fixture.Control("/project/robot/trajectory/joint_traject_init", "{}")));
+    fixture.StreamPoints(0.0, MIDDLE, POINTS);
+    REQUIRE(fixture.TryAwaitAngle(MIDDLE - 1e-4, MIDDLE + 1e-4));
+    fixture.StreamPoints(MIDDLE, LAST, POINTS);
+    REQUIRE(fixture.TryAwaitAngle(LAST - 1e-4, LAST + 1e-4));
+    // No sample lay beyond, and none went back.
+    const std::vector<double> angles = fixture.GetAngles();
+    for (std::size_t i = 1; i < angles.size(); ++i)
+    {
+        REQUIRE(angles[i] >= angles[i - 1] - 1e-9);
+        REQUIRE(angles[i] <= LAST + 1e-4);
+    }
+    REQUIRE(Contains(
+        fixture.GetOverHttp("/project/robot/trajectory/joint_traject_buf_avail"),
+        R"({"_type":"JObject","val":2048})"));
+
+    // A point that is to be reached in a minute; STOP control drops it.
+    constexpr const char* FAR = R"({"interval":60,"look_ahead_time":0,"point":[90,90,0,0,0,0]})";
+    REQUIRE(IsAccepted(fixture.Control("/project/robot/trajectory/joint_traject_insert_point", FAR)));
+    REQUIRE(fixture.TryAwaitAngle(LAST + 0.01, 90.0));
+    fixture.client->StopControl();
+    REQUIRE(fixture.TryRunUntil(
+        [&fixture]() { return fixture.GetSample().find(R"("velocity":[0])") != std::string::npos; }));
+    REQUIRE(Contains(
+        fixture.GetOverHttp("/project/robot/trajectory/joint_traject_mode"),
+        R"({"_type":"JObject","mode":false})"));
+    REQUIRE(fixture.GetAngles().back() < 90.0);
 }
 
 TEST_CASE("A Over HTTP the encoded path, the status and the content type are right")

@@ -58,7 +58,7 @@ const std::vector<Row> ROWS{
     {EApiMethod::Get, "/project/robot/po_cur?crd=1&mechinfo=-1", "", 200, R"("mechinfo":65535,"crd":"robot","x":1070)"},
     {EApiMethod::Get, "/project/robot/po_cur?crd=4&ucrd_no=1&task_no=7", "", 200, R"("crd":"user","x":)"},
     {EApiMethod::Get, "/project/robot/po_cur?crd=-1", "", 200, R"("crd":"base","x":)"},
-    {EApiMethod::Get, "/project/robot/po_cur?crd=3", "", 400, "encoders"},
+    {EApiMethod::Get, "/project/robot/po_cur?crd=3", "", 200, R"("crd":"encoder","j1":0,"j2":900000,)"},
     {EApiMethod::Get, "/project/robot/po_cur?crd=5", "", 400, "crd"},
     {EApiMethod::Get, "/project/robot/po_cur?task_no=8", "", 400, "task_no"},
     {EApiMethod::Get,
@@ -160,7 +160,6 @@ const std::vector<Row> ROWS{
     {EApiMethod::Post, "/project/context/tasks/reset", "{}", 200, EMPTY},
     {EApiMethod::Post, "/project/context/tasks[7]/reset", "{}", 200, EMPTY},
     {EApiMethod::Post, "/project/context/tasks[8]/reset", "{}", 404, "err_msg"},
-    {EApiMethod::Post, "/project/robot/trajectory/joint_traject_init", "{}", 404, R"("err_code":-2)"},
     {EApiMethod::Get, "/project/robot/", "", 404, R"("err_code":-2)"},
     {EApiMethod::Get, "", "", 404, R"("err_code":-2)"},
     {EApiMethod::Delete, "/project/robot", "{}", 404, "only another method"},
@@ -191,6 +190,10 @@ TEST_CASE("A What is set is what is read")
     REQUIRE(harness.Contains("/project/control/op_cnd", R"("playback_mode":1)"));
     REQUIRE(harness.Contains("/project/control/op_cnd", R"("playback_spd_rate":40)"));
     REQUIRE(harness.Contains("/project/control/op_cnd", R"("plc_mode":2)"));
+    REQUIRE(harness.Post("/project/control/op_cnd", R"({"intp_base":1,"robot_lock":1})") == 200);
+    REQUIRE(harness.Contains("/project/rgen", R"("auto_spd":40)"));
+    REQUIRE(harness.Contains("/project/rgen", R"("base_intp":1,"plc_mode":2,"task_no":0,"axis_lock":1)"));
+    REQUIRE(harness.Contains("/project/rgen", R"("cur_mech_axis_info":63)"));
 
     REQUIRE(harness.Post("/project/robot/tool_no", R"({"val":1})") == 200);
     REQUIRE(harness.Contains("/project/robot", R"("tool_no":1)"));
@@ -200,6 +203,9 @@ TEST_CASE("A What is set is what is read")
     REQUIRE(harness.Post("/project/robot/crd_sys", R"({"val":3})") == 200);
     REQUIRE(harness.Post("/project/robot/crd_sys", R"({"val":-1})") == 200); // the next one is axis again
     REQUIRE(harness.Contains("/project/robot/po_cur?crd=-1", R"("crd":"joint")"));
+    REQUIRE(harness.Contains("/project/rgen", R"("cur_crd":0)"));
+    REQUIRE(harness.Post("/project/robot/crd_sys", R"({"val":2})") == 200);
+    REQUIRE(harness.Contains("/project/rgen", R"("cur_crd":2)"));
 
     REQUIRE(
         harness.Post("/project/control/ios/dio/do_val", R"({"type":"dob","blk_no":2,"sig_no":3,"val":-99})") == 200);

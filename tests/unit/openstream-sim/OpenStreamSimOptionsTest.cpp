@@ -35,6 +35,7 @@ TEST_CASE("Every option reaches its place")
         "11=3s",
         "--program=12=500ms,fail",
         "--ready",
+        "--playing",
         "--realtime",
         "--log-level",
         "error"};
@@ -43,6 +44,7 @@ TEST_CASE("Every option reaches its place")
     REQUIRE(options.host.http == ACS::Apps::Endpoint{"::1", 1});
     REQUIRE(options.host.controller.timeScale == 20.0);
     REQUIRE(options.host.controller.bMotorOn);
+    REQUIRE(options.host.controller.bWaiting);
     REQUIRE(options.bRealTime);
     REQUIRE(options.host.controller.programs.size() == 2);
     REQUIRE(options.host.controller.programs.at(11) == ProgramSpec{3s, false});
