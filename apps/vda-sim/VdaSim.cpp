@@ -1,5 +1,6 @@
 #include "vda-sim/VdaSim.hpp"
 
+#include "common/FileLimit.hpp"
 #include "common/ReadyLine.hpp"
 #include "common/SignalWaiter.hpp"
 #include "common/SpdlogSink.hpp"
@@ -18,8 +19,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <sys/resource.h>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -246,17 +245,6 @@ private:
     }
 };
 
-/// Each vehicle has two descriptors; the usual limit of 1024 is soft, and may be raised.
-void RaiseFileLimit()
-{
-    rlimit limit{};
-    if (getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < limit.rlim_max)
-    {
-        limit.rlim_cur = limit.rlim_max;
-        std::ignore = setrlimit(RLIMIT_NOFILE, &limit);
-    }
-}
-
 int Refuse(const std::string& mistake)
 {
     Apps::PrintMistake("vda-sim", mistake);
@@ -272,7 +260,7 @@ int RunVdaSim(const VdaSimOptions& options)
     {
         return Refuse(site.error());
     }
-    RaiseFileLimit();
+    Apps::RaiseFileLimit(); // Each vehicle has two descriptors.
     Fleet fleet(options, *site);
     for (std::size_t i = 0; i < options.vehicles.size(); ++i)
     {

@@ -12,7 +12,6 @@
 #include <array>
 #include <charconv>
 #include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -279,12 +278,7 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         },
         "VDA5050 version: 2.0.0 or 2.1.0")
         .default_str("2.0.0");
-    // A range alone lets pass what is no number.
-    Apps::AddTimeScaleOption(app, options.timeScale).check([](const std::string& text) {
-        double scale = 0.0;
-        const bool bNumber = CLI::detail::lexical_cast(text, scale) && std::isfinite(scale);
-        return bNumber ? std::string() : "expected a number, found " + Core::QuoteForError(text);
-    });
+    Apps::AddTimeScaleOption(app, options.timeScale);
     Apps::AddRepeatedOption(
         app,
         "--action-time",
