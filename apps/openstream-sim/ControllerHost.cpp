@@ -2,6 +2,8 @@
 
 #include "HttpBridge.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace ACS::OpenStreamSim
@@ -18,6 +20,11 @@ OpenStreamAsio::OpenStreamServerOptions MakeServerOptions(const Apps::Endpoint& 
     return options;
 }
 
+Core::Logger MakeLogger(const Core::Logger& logger, const char* part, const HostOptions& options)
+{
+    return logger.MakeFor(options.label.empty() ? std::string(part) : fmt::format("{} {}", part, options.label));
+}
+
 } // namespace
 
 ControllerHost::ControllerHost(
@@ -27,12 +34,17 @@ ControllerHost::ControllerHost(
     HostOptions options)
     : _clock(clock),
       _options(std::move(options)),
-      _controller(_options.controller, clock.GetNow(), logger.MakeFor("controller")),
-      _streamServer(executor, clock, logger.MakeFor("stream"), MakeServerOptions(_options.stream), _controller),
+      _controller(_options.controller, clock.GetNow(), MakeLogger(logger, "controller", _options)),
+      _streamServer(
+          executor,
+          clock,
+          MakeLogger(logger, "stream", _options),
+          MakeServerOptions(_options.stream),
+          _controller),
       _httpServer(
           executor,
           [this](const Apps::HttpRequest& request) { return Handle(request); },
-          logger.MakeFor("http"))
+          MakeLogger(logger, "http", _options))
 {
 }
 

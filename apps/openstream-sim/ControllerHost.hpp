@@ -10,11 +10,15 @@
 
 #include <boost/asio/any_io_executor.hpp>
 
+#include <string>
+
 namespace ACS::OpenStreamSim
 {
 
 struct HostOptions
 {
+    /// Behind what its log lines begin with ("stream 2"); empty for a controller that is alone.
+    std::string label;
     Apps::Endpoint stream{"127.0.0.1", 49'000}; ///< Port 0 takes a free one.
     Apps::Endpoint http{"127.0.0.1", 8888};     ///< Likewise.
     ControllerOptions controller;

@@ -24,6 +24,63 @@ std::optional<int> ParseProgramNumberOrNull(std::string_view text)
     return bProgram ? std::optional(number) : std::nullopt;
 }
 
+std::string TakeControllers(std::string_view text, std::size_t& controllers)
+{
+    std::size_t count = 0;
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, count);
+    if (error != std::errc{} || end != last || count < 1 || count > FleetOptions::MAX_CONTROLLERS)
+    {
+        return fmt::format(
+            "expected a number from 1 to {}, found {}",
+            FleetOptions::MAX_CONTROLLERS,
+            Core::QuoteForError(text));
+    }
+    controllers = count;
+    return {};
+}
+
+/// The last port of a row that begins there.
+std::size_t GetLastPort(const Apps::Endpoint& first, std::size_t controllers)
+{
+    return first.port + controllers - 1;
+}
+
+std::string CheckLastPort(std::string_view option, const Apps::Endpoint& first, std::size_t controllers)
+{
+    constexpr std::size_t LAST_PORT = 65'535;
+    if (first.port == 0 || GetLastPort(first, controllers) <= LAST_PORT)
+    {
+        return {};
+    }
+    return fmt::format(
+        "{} controllers from {} {} on would need ports beyond {}: give fewer, a lower port, or port 0",
+        controllers,
+        option,
+        Apps::MakeText(first),
+        LAST_PORT);
+}
+
+/// Whether there are the ports that the controllers need.
+std::string CheckPorts(const FleetOptions& fleet)
+{
+    const Apps::Endpoint& stream = fleet.first.stream;
+    const Apps::Endpoint& http = fleet.first.http;
+    std::string mistake = CheckLastPort("--listen", stream, fleet.controllers);
+    mistake = mistake.empty() ? CheckLastPort("--http", http, fleet.controllers) : mistake;
+    const bool bMeet =
+        stream.port <= GetLastPort(http, fleet.controllers) && http.port <= GetLastPort(stream, fleet.controllers);
+    if (mistake.empty() && stream.port != 0 && http.port != 0 && stream.host == http.host && bMeet)
+    {
+        mistake = fmt::format(
+            "--listen {} and --http {} want the same port: give them ports that are at least {} apart",
+            Apps::MakeText(stream),
+            Apps::MakeText(http),
+            fleet.controllers);
+    }
+    return mistake;
+}
+
 std::string MakeFooter()
 {
     return fmt::format(
@@ -81,23 +138,45 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, OpenStr
     Apps::AddEndpointOption(
         app,
         "--listen",
-        options.host.stream,
+        options.fleet.first.stream,
         "Where to serve the Open Stream; port 0 takes a free one");
-    Apps::AddEndpointOption(app, "--http", options.host.http, "Where to serve the Open API; port 0 takes a free one");
-    Apps::AddTimeScaleOption(app, options.host.controller.timeScale);
+    Apps::AddEndpointOption(
+        app,
+        "--http",
+        options.fleet.first.http,
+        "Where to serve the Open API; port 0 takes a free one");
+    Apps::AddTextOption(
+        app,
+        "--controllers",
+        [&options](const std::string& text) { return TakeControllers(text, options.fleet.controllers); },
+        "So many controllers, each on the next port of --listen and of --http; on free ones where they say 0")
+        .default_str("1")
+        ->type_name("N");
+    Apps::AddTimeScaleOption(app, options.fleet.first.controller.timeScale);
     Apps::AddRepeatedOption(
         app,
         "--program",
-        [&options](const std::string& text) { return TakeProgram(text, options.host.controller); },
+        [&options](const std::string& text) { return TakeProgram(text, options.fleet.first.controller); },
         "How long a program takes, and whether it fails at its end: 11=3s or 12=500ms,fail")
         .type_name("NUMBER=DURATION[,fail]");
-    app.add_flag("--ready", options.host.controller.bMotorOn, "Begin with the motor on");
+    app.add_flag("--ready", options.fleet.first.controller.bMotorOn, "Begin with the motor on");
     app.add_flag(
         "--realtime",
         options.bRealTime,
         "Ask the system for a real-time priority, precise timers and locked memory; go on without what it refuses");
     Apps::AddCommonOptions(app, options.common);
-    return Apps::ParseCommandLineOrNull(app, argc, argv);
+    const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
+    if (exitCode.has_value())
+    {
+        return exitCode;
+    }
+    const std::string mistake = CheckPorts(options.fleet);
+    if (!mistake.empty())
+    {
+        Apps::PrintMistake(PROGRAM_NAME, fmt::format("{}; try {} --help", mistake, PROGRAM_NAME));
+        return Apps::EXIT_BAD_COMMAND_LINE;
+    }
+    return std::nullopt;
 }
 
 } // namespace ACS::OpenStreamSim

@@ -2,6 +2,7 @@
 """The program as a user starts it, and the Python client of its README, taken from there and run against it."""
 
 import argparse
+import json
 import pathlib
 import re
 import signal
@@ -19,17 +20,23 @@ PROGRAM = None
 
 
 class ReadmeClient(unittest.TestCase):
-    def start(self, *arguments):
-        """A simulator on free ports; (process, stream address, http address)."""
+    def start_for_ready(self, *arguments):
+        """A simulator on free ports; what its ready line says. The process is self.process."""
         process = subprocess.Popen([PROGRAM, "--listen", "127.0.0.1:0", "--http", "127.0.0.1:0", "--log-level", "error",
                                     *arguments], stdout=subprocess.PIPE, text=True)
+        self.process = process
         self.addCleanup(process.wait, LIMIT)
         self.addCleanup(process.kill)
         self.addCleanup(process.stdout.close)
         line = process.stdout.readline()
-        match = re.fullmatch(r"ready: stream=(127\.0\.0\.1:\d+) http=(127\.0\.0\.1:\d+)\n", line)
-        self.assertIsNotNone(match, line)
-        return process, match.group(1), match.group(2)
+        self.assertRegex(line, r"\Aready:( \w+=127\.0\.0\.1:\d+)+\n\Z")
+        return dict(part.split("=") for part in line.split()[1:])
+
+    def start(self, *arguments):
+        """One controller; (process, stream address, http address)."""
+        ready = self.start_for_ready(*arguments)
+        self.assertEqual(list(ready), ["stream", "http"])
+        return self.process, ready["stream"], ready["http"]
 
     def run_program(self, *arguments):
         return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=LIMIT, check=False)
@@ -73,6 +80,37 @@ class ReadmeClient(unittest.TestCase):
                 self.assertEqual(result.returncode, 2)
                 self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
                 self.assertIn(arguments[0], result.stderr)
+
+    def test_each_of_several_controllers_has_ports_and_an_arm_of_its_own(self):
+        ready = self.start_for_ready("--controllers", "3", "--ready")
+        self.assertEqual(list(ready), ["stream", "http", "stream2", "http2", "stream3", "http3"])
+        self.assertEqual(len(set(ready.values())), 6)
+        urllib.request.urlopen(f"http://{ready['http2']}/project/robot/tool_no", b'{"val":1}', timeout=LIMIT).close()
+        for name, tool in (("http", 0), ("http2", 1), ("http3", 0)):
+            with urllib.request.urlopen(f"http://{ready[name]}/project/robot", timeout=LIMIT) as answer:
+                self.assertEqual(json.load(answer)["tool_no"], tool, name)
+        for name in ("stream", "stream2", "stream3"):
+            host, port = ready[name].split(":")
+            with socket.create_connection((host, int(port)), timeout=LIMIT) as client:
+                client.sendall(b'{"cmd":"HANDSHAKE","payload":{"major":1}}\n')
+                self.assertIn(b"handshake_ack", client.recv(1000), name)
+
+    def test_of_several_controllers_the_port_that_cannot_be_had_is_named(self):
+        # Two free neighbours; the second is then taken.
+        for _ in range(100):
+            with socket.create_server(("127.0.0.1", 0)) as first:
+                port = first.getsockname()[1]
+                try:
+                    taken = socket.create_server(("127.0.0.1", port + 1))
+                except (OSError, OverflowError):
+                    continue
+            with taken:
+                result = self.run_program("--controllers", "2", "--listen", f"127.0.0.1:{port}", "--http", "127.0.0.1:0")
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+            self.assertIn(f"127.0.0.1:{port + 1}", result.stderr)
+            return
+        self.fail("there are no two free ports side by side")
 
     def test_help_tells_what_the_programs_do(self):
         result = self.run_program("--help")
