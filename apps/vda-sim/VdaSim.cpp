@@ -152,7 +152,7 @@ private:
     /// The answer to a message on the control topic.
     [[nodiscard]] std::string Command(std::string_view text)
     {
-        const Core::Result<std::vector<FaultCommand>> commands = ParseFaultCommands(text);
+        const Core::Result<std::vector<FaultCommand>> commands = Apps::ParseFaultCommands(GetFaultGrammar(), text);
         if (!commands.has_value())
         {
             const std::string mistake = Core::Describe(commands.error());
@@ -174,7 +174,7 @@ private:
         std::size_t count = 0;
         for (const Member& member : _members)
         {
-            if (IsFor(command, member.name))
+            if (Apps::IsTarget(command.targets, member.name))
             {
                 ++vehicles;
                 count += ApplyTo(*member.runner, command);
@@ -182,7 +182,7 @@ private:
         }
         if (vehicles == 0)
         {
-            return fmt::format("error: no vehicle is called {}; {} is one", command.vehicles, _members.front().name);
+            return fmt::format("error: no vehicle is called {}; {} is one", command.targets, _members.front().name);
         }
         if (command.verb != EFaultVerb::Begin)
         {
@@ -197,7 +197,7 @@ private:
                 vehicles,
                 FaultBoard::MAX_FAULTS);
         }
-        const std::string& nodeID = command.fault.nodeID;
+        const std::string& nodeID = command.fault.place;
         if (!nodeID.empty() && _site->FindNodeOrNull(nodeID) == nullptr)
         {
             return fmt::format(
