@@ -3,6 +3,7 @@
 #include <acs/net/TcpListener.hpp>
 
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
@@ -105,6 +106,7 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
     std::optional<Http::request_parser<Http::string_body>> _parserOrNull;
     std::optional<Http::response<Http::string_body>> _responseOrNull;
     std::optional<Http::response_serializer<Http::string_body>> _serializerOrNull;
+    Asio::steady_timer _delay;
 
 public:
     ConnectionList::iterator place; ///< In the server's list.
@@ -112,7 +114,8 @@ public:
     Connection(const std::shared_ptr<Impl>& server, Tcp::socket socket)
         : _server(server),
           _limits(server->limits),
-          _stream(std::move(socket))
+          _stream(std::move(socket)),
+          _delay(_stream.get_executor())
     {
     }
 
@@ -132,6 +135,7 @@ public:
     void Close()
     {
         ErrorCode ignored;
+        _delay.cancel(ignored);
         _stream.socket().shutdown(Tcp::socket::shutdown_both, ignored);
         _stream.close();
     }
@@ -168,10 +172,25 @@ private:
         // A copy: the handler may stop and destroy the server.
         const Handler makeResponse = server->handler;
         const HttpResponse response = makeResponse(*parsed);
-        WriteAsync(response, request.keep_alive(), bHead);
+        PrepareResponse(response, request.keep_alive());
+        if (response.delay <= Core::Duration::zero())
+        {
+            return WritePreparedAsync(request.keep_alive(), bHead);
+        }
+        _delay.expires_after(response.delay);
+        _delay.async_wait([self = shared_from_this(), bKeepAlive = request.keep_alive(), bHead](const ErrorCode&) {
+            // Closed in the meantime: the write fails at once.
+            self->WritePreparedAsync(bKeepAlive, bHead);
+        });
     }
 
     void WriteAsync(const HttpResponse& response, bool bKeepAlive, bool bHead)
+    {
+        PrepareResponse(response, bKeepAlive);
+        WritePreparedAsync(bKeepAlive, bHead);
+    }
+
+    void PrepareResponse(const HttpResponse& response, bool bKeepAlive)
     {
         _responseOrNull.emplace(Http::int_to_status(response.status), 11U);
         _responseOrNull->result(response.status);
@@ -180,6 +199,10 @@ private:
         _responseOrNull->keep_alive(bKeepAlive);
         _responseOrNull->prepare_payload();
         _serializerOrNull.emplace(*_responseOrNull);
+    }
+
+    void WritePreparedAsync(bool bKeepAlive, bool bHead)
+    {
         _stream.expires_after(_limits.timeout);
         auto onWritten = Beast::bind_front_handler(&Connection::OnWritten, shared_from_this(), bKeepAlive);
         if (bHead)

@@ -128,6 +128,18 @@ struct Fixture
         port = endpoint->port;
         answer.body = "<answer>";
     }
+
+    /// Runs the loop until it is, or time is up.
+    [[nodiscard]] bool IsReached(const std::function<bool()>& isReached)
+    {
+        const auto deadline = std::chrono::steady_clock::now() + LIMIT;
+        while (!isReached() && std::chrono::steady_clock::now() < deadline)
+        {
+            context.restart();
+            context.run_one_for(100ms);
+        }
+        return isReached();
+    }
 };
 
 } // namespace
@@ -162,6 +174,29 @@ TEST_CASE("A connection serves one request after the other, also when they come 
     REQUIRE(client.WasClosed());
     REQUIRE(fixture.requests.size() == 3);
     REQUIRE(fixture.requests[2].path == "/3");
+}
+
+TEST_CASE("An answer with a delay comes later, other connections do not wait; a stop does not either")
+{
+    Fixture fixture;
+    fixture.answer.delay = 1h;
+    RawClient slow(fixture.context, fixture.port);
+    slow.Send("GET /slow HTTP/1.1\r\n\r\n");
+    RawClient gone(fixture.context, fixture.port);
+    gone.Send("GET /gone HTTP/1.1\r\n\r\n");
+    REQUIRE(fixture.IsReached([&fixture] { return fixture.requests.size() == 2; }));
+    fixture.answer.delay = 20ms;
+    const auto asked = std::chrono::steady_clock::now();
+    RawClient other(fixture.context, fixture.port);
+    other.Send("GET /1 HTTP/1.1\r\n\r\nHEAD /2 HTTP/1.1\r\nConnection: close\r\n\r\n");
+    REQUIRE(other.WasClosed());
+    CHECK(std::chrono::steady_clock::now() - asked >= 40ms);
+    const std::string received = other.TakeReceived();
+    CHECK(received.find("<answer>") != std::string::npos);
+    CHECK(received.find("<answer>") == received.rfind("<answer>"));
+    fixture.server->Stop();
+    REQUIRE(slow.WasClosed());
+    CHECK(slow.TakeReceived().empty());
 }
 
 TEST_CASE("HEAD is answered with the header alone")
