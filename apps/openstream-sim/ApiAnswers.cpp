@@ -37,6 +37,8 @@ std::string_view GetSentence(EApiError error)
             return "no program is selected; POST /project/context/tasks[0]/cur_prog_cnt with its pno";
         case EApiError::EmergencyStop:
             return "the emergency stop is pressed; release it first";
+        case EApiError::ProtectiveStop:
+            return "a safeguard is open; close it first";
         case EApiError::None:
         case EApiError::BadInput:
         case EApiError::NotServed:

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 
 namespace ACS::OpenStreamSim
@@ -24,6 +25,9 @@ inline constexpr std::size_t STARTED_BYTE = 400;  ///< Counts programs that bega
 inline constexpr std::size_t FINISHED_BYTE = 404; ///< Counts programs that ended well.
 inline constexpr std::size_t FAILED_BYTE = 408;   ///< Counts programs that gave up.
 inline constexpr std::size_t LAST_BYTE = 412;     ///< The number of the program that ended last.
+
+/// Asked when a program has begun, and when it is at its good end: whether it fails there.
+using ProgramJudge = std::function<bool(int number, bool bAtStart)>;
 
 /// What an operator or a client has set and what nothing but the answers depends on.
 struct ControllerSettings
@@ -51,6 +55,8 @@ class ControllerMachine
     ProgramEvents _events;
     RelayMemory _relays;
     ControllerSettings _settings;
+    bool _bProtectiveStop = false;
+    ProgramJudge _shouldFail;
 
     void HandleEvents(Core::Duration elapsed);
     void Count(std::size_t byte);
@@ -72,6 +78,12 @@ public:
     /// By the operator's hand. Both stop the program; pressing the emergency stop takes the motor's power too.
     void PressEmergencyStop(bool bPressed);
     void TurnModeSwitch(bool bRemote);
+
+    /// The safeguard opens, which stops the program and takes the motor's power, or closes.
+    void HoldProtectiveStop(bool bHeld);
+
+    /// Who lets programs fail; at first nobody.
+    void SetProgramJudge(ProgramJudge shouldFail);
 
     [[nodiscard]] RelayMemory& GetRelays() noexcept;
     [[nodiscard]] ControllerSettings& GetSettings() noexcept;

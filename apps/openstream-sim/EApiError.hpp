@@ -17,6 +17,7 @@ enum class EApiError : std::int32_t
     TaskPlaying = -38501, ///< 403
     MotorOff = -1442071,  ///< 403
     Playing = -1442080,   ///< 403: an automatic program runs.
+    ProtectiveStop = -5,  ///< 403: the safeguard is open. Own.
 };
 
 } // namespace ACS::OpenStreamSim
