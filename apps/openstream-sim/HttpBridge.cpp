@@ -58,6 +58,7 @@ Apps::HttpResponse MakeHttpResponse(const OpenStream::ApiResponse& response)
     Apps::HttpResponse http;
     http.status = static_cast<unsigned>(response.status);
     http.contentType = "application/json; charset=utf-8";
+    http.delay = response.delay;
     http.body = response.body.has_value() ? response.body->GetText() : std::string();
     return http;
 }

@@ -1,6 +1,7 @@
 #include "OpenStreamSimOptions.hpp"
 
 #include "common/DurationText.hpp"
+#include "common/FaultOptions.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -81,13 +82,45 @@ std::string CheckPorts(const FleetOptions& fleet)
     return mistake;
 }
 
+/// A fault for a controller that is not there would be waited for in vain.
+std::string CheckFaults(const FleetOptions& fleet)
+{
+    for (const FaultCommand& command : fleet.faults)
+    {
+        bool bKnown = false;
+        for (std::size_t number = 1; number <= fleet.controllers; ++number)
+        {
+            bKnown = bKnown || Apps::IsTarget(command.targets, std::to_string(number));
+        }
+        if (!bKnown)
+        {
+            return fmt::format(
+                "the fault '{} {}' is for no controller that there is: they are called 1 to {}, and * is all",
+                command.targets,
+                command.fault.text,
+                fleet.controllers);
+        }
+    }
+    return {};
+}
+
 std::string MakeFooter()
 {
     return fmt::format(
+        "Faults, on the command line, in a file (a line each, # for remarks) and by POST /faults to --control:\n"
+        "  CONTROLLER FAULT [KEY=VALUE]...  begins one; CONTROLLER is 1, 2, ... or * for all\n"
+        "      at=DURATION later, program=NUMBER once this program begins, for=DURATION so long,\n"
+        "      every=DURATION again so long after it began\n"
+        "  CONTROLLER end [FAULT]           ends it, or all (--control)\n"
+        "{}"
+        "Example: openstream-sim --fault '1 hole at=5s every=2s' --control 127.0.0.1:8890\n"
+        "         curl --data-binary '* estop for=5s' http://127.0.0.1:8890/faults\n"
+        "\n"
         "A program takes its time and ends: {} s unless --program says otherwise. Its own statements are: at its\n"
         "beginning it adds 1 to the 32-bit counter in relay m at byte {} (ml{}), at its good end to the one at byte {},\n"
         "when it fails or is given up to the one at byte {}; byte {} holds the number of the program that ended last.\n"
         "Read them with GET /project/plc/m/val_s32?st={}&len=4.",
+        Apps::MakeFaultHelp(GetFaultGrammar()),
         std::chrono::duration_cast<std::chrono::seconds>(ProgramSpec{}.duration).count(),
         STARTED_BYTE,
         STARTED_BYTE / sizeof(std::int32_t),
@@ -164,13 +197,29 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, OpenStr
         "--realtime",
         options.bRealTime,
         "Ask the system for a real-time priority, precise timers and locked memory; go on without what it refuses");
+    Apps::AddFaultOptions(
+        app,
+        GetFaultGrammar(),
+        options.fleet.faults,
+        "What goes wrong, see below; its time counts from the start. May be repeated");
+    Apps::Endpoint control;
+    const CLI::Option& controlOption = Apps::AddEndpointOption(
+        app,
+        "--control",
+        control,
+        "Where to take faults over HTTP while it runs; port 0 takes a free one. By default nowhere");
     Apps::AddCommonOptions(app, options.common);
     const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
     if (exitCode.has_value())
     {
         return exitCode;
     }
-    const std::string mistake = CheckPorts(options.fleet);
+    if (controlOption.count() > 0)
+    {
+        options.fleet.control = control;
+    }
+    std::string mistake = CheckPorts(options.fleet);
+    mistake = mistake.empty() ? CheckFaults(options.fleet) : mistake;
     if (!mistake.empty())
     {
         Apps::PrintMistake(PROGRAM_NAME, fmt::format("{}; try {} --help", mistake, PROGRAM_NAME));

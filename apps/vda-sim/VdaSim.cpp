@@ -1,5 +1,6 @@
 #include "vda-sim/VdaSim.hpp"
 
+#include "common/FaultAnswers.hpp"
 #include "common/FileLimit.hpp"
 #include "common/ReadyLine.hpp"
 #include "common/SignalWaiter.hpp"
@@ -152,19 +153,9 @@ private:
     /// The answer to a message on the control topic.
     [[nodiscard]] std::string Command(std::string_view text)
     {
-        const Core::Result<std::vector<FaultCommand>> commands = Apps::ParseFaultCommands(GetFaultGrammar(), text);
-        if (!commands.has_value())
-        {
-            const std::string mistake = Core::Describe(commands.error());
-            _logger.Warning("a command is wrong, none of the message is done", {{"reason", mistake}});
-            return "error: " + mistake;
-        }
-        std::string answer;
-        for (const FaultCommand& command : *commands)
-        {
-            answer += (answer.empty() ? "" : "\n") + Apply(command);
-        }
-        return answer.empty() ? "error: there is no command in it" : answer;
+        return Apps::AnswerCommands<Fault>(GetFaultGrammar(), text, _logger, [this](const FaultCommand& command) {
+            return Apply(command);
+        });
     }
 
     /// One line that says what was done.
