@@ -2,6 +2,7 @@
 """The program as a user starts it, and the Python client of its README, taken from there and run against it."""
 
 import argparse
+import contextlib
 import json
 import pathlib
 import re
@@ -52,6 +53,81 @@ class ReadmeClient(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(result.stdout.splitlines()[-1], "finished, started 1 ended 1")
 
+    def test_the_shell_sessions_of_the_readme_print_what_they_say(self):
+        blocks = re.findall(r"```bash\n(.*?)```", README.read_text(encoding="utf-8"), re.DOTALL)
+        self.assertEqual(len(blocks), 3)
+        ready = self.start_for_ready("--ready", "--control", "127.0.0.1:0")
+        self.assertEqual(list(ready), ["stream", "http", "control"])
+        for block in blocks:
+            with self.subTest(block.splitlines()[0]):
+                code = block.replace("127.0.0.1/49000", ready["stream"].replace(":", "/"))
+                code = code.replace("127.0.0.1:8888", ready["http"]).replace("127.0.0.1:8890", ready["control"])
+                result = subprocess.run(["bash", "-euo", "pipefail", "-c", code], capture_output=True, text=True,
+                                        timeout=LIMIT, check=False)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                printed = result.stdout.splitlines()
+                expected = [line[2:] for line in block.splitlines() if line.startswith("# ")]
+                self.assertEqual(len(printed), len(expected), result.stdout)
+                for line, pattern in zip(printed, expected):
+                    self.assertRegex(line, r"\A" + re.escape(pattern).replace("…", ".*") + r"\Z")
+
+    def test_it_ends_cleanly_with_many_controllers_in_the_middle_of_their_faults(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".faults", encoding="utf-8") as faults:
+            faults.write("# all at once\n* slow time=1h\n* hole every=200ms\n\n1 drop at=1h\n2 mode silence=1h\n")
+            faults.flush()
+            for number in (signal.SIGINT, signal.SIGTERM):
+                with self.subTest(number.name):
+                    ready = self.start_for_ready("--controllers", "20", "--fault-file", faults.name, "--fault",
+                                                 "* estop every=50ms for=10ms", "--control", "127.0.0.1:0")
+                    with contextlib.ExitStack() as stack:
+                        for name, address in ready.items():
+                            host, port = address.split(":")
+                            client = stack.enter_context(socket.create_connection((host, int(port)), timeout=LIMIT))
+                            if name.startswith("http"):
+                                client.sendall(b"GET /api_ver HTTP/1.1\r\n\r\n")
+                            elif name.startswith("stream"):
+                                client.sendall(b'{"cmd":"HANDSHAKE","payload":{"major":1}}\n'
+                                               b'{"cmd":"MONITOR","payload":{"method":"GET","url":"/api_ver","period_ms":2}}\n')
+                                self.assertIn(b"_ack", client.recv(1000))
+                        self.process.send_signal(number)
+                        self.assertEqual(self.process.wait(LIMIT), 0)
+
+    def post(self, address, text, path="/faults"):
+        """Status and text of the answer."""
+        try:
+            with urllib.request.urlopen(f"http://{address}{path}", text.encode(), timeout=LIMIT) as answer:
+                return answer.status, answer.read().decode()
+        except urllib.error.HTTPError as refused:
+            with refused as answer:
+                return answer.code, answer.read().decode()
+
+    def test_faults_are_taken_while_it_runs_all_of_a_message_or_none(self):
+        ready = self.start_for_ready("--controllers", "2", "--ready", "--control", "127.0.0.1:0")
+        control = ready["control"]
+
+        def is_pressed(name):
+            with urllib.request.urlopen(f"http://{ready[name]}/project/robot/emergency_stop", timeout=LIMIT) as answer:
+                return json.load(answer)["val"]
+
+        self.assertEqual(self.post(control, "2 estop"), (200, "ok: controllers=1 estop\n"))
+        self.assertEqual((is_pressed("http"), is_pressed("http2")), (0, 1))
+        self.assertEqual(self.post(control, "# all\n* end estop\n1 estop\n"),
+                         (200, "ok: controllers=2 ended=1\nok: controllers=1 estop\n"))
+        self.assertEqual((is_pressed("http"), is_pressed("http2")), (1, 0))
+        for text, part in (("* end\n2 explode", "line 2, fault: expected one of silence"), ("", "no command"),
+                           ("3 estop", "no controller is called 3; there are 1 to 2"), ("\xff", "error: ")):
+            with self.subTest(text):
+                status, answer = self.post(control, text)
+                self.assertEqual(status, 400)
+                self.assertTrue(answer.startswith("error: "), answer)
+                self.assertIn(part, answer)
+        self.assertEqual((is_pressed("http"), is_pressed("http2")), (1, 0))
+        self.assertEqual(self.post(control, "* end", path="/")[0], 404)
+        with self.assertRaises(urllib.error.HTTPError) as refused:
+            urllib.request.urlopen(f"http://{control}/faults", timeout=LIMIT)
+        with refused.exception as answer:
+            self.assertEqual(answer.code, 405)
+
     def test_it_ends_cleanly_on_both_signals_with_a_client_connected(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             with self.subTest(number.name):
@@ -74,7 +150,11 @@ class ReadmeClient(unittest.TestCase):
                     self.assertIn(address, result.stderr)
 
     def test_a_bad_value_is_one_line_and_exit_code_2(self):
-        for arguments in (("--program", "0=3s"), ("--time-scale", "-1"), ("--listen", "nowhere"), ("--frobnicate",)):
+        for arguments in (
+                ("--program", "0=3s"), ("--time-scale", "-1"), ("--time-scale", "nan"), ("--listen", "nowhere"),
+                ("--http", "127.0.0.1:99999"), ("--controllers", "0"), ("--controllers", "9999"), ("--control", "8890"),
+                ("--fault", "explode"), ("--fault", "1 hole for=5"), ("--fault", "1 end"), ("--fault", "*"), ("--fault", ""),
+                ("--fault-file", "/nowhere"), ("--fault-file", "/"), ("--log-level", "loud"), ("--frobnicate",)):
             with self.subTest(arguments[0]):
                 result = self.run_program(*arguments)
                 self.assertEqual(result.returncode, 2)
@@ -112,10 +192,25 @@ class ReadmeClient(unittest.TestCase):
             return
         self.fail("there are no two free ports side by side")
 
+    def test_a_fault_for_a_controller_that_is_not_there_is_one_line_and_exit_code_2(self):
+        result = self.run_program("--controllers", "2", "--fault", "3 silence")
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+        self.assertIn("1 to 2", result.stderr)
+
+    def test_a_port_of_the_control_that_is_in_use_is_named(self):
+        with socket.create_server(("127.0.0.1", 0)) as taken:
+            address = f"127.0.0.1:{taken.getsockname()[1]}"
+            result = self.run_program("--listen", "127.0.0.1:0", "--http", "127.0.0.1:0", "--control", address)
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+        self.assertIn(address, result.stderr)
+
     def test_help_tells_what_the_programs_do(self):
         result = self.run_program("--help")
         self.assertEqual(result.returncode, 0)
-        for text in ("--program", "byte 400", "byte 404", "byte 408", "byte 412", "val_s32?st=400"):
+        for text in ("--controllers", "--control", "1 hole at=5s every=2s", "protective-stop", "program-fails [when=start|end]",
+                     "--program", "byte 400", "byte 404", "byte 408", "byte 412", "val_s32?st=400"):
             self.assertIn(text, result.stdout)
 
     def test_the_http_side_answers_as_documented(self):
