@@ -4,6 +4,7 @@
 
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
@@ -11,6 +12,7 @@
 #include <list>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace ACS::Apps
@@ -29,6 +31,11 @@ using ErrorCode = boost::system::error_code;
 /// system drop the refusal, too.
 constexpr std::chrono::seconds DRAIN_TIME{2};
 constexpr std::size_t DRAIN_BYTES = 16U * 1024U;
+
+/// Of bytes that were read and not parsed yet. Beast itself has no limit for what may stand behind the size of a chunk.
+constexpr std::size_t BUFFER_BYTES = 64U * 1024U;
+
+constexpr std::string_view CONTINUE = "HTTP/1.1 100 Continue\r\n\r\n";
 
 HttpResponse MakeRefusal(Http::status status, std::string reason)
 {
@@ -102,7 +109,7 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
     std::weak_ptr<Impl> _server;
     HttpLimits _limits;
     Beast::tcp_stream _stream;
-    Beast::flat_buffer _buffer;
+    Beast::flat_buffer _buffer{BUFFER_BYTES};
     std::optional<Http::request_parser<Http::string_body>> _parserOrNull;
     std::optional<Http::response<Http::string_body>> _responseOrNull;
     std::optional<Http::response_serializer<Http::string_body>> _serializerOrNull;
@@ -125,11 +132,11 @@ public:
         _parserOrNull->header_limit(_limits.maxHeaderBytes);
         _parserOrNull->body_limit(_limits.maxBodyBytes);
         _stream.expires_after(_limits.timeout);
-        Http::async_read(
+        Http::async_read_header(
             _stream,
             _buffer,
             *_parserOrNull,
-            Beast::bind_front_handler(&Connection::OnRead, shared_from_this()));
+            Beast::bind_front_handler(&Connection::OnHeader, shared_from_this()));
     }
 
     void Close()
@@ -141,6 +148,38 @@ public:
     }
 
 private:
+    void OnHeader(const ErrorCode& error, std::size_t count)
+    {
+        if (error.failed() || _parserOrNull->is_done())
+        {
+            return OnRead(error, count);
+        }
+        if (!Beast::iequals(_parserOrNull->get()[Http::field::expect], "100-continue"))
+        {
+            return ReadBodyAsync();
+        }
+        // Who asks first whether its body is wanted would wait for the answer.
+        Asio::async_write(
+            _stream,
+            Asio::buffer(CONTINUE),
+            [self = shared_from_this()](const ErrorCode& writeError, std::size_t written) {
+                if (writeError.failed())
+                {
+                    return self->OnRead(writeError, written);
+                }
+                self->ReadBodyAsync();
+            });
+    }
+
+    void ReadBodyAsync()
+    {
+        Http::async_read(
+            _stream,
+            _buffer,
+            *_parserOrNull,
+            Beast::bind_front_handler(&Connection::OnRead, shared_from_this()));
+    }
+
     void OnRead(const ErrorCode& error, std::size_t /*count*/)
     {
         const std::shared_ptr<Impl> server = _server.lock();
