@@ -160,7 +160,6 @@ void ServerConnection::Do(const OpenStream::ServerCall& action)
         _answerTimers->Start(kind, answer.response.delay);
         return;
     }
-    _answerTimers->Cancel(kind);
     _session.OnServiceAnswer(answer.token, answer.response, _clock.GetNow(), _actions);
 }
 

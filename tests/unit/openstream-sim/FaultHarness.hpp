@@ -135,6 +135,11 @@ public:
         return response.status;
     }
 
+    void CallStream(const OpenStream::ApiRequest& request, OpenStream::ApiResponse& answer)
+    {
+        _stream->Call(request, clock.GetNow(), answer);
+    }
+
     int StartProgram(int number)
     {
         REQUIRE(
