@@ -206,6 +206,63 @@ class ReadmeClient(unittest.TestCase):
         self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
         self.assertIn(address, result.stderr)
 
+    def ask(self, address, request):
+        """The whole answer to the bytes, to the end of the connection."""
+        host, port = address.split(":")
+        with socket.create_connection((host, int(port)), timeout=LIMIT) as client:
+            # A server that has refused may stop to read before all is sent.
+            with contextlib.suppress(ConnectionError):
+                client.sendall(request)
+            answer = b""
+            while chunk := client.recv(65536):
+                answer += chunk
+            return answer
+
+    def test_hostile_http_costs_an_answer_and_no_more(self):
+        _, stream, http = self.start()
+        end = b" HTTP/1.1\r\nHost: x\r\nConnection: close\r\n"
+        rows = [
+            (b"GET /api_ver" + end + b"\r\n", 200, b"\r\n\r\n5"),
+            (b"HEAD /api_ver" + end + b"\r\n", 200, b"Content-Length: 1\r\n\r\n"),
+            (b"GET /api_ver HTTP/1.1\r\n\r\n" * 20 + b"GET /api_ver" + end + b"\r\n", 200, b"5"),
+            (b"GET /project/robot%00" + end + b"\r\n", 404, b'"err_code":-2'),
+            (b"GET /project/%ff" + end + b"\r\n", 404, b'"err_code":-2'),
+            (b"GET /project/../api_ver" + end + b"\r\n", 404, b'"err_code":-2'),
+            (b"GET /project/context/tasks%255B0%255D/x" + end + b"\r\n", 404, b'"err_code":-2'),
+            (b"GET /%zz" + end + b"\r\n", 400, b"percent-encoded"),
+            (b"GET api_ver" + end + b"\r\n", 400, b"begins with /"),
+            (b"POST /project/robot/tool_no" + end + b"Content-Length: 10000000\r\n\r\n" + bytes(10_000_000), 413, b"longer"),
+            (b"POST /project/robot/tool_no" + end + b"Content-Length: 200000\r\n\r\n" + b"[" * 200_000, 400, b"64 levels"),
+            (b"POST /project/robot/tool_no" + end + b"Transfer-Encoding: chunked\r\n\r\n9\r\n{\"val\":1}\r\n0\r\n\r\n", 200, b"_type"),
+            (b"POST /project/robot/tool_no" + end + b"Transfer-Encoding: chunked\r\n\r\n5;" + b"x" * 1_000_000, 400, b"not an HTTP"),
+            (b"POST /project/robot/tool_no" + end + b"Content-Length: -1\r\n\r\n", 400, b"not an HTTP"),
+            (b"\x16\x03\x01 no HTTP\r\n\r\n", 400, b"not an HTTP"),
+        ]
+        rows += [(method + b" /api_ver" + end + b"\r\n", 404, b'"err_code":-2')
+                 for method in (b"OPTIONS", b"TRACE", b"CONNECT", b"PATCH", b"BREW", b"get", b"PUT")]
+        host, port = stream.split(":")
+        with socket.create_connection((host, int(port)), timeout=LIMIT) as client:
+            client.sendall(b'{"cmd":"HANDSHAKE","payload":{"major":1}}\n')
+            for request, status, part in rows:
+                with self.subTest(request[:60]):
+                    answer = self.ask(http, request)
+                    self.assertTrue(answer.startswith(b"HTTP/1.1 %d " % status), answer[:300])
+                    self.assertIn(part, answer)
+            self.assertIn(b"handshake_ack", client.recv(1000))
+            client.sendall(b'{"cmd":"STOP","payload":{"target":"session"}}\n')
+            self.assertIn(b"stop_ack", client.recv(1000))
+
+    def test_slow_http_clients_keep_others_waiting_only_as_long_as_they_stay(self):
+        _, _, http = self.start()
+        host, port = http.split(":")
+        with contextlib.ExitStack() as stack:
+            slow = [stack.enter_context(socket.create_connection((host, int(port)), timeout=LIMIT)) for _ in range(80)]
+            for client in slow:
+                client.sendall(b"GET /api_ver HT")
+            for client in slow[:40]:
+                client.close()
+            self.assertTrue(self.ask(http, b"GET /api_ver HTTP/1.1\r\nConnection: close\r\n\r\n").endswith(b"\r\n\r\n5"))
+
     def test_help_tells_what_the_programs_do(self):
         result = self.run_program("--help")
         self.assertEqual(result.returncode, 0)
