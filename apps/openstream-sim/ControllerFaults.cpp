@@ -102,7 +102,7 @@ void ControllerFaults::Apply(const FaultChange& change)
             _host.DropSessions();
             break;
         case EFaultKind::Mode:
-            TurnModeSwitch(change.fault, change.bBegun);
+            TurnModeSwitch(change.fault);
             break;
         case EFaultKind::EmergencyStop:
             _controller.GetMachine(_now).PressEmergencyStop(_board.IsActive(EFaultKind::EmergencyStop));
@@ -125,12 +125,13 @@ void ControllerFaults::Apply(const FaultChange& change)
     }
 }
 
-void ControllerFaults::TurnModeSwitch(const Fault& fault, bool bBegun)
+void ControllerFaults::TurnModeSwitch(const Fault& fault)
 {
+    ControllerMachine& machine = _controller.GetMachine(_now);
     const bool bRemote = !_board.IsActive(EFaultKind::Mode);
-    _controller.TurnModeSwitch(bRemote, _now);
-    if (bBegun || bRemote)
+    if (machine.IsRemote() != bRemote)
     {
+        machine.TurnModeSwitch(bRemote);
         _silentUntil = std::max(_silentUntil, _now.steady + fault.silence);
     }
 }

@@ -29,7 +29,7 @@ class ControllerFaults final
     void AdvanceAll(Core::Now now);
     void ApplyChanges();
     void Apply(const FaultChange& change);
-    void TurnModeSwitch(const Fault& fault, bool bBegun);
+    void TurnModeSwitch(const Fault& fault);
     [[nodiscard]] bool ShouldFail(int number, bool bAtStart);
     void Finish();
 

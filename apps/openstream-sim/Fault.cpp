@@ -21,6 +21,7 @@ namespace
 
 constexpr std::chrono::milliseconds HOLE{100};
 constexpr std::chrono::milliseconds SLOWNESS{500};
+constexpr std::chrono::minutes SLOWEST{1};
 constexpr int FIRST_REFUSAL = 400;
 constexpr int LAST_REFUSAL = 599;
 
@@ -41,6 +42,13 @@ std::string ReadInteger(std::string_view text, TInteger lowest, TInteger highest
     return {};
 }
 
+/// An HTTP connection keeps its place until its answer has left, whether or not somebody still waits for it.
+std::string ReadSlowness(std::string_view text, Fault& fault)
+{
+    const std::string expected = Apps::ReadDurationValue(text, fault.time);
+    return expected.empty() && fault.time > SLOWEST ? "a duration of at most 1m" : expected;
+}
+
 std::string ReadProgram(std::string_view text, Fault& fault)
 {
     int number = 0;
@@ -58,11 +66,7 @@ constexpr std::array<Apps::FaultParameter<Fault>, 11> PARAMETERS{
      Apps::FAULT_FOR<Fault>,
      Apps::FAULT_EVERY<Fault>,
      Apps::FAULT_COUNT<Fault>,
-     {"time",
-      "DURATION",
-      [](std::string_view text, Fault& fault) {
-          return Apps::ReadDurationValue(text, fault.time);
-      }},
+     {"time", "DURATION", ReadSlowness},
      {"side",
       "stream|http|both",
       [](std::string_view text, Fault& fault) {

@@ -176,8 +176,10 @@ TEST_CASE("9 Out of remote mode the program halts and CONTROLs are refused; the 
     CHECK(harness.ShowsRobot(R"("is_remote_mode":1)"));
     harness.Begin("mode");
     CHECK(harness.Sample(MOTOR) == ON);
-    harness.Begin("mode for=1s");
+    harness.Begin("mode for=1s silence=2s"); // the switch is there already: it is not turned
+    CHECK(harness.Sample(MOTOR) == ON);
     harness.Pass(2s);
+    CHECK(harness.Sample(MOTOR) == ON);
     CHECK(harness.ShowsRobot(R"("is_remote_mode":0)")); // the other one lasts
     CHECK(harness.End(EFaultKind::Mode) == 1);
     CHECK(harness.ShowsRobot(R"("is_remote_mode":1)"));

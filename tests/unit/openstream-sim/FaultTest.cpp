@@ -57,6 +57,7 @@ TEST_CASE("9 A fault of a controller is its name and its parameters; some go wit
     CHECK(MakeFault("slow").side == EFaultSide::Both);
     CHECK(MakeFault("slow time=2s side=http").time == 2s);
     CHECK(MakeFault("slow time=2s side=http").side == EFaultSide::Http);
+    CHECK(MakeFault("slow time=1m").time == 1min);
     CHECK(MakeFault("slow side=stream").side == EFaultSide::Stream);
     CHECK(MakeFault("refuse").status == 403);
     CHECK(MakeFault("refuse").code == -1554);
@@ -91,6 +92,7 @@ TEST_CASE("9 What is no fault of a controller is told with what would be one")
              {"refuse every=5s", "which it needs"},
              {"slow side=left", "one of stream, http, both"},
              {"slow time=soon", "a duration"},
+             {"slow time=61s", "a duration of at most 1m"},
              {"refuse status=200", "a number from 400 to 599"},
              {"refuse status=600", "a number from 400 to 599"},
              {"refuse status=4e2", "a number from 400 to 599"},

@@ -107,7 +107,7 @@ TEST_CASE("9 Over a socket: a CONTROL that a slow controller works on is unknown
     OpenStream::ClientSessionOptions options;
     options.controlWindow = 10s;
     HostFixture fixture(options);
-    fixture.Begin("slow time=1h side=stream");
+    fixture.Begin("slow time=1m side=stream");
     REQUIRE(fixture.TryAwaitCount<ClientReady>(1));
     const std::uint64_t token = fixture.client->SendControl(
         OpenStream::ControlRequest{OpenStream::EApiMethod::Post, "/project/robot/tool_no", {}, {}},
@@ -195,7 +195,7 @@ TEST_CASE("9 Stopping in the middle of every fault lets nothing follow")
     for (const std::string text :
          {"hole every=150ms",
           "drop every=10ms",
-          "slow time=1h",
+          "slow time=1m",
           "silence at=1ms",
           "mode silence=1h",
           "estop every=20ms for=10ms"})

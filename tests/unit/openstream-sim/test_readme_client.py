@@ -73,7 +73,7 @@ class ReadmeClient(unittest.TestCase):
 
     def test_it_ends_cleanly_with_many_controllers_in_the_middle_of_their_faults(self):
         with tempfile.NamedTemporaryFile("w", suffix=".faults", encoding="utf-8") as faults:
-            faults.write("# all at once\n* slow time=1h\n* hole every=200ms\n\n1 drop at=1h\n2 mode silence=1h\n")
+            faults.write("# all at once\n* slow time=1m\n* hole every=200ms\n\n1 drop at=1h\n2 mode silence=1h\n")
             faults.flush()
             for number in (signal.SIGINT, signal.SIGTERM):
                 with self.subTest(number.name):
