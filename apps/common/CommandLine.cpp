@@ -2,6 +2,7 @@
 
 #include "common/LogText.hpp"
 #include "common/Version.hpp"
+#include <acs/core/Result.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -83,9 +84,20 @@ CLI::Option& AddUrlOption(
 
 CLI::Option& AddTimeScaleOption(CLI::App& app, double& target)
 {
-    return *app.add_option("--time-scale", target, "How many times faster than real time to run")
-                ->check(CLI::Range(MIN_TIME_SCALE, MAX_TIME_SCALE))
-                ->capture_default_str();
+    CLI::Option* const option = app.add_option("--time-scale", target, "How many times faster than real time to run");
+    // A range alone lets pass what is no number.
+    option->check([](const std::string& text) {
+        double scale = 0.0;
+        const bool bNumber =
+            CLI::detail::lexical_cast(text, scale) && scale >= MIN_TIME_SCALE && scale <= MAX_TIME_SCALE;
+        return bNumber ? std::string()
+                       : fmt::format(
+                           "expected a number from {} to {}, found {}",
+                           MIN_TIME_SCALE,
+                           MAX_TIME_SCALE,
+                           Core::QuoteForError(text));
+    });
+    return *option->capture_default_str();
 }
 
 CLI::Option& AddTextOption(CLI::App& app, const std::string& name, TextReader reader, const std::string& help)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
 
 #include <optional>
@@ -28,6 +29,7 @@ struct HttpResponse
     unsigned status = 200;
     std::string contentType = "text/plain; charset=utf-8";
     std::string body;
+    Core::Duration delay{}; ///< The server sends it so much later; other connections do not wait.
 };
 
 /// Splits the target of a request line into path and query and decodes both; what is no target is refused.

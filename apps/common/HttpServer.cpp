@@ -3,6 +3,8 @@
 #include <acs/net/TcpListener.hpp>
 
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
@@ -10,6 +12,7 @@
 #include <list>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace ACS::Apps
@@ -28,6 +31,11 @@ using ErrorCode = boost::system::error_code;
 /// system drop the refusal, too.
 constexpr std::chrono::seconds DRAIN_TIME{2};
 constexpr std::size_t DRAIN_BYTES = 16U * 1024U;
+
+/// Of bytes that were read and not parsed yet. Beast itself has no limit for what may stand behind the size of a chunk.
+constexpr std::size_t BUFFER_BYTES = 64U * 1024U;
+
+constexpr std::string_view CONTINUE = "HTTP/1.1 100 Continue\r\n\r\n";
 
 HttpResponse MakeRefusal(Http::status status, std::string reason)
 {
@@ -101,10 +109,11 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
     std::weak_ptr<Impl> _server;
     HttpLimits _limits;
     Beast::tcp_stream _stream;
-    Beast::flat_buffer _buffer;
+    Beast::flat_buffer _buffer{BUFFER_BYTES};
     std::optional<Http::request_parser<Http::string_body>> _parserOrNull;
     std::optional<Http::response<Http::string_body>> _responseOrNull;
     std::optional<Http::response_serializer<Http::string_body>> _serializerOrNull;
+    Asio::steady_timer _delay;
 
 public:
     ConnectionList::iterator place; ///< In the server's list.
@@ -112,7 +121,8 @@ public:
     Connection(const std::shared_ptr<Impl>& server, Tcp::socket socket)
         : _server(server),
           _limits(server->limits),
-          _stream(std::move(socket))
+          _stream(std::move(socket)),
+          _delay(_stream.get_executor())
     {
     }
 
@@ -122,6 +132,47 @@ public:
         _parserOrNull->header_limit(_limits.maxHeaderBytes);
         _parserOrNull->body_limit(_limits.maxBodyBytes);
         _stream.expires_after(_limits.timeout);
+        Http::async_read_header(
+            _stream,
+            _buffer,
+            *_parserOrNull,
+            Beast::bind_front_handler(&Connection::OnHeader, shared_from_this()));
+    }
+
+    void Close()
+    {
+        ErrorCode ignored;
+        _delay.cancel(ignored);
+        _stream.socket().shutdown(Tcp::socket::shutdown_both, ignored);
+        _stream.close();
+    }
+
+private:
+    void OnHeader(const ErrorCode& error, std::size_t count)
+    {
+        if (error.failed() || _parserOrNull->is_done())
+        {
+            return OnRead(error, count);
+        }
+        if (!Beast::iequals(_parserOrNull->get()[Http::field::expect], "100-continue"))
+        {
+            return ReadBodyAsync();
+        }
+        // Who asks first whether its body is wanted would wait for the answer.
+        Asio::async_write(
+            _stream,
+            Asio::buffer(CONTINUE),
+            [self = shared_from_this()](const ErrorCode& writeError, std::size_t written) {
+                if (writeError.failed())
+                {
+                    return self->OnRead(writeError, written);
+                }
+                self->ReadBodyAsync();
+            });
+    }
+
+    void ReadBodyAsync()
+    {
         Http::async_read(
             _stream,
             _buffer,
@@ -129,14 +180,6 @@ public:
             Beast::bind_front_handler(&Connection::OnRead, shared_from_this()));
     }
 
-    void Close()
-    {
-        ErrorCode ignored;
-        _stream.socket().shutdown(Tcp::socket::shutdown_both, ignored);
-        _stream.close();
-    }
-
-private:
     void OnRead(const ErrorCode& error, std::size_t /*count*/)
     {
         const std::shared_ptr<Impl> server = _server.lock();
@@ -168,10 +211,25 @@ private:
         // A copy: the handler may stop and destroy the server.
         const Handler makeResponse = server->handler;
         const HttpResponse response = makeResponse(*parsed);
-        WriteAsync(response, request.keep_alive(), bHead);
+        PrepareResponse(response, request.keep_alive());
+        if (response.delay <= Core::Duration::zero())
+        {
+            return WritePreparedAsync(request.keep_alive(), bHead);
+        }
+        _delay.expires_after(response.delay);
+        _delay.async_wait([self = shared_from_this(), bKeepAlive = request.keep_alive(), bHead](const ErrorCode&) {
+            // Closed in the meantime: the write fails at once.
+            self->WritePreparedAsync(bKeepAlive, bHead);
+        });
     }
 
     void WriteAsync(const HttpResponse& response, bool bKeepAlive, bool bHead)
+    {
+        PrepareResponse(response, bKeepAlive);
+        WritePreparedAsync(bKeepAlive, bHead);
+    }
+
+    void PrepareResponse(const HttpResponse& response, bool bKeepAlive)
     {
         _responseOrNull.emplace(Http::int_to_status(response.status), 11U);
         _responseOrNull->result(response.status);
@@ -180,6 +238,10 @@ private:
         _responseOrNull->keep_alive(bKeepAlive);
         _responseOrNull->prepare_payload();
         _serializerOrNull.emplace(*_responseOrNull);
+    }
+
+    void WritePreparedAsync(bool bKeepAlive, bool bHead)
+    {
         _stream.expires_after(_limits.timeout);
         auto onWritten = Beast::bind_front_handler(&Connection::OnWritten, shared_from_this(), bKeepAlive);
         if (bHead)

@@ -7,7 +7,7 @@
 namespace ACS::Apps
 {
 
-std::string MakeReadyLine(std::initializer_list<ReadyAddress> addresses)
+std::string MakeReadyLine(const std::vector<ReadyAddress>& addresses)
 {
     std::string line = "ready:";
     for (const ReadyAddress& address : addresses)
@@ -17,7 +17,7 @@ std::string MakeReadyLine(std::initializer_list<ReadyAddress> addresses)
     return line;
 }
 
-void PrintReadyLine(std::initializer_list<ReadyAddress> addresses)
+void PrintReadyLine(const std::vector<ReadyAddress>& addresses)
 {
     std::cout << MakeReadyLine(addresses) << std::endl;
 }

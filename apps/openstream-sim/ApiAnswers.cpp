@@ -47,6 +47,8 @@ std::string_view GetSentence(EApiError error)
             return "E01554: no program waits in playback; start one that does (wait di1)";
         case EApiError::Language:
             return "no statement of the robot language, or an axis cannot be there";
+        case EApiError::ProtectiveStop:
+            return "a safeguard is open; close it first";
         case EApiError::None:
         case EApiError::BadInput:
         case EApiError::NotServed:

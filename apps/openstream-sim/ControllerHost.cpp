@@ -2,6 +2,8 @@
 
 #include "HttpBridge.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace ACS::OpenStreamSim
@@ -18,6 +20,11 @@ OpenStreamAsio::OpenStreamServerOptions MakeServerOptions(const Apps::Endpoint& 
     return options;
 }
 
+Core::Logger MakeLogger(const Core::Logger& logger, const char* part, const HostOptions& options)
+{
+    return logger.MakeFor(options.label.empty() ? std::string(part) : fmt::format("{} {}", part, options.label));
+}
+
 } // namespace
 
 ControllerHost::ControllerHost(
@@ -27,18 +34,51 @@ ControllerHost::ControllerHost(
     HostOptions options)
     : _clock(clock),
       _options(std::move(options)),
-      _controller(_options.controller, clock.GetNow(), logger.MakeFor("controller")),
-      _streamServer(executor, clock, logger.MakeFor("stream"), MakeServerOptions(_options.stream), _controller),
+      _controller(_options.controller, clock.GetNow(), MakeLogger(logger, "controller", _options)),
+      _timers(executor, [this](std::uint64_t /*key*/) { _faults.Advance(_clock.GetNow()); }),
+      _faults(_controller, *this, MakeLogger(logger, "controller", _options), clock.GetNow()),
+      _streamService(_controller, _faults, EFaultSide::Stream),
+      _httpService(_controller, _faults, EFaultSide::Http),
+      _streamServer(
+          executor,
+          clock,
+          MakeLogger(logger, "stream", _options),
+          MakeServerOptions(_options.stream),
+          _streamService),
       _httpServer(
           executor,
           [this](const Apps::HttpRequest& request) { return Handle(request); },
-          logger.MakeFor("http"))
+          MakeLogger(logger, "http", _options))
 {
 }
 
 Apps::HttpResponse ControllerHost::Handle(const Apps::HttpRequest& request)
 {
-    return AnswerHttp(request, _controller, _clock.GetNow());
+    return AnswerHttp(request, _httpService, _clock.GetNow());
+}
+
+void ControllerHost::DropSessions()
+{
+    _streamServer.DropSessions();
+}
+
+void ControllerHost::WakeAt(std::optional<Core::SteadyTime> time)
+{
+    _timers.CancelAll();
+    if (time.has_value())
+    {
+        _timers.Start(0, *time - _clock.GetNow().steady);
+    }
+}
+
+bool ControllerHost::TryAddFault(const Fault& fault)
+{
+    return _faults.TryAdd(fault, _clock.GetNow());
+}
+
+std::size_t ControllerHost::EndFaults(std::optional<EFaultKind> kindOrNull)
+{
+    return _faults.End(kindOrNull, _clock.GetNow());
 }
 
 Core::Result<void> ControllerHost::Start()
@@ -61,6 +101,7 @@ Core::Result<void> ControllerHost::Start()
 
 void ControllerHost::Stop()
 {
+    _timers.CancelAll();
     _streamServer.Stop();
     _httpServer.Stop();
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <utility>
 
 namespace ACS::OpenStreamSim
 {
@@ -53,9 +54,13 @@ void ControllerMachine::Advance(Core::Now now)
 
 void ControllerMachine::HandleEvents(Core::Duration elapsed)
 {
-    for (const ProgramEvent& event : _events)
+    for (ProgramEvent& event : _events)
     {
         const std::string number = fmt::to_string(event.number);
+        if (event.kind == EProgramEvent::Finished && _shouldFail && _shouldFail(event.number, false))
+        {
+            event.kind = EProgramEvent::Failed;
+        }
         switch (event.kind)
         {
             case EProgramEvent::Started:
@@ -125,6 +130,10 @@ EApiError ControllerMachine::SwitchMotorOn()
     {
         return EApiError::EmergencyStop;
     }
+    if (_bProtectiveStop)
+    {
+        return EApiError::ProtectiveStop;
+    }
     _motor.SwitchOn(_now);
     return EApiError::None;
 }
@@ -155,7 +164,12 @@ EApiError ControllerMachine::StartProgram()
         return EApiError::NoProgram;
     }
     _runner.Start(_now, _events);
+    const bool bBegins = !_events.empty(); // Else it goes on after a stop.
     HandleEvents({});
+    if (bBegins && _shouldFail && _shouldFail(_runner.GetSelected(), true))
+    {
+        ResetTasks();
+    }
     return EApiError::None;
 }
 
@@ -260,6 +274,20 @@ void ControllerMachine::TurnModeSwitch(bool bRemote)
     {
         StopProgram();
     }
+}
+
+void ControllerMachine::HoldProtectiveStop(bool bHeld)
+{
+    _bProtectiveStop = bHeld;
+    if (bHeld)
+    {
+        SwitchMotorOff();
+    }
+}
+
+void ControllerMachine::SetProgramJudge(ProgramJudge shouldFail)
+{
+    _shouldFail = std::move(shouldFail);
 }
 
 RelayMemory& ControllerMachine::GetRelays() noexcept

@@ -15,6 +15,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string_view>
 
@@ -36,6 +37,8 @@ enum class EAlarm : std::int32_t
     AxisTooFast = 159,    ///< E159: an axis would have had to go faster than it can.
     NotExecutable = 1554, ///< E01554: a trajectory's point came while no program waited in playback.
 };
+/// Asked when a program has begun, and when it is at its good end: whether it fails there.
+using ProgramJudge = std::function<bool(int number, bool bAtStart)>;
 
 /// What an operator or a client has set and what nothing but the answers depends on.
 struct ControllerSettings
@@ -66,6 +69,8 @@ class ControllerMachine
     ProgramEvents _events;
     RelayMemory _relays;
     ControllerSettings _settings;
+    bool _bProtectiveStop = false;
+    ProgramJudge _shouldFail;
 
     void HandleEvents(Core::Duration elapsed);
     void Count(std::size_t byte);
@@ -111,6 +116,12 @@ public:
     /// By the operator's hand. Both stop the program; pressing the emergency stop takes the motor's power too.
     void PressEmergencyStop(bool bPressed);
     void TurnModeSwitch(bool bRemote);
+
+    /// The safeguard opens, which stops the program and takes the motor's power, or closes.
+    void HoldProtectiveStop(bool bHeld);
+
+    /// Who lets programs fail; at first nobody.
+    void SetProgramJudge(ProgramJudge shouldFail);
 
     [[nodiscard]] RelayMemory& GetRelays() noexcept;
     [[nodiscard]] ControllerSettings& GetSettings() noexcept;

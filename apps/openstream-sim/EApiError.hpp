@@ -22,6 +22,7 @@ enum class EApiError : std::int32_t
     Language = -1376272,  ///< 403: no statement of the robot language.
     MotorOff = -1442071,  ///< 403
     Playing = -1442080,   ///< 403: an automatic program runs.
+    ProtectiveStop = -5,  ///< 403: the safeguard is open. Own.
 };
 
 } // namespace ACS::OpenStreamSim

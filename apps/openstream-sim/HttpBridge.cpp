@@ -19,6 +19,11 @@ constexpr std::array METHODS{Get, Post, Put, Delete};
 
 std::optional<OpenStream::EApiMethod> ParseMethodOrNull(std::string_view text)
 {
+    // The server leaves the body of the answer out.
+    if (text == "HEAD")
+    {
+        return Get;
+    }
     for (const OpenStream::EApiMethod method : METHODS)
     {
         if (OpenStream::GetMethodText(method) == text)
@@ -27,6 +32,17 @@ std::optional<OpenStream::EApiMethod> ParseMethodOrNull(std::string_view text)
         }
     }
     return std::nullopt;
+}
+
+/// The path as the Open API has it, where percent signs are not decoded: one that came encoded must not be decoded twice.
+std::string MakePath(std::string_view decoded)
+{
+    std::string path;
+    for (const char letter : decoded)
+    {
+        path += letter == '%' ? std::string_view("%25") : std::string_view(&letter, 1);
+    }
+    return path;
 }
 
 /// The body as JSON; nothing with a GET.
@@ -58,6 +74,7 @@ Apps::HttpResponse MakeHttpResponse(const OpenStream::ApiResponse& response)
     Apps::HttpResponse http;
     http.status = static_cast<unsigned>(response.status);
     http.contentType = "application/json; charset=utf-8";
+    http.delay = response.delay;
     http.body = response.body.has_value() ? response.body->GetText() : std::string();
     return http;
 }
@@ -78,7 +95,7 @@ Apps::HttpResponse AnswerHttp(const Apps::HttpRequest& request, OpenStream::IOpe
     }
     OpenStream::ApiRequest call;
     call.method = *method;
-    call.path = request.path;
+    call.path = MakePath(request.path);
     for (const auto& [name, value] : request.query)
     {
         call.query.push_back(OpenStream::QueryParameter{name, value});

@@ -1,6 +1,7 @@
 #include "OpenStreamSimOptions.hpp"
 
 #include "common/DurationText.hpp"
+#include "common/FaultOptions.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -24,13 +25,102 @@ std::optional<int> ParseProgramNumberOrNull(std::string_view text)
     return bProgram ? std::optional(number) : std::nullopt;
 }
 
+std::string TakeControllers(std::string_view text, std::size_t& controllers)
+{
+    std::size_t count = 0;
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, count);
+    if (error != std::errc{} || end != last || count < 1 || count > FleetOptions::MAX_CONTROLLERS)
+    {
+        return fmt::format(
+            "expected a number from 1 to {}, found {}",
+            FleetOptions::MAX_CONTROLLERS,
+            Core::QuoteForError(text));
+    }
+    controllers = count;
+    return {};
+}
+
+/// The last port of a row that begins there.
+std::size_t GetLastPort(const Apps::Endpoint& first, std::size_t controllers)
+{
+    return first.port + controllers - 1;
+}
+
+std::string CheckLastPort(std::string_view option, const Apps::Endpoint& first, std::size_t controllers)
+{
+    constexpr std::size_t LAST_PORT = 65'535;
+    if (first.port == 0 || GetLastPort(first, controllers) <= LAST_PORT)
+    {
+        return {};
+    }
+    return fmt::format(
+        "{} controllers from {} {} on would need ports beyond {}: give fewer, a lower port, or port 0",
+        controllers,
+        option,
+        Apps::MakeText(first),
+        LAST_PORT);
+}
+
+/// Whether there are the ports that the controllers need.
+std::string CheckPorts(const FleetOptions& fleet)
+{
+    const Apps::Endpoint& stream = fleet.first.stream;
+    const Apps::Endpoint& http = fleet.first.http;
+    std::string mistake = CheckLastPort("--listen", stream, fleet.controllers);
+    mistake = mistake.empty() ? CheckLastPort("--http", http, fleet.controllers) : mistake;
+    const bool bMeet =
+        stream.port <= GetLastPort(http, fleet.controllers) && http.port <= GetLastPort(stream, fleet.controllers);
+    if (mistake.empty() && stream.port != 0 && http.port != 0 && stream.host == http.host && bMeet)
+    {
+        mistake = fmt::format(
+            "--listen {} and --http {} want the same port: give them ports that are at least {} apart",
+            Apps::MakeText(stream),
+            Apps::MakeText(http),
+            fleet.controllers);
+    }
+    return mistake;
+}
+
+/// A fault for a controller that is not there would be waited for in vain.
+std::string CheckFaults(const FleetOptions& fleet)
+{
+    for (const FaultCommand& command : fleet.faults)
+    {
+        bool bKnown = false;
+        for (std::size_t number = 1; number <= fleet.controllers; ++number)
+        {
+            bKnown = bKnown || Apps::IsTarget(command.targets, std::to_string(number));
+        }
+        if (!bKnown)
+        {
+            return fmt::format(
+                "the fault '{} {}' is for no controller that there is: they are called 1 to {}, and * is all",
+                command.targets,
+                command.fault.text,
+                fleet.controllers);
+        }
+    }
+    return {};
+}
+
 std::string MakeFooter()
 {
     return fmt::format(
+        "Faults, on the command line, in a file (a line each, # for remarks) and by POST /faults to --control:\n"
+        "  CONTROLLER FAULT [KEY=VALUE]...  begins one; CONTROLLER is 1, 2, ... or * for all\n"
+        "      at=DURATION later, program=NUMBER once this program begins, for=DURATION so long,\n"
+        "      every=DURATION again so long after it began\n"
+        "  CONTROLLER end [FAULT]           ends it, or all (--control)\n"
+        "{}"
+        "Example: openstream-sim --fault '1 hole at=5s every=2s' --control 127.0.0.1:8890\n"
+        "         curl --data-binary '* estop for=5s' http://127.0.0.1:8890/faults\n"
+        "\n"
         "A program takes its time and ends: {} s unless --program says otherwise. Its own statements are: at its\n"
         "beginning it adds 1 to the 32-bit counter in relay m at byte {} (ml{}), at its good end to the one at byte {},\n"
         "when it fails or is given up to the one at byte {}; byte {} holds the number of the program that ended last.\n"
         "Read them with GET /project/plc/m/val_s32?st={}&len=4.",
+        Apps::MakeFaultHelp(GetFaultGrammar()),
         std::chrono::duration_cast<std::chrono::seconds>(ProgramSpec{}.duration).count(),
         STARTED_BYTE,
         STARTED_BYTE / sizeof(std::int32_t),
@@ -81,27 +171,65 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, OpenStr
     Apps::AddEndpointOption(
         app,
         "--listen",
-        options.host.stream,
+        options.fleet.first.stream,
         "Where to serve the Open Stream; port 0 takes a free one");
-    Apps::AddEndpointOption(app, "--http", options.host.http, "Where to serve the Open API; port 0 takes a free one");
-    Apps::AddTimeScaleOption(app, options.host.controller.timeScale);
+    Apps::AddEndpointOption(
+        app,
+        "--http",
+        options.fleet.first.http,
+        "Where to serve the Open API; port 0 takes a free one");
+    Apps::AddTextOption(
+        app,
+        "--controllers",
+        [&options](const std::string& text) { return TakeControllers(text, options.fleet.controllers); },
+        "So many controllers, each on the next port of --listen and of --http; on free ones where they say 0")
+        .default_str("1")
+        ->type_name("N");
+    Apps::AddTimeScaleOption(app, options.fleet.first.controller.timeScale);
     Apps::AddRepeatedOption(
         app,
         "--program",
-        [&options](const std::string& text) { return TakeProgram(text, options.host.controller); },
+        [&options](const std::string& text) { return TakeProgram(text, options.fleet.first.controller); },
         "How long a program takes, and whether it fails at its end: 11=3s or 12=500ms,fail")
         .type_name("NUMBER=DURATION[,fail]");
-    app.add_flag("--ready", options.host.controller.bMotorOn, "Begin with the motor on");
+    app.add_flag("--ready", options.fleet.first.controller.bMotorOn, "Begin with the motor on");
     app.add_flag(
         "--playing",
-        options.host.controller.bWaiting,
+        options.fleet.first.controller.bWaiting,
         "Begin with the motor on and a program in playback that waits for di1, so that trajectories are taken");
     app.add_flag(
         "--realtime",
         options.bRealTime,
         "Ask the system for a real-time priority, precise timers and locked memory; go on without what it refuses");
+    Apps::AddFaultOptions(
+        app,
+        GetFaultGrammar(),
+        options.fleet.faults,
+        "What goes wrong, see below; its time counts from the start. May be repeated");
+    Apps::Endpoint control;
+    const CLI::Option& controlOption = Apps::AddEndpointOption(
+        app,
+        "--control",
+        control,
+        "Where to take faults over HTTP while it runs; port 0 takes a free one. By default nowhere");
     Apps::AddCommonOptions(app, options.common);
-    return Apps::ParseCommandLineOrNull(app, argc, argv);
+    const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
+    if (exitCode.has_value())
+    {
+        return exitCode;
+    }
+    if (controlOption.count() > 0)
+    {
+        options.fleet.control = control;
+    }
+    std::string mistake = CheckPorts(options.fleet);
+    mistake = mistake.empty() ? CheckFaults(options.fleet) : mistake;
+    if (!mistake.empty())
+    {
+        Apps::PrintMistake(PROGRAM_NAME, fmt::format("{}; try {} --help", mistake, PROGRAM_NAME));
+        return Apps::EXIT_BAD_COMMAND_LINE;
+    }
+    return std::nullopt;
 }
 
 } // namespace ACS::OpenStreamSim

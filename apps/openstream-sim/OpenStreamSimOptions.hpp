@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/CommandLine.hpp"
-#include "ControllerHost.hpp"
+#include "ControllerFleet.hpp"
 
 #include <optional>
 #include <string>
@@ -14,7 +14,7 @@ inline constexpr std::string_view PROGRAM_NAME = "openstream-sim";
 
 struct OpenStreamSimOptions
 {
-    HostOptions host;
+    FleetOptions fleet;
     bool bRealTime = false;
     Apps::CommonOptions common;
 };

@@ -1,9 +1,11 @@
 #include "OpenStreamSimProgram.hpp"
 
+#include "common/FileLimit.hpp"
 #include "common/ReadyLine.hpp"
 #include "common/SignalWaiter.hpp"
 #include "common/SpdlogSink.hpp"
 #include "common/SystemClock.hpp"
+#include "ControllerFleet.hpp"
 #include "OpenStreamSimOptions.hpp"
 #include <acs/openstream_asio/RealTime.hpp>
 
@@ -34,18 +36,19 @@ int RunOpenStreamSim(int argc, const char* const* argv)
             logger.Warning(refusal);
         }
     }
-    ControllerHost host(context.get_executor(), clock, logger, options.host);
-    const Core::Result<void> started = host.Start();
+    Apps::RaiseFileLimit(); // Each controller has two ports, and each client a connection.
+    ControllerFleet fleet(context.get_executor(), clock, logger, options.fleet);
+    const Core::Result<void> started = fleet.Start();
     if (!started.has_value())
     {
         Apps::PrintMistake(PROGRAM_NAME, Core::Describe(started.error()));
         return EXIT_FAILURE;
     }
     const Apps::SignalWaiter signals(context.get_executor(), [&](int) {
-        host.Stop();
+        fleet.Stop();
         context.stop();
     });
-    Apps::PrintReadyLine({{"stream", host.GetStreamEndpoint()}, {"http", host.GetHttpEndpoint()}});
+    Apps::PrintReadyLine(fleet.GetAddresses());
     context.run();
     return EXIT_SUCCESS;
 }

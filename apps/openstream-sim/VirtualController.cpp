@@ -79,4 +79,10 @@ void VirtualController::TurnModeSwitch(bool bRemote, Core::Now now)
     _machine.TurnModeSwitch(bRemote);
 }
 
+ControllerMachine& VirtualController::GetMachine(Core::Now now)
+{
+    _machine.Advance(now);
+    return _machine;
+}
+
 } // namespace ACS::OpenStreamSim

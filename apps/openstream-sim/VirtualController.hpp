@@ -23,6 +23,9 @@ public:
 
     /// By the operator's hand: out of remote mode, which stops the program, or into it.
     void TurnModeSwitch(bool bRemote, Core::Now now);
+
+    /// For what happens to the machine itself; brought to the present.
+    [[nodiscard]] ControllerMachine& GetMachine(Core::Now now);
 };
 
 } // namespace ACS::OpenStreamSim

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "common/FaultBase.hpp"
+#include "common/FaultBoard.hpp"
+#include "common/FaultGrammar.hpp"
 #include <acs/core/Now.hpp>
-#include <acs/core/Result.hpp>
 #include <acs/vda5050/StateMessage.hpp>
 #include <acs/vda5050/Topic.hpp>
 
@@ -9,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ACS::VdaSim
 {
@@ -38,19 +41,10 @@ enum class EFaultDirection : std::uint8_t
     Both,
 };
 
-/// One fault with its parameters; docs/vda-sim.md has the table of kinds. Times are of the wall clock, not scaled.
-struct Fault
+/// One fault with its parameters; docs/vda-sim.md has the table of kinds. The place is a node.
+struct Fault : Apps::FaultBase<EFaultKind>
 {
-    EFaultKind kind = EFaultKind::Drop;
-    std::string text; ///< As it was written, blanks made one: what the log says.
-
-    // When.
-    Core::Duration delay{};               ///< Until it begins: after the start, or after the node was reached.
-    std::string nodeID;                   ///< Not empty: begins once the vehicle has reached this node.
-    std::optional<Core::Duration> lasts;  ///< Absent: until it is ended, or used up.
-    std::optional<std::uint32_t> maxUses; ///< ActionFails, Refuse: how many; absent: one, or while it lasts.
-
-    // What, each for the kinds that have it.
+    // Each for the kinds that have it.
     bool bWill = true;
     std::optional<VDA5050::ETopic> topic; ///< Absent: every topic.
     EFaultDirection direction = EFaultDirection::Both;
@@ -70,16 +64,14 @@ struct Fault
     bool operator==(const Fault&) const = default;
 };
 
+using FaultBoard = Apps::FaultBoard<Fault>;
+using FaultChange = Apps::FaultChange<Fault>;
+using FaultChanges = std::vector<FaultChange>;
+
+/// How the faults of a vehicle are written.
+[[nodiscard]] const Apps::FaultGrammar<Fault>& GetFaultGrammar();
+
 /// "stuck", "action-fails", …
 [[nodiscard]] std::string_view GetFaultName(EFaultKind kind);
-
-/// Fails with ECoreError::UnknownWord, and the names that there are.
-[[nodiscard]] Core::Result<EFaultKind> ParseFaultKind(std::string_view name);
-
-/// "stuck at=10s for=5s". Fails with ECoreError::UnknownWord or OutOfRange: the path is the parameter.
-[[nodiscard]] Core::Result<Fault> ParseFault(std::string_view text);
-
-/// A line for each kind: its name, its parameters, what it does. For --help.
-[[nodiscard]] std::string MakeFaultHelp();
 
 } // namespace ACS::VdaSim

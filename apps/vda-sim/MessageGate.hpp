@@ -1,6 +1,6 @@
 #pragma once
 
-#include "vda-sim/FaultBoard.hpp"
+#include "vda-sim/Fault.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/vda5050/IMqttLink.hpp>

@@ -1,5 +1,7 @@
 #include "vda-sim/VdaSim.hpp"
 
+#include "common/FaultAnswers.hpp"
+#include "common/FileLimit.hpp"
 #include "common/ReadyLine.hpp"
 #include "common/SignalWaiter.hpp"
 #include "common/SpdlogSink.hpp"
@@ -18,8 +20,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <sys/resource.h>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -153,19 +153,9 @@ private:
     /// The answer to a message on the control topic.
     [[nodiscard]] std::string Command(std::string_view text)
     {
-        const Core::Result<std::vector<FaultCommand>> commands = ParseFaultCommands(text);
-        if (!commands.has_value())
-        {
-            const std::string mistake = Core::Describe(commands.error());
-            _logger.Warning("a command is wrong, none of the message is done", {{"reason", mistake}});
-            return "error: " + mistake;
-        }
-        std::string answer;
-        for (const FaultCommand& command : *commands)
-        {
-            answer += (answer.empty() ? "" : "\n") + Apply(command);
-        }
-        return answer.empty() ? "error: there is no command in it" : answer;
+        return Apps::AnswerCommands<Fault>(GetFaultGrammar(), text, _logger, [this](const FaultCommand& command) {
+            return Apply(command);
+        });
     }
 
     /// One line that says what was done.
@@ -175,7 +165,7 @@ private:
         std::size_t count = 0;
         for (const Member& member : _members)
         {
-            if (IsFor(command, member.name))
+            if (Apps::IsTarget(command.targets, member.name))
             {
                 ++vehicles;
                 count += ApplyTo(*member.runner, command);
@@ -183,7 +173,7 @@ private:
         }
         if (vehicles == 0)
         {
-            return fmt::format("error: no vehicle is called {}; {} is one", command.vehicles, _members.front().name);
+            return fmt::format("error: no vehicle is called {}; {} is one", command.targets, _members.front().name);
         }
         if (command.verb != EFaultVerb::Begin)
         {
@@ -198,7 +188,7 @@ private:
                 vehicles,
                 FaultBoard::MAX_FAULTS);
         }
-        const std::string& nodeID = command.fault.nodeID;
+        const std::string& nodeID = command.fault.place;
         if (!nodeID.empty() && _site->FindNodeOrNull(nodeID) == nullptr)
         {
             return fmt::format(
@@ -246,17 +236,6 @@ private:
     }
 };
 
-/// Each vehicle has two descriptors; the usual limit of 1024 is soft, and may be raised.
-void RaiseFileLimit()
-{
-    rlimit limit{};
-    if (getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < limit.rlim_max)
-    {
-        limit.rlim_cur = limit.rlim_max;
-        std::ignore = setrlimit(RLIMIT_NOFILE, &limit);
-    }
-}
-
 int Refuse(const std::string& mistake)
 {
     Apps::PrintMistake("vda-sim", mistake);
@@ -272,7 +251,7 @@ int RunVdaSim(const VdaSimOptions& options)
     {
         return Refuse(site.error());
     }
-    RaiseFileLimit();
+    Apps::RaiseFileLimit(); // Each vehicle has two descriptors.
     Fleet fleet(options, *site);
     for (std::size_t i = 0; i < options.vehicles.size(); ++i)
     {

@@ -1,6 +1,7 @@
 #include "vda-sim/VdaSimOptions.hpp"
 
 #include "common/DurationText.hpp"
+#include "common/FaultOptions.hpp"
 #include "common/TextFile.hpp"
 #include <acs/plan/LifReader.hpp>
 #include <acs/vda5050/PredefinedActions.hpp>
@@ -12,7 +13,6 @@
 #include <array>
 #include <charconv>
 #include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -117,35 +117,6 @@ std::string ReadActionTime(const std::string& text, std::map<std::string, double
     return {};
 }
 
-std::string AddFaults(std::vector<FaultCommand> commands, std::vector<FaultCommand>& faults)
-{
-    for (FaultCommand& command : commands)
-    {
-        if (command.verb != EFaultVerb::Begin)
-        {
-            return fmt::format("{}: at the start there is no fault to end and no action to trigger", command.vehicles);
-        }
-        faults.push_back(std::move(command));
-    }
-    return {};
-}
-
-std::string ReadFaultFile(const std::string& path, std::vector<FaultCommand>& faults)
-{
-    const tl::expected<std::string, std::string> text = Apps::ReadTextFile(path);
-    if (!text.has_value())
-    {
-        return fmt::format("{} cannot be read: {}", path, text.error());
-    }
-    Core::Result<std::vector<FaultCommand>> commands = ParseFaultCommands(*text);
-    if (!commands.has_value())
-    {
-        return fmt::format("{}: {}", path, Core::Describe(commands.error()));
-    }
-    std::string mistake = AddFaults(std::move(*commands), faults);
-    return mistake.empty() ? mistake : fmt::format("{}: {}", path, mistake);
-}
-
 std::string ReadControlTopic(const std::string& text, std::string& topic)
 {
     if (text.empty() || text.find_first_of("+#") != std::string::npos || text.starts_with('$'))
@@ -162,13 +133,13 @@ std::string CheckFaults(const std::vector<FaultCommand>& faults, const std::vect
     for (const FaultCommand& command : faults)
     {
         const bool bKnown = std::ranges::any_of(vehicles, [&command](const VehicleSpec& vehicle) {
-            return IsFor(command, vehicle.name);
+            return Apps::IsTarget(command.targets, vehicle.name);
         });
         if (!bKnown)
         {
             return fmt::format(
                 "the fault '{} {}' is for no vehicle that there is; {} is one",
-                command.vehicles,
+                command.targets,
                 command.fault.text,
                 vehicles.front().name);
         }
@@ -188,7 +159,7 @@ std::string MakeFooter()
         "Example: vda-sim ... --fault 'LR01 blocked node=N045 for=10s' --fault 'LR* loss percent=5'\n"
         "         mosquitto_pub -t vda-sim/control -m 'LR01 estop for=5s'\n"
         "docs/vda-sim.md explains each.",
-        MakeFaultHelp());
+        Apps::MakeFaultHelp(GetFaultGrammar()));
 }
 
 /// A word that is to stand as one level of a topic.
@@ -279,12 +250,7 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         },
         "VDA5050 version: 2.0.0 or 2.1.0")
         .default_str("2.0.0");
-    // A range alone lets pass what is no number.
-    Apps::AddTimeScaleOption(app, options.timeScale).check([](const std::string& text) {
-        double scale = 0.0;
-        const bool bNumber = CLI::detail::lexical_cast(text, scale) && std::isfinite(scale);
-        return bNumber ? std::string() : "expected a number, found " + Core::QuoteForError(text);
-    });
+    Apps::AddTimeScaleOption(app, options.timeScale);
     Apps::AddRepeatedOption(
         app,
         "--action-time",
@@ -292,22 +258,11 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         "how long the actions of a type take, in simulated time; else pick and drop 3 s, waitForTrigger until it is "
         "triggered, others 1 s. May be repeated")
         .type_name("ACTIONTYPE=DURATION");
-    Apps::AddRepeatedOption(
+    Apps::AddFaultOptions(
         app,
-        "--fault",
-        [&options](const std::string& text) {
-            return Read(ParseFaultCommand(text), [&options](FaultCommand command) {
-                return AddFaults({std::move(command)}, options.faults);
-            });
-        },
-        "what goes wrong, see below; its time counts from when the vehicle is online. May be repeated")
-        .type_name("'VEHICLE FAULT [KEY=VALUE]...'");
-    Apps::AddRepeatedOption(
-        app,
-        "--fault-file",
-        [&options](const std::string& path) { return ReadFaultFile(path, options.faults); },
-        "a file with a fault on each line. May be repeated")
-        .type_name("FILE");
+        GetFaultGrammar(),
+        options.faults,
+        "what goes wrong, see below; its time counts from when the vehicle is online. May be repeated");
     CLI::Option& controlTopic = Apps::AddTextOption(
         app,
         "--control-topic",

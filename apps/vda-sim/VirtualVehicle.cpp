@@ -267,7 +267,7 @@ void VirtualVehicle::ReachNode(Core::Now now, VirtualActions& out)
     {
         _motion.Abandon(); // it passed the node at speed, but the order has changed: nothing follows
     }
-    _faults.OnNode(_nodeID, now.steady, _faultChanges);
+    _faults.OnPlace(_nodeID, now.steady, _faultChanges);
     ApplyFaults(now, out);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "vda-sim/ActionRunner.hpp"
-#include "vda-sim/FaultBoard.hpp"
+#include "vda-sim/Fault.hpp"
 #include "vda-sim/MessageGate.hpp"
 #include "vda-sim/VehicleMotion.hpp"
 #include "vda-sim/VehicleSpec.hpp"

@@ -65,6 +65,8 @@ std::string ApiResponse::TakeRoom()
     }
     status = FIRST_SUCCESS;
     body.reset();
+    delay = {};
+    bNoSample = false;
     return room;
 }
 

@@ -87,6 +87,11 @@ void ServerSession::FinishMonitor(const ApiResponse& response, Core::Now now, Se
 {
     using Milliseconds = std::chrono::duration<double, std::milli>;
     _monitorToken = 0;
+    if (response.bNoSample)
+    {
+        ++_stats.skippedTicks;
+        return;
+    }
     if (response.status >= FIRST_SERVICE_FAILURE)
     {
         ReportMonitorFailure();

@@ -69,7 +69,8 @@ ServerConnection::ServerConnection(
       _peer(DescribePeer(_socket)),
       _session(options),
       _timers(
-          std::make_shared<Timers>(_socket.get_executor(), [this](OpenStream::EServerTimer timer) { OnTimer(timer); }))
+          std::make_shared<Timers>(_socket.get_executor(), [this](OpenStream::EServerTimer timer) { OnTimer(timer); })),
+      _answerTimers(std::make_shared<AnswerTimers>(_socket.get_executor(), [this](EAnswer kind) { OnAnswerDue(kind); }))
 {
 }
 
@@ -95,6 +96,7 @@ void ServerConnection::Abort()
 {
     _bClosed = true;
     _timers->CancelAll();
+    _answerTimers->CancelAll();
     boost::system::error_code ignored;
     static_cast<void>(_socket.close(ignored));
 }
@@ -144,12 +146,29 @@ void ServerConnection::OnWritten(const boost::system::error_code& error, std::si
 
 void ServerConnection::Do(const OpenStream::ServerCall& action)
 {
-    OpenStream::ApiResponse& response = action.request->method == OpenStream::EApiMethod::Get ? _sample : _answer;
-    _service.Call(*action.request, _clock.GetNow(), response);
-    if (!_bClosed)
+    const EAnswer kind = action.request->method == OpenStream::EApiMethod::Get ? EAnswer::Sample : EAnswer::Control;
+    Answer& answer = _answers.at(static_cast<std::size_t>(kind));
+    answer.token = action.token;
+    _service.Call(*action.request, _clock.GetNow(), answer.response);
+    if (_bClosed)
     {
-        _session.OnServiceAnswer(action.token, response, _clock.GetNow(), _actions);
+        return;
     }
+    if (answer.response.delay > Core::Duration::zero())
+    {
+        // One that still waits here is to a MONITOR that was replaced: nobody wants it.
+        _answerTimers->Start(kind, answer.response.delay);
+        return;
+    }
+    _session.OnServiceAnswer(answer.token, answer.response, _clock.GetNow(), _actions);
+}
+
+void ServerConnection::OnAnswerDue(EAnswer kind)
+{
+    const std::shared_ptr<ServerConnection> self = shared_from_this(); // the closed handler lets go of it
+    const Answer& answer = _answers.at(static_cast<std::size_t>(kind));
+    _session.OnServiceAnswer(answer.token, answer.response, _clock.GetNow(), _actions);
+    Execute();
 }
 
 void ServerConnection::Do(const OpenStream::ServerStopControl& /*action*/)

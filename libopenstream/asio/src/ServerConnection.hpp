@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -27,7 +28,23 @@ public:
     using ClosedHandler = std::function<void(ServerConnection& connection)>;
 
 private:
+    /// What an answer of the service is to. Of each kind one is waited for at a time.
+    enum class EAnswer : std::uint8_t
+    {
+        Sample,
+        Control,
+    };
+
+    static constexpr std::size_t ANSWERS = 2;
+
+    struct Answer
+    {
+        OpenStream::ApiResponse response; ///< The next one uses its room.
+        std::uint64_t token = 0;
+    };
+
     using Timers = Net::TimerArray<OpenStream::EServerTimer, OpenStream::SERVER_TIMER_COUNT>;
+    using AnswerTimers = Net::TimerArray<EAnswer, ANSWERS>;
 
     static constexpr std::size_t READ_BYTES = 64U * 1024U;
 
@@ -40,9 +57,9 @@ private:
     std::string _peer;
     OpenStream::ServerSession _session;
     OpenStream::ServerActions _actions;
-    OpenStream::ApiResponse _sample; ///< Of the last GET: the next one uses its room.
-    OpenStream::ApiResponse _answer; ///< Of the last CONTROL.
+    std::array<Answer, ANSWERS> _answers; ///< By EAnswer.
     std::shared_ptr<Timers> _timers;
+    std::shared_ptr<AnswerTimers> _answerTimers;
     std::array<char, READ_BYTES> _input{};
     bool _bReading = false;
     bool _bPaused = false;
@@ -64,6 +81,7 @@ private:
     void OnRead(const boost::system::error_code& error, std::size_t size);
     void OnWritten(const boost::system::error_code& error, std::size_t size);
     void OnTimer(OpenStream::EServerTimer timer);
+    void OnAnswerDue(EAnswer kind);
     void OnContinue();
 
 public:

@@ -19,6 +19,7 @@ public:
     int controls = 0;
     int stops = 0;
     std::chrono::milliseconds duration{0}; ///< Of a call: how slow the service is.
+    std::chrono::milliseconds delay{0};    ///< Of an answer, without keeping the server.
 
     void Call(const OpenStream::ApiRequest& request, Core::Now /*now*/, OpenStream::ApiResponse& response) override
     {
@@ -27,12 +28,14 @@ public:
             ++gets;
             Work();
             response = OpenStream::ApiResponse{200, MakeSample(request.path)};
+            response.delay = delay;
             return;
         }
         ++controls;
         response = request.path == "/refused"
             ? OpenStream::ApiResponse{403, Core::JsonText::FromTrusted(R"({"err_code":-38500})")}
             : OpenStream::ApiResponse{};
+        response.delay = delay;
     }
 
     /// Keeps the server's thread.

@@ -197,6 +197,34 @@ TEST_CASE("7.24 A stream that nobody reads ends the session, and only that one")
     CHECK(other.CountLines("\"error\"") == 0);
 }
 
+TEST_CASE("7.27 An answer with a delay comes that much later, and keeps neither other sessions nor the server")
+{
+    TcpFixture fixture;
+    const auto server = fixture.StartServer();
+    fixture.service.delay = 30s;
+    RawPeer slow(fixture, server->GetPort());
+    slow.Send(std::string(SHAKE) + MakeMonitorLine("/path/slow", 2) + MakeControlLine(R"("url":"/refused")"));
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.service.gets == 1 && fixture.service.controls == 1; }));
+    fixture.service.delay = 20ms;
+    RawPeer other(fixture, server->GetPort());
+    other.Send(std::string(SHAKE) + MakeMonitorLine("/path/other", 4) + MakeControlLine(R"("url":"/refused")"));
+    REQUIRE(other.TryAwaitCount("\"data\"", 5));
+    REQUIRE(other.TryAwait("control_err"));
+    CheckLines(other);
+    for (const std::string& line : other.GetLines())
+    {
+        const std::size_t at = line.find("svc_dur_ms");
+        CHECK((at == std::string::npos || std::stod(line.substr(at + 12)) >= 20.0));
+    }
+    CHECK(slow.CountLines("control_err") == 0);
+    // A MONITOR that replaces one whose answer is still awaited gets its own answers alone.
+    fixture.service.delay = 0ms;
+    slow.Send(MakeMonitorLine("/path/new", 2));
+    REQUIRE(slow.TryAwaitCount("/path/new", 5));
+    CHECK(slow.CountLines("/path/slow") == 0);
+    CHECK(slow.CountLines("control_err") == 0); // its answer is still to come, and its connection is closed before that
+}
+
 TEST_CASE("7.27 A service slower than the period: ticks are skipped and counted, none is made up for")
 {
     TcpFixture fixture;

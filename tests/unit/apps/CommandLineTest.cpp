@@ -150,6 +150,7 @@ TEST_CASE("A bad command line is one line that names program and option, and exi
         Row{{"--broker", "http://h"}, "--broker: expected a URL mqtt://"},
         Row{{"--time-scale", "0"}, "--time-scale"},
         Row{{"--time-scale", "fast"}, "--time-scale"},
+        Row{{"--time-scale", "nan"}, "--time-scale"},
         Row{{"--vehicle", "LR01", "--vehicle", "bad"}, "--vehicle: no such vehicle"},
         Row{{"--vehicle", "LR01", "LR02"}, "LR02"},
         Row{{"stray"}, "stray"});

@@ -128,6 +128,18 @@ struct Fixture
         port = endpoint->port;
         answer.body = "<answer>";
     }
+
+    /// Runs the loop until it is, or time is up.
+    [[nodiscard]] bool IsReached(const std::function<bool()>& isReached)
+    {
+        const auto deadline = std::chrono::steady_clock::now() + LIMIT;
+        while (!isReached() && std::chrono::steady_clock::now() < deadline)
+        {
+            context.restart();
+            context.run_one_for(100ms);
+        }
+        return isReached();
+    }
 };
 
 } // namespace
@@ -162,6 +174,71 @@ TEST_CASE("A connection serves one request after the other, also when they come 
     REQUIRE(client.WasClosed());
     REQUIRE(fixture.requests.size() == 3);
     REQUIRE(fixture.requests[2].path == "/3");
+}
+
+TEST_CASE("An answer with a delay comes later, other connections do not wait; a stop does not either")
+{
+    Fixture fixture;
+    fixture.answer.delay = 1h;
+    RawClient slow(fixture.context, fixture.port);
+    slow.Send("GET /slow HTTP/1.1\r\n\r\n");
+    RawClient gone(fixture.context, fixture.port);
+    gone.Send("GET /gone HTTP/1.1\r\n\r\n");
+    REQUIRE(fixture.IsReached([&fixture] { return fixture.requests.size() == 2; }));
+    fixture.answer.delay = 20ms;
+    const auto asked = std::chrono::steady_clock::now();
+    RawClient other(fixture.context, fixture.port);
+    other.Send("GET /1 HTTP/1.1\r\n\r\nHEAD /2 HTTP/1.1\r\nConnection: close\r\n\r\n");
+    REQUIRE(other.WasClosed());
+    CHECK(std::chrono::steady_clock::now() - asked >= 40ms);
+    const std::string received = other.TakeReceived();
+    CHECK(received.find("<answer>") != std::string::npos);
+    CHECK(received.find("<answer>") == received.rfind("<answer>"));
+    fixture.server->Stop();
+    REQUIRE(slow.WasClosed());
+    CHECK(slow.TakeReceived().empty());
+}
+
+TEST_CASE("Who asks whether the body is wanted is told to go on, unless it is too long")
+{
+    Fixture fixture;
+    RawClient client(fixture.context, fixture.port);
+    client.Send("POST /1 HTTP/1.1\r\nExpect: 100-Continue\r\nContent-Length: 4\r\n\r\n");
+    REQUIRE(client.HasReceived("HTTP/1.1 100 Continue\r\n\r\n"));
+    CHECK(fixture.requests.empty());
+    client.Send("bodyPOST /2 HTTP/1.1\r\nExpect: 100-continue\r\nContent-Length: 1048577\r\n\r\n");
+    REQUIRE(client.HasReceived("HTTP/1.1 413 "));
+    REQUIRE(fixture.requests.size() == 1);
+    CHECK(fixture.requests.front().body == "body");
+    const std::string received = client.TakeReceived();
+    CHECK(received.find("100 Continue") == received.rfind("100 Continue"));
+}
+
+TEST_CASE("A chunk whose size has no end is refused, and not kept until it has one")
+{
+    Fixture fixture;
+    RawClient client(fixture.context, fixture.port);
+    client.Send("POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n5;" + std::string(1'000'000, 'x'));
+    REQUIRE(client.HasReceived("HTTP/1.1 400 "));
+    CHECK(fixture.requests.empty());
+}
+
+TEST_CASE("A body in chunks is whole, and bounded as any other")
+{
+    Fixture fixture;
+    RawClient client(fixture.context, fixture.port);
+    client.Send("POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n2;x=y\r\nbo\r\n2\r\ndy\r\n0\r\n\r\n");
+    REQUIRE(client.HasReceived("<answer>"));
+    CHECK(fixture.requests.at(0).body == "body");
+    const std::string chunk = "10000\r\n" + std::string(0x10000, 'x') + "\r\n";
+    std::string request = "POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n";
+    for (int i = 0; i < 17; ++i)
+    {
+        request += chunk;
+    }
+    client.Send(request);
+    REQUIRE(client.HasReceived("HTTP/1.1 413 "));
+    CHECK(fixture.requests.size() == 1);
 }
 
 TEST_CASE("HEAD is answered with the header alone")

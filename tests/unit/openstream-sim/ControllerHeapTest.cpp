@@ -1,5 +1,6 @@
 #include "Catch.hpp"
 #include "ControllerHarness.hpp"
+#include "FaultHarness.hpp"
 #include "HeapProbe.hpp"
 
 #include <array>
@@ -89,4 +90,30 @@ TEST_CASE("C.2 Nor does it while the arm follows a trajectory, whose buffer grow
     REQUIRE(harness.Post("/project/context/tasks[0]/execute_move", move) == 200);
     CHECK(CountBlocks(harness, URLS[0]) == 0);
     CHECK(harness.Contains("/project/robot/joint_states?jno_n=1", R"("position":[40])"));
+}
+
+TEST_CASE("A MONITOR's tick takes nothing from the heap with faults about, nor in a silence")
+{
+    constexpr int CALLS = 1000;
+    Testing::FaultHarness harness;
+    harness.Begin("slow time=1s side=http");
+    harness.Begin("refuse count=3");
+    harness.Begin("estop at=1h");
+    for (const std::string_view silence : {"silence at=1h", "silence"})
+    {
+        INFO(silence);
+        harness.Begin(silence);
+        OpenStream::ApiRequest request;
+        OpenStream::SplitUrl("/project/robot/joint_states", request);
+        OpenStream::ApiResponse response;
+        harness.CallStream(request, response); // the text reaches its size
+        const std::uint64_t before = HeapProbe::GetBlockCount();
+        for (int count = 0; count < CALLS; ++count)
+        {
+            harness.clock.Advance(2ms);
+            harness.CallStream(request, response);
+        }
+        CHECK(HeapProbe::GetBlockCount() == before);
+        CHECK(response.bNoSample == (silence == "silence"));
+    }
 }

@@ -1,21 +1,8 @@
-#include "ControllerHost.hpp"
+#include "HostFixture.hpp"
 
-#include "Catch.hpp"
-#include "common/SystemClock.hpp"
-#include "RecordingLogSink.hpp"
-#include "SeededRandom.hpp"
-#include <acs/openstream_asio/OpenStreamClient.hpp>
-
-#include <boost/asio/buffers_iterator.hpp>
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/read.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <boost/asio/write.hpp>
 
 #include <algorithm>
-#include <chrono>
-#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -23,132 +10,37 @@
 
 using namespace ACS::OpenStream;    // NOLINT(google-build-using-namespace)
 using namespace ACS::OpenStreamSim; // NOLINT(google-build-using-namespace)
-using namespace std::chrono_literals;
-using ACS::Core::JsonText;
-using ACS::OpenStreamAsio::OpenStreamClient;
-using ACS::OpenStreamAsio::OpenStreamClientOptions;
-using Tcp = boost::asio::ip::tcp;
+using Fixture = ACS::Testing::HostFixture;
 
 namespace
 {
 
-constexpr auto LIMIT = 10s;
-
-/// A controller on free ports, ten times as fast as real, and an Open Stream client of it.
-class Fixture final
+/// As fast as real, and a program waits in playback.
+ControllerOptions MakePlayingOptions()
 {
-    ACS::Apps::SystemClock _clock;
-    ACS::Testing::SeededRandom _random;
-    ACS::Testing::RecordingLogSink _log;
+    ControllerOptions options;
+    options.bWaiting = true;
+    return options;
+}
+
+/// Streams points of axis 1 to the arm, and watches where it is.
+class PointStream final
+{
+    Fixture& _fixture;
+    boost::asio::steady_timer _timer;
 
 public:
-    boost::asio::io_context context;
-    boost::asio::steady_timer pointTimer{context};
-    std::vector<ClientEvent> events;
-    std::unique_ptr<ControllerHost> host;
-    std::unique_ptr<OpenStreamClient> client;
-
-    Fixture()
-        : Fixture(MakeFastOptions())
+    explicit PointStream(Fixture& fixture)
+        : _fixture(fixture),
+          _timer(fixture.context)
     {
     }
 
-    explicit Fixture(const ControllerOptions& controller)
+    /// Begins to send so many, evenly from one angle to another, 2 ms apart.
+    void Start(double from, double to, int count)
     {
-        HostOptions options;
-        options.stream.port = 0;
-        options.http.port = 0;
-        options.controller = controller;
-        host = MakeHost(options);
-        REQUIRE(host->Start().has_value());
-
-        OpenStreamClientOptions clientOptions;
-        clientOptions.port = host->GetStreamEndpoint().port;
-        clientOptions.session.controlWindow = 50ms;
-        client = std::make_unique<OpenStreamClient>(
-            context.get_executor(),
-            _clock,
-            _random,
-            ACS::Core::Logger(_log, "client"),
-            clientOptions,
-            [this](const ClientEvent& event, ACS::Core::Now /*now*/) { events.push_back(event); });
-        client->Start();
-    }
-
-    [[nodiscard]] static ControllerOptions MakeFastOptions()
-    {
-        ControllerOptions options;
-        options.timeScale = 10.0;
-        return options;
-    }
-
-    /// As fast as real, and a program waits in playback.
-    [[nodiscard]] static ControllerOptions MakePlayingOptions()
-    {
-        ControllerOptions options;
-        options.bWaiting = true;
-        return options;
-    }
-
-    [[nodiscard]] std::unique_ptr<ControllerHost> MakeHost(const HostOptions& options)
-    {
-        return std::make_unique<ControllerHost>(
-            context.get_executor(),
-            _clock,
-            ACS::Core::Logger(_log, "sim"),
-            options);
-    }
-
-    [[nodiscard]] bool TryRunUntil(const std::function<bool()>& isReached)
-    {
-        const auto end = std::chrono::steady_clock::now() + LIMIT;
-        while (!isReached() && std::chrono::steady_clock::now() < end)
-        {
-            context.restart();
-            context.run_one_for(100ms);
-        }
-        return isReached();
-    }
-
-    void Monitor(const char* url, const char* args, std::chrono::milliseconds period = 10ms) const
-    {
-        client->SetMonitor(MonitorRequest{url, period, JsonText::FromTrusted(args), {}});
-    }
-
-    /// Sends so many points of axis 1, evenly from one angle to another, 2 ms apart.
-    void StreamPoints(double from, double to, int count)
-    {
-        pointTimer.expires_after(2ms);
+        _timer.expires_after(2ms);
         AwaitPoint(from, (to - from) / count, 1, count);
-    }
-
-    void AwaitPoint(double from, double step, int number, int count)
-    {
-        pointTimer.async_wait([this, from, step, number, count](const boost::system::error_code& error) {
-            if (error)
-            {
-                return;
-            }
-            SendPoint(from + step * number, 0.002 * number);
-            if (number < count)
-            {
-                pointTimer.expires_at(pointTimer.expiry() + 2ms);
-                AwaitPoint(from, step, number + 1, count);
-            }
-        });
-    }
-
-    void SendPoint(double angle, double time) const
-    {
-        const std::string body = R"({"interval":0.002,"time_from_start":)" + std::to_string(time)
-            + R"(,"look_ahead_time":0.04,"point":[)" + std::to_string(angle) + ",90,0,0,0,0]}";
-        static_cast<void>(client->SendControl(
-            ControlRequest{
-                EApiMethod::Post,
-                "/project/robot/trajectory/joint_traject_insert_point",
-                {},
-                JsonText::FromTrusted(body)},
-            EControlTracking::Streamed));
     }
 
     /// The first angle of each sample of joint_states.
@@ -156,7 +48,7 @@ public:
     {
         constexpr std::string_view KEY = "\"position\":[";
         std::vector<double> angles;
-        for (const ClientEvent& event : events)
+        for (const ClientEvent& event : _fixture.events)
         {
             const auto* const dataOrNull = std::get_if<ClientData>(&event);
             if (dataOrNull != nullptr)
@@ -171,81 +63,40 @@ public:
     /// Until the newest sample's first angle lies there.
     [[nodiscard]] bool TryAwaitAngle(double lowest, double highest)
     {
-        return TryRunUntil([this, lowest, highest]() {
+        return _fixture.TryRunUntil([this, lowest, highest]() {
             const std::vector<double> angles = GetAngles();
             return !angles.empty() && angles.back() >= lowest && angles.back() <= highest;
         });
     }
 
-    /// The text of the newest sample; empty where none has come.
-    [[nodiscard]] std::string GetSample() const
+private:
+    void AwaitPoint(double from, double step, int number, int count)
     {
-        std::string sample;
-        for (const ClientEvent& event : events)
-        {
-            const auto* const dataOrNull = std::get_if<ClientData>(&event);
-            if (dataOrNull != nullptr)
+        _timer.async_wait([this, from, step, number, count](const boost::system::error_code& error) {
+            if (error)
             {
-                sample = dataOrNull->line.result.value_or(JsonText()).GetText();
+                return;
             }
-        }
-        return sample;
-    }
-
-    [[nodiscard]] bool TryAwaitSample(const std::string& text)
-    {
-        return TryRunUntil([this, &text]() { return GetSample() == text; });
-    }
-
-    /// What became of the CONTROL.
-    [[nodiscard]] ClientControlSettled Control(const char* url, const char* body)
-    {
-        const std::uint64_t token = client->SendControl(
-            ControlRequest{EApiMethod::Post, url, {}, JsonText::FromTrusted(body)},
-            EControlTracking::Tracked);
-        ClientControlSettled settled;
-        const auto isSettled = [&]() {
-            for (const ClientEvent& event : events)
+            SendPoint(from + step * number, 0.002 * number);
+            if (number < count)
             {
-                const auto* const settledOrNull = std::get_if<ClientControlSettled>(&event);
-                if (settledOrNull != nullptr && settledOrNull->token == token)
-                {
-                    settled = *settledOrNull;
-                    return true;
-                }
+                _timer.expires_at(_timer.expiry() + 2ms);
+                AwaitPoint(from, step, number + 1, count);
             }
-            return false;
-        };
-        REQUIRE(TryRunUntil(isSettled));
-        return settled;
+        });
     }
 
-    /// The whole answer to bytes that were sent on a connection of their own.
-    [[nodiscard]] std::string SendHttp(const std::string& request)
+    void SendPoint(double angle, double time) const
     {
-        Tcp::socket socket(context);
-        socket.connect({boost::asio::ip::address_v4::loopback(), host->GetHttpEndpoint().port});
-        boost::asio::write(socket, boost::asio::buffer(request));
-        std::string answer;
-        bool bEnded = false;
-        boost::asio::async_read(
-            socket,
-            boost::asio::dynamic_buffer(answer),
-            [&bEnded](const boost::system::error_code&, std::size_t) { bEnded = true; });
-        const bool bInTime = TryRunUntil([&bEnded]() { return bEnded; });
-        if (!bInTime)
-        {
-            socket.close();
-            context.restart();
-            context.poll();
-        }
-        REQUIRE(bInTime);
-        return answer;
-    }
-
-    [[nodiscard]] std::string GetOverHttp(const std::string& target)
-    {
-        return SendHttp("GET " + target + " HTTP/1.1\r\nHost: sim\r\nConnection: close\r\n\r\n");
+        const std::string body = R"({"interval":0.002,"time_from_start":)" + std::to_string(time)
+            + R"(,"look_ahead_time":0.04,"point":[)" + std::to_string(angle) + ",90,0,0,0,0]}";
+        static_cast<void>(_fixture.client->SendControl(
+            ControlRequest{
+                EApiMethod::Post,
+                "/project/robot/trajectory/joint_traject_insert_point",
+                {},
+                JsonText::FromTrusted(body)},
+            EControlTracking::Streamed));
     }
 };
 
@@ -288,16 +139,17 @@ TEST_CASE(
     constexpr int POINTS = 150;
     constexpr double MIDDLE = 3.0; // deg
     constexpr double LAST = 6.0;   // deg
-    Fixture fixture(Fixture::MakePlayingOptions());
+    Fixture fixture({}, MakePlayingOptions());
+    PointStream points(fixture);
     fixture.Monitor("/project/robot/joints/joint_states", R"({"jno_start":1,"jno_n":1})", 2ms);
-    REQUIRE(fixture.TryAwaitAngle(0.0, 0.0));
+    REQUIRE(points.TryAwaitAngle(0.0, 0.0));
     REQUIRE(IsAccepted(fixture.Control("/project/robot/trajectory/joint_traject_init", "{}")));
-    fixture.StreamPoints(0.0, MIDDLE, POINTS);
-    REQUIRE(fixture.TryAwaitAngle(MIDDLE - 1e-4, MIDDLE + 1e-4));
-    fixture.StreamPoints(MIDDLE, LAST, POINTS);
-    REQUIRE(fixture.TryAwaitAngle(LAST - 1e-4, LAST + 1e-4));
+    points.Start(0.0, MIDDLE, POINTS);
+    REQUIRE(points.TryAwaitAngle(MIDDLE - 1e-4, MIDDLE + 1e-4));
+    points.Start(MIDDLE, LAST, POINTS);
+    REQUIRE(points.TryAwaitAngle(LAST - 1e-4, LAST + 1e-4));
     // No sample lay beyond, and none went back.
-    const std::vector<double> angles = fixture.GetAngles();
+    const std::vector<double> angles = points.GetAngles();
     for (std::size_t i = 1; i < angles.size(); ++i)
     {
         REQUIRE(angles[i] >= angles[i - 1] - 1e-9);
@@ -310,14 +162,14 @@ TEST_CASE(
     // A point that is to be reached in a minute; STOP control drops it.
     constexpr const char* FAR = R"({"interval":60,"look_ahead_time":0,"point":[90,90,0,0,0,0]})";
     REQUIRE(IsAccepted(fixture.Control("/project/robot/trajectory/joint_traject_insert_point", FAR)));
-    REQUIRE(fixture.TryAwaitAngle(LAST + 0.01, 90.0));
+    REQUIRE(points.TryAwaitAngle(LAST + 0.01, 90.0));
     fixture.client->StopControl();
     REQUIRE(fixture.TryRunUntil(
         [&fixture]() { return fixture.GetSample().find(R"("velocity":[0])") != std::string::npos; }));
     REQUIRE(Contains(
         fixture.GetOverHttp("/project/robot/trajectory/joint_traject_mode"),
         R"({"_type":"JObject","mode":false})"));
-    REQUIRE(fixture.GetAngles().back() < 90.0);
+    REQUIRE(points.GetAngles().back() < 90.0);
 }
 
 TEST_CASE("A Over HTTP the encoded path, the status and the content type are right")

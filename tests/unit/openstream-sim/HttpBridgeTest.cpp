@@ -43,7 +43,24 @@ TEST_CASE("A body that is no JSON object or array is refused, a method that the 
         REQUIRE(response.status == 400);
         REQUIRE(response.body.find(R"("err_code":-1)") != std::string::npos);
     }
+    REQUIRE(Send(harness, {"HEAD", "/project/robot", {}, ""}).status == 200);
+    REQUIRE(Send(harness, {"HEAD", "/project/nothing", {}, ""}).status == 404);
     REQUIRE(Send(harness, {"PATCH", "/project/robot", {}, "{}"}).status == 404);
     REQUIRE(Send(harness, {"DELETE", "/project/robot", {}, ""}).status == 404);
     REQUIRE(harness.Contains("/project/robot", R"("tool_no":0)"));
+}
+
+TEST_CASE("A path is decoded once: what came as %255B is no bracket, and a NUL or another byte is no end of it")
+{
+    ControllerHarness harness;
+    const std::string body = R"({"pno":11})";
+    REQUIRE(Send(harness, {"POST", "/project/context/tasks%5B0%5D/cur_prog_cnt", {}, body}).status == 404);
+    REQUIRE(Send(harness, {"POST", "/project/context/tasks[0]/cur_prog_cnt", {}, body}).status == 200);
+    for (const std::string& end :
+         {std::string(1, '\0'), std::string("\xFF"), std::string("%"), std::string("/"), std::string("/..")})
+    {
+        const HttpResponse response = Send(harness, {"GET", "/project/robot" + end, {}, ""});
+        REQUIRE(response.status == 404);
+        REQUIRE(ACS::Core::JsonText::IsUtf8(response.body));
+    }
 }

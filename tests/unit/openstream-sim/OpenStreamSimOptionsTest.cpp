@@ -3,21 +3,34 @@
 #include "Catch.hpp"
 
 #include <array>
+#include <optional>
+#include <vector>
 
 using namespace ACS::OpenStreamSim; // NOLINT(google-build-using-namespace)
 using namespace std::chrono_literals;
+
+namespace
+{
+
+std::optional<int> Parse(std::vector<const char*> arguments, OpenStreamSimOptions& options)
+{
+    arguments.insert(arguments.begin(), "openstream-sim");
+    return ParseOptionsOrNull(static_cast<int>(arguments.size()), arguments.data(), options);
+}
+
+} // namespace
 
 TEST_CASE("Without options it serves the manuals' ports on the loopback, with the motor off and in real time")
 {
     OpenStreamSimOptions options;
     const std::array arguments{"openstream-sim"};
     REQUIRE_FALSE(ParseOptionsOrNull(1, arguments.data(), options).has_value());
-    REQUIRE(options.host.stream == ACS::Apps::Endpoint{"127.0.0.1", 49000});
-    REQUIRE(options.host.http == ACS::Apps::Endpoint{"127.0.0.1", 8888});
-    REQUIRE_FALSE(options.host.controller.bMotorOn);
+    REQUIRE(options.fleet.first.stream == ACS::Apps::Endpoint{"127.0.0.1", 49000});
+    REQUIRE(options.fleet.first.http == ACS::Apps::Endpoint{"127.0.0.1", 8888});
+    REQUIRE_FALSE(options.fleet.first.controller.bMotorOn);
     REQUIRE_FALSE(options.bRealTime);
-    REQUIRE(options.host.controller.timeScale == 1.0);
-    REQUIRE(options.host.controller.otherPrograms == ProgramSpec{2s, false});
+    REQUIRE(options.fleet.first.controller.timeScale == 1.0);
+    REQUIRE(options.fleet.first.controller.otherPrograms == ProgramSpec{2s, false});
 }
 
 TEST_CASE("Every option reaches its place")
@@ -34,21 +47,24 @@ TEST_CASE("Every option reaches its place")
         "--program",
         "11=3s",
         "--program=12=500ms,fail",
+        "--controllers",
+        "3",
         "--ready",
         "--playing",
         "--realtime",
         "--log-level",
         "error"};
     REQUIRE_FALSE(ParseOptionsOrNull(static_cast<int>(arguments.size()), arguments.data(), options).has_value());
-    REQUIRE(options.host.stream == ACS::Apps::Endpoint{"0.0.0.0", 0});
-    REQUIRE(options.host.http == ACS::Apps::Endpoint{"::1", 1});
-    REQUIRE(options.host.controller.timeScale == 20.0);
-    REQUIRE(options.host.controller.bMotorOn);
-    REQUIRE(options.host.controller.bWaiting);
+    REQUIRE(options.fleet.first.stream == ACS::Apps::Endpoint{"0.0.0.0", 0});
+    REQUIRE(options.fleet.first.http == ACS::Apps::Endpoint{"::1", 1});
+    REQUIRE(options.fleet.first.controller.timeScale == 20.0);
+    REQUIRE(options.fleet.first.controller.bMotorOn);
+    REQUIRE(options.fleet.first.controller.bWaiting);
+    REQUIRE(options.fleet.controllers == 3);
     REQUIRE(options.bRealTime);
-    REQUIRE(options.host.controller.programs.size() == 2);
-    REQUIRE(options.host.controller.programs.at(11) == ProgramSpec{3s, false});
-    REQUIRE(options.host.controller.programs.at(12) == ProgramSpec{500ms, true});
+    REQUIRE(options.fleet.first.controller.programs.size() == 2);
+    REQUIRE(options.fleet.first.controller.programs.at(11) == ProgramSpec{3s, false});
+    REQUIRE(options.fleet.first.controller.programs.at(12) == ProgramSpec{500ms, true});
     REQUIRE(options.common.logLevel == ACS::Core::ELogLevel::Error);
 }
 
@@ -82,13 +98,54 @@ TEST_CASE("A program is NUMBER=DURATION or NUMBER=DURATION,fail, once a number")
 
 TEST_CASE("A mistake on the command line is exit code 2")
 {
-    for (const std::array<const char*, 3>& arguments :
-         {std::array{"openstream-sim", "--listen", "here"},
-          std::array{"openstream-sim", "--time-scale", "0"},
-          std::array{"openstream-sim", "--program", "11"},
-          std::array{"openstream-sim", "--frobnicate", "1"}})
+    for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{
+             {"--listen", "here"},
+             {"--listen", "127.0.0.1:65536"},
+             {"--http", "127.0.0.1"},
+             {"--time-scale", "0"},
+             {"--time-scale", "nan"},
+             {"--program", "11"},
+             {"--program", "11=1s", "--program", "11=2s"},
+             {"--controllers", "0"},
+             {"--controllers", "501"},
+             {"--controllers", "-1"},
+             {"--controllers", "2x"},
+             {"--controllers", "2", "--controllers", "2"},
+             {"--controllers"},
+             {"--log-level", "loud"},
+             {"--ready=maybe"},
+             {"--frobnicate", "1"},
+             {"positional"}})
     {
+        CAPTURE(arguments);
         OpenStreamSimOptions options;
-        REQUIRE(ParseOptionsOrNull(3, arguments.data(), options) == 2);
+        REQUIRE(Parse(arguments, options) == 2);
+    }
+}
+
+TEST_CASE("Ports beyond the last one, or the same ones for both sides, are refused; one less is not, nor is port 0")
+{
+    for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{
+             {"--controllers", "3", "--listen", "127.0.0.1:65534"},
+             {"--controllers", "3", "--http", "127.0.0.1:65534"},
+             {"--controllers", "3", "--listen", "127.0.0.1:9000", "--http", "127.0.0.1:9002"},
+             {"--controllers", "3", "--listen", "127.0.0.1:9002", "--http", "127.0.0.1:9000"},
+             {"--listen", "127.0.0.1:9000", "--http", "127.0.0.1:9000"}})
+    {
+        CAPTURE(arguments);
+        OpenStreamSimOptions options;
+        REQUIRE(Parse(arguments, options) == 2);
+    }
+    for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{
+             {"--controllers", "3", "--listen", "127.0.0.1:65533"},
+             {"--controllers", "3", "--http", "127.0.0.1:65533"},
+             {"--controllers", "3", "--listen", "127.0.0.1:9000", "--http", "127.0.0.1:9003"},
+             {"--controllers", "3", "--listen", "127.0.0.1:9003", "--http", "127.0.0.1:9000"},
+             {"--controllers", "3", "--listen", "127.0.0.1:9000", "--http", "127.0.0.2:9000"},
+             {"--controllers", "500", "--listen", "127.0.0.1:0", "--http", "127.0.0.1:0"}})
+    {
+        CAPTURE(arguments);
+        OpenStreamSimOptions options;
+        REQUIRE_FALSE(Parse(arguments, options).has_value());
     }
 }

@@ -2,6 +2,8 @@
 """The program as a user starts it, and the Python client of its README, taken from there and run against it."""
 
 import argparse
+import contextlib
+import json
 import pathlib
 import re
 import signal
@@ -19,17 +21,23 @@ PROGRAM = None
 
 
 class ReadmeClient(unittest.TestCase):
-    def start(self, *arguments):
-        """A simulator on free ports; (process, stream address, http address)."""
+    def start_for_ready(self, *arguments):
+        """A simulator on free ports; what its ready line says. The process is self.process."""
         process = subprocess.Popen([PROGRAM, "--listen", "127.0.0.1:0", "--http", "127.0.0.1:0", "--log-level", "error",
                                     *arguments], stdout=subprocess.PIPE, text=True)
+        self.process = process
         self.addCleanup(process.wait, LIMIT)
         self.addCleanup(process.kill)
         self.addCleanup(process.stdout.close)
         line = process.stdout.readline()
-        match = re.fullmatch(r"ready: stream=(127\.0\.0\.1:\d+) http=(127\.0\.0\.1:\d+)\n", line)
-        self.assertIsNotNone(match, line)
-        return process, match.group(1), match.group(2)
+        self.assertRegex(line, r"\Aready:( \w+=127\.0\.0\.1:\d+)+\n\Z")
+        return dict(part.split("=") for part in line.split()[1:])
+
+    def start(self, *arguments):
+        """One controller; (process, stream address, http address)."""
+        ready = self.start_for_ready(*arguments)
+        self.assertEqual(list(ready), ["stream", "http"])
+        return self.process, ready["stream"], ready["http"]
 
     def run_program(self, *arguments):
         return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=LIMIT, check=False)
@@ -44,6 +52,81 @@ class ReadmeClient(unittest.TestCase):
                                     capture_output=True, text=True, timeout=LIMIT, check=False)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(result.stdout.splitlines()[-1], "finished, started 1 ended 1")
+
+    def test_the_shell_sessions_of_the_readme_print_what_they_say(self):
+        blocks = re.findall(r"```bash\n(.*?)```", README.read_text(encoding="utf-8"), re.DOTALL)
+        self.assertEqual(len(blocks), 3)
+        ready = self.start_for_ready("--ready", "--control", "127.0.0.1:0")
+        self.assertEqual(list(ready), ["stream", "http", "control"])
+        for block in blocks:
+            with self.subTest(block.splitlines()[0]):
+                code = block.replace("127.0.0.1/49000", ready["stream"].replace(":", "/"))
+                code = code.replace("127.0.0.1:8888", ready["http"]).replace("127.0.0.1:8890", ready["control"])
+                result = subprocess.run(["bash", "-euo", "pipefail", "-c", code], capture_output=True, text=True,
+                                        timeout=LIMIT, check=False)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                printed = result.stdout.splitlines()
+                expected = [line[2:] for line in block.splitlines() if line.startswith("# ")]
+                self.assertEqual(len(printed), len(expected), result.stdout)
+                for line, pattern in zip(printed, expected):
+                    self.assertRegex(line, r"\A" + re.escape(pattern).replace("…", ".*") + r"\Z")
+
+    def test_it_ends_cleanly_with_many_controllers_in_the_middle_of_their_faults(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".faults", encoding="utf-8") as faults:
+            faults.write("# all at once\n* slow time=1m\n* hole every=200ms\n\n1 drop at=1h\n2 mode silence=1h\n")
+            faults.flush()
+            for number in (signal.SIGINT, signal.SIGTERM):
+                with self.subTest(number.name):
+                    ready = self.start_for_ready("--controllers", "20", "--fault-file", faults.name, "--fault",
+                                                 "* estop every=50ms for=10ms", "--control", "127.0.0.1:0")
+                    with contextlib.ExitStack() as stack:
+                        for name, address in ready.items():
+                            host, port = address.split(":")
+                            client = stack.enter_context(socket.create_connection((host, int(port)), timeout=LIMIT))
+                            if name.startswith("http"):
+                                client.sendall(b"GET /api_ver HTTP/1.1\r\n\r\n")
+                            elif name.startswith("stream"):
+                                client.sendall(b'{"cmd":"HANDSHAKE","payload":{"major":1}}\n'
+                                               b'{"cmd":"MONITOR","payload":{"method":"GET","url":"/api_ver","period_ms":2}}\n')
+                                self.assertIn(b"_ack", client.recv(1000))
+                        self.process.send_signal(number)
+                        self.assertEqual(self.process.wait(LIMIT), 0)
+
+    def post(self, address, text, path="/faults"):
+        """Status and text of the answer."""
+        try:
+            with urllib.request.urlopen(f"http://{address}{path}", text.encode(), timeout=LIMIT) as answer:
+                return answer.status, answer.read().decode()
+        except urllib.error.HTTPError as refused:
+            with refused as answer:
+                return answer.code, answer.read().decode()
+
+    def test_faults_are_taken_while_it_runs_all_of_a_message_or_none(self):
+        ready = self.start_for_ready("--controllers", "2", "--ready", "--control", "127.0.0.1:0")
+        control = ready["control"]
+
+        def is_pressed(name):
+            with urllib.request.urlopen(f"http://{ready[name]}/project/robot/emergency_stop", timeout=LIMIT) as answer:
+                return json.load(answer)["val"]
+
+        self.assertEqual(self.post(control, "2 estop"), (200, "ok: controllers=1 estop\n"))
+        self.assertEqual((is_pressed("http"), is_pressed("http2")), (0, 1))
+        self.assertEqual(self.post(control, "# all\n* end estop\n1 estop\n"),
+                         (200, "ok: controllers=2 ended=1\nok: controllers=1 estop\n"))
+        self.assertEqual((is_pressed("http"), is_pressed("http2")), (1, 0))
+        for text, part in (("* end\n2 explode", "line 2, fault: expected one of silence"), ("", "no command"),
+                           ("3 estop", "no controller is called 3; there are 1 to 2"), ("\xff", "error: ")):
+            with self.subTest(text):
+                status, answer = self.post(control, text)
+                self.assertEqual(status, 400)
+                self.assertTrue(answer.startswith("error: "), answer)
+                self.assertIn(part, answer)
+        self.assertEqual((is_pressed("http"), is_pressed("http2")), (1, 0))
+        self.assertEqual(self.post(control, "* end", path="/")[0], 404)
+        with self.assertRaises(urllib.error.HTTPError) as refused:
+            urllib.request.urlopen(f"http://{control}/faults", timeout=LIMIT)
+        with refused.exception as answer:
+            self.assertEqual(answer.code, 405)
 
     def test_it_ends_cleanly_on_both_signals_with_a_client_connected(self):
         for number in (signal.SIGINT, signal.SIGTERM):
@@ -67,17 +150,124 @@ class ReadmeClient(unittest.TestCase):
                     self.assertIn(address, result.stderr)
 
     def test_a_bad_value_is_one_line_and_exit_code_2(self):
-        for arguments in (("--program", "0=3s"), ("--time-scale", "-1"), ("--listen", "nowhere"), ("--frobnicate",)):
+        for arguments in (
+                ("--program", "0=3s"), ("--time-scale", "-1"), ("--time-scale", "nan"), ("--listen", "nowhere"),
+                ("--http", "127.0.0.1:99999"), ("--controllers", "0"), ("--controllers", "9999"), ("--control", "8890"),
+                ("--fault", "explode"), ("--fault", "1 hole for=5"), ("--fault", "1 end"), ("--fault", "*"), ("--fault", ""),
+                ("--fault-file", "/nowhere"), ("--fault-file", "/"), ("--log-level", "loud"), ("--frobnicate",)):
             with self.subTest(arguments[0]):
                 result = self.run_program(*arguments)
                 self.assertEqual(result.returncode, 2)
                 self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
                 self.assertIn(arguments[0], result.stderr)
 
+    def test_each_of_several_controllers_has_ports_and_an_arm_of_its_own(self):
+        ready = self.start_for_ready("--controllers", "3", "--ready")
+        self.assertEqual(list(ready), ["stream", "http", "stream2", "http2", "stream3", "http3"])
+        self.assertEqual(len(set(ready.values())), 6)
+        urllib.request.urlopen(f"http://{ready['http2']}/project/robot/tool_no", b'{"val":1}', timeout=LIMIT).close()
+        for name, tool in (("http", 0), ("http2", 1), ("http3", 0)):
+            with urllib.request.urlopen(f"http://{ready[name]}/project/robot", timeout=LIMIT) as answer:
+                self.assertEqual(json.load(answer)["tool_no"], tool, name)
+        for name in ("stream", "stream2", "stream3"):
+            host, port = ready[name].split(":")
+            with socket.create_connection((host, int(port)), timeout=LIMIT) as client:
+                client.sendall(b'{"cmd":"HANDSHAKE","payload":{"major":1}}\n')
+                self.assertIn(b"handshake_ack", client.recv(1000), name)
+
+    def test_of_several_controllers_the_port_that_cannot_be_had_is_named(self):
+        # Two free neighbours; the second is then taken.
+        for _ in range(100):
+            with socket.create_server(("127.0.0.1", 0)) as first:
+                port = first.getsockname()[1]
+                try:
+                    taken = socket.create_server(("127.0.0.1", port + 1))
+                except (OSError, OverflowError):
+                    continue
+            with taken:
+                result = self.run_program("--controllers", "2", "--listen", f"127.0.0.1:{port}", "--http", "127.0.0.1:0")
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+            self.assertIn(f"127.0.0.1:{port + 1}", result.stderr)
+            return
+        self.fail("there are no two free ports side by side")
+
+    def test_a_fault_for_a_controller_that_is_not_there_is_one_line_and_exit_code_2(self):
+        result = self.run_program("--controllers", "2", "--fault", "3 silence")
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+        self.assertIn("1 to 2", result.stderr)
+
+    def test_a_port_of_the_control_that_is_in_use_is_named(self):
+        with socket.create_server(("127.0.0.1", 0)) as taken:
+            address = f"127.0.0.1:{taken.getsockname()[1]}"
+            result = self.run_program("--listen", "127.0.0.1:0", "--http", "127.0.0.1:0", "--control", address)
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+        self.assertIn(address, result.stderr)
+
+    def ask(self, address, request):
+        """The whole answer to the bytes, to the end of the connection."""
+        host, port = address.split(":")
+        with socket.create_connection((host, int(port)), timeout=LIMIT) as client:
+            # A server that has refused may stop to read before all is sent.
+            with contextlib.suppress(ConnectionError):
+                client.sendall(request)
+            answer = b""
+            while chunk := client.recv(65536):
+                answer += chunk
+            return answer
+
+    def test_hostile_http_costs_an_answer_and_no_more(self):
+        _, stream, http = self.start()
+        end = b" HTTP/1.1\r\nHost: x\r\nConnection: close\r\n"
+        rows = [
+            (b"GET /api_ver" + end + b"\r\n", 200, b"\r\n\r\n5"),
+            (b"HEAD /api_ver" + end + b"\r\n", 200, b"Content-Length: 1\r\n\r\n"),
+            (b"GET /api_ver HTTP/1.1\r\n\r\n" * 20 + b"GET /api_ver" + end + b"\r\n", 200, b"5"),
+            (b"GET /project/robot%00" + end + b"\r\n", 404, b'"err_code":-2'),
+            (b"GET /project/%ff" + end + b"\r\n", 404, b'"err_code":-2'),
+            (b"GET /project/../api_ver" + end + b"\r\n", 404, b'"err_code":-2'),
+            (b"GET /project/context/tasks%255B0%255D/x" + end + b"\r\n", 404, b'"err_code":-2'),
+            (b"GET /%zz" + end + b"\r\n", 400, b"percent-encoded"),
+            (b"GET api_ver" + end + b"\r\n", 400, b"begins with /"),
+            (b"POST /project/robot/tool_no" + end + b"Content-Length: 10000000\r\n\r\n" + bytes(10_000_000), 413, b"longer"),
+            (b"POST /project/robot/tool_no" + end + b"Content-Length: 200000\r\n\r\n" + b"[" * 200_000, 400, b"64 levels"),
+            (b"POST /project/robot/tool_no" + end + b"Transfer-Encoding: chunked\r\n\r\n9\r\n{\"val\":1}\r\n0\r\n\r\n", 200, b"_type"),
+            (b"POST /project/robot/tool_no" + end + b"Transfer-Encoding: chunked\r\n\r\n5;" + b"x" * 1_000_000, 400, b"not an HTTP"),
+            (b"POST /project/robot/tool_no" + end + b"Content-Length: -1\r\n\r\n", 400, b"not an HTTP"),
+            (b"\x16\x03\x01 no HTTP\r\n\r\n", 400, b"not an HTTP"),
+        ]
+        rows += [(method + b" /api_ver" + end + b"\r\n", 404, b'"err_code":-2')
+                 for method in (b"OPTIONS", b"TRACE", b"CONNECT", b"PATCH", b"BREW", b"get", b"PUT")]
+        host, port = stream.split(":")
+        with socket.create_connection((host, int(port)), timeout=LIMIT) as client:
+            client.sendall(b'{"cmd":"HANDSHAKE","payload":{"major":1}}\n')
+            for request, status, part in rows:
+                with self.subTest(request[:60]):
+                    answer = self.ask(http, request)
+                    self.assertTrue(answer.startswith(b"HTTP/1.1 %d " % status), answer[:300])
+                    self.assertIn(part, answer)
+            self.assertIn(b"handshake_ack", client.recv(1000))
+            client.sendall(b'{"cmd":"STOP","payload":{"target":"session"}}\n')
+            self.assertIn(b"stop_ack", client.recv(1000))
+
+    def test_slow_http_clients_keep_others_waiting_only_as_long_as_they_stay(self):
+        _, _, http = self.start()
+        host, port = http.split(":")
+        with contextlib.ExitStack() as stack:
+            slow = [stack.enter_context(socket.create_connection((host, int(port)), timeout=LIMIT)) for _ in range(80)]
+            for client in slow:
+                client.sendall(b"GET /api_ver HT")
+            for client in slow[:40]:
+                client.close()
+            self.assertTrue(self.ask(http, b"GET /api_ver HTTP/1.1\r\nConnection: close\r\n\r\n").endswith(b"\r\n\r\n5"))
+
     def test_help_tells_what_the_programs_do(self):
         result = self.run_program("--help")
         self.assertEqual(result.returncode, 0)
-        for text in ("--program", "byte 400", "byte 404", "byte 408", "byte 412", "val_s32?st=400"):
+        for text in ("--controllers", "--control", "1 hole at=5s every=2s", "protective-stop", "program-fails [when=start|end]",
+                     "--program", "byte 400", "byte 404", "byte 408", "byte 412", "val_s32?st=400"):
             self.assertIn(text, result.stdout)
 
     def test_the_http_side_answers_as_documented(self):

@@ -66,4 +66,8 @@ TEST_CASE("8 The room of an answer is used again for the next one")
     REQUIRE(room.data() == place);
     REQUIRE(response == ApiResponse{});
     REQUIRE(response.TakeRoom().empty());
+    response.delay = std::chrono::seconds(1);
+    response.bNoSample = true;
+    static_cast<void>(response.TakeRoom());
+    REQUIRE(response == ApiResponse{});
 }

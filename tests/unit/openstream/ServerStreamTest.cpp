@@ -178,6 +178,40 @@ TEST_CASE("7.27 A service slower than the period skips ticks, one call at a time
     REQUIRE(server.Count("\"svc_dur_ms\":25") == 1);
 }
 
+TEST_CASE("9 A service without a sample sends no line; what is skipped is counted, the phase and ts stay")
+{
+    ServerHarness server;
+    Stream(server, 10).Pass(20ms);
+    server.answer.bNoSample = true;
+    server.Pass(30ms);
+    server.answer.bNoSample = false;
+    server.Pass(20ms);
+    REQUIRE(GetTimes(server) == std::vector<int>{10, 20, 60, 70});
+    REQUIRE(server.session.GetStats().skippedTicks == 3);
+    REQUIRE(server.calls.size() == 7);
+    REQUIRE(server.Count("\"error\"") == 0);
+}
+
+TEST_CASE("7.24 A service without a sample for longer than the limit of interrupted streaming ends the session")
+{
+    ServerHarness server;
+    server.answer.bNoSample = true;
+    Stream(server, 10).Pass(6s);
+    REQUIRE(server.Count("\"data\"") == 0);
+    REQUIRE(server.Count("session_timeout") == 1);
+}
+
+TEST_CASE("7.17 A CONTROL does not care for samples")
+{
+    ServerHarness server;
+    server.answer.bNoSample = true;
+    server.answer.status = 403;
+    Stream(server, 10);
+    server.Receive(R"({"cmd":"CONTROL","payload":{"method":"POST","url":"/x"}})"
+                   "\n");
+    REQUIRE(server.Count("control_err") == 1);
+}
+
 TEST_CASE("7.28 A url that the service does not have gives data with its status, not an error a tick")
 {
     ServerHarness server;

@@ -1,6 +1,5 @@
 #include "Catch.hpp"
 #include "SeededRandom.hpp"
-#include "vda-sim/FaultBoard.hpp"
 #include "vda-sim/FaultCommand.hpp"
 #include "vda-sim/MessageGate.hpp"
 #include "vda-sim/VehicleRandom.hpp"
@@ -28,7 +27,7 @@ constexpr Core::SteadyTime START{1000s};
 
 Fault MakeFault(std::string_view text)
 {
-    Core::Result<Fault> fault = VdaSim::ParseFault(text);
+    Core::Result<Fault> fault = Apps::ParseFault(VdaSim::GetFaultGrammar(), text);
     REQUIRE(fault.has_value());
     return std::move(*fault);
 }
@@ -73,7 +72,7 @@ TEST_CASE("A fault is its name and its parameters, in any order, between any bla
     CHECK(loss.direction == EFaultDirection::Out);
     CHECK(MakeFault("refuse level=FATAL").errorLevel == VDA5050::EErrorLevel::Fatal);
     CHECK(MakeFault("drop will=no").bWill == false);
-    CHECK(MakeFault("mode mode=SERVICE node=N1").nodeID == "N1");
+    CHECK(MakeFault("mode mode=SERVICE node=N1").place == "N1");
     CHECK(MakeFault("action-fails type=pick when=start count=3").maxUses == 3U);
 }
 
@@ -105,7 +104,7 @@ TEST_CASE("What is no fault is told with what would be one")
              {"delay", "time=DURATION"}})
     {
         CAPTURE(text);
-        const Core::Result<Fault> fault = VdaSim::ParseFault(text);
+        const Core::Result<Fault> fault = Apps::ParseFault(VdaSim::GetFaultGrammar(), text);
         REQUIRE_FALSE(fault.has_value());
         CHECK_THAT(fault.error().expected, Catch::Contains(expected));
     }
@@ -113,70 +112,74 @@ TEST_CASE("What is no fault is told with what would be one")
 
 TEST_CASE("A command is for the vehicles that it names, and begins, ends or triggers")
 {
-    const auto begin = VdaSim::ParseFaultCommand("LR* stuck for=5s");
+    const auto begin = Apps::ParseFaultCommand(VdaSim::GetFaultGrammar(), "LR* stuck for=5s");
     REQUIRE(begin.has_value());
     CHECK(begin->verb == VdaSim::EFaultVerb::Begin);
     CHECK(begin->fault.kind == EFaultKind::Stuck);
-    CHECK(VdaSim::IsFor(*begin, "LR07"));
-    CHECK_FALSE(VdaSim::IsFor(*begin, "CR07"));
-    const auto end = VdaSim::ParseFaultCommand("LR01 end stuck");
+    CHECK(Apps::IsTarget(begin->targets, "LR07"));
+    CHECK_FALSE(Apps::IsTarget(begin->targets, "CR07"));
+    const auto end = Apps::ParseFaultCommand(VdaSim::GetFaultGrammar(), "LR01 end stuck");
     REQUIRE(end.has_value());
     CHECK(end->verb == VdaSim::EFaultVerb::End);
     CHECK(end->kindToEnd == EFaultKind::Stuck);
-    CHECK(VdaSim::IsFor(*end, "LR01"));
-    CHECK_FALSE(VdaSim::IsFor(*end, "LR011"));
-    CHECK_FALSE(VdaSim::ParseFaultCommand("* end")->kindToEnd.has_value());
-    CHECK(VdaSim::ParseFaultCommand("* trigger")->verb == VdaSim::EFaultVerb::Trigger);
+    CHECK(Apps::IsTarget(end->targets, "LR01"));
+    CHECK_FALSE(Apps::IsTarget(end->targets, "LR011"));
+    CHECK_FALSE(Apps::ParseFaultCommand(VdaSim::GetFaultGrammar(), "* end")->kindToEnd.has_value());
+    CHECK(Apps::ParseFaultCommand(VdaSim::GetFaultGrammar(), "* trigger")->verb == VdaSim::EFaultVerb::Trigger);
     for (const std::string text :
          {"", "LR01", "stuck for=5s", "LR01 end nothing", "LR01 end stuck now", "LR01 trigger 1"})
     {
         CAPTURE(text);
-        CHECK_FALSE(VdaSim::ParseFaultCommand(text).has_value());
+        CHECK_FALSE(Apps::ParseFaultCommand(VdaSim::GetFaultGrammar(), text).has_value());
     }
 }
 
 TEST_CASE("A file of faults has a line for each, remarks and empty lines; a mistake names its line")
 {
-    const auto commands = VdaSim::ParseFaultCommands("# all\r\n\n  A stuck # at once\r\nB drop for=1s");
+    const auto commands =
+        Apps::ParseFaultCommands(VdaSim::GetFaultGrammar(), "# all\r\n\n  A stuck # at once\r\nB drop for=1s");
     REQUIRE(commands.has_value());
     REQUIRE(commands->size() == 2);
     CHECK((*commands)[0].fault.text == "stuck");
-    CHECK((*commands)[1].vehicles == "B");
-    const auto wrong = VdaSim::ParseFaultCommands("A stuck\n\nA stuck for=long\n");
+    CHECK((*commands)[1].targets == "B");
+    const auto wrong = Apps::ParseFaultCommands(VdaSim::GetFaultGrammar(), "A stuck\n\nA stuck for=long\n");
     REQUIRE_FALSE(wrong.has_value());
     CHECK(wrong.error().path == "line 3, stuck for");
 }
 
 TEST_CASE("A fault file may begin with a byte order mark; what is no UTF-8, too long or too much is refused")
 {
-    const auto marked = VdaSim::ParseFaultCommands("\xEF\xBB\xBF"
-                                                   "LR01 stuck\n");
+    const auto marked = Apps::ParseFaultCommands(
+        VdaSim::GetFaultGrammar(),
+        "\xEF\xBB\xBF"
+        "LR01 stuck\n");
     REQUIRE(marked.has_value());
-    CHECK(marked->front().vehicles == "LR01");
-    CHECK_FALSE(VdaSim::ParseFaultCommands("LR01 stuck error=\xFF\xFE").has_value());
-    CHECK_FALSE(VdaSim::ParseFaultCommand("\xC3 stuck").has_value());
-    CHECK(VdaSim::ParseFaultCommand("LR01 stuck error=M\xC3\xBCller").has_value());
-    CHECK(VdaSim::ParseFaultCommand("LR01 stuck error=" + std::string(900, 'x')).has_value());
-    CHECK_FALSE(VdaSim::ParseFaultCommand("LR01 stuck error=" + std::string(1000, 'x')).has_value());
+    CHECK(marked->front().targets == "LR01");
+    CHECK_FALSE(Apps::ParseFaultCommands(VdaSim::GetFaultGrammar(), "LR01 stuck error=\xFF\xFE").has_value());
+    CHECK_FALSE(Apps::ParseFaultCommand(VdaSim::GetFaultGrammar(), "\xC3 stuck").has_value());
+    CHECK(Apps::ParseFaultCommand(VdaSim::GetFaultGrammar(), "LR01 stuck error=M\xC3\xBCller").has_value());
+    CHECK(Apps::ParseFaultCommand(VdaSim::GetFaultGrammar(), "LR01 stuck error=" + std::string(900, 'x')).has_value());
+    CHECK_FALSE(
+        Apps::ParseFaultCommand(VdaSim::GetFaultGrammar(), "LR01 stuck error=" + std::string(1000, 'x')).has_value());
     std::string many;
     for (int i = 0; i < 1000; ++i)
     {
         many += "A stuck\n";
     }
-    CHECK(VdaSim::ParseFaultCommands(many)->size() == 1000);
-    const auto tooMany = VdaSim::ParseFaultCommands(many + "# one more\nA stuck\n");
+    CHECK(Apps::ParseFaultCommands(VdaSim::GetFaultGrammar(), many)->size() == 1000);
+    const auto tooMany = Apps::ParseFaultCommands(VdaSim::GetFaultGrammar(), many + "# one more\nA stuck\n");
     REQUIRE_FALSE(tooMany.has_value());
     CHECK(tooMany.error().path == "line 1002");
 }
 
 TEST_CASE("The help has a line for every fault")
 {
-    const std::string help = VdaSim::MakeFaultHelp();
+    const std::string help = Apps::MakeFaultHelp(VdaSim::GetFaultGrammar());
     for (std::size_t i = 0; i <= static_cast<std::size_t>(EFaultKind::Delay); ++i)
     {
         const auto kind = static_cast<EFaultKind>(i);
         CHECK_THAT(help, Catch::Contains("  " + std::string(VdaSim::GetFaultName(kind))));
-        CHECK(VdaSim::ParseFaultKind(VdaSim::GetFaultName(kind)) == kind);
+        CHECK(Apps::ParseFaultKind(VdaSim::GetFaultGrammar(), VdaSim::GetFaultName(kind)) == kind);
     }
 }
 
@@ -216,14 +219,14 @@ TEST_CASE("A fault with a node waits for it, each time anew only where it is giv
     FaultBoard board;
     FaultChanges changes;
     board.Add(MakeFault("stuck node=N2 at=1s for=1s"), START, changes);
-    board.OnNode("N1", START + 5s, changes);
+    board.OnPlace("N1", START + 5s, changes);
     CHECK_FALSE(board.GetNextTimeOrNull().has_value());
-    board.OnNode("N2", START + 6s, changes);
+    board.OnPlace("N2", START + 6s, changes);
     CHECK(board.GetNextTimeOrNull() == START + 7s);
     board.OnTime(START + 7s, changes);
     board.OnTime(START + 8s, changes);
     CHECK(TakeTexts(changes) == Texts{"+stuck", "-stuck its time is over"});
-    board.OnNode("N2", START + 9s, changes);
+    board.OnPlace("N2", START + 9s, changes);
     CHECK(changes.empty());
     CHECK(board.IsEmpty());
 }

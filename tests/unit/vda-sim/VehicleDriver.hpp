@@ -105,7 +105,8 @@ public:
 
     [[nodiscard]] bool TryInject(std::string_view fault)
     {
-        const bool bTaken = _vehicle.TryInject(Take(VdaSim::ParseFault(fault)), _clock.GetNow(), _actions);
+        const bool bTaken =
+            _vehicle.TryInject(Take(Apps::ParseFault(VdaSim::GetFaultGrammar(), fault)), _clock.GetNow(), _actions);
         Execute();
         return bTaken;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/core/JsonText.hpp>
+#include <acs/core/Now.hpp>
 #include <acs/openstream/EApiMethod.hpp>
 
 #include <optional>
@@ -39,6 +40,12 @@ struct ApiResponse
 {
     int status = 200; ///< HTTP; every 2xx is a success.
     std::optional<Core::JsonText> body;
+    /// The server hands it on so much later, as if the call had taken that long: a service that is slow on purpose, or
+    /// waits on behalf of another machine, need not keep the server's thread. What was asked for is done by then.
+    Core::Duration delay{};
+    /// To a MONITOR: there is nothing to show this time, no line is sent and the tick counts as skipped. So a controller
+    /// falls silent while it changes its mode. Elsewhere it means nothing.
+    bool bNoSample = false;
 
     [[nodiscard]] bool IsSuccess() const noexcept;
 

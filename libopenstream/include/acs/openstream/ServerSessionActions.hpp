@@ -125,7 +125,7 @@ struct ServerSessionStats
 {
     std::uint64_t dataLines = 0;     ///< Data lines that left.
     std::uint64_t replacedLines = 0; ///< Data lines that a newer one replaced before they left.
-    std::uint64_t skippedTicks = 0;  ///< Ticks without a sample: the timer or the service was late.
+    std::uint64_t skippedTicks = 0;  ///< Ticks without a sample: the timer or the service was late, or it had none.
     std::uint64_t commands = 0;      ///< Good requests.
     std::uint64_t errorLines = 0;    ///< Error lines, control_err not counted.
     std::uint64_t controlErrors = 0; ///< control_err lines.

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-namespace ACS::VdaSim
+namespace ACS::Apps
 {
 
 /// Cuts the next word, without the blanks before it, off the front; empty where there is none left.
@@ -21,4 +21,17 @@ namespace ACS::VdaSim
     return word;
 }
 
-} // namespace ACS::VdaSim
+/// Whether one of the words is the wanted one.
+[[nodiscard]] inline bool ContainsWord(std::string_view words, std::string_view wanted)
+{
+    while (!words.empty())
+    {
+        if (TakeWord(words) == wanted)
+        {
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace ACS::Apps

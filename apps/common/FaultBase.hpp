@@ -1,0 +1,31 @@
+#pragma once
+
+#include <acs/core/Now.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace ACS::Apps
+{
+
+/// What every simulator's faults have in common: which one it is, and when. A program's own Fault derives from it and
+/// adds what its kinds need. Times are of the wall clock, not scaled.
+template <typename TKind>
+struct FaultBase
+{
+    using Kind = TKind;
+
+    TKind kind{};
+    std::string text;                     ///< As it was written, blanks made one: what the log says.
+    bool bOnce = false;                   ///< It is done, and is over as soon as it has begun.
+    Core::Duration delay{};               ///< Until it begins: after the start, or after the place was reached.
+    std::string place;                    ///< Not empty: begins once this was reached (FaultBoard::OnPlace).
+    std::optional<Core::Duration> lasts;  ///< Absent: until it is ended, or used up.
+    std::optional<Core::Duration> every;  ///< Begins again so long after it began; longer than it lasts.
+    std::optional<std::uint32_t> maxUses; ///< Of kinds that are used: how often; absent: once, or while it lasts.
+
+    bool operator==(const FaultBase&) const = default;
+};
+
+} // namespace ACS::Apps

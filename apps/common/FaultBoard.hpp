@@ -1,0 +1,213 @@
+#pragma once
+
+#include <acs/core/Now.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace ACS::Apps
+{
+
+/// Told: a fault has begun, or has ended.
+template <typename TFault>
+struct FaultChange
+{
+    TFault fault;
+    bool bBegun = false;
+    std::string_view reason; ///< Why it ended; a literal.
+
+    bool operator==(const FaultChange&) const = default;
+};
+
+/// The faults of one simulated machine: which wait for their time or their place, which are active, when they end. Pure.
+/// Several of one kind may be active; each ends by itself. TFault derives from FaultBase.
+template <typename TFault>
+class FaultBoard
+{
+    using Kind = typename TFault::Kind;
+    using Changes = std::vector<FaultChange<TFault>>;
+
+    struct Entry
+    {
+        TFault fault;
+        bool bWaitsForPlace = false;
+        bool bActive = false;
+        Core::SteadyTime begunAt;
+        std::optional<Core::SteadyTime> due; ///< When it begins, or while active ends.
+        std::uint32_t uses = 0;
+    };
+
+    std::vector<Entry> _entries;
+
+public:
+    /// Active and to come. The owner asks first: one more is its mistake.
+    static constexpr std::size_t MAX_FAULTS = 1000;
+
+    [[nodiscard]] std::size_t CountFaults() const noexcept
+    {
+        return _entries.size();
+    }
+
+    /// Begins at once where neither a delay nor a place says otherwise.
+    void Add(TFault fault, Core::SteadyTime now, Changes& out)
+    {
+        assert(_entries.size() < MAX_FAULTS);
+        Entry& entry = _entries.emplace_back();
+        entry.fault = std::move(fault);
+        entry.bWaitsForPlace = !entry.fault.place.empty();
+        if (entry.bWaitsForPlace)
+        {
+            return;
+        }
+        entry.due = now + entry.fault.delay;
+        // The others have their time; looking at all of them for each would take its square.
+        if (*entry.due <= now)
+        {
+            Begin(entry, now, out);
+            if (TryEnd(entry, now, out))
+            {
+                _entries.pop_back();
+            }
+        }
+    }
+
+    /// Ends those of the kind (absent: all), also those that have not begun; how many.
+    std::size_t End(std::optional<Kind> kindOrNull, std::string_view reason, Changes& out)
+    {
+        return std::erase_if(_entries, [&](const Entry& entry) {
+            const bool bEnds = !kindOrNull.has_value() || entry.fault.kind == *kindOrNull;
+            if (bEnds && entry.bActive)
+            {
+                out.push_back({entry.fault, false, reason});
+            }
+            return bEnds;
+        });
+    }
+
+    void OnPlace(std::string_view place, Core::SteadyTime now, Changes& out)
+    {
+        for (Entry& entry : _entries)
+        {
+            if (entry.bWaitsForPlace && entry.fault.place == place)
+            {
+                entry.bWaitsForPlace = false;
+                entry.due = now + entry.fault.delay;
+            }
+        }
+        OnTime(now, out);
+    }
+
+    /// Begins and ends what is due.
+    void OnTime(Core::SteadyTime now, Changes& out)
+    {
+        for (Entry& entry : _entries)
+        {
+            if (!entry.bActive && entry.due.has_value() && *entry.due <= now)
+            {
+                Begin(entry, *entry.due, out);
+            }
+        }
+        std::erase_if(_entries, [&](Entry& entry) { return TryEnd(entry, now, out); });
+    }
+
+    /// When OnTime has something to do next.
+    [[nodiscard]] std::optional<Core::SteadyTime> GetNextTimeOrNull() const
+    {
+        std::optional<Core::SteadyTime> next;
+        for (const Entry& entry : _entries)
+        {
+            if (entry.due.has_value() && (!next.has_value() || *entry.due < *next))
+            {
+                next = entry.due;
+            }
+        }
+        return next;
+    }
+
+    /// The youngest active one of the kind.
+    [[nodiscard]] const TFault* FindOrNull(Kind kind) const
+    {
+        return FindOrNull(kind, [](const TFault&) { return true; });
+    }
+
+    /// The youngest active one of the kind for which the predicate is true.
+    template <typename TPredicate>
+    [[nodiscard]] const TFault* FindOrNull(Kind kind, TPredicate isWanted) const
+    {
+        const auto found = std::find_if(_entries.rbegin(), _entries.rend(), [&](const Entry& entry) {
+            return entry.bActive && entry.fault.kind == kind && isWanted(entry.fault);
+        });
+        return found != _entries.rend() ? &found->fault : nullptr;
+    }
+
+    /// It has had its effect once; ends where that was the last time. The fault is one that FindOrNull gave.
+    void Use(const TFault& fault, Changes& out)
+    {
+        const auto found = std::ranges::find(_entries, &fault, [](const Entry& entry) { return &entry.fault; });
+        assert(found != _entries.end());
+        ++found->uses;
+        // Without a number and without an end it is meant for the next one alone.
+        const std::uint32_t whileItLasts = found->fault.lasts.has_value() ? UINT32_MAX : 1;
+        if (found->uses >= found->fault.maxUses.value_or(whileItLasts))
+        {
+            out.push_back({found->fault, false, "it is used up"});
+            if (!TryRepeat(*found))
+            {
+                _entries.erase(found);
+            }
+        }
+    }
+
+    [[nodiscard]] bool IsActive(Kind kind) const
+    {
+        return FindOrNull(kind) != nullptr;
+    }
+
+    /// Neither active nor to come.
+    [[nodiscard]] bool IsEmpty() const noexcept
+    {
+        return _entries.empty();
+    }
+
+private:
+    static void Begin(Entry& entry, Core::SteadyTime now, Changes& out)
+    {
+        entry.bActive = true;
+        entry.begunAt = now;
+        entry.due = entry.fault.lasts.has_value() ? std::optional(now + *entry.fault.lasts) : std::nullopt;
+        out.push_back({entry.fault, true, {}});
+    }
+
+    /// Whether an active one has come to its end for good; an end is told.
+    [[nodiscard]] static bool TryEnd(Entry& entry, Core::SteadyTime now, Changes& out)
+    {
+        const bool bOver = entry.bActive && entry.due.has_value() && *entry.due <= now;
+        if (bOver)
+        {
+            out.push_back({entry.fault, false, "its time is over"});
+        }
+        const bool bDone = entry.bActive && entry.fault.bOnce;
+        return (bOver || bDone) && !TryRepeat(entry);
+    }
+
+    /// Where it comes again, it waits for that.
+    [[nodiscard]] static bool TryRepeat(Entry& entry)
+    {
+        if (!entry.fault.every.has_value())
+        {
+            return false;
+        }
+        entry.bActive = false;
+        entry.uses = 0;
+        entry.due = entry.begunAt + *entry.fault.every;
+        return true;
+    }
+};
+
+} // namespace ACS::Apps
