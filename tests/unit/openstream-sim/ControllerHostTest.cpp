@@ -11,6 +11,7 @@
 using namespace ACS::OpenStream;    // NOLINT(google-build-using-namespace)
 using namespace ACS::OpenStreamSim; // NOLINT(google-build-using-namespace)
 using Fixture = ACS::Testing::HostFixture;
+using namespace std::chrono_literals;
 
 namespace
 {
@@ -53,7 +54,7 @@ public:
             const auto* const dataOrNull = std::get_if<ClientData>(&event);
             if (dataOrNull != nullptr)
             {
-                const std::string text = dataOrNull->line.result.value_or(JsonText()).GetText();
+                const std::string text = dataOrNull->line.result.value_or(ACS::Core::JsonText()).GetText();
                 angles.push_back(std::stod(text.substr(text.find(KEY) + KEY.size())));
             }
         }
@@ -95,7 +96,7 @@ private:
                 EApiMethod::Post,
                 "/project/robot/trajectory/joint_traject_insert_point",
                 {},
-                JsonText::FromTrusted(body)},
+                ACS::Core::JsonText::FromTrusted(body)},
             EControlTracking::Streamed));
     }
 };
