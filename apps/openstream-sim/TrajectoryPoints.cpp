@@ -41,7 +41,7 @@ std::string_view GetText(const Value& value)
 }
 
 /// j1 to j6, in this order.
-bool AreJointNames(const Value& names)
+bool IsListOfJoints(const Value& names)
 {
     if (!names.IsArray() || names.Size() != AXES)
     {
@@ -187,7 +187,7 @@ TrajectoryMistake ReadTrajectory(const std::optional<Core::JsonText>& body, Time
     {
         return Fail(ETrajectoryMistake::NoJointNames, "joint_names: expected a value");
     }
-    if (!AreJointNames(*namesOrNull))
+    if (!IsListOfJoints(*namesOrNull))
     {
         return Fail(
             ETrajectoryMistake::BadJointNames,
