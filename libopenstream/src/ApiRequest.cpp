@@ -2,6 +2,8 @@
 #include <acs/openstream/ApiRequest.hpp>
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 namespace ACS::OpenStream
 {
@@ -36,10 +38,9 @@ void AppendEncoded(std::string_view text, std::string& out)
     }
 }
 
-void SetParameter(std::string_view name, std::string value, ApiRequest& request)
+std::string_view GetName(const rapidjson::Value::Member& member)
 {
-    std::erase_if(request.query, [name](const QueryParameter& parameter) { return parameter.name == name; });
-    request.query.push_back(QueryParameter{std::string(name), std::move(value)});
+    return {member.name.GetString(), member.name.GetStringLength()};
 }
 
 } // namespace
@@ -99,13 +100,19 @@ void AddArguments(const Core::JsonText& args, ApiRequest& request)
     {
         return;
     }
+    // Once for all of them: a line holds tens of thousands, and whatever they cost, every other session waits for it.
+    std::set<std::string_view> names;
     for (const auto& member : (*root)->GetObject())
     {
-        const std::string_view name(member.name.GetString(), member.name.GetStringLength());
+        names.insert(GetName(member));
+    }
+    std::erase_if(request.query, [&names](const QueryParameter& parameter) { return names.contains(parameter.name); });
+    for (const auto& member : (*root)->GetObject())
+    {
         std::string value = member.value.IsString()
             ? std::string(member.value.GetString(), member.value.GetStringLength())
             : Json::WriteText(member.value);
-        SetParameter(name, std::move(value), request);
+        request.query.push_back(QueryParameter{std::string(GetName(member)), std::move(value)});
     }
 }
 
