@@ -25,6 +25,7 @@ constexpr std::array<std::pair<std::string_view, EMoveSpeed>, 3> UNITS{{
     {"mm/sec", EMoveSpeed::Millimetres},
 }};
 constexpr double PERCENT = 100.0;
+constexpr double SLOWEST = 0.001; ///< % or mm/sec: no move takes longer than a clock can tell.
 constexpr double FASTEST_MILLIMETRES = 10'000.0;
 constexpr double LONGEST_SECONDS = 3'600.0;
 constexpr double LAST_ACCURACY = 7.0;
@@ -63,9 +64,9 @@ bool TryParseSpeed(std::string_view text, MoveStatement& move)
     switch (move.unit)
     {
         case EMoveSpeed::Percent:
-            return *speed <= PERCENT;
+            return *speed >= SLOWEST && *speed <= PERCENT;
         case EMoveSpeed::Millimetres:
-            return *speed <= FASTEST_MILLIMETRES;
+            return *speed >= SLOWEST && *speed <= FASTEST_MILLIMETRES;
         case EMoveSpeed::Seconds:
         default:
             return *speed <= LONGEST_SECONDS;

@@ -77,6 +77,8 @@ TEST_CASE("A execute_move: what is no statement of the robot language is -137627
           "move P,spd=infsec [0,90,0,0,0,0]",
           "move P,spd=1e300sec [0,90,0,0,0,0]",
           "move P,spd=101% [0,90,0,0,0,0]",
+          "move P,spd=1e-300% [10,90,0,0,0,0]",
+          "move P,spd=1e-300mm/sec [10,90,0,0,0,0]",
           "move P,spd=20000mm/sec [0,90,0,0,0,0]",
           "move P,spd=1sec,spd=1sec [0,90,0,0,0,0]",
           "move P,spd=1sec,accu=8 [0,90,0,0,0,0]",
