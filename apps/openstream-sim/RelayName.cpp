@@ -139,6 +139,11 @@ std::optional<RelayName> ParseRelayNameOrNull(std::string_view text)
     {
         return std::nullopt;
     }
+    const bool bSystem = type->area == ERelayArea::Si || type->area == ERelayArea::So;
+    if (bSystem && name.block.bus != ERelayBus::None)
+    {
+        return std::nullopt;
+    }
     name.block.area = type->area;
     name.width = type->width;
     name.number = *number;

@@ -48,6 +48,8 @@ TEST_CASE("A name has a known area, a known width and a place inside its block")
           "ml1024",
           "m32768",
           "fb10.di1",
+          "fb0.si1",
+          "fn0.sob1",
           "fn64.di1",
           "fb.di1",
           "fb0di1",
