@@ -83,6 +83,10 @@ public:
 
     [[nodiscard]] Core::Result<void> Start()
     {
+        if (_listener->GetPort() != 0)
+        {
+            return {}; // Another attempt would close the port that it has.
+        }
         const Core::Result<std::uint16_t> port = _listener->Listen(_options.host, _options.port);
         if (!port.has_value())
         {

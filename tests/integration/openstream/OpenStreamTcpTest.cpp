@@ -95,6 +95,18 @@ TEST_CASE("8 A server that is stopped and started again at once accepts as befor
     REQUIRE_FALSE(fixture.log.Contains(ACS::Core::ELogLevel::Warning, ""));
 }
 
+TEST_CASE("8 A server that is started twice keeps its port and serves on")
+{
+    TcpFixture fixture;
+    const auto server = fixture.StartServer();
+    const std::uint16_t port = server->GetPort();
+    REQUIRE(server->Start().has_value());
+    REQUIRE(server->GetPort() == port);
+    const auto client = fixture.MakeClient(port);
+    client->Start();
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientReady>() == 1; }));
+}
+
 TEST_CASE("8 Sessions that are dropped without a line come back")
 {
     TcpFixture fixture;

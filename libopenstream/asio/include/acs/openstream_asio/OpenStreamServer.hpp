@@ -43,7 +43,7 @@ public:
     OpenStreamServer& operator=(const OpenStreamServer&) = delete;
     ~OpenStreamServer();
 
-    /// Binds and listens. The error names the address and what to do.
+    /// Binds and listens; nothing where it listens already. The error names the address and what to do.
     [[nodiscard]] Core::Result<void> Start();
 
     /// Closes the port and every connection, without a last line. Start may follow.
