@@ -9,6 +9,7 @@
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
 
+#include <algorithm>
 #include <list>
 #include <optional>
 #include <string>
@@ -98,6 +99,7 @@ struct HttpServer::Impl : std::enable_shared_from_this<Impl>
 
     Core::Result<Endpoint> Listen(const Endpoint& endpoint);
     [[nodiscard]] bool HasRoom() const;
+    [[nodiscard]] std::shared_ptr<Connection> FindWaitingOrNull() const;
     void OnAccepted(Tcp::socket socket);
     void OnClosed(ConnectionList::iterator place);
     void Stop();
@@ -114,6 +116,7 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
     std::optional<Http::response<Http::string_body>> _responseOrNull;
     std::optional<Http::response_serializer<Http::string_body>> _serializerOrNull;
     Asio::steady_timer _delay;
+    bool _bWaiting = false; ///< For a whole request.
 
 public:
     ConnectionList::iterator place; ///< In the server's list.
@@ -128,6 +131,11 @@ public:
 
     void ReadAsync()
     {
+        _bWaiting = true;
+        if (const std::shared_ptr<Impl> server = _server.lock(); server != nullptr)
+        {
+            server->connections.splice(server->connections.end(), server->connections, place);
+        }
         _parserOrNull.emplace();
         _parserOrNull->header_limit(_limits.maxHeaderBytes);
         _parserOrNull->body_limit(_limits.maxBodyBytes);
@@ -139,8 +147,14 @@ public:
             Beast::bind_front_handler(&Connection::OnHeader, shared_from_this()));
     }
 
+    [[nodiscard]] bool IsWaiting() const noexcept
+    {
+        return _bWaiting;
+    }
+
     void Close()
     {
+        _bWaiting = false;
         ErrorCode ignored;
         _delay.cancel(ignored);
         _stream.socket().shutdown(Tcp::socket::shutdown_both, ignored);
@@ -182,6 +196,7 @@ private:
 
     void OnRead(const ErrorCode& error, std::size_t /*count*/)
     {
+        _bWaiting = false;
         const std::shared_ptr<Impl> server = _server.lock();
         if (server == nullptr || !_stream.socket().is_open())
         {
@@ -315,13 +330,29 @@ Core::Result<Endpoint> HttpServer::Impl::Listen(const Endpoint& endpoint)
     return Endpoint{endpoint.host, *port};
 }
 
+/// Also where one can make room: see OnAccepted.
 bool HttpServer::Impl::HasRoom() const
 {
-    return connections.size() < limits.maxConnections;
+    return connections.size() < limits.maxConnections || FindWaitingOrNull() != nullptr;
+}
+
+/// Who has waited for a whole request the longest.
+std::shared_ptr<HttpServer::Impl::Connection> HttpServer::Impl::FindWaitingOrNull() const
+{
+    const auto found = std::ranges::find_if(connections, &Connection::IsWaiting);
+    return found != connections.end() ? *found : nullptr;
 }
 
 void HttpServer::Impl::OnAccepted(Tcp::socket socket)
 {
+    if (connections.size() >= limits.maxConnections)
+    {
+        // Peers that say nothing must not keep out those that have something to ask.
+        if (const std::shared_ptr<Connection> silent = FindWaitingOrNull(); silent != nullptr)
+        {
+            silent->Close();
+        }
+    }
     const auto connection = std::make_shared<Connection>(shared_from_this(), std::move(socket));
     connections.push_back(connection);
     connection->place = std::prev(connections.end());

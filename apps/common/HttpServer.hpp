@@ -22,7 +22,9 @@ struct HttpLimits
     std::uint32_t maxHeaderBytes = 16U * 1024U;
     std::uint64_t maxBodyBytes = 1024U * 1024U;
     std::chrono::milliseconds timeout{30'000}; ///< For a whole request, and for a connection without one.
-    std::size_t maxConnections = 64;           ///< More wait until one closes.
+    /// One more takes the place of the one that has waited the longest for a whole request; where all are being answered,
+    /// it waits until one is.
+    std::size_t maxConnections = 64;
 };
 
 /// A small HTTP/1.1 server: status and metrics of a program, the Open API of the simulated controller. Keeps

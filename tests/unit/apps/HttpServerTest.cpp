@@ -311,21 +311,40 @@ TEST_CASE("A silent peer is closed when its time is up")
     REQUIRE(client.TakeReceived().empty());
 }
 
-TEST_CASE("Peers beyond the limit are served as soon as one leaves")
+TEST_CASE("A peer beyond the limit takes the place of the one that has been silent the longest")
+{
+    Apps::HttpLimits limits;
+    limits.maxConnections = 2;
+    Fixture fixture(limits);
+    RawClient half(fixture.context, fixture.port);
+    half.Send("GET / HT");
+    RawClient idle(fixture.context, fixture.port);
+    idle.Send("GET /1 HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(idle.HasReceived("<answer>"));
+    RawClient third(fixture.context, fixture.port);
+    third.Send("GET /2 HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(third.HasReceived("<answer>"));
+    REQUIRE(half.WasClosed());
+    REQUIRE(half.TakeReceived().empty());
+    static_cast<void>(idle.TakeReceived());
+    idle.Send("GET /3 HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(idle.HasReceived("<answer>"));
+}
+
+TEST_CASE("A peer beyond the limit waits while all others are being answered")
 {
     Apps::HttpLimits limits;
     limits.maxConnections = 1;
     Fixture fixture(limits);
-    auto first = std::make_unique<RawClient>(fixture.context, fixture.port);
-    first->Send("GET /1 HTTP/1.1\r\nHost: x\r\n\r\n");
-    REQUIRE(first->HasReceived("<answer>"));
+    fixture.answer.delay = 100ms;
+    RawClient first(fixture.context, fixture.port);
+    first.Send("GET /1 HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(fixture.IsReached([&fixture]() { return fixture.requests.size() == 1; }));
     RawClient second(fixture.context, fixture.port);
     second.Send("GET /2 HTTP/1.1\r\nHost: x\r\n\r\n");
-    fixture.context.restart();
-    fixture.context.run_for(50ms);
-    REQUIRE(fixture.requests.size() == 1);
-    first.reset();
+    REQUIRE(first.HasReceived("<answer>"));
     REQUIRE(second.HasReceived("<answer>"));
+    REQUIRE(first.WasClosed());
 }
 
 TEST_CASE("A port in use is told with the address and what to do, and another port works")
