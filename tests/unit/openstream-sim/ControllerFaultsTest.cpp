@@ -26,7 +26,7 @@ TEST_CASE("9 Without a fault both sides are the controller's own")
     CHECK(harness.response.delay == 0s);
     CHECK(harness.GetOverHttp(MOTOR) == ON);
     CHECK(harness.Control("/project/robot/tool_no", R"({"val":1})") == 200);
-    CHECK(harness.ShowsRobot(R"("tool_no":1)"));
+    CHECK(harness.ContainsInRobot(R"("tool_no":1)"));
     CHECK(harness.GetChanges().empty());
     CHECK_FALSE(harness.wakeAt.has_value());
 }
@@ -138,7 +138,7 @@ TEST_CASE("9 A burst of refusals takes the next CONTROLs, of one time or in a ti
     {
         CHECK(harness.Control("/project/robot/tool_no", tool) == 403);
         CHECK_THAT(harness.response.body->GetText(), Catch::Contains(R"("err_code":-1554)"));
-        CHECK(harness.ShowsRobot(R"("tool_no":0)"));
+        CHECK(harness.ContainsInRobot(R"("tool_no":0)"));
     }
     CHECK(harness.Sample(MOTOR) == ON);                                           // the MONITOR is none
     CHECK(harness.PostOverHttp("/project/robot/tool_no", R"({"val":2})") == 200); // nor is HTTP
@@ -162,8 +162,8 @@ TEST_CASE("9 Out of remote mode the program halts and CONTROLs are refused; the 
     FaultHarness harness;
     REQUIRE(harness.StartProgram(11) == 200);
     harness.Begin("mode for=5s silence=2s");
-    CHECK(harness.ShowsRobot(R"("is_remote_mode":0)"));
-    CHECK(harness.ShowsRobot(R"("is_playback":0)"));
+    CHECK(harness.ContainsInRobot(R"("is_remote_mode":0)"));
+    CHECK(harness.ContainsInRobot(R"("is_playback":0)"));
     CHECK(harness.Control("/project/robot/start") == 403);
     CHECK_THAT(harness.response.body->GetText(), Catch::Contains("-38500"));
     std::string pattern;
@@ -173,16 +173,16 @@ TEST_CASE("9 Out of remote mode the program halts and CONTROLs are refused; the 
         harness.Pass(500ms);
     }
     CHECK(pattern == "----xxxxxx----xx");
-    CHECK(harness.ShowsRobot(R"("is_remote_mode":1)"));
+    CHECK(harness.ContainsInRobot(R"("is_remote_mode":1)"));
     harness.Begin("mode");
     CHECK(harness.Sample(MOTOR) == ON);
     harness.Begin("mode for=1s silence=2s"); // the switch is there already: it is not turned
     CHECK(harness.Sample(MOTOR) == ON);
     harness.Pass(2s);
     CHECK(harness.Sample(MOTOR) == ON);
-    CHECK(harness.ShowsRobot(R"("is_remote_mode":0)")); // the other one lasts
+    CHECK(harness.ContainsInRobot(R"("is_remote_mode":0)")); // the other one lasts
     CHECK(harness.End(EFaultKind::Mode) == 1);
-    CHECK(harness.ShowsRobot(R"("is_remote_mode":1)"));
+    CHECK(harness.ContainsInRobot(R"("is_remote_mode":1)"));
 }
 
 TEST_CASE("9 The emergency stop takes the motor until it is released; then motor and program go on by command")
@@ -214,7 +214,7 @@ TEST_CASE("9 A protective stop does likewise, without the emergency stop")
     CHECK(harness.Sample(MOTOR) == OFF);
     CHECK(harness.Control("/project/robot/motor_on") == 403);
     CHECK_THAT(harness.response.body->GetText(), Catch::Contains(R"("err_code":-5,"err_msg":"a safeguard is open)"));
-    CHECK(harness.ShowsRobot(R"("is_playback":0)"));
+    CHECK(harness.ContainsInRobot(R"("is_playback":0)"));
     harness.Pass(5s);
     CHECK(harness.Control("/project/robot/motor_on") == 200);
     harness.Pass(1s);
@@ -230,7 +230,7 @@ TEST_CASE("9 The motor that the operator switches off can be switched on again a
     harness.Begin("motor-off at=1s");
     harness.Pass(1s);
     CHECK(harness.Sample(MOTOR) == OFF);
-    CHECK(harness.ShowsRobot(R"("is_playback":0)"));
+    CHECK(harness.ContainsInRobot(R"("is_playback":0)"));
     CHECK(harness.Control("/project/robot/motor_on") == 200);
 }
 
@@ -248,7 +248,7 @@ TEST_CASE("9 The next program fails at its end, or where it begins, and the one 
     harness.Begin("program-fails when=start");
     REQUIRE(harness.StartProgram(13) == 200);
     CHECK(harness.GetCounters() == "[3,1,2,13]");
-    CHECK(harness.ShowsRobot(R"("is_playback":0)"));
+    CHECK(harness.ContainsInRobot(R"("is_playback":0)"));
     CHECK(harness.GetChanges().size() == 4);
     // One that goes on after a stop does not begin.
     REQUIRE(harness.StartProgram(14) == 200);
@@ -282,7 +282,7 @@ TEST_CASE("9 A fault with a program waits until that one begins")
     harness.Pass(1s);
     REQUIRE(harness.StartProgram(14) == 200); // it began, and was stopped at once
     CHECK(harness.Sample(MOTOR) == OFF);
-    CHECK(harness.ShowsRobot(R"("is_playback":0)"));
+    CHECK(harness.ContainsInRobot(R"("is_playback":0)"));
 }
 
 TEST_CASE("9 One fault too many is refused; ending all takes those to come, too")

@@ -154,7 +154,7 @@ public:
     }
 
     /// The member of /project/robot.
-    bool ShowsRobot(std::string_view member)
+    bool ContainsInRobot(std::string_view member)
     {
         return GetOverHttp("/project/robot").find(member) != std::string::npos;
     }

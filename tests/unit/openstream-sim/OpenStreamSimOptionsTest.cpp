@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 namespace
 {
 
-std::optional<int> Parse(std::vector<const char*> arguments, OpenStreamSimOptions& options)
+std::optional<int> ParseOrNull(std::vector<const char*> arguments, OpenStreamSimOptions& options)
 {
     arguments.insert(arguments.begin(), "openstream-sim");
     return ParseOptionsOrNull(static_cast<int>(arguments.size()), arguments.data(), options);
@@ -119,7 +119,7 @@ TEST_CASE("A mistake on the command line is exit code 2")
     {
         CAPTURE(arguments);
         OpenStreamSimOptions options;
-        REQUIRE(Parse(arguments, options) == 2);
+        REQUIRE(ParseOrNull(arguments, options) == 2);
     }
 }
 
@@ -134,7 +134,7 @@ TEST_CASE("Ports beyond the last one, or the same ones for both sides, are refus
     {
         CAPTURE(arguments);
         OpenStreamSimOptions options;
-        REQUIRE(Parse(arguments, options) == 2);
+        REQUIRE(ParseOrNull(arguments, options) == 2);
     }
     for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{
              {"--controllers", "3", "--listen", "127.0.0.1:65533"},
@@ -146,6 +146,6 @@ TEST_CASE("Ports beyond the last one, or the same ones for both sides, are refus
     {
         CAPTURE(arguments);
         OpenStreamSimOptions options;
-        REQUIRE_FALSE(Parse(arguments, options).has_value());
+        REQUIRE_FALSE(ParseOrNull(arguments, options).has_value());
     }
 }
