@@ -39,6 +39,10 @@ std::size_t ControllerFaults::End(std::optional<EFaultKind> kindOrNull, Core::No
     AdvanceAll(now);
     const std::size_t count = _board.End(kindOrNull, "it was ended", _changes);
     Finish();
+    if (kindOrNull.value_or(EFaultKind::Mode) == EFaultKind::Mode)
+    {
+        _silentUntil = now.steady; // whoever ends it wants the stream back
+    }
     return count;
 }
 

@@ -108,7 +108,7 @@ void ServerSession::ProcessLines(Core::Now now, ServerActions& out)
     bool bDrained = false;
     while (!_bContinuing)
     {
-        const bool bBlocked = _controls.IsFull() && !_bRefusingControls;
+        const bool bBlocked = !HasRoomForControls() && !_bRefusingControls;
         if (bBlocked || count == _options.commandsPerTurn)
         {
             break;
@@ -138,7 +138,7 @@ void ServerSession::ProcessLines(Core::Now now, ServerActions& out)
         _bReadingPaused = false;
         out.emplace_back(ServerResumeReading{});
     }
-    if (_controls.IsFull() && !_bRefusingControls)
+    if (!HasRoomForControls() && !_bRefusingControls)
     {
         out.emplace_back(ServerStartTimer{EServerTimer::ControlBusy, now.steady + _options.controlBusyAfter});
     }
@@ -280,7 +280,7 @@ void ServerSession::OnTimer(EServerTimer timer, Core::Now now, ServerActions& ou
             CheckWatchdog(now, out);
             break;
         case EServerTimer::ControlBusy:
-            _bRefusingControls = _controls.IsFull();
+            _bRefusingControls = !HasRoomForControls();
             ProcessLines(now, out);
             break;
         case EServerTimer::Close:

@@ -98,7 +98,9 @@ Framing SplitInPieces(std::string_view stream, std::size_t bound, std::uint32_t 
         const std::string piece(stream.substr(0, 1U + random() % longest));
         stream.remove_prefix(piece.size());
         framer.Feed(piece);
-        take(random() % 4U == 0U ? static_cast<std::uint32_t>(random() % 3U) : std::numeric_limits<std::uint32_t>::max());
+        take(
+            random() % 4U == 0U ? static_cast<std::uint32_t>(random() % 3U)
+                                : std::numeric_limits<std::uint32_t>::max());
         framer.Keep();
     }
     take(std::numeric_limits<std::uint32_t>::max());

@@ -199,7 +199,11 @@ MonitorRequest ReadMonitor(PayloadReader& reader)
     const Value* id = FindMemberOrNull(reader.payload, "id");
     if (id != nullptr && (id->IsString() || id->IsNumber()))
     {
-        request.id = Core::JsonText::FromTrusted(Json::WriteText(*id));
+        std::string text = Json::WriteText(*id);
+        if (text.size() <= LONGEST_ID)
+        {
+            request.id = Core::JsonText::FromTrusted(std::move(text));
+        }
     }
     return request;
 }

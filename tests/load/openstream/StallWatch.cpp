@@ -27,12 +27,11 @@ void BindToProcessor(std::thread& thread, std::size_t processor)
 } // namespace
 
 StallWatch::StallWatch()
-    : _sleepers(std::thread::hardware_concurrency())
 {
-    for (std::size_t index = 0; index < _sleepers.size(); ++index)
+    for (std::size_t index = 0; index < std::thread::hardware_concurrency(); ++index)
     {
-        Sleeper& sleeper = _sleepers[index];
-        sleeper.thread = std::thread([this, &sleeper]() { Watch(sleeper.stalls); });
+        Sleeper& sleeper = *_sleepers.emplace_back(std::make_unique<Sleeper>());
+        sleeper.thread = std::thread([&sleeper]() { Watch(sleeper); });
         BindToProcessor(sleeper.thread, index);
     }
 }
@@ -42,36 +41,36 @@ StallWatch::~StallWatch()
     static_cast<void>(Stop());
 }
 
-void StallWatch::Watch(std::vector<Stall>& stalls)
+void StallWatch::Watch(Sleeper& sleeper)
 {
-    std::unique_lock<std::mutex> lock(_mutex);
-    while (!_bStopping)
+    std::unique_lock<std::mutex> lock(sleeper.mutex);
+    while (!sleeper.bStopping)
     {
         const Core::SteadyTime due = std::chrono::steady_clock::now() + SLEEP;
-        _stopping.wait_until(lock, due);
+        sleeper.stopping.wait_until(lock, due);
         const Core::SteadyTime now = std::chrono::steady_clock::now();
         if (now - due > LATE)
         {
-            stalls.push_back(Stall{due, now});
+            sleeper.stalls.push_back(Stall{due, now});
         }
     }
 }
 
 std::vector<StallWatch::Stall> StallWatch::Stop()
 {
-    {
-        const std::unique_lock<std::mutex> lock(_mutex);
-        _bStopping = true;
-    }
-    _stopping.notify_all();
     std::vector<Stall> all;
-    for (Sleeper& sleeper : _sleepers)
+    for (const std::unique_ptr<Sleeper>& sleeper : _sleepers)
     {
-        if (sleeper.thread.joinable())
         {
-            sleeper.thread.join();
+            const std::unique_lock<std::mutex> lock(sleeper->mutex);
+            sleeper->bStopping = true;
         }
-        all.insert(all.end(), sleeper.stalls.begin(), sleeper.stalls.end());
+        sleeper->stopping.notify_all();
+        if (sleeper->thread.joinable())
+        {
+            sleeper->thread.join();
+        }
+        all.insert(all.end(), sleeper->stalls.begin(), sleeper->stalls.end());
     }
     std::ranges::sort(all, {}, &Stall::begin);
     return all;

@@ -3,6 +3,7 @@
 #include <acs/core/Now.hpp>
 
 #include <condition_variable>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -23,18 +24,19 @@ public:
     };
 
 private:
+    /// Each with a lock of its own: who is kept waiting while it holds it must not make the others late.
     struct Sleeper
     {
+        std::mutex mutex;
+        std::condition_variable stopping;
+        bool bStopping = false;
         std::vector<Stall> stalls;
         std::thread thread;
     };
 
-    std::mutex _mutex;
-    std::condition_variable _stopping;
-    bool _bStopping = false;
-    std::vector<Sleeper> _sleepers;
+    std::vector<std::unique_ptr<Sleeper>> _sleepers;
 
-    void Watch(std::vector<Stall>& stalls);
+    static void Watch(Sleeper& sleeper);
 
 public:
     StallWatch();

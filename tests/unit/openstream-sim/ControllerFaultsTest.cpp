@@ -185,6 +185,16 @@ TEST_CASE("9 Out of remote mode the program halts and CONTROLs are refused; the 
     CHECK(harness.ContainsInRobot(R"("is_remote_mode":1)"));
 }
 
+TEST_CASE("9 Who ends the turned mode switch by hand has the stream back at once")
+{
+    const std::optional<EFaultKind> kindOrNull = GENERATE(std::optional<EFaultKind>(EFaultKind::Mode), std::nullopt);
+    FaultHarness harness;
+    harness.Begin("mode silence=1h");
+    CHECK(harness.Sample(MOTOR).empty());
+    CHECK(harness.End(kindOrNull) == 1);
+    CHECK_FALSE(harness.Sample(MOTOR).empty());
+}
+
 TEST_CASE("9 The emergency stop takes the motor until it is released; then motor and program go on by command")
 {
     FaultHarness harness;

@@ -151,6 +151,19 @@ TEST_CASE("7.37 Numbers beyond 64 bits are compared as what they are")
     REQUIRE(DecodePeriod("1e300") == MAXIMUM_PERIOD);
 }
 
+TEST_CASE("7.9 An id that is too long to be repeated in each line is none")
+{
+    const auto decodeID = [](std::size_t letters) {
+        OpenStreamCodec codec;
+        const auto monitor = codec.DecodeRequest(
+            R"({"cmd":"MONITOR","payload":{"method":"GET","period_ms":2,"url":"/a","id":")" + std::string(letters, 'i')
+            + "\"}}");
+        return std::get<MonitorRequest>(monitor.value()).id;
+    };
+    REQUIRE(decodeID(LONGEST_ID - 2).has_value()); // its quotes count
+    REQUIRE_FALSE(decodeID(LONGEST_ID - 1).has_value());
+}
+
 TEST_CASE("2 Unknown members are ignored, and the vendor's clients are understood byte for byte")
 {
     OpenStreamCodec codec;

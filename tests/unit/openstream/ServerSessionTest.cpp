@@ -158,6 +158,33 @@ TEST_CASE("8 A full queue of CONTROLs stops reading; control_busy only where the
     REQUIRE(server.Count("control_busy") == 1);
 }
 
+TEST_CASE("8 CONTROLs that wait are bounded in bytes as in number")
+{
+    ServerSessionOptions options;
+    options.maximumControlBytes = 3'000;
+    ServerHarness server(options);
+    server.bServiceAnswers = false;
+    server.Receive(HANDSHAKE);
+    const std::string line = R"({"cmd":"CONTROL","payload":{"method":"POST","url":"/a","body":{"text":")"
+        + std::string(1'000, 'x') + "\"}}}\n";
+    server.Receive(line + line);
+    REQUIRE_FALSE(server.bReadingPaused);
+    server.Receive(line + line);
+    REQUIRE(server.bReadingPaused);
+    server.Answer(server.unanswered.at(0));
+    REQUIRE(server.calls.size() == 2);
+    REQUIRE(server.bReadingPaused); // the fourth has come in
+    server.Answer(server.unanswered.at(1));
+    REQUIRE_FALSE(server.bReadingPaused);
+    server.Receive(line + line);
+    server.Pass(1'000ms);
+    REQUIRE(server.Count("control_busy") == 1);
+    server.Receive(MakeStopLine("control"));
+    server.Receive(line);
+    REQUIRE(server.Count("control_busy") == 1);
+    REQUIRE_FALSE(server.bReadingPaused);
+}
+
 TEST_CASE("8 STOP control makes room again: a queue that fills up later waits before it refuses")
 {
     ServerSessionOptions options;

@@ -20,6 +20,7 @@ inline constexpr std::chrono::milliseconds MINIMUM_PERIOD{2};
 inline constexpr std::chrono::milliseconds MAXIMUM_PERIOD{30'000};
 inline constexpr std::size_t LONGEST_URL = 2048;           ///< Bytes, after JSON decoding.
 inline constexpr std::size_t LONGEST_LINE = 1024U * 1024U; ///< Bytes of a line without its end, either way.
+inline constexpr std::size_t LONGEST_ID = 256;             ///< Bytes of a MONITOR's id as JSON: each line repeats it.
 inline constexpr std::size_t DEEPEST_NESTING = 64;
 
 /// HANDSHAKE: the first command of a session.
@@ -36,7 +37,8 @@ struct MonitorRequest
     std::string url; ///< Begins with '/', no blank or control character, at most LONGEST_URL bytes.
     std::chrono::milliseconds period{MINIMUM_PERIOD}; ///< The codec clamps it to MINIMUM_PERIOD … MAXIMUM_PERIOD.
     std::optional<Core::JsonText> args;               ///< An object; goes into the query.
-    std::optional<Core::JsonText> id; ///< A number or a string that every data line repeats. Others are ignored.
+    std::optional<Core::JsonText>
+        id; ///< A number or a string of at most LONGEST_ID that every data line repeats. Others are ignored.
 
     bool operator==(const MonitorRequest&) const = default;
 };

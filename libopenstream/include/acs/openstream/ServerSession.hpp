@@ -46,6 +46,7 @@ class ServerSession
     bool _bMonitorFailing = false;   ///< Within an episode of internal errors, reported once.
 
     Core::BoundedQueue<ApiRequest> _controls; ///< The first one is in flight.
+    std::size_t _controlBytes = 0;            ///< Of all of them.
     std::uint64_t _controlToken = 0;
     std::uint64_t _lastToken = 0;
     bool _bControlled = false; ///< A CONTROL came since HANDSHAKE or the last STOP control.
@@ -74,6 +75,7 @@ class ServerSession
         ApiRequest& request);
     void StopMonitor(ServerActions& out);
     [[nodiscard]] bool TryStopControl(ServerActions& out);
+    [[nodiscard]] bool HasRoomForControls() const noexcept;
     void CallNextControl(ServerActions& out);
     void FinishControl(const ApiResponse& response, Core::Now now, ServerActions& out);
     void FinishMonitor(const ApiResponse& response, Core::Now now, ServerActions& out);

@@ -25,7 +25,8 @@ struct ServerSessionOptions
     std::size_t longestLine = LONGEST_LINE;
     std::size_t maximumOutput = 1024U * 1024U; ///< Bytes of unsent lines, data apart; beyond it the session is closed.
     std::size_t maximumControls = 256;         ///< Waiting; beyond it the session stops reading.
-    std::size_t commandsPerTurn = 64;          ///< After so many lines a due tick may go first.
+    std::size_t maximumControlBytes = 4U * 1024U * 1024U; ///< Of those that wait; likewise.
+    std::size_t commandsPerTurn = 64;                     ///< After so many lines a due tick may go first.
 };
 
 enum class EServerTimer : std::uint8_t
