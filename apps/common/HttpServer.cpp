@@ -81,6 +81,7 @@ struct HttpServer::Impl : std::enable_shared_from_this<Impl>
     HttpLimits limits;
     std::shared_ptr<Net::TcpListener> listener;
     ConnectionList connections;
+    std::optional<Tcp::socket> nextOrNull; ///< Has come while all others were being answered.
 
     Impl(
         const Asio::any_io_executor& executor,
@@ -92,15 +93,15 @@ struct HttpServer::Impl : std::enable_shared_from_this<Impl>
           limits(serverLimits),
           listener(std::make_shared<Net::TcpListener>(executor, logger, [this](Tcp::socket socket) {
               OnAccepted(std::move(socket));
-              return HasRoom();
+              return !nextOrNull.has_value();
           }))
     {
     }
 
     Core::Result<Endpoint> Listen(const Endpoint& endpoint);
-    [[nodiscard]] bool HasRoom() const;
     [[nodiscard]] std::shared_ptr<Connection> FindWaitingOrNull() const;
     void OnAccepted(Tcp::socket socket);
+    void TakeNext();
     void OnClosed(ConnectionList::iterator place);
     void Stop();
 };
@@ -135,6 +136,7 @@ public:
         if (const std::shared_ptr<Impl> server = _server.lock(); server != nullptr)
         {
             server->connections.splice(server->connections.end(), server->connections, place);
+            server->TakeNext(); // perhaps in the place of this one
         }
         _parserOrNull.emplace();
         _parserOrNull->header_limit(_limits.maxHeaderBytes);
@@ -330,12 +332,6 @@ Core::Result<Endpoint> HttpServer::Impl::Listen(const Endpoint& endpoint)
     return Endpoint{endpoint.host, *port};
 }
 
-/// Also where one can make room: see OnAccepted.
-bool HttpServer::Impl::HasRoom() const
-{
-    return connections.size() < limits.maxConnections || FindWaitingOrNull() != nullptr;
-}
-
 /// Who has waited for a whole request the longest.
 std::shared_ptr<HttpServer::Impl::Connection> HttpServer::Impl::FindWaitingOrNull() const
 {
@@ -343,15 +339,18 @@ std::shared_ptr<HttpServer::Impl::Connection> HttpServer::Impl::FindWaitingOrNul
     return found != connections.end() ? *found : nullptr;
 }
 
+/// Peers that say nothing must not keep out those that have something to ask.
 void HttpServer::Impl::OnAccepted(Tcp::socket socket)
 {
     if (connections.size() >= limits.maxConnections)
     {
-        // Peers that say nothing must not keep out those that have something to ask.
-        if (const std::shared_ptr<Connection> silent = FindWaitingOrNull(); silent != nullptr)
+        const std::shared_ptr<Connection> silent = FindWaitingOrNull();
+        if (silent == nullptr)
         {
-            silent->Close();
+            nextOrNull = std::move(socket);
+            return;
         }
+        silent->Close();
     }
     const auto connection = std::make_shared<Connection>(shared_from_this(), std::move(socket));
     connections.push_back(connection);
@@ -359,18 +358,30 @@ void HttpServer::Impl::OnAccepted(Tcp::socket socket)
     connection->ReadAsync();
 }
 
+void HttpServer::Impl::TakeNext()
+{
+    if (nextOrNull.has_value())
+    {
+        Tcp::socket socket = std::move(*nextOrNull);
+        nextOrNull.reset();
+        OnAccepted(std::move(socket));
+        listener->AcceptAsync();
+    }
+}
+
 void HttpServer::Impl::OnClosed(ConnectionList::iterator place)
 {
     if (place != connections.end())
     {
         connections.erase(place);
-        listener->AcceptAsync();
+        TakeNext();
     }
 }
 
 void HttpServer::Impl::Stop()
 {
     listener->Stop();
+    nextOrNull.reset();
     for (const std::shared_ptr<Connection>& connection : connections)
     {
         connection->place = connections.end();

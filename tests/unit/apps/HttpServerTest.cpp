@@ -331,20 +331,25 @@ TEST_CASE("A peer beyond the limit takes the place of the one that has been sile
     REQUIRE(idle.HasReceived("<answer>"));
 }
 
-TEST_CASE("A peer beyond the limit waits while all others are being answered")
+TEST_CASE("Peers beyond the limit wait while all others are being answered, and are served one after the other")
 {
     Apps::HttpLimits limits;
     limits.maxConnections = 1;
     Fixture fixture(limits);
-    fixture.answer.delay = 100ms;
-    RawClient first(fixture.context, fixture.port);
-    first.Send("GET /1 HTTP/1.1\r\nHost: x\r\n\r\n");
-    REQUIRE(fixture.IsReached([&fixture]() { return fixture.requests.size() == 1; }));
-    RawClient second(fixture.context, fixture.port);
-    second.Send("GET /2 HTTP/1.1\r\nHost: x\r\n\r\n");
-    REQUIRE(first.HasReceived("<answer>"));
-    REQUIRE(second.HasReceived("<answer>"));
-    REQUIRE(first.WasClosed());
+    fixture.answer.delay = 50ms;
+    std::vector<std::unique_ptr<RawClient>> clients;
+    for (std::size_t number = 0; number < 3; ++number)
+    {
+        clients.push_back(std::make_unique<RawClient>(fixture.context, fixture.port));
+        clients.back()->Send("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
+        REQUIRE(fixture.IsReached([&]() { return fixture.requests.size() == 1; }));
+    }
+    for (std::size_t number = 0; number < clients.size(); ++number)
+    {
+        CHECK(fixture.requests.size() <= number + 1);
+        REQUIRE(clients[number]->HasReceived("<answer>"));
+    }
+    REQUIRE(clients.front()->WasClosed());
 }
 
 TEST_CASE("A port in use is told with the address and what to do, and another port works")
