@@ -118,7 +118,7 @@ void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineAc
             }
             break;
         case EEngineTimer::ControlConfirm:
-            if (robotOrNull != nullptr)
+            if (robotOrNull != nullptr && std::exchange(robotOrNull->bConfirming, false))
             {
                 OnControlTimeout(*robotOrNull);
             }
@@ -377,7 +377,10 @@ ERobotStatus PlanEngine::Impl::DeriveStatus(const Robot& robot)
     {
         return ERobotStatus::Error;
     }
-    if (state.bPaused)
+    const ActivePlan* planOrNull = robot.planOrNull;
+    const bool bPlanPaused = planOrNull != nullptr && planOrNull->record.progress.state == EPlanState::Paused
+        && planOrNull->control != EPlanControl::Resume && planOrNull->control != EPlanControl::Abort;
+    if (state.bPaused || bPlanPaused)
     {
         return ERobotStatus::Stopped;
     }
@@ -435,7 +438,7 @@ bool PlanEngine::Impl::IsUsable(const Robot& robot)
     const bool bFatal =
         std::ranges::any_of(state.errors, [](const RobotError& error) { return error.level == EAlarmLevel::Heavy; });
     return !bFatal && !state.bSafetyStop && !state.bPaused && !state.bOccupied && state.bAutomatic
-        && !robot.overdueJobID.has_value();
+        && !robot.overdueJobID.has_value() && !IsHeld(robot);
 }
 
 const std::string& PlanEngine::Impl::GetRobotID(const Robot& robot) const

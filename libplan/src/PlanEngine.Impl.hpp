@@ -27,6 +27,7 @@ inline constexpr std::string_view ALARM_PLACE = "ACS-1003";
 inline constexpr std::string_view ALARM_PORT = "ACS-1004";
 inline constexpr std::string_view ALARM_STORE = "ACS-1005";
 inline constexpr std::string_view ALARM_HOME = "ACS-1006";
+inline constexpr std::string_view ALARM_DROPPED = "ACS-1007";
 /// What alarms of the engine begin with; others are errors that robots told.
 inline constexpr std::string_view ALARM_PREFIX = "ACS-";
 /// The robotID of alarms about the engine itself.
@@ -58,8 +59,14 @@ public:
         std::string madeJobID; ///< Of a step without jobs.
         std::optional<std::size_t> robot;
         std::optional<EPlanControl> control; ///< Asked for, outcome not known.
+        std::size_t controlCount = 0;        ///< How often it was asked for: each is owed a result.
         bool bArrived = false;               ///< Its first step's place was reached.
         bool bStepArrived = false;           ///< The present step's place was reached, and told.
+        bool bJobBegun = false;              ///< Any of its jobs.
+        bool bStepOwed = false;              ///< The present step is begun when the pause ends.
+        bool bEndOwed = false;               ///< All is done, to be told when the pause ends.
+        std::optional<Core::SteadyTime> jobDeadline;
+        std::optional<Core::Duration> jobTimeLeft; ///< Of a job that is paused.
     };
 
     enum class EActivity : std::uint8_t
@@ -95,6 +102,9 @@ public:
         bool bPlaced = false;      ///< Has told where it stands since the start.
         bool bHomeRefused = false; ///< Until the timer HomeRetry.
         bool bTouched = true;      ///< Its status may have changed.
+        bool bPauseWanted = false; ///< It was told to pause and not to go on.
+        bool bResumeOwed = false;  ///< It was told to go on and has not shown that it does.
+        bool bConfirming = false;  ///< The timer ControlConfirm runs.
         std::optional<StateChanged> state;
         std::optional<std::size_t> node; ///< Where it stands or passed last.
         std::string position;            ///< The last station where it stood.
@@ -195,14 +205,35 @@ private:
 
     // Commands (PlanEngine.Commands.cpp).
     void Submit(const SubmitPlan& command);
-    void Control(const ControlPlan& command);
     void Acknowledge(const MessageAcknowledged& command);
+    [[nodiscard]] Core::Result<ResolvedPlan> Admit(const Plan& plan) const;
+
+    // Control of plans (PlanEngine.Controls.cpp).
+    void Control(const ControlPlan& command);
+    void RefuseControl(const ControlPlan& command);
     void Cancel(ActivePlan& plan);
     void Abort(ActivePlan& plan);
+    void Pause(ActivePlan& plan);
+    void Resume(ActivePlan& plan);
+    void Ask(ActivePlan& plan, EPlanControl control);
+    void Answer(ActivePlan& plan, bool bSucceeded, const std::string& message);
     void StopDrive(ActivePlan& plan, EPlanControl control);
-    void TellControlResult(EPlanControl control, const std::string& planID, bool bSucceeded, std::string message);
+    void DropJob(Robot& robot);
     void EndByControl(ActivePlan& plan, EPlanControl control);
-    [[nodiscard]] Core::Result<ResolvedPlan> Admit(const Plan& plan) const;
+    void ConfirmPause(Robot& robot);
+    void ConfirmResume(Robot& robot);
+    void FollowPause(Robot& robot, bool bFirst, bool bWasPaused);
+    void ReleasePause(Robot& robot);
+    void LeavePause(ActivePlan& plan);
+    void GoOn(Robot& robot);
+    void StartConfirming(Robot& robot, Core::Duration limit);
+    void StopConfirming(Robot& robot);
+    void OnControlTimeout(Robot& robot);
+    void StartJobTimer(Robot& robot, Core::Duration limit);
+    void StopJobTimer(Robot& robot);
+    void TellControlResult(EPlanControl control, const std::string& planID, bool bSucceeded, std::string message);
+    [[nodiscard]] bool IsCancellable(const ActivePlan& plan) const;
+    [[nodiscard]] static bool IsHeld(const Robot& robot);
 
     // Events of robots (PlanEngine.Robots.cpp).
     void OnLink(Robot& robot, const LinkChanged& event);
@@ -214,7 +245,6 @@ private:
     void OnJobStarted(Robot& robot, const JobStarted& event);
     void OnJobFinished(Robot& robot, const JobFinished& event);
     void OnJobFailed(Robot& robot, const JobFailed& event);
-    void OnControlTimeout(Robot& robot);
     void OnJobTimeout(Robot& robot);
     void Place(Robot& robot, const std::string& nodeID);
     void CompareErrors(Robot& robot);
@@ -229,9 +259,10 @@ private:
     void BeginWork(Robot& robot);
     void BeginJob(Robot& robot);
     void EndJob(Robot& robot);
+    void BeginNext(Robot& robot);
     void MarkStepBegun(ActivePlan& plan);
     void FailPlan(ActivePlan& plan, const std::string& reason);
-    void EndPlan(ActivePlan& plan, EPlanState state, std::string message);
+    void EndPlan(ActivePlan& plan, EPlanState state, const std::string& message);
     void ClearInterrupted(const std::string& robotID);
     void MoveCarrier(Robot& robot);
     [[nodiscard]] static bool HasJob(const ActivePlan& plan);

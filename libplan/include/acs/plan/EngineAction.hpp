@@ -22,7 +22,7 @@ enum class EEngineTimer : std::uint8_t
     StoreRetry,     ///< Try again to store what could not be stored.
     Acknowledged,   ///< Store which reports were acknowledged.
     DriveExtension, ///< Of a robot: its drive has not been confirmed, release the next nodes anyway.
-    ControlConfirm, ///< Of a robot: it has not confirmed that it stopped.
+    ControlConfirm, ///< Of a robot: it has not confirmed that it stopped, or goes on.
     JobTimeout,     ///< Of a robot: its job takes too long.
     HomeRetry,      ///< Of a robot: try again to send it home.
 };
