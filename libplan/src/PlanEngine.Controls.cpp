@@ -252,6 +252,15 @@ void PlanEngine::Impl::Resume(ActivePlan& plan)
         TellControlResult(EPlanControl::Resume, planID, false, "The plan is not paused.");
         return;
     }
+    if (_tscState != ETscState::Auto && plan.robot.has_value())
+    {
+        TellControlResult(
+            EPlanControl::Resume,
+            planID,
+            false,
+            fmt::format("The TSC is {}: nothing is begun before it is Auto.", GetText(_tscState)));
+        return;
+    }
     Answer(plan, false, "ResumePlan came in between.");
     Ask(plan, EPlanControl::Resume);
     if (!plan.robot.has_value())

@@ -36,15 +36,15 @@ inline constexpr std::string_view OWN_ROBOT_ID = "ACS";
 class PlanEngine::Impl
 {
 public:
-    /// Higher priority first, then the order of acceptance.
+    /// The lower rank first, then the order of acceptance.
     struct QueueKey
     {
-        std::int64_t negatedPriority = 0;
+        std::int64_t rank = 0;
         std::uint64_t sequence = 0;
 
         bool operator<(const QueueKey& other) const noexcept
         {
-            return std::tie(negatedPriority, sequence) < std::tie(other.negatedPriority, other.sequence);
+            return std::tie(rank, sequence) < std::tie(other.rank, other.sequence);
         }
     };
 
@@ -138,6 +138,8 @@ private:
     std::unordered_map<std::string, PlanRecord> _finished;
     std::deque<std::string> _finishedOrder;
     std::uint64_t _lastPlanSequence = 0;
+    std::vector<std::string> _unreported; ///< Accepted, their PlanReport(Pending) is owed.
+    ETscState _tscState = ETscState::Auto;
 
     std::vector<Robot> _robots;
     std::map<std::string, std::size_t, std::less<>> _robotIndices;
@@ -150,6 +152,7 @@ private:
     std::set<std::string> _progressed;
     EngineActions _actions;
     bool _bDispatchNeeded = false;
+    std::optional<PlanRecord> _replaced; ///< A finished plan whose id was given to a new one.
 
     // A store that fails: what is still to be stored, and the reports that wait for it.
     std::vector<StoreChange> _unsaved;
@@ -180,6 +183,7 @@ public:
     [[nodiscard]] std::vector<PlanSummary> GetActivePlans() const;
     [[nodiscard]] std::optional<PlanSummary> GetPlanOrNull(std::string_view planID) const;
     [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;
+    [[nodiscard]] ETscState GetTscState() const noexcept;
 
 private:
     // Of every call: begin, end, and the only places where states change (PlanEngine.Impl.cpp).
@@ -205,6 +209,14 @@ private:
 
     // Commands (PlanEngine.Commands.cpp).
     void Submit(const SubmitPlan& command);
+    void TellAccepted();
+    void ForgetFinished(const std::string& planID);
+    void SwitchTsc(const ControlTsc& command);
+    void ChangeTsc(ETscState state);
+    void FinishTscPause();
+    [[nodiscard]] bool CanDriveHome() const;
+    [[nodiscard]] bool IsAnyPlanRunning() const;
+    [[nodiscard]] QueueKey MakeQueueKey(const PlanRecord& record) const;
     void Acknowledge(const MessageAcknowledged& command);
     [[nodiscard]] Core::Result<ResolvedPlan> Admit(const Plan& plan) const;
 
@@ -295,6 +307,7 @@ private:
     // Failures of the store (PlanEngine.Recovery.cpp).
     void RestorePlan(PlanRecord record);
     void RestoreAlarms(std::vector<Alarm> alarms);
+    void RestoreTsc(ETscState stored);
     void EndInterrupted(ActivePlan& plan);
     void NoteStoreSuccess();
 };

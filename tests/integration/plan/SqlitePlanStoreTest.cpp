@@ -123,7 +123,7 @@ TEST_CASE("Store: an empty file becomes a store with a schema version, in a writ
     const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetFile());
     CHECK(*store->Load() == StoredState{});
     SQLite::Database database(folder.GetFile(), SQLite::OPEN_READONLY);
-    CHECK(database.execAndGet("PRAGMA user_version").getInt() == 1);
+    CHECK(database.execAndGet("PRAGMA user_version").getInt() == 2);
     CHECK(database.execAndGet("PRAGMA journal_mode").getString() == "wal");
 }
 

@@ -255,6 +255,18 @@ void PlanWorld::Control(EPlanControl control, const std::string& planID, ReplyTo
     Execute(std::move(out));
 }
 
+void PlanWorld::Advance(std::chrono::milliseconds time)
+{
+    _clock.Advance(time);
+}
+
+void PlanWorld::SwitchTsc(bool bPause)
+{
+    EngineActions out;
+    engine->Handle(ControlTsc{bPause, 0}, GetNow(), out);
+    Execute(std::move(out));
+}
+
 void PlanWorld::Raise(const std::string& robotID, const RobotEvent& event)
 {
     EngineActions out;
@@ -459,6 +471,7 @@ void PlanWorld::ExecuteAction(const EngineAction& action, std::vector<std::uint6
                     GetText(typed.status.status),
                     typed.status.position));
             },
+            [this](const TscStateChanged& typed) { trace.push_back(fmt::format("tsc {}", GetText(typed.state))); },
             [this](const StartEngineTimer& typed) {
                 Push({{}, 0, {}, typed.timer, 0, 0}, typed.delay);
             },

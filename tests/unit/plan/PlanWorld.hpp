@@ -70,6 +70,8 @@ public:
     void Connect();
     void Submit(Planning::Plan plan, Planning::ReplyToken token = 0);
     void Control(Planning::EPlanControl control, const std::string& planID, Planning::ReplyToken token = 0);
+    void Advance(std::chrono::milliseconds time);
+    void SwitchTsc(bool bPause);
     void Raise(const std::string& robotID, const Planning::RobotEvent& event);
     /// As somebody at the robot would: past the engine.
     void Operate(const std::string& robotID, const Planning::RobotCommand& command);

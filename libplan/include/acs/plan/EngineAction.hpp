@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/core/Now.hpp>
+#include <acs/plan/ETscState.hpp>
 #include <acs/plan/IPlanStore.hpp>
 #include <acs/plan/PlanCommand.hpp>
 #include <acs/plan/Report.hpp>
@@ -50,7 +51,7 @@ struct StorePlans
     bool operator==(const StorePlans&) const = default;
 };
 
-/// The answer to SubmitPlan or ControlPlan: the Ack.
+/// The answer to SubmitPlan, ControlPlan or ControlTsc: the Ack.
 struct ReplyCommand
 {
     ReplyToken replyToken = 0;
@@ -85,6 +86,14 @@ struct RobotStatusChanged
     bool operator==(const RobotStatusChanged&) const = default;
 };
 
+/// TscStateUpdate. Only the latest counts.
+struct TscStateChanged
+{
+    ETscState state = ETscState::Auto;
+
+    bool operator==(const TscStateChanged&) const = default;
+};
+
 /// Call PlanEngine::OnTimer after the delay (zero: as soon as possible, but not inside this call). A running timer of
 /// this name starts again.
 struct StartEngineTimer
@@ -108,6 +117,7 @@ using EngineAction = std::variant<
     SendReport,
     CommandRobot,
     RobotStatusChanged,
+    TscStateChanged,
     StartEngineTimer,
     CancelEngineTimer>;
 using EngineActions = std::vector<EngineAction>;

@@ -100,13 +100,20 @@ struct EngineOptions
 
     std::size_t maximumPlans = 100; ///< Plans that are not finished; one more is refused.
     std::int32_t defaultPriority = 0;
-    std::size_t baseLength = 3; ///< Nodes that a robot is released ahead; at least 1.
+    bool bLowerPriorityFirst = false;
+    /// Waiting so long is worth as much as a priority by one; 0: a plan of a lower priority waits for all of a higher one.
+    std::chrono::milliseconds queueAgeing{600'000};
+    bool bFinishedIDsReused = false; ///< A planID may come again once its plan is finished, which is forgotten then.
+    bool bInitialPendingReported = false; ///< PlanReport(Pending) of each plan that was accepted (D-24).
+    bool bTscStartsPaused = false;        ///< Every start begins with the TSC paused.
+    bool bTscPausedAcceptsPlans = true;   ///< Plans that come while the TSC is not Auto wait; else they are refused.
+    std::size_t baseLength = 3;           ///< Nodes that a robot is released ahead; at least 1.
     ControlOptions controls;
     std::chrono::milliseconds extensionDelay{2'000}; ///< A drive that is not confirmed is extended after this.
     std::chrono::milliseconds homeRetry{5'000};      ///< Between attempts of a robot that refuses to drive home.
     std::chrono::milliseconds storeRetry{1'000};
     std::chrono::milliseconds acknowledgedDelay{200}; ///< Acknowledgements that are stored together.
-    std::size_t finishedPlansKept = 1'000;            ///< In memory, for history and against a planID that comes twice.
+    std::size_t finishedPlansKept = 1'000;            ///< In memory and in the store: history, and known planIDs.
 };
 
 /// Every mistake of the options at once, each with a path ("robots.LR01.home"); empty where there is none. The engine

@@ -93,6 +93,8 @@ public:
     [[nodiscard]] std::optional<PlanSummary> GetPlanOrNull(std::string_view planID) const;
 
     [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;
+
+    [[nodiscard]] ETscState GetTscState() const noexcept;
 };
 
 } // namespace ACS::Planning
