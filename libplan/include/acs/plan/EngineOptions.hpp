@@ -89,6 +89,8 @@ struct ControlOptions
     bool bJobFailureFailsAbort = true;    ///< A job that fails during an abort fails the plan (D-17).
     bool bAbortReportsStep = false;       ///< A step that ends with the last job of an aborted plan is told (D-18).
     bool bResultAfterRefusal = true;      ///< Also of plans that nobody knows (D-19).
+
+    bool operator==(const ControlOptions&) const = default;
 };
 
 /// Everything that the engine is told at its start.
