@@ -198,6 +198,8 @@ void PlanEngine::Impl::StopDrive(ActivePlan& plan, EPlanControl control)
     {
         Command(*robotOrNull, CancelDrive{robotOrNull->drive->driveID});
     }
+    // Between two nodes a vehicle may have to go on to the next one before it can give its drive up.
+    ReleasePause(*robotOrNull);
     StartConfirming(*robotOrNull, _options.controls.cancelTimeout);
 }
 
@@ -428,14 +430,6 @@ void PlanEngine::Impl::OnControlTimeout(Robot& robot)
     }
     ActivePlan& plan = *robot.planOrNull;
     const EPlanControl control = *plan.control;
-    if (control == EPlanControl::Resume)
-    {
-        Answer(plan, false, "The robot did not show that it goes on; the plan stays paused.");
-        robot.bPauseWanted = true;
-        robot.bResumeOwed = false;
-        Command(robot, Planning::Pause{});
-        return;
-    }
     if (robot.drive.has_value())
     {
         robot.drive->bCancelling = false;
@@ -443,7 +437,14 @@ void PlanEngine::Impl::OnControlTimeout(Robot& robot)
     const bool bStaysPaused = control != EPlanControl::Pause && plan.record.progress.state == EPlanState::Paused;
     if (bStaysPaused)
     {
-        Answer(plan, false, "The robot did not confirm that it stopped; the plan stays paused.");
+        Answer(
+            plan,
+            false,
+            control == EPlanControl::Resume ? "The robot did not show that it goes on; the plan stays paused."
+                                            : "The robot did not confirm that it stopped; the plan stays paused.");
+        robot.bPauseWanted = true;
+        robot.bResumeOwed = false;
+        Command(robot, Planning::Pause{});
         return;
     }
     if (plan.record.progress.state == EPlanState::Paused)

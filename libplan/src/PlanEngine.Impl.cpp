@@ -385,7 +385,7 @@ ERobotStatus PlanEngine::Impl::DeriveStatus(const Robot& robot)
     }
     const ActivePlan* planOrNull = robot.planOrNull;
     const bool bPlanPaused = planOrNull != nullptr && planOrNull->record.progress.state == EPlanState::Paused
-        && planOrNull->control != EPlanControl::Resume && planOrNull->control != EPlanControl::Abort;
+        && planOrNull->control.value_or(EPlanControl::Pause) == EPlanControl::Pause;
     if (state.bPaused || bPlanPaused)
     {
         return ERobotStatus::Stopped;

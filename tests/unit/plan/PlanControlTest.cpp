@@ -599,6 +599,26 @@ TEST_CASE("9 cancel.confirm_timeout: a robot that does not confirm makes the can
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
 }
 
+TEST_CASE("9 A paused plan whose cancel is not confirmed stays paused, and its robot is told to pause again")
+{
+    PlanWorld world;
+    world.Connect();
+    world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(TryRunUntil(world, "P1", "Step 1 InProgress"));
+    world.Control(EPlanControl::Pause, "P1");
+    REQUIRE(TryRunUntil(world, "P1", "PauseResult Success"));
+    world.GetRobot("LR01").bIgnoresDriveCancel = true;
+    world.GetRobot("LR01").bIgnoresPause = true;
+    const std::size_t line = world.trace.size();
+    world.Control(EPlanControl::Cancel, "P1");
+    // It may have to drive on to the next node before it can stop for good.
+    CHECK(Find(world, "command LR01 CancelDrive", line) < Find(world, "command LR01 Resume", line));
+    CHECK(Find(world, "command LR01 Resume", line) < world.trace.size());
+    REQUIRE(TryRunUntil(world, "P1", "CancelResult Failed"));
+    CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Paused);
+    CHECK(Find(world, "command LR01 Pause", line) < world.trace.size());
+}
+
 TEST_CASE("R7, 13.7 AbortPlan during job 2 of 5: exactly its end, the plan's and the result")
 {
     PlanWorld world;
