@@ -25,7 +25,7 @@ BATCHES = [
      "abort-paused", "pause-cr", "abort-paused-cr"],
 ]
 # What the arm must be like for a batch that ends with this scenario.
-ARM_OPTIONS = {"job-failure": ["--program", "12=500ms,fail"]}
+ARM_OPTIONS = {"job-failure": ["--program", "12=500ms,fail"], "abort-paused-cr": ["--program", "11=40s"]}
 # These the ACS of the examples plays too, and its operator types what it is asked for.
 SMALL_ACS = ["pause-resume", "pause-refused", "abort-paused", "tsc-paused"]
 TYPED = {"pause the TSC": b"pause\n", "resume the TSC": b"auto\n"}
