@@ -280,11 +280,12 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
             "there are /livez, /readyz, /status and /metrics, and POST /tsc/pause and /tsc/resume\n"};
     }
 
-    /// Answered with the state that came of it: Pausing first, where work runs.
+    /// Accepted, not done: the store may still be at work, and Pausing lasts as long as work runs. /status tells.
     [[nodiscard]] Apps::HttpResponse SwitchTsc(bool bPause)
     {
-        Enqueue(Planning::PlanCommand(Planning::ControlTsc{bPause, 0}));
-        return {200, PLAIN_TEXT, std::string(GetText(_engine.GetTscState())) + "\n"};
+        constexpr unsigned ACCEPTED = 202;
+        _loop.Push(Planning::PlanCommand(Planning::ControlTsc{bPause, 0}));
+        return {ACCEPTED, PLAIN_TEXT, "accepted; /status has the state of the TSC\n"};
     }
 
     void UpdateMetrics()

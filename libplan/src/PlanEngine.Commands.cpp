@@ -102,7 +102,7 @@ void PlanEngine::Impl::ForgetFinished(const std::string& planID)
         return;
     }
     _changes.emplace_back(PlanRemoved{found->second.sequence});
-    _replaced = std::move(found->second);
+    _replaced.push_back(std::move(found->second));
     _finished.erase(found);
     std::erase(_finishedOrder, planID);
 }

@@ -149,7 +149,7 @@ void PlanEngine::Impl::Begin(Core::Now now)
 {
     _now = now;
     _ended.clear();
-    _replaced.reset();
+    _replaced.clear();
     NoteStoreSuccess();
 }
 

@@ -152,7 +152,7 @@ private:
     std::set<std::string> _progressed;
     EngineActions _actions;
     bool _bDispatchNeeded = false;
-    std::optional<PlanRecord> _replaced; ///< A finished plan whose id was given to a new one.
+    std::vector<PlanRecord> _replaced; ///< Finished plans whose id was given to a new one.
 
     // A store that fails: what is still to be stored, and the reports that wait for it.
     std::vector<StoreChange> _unsaved;

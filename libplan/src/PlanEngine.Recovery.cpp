@@ -150,7 +150,8 @@ void PlanEngine::Impl::OnStoreFailed(
     for (const StoreChange& change : batch.changes)
     {
         const auto* removedOrNull = std::get_if<PlanRemoved>(&change);
-        if (removedOrNull != nullptr && _replaced.has_value() && _replaced->sequence == removedOrNull->sequence)
+        if (removedOrNull != nullptr
+            && std::ranges::count(_replaced, removedOrNull->sequence, &PlanRecord::sequence) > 0)
         {
             continue; // it comes back below
         }
@@ -169,9 +170,9 @@ void PlanEngine::Impl::OnStoreFailed(
             _plans.erase(found);
         }
     }
-    if (_replaced.has_value())
+    for (PlanRecord& record : std::exchange(_replaced, {}))
     {
-        RememberFinished(*std::exchange(_replaced, std::nullopt));
+        RememberFinished(std::move(record));
     }
     Alarm alarm;
     alarm.robotID = OWN_ROBOT_ID;

@@ -139,7 +139,7 @@ class Scenarios(ScenarioCase):
 
         def post(path):
             with urllib.request.urlopen(f"http://{acsd[0].addresses['http']}{path}", data=b"", timeout=20) as response:
-                self.assertEqual(response.status, 200)
+                self.assertEqual(response.status, 202)
 
         mcs = self.line.start("mcs-sim", "--listen", "127.0.0.1:0", "--scenario", SCENARIOS / "tsc-paused.json",
                               on_output=self.answer({"pause the TSC": lambda: post("/tsc/pause"),

@@ -115,7 +115,8 @@ TEST_CASE("mcs.headers go with the upgrade; what would break it is a mistake tha
 TEST_CASE("The keys of the decision register have its defaults, in the example file and where they are left out")
 {
     const Planning::EngineOptions defaults;
-    for (const Acsd::AcsdConfig& config : {Read({}), ReadWithout({"plan", "cancel", "pause", "abort", "tsc", "reports", "history", "queue"})})
+    for (const Acsd::AcsdConfig& config :
+         {Read({}), ReadWithout({"plan", "cancel", "pause", "abort", "tsc", "reports", "history", "queue"})})
     {
         REQUIRE(config.mistakes == std::vector<std::string>{});
         CHECK(config.engine.controls == defaults.controls);

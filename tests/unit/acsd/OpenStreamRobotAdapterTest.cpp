@@ -393,7 +393,8 @@ TEST_CASE("6.7 A stop that the arm refuses leaves the robot not paused, and is n
     CHECK_FALSE(arm.IsToldPaused());
 }
 
-TEST_CASE("6.8 A program whose going on got lost is started again after the reconnect; that it runs already is no failure")
+TEST_CASE(
+    "6.8 A program whose going on got lost is started again after the reconnect; that it runs already is no failure")
 {
     ArmFixture arm;
     arm.StartRunning();
@@ -425,7 +426,8 @@ TEST_CASE("6.8 A program that the arm refuses to go on with fails its job")
     CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
 }
 
-TEST_CASE("D-16 A job that is given up while it is paused resets its program and is told as failed; a running one goes on")
+TEST_CASE(
+    "D-16 A job that is given up while it is paused resets its program and is told as failed; a running one goes on")
 {
     ArmFixture arm;
     arm.StartRunning();
