@@ -227,7 +227,7 @@ private:
     void Abort(ActivePlan& plan);
     void Pause(ActivePlan& plan);
     void Resume(ActivePlan& plan);
-    void Ask(ActivePlan& plan, EPlanControl control);
+    static void Ask(ActivePlan& plan, EPlanControl control);
     void Answer(ActivePlan& plan, bool bSucceeded, const std::string& message);
     void StopDrive(ActivePlan& plan, EPlanControl control);
     void DropJob(Robot& robot);
