@@ -112,7 +112,7 @@ private:
 
     void Execute(const ACS::Planning::EngineAction& action)
     {
-        using namespace ACS::Planning; // NOLINT(google-build-using-namespace): seven actions in a row
+        using namespace ACS::Planning; // NOLINT(google-build-using-namespace): eight actions in a row
         std::visit(
             ACS::Core::Overloaded{
                 // This store never fails; lesson 8 shows what to do about one that does.
@@ -122,6 +122,7 @@ private:
                 [this](const CancelEngineTimer& cancel) { _timers.erase(cancel.timer); },
                 [this](const SendReport& send) { Show(send.entry.report); },
                 [](const ReplyCommand& reply) { fmt::print("plan {}\n", reply.bAccepted ? "accepted" : "refused"); },
+                [](const TscStateChanged& typed) { fmt::print("TSC: {}\n", GetText(typed.state)); },
                 [](const RobotStatusChanged& typed) {
                     fmt::print("status: {}\n", GetText(typed.status.status));
                 }},

@@ -38,6 +38,8 @@ using namespace std::chrono_literals;
 constexpr std::chrono::milliseconds WORK_GRACE = 10s;
 constexpr std::chrono::milliseconds STOP_LIMIT = 5s;
 
+constexpr const char* PLAIN_TEXT = "text/plain; charset=utf-8";
+
 constexpr std::uint64_t GRACE_TIMER = 1;
 constexpr std::uint64_t STOP_TIMER = 2;
 constexpr std::uint64_t FIRST_ENGINE_TIMER = 1000;
@@ -116,6 +118,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
                     NoteReachable(changed.status);
                     TellWorking();
                 },
+                [&](const Planning::TscStateChanged& changed) { _mcs.TellTsc(changed.state); },
                 [&](const Planning::StartEngineTimer& start) { _timers.Start(GetTimerKey(start.timer), start.delay); },
                 [&](const Planning::CancelEngineTimer& cancel) {
                     _timers.Cancel(GetTimerKey(cancel.timer));
@@ -244,9 +247,15 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     {
         constexpr unsigned NOT_FOUND = 404;
         constexpr unsigned NOT_ALLOWED = 405;
+        const bool bTscPause = request.path == "/tsc/pause";
+        if (bTscPause || request.path == "/tsc/resume")
+        {
+            return request.method == "POST" ? SwitchTsc(bTscPause)
+                                            : Apps::HttpResponse{NOT_ALLOWED, PLAIN_TEXT, "only POST is served here\n"};
+        }
         if (request.method != "GET")
         {
-            return {NOT_ALLOWED, "text/plain; charset=utf-8", "only GET is served\n"};
+            return {NOT_ALLOWED, PLAIN_TEXT, "only GET is served here\n"};
         }
         if (request.path == "/livez")
         {
@@ -265,7 +274,18 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
             UpdateMetrics();
             return _metrics.Respond();
         }
-        return {NOT_FOUND, "text/plain; charset=utf-8", "there are /livez, /readyz, /status and /metrics\n"};
+        return {
+            NOT_FOUND,
+            PLAIN_TEXT,
+            "there are /livez, /readyz, /status and /metrics, and POST /tsc/pause and /tsc/resume\n"};
+    }
+
+    /// Accepted, not done: the store may still be at work, and Pausing lasts as long as work runs. /status tells.
+    [[nodiscard]] Apps::HttpResponse SwitchTsc(bool bPause)
+    {
+        constexpr unsigned ACCEPTED = 202;
+        _loop.Push(Planning::PlanCommand(Planning::ControlTsc{bPause, 0}));
+        return {ACCEPTED, PLAIN_TEXT, "accepted; /status has the state of the TSC\n"};
     }
 
     void UpdateMetrics()

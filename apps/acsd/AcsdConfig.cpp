@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -284,6 +285,65 @@ void ReadAction(const ConfigSection& section, const std::string& name, AcsdConfi
     config.methods.insert_or_assign(name, method);
 }
 
+void ReadQueue(const ConfigSection& root, Planning::EngineOptions& engine)
+{
+    const ConfigSection queue = root.GetSection("queue");
+    engine.maximumPlans = static_cast<std::size_t>(
+        queue.GetInteger("max_plans", 1, MOST_PLANS, static_cast<std::int64_t>(engine.maximumPlans)));
+    engine.bLowerPriorityFirst =
+        queue.GetWord("priority_order", {"higher_first", "lower_first"}, "higher_first") == "lower_first";
+    engine.defaultPriority = static_cast<std::int32_t>(queue.GetInteger(
+        "default_priority",
+        std::numeric_limits<std::int32_t>::min(),
+        std::numeric_limits<std::int32_t>::max(),
+        engine.defaultPriority));
+    engine.queueAgeing = queue.GetDuration("ageing", 0ms, 24h, engine.queueAgeing);
+
+    const ConfigSection plan = root.GetSection("plan");
+    engine.bFinishedIDsReused = plan.IsEnabled("reuse_finished_id", engine.bFinishedIDsReused);
+    // The register has these keys; only what stands here is built, and whoever wants the other is told.
+    static_cast<void>(plan.GetWord("duplicate", {"fail"}, "fail"));
+    if (plan.IsEnabled("allow_mixed_robot_types", false))
+    {
+        plan.AddMistake("allow_mixed_robot_types", "must be false: one robot does the whole of a plan");
+    }
+
+    const ConfigSection reports = root.GetSection("reports");
+    engine.bInitialPendingReported = reports.IsEnabled("initial_pending", engine.bInitialPendingReported);
+
+    const ConfigSection history = root.GetSection("history");
+    engine.finishedPlansKept = static_cast<std::size_t>(
+        history.GetInteger("keep", 0, MOST_PLANS, static_cast<std::int64_t>(engine.finishedPlansKept)));
+
+    const ConfigSection tsc = root.GetSection("tsc");
+    engine.bTscStartsPaused = tsc.GetWord("initial", {"auto", "paused"}, "auto") == "paused";
+    engine.bTscPausedAcceptsPlans = tsc.IsEnabled("paused_accepts_plans", engine.bTscPausedAcceptsPlans);
+}
+
+/// Register D-14 to D-22.
+void ReadControls(const ConfigSection& root, Planning::ControlOptions& controls)
+{
+    const ConfigSection cancel = root.GetSection("cancel");
+    const std::string until = cancel.GetWord("until", {"first_arrival", "dispatch", "first_job"}, "first_arrival");
+    controls.cancelUntil = until == "dispatch"
+        ? Planning::ECancelWindow::Dispatch
+        : (until == "first_job" ? Planning::ECancelWindow::FirstJob : Planning::ECancelWindow::FirstArrival);
+    controls.cancelTimeout = cancel.GetDuration("confirm_timeout", 1ms, 1h, controls.cancelTimeout);
+
+    const ConfigSection pause = root.GetSection("pause");
+    controls.bPausesAfterJob = pause.GetWord("mode", {"immediate", "after_job"}, "immediate") == "after_job";
+    controls.pauseTimeout = pause.GetDuration("confirm_timeout", 1ms, 1h, controls.pauseTimeout);
+
+    const ConfigSection abort = root.GetSection("abort");
+    controls.bAbortStopsJob = abort.GetWord("running_job", {"finish", "stop"}, "finish") == "stop";
+    controls.bAbortFinishesPausedJob = abort.GetWord("paused_job", {"discard", "finish"}, "discard") == "finish";
+    controls.bJobFailureFailsAbort = abort.GetWord("job_failure_final", {"Failed", "Aborted"}, "Failed") == "Failed";
+    controls.bAbortReportsStep = abort.IsEnabled("report_step", controls.bAbortReportsStep);
+
+    controls.bResultAfterRefusal =
+        root.GetSection("mcs").IsEnabled("result_after_fail_ack", controls.bResultAfterRefusal);
+}
+
 void ReadTables(const ConfigSection& root, AcsdConfig& config)
 {
     const ConfigSection robots = root.GetSection("robots");
@@ -329,9 +389,8 @@ AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::st
     ReadSite(root, fileName, config);
     ReadStore(root, fileName, config);
     config.httpListen = root.GetSection("http").GetEndpoint("listen", config.httpListen);
-    config.engine.maximumPlans = static_cast<std::size_t>(
-        root.GetSection("queue")
-            .GetInteger("max_plans", 1, MOST_PLANS, static_cast<std::int64_t>(config.engine.maximumPlans)));
+    ReadQueue(root, config.engine);
+    ReadControls(root, config.engine.controls);
     config.positionInterval = root.GetSection("position").GetDuration("interval", 10ms, 1min, config.positionInterval);
     ReadTables(root, config);
     RejectActionsWithoutMethod(config);

@@ -125,6 +125,7 @@ Apps::HttpResponse MakeStatusResponse(const std::vector<LinkStatus>& links, cons
         writer.WriteBoolean(link.bUp);
     }
     writer.EndObject();
+    WriteMember(writer, "tsc", GetText(engine.GetTscState()));
     WriteList(writer, "robots", engine.GetRobotStatuses(), WriteRobot);
     WriteList(writer, "plans", engine.GetActivePlans(), WritePlan);
     WriteList(writer, "alarms", engine.GetActiveAlarms(), WriteAlarm);

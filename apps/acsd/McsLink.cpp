@@ -122,7 +122,7 @@ Core::Result<void> McsLink::Open(
 
 void McsLink::Start()
 {
-    _client->SendStatus(Protocol::TscStateUpdate{Protocol::ETscState::Auto});
+    TellTsc(_engine.GetTscState());
     for (const Planning::RobotStatus& status : _engine.GetRobotStatuses())
     {
         TellStatus(status);
@@ -172,6 +172,11 @@ void McsLink::TellStatus(const Planning::RobotStatus& status)
 void McsLink::TellWorking(bool bWorking)
 {
     _client->SendStatus(Protocol::AcsCommStateUpdate{bWorking});
+}
+
+void McsLink::TellTsc(Planning::ETscState state)
+{
+    _client->SendStatus(MakeTscUpdate(state));
 }
 
 bool McsLink::IsRegistered() const

@@ -94,6 +94,7 @@ public:
     void Report(const Planning::OutboxEntry& entry);
     void TellStatus(const Planning::RobotStatus& status);
     void TellWorking(bool bWorking);
+    void TellTsc(Planning::ETscState state);
 
     [[nodiscard]] bool IsRegistered() const;
     [[nodiscard]] const Protocol::SessionStatistics& GetStatistics() const;

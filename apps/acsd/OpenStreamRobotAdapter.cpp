@@ -54,6 +54,8 @@ constexpr std::string_view MOTOR_STATE_URL = "/project/robot/motor_on_state";
 constexpr std::string_view MOTOR_ON_URL = "/project/robot/motor_on";
 constexpr std::string_view SELECT_URL = "/project/context/tasks[0]/cur_prog_cnt";
 constexpr std::string_view START_URL = "/project/robot/start";
+constexpr std::string_view STOP_URL = "/project/robot/stop";
+constexpr std::string_view RESET_URL = "/project/context/tasks[0]/reset";
 
 /// Counters are raised, and wrap around: anything else is the work of a restart.
 bool HasFallen(std::int64_t before, std::int64_t after)
@@ -107,13 +109,123 @@ void OpenStreamRobotAdapter::Handle(const Planning::RobotCommand& command, Core:
     }
     else if (cancelOrNull != nullptr)
     {
-        // A program of the arm holds material: it is never broken off, its end is told as ever.
-        return;
+        CancelJob(cancelOrNull->jobID, out);
     }
     else
     {
+        const bool bPause = std::holds_alternative<Planning::Pause>(command);
+        if (bPause || std::holds_alternative<Planning::Resume>(command))
+        {
+            _bPauseWanted = bPause;
+            FollowPause(out);
+        }
         _base.Handle(command, now, _baseActions);
         DrainBase(out);
+    }
+}
+
+/// A program holds material: one that runs is never broken off, its end is told as ever. One that was stopped for a pause
+/// is given up where it is.
+void OpenStreamRobotAdapter::CancelJob(const std::string& jobID, AdapterActions& out)
+{
+    if (jobID != _jobID || _phase == EJobPhase::None)
+    {
+        return;
+    }
+    if (_phase == EJobPhase::Selected)
+    {
+        FailJob("given up before it was begun", out);
+    }
+    else if (_bStopped && _controls.empty())
+    {
+        SendControl(EControl::ResetProgram, RESET_URL, "{}");
+    }
+}
+
+void OpenStreamRobotAdapter::EndJob()
+{
+    _phase = EJobPhase::None;
+    _bStopped = false;
+    _bGoOnDoubtful = false;
+}
+
+/// The next step towards what is wanted, once the arm has answered the one before.
+void OpenStreamRobotAdapter::FollowPause(AdapterActions& out)
+{
+    if (_controls.empty() && _armState == EArmState::Ready)
+    {
+        if (_bPauseWanted && _phase == EJobPhase::Running && !_bStopped)
+        {
+            SendControl(EControl::StopProgram, STOP_URL, "{}");
+        }
+        else if (!_bPauseWanted && _phase == EJobPhase::Running && _bStopped)
+        {
+            SendControl(EControl::GoOn, START_URL, "{}");
+        }
+        else if (!_bPauseWanted && _phase == EJobPhase::Selected)
+        {
+            _phase = EJobPhase::Starting;
+            SendControl(EControl::StartProgram, START_URL, "{}");
+        }
+    }
+    TellPaused(out);
+}
+
+void OpenStreamRobotAdapter::TakeSettledPause(EControl kind, OpenStream::EControlOutcome outcome, AdapterActions& out)
+{
+    const bool bAccepted = outcome == OpenStream::EControlOutcome::Accepted;
+    const bool bRefused = outcome == OpenStream::EControlOutcome::Refused;
+    if (_phase != EJobPhase::Running)
+    {
+        return; // it has ended meanwhile
+    }
+    if (kind == EControl::StopProgram)
+    {
+        _bStopped = bAccepted;
+    }
+    else if (kind == EControl::ResetProgram && bAccepted)
+    {
+        FailJob("given up while it was paused", out);
+    }
+    else if (kind == EControl::GoOn && (bAccepted || (bRefused && _bGoOnDoubtful)))
+    {
+        _bStopped = false;
+        _bGoOnDoubtful = false;
+    }
+    else if (kind == EControl::GoOn && bRefused)
+    {
+        FailJob("the arm's controller refuses to go on with the program that was paused", out);
+    }
+    else if (kind == EControl::GoOn)
+    {
+        _bGoOnDoubtful = true; // sent again after the reconnect; a program that runs is not started twice
+    }
+    if (!bRefused)
+    {
+        FollowPause(out);
+    }
+    TellPaused(out);
+}
+
+bool OpenStreamRobotAdapter::IsArmStanding() const
+{
+    return _phase == EJobPhase::None || _phase == EJobPhase::Selected || (_phase == EJobPhase::Running && _bStopped);
+}
+
+/// When base and arm stand; no longer when both go on.
+bool OpenStreamRobotAdapter::IsPaused() const
+{
+    const bool bStillStopped = _bStopped && !_bPauseWanted;
+    return (_baseState.bPaused && IsArmStanding()) || bStillStopped;
+}
+
+void OpenStreamRobotAdapter::TellPaused(AdapterActions& out)
+{
+    if (_bBaseStateKnown && std::exchange(_bPaused, IsPaused()) != IsPaused())
+    {
+        Planning::StateChanged state = _baseState;
+        state.bPaused = _bPaused;
+        out.emplace_back(RaiseEvent{std::move(state)});
     }
 }
 
@@ -222,8 +334,9 @@ void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, AdapterActi
 
 void OpenStreamRobotAdapter::FailJob(const std::string& reason, AdapterActions& out)
 {
-    _phase = EJobPhase::None;
+    EndJob();
     out.emplace_back(RaiseEvent{Planning::JobFailed{std::exchange(_jobID, {}), reason}});
+    TellPaused(out);
 }
 
 void OpenStreamRobotAdapter::SendControl(EControl kind, std::string_view url, std::string body)
@@ -243,6 +356,11 @@ void OpenStreamRobotAdapter::TakeSettled(const OpenStream::ClientControlSettled&
     }
     const EControl kind = _controls.front();
     _controls.pop_front();
+    if (kind == EControl::StopProgram || kind == EControl::GoOn || kind == EControl::ResetProgram)
+    {
+        TakeSettledPause(kind, settled.outcome, out);
+        return;
+    }
     const bool bOfJob = (kind == EControl::SelectProgram && _phase == EJobPhase::Selecting)
         || (kind == EControl::StartProgram && _phase == EJobPhase::Starting);
     if (!bOfJob)
@@ -252,15 +370,8 @@ void OpenStreamRobotAdapter::TakeSettled(const OpenStream::ClientControlSettled&
     switch (settled.outcome)
     {
         case OpenStream::EControlOutcome::Accepted:
-            if (_phase == EJobPhase::Selecting)
-            {
-                _phase = EJobPhase::Starting;
-                SendControl(EControl::StartProgram, START_URL, "{}");
-            }
-            else
-            {
-                _phase = EJobPhase::Running;
-            }
+            _phase = _phase == EJobPhase::Selecting ? EJobPhase::Selected : EJobPhase::Running;
+            FollowPause(out);
             break;
         case OpenStream::EControlOutcome::Refused:
             FailJob(fmt::format("the arm's controller refuses, status {}: {}", settled.status, settled.detail), out);
@@ -338,6 +449,10 @@ void OpenStreamRobotAdapter::TakeCounters(const Core::JsonText& result, AdapterA
         return;
     }
     FollowJob(out);
+    if (bFirst)
+    {
+        FollowPause(out);
+    }
     if (bFirst && _bStartDoubtful && !_bJobStarted && _phase == EJobPhase::Running)
     {
         out.emplace_back(Planning::StartAdapterTimer{START_TIMER, START_LIMIT});
@@ -369,8 +484,9 @@ void OpenStreamRobotAdapter::FollowJob(AdapterActions& out)
     }
     else if (_counters.finished != _counted.finished)
     {
-        _phase = EJobPhase::None;
+        EndJob();
         out.emplace_back(RaiseEvent{Planning::JobFinished{std::exchange(_jobID, {})}});
+        TellPaused(out);
     }
 }
 
@@ -387,7 +503,18 @@ void OpenStreamRobotAdapter::DrainBase(AdapterActions& out)
         const RaiseEvent* raiseOrNull = std::get_if<RaiseEvent>(&action);
         const Planning::LinkChanged* linkOrNull =
             raiseOrNull == nullptr ? nullptr : std::get_if<Planning::LinkChanged>(&raiseOrNull->event);
-        if (linkOrNull != nullptr)
+        const Planning::StateChanged* stateOrNull =
+            raiseOrNull == nullptr ? nullptr : std::get_if<Planning::StateChanged>(&raiseOrNull->event);
+        if (stateOrNull != nullptr)
+        {
+            _baseState = *stateOrNull;
+            _bBaseStateKnown = true;
+            _bPaused = IsPaused();
+            Planning::StateChanged state = _baseState;
+            state.bPaused = _bPaused;
+            out.emplace_back(RaiseEvent{std::move(state)});
+        }
+        else if (linkOrNull != nullptr)
         {
             _bBaseOnline = linkOrNull->bOnline;
             TellOnline(out);

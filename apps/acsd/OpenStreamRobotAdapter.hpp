@@ -18,7 +18,8 @@ namespace ACS::Acsd
 
 /// Joins a control robot to the engine: its base is a VDA5050 vehicle, its arm a Hi6 controller behind Open Stream.
 /// Drives go to the base. A job is a program of the arm: CONTROL selects and starts it; it is done when a counter that
-/// the program raises in a relay has changed, as MONITOR shows it. Pure, like the adapter of the base inside it.
+/// the program raises in a relay has changed, as MONITOR shows it. A pause stops the program where it is and the base too;
+/// the robot shows that it is paused when both stand. Pure, like the adapter of the base inside it.
 class OpenStreamRobotAdapter final : public IMqttRobotAdapter
 {
     enum class EArmState : std::uint8_t
@@ -33,6 +34,7 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     {
         None,
         Selecting, ///< The CONTROL that selects the program is under way.
+        Selected,  ///< It is started when the pause ends.
         Starting,  ///< The CONTROL that starts it is under way.
         Running,
     };
@@ -43,6 +45,9 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
         MotorOn,
         SelectProgram,
         StartProgram,
+        StopProgram,  ///< For a pause.
+        GoOn,         ///< Starts it again where it was stopped.
+        ResetProgram, ///< A job that was stopped is given up.
     };
 
     struct Counters
@@ -67,6 +72,12 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     EJobPhase _phase = EJobPhase::None;
     std::string _jobID;
     bool _bJobStarted = false;
+    bool _bPauseWanted = false;
+    bool _bStopped = false;            ///< The program was stopped for a pause and not started again.
+    bool _bGoOnDoubtful = false;       ///< The connection broke while it was being started again.
+    bool _bPaused = false;             ///< As it was told last.
+    Planning::StateChanged _baseState; ///< The latest that the base told.
+    bool _bBaseStateKnown = false;
     bool _bStartDoubtful = false; ///< The connection broke while the program was being started.
     Counters _counters;           ///< The latest.
     Counters _counted;            ///< Those of the moment when the job was commanded.
@@ -81,6 +92,13 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     void CheckDoubtfulStart(Planning::AdapterActions& out);
     void TakeSettled(const OpenStream::ClientControlSettled& settled, Planning::AdapterActions& out);
     void TakeData(const OpenStream::DataLine& line, Planning::AdapterActions& out);
+    void TakeSettledPause(EControl kind, OpenStream::EControlOutcome outcome, Planning::AdapterActions& out);
+    void FollowPause(Planning::AdapterActions& out);
+    void CancelJob(const std::string& jobID, Planning::AdapterActions& out);
+    void EndJob();
+    [[nodiscard]] bool IsArmStanding() const;
+    [[nodiscard]] bool IsPaused() const;
+    void TellPaused(Planning::AdapterActions& out);
     void SetArmState(EArmState state, Planning::AdapterActions& out);
 
     /// Passes on what the base tells; the robot is online when both its parts are.

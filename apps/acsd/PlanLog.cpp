@@ -101,6 +101,11 @@ void PlanLog::OnRobotStatusChanged(const Planning::RobotStatus& status, Core::No
          {"planId", status.planID.has_value() ? std::string_view(*status.planID) : std::string_view()}});
 }
 
+void PlanLog::OnTscChanged(Planning::ETscState state, Planning::ETscState from, Core::Now /*now*/)
+{
+    _logger.Info("TSC", {{"from", GetText(from)}, {"state", GetText(state)}});
+}
+
 void PlanLog::OnNote(std::string_view robotID, std::string_view text, Core::Now /*now*/)
 {
     _logger.Warning(text, {{"robotId", robotID}});

@@ -31,6 +31,7 @@ public:
         Core::Now now) override;
     void OnAlarmChanged(const Planning::Alarm& alarm, bool bSet, Core::Now now) override;
     void OnRobotStatusChanged(const Planning::RobotStatus& status, Core::Now now) override;
+    void OnTscChanged(Planning::ETscState state, Planning::ETscState from, Core::Now now) override;
     void OnNote(std::string_view robotID, std::string_view text, Core::Now now) override;
 };
 

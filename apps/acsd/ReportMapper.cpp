@@ -22,6 +22,8 @@ static_assert(static_cast<int>(Planning::EJobState::Failed) == static_cast<int>(
 static_assert(static_cast<int>(Planning::ERobotStatus::Stopped) == static_cast<int>(Protocol::ERobotStatus::Stopped));
 static_assert(static_cast<int>(Planning::ERobotStatus::Arrival) == static_cast<int>(Protocol::ERobotStatus::Arrival));
 static_assert(static_cast<int>(Planning::ERobotType::CR) == static_cast<int>(Protocol::ERobotType::Control));
+static_assert(static_cast<int>(Planning::ETscState::Paused) == static_cast<int>(Protocol::ETscState::Paused));
+static_assert(static_cast<int>(Planning::ETscState::Pausing) == static_cast<int>(Protocol::ETscState::Pausing));
 static_assert(static_cast<int>(Planning::EAlarmLevel::Light) == static_cast<int>(Protocol::EErrorLevel::Light));
 
 template <typename TReport>
@@ -108,6 +110,11 @@ Protocol::RobotStatusUpdate MakeStatusUpdate(const Planning::RobotStatus& status
     update.jobID = status.jobID;
     update.message = status.message;
     return update;
+}
+
+Protocol::TscStateUpdate MakeTscUpdate(Planning::ETscState state)
+{
+    return Protocol::TscStateUpdate{static_cast<Protocol::ETscState>(state)};
 }
 
 Protocol::RobotPositionUpdate MakePositionUpdate(const std::vector<Planning::RobotPose>& poses)

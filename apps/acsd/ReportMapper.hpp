@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/core/Now.hpp>
+#include <acs/plan/ETscState.hpp>
 #include <acs/plan/PlanRecord.hpp>
 #include <acs/plan/Report.hpp>
 #include <acs/plan/RobotStatus.hpp>
@@ -18,6 +19,8 @@ namespace ACS::Acsd
 [[nodiscard]] Protocol::AcsRequest MakeReportRequest(const Planning::OutboxEntry& entry, std::chrono::minutes offset);
 
 [[nodiscard]] Protocol::RobotStatusUpdate MakeStatusUpdate(const Planning::RobotStatus& status);
+
+[[nodiscard]] Protocol::TscStateUpdate MakeTscUpdate(Planning::ETscState state);
 
 /// Radians become degrees from 0 to below 360, the battery a whole number.
 [[nodiscard]] Protocol::RobotPositionUpdate MakePositionUpdate(const std::vector<Planning::RobotPose>& poses);

@@ -436,6 +436,30 @@ bool Vda5050RobotAdapter::IsOccupied(const VDA5050::StateMessage& state) const
     return bActs || !state.nodeStates.empty() || !state.edgeStates.empty();
 }
 
+/// Whether the job's action goes on, which a vehicle may show together with paused.
+bool Vda5050RobotAdapter::IsJobRunning(const VDA5050::StateMessage& state) const
+{
+    return !_jobID.empty() && std::ranges::any_of(state.actionStates, [this](const VDA5050::ActionState& action) {
+        return action.actionID == _jobOrderID
+            && (action.actionStatus == VDA5050::EActionStatus::Initializing
+                || action.actionStatus == VDA5050::EActionStatus::Running);
+    });
+}
+
+/// The state's member paused is optional: where it is missing, the ends of these two actions say it.
+void Vda5050RobotAdapter::FollowPauseActions(const VDA5050::StateMessage& state)
+{
+    for (const VDA5050::ActionState& action : state.actionStates)
+    {
+        const bool bStart = action.actionType == VDA5050::ActionTypes::START_PAUSE;
+        const bool bStop = action.actionType == VDA5050::ActionTypes::STOP_PAUSE;
+        if (action.actionStatus == VDA5050::EActionStatus::Finished && (bStart || bStop))
+        {
+            _bPauseDone = bStart;
+        }
+    }
+}
+
 void Vda5050RobotAdapter::CancelForeignOrder(Core::Now now)
 {
     const VDA5050::StateMessage& state = *_session.GetStateOrNull();
@@ -466,7 +490,9 @@ void Vda5050RobotAdapter::TakeState(Core::Now now, AdapterActions& out)
     _state.lastNodeID = state.lastNodeID;
     _state.bDriving = state.bDriving;
     _state.bCharging = state.batteryState.bCharging;
-    _state.bPaused = state.bPaused.value_or(false);
+    FollowPauseActions(state);
+    // An action that the vehicle cannot pause comes to its end first: before that it does not stand.
+    _state.bPaused = state.bPaused.value_or(_bPauseDone) && !IsJobRunning(state);
     _state.bAutomatic = state.operatingMode == VDA5050::EOperatingMode::Automatic
         || state.operatingMode == VDA5050::EOperatingMode::SemiAutomatic;
     _state.bSafetyStop =

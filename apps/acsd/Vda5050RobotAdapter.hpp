@@ -43,7 +43,8 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
     std::optional<PendingOrder> _pendingOrder;
     std::optional<VDA5050::OrderMessage> _lastUpdate; ///< Sent and not shown yet.
     std::optional<std::string> _lossReason;           ///< Why the present drive is given up; told when it is cancelled.
-    std::string _foreignOrderID;                      ///< Of an order that is not ours and was asked to be cancelled.
+    bool _bPauseDone = false; ///< startPause was done and stopPause not, of a vehicle whose state does not say paused.
+    std::string _foreignOrderID; ///< Of an order that is not ours and was asked to be cancelled.
 
     void StartDrive(const Planning::Drive& drive, Core::Now now, Planning::AdapterActions& out);
     void StartJob(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
@@ -60,6 +61,8 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
     /// to drive is cancelled, once per order; running actions come to their end.
     [[nodiscard]] bool IsOccupied(const VDA5050::StateMessage& state) const;
     void CancelForeignOrder(Core::Now now);
+    [[nodiscard]] bool IsJobRunning(const VDA5050::StateMessage& state) const;
+    void FollowPauseActions(const VDA5050::StateMessage& state);
     void TakeCancelled(const std::string& orderID, Planning::AdapterActions& out);
     void TakeCancelFailed(Core::Now now, Planning::AdapterActions& out);
     void TakeRejected(const VDA5050::OrderRejected& rejected, Core::Now now, Planning::AdapterActions& out);

@@ -23,6 +23,11 @@ void ApplyChange(StoredState& state, const StoreChange& change)
                     found->progress = progressed.progress;
                 }
             },
+            [&state](const PlanRemoved& removed) {
+                std::erase_if(state.plans, [&removed](const PlanRecord& record) {
+                    return record.sequence == removed.sequence;
+                });
+            },
             [&state](const ReportAdded& added) {
                 state.outbox.push_back(added.entry);
                 state.lastReportSequence = std::max(state.lastReportSequence, added.entry.sequence);
@@ -38,6 +43,7 @@ void ApplyChange(StoredState& state, const StoreChange& change)
                 });
                 state.carriers.push_back(changed);
             },
+            [&state](const TscChanged& changed) { state.tscState = changed.state; },
             [&state](const AlarmSet& set) { state.alarms.push_back(set.alarm); },
             [&state](const AlarmCleared& cleared) {
                 std::erase_if(state.alarms, [&cleared](const Alarm& alarm) { return alarm.IsSameAs(cleared.alarm); });

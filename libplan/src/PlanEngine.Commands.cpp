@@ -1,18 +1,22 @@
 #include "PlanEngine.Impl.hpp"
 #include <acs/core/ECoreError.hpp>
 #include <acs/core/Result.hpp>
+#include <acs/plan/PlanTransitions.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
+#include <utility>
 
 namespace ACS::Planning
 {
 
 Core::Result<ResolvedPlan> PlanEngine::Impl::Admit(const Plan& plan) const
 {
-    const bool bKnown = _plans.contains(plan.planID) || _finished.contains(plan.planID);
+    const bool bKnown =
+        _plans.contains(plan.planID) || (!_options.bFinishedIDsReused && _finished.contains(plan.planID));
     if (bKnown && !plan.planID.empty())
     {
         return Core::Fail(
@@ -30,7 +34,29 @@ Core::Result<ResolvedPlan> PlanEngine::Impl::Admit(const Plan& plan) const
             fmt::format("fewer than {} unfinished plans (Queue Full)", _options.maximumPlans),
             fmt::format("{}", _plans.size()));
     }
+    if (resolved.has_value() && _tscState != ETscState::Auto && !_options.bTscPausedAcceptsPlans)
+    {
+        return Core::Fail(
+            make_error_code(Core::ECoreError::QueueFull),
+            {},
+            "plans while the TSC is Auto",
+            std::string(GetText(_tscState)));
+    }
     return resolved;
+}
+
+/// Time in the queue counts as priority, continuously: of two plans the same one is always ahead, so keys never change.
+PlanEngine::Impl::QueueKey PlanEngine::Impl::MakeQueueKey(const PlanRecord& record) const
+{
+    const std::int64_t given = record.plan.priority.value_or(_options.defaultPriority);
+    const std::int64_t priority = _options.bLowerPriorityFirst ? -given : given;
+    const std::int64_t ageing = _options.queueAgeing.count();
+    if (ageing == 0)
+    {
+        return {-priority, record.sequence};
+    }
+    const auto acceptedAt = std::chrono::duration_cast<std::chrono::milliseconds>(record.acceptedAt.time_since_epoch());
+    return {acceptedAt.count() - priority * ageing, record.sequence};
 }
 
 void PlanEngine::Impl::Submit(const SubmitPlan& command)
@@ -53,14 +79,100 @@ void PlanEngine::Impl::Submit(const SubmitPlan& command)
         plan->record.progress.steps.push_back(
             {EStepState::Pending, std::vector<EJobState>(step.jobs.size(), EJobState::Pending)});
     }
-    const std::int64_t priority = plan->record.plan.priority.value_or(_options.defaultPriority);
-    plan->key = {-priority, plan->record.sequence};
+    plan->key = MakeQueueKey(plan->record);
+    ForgetFinished(plan->record.plan.planID);
+    if (_options.bInitialPendingReported)
+    {
+        _unreported.push_back(plan->record.plan.planID);
+    }
     _changes.emplace_back(PlanAdded{plan->record});
     _actions.emplace_back(ReplyCommand{command.replyToken, true, "Plan registered successfully."});
     StartTimer(EEngineTimer::Dispatch, {}, {});
     _pending.emplace(plan->key, plan.get());
     const std::string planID = plan->record.plan.planID;
     _plans.emplace(planID, std::move(plan));
+}
+
+/// Register D-23, plan.reuse_finished_id. What the store cannot take comes back (OnStoreFailed).
+void PlanEngine::Impl::ForgetFinished(const std::string& planID)
+{
+    const auto found = _finished.find(planID);
+    if (found == _finished.end())
+    {
+        return;
+    }
+    _changes.emplace_back(PlanRemoved{found->second.sequence});
+    _replaced.push_back(std::move(found->second));
+    _finished.erase(found);
+    std::erase(_finishedOrder, planID);
+}
+
+/// Register D-24. Not with the reply: a plan that cannot be stored is refused, and must not have been reported.
+void PlanEngine::Impl::TellAccepted()
+{
+    for (const std::string& planID : std::exchange(_unreported, {}))
+    {
+        const auto found = _plans.find(planID);
+        if (found != _plans.end() && found->second->record.progress.state == EPlanState::Pending)
+        {
+            TellReport(PlanReport{planID, EPlanState::Pending, {}});
+        }
+    }
+}
+
+void PlanEngine::Impl::SwitchTsc(const ControlTsc& command)
+{
+    const bool bAuto = _tscState == ETscState::Auto;
+    if (command.bPause && bAuto)
+    {
+        ChangeTsc(ETscState::Pausing);
+        FinishTscPause();
+    }
+    else if (!command.bPause && !bAuto)
+    {
+        ChangeTsc(ETscState::Auto);
+        _bDispatchNeeded = true;
+    }
+    _actions.emplace_back(ReplyCommand{command.replyToken, true, fmt::format("The TSC is {}.", GetText(_tscState))});
+}
+
+void PlanEngine::Impl::ChangeTsc(ETscState state)
+{
+    assert(CanChange(_tscState, state));
+    const ETscState from = std::exchange(_tscState, state);
+    _changes.emplace_back(TscChanged{state});
+    _actions.emplace_back(TscStateChanged{state});
+    if (_observerOrNull != nullptr)
+    {
+        _observerOrNull->OnTscChanged(state, from, _now);
+    }
+}
+
+bool PlanEngine::Impl::IsAnyPlanRunning() const
+{
+    return std::ranges::any_of(_plans, [](const auto& entry) {
+        return entry.second->record.progress.state == EPlanState::InProgress;
+    });
+}
+
+/// While the TSC is pausing, only to make way for what still runs.
+bool PlanEngine::Impl::CanDriveHome() const
+{
+    return _tscState == ETscState::Auto || (_tscState == ETscState::Pausing && IsAnyPlanRunning());
+}
+
+/// The TSC is paused once no plan runs and no robot moves or works.
+void PlanEngine::Impl::FinishTscPause()
+{
+    const auto isBusy = [](const Robot& robot) {
+        const bool bPlanPaused =
+            robot.planOrNull != nullptr && robot.planOrNull->record.progress.state == EPlanState::Paused;
+        return !bPlanPaused && (robot.drive.has_value() || robot.overdueJobID.has_value());
+    };
+    if (_tscState == ETscState::Pausing && !IsAnyPlanRunning() && std::ranges::none_of(_robots, isBusy))
+    {
+        ChangeTsc(ETscState::Paused);
+    }
 }
 
 void PlanEngine::Impl::Acknowledge(const MessageAcknowledged& command)
@@ -74,112 +186,6 @@ void PlanEngine::Impl::Acknowledge(const MessageAcknowledged& command)
         StartTimer(EEngineTimer::Acknowledged, {}, _options.acknowledgedDelay);
     }
     _acknowledged.emplace_back(ReportRemoved{command.sequence});
-}
-
-void PlanEngine::Impl::TellControlResult(
-    EPlanControl control,
-    const std::string& planID,
-    bool bSucceeded,
-    std::string message)
-{
-    TellReport(ControlResultReport{control, planID, bSucceeded, std::move(message)});
-}
-
-void PlanEngine::Impl::Control(const ControlPlan& command)
-{
-    const auto reply = [this, &command](bool bAccepted, std::string message) {
-        _actions.emplace_back(ReplyCommand{command.replyToken, bAccepted, std::move(message)});
-    };
-    const auto fail = [this, &command](std::string message) {
-        TellControlResult(command.control, command.planID, false, std::move(message));
-    };
-    const auto active = _plans.find(command.planID);
-    if (active == _plans.end())
-    {
-        const auto finished = _finished.find(command.planID);
-        if (finished == _finished.end())
-        {
-            reply(false, fmt::format("There is no plan {}.", command.planID));
-            fail(fmt::format("There is no plan {}.", command.planID));
-            return;
-        }
-        reply(true, "Received.");
-        fail(fmt::format("The plan is already {}.", GetText(finished->second.progress.state)));
-        return;
-    }
-    reply(true, "Received.");
-    ActivePlan& plan = *active->second;
-    if (plan.control.has_value())
-    {
-        fail(fmt::format("{} of this plan is under way.", GetText(*plan.control)));
-        return;
-    }
-    switch (command.control)
-    {
-        case EPlanControl::Cancel:
-            Cancel(plan);
-            break;
-        case EPlanControl::Abort:
-            Abort(plan);
-            break;
-        case EPlanControl::Pause:
-        case EPlanControl::Resume:
-            fail(fmt::format("This version of the ACS does not support {}Plan.", GetText(command.control)));
-            break;
-        default:
-            assert(false && "a control has no case");
-            break;
-    }
-}
-
-/// Section 6.5: until the robot arrives.
-void PlanEngine::Impl::Cancel(ActivePlan& plan)
-{
-    if (plan.bArrived)
-    {
-        TellControlResult(
-            EPlanControl::Cancel,
-            plan.record.plan.planID,
-            false,
-            "The robot has arrived; the plan goes on.");
-        return;
-    }
-    StopDrive(plan, EPlanControl::Cancel);
-}
-
-/// Section 6.6, 6.14: a running job is let to its end.
-void PlanEngine::Impl::Abort(ActivePlan& plan)
-{
-    const bool bJobRuns = plan.robot.has_value() && _robots[*plan.robot].activity == EActivity::Works;
-    if (bJobRuns)
-    {
-        plan.control = EPlanControl::Abort;
-        return;
-    }
-    StopDrive(plan, EPlanControl::Abort);
-}
-
-/// Ends the plan at once, or, where its robot is under way to the step's place, when the robot stands.
-void PlanEngine::Impl::StopDrive(ActivePlan& plan, EPlanControl control)
-{
-    Robot* robotOrNull = plan.robot.has_value() ? &_robots[*plan.robot] : nullptr;
-    if (robotOrNull == nullptr || !robotOrNull->drive.has_value() || robotOrNull->drive->goal == EGoal::Home)
-    {
-        EndByControl(plan, control);
-        return;
-    }
-    plan.control = control;
-    robotOrNull->drive->bCancelling = true;
-    Command(*robotOrNull, CancelDrive{robotOrNull->drive->driveID});
-    StartTimer(EEngineTimer::ControlConfirm, GetRobotID(*robotOrNull), _options.controlTimeout);
-}
-
-void PlanEngine::Impl::EndByControl(ActivePlan& plan, EPlanControl control)
-{
-    const std::string planID = plan.record.plan.planID;
-    const bool bCancelled = control == EPlanControl::Cancel;
-    EndPlan(plan, bCancelled ? EPlanState::Cancelled : EPlanState::Aborted, {});
-    TellControlResult(control, planID, true, bCancelled ? "The plan was cancelled." : "The plan was aborted.");
 }
 
 } // namespace ACS::Planning

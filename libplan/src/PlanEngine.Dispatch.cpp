@@ -16,9 +16,15 @@ void PlanEngine::Impl::Dispatch()
     // What one part frees or ends may be what an earlier part waited for.
     while (std::exchange(_bDispatchNeeded, false))
     {
-        AssignPlans();
+        if (_tscState == ETscState::Auto)
+        {
+            AssignPlans();
+        }
         MoveWaiting();
-        SendIdleHome();
+        if (CanDriveHome())
+        {
+            SendIdleHome();
+        }
         PartCircles();
     }
 }

@@ -54,8 +54,9 @@ void PlanEngine::Impl::HandleCommand(const PlanCommand& command, Core::Now now, 
         Core::Overloaded{
             [this](const SubmitPlan& submit) { Submit(submit); },
             [this](const ControlPlan& control) { Control(control); },
-            [this](const MessageAcknowledged& acknowledged) {
-                Acknowledge(acknowledged);
+            [this](const MessageAcknowledged& acknowledged) { Acknowledge(acknowledged); },
+            [this](const ControlTsc& control) {
+                SwitchTsc(control);
             }},
         command);
     End(out);
@@ -103,6 +104,7 @@ void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineAc
     switch (timer.kind)
     {
         case EEngineTimer::Dispatch:
+            TellAccepted();
             _bDispatchNeeded = true;
             break;
         case EEngineTimer::StoreRetry:
@@ -118,7 +120,7 @@ void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineAc
             }
             break;
         case EEngineTimer::ControlConfirm:
-            if (robotOrNull != nullptr)
+            if (robotOrNull != nullptr && std::exchange(robotOrNull->bConfirming, false))
             {
                 OnControlTimeout(*robotOrNull);
             }
@@ -147,6 +149,7 @@ void PlanEngine::Impl::Begin(Core::Now now)
 {
     _now = now;
     _ended.clear();
+    _replaced.clear();
     NoteStoreSuccess();
 }
 
@@ -157,6 +160,7 @@ void PlanEngine::Impl::End(EngineActions& out)
     {
         Dispatch();
     }
+    FinishTscPause();
     TellStatusChanges();
     std::vector<StoreChange> changes = std::exchange(_unsaved, {});
     for (const std::string& planID : _progressed)
@@ -354,7 +358,9 @@ void PlanEngine::Impl::RememberFinished(PlanRecord record)
         {
             break;
         }
-        _finished.erase(_finishedOrder.front());
+        const auto oldest = _finished.find(_finishedOrder.front());
+        _changes.emplace_back(PlanRemoved{oldest->second.sequence});
+        _finished.erase(oldest);
         _finishedOrder.pop_front();
     }
 }
@@ -377,7 +383,10 @@ ERobotStatus PlanEngine::Impl::DeriveStatus(const Robot& robot)
     {
         return ERobotStatus::Error;
     }
-    if (state.bPaused)
+    const ActivePlan* planOrNull = robot.planOrNull;
+    const bool bPlanPaused = planOrNull != nullptr && planOrNull->record.progress.state == EPlanState::Paused
+        && planOrNull->control.value_or(EPlanControl::Pause) == EPlanControl::Pause;
+    if (state.bPaused || bPlanPaused)
     {
         return ERobotStatus::Stopped;
     }
@@ -435,7 +444,7 @@ bool PlanEngine::Impl::IsUsable(const Robot& robot)
     const bool bFatal =
         std::ranges::any_of(state.errors, [](const RobotError& error) { return error.level == EAlarmLevel::Heavy; });
     return !bFatal && !state.bSafetyStop && !state.bPaused && !state.bOccupied && state.bAutomatic
-        && !robot.overdueJobID.has_value();
+        && !robot.overdueJobID.has_value() && !IsHeld(robot);
 }
 
 const std::string& PlanEngine::Impl::GetRobotID(const Robot& robot) const
@@ -555,6 +564,11 @@ std::optional<PlanSummary> PlanEngine::Impl::GetPlanOrNull(std::string_view plan
 const std::vector<Alarm>& PlanEngine::Impl::GetActiveAlarms() const noexcept
 {
     return _alarms;
+}
+
+ETscState PlanEngine::Impl::GetTscState() const noexcept
+{
+    return _tscState;
 }
 
 } // namespace ACS::Planning

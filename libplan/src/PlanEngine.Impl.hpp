@@ -27,6 +27,7 @@ inline constexpr std::string_view ALARM_PLACE = "ACS-1003";
 inline constexpr std::string_view ALARM_PORT = "ACS-1004";
 inline constexpr std::string_view ALARM_STORE = "ACS-1005";
 inline constexpr std::string_view ALARM_HOME = "ACS-1006";
+inline constexpr std::string_view ALARM_DROPPED = "ACS-1007";
 /// What alarms of the engine begin with; others are errors that robots told.
 inline constexpr std::string_view ALARM_PREFIX = "ACS-";
 /// The robotID of alarms about the engine itself.
@@ -35,15 +36,15 @@ inline constexpr std::string_view OWN_ROBOT_ID = "ACS";
 class PlanEngine::Impl
 {
 public:
-    /// Higher priority first, then the order of acceptance.
+    /// The lower rank first, then the order of acceptance.
     struct QueueKey
     {
-        std::int64_t negatedPriority = 0;
+        std::int64_t rank = 0;
         std::uint64_t sequence = 0;
 
         bool operator<(const QueueKey& other) const noexcept
         {
-            return std::tie(negatedPriority, sequence) < std::tie(other.negatedPriority, other.sequence);
+            return std::tie(rank, sequence) < std::tie(other.rank, other.sequence);
         }
     };
 
@@ -58,8 +59,14 @@ public:
         std::string madeJobID; ///< Of a step without jobs.
         std::optional<std::size_t> robot;
         std::optional<EPlanControl> control; ///< Asked for, outcome not known.
+        std::size_t controlCount = 0;        ///< How often it was asked for: each is owed a result.
         bool bArrived = false;               ///< Its first step's place was reached.
         bool bStepArrived = false;           ///< The present step's place was reached, and told.
+        bool bJobBegun = false;              ///< Any of its jobs.
+        bool bStepOwed = false;              ///< The present step is begun when the pause ends.
+        bool bEndOwed = false;               ///< All is done, to be told when the pause ends.
+        std::optional<Core::SteadyTime> jobDeadline;
+        std::optional<Core::Duration> jobTimeLeft; ///< Of a job that is paused.
     };
 
     enum class EActivity : std::uint8_t
@@ -95,6 +102,9 @@ public:
         bool bPlaced = false;      ///< Has told where it stands since the start.
         bool bHomeRefused = false; ///< Until the timer HomeRetry.
         bool bTouched = true;      ///< Its status may have changed.
+        bool bPauseWanted = false; ///< It was told to pause and not to go on.
+        bool bResumeOwed = false;  ///< It was told to go on and has not shown that it does.
+        bool bConfirming = false;  ///< The timer ControlConfirm runs.
         std::optional<StateChanged> state;
         std::optional<std::size_t> node; ///< Where it stands or passed last.
         std::string position;            ///< The last station where it stood.
@@ -128,6 +138,8 @@ private:
     std::unordered_map<std::string, PlanRecord> _finished;
     std::deque<std::string> _finishedOrder;
     std::uint64_t _lastPlanSequence = 0;
+    std::vector<std::string> _unreported; ///< Accepted, their PlanReport(Pending) is owed.
+    ETscState _tscState = ETscState::Auto;
 
     std::vector<Robot> _robots;
     std::map<std::string, std::size_t, std::less<>> _robotIndices;
@@ -140,6 +152,7 @@ private:
     std::set<std::string> _progressed;
     EngineActions _actions;
     bool _bDispatchNeeded = false;
+    std::vector<PlanRecord> _replaced; ///< Finished plans whose id was given to a new one.
 
     // A store that fails: what is still to be stored, and the reports that wait for it.
     std::vector<StoreChange> _unsaved;
@@ -170,6 +183,7 @@ public:
     [[nodiscard]] std::vector<PlanSummary> GetActivePlans() const;
     [[nodiscard]] std::optional<PlanSummary> GetPlanOrNull(std::string_view planID) const;
     [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;
+    [[nodiscard]] ETscState GetTscState() const noexcept;
 
 private:
     // Of every call: begin, end, and the only places where states change (PlanEngine.Impl.cpp).
@@ -195,14 +209,43 @@ private:
 
     // Commands (PlanEngine.Commands.cpp).
     void Submit(const SubmitPlan& command);
-    void Control(const ControlPlan& command);
+    void TellAccepted();
+    void ForgetFinished(const std::string& planID);
+    void SwitchTsc(const ControlTsc& command);
+    void ChangeTsc(ETscState state);
+    void FinishTscPause();
+    [[nodiscard]] bool CanDriveHome() const;
+    [[nodiscard]] bool IsAnyPlanRunning() const;
+    [[nodiscard]] QueueKey MakeQueueKey(const PlanRecord& record) const;
     void Acknowledge(const MessageAcknowledged& command);
+    [[nodiscard]] Core::Result<ResolvedPlan> Admit(const Plan& plan) const;
+
+    // Control of plans (PlanEngine.Controls.cpp).
+    void Control(const ControlPlan& command);
+    void RefuseControl(const ControlPlan& command);
     void Cancel(ActivePlan& plan);
     void Abort(ActivePlan& plan);
+    void Pause(ActivePlan& plan);
+    void Resume(ActivePlan& plan);
+    static void Ask(ActivePlan& plan, EPlanControl control);
+    void Answer(ActivePlan& plan, bool bSucceeded, const std::string& message);
     void StopDrive(ActivePlan& plan, EPlanControl control);
-    void TellControlResult(EPlanControl control, const std::string& planID, bool bSucceeded, std::string message);
+    void DropJob(Robot& robot);
     void EndByControl(ActivePlan& plan, EPlanControl control);
-    [[nodiscard]] Core::Result<ResolvedPlan> Admit(const Plan& plan) const;
+    void ConfirmPause(Robot& robot);
+    void ConfirmResume(Robot& robot);
+    void FollowPause(Robot& robot, bool bFirst, bool bWasPaused);
+    void ReleasePause(Robot& robot);
+    void LeavePause(ActivePlan& plan);
+    void GoOn(Robot& robot);
+    void StartConfirming(Robot& robot, Core::Duration limit);
+    void StopConfirming(Robot& robot);
+    void OnControlTimeout(Robot& robot);
+    void StartJobTimer(Robot& robot, Core::Duration limit);
+    void StopJobTimer(Robot& robot);
+    void TellControlResult(EPlanControl control, const std::string& planID, bool bSucceeded, std::string message);
+    [[nodiscard]] bool IsCancellable(const ActivePlan& plan) const;
+    [[nodiscard]] static bool IsHeld(const Robot& robot);
 
     // Events of robots (PlanEngine.Robots.cpp).
     void OnLink(Robot& robot, const LinkChanged& event);
@@ -214,7 +257,6 @@ private:
     void OnJobStarted(Robot& robot, const JobStarted& event);
     void OnJobFinished(Robot& robot, const JobFinished& event);
     void OnJobFailed(Robot& robot, const JobFailed& event);
-    void OnControlTimeout(Robot& robot);
     void OnJobTimeout(Robot& robot);
     void Place(Robot& robot, const std::string& nodeID);
     void CompareErrors(Robot& robot);
@@ -229,9 +271,10 @@ private:
     void BeginWork(Robot& robot);
     void BeginJob(Robot& robot);
     void EndJob(Robot& robot);
+    void BeginNext(Robot& robot);
     void MarkStepBegun(ActivePlan& plan);
     void FailPlan(ActivePlan& plan, const std::string& reason);
-    void EndPlan(ActivePlan& plan, EPlanState state, std::string message);
+    void EndPlan(ActivePlan& plan, EPlanState state, const std::string& message);
     void ClearInterrupted(const std::string& robotID);
     void MoveCarrier(Robot& robot);
     [[nodiscard]] static bool HasJob(const ActivePlan& plan);
@@ -264,6 +307,7 @@ private:
     // Failures of the store (PlanEngine.Recovery.cpp).
     void RestorePlan(PlanRecord record);
     void RestoreAlarms(std::vector<Alarm> alarms);
+    void RestoreTsc(ETscState stored);
     void EndInterrupted(ActivePlan& plan);
     void NoteStoreSuccess();
 };

@@ -11,6 +11,7 @@ void PlanEngine::Impl::Restore(StoredState state, Core::Now now, EngineActions& 
     Begin(now);
     _outbox.Restore(std::move(state.outbox), state.lastReportSequence);
     RestoreAlarms(std::move(state.alarms));
+    RestoreTsc(state.tscState);
     for (const CarriersChanged& stored : state.carriers)
     {
         const auto found = _robotIndices.find(stored.robotID);
@@ -28,6 +29,17 @@ void PlanEngine::Impl::Restore(StoredState state, Core::Now now, EngineActions& 
     }
     StartTimer(EEngineTimer::Dispatch, {}, {});
     End(out);
+}
+
+/// What was paused stays so: nothing of it runs after a start.
+void PlanEngine::Impl::RestoreTsc(ETscState stored)
+{
+    const bool bPaused = _options.bTscStartsPaused || stored != ETscState::Auto;
+    _tscState = bPaused ? ETscState::Paused : ETscState::Auto;
+    if (_tscState != stored)
+    {
+        _changes.emplace_back(TscChanged{_tscState});
+    }
 }
 
 /// An alarm about a robot that is gone would have nobody to clear it.
@@ -61,11 +73,12 @@ void PlanEngine::Impl::RestorePlan(PlanRecord record)
     auto owned = std::make_unique<ActivePlan>();
     ActivePlan& plan = *owned;
     plan.record = std::move(record);
-    const std::int64_t priority = plan.record.plan.priority.value_or(_options.defaultPriority);
-    plan.key = {-priority, plan.record.sequence};
+    plan.key = MakeQueueKey(plan.record);
     Core::Result<ResolvedPlan> resolved = _admission.Resolve(plan.record.plan);
     _plans.emplace(plan.record.plan.planID, std::move(owned));
-    if (plan.record.progress.state != EPlanState::Pending)
+    // One that was paused before a robot had it is held in the queue.
+    const bool bHeld = plan.record.progress.state == EPlanState::Paused && plan.record.progress.robotID.empty();
+    if (plan.record.progress.state != EPlanState::Pending && !bHeld)
     {
         EndInterrupted(plan);
         return;
@@ -79,7 +92,10 @@ void PlanEngine::Impl::RestorePlan(PlanRecord record)
         return;
     }
     plan.resolved = std::move(*resolved);
-    _pending.emplace(plan.key, &plan);
+    if (!bHeld)
+    {
+        _pending.emplace(plan.key, &plan);
+    }
 }
 
 /// Nobody saw what became of the work: it is ended, with an alarm that says where to look.
@@ -110,6 +126,11 @@ void PlanEngine::Impl::EndInterrupted(ActivePlan& plan)
         FailPlan(plan, "The ACS was restarted while the plan was worked on.");
         return;
     }
+    // The robot still stands for that, and nobody else would have it go on.
+    if (const auto robot = _robotIndices.find(plan.record.progress.robotID); robot != _robotIndices.end())
+    {
+        _robots[robot->second].bResumeOwed = true;
+    }
     // Section 7 has no other way out of Paused.
     EndPlan(plan, EPlanState::Aborted, "The ACS was restarted while the plan was paused.");
 }
@@ -128,6 +149,12 @@ void PlanEngine::Impl::OnStoreFailed(
     bool bPlanRefused = false;
     for (const StoreChange& change : batch.changes)
     {
+        const auto* removedOrNull = std::get_if<PlanRemoved>(&change);
+        if (removedOrNull != nullptr
+            && std::ranges::count(_replaced, removedOrNull->sequence, &PlanRecord::sequence) > 0)
+        {
+            continue; // it comes back below
+        }
         const auto* addedOrNull = std::get_if<PlanAdded>(&change);
         if (addedOrNull == nullptr)
         {
@@ -142,6 +169,10 @@ void PlanEngine::Impl::OnStoreFailed(
             _pending.erase(found->second->key);
             _plans.erase(found);
         }
+    }
+    for (PlanRecord& record : std::exchange(_replaced, {}))
+    {
+        RememberFinished(std::move(record));
     }
     Alarm alarm;
     alarm.robotID = OWN_ROBOT_ID;

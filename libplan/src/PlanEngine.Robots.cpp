@@ -38,6 +38,8 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
         return;
     }
     const bool bWasUsable = IsUsable(robot);
+    const bool bFirst = !robot.state.has_value();
+    const bool bWasPaused = !bFirst && robot.state->bPaused;
     robot.state = event;
     CompareErrors(robot);
     if (!robot.drive.has_value())
@@ -48,6 +50,7 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
     {
         MarkStepBegun(*robot.planOrNull);
     }
+    FollowPause(robot, bFirst, bWasPaused);
     if (IsUsable(robot) && !bWasUsable)
     {
         _bDispatchNeeded = true;
@@ -182,7 +185,7 @@ void PlanEngine::Impl::EndDrive(Robot& robot)
     }
     if (robot.drive->bCancelling)
     {
-        CancelTimer(EEngineTimer::ControlConfirm, robotID);
+        StopConfirming(robot);
     }
     robot.drive.reset();
     robot.wish.reset();
@@ -214,17 +217,21 @@ void PlanEngine::Impl::OnArrived(Robot& robot, const Arrived& event)
         return;
     }
     ActivePlan& plan = *robot.planOrNull;
-    const std::optional<EPlanControl> control = std::exchange(plan.control, std::nullopt);
-    if (control == EPlanControl::Abort)
+    const bool bCancelLate = _options.controls.cancelUntil != ECancelWindow::FirstJob;
+    if (plan.control == EPlanControl::Abort || (plan.control == EPlanControl::Cancel && !bCancelLate))
     {
-        EndByControl(plan, EPlanControl::Abort);
+        EndByControl(plan, *plan.control);
         return;
     }
-    if (control.has_value())
-    {
-        TellControlResult(*control, plan.record.plan.planID, false, "The robot has arrived; the plan goes on.");
-    }
     MarkArrived(robot);
+    if (plan.control == EPlanControl::Cancel)
+    {
+        Answer(plan, false, "The robot has arrived.");
+        if (plan.record.progress.state != EPlanState::Paused)
+        {
+            GoOn(robot);
+        }
+    }
     // Otherwise the work begins when the robot is there again: the drive may well end while its arm is out of reach.
     if (IsUsable(robot))
     {
@@ -253,9 +260,9 @@ void PlanEngine::Impl::OnDriveRejected(Robot& robot, const DriveRejected& event)
         return;
     }
     ActivePlan& plan = *robot.planOrNull;
-    if (const std::optional<EPlanControl> control = std::exchange(plan.control, std::nullopt))
+    if (plan.control == EPlanControl::Cancel || plan.control == EPlanControl::Abort)
     {
-        EndByControl(plan, *control);
+        EndByControl(plan, *plan.control);
         return;
     }
     FailPlan(plan, fmt::format("{} did not do its drive: {}", GetRobotID(robot), event.reason));
@@ -275,24 +282,6 @@ void PlanEngine::Impl::OnDriveCancelled(Robot& robot, const DriveCancelled& even
         Advance(robot, routeIndex);
     }
     OnDriveRejected(robot, DriveRejected{event.driveID, "it was cancelled"});
-}
-
-void PlanEngine::Impl::OnControlTimeout(Robot& robot)
-{
-    if (!robot.drive.has_value() || !robot.drive->bCancelling || robot.planOrNull == nullptr)
-    {
-        return;
-    }
-    robot.drive->bCancelling = false;
-    if (const std::optional<EPlanControl> control = std::exchange(robot.planOrNull->control, std::nullopt))
-    {
-        TellControlResult(
-            *control,
-            robot.planOrNull->record.plan.planID,
-            false,
-            "The robot did not confirm that it stopped; the plan goes on.");
-    }
-    ExtendBase(robot);
 }
 
 void PlanEngine::Impl::OnJobStarted(Robot& robot, const JobStarted& event)
@@ -352,6 +341,7 @@ void PlanEngine::Impl::OnJobTimeout(Robot& robot)
     {
         return;
     }
+    robot.planOrNull->jobDeadline.reset();
     robot.overdueJobID = GetJobID(*robot.planOrNull);
     Command(robot, CancelJob{*robot.overdueJobID});
     FailPlan(*robot.planOrNull, "The job took longer than its limit.");

@@ -93,6 +93,7 @@ void PlanEngine::Impl::BeginJob(Robot& robot)
 {
     ActivePlan& plan = *robot.planOrNull;
     robot.bTouched = true;
+    plan.bJobBegun = true;
     if (!HasJob(plan))
     {
         plan.madeJobID = Core::MakeUuid(_random);
@@ -104,7 +105,7 @@ void PlanEngine::Impl::BeginJob(Robot& robot)
     const std::chrono::milliseconds timeout = plan.resolved.steps[plan.step].rule->timeout;
     if (timeout.count() > 0)
     {
-        StartTimer(EEngineTimer::JobTimeout, GetRobotID(robot), timeout);
+        StartJobTimer(robot, timeout);
     }
 }
 
@@ -175,36 +176,64 @@ void PlanEngine::Impl::MoveCarrier(Robot& robot)
 void PlanEngine::Impl::EndJob(Robot& robot)
 {
     ActivePlan& plan = *robot.planOrNull;
-    if (plan.resolved.steps[plan.step].rule->timeout.count() > 0)
-    {
-        CancelTimer(EEngineTimer::JobTimeout, GetRobotID(robot));
-    }
+    StopJobTimer(robot);
+    plan.jobTimeLeft.reset();
     MoveCarrier(robot);
     ChangeJob(plan, EJobState::Completed, {});
-    if (plan.control == EPlanControl::Abort)
+    const bool bStepDone = plan.job + 1 >= plan.record.plan.steps[plan.step].jobs.size();
+    const bool bAborting = plan.control == EPlanControl::Abort;
+    if (bStepDone && (!bAborting || _options.controls.bAbortReportsStep))
+    {
+        ChangeStep(plan, EStepState::Completed, {});
+    }
+    if (bAborting)
     {
         EndByControl(plan, EPlanControl::Abort);
         return;
     }
-    if (plan.job + 1 < plan.record.plan.steps[plan.step].jobs.size())
+    const bool bAllDone = bStepDone && plan.step + 1 >= plan.record.plan.steps.size();
+    if (bAllDone && plan.record.progress.state != EPlanState::Paused)
     {
-        ++plan.job;
-        BeginJob(robot);
+        EndPlan(plan, EPlanState::Completed, {});
         return;
     }
-    ChangeStep(plan, EStepState::Completed, {});
-    if (plan.step + 1 < plan.record.plan.steps.size())
+    plan.bEndOwed = bAllDone;
+    plan.bStepOwed = bStepDone && !bAllDone;
+    plan.step += plan.bStepOwed ? 1U : 0U;
+    plan.job = plan.bStepOwed ? 0 : plan.job + (bAllDone ? 0U : 1U);
+    if (!IsHeld(robot))
     {
-        ++plan.step;
-        BeginStep(plan, robot);
+        BeginNext(robot);
         return;
     }
-    EndPlan(plan, EPlanState::Completed, {});
+    // The rest is for when the pause ends.
+    robot.activity = EActivity::Waits;
+    robot.bTouched = true;
+    if (plan.control == EPlanControl::Pause && !robot.bPauseWanted)
+    {
+        ConfirmPause(robot);
+    }
+}
+
+/// What comes after a job.
+void PlanEngine::Impl::BeginNext(Robot& robot)
+{
+    if (std::exchange(robot.planOrNull->bStepOwed, false))
+    {
+        BeginStep(*robot.planOrNull, robot);
+        return;
+    }
+    BeginJob(robot);
 }
 
 /// Section 6.14: the job, its step and the plan at once; nothing about what never ran.
 void PlanEngine::Impl::FailPlan(ActivePlan& plan, const std::string& reason)
 {
+    const bool bAborting = plan.control == EPlanControl::Abort && !_options.controls.bJobFailureFailsAbort;
+    if (plan.record.progress.state == EPlanState::Paused && !bAborting)
+    {
+        LeavePause(plan);
+    }
     if (HasJob(plan))
     {
         const EJobState job = plan.record.progress.steps[plan.step].jobs[plan.job];
@@ -213,17 +242,17 @@ void PlanEngine::Impl::FailPlan(ActivePlan& plan, const std::string& reason)
             ChangeJob(plan, EJobState::Failed, reason);
         }
     }
+    if (bAborting)
+    {
+        EndByControl(plan, EPlanControl::Abort);
+        return;
+    }
     const EStepState step = plan.record.progress.steps[plan.step].state;
     if (step == EStepState::Dispatched || step == EStepState::InProgress)
     {
         ChangeStep(plan, EStepState::Failed, reason);
     }
-    const std::optional<EPlanControl> control = std::exchange(plan.control, std::nullopt);
     EndPlan(plan, EPlanState::Failed, reason);
-    if (control.has_value())
-    {
-        TellControlResult(*control, plan.record.plan.planID, false, "The plan has failed: " + reason);
-    }
 }
 
 /// Who has done a whole plan since was looked at; the list of alarms would only grow otherwise.
@@ -231,7 +260,7 @@ void PlanEngine::Impl::ClearInterrupted(const std::string& robotID)
 {
     std::vector<Alarm> spent;
     std::ranges::copy_if(_alarms, std::back_inserter(spent), [&robotID](const Alarm& alarm) {
-        return alarm.robotID == robotID && alarm.errorCode == ALARM_INTERRUPTED;
+        return alarm.robotID == robotID && (alarm.errorCode == ALARM_INTERRUPTED || alarm.errorCode == ALARM_DROPPED);
     });
     for (const Alarm& alarm : spent)
     {
@@ -239,19 +268,24 @@ void PlanEngine::Impl::ClearInterrupted(const std::string& robotID)
     }
 }
 
-/// The robot is free again, the plan is history. The plan lives to the end of this call.
-void PlanEngine::Impl::EndPlan(ActivePlan& plan, EPlanState state, std::string message)
+/// The robot is free again, the plan is history. The plan lives to the end of this call. A control that is under way has
+/// its answer in that.
+void PlanEngine::Impl::EndPlan(ActivePlan& plan, EPlanState state, const std::string& message)
 {
-    ChangePlan(plan, state, std::move(message));
+    if (!CanChange(plan.record.progress.state, state))
+    {
+        LeavePause(plan);
+    }
+    ChangePlan(plan, state, message);
+    const bool bAsAsked = (plan.control == EPlanControl::Cancel && state == EPlanState::Cancelled)
+        || (plan.control == EPlanControl::Abort && state == EPlanState::Aborted);
+    Answer(plan, bAsAsked, fmt::format("The plan is {}{}{}", GetText(state), message.empty() ? "." : ": ", message));
     _pending.erase(plan.key);
     if (plan.robot.has_value())
     {
         Robot& robot = _robots[*plan.robot];
-        const bool bTimed = plan.resolved.steps[plan.step].rule->timeout.count() > 0;
-        if (robot.activity == EActivity::Works && bTimed)
-        {
-            CancelTimer(EEngineTimer::JobTimeout, GetRobotID(robot));
-        }
+        StopJobTimer(robot);
+        ReleasePause(robot);
         robot.planOrNull = nullptr;
         robot.activity = EActivity::Idle;
         robot.retreatNode.reset();

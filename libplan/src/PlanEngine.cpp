@@ -80,4 +80,9 @@ const std::vector<Alarm>& PlanEngine::GetActiveAlarms() const noexcept
     return _impl->GetActiveAlarms();
 }
 
+ETscState PlanEngine::GetTscState() const noexcept
+{
+    return _impl->GetTscState();
+}
+
 } // namespace ACS::Planning

@@ -5,6 +5,7 @@ import json
 import signal
 import subprocess
 import unittest
+import urllib.request
 
 from scenario_case import FINISH_SECONDS, PLANS, REPOSITORY, SITE, TIME_SCALE, Line, ScenarioCase, main
 
@@ -20,14 +21,16 @@ BATCHES = [
      "mixed-robots", "bad-messages", "null-result-request", "old-name", "sync-config", "robot-positions",
      "registration-refused", "registration-unanswered", "abort-running-job", "queue-full"],
     ["lost-ack", "late-acks", "wrong-ack-id", "job-failure"],
+    ["pause-resume", "pause-refused", "pause-driving", "pause-waiting", "pause-repeated", "cancel-paused", "controls-race",
+     "abort-paused", "pause-cr", "abort-paused-cr"],
 ]
 # What the arm must be like for a batch that ends with this scenario.
-ARM_OPTIONS = {"job-failure": ["--program", "12=500ms,fail"]}
-# acsd cannot do yet what these need: the ACS of the examples plays them, and its operator types what it is asked for.
+ARM_OPTIONS = {"job-failure": ["--program", "12=500ms,fail"], "abort-paused-cr": ["--program", "11=40s"]}
+# These the ACS of the examples plays too, and its operator types what it is asked for.
 SMALL_ACS = ["pause-resume", "pause-refused", "abort-paused", "tsc-paused"]
 TYPED = {"pause the TSC": b"pause\n", "resume the TSC": b"auto\n"}
 # Somebody has to do something beside: a test each.
-ATTENDED = ["comm-loss", "error-set-cleared"]
+ATTENDED = ["comm-loss", "error-set-cleared", "tsc-paused"]
 
 
 def get_paths(names):
@@ -66,7 +69,7 @@ class Scenarios(ScenarioCase):
         return line
 
     def test_each_ready_scenario_is_played(self):
-        played = [name for batch in [*BATCHES, SMALL_ACS, ATTENDED] for name in batch]
+        played = [name for batch in [*BATCHES, ATTENDED] for name in batch]
         self.assertEqual(sorted(played), sorted(path.stem for path in SCENARIOS.glob("*.json")))
 
     def test_each_ready_scenario_has_its_row_for_the_reader(self):
@@ -128,6 +131,22 @@ class Scenarios(ScenarioCase):
                                   "let an error come up": lambda: self.kill_program(logistics),
                                   "clear the error": lambda: self.line.start_vehicles(TIME_SCALE, ("LR01,type=LR",))}))
         self.line.start_acsd(mcs.wait_ready()["ws"], arm.wait_ready()).wait_ready()
+        self.assertEqual(mcs.wait(FINISH_SECONDS), 0, mcs.log.read_text())
+
+    def test_scenario_tsc_paused(self):
+        """The operator of acsd asks for it over HTTP."""
+        acsd = []
+
+        def post(path):
+            with urllib.request.urlopen(f"http://{acsd[0].addresses['http']}{path}", data=b"", timeout=20) as response:
+                self.assertEqual(response.status, 202)
+
+        mcs = self.line.start("mcs-sim", "--listen", "127.0.0.1:0", "--scenario", SCENARIOS / "tsc-paused.json",
+                              on_output=self.answer({"pause the TSC": lambda: post("/tsc/pause"),
+                                                     "resume the TSC": lambda: post("/tsc/resume")}))
+        arm_addresses = self.start_robots()
+        acsd.append(self.line.start_acsd(mcs.wait_ready()["ws"], arm_addresses))
+        acsd[0].wait_ready()
         self.assertEqual(mcs.wait(FINISH_SECONDS), 0, mcs.log.read_text())
 
     def write_scenario(self, *steps):

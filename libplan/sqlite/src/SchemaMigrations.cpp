@@ -24,6 +24,8 @@ constexpr std::array MIGRATIONS{
     "CREATE TABLE carriers (robot_id TEXT PRIMARY KEY, carriers TEXT NOT NULL) WITHOUT ROWID;"
     "CREATE TABLE alarms (robot_id TEXT NOT NULL, error_code TEXT NOT NULL, plan_id TEXT NOT NULL,"
     "  job_id TEXT NOT NULL, alarm TEXT NOT NULL, PRIMARY KEY (robot_id, error_code, plan_id, job_id)) WITHOUT ROWID;",
+    // Single values by name.
+    "CREATE TABLE settings (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;",
 };
 
 } // namespace

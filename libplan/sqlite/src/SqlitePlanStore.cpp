@@ -19,6 +19,9 @@ namespace
 
 constexpr int BUSY_MILLISECONDS = 1'000;
 
+/// Names in the table settings.
+constexpr std::string_view TSC_STATE = "tsc_state";
+
 std::int64_t ToCount(Core::WallTime time)
 {
     return time.time_since_epoch().count();
@@ -66,11 +69,13 @@ class SqlitePlanStore::Impl
     // Prepared once; made after the migration, hence by pointer.
     std::unique_ptr<SQLite::Statement> _addPlan;
     std::unique_ptr<SQLite::Statement> _progressPlan;
+    std::unique_ptr<SQLite::Statement> _removePlan;
     std::unique_ptr<SQLite::Statement> _addReport;
     std::unique_ptr<SQLite::Statement> _removeReport;
     std::unique_ptr<SQLite::Statement> _setCarriers;
     std::unique_ptr<SQLite::Statement> _setAlarm;
     std::unique_ptr<SQLite::Statement> _clearAlarm;
+    std::unique_ptr<SQLite::Statement> _setSetting;
 
 public:
     /// Throws SQLite::Exception, as all of this class.
@@ -135,12 +140,14 @@ public:
         MigrateSchema(_database, GetPragma(_database, "user_version"));
         _addPlan = MakeStatement("INSERT INTO plans VALUES (?, ?, ?, ?, ?, ?)");
         _progressPlan = MakeStatement("UPDATE plans SET state = ?, progress = ? WHERE plan_id = ?");
+        _removePlan = MakeStatement("DELETE FROM plans WHERE sequence = ?");
         _addReport = MakeStatement("INSERT INTO reports VALUES (?, ?, ?, ?)");
         _removeReport = MakeStatement("DELETE FROM reports WHERE sequence = ?");
         _setCarriers = MakeStatement("INSERT OR REPLACE INTO carriers VALUES (?, ?)");
         _setAlarm = MakeStatement("INSERT OR REPLACE INTO alarms VALUES (?, ?, ?, ?, ?)");
         _clearAlarm =
             MakeStatement("DELETE FROM alarms WHERE robot_id = ? AND error_code = ? AND plan_id = ? AND job_id = ?");
+        _setSetting = MakeStatement("INSERT OR REPLACE INTO settings VALUES (?, ?)");
     }
 
     void Append(const StoreBatch& batch)
@@ -168,6 +175,10 @@ public:
         if (read.has_value())
         {
             read = ReadRows("SELECT alarm FROM alarms", DecodeAlarm, state.alarms);
+        }
+        if (read.has_value())
+        {
+            read = ReadTscState(state);
         }
         if (!read.has_value())
         {
@@ -211,6 +222,16 @@ private:
             std::string(GetText(change.progress.state)),
             EncodeProgress(change.progress),
             change.planID);
+    }
+
+    void Write(const PlanRemoved& change)
+    {
+        Run(*_removePlan, static_cast<std::int64_t>(change.sequence));
+    }
+
+    void Write(const TscChanged& change)
+    {
+        Run(*_setSetting, std::string(TSC_STATE), std::string(GetText(change.state)));
     }
 
     void Write(const ReportAdded& change)
@@ -321,6 +342,26 @@ private:
             state.lastReportSequence = static_cast<std::uint64_t>(last.getColumn(0).getInt64());
         }
         return {};
+    }
+
+    [[nodiscard]] Core::Result<void> ReadTscState(StoredState& state)
+    {
+        SQLite::Statement query(_database, "SELECT value FROM settings WHERE name = ?");
+        query.bind(1, std::string(TSC_STATE));
+        if (!query.executeStep())
+        {
+            return {};
+        }
+        const std::string word = query.getColumn(0).getString();
+        for (const ETscState candidate : {ETscState::Auto, ETscState::Paused, ETscState::Pausing})
+        {
+            if (word == GetText(candidate))
+            {
+                state.tscState = candidate;
+                return {};
+            }
+        }
+        return Refuse(EPlanningError::StoreCorrupt, _path, "a state of the TSC", word);
     }
 
     template <typename TDecode, typename TValue>

@@ -38,4 +38,9 @@ std::string_view GetText(EPlanControl value) noexcept
     return Json::GetWord(value);
 }
 
+std::string_view GetText(ETscState value) noexcept
+{
+    return Json::GetWord(value);
+}
+
 } // namespace ACS::Planning

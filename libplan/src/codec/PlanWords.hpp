@@ -8,6 +8,7 @@
 #include <acs/plan/ERobotStatus.hpp>
 #include <acs/plan/ERobotType.hpp>
 #include <acs/plan/EStepState.hpp>
+#include <acs/plan/ETscState.hpp>
 
 #include <array>
 
@@ -100,6 +101,16 @@ struct EnumWords<Planning::EPlanControl>
         EnumWord<Planning::EPlanControl>{Planning::EPlanControl::Abort, "Abort"},
         EnumWord<Planning::EPlanControl>{Planning::EPlanControl::Pause, "Pause"},
         EnumWord<Planning::EPlanControl>{Planning::EPlanControl::Resume, "Resume"},
+    };
+};
+
+template <>
+struct EnumWords<Planning::ETscState>
+{
+    static constexpr std::array WORDS{
+        EnumWord<Planning::ETscState>{Planning::ETscState::Auto, "Auto"},
+        EnumWord<Planning::ETscState>{Planning::ETscState::Paused, "Paused"},
+        EnumWord<Planning::ETscState>{Planning::ETscState::Pausing, "Pausing"},
     };
 };
 

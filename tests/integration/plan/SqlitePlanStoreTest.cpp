@@ -72,7 +72,7 @@ const Alarm& GetAlarm()
     return ALARM;
 }
 
-/// Something of every kind, in three batches.
+/// Something of every kind, in four batches.
 std::vector<StoreBatch> MakeBatches()
 {
     PlanProgressed progressed{"P1", MakeRecord(1, "P1").progress};
@@ -80,12 +80,13 @@ std::vector<StoreBatch> MakeBatches()
     progressed.progress.robotID = "LR01";
     progressed.progress.startedAt = Testing::ManualClock().GetNow().wall;
     return {
-        {{PlanAdded{MakeRecord(1, "P1")}, PlanAdded{MakeRecord(2, "P2")}}},
+        {{PlanAdded{MakeRecord(1, "P1")}, PlanAdded{MakeRecord(2, "P2")}, PlanAdded{MakeRecord(3, "P3")}}},
         {{progressed,
           ReportAdded{MakeEntry(1, "P1")},
           ReportAdded{MakeEntry(2, "P1")},
           AlarmSet{GetAlarm()},
           CarriersChanged{"LR01", {std::nullopt}}}},
+        {{PlanRemoved{3}, TscChanged{ETscState::Pausing}}},
         {{ReportRemoved{1}, CarriersChanged{"LR01", {"C1"}}, ReportAdded{MakeEntry(3, "P1")}, ReportRemoved{3}}}};
 }
 
@@ -111,6 +112,8 @@ TEST_CASE("Store: what was appended is there after the file was closed and opene
     REQUIRE(loaded.has_value());
     CHECK(*loaded == memory.GetState());
     CHECK(loaded->lastReportSequence == 3);
+    CHECK(loaded->plans.size() == 2);
+    CHECK(loaded->tscState == ETscState::Pausing);
 
     REQUIRE(OpenStore(folder.GetFile())->Append({{AlarmCleared{GetAlarm()}}}).has_value());
     CHECK(OpenStore(folder.GetFile())->Load()->alarms.empty());
@@ -123,8 +126,34 @@ TEST_CASE("Store: an empty file becomes a store with a schema version, in a writ
     const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetFile());
     CHECK(*store->Load() == StoredState{});
     SQLite::Database database(folder.GetFile(), SQLite::OPEN_READONLY);
-    CHECK(database.execAndGet("PRAGMA user_version").getInt() == 1);
+    CHECK(database.execAndGet("PRAGMA user_version").getInt() == 2);
     CHECK(database.execAndGet("PRAGMA journal_mode").getString() == "wal");
+}
+
+TEST_CASE("Store: a planID whose plan was removed can be stored again, in the same batch too")
+{
+    const TemporaryFolder folder;
+    const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetFile());
+    REQUIRE(store->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
+    REQUIRE(store->Append({{PlanRemoved{1}, PlanAdded{MakeRecord(2, "P1")}}}).has_value());
+    REQUIRE(store->Load()->plans.size() == 1);
+    CHECK(store->Load()->plans.front().sequence == 2);
+}
+
+TEST_CASE("Store: a file of the first schema is brought forward, and nothing of it is lost")
+{
+    const TemporaryFolder folder;
+    REQUIRE(OpenStore(folder.GetFile())->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
+    {
+        SQLite::Database database(folder.GetFile(), SQLite::OPEN_READWRITE);
+        database.exec("DROP TABLE settings; PRAGMA user_version = 1");
+    }
+    const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetFile());
+    REQUIRE(store->Load().has_value());
+    CHECK(store->Load()->plans.size() == 1);
+    CHECK(store->Load()->tscState == ETscState::Auto);
+    CHECK(store->Append({{TscChanged{ETscState::Paused}}}).has_value());
+    CHECK(store->Load()->tscState == ETscState::Paused);
 }
 
 TEST_CASE("Store: a batch that fails in the middle leaves nothing behind and the store goes on")

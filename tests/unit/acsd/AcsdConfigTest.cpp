@@ -4,6 +4,9 @@
 #include "CertificateMaker.hpp"
 #include "TemporaryFolder.hpp"
 
+#include <chrono>
+#include <fstream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,6 +19,26 @@ namespace
 Acsd::AcsdConfig Read(const std::vector<std::string>& overrides)
 {
     return Acsd::ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", overrides);
+}
+
+/// The example site without these tables.
+Acsd::AcsdConfig ReadWithout(const std::set<std::string>& tables)
+{
+    const Testing::TemporaryFolder folder;
+    std::ifstream from(std::string(ACS_SITE) + "/acsd.toml");
+    const std::string file = (folder.GetPath() / "acsd.toml").string();
+    std::ofstream to(file);
+    bool bKept = true;
+    for (std::string line; std::getline(from, line);)
+    {
+        if (line.starts_with('['))
+        {
+            bKept = !tables.contains(line.substr(1, line.find(']') - 1));
+        }
+        to << (bKept ? line : "") << '\n';
+    }
+    to.close();
+    return Acsd::ReadAcsdConfig(file, {"site.map=" + std::string(ACS_SITE) + "/site.lif.json"});
 }
 
 } // namespace
@@ -87,4 +110,87 @@ TEST_CASE("mcs.headers go with the upgrade; what would break it is a mistake tha
     REQUIRE(own.size() == 1);
     CHECK(own[0].find("mcs.headers.Sec-WebSocket-Key: expected a header that") != std::string::npos);
     CHECK(Read({"mcs.headers.X-Number=1"}).mistakes.size() == 1);
+}
+
+TEST_CASE("The keys of the decision register have its defaults, in the example file and where they are left out")
+{
+    const Planning::EngineOptions defaults;
+    for (const Acsd::AcsdConfig& config :
+         {Read({}), ReadWithout({"plan", "cancel", "pause", "abort", "tsc", "reports", "history", "queue"})})
+    {
+        REQUIRE(config.mistakes == std::vector<std::string>{});
+        CHECK(config.engine.controls == defaults.controls);
+        CHECK(config.engine.controls.cancelUntil == Planning::ECancelWindow::FirstArrival);
+        CHECK(config.engine.controls.cancelTimeout == std::chrono::seconds(30));
+        CHECK(config.engine.controls.pauseTimeout == std::chrono::seconds(30));
+        CHECK_FALSE(config.engine.controls.bPausesAfterJob);
+        CHECK_FALSE(config.engine.controls.bAbortStopsJob);
+        CHECK_FALSE(config.engine.controls.bAbortFinishesPausedJob);
+        CHECK(config.engine.controls.bJobFailureFailsAbort);
+        CHECK_FALSE(config.engine.controls.bAbortReportsStep);
+        CHECK(config.engine.controls.bResultAfterRefusal);
+        CHECK(config.engine.maximumPlans == 100);
+        CHECK(config.engine.defaultPriority == 0);
+        CHECK_FALSE(config.engine.bLowerPriorityFirst);
+        CHECK(config.engine.queueAgeing == std::chrono::minutes(10));
+        CHECK_FALSE(config.engine.bFinishedIDsReused);
+        CHECK_FALSE(config.engine.bInitialPendingReported);
+        CHECK_FALSE(config.engine.bTscStartsPaused);
+        CHECK(config.engine.bTscPausedAcceptsPlans);
+        CHECK(config.engine.finishedPlansKept == 1'000);
+    }
+}
+
+TEST_CASE("The keys of the decision register are read")
+{
+    const Acsd::AcsdConfig config = Read(
+        {"cancel.until=first_job",
+         "cancel.confirm_timeout=5s",
+         "pause.mode=after_job",
+         "pause.confirm_timeout=6s",
+         "abort.running_job=stop",
+         "abort.paused_job=finish",
+         "abort.job_failure_final=Aborted",
+         "abort.report_step=true",
+         "mcs.result_after_fail_ack=false",
+         "queue.max_plans=7",
+         "queue.priority_order=lower_first",
+         "queue.default_priority=-3",
+         "queue.ageing=1m",
+         "plan.reuse_finished_id=true",
+         "tsc.initial=paused",
+         "tsc.paused_accepts_plans=false",
+         "reports.initial_pending=true",
+         "history.keep=9"});
+    REQUIRE(config.mistakes == std::vector<std::string>{});
+    Planning::ControlOptions controls;
+    controls.cancelUntil = Planning::ECancelWindow::FirstJob;
+    controls.cancelTimeout = std::chrono::seconds(5);
+    controls.pauseTimeout = std::chrono::seconds(6);
+    controls.bPausesAfterJob = true;
+    controls.bAbortStopsJob = true;
+    controls.bAbortFinishesPausedJob = true;
+    controls.bJobFailureFailsAbort = false;
+    controls.bAbortReportsStep = true;
+    controls.bResultAfterRefusal = false;
+    CHECK(config.engine.controls == controls);
+    CHECK(config.engine.maximumPlans == 7);
+    CHECK(config.engine.bLowerPriorityFirst);
+    CHECK(config.engine.defaultPriority == -3);
+    CHECK(config.engine.queueAgeing == std::chrono::minutes(1));
+    CHECK(config.engine.bFinishedIDsReused);
+    CHECK(config.engine.bTscStartsPaused);
+    CHECK_FALSE(config.engine.bTscPausedAcceptsPlans);
+    CHECK(config.engine.bInitialPendingReported);
+    CHECK(config.engine.finishedPlansKept == 9);
+    CHECK(Read({"cancel.until=dispatch"}).engine.controls.cancelUntil == Planning::ECancelWindow::Dispatch);
+}
+
+TEST_CASE("What of the decision register is not built is a mistake of the configuration, not silence")
+{
+    const auto mixed = Read({"plan.allow_mixed_robot_types=true"}).mistakes;
+    REQUIRE(mixed.size() == 1);
+    CHECK(mixed[0].find("plan.allow_mixed_robot_types: must be false") != std::string::npos);
+    CHECK(Read({"plan.duplicate=replace"}).mistakes.size() == 1);
+    CHECK(Read({"pause.mode=later"}).mistakes.size() == 1);
 }

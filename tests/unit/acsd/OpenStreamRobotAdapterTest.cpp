@@ -2,6 +2,7 @@
 
 #include "Catch.hpp"
 #include "ManualClock.hpp"
+#include <acs/vda5050/Vda5050Codec.hpp>
 
 #include <fmt/format.h>
 
@@ -36,6 +37,7 @@ struct ArmFixture
         {{"TrayLoad", {"", 11}}, {"CassetteLoad", {"pick", 0}}},
         outputs};
     Planning::AdapterActions actions;
+    std::uint32_t headerID = 0;
 
     void Tell(const OpenStream::ClientEvent& event)
     {
@@ -60,6 +62,38 @@ struct ArmFixture
         job.jobID = jobID;
         job.action = action;
         adapter.Handle(job, clock.GetNow(), actions);
+    }
+
+    /// The base shows a state.
+    void ShowBase(bool bPaused)
+    {
+        VDA5050::StateMessage state;
+        state.header = {++headerID, clock.GetNow().wall, "2.0.0", "ACS", "CR01"};
+        state.lastNodeID = "A";
+        state.bPaused = bPaused;
+        std::string payload;
+        VDA5050::Vda5050Codec().Encode(state, VDA5050::EVda5050Version::Version200, payload);
+        adapter.OnMqttMessage({"uagv/v2/ACS/CR01/state", payload, 0, false}, clock.GetNow(), actions);
+    }
+
+    /// Whether the robot is paused, as it was told last.
+    bool IsToldPaused()
+    {
+        const auto states = TakeEvents<Planning::StateChanged>();
+        return !states.empty() && states.back().bPaused;
+    }
+
+    /// A job whose program runs.
+    void StartRunning()
+    {
+        adapter.OnLinkUp(clock.GetNow(), actions);
+        BringUp();
+        ShowBase(false);
+        Command("J");
+        Settle(OpenStream::EControlOutcome::Accepted);
+        Settle(OpenStream::EControlOutcome::Accepted);
+        TellData("[6,5,0]");
+        static_cast<void>(TakeRequests());
     }
 
     /// Handshake, motor on, first counters.
@@ -110,6 +144,8 @@ struct ArmFixture
 
 const std::string SELECT = R"(CONTROL /project/context/tasks[0]/cur_prog_cnt {"pno":11,"sno":0,"fno":0,"ext_sel":0})";
 const std::string START = "CONTROL /project/robot/start {}";
+const std::string STOP = "CONTROL /project/robot/stop {}";
+const std::string RESET = "CONTROL /project/context/tasks[0]/reset {}";
 
 } // namespace
 
@@ -291,6 +327,135 @@ TEST_CASE("Answers that are no counters are passed over")
     }
     CHECK(arm.TakeEvents<Planning::JobStarted>().empty());
     CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
+}
+
+TEST_CASE("6.7 Pause stops the arm's program where it is; the robot is paused when base and arm stand")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
+    arm.ShowBase(true);
+    CHECK_FALSE(arm.IsToldPaused());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    CHECK(arm.IsToldPaused());
+
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+    arm.ShowBase(false);
+    CHECK(arm.IsToldPaused());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    CHECK_FALSE(arm.IsToldPaused());
+    arm.TellData("[6,6,0]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+}
+
+TEST_CASE("6.7 Pause without a job is the base's alone; a program that was just selected is started by Resume")
+{
+    ArmFixture arm;
+    arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
+    arm.BringUp();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests().empty());
+    arm.ShowBase(true);
+    CHECK(arm.IsToldPaused());
+    arm.Command("J");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    CHECK(arm.TakeRequests().empty());
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+}
+
+TEST_CASE("6.7 A program that is just being started is stopped once its start is answered")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    static_cast<void>(arm.TakeRequests());
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests().empty());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
+}
+
+TEST_CASE("6.7 A stop that the arm refuses leaves the robot not paused, and is not repeated without end")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    static_cast<void>(arm.TakeRequests());
+    arm.ShowBase(true);
+    arm.Settle(OpenStream::EControlOutcome::Refused, 403);
+    CHECK(arm.TakeRequests().empty());
+    CHECK_FALSE(arm.IsToldPaused());
+}
+
+TEST_CASE(
+    "6.8 A program whose going on got lost is started again after the reconnect; that it runs already is no failure")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    static_cast<void>(arm.TakeRequests());
+    arm.Tell(OpenStream::ClientLost{});
+    arm.Settle(OpenStream::EControlOutcome::Unknown);
+    arm.Tell(OpenStream::ClientReady{});
+    arm.Settle(OpenStream::EControlOutcome::Accepted); // motor_on
+    arm.TellData(R"({"val":0})");
+    arm.TellData("[6,5,0]");
+    CHECK(arm.TakeRequests().back() == START);
+    arm.Settle(OpenStream::EControlOutcome::Refused, 403);
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    arm.TellData("[6,6,0]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+}
+
+TEST_CASE("6.8 A program that the arm refuses to go on with fails its job")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    arm.Settle(OpenStream::EControlOutcome::Refused, 403);
+    CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+}
+
+TEST_CASE(
+    "D-16 A job that is given up while it is paused resets its program and is told as failed; a running one goes on")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests().empty());
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    static_cast<void>(arm.TakeRequests());
+    arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{RESET});
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+    CHECK(arm.TakeRequests().empty());
+}
+
+TEST_CASE("D-16 A job that was held before its program began is given up at once")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    arm.Command("J");
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    static_cast<void>(arm.TakeRequests());
+    arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+    CHECK(arm.TakeRequests().empty());
 }
 
 } // namespace ACS::Acsd::Test

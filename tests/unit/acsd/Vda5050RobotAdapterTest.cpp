@@ -428,4 +428,57 @@ TEST_CASE("A fatal error of the vehicle is heavy, a warning light, and an emerge
     CHECK(shown.errors[1].level == Planning::EAlarmLevel::Light);
 }
 
+TEST_CASE("6.7 Pause and Resume are the instant actions startPause and stopPause")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.Command(Planning::Pause{});
+    REQUIRE(vehicle.outputs.messages.size() == 1);
+    CHECK(vehicle.outputs.messages[0].topic.ends_with("/instantActions"));
+    CHECK(vehicle.outputs.messages[0].payload.find("\"startPause\"") != std::string::npos);
+    vehicle.outputs.messages.clear();
+    vehicle.Command(Planning::Resume{});
+    REQUIRE_FALSE(vehicle.outputs.messages.empty());
+    CHECK(vehicle.outputs.messages.back().payload.find("\"stopPause\"") != std::string::npos);
+}
+
+TEST_CASE("6.7, D-22 A vehicle is paused when it says so and the job's action does not go on")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.Command(MakeJob("CassetteLoad"));
+    const auto orders = vehicle.TakeOrders();
+    REQUIRE(orders.size() == 1);
+    vehicle.ShowOrder(orders[0], {});
+    vehicle.state.actionStates = {{"U1", "pick", "", VDA5050::EActionStatus::Running, ""}};
+    vehicle.state.bPaused = true;
+    vehicle.ShowState();
+    CHECK_FALSE(vehicle.TakeEvents<Planning::StateChanged>().back().bPaused);
+    vehicle.state.actionStates[0].actionStatus = VDA5050::EActionStatus::Paused;
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::StateChanged>().back().bPaused);
+    vehicle.state.bPaused = false;
+    vehicle.ShowState();
+    CHECK_FALSE(vehicle.TakeEvents<Planning::StateChanged>().back().bPaused);
+}
+
+TEST_CASE("6.7 Of a vehicle whose state lacks paused, the ends of startPause and stopPause say it")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.state.bPaused.reset();
+    vehicle.state.actionStates = {{"A1", "startPause", "", VDA5050::EActionStatus::Running, ""}};
+    vehicle.ShowState();
+    CHECK_FALSE(vehicle.TakeEvents<Planning::StateChanged>().back().bPaused);
+    vehicle.state.actionStates[0].actionStatus = VDA5050::EActionStatus::Finished;
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::StateChanged>().back().bPaused);
+    vehicle.state.actionStates.clear();
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::StateChanged>().back().bPaused);
+    vehicle.state.actionStates = {{"A2", "stopPause", "", VDA5050::EActionStatus::Finished, ""}};
+    vehicle.ShowState();
+    CHECK_FALSE(vehicle.TakeEvents<Planning::StateChanged>().back().bPaused);
+}
+
 } // namespace ACS::Acsd::Test

@@ -30,11 +30,15 @@ class FakeRobotAdapter final : public Planning::IRobotAdapter
     bool _bStopping = false;
     std::string _jobID;
     bool _bJobStarted = false;
+    bool _bPauseAsked = false;
 
 public:
     std::set<std::string> failingJobs;
     bool bRejectDrives = false;
     bool bIgnoresJobCancel = false; ///< As an arm, whose program is never broken off.
+    bool bIgnoresDriveCancel = false;
+    bool bIgnoresPause = false; ///< Neither stops nor goes on, as one that does not hear.
+    bool bFinishesJobs = false; ///< A job that runs is not paused: the robot stands when it is done.
     std::size_t extensions = 0;
     std::size_t drives = 0;
     std::size_t ranOverBase = 0; ///< Extensions that were needed and had not come when the base ended.
@@ -82,8 +86,17 @@ public:
                     }
                     Raise(Planning::JobFailed{job.jobID, "cancelled"}, out);
                     _jobID.clear();
+                    ShowPause(out);
                 },
-                [](const auto& /*other*/) {
+                [this, &out](const Planning::Pause&) {
+                    _bPauseAsked = !bIgnoresPause || _bPauseAsked;
+                    ShowPause(out);
+                },
+                [this, &out](const Planning::Resume&) {
+                    if (!bIgnoresPause && std::exchange(_bPauseAsked, false))
+                    {
+                        GoOnAfterPause(out);
+                    }
                 }},
             command);
     }
@@ -105,6 +118,12 @@ public:
         return std::nullopt;
     }
 
+    /// It was asked to pause, and neither drives nor works.
+    [[nodiscard]] bool IsPaused() const
+    {
+        return _bPauseAsked && !_bMoving && (_jobID.empty() || !bFinishesJobs);
+    }
+
 private:
     static void Raise(Planning::RobotEvent event, Planning::AdapterActions& out)
     {
@@ -118,7 +137,30 @@ private:
         state.batteryPercent = 80;
         state.lastNodeID = _nodeID;
         state.bDriving = _bMoving;
+        state.bPaused = IsPaused();
         Raise(std::move(state), out);
+    }
+
+    void ShowPause(Planning::AdapterActions& out) const
+    {
+        if (IsPaused())
+        {
+            out.emplace_back(Planning::CancelAdapterTimer{JOB_TIMER});
+            RaiseState(out);
+        }
+    }
+
+    void GoOnAfterPause(Planning::AdapterActions& out)
+    {
+        RaiseState(out);
+        if (!_jobID.empty())
+        {
+            StartTimer(JOB_TIMER, 500, out);
+        }
+        if (_bDriving && _bAccepted && !_bMoving)
+        {
+            GoOn(out);
+        }
     }
 
     void StartTimer(Planning::AdapterTimerID timer, std::uint64_t maximum, Planning::AdapterActions& out)
@@ -161,7 +203,7 @@ private:
 
     void Cancel(const Planning::CancelDrive& cancel, Planning::AdapterActions& out)
     {
-        if (!_bDriving || cancel.driveID != _drive.driveID)
+        if (!_bDriving || cancel.driveID != _drive.driveID || bIgnoresDriveCancel)
         {
             return;
         }
@@ -206,6 +248,7 @@ private:
         }
         else
         {
+            ShowPause(out);
             GoOn(out);
         }
     }
@@ -213,7 +256,7 @@ private:
     /// To the next node, where it is released.
     void GoOn(Planning::AdapterActions& out)
     {
-        if (_index + 1 < _drive.releasedCount)
+        if (_index + 1 < _drive.releasedCount && !_bPauseAsked)
         {
             _bMoving = true;
             RaiseState(out);
@@ -234,10 +277,13 @@ private:
         if (failingJobs.contains(jobID))
         {
             Raise(Planning::JobFailed{jobID, "the gripper is empty"}, out);
-            return;
         }
-        doneJobs.push_back(jobID);
-        Raise(Planning::JobFinished{jobID}, out);
+        else
+        {
+            doneJobs.push_back(jobID);
+            Raise(Planning::JobFinished{jobID}, out);
+        }
+        ShowPause(out);
     }
 };
 

@@ -364,9 +364,9 @@ TEST_CASE("6.5 to 6.8 What cannot be done is answered by a result report that sa
     CHECK(world.GetReportsOf("P9") == Lines{"AbortResult Failed"});
 
     world.Submit(MakeLogisticsPlan("P1"));
-    world.Control(EPlanControl::Pause, "P1", 2);
+    world.Control(EPlanControl::Resume, "P1", 2);
     CHECK(world.replies.at(2).bAccepted);
-    CHECK(world.GetReportsOf("P1") == Lines{"PauseResult Failed"});
+    CHECK(world.GetReportsOf("P1") == Lines{"ResumeResult Failed"});
     REQUIRE(world.TryRun());
     world.Control(EPlanControl::Cancel, "P1", 3);
     CHECK(world.replies.at(3).bAccepted);

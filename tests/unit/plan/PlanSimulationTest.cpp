@@ -78,7 +78,8 @@ TEST_CASE("Random plans on a crowded loop all complete and no node ever has two 
     }
 }
 
-TEST_CASE("Random cancels, aborts, refused drives and failing jobs leave every plan with one end and no node with two")
+TEST_CASE(
+    "Random controls, refused drives and failing jobs leave every plan with one end, every control with one result")
 {
     for (std::uint64_t seed = 1; seed <= 100; ++seed)
     {
@@ -86,6 +87,7 @@ TEST_CASE("Random cancels, aborts, refused drives and failing jobs leave every p
         PlanWorld world(seed, true);
         world.Connect();
         constexpr std::size_t PLANS = 10;
+        std::size_t controls = 0;
         for (std::size_t number = 1; number <= PLANS; ++number)
         {
             const std::string planID = fmt::format("P{}", number);
@@ -98,14 +100,26 @@ TEST_CASE("Random cancels, aborts, refused drives and failing jobs leave every p
             world.Submit(MakeRandomPlan(world, number));
             std::uint64_t left = world.GetRandom(40);
             static_cast<void>(world.TryRun([&left] { return left-- == 0; }));
-            if (world.GetRandom(2) == 0)
+            for (std::uint64_t count = world.GetRandom(3); count > 0; --count)
             {
-                const auto control = world.GetRandom(2) == 0 ? EPlanControl::Cancel : EPlanControl::Abort;
+                const auto control = static_cast<EPlanControl>(world.GetRandom(4));
                 world.Control(control, fmt::format("P{}", 1 + world.GetRandom(number)));
+                ++controls;
             }
+            world.GetRobot("CR02").bFinishesJobs = world.GetRandom(2) == 0;
         }
         world.GetRobot("LR01").bRejectDrives = false;
         REQUIRE(world.TryRun());
+        for (const PlanSummary& paused : world.engine->GetActivePlans())
+        {
+            world.Control(EPlanControl::Resume, paused.planID);
+            ++controls;
+        }
+        REQUIRE(world.TryRun());
+        const auto results = std::ranges::count_if(world.reports, [](const OutboxEntry& entry) {
+            return std::holds_alternative<ControlResultReport>(entry.report);
+        });
+        REQUIRE(static_cast<std::size_t>(results) == controls);
         REQUIRE(world.violations == std::vector<std::string>{});
         for (std::size_t number = 1; number <= PLANS; ++number)
         {

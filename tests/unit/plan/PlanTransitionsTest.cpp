@@ -27,6 +27,11 @@ TEST_CASE("7 Plans, steps and jobs change as the section draws it and not otherw
     CHECK(CanChange(EJobState::Instructed, EJobState::InProgress));
     CHECK_FALSE(CanChange(EJobState::Instructed, EJobState::Completed));
     CHECK_FALSE(CanChange(EJobState::Pending, EJobState::Failed));
+    CHECK(CanChange(ETscState::Auto, ETscState::Pausing));
+    CHECK(CanChange(ETscState::Pausing, ETscState::Paused));
+    CHECK(CanChange(ETscState::Paused, ETscState::Auto));
+    CHECK_FALSE(CanChange(ETscState::Auto, ETscState::Paused));
+    CHECK_FALSE(CanChange(ETscState::Paused, ETscState::Pausing));
 }
 
 TEST_CASE("3 States are spelt as the document spells them")

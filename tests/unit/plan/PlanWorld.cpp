@@ -255,12 +255,31 @@ void PlanWorld::Control(EPlanControl control, const std::string& planID, ReplyTo
     Execute(std::move(out));
 }
 
+void PlanWorld::Advance(std::chrono::milliseconds time)
+{
+    _clock.Advance(time);
+}
+
+void PlanWorld::SwitchTsc(bool bPause)
+{
+    EngineActions out;
+    engine->Handle(ControlTsc{bPause, 0}, GetNow(), out);
+    Execute(std::move(out));
+}
+
 void PlanWorld::Raise(const std::string& robotID, const RobotEvent& event)
 {
     EngineActions out;
     engine->Handle(robotID, event, GetNow(), out);
     Execute(std::move(out));
     CheckOccupancy();
+}
+
+void PlanWorld::Operate(const std::string& robotID, const RobotCommand& command)
+{
+    AdapterActions out;
+    GetRobot(robotID).Handle(command, GetNow(), out);
+    ExecuteRobot(robotID, out);
 }
 
 void PlanWorld::Restart(EngineOptions options, SiteMap site)
@@ -371,17 +390,7 @@ void PlanWorld::Push(Entry entry, Core::Duration delay)
 void PlanWorld::Execute(EngineActions actions)
 {
     ExecuteAll(std::move(actions));
-    if (std::exchange(_bExecuting, true))
-    {
-        return;
-    }
-    while (!_delayed.empty())
-    {
-        const auto [robotID, event] = std::move(_delayed.front());
-        _delayed.pop_front();
-        Raise(robotID, event);
-    }
-    _bExecuting = false;
+    RaiseDelayed();
 }
 
 void PlanWorld::ExecuteAll(EngineActions actions)
@@ -444,20 +453,16 @@ void PlanWorld::ExecuteAction(const EngineAction& action, std::vector<std::uint6
             },
             [this](const CommandRobot& typed) {
                 trace.push_back(fmt::format("command {} {}", typed.robotID, DescribeCommand(typed.command)));
+                if (const auto* driveOrNull = std::get_if<Drive>(&typed.command); driveOrNull != nullptr)
+                {
+                    driveIDs[typed.robotID] = driveOrNull->driveID;
+                }
                 AdapterActions out;
                 GetRobot(typed.robotID).Handle(typed.command, GetNow(), out);
                 // What a robot says to a command comes later, never inside the command.
-                for (const AdapterAction& robotAction : out)
-                {
-                    if (const auto* raiseOrNull = std::get_if<RaiseEvent>(&robotAction); raiseOrNull != nullptr)
-                    {
-                        _delayed.emplace_back(typed.robotID, raiseOrNull->event);
-                    }
-                }
-                std::erase_if(out, [](const AdapterAction& robotAction) {
-                    return std::holds_alternative<RaiseEvent>(robotAction);
-                });
+                const bool bWasExecuting = std::exchange(_bExecuting, true);
                 ExecuteRobot(typed.robotID, out);
+                _bExecuting = bWasExecuting;
             },
             [this](const RobotStatusChanged& typed) {
                 trace.push_back(fmt::format(
@@ -466,6 +471,7 @@ void PlanWorld::ExecuteAction(const EngineAction& action, std::vector<std::uint6
                     GetText(typed.status.status),
                     typed.status.position));
             },
+            [this](const TscStateChanged& typed) { trace.push_back(fmt::format("tsc {}", GetText(typed.state))); },
             [this](const StartEngineTimer& typed) {
                 Push({{}, 0, {}, typed.timer, 0, 0}, typed.delay);
             },
@@ -481,7 +487,7 @@ void PlanWorld::ExecuteRobot(const std::string& robotID, const AdapterActions& a
     {
         std::visit(
             Core::Overloaded{
-                [this, &robotID](const RaiseEvent& typed) { Raise(robotID, typed.event); },
+                [this, &robotID](const RaiseEvent& typed) { _delayed.emplace_back(robotID, typed.event); },
                 [this, &robotID](const StartAdapterTimer& typed) {
                     Push({{}, 0, robotID, {}, typed.timer, 0}, typed.delay);
                 },
@@ -490,6 +496,23 @@ void PlanWorld::ExecuteRobot(const std::string& robotID, const AdapterActions& a
                 }},
             action);
     }
+    RaiseDelayed();
+}
+
+/// What robots told, in its order: nothing overtakes what was told before it.
+void PlanWorld::RaiseDelayed()
+{
+    if (std::exchange(_bExecuting, true))
+    {
+        return;
+    }
+    while (!_delayed.empty())
+    {
+        const auto [robotID, event] = std::move(_delayed.front());
+        _delayed.pop_front();
+        Raise(robotID, event);
+    }
+    _bExecuting = false;
 }
 
 /// Never two robots on one node.

@@ -61,6 +61,7 @@ public:
     std::vector<Planning::OutboxEntry> reports;
     std::map<Planning::ReplyToken, Planning::ReplyCommand> replies;
     std::vector<std::string> violations;
+    std::map<std::string, std::string> driveIDs; ///< The latest of each robot.
     bool bAcknowledges = true;
 
     explicit PlanWorld(std::uint64_t seed = 1, bool bFourRobots = false);
@@ -69,7 +70,11 @@ public:
     void Connect();
     void Submit(Planning::Plan plan, Planning::ReplyToken token = 0);
     void Control(Planning::EPlanControl control, const std::string& planID, Planning::ReplyToken token = 0);
+    void Advance(std::chrono::milliseconds time);
+    void SwitchTsc(bool bPause);
     void Raise(const std::string& robotID, const Planning::RobotEvent& event);
+    /// As somebody at the robot would: past the engine.
+    void Operate(const std::string& robotID, const Planning::RobotCommand& command);
     /// Until nothing is left to happen, or the predicate holds after an event. False: more than a day went by.
     bool TryRun(const std::function<bool()>& isReached = {});
     /// A new engine on what the store holds; the robots stay where they are.
@@ -87,6 +92,7 @@ private:
     void Execute(Planning::EngineActions actions);
     void ExecuteAll(Planning::EngineActions actions);
     void ExecuteAction(const Planning::EngineAction& action, std::vector<std::uint64_t>& acknowledged);
+    void RaiseDelayed();
     void ExecuteRobot(const std::string& robotID, const Planning::AdapterActions& actions);
     void CheckOccupancy();
     void Push(Entry entry, Core::Duration delay);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/core/Now.hpp>
+#include <acs/plan/ETscState.hpp>
 #include <acs/plan/IPlanStore.hpp>
 #include <acs/plan/PlanCommand.hpp>
 #include <acs/plan/Report.hpp>
@@ -22,7 +23,7 @@ enum class EEngineTimer : std::uint8_t
     StoreRetry,     ///< Try again to store what could not be stored.
     Acknowledged,   ///< Store which reports were acknowledged.
     DriveExtension, ///< Of a robot: its drive has not been confirmed, release the next nodes anyway.
-    ControlConfirm, ///< Of a robot: it has not confirmed that it stopped.
+    ControlConfirm, ///< Of a robot: it has not confirmed that it stopped, or goes on.
     JobTimeout,     ///< Of a robot: its job takes too long.
     HomeRetry,      ///< Of a robot: try again to send it home.
 };
@@ -50,7 +51,7 @@ struct StorePlans
     bool operator==(const StorePlans&) const = default;
 };
 
-/// The answer to SubmitPlan or ControlPlan: the Ack.
+/// The answer to SubmitPlan, ControlPlan or ControlTsc: the Ack.
 struct ReplyCommand
 {
     ReplyToken replyToken = 0;
@@ -85,6 +86,14 @@ struct RobotStatusChanged
     bool operator==(const RobotStatusChanged&) const = default;
 };
 
+/// TscStateUpdate. Only the latest counts.
+struct TscStateChanged
+{
+    ETscState state = ETscState::Auto;
+
+    bool operator==(const TscStateChanged&) const = default;
+};
+
 /// Call PlanEngine::OnTimer after the delay (zero: as soon as possible, but not inside this call). A running timer of
 /// this name starts again.
 struct StartEngineTimer
@@ -108,6 +117,7 @@ using EngineAction = std::variant<
     SendReport,
     CommandRobot,
     RobotStatusChanged,
+    TscStateChanged,
     StartEngineTimer,
     CancelEngineTimer>;
 using EngineActions = std::vector<EngineAction>;

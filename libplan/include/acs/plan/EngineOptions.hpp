@@ -69,6 +69,30 @@ struct RobotOptions
     std::vector<std::string> rejectedActions; ///< Actions of its type that it cannot do (IRobotAdapter).
 };
 
+/// Until when CancelPlan ends a plan (register D-14).
+enum class ECancelWindow : std::uint8_t
+{
+    Dispatch,     ///< While no robot has it.
+    FirstArrival, ///< Until its robot has reached its first place.
+    FirstJob,     ///< Until its first job is begun.
+};
+
+/// How CancelPlan, AbortPlan, PausePlan and ResumePlan are carried out (sections 6.5 to 6.8, register D-14 to D-22).
+struct ControlOptions
+{
+    ECancelWindow cancelUntil = ECancelWindow::FirstArrival;
+    std::chrono::milliseconds cancelTimeout{30'000}; ///< For a robot to confirm that its drive is at an end.
+    std::chrono::milliseconds pauseTimeout{30'000};  ///< For a robot to confirm that it stands, or goes on.
+    bool bPausesAfterJob = false;         ///< A running job comes to its end before the pause; a drive never does.
+    bool bAbortStopsJob = false;          ///< Abort drops a running job (D-15).
+    bool bAbortFinishesPausedJob = false; ///< Abort has a paused job done first (D-16).
+    bool bJobFailureFailsAbort = true;    ///< A job that fails during an abort fails the plan (D-17).
+    bool bAbortReportsStep = false;       ///< A step that ends with the last job of an aborted plan is told (D-18).
+    bool bResultAfterRefusal = true;      ///< Also of plans that nobody knows (D-19).
+
+    bool operator==(const ControlOptions&) const = default;
+};
+
 /// Everything that the engine is told at its start.
 struct EngineOptions
 {
@@ -78,13 +102,20 @@ struct EngineOptions
 
     std::size_t maximumPlans = 100; ///< Plans that are not finished; one more is refused.
     std::int32_t defaultPriority = 0;
-    std::size_t baseLength = 3;                       ///< Nodes that a robot is released ahead; at least 1.
-    std::chrono::milliseconds extensionDelay{2'000};  ///< A drive that is not confirmed is extended after this.
-    std::chrono::milliseconds controlTimeout{30'000}; ///< For a robot to confirm that it stopped.
-    std::chrono::milliseconds homeRetry{5'000};       ///< Between attempts of a robot that refuses to drive home.
+    bool bLowerPriorityFirst = false;
+    /// Waiting so long is worth as much as a priority by one; 0: a plan of a lower priority waits for all of a higher one.
+    std::chrono::milliseconds queueAgeing{600'000};
+    bool bFinishedIDsReused = false; ///< A planID may come again once its plan is finished, which is forgotten then.
+    bool bInitialPendingReported = false; ///< PlanReport(Pending) of each plan that was accepted (D-24).
+    bool bTscStartsPaused = false;        ///< Every start begins with the TSC paused.
+    bool bTscPausedAcceptsPlans = true;   ///< Plans that come while the TSC is not Auto wait; else they are refused.
+    std::size_t baseLength = 3;           ///< Nodes that a robot is released ahead; at least 1.
+    ControlOptions controls;
+    std::chrono::milliseconds extensionDelay{2'000}; ///< A drive that is not confirmed is extended after this.
+    std::chrono::milliseconds homeRetry{5'000};      ///< Between attempts of a robot that refuses to drive home.
     std::chrono::milliseconds storeRetry{1'000};
     std::chrono::milliseconds acknowledgedDelay{200}; ///< Acknowledgements that are stored together.
-    std::size_t finishedPlansKept = 1'000;            ///< In memory, for history and against a planID that comes twice.
+    std::size_t finishedPlansKept = 1'000;            ///< In memory and in the store: history, and known planIDs.
 };
 
 /// Every mistake of the options at once, each with a path ("robots.LR01.home"); empty where there is none. The engine

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/core/Now.hpp>
+#include <acs/plan/ETscState.hpp>
 #include <acs/plan/PlanRecord.hpp>
 #include <acs/plan/Report.hpp>
 #include <acs/plan/RobotStatus.hpp>
@@ -32,6 +33,7 @@ public:
         Core::Now now) = 0;
     virtual void OnAlarmChanged(const Alarm& alarm, bool bSet, Core::Now now) = 0;
     virtual void OnRobotStatusChanged(const RobotStatus& status, Core::Now now) = 0;
+    virtual void OnTscChanged(ETscState state, ETscState from, Core::Now now) = 0;
     /// Something that was tolerated and is worth a line.
     virtual void OnNote(std::string_view robotID, std::string_view text, Core::Now now) = 0;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/core/Result.hpp>
+#include <acs/plan/ETscState.hpp>
 #include <acs/plan/PlanRecord.hpp>
 #include <acs/plan/Report.hpp>
 
@@ -28,6 +29,14 @@ struct PlanProgressed
     PlanProgress progress;
 
     bool operator==(const PlanProgressed&) const = default;
+};
+
+/// A finished plan is forgotten.
+struct PlanRemoved
+{
+    std::uint64_t sequence = 0; ///< PlanRecord::sequence.
+
+    bool operator==(const PlanRemoved&) const = default;
 };
 
 /// A report waits for its acknowledgement.
@@ -69,8 +78,23 @@ struct AlarmCleared
     bool operator==(const AlarmCleared&) const = default;
 };
 
-using StoreChange =
-    std::variant<PlanAdded, PlanProgressed, ReportAdded, ReportRemoved, CarriersChanged, AlarmSet, AlarmCleared>;
+struct TscChanged
+{
+    ETscState state = ETscState::Auto;
+
+    bool operator==(const TscChanged&) const = default;
+};
+
+using StoreChange = std::variant<
+    PlanAdded,
+    PlanProgressed,
+    PlanRemoved,
+    ReportAdded,
+    ReportRemoved,
+    CarriersChanged,
+    AlarmSet,
+    AlarmCleared,
+    TscChanged>;
 
 /// Changes that are stored together or not at all.
 struct StoreBatch
@@ -88,6 +112,7 @@ struct StoredState
     std::uint64_t lastReportSequence = 0; ///< The highest ever given, acknowledged reports included.
     std::vector<CarriersChanged> carriers;
     std::vector<Alarm> alarms;
+    ETscState tscState = ETscState::Auto; ///< Auto where none was ever stored.
 
     bool operator==(const StoredState&) const = default;
 };

@@ -42,6 +42,16 @@ struct MessageAcknowledged
     bool operator==(const MessageAcknowledged&) const = default;
 };
 
-using PlanCommand = std::variant<SubmitPlan, ControlPlan, MessageAcknowledged>;
+/// Of the operator: begin nothing any more (Pausing, then Paused), or be Auto again. Changes nothing where it is so
+/// already. Answered by one ReplyCommand.
+struct ControlTsc
+{
+    bool bPause = false;
+    ReplyToken replyToken = 0;
+
+    bool operator==(const ControlTsc&) const = default;
+};
+
+using PlanCommand = std::variant<SubmitPlan, ControlPlan, MessageAcknowledged, ControlTsc>;
 
 } // namespace ACS::Planning

@@ -51,9 +51,10 @@ public:
     /// The observer must outlive the engine. At most one; call before anything else.
     void SetObserver(IPlanObserver& observer);
 
-    /// Once, before any command or event: what the store held. Pending plans go on. Plans that were being worked on are
-    /// Failed, with a heavy alarm each, because nobody saw what became of the running job; the alarm is cleared when the
-    /// robot has completed a plan. Unacknowledged reports are in GetUnacknowledged.
+    /// Once, before any command or event: what the store held. Pending plans go on, those held in the queue stay held, and
+    /// a TSC that was not Auto is Paused. Plans that were being worked on are Failed (Aborted, where they were paused), with
+    /// a heavy alarm each, because nobody saw what became of the running job; the alarm is cleared when the robot has
+    /// completed a plan. Unacknowledged reports are in GetUnacknowledged.
     void Restore(StoredState state, Core::Now now, EngineActions& out);
 
     void Handle(const PlanCommand& command, Core::Now now, EngineActions& out);
@@ -93,6 +94,8 @@ public:
     [[nodiscard]] std::optional<PlanSummary> GetPlanOrNull(std::string_view planID) const;
 
     [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;
+
+    [[nodiscard]] ETscState GetTscState() const noexcept;
 };
 
 } // namespace ACS::Planning

@@ -3,6 +3,7 @@
 #include <acs/plan/EJobState.hpp>
 #include <acs/plan/EPlanState.hpp>
 #include <acs/plan/EStepState.hpp>
+#include <acs/plan/ETscState.hpp>
 
 #include <algorithm>
 #include <array>
@@ -51,6 +52,13 @@ inline constexpr std::array JOB_TRANSITIONS{
     Transition<EJobState>{EJobState::InProgress, EJobState::Failed},
 };
 
+inline constexpr std::array TSC_TRANSITIONS{
+    Transition<ETscState>{ETscState::Auto, ETscState::Pausing},
+    Transition<ETscState>{ETscState::Pausing, ETscState::Paused},
+    Transition<ETscState>{ETscState::Pausing, ETscState::Auto},
+    Transition<ETscState>{ETscState::Paused, ETscState::Auto},
+};
+
 template <typename TState>
 [[nodiscard]] constexpr bool ContainsTransition(
     std::span<const Transition<TState>> transitions,
@@ -75,6 +83,11 @@ template <typename TState>
 [[nodiscard]] constexpr bool CanChange(EJobState from, EJobState to) noexcept
 {
     return ContainsTransition<EJobState>(JOB_TRANSITIONS, from, to);
+}
+
+[[nodiscard]] constexpr bool CanChange(ETscState from, ETscState to) noexcept
+{
+    return ContainsTransition<ETscState>(TSC_TRANSITIONS, from, to);
 }
 
 /// Whether no transition leaves the state: a plan in it is never reported again.

@@ -1,0 +1,458 @@
+#include "PlanEngine.Impl.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+void PlanEngine::Impl::TellControlResult(
+    EPlanControl control,
+    const std::string& planID,
+    bool bSucceeded,
+    std::string message)
+{
+    TellReport(ControlResultReport{control, planID, bSucceeded, std::move(message)});
+}
+
+/// A control is open from here on until Answer.
+void PlanEngine::Impl::Ask(ActivePlan& plan, EPlanControl control)
+{
+    plan.control = control;
+    plan.controlCount = 1;
+}
+
+/// The outcome of the control that is open, if one is: once for each time that it was asked for.
+void PlanEngine::Impl::Answer(ActivePlan& plan, bool bSucceeded, const std::string& message)
+{
+    const std::optional<EPlanControl> control = std::exchange(plan.control, std::nullopt);
+    if (!control.has_value())
+    {
+        return;
+    }
+    if (plan.robot.has_value())
+    {
+        StopConfirming(_robots[*plan.robot]);
+    }
+    for (std::size_t count = std::exchange(plan.controlCount, 0); count > 0; --count)
+    {
+        TellControlResult(*control, plan.record.plan.planID, bSucceeded, message);
+    }
+}
+
+/// Register D-19, D-20.
+void PlanEngine::Impl::RefuseControl(const ControlPlan& command)
+{
+    const auto finished = _finished.find(command.planID);
+    const bool bKnown = finished != _finished.end();
+    const std::string reason = bKnown ? fmt::format("The plan is already {}.", GetText(finished->second.progress.state))
+                                      : fmt::format("There is no plan {}.", command.planID);
+    _actions.emplace_back(ReplyCommand{command.replyToken, bKnown, bKnown ? "Received." : reason});
+    if (bKnown || _options.controls.bResultAfterRefusal)
+    {
+        TellControlResult(command.control, command.planID, false, reason);
+    }
+}
+
+void PlanEngine::Impl::Control(const ControlPlan& command)
+{
+    const auto active = _plans.find(command.planID);
+    if (active == _plans.end())
+    {
+        RefuseControl(command);
+        return;
+    }
+    _actions.emplace_back(ReplyCommand{command.replyToken, true, "Received."});
+    ActivePlan& plan = *active->second;
+    if (plan.control == command.control)
+    {
+        ++plan.controlCount;
+        return;
+    }
+    const bool bEnding = plan.control == EPlanControl::Abort
+        || (plan.control == EPlanControl::Cancel && command.control != EPlanControl::Abort);
+    if (bEnding)
+    {
+        TellControlResult(
+            command.control,
+            command.planID,
+            false,
+            fmt::format("{}Plan of this plan is under way.", GetText(*plan.control)));
+        return;
+    }
+    switch (command.control)
+    {
+        case EPlanControl::Cancel:
+            Cancel(plan);
+            break;
+        case EPlanControl::Abort:
+            Abort(plan);
+            break;
+        case EPlanControl::Pause:
+            Pause(plan);
+            break;
+        case EPlanControl::Resume:
+            Resume(plan);
+            break;
+        default:
+            assert(false && "a control has no case");
+            break;
+    }
+}
+
+/// Section 6.5, register D-14.
+bool PlanEngine::Impl::IsCancellable(const ActivePlan& plan) const
+{
+    switch (_options.controls.cancelUntil)
+    {
+        case ECancelWindow::Dispatch:
+            return !plan.robot.has_value();
+        case ECancelWindow::FirstJob:
+            return !plan.bJobBegun;
+        case ECancelWindow::FirstArrival:
+        default:
+            return !plan.bArrived;
+    }
+}
+
+void PlanEngine::Impl::Cancel(ActivePlan& plan)
+{
+    if (!IsCancellable(plan))
+    {
+        const char* reason = _options.controls.cancelUntil == ECancelWindow::Dispatch
+            ? "A robot has the plan."
+            : (plan.bJobBegun ? "The work has begun." : "The robot has arrived.");
+        TellControlResult(EPlanControl::Cancel, plan.record.plan.planID, false, reason);
+        return;
+    }
+    Answer(plan, false, "CancelPlan came in between.");
+    StopDrive(plan, EPlanControl::Cancel);
+}
+
+/// Sections 6.6 and 6.14, register D-15, D-16.
+void PlanEngine::Impl::Abort(ActivePlan& plan)
+{
+    Answer(plan, false, "AbortPlan came in between.");
+    const bool bJobRuns = plan.robot.has_value() && _robots[*plan.robot].activity == EActivity::Works;
+    if (!bJobRuns)
+    {
+        StopDrive(plan, EPlanControl::Abort);
+        return;
+    }
+    Robot& robot = _robots[*plan.robot];
+    Ask(plan, EPlanControl::Abort);
+    const bool bPaused = plan.record.progress.state == EPlanState::Paused;
+    const bool bFinishes = bPaused ? _options.controls.bAbortFinishesPausedJob : !_options.controls.bAbortStopsJob;
+    if (!bFinishes)
+    {
+        DropJob(robot);
+        EndByControl(plan, EPlanControl::Abort);
+        return;
+    }
+    ReleasePause(robot);
+    if (plan.jobTimeLeft.has_value())
+    {
+        StartJobTimer(robot, *std::exchange(plan.jobTimeLeft, std::nullopt));
+    }
+}
+
+/// The robot is told to give its job up, and is not used before it has told the job's end.
+void PlanEngine::Impl::DropJob(Robot& robot)
+{
+    const ActivePlan& plan = *robot.planOrNull;
+    robot.overdueJobID = GetJobID(plan);
+    Command(robot, CancelJob{*robot.overdueJobID});
+    const ActionRule& rule = *plan.resolved.steps[plan.step].rule;
+    const bool bMovesMaterial = rule.from != EPlaceRule::None || rule.to != EPlaceRule::None;
+    if (!bMovesMaterial || !HasJob(plan)
+        || plan.record.progress.steps[plan.step].jobs[plan.job] != EJobState::InProgress)
+    {
+        return;
+    }
+    Alarm alarm;
+    alarm.robotID = GetRobotID(robot);
+    alarm.errorCode = ALARM_DROPPED;
+    alarm.level = EAlarmLevel::Heavy;
+    alarm.message = "A job that had begun was given up: look whether the robot still holds what it moved.";
+    alarm.planID = plan.record.plan.planID;
+    alarm.stepNo = plan.record.plan.steps[plan.step].stepNo;
+    alarm.jobID = GetJobID(plan);
+    RaiseAlarm(std::move(alarm));
+}
+
+/// Ends the plan at once, or, where its robot is under way to the step's place, when the robot stands.
+void PlanEngine::Impl::StopDrive(ActivePlan& plan, EPlanControl control)
+{
+    Ask(plan, control);
+    Robot* robotOrNull = plan.robot.has_value() ? &_robots[*plan.robot] : nullptr;
+    if (robotOrNull == nullptr || !robotOrNull->drive.has_value() || robotOrNull->drive->goal == EGoal::Home)
+    {
+        EndByControl(plan, control);
+        return;
+    }
+    if (!std::exchange(robotOrNull->drive->bCancelling, true))
+    {
+        Command(*robotOrNull, CancelDrive{robotOrNull->drive->driveID});
+    }
+    // Between two nodes a vehicle may have to go on to the next one before it can give its drive up.
+    ReleasePause(*robotOrNull);
+    StartConfirming(*robotOrNull, _options.controls.cancelTimeout);
+}
+
+void PlanEngine::Impl::EndByControl(ActivePlan& plan, EPlanControl control)
+{
+    EndPlan(plan, control == EPlanControl::Cancel ? EPlanState::Cancelled : EPlanState::Aborted, {});
+}
+
+/// Section 6.7, register D-21, D-22. A plan without a robot is held in the queue; a robot that stands is just held; one
+/// that drives or works must show that it has stopped.
+void PlanEngine::Impl::Pause(ActivePlan& plan)
+{
+    const bool bPaused = plan.record.progress.state == EPlanState::Paused;
+    if (bPaused && !plan.control.has_value())
+    {
+        TellControlResult(EPlanControl::Pause, plan.record.plan.planID, true, "The plan is paused already.");
+        return;
+    }
+    Answer(plan, false, "PausePlan came in between.");
+    Ask(plan, EPlanControl::Pause);
+    if (!plan.robot.has_value())
+    {
+        _pending.erase(plan.key);
+        ChangePlan(plan, EPlanState::Paused, {});
+        Answer(plan, true, "The plan is held in the queue.");
+        return;
+    }
+    Robot& robot = _robots[*plan.robot];
+    const bool bWorks = robot.activity == EActivity::Works;
+    if (bWorks && _options.controls.bPausesAfterJob)
+    {
+        return; // until the job ends
+    }
+    if (!bWorks && !robot.drive.has_value())
+    {
+        ConfirmPause(robot);
+        return;
+    }
+    robot.bPauseWanted = true;
+    robot.bResumeOwed = false;
+    Command(robot, Planning::Pause{});
+    StartConfirming(robot, _options.controls.pauseTimeout);
+    FollowPause(robot, false, false);
+}
+
+/// Section 6.8.
+void PlanEngine::Impl::Resume(ActivePlan& plan)
+{
+    const std::string& planID = plan.record.plan.planID;
+    if (plan.record.progress.state != EPlanState::Paused)
+    {
+        TellControlResult(EPlanControl::Resume, planID, false, "The plan is not paused.");
+        return;
+    }
+    if (_tscState != ETscState::Auto && plan.robot.has_value())
+    {
+        TellControlResult(
+            EPlanControl::Resume,
+            planID,
+            false,
+            fmt::format("The TSC is {}: nothing is begun before it is Auto.", GetText(_tscState)));
+        return;
+    }
+    Answer(plan, false, "ResumePlan came in between.");
+    Ask(plan, EPlanControl::Resume);
+    if (!plan.robot.has_value())
+    {
+        LeavePause(plan);
+        _pending.emplace(plan.key, &plan);
+        Answer(plan, true, "The plan waits in the queue again.");
+        _bDispatchNeeded = true;
+        return;
+    }
+    Robot& robot = _robots[*plan.robot];
+    const bool bShowsPaused = robot.state.has_value() && robot.state->bPaused;
+    if (!robot.bPauseWanted && !bShowsPaused)
+    {
+        ConfirmResume(robot);
+        return;
+    }
+    robot.bPauseWanted = true;
+    ReleasePause(robot);
+    StartConfirming(robot, _options.controls.pauseTimeout);
+}
+
+/// What a robot's state says about a pause that was asked for, or that is to last.
+void PlanEngine::Impl::FollowPause(Robot& robot, bool bFirst, bool bWasPaused)
+{
+    if (!robot.state.has_value())
+    {
+        return;
+    }
+    const StateChanged& state = *robot.state;
+    robot.bResumeOwed = robot.bResumeOwed && state.bPaused;
+    if (bFirst && robot.bResumeOwed)
+    {
+        Command(robot, Planning::Resume{});
+    }
+    if (robot.bPauseWanted && !state.bPaused && (bFirst || bWasPaused))
+    {
+        Note(robot, "is told once more to pause");
+        Command(robot, Planning::Pause{});
+    }
+    const std::optional<EPlanControl> control = robot.planOrNull == nullptr ? std::nullopt : robot.planOrNull->control;
+    if (control == EPlanControl::Pause && robot.bPauseWanted && state.bPaused && !state.bDriving)
+    {
+        ConfirmPause(robot);
+    }
+    else if (control == EPlanControl::Resume && !state.bPaused)
+    {
+        ConfirmResume(robot);
+    }
+}
+
+/// The robot stands: its status, the plan's and the result leave in this order.
+void PlanEngine::Impl::ConfirmPause(Robot& robot)
+{
+    ActivePlan& plan = *robot.planOrNull;
+    if (plan.jobDeadline.has_value())
+    {
+        const Core::Duration least = std::chrono::milliseconds(1);
+        plan.jobTimeLeft = std::max(least, *plan.jobDeadline - _now.steady);
+        StopJobTimer(robot);
+    }
+    TellStatus(robot, ERobotStatus::Stopped);
+    robot.bTouched = true;
+    if (plan.record.progress.state != EPlanState::Paused)
+    {
+        ChangePlan(plan, EPlanState::Paused, {});
+    }
+    Answer(plan, true, "The plan is paused.");
+}
+
+/// The robot may go on: its status, the plan's and the result leave in this order.
+void PlanEngine::Impl::ConfirmResume(Robot& robot)
+{
+    ActivePlan& plan = *robot.planOrNull;
+    TellStatus(robot, DeriveStatus(robot));
+    LeavePause(plan);
+    Answer(plan, true, "The plan goes on.");
+    GoOn(robot);
+}
+
+void PlanEngine::Impl::LeavePause(ActivePlan& plan)
+{
+    ChangePlan(plan, plan.robot.has_value() ? EPlanState::InProgress : EPlanState::Pending, {});
+}
+
+/// The robot's own pause ends, where the engine has asked for it.
+void PlanEngine::Impl::ReleasePause(Robot& robot)
+{
+    if (std::exchange(robot.bPauseWanted, false))
+    {
+        robot.bResumeOwed = true;
+        Command(robot, Planning::Resume{});
+    }
+}
+
+/// With what a pause, or a control that came to nothing, has held up.
+void PlanEngine::Impl::GoOn(Robot& robot)
+{
+    ActivePlan& plan = *robot.planOrNull;
+    ReleasePause(robot);
+    _bDispatchNeeded = true;
+    robot.bTouched = true;
+    if (plan.bEndOwed)
+    {
+        EndPlan(plan, EPlanState::Completed, {});
+        return;
+    }
+    if (plan.jobTimeLeft.has_value())
+    {
+        StartJobTimer(robot, *std::exchange(plan.jobTimeLeft, std::nullopt));
+    }
+    if (std::exchange(plan.bStepOwed, false))
+    {
+        BeginStep(plan, robot);
+    }
+    if (robot.drive.has_value())
+    {
+        ExtendBase(robot);
+    }
+}
+
+/// Whether the robot's plan is to begin nothing further.
+bool PlanEngine::Impl::IsHeld(const Robot& robot)
+{
+    const ActivePlan* planOrNull = robot.planOrNull;
+    return planOrNull != nullptr
+        && (planOrNull->record.progress.state == EPlanState::Paused || planOrNull->control == EPlanControl::Pause);
+}
+
+void PlanEngine::Impl::StartConfirming(Robot& robot, Core::Duration limit)
+{
+    robot.bConfirming = true;
+    StartTimer(EEngineTimer::ControlConfirm, GetRobotID(robot), limit);
+}
+
+void PlanEngine::Impl::StopConfirming(Robot& robot)
+{
+    if (std::exchange(robot.bConfirming, false))
+    {
+        CancelTimer(EEngineTimer::ControlConfirm, GetRobotID(robot));
+    }
+}
+
+void PlanEngine::Impl::StartJobTimer(Robot& robot, Core::Duration limit)
+{
+    robot.planOrNull->jobDeadline = _now.steady + limit;
+    StartTimer(EEngineTimer::JobTimeout, GetRobotID(robot), limit);
+}
+
+void PlanEngine::Impl::StopJobTimer(Robot& robot)
+{
+    if (robot.planOrNull->jobDeadline.has_value())
+    {
+        robot.planOrNull->jobDeadline.reset();
+        CancelTimer(EEngineTimer::JobTimeout, GetRobotID(robot));
+    }
+}
+
+/// The robot has not shown in time that it stopped, or that it goes on: what was asked for came to nothing.
+void PlanEngine::Impl::OnControlTimeout(Robot& robot)
+{
+    if (robot.planOrNull == nullptr || !robot.planOrNull->control.has_value())
+    {
+        return;
+    }
+    ActivePlan& plan = *robot.planOrNull;
+    const EPlanControl control = *plan.control;
+    if (robot.drive.has_value())
+    {
+        robot.drive->bCancelling = false;
+    }
+    const bool bStaysPaused = control != EPlanControl::Pause && plan.record.progress.state == EPlanState::Paused;
+    if (bStaysPaused)
+    {
+        Answer(
+            plan,
+            false,
+            control == EPlanControl::Resume ? "The robot did not show that it goes on; the plan stays paused."
+                                            : "The robot did not confirm that it stopped; the plan stays paused.");
+        robot.bPauseWanted = true;
+        robot.bResumeOwed = false;
+        Command(robot, Planning::Pause{});
+        return;
+    }
+    if (plan.record.progress.state == EPlanState::Paused)
+    {
+        LeavePause(plan);
+    }
+    Answer(plan, false, "The robot did not confirm that it stopped; the plan goes on.");
+    GoOn(robot);
+}
+
+} // namespace ACS::Planning
