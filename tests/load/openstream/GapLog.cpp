@@ -81,6 +81,11 @@ void GapLog::Note(Core::SteadyTime previous, Core::SteadyTime arrival)
     _largest = std::max(_largest, gap);
 }
 
+std::uint64_t GapLog::GetListBytes() const noexcept
+{
+    return _farOff.size() * sizeof(Gap);
+}
+
 GapFigures GapLog::Evaluate(const std::vector<StallWatch::Stall>& stalls) const
 {
     GapFigures figures;

@@ -45,6 +45,9 @@ public:
 
     void Note(Core::SteadyTime previous, Core::SteadyTime arrival);
 
+    /// Bytes of the gaps that are kept one by one: they grow with a busy machine, and are no business of what is measured.
+    [[nodiscard]] std::uint64_t GetListBytes() const noexcept;
+
     /// The stalls in the order of their beginning.
     [[nodiscard]] GapFigures Evaluate(const std::vector<StallWatch::Stall>& stalls) const;
 };

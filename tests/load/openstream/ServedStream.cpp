@@ -349,7 +349,8 @@ class ServedTurn
         std::ranges::for_each(_clients, [](const auto& client) { client->bRecording = true; });
         _figures.residentBefore = ReadResidentBytes();
         _context.run_for(duration);
-        _figures.residentAfter = ReadResidentBytes();
+        const std::uint64_t lists = _figures.frames.GetListBytes() + _figures.controls.GetListBytes();
+        _figures.residentAfter = ReadResidentBytes() - lists;
         _figures.elapsed += duration;
         _figures.serverTime += _server.GetProcessorTime() - serverBefore;
         _figures.clientTime += GetOwnProcessorTime() - clientBefore;

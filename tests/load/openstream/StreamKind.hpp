@@ -43,7 +43,7 @@ struct StreamFigures
     Core::Duration serverTime{};      ///< Processor time within it.
     Core::Duration clientTime{};
     std::uint64_t residentBefore = 0; ///< Bytes of both ends together, at the beginning and the end of the last turn.
-    std::uint64_t residentAfter = 0;
+    std::uint64_t residentAfter = 0;  ///< Without the lists of the measurement itself.
 };
 
 } // namespace ACS::Load
