@@ -88,6 +88,19 @@ TEST_CASE("11 A percentile is never below what it stands for, over nine orders o
     CHECK(histogram.GetFigures().largest == 1e30);
 }
 
+TEST_CASE("7.46 A frame that is missing among a hundred thousand shows in the figures")
+{
+    Feed feed;
+    feed.meter.Begin(2ms);
+    for (int count = 0; count < 99'999; ++count)
+    {
+        CHECK(feed.Add(2.0, 2ms) == 0);
+    }
+    CHECK(feed.meter.GetQuality().missing == 0);
+    CHECK(feed.Add(4.0, 4ms) == 1);
+    CHECK(feed.meter.GetQuality().missing == 1);
+}
+
 TEST_CASE("11 The share of samples in time slides over the last hundred periods")
 {
     Feed feed;
