@@ -3,6 +3,7 @@
 #include <acs/net/TcpListener.hpp>
 
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
@@ -136,7 +137,16 @@ public:
         if (const std::shared_ptr<Impl> server = _server.lock(); server != nullptr)
         {
             server->connections.splice(server->connections.end(), server->connections, place);
-            server->TakeNext(); // perhaps in the place of this one
+            if (server->nextOrNull.has_value())
+            {
+                // Perhaps in the place of this one, so when this call is over.
+                Asio::post(_stream.get_executor(), [weak = _server]() {
+                    if (const std::shared_ptr<Impl> owner = weak.lock(); owner != nullptr)
+                    {
+                        owner->TakeNext();
+                    }
+                });
+            }
         }
         _parserOrNull.emplace();
         _parserOrNull->header_limit(_limits.maxHeaderBytes);

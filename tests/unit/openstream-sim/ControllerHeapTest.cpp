@@ -94,7 +94,6 @@ TEST_CASE("C.2 Nor does it while the arm follows a trajectory, whose buffer grow
 
 TEST_CASE("A MONITOR's tick takes nothing from the heap with faults about, nor in a silence")
 {
-    constexpr int CALLS = 1000;
     Testing::FaultHarness harness;
     harness.Begin("slow time=1s side=http");
     harness.Begin("refuse count=3");

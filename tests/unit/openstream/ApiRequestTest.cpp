@@ -27,16 +27,16 @@ TEST_CASE("7.29 A url is an opaque path and a query, into which args go and win"
 TEST_CASE("7.29 As many args as a line holds replace all parameters of their names")
 {
     // Work that grows with their square would keep the server, and with it every session, for minutes.
-    constexpr std::size_t count = 60'000;
+    constexpr std::size_t COUNT = 60'000;
     std::string args = "{";
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < COUNT; ++i)
     {
         args += (i == 0 ? "\"" : ",\"") + std::to_string(i) + "\":" + std::to_string(i % 7);
     }
     ApiRequest request;
     SplitUrl("/project/rgen?3=x&3=y&kept=1&59999=z", request);
     AddArguments(JsonText::FromTrusted(args + "}"), request);
-    REQUIRE(request.query.size() == count + 1);
+    REQUIRE(request.query.size() == COUNT + 1);
     REQUIRE(*request.GetParameterOrNull("kept") == "1");
     REQUIRE(*request.GetParameterOrNull("3") == "3");
     REQUIRE(*request.GetParameterOrNull("59999") == "2");
