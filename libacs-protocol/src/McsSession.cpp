@@ -1,3 +1,4 @@
+#include "HeldAcks.hpp"
 #include "PendingRequests.hpp"
 #include "RecentTransactions.hpp"
 #include "SessionOutput.hpp"
@@ -31,20 +32,6 @@ struct Connection
     Core::SteadyTime deadline{}; ///< Of its Registration.
 };
 
-struct RunningHold
-{
-    AckHold hold;
-    Core::SteadyTime end{};
-};
-
-struct DelayedAck
-{
-    ConnectionID connection = 0;
-    std::string text;
-    Core::SteadyTime deadline{};
-    bool bRegisters = false;
-};
-
 } // namespace
 
 class McsSession::Impl
@@ -62,8 +49,7 @@ class McsSession::Impl
     std::vector<PendingRequest> _pending;
     Detail::RecentTransactions _recent;
     Detail::TransactionMemory _seen;
-    std::vector<RunningHold> _holds;
-    std::vector<DelayedAck> _delayed;
+    Detail::HeldAcks _held;
     std::size_t _refusalsLeft = 0;
     std::string _refusalMessage;
     std::string _scratch;
@@ -122,7 +108,7 @@ public:
     {
         std::erase(_connections, connection);
         Know(connection, out);
-        std::erase_if(_delayed, [connection](const DelayedAck& ack) { return ack.connection == connection; });
+        _held.Forget(connection);
         if (_registered == connection)
         {
             LoseRegistered(reason, out);
@@ -195,8 +181,7 @@ public:
 
     void HoldAcks(const AckHold& hold, Core::Now now)
     {
-        std::erase_if(_holds, [now](const RunningHold& running) { return running.end <= now.steady; });
-        _holds.push_back({hold, now.steady + hold.duration});
+        _held.Begin(hold, now);
     }
 
     void RefuseRegistrations(std::size_t count, std::string_view message)
@@ -207,7 +192,7 @@ public:
 
     void EndFaults() noexcept
     {
-        _holds.clear();
+        _held.EndAll();
         _refusalsLeft = 0;
     }
 
@@ -282,14 +267,19 @@ private:
         ArmRegistrationTimer(now, out);
     }
 
+    void GiveUp(const PendingRequest& request, SessionActions& out)
+    {
+        _recent.Remember(request.command, request.transactionID, true);
+        out.emplace_back(Deliver{RequestUnanswered{request.command, request.transactionID}});
+    }
+
     void GiveUpLate(Core::Now now, SessionActions& out)
     {
         for (const PendingRequest& request : _pending)
         {
             if (request.deadline <= now.steady)
             {
-                _recent.Remember(request.command, request.transactionID, true);
-                out.emplace_back(Deliver{RequestUnanswered{request.command, request.transactionID}});
+                GiveUp(request, out);
             }
         }
         std::erase_if(_pending, [now](const PendingRequest& request) { return request.deadline <= now.steady; });
@@ -311,8 +301,7 @@ private:
         ++_output.statistics.linkLosses;
         for (const PendingRequest& request : std::exchange(_pending, {}))
         {
-            _recent.Remember(request.command, request.transactionID, true);
-            out.emplace_back(Deliver{RequestUnanswered{request.command, request.transactionID}});
+            GiveUp(request, out);
         }
         out.emplace_back(Deliver{LinkLost{std::string(reason), true}});
     }
@@ -330,7 +319,7 @@ private:
         {
             return;
         }
-        const AckHold* const holdOrNull = FindHoldOrNull(command, now);
+        const AckHold* const holdOrNull = _held.FindOrNull(command, now);
         if (holdOrNull != nullptr && !holdOrNull->delay.has_value())
         {
             return;
@@ -346,37 +335,29 @@ private:
             return;
         }
         const bool bRegisters = command == EAcsCommand::Registration && result == EAckResult::Success;
-        _delayed.push_back({connection, _scratch, now.steady + *holdOrNull->delay, bRegisters});
-        _output.Start(ESessionTimer::DelayedAck, Detail::GetNextDelay(_delayed, now), out);
+        _held.Keep({connection, _scratch, now.steady + *holdOrNull->delay, bRegisters});
+        ArmDelayedTimer(now, out);
     }
 
-    [[nodiscard]] const AckHold* FindHoldOrNull(EAcsCommand command, Core::Now now) const
+    void ArmDelayedTimer(Core::Now now, SessionActions& out)
     {
-        const auto found = std::find_if(_holds.rbegin(), _holds.rend(), [command, now](const RunningHold& running) {
-            return running.hold.command.value_or(command) == command && now.steady < running.end;
-        });
-        return found == _holds.rend() ? nullptr : &found->hold;
+        if (const std::optional<std::chrono::milliseconds> delay = _held.GetDelayOrNull(now); delay.has_value())
+        {
+            _output.Start(ESessionTimer::DelayedAck, *delay, out);
+        }
     }
 
     void SendDelayed(Core::Now now, SessionActions& out)
     {
-        for (const DelayedAck& ack : _delayed)
+        for (const Detail::HeldAcks::Ack& ack : _held.TakeDue(now))
         {
-            if (ack.deadline > now.steady)
-            {
-                continue;
-            }
             out.emplace_back(SendText{ack.connection, ack.text, false});
             if (ack.bRegisters)
             {
                 TakeRegistered(ack.connection, out);
             }
         }
-        std::erase_if(_delayed, [now](const DelayedAck& ack) { return ack.deadline <= now.steady; });
-        if (!_delayed.empty())
-        {
-            _output.Start(ESessionTimer::DelayedAck, Detail::GetNextDelay(_delayed, now), out);
-        }
+        ArmDelayedTimer(now, out);
     }
 
     void Refuse(ConnectionID connection, const DecodeFailure& failure, Core::Now now, SessionActions& out)
@@ -460,7 +441,7 @@ private:
         Replace(connection, out);
         Acknowledge(connection, request, EAckResult::Success, "Registered.", now, out);
         // The ACS is registered when it can know that it is.
-        if (FindHoldOrNull(EAcsCommand::Registration, now) == nullptr)
+        if (_held.FindOrNull(EAcsCommand::Registration, now) == nullptr)
         {
             TakeRegistered(connection, out);
         }
@@ -469,10 +450,7 @@ private:
     /// Whether one is registered, or another one will be as soon as its delayed Ack has gone.
     [[nodiscard]] bool IsTaken(ConnectionID connection) const
     {
-        const bool bSoon = std::any_of(_delayed.begin(), _delayed.end(), [connection](const DelayedAck& ack) {
-            return ack.bRegisters && ack.connection != connection;
-        });
-        return _registered.has_value() || bSoon;
+        return _registered.has_value() || _held.HasRegistrationOfOther(connection);
     }
 
     void Replace(ConnectionID connection, SessionActions& out)
@@ -508,12 +486,10 @@ private:
                 out.emplace_back(Deliver{AckReceived{std::move(ack)}});
                 return;
             }
-            if (late == Detail::ELateAck::Repeated)
+            if (late != Detail::ELateAck::Repeated)
             {
-                _output.Note(EProtocolNote::AckUnexpected, std::string(GetText(ack.command)), out);
-                return;
+                match = Detail::FindPendingByCommand(_pending, ack.command);
             }
-            match = Detail::FindPendingByCommand(_pending, ack.command);
         }
         if (!match.bFound)
         {

@@ -1,6 +1,7 @@
 #include "Catch.hpp"
 #include "ManualClock.hpp"
 #include "SeededRandom.hpp"
+#include "TemporaryFolder.hpp"
 #include <acs/plan/EPlanningError.hpp>
 #include <acs/plan/MemoryPlanStore.hpp>
 #include <acs/plan_sqlite/SqlitePlanStore.hpp>
@@ -11,7 +12,6 @@
 #include <fstream>
 #include <memory>
 #include <string>
-#include <unistd.h>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using namespace ACS;           // NOLINT(google-build-using-namespace)
@@ -19,31 +19,12 @@ using namespace ACS;           // NOLINT(google-build-using-namespace)
 namespace
 {
 
-/// A folder of its own, gone at the end.
-class TemporaryFolder
+class StoreFolder : public Testing::TemporaryFolder
 {
-    std::filesystem::path _path;
-
 public:
-    TemporaryFolder()
-    {
-        std::string pattern = (std::filesystem::temp_directory_path() / "acs-store-XXXXXX").string();
-        REQUIRE(mkdtemp(pattern.data()) != nullptr);
-        _path = pattern;
-    }
-
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    ~TemporaryFolder()
-    {
-        std::error_code ignored;
-        std::filesystem::remove_all(_path, ignored);
-    }
-
     [[nodiscard]] std::string GetFile() const
     {
-        return (_path / "acsd.db").string();
+        return (GetPath() / "acsd.db").string();
     }
 };
 
@@ -101,7 +82,7 @@ std::unique_ptr<SqlitePlanStore> OpenStore(const std::string& file)
 
 TEST_CASE("Store: what was appended is there after the file was closed and opened, as the store in memory has it")
 {
-    const TemporaryFolder folder;
+    const StoreFolder folder;
     MemoryPlanStore memory;
     for (const StoreBatch& batch : MakeBatches())
     {
@@ -121,7 +102,7 @@ TEST_CASE("Store: what was appended is there after the file was closed and opene
 
 TEST_CASE("Store: an empty file becomes a store with a schema version, in a write-ahead log")
 {
-    const TemporaryFolder folder;
+    const StoreFolder folder;
     std::ofstream(folder.GetFile()).close();
     const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetFile());
     CHECK(*store->Load() == StoredState{});
@@ -132,7 +113,7 @@ TEST_CASE("Store: an empty file becomes a store with a schema version, in a writ
 
 TEST_CASE("Store: a planID whose plan was removed can be stored again, in the same batch too")
 {
-    const TemporaryFolder folder;
+    const StoreFolder folder;
     const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetFile());
     REQUIRE(store->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
     REQUIRE(store->Append({{PlanRemoved{1}, PlanAdded{MakeRecord(2, "P1")}}}).has_value());
@@ -142,7 +123,7 @@ TEST_CASE("Store: a planID whose plan was removed can be stored again, in the sa
 
 TEST_CASE("Store: a file of the first schema is brought forward, and nothing of it is lost")
 {
-    const TemporaryFolder folder;
+    const StoreFolder folder;
     REQUIRE(OpenStore(folder.GetFile())->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
     {
         SQLite::Database database(folder.GetFile(), SQLite::OPEN_READWRITE);
@@ -158,7 +139,7 @@ TEST_CASE("Store: a file of the first schema is brought forward, and nothing of 
 
 TEST_CASE("Store: a batch that fails in the middle leaves nothing behind and the store goes on")
 {
-    const TemporaryFolder folder;
+    const StoreFolder folder;
     const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetFile());
     REQUIRE(store->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
     const Core::Result<void> twice = store->Append({{ReportAdded{MakeEntry(1, "P1")}, PlanAdded{MakeRecord(2, "P1")}}});
@@ -172,7 +153,7 @@ TEST_CASE("Store: a batch that fails in the middle leaves nothing behind and the
 
 TEST_CASE("Store: damage, another program's file and a newer version are told apart and left as they are")
 {
-    const TemporaryFolder folder;
+    const StoreFolder folder;
     const auto refuse = [&folder](EPlanningError error) {
         const std::uintmax_t size = std::filesystem::file_size(folder.GetFile());
         const Core::Result<std::unique_ptr<SqlitePlanStore>> store = SqlitePlanStore::Open(folder.GetFile());
@@ -226,7 +207,7 @@ TEST_CASE("Store: damage, another program's file and a newer version are told ap
 
 TEST_CASE("Store: a file is one program's at a time, and free again when that one has closed it")
 {
-    const TemporaryFolder folder;
+    const StoreFolder folder;
     {
         const std::unique_ptr<SqlitePlanStore> first = OpenStore(folder.GetFile());
         const Core::Result<std::unique_ptr<SqlitePlanStore>> second = SqlitePlanStore::Open(folder.GetFile());

@@ -1,32 +1,18 @@
-#include "Catch.hpp"
-#include "PlanWorld.hpp"
+#include "PlanWorldSteps.hpp"
 
 #include <algorithm>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using ACS::Testing::BeginPlan;
+using ACS::Testing::Contains;
+using ACS::Testing::FinishPlan;
+using ACS::Testing::Lines;
 using ACS::Testing::MakeControlPlan;
 using ACS::Testing::MakeLogisticsPlan;
 using ACS::Testing::MakeTestOptions;
 using ACS::Testing::MakeTestSite;
 using ACS::Testing::PlanWorld;
-
-namespace
-{
-
-using Lines = std::vector<std::string>;
-
-bool Contains(const Lines& lines, const std::string& line)
-{
-    return std::ranges::find(lines, line) != lines.end();
-}
-
-/// Until the plan's report is the last of its reports.
-bool TryRunUntil(PlanWorld& world, const std::string& planID, const std::string& report)
-{
-    return world.TryRun([&world, planID, report] { return Contains(world.GetReportsOf(planID), report); });
-}
-
-} // namespace
+using ACS::Testing::TryRunUntil;
 
 TEST_CASE("6.3 The logistics plan of the document completes and reports every state in order")
 {
@@ -190,9 +176,7 @@ TEST_CASE("A robot without work that stands in the way of one with a plan goes h
 TEST_CASE("5.9, 6.5 Work waits for a robot that arrives while a part of it is out of reach; the arrival is told once")
 {
     PlanWorld world;
-    world.Connect();
-    world.Submit(MakeControlPlan("P1"));
-    REQUIRE(TryRunUntil(world, "P1", "Step 1 InProgress"));
+    BeginPlan(world, MakeControlPlan("P1"), "Step 1 InProgress");
     world.Raise("CR01", LinkChanged{false});
     REQUIRE(world.TryRun());
     CHECK(world.GetRobot("CR01").GetOccupied() == Lines{"D-A01.CP01"});
@@ -200,8 +184,7 @@ TEST_CASE("5.9, 6.5 Work waits for a robot that arrives while a part of it is ou
     world.Control(EPlanControl::Cancel, "P1");
     CHECK(world.GetReportsOf("P1").back() == "CancelResult Failed");
     world.Connect();
-    REQUIRE(world.TryRun());
-    CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+    FinishPlan(world);
     const Lines statuses = world.GetTraceOf("status CR01 ");
     CHECK(std::ranges::count(statuses, "Arrival A01.CP01") == 2); // step 1 and step 3
 }
@@ -343,9 +326,7 @@ TEST_CASE("6.5 A pending plan and one before its first arrival are cancelled, a 
 TEST_CASE("6.6 Abort lets the running job end: its report, the plan's and the result, nothing else")
 {
     PlanWorld world;
-    world.Connect();
-    world.Submit(MakeControlPlan("P1"));
-    REQUIRE(TryRunUntil(world, "P1", "Job 2 P1-f3 InProgress"));
+    BeginPlan(world, MakeControlPlan("P1"), "Job 2 P1-f3 InProgress");
     const std::size_t before = world.GetReportsOf("P1").size();
     world.Control(EPlanControl::Abort, "P1");
     REQUIRE(world.TryRun());
@@ -387,8 +368,7 @@ TEST_CASE("5.9 Carriers stand at their port's place, and an occupied port raises
         == std::vector<std::optional<std::string>>{std::nullopt, "TRAY_01", std::nullopt});
     REQUIRE(TryRunUntil(world, "P1", "Job 1 P1-b3 Completed"));
     CHECK(world.engine->GetActiveAlarms().size() == 1);
-    REQUIRE(world.TryRun());
-    CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+    FinishPlan(world);
     CHECK(
         world.store.GetState().carriers.back().carrierIDs
         == std::vector<std::optional<std::string>>{std::nullopt, "TRAY_02", std::nullopt});
@@ -443,8 +423,7 @@ TEST_CASE("A robot is not used before it has told a place on the map, and a lost
     CHECK(world.engine->GetActiveAlarms().front().errorCode == "ACS-1002");
     world.Raise("LR01", LinkChanged{true});
     CHECK(world.engine->GetActiveAlarms().empty());
-    REQUIRE(world.TryRun());
-    CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+    FinishPlan(world);
 }
 
 TEST_CASE("5.8 A robot's error is reported when it comes and when it goes, and a heavy one keeps work away")
@@ -462,8 +441,7 @@ TEST_CASE("5.8 A robot's error is reported when it comes and when it goes, and a
     state.errors.clear();
     world.Raise("LR01", state);
     CHECK(world.GetReportsOf("-") == Lines{"Error AGV-motor set", "Error AGV-motor cleared"});
-    REQUIRE(world.TryRun());
-    CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+    FinishPlan(world);
 }
 
 TEST_CASE("A job that takes longer than its limit has failed")
@@ -513,9 +491,7 @@ TEST_CASE("5.8 After a restart alarms that nobody else can clear are cleared")
     store.errorCode = "ACS-1005";
     REQUIRE(world.store.Append({{AlarmSet{gone}, AlarmSet{store}}}).has_value());
     world.Restart(MakeTestOptions(false), MakeTestSite());
-    world.Connect();
-    world.Submit(MakeLogisticsPlan("P1"));
-    REQUIRE(TryRunUntil(world, "P1", "Job 1 P1-a4 InProgress"));
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
     world.Restart(MakeTestOptions(false), MakeTestSite());
     world.Connect();
     REQUIRE(world.engine->GetActiveAlarms().size() == 1);

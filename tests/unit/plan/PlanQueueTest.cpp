@@ -1,36 +1,22 @@
-#include "Catch.hpp"
-#include "PlanWorld.hpp"
+#include "PlanWorldSteps.hpp"
 
 #include <algorithm>
 #include <functional>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using ACS::Testing::BeginPlan;
+using ACS::Testing::FinishPlan;
+using ACS::Testing::Lines;
 using ACS::Testing::MakeLogisticsPlan;
 using ACS::Testing::MakeTestOptions;
 using ACS::Testing::MakeTestSite;
+using ACS::Testing::MakeWorld;
+using ACS::Testing::PausePlan;
 using ACS::Testing::PlanWorld;
+using ACS::Testing::TryRunUntil;
 
 namespace
 {
-
-using Lines = std::vector<std::string>;
-
-bool Contains(const Lines& lines, const std::string& line)
-{
-    return std::ranges::find(lines, line) != lines.end();
-}
-
-bool TryRunUntil(PlanWorld& world, const std::string& planID, const std::string& report)
-{
-    return world.TryRun([&world, planID, report] { return Contains(world.GetReportsOf(planID), report); });
-}
-
-PlanWorld MakeWorld(const std::function<void(EngineOptions&)>& change)
-{
-    EngineOptions options = MakeTestOptions(false);
-    change(options);
-    return {1, options, MakeTestSite()};
-}
 
 void Restart(PlanWorld& world, const std::function<void(EngineOptions&)>& change)
 {
@@ -165,15 +151,12 @@ TEST_CASE("history.keep: of finished plans only the latest are kept, in memory, 
 TEST_CASE("R15, E82 TSC: Pausing ends what runs and begins nothing, Paused keeps what comes, Auto begins it")
 {
     PlanWorld world;
-    world.Connect();
-    world.Submit(MakeLogisticsPlan("P1"));
-    REQUIRE(TryRunUntil(world, "P1", "Step 1 InProgress"));
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
     world.SwitchTsc(true);
     CHECK(world.engine->GetTscState() == ETscState::Pausing);
     world.Submit(MakeLogisticsPlan("P2"), 2);
     CHECK(world.replies.at(2).bAccepted);
-    REQUIRE(world.TryRun());
-    CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+    FinishPlan(world);
     CHECK(world.GetReportsOf("P2").empty());
     CHECK(world.GetTraceOf("tsc ") == Lines{"Pausing", "Paused"});
     CHECK(world.GetRobot("LR01").GetOccupied() == Lines{"D-A02.CP03"}); // not even home
@@ -202,9 +185,7 @@ TEST_CASE("E82 TSC: paused at once where nothing runs, and back to Auto while it
 TEST_CASE("E82 TSC: a robot that still drives home keeps it pausing until it stands")
 {
     PlanWorld world;
-    world.Connect();
-    world.Submit(MakeLogisticsPlan("P1"));
-    REQUIRE(TryRunUntil(world, "P1", "Plan Completed"));
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Plan Completed");
     REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").drives == 3; }));
     world.SwitchTsc(true);
     CHECK(world.GetTraceOf("tsc ") == Lines{"Pausing"});
@@ -216,11 +197,8 @@ TEST_CASE("E82 TSC: a robot that still drives home keeps it pausing until it sta
 TEST_CASE("E82 TSC: a paused plan does not keep it pausing, and is not resumed before the TSC is Auto")
 {
     PlanWorld world;
-    world.Connect();
-    world.Submit(MakeLogisticsPlan("P1"));
-    REQUIRE(TryRunUntil(world, "P1", "Step 1 InProgress"));
-    world.Control(EPlanControl::Pause, "P1");
-    REQUIRE(TryRunUntil(world, "P1", "PauseResult Success"));
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    PausePlan(world);
     world.SwitchTsc(true);
     CHECK(world.engine->GetTscState() == ETscState::Paused);
     world.Control(EPlanControl::Resume, "P1");
@@ -228,8 +206,7 @@ TEST_CASE("E82 TSC: a paused plan does not keep it pausing, and is not resumed b
     CHECK(world.GetReportsOf("P1").back() == "ResumeResult Failed");
     world.SwitchTsc(false);
     world.Control(EPlanControl::Resume, "P1");
-    REQUIRE(world.TryRun());
-    CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+    FinishPlan(world);
 }
 
 TEST_CASE("E82 TSC: what was paused is so after a restart; tsc.initial paused begins so every time")
@@ -274,18 +251,14 @@ TEST_CASE("After a restart a plan that was held in the queue is still held, and 
     REQUIRE(world.TryRun());
     CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Paused);
     world.Control(EPlanControl::Resume, "P1");
-    REQUIRE(world.TryRun());
-    CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+    FinishPlan(world);
 }
 
 TEST_CASE("After a restart a robot that stands for a plan that was paused is let go on")
 {
     PlanWorld world;
-    world.Connect();
-    world.Submit(MakeLogisticsPlan("P1"));
-    REQUIRE(TryRunUntil(world, "P1", "Job 1 P1-a4 InProgress"));
-    world.Control(EPlanControl::Pause, "P1");
-    REQUIRE(TryRunUntil(world, "P1", "PauseResult Success"));
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
+    PausePlan(world);
     Restart(world, [](EngineOptions&) {});
     CHECK(world.GetReportsOf("P1").back() == "Plan Aborted");
     world.Connect();
