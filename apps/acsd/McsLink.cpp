@@ -1,17 +1,12 @@
 #include "McsLink.hpp"
 
-#include "PlanMapper.hpp"
-#include "ReportMapper.hpp"
 #include <acs/core/Overloaded.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
-#include <string_view>
 #include <utility>
 #include <variant>
-#include <vector>
 
 namespace ACS::Acsd
 {
@@ -30,18 +25,6 @@ ProtocolBeast::ClientOptions MakeOptions(const AcsdConfig& config)
     options.session.ackRetries = config.mcs.ackRetries;
     options.session.positionInterval = config.positionInterval;
     return options;
-}
-
-std::string GetPlanID(const Planning::PlanCommand& command)
-{
-    return std::visit(
-        Core::Overloaded{
-            [](const Planning::SubmitPlan& submit) { return submit.plan.planID; },
-            [](const Planning::ControlPlan& control) { return control.planID; },
-            [](const auto&) {
-                return std::string();
-            }},
-        command);
 }
 
 /// Habits that cost nothing.
@@ -73,19 +56,6 @@ std::size_t CountDigits(std::uint64_t number)
     return fmt::format_int(number).size();
 }
 
-/// Some by name: what the MCS has asked for may be longer than what it can read.
-std::string DescribeUnknown(const std::vector<std::string_view>& planIDs)
-{
-    constexpr std::size_t MAX_NAMED = 20;
-    std::string text;
-    for (std::size_t i = 0; i < std::min(planIDs.size(), MAX_NAMED); ++i)
-    {
-        text += text.empty() ? "Unknown: " : ", ";
-        text += planIDs[i];
-    }
-    return planIDs.size() > MAX_NAMED ? text + fmt::format(" and {} more", planIDs.size() - MAX_NAMED) : text;
-}
-
 } // namespace
 
 McsLink::McsLink(
@@ -95,10 +65,8 @@ McsLink::McsLink(
     const Planning::PlanEngine& engine,
     CommandHandler handler)
     : _clock(clock),
-      _logger(std::move(logger)),
-      _localOffset(localOffset),
-      _engine(engine),
-      _handler(std::move(handler))
+      _logger(logger),
+      _dialog(clock, std::move(logger), localOffset, engine, *this, std::move(handler))
 {
 }
 
@@ -116,17 +84,12 @@ Core::Result<void> McsLink::Open(
     }
     _client = std::move(*client);
     _url = Apps::MakeText(config.mcs.url);
-    _client->SetSiteOffset(GetOffset());
     return {};
 }
 
 void McsLink::Start()
 {
-    TellTsc(_engine.GetTscState());
-    for (const Planning::RobotStatus& status : _engine.GetRobotStatuses())
-    {
-        TellStatus(status);
-    }
+    _dialog.Begin();
     _client->Start();
 }
 
@@ -139,49 +102,67 @@ void McsLink::StopAsync(StopHandler handler)
 
 void McsLink::Reply(const Planning::ReplyCommand& reply)
 {
-    const auto found = _openRequests.find(reply.replyToken);
-    if (found == _openRequests.end())
-    {
-        return;
-    }
-    const OpenRequest request = std::move(found->second);
-    _openRequests.erase(found);
-    _client->Answer(
-        request.command,
-        request.transactionID,
-        reply.bAccepted ? Protocol::EAckResult::Success : Protocol::EAckResult::Fail,
-        reply.message,
-        Protocol::PlanAck{request.planID});
+    _dialog.Reply(reply);
 }
 
 void McsLink::Report(const Planning::OutboxEntry& entry)
 {
-    // Without a registration it stays in the engine's outbox, from which the next one is replayed.
-    if (_client->IsRegistered())
-    {
-        _unsent.push_back(entry);
-        Feed();
-    }
+    _dialog.Report(entry);
 }
 
 void McsLink::TellStatus(const Planning::RobotStatus& status)
 {
-    _client->SendStatus(MakeStatusUpdate(status));
+    _dialog.TellStatus(status);
 }
 
 void McsLink::TellWorking(bool bWorking)
 {
-    _client->SendStatus(Protocol::AcsCommStateUpdate{bWorking});
+    _dialog.TellWorking(bWorking);
 }
 
 void McsLink::TellTsc(Planning::ETscState state)
 {
-    _client->SendStatus(MakeTscUpdate(state));
+    _dialog.TellTsc(state);
 }
 
 bool McsLink::IsRegistered() const
 {
     return _client->IsRegistered();
+}
+
+bool McsLink::TrySendDurable(const Protocol::AcsRequest& request)
+{
+    return _client->TrySendDurable(request);
+}
+
+void McsLink::ReplayDone()
+{
+    _client->ReplayDone();
+}
+
+void McsLink::SendStatus(const Protocol::AcsPayload& status)
+{
+    _client->SendStatus(status);
+}
+
+void McsLink::SendPosition(const Protocol::RobotPositionUpdate& positions)
+{
+    _client->SendPosition(positions);
+}
+
+void McsLink::Answer(
+    Protocol::EAcsCommand command,
+    std::string_view transactionID,
+    Protocol::EAckResult result,
+    std::string_view message,
+    const Protocol::AckPayload& payload)
+{
+    _client->Answer(command, transactionID, result, message, payload);
+}
+
+void McsLink::SetSiteOffset(std::chrono::minutes offset)
+{
+    _client->SetSiteOffset(offset);
 }
 
 const Protocol::SessionStatistics& McsLink::GetStatistics() const
@@ -191,41 +172,33 @@ const Protocol::SessionStatistics& McsLink::GetStatistics() const
 
 void McsLink::OnSessionEvent(const Protocol::SessionEvent& event)
 {
+    LogEvent(event);
+    _dialog.OnSessionEvent(event);
+    if (std::holds_alternative<Protocol::Stopped>(event) && _stopHandler)
+    {
+        std::exchange(_stopHandler, nullptr)();
+    }
+}
+
+void McsLink::LogEvent(const Protocol::SessionEvent& event)
+{
     std::visit(
         Core::Overloaded{
             [&](const Protocol::Registered&) {
                 _logger.Info("registered with the MCS");
                 _loggedOutage.clear();
-                BeginReplay();
             },
             [&](const Protocol::RegistrationRefused& refused) {
                 _logger.Warning("the MCS refuses the registration, trying again", {{"reason", refused.message}});
             },
-            [&](const Protocol::RequestReceived& received) { TakeRequest(received.request); },
-            [&](const Protocol::Acked& acked) { TakeAck(acked); },
             [&](const Protocol::RequestUnanswered& unanswered) {
                 _logger.Warning(
                     "the MCS does not acknowledge",
                     {{"command", GetText(unanswered.command)}, {"transactionId", unanswered.transactionID}});
             },
-            [&](const Protocol::WindowOpened&) { Feed(); },
-            [&](const Protocol::PositionDue&) {
-                _client->SetSiteOffset(GetOffset());
-                _client->SendPosition(MakePositionUpdate(_engine.GetRobotPoses()));
-            },
-            [&](const Protocol::LinkLost& lost) {
-                LogOutage(lost);
-                _unsent.clear();
-                _sequences.clear();
-            },
-            [&](const Protocol::Stopped&) {
-                if (_stopHandler)
-                {
-                    std::exchange(_stopHandler, nullptr)();
-                }
-            },
+            [&](const Protocol::LinkLost& lost) { LogOutage(lost); },
             [&](const Protocol::ProtocolNoted& noted) { LogNote(noted); },
-            [](const Protocol::AckReceived&) { /* of the MCS's side */ }},
+            [](const auto&) { /* not worth a line */ }},
         event);
 }
 
@@ -256,128 +229,6 @@ void McsLink::LogOutage(const Protocol::LinkLost& lost)
         lost.bWasRegistered ? "lost the MCS, trying again until it answers"
                             : "cannot reach the MCS: start it or correct mcs.url; trying again until it answers",
         {{"url", _url}, {"reason", lost.reason}});
-}
-
-void McsLink::TakeRequest(const Protocol::AcsRequest& request)
-{
-    const Planning::ReplyToken token = ++_lastToken;
-    std::optional<Planning::PlanCommand> commandOrNull = MakePlanCommandOrNull(request.payload, token);
-    if (!commandOrNull.has_value())
-    {
-        AnswerQuery(request);
-        return;
-    }
-    _openRequests.emplace(
-        token,
-        OpenRequest{Protocol::GetCommand(request), request.transactionID, GetPlanID(*commandOrNull)});
-    _handler(std::move(*commandOrNull));
-}
-
-void McsLink::AnswerQuery(const Protocol::AcsRequest& request)
-{
-    const auto answer =
-        [&](Protocol::EAckResult result, std::string_view message, const Protocol::AckPayload& payload) {
-            _client->Answer(Protocol::GetCommand(request), request.transactionID, result, message, payload);
-        };
-    std::visit(
-        Core::Overloaded{
-            [&](const Protocol::RequestAcsPlans&) {
-                Protocol::PlanListAck list;
-                for (const Planning::PlanSummary& summary : _engine.GetActivePlans())
-                {
-                    list.plans.push_back(MakePlanEntry(summary, GetOffset()));
-                }
-                answer(Protocol::EAckResult::Success, "", list);
-            },
-            [&](const Protocol::RequestAcsPlanHistory& query) { AnswerHistory(request, query); },
-            [&](const Protocol::RequestAcsErrorList&) {
-                Protocol::ErrorListAck list;
-                for (const Planning::Alarm& alarm : _engine.GetActiveAlarms())
-                {
-                    list.errors.push_back(MakeErrorReport(alarm, true));
-                }
-                answer(Protocol::EAckResult::Success, "", list);
-            },
-            [&](const auto&) {
-                answer(Protocol::EAckResult::Fail, "not supported", Protocol::EmptyAck{});
-            }},
-        request.payload);
-}
-
-void McsLink::AnswerHistory(const Protocol::AcsRequest& request, const Protocol::RequestAcsPlanHistory& query)
-{
-    Protocol::PlanListAck list;
-    std::vector<std::string_view> unknown;
-    std::set<std::string_view> seen;
-    for (const std::string& planID : query.planIDs)
-    {
-        if (!seen.insert(planID).second)
-        {
-            continue;
-        }
-        const std::optional<Planning::PlanSummary> summary = _engine.GetPlanOrNull(planID);
-        if (summary.has_value())
-        {
-            list.plans.push_back(MakePlanEntry(*summary, GetOffset()));
-        }
-        else
-        {
-            unknown.push_back(planID);
-        }
-    }
-    const std::string message = DescribeUnknown(unknown);
-    _client->Answer(Protocol::GetCommand(request), request.transactionID, Protocol::EAckResult::Success, message, list);
-}
-
-void McsLink::TakeAck(const Protocol::Acked& acked)
-{
-    const auto found = _sequences.find(acked.transactionID);
-    if (found == _sequences.end())
-    {
-        return;
-    }
-    if (acked.result == Protocol::EAckResult::Fail)
-    {
-        // Final all the same (register D-1, mcs.on_report_nack): the MCS has it and does not want it.
-        _logger.Warning(
-            "the MCS refuses a report",
-            {{"command", GetText(acked.command)}, {"transactionId", acked.transactionID}, {"reason", acked.message}});
-    }
-    const std::uint64_t sequence = found->second;
-    _sequences.erase(found);
-    _handler(Planning::MessageAcknowledged{sequence});
-}
-
-void McsLink::BeginReplay()
-{
-    const std::vector<Planning::OutboxEntry> entries = _engine.GetUnacknowledged();
-    _unsent.assign(entries.begin(), entries.end());
-    _sequences.clear();
-    _bReplaying = true;
-    Feed();
-}
-
-void McsLink::Feed()
-{
-    while (!_unsent.empty())
-    {
-        const Planning::OutboxEntry& entry = _unsent.front();
-        if (!_client->TrySendDurable(MakeReportRequest(entry, _localOffset.GetAt(entry.time))))
-        {
-            return; // WindowOpened or Registered comes
-        }
-        _sequences.emplace(entry.transactionID, entry.sequence);
-        _unsent.pop_front();
-    }
-    if (std::exchange(_bReplaying, false))
-    {
-        _client->ReplayDone();
-    }
-}
-
-std::chrono::minutes McsLink::GetOffset() const
-{
-    return _localOffset.GetAt(_clock.GetNow().wall);
 }
 
 } // namespace ACS::Acsd

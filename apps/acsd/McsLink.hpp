@@ -1,10 +1,11 @@
 #pragma once
 
 #include "AcsdConfig.hpp"
+#include "IMcsOutput.hpp"
+#include "McsDialog.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
-#include <acs/plan/PlanCommand.hpp>
 #include <acs/plan/PlanEngine.hpp>
 #include <acs/plan/Report.hpp>
 #include <acs/plan/RobotStatus.hpp>
@@ -13,60 +14,47 @@
 
 #include <boost/asio/any_io_executor.hpp>
 
-#include <cstdint>
-#include <deque>
+#include <chrono>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
-#include <unordered_map>
+#include <string_view>
 
 namespace ACS::Acsd
 {
 
-/// The side of acsd that faces the MCS: hands requests to the engine as commands, answers them, feeds the engine's
-/// outbox into the session and tells the engine what was acknowledged. One thread: the executor's.
-class McsLink final : private ProtocolBeast::ISessionHandler
+/// The side of acsd that faces the MCS: a McsDialog over a WebSocket, and what is logged of it. One thread: the executor's.
+class McsLink final : private ProtocolBeast::ISessionHandler, private IMcsOutput
 {
 public:
-    /// Receives the engine's next command; must not call the link.
-    using CommandHandler = std::function<void(Planning::PlanCommand command)>;
+    using CommandHandler = McsDialog::CommandHandler;
     using StopHandler = std::function<void()>;
 
 private:
-    /// A command of the MCS that waits for the engine's reply.
-    struct OpenRequest
-    {
-        Protocol::EAcsCommand command = Protocol::EAcsCommand::ExecutionPlan;
-        std::string transactionID;
-        std::string planID;
-    };
-
     const Core::IClock& _clock;
     Core::Logger _logger;
-    Apps::LocalOffset _localOffset;
-    const Planning::PlanEngine& _engine;
-    CommandHandler _handler;
+    McsDialog _dialog;
     StopHandler _stopHandler;
     std::unique_ptr<ProtocolBeast::AcsClient> _client;
-    std::map<Planning::ReplyToken, OpenRequest> _openRequests;
-    Planning::ReplyToken _lastToken = 0;
-    std::deque<Planning::OutboxEntry> _unsent; ///< Only while registered: what this connection has not been given yet.
-    std::unordered_map<std::string, std::uint64_t> _sequences; ///< By transactionId, of what was given to the session.
-    bool _bReplaying = false;
     std::string _url;
     std::string _loggedOutage; ///< The reason that was told last, of the outage that goes on.
 
     void OnSessionEvent(const Protocol::SessionEvent& event) override;
+    void LogEvent(const Protocol::SessionEvent& event);
     void LogNote(const Protocol::ProtocolNoted& noted);
     void LogOutage(const Protocol::LinkLost& lost);
-    void TakeRequest(const Protocol::AcsRequest& request);
-    void AnswerQuery(const Protocol::AcsRequest& request);
-    void AnswerHistory(const Protocol::AcsRequest& request, const Protocol::RequestAcsPlanHistory& query);
-    void TakeAck(const Protocol::Acked& acked);
-    void BeginReplay();
-    void Feed();
-    [[nodiscard]] std::chrono::minutes GetOffset() const;
+
+    [[nodiscard]] bool TrySendDurable(const Protocol::AcsRequest& request) override;
+    void ReplayDone() override;
+    void SendStatus(const Protocol::AcsPayload& status) override;
+    void SendPosition(const Protocol::RobotPositionUpdate& positions) override;
+    void Answer(
+        Protocol::EAcsCommand command,
+        std::string_view transactionID,
+        Protocol::EAckResult result,
+        std::string_view message,
+        const Protocol::AckPayload& payload) override;
+    void SetSiteOffset(std::chrono::minutes offset) override;
 
 public:
     /// Clock and engine must outlive the link.
@@ -96,7 +84,7 @@ public:
     void TellWorking(bool bWorking);
     void TellTsc(Planning::ETscState state);
 
-    [[nodiscard]] bool IsRegistered() const;
+    [[nodiscard]] bool IsRegistered() const override;
     [[nodiscard]] const Protocol::SessionStatistics& GetStatistics() const;
 };
 

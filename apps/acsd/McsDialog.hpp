@@ -1,0 +1,83 @@
+#pragma once
+
+#include "common/LocalOffset.hpp"
+#include "IMcsOutput.hpp"
+#include <acs/core/Logger.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/plan/PlanCommand.hpp>
+#include <acs/plan/PlanEngine.hpp>
+#include <acs/plan/Report.hpp>
+#include <acs/plan/RobotStatus.hpp>
+#include <acs/protocol/SessionEvent.hpp>
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <string>
+#include <unordered_map>
+
+namespace ACS::Acsd
+{
+
+/// What acsd and the MCS say to each other: hands requests to the engine as commands, answers them, feeds the engine's
+/// outbox into the session and tells the engine what was acknowledged. Pure: the session is the caller's.
+class McsDialog final
+{
+public:
+    /// Receives the engine's next command; must not call the dialog.
+    using CommandHandler = std::function<void(Planning::PlanCommand command)>;
+
+private:
+    /// A command of the MCS that waits for the engine's reply.
+    struct OpenRequest
+    {
+        Protocol::EAcsCommand command = Protocol::EAcsCommand::ExecutionPlan;
+        std::string transactionID;
+        std::string planID;
+    };
+
+    const Core::IClock& _clock;
+    Core::Logger _logger;
+    Apps::LocalOffset _localOffset;
+    const Planning::PlanEngine& _engine;
+    IMcsOutput& _output;
+    CommandHandler _handler;
+    std::map<Planning::ReplyToken, OpenRequest> _openRequests;
+    Planning::ReplyToken _lastToken = 0;
+    std::deque<Planning::OutboxEntry> _unsent; ///< Only while registered: what this connection has not been given yet.
+    std::unordered_map<std::string, std::uint64_t> _sequences; ///< By transactionId, of what was given to the session.
+    bool _bReplaying = false;
+
+    void TakeRequest(const Protocol::AcsRequest& request);
+    void AnswerQuery(const Protocol::AcsRequest& request);
+    void AnswerHistory(const Protocol::AcsRequest& request, const Protocol::RequestAcsPlanHistory& query);
+    void TakeAck(const Protocol::Acked& acked);
+    void BeginReplay();
+    void Feed();
+    [[nodiscard]] std::chrono::minutes GetOffset() const;
+
+public:
+    /// Clock, engine and output must outlive the dialog.
+    McsDialog(
+        const Core::IClock& clock,
+        Core::Logger logger,
+        const Apps::LocalOffset& localOffset,
+        const Planning::PlanEngine& engine,
+        IMcsOutput& output,
+        CommandHandler handler);
+
+    /// Once, before the session is started: what the MCS is to be told of TSC and robots.
+    void Begin();
+
+    /// What the session tells.
+    void OnSessionEvent(const Protocol::SessionEvent& event);
+
+    void Reply(const Planning::ReplyCommand& reply);
+    void Report(const Planning::OutboxEntry& entry);
+    void TellStatus(const Planning::RobotStatus& status);
+    void TellWorking(bool bWorking);
+    void TellTsc(Planning::ETscState state);
+};
+
+} // namespace ACS::Acsd
