@@ -258,6 +258,7 @@ private:
     void OnJobFinished(Robot& robot, const JobFinished& event);
     void OnJobFailed(Robot& robot, const JobFailed& event);
     void OnJobTimeout(Robot& robot);
+    [[nodiscard]] bool TryEndOverdueJob(Robot& robot, const std::string& jobID);
     void Place(Robot& robot, const std::string& nodeID);
     void CompareErrors(Robot& robot);
     void Advance(Robot& robot, std::size_t routeIndex);
@@ -281,19 +282,20 @@ private:
     [[nodiscard]] static const std::string& GetJobID(const ActivePlan& plan);
     [[nodiscard]] StartJob MakeStartJob(const Robot& robot) const;
 
-    // Who does what, and who drives when (PlanEngine.Dispatch.cpp).
+    // Who does what (PlanEngine.Dispatch.cpp).
     void Dispatch();
     void AssignPlans();
+    [[nodiscard]] Robot* FindNearestOrNull(const ActivePlan& plan);
+
+    // Who drives when (PlanEngine.Traffic.cpp).
     void MoveWaiting();
     void SendIdleHome();
     [[nodiscard]] std::vector<Robot*> GetHomeless();
     [[nodiscard]] std::optional<Route> FindComingRouteOrNull(const Robot& robot) const;
-    [[nodiscard]] bool TryEndOverdueJob(Robot& robot, const std::string& jobID);
     void PartCircles();
     [[nodiscard]] std::vector<Robot*> GetInCircles();
     [[nodiscard]] bool TryRetreat(Robot& robot, std::size_t node);
     [[nodiscard]] bool TryRetreatAnywhere(Robot& robot);
-    [[nodiscard]] Robot* FindNearestOrNull(const ActivePlan& plan);
     [[nodiscard]] std::vector<Robot*> GetWaiting();
     [[nodiscard]] std::optional<std::size_t> GetTargetOrNull(const Robot& robot) const;
     [[nodiscard]] bool TryDrive(Robot& robot);
