@@ -1,11 +1,13 @@
 #include "Acsd.hpp"
 
 #include "AcsdStatus.hpp"
+#include "common/HttpRoutes.hpp"
 #include "common/HttpServer.hpp"
 #include "common/MetricsEndpoint.hpp"
 #include "common/TimerSet.hpp"
 #include "EngineLoop.hpp"
 #include "McsLink.hpp"
+#include "OperatorRoutes.hpp"
 #include "PlanLog.hpp"
 #include "RobotHost.hpp"
 #include "StoreWorker.hpp"
@@ -37,8 +39,6 @@ using namespace std::chrono_literals;
 /// How long the broker or all robots may be away before the MCS is told that no work can be taken (`comm.grace`).
 constexpr std::chrono::milliseconds WORK_GRACE = 10s;
 constexpr std::chrono::milliseconds STOP_LIMIT = 5s;
-
-constexpr const char* PLAIN_TEXT = "text/plain; charset=utf-8";
 
 constexpr std::uint64_t GRACE_TIMER = 1;
 constexpr std::uint64_t STOP_TIMER = 2;
@@ -81,6 +81,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     std::map<std::pair<std::string, std::string>, RobotHost*> _vehicles;
     std::set<std::string> _reachable; ///< Robots that are not Disconnected.
     Apps::TimerSet _timers;
+    Apps::HttpRoutes _routes;
     Apps::HttpServer _http;
     Apps::Endpoint _httpEndpoint;
 
@@ -243,49 +244,18 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         return {{"mcs", _mcs.IsRegistered()}, {"mqtt", _bMqttUp}};
     }
 
-    [[nodiscard]] Apps::HttpResponse Respond(const Apps::HttpRequest& request)
+    void AddRoutes()
     {
-        constexpr unsigned NOT_FOUND = 404;
-        constexpr unsigned NOT_ALLOWED = 405;
-        const bool bTscPause = request.path == "/tsc/pause";
-        if (bTscPause || request.path == "/tsc/resume")
-        {
-            return request.method == "POST" ? SwitchTsc(bTscPause)
-                                            : Apps::HttpResponse{NOT_ALLOWED, PLAIN_TEXT, "only POST is served here\n"};
-        }
-        if (request.method != "GET")
-        {
-            return {NOT_ALLOWED, PLAIN_TEXT, "only GET is served here\n"};
-        }
-        if (request.path == "/livez")
-        {
-            return MakeLiveResponse();
-        }
-        if (request.path == "/readyz")
-        {
-            return MakeReadyResponse(GetLinks());
-        }
-        if (request.path == "/status")
-        {
+        _routes.Add("GET", "/livez", [](const auto&, const auto&) { return MakeLiveResponse(); });
+        _routes.Add("GET", "/readyz", [this](const auto&, const auto&) { return MakeReadyResponse(GetLinks()); });
+        _routes.Add("GET", "/status", [this](const auto&, const auto&) {
             return MakeStatusResponse(GetLinks(), _engine);
-        }
-        if (request.path == "/metrics")
-        {
+        });
+        _routes.Add("GET", "/metrics", [this](const auto&, const auto&) {
             UpdateMetrics();
             return _metrics.Respond();
-        }
-        return {
-            NOT_FOUND,
-            PLAIN_TEXT,
-            "there are /livez, /readyz, /status and /metrics, and POST /tsc/pause and /tsc/resume\n"};
-    }
-
-    /// Accepted, not done: the store may still be at work, and Pausing lasts as long as work runs. /status tells.
-    [[nodiscard]] Apps::HttpResponse SwitchTsc(bool bPause)
-    {
-        constexpr unsigned ACCEPTED = 202;
-        _loop.Push(Planning::PlanCommand(Planning::ControlTsc{bPause, 0}));
-        return {ACCEPTED, PLAIN_TEXT, "accepted; /status has the state of the TSC\n"};
+        });
+        AddOperatorRoutes(_routes, [this](Planning::PlanCommand command) { _loop.Push(std::move(command)); });
     }
 
     void UpdateMetrics()
@@ -366,10 +336,11 @@ public:
           _timers(_surroundings.executor, [this](std::uint64_t key) { OnTimer(key); }),
           _http(
               _surroundings.executor,
-              [this](const Apps::HttpRequest& request) { return Respond(request); },
+              [this](const Apps::HttpRequest& request) { return _routes.Respond(request); },
               _surroundings.logger.MakeFor("http"))
     {
         _engine.SetObserver(_planLog);
+        AddRoutes();
         _metrics.AddGauge(LINK_UP, "Whether the link is up");
         _metrics.AddGauge(PLANS_ACTIVE, "Plans that are not finished");
         _metrics.AddGauge(OUTBOX_DEPTH, "Reports that the MCS has not acknowledged");

@@ -42,6 +42,20 @@ std::optional<std::string> DecodeOrNull(std::string_view text, bool bQuery)
     return decoded;
 }
 
+/// Of a path that begins with a slash and can be decoded.
+std::vector<std::string> SplitPath(std::string_view path)
+{
+    std::vector<std::string> segments;
+    while (!path.empty())
+    {
+        path.remove_prefix(1);
+        const std::size_t end = std::min(path.find('/'), path.size());
+        segments.push_back(*DecodeOrNull(path.substr(0, end), false));
+        path.remove_prefix(end);
+    }
+    return segments;
+}
+
 bool TryReadQuery(std::string_view text, std::vector<std::pair<std::string, std::string>>& query)
 {
     while (!text.empty())
@@ -80,11 +94,12 @@ Core::Result<HttpRequest> ParseHttpTarget(std::string_view target)
     std::optional<std::string> path = DecodeOrNull(target.substr(0, question), false);
     HttpRequest request;
     const bool bQueryValid = TryReadQuery(target.substr(std::min(question + 1, target.size())), request.query);
-    if (!path.has_value() || path->empty() || path->front() != '/' || !bQueryValid)
+    if (!path.has_value() || !target.starts_with('/') || !bQueryValid)
     {
         return Core::Fail(Core::ECoreError::OutOfRange, {}, "a path that begins with / and is percent-encoded", {});
     }
     request.path = std::move(*path);
+    request.segments = SplitPath(target.substr(0, question));
     return request;
 }
 

@@ -17,6 +17,8 @@ struct HttpRequest
 {
     std::string method; ///< "GET", "POST" …
     std::string path;   ///< Percent-decoded, without the query: "/project/robot/tasks[0]".
+    /// What stands between the slashes of the path, each decoded by itself: a %2F does not part.
+    std::vector<std::string> segments;
     std::vector<std::pair<std::string, std::string>> query; ///< Decoded, in the order given; names may repeat.
     std::string body;                                       ///< At most 1 MiB.
 

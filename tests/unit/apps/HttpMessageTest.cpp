@@ -26,10 +26,18 @@ TEST_CASE("Query parameters are decoded, and the first of a name counts")
     REQUIRE_FALSE(request->GetQueryOrNull("y").has_value());
 }
 
+TEST_CASE("The segments of a path are parted before they are decoded")
+{
+    const auto request = Apps::ParseHttpTarget("/plans/PLAN%2F1//done/?a/b");
+    REQUIRE(request.has_value());
+    REQUIRE(request->segments == std::vector<std::string>{"plans", "PLAN/1", "", "done", ""});
+    REQUIRE(Apps::ParseHttpTarget("/")->segments == std::vector<std::string>{""});
+}
+
 TEST_CASE("A target that is no encoded path is refused")
 {
     const auto* const target =
-        GENERATE("", "*", "x", "?a=b", "/%", "/%5", "/%5x", "/%x5", "/%-1", "/a?b=%zz", "/a?%2=1");
+        GENERATE("", "*", "x", "?a=b", "/%", "/%5", "/%5x", "/%x5", "/%-1", "/a?b=%zz", "/a?%2=1", "%2Fa");
     CAPTURE(target);
     REQUIRE_FALSE(Apps::ParseHttpTarget(target).has_value());
 }

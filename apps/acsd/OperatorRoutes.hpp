@@ -1,0 +1,18 @@
+#pragma once
+
+#include "common/HttpRoutes.hpp"
+#include <acs/plan/PlanCommand.hpp>
+
+#include <functional>
+
+namespace ACS::Acsd
+{
+
+/// Takes what an operator asks of the engine.
+using OperatorHandler = std::function<void(Planning::PlanCommand command)>;
+
+/// What an operator may ask of acsd, each by a POST. The answers are JSON: 202 with a message where the command was
+/// handed on (it may still wait for the store; /status tells what came of it), else an error in a sentence.
+void AddOperatorRoutes(Apps::HttpRoutes& routes, OperatorHandler handler);
+
+} // namespace ACS::Acsd
