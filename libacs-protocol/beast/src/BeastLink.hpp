@@ -41,6 +41,7 @@ class BeastLink final : public ILink, public std::enable_shared_from_this<BeastL
     boost::beast::flat_buffer _buffer;
     std::deque<std::string> _queue;
     std::size_t _queuedBytes = 0;
+    std::size_t _bytesSinceDroppable = 0; ///< Of texts that were sent since the last droppable one.
     bool _bOpen = false;
     bool _bCloseWanted = false;
     bool _bCloseSent = false;
@@ -96,6 +97,7 @@ public:
         {
             return;
         }
+        _bytesSinceDroppable = bDroppable ? 0 : _bytesSinceDroppable + text.size();
         _queuedBytes += text.size();
         _queue.push_back(std::move(text));
         if (_queuedBytes > _options.maximumQueued)
@@ -154,11 +156,15 @@ public:
     }
 
 private:
-    /// Whether what was sent before still waits, here or in the system: what may be left out would come late. One text
-    /// that is on its way is no delay.
+    /// Whether so much waits, here or in the system, that what may be left out would come late. One droppable text that is
+    /// on its way is no delay, nor are the few others that were sent just before this one: they count here until their
+    /// write is over, and in the system until the other side's has acknowledged them, both of which takes its time where
+    /// nothing is held up.
     [[nodiscard]] bool IsHeldUp(std::size_t size)
     {
-        return !_queue.empty() || CountUntaken(GetTcpStream().socket().native_handle()) > 2 * size;
+        constexpr std::size_t MAX_OTHERS = 65'536;
+        const std::size_t waiting = _queuedBytes + CountUntaken(GetTcpStream().socket().native_handle());
+        return waiting > 2 * size + std::min(2 * _bytesSinceDroppable, MAX_OTHERS);
     }
 
     void PrepareSocket()

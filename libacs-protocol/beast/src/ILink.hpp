@@ -43,7 +43,7 @@ public:
     /// As a client, over a TCP stream that is connected: TLS where it has it, then the upgrade.
     virtual void HandshakeAsync(UpgradeOffer offer) = 0;
 
-    /// A droppable text is left out where others still wait to be written. Where too much waits, the link is dropped.
+    /// A droppable text is left out where it would come late. Where too much waits, the link is dropped.
     virtual void Send(std::string text, bool bDroppable) = 0;
 
     /// After what waits to be written; bounded by the close timeout.

@@ -551,6 +551,28 @@ TEST_CASE("13.12 While the socket is blocked positions are left out, and none of
     CHECK(rig.acsEvents.GetAll<Protocol::LinkLost>().empty());
 }
 
+TEST_CASE("R14 A position goes out together with the reports of the same moment")
+{
+    constexpr std::size_t ROUNDS = 50;
+    constexpr std::size_t REPORTS = 8; // With other bytes than the position has: more than two of it.
+    ClientRig rig;
+    rig.RegisterWithRaw();
+    RawMcs& mcs = *rig.connections.at(0);
+    for (std::size_t round = 1; round <= ROUNDS; ++round)
+    {
+        for (std::size_t i = 0; i < REPORTS; ++i)
+        {
+            REQUIRE(rig.client->TrySendDurable(MakeReport(std::to_string(round) + "-" + std::to_string(i))));
+        }
+        rig.client->SendPosition({{{"LR01", static_cast<double>(round), 0.0, 0.0, 100.0}}});
+        REQUIRE(rig.WasReached([&] { return mcs.Count(EAcsCommand::PlanReport) == REPORTS * round; }));
+        REQUIRE(rig.WasReached([&rig] { return rig.client->GetRoom() >= REPORTS; }));
+    }
+    REQUIRE(rig.client->TrySendDurable(MakeReport("end")));
+    REQUIRE(rig.WasReached([&mcs] { return mcs.Count(EAcsCommand::PlanReport) == REPORTS * ROUNDS + 1; }));
+    CHECK(mcs.Count(EAcsCommand::RobotPositionUpdate) == ROUNDS);
+}
+
 TEST_CASE("13.12 Positions alone do not pile up in the system either, while the other side takes nothing")
 {
     constexpr std::size_t POSITIONS = 1'000;

@@ -36,7 +36,8 @@ struct SendText
 {
     ConnectionID connection = 0;
     std::string text;
-    bool bDroppable = false; ///< Leave it out where others still wait to be written (positions).
+    bool bDroppable =
+        false; ///< Leave it out where the other side does not keep up, so that it would come late (positions).
 
     bool operator==(const SendText&) const = default;
 };
