@@ -125,8 +125,6 @@ def explain_foreign(path, layer, name):
         if is_public_header(path, layer) and not name.startswith(PUBLIC_THIRD_PARTY):
             return "must not be seen by users of a public header; hide it in src/ behind a pointer to an implementation"
         return None
-    if layer == "plan" and path.startswith("libplan/src/") and name.startswith("boost/graph/"):
-        return None
     return f"is not among what layer '{layer}' may use ({', '.join(THIRD_PARTY[layer])})"
 
 

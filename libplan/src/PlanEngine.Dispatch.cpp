@@ -1,7 +1,7 @@
 #include "PlanEngine.Impl.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <map>
 #include <utility>
 
 namespace ACS::Planning
@@ -63,23 +63,26 @@ PlanEngine::Impl::Robot* PlanEngine::Impl::FindNearestOrNull(const ActivePlan& p
     {
         return idle.empty() ? nullptr : idle.front();
     }
-    Robot* nearest = idle.front();
-    double shortest = std::numeric_limits<double>::infinity();
-    for (Robot* robot : idle)
+    // One search for each vehicle type, however many robots of it there are.
+    std::map<std::string_view, std::vector<std::size_t>> starts;
+    for (const Robot* robot : idle)
     {
-        const std::string& vehicleTypeID = robot->options->vehicleTypeID;
+        starts[robot->options->vehicleTypeID].push_back(*robot->node);
+    }
+    std::optional<QuickestStart> quickest;
+    for (const auto& [vehicleTypeID, nodes] : starts)
+    {
         const std::size_t dock = *_admission.FindDockOrNull(plan.resolved.steps.front().stationID, vehicleTypeID);
-        const std::optional<Route> route = _router.FindRouteOrNull(
-            vehicleTypeID,
-            _site.GetNodes()[*robot->node].nodeID,
-            _site.GetNodes()[dock].nodeID);
-        if (route.has_value() && route->travelSeconds < shortest)
+        const std::optional<QuickestStart> start = _router.FindQuickestStartOrNull(vehicleTypeID, nodes, dock);
+        if (start.has_value() && (!quickest.has_value() || start->travelSeconds < quickest->travelSeconds))
         {
-            shortest = route->travelSeconds;
-            nearest = robot;
+            quickest = start;
         }
     }
-    return nearest;
+    const auto nearest = std::ranges::find_if(idle, [&quickest](const Robot* robot) {
+        return quickest.has_value() && robot->node == quickest->nodeIndex;
+    });
+    return nearest == idle.end() ? idle.front() : *nearest;
 }
 
 } // namespace ACS::Planning

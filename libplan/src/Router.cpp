@@ -1,13 +1,10 @@
 #include <acs/plan/Router.hpp>
 
-#include <boost/graph/adjacency_list.hpp>
-#include <boost/graph/dijkstra_shortest_paths_no_color_map.hpp>
-#include <boost/graph/filtered_graph.hpp>
-
 #include <algorithm>
-#include <cassert>
+#include <functional>
+#include <limits>
 #include <map>
-#include <set>
+#include <queue>
 #include <string>
 #include <utility>
 
@@ -17,31 +14,36 @@ namespace ACS::Planning
 namespace
 {
 
+/// An edge as a search goes along it: with the direction of travel or against it.
 struct Lane
 {
     std::size_t edgeIndex = 0;
+    std::size_t nodeIndex = 0; ///< Where it leads.
     double seconds = 0;
 };
 
-using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property, Lane>;
+using Lanes = std::vector<std::vector<Lane>>; ///< By the node where they begin.
 
-/// Which nodes a search may use; Boost copies it and wants it without arguments too.
-class NodePredicate
+/// What a vehicle type may drive along.
+struct Graph
 {
-    const std::vector<bool>* _allowedOrNull = nullptr;
+    Lanes onward;
+    Lanes back;
+};
 
-public:
-    NodePredicate() = default;
+/// How a search has reached a node.
+struct Reached
+{
+    double seconds = std::numeric_limits<double>::infinity();
+    std::size_t edgeIndex = 0;
+    std::size_t fromIndex = 0;
+};
 
-    explicit NodePredicate(const std::vector<bool>& allowed)
-        : _allowedOrNull(&allowed)
-    {
-    }
-
-    bool operator()(std::size_t nodeIndex) const
-    {
-        return (*_allowedOrNull)[nodeIndex];
-    }
+/// A route's nodes and edges by index, its beginning left out.
+struct Leg
+{
+    std::size_t nodeIndex = 0;
+    std::size_t edgeIndex = 0;
 };
 
 } // namespace
@@ -50,44 +52,44 @@ class Router::Impl
 {
     const SiteMap& _site;
     std::map<std::string, Graph, std::less<>> _graphs;
+    mutable std::uint64_t _visitedNodes = 0;
 
 public:
     explicit Impl(const SiteMap& site)
         : _site(site)
     {
-        std::set<std::string> types;
-        for (const SiteEdge& edge : site.GetEdges())
+        for (std::size_t i = 0; i < site.GetEdges().size(); ++i)
         {
-            for (const SiteEdgeRule& rule : edge.rules)
+            for (const SiteEdgeRule& rule : site.GetEdges()[i].rules)
             {
-                types.insert(rule.vehicleTypeID);
+                AddEdge(i, rule);
             }
-        }
-        for (const std::string& type : types)
-        {
-            // Filled where it stands: Boost's graphs are copied where one would move them.
-            AddEdges(type, _graphs.try_emplace(type, site.GetNodes().size()).first->second);
         }
     }
 
-    void AddEdges(std::string_view vehicleTypeID, Graph& graph) const
+    void AddEdge(std::size_t edgeIndex, const SiteEdgeRule& rule)
     {
-        for (std::size_t i = 0; i < _site.GetEdges().size(); ++i)
+        const SiteEdge& edge = _site.GetEdges()[edgeIndex];
+        const std::size_t nodeCount = _site.GetNodes().size();
+        Graph& graph = _graphs.try_emplace(rule.vehicleTypeID, Graph{Lanes(nodeCount), Lanes(nodeCount)}).first->second;
+        const std::size_t start = *_site.FindNodeIndexOrNull(edge.startNodeID);
+        const std::size_t end = *_site.FindNodeIndexOrNull(edge.endNodeID);
+        const SiteNode& startNode = _site.GetNodes()[start];
+        const SiteNode& endNode = _site.GetNodes()[end];
+        const bool bFirstRule = edge.FindRuleOrNull(rule.vehicleTypeID) == &rule;
+        if (!bFirstRule || startNode.FindRuleOrNull(rule.vehicleTypeID) == nullptr
+            || endNode.FindRuleOrNull(rule.vehicleTypeID) == nullptr)
         {
-            const SiteEdge& edge = _site.GetEdges()[i];
-            const std::size_t start = *_site.FindNodeIndexOrNull(edge.startNodeID);
-            const std::size_t end = *_site.FindNodeIndexOrNull(edge.endNodeID);
-            const SiteNode& startNode = _site.GetNodes()[start];
-            const SiteNode& endNode = _site.GetNodes()[end];
-            const SiteEdgeRule* ruleOrNull = edge.FindRuleOrNull(vehicleTypeID);
-            if (ruleOrNull == nullptr || startNode.FindRuleOrNull(vehicleTypeID) == nullptr
-                || endNode.FindRuleOrNull(vehicleTypeID) == nullptr)
-            {
-                continue;
-            }
-            const double seconds = GetDistance(startNode, endNode) / ruleOrNull->maxSpeed.value_or(DEFAULT_SPEED);
-            boost::add_edge(start, end, Lane{i, seconds}, graph);
+            return;
         }
+        const double seconds = GetDistance(startNode, endNode) / rule.maxSpeed.value_or(DEFAULT_SPEED);
+        graph.onward[start].push_back(Lane{edgeIndex, end, seconds});
+        graph.back[end].push_back(Lane{edgeIndex, start, seconds});
+    }
+
+    [[nodiscard]] std::uint64_t CountVisitedNodes() const noexcept
+    {
+        return _visitedNodes;
     }
 
     [[nodiscard]] RouteNode MakeNode(std::size_t nodeIndex, std::string_view vehicleTypeID) const
@@ -132,72 +134,113 @@ public:
             route.nodes.push_back(MakeNode(*from, vehicleTypeID));
             return route;
         }
-        const Graph& graph = found->second;
-        std::vector<bool> allowed(_site.GetNodes().size(), true);
-        for (std::size_t i = 0; isExcluded && i < allowed.size(); ++i)
-        {
-            allowed[i] = i == *from || i == *to || !isExcluded(i);
-        }
-        const NodePredicate predicate(allowed);
-        const boost::filtered_graph<Graph, boost::keep_all, NodePredicate> free(graph, boost::keep_all(), predicate);
-        std::vector<std::size_t> predecessors(allowed.size());
-        std::vector<double> seconds(allowed.size());
-        boost::dijkstra_shortest_paths_no_color_map(
-            free,
-            *from,
-            boost::weight_map(boost::get(&Lane::seconds, graph))
-                .predecessor_map(
-                    boost::make_iterator_property_map(predecessors.begin(), boost::get(boost::vertex_index, graph)))
-                .distance_map(
-                    boost::make_iterator_property_map(seconds.begin(), boost::get(boost::vertex_index, graph))));
-        if (predecessors[*to] == *to)
+        const auto isAllowed = [&isExcluded, &from, &to](std::size_t node) {
+            return node == *from || node == *to || !isExcluded || !isExcluded(node);
+        };
+        std::vector<Reached> reached;
+        const auto isThere = [&to](std::size_t node) {
+            return node == *to;
+        };
+        if (!SearchOrNull(found->second.onward, *from, isAllowed, isThere, reached).has_value())
         {
             return std::nullopt;
         }
-        route.travelSeconds = seconds[*to];
-        AppendPath(graph, predecessors, *from, *to, vehicleTypeID, route);
+        route.travelSeconds = reached[*to].seconds;
+        AppendPath(reached, *from, *to, vehicleTypeID, route);
         return route;
     }
 
+    [[nodiscard]] std::optional<QuickestStart> FindQuickestStartOrNull(
+        std::string_view vehicleTypeID,
+        std::span<const std::size_t> starts,
+        std::size_t target) const
+    {
+        std::vector<bool> startMarks(_site.GetNodes().size(), false);
+        for (const std::size_t start : starts)
+        {
+            startMarks[start] = true;
+        }
+        const auto isStart = [&startMarks](std::size_t node) {
+            return startMarks[node];
+        };
+        const auto isAllowed = [](std::size_t) {
+            return true;
+        };
+        if (isStart(target))
+        {
+            return QuickestStart{target, 0.0};
+        }
+        const auto found = _graphs.find(vehicleTypeID);
+        if (found == _graphs.end())
+        {
+            return std::nullopt;
+        }
+        std::vector<Reached> reached;
+        const std::optional<std::size_t> start = SearchOrNull(found->second.back, target, isAllowed, isStart, reached);
+        return start.has_value() ? std::optional(QuickestStart{*start, reached[*start].seconds}) : std::nullopt;
+    }
+
+private:
+    /// Dijkstra's algorithm, which goes no farther than to the first node that is wanted: Boost's knows no end but an
+    /// exception. Of several such nodes as near, that of the lowest index.
+    template <typename TAllowed, typename TWanted>
+    [[nodiscard]] std::optional<std::size_t> SearchOrNull(
+        const Lanes& lanes,
+        std::size_t start,
+        TAllowed isAllowed,
+        TWanted isWanted,
+        std::vector<Reached>& reached) const
+    {
+        using Entry = std::pair<double, std::size_t>;
+        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+        reached.assign(lanes.size(), Reached{});
+        reached[start].seconds = 0;
+        open.emplace(0.0, start);
+        while (!open.empty())
+        {
+            const Entry nearest = open.top();
+            open.pop();
+            const std::size_t node = nearest.second;
+            if (nearest.first > reached[node].seconds)
+            {
+                continue; // a quicker way was found since
+            }
+            ++_visitedNodes;
+            if (isWanted(node))
+            {
+                return node;
+            }
+            for (const Lane& lane : lanes[node])
+            {
+                const double seconds = nearest.first + lane.seconds;
+                if (seconds < reached[lane.nodeIndex].seconds && isAllowed(lane.nodeIndex))
+                {
+                    reached[lane.nodeIndex] = Reached{seconds, lane.edgeIndex, node};
+                    open.emplace(seconds, lane.nodeIndex);
+                }
+            }
+        }
+        return std::nullopt;
+    }
+
     void AppendPath(
-        const Graph& graph,
-        const std::vector<std::size_t>& predecessors,
+        const std::vector<Reached>& reached,
         std::size_t from,
         std::size_t to,
         std::string_view vehicleTypeID,
         Route& route) const
     {
-        std::vector<std::size_t> path{to};
-        while (path.back() != from)
+        std::vector<Leg> legs;
+        for (std::size_t node = to; node != from; node = reached[node].fromIndex)
         {
-            path.push_back(predecessors[path.back()]);
+            legs.push_back(Leg{node, reached[node].edgeIndex});
         }
-        std::ranges::reverse(path);
-        for (std::size_t i = 0; i < path.size(); ++i)
+        route.nodes.push_back(MakeNode(from, vehicleTypeID));
+        for (auto leg = legs.rbegin(); leg != legs.rend(); ++leg)
         {
-            route.nodes.push_back(MakeNode(path[i], vehicleTypeID));
-            if (i > 0)
-            {
-                route.edges.push_back(MakeEdge(FindQuickestEdge(graph, path[i - 1], path[i]), vehicleTypeID));
-            }
+            route.edges.push_back(MakeEdge(leg->edgeIndex, vehicleTypeID));
+            route.nodes.push_back(MakeNode(leg->nodeIndex, vehicleTypeID));
         }
-    }
-
-    /// Two nodes may have several edges.
-    [[nodiscard]] static std::size_t FindQuickestEdge(const Graph& graph, std::size_t from, std::size_t to)
-    {
-        const Lane* bestOrNull = nullptr;
-        const auto [begin, end] = boost::out_edges(from, graph);
-        for (auto edge = begin; edge != end; ++edge)
-        {
-            const Lane& lane = graph[*edge];
-            if (boost::target(*edge, graph) == to && (bestOrNull == nullptr || lane.seconds < bestOrNull->seconds))
-            {
-                bestOrNull = &lane;
-            }
-        }
-        assert(bestOrNull != nullptr);
-        return bestOrNull->edgeIndex;
     }
 };
 
@@ -223,6 +266,19 @@ std::optional<Route> Router::FindRouteOrNull(
     const NodeFilter& isExcluded) const
 {
     return _impl->FindOrNull(vehicleTypeID, fromNodeID, toNodeID, isExcluded);
+}
+
+std::optional<QuickestStart> Router::FindQuickestStartOrNull(
+    std::string_view vehicleTypeID,
+    std::span<const std::size_t> startIndices,
+    std::size_t targetIndex) const
+{
+    return _impl->FindQuickestStartOrNull(vehicleTypeID, startIndices, targetIndex);
+}
+
+std::uint64_t Router::CountVisitedNodes() const noexcept
+{
+    return _impl->CountVisitedNodes();
 }
 
 } // namespace ACS::Planning

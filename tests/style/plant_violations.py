@@ -105,7 +105,6 @@ ACCEPTED = [
     ("files", "libplan/src/Text.hpp", "#pragma once\nnamespace ACS::Detail\n{\n\nclass Hidden\n{\n};\n\n}\n\n"
                                       "class Text\n{\n};\n"),
     ("layers", "libplan/src/Engine.cpp", "const char* text = \"steady_clock::now()\"; // steady_clock::now()\n"),
-    ("layers", "libplan/src/Engine.cpp", "#include <boost/graph/dijkstra_shortest_paths.hpp>\n"),
 ]
 
 

@@ -2,6 +2,11 @@
 #include "PlanWorld.hpp"
 #include <acs/plan/Router.hpp>
 
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 
 namespace
@@ -81,4 +86,53 @@ TEST_CASE("Routes: nodes that are excluded are driven around, the ends never are
     };
     CHECK_FALSE(router.FindRouteOrNull("lr", "A", "D", isAny).has_value());
     CHECK(GetNodeIDs(router.FindRouteOrNull("lr", "A", "B", isAny)) == std::vector<std::string>{"A", "B"});
+}
+
+TEST_CASE("Routes: of several starts the one with the quickest way to the target, along one-way edges")
+{
+    const SiteMap site = *SiteMap::Create(
+        {MakeNode("A", 0, 0), MakeNode("B", 10, 0), MakeNode("C", 5, 5), MakeNode("D", 50, 0)},
+        {MakeEdge("AB", "A", "B", 0.5), MakeEdge("CB", "C", "B", 1), MakeEdge("BD", "B", "D", 10)},
+        {});
+    const Router router(site);
+    const auto find = [&router](std::vector<std::size_t> starts, std::size_t target) {
+        return router.FindQuickestStartOrNull("lr", starts, target);
+    };
+    CHECK(find({0, 2}, 1)->nodeIndex == 2);
+    CHECK(find({0, 2}, 1)->travelSeconds == Approx(7.0711).epsilon(0.001));
+    CHECK(find({0}, 3)->travelSeconds == Approx(24.0));
+    CHECK(find({3, 1}, 1)->travelSeconds == 0.0);
+    CHECK_FALSE(find({3}, 0).has_value());
+    CHECK_FALSE(find({}, 0).has_value());
+    CHECK_FALSE(router.FindQuickestStartOrNull("cr", std::vector<std::size_t>{0}, 1).has_value());
+    CHECK(router.FindQuickestStartOrNull("cr", std::vector<std::size_t>{1}, 1)->nodeIndex == 1);
+}
+
+TEST_CASE("Routes: a search goes no farther than it must, however large the site and however many the starts")
+{
+    constexpr int NODES = 2000;
+    std::vector<SiteNode> nodes;
+    std::vector<SiteEdge> edges;
+    for (int i = 0; i < NODES; ++i)
+    {
+        nodes.push_back(MakeNode(std::to_string(i), i, 0));
+        if (i > 0)
+        {
+            edges.push_back(MakeEdge(fmt::format("{}+", i), std::to_string(i - 1), std::to_string(i), 1));
+            edges.push_back(MakeEdge(fmt::format("{}-", i), std::to_string(i), std::to_string(i - 1), 1));
+        }
+    }
+    const SiteMap site = *SiteMap::Create(std::move(nodes), std::move(edges), {});
+    const Router router(site);
+    REQUIRE(router.FindRouteOrNull("lr", "1000", "1010").has_value());
+    CHECK(router.CountVisitedNodes() <= 21);
+
+    std::vector<std::size_t> starts;
+    for (std::size_t i = 0; i < 100; ++i)
+    {
+        starts.push_back(20 * i);
+    }
+    const std::uint64_t before = router.CountVisitedNodes();
+    CHECK(router.FindQuickestStartOrNull("lr", starts, 1005)->nodeIndex == 1000);
+    CHECK(router.CountVisitedNodes() - before <= 12);
 }
