@@ -233,6 +233,12 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         const Core::Result<VDA5050::ParsedTopic> topic = VDA5050::ParseTopic(message.topic);
         const auto found =
             topic ? _vehicles.find({topic->address.manufacturer, topic->address.serialNumber}) : _vehicles.end();
+        if (_surroundings.traceOrNull != nullptr)
+        {
+            const std::string_view robotID = found == _vehicles.end() ? "" : found->second->GetRobotID();
+            _surroundings.traceOrNull->Write(
+                {"mqtt", ProtocolBeast::EWireDirection::In, robotID, message.topic, message.payload});
+        }
         if (found != _vehicles.end())
         {
             found->second->OnMqttMessage(message);
@@ -353,7 +359,8 @@ public:
                     _surroundings.clock,
                     _surroundings.random,
                     _mqtt,
-                    _surroundings.logger},
+                    _surroundings.logger,
+                    _surroundings.traceOrNull},
                 _config,
                 robot,
                 [this](const std::string& robotID, const Planning::RobotEvent& event) {
@@ -366,7 +373,8 @@ public:
 
     [[nodiscard]] Core::Result<void> Open(Planning::StoredState state)
     {
-        Core::Result<void> opened = _mcs.Open(_surroundings.executor, _surroundings.random, _config);
+        Core::Result<void> opened =
+            _mcs.Open(_surroundings.executor, _surroundings.random, _config, _surroundings.traceOrNull);
         if (!opened)
         {
             return opened;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "AcsdConfig.hpp"
+#include "MessageTrace.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
@@ -34,6 +35,7 @@ public:
         Core::IClock& clock;
         Core::IRandom& random;
         Core::Logger logger;
+        MessageTrace* traceOrNull = nullptr;
     };
 
     /// Opens the store, takes up what it holds and listens on its HTTP address; connects to nothing yet. The

@@ -28,6 +28,9 @@ constexpr std::int64_t HIGHEST_RELAY_BYTE = 65'535;
 constexpr std::int64_t HIGHEST_WORD_INDEX = 255;
 constexpr std::int64_t MOST_PLANS = 100'000;
 constexpr std::int64_t MOST_RETRIES = 100;
+constexpr std::int64_t SMALLEST_TRACE_FILE = 4096;
+constexpr std::int64_t LARGEST_TRACE_FILE = 1'000'000'000'000;
+constexpr std::int64_t MOST_TRACE_FILES = 10'000;
 
 /// Paths in the configuration count from its own folder.
 std::string ResolvePath(const std::string& configFile, const std::string& path)
@@ -344,6 +347,18 @@ void ReadControls(const ConfigSection& root, Planning::ControlOptions& controls)
         root.GetSection("mcs").IsEnabled("result_after_fail_ack", controls.bResultAfterRefusal);
 }
 
+void ReadTrace(const ConfigSection& root, TraceLimits& limits)
+{
+    const ConfigSection trace = root.GetSection("trace");
+    limits.maxFileBytes = static_cast<std::uint64_t>(trace.GetInteger(
+        "max_file_bytes",
+        SMALLEST_TRACE_FILE,
+        LARGEST_TRACE_FILE,
+        static_cast<std::int64_t>(limits.maxFileBytes)));
+    limits.maxFiles = static_cast<std::size_t>(
+        trace.GetInteger("max_files", 1, MOST_TRACE_FILES, static_cast<std::int64_t>(limits.maxFiles)));
+}
+
 void ReadTables(const ConfigSection& root, AcsdConfig& config)
 {
     const ConfigSection robots = root.GetSection("robots");
@@ -392,6 +407,7 @@ AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::st
     ReadQueue(root, config.engine);
     ReadControls(root, config.engine.controls);
     config.positionInterval = root.GetSection("position").GetDuration("interval", 10ms, 1min, config.positionInterval);
+    ReadTrace(root, config.trace);
     ReadTables(root, config);
     RejectActionsWithoutMethod(config);
     config.mistakes = reader.GetMistakes();

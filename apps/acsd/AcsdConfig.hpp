@@ -3,6 +3,7 @@
 #include "common/ConfigReader.hpp"
 #include "common/LocalOffset.hpp"
 #include "common/Url.hpp"
+#include "TraceFolder.hpp"
 #include <acs/plan/EngineOptions.hpp>
 #include <acs/plan/SiteMap.hpp>
 #include <acs/protocol_beast/HttpHeaders.hpp>
@@ -85,6 +86,7 @@ struct AcsdConfig
     std::chrono::milliseconds positionInterval{200};
     std::vector<RobotLinkConfig> robots;
     JobMethods methods;
+    TraceLimits trace;
     Planning::EngineOptions engine;
     std::optional<Planning::SiteMap> site; ///< Always there when there are no mistakes.
     std::vector<std::string> mistakes;     ///< Each with file, line and key; empty: the rest is good.

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -31,6 +32,7 @@ struct ProgramOptions
     Apps::CommonOptions common;
     std::string configFile;
     std::vector<std::string> overrides;
+    std::string traceFolder; ///< Empty: no trace.
     bool bCheckOnly = false;
 };
 
@@ -39,10 +41,21 @@ int Serve(const ProgramOptions& options, AcsdConfig config)
     Apps::SystemClock clock;
     Apps::SystemRandom random;
     Apps::SpdlogSink sink(options.common.logLevel);
+    const Core::Logger logger(sink, NAME);
+    std::unique_ptr<MessageTrace> trace;
+    if (!options.traceFolder.empty())
+    {
+        auto created = MessageTrace::Create(options.traceFolder, config.trace, clock, logger.MakeFor("trace"));
+        if (!created)
+        {
+            Apps::PrintMistake(NAME, Core::Describe(created.error()));
+            return 1;
+        }
+        trace = std::move(*created);
+    }
     boost::asio::io_context context(1);
-    Core::Result<std::unique_ptr<Acsd>> acsd = Acsd::Create(
-        Acsd::Surroundings{context.get_executor(), clock, random, Core::Logger(sink, NAME)},
-        std::move(config));
+    Core::Result<std::unique_ptr<Acsd>> acsd =
+        Acsd::Create(Acsd::Surroundings{context.get_executor(), clock, random, logger, trace.get()}, std::move(config));
     if (!acsd)
     {
         Apps::PrintMistake(NAME, Core::Describe(acsd.error()));
@@ -72,6 +85,11 @@ int RunAcsd(int argc, const char* const* argv)
         ->type_name("KEY=VALUE")
         ->take_all()
         ->allow_extra_args(false);
+    app.add_option(
+           "--trace",
+           options.traceFolder,
+           "write every message of every link into this folder (NDJSON; [trace] in the configuration bounds its size)")
+        ->type_name("DIR");
     app.add_flag("--check-config", options.bCheckOnly, "tell every mistake of the configuration and end");
     Apps::AddCommonOptions(app, options.common);
     const std::optional<int> exitCodeOrNull = Apps::ParseCommandLineOrNull(app, argc, argv);

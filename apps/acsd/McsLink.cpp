@@ -75,9 +75,17 @@ McsLink::~McsLink() = default;
 Core::Result<void> McsLink::Open(
     const boost::asio::any_io_executor& executor,
     Core::IRandom& random,
-    const AcsdConfig& config)
+    const AcsdConfig& config,
+    MessageTrace* traceOrNull)
 {
-    auto client = ProtocolBeast::AcsClient::Create(executor, _clock, random, _logger, MakeOptions(config), *this);
+    ProtocolBeast::ClientOptions options = MakeOptions(config);
+    if (traceOrNull != nullptr)
+    {
+        options.onWire = [traceOrNull](ProtocolBeast::EWireDirection direction, std::string_view text) {
+            traceOrNull->Write({"mcs", direction, {}, {}, text});
+        };
+    }
+    auto client = ProtocolBeast::AcsClient::Create(executor, _clock, random, _logger, options, *this);
     if (!client)
     {
         return tl::unexpected<Core::Error>(client.error());

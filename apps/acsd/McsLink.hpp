@@ -3,6 +3,7 @@
 #include "AcsdConfig.hpp"
 #include "IMcsOutput.hpp"
 #include "McsDialog.hpp"
+#include "MessageTrace.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
@@ -68,11 +69,12 @@ public:
     McsLink& operator=(const McsLink&) = delete;
     ~McsLink() override;
 
-    /// Once, before everything else. Fails with a sentence about the URL; opens no connection.
+    /// Once, before everything else. Fails with a sentence about the URL; opens no connection. A trace outlives the link.
     [[nodiscard]] Core::Result<void> Open(
         const boost::asio::any_io_executor& executor,
         Core::IRandom& random,
-        const AcsdConfig& config);
+        const AcsdConfig& config,
+        MessageTrace* traceOrNull);
     void Start();
 
     /// Tells the MCS, takes leave of it, then calls back.

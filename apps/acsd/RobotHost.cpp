@@ -1,5 +1,6 @@
 #include "RobotHost.hpp"
 
+#include "ArmTrace.hpp"
 #include "common/TimerSet.hpp"
 #include "OpenStreamRobotAdapter.hpp"
 #include "RobotOutputs.hpp"
@@ -12,6 +13,7 @@
 #include <deque>
 #include <iterator>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -56,6 +58,7 @@ struct RobotHost::Impl
     std::optional<Apps::TimerSet> timers;
     std::deque<Planning::AdapterAction> actions; ///< Still to be carried out.
     bool bExecuting = false;
+    std::optional<ArmTrace> armTrace;
     std::unique_ptr<OpenStreamAsio::OpenStreamClient> armClient;
 
     Impl(Surroundings around, const AcsdConfig& config, const RobotLinkConfig& link, EventHandler eventHandler)
@@ -138,6 +141,11 @@ struct RobotHost::Impl
                 "a message to the vehicle could not be sent",
                 {{"robotId", robot.robotID}, {"topic", message.topic}, {"reason", Core::Describe(published.error())}});
         }
+        else if (surroundings.traceOrNull != nullptr)
+        {
+            surroundings.traceOrNull->Write(
+                {"mqtt", ProtocolBeast::EWireDirection::Out, robot.robotID, message.topic, message.payload});
+        }
     }
 
     void Send(const ArmRequest& request) const
@@ -153,13 +161,28 @@ struct RobotHost::Impl
 
     void StartArm()
     {
+        OpenStreamAsio::OpenStreamClientOptions options = MakeArmOptions(*robot.armOrNone);
+        if (surroundings.traceOrNull != nullptr)
+        {
+            armTrace.emplace(*surroundings.traceOrNull, robot.robotID);
+            options.onReceived = [this](std::string_view bytes) {
+                armTrace->OnReceived(bytes);
+            };
+            options.onSent = [this](std::string_view bytes) {
+                armTrace->OnSent(bytes);
+            };
+        }
         armClient = std::make_unique<OpenStreamAsio::OpenStreamClient>(
             surroundings.executor,
             surroundings.clock,
             surroundings.random,
             surroundings.logger.MakeFor("arm." + robot.robotID),
-            MakeArmOptions(*robot.armOrNone),
+            std::move(options),
             [this](const OpenStream::ClientEvent& event, Core::Now /*now*/) {
+                if (armTrace.has_value() && std::holds_alternative<OpenStream::ClientLost>(event))
+                {
+                    armTrace->OnLost();
+                }
                 Call([this, &event](Core::Now now, Planning::AdapterActions& out) {
                     armAdapterOrNull->OnArmEvent(event, now, out);
                 });

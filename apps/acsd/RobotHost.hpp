@@ -1,6 +1,7 @@
 #pragma once
 
 #include "AcsdConfig.hpp"
+#include "MessageTrace.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
@@ -36,6 +37,7 @@ public:
         Core::IRandom& random;
         VDA5050::IMqttLink& mqtt;
         Core::Logger logger;
+        MessageTrace* traceOrNull = nullptr;
     };
 
     RobotHost(Surroundings surroundings, const AcsdConfig& config, const RobotLinkConfig& robot, EventHandler handler);

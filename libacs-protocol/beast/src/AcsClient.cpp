@@ -101,6 +101,7 @@ private:
                 [this](const Protocol::SendText& send) {
                     if (_linkOrNull != nullptr)
                     {
+                        Observe(EWireDirection::Out, send.text);
                         _linkOrNull->Send(send.text, send.bDroppable);
                     }
                 },
@@ -117,6 +118,14 @@ private:
                 [this](const Protocol::Deliver& deliver) { _events->Push(deliver.event); },
             },
             action);
+    }
+
+    void Observe(EWireDirection direction, std::string_view text) const
+    {
+        if (_options.onWire)
+        {
+            _options.onWire(direction, text);
+        }
     }
 
     void ConnectAsync()
@@ -178,6 +187,7 @@ private:
         owner.onText = [weak](std::string_view text) {
             if (const auto self = weak.lock())
             {
+                self->Observe(EWireDirection::In, text);
                 self->Run([text](auto& session, Core::Now now, auto& out) { session.OnText(text, now, out); });
             }
         };

@@ -182,6 +182,10 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
             return;
         }
         AcknowledgeAtOnce();
+        if (_options.onReceived)
+        {
+            _options.onReceived(std::string_view(_input.data(), size));
+        }
         const std::uint64_t connection = _connection;
         _session.OnBytes(std::string_view(_input.data(), size), now, _actions);
         Execute();
@@ -206,6 +210,10 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
     {
         _bWrote = true;
         _bAcknowledging = false;
+        if (_options.onSent)
+        {
+            _options.onSent(action.text);
+        }
         boost::asio::async_write(_socket, boost::asio::buffer(action.text), Guard(&Impl::OnWritten));
     }
 

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <acs/protocol/SessionOptions.hpp>
+#include <acs/protocol_beast/EWireDirection.hpp>
 #include <acs/protocol_beast/HttpHeaders.hpp>
 #include <acs/protocol_beast/TlsOptions.hpp>
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <string>
+#include <string_view>
 
 namespace ACS::ProtocolBeast
 {
@@ -34,6 +37,9 @@ struct ClientOptions
     TlsOptions tls{};    ///< For wss; refused with ws where anything is in it.
     LinkOptions link{};
     Protocol::SessionOptions session{};
+    /// Sees every text: what comes before the session judges it, what goes as it is handed to the connection. May be empty.
+    /// The view is valid during the call, which is made on the executor and must not call the client.
+    std::function<void(EWireDirection direction, std::string_view text)> onWire;
 };
 
 } // namespace ACS::ProtocolBeast

@@ -2,6 +2,7 @@
 
 #include <acs/protocol/SessionAction.hpp>
 #include <acs/protocol_beast/ClientOptions.hpp>
+#include <acs/protocol_beast/EWireDirection.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -12,12 +13,6 @@
 
 namespace ACS::ProtocolBeast
 {
-
-enum class EWireDirection : std::uint8_t
-{
-    In,
-    Out,
-};
 
 /// Sees every text: what comes before the session judges it, what goes as it is handed to the connection. The view is
 /// valid during the call, which is made on the executor and must not call the server.

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace ACS::OpenStreamAsio
 {
@@ -21,6 +22,10 @@ struct OpenStreamClientOptions
     std::string host = "127.0.0.1"; ///< A name or an address.
     std::uint16_t port = 49'000;
     OpenStream::ClientSessionOptions session;
+    /// See every byte as it is read, or handed to the socket, whatever the session makes of it. May be empty. The view is
+    /// valid during the call, which is made on the executor and must not call the client.
+    std::function<void(std::string_view bytes)> onReceived;
+    std::function<void(std::string_view bytes)> onSent;
 };
 
 /// Runs a ClientSession over TCP (no delay, keep-alive). Everything happens on the executor's one thread; destroying or
