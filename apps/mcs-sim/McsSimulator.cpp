@@ -10,11 +10,10 @@
 #include "PlanSender.hpp"
 #include "PlanTracker.hpp"
 #include "RobotBoard.hpp"
-#include "ScenarioSequence.hpp"
+#include "ScenarioPlayer.hpp"
 #include "ScenarioSummary.hpp"
 #include "Screen.hpp"
 #include "Summary.hpp"
-#include "WireFilter.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/protocol_beast/ISessionHandler.hpp>
 #include <acs/protocol_beast/McsServer.hpp>
@@ -24,7 +23,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
-#include <deque>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -41,8 +39,6 @@ enum class ETimer : std::uint8_t
     Tick,   ///< Time to draw, and to see whether an Ack is overdue.
     Linger, ///< All plans have ended: what the ACS still says, right or wrong, is heard for so long.
     Close,  ///< The ACS does not answer the closing handshake.
-    Inbox,  ///< A text has come that the scenario has not seen yet.
-    Scenario,
 };
 
 /// The summary is written once: a terminal may wrap a long reason, cut off it would be of no use.
@@ -79,13 +75,11 @@ class McsSimulator::Impl final : private ProtocolBeast::ISessionHandler
     PlanRefresher _refresher;
     RobotBoard _board;
     PlanSender _sender;
-    ScenarioSequence _scenarios;
     NoteJudge _notes;
-    WireFilter _wireFilter;
-    std::deque<std::string> _inbox; ///< What came from the ACS, for the scenarios.
+    PlanTracker::Lines _lines;
+    ScenarioPlayer _scenarios;
     LiveView _view;
     ViewHeading _heading;
-    PlanTracker::Lines _lines;
     Core::SteadyTime _started;
     std::optional<Core::SteadyTime> _finished;
     bool _bReleased = false;
@@ -124,7 +118,12 @@ public:
               [this](const Protocol::ExecutionPlan& plan, const std::string& transactionID) {
                   return TrySendPlan(plan, transactionID);
               }),
-          _scenarios(options.scenarios, random, options.date),
+          _scenarios(
+              executor,
+              ScenarioStage{clock, random, _sender, _notes, _lines},
+              options.scenarios,
+              options.date,
+              [this] { OnPlayed(); }),
           _view(options.columns, options.rows),
           _started(clock.GetNow().steady),
           _timers(executor, [this](std::uint64_t key) { OnTimer(static_cast<ETimer>(key)); })
@@ -151,6 +150,7 @@ public:
             return tl::make_unexpected(created.error());
         }
         _server = std::move(*created);
+        _scenarios.SetServer(*_server);
         const Apps::Endpoint endpoint{_options.listen.host, _server->GetPort()};
         _heading.address = (_options.tls.has_value() ? "wss://" : "ws://") + MakeText(endpoint) + _options.path;
         _timers.Start(MakeKey(ETimer::Tick), TICK);
@@ -162,7 +162,7 @@ public:
         if (!_bReleased)
         {
             _bReleased = true;
-            PlayScenario([this](Core::Now now, ScenarioActions& out) { _scenarios.Start(now, out); });
+            _scenarios.Start();
             SendDue();
             Flush();
         }
@@ -259,7 +259,7 @@ private:
         {
             return;
         }
-        ReadInbox();
+        _scenarios.ReadInbox();
         std::visit(
             Core::Overloaded{
                 [this](const Protocol::Registered& /*event*/) { OnRegistered(); },
@@ -304,91 +304,7 @@ private:
         {
             _notes.Excuse(); // Cut by us.
         }
-        if (!_scenarios.IsFinished() && _wireFilter.ShouldPass(direction, connection, text))
-        {
-            // Not here: what a scenario does then must not come between the server and its session.
-            _inbox.emplace_back(text);
-            _timers.Start(MakeKey(ETimer::Inbox), std::chrono::milliseconds(0));
-        }
-    }
-
-    void ReadInbox()
-    {
-        while (!_inbox.empty())
-        {
-            const std::string text = std::move(_inbox.front());
-            _inbox.pop_front();
-            PlayScenario([this, &text](Core::Now now, ScenarioActions& out) { _scenarios.OnMessage(text, now, out); });
-        }
-    }
-
-    void PlayScenario(const std::function<void(Core::Now now, ScenarioActions& out)>& call)
-    {
-        if (_bEnding)
-        {
-            return;
-        }
-        ScenarioActions actions;
-        call(_clock.GetNow(), actions);
-        for (std::size_t i = 0; i < actions.size(); ++i)
-        {
-            const ScenarioAction action = actions[i]; // A copy: a failure appends to what it is part of.
-            if (!CanPerform(action))
-            {
-                _scenarios.OnSendFailed(_clock.GetNow(), actions);
-            }
-        }
-    }
-
-    /// Does it. False where there is no ACS to send to.
-    [[nodiscard]] bool CanPerform(const ScenarioAction& action)
-    {
-        return std::visit(
-            Core::Overloaded{
-                [this](const SendPlannedPlan& send) {
-                    const bool bTaken = !_server->IsRegistered() || _server->IsTakingPlans();
-                    return _sender.TrySendOrHold(send.planned, send.bFreshIDs, bTaken, _clock.GetNow(), _lines);
-                },
-                [this](const SendPayload& send) {
-                    _lines.push_back(fmt::format("{} sent", GetText(GetCommand(send.payload))));
-                    return _server->TrySend(_server->MakeRequest(send.payload));
-                },
-                [this](const SendRawText& send) {
-                    _notes.OnTextSent(send.text);
-                    return _server->TrySendText(send.text);
-                },
-                [this](const DropStep& drop) {
-                    if (drop.how == EDrop::Cut)
-                    {
-                        _server->Cut();
-                    }
-                    else
-                    {
-                        _server->Drop(drop.code, "asked for by a scenario");
-                    }
-                    return true;
-                },
-                [this](const HoldAcksStep& step) {
-                    _server->HoldAcks(step.hold);
-                    return true;
-                },
-                [this](const RefuseRegistrationStep& step) {
-                    _server->RefuseRegistrations(step.times, step.message);
-                    return true;
-                },
-                [this](const EndFaults& /*action*/) {
-                    _server->EndFaults();
-                    return true;
-                },
-                [this](const StartScenarioTimer& start) {
-                    _timers.Start(MakeKey(ETimer::Scenario), start.delay);
-                    return true;
-                },
-                [this](const TellLine& line) {
-                    _lines.push_back(line.text);
-                    return true;
-                }},
-            action);
+        _scenarios.OnWire(direction, connection, text);
     }
 
     void OnRegistered()
@@ -396,7 +312,7 @@ private:
         _heading.bRegistered = true;
         _tracker.OnRegistered();
         _lines.emplace_back("ACS registered");
-        PlayScenario([this](Core::Now now, ScenarioActions& out) { _scenarios.OnRegistered(now, out); });
+        _scenarios.OnRegistered();
     }
 
     void OnLinkLost(const Protocol::LinkLost& lost)
@@ -496,17 +412,6 @@ private:
             case ETimer::Linger:
                 End();
                 break;
-            case ETimer::Inbox:
-                ReadInbox();
-                Flush();
-                CheckFinished();
-                break;
-            case ETimer::Scenario:
-                ReadInbox();
-                PlayScenario([this](Core::Now now, ScenarioActions& out) { _scenarios.OnTimer(now, out); });
-                Flush();
-                CheckFinished();
-                break;
             case ETimer::Close:
                 FinishRun();
                 break;
@@ -514,6 +419,12 @@ private:
                 assert(false);
                 break;
         }
+    }
+
+    void OnPlayed()
+    {
+        Flush();
+        CheckFinished();
     }
 
     void OnFinished()
@@ -536,6 +447,7 @@ private:
             return;
         }
         _bEnding = true;
+        _scenarios.End();
         _timers.Cancel(MakeKey(ETimer::Linger));
         const bool bWait = _server->IsRegistered();
         _server->Stop();
@@ -550,6 +462,7 @@ private:
             return;
         }
         _bDone = true;
+        _scenarios.End();
         _timers.CancelAll();
         Flush();
         Draw();

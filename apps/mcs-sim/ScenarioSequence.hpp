@@ -31,6 +31,9 @@ class ScenarioSequence
 public:
     /// The date is for fresh planIds (PlanRefresher). The random source outlives the sequence.
     ScenarioSequence(std::vector<Scenario> scenarios, Core::IRandom& random, std::string date);
+    ScenarioSequence(const ScenarioSequence&) = delete; // the runners know the refresher
+    ScenarioSequence& operator=(const ScenarioSequence&) = delete;
+    ~ScenarioSequence() = default;
 
     void Start(Core::Now now, ScenarioActions& out);
     void OnRegistered(Core::Now now, ScenarioActions& out);

@@ -1,0 +1,193 @@
+#include "ScenarioPlayer.hpp"
+
+#include <acs/core/Overloaded.hpp>
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <variant>
+
+namespace ACS::McsSim
+{
+
+namespace
+{
+
+enum class ETimer : std::uint8_t
+{
+    Inbox,    ///< A text has come that the scenario has not seen yet.
+    Scenario, ///< The one that the scenario has asked for.
+};
+
+std::uint64_t MakeKey(ETimer timer)
+{
+    return static_cast<std::uint64_t>(timer);
+}
+
+} // namespace
+
+ScenarioPlayer::ScenarioPlayer(
+    const boost::asio::any_io_executor& executor,
+    const ScenarioStage& stage,
+    std::vector<Scenario> scenarios,
+    std::string date,
+    std::function<void()> onPlayed)
+    : _stage(stage),
+      _scenarios(std::move(scenarios), stage.random, std::move(date)),
+      _onPlayed(std::move(onPlayed)),
+      _timers(executor, [this](std::uint64_t key) { OnTimer(key); })
+{
+}
+
+void ScenarioPlayer::SetServer(ProtocolBeast::McsServer& server) noexcept
+{
+    _serverOrNull = &server;
+}
+
+void ScenarioPlayer::Start()
+{
+    Play([this](Core::Now now, ScenarioActions& out) { _scenarios.Start(now, out); });
+}
+
+void ScenarioPlayer::OnRegistered()
+{
+    Play([this](Core::Now now, ScenarioActions& out) { _scenarios.OnRegistered(now, out); });
+}
+
+void ScenarioPlayer::OnLinkLost()
+{
+    _scenarios.OnLinkLost();
+}
+
+void ScenarioPlayer::OnWire(
+    ProtocolBeast::EWireDirection direction,
+    Protocol::ConnectionID connection,
+    std::string_view text)
+{
+    if (!_scenarios.IsFinished() && _wireFilter.ShouldPass(direction, connection, text))
+    {
+        _inbox.emplace_back(text);
+        _timers.Start(MakeKey(ETimer::Inbox), std::chrono::milliseconds(0));
+    }
+}
+
+void ScenarioPlayer::ReadInbox()
+{
+    while (!_inbox.empty())
+    {
+        const std::string text = std::move(_inbox.front());
+        _inbox.pop_front();
+        Play([this, &text](Core::Now now, ScenarioActions& out) { _scenarios.OnMessage(text, now, out); });
+    }
+}
+
+void ScenarioPlayer::End()
+{
+    _bEnded = true;
+    _timers.CancelAll();
+}
+
+bool ScenarioPlayer::IsFinished() const noexcept
+{
+    return _scenarios.IsFinished();
+}
+
+bool ScenarioPlayer::IsEmpty() const noexcept
+{
+    return _scenarios.IsEmpty();
+}
+
+bool ScenarioPlayer::HasHeld() const
+{
+    return _scenarios.HasHeld();
+}
+
+std::vector<ScenarioResult> ScenarioPlayer::GetResults() const
+{
+    return _scenarios.GetResults();
+}
+
+void ScenarioPlayer::Play(const std::function<void(Core::Now now, ScenarioActions& out)>& call)
+{
+    if (_bEnded)
+    {
+        return;
+    }
+    ScenarioActions actions;
+    call(_stage.clock.GetNow(), actions);
+    for (std::size_t i = 0; i < actions.size(); ++i)
+    {
+        const ScenarioAction action = actions[i]; // A copy: a failure appends to what it is part of.
+        if (!CanPerform(action))
+        {
+            _scenarios.OnSendFailed(_stage.clock.GetNow(), actions);
+        }
+    }
+}
+
+bool ScenarioPlayer::CanPerform(const ScenarioAction& action)
+{
+    ProtocolBeast::McsServer& server = *_serverOrNull;
+    return std::visit(
+        Core::Overloaded{
+            [this, &server](const SendPlannedPlan& send) {
+                const bool bTaken = !server.IsRegistered() || server.IsTakingPlans();
+                return _stage.sender
+                    .TrySendOrHold(send.planned, send.bFreshIDs, bTaken, _stage.clock.GetNow(), _stage.lines);
+            },
+            [this, &server](const SendPayload& send) {
+                _stage.lines.push_back(fmt::format("{} sent", GetText(GetCommand(send.payload))));
+                return server.TrySend(server.MakeRequest(send.payload));
+            },
+            [this, &server](const SendRawText& send) {
+                _stage.notes.OnTextSent(send.text);
+                return server.TrySendText(send.text);
+            },
+            [&server](const DropStep& drop) {
+                if (drop.how == EDrop::Cut)
+                {
+                    server.Cut();
+                }
+                else
+                {
+                    server.Drop(drop.code, "asked for by a scenario");
+                }
+                return true;
+            },
+            [&server](const HoldAcksStep& step) {
+                server.HoldAcks(step.hold);
+                return true;
+            },
+            [&server](const RefuseRegistrationStep& step) {
+                server.RefuseRegistrations(step.times, step.message);
+                return true;
+            },
+            [&server](const EndFaults& /*action*/) {
+                server.EndFaults();
+                return true;
+            },
+            [this](const StartScenarioTimer& start) {
+                _timers.Start(MakeKey(ETimer::Scenario), start.delay);
+                return true;
+            },
+            [this](const TellLine& line) {
+                _stage.lines.push_back(line.text);
+                return true;
+            }},
+        action);
+}
+
+void ScenarioPlayer::OnTimer(std::uint64_t key)
+{
+    ReadInbox();
+    if (key == MakeKey(ETimer::Scenario))
+    {
+        Play([this](Core::Now now, ScenarioActions& out) { _scenarios.OnTimer(now, out); });
+    }
+    _onPlayed();
+}
+
+} // namespace ACS::McsSim
