@@ -48,6 +48,7 @@ constexpr const char* LINK_UP = "acsd_link_up";
 constexpr const char* PLANS_ACTIVE = "acsd_plans_active";
 constexpr const char* OUTBOX_DEPTH = "acsd_outbox_depth";
 constexpr const char* MESSAGES_SENT = "acsd_mcs_requests_sent_total";
+constexpr const char* MCS_NOTES = "acsd_mcs_notes_total";
 
 VDA5050::MosquittoOptions MakeMqttOptions(const AcsdConfig& config, Core::IRandom& random)
 {
@@ -281,6 +282,14 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
                 {{"command", std::string(GetText(command))}},
                 static_cast<double>(statistics.Of(command).sent));
         }
+        for (std::size_t index = 0; index < Protocol::NOTE_COUNT; ++index)
+        {
+            const auto what = static_cast<Protocol::EProtocolNote>(index);
+            _metrics.SetTotal(
+                MCS_NOTES,
+                {{"what", std::string(GetText(what))}},
+                static_cast<double>(statistics.CountOf(what)));
+        }
     }
 
     void FinishStop()
@@ -351,6 +360,7 @@ public:
         _metrics.AddGauge(PLANS_ACTIVE, "Plans that are not finished");
         _metrics.AddGauge(OUTBOX_DEPTH, "Reports that the MCS has not acknowledged");
         _metrics.AddCounter(MESSAGES_SENT, "Requests sent to the MCS, resends included");
+        _metrics.AddCounter(MCS_NOTES, "What the MCS did that the protocol does not provide for, by kind");
         for (const RobotLinkConfig& robot : _config.robots)
         {
             auto host = std::make_unique<RobotHost>(

@@ -40,11 +40,13 @@ void EngineLoop::Restore(Planning::StoredState state)
 
 void EngineLoop::Push(EngineTask task)
 {
-    if (!_bClosed)
+    if (_bClosed)
     {
-        _tasks.push_back(std::move(task));
-        Work();
+        Refuse(task);
+        return;
     }
+    _tasks.push_back(std::move(task));
+    Work();
 }
 
 void EngineLoop::OnStored(const Core::Result<void>& result)
@@ -64,12 +66,35 @@ void EngineLoop::OnStored(const Core::Result<void>& result)
 void EngineLoop::Close()
 {
     _bClosed = true;
-    _tasks.clear();
+    for (const EngineTask& task : std::exchange(_tasks, {}))
+    {
+        Refuse(task);
+    }
 }
 
 bool EngineLoop::IsStoring() const noexcept
 {
     return _storing.has_value();
+}
+
+/// R1: who asked is answered. Nothing was begun, so the MCS may ask again.
+void EngineLoop::Refuse(const EngineTask& task) const
+{
+    const auto* const commandOrNull = std::get_if<Planning::PlanCommand>(&task);
+    if (commandOrNull == nullptr)
+    {
+        return;
+    }
+    const auto refuse = [this](Planning::ReplyToken token) {
+        _execute(Planning::ReplyCommand{token, false, "acsd is being shut down"});
+    };
+    std::visit(
+        Core::Overloaded{
+            [](const Planning::MessageAcknowledged&) { /* nobody waits */ },
+            [&refuse](const auto& command) {
+                refuse(command.replyToken);
+            }},
+        *commandOrNull);
 }
 
 void EngineLoop::Work()

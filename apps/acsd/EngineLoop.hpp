@@ -58,12 +58,14 @@ public:
     /// The batch is on disk, or could not be stored: then the engine decides anew about what stood behind it.
     void OnStored(const Core::Result<void>& result);
 
-    /// Forgets the tasks that wait and takes no more; what is being stored is still brought to its end.
+    /// From now on commands are refused, those that wait too, and all other tasks are forgotten; what is being stored is
+    /// still brought to its end.
     void Close();
 
     [[nodiscard]] bool IsStoring() const noexcept;
 
 private:
+    void Refuse(const EngineTask& task) const;
     void Work();
     void CallEngine();
     void ExecuteNext();

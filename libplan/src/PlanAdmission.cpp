@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <string_view>
 #include <utility>
 
@@ -81,6 +82,13 @@ bool Matches(const Core::Location& place, EPlaceRule rule)
         default:
             return false;
     }
+}
+
+bool IsSameWord(std::string_view one, std::string_view other)
+{
+    return std::ranges::equal(one, other, [](unsigned char left, unsigned char right) {
+        return std::tolower(left) == std::tolower(right);
+    });
 }
 
 std::string ListActions(const ActionTable& actions)
@@ -181,6 +189,24 @@ std::optional<std::size_t> PlanAdmission::FindDockOrNull(std::string_view statio
         }
     }
     return std::nullopt;
+}
+
+void PlanAdmission::SpellActions(Plan& plan) const
+{
+    for (Step& step : plan.steps)
+    {
+        if (_options.actions.contains(step.action))
+        {
+            continue;
+        }
+        const auto found = std::ranges::find_if(_options.actions, [&step](const auto& action) {
+            return IsSameWord(action.first, step.action);
+        });
+        if (found != _options.actions.end())
+        {
+            step.action = found->first;
+        }
+    }
 }
 
 Core::Result<ResolvedPlan> PlanAdmission::Resolve(const Plan& plan) const

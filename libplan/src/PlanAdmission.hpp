@@ -63,6 +63,9 @@ class PlanAdmission
 public:
     PlanAdmission(const EngineOptions& options, const SiteMap& site);
 
+    /// Gives actions that are written in another case (section 2) their own name.
+    void SpellActions(Plan& plan) const;
+
     /// The steps must be in ascending order (SortSteps). The error's path names the field.
     [[nodiscard]] Core::Result<ResolvedPlan> Resolve(const Plan& plan) const;
 

@@ -64,6 +64,7 @@ void PlanEngine::Impl::Submit(const SubmitPlan& command)
     auto plan = std::make_unique<ActivePlan>();
     plan->record.plan = command.plan;
     SortSteps(plan->record.plan);
+    _admission.SpellActions(plan->record.plan);
     Core::Result<ResolvedPlan> resolved = Admit(plan->record.plan);
     if (!resolved.has_value())
     {

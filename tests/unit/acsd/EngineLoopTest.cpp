@@ -142,14 +142,16 @@ TEST_CASE_METHOD(LoopTest, "What comes between two plans keeps its place")
 
 TEST_CASE_METHOD(
     LoopTest,
-    "A loop that is closed still tells what stands behind the batch on its way, and takes no more")
+    "4.1, R1 A loop that is closed still tells what stands behind the batch on its way, and refuses what comes")
 {
     Submit("P1", 1);
     Submit("P2", 2);
     _loop.Close();
     Submit("P3", 3);
+    _loop.Push(PlanCommand(ControlPlan{EPlanControl::Cancel, "P1", {}, 4}));
+    _loop.Push(PlanCommand(MessageAcknowledged{1}));
     _loop.OnStored({});
-    CHECK(ListReplies() == Replies{{1, true}});
+    CHECK(ListReplies() == Replies{{2, false}, {3, false}, {4, false}, {1, true}});
     CHECK(_batches.size() == 1);
     CHECK(std::ranges::count(_timers, EngineTimer{EEngineTimer::Dispatch, {}}) == 1);
 }

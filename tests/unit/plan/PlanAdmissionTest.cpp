@@ -84,11 +84,12 @@ TEST_CASE("4.1 Absent, null and superfluous places, lower case, gaps and disorde
     plan.planID = "P1";
     plan.steps = {
         {7, "Start", "A01.SET01", {}, {{"J2", "ignored", ""}}},
-        {3, "OpenSetCover", "a01.set1", {}, {}},
+        {3, "opensetcover", "a01.set1", {}, {}},
         {5, "MemoryPickAndPlace", "SET02", {}, {{"J1", "AMR.TP01.MP01", "SET02.MP05"}}}};
     world.Connect();
     world.Submit(plan, 1);
     REQUIRE(world.replies.at(1).bAccepted);
+    CHECK(world.engine->GetPlanOrNull("P1")->currentAction == "OpenSetCover");
     REQUIRE(world.TryRun());
     CHECK(
         world.GetReportsOf("P1")
