@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """mcs-sim as a tool: every ready scenario passes against acsd, a scenario that must fail does, and the trace has it all."""
 
+import dataclasses
 import json
 import signal
 import subprocess
@@ -8,24 +9,44 @@ import unittest
 import urllib.request
 
 from scenario_case import FINISH_SECONDS, PLANS, REPOSITORY, SITE, TIME_SCALE, Line, ScenarioCase, main
+from wire_rules import WireRules, read_trace
 
 SCENARIOS = REPOSITORY / "examples" / "scenarios"
-# Each batch is played by one mcs-sim over a line of its own, all of them at the same time. What leaves the ACS other than
-# it was stands at the end.
+
+
+@dataclasses.dataclass
+class Batch:
+    """Scenarios that one mcs-sim plays over a line of its own, and what that line is like."""
+
+    names: list
+    arm: tuple = ()
+    acsd: tuple = ()
+    mcs: tuple = ()
+    vehicles: tuple = ("LR01,type=LR", "CR01,type=CR")
+
+
+# All are played at the same time. What leaves the ACS other than it was stands at the end.
 BATCHES = [
-    ["lr-plan", "robot-status", "abort-while-driving", "cancel-before-arrival", "cancel-after-arrival", "cancel-waiting",
-     "abort-waiting", "control-finished-plan", "pinned-robot"],
-    ["plan-list", "plan-history", "plan-history-ended", "repeated-request", "duplicate-plan", "connection-drop",
-     "replay-after-drop", "connect", "close-1008", "job-failure-lr"],
-    ["error-list", "cr-plan", "cr-carriers", "set-cover", "control-unknown-plan", "unknown-location", "unknown-robot",
-     "mixed-robots", "bad-messages", "null-result-request", "old-name", "sync-config", "robot-positions",
-     "registration-refused", "registration-unanswered", "abort-running-job", "queue-full"],
-    ["lost-ack", "late-acks", "wrong-ack-id", "job-failure"],
-    ["pause-resume", "pause-refused", "pause-driving", "pause-waiting", "pause-repeated", "cancel-paused", "controls-race",
-     "abort-paused", "pause-cr", "abort-paused-cr"],
+    Batch(["lr-plan", "robot-status", "abort-while-driving", "cancel-before-arrival", "cancel-after-arrival",
+           "cancel-waiting", "abort-waiting", "control-finished-plan", "pinned-robot", "priority", "location-spelling"]),
+    Batch(["plan-list", "plan-history", "plan-history-ended", "repeated-request", "duplicate-plan", "connection-drop",
+           "replay-after-drop", "connect", "close-1008", "local-time", "job-failure-lr"], acsd=("site.timezone=+09:00",)),
+    Batch(["error-list", "cr-plan", "cr-carriers", "set-cover", "deep-position", "control-unknown-plan",
+           "unknown-location", "unknown-robot", "mixed-robots", "bad-messages", "each-command", "undefined-payload",
+           "null-result-request", "old-name", "sync-config", "robot-positions", "registration-refused",
+           "registration-unanswered", "abort-running-job", "queue-full"]),
+    Batch(["lost-ack", "late-acks", "wrong-ack-id", "loose-acks", "job-failure", "abort-failing-job"],
+          arm=("--program", "12=20s,fail")),
+    Batch(["pause-resume", "pause-refused", "pause-driving", "pause-waiting", "pause-repeated", "cancel-paused",
+           "controls-race", "abort-paused"]),
+    Batch(["pause-cr", "abort-second-of-five", "abort-last-job", "abort-paused-cr"],
+          arm=("--program", "11=40s", "--program", "12=20s")),
+    Batch(["pinned-robots"], vehicles=("LR01,type=LR", "CR01,type=CR", "RBT01,type=LR,node=D-A02.CP06"),
+          acsd=("robots.RBT01.type=LR", "robots.RBT01.manufacturer=ACS", "robots.RBT01.serial=RBT01",
+                "robots.RBT01.vehicle_type=lr-base", "robots.RBT01.start_node=D-A02.CP06",
+                "robots.RBT01.home=A02.CP06", 'robots.RBT01.ports=["CP01"]')),
+    Batch(["lr-plan", "plan-history", "null-result-request"], mcs=("--profile", "nexus")),
 ]
-# What the arm must be like for a batch that ends with this scenario.
-ARM_OPTIONS = {"job-failure": ["--program", "12=500ms,fail"], "abort-paused-cr": ["--program", "11=40s"]}
 # These the ACS of the examples plays too, and its operator types what it is asked for.
 SMALL_ACS = ["pause-resume", "pause-refused", "abort-paused", "tsc-paused"]
 TYPED = {"pause the TSC": b"pause\n", "resume the TSC": b"auto\n"}
@@ -38,15 +59,15 @@ def get_paths(names):
 
 
 class Scenarios(ScenarioCase):
-    def start_play(self, line, *arguments, arm_options=()):
+    def start_play(self, line, *arguments, batch=Batch([])):
         """mcs-sim, and a whole line for it."""
         line.start_broker()
-        vehicles = line.start_vehicles(TIME_SCALE)
+        vehicles = line.start_vehicles(TIME_SCALE, batch.vehicles)
         arm = line.start("openstream-sim", "--listen", "127.0.0.1:0", "--http", "127.0.0.1:0", "--time-scale", TIME_SCALE,
-                         *arm_options)
+                         *batch.arm)
         vehicles.wait_ready()
-        mcs = line.start("mcs-sim", "--listen", "127.0.0.1:0", *arguments)
-        line.start_acsd(mcs.wait_ready()["ws"], arm.wait_ready()).wait_ready()
+        mcs = line.start("mcs-sim", "--listen", "127.0.0.1:0", *batch.mcs, *arguments)
+        line.start_acsd(mcs.wait_ready()["ws"], arm.wait_ready(), *batch.acsd).wait_ready()
         return mcs
 
     def play(self, *arguments):
@@ -69,7 +90,7 @@ class Scenarios(ScenarioCase):
         return line
 
     def test_each_ready_scenario_is_played(self):
-        played = [name for batch in [*BATCHES, ATTENDED] for name in batch]
+        played = {name for batch in BATCHES for name in batch.names} | set(ATTENDED)
         self.assertEqual(sorted(played), sorted(path.stem for path in SCENARIOS.glob("*.json")))
 
     def test_each_ready_scenario_has_its_row_for_the_reader(self):
@@ -78,15 +99,23 @@ class Scenarios(ScenarioCase):
         self.assertEqual(rows, sorted(path.stem for path in SCENARIOS.glob("*.json")))
 
     def test_the_ready_scenarios_pass(self):
-        plays = [(batch, self.start_play(self.start_line(), "--scenario", *get_paths(batch),
-                                         arm_options=ARM_OPTIONS.get(batch[-1], ()))) for batch in BATCHES]
-        plays.append((SMALL_ACS, self.start_play_with_small_acs(self.start_line(), get_paths(SMALL_ACS), TYPED)))
-        for batch, mcs in plays:
-            with self.subTest(batch=batch):
+        """And whatever is played, every message is what the document says (wire_rules.py)."""
+        plays = []
+        for batch in BATCHES:
+            line = self.start_line()
+            trace = line.folder / "trace.ndjson"
+            mcs = self.start_play(line, "--trace", trace, "--scenario", *get_paths(batch.names), batch=batch)
+            plays.append((batch.names, mcs, trace, "+09:00" if "local-time" in batch.names else None))
+        small = self.start_play_with_small_acs(self.start_line(), get_paths(SMALL_ACS), TYPED)
+        plays.append((SMALL_ACS, small, None, None))
+        for names, mcs, trace, offset in plays:
+            with self.subTest(batch=names):
                 code = mcs.wait(FINISH_SECONDS)
                 output = mcs.log.read_text()
                 self.assertEqual(code, 0, output)
-                self.assertEqual([name for name in batch if f" scenario {name}: passed\n" not in output], [])
+                self.assertEqual([name for name in names if f" scenario {name}: passed\n" not in output], [])
+                if trace is not None:
+                    self.assertEqual(WireRules(offset).judge(read_trace(trace)), [])
 
     @staticmethod
     def answer(answers):

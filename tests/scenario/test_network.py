@@ -1,0 +1,184 @@
+#!/usr/bin/env python3
+"""What the network and a foreign MCS do to acsd: MCS-ACS test vectors 9 to 12 over sockets that the test holds itself."""
+
+import os
+import statistics
+import time
+import unittest
+import urllib.request
+
+from mcs_stub import McsStub
+from plan_samples import make_carrying_plan, make_memory_plan
+from scenario_case import ScenarioCase, main
+
+POSITION_SECONDS = 0.2
+BLOCKED_SECONDS = 10
+# Linux gives at least twice 1152 bytes, of which a part is its own: some of the messages of 330 bytes.
+SMALLEST_RECEIVE_BUFFER = 1
+MEMORY_MARGIN = 8 << 20
+FINAL = ("Completed", "Failed", "Cancelled", "Aborted")
+
+
+def get_resident_bytes(pid):
+    with open(f"/proc/{pid}/statm", encoding="ascii") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+class Network(ScenarioCase):
+    def start_stub(self, **options):
+        stub = McsStub(**options)
+        self.addCleanup(stub.close)
+        return stub
+
+    def start_acsd(self, stub, *overrides, **options):
+        acsd = self.line.start_acsd(stub.address, self.start_robots(), *overrides, **options)
+        acsd.wait_ready()
+        return acsd
+
+    @staticmethod
+    def submit(stub, plan, **options):
+        """Returns the Ack."""
+        start = stub.count()
+        stub.send_request("ExecutionPlan", plan, **options)
+        return stub.wait_for("ExecutionPlanAck", lambda ack: ack.payload["planId"] == plan["planId"], start)[1].body
+
+    @staticmethod
+    def wait_for_idle(stub, robot, start=0):
+        return stub.wait_for("RobotStatusUpdate", lambda message: message.payload["robotId"] == robot
+                             and message.payload["robotStatus"] == "Idle", start)
+
+    def assert_snapshot_after_replay(self, stub, connection, replayed):
+        """6, Connect: Registration, what has no Ack, oldest first, the two states, each robot, then positions."""
+        index, _ = stub.wait_for("RobotPositionUpdate", lambda message: message.connection == connection)
+        messages = [message for message in stub.get(0, index) if message.connection == connection]
+        self.assertEqual(messages[0].command, "Registration")
+        states = next(i for i, message in enumerate(messages) if message.command == "TscStateUpdate")
+        self.assertEqual([message.body["transactionId"] for message in messages[1:1 + len(replayed)]], replayed)
+        self.assertTrue(all(message.command.endswith("Report") for message in messages[1:states]))
+        rest = [message.command for message in messages[states:] if not message.command.endswith("Report")]
+        self.assertEqual(rest[:4],
+                         ["TscStateUpdate", "AcsCommStateUpdate", "RobotStatusUpdate", "RobotStatusUpdate"])
+        robots = [message.payload["robotId"] for message in messages if message.command == "RobotStatusUpdate"]
+        self.assertEqual(robots[:2], ["CR01", "LR01"])
+
+    def test_13_10_a_link_that_is_closed_refused_or_reset_costs_nothing(self):
+        """Close 1008, 403 on the upgrade, RST in the middle of a frame: registration, replay, snapshot, and the plan
+        has each of its reports once."""
+
+        def refuse(stub):
+            stub.refuse_upgrades(2)
+            stub.close_link(1000)
+            stub.wait_until_refused(2)
+
+        breaks = {"close 1008": lambda stub: stub.close_link(1008), "403 on upgrade": refuse,
+                  "RST mid-frame": lambda stub: stub.reset_link()}
+        stub = self.start_stub()
+        self.start_acsd(stub)
+        self.wait_for_idle(stub, "LR01")
+        for number, (name, break_link) in enumerate(breaks.items()):
+            with self.subTest(name):
+                plan = make_carrying_plan(f"P{number}")
+                start, connection = stub.count(), stub.get(-1)[0].connection
+                self.assertEqual(self.submit(stub, plan)["result"], "Success")
+                stub.wait_for("StepReport", lambda message: message.payload["status"] == "InProgress", start)
+                stub.unacknowledged = ("*",)
+                hold = stub.count()
+                stub.wait_for("JobReport", start=hold)
+                break_link(stub)
+                index, registration = stub.wait_for("Registration", start=hold)
+                unanswered = list(dict.fromkeys(
+                    message.body["transactionId"] for message in stub.get(hold, index)
+                    if message.command.endswith("Report")))
+                self.assertGreater(registration.connection, connection)
+                stub.unacknowledged = ()
+                self.assert_snapshot_after_replay(stub, registration.connection, unanswered)
+                stub.wait_for("PlanReport", lambda message: message.payload["status"] in FINAL, start)
+                self.assert_reported_once(stub.get(start), plan)
+
+    def assert_reported_once(self, messages, plan):
+        """By transaction: what came again under its own transactionId is the same report."""
+        reports = {message.body["transactionId"]: (message.command, *[
+            message.payload.get(name) for name in ("stepNo", "jobId", "status")]) for message in messages
+            if message.command in ("PlanReport", "StepReport", "JobReport")}
+        expected = [("PlanReport", None, None, "InProgress")]
+        for step in plan["steps"]:
+            number = step["stepNo"]
+            expected += [("StepReport", number, None, status) for status in ("Dispatched", "InProgress")]
+            expected += [("JobReport", number, job["jobId"], status) for job in step["jobs"]
+                         for status in ("Instructed", "InProgress", "Completed")]
+            expected.append(("StepReport", number, None, "Completed"))
+        expected.append(("PlanReport", None, None, "Completed"))
+        self.assertEqual(list(reports.values()), expected)
+
+    def test_13_11_a_long_plan_in_fragments_is_accepted_and_worked(self):
+        stub = self.start_stub()
+        self.start_acsd(stub)
+        self.wait_for_idle(stub, "CR01")
+        plan = make_memory_plan("LONG", 75)
+        ack = self.submit(stub, plan, fragments=3)
+        self.assertEqual((ack["result"], ack["payload"]), ("Success", {"planId": "LONG"}))
+        stub.wait_for("JobReport", lambda message: message.payload["status"] == "Completed"
+                      and message.payload["jobId"] == plan["steps"][0]["jobs"][1]["jobId"])
+        listed = stub.ask("RequestAcsPlans", {})
+        self.assertEqual([entry["planId"] for entry in listed["payload"]["plans"]], ["LONG"])
+
+    def test_13_12_a_blocked_socket_costs_no_memory_and_no_burst(self):
+        """R14 too: before and after, positions come every 200 ms."""
+        environment = os.environ | {"ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "") + ":quarantine_size_mb=1"}
+        stub = self.start_stub(receive_buffer=SMALLEST_RECEIVE_BUFFER)
+        acsd = self.start_acsd(stub, "mcs.ping_interval=60s", environment=environment)
+        self.wait_for_idle(stub, "CR01")
+        first, _ = stub.wait_for("RobotPositionUpdate")
+        self.wait_for_positions(stub, first, 20)
+        self.assert_positions_flow(stub.get(first))
+        before = get_resident_bytes(acsd.process.pid)
+        stub.stop_reading()
+        blocked = stub.count()
+        time.sleep(BLOCKED_SECONDS)  # what the vector is about, not a wait for something
+        grown = get_resident_bytes(acsd.process.pid) - before
+        self.assertLess(grown, MEMORY_MARGIN)
+        resumed = time.monotonic()
+        stub.go_on_reading()
+        self.wait_for_positions(stub, blocked, 30)
+        # What the two systems' buffers had taken comes late; nothing was kept for the rest of the time.
+        self.assertLess(self.count_positions_until(stub, blocked, resumed + 1), 25)
+        fresh = next(i for i, message in enumerate(stub.get(blocked)) if message.time > resumed + 1)
+        self.wait_for_positions(stub, blocked + fresh, 20)
+        self.assert_positions_flow(stub.get(blocked + fresh))
+        self.assertEqual({message.connection for message in stub.get()}, {1}, "the link was dropped")
+
+    @staticmethod
+    def wait_for_positions(stub, start, count):
+        for _ in range(count):
+            start, _ = stub.wait_for("RobotPositionUpdate", start=start)
+            start += 1
+
+    @staticmethod
+    def count_positions_until(stub, start, end):
+        return sum(message.command == "RobotPositionUpdate" and message.time < end for message in stub.get(start))
+
+    def assert_positions_flow(self, messages):
+        times = [message.time for message in messages if message.command == "RobotPositionUpdate"]
+        periods = [later - earlier for earlier, later in zip(times, times[1:])]
+        self.assertAlmostEqual(statistics.median(periods), POSITION_SECONDS, delta=POSITION_SECONDS / 4)
+
+    def test_13_9_an_ack_with_a_foreign_transaction_is_matched_by_its_command_and_counted(self):
+        stub = self.start_stub()
+        acsd = self.start_acsd(stub, "mcs.ack_timeout=2s")
+        self.wait_for_idle(stub, "LR01")
+        stub.unacknowledged = ("StepReport",)
+        start = stub.count()
+        self.assertEqual(self.submit(stub, make_carrying_plan("P"))["result"], "Success")
+        _, report = stub.wait_for("StepReport", start=start)
+        stub.send_request("StepReportAck", {}, envelope={"transactionId": "of-nobody", "result": "Success", "message": ""})
+        stub.wait_for("StepReport", lambda message: message.payload["status"] == "Completed", start)
+        stub.unacknowledged = ()
+        stub.wait_for("PlanReport", lambda message: message.payload["status"] == "Completed", start)
+        times = [message.body["transactionId"] for message in stub.get(start)]
+        self.assertEqual(times.count(report.body["transactionId"]), 1, "it was sent again")
+        with urllib.request.urlopen(f"http://{acsd.addresses['http']}/metrics", timeout=20) as response:
+            self.assertIn('acsd_mcs_notes_total{what="ack with a foreign transactionId"} 1\n', response.read().decode())
+
+
+if __name__ == "__main__":
+    main()
