@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""docs/protocol-acs.md, "What shows it": a row for each sequence, rule, decision and vector of the specification, and in
+each row things that exist. With ACS_SPEC_DIR the list of rows is held against the specification itself."""
+
+import os
+import pathlib
+import re
+import unittest
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+SCENARIOS = REPOSITORY / "examples" / "scenarios"
+TESTS = REPOSITORY / "tests"
+TITLE = "## What shows it"
+
+SEQUENCES = ("Connect", "Plan", "Job failure", "Cancel", "Abort", "Pause", "Resume", "Comm loss")
+EXPECTED = [*[f"6 {name}" for name in SEQUENCES], *[f"R{number}" for number in range(1, 20)],
+            *[f"D-{number}" for number in range(1, 32) if number != 25],  # the register has no D-25
+            *[f"13.{number}" for number in range(1, 13)]]
+
+
+def read_rows(text):
+    """(row's name, the things that it names), in the order of the table."""
+    lines = text.split(TITLE, 1)[1].split("\n## ", 1)[0].splitlines()
+    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("| ")]
+    return [(row[0], re.findall(r"`([^`]+)`", row[2])) for row in cells if row[0]]
+
+
+class Evidence:
+    """What there is in the tree that a row can name."""
+
+    def __init__(self):
+        self._sources = {path.name: path.read_text() for folder in ("unit", "integration")
+                         for path in (TESTS / folder).rglob("*.cpp")}
+        self._scripts = {path.name: path.read_text() for path in (TESTS / "scenario").glob("*.py")}
+
+    def find_mistake_or_none(self, name):
+        if "::" in name:
+            file, function = name.split("::")
+            found = re.search(rf"^    def {function}\(", self._scripts.get(file, ""), re.MULTILINE)
+        elif name.startswith("wire_rules.py: "):
+            # The rule's sentence, and the row of its test.
+            rule = re.escape(name.split(": ")[1])
+            found = re.search(rf'_note\(f?"[^":]*\b{rule}\b', self._scripts["wire_rules.py"]) \
+                and re.search(rf'"{rule}"', self._scripts["test_wire_rules.py"])
+        elif ".cpp: " in name:
+            file, title = name.split(": ", 1)
+            found = re.search(rf'TEST_CASE[A-Z_]*\([^"]*"{re.escape(title)}', self._sources.get(file, ""))
+        else:
+            found = re.fullmatch(r"[a-z0-9-]+", name) and (SCENARIOS / f"{name}.json").is_file()
+        return None if found else f"there is no {name}"
+
+    def find_mistakes(self, text):
+        rows = read_rows(text)
+        names = [name for name, _ in rows]
+        mistakes = [f"{name} is missing" for name in EXPECTED if name not in names]
+        mistakes += [f"{name} is there {names.count(name)} times" for name in set(names) if names.count(name) > 1]
+        mistakes += [f"{name} is no row of the specification" for name in names if name not in EXPECTED]
+        for name, things in rows:
+            mistakes += [] if things else [f"{name} names nothing"]
+            found = [self.find_mistake_or_none(thing) for thing in things]
+            mistakes += [f"{name}: {mistake}" for mistake in found if mistake is not None]
+        return mistakes
+
+
+class Table(unittest.TestCase):
+    def setUp(self):
+        self.evidence = Evidence()
+        self.text = (REPOSITORY / "docs" / "protocol-acs.md").read_text()
+
+    def test_each_row_is_there_and_names_what_exists(self):
+        self.assertEqual(self.evidence.find_mistakes(self.text), [])
+
+    def test_a_row_that_is_missing_or_names_nothing_that_exists_is_found(self):
+        row = next(line for line in self.text.splitlines() if line.startswith("| R12 |"))
+        rows = {
+            "R12 is missing": "", "R12 names nothing": "| R12 | a status at every change | of course |",
+            "R12: there is no robot-dance": row.replace("`robot-status`", "`robot-dance`"),
+            "R12: there is no test_mcs.py::test_nothing": row.replace("`robot-status`", "`test_mcs.py::test_nothing`"),
+            "R12: there is no test_none.py::test_x": row.replace("`robot-status`", "`test_none.py::test_x`"),
+            "R12: there is no wire_rules.py: R99": row.replace("`robot-status`", "`wire_rules.py: R99`"),
+            "R12: there is no PlanQueueTest.cpp: D-99": row.replace("`robot-status`", "`PlanQueueTest.cpp: D-99`"),
+            "R99 is no row of the specification": row + "\n" + row.replace("R12", "R99"),
+            "R12 is there 2 times": row + "\n" + row,
+        }
+        for mistake, text in rows.items():
+            with self.subTest(mistake):
+                self.assertEqual(self.evidence.find_mistakes(self.text.replace(row, text)), [mistake])
+
+    def test_the_rows_are_those_of_the_specification(self):
+        if "ACS_SPEC_DIR" not in os.environ:
+            self.skipTest("ACS_SPEC_DIR is not set")
+        text = (pathlib.Path(os.environ["ACS_SPEC_DIR"]) / "mcs-acs" / "SPEC.md").read_text()
+        sections = {match.group(1): match.group(2) for match in
+                    re.finditer(r"^## (\d+)\. [^\n]*\n(.*?)(?=^## |\Z)", text, re.MULTILINE | re.DOTALL)}
+        found = [f"6 {name}" for name in re.findall(r"^\*\*([A-Z][a-z ]+)\*\*", sections["6"], re.MULTILINE)]
+        found += re.findall(r"^\| (R\d+) \|", sections["8"], re.MULTILINE)
+        found += re.findall(r"^\| (D-\d+) \|", sections["11"], re.MULTILINE)
+        found += [f"13.{number}" for number in re.findall(r"^(\d+)\. ", sections["13"], re.MULTILINE)]
+        self.assertEqual(found, EXPECTED)
+
+
+if __name__ == "__main__":
+    unittest.main()
