@@ -395,6 +395,7 @@ public:
             return tl::unexpected<Core::Error>(endpoint.error());
         }
         _httpEndpoint = *endpoint;
+        _mcs.Restore(state.lastReportSequence);
         _loop.Restore(std::move(state));
         return {};
     }

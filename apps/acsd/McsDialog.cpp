@@ -63,6 +63,11 @@ McsDialog::McsDialog(
 {
 }
 
+void McsDialog::Restore(std::uint64_t lastSequence)
+{
+    _lastTold = lastSequence;
+}
+
 void McsDialog::Begin()
 {
     _output.SetSiteOffset(GetOffset());
@@ -86,6 +91,7 @@ void McsDialog::OnSessionEvent(const Protocol::SessionEvent& event)
                 _output.SendPosition(MakePositionUpdate(_engine.GetRobotPoses()));
             },
             [&](const Protocol::LinkLost&) {
+                _bOpen = false;
                 _unsent.clear();
                 _sequences.clear();
             },
@@ -112,8 +118,9 @@ void McsDialog::Reply(const Planning::ReplyCommand& reply)
 
 void McsDialog::Report(const Planning::OutboxEntry& entry)
 {
-    // Without a registration it stays in the engine's outbox, from which the next one is replayed.
-    if (_output.IsRegistered())
+    _lastTold = entry.sequence;
+    // Before the replay it stays in the engine's outbox, from which that is made.
+    if (_bOpen)
     {
         _unsent.push_back(entry);
         Feed();
@@ -227,9 +234,17 @@ void McsDialog::TakeAck(const Protocol::Acked& acked)
 
 void McsDialog::BeginReplay()
 {
-    const std::vector<Planning::OutboxEntry> entries = _engine.GetUnacknowledged();
-    _unsent.assign(entries.begin(), entries.end());
+    _unsent.clear();
+    for (Planning::OutboxEntry& entry : _engine.GetUnacknowledged())
+    {
+        // What is still on its way to the disk is told when it is there.
+        if (entry.sequence <= _lastTold)
+        {
+            _unsent.push_back(std::move(entry));
+        }
+    }
     _sequences.clear();
+    _bOpen = true;
     _bReplaying = true;
     Feed();
 }

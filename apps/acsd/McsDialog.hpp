@@ -47,6 +47,8 @@ private:
     Planning::ReplyToken _lastToken = 0;
     std::deque<Planning::OutboxEntry> _unsent; ///< Only while registered: what this connection has not been given yet.
     std::unordered_map<std::string, std::uint64_t> _sequences; ///< By transactionId, of what was given to the session.
+    std::uint64_t _lastTold = 0; ///< The highest sequence that is on disk: behind it the engine may know more already.
+    bool _bOpen = false;         ///< The replay has begun: what is told now goes behind it.
     bool _bReplaying = false;
 
     void TakeRequest(const Protocol::AcsRequest& request);
@@ -66,6 +68,9 @@ public:
         const Planning::PlanEngine& engine,
         IMcsOutput& output,
         CommandHandler handler);
+
+    /// Once, before the engine is given what the store held: the highest sequence of a report in it.
+    void Restore(std::uint64_t lastSequence);
 
     /// Once, before the session is started: what the MCS is to be told of TSC and robots.
     void Begin();

@@ -95,6 +95,11 @@ Core::Result<void> McsLink::Open(
     return {};
 }
 
+void McsLink::Restore(std::uint64_t lastSequence)
+{
+    _dialog.Restore(lastSequence);
+}
+
 void McsLink::Start()
 {
     _dialog.Begin();

@@ -16,6 +16,7 @@
 #include <boost/asio/any_io_executor.hpp>
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -75,6 +76,9 @@ public:
         Core::IRandom& random,
         const AcsdConfig& config,
         MessageTrace* traceOrNull);
+
+    /// Once, before the engine is given what the store held: the highest sequence of a report in it.
+    void Restore(std::uint64_t lastSequence);
     void Start();
 
     /// Tells the MCS, takes leave of it, then calls back.

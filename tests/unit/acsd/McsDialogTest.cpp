@@ -1,0 +1,160 @@
+#include "McsDialog.hpp"
+
+#include "Catch.hpp"
+#include "EngineLoop.hpp"
+#include "PlanWorld.hpp"
+
+#include <algorithm>
+
+namespace ACS::Testing
+{
+namespace
+{
+
+using namespace Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+
+/// The dialog with an engine and its loop, a session that takes everything, and a disk that answers when the test says so.
+class DialogTest : private Acsd::IMcsOutput
+{
+protected:
+    ManualClock _clock;
+    SeededRandom _random{1};
+    PlanEngine _engine{MakeTestOptions(false), MakeTestSite(), _random};
+    Acsd::McsDialog _dialog{
+        _clock,
+        Core::Logger(),
+        Apps::LocalOffset(std::chrono::minutes(0)),
+        _engine,
+        *this,
+        [this](PlanCommand command) {
+            _loop.Push(std::move(command));
+        }};
+    Acsd::EngineLoop _loop{
+        _engine,
+        _clock,
+        [this](const EngineAction& action) {
+            if (const auto* const reportOrNull = std::get_if<SendReport>(&action))
+            {
+                _dialog.Report(reportOrNull->entry);
+            }
+        },
+        [this](const StoreBatch& batch) {
+            _batches.push_back(batch);
+        }};
+    std::vector<StoreBatch> _batches;
+    std::vector<Protocol::AcsRequest> _sent;
+    bool _bRegistered = false;
+    std::size_t _replays = 0;
+
+    /// As AcsClient does it: the session is registered before the event comes.
+    void Register()
+    {
+        _bRegistered = true;
+        _dialog.OnSessionEvent(Protocol::Registered{});
+    }
+
+    void BeginPlan(const std::string& planID)
+    {
+        _loop.Push(SubmitPlan{MakeLogisticsPlan(planID), 1});
+        _loop.OnStored({});
+        _loop.Push(Acsd::RobotTask{"LR01", LinkChanged{true}});
+        StateChanged state;
+        state.lastNodeID = "D-CHG01";
+        _loop.Push(Acsd::RobotTask{"LR01", state});
+    }
+
+private:
+    [[nodiscard]] bool IsRegistered() const override
+    {
+        return _bRegistered;
+    }
+
+    [[nodiscard]] bool TrySendDurable(const Protocol::AcsRequest& request) override
+    {
+        _sent.push_back(request);
+        return true;
+    }
+
+    void ReplayDone() override
+    {
+        ++_replays;
+    }
+
+    void SendStatus(const Protocol::AcsPayload& /*status*/) override
+    {
+    }
+
+    void SendPosition(const Protocol::RobotPositionUpdate& /*positions*/) override
+    {
+    }
+
+    void Answer(
+        Protocol::EAcsCommand /*command*/,
+        std::string_view /*transactionID*/,
+        Protocol::EAckResult /*result*/,
+        std::string_view /*message*/,
+        const Protocol::AckPayload& /*payload*/) override
+    {
+    }
+
+    void SetSiteOffset(std::chrono::minutes /*offset*/) override
+    {
+    }
+};
+
+} // namespace
+
+TEST_CASE_METHOD(
+    DialogTest,
+    "A registration while a report is on its way to the disk does not tell it before it is there")
+{
+    BeginPlan("P1");
+    REQUIRE(_loop.IsStoring());
+    REQUIRE_FALSE(_engine.GetUnacknowledged().empty());
+
+    Register();
+    CHECK(_sent.empty());
+    CHECK(_replays == 1);
+
+    const std::size_t waiting = _engine.GetUnacknowledged().size();
+    _loop.OnStored({});
+    CHECK(_sent.size() >= waiting);
+    CHECK(_sent.front().transactionID == _engine.GetUnacknowledged().front().transactionID);
+}
+
+TEST_CASE_METHOD(DialogTest, "A report that comes between the registration and its event does not overtake the replay")
+{
+    BeginPlan("P1");
+    _loop.OnStored({});
+    REQUIRE(_sent.empty());
+    const std::size_t before = _engine.GetUnacknowledged().size();
+
+    _bRegistered = true; // the event is on its way
+    _loop.Push(ControlPlan{EPlanControl::Resume, "P1", {}, 2});
+    while (_loop.IsStoring())
+    {
+        _loop.OnStored({});
+    }
+    CHECK(_sent.empty());
+
+    _dialog.OnSessionEvent(Protocol::Registered{});
+    REQUIRE(_sent.size() > before);
+    const std::vector<OutboxEntry> entries = _engine.GetUnacknowledged();
+    CHECK(std::ranges::equal(_sent, entries, {}, &Protocol::AcsRequest::transactionID, &OutboxEntry::transactionID));
+}
+
+TEST_CASE_METHOD(DialogTest, "What the store held is replayed after a restart")
+{
+    OutboxEntry entry{7, "T7", _clock.GetNow().wall, PlanReport{"P0", EPlanState::Completed, {}}};
+    StoredState state;
+    state.outbox.push_back(entry);
+    state.lastReportSequence = 7;
+    _dialog.Restore(state.lastReportSequence);
+    _loop.Restore(std::move(state));
+
+    Register();
+    REQUIRE(_sent.size() == 1);
+    CHECK(_sent.front().transactionID == "T7");
+}
+
+} // namespace ACS::Testing
