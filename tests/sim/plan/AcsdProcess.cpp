@@ -1,0 +1,395 @@
+#include "AcsdProcess.hpp"
+
+#include "TraceText.hpp"
+#include <acs/core/Overloaded.hpp>
+#include <acs/plan/EPlanningError.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace ACS::Simulation
+{
+
+using namespace std::chrono_literals;
+
+namespace
+{
+
+Protocol::SessionOptions MakeSessionOptions()
+{
+    Protocol::SessionOptions options;
+    options.positionInterval = 0ms; // nothing depends on positions, and they would be nine of ten messages
+    return options;
+}
+
+} // namespace
+
+AcsdProcess::AcsdProcess(Surroundings around, CrashHandler onCrash, CommitHandler onCommit)
+    : _around(std::move(around)),
+      _onCrash(std::move(onCrash)),
+      _onCommit(std::move(onCommit)),
+      _engine(_around.scenario.options, _around.scenario.MakeSite(), _around.ownRandom),
+      _loop(
+          _engine,
+          _around.timeline,
+          [this](const Planning::EngineAction& action) { Execute(action); },
+          [this](const Planning::StoreBatch& batch) { Store(batch); }),
+      _session(MakeSessionOptions(), _around.ownRandom),
+      _dialog(
+          _around.timeline,
+          Core::Logger(),
+          Apps::LocalOffset(std::chrono::minutes(540)),
+          _engine,
+          *this,
+          [this](Planning::PlanCommand command) { PushCommand(std::move(command)); }),
+      _engineTimers(_around.timeline),
+      _sessionTimers(_around.timeline),
+      _mutator(_around.mutation, _around.dice, _around.ownRandom)
+{
+    _bCrashing = _around.scenario.Has(EFault::Crashes);
+}
+
+AcsdProcess::~AcsdProcess()
+{
+    if (_connection.has_value())
+    {
+        _around.network.Abandon(*_connection, ETextEnd::Client);
+    }
+}
+
+void AcsdProcess::Begin()
+{
+    _around.trace.Tell("acsd: start {}", _around.number);
+    _dialog.Restore(_around.store.GetState().lastReportSequence);
+    _loop.Restore(_mutator.OnRestore(_around.store.Load()));
+    if (_bDead)
+    {
+        return;
+    }
+    for (const auto& [robotID, radio] : _around.radios)
+    {
+        _hands.emplace(
+            robotID,
+            std::make_unique<RobotHand>(
+                _around.timeline,
+                *radio,
+                _around.number,
+                [this, robotID = robotID](const Planning::RobotEvent& event) { TakeRobotEvent(robotID, event); }));
+    }
+    _dialog.Begin();
+    RunSession([this](Core::Now now, auto& out) { _session.Start(now, out); });
+}
+
+void AcsdProcess::Crash(std::string_view where)
+{
+    if (std::exchange(_bDead, true))
+    {
+        return;
+    }
+    _around.trace.Tell("acsd: crash {}", where);
+    _engineTimers.CancelAll();
+    _sessionTimers.CancelAll();
+    _loop.Close();
+    if (_writing.has_value() && _around.dice.IsHit(500))
+    {
+        _around.trace.Tell("acsd: what it was writing is on the disk");
+        static_cast<void>(TryCommit(*_writing));
+    }
+    _onCrash();
+}
+
+void AcsdProcess::EndCrashes()
+{
+    _bCrashing = false;
+}
+
+void AcsdProcess::CrashByChance(std::size_t permyriad, std::string_view where)
+{
+    constexpr std::size_t ALL = 10'000;
+    if (_bCrashing && !_bDead && _around.dice.GetBelow(ALL) < permyriad)
+    {
+        Crash(where);
+    }
+}
+
+void AcsdProcess::PushCommand(Planning::PlanCommand command)
+{
+    if (_mutator.Is(EMutation::AckForgotten) && std::holds_alternative<Planning::MessageAcknowledged>(command))
+    {
+        return;
+    }
+    _loop.Push(std::move(command));
+}
+
+const Planning::PlanEngine& AcsdProcess::GetEngine() const noexcept
+{
+    return _engine;
+}
+
+void AcsdProcess::Store(const Planning::StoreBatch& batch)
+{
+    if (_bDead)
+    {
+        return;
+    }
+    CrashByChance(20, "before a write");
+    _writing = batch;
+    const bool bSlow = _around.scenario.Has(EFault::Disk) && _around.dice.IsHit(30);
+    const Core::Duration time = _around.dice.GetBetween(1ms, bSlow ? 3s : 6ms);
+    const bool bEarly = _mutator.Is(EMutation::StoreConfirmsEarly);
+    _engineTimers.Post(bEarly ? time + 300ms : time, [this, bEarly] {
+        if (!bEarly)
+        {
+            Commit();
+        }
+        else if (_writing.has_value())
+        {
+            static_cast<void>(TryCommit(*std::exchange(_writing, std::nullopt)));
+        }
+    });
+    if (bEarly)
+    {
+        // The batch before this one must not be lost by another reason.
+        _engineTimers.Post(0ms, [this] { _loop.OnStored({}); });
+    }
+}
+
+bool AcsdProcess::TryCommit(const Planning::StoreBatch& batch)
+{
+    const bool bStored = _around.store.Commit(_mutator.OnWrite(batch)).has_value();
+    _around.trace.Tell("disk: {} changes {}", batch.changes.size(), bStored ? "stored" : "refused");
+    if (bStored)
+    {
+        _onCommit();
+    }
+    return bStored;
+}
+
+void AcsdProcess::Commit()
+{
+    const bool bStored = TryCommit(*std::exchange(_writing, std::nullopt));
+    CrashByChance(20, "after a write");
+    if (_bDead)
+    {
+        return;
+    }
+    const bool bTold = bStored || _mutator.Is(EMutation::StoreHidesFailure);
+    _loop.OnStored(
+        bTold ? Core::Result<void>()
+              : Core::Fail(Planning::EPlanningError::StoreFailed, "acsd.db", "room", "disk full"));
+}
+
+void AcsdProcess::Execute(const Planning::EngineAction& action)
+{
+    CrashByChance(5, "between two actions");
+    if (!_bDead)
+    {
+        CarryOut(action);
+    }
+}
+
+void AcsdProcess::CarryOut(const Planning::EngineAction& action)
+{
+    std::visit(
+        Core::Overloaded{
+            [](const Planning::StorePlans&) { assert(false && "carried out by the loop"); },
+            [this](const Planning::ReplyCommand& reply) { _dialog.Reply(_mutator.OnReply(reply)); },
+            [this](const Planning::SendReport& report) { Report(report.entry); },
+            [this](const Planning::CommandRobot& command) { CommandRobot(command); },
+            [this](const Planning::RobotStatusChanged& changed) { _dialog.TellStatus(changed.status); },
+            [this](const Planning::TscStateChanged& changed) { _dialog.TellTsc(changed.state); },
+            [this](const Planning::StartEngineTimer& start) {
+                if (_mutator.ShouldForget(start.timer))
+                {
+                    return;
+                }
+                const Planning::EngineTimer timer = start.timer;
+                _engineTimers.Start(timer, start.delay, [this, timer] { _loop.Push(timer); });
+            },
+            [this](const Planning::CancelEngineTimer& cancel) {
+                _engineTimers.Cancel(cancel.timer);
+            }},
+        action);
+}
+
+void AcsdProcess::Report(const Planning::OutboxEntry& entry)
+{
+    _around.trace.Tell("acsd: report {}: {}", entry.sequence, Describe(entry.report));
+    const Mutator::ReportOutcome outcome = _mutator.OnReport(entry);
+    for (const Planning::OutboxEntry& told : outcome.told)
+    {
+        _dialog.Report(told);
+    }
+    if (outcome.bAcknowledged)
+    {
+        PushCommand(Planning::MessageAcknowledged{entry.sequence});
+    }
+}
+
+void AcsdProcess::CommandRobot(const Planning::CommandRobot& command)
+{
+    _around.trace.Tell("acsd: {} {}", command.robotID, Describe(command.command));
+    const auto found = _hands.find(command.robotID);
+    assert(found != _hands.end());
+    RobotHand& hand = *found->second;
+    const Mutator::CommandOutcome outcome = _mutator.OnCommand(command);
+    for (const Planning::RobotCommand& sent : outcome.sent)
+    {
+        hand.Handle(sent);
+    }
+    for (const Planning::RobotCommand& sent : outcome.sentLater)
+    {
+        _engineTimers.Post(5s, [&hand, sent] { hand.Handle(sent); });
+    }
+    for (const Planning::RobotEvent& event : outcome.raised)
+    {
+        _engineTimers.Post(1ms, [this, robotID = command.robotID, event] {
+            _loop.Push(Acsd::RobotTask{robotID, event});
+        });
+    }
+}
+
+void AcsdProcess::TakeRobotEvent(const std::string& robotID, const Planning::RobotEvent& event)
+{
+    if (_bDead)
+    {
+        return;
+    }
+    _around.trace.Tell("acsd hears: {} {}", robotID, Describe(event));
+    for (const Planning::RobotEvent& heard : _mutator.OnEvent(robotID, event))
+    {
+        _loop.Push(Acsd::RobotTask{robotID, heard});
+    }
+}
+
+template <typename TCall>
+void AcsdProcess::RunSession(TCall call)
+{
+    if (_bDead)
+    {
+        return;
+    }
+    Protocol::SessionActions actions;
+    call(_around.timeline.GetNow(), actions);
+    std::ranges::move(actions, std::back_inserter(_sessionActions));
+    if (std::exchange(_bActing, true))
+    {
+        return;
+    }
+    while (!_sessionActions.empty() && !_bDead)
+    {
+        const Protocol::SessionAction action = std::move(_sessionActions.front());
+        _sessionActions.pop_front();
+        Act(action);
+    }
+    _bActing = false;
+}
+
+void AcsdProcess::Act(const Protocol::SessionAction& action)
+{
+    std::visit(
+        Core::Overloaded{
+            [this](const Protocol::SendText& send) {
+                if (_connection.has_value())
+                {
+                    _around.network.Send(*_connection, ETextEnd::Client, send.text);
+                }
+            },
+            [this](const Protocol::Connect&) { _connection = _around.network.Connect(*this); },
+            [this](const Protocol::Close& close) {
+                if (_connection.has_value())
+                {
+                    _around.network.Close(*_connection, ETextEnd::Client, close.reason);
+                }
+            },
+            [this](const Protocol::StartTimer& start) {
+                const Protocol::ESessionTimer timer = start.timer;
+                _sessionTimers.Start(timer, start.delay, [this, timer] {
+                    RunSession([this, timer](Core::Now now, auto& out) { _session.OnTimer(timer, now, out); });
+                });
+            },
+            [this](const Protocol::CancelTimer& cancel) { _sessionTimers.Cancel(cancel.timer); },
+            [this](const Protocol::Deliver& deliver) {
+                // AcsClient posts events: other work of the same thread may come between.
+                const Core::SteadyTime now = _around.timeline.GetNow().steady;
+                _lastDelivery = std::max(_lastDelivery, now + _around.dice.GetBetween(0ms, 3ms));
+                _sessionTimers.Post(_lastDelivery - now, [this, event = deliver.event] {
+                    const bool bForgotten =
+                        _mutator.Is(EMutation::ReplayForgotten) && std::holds_alternative<Protocol::Registered>(event);
+                    if (!_bDead && !bForgotten)
+                    {
+                        _dialog.OnSessionEvent(event);
+                    }
+                    else if (!_bDead)
+                    {
+                        ReplayDone();
+                    }
+                });
+            }},
+        action);
+}
+
+bool AcsdProcess::IsRegistered() const
+{
+    return _session.IsRegistered();
+}
+
+bool AcsdProcess::TrySendDurable(const Protocol::AcsRequest& request)
+{
+    bool bTaken = false;
+    RunSession(
+        [this, &request, &bTaken](Core::Now now, auto& out) { bTaken = _session.TrySendDurable(request, now, out); });
+    return bTaken;
+}
+
+void AcsdProcess::ReplayDone()
+{
+    RunSession([this](Core::Now now, auto& out) { _session.ReplayDone(now, out); });
+}
+
+void AcsdProcess::SendStatus(const Protocol::AcsPayload& status)
+{
+    RunSession([this, &status](Core::Now now, auto& out) { _session.SendStatus(status, now, out); });
+}
+
+void AcsdProcess::SendPosition(const Protocol::RobotPositionUpdate& positions)
+{
+    RunSession([this, &positions](Core::Now now, auto& out) { _session.SendPosition(positions, now, out); });
+}
+
+void AcsdProcess::Answer(
+    Protocol::EAcsCommand command,
+    std::string_view transactionID,
+    Protocol::EAckResult result,
+    std::string_view message,
+    const Protocol::AckPayload& payload)
+{
+    RunSession(
+        [&](Core::Now now, auto& out) { _session.Answer(command, transactionID, result, message, payload, now, out); });
+}
+
+void AcsdProcess::SetSiteOffset(std::chrono::minutes offset)
+{
+    _session.SetSiteOffset(offset);
+}
+
+void AcsdProcess::OnOpened(Protocol::ConnectionID /*connection*/)
+{
+    RunSession([this](Core::Now now, auto& out) { _session.OnConnected(now, out); });
+}
+
+void AcsdProcess::OnText(Protocol::ConnectionID /*connection*/, const std::string& text)
+{
+    RunSession([this, &text](Core::Now now, auto& out) { _session.OnText(text, now, out); });
+}
+
+void AcsdProcess::OnClosed(Protocol::ConnectionID /*connection*/, const std::string& reason)
+{
+    _connection.reset();
+    RunSession([this, &reason](Core::Now now, auto& out) { _session.OnClosed(reason, now, out); });
+}
+
+} // namespace ACS::Simulation

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace ACS::Simulation
+{
+
+/// A defect that is built in around the engine, to see that the simulation finds it.
+enum class EMutation : std::uint8_t
+{
+    None,
+    StoreConfirmsEarly,
+    StoreHidesFailure,
+    OutboxForgets,
+    RestoreDropsPlan,
+    ReplayForgotten,
+    FinalReportTwice,
+    PlanReportSwallowed,
+    ReportsSwapped,
+    ReportNotStored,
+    ResultTwice,
+    ResultSwallowed,
+    AckForgotten,
+    JobStartedTwice,
+    JobFinishedEarly,
+    NodePassedEarly,
+    StandsTooEarly,
+    ResumeSwallowed,
+    RefusalAcked,
+    TimerForgotten,
+};
+
+struct MutationText
+{
+    std::string_view name;
+    std::string_view meaning;
+};
+
+inline constexpr std::size_t MUTATION_COUNT = 20;
+
+/// By EMutation.
+inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
+    {"none", "nothing is broken"},
+    {"store-confirms-early", "the store says that it has stored before it has"},
+    {"store-hides-failure", "the store says that it has stored where it failed"},
+    {"outbox-forgets", "reports of plans are not stored"},
+    {"restore-drops-plan", "one unfinished plan is not restored"},
+    {"replay-forgotten", "after a registration no report is sent again"},
+    {"final-report-twice", "a plan's last report is sent under a second transactionId"},
+    {"plan-report-swallowed", "now and then a plan's last report is not sent and counts as acknowledged"},
+    {"reports-swapped", "now and then a report leaves after the next one"},
+    {"report-not-stored", "now and then a report is told that nobody stored"},
+    {"result-twice", "the result of a control is told twice"},
+    {"result-swallowed", "the result of a control is not told"},
+    {"ack-forgotten", "the engine does not hear that a report was acknowledged"},
+    {"job-started-twice", "a job is given to the robot once more under another command"},
+    {"job-finished-early", "a job counts as done when it begins"},
+    {"node-passed-early", "a robot counts as past a node before it is"},
+    {"stands-too-early", "a cancelled drive counts as ended before the robot stands"},
+    {"resume-swallowed", "a robot is not told that its pause is over"},
+    {"refused-plan-acked", "a plan that was refused is acknowledged as accepted"},
+    {"timer-forgotten", "the engine's timers for work to be given out do not fire"},
+}};
+
+} // namespace ACS::Simulation

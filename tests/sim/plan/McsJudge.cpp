@@ -1,0 +1,441 @@
+#include "McsJudge.hpp"
+
+#include <acs/core/Overloaded.hpp>
+#include <acs/plan/PlanTransitions.hpp>
+
+#include <algorithm>
+#include <variant>
+
+namespace ACS::Simulation
+{
+
+namespace
+{
+
+// The words of the wire and of the engine stand in the same order (ReportMapper.cpp rests on it too).
+Planning::EPlanState MakeState(Protocol::EPlanStatus status)
+{
+    return static_cast<Planning::EPlanState>(status);
+}
+
+Planning::EStepState MakeState(Protocol::EStepStatus status)
+{
+    return static_cast<Planning::EStepState>(status);
+}
+
+Planning::EJobState MakeState(Protocol::EJobStatus status)
+{
+    return static_cast<Planning::EJobState>(status);
+}
+
+bool IsSameAlarm(const Protocol::ErrorReport& left, const Protocol::ErrorReport& right)
+{
+    return left.robotID == right.robotID && left.errorCode == right.errorCode && left.planID == right.planID
+        && left.jobID == right.jobID;
+}
+
+} // namespace
+
+std::optional<Planning::EPlanControl> GetControlOrNull(Protocol::EAcsCommand command)
+{
+    using Protocol::EAcsCommand;
+    if (command == EAcsCommand::CancelPlan || command == EAcsCommand::CancelResultReport)
+    {
+        return Planning::EPlanControl::Cancel;
+    }
+    if (command == EAcsCommand::AbortPlan || command == EAcsCommand::AbortResultReport)
+    {
+        return Planning::EPlanControl::Abort;
+    }
+    if (command == EAcsCommand::PausePlan || command == EAcsCommand::PauseResultReport)
+    {
+        return Planning::EPlanControl::Pause;
+    }
+    if (command == EAcsCommand::ResumePlan || command == EAcsCommand::ResumeResultReport)
+    {
+        return Planning::EPlanControl::Resume;
+    }
+    return std::nullopt;
+}
+
+McsJudge::McsJudge(Trace& trace, const CrashableStore& store, const WorkWitness& witness)
+    : _trace(trace),
+      _store(store),
+      _witness(witness)
+{
+}
+
+void McsJudge::NotePlanSent(const std::string& planID)
+{
+    ++_plans.at(planID).sent;
+}
+
+void McsJudge::NotePlan(const Protocol::ExecutionPlan& plan, bool bGood)
+{
+    PlanView& view = _plans[plan.planID];
+    view.bGood = bGood;
+    for (const Protocol::PlanStep& step : plan.steps)
+    {
+        StepView& stepView = view.steps[step.stepNo];
+        for (const Protocol::PlanJob& job : step.jobs)
+        {
+            stepView.jobs[job.jobID] = Protocol::EJobStatus::Pending;
+        }
+    }
+}
+
+void McsJudge::NotePlanAck(const Protocol::AcsAck& ack)
+{
+    const auto* const payloadOrNull = std::get_if<Protocol::PlanAck>(&ack.payload);
+    const auto found = payloadOrNull == nullptr ? _plans.end() : _plans.find(payloadOrNull->planID);
+    if (found == _plans.end())
+    {
+        _trace.Violate("an ExecutionPlanAck of no plan: {}", ack.message);
+        return;
+    }
+    PlanView& plan = found->second;
+    const bool bAccepted = ack.result == Protocol::EAckResult::Success;
+    // It is known already: the Ack of an earlier attempt was lost.
+    const bool bKnown = !bAccepted && plan.sent > 1 && ack.message.find("Duplicated Plan") != std::string::npos;
+    if (bAccepted && !plan.bGood)
+    {
+        _trace.Violate("plan {} was accepted and cannot be done", found->first);
+    }
+    if (plan.knowledge == EKnowledge::Accepted && !bAccepted && !bKnown)
+    {
+        _trace.Violate("plan {} was accepted, and refused then: {}", found->first, ack.message);
+    }
+    if (plan.knowledge != EKnowledge::Accepted)
+    {
+        plan.knowledge = bAccepted || bKnown ? EKnowledge::Accepted : EKnowledge::Refused;
+    }
+    CheckKept();
+}
+
+void McsJudge::NoteControlSent(Planning::EPlanControl control, const std::string& planID)
+{
+    ++_controls[{planID, control}].sent;
+}
+
+void McsJudge::NoteControlAck(Planning::EPlanControl control, const std::string& planID)
+{
+    ++_controls[{planID, control}].acknowledged;
+}
+
+void McsJudge::OnRequest(const Protocol::AcsRequest& request)
+{
+    if (const auto* statusOrNull = std::get_if<Protocol::RobotStatusUpdate>(&request.payload); statusOrNull != nullptr)
+    {
+        _statuses[statusOrNull->robotID] = *statusOrNull;
+        return;
+    }
+    if (const auto* tscOrNull = std::get_if<Protocol::TscStateUpdate>(&request.payload); tscOrNull != nullptr)
+    {
+        _tscState = tscOrNull->state;
+        return;
+    }
+    const Protocol::EAcsCommand command = Protocol::GetCommand(request);
+    const bool bReport = command == Protocol::EAcsCommand::PlanReport || command == Protocol::EAcsCommand::StepReport
+        || command == Protocol::EAcsCommand::JobReport || command == Protocol::EAcsCommand::ErrorReport
+        || GetControlOrNull(command).has_value();
+    if (!bReport)
+    {
+        return;
+    }
+    const auto [seen, bFirst] = _seen.emplace(request.transactionID, request.payload);
+    if (!bFirst)
+    {
+        if (seen->second != request.payload)
+        {
+            _trace.Violate("the report {} came again with another content", request.transactionID);
+        }
+        return;
+    }
+    const std::optional<std::uint64_t> sequence = _store.GetSequenceOrNull(request.transactionID);
+    if (!sequence.has_value())
+    {
+        _trace.Violate("a {} was told that is not stored", GetText(command));
+    }
+    else if (*sequence <= _lastSequence)
+    {
+        _trace.Violate("report {} came after report {}", *sequence, _lastSequence);
+    }
+    else
+    {
+        _lastSequence = *sequence;
+    }
+    TakeFirst(request.payload);
+}
+
+void McsJudge::TakeFirst(const Protocol::AcsPayload& payload)
+{
+    std::visit(
+        Core::Overloaded{
+            [this](const Protocol::PlanReport& report) { TakePlanReport(report); },
+            [this](const Protocol::StepReport& report) { TakeStepReport(report); },
+            [this](const Protocol::JobReport& report) { TakeJobReport(report); },
+            [this](const Protocol::ErrorReport& report) { TakeAlarm(report); },
+            [this](const Protocol::CancelResultReport& report) {
+                TakeResult(Planning::EPlanControl::Cancel, report.planID);
+            },
+            [this](const Protocol::AbortResultReport& report) {
+                TakeResult(Planning::EPlanControl::Abort, report.planID);
+            },
+            [this](const Protocol::PauseResultReport& report) {
+                TakeResult(Planning::EPlanControl::Pause, report.planID);
+            },
+            [this](const Protocol::ResumeResultReport& report) {
+                TakeResult(Planning::EPlanControl::Resume, report.planID);
+            },
+            [](const auto&) {
+            }},
+        payload);
+}
+
+/// The plan, where it may be reported at all.
+McsJudge::PlanView* McsJudge::FindReportedOrNull(const std::string& planID, std::string_view what)
+{
+    const auto found = _plans.find(planID);
+    if (found == _plans.end() || found->second.knowledge == EKnowledge::Refused)
+    {
+        _trace.Violate("{} of plan {}, which was {}", what, planID, found == _plans.end() ? "never sent" : "refused");
+        return nullptr;
+    }
+    if (Planning::IsFinal(MakeState(found->second.status)))
+    {
+        _trace.Violate("{} of plan {}, which is {}", what, planID, GetText(found->second.status));
+        return nullptr;
+    }
+    // Who reports a plan has taken it, whatever has become of the Ack.
+    found->second.knowledge = EKnowledge::Accepted;
+    return &found->second;
+}
+
+void McsJudge::TakePlanReport(const Protocol::PlanReport& report)
+{
+    PlanView* const planOrNull = FindReportedOrNull(report.planID, "a PlanReport");
+    if (planOrNull == nullptr)
+    {
+        return;
+    }
+    const bool bFirstPending =
+        report.status == Protocol::EPlanStatus::Pending && planOrNull->status == Protocol::EPlanStatus::Pending;
+    if (!bFirstPending && !Planning::CanChange(MakeState(planOrNull->status), MakeState(report.status)))
+    {
+        _trace
+            .Violate("plan {} went from {} to {}", report.planID, GetText(planOrNull->status), GetText(report.status));
+    }
+    planOrNull->status = report.status;
+    if (report.status == Protocol::EPlanStatus::Completed)
+    {
+        CheckCompleted(report.planID, *planOrNull);
+    }
+}
+
+void McsJudge::CheckCompleted(const std::string& planID, const PlanView& plan)
+{
+    for (const auto& [stepNo, step] : plan.steps)
+    {
+        if (step.status != Protocol::EStepStatus::Completed)
+        {
+            _trace.Violate("plan {} is Completed, its step {} is {}", planID, stepNo, GetText(step.status));
+        }
+        if (step.jobs.empty() && _witness.GetTruth(planID, stepNo, {}).finished == 0)
+        {
+            _trace.Violate("plan {} is Completed, and no robot has done its step {}", planID, stepNo);
+        }
+    }
+}
+
+void McsJudge::TakeStepReport(const Protocol::StepReport& report)
+{
+    PlanView* const planOrNull = FindReportedOrNull(report.planID, "a StepReport");
+    const auto found =
+        planOrNull == nullptr ? decltype(planOrNull->steps.begin()){} : planOrNull->steps.find(report.stepNo);
+    if (planOrNull == nullptr || found == planOrNull->steps.end())
+    {
+        return;
+    }
+    StepView& step = found->second;
+    if (!Planning::CanChange(MakeState(step.status), MakeState(report.status)))
+    {
+        _trace.Violate(
+            "step {} of {} went from {} to {}",
+            report.stepNo,
+            report.planID,
+            GetText(step.status),
+            GetText(report.status));
+    }
+    step.status = report.status;
+    const bool bEarlierDone = std::all_of(planOrNull->steps.begin(), found, [](const auto& earlier) {
+        return earlier.second.status == Protocol::EStepStatus::Completed;
+    });
+    if (!bEarlierDone || planOrNull->status == Protocol::EPlanStatus::Pending)
+    {
+        _trace.Violate("step {} of {} is told before its time", report.stepNo, report.planID);
+    }
+    const bool bJobsDone =
+        std::ranges::all_of(step.jobs, [](const auto& job) { return job.second == Protocol::EJobStatus::Completed; });
+    if (report.status == Protocol::EStepStatus::Completed && !bJobsDone)
+    {
+        _trace.Violate("step {} of {} is Completed before its jobs", report.stepNo, report.planID);
+    }
+}
+
+void McsJudge::TakeJobReport(const Protocol::JobReport& report)
+{
+    PlanView* const planOrNull = FindReportedOrNull(report.planID, "a JobReport");
+    if (planOrNull == nullptr)
+    {
+        return;
+    }
+    const auto step = planOrNull->steps.find(report.stepNo);
+    const bool bKnown = step != planOrNull->steps.end() && step->second.jobs.contains(report.jobID);
+    if (!bKnown)
+    {
+        _trace.Violate("a report of job {}, which plan {} does not have", report.jobID, report.planID);
+        return;
+    }
+    Protocol::EJobStatus& status = step->second.jobs[report.jobID];
+    if (!Planning::CanChange(MakeState(status), MakeState(report.status)))
+    {
+        _trace.Violate(
+            "job {} of {} went from {} to {}",
+            report.jobID,
+            report.planID,
+            GetText(status),
+            GetText(report.status));
+    }
+    status = report.status;
+    if (step->second.status != Protocol::EStepStatus::InProgress)
+    {
+        _trace.Violate("job {} of {} is told outside of its step", report.jobID, report.planID);
+    }
+    const WorkWitness::JobTruth truth = _witness.GetTruth(report.planID, report.stepNo, report.jobID);
+    const bool bNeedsEnd = report.status == Protocol::EJobStatus::Completed;
+    const bool bNeedsBegin = bNeedsEnd || report.status == Protocol::EJobStatus::InProgress;
+    if ((bNeedsEnd && truth.finished == 0) || (bNeedsBegin && truth.begun == 0))
+    {
+        _trace
+            .Violate("job {} of {} is told as {}, and it was not", report.jobID, report.planID, GetText(report.status));
+    }
+}
+
+void McsJudge::TakeResult(Planning::EPlanControl control, const std::string& planID)
+{
+    ControlView& view = _controls[{planID, control}];
+    if (++view.results > view.sent)
+    {
+        _trace.Violate("{} results of {} of {}, sent {} times", view.results, GetText(control), planID, view.sent);
+    }
+}
+
+void McsJudge::TakeAlarm(const Protocol::ErrorReport& report)
+{
+    const auto found = std::ranges::find_if(_alarms, [&report](const Protocol::ErrorReport& known) {
+        return IsSameAlarm(known, report);
+    });
+    if (report.bSet == (found != _alarms.end()))
+    {
+        _trace.Violate("alarm {} of {} is {} twice", report.errorCode, report.robotID, report.bSet ? "set" : "cleared");
+        return;
+    }
+    if (report.bSet)
+    {
+        _alarms.push_back(report);
+    }
+    else
+    {
+        _alarms.erase(found);
+    }
+}
+
+void McsJudge::CheckKept()
+{
+    for (const auto& [planID, plan] : _plans)
+    {
+        if (plan.knowledge != EKnowledge::Accepted || Planning::IsFinal(MakeState(plan.status)))
+        {
+            continue;
+        }
+        const Planning::PlanRecord* const recordOrNull = _store.FindPlanOrNull(planID);
+        if (recordOrNull == nullptr)
+        {
+            _trace.Violate("plan {} was acknowledged and is not on the disk", planID);
+            continue;
+        }
+        const Planning::EPlanState state = recordOrNull->progress.state;
+        const auto isItsEnd = [&planID = planID, state](const Planning::OutboxEntry& entry) {
+            const auto* const reportOrNull = std::get_if<Planning::PlanReport>(&entry.report);
+            return reportOrNull != nullptr && reportOrNull->planID == planID && reportOrNull->state == state;
+        };
+        if (Planning::IsFinal(state) && std::ranges::none_of(_store.GetState().outbox, isItsEnd))
+        {
+            _trace.Violate("plan {} has ended, and nothing on the disk will tell the MCS", planID);
+        }
+    }
+}
+
+McsJudge::EKnowledge McsJudge::GetKnowledge(const std::string& planID) const
+{
+    return _plans.at(planID).knowledge;
+}
+
+std::vector<std::string> McsJudge::GetPaused() const
+{
+    std::vector<std::string> paused;
+    for (const auto& [planID, plan] : _plans)
+    {
+        if (plan.status == Protocol::EPlanStatus::Paused)
+        {
+            paused.push_back(planID);
+        }
+    }
+    return paused;
+}
+
+const std::map<std::string, Protocol::RobotStatusUpdate>& McsJudge::GetStatuses() const noexcept
+{
+    return _statuses;
+}
+
+const std::optional<Protocol::ETscState>& McsJudge::GetTscStateOrNull() const noexcept
+{
+    return _tscState;
+}
+
+const std::vector<Protocol::ErrorReport>& McsJudge::GetAlarms() const noexcept
+{
+    return _alarms;
+}
+
+std::string McsJudge::DescribeOwed() const
+{
+    std::string text;
+    for (const auto& [planID, plan] : _plans)
+    {
+        if (plan.knowledge == EKnowledge::Unknown)
+        {
+            text += fmt::format("plan {} has no Ack; ", planID);
+        }
+        if (plan.knowledge == EKnowledge::Accepted && !Planning::IsFinal(MakeState(plan.status)))
+        {
+            text += fmt::format("plan {} is {}; ", planID, GetText(plan.status));
+        }
+    }
+    for (const auto& [key, control] : _controls)
+    {
+        if (control.results < control.acknowledged)
+        {
+            text += fmt::format(
+                "{} results of {} {}, acknowledged {} times; ",
+                control.results,
+                GetText(key.second),
+                key.first,
+                control.acknowledged);
+        }
+    }
+    return text;
+}
+
+} // namespace ACS::Simulation

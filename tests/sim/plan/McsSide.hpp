@@ -1,0 +1,87 @@
+#pragma once
+
+#include "Dice.hpp"
+#include "McsJudge.hpp"
+#include "Scenario.hpp"
+#include "TextNetwork.hpp"
+#include "TimerBank.hpp"
+#include "Trace.hpp"
+#include <acs/protocol/McsSession.hpp>
+
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace ACS::Simulation
+{
+
+/// The MCS and the people behind it: sends plans, controls and questions at any moment, repeats what got no Ack, holds its
+/// own Acks back. All that it sees goes to the judge.
+class McsSide final : public ITextPeer
+{
+    enum class EHabit : std::uint8_t
+    {
+        SendPlan,
+        SendControl,
+        Ask,
+        Misbehave,
+        EndMisbehaving,
+        Settle,
+    };
+
+    Timeline& _timeline;
+    Trace& _trace;
+    TextNetwork& _network;
+    McsJudge& _judge;
+    WorkWitness& _witness;
+    const Scenario& _scenario;
+    Dice _dice;
+    Dice _idDice;
+    Protocol::McsSession _session;
+    TimerBank<Protocol::ESessionTimer> _sessionTimers;
+    TimerBank<EHabit> _habits;
+    std::deque<Protocol::SessionAction> _actions;
+    bool _bActing = false;
+    std::vector<std::string> _planIDs;                       ///< Of all that were sent.
+    std::map<std::string, Protocol::AcsRequest> _unanswered; ///< By transactionID: to be sent, or sent without an Ack.
+    bool _bSettling = false;
+
+    template <typename TCall>
+    void Run(TCall call);
+    void Act(const Protocol::SessionAction& action);
+    void Take(const Protocol::SessionEvent& event);
+    void TakeAck(const Protocol::AcsAck& ack);
+    void TakeUnanswered(const std::string& transactionID);
+    void Send(const Protocol::AcsRequest& request);
+    void SendPlan();
+    void SendControl(Planning::EPlanControl control, const std::string& planID);
+    void SendRandomControl();
+    void Ask();
+    void Misbehave();
+    void Settle();
+
+public:
+    McsSide(
+        Timeline& timeline,
+        Trace& trace,
+        TextNetwork& network,
+        McsJudge& judge,
+        WorkWitness& witness,
+        const Scenario& scenario);
+
+    void Begin();
+
+    /// No new plans and faults from now on: what is open is brought to its end, what is paused is resumed.
+    void BeginSettling();
+
+    /// Whether nothing waits to be sent, or for an Ack.
+    [[nodiscard]] bool IsSettled() const;
+
+    void OnOpened(Protocol::ConnectionID connection) override;
+    void OnText(Protocol::ConnectionID connection, const std::string& text) override;
+    void OnClosed(Protocol::ConnectionID connection, const std::string& reason) override;
+};
+
+} // namespace ACS::Simulation

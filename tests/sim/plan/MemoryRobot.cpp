@@ -1,0 +1,339 @@
+#include "MemoryRobot.hpp"
+
+#include <acs/core/Overloaded.hpp>
+
+#include <utility>
+#include <variant>
+
+namespace ACS::Simulation
+{
+
+using namespace std::chrono_literals;
+
+MemoryRobot::MemoryRobot(
+    Timeline& timeline,
+    Trace& trace,
+    WorkWitness& witness,
+    const DiceSeed& seed,
+    std::string robotID,
+    std::string nodeID)
+    : _trace(trace),
+      _witness(witness),
+      _dice(seed),
+      _timers(timeline),
+      _robotID(std::move(robotID))
+{
+    _nature.bStopsOnEdges = _dice.IsHit(400);
+    _nature.bFinishesJobs = _dice.IsHit(300);
+    _nature.bIgnoresJobCancel = _dice.IsHit(300);
+    _nature.slowness = _dice.GetBetween(1, 3);
+    _snapshot.state.bPoseKnown = true;
+    _snapshot.state.batteryPercent = 80;
+    _snapshot.state.lastNodeID = std::move(nodeID);
+    _witness.OnPlaced(_robotID, {_snapshot.state.lastNodeID});
+}
+
+void MemoryRobot::SetListener(Listener listener)
+{
+    _listener = std::move(listener);
+}
+
+void MemoryRobot::Receive(const RobotMessage& message)
+{
+    std::visit(
+        Core::Overloaded{
+            [this](const Greeting& greeting) { _snapshot.greeting = greeting.number; },
+            [this](const Planning::Drive& drive) { BeginDrive(drive); },
+            [this](const Planning::ExtendDrive& extension) { Extend(extension); },
+            [this](const Planning::CancelDrive& cancel) { CancelDrive(cancel); },
+            [this](const Planning::StartJob& job) { BeginJob(job); },
+            [this](const JobCancellation& cancel) { CancelJob(cancel.commandID); },
+            [this](const PauseWish& wish) {
+                SetPause(wish);
+            }},
+        message);
+    Show();
+}
+
+void MemoryRobot::BeginDrive(const Planning::Drive& drive)
+{
+    const auto [view, bNew] = _snapshot.drives.try_emplace(drive.driveID);
+    if (!bNew)
+    {
+        return; // told again
+    }
+    view->second.releasedCount = drive.releasedCount;
+    view->second.nodeID = GetNodeID();
+    const bool bRefused = _drive.has_value() || _job.has_value() || drive.route.nodes.front().nodeID != GetNodeID();
+    if (bRefused || _dice.IsHit(rejectChance))
+    {
+        _trace.Tell("{} refuses a drive to {}", _robotID, drive.route.nodes.back().nodeID);
+        view->second.state = EDriveState::Rejected;
+        return;
+    }
+    _trace.Tell("{} takes a drive to {}", _robotID, drive.route.nodes.back().nodeID);
+    view->second.passedCount = 1;
+    _drive = drive;
+    _index = 0;
+    _bStopping = false;
+    _snapshot.activeDriveID = drive.driveID;
+    GoOn();
+}
+
+void MemoryRobot::Extend(const Planning::ExtendDrive& extension)
+{
+    if (_drive.has_value() && _drive->driveID == extension.driveID && _drive->releasedCount < extension.releasedCount)
+    {
+        _drive->releasedCount = extension.releasedCount;
+        _snapshot.drives[extension.driveID].releasedCount = extension.releasedCount;
+        GoOn();
+    }
+}
+
+void MemoryRobot::CancelDrive(const Planning::CancelDrive& cancel)
+{
+    const auto [view, bNew] = _snapshot.drives.try_emplace(cancel.driveID);
+    if (bNew)
+    {
+        // It never came, and will not be begun any more.
+        view->second.state = EDriveState::Cancelled;
+        view->second.nodeID = GetNodeID();
+        return;
+    }
+    if (_drive.has_value() && _drive->driveID == cancel.driveID)
+    {
+        _bStopping = true;
+        if (!_bMoving)
+        {
+            EndDrive(EDriveState::Cancelled);
+        }
+    }
+}
+
+/// To the next node, where it is released.
+void MemoryRobot::GoOn()
+{
+    if (!_drive.has_value() || _bMoving || _bPauseAsked || _bStopped || _bStopping
+        || _index + 1 >= _drive->releasedCount)
+    {
+        return;
+    }
+    _bMoving = true;
+    ShowPlace();
+    _timers.Start(ETimer::Move, _dice.GetBetween(300ms, 1'500ms) * _nature.slowness, [this] { OnMoveTimer(); });
+}
+
+void MemoryRobot::OnMoveTimer()
+{
+    if (IsHalted())
+    {
+        _bMoveHalted = true;
+        Show();
+        return;
+    }
+    _bMoving = false;
+    ++_index;
+    _snapshot.state.lastNodeID = _drive->route.nodes[_index].nodeID;
+    _snapshot.drives[_drive->driveID].passedCount = _index + 1;
+    ShowPlace();
+    if (_index + 1 == _drive->route.nodes.size())
+    {
+        EndDrive(EDriveState::Arrived);
+    }
+    else if (_bStopping)
+    {
+        EndDrive(EDriveState::Cancelled);
+    }
+    GoOn();
+    Show();
+}
+
+void MemoryRobot::EndDrive(EDriveState state)
+{
+    DriveView& view = _snapshot.drives[_drive->driveID];
+    view.state = state;
+    view.nodeID = GetNodeID();
+    _snapshot.activeDriveID.clear();
+    _drive.reset();
+    _bStopping = false;
+}
+
+void MemoryRobot::BeginJob(const Planning::StartJob& job)
+{
+    const auto [view, bNew] = _snapshot.jobs.try_emplace(job.commandID);
+    if (!bNew)
+    {
+        return; // told again
+    }
+    view->second.jobID = job.jobID;
+    if (_drive.has_value() || _job.has_value())
+    {
+        view->second.state = EJobState::Failed;
+        view->second.reason = "the robot is busy";
+        return;
+    }
+    _job = job;
+    _snapshot.activeCommandID = job.commandID;
+    _timers.Start(ETimer::Job, _dice.GetBetween(10ms, 1s), [this] { OnJobTimer(); });
+}
+
+void MemoryRobot::OnJobTimer()
+{
+    JobView& view = _snapshot.jobs[_job->commandID];
+    const bool bRuns = view.state == EJobState::Running;
+    if (_bStopped || (_bPauseAsked && !(bRuns && _nature.bFinishesJobs)))
+    {
+        _bJobHalted = true;
+        Show();
+        return;
+    }
+    if (!bRuns)
+    {
+        view.state = EJobState::Running;
+        _witness.OnJobBegun(_robotID, *_job);
+        _timers.Start(ETimer::Job, _dice.GetBetween(200ms, 4s) * _nature.slowness, [this] { OnJobTimer(); });
+    }
+    else if (_dice.IsHit(failChance))
+    {
+        EndJob(EJobState::Failed, "the gripper is empty");
+    }
+    else
+    {
+        _witness.OnJobFinished(_robotID, *_job);
+        EndJob(EJobState::Finished, {});
+    }
+    Show();
+}
+
+void MemoryRobot::EndJob(EJobState state, const std::string& reason)
+{
+    JobView& view = _snapshot.jobs[_job->commandID];
+    view.state = state;
+    view.reason = reason;
+    _snapshot.activeCommandID.clear();
+    _timers.Cancel(ETimer::Job);
+    _bJobHalted = false;
+    _job.reset();
+}
+
+void MemoryRobot::CancelJob(const std::string& commandID)
+{
+    const auto [view, bNew] = _snapshot.jobs.try_emplace(commandID);
+    if (bNew)
+    {
+        // It never came, and will not be begun any more.
+        view->second.state = EJobState::Failed;
+        view->second.reason = "given up before it came";
+        return;
+    }
+    const bool bEndable = view->second.state == EJobState::Waiting || !_nature.bIgnoresJobCancel;
+    if (_job.has_value() && _job->commandID == commandID && bEndable)
+    {
+        EndJob(EJobState::Failed, "given up");
+    }
+}
+
+void MemoryRobot::SetPause(const PauseWish& wish)
+{
+    if (wish.number <= _snapshot.pauseWish)
+    {
+        return;
+    }
+    _snapshot.pauseWish = wish.number;
+    _bPauseAsked = wish.bPause;
+    if (!wish.bPause)
+    {
+        Unhalt();
+    }
+}
+
+bool MemoryRobot::IsHalted() const noexcept
+{
+    return _bStopped || (_bPauseAsked && _nature.bStopsOnEdges);
+}
+
+void MemoryRobot::Unhalt()
+{
+    if (_bStopped)
+    {
+        return;
+    }
+    if (!IsHalted() && std::exchange(_bMoveHalted, false))
+    {
+        _timers.Start(ETimer::Move, _dice.GetBetween(100ms, 1s), [this] { OnMoveTimer(); });
+    }
+    if (!_bPauseAsked && std::exchange(_bJobHalted, false))
+    {
+        _timers.Start(ETimer::Job, _dice.GetBetween(100ms, 1s), [this] { OnJobTimer(); });
+    }
+    GoOn();
+}
+
+void MemoryRobot::Disturb()
+{
+    _bStopped = true;
+    switch (_dice.GetBelow(3))
+    {
+        case 0:
+            _snapshot.state.bSafetyStop = true;
+            break;
+        case 1:
+            _snapshot.state.bAutomatic = false;
+            break;
+        default:
+            _snapshot.state.errors = {{"AGV-lost", Planning::EAlarmLevel::Heavy, "lost its way"}};
+            break;
+    }
+    _trace.Tell("{} is disturbed", _robotID);
+    Show();
+}
+
+void MemoryRobot::Recover()
+{
+    _bStopped = false;
+    _snapshot.state.bSafetyStop = false;
+    _snapshot.state.bAutomatic = true;
+    _snapshot.state.errors.clear();
+    _trace.Tell("{} is well again", _robotID);
+    Unhalt();
+    Show();
+}
+
+void MemoryRobot::ShowPlace()
+{
+    std::vector<std::string> nodeIDs{GetNodeID()};
+    if (_bMoving)
+    {
+        nodeIDs.push_back(_drive->route.nodes[_index + 1].nodeID);
+    }
+    _witness.OnPlaced(_robotID, std::move(nodeIDs));
+}
+
+void MemoryRobot::Show()
+{
+    const bool bJobRuns = _job.has_value() && _snapshot.jobs[_job->commandID].state == EJobState::Running;
+    _snapshot.state.bDriving = _bMoving && !_bMoveHalted;
+    _snapshot.state.bPaused =
+        _bPauseAsked && (!_bMoving || _bMoveHalted) && !(bJobRuns && _nature.bFinishesJobs && !_bJobHalted);
+    if (_listener)
+    {
+        _listener(_snapshot);
+    }
+}
+
+const std::string& MemoryRobot::GetNodeID() const noexcept
+{
+    return _snapshot.state.lastNodeID;
+}
+
+const RobotSnapshot& MemoryRobot::GetSnapshot() const noexcept
+{
+    return _snapshot;
+}
+
+bool MemoryRobot::IsDisturbed() const noexcept
+{
+    return _bStopped;
+}
+
+} // namespace ACS::Simulation

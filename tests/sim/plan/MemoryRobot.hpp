@@ -1,0 +1,100 @@
+#pragma once
+
+#include "Dice.hpp"
+#include "RobotMessages.hpp"
+#include "TimerBank.hpp"
+#include "Trace.hpp"
+#include "WorkWitness.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace ACS::Simulation
+{
+
+/// A robot in memory, which lives on when acsd crashes: drives along released nodes, does jobs, stands still where it must,
+/// and remembers what it was told.
+class MemoryRobot final
+{
+public:
+    using Listener = std::function<void(const RobotSnapshot& snapshot)>;
+
+private:
+    enum class ETimer : std::uint8_t
+    {
+        Move,
+        Job,
+    };
+
+    /// How this one is.
+    struct Nature
+    {
+        bool bStopsOnEdges = false;     ///< A pause stops it between two nodes.
+        bool bFinishesJobs = false;     ///< A job that runs is not paused.
+        bool bIgnoresJobCancel = false; ///< As an arm, whose program is never broken off.
+        std::size_t slowness = 1;
+    };
+
+    Trace& _trace;
+    WorkWitness& _witness;
+    Dice _dice;
+    TimerBank<ETimer> _timers;
+    std::string _robotID;
+    Nature _nature;
+    RobotSnapshot _snapshot;
+    Listener _listener;
+
+    std::optional<Planning::Drive> _drive;
+    std::size_t _index = 0;    ///< Of the node in the route.
+    bool _bMoving = false;     ///< Between this node and the next one.
+    bool _bMoveHalted = false; ///< The move's timer stands still.
+    bool _bStopping = false;
+    std::optional<Planning::StartJob> _job;
+    bool _bJobHalted = false;
+    bool _bPauseAsked = false;
+    bool _bStopped = false; ///< For safety, by hand or for an error: neither drives nor works.
+
+    void BeginDrive(const Planning::Drive& drive);
+    void Extend(const Planning::ExtendDrive& extension);
+    void CancelDrive(const Planning::CancelDrive& cancel);
+    void BeginJob(const Planning::StartJob& job);
+    void CancelJob(const std::string& commandID);
+    void SetPause(const PauseWish& wish);
+    void GoOn();
+    void OnMoveTimer();
+    void OnJobTimer();
+    void EndDrive(EDriveState state);
+    void EndJob(EJobState state, const std::string& reason);
+    void Unhalt();
+    void ShowPlace();
+    void Show();
+    [[nodiscard]] bool IsHalted() const noexcept;
+    [[nodiscard]] const std::string& GetNodeID() const noexcept;
+
+public:
+    /// Permille.
+    std::size_t rejectChance = 0;
+    std::size_t failChance = 0;
+
+    MemoryRobot(
+        Timeline& timeline,
+        Trace& trace,
+        WorkWitness& witness,
+        const DiceSeed& seed,
+        std::string robotID,
+        std::string nodeID);
+
+    /// Hears of every change.
+    void SetListener(Listener listener);
+    void Receive(const RobotMessage& message);
+
+    /// Somebody presses its emergency stop, takes it in hand, or it has an error, for a while.
+    void Disturb();
+    void Recover();
+
+    [[nodiscard]] const RobotSnapshot& GetSnapshot() const noexcept;
+    [[nodiscard]] bool IsDisturbed() const noexcept;
+};
+
+} // namespace ACS::Simulation

@@ -1,0 +1,251 @@
+#include "MemoryRobotAdapter.hpp"
+
+#include <acs/core/Overloaded.hpp>
+
+#include <utility>
+#include <variant>
+
+namespace ACS::Simulation
+{
+
+using namespace std::chrono_literals;
+
+namespace
+{
+
+constexpr Planning::AdapterTimerID RESEND_TIMER = 1;
+constexpr Core::Duration RESEND_INTERVAL = 2s;
+/// Room for the numbers of one adapter.
+constexpr unsigned NUMBER_BITS = 32;
+
+void Raise(Planning::RobotEvent event, Planning::AdapterActions& out)
+{
+    out.emplace_back(Planning::RaiseEvent{std::move(event)});
+}
+
+} // namespace
+
+MemoryRobotAdapter::MemoryRobotAdapter(std::uint64_t number, Sender send)
+    : _send(std::move(send)),
+      _number(number << NUMBER_BITS)
+{
+}
+
+void MemoryRobotAdapter::Handle(
+    const Planning::RobotCommand& command,
+    Core::Now /*now*/,
+    Planning::AdapterActions& /*out*/)
+{
+    std::visit(
+        Core::Overloaded{
+            [this](const Planning::Drive& drive) {
+                _driveID = drive.driveID;
+                _told = 0;
+                _route.clear();
+                for (const Planning::RouteNode& node : drive.route.nodes)
+                {
+                    _route.push_back(node.nodeID);
+                }
+                Send(drive);
+            },
+            [this](const Planning::ExtendDrive& extension) { Send(extension); },
+            [this](const Planning::CancelDrive& cancel) { Send(cancel); },
+            [this](const Planning::StartJob& job) {
+                _job = job;
+                _bJobStarted = false;
+                Send(job);
+            },
+            [this](const Planning::CancelJob& cancel) {
+                if (_job.has_value() && _job->jobID == cancel.jobID)
+                {
+                    Send(JobCancellation{_job->commandID});
+                }
+            },
+            [this](const Planning::Pause&) {
+                Send(PauseWish{++_number, true});
+            },
+            [this](const Planning::Resume&) {
+                Send(PauseWish{++_number, false});
+            }},
+        command);
+}
+
+void MemoryRobotAdapter::OnTimer(Planning::AdapterTimerID /*timer*/, Core::Now /*now*/, Planning::AdapterActions& out)
+{
+    if (!_bLinkUp)
+    {
+        return;
+    }
+    if (!_bOnline)
+    {
+        _send(Greeting{_greeting});
+    }
+    for (const RobotMessage& message : _unconfirmed)
+    {
+        _send(message);
+    }
+    out.emplace_back(Planning::StartAdapterTimer{RESEND_TIMER, RESEND_INTERVAL});
+}
+
+std::optional<std::string> MemoryRobotAdapter::GetRejectionReasonOrNull(std::string_view /*action*/) const
+{
+    return std::nullopt;
+}
+
+void MemoryRobotAdapter::OnLinkUp(Planning::AdapterActions& out)
+{
+    _bLinkUp = true;
+    _greeting = ++_number;
+    _send(Greeting{_greeting});
+    out.emplace_back(Planning::StartAdapterTimer{RESEND_TIMER, RESEND_INTERVAL});
+}
+
+void MemoryRobotAdapter::OnLinkDown(Planning::AdapterActions& out)
+{
+    _bLinkUp = false;
+    if (std::exchange(_bOnline, false))
+    {
+        Raise(Planning::LinkChanged{false}, out);
+    }
+}
+
+void MemoryRobotAdapter::Send(const RobotMessage& message)
+{
+    _unconfirmed.push_back(message);
+    if (_bOnline)
+    {
+        _send(message);
+    }
+}
+
+void MemoryRobotAdapter::OnSnapshot(const RobotSnapshot& snapshot, Planning::AdapterActions& out)
+{
+    if (!_bLinkUp || snapshot.greeting != _greeting)
+    {
+        return; // said before it had heard of this link
+    }
+    _snapshot = snapshot;
+    Confirm();
+    if (!std::exchange(_bOnline, true))
+    {
+        for (const RobotMessage& message : _unconfirmed)
+        {
+            _send(message);
+        }
+        Raise(Planning::LinkChanged{true}, out);
+    }
+    FollowDrive(out);
+    FollowJob(out);
+    TellState(out);
+}
+
+void MemoryRobotAdapter::Confirm()
+{
+    std::erase_if(_unconfirmed, [this](const RobotMessage& message) { return IsConfirmed(message); });
+}
+
+bool MemoryRobotAdapter::IsConfirmed(const RobotMessage& message) const
+{
+    const auto findDrive = [this](const std::string& driveID) {
+        const auto found = _snapshot->drives.find(driveID);
+        return found == _snapshot->drives.end() ? nullptr : &found->second;
+    };
+    return std::visit(
+        Core::Overloaded{
+            [](const Greeting&) { return true; },
+            [&](const Planning::Drive& drive) { return findDrive(drive.driveID) != nullptr; },
+            [&](const Planning::ExtendDrive& extension) {
+                const DriveView* const viewOrNull = findDrive(extension.driveID);
+                return viewOrNull != nullptr
+                    && (viewOrNull->state != EDriveState::Driving
+                        || viewOrNull->releasedCount >= extension.releasedCount);
+            },
+            [&](const Planning::CancelDrive& cancel) {
+                const DriveView* const viewOrNull = findDrive(cancel.driveID);
+                return viewOrNull != nullptr && viewOrNull->state != EDriveState::Driving;
+            },
+            [&](const Planning::StartJob& job) { return _snapshot->jobs.contains(job.commandID); },
+            [&](const JobCancellation& cancel) {
+                const auto found = _snapshot->jobs.find(cancel.commandID);
+                return found != _snapshot->jobs.end() && found->second.state != EJobState::Waiting;
+            },
+            [&](const PauseWish& wish) {
+                return _snapshot->pauseWish >= wish.number;
+            }},
+        message);
+}
+
+void MemoryRobotAdapter::FollowDrive(Planning::AdapterActions& out)
+{
+    const auto found = _snapshot->drives.find(_driveID);
+    if (_driveID.empty() || found == _snapshot->drives.end())
+    {
+        return;
+    }
+    const DriveView& view = found->second;
+    for (; _told < view.passedCount; ++_told)
+    {
+        Raise(Planning::NodePassed{_driveID, _route[_told]}, out);
+    }
+    switch (view.state)
+    {
+        case EDriveState::Arrived:
+            Raise(Planning::Arrived{std::exchange(_driveID, {})}, out);
+            break;
+        case EDriveState::Cancelled:
+            Raise(Planning::DriveCancelled{std::exchange(_driveID, {}), view.nodeID}, out);
+            break;
+        case EDriveState::Rejected:
+            Raise(Planning::DriveRejected{std::exchange(_driveID, {}), "the robot refuses it"}, out);
+            break;
+        case EDriveState::Driving:
+        default:
+            break;
+    }
+}
+
+void MemoryRobotAdapter::FollowJob(Planning::AdapterActions& out)
+{
+    const auto found = _job.has_value() ? _snapshot->jobs.find(_job->commandID) : _snapshot->jobs.end();
+    if (found == _snapshot->jobs.end() || found->second.state == EJobState::Waiting)
+    {
+        return;
+    }
+    const std::string jobID = _job->jobID;
+    switch (found->second.state)
+    {
+        case EJobState::Finished:
+            _job.reset();
+            Raise(Planning::JobFinished{jobID}, out);
+            break;
+        case EJobState::Failed:
+            _job.reset();
+            Raise(Planning::JobFailed{jobID, found->second.reason}, out);
+            break;
+        case EJobState::Running:
+        case EJobState::Waiting:
+        default:
+            if (!std::exchange(_bJobStarted, true))
+            {
+                Raise(Planning::JobStarted{jobID}, out);
+            }
+            break;
+    }
+}
+
+void MemoryRobotAdapter::TellState(Planning::AdapterActions& out)
+{
+    Planning::StateChanged state = _snapshot->state;
+    const std::string& driveID = _snapshot->activeDriveID;
+    const bool bForeignDrive = !driveID.empty() && driveID != _driveID;
+    const std::string commandID = _job.has_value() ? _job->commandID : std::string();
+    const bool bForeignJob = !_snapshot->activeCommandID.empty() && _snapshot->activeCommandID != commandID;
+    state.bOccupied = bForeignDrive || bForeignJob;
+    if (bForeignDrive && std::exchange(_foreignDriveID, driveID) != driveID)
+    {
+        Send(Planning::CancelDrive{driveID});
+    }
+    Raise(std::move(state), out);
+}
+
+} // namespace ACS::Simulation

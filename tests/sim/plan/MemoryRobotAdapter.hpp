@@ -1,0 +1,56 @@
+#pragma once
+
+#include "RobotMessages.hpp"
+#include <acs/plan/IRobotAdapter.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ACS::Simulation
+{
+
+/// Joins a MemoryRobot to the engine, over a link that loses messages: what the robot has not shown is sent again.
+class MemoryRobotAdapter final : public Planning::IRobotAdapter
+{
+public:
+    using Sender = std::function<void(const RobotMessage& message)>;
+
+private:
+    Sender _send;
+    std::uint64_t _number; ///< Grows over restarts too.
+    std::uint64_t _greeting = 0;
+    bool _bLinkUp = false;
+    bool _bOnline = false;
+    std::vector<RobotMessage> _unconfirmed;
+    std::optional<RobotSnapshot> _snapshot;
+    std::string _driveID;
+    std::vector<std::string> _route; ///< Of the drive.
+    std::size_t _told = 0;           ///< Nodes of it.
+    std::optional<Planning::StartJob> _job;
+    bool _bJobStarted = false;
+    std::string _foreignDriveID; ///< Of one that was given before a restart and is being cancelled.
+
+    void Send(const RobotMessage& message);
+    void Confirm();
+    [[nodiscard]] bool IsConfirmed(const RobotMessage& message) const;
+    void FollowDrive(Planning::AdapterActions& out);
+    void FollowJob(Planning::AdapterActions& out);
+    void TellState(Planning::AdapterActions& out);
+
+public:
+    /// The number is higher than that of every adapter before this one.
+    MemoryRobotAdapter(std::uint64_t number, Sender send);
+
+    void Handle(const Planning::RobotCommand& command, Core::Now now, Planning::AdapterActions& out) override;
+    void OnTimer(Planning::AdapterTimerID timer, Core::Now now, Planning::AdapterActions& out) override;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(std::string_view action) const override;
+
+    void OnLinkUp(Planning::AdapterActions& out);
+    void OnLinkDown(Planning::AdapterActions& out);
+    void OnSnapshot(const RobotSnapshot& snapshot, Planning::AdapterActions& out);
+};
+
+} // namespace ACS::Simulation

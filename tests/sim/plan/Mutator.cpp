@@ -1,0 +1,155 @@
+#include "Mutator.hpp"
+
+#include <acs/core/Uuid.hpp>
+#include <acs/plan/PlanTransitions.hpp>
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+namespace ACS::Simulation
+{
+
+namespace
+{
+
+bool IsFinalReport(const Planning::Report& report)
+{
+    const auto* const planOrNull = std::get_if<Planning::PlanReport>(&report);
+    return planOrNull != nullptr && Planning::IsFinal(planOrNull->state);
+}
+
+} // namespace
+
+Mutator::Mutator(EMutation mutation, Dice& dice, Core::IRandom& random)
+    : _mutation(mutation),
+      _dice(dice),
+      _random(random)
+{
+}
+
+bool Mutator::Is(EMutation mutation) const noexcept
+{
+    return _mutation == mutation;
+}
+
+Planning::StoredState Mutator::OnRestore(Planning::StoredState state) const
+{
+    const auto lost = std::ranges::find_if(state.plans, [](const Planning::PlanRecord& record) {
+        return !Planning::IsFinal(record.progress.state);
+    });
+    if (Is(EMutation::RestoreDropsPlan) && lost != state.plans.end())
+    {
+        state.plans.erase(lost);
+    }
+    return state;
+}
+
+Planning::StoreBatch Mutator::OnWrite(Planning::StoreBatch batch) const
+{
+    if (Is(EMutation::OutboxForgets))
+    {
+        std::erase_if(batch.changes, [](const Planning::StoreChange& change) {
+            const auto* const addedOrNull = std::get_if<Planning::ReportAdded>(&change);
+            return addedOrNull != nullptr && IsFinalReport(addedOrNull->entry.report);
+        });
+    }
+    return batch;
+}
+
+Planning::ReplyCommand Mutator::OnReply(Planning::ReplyCommand reply) const
+{
+    reply.bAccepted = reply.bAccepted || Is(EMutation::RefusalAcked);
+    return reply;
+}
+
+Mutator::ReportOutcome Mutator::OnReport(const Planning::OutboxEntry& entry)
+{
+    ReportOutcome outcome{{entry}, false};
+    const bool bResult = std::holds_alternative<Planning::ControlResultReport>(entry.report);
+    const bool bFinal = IsFinalReport(entry.report);
+    if ((Is(EMutation::FinalReportTwice) && bFinal) || (Is(EMutation::ResultTwice) && bResult))
+    {
+        outcome.told.push_back(entry);
+        outcome.told.back().transactionID = Core::MakeUuid(_random);
+    }
+    const bool bSwallowed = (Is(EMutation::PlanReportSwallowed) && bFinal && _dice.IsHit(300))
+        || (Is(EMutation::ResultSwallowed) && bResult);
+    if (bSwallowed)
+    {
+        return {{}, true};
+    }
+    if (Is(EMutation::ReportNotStored) && _dice.IsHit(50))
+    {
+        outcome.told.push_back(entry);
+        outcome.told.back().transactionID = Core::MakeUuid(_random);
+        outcome.told.back().report = Planning::ErrorReport{};
+    }
+    if (Is(EMutation::ReportsSwapped))
+    {
+        if (!_heldBack.has_value() && _dice.IsHit(100))
+        {
+            _heldBack = entry;
+            return {{}, false};
+        }
+        if (_heldBack.has_value())
+        {
+            outcome.told.push_back(*std::exchange(_heldBack, std::nullopt));
+        }
+    }
+    return outcome;
+}
+
+Mutator::CommandOutcome Mutator::OnCommand(const Planning::CommandRobot& command)
+{
+    CommandOutcome outcome{{command.command}, {}, {}};
+    if (const auto* driveOrNull = std::get_if<Planning::Drive>(&command.command); driveOrNull != nullptr)
+    {
+        _drives[command.robotID] = *driveOrNull;
+    }
+    if (Is(EMutation::ResumeSwallowed) && std::holds_alternative<Planning::Resume>(command.command))
+    {
+        outcome.sent.clear();
+    }
+    const auto* const jobOrNull = std::get_if<Planning::StartJob>(&command.command);
+    if (Is(EMutation::JobStartedTwice) && jobOrNull != nullptr && _dice.IsHit(200))
+    {
+        Planning::StartJob again = *jobOrNull;
+        again.commandID = Core::MakeUuid(_random);
+        outcome.sentLater.emplace_back(std::move(again));
+    }
+    const auto* const cancelOrNull = std::get_if<Planning::CancelDrive>(&command.command);
+    if (Is(EMutation::StandsTooEarly) && cancelOrNull != nullptr)
+    {
+        outcome.raised.emplace_back(Planning::DriveCancelled{cancelOrNull->driveID, {}});
+    }
+    return outcome;
+}
+
+std::vector<Planning::RobotEvent> Mutator::OnEvent(const std::string& robotID, const Planning::RobotEvent& event) const
+{
+    std::vector<Planning::RobotEvent> events{event};
+    const auto* const startedOrNull = std::get_if<Planning::JobStarted>(&event);
+    if (Is(EMutation::JobFinishedEarly) && startedOrNull != nullptr)
+    {
+        events.emplace_back(Planning::JobFinished{startedOrNull->jobID});
+    }
+    const auto* const passedOrNull = std::get_if<Planning::NodePassed>(&event);
+    if (Is(EMutation::NodePassedEarly) && passedOrNull != nullptr)
+    {
+        const std::vector<Planning::RouteNode>& nodes = _drives.at(robotID).route.nodes;
+        const auto found = std::ranges::find(nodes, passedOrNull->nodeID, &Planning::RouteNode::nodeID);
+        if (found != nodes.end() && std::next(found) != nodes.end())
+        {
+            events.emplace_back(Planning::NodePassed{passedOrNull->driveID, std::next(found)->nodeID});
+        }
+    }
+    return events;
+}
+
+bool Mutator::ShouldForget(const Planning::EngineTimer& timer) const
+{
+    return Is(EMutation::TimerForgotten) && timer.kind == Planning::EEngineTimer::Dispatch && _dice.IsHit(300);
+}
+
+} // namespace ACS::Simulation

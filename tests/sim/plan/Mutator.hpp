@@ -1,0 +1,58 @@
+#pragma once
+
+#include "Dice.hpp"
+#include "EMutation.hpp"
+#include <acs/plan/EngineAction.hpp>
+#include <acs/plan/IPlanStore.hpp>
+#include <acs/plan/RobotCommand.hpp>
+#include <acs/plan/RobotEvent.hpp>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ACS::Simulation
+{
+
+/// Breaks what goes into the engine and comes out of it, in one way at a time. Without a mutation everything passes as
+/// it is, and no chance is drawn.
+class Mutator final
+{
+public:
+    struct ReportOutcome
+    {
+        std::vector<Planning::OutboxEntry> told;
+        bool bAcknowledged = false; ///< To the engine, by nobody.
+    };
+
+    struct CommandOutcome
+    {
+        std::vector<Planning::RobotCommand> sent;
+        std::vector<Planning::RobotCommand> sentLater;
+        std::vector<Planning::RobotEvent> raised;
+    };
+
+private:
+    EMutation _mutation;
+    Dice& _dice;
+    Core::IRandom& _random;
+    std::optional<Planning::OutboxEntry> _heldBack;
+    std::map<std::string, Planning::Drive> _drives; ///< The latest of each robot.
+
+public:
+    Mutator(EMutation mutation, Dice& dice, Core::IRandom& random);
+
+    [[nodiscard]] bool Is(EMutation mutation) const noexcept;
+    [[nodiscard]] Planning::StoredState OnRestore(Planning::StoredState state) const;
+    [[nodiscard]] Planning::StoreBatch OnWrite(Planning::StoreBatch batch) const;
+    [[nodiscard]] Planning::ReplyCommand OnReply(Planning::ReplyCommand reply) const;
+    [[nodiscard]] ReportOutcome OnReport(const Planning::OutboxEntry& entry);
+    [[nodiscard]] CommandOutcome OnCommand(const Planning::CommandRobot& command);
+    [[nodiscard]] std::vector<Planning::RobotEvent> OnEvent(
+        const std::string& robotID,
+        const Planning::RobotEvent& event) const;
+    [[nodiscard]] bool ShouldForget(const Planning::EngineTimer& timer) const;
+};
+
+} // namespace ACS::Simulation

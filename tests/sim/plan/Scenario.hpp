@@ -1,0 +1,55 @@
+#pragma once
+
+#include "Dice.hpp"
+#include "EFault.hpp"
+#include <acs/plan/EngineOptions.hpp>
+#include <acs/plan/SiteMap.hpp>
+#include <acs/protocol/AcsMessage.hpp>
+
+#include <bitset>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace ACS::Simulation
+{
+
+using FaultSet = std::bitset<FAULT_COUNT>;
+
+/// What one seed makes of a world: the floor, the robots, the options, how long and how badly things go wrong.
+struct Scenario
+{
+    std::uint64_t seed = 0;
+    FaultSet faults; ///< By EFault.
+    std::string siteName;
+    std::vector<Planning::SiteNode> nodes;
+    std::vector<Planning::SiteEdge> edges;
+    std::vector<Planning::SiteStation> stations;
+    Planning::EngineOptions options;
+    std::vector<std::string> cassettePlaces; ///< Where an LR loads and unloads.
+    std::vector<std::string> trayPlaces;     ///< Where a CR does.
+    std::vector<std::string> sets;
+    std::size_t planCount = 0;
+    std::chrono::seconds faultsEnd{0};
+
+    [[nodiscard]] bool Has(EFault fault) const
+    {
+        return faults.test(static_cast<std::size_t>(fault));
+    }
+
+    /// Cannot fail: what is made here is without mistakes.
+    [[nodiscard]] Planning::SiteMap MakeSite() const;
+};
+
+/// Always the same of the same seed.
+[[nodiscard]] Scenario MakeScenario(std::uint64_t seed, const FaultSet& without);
+
+/// A plan that a robot of the scenario can do.
+[[nodiscard]] Protocol::ExecutionPlan MakeGoodPlan(const Scenario& scenario, Dice& dice, const std::string& planID);
+
+/// A plan that must be refused, each time for another of the reasons.
+[[nodiscard]] Protocol::ExecutionPlan MakeBadPlan(const Scenario& scenario, Dice& dice, const std::string& planID);
+
+} // namespace ACS::Simulation

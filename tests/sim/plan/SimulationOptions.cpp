@@ -1,0 +1,72 @@
+#include "SimulationOptions.hpp"
+
+#include "common/CommandLine.hpp"
+#include <acs/core/Result.hpp>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+namespace ACS::Simulation
+{
+
+namespace
+{
+
+std::string TakeFault(std::string_view text, FaultSet& faults)
+{
+    const auto found = std::ranges::find(FAULT_NAMES, text);
+    if (found == FAULT_NAMES.end())
+    {
+        return fmt::format("expected {}, found {}", fmt::join(FAULT_NAMES, ", "), Core::QuoteForError(text));
+    }
+    faults.set(static_cast<std::size_t>(found - FAULT_NAMES.begin()));
+    return {};
+}
+
+std::string TakeMutation(std::string_view text, EMutation& mutation)
+{
+    const auto found = std::ranges::find(MUTATION_TEXTS, text, &MutationText::name);
+    if (found == MUTATION_TEXTS.end())
+    {
+        return fmt::format("expected a name from --list-mutations, found {}", Core::QuoteForError(text));
+    }
+    mutation = static_cast<EMutation>(found - MUTATION_TEXTS.begin());
+    return {};
+}
+
+} // namespace
+
+std::optional<int> ReadOptionsOrNull(int argc, const char* const* argv, SimulationOptions& options)
+{
+    CLI::App app{
+        "Runs acsd's engine, sessions and adapters against a simulated MCS, disk, network and robots in virtual time, and\n"
+        "checks after every event that nothing is lost, done twice, told wrongly or left undone.\n"
+        "See docs/simulation.md.",
+        "plan_simulation"};
+    app.add_option("--seeds", options.seeds, "how many worlds, each from a seed of its own")->capture_default_str();
+    app.add_option("--first", options.first, "the first seed")->capture_default_str();
+    app.add_option("--seed", options.seedOrNone, "only this seed");
+    app.add_flag("--trace", options.bTrace, "print everything that happens; with --seed");
+    app.add_flag("--keep-going", options.bKeepsGoing, "do not stop at the first seed that fails, tell them all");
+    app.add_option("--workers", options.workers, "threads, each with worlds of its own")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 64));
+    Apps::AddRepeatedOption(
+        app,
+        "--without",
+        [&options](const std::string& text) { return TakeFault(text, options.without); },
+        fmt::format("leaves one kind of fault out: {}", fmt::join(FAULT_NAMES, ", ")));
+    Apps::AddTextOption(
+        app,
+        "--mutation",
+        [&options](const std::string& text) { return TakeMutation(text, options.mutation); },
+        "breaks one thing around the engine, and must then find a seed that fails");
+    app.add_flag("--mutations", options.bAllMutations, "every mutation in turn, each with at most --seeds worlds");
+    app.add_flag("--list-mutations", options.bListMutations, "names and meanings");
+    return Apps::ParseCommandLineOrNull(app, argc, argv);
+}
+
+} // namespace ACS::Simulation

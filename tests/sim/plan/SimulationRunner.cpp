@@ -1,0 +1,169 @@
+#include "SimulationRunner.hpp"
+
+#include "World.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <mutex>
+#include <thread>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+namespace ACS::Simulation
+{
+
+namespace
+{
+
+double GetSecondsSince(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace
+
+SimulationRunner::SimulationRunner(SimulationOptions options)
+    : _options(std::move(options))
+{
+}
+
+int SimulationRunner::Run() const
+{
+    if (_options.bListMutations)
+    {
+        for (const MutationText& text : MUTATION_TEXTS)
+        {
+            fmt::print("{:24}{}\n", text.name, text.meaning);
+        }
+        return 0;
+    }
+    if (_options.bAllMutations)
+    {
+        return RunMutations();
+    }
+    if (_options.seedOrNone.has_value())
+    {
+        return RunSeed(*_options.seedOrNone);
+    }
+    const auto start = std::chrono::steady_clock::now();
+    const Tally tally = RunWorlds(_options.mutation, isatty(STDOUT_FILENO) != 0);
+    fmt::print(
+        "{} worlds, {:.1f} simulated hours, {} starts of acsd, {:.1f} s\n",
+        tally.worlds,
+        tally.simulatedHours,
+        tally.starts,
+        GetSecondsSince(start));
+    if (!tally.failureOrNone.has_value())
+    {
+        return 0;
+    }
+    fmt::print("seed {}: {}\n", tally.failureOrNone->seed, tally.failureOrNone->violation);
+    fmt::print("replay: {}\n", DescribeReplay(_options.mutation, tally.failureOrNone->seed));
+    return 1;
+}
+
+std::string SimulationRunner::DescribeReplay(EMutation mutation, std::uint64_t seed) const
+{
+    std::string text = fmt::format("plan_simulation --seed {} --trace", seed);
+    for (std::size_t fault = 0; fault < FAULT_COUNT; ++fault)
+    {
+        text += _options.without.test(fault) ? fmt::format(" --without {}", FAULT_NAMES[fault]) : "";
+    }
+    if (mutation != EMutation::None)
+    {
+        text += fmt::format(" --mutation {}", MUTATION_TEXTS[static_cast<std::size_t>(mutation)].name);
+    }
+    return text;
+}
+
+int SimulationRunner::RunSeed(std::uint64_t seed) const
+{
+    World world(MakeScenario(seed, _options.without), _options.mutation, _options.bTrace);
+    const std::vector<std::string> violations = world.Run();
+    for (const std::string& violation : violations)
+    {
+        fmt::print("seed {}: {}\n", seed, violation);
+    }
+    return violations.empty() ? 0 : 1;
+}
+
+SimulationRunner::Tally SimulationRunner::RunWorlds(EMutation mutation, bool bProgress) const
+{
+    Tally tally;
+    std::mutex mutex;
+    std::atomic<std::uint64_t> next = _options.first;
+    const std::uint64_t end = _options.first + _options.seeds;
+    const auto work = [&] {
+        for (std::uint64_t seed = next++; seed < end; seed = next++)
+        {
+            World world(MakeScenario(seed, _options.without), mutation, false);
+            const std::vector<std::string> violations = world.Run();
+            const std::lock_guard lock(mutex);
+            ++tally.worlds;
+            tally.starts += world.GetStarts();
+            tally.simulatedHours += std::chrono::duration<double, std::ratio<3600>>(world.GetAge()).count();
+            if (!violations.empty())
+            {
+                if (!_options.bKeepsGoing)
+                {
+                    next = end;
+                }
+                else
+                {
+                    fmt::print("seed {}: {}\n", seed, violations.front());
+                }
+                if (!tally.failureOrNone.has_value() || seed < tally.failureOrNone->seed)
+                {
+                    tally.failureOrNone = Failure{seed, violations.front()};
+                }
+            }
+            if (bProgress)
+            {
+                fmt::print("\r{} of {} worlds", tally.worlds, _options.seeds);
+                std::fflush(stdout);
+            }
+        }
+    };
+    std::vector<std::thread> threads;
+    for (std::size_t worker = 1; worker < _options.workers; ++worker)
+    {
+        threads.emplace_back(work);
+    }
+    work();
+    for (std::thread& thread : threads)
+    {
+        thread.join();
+    }
+    if (bProgress)
+    {
+        fmt::print("\r");
+    }
+    return tally;
+}
+
+int SimulationRunner::RunMutations() const
+{
+    std::size_t missed = 0;
+    for (std::size_t index = 1; index < MUTATION_COUNT; ++index)
+    {
+        const auto mutation = static_cast<EMutation>(index);
+        const auto start = std::chrono::steady_clock::now();
+        const Tally tally = RunWorlds(mutation, false);
+        const bool bCaught = tally.failureOrNone.has_value();
+        missed += bCaught ? 0U : 1U;
+        fmt::print(
+            "{:24}{} {:5.1f} s\n",
+            MUTATION_TEXTS[index].name,
+            bCaught ? fmt::format("seed {}: {}", tally.failureOrNone->seed, tally.failureOrNone->violation)
+                    : fmt::format("NOT CAUGHT within {} seeds", tally.worlds),
+            GetSecondsSince(start));
+        std::fflush(stdout);
+    }
+    return missed == 0 ? 0 : 1;
+}
+
+} // namespace ACS::Simulation

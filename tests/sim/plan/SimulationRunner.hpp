@@ -1,0 +1,45 @@
+#pragma once
+
+#include "SimulationOptions.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace ACS::Simulation
+{
+
+/// Runs worlds side by side and tells of them.
+class SimulationRunner final
+{
+    struct Failure
+    {
+        std::uint64_t seed = 0;
+        std::string violation;
+    };
+
+    struct Tally
+    {
+        std::size_t worlds = 0;
+        std::size_t starts = 0;
+        double simulatedHours = 0;
+        std::optional<Failure> failureOrNone; ///< Of the lowest seed.
+    };
+
+    SimulationOptions _options;
+
+    /// Stops at the first that fails.
+    [[nodiscard]] Tally RunWorlds(EMutation mutation, bool bProgress) const;
+    [[nodiscard]] int RunSeed(std::uint64_t seed) const;
+    [[nodiscard]] int RunMutations() const;
+    [[nodiscard]] std::string DescribeReplay(EMutation mutation, std::uint64_t seed) const;
+
+public:
+    explicit SimulationRunner(SimulationOptions options);
+
+    /// The exit code: 0 where all is as it should be.
+    [[nodiscard]] int Run() const;
+};
+
+} // namespace ACS::Simulation

@@ -1,0 +1,93 @@
+#pragma once
+
+#include "Dice.hpp"
+#include "TimerBank.hpp"
+#include "Trace.hpp"
+#include <acs/protocol/SessionAction.hpp>
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace ACS::Simulation
+{
+
+/// One end of connections that carry texts.
+class ITextPeer
+{
+public:
+    ITextPeer() = default;
+    ITextPeer(const ITextPeer&) = delete;
+    ITextPeer& operator=(const ITextPeer&) = delete;
+    virtual ~ITextPeer() = default;
+
+    virtual void OnOpened(Protocol::ConnectionID connection) = 0;
+    virtual void OnText(Protocol::ConnectionID connection, const std::string& text) = 0;
+    virtual void OnClosed(Protocol::ConnectionID connection, const std::string& reason) = 0;
+};
+
+/// Which end of a connection.
+enum class ETextEnd : std::uint8_t
+{
+    Client,
+    Server,
+};
+
+/// WebSockets between one server and clients that come and go. Within a connection the order is kept and nothing is lost;
+/// a connection that breaks loses what is under way from some text on, in each direction, and each end hears of it in its
+/// own time.
+class TextNetwork final
+{
+    struct Way ///< To one end.
+    {
+        ITextPeer* peerOrNull = nullptr; ///< Null once it has heard of the end, or has died.
+        Core::SteadyTime lastArrival{};
+        std::deque<Timeline::Ticket> underWay;
+    };
+
+    struct Connection
+    {
+        std::array<Way, 2> ways;
+        bool bBroken = false;
+    };
+
+    Timeline& _timeline;
+    Trace& _trace;
+    Dice _dice;
+    ITextPeer* _serverOrNull = nullptr;
+    std::map<Protocol::ConnectionID, Connection> _connections;
+    Protocol::ConnectionID _lastConnection = 0;
+    bool _bReachable = true;
+    bool _bSlow = false;
+
+    [[nodiscard]] Core::Duration GetLatency();
+    void Lose(Way& way);
+    void TellClosed(Protocol::ConnectionID id, ETextEnd end, Core::Duration delay, const std::string& reason);
+    void Forget(Protocol::ConnectionID id);
+
+public:
+    TextNetwork(Timeline& timeline, Trace& trace, std::uint64_t seed);
+
+    /// Before any client.
+    void Listen(ITextPeer& server);
+
+    /// OnOpened or OnClosed follows.
+    Protocol::ConnectionID Connect(ITextPeer& client);
+    void Send(Protocol::ConnectionID id, ETextEnd from, const std::string& text);
+    /// After what was sent before.
+    void Close(Protocol::ConnectionID id, ETextEnd from, const std::string& reason);
+    /// The end has died: it is not called any more, and the other one hears of it.
+    void Abandon(Protocol::ConnectionID id, ETextEnd end);
+
+    /// Breaks every connection.
+    void Cut();
+    /// Whether connecting is possible.
+    void SetReachable(bool bReachable);
+    /// Texts take seconds now and then.
+    void SetSlow(bool bSlow);
+};
+
+} // namespace ACS::Simulation

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <acs/core/Now.hpp>
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <utility>
+
+namespace ACS::Simulation
+{
+
+/// The time of a simulated world and everything that is still to happen in it, in one order: by time, then by when it was
+/// posted. Starts at 2025-07-02T12:00:00Z.
+class Timeline final : public Core::IClock
+{
+public:
+    using Task = std::function<void()>;
+    /// Names a task that waits.
+    using Ticket = std::pair<Core::SteadyTime, std::uint64_t>;
+
+private:
+    static constexpr std::chrono::seconds START_WALL{1'751'457'600};
+    static constexpr std::chrono::seconds START_STEADY{1'000};
+
+    Core::Now _now{Core::SteadyTime(START_STEADY), Core::WallTime(START_WALL)};
+    std::map<Ticket, Task> _tasks;
+    std::uint64_t _lastOrder = 0;
+
+public:
+    [[nodiscard]] Core::Now GetNow() const override;
+
+    /// Never from within this call, even where there is no delay.
+    Ticket Post(Core::Duration delay, Task task);
+
+    /// A ticket that is spent is ignored.
+    void Withdraw(const Ticket& ticket);
+
+    /// The next task, at its time. False where none is left.
+    [[nodiscard]] bool TryStep();
+
+    /// Since the start of the world.
+    [[nodiscard]] Core::Duration GetAge() const;
+};
+
+} // namespace ACS::Simulation

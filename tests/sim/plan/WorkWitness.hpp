@@ -1,0 +1,56 @@
+#pragma once
+
+#include "Trace.hpp"
+#include <acs/plan/RobotCommand.hpp>
+
+#include <cstddef>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace ACS::Simulation
+{
+
+/// The robots' own truth: where they are and which jobs they have really done. Nothing that acsd believes enters here.
+class WorkWitness final
+{
+public:
+    struct JobTruth
+    {
+        std::size_t begun = 0;
+        std::size_t finished = 0;
+    };
+
+private:
+    /// A step without jobs has one that the engine makes up: its jobID says nothing.
+    using JobKey = std::tuple<std::string, std::int32_t, std::string>;
+
+    Trace& _trace;
+    std::map<JobKey, JobTruth> _jobs;
+    std::map<std::string, std::vector<std::string>> _places;
+    std::set<std::pair<std::string, std::string>> _named; ///< planID and jobID of what the MCS has called a job.
+
+    [[nodiscard]] JobKey MakeKey(const Planning::StartJob& job) const;
+
+public:
+    explicit WorkWitness(Trace& trace)
+        : _trace(trace)
+    {
+    }
+
+    /// The MCS has named this job in a plan.
+    void NoteNamed(const std::string& planID, const std::string& jobID);
+
+    /// The robot takes these nodes: one, or both ends of the edge on which it is.
+    void OnPlaced(const std::string& robotID, std::vector<std::string> nodeIDs);
+    void OnJobBegun(const std::string& robotID, const Planning::StartJob& job);
+    void OnJobFinished(const std::string& robotID, const Planning::StartJob& job);
+
+    /// The jobID is empty for a step without jobs.
+    [[nodiscard]] JobTruth GetTruth(const std::string& planID, std::int32_t stepNo, const std::string& jobID) const;
+};
+
+} // namespace ACS::Simulation

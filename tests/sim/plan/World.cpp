@@ -1,0 +1,346 @@
+#include "World.hpp"
+
+#include "ReportMapper.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace ACS::Simulation
+{
+
+using namespace std::chrono_literals;
+
+namespace
+{
+
+/// Once nothing goes wrong any more, everything must have come to its end within this time.
+constexpr std::chrono::hours SETTLING_LIMIT{2};
+constexpr std::chrono::seconds WATCH_INTERVAL{1};
+
+enum EDicePart : std::uint64_t
+{
+    PROCESS_PART = 301,
+    OWN_RANDOM_PART,
+    WEATHER_PART,
+    ROBOT_PART,
+    FIRST_ROBOT_PART = 400,
+    FIRST_RADIO_PART = 500,
+};
+
+} // namespace
+
+World::World(Scenario scenario, EMutation mutation, bool bPrinting)
+    : _scenario(std::move(scenario)),
+      _mutation(mutation),
+      _trace(_timeline, bPrinting),
+      _dice({_scenario.seed, PROCESS_PART}),
+      _ownRandom({_scenario.seed, OWN_RANDOM_PART}),
+      _weather({_scenario.seed, WEATHER_PART}),
+      _robotDice({_scenario.seed, ROBOT_PART}),
+      _witness(_trace),
+      _judge(_trace, _store, _witness),
+      _network(_timeline, _trace, _scenario.seed),
+      _mcs(_timeline, _trace, _network, _judge, _witness, _scenario),
+      _habits(_timeline),
+      _robotHabits(_timeline),
+      _radioHabits(_timeline)
+{
+}
+
+std::vector<std::string> World::Run()
+{
+    _trace.Tell(
+        "seed {}: {}, {} robots, {} plans",
+        _scenario.seed,
+        _scenario.siteName,
+        _scenario.options.robots.size(),
+        _scenario.planCount);
+    AddRobots();
+    StartAcsd();
+    _mcs.Begin();
+    BeginFaults();
+    while (!_bDone && _trace.GetViolations().empty() && _timeline.TryStep())
+    {
+    }
+    return _trace.GetViolations();
+}
+
+std::size_t World::GetStarts() const noexcept
+{
+    return _starts;
+}
+
+Core::Duration World::GetAge() const
+{
+    return _timeline.GetAge();
+}
+
+void World::AddRobots()
+{
+    std::uint64_t number = 0;
+    for (const Planning::RobotOptions& options : _scenario.options.robots)
+    {
+        const std::string& robotID = options.robotID.GetText();
+        auto robot = std::make_unique<MemoryRobot>(
+            _timeline,
+            _trace,
+            _witness,
+            DiceSeed{_scenario.seed, FIRST_ROBOT_PART + number},
+            robotID,
+            options.startNodeID.value_or(std::string()));
+        if (_scenario.Has(EFault::Robots))
+        {
+            robot->rejectChance = 40;
+            robot->failChance = 60;
+        }
+        _radios.emplace(
+            robotID,
+            std::make_unique<RobotRadio>(_timeline, *robot, DiceSeed{_scenario.seed, FIRST_RADIO_PART + number}));
+        _robots.emplace(robotID, std::move(robot));
+        ++number;
+    }
+}
+
+void World::StartAcsd()
+{
+    ++_starts;
+    AcsdProcess::Surroundings
+        around{_timeline, _trace, _dice, _ownRandom, _store, _network, _radios, _scenario, _mutation, _starts};
+    _process = std::make_unique<AcsdProcess>(
+        std::move(around),
+        [this] { OnCrash(); },
+        [this] { _judge.CheckKept(); });
+    if (_bSettling)
+    {
+        _process->EndCrashes();
+    }
+    _process->Begin();
+    _judge.CheckKept();
+}
+
+/// It is still on the stack: it goes when that is empty.
+void World::OnCrash()
+{
+    _habits.Post(0ms, [this] { _process.reset(); });
+    _habits.Start(EHabit::Restart, _weather.GetBetween(1ms, _weather.IsHit(300) ? 30s : 2s), [this] { StartAcsd(); });
+}
+
+void World::BeginFaults()
+{
+    _habits.Start(EHabit::EndFaults, _scenario.faultsEnd, [this] { EndFaults(); });
+    if (_scenario.Has(EFault::Disk))
+    {
+        _habits.Start(EHabit::Disk, _weather.GetBetween(1s, 60s), [this] { TurnDisk(); });
+    }
+    if (_scenario.Has(EFault::Link))
+    {
+        _habits.Start(EHabit::Link, _weather.GetBetween(0s, 20s), [this] { TurnLink(); });
+    }
+    if (_scenario.Has(EFault::Controls))
+    {
+        _habits.Start(EHabit::Operator, _weather.GetBetween(5s, 90s), [this] { Operate(); });
+    }
+    if (_scenario.Has(EFault::Crashes))
+    {
+        _habits.Start(EHabit::Crash, _weather.GetBetween(1s, 120s), [this] { CrashSometime(); });
+    }
+    for (const auto& [robotID, robot] : _robots)
+    {
+        if (_scenario.Has(EFault::Robots))
+        {
+            _robotHabits.Start(robotID, _robotDice.GetBetween(5s, 120s), [this, id = robotID] { TurnRobot(id); });
+        }
+        if (_scenario.Has(EFault::Radio))
+        {
+            _radioHabits.Start(robotID, _robotDice.GetBetween(1s, 90s), [this, id = robotID] { TurnRadio(id); });
+        }
+    }
+}
+
+void World::EndFaults()
+{
+    _trace.Tell("nothing goes wrong from now on");
+    _bSettling = true;
+    _deadline = _timeline.GetNow().steady + SETTLING_LIMIT;
+    for (const EHabit habit : {EHabit::Disk, EHabit::Link, EHabit::Operator, EHabit::Crash})
+    {
+        _habits.Cancel(habit);
+    }
+    _robotHabits.CancelAll();
+    _radioHabits.CancelAll();
+    _store.bFails = false;
+    _network.SetReachable(true);
+    _network.SetSlow(false);
+    for (const auto& [robotID, robot] : _robots)
+    {
+        robot->rejectChance = 0;
+        robot->failChance = 0;
+        if (robot->IsDisturbed())
+        {
+            robot->Recover();
+        }
+        _radios.at(robotID)->SetUp(true);
+    }
+    if (_process != nullptr)
+    {
+        _process->EndCrashes();
+    }
+    _mcs.BeginSettling();
+    Watch();
+}
+
+void World::TurnDisk()
+{
+    _store.bFails = !_store.bFails;
+    _trace.Tell("disk {}", _store.bFails ? "fails" : "works");
+    _habits.Start(EHabit::Disk, _store.bFails ? _weather.GetBetween(100ms, 15s) : _weather.GetBetween(1s, 60s), [this] {
+        TurnDisk();
+    });
+}
+
+void World::TurnLink()
+{
+    const std::size_t kind = _weather.GetBelow(4);
+    _network.SetSlow(kind == 1);
+    _network.SetReachable(kind != 2);
+    if (kind != 1)
+    {
+        _network.Cut();
+    }
+    _habits.Start(EHabit::Link, _weather.GetBetween(100ms, 30s), [this] { TurnLink(); });
+}
+
+/// The operator switches the TSC.
+void World::Operate()
+{
+    if (_process != nullptr)
+    {
+        const bool bPause = _process->GetEngine().GetTscState() == Planning::ETscState::Auto;
+        _trace.Tell("operator: TSC {}", bPause ? "pause" : "resume");
+        _process->PushCommand(Planning::ControlTsc{bPause, 0});
+    }
+    _habits.Start(EHabit::Operator, _weather.GetBetween(1s, 60s), [this] { Operate(); });
+}
+
+void World::CrashSometime()
+{
+    if (_process != nullptr)
+    {
+        _process->Crash("at some moment");
+    }
+    _habits.Start(EHabit::Crash, _weather.GetBetween(1s, 120s), [this] { CrashSometime(); });
+}
+
+void World::TurnRobot(const std::string& robotID)
+{
+    MemoryRobot& robot = *_robots.at(robotID);
+    if (robot.IsDisturbed())
+    {
+        robot.Recover();
+    }
+    else
+    {
+        robot.Disturb();
+    }
+    const Core::Duration span = robot.IsDisturbed() ? _robotDice.GetBetween(1s, 40s) : _robotDice.GetBetween(10s, 150s);
+    _robotHabits.Start(robotID, span, [this, robotID] { TurnRobot(robotID); });
+}
+
+void World::TurnRadio(const std::string& robotID)
+{
+    RobotRadio& radio = *_radios.at(robotID);
+    radio.SetUp(!radio.IsUp());
+    _trace.Tell("{} is {} reach", robotID, radio.IsUp() ? "in" : "out of");
+    const Core::Duration span = radio.IsUp() ? _robotDice.GetBetween(1s, 90s) : _robotDice.GetBetween(10ms, 30s);
+    _radioHabits.Start(robotID, span, [this, robotID] { TurnRadio(robotID); });
+}
+
+/// Whether all is over; too late, what is not.
+void World::Watch()
+{
+    if (_process != nullptr && _process->GetEngine().GetTscState() != Planning::ETscState::Auto)
+    {
+        _process->PushCommand(Planning::ControlTsc{false, 0});
+    }
+    const std::string unrest = DescribeUnrest();
+    if (unrest.empty())
+    {
+        CheckAgreement();
+        _bDone = true;
+        return;
+    }
+    if (_timeline.GetNow().steady >= _deadline)
+    {
+        _trace.Violate("not over long after everything worked again: {}", unrest);
+        return;
+    }
+    _habits.Start(EHabit::Watch, WATCH_INTERVAL, [this] { Watch(); });
+}
+
+std::string World::DescribeUnrest() const
+{
+    if (_process == nullptr)
+    {
+        return "acsd does not run";
+    }
+    const Planning::PlanEngine& engine = _process->GetEngine();
+    std::string text = _judge.DescribeOwed();
+    if (!_mcs.IsSettled())
+    {
+        text += "the MCS waits for Acks; ";
+    }
+    if (_judge.GetTscStateOrNull() != Protocol::ETscState::Auto)
+    {
+        text += "for the MCS the TSC is not Auto; ";
+    }
+    for (const Planning::PlanSummary& plan : engine.GetActivePlans())
+    {
+        text += fmt::format("plan {} is {}; ", plan.planID, GetText(plan.state));
+    }
+    if (!engine.GetUnacknowledged().empty() || !_store.GetState().outbox.empty())
+    {
+        text += "the outbox is not empty; ";
+    }
+    for (const Planning::RobotStatus& status : engine.GetRobotStatuses())
+    {
+        const RobotSnapshot& truth = _robots.at(status.robotID)->GetSnapshot();
+        const auto seen = _judge.GetStatuses().find(status.robotID);
+        if (status.status != Planning::ERobotStatus::Idle && status.status != Planning::ERobotStatus::Charging)
+        {
+            text += fmt::format("{} is {}; ", status.robotID, GetText(status.status));
+        }
+        if (truth.state.bPaused || !truth.activeDriveID.empty() || !truth.activeCommandID.empty())
+        {
+            text += fmt::format("{} is not at rest; ", status.robotID);
+        }
+        if (seen == _judge.GetStatuses().end() || seen->second != Acsd::MakeStatusUpdate(status))
+        {
+            text += fmt::format("the MCS does not know how {} is; ", status.robotID);
+        }
+        const auto options = std::ranges::find_if(_scenario.options.robots, [&status](const auto& robot) {
+            return robot.robotID.GetText() == status.robotID;
+        });
+        if (truth.state.lastNodeID != options->startNodeID)
+        {
+            text += fmt::format("{} is not at home but on {}; ", status.robotID, truth.state.lastNodeID);
+        }
+    }
+    return text;
+}
+
+/// What the MCS knows in the end is what is so.
+void World::CheckAgreement()
+{
+    const Planning::PlanEngine& engine = _process->GetEngine();
+    std::vector<Protocol::ErrorReport> alarms;
+    for (const Planning::Alarm& alarm : engine.GetActiveAlarms())
+    {
+        alarms.push_back(Acsd::MakeErrorReport(alarm, true));
+    }
+    if (!std::ranges::is_permutation(alarms, _judge.GetAlarms()))
+    {
+        _trace.Violate("the MCS knows {} alarms, acsd has {}", _judge.GetAlarms().size(), alarms.size());
+    }
+}
+
+} // namespace ACS::Simulation

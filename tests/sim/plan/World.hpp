@@ -1,0 +1,88 @@
+#pragma once
+
+#include "AcsdProcess.hpp"
+#include "CrashableStore.hpp"
+#include "Dice.hpp"
+#include "EMutation.hpp"
+#include "McsJudge.hpp"
+#include "McsSide.hpp"
+#include "MemoryRobot.hpp"
+#include "RobotRadio.hpp"
+#include "Scenario.hpp"
+#include "TextNetwork.hpp"
+#include "TimerBank.hpp"
+#include "Trace.hpp"
+#include "WorkWitness.hpp"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace ACS::Simulation
+{
+
+/// One seed's world, from its first plan until everything has come to its end.
+class World final
+{
+    enum class EHabit : std::uint8_t
+    {
+        Restart,
+        Disk,
+        Link,
+        Crash,
+        Operator,
+        EndFaults,
+        Watch,
+    };
+
+    Scenario _scenario;
+    EMutation _mutation;
+    Timeline _timeline;
+    Trace _trace;
+    Dice _dice;      ///< Of acsd's surroundings.
+    Dice _ownRandom; ///< Of acsd's ids.
+    Dice _weather;   ///< Of what breaks from outside.
+    Dice _robotDice; ///< Of what happens to robots.
+    CrashableStore _store;
+    WorkWitness _witness;
+    McsJudge _judge;
+    TextNetwork _network;
+    McsSide _mcs;
+    std::map<std::string, std::unique_ptr<MemoryRobot>> _robots;
+    std::map<std::string, std::unique_ptr<RobotRadio>> _radios;
+    TimerBank<EHabit> _habits;
+    TimerBank<std::string> _robotHabits;
+    TimerBank<std::string> _radioHabits;
+    std::unique_ptr<AcsdProcess> _process;
+    std::uint64_t _starts = 0;
+    Core::SteadyTime _deadline{};
+    bool _bSettling = false;
+    bool _bDone = false;
+
+    void AddRobots();
+    void StartAcsd();
+    void OnCrash();
+    void BeginFaults();
+    void EndFaults();
+    void TurnDisk();
+    void TurnLink();
+    void Operate();
+    void CrashSometime();
+    void TurnRobot(const std::string& robotID);
+    void TurnRadio(const std::string& robotID);
+    void Watch();
+    void CheckAgreement();
+    [[nodiscard]] std::string DescribeUnrest() const;
+
+public:
+    World(Scenario scenario, EMutation mutation, bool bPrinting);
+
+    /// The rules that were broken, the first one first; empty where none was.
+    [[nodiscard]] std::vector<std::string> Run();
+
+    [[nodiscard]] std::size_t GetStarts() const noexcept;
+    [[nodiscard]] Core::Duration GetAge() const;
+};
+
+} // namespace ACS::Simulation

@@ -1,0 +1,11 @@
+#include "common/CommandLine.hpp"
+#include "SimulationRunner.hpp"
+
+int main(int argc, char** argv)
+{
+    return ACS::Apps::RunProgram("plan_simulation", [argc, argv] {
+        ACS::Simulation::SimulationOptions options;
+        const std::optional<int> exitCode = ACS::Simulation::ReadOptionsOrNull(argc, argv, options);
+        return exitCode.has_value() ? *exitCode : ACS::Simulation::SimulationRunner(std::move(options)).Run();
+    });
+}
