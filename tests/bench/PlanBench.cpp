@@ -2,11 +2,15 @@
 #include <acs/core/Overloaded.hpp>
 #include <acs/plan/MemoryPlanStore.hpp>
 #include <acs/plan/PlanEngine.hpp>
+#include <acs/plan/Router.hpp>
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <deque>
+#include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,122 +39,263 @@ public:
     }
 };
 
-/// A ring of docks with one robot, whose every command is obeyed at once.
-SiteMap MakeRing()
+constexpr int DOCKS = 20; ///< Of each robot's ring.
+
+std::string MakeRobotID(int robot)
 {
-    constexpr int DOCKS = 20;
+    return fmt::format("LR{:03}", robot);
+}
+
+/// A ring of docks for each robot, whose every command is obeyed at once.
+SiteMap MakeRings(int robots)
+{
     std::vector<SiteNode> nodes;
     std::vector<SiteEdge> edges;
     std::vector<SiteStation> stations;
     SiteEdgeRule rule;
     rule.vehicleTypeID = "lr";
-    for (int i = 0; i < DOCKS; ++i)
+    for (int i = 0; i < robots * DOCKS; ++i)
     {
-        const std::string nodeID = fmt::format("N{:02}", i);
-        const std::string nextID = fmt::format("N{:02}", (i + 1) % DOCKS);
-        nodes.push_back({nodeID, static_cast<double>(i), 0, "", {{"lr", std::nullopt}}});
+        const int ring = i / DOCKS;
+        const int dock = i % DOCKS;
+        const std::string nodeID = fmt::format("N{}-{:02}", ring + 1, dock);
+        const std::string nextID = fmt::format("N{}-{:02}", ring + 1, (dock + 1) % DOCKS);
+        nodes.push_back({nodeID, static_cast<double>(dock), static_cast<double>(ring), "", {{"lr", std::nullopt}}});
         edges.push_back({nodeID + nextID, nodeID, nextID, {rule}});
-        stations.push_back({fmt::format("A01.CP{:02}", i + 1), {nodeID}});
+        stations.push_back({fmt::format("A{:02}.CP{:02}", ring + 1, dock + 1), {nodeID}});
     }
     return *SiteMap::Create(std::move(nodes), std::move(edges), std::move(stations));
 }
 
-EngineOptions MakeOptions()
+EngineOptions MakeOptions(int robots, bool bHomes)
 {
     EngineOptions options;
-    options.robots.push_back(
-        {*Core::RobotID::Parse("LR01"),
-         ERobotType::LR,
-         "lr",
-         "N00",
-         std::nullopt,
-         *Core::ParseLocationRange("LR01.CP01"),
-         {},
-         {}});
+    for (int robot = 1; robot <= robots; ++robot)
+    {
+        const std::string robotID = MakeRobotID(robot);
+        options.robots.push_back(
+            {*Core::RobotID::Parse(robotID),
+             ERobotType::LR,
+             "lr",
+             fmt::format("N{}-00", robot),
+             bHomes ? std::optional(fmt::format("A{:02}.CP01", robot)) : std::nullopt,
+             *Core::ParseLocationRange(robotID + ".CP01"),
+             {},
+             {}});
+    }
     options.finishedPlansKept = 10;
+    options.maximumPlans = 2 * static_cast<std::size_t>(robots);
     return options;
 }
 
-Plan MakePlan(std::uint64_t number)
+/// In the ring of this robot.
+Plan MakePlan(std::uint64_t number, int robot)
 {
+    const std::string from = fmt::format("A{:02}.CP05", robot);
+    const std::string to = fmt::format("A{:02}.CP15", robot);
     return {
         fmt::format("P{}", number),
         "",
         std::nullopt,
-        {{1, "CassetteLoad", "A01.CP05", {"C"}, {{"J1", "A01.CP05", "AMR.CP01"}}},
-         {2, "CassetteUnload", "A01.CP15", {"C"}, {{"J2", "AMR.CP01", "A01.CP15"}}}}};
+        {{1, "CassetteLoad", from, {"C"}, {{"J1", from, "AMR.CP01"}}},
+         {2, "CassetteUnload", to, {"C"}, {{"J2", "AMR.CP01", to}}}}};
 }
 
-/// What the robot says to the actions, in order.
-void Answer(const EngineActions& actions, std::deque<RobotEvent>& events, std::vector<std::uint64_t>& acknowledged)
+/// A fleet that answers in the order in which it was commanded, and an MCS that acknowledges each report.
+class BenchFleet
 {
-    for (const EngineAction& action : actions)
+    struct ObeyedDrive
     {
-        if (const auto* reportOrNull = std::get_if<SendReport>(&action); reportOrNull != nullptr)
+        Drive drive;
+        std::size_t passed = 0; ///< Nodes.
+    };
+
+    PlanEngine& _engine;
+    std::map<std::string, ObeyedDrive> _drives; ///< By robot: the latest.
+    EngineActions _actions;
+    std::deque<std::pair<std::string, RobotEvent>> _events;
+    std::vector<std::uint64_t> _reported;
+
+public:
+    explicit BenchFleet(PlanEngine& engine)
+        : _engine(engine)
+    {
+    }
+
+    void Connect(int robots)
+    {
+        for (int robot = 1; robot <= robots; ++robot)
         {
-            acknowledged.push_back(reportOrNull->entry.sequence);
+            StateChanged place;
+            place.lastNodeID = fmt::format("N{}-00", robot);
+            _events.emplace_back(MakeRobotID(robot), LinkChanged{true});
+            _events.emplace_back(MakeRobotID(robot), place);
         }
-        const auto* commandOrNull = std::get_if<CommandRobot>(&action);
-        if (commandOrNull == nullptr)
+        static_cast<void>(Run());
+    }
+
+    void Submit(Plan plan, std::uint64_t number)
+    {
+        _engine.Handle(SubmitPlan{std::move(plan), number}, {}, _actions);
+        Answer();
+    }
+
+    /// Until nobody has anything to say any more; the number of the robots' events.
+    std::int64_t Run()
+    {
+        _engine.OnTimer({EEngineTimer::Dispatch, {}}, {}, _actions);
+        Answer();
+        std::int64_t count = 0;
+        while (!_events.empty())
         {
-            continue;
+            const auto [robotID, event] = std::move(_events.front());
+            _events.pop_front();
+            _engine.Handle(robotID, event, {}, _actions);
+            Answer();
+            ++count;
         }
-        if (const auto* driveOrNull = std::get_if<Drive>(&commandOrNull->command); driveOrNull != nullptr)
+        return count;
+    }
+
+private:
+    void Answer()
+    {
+        for (const EngineAction& action : std::exchange(_actions, {}))
         {
-            for (const RouteNode& node : driveOrNull->route.nodes)
+            if (const auto* const reportOrNull = std::get_if<SendReport>(&action); reportOrNull != nullptr)
             {
-                events.emplace_back(NodePassed{driveOrNull->driveID, node.nodeID});
+                _reported.push_back(reportOrNull->entry.sequence);
             }
-            events.emplace_back(Arrived{driveOrNull->driveID});
+            else if (const auto* const commandOrNull = std::get_if<CommandRobot>(&action); commandOrNull != nullptr)
+            {
+                Obey(*commandOrNull);
+            }
         }
-        if (const auto* jobOrNull = std::get_if<StartJob>(&commandOrNull->command); jobOrNull != nullptr)
+        for (const std::uint64_t sequence : std::exchange(_reported, {}))
         {
-            events.emplace_back(JobStarted{jobOrNull->jobID});
-            events.emplace_back(JobFinished{jobOrNull->jobID});
+            _engine.Handle(MessageAcknowledged{sequence}, {}, _actions);
+        }
+        _actions.clear(); // of the acknowledgements: a timer at most
+    }
+
+    void Obey(const CommandRobot& command)
+    {
+        if (const auto* const driveOrNull = std::get_if<Drive>(&command.command); driveOrNull != nullptr)
+        {
+            _drives[command.robotID] = ObeyedDrive{*driveOrNull, 0};
+            Pass(command.robotID, driveOrNull->releasedCount);
+        }
+        if (const auto* const moreOrNull = std::get_if<ExtendDrive>(&command.command); moreOrNull != nullptr)
+        {
+            Pass(command.robotID, moreOrNull->releasedCount);
+        }
+        if (const auto* const jobOrNull = std::get_if<StartJob>(&command.command); jobOrNull != nullptr)
+        {
+            _events.emplace_back(command.robotID, JobStarted{jobOrNull->jobID});
+            _events.emplace_back(command.robotID, JobFinished{jobOrNull->jobID});
         }
     }
-}
 
-/// Events of a robot per second, with the engine in memory, whole plans from submission to completion.
+    /// Drives as far as it may.
+    void Pass(const std::string& robotID, std::size_t releasedCount)
+    {
+        ObeyedDrive& obeyed = _drives.at(robotID);
+        const std::vector<RouteNode>& nodes = obeyed.drive.route.nodes;
+        for (; obeyed.passed < releasedCount; ++obeyed.passed)
+        {
+            _events.emplace_back(robotID, NodePassed{obeyed.drive.driveID, nodes[obeyed.passed].nodeID});
+        }
+        if (obeyed.passed == nodes.size())
+        {
+            _events.emplace_back(robotID, Arrived{obeyed.drive.driveID});
+        }
+    }
+};
+
+/// Events of robots per second, with the engine in memory: a plan for each robot from submission to completion. What an
+/// event costs should not depend on how many robots there are.
 void BenchEngineEvents(benchmark::State& state)
 {
+    const auto robots = static_cast<int>(state.range(0));
     CountingRandom random;
-    PlanEngine engine(MakeOptions(), MakeRing(), random);
-    const Core::Now now{};
-    EngineActions actions;
-    StateChanged place;
-    place.lastNodeID = "N00";
-    engine.Handle("LR01", LinkChanged{true}, now, actions);
-    engine.Handle("LR01", place, now, actions);
+    PlanEngine engine(MakeOptions(robots, state.range(1) != 0), MakeRings(robots), random);
+    BenchFleet fleet(engine);
+    fleet.Connect(robots);
     std::uint64_t plans = 0;
     std::int64_t count = 0;
     for (auto iteration : state)
     {
         static_cast<void>(iteration);
-        std::deque<RobotEvent> events;
-        std::vector<std::uint64_t> acknowledged;
-        actions.clear();
-        ++plans;
-        engine.Handle(SubmitPlan{MakePlan(plans), plans}, now, actions);
-        engine.OnTimer({EEngineTimer::Dispatch, {}}, now, actions);
-        Answer(actions, events, acknowledged);
-        while (!events.empty())
+        for (int robot = 1; robot <= robots; ++robot)
         {
-            actions.clear();
-            engine.Handle("LR01", events.front(), now, actions);
-            events.pop_front();
-            ++count;
-            Answer(actions, events, acknowledged);
+            ++plans;
+            fleet.Submit(MakePlan(plans, robot), plans);
         }
-        for (const std::uint64_t sequence : acknowledged)
+        count += fleet.Run();
+        if (!engine.GetActivePlans().empty())
         {
-            actions.clear();
-            engine.Handle(MessageAcknowledged{sequence}, now, actions);
+            state.SkipWithError("a plan does not end");
+            break;
         }
     }
     state.SetItemsProcessed(count);
 }
-BENCHMARK(BenchEngineEvents);
+BENCHMARK(BenchEngineEvents)
+    ->ArgNames({"robots", "homes"})
+    ->Args({1, 0})
+    ->Args({10, 0})
+    ->Args({100, 0})
+    ->Args({10, 1})
+    ->Args({100, 1});
+
+/// A way over a grid of 2,000 nodes: so many columns across.
+void BenchRoute(benchmark::State& state)
+{
+    constexpr int COLUMNS = 50;
+    constexpr int ROWS = 40;
+    const auto getNodeID = [](int column, int row) {
+        return fmt::format("N{}", row * COLUMNS + column);
+    };
+    std::vector<SiteNode> nodes;
+    std::vector<SiteEdge> edges;
+    SiteEdgeRule rule;
+    rule.vehicleTypeID = "lr";
+    const auto join = [&edges, &rule](const std::string& from, const std::string& to) {
+        edges.push_back({from + ">" + to, from, to, {rule}});
+        edges.push_back({to + ">" + from, to, from, {rule}});
+    };
+    for (int i = 0; i < ROWS * COLUMNS; ++i)
+    {
+        const int row = i / COLUMNS;
+        const int column = i % COLUMNS;
+        nodes.push_back(
+            {getNodeID(column, row),
+             static_cast<double>(column),
+             static_cast<double>(row),
+             "",
+             {{"lr", std::nullopt}}});
+        if (column > 0)
+        {
+            join(getNodeID(column - 1, row), getNodeID(column, row));
+        }
+        if (row > 0)
+        {
+            join(getNodeID(column, row - 1), getNodeID(column, row));
+        }
+    }
+    const SiteMap site = *SiteMap::Create(std::move(nodes), std::move(edges), {});
+    const Router router(site);
+    const std::string from = getNodeID(0, 0);
+    const std::string to = getNodeID(static_cast<int>(state.range(0)), ROWS - 1);
+    for (auto iteration : state)
+    {
+        static_cast<void>(iteration);
+        benchmark::DoNotOptimize(router.FindRouteOrNull("lr", from, state.range(0) == 0 ? getNodeID(5, 5) : to));
+    }
+    state.counters["visited"] =
+        benchmark::Counter(static_cast<double>(router.CountVisitedNodes()), benchmark::Counter::kAvgIterations);
+}
+BENCHMARK(BenchRoute)->ArgName("columns")->Arg(0)->Arg(25)->Arg(49);
 
 #ifdef ACS_BENCH_SQLITE
 /// One accepted plan on disk: what stands between a plan and its Ack.
@@ -168,7 +313,7 @@ void BenchStoreCommit(benchmark::State& state)
     {
         const auto store = SqlitePlanStore::Open(file);
         PlanRecord record;
-        record.plan = MakePlan(0);
+        record.plan = MakePlan(0, 1);
         record.progress.steps = {
             {EStepState::Pending, {EJobState::Pending}},
             {EStepState::Pending, {EJobState::Pending}}};

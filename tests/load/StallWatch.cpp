@@ -13,7 +13,6 @@ namespace
 {
 
 constexpr std::chrono::milliseconds SLEEP{1};
-constexpr std::chrono::milliseconds LATE{1};
 
 /// Best effort: where the system forbids it, the sleeper watches whichever processor it is on.
 void BindToProcessor(std::thread& thread, std::size_t processor)
@@ -26,12 +25,12 @@ void BindToProcessor(std::thread& thread, std::size_t processor)
 
 } // namespace
 
-StallWatch::StallWatch()
+StallWatch::StallWatch(std::chrono::milliseconds late)
 {
     for (std::size_t index = 0; index < std::thread::hardware_concurrency(); ++index)
     {
         Sleeper& sleeper = *_sleepers.emplace_back(std::make_unique<Sleeper>());
-        sleeper.thread = std::thread([&sleeper]() { Watch(sleeper); });
+        sleeper.thread = std::thread([&sleeper, late]() { Watch(sleeper, late); });
         BindToProcessor(sleeper.thread, index);
     }
 }
@@ -41,7 +40,7 @@ StallWatch::~StallWatch()
     static_cast<void>(Stop());
 }
 
-void StallWatch::Watch(Sleeper& sleeper)
+void StallWatch::Watch(Sleeper& sleeper, Core::Duration late)
 {
     std::unique_lock<std::mutex> lock(sleeper.mutex);
     while (!sleeper.bStopping)
@@ -49,7 +48,7 @@ void StallWatch::Watch(Sleeper& sleeper)
         const Core::SteadyTime due = std::chrono::steady_clock::now() + SLEEP;
         sleeper.stopping.wait_until(lock, due);
         const Core::SteadyTime now = std::chrono::steady_clock::now();
-        if (now - due > LATE)
+        if (now - due > late)
         {
             sleeper.stalls.push_back(Stall{due, now});
         }

@@ -2,6 +2,7 @@
 
 #include <acs/core/Now.hpp>
 
+#include <chrono>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
@@ -36,10 +37,11 @@ private:
 
     std::vector<std::unique_ptr<Sleeper>> _sleepers;
 
-    static void Watch(Sleeper& sleeper);
+    static void Watch(Sleeper& sleeper, Core::Duration late);
 
 public:
-    StallWatch();
+    /// Remembers what was later than this.
+    explicit StallWatch(std::chrono::milliseconds late = std::chrono::milliseconds(1));
     StallWatch(const StallWatch&) = delete;
     StallWatch& operator=(const StallWatch&) = delete;
     ~StallWatch();

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <ctime>
 #include <fstream>
 #include <sched.h>
-#include <sstream>
 #include <stdexcept>
-#include <string>
 #include <tuple>
 #include <unistd.h>
 
@@ -29,20 +29,15 @@ std::ifstream OpenFile(pid_t process, const char* name)
 
 double GetCpuSeconds(pid_t process)
 {
-    constexpr int FIELDS_BEFORE = 11; ///< Between the name in parentheses, which may hold blanks, and utime.
-    std::string text;
-    std::ifstream file = OpenFile(process, "stat");
-    std::getline(file, text);
-    std::istringstream fields(text.substr(text.rfind(')') + 1));
-    std::string skipped;
-    for (int i = 0; i < FIELDS_BEFORE; ++i)
+    // Not /proc/PID/stat, which counts in ticks of 10 ms.
+    clockid_t clock{};
+    timespec used{};
+    if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &used) != 0)
     {
-        fields >> skipped;
+        throw std::runtime_error(fmt::format("process {} has ended", process));
     }
-    double user = 0.0;
-    double system = 0.0;
-    fields >> user >> system;
-    return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+    return std::chrono::duration<double>(std::chrono::seconds(used.tv_sec) + std::chrono::nanoseconds(used.tv_nsec))
+        .count();
 }
 
 std::int64_t GetResidentKiB(pid_t process)

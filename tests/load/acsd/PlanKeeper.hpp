@@ -1,0 +1,70 @@
+#pragma once
+
+#include "common/SystemClock.hpp"
+#include "common/SystemRandom.hpp"
+#include "TickLog.hpp"
+#include <acs/protocol_beast/ISessionHandler.hpp>
+#include <acs/protocol_beast/McsServer.hpp>
+
+#include <boost/asio/io_context.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace ACS::Load
+{
+
+/// What acsd told, and what went wrong.
+struct KeeperCount
+{
+    std::uint64_t reports = 0;  ///< Of plans, steps and jobs.
+    std::uint64_t statuses = 0; ///< Of robots.
+    std::uint64_t completed = 0;
+    std::uint64_t positions = 0;
+    std::uint64_t errors = 0;
+    std::string firstError;
+};
+
+/// An MCS that keeps a plan running in every cell of a CellSite: when one is done, the next is sent.
+class PlanKeeper final : private ProtocolBeast::ISessionHandler
+{
+    Apps::SystemClock _clock;
+    Apps::SystemRandom _random;
+    std::unique_ptr<ProtocolBeast::McsServer> _server;
+    std::size_t _robots;
+    std::uint64_t _plans = 0;
+    std::set<std::string> _idle;    ///< Robots that were told as such, before the first plan.
+    std::set<std::string> _running; ///< Plans.
+    KeeperCount _count;
+    TickLog _positions;
+
+    void OnSessionEvent(const Protocol::SessionEvent& event) override;
+    void TakeRequest(const Protocol::AcsRequest& request);
+    void TakePlanReport(const Protocol::PlanReport& report);
+    void TakePositions(const Protocol::RobotPositionUpdate& update);
+    void SendPlan(std::size_t cell);
+    void CountError(std::string_view what);
+
+public:
+    /// Throws std::runtime_error where it cannot listen.
+    PlanKeeper(boost::asio::io_context& context, std::size_t robots);
+
+    [[nodiscard]] std::uint16_t GetPort() const;
+
+    /// Whether every robot waits for work.
+    [[nodiscard]] bool AreAllIdle() const noexcept;
+    /// One for each cell.
+    void SendFirstPlans();
+    [[nodiscard]] std::size_t CountRunning() const noexcept;
+
+    /// Forgets what was counted so far, but for what went wrong.
+    void CountAnew();
+    [[nodiscard]] const KeeperCount& GetCount() const noexcept;
+    [[nodiscard]] const TickLog& GetPositions() const noexcept;
+};
+
+} // namespace ACS::Load
