@@ -1,8 +1,8 @@
 #include <acs/plan/Router.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
-#include <limits>
 #include <map>
 #include <queue>
 #include <string>
@@ -34,7 +34,8 @@ struct Graph
 /// How a search has reached a node.
 struct Reached
 {
-    double seconds = std::numeric_limits<double>::infinity();
+    std::uint64_t search = 0; ///< Which one; what an earlier one has left means nothing.
+    double seconds = 0;
     std::size_t edgeIndex = 0;
     std::size_t fromIndex = 0;
 };
@@ -53,10 +54,14 @@ class Router::Impl
     const SiteMap& _site;
     std::map<std::string, Graph, std::less<>> _graphs;
     mutable std::uint64_t _visitedNodes = 0;
+    mutable std::uint64_t _lastSearch = 0;
+    mutable std::vector<Reached>
+        _reached; ///< By node; kept, so that a search costs nothing for nodes that it never sees.
 
 public:
     explicit Impl(const SiteMap& site)
-        : _site(site)
+        : _site(site),
+          _reached(site.GetNodes().size())
     {
         for (std::size_t i = 0; i < site.GetEdges().size(); ++i)
         {
@@ -137,16 +142,15 @@ public:
         const auto isAllowed = [&isExcluded, &from, &to](std::size_t node) {
             return node == *from || node == *to || !isExcluded || !isExcluded(node);
         };
-        std::vector<Reached> reached;
         const auto isThere = [&to](std::size_t node) {
             return node == *to;
         };
-        if (!SearchOrNull(found->second.onward, *from, isAllowed, isThere, reached).has_value())
+        if (!SearchOrNull(found->second.onward, *from, isAllowed, isThere).has_value())
         {
             return std::nullopt;
         }
-        route.travelSeconds = reached[*to].seconds;
-        AppendPath(reached, *from, *to, vehicleTypeID, route);
+        route.travelSeconds = _reached[*to].seconds;
+        AppendPath(*from, *to, vehicleTypeID, route);
         return route;
     }
 
@@ -175,9 +179,8 @@ public:
         {
             return std::nullopt;
         }
-        std::vector<Reached> reached;
-        const std::optional<std::size_t> start = SearchOrNull(found->second.back, target, isAllowed, isStart, reached);
-        return start.has_value() ? std::optional(QuickestStart{*start, reached[*start].seconds}) : std::nullopt;
+        const std::optional<std::size_t> start = SearchOrNull(found->second.back, target, isAllowed, isStart);
+        return start.has_value() ? std::optional(QuickestStart{*start, _reached[*start].seconds}) : std::nullopt;
     }
 
 private:
@@ -188,20 +191,19 @@ private:
         const Lanes& lanes,
         std::size_t start,
         TAllowed isAllowed,
-        TWanted isWanted,
-        std::vector<Reached>& reached) const
+        TWanted isWanted) const
     {
         using Entry = std::pair<double, std::size_t>;
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-        reached.assign(lanes.size(), Reached{});
-        reached[start].seconds = 0;
+        const std::uint64_t search = ++_lastSearch;
+        _reached[start] = Reached{search, 0.0, 0, start};
         open.emplace(0.0, start);
         while (!open.empty())
         {
             const Entry nearest = open.top();
             open.pop();
             const std::size_t node = nearest.second;
-            if (nearest.first > reached[node].seconds)
+            if (nearest.first > _reached[node].seconds)
             {
                 continue; // a quicker way was found since
             }
@@ -213,9 +215,11 @@ private:
             for (const Lane& lane : lanes[node])
             {
                 const double seconds = nearest.first + lane.seconds;
-                if (seconds < reached[lane.nodeIndex].seconds && isAllowed(lane.nodeIndex))
+                Reached& reached = _reached[lane.nodeIndex];
+                const bool bQuicker = reached.search != search || seconds < reached.seconds;
+                if (bQuicker && isAllowed(lane.nodeIndex))
                 {
-                    reached[lane.nodeIndex] = Reached{seconds, lane.edgeIndex, node};
+                    reached = Reached{search, seconds, lane.edgeIndex, node};
                     open.emplace(seconds, lane.nodeIndex);
                 }
             }
@@ -223,17 +227,12 @@ private:
         return std::nullopt;
     }
 
-    void AppendPath(
-        const std::vector<Reached>& reached,
-        std::size_t from,
-        std::size_t to,
-        std::string_view vehicleTypeID,
-        Route& route) const
+    void AppendPath(std::size_t from, std::size_t to, std::string_view vehicleTypeID, Route& route) const
     {
         std::vector<Leg> legs;
-        for (std::size_t node = to; node != from; node = reached[node].fromIndex)
+        for (std::size_t node = to; node != from; node = _reached[node].fromIndex)
         {
-            legs.push_back(Leg{node, reached[node].edgeIndex});
+            legs.push_back(Leg{node, _reached[node].edgeIndex});
         }
         route.nodes.push_back(MakeNode(from, vehicleTypeID));
         for (auto leg = legs.rbegin(); leg != legs.rend(); ++leg)

@@ -136,6 +136,7 @@ Core::Result<void> SiteMap::IndexStations()
                     "the id of a node",
                     station.nodeIDs[node]);
             }
+            _stationIndicesByNode.emplace(station.nodeIDs[node], i); // the first that has it
         }
     }
     return {};
@@ -176,10 +177,8 @@ const SiteStation* SiteMap::FindStationOrNull(std::string_view stationID) const
 
 const SiteStation* SiteMap::FindStationAtOrNull(std::string_view nodeID) const
 {
-    const auto found = std::ranges::find_if(_stations, [nodeID](const SiteStation& station) {
-        return std::ranges::find(station.nodeIDs, nodeID) != station.nodeIDs.end();
-    });
-    return found == _stations.end() ? nullptr : &*found;
+    const auto found = _stationIndicesByNode.find(nodeID);
+    return found == _stationIndicesByNode.end() ? nullptr : &_stations[found->second];
 }
 
 bool SiteMap::HasVehicleType(std::string_view vehicleTypeID) const noexcept

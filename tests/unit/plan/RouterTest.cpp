@@ -136,3 +136,15 @@ TEST_CASE("Routes: a search goes no farther than it must, however large the site
     CHECK(router.FindQuickestStartOrNull("lr", starts, 1005)->nodeIndex == 1000);
     CHECK(router.CountVisitedNodes() - before <= 12);
 }
+
+TEST_CASE("Sites: of several stations that share a node the first is the one at that node")
+{
+    const SiteMap site = *SiteMap::Create(
+        {MakeNode("A", 0, 0), MakeNode("B", 10, 0), MakeNode("C", 20, 0)},
+        {},
+        {{"A01.CP01", {"A"}}, {"A01.CP02", {"B", "A"}}, {"A01.CP03", {"B"}}});
+    CHECK(site.FindStationAtOrNull("A")->stationID == "A01.CP01");
+    CHECK(site.FindStationAtOrNull("B")->stationID == "A01.CP02");
+    CHECK(site.FindStationAtOrNull("C") == nullptr);
+    CHECK(site.FindStationAtOrNull("D") == nullptr);
+}

@@ -33,7 +33,7 @@ class Router
     std::unique_ptr<Impl> _impl;
 
 public:
-    /// Whether the way must not lead over the node of this index (see SiteMap::GetNodes).
+    /// Whether the way must not lead over the node of this index (see SiteMap::GetNodes). Must not search itself.
     using NodeFilter = std::function<bool(std::size_t nodeIndex)>;
 
     explicit Router(const SiteMap& site);

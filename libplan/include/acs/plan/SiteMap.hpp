@@ -93,6 +93,7 @@ class SiteMap
     std::vector<SiteStation> _stations;
     Index _nodeIndices;
     Index _stationIndices;
+    Index _stationIndicesByNode;
 
     SiteMap() = default;
 
