@@ -75,7 +75,10 @@ void AcsSession::Impl::HandleAck(const AcsAck& ack, SessionActions& out)
         {
             return;
         }
-        match = Detail::FindPendingByCommand(_inFlight, ack.command);
+        if (_options.bAcksMatchedByCommand)
+        {
+            match = Detail::FindPendingByCommand(_inFlight, ack.command);
+        }
     }
     if (!match.bFound)
     {

@@ -203,8 +203,14 @@ void AcsSession::Impl::End(SessionActions& out)
 
 void AcsSession::Impl::HandleRegistrationAck(const AcsAck& ack, SessionActions& out)
 {
+    const bool bForeign = ack.transactionID != _registrationID;
+    if (bForeign && !_options.bAcksMatchedByCommand)
+    {
+        _output.Note(EProtocolNote::AckUnexpected, std::string(GetText(ack.command)), out);
+        return;
+    }
     ++_output.statistics.Of(EAcsCommand::Registration).answered;
-    if (ack.transactionID != _registrationID)
+    if (bForeign)
     {
         _output.Note(EProtocolNote::AckMismatched, std::string(GetText(ack.command)), out);
     }

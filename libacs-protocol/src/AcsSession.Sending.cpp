@@ -166,6 +166,7 @@ void AcsSession::Impl::SendStatuses(Core::Now now, SessionActions& out)
 void AcsSession::Impl::SchedulePosition(Core::Now now, SessionActions& out)
 {
     const auto late = now.steady - _nextPosition;
+    _output.statistics.positionTicksMissed += static_cast<std::uint64_t>(late / _options.positionInterval);
     _nextPosition += _options.positionInterval * (late / _options.positionInterval + 1);
     const auto delay = std::chrono::ceil<std::chrono::milliseconds>(_nextPosition - now.steady);
     _output.Start(ESessionTimer::Position, delay, out);

@@ -57,6 +57,7 @@ struct EnumWords<Protocol::EReportResult>
     static constexpr std::array WORDS{
         EnumWord<Protocol::EReportResult>{Protocol::EReportResult::Success, "Success"},
         EnumWord<Protocol::EReportResult>{Protocol::EReportResult::Failed, "Failed"},
+        EnumWord<Protocol::EReportResult>{Protocol::EReportResult::Fail, "Fail"},
     };
 };
 

@@ -244,6 +244,27 @@ TEST_CASE("D-4 The second Ack of a message that was sent twice is not taken for 
     CHECK(bench.probe.GetEvents<Protocol::Acked>().at(0).transactionID == "b");
 }
 
+TEST_CASE("D-4 With mcs.ack_match id an Ack with a foreign transactionId answers nothing, registration included")
+{
+    Protocol::SessionOptions options;
+    options.bAcksMatchedByCommand = false;
+    Bench bench(options);
+    bench.session.Start(bench.clock.GetNow(), bench.probe.out);
+    bench.session.OnConnected(bench.clock.GetNow(), bench.probe.out);
+    bench.Text(Testing::ReadFixture("RegistrationAck"));
+    CHECK_FALSE(bench.session.IsRegistered());
+    CHECK(bench.probe.GetNotes() == Notes{EProtocolNote::AckUnexpected});
+
+    Bench other(options);
+    other.StartAndReplay();
+    REQUIRE(other.TrySend("a"));
+    other.Text(MakeAckText("PlanReport", "foreign"));
+    CHECK(other.probe.GetEvents<Protocol::Acked>().empty());
+    CHECK(other.session.GetStatistics().CountOf(EProtocolNote::AckUnexpected) == 1);
+    other.Text(MakeAckText("PlanReport", "a"));
+    CHECK(other.probe.GetEvents<Protocol::Acked>().at(0).transactionID == "a");
+}
+
 TEST_CASE("9 An Ack with Fail is final")
 {
     Bench bench;
@@ -499,6 +520,7 @@ TEST_CASE("R14 Positions come due every 200 ms without drift, are never kept and
     bench.Timer(ESessionTimer::Position, 230ms);
     CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Position) == 170ms);
     bench.Timer(ESessionTimer::Position, 1000ms); // at 1230: the ticks at 400 to 1200 are one
+    CHECK(bench.session.GetStatistics().positionTicksMissed == 4);
     CHECK(bench.probe.GetEvents<Protocol::PositionDue>().size() == 1);
     CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Position) == 170ms);
 

@@ -12,10 +12,12 @@ namespace ACS::Protocol
 /// Times and limits of an AcsSession; the defaults are those of section 9 of the specification.
 struct SessionOptions
 {
-    std::chrono::milliseconds ackTimeout{5'000};     ///< `mcs.ack_timeout`, for the Ack of Registration too.
-    std::size_t ackRetries = 3;                      ///< `mcs.ack_retries`: resends of one message per connection.
-    std::size_t ackDeadAfter = 5;                    ///< `mcs.ack_dead_after`: given up in a row, then a new link.
-    std::size_t window = 16;                         ///< `mcs.window`: messages that wait for their Ack; at least 1.
+    std::chrono::milliseconds ackTimeout{5'000}; ///< `mcs.ack_timeout`, for the Ack of Registration too.
+    std::size_t ackRetries = 3;                  ///< `mcs.ack_retries`: resends of one message per connection.
+    std::size_t ackDeadAfter = 5;                ///< `mcs.ack_dead_after`: given up in a row, then a new link.
+    std::size_t window = 16;                     ///< `mcs.window`: messages that wait for their Ack; at least 1.
+    bool bAcksMatchedByCommand =
+        true; ///< `mcs.ack_match`: an Ack with a foreign id answers the oldest of its command (D-4).
     std::chrono::milliseconds positionInterval{200}; ///< `position.interval_ms`; zero: no PositionDue.
     std::chrono::milliseconds answerMemory{600'000}; ///< How long an Ack is kept for a repeated request.
     std::size_t answerCount = 1024;                  ///< And how many at most,

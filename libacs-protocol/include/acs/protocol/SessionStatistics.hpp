@@ -38,6 +38,7 @@ struct SessionStatistics
     std::uint64_t connects = 0;      ///< Connections that were opened.
     std::uint64_t registrations = 0; ///< That succeeded.
     std::uint64_t linkLosses = 0;
+    std::uint64_t positionTicksMissed = 0; ///< ACS side: of PositionDue, because the session was called too late.
 
     [[nodiscard]] CommandCounters& Of(EAcsCommand command)
     {

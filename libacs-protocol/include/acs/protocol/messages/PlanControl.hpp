@@ -14,6 +14,7 @@ enum class EReportResult : std::uint8_t
 {
     Success,
     Failed,
+    Fail, ///< Written only, for an MCS that has the word of Acks here too (D-1); read as Failed.
 };
 
 [[nodiscard]] std::string_view GetText(EReportResult result);
