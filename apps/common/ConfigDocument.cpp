@@ -1,6 +1,7 @@
 #include "common/ConfigDocument.hpp"
 
 #include "common/TomlTree.hpp"
+#include <acs/core/Overloaded.hpp>
 
 #include <fmt/format.h>
 
@@ -81,6 +82,37 @@ void Merge(ConfigNode& target, ConfigNode source)
             }
         }
     }
+}
+
+/// What is no table; of the tables in a list, their keys. Lists and tables alternate in depth as the file has them.
+std::string MakeValueTextRecursive(const ConfigNode& node) // NOLINT(misc-no-recursion): as deep as the parser took it
+{
+    return std::visit(
+        Core::Overloaded{
+            [](const ConfigNode::Table& table) { // NOLINT(misc-no-recursion)
+                std::string text = "{";
+                for (const auto& [key, value] : table)
+                {
+                    text += fmt::format("{}={},", key, MakeValueTextRecursive(*value));
+                }
+                return text + "}";
+            },
+            [](const ConfigNode::Array& array) { // NOLINT(misc-no-recursion)
+                std::string text = "[";
+                for (const auto& value : array)
+                {
+                    text += MakeValueTextRecursive(*value) + ",";
+                }
+                return text + "]";
+            },
+            [](const std::string& text) { return fmt::format("\"{}\"", text); },
+            [](std::int64_t integer) { return fmt::format("{}", integer); },
+            [](double number) { return fmt::format("{}", number); },
+            [](bool bValue) { return std::string(bValue ? "true" : "false"); },
+            [](const ConfigNode::Other&) {
+                return std::string("?");
+            }},
+        node.value);
 }
 
 } // namespace
@@ -255,6 +287,28 @@ std::string ConfigDocument::MakeUnknownText(const std::string& tablePath, const 
         return fmt::format("unknown key; did you mean '{}'?", *nearest);
     }
     return fmt::format("unknown key; allowed here: {}", fmt::join(asked->second, ", "));
+}
+
+std::map<std::string, std::string> ConfigDocument::MakeValues() const
+{
+    std::map<std::string, std::string> values;
+    std::vector<std::pair<std::string, const ConfigNode*>> work{{std::string(), &_root}};
+    while (!work.empty())
+    {
+        const auto [path, nodeOrNull] = std::move(work.back());
+        work.pop_back();
+        const auto* const tableOrNull = std::get_if<ConfigNode::Table>(&nodeOrNull->value);
+        if (tableOrNull == nullptr)
+        {
+            values.emplace(path, MakeValueTextRecursive(*nodeOrNull));
+            continue;
+        }
+        for (const auto& [key, value] : *tableOrNull)
+        {
+            work.emplace_back(JoinPath(path, key), value.get());
+        }
+    }
+    return values;
 }
 
 } // namespace ACS::Apps

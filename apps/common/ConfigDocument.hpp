@@ -64,6 +64,9 @@ public:
     /// With the unknown keys, sorted.
     [[nodiscard]] std::vector<std::string> MakeMistakes() const;
 
+    /// Every leaf of the tree by its path; a list is one leaf.
+    [[nodiscard]] std::map<std::string, std::string> MakeValues() const;
+
     /// "mcs" and "url" make "mcs.url"; a key with other characters is quoted.
     [[nodiscard]] static std::string JoinPath(const std::string& path, const std::string& key);
 

@@ -50,4 +50,9 @@ std::vector<std::string> ConfigReader::GetMistakes() const
     return _document->MakeMistakes();
 }
 
+std::map<std::string, std::string> ConfigReader::GetValues() const
+{
+    return _document->MakeValues();
+}
+
 } // namespace ACS::Apps

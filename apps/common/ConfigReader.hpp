@@ -2,6 +2,7 @@
 
 #include "common/ConfigSection.hpp"
 
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -34,6 +35,9 @@ public:
     /// "--set: KEY: …". Empty: every value that the getters returned is good. Where the file cannot be read or is no
     /// TOML, that is the only one.
     [[nodiscard]] std::vector<std::string> GetMistakes() const;
+
+    /// Every key that is given, with its path ("mcs.url") and its value as text: two readings with the same text are the same.
+    [[nodiscard]] std::map<std::string, std::string> GetValues() const;
 };
 
 } // namespace ACS::Apps

@@ -3,6 +3,7 @@
 #include <prometheus/counter.h>
 #include <prometheus/family.h>
 #include <prometheus/gauge.h>
+#include <prometheus/histogram.h>
 #include <prometheus/registry.h>
 #include <prometheus/text_serializer.h>
 
@@ -36,6 +37,8 @@ struct MetricsEndpoint::Impl
     prometheus::Registry registry;
     FamilyMap<prometheus::Counter> counters;
     FamilyMap<prometheus::Gauge> gauges;
+    FamilyMap<prometheus::Histogram> histograms;
+    std::unordered_map<std::string, prometheus::Histogram::BucketBoundaries> bounds;
 };
 
 MetricsEndpoint::MetricsEndpoint()
@@ -59,6 +62,22 @@ void MetricsEndpoint::AddGauge(const std::string& name, const std::string& help)
     {
         _impl->gauges.emplace(name, &prometheus::BuildGauge().Name(name).Help(help).Register(_impl->registry));
     }
+}
+
+void MetricsEndpoint::AddHistogram(const std::string& name, const std::string& help, const std::vector<double>& bounds)
+{
+    if (_impl->histograms.find(name) == _impl->histograms.end())
+    {
+        _impl->histograms.emplace(name, &prometheus::BuildHistogram().Name(name).Help(help).Register(_impl->registry));
+        _impl->bounds.emplace(name, bounds);
+    }
+}
+
+void MetricsEndpoint::Observe(const std::string& name, const Labels& labels, double value)
+{
+    const auto found = _impl->histograms.find(name);
+    assert(found != _impl->histograms.end() && "metric was not added");
+    found->second->Add(labels, _impl->bounds.at(name)).Observe(value);
 }
 
 void MetricsEndpoint::Increment(const std::string& name, const Labels& labels, double delta)

@@ -5,12 +5,13 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace ACS::Apps
 {
 
-/// Counters and gauges of one program, served as Prometheus text. Names and label names are the program's own
-/// ([a-zA-Z_][a-zA-Z0-9_]*, a name is either a counter or a gauge); label values may be anything.
+/// Counters, gauges and histograms of one program, served as Prometheus text. Names and label names are the program's own
+/// ([a-zA-Z_][a-zA-Z0-9_]*, a name is one of these); label values may be anything.
 class MetricsEndpoint final
 {
     struct Impl;
@@ -27,11 +28,14 @@ public:
     /// Makes the metric known, with its help text. The first call for a name counts.
     void AddCounter(const std::string& name, const std::string& help);
     void AddGauge(const std::string& name, const std::string& help);
+    /// The bounds, ascending, are those of its buckets; a last one takes the rest.
+    void AddHistogram(const std::string& name, const std::string& help, const std::vector<double>& bounds);
 
     /// These take names that were added.
     void Increment(const std::string& name, const Labels& labels = {}, double delta = 1.0);
     /// Raises a counter to the total that a library's statistics show; a smaller total changes nothing.
     void SetTotal(const std::string& name, const Labels& labels, double total);
+    void Observe(const std::string& name, const Labels& labels, double value);
     void SetGauge(const std::string& name, const Labels& labels, double value);
 
     /// The text exposition format.

@@ -50,6 +50,11 @@ SpdlogSink::SpdlogSink(Core::ELogLevel level)
 
 SpdlogSink::~SpdlogSink() = default;
 
+void SpdlogSink::SetLevel(Core::ELogLevel level)
+{
+    _impl->logger.set_level(MakeLevel(level));
+}
+
 bool SpdlogSink::ShouldWrite(Core::ELogLevel level) const
 {
     return _impl->logger.should_log(MakeLevel(level));

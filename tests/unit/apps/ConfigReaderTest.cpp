@@ -255,3 +255,15 @@ TEST_CASE("A file that cannot be read is one mistake that says what to give")
     REQUIRE(reader.GetMistakes().size() == 1);
     CHECK_THAT(reader.GetMistakes()[0], StartsWith(std::string(name) + ": cannot be read ("));
 }
+
+TEST_CASE("Every given key has its path and value as text, overrides on top, to compare two readings")
+{
+    const Apps::ConfigReader reader =
+        Read("a = 1\n[mcs]\nurl = \"ws://a\"\nlist = [\"x\", \"y\"]\n[[row]]\nk = true\n", {"mcs.url=ws://b"});
+    const std::map<std::string, std::string> expected{
+        {"a", "1"},
+        {"mcs.url", "\"ws://b\""},
+        {"mcs.list", "[\"x\",\"y\",]"},
+        {"row", "[{k=true,},]"}};
+    CHECK(reader.GetValues() == expected);
+}

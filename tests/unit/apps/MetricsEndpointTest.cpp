@@ -35,6 +35,21 @@ TEST_CASE("A counter follows the total of a library's statistics and never falls
     REQUIRE_THAT(metrics.Render(), Contains("acs_messages_total 9\n"));
 }
 
+TEST_CASE("A histogram counts what lies under each bound, and the sum of all")
+{
+    Apps::MetricsEndpoint metrics;
+    metrics.AddHistogram("acs_wait_seconds", "A wait", {0.1, 1.0});
+    metrics.Observe("acs_wait_seconds", {{"kind", "a"}}, 0.05);
+    metrics.Observe("acs_wait_seconds", {{"kind", "a"}}, 0.5);
+    metrics.Observe("acs_wait_seconds", {{"kind", "a"}}, 5.0);
+    const std::string text = metrics.Render();
+    REQUIRE_THAT(text, Contains("# TYPE acs_wait_seconds histogram\n"));
+    REQUIRE_THAT(text, Contains("acs_wait_seconds_bucket{kind=\"a\",le=\"0.1\"} 1\n"));
+    REQUIRE_THAT(text, Contains("acs_wait_seconds_bucket{kind=\"a\",le=\"1\"} 2\n"));
+    REQUIRE_THAT(text, Contains("acs_wait_seconds_bucket{kind=\"a\",le=\"+Inf\"} 3\n"));
+    REQUIRE_THAT(text, Contains("acs_wait_seconds_sum{kind=\"a\"} 5.55\n"));
+}
+
 TEST_CASE("The answer to a scrape says which text format it is")
 {
     const Apps::HttpResponse response = Apps::MetricsEndpoint().Respond();

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <boost/asio/any_io_executor.hpp>
+
+#include <functional>
+#include <memory>
+
+namespace ACS::Apps
+{
+
+/// Calls its handler at each SIGHUP, on the executor: the program then reads its configuration again. Signals that come
+/// while the handler runs become one more call.
+class HangUpWaiter final
+{
+    struct Impl;
+    std::shared_ptr<Impl> _impl;
+
+public:
+    using Handler = std::function<void()>;
+
+    HangUpWaiter(const boost::asio::any_io_executor& executor, Handler handler);
+    HangUpWaiter(const HangUpWaiter&) = delete;
+    HangUpWaiter& operator=(const HangUpWaiter&) = delete;
+
+    /// The handler is not called any more; SIGHUP is what it was before.
+    ~HangUpWaiter();
+};
+
+} // namespace ACS::Apps
