@@ -198,7 +198,7 @@ class Line:
         return self.start("mcs-sim", "--listen", f"127.0.0.1:{port}", *arguments,
                           *[part for plan in plans for part in ("--plan", plan)], **options)
 
-    def start_acsd(self, mcs_address, arm_addresses, *overrides, config=None, **options):
+    def start_acsd(self, mcs_address, arm_addresses, *overrides, config=None, arguments=(), **options):
         settings = {
             "mcs.url": f"ws://{mcs_address}/acs/",
             "mqtt.url": f"mqtt://127.0.0.1:{self.broker_port}",
@@ -209,4 +209,4 @@ class Line:
         }
         sets = [part for key, value in settings.items() for part in ("--set", f"{key}={value}")]
         sets += [part for override in overrides for part in ("--set", override)]
-        return self.start("acsd", "--config", config or self.site_dir / "acsd.toml", *sets, **options)
+        return self.start("acsd", "--config", config or self.site_dir / "acsd.toml", *sets, *arguments, **options)

@@ -1,12 +1,15 @@
 #include "Acsd.hpp"
 
+#include "AcsdMetrics.hpp"
 #include "AcsdStatus.hpp"
 #include "common/HttpRoutes.hpp"
 #include "common/HttpServer.hpp"
 #include "common/MetricsEndpoint.hpp"
 #include "common/TimerSet.hpp"
 #include "EngineLoop.hpp"
+#include "LiveConfig.hpp"
 #include "McsLink.hpp"
+#include "OddityLog.hpp"
 #include "OperatorRoutes.hpp"
 #include "PlanLog.hpp"
 #include "RobotHost.hpp"
@@ -36,19 +39,17 @@ namespace
 
 using namespace std::chrono_literals;
 
-/// How long the broker or all robots may be away before the MCS is told that no work can be taken (`comm.grace`).
-constexpr std::chrono::milliseconds WORK_GRACE = 10s;
+/// For the links to take leave, once nothing is left to be told.
 constexpr std::chrono::milliseconds STOP_LIMIT = 5s;
+/// The engine stores acknowledgements together, a little later: a stop waits for that.
+constexpr std::chrono::milliseconds SETTLE_TIME = 300ms;
 
 constexpr std::uint64_t GRACE_TIMER = 1;
 constexpr std::uint64_t STOP_TIMER = 2;
+constexpr std::uint64_t DRAIN_TIMER = 3;
+constexpr std::uint64_t SETTLE_TIMER = 4;
+constexpr std::uint64_t STATUS_TIMER = 5;
 constexpr std::uint64_t FIRST_ENGINE_TIMER = 1000;
-
-constexpr const char* LINK_UP = "acsd_link_up";
-constexpr const char* PLANS_ACTIVE = "acsd_plans_active";
-constexpr const char* OUTBOX_DEPTH = "acsd_outbox_depth";
-constexpr const char* MESSAGES_SENT = "acsd_mcs_requests_sent_total";
-constexpr const char* MCS_NOTES = "acsd_mcs_notes_total";
 
 VDA5050::MosquittoOptions MakeMqttOptions(const AcsdConfig& config, Core::IRandom& random)
 {
@@ -71,6 +72,8 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     Surroundings _surroundings;
     AcsdConfig _config;
     Apps::MetricsEndpoint _metrics;
+    AcsdMetrics _figures;
+    OddityLog _oddities;
     PlanLog _planLog;
     Planning::PlanEngine _engine;
     EngineLoop _loop;
@@ -89,18 +92,25 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     std::map<Planning::EngineTimer, std::uint64_t> _timerKeys;
     std::map<std::uint64_t, Planning::EngineTimer> _engineTimers;
     bool _bMqttUp = false;
-    bool _bWorks = false; ///< Whether work can be taken at this moment.
+    bool _bWorks = false;    ///< Whether work can be taken at this moment.
+    bool _bDraining = false; ///< No new plans; what is to be told is told, then the links are left.
+    bool _bSettling = false; ///< All is told.
     bool _bStopping = false;
+    bool _bStoreFails = false; ///< The last batch could not be stored.
+    Core::SteadyTime _storeBegan;
     std::size_t _stopsOpen = 0;
     StopHandler _stopHandler;
 
     void OnStored(const Core::Result<void>& result)
     {
+        _bStoreFails = !result.has_value();
         if (!result)
         {
             _surroundings.logger.Error("the store fails", {{"reason", Core::Describe(result.error())}});
         }
+        _figures.ObserveCommit(_surroundings.clock.GetNow().steady - _storeBegan);
         _loop.OnStored(result);
+        FollowDrain();
         if (_bStopping && !_loop.IsStoring() && _stopsOpen == 0)
         {
             StopLinks();
@@ -155,6 +165,14 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         {
             FinishStop();
         }
+        else if (key == DRAIN_TIMER || key == SETTLE_TIMER)
+        {
+            EndDrain();
+        }
+        else if (key == STATUS_TIMER)
+        {
+            RepeatStatuses();
+        }
         else
         {
             _loop.Push(_engineTimers.at(key));
@@ -176,7 +194,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     /// 5.3: no work can be taken while the broker is away, or all robots are; told after a grace.
     void TellWorking()
     {
-        if (_bStopping)
+        if (_bDraining)
         {
             return;
         }
@@ -193,7 +211,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         }
         else
         {
-            _timers.Start(GRACE_TIMER, WORK_GRACE);
+            _timers.Start(GRACE_TIMER, _config.operations.workGrace);
         }
     }
 
@@ -254,7 +272,9 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     void AddRoutes()
     {
         _routes.Add("GET", "/livez", [](const auto&, const auto&) { return MakeLiveResponse(); });
-        _routes.Add("GET", "/readyz", [this](const auto&, const auto&) { return MakeReadyResponse(GetLinks()); });
+        _routes.Add("GET", "/readyz", [this](const auto&, const auto&) {
+            return MakeReadyResponse(GetLinks(), GetObstacles());
+        });
         _routes.Add("GET", "/status", [this](const auto&, const auto&) {
             return MakeStatusResponse(GetLinks(), _engine);
         });
@@ -267,28 +287,84 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
 
     void UpdateMetrics()
     {
+        const Core::Now now = _surroundings.clock.GetNow();
         for (const LinkStatus& link : GetLinks())
         {
-            _metrics.SetGauge(LINK_UP, {{"link", link.name}}, link.bUp ? 1.0 : 0.0);
+            _figures.UpdateLink(link.name, link.bUp);
         }
-        _metrics.SetGauge(PLANS_ACTIVE, {}, static_cast<double>(_engine.GetActivePlans().size()));
-        _metrics.SetGauge(OUTBOX_DEPTH, {}, static_cast<double>(_engine.GetUnacknowledged().size()));
-        const Protocol::SessionStatistics& statistics = _mcs.GetStatistics();
-        for (std::size_t index = 0; index < Protocol::COMMAND_COUNT; ++index)
+        _figures.UpdateMcs(_mcs);
+        _figures.UpdatePlans(_engine, now);
+        for (const auto& [robotID, robot] : _robots)
         {
-            const auto command = static_cast<Protocol::EAcsCommand>(index);
-            _metrics.SetTotal(
-                MESSAGES_SENT,
-                {{"command", std::string(GetText(command))}},
-                static_cast<double>(statistics.Of(command).sent));
+            _figures.UpdateRobot(*robot, now);
         }
-        for (std::size_t index = 0; index < Protocol::NOTE_COUNT; ++index)
+        _figures.UpdateOddities(_oddities);
+        if (_surroundings.traceOrNull != nullptr)
         {
-            const auto what = static_cast<Protocol::EProtocolNote>(index);
-            _metrics.SetTotal(
-                MCS_NOTES,
-                {{"what", std::string(GetText(what))}},
-                static_cast<double>(statistics.CountOf(what)));
+            _figures.UpdateTrace(_surroundings.traceOrNull->GetLost());
+        }
+    }
+
+    /// What besides the links keeps plans from being taken.
+    [[nodiscard]] std::vector<std::string> GetObstacles() const
+    {
+        std::vector<std::string> obstacles;
+        if (_bDraining)
+        {
+            obstacles.emplace_back("acsd draining for shutdown");
+        }
+        if (_bStoreFails)
+        {
+            obstacles.emplace_back("the store cannot be written");
+        }
+        return obstacles;
+    }
+
+    void StartStatusTimer()
+    {
+        if (_config.operations.statusInterval.count() > 0)
+        {
+            _timers.Start(STATUS_TIMER, _config.operations.statusInterval);
+        }
+        else
+        {
+            _timers.Cancel(STATUS_TIMER);
+        }
+    }
+
+    /// Section 5.9 allows it besides the update of each change (`robot.status_interval`).
+    void RepeatStatuses()
+    {
+        for (const Planning::RobotStatus& status : _engine.GetRobotStatuses())
+        {
+            _mcs.TellStatus(status);
+        }
+        StartStatusTimer();
+    }
+
+    /// Whether everything is told, or can be told to nobody.
+    void FollowDrain()
+    {
+        if (!_bDraining || _bStopping || _loop.IsStoring())
+        {
+            return;
+        }
+        const bool bTold = !_mcs.IsRegistered() || _engine.GetUnacknowledged().empty();
+        if (bTold && !std::exchange(_bSettling, true))
+        {
+            _timers.Start(SETTLE_TIMER, SETTLE_TIME);
+        }
+    }
+
+    void EndDrain()
+    {
+        _bStopping = true;
+        _loop.Close();
+        _timers.CancelAll();
+        _timers.Start(STOP_TIMER, STOP_LIMIT);
+        if (!_loop.IsStoring()) // else what stands behind the batch is told first
+        {
+            StopLinks();
         }
     }
 
@@ -325,13 +401,18 @@ public:
     Impl(Surroundings surroundings, AcsdConfig config, std::unique_ptr<Planning::IPlanStore> store)
         : _surroundings(std::move(surroundings)),
           _config(std::move(config)),
+          _figures(_metrics),
+          _oddities(_surroundings.logger.MakeFor("robot")),
           _planLog(_surroundings.logger.MakeFor("plan"), _metrics),
           _engine(_config.engine, *_config.site, _surroundings.random),
           _loop(
               _engine,
               _surroundings.clock,
               [this](const Planning::EngineAction& action) { Execute(action); },
-              [this](const Planning::StoreBatch& batch) { _store.Append(batch); }),
+              [this](const Planning::StoreBatch& batch) {
+                  _storeBegan = _surroundings.clock.GetNow().steady;
+                  _store.Append(batch);
+              }),
           _store(
               _surroundings.executor,
               std::move(store),
@@ -341,7 +422,10 @@ public:
               _surroundings.logger.MakeFor("mcs"),
               _config.localOffset,
               _engine,
-              [this](Planning::PlanCommand command) { _loop.Push(std::move(command)); }),
+              [this](Planning::PlanCommand command) {
+                  _loop.Push(std::move(command));
+                  FollowDrain();
+              }),
           _mqtt(
               _surroundings.executor,
               _surroundings.random,
@@ -356,11 +440,7 @@ public:
     {
         _engine.SetObserver(_planLog);
         AddRoutes();
-        _metrics.AddGauge(LINK_UP, "Whether the link is up");
-        _metrics.AddGauge(PLANS_ACTIVE, "Plans that are not finished");
-        _metrics.AddGauge(OUTBOX_DEPTH, "Reports that the MCS has not acknowledged");
-        _metrics.AddCounter(MESSAGES_SENT, "Requests sent to the MCS, resends included");
-        _metrics.AddCounter(MCS_NOTES, "What the MCS did that the protocol does not provide for, by kind");
+        _mcs.SetAckObserver([this](Core::Duration wait) { _figures.ObserveAckWait(wait); });
         for (const RobotLinkConfig& robot : _config.robots)
         {
             auto host = std::make_unique<RobotHost>(
@@ -370,6 +450,7 @@ public:
                     _surroundings.random,
                     _mqtt,
                     _surroundings.logger,
+                    _oddities,
                     _surroundings.traceOrNull},
                 _config,
                 robot,
@@ -406,21 +487,34 @@ public:
         {
             robot->Start();
         }
-        _timers.Start(GRACE_TIMER, WORK_GRACE);
+        _timers.Start(GRACE_TIMER, _config.operations.workGrace);
+        StartStatusTimer();
         _mqtt.Start();
         _mcs.Start();
     }
 
     void StopAsync(StopHandler handler)
     {
-        _bStopping = true;
         _stopHandler = std::move(handler);
-        _loop.Close();
-        _timers.CancelAll();
-        _timers.Start(STOP_TIMER, STOP_LIMIT);
-        if (!_loop.IsStoring()) // else what stands behind the batch is told first
+        _bDraining = true;
+        _timers.Cancel(GRACE_TIMER);
+        _timers.Start(DRAIN_TIMER, _config.operations.drainTimeout);
+        _mcs.BeginDraining();
+        FollowDrain();
+    }
+
+    void Reload(const AcsdConfig& fresh)
+    {
+        LogChange(_config, fresh, _surroundings.logger.MakeFor("config"));
+        TakeLiveKeys(fresh, _config);
+        _mcs.SetLimits(_config.mcs);
+        if (_surroundings.traceOrNull != nullptr)
         {
-            StopLinks();
+            _surroundings.traceOrNull->SetLimits(_config.operations.trace);
+        }
+        if (!_bDraining)
+        {
+            StartStatusTimer();
         }
     }
 
@@ -467,6 +561,11 @@ void Acsd::Start()
 void Acsd::StopAsync(StopHandler handler)
 {
     _impl->StopAsync(std::move(handler));
+}
+
+void Acsd::Reload(const AcsdConfig& fresh)
+{
+    _impl->Reload(fresh);
 }
 
 Apps::Endpoint Acsd::GetHttpEndpoint() const

@@ -49,7 +49,12 @@ public:
     /// Connects to the MCS, the broker and the arms, and goes on doing so for ever.
     void Start();
 
-    /// Takes leave of all of them within a bounded time, then calls back, once.
+    /// Takes from a second reading, without mistakes, what may change while acsd runs, and logs for each key that differs
+    /// whether it was taken or needs a restart.
+    void Reload(const AcsdConfig& fresh);
+
+    /// Refuses plans and controls from now on, waits until the MCS has all reports (at most `shutdown.drain_timeout`), takes
+    /// leave of everybody within a bounded time, then calls back, once. Robots go on with what they have.
     void StopAsync(StopHandler handler);
 
     /// Where the HTTP side serves, with its real port.

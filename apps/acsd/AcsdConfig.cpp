@@ -8,9 +8,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <iterator>
 #include <limits>
-#include <system_error>
 #include <utility>
 
 namespace ACS::Acsd
@@ -27,17 +26,6 @@ constexpr std::int64_t HIGHEST_PROGRAM = 9999;
 constexpr std::int64_t HIGHEST_RELAY_BYTE = 65'535;
 constexpr std::int64_t HIGHEST_WORD_INDEX = 255;
 constexpr std::int64_t MOST_PLANS = 100'000;
-constexpr std::int64_t MOST_RETRIES = 100;
-constexpr std::int64_t SMALLEST_TRACE_FILE = 4096;
-constexpr std::int64_t LARGEST_TRACE_FILE = 1'000'000'000'000;
-constexpr std::int64_t MOST_TRACE_FILES = 10'000;
-
-/// Paths in the configuration count from its own folder.
-std::string ResolvePath(const std::string& configFile, const std::string& path)
-{
-    const std::filesystem::path target(path);
-    return target.is_absolute() ? path : (std::filesystem::path(configFile).parent_path() / target).string();
-}
 
 /// Ranges such as "A01.CP01.TP01-04"; in front of each the prefix ("LR01." for ports of a robot).
 std::vector<Core::Location> ReadPlaces(const ConfigSection& section, const std::string& key, const std::string& prefix)
@@ -61,73 +49,8 @@ Planning::ERobotType ReadRobotType(const ConfigSection& section, const std::stri
     return section.GetWord(key, {"LR", "CR"}) == "CR" ? Planning::ERobotType::CR : Planning::ERobotType::LR;
 }
 
-/// Certificates are read when the client is made; what is wrong with them is a mistake of the configuration all the same.
-void ReadMcsTls(const ConfigSection& mcs, const std::string& fileName, McsConfig& config)
+void ReadLinks(const ConfigSection& root, AcsdConfig& config)
 {
-    if (!mcs.HasKey("tls"))
-    {
-        return;
-    }
-    const ConfigSection section = mcs.GetSection("tls");
-    const auto readFile = [&](const std::string& key) {
-        const std::string path = section.GetString(key, "");
-        return path.empty() ? path : ResolvePath(fileName, path);
-    };
-    config.tls.caFile = readFile("ca");
-    config.tls.certificateFile = readFile("certificate");
-    config.tls.keyFile = readFile("key");
-    config.tls.serverName = section.GetString("server_name", "");
-    if (config.url.scheme == EUrlScheme::Ws)
-    {
-        mcs.AddMistake("tls", "is for wss:// only, and mcs.url is ws://, which encrypts nothing");
-    }
-    if (config.url.scheme != EUrlScheme::Wss)
-    {
-        return;
-    }
-    const Core::Result<void> checked = ProtocolBeast::CheckClientTls(config.tls, config.url.peer.host);
-    if (!checked.has_value())
-    {
-        Core::Error error = checked.error();
-        const std::string key = error.path.substr(error.path.find('.') + 1);
-        error.path.clear();
-        section.AddMistake(key, Core::Describe(error));
-    }
-}
-
-void ReadMcsHeaders(const ConfigSection& mcs, McsConfig& config)
-{
-    if (!mcs.HasKey("headers"))
-    {
-        return;
-    }
-    const ConfigSection section = mcs.GetSection("headers");
-    for (const std::string& name : section.GetNames())
-    {
-        const ProtocolBeast::HttpHeaders header{{name, section.GetString(name)}};
-        const Core::Result<void> checked = ProtocolBeast::CheckHttpHeaders(header);
-        if (checked.has_value())
-        {
-            config.headers.push_back(header[0]);
-        }
-        else
-        {
-            section.AddMistake(name, "expected " + checked.error().expected);
-        }
-    }
-}
-
-void ReadLinks(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
-{
-    const ConfigSection mcs = root.GetSection("mcs");
-    config.mcs.url = mcs.GetUrl("url", {EUrlScheme::Ws, EUrlScheme::Wss});
-    ReadMcsTls(mcs, fileName, config.mcs);
-    ReadMcsHeaders(mcs, config.mcs);
-    config.mcs.ackTimeout = mcs.GetDuration("ack_timeout", 10ms, 10min, config.mcs.ackTimeout);
-    config.mcs.ackRetries =
-        static_cast<unsigned>(mcs.GetInteger("ack_retries", 0, MOST_RETRIES, config.mcs.ackRetries));
-    config.mcs.pingInterval = mcs.GetDuration("ping_interval", 100ms, 10min, config.mcs.pingInterval);
-
     const ConfigSection mqtt = root.GetSection("mqtt");
     config.mqtt.url = mqtt.GetUrl("url", {EUrlScheme::Mqtt, EUrlScheme::Mqtts});
     config.mqtt.interfaceName = mqtt.GetString("interface_name", config.mqtt.interfaceName);
@@ -347,18 +270,6 @@ void ReadControls(const ConfigSection& root, Planning::ControlOptions& controls)
         root.GetSection("mcs").IsEnabled("result_after_fail_ack", controls.bResultAfterRefusal);
 }
 
-void ReadTrace(const ConfigSection& root, TraceLimits& limits)
-{
-    const ConfigSection trace = root.GetSection("trace");
-    limits.maxFileBytes = static_cast<std::uint64_t>(trace.GetInteger(
-        "max_file_bytes",
-        SMALLEST_TRACE_FILE,
-        LARGEST_TRACE_FILE,
-        static_cast<std::int64_t>(limits.maxFileBytes)));
-    limits.maxFiles = static_cast<std::size_t>(
-        trace.GetInteger("max_files", 1, MOST_TRACE_FILES, static_cast<std::int64_t>(limits.maxFiles)));
-}
-
 void ReadTables(const ConfigSection& root, AcsdConfig& config)
 {
     const ConfigSection robots = root.GetSection("robots");
@@ -400,17 +311,20 @@ AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::st
     AcsdConfig config;
     const Apps::ConfigReader reader = Apps::ConfigReader::ReadFile(fileName, overrides);
     const ConfigSection root = reader.GetRoot();
-    ReadLinks(root, fileName, config);
+    std::vector<std::string> otherMistakes;
+    ReadMcsConfig(root, fileName, config.mcs, otherMistakes);
+    ReadOperationsConfig(root, config.operations);
+    ReadLinks(root, config);
     ReadSite(root, fileName, config);
     ReadStore(root, fileName, config);
     config.httpListen = root.GetSection("http").GetEndpoint("listen", config.httpListen);
     ReadQueue(root, config.engine);
     ReadControls(root, config.engine.controls);
-    config.positionInterval = root.GetSection("position").GetDuration("interval", 10ms, 1min, config.positionInterval);
-    ReadTrace(root, config.trace);
     ReadTables(root, config);
     RejectActionsWithoutMethod(config);
     config.mistakes = reader.GetMistakes();
+    std::ranges::move(otherMistakes, std::back_inserter(config.mistakes));
+    config.values = reader.GetValues();
     if (config.mistakes.empty())
     {
         for (const Core::Error& error : Planning::FindMistakes(config.engine, *config.site))

@@ -3,11 +3,10 @@
 #include "common/ConfigReader.hpp"
 #include "common/LocalOffset.hpp"
 #include "common/Url.hpp"
-#include "TraceFolder.hpp"
+#include "McsConfig.hpp"
+#include "OperationsConfig.hpp"
 #include <acs/plan/EngineOptions.hpp>
 #include <acs/plan/SiteMap.hpp>
-#include <acs/protocol_beast/HttpHeaders.hpp>
-#include <acs/protocol_beast/TlsOptions.hpp>
 
 #include <chrono>
 #include <cstddef>
@@ -20,16 +19,6 @@
 
 namespace ACS::Acsd
 {
-
-struct McsConfig
-{
-    Apps::Url url;
-    ProtocolBeast::TlsOptions tls{};    ///< For wss; its files are good.
-    ProtocolBeast::HttpHeaders headers; ///< Of the upgrade, besides its own.
-    std::chrono::milliseconds ackTimeout{5'000};
-    unsigned ackRetries = 3;
-    std::chrono::milliseconds pingInterval{10'000};
-};
 
 struct MqttConfig
 {
@@ -83,13 +72,14 @@ struct AcsdConfig
     std::string storeFile;
     Apps::Endpoint httpListen{"127.0.0.1", 8080};
     Apps::LocalOffset localOffset;
-    std::chrono::milliseconds positionInterval{200};
     std::vector<RobotLinkConfig> robots;
     JobMethods methods;
-    TraceLimits trace;
+    OperationsConfig operations;
     Planning::EngineOptions engine;
     std::optional<Planning::SiteMap> site; ///< Always there when there are no mistakes.
-    std::vector<std::string> mistakes;     ///< Each with file, line and key; empty: the rest is good.
+    /// Each key that is given, "mcs.url", with its value as TOML: what a later reading differs in.
+    std::map<std::string, std::string> values;
+    std::vector<std::string> mistakes; ///< Each with file, line and key; empty: the rest is good.
 };
 
 /// Reads the file, with the overrides of the command line ("table.key=value") on top, and the map that it names.

@@ -2,6 +2,7 @@
 
 #include "Acsd.hpp"
 #include "common/CommandLine.hpp"
+#include "common/HangUpWaiter.hpp"
 #include "common/ReadyLine.hpp"
 #include "common/SignalWaiter.hpp"
 #include "common/SpdlogSink.hpp"
@@ -33,19 +34,41 @@ struct ProgramOptions
     std::string configFile;
     std::vector<std::string> overrides;
     std::string traceFolder; ///< Empty: no trace.
+    bool bLogLevelGiven = false;
     bool bCheckOnly = false;
 };
+
+/// SIGHUP. A file with mistakes changes nothing.
+void ReadAgain(const ProgramOptions& options, const Core::Logger& logger, Apps::SpdlogSink& sink, Acsd& acsd)
+{
+    const AcsdConfig fresh = ReadAcsdConfig(options.configFile, options.overrides);
+    if (!fresh.mistakes.empty())
+    {
+        for (const std::string& mistake : fresh.mistakes)
+        {
+            logger.Error("not taken", {{"mistake", mistake}});
+        }
+        logger.Error("the configuration has mistakes, all stays as it was", {{"file", options.configFile}});
+        return;
+    }
+    if (!options.bLogLevelGiven)
+    {
+        sink.SetLevel(fresh.operations.logLevel);
+    }
+    acsd.Reload(fresh);
+}
 
 int Serve(const ProgramOptions& options, AcsdConfig config)
 {
     Apps::SystemClock clock;
     Apps::SystemRandom random;
-    Apps::SpdlogSink sink(options.common.logLevel);
+    Apps::SpdlogSink sink(options.bLogLevelGiven ? options.common.logLevel : config.operations.logLevel);
     const Core::Logger logger(sink, NAME);
     std::unique_ptr<MessageTrace> trace;
     if (!options.traceFolder.empty())
     {
-        auto created = MessageTrace::Create(options.traceFolder, config.trace, clock, logger.MakeFor("trace"));
+        auto created =
+            MessageTrace::Create(options.traceFolder, config.operations.trace, clock, logger.MakeFor("trace"));
         if (!created)
         {
             Apps::PrintMistake(NAME, Core::Describe(created.error()));
@@ -63,6 +86,7 @@ int Serve(const ProgramOptions& options, AcsdConfig config)
     }
     std::optional<Apps::SignalWaiter> signals;
     signals.emplace(context.get_executor(), [&](int) { (*acsd)->StopAsync([&context] { context.stop(); }); });
+    const Apps::HangUpWaiter hangUps(context.get_executor(), [&] { ReadAgain(options, logger, sink, **acsd); });
     (*acsd)->Start();
     Apps::PrintReadyLine({{"http", (*acsd)->GetHttpEndpoint()}});
     context.run();
@@ -98,6 +122,7 @@ int RunAcsd(int argc, const char* const* argv)
         return *exitCodeOrNull;
     }
 
+    options.bLogLevelGiven = app.count("--log-level") > 0;
     AcsdConfig config = ReadAcsdConfig(options.configFile, options.overrides);
     if (!config.mistakes.empty())
     {

@@ -101,12 +101,16 @@ Apps::HttpResponse MakeLiveResponse()
     return {200, "text/plain; charset=utf-8", "alive\n"};
 }
 
-Apps::HttpResponse MakeReadyResponse(const std::vector<LinkStatus>& links)
+Apps::HttpResponse MakeReadyResponse(const std::vector<LinkStatus>& links, const std::vector<std::string>& obstacles)
 {
     std::string missing;
     for (const LinkStatus& link : links)
     {
         missing += link.bUp ? "" : "no connection: " + link.name + "\n";
+    }
+    for (const std::string& obstacle : obstacles)
+    {
+        missing += obstacle + "\n";
     }
     const bool bReady = missing.empty();
     return {bReady ? 200U : HTTP_UNAVAILABLE, "text/plain; charset=utf-8", bReady ? "ready\n" : missing};

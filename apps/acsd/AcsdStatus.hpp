@@ -19,8 +19,10 @@ struct LinkStatus
 /// GET /livez: the process serves.
 [[nodiscard]] Apps::HttpResponse MakeLiveResponse();
 
-/// GET /readyz: 200 when every link is up, else 503 with the names of those that are not.
-[[nodiscard]] Apps::HttpResponse MakeReadyResponse(const std::vector<LinkStatus>& links);
+/// GET /readyz: 200 when every link is up and nothing else is in the way, else 503 with a line for each. Obstacles are sentences.
+[[nodiscard]] Apps::HttpResponse MakeReadyResponse(
+    const std::vector<LinkStatus>& links,
+    const std::vector<std::string>& obstacles);
 
 /// GET /status: links, robots, active plans and alarms as JSON.
 [[nodiscard]] Apps::HttpResponse MakeStatusResponse(

@@ -86,7 +86,7 @@ void EngineLoop::Refuse(const EngineTask& task) const
         return;
     }
     const auto refuse = [this](Planning::ReplyToken token) {
-        _execute(Planning::ReplyCommand{token, false, "acsd is being shut down"});
+        _execute(Planning::ReplyCommand{token, false, "acsd draining for shutdown"});
     };
     std::visit(
         Core::Overloaded{

@@ -2,6 +2,7 @@
 
 #include <acs/plan/IRobotAdapter.hpp>
 #include <acs/vda5050/IMqttLink.hpp>
+#include <acs/vda5050/MasterSession.hpp>
 
 #include <vector>
 
@@ -20,6 +21,9 @@ public:
 
     /// Messages for other robots may come too and are ignored.
     virtual void OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, Planning::AdapterActions& out) = 0;
+
+    /// What the vehicle has shown, and what was counted of it.
+    [[nodiscard]] virtual const VDA5050::MasterSession& GetSession() const noexcept = 0;
 };
 
 } // namespace ACS::Acsd

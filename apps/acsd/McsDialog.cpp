@@ -3,13 +3,17 @@
 #include "PlanMapper.hpp"
 #include "ReportMapper.hpp"
 #include <acs/core/Overloaded.hpp>
+#include <acs/plan/PlanTransitions.hpp>
+#include <acs/protocol/AcsCodec.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <set>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -45,6 +49,15 @@ std::string DescribeUnknown(const std::vector<std::string_view>& planIDs)
     return planIDs.size() > MAX_NAMED ? text + fmt::format(" and {} more", planIDs.size() - MAX_NAMED) : text;
 }
 
+/// What an MCS must hear even if it asks for the history: how plans ended, and what became of its controls.
+bool IsReplayed(const Planning::Report& report, EOutboxReplay replay)
+{
+    const auto* const planOrNull = std::get_if<Planning::PlanReport>(&report);
+    const bool bFinal = (planOrNull != nullptr && Planning::IsFinal(planOrNull->state))
+        || std::holds_alternative<Planning::ControlResultReport>(report);
+    return replay == EOutboxReplay::All || (replay == EOutboxReplay::FinalOnly && bFinal);
+}
+
 } // namespace
 
 McsDialog::McsDialog(
@@ -68,6 +81,22 @@ void McsDialog::Restore(std::uint64_t lastSequence)
     _lastTold = lastSequence;
 }
 
+void McsDialog::SetStyle(MessageStyle style)
+{
+    _style = std::move(style);
+}
+
+void McsDialog::SetAckObserver(AckObserver observer)
+{
+    _ackObserver = std::move(observer);
+}
+
+void McsDialog::BeginDraining()
+{
+    _bDraining = true;
+    TellWorking(false);
+}
+
 void McsDialog::Begin()
 {
     _output.SetSiteOffset(GetOffset());
@@ -80,20 +109,18 @@ void McsDialog::Begin()
 
 void McsDialog::OnSessionEvent(const Protocol::SessionEvent& event)
 {
+    _output.SetSiteOffset(GetOffset()); // summer time may have begun since the last one
     std::visit(
         Core::Overloaded{
             [&](const Protocol::Registered&) { BeginReplay(); },
             [&](const Protocol::RequestReceived& received) { TakeRequest(received.request); },
             [&](const Protocol::Acked& acked) { TakeAck(acked); },
             [&](const Protocol::WindowOpened&) { Feed(); },
-            [&](const Protocol::PositionDue&) {
-                _output.SetSiteOffset(GetOffset());
-                _output.SendPosition(MakePositionUpdate(_engine.GetRobotPoses()));
-            },
+            [&](const Protocol::PositionDue&) { _output.SendPosition(MakePositionUpdate(_engine.GetRobotPoses())); },
             [&](const Protocol::LinkLost&) {
                 _bOpen = false;
                 _unsent.clear();
-                _sequences.clear();
+                _sent.clear();
             },
             [](const auto&) { /* nothing to be done */ }},
         event);
@@ -129,7 +156,7 @@ void McsDialog::Report(const Planning::OutboxEntry& entry)
 
 void McsDialog::TellStatus(const Planning::RobotStatus& status)
 {
-    _output.SendStatus(MakeStatusUpdate(status));
+    _output.SendStatus(MakeStatusUpdate(status, _style));
 }
 
 void McsDialog::TellWorking(bool bWorking)
@@ -151,39 +178,49 @@ void McsDialog::TakeRequest(const Protocol::AcsRequest& request)
         AnswerQuery(request);
         return;
     }
-    _openRequests.emplace(
-        token,
-        OpenRequest{Protocol::GetCommand(request), request.transactionID, GetPlanID(*commandOrNull)});
+    const std::string planID = GetPlanID(*commandOrNull);
+    if (_bDraining)
+    {
+        _output.Answer(
+            Protocol::GetCommand(request),
+            request.transactionID,
+            Protocol::EAckResult::Fail,
+            "acsd draining for shutdown",
+            Protocol::PlanAck{planID});
+        return;
+    }
+    _openRequests.emplace(token, OpenRequest{Protocol::GetCommand(request), request.transactionID, planID});
     _handler(std::move(*commandOrNull));
 }
 
 void McsDialog::AnswerQuery(const Protocol::AcsRequest& request)
 {
-    const auto answer =
-        [&](Protocol::EAckResult result, std::string_view message, const Protocol::AckPayload& payload) {
-            _output.Answer(Protocol::GetCommand(request), request.transactionID, result, message, payload);
-        };
     std::visit(
         Core::Overloaded{
             [&](const Protocol::RequestAcsPlans&) {
                 Protocol::PlanListAck list;
                 for (const Planning::PlanSummary& summary : _engine.GetActivePlans())
                 {
-                    list.plans.push_back(MakePlanEntry(summary, GetOffset()));
+                    list.plans.push_back(MakePlanEntry(summary, GetOffset(), _style));
                 }
-                answer(Protocol::EAckResult::Success, "", list);
+                AnswerList(request, {}, std::move(list), &Protocol::PlanListAck::plans);
             },
             [&](const Protocol::RequestAcsPlanHistory& query) { AnswerHistory(request, query); },
             [&](const Protocol::RequestAcsErrorList&) {
                 Protocol::ErrorListAck list;
                 for (const Planning::Alarm& alarm : _engine.GetActiveAlarms())
                 {
-                    list.errors.push_back(MakeErrorReport(alarm, true));
+                    list.errors.push_back(MakeErrorReport(alarm, true, _style));
                 }
-                answer(Protocol::EAckResult::Success, "", list);
+                AnswerList(request, {}, std::move(list), &Protocol::ErrorListAck::errors);
             },
             [&](const auto&) {
-                answer(Protocol::EAckResult::Fail, "not supported", Protocol::EmptyAck{});
+                _output.Answer(
+                    Protocol::GetCommand(request),
+                    request.transactionID,
+                    Protocol::EAckResult::Fail,
+                    "not supported",
+                    Protocol::EmptyAck{});
             }},
         request.payload);
 }
@@ -202,50 +239,115 @@ void McsDialog::AnswerHistory(const Protocol::AcsRequest& request, const Protoco
         const std::optional<Planning::PlanSummary> summary = _engine.GetPlanOrNull(planID);
         if (summary.has_value())
         {
-            list.plans.push_back(MakePlanEntry(*summary, GetOffset()));
+            list.plans.push_back(MakePlanEntry(*summary, GetOffset(), _style));
         }
         else
         {
             unknown.push_back(planID);
         }
     }
-    const std::string message = DescribeUnknown(unknown);
-    _output.Answer(Protocol::GetCommand(request), request.transactionID, Protocol::EAckResult::Success, message, list);
+    AnswerList(request, DescribeUnknown(unknown), std::move(list), &Protocol::PlanListAck::plans);
+}
+
+/// Section 12: an MCS that reads 4096 bytes loses a longer answer without a word; a shorter one says what it left out.
+template <typename TList, typename TEntries>
+void McsDialog::AnswerList(
+    const Protocol::AcsRequest& request,
+    std::string message,
+    TList list,
+    TEntries TList::*entries)
+{
+    TEntries all = std::exchange(list.*entries, {});
+    const auto take = [&](std::size_t count) {
+        list.*entries = TEntries(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
+        const std::size_t left = all.size() - count;
+        const std::string note = left == 0 ? std::string() : fmt::format("{} more do not fit", left);
+        return message.empty() || note.empty() ? message + note : message + "; " + note;
+    };
+    const auto fits = [&](std::size_t count) {
+        const std::string text = take(count);
+        Protocol::AcsAck ack{Protocol::GetCommand(request), request.transactionID, {}, {}, text, list, false};
+        std::string encoded;
+        Protocol::AcsCodec::EncodeAck(ack, encoded);
+        return encoded.size() <= _style.longestText;
+    };
+    std::size_t count = all.size();
+    if (_style.longestText > 0 && !fits(count))
+    {
+        if constexpr (std::is_same_v<TList, Protocol::ErrorListAck>)
+        {
+            std::ranges::reverse(all); // the newest are those that matter
+        }
+        std::size_t tooMany = count;
+        count = 0;
+        while (tooMany - count > 1)
+        {
+            const std::size_t middle = count + (tooMany - count) / 2;
+            (fits(middle) ? count : tooMany) = middle;
+        }
+    }
+    const std::string text = take(count);
+    _output.Answer(Protocol::GetCommand(request), request.transactionID, Protocol::EAckResult::Success, text, list);
 }
 
 void McsDialog::TakeAck(const Protocol::Acked& acked)
 {
-    const auto found = _sequences.find(acked.transactionID);
-    if (found == _sequences.end())
+    const auto found = _sent.find(acked.transactionID);
+    if (found == _sent.end())
     {
         return;
     }
+    const SentReport sent = found->second;
+    _sent.erase(found);
+    if (_ackObserver)
+    {
+        _ackObserver(acked, _clock.GetNow().steady - sent.sentAt);
+    }
     if (acked.result == Protocol::EAckResult::Fail)
     {
-        // Final all the same (register D-1, mcs.on_report_nack): the MCS has it and does not want it.
+        // Final (register, mcs.on_report_nack): the MCS has it and does not want it. Or it is kept for the next connection.
         _logger.Warning(
-            "the MCS refuses a report",
+            _style.bRefusedReportsRetried ? "the MCS refuses a report, it is sent again with the next registration"
+                                          : "the MCS refuses a report",
             {{"command", GetText(acked.command)}, {"transactionId", acked.transactionID}, {"reason", acked.message}});
+        if (_style.bRefusedReportsRetried)
+        {
+            return;
+        }
     }
-    const std::uint64_t sequence = found->second;
-    _sequences.erase(found);
-    _handler(Planning::MessageAcknowledged{sequence});
+    _handler(Planning::MessageAcknowledged{sent.sequence});
 }
 
 void McsDialog::BeginReplay()
 {
     _unsent.clear();
+    _sent.clear();
+    std::vector<std::uint64_t> leftOut;
     for (Planning::OutboxEntry& entry : _engine.GetUnacknowledged())
     {
-        // What is still on its way to the disk is told when it is there.
-        if (entry.sequence <= _lastTold)
+        if (entry.sequence > _lastTold)
+        {
+            continue; // still on its way to the disk: told when it is there
+        }
+        if (IsReplayed(entry.report, _style.replay))
         {
             _unsent.push_back(std::move(entry));
+            continue;
         }
+        leftOut.push_back(entry.sequence);
     }
-    _sequences.clear();
     _bOpen = true;
     _bReplaying = true;
+    if (!leftOut.empty())
+    {
+        _logger.Warning(
+            "reports of the outage are left out, as outbox.replay says",
+            {{"count", fmt::format_int(leftOut.size()).str()}});
+    }
+    for (const std::uint64_t sequence : leftOut)
+    {
+        _handler(Planning::MessageAcknowledged{sequence});
+    }
     Feed();
 }
 
@@ -254,11 +356,11 @@ void McsDialog::Feed()
     while (!_unsent.empty())
     {
         const Planning::OutboxEntry& entry = _unsent.front();
-        if (!_output.TrySendDurable(MakeReportRequest(entry, _localOffset.GetAt(entry.time))))
+        if (!_output.TrySendDurable(MakeReportRequest(entry, _localOffset.GetAt(entry.time), _style)))
         {
             return; // WindowOpened or Registered comes
         }
-        _sequences.emplace(entry.transactionID, entry.sequence);
+        _sent.insert_or_assign(entry.transactionID, SentReport{entry.sequence, _clock.GetNow().steady});
         _unsent.pop_front();
     }
     if (std::exchange(_bReplaying, false))

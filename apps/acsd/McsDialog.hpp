@@ -2,6 +2,7 @@
 
 #include "common/LocalOffset.hpp"
 #include "IMcsOutput.hpp"
+#include "MessageStyle.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/plan/PlanCommand.hpp>
@@ -27,6 +28,8 @@ class McsDialog final
 public:
     /// Receives the engine's next command; must not call the dialog.
     using CommandHandler = std::function<void(Planning::PlanCommand command)>;
+    /// Receives what the MCS answered to a report, and how long that took since this connection was given it.
+    using AckObserver = std::function<void(const Protocol::Acked& acked, Core::Duration wait)>;
 
 private:
     /// A command of the MCS that waits for the engine's reply.
@@ -35,6 +38,13 @@ private:
         Protocol::EAcsCommand command = Protocol::EAcsCommand::ExecutionPlan;
         std::string transactionID;
         std::string planID;
+    };
+
+    /// A report that this connection was given.
+    struct SentReport
+    {
+        std::uint64_t sequence = 0;
+        Core::SteadyTime sentAt;
     };
 
     const Core::IClock& _clock;
@@ -46,12 +56,17 @@ private:
     std::map<Planning::ReplyToken, OpenRequest> _openRequests;
     Planning::ReplyToken _lastToken = 0;
     std::deque<Planning::OutboxEntry> _unsent; ///< Only while registered: what this connection has not been given yet.
-    std::unordered_map<std::string, std::uint64_t> _sequences; ///< By transactionId, of what was given to the session.
+    std::unordered_map<std::string, SentReport> _sent; ///< By transactionId.
     std::uint64_t _lastTold = 0; ///< The highest sequence that is on disk: behind it the engine may know more already.
     bool _bOpen = false;         ///< The replay has begun: what is told now goes behind it.
     bool _bReplaying = false;
+    bool _bDraining = false;
+    MessageStyle _style;
+    AckObserver _ackObserver;
 
     void TakeRequest(const Protocol::AcsRequest& request);
+    template <typename TList, typename TEntries>
+    void AnswerList(const Protocol::AcsRequest& request, std::string message, TList list, TEntries TList::*entries);
     void AnswerQuery(const Protocol::AcsRequest& request);
     void AnswerHistory(const Protocol::AcsRequest& request, const Protocol::RequestAcsPlanHistory& query);
     void TakeAck(const Protocol::Acked& acked);
@@ -71,6 +86,13 @@ public:
 
     /// Once, before the engine is given what the store held: the highest sequence of a report in it.
     void Restore(std::uint64_t lastSequence);
+
+    /// From the next message on. Without it messages are as the document has them.
+    void SetStyle(MessageStyle style);
+    void SetAckObserver(AckObserver observer);
+
+    /// From now on plans and controls are refused: acsd is about to stop.
+    void BeginDraining();
 
     /// Once, before the session is started: what the MCS is to be told of TSC and robots.
     void Begin();

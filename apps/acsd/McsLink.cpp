@@ -1,10 +1,12 @@
 #include "McsLink.hpp"
 
+#include "OddityLog.hpp"
 #include <acs/core/Overloaded.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 #include <variant>
 
@@ -18,12 +20,12 @@ ProtocolBeast::ClientOptions MakeOptions(const AcsdConfig& config)
 {
     ProtocolBeast::ClientOptions options;
     options.url = Apps::MakeText(config.mcs.url);
+    options.host = config.mcs.host;
     options.tls = config.mcs.tls;
     options.headers = config.mcs.headers;
     options.link.pingInterval = config.mcs.pingInterval;
-    options.session.ackTimeout = config.mcs.ackTimeout;
-    options.session.ackRetries = config.mcs.ackRetries;
-    options.session.positionInterval = config.positionInterval;
+    options.link.maximumRead = config.mcs.session.codec.maximumBytes;
+    options.session = config.mcs.session;
     return options;
 }
 
@@ -51,10 +53,8 @@ bool IsHarmless(Protocol::EProtocolNote what)
     }
 }
 
-std::size_t CountDigits(std::uint64_t number)
-{
-    return fmt::format_int(number).size();
-}
+/// Of a text in the log.
+constexpr std::size_t LOGGED_TEXT = 120;
 
 } // namespace
 
@@ -78,13 +78,20 @@ Core::Result<void> McsLink::Open(
     const AcsdConfig& config,
     MessageTrace* traceOrNull)
 {
+    _traceOrNull = traceOrNull;
+    SetLimits(config.mcs);
+    _dialog.SetAckObserver([this](const Protocol::Acked& acked, Core::Duration wait) {
+        const bool bRefused = acked.result == Protocol::EAckResult::Fail;
+        _figures.refused.at(static_cast<std::size_t>(acked.command)) += bRefused ? 1U : 0U;
+        if (_ackObserver)
+        {
+            _ackObserver(wait);
+        }
+    });
     ProtocolBeast::ClientOptions options = MakeOptions(config);
-    if (traceOrNull != nullptr)
-    {
-        options.onWire = [traceOrNull](ProtocolBeast::EWireDirection direction, std::string_view text) {
-            traceOrNull->Write({"mcs", direction, {}, {}, text});
-        };
-    }
+    options.onWire = [this](ProtocolBeast::EWireDirection direction, std::string_view text) {
+        WatchWire(direction, text);
+    };
     auto client = ProtocolBeast::AcsClient::Create(executor, _clock, random, _logger, options, *this);
     if (!client)
     {
@@ -104,6 +111,42 @@ void McsLink::Start()
 {
     _dialog.Begin();
     _client->Start();
+}
+
+void McsLink::SetLimits(const McsConfig& config)
+{
+    _dialog.SetStyle(config.style);
+    _warnBytes = config.warnBytes;
+}
+
+void McsLink::SetAckObserver(AckObserver observer)
+{
+    _ackObserver = std::move(observer);
+}
+
+void McsLink::BeginDraining()
+{
+    _dialog.BeginDraining();
+}
+
+/// Section 12: what is longer than the MCS's buffer is lost without an acknowledgement. Each new length is told once.
+void McsLink::WatchWire(ProtocolBeast::EWireDirection direction, std::string_view text)
+{
+    if (_traceOrNull != nullptr)
+    {
+        _traceOrNull->Write({"mcs", direction, {}, {}, text});
+    }
+    if (direction == ProtocolBeast::EWireDirection::In || text.size() <= _figures.longestSent)
+    {
+        return;
+    }
+    _figures.longestSent = text.size();
+    if (_warnBytes > 0 && text.size() > _warnBytes)
+    {
+        _logger.Warning(
+            "a message to the MCS is longer than mcs.tx_warn_bytes: an MCS with a small buffer does not get it",
+            {{"bytes", fmt::format_int(text.size()).str()}, {"begins", text.substr(0, LOGGED_TEXT)}});
+    }
 }
 
 void McsLink::StopAsync(StopHandler handler)
@@ -178,6 +221,13 @@ void McsLink::SetSiteOffset(std::chrono::minutes offset)
     _client->SetSiteOffset(offset);
 }
 
+McsLink::Figures McsLink::GetFigures() const
+{
+    Figures figures = _figures;
+    figures.bConnected = GetStatistics().connects > _connectsBefore;
+    return figures;
+}
+
 const Protocol::SessionStatistics& McsLink::GetStatistics() const
 {
     return _client->GetStatistics();
@@ -186,6 +236,10 @@ const Protocol::SessionStatistics& McsLink::GetStatistics() const
 void McsLink::OnSessionEvent(const Protocol::SessionEvent& event)
 {
     LogEvent(event);
+    if (std::holds_alternative<Protocol::LinkLost>(event))
+    {
+        _connectsBefore = GetStatistics().connects;
+    }
     _dialog.OnSessionEvent(event);
     if (std::holds_alternative<Protocol::Stopped>(event) && _stopHandler)
     {
@@ -205,9 +259,15 @@ void McsLink::LogEvent(const Protocol::SessionEvent& event)
                 _logger.Warning("the MCS refuses the registration, trying again", {{"reason", refused.message}});
             },
             [&](const Protocol::RequestUnanswered& unanswered) {
-                _logger.Warning(
-                    "the MCS does not acknowledge",
-                    {{"command", GetText(unanswered.command)}, {"transactionId", unanswered.transactionID}});
+                ++_figures.unanswered;
+                if (IsWorthALine(_figures.unanswered))
+                {
+                    _logger.Warning(
+                        "the MCS does not acknowledge",
+                        {{"command", GetText(unanswered.command)},
+                         {"transactionId", unanswered.transactionID},
+                         {"count", fmt::format_int(_figures.unanswered).str()}});
+                }
             },
             [&](const Protocol::LinkLost& lost) { LogOutage(lost); },
             [&](const Protocol::ProtocolNoted& noted) { LogNote(noted); },
@@ -217,10 +277,8 @@ void McsLink::LogEvent(const Protocol::SessionEvent& event)
 
 void McsLink::LogNote(const Protocol::ProtocolNoted& noted)
 {
-    // The first, the tenth, the hundredth: an MCS that repeats its mistake does not fill the log.
     const std::uint64_t total = GetStatistics().CountOf(noted.what);
-    const std::uint64_t before = total - std::min<std::uint64_t>(noted.count, total);
-    if (before > 0 && CountDigits(before) == CountDigits(total))
+    if (!IsWorthALine(total, noted.count))
     {
         return;
     }

@@ -15,7 +15,9 @@
 
 #include <boost/asio/any_io_executor.hpp>
 
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -32,6 +34,17 @@ public:
     using CommandHandler = McsDialog::CommandHandler;
     using StopHandler = std::function<void()>;
 
+    /// What the session's own statistics do not have.
+    struct Figures
+    {
+        bool bConnected = false;
+        std::size_t longestSent = 0; ///< Bytes of the longest text that was sent.
+        std::uint64_t unanswered = 0;
+        std::array<std::uint64_t, Protocol::COMMAND_COUNT> refused{}; ///< Own reports, by the MCS.
+    };
+    /// Receives the wait for each acknowledgement of a report.
+    using AckObserver = std::function<void(Core::Duration wait)>;
+
 private:
     const Core::IClock& _clock;
     Core::Logger _logger;
@@ -39,11 +52,17 @@ private:
     StopHandler _stopHandler;
     std::unique_ptr<ProtocolBeast::AcsClient> _client;
     std::string _url;
+    Figures _figures;
+    std::uint64_t _connectsBefore = 0; ///< When the last connection was lost, or could not be made.
+    AckObserver _ackObserver;
+    std::size_t _warnBytes = 0;
+    MessageTrace* _traceOrNull = nullptr;
     std::string _loggedOutage; ///< The reason that was told last, of the outage that goes on.
 
     void OnSessionEvent(const Protocol::SessionEvent& event) override;
     void LogEvent(const Protocol::SessionEvent& event);
     void LogNote(const Protocol::ProtocolNoted& noted);
+    void WatchWire(ProtocolBeast::EWireDirection direction, std::string_view text);
     void LogOutage(const Protocol::LinkLost& lost);
 
     [[nodiscard]] bool TrySendDurable(const Protocol::AcsRequest& request) override;
@@ -81,6 +100,13 @@ public:
     void Restore(std::uint64_t lastSequence);
     void Start();
 
+    /// What of the configuration may change while acsd runs (see LiveConfig).
+    void SetLimits(const McsConfig& config);
+    void SetAckObserver(AckObserver observer);
+
+    /// From now on plans and controls are refused, and the MCS is told that no work is taken.
+    void BeginDraining();
+
     /// Tells the MCS, takes leave of it, then calls back.
     void StopAsync(StopHandler handler);
 
@@ -92,6 +118,7 @@ public:
 
     [[nodiscard]] bool IsRegistered() const override;
     [[nodiscard]] const Protocol::SessionStatistics& GetStatistics() const;
+    [[nodiscard]] Figures GetFigures() const;
 };
 
 } // namespace ACS::Acsd

@@ -282,6 +282,11 @@ void OpenStreamRobotAdapter::OnMqttMessage(const VDA5050::MqttMessage& message, 
     DrainBase(out);
 }
 
+const VDA5050::MasterSession& OpenStreamRobotAdapter::GetSession() const noexcept
+{
+    return _base.GetSession();
+}
+
 void OpenStreamRobotAdapter::OnArmEvent(const OpenStream::ClientEvent& event, Core::Now /*now*/, AdapterActions& out)
 {
     std::visit(

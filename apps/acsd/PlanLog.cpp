@@ -1,5 +1,10 @@
 #include "PlanLog.hpp"
 
+#include "OddityLog.hpp"
+#include <acs/plan/PlanTransitions.hpp>
+
+#include <algorithm>
+#include <chrono>
 #include <string>
 #include <utility>
 
@@ -12,6 +17,20 @@ namespace
 constexpr const char* PLAN_CHANGES = "acsd_plan_changes_total";
 constexpr const char* JOB_CHANGES = "acsd_job_changes_total";
 constexpr const char* ALARMS_SET = "acsd_alarms_set_total";
+constexpr const char* PLAN_WAIT = "acsd_plan_wait_seconds";
+constexpr const char* PLAN_DURATION = "acsd_plan_duration_seconds";
+constexpr const char* JOB_DURATION = "acsd_job_duration_seconds";
+constexpr const char* JOB_FAILURES = "acsd_job_failures_total";
+constexpr const char* NOTES = "acsd_robot_notes_total";
+
+/// Of different notes, so that nobody fills the memory with them.
+constexpr std::size_t MOST_NOTES = 1'000;
+
+double GetSeconds(Core::WallTime from, Core::WallTime to)
+{
+    // The wall clock may have been set meanwhile.
+    return std::max(0.0, std::chrono::duration<double>(to - from).count());
+}
 
 } // namespace
 
@@ -22,12 +41,43 @@ PlanLog::PlanLog(Core::Logger logger, Apps::MetricsEndpoint& metrics)
     _metrics.AddCounter(PLAN_CHANGES, "Plans that reached a status");
     _metrics.AddCounter(JOB_CHANGES, "Jobs that reached a status");
     _metrics.AddCounter(ALARMS_SET, "Alarms that were set");
+    _metrics.AddHistogram(
+        PLAN_WAIT,
+        "From the acceptance of a plan to its start",
+        {0.1, 0.5, 1, 5, 10, 30, 60, 120, 300, 600, 1'800, 3'600});
+    _metrics.AddHistogram(
+        PLAN_DURATION,
+        "From the start of a plan to its end, by its last status",
+        {5, 10, 30, 60, 120, 300, 600, 1'200, 1'800, 3'600});
+    _metrics.AddHistogram(
+        JOB_DURATION,
+        "From a job's command to its end, by action",
+        {0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600});
+    _metrics.AddCounter(JOB_FAILURES, "Jobs that failed, by action");
+    _metrics.AddCounter(NOTES, "What a robot did otherwise than it was told, and was tolerated");
 }
 
 void PlanLog::OnPlanChanged(const Planning::PlanRecord& record, Planning::EPlanState from, Core::Now /*now*/)
 {
     const std::string_view status = GetText(record.progress.state);
     _metrics.Increment(PLAN_CHANGES, {{"status", std::string(status)}});
+    const Planning::PlanProgress& progress = record.progress;
+    if (from == Planning::EPlanState::Pending && progress.startedAt.has_value())
+    {
+        _metrics.Observe(PLAN_WAIT, {}, GetSeconds(record.acceptedAt, *progress.startedAt));
+    }
+    if (Planning::IsFinal(progress.state))
+    {
+        // Jobs whose end nobody tells of any more.
+        std::erase_if(_jobs, [&record](const auto& job) { return job.first.first == record.plan.planID; });
+        if (progress.startedAt.has_value() && progress.endedAt.has_value())
+        {
+            _metrics.Observe(
+                PLAN_DURATION,
+                {{"status", std::string(status)}},
+                GetSeconds(*progress.startedAt, *progress.endedAt));
+        }
+    }
     _logger.Info(
         "plan",
         {{"planId", record.plan.planID},
@@ -60,12 +110,13 @@ void PlanLog::OnJobChanged(
     std::size_t stepIndex,
     std::size_t jobIndex,
     Planning::EJobState from,
-    Core::Now /*now*/)
+    Core::Now now)
 {
     const Planning::Step& step = record.plan.steps[stepIndex];
     const std::string number = std::to_string(step.stepNo);
     const std::string_view status = GetText(record.progress.steps[stepIndex].jobs[jobIndex]);
     _metrics.Increment(JOB_CHANGES, {{"status", std::string(status)}, {"action", step.action}});
+    ObserveJob(record, step, step.jobs[jobIndex].jobID, record.progress.steps[stepIndex].jobs[jobIndex], now);
     _logger.Info(
         "job",
         {{"planId", record.plan.planID},
@@ -74,6 +125,32 @@ void PlanLog::OnJobChanged(
          {"jobId", step.jobs[jobIndex].jobID},
          {"from", GetText(from)},
          {"status", status}});
+}
+
+void PlanLog::ObserveJob(
+    const Planning::PlanRecord& record,
+    const Planning::Step& step,
+    const std::string& jobID,
+    Planning::EJobState state,
+    Core::Now now)
+{
+    const std::pair key(record.plan.planID, jobID);
+    if (!Planning::IsFinal(state))
+    {
+        _jobs.try_emplace(key, now.steady);
+        return;
+    }
+    if (state == Planning::EJobState::Failed)
+    {
+        _metrics.Increment(JOB_FAILURES, {{"action", step.action}});
+    }
+    const auto begun = _jobs.find(key);
+    if (begun != _jobs.end())
+    {
+        const std::chrono::duration<double> lasted = now.steady - begun->second;
+        _metrics.Observe(JOB_DURATION, {{"action", step.action}}, lasted.count());
+        _jobs.erase(begun);
+    }
 }
 
 void PlanLog::OnAlarmChanged(const Planning::Alarm& alarm, bool bSet, Core::Now /*now*/)
@@ -108,7 +185,16 @@ void PlanLog::OnTscChanged(Planning::ETscState state, Planning::ETscState from, 
 
 void PlanLog::OnNote(std::string_view robotID, std::string_view text, Core::Now /*now*/)
 {
-    _logger.Warning(text, {{"robotId", robotID}});
+    _metrics.Increment(NOTES, {{"robot", std::string(robotID)}});
+    if (_notes.size() >= MOST_NOTES)
+    {
+        _notes.clear();
+    }
+    const std::uint64_t count = ++_notes[std::string(robotID) + ' ' + std::string(text)];
+    if (IsWorthALine(count))
+    {
+        _logger.Warning(text, {{"robotId", robotID}, {"count", std::to_string(count)}});
+    }
 }
 
 } // namespace ACS::Acsd

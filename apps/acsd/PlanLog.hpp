@@ -4,6 +4,11 @@
 #include <acs/core/Logger.hpp>
 #include <acs/plan/IPlanObserver.hpp>
 
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+
 namespace ACS::Acsd
 {
 
@@ -12,6 +17,16 @@ class PlanLog final : public Planning::IPlanObserver
 {
     Core::Logger _logger;
     Apps::MetricsEndpoint& _metrics;
+    /// When the jobs that run were given to their robots, by planID and jobID.
+    std::map<std::pair<std::string, std::string>, Core::SteadyTime> _jobs;
+    std::map<std::string, std::uint64_t> _notes; ///< By robotID and text: how often it was said.
+
+    void ObserveJob(
+        const Planning::PlanRecord& record,
+        const Planning::Step& step,
+        const std::string& jobID,
+        Planning::EJobState state,
+        Core::Now now);
 
 public:
     /// The metrics must outlive the log.

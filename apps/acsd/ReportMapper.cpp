@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -27,34 +29,36 @@ static_assert(static_cast<int>(Planning::ETscState::Pausing) == static_cast<int>
 static_assert(static_cast<int>(Planning::EAlarmLevel::Light) == static_cast<int>(Protocol::EErrorLevel::Light));
 
 template <typename TReport>
-Protocol::AcsPayload MakeResult(const Planning::ControlResultReport& report)
+Protocol::AcsPayload MakeResult(const Planning::ControlResultReport& report, const MessageStyle& style)
 {
+    const Protocol::EReportResult failure =
+        style.bResultFailureIsFail ? Protocol::EReportResult::Fail : Protocol::EReportResult::Failed;
     TReport result;
     result.planID = report.planID;
-    result.result = report.bSucceeded ? Protocol::EReportResult::Success : Protocol::EReportResult::Failed;
+    result.result = report.bSucceeded ? Protocol::EReportResult::Success : failure;
     result.message = report.message;
     return result;
 }
 
-Protocol::AcsPayload MakeControlResult(const Planning::ControlResultReport& report)
+Protocol::AcsPayload MakeControlResult(const Planning::ControlResultReport& report, const MessageStyle& style)
 {
     switch (report.control)
     {
         case Planning::EPlanControl::Cancel:
-            return MakeResult<Protocol::CancelResultReport>(report);
+            return MakeResult<Protocol::CancelResultReport>(report, style);
         case Planning::EPlanControl::Abort:
-            return MakeResult<Protocol::AbortResultReport>(report);
+            return MakeResult<Protocol::AbortResultReport>(report, style);
         case Planning::EPlanControl::Pause:
-            return MakeResult<Protocol::PauseResultReport>(report);
+            return MakeResult<Protocol::PauseResultReport>(report, style);
         case Planning::EPlanControl::Resume:
-            return MakeResult<Protocol::ResumeResultReport>(report);
+            return MakeResult<Protocol::ResumeResultReport>(report, style);
         default:
             assert(false && "unhandled EPlanControl");
-            return MakeResult<Protocol::CancelResultReport>(report);
+            return MakeResult<Protocol::CancelResultReport>(report, style);
     }
 }
 
-Protocol::AcsPayload MakePayload(const Planning::Report& report)
+Protocol::AcsPayload MakePayload(const Planning::Report& report, const MessageStyle& style)
 {
     return std::visit(
         Core::Overloaded{
@@ -78,23 +82,26 @@ Protocol::AcsPayload MakePayload(const Planning::Report& report)
                     static_cast<Protocol::EJobStatus>(job.state),
                     job.message};
             },
-            [](const Planning::ErrorReport& error) -> Protocol::AcsPayload {
-                return MakeErrorReport(error.alarm, error.bSet);
+            [&style](const Planning::ErrorReport& error) -> Protocol::AcsPayload {
+                return MakeErrorReport(error.alarm, error.bSet, style);
             },
-            [](const Planning::ControlResultReport& result) -> Protocol::AcsPayload {
-                return MakeControlResult(result);
+            [&style](const Planning::ControlResultReport& result) -> Protocol::AcsPayload {
+                return MakeControlResult(result, style);
             }},
         report);
 }
 
 } // namespace
 
-Protocol::AcsRequest MakeReportRequest(const Planning::OutboxEntry& entry, std::chrono::minutes offset)
+Protocol::AcsRequest MakeReportRequest(
+    const Planning::OutboxEntry& entry,
+    std::chrono::minutes offset,
+    const MessageStyle& style)
 {
-    return {entry.transactionID, Core::Timestamp{entry.time, offset}, MakePayload(entry.report)};
+    return {entry.transactionID, Core::Timestamp{entry.time, offset}, MakePayload(entry.report, style)};
 }
 
-Protocol::RobotStatusUpdate MakeStatusUpdate(const Planning::RobotStatus& status)
+Protocol::RobotStatusUpdate MakeStatusUpdate(const Planning::RobotStatus& status, const MessageStyle& style)
 {
     Protocol::RobotStatusUpdate update;
     update.robotID = status.robotID;
@@ -105,6 +112,10 @@ Protocol::RobotStatusUpdate MakeStatusUpdate(const Planning::RobotStatus& status
         update.position = status.position;
     }
     update.carrierIDs = status.carrierIDs;
+    if (style.bEmptyCarriersOmitted)
+    {
+        std::erase(update.carrierIDs, std::nullopt);
+    }
     update.planID = status.planID;
     update.stepNo = status.stepNo;
     update.jobID = status.jobID;
@@ -135,11 +146,18 @@ Protocol::RobotPositionUpdate MakePositionUpdate(const std::vector<Planning::Rob
     return update;
 }
 
-Protocol::PlanEntry MakePlanEntry(const Planning::PlanSummary& summary, std::chrono::minutes offset)
+Protocol::PlanEntry MakePlanEntry(
+    const Planning::PlanSummary& summary,
+    std::chrono::minutes offset,
+    const MessageStyle& style)
 {
     Protocol::PlanEntry entry;
     entry.planID = summary.planID;
     entry.robotID = summary.robotID;
+    if (!entry.robotID.has_value() && style.bUnassignedRobotEmpty)
+    {
+        entry.robotID.emplace();
+    }
     entry.status = static_cast<Protocol::EPlanStatus>(summary.state);
     entry.stepNo = summary.stepNo;
     entry.jobID = summary.jobID;
@@ -152,8 +170,9 @@ Protocol::PlanEntry MakePlanEntry(const Planning::PlanSummary& summary, std::chr
     return entry;
 }
 
-Protocol::ErrorReport MakeErrorReport(const Planning::Alarm& alarm, bool bSet)
+Protocol::ErrorReport MakeErrorReport(const Planning::Alarm& ownAlarm, bool bSet, const MessageStyle& style)
 {
+    const Planning::Alarm alarm = Rename(ownAlarm, style.errors);
     Protocol::ErrorReport report;
     report.robotID = alarm.robotID;
     report.planID = alarm.planID;

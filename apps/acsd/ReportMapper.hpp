@@ -1,5 +1,6 @@
 #pragma once
 
+#include "MessageStyle.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/plan/ETscState.hpp>
 #include <acs/plan/PlanRecord.hpp>
@@ -16,17 +17,28 @@ namespace ACS::Acsd
 /// From what the engine tells to what the MCS is sent. The offset is that of the site's local time.
 
 /// With the report's own transactionId and time: sent again it is the same message.
-[[nodiscard]] Protocol::AcsRequest MakeReportRequest(const Planning::OutboxEntry& entry, std::chrono::minutes offset);
+[[nodiscard]] Protocol::AcsRequest MakeReportRequest(
+    const Planning::OutboxEntry& entry,
+    std::chrono::minutes offset,
+    const MessageStyle& style = {});
 
-[[nodiscard]] Protocol::RobotStatusUpdate MakeStatusUpdate(const Planning::RobotStatus& status);
+[[nodiscard]] Protocol::RobotStatusUpdate MakeStatusUpdate(
+    const Planning::RobotStatus& status,
+    const MessageStyle& style = {});
 
 [[nodiscard]] Protocol::TscStateUpdate MakeTscUpdate(Planning::ETscState state);
 
 /// Radians become degrees from 0 to below 360, the battery a whole number.
 [[nodiscard]] Protocol::RobotPositionUpdate MakePositionUpdate(const std::vector<Planning::RobotPose>& poses);
 
-[[nodiscard]] Protocol::PlanEntry MakePlanEntry(const Planning::PlanSummary& summary, std::chrono::minutes offset);
+[[nodiscard]] Protocol::PlanEntry MakePlanEntry(
+    const Planning::PlanSummary& summary,
+    std::chrono::minutes offset,
+    const MessageStyle& style = {});
 
-[[nodiscard]] Protocol::ErrorReport MakeErrorReport(const Planning::Alarm& alarm, bool bSet);
+[[nodiscard]] Protocol::ErrorReport MakeErrorReport(
+    const Planning::Alarm& ownAlarm,
+    bool bSet,
+    const MessageStyle& style = {});
 
 } // namespace ACS::Acsd

@@ -5,6 +5,7 @@
 #include "OpenStreamRobotAdapter.hpp"
 #include "RobotOutputs.hpp"
 #include "Vda5050RobotAdapter.hpp"
+#include "VehicleWatch.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/openstream_asio/OpenStreamClient.hpp>
 
@@ -32,6 +33,9 @@ VDA5050::MasterOptions MakeMasterOptions(const AcsdConfig& config, const RobotLi
 {
     VDA5050::MasterOptions options;
     options.address = {config.mqtt.interfaceName, robot.manufacturer, robot.serialNumber};
+    // Longer where the factsheet announces a longer interval between states.
+    options.stateMargin = std::min(options.stateMargin, config.operations.offlineAfter / 3);
+    options.stateInterval = config.operations.offlineAfter - options.stateMargin;
     options.version = VDA5050::ReadVersionOrNull(robot.protocolVersion).value_or(VDA5050::EVda5050Version::Version200);
     return options;
 }
@@ -59,12 +63,15 @@ struct RobotHost::Impl
     std::deque<Planning::AdapterAction> actions; ///< Still to be carried out.
     bool bExecuting = false;
     std::optional<ArmTrace> armTrace;
+    VehicleWatch watch;
+    std::optional<Core::SteadyTime> seenAt;
     std::unique_ptr<OpenStreamAsio::OpenStreamClient> armClient;
 
     Impl(Surroundings around, const AcsdConfig& config, const RobotLinkConfig& link, EventHandler eventHandler)
         : surroundings(std::move(around)),
           robot(link),
-          handler(std::move(eventHandler))
+          handler(std::move(eventHandler)),
+          watch(*config.site, link.robotID, surroundings.oddities)
     {
         VDA5050::MasterOptions options = MakeMasterOptions(config, robot);
         if (robot.armOrNone.has_value())
@@ -183,6 +190,7 @@ struct RobotHost::Impl
                 {
                     armTrace->OnLost();
                 }
+                watch.OnArmEvent(event);
                 Call([this, &event](Core::Now now, Planning::AdapterActions& out) {
                     armAdapterOrNull->OnArmEvent(event, now, out);
                 });
@@ -238,9 +246,35 @@ void RobotHost::OnLinkDown()
 
 void RobotHost::OnMqttMessage(const VDA5050::MqttMessage& message)
 {
+    if (!message.bRetained)
+    {
+        _impl->seenAt = _impl->surroundings.clock.GetNow().steady;
+    }
+    const VDA5050::MasterSession& session = _impl->adapter->GetSession();
+    const std::uint64_t statesBefore = session.GetStatistics().statesReceived;
     _impl->Call([this, &message](Core::Now now, Planning::AdapterActions& out) {
         _impl->adapter->OnMqttMessage(message, now, out);
     });
+    _impl->watch.OnStatistics(session.GetStatistics());
+    if (session.GetStatistics().statesReceived != statesBefore)
+    {
+        _impl->watch.OnState(*session.GetStateOrNull());
+    }
+    else if (session.GetLink() != VDA5050::EVehicleLink::Online)
+    {
+        _impl->watch.OnAway();
+    }
+}
+
+RobotHost::Figures RobotHost::GetFigures() const
+{
+    Figures figures{_impl->seenAt, _impl->adapter->GetSession().GetStatistics(), {}, false};
+    if (_impl->armClient != nullptr)
+    {
+        figures.arm = _impl->armClient->GetStats();
+        figures.bArmReady = _impl->armClient->GetState() == OpenStream::EClientState::Ready;
+    }
+    return figures;
 }
 
 const std::string& RobotHost::GetRobotID() const noexcept

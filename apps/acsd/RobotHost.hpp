@@ -2,17 +2,21 @@
 
 #include "AcsdConfig.hpp"
 #include "MessageTrace.hpp"
+#include "OddityLog.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
+#include <acs/openstream/ClientSessionActions.hpp>
 #include <acs/plan/RobotCommand.hpp>
 #include <acs/plan/RobotEvent.hpp>
 #include <acs/vda5050/IMqttLink.hpp>
+#include <acs/vda5050/MasterSession.hpp>
 
 #include <boost/asio/any_io_executor.hpp>
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace ACS::Acsd
@@ -29,6 +33,15 @@ public:
     /// Called from within the host's calls and from its timers; may call Handle.
     using EventHandler = std::function<void(const std::string& robotID, const Planning::RobotEvent& event)>;
 
+    /// What is known of the links of this robot.
+    struct Figures
+    {
+        std::optional<Core::SteadyTime> seenAt; ///< When the vehicle said anything last.
+        VDA5050::MasterStatistics vehicle;
+        std::optional<OpenStream::ClientSessionStats> arm; ///< Once its client has been started.
+        bool bArmReady = false;
+    };
+
     /// What a host needs from the program; everything outlives it.
     struct Surroundings
     {
@@ -37,6 +50,7 @@ public:
         Core::IRandom& random;
         VDA5050::IMqttLink& mqtt;
         Core::Logger logger;
+        OddityLog& oddities;
         MessageTrace* traceOrNull = nullptr;
     };
 
@@ -57,6 +71,7 @@ public:
     void OnMqttMessage(const VDA5050::MqttMessage& message);
 
     [[nodiscard]] const std::string& GetRobotID() const noexcept;
+    [[nodiscard]] Figures GetFigures() const;
 };
 
 } // namespace ACS::Acsd

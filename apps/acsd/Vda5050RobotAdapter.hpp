@@ -89,7 +89,7 @@ public:
     void OnLinkDown(Core::Now now, Planning::AdapterActions& out) override;
     void OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, Planning::AdapterActions& out) override;
 
-    [[nodiscard]] const VDA5050::MasterSession& GetSession() const noexcept;
+    [[nodiscard]] const VDA5050::MasterSession& GetSession() const noexcept override;
 };
 
 } // namespace ACS::Acsd

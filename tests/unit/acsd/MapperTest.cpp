@@ -1,6 +1,7 @@
 #include "Catch.hpp"
 #include "PlanMapper.hpp"
 #include "ReportMapper.hpp"
+#include <acs/protocol/AcsCodec.hpp>
 
 #include <chrono>
 #include <numbers>
@@ -104,6 +105,45 @@ TEST_CASE("5.7 The outcome of each control command has its own report, with Fail
         == Protocol::EReportResult::Success);
     CHECK(std::get<Protocol::PauseResultReport>(make(Planning::EPlanControl::Pause, true)).planID == "P");
     CHECK(std::get<Protocol::ResumeResultReport>(make(Planning::EPlanControl::Resume, true)).message == "m");
+}
+
+TEST_CASE("11 What the document leaves open is written as the configuration says")
+{
+    MessageStyle style;
+    style.bResultFailureIsFail = true;
+    style.bEmptyCarriersOmitted = true;
+    style.bUnassignedRobotEmpty = true;
+    style.errors["ACS-1002"] = {"E77", Planning::EAlarmLevel::Light, std::nullopt};
+
+    const auto make = [&style](bool bSucceeded) {
+        const Planning::ControlResultReport report{Planning::EPlanControl::Cancel, "P", bSucceeded, "m"};
+        const Protocol::AcsRequest request = MakeReportRequest({1, "T", {}, report}, 0min, style);
+        std::string text;
+        Protocol::AcsCodec::EncodeRequest(request, text);
+        return text;
+    };
+    CHECK(make(false).find(R"("result":"Fail",)") != std::string::npos);
+    CHECK(make(true).find(R"("result":"Success",)") != std::string::npos);
+
+    Planning::RobotStatus status;
+    status.carrierIDs = {std::nullopt, "TRAY_02"};
+    CHECK(MakeStatusUpdate(status).carrierIDs.size() == 2);
+    CHECK(MakeStatusUpdate(status, style).carrierIDs == std::vector<std::optional<std::string>>{"TRAY_02"});
+
+    Planning::PlanSummary summary;
+    CHECK_FALSE(MakePlanEntry(summary, 0min).robotID.has_value());
+    CHECK(MakePlanEntry(summary, 0min, style).robotID == std::string());
+    summary.robotID = "LR01";
+    CHECK(MakePlanEntry(summary, 0min, style).robotID == "LR01");
+
+    Planning::Alarm alarm;
+    alarm.errorCode = "ACS-1002";
+    CHECK(MakeErrorReport(alarm, true).errorCode == "ACS-1002");
+    for (const bool bSet : {true, false}) // cleared under the name that it was set with
+    {
+        CHECK(MakeErrorReport(alarm, bSet, style).errorCode == "E77");
+        CHECK(MakeErrorReport(alarm, bSet, style).level == Protocol::EErrorLevel::Light);
+    }
 }
 
 TEST_CASE("5.10 Positions are metres, degrees from 0 to below 360, and a whole battery percentage")

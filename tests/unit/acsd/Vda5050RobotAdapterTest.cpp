@@ -309,6 +309,37 @@ TEST_CASE("A job whose jobId an earlier plan had is another order: the vehicle w
     CHECK(vehicle.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
 }
 
+TEST_CASE("A job whose action ends, runs again and fails after its end is done once: its first end holds")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.Command(MakeJob("CassetteLoad"));
+    vehicle.ShowOrder(vehicle.TakeOrders().at(0), {});
+    using E = VDA5050::EActionStatus;
+    for (const E status : {E::Finished, E::Running, E::Finished, E::Failed, E::Waiting})
+    {
+        vehicle.state.actionStates = {{"U1", "pick", "", status, ""}};
+        vehicle.ShowState();
+    }
+    CHECK(vehicle.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
+    CHECK(vehicle.TakeEvents<Planning::JobFailed>().empty());
+}
+
+TEST_CASE("Ids that nobody gave the vehicle change nothing: actions, nodes behind the route, orders that are over")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.Command(MakeJob("CassetteLoad"));
+    const auto orders = vehicle.TakeOrders();
+    vehicle.ShowOrder(orders.at(0), {});
+    vehicle.state.lastNodeID = "nowhere";
+    vehicle.state.actionStates = {{"X9", "pick", "", VDA5050::EActionStatus::Finished, ""}};
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::JobFinished>().empty());
+    CHECK(vehicle.TakeEvents<Planning::NodePassed>().empty());
+    CHECK(vehicle.TakeEvents<Planning::Arrived>().empty());
+}
+
 TEST_CASE("An order of before a restart is cancelled once, and the robot is occupied until it is gone")
 {
     VehicleFixture vehicle;

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "OddityLog.hpp"
+#include <acs/core/Now.hpp>
+#include <acs/openstream/ClientSessionActions.hpp>
+#include <acs/plan/SiteMap.hpp>
+#include <acs/vda5050/MasterSession.hpp>
+#include <acs/vda5050/StateMessage.hpp>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace ACS::Acsd
+{
+
+/// Looks at what one robot says for what cannot be, beside the sessions and the engine, which survive it anyway: nothing is
+/// decided here. Pure.
+class VehicleWatch final
+{
+    struct Shown
+    {
+        std::string orderID;
+        std::uint32_t orderUpdateID = 0;
+        std::uint32_t lastNodeSequenceID = 0;
+        std::map<std::string, VDA5050::EActionStatus> actions;
+    };
+
+    const Planning::SiteMap& _site;
+    std::string _robotID;
+    OddityLog& _oddities;
+    std::optional<Shown> _shown;
+    VDA5050::MasterStatistics _statistics; ///< As they were at the last look.
+    double _left = 0;                      ///< The rectangle around the site's nodes, metres.
+    double _right = 0;
+    double _bottom = 0;
+    double _top = 0;
+
+    void LookAtPlace(const VDA5050::StateMessage& state);
+    void LookAtOrder(const VDA5050::StateMessage& state);
+    void LookAtActions(const VDA5050::StateMessage& state);
+    void Note(std::string_view kind, std::string_view detail);
+
+public:
+    /// How far outside the rectangle around all nodes a vehicle may be, in metres.
+    static constexpr double MARGIN = 5.0;
+
+    /// Site and log outlive it.
+    VehicleWatch(const Planning::SiteMap& site, std::string robotID, OddityLog& oddities);
+
+    /// A state that the session took as new.
+    void OnState(const VDA5050::StateMessage& state);
+
+    /// The vehicle's numbers may begin anew (it was away).
+    void OnAway();
+
+    /// What the session threw away since the last look.
+    void OnStatistics(const VDA5050::MasterStatistics& statistics);
+
+    void OnArmEvent(const OpenStream::ClientEvent& event);
+};
+
+} // namespace ACS::Acsd

@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""How acsd is operated: signals, the message trace, figures. docs/operations.md says what is shown here."""
+
+import json
+import signal
+import time
+import urllib.request
+
+from mcs_stub import McsStub
+from plan_samples import make_carrying_plan
+from scenario_case import SITE, ScenarioCase, main
+
+DRAIN_SECONDS = 8
+LOG_SECONDS = 20
+
+
+class Operations(ScenarioCase):
+    def start_stub(self):
+        stub = McsStub()
+        self.addCleanup(stub.close)
+        return stub
+
+    def write_config(self, *changes):
+        text = (SITE / "acsd.toml").read_text().replace('map = "site.lif.json"', f'map = "{SITE / "site.lif.json"}"')
+        for old, new in changes:
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        path = self.line.folder / "acsd.toml"
+        path.write_text(text)
+        return path
+
+    def wait_for_log(self, program, part):
+        deadline = time.monotonic() + LOG_SECONDS
+        while part not in program.log.read_text(errors="replace"):
+            self.assertLess(time.monotonic(), deadline, f"{part!r} was not logged")
+            time.sleep(0.02)
+
+    def submit(self, stub, plan_id):
+        return stub.ask("ExecutionPlan", make_carrying_plan(plan_id))
+
+    def test_sighup_takes_what_may_change_and_tells_the_rest(self):
+        stub = self.start_stub()
+        acsd = self.line.start_acsd(stub.address, self.start_robots(), config=self.write_config())
+        acsd.wait_ready()
+
+        self.write_config(('grace = "10s"', 'grace = "9s"'), ('ack_timeout = "5s"', 'ack_timeout = "6s"'))
+        acsd.send_signal(signal.SIGHUP)
+        self.wait_for_log(acsd, "taken key=comm.grace")
+        self.wait_for_log(acsd, "needs a restart of acsd key=mcs.ack_timeout")
+
+        self.write_config(('grace = "10s"', 'grace = "soon"'), ("max_plans = 100", "max_plans = 0"))
+        acsd.send_signal(signal.SIGHUP)
+        self.wait_for_log(acsd, "all stays as it was")
+        log = acsd.log.read_text()
+        for key in ("comm.grace", "queue.max_plans"):
+            self.assertRegex(log, rf"not taken mistake=.*acsd\.toml:\d+: {key}: ")
+        self.assertTrue(acsd.is_running())
+        self.assertEqual(self.submit(stub, "P1")["result"], "Success")
+
+    def test_sigterm_brings_all_reports_to_the_mcs_and_takes_no_more_plans(self):
+        stub = self.start_stub()
+        acsd = self.line.start_acsd(stub.address, self.start_robots(), "mcs.ack_timeout=200ms", "mcs.ack_retries=100",
+                                    f"shutdown.drain_timeout={DRAIN_SECONDS}s")
+        acsd.wait_ready()
+        stub.wait_for("RobotStatusUpdate", lambda message: message.payload["robotStatus"] == "Idle")
+        stub.unacknowledged = ("PlanReport",)
+        self.assertEqual(self.submit(stub, "P1")["result"], "Success")
+        _, held_back = stub.wait_for("PlanReport")
+        start = stub.count()
+        begun = time.monotonic()
+        acsd.send_signal(signal.SIGTERM)
+        stub.wait_for("AcsCommStateUpdate", lambda message: message.payload["isConnected"] is False, start)
+        refusal = self.submit(stub, "P2")
+        self.assertEqual((refusal["result"], refusal["message"]), ("Fail", "acsd draining for shutdown"))
+        self.assertTrue(acsd.is_running())
+        stub.unacknowledged = ()
+        self.assertEqual(acsd.wait(DRAIN_SECONDS), 0)
+        self.assertLess(time.monotonic() - begun, DRAIN_SECONDS)
+        acsd.stop()  # closes its log
+        self.line.forget(acsd)
+
+        # What the MCS has acknowledged is stored as such, and not told again.
+        start = stub.count()
+        again = self.line.start_acsd(stub.address, {"stream": "127.0.0.1:1", "http": "127.0.0.1:1"})
+        again.wait_ready()
+        index, _ = stub.wait_for("TscStateUpdate", start=start)
+        replayed = {message.body["transactionId"] for message in stub.get(start, index)
+                    if message.command.endswith("Report")}
+        self.assertNotIn(held_back.body["transactionId"], replayed)
+
+    def test_trace_has_every_message_of_every_link(self):
+        stub = self.start_stub()
+        folder = self.line.folder / "trace"
+        acsd = self.line.start_acsd(stub.address, self.start_robots(), arguments=("--trace", folder))
+        http = acsd.wait_ready()["http"]
+        stub.wait_for("RobotStatusUpdate", lambda message: message.payload["robotStatus"] == "Idle"
+                      and message.payload["robotId"] == "LR01")
+        self.assertEqual(self.submit(stub, "P1")["result"], "Success")
+        stub.wait_for("PlanReport", lambda message: message.payload["status"] == "Completed")
+        with urllib.request.urlopen(f"http://{http}/metrics", timeout=10) as response:
+            metrics = response.read().decode()
+        self.line.forget(acsd)
+        self.assertEqual(acsd.stop(), 0)
+
+        lines = [json.loads(line) for file in sorted(folder.iterdir()) for line in file.read_text().splitlines()]
+        self.assertEqual([line["mono_us"] for line in lines], sorted(line["mono_us"] for line in lines))
+        to_mcs = [json.loads(line["text"])["command"] for line in lines
+                  if line["link"] == "mcs" and line["direction"] == "out"]
+        self.assertEqual(to_mcs, [message.command for message in stub.get()])
+        self.assertTrue(any(line["link"] == "mcs" and line["direction"] == "in" and "P1" in line["text"]
+                            for line in lines))
+        for direction, topic in (("in", "uagv/v2/ACS/LR01/state"), ("out", "uagv/v2/ACS/LR01/order")):
+            self.assertTrue(any(line.get("topic") == topic and line["direction"] == direction
+                                and line["robot"] == "LR01" and json.loads(line["text"]) for line in lines), topic)
+        for direction in ("in", "out"):
+            self.assertTrue(any(line["link"] == "arm" and line["direction"] == direction and line["robot"] == "CR01"
+                                and json.loads(line["text"]) for line in lines))
+        self.assertFalse([line for line in lines if line["link"] == "trace"])
+
+        for figure in ('acsd_mcs_registered 1', 'acsd_mcs_connected 1', 'acsd_link_up{link="mqtt"} 1',
+                       'acsd_plans{status="InProgress"} 0', 'acsd_robot_state{robot="LR01",state="Idle"} ',
+                       'acsd_robot_battery{robot="LR01"} ', 'acsd_robot_last_seen_seconds{robot="CR01"} ',
+                       'acsd_plan_duration_seconds_count{status="Completed"} 1',
+                       'acsd_job_duration_seconds_count{action="CassetteLoad"} 1', 'acsd_arm_up{robot="CR01"} 1',
+                       'acsd_mcs_ack_wait_seconds_count', 'acsd_store_commit_seconds_count',
+                       'acsd_alarms_active{level="heavy"}', 'acsd_outbox_oldest_seconds',
+                       'acsd_position_ticks_missed_total', 'acsd_trace_lost_total 0'):
+            self.assertIn(figure, metrics)
+        self.assertNotIn("acsd_robot_oddities_total{", metrics)
+
+
+if __name__ == "__main__":
+    main()

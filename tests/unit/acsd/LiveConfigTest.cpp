@@ -1,0 +1,70 @@
+#include "LiveConfig.hpp"
+
+#include "Catch.hpp"
+#include "RecordingLogSink.hpp"
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace ACS::Acsd::Test
+{
+
+namespace
+{
+
+AcsdConfig Read(const std::vector<std::string>& overrides)
+{
+    AcsdConfig config = ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", overrides);
+    REQUIRE(config.mistakes == std::vector<std::string>{});
+    return config;
+}
+
+} // namespace
+
+TEST_CASE("A second reading says per key what holds from now on and what needs a restart")
+{
+    const ConfigChange change = CompareConfigs(
+        {{"log.level", "\"info\""}, {"comm.grace", "\"1s\""}, {"mcs.url", "\"ws://a\""}, {"store.path", "\"a\""}},
+        {{"log.level", "\"debug\""}, {"mcs.url", "\"ws://b\""}, {"store.path", "\"a\""}, {"queue.max_plans", "7"}});
+    CHECK(change.taken == std::vector<std::string>{"comm.grace", "log.level"});
+    CHECK(change.waiting == std::vector<std::string>{"mcs.url", "queue.max_plans"});
+}
+
+TEST_CASE("Taking a second reading changes the live keys and nothing else")
+{
+    AcsdConfig present = Read({});
+    const AcsdConfig before = present;
+    const AcsdConfig fresh = Read(
+        {"log.level=debug",
+         "comm.grace=1s",
+         "robot.status_interval=2s",
+         "shutdown.drain_timeout=1s",
+         "trace.max_files=3",
+         "mcs.tx_max_bytes=4096",
+         "mcs.ack_timeout=1s",
+         "queue.max_plans=7"});
+    Testing::RecordingLogSink sink;
+    LogChange(present, fresh, Core::Logger(sink, "config"));
+    CHECK(sink.ContainsField("key", "log.level"));
+    CHECK(sink.ContainsField("value", "\"debug\""));
+    CHECK(sink.Contains(Core::ELogLevel::Warning, "needs a restart"));
+    CHECK(sink.CountLevel(Core::ELogLevel::Warning) == 2);
+
+    TakeLiveKeys(fresh, present);
+    CHECK(present.operations.logLevel == Core::ELogLevel::Debug);
+    CHECK(present.operations.workGrace == std::chrono::seconds(1));
+    CHECK(present.operations.statusInterval == std::chrono::seconds(2));
+    CHECK(present.operations.drainTimeout == std::chrono::seconds(1));
+    CHECK(present.operations.trace.maxFiles == 3);
+    CHECK(present.mcs.style.longestText == 4096);
+    CHECK(present.mcs.session.ackTimeout == before.mcs.session.ackTimeout);
+    CHECK(present.engine.maximumPlans == before.engine.maximumPlans);
+
+    // What was taken is no news any more; what needs a restart is told again.
+    const ConfigChange next = CompareConfigs(present.values, fresh.values);
+    CHECK(next.taken.empty());
+    CHECK(next.waiting == std::vector<std::string>{"mcs.ack_timeout", "queue.max_plans"});
+}
+
+} // namespace ACS::Acsd::Test
