@@ -64,7 +64,7 @@ public:
                     out.emplace_back(StartAdapterTimer{JOB_TIMER, std::chrono::seconds(2)});
                 },
                 [](const auto& /*other*/) {
-                }}, // A real one cancels and pauses, too.
+                }}, // A real one cancels and pauses, too, and tells after a restart what it holds (RecoverJob).
             command);
     }
 

@@ -116,10 +116,17 @@ int main()
     }
     PlanEngine engine(*options, *site, random);
     EngineActions actions;
-    // Nobody saw what became of the running job, so the plan is Failed with an alarm; a pending one would go on.
+    // The plan is still its robot's. A job would be asked for (RecoverJob); here it was driving, and begins to anew as soon
+    // as it has told where it stands.
     engine.Restore(std::move(*stored), {}, actions);
     Execute(engine, store, actions, {});
     PrintPlan(engine);
+    fmt::print("the robot comes into reach\n");
+    engine.Handle(ExampleFloor::ROBOT, LinkChanged{true}, {}, actions);
+    StateChanged state;
+    state.lastNodeID = "N-HOME";
+    engine.Handle(ExampleFloor::ROBOT, state, {}, actions);
+    Execute(engine, store, actions, {});
     const std::optional<PlanSummary> planOrNull = engine.GetPlanOrNull("PLAN-1");
-    return planOrNull.has_value() && planOrNull->state == EPlanState::Failed ? 0 : 1;
+    return planOrNull.has_value() && planOrNull->state == EPlanState::InProgress ? 0 : 1;
 }

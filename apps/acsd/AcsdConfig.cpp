@@ -241,6 +241,8 @@ void ReadQueue(const ConfigSection& root, Planning::EngineOptions& engine)
     engine.finishedPlansKept = static_cast<std::size_t>(
         history.GetInteger("keep", 0, MOST_PLANS, static_cast<std::int64_t>(engine.finishedPlansKept)));
 
+    engine.restartWait = root.GetSection("restart").GetDuration("wait", 0ms, 1h, engine.restartWait);
+
     const ConfigSection tsc = root.GetSection("tsc");
     engine.bTscStartsPaused = tsc.GetWord("initial", {"auto", "paused"}, "auto") == "paused";
     engine.bTscPausedAcceptsPlans = tsc.IsEnabled("paused_accepts_plans", engine.bTscPausedAcceptsPlans);

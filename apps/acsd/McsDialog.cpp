@@ -172,7 +172,8 @@ void McsDialog::TellTsc(Planning::ETscState state)
 void McsDialog::TakeRequest(const Protocol::AcsRequest& request)
 {
     const Planning::ReplyToken token = ++_lastToken;
-    std::optional<Planning::PlanCommand> commandOrNull = MakePlanCommandOrNull(request.payload, token);
+    std::optional<Planning::PlanCommand> commandOrNull =
+        MakePlanCommandOrNull(request.payload, request.transactionID, token);
     if (!commandOrNull.has_value())
     {
         AnswerQuery(request);

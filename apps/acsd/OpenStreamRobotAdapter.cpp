@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <chrono>
 #include <tuple>
 #include <utility>
@@ -63,6 +65,12 @@ bool HasFallen(std::int64_t before, std::int64_t after)
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(after) - static_cast<std::uint32_t>(before)) < 0;
 }
 
+/// So often was the counter raised; it wraps around.
+std::int64_t CountSteps(std::int64_t before, std::int64_t after)
+{
+    return static_cast<std::uint32_t>(after) - static_cast<std::uint32_t>(before);
+}
+
 template <typename T>
 std::optional<T> ReadOrNull(const Core::JsonText& text)
 {
@@ -87,6 +95,24 @@ OpenStream::MonitorRequest MakeMonitor(std::string url, std::chrono::millisecond
 
 } // namespace
 
+/// The three numbers of MakeMark.
+std::optional<OpenStreamRobotAdapter::Counters> OpenStreamRobotAdapter::ReadMarkOrNull(std::string_view mark)
+{
+    std::array<std::int64_t, 3> numbers{};
+    const char* begin = mark.data();
+    const char* const end = begin + mark.size();
+    for (std::int64_t& number : numbers)
+    {
+        const auto [rest, error] = std::from_chars(begin, end, number);
+        if (error != std::errc())
+        {
+            return std::nullopt;
+        }
+        begin = rest == end ? rest : rest + 1;
+    }
+    return begin == end ? std::optional(Counters{numbers[0], numbers[1], numbers[2]}) : std::nullopt;
+}
+
 OpenStreamRobotAdapter::OpenStreamRobotAdapter(
     VDA5050::MasterOptions base,
     ArmCounters counters,
@@ -102,10 +128,16 @@ OpenStreamRobotAdapter::OpenStreamRobotAdapter(
 void OpenStreamRobotAdapter::Handle(const Planning::RobotCommand& command, Core::Now now, AdapterActions& out)
 {
     const Planning::StartJob* jobOrNull = std::get_if<Planning::StartJob>(&command);
+    const Planning::RecoverJob* recoverOrNull = std::get_if<Planning::RecoverJob>(&command);
     const Planning::CancelJob* cancelOrNull = std::get_if<Planning::CancelJob>(&command);
     if (jobOrNull != nullptr)
     {
         StartJob(*jobOrNull, out);
+    }
+    else if (recoverOrNull != nullptr)
+    {
+        _recovery = recoverOrNull->job;
+        FindJob(out);
     }
     else if (cancelOrNull != nullptr)
     {
@@ -223,10 +255,21 @@ void OpenStreamRobotAdapter::TellPaused(AdapterActions& out)
 {
     if (_bBaseStateKnown && std::exchange(_bPaused, IsPaused()) != IsPaused())
     {
-        Planning::StateChanged state = _baseState;
-        state.bPaused = _bPaused;
-        out.emplace_back(RaiseEvent{std::move(state)});
+        out.emplace_back(RaiseEvent{MakeState()});
     }
+}
+
+Planning::StateChanged OpenStreamRobotAdapter::MakeState() const
+{
+    Planning::StateChanged state = _baseState;
+    state.bPaused = _bPaused;
+    state.mark = MakeMark();
+    return state;
+}
+
+std::string OpenStreamRobotAdapter::MakeMark() const
+{
+    return _bCounted ? fmt::format("{} {} {}", _counters.started, _counters.finished, _counters.failed) : std::string();
 }
 
 void OpenStreamRobotAdapter::OnTimer(Planning::AdapterTimerID timer, Core::Now now, AdapterActions& out)
@@ -314,9 +357,18 @@ void OpenStreamRobotAdapter::WatchMotor(AdapterActions& out)
 
 void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, AdapterActions& out)
 {
+    _recovery.reset();
+    if (!job.mark.empty() && _armState == EArmState::Ready && job.mark != MakeMark())
+    {
+        // A program has run meanwhile: after a restart this one could not be told from it.
+        out.emplace_back(RaiseEvent{MakeState()});
+        out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});
+        return;
+    }
     _jobID = job.jobID;
     _bJobStarted = false;
     _bStartDoubtful = false;
+    _bRecovered = false;
     const std::optional<std::string> rejection = GetRejectionReasonOrNull(job.action);
     if (rejection.has_value())
     {
@@ -445,6 +497,11 @@ void OpenStreamRobotAdapter::TakeCounters(const Core::JsonText& result, AdapterA
         _counters,
         {(*words)[_options.startedIndex], (*words)[_options.finishedIndex], (*words)[_options.failedIndex]});
     const bool bFirst = _armState != EArmState::Ready;
+    const bool bNews = !std::exchange(_bCounted, true) || before != _counters;
+    if (bNews && _bBaseStateKnown)
+    {
+        out.emplace_back(RaiseEvent{MakeState()}); // with the new mark, before anybody begins a job on it
+    }
     SetArmState(EArmState::Ready, out);
     const bool bReset = HasFallen(before.started, _counters.started) || HasFallen(before.finished, _counters.finished)
         || HasFallen(before.failed, _counters.failed);
@@ -453,6 +510,7 @@ void OpenStreamRobotAdapter::TakeCounters(const Core::JsonText& result, AdapterA
         FailJob("the arm's controller was restarted while its program ran: its counters began again", out);
         return;
     }
+    FindJob(out);
     FollowJob(out);
     if (bFirst)
     {
@@ -464,11 +522,64 @@ void OpenStreamRobotAdapter::TakeCounters(const Core::JsonText& result, AdapterA
     }
 }
 
+void OpenStreamRobotAdapter::FindJob(AdapterActions& out)
+{
+    if (!_recovery.has_value() || _armState != EArmState::Ready)
+    {
+        return;
+    }
+    const Planning::StartJob job = *std::exchange(_recovery, std::nullopt);
+    const std::optional<Counters> markOrNull = ReadMarkOrNull(job.mark);
+    const auto tell = [&out, &job](const char* reason) {
+        out.emplace_back(RaiseEvent{Planning::JobUncertain{job.jobID, reason}});
+    };
+    if (!markOrNull.has_value())
+    {
+        tell("the arm's counters of before the job are not known");
+        return;
+    }
+    if (_counters == Counters{})
+    {
+        tell("all of the arm's counters are 0, as after a restart of its controller");
+        return;
+    }
+    const std::int64_t begun = CountSteps(markOrNull->started, _counters.started);
+    const std::int64_t ended =
+        CountSteps(markOrNull->finished, _counters.finished) + CountSteps(markOrNull->failed, _counters.failed);
+    const bool bFallen = HasFallen(markOrNull->started, _counters.started)
+        || HasFallen(markOrNull->finished, _counters.finished) || HasFallen(markOrNull->failed, _counters.failed);
+    if (bFallen || begun > 1 || ended > begun)
+    {
+        tell("the arm's counters have fallen, or more than this one program has run");
+        return;
+    }
+    _jobID = job.jobID;
+    _bJobStarted = false;
+    _counted = *markOrNull;
+    _phase = EJobPhase::Running;
+    if (begun == 0)
+    {
+        // It may be on its way still. Whoever has not raised its first counter by then was not started.
+        _bRecovered = true;
+        _bStartDoubtful = true;
+        out.emplace_back(Planning::StartAdapterTimer{START_TIMER, START_LIMIT});
+    }
+    FollowJob(out);
+    FollowPause(out);
+}
+
 /// A start that got lost on the way would leave the job running for ever.
 void OpenStreamRobotAdapter::CheckDoubtfulStart(AdapterActions& out)
 {
     if (_bStartDoubtful && !_bJobStarted && _phase == EJobPhase::Running && _armState == EArmState::Ready)
     {
+        if (std::exchange(_bRecovered, false))
+        {
+            EndJob();
+            out.emplace_back(RaiseEvent{Planning::JobUnknown{std::exchange(_jobID, {})}});
+            TellPaused(out);
+            return;
+        }
         FailJob("the connection to the arm broke while its program was being started, and it did not begin", out);
     }
 }
@@ -515,9 +626,7 @@ void OpenStreamRobotAdapter::DrainBase(AdapterActions& out)
             _baseState = *stateOrNull;
             _bBaseStateKnown = true;
             _bPaused = IsPaused();
-            Planning::StateChanged state = _baseState;
-            state.bPaused = _bPaused;
-            out.emplace_back(RaiseEvent{std::move(state)});
+            out.emplace_back(RaiseEvent{MakeState()});
         }
         else if (linkOrNull != nullptr)
         {

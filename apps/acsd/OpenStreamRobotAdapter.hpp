@@ -78,11 +78,19 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     bool _bPaused = false;             ///< As it was told last.
     Planning::StateChanged _baseState; ///< The latest that the base told.
     bool _bBaseStateKnown = false;
-    bool _bStartDoubtful = false; ///< The connection broke while the program was being started.
-    Counters _counters;           ///< The latest.
-    Counters _counted;            ///< Those of the moment when the job was commanded.
+    bool _bStartDoubtful = false;                ///< The connection broke while the program was being started.
+    std::optional<Planning::StartJob> _recovery; ///< A job of before a restart; the counters have not come yet.
+    bool _bRecovered = false;                    ///< The present job is such a one: its end may be that it never began.
+    bool _bCounted = false;                      ///< Counters have come.
+    Counters _counters;                          ///< The latest.
+    Counters _counted;                           ///< Those of the moment when the job was commanded.
 
     void StartJob(const Planning::StartJob& job, Planning::AdapterActions& out);
+    /// What the counters say of a job that was commanded before a restart.
+    void FindJob(Planning::AdapterActions& out);
+    [[nodiscard]] std::string MakeMark() const;
+    [[nodiscard]] static std::optional<Counters> ReadMarkOrNull(std::string_view mark);
+    [[nodiscard]] Planning::StateChanged MakeState() const;
     void FailJob(const std::string& reason, Planning::AdapterActions& out);
     void SendControl(EControl kind, std::string_view url, std::string body);
     void WatchMotor(Planning::AdapterActions& out);

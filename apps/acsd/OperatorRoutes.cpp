@@ -2,6 +2,7 @@
 
 #include <acs/json/JsonWriter.hpp>
 
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -46,6 +47,20 @@ void AddOperatorRoutes(Apps::HttpRoutes& routes, OperatorHandler handler)
         handler(Planning::ControlTsc{false, 0});
         return Accept("The TSC is told to resume; /status has its state.");
     });
+    for (const auto& [word, answer] :
+         {std::pair("done", Planning::EJobAnswer::Done),
+          std::pair("failed", Planning::EJobAnswer::Failed),
+          std::pair("again", Planning::EJobAnswer::Again)})
+    {
+        const Planning::EJobAnswer said = answer;
+        routes.Add(
+            "POST",
+            std::string("/plans/{PLAN}/jobs/{JOB}/") + word,
+            [handler, said](const HttpRequest&, const Captures& captures) {
+                handler(Planning::SettleJob{captures[0], captures[1], said, 0});
+                return Accept("The answer is taken; where the job was held, its alarm ACS-1008 is cleared in /status.");
+            });
+    }
 }
 
 } // namespace ACS::Acsd

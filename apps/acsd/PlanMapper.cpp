@@ -41,16 +41,17 @@ Planning::Plan MakePlan(const Protocol::ExecutionPlan& message)
 
 std::optional<Planning::PlanCommand> MakePlanCommandOrNull(
     const Protocol::AcsPayload& payload,
+    const std::string& transactionID,
     Planning::ReplyToken replyToken)
 {
     using Planning::EPlanControl;
-    const auto control = [replyToken](EPlanControl kind, const std::string& planID, std::string reason) {
-        return Planning::PlanCommand(Planning::ControlPlan{kind, planID, std::move(reason), replyToken});
+    const auto control = [&](EPlanControl kind, const std::string& planID, std::string reason) {
+        return Planning::PlanCommand(Planning::ControlPlan{kind, planID, std::move(reason), replyToken, transactionID});
     };
     return std::visit(
         Core::Overloaded{
             [&](const Protocol::ExecutionPlan& message) -> std::optional<Planning::PlanCommand> {
-                return Planning::SubmitPlan{MakePlan(message), replyToken};
+                return Planning::SubmitPlan{MakePlan(message), replyToken, transactionID};
             },
             [&](const Protocol::CancelPlan& message) -> std::optional<Planning::PlanCommand> {
                 return control(EPlanControl::Cancel, message.planID, message.reason);

@@ -4,6 +4,7 @@
 #include <acs/protocol/AcsMessage.hpp>
 
 #include <optional>
+#include <string>
 
 namespace ACS::Acsd
 {
@@ -12,6 +13,7 @@ namespace ACS::Acsd
 /// that are no command of the engine (queries).
 [[nodiscard]] std::optional<Planning::PlanCommand> MakePlanCommandOrNull(
     const Protocol::AcsPayload& payload,
+    const std::string& transactionID,
     Planning::ReplyToken replyToken);
 
 } // namespace ACS::Acsd

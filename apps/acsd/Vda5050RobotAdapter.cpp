@@ -92,6 +92,10 @@ void Vda5050RobotAdapter::Handle(const Planning::RobotCommand& command, Core::No
             },
             [&](const Planning::CancelDrive& cancel) { CancelOrder(cancel.driveID, now, out); },
             [&](const Planning::StartJob& job) { StartJob(job, now, out); },
+            [&](const Planning::RecoverJob& recover) {
+                _recovery = recover;
+                FindJob(now, out);
+            },
             [&](const Planning::CancelJob& cancel) {
                 if (cancel.jobID == _jobID)
                 {
@@ -200,8 +204,25 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
         out.emplace_back(RaiseEvent{Planning::JobFailed{job.jobID, "the vehicle does not tell on which node it is"}});
         return;
     }
+    _recovery.reset();
+    if (stateOrNull->orderID == job.commandID)
+    {
+        // It came to the vehicle late, and is there all the same.
+        TakeUp(job, MakeJobOrder(job), now, out);
+        return;
+    }
+    _jobID = job.jobID;
+    _jobOrderID = job.commandID;
+    _bJobStarted = false;
+    _pendingOrder = PendingOrder{MakeJobOrder(job)};
+    SendPendingOrder(now, out);
+}
+
+VDA5050::OrderMessage Vda5050RobotAdapter::MakeJobOrder(const Planning::StartJob& job) const
+{
     VDA5050::Action action;
-    action.actionType = _methods.find(job.action)->second.vehicleAction;
+    const auto method = _methods.find(job.action);
+    action.actionType = method == _methods.end() ? std::string() : method->second.vehicleAction;
     action.actionID = job.commandID;
     action.blockingType = VDA5050::EBlockingType::Hard;
     AddParameter(action, "stationName", job.position);
@@ -211,14 +232,72 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
     // Plans may name a job as one before did: a vehicle takes an orderId that it knows for a repetition.
     order.orderID = job.commandID;
     VDA5050::OrderNode& node = order.nodes.emplace_back();
-    node.nodeID = stateOrNull->lastNodeID;
+    node.nodeID = _session.GetStateOrNull()->lastNodeID;
     node.bReleased = true;
     node.actions.push_back(std::move(action));
+    return order;
+}
+
+void Vda5050RobotAdapter::FindJob(Core::Now now, AdapterActions& out)
+{
+    if (!_recovery.has_value() || !_session.IsReady())
+    {
+        return;
+    }
+    const Planning::RecoverJob recovery = *std::exchange(_recovery, std::nullopt);
+    const Planning::StartJob& job = recovery.job;
+    const VDA5050::StateMessage& state = *_session.GetStateOrNull();
+    const auto tell = [&out, &job](const std::string& reason) {
+        out.emplace_back(RaiseEvent{Planning::JobUncertain{job.jobID, reason}});
+    };
+    const bool bShown = std::ranges::count(state.actionStates, job.commandID, &VDA5050::ActionState::actionID) > 0;
+    if (bShown)
+    {
+        TakeUp(job, MakeJobOrder(job), now, out);
+    }
+    else if (state.orderID.empty())
+    {
+        tell("the vehicle shows no order, as after a restart of its own");
+    }
+    else if (state.orderID == recovery.previousID)
+    {
+        // Orders are taken one after the other: this one never came.
+        out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});
+    }
+    else
+    {
+        tell(fmt::format("the vehicle shows the order {} and nothing of this job", state.orderID));
+    }
+}
+
+void Vda5050RobotAdapter::TakeUp(
+    const Planning::StartJob& job,
+    VDA5050::OrderMessage order,
+    Core::Now now,
+    AdapterActions& out)
+{
+    const VDA5050::StateMessage& state = *_session.GetStateOrNull();
     _jobID = job.jobID;
     _jobOrderID = job.commandID;
     _bJobStarted = false;
-    _pendingOrder = PendingOrder{std::move(order)};
-    SendPendingOrder(now, out);
+    const auto shown = std::ranges::find(state.actionStates, job.commandID, &VDA5050::ActionState::actionID);
+    if (shown != state.actionStates.end())
+    {
+        TakeAction({shown->actionID, shown->actionType, shown->actionStatus, shown->resultDescription}, out);
+    }
+    if (_jobID.empty() || state.orderID != job.commandID)
+    {
+        return; // its end is told, or will be by the action's own state
+    }
+    VDA5050::OrderRecord record;
+    record.messages.push_back(std::move(order));
+    record.acceptedUpdateID = state.orderUpdateID;
+    const Core::Result<void> resumed = _session.ResumeOrder(std::move(record), now, _sessionActions);
+    if (!resumed)
+    {
+        _jobID.clear();
+        out.emplace_back(RaiseEvent{Planning::JobUncertain{job.jobID, Core::Describe(resumed.error())}});
+    }
 }
 
 void Vda5050RobotAdapter::CancelOrder(std::string_view id, Core::Now now, AdapterActions& out)
@@ -502,7 +581,16 @@ void Vda5050RobotAdapter::TakeState(Core::Now now, AdapterActions& out)
     {
         _state.errors.push_back(MakeError(error));
     }
+    FindJob(now, out); // before the state is judged: it may be our own job that keeps the vehicle busy
     _state.bOccupied = IsOccupied(state);
+    _state.heldNodeIDs.clear();
+    for (const VDA5050::NodeState& node : state.nodeStates)
+    {
+        if (_state.bOccupied && node.bReleased)
+        {
+            _state.heldNodeIDs.push_back(node.nodeID);
+        }
+    }
     SetOnline(_session.IsReady(), out);
     out.emplace_back(RaiseEvent{_state});
     if (_state.bOccupied)

@@ -41,6 +41,7 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
     std::string _jobOrderID; ///< What the vehicle knows the job by, as order and as action.
     bool _bJobStarted = false;
     std::optional<PendingOrder> _pendingOrder;
+    std::optional<Planning::RecoverJob> _recovery;    ///< Asked for, and the vehicle has not told its state yet.
     std::optional<VDA5050::OrderMessage> _lastUpdate; ///< Sent and not shown yet.
     std::optional<std::string> _lossReason;           ///< Why the present drive is given up; told when it is cancelled.
     bool _bPauseDone = false; ///< startPause was done and stopPause not, of a vehicle whose state does not say paused.
@@ -48,6 +49,16 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
 
     void StartDrive(const Planning::Drive& drive, Core::Now now, Planning::AdapterActions& out);
     void StartJob(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
+    [[nodiscard]] VDA5050::OrderMessage MakeJobOrder(const Planning::StartJob& job) const;
+
+    /// What the vehicle's state says of a job that was commanded before a restart.
+    void FindJob(Core::Now now, Planning::AdapterActions& out);
+    /// Goes on with the order of the job, which the vehicle shows, as if this adapter had sent it.
+    void TakeUp(
+        const Planning::StartJob& job,
+        VDA5050::OrderMessage order,
+        Core::Now now,
+        Planning::AdapterActions& out);
     void CancelOrder(std::string_view id, Core::Now now, Planning::AdapterActions& out);
     void SendInstantAction(std::string_view actionType, Core::Now now);
     void SendPendingOrder(Core::Now now, Planning::AdapterActions& out);

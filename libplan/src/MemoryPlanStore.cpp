@@ -43,6 +43,12 @@ void ApplyChange(StoredState& state, const StoreChange& change)
                 });
                 state.carriers.push_back(changed);
             },
+            [&state](const RobotWorkChanged& changed) {
+                std::erase_if(state.robotWorks, [&changed](const RobotWorkChanged& known) {
+                    return known.robotID == changed.robotID;
+                });
+                state.robotWorks.push_back(changed);
+            },
             [&state](const TscChanged& changed) { state.tscState = changed.state; },
             [&state](const AlarmSet& set) { state.alarms.push_back(set.alarm); },
             [&state](const AlarmCleared& cleared) {

@@ -59,12 +59,30 @@ PlanEngine::Impl::QueueKey PlanEngine::Impl::MakeQueueKey(const PlanRecord& reco
     return {acceptedAt.count() - priority * ageing, record.sequence};
 }
 
+/// Register D-23: the same request again, whose Ack may have been lost in a crash. The plan's steps are sorted.
+bool PlanEngine::Impl::IsRepetition(const Plan& plan, const std::string& transactionID) const
+{
+    const auto active = _plans.find(plan.planID);
+    const auto finished = _finished.find(plan.planID);
+    const PlanRecord* recordOrNull =
+        active != _plans.end() ? &active->second->record : (finished != _finished.end() ? &finished->second : nullptr);
+    return recordOrNull != nullptr && !transactionID.empty() && recordOrNull->transactionID == transactionID
+        && recordOrNull->plan == plan;
+}
+
 void PlanEngine::Impl::Submit(const SubmitPlan& command)
 {
+    constexpr const char* REGISTERED = "Plan registered successfully.";
     auto plan = std::make_unique<ActivePlan>();
     plan->record.plan = command.plan;
+    plan->record.transactionID = command.transactionID;
     SortSteps(plan->record.plan);
     _admission.SpellActions(plan->record.plan);
+    if (IsRepetition(plan->record.plan, command.transactionID))
+    {
+        _actions.emplace_back(ReplyCommand{command.replyToken, true, REGISTERED});
+        return;
+    }
     Core::Result<ResolvedPlan> resolved = Admit(plan->record.plan);
     if (!resolved.has_value())
     {
@@ -87,7 +105,7 @@ void PlanEngine::Impl::Submit(const SubmitPlan& command)
         _unreported.push_back(plan->record.plan.planID);
     }
     _changes.emplace_back(PlanAdded{plan->record});
-    _actions.emplace_back(ReplyCommand{command.replyToken, true, "Plan registered successfully."});
+    _actions.emplace_back(ReplyCommand{command.replyToken, true, REGISTERED});
     StartTimer(EEngineTimer::Dispatch, {}, {});
     _pending.emplace(plan->key, plan.get());
     const std::string planID = plan->record.plan.planID;

@@ -19,26 +19,56 @@ void PlanEngine::Impl::TellControlResult(
     TellReport(ControlResultReport{control, planID, bSucceeded, std::move(message)});
 }
 
+/// Register D-23: after a crash the Ack may have been lost, and not the control.
+bool PlanEngine::Impl::IsRepetition(const ControlPlan& command) const
+{
+    const auto active = _plans.find(command.planID);
+    const auto finished = _finished.find(command.planID);
+    const PlanProgress* progressOrNull = active != _plans.end()
+        ? &active->second->record.progress
+        : (finished != _finished.end() ? &finished->second.progress : nullptr);
+    return progressOrNull != nullptr && !command.transactionID.empty()
+        && std::ranges::count(progressOrNull->requestIDs, command.transactionID) > 0;
+}
+
+void PlanEngine::Impl::Remember(PlanProgress& progress, const ControlPlan& command)
+{
+    constexpr std::size_t MOST_REMEMBERED = 8;
+    if (command.transactionID.empty())
+    {
+        return;
+    }
+    if (progress.requestIDs.size() == MOST_REMEMBERED)
+    {
+        progress.requestIDs.erase(progress.requestIDs.begin());
+    }
+    progress.requestIDs.push_back(command.transactionID);
+    _progressed.insert(command.planID);
+}
+
 /// A control is open from here on until Answer.
 void PlanEngine::Impl::Ask(ActivePlan& plan, EPlanControl control)
 {
-    plan.control = control;
-    plan.controlCount = 1;
+    _progressed.insert(plan.record.plan.planID);
+    plan.record.progress.control = control;
+    plan.record.progress.controlCount = 1;
 }
 
 /// The outcome of the control that is open, if one is: once for each time that it was asked for.
 void PlanEngine::Impl::Answer(ActivePlan& plan, bool bSucceeded, const std::string& message)
 {
-    const std::optional<EPlanControl> control = std::exchange(plan.control, std::nullopt);
+    const std::optional<EPlanControl> control = std::exchange(plan.record.progress.control, std::nullopt);
     if (!control.has_value())
     {
         return;
     }
+    _progressed.insert(plan.record.plan.planID);
     if (plan.robot.has_value())
     {
+        _robots[*plan.robot].bStandAwaited = false;
         StopConfirming(_robots[*plan.robot]);
     }
-    for (std::size_t count = std::exchange(plan.controlCount, 0); count > 0; --count)
+    for (std::size_t count = std::exchange(plan.record.progress.controlCount, 0); count > 0; --count)
     {
         TellControlResult(*control, plan.record.plan.planID, bSucceeded, message);
     }
@@ -52,6 +82,10 @@ void PlanEngine::Impl::RefuseControl(const ControlPlan& command)
     const std::string reason = bKnown ? fmt::format("The plan is already {}.", GetText(finished->second.progress.state))
                                       : fmt::format("There is no plan {}.", command.planID);
     _actions.emplace_back(ReplyCommand{command.replyToken, bKnown, bKnown ? "Received." : reason});
+    if (bKnown)
+    {
+        Remember(finished->second.progress, command);
+    }
     if (bKnown || _options.controls.bResultAfterRefusal)
     {
         TellControlResult(command.control, command.planID, false, reason);
@@ -60,6 +94,11 @@ void PlanEngine::Impl::RefuseControl(const ControlPlan& command)
 
 void PlanEngine::Impl::Control(const ControlPlan& command)
 {
+    if (IsRepetition(command))
+    {
+        _actions.emplace_back(ReplyCommand{command.replyToken, true, "Received."});
+        return;
+    }
     const auto active = _plans.find(command.planID);
     if (active == _plans.end())
     {
@@ -68,20 +107,22 @@ void PlanEngine::Impl::Control(const ControlPlan& command)
     }
     _actions.emplace_back(ReplyCommand{command.replyToken, true, "Received."});
     ActivePlan& plan = *active->second;
-    if (plan.control == command.control)
+    Remember(plan.record.progress, command);
+    if (plan.record.progress.control == command.control)
     {
-        ++plan.controlCount;
+        ++plan.record.progress.controlCount;
+        _progressed.insert(command.planID);
         return;
     }
-    const bool bEnding = plan.control == EPlanControl::Abort
-        || (plan.control == EPlanControl::Cancel && command.control != EPlanControl::Abort);
+    const bool bEnding = plan.record.progress.control == EPlanControl::Abort
+        || (plan.record.progress.control == EPlanControl::Cancel && command.control != EPlanControl::Abort);
     if (bEnding)
     {
         TellControlResult(
             command.control,
             command.planID,
             false,
-            fmt::format("{}Plan of this plan is under way.", GetText(*plan.control)));
+            fmt::format("{}Plan of this plan is under way.", GetText(*plan.record.progress.control)));
         return;
     }
     switch (command.control)
@@ -115,7 +156,7 @@ bool PlanEngine::Impl::IsCancellable(const ActivePlan& plan) const
             return !plan.bJobBegun;
         case ECancelWindow::FirstArrival:
         default:
-            return !plan.bArrived;
+            return !plan.record.progress.bArrived;
     }
 }
 
@@ -145,6 +186,11 @@ void PlanEngine::Impl::Abort(ActivePlan& plan)
     }
     Robot& robot = _robots[*plan.robot];
     Ask(plan, EPlanControl::Abort);
+    if (robot.bUncertain)
+    {
+        AbortHeldJob(robot);
+        return;
+    }
     const bool bPaused = plan.record.progress.state == EPlanState::Paused;
     const bool bFinishes = bPaused ? _options.controls.bAbortFinishesPausedJob : !_options.controls.bAbortStopsJob;
     if (!bFinishes)
@@ -166,10 +212,17 @@ void PlanEngine::Impl::DropJob(Robot& robot)
     const ActivePlan& plan = *robot.planOrNull;
     robot.overdueJobID = GetJobID(plan);
     Command(robot, CancelJob{*robot.overdueJobID});
+    if (HasJob(plan) && plan.record.progress.steps[plan.step].jobs[plan.job] == EJobState::InProgress)
+    {
+        RaiseDropped(robot);
+    }
+}
+
+void PlanEngine::Impl::RaiseDropped(const Robot& robot)
+{
+    const ActivePlan& plan = *robot.planOrNull;
     const ActionRule& rule = *plan.resolved.steps[plan.step].rule;
-    const bool bMovesMaterial = rule.from != EPlaceRule::None || rule.to != EPlaceRule::None;
-    if (!bMovesMaterial || !HasJob(plan)
-        || plan.record.progress.steps[plan.step].jobs[plan.job] != EJobState::InProgress)
+    if (rule.from == EPlaceRule::None && rule.to == EPlaceRule::None)
     {
         return;
     }
@@ -213,7 +266,7 @@ void PlanEngine::Impl::EndByControl(ActivePlan& plan, EPlanControl control)
 void PlanEngine::Impl::Pause(ActivePlan& plan)
 {
     const bool bPaused = plan.record.progress.state == EPlanState::Paused;
-    if (bPaused && !plan.control.has_value())
+    if (bPaused && !plan.record.progress.control.has_value())
     {
         TellControlResult(EPlanControl::Pause, plan.record.plan.planID, true, "The plan is paused already.");
         return;
@@ -303,7 +356,8 @@ void PlanEngine::Impl::FollowPause(Robot& robot, bool bFirst, bool bWasPaused)
         Note(robot, "is told once more to pause");
         Command(robot, Planning::Pause{});
     }
-    const std::optional<EPlanControl> control = robot.planOrNull == nullptr ? std::nullopt : robot.planOrNull->control;
+    const std::optional<EPlanControl> control =
+        robot.planOrNull == nullptr ? std::nullopt : robot.planOrNull->record.progress.control;
     if (control == EPlanControl::Pause && robot.bPauseWanted && state.bPaused && !state.bDriving)
     {
         ConfirmPause(robot);
@@ -389,7 +443,8 @@ bool PlanEngine::Impl::IsHeld(const Robot& robot)
 {
     const ActivePlan* planOrNull = robot.planOrNull;
     return planOrNull != nullptr
-        && (planOrNull->record.progress.state == EPlanState::Paused || planOrNull->control == EPlanControl::Pause);
+        && (planOrNull->record.progress.state == EPlanState::Paused
+            || planOrNull->record.progress.control == EPlanControl::Pause);
 }
 
 void PlanEngine::Impl::StartConfirming(Robot& robot, Core::Duration limit)
@@ -424,12 +479,12 @@ void PlanEngine::Impl::StopJobTimer(Robot& robot)
 /// The robot has not shown in time that it stopped, or that it goes on: what was asked for came to nothing.
 void PlanEngine::Impl::OnControlTimeout(Robot& robot)
 {
-    if (robot.planOrNull == nullptr || !robot.planOrNull->control.has_value())
+    if (robot.planOrNull == nullptr || !robot.planOrNull->record.progress.control.has_value())
     {
         return;
     }
     ActivePlan& plan = *robot.planOrNull;
-    const EPlanControl control = *plan.control;
+    const EPlanControl control = *plan.record.progress.control;
     if (robot.drive.has_value())
     {
         robot.drive->bCancelling = false;

@@ -55,8 +55,9 @@ void PlanEngine::Impl::HandleCommand(const PlanCommand& command, Core::Now now, 
             [this](const SubmitPlan& submit) { Submit(submit); },
             [this](const ControlPlan& control) { Control(control); },
             [this](const MessageAcknowledged& acknowledged) { Acknowledge(acknowledged); },
-            [this](const ControlTsc& control) {
-                SwitchTsc(control);
+            [this](const ControlTsc& control) { SwitchTsc(control); },
+            [this](const SettleJob& settle) {
+                Settle(settle);
             }},
         command);
     End(out);
@@ -79,6 +80,7 @@ void PlanEngine::Impl::HandleEvent(std::string_view robotID, const RobotEvent& e
     Begin(now);
     Robot& robot = _robots[found->second];
     robot.bTouched = true;
+    robot.bWorkTouched = true;
     std::visit(
         Core::Overloaded{
             [this, &robot](const LinkChanged& typed) { OnLink(robot, typed); },
@@ -89,8 +91,10 @@ void PlanEngine::Impl::HandleEvent(std::string_view robotID, const RobotEvent& e
             [this, &robot](const DriveCancelled& typed) { OnDriveCancelled(robot, typed); },
             [this, &robot](const JobStarted& typed) { OnJobStarted(robot, typed); },
             [this, &robot](const JobFinished& typed) { OnJobFinished(robot, typed); },
-            [this, &robot](const JobFailed& typed) {
-                OnJobFailed(robot, typed);
+            [this, &robot](const JobFailed& typed) { OnJobFailed(robot, typed); },
+            [this, &robot](const JobUnknown& typed) { OnJobUnknown(robot, typed); },
+            [this, &robot](const JobUncertain& typed) {
+                OnJobUncertain(robot, typed);
             }},
         event);
     End(out);
@@ -138,6 +142,9 @@ void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineAc
                 _bDispatchNeeded = true;
             }
             break;
+        case EEngineTimer::Gathering:
+            EndGathering();
+            break;
         default:
             assert(false && "a timer has no case");
             break;
@@ -156,12 +163,14 @@ void PlanEngine::Impl::Begin(Core::Now now)
 /// One batch for the whole call, then everything that waits for it.
 void PlanEngine::Impl::End(EngineActions& out)
 {
-    if (_bDispatchNeeded)
+    FollowGathering();
+    if (_bDispatchNeeded && !_bGathering)
     {
         Dispatch();
     }
     FinishTscPause();
     TellStatusChanges();
+    CollectWork();
     std::vector<StoreChange> changes = std::exchange(_unsaved, {});
     for (const std::string& planID : _progressed)
     {
@@ -192,6 +201,30 @@ void PlanEngine::Impl::End(EngineActions& out)
     _held.clear();
     std::ranges::move(_actions, std::back_inserter(out));
     _actions.clear();
+}
+
+/// What robots were told in this call is stored before they are told.
+void PlanEngine::Impl::CollectWork()
+{
+    for (Robot& robot : _robots)
+    {
+        if (!std::exchange(robot.bWorkTouched, false))
+        {
+            continue;
+        }
+        RobotWorkChanged work{
+            GetRobotID(robot),
+            robot.commandID,
+            robot.previousID,
+            robot.job,
+            robot.bPauseWanted || robot.bResumeOwed};
+        const bool bNothing = robot.storedWork.robotID.empty() && work.commandID.empty() && !work.bPauseAsked;
+        if (!bNothing && work != robot.storedWork)
+        {
+            robot.storedWork = work;
+            _changes.emplace_back(std::move(work));
+        }
+    }
 }
 
 void PlanEngine::Impl::TellReport(Report report)
@@ -237,8 +270,9 @@ void PlanEngine::Impl::CancelTimer(EEngineTimer kind, const std::string& robotID
     _actions.emplace_back(CancelEngineTimer{{kind, robotID}});
 }
 
-void PlanEngine::Impl::Command(const Robot& robot, RobotCommand command)
+void PlanEngine::Impl::Command(Robot& robot, RobotCommand command)
 {
+    robot.bWorkTouched = true;
     _actions.emplace_back(CommandRobot{GetRobotID(robot), std::move(command)});
 }
 
@@ -385,7 +419,7 @@ ERobotStatus PlanEngine::Impl::DeriveStatus(const Robot& robot)
     }
     const ActivePlan* planOrNull = robot.planOrNull;
     const bool bPlanPaused = planOrNull != nullptr && planOrNull->record.progress.state == EPlanState::Paused
-        && planOrNull->control.value_or(EPlanControl::Pause) == EPlanControl::Pause;
+        && planOrNull->record.progress.control.value_or(EPlanControl::Pause) == EPlanControl::Pause;
     if (state.bPaused || bPlanPaused)
     {
         return ERobotStatus::Stopped;
@@ -444,7 +478,7 @@ bool PlanEngine::Impl::IsUsable(const Robot& robot)
     const bool bFatal =
         std::ranges::any_of(state.errors, [](const RobotError& error) { return error.level == EAlarmLevel::Heavy; });
     return !bFatal && !state.bSafetyStop && !state.bPaused && !state.bOccupied && state.bAutomatic
-        && !robot.overdueJobID.has_value() && !IsHeld(robot);
+        && !robot.bStandAwaited && !robot.overdueJobID.has_value() && !IsHeld(robot);
 }
 
 const std::string& PlanEngine::Impl::GetRobotID(const Robot& robot) const

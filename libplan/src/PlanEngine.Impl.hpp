@@ -28,6 +28,7 @@ inline constexpr std::string_view ALARM_PORT = "ACS-1004";
 inline constexpr std::string_view ALARM_STORE = "ACS-1005";
 inline constexpr std::string_view ALARM_HOME = "ACS-1006";
 inline constexpr std::string_view ALARM_DROPPED = "ACS-1007";
+inline constexpr std::string_view ALARM_UNCERTAIN = "ACS-1008";
 /// What alarms of the engine begin with; others are errors that robots told.
 inline constexpr std::string_view ALARM_PREFIX = "ACS-";
 /// The robotID of alarms about the engine itself.
@@ -58,13 +59,11 @@ public:
         std::size_t job = 0;
         std::string madeJobID; ///< Of a step without jobs.
         std::optional<std::size_t> robot;
-        std::optional<EPlanControl> control; ///< Asked for, outcome not known.
-        std::size_t controlCount = 0;        ///< How often it was asked for: each is owed a result.
-        bool bArrived = false;               ///< Its first step's place was reached.
-        bool bStepArrived = false;           ///< The present step's place was reached, and told.
-        bool bJobBegun = false;              ///< Any of its jobs.
-        bool bStepOwed = false;              ///< The present step is begun when the pause ends.
-        bool bEndOwed = false;               ///< All is done, to be told when the pause ends.
+        bool bStepArrived = false;     ///< The present step's place was reached, and told.
+        bool bJobBegun = false;        ///< Any of its jobs.
+        bool bStepOwed = false;        ///< The present step is begun when the pause ends.
+        bool bEndOwed = false;         ///< All is done, to be told when the pause ends.
+        std::string repeatedCommandID; ///< Of a job that the robot never had: it is sent again under this.
         std::optional<Core::SteadyTime> jobDeadline;
         std::optional<Core::Duration> jobTimeLeft; ///< Of a job that is paused.
     };
@@ -106,8 +105,9 @@ public:
         bool bResumeOwed = false;  ///< It was told to go on and has not shown that it does.
         bool bConfirming = false;  ///< The timer ControlConfirm runs.
         std::optional<StateChanged> state;
-        std::optional<std::size_t> node; ///< Where it stands or passed last.
-        std::string position;            ///< The last station where it stood.
+        std::optional<std::size_t> node;    ///< Where it stands or passed last.
+        std::vector<std::size_t> heldNodes; ///< Without a drive: where it may still go all the same, its node included.
+        std::string position;               ///< The last station where it stood.
         std::optional<std::size_t> homeNode;
         std::optional<std::size_t> retreatNode; ///< Goes here first, out of the way of others.
         EActivity activity = EActivity::Idle;
@@ -115,6 +115,14 @@ public:
         /// A job of a plan that has failed for its time limit, and may still be running: until its end is told, the robot
         /// neither drives nor works.
         std::optional<std::string> overdueJobID;
+        std::optional<StartJob> job; ///< Commanded, and its end not told: of the plan, or overdue.
+        std::string commandID;       ///< Of its last drive or job.
+        std::string previousID;      ///< Of the one before.
+        bool bRecovering = false;    ///< After a restart: it was asked what became of the job.
+        bool bUncertain = false;     ///< It cannot tell what became of the job: an operator has to.
+        bool bStandAwaited = false;  ///< After a restart: what its plan's control comes to shows once it stands.
+        bool bWorkTouched = false;   ///< What is stored of its work may have changed.
+        RobotWorkChanged storedWork;
         std::optional<ActiveDrive> drive;
         std::vector<std::optional<std::string>> carriers;
         RobotStatus lastStatus;
@@ -145,6 +153,8 @@ private:
     std::map<std::string, std::size_t, std::less<>> _robotIndices;
     std::vector<Alarm> _alarms;
     ReportOutbox _outbox;
+
+    bool _bGathering = false; ///< After a restart: not every robot has told where it stands.
 
     // The present call: what is stored first, and what is told after it.
     Core::Now _now;
@@ -188,13 +198,14 @@ public:
 private:
     // Of every call: begin, end, and the only places where states change (PlanEngine.Impl.cpp).
     void Begin(Core::Now now);
+    void CollectWork();
     void End(EngineActions& out);
     void TellReport(Report report);
     void TellStatusChanges();
     void TellStatus(Robot& robot, ERobotStatus status);
     void StartTimer(EEngineTimer kind, const std::string& robotID, Core::Duration delay);
     void CancelTimer(EEngineTimer kind, const std::string& robotID);
-    void Command(const Robot& robot, RobotCommand command);
+    void Command(Robot& robot, RobotCommand command);
     void Note(const Robot& robot, const std::string& text);
     void ChangePlan(ActivePlan& plan, EPlanState state, std::string message);
     void ChangeStep(ActivePlan& plan, EStepState state, std::string message);
@@ -219,6 +230,7 @@ private:
     [[nodiscard]] QueueKey MakeQueueKey(const PlanRecord& record) const;
     void Acknowledge(const MessageAcknowledged& command);
     [[nodiscard]] Core::Result<ResolvedPlan> Admit(const Plan& plan) const;
+    [[nodiscard]] bool IsRepetition(const Plan& plan, const std::string& transactionID) const;
 
     // Control of plans (PlanEngine.Controls.cpp).
     void Control(const ControlPlan& command);
@@ -227,10 +239,13 @@ private:
     void Abort(ActivePlan& plan);
     void Pause(ActivePlan& plan);
     void Resume(ActivePlan& plan);
-    static void Ask(ActivePlan& plan, EPlanControl control);
+    [[nodiscard]] bool IsRepetition(const ControlPlan& command) const;
+    void Remember(PlanProgress& progress, const ControlPlan& command);
+    void Ask(ActivePlan& plan, EPlanControl control);
     void Answer(ActivePlan& plan, bool bSucceeded, const std::string& message);
     void StopDrive(ActivePlan& plan, EPlanControl control);
     void DropJob(Robot& robot);
+    void RaiseDropped(const Robot& robot);
     void EndByControl(ActivePlan& plan, EPlanControl control);
     void ConfirmPause(Robot& robot);
     void ConfirmResume(Robot& robot);
@@ -257,9 +272,11 @@ private:
     void OnJobStarted(Robot& robot, const JobStarted& event);
     void OnJobFinished(Robot& robot, const JobFinished& event);
     void OnJobFailed(Robot& robot, const JobFailed& event);
+    void OnJobUnknown(Robot& robot, const JobUnknown& event);
+    void OnJobUncertain(Robot& robot, const JobUncertain& event);
     void OnJobTimeout(Robot& robot);
     [[nodiscard]] bool TryEndOverdueJob(Robot& robot, const std::string& jobID);
-    void Place(Robot& robot, const std::string& nodeID);
+    void Place(Robot& robot);
     void CompareErrors(Robot& robot);
     void Advance(Robot& robot, std::size_t routeIndex);
     void EndDrive(Robot& robot);
@@ -271,6 +288,7 @@ private:
     void MarkArrived(Robot& robot);
     void BeginWork(Robot& robot);
     void BeginJob(Robot& robot);
+    void LimitJob(Robot& robot);
     void EndJob(Robot& robot);
     void BeginNext(Robot& robot);
     void MarkStepBegun(ActivePlan& plan);
@@ -306,11 +324,32 @@ private:
     [[nodiscard]] std::vector<std::size_t> GetIndices(const Route& route) const;
     void OnNoRoute(Robot& robot, std::size_t target);
 
-    // Failures of the store (PlanEngine.Recovery.cpp).
+    // After a restart (PlanEngine.Recovery.cpp).
+    void RestoreRobot(const RobotWorkChanged& work);
     void RestorePlan(PlanRecord record);
+    void RestoreWork(ActivePlan& plan, Robot& robot);
+    void RestoreControl(ActivePlan& plan, Robot& robot);
     void RestoreAlarms(std::vector<Alarm> alarms);
     void RestoreTsc(ETscState stored);
-    void EndInterrupted(ActivePlan& plan);
+    void RestoreOverdue(Robot& robot);
+    void EndUnfit(ActivePlan& plan, const std::string& reason);
+    static void FindPosition(ActivePlan& plan);
+    void BeginGathering();
+    void FollowGathering();
+    void EndGathering();
+    void FollowStand(Robot& robot);
+    void HoldJob(Robot& robot, const std::string& reason);
+    void AbortHeldJob(Robot& robot);
+    void FindOut(Robot& robot);
+    void ReleaseJob(Robot& robot);
+    void RepeatJob(Robot& robot, const std::string& commandID);
+    void Settle(const SettleJob& command);
+    void SettleFor(Robot& robot, EJobAnswer answer);
+    void AskForJob(Robot& robot);
+    [[nodiscard]] static bool IsAwaited(const Robot& robot);
+    [[nodiscard]] Alarm MakeUncertainAlarm(const Robot& robot) const;
+
+    // Failures of the store (PlanEngine.StoreFailure.cpp).
     void NoteStoreSuccess();
 };
 

@@ -1,7 +1,10 @@
 #include "PlanEngine.Impl.hpp"
-#include <acs/core/Overloaded.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <utility>
 
 namespace ACS::Planning
 {
@@ -11,7 +14,6 @@ void PlanEngine::Impl::Restore(StoredState state, Core::Now now, EngineActions& 
     Begin(now);
     _outbox.Restore(std::move(state.outbox), state.lastReportSequence);
     RestoreAlarms(std::move(state.alarms));
-    RestoreTsc(state.tscState);
     for (const CarriersChanged& stored : state.carriers)
     {
         const auto found = _robotIndices.find(stored.robotID);
@@ -22,20 +24,36 @@ void PlanEngine::Impl::Restore(StoredState state, Core::Now now, EngineActions& 
             robot.lastStatus = MakeStatus(robot, DeriveStatus(robot));
         }
     }
+    for (const RobotWorkChanged& work : state.robotWorks)
+    {
+        RestoreRobot(work);
+    }
     std::ranges::sort(state.plans, {}, &PlanRecord::sequence);
     for (PlanRecord& record : state.plans)
     {
         RestorePlan(std::move(record));
     }
+    for (Robot& robot : _robots)
+    {
+        RestoreOverdue(robot);
+    }
+    RestoreTsc(state.tscState);
+    if (!_plans.empty() || !state.robotWorks.empty())
+    {
+        BeginGathering();
+    }
     StartTimer(EEngineTimer::Dispatch, {}, {});
     End(out);
 }
 
-/// What was paused stays so: nothing of it runs after a start.
+/// What was paused stays so: nothing is begun. What was being worked on goes on to its end.
 void PlanEngine::Impl::RestoreTsc(ETscState stored)
 {
-    const bool bPaused = _options.bTscStartsPaused || stored != ETscState::Auto;
-    _tscState = bPaused ? ETscState::Paused : ETscState::Auto;
+    _tscState = ETscState::Auto;
+    if (_options.bTscStartsPaused || stored != ETscState::Auto)
+    {
+        _tscState = IsAnyPlanRunning() ? ETscState::Pausing : ETscState::Paused;
+    }
     if (_tscState != stored)
     {
         _changes.emplace_back(TscChanged{_tscState});
@@ -62,6 +80,22 @@ void PlanEngine::Impl::RestoreAlarms(std::vector<Alarm> alarms)
     }
 }
 
+/// Of a robot that is not configured any more nobody can ask; its row stays, in case that it comes back.
+void PlanEngine::Impl::RestoreRobot(const RobotWorkChanged& work)
+{
+    const auto found = _robotIndices.find(work.robotID);
+    if (found == _robotIndices.end())
+    {
+        return;
+    }
+    Robot& robot = _robots[found->second];
+    robot.storedWork = work;
+    robot.commandID = work.commandID;
+    robot.previousID = work.previousID;
+    robot.job = work.job;
+    robot.bResumeOwed = work.bPauseAsked; // where no plan wants it to stand
+}
+
 void PlanEngine::Impl::RestorePlan(PlanRecord record)
 {
     _lastPlanSequence = std::max(_lastPlanSequence, record.sequence);
@@ -76,40 +110,58 @@ void PlanEngine::Impl::RestorePlan(PlanRecord record)
     plan.key = MakeQueueKey(plan.record);
     Core::Result<ResolvedPlan> resolved = _admission.Resolve(plan.record.plan);
     _plans.emplace(plan.record.plan.planID, std::move(owned));
-    // One that was paused before a robot had it is held in the queue.
-    const bool bHeld = plan.record.progress.state == EPlanState::Paused && plan.record.progress.robotID.empty();
-    if (plan.record.progress.state != EPlanState::Pending && !bHeld)
+    const std::string& robotID = plan.record.progress.robotID;
+    const auto robot = _robotIndices.find(robotID);
+    const bool bRobotGone =
+        !robotID.empty() && (robot == _robotIndices.end() || _robots[robot->second].planOrNull != nullptr);
+    if (!resolved.has_value() || bRobotGone)
     {
-        EndInterrupted(plan);
-        return;
-    }
-    if (!resolved.has_value())
-    {
-        EndPlan(
-            plan,
-            EPlanState::Aborted,
-            "The site or the robots have changed while the ACS was down: " + Core::Describe(resolved.error()));
+        const std::string reason = resolved.has_value() ? robotID + " is gone" : Core::Describe(resolved.error());
+        EndUnfit(plan, "The site or the robots have changed while the ACS was down: " + reason);
         return;
     }
     plan.resolved = std::move(*resolved);
-    if (!bHeld)
+    if (!robotID.empty())
+    {
+        RestoreWork(plan, _robots[robot->second]);
+        RestoreControl(plan, _robots[robot->second]);
+    }
+    else if (plan.record.progress.state == EPlanState::Pending) // else it is held in the queue
     {
         _pending.emplace(plan.key, &plan);
     }
 }
 
-/// Nobody saw what became of the work: it is ended, with an alarm that says where to look.
-void PlanEngine::Impl::EndInterrupted(ActivePlan& plan)
+/// What was planned does not fit what there is now. Where a robot had it, an alarm says where to look.
+void PlanEngine::Impl::EndUnfit(ActivePlan& plan, const std::string& reason)
 {
-    const PlanSummary summary = MakeSummary(plan.record);
-    Alarm alarm;
-    alarm.robotID = plan.record.progress.robotID;
-    alarm.errorCode = ALARM_INTERRUPTED;
-    alarm.level = EAlarmLevel::Heavy;
-    alarm.message = "The ACS stopped while this plan was worked on: look at the robot and its carriers.";
-    alarm.planID = summary.planID;
-    alarm.stepNo = summary.stepNo;
-    alarm.jobID = summary.jobID;
+    FindPosition(plan);
+    if (!plan.record.progress.robotID.empty())
+    {
+        const PlanSummary summary = MakeSummary(plan.record);
+        Alarm alarm;
+        alarm.robotID = plan.record.progress.robotID;
+        alarm.errorCode = ALARM_INTERRUPTED;
+        alarm.level = EAlarmLevel::Heavy;
+        alarm.message = "This plan cannot go on after the restart: look at the robot and its carriers.";
+        alarm.planID = summary.planID;
+        alarm.stepNo = summary.stepNo;
+        alarm.jobID = summary.jobID;
+        RaiseAlarm(std::move(alarm));
+    }
+    if (plan.record.progress.state == EPlanState::InProgress)
+    {
+        FailPlan(plan, reason);
+    }
+    else
+    {
+        EndPlan(plan, EPlanState::Aborted, reason);
+    }
+}
+
+/// Its present step and job: the first ones that are not at their end.
+void PlanEngine::Impl::FindPosition(ActivePlan& plan)
+{
     const std::vector<StepProgress>& steps = plan.record.progress.steps;
     while (plan.step + 1 < steps.size() && IsFinal(steps[plan.step].state))
     {
@@ -120,108 +172,329 @@ void PlanEngine::Impl::EndInterrupted(ActivePlan& plan)
     {
         ++plan.job;
     }
-    RaiseAlarm(std::move(alarm));
-    if (plan.record.progress.state == EPlanState::InProgress)
-    {
-        FailPlan(plan, "The ACS was restarted while the plan was worked on.");
-        return;
-    }
-    // The robot still stands for that, and nobody else would have it go on.
-    if (const auto robot = _robotIndices.find(plan.record.progress.robotID); robot != _robotIndices.end())
-    {
-        _robots[robot->second].bResumeOwed = true;
-    }
-    // Section 7 has no other way out of Paused.
-    EndPlan(plan, EPlanState::Aborted, "The ACS was restarted while the plan was paused.");
 }
 
-void PlanEngine::Impl::OnStoreFailed(
-    const StoreBatch& batch,
-    std::span<const EngineAction> skipped,
-    std::string_view reason,
-    Core::Now now,
-    EngineActions& out)
+/// The plan stays with its robot. A job whose end nobody has heard is asked for; everything else begins where it stands.
+void PlanEngine::Impl::RestoreWork(ActivePlan& plan, Robot& robot)
 {
-    _now = now;
-    _bStoreFailing = true;
-    _bStoreAttempted = false;
-    const std::string refusal = "The plan cannot be stored: " + std::string(reason);
-    bool bPlanRefused = false;
-    for (const StoreChange& change : batch.changes)
+    FindPosition(plan);
+    const StepProgress& step = plan.record.progress.steps[plan.step];
+    const EJobState job = step.jobs.empty() ? EJobState::Pending : step.jobs[plan.job];
+    plan.robot = robot.index;
+    robot.planOrNull = &plan;
+    robot.activity = EActivity::Waits;
+    robot.bTouched = true;
+    plan.bEndOwed = IsFinal(step.state);
+    plan.bStepOwed = step.state == EStepState::Pending;
+    const bool bOpen = robot.job.has_value() && robot.job->planID == plan.record.plan.planID;
+    // A store of before schema version 3 tells nothing of robots.
+    const bool bUntraced = !bOpen && robot.storedWork.robotID.empty() && job != EJobState::Pending && !IsFinal(job);
+    const bool bStepWorked = bOpen || plan.job > 0 || job != EJobState::Pending;
+    plan.bStepArrived = bStepWorked;
+    plan.bJobBegun = bStepWorked || plan.step > 0;
+    plan.record.progress.bArrived = plan.record.progress.bArrived || plan.bJobBegun;
+    if (!bOpen && !bUntraced)
     {
-        const auto* removedOrNull = std::get_if<PlanRemoved>(&change);
-        if (removedOrNull != nullptr
-            && std::ranges::count(_replaced, removedOrNull->sequence, &PlanRecord::sequence) > 0)
+        return;
+    }
+    robot.activity = EActivity::Works;
+    if (bUntraced)
+    {
+        robot.job = MakeStartJob(robot);
+        robot.bWorkTouched = true;
+        HoldJob(robot, "the ACS that commanded it did not write down how to ask for it");
+        return;
+    }
+    plan.madeJobID = HasJob(plan) ? std::string() : robot.job->jobID;
+    AskForJob(robot);
+}
+
+/// An outcome that was open is still owed, once; and what was paused stays so.
+void PlanEngine::Impl::RestoreControl(ActivePlan& plan, Robot& robot)
+{
+    PlanProgress& progress = plan.record.progress;
+    const bool bWorks = robot.activity == EActivity::Works;
+    if (!progress.control.has_value())
+    {
+        const bool bPaused = progress.state == EPlanState::Paused;
+        robot.bPauseWanted = bPaused && (robot.bResumeOwed || bWorks);
+        robot.bResumeOwed = robot.bResumeOwed && !bPaused;
+        return;
+    }
+    constexpr std::size_t MOST_OWED = 1'000;
+    progress.controlCount = std::clamp<std::size_t>(progress.controlCount, 1, MOST_OWED);
+    switch (*progress.control)
+    {
+        case EPlanControl::Pause:
+            robot.bPauseWanted = !bWorks || !_options.controls.bPausesAfterJob;
+            robot.bResumeOwed = false;
+            break;
+        case EPlanControl::Resume:
+            robot.bResumeOwed = true;
+            break;
+        case EPlanControl::Cancel:
+        case EPlanControl::Abort:
+        default:
+            robot.bStandAwaited = !bWorks;
+            break;
+    }
+    if (!bWorks || progress.control == EPlanControl::Resume || robot.bPauseWanted)
+    {
+        const bool bEnding = robot.bStandAwaited;
+        StartConfirming(robot, bEnding ? _options.controls.cancelTimeout : _options.controls.pauseTimeout);
+    }
+}
+
+/// Of a plan that is over.
+void PlanEngine::Impl::RestoreOverdue(Robot& robot)
+{
+    const bool bOfPlan = robot.planOrNull != nullptr && robot.activity == EActivity::Works;
+    if (robot.job.has_value() && !bOfPlan)
+    {
+        robot.overdueJobID = robot.job->jobID;
+        AskForJob(robot);
+    }
+}
+
+void PlanEngine::Impl::AskForJob(Robot& robot)
+{
+    robot.bRecovering = true;
+    Command(robot, RecoverJob{*robot.job, robot.previousID});
+}
+
+/// Whether it has still to tell where it stands.
+bool PlanEngine::Impl::IsAwaited(const Robot& robot)
+{
+    return !robot.state.has_value();
+}
+
+void PlanEngine::Impl::BeginGathering()
+{
+    if (_options.restartWait.count() > 0)
+    {
+        _bGathering = true;
+        StartTimer(EEngineTimer::Gathering, {}, _options.restartWait);
+    }
+}
+
+void PlanEngine::Impl::FollowGathering()
+{
+    if (_bGathering && std::ranges::none_of(_robots, IsAwaited))
+    {
+        CancelTimer(EEngineTimer::Gathering, {});
+        EndGathering();
+    }
+}
+
+void PlanEngine::Impl::EndGathering()
+{
+    if (!std::exchange(_bGathering, false))
+    {
+        return;
+    }
+    _bDispatchNeeded = true;
+    for (const Robot& robot : _robots)
+    {
+        if (IsAwaited(robot) && (robot.planOrNull != nullptr || robot.job.has_value()))
         {
-            continue; // it comes back below
-        }
-        const auto* addedOrNull = std::get_if<PlanAdded>(&change);
-        if (addedOrNull == nullptr)
-        {
-            _unsaved.push_back(change);
-            continue;
-        }
-        // Not told to anybody and not begun: as if it had never come.
-        bPlanRefused = true;
-        const auto found = _plans.find(addedOrNull->record.plan.planID);
-        if (found != _plans.end())
-        {
-            _pending.erase(found->second->key);
-            _plans.erase(found);
+            Alarm alarm;
+            alarm.robotID = GetRobotID(robot);
+            alarm.errorCode = ALARM_LINK_LOST;
+            alarm.level = EAlarmLevel::Heavy;
+            alarm.message = "It has not come back since the ACS was restarted, and has work.";
+            RaiseAlarm(std::move(alarm));
         }
     }
-    for (PlanRecord& record : std::exchange(_replaced, {}))
+}
+
+/// A drive that was to be cancelled before the restart: the adapter gives up what is left of it, and here it stands.
+void PlanEngine::Impl::FollowStand(Robot& robot)
+{
+    const StateChanged& state = *robot.state;
+    if (!robot.bStandAwaited || !robot.bPlaced || state.bOccupied || state.bDriving)
     {
-        RememberFinished(std::move(record));
+        return;
     }
+    robot.bStandAwaited = false;
+    ActivePlan& plan = *robot.planOrNull;
+    const EPlanControl control = *plan.record.progress.control;
+    const bool bArrived = robot.node == GetTargetOrNull(robot);
+    if (control != EPlanControl::Cancel || !bArrived || _options.controls.cancelUntil == ECancelWindow::FirstJob)
+    {
+        EndByControl(plan, control);
+        return;
+    }
+    MarkArrived(robot);
+    Answer(plan, false, "The robot has arrived.");
+    if (plan.record.progress.state != EPlanState::Paused)
+    {
+        GoOn(robot);
+    }
+}
+
+Alarm PlanEngine::Impl::MakeUncertainAlarm(const Robot& robot) const
+{
     Alarm alarm;
-    alarm.robotID = OWN_ROBOT_ID;
-    alarm.errorCode = ALARM_STORE;
+    alarm.robotID = GetRobotID(robot);
+    alarm.errorCode = ALARM_UNCERTAIN;
     alarm.level = EAlarmLevel::Heavy;
-    alarm.message = "Plans cannot be stored: " + std::string(reason);
-    for (const EngineAction& action : skipped)
-    {
-        std::visit(
-            Core::Overloaded{
-                [this](const StorePlans& typed) {
-                    _unsaved.insert(_unsaved.end(), typed.batch.changes.begin(), typed.batch.changes.end());
-                },
-                [this](const SendReport& typed) { _held.push_back(typed.entry); },
-                [&out, &refusal, bPlanRefused](const ReplyCommand& typed) {
-                    const bool bRefusedNow = bPlanRefused && typed.bAccepted;
-                    out.emplace_back(bRefusedNow ? ReplyCommand{typed.replyToken, false, refusal} : typed);
-                },
-                [&out](const auto& typed) {
-                    out.emplace_back(typed);
-                }},
-            action);
-    }
-    RaiseAlarm(std::move(alarm));
-    std::ranges::move(_changes, std::back_inserter(_unsaved));
-    _changes.clear();
-    for (EngineAction& action : _actions)
-    {
-        if (auto* reportOrNull = std::get_if<SendReport>(&action); reportOrNull != nullptr)
-        {
-            _held.push_back(std::move(reportOrNull->entry));
-        }
-    }
-    _actions.clear();
-    out.emplace_back(StartEngineTimer{{EEngineTimer::StoreRetry, {}}, _options.storeRetry});
+    alarm.planID = robot.job->planID;
+    alarm.stepNo = robot.job->stepNo;
+    alarm.jobID = robot.job->jobID;
+    return alarm;
 }
 
-/// A call after a batch that did not fail.
-void PlanEngine::Impl::NoteStoreSuccess()
+/// It is not done again, and nothing else is done with this robot, before somebody has looked.
+void PlanEngine::Impl::HoldJob(Robot& robot, const std::string& reason)
 {
-    if (!_bStoreFailing || !_bStoreAttempted)
+    robot.bRecovering = false;
+    robot.bUncertain = true;
+    Alarm alarm = MakeUncertainAlarm(robot);
+    alarm.message = fmt::format(
+        "Nobody knows whether {} was done at {}: {}. Look at the robot and at that place, then answer done, failed or "
+        "again, or abort the plan.",
+        robot.job->action,
+        robot.job->position,
+        reason);
+    RaiseAlarm(std::move(alarm));
+    const bool bOfPlan = robot.planOrNull != nullptr && !robot.overdueJobID.has_value();
+    if (!bOfPlan)
     {
         return;
     }
-    _bStoreFailing = false;
-    Alarm alarm;
-    alarm.robotID = OWN_ROBOT_ID;
-    alarm.errorCode = ALARM_STORE;
-    ClearAlarm(alarm);
+    StopJobTimer(robot);
+    if (robot.planOrNull->record.progress.control == EPlanControl::Abort)
+    {
+        AbortHeldJob(robot);
+    }
+}
+
+/// Whoever aborts the plan need not answer for its job.
+void PlanEngine::Impl::AbortHeldJob(Robot& robot)
+{
+    RaiseDropped(robot);
+    EndByControl(*robot.planOrNull, EPlanControl::Abort);
+}
+
+/// The robot has told what became of the job.
+void PlanEngine::Impl::FindOut(Robot& robot)
+{
+    if (!std::exchange(robot.bRecovering, false))
+    {
+        return;
+    }
+    ClearAlarm(MakeUncertainAlarm(robot));
+    if (robot.planOrNull->record.progress.state == EPlanState::Paused)
+    {
+        const std::chrono::milliseconds timeout =
+            robot.planOrNull->resolved.steps[robot.planOrNull->step].rule->timeout;
+        robot.planOrNull->jobTimeLeft = timeout.count() > 0 ? std::optional<Core::Duration>(timeout) : std::nullopt;
+        return;
+    }
+    LimitJob(robot);
+}
+
+/// Nothing is open any more about the job that the robot was commanded.
+void PlanEngine::Impl::ReleaseJob(Robot& robot)
+{
+    if (!robot.job.has_value())
+    {
+        return;
+    }
+    ClearAlarm(MakeUncertainAlarm(robot));
+    robot.bRecovering = false;
+    robot.bUncertain = false;
+    robot.job.reset();
+    robot.bWorkTouched = true;
+}
+
+/// As soon as the robot stands at the place and may work.
+void PlanEngine::Impl::RepeatJob(Robot& robot, const std::string& commandID)
+{
+    StopJobTimer(robot);
+    ReleaseJob(robot);
+    robot.planOrNull->repeatedCommandID = commandID;
+    robot.activity = EActivity::Waits;
+    robot.bTouched = true;
+    _bDispatchNeeded = true;
+}
+
+void PlanEngine::Impl::OnJobUnknown(Robot& robot, const JobUnknown& event)
+{
+    if (TryEndOverdueJob(robot, event.jobID))
+    {
+        return;
+    }
+    if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID || robot.bUncertain)
+    {
+        return;
+    }
+    ActivePlan& plan = *robot.planOrNull;
+    if (HasJob(plan) && plan.record.progress.steps[plan.step].jobs[plan.job] == EJobState::InProgress)
+    {
+        HoldJob(robot, "the robot does not know it, though it had begun it");
+    }
+    else if (plan.record.progress.control == EPlanControl::Abort)
+    {
+        EndByControl(plan, EPlanControl::Abort);
+    }
+    else
+    {
+        RepeatJob(robot, robot.job->commandID);
+    }
+}
+
+void PlanEngine::Impl::OnJobUncertain(Robot& robot, const JobUncertain& event)
+{
+    const bool bOverdue = robot.overdueJobID == event.jobID;
+    const bool bOfPlan = robot.activity == EActivity::Works && GetJobID(*robot.planOrNull) == event.jobID;
+    if ((bOverdue || bOfPlan) && !robot.bUncertain)
+    {
+        HoldJob(robot, event.reason);
+    }
+}
+
+void PlanEngine::Impl::Settle(const SettleJob& command)
+{
+    const auto robot = std::ranges::find_if(_robots, [&command](const Robot& candidate) {
+        return candidate.bUncertain && candidate.job->planID == command.planID && candidate.job->jobID == command.jobID;
+    });
+    if (robot == _robots.end())
+    {
+        _actions.emplace_back(ReplyCommand{command.replyToken, false, "No such job is held."});
+        return;
+    }
+    if (robot->overdueJobID.has_value() && command.answer == EJobAnswer::Again)
+    {
+        _actions.emplace_back(ReplyCommand{command.replyToken, false, "Its plan is over: answer done or failed."});
+        return;
+    }
+    _actions.emplace_back(ReplyCommand{command.replyToken, true, "Received."});
+    robot->bTouched = true;
+    SettleFor(*robot, command.answer);
+}
+
+void PlanEngine::Impl::SettleFor(Robot& robot, EJobAnswer answer)
+{
+    robot.bUncertain = false;
+    const std::string jobID = robot.job->jobID;
+    if (TryEndOverdueJob(robot, jobID))
+    {
+        return;
+    }
+    switch (answer)
+    {
+        case EJobAnswer::Done:
+            OnJobFinished(robot, JobFinished{jobID});
+            break;
+        case EJobAnswer::Again:
+            RepeatJob(robot, {});
+            break;
+        case EJobAnswer::Failed:
+        default:
+            OnJobFailed(robot, JobFailed{jobID, "The operator says that it was not done."});
+            break;
+    }
 }
 
 } // namespace ACS::Planning

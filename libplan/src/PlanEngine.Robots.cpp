@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
+#include <utility>
 
 namespace ACS::Planning
 {
@@ -44,24 +46,39 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
     CompareErrors(robot);
     if (!robot.drive.has_value())
     {
-        Place(robot, event.lastNodeID);
+        Place(robot);
     }
     else if (event.bDriving && robot.drive->goal == EGoal::Step && robot.planOrNull != nullptr)
     {
         MarkStepBegun(*robot.planOrNull);
     }
     FollowPause(robot, bFirst, bWasPaused);
+    FollowStand(robot);
     if (IsUsable(robot) && !bWasUsable)
     {
         _bDispatchNeeded = true;
     }
 }
 
-/// Where a robot without a drive stands.
-void PlanEngine::Impl::Place(Robot& robot, const std::string& nodeID)
+/// Where a robot without a drive stands, and where it may still go on an order that is none of the engine's.
+void PlanEngine::Impl::Place(Robot& robot)
 {
+    const std::string& nodeID = robot.state->lastNodeID;
     const std::optional<std::size_t> node = _site.FindNodeIndexOrNull(nodeID);
-    if (!node.has_value() || (robot.bPlaced && node == robot.node))
+    if (!node.has_value())
+    {
+        return;
+    }
+    std::vector<std::size_t> claim{*node};
+    for (const std::string& heldID : robot.state->heldNodeIDs)
+    {
+        const std::optional<std::size_t> held = _site.FindNodeIndexOrNull(heldID);
+        if (held.has_value() && std::ranges::count(claim, *held) == 0)
+        {
+            claim.push_back(*held);
+        }
+    }
+    if (robot.bPlaced && node == robot.node && claim == robot.heldNodes)
     {
         return;
     }
@@ -69,18 +86,30 @@ void PlanEngine::Impl::Place(Robot& robot, const std::string& nodeID)
     alarm.robotID = GetRobotID(robot);
     alarm.errorCode = ALARM_PLACE;
     alarm.level = EAlarmLevel::Heavy;
-    const std::vector<std::size_t> claim{*node};
     if (!_reservations.TryClaim(claim, robot.index))
     {
-        const std::size_t holder = *_reservations.GetHolderOrNull(*node);
-        alarm.message = fmt::format("It stands on node {}, which {} holds.", nodeID, GetRobotID(_robots[holder]));
+        const auto taken = std::ranges::find_if(claim, [this, &robot](std::size_t other) {
+            return !_reservations.IsFreeFor(other, robot.index);
+        });
+        const std::size_t holder = *_reservations.GetHolderOrNull(*taken);
+        alarm.message = fmt::format(
+            "It {} node {}, which {} holds.",
+            taken == claim.begin() ? "stands on" : "may still go to",
+            _site.GetNodes()[*taken].nodeID,
+            GetRobotID(_robots[holder]));
         robot.bPlaced = false;
+        // Where it is all the same nobody else is let.
+        for (const std::size_t other : claim)
+        {
+            static_cast<void>(_reservations.TryClaim(std::span(&other, 1), robot.index));
+        }
         RaiseAlarm(std::move(alarm));
         return;
     }
     ClearAlarm(alarm);
-    _reservations.ReleaseAllBut(node, robot.index);
+    _reservations.ReleaseAllBut(claim, robot.index);
     robot.node = node;
+    robot.heldNodes = std::move(claim);
     robot.bPlaced = true;
     robot.wish.reset();
     if (const SiteStation* stationOrNull = _site.FindStationAtOrNull(nodeID); stationOrNull != nullptr)
@@ -218,13 +247,14 @@ void PlanEngine::Impl::OnArrived(Robot& robot, const Arrived& event)
     }
     ActivePlan& plan = *robot.planOrNull;
     const bool bCancelLate = _options.controls.cancelUntil != ECancelWindow::FirstJob;
-    if (plan.control == EPlanControl::Abort || (plan.control == EPlanControl::Cancel && !bCancelLate))
+    if (plan.record.progress.control == EPlanControl::Abort
+        || (plan.record.progress.control == EPlanControl::Cancel && !bCancelLate))
     {
-        EndByControl(plan, *plan.control);
+        EndByControl(plan, *plan.record.progress.control);
         return;
     }
     MarkArrived(robot);
-    if (plan.control == EPlanControl::Cancel)
+    if (plan.record.progress.control == EPlanControl::Cancel)
     {
         Answer(plan, false, "The robot has arrived.");
         if (plan.record.progress.state != EPlanState::Paused)
@@ -260,9 +290,9 @@ void PlanEngine::Impl::OnDriveRejected(Robot& robot, const DriveRejected& event)
         return;
     }
     ActivePlan& plan = *robot.planOrNull;
-    if (plan.control == EPlanControl::Cancel || plan.control == EPlanControl::Abort)
+    if (plan.record.progress.control == EPlanControl::Cancel || plan.record.progress.control == EPlanControl::Abort)
     {
-        EndByControl(plan, *plan.control);
+        EndByControl(plan, *plan.record.progress.control);
         return;
     }
     FailPlan(plan, fmt::format("{} did not do its drive: {}", GetRobotID(robot), event.reason));
@@ -290,6 +320,11 @@ void PlanEngine::Impl::OnJobStarted(Robot& robot, const JobStarted& event)
     {
         return;
     }
+    if (robot.bUncertain)
+    {
+        return; // an operator has been asked
+    }
+    FindOut(robot);
     ActivePlan& plan = *robot.planOrNull;
     if (HasJob(plan) && plan.record.progress.steps[plan.step].jobs[plan.job] == EJobState::Instructed)
     {
@@ -303,6 +338,11 @@ bool PlanEngine::Impl::TryEndOverdueJob(Robot& robot, const std::string& jobID)
     {
         return false;
     }
+    if (robot.bUncertain)
+    {
+        return true; // an operator has been asked
+    }
+    ReleaseJob(robot);
     robot.overdueJobID.reset();
     _bDispatchNeeded = true;
     return true;
@@ -314,7 +354,7 @@ void PlanEngine::Impl::OnJobFinished(Robot& robot, const JobFinished& event)
     {
         return;
     }
-    if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID)
+    if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID || robot.bUncertain)
     {
         return;
     }
@@ -328,10 +368,11 @@ void PlanEngine::Impl::OnJobFailed(Robot& robot, const JobFailed& event)
     {
         return;
     }
-    if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID)
+    if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID || robot.bUncertain)
     {
         return;
     }
+    ReleaseJob(robot);
     FailPlan(*robot.planOrNull, event.reason);
 }
 

@@ -243,6 +243,7 @@ bool PlanEngine::Impl::TryBeginDrive(Robot& robot, const Route& route)
         return false;
     }
     drive.driveID = Core::MakeUuid(_random);
+    robot.previousID = std::exchange(robot.commandID, drive.driveID);
     drive.route = route;
     drive.releasedCount = std::min(_options.baseLength, drive.nodes.size() - 1);
     drive.goal = robot.planOrNull == nullptr || robot.retreatNode.has_value() ? EGoal::Home : EGoal::Step;

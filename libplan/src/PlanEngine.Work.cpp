@@ -73,7 +73,10 @@ void PlanEngine::Impl::MarkStepBegun(ActivePlan& plan)
 void PlanEngine::Impl::MarkArrived(Robot& robot)
 {
     ActivePlan& plan = *robot.planOrNull;
-    plan.bArrived = true;
+    if (!std::exchange(plan.record.progress.bArrived, true))
+    {
+        _progressed.insert(plan.record.plan.planID);
+    }
     MarkStepBegun(plan);
     if (!std::exchange(plan.bStepArrived, true))
     {
@@ -98,10 +101,26 @@ void PlanEngine::Impl::BeginJob(Robot& robot)
     {
         plan.madeJobID = Core::MakeUuid(_random);
     }
-    ChangeJob(plan, EJobState::Instructed, {});
+    else if (plan.record.progress.steps[plan.step].jobs[plan.job] == EJobState::Pending)
+    {
+        ChangeJob(plan, EJobState::Instructed, {});
+    }
+    const std::string repeated = std::exchange(plan.repeatedCommandID, {});
     StartJob job = MakeStartJob(robot);
-    job.commandID = Core::MakeUuid(_random);
+    job.commandID = repeated.empty() ? Core::MakeUuid(_random) : repeated;
+    job.mark = robot.state.has_value() ? robot.state->mark : std::string();
+    if (job.commandID != robot.commandID)
+    {
+        robot.previousID = std::exchange(robot.commandID, job.commandID);
+    }
+    robot.job = job;
     Command(robot, std::move(job));
+    LimitJob(robot);
+}
+
+void PlanEngine::Impl::LimitJob(Robot& robot)
+{
+    const ActivePlan& plan = *robot.planOrNull;
     const std::chrono::milliseconds timeout = plan.resolved.steps[plan.step].rule->timeout;
     if (timeout.count() > 0)
     {
@@ -177,11 +196,12 @@ void PlanEngine::Impl::EndJob(Robot& robot)
 {
     ActivePlan& plan = *robot.planOrNull;
     StopJobTimer(robot);
+    ReleaseJob(robot);
     plan.jobTimeLeft.reset();
     MoveCarrier(robot);
     ChangeJob(plan, EJobState::Completed, {});
     const bool bStepDone = plan.job + 1 >= plan.record.plan.steps[plan.step].jobs.size();
-    const bool bAborting = plan.control == EPlanControl::Abort;
+    const bool bAborting = plan.record.progress.control == EPlanControl::Abort;
     if (bStepDone && (!bAborting || _options.controls.bAbortReportsStep))
     {
         ChangeStep(plan, EStepState::Completed, {});
@@ -209,7 +229,7 @@ void PlanEngine::Impl::EndJob(Robot& robot)
     // The rest is for when the pause ends.
     robot.activity = EActivity::Waits;
     robot.bTouched = true;
-    if (plan.control == EPlanControl::Pause && !robot.bPauseWanted)
+    if (plan.record.progress.control == EPlanControl::Pause && !robot.bPauseWanted)
     {
         ConfirmPause(robot);
     }
@@ -223,13 +243,21 @@ void PlanEngine::Impl::BeginNext(Robot& robot)
         BeginStep(*robot.planOrNull, robot);
         return;
     }
-    BeginJob(robot);
+    if (IsUsable(robot))
+    {
+        BeginJob(robot);
+        return;
+    }
+    // As soon as it is there again.
+    robot.activity = EActivity::Waits;
+    robot.bTouched = true;
 }
 
 /// Section 6.14: the job, its step and the plan at once; nothing about what never ran.
 void PlanEngine::Impl::FailPlan(ActivePlan& plan, const std::string& reason)
 {
-    const bool bAborting = plan.control == EPlanControl::Abort && !_options.controls.bJobFailureFailsAbort;
+    const bool bAborting =
+        plan.record.progress.control == EPlanControl::Abort && !_options.controls.bJobFailureFailsAbort;
     if (plan.record.progress.state == EPlanState::Paused && !bAborting)
     {
         LeavePause(plan);
@@ -277,8 +305,8 @@ void PlanEngine::Impl::EndPlan(ActivePlan& plan, EPlanState state, const std::st
         LeavePause(plan);
     }
     ChangePlan(plan, state, message);
-    const bool bAsAsked = (plan.control == EPlanControl::Cancel && state == EPlanState::Cancelled)
-        || (plan.control == EPlanControl::Abort && state == EPlanState::Aborted);
+    const bool bAsAsked = (plan.record.progress.control == EPlanControl::Cancel && state == EPlanState::Cancelled)
+        || (plan.record.progress.control == EPlanControl::Abort && state == EPlanState::Aborted);
     Answer(plan, bAsAsked, fmt::format("The plan is {}{}{}", GetText(state), message.empty() ? "." : ": ", message));
     _pending.erase(plan.key);
     if (plan.robot.has_value())
@@ -286,6 +314,10 @@ void PlanEngine::Impl::EndPlan(ActivePlan& plan, EPlanState state, const std::st
         Robot& robot = _robots[*plan.robot];
         StopJobTimer(robot);
         ReleasePause(robot);
+        if (!robot.overdueJobID.has_value())
+        {
+            ReleaseJob(robot);
+        }
         robot.planOrNull = nullptr;
         robot.activity = EActivity::Idle;
         robot.retreatNode.reset();

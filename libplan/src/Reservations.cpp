@@ -43,9 +43,14 @@ void Reservations::Release(std::size_t node, std::size_t robot)
 
 void Reservations::ReleaseAllBut(std::optional<std::size_t> node, std::size_t robot)
 {
+    ReleaseAllBut(node.has_value() ? std::span<const std::size_t>(&*node, 1) : std::span<const std::size_t>(), robot);
+}
+
+void Reservations::ReleaseAllBut(std::span<const std::size_t> nodes, std::size_t robot)
+{
     for (std::size_t i = 0; i < _holders.size(); ++i)
     {
-        if (i != node)
+        if (std::ranges::find(nodes, i) == nodes.end())
         {
             Release(i, robot);
         }

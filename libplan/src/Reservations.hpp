@@ -26,6 +26,7 @@ public:
 
     /// Everything that the robot holds, but for the node where it stands.
     void ReleaseAllBut(std::optional<std::size_t> node, std::size_t robot);
+    void ReleaseAllBut(std::span<const std::size_t> nodes, std::size_t robot);
 };
 
 } // namespace ACS::Planning

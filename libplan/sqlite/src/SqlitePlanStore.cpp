@@ -73,6 +73,7 @@ class SqlitePlanStore::Impl
     std::unique_ptr<SQLite::Statement> _addReport;
     std::unique_ptr<SQLite::Statement> _removeReport;
     std::unique_ptr<SQLite::Statement> _setCarriers;
+    std::unique_ptr<SQLite::Statement> _setRobotWork;
     std::unique_ptr<SQLite::Statement> _setAlarm;
     std::unique_ptr<SQLite::Statement> _clearAlarm;
     std::unique_ptr<SQLite::Statement> _setSetting;
@@ -138,12 +139,13 @@ public:
         _database.exec("PRAGMA synchronous = FULL");
         _database.exec("PRAGMA foreign_keys = ON");
         MigrateSchema(_database, GetPragma(_database, "user_version"));
-        _addPlan = MakeStatement("INSERT INTO plans VALUES (?, ?, ?, ?, ?, ?)");
+        _addPlan = MakeStatement("INSERT INTO plans VALUES (?, ?, ?, ?, ?, ?, ?)");
         _progressPlan = MakeStatement("UPDATE plans SET state = ?, progress = ? WHERE plan_id = ?");
         _removePlan = MakeStatement("DELETE FROM plans WHERE sequence = ?");
         _addReport = MakeStatement("INSERT INTO reports VALUES (?, ?, ?, ?)");
         _removeReport = MakeStatement("DELETE FROM reports WHERE sequence = ?");
         _setCarriers = MakeStatement("INSERT OR REPLACE INTO carriers VALUES (?, ?)");
+        _setRobotWork = MakeStatement("INSERT OR REPLACE INTO robot_works VALUES (?, ?)");
         _setAlarm = MakeStatement("INSERT OR REPLACE INTO alarms VALUES (?, ?, ?, ?, ?)");
         _clearAlarm =
             MakeStatement("DELETE FROM alarms WHERE robot_id = ? AND error_code = ? AND plan_id = ? AND job_id = ?");
@@ -175,6 +177,10 @@ public:
         if (read.has_value())
         {
             read = ReadRows("SELECT alarm FROM alarms", DecodeAlarm, state.alarms);
+        }
+        if (read.has_value())
+        {
+            read = ReadRows("SELECT work FROM robot_works ORDER BY robot_id", DecodeRobotWork, state.robotWorks);
         }
         if (read.has_value())
         {
@@ -213,7 +219,8 @@ private:
             ToCount(record.acceptedAt),
             EncodePlan(record.plan),
             std::string(GetText(record.progress.state)),
-            EncodeProgress(record.progress));
+            EncodeProgress(record.progress),
+            record.transactionID);
     }
 
     void Write(const PlanProgressed& change)
@@ -253,6 +260,11 @@ private:
         Run(*_setCarriers, change.robotID, EncodeCarriers(change));
     }
 
+    void Write(const RobotWorkChanged& change)
+    {
+        Run(*_setRobotWork, change.robotID, EncodeRobotWork(change));
+    }
+
     void Write(const AlarmSet& change)
     {
         const Alarm& alarm = change.alarm;
@@ -283,7 +295,7 @@ private:
     {
         SQLite::Statement query(
             _database,
-            "SELECT sequence, plan_id, accepted_at, plan, progress FROM plans ORDER BY sequence");
+            "SELECT sequence, plan_id, accepted_at, plan, progress, transaction_id FROM plans ORDER BY sequence");
         while (query.executeStep())
         {
             const std::string row = "plan " + query.getColumn(1).getString();
@@ -302,6 +314,7 @@ private:
             record.acceptedAt = ToTime(query.getColumn(2).getInt64());
             record.plan = std::move(*plan);
             record.progress = std::move(*progress);
+            record.transactionID = query.getColumn(5).getString();
             state.plans.push_back(std::move(record));
         }
         return {};

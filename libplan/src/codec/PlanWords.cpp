@@ -18,6 +18,11 @@ std::string_view GetText(EJobState value) noexcept
     return Json::GetWord(value);
 }
 
+std::string_view GetText(EJobAnswer value) noexcept
+{
+    return Json::GetWord(value);
+}
+
 std::string_view GetText(ERobotType value) noexcept
 {
     return Json::GetWord(value);

@@ -2,6 +2,7 @@
 
 #include <acs/json/EnumWords.hpp>
 #include <acs/plan/EAlarmLevel.hpp>
+#include <acs/plan/EJobAnswer.hpp>
 #include <acs/plan/EJobState.hpp>
 #include <acs/plan/EPlanControl.hpp>
 #include <acs/plan/EPlanState.hpp>
@@ -53,6 +54,16 @@ struct EnumWords<Planning::EJobState>
         EnumWord<Planning::EJobState>{Planning::EJobState::InProgress, "InProgress"},
         EnumWord<Planning::EJobState>{Planning::EJobState::Completed, "Completed"},
         EnumWord<Planning::EJobState>{Planning::EJobState::Failed, "Failed"},
+    };
+};
+
+template <>
+struct EnumWords<Planning::EJobAnswer>
+{
+    static constexpr std::array WORDS{
+        EnumWord<Planning::EJobAnswer>{Planning::EJobAnswer::Done, "Done"},
+        EnumWord<Planning::EJobAnswer>{Planning::EJobAnswer::Failed, "Failed"},
+        EnumWord<Planning::EJobAnswer>{Planning::EJobAnswer::Again, "Again"},
     };
 };
 

@@ -50,6 +50,10 @@ struct ProgressText
     std::optional<std::int64_t> startedAt;
     std::optional<std::int64_t> endedAt;
     std::vector<StepProgress> steps;
+    bool bArrived = false;
+    std::optional<EPlanControl> control;
+    std::size_t controlCount = 0;
+    std::vector<std::string> requestIDs;
 };
 
 } // namespace
@@ -118,7 +122,11 @@ struct JsonFields<Planning::ProgressText>
         Optional("message", &Planning::ProgressText::message),
         Optional("startedAt", &Planning::ProgressText::startedAt),
         Optional("endedAt", &Planning::ProgressText::endedAt),
-        Required("steps", &Planning::ProgressText::steps));
+        Required("steps", &Planning::ProgressText::steps),
+        Optional("arrived", &Planning::ProgressText::bArrived),
+        Optional("control", &Planning::ProgressText::control),
+        Optional("controlCount", &Planning::ProgressText::controlCount),
+        Optional("requestIds", &Planning::ProgressText::requestIDs));
 };
 
 template <>
@@ -140,6 +148,33 @@ struct JsonFields<Planning::CarriersChanged>
     static constexpr auto FIELDS = std::make_tuple(
         Required("robotId", &Planning::CarriersChanged::robotID),
         Required("carrierIds", &Planning::CarriersChanged::carrierIDs));
+};
+
+template <>
+struct JsonFields<Planning::StartJob>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("planId", &Planning::StartJob::planID),
+        Required("stepNo", &Planning::StartJob::stepNo),
+        Required("jobId", &Planning::StartJob::jobID),
+        Required("action", &Planning::StartJob::action),
+        Required("position", &Planning::StartJob::position),
+        Optional("from", &Planning::StartJob::from),
+        Optional("to", &Planning::StartJob::to),
+        Optional("carrierId", &Planning::StartJob::carrierID),
+        Required("commandId", &Planning::StartJob::commandID),
+        Optional("mark", &Planning::StartJob::mark));
+};
+
+template <>
+struct JsonFields<Planning::RobotWorkChanged>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("robotId", &Planning::RobotWorkChanged::robotID),
+        Optional("commandId", &Planning::RobotWorkChanged::commandID),
+        Optional("previousId", &Planning::RobotWorkChanged::previousID),
+        Optional("job", &Planning::RobotWorkChanged::job),
+        Optional("pauseAsked", &Planning::RobotWorkChanged::bPauseAsked));
 };
 
 template <>
@@ -311,7 +346,11 @@ std::string EncodeProgress(const PlanProgress& progress)
         progress.message,
         MakeCountOrNull(progress.startedAt),
         MakeCountOrNull(progress.endedAt),
-        progress.steps});
+        progress.steps,
+        progress.bArrived,
+        progress.control,
+        progress.controlCount,
+        progress.requestIDs});
 }
 
 Core::Result<PlanProgress> DecodeProgress(std::string_view text)
@@ -323,7 +362,11 @@ Core::Result<PlanProgress> DecodeProgress(std::string_view text)
             std::move(read.message),
             MakeTimeOrNull(read.startedAt),
             MakeTimeOrNull(read.endedAt),
-            std::move(read.steps)};
+            std::move(read.steps),
+            read.bArrived,
+            read.control,
+            read.controlCount,
+            std::move(read.requestIDs)};
     });
 }
 
@@ -350,6 +393,16 @@ std::string EncodeCarriers(const CarriersChanged& carriers)
 Core::Result<CarriersChanged> DecodeCarriers(std::string_view text)
 {
     return DecodeText<CarriersChanged>(text);
+}
+
+std::string EncodeRobotWork(const RobotWorkChanged& work)
+{
+    return EncodeText(work);
+}
+
+Core::Result<RobotWorkChanged> DecodeRobotWork(std::string_view text)
+{
+    return DecodeText<RobotWorkChanged>(text);
 }
 
 std::string EncodeAlarm(const Alarm& alarm)

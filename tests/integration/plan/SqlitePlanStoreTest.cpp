@@ -35,6 +35,7 @@ PlanRecord MakeRecord(std::uint64_t sequence, const std::string& planID)
     record.acceptedAt = Testing::ManualClock().GetNow().wall;
     record.plan = {planID, "LOT", 3, {{1, "CassetteLoad", "A01.CP01", {"C1"}, {{"J1", "A01.CP01", "AMR.CP01"}}}}};
     record.progress.steps = {{EStepState::Pending, {EJobState::Pending}}};
+    record.transactionID = "request-" + planID;
     return record;
 }
 
@@ -46,6 +47,28 @@ OutboxEntry MakeEntry(std::uint64_t sequence, const std::string& planID)
         Testing::ManualClock().GetNow().wall,
         PlanReport{planID, EPlanState::InProgress, ""}};
 }
+
+/// What version 1 wrote, with one row of each kind.
+constexpr const char* FIRST_SCHEMA =
+    "CREATE TABLE plans (sequence INTEGER PRIMARY KEY, plan_id TEXT NOT NULL UNIQUE, accepted_at INTEGER NOT NULL,"
+    "  plan TEXT NOT NULL, state TEXT NOT NULL, progress TEXT NOT NULL);"
+    "CREATE INDEX plans_by_state ON plans (state);"
+    "CREATE TABLE reports (sequence INTEGER PRIMARY KEY AUTOINCREMENT, transaction_id TEXT NOT NULL UNIQUE,"
+    "  time INTEGER NOT NULL, report TEXT NOT NULL);"
+    "CREATE TABLE carriers (robot_id TEXT PRIMARY KEY, carriers TEXT NOT NULL) WITHOUT ROWID;"
+    "CREATE TABLE alarms (robot_id TEXT NOT NULL, error_code TEXT NOT NULL, plan_id TEXT NOT NULL,"
+    "  job_id TEXT NOT NULL, alarm TEXT NOT NULL, PRIMARY KEY (robot_id, error_code, plan_id, job_id)) WITHOUT ROWID;"
+    R"(INSERT INTO plans VALUES (1, 'P1', 0, '{"planId":"P1","lotId":"L","steps":[{"stepNo":1,"action":"CassetteLoad",)"
+    R"("position":"A01.CP01","carrierIds":["C1"],"jobs":[{"jobId":"J1","from":"A01.CP01","to":"AMR.CP01"}]}]}',)"
+    R"('InProgress', '{"state":"InProgress","robotId":"LR01","message":"",)"
+    R"("steps":[{"state":"InProgress","jobs":["InProgress"]}]}');)"
+    R"(INSERT INTO reports VALUES (7, 'T', 0, '{"kind":"Plan","planId":"P1","planState":"InProgress","message":""}');)"
+    R"(INSERT INTO carriers VALUES ('LR01', '{"robotId":"LR01","carrierIds":[null]}');)"
+    R"(INSERT INTO alarms VALUES ('LR01', 'ACS-1002', '', '',)"
+    R"( '{"robotId":"LR01","errorCode":"ACS-1002","level":"Heavy","message":"lost"}');)";
+constexpr const char* SECOND_SCHEMA =
+    "CREATE TABLE settings (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
+    "INSERT INTO settings VALUES ('tsc_state', 'Paused');";
 
 const Alarm& GetAlarm()
 {
@@ -60,15 +83,27 @@ std::vector<StoreBatch> MakeBatches()
     progressed.progress.state = EPlanState::InProgress;
     progressed.progress.robotID = "LR01";
     progressed.progress.startedAt = Testing::ManualClock().GetNow().wall;
+    progressed.progress.bArrived = true;
+    progressed.progress.control = EPlanControl::Pause;
+    progressed.progress.controlCount = 2;
+    progressed.progress.requestIDs = {"T1", "T2"};
+    RobotWorkChanged work{"LR01", "C1", "C0", std::nullopt, true};
+    const StartJob job{"P1", 1, "J1", "CassetteLoad", "A01.CP01", "A01.CP01", "LR01.CP01", "C1", "C2", "5 5 0"};
+    RobotWorkChanged later{"LR01", "C2", "C1", job, false};
     return {
         {{PlanAdded{MakeRecord(1, "P1")}, PlanAdded{MakeRecord(2, "P2")}, PlanAdded{MakeRecord(3, "P3")}}},
         {{progressed,
           ReportAdded{MakeEntry(1, "P1")},
           ReportAdded{MakeEntry(2, "P1")},
           AlarmSet{GetAlarm()},
-          CarriersChanged{"LR01", {std::nullopt}}}},
+          CarriersChanged{"LR01", {std::nullopt}},
+          work}},
         {{PlanRemoved{3}, TscChanged{ETscState::Pausing}}},
-        {{ReportRemoved{1}, CarriersChanged{"LR01", {"C1"}}, ReportAdded{MakeEntry(3, "P1")}, ReportRemoved{3}}}};
+        {{ReportRemoved{1},
+          CarriersChanged{"LR01", {"C1"}},
+          ReportAdded{MakeEntry(3, "P1")},
+          ReportRemoved{3},
+          later}}};
 }
 
 std::unique_ptr<SqlitePlanStore> OpenStore(const std::string& file)
@@ -107,7 +142,7 @@ TEST_CASE("Store: an empty file becomes a store with a schema version, in a writ
     const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetFile());
     CHECK(*store->Load() == StoredState{});
     SQLite::Database database(folder.GetFile(), SQLite::OPEN_READONLY);
-    CHECK(database.execAndGet("PRAGMA user_version").getInt() == 2);
+    CHECK(database.execAndGet("PRAGMA user_version").getInt() == 3);
     CHECK(database.execAndGet("PRAGMA journal_mode").getString() == "wal");
 }
 
@@ -121,20 +156,39 @@ TEST_CASE("Store: a planID whose plan was removed can be stored again, in the sa
     CHECK(store->Load()->plans.front().sequence == 2);
 }
 
-TEST_CASE("Store: a file of the first schema is brought forward, and nothing of it is lost")
+TEST_CASE("Store: files of the first and second schema are brought forward, and nothing of them is lost")
 {
-    const StoreFolder folder;
-    REQUIRE(OpenStore(folder.GetFile())->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
+    for (const int version : {1, 2})
     {
-        SQLite::Database database(folder.GetFile(), SQLite::OPEN_READWRITE);
-        database.exec("DROP TABLE settings; PRAGMA user_version = 1");
+        INFO("version " << version);
+        const StoreFolder folder;
+        {
+            SQLite::Database database(folder.GetFile(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+            database.exec(FIRST_SCHEMA);
+            if (version == 2)
+            {
+                database.exec(SECOND_SCHEMA);
+            }
+            database.exec("PRAGMA application_id = 0x41435350; PRAGMA user_version = " + std::to_string(version));
+        }
+        const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetFile());
+        const Core::Result<StoredState> loaded = store->Load();
+        REQUIRE(loaded.has_value());
+        REQUIRE(loaded->plans.size() == 1);
+        CHECK(loaded->plans.front().plan.planID == "P1");
+        CHECK(loaded->plans.front().progress.state == EPlanState::InProgress);
+        CHECK(loaded->plans.front().transactionID.empty());
+        CHECK_FALSE(loaded->plans.front().progress.control.has_value());
+        CHECK(loaded->outbox.size() == 1);
+        CHECK(loaded->lastReportSequence == 7);
+        CHECK(loaded->alarms.size() == 1);
+        CHECK(loaded->carriers.size() == 1);
+        CHECK(loaded->robotWorks.empty());
+        CHECK(loaded->tscState == (version == 2 ? ETscState::Paused : ETscState::Auto));
+        REQUIRE(store->Append({{PlanAdded{MakeRecord(2, "P2")}, RobotWorkChanged{"LR01", "C", "", {}, false}}}));
+        CHECK(store->Load()->plans.back().transactionID == "request-P2");
+        CHECK(store->Load()->robotWorks.size() == 1);
     }
-    const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetFile());
-    REQUIRE(store->Load().has_value());
-    CHECK(store->Load()->plans.size() == 1);
-    CHECK(store->Load()->tscState == ETscState::Auto);
-    CHECK(store->Append({{TscChanged{ETscState::Paused}}}).has_value());
-    CHECK(store->Load()->tscState == ETscState::Paused);
 }
 
 TEST_CASE("Store: a batch that fails in the middle leaves nothing behind and the store goes on")

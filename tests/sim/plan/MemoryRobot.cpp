@@ -313,6 +313,11 @@ void MemoryRobot::Show()
 {
     const bool bJobRuns = _job.has_value() && _snapshot.jobs[_job->commandID].state == EJobState::Running;
     _snapshot.state.bDriving = _bMoving && !_bMoveHalted;
+    _snapshot.state.heldNodeIDs.clear();
+    for (std::size_t i = _index + 1; _drive.has_value() && i < _drive->releasedCount; ++i)
+    {
+        _snapshot.state.heldNodeIDs.push_back(_drive->route.nodes[i].nodeID);
+    }
     _snapshot.state.bPaused =
         _bPauseAsked && (!_bMoving || _bMoveHalted) && !(bJobRuns && _nature.bFinishesJobs && !_bJobHalted);
     if (_listener)

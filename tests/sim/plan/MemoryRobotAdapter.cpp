@@ -51,10 +51,12 @@ void MemoryRobotAdapter::Handle(
             [this](const Planning::ExtendDrive& extension) { Send(extension); },
             [this](const Planning::CancelDrive& cancel) { Send(cancel); },
             [this](const Planning::StartJob& job) {
+                _recovery.reset();
                 _job = job;
                 _bJobStarted = false;
                 Send(job);
             },
+            [this](const Planning::RecoverJob& recover) { _recovery = recover.job; },
             [this](const Planning::CancelJob& cancel) {
                 if (_job.has_value() && _job->jobID == cancel.jobID)
                 {
@@ -135,8 +137,26 @@ void MemoryRobotAdapter::OnSnapshot(const RobotSnapshot& snapshot, Planning::Ada
         Raise(Planning::LinkChanged{true}, out);
     }
     FollowDrive(out);
+    FindJob(out);
     FollowJob(out);
     TellState(out);
+}
+
+/// The robot remembers every job that it was given.
+void MemoryRobotAdapter::FindJob(Planning::AdapterActions& out)
+{
+    if (!_recovery.has_value())
+    {
+        return;
+    }
+    const Planning::StartJob job = *std::exchange(_recovery, std::nullopt);
+    if (!_snapshot->jobs.contains(job.commandID))
+    {
+        Raise(Planning::JobUnknown{job.jobID}, out);
+        return;
+    }
+    _job = job;
+    _bJobStarted = false;
 }
 
 void MemoryRobotAdapter::Confirm()
@@ -241,6 +261,10 @@ void MemoryRobotAdapter::TellState(Planning::AdapterActions& out)
     const std::string commandID = _job.has_value() ? _job->commandID : std::string();
     const bool bForeignJob = !_snapshot->activeCommandID.empty() && _snapshot->activeCommandID != commandID;
     state.bOccupied = bForeignDrive || bForeignJob;
+    if (!bForeignDrive)
+    {
+        state.heldNodeIDs.clear();
+    }
     if (bForeignDrive && std::exchange(_foreignDriveID, driveID) != driveID)
     {
         Send(Planning::CancelDrive{driveID});

@@ -31,12 +31,14 @@ private:
     std::size_t _told = 0;           ///< Nodes of it.
     std::optional<Planning::StartJob> _job;
     bool _bJobStarted = false;
-    std::string _foreignDriveID; ///< Of one that was given before a restart and is being cancelled.
+    std::optional<Planning::StartJob> _recovery; ///< Asked for, and no snapshot has come yet.
+    std::string _foreignDriveID;                 ///< Of one that was given before a restart and is being cancelled.
 
     void Send(const RobotMessage& message);
     void Confirm();
     [[nodiscard]] bool IsConfirmed(const RobotMessage& message) const;
     void FollowDrive(Planning::AdapterActions& out);
+    void FindJob(Planning::AdapterActions& out);
     void FollowJob(Planning::AdapterActions& out);
     void TellState(Planning::AdapterActions& out);
 

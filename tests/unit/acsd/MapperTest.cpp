@@ -32,7 +32,7 @@ TEST_CASE("4.1 An ExecutionPlan becomes a SubmitPlan with the sender's own spell
     message.priority = 10;
     message.steps.push_back({2, "CassetteLoad", "a01.cp1", {"C1"}, {{"J1", "A01.CP01", "AMR.CP01"}, {"J2", "", ""}}});
 
-    const auto command = MakePlanCommandOrNull(message, 7);
+    const auto command = MakePlanCommandOrNull(message, "T", 7);
 
     const Planning::SubmitPlan& submit = AsSubmit(command);
     CHECK(submit.replyToken == 7);
@@ -53,7 +53,7 @@ TEST_CASE("4.2 Each control command keeps its kind, plan and reason")
 {
     using Planning::EPlanControl;
     const auto expect = [](const Protocol::AcsPayload& payload, EPlanControl kind) {
-        const auto command = MakePlanCommandOrNull(payload, 3);
+        const auto command = MakePlanCommandOrNull(payload, "T", 3);
         REQUIRE(command.has_value());
         const auto& control = std::get<Planning::ControlPlan>(*command);
         CHECK(control.control == kind);
@@ -68,8 +68,8 @@ TEST_CASE("4.2 Each control command keeps its kind, plan and reason")
 
 TEST_CASE("4.3 A query is no command of the engine")
 {
-    CHECK_FALSE(MakePlanCommandOrNull(Protocol::RequestAcsPlans{}, 1).has_value());
-    CHECK_FALSE(MakePlanCommandOrNull(Protocol::RequestAcsErrorList{}, 1).has_value());
+    CHECK_FALSE(MakePlanCommandOrNull(Protocol::RequestAcsPlans{}, "T", 1).has_value());
+    CHECK_FALSE(MakePlanCommandOrNull(Protocol::RequestAcsErrorList{}, "T", 1).has_value());
 }
 
 TEST_CASE("9 A report is sent with its own transactionId and time, however often")

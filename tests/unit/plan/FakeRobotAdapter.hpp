@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -29,7 +30,10 @@ class FakeRobotAdapter final : public Planning::IRobotAdapter
     bool _bMoving = false;   ///< Between _index and the next node.
     bool _bStopping = false;
     std::string _jobID;
+    std::string _commandID; ///< Of the job.
     bool _bJobStarted = false;
+    bool _bForeign = false;             ///< Its drive was given by an engine that is gone.
+    std::map<std::string, bool> _ended; ///< By commandID: whether it was done well.
     bool _bPauseAsked = false;
 
 public:
@@ -43,6 +47,7 @@ public:
     std::size_t drives = 0;
     std::size_t ranOverBase = 0; ///< Extensions that were needed and had not come when the base ended.
     std::vector<std::string> doneJobs;
+    std::string uncertainReason; ///< Not empty: it cannot tell what became of a job.
 
     FakeRobotAdapter(Core::IRandom& random, std::string nodeID)
         : _random(random),
@@ -61,8 +66,20 @@ public:
         return nodes;
     }
 
+    /// The engine is gone, and its adapter with it; the robot goes on with what it has.
+    void LoseEngine()
+    {
+        _bForeign = _bDriving;
+        _bStopping = _bDriving;
+    }
+
     void Connect(Planning::AdapterActions& out)
     {
+        if (_bForeign && _bStopping && !_bMoving && !_bPauseAsked)
+        {
+            _bDriving = false;
+            _bForeign = false;
+        }
         Raise(Planning::LinkChanged{true}, out);
         RaiseState(out);
     }
@@ -76,14 +93,17 @@ public:
                 [this, &out](const Planning::CancelDrive& cancel) { Cancel(cancel, out); },
                 [this, &out](const Planning::StartJob& job) {
                     _jobID = job.jobID;
+                    _commandID = job.commandID;
                     _bJobStarted = false;
                     StartTimer(JOB_TIMER, 500, out);
                 },
+                [this, &out](const Planning::RecoverJob& recover) { Recover(recover.job, out); },
                 [this, &out](const Planning::CancelJob& job) {
-                    if (bIgnoresJobCancel)
+                    if (bIgnoresJobCancel || job.jobID != _jobID)
                     {
                         return;
                     }
+                    _ended[_commandID] = false;
                     Raise(Planning::JobFailed{job.jobID, "cancelled"}, out);
                     _jobID.clear();
                     ShowPause(out);
@@ -138,7 +158,37 @@ private:
         state.lastNodeID = _nodeID;
         state.bDriving = _bMoving;
         state.bPaused = IsPaused();
+        state.bOccupied = _bForeign && _bDriving;
+        for (std::size_t i = _index + 1; state.bOccupied && i < _drive.releasedCount; ++i)
+        {
+            state.heldNodeIDs.push_back(_drive.route.nodes[i].nodeID);
+        }
         Raise(std::move(state), out);
+    }
+
+    void Recover(const Planning::StartJob& job, Planning::AdapterActions& out)
+    {
+        const auto ended = _ended.find(job.commandID);
+        if (!uncertainReason.empty())
+        {
+            Raise(Planning::JobUncertain{job.jobID, uncertainReason}, out);
+        }
+        else if (ended != _ended.end() && ended->second)
+        {
+            Raise(Planning::JobFinished{job.jobID}, out);
+        }
+        else if (ended != _ended.end())
+        {
+            Raise(Planning::JobFailed{job.jobID, "the gripper is empty"}, out);
+        }
+        else if (_commandID != job.commandID || _jobID.empty())
+        {
+            Raise(Planning::JobUnknown{job.jobID}, out);
+        }
+        else if (_bJobStarted)
+        {
+            Raise(Planning::JobStarted{job.jobID}, out);
+        }
     }
 
     void ShowPause(Planning::AdapterActions& out) const
@@ -157,7 +207,11 @@ private:
         {
             StartTimer(JOB_TIMER, 500, out);
         }
-        if (_bDriving && _bAccepted && !_bMoving)
+        if (_bDriving && _bStopping && !_bMoving)
+        {
+            Stop(out);
+        }
+        else if (_bDriving && _bAccepted && !_bMoving)
         {
             GoOn(out);
         }
@@ -171,12 +225,13 @@ private:
 
     void BeginDrive(const Planning::Drive& drive, Planning::AdapterActions& out)
     {
-        if (bRejectDrives || drive.route.nodes.front().nodeID != _nodeID)
+        if (bRejectDrives || _bMoving || drive.route.nodes.front().nodeID != _nodeID)
         {
             Raise(Planning::DriveRejected{drive.driveID, "the test says so"}, out);
             return;
         }
         ++drives;
+        _bForeign = false;
         _drive = drive;
         _index = 0;
         _bDriving = true;
@@ -218,6 +273,7 @@ private:
     {
         _bDriving = false;
         _bMoving = false;
+        _bForeign = false;
         Raise(Planning::DriveCancelled{_drive.driveID, _nodeID}, out);
         RaiseState(out);
     }
@@ -274,6 +330,7 @@ private:
             return;
         }
         const std::string jobID = std::exchange(_jobID, {});
+        _ended[_commandID] = !failingJobs.contains(jobID);
         if (failingJobs.contains(jobID))
         {
             Raise(Planning::JobFailed{jobID, "the gripper is empty"}, out);

@@ -224,7 +224,11 @@ TEST_CASE("E82 TSC: what was paused is so after a restart; tsc.initial paused be
     REQUIRE(world.TryRun());
     CHECK(world.GetReportsOf("P1").empty());
     world.SwitchTsc(false);
+    REQUIRE(TryRunUntil(world, "P1", "Plan InProgress"));
     Restart(world, [](EngineOptions& options) { options.bTscStartsPaused = true; });
+    CHECK(world.engine->GetTscState() == ETscState::Pausing); // what was being worked on comes to its end
+    world.Connect();
+    FinishPlan(world);
     CHECK(world.engine->GetTscState() == ETscState::Paused);
     CHECK(world.store.GetState().tscState == ETscState::Paused);
 }
@@ -252,15 +256,4 @@ TEST_CASE("After a restart a plan that was held in the queue is still held, and 
     CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Paused);
     world.Control(EPlanControl::Resume, "P1");
     FinishPlan(world);
-}
-
-TEST_CASE("After a restart a robot that stands for a plan that was paused is let go on")
-{
-    PlanWorld world;
-    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
-    PausePlan(world);
-    Restart(world, [](EngineOptions&) {});
-    CHECK(world.GetReportsOf("P1").back() == "Plan Aborted");
-    world.Connect();
-    CHECK(world.engine->GetRobotStatuses()[0].status != ERobotStatus::Stopped);
 }

@@ -66,6 +66,7 @@ std::string DescribeCommand(const RobotCommand& command)
                     typed.to.value_or("-"),
                     typed.carrierID.value_or("-"));
             },
+            [](const RecoverJob& typed) { return fmt::format("RecoverJob {}", typed.job.jobID); },
             [](const CancelJob&) { return std::string("CancelJob"); },
             [](const Pause&) { return std::string("Pause"); },
             [](const Resume&) {
@@ -241,17 +242,28 @@ void PlanWorld::Connect()
     }
 }
 
-void PlanWorld::Submit(Plan plan, ReplyToken token)
+void PlanWorld::Submit(Plan plan, ReplyToken token, const std::string& transactionID)
 {
     EngineActions out;
-    engine->Handle(SubmitPlan{std::move(plan), token}, GetNow(), out);
+    engine->Handle(SubmitPlan{std::move(plan), token, transactionID}, GetNow(), out);
     Execute(std::move(out));
 }
 
-void PlanWorld::Control(EPlanControl control, const std::string& planID, ReplyToken token)
+void PlanWorld::Control(
+    EPlanControl control,
+    const std::string& planID,
+    ReplyToken token,
+    const std::string& transactionID)
 {
     EngineActions out;
-    engine->Handle(ControlPlan{control, planID, "", token}, GetNow(), out);
+    engine->Handle(ControlPlan{control, planID, "", token, transactionID}, GetNow(), out);
+    Execute(std::move(out));
+}
+
+void PlanWorld::Settle(const std::string& planID, const std::string& jobID, EJobAnswer answer, ReplyToken token)
+{
+    EngineActions out;
+    engine->Handle(SettleJob{planID, jobID, answer, token}, GetNow(), out);
     Execute(std::move(out));
 }
 
@@ -269,6 +281,10 @@ void PlanWorld::SwitchTsc(bool bPause)
 
 void PlanWorld::Raise(const std::string& robotID, const RobotEvent& event)
 {
+    if (engine == nullptr)
+    {
+        return;
+    }
     EngineActions out;
     engine->Handle(robotID, event, GetNow(), out);
     Execute(std::move(out));
@@ -282,13 +298,55 @@ void PlanWorld::Operate(const std::string& robotID, const RobotCommand& command)
     ExecuteRobot(robotID, out);
 }
 
-void PlanWorld::Restart(EngineOptions options, SiteMap site)
+void PlanWorld::Crash()
 {
     std::erase_if(_entries, [](const Entry& entry) { return entry.robotID.empty(); });
+    _delayed.clear();
+    engine.reset();
+    for (const auto& [robotID, robot] : _robots)
+    {
+        robot->LoseEngine();
+    }
+}
+
+void PlanWorld::CrashAtAction(std::size_t number)
+{
+    _crashAt = number;
+}
+
+void PlanWorld::Restart(EngineOptions options, SiteMap site)
+{
+    Crash();
+    _crashAt.reset();
     engine = std::make_unique<PlanEngine>(std::move(options), std::move(site), _random);
     EngineActions out;
-    engine->Restore(*store.Load(), GetNow(), out);
+    const StoredState state = *store.Load();
+    engine->Restore(state, GetNow(), out);
+    Replay(state.outbox);
     Execute(std::move(out));
+    for (const OutboxEntry& entry : state.outbox)
+    {
+        if (bAcknowledges)
+        {
+            EngineActions acknowledged;
+            engine->Handle(MessageAcknowledged{entry.sequence}, GetNow(), acknowledged);
+            Execute(std::move(acknowledged));
+        }
+    }
+}
+
+/// What was stored and never sent; what was sent goes out once more and tells the MCS nothing new.
+void PlanWorld::Replay(const std::vector<OutboxEntry>& outbox)
+{
+    for (const OutboxEntry& entry : outbox)
+    {
+        const bool bSent = std::ranges::count(reports, entry) > 0;
+        if (!bSent)
+        {
+            trace.push_back("report " + DescribeReport(entry.report));
+            reports.push_back(entry);
+        }
+    }
 }
 
 bool PlanWorld::TryRun(const std::function<bool()>& isReached)
@@ -398,6 +456,16 @@ void PlanWorld::ExecuteAll(EngineActions actions)
     std::vector<std::uint64_t> acknowledged;
     for (std::size_t i = 0; i < actions.size(); ++i)
     {
+        if (engine == nullptr)
+        {
+            return;
+        }
+        if (_crashAt.has_value() && (*_crashAt)-- == 0)
+        {
+            _crashAt.reset();
+            Crash();
+            return;
+        }
         const auto* storeOrNull = std::get_if<StorePlans>(&actions[i]);
         if (storeOrNull == nullptr)
         {
@@ -421,6 +489,10 @@ void PlanWorld::ExecuteAll(EngineActions actions)
     }
     for (const std::uint64_t sequence : acknowledged)
     {
+        if (engine == nullptr)
+        {
+            return;
+        }
         EngineActions out;
         engine->Handle(MessageAcknowledged{sequence}, GetNow(), out);
         Execute(std::move(out));

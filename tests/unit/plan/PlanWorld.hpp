@@ -53,6 +53,7 @@ class PlanWorld
     std::map<std::string, std::unique_ptr<FakeRobotAdapter>> _robots;
     std::deque<std::pair<std::string, Planning::RobotEvent>> _delayed; ///< Answers of robots to commands.
     bool _bExecuting = false;
+    std::optional<std::size_t> _crashAt;
 
 public:
     FaultyPlanStore store;
@@ -68,8 +69,17 @@ public:
     PlanWorld(std::uint64_t seed, Planning::EngineOptions options, Planning::SiteMap site);
 
     void Connect();
-    void Submit(Planning::Plan plan, Planning::ReplyToken token = 0);
-    void Control(Planning::EPlanControl control, const std::string& planID, Planning::ReplyToken token = 0);
+    void Submit(Planning::Plan plan, Planning::ReplyToken token = 0, const std::string& transactionID = {});
+    void Control(
+        Planning::EPlanControl control,
+        const std::string& planID,
+        Planning::ReplyToken token = 0,
+        const std::string& transactionID = {});
+    void Settle(
+        const std::string& planID,
+        const std::string& jobID,
+        Planning::EJobAnswer answer,
+        Planning::ReplyToken token = 0);
     void Advance(std::chrono::milliseconds time);
     void SwitchTsc(bool bPause);
     void Raise(const std::string& robotID, const Planning::RobotEvent& event);
@@ -77,6 +87,10 @@ public:
     void Operate(const std::string& robotID, const Planning::RobotCommand& command);
     /// Until nothing is left to happen, or the predicate holds after an event. False: more than a day went by.
     bool TryRun(const std::function<bool()>& isReached = {});
+    /// The engine is gone. What robots tell now nobody hears; they go on by themselves.
+    void Crash();
+    /// The actions of this call are lost from this one on (0: the first), and the engine with them. Counts anew.
+    void CrashAtAction(std::size_t number);
     /// A new engine on what the store holds; the robots stay where they are.
     void Restart(Planning::EngineOptions options, Planning::SiteMap site);
 
@@ -93,6 +107,7 @@ private:
     void ExecuteAll(Planning::EngineActions actions);
     void ExecuteAction(const Planning::EngineAction& action, std::vector<std::uint64_t>& acknowledged);
     void RaiseDelayed();
+    void Replay(const std::vector<Planning::OutboxEntry>& outbox);
     void ExecuteRobot(const std::string& robotID, const Planning::AdapterActions& actions);
     void CheckOccupancy();
     void Push(Entry entry, Core::Duration delay);

@@ -26,6 +26,7 @@ enum class EEngineTimer : std::uint8_t
     ControlConfirm, ///< Of a robot: it has not confirmed that it stopped, or goes on.
     JobTimeout,     ///< Of a robot: its job takes too long.
     HomeRetry,      ///< Of a robot: try again to send it home.
+    Gathering,      ///< After a restart: go on without the robots that have not told where they stand.
 };
 
 /// One timer; of a robot or, with an empty robotID, of the engine.

@@ -113,6 +113,8 @@ struct EngineOptions
     ControlOptions controls;
     std::chrono::milliseconds extensionDelay{2'000}; ///< A drive that is not confirmed is extended after this.
     std::chrono::milliseconds homeRetry{5'000};      ///< Between attempts of a robot that refuses to drive home.
+    /// After a restart nobody sets out before every robot has told where it stands and may still drive, at most so long.
+    std::chrono::milliseconds restartWait{30'000};
     std::chrono::milliseconds storeRetry{1'000};
     std::chrono::milliseconds acknowledgedDelay{200}; ///< Acknowledgements that are stored together.
     std::size_t finishedPlansKept = 1'000;            ///< In memory and in the store: history, and known planIDs.

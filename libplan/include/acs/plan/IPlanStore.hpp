@@ -4,6 +4,7 @@
 #include <acs/plan/ETscState.hpp>
 #include <acs/plan/PlanRecord.hpp>
 #include <acs/plan/Report.hpp>
+#include <acs/plan/RobotCommand.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -64,6 +65,18 @@ struct CarriersChanged
     bool operator==(const CarriersChanged&) const = default;
 };
 
+/// What a robot was told last, stored before it is told: by this its work is known again after a restart.
+struct RobotWorkChanged
+{
+    std::string robotID;
+    std::string commandID;       ///< Of its last Drive or StartJob; empty: none yet.
+    std::string previousID;      ///< Of the one before.
+    std::optional<StartJob> job; ///< Commanded, and its end not told.
+    bool bPauseAsked = false;    ///< It was told to pause, and has not shown since that it goes on.
+
+    bool operator==(const RobotWorkChanged&) const = default;
+};
+
 struct AlarmSet
 {
     Alarm alarm;
@@ -94,7 +107,8 @@ using StoreChange = std::variant<
     CarriersChanged,
     AlarmSet,
     AlarmCleared,
-    TscChanged>;
+    TscChanged,
+    RobotWorkChanged>;
 
 /// Changes that are stored together or not at all.
 struct StoreBatch
@@ -113,6 +127,7 @@ struct StoredState
     std::vector<CarriersChanged> carriers;
     std::vector<Alarm> alarms;
     ETscState tscState = ETscState::Auto; ///< Auto where none was ever stored.
+    std::vector<RobotWorkChanged> robotWorks;
 
     bool operator==(const StoredState&) const = default;
 };

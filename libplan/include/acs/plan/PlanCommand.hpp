@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/plan/EJobAnswer.hpp>
 #include <acs/plan/EPlanControl.hpp>
 #include <acs/plan/Plan.hpp>
 
@@ -18,6 +19,9 @@ struct SubmitPlan
 {
     Plan plan;
     ReplyToken replyToken = 0;
+    /// Of the request. The same plan again with the same one is answered as the first time and not taken twice, also after
+    /// a restart (register D-23); empty: every repetition is a duplicate.
+    std::string transactionID = {};
 
     bool operator==(const SubmitPlan&) const = default;
 };
@@ -30,6 +34,7 @@ struct ControlPlan
     std::string planID;
     std::string reason; ///< May be empty.
     ReplyToken replyToken = 0;
+    std::string transactionID = {}; ///< Of the request: a repetition of it has no result of its own. May be empty.
 
     bool operator==(const ControlPlan&) const = default;
 };
@@ -52,6 +57,18 @@ struct ControlTsc
     bool operator==(const ControlTsc&) const = default;
 };
 
-using PlanCommand = std::variant<SubmitPlan, ControlPlan, MessageAcknowledged, ControlTsc>;
+/// Of the operator, who has looked: what became of a job that is held (alarm ACS-1008). What the robot tells of it later
+/// changes nothing. Answered by one ReplyCommand.
+struct SettleJob
+{
+    std::string planID;
+    std::string jobID; ///< As the alarm names it.
+    EJobAnswer answer = EJobAnswer::Done;
+    ReplyToken replyToken = 0;
+
+    bool operator==(const SettleJob&) const = default;
+};
+
+using PlanCommand = std::variant<SubmitPlan, ControlPlan, MessageAcknowledged, ControlTsc, SettleJob>;
 
 } // namespace ACS::Planning

@@ -51,10 +51,11 @@ public:
     /// The observer must outlive the engine. At most one; call before anything else.
     void SetObserver(IPlanObserver& observer);
 
-    /// Once, before any command or event: what the store held. Pending plans go on, those held in the queue stay held, and
-    /// a TSC that was not Auto is Paused. Plans that were being worked on are Failed (Aborted, where they were paused), with
-    /// a heavy alarm each, because nobody saw what became of the running job; the alarm is cleared when the robot has
-    /// completed a plan. Unacknowledged reports are in GetUnacknowledged.
+    /// Once, before any command or event: what the store held. Plans stay in their states and with their robots, paused ones
+    /// and those held in the queue included, and controls whose outcome was open still owe it. Each robot is asked what
+    /// became of a job whose end nobody heard (RecoverJob); where it cannot tell, the job is held with a heavy alarm until
+    /// SettleJob or AbortPlan. Drives are begun anew; nobody sets out before every robot has told its place, or
+    /// EngineOptions::restartWait has passed. Unacknowledged reports are in GetUnacknowledged.
     void Restore(StoredState state, Core::Now now, EngineActions& out);
 
     void Handle(const PlanCommand& command, Core::Now now, EngineActions& out);

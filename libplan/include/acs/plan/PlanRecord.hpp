@@ -2,10 +2,12 @@
 
 #include <acs/core/Now.hpp>
 #include <acs/plan/EJobState.hpp>
+#include <acs/plan/EPlanControl.hpp>
 #include <acs/plan/EPlanState.hpp>
 #include <acs/plan/EStepState.hpp>
 #include <acs/plan/Plan.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -31,7 +33,11 @@ struct PlanProgress
     std::string message; ///< Of the last PlanReport.
     std::optional<Core::WallTime> startedAt;
     std::optional<Core::WallTime> endedAt;
-    std::vector<StepProgress> steps; ///< As many as the plan has, in ascending stepNo.
+    std::vector<StepProgress> steps;     ///< As many as the plan has, in ascending stepNo.
+    bool bArrived = false;               ///< The place of its first step was reached.
+    std::optional<EPlanControl> control; ///< Acknowledged, its outcome not known.
+    std::size_t controlCount = 0;        ///< How often it was asked for: each is owed a result.
+    std::vector<std::string> requestIDs; ///< TransactionIDs of its controls; the latest ones.
 
     bool operator==(const PlanProgress&) const = default;
 };
@@ -43,6 +49,7 @@ struct PlanRecord
     Core::WallTime acceptedAt;
     Plan plan; ///< Its steps in ascending stepNo.
     PlanProgress progress;
+    std::string transactionID; ///< Of the request that brought it; may be empty.
 
     bool operator==(const PlanRecord&) const = default;
 };

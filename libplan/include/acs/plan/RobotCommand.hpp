@@ -89,9 +89,23 @@ struct StartJob
     std::optional<std::string> from;
     std::optional<std::string> to;
     std::optional<std::string> carrierID;
-    std::string commandID; ///< A UUID; never used twice, where another plan may bring the same jobID.
+    /// A UUID. What is done under it is done once: another plan may bring the same jobID, and a job that has to be sent
+    /// again, because the robot never had it, has the same commandID.
+    std::string commandID;
+    std::string mark; ///< StateChanged::mark of the moment before.
 
     bool operator==(const StartJob&) const = default;
+};
+
+/// After a restart: tell what became of this job, which was commanded before and whose end nobody has heard. Answered, as
+/// soon as the robot is there, by JobStarted, JobFinished or JobFailed, and else by one of JobUnknown and JobUncertain. It
+/// never begins the job.
+struct RecoverJob
+{
+    StartJob job;           ///< As it was commanded.
+    std::string previousID; ///< Of the Drive or StartJob before it; empty where none is known.
+
+    bool operator==(const RecoverJob&) const = default;
 };
 
 /// Give the job up; answered by JobFailed or, where it was too late, JobFinished.
@@ -114,6 +128,6 @@ struct Resume
 };
 
 /// What the engine asks of a robot. One drive or one job at a time, never both.
-using RobotCommand = std::variant<Drive, ExtendDrive, CancelDrive, StartJob, CancelJob, Pause, Resume>;
+using RobotCommand = std::variant<Drive, ExtendDrive, CancelDrive, StartJob, RecoverJob, CancelJob, Pause, Resume>;
 
 } // namespace ACS::Planning

@@ -43,6 +43,12 @@ struct StateChanged
     bool bSafetyStop = false; ///< Emergency stop or protective field.
     bool bOccupied = false;   ///< Busy with work that the engine did not give it, or gave it before a restart.
     std::vector<RobotError> errors; ///< All that are active.
+    /// Nodes ahead on which it may still drive without another command, of an order that it was given before a restart or
+    /// by somebody else: they are kept free for it.
+    std::vector<std::string> heldNodeIDs;
+    /// What is true of the robot now and will have changed once a job has begun, in words of the adapter's own (an arm's
+    /// counters). Comes back with the job; empty where the commandID is enough.
+    std::string mark;
 
     bool operator==(const StateChanged&) const = default;
 };
@@ -106,6 +112,24 @@ struct JobFailed
     bool operator==(const JobFailed&) const = default;
 };
 
+/// The robot shows that it never had the job: it can be commanded (again) without being done twice.
+struct JobUnknown
+{
+    std::string jobID;
+
+    bool operator==(const JobUnknown&) const = default;
+};
+
+/// What became of the job cannot be known from the robot: a person has to look. The last word about this job: the adapter
+/// tells nothing of it any more.
+struct JobUncertain
+{
+    std::string jobID;
+    std::string reason; ///< What the robot shows, in words for that person.
+
+    bool operator==(const JobUncertain&) const = default;
+};
+
 /// What an adapter tells the engine about its robot. What does not belong to the present drive or job is ignored, so
 /// an adapter may repeat itself.
 using RobotEvent = std::variant<
@@ -117,6 +141,8 @@ using RobotEvent = std::variant<
     DriveCancelled,
     JobStarted,
     JobFinished,
-    JobFailed>;
+    JobFailed,
+    JobUnknown,
+    JobUncertain>;
 
 } // namespace ACS::Planning

@@ -26,6 +26,9 @@ namespace ACS::Planning
 [[nodiscard]] std::string EncodeCarriers(const CarriersChanged& carriers);
 [[nodiscard]] Core::Result<CarriersChanged> DecodeCarriers(std::string_view text);
 
+[[nodiscard]] std::string EncodeRobotWork(const RobotWorkChanged& work);
+[[nodiscard]] Core::Result<RobotWorkChanged> DecodeRobotWork(std::string_view text);
+
 [[nodiscard]] std::string EncodeAlarm(const Alarm& alarm);
 [[nodiscard]] Core::Result<Alarm> DecodeAlarm(std::string_view text);
 
