@@ -185,9 +185,9 @@ class Line:
                     pass
         return False
 
-    def start_vehicles(self, time_scale, vehicles=("LR01,type=LR", "CR01,type=CR")):
+    def start_vehicles(self, time_scale, vehicles=("LR01,type=LR", "CR01,type=CR"), port=None):
         options = [part for vehicle in vehicles for part in ("--vehicle", vehicle)]
-        return self.start("vda-sim", "--broker", f"mqtt://127.0.0.1:{self.broker_port}", "--site",
+        return self.start("vda-sim", "--broker", f"mqtt://127.0.0.1:{port or self.broker_port}", "--site",
                           self.site_dir / "site.lif.json", "--time-scale", time_scale, *options)
 
     def start_arm(self, time_scale):

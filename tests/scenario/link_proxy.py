@@ -1,5 +1,5 @@
-"""A TCP proxy between acsd and the MCS that a test can cut, and that shows it each WebSocket message from acsd before it
-is passed on."""
+"""A TCP proxy that a test can cut, between acsd and the MCS or before the broker. On the way to the MCS it shows each
+WebSocket message from acsd before it is passed on."""
 
 import socket
 import threading
@@ -45,11 +45,11 @@ class FrameReader:
 
 
 class LinkProxy:
-    """on_message(text) is called on the proxy's thread before the bytes that hold it go on to the MCS."""
+    """on_message(text) is called on the proxy's thread before the bytes that hold it go on; without it nothing is read."""
 
     def __init__(self, target_port, on_message=None):
         self._target_port = target_port
-        self._on_message = on_message or (lambda text: None)
+        self._on_message = on_message
         self._lock = threading.Lock()
         self._sockets = set()
         self._cut = False
@@ -68,10 +68,15 @@ class LinkProxy:
                 if self._cut:
                     client.close()
                     continue
-                server = socket.create_connection(("127.0.0.1", self._target_port))
+                try:
+                    server = socket.create_connection(("127.0.0.1", self._target_port))
+                except OSError:
+                    client.close()
+                    continue
                 self._sockets |= {client, server}
                 self.connections += 1
-            threading.Thread(target=self._pump, args=(client, server, FrameReader()), daemon=True).start()
+            threading.Thread(target=self._pump, args=(client, server, FrameReader() if self._on_message else None),
+                             daemon=True).start()
             threading.Thread(target=self._pump, args=(server, client, None), daemon=True).start()
 
     def _pump(self, source, sink, reader):
@@ -87,6 +92,9 @@ class LinkProxy:
                 end.shutdown(socket.SHUT_RDWR)
             except OSError:
                 pass
+        with self._lock:
+            self._sockets.discard(source)
+        source.close()  # the other direction closes the other end
 
     def cut(self):
         """Breaks all connections without a close handshake, and refuses new ones until mend()."""
