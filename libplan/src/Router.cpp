@@ -235,10 +235,11 @@ private:
             legs.push_back(Leg{node, _reached[node].edgeIndex});
         }
         route.nodes.push_back(MakeNode(from, vehicleTypeID));
-        for (auto leg = legs.rbegin(); leg != legs.rend(); ++leg)
+        std::ranges::reverse(legs);
+        for (const Leg& leg : legs)
         {
-            route.edges.push_back(MakeEdge(leg->edgeIndex, vehicleTypeID));
-            route.nodes.push_back(MakeNode(leg->nodeIndex, vehicleTypeID));
+            route.edges.push_back(MakeEdge(leg.edgeIndex, vehicleTypeID));
+            route.nodes.push_back(MakeNode(leg.nodeIndex, vehicleTypeID));
         }
     }
 };
