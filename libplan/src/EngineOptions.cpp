@@ -164,6 +164,10 @@ std::vector<Core::Error> FindMistakes(const EngineOptions& options, const SiteMa
     {
         finder.Add("traffic.base_length", "at least 1", "0");
     }
+    if (!(options.clearance >= 0))
+    {
+        finder.Add("traffic.clearance", "a distance in metres, 0 or more", fmt::format("{}", options.clearance));
+    }
     if (options.maximumPlans == 0)
     {
         finder.Add("queue.max_plans", "at least 1", "0");

@@ -479,6 +479,7 @@ void PlanEngine::Impl::StopJobTimer(Robot& robot)
 /// The robot has not shown in time that it stopped, or that it goes on: what was asked for came to nothing.
 void PlanEngine::Impl::OnControlTimeout(Robot& robot)
 {
+    GiveInsteadUp(robot);
     if (robot.planOrNull == nullptr || !robot.planOrNull->record.progress.control.has_value())
     {
         return;

@@ -21,7 +21,7 @@ void PlanEngine::Impl::Dispatch()
         {
             SendIdleHome();
         }
-        PartCircles();
+        PartStuck();
     }
 }
 

@@ -15,7 +15,7 @@ PlanEngine::Impl::Impl(EngineOptions options, SiteMap site, Core::IRandom& rando
       _random(random),
       _router(_site),
       _admission(_options, _site),
-      _reservations(_site.GetNodes().size())
+      _traffic(_site, _options.clearance)
 {
     assert(FindMistakes(_options, _site).empty());
     _robots.resize(_options.robots.size());
@@ -30,16 +30,10 @@ PlanEngine::Impl::Impl(EngineOptions options, SiteMap site, Core::IRandom& rando
         {
             robot.homeNode = _admission.FindDockOrNull(*robot.options->homeStationID, robot.options->vehicleTypeID);
         }
-        if (robot.options->startNodeID.has_value())
-        {
-            const std::vector<std::size_t> start{*_site.FindNodeIndexOrNull(*robot.options->startNodeID)};
-            const bool bClaimed = _reservations.TryClaim(start, i);
-            assert(bClaimed);
-            static_cast<void>(bClaimed);
-        }
         robot.lastStatus = MakeStatus(robot, DeriveStatus(robot));
         robot.bTouched = false;
     }
+    FindBerths();
 }
 
 void PlanEngine::Impl::SetObserver(IPlanObserver& observer)
@@ -97,6 +91,7 @@ void PlanEngine::Impl::HandleEvent(std::string_view robotID, const RobotEvent& e
                 OnJobUncertain(robot, typed);
             }},
         event);
+    NoteMovable(robot);
     End(out);
 }
 
@@ -118,9 +113,10 @@ void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineAc
             _acknowledged.clear();
             break;
         case EEngineTimer::DriveExtension:
-            if (robotOrNull != nullptr && robotOrNull->drive.has_value() && !robotOrNull->drive->bConfirmed)
+            if (robotOrNull != nullptr && robotOrNull->drive.has_value())
             {
-                ExtendBase(*robotOrNull);
+                robotOrNull->drive->bConfirmed = true; // It has had its time to say so.
+                _bDispatchNeeded = true;
             }
             break;
         case EEngineTimer::ControlConfirm:

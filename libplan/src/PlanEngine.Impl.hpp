@@ -1,7 +1,7 @@
 #pragma once
 
 #include "PlanAdmission.hpp"
-#include "Reservations.hpp"
+#include "Traffic.hpp"
 #include <acs/plan/PlanEngine.hpp>
 #include <acs/plan/PlanTransitions.hpp>
 #include <acs/plan/ReportOutbox.hpp>
@@ -81,16 +81,35 @@ public:
         Home,
     };
 
+    /// Where a robot wants to go, and how.
+    struct Wish
+    {
+        std::size_t target = 0;
+        Route route;
+        std::vector<std::size_t> nodes; ///< Of the route, by index in the map.
+    };
+
     struct ActiveDrive
     {
         std::string driveID;
         Route route;
         std::vector<std::size_t> nodes; ///< Of the route, by index in the map.
-        std::size_t releasedCount = 0;
-        std::size_t passed = 0; ///< Index in the route of the last node passed.
+        std::size_t grantedCount = 0;   ///< Nodes from the start on that are the robot's, or were.
+        std::size_t releasedCount = 0;  ///< Of them, those that it was told.
+        std::size_t passed = 0;         ///< Index in the route of the last node passed.
         EGoal goal = EGoal::Step;
         bool bConfirmed = false;
         bool bCancelling = false;
+        std::optional<Wish> instead; ///< It is cancelled for this way; the first nodes of it are granted.
+        bool bInsteadRetreats = false;
+    };
+
+    /// A robot lets another one go first until that one is there, or has another aim.
+    struct Courtesy
+    {
+        std::size_t leader = 0;
+        std::optional<std::uint64_t> planSequence; ///< nullopt: the leader goes home.
+        std::size_t step = 0;
     };
 
     struct Robot
@@ -126,9 +145,13 @@ public:
         std::optional<ActiveDrive> drive;
         std::vector<std::optional<std::string>> carriers;
         RobotStatus lastStatus;
-        /// The shortest way to where it wants to go, kept while it waits.
-        std::optional<Route> wish;
-        std::size_t wishTarget = 0;
+        std::optional<Wish> wish;          ///< The quickest way to where it wants to go, kept while it waits.
+        std::vector<std::size_t> blockers; ///< Robots that kept it from driving on when it last wanted to.
+        std::uint64_t refusedAt = 0;       ///< Traffic::GetFreedCount then.
+        std::optional<Courtesy> courtesy;
+        std::size_t detours = 0;              ///< Taken on the way to its present step.
+        std::optional<std::size_t> berthNode; ///< Its home or, without one, where it can be out of the way.
+        std::optional<std::size_t> aheadNode; ///< It has stopped between its node and this one.
     };
 
 private:
@@ -138,7 +161,7 @@ private:
     IPlanObserver* _observerOrNull = nullptr;
     Router _router;
     PlanAdmission _admission;
-    Reservations _reservations;
+    Traffic _traffic;
 
     std::map<std::string, std::unique_ptr<ActivePlan>, std::less<>> _plans;
     std::map<QueueKey, ActivePlan*> _pending;
@@ -278,9 +301,9 @@ private:
     [[nodiscard]] bool TryEndOverdueJob(Robot& robot, const std::string& jobID);
     void Place(Robot& robot);
     void CompareErrors(Robot& robot);
-    void Advance(Robot& robot, std::size_t routeIndex);
+    [[nodiscard]] bool TryAdvance(Robot& robot, std::size_t routeIndex);
+    [[nodiscard]] std::optional<std::size_t> FindNodeAheadOrNull(const Robot& robot, std::size_t next) const;
     void EndDrive(Robot& robot);
-    void ExtendBase(Robot& robot);
 
     // Steps and jobs (PlanEngine.Work.cpp).
     void BeginPlan(ActivePlan& plan, Robot& robot);
@@ -306,23 +329,46 @@ private:
     [[nodiscard]] Robot* FindNearestOrNull(const ActivePlan& plan);
 
     // Who drives when (PlanEngine.Traffic.cpp).
+    void FindBerths();
+    void NoteMovable(const Robot& robot);
     void MoveWaiting();
+    void ExtendDrives();
+    void ExtendBase(Robot& robot);
     void SendIdleHome();
     [[nodiscard]] std::vector<Robot*> GetHomeless();
-    [[nodiscard]] std::optional<Route> FindComingRouteOrNull(const Robot& robot) const;
-    void PartCircles();
-    [[nodiscard]] std::vector<Robot*> GetInCircles();
-    [[nodiscard]] bool TryRetreat(Robot& robot, std::size_t node);
-    [[nodiscard]] bool TryRetreatAnywhere(Robot& robot);
     [[nodiscard]] std::vector<Robot*> GetWaiting();
     [[nodiscard]] std::optional<std::size_t> GetTargetOrNull(const Robot& robot) const;
+    [[nodiscard]] std::vector<std::size_t> GetTargetHolders(const Robot& robot, std::size_t target) const;
     [[nodiscard]] bool TryDrive(Robot& robot);
-    [[nodiscard]] bool TryBeginDrive(Robot& robot, const Route& route);
+    [[nodiscard]] bool TryTakeWish(Robot& robot);
+    [[nodiscard]] bool TryBeginDrive(Robot& robot, const Wish& wish);
     [[nodiscard]] bool TryFindWish(Robot& robot, std::size_t target);
-    [[nodiscard]] std::vector<std::size_t> GetStandingBlockers(Robot& robot);
-    [[nodiscard]] bool IsStanding(std::size_t robot) const;
-    [[nodiscard]] std::vector<std::size_t> GetIndices(const Route& route) const;
+    [[nodiscard]] std::optional<Wish> FindWishOrNull(
+        const Robot& robot,
+        std::size_t target,
+        const Router::NodeFilter& isExcluded) const;
+    [[nodiscard]] bool CanAdvance(const Robot& robot) const;
+    [[nodiscard]] bool CanServe(const Robot& robot, const ActivePlan& plan);
+    [[nodiscard]] static bool IsMoreUrgent(const Robot* left, const Robot* right);
     void OnNoRoute(Robot& robot, std::size_t target);
+
+    // Robots that wait for one another (PlanEngine.Yielding.cpp).
+    void PartStuck();
+    [[nodiscard]] bool IsMoving(const Robot& robot) const;
+    [[nodiscard]] bool IsWaiting(const Robot& robot) const;
+    [[nodiscard]] bool IsHelpable(const Robot& robot) const;
+    [[nodiscard]] bool IsYielding(const Robot& robot) const;
+    [[nodiscard]] std::vector<Robot*> GetStuck();
+    [[nodiscard]] std::vector<Robot*> GetBlockersOf(const Robot& start);
+    [[nodiscard]] bool TryPart(const std::vector<Robot*>& stuck);
+    [[nodiscard]] bool TryDetour(Robot& robot);
+    [[nodiscard]] bool TryMakeWay(Robot& leader, const std::vector<Robot*>& stuck);
+    [[nodiscard]] bool TryRetreat(Robot& robot, const Robot& leader);
+    [[nodiscard]] bool TryStepAside(Robot& robot, const Robot& leader);
+    [[nodiscard]] bool TryDriveInstead(Robot& robot, Wish wish, bool bRetreats);
+    void BeginInstead(Robot& robot, Wish wish, bool bRetreats);
+    void GiveInsteadUp(Robot& robot);
+    void LetGoFirst(Robot& robot, const Robot& leader);
 
     // After a restart (PlanEngine.Recovery.cpp).
     void RestoreRobot(const RobotWorkChanged& work);

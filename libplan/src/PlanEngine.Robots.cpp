@@ -3,11 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 #include <span>
 #include <utility>
 
 namespace ACS::Planning
 {
+
+namespace
+{
+
+/// Metres from a node at which a robot still stands on it.
+constexpr double STAND_TOLERANCE = 0.5;
+
+} // namespace
 
 void PlanEngine::Impl::OnLink(Robot& robot, const LinkChanged& event)
 {
@@ -78,6 +88,12 @@ void PlanEngine::Impl::Place(Robot& robot)
             claim.push_back(*held);
         }
     }
+    const bool bBetween =
+        robot.aheadNode.has_value() && node == robot.node && FindNodeAheadOrNull(robot, *robot.aheadNode).has_value();
+    if (bBetween && std::ranges::count(claim, *robot.aheadNode) == 0)
+    {
+        claim.push_back(*robot.aheadNode);
+    }
     if (robot.bPlaced && node == robot.node && claim == robot.heldNodes)
     {
         return;
@@ -86,12 +102,12 @@ void PlanEngine::Impl::Place(Robot& robot)
     alarm.robotID = GetRobotID(robot);
     alarm.errorCode = ALARM_PLACE;
     alarm.level = EAlarmLevel::Heavy;
-    if (!_reservations.TryClaim(claim, robot.index))
+    if (!_traffic.TryStand(robot.index, *node, std::span(claim).subspan(1)))
     {
         const auto taken = std::ranges::find_if(claim, [this, &robot](std::size_t other) {
-            return !_reservations.IsFreeFor(other, robot.index);
+            return !_traffic.IsFreeFor(other, robot.index);
         });
-        const std::size_t holder = *_reservations.GetHolderOrNull(*taken);
+        const std::size_t holder = *_traffic.GetHolderOrNull(*taken);
         alarm.message = fmt::format(
             "It {} node {}, which {} holds.",
             taken == claim.begin() ? "stands on" : "may still go to",
@@ -99,15 +115,15 @@ void PlanEngine::Impl::Place(Robot& robot)
             GetRobotID(_robots[holder]));
         robot.bPlaced = false;
         // Where it is all the same nobody else is let.
-        for (const std::size_t other : claim)
-        {
-            static_cast<void>(_reservations.TryClaim(std::span(&other, 1), robot.index));
-        }
+        _traffic.HoldFree(robot.index, claim);
         RaiseAlarm(std::move(alarm));
         return;
     }
     ClearAlarm(alarm);
-    _reservations.ReleaseAllBut(claim, robot.index);
+    if (!bBetween)
+    {
+        robot.aheadNode.reset();
+    }
     robot.node = node;
     robot.heldNodes = std::move(claim);
     robot.bPlaced = true;
@@ -173,52 +189,95 @@ void PlanEngine::Impl::OnNodePassed(Robot& robot, const NodePassed& event)
     {
         MarkStepBegun(*robot.planOrNull);
     }
-    Advance(robot, routeIndex);
-    ExtendBase(robot);
+    if (TryAdvance(robot, routeIndex))
+    {
+        ExtendBase(robot);
+    }
 }
 
-/// The robot is at or beyond this node of its way: what lies behind is free for others.
-void PlanEngine::Impl::Advance(Robot& robot, std::size_t routeIndex)
+/// The robot is at or beyond this node of its way: what lies behind is free for others. False: another robot holds the
+/// node, as this one drove on without leave.
+bool PlanEngine::Impl::TryAdvance(Robot& robot, std::size_t routeIndex)
 {
     ActiveDrive& drive = *robot.drive;
-    for (std::size_t i = drive.passed; i < routeIndex; ++i)
+    if (routeIndex >= drive.grantedCount)
     {
-        _reservations.Release(drive.nodes[i], robot.index);
+        const std::span<const std::size_t> nodes(drive.nodes);
+        const std::span<const std::size_t> overrun =
+            nodes.subspan(drive.grantedCount, routeIndex + 1 - drive.grantedCount);
+        if (drive.instead.has_value() || !_traffic.TryOverrun(robot.index, overrun))
+        {
+            Alarm alarm;
+            alarm.robotID = GetRobotID(robot);
+            alarm.errorCode = ALARM_PLACE;
+            alarm.level = EAlarmLevel::Heavy;
+            alarm.message = fmt::format("It drove on to node {} without leave.", drive.route.nodes[routeIndex].nodeID);
+            RaiseAlarm(std::move(alarm));
+            return false;
+        }
+        Note(robot, "drove on beyond what was released");
+        drive.grantedCount = routeIndex + 1;
+    }
+    if (routeIndex > drive.passed)
+    {
+        _traffic.Pass(robot.index, routeIndex - drive.passed);
         _bDispatchNeeded = true;
+        robot.aheadNode.reset();
     }
     drive.passed = routeIndex;
     robot.node = drive.nodes[routeIndex];
+    return true;
 }
 
-/// Keeps the base ahead of the robot. Longer than asked for, so that not every node costs an update.
-void PlanEngine::Impl::ExtendBase(Robot& robot)
+/// The next node, where the robot tells that it stands on the way to it, and no longer on its own node.
+std::optional<std::size_t> PlanEngine::Impl::FindNodeAheadOrNull(const Robot& robot, std::size_t next) const
 {
-    ActiveDrive& drive = *robot.drive;
-    const std::size_t reached = drive.passed + 1;
-    if (drive.bCancelling || drive.releasedCount >= drive.nodes.size()
-        || drive.releasedCount >= reached + _options.baseLength)
+    if (!robot.state.has_value() || !robot.state->bPoseKnown)
     {
-        return;
+        return std::nullopt;
     }
-    drive.releasedCount = std::min(drive.nodes.size(), reached + 2 * _options.baseLength);
-    Command(robot, ExtendDrive{drive.driveID, drive.releasedCount});
+    const SiteNode& from = _site.GetNodes()[*robot.node];
+    const SiteNode& to = _site.GetNodes()[next];
+    const double length = GetDistance(from, to);
+    if (length <= 0)
+    {
+        return std::nullopt;
+    }
+    const double x = robot.state->x - from.x;
+    const double y = robot.state->y - from.y;
+    const double along = (x * (to.x - from.x) + y * (to.y - from.y)) / length;
+    const double beside = std::abs(x * (to.y - from.y) - y * (to.x - from.x)) / length;
+    const double tolerance = std::min(STAND_TOLERANCE, length / 4);
+    return along > tolerance && along <= length + tolerance && beside <= STAND_TOLERANCE ? std::optional(next)
+                                                                                         : std::nullopt;
 }
 
-/// The robot stands on drive->passed: nothing else of the way is its own any more.
+/// The robot stands on drive->passed, or between it and the next node: nothing else of the way is its own any more.
 void PlanEngine::Impl::EndDrive(Robot& robot)
 {
     const std::string& robotID = GetRobotID(robot);
-    if (!robot.drive->bConfirmed)
+    const ActiveDrive& drive = *robot.drive;
+    if (!drive.bConfirmed)
     {
         CancelTimer(EEngineTimer::DriveExtension, robotID);
     }
-    if (robot.drive->bCancelling)
+    if (drive.bCancelling)
     {
         StopConfirming(robot);
     }
+    const bool bMayBeAhead = drive.bConfirmed && drive.passed + 1 < drive.grantedCount;
+    robot.aheadNode = bMayBeAhead ? FindNodeAheadOrNull(robot, drive.nodes[drive.passed + 1]) : std::nullopt;
+    robot.heldNodes.assign(1, *robot.node);
+    if (robot.aheadNode.has_value())
+    {
+        robot.heldNodes.push_back(*robot.aheadNode);
+    }
+    const bool bStands = _traffic.TryStand(robot.index, *robot.node, std::span(robot.heldNodes).subspan(1));
+    assert(bStands);
+    static_cast<void>(bStands);
     robot.drive.reset();
     robot.wish.reset();
-    _reservations.ReleaseAllBut(robot.node, robot.index);
+    robot.blockers.clear();
     _bDispatchNeeded = true;
 }
 
@@ -228,7 +287,12 @@ void PlanEngine::Impl::OnArrived(Robot& robot, const Arrived& event)
     {
         return;
     }
-    Advance(robot, robot.drive->nodes.size() - 1);
+    if (!TryAdvance(robot, robot.drive->nodes.size() - 1))
+    {
+        OnDriveRejected(robot, DriveRejected{event.driveID, "it went where another robot is"});
+        robot.bPlaced = false;
+        return;
+    }
     const EGoal goal = robot.drive->goal;
     const std::string nodeID = robot.drive->route.nodes.back().nodeID;
     EndDrive(robot);
@@ -307,9 +371,21 @@ void PlanEngine::Impl::OnDriveCancelled(Robot& robot, const DriveCancelled& even
     const std::vector<RouteNode>& nodes = robot.drive->route.nodes;
     const auto found = std::ranges::find(nodes, event.nodeID, &RouteNode::nodeID);
     const auto routeIndex = static_cast<std::size_t>(found - nodes.begin());
-    if (found != nodes.end() && routeIndex > robot.drive->passed)
+    if (found != nodes.end() && routeIndex > robot.drive->passed && !TryAdvance(robot, routeIndex))
     {
-        Advance(robot, routeIndex);
+        OnDriveRejected(robot, DriveRejected{event.driveID, "it went where another robot is"});
+        robot.bPlaced = false;
+        return;
+    }
+    const std::optional<EPlanControl> control =
+        robot.planOrNull == nullptr ? std::nullopt : robot.planOrNull->record.progress.control;
+    if (robot.drive->instead.has_value() && control != EPlanControl::Cancel && control != EPlanControl::Abort)
+    {
+        const bool bRetreats = robot.drive->bInsteadRetreats;
+        Wish instead = std::move(*robot.drive->instead);
+        EndDrive(robot);
+        BeginInstead(robot, std::move(instead), bRetreats);
+        return;
     }
     OnDriveRejected(robot, DriveRejected{event.driveID, "it was cancelled"});
 }

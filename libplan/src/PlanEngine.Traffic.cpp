@@ -4,13 +4,90 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
+#include <cassert>
+#include <set>
+#include <span>
 #include <utility>
 
 namespace ACS::Planning
 {
 
-/// Robots that must get to a place, in the order of their plans.
+/// A robot without a home has a berth all the same: the first station that is nobody's. It goes there only to make way.
+void PlanEngine::Impl::FindBerths()
+{
+    std::set<std::size_t> taken;
+    for (Robot& robot : _robots)
+    {
+        robot.berthNode = robot.homeNode;
+        if (robot.homeNode.has_value())
+        {
+            taken.insert(*robot.homeNode);
+        }
+    }
+    for (Robot& robot : _robots)
+    {
+        const RobotOptions& options = *robot.options;
+        const std::optional<std::size_t> start =
+            options.startNodeID.has_value() ? _site.FindNodeIndexOrNull(*options.startNodeID) : std::nullopt;
+        for (const SiteStation& station : _site.GetStations())
+        {
+            const std::optional<std::size_t> dock = _admission.FindDockOrNull(station.stationID, options.vehicleTypeID);
+            if (!robot.berthNode.has_value() && dock.has_value() && taken.insert(*dock).second)
+            {
+                robot.berthNode = dock;
+            }
+        }
+        _traffic.AddRobot(options.vehicleTypeID, robot.berthNode);
+        if (start.has_value())
+        {
+            const bool bStands = _traffic.TryStand(robot.index, *start);
+            assert(bStands);
+            static_cast<void>(bStands);
+        }
+    }
+}
+
+/// A robot that is not able to drive now is an obstacle for the others.
+void PlanEngine::Impl::NoteMovable(const Robot& robot)
+{
+    const bool bMovable = IsUsable(robot) && !robot.bPauseWanted;
+    if (_traffic.IsMovable(robot.index) != bMovable)
+    {
+        _traffic.SetMovable(robot.index, bMovable);
+        _bDispatchNeeded = true;
+    }
+}
+
+/// Whether its drive is to be given more. A robot that is out of reach may still tell of nodes, and then goes on.
+bool PlanEngine::Impl::CanAdvance(const Robot& robot) const
+{
+    return IsUsable(robot) ? !robot.bPauseWanted : !robot.bOnline && !robot.bPauseWanted && !IsHeld(robot);
+}
+
+/// Whether those that cannot move leave it a way to all places of the plan and from each of them home.
+bool PlanEngine::Impl::CanServe(const Robot& robot, const ActivePlan& plan)
+{
+    return std::ranges::all_of(plan.resolved.steps, [this, &robot](const ResolvedStep& step) {
+        const std::optional<std::size_t> dock = _admission.FindDockOrNull(step.stationID, robot.options->vehicleTypeID);
+        return !dock.has_value() || _traffic.CanServe(robot.index, *dock);
+    });
+}
+
+/// Those with plans in the order of their plans, then those without.
+bool PlanEngine::Impl::IsMoreUrgent(const Robot* left, const Robot* right)
+{
+    if (left->planOrNull != nullptr && right->planOrNull != nullptr)
+    {
+        return left->planOrNull->key < right->planOrNull->key;
+    }
+    if (left->planOrNull != nullptr || right->planOrNull != nullptr)
+    {
+        return left->planOrNull != nullptr;
+    }
+    return left->index < right->index;
+}
+
+/// Robots that must get to a place and stand, in the order of their plans.
 std::vector<PlanEngine::Impl::Robot*> PlanEngine::Impl::GetWaiting()
 {
     std::vector<Robot*> waiting;
@@ -21,29 +98,8 @@ std::vector<PlanEngine::Impl::Robot*> PlanEngine::Impl::GetWaiting()
             waiting.push_back(&robot);
         }
     }
-    std::ranges::sort(waiting, [](const Robot* left, const Robot* right) {
-        return left->planOrNull->key < right->planOrNull->key;
-    });
+    std::ranges::sort(waiting, IsMoreUrgent);
     return waiting;
-}
-
-std::optional<std::size_t> PlanEngine::Impl::GetTargetOrNull(const Robot& robot) const
-{
-    if (robot.retreatNode.has_value() || robot.planOrNull == nullptr)
-    {
-        return robot.retreatNode.has_value() ? robot.retreatNode : robot.homeNode;
-    }
-    return _admission.FindDockOrNull(
-        robot.planOrNull->resolved.steps[robot.planOrNull->step].stationID,
-        robot.options->vehicleTypeID);
-}
-
-void PlanEngine::Impl::MoveWaiting()
-{
-    for (Robot* robot : GetWaiting())
-    {
-        static_cast<void>(TryDrive(*robot));
-    }
 }
 
 /// Robots without work that stand elsewhere than at home.
@@ -61,89 +117,89 @@ std::vector<PlanEngine::Impl::Robot*> PlanEngine::Impl::GetHomeless()
     return homeless;
 }
 
-/// The next way of a robot with a plan: the one that it waits for, else the one after the place where it works or to
-/// which it drives. nullopt where it has none.
-std::optional<Route> PlanEngine::Impl::FindComingRouteOrNull(const Robot& robot) const
+std::optional<std::size_t> PlanEngine::Impl::GetTargetOrNull(const Robot& robot) const
 {
-    if (robot.planOrNull == nullptr || !IsUsable(robot))
+    if (robot.retreatNode.has_value() || robot.planOrNull == nullptr)
     {
-        return std::nullopt;
+        return robot.retreatNode.has_value() ? robot.retreatNode : robot.homeNode;
     }
-    const std::string& vehicleTypeID = robot.options->vehicleTypeID;
-    const bool bWaits = robot.activity == EActivity::Waits && !robot.drive.has_value();
-    const std::size_t from = robot.drive.has_value() ? robot.drive->nodes.back() : *robot.node;
-    const bool bRetreating = robot.drive.has_value() && robot.drive->goal == EGoal::Home;
-    const std::vector<ResolvedStep>& steps = robot.planOrNull->resolved.steps;
-    for (std::size_t step = robot.planOrNull->step + (bWaits || bRetreating ? 0 : 1); step < steps.size(); ++step)
-    {
-        const std::optional<std::size_t> dock = _admission.FindDockOrNull(steps[step].stationID, vehicleTypeID);
-        if (dock.has_value() && dock != from)
-        {
-            return _router.FindRouteOrNull(
-                vehicleTypeID,
-                _site.GetNodes()[from].nodeID,
-                _site.GetNodes()[*dock].nodeID);
-        }
-    }
-    return std::nullopt;
+    return _admission.FindDockOrNull(
+        robot.planOrNull->resolved.steps[robot.planOrNull->step].stationID,
+        robot.options->vehicleTypeID);
 }
 
-/// A way home is taken whole and may be long: it is put off while a robot with a plan comes next along any of it. Not by
-/// who stands in the way of a robot with a plan, or in the way of one who does: nobody waits for one who stays.
-void PlanEngine::Impl::SendIdleHome()
+/// Other robots that stand on the target, or drive to it. Nobody sets out for a place that another one has first: so
+/// who waits for a place waits at a place, and not on a lane.
+std::vector<std::size_t> PlanEngine::Impl::GetTargetHolders(const Robot& robot, std::size_t target) const
 {
-    std::vector<Robot*> homeless = GetHomeless();
-    if (homeless.empty())
+    std::vector<std::size_t> holders = _traffic.GetHolders(target, robot.index);
+    for (const Robot& other : _robots)
+    {
+        if (&other != &robot && other.drive.has_value() && _traffic.IsNear(other.drive->nodes.back(), target)
+            && std::ranges::count(holders, other.index) == 0)
+        {
+            holders.push_back(other.index);
+        }
+    }
+    return holders;
+}
+
+/// Robots under way first, as they stand where others want to pass.
+void PlanEngine::Impl::MoveWaiting()
+{
+    std::ranges::for_each(_robots, [this](const Robot& robot) { NoteMovable(robot); });
+    ExtendDrives();
+    for (Robot* robot : GetWaiting())
+    {
+        static_cast<void>(TryDrive(*robot));
+    }
+}
+
+void PlanEngine::Impl::ExtendDrives()
+{
+    std::vector<Robot*> driving;
+    for (Robot& robot : _robots)
+    {
+        const bool bWants = robot.drive.has_value() && robot.drive->bConfirmed && _traffic.IsMovable(robot.index)
+            && robot.drive->grantedCount < robot.drive->nodes.size() && robot.refusedAt != _traffic.GetFreedCount();
+        if (bWants)
+        {
+            driving.push_back(&robot);
+        }
+    }
+    std::ranges::sort(driving, IsMoreUrgent);
+    std::ranges::for_each(driving, [this](Robot* robot) { ExtendBase(*robot); });
+}
+
+/// Keeps the base ahead of the robot. Longer than asked for, so that not every node costs an update.
+void PlanEngine::Impl::ExtendBase(Robot& robot)
+{
+    ActiveDrive& drive = *robot.drive;
+    const std::size_t reached = drive.passed + 1;
+    if (drive.bCancelling || !CanAdvance(robot))
     {
         return;
     }
-    std::vector<bool> coming(_site.GetNodes().size(), false); // Robots with plans come here next.
-    std::vector<bool> cleared(coming.size(), false);          // Nobody may stay here.
-    const auto mark = [this](const std::optional<Route>& route, std::vector<bool>& nodes) {
-        for (const std::size_t node : route.has_value() ? GetIndices(*route) : std::vector<std::size_t>())
-        {
-            nodes[node] = true;
-        }
-    };
-    for (Robot& robot : _robots)
+    if (drive.grantedCount < drive.nodes.size() && drive.grantedCount < reached + _options.baseLength)
     {
-        const std::optional<Route> route = FindComingRouteOrNull(robot);
-        mark(route, coming);
-        mark(route, cleared);
-        // One that waits may have to go home first (PartCircles).
-        if (robot.activity == EActivity::Waits && IsUsable(robot) && robot.homeNode.has_value())
-        {
-            mark(
-                _router.FindRouteOrNull(
-                    robot.options->vehicleTypeID,
-                    _site.GetNodes()[*robot.node].nodeID,
-                    _site.GetNodes()[*robot.homeNode].nodeID),
-                cleared);
-        }
+        const std::size_t wanted = std::min(drive.nodes.size(), reached + 2 * _options.baseLength);
+        const std::span<const std::size_t> nodes(drive.nodes);
+        const std::size_t granted =
+            _traffic.Extend(robot.index, nodes.subspan(drive.grantedCount, wanted - drive.grantedCount));
+        drive.grantedCount += granted;
+        robot.blockers = _traffic.GetBlockers();
+        robot.refusedAt = _traffic.GetFreedCount();
     }
-    const auto isPutOff = [this, &coming, &cleared](Robot* robot) {
-        const bool bFound = TryFindWish(*robot, *robot->homeNode);
-        if (!bFound || cleared[*robot->node])
-        {
-            return false;
-        }
-        return std::ranges::any_of(GetIndices(*robot->wish), [&coming](std::size_t node) { return coming[node]; });
-    };
-    // Who must go may itself find another in its way, who must go then, too.
-    std::vector<Robot*> leaving;
-    for (bool bChanged = true; std::exchange(bChanged, false);)
+    if (drive.grantedCount > drive.releasedCount)
     {
-        for (Robot*& robotOrNull : homeless)
-        {
-            if (robotOrNull != nullptr && !isPutOff(robotOrNull))
-            {
-                leaving.push_back(std::exchange(robotOrNull, nullptr));
-                mark(leaving.back()->wish, cleared);
-                bChanged = true;
-            }
-        }
+        drive.releasedCount = drive.grantedCount;
+        Command(robot, ExtendDrive{drive.driveID, drive.releasedCount});
     }
-    for (Robot* robot : leaving)
+}
+
+void PlanEngine::Impl::SendIdleHome()
+{
+    for (Robot* robot : GetHomeless())
     {
         static_cast<void>(TryDrive(*robot));
     }
@@ -166,42 +222,110 @@ bool PlanEngine::Impl::TryDrive(Robot& robot)
         }
         return true;
     }
+    const bool bFirst = !robot.wish.has_value() || robot.wish->target != *target;
     if (!TryFindWish(robot, *target))
     {
         OnNoRoute(robot, *target);
         return false;
     }
-    if (TryBeginDrive(robot, *robot.wish))
+    if (IsYielding(robot))
     {
-        return true;
+        robot.blockers.assign(1, robot.courtesy->leader);
+        return false;
     }
-    // Around those who stand in the way and have no reason to leave soon.
-    const auto isStandingInTheWay = [this, &robot](std::size_t node) {
-        const std::optional<std::size_t> holder = _reservations.GetHolderOrNull(node);
-        return holder.has_value() && *holder != robot.index && !_robots[*holder].drive.has_value();
-    };
-    const std::vector<std::size_t> nodes = GetIndices(*robot.wish);
-    if (!_reservations.IsFreeFor(*target, robot.index) || std::ranges::none_of(nodes, isStandingInTheWay))
+    std::vector<std::size_t> holders = GetTargetHolders(robot, *target);
+    if (!holders.empty())
+    {
+        robot.blockers = std::move(holders);
+        return false;
+    }
+    if (!bFirst && robot.refusedAt == _traffic.GetFreedCount())
     {
         return false;
     }
-    const std::optional<Route> detour = _router.FindRouteOrNull(
+    if (!_traffic.CanServe(robot.index, *target))
+    {
+        robot.blockers = _traffic.GetFixed(robot.index);
+        robot.refusedAt = _traffic.GetFreedCount();
+        return false;
+    }
+    const bool bBegun = TryTakeWish(robot);
+    robot.refusedAt = _traffic.GetFreedCount();
+    return bBegun;
+}
+
+/// Around those who stand in the way and have no reason to leave soon, where there is a way around them.
+bool PlanEngine::Impl::TryTakeWish(Robot& robot)
+{
+    std::vector<std::size_t> standing;
+    std::vector<std::size_t> fixed;
+    for (const std::size_t node : robot.wish->nodes)
+    {
+        for (const std::size_t holder : _traffic.GetHolders(node, robot.index))
+        {
+            if (!_traffic.IsMovable(holder))
+            {
+                fixed.push_back(holder);
+            }
+            else if (!_robots[holder].drive.has_value())
+            {
+                standing.push_back(holder);
+            }
+        }
+    }
+    if (fixed.empty() && standing.empty())
+    {
+        return TryBeginDrive(robot, *robot.wish);
+    }
+    const auto isStandingInTheWay = [this, &robot](std::size_t node) {
+        const std::vector<std::size_t> holders = _traffic.GetHolders(node, robot.index);
+        return std::ranges::any_of(holders, [this](std::size_t holder) {
+            return !_robots[holder].drive.has_value() || !_traffic.IsMovable(holder);
+        });
+    };
+    const std::optional<Wish> detour = FindWishOrNull(robot, robot.wish->target, isStandingInTheWay);
+    if (detour.has_value())
+    {
+        return TryBeginDrive(robot, *detour);
+    }
+    if (!fixed.empty())
+    {
+        robot.blockers = std::move(fixed);
+        return false;
+    }
+    return TryBeginDrive(robot, *robot.wish);
+}
+
+std::optional<PlanEngine::Impl::Wish> PlanEngine::Impl::FindWishOrNull(
+    const Robot& robot,
+    std::size_t target,
+    const Router::NodeFilter& isExcluded) const
+{
+    const std::vector<SiteNode>& nodes = _site.GetNodes();
+    std::optional<Route> route = _router.FindRouteOrNull(
         robot.options->vehicleTypeID,
-        _site.GetNodes()[*robot.node].nodeID,
-        _site.GetNodes()[*target].nodeID,
-        isStandingInTheWay);
-    return detour.has_value() && TryBeginDrive(robot, *detour);
+        nodes[*robot.node].nodeID,
+        nodes[target].nodeID,
+        isExcluded);
+    if (!route.has_value())
+    {
+        return std::nullopt;
+    }
+    Wish wish;
+    wish.target = target;
+    for (const RouteNode& node : route->nodes)
+    {
+        wish.nodes.push_back(*_site.FindNodeIndexOrNull(node.nodeID));
+    }
+    wish.route = std::move(*route);
+    return wish;
 }
 
 bool PlanEngine::Impl::TryFindWish(Robot& robot, std::size_t target)
 {
-    if (!robot.wish.has_value() || robot.wishTarget != target)
+    if (!robot.wish.has_value() || robot.wish->target != target)
     {
-        robot.wishTarget = target;
-        robot.wish = _router.FindRouteOrNull(
-            robot.options->vehicleTypeID,
-            _site.GetNodes()[*robot.node].nodeID,
-            _site.GetNodes()[target].nodeID);
+        robot.wish = FindWishOrNull(robot, target, {});
     }
     return robot.wish.has_value();
 }
@@ -224,171 +348,31 @@ void PlanEngine::Impl::OnNoRoute(Robot& robot, std::size_t target)
     Note(robot, text);
 }
 
-std::vector<std::size_t> PlanEngine::Impl::GetIndices(const Route& route) const
+/// Begun with the first nodes that are granted; without any it is not begun.
+bool PlanEngine::Impl::TryBeginDrive(Robot& robot, const Wish& wish)
 {
-    std::vector<std::size_t> indices;
-    for (const RouteNode& node : route.nodes)
-    {
-        indices.push_back(*_site.FindNodeIndexOrNull(node.nodeID));
-    }
-    return indices;
-}
-
-bool PlanEngine::Impl::TryBeginDrive(Robot& robot, const Route& route)
-{
-    ActiveDrive drive;
-    drive.nodes = GetIndices(route);
-    if (!_reservations.TryClaim(drive.nodes, robot.index))
+    const std::size_t wanted = std::min(_options.baseLength, wish.nodes.size() - 1);
+    const std::size_t granted = _traffic.Extend(robot.index, std::span(wish.nodes).subspan(1, wanted));
+    robot.blockers = _traffic.GetBlockers();
+    if (granted == 0)
     {
         return false;
     }
+    ActiveDrive drive;
     drive.driveID = Core::MakeUuid(_random);
     robot.previousID = std::exchange(robot.commandID, drive.driveID);
-    drive.route = route;
-    drive.releasedCount = std::min(_options.baseLength, drive.nodes.size() - 1);
+    drive.route = wish.route;
+    drive.nodes = wish.nodes;
+    drive.grantedCount = granted + 1;
+    // One is always left to be released: a robot has a horizon to plan with.
+    drive.releasedCount = std::min({_options.baseLength, drive.grantedCount, drive.nodes.size() - 1});
     drive.goal = robot.planOrNull == nullptr || robot.retreatNode.has_value() ? EGoal::Home : EGoal::Step;
     robot.bTouched = true;
+    robot.courtesy = drive.goal == EGoal::Step ? std::nullopt : robot.courtesy;
     Command(robot, Drive{drive.driveID, drive.route, drive.releasedCount});
     StartTimer(EEngineTimer::DriveExtension, GetRobotID(robot), _options.extensionDelay);
     robot.drive = std::move(drive);
     return true;
-}
-
-/// A robot that wants to drive and cannot: it holds its place until it can.
-bool PlanEngine::Impl::IsStanding(std::size_t robot) const
-{
-    const Robot& candidate = _robots[robot];
-    return !candidate.drive.has_value() && candidate.activity != EActivity::Works && IsUsable(candidate);
-}
-
-std::vector<std::size_t> PlanEngine::Impl::GetStandingBlockers(Robot& robot)
-{
-    std::vector<std::size_t> blockers;
-    const std::optional<std::size_t> target = GetTargetOrNull(robot);
-    if (!target.has_value() || robot.node == target || !TryFindWish(robot, *target))
-    {
-        return blockers;
-    }
-    for (const std::size_t node : GetIndices(*robot.wish))
-    {
-        const std::optional<std::size_t> holder = _reservations.GetHolderOrNull(node);
-        if (holder.has_value() && *holder != robot.index && IsStanding(*holder))
-        {
-            blockers.push_back(*holder);
-        }
-    }
-    return blockers;
-}
-
-/// Robots that stand and wait for each other, the least urgent first: of those with plans the latest, then those without.
-std::vector<PlanEngine::Impl::Robot*> PlanEngine::Impl::GetInCircles()
-{
-    std::vector<std::vector<std::size_t>> blockers(_robots.size());
-    for (Robot& robot : _robots)
-    {
-        if (IsStanding(robot.index))
-        {
-            blockers[robot.index] = GetStandingBlockers(robot);
-        }
-    }
-    const auto isFree = [&blockers](const Robot* start) {
-        std::vector<bool> reached(blockers.size(), false);
-        std::vector<std::size_t> open = blockers[start->index];
-        while (!open.empty())
-        {
-            const std::size_t robot = open.back();
-            open.pop_back();
-            if (!reached[robot])
-            {
-                reached[robot] = true;
-                open.insert(open.end(), blockers[robot].begin(), blockers[robot].end());
-            }
-        }
-        return !reached[start->index];
-    };
-    std::vector<Robot*> standing = GetWaiting();
-    std::ranges::reverse(standing);
-    std::ranges::copy(GetHomeless(), std::back_inserter(standing));
-    std::erase_if(standing, isFree);
-    return standing;
-}
-
-/// Circles last for ever: one robot of them goes home first. Where none can get there, one goes to any place that is in
-/// nobody's way, and whoever put off going home does so no longer.
-void PlanEngine::Impl::PartCircles()
-{
-    if (GetWaiting().empty())
-    {
-        return;
-    }
-    const std::vector<Robot*> robots = GetInCircles();
-    const bool bParted = std::ranges::any_of(robots, [this](Robot* robot) {
-        return robot->homeNode.has_value() && TryRetreat(*robot, *robot->homeNode);
-    });
-    if (bParted || robots.empty()
-        || std::ranges::any_of(robots, [this](Robot* robot) { return TryRetreatAnywhere(*robot); }))
-    {
-        return;
-    }
-    for (Robot* robot : GetHomeless())
-    {
-        static_cast<void>(TryDrive(*robot));
-    }
-}
-
-bool PlanEngine::Impl::TryRetreat(Robot& robot, std::size_t node)
-{
-    if (robot.bHomeRefused || robot.retreatNode.has_value() || robot.node == node || !TryFindWish(robot, node))
-    {
-        return false;
-    }
-    robot.retreatNode = node;
-    if (TryDrive(robot))
-    {
-        Note(robot, fmt::format("goes to {} first, out of the way of others", _site.GetNodes()[node].nodeID));
-        return true;
-    }
-    robot.retreatNode.reset();
-    return false;
-}
-
-bool PlanEngine::Impl::TryRetreatAnywhere(Robot& robot)
-{
-    std::vector<bool> wished(_site.GetNodes().size(), false);
-    for (Robot& other : _robots)
-    {
-        const std::optional<std::size_t> target = GetTargetOrNull(other);
-        const bool bWishes = &other != &robot && target.has_value() && IsStanding(other.index) && other.node != target;
-        if (bWishes && TryFindWish(other, *target))
-        {
-            for (const std::size_t node : GetIndices(*other.wish))
-            {
-                wished[node] = true;
-            }
-        }
-    }
-    const std::string& vehicleTypeID = robot.options->vehicleTypeID;
-    std::vector<std::pair<double, std::size_t>> refuges;
-    for (const SiteStation& station : _site.GetStations())
-    {
-        const std::optional<std::size_t> dock = _admission.FindDockOrNull(station.stationID, vehicleTypeID);
-        if (!dock.has_value() || wished[*dock] || !_reservations.IsFreeFor(*dock, robot.index))
-        {
-            continue;
-        }
-        const std::optional<Route> route = _router.FindRouteOrNull(
-            vehicleTypeID,
-            _site.GetNodes()[*robot.node].nodeID,
-            _site.GetNodes()[*dock].nodeID);
-        if (route.has_value())
-        {
-            refuges.emplace_back(route->travelSeconds, *dock);
-        }
-    }
-    std::ranges::sort(refuges);
-    return std::ranges::any_of(refuges, [this, &robot](const std::pair<double, std::size_t>& refuge) {
-        return TryRetreat(robot, refuge.second);
-    });
 }
 
 } // namespace ACS::Planning

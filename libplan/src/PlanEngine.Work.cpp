@@ -57,6 +57,7 @@ void PlanEngine::Impl::BeginStep(ActivePlan& plan, Robot& robot)
     robot.activity = EActivity::Waits;
     robot.bTouched = true;
     robot.wish.reset();
+    robot.detours = 0;
     ChangeStep(plan, EStepState::Dispatched, {});
     _bDispatchNeeded = true;
 }

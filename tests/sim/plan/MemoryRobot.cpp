@@ -27,7 +27,6 @@ MemoryRobot::MemoryRobot(
     _nature.bFinishesJobs = _dice.IsHit(300);
     _nature.bIgnoresJobCancel = _dice.IsHit(300);
     _nature.slowness = _dice.GetBetween(1, 3);
-    _snapshot.state.bPoseKnown = true;
     _snapshot.state.batteryPercent = 80;
     _snapshot.state.lastNodeID = std::move(nodeID);
     _witness.OnPlaced(_robotID, {_snapshot.state.lastNodeID});
@@ -133,7 +132,11 @@ void MemoryRobot::OnMoveTimer()
     }
     _bMoving = false;
     ++_index;
-    _snapshot.state.lastNodeID = _drive->route.nodes[_index].nodeID;
+    const Planning::RouteNode& node = _drive->route.nodes[_index];
+    _snapshot.state.lastNodeID = node.nodeID;
+    _snapshot.state.x = node.x;
+    _snapshot.state.y = node.y;
+    _snapshot.state.bPoseKnown = true; // From the first node on that it was told where it lies.
     _snapshot.drives[_drive->driveID].passedCount = _index + 1;
     ShowPlace();
     if (_index + 1 == _drive->route.nodes.size())

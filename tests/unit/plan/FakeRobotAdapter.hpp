@@ -35,6 +35,9 @@ class FakeRobotAdapter final : public Planning::IRobotAdapter
     bool _bForeign = false;             ///< Its drive was given by an engine that is gone.
     std::map<std::string, bool> _ended; ///< By commandID: whether it was done well.
     bool _bPauseAsked = false;
+    bool _bPoseKnown = false; ///< Its first drive tells it where its node is.
+    double _x = 0;
+    double _y = 0;
 
 public:
     std::set<std::string> failingJobs;
@@ -153,7 +156,9 @@ private:
     void RaiseState(Planning::AdapterActions& out) const
     {
         Planning::StateChanged state;
-        state.bPoseKnown = true;
+        state.bPoseKnown = _bPoseKnown;
+        state.x = _x;
+        state.y = _y;
         state.batteryPercent = 80;
         state.lastNodeID = _nodeID;
         state.bDriving = _bMoving;
@@ -191,6 +196,13 @@ private:
         }
     }
 
+    void SetPose(const Planning::RouteNode& node)
+    {
+        _bPoseKnown = true;
+        _x = node.x;
+        _y = node.y;
+    }
+
     void ShowPause(Planning::AdapterActions& out) const
     {
         if (IsPaused())
@@ -225,6 +237,10 @@ private:
 
     void BeginDrive(const Planning::Drive& drive, Planning::AdapterActions& out)
     {
+        if (drive.route.nodes.front().nodeID == _nodeID)
+        {
+            SetPose(drive.route.nodes.front());
+        }
         if (bRejectDrives || _bMoving || drive.route.nodes.front().nodeID != _nodeID)
         {
             Raise(Planning::DriveRejected{drive.driveID, "the test says so"}, out);
@@ -289,6 +305,7 @@ private:
         {
             ++_index;
             _nodeID = _drive.route.nodes[_index].nodeID;
+            SetPose(_drive.route.nodes[_index]);
             _bMoving = false;
         }
         Raise(Planning::NodePassed{_drive.driveID, _nodeID}, out);

@@ -110,6 +110,9 @@ struct EngineOptions
     bool bTscStartsPaused = false;        ///< Every start begins with the TSC paused.
     bool bTscPausedAcceptsPlans = true;   ///< Plans that come while the TSC is not Auto wait; else they are refused.
     std::size_t baseLength = 3;           ///< Nodes that a robot is released ahead; at least 1.
+    /// Metres. Nodes of one map at this distance or nearer exclude each other: a vehicle on one of them leaves no room for
+    /// another one on the other.
+    double clearance = 0;
     ControlOptions controls;
     std::chrono::milliseconds extensionDelay{2'000}; ///< A drive that is not confirmed is extended after this.
     std::chrono::milliseconds homeRetry{5'000};      ///< Between attempts of a robot that refuses to drive home.

@@ -30,11 +30,10 @@ namespace ACS::Planning
 /// reports, commands) is told only once the state behind it is stored. A submitted plan is started by a later call
 /// (EEngineTimer::Dispatch), so that its refusal for a failed store leaves no trace.
 ///
-/// Traffic: a node is held by one robot at a time. A drive is begun only when every node of its way is free, and takes
-/// them all at once; a node is given back when the robot has told of the next one. So a waiting robot always stands at
-/// the end of a way, and robots under way never wait for one another. Robots that wait for each other's places in a
-/// circle are parted by sending one of them home first. A robot without work goes home, but lets robots with a plan go
-/// first where their next ways meet, unless it stands in somebody's way.
+/// Traffic (docs/traffic.md): a node is held by one robot at a time. Nodes of a way are granted and released step by step,
+/// only if afterwards all robots that could drive home one after another still can, and given back when the robot has told
+/// of the next one. Robots that wait for one another are parted by sending one of them around or home first. A robot without
+/// work goes home, and steps aside where it stands in somebody's way.
 class PlanEngine
 {
     class Impl;

@@ -1,0 +1,148 @@
+#pragma once
+
+#include "ManualClock.hpp"
+#include "SeededRandom.hpp"
+#include <acs/plan/PlanEngine.hpp>
+#include <acs/plan/Router.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <queue>
+#include <string>
+#include <vector>
+
+namespace ACS::Testing
+{
+
+/// Which floor, how many vehicles, and what befalls them.
+struct FleetOptions
+{
+    std::uint64_t seed = 1;
+    std::size_t vehicles = 20;
+    std::size_t transports = 1'000;
+    std::size_t plansAtOnce = 40; ///< Plans that are submitted and not finished.
+    bool bTroubles = false;       ///< Vehicles pause, are slow, are lost, and recover.
+};
+
+/// A floor of one-way and two-way lanes, some of which are dead ends that two vehicles cannot share, and a fleet on it in
+/// virtual time. Vehicles drive along what is released to them, and are where they are, whatever the engine believes.
+class FleetWorld
+{
+    enum class EHappening : std::uint8_t
+    {
+        Engine,
+        Accept,
+        Leg,
+        Job,
+        Trouble,
+        Recovery,
+    };
+
+    struct Entry
+    {
+        Core::SteadyTime time;
+        std::uint64_t order = 0;
+        EHappening happening = EHappening::Engine;
+        std::size_t vehicle = 0;
+        Planning::EngineTimer timer;
+        std::uint64_t generation = 0;
+
+        bool operator>(const Entry& other) const noexcept
+        {
+            return time != other.time ? time > other.time : order > other.order;
+        }
+    };
+
+    struct Vehicle
+    {
+        std::string robotID;
+        std::string nodeID;
+        std::optional<Planning::Drive> drive;
+        std::size_t index = 0;
+        bool bAccepted = false;
+        bool bMoving = false; ///< Between index and the next node of its drive, also while it is paused there.
+        bool bStopping = false;
+        bool bPaused = false;
+        bool bLost = false;
+        double speed = 1;   ///< Metres per second.
+        double legDone = 0; ///< Part of the leg that lay behind it at legTime.
+        Core::SteadyTime legTime;
+        std::string jobID;
+        std::uint64_t generation = 0; ///< Of its latest leg.
+        std::vector<Planning::RobotEvent> untold;
+    };
+
+    struct Transport
+    {
+        Core::SteadyTime begin;
+        double idealSeconds = 0;
+    };
+
+    FleetOptions _options;
+    ManualClock _clock;
+    SeededRandom _random;
+    Planning::SiteMap _site;
+    Planning::Router _router;
+    std::vector<Vehicle> _vehicles;
+    std::map<std::string, std::size_t> _indices;
+    std::map<std::string, std::uint64_t> _onNode;
+    Planning::PlanEngine _engine;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> _entries;
+    std::map<Planning::EngineTimer, std::uint64_t> _timers;
+    std::deque<std::pair<std::size_t, Planning::RobotEvent>> _told;
+    std::uint64_t _order = 0;
+    std::size_t _submitted = 0;
+    std::map<std::string, Planning::Plan> _plans;
+    std::map<std::string, Transport> _running;
+    std::vector<double> _slowdowns;
+
+public:
+    std::vector<std::string> violations;
+    std::size_t completed = 0;
+    std::size_t failed = 0;
+    std::size_t events = 0; ///< That the engine was told.
+    std::size_t drives = 0;
+    std::size_t cancels = 0; ///< Drives that were given up for another way, or to make way.
+
+    explicit FleetWorld(const FleetOptions& options);
+
+    /// Until all transports are done. False: they are not, and nothing would ever happen again, or a week has gone by.
+    [[nodiscard]] bool TryRun();
+
+    /// Of all transports: the time that it took over the time that it would have taken on an empty floor.
+    [[nodiscard]] double GetMeanSlowdown() const;
+    [[nodiscard]] double GetVirtualHours() const;
+    /// What stands where, and what it waits for: to read when a run does not come to its end.
+    [[nodiscard]] std::string Describe() const;
+
+    [[nodiscard]] static Planning::SiteMap MakeSite();
+    [[nodiscard]] static Planning::EngineOptions MakeOptions(std::size_t vehicles);
+
+private:
+    [[nodiscard]] std::uint64_t GetRandom(std::uint64_t below);
+    void Push(EHappening happening, std::size_t vehicle, std::uint64_t generation, Core::Duration delay);
+    void SubmitMore();
+    void Execute(const Planning::EngineActions& actions);
+    void TakeReport(const Planning::Report& report);
+    void Obey(Vehicle& vehicle, const Planning::RobotCommand& command);
+    void Tell(Vehicle& vehicle, Planning::RobotEvent event);
+    void TellState(Vehicle& vehicle);
+    void RaiseTold();
+    void Happen(const Entry& entry);
+    void BeginLeg(Vehicle& vehicle);
+    void EndLeg(Vehicle& vehicle);
+    void Stop(Vehicle& vehicle);
+    void ChangeSpeed(Vehicle& vehicle, double speed, bool bPaused);
+    void Trouble();
+    void Recover(Vehicle& vehicle);
+    void CheckPlaces();
+    [[nodiscard]] std::pair<double, double> GetPosition(const Vehicle& vehicle) const;
+    [[nodiscard]] double GetLegDone(const Vehicle& vehicle) const;
+    [[nodiscard]] double GetLegLength(const Vehicle& vehicle) const;
+    [[nodiscard]] double GetSeconds(const std::string& from, const std::string& to) const;
+};
+
+} // namespace ACS::Testing

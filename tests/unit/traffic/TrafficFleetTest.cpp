@@ -1,0 +1,69 @@
+#include "Catch.hpp"
+#include "FleetWorld.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+using ACS::Testing::FleetOptions;
+using ACS::Testing::FleetWorld;
+
+namespace
+{
+
+void Run(const FleetOptions& options)
+{
+    INFO("seed " << options.seed << (options.bTroubles ? " with troubles" : ""));
+    FleetWorld world(options);
+    const bool bDone = world.TryRun();
+    INFO(world.Describe());
+    CHECK(world.violations == std::vector<std::string>{});
+    REQUIRE(bDone);
+    CHECK(world.completed == options.transports);
+    const std::string line = fmt::format(
+        "{} vehicles, {} transports, seed {}{}: mean slowdown {:.2f}, {:.1f} h, {} drives, {} given up, {} events\n",
+        options.vehicles,
+        options.transports,
+        options.seed,
+        options.bTroubles ? ", with troubles" : "",
+        world.GetMeanSlowdown(),
+        world.GetVirtualHours(),
+        world.drives,
+        world.cancels,
+        world.events);
+    static_cast<void>(std::fputs(line.c_str(), stdout));
+}
+
+} // namespace
+
+TEST_CASE("20 vehicles do 1,000 random transports on one-way and two-way lanes: no conflict, no deadlock")
+{
+    FleetOptions options;
+    Run(options);
+    FleetOptions alone;
+    alone.vehicles = 1;
+    alone.transports = 50;
+    Run(alone);
+}
+
+TEST_CASE("The same, while vehicles pause, are slow, are lost and come back")
+{
+    for (std::uint64_t seed = 1; seed <= 3; ++seed)
+    {
+        FleetOptions options;
+        options.seed = seed;
+        options.transports = 250;
+        options.bTroubles = true;
+        Run(options);
+    }
+}
+
+TEST_CASE("36 vehicles crowd the same floor and still all transports are done")
+{
+    FleetOptions options;
+    options.vehicles = 36;
+    options.transports = 250;
+    options.plansAtOnce = 72;
+    options.seed = 7;
+    Run(options);
+}

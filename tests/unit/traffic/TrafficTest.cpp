@@ -1,0 +1,176 @@
+#include "Traffic.hpp"
+
+#include "Catch.hpp"
+
+#include <string>
+#include <vector>
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+
+namespace
+{
+
+using Nodes = std::vector<std::size_t>;
+
+/// A corridor 0-1-2-3-4, driven both ways, with a spur on each end (5 on 0, 6 on 4), one in the middle (7 on 2), and a
+/// second node 8 that is 0.3 m from node 3 and joined to nothing.
+SiteMap MakeCorridor()
+{
+    const std::vector<SiteNodeRule> rules{{"lr", std::nullopt}};
+    std::vector<SiteNode> nodes;
+    const std::vector<std::pair<double, double>>
+        places{{0, 0}, {2, 0}, {4, 0}, {6, 0}, {8, 0}, {0, 2}, {8, 2}, {4, 2}, {6, 0.3}};
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+        nodes.push_back({std::to_string(i), places[i].first, places[i].second, "floor", rules});
+    }
+    SiteEdgeRule rule;
+    rule.vehicleTypeID = "lr";
+    std::vector<SiteEdge> edges;
+    const std::vector<std::pair<int, int>> pairs{{0, 1}, {1, 2}, {2, 3}, {3, 4}, {0, 5}, {4, 6}, {2, 7}};
+    for (const auto& [from, to] : pairs)
+    {
+        const std::string left = std::to_string(from);
+        const std::string right = std::to_string(to);
+        edges.push_back({left + ">" + right, left, right, {rule}});
+        edges.push_back({right + ">" + left, right, left, {rule}});
+    }
+    return *SiteMap::Create(std::move(nodes), std::move(edges), {});
+}
+
+/// Robot 0 at home on 5, robot 1 at home on 6.
+Traffic MakeTraffic(double clearance = 0)
+{
+    Traffic traffic(MakeCorridor(), clearance);
+    const Nodes homes{5, 6};
+    for (std::size_t robot = 0; robot < homes.size(); ++robot)
+    {
+        traffic.AddRobot("lr", homes[robot]);
+        REQUIRE(traffic.TryStand(robot, homes[robot]));
+        traffic.SetMovable(robot, true);
+    }
+    return traffic;
+}
+
+Nodes GetHeld(const Traffic& traffic, std::size_t robot)
+{
+    return {traffic.GetHeld(robot).begin(), traffic.GetHeld(robot).end()};
+}
+
+} // namespace
+
+TEST_CASE("Traffic: nodes are granted up to the first that another robot holds, and given back as they are passed")
+{
+    Traffic traffic = MakeTraffic();
+    CHECK(traffic.Extend(0, Nodes{0, 1, 2, 7}) == 4);
+    CHECK(GetHeld(traffic, 0) == Nodes{5, 0, 1, 2, 7});
+    CHECK(traffic.Extend(1, Nodes{4, 3, 2, 1}) == 2);
+    CHECK(traffic.Extend(1, Nodes{2, 1}) == 0);
+    CHECK(traffic.GetBlockers() == Nodes{0});
+    traffic.Pass(0, 4);
+    CHECK(GetHeld(traffic, 0) == Nodes{7});
+    CHECK(traffic.GetHolderOrNull(2) == std::nullopt);
+    CHECK(traffic.GetHolderOrNull(7) == 0);
+}
+
+TEST_CASE("Traffic: robots may meet in a corridor where each can go back, and go no further there")
+{
+    Traffic traffic = MakeTraffic();
+    REQUIRE(traffic.Extend(0, Nodes{0, 1}) == 2);
+    traffic.Pass(0, 2);
+    CHECK(traffic.Extend(1, Nodes{4, 3, 2}) == 3);
+    CHECK(traffic.Extend(0, Nodes{2}) == 0);
+    CHECK(traffic.GetBlockers() == Nodes{1});
+}
+
+TEST_CASE("Traffic: an order in which all come home is lost by one grant only, and that one is refused")
+{
+    // Homes changed over: robot 0 lives on 6, robot 1 on 5; each is at the other's. One must turn into 7 first.
+    Traffic traffic(MakeCorridor(), 0);
+    traffic.AddRobot("lr", 6);
+    traffic.AddRobot("lr", 7);
+    REQUIRE(traffic.TryStand(0, 5));
+    REQUIRE(traffic.TryStand(1, 6));
+    traffic.SetMovable(0, true);
+    traffic.SetMovable(1, true);
+    // Robot 0 beyond 2 would keep robot 1 from 7, and robot 1 robot 0 from 6.
+    REQUIRE(traffic.Extend(0, Nodes{0, 1}) == 2);
+    traffic.Pass(0, 2);
+    CHECK(traffic.Extend(0, Nodes{2}) == 0);
+    CHECK(traffic.GetBlockers() == Nodes{1});
+    CHECK(traffic.Extend(1, Nodes{4, 3, 2, 7}) == 4);
+    traffic.Pass(1, 4);
+    CHECK(traffic.Extend(0, Nodes{2, 3, 4, 6}) == 4);
+}
+
+TEST_CASE("Traffic: a robot that cannot move is an obstacle, and nobody drives where it would keep him from home")
+{
+    Traffic traffic = MakeTraffic();
+    traffic.AddRobot("lr", 7);
+    REQUIRE(traffic.TryStand(2, 7));
+    traffic.SetMovable(2, true);
+    REQUIRE(traffic.Extend(2, Nodes{2, 3}) == 2);
+    traffic.Pass(2, 2);
+    traffic.SetMovable(2, false);
+    CHECK_FALSE(traffic.CanServe(0, 4));
+    CHECK(traffic.CanServe(0, 2));
+    CHECK(traffic.CanServe(1, 4));
+    CHECK_FALSE(traffic.CanServe(1, 7));
+    // Robot 0 may come up to it and go back.
+    CHECK(traffic.Extend(0, Nodes{0, 1, 2, 3}) == 3);
+    traffic.SetMovable(2, true);
+    CHECK(traffic.CanServe(0, 4));
+}
+
+TEST_CASE("Traffic: a lost robot that drove on without leave holds where it is; where another is, that is told")
+{
+    Traffic traffic = MakeTraffic();
+    REQUIRE(traffic.Extend(0, Nodes{0}) == 1);
+    CHECK(traffic.TryOverrun(0, Nodes{1, 2}));
+    CHECK(GetHeld(traffic, 0) == Nodes{5, 0, 1, 2});
+    REQUIRE(traffic.Extend(1, Nodes{4, 3}) == 2);
+    CHECK_FALSE(traffic.TryOverrun(0, Nodes{3}));
+    CHECK_FALSE(traffic.TryStand(0, 3));
+    CHECK(GetHeld(traffic, 0) == Nodes{5, 0, 1, 2});
+}
+
+TEST_CASE("Traffic: a robot that stands between two nodes holds both until it has passed the first")
+{
+    Traffic traffic = MakeTraffic();
+    REQUIRE(traffic.Extend(0, Nodes{0, 1, 2}) == 3);
+    traffic.Pass(0, 1);
+    REQUIRE(traffic.TryStand(0, 0, Nodes{1}));
+    CHECK(traffic.GetHolderOrNull(1) == 0);
+    CHECK(traffic.GetHolderOrNull(2) == std::nullopt);
+    CHECK(traffic.Extend(1, Nodes{4, 3, 2, 1}) == 3);
+    CHECK(traffic.Extend(0, Nodes{1}) == 1);
+    traffic.Pass(0, 1);
+    CHECK(traffic.GetHolderOrNull(0) == std::nullopt);
+    CHECK(traffic.GetHolderOrNull(1) == 0);
+}
+
+TEST_CASE("Traffic: nodes that are nearer to each other than the clearance exclude each other")
+{
+    for (const double clearance : {0.0, 0.5})
+    {
+        Traffic traffic = MakeTraffic(clearance);
+        traffic.AddRobot("lr", std::nullopt);
+        REQUIRE(traffic.TryStand(2, 8));
+        CHECK(traffic.IsNear(3, 8) == (clearance > 0));
+        CHECK(traffic.Extend(1, Nodes{4, 3}) == (clearance > 0 ? 1 : 2));
+    }
+}
+
+TEST_CASE("Traffic: what is given back counts as a reason to ask again, and so does a robot that recovers")
+{
+    Traffic traffic = MakeTraffic();
+    REQUIRE(traffic.Extend(0, Nodes{0, 1}) == 2);
+    const std::uint64_t before = traffic.GetFreedCount();
+    CHECK(traffic.Extend(1, Nodes{0}) == 0);
+    CHECK(traffic.GetFreedCount() == before);
+    traffic.Pass(0, 1);
+    CHECK(traffic.GetFreedCount() > before);
+    const std::uint64_t passed = traffic.GetFreedCount();
+    traffic.SetMovable(1, false);
+    CHECK(traffic.GetFreedCount() > passed);
+}
