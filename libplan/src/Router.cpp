@@ -1,9 +1,11 @@
+#include "FloorGraph.hpp"
 #include <acs/plan/Router.hpp>
 
 #include <algorithm>
-#include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
+#include <memory>
 #include <queue>
 #include <string>
 #include <utility>
@@ -14,37 +16,31 @@ namespace ACS::Planning
 namespace
 {
 
-/// An edge as a search goes along it: with the direction of travel or against it.
-struct Lane
+constexpr double NEVER = std::numeric_limits<double>::infinity();
+constexpr std::size_t NO_LANE = std::numeric_limits<std::size_t>::max();
+
+/// Targets of which the times to them are kept, for each vehicle type: 2,000 nodes take 50 kB each.
+constexpr std::size_t TARGETS_KEPT = 128;
+
+/// By time, then by index, so that of ways as quick the same one is always found.
+using Entry = std::pair<double, std::size_t>;
+using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
+
+/// Times to a target, turning left out: Dijkstra's algorithm backwards, as far as anybody has asked.
+struct Field
 {
-    std::size_t edgeIndex = 0;
-    std::size_t nodeIndex = 0; ///< Where it leads.
-    double seconds = 0;
+    std::vector<double> seconds;    ///< Of each node.
+    std::vector<bool> settled;      ///< Whether it can not become less.
+    std::vector<std::size_t> lanes; ///< The first of the way from each node.
+    Queue open;
+    std::uint64_t usedAt = 0;
 };
 
-using Lanes = std::vector<std::vector<Lane>>; ///< By the node where they begin.
-
-/// What a vehicle type may drive along.
 struct Graph
 {
-    Lanes onward;
-    Lanes back;
-};
-
-/// How a search has reached a node.
-struct Reached
-{
-    std::uint64_t search = 0; ///< Which one; what an earlier one has left means nothing.
-    double seconds = 0;
-    std::size_t edgeIndex = 0;
-    std::size_t fromIndex = 0;
-};
-
-/// A route's nodes and edges by index, its beginning left out.
-struct Leg
-{
-    std::size_t nodeIndex = 0;
-    std::size_t edgeIndex = 0;
+    FloorGraph floor;
+    bool bTurns = false;                 ///< Whether the map tells what turning takes anywhere.
+    std::map<std::size_t, Field> fields; ///< By target.
 };
 
 } // namespace
@@ -52,44 +48,28 @@ struct Leg
 class Router::Impl
 {
     const SiteMap& _site;
-    std::map<std::string, Graph, std::less<>> _graphs;
+    mutable std::map<std::string, Graph, std::less<>> _graphs; ///< Searches keep what they found.
     mutable std::uint64_t _visitedNodes = 0;
-    mutable std::uint64_t _lastSearch = 0;
-    mutable std::vector<Reached>
-        _reached; ///< By node; kept, so that a search costs nothing for nodes that it never sees.
+    mutable std::uint64_t _uses = 0;
 
 public:
     explicit Impl(const SiteMap& site)
-        : _site(site),
-          _reached(site.GetNodes().size())
+        : _site(site)
     {
-        for (std::size_t i = 0; i < site.GetEdges().size(); ++i)
+        for (const SiteEdge& edge : site.GetEdges())
         {
-            for (const SiteEdgeRule& rule : site.GetEdges()[i].rules)
+            for (const SiteEdgeRule& rule : edge.rules)
             {
-                AddEdge(i, rule);
+                if (!_graphs.contains(rule.vehicleTypeID))
+                {
+                    Graph graph{FloorGraph(site, rule.vehicleTypeID), false, {}};
+                    graph.bTurns = std::ranges::any_of(graph.floor.GetLanes(), [](const Lane& lane) {
+                        return lane.turnSpeed > 0;
+                    });
+                    _graphs.emplace(rule.vehicleTypeID, std::move(graph));
+                }
             }
         }
-    }
-
-    void AddEdge(std::size_t edgeIndex, const SiteEdgeRule& rule)
-    {
-        const SiteEdge& edge = _site.GetEdges()[edgeIndex];
-        const std::size_t nodeCount = _site.GetNodes().size();
-        Graph& graph = _graphs.try_emplace(rule.vehicleTypeID, Graph{Lanes(nodeCount), Lanes(nodeCount)}).first->second;
-        const std::size_t start = *_site.FindNodeIndexOrNull(edge.startNodeID);
-        const std::size_t end = *_site.FindNodeIndexOrNull(edge.endNodeID);
-        const SiteNode& startNode = _site.GetNodes()[start];
-        const SiteNode& endNode = _site.GetNodes()[end];
-        const bool bFirstRule = edge.FindRuleOrNull(rule.vehicleTypeID) == &rule;
-        if (!bFirstRule || startNode.FindRuleOrNull(rule.vehicleTypeID) == nullptr
-            || endNode.FindRuleOrNull(rule.vehicleTypeID) == nullptr)
-        {
-            return;
-        }
-        const double seconds = GetDistance(startNode, endNode) / rule.maxSpeed.value_or(DEFAULT_SPEED);
-        graph.onward[start].push_back(Lane{edgeIndex, end, seconds});
-        graph.back[end].push_back(Lane{edgeIndex, start, seconds});
     }
 
     [[nodiscard]] std::uint64_t CountVisitedNodes() const noexcept
@@ -133,25 +113,31 @@ public:
         {
             return std::nullopt;
         }
-        Route route;
         if (*from == *to)
         {
-            route.nodes.push_back(MakeNode(*from, vehicleTypeID));
-            return route;
+            return MakeRoute(*from, {}, 0, vehicleTypeID, nullptr);
         }
-        const auto isAllowed = [&isExcluded, &from, &to](std::size_t node) {
-            return node == *from || node == *to || !isExcluded || !isExcluded(node);
-        };
-        const auto isThere = [&to](std::size_t node) {
-            return node == *to;
-        };
-        if (!SearchOrNull(found->second.onward, *from, isAllowed, isThere).has_value())
+        Graph& graph = found->second;
+        Field& field = GetField(graph, *to);
+        Settle(
+            graph.floor,
+            field,
+            [from](std::size_t node) { return node == *from; },
+            *from);
+        if (!field.settled[*from])
         {
             return std::nullopt;
         }
-        route.travelSeconds = _reached[*to].seconds;
-        AppendPath(*from, *to, vehicleTypeID, route);
-        return route;
+        if (isExcluded || graph.bTurns)
+        {
+            return SearchOrNull(graph, field, *from, *to, isExcluded, vehicleTypeID);
+        }
+        std::vector<std::size_t> lanes;
+        for (std::size_t node = *from; node != *to; node = graph.floor.GetLanes()[lanes.back()].to)
+        {
+            lanes.push_back(field.lanes[node]);
+        }
+        return MakeRoute(*from, lanes, field.seconds[*from], vehicleTypeID, &graph.floor);
     }
 
     [[nodiscard]] std::optional<QuickestStart> FindQuickestStartOrNull(
@@ -159,88 +145,207 @@ public:
         std::span<const std::size_t> starts,
         std::size_t target) const
     {
-        std::vector<bool> startMarks(_site.GetNodes().size(), false);
-        for (const std::size_t start : starts)
-        {
-            startMarks[start] = true;
-        }
-        const auto isStart = [&startMarks](std::size_t node) {
-            return startMarks[node];
-        };
-        const auto isAllowed = [](std::size_t) {
-            return true;
-        };
-        if (isStart(target))
+        if (std::ranges::count(starts, target) > 0)
         {
             return QuickestStart{target, 0.0};
         }
         const auto found = _graphs.find(vehicleTypeID);
-        if (found == _graphs.end())
+        if (found == _graphs.end() || starts.empty())
         {
             return std::nullopt;
         }
-        const std::optional<std::size_t> start = SearchOrNull(found->second.back, target, isAllowed, isStart);
-        return start.has_value() ? std::optional(QuickestStart{*start, _reached[*start].seconds}) : std::nullopt;
+        Field& field = GetField(found->second, target);
+        std::vector<bool> marks(_site.GetNodes().size(), false);
+        bool bKnown = false;
+        for (const std::size_t start : starts)
+        {
+            marks[start] = true;
+            bKnown = bKnown || field.settled[start];
+        }
+        if (!bKnown)
+        {
+            Settle(
+                found->second.floor,
+                field,
+                [&marks](std::size_t node) { return marks[node]; },
+                NO_LANE);
+        }
+        std::optional<QuickestStart> quickest;
+        for (const std::size_t start : starts)
+        {
+            const bool bQuicker = !quickest.has_value()
+                || Entry(field.seconds[start], start) < Entry(quickest->travelSeconds, quickest->nodeIndex);
+            if (field.settled[start] && bQuicker)
+            {
+                quickest = QuickestStart{start, field.seconds[start]};
+            }
+        }
+        return quickest;
     }
 
 private:
-    /// Dijkstra's algorithm, which goes no farther than to the first node that is wanted: Boost's knows no end but an
-    /// exception. Of several such nodes as near, that of the lowest index.
-    template <typename TAllowed, typename TWanted>
-    [[nodiscard]] std::optional<std::size_t> SearchOrNull(
-        const Lanes& lanes,
-        std::size_t start,
-        TAllowed isAllowed,
-        TWanted isWanted) const
+    [[nodiscard]] Field& GetField(Graph& graph, std::size_t target) const
     {
-        using Entry = std::pair<double, std::size_t>;
-        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-        const std::uint64_t search = ++_lastSearch;
-        _reached[start] = Reached{search, 0.0, 0, start};
-        open.emplace(0.0, start);
-        while (!open.empty())
+        const auto [place, bNew] = graph.fields.try_emplace(target);
+        Field& field = place->second;
+        ++_uses;
+        field.usedAt = _uses;
+        if (!bNew)
         {
-            const Entry nearest = open.top();
-            open.pop();
-            const std::size_t node = nearest.second;
-            if (nearest.first > _reached[node].seconds)
+            return field;
+        }
+        field.seconds.assign(graph.floor.GetNodeCount(), NEVER);
+        field.settled.assign(graph.floor.GetNodeCount(), false);
+        field.lanes.assign(graph.floor.GetNodeCount(), NO_LANE);
+        field.seconds[target] = 0;
+        field.open.emplace(0, target);
+        if (graph.fields.size() > TARGETS_KEPT)
+        {
+            graph.fields.erase(
+                std::ranges::min_element(graph.fields, {}, [](const auto& entry) { return entry.second.usedAt; }));
+        }
+        return field;
+    }
+
+    /// Goes on to the next node that is wanted; not at all where the one that is asked about is settled already.
+    template <typename TWanted>
+    void Settle(const FloorGraph& floor, Field& field, TWanted isWanted, std::size_t askedNode) const
+    {
+        if (askedNode != NO_LANE && field.settled[askedNode])
+        {
+            return;
+        }
+        while (!field.open.empty())
+        {
+            const std::size_t node = field.open.top().second;
+            field.open.pop();
+            if (field.settled[node])
             {
                 continue; // a quicker way was found since
             }
+            field.settled[node] = true;
             ++_visitedNodes;
+            for (const std::size_t index : floor.GetLanesTo(node))
+            {
+                const Lane& lane = floor.GetLanes()[index];
+                const double seconds = field.seconds[node] + lane.seconds;
+                if (seconds < field.seconds[lane.from])
+                {
+                    field.seconds[lane.from] = seconds;
+                    field.lanes[lane.from] = index;
+                    field.open.emplace(seconds, lane.from);
+                }
+            }
             if (isWanted(node))
             {
-                return node;
+                return;
             }
-            for (const Lane& lane : lanes[node])
+        }
+    }
+
+    /// A* over lanes, as turning depends on where one comes from; what is left to drive at least is what the field tells.
+    [[nodiscard]] std::optional<Route> SearchOrNull(
+        const Graph& graph,
+        Field& field,
+        std::size_t from,
+        std::size_t to,
+        const NodeFilter& isExcluded,
+        std::string_view vehicleTypeID) const
+    {
+        const FloorGraph& floor = graph.floor;
+        const SiteNodeRule* targetRuleOrNull = _site.GetNodes()[to].FindRuleOrNull(vehicleTypeID);
+        std::vector<double> seconds(floor.GetLanes().size(), NEVER);
+        std::vector<std::size_t> previous(seconds.size(), NO_LANE);
+        std::vector<bool> done(seconds.size(), false);
+        Queue open;
+        const auto reach = [&](const Lane& lane, double before, std::size_t last) {
+            const std::size_t index = floor.GetIndex(lane);
+            if (lane.to == from || (lane.to != to && isExcluded && isExcluded(lane.to)))
             {
-                const double seconds = nearest.first + lane.seconds;
-                Reached& reached = _reached[lane.nodeIndex];
-                const bool bQuicker = reached.search != search || seconds < reached.seconds;
-                if (bQuicker && isAllowed(lane.nodeIndex))
-                {
-                    reached = Reached{search, seconds, lane.edgeIndex, node};
-                    open.emplace(seconds, lane.nodeIndex);
-                }
+                return;
+            }
+            Settle(
+                floor,
+                field,
+                [&lane](std::size_t node) { return node == lane.to; },
+                lane.to);
+            double reached = before + lane.seconds;
+            if (lane.to == to && targetRuleOrNull != nullptr && targetRuleOrNull->theta.has_value()
+                && lane.turnSpeed > 0)
+            {
+                reached += GetAngleBetween(lane.heading, *targetRuleOrNull->theta) / lane.turnSpeed;
+            }
+            if (field.settled[lane.to] && reached < seconds[index])
+            {
+                seconds[index] = reached;
+                previous[index] = last;
+                open.emplace(reached + field.seconds[lane.to], index);
+            }
+        };
+        for (const Lane& lane : floor.GetLanesFrom(from))
+        {
+            reach(lane, 0, NO_LANE);
+        }
+        while (!open.empty())
+        {
+            const std::size_t index = open.top().second;
+            open.pop();
+            if (done[index])
+            {
+                continue;
+            }
+            done[index] = true;
+            ++_visitedNodes;
+            const Lane& lane = floor.GetLanes()[index];
+            if (lane.to == to)
+            {
+                return MakeRoute(from, GetPath(floor, previous, index), seconds[index], vehicleTypeID, &floor);
+            }
+            for (const Lane& next : floor.GetLanesFrom(lane.to))
+            {
+                reach(next, seconds[index] + FloorGraph::GetTurnSeconds(lane, next), index);
             }
         }
         return std::nullopt;
     }
 
-    void AppendPath(std::size_t from, std::size_t to, std::string_view vehicleTypeID, Route& route) const
+    /// In the order of driving. A loop, driven so as not to turn, is left out: a route meets each node once.
+    [[nodiscard]] static std::vector<std::size_t> GetPath(
+        const FloorGraph& floor,
+        const std::vector<std::size_t>& previous,
+        std::size_t last)
     {
-        std::vector<Leg> legs;
-        for (std::size_t node = to; node != from; node = _reached[node].fromIndex)
+        std::vector<std::size_t> path;
+        for (std::size_t index = last; index != NO_LANE; index = previous[index])
         {
-            legs.push_back(Leg{node, _reached[node].edgeIndex});
+            const std::size_t node = floor.GetLanes()[index].to;
+            const auto again = std::ranges::find_if(path, [&floor, node](std::size_t later) {
+                return floor.GetLanes()[later].to == node;
+            });
+            path.erase(again, path.end());
+            path.push_back(index);
         }
+        std::ranges::reverse(path);
+        return path;
+    }
+
+    [[nodiscard]] Route MakeRoute(
+        std::size_t from,
+        const std::vector<std::size_t>& lanes,
+        double travelSeconds,
+        std::string_view vehicleTypeID,
+        const FloorGraph* floorOrNull) const
+    {
+        Route route;
+        route.travelSeconds = travelSeconds;
         route.nodes.push_back(MakeNode(from, vehicleTypeID));
-        std::ranges::reverse(legs);
-        for (const Leg& leg : legs)
+        for (const std::size_t index : lanes)
         {
-            route.edges.push_back(MakeEdge(leg.edgeIndex, vehicleTypeID));
-            route.nodes.push_back(MakeNode(leg.nodeIndex, vehicleTypeID));
+            const Lane& lane = floorOrNull->GetLanes()[index];
+            route.edges.push_back(MakeEdge(lane.edge, vehicleTypeID));
+            route.nodes.push_back(MakeNode(lane.to, vehicleTypeID));
         }
+        return route;
     }
 };
 
