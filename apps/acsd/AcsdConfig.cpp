@@ -25,6 +25,8 @@ using Apps::EUrlScheme;
 constexpr std::int64_t HIGHEST_PROGRAM = 9999;
 constexpr std::int64_t HIGHEST_RELAY_BYTE = 65'535;
 constexpr std::int64_t HIGHEST_WORD_INDEX = 255;
+constexpr std::int64_t MOST_BASE_NODES = 1'000;
+constexpr double MOST_CLEARANCE = 100;
 constexpr std::int64_t MOST_PLANS = 100'000;
 
 /// Ranges such as "A01.CP01.TP01-04"; in front of each the prefix ("LR01." for ports of a robot).
@@ -224,6 +226,11 @@ void ReadQueue(const ConfigSection& root, Planning::EngineOptions& engine)
         std::numeric_limits<std::int32_t>::max(),
         engine.defaultPriority));
     engine.queueAgeing = queue.GetDuration("ageing", 0ms, 24h, engine.queueAgeing);
+
+    const ConfigSection traffic = root.GetSection("traffic");
+    engine.clearance = traffic.GetNumber("clearance", 0, MOST_CLEARANCE, engine.clearance);
+    engine.baseLength = static_cast<std::size_t>(
+        traffic.GetInteger("base_length", 1, MOST_BASE_NODES, static_cast<std::int64_t>(engine.baseLength)));
 
     const ConfigSection plan = root.GetSection("plan");
     engine.bFinishedIDsReused = plan.IsEnabled("reuse_finished_id", engine.bFinishedIDsReused);

@@ -116,7 +116,7 @@ TEST_CASE("The keys of the decision register have its defaults, in the example f
 {
     const Planning::EngineOptions defaults;
     for (const Acsd::AcsdConfig& config :
-         {Read({}), ReadWithout({"plan", "cancel", "pause", "abort", "tsc", "reports", "history", "queue"})})
+         {Read({}), ReadWithout({"plan", "cancel", "pause", "abort", "tsc", "reports", "history", "queue", "traffic"})})
     {
         REQUIRE(config.mistakes == std::vector<std::string>{});
         CHECK(config.engine.controls == defaults.controls);
@@ -129,6 +129,8 @@ TEST_CASE("The keys of the decision register have its defaults, in the example f
         CHECK(config.engine.controls.bJobFailureFailsAbort);
         CHECK_FALSE(config.engine.controls.bAbortReportsStep);
         CHECK(config.engine.controls.bResultAfterRefusal);
+        CHECK(config.engine.clearance == 0);
+        CHECK(config.engine.baseLength == 3);
         CHECK(config.engine.maximumPlans == 100);
         CHECK(config.engine.defaultPriority == 0);
         CHECK_FALSE(config.engine.bLowerPriorityFirst);
@@ -161,6 +163,8 @@ TEST_CASE("The keys of the decision register are read")
          "tsc.initial=paused",
          "tsc.paused_accepts_plans=false",
          "reports.initial_pending=true",
+         "traffic.clearance=0.8",
+         "traffic.base_length=5",
          "history.keep=9"});
     REQUIRE(config.mistakes == std::vector<std::string>{});
     Planning::ControlOptions controls;
@@ -174,6 +178,8 @@ TEST_CASE("The keys of the decision register are read")
     controls.bAbortReportsStep = true;
     controls.bResultAfterRefusal = false;
     CHECK(config.engine.controls == controls);
+    CHECK(config.engine.clearance == 0.8);
+    CHECK(config.engine.baseLength == 5);
     CHECK(config.engine.maximumPlans == 7);
     CHECK(config.engine.bLowerPriorityFirst);
     CHECK(config.engine.defaultPriority == -3);
