@@ -27,6 +27,7 @@ constexpr std::int64_t HIGHEST_RELAY_BYTE = 65'535;
 constexpr std::int64_t HIGHEST_WORD_INDEX = 255;
 constexpr std::int64_t MOST_BASE_NODES = 1'000;
 constexpr double MOST_CLEARANCE = 100;
+constexpr std::int64_t FULL_BATTERY = 100;
 constexpr std::int64_t MOST_PLANS = 100'000;
 
 /// Ranges such as "A01.CP01.TP01-04"; in front of each the prefix ("LR01." for ports of a robot).
@@ -159,6 +160,7 @@ void ReadRobot(const ConfigSection& section, const std::string& name, AcsdConfig
     options.vehicleTypeID = section.GetString("vehicle_type");
     options.startNodeID = section.GetString("start_node");
     options.homeStationID = section.GetStringOrNull("home");
+    options.chargingStationID = section.GetStringOrNull("charge");
     options.ports = ReadPlaces(section, "ports", name + ".");
     options.childPorts = ReadPlaces(section, "child_ports", name + ".");
 
@@ -255,6 +257,24 @@ void ReadQueue(const ConfigSection& root, Planning::EngineOptions& engine)
     engine.bTscPausedAcceptsPlans = tsc.IsEnabled("paused_accepts_plans", engine.bTscPausedAcceptsPlans);
 }
 
+void ReadDispatch(const ConfigSection& root, Planning::EngineOptions& engine)
+{
+    const ConfigSection robot = root.GetSection("robot");
+    Planning::DispatchOptions& dispatch = engine.dispatch;
+    const auto readPercent = [&robot](const std::string& key, double fallback) {
+        return static_cast<double>(robot.GetInteger(key, 0, FULL_BATTERY, static_cast<std::int64_t>(fallback)));
+    };
+    dispatch.batteryFloor = readPercent("battery_floor", dispatch.batteryFloor);
+    dispatch.batteryResume = readPercent("battery_resume", dispatch.batteryResume);
+    dispatch.bLoadsIntoTakenPorts = robot.GetWord("taken_port", {"wait", "load"}, "wait") == "load";
+
+    const std::string moving =
+        root.GetSection("mcs").GetWord("position_while_moving", {"last", "target", "null"}, "last");
+    engine.movingPosition = moving == "target"
+        ? Planning::EMovingPosition::Target
+        : (moving == "null" ? Planning::EMovingPosition::None : Planning::EMovingPosition::Last);
+}
+
 /// Register D-14 to D-22.
 void ReadControls(const ConfigSection& root, Planning::ControlOptions& controls)
 {
@@ -329,6 +349,7 @@ AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::st
     config.httpListen = root.GetSection("http").GetEndpoint("listen", config.httpListen);
     ReadQueue(root, config.engine);
     ReadControls(root, config.engine.controls);
+    ReadDispatch(root, config.engine);
     ReadTables(root, config);
     RejectActionsWithoutMethod(config);
     config.mistakes = reader.GetMistakes();

@@ -2,8 +2,13 @@
 
 #include <acs/json/JsonWriter.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace ACS::Acsd
 {
@@ -32,7 +37,25 @@ void WriteMember(Json::JsonWriter& writer, std::string_view key, const std::opti
     }
 }
 
-void WriteRobot(Json::JsonWriter& writer, const Planning::RobotStatus& robot)
+/// Null for a robot that has not told it.
+void WriteBattery(Json::JsonWriter& writer, const std::vector<Planning::RobotPose>& poses, const std::string& robotID)
+{
+    const auto pose = std::ranges::find(poses, robotID, &Planning::RobotPose::robotID);
+    writer.Key("battery");
+    if (pose == poses.end())
+    {
+        writer.WriteNull();
+    }
+    else
+    {
+        writer.WriteInteger(std::lround(pose->batteryPercent));
+    }
+}
+
+void WriteRobot(
+    Json::JsonWriter& writer,
+    const Planning::RobotStatus& robot,
+    const std::vector<Planning::RobotPose>& poses)
 {
     writer.BeginObject();
     WriteMember(writer, "robotId", std::string_view(robot.robotID));
@@ -41,6 +64,9 @@ void WriteRobot(Json::JsonWriter& writer, const Planning::RobotStatus& robot)
     WriteMember(writer, "position", std::string_view(robot.position));
     WriteMember(writer, "planId", robot.planID);
     WriteMember(writer, "jobId", robot.jobID);
+    WriteBattery(writer, poses, robot.robotID);
+    writer.Key("maintenance");
+    writer.WriteBoolean(robot.bInMaintenance);
     writer.Key("carrierIds");
     writer.BeginArray();
     for (const std::optional<std::string>& carrierOrNull : robot.carrierIDs)
@@ -58,7 +84,36 @@ void WriteRobot(Json::JsonWriter& writer, const Planning::RobotStatus& robot)
     writer.EndObject();
 }
 
-void WritePlan(Json::JsonWriter& writer, const Planning::PlanSummary& plan)
+void WriteWait(Json::JsonWriter& writer, const Planning::WaitReason& wait)
+{
+    writer.BeginObject();
+    WriteMember(writer, "message", std::string_view(wait.message));
+    writer.Key("queuePosition");
+    if (wait.queuePosition.has_value())
+    {
+        writer.WriteInteger(static_cast<std::int64_t>(*wait.queuePosition));
+    }
+    else
+    {
+        writer.WriteNull();
+    }
+    writer.Key("robots");
+    writer.BeginArray();
+    for (const Planning::RobotObjection& robot : wait.robots)
+    {
+        writer.BeginObject();
+        WriteMember(writer, "robotId", std::string_view(robot.robotID));
+        WriteMember(writer, "reason", std::string_view(robot.reason));
+        writer.EndObject();
+    }
+    writer.EndArray();
+    writer.EndObject();
+}
+
+using WaitReasons = std::map<std::string, Planning::WaitReason, std::less<>>;
+
+/// "waits" is null for a plan that goes on.
+void WritePlan(Json::JsonWriter& writer, const Planning::PlanSummary& plan, const WaitReasons& waits)
 {
     writer.BeginObject();
     WriteMember(writer, "planId", std::string_view(plan.planID));
@@ -68,6 +123,15 @@ void WritePlan(Json::JsonWriter& writer, const Planning::PlanSummary& plan)
     writer.WriteInteger(plan.stepNo);
     WriteMember(writer, "jobId", plan.jobID);
     WriteMember(writer, "currentAction", plan.currentAction);
+    writer.Key("waits");
+    if (const auto wait = waits.find(plan.planID); wait != waits.end())
+    {
+        WriteWait(writer, wait->second);
+    }
+    else
+    {
+        writer.WriteNull();
+    }
     writer.EndObject();
 }
 
@@ -130,8 +194,18 @@ Apps::HttpResponse MakeStatusResponse(const std::vector<LinkStatus>& links, cons
     }
     writer.EndObject();
     WriteMember(writer, "tsc", GetText(engine.GetTscState()));
-    WriteList(writer, "robots", engine.GetRobotStatuses(), WriteRobot);
-    WriteList(writer, "plans", engine.GetActivePlans(), WritePlan);
+    const std::vector<Planning::RobotPose> poses = engine.GetRobotPoses();
+    WriteList(writer, "robots", engine.GetRobotStatuses(), [&poses](Json::JsonWriter& list, const auto& robot) {
+        WriteRobot(list, robot, poses);
+    });
+    WaitReasons waits;
+    for (Planning::WaitReason& wait : engine.GetWaitReasons())
+    {
+        waits.emplace(wait.planID, std::move(wait));
+    }
+    WriteList(writer, "plans", engine.GetActivePlans(), [&waits](Json::JsonWriter& list, const auto& plan) {
+        WritePlan(list, plan, waits);
+    });
     WriteList(writer, "alarms", engine.GetActiveAlarms(), WriteAlarm);
     writer.EndObject();
     response.body += '\n';

@@ -24,7 +24,7 @@ struct LinkStatus
     const std::vector<LinkStatus>& links,
     const std::vector<std::string>& obstacles);
 
-/// GET /status: links, robots, active plans and alarms as JSON.
+/// GET /status: links, robots, active plans (with why those that wait do so) and alarms as JSON.
 [[nodiscard]] Apps::HttpResponse MakeStatusResponse(
     const std::vector<LinkStatus>& links,
     const Planning::PlanEngine& engine);

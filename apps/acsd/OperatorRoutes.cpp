@@ -2,6 +2,10 @@
 
 #include <acs/json/JsonWriter.hpp>
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,6 +21,8 @@ using Apps::HttpResponse;
 using Captures = Apps::HttpRoutes::Captures;
 
 constexpr unsigned HTTP_ACCEPTED = 202;
+constexpr unsigned HTTP_BAD_REQUEST = 400;
+constexpr unsigned HTTP_NOT_FOUND = 404;
 
 HttpResponse MakeAnswer(unsigned status, std::string_view key, std::string_view sentence)
 {
@@ -35,10 +41,132 @@ HttpResponse Accept(std::string_view message)
     return MakeAnswer(HTTP_ACCEPTED, "message", message);
 }
 
+HttpResponse Refuse(unsigned status, std::string_view sentence)
+{
+    return MakeAnswer(status, "error", sentence);
+}
+
+std::optional<Planning::RobotStatus> FindRobotOrNull(const Planning::PlanEngine& engine, const std::string& robotID)
+{
+    for (Planning::RobotStatus& robot : engine.GetRobotStatuses())
+    {
+        if (robot.robotID == robotID)
+        {
+            return std::move(robot);
+        }
+    }
+    return std::nullopt;
+}
+
+HttpResponse RefuseRobot(const std::string& robotID)
+{
+    return Refuse(HTTP_NOT_FOUND, fmt::format("There is no robot {}; /status has the robots.", robotID));
+}
+
+HttpResponse Maintain(
+    const Planning::PlanEngine& engine,
+    const OperatorHandler& handler,
+    const std::string& robotID,
+    bool bOn)
+{
+    const std::optional<Planning::RobotStatus> robot = FindRobotOrNull(engine, robotID);
+    if (!robot.has_value())
+    {
+        return RefuseRobot(robotID);
+    }
+    handler(Planning::SetMaintenance{robotID, bOn, 0});
+    if (!bOn)
+    {
+        return Accept(robotID + " is put back into service.");
+    }
+    return Accept(
+        robot->planID.has_value()
+            ? fmt::format("{} is taken out of service as soon as plan {} is over.", robotID, *robot->planID)
+            : robotID + " is taken out of service.");
+}
+
+/// One parameter `carrier` for each port, in their order; an empty one: nothing.
+HttpResponse SetCarriers(
+    const Planning::PlanEngine& engine,
+    const OperatorHandler& handler,
+    const std::string& robotID,
+    const HttpRequest& request)
+{
+    const std::optional<Planning::RobotStatus> robot = FindRobotOrNull(engine, robotID);
+    if (!robot.has_value())
+    {
+        return RefuseRobot(robotID);
+    }
+    Planning::SetCarriers command{robotID, {}, 0};
+    for (const auto& [name, value] : request.query)
+    {
+        if (name != "carrier")
+        {
+            return Refuse(HTTP_BAD_REQUEST, fmt::format("There is no parameter {}; only carrier.", name));
+        }
+        command.carrierIDs.push_back(value.empty() ? std::nullopt : std::optional(value));
+    }
+    if (std::optional<std::string> objection = engine.GetObjectionOrNull(command))
+    {
+        return Refuse(HTTP_BAD_REQUEST, *objection);
+    }
+    handler(std::move(command));
+    return Accept(fmt::format("The ports of {} are corrected.", robotID));
+}
+
+HttpResponse ClearAlarms(const Planning::PlanEngine& engine, const OperatorHandler& handler, const HttpRequest& request)
+{
+    for (const auto& [name, value] : request.query)
+    {
+        if (name != "robot" && name != "code" && name != "plan" && name != "job")
+        {
+            return Refuse(
+                HTTP_BAD_REQUEST,
+                fmt::format("There is no parameter {}; there are robot, code, plan and job.", name));
+        }
+    }
+    const std::optional<std::string> robotID = request.GetQueryOrNull("robot");
+    const std::optional<std::string> errorCode = request.GetQueryOrNull("code");
+    if (!robotID.has_value() || !errorCode.has_value())
+    {
+        return Refuse(
+            HTTP_BAD_REQUEST,
+            "The parameters robot and code say which alarm: /alarms/clear?robot=LR01&code=ACS-1004");
+    }
+    const auto isMeant = [&robotID, &errorCode](const Planning::Alarm& alarm) {
+        return alarm.robotID == *robotID && alarm.errorCode == *errorCode;
+    };
+    if (std::ranges::none_of(engine.GetActiveAlarms(), isMeant))
+    {
+        return Refuse(HTTP_NOT_FOUND, fmt::format("{} has no alarm {}; /status has the alarms.", *robotID, *errorCode));
+    }
+    handler(
+        Planning::ClearAlarms{*robotID, *errorCode, request.GetQueryOrNull("plan"), request.GetQueryOrNull("job"), 0});
+    return Accept("The alarm is cleared; it comes back if its cause is still there.");
+}
+
 } // namespace
 
-void AddOperatorRoutes(Apps::HttpRoutes& routes, OperatorHandler handler)
+void AddOperatorRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& engine, OperatorHandler handler)
 {
+    for (const bool bOn : {true, false})
+    {
+        routes.Add(
+            "POST",
+            bOn ? "/robots/{ROBOT}/maintenance/on" : "/robots/{ROBOT}/maintenance/off",
+            [&engine, handler, bOn](const HttpRequest&, const Captures& captures) {
+                return Maintain(engine, handler, captures[0], bOn);
+            });
+    }
+    routes.Add(
+        "POST",
+        "/robots/{ROBOT}/carriers",
+        [&engine, handler](const HttpRequest& request, const Captures& captures) {
+            return SetCarriers(engine, handler, captures[0], request);
+        });
+    routes.Add("POST", "/alarms/clear", [&engine, handler](const HttpRequest& request, const Captures&) {
+        return ClearAlarms(engine, handler, request);
+    });
     routes.Add("POST", "/tsc/pause", [handler](const HttpRequest&, const Captures&) {
         handler(Planning::ControlTsc{true, 0});
         return Accept("The TSC is told to pause; /status has its state.");

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/HttpRoutes.hpp"
-#include <acs/plan/PlanCommand.hpp>
+#include <acs/plan/PlanEngine.hpp>
 
 #include <functional>
 
@@ -12,7 +12,8 @@ namespace ACS::Acsd
 using OperatorHandler = std::function<void(Planning::PlanCommand command)>;
 
 /// What an operator may ask of acsd, each by a POST. The answers are JSON: 202 with a message where the command was
-/// handed on (it may still wait for the store; /status tells what came of it), else an error in a sentence.
-void AddOperatorRoutes(Apps::HttpRoutes& routes, OperatorHandler handler);
+/// handed on (it may still wait for the store; /status tells what came of it), else an error in a
+/// sentence, 404 for what is not there. The engine must outlive the routes.
+void AddOperatorRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& engine, OperatorHandler handler);
 
 } // namespace ACS::Acsd

@@ -103,8 +103,10 @@ void Vda5050RobotAdapter::Handle(const Planning::RobotCommand& command, Core::No
                 }
             },
             [&](const Planning::Pause&) { SendInstantAction(VDA5050::ActionTypes::START_PAUSE, now); },
-            [&](const Planning::Resume&) {
-                SendInstantAction(VDA5050::ActionTypes::STOP_PAUSE, now);
+            [&](const Planning::Resume&) { SendInstantAction(VDA5050::ActionTypes::STOP_PAUSE, now); },
+            [&](const Planning::StartCharging&) { SendInstantAction(VDA5050::ActionTypes::START_CHARGING, now); },
+            [&](const Planning::StopCharging&) {
+                SendInstantAction(VDA5050::ActionTypes::STOP_CHARGING, now);
             }},
         command);
     Drain(now, out);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <set>
 #include <utility>
 
@@ -17,7 +18,7 @@ class MistakeFinder
     const SiteMap& _site;
     std::vector<Core::Error> _mistakes;
     std::set<std::string> _robotIDs;
-    std::set<std::string> _homes;
+    std::map<std::string, std::string> _homes; ///< Nodes where robots stand without work, and whose they are.
     std::set<std::string> _starts;
 
 public:
@@ -50,7 +51,11 @@ public:
         }
         if (robot.homeStationID.has_value())
         {
-            CheckHome(path + ".home", robot, bTypeKnown);
+            CheckStation(path + ".home", *robot.homeStationID, robot, bTypeKnown);
+        }
+        if (robot.chargingStationID.has_value())
+        {
+            CheckStation(path + ".charge", *robot.chargingStationID, robot, bTypeKnown);
         }
         CheckPorts(path + ".ports", robot, robot.ports);
         CheckPorts(path + ".child_ports", robot, robot.childPorts);
@@ -93,20 +98,23 @@ private:
         }
     }
 
-    void CheckHome(std::string path, const RobotOptions& robot, bool bTypeKnown)
+    /// Where a robot stands when it has no work is its own: nobody may wait for it there.
+    void CheckStation(std::string path, const std::string& stationID, const RobotOptions& robot, bool bTypeKnown)
     {
-        const SiteStation* stationOrNull = _site.FindStationOrNull(*robot.homeStationID);
+        const SiteStation* stationOrNull = _site.FindStationOrNull(stationID);
         if (stationOrNull == nullptr)
         {
-            Add(std::move(path), "a station of the site map", *robot.homeStationID);
+            Add(std::move(path), "a station of the site map", stationID);
         }
         else if (bTypeKnown && !CanUse(stationOrNull->nodeIDs.front(), robot))
         {
-            Add(std::move(path), "a station whose node its vehicle type may use", *robot.homeStationID);
+            Add(std::move(path), "a station whose node its vehicle type may use", stationID);
         }
-        else if (!_homes.insert(stationOrNull->nodeIDs.front()).second)
+        else if (
+            _homes.try_emplace(stationOrNull->nodeIDs.front(), robot.robotID.GetText()).first->second
+            != robot.robotID.GetText())
         {
-            Add(std::move(path), "a station that is home to no other robot", *robot.homeStationID);
+            Add(std::move(path), "a station that is home or charging station to no other robot", stationID);
         }
     }
 
@@ -171,6 +179,15 @@ std::vector<Core::Error> FindMistakes(const EngineOptions& options, const SiteMa
     if (options.maximumPlans == 0)
     {
         finder.Add("queue.max_plans", "at least 1", "0");
+    }
+    const DispatchOptions& dispatch = options.dispatch;
+    if (!(dispatch.batteryFloor >= 0 && dispatch.batteryFloor < dispatch.batteryResume
+          && dispatch.batteryResume <= 100))
+    {
+        finder.Add(
+            "robot.battery_floor",
+            "0 to 100 percent, and less than robot.battery_resume",
+            fmt::format("{} and {}", dispatch.batteryFloor, dispatch.batteryResume));
     }
     return finder.TakeMistakes();
 }

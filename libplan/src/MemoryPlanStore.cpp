@@ -49,6 +49,13 @@ void ApplyChange(StoredState& state, const StoreChange& change)
                 });
                 state.robotWorks.push_back(changed);
             },
+            [&state](const MaintenanceChanged& changed) {
+                std::erase(state.robotsInMaintenance, changed.robotID);
+                if (changed.bOn)
+                {
+                    state.robotsInMaintenance.push_back(changed.robotID);
+                }
+            },
             [&state](const TscChanged& changed) { state.tscState = changed.state; },
             [&state](const AlarmSet& set) { state.alarms.push_back(set.alarm); },
             [&state](const AlarmCleared& cleared) {

@@ -26,9 +26,11 @@ PlanEngine::Impl::Impl(EngineOptions options, SiteMap site, Core::IRandom& rando
         robot.options = &_options.robots[i];
         robot.carriers.resize(robot.options->ports.size());
         _robotIndices.emplace(GetRobotID(robot), i);
-        if (robot.options->homeStationID.has_value())
+        robot.homeNode = GetHomeOrNull(robot);
+        if (robot.options->chargingStationID.has_value())
         {
-            robot.homeNode = _admission.FindDockOrNull(*robot.options->homeStationID, robot.options->vehicleTypeID);
+            robot.chargeNode =
+                _admission.FindDockOrNull(*robot.options->chargingStationID, robot.options->vehicleTypeID);
         }
         robot.lastStatus = MakeStatus(robot, DeriveStatus(robot));
         robot.bTouched = false;
@@ -50,8 +52,11 @@ void PlanEngine::Impl::HandleCommand(const PlanCommand& command, Core::Now now, 
             [this](const ControlPlan& control) { Control(control); },
             [this](const MessageAcknowledged& acknowledged) { Acknowledge(acknowledged); },
             [this](const ControlTsc& control) { SwitchTsc(control); },
-            [this](const SettleJob& settle) {
-                Settle(settle);
+            [this](const SettleJob& settle) { Settle(settle); },
+            [this](const SetMaintenance& maintenance) { Maintain(maintenance); },
+            [this](const ClearAlarms& clear) { ClearByOperator(clear); },
+            [this](const SetCarriers& carriers) {
+                CorrectCarriers(carriers);
             }},
         command);
     End(out);
@@ -140,6 +145,12 @@ void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineAc
             break;
         case EEngineTimer::Gathering:
             EndGathering();
+            break;
+        case EEngineTimer::ChargeRetry:
+            if (robotOrNull != nullptr)
+            {
+                OnChargeRetry(*robotOrNull);
+            }
             break;
         default:
             assert(false && "a timer has no case");
@@ -416,13 +427,18 @@ ERobotStatus PlanEngine::Impl::DeriveStatus(const Robot& robot)
     const ActivePlan* planOrNull = robot.planOrNull;
     const bool bPlanPaused = planOrNull != nullptr && planOrNull->record.progress.state == EPlanState::Paused
         && planOrNull->record.progress.control.value_or(EPlanControl::Pause) == EPlanControl::Pause;
-    if (state.bPaused || bPlanPaused)
+    const bool bOutOfService = robot.bInMaintenance && planOrNull == nullptr && !robot.drive.has_value();
+    if (state.bPaused || bPlanPaused || bOutOfService)
     {
         return ERobotStatus::Stopped;
     }
     if (!state.bAutomatic)
     {
         return ERobotStatus::Manual;
+    }
+    if (state.bCharging)
+    {
+        return ERobotStatus::Charging;
     }
     if (robot.activity == EActivity::Works)
     {
@@ -440,7 +456,21 @@ ERobotStatus PlanEngine::Impl::DeriveStatus(const Robot& robot)
     {
         return ERobotStatus::Working;
     }
-    return state.bCharging ? ERobotStatus::Charging : ERobotStatus::Idle;
+    return ERobotStatus::Idle;
+}
+
+std::string PlanEngine::Impl::GetToldPosition(const Robot& robot) const
+{
+    if (!robot.drive.has_value() || _options.movingPosition == EMovingPosition::Last)
+    {
+        return robot.position;
+    }
+    if (_options.movingPosition == EMovingPosition::None)
+    {
+        return {};
+    }
+    const SiteStation* stationOrNull = _site.FindStationAtOrNull(robot.drive->route.nodes.back().nodeID);
+    return stationOrNull == nullptr ? robot.position : stationOrNull->stationID;
 }
 
 RobotStatus PlanEngine::Impl::MakeStatus(const Robot& robot, ERobotStatus status) const
@@ -449,7 +479,9 @@ RobotStatus PlanEngine::Impl::MakeStatus(const Robot& robot, ERobotStatus status
     made.robotID = GetRobotID(robot);
     made.type = robot.options->type;
     made.status = status;
-    made.position = robot.position;
+    made.position = GetToldPosition(robot);
+    made.bInMaintenance = robot.bInMaintenance;
+    made.message = robot.bInMaintenance ? "In maintenance." : "";
     made.carrierIDs = robot.carriers;
     if (robot.planOrNull != nullptr)
     {
@@ -462,19 +494,6 @@ RobotStatus PlanEngine::Impl::MakeStatus(const Robot& robot, ERobotStatus status
         }
     }
     return made;
-}
-
-bool PlanEngine::Impl::IsUsable(const Robot& robot)
-{
-    if (!robot.bOnline || !robot.bPlaced || !robot.node.has_value() || !robot.state.has_value())
-    {
-        return false;
-    }
-    const StateChanged& state = *robot.state;
-    const bool bFatal =
-        std::ranges::any_of(state.errors, [](const RobotError& error) { return error.level == EAlarmLevel::Heavy; });
-    return !bFatal && !state.bSafetyStop && !state.bPaused && !state.bOccupied && state.bAutomatic
-        && !robot.bStandAwaited && !robot.overdueJobID.has_value() && !IsHeld(robot);
 }
 
 const std::string& PlanEngine::Impl::GetRobotID(const Robot& robot) const

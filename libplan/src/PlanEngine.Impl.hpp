@@ -29,10 +29,14 @@ inline constexpr std::string_view ALARM_STORE = "ACS-1005";
 inline constexpr std::string_view ALARM_HOME = "ACS-1006";
 inline constexpr std::string_view ALARM_DROPPED = "ACS-1007";
 inline constexpr std::string_view ALARM_UNCERTAIN = "ACS-1008";
+inline constexpr std::string_view ALARM_CHARGE = "ACS-1010";
 /// What alarms of the engine begin with; others are errors that robots told.
 inline constexpr std::string_view ALARM_PREFIX = "ACS-";
 /// The robotID of alarms about the engine itself.
 inline constexpr std::string_view OWN_ROBOT_ID = "ACS";
+
+/// What stands for a carrier whose id the plan does not tell.
+inline constexpr std::string_view UNKNOWN_CARRIER = "UNKNOWN";
 
 class PlanEngine::Impl
 {
@@ -73,6 +77,27 @@ public:
         Idle,  ///< No plan.
         Waits, ///< Has a plan and must get to its step's place.
         Works, ///< A job runs.
+    };
+
+    /// Why a robot can neither be driven nor work.
+    enum class EHindrance : std::uint8_t
+    {
+        None,
+        Link,
+        Place,
+        Maintenance,
+        Error,
+        SafetyStop,
+        Paused,
+        Manual,
+        Occupied,
+    };
+
+    /// Whether a robot's ports fit a plan.
+    struct PortVerdict
+    {
+        std::optional<std::string> objectionOrNull;
+        bool bSupposed = false; ///< A carrier that it is to unload was put on by hand, if it is there at all.
     };
 
     enum class EGoal : std::uint8_t
@@ -123,11 +148,16 @@ public:
         bool bPauseWanted = false; ///< It was told to pause and not to go on.
         bool bResumeOwed = false;  ///< It was told to go on and has not shown that it does.
         bool bConfirming = false;  ///< The timer ControlConfirm runs.
+        bool bInMaintenance = false;
+        bool bBatteryLow = false;  ///< Was under the floor and is not full enough yet.
+        bool bChargeAsked = false; ///< It was told to charge and not to stop that.
+        bool bChargeShown = false; ///< Its state has shown that it does.
         std::optional<StateChanged> state;
         std::optional<std::size_t> node;    ///< Where it stands or passed last.
         std::vector<std::size_t> heldNodes; ///< Without a drive: where it may still go all the same, its node included.
         std::string position;               ///< The last station where it stood.
-        std::optional<std::size_t> homeNode;
+        std::optional<std::size_t> homeNode; ///< Where it goes without work; with a low battery its chargeNode.
+        std::optional<std::size_t> chargeNode;
         std::optional<std::size_t> retreatNode; ///< Goes here first, out of the way of others.
         EActivity activity = EActivity::Idle;
         ActivePlan* planOrNull = nullptr;
@@ -215,6 +245,9 @@ public:
     [[nodiscard]] std::vector<RobotPose> GetRobotPoses() const;
     [[nodiscard]] std::vector<PlanSummary> GetActivePlans() const;
     [[nodiscard]] std::optional<PlanSummary> GetPlanOrNull(std::string_view planID) const;
+    [[nodiscard]] std::vector<WaitReason> GetWaitReasons() const;
+    [[nodiscard]] std::optional<WaitReason> GetWaitReasonOrNull(std::string_view planID) const;
+    [[nodiscard]] std::optional<std::string> GetObjectionOrNull(const SetCarriers& command) const;
     [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;
     [[nodiscard]] ETscState GetTscState() const noexcept;
 
@@ -237,8 +270,8 @@ private:
     void ClearAlarm(const Alarm& alarm);
     void RememberFinished(PlanRecord record);
     [[nodiscard]] static ERobotStatus DeriveStatus(const Robot& robot);
+    [[nodiscard]] std::string GetToldPosition(const Robot& robot) const;
     [[nodiscard]] RobotStatus MakeStatus(const Robot& robot, ERobotStatus status) const;
-    [[nodiscard]] static bool IsUsable(const Robot& robot);
     [[nodiscard]] const std::string& GetRobotID(const Robot& robot) const;
 
     // Commands (PlanEngine.Commands.cpp).
@@ -254,6 +287,45 @@ private:
     void Acknowledge(const MessageAcknowledged& command);
     [[nodiscard]] Core::Result<ResolvedPlan> Admit(const Plan& plan) const;
     [[nodiscard]] bool IsRepetition(const Plan& plan, const std::string& transactionID) const;
+
+    // What an operator asks for (PlanEngine.Operator.cpp).
+    void Reply(ReplyToken token, bool bAccepted, std::string message);
+    void Maintain(const SetMaintenance& command);
+    void ClearByOperator(const ClearAlarms& command);
+    void CorrectCarriers(const SetCarriers& command);
+    [[nodiscard]] Robot* FindRobotOrNull(std::string_view robotID);
+    [[nodiscard]] bool HasCause(const Alarm& alarm) const;
+
+    // Batteries (PlanEngine.Charging.cpp).
+    void FollowBattery(Robot& robot);
+    void ChargeIdle();
+    void EndCharging(Robot& robot);
+    void OnChargeRetry(Robot& robot);
+    [[nodiscard]] Alarm MakeChargeAlarm(const Robot& robot) const;
+    [[nodiscard]] bool IsChargeDue(const Robot& robot) const;
+    [[nodiscard]] std::optional<std::size_t> GetHomeOrNull(const Robot& robot) const;
+
+    // Which robot takes which plan, and why none does (PlanEngine.Choice.cpp).
+    void AssignPlans();
+    [[nodiscard]] Robot* FindNearestOrNull(const ActivePlan& plan);
+    [[nodiscard]] Robot* FindQuickestOrNull(const ActivePlan& plan, const std::vector<Robot*>& robots) const;
+    [[nodiscard]] static EHindrance GetHindrance(const Robot& robot);
+    [[nodiscard]] static std::string Describe(const Robot& robot, EHindrance hindrance);
+    [[nodiscard]] static bool IsUsable(const Robot& robot);
+    [[nodiscard]] static bool IsFree(const Robot& robot);
+    [[nodiscard]] std::string DescribeUnfree(const Robot& robot) const;
+    [[nodiscard]] std::optional<double> GetTravelSecondsOrNull(const ActivePlan& plan, const Robot& robot) const;
+    [[nodiscard]] std::optional<std::size_t> FindPortOrNull(
+        const Robot& robot,
+        const std::optional<Core::Location>& place) const;
+    [[nodiscard]] PortVerdict JudgePorts(const ActivePlan& plan, const Robot& robot) const;
+    [[nodiscard]] std::optional<std::string> GetUnloadObjectionOrNull(
+        const Robot& robot,
+        std::size_t port,
+        const std::string& carrierID) const;
+    [[nodiscard]] WaitReason DescribeWaiting(const ActivePlan& plan, std::size_t position) const;
+    [[nodiscard]] std::optional<WaitReason> DescribeBegunOrNull(const ActivePlan& plan) const;
+    [[nodiscard]] std::string DescribeStanding(const Robot& robot) const;
 
     // Control of plans (PlanEngine.Controls.cpp).
     void Control(const ControlPlan& command);
@@ -325,8 +397,6 @@ private:
 
     // Who does what (PlanEngine.Dispatch.cpp).
     void Dispatch();
-    void AssignPlans();
-    [[nodiscard]] Robot* FindNearestOrNull(const ActivePlan& plan);
 
     // Who drives when (PlanEngine.Traffic.cpp).
     void FindBerths();

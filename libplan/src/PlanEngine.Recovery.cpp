@@ -28,6 +28,14 @@ void PlanEngine::Impl::Restore(StoredState state, Core::Now now, EngineActions& 
     {
         RestoreRobot(work);
     }
+    for (const std::string& robotID : state.robotsInMaintenance)
+    {
+        if (Robot* robotOrNull = FindRobotOrNull(robotID); robotOrNull != nullptr)
+        {
+            robotOrNull->bInMaintenance = true;
+            robotOrNull->lastStatus = MakeStatus(*robotOrNull, DeriveStatus(*robotOrNull));
+        }
+    }
     std::ranges::sort(state.plans, {}, &PlanRecord::sequence);
     for (PlanRecord& record : state.plans)
     {

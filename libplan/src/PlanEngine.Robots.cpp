@@ -39,6 +39,8 @@ void PlanEngine::Impl::OnLink(Robot& robot, const LinkChanged& event)
     }
     // Where it is and how it does is old news when it comes back.
     robot.state.reset();
+    robot.bChargeAsked = false;
+    robot.bChargeShown = false;
     _bDispatchNeeded = true;
     RaiseAlarm(std::move(alarm));
 }
@@ -64,6 +66,7 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
     }
     FollowPause(robot, bFirst, bWasPaused);
     FollowStand(robot);
+    FollowBattery(robot);
     if (IsUsable(robot) && !bWasUsable)
     {
         _bDispatchNeeded = true;

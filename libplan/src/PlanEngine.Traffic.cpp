@@ -18,10 +18,14 @@ void PlanEngine::Impl::FindBerths()
     std::set<std::size_t> taken;
     for (Robot& robot : _robots)
     {
-        robot.berthNode = robot.homeNode;
+        robot.berthNode = robot.homeNode.has_value() ? robot.homeNode : robot.chargeNode;
         if (robot.homeNode.has_value())
         {
             taken.insert(*robot.homeNode);
+        }
+        if (robot.chargeNode.has_value())
+        {
+            taken.insert(*robot.chargeNode);
         }
     }
     for (Robot& robot : _robots)

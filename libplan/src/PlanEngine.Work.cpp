@@ -14,9 +14,6 @@ namespace ACS::Planning
 namespace
 {
 
-/// What stands for a carrier whose id the plan does not tell.
-constexpr std::string_view UNKNOWN_CARRIER = "UNKNOWN";
-
 std::optional<std::string> GetTextForOrNull(const std::optional<Core::Location>& place, const Core::RobotID& robotID)
 {
     if (!place.has_value())
@@ -46,6 +43,7 @@ void PlanEngine::Impl::BeginPlan(ActivePlan& plan, Robot& robot)
     plan.record.progress.robotID = GetRobotID(robot);
     robot.planOrNull = &plan;
     robot.bHomeRefused = false;
+    EndCharging(robot);
     ChangePlan(plan, EPlanState::InProgress, {});
     BeginStep(plan, robot);
 }

@@ -75,6 +75,21 @@ std::optional<PlanSummary> PlanEngine::GetPlanOrNull(std::string_view planID) co
     return _impl->GetPlanOrNull(planID);
 }
 
+std::vector<WaitReason> PlanEngine::GetWaitReasons() const
+{
+    return _impl->GetWaitReasons();
+}
+
+std::optional<WaitReason> PlanEngine::GetWaitReasonOrNull(std::string_view planID) const
+{
+    return _impl->GetWaitReasonOrNull(planID);
+}
+
+std::optional<std::string> PlanEngine::GetObjectionOrNull(const SetCarriers& command) const
+{
+    return _impl->GetObjectionOrNull(command);
+}
+
 const std::vector<Alarm>& PlanEngine::GetActiveAlarms() const noexcept
 {
     return _impl->GetActiveAlarms();

@@ -26,9 +26,10 @@ constexpr std::array MIGRATIONS{
     "  job_id TEXT NOT NULL, alarm TEXT NOT NULL, PRIMARY KEY (robot_id, error_code, plan_id, job_id)) WITHOUT ROWID;",
     // Single values by name.
     "CREATE TABLE settings (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;",
-    // The request that brought a plan, and what each robot was told last.
+    // The request that brought a plan, what each robot was told last, and robots out of service.
     "ALTER TABLE plans ADD COLUMN transaction_id TEXT NOT NULL DEFAULT '';"
-    "CREATE TABLE robot_works (robot_id TEXT PRIMARY KEY, work TEXT NOT NULL) WITHOUT ROWID;",
+    "CREATE TABLE robot_works (robot_id TEXT PRIMARY KEY, work TEXT NOT NULL) WITHOUT ROWID;"
+    "CREATE TABLE maintenance (robot_id TEXT PRIMARY KEY) WITHOUT ROWID;",
 };
 
 } // namespace

@@ -77,6 +77,8 @@ class SqlitePlanStore::Impl
     std::unique_ptr<SQLite::Statement> _setAlarm;
     std::unique_ptr<SQLite::Statement> _clearAlarm;
     std::unique_ptr<SQLite::Statement> _setSetting;
+    std::unique_ptr<SQLite::Statement> _beginMaintenance;
+    std::unique_ptr<SQLite::Statement> _endMaintenance;
 
 public:
     /// Throws SQLite::Exception, as all of this class.
@@ -149,6 +151,8 @@ public:
         _setAlarm = MakeStatement("INSERT OR REPLACE INTO alarms VALUES (?, ?, ?, ?, ?)");
         _clearAlarm =
             MakeStatement("DELETE FROM alarms WHERE robot_id = ? AND error_code = ? AND plan_id = ? AND job_id = ?");
+        _beginMaintenance = MakeStatement("INSERT OR REPLACE INTO maintenance VALUES (?)");
+        _endMaintenance = MakeStatement("DELETE FROM maintenance WHERE robot_id = ?");
         _setSetting = MakeStatement("INSERT OR REPLACE INTO settings VALUES (?, ?)");
     }
 
@@ -184,6 +188,7 @@ public:
         }
         if (read.has_value())
         {
+            ReadMaintenance(state);
             read = ReadTscState(state);
         }
         if (!read.has_value())
@@ -239,6 +244,11 @@ private:
     void Write(const TscChanged& change)
     {
         Run(*_setSetting, std::string(TSC_STATE), std::string(GetText(change.state)));
+    }
+
+    void Write(const MaintenanceChanged& change)
+    {
+        Run(change.bOn ? *_beginMaintenance : *_endMaintenance, change.robotID);
     }
 
     void Write(const ReportAdded& change)
@@ -328,6 +338,15 @@ private:
             bFitting = plan.steps[i].jobs.size() == progress.steps[i].jobs.size();
         }
         return bFitting;
+    }
+
+    void ReadMaintenance(StoredState& state)
+    {
+        SQLite::Statement query(_database, "SELECT robot_id FROM maintenance ORDER BY robot_id");
+        while (query.executeStep())
+        {
+            state.robotsInMaintenance.push_back(query.getColumn(0).getString());
+        }
     }
 
     [[nodiscard]] Core::Result<void> ReadReports(StoredState& state)

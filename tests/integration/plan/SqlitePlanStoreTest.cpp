@@ -98,7 +98,12 @@ std::vector<StoreBatch> MakeBatches()
           AlarmSet{GetAlarm()},
           CarriersChanged{"LR01", {std::nullopt}},
           work}},
-        {{PlanRemoved{3}, TscChanged{ETscState::Pausing}}},
+        {{PlanRemoved{3},
+          TscChanged{ETscState::Pausing},
+          MaintenanceChanged{"LR01", true},
+          MaintenanceChanged{"CR01", true},
+          MaintenanceChanged{"LR01", false},
+          MaintenanceChanged{"CR01", true}}},
         {{ReportRemoved{1},
           CarriersChanged{"LR01", {"C1"}},
           ReportAdded{MakeEntry(3, "P1")},
@@ -130,6 +135,7 @@ TEST_CASE("Store: what was appended is there after the file was closed and opene
     CHECK(loaded->lastReportSequence == 3);
     CHECK(loaded->plans.size() == 2);
     CHECK(loaded->tscState == ETscState::Pausing);
+    CHECK(loaded->robotsInMaintenance == std::vector<std::string>{"CR01"});
 
     REQUIRE(OpenStore(folder.GetFile())->Append({{AlarmCleared{GetAlarm()}}}).has_value());
     CHECK(OpenStore(folder.GetFile())->Load()->alarms.empty());

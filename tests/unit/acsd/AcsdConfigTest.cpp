@@ -200,3 +200,33 @@ TEST_CASE("What of the decision register is not built is a mistake of the config
     CHECK(Read({"plan.duplicate=replace"}).mistakes.size() == 1);
     CHECK(Read({"pause.mode=later"}).mistakes.size() == 1);
 }
+
+TEST_CASE("robot.* and robots.NAME.charge are read; a charging station is no other robot's home")
+{
+    const Acsd::AcsdConfig config = Read(
+        {"robot.battery_floor=15",
+         "robot.battery_resume=90",
+         "robot.taken_port=load",
+         "robots.LR01.charge=CHG01",
+         "mcs.position_while_moving=target"});
+    REQUIRE(config.mistakes.empty());
+    CHECK(config.engine.dispatch.batteryFloor == 15);
+    CHECK(config.engine.dispatch.batteryResume == 90);
+    CHECK(config.engine.dispatch.bLoadsIntoTakenPorts);
+    CHECK(config.engine.robots.back().chargingStationID == "CHG01");
+    CHECK(config.engine.movingPosition == Planning::EMovingPosition::Target);
+    CHECK_FALSE(Read({}).engine.robots.back().chargingStationID.has_value());
+
+    const Acsd::AcsdConfig wrong =
+        Read({"robot.battery_floor=90", "robots.LR01.charge=CHG02", "robots.CR01.charge=NOWHERE"});
+    std::string mistakes;
+    for (const std::string& mistake : wrong.mistakes)
+    {
+        mistakes += mistake + "\n";
+    }
+    CHECK(mistakes.find("robot.battery_floor") != std::string::npos);
+    CHECK(mistakes.find("robots.LR01.charge") != std::string::npos);
+    CHECK(mistakes.find("robots.CR01.charge") != std::string::npos);
+    CHECK(Read({"robot.battery_floor=-1"}).mistakes.size() == 1);
+    CHECK(Read({"mcs.position_while_moving=here"}).mistakes.size() == 1);
+}

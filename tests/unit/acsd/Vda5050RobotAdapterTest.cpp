@@ -473,6 +473,20 @@ TEST_CASE("6.7 Pause and Resume are the instant actions startPause and stopPause
     CHECK(vehicle.outputs.messages.back().payload.find("\"stopPause\"") != std::string::npos);
 }
 
+TEST_CASE("StartCharging and StopCharging are the instant actions of these names")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.Command(Planning::StartCharging{});
+    REQUIRE(vehicle.outputs.messages.size() == 1);
+    CHECK(vehicle.outputs.messages[0].topic.ends_with("/instantActions"));
+    CHECK(vehicle.outputs.messages[0].payload.find("\"startCharging\"") != std::string::npos);
+    vehicle.outputs.messages.clear();
+    vehicle.Command(Planning::StopCharging{});
+    REQUIRE_FALSE(vehicle.outputs.messages.empty());
+    CHECK(vehicle.outputs.messages.back().payload.find("\"stopCharging\"") != std::string::npos);
+}
+
 TEST_CASE("6.7, D-22 A vehicle is paused when it says so and the job's action does not go on")
 {
     VehicleFixture vehicle;

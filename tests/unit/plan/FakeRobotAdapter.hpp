@@ -38,6 +38,7 @@ class FakeRobotAdapter final : public Planning::IRobotAdapter
     bool _bPoseKnown = false; ///< Its first drive tells it where its node is.
     double _x = 0;
     double _y = 0;
+    bool _bCharging = false;
 
 public:
     std::set<std::string> failingJobs;
@@ -46,6 +47,9 @@ public:
     bool bIgnoresDriveCancel = false;
     bool bIgnoresPause = false; ///< Neither stops nor goes on, as one that does not hear.
     bool bFinishesJobs = false; ///< A job that runs is not paused: the robot stands when it is done.
+    bool bIgnoresCharging = false;
+    double battery = 80;
+    std::size_t chargesAsked = 0;
     std::size_t extensions = 0;
     std::size_t drives = 0;
     std::size_t ranOverBase = 0; ///< Extensions that were needed and had not come when the base ended.
@@ -87,6 +91,12 @@ public:
         RaiseState(out);
     }
 
+    /// What it is like at this moment, as it tells it again and again.
+    void TellState(Planning::AdapterActions& out) const
+    {
+        RaiseState(out);
+    }
+
     void Handle(const Planning::RobotCommand& command, Core::Now /*now*/, Planning::AdapterActions& out) override
     {
         std::visit(
@@ -120,6 +130,15 @@ public:
                     {
                         GoOnAfterPause(out);
                     }
+                },
+                [this, &out](const Planning::StartCharging&) {
+                    ++chargesAsked;
+                    _bCharging = !bIgnoresCharging;
+                    RaiseState(out);
+                },
+                [this, &out](const Planning::StopCharging&) {
+                    _bCharging = false;
+                    RaiseState(out);
                 }},
             command);
     }
@@ -159,7 +178,8 @@ private:
         state.bPoseKnown = _bPoseKnown;
         state.x = _x;
         state.y = _y;
-        state.batteryPercent = 80;
+        state.batteryPercent = battery;
+        state.bCharging = _bCharging;
         state.lastNodeID = _nodeID;
         state.bDriving = _bMoving;
         state.bPaused = IsPaused();

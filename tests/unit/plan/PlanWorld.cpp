@@ -69,8 +69,10 @@ std::string DescribeCommand(const RobotCommand& command)
             [](const RecoverJob& typed) { return fmt::format("RecoverJob {}", typed.job.jobID); },
             [](const CancelJob&) { return std::string("CancelJob"); },
             [](const Pause&) { return std::string("Pause"); },
-            [](const Resume&) {
-                return std::string("Resume");
+            [](const Resume&) { return std::string("Resume"); },
+            [](const StartCharging&) { return std::string("StartCharging"); },
+            [](const StopCharging&) {
+                return std::string("StopCharging");
             }},
         command);
 }
@@ -279,6 +281,13 @@ void PlanWorld::SwitchTsc(bool bPause)
     Execute(std::move(out));
 }
 
+void PlanWorld::Ask(const PlanCommand& command)
+{
+    EngineActions out;
+    engine->Handle(command, GetNow(), out);
+    Execute(std::move(out));
+}
+
 void PlanWorld::Raise(const std::string& robotID, const RobotEvent& event)
 {
     if (engine == nullptr)
@@ -289,6 +298,13 @@ void PlanWorld::Raise(const std::string& robotID, const RobotEvent& event)
     engine->Handle(robotID, event, GetNow(), out);
     Execute(std::move(out));
     CheckOccupancy();
+}
+
+void PlanWorld::TellState(const std::string& robotID)
+{
+    AdapterActions out;
+    GetRobot(robotID).TellState(out);
+    ExecuteRobot(robotID, out);
 }
 
 void PlanWorld::Operate(const std::string& robotID, const RobotCommand& command)

@@ -82,7 +82,10 @@ public:
         Planning::ReplyToken token = 0);
     void Advance(std::chrono::milliseconds time);
     void SwitchTsc(bool bPause);
+    void Ask(const Planning::PlanCommand& command);
     void Raise(const std::string& robotID, const Planning::RobotEvent& event);
+    /// Has the robot tell its state.
+    void TellState(const std::string& robotID);
     /// As somebody at the robot would: past the engine.
     void Operate(const std::string& robotID, const Planning::RobotCommand& command);
     /// Until nothing is left to happen, or the predicate holds after an event. False: more than a day went by.

@@ -18,7 +18,7 @@ enum class ERobotStatus : std::uint8_t
     Docking,      ///< Docks.
     UnDocking,    ///< Leaves a dock.
     Working,      ///< A job runs, or it waits for its way with a plan.
-    Charging,     ///< Charges, has no plan.
+    Charging,     ///< Charges.
     Error,        ///< A fatal error, an emergency or a protective stop.
     Stopped,      ///< Paused.
 };

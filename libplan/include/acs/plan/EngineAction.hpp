@@ -27,6 +27,7 @@ enum class EEngineTimer : std::uint8_t
     JobTimeout,     ///< Of a robot: its job takes too long.
     HomeRetry,      ///< Of a robot: try again to send it home.
     Gathering,      ///< After a restart: go on without the robots that have not told where they stand.
+    ChargeRetry,    ///< Of a robot: it was told to charge and has not shown that it does.
 };
 
 /// One timer; of a robot or, with an empty robotID, of the engine.

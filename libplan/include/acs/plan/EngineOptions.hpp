@@ -67,6 +67,8 @@ struct RobotOptions
     std::vector<Core::Location> ports;      ///< Its carrier ports ("LR01.CP01"), in the order of carrierIds.
     std::vector<Core::Location> childPorts; ///< Places inside its carriers ("CR01.TP01.MP01").
     std::vector<std::string> rejectedActions; ///< Actions of its type that it cannot do (IRobotAdapter).
+    /// Where it charges (DispatchOptions); one robot each, but it may be its home. Absent: its battery is not looked at.
+    std::optional<std::string> chargingStationID = std::nullopt;
 };
 
 /// Until when CancelPlan ends a plan (register D-14).
@@ -93,6 +95,26 @@ struct ControlOptions
     bool operator==(const ControlOptions&) const = default;
 };
 
+/// What RobotStatus::position says while a robot drives (section 5.9).
+enum class EMovingPosition : std::uint8_t
+{
+    Last,   ///< The last station where it stood.
+    Target, ///< The station to which it drives; where that is none, the last.
+    None,   ///< Nothing.
+};
+
+/// Which robot takes a plan, and what becomes of those that take none.
+struct DispatchOptions
+{
+    double batteryFloor = 20;  ///< Percent; a robot with less takes no plan and drives to its charging station.
+    double batteryResume = 80; ///< Percent; until it has that much it takes no plan then, nor leaves the station.
+    std::chrono::milliseconds chargeRetry{10'000}; ///< For a robot to show that it charges; then it is told again.
+    /// Whether a load into a port that has a carrier, as far as the engine knows, is begun all the same.
+    bool bLoadsIntoTakenPorts = false;
+
+    bool operator==(const DispatchOptions&) const = default;
+};
+
 /// Everything that the engine is told at its start.
 struct EngineOptions
 {
@@ -114,6 +136,8 @@ struct EngineOptions
     /// another one on the other.
     double clearance = 0;
     ControlOptions controls;
+    DispatchOptions dispatch;
+    EMovingPosition movingPosition = EMovingPosition::Last;
     std::chrono::milliseconds extensionDelay{2'000}; ///< A drive that is not confirmed is extended after this.
     std::chrono::milliseconds homeRetry{5'000};      ///< Between attempts of a robot that refuses to drive home.
     /// After a restart nobody sets out before every robot has told where it stands and may still drive, at most so long.

@@ -98,6 +98,15 @@ struct TscChanged
     bool operator==(const TscChanged&) const = default;
 };
 
+/// A robot was taken out of service, or given back.
+struct MaintenanceChanged
+{
+    std::string robotID;
+    bool bOn = false;
+
+    bool operator==(const MaintenanceChanged&) const = default;
+};
+
 using StoreChange = std::variant<
     PlanAdded,
     PlanProgressed,
@@ -108,7 +117,8 @@ using StoreChange = std::variant<
     AlarmSet,
     AlarmCleared,
     TscChanged,
-    RobotWorkChanged>;
+    RobotWorkChanged,
+    MaintenanceChanged>;
 
 /// Changes that are stored together or not at all.
 struct StoreBatch
@@ -126,6 +136,7 @@ struct StoredState
     std::uint64_t lastReportSequence = 0; ///< The highest ever given, acknowledged reports included.
     std::vector<CarriersChanged> carriers;
     std::vector<Alarm> alarms;
+    std::vector<std::string> robotsInMaintenance;
     ETscState tscState = ETscState::Auto; ///< Auto where none was ever stored.
     std::vector<RobotWorkChanged> robotWorks;
 

@@ -5,8 +5,10 @@
 #include <acs/plan/Plan.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace ACS::Planning
 {
@@ -69,6 +71,47 @@ struct SettleJob
     bool operator==(const SettleJob&) const = default;
 };
 
-using PlanCommand = std::variant<SubmitPlan, ControlPlan, MessageAcknowledged, ControlTsc, SettleJob>;
+/// Of the operator: the robot is taken out of service, or given back. It ends its plan first, takes no other one and is
+/// driven nowhere; kept over a restart. Answered by one ReplyCommand.
+struct SetMaintenance
+{
+    std::string robotID;
+    bool bOn = false;
+    ReplyToken replyToken = 0;
+
+    bool operator==(const SetMaintenance&) const = default;
+};
+
+/// Of the operator: these alarms were seen to. One whose cause is still there is set again. Answered by one ReplyCommand.
+struct ClearAlarms
+{
+    std::string robotID;
+    std::string errorCode;
+    std::optional<std::string> planID; ///< Absent: of any plan, or of none.
+    std::optional<std::string> jobID;  ///< Likewise.
+    ReplyToken replyToken = 0;
+
+    bool operator==(const ClearAlarms&) const = default;
+};
+
+/// Of the operator: what is on the robot's ports, where the engine has it wrong. Answered by one ReplyCommand.
+struct SetCarriers
+{
+    std::string robotID;
+    std::vector<std::optional<std::string>> carrierIDs; ///< One per port, in the order of RobotOptions::ports.
+    ReplyToken replyToken = 0;
+
+    bool operator==(const SetCarriers&) const = default;
+};
+
+using PlanCommand = std::variant<
+    SubmitPlan,
+    ControlPlan,
+    MessageAcknowledged,
+    ControlTsc,
+    SettleJob,
+    SetMaintenance,
+    ClearAlarms,
+    SetCarriers>;
 
 } // namespace ACS::Planning

@@ -11,6 +11,7 @@
 #include <acs/plan/RobotEvent.hpp>
 #include <acs/plan/RobotStatus.hpp>
 #include <acs/plan/SiteMap.hpp>
+#include <acs/plan/WaitReason.hpp>
 
 #include <deque>
 #include <memory>
@@ -92,6 +93,16 @@ public:
 
     /// nullopt where the plan is not known (any more).
     [[nodiscard]] std::optional<PlanSummary> GetPlanOrNull(std::string_view planID) const;
+
+    /// Of every plan that does not go on at this moment: those that are paused, those whose robot stands without working,
+    /// then the queue in its order.
+    [[nodiscard]] std::vector<WaitReason> GetWaitReasons() const;
+
+    /// Why the engine would refuse the command at this moment; nullopt where it would not.
+    [[nodiscard]] std::optional<std::string> GetObjectionOrNull(const SetCarriers& command) const;
+
+    /// nullopt where the plan is not known, is finished or goes on.
+    [[nodiscard]] std::optional<WaitReason> GetWaitReasonOrNull(std::string_view planID) const;
 
     [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;
 

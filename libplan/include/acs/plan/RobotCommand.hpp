@@ -127,7 +127,29 @@ struct Resume
     bool operator==(const Resume&) const = default;
 };
 
+/// Charge; the state shows bCharging. Only where the robot stands at its charging station, without a drive or a job.
+struct StartCharging
+{
+    bool operator==(const StartCharging&) const = default;
+};
+
+/// Charge no longer; a drive may follow at once.
+struct StopCharging
+{
+    bool operator==(const StopCharging&) const = default;
+};
+
 /// What the engine asks of a robot. One drive or one job at a time, never both.
-using RobotCommand = std::variant<Drive, ExtendDrive, CancelDrive, StartJob, RecoverJob, CancelJob, Pause, Resume>;
+using RobotCommand = std::variant<
+    Drive,
+    ExtendDrive,
+    CancelDrive,
+    StartJob,
+    RecoverJob,
+    CancelJob,
+    Pause,
+    Resume,
+    StartCharging,
+    StopCharging>;
 
 } // namespace ACS::Planning

@@ -23,6 +23,7 @@ struct RobotStatus
     std::optional<std::int32_t> stepNo;
     std::optional<std::string> jobID;
     std::string message;
+    bool bInMaintenance = false; ///< Not told to the MCS but by the message.
 
     bool operator==(const RobotStatus&) const = default;
 };

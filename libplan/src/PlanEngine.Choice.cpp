@@ -1,0 +1,426 @@
+#include "PlanEngine.Impl.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+/// The first that holds, but for having other work.
+PlanEngine::Impl::EHindrance PlanEngine::Impl::GetHindrance(const Robot& robot)
+{
+    if (!robot.bOnline)
+    {
+        return EHindrance::Link;
+    }
+    if (!robot.state.has_value() || !robot.bPlaced || !robot.node.has_value())
+    {
+        return EHindrance::Place;
+    }
+    // It ends its plan first, and a drive home.
+    if (robot.bInMaintenance && robot.planOrNull == nullptr && !robot.drive.has_value())
+    {
+        return EHindrance::Maintenance;
+    }
+    const StateChanged& state = *robot.state;
+    const bool bFatal =
+        std::ranges::any_of(state.errors, [](const RobotError& error) { return error.level == EAlarmLevel::Heavy; });
+    if (bFatal)
+    {
+        return EHindrance::Error;
+    }
+    if (state.bSafetyStop)
+    {
+        return EHindrance::SafetyStop;
+    }
+    if (state.bPaused || IsHeld(robot))
+    {
+        return EHindrance::Paused;
+    }
+    if (!state.bAutomatic)
+    {
+        return EHindrance::Manual;
+    }
+    const bool bOccupied = state.bOccupied || robot.bStandAwaited || robot.overdueJobID.has_value();
+    return bOccupied ? EHindrance::Occupied : EHindrance::None;
+}
+
+std::string PlanEngine::Impl::Describe(const Robot& robot, EHindrance hindrance)
+{
+    switch (hindrance)
+    {
+        case EHindrance::None:
+            return {};
+        case EHindrance::Link:
+            return "no connection";
+        case EHindrance::Place:
+            return "its place is not known";
+        case EHindrance::Maintenance:
+            return "in maintenance";
+        case EHindrance::Error:
+        {
+            const std::vector<RobotError>& errors = robot.state->errors;
+            return "error " + std::ranges::find(errors, EAlarmLevel::Heavy, &RobotError::level)->errorCode;
+        }
+        case EHindrance::SafetyStop:
+            return "emergency or protective stop";
+        case EHindrance::Paused:
+            return "paused";
+        case EHindrance::Manual:
+            return "not in automatic mode";
+        case EHindrance::Occupied:
+            return "busy with work that is no part of a plan any more";
+        default:
+            return "cannot be used";
+    }
+}
+
+bool PlanEngine::Impl::IsUsable(const Robot& robot)
+{
+    return GetHindrance(robot) == EHindrance::None;
+}
+
+/// Whether it may be given a plan, as far as the robot itself goes.
+bool PlanEngine::Impl::IsFree(const Robot& robot)
+{
+    return robot.planOrNull == nullptr && !robot.drive.has_value() && !robot.bBatteryLow && IsUsable(robot);
+}
+
+std::string PlanEngine::Impl::DescribeUnfree(const Robot& robot) const
+{
+    if (const EHindrance hindrance = GetHindrance(robot); hindrance != EHindrance::None)
+    {
+        return Describe(robot, hindrance);
+    }
+    if (robot.planOrNull != nullptr)
+    {
+        return "busy with plan " + robot.planOrNull->record.plan.planID;
+    }
+    if (robot.bBatteryLow)
+    {
+        const double percent = robot.state->batteryPercent;
+        const DispatchOptions& dispatch = _options.dispatch;
+        return percent < dispatch.batteryFloor
+            ? fmt::format("battery {:.0f} % is below {:.0f} %", percent, dispatch.batteryFloor)
+            : fmt::format("charges, battery {:.0f} % of {:.0f} %", percent, dispatch.batteryResume);
+    }
+    return "drives to " + robot.drive->route.nodes.back().nodeID;
+}
+
+void PlanEngine::Impl::AssignPlans()
+{
+    std::vector<ActivePlan*> queue;
+    for (const auto& [key, plan] : _pending)
+    {
+        queue.push_back(plan);
+    }
+    for (ActivePlan* plan : queue)
+    {
+        if (std::ranges::none_of(_robots, IsFree))
+        {
+            return;
+        }
+        if (Robot* robotOrNull = FindNearestOrNull(*plan); robotOrNull != nullptr)
+        {
+            BeginPlan(*plan, *robotOrNull);
+        }
+    }
+}
+
+/// Seconds of driving to the plan's first place; nullopt where no way leads there.
+std::optional<double> PlanEngine::Impl::GetTravelSecondsOrNull(const ActivePlan& plan, const Robot& robot) const
+{
+    const std::string& vehicleTypeID = robot.options->vehicleTypeID;
+    const std::size_t dock = *_admission.FindDockOrNull(plan.resolved.steps.front().stationID, vehicleTypeID);
+    const std::optional<Route> route =
+        _router.FindRouteOrNull(vehicleTypeID, _site.GetNodes()[*robot.node].nodeID, _site.GetNodes()[dock].nodeID);
+    return route.has_value() ? std::optional(route->travelSeconds) : std::nullopt;
+}
+
+/// Of these, the one with the shortest way to the plan's first place; null where none has a way.
+PlanEngine::Impl::Robot* PlanEngine::Impl::FindQuickestOrNull(const ActivePlan& plan, const std::vector<Robot*>& robots)
+    const
+{
+    // One search for each vehicle type, however many robots of it there are.
+    std::map<std::string_view, std::vector<std::size_t>> starts;
+    for (const Robot* robot : robots)
+    {
+        starts[robot->options->vehicleTypeID].push_back(*robot->node);
+    }
+    std::optional<QuickestStart> quickest;
+    for (const auto& [vehicleTypeID, nodes] : starts)
+    {
+        const std::size_t dock = *_admission.FindDockOrNull(plan.resolved.steps.front().stationID, vehicleTypeID);
+        const std::optional<QuickestStart> start = _router.FindQuickestStartOrNull(vehicleTypeID, nodes, dock);
+        if (start.has_value() && (!quickest.has_value() || start->travelSeconds < quickest->travelSeconds))
+        {
+            quickest = start;
+        }
+    }
+    const auto nearest = std::ranges::find_if(robots, [&quickest](const Robot* robot) {
+        return quickest.has_value() && robot->node == quickest->nodeIndex;
+    });
+    return nearest == robots.end() ? nullptr : *nearest;
+}
+
+/// Of the robots that are free and whose ports fit, the nearest; one that is known to have the carriers before one of which
+/// that is only supposed.
+PlanEngine::Impl::Robot* PlanEngine::Impl::FindNearestOrNull(const ActivePlan& plan)
+{
+    std::vector<Robot*> known;
+    std::vector<Robot*> supposed;
+    for (const std::size_t index : plan.resolved.candidates)
+    {
+        const PortVerdict verdict = IsFree(_robots[index]) ? JudgePorts(plan, _robots[index]) : PortVerdict{"", false};
+        if (!verdict.objectionOrNull.has_value())
+        {
+            (verdict.bSupposed ? supposed : known).push_back(&_robots[index]);
+        }
+    }
+    const bool bAll = known.size() + supposed.size() == plan.resolved.candidates.size();
+    if (bAll && plan.resolved.candidates.size() == 1)
+    {
+        return &_robots[plan.resolved.candidates.front()];
+    }
+    for (const std::vector<Robot*>& robots : {known, supposed})
+    {
+        if (Robot* quickestOrNull = FindQuickestOrNull(plan, robots); quickestOrNull != nullptr)
+        {
+            return quickestOrNull;
+        }
+    }
+    // Where there is nobody to wait for it is begun all the same, and fails for want of a way.
+    return bAll ? &_robots[plan.resolved.candidates.front()] : nullptr;
+}
+
+/// Which of the robot's carrier ports the place is; nullopt where it is none.
+std::optional<std::size_t> PlanEngine::Impl::FindPortOrNull(
+    const Robot& robot,
+    const std::optional<Core::Location>& place) const
+{
+    if (!place.has_value())
+    {
+        return std::nullopt;
+    }
+    const Core::Result<Core::Location> port = place->WithRobot(_options.robots[robot.index].robotID);
+    const std::vector<Core::Location>& ports = robot.options->ports;
+    const auto found = port.has_value() ? std::ranges::find(ports, *port) : ports.end();
+    return found == ports.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - ports.begin()));
+}
+
+/// The plan's first load or unload of each port, held against what the robot is known to have there. What a plan does to a
+/// port afterwards is its own affair: if it is wrong, no other robot does it better.
+PlanEngine::Impl::PortVerdict PlanEngine::Impl::JudgePorts(const ActivePlan& plan, const Robot& robot) const
+{
+    PortVerdict verdict;
+    std::vector<std::optional<std::string>> carriers = robot.carriers;
+    std::vector<bool> changed(carriers.size(), false);
+    for (std::size_t step = 0; step < plan.resolved.steps.size(); ++step)
+    {
+        const ResolvedStep& resolved = plan.resolved.steps[step];
+        if (resolved.rule->effect == EActionEffect::None)
+        {
+            continue;
+        }
+        const bool bLoad = resolved.rule->effect == EActionEffect::Load;
+        const std::vector<std::string>& carrierIDs = plan.record.plan.steps[step].carrierIDs;
+        for (std::size_t job = 0; job < resolved.jobs.size(); ++job)
+        {
+            const std::optional<std::size_t> port =
+                FindPortOrNull(robot, bLoad ? resolved.jobs[job].to : resolved.jobs[job].from);
+            if (!port.has_value())
+            {
+                continue;
+            }
+            const std::string carrierID = job < carrierIDs.size() ? carrierIDs[job] : std::string();
+            if (bLoad && !changed[*port] && carriers[*port].has_value() && !_options.dispatch.bLoadsIntoTakenPorts)
+            {
+                verdict.objectionOrNull =
+                    fmt::format("{} is taken by {}", robot.options->ports[*port].GetText(), *carriers[*port]);
+                return verdict;
+            }
+            if (!bLoad && !changed[*port])
+            {
+                verdict.objectionOrNull = GetUnloadObjectionOrNull(robot, *port, carrierID);
+                verdict.bSupposed = verdict.bSupposed || !carriers[*port].has_value();
+                if (verdict.objectionOrNull.has_value())
+                {
+                    return verdict;
+                }
+            }
+            changed[*port] = true;
+            carriers[*port] =
+                bLoad ? std::optional(carrierID.empty() ? std::string(UNKNOWN_CARRIER) : carrierID) : std::nullopt;
+        }
+    }
+    return verdict;
+}
+
+/// A carrier is only where it is known to be. One that nobody is known to have may have been put on by hand.
+std::optional<std::string> PlanEngine::Impl::GetUnloadObjectionOrNull(
+    const Robot& robot,
+    std::size_t port,
+    const std::string& carrierID) const
+{
+    const std::optional<std::string>& held = robot.carriers[port];
+    if (carrierID.empty() || held == carrierID)
+    {
+        return std::nullopt;
+    }
+    for (const Robot& other : _robots)
+    {
+        const auto found = std::ranges::find(other.carriers, std::optional(carrierID));
+        if (found != other.carriers.end())
+        {
+            const auto index = static_cast<std::size_t>(found - other.carriers.begin());
+            return fmt::format("{} is on {}", carrierID, other.options->ports[index].GetText());
+        }
+    }
+    if (held.has_value() && *held != UNKNOWN_CARRIER)
+    {
+        return fmt::format("{} holds {}, not {}", robot.options->ports[port].GetText(), *held, carrierID);
+    }
+    return std::nullopt;
+}
+
+std::vector<WaitReason> PlanEngine::Impl::GetWaitReasons() const
+{
+    std::vector<WaitReason> reasons;
+    for (const auto& [planID, plan] : _plans)
+    {
+        if (std::optional<WaitReason> reason = DescribeBegunOrNull(*plan))
+        {
+            reasons.push_back(std::move(*reason));
+        }
+    }
+    std::size_t position = 0;
+    for (const auto& [key, plan] : _pending)
+    {
+        ++position;
+        reasons.push_back(DescribeWaiting(*plan, position));
+    }
+    return reasons;
+}
+
+std::optional<WaitReason> PlanEngine::Impl::GetWaitReasonOrNull(std::string_view planID) const
+{
+    const auto found = _plans.find(planID);
+    if (found == _plans.end())
+    {
+        return std::nullopt;
+    }
+    const auto pending = _pending.find(found->second->key);
+    return pending == _pending.end()
+        ? DescribeBegunOrNull(*found->second)
+        : std::optional(
+            DescribeWaiting(*found->second, static_cast<std::size_t>(std::distance(_pending.begin(), pending)) + 1));
+}
+
+WaitReason PlanEngine::Impl::DescribeWaiting(const ActivePlan& plan, std::size_t position) const
+{
+    WaitReason reason;
+    reason.planID = plan.record.plan.planID;
+    reason.queuePosition = position;
+    for (const std::size_t index : plan.resolved.candidates)
+    {
+        const Robot& robot = _robots[index];
+        std::optional<std::string> objection;
+        if (!IsFree(robot))
+        {
+            objection = DescribeUnfree(robot);
+        }
+        else if (objection = JudgePorts(plan, robot).objectionOrNull;
+                 !objection.has_value() && !GetTravelSecondsOrNull(plan, robot).has_value())
+        {
+            objection = "no route to " + plan.resolved.steps.front().stationID;
+        }
+        if (objection.has_value())
+        {
+            reason.robots.push_back({GetRobotID(robot), std::move(*objection)});
+        }
+    }
+    if (_tscState != ETscState::Auto)
+    {
+        reason.message = fmt::format("The TSC is {}: no plan is begun.", GetText(_tscState));
+    }
+    else if (_bGathering)
+    {
+        reason.message = "Not every robot has told where it stands since the restart.";
+    }
+    else if (reason.robots.size() < plan.resolved.candidates.size())
+    {
+        reason.message = "It is about to be begun.";
+    }
+    else
+    {
+        reason.message = "No robot that can do it is free for it.";
+    }
+    return reason;
+}
+
+/// Of a plan that is paused, or whose robot has it and stands.
+std::optional<WaitReason> PlanEngine::Impl::DescribeBegunOrNull(const ActivePlan& plan) const
+{
+    WaitReason reason;
+    reason.planID = plan.record.plan.planID;
+    if (plan.record.progress.state == EPlanState::Paused)
+    {
+        reason.message = plan.robot.has_value() ? "It is paused." : "It is held in the queue by PausePlan.";
+        return reason;
+    }
+    if (!plan.robot.has_value())
+    {
+        return std::nullopt;
+    }
+    const Robot& robot = _robots[*plan.robot];
+    if (const EHindrance hindrance = GetHindrance(robot); hindrance != EHindrance::None)
+    {
+        reason.message = fmt::format("{}: {}.", GetRobotID(robot), Describe(robot, hindrance));
+        return reason;
+    }
+    if (robot.activity == EActivity::Works && robot.bUncertain)
+    {
+        reason.message =
+            fmt::format("{} cannot tell what became of job {}: look, and answer.", GetRobotID(robot), GetJobID(plan));
+        return reason;
+    }
+    const bool bAtBaseEnd = robot.drive.has_value() && !robot.state->bDriving
+        && robot.drive->passed + 1 == robot.drive->releasedCount
+        && robot.drive->releasedCount < robot.drive->nodes.size();
+    if (robot.activity != EActivity::Waits || (robot.drive.has_value() && !bAtBaseEnd))
+    {
+        return std::nullopt;
+    }
+    reason.message = DescribeStanding(robot);
+    return reason;
+}
+
+/// A robot with a plan that has no way yet, or has come to the end of what others leave it.
+std::string PlanEngine::Impl::DescribeStanding(const Robot& robot) const
+{
+    std::string holders;
+    for (const std::size_t blocker : robot.blockers)
+    {
+        holders += (holders.empty() ? "" : " and ") + GetRobotID(_robots[blocker]);
+    }
+    if (robot.drive.has_value())
+    {
+        const RouteNode& next = robot.drive->route.nodes[robot.drive->releasedCount];
+        return fmt::format(
+            "{} waits for node {} on its way{}.",
+            GetRobotID(robot),
+            next.nodeID,
+            holders.empty() ? "" : ", for the sake of " + holders);
+    }
+    if (holders.empty())
+    {
+        return GetRobotID(robot) + " is about to drive.";
+    }
+    return fmt::format("{} waits for its way, for the sake of {}.", GetRobotID(robot), holders);
+}
+
+} // namespace ACS::Planning

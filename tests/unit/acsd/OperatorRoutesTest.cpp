@@ -1,0 +1,101 @@
+#include "OperatorRoutes.hpp"
+
+#include "AcsdStatus.hpp"
+#include "Catch.hpp"
+#include "PlanWorld.hpp"
+
+using namespace ACS; // NOLINT(google-build-using-namespace): a test of several of them
+using Testing::MakeLogisticsPlan;
+using Testing::PlanWorld;
+
+namespace
+{
+
+/// An operator at acsd's HTTP side, without the HTTP.
+class Operator
+{
+    Apps::HttpRoutes _routes;
+
+public:
+    PlanWorld world{1, true};
+
+    Operator()
+    {
+        Acsd::AddOperatorRoutes(_routes, *world.engine, [this](const Planning::PlanCommand& command) {
+            world.Ask(command);
+        });
+        world.Connect();
+    }
+
+    /// "202 …" with the body.
+    std::string Post(std::string_view target)
+    {
+        Apps::HttpRequest request = *Apps::ParseHttpTarget(target);
+        request.method = "POST";
+        const Apps::HttpResponse response = _routes.Respond(request);
+        CHECK((response.status == 404 || response.contentType == "application/json"));
+        return std::to_string(response.status) + " " + response.body;
+    }
+
+    [[nodiscard]] std::string GetStatus() const
+    {
+        return Acsd::MakeStatusResponse({{"mcs", true}}, *world.engine).body;
+    }
+};
+
+bool HasText(const std::string& text, std::string_view part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("POST /robots/ID/maintenance/on and off; /status shows it and why a plan waits for it")
+{
+    Operator user;
+    CHECK(user.Post("/robots/LR01/maintenance/on") == "202 {\"message\":\"LR01 is taken out of service.\"}\n");
+    CHECK(HasText(user.Post("/robots/LR02/maintenance/on"), "202 "));
+    user.world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(user.world.TryRun());
+    const std::string status = user.GetStatus();
+    CHECK(HasText(status, R"("robotId":"LR01","type":"LR","status":"Stopped")"));
+    CHECK(HasText(status, R"("battery":null,"maintenance":true)"));
+    CHECK(HasText(
+        status,
+        R"("waits":{"message":"No robot that can do it is free for it.","queuePosition":1,"robots":[{"robotId":"LR01",)"
+        R"("reason":"in maintenance"},{"robotId":"LR02","reason":"in maintenance"}]}})"));
+    CHECK(HasText(user.Post("/robots/LR01/maintenance/off"), "202 "));
+    REQUIRE(user.world.TryRun());
+    CHECK(user.world.GetReportsOf("P1").back() == "Plan Completed");
+    CHECK(
+        user.Post("/robots/LR09/maintenance/on")
+        == "404 {\"error\":\"There is no robot LR09; /status has the robots.\"}\n");
+    CHECK(HasText(user.Post("/robots/LR01/maintenance/maybe"), "404 "));
+}
+
+TEST_CASE("POST /robots/ID/carriers corrects the ports, in their order")
+{
+    Operator user;
+    CHECK(
+        user.Post("/robots/CR01/carriers?carrier=TRAY_01&carrier=&carrier=TRAY%2003")
+        == "202 {\"message\":\"The ports of CR01 are corrected.\"}\n");
+    CHECK(HasText(user.GetStatus(), R"("carrierIds":["TRAY_01",null,"TRAY 03"])"));
+    CHECK(HasText(user.Post("/robots/CR01/carriers?carrier=A"), "400 {\"error\":\"CR01 has 3 carrier ports"));
+    CHECK(HasText(user.Post("/robots/LR01/carriers?carriers=A"), "400 {\"error\":\"There is no parameter carriers"));
+    CHECK(HasText(user.Post("/robots/LR02/carriers?carrier=TRAY_01"), "TRAY_01 is on CR01"));
+    CHECK(HasText(user.Post("/robots/LR09/carriers"), "404 "));
+    CHECK(HasText(user.GetStatus(), R"("carrierIds":["TRAY_01",null,"TRAY 03"])"));
+}
+
+TEST_CASE("POST /alarms/clear clears by robot and code")
+{
+    Operator user;
+    user.world.Raise("LR01", Planning::LinkChanged{false});
+    CHECK(HasText(user.Post("/alarms/clear?robot=LR01&code=ACS-1002"), "202 "));
+    CHECK(
+        user.world.GetReportsOf("-")
+        == std::vector<std::string>{"Error ACS-1002 set", "Error ACS-1002 cleared", "Error ACS-1002 set"});
+    CHECK(HasText(user.Post("/alarms/clear?robot=LR01&code=ACS-1004"), "404 {\"error\":\"LR01 has no alarm ACS-1004"));
+    CHECK(HasText(user.Post("/alarms/clear?robot=LR01"), "400 {\"error\":\"The parameters robot and code"));
+    CHECK(HasText(user.Post("/alarms/clear?robot=LR01&code=ACS-1002&step=1"), "400 "));
+}
