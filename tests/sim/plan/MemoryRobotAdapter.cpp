@@ -68,6 +68,9 @@ void MemoryRobotAdapter::Handle(
             },
             [this](const Planning::Resume&) {
                 Send(PauseWish{++_number, false});
+            },
+            [](const Planning::StartCharging&) {}, // its battery lasts
+            [](const Planning::StopCharging&) {
             }},
         command);
 }

@@ -262,6 +262,7 @@ void World::Watch()
     {
         _process->PushCommand(Planning::ControlTsc{false, 0});
     }
+    TakeCarriersOff();
     const std::string unrest = DescribeUnrest();
     if (unrest.empty())
     {
@@ -275,6 +276,28 @@ void World::Watch()
         return;
     }
     _habits.Start(EHabit::Watch, WATCH_INTERVAL, [this] { Watch(); });
+}
+
+/// A plan that was given up may have left its carrier on a robot, whom others wait for: the operator takes it off.
+void World::TakeCarriersOff()
+{
+    if (_process == nullptr)
+    {
+        return;
+    }
+    const Planning::PlanEngine& engine = _process->GetEngine();
+    const bool bAnyWaits = std::ranges::any_of(engine.GetActivePlans(), [](const Planning::PlanSummary& plan) {
+        return plan.state == Planning::EPlanState::Pending;
+    });
+    for (const Planning::RobotStatus& robot : engine.GetRobotStatuses())
+    {
+        const std::vector<std::optional<std::string>> empty(robot.carrierIDs.size());
+        if (bAnyWaits && !robot.planID.has_value() && robot.carrierIDs != empty)
+        {
+            _trace.Tell("operator: takes the carriers off {}", robot.robotID);
+            _process->PushCommand(Planning::SetCarriers{robot.robotID, empty, 0});
+        }
+    }
 }
 
 std::string World::DescribeUnrest() const

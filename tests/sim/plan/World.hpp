@@ -72,6 +72,7 @@ class World final
     void TurnRobot(const std::string& robotID);
     void TurnRadio(const std::string& robotID);
     void Watch();
+    void TakeCarriersOff();
     void CheckAgreement();
     [[nodiscard]] std::string DescribeUnrest() const;
 
