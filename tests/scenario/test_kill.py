@@ -154,7 +154,8 @@ class Kill(ScenarioCase):
                         on_output=read)
 
     def start_acsd(self):
-        self.acsd = self.line.start_acsd(self.mcs_address, self.arm)
+        # A vehicle that is killed forgets what it carries, and nobody is there who tells acsd.
+        self.acsd = self.line.start_acsd(self.mcs_address, self.arm, "robot.taken_port=load")
         self.http = self.acsd.wait_ready()["http"]
 
     @staticmethod
