@@ -29,6 +29,8 @@ constexpr std::int64_t MOST_BASE_NODES = 1'000;
 constexpr double MOST_CLEARANCE = 100;
 constexpr std::int64_t FULL_BATTERY = 100;
 constexpr std::int64_t MOST_PLANS = 100'000;
+constexpr std::int64_t FEWEST_REPORTS = 100;
+constexpr std::int64_t MOST_REPORTS = 10'000'000;
 
 /// Ranges such as "A01.CP01.TP01-04"; in front of each the prefix ("LR01." for ports of a robot).
 std::vector<Core::Location> ReadPlaces(const ConfigSection& section, const std::string& key, const std::string& prefix)
@@ -350,6 +352,9 @@ AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::st
     ReadQueue(root, config.engine);
     ReadControls(root, config.engine.controls);
     ReadDispatch(root, config.engine);
+    config.engine.maximumReports = static_cast<std::size_t>(
+        root.GetSection("outbox")
+            .GetInteger("max", FEWEST_REPORTS, MOST_REPORTS, static_cast<std::int64_t>(config.engine.maximumReports)));
     ReadTables(root, config);
     RejectActionsWithoutMethod(config);
     config.mistakes = reader.GetMistakes();

@@ -34,6 +34,16 @@ Core::Result<ResolvedPlan> PlanEngine::Impl::Admit(const Plan& plan) const
             fmt::format("fewer than {} unfinished plans (Queue Full)", _options.maximumPlans),
             fmt::format("{}", _plans.size()));
     }
+    if (resolved.has_value() && _outbox.GetUnacknowledged().size() >= _options.maximumReports)
+    {
+        return Core::Fail(
+            make_error_code(Core::ECoreError::QueueFull),
+            {},
+            fmt::format(
+                "fewer than {} reports that the MCS has not acknowledged (Outbox Full)",
+                _options.maximumReports),
+            fmt::format("{}", _outbox.GetUnacknowledged().size()));
+    }
     if (resolved.has_value() && _tscState != ETscState::Auto && !_options.bTscPausedAcceptsPlans)
     {
         return Core::Fail(

@@ -177,6 +177,7 @@ void PlanEngine::Impl::End(EngineActions& out)
     }
     FinishTscPause();
     TellStatusChanges();
+    WatchOutbox();
     CollectWork();
     std::vector<StoreChange> changes = std::exchange(_unsaved, {});
     for (const std::string& planID : _progressed)
@@ -239,6 +240,26 @@ void PlanEngine::Impl::TellReport(Report report)
     const OutboxEntry& entry = _outbox.Add(std::move(report), _now.wall, _random);
     _changes.emplace_back(ReportAdded{entry});
     _actions.emplace_back(SendReport{entry});
+}
+
+/// `outbox.max`. What runs goes on and is reported: nothing is thrown away, but nothing new begins.
+void PlanEngine::Impl::WatchOutbox()
+{
+    constexpr std::size_t TENTH = 10;
+    Alarm alarm;
+    alarm.robotID = OWN_ROBOT_ID;
+    alarm.errorCode = ALARM_OUTBOX;
+    alarm.level = EAlarmLevel::Heavy;
+    const std::size_t count = _outbox.GetUnacknowledged().size();
+    if (count >= _options.maximumReports)
+    {
+        alarm.message = "The MCS has not acknowledged too many reports: new plans are refused.";
+        RaiseAlarm(std::move(alarm));
+    }
+    else if (count < _options.maximumReports - _options.maximumReports / TENTH)
+    {
+        ClearAlarm(alarm);
+    }
 }
 
 void PlanEngine::Impl::TellStatusChanges()

@@ -30,6 +30,7 @@ inline constexpr std::string_view ALARM_HOME = "ACS-1006";
 inline constexpr std::string_view ALARM_DROPPED = "ACS-1007";
 inline constexpr std::string_view ALARM_UNCERTAIN = "ACS-1008";
 inline constexpr std::string_view ALARM_CHARGE = "ACS-1010";
+inline constexpr std::string_view ALARM_OUTBOX = "ACS-1020";
 /// What alarms of the engine begin with; others are errors that robots told.
 inline constexpr std::string_view ALARM_PREFIX = "ACS-";
 /// The robotID of alarms about the engine itself.
@@ -257,6 +258,7 @@ private:
     void CollectWork();
     void End(EngineActions& out);
     void TellReport(Report report);
+    void WatchOutbox();
     void TellStatusChanges();
     void TellStatus(Robot& robot, ERobotStatus status);
     void StartTimer(EEngineTimer kind, const std::string& robotID, Core::Duration delay);

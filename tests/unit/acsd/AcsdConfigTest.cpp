@@ -140,6 +140,7 @@ TEST_CASE("The keys of the decision register have its defaults, in the example f
         CHECK_FALSE(config.engine.bTscStartsPaused);
         CHECK(config.engine.bTscPausedAcceptsPlans);
         CHECK(config.engine.finishedPlansKept == 1'000);
+        CHECK(config.engine.maximumReports == 100'000);
     }
 }
 
@@ -165,7 +166,8 @@ TEST_CASE("The keys of the decision register are read")
          "reports.initial_pending=true",
          "traffic.clearance=0.8",
          "traffic.base_length=5",
-         "history.keep=9"});
+         "history.keep=9",
+         "outbox.max=500"});
     REQUIRE(config.mistakes == std::vector<std::string>{});
     Planning::ControlOptions controls;
     controls.cancelUntil = Planning::ECancelWindow::FirstJob;
@@ -189,6 +191,7 @@ TEST_CASE("The keys of the decision register are read")
     CHECK_FALSE(config.engine.bTscPausedAcceptsPlans);
     CHECK(config.engine.bInitialPendingReported);
     CHECK(config.engine.finishedPlansKept == 9);
+    CHECK(config.engine.maximumReports == 500);
     CHECK(Read({"cancel.until=dispatch"}).engine.controls.cancelUntil == Planning::ECancelWindow::Dispatch);
 }
 

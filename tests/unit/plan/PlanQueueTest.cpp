@@ -257,3 +257,37 @@ TEST_CASE("After a restart a plan that was held in the queue is still held, and 
     world.Control(EPlanControl::Resume, "P1");
     FinishPlan(world);
 }
+
+TEST_CASE("9 outbox.max: with so many unacknowledged reports plans are refused, an alarm says so, and nothing is lost")
+{
+    constexpr std::size_t LIMIT = 8;
+    PlanWorld world = MakeWorld([](EngineOptions& options) { options.maximumReports = LIMIT; });
+    const auto isFull = [&world] {
+        const auto& alarms = world.engine->GetActiveAlarms();
+        return std::any_of(alarms.begin(), alarms.end(), [](const Alarm& alarm) {
+            return alarm.errorCode == "ACS-1020";
+        });
+    };
+    world.bAcknowledges = false;
+    world.Connect();
+    world.Submit(MakeLogisticsPlan("P1"), 1);
+    REQUIRE(world.TryRun());
+    REQUIRE_FALSE(world.GetReportsOf("P1").empty());
+    CHECK(isFull());
+    const std::vector<OutboxEntry> waiting = world.engine->GetUnacknowledged();
+    CHECK(waiting.size() > LIMIT); // what runs is told to its end
+    CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+
+    world.Submit(MakeLogisticsPlan("P2"), 2);
+    CHECK_FALSE(world.replies.at(2).bAccepted);
+    CHECK(world.replies.at(2).message.find("Outbox Full") != std::string::npos);
+
+    EngineActions ignored;
+    for (const OutboxEntry& entry : waiting)
+    {
+        world.engine->Handle(PlanCommand(MessageAcknowledged{entry.sequence}), world.GetNow(), ignored);
+    }
+    CHECK_FALSE(isFull());
+    world.Submit(MakeLogisticsPlan("P3"), 3);
+    CHECK(world.replies.at(3).bAccepted);
+}

@@ -123,6 +123,8 @@ struct EngineOptions
     std::vector<Core::Location> places; ///< Ports inside stations ("A01.CP01.TP01"); stations are known from the map.
 
     std::size_t maximumPlans = 100; ///< Plans that are not finished; one more is refused.
+    std::size_t maximumReports =
+        100'000; ///< That the MCS has not acknowledged; plans are refused while there are so many.
     std::int32_t defaultPriority = 0;
     bool bLowerPriorityFirst = false;
     /// Waiting so long is worth as much as a priority by one; 0: a plan of a lower priority waits for all of a higher one.
