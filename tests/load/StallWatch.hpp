@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -31,7 +32,7 @@ private:
         std::mutex mutex;
         std::condition_variable stopping;
         bool bStopping = false;
-        std::vector<Stall> stalls;
+        std::deque<Stall> stalls; ///< Never moved in memory, which would leave holes of its size.
         std::thread thread;
     };
 

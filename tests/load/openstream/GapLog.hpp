@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 namespace ACS::Load
@@ -35,8 +36,9 @@ class GapLog
 
     Core::Duration _period;
     std::vector<std::uint64_t> _deviations; ///< How many gaps missed the period by so many buckets.
-    std::vector<Gap> _farOff;               ///< By more than what the buckets hold: one by one.
-    std::uint64_t _count = 0;               ///< Of those in buckets, as the next two.
+    /// By more than what the buckets hold: one by one. Never moved in memory, which would leave holes of their size.
+    std::deque<Gap> _farOff;
+    std::uint64_t _count = 0; ///< Of those in buckets, as the next two.
     Core::Duration _sum{};
     Core::Duration _largest{};
 

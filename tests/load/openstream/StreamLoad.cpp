@@ -156,15 +156,14 @@ bool WasEverythingAccountedFor(const Row& row)
 }
 
 /// Both ends and the allocator have taken what they need soon after the beginning.
-bool WasMemoryKept(const StreamFigures& figures)
+bool WasMemoryKept(const StreamFigures& figures, const std::vector<StallWatch::Stall>& stalls)
 {
-    const bool bKept = figures.residentAfter <= figures.residentBefore + MOST_GROWTH;
+    const std::uint64_t after =
+        figures.residentAfter - std::min(figures.residentAfter, stalls.size() * sizeof(StallWatch::Stall));
+    const bool bKept = after <= figures.residentBefore + MOST_GROWTH;
     PrintBound(
-        "resident memory without the lists of gaps",
-        fmt::format(
-            "{} KiB at the beginning, {} KiB at the end",
-            figures.residentBefore / 1024U,
-            figures.residentAfter / 1024U),
+        "resident memory without the lists of gaps and stalls",
+        fmt::format("{} KiB at the beginning, {} KiB at the end", figures.residentBefore / 1024U, after / 1024U),
         bKept,
         fmt::format("{} KiB of growth", MOST_GROWTH / 1024U));
     return bKept;
@@ -237,7 +236,7 @@ int Run(const Options& options)
     fmt::print("\n");
     if (options.bSoak)
     {
-        bWell = WasMemoryKept(rows.front().figures);
+        bWell = WasMemoryKept(rows.front().figures, stalls);
     }
     else
     {
