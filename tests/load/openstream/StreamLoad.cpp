@@ -162,7 +162,7 @@ bool WasMemoryKept(const StreamFigures& figures, const std::vector<StallWatch::S
         figures.residentAfter - std::min(figures.residentAfter, stalls.size() * sizeof(StallWatch::Stall));
     const bool bKept = after <= figures.residentBefore + MOST_GROWTH;
     PrintBound(
-        "resident memory without the lists of gaps and stalls",
+        "resident memory without the run's own lists",
         fmt::format("{} KiB at the beginning, {} KiB at the end", figures.residentBefore / 1024U, after / 1024U),
         bKept,
         fmt::format("{} KiB of growth", MOST_GROWTH / 1024U));
