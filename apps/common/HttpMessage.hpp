@@ -17,10 +17,10 @@ struct HttpRequest
 {
     std::string method; ///< "GET", "POST" …
     std::string path;   ///< Percent-decoded, without the query: "/project/robot/tasks[0]".
-    /// What stands between the slashes of the path, each decoded by itself: a %2F does not part.
-    std::vector<std::string> segments;
     std::vector<std::pair<std::string, std::string>> query; ///< Decoded, in the order given; names may repeat.
     std::string body;                                       ///< At most 1 MiB.
+    /// What stands between the slashes of the path, each decoded by itself: a %2F does not part.
+    std::vector<std::string> segments{};
 
     /// The value of the first query parameter of that name.
     [[nodiscard]] std::optional<std::string> GetQueryOrNull(std::string_view name) const;
