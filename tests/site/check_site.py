@@ -41,7 +41,8 @@ def check_all_else(lif):
     mistakes = [mistake for check in checks.LAYOUT_CHECKS for mistake in check(lif)]
     config = checks.read_toml(SITE / "acsd.toml")
     mistakes += checks.check_config(config, lif)
-    mistakes += checks.check_key_table(config, (SITE / "README.md").read_text(encoding="utf-8"))
+    mistakes += checks.check_key_table(config, (SITE / "acsd.toml").read_text(encoding="utf-8"),
+                                       (SITE / "README.md").read_text(encoding="utf-8"))
     plans = sorted(PLANS.glob("*.json"))
     if not plans:
         mistakes.append("there are no example plans")
