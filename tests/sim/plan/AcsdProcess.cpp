@@ -63,12 +63,6 @@ AcsdProcess::~AcsdProcess()
 void AcsdProcess::Begin()
 {
     _around.trace.Tell("acsd: start {}", _around.number);
-    _dialog.Restore(_around.store.GetState().lastReportSequence);
-    _loop.Restore(_mutator.OnRestore(_around.store.Load()));
-    if (_bDead)
-    {
-        return;
-    }
     for (const auto& [robotID, radio] : _around.radios)
     {
         _hands.emplace(
@@ -79,13 +73,19 @@ void AcsdProcess::Begin()
                 _around.number,
                 [this, robotID = robotID](const Planning::RobotEvent& event) { TakeRobotEvent(robotID, event); }));
     }
+    _dialog.Restore(_around.store.GetState().lastReportSequence);
+    _loop.Restore(_mutator.OnRestore(_around.store.Load()));
+    if (_bDead)
+    {
+        return;
+    }
     _dialog.Begin();
     RunSession([this](Core::Now now, auto& out) { _session.Start(now, out); });
 }
 
 void AcsdProcess::Crash(std::string_view where)
 {
-    if (std::exchange(_bDead, true))
+    if (_bUnsaved || std::exchange(_bDead, true))
     {
         return;
     }
@@ -161,6 +161,7 @@ bool AcsdProcess::TryCommit(const Planning::StoreBatch& batch)
 {
     const bool bStored = _around.store.Commit(_mutator.OnWrite(batch)).has_value();
     _around.trace.Tell("disk: {} changes {}", batch.changes.size(), bStored ? "stored" : "refused");
+    _bUnsaved = !bStored;
     if (bStored)
     {
         _onCommit();

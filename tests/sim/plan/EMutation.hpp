@@ -31,6 +31,7 @@ enum class EMutation : std::uint8_t
     ResumeSwallowed,
     RefusalAcked,
     TimerForgotten,
+    RecoveryDenied,
 };
 
 struct MutationText
@@ -39,7 +40,7 @@ struct MutationText
     std::string_view meaning;
 };
 
-inline constexpr std::size_t MUTATION_COUNT = 20;
+inline constexpr std::size_t MUTATION_COUNT = 21;
 
 /// By EMutation.
 inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
@@ -63,6 +64,7 @@ inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
     {"resume-swallowed", "a robot is not told that its pause is over"},
     {"refused-plan-acked", "a plan that was refused is acknowledged as accepted"},
     {"timer-forgotten", "the engine's timers for work to be given out do not fire"},
+    {"recovery-denied", "after a restart each robot seems never to have had its job"},
 }};
 
 } // namespace ACS::Simulation

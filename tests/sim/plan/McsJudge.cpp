@@ -112,9 +112,16 @@ void McsJudge::NotePlanAck(const Protocol::AcsAck& ack)
     CheckKept();
 }
 
-void McsJudge::NoteControlSent(Planning::EPlanControl control, const std::string& planID)
+void McsJudge::NoteControlSent(
+    Planning::EPlanControl control,
+    const std::string& planID,
+    const std::string& transactionID)
 {
-    ++_controls[{planID, control}].sent;
+    ControlView& view = _controls[{planID, control}];
+    view.sent.insert(transactionID);
+    // Of a plan that nobody knows acsd remembers no requests over a crash.
+    const auto plan = _plans.find(planID);
+    view.bUnknown = view.bUnknown || plan == _plans.end() || plan->second.knowledge != EKnowledge::Accepted;
 }
 
 void McsJudge::NoteControlAck(Planning::EPlanControl control, const std::string& planID)
@@ -324,9 +331,14 @@ void McsJudge::TakeJobReport(const Protocol::JobReport& report)
 void McsJudge::TakeResult(Planning::EPlanControl control, const std::string& planID)
 {
     ControlView& view = _controls[{planID, control}];
-    if (++view.results > view.sent)
+    if (++view.results > view.sent.size() && !view.bUnknown)
     {
-        _trace.Violate("{} results of {} of {}, sent {} times", view.results, GetText(control), planID, view.sent);
+        _trace.Violate(
+            "{} results of {} {}, which was asked for {} times",
+            view.results,
+            GetText(control),
+            planID,
+            view.sent.size());
     }
 }
 

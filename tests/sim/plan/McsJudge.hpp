@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,9 +47,10 @@ private:
 
     struct ControlView
     {
-        std::size_t sent = 0;
+        std::set<std::string> sent; ///< TransactionIDs: a repetition has no result of its own.
         std::size_t acknowledged = 0;
         std::size_t results = 0;
+        bool bUnknown = false; ///< Sent about a plan that was perhaps not known.
     };
 
     Trace& _trace;
@@ -78,7 +80,7 @@ public:
     void NotePlan(const Protocol::ExecutionPlan& plan, bool bGood);
     void NotePlanSent(const std::string& planID);
     void NotePlanAck(const Protocol::AcsAck& ack);
-    void NoteControlSent(Planning::EPlanControl control, const std::string& planID);
+    void NoteControlSent(Planning::EPlanControl control, const std::string& planID, const std::string& transactionID);
     void NoteControlAck(Planning::EPlanControl control, const std::string& planID);
 
     /// Whatever acsd sends.

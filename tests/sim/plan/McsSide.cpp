@@ -206,7 +206,7 @@ void McsSide::Send(const Protocol::AcsRequest& request)
     }
     if (const auto control = GetControlOrNull(Protocol::GetCommand(request)); control.has_value())
     {
-        _judge.NoteControlSent(*control, GetPlanID(request.payload));
+        _judge.NoteControlSent(*control, GetPlanID(request.payload), request.transactionID);
     }
 }
 

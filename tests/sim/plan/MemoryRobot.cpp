@@ -72,6 +72,7 @@ void MemoryRobot::BeginDrive(const Planning::Drive& drive)
     }
     _trace.Tell("{} takes a drive to {}", _robotID, drive.route.nodes.back().nodeID);
     view->second.passedCount = 1;
+    _snapshot.lastCommandID = drive.driveID;
     _drive = drive;
     _index = 0;
     _bStopping = false;
@@ -175,6 +176,7 @@ void MemoryRobot::BeginJob(const Planning::StartJob& job)
         view->second.reason = "the robot is busy";
         return;
     }
+    _snapshot.lastCommandID = job.commandID;
     _job = job;
     _snapshot.activeCommandID = job.commandID;
     _timers.Start(ETimer::Job, _dice.GetBetween(10ms, 1s), [this] { OnJobTimer(); });
@@ -272,6 +274,27 @@ void MemoryRobot::Unhalt()
     GoOn();
 }
 
+/// It is switched off and on: what it was doing is given up, and it remembers nothing.
+void MemoryRobot::Forget()
+{
+    if (_bMoving)
+    {
+        return; // between two nodes it would have to be carried to one
+    }
+    _trace.Tell("{} forgets everything", _robotID);
+    _timers.CancelAll();
+    _drive.reset();
+    _job.reset();
+    _bJobHalted = _bStopping = _bPauseAsked = false;
+    _snapshot.activeDriveID.clear();
+    _snapshot.activeCommandID.clear();
+    _snapshot.lastCommandID.clear();
+    _snapshot.drives.clear();
+    _snapshot.jobs.clear();
+    ShowPlace();
+    Show();
+}
+
 void MemoryRobot::Disturb()
 {
     _bStopped = true;
@@ -316,10 +339,10 @@ void MemoryRobot::Show()
 {
     const bool bJobRuns = _job.has_value() && _snapshot.jobs[_job->commandID].state == EJobState::Running;
     _snapshot.state.bDriving = _bMoving && !_bMoveHalted;
-    _snapshot.state.heldNodeIDs.clear();
+    _snapshot.aheadNodeIDs.clear();
     for (std::size_t i = _index + 1; _drive.has_value() && i < _drive->releasedCount; ++i)
     {
-        _snapshot.state.heldNodeIDs.push_back(_drive->route.nodes[i].nodeID);
+        _snapshot.aheadNodeIDs.push_back(_drive->route.nodes[i].nodeID);
     }
     _snapshot.state.bPaused =
         _bPauseAsked && (!_bMoving || _bMoveHalted) && !(bJobRuns && _nature.bFinishesJobs && !_bJobHalted);

@@ -91,6 +91,7 @@ public:
 
     /// Somebody presses its emergency stop, takes it in hand, or it has an error, for a while.
     void Disturb();
+    void Forget();
     void Recover();
 
     [[nodiscard]] const RobotSnapshot& GetSnapshot() const noexcept;

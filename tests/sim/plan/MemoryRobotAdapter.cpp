@@ -31,16 +31,14 @@ MemoryRobotAdapter::MemoryRobotAdapter(std::uint64_t number, Sender send)
 {
 }
 
-void MemoryRobotAdapter::Handle(
-    const Planning::RobotCommand& command,
-    Core::Now /*now*/,
-    Planning::AdapterActions& /*out*/)
+void MemoryRobotAdapter::Handle(const Planning::RobotCommand& command, Core::Now /*now*/, Planning::AdapterActions& out)
 {
     std::visit(
         Core::Overloaded{
             [this](const Planning::Drive& drive) {
                 _driveID = drive.driveID;
                 _told = 0;
+                _bDriveShown = false;
                 _route.clear();
                 for (const Planning::RouteNode& node : drive.route.nodes)
                 {
@@ -54,9 +52,17 @@ void MemoryRobotAdapter::Handle(
                 _recovery.reset();
                 _job = job;
                 _bJobStarted = false;
+                _bJobShown = false;
                 Send(job);
             },
-            [this](const Planning::RecoverJob& recover) { _recovery = recover.job; },
+            [this, &out](const Planning::RecoverJob& recovery) {
+                _recovery = recovery;
+                if (_bOnline)
+                {
+                    Recover(out);
+                    FollowJob(out);
+                }
+            },
             [this](const Planning::CancelJob& cancel) {
                 if (_job.has_value() && _job->jobID == cancel.jobID)
                 {
@@ -140,26 +146,9 @@ void MemoryRobotAdapter::OnSnapshot(const RobotSnapshot& snapshot, Planning::Ada
         Raise(Planning::LinkChanged{true}, out);
     }
     FollowDrive(out);
-    FindJob(out);
+    Recover(out);
     FollowJob(out);
     TellState(out);
-}
-
-/// The robot remembers every job that it was given.
-void MemoryRobotAdapter::FindJob(Planning::AdapterActions& out)
-{
-    if (!_recovery.has_value())
-    {
-        return;
-    }
-    const Planning::StartJob job = *std::exchange(_recovery, std::nullopt);
-    if (!_snapshot->jobs.contains(job.commandID))
-    {
-        Raise(Planning::JobUnknown{job.jobID}, out);
-        return;
-    }
-    _job = job;
-    _bJobStarted = false;
 }
 
 void MemoryRobotAdapter::Confirm()
@@ -203,8 +192,13 @@ void MemoryRobotAdapter::FollowDrive(Planning::AdapterActions& out)
     const auto found = _snapshot->drives.find(_driveID);
     if (_driveID.empty() || found == _snapshot->drives.end())
     {
+        if (!_driveID.empty() && _bDriveShown)
+        {
+            Raise(Planning::DriveRejected{std::exchange(_driveID, {}), "the robot has lost it"}, out);
+        }
         return;
     }
+    _bDriveShown = true;
     const DriveView& view = found->second;
     for (; _told < view.passedCount; ++_told)
     {
@@ -227,10 +221,45 @@ void MemoryRobotAdapter::FollowDrive(Planning::AdapterActions& out)
     }
 }
 
+/// What the robot has heard before the greeting of this adapter it shows; what is not there never comes any more.
+void MemoryRobotAdapter::Recover(Planning::AdapterActions& out)
+{
+    if (!_recovery.has_value())
+    {
+        return;
+    }
+    const Planning::RecoverJob recovery = *std::exchange(_recovery, std::nullopt);
+    if (_snapshot->jobs.contains(recovery.job.commandID))
+    {
+        _job = recovery.job;
+        _bJobStarted = false;
+        _bJobShown = false;
+    }
+    else if (!recovery.previousID.empty() && _snapshot->lastCommandID == recovery.previousID)
+    {
+        Raise(Planning::JobUnknown{recovery.job.jobID}, out);
+    }
+    else
+    {
+        Raise(Planning::JobUncertain{recovery.job.jobID, "the robot remembers nothing"}, out);
+    }
+}
+
 void MemoryRobotAdapter::FollowJob(Planning::AdapterActions& out)
 {
     const auto found = _job.has_value() ? _snapshot->jobs.find(_job->commandID) : _snapshot->jobs.end();
-    if (found == _snapshot->jobs.end() || found->second.state == EJobState::Waiting)
+    if (found == _snapshot->jobs.end())
+    {
+        if (_job.has_value() && _bJobShown)
+        {
+            const std::string lostID = _job->jobID;
+            _job.reset();
+            Raise(Planning::JobFailed{lostID, "the robot has lost it"}, out);
+        }
+        return;
+    }
+    _bJobShown = true;
+    if (found->second.state == EJobState::Waiting)
     {
         return;
     }
@@ -264,10 +293,7 @@ void MemoryRobotAdapter::TellState(Planning::AdapterActions& out)
     const std::string commandID = _job.has_value() ? _job->commandID : std::string();
     const bool bForeignJob = !_snapshot->activeCommandID.empty() && _snapshot->activeCommandID != commandID;
     state.bOccupied = bForeignDrive || bForeignJob;
-    if (!bForeignDrive)
-    {
-        state.heldNodeIDs.clear();
-    }
+    state.heldNodeIDs = bForeignDrive ? _snapshot->aheadNodeIDs : std::vector<std::string>();
     if (bForeignDrive && std::exchange(_foreignDriveID, driveID) != driveID)
     {
         Send(Planning::CancelDrive{driveID});

@@ -29,16 +29,18 @@ private:
     std::string _driveID;
     std::vector<std::string> _route; ///< Of the drive.
     std::size_t _told = 0;           ///< Nodes of it.
+    bool _bDriveShown = false;       ///< The robot had it.
     std::optional<Planning::StartJob> _job;
+    std::optional<Planning::RecoverJob> _recovery; ///< Asked for, and the robot has not told yet.
     bool _bJobStarted = false;
-    std::optional<Planning::StartJob> _recovery; ///< Asked for, and no snapshot has come yet.
-    std::string _foreignDriveID;                 ///< Of one that was given before a restart and is being cancelled.
+    bool _bJobShown = false;     ///< The robot had it.
+    std::string _foreignDriveID; ///< Of one that was given before a restart and is being cancelled.
 
     void Send(const RobotMessage& message);
     void Confirm();
     [[nodiscard]] bool IsConfirmed(const RobotMessage& message) const;
+    void Recover(Planning::AdapterActions& out);
     void FollowDrive(Planning::AdapterActions& out);
-    void FindJob(Planning::AdapterActions& out);
     void FollowJob(Planning::AdapterActions& out);
     void TellState(Planning::AdapterActions& out);
 

@@ -118,6 +118,18 @@ Mutator::CommandOutcome Mutator::OnCommand(const Planning::CommandRobot& command
         again.commandID = Core::MakeUuid(_random);
         outcome.sentLater.emplace_back(std::move(again));
     }
+    const auto* const recoveryOrNull = std::get_if<Planning::RecoverJob>(&command.command);
+    if (Is(EMutation::RecoveryDenied) && recoveryOrNull != nullptr)
+    {
+        _denied.insert(recoveryOrNull->job.commandID);
+        return {{}, {}, {Planning::JobUnknown{recoveryOrNull->job.jobID}}};
+    }
+    if (jobOrNull != nullptr && _denied.contains(jobOrNull->commandID))
+    {
+        Planning::StartJob again = *jobOrNull;
+        again.commandID = Core::MakeUuid(_random);
+        outcome.sent = {std::move(again)};
+    }
     const auto* const cancelOrNull = std::get_if<Planning::CancelDrive>(&command.command);
     if (Is(EMutation::StandsTooEarly) && cancelOrNull != nullptr)
     {

@@ -9,6 +9,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,7 @@ private:
     Core::IRandom& _random;
     std::optional<Planning::OutboxEntry> _heldBack;
     std::map<std::string, Planning::Drive> _drives; ///< The latest of each robot.
+    std::set<std::string> _denied;                  ///< CommandIDs.
 
 public:
     Mutator(EMutation mutation, Dice& dice, Core::IRandom& random);

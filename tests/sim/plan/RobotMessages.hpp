@@ -79,7 +79,9 @@ struct RobotSnapshot
     std::uint64_t pauseWish = 0;
     Planning::StateChanged state;
     std::string activeDriveID;               ///< Empty: none.
+    std::vector<std::string> aheadNodeIDs;   ///< On which it may still drive.
     std::string activeCommandID;             ///< Of a job that waits or runs; empty: none.
+    std::string lastCommandID;               ///< Of the drive or job that it was given last; empty: none, or forgotten.
     std::map<std::string, DriveView> drives; ///< Every one that it was given, by driveID.
     std::map<std::string, JobView> jobs;     ///< Likewise, by commandID.
 };

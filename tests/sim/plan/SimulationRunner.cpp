@@ -147,6 +147,12 @@ SimulationRunner::Tally SimulationRunner::RunWorlds(EMutation mutation, bool bPr
 
 int SimulationRunner::RunMutations() const
 {
+    const Tally intact = RunWorlds(EMutation::None, false);
+    if (intact.failureOrNone.has_value())
+    {
+        fmt::print("without a mutation seed {}: {}\n", intact.failureOrNone->seed, intact.failureOrNone->violation);
+        return 1; // what fails by itself shows nothing
+    }
     std::size_t missed = 0;
     for (std::size_t index = 1; index < MUTATION_COUNT; ++index)
     {

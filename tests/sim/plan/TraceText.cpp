@@ -57,6 +57,9 @@ std::string Describe(const Planning::RobotCommand& command)
             },
             [](const Planning::CancelDrive& typed) { return fmt::format("CancelDrive {}", typed.driveID); },
             [](const Planning::StartJob& typed) { return fmt::format("StartJob {} of {}", typed.jobID, typed.planID); },
+            [](const Planning::RecoverJob& typed) {
+                return fmt::format("RecoverJob {} of {}", typed.job.jobID, typed.job.planID);
+            },
             [](const Planning::CancelJob& typed) { return fmt::format("CancelJob {}", typed.jobID); },
             [](const Planning::Pause&) { return std::string("Pause"); },
             [](const Planning::Resume&) { return std::string("Resume"); },
@@ -91,6 +94,10 @@ std::string Describe(const Planning::RobotEvent& event)
             [](const Planning::JobFinished& typed) { return fmt::format("job {} finished", typed.jobID); },
             [](const Planning::JobFailed& typed) {
                 return fmt::format("job {} failed: {}", typed.jobID, typed.reason);
+            },
+            [](const Planning::JobUnknown& typed) { return fmt::format("job {} is unknown", typed.jobID); },
+            [](const Planning::JobUncertain& typed) {
+                return fmt::format("job {} is uncertain: {}", typed.jobID, typed.reason);
             },
             [](const auto&) {
                 return std::string("other event");

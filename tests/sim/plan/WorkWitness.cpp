@@ -11,10 +11,9 @@ void WorkWitness::NoteNamed(const std::string& planID, const std::string& jobID)
     _named.emplace(planID, jobID);
 }
 
-WorkWitness::JobKey WorkWitness::MakeKey(const Planning::StartJob& job) const
+WorkWitness::JobKey WorkWitness::MakeKey(const std::string& planID, std::int32_t stepNo, const std::string& jobID) const
 {
-    const bool bNamed = _named.contains({job.planID, job.jobID});
-    return {job.planID, job.stepNo, bNamed ? job.jobID : std::string()};
+    return {planID, stepNo, _named.contains({planID, jobID}) ? jobID : std::string()};
 }
 
 void WorkWitness::OnPlaced(const std::string& robotID, std::vector<std::string> nodeIDs)
@@ -36,7 +35,7 @@ void WorkWitness::OnPlaced(const std::string& robotID, std::vector<std::string> 
 void WorkWitness::OnJobBegun(const std::string& robotID, const Planning::StartJob& job)
 {
     _trace.Tell("{} begins job {} of {} step {}", robotID, job.jobID, job.planID, job.stepNo);
-    if (++_jobs[MakeKey(job)].begun > 1)
+    if (++_jobs[MakeKey(job.planID, job.stepNo, job.jobID)].begun > 1)
     {
         _trace.Violate("job {} of {} step {} is executed twice", job.jobID, job.planID, job.stepNo);
     }
@@ -45,13 +44,13 @@ void WorkWitness::OnJobBegun(const std::string& robotID, const Planning::StartJo
 void WorkWitness::OnJobFinished(const std::string& robotID, const Planning::StartJob& job)
 {
     _trace.Tell("{} has done job {} of {}", robotID, job.jobID, job.planID);
-    ++_jobs[MakeKey(job)].finished;
+    ++_jobs[MakeKey(job.planID, job.stepNo, job.jobID)].finished;
 }
 
 WorkWitness::JobTruth WorkWitness::GetTruth(const std::string& planID, std::int32_t stepNo, const std::string& jobID)
     const
 {
-    const auto found = _jobs.find(JobKey{planID, stepNo, jobID});
+    const auto found = _jobs.find(MakeKey(planID, stepNo, jobID));
     return found == _jobs.end() ? JobTruth{} : found->second;
 }
 

@@ -33,7 +33,7 @@ private:
     std::map<std::string, std::vector<std::string>> _places;
     std::set<std::pair<std::string, std::string>> _named; ///< planID and jobID of what the MCS has called a job.
 
-    [[nodiscard]] JobKey MakeKey(const Planning::StartJob& job) const;
+    [[nodiscard]] JobKey MakeKey(const std::string& planID, std::int32_t stepNo, const std::string& jobID) const;
 
 public:
     explicit WorkWitness(Trace& trace)
@@ -49,7 +49,7 @@ public:
     void OnJobBegun(const std::string& robotID, const Planning::StartJob& job);
     void OnJobFinished(const std::string& robotID, const Planning::StartJob& job);
 
-    /// The jobID is empty for a step without jobs.
+    /// Of a step without jobs the jobID does not matter.
     [[nodiscard]] JobTruth GetTruth(const std::string& planID, std::int32_t stepNo, const std::string& jobID) const;
 };
 

@@ -219,6 +219,7 @@ void World::Operate()
         _trace.Tell("operator: TSC {}", bPause ? "pause" : "resume");
         _process->PushCommand(Planning::ControlTsc{bPause, 0});
     }
+    SettleJobs();
     _habits.Start(EHabit::Operator, _weather.GetBetween(1s, 60s), [this] { Operate(); });
 }
 
@@ -238,6 +239,10 @@ void World::TurnRobot(const std::string& robotID)
     {
         robot.Recover();
     }
+    else if (_robotDice.IsHit(150))
+    {
+        robot.Forget();
+    }
     else
     {
         robot.Disturb();
@@ -255,9 +260,31 @@ void World::TurnRadio(const std::string& robotID)
     _radioHabits.Start(robotID, span, [this, robotID] { TurnRadio(robotID); });
 }
 
+/// The operator looks at each job that is held, and says what he sees.
+void World::SettleJobs()
+{
+    const std::vector<Planning::Alarm> alarms =
+        _process == nullptr ? std::vector<Planning::Alarm>() : _process->GetEngine().GetActiveAlarms();
+    for (const Planning::Alarm& alarm : alarms)
+    {
+        if (alarm.errorCode != "ACS-1008" || !alarm.planID.has_value())
+        {
+            continue;
+        }
+        const std::string jobID = alarm.jobID.value_or(std::string());
+        const WorkWitness::JobTruth truth = _witness.GetTruth(*alarm.planID, alarm.stepNo.value_or(0), jobID);
+        const Planning::EJobAnswer other =
+            truth.begun == 0 && _weather.IsHit(700) ? Planning::EJobAnswer::Again : Planning::EJobAnswer::Failed;
+        const Planning::EJobAnswer answer = truth.finished > 0 ? Planning::EJobAnswer::Done : other;
+        _trace.Tell("operator: job {} of {} {}", jobID, *alarm.planID, GetText(answer));
+        _process->PushCommand(Planning::SettleJob{*alarm.planID, jobID, answer, 0});
+    }
+}
+
 /// Whether all is over; too late, what is not.
 void World::Watch()
 {
+    SettleJobs();
     if (_process != nullptr && _process->GetEngine().GetTscState() != Planning::ETscState::Auto)
     {
         _process->PushCommand(Planning::ControlTsc{false, 0});
@@ -266,7 +293,6 @@ void World::Watch()
     const std::string unrest = DescribeUnrest();
     if (unrest.empty())
     {
-        CheckAgreement();
         _bDone = true;
         return;
     }
@@ -316,6 +342,15 @@ std::string World::DescribeUnrest() const
     {
         text += "for the MCS the TSC is not Auto; ";
     }
+    std::vector<Protocol::ErrorReport> alarms;
+    for (const Planning::Alarm& alarm : engine.GetActiveAlarms())
+    {
+        alarms.push_back(Acsd::MakeErrorReport(alarm, true));
+    }
+    if (!std::ranges::is_permutation(alarms, _judge.GetAlarms()))
+    {
+        text += fmt::format("the MCS knows of {} alarms, acsd has {}; ", _judge.GetAlarms().size(), alarms.size());
+    }
     for (const Planning::PlanSummary& plan : engine.GetActivePlans())
     {
         text += fmt::format("plan {} is {}; ", plan.planID, GetText(plan.state));
@@ -349,21 +384,6 @@ std::string World::DescribeUnrest() const
         }
     }
     return text;
-}
-
-/// What the MCS knows in the end is what is so.
-void World::CheckAgreement()
-{
-    const Planning::PlanEngine& engine = _process->GetEngine();
-    std::vector<Protocol::ErrorReport> alarms;
-    for (const Planning::Alarm& alarm : engine.GetActiveAlarms())
-    {
-        alarms.push_back(Acsd::MakeErrorReport(alarm, true));
-    }
-    if (!std::ranges::is_permutation(alarms, _judge.GetAlarms()))
-    {
-        _trace.Violate("the MCS knows {} alarms, acsd has {}", _judge.GetAlarms().size(), alarms.size());
-    }
 }
 
 } // namespace ACS::Simulation

@@ -71,9 +71,9 @@ class World final
     void CrashSometime();
     void TurnRobot(const std::string& robotID);
     void TurnRadio(const std::string& robotID);
+    void SettleJobs();
     void Watch();
     void TakeCarriersOff();
-    void CheckAgreement();
     [[nodiscard]] std::string DescribeUnrest() const;
 
 public:
