@@ -47,15 +47,16 @@ bool IsBackwards(VDA5050::EActionStatus before, VDA5050::EActionStatus after)
 VehicleWatch::VehicleWatch(const Planning::SiteMap& site, std::string robotID, OddityLog& oddities)
     : _site(site),
       _robotID(std::move(robotID)),
-      _oddities(oddities)
+      _oddities(oddities),
+      _rangeX(FindRange(site, &Planning::SiteNode::x)),
+      _rangeY(FindRange(site, &Planning::SiteNode::y))
 {
-    const auto& nodes = _site.GetNodes();
-    const auto [left, right] = std::ranges::minmax(nodes, {}, &Planning::SiteNode::x);
-    const auto [bottom, top] = std::ranges::minmax(nodes, {}, &Planning::SiteNode::y);
-    _left = left.x - MARGIN;
-    _right = right.x + MARGIN;
-    _bottom = bottom.y - MARGIN;
-    _top = top.y + MARGIN;
+}
+
+VehicleWatch::Range VehicleWatch::FindRange(const Planning::SiteMap& site, double Planning::SiteNode::*coordinate)
+{
+    const auto [low, high] = std::ranges::minmax(site.GetNodes(), {}, coordinate);
+    return {low.*coordinate - MARGIN, high.*coordinate + MARGIN};
 }
 
 void VehicleWatch::Note(std::string_view kind, std::string_view detail)
@@ -96,7 +97,7 @@ void VehicleWatch::LookAtPlace(const VDA5050::StateMessage& state)
     if (state.agvPosition.has_value() && state.agvPosition->bPositionInitialized)
     {
         const VDA5050::AgvPosition& at = *state.agvPosition;
-        if (at.x < _left || at.x > _right || at.y < _bottom || at.y > _top)
+        if (at.x < _rangeX.low || at.x > _rangeX.high || at.y < _rangeY.low || at.y > _rangeY.high)
         {
             Note("off_map", fmt::format("x {} y {}", at.x, at.y));
         }

@@ -28,16 +28,22 @@ class VehicleWatch final
         std::map<std::string, VDA5050::EActionStatus> actions;
     };
 
+    /// Metres.
+    struct Range
+    {
+        double low = 0;
+        double high = 0;
+    };
+
     const Planning::SiteMap& _site;
     std::string _robotID;
     OddityLog& _oddities;
     std::optional<Shown> _shown;
     VDA5050::MasterStatistics _statistics; ///< As they were at the last look.
-    double _left = 0;                      ///< The rectangle around the site's nodes, metres.
-    double _right = 0;
-    double _bottom = 0;
-    double _top = 0;
+    Range _rangeX;                         ///< Both: around the site's nodes.
+    Range _rangeY;
 
+    [[nodiscard]] static Range FindRange(const Planning::SiteMap& site, double Planning::SiteNode::*coordinate);
     void LookAtPlace(const VDA5050::StateMessage& state);
     void LookAtOrder(const VDA5050::StateMessage& state);
     void LookAtActions(const VDA5050::StateMessage& state);
