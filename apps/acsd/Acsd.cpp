@@ -254,7 +254,11 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
             topic ? _vehicles.find({topic->address.manufacturer, topic->address.serialNumber}) : _vehicles.end();
         if (_surroundings.traceOrNull != nullptr)
         {
-            const std::string_view robotID = found == _vehicles.end() ? "" : found->second->GetRobotID();
+            std::string_view robotID;
+            if (found != _vehicles.end())
+            {
+                robotID = found->second->GetRobotID();
+            }
             _surroundings.traceOrNull->Write(
                 {"mqtt", ProtocolBeast::EWireDirection::In, robotID, message.topic, message.payload});
         }
