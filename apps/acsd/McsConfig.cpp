@@ -183,7 +183,7 @@ void ReadMcsConfig(
         root.GetSection("position").GetDuration("interval", 0ms, 1min, config.session.positionInterval);
     if (interval > 0ms && interval < 10ms)
     {
-        root.GetSection("position").AddMistake("interval", "must be \"0s\" (no positions) or at least \"10ms\"");
+        root.GetSection("position").AddMistake("interval", R"(must be "0s" (no positions) or at least "10ms")");
     }
     config.session.positionInterval = interval;
     const std::string replay = root.GetSection("outbox").GetWord("replay", {"all", "final_only", "none"}, "all");

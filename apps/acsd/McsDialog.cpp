@@ -254,7 +254,7 @@ void McsDialog::AnswerHistory(const Protocol::AcsRequest& request, const Protoco
 template <typename TList, typename TEntries>
 void McsDialog::AnswerList(
     const Protocol::AcsRequest& request,
-    std::string message,
+    const std::string& message,
     TList list,
     TEntries TList::*entries)
 {

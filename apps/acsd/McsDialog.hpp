@@ -66,7 +66,11 @@ private:
 
     void TakeRequest(const Protocol::AcsRequest& request);
     template <typename TList, typename TEntries>
-    void AnswerList(const Protocol::AcsRequest& request, std::string message, TList list, TEntries TList::*entries);
+    void AnswerList(
+        const Protocol::AcsRequest& request,
+        const std::string& message,
+        TList list,
+        TEntries TList::*entries);
     void AnswerQuery(const Protocol::AcsRequest& request);
     void AnswerHistory(const Protocol::AcsRequest& request, const Protocol::RequestAcsPlanHistory& query);
     void TakeAck(const Protocol::Acked& acked);
