@@ -115,7 +115,9 @@ public:
         }
         if (*from == *to)
         {
-            return MakeRoute(*from, {}, 0, vehicleTypeID, nullptr);
+            Route route;
+            route.nodes.push_back(MakeNode(*from, vehicleTypeID));
+            return route;
         }
         Graph& graph = found->second;
         Field& field = GetField(graph, *to);
@@ -137,7 +139,7 @@ public:
         {
             lanes.push_back(field.lanes[node]);
         }
-        return MakeRoute(*from, lanes, field.seconds[*from], vehicleTypeID, &graph.floor);
+        return MakeRoute(*from, lanes, field.seconds[*from], vehicleTypeID, graph.floor);
     }
 
     [[nodiscard]] std::optional<QuickestStart> FindQuickestStartOrNull(
@@ -299,7 +301,7 @@ private:
             const Lane& lane = floor.GetLanes()[index];
             if (lane.to == to)
             {
-                return MakeRoute(from, GetPath(floor, previous, index), seconds[index], vehicleTypeID, &floor);
+                return MakeRoute(from, GetPath(floor, previous, index), seconds[index], vehicleTypeID, floor);
             }
             for (const Lane& next : floor.GetLanesFrom(lane.to))
             {
@@ -334,14 +336,14 @@ private:
         const std::vector<std::size_t>& lanes,
         double travelSeconds,
         std::string_view vehicleTypeID,
-        const FloorGraph* floorOrNull) const
+        const FloorGraph& floor) const
     {
         Route route;
         route.travelSeconds = travelSeconds;
         route.nodes.push_back(MakeNode(from, vehicleTypeID));
         for (const std::size_t index : lanes)
         {
-            const Lane& lane = floorOrNull->GetLanes()[index];
+            const Lane& lane = floor.GetLanes()[index];
             route.edges.push_back(MakeEdge(lane.edge, vehicleTypeID));
             route.nodes.push_back(MakeNode(lane.to, vehicleTypeID));
         }
