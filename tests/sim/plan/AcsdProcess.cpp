@@ -27,10 +27,11 @@ Protocol::SessionOptions MakeSessionOptions()
 
 } // namespace
 
-AcsdProcess::AcsdProcess(Surroundings around, CrashHandler onCrash, CommitHandler onCommit)
-    : _around(std::move(around)),
+AcsdProcess::AcsdProcess(const Surroundings& around, CrashHandler onCrash, CommitHandler onCommit)
+    : _around(around),
       _onCrash(std::move(onCrash)),
       _onCommit(std::move(onCommit)),
+      _bCrashing(_around.scenario.Has(EFault::Crashes)),
       _engine(_around.scenario.options, _around.scenario.MakeSite(), _around.ownRandom),
       _loop(
           _engine,
@@ -49,7 +50,6 @@ AcsdProcess::AcsdProcess(Surroundings around, CrashHandler onCrash, CommitHandle
       _sessionTimers(_around.timeline),
       _mutator(_around.mutation, _around.dice, _around.ownRandom)
 {
-    _bCrashing = _around.scenario.Has(EFault::Crashes);
 }
 
 AcsdProcess::~AcsdProcess()

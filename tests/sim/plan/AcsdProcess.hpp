@@ -58,7 +58,7 @@ private:
     /// The disk has refused a write and taken none since. Plans that run go on then by intention, so that a crash at that
     /// moment forgets what robots did meanwhile: two failures at once, which the world does not make.
     bool _bUnsaved = false;
-    bool _bCrashing = true; ///< By chance; ends with the faults.
+    bool _bCrashing; ///< By chance; ends with the faults.
 
     Planning::PlanEngine _engine;
     Acsd::EngineLoop _loop;
@@ -107,7 +107,7 @@ private:
     void OnClosed(Protocol::ConnectionID connection, const std::string& reason) override;
 
 public:
-    AcsdProcess(Surroundings around, CrashHandler onCrash, CommitHandler onCommit);
+    AcsdProcess(const Surroundings& around, CrashHandler onCrash, CommitHandler onCommit);
     AcsdProcess(const AcsdProcess&) = delete;
     AcsdProcess& operator=(const AcsdProcess&) = delete;
     ~AcsdProcess() override;

@@ -108,7 +108,8 @@ void DrawLine(Scenario& scenario)
     for (std::size_t i = 0; i < stations.size(); ++i)
     {
         const std::string lane = fmt::format("L{:02}", i / 2 + 1);
-        const double x = SPACING * static_cast<double>(i / 2);
+        const std::size_t column = i / 2;
+        const double x = SPACING * static_cast<double>(column);
         if (i % 2 == 0)
         {
             draft.AddNode(lane, x, 0.0);

@@ -104,10 +104,10 @@ void World::AddRobots()
 void World::StartAcsd()
 {
     ++_starts;
-    AcsdProcess::Surroundings
+    const AcsdProcess::Surroundings
         around{_timeline, _trace, _dice, _ownRandom, _store, _network, _radios, _scenario, _mutation, _starts};
     _process = std::make_unique<AcsdProcess>(
-        std::move(around),
+        around,
         [this] { OnCrash(); },
         [this] { _judge.CheckKept(); });
     if (_bSettling)
