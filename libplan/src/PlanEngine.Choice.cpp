@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -217,8 +218,7 @@ std::optional<std::size_t> PlanEngine::Impl::FindPortOrNull(
 PlanEngine::Impl::PortVerdict PlanEngine::Impl::JudgePorts(const ActivePlan& plan, const Robot& robot) const
 {
     PortVerdict verdict;
-    std::vector<std::optional<std::string>> carriers = robot.carriers;
-    std::vector<bool> changed(carriers.size(), false);
+    std::set<std::size_t> judged;
     for (std::size_t step = 0; step < plan.resolved.steps.size(); ++step)
     {
         const ResolvedStep& resolved = plan.resolved.steps[step];
@@ -232,32 +232,30 @@ PlanEngine::Impl::PortVerdict PlanEngine::Impl::JudgePorts(const ActivePlan& pla
         {
             const std::optional<std::size_t> port =
                 FindPortOrNull(robot, bLoad ? resolved.jobs[job].to : resolved.jobs[job].from);
-            if (!port.has_value())
+            if (!port.has_value() || !judged.insert(*port).second)
             {
                 continue;
             }
             const std::string carrierID = job < carrierIDs.size() ? carrierIDs[job] : std::string();
-            if (bLoad && !changed[*port] && carriers[*port].has_value() && !_options.dispatch.bLoadsIntoTakenPorts)
+            verdict.bSupposed = verdict.bSupposed || (!bLoad && !robot.carriers[*port].has_value());
+            verdict.objectionOrNull =
+                bLoad ? GetLoadObjectionOrNull(robot, *port) : GetUnloadObjectionOrNull(robot, *port, carrierID);
+            if (verdict.objectionOrNull.has_value())
             {
-                verdict.objectionOrNull =
-                    fmt::format("{} is taken by {}", robot.options->ports[*port].GetText(), *carriers[*port]);
                 return verdict;
             }
-            if (!bLoad && !changed[*port])
-            {
-                verdict.objectionOrNull = GetUnloadObjectionOrNull(robot, *port, carrierID);
-                verdict.bSupposed = verdict.bSupposed || !carriers[*port].has_value();
-                if (verdict.objectionOrNull.has_value())
-                {
-                    return verdict;
-                }
-            }
-            changed[*port] = true;
-            carriers[*port] =
-                bLoad ? std::optional(carrierID.empty() ? std::string(UNKNOWN_CARRIER) : carrierID) : std::nullopt;
         }
     }
     return verdict;
+}
+
+std::optional<std::string> PlanEngine::Impl::GetLoadObjectionOrNull(const Robot& robot, std::size_t port) const
+{
+    if (!robot.carriers[port].has_value() || _options.dispatch.bLoadsIntoTakenPorts)
+    {
+        return std::nullopt;
+    }
+    return fmt::format("{} is taken by {}", robot.options->ports[port].GetText(), *robot.carriers[port]);
 }
 
 /// A carrier is only where it is known to be. One that nobody is known to have may have been put on by hand.

@@ -321,6 +321,7 @@ private:
         const Robot& robot,
         const std::optional<Core::Location>& place) const;
     [[nodiscard]] PortVerdict JudgePorts(const ActivePlan& plan, const Robot& robot) const;
+    [[nodiscard]] std::optional<std::string> GetLoadObjectionOrNull(const Robot& robot, std::size_t port) const;
     [[nodiscard]] std::optional<std::string> GetUnloadObjectionOrNull(
         const Robot& robot,
         std::size_t port,
