@@ -261,7 +261,7 @@ void Vda5050RobotAdapter::FindJob(Core::Now now, AdapterActions& out)
     {
         tell("the vehicle shows no order, as after a restart of its own");
     }
-    else if (state.orderID == recovery.previousID)
+    else if (std::ranges::count(recovery.earlierIDs, state.orderID) > 0)
     {
         // Orders are taken one after the other: this one never came.
         out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});
@@ -585,6 +585,7 @@ void Vda5050RobotAdapter::TakeState(Core::Now now, AdapterActions& out)
     }
     FindJob(now, out); // before the state is judged: it may be our own job that keeps the vehicle busy
     _state.bOccupied = IsOccupied(state);
+    _state.shownCommandID = state.orderID;
     _state.heldNodeIDs.clear();
     for (const VDA5050::NodeState& node : state.nodeStates)
     {

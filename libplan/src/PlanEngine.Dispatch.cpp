@@ -10,7 +10,8 @@ void PlanEngine::Impl::Dispatch()
     // What one part frees or ends may be what an earlier part waited for.
     while (std::exchange(_bDispatchNeeded, false))
     {
-        if (_tscState == ETscState::Auto)
+        // Not what could not be stored as begun.
+        if (_tscState == ETscState::Auto && !_bStoreFailing)
         {
             AssignPlans();
         }

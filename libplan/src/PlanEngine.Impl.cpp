@@ -165,6 +165,7 @@ void PlanEngine::Impl::Begin(Core::Now now)
     _ended.clear();
     _replaced.clear();
     NoteStoreSuccess();
+    _begun.clear();
 }
 
 /// One batch for the whole call, then everything that waits for it.
@@ -223,11 +224,15 @@ void PlanEngine::Impl::CollectWork()
         RobotWorkChanged work{
             GetRobotID(robot),
             robot.commandID,
-            robot.previousID,
+            robot.earlierIDs,
             robot.job,
+            robot.state.has_value() ? robot.state->mark : robot.storedWork.mark,
             robot.bPauseWanted || robot.bResumeOwed};
         const bool bNothing = robot.storedWork.robotID.empty() && work.commandID.empty() && !work.bPauseAsked;
-        if (!bNothing && work != robot.storedWork)
+        // A mark alone is no reason to write: it is that of the moment when a command or a job's end was written down.
+        RobotWorkChanged unmarked = work;
+        unmarked.mark = robot.storedWork.mark;
+        if (!bNothing && unmarked != robot.storedWork)
         {
             robot.storedWork = work;
             _changes.emplace_back(std::move(work));

@@ -66,6 +66,7 @@ public:
         std::optional<std::size_t> robot;
         bool bStepArrived = false;     ///< The present step's place was reached, and told.
         bool bJobBegun = false;        ///< Any of its jobs.
+        bool bUnstored = false;        ///< That it was begun could not be stored: its first job waits for that.
         bool bStepOwed = false;        ///< The present step is begun when the pause ends.
         bool bEndOwed = false;         ///< All is done, to be told when the pause ends.
         std::string repeatedCommandID; ///< Of a job that the robot never had: it is sent again under this.
@@ -165,13 +166,14 @@ public:
         /// A job of a plan that has failed for its time limit, and may still be running: until its end is told, the robot
         /// neither drives nor works.
         std::optional<std::string> overdueJobID;
-        std::optional<StartJob> job; ///< Commanded, and its end not told: of the plan, or overdue.
-        std::string commandID;       ///< Of its last drive or job.
-        std::string previousID;      ///< Of the one before.
-        bool bRecovering = false;    ///< After a restart: it was asked what became of the job.
-        bool bUncertain = false;     ///< It cannot tell what became of the job: an operator has to.
-        bool bStandAwaited = false;  ///< After a restart: what its plan's control comes to shows once it stands.
-        bool bWorkTouched = false;   ///< What is stored of its work may have changed.
+        std::optional<StartJob> job;         ///< Commanded, and its end not told: of the plan, or overdue.
+        std::string commandID;               ///< Of its last drive or job.
+        std::vector<std::string> earlierIDs; ///< Of those before, the latest first.
+        bool bRecovering = false;            ///< After a restart: it was asked what became of the job.
+        bool bUncertain = false;             ///< It cannot tell what became of the job: an operator has to.
+        bool bStandAwaited = false; ///< After a restart: what its plan's control comes to shows once it stands.
+        bool bTraceOpen = false;    ///< After a restart: it has not shown what it was told last.
+        bool bWorkTouched = false;  ///< What is stored of its work may have changed.
         RobotWorkChanged storedWork;
         std::optional<ActiveDrive> drive;
         std::vector<std::optional<std::string>> carriers;
@@ -200,6 +202,7 @@ private:
     std::unordered_map<std::string, PlanRecord> _finished;
     std::deque<std::string> _finishedOrder;
     std::uint64_t _lastPlanSequence = 0;
+    std::vector<std::string> _begun;      ///< Plans that were begun in the call that is being stored.
     std::vector<std::string> _unreported; ///< Accepted, their PlanReport(Pending) is owed.
     ETscState _tscState = ETscState::Auto;
 
@@ -387,6 +390,7 @@ private:
     void BeginWork(Robot& robot);
     void BeginJob(Robot& robot);
     void LimitJob(Robot& robot);
+    static void NoteCommand(Robot& robot, const std::string& commandID);
     void EndJob(Robot& robot);
     void BeginNext(Robot& robot);
     void MarkStepBegun(ActivePlan& plan);
@@ -457,6 +461,8 @@ private:
     void FollowGathering();
     void EndGathering();
     void FollowStand(Robot& robot);
+    void CheckTrace(Robot& robot);
+    void CatchUp(Robot& robot);
     void HoldJob(Robot& robot, const std::string& reason);
     void AbortHeldJob(Robot& robot);
     void FindOut(Robot& robot);

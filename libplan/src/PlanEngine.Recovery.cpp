@@ -1,4 +1,5 @@
 #include "PlanEngine.Impl.hpp"
+#include <acs/core/Uuid.hpp>
 
 #include <fmt/format.h>
 
@@ -99,7 +100,8 @@ void PlanEngine::Impl::RestoreRobot(const RobotWorkChanged& work)
     Robot& robot = _robots[found->second];
     robot.storedWork = work;
     robot.commandID = work.commandID;
-    robot.previousID = work.previousID;
+    robot.earlierIDs = work.earlierIDs;
+    robot.bTraceOpen = true;
     robot.job = work.job;
     robot.bResumeOwed = work.bPauseAsked; // where no plan wants it to stand
 }
@@ -267,7 +269,7 @@ void PlanEngine::Impl::RestoreOverdue(Robot& robot)
 void PlanEngine::Impl::AskForJob(Robot& robot)
 {
     robot.bRecovering = true;
-    Command(robot, RecoverJob{*robot.job, robot.previousID});
+    Command(robot, RecoverJob{*robot.job, robot.earlierIDs});
 }
 
 /// Whether it has still to tell where it stands.
@@ -337,6 +339,34 @@ void PlanEngine::Impl::FollowStand(Robot& robot)
     if (plan.record.progress.state != EPlanState::Paused)
     {
         GoOn(robot);
+    }
+}
+
+/// While the store fails work goes on. After a crash then the robot shows what nobody wrote down, and the next job of its
+/// plan may be a part of that.
+void PlanEngine::Impl::CheckTrace(Robot& robot)
+{
+    if (!std::exchange(robot.bTraceOpen, false) || robot.planOrNull == nullptr || robot.activity != EActivity::Waits
+        || robot.planOrNull->bEndOwed)
+    {
+        return;
+    }
+    const std::string& shownID = robot.state->shownCommandID;
+    const bool bUnknown = !shownID.empty() && !robot.commandID.empty() && shownID != robot.commandID
+        && std::ranges::count(robot.earlierIDs, shownID) == 0;
+    const bool bWorked =
+        !robot.state->mark.empty() && !robot.storedWork.mark.empty() && robot.state->mark != robot.storedWork.mark;
+    const bool bBetweenSteps = robot.planOrNull->bStepOwed;
+    if ((bUnknown || bWorked) && !bBetweenSteps)
+    {
+        robot.activity = EActivity::Works;
+        if (!HasJob(*robot.planOrNull))
+        {
+            robot.planOrNull->madeJobID = Core::MakeUuid(_random);
+        }
+        robot.job = MakeStartJob(robot);
+        robot.bWorkTouched = true;
+        HoldJob(robot, "the robot shows work that the ACS could not write down before it stopped");
     }
 }
 
@@ -482,6 +512,18 @@ void PlanEngine::Impl::Settle(const SettleJob& command)
     SettleFor(*robot, command.answer);
 }
 
+/// A job that was done and never written down as commanded is told from its beginning.
+void PlanEngine::Impl::CatchUp(Robot& robot)
+{
+    ActivePlan& plan = *robot.planOrNull;
+    MarkArrived(robot);
+    plan.bJobBegun = true;
+    if (HasJob(plan) && plan.record.progress.steps[plan.step].jobs[plan.job] == EJobState::Pending)
+    {
+        ChangeJob(plan, EJobState::Instructed, {});
+    }
+}
+
 void PlanEngine::Impl::SettleFor(Robot& robot, EJobAnswer answer)
 {
     robot.bUncertain = false;
@@ -493,6 +535,7 @@ void PlanEngine::Impl::SettleFor(Robot& robot, EJobAnswer answer)
     switch (answer)
     {
         case EJobAnswer::Done:
+            CatchUp(robot);
             OnJobFinished(robot, JobFinished{jobID});
             break;
         case EJobAnswer::Again:

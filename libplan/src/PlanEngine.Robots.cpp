@@ -64,6 +64,7 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
     {
         MarkStepBegun(*robot.planOrNull);
     }
+    CheckTrace(robot);
     FollowPause(robot, bFirst, bWasPaused);
     FollowStand(robot);
     FollowBattery(robot);

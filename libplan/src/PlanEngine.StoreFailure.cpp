@@ -43,6 +43,13 @@ void PlanEngine::Impl::OnStoreFailed(
             _plans.erase(found);
         }
     }
+    for (const std::string& planID : _begun)
+    {
+        if (const auto begun = _plans.find(planID); begun != _plans.end())
+        {
+            begun->second->bUnstored = true;
+        }
+    }
     for (PlanRecord& record : std::exchange(_replaced, {}))
     {
         RememberFinished(std::move(record));
@@ -91,6 +98,11 @@ void PlanEngine::Impl::NoteStoreSuccess()
         return;
     }
     _bStoreFailing = false;
+    _bDispatchNeeded = true;
+    for (const auto& [planID, plan] : _plans)
+    {
+        plan->bUnstored = false;
+    }
     Alarm alarm;
     alarm.robotID = OWN_ROBOT_ID;
     alarm.errorCode = ALARM_STORE;

@@ -364,7 +364,7 @@ bool PlanEngine::Impl::TryBeginDrive(Robot& robot, const Wish& wish)
     }
     ActiveDrive drive;
     drive.driveID = Core::MakeUuid(_random);
-    robot.previousID = std::exchange(robot.commandID, drive.driveID);
+    NoteCommand(robot, drive.driveID);
     drive.route = wish.route;
     drive.nodes = wish.nodes;
     drive.grantedCount = granted + 1;

@@ -44,6 +44,7 @@ void PlanEngine::Impl::BeginPlan(ActivePlan& plan, Robot& robot)
     robot.planOrNull = &plan;
     robot.bHomeRefused = false;
     EndCharging(robot);
+    _begun.push_back(plan.record.plan.planID);
     ChangePlan(plan, EPlanState::InProgress, {});
     BeginStep(plan, robot);
 }
@@ -87,6 +88,10 @@ void PlanEngine::Impl::MarkArrived(Robot& robot)
 void PlanEngine::Impl::BeginWork(Robot& robot)
 {
     MarkArrived(robot);
+    if (robot.planOrNull->bUnstored)
+    {
+        return; // after a crash nobody would know that it was ever begun
+    }
     robot.activity = EActivity::Works;
     BeginJob(robot);
 }
@@ -108,13 +113,25 @@ void PlanEngine::Impl::BeginJob(Robot& robot)
     StartJob job = MakeStartJob(robot);
     job.commandID = repeated.empty() ? Core::MakeUuid(_random) : repeated;
     job.mark = robot.state.has_value() ? robot.state->mark : std::string();
-    if (job.commandID != robot.commandID)
-    {
-        robot.previousID = std::exchange(robot.commandID, job.commandID);
-    }
+    NoteCommand(robot, job.commandID);
     robot.job = job;
     Command(robot, std::move(job));
     LimitJob(robot);
+}
+
+void PlanEngine::Impl::NoteCommand(Robot& robot, const std::string& commandID)
+{
+    constexpr std::size_t MOST_REMEMBERED = 8;
+    if (robot.commandID == commandID)
+    {
+        return;
+    }
+    if (!robot.commandID.empty())
+    {
+        robot.earlierIDs.insert(robot.earlierIDs.begin(), robot.commandID);
+        robot.earlierIDs.resize(std::min(robot.earlierIDs.size(), MOST_REMEMBERED));
+    }
+    robot.commandID = commandID;
 }
 
 void PlanEngine::Impl::LimitJob(Robot& robot)

@@ -172,7 +172,8 @@ struct JsonFields<Planning::RobotWorkChanged>
     static constexpr auto FIELDS = std::make_tuple(
         Required("robotId", &Planning::RobotWorkChanged::robotID),
         Optional("commandId", &Planning::RobotWorkChanged::commandID),
-        Optional("previousId", &Planning::RobotWorkChanged::previousID),
+        Optional("earlierIds", &Planning::RobotWorkChanged::earlierIDs),
+        Optional("mark", &Planning::RobotWorkChanged::mark),
         Optional("job", &Planning::RobotWorkChanged::job),
         Optional("pauseAsked", &Planning::RobotWorkChanged::bPauseAsked));
 };

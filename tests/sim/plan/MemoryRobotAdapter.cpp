@@ -2,6 +2,7 @@
 
 #include <acs/core/Overloaded.hpp>
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -235,7 +236,7 @@ void MemoryRobotAdapter::Recover(Planning::AdapterActions& out)
         _bJobStarted = false;
         _bJobShown = false;
     }
-    else if (!recovery.previousID.empty() && _snapshot->lastCommandID == recovery.previousID)
+    else if (std::ranges::count(recovery.earlierIDs, _snapshot->lastCommandID) > 0)
     {
         Raise(Planning::JobUnknown{recovery.job.jobID}, out);
     }
@@ -293,6 +294,7 @@ void MemoryRobotAdapter::TellState(Planning::AdapterActions& out)
     const std::string commandID = _job.has_value() ? _job->commandID : std::string();
     const bool bForeignJob = !_snapshot->activeCommandID.empty() && _snapshot->activeCommandID != commandID;
     state.bOccupied = bForeignDrive || bForeignJob;
+    state.shownCommandID = _snapshot->lastCommandID;
     state.heldNodeIDs = bForeignDrive ? _snapshot->aheadNodeIDs : std::vector<std::string>();
     if (bForeignDrive && std::exchange(_foreignDriveID, driveID) != driveID)
     {

@@ -543,7 +543,7 @@ struct RecoveryFixture : VehicleFixture
             action.actionStatus = *status;
             state.actionStates.push_back(action);
         }
-        Command(Planning::RecoverJob{MakeJob("CassetteLoad"), "D"});
+        Command(Planning::RecoverJob{MakeJob("CassetteLoad"), {"D"}});
         CHECK(actions.empty()); // the vehicle has not told anything
         ComeOnline();
     }

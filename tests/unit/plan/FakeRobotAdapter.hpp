@@ -31,6 +31,7 @@ class FakeRobotAdapter final : public Planning::IRobotAdapter
     bool _bStopping = false;
     std::string _jobID;
     std::string _commandID; ///< Of the job.
+    std::string _shownCommandID;
     bool _bJobStarted = false;
     bool _bForeign = false;             ///< Its drive was given by an engine that is gone.
     std::map<std::string, bool> _ended; ///< By commandID: whether it was done well.
@@ -107,6 +108,7 @@ public:
                 [this, &out](const Planning::StartJob& job) {
                     _jobID = job.jobID;
                     _commandID = job.commandID;
+                    _shownCommandID = job.commandID;
                     _bJobStarted = false;
                     StartTimer(JOB_TIMER, 500, out);
                 },
@@ -183,6 +185,7 @@ private:
         state.lastNodeID = _nodeID;
         state.bDriving = _bMoving;
         state.bPaused = IsPaused();
+        state.shownCommandID = _shownCommandID;
         state.bOccupied = _bForeign && _bDriving;
         for (std::size_t i = _index + 1; state.bOccupied && i < _drive.releasedCount; ++i)
         {
@@ -267,6 +270,7 @@ private:
             return;
         }
         ++drives;
+        _shownCommandID = drive.driveID;
         _bForeign = false;
         _drive = drive;
         _index = 0;

@@ -69,9 +69,11 @@ struct CarriersChanged
 struct RobotWorkChanged
 {
     std::string robotID;
-    std::string commandID;       ///< Of its last Drive or StartJob; empty: none yet.
-    std::string previousID;      ///< Of the one before.
+    std::string commandID; ///< Of its last Drive or StartJob; empty: none yet.
+    /// Of those before, the latest first, so many as tell an old order of the robot from a stranger's.
+    std::vector<std::string> earlierIDs;
     std::optional<StartJob> job; ///< Commanded, and its end not told.
+    std::string mark;            ///< StateChanged::mark, when all this was written down.
     bool bPauseAsked = false;    ///< It was told to pause, and has not shown since that it goes on.
 
     bool operator==(const RobotWorkChanged&) const = default;

@@ -102,8 +102,9 @@ struct StartJob
 /// never begins the job.
 struct RecoverJob
 {
-    StartJob job;           ///< As it was commanded.
-    std::string previousID; ///< Of the Drive or StartJob before it; empty where none is known.
+    StartJob job; ///< As it was commanded.
+    /// Of the Drives and StartJobs that the robot was given before it, the latest first; not all of them.
+    std::vector<std::string> earlierIDs;
 
     bool operator==(const RecoverJob&) const = default;
 };
