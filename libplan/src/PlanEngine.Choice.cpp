@@ -345,6 +345,10 @@ WaitReason PlanEngine::Impl::DescribeWaiting(const ActivePlan& plan, std::size_t
     {
         reason.message = fmt::format("The TSC is {}: no plan is begun.", GetText(_tscState));
     }
+    else if (_bStoreFailing)
+    {
+        reason.message = "The store fails: no plan is begun that cannot be stored as begun.";
+    }
     else if (_bGathering)
     {
         reason.message = "Not every robot has told where it stands since the restart.";
@@ -384,6 +388,11 @@ std::optional<WaitReason> PlanEngine::Impl::DescribeBegunOrNull(const ActivePlan
     {
         reason.message =
             fmt::format("{} cannot tell what became of job {}: look, and answer.", GetRobotID(robot), GetJobID(plan));
+        return reason;
+    }
+    if (plan.bUnstored)
+    {
+        reason.message = "The store fails, and does not tell yet that the plan was begun.";
         return reason;
     }
     const bool bAtBaseEnd = robot.drive.has_value() && !robot.state->bDriving

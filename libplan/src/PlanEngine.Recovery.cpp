@@ -272,10 +272,10 @@ void PlanEngine::Impl::AskForJob(Robot& robot)
     Command(robot, RecoverJob{*robot.job, robot.earlierIDs});
 }
 
-/// Whether it has still to tell where it stands.
+/// Whether it has still to tell where it stands. One that is out of service may be switched off for days.
 bool PlanEngine::Impl::IsAwaited(const Robot& robot)
 {
-    return !robot.state.has_value();
+    return !robot.state.has_value() && !robot.bInMaintenance;
 }
 
 void PlanEngine::Impl::BeginGathering()

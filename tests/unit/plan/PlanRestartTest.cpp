@@ -257,6 +257,24 @@ TEST_CASE("After a restart nobody sets out before every robot has told where it 
     }
 }
 
+TEST_CASE("After a restart nobody waits for a robot that is in maintenance")
+{
+    PlanWorld world(1, true);
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 Dispatched");
+    REQUIRE(world.store.Append({{MaintenanceChanged{"LR02", true}}}).has_value());
+    world.Restart(MakeTestOptions(true), MakeTestSite());
+    const std::size_t before = world.GetTraceOf("command ").size();
+    StateChanged state;
+    for (const char* robotID : {"LR01", "CR01", "CR02"})
+    {
+        CHECK(world.GetTraceOf("command ").size() == before);
+        state.lastNodeID = world.GetRobot(robotID).GetOccupied().front();
+        world.Raise(robotID, LinkChanged{true});
+        world.Raise(robotID, state);
+    }
+    CHECK(world.GetTraceOf("command ").size() > before);
+}
+
 TEST_CASE("After a restart the nodes that a robot may still drive to are nobody else's")
 {
     PlanWorld world(1, true);
