@@ -176,7 +176,8 @@ PlanEngine::Impl::Robot* PlanEngine::Impl::FindNearestOrNull(const ActivePlan& p
     std::vector<Robot*> supposed;
     for (const std::size_t index : plan.resolved.candidates)
     {
-        const PortVerdict verdict = IsFree(_robots[index]) ? JudgePorts(plan, _robots[index]) : PortVerdict{"", false};
+        const bool bCanCome = IsFree(_robots[index]) && CanServe(_robots[index], plan);
+        const PortVerdict verdict = bCanCome ? JudgePorts(plan, _robots[index]) : PortVerdict{"", false};
         if (!verdict.objectionOrNull.has_value())
         {
             (verdict.bSupposed ? supposed : known).push_back(&_robots[index]);
@@ -335,6 +336,10 @@ WaitReason PlanEngine::Impl::DescribeWaiting(const ActivePlan& plan, std::size_t
                  !objection.has_value() && !GetTravelSecondsOrNull(plan, robot).has_value())
         {
             objection = "no route to " + plan.resolved.steps.front().stationID;
+        }
+        else if (!objection.has_value() && !CanServe(robot, plan))
+        {
+            objection = "robots that cannot move keep it from the way there, or home";
         }
         if (objection.has_value())
         {

@@ -59,6 +59,10 @@ void PlanEngine::Impl::HandleCommand(const PlanCommand& command, Core::Now now, 
                 CorrectCarriers(carriers);
             }},
         command);
+    if (!std::holds_alternative<MessageAcknowledged>(command))
+    {
+        std::ranges::for_each(_robots, [this](const Robot& robot) { NoteMovable(robot); });
+    }
     End(out);
 }
 
@@ -155,6 +159,10 @@ void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineAc
         default:
             assert(false && "a timer has no case");
             break;
+    }
+    if (robotOrNull != nullptr)
+    {
+        NoteMovable(*robotOrNull);
     }
     End(out);
 }

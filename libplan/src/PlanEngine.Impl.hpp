@@ -182,6 +182,11 @@ public:
         std::vector<std::size_t> blockers; ///< Robots that kept it from driving on when it last wanted to.
         std::uint64_t refusedAt = 0;       ///< Traffic::GetFreedCount then.
         std::optional<Courtesy> courtesy;
+        std::optional<Wish>
+            detour; ///< Around those who stood in the way at detourAt (_standingChanges); nullopt: none.
+        std::uint64_t detourAt = 0;
+        std::size_t detourTarget = 0;
+        std::uint64_t noDetourAt = 0;         ///< _standingChanges when it found no way around.
         std::size_t detours = 0;              ///< Taken on the way to its present step.
         std::optional<std::size_t> berthNode; ///< Its home or, without one, where it can be out of the way.
         std::optional<std::size_t> aheadNode; ///< It has stopped between its node and this one.
@@ -195,6 +200,7 @@ private:
     Router _router;
     PlanAdmission _admission;
     Traffic _traffic;
+    std::uint64_t _standingChanges = 1; ///< Grows when a robot stops, sets out, or can move no more or again.
 
     std::map<std::string, std::unique_ptr<ActivePlan>, std::less<>> _plans;
     std::map<QueueKey, ActivePlan*> _pending;
@@ -407,6 +413,7 @@ private:
 
     // Who drives when (PlanEngine.Traffic.cpp).
     void FindBerths();
+    [[nodiscard]] bool IsBerth(const RobotOptions& robot, std::size_t dock) const;
     void NoteMovable(const Robot& robot);
     void MoveWaiting();
     void ExtendDrives();
@@ -425,7 +432,7 @@ private:
         std::size_t target,
         const Router::NodeFilter& isExcluded) const;
     [[nodiscard]] bool CanAdvance(const Robot& robot) const;
-    [[nodiscard]] bool CanServe(const Robot& robot, const ActivePlan& plan);
+    [[nodiscard]] bool CanServe(const Robot& robot, const ActivePlan& plan) const;
     [[nodiscard]] static bool IsMoreUrgent(const Robot* left, const Robot* right);
     void OnNoRoute(Robot& robot, std::size_t target);
 

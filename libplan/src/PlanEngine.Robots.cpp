@@ -132,6 +132,7 @@ void PlanEngine::Impl::Place(Robot& robot)
     robot.heldNodes = std::move(claim);
     robot.bPlaced = true;
     robot.wish.reset();
+    ++_standingChanges;
     if (const SiteStation* stationOrNull = _site.FindStationAtOrNull(nodeID); stationOrNull != nullptr)
     {
         robot.position = stationOrNull->stationID;
@@ -280,6 +281,7 @@ void PlanEngine::Impl::EndDrive(Robot& robot)
     assert(bStands);
     static_cast<void>(bStands);
     robot.drive.reset();
+    ++_standingChanges;
     robot.wish.reset();
     robot.blockers.clear();
     _bDispatchNeeded = true;

@@ -12,13 +12,13 @@
 namespace ACS::Planning
 {
 
-/// A robot without a home has a berth all the same: the first station that is nobody's. It goes there only to make way.
+/// A robot without a home has a berth all the same: the first station that is nobody's, beside the lanes, with a way there
+/// and back. It goes there only to make way.
 void PlanEngine::Impl::FindBerths()
 {
     std::set<std::size_t> taken;
-    for (Robot& robot : _robots)
+    for (const Robot& robot : _robots)
     {
-        robot.berthNode = robot.homeNode.has_value() ? robot.homeNode : robot.chargeNode;
         if (robot.homeNode.has_value())
         {
             taken.insert(*robot.homeNode);
@@ -31,24 +31,36 @@ void PlanEngine::Impl::FindBerths()
     for (Robot& robot : _robots)
     {
         const RobotOptions& options = *robot.options;
-        const std::optional<std::size_t> start =
-            options.startNodeID.has_value() ? _site.FindNodeIndexOrNull(*options.startNodeID) : std::nullopt;
+        robot.berthNode = robot.homeNode.has_value() ? robot.homeNode : robot.chargeNode;
         for (const SiteStation& station : _site.GetStations())
         {
             const std::optional<std::size_t> dock = _admission.FindDockOrNull(station.stationID, options.vehicleTypeID);
-            if (!robot.berthNode.has_value() && dock.has_value() && taken.insert(*dock).second)
+            if (!robot.berthNode.has_value() && dock.has_value() && IsBerth(options, *dock)
+                && taken.insert(*dock).second)
             {
                 robot.berthNode = dock;
             }
         }
         _traffic.AddRobot(options.vehicleTypeID, robot.berthNode);
-        if (start.has_value())
+        if (options.startNodeID.has_value())
         {
-            const bool bStands = _traffic.TryStand(robot.index, *start);
+            const bool bStands = _traffic.TryStand(robot.index, *_site.FindNodeIndexOrNull(*options.startNodeID));
             assert(bStands);
             static_cast<void>(bStands);
         }
     }
+}
+
+bool PlanEngine::Impl::IsBerth(const RobotOptions& robot, std::size_t dock) const
+{
+    if (!_traffic.IsSpur(robot.vehicleTypeID, dock))
+    {
+        return false;
+    }
+    const std::string& dockID = _site.GetNodes()[dock].nodeID;
+    const std::string& startID = robot.startNodeID.value_or(dockID);
+    return _router.FindRouteOrNull(robot.vehicleTypeID, startID, dockID).has_value()
+        && _router.FindRouteOrNull(robot.vehicleTypeID, dockID, startID).has_value();
 }
 
 /// A robot that is not able to drive now is an obstacle for the others.
@@ -58,6 +70,7 @@ void PlanEngine::Impl::NoteMovable(const Robot& robot)
     if (_traffic.IsMovable(robot.index) != bMovable)
     {
         _traffic.SetMovable(robot.index, bMovable);
+        ++_standingChanges;
         _bDispatchNeeded = true;
     }
 }
@@ -69,7 +82,7 @@ bool PlanEngine::Impl::CanAdvance(const Robot& robot) const
 }
 
 /// Whether those that cannot move leave it a way to all places of the plan and from each of them home.
-bool PlanEngine::Impl::CanServe(const Robot& robot, const ActivePlan& plan)
+bool PlanEngine::Impl::CanServe(const Robot& robot, const ActivePlan& plan) const
 {
     return std::ranges::all_of(plan.resolved.steps, [this, &robot](const ResolvedStep& step) {
         const std::optional<std::size_t> dock = _admission.FindDockOrNull(step.stationID, robot.options->vehicleTypeID);
@@ -151,7 +164,6 @@ std::vector<std::size_t> PlanEngine::Impl::GetTargetHolders(const Robot& robot, 
 /// Robots under way first, as they stand where others want to pass.
 void PlanEngine::Impl::MoveWaiting()
 {
-    std::ranges::for_each(_robots, [this](const Robot& robot) { NoteMovable(robot); });
     ExtendDrives();
     for (Robot* robot : GetWaiting())
     {
@@ -164,8 +176,14 @@ void PlanEngine::Impl::ExtendDrives()
     std::vector<Robot*> driving;
     for (Robot& robot : _robots)
     {
-        const bool bWants = robot.drive.has_value() && robot.drive->bConfirmed && _traffic.IsMovable(robot.index)
-            && robot.drive->grantedCount < robot.drive->nodes.size() && robot.refusedAt != _traffic.GetFreedCount();
+        if (!robot.drive.has_value() || !robot.drive->bConfirmed || !_traffic.IsMovable(robot.index))
+        {
+            continue;
+        }
+        const ActiveDrive& drive = *robot.drive;
+        const bool bAsks = drive.grantedCount < drive.nodes.size() && robot.refusedAt != _traffic.GetFreedCount();
+        // What was granted while the robot could not go on is released now.
+        const bool bWants = bAsks || drive.releasedCount < drive.grantedCount;
         if (bWants)
         {
             driving.push_back(&robot);
@@ -281,16 +299,22 @@ bool PlanEngine::Impl::TryTakeWish(Robot& robot)
     {
         return TryBeginDrive(robot, *robot.wish);
     }
-    const auto isStandingInTheWay = [this, &robot](std::size_t node) {
-        const std::vector<std::size_t> holders = _traffic.GetHolders(node, robot.index);
-        return std::ranges::any_of(holders, [this](std::size_t holder) {
-            return !_robots[holder].drive.has_value() || !_traffic.IsMovable(holder);
-        });
-    };
-    const std::optional<Wish> detour = FindWishOrNull(robot, robot.wish->target, isStandingInTheWay);
-    if (detour.has_value())
+    // Who stands where is the same for many events: so is the way around.
+    if (robot.detourAt != _standingChanges || robot.detourTarget != robot.wish->target)
     {
-        return TryBeginDrive(robot, *detour);
+        const auto isStandingInTheWay = [this, &robot](std::size_t node) {
+            const std::vector<std::size_t> holders = _traffic.GetHolders(node, robot.index);
+            return std::ranges::any_of(holders, [this](std::size_t holder) {
+                return !_robots[holder].drive.has_value() || !_traffic.IsMovable(holder);
+            });
+        };
+        robot.detour = FindWishOrNull(robot, robot.wish->target, isStandingInTheWay);
+        robot.detourAt = _standingChanges;
+        robot.detourTarget = robot.wish->target;
+    }
+    if (robot.detour.has_value())
+    {
+        return TryBeginDrive(robot, *robot.detour);
     }
     if (!fixed.empty())
     {
@@ -376,6 +400,7 @@ bool PlanEngine::Impl::TryBeginDrive(Robot& robot, const Wish& wish)
     Command(robot, Drive{drive.driveID, drive.route, drive.releasedCount});
     StartTimer(EEngineTimer::DriveExtension, GetRobotID(robot), _options.extensionDelay);
     robot.drive = std::move(drive);
+    ++_standingChanges;
     return true;
 }
 

@@ -73,7 +73,43 @@ void Traffic::AddRobot(std::string_view vehicleTypeID, std::optional<std::size_t
     {
         ++_homes[node];
     }
+    _bReturnsKnown = false;
     Note(false);
+}
+
+/// Whoever lives between the homes of others, on a lane, can not be promised to come home.
+void Traffic::FindReturns()
+{
+    if (std::exchange(_bReturnsKnown, true))
+    {
+        return;
+    }
+    const std::vector<std::uint16_t> none(_covers.size(), 0);
+    for (Vehicle& vehicle : _vehicles)
+    {
+        vehicle.bCanReturn =
+            vehicle.home.has_value() && vehicle.graphOrNull != nullptr
+            && std::ranges::any_of(
+                vehicle.graphOrNull->GetLanesFrom(*vehicle.home),
+                [this, &vehicle, &none](const Lane& lane) {
+                    return !IsHomeOfOther(vehicle, lane.to) && HasWay(vehicle, lane.to, *vehicle.home, none);
+                });
+    }
+}
+
+bool Traffic::IsSpur(std::string_view vehicleTypeID, std::size_t node) const
+{
+    const auto found = _graphs.find(vehicleTypeID);
+    if (found == _graphs.end() || found->second.GetLanesFrom(node).empty() || found->second.GetLanesTo(node).empty())
+    {
+        return false;
+    }
+    const FloorGraph& graph = found->second;
+    const std::size_t neighbour = graph.GetLanesFrom(node).front().to;
+    return std::ranges::all_of(graph.GetLanesFrom(node), [neighbour](const Lane& lane) { return lane.to == neighbour; })
+        && std::ranges::all_of(graph.GetLanesTo(node), [&graph, neighbour](std::size_t lane) {
+               return graph.GetLanes()[lane].from == neighbour;
+           });
 }
 
 /// Backwards from the home, the quickest first.
@@ -218,9 +254,10 @@ std::size_t Traffic::Extend(std::size_t robot, std::span<const std::size_t> ahea
         _blockers = ahead.empty() ? std::vector<std::size_t>() : GetHolders(ahead.front(), robot);
         return 0;
     }
-    while (count > 0 && !IsSafe(robot, ahead.first(count)))
+    if (!IsSafe(robot, ahead.first(count)))
     {
-        --count;
+        // The next one at least; what lies between is asked for again as it goes.
+        count = count > 1 && IsSafe(robot, ahead.first(1)) ? 1 : 0;
     }
     for (const std::size_t node : ahead.first(count))
     {
@@ -376,6 +413,7 @@ bool Traffic::IsHomeOfOther(const Vehicle& vehicle, std::size_t node) const
 
 /// Around what is covered and around the homes of others, so that it does not matter who has come home before.
 bool Traffic::HasWay(const Vehicle& vehicle, std::size_t from, std::size_t to, const std::vector<std::uint16_t>& covers)
+    const
 {
     if (from == to)
     {
@@ -423,7 +461,8 @@ bool Traffic::HasStraightWayHome(const Vehicle& vehicle, std::size_t from, const
 /// Covers are those of all others.
 bool Traffic::CanGoHome(const Vehicle& vehicle, std::size_t from, const std::vector<std::uint16_t>& covers)
 {
-    if (!vehicle.home.has_value() || vehicle.graphOrNull == nullptr)
+    FindReturns();
+    if (!vehicle.bCanReturn)
     {
         return false;
     }
@@ -475,6 +514,23 @@ const Traffic::Homecoming& Traffic::GetHomecoming(EStanding standing)
     return _homecomings[standing];
 }
 
+/// Whether nobody has lost his way home by what is held on trial; who has is a blocker of the robot.
+bool Traffic::IsAsGood(EStanding standing, std::size_t robot)
+{
+    const Homecoming after = FindHomecoming(standing);
+    bool bGood = true;
+    for (std::size_t other = 0; other < _vehicles.size(); ++other)
+    {
+        const bool bLost = _homecomings[standing].reachable[other] && !after.reachable[other];
+        bGood = bGood && !bLost;
+        if (bLost && other != robot && std::ranges::count(_blockers, other) == 0)
+        {
+            _blockers.push_back(other);
+        }
+    }
+    return bGood;
+}
+
 bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
 {
     Vehicle& vehicle = _vehicles[robot];
@@ -486,39 +542,36 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
     {
         return true;
     }
-    const std::array<EStanding, 2> standings{AllMove, AsIs};
-    const std::span<const EStanding> relevant = std::span(standings).first(IsAnyFixed() ? 2 : 1);
-    for (const EStanding standing : relevant)
-    {
-        static_cast<void>(GetHomecoming(standing)); // As it is now; not after the nodes are held below.
-    }
+    // As it is now; not after the nodes are held below.
+    static_cast<void>(GetHomecoming(AllMove));
     const std::size_t heldCount = vehicle.path.size();
     std::vector<std::size_t> held;
-    for (const std::size_t node : ahead)
-    {
-        vehicle.path.push_back(node);
-        if (std::ranges::count(vehicle.extra, node) == 0)
+    const auto take = [this, robot, ahead, &vehicle, &held] {
+        for (const std::size_t node : ahead)
         {
-            Hold(robot, node);
-            held.push_back(node);
-        }
-    }
-    bool bSafe = true;
-    for (const EStanding standing : relevant)
-    {
-        const Homecoming after = FindHomecoming(standing);
-        for (std::size_t other = 0; other < _vehicles.size(); ++other)
-        {
-            const bool bLost = _homecomings[standing].reachable[other] && !after.reachable[other];
-            bSafe = bSafe && !bLost;
-            if (bLost && other != robot && std::ranges::count(_blockers, other) == 0)
+            vehicle.path.push_back(node);
+            if (std::ranges::count(vehicle.extra, node) == 0)
             {
-                _blockers.push_back(other);
+                Hold(robot, node);
+                held.push_back(node);
             }
         }
+    };
+    const auto giveBack = [this, heldCount, &vehicle, &held] {
+        vehicle.path.resize(heldCount);
+        std::ranges::for_each(held, [this](std::size_t node) { Free(node); });
+        held.clear();
+    };
+    take();
+    bool bSafe = IsAsGood(AllMove, robot);
+    giveBack();
+    if (bSafe && IsAnyFixed())
+    {
+        static_cast<void>(GetHomecoming(AsIs));
+        take();
+        bSafe = IsAsGood(AsIs, robot);
+        giveBack();
     }
-    vehicle.path.resize(heldCount);
-    std::ranges::for_each(held, [this](std::size_t node) { Free(node); });
     if (!bSafe && _blockers.empty())
     {
         _blockers = GetFixed(robot);
@@ -526,7 +579,7 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
     return bSafe;
 }
 
-bool Traffic::CanServe(std::size_t robot, std::size_t node)
+bool Traffic::CanServe(std::size_t robot, std::size_t node) const
 {
     const Vehicle& vehicle = _vehicles[robot];
     if (vehicle.path.empty() || !vehicle.home.has_value() || vehicle.graphOrNull == nullptr || !IsAnyFixed())

@@ -31,6 +31,7 @@ class Traffic
         std::vector<std::size_t> extra;        ///< Held too: where it may be, or go without being asked.
         std::vector<std::uint32_t> nextToHome; ///< Of each node, on the quickest way home.
         bool bMovable = false;
+        bool bCanReturn = false; ///< There is a way out of its home and back, whoever else is at home.
     };
 
     /// Which robots can come home; kept until it may have become untrue.
@@ -55,12 +56,13 @@ class Traffic
     std::vector<std::uint16_t> _homes;  ///< Of each node: how many homes exclude it.
     std::array<Homecoming, 2> _homecomings;
     std::vector<std::size_t> _blockers;
+    bool _bReturnsKnown = false;
     std::uint64_t _freedCount = 0;
 
     // Of searches.
-    std::vector<std::uint32_t> _seen;
-    std::uint32_t _search = 0;
-    std::vector<std::uint32_t> _open;
+    mutable std::vector<std::uint32_t> _seen;
+    mutable std::uint32_t _search = 0;
+    mutable std::vector<std::uint32_t> _open;
 
 public:
     /// clearance: nodes of one map at this distance (metres) or nearer exclude each other; nodes in the same place always do.
@@ -102,6 +104,8 @@ public:
     [[nodiscard]] bool IsOpenFor(std::size_t node, std::size_t robot) const;
     /// Other robots that hold the node or one too near to it.
     [[nodiscard]] std::vector<std::size_t> GetHolders(std::size_t node, std::size_t robot) const;
+    /// Whether the node is a dead end for the vehicle type: nobody else need ever pass it.
+    [[nodiscard]] bool IsSpur(std::string_view vehicleTypeID, std::size_t node) const;
     /// Whether two nodes exclude each other.
     [[nodiscard]] bool IsNear(std::size_t left, std::size_t right) const;
 
@@ -115,11 +119,12 @@ public:
     [[nodiscard]] std::uint64_t GetFreedCount() const noexcept;
 
     /// Whether robots that cannot move leave it a way to the node and from there home. True where it has no home.
-    [[nodiscard]] bool CanServe(std::size_t robot, std::size_t node);
+    [[nodiscard]] bool CanServe(std::size_t robot, std::size_t node) const;
 
 private:
     void FindNear(const SiteMap& site, double clearance);
     void FindWaysHome(Vehicle& vehicle) const;
+    void FindReturns();
     [[nodiscard]] static std::size_t GetEnd(const Vehicle& vehicle);
     void Hold(std::size_t robot, std::size_t node);
     void Free(std::size_t node);
@@ -132,7 +137,7 @@ private:
         const Vehicle& vehicle,
         std::size_t from,
         std::size_t to,
-        const std::vector<std::uint16_t>& covers);
+        const std::vector<std::uint16_t>& covers) const;
     [[nodiscard]] bool HasStraightWayHome(
         const Vehicle& vehicle,
         std::size_t from,
@@ -140,6 +145,7 @@ private:
     [[nodiscard]] bool CanGoHome(const Vehicle& vehicle, std::size_t from, const std::vector<std::uint16_t>& covers);
     [[nodiscard]] Homecoming FindHomecoming(EStanding standing);
     [[nodiscard]] const Homecoming& GetHomecoming(EStanding standing);
+    [[nodiscard]] bool IsAsGood(EStanding standing, std::size_t robot);
     [[nodiscard]] bool IsSafe(std::size_t robot, std::span<const std::size_t> ahead);
 };
 

@@ -60,7 +60,7 @@ std::pair<std::size_t, std::size_t> GetEnds(std::size_t number)
 }
 
 /// To a target that is not known any more.
-void BenchRoute(benchmark::State& state)
+void BenchRouteToNewTarget(benchmark::State& state)
 {
     const SiteMap site = MakeLargeSite();
     const Router router(site);
@@ -74,7 +74,7 @@ void BenchRoute(benchmark::State& state)
             router.FindRouteOrNull("lr", site.GetNodes()[from].nodeID, site.GetNodes()[to].nodeID));
     }
 }
-BENCHMARK(BenchRoute);
+BENCHMARK(BenchRouteToNewTarget);
 
 /// To one of ten targets, as stations are.
 void BenchRouteToKnownTarget(benchmark::State& state)
@@ -145,7 +145,7 @@ public:
     }
 };
 
-/// Boost.Graph's A* on the same graph and the same ways: what BenchRoute is to be compared with. It makes no route of it.
+/// Boost.Graph's A* on the same graph and the same ways: what BenchRouteToNewTarget is to be compared with. It makes no route of it.
 void BenchRouteBoost(benchmark::State& state)
 {
     const SiteMap site = MakeLargeSite();

@@ -287,8 +287,8 @@ TEST_CASE("After a restart the nodes that a robot may still drive to are nobody 
     state.heldNodeIDs = {"L15", "L16", "L01", "L02"};
     world.Raise("LR02", state);
     world.Submit(MakeLogisticsPlan("P1"));
-    REQUIRE(TryRunUntil(world, "P1", "Step 1 Dispatched"));
-    CHECK(world.GetTraceOf("command LR01 ").empty()); // its way begins on L01
+    CHECK_FALSE(TryRunUntil(world, "P1", "Step 1 Dispatched")); // its way begins on L01
+    CHECK(world.GetTraceOf("command LR01 ").empty());
     state.heldNodeIDs.clear();
     state.bOccupied = false;
     world.Raise("LR02", state);

@@ -148,3 +148,32 @@ TEST_CASE("Sites: of several stations that share a node the first is the one at 
     CHECK(site.FindStationAtOrNull("C") == nullptr);
     CHECK(site.FindStationAtOrNull("D") == nullptr);
 }
+
+TEST_CASE("Routes: turning takes time where the map tells how fast a vehicle turns, and a route meets each node once")
+{
+    // Down a staircase or around the corner: as long, but four turns more.
+    std::vector<SiteEdge> edges{
+        MakeEdge("AB", "A", "B", 1),
+        MakeEdge("BC", "B", "C", 1),
+        MakeEdge("CD", "C", "D", 1),
+        MakeEdge("DE", "D", "E", 1),
+        MakeEdge("AF", "A", "F", 0.99),
+        MakeEdge("FE", "F", "E", 0.99)};
+    const std::vector<SiteNode> nodes{
+        MakeNode("A", 0, 0),
+        MakeNode("B", 1, 0),
+        MakeNode("C", 1, 1),
+        MakeNode("D", 2, 1),
+        MakeNode("E", 2, 2),
+        MakeNode("F", 0, 2)};
+    const SiteMap still = *SiteMap::Create(nodes, edges, {});
+    CHECK(Router(still).FindRouteOrNull("lr", "A", "E")->nodes.size() == 5);
+    for (SiteEdge& edge : edges)
+    {
+        edge.rules.front().maxRotationSpeed = 0.5;
+    }
+    const SiteMap turning = *SiteMap::Create(nodes, edges, {});
+    const std::optional<Route> route = Router(turning).FindRouteOrNull("lr", "A", "E");
+    CHECK(GetNodeIDs(route) == std::vector<std::string>{"A", "F", "E"});
+    CHECK(route->travelSeconds == Approx(4 / 0.99 + 1.5708 / 0.5).epsilon(0.001));
+}

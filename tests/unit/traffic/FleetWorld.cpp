@@ -1,5 +1,6 @@
 #include "FleetWorld.hpp"
 
+#include "FleetSite.hpp"
 #include <acs/core/Overloaded.hpp>
 
 #include <fmt/format.h>
@@ -18,32 +19,8 @@ using namespace Planning; // NOLINT(google-build-using-namespace): a test of tha
 namespace
 {
 
-constexpr std::size_t COLUMNS = 10;
-constexpr std::size_t ROWS = 8;
-constexpr std::size_t PLACES = 40;
-constexpr std::size_t HOMES = 36;
-constexpr double PITCH = 3;     ///< Metres between lanes.
-constexpr double SPUR = 1.5;    ///< Metres from a lane to a dock.
 constexpr double LEAST_GAP = 1; ///< Metres between two vehicles.
 constexpr std::chrono::hours TIME_LIMIT{24 * 7};
-
-SiteNode MakeNode(std::string nodeID, double x, double y)
-{
-    return {std::move(nodeID), x, y, "floor", {{"lr-base", std::nullopt}}};
-}
-
-SiteEdge MakeEdge(const std::string& from, const std::string& to)
-{
-    SiteEdgeRule rule;
-    rule.vehicleTypeID = "lr-base";
-    rule.maxSpeed = 1;
-    return {from + ">" + to, from, to, {rule}};
-}
-
-std::string MakeLaneID(std::size_t column, std::size_t row)
-{
-    return fmt::format("L{:02}{:02}", column, row);
-}
 
 Core::Duration ToDuration(double seconds)
 {
@@ -52,104 +29,14 @@ Core::Duration ToDuration(double seconds)
 
 } // namespace
 
-/// Rows are one-way in turn, but for the first and the last; columns are two-way. A third of the docks lie on dead ends
-/// of three nodes to the left and the right, where whoever leaves must come back the way he went.
-SiteMap FleetWorld::MakeSite()
-{
-    std::vector<SiteNode> nodes;
-    std::vector<SiteEdge> edges;
-    std::vector<SiteStation> stations;
-    const auto join = [&edges](const std::string& from, const std::string& to, bool bBothWays) {
-        edges.push_back(MakeEdge(from, to));
-        if (bBothWays)
-        {
-            edges.push_back(MakeEdge(to, from));
-        }
-    };
-    std::vector<std::pair<std::string, std::pair<double, double>>> spots; // Where docks are.
-    for (std::size_t row = 0; row < ROWS; ++row)
-    {
-        for (std::size_t column = 0; column < COLUMNS; ++column)
-        {
-            const std::string lane = MakeLaneID(column, row);
-            const double x = PITCH * static_cast<double>(column);
-            const double y = PITCH * static_cast<double>(row);
-            nodes.push_back(MakeNode(lane, x, y));
-            spots.push_back({lane, {x + SPUR, y + SPUR}}); // the middle between four lanes
-            const bool bBothWays = row == 0 || row + 1 == ROWS;
-            if (column > 0)
-            {
-                const std::string left = MakeLaneID(column - 1, row);
-                join(row % 2 == 0 ? left : lane, row % 2 == 0 ? lane : left, bBothWays);
-            }
-            if (row > 0)
-            {
-                join(MakeLaneID(column, row - 1), lane, true);
-            }
-        }
-        for (const bool bLeft : {true, false})
-        {
-            std::string last = MakeLaneID(bLeft ? 0 : COLUMNS - 1, row);
-            for (std::size_t depth = 1; depth <= 3 && row % 4 == 1; ++depth)
-            {
-                const std::string lane = fmt::format("E{}{}{}", bLeft ? "L" : "R", row, depth);
-                const double offset = PITCH * static_cast<double>(depth);
-                const double x = bLeft ? -offset : PITCH * static_cast<double>(COLUMNS - 1) + offset;
-                const double y = PITCH * static_cast<double>(row);
-                nodes.push_back(MakeNode(lane, x, y));
-                join(last, lane, true);
-                spots.push_back({lane, {x, y + SPUR}});
-                last = lane;
-            }
-        }
-    }
-    // Places and homes in turn, spread over the floor; all docks of dead ends are places.
-    std::stable_partition(spots.begin(), spots.end(), [](const auto& spot) { return spot.first.front() == 'E'; });
-    for (std::size_t i = 0; i < PLACES + HOMES; ++i)
-    {
-        const bool bPlace = i < PLACES;
-        // Steps of 29 through the rest meet each spot once, as the two numbers have no divisor in common.
-        const std::size_t deadEnds = 12;
-        const std::size_t spot = i < deadEnds ? i : deadEnds + (i * 29) % (COLUMNS * ROWS);
-        const auto& [lane, position] = spots[spot];
-        const std::string stationID =
-            bPlace ? fmt::format("A01.CP{:02}", i + 1) : fmt::format("CHG{:02}", i + 1 - PLACES);
-        nodes.push_back(MakeNode("D-" + stationID, position.first, position.second));
-        join(lane, "D-" + stationID, true);
-        stations.push_back({stationID, {"D-" + stationID}});
-    }
-    return *SiteMap::Create(std::move(nodes), std::move(edges), std::move(stations));
-}
-
-EngineOptions FleetWorld::MakeOptions(std::size_t vehicles)
-{
-    EngineOptions options;
-    options.maximumPlans = 1'000;
-    for (std::size_t i = 0; i < vehicles; ++i)
-    {
-        const std::string robotID = fmt::format("LR{:02}", i + 1);
-        const std::string home = fmt::format("CHG{:02}", i + 1);
-        options.robots.push_back(
-            {*Core::RobotID::Parse(robotID),
-             ERobotType::LR,
-             "lr-base",
-             "D-" + home,
-             home,
-             *Core::ParseLocationRange(robotID + ".CP01"),
-             {},
-             {}});
-    }
-    return options;
-}
-
 FleetWorld::FleetWorld(const FleetOptions& options)
     : _options(options),
       _random(options.seed),
-      _site(MakeSite()),
+      _site(MakeFleetSite()),
       _router(_site),
-      _engine(MakeOptions(options.vehicles), MakeSite(), _random)
+      _engine(MakeFleetEngineOptions(options.vehicles), MakeFleetSite(), _random)
 {
-    const EngineOptions engineOptions = MakeOptions(options.vehicles);
+    const EngineOptions engineOptions = MakeFleetEngineOptions(options.vehicles);
     for (const RobotOptions& robot : engineOptions.robots)
     {
         Vehicle& vehicle = _vehicles.emplace_back();
@@ -186,8 +73,8 @@ void FleetWorld::SubmitMore()
     {
         ++_submitted;
         const std::string planID = fmt::format("P{}", _submitted);
-        const std::uint64_t from = GetRandom(PLACES);
-        const std::uint64_t to = (from + 1 + GetRandom(PLACES - 1)) % PLACES;
+        const std::uint64_t from = GetRandom(FLEET_PLACES);
+        const std::uint64_t to = (from + 1 + GetRandom(FLEET_PLACES - 1)) % FLEET_PLACES;
         const std::string fromID = fmt::format("A01.CP{:02}", from + 1);
         const std::string toID = fmt::format("A01.CP{:02}", to + 1);
         Plan plan{

@@ -118,9 +118,6 @@ public:
     /// What stands where, and what it waits for: to read when a run does not come to its end.
     [[nodiscard]] std::string Describe() const;
 
-    [[nodiscard]] static Planning::SiteMap MakeSite();
-    [[nodiscard]] static Planning::EngineOptions MakeOptions(std::size_t vehicles);
-
 private:
     [[nodiscard]] std::uint64_t GetRandom(std::uint64_t below);
     void Push(EHappening happening, std::size_t vehicle, std::uint64_t generation, Core::Duration delay);

@@ -52,7 +52,7 @@ TEST_CASE("The same, while vehicles pause, are slow, are lost and come back")
     {
         FleetOptions options;
         options.seed = seed;
-        options.transports = 250;
+        options.transports = 120;
         options.bTroubles = true;
         Run(options);
     }
@@ -62,7 +62,7 @@ TEST_CASE("36 vehicles crowd the same floor and still all transports are done")
 {
     FleetOptions options;
     options.vehicles = 36;
-    options.transports = 250;
+    options.transports = 100;
     options.plansAtOnce = 72;
     options.seed = 7;
     Run(options);

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <acs/plan/EngineOptions.hpp>
+#include <acs/plan/SiteMap.hpp>
+
+#include <cstddef>
+
+namespace ACS::Testing
+{
+
+/// Stations A01.CP01 and so on, each with a dock of its own ("D-A01.CP01").
+inline constexpr std::size_t FLEET_PLACES = 40;
+
+/// A floor of 92 lane nodes with FLEET_PLACES places and 36 homes.
+[[nodiscard]] Planning::SiteMap MakeFleetSite();
+
+/// Logistics robots LR01 and so on (36 at most), each at its home.
+[[nodiscard]] Planning::EngineOptions MakeFleetEngineOptions(std::size_t vehicles);
+
+} // namespace ACS::Testing
