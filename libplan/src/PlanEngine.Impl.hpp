@@ -474,7 +474,7 @@ private:
     void AbortHeldJob(Robot& robot);
     void FindOut(Robot& robot);
     void ReleaseJob(Robot& robot);
-    void RepeatJob(Robot& robot, const std::string& commandID);
+    void RepeatJob(Robot& robot, std::string commandID);
     void Settle(const SettleJob& command);
     void SettleFor(Robot& robot, EJobAnswer answer);
     void AskForJob(Robot& robot);

@@ -446,12 +446,12 @@ void PlanEngine::Impl::ReleaseJob(Robot& robot)
     robot.bWorkTouched = true;
 }
 
-/// As soon as the robot stands at the place and may work.
-void PlanEngine::Impl::RepeatJob(Robot& robot, const std::string& commandID)
+/// As soon as the robot stands at the place and may work. The ID is usually that of the job which is released here.
+void PlanEngine::Impl::RepeatJob(Robot& robot, std::string commandID)
 {
     StopJobTimer(robot);
     ReleaseJob(robot);
-    robot.planOrNull->repeatedCommandID = commandID;
+    robot.planOrNull->repeatedCommandID = std::move(commandID);
     robot.activity = EActivity::Waits;
     robot.bTouched = true;
     _bDispatchNeeded = true;
