@@ -1,0 +1,223 @@
+#include "PlanEngine.Impl.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+/// Section 5: the first that holds.
+ERobotStatus PlanEngine::Impl::DeriveStatus(const Robot& robot)
+{
+    if (!robot.bOnline)
+    {
+        return ERobotStatus::Disconnected;
+    }
+    if (!robot.state.has_value() || !robot.bPlaced)
+    {
+        return ERobotStatus::Init;
+    }
+    const StateChanged& state = *robot.state;
+    const bool bFatal =
+        std::ranges::any_of(state.errors, [](const RobotError& error) { return error.level == EAlarmLevel::Heavy; });
+    if (bFatal || state.bSafetyStop)
+    {
+        return ERobotStatus::Error;
+    }
+    const ActivePlan* planOrNull = robot.planOrNull;
+    const bool bPlanPaused = planOrNull != nullptr && planOrNull->record.progress.state == EPlanState::Paused
+        && planOrNull->record.progress.control.value_or(EPlanControl::Pause) == EPlanControl::Pause;
+    const bool bOutOfService = robot.bInMaintenance && planOrNull == nullptr && !robot.drive.has_value();
+    if (state.bPaused || bPlanPaused || bOutOfService)
+    {
+        return ERobotStatus::Stopped;
+    }
+    if (!state.bAutomatic)
+    {
+        return ERobotStatus::Manual;
+    }
+    if (state.bCharging)
+    {
+        return ERobotStatus::Charging;
+    }
+    if (robot.activity == EActivity::Works)
+    {
+        return ERobotStatus::Working;
+    }
+    if (robot.drive.has_value())
+    {
+        return ERobotStatus::Moving;
+    }
+    if (state.bOccupied && state.bDriving)
+    {
+        return ERobotStatus::Moving;
+    }
+    if (robot.planOrNull != nullptr || state.bOccupied || robot.overdueJobID.has_value())
+    {
+        return ERobotStatus::Working;
+    }
+    return ERobotStatus::Idle;
+}
+
+std::string PlanEngine::Impl::GetToldPosition(const Robot& robot) const
+{
+    if (!robot.drive.has_value() || _options.movingPosition == EMovingPosition::Last)
+    {
+        return robot.position;
+    }
+    if (_options.movingPosition == EMovingPosition::None)
+    {
+        return {};
+    }
+    const SiteStation* stationOrNull = _site.FindStationAtOrNull(robot.drive->route.nodes.back().nodeID);
+    return stationOrNull == nullptr ? robot.position : stationOrNull->stationID;
+}
+
+RobotStatus PlanEngine::Impl::MakeStatus(const Robot& robot, ERobotStatus status) const
+{
+    RobotStatus made;
+    made.robotID = GetRobotID(robot);
+    made.type = robot.options->type;
+    made.status = status;
+    made.position = GetToldPosition(robot);
+    made.bInMaintenance = robot.bInMaintenance;
+    made.message = robot.bInMaintenance ? "In maintenance." : "";
+    made.carrierIDs = robot.carriers;
+    if (robot.planOrNull != nullptr)
+    {
+        const ActivePlan& plan = *robot.planOrNull;
+        made.planID = plan.record.plan.planID;
+        made.stepNo = plan.record.plan.steps[plan.step].stepNo;
+        if (robot.activity == EActivity::Works && HasJob(plan))
+        {
+            made.jobID = GetJobID(plan);
+        }
+    }
+    return made;
+}
+
+const std::string& PlanEngine::Impl::GetRobotID(const Robot& robot) const
+{
+    return _options.robots[robot.index].robotID.GetText();
+}
+
+PlanSummary MakeSummary(const PlanRecord& record)
+{
+    PlanSummary summary;
+    const PlanProgress& progress = record.progress;
+    summary.planID = record.plan.planID;
+    summary.state = progress.state;
+    summary.robotID = progress.robotID.empty() ? std::nullopt : std::optional(progress.robotID);
+    summary.startTime = progress.startedAt.value_or(record.acceptedAt);
+    summary.endTime = progress.endedAt;
+    if (progress.state == EPlanState::Completed)
+    {
+        return summary;
+    }
+    std::size_t step = 0;
+    while (
+        step + 1 < progress.steps.size()
+        && (progress.steps[step].state == EStepState::Completed || progress.steps[step].state == EStepState::Skipped))
+    {
+        ++step;
+    }
+    const std::vector<EJobState>& jobs = progress.steps[step].jobs;
+    std::size_t job = 0;
+    while (job + 1 < jobs.size() && jobs[job] == EJobState::Completed)
+    {
+        ++job;
+    }
+    summary.stepNo = record.plan.steps[step].stepNo;
+    summary.currentAction = record.plan.steps[step].action;
+    if (!jobs.empty())
+    {
+        summary.jobID = record.plan.steps[step].jobs[job].jobID;
+    }
+    return summary;
+}
+
+std::vector<OutboxEntry> PlanEngine::Impl::GetUnacknowledged() const
+{
+    std::vector<OutboxEntry> entries;
+    for (const OutboxEntry& entry : _outbox.GetUnacknowledged())
+    {
+        const bool bHeld =
+            std::ranges::any_of(_held, [&entry](const OutboxEntry& held) { return held.sequence == entry.sequence; });
+        if (!bHeld)
+        {
+            entries.push_back(entry);
+        }
+    }
+    return entries;
+}
+
+std::vector<RobotStatus> PlanEngine::Impl::GetRobotStatuses() const
+{
+    std::vector<RobotStatus> statuses;
+    statuses.reserve(_robots.size());
+    for (const Robot& robot : _robots)
+    {
+        statuses.push_back(robot.lastStatus);
+    }
+    return statuses;
+}
+
+std::vector<RobotPose> PlanEngine::Impl::GetRobotPoses() const
+{
+    std::vector<RobotPose> poses;
+    for (const Robot& robot : _robots)
+    {
+        if (robot.state.has_value() && robot.state->bPoseKnown)
+        {
+            const StateChanged& state = *robot.state;
+            poses.push_back({GetRobotID(robot), state.x, state.y, state.theta, state.batteryPercent});
+        }
+    }
+    return poses;
+}
+
+std::vector<PlanSummary> PlanEngine::Impl::GetActivePlans() const
+{
+    const auto rank = [](const ActivePlan* plan) {
+        const EPlanState state = plan->record.progress.state;
+        return state == EPlanState::InProgress ? 0 : (state == EPlanState::Paused ? 1 : 2);
+    };
+    std::vector<const ActivePlan*> ordered;
+    ordered.reserve(_plans.size());
+    for (const auto& [planID, plan] : _plans)
+    {
+        ordered.push_back(plan.get());
+    }
+    std::ranges::sort(ordered, [&rank](const ActivePlan* left, const ActivePlan* right) {
+        return std::pair(rank(left), left->key) < std::pair(rank(right), right->key);
+    });
+    std::vector<PlanSummary> summaries;
+    summaries.reserve(ordered.size());
+    for (const ActivePlan* plan : ordered)
+    {
+        summaries.push_back(MakeSummary(plan->record));
+    }
+    return summaries;
+}
+
+std::optional<PlanSummary> PlanEngine::Impl::GetPlanOrNull(std::string_view planID) const
+{
+    if (const auto active = _plans.find(planID); active != _plans.end())
+    {
+        return MakeSummary(active->second->record);
+    }
+    const auto finished = _finished.find(std::string(planID));
+    return finished == _finished.end() ? std::nullopt : std::optional(MakeSummary(finished->second));
+}
+
+const std::vector<Alarm>& PlanEngine::Impl::GetActiveAlarms() const noexcept
+{
+    return _alarms;
+}
+
+ETscState PlanEngine::Impl::GetTscState() const noexcept
+{
+    return _tscState;
+}
+
+} // namespace ACS::Planning
