@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+"""What an operator does over HTTP, and what /status answers, with real processes."""
+
+import json
+import threading
+import time
+import urllib.error
+import urllib.request
+
+from production_line import find_free_port
+from scenario_case import FINISH_SECONDS, PLANS, TIME_SCALE, ScenarioCase, main
+
+
+class Operator(ScenarioCase):
+    def start_line(self, *overrides, vehicles=("LR01,type=LR", "CR01,type=CR")):
+        """Everything but the MCS, which has a port already."""
+        self.line.start_broker()
+        robots = self.line.start_vehicles(TIME_SCALE, vehicles)
+        self.arm = self.line.start_arm(TIME_SCALE).wait_ready()
+        robots.wait_ready()
+        self.mcs_port = find_free_port()
+        self.overrides = overrides
+        self.start_acsd()
+
+    def start_acsd(self):
+        self.acsd = self.line.start_acsd(f"127.0.0.1:{self.mcs_port}", self.arm, *self.overrides)
+        self.acsd.wait_ready()
+
+    def ask(self, path, method="GET"):
+        request = urllib.request.Request(f"http://{self.acsd.addresses['http']}{path}", method=method)
+        try:
+            with urllib.request.urlopen(request, timeout=20) as response:
+                return response.status, json.loads(response.read())
+        except urllib.error.HTTPError as error:
+            return error.code, json.loads(error.read())
+
+    def wait_for(self, get, what):
+        """The first answer of get that is not None."""
+        never, end = threading.Event(), time.monotonic() + FINISH_SECONDS
+        while (found := get(self.ask("/status")[1])) is None:
+            self.assertLess(time.monotonic(), end, what)
+            never.wait(0.05)
+        return found
+
+    def wait_for_robot(self, status):
+        def get(answer):
+            robot = next(robot for robot in answer["robots"] if robot["robotId"] == "LR01")
+            return robot if robot["status"] == status else None
+
+        return self.wait_for(get, f"LR01 is {status}")
+
+    def wait_for_reason(self, start):
+        def get(answer):
+            waits = [plan["waits"] for plan in answer["plans"] if plan["waits"] is not None]
+            robots = waits[0]["robots"] if waits else []
+            return waits[0] if robots and robots[0]["reason"].startswith(start) else None
+
+        return self.wait_for(get, f"a plan that waits as {start}")
+
+    def test_maintenance_and_ports_hold_a_plan_back_over_a_restart_and_let_it_go(self):
+        self.start_line()
+        self.wait_for_robot("Idle")
+        self.assertEqual(self.ask("/robots/LR01/maintenance/on", "POST"),
+                         (202, {"message": "LR01 is taken out of service."}))
+        self.assertTrue(self.wait_for_robot("Stopped")["maintenance"])
+        self.assertEqual(self.ask("/robots/LR09/maintenance/on", "POST")[0], 404)
+        self.assertEqual(self.ask("/alarms/clear?robot=LR01&code=ACS-1004", "POST")[0], 404)
+        mcs = self.line.start_mcs(PLANS[:1], "--fresh-ids", port=self.mcs_port)
+        mcs.wait_ready()
+        self.assertEqual(self.wait_for_reason("in maintenance")["queuePosition"], 1)
+
+        self.line.forget(self.acsd)
+        self.assertEqual(self.acsd.stop(), 0)
+        self.start_acsd()
+        self.wait_for_reason("in maintenance")
+
+        self.assertEqual(self.ask("/robots/LR01/carriers?carrier=CASSETTE_99", "POST")[0], 202)
+        self.assertEqual(self.ask("/robots/LR01/carriers?carrier=A&carrier=B", "POST")[0], 400)
+        self.assertEqual(self.ask("/robots/LR01/maintenance/off", "POST")[0], 202)
+        self.wait_for_reason("LR01.CP01 is taken by CASSETTE_99")
+        self.assertEqual(self.ask("/robots/LR01/carriers?carrier=", "POST")[0], 202)
+        self.assertEqual(mcs.wait(FINISH_SECONDS), 0)
+        self.assert_last_line(mcs, "1 plans completed, 0 failed")
+
+    def test_a_vehicle_with_a_low_battery_charges_before_it_works(self):
+        self.start_line("robots.LR01.charge=CHG01", "robot.battery_resume=40",
+                        vehicles=("LR01,type=LR,battery=10", "CR01,type=CR"))
+        self.wait_for_robot("Charging")
+        mcs = self.line.start_mcs(PLANS[:1], "--fresh-ids", port=self.mcs_port)
+        mcs.wait_ready()
+        self.assertEqual(mcs.wait(FINISH_SECONDS), 0)
+        self.assert_last_line(mcs, "1 plans completed, 0 failed")
+        robot = next(robot for robot in self.ask("/status")[1]["robots"] if robot["robotId"] == "LR01")
+        self.assertGreater(robot["battery"], 30)
+
+
+if __name__ == "__main__":
+    main()
