@@ -273,6 +273,19 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         return {{"mcs", _mcs.IsRegistered()}, {"mqtt", _bMqttUp}};
     }
 
+    [[nodiscard]] ProgramStatus GetProgramStatus() const
+    {
+        ProgramStatus program{GetLinks(), GetObstacles(), {}};
+        for (const auto& [robotID, robot] : _robots)
+        {
+            if (const RobotHost::Figures figures = robot->GetFigures(); figures.arm.has_value())
+            {
+                program.arms.emplace(robotID, figures.bArmReady);
+            }
+        }
+        return program;
+    }
+
     void AddRoutes()
     {
         _routes.Add("GET", "/livez", [](const auto&, const auto&) { return MakeLiveResponse(); });
@@ -280,7 +293,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
             return MakeReadyResponse(GetLinks(), GetObstacles());
         });
         _routes.Add("GET", "/status", [this](const auto&, const auto&) {
-            return MakeStatusResponse(GetLinks(), _engine);
+            return MakeStatusResponse(GetProgramStatus(), _engine);
         });
         _routes.Add("GET", "/metrics", [this](const auto&, const auto&) {
             UpdateMetrics();
@@ -353,7 +366,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         {
             return;
         }
-        const bool bTold = !_mcs.IsRegistered() || _engine.GetUnacknowledged().empty();
+        const bool bTold = !_mcs.IsRegistered() || _engine.GetOutboxSummary().count == 0;
         if (bTold && !std::exchange(_bSettling, true))
         {
             _timers.Start(SETTLE_TIMER, SETTLE_TIME);

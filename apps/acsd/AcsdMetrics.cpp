@@ -173,11 +173,11 @@ void AcsdMetrics::UpdatePlans(const Planning::PlanEngine& engine, Core::Now now)
         const auto count = std::ranges::count(plans, state, &Planning::PlanSummary::state);
         _metrics.SetGauge(PLANS, {{"status", std::string(GetText(state))}}, ToNumber(count));
     }
-    const std::vector<Planning::OutboxEntry> outbox = engine.GetUnacknowledged();
-    _metrics.SetGauge(OUTBOX_DEPTH, {}, ToNumber(outbox.size()));
+    const Planning::OutboxSummary outbox = engine.GetOutboxSummary();
+    _metrics.SetGauge(OUTBOX_DEPTH, {}, ToNumber(outbox.count));
     // The wall clock may have been set meanwhile.
-    const double age = outbox.empty() ? 0.0 : std::chrono::duration<double>(now.wall - outbox.front().time).count();
-    _metrics.SetGauge(OUTBOX_OLDEST, {}, std::max(age, 0.0));
+    const std::chrono::duration<double> age = now.wall - outbox.oldest.value_or(now.wall);
+    _metrics.SetGauge(OUTBOX_OLDEST, {}, std::max(age.count(), 0.0));
     for (const EAlarmLevel level : {EAlarmLevel::Heavy, EAlarmLevel::Light})
     {
         const auto count = std::ranges::count(engine.GetActiveAlarms(), level, &Planning::Alarm::level);

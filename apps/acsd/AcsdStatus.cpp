@@ -1,5 +1,6 @@
 #include "AcsdStatus.hpp"
 
+#include <acs/core/Timestamp.hpp>
 #include <acs/json/JsonWriter.hpp>
 
 #include <algorithm>
@@ -52,10 +53,44 @@ void WriteBattery(Json::JsonWriter& writer, const std::vector<Planning::RobotPos
     }
 }
 
+/// Null for a robot without an arm.
+void WriteArm(Json::JsonWriter& writer, const ProgramStatus& program, const std::string& robotID)
+{
+    writer.Key("armUp");
+    if (const auto arm = program.arms.find(robotID); arm != program.arms.end())
+    {
+        writer.WriteBoolean(arm->second);
+    }
+    else
+    {
+        writer.WriteNull();
+    }
+}
+
+/// Times are in UTC.
+void WriteOutbox(Json::JsonWriter& writer, const Planning::OutboxSummary& outbox)
+{
+    writer.Key("outbox");
+    writer.BeginObject();
+    writer.Key("reports");
+    writer.WriteInteger(static_cast<std::int64_t>(outbox.count));
+    writer.Key("oldest");
+    if (outbox.oldest.has_value())
+    {
+        writer.WriteString(Core::FormatUtc(*outbox.oldest));
+    }
+    else
+    {
+        writer.WriteNull();
+    }
+    writer.EndObject();
+}
+
 void WriteRobot(
     Json::JsonWriter& writer,
     const Planning::RobotStatus& robot,
-    const std::vector<Planning::RobotPose>& poses)
+    const std::vector<Planning::RobotPose>& poses,
+    const ProgramStatus& program)
 {
     writer.BeginObject();
     WriteMember(writer, "robotId", std::string_view(robot.robotID));
@@ -65,6 +100,7 @@ void WriteRobot(
     WriteMember(writer, "planId", robot.planID);
     WriteMember(writer, "jobId", robot.jobID);
     WriteBattery(writer, poses, robot.robotID);
+    WriteArm(writer, program, robot.robotID);
     writer.Key("maintenance");
     writer.WriteBoolean(robot.bInMaintenance);
     writer.Key("carrierIds");
@@ -180,23 +216,27 @@ Apps::HttpResponse MakeReadyResponse(const std::vector<LinkStatus>& links, const
     return {bReady ? 200U : HTTP_UNAVAILABLE, "text/plain; charset=utf-8", bReady ? "ready\n" : missing};
 }
 
-Apps::HttpResponse MakeStatusResponse(const std::vector<LinkStatus>& links, const Planning::PlanEngine& engine)
+Apps::HttpResponse MakeStatusResponse(const ProgramStatus& program, const Planning::PlanEngine& engine)
 {
     Apps::HttpResponse response{200, "application/json", {}};
     Json::JsonWriter writer(response.body);
     writer.BeginObject();
     writer.Key("links");
     writer.BeginObject();
-    for (const LinkStatus& link : links)
+    for (const LinkStatus& link : program.links)
     {
         writer.Key(link.name);
         writer.WriteBoolean(link.bUp);
     }
     writer.EndObject();
+    WriteList(writer, "obstacles", program.obstacles, [](Json::JsonWriter& list, const std::string& obstacle) {
+        list.WriteString(obstacle);
+    });
     WriteMember(writer, "tsc", GetText(engine.GetTscState()));
+    WriteOutbox(writer, engine.GetOutboxSummary());
     const std::vector<Planning::RobotPose> poses = engine.GetRobotPoses();
-    WriteList(writer, "robots", engine.GetRobotStatuses(), [&poses](Json::JsonWriter& list, const auto& robot) {
-        WriteRobot(list, robot, poses);
+    WriteList(writer, "robots", engine.GetRobotStatuses(), [&](Json::JsonWriter& list, const auto& robot) {
+        WriteRobot(list, robot, poses, program);
     });
     WaitReasons waits;
     for (Planning::WaitReason& wait : engine.GetWaitReasons())

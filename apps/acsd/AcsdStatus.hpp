@@ -3,6 +3,8 @@
 #include "common/HttpMessage.hpp"
 #include <acs/plan/PlanEngine.hpp>
 
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,14 @@ struct LinkStatus
     bool bUp = false;
 };
 
+/// What /status shows besides the engine's own state.
+struct ProgramStatus
+{
+    std::vector<LinkStatus> links;
+    std::vector<std::string> obstacles;            ///< Sentences: what besides the links keeps plans from being taken.
+    std::map<std::string, bool, std::less<>> arms; ///< By robotID, of robots with an arm: whether it can be commanded.
+};
+
 /// GET /livez: the process serves.
 [[nodiscard]] Apps::HttpResponse MakeLiveResponse();
 
@@ -24,9 +34,7 @@ struct LinkStatus
     const std::vector<LinkStatus>& links,
     const std::vector<std::string>& obstacles);
 
-/// GET /status: links, robots, active plans (with why those that wait do so) and alarms as JSON.
-[[nodiscard]] Apps::HttpResponse MakeStatusResponse(
-    const std::vector<LinkStatus>& links,
-    const Planning::PlanEngine& engine);
+/// GET /status: links, obstacles, the outbox, robots, active plans (with why those that wait do so) and alarms as JSON.
+[[nodiscard]] Apps::HttpResponse MakeStatusResponse(const ProgramStatus& program, const Planning::PlanEngine& engine);
 
 } // namespace ACS::Acsd

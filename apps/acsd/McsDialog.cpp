@@ -135,6 +135,7 @@ void McsDialog::Reply(const Planning::ReplyCommand& reply)
     }
     const OpenRequest request = std::move(found->second);
     _openRequests.erase(found);
+    LogAnswer(request, reply.bAccepted, reply.message);
     _output.Answer(
         request.command,
         request.transactionID,
@@ -182,16 +183,28 @@ void McsDialog::TakeRequest(const Protocol::AcsRequest& request)
     const std::string planID = GetPlanID(*commandOrNull);
     if (_bDraining)
     {
+        constexpr std::string_view REASON = "acsd draining for shutdown";
+        LogAnswer({Protocol::GetCommand(request), request.transactionID, planID}, false, REASON);
         _output.Answer(
             Protocol::GetCommand(request),
             request.transactionID,
             Protocol::EAckResult::Fail,
-            "acsd draining for shutdown",
+            REASON,
             Protocol::PlanAck{planID});
         return;
     }
     _openRequests.emplace(token, OpenRequest{Protocol::GetCommand(request), request.transactionID, planID});
     _handler(std::move(*commandOrNull));
+}
+
+void McsDialog::LogAnswer(const OpenRequest& request, bool bAccepted, std::string_view reason)
+{
+    _logger.Info(
+        bAccepted ? "command accepted" : "command refused",
+        {{"command", GetText(request.command)},
+         {"planId", request.planID},
+         {"transactionId", request.transactionID},
+         {"reason", reason}});
 }
 
 void McsDialog::AnswerQuery(const Protocol::AcsRequest& request)

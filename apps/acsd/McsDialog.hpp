@@ -71,6 +71,7 @@ private:
         const std::string& message,
         TList list,
         TEntries TList::*entries);
+    void LogAnswer(const OpenRequest& request, bool bAccepted, std::string_view reason);
     void AnswerQuery(const Protocol::AcsRequest& request);
     void AnswerHistory(const Protocol::AcsRequest& request, const Protocol::RequestAcsPlanHistory& query);
     void TakeAck(const Protocol::Acked& acked);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace ACS::Acsd
@@ -57,7 +58,11 @@ PlanLog::PlanLog(Core::Logger logger, Apps::MetricsEndpoint& metrics)
     _metrics.AddCounter(NOTES, "What a robot did otherwise than it was told, and was tolerated");
 }
 
-void PlanLog::OnPlanChanged(const Planning::PlanRecord& record, Planning::EPlanState from, Core::Now /*now*/)
+void PlanLog::OnPlanChanged(
+    const Planning::PlanRecord& record,
+    Planning::EPlanState from,
+    std::string_view transactionID,
+    Core::Now /*now*/)
 {
     const std::string_view status = GetText(record.progress.state);
     _metrics.Increment(PLAN_CHANGES, {{"status", std::string(status)}});
@@ -84,6 +89,7 @@ void PlanLog::OnPlanChanged(const Planning::PlanRecord& record, Planning::EPlanS
          {"robotId", record.progress.robotID},
          {"from", GetText(from)},
          {"status", status},
+         {"transactionId", transactionID},
          {"reason", record.progress.message}});
 }
 
@@ -91,6 +97,7 @@ void PlanLog::OnStepChanged(
     const Planning::PlanRecord& record,
     std::size_t stepIndex,
     Planning::EStepState from,
+    std::string_view transactionID,
     Core::Now /*now*/)
 {
     const Planning::Step& step = record.plan.steps[stepIndex];
@@ -102,7 +109,8 @@ void PlanLog::OnStepChanged(
          {"stepNo", number},
          {"action", step.action},
          {"from", GetText(from)},
-         {"status", GetText(record.progress.steps[stepIndex].state)}});
+         {"status", GetText(record.progress.steps[stepIndex].state)},
+         {"transactionId", transactionID}});
 }
 
 void PlanLog::OnJobChanged(
@@ -110,6 +118,7 @@ void PlanLog::OnJobChanged(
     std::size_t stepIndex,
     std::size_t jobIndex,
     Planning::EJobState from,
+    std::string_view transactionID,
     Core::Now now)
 {
     const Planning::Step& step = record.plan.steps[stepIndex];
@@ -124,7 +133,8 @@ void PlanLog::OnJobChanged(
          {"stepNo", number},
          {"jobId", step.jobs[jobIndex].jobID},
          {"from", GetText(from)},
-         {"status", status}});
+         {"status", status},
+         {"transactionId", transactionID}});
 }
 
 void PlanLog::ObserveJob(
@@ -153,7 +163,7 @@ void PlanLog::ObserveJob(
     }
 }
 
-void PlanLog::OnAlarmChanged(const Planning::Alarm& alarm, bool bSet, Core::Now /*now*/)
+void PlanLog::OnAlarmChanged(const Planning::Alarm& alarm, bool bSet, std::string_view transactionID, Core::Now /*now*/)
 {
     if (bSet)
     {
@@ -165,6 +175,7 @@ void PlanLog::OnAlarmChanged(const Planning::Alarm& alarm, bool bSet, Core::Now 
          {"errorCode", alarm.errorCode},
          {"level", GetText(alarm.level)},
          {"planId", alarm.planID.has_value() ? std::string_view(*alarm.planID) : std::string_view()},
+         {"transactionId", transactionID},
          {"text", alarm.message}});
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace ACS::Acsd
@@ -32,19 +33,26 @@ public:
     /// The metrics must outlive the log.
     PlanLog(Core::Logger logger, Apps::MetricsEndpoint& metrics);
 
-    void OnPlanChanged(const Planning::PlanRecord& record, Planning::EPlanState from, Core::Now now) override;
+    void OnPlanChanged(
+        const Planning::PlanRecord& record,
+        Planning::EPlanState from,
+        std::string_view transactionID,
+        Core::Now now) override;
     void OnStepChanged(
         const Planning::PlanRecord& record,
         std::size_t stepIndex,
         Planning::EStepState from,
+        std::string_view transactionID,
         Core::Now now) override;
     void OnJobChanged(
         const Planning::PlanRecord& record,
         std::size_t stepIndex,
         std::size_t jobIndex,
         Planning::EJobState from,
+        std::string_view transactionID,
         Core::Now now) override;
-    void OnAlarmChanged(const Planning::Alarm& alarm, bool bSet, Core::Now now) override;
+    void OnAlarmChanged(const Planning::Alarm& alarm, bool bSet, std::string_view transactionID, Core::Now now)
+        override;
     void OnRobotStatusChanged(const Planning::RobotStatus& status, Core::Now now) override;
     void OnTscChanged(Planning::ETscState state, Planning::ETscState from, Core::Now now) override;
     void OnNote(std::string_view robotID, std::string_view text, Core::Now now) override;

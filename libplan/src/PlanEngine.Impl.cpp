@@ -248,11 +248,13 @@ void PlanEngine::Impl::CollectWork()
     }
 }
 
-void PlanEngine::Impl::TellReport(Report report)
+/// Gives the report's transactionID, until the next one.
+std::string_view PlanEngine::Impl::TellReport(Report report)
 {
     const OutboxEntry& entry = _outbox.Add(std::move(report), _now.wall, _random);
     _changes.emplace_back(ReportAdded{entry});
     _actions.emplace_back(SendReport{entry});
+    return entry.transactionID;
 }
 
 /// `outbox.max`. What runs goes on and is reported: nothing is thrown away, but nothing new begins.
@@ -340,11 +342,11 @@ void PlanEngine::Impl::ChangePlan(ActivePlan& plan, EPlanState state, std::strin
     }
     progress.message = message;
     _progressed.insert(plan.record.plan.planID);
+    const std::string_view transactionID = TellReport(PlanReport{plan.record.plan.planID, state, std::move(message)});
     if (_observerOrNull != nullptr)
     {
-        _observerOrNull->OnPlanChanged(plan.record, from, _now);
+        _observerOrNull->OnPlanChanged(plan.record, from, transactionID, _now);
     }
-    TellReport(PlanReport{plan.record.plan.planID, state, std::move(message)});
 }
 
 void PlanEngine::Impl::ChangeStep(ActivePlan& plan, EStepState state, std::string message)
@@ -353,16 +355,16 @@ void PlanEngine::Impl::ChangeStep(ActivePlan& plan, EStepState state, std::strin
     assert(CanChange(progress.state, state));
     const EStepState from = std::exchange(progress.state, state);
     _progressed.insert(plan.record.plan.planID);
-    if (_observerOrNull != nullptr)
-    {
-        _observerOrNull->OnStepChanged(plan.record, plan.step, from, _now);
-    }
-    TellReport(StepReport{
+    const std::string_view transactionID = TellReport(StepReport{
         plan.record.plan.planID,
         plan.record.progress.robotID,
         plan.record.plan.steps[plan.step].stepNo,
         state,
         std::move(message)});
+    if (_observerOrNull != nullptr)
+    {
+        _observerOrNull->OnStepChanged(plan.record, plan.step, from, transactionID, _now);
+    }
 }
 
 void PlanEngine::Impl::ChangeJob(ActivePlan& plan, EJobState state, std::string message)
@@ -375,17 +377,17 @@ void PlanEngine::Impl::ChangeJob(ActivePlan& plan, EJobState state, std::string 
     assert(CanChange(current, state));
     const EJobState from = std::exchange(current, state);
     _progressed.insert(plan.record.plan.planID);
-    if (_observerOrNull != nullptr)
-    {
-        _observerOrNull->OnJobChanged(plan.record, plan.step, plan.job, from, _now);
-    }
-    TellReport(JobReport{
+    const std::string_view transactionID = TellReport(JobReport{
         plan.record.plan.planID,
         plan.record.progress.robotID,
         plan.record.plan.steps[plan.step].stepNo,
         GetJobID(plan),
         state,
         std::move(message)});
+    if (_observerOrNull != nullptr)
+    {
+        _observerOrNull->OnJobChanged(plan.record, plan.step, plan.job, from, transactionID, _now);
+    }
 }
 
 void PlanEngine::Impl::RaiseAlarm(Alarm alarm)
@@ -397,11 +399,11 @@ void PlanEngine::Impl::RaiseAlarm(Alarm alarm)
     }
     _alarms.push_back(alarm);
     _changes.emplace_back(AlarmSet{alarm});
+    const std::string_view transactionID = TellReport(ErrorReport{alarm, true});
     if (_observerOrNull != nullptr)
     {
-        _observerOrNull->OnAlarmChanged(alarm, true, _now);
+        _observerOrNull->OnAlarmChanged(alarm, true, transactionID, _now);
     }
-    TellReport(ErrorReport{std::move(alarm), true});
 }
 
 void PlanEngine::Impl::ClearAlarm(const Alarm& alarm)
@@ -414,11 +416,11 @@ void PlanEngine::Impl::ClearAlarm(const Alarm& alarm)
     Alarm cleared = std::move(*found);
     _alarms.erase(found);
     _changes.emplace_back(AlarmCleared{cleared});
+    const std::string_view transactionID = TellReport(ErrorReport{cleared, false});
     if (_observerOrNull != nullptr)
     {
-        _observerOrNull->OnAlarmChanged(cleared, false, _now);
+        _observerOrNull->OnAlarmChanged(cleared, false, transactionID, _now);
     }
-    TellReport(ErrorReport{std::move(cleared), false});
 }
 
 void PlanEngine::Impl::RememberFinished(PlanRecord record)

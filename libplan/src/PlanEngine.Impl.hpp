@@ -251,6 +251,7 @@ public:
         EngineActions& out);
 
     [[nodiscard]] std::vector<OutboxEntry> GetUnacknowledged() const;
+    [[nodiscard]] OutboxSummary GetOutboxSummary() const;
     [[nodiscard]] std::vector<RobotStatus> GetRobotStatuses() const;
     [[nodiscard]] std::vector<RobotPose> GetRobotPoses() const;
     [[nodiscard]] std::vector<PlanSummary> GetActivePlans() const;
@@ -266,7 +267,7 @@ private:
     void Begin(Core::Now now);
     void CollectWork();
     void End(EngineActions& out);
-    void TellReport(Report report);
+    std::string_view TellReport(Report report);
     void WatchOutbox();
     void TellStatusChanges();
     void TellStatus(Robot& robot, ERobotStatus status);
@@ -279,6 +280,7 @@ private:
     void ChangeJob(ActivePlan& plan, EJobState state, std::string message);
     void RaiseAlarm(Alarm alarm);
     void ClearAlarm(const Alarm& alarm);
+    [[nodiscard]] bool IsHeldBack(const OutboxEntry& entry) const;
     void RememberFinished(PlanRecord record);
     [[nodiscard]] static ERobotStatus DeriveStatus(const Robot& robot);
     [[nodiscard]] std::string GetToldPosition(const Robot& robot) const;

@@ -1,6 +1,7 @@
 #include "PlanEngine.Impl.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace ACS::Planning
@@ -136,19 +137,32 @@ PlanSummary MakeSummary(const PlanRecord& record)
     return summary;
 }
 
+/// For a failing store. What is held is a part of the outbox, in the same order.
+bool PlanEngine::Impl::IsHeldBack(const OutboxEntry& entry) const
+{
+    return std::ranges::binary_search(_held, entry.sequence, {}, &OutboxEntry::sequence);
+}
+
 std::vector<OutboxEntry> PlanEngine::Impl::GetUnacknowledged() const
 {
     std::vector<OutboxEntry> entries;
-    for (const OutboxEntry& entry : _outbox.GetUnacknowledged())
-    {
-        const bool bHeld =
-            std::ranges::any_of(_held, [&entry](const OutboxEntry& held) { return held.sequence == entry.sequence; });
-        if (!bHeld)
-        {
-            entries.push_back(entry);
-        }
-    }
+    std::ranges::copy_if(_outbox.GetUnacknowledged(), std::back_inserter(entries), [this](const OutboxEntry& entry) {
+        return !IsHeldBack(entry);
+    });
     return entries;
+}
+
+OutboxSummary PlanEngine::Impl::GetOutboxSummary() const
+{
+    const std::deque<OutboxEntry>& outbox = _outbox.GetUnacknowledged();
+    const auto oldest =
+        std::ranges::find_if_not(outbox, [this](const OutboxEntry& entry) { return IsHeldBack(entry); });
+    OutboxSummary summary{outbox.size() - _held.size(), std::nullopt};
+    if (oldest != outbox.end())
+    {
+        summary.oldest = oldest->time;
+    }
+    return summary;
 }
 
 std::vector<RobotStatus> PlanEngine::Impl::GetRobotStatuses() const

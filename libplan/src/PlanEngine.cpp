@@ -55,6 +55,11 @@ std::vector<OutboxEntry> PlanEngine::GetUnacknowledged() const
     return _impl->GetUnacknowledged();
 }
 
+OutboxSummary PlanEngine::GetOutboxSummary() const
+{
+    return _impl->GetOutboxSummary();
+}
+
 std::vector<RobotStatus> PlanEngine::GetRobotStatuses() const
 {
     return _impl->GetRobotStatuses();

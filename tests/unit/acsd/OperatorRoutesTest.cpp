@@ -3,6 +3,7 @@
 #include "AcsdStatus.hpp"
 #include "Catch.hpp"
 #include "PlanWorld.hpp"
+#include <acs/core/Timestamp.hpp>
 
 using namespace ACS; // NOLINT(google-build-using-namespace): a test of several of them
 using Testing::MakeLogisticsPlan;
@@ -39,7 +40,7 @@ public:
 
     [[nodiscard]] std::string GetStatus() const
     {
-        return Acsd::MakeStatusResponse({{"mcs", true}}, *world.engine).body;
+        return Acsd::MakeStatusResponse({{{"mcs", true}}, {}, {}}, *world.engine).body;
     }
 };
 
@@ -50,6 +51,31 @@ bool HasText(const std::string& text, std::string_view part)
 
 } // namespace
 
+TEST_CASE("/status shows links, obstacles, what waits for the MCS since when, and which arm is there")
+{
+    PlanWorld world{1, true};
+    world.bAcknowledges = false;
+    const auto getStatus = [&world] {
+        return Acsd::MakeStatusResponse(
+                   {{{"mcs", true}, {"mqtt", false}}, {"the store cannot be written"}, {{"CR01", true}}},
+                   *world.engine)
+            .body;
+    };
+    CHECK(HasText(getStatus(), R"("links":{"mcs":true,"mqtt":false},"obstacles":["the store cannot be written"])"));
+    CHECK(HasText(getStatus(), R"("outbox":{"reports":0,"oldest":null})"));
+    CHECK(HasText(getStatus(), R"("armUp":null)"));
+    CHECK(HasText(getStatus(), R"("armUp":true)"));
+    world.Connect();
+    world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(world.TryRun());
+    const std::vector<Planning::OutboxEntry> waiting = world.engine->GetUnacknowledged();
+    REQUIRE_FALSE(waiting.empty());
+    const std::string time = Core::FormatUtc(waiting.front().time);
+    CHECK(HasText(
+        getStatus(),
+        R"("outbox":{"reports":)" + std::to_string(waiting.size()) + R"(,"oldest":")" + time + R"("})"));
+}
+
 TEST_CASE("POST /robots/ID/maintenance/on and off; /status shows it and why a plan waits for it")
 {
     Operator user;
@@ -59,7 +85,7 @@ TEST_CASE("POST /robots/ID/maintenance/on and off; /status shows it and why a pl
     REQUIRE(user.world.TryRun());
     const std::string status = user.GetStatus();
     CHECK(HasText(status, R"("robotId":"LR01","type":"LR","status":"Stopped")"));
-    CHECK(HasText(status, R"("battery":null,"maintenance":true)"));
+    CHECK(HasText(status, R"("battery":null,"armUp":null,"maintenance":true)"));
     CHECK(HasText(
         status,
         R"("waits":{"message":"No robot that can do it is free for it.","queuePosition":1,"robots":[{"robotId":"LR01",)"

@@ -82,6 +82,9 @@ public:
     /// held back for a failing store are not in it.
     [[nodiscard]] std::vector<OutboxEntry> GetUnacknowledged() const;
 
+    /// Of the same reports, without a copy of them.
+    [[nodiscard]] OutboxSummary GetOutboxSummary() const;
+
     /// One per configured robot, in the order of the options.
     [[nodiscard]] std::vector<RobotStatus> GetRobotStatuses() const;
 

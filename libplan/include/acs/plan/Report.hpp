@@ -7,6 +7,7 @@
 #include <acs/plan/EPlanState.hpp>
 #include <acs/plan/EStepState.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -102,6 +103,13 @@ struct OutboxEntry
     Report report;
 
     bool operator==(const OutboxEntry&) const = default;
+};
+
+/// How many reports wait for the MCS, and since when.
+struct OutboxSummary
+{
+    std::size_t count = 0;
+    std::optional<Core::WallTime> oldest; ///< When the oldest one was made; nullopt: none waits.
 };
 
 } // namespace ACS::Planning
