@@ -90,6 +90,7 @@ void PlanEngine::Impl::Submit(const SubmitPlan& command)
     _admission.SpellActions(plan->record.plan);
     if (IsRepetition(plan->record.plan, command.transactionID))
     {
+        _repeated.emplace(command.replyToken, command.plan.planID);
         _actions.emplace_back(ReplyCommand{command.replyToken, true, REGISTERED});
         return;
     }

@@ -94,11 +94,19 @@ void PlanEngine::Impl::RefuseControl(const ControlPlan& command)
 
 void PlanEngine::Impl::Control(const ControlPlan& command)
 {
-    if (IsRepetition(command))
+    const bool bRepeated = IsRepetition(command);
+    if (_bStoreFailing && (!bRepeated || _unstoredIDs.contains(command.transactionID)))
+    {
+        _actions.emplace_back(
+            ReplyCommand{command.replyToken, false, "The request cannot be stored, as the store fails: ask again."});
+        return;
+    }
+    if (bRepeated)
     {
         _actions.emplace_back(ReplyCommand{command.replyToken, true, "Received."});
         return;
     }
+    _asked = command.transactionID;
     const auto active = _plans.find(command.planID);
     if (active == _plans.end())
     {

@@ -174,6 +174,8 @@ void PlanEngine::Impl::Begin(Core::Now now)
     _replaced.clear();
     NoteStoreSuccess();
     _begun.clear();
+    _asked.reset();
+    _repeated.clear();
 }
 
 /// One batch for the whole call, then everything that waits for it.
@@ -235,7 +237,8 @@ void PlanEngine::Impl::CollectWork()
             robot.earlierIDs,
             robot.job,
             robot.state.has_value() ? robot.state->mark : robot.storedWork.mark,
-            robot.bPauseWanted || robot.bResumeOwed};
+            robot.bPauseWanted || robot.bResumeOwed,
+            robot.bDoubtful};
         const bool bNothing = robot.storedWork.robotID.empty() && work.commandID.empty() && !work.bPauseAsked;
         // A mark alone is no reason to write: it is that of the moment when a command or a job's end was written down.
         RobotWorkChanged unmarked = work;

@@ -172,8 +172,11 @@ public:
         bool bRecovering = false;            ///< After a restart: it was asked what became of the job.
         bool bUncertain = false;             ///< It cannot tell what became of the job: an operator has to.
         bool bStandAwaited = false; ///< After a restart: what its plan's control comes to shows once it stands.
-        bool bTraceOpen = false;    ///< After a restart: it has not shown what it was told last.
-        bool bWorkTouched = false;  ///< What is stored of its work may have changed.
+        /// After a restart, until it has shown what it was told last: what of that was written down.
+        std::optional<RobotWorkChanged> trace;
+        /// It may have done more jobs of its plan than were written down: an operator is asked about each.
+        bool bDoubtful = false;
+        bool bWorkTouched = false; ///< What is stored of its work may have changed.
         RobotWorkChanged storedWork;
         std::optional<ActiveDrive> drive;
         std::vector<std::optional<std::string>> carriers;
@@ -208,8 +211,11 @@ private:
     std::unordered_map<std::string, PlanRecord> _finished;
     std::deque<std::string> _finishedOrder;
     std::uint64_t _lastPlanSequence = 0;
-    std::vector<std::string> _begun;      ///< Plans that were begun in the call that is being stored.
-    std::vector<std::string> _unreported; ///< Accepted, their PlanReport(Pending) is owed.
+    std::vector<std::string> _begun;             ///< Plans that were begun in the call that is being stored.
+    std::map<ReplyToken, std::string> _repeated; ///< Plans that this call brought once more.
+    std::optional<std::string> _asked;           ///< TransactionID of the control that this call was.
+    std::set<std::string> _unstoredIDs;          ///< TransactionIDs of controls that could not be stored.
+    std::vector<std::string> _unreported;        ///< Accepted, their PlanReport(Pending) is owed.
     ETscState _tscState = ETscState::Auto;
 
     std::vector<Robot> _robots;
@@ -471,6 +477,7 @@ private:
     void EndGathering();
     void FollowStand(Robot& robot);
     void CheckTrace(Robot& robot);
+    void HoldDoubtful(Robot& robot);
     void CatchUp(Robot& robot);
     void HoldJob(Robot& robot, const std::string& reason);
     void AbortHeldJob(Robot& robot);

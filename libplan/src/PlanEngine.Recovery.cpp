@@ -101,7 +101,8 @@ void PlanEngine::Impl::RestoreRobot(const RobotWorkChanged& work)
     robot.storedWork = work;
     robot.commandID = work.commandID;
     robot.earlierIDs = work.earlierIDs;
-    robot.bTraceOpen = true;
+    robot.trace = work;
+    robot.bDoubtful = work.bDoubtful;
     robot.job = work.job;
     robot.bResumeOwed = work.bPauseAsked; // where no plan wants it to stand
 }
@@ -342,32 +343,38 @@ void PlanEngine::Impl::FollowStand(Robot& robot)
     }
 }
 
-/// While the store fails work goes on. After a crash then the robot shows what nobody wrote down, and the next job of its
-/// plan may be a part of that.
+/// While the store fails work goes on. After a crash then the robot shows what nobody wrote down, or that it has forgotten
+/// what it had: the next jobs of its plan may have been a part of that.
 void PlanEngine::Impl::CheckTrace(Robot& robot)
 {
-    if (!std::exchange(robot.bTraceOpen, false) || robot.planOrNull == nullptr || robot.activity != EActivity::Waits
-        || robot.planOrNull->bEndOwed)
+    const std::optional<RobotWorkChanged> trace = std::exchange(robot.trace, std::nullopt);
+    if (!trace.has_value() || robot.planOrNull == nullptr)
     {
         return;
     }
-    const std::string& shownID = robot.state->shownCommandID;
-    const bool bUnknown = !shownID.empty() && !robot.commandID.empty() && shownID != robot.commandID
-        && std::ranges::count(robot.earlierIDs, shownID) == 0;
-    const bool bWorked =
-        !robot.state->mark.empty() && !robot.storedWork.mark.empty() && robot.state->mark != robot.storedWork.mark;
-    const bool bBetweenSteps = robot.planOrNull->bStepOwed;
-    if ((bUnknown || bWorked) && !bBetweenSteps)
+    const StateChanged& state = *robot.state;
+    bool bMore = false;
+    if (!state.mark.empty() && !trace->mark.empty())
     {
-        robot.activity = EActivity::Works;
-        if (!HasJob(*robot.planOrNull))
-        {
-            robot.planOrNull->madeJobID = Core::MakeUuid(_random);
-        }
-        robot.job = MakeStartJob(robot);
-        robot.bWorkTouched = true;
-        HoldJob(robot, "the robot shows work that the ACS could not write down before it stopped");
+        bMore = !trace->job.has_value() && state.mark != trace->mark; // of one that was commanded the adapter tells
     }
+    else if (state.shownCommandID.has_value() && !trace->commandID.empty())
+    {
+        const bool bNeverHadAny = state.shownCommandID->empty() && trace->earlierIDs.empty();
+        bMore = !bNeverHadAny && *state.shownCommandID != trace->commandID
+            && std::ranges::count(trace->earlierIDs, *state.shownCommandID) == 0;
+    }
+    robot.bDoubtful = robot.bDoubtful || bMore;
+    robot.bWorkTouched = true;
+}
+
+/// Instead of beginning the present job.
+void PlanEngine::Impl::HoldDoubtful(Robot& robot)
+{
+    robot.planOrNull->repeatedCommandID.clear();
+    robot.job = MakeStartJob(robot);
+    robot.bWorkTouched = true;
+    HoldJob(robot, "the robot may have done work that the ACS could not write down before it stopped");
 }
 
 Alarm PlanEngine::Impl::MakeUncertainAlarm(const Robot& robot) const
@@ -455,6 +462,10 @@ void PlanEngine::Impl::RepeatJob(Robot& robot, std::string commandID)
     robot.activity = EActivity::Waits;
     robot.bTouched = true;
     _bDispatchNeeded = true;
+    if (robot.planOrNull->record.progress.control == EPlanControl::Pause && !robot.bPauseWanted)
+    {
+        ConfirmPause(robot); // it was to wait for the job's end
+    }
 }
 
 void PlanEngine::Impl::OnJobUnknown(Robot& robot, const JobUnknown& event)
@@ -472,6 +483,10 @@ void PlanEngine::Impl::OnJobUnknown(Robot& robot, const JobUnknown& event)
     {
         HoldJob(robot, "the robot does not know it, though it had begun it");
     }
+    else if (robot.job->commandID.empty())
+    {
+        HoldJob(robot, "what became of it was asked before, and not answered");
+    }
     else if (plan.record.progress.control == EPlanControl::Abort)
     {
         EndByControl(plan, EPlanControl::Abort);
@@ -488,6 +503,9 @@ void PlanEngine::Impl::OnJobUncertain(Robot& robot, const JobUncertain& event)
     const bool bOfPlan = robot.activity == EActivity::Works && GetJobID(*robot.planOrNull) == event.jobID;
     if ((bOverdue || bOfPlan) && !robot.bUncertain)
     {
+        // Marks that do not tell of this job do not tell of those after it either.
+        robot.bDoubtful = robot.bDoubtful || (bOfPlan && !robot.job->mark.empty());
+        robot.bWorkTouched = true;
         HoldJob(robot, event.reason);
     }
 }
@@ -539,6 +557,7 @@ void PlanEngine::Impl::SettleFor(Robot& robot, EJobAnswer answer)
             OnJobFinished(robot, JobFinished{jobID});
             break;
         case EJobAnswer::Again:
+            robot.bDoubtful = false; // nor was anything after it done
             RepeatJob(robot, {});
             break;
         case EJobAnswer::Failed:

@@ -18,7 +18,7 @@ void PlanEngine::Impl::OnStoreFailed(
     _now = now;
     _bStoreFailing = true;
     _bStoreAttempted = false;
-    const std::string refusal = "The plan cannot be stored: " + std::string(reason);
+    std::string refusal = "The plan cannot be stored: " + std::string(reason);
     bool bPlanRefused = false;
     for (const StoreChange& change : batch.changes)
     {
@@ -50,6 +50,12 @@ void PlanEngine::Impl::OnStoreFailed(
             begun->second->bUnstored = true;
         }
     }
+    if (_asked.has_value())
+    {
+        // Its outcome would be owed, and a crash would forget it. What it has set going stays so.
+        refusal = "The request cannot be stored: " + std::string(reason);
+        _unstoredIDs.insert(*_asked);
+    }
     for (PlanRecord& record : std::exchange(_replaced, {}))
     {
         RememberFinished(std::move(record));
@@ -67,8 +73,11 @@ void PlanEngine::Impl::OnStoreFailed(
                     _unsaved.insert(_unsaved.end(), typed.batch.changes.begin(), typed.batch.changes.end());
                 },
                 [this](const SendReport& typed) { _held.push_back(typed.entry); },
-                [&out, &refusal, bPlanRefused](const ReplyCommand& typed) {
-                    const bool bRefusedNow = bPlanRefused && typed.bAccepted;
+                [this, &out, &refusal, bPlanRefused](const ReplyCommand& typed) {
+                    const auto repeated = _repeated.find(typed.replyToken);
+                    const bool bKnown = repeated != _repeated.end()
+                        && (_plans.contains(repeated->second) || _finished.contains(repeated->second));
+                    const bool bRefusedNow = (bPlanRefused && typed.bAccepted && !bKnown) || _asked.has_value();
                     out.emplace_back(bRefusedNow ? ReplyCommand{typed.replyToken, false, refusal} : typed);
                 },
                 [&out](const auto& typed) {
@@ -98,6 +107,7 @@ void PlanEngine::Impl::NoteStoreSuccess()
         return;
     }
     _bStoreFailing = false;
+    _unstoredIDs.clear();
     _bDispatchNeeded = true;
     for (const auto& [planID, plan] : _plans)
     {

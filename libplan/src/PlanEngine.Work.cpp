@@ -105,7 +105,12 @@ void PlanEngine::Impl::BeginJob(Robot& robot)
     {
         plan.madeJobID = Core::MakeUuid(_random);
     }
-    else if (plan.record.progress.steps[plan.step].jobs[plan.job] == EJobState::Pending)
+    if (robot.bDoubtful)
+    {
+        HoldDoubtful(robot);
+        return;
+    }
+    if (HasJob(plan) && plan.record.progress.steps[plan.step].jobs[plan.job] == EJobState::Pending)
     {
         ChangeJob(plan, EJobState::Instructed, {});
     }
@@ -336,6 +341,7 @@ void PlanEngine::Impl::EndPlan(ActivePlan& plan, EPlanState state, const std::st
         }
         robot.planOrNull = nullptr;
         robot.activity = EActivity::Idle;
+        robot.bWorkTouched = std::exchange(robot.bDoubtful, false) || robot.bWorkTouched;
         robot.retreatNode.reset();
         robot.bTouched = true;
         robot.wish.reset();

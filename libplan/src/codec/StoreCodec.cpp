@@ -175,7 +175,8 @@ struct JsonFields<Planning::RobotWorkChanged>
         Optional("earlierIds", &Planning::RobotWorkChanged::earlierIDs),
         Optional("mark", &Planning::RobotWorkChanged::mark),
         Optional("job", &Planning::RobotWorkChanged::job),
-        Optional("pauseAsked", &Planning::RobotWorkChanged::bPauseAsked));
+        Optional("pauseAsked", &Planning::RobotWorkChanged::bPauseAsked),
+        Optional("doubtful", &Planning::RobotWorkChanged::bDoubtful));
 };
 
 template <>

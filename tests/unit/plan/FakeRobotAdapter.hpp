@@ -57,6 +57,13 @@ public:
     std::vector<std::string> doneJobs;
     std::string uncertainReason; ///< Not empty: it cannot tell what became of a job.
 
+    /// It was switched off and on, without a drive or a job.
+    void Forget()
+    {
+        _shownCommandID.clear();
+        _ended.clear();
+    }
+
     FakeRobotAdapter(Core::IRandom& random, std::string nodeID)
         : _random(random),
           _nodeID(std::move(nodeID))

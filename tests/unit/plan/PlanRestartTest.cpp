@@ -445,50 +445,6 @@ TEST_CASE("A job that was given up and had not ended keeps its robot out of work
     }
 }
 
-TEST_CASE("A crash while the disk fails: what the robot did and nobody wrote down is held, not done again")
-{
-    PlanWorld world;
-    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
-    world.store.bFails = true;
-    REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").doneJobs.size() == 1; }));
-    world.Crash();
-    world.store.bFails = false;
-    Restart(world);
-    REQUIRE(world.TryRun());
-    REQUIRE(world.engine->GetActiveAlarms().size() == 1);
-    CHECK(world.engine->GetActiveAlarms().front().errorCode == "ACS-1008");
-    CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4"});
-    world.Settle("P1", "P1-a4", EJobAnswer::Done);
-    FinishPlan(world);
-    CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
-}
-
-TEST_CASE(
-    "While the disk fails no plan is begun, and one whose begin was lost does no job: a crash would begin it again")
-{
-    PlanWorld world;
-    world.Connect();
-    world.Submit(MakeLogisticsPlan("P1"));
-    world.store.bFails = true;
-    static_cast<void>(TryRunFor(world, 60s));
-    CHECK(world.GetRobot("LR01").drives == 1);
-    CHECK(CountStarts(world, "P1-a4") == 0);
-    world.Crash();
-    world.store.bFails = false;
-    Restart(world);
-    FinishPlan(world);
-    CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
-    world.Submit(MakeLogisticsPlan("P2"));
-    world.store.bFails = true;
-    world.SwitchTsc(true); // fails to be stored
-    world.SwitchTsc(false);
-    static_cast<void>(TryRunFor(world, 5s));
-    CHECK(world.engine->GetPlanOrNull("P2")->state == EPlanState::Pending);
-    world.store.bFails = false;
-    REQUIRE(world.TryRun());
-    CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
-}
-
 TEST_CASE("A store of an older version, which tells nothing of robots, has a running job held and a waiting one begun")
 {
     for (const EJobState state : {EJobState::Pending, EJobState::InProgress})

@@ -251,6 +251,13 @@ void PlanWorld::Submit(Plan plan, ReplyToken token, const std::string& transacti
     Execute(std::move(out));
 }
 
+void PlanWorld::SubmitTogether(const std::vector<SubmitPlan>& plans)
+{
+    EngineActions out;
+    engine->Submit(plans, GetNow(), out);
+    Execute(std::move(out));
+}
+
 void PlanWorld::Control(
     EPlanControl control,
     const std::string& planID,

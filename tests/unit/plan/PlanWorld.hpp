@@ -70,6 +70,7 @@ public:
 
     void Connect();
     void Submit(Planning::Plan plan, Planning::ReplyToken token = 0, const std::string& transactionID = {});
+    void SubmitTogether(const std::vector<Planning::SubmitPlan>& plans);
     void Control(
         Planning::EPlanControl control,
         const std::string& planID,

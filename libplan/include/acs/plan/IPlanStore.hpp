@@ -75,6 +75,7 @@ struct RobotWorkChanged
     std::optional<StartJob> job; ///< Commanded, and its end not told.
     std::string mark;            ///< StateChanged::mark, when all this was written down.
     bool bPauseAsked = false;    ///< It was told to pause, and has not shown since that it goes on.
+    bool bDoubtful = false;      ///< It may have done jobs of its plan that could not be written down.
 
     bool operator==(const RobotWorkChanged&) const = default;
 };

@@ -2,6 +2,7 @@
 
 #include <acs/plan/EAlarmLevel.hpp>
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -46,7 +47,9 @@ struct StateChanged
     /// Nodes ahead on which it may still drive without another command, of an order that it was given before a restart or
     /// by somebody else: they are kept free for it.
     std::vector<std::string> heldNodeIDs;
-    std::string shownCommandID; ///< The last Drive or StartJob that the robot shows that it had; empty: not known.
+    /// The last Drive or StartJob that the robot shows that it had; empty: it shows none, as after it was switched off.
+    /// Absent where robots of its kind show no such thing.
+    std::optional<std::string> shownCommandID;
     /// What is true of the robot now and will have changed once a job has begun, in words of the adapter's own (an arm's
     /// counters). Comes back with the job; empty where the commandID is enough.
     std::string mark;
