@@ -85,7 +85,7 @@ void AcsdProcess::Begin()
 
 void AcsdProcess::Crash(std::string_view where)
 {
-    if (_bUnsaved || std::exchange(_bDead, true))
+    if (std::exchange(_bDead, true))
     {
         return;
     }
@@ -161,7 +161,6 @@ bool AcsdProcess::TryCommit(const Planning::StoreBatch& batch)
 {
     const bool bStored = _around.store.Commit(_mutator.OnWrite(batch)).has_value();
     _around.trace.Tell("disk: {} changes {}", batch.changes.size(), bStored ? "stored" : "refused");
-    _bUnsaved = !bStored;
     if (bStored)
     {
         _onCommit();

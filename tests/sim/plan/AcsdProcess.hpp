@@ -55,9 +55,6 @@ private:
     CrashHandler _onCrash;
     CommitHandler _onCommit;
     bool _bDead = false;
-    /// The disk has refused a write and taken none since. Plans that run go on then by intention, so that a crash at that
-    /// moment forgets what robots did meanwhile: two failures at once, which the world does not make.
-    bool _bUnsaved = false;
     bool _bCrashing; ///< By chance; ends with the faults.
 
     Planning::PlanEngine _engine;

@@ -124,8 +124,15 @@ void McsJudge::NoteControlSent(
     view.bUnknown = view.bUnknown || plan == _plans.end() || plan->second.knowledge != EKnowledge::Accepted;
 }
 
-void McsJudge::NoteControlAck(Planning::EPlanControl control, const std::string& planID)
+void McsJudge::NoteControlAck(Planning::EPlanControl control, const std::string& planID, const Protocol::AcsAck& ack)
 {
+    // What the disk refuses nobody can promise.
+    const bool bUnstored =
+        ack.result == Protocol::EAckResult::Fail && ack.message.find("cannot be stored") != std::string::npos;
+    if (bUnstored)
+    {
+        return;
+    }
     ++_controls[{planID, control}].acknowledged;
 }
 

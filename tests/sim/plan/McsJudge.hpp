@@ -81,7 +81,7 @@ public:
     void NotePlanSent(const std::string& planID);
     void NotePlanAck(const Protocol::AcsAck& ack);
     void NoteControlSent(Planning::EPlanControl control, const std::string& planID, const std::string& transactionID);
-    void NoteControlAck(Planning::EPlanControl control, const std::string& planID);
+    void NoteControlAck(Planning::EPlanControl control, const std::string& planID, const Protocol::AcsAck& ack);
 
     /// Whatever acsd sends.
     void OnRequest(const Protocol::AcsRequest& request);

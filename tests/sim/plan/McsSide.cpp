@@ -219,7 +219,7 @@ void McsSide::TakeAck(const Protocol::AcsAck& ack)
     }
     else if (const auto found = _unanswered.find(ack.transactionID); control.has_value() && found != _unanswered.end())
     {
-        _judge.NoteControlAck(*control, GetPlanID(found->second.payload));
+        _judge.NoteControlAck(*control, GetPlanID(found->second.payload), ack);
     }
     _unanswered.erase(ack.transactionID);
 }
