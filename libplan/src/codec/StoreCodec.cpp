@@ -6,6 +6,8 @@
 #include <acs/plan/StoreCodec.hpp>
 
 #include <chrono>
+#include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace ACS::Planning
@@ -219,12 +221,19 @@ template <typename TValue>
 Core::Result<TValue> DecodeText(std::string_view text)
 {
     Json::JsonDocument document;
-    const Core::Result<const Json::Value*> root = document.Parse(text, Json::ParseLimits{});
+    // What was accepted and stored must be read again, however long it is; how much is accepted is decided at the border.
+    constexpr std::size_t ANY = std::numeric_limits<std::size_t>::max();
+    Json::ParseLimits limits;
+    limits.bytes = ANY;
+    const Core::Result<const Json::Value*> root = document.Parse(text, limits);
     if (!root.has_value())
     {
         return tl::unexpected(root.error());
     }
-    Json::DecodeContext context;
+    Json::DecodeOptions options;
+    options.maximumString = ANY;
+    options.maximumArray = ANY;
+    Json::DecodeContext context(options);
     TValue value;
     if (!Json::TryDecode(**root, value, {}, context))
     {

@@ -24,6 +24,29 @@ TEST_CASE("Store texts: plans, states, carriers and alarms come back as they wen
     CHECK(DecodeAlarm(EncodeAlarm(alarm)) == alarm);
 }
 
+TEST_CASE("Store texts: what was accepted comes back however long it is")
+{
+    constexpr std::size_t LONGEST_MESSAGE_BY_DEFAULT = 4U * 1024 * 1024;
+    constexpr std::size_t LONGEST_STRING_BY_DEFAULT = 64U * 1024;
+    constexpr std::size_t MOST_JOBS = 1'000;
+    Plan plan = Testing::MakeControlPlan("P1");
+    Step step = plan.steps[1];
+    step.jobs.resize(MOST_JOBS, step.jobs.front());
+    plan.steps.resize(100, step);
+    const std::string text = EncodePlan(plan);
+    REQUIRE(text.size() > LONGEST_MESSAGE_BY_DEFAULT);
+    const Core::Result<Plan> read = DecodePlan(text);
+    REQUIRE(read.has_value());
+    CHECK((*read == plan)); // without the text of both where it fails
+
+    // A vehicle's description of that length, with words of ours before it.
+    const Report report =
+        PlanReport{"P1", EPlanState::Failed, "It failed: " + std::string(LONGEST_STRING_BY_DEFAULT, 'x')};
+    const Core::Result<Report> readReport = DecodeReport(EncodeReport(report));
+    REQUIRE(readReport.has_value());
+    CHECK((*readReport == report));
+}
+
 TEST_CASE("Store texts: every kind of report comes back as it went")
 {
     const std::vector<Report> reports{
