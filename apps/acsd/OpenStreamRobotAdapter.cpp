@@ -358,13 +358,6 @@ void OpenStreamRobotAdapter::WatchMotor(AdapterActions& out)
 void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, AdapterActions& out)
 {
     _recovery.reset();
-    if (!job.mark.empty() && _armState == EArmState::Ready && job.mark != MakeMark())
-    {
-        // A program has run meanwhile: after a restart this one could not be told from it.
-        out.emplace_back(RaiseEvent{MakeState()});
-        out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});
-        return;
-    }
     _jobID = job.jobID;
     _bJobStarted = false;
     _bStartDoubtful = false;
@@ -377,7 +370,16 @@ void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, AdapterActi
     }
     if (_armState != EArmState::Ready)
     {
-        FailJob("the arm's controller is not ready: no connection, or its motor is off", out);
+        // It went away while the job waited to be stored. The robot is offline as long as that, so the job comes again
+        // when it is there.
+        DisownJob(out);
+        return;
+    }
+    if (!job.mark.empty() && job.mark != MakeMark())
+    {
+        // A program has run meanwhile: after a restart this one could not be told from it.
+        out.emplace_back(RaiseEvent{MakeState()});
+        DisownJob(out);
         return;
     }
     _counted = _counters;
@@ -393,6 +395,14 @@ void OpenStreamRobotAdapter::FailJob(const std::string& reason, AdapterActions& 
 {
     EndJob();
     out.emplace_back(RaiseEvent{Planning::JobFailed{std::exchange(_jobID, {}), reason}});
+    TellPaused(out);
+}
+
+/// Its program was surely not started: it can be commanded again.
+void OpenStreamRobotAdapter::DisownJob(AdapterActions& out)
+{
+    EndJob();
+    out.emplace_back(RaiseEvent{Planning::JobUnknown{std::exchange(_jobID, {})}});
     TellPaused(out);
 }
 
@@ -434,13 +444,13 @@ void OpenStreamRobotAdapter::TakeSettled(const OpenStream::ClientControlSettled&
             FailJob(fmt::format("the arm's controller refuses, status {}: {}", settled.status, settled.detail), out);
             break;
         case OpenStream::EControlOutcome::NotSent:
-            FailJob("the arm's controller could not be reached: " + settled.detail, out);
+            DisownJob(out);
             break;
         case OpenStream::EControlOutcome::Unconfirmed: // not asked for
         case OpenStream::EControlOutcome::Unknown:
             if (_phase == EJobPhase::Selecting)
             {
-                FailJob("the connection to the arm broke before its program was started", out);
+                DisownJob(out); // selected perhaps, but not started
             }
             else
             {
@@ -575,9 +585,7 @@ void OpenStreamRobotAdapter::CheckDoubtfulStart(AdapterActions& out)
     {
         if (std::exchange(_bRecovered, false))
         {
-            EndJob();
-            out.emplace_back(RaiseEvent{Planning::JobUnknown{std::exchange(_jobID, {})}});
-            TellPaused(out);
+            DisownJob(out);
             return;
         }
         FailJob("the connection to the arm broke while its program was being started, and it did not begin", out);

@@ -92,6 +92,7 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     [[nodiscard]] static std::optional<Counters> ReadMarkOrNull(std::string_view mark);
     [[nodiscard]] Planning::StateChanged MakeState() const;
     void FailJob(const std::string& reason, Planning::AdapterActions& out);
+    void DisownJob(Planning::AdapterActions& out);
     void SendControl(EControl kind, std::string_view url, std::string body);
     void WatchMotor(Planning::AdapterActions& out);
     void TakeMotor(const Core::JsonText& result, Planning::AdapterActions& out);

@@ -288,10 +288,9 @@ TEST_CASE("Counters that begin again are the work of a restart: the job has fail
     CHECK(arm.TakeEvents<Planning::JobFailed>().front().reason.find("restarted") != std::string::npos);
 }
 
-TEST_CASE("A job before the motor is on, or of an action without a program, fails with a reason")
+TEST_CASE("A job of an action without a program fails with a reason")
 {
     ArmFixture arm;
-    arm.Command("J1");
     arm.BringUp();
     arm.Command("J2", "CassetteLoad");
     const auto failed = arm.TakeEvents<Planning::JobFailed>();
@@ -299,6 +298,63 @@ TEST_CASE("A job before the motor is on, or of an action without a program, fail
     CHECK(failed.front().jobID == "J2");
     CHECK(failed.front().reason.find("CassetteLoad") != std::string::npos);
     CHECK(arm.TakeRequests().empty());
+}
+
+TEST_CASE("A job that comes while the arm is away was not begun: it waits for the arm instead of failing its plan")
+{
+    ArmFixture arm;
+    arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
+    SECTION("The arm has gone")
+    {
+        arm.BringUp();
+        arm.ShowBase(false);
+        arm.actions.clear();
+        arm.Tell(OpenStream::ClientLost{});
+        // Said before the job is given back: the engine does not send it again at once.
+        CHECK(arm.TakeEvents<Planning::LinkChanged>() == std::vector<Planning::LinkChanged>{{false}});
+    }
+    SECTION("Its motor is not on yet")
+    {
+        arm.Tell(OpenStream::ClientReady{});
+        static_cast<void>(arm.TakeRequests());
+    }
+    Planning::StartJob job;
+    job.jobID = "J";
+    job.action = "TrayLoad";
+    job.mark = "5 5 0";
+    arm.adapter.Handle(job, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    CHECK(arm.TakeRequests().empty());
+
+    arm.BringUp();
+    arm.adapter.Handle(job, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
+}
+
+TEST_CASE("A program that was surely not started is not the job's failure, whatever got lost on the way")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    SECTION("Its selection never left")
+    {
+        arm.Settle(OpenStream::EControlOutcome::NotSent);
+    }
+    SECTION("Nobody knows whether it was selected")
+    {
+        arm.Settle(OpenStream::EControlOutcome::Unknown);
+    }
+    SECTION("Its start never left")
+    {
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        arm.Settle(OpenStream::EControlOutcome::NotSent);
+    }
+    CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    static_cast<void>(arm.TakeRequests());
+    arm.Command("J");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
 }
 
 TEST_CASE("The settling of motor_on is not taken for that of a job's CONTROL")
