@@ -43,8 +43,18 @@ public:
         ACS::Planning::IRobotAdapter& robot)
         : _robotID(std::move(robotID)),
           _robot(robot),
-          _engine(std::move(options), std::move(site), random)
+          _engine(RejectActions(std::move(options), robot), std::move(site), random)
     {
+    }
+
+    /// Once, at start, the robot's adapter is asked what it does not do: the MCS is told why, and no plan fails half-way.
+    [[nodiscard]] static ACS::Planning::EngineOptions RejectActions(
+        ACS::Planning::EngineOptions options,
+        const ACS::Planning::IRobotAdapter& robot)
+    {
+        ACS::Planning::RobotOptions& only = options.robots.front();
+        only.rejectedActions = ACS::Planning::FindRejectedActions(robot, only.type, options.actions);
+        return options;
     }
 
     void Submit(ACS::Planning::Plan plan)

@@ -86,7 +86,7 @@ public:
         }
     }
 
-    /// Asked once, at start: so the MCS is told why, and no plan fails half-way.
+    /// Asked at start (EngineHost): so the MCS is told why, and no plan fails half-way.
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(std::string_view action) const override
     {
         return action.starts_with("Cassette") ? std::nullopt : std::optional<std::string>("it carries cassettes only");

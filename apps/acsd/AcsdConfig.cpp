@@ -1,6 +1,7 @@
 #include "AcsdConfig.hpp"
 
 #include "common/TextFile.hpp"
+#include "RobotHost.hpp"
 #include <acs/core/Location.hpp>
 #include <acs/plan/LifReader.hpp>
 #include <acs/vda5050/Topic.hpp>
@@ -10,6 +11,8 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <map>
+#include <set>
 #include <utility>
 
 namespace ACS::Acsd
@@ -320,17 +323,37 @@ void ReadTables(const ConfigSection& root, AcsdConfig& config)
     }
 }
 
-/// What a robot cannot do for want of an arm is not given to it.
-void RejectActionsWithoutMethod(AcsdConfig& config)
+/// What a robot cannot do is not given to it. An action that nobody can do would only be noticed by the first plan.
+void RejectActions(const ConfigSection& root, AcsdConfig& config)
 {
+    std::map<std::string, std::string> objections; ///< Of the first robot.
+    std::set<std::string> possible;
     for (std::size_t i = 0; i < config.robots.size(); ++i)
     {
-        for (const auto& [name, method] : config.methods)
+        Planning::RobotOptions& robot = config.engine.robots[i];
+        robot.rejectedActions = RobotHost::FindRejectedActions(config, config.robots[i], robot.type);
+        for (const auto& [name, rule] : config.engine.actions)
         {
-            if (method.vehicleAction.empty() && !config.robots[i].armOrNone.has_value())
+            const auto rejected = robot.rejectedActions.find(name);
+            if (rejected != robot.rejectedActions.end())
             {
-                config.engine.robots[i].rejectedActions.push_back(name);
+                objections.try_emplace(name, fmt::format("{}: {}", robot.robotID.GetText(), rejected->second));
             }
+            else if (rule.robotType == robot.type)
+            {
+                possible.insert(name);
+            }
+        }
+    }
+    for (const auto& [name, objection] : objections)
+    {
+        if (!possible.contains(name))
+        {
+            root.GetSection("actions").GetSection(name).AddMistake(
+                "",
+                fmt::format(
+                    "no robot can do it, {}; give arm_program for robots with an arm, vehicle_action for those without",
+                    objection));
         }
     }
 }
@@ -356,7 +379,10 @@ AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::st
         root.GetSection("outbox")
             .GetInteger("max", FEWEST_REPORTS, MOST_REPORTS, static_cast<std::int64_t>(config.engine.maximumReports)));
     ReadTables(root, config);
-    RejectActionsWithoutMethod(config);
+    if (reader.GetMistakes().empty())
+    {
+        RejectActions(root, config);
+    }
     config.mistakes = reader.GetMistakes();
     std::ranges::move(otherMistakes, std::back_inserter(config.mistakes));
     config.values = reader.GetValues();

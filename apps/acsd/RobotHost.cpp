@@ -15,6 +15,7 @@
 #include <iterator>
 #include <optional>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <variant>
 
@@ -38,6 +39,22 @@ VDA5050::MasterOptions MakeMasterOptions(const AcsdConfig& config, const RobotLi
     options.stateInterval = config.operations.offlineAfter - options.stateMargin;
     options.version = VDA5050::ReadVersionOrNull(robot.protocolVersion).value_or(VDA5050::EVda5050Version::Version200);
     return options;
+}
+
+/// The adapter, and the same once more where it is one with an arm.
+std::pair<std::unique_ptr<IMqttRobotAdapter>, OpenStreamRobotAdapter*> MakeAdapter(
+    const AcsdConfig& config,
+    const RobotLinkConfig& robot,
+    RobotOutputs& outputs)
+{
+    VDA5050::MasterOptions options = MakeMasterOptions(config, robot);
+    if (!robot.armOrNone.has_value())
+    {
+        return {std::make_unique<Vda5050RobotAdapter>(std::move(options), config.methods, outputs), nullptr};
+    }
+    auto adapter = std::make_unique<OpenStreamRobotAdapter>(std::move(options), config.arm, config.methods, outputs);
+    OpenStreamRobotAdapter* const armAdapter = adapter.get();
+    return {std::move(adapter), armAdapter};
 }
 
 OpenStreamAsio::OpenStreamClientOptions MakeArmOptions(const ArmConfig& arm)
@@ -73,18 +90,7 @@ struct RobotHost::Impl
           handler(std::move(eventHandler)),
           watch(*config.site, link.robotID, surroundings.oddities)
     {
-        VDA5050::MasterOptions options = MakeMasterOptions(config, robot);
-        if (robot.armOrNone.has_value())
-        {
-            auto armAdapter =
-                std::make_unique<OpenStreamRobotAdapter>(std::move(options), config.arm, config.methods, outputs);
-            armAdapterOrNull = armAdapter.get();
-            adapter = std::move(armAdapter);
-        }
-        else
-        {
-            adapter = std::make_unique<Vda5050RobotAdapter>(std::move(options), config.methods, outputs);
-        }
+        std::tie(adapter, armAdapterOrNull) = MakeAdapter(config, robot, outputs);
         timers.emplace(surroundings.executor, [this](std::uint64_t key) {
             Call([this, key](Core::Now now, Planning::AdapterActions& out) {
                 adapter->OnTimer(static_cast<Planning::AdapterTimerID>(key), now, out);
@@ -198,6 +204,16 @@ struct RobotHost::Impl
         armClient->Start();
     }
 };
+
+Planning::RejectedActions RobotHost::FindRejectedActions(
+    const AcsdConfig& config,
+    const RobotLinkConfig& robot,
+    Planning::ERobotType type)
+{
+    RobotOutputs outputs; // stays empty: the adapter is only asked
+    const auto [adapter, armAdapterOrNull] = MakeAdapter(config, robot, outputs);
+    return Planning::FindRejectedActions(*adapter, type, config.engine.actions);
+}
 
 RobotHost::RobotHost(
     Surroundings surroundings,

@@ -7,6 +7,8 @@
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/openstream/ClientSessionActions.hpp>
+#include <acs/plan/EngineOptions.hpp>
+#include <acs/plan/ERobotType.hpp>
 #include <acs/plan/RobotCommand.hpp>
 #include <acs/plan/RobotEvent.hpp>
 #include <acs/vda5050/IMqttLink.hpp>
@@ -53,6 +55,12 @@ public:
         OddityLog& oddities;
         MessageTrace* traceOrNull = nullptr;
     };
+
+    /// What its adapter will not do: the one place that knows is the adapter.
+    [[nodiscard]] static Planning::RejectedActions FindRejectedActions(
+        const AcsdConfig& config,
+        const RobotLinkConfig& robot,
+        Planning::ERobotType type);
 
     RobotHost(Surroundings surroundings, const AcsdConfig& config, const RobotLinkConfig& robot, EventHandler handler);
     RobotHost(const RobotHost&) = delete;

@@ -433,9 +433,10 @@ std::optional<std::string> PlanAdmission::GetRobotObjectionOrNull(
     for (std::size_t i = 0; i < resolved.steps.size(); ++i)
     {
         const ResolvedStep& step = resolved.steps[i];
-        if (std::ranges::find(robot.rejectedActions, plan.steps[i].action) != robot.rejectedActions.end())
+        const auto rejected = robot.rejectedActions.find(plan.steps[i].action);
+        if (rejected != robot.rejectedActions.end())
         {
-            return fmt::format("{} cannot do {}", name, plan.steps[i].action);
+            return fmt::format("{} cannot do {}: {}", name, rejected->first, rejected->second);
         }
         if (!FindDockOrNull(step.stationID, robot.vehicleTypeID).has_value())
         {

@@ -4,6 +4,7 @@
 #include "CertificateMaker.hpp"
 #include "TemporaryFolder.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <set>
@@ -21,8 +22,8 @@ Acsd::AcsdConfig Read(const std::vector<std::string>& overrides)
     return Acsd::ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", overrides);
 }
 
-/// The example site without these tables.
-Acsd::AcsdConfig ReadWithout(const std::set<std::string>& tables)
+/// The example site without these tables, and with others at its end.
+Acsd::AcsdConfig ReadWithout(const std::set<std::string>& tables, const std::string& others = {})
 {
     const Testing::TemporaryFolder folder;
     std::ifstream from(std::string(ACS_SITE) + "/acsd.toml");
@@ -37,6 +38,7 @@ Acsd::AcsdConfig ReadWithout(const std::set<std::string>& tables)
         }
         to << (bKept ? line : "") << '\n';
     }
+    to << others;
     to.close();
     return Acsd::ReadAcsdConfig(file, {"site.map=" + std::string(ACS_SITE) + "/site.lif.json"});
 }
@@ -86,6 +88,40 @@ TEST_CASE("A file for TLS that is missing or does not fit is a mistake with key,
     REQUIRE(foreign.size() == 1);
     CHECK(foreign[0].find("mcs.tls.key: ") != std::string::npos);
     CHECK(foreign[0].find("is the key of another certificate than " + own.certificate) != std::string::npos);
+}
+
+TEST_CASE("4.1 An action that no robot can do as it stands is a mistake that says what to give")
+{
+    const auto noProgram =
+        ReadWithout({"actions.Start"}, "[actions.Start]\nrobot = 'CR'\nvehicle_action = 'start'\n").mistakes;
+    REQUIRE(noProgram.size() == 1);
+    CHECK(
+        noProgram[0].find("actions.Start: no robot can do it, CR01: the arm has no program for Start; give arm_program")
+        != std::string::npos);
+    const auto noArm = ReadWithout({"actions.Start"}, "[actions.Start]\nrobot = 'LR'\narm_program = 3\n").mistakes;
+    REQUIRE(noArm.size() == 1);
+    CHECK(noArm[0].find("LR01: the vehicle has no action for Start") != std::string::npos);
+}
+
+TEST_CASE("4.1 What a robot's adapter does not do the engine does not give it, and says why")
+{
+    const Acsd::AcsdConfig config = ReadWithout(
+        {},
+        "[robots.LR02]\ntype = 'LR'\nmanufacturer = 'ACS'\nserial = 'LR02'\nvehicle_type = 'lr-base'\n"
+        "start_node = 'N001'\nports = ['CP01']\narm.url = 'tcp://127.0.0.1:1'\narm.http = 'http://127.0.0.1:2'\n");
+    REQUIRE(config.mistakes.empty());
+    const auto find = [&config](const std::string& robotID) {
+        return *std::ranges::find_if(config.engine.robots, [&robotID](const Planning::RobotOptions& robot) {
+            return robot.robotID.GetText() == robotID;
+        });
+    };
+    CHECK(
+        find("LR02").rejectedActions
+        == Planning::RejectedActions{
+            {"CassetteLoad", "the arm has no program for CassetteLoad"},
+            {"CassetteUnload", "the arm has no program for CassetteUnload"}});
+    CHECK(find("LR01").rejectedActions.empty());
+    CHECK(find("CR01").rejectedActions.empty());
 }
 
 TEST_CASE("mcs.tls with a ws URL is a mistake: it would encrypt nothing")

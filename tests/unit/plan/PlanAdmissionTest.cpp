@@ -77,6 +77,25 @@ TEST_CASE("4.1 Two robots named in one plan are refused, one of them pins the pl
     CHECK(world.GetRobot("LR01").drives == 0);
 }
 
+TEST_CASE("4.1 A plan that no robot can do is refused with each robot's reason; else it goes to one that can")
+{
+    EngineOptions options = ACS::Testing::MakeTestOptions(true);
+    options.robots.front().rejectedActions = {{"CassetteLoad", "its gripper is too small"}};
+    PlanWorld world(1, options, ACS::Testing::MakeTestSite());
+    world.Connect();
+    world.Submit(MakeLogisticsPlan("P1"), 1);
+    REQUIRE(world.TryRun());
+    CHECK(world.engine->GetPlanOrNull("P1")->robotID == "LR02");
+
+    Plan pinned = MakeLogisticsPlan("P2");
+    pinned.steps[0].action = "cassetteload";
+    pinned.steps[0].jobs[0].to = "LR01.CP01";
+    world.Submit(pinned, 2);
+    CHECK_FALSE(world.replies.at(2).bAccepted);
+    CHECK(
+        world.replies.at(2).message.find("LR01 cannot do CassetteLoad: its gripper is too small") != std::string::npos);
+}
+
 TEST_CASE("4.1 Absent, null and superfluous places, lower case, gaps and disorder are no reason to refuse")
 {
     PlanWorld world;

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -56,6 +57,9 @@ using ActionTable = std::map<std::string, ActionRule, std::less<>>;
 /// The eight actions of the document with its rules.
 [[nodiscard]] ActionTable MakeStandardActions();
 
+/// Actions that a robot cannot do, each with the reason, which the MCS is told (FindRejectedActions).
+using RejectedActions = std::map<std::string, std::string, std::less<>>;
+
 struct RobotOptions
 {
     Core::RobotID robotID;
@@ -66,7 +70,7 @@ struct RobotOptions
         homeStationID;                      ///< Where it goes when it has no work or stands in the way; one robot each.
     std::vector<Core::Location> ports;      ///< Its carrier ports ("LR01.CP01"), in the order of carrierIds.
     std::vector<Core::Location> childPorts; ///< Places inside its carriers ("CR01.TP01.MP01").
-    std::vector<std::string> rejectedActions; ///< Actions of its type that it cannot do (IRobotAdapter).
+    RejectedActions rejectedActions;        ///< Plans with one of them are not given to it.
     /// Where it charges (DispatchOptions); one robot each, but it may be its home. Absent: its battery is not looked at.
     std::optional<std::string> chargingStationID = std::nullopt;
 };

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <acs/core/Now.hpp>
+#include <acs/plan/EngineOptions.hpp>
+#include <acs/plan/ERobotType.hpp>
 #include <acs/plan/RobotCommand.hpp>
 #include <acs/plan/RobotEvent.hpp>
 
@@ -57,8 +59,16 @@ public:
     virtual void Handle(const RobotCommand& command, Core::Now now, AdapterActions& out) = 0;
     virtual void OnTimer(AdapterTimerID timer, Core::Now now, AdapterActions& out) = 0;
 
-    /// Why this robot cannot do the action, in words for the MCS; nullopt where it can. Asked once, at start.
+    /// Why this robot cannot do the action, in words for the MCS; nullopt where it can. Asked at start
+    /// (FindRejectedActions), so it follows from how the robot is configured, not from how it does.
     [[nodiscard]] virtual std::optional<std::string> GetRejectionReasonOrNull(std::string_view action) const = 0;
 };
+
+/// What the adapter's robot cannot do of the actions of its type: for RobotOptions::rejectedActions, before the engine is
+/// made.
+[[nodiscard]] RejectedActions FindRejectedActions(
+    const IRobotAdapter& adapter,
+    ERobotType type,
+    const ActionTable& actions);
 
 } // namespace ACS::Planning
