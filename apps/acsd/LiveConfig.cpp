@@ -86,10 +86,12 @@ void TakeLiveKeys(const AcsdConfig& fresh, AcsdConfig& present)
     present.operations.workGrace = fresh.operations.workGrace;
     present.operations.statusInterval = fresh.operations.statusInterval;
     present.operations.drainTimeout = fresh.operations.drainTimeout;
-    // An alarm is cleared under the name that it was set with.
-    ErrorNames errors = std::move(present.mcs.style.errors);
-    present.mcs.style = fresh.mcs.style;
-    present.mcs.style.errors = std::move(errors);
+    const MessageStyle& style = fresh.mcs.style;
+    present.mcs.style.bUnassignedRobotEmpty = style.bUnassignedRobotEmpty;
+    present.mcs.style.bEmptyCarriersOmitted = style.bEmptyCarriersOmitted;
+    present.mcs.style.bRefusedReportsRetried = style.bRefusedReportsRetried;
+    present.mcs.style.longestText = style.longestText;
+    present.mcs.style.replay = style.replay;
     present.mcs.warnBytes = fresh.mcs.warnBytes;
     std::erase_if(present.values, [](const auto& entry) { return IsLiveKey(entry.first); });
     std::ranges::copy_if(fresh.values, std::inserter(present.values, present.values.end()), [](const auto& entry) {

@@ -2,8 +2,10 @@
 
 #include "Catch.hpp"
 #include "RecordingLogSink.hpp"
+#include "TemporaryFolder.hpp"
 
 #include <chrono>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -65,6 +67,31 @@ TEST_CASE("Taking a second reading changes the live keys and nothing else")
     const ConfigChange next = CompareConfigs(present.values, fresh.values);
     CHECK(next.taken.empty());
     CHECK(next.waiting == std::vector<std::string>{"mcs.ack_timeout", "queue.max_plans"});
+}
+
+TEST_CASE("Of how messages are written the live keys are taken, and no other")
+{
+    const Testing::TemporaryFolder folder;
+    const std::string names = (folder.GetPath() / "errors.toml").string();
+    std::ofstream(names) << "[\"ACS-1002\"]\ncode = \"E-2\"\n";
+    const std::vector<std::string> live{
+        "mcs.unassigned_robot_id=",
+        "mcs.empty_carriers=omit",
+        "mcs.on_report_nack=retry",
+        "mcs.tx_max_bytes=4096",
+        "outbox.replay=final_only"};
+    // A report that is sent again is the same message; an alarm is cleared under the name that it was set with.
+    const std::vector<std::string> waiting{"mcs.result_report_failure=Fail", "errors.map=" + names};
+    std::vector<std::string> all = live;
+    all.insert(all.end(), waiting.begin(), waiting.end());
+
+    AcsdConfig present = Read({});
+    const AcsdConfig fresh = Read(all);
+    REQUIRE_FALSE(fresh.mcs.style.errors == present.mcs.style.errors);
+    REQUIRE(fresh.mcs.style.bResultFailureIsFail);
+    TakeLiveKeys(fresh, present);
+    CHECK((present.mcs.style == Read(live).mcs.style));
+    CHECK_FALSE((present.mcs.style == fresh.mcs.style));
 }
 
 } // namespace ACS::Acsd::Test
