@@ -116,7 +116,12 @@ void McsDialog::OnSessionEvent(const Protocol::SessionEvent& event)
             [&](const Protocol::RequestReceived& received) { TakeRequest(received.request); },
             [&](const Protocol::Acked& acked) { TakeAck(acked); },
             [&](const Protocol::WindowOpened&) { Feed(); },
-            [&](const Protocol::PositionDue&) { _output.SendPosition(MakePositionUpdate(_engine.GetRobotPoses())); },
+            [&](const Protocol::PositionDue&) {
+                for (const auto& update : MakePositionUpdates(_engine.GetRobotPoses(), _style))
+                {
+                    _output.SendPosition(update);
+                }
+            },
             [&](const Protocol::LinkLost&) {
                 _bOpen = false;
                 _unsent.clear();

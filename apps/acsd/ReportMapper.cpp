@@ -1,11 +1,15 @@
 #include "ReportMapper.hpp"
 
 #include <acs/core/Overloaded.hpp>
+#include <acs/protocol/AcsCodec.hpp>
 
 #include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace ACS::Acsd
@@ -91,6 +95,27 @@ Protocol::AcsPayload MakePayload(const Planning::Report& report, const MessageSt
         report);
 }
 
+Protocol::RobotPosition MakePosition(const Planning::RobotPose& pose)
+{
+    const double turned = std::fmod(pose.theta * (FULL_CIRCLE / 2) / std::numbers::pi, FULL_CIRCLE);
+    const double degrees = turned < 0 ? turned + FULL_CIRCLE : turned;
+    return Protocol::RobotPosition{
+        pose.robotID,
+        pose.x,
+        pose.y,
+        degrees < FULL_CIRCLE ? degrees : 0.0, // a hair under 0 is rounded to the full circle
+        std::round(pose.batteryPercent)};
+}
+
+/// Of the whole message: the session gives it a UUID as its transactionId.
+std::size_t CountBytes(const Protocol::RobotPositionUpdate& update)
+{
+    constexpr std::size_t UUID_LENGTH = 36;
+    std::string text;
+    Protocol::AcsCodec::EncodeRequest({std::string(UUID_LENGTH, '0'), {}, update}, text);
+    return text.size();
+}
+
 } // namespace
 
 Protocol::AcsRequest MakeReportRequest(
@@ -128,22 +153,26 @@ Protocol::TscStateUpdate MakeTscUpdate(Planning::ETscState state)
     return Protocol::TscStateUpdate{static_cast<Protocol::ETscState>(state)};
 }
 
-Protocol::RobotPositionUpdate MakePositionUpdate(const std::vector<Planning::RobotPose>& poses)
+std::vector<Protocol::RobotPositionUpdate> MakePositionUpdates(
+    const std::vector<Planning::RobotPose>& poses,
+    const MessageStyle& style)
 {
-    Protocol::RobotPositionUpdate update;
-    update.robots.reserve(poses.size());
+    std::vector<Protocol::RobotPositionUpdate> updates(1);
+    const std::size_t frame = style.longestText > 0 ? CountBytes({}) : 0;
+    std::size_t bytes = frame;
     for (const Planning::RobotPose& pose : poses)
     {
-        const double turned = std::fmod(pose.theta * (FULL_CIRCLE / 2) / std::numbers::pi, FULL_CIRCLE);
-        const double degrees = turned < 0 ? turned + FULL_CIRCLE : turned;
-        update.robots.push_back(Protocol::RobotPosition{
-            pose.robotID,
-            pose.x,
-            pose.y,
-            degrees < FULL_CIRCLE ? degrees : 0.0, // a hair under 0 is rounded to the full circle
-            std::round(pose.batteryPercent)});
+        Protocol::RobotPosition position = MakePosition(pose);
+        const std::size_t own = style.longestText > 0 ? CountBytes({{position}}) - frame + 1 : 0; // and a comma
+        if (style.longestText > 0 && bytes + own > style.longestText && !updates.back().robots.empty())
+        {
+            updates.emplace_back();
+            bytes = frame;
+        }
+        bytes += own;
+        updates.back().robots.push_back(std::move(position));
     }
-    return update;
+    return updates;
 }
 
 Protocol::PlanEntry MakePlanEntry(

@@ -28,8 +28,11 @@ namespace ACS::Acsd
 
 [[nodiscard]] Protocol::TscStateUpdate MakeTscUpdate(Planning::ETscState state);
 
-/// Radians become degrees from 0 to below 360, the battery a whole number.
-[[nodiscard]] Protocol::RobotPositionUpdate MakePositionUpdate(const std::vector<Planning::RobotPose>& poses);
+/// All robots in one update; in several where it would be longer than the style allows (section 5.10), at least one robot in
+/// each. Radians become degrees from 0 to below 360, the battery a whole number.
+[[nodiscard]] std::vector<Protocol::RobotPositionUpdate> MakePositionUpdates(
+    const std::vector<Planning::RobotPose>& poses,
+    const MessageStyle& style = {});
 
 [[nodiscard]] Protocol::PlanEntry MakePlanEntry(
     const Planning::PlanSummary& summary,

@@ -41,7 +41,10 @@ class BeastLink final : public ILink, public std::enable_shared_from_this<BeastL
     boost::beast::flat_buffer _buffer;
     std::deque<std::string> _queue;
     std::size_t _queuedBytes = 0;
-    std::size_t _bytesSinceDroppable = 0; ///< Of texts that were sent since the last droppable one.
+    std::size_t _bytesBefore = 0;  ///< Of texts that were sent since the last droppable one of an earlier turn.
+    std::size_t _bytesPassed = 0;  ///< So many of them up to the last droppable one of this turn; 0: there was none.
+    std::size_t _bytesOfParts = 0; ///< Of the droppable ones of this turn.
+    std::size_t _bytesOfLast = 0;  ///< Of those of the turn before that had any.
     bool _bOpen = false;
     bool _bCloseWanted = false;
     bool _bCloseSent = false;
@@ -97,7 +100,15 @@ public:
         {
             return;
         }
-        _bytesSinceDroppable = bDroppable ? 0 : _bytesSinceDroppable + text.size();
+        _bytesBefore += text.size();
+        if (bDroppable)
+        {
+            _bytesOfParts += text.size();
+            if (std::exchange(_bytesPassed, _bytesBefore) == 0)
+            {
+                EndTurnAsync();
+            }
+        }
         _queuedBytes += text.size();
         _queue.push_back(std::move(text));
         if (_queuedBytes > _options.maximumQueued)
@@ -159,12 +170,21 @@ private:
     /// Whether so much waits, here or in the system, that what may be left out would come late. One droppable text that is
     /// on its way is no delay, nor are the few others that were sent just before this one: they count here until their
     /// write is over, and in the system until the other side's has acknowledged them, both of which takes its time where
-    /// nothing is held up.
+    /// nothing is held up. Droppable texts that are sent together are the parts of one.
     [[nodiscard]] bool IsHeldUp(std::size_t size)
     {
         constexpr std::size_t MAX_OTHERS = 65'536;
         const std::size_t waiting = _queuedBytes + CountUntaken(GetTcpStream().socket().native_handle());
-        return waiting > 2 * size + std::min(2 * _bytesSinceDroppable, MAX_OTHERS);
+        return waiting > 2 * std::max(size, _bytesOfLast) + std::min(2 * _bytesBefore, MAX_OTHERS);
+    }
+
+    /// What is sent after the present handler has returned was not sent together with what was sent in it.
+    void EndTurnAsync()
+    {
+        boost::asio::post(_stream.get_executor(), [self = this->shared_from_this()] {
+            self->_bytesBefore -= std::exchange(self->_bytesPassed, 0);
+            self->_bytesOfLast = std::exchange(self->_bytesOfParts, 0);
+        });
     }
 
     void PrepareSocket()

@@ -573,6 +573,33 @@ TEST_CASE("R14 A position goes out together with the reports of the same moment"
     CHECK(mcs.Count(EAcsCommand::RobotPositionUpdate) == ROUNDS);
 }
 
+TEST_CASE("5.10 The parts of a position update that was cut go out together, behind the reports of the same moment")
+{
+    constexpr std::size_t ROUNDS = 20;
+    constexpr std::size_t PARTS = 6;
+    constexpr std::size_t REPORTS = 4;
+    const Protocol::RobotPositionUpdate part{std::vector<Protocol::RobotPosition>(50, {"LR01", 1.0, 2.0, 90.0, 75.0})};
+    ClientRig rig;
+    rig.RegisterWithRaw();
+    RawMcs& mcs = *rig.connections.at(0);
+    for (std::size_t round = 1; round <= ROUNDS; ++round)
+    {
+        for (std::size_t i = 0; i < REPORTS; ++i)
+        {
+            REQUIRE(rig.client->TrySendDurable(MakeReport(std::to_string(round) + "-" + std::to_string(i))));
+        }
+        for (std::size_t i = 0; i < PARTS; ++i)
+        {
+            rig.client->SendPosition(part);
+        }
+        REQUIRE(rig.WasReached([&] { return mcs.Count(EAcsCommand::PlanReport) == REPORTS * round; }));
+        REQUIRE(rig.WasReached([&rig] { return rig.client->GetRoom() >= REPORTS; }));
+    }
+    REQUIRE(rig.client->TrySendDurable(MakeReport("end")));
+    REQUIRE(rig.WasReached([&mcs] { return mcs.Count(EAcsCommand::PlanReport) == REPORTS * ROUNDS + 1; }));
+    CHECK(mcs.Count(EAcsCommand::RobotPositionUpdate) == PARTS * ROUNDS);
+}
+
 TEST_CASE("13.12 Positions alone do not pile up in the system either, while the other side takes nothing")
 {
     constexpr std::size_t POSITIONS = 1'000;

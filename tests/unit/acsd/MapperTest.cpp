@@ -148,10 +148,12 @@ TEST_CASE("11 What the document leaves open is written as the configuration says
 
 TEST_CASE("5.10 Positions are metres, degrees from 0 to below 360, and a whole battery percentage")
 {
-    const auto update = MakePositionUpdate(
+    const auto updates = MakePositionUpdates(
         {{"LR01", 1.5, 2.5, std::numbers::pi / 2, 75.4},
          {"CR01", 0, 0, -std::numbers::pi / 2, 75.5},
          {"CR02", 0, 0, -1e-17, 0}});
+    REQUIRE(updates.size() == 1);
+    const Protocol::RobotPositionUpdate& update = updates.front();
     REQUIRE(update.robots.size() == 3);
     CHECK(update.robots[2].angle == 0.0);
     CHECK(update.robots[0].x == 1.5);
@@ -159,6 +161,48 @@ TEST_CASE("5.10 Positions are metres, degrees from 0 to below 360, and a whole b
     CHECK(update.robots[0].battery == 75.0);
     CHECK(update.robots[1].angle == Approx(270.0));
     CHECK(update.robots[1].battery == 76.0);
+}
+
+TEST_CASE("5.10, 12 Positions that are too long for one message are cut to as few as fit, with each robot once")
+{
+    constexpr std::size_t ROBOTS = 120;
+    std::vector<Planning::RobotPose> poses;
+    for (std::size_t i = 0; i < ROBOTS; ++i)
+    {
+        poses.push_back({"CR" + std::to_string(1000 + i), 10.24 + static_cast<double>(i), 3.5, 1.0, 80});
+    }
+    CHECK(MakePositionUpdates(poses).size() == 1);
+    CHECK(MakePositionUpdates({}).size() == 1);
+
+    MessageStyle style;
+    style.longestText = 4096;
+    const auto updates = MakePositionUpdates(poses, style);
+    CHECK(updates.size() > 1);
+    const auto countBytes = [](const Protocol::RobotPositionUpdate& update) {
+        std::string text;
+        Protocol::AcsCodec::EncodeRequest({"0f8fad5b-d9cb-469f-a165-70867728950e", {{}, -11h - 30min}, update}, text);
+        return text.size();
+    };
+    std::vector<std::string> robotIDs;
+    for (std::size_t i = 0; i < updates.size(); ++i)
+    {
+        CHECK(countBytes(updates[i]) <= style.longestText);
+        if (i + 1 < updates.size())
+        {
+            Protocol::RobotPositionUpdate longer = updates[i];
+            longer.robots.push_back(updates[i + 1].robots.front());
+            CHECK(countBytes(longer) > style.longestText - 2);
+        }
+        for (const Protocol::RobotPosition& position : updates[i].robots)
+        {
+            robotIDs.push_back(position.robotID);
+        }
+    }
+    REQUIRE(robotIDs.size() == ROBOTS);
+    for (std::size_t i = 0; i < ROBOTS; ++i)
+    {
+        CHECK(robotIDs[i] == poses[i].robotID);
+    }
 }
 
 TEST_CASE("5.9 A robot's status says null for what does not apply")
