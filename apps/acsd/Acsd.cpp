@@ -299,7 +299,9 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
             UpdateMetrics();
             return _metrics.Respond();
         });
-        AddOperatorRoutes(_routes, _engine, [this](Planning::PlanCommand command) { _loop.Push(std::move(command)); });
+        AddOperatorRoutes(_routes, _engine, [this](Planning::PlanCommand command) {
+            return _loop.TryPush(std::move(command));
+        });
     }
 
     void UpdateMetrics()

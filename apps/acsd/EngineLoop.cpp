@@ -105,6 +105,16 @@ void EngineLoop::Work()
     }
     while (!_storing.has_value() && (_executed < _actions.size() || !_tasks.empty()))
     {
+bool EngineLoop::TryPush(Planning::PlanCommand command)
+{
+    if (_bClosed)
+    {
+        return false;
+    }
+    Push(std::move(command));
+    return true;
+}
+
         if (_executed < _actions.size())
         {
             ExecuteNext();

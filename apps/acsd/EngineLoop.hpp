@@ -55,8 +55,12 @@ public:
 
     void Push(EngineTask task);
 
+    /// A command that comes after Close is refused by its reply.
     /// The batch is on disk, or could not be stored: then the engine decides anew about what stood behind it.
     void OnStored(const Core::Result<void>& result);
+    /// The same for a command whose sender waits for no reply: false, and nothing done, after Close.
+    [[nodiscard]] bool TryPush(Planning::PlanCommand command);
+
 
     /// From now on commands are refused, those that wait too, and all other tasks are forgotten; what is being stored is
     /// still brought to its end.

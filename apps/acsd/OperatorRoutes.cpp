@@ -23,6 +23,8 @@ using Captures = Apps::HttpRoutes::Captures;
 constexpr unsigned HTTP_ACCEPTED = 202;
 constexpr unsigned HTTP_BAD_REQUEST = 400;
 constexpr unsigned HTTP_NOT_FOUND = 404;
+constexpr unsigned HTTP_CONFLICT = 409;
+constexpr unsigned HTTP_UNAVAILABLE = 503;
 
 HttpResponse MakeAnswer(unsigned status, std::string_view key, std::string_view sentence)
 {
@@ -36,14 +38,15 @@ HttpResponse MakeAnswer(unsigned status, std::string_view key, std::string_view 
     return response;
 }
 
-HttpResponse Accept(std::string_view message)
-{
-    return MakeAnswer(HTTP_ACCEPTED, "message", message);
-}
-
 HttpResponse Refuse(unsigned status, std::string_view sentence)
 {
     return MakeAnswer(status, "error", sentence);
+}
+
+HttpResponse HandOn(const OperatorHandler& handler, Planning::PlanCommand command, std::string_view message)
+{
+    return handler(std::move(command)) ? MakeAnswer(HTTP_ACCEPTED, "message", message)
+                                       : Refuse(HTTP_UNAVAILABLE, "acsd is stopping: nothing is taken any more.");
 }
 
 std::optional<Planning::RobotStatus> FindRobotOrNull(const Planning::PlanEngine& engine, const std::string& robotID)
@@ -74,15 +77,9 @@ HttpResponse Maintain(
     {
         return RefuseRobot(robotID);
     }
-    handler(Planning::SetMaintenance{robotID, bOn, 0});
-    if (!bOn)
-    {
-        return Accept(robotID + " is put back into service.");
-    }
-    return Accept(
-        robot->planID.has_value()
-            ? fmt::format("{} is taken out of service as soon as plan {} is over.", robotID, *robot->planID)
-            : robotID + " is taken out of service.");
+    std::string message = robotID + (bOn ? " is taken out of service" : " is put back into service");
+    message += bOn && robot->planID.has_value() ? fmt::format(" as soon as plan {} is over.", *robot->planID) : ".";
+    return HandOn(handler, Planning::SetMaintenance{robotID, bOn, 0}, message);
 }
 
 /// One parameter `carrier` for each port, in their order; an empty one: nothing.
@@ -110,8 +107,7 @@ HttpResponse SetCarriers(
     {
         return Refuse(HTTP_BAD_REQUEST, *objection);
     }
-    handler(std::move(command));
-    return Accept(fmt::format("The ports of {} are corrected.", robotID));
+    return HandOn(handler, std::move(command), fmt::format("The ports of {} are corrected.", robotID));
 }
 
 HttpResponse ClearAlarms(const Planning::PlanEngine& engine, const OperatorHandler& handler, const HttpRequest& request)
@@ -140,9 +136,28 @@ HttpResponse ClearAlarms(const Planning::PlanEngine& engine, const OperatorHandl
     {
         return Refuse(HTTP_NOT_FOUND, fmt::format("{} has no alarm {}; /status has the alarms.", *robotID, *errorCode));
     }
-    handler(
-        Planning::ClearAlarms{*robotID, *errorCode, request.GetQueryOrNull("plan"), request.GetQueryOrNull("job"), 0});
-    return Accept("The alarm is cleared; it comes back if its cause is still there.");
+    return HandOn(
+        handler,
+        Planning::ClearAlarms{*robotID, *errorCode, request.GetQueryOrNull("plan"), request.GetQueryOrNull("job"), 0},
+        "The alarm is cleared; it comes back if its cause is still there.");
+}
+
+HttpResponse SettleJob(
+    const Planning::PlanEngine& engine,
+    const OperatorHandler& handler,
+    const Planning::SettleJob& command)
+{
+    const std::optional<std::string> objection = engine.GetObjectionOrNull(command);
+    if (!objection.has_value())
+    {
+        return HandOn(handler, command, "The answer is taken; the alarm ACS-1008 of the job is cleared.");
+    }
+    Planning::SettleJob other = command;
+    other.answer = Planning::EJobAnswer::Done;
+    const bool bHeld = !engine.GetObjectionOrNull(other).has_value();
+    return bHeld
+        ? Refuse(HTTP_CONFLICT, *objection)
+        : Refuse(HTTP_NOT_FOUND, *objection + " The alarms ACS-1008 in /status name the plan and the job of each.");
 }
 
 } // namespace
@@ -168,12 +183,10 @@ void AddOperatorRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& eng
         return ClearAlarms(engine, handler, request);
     });
     routes.Add("POST", "/tsc/pause", [handler](const HttpRequest&, const Captures&) {
-        handler(Planning::ControlTsc{true, 0});
-        return Accept("The TSC is told to pause; /status has its state.");
+        return HandOn(handler, Planning::ControlTsc{true, 0}, "The TSC is told to pause; /status has its state.");
     });
     routes.Add("POST", "/tsc/resume", [handler](const HttpRequest&, const Captures&) {
-        handler(Planning::ControlTsc{false, 0});
-        return Accept("The TSC is told to resume; /status has its state.");
+        return HandOn(handler, Planning::ControlTsc{false, 0}, "The TSC is told to resume; /status has its state.");
     });
     for (const auto& [word, answer] :
          {std::pair("done", Planning::EJobAnswer::Done),
@@ -184,9 +197,8 @@ void AddOperatorRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& eng
         routes.Add(
             "POST",
             std::string("/plans/{PLAN}/jobs/{JOB}/") + word,
-            [handler, said](const HttpRequest&, const Captures& captures) {
-                handler(Planning::SettleJob{captures[0], captures[1], said, 0});
-                return Accept("The answer is taken; where the job was held, its alarm ACS-1008 is cleared in /status.");
+            [&engine, handler, said](const HttpRequest&, const Captures& captures) {
+                return SettleJob(engine, handler, {captures[0], captures[1], said, 0});
             });
     }
 }

@@ -265,6 +265,7 @@ public:
     [[nodiscard]] std::vector<WaitReason> GetWaitReasons() const;
     [[nodiscard]] std::optional<WaitReason> GetWaitReasonOrNull(std::string_view planID) const;
     [[nodiscard]] std::optional<std::string> GetObjectionOrNull(const SetCarriers& command) const;
+    [[nodiscard]] std::optional<std::string> GetObjectionOrNull(const SettleJob& command) const;
     [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;
     [[nodiscard]] ETscState GetTscState() const noexcept;
 
@@ -484,6 +485,7 @@ private:
     void FindOut(Robot& robot);
     void ReleaseJob(Robot& robot);
     void RepeatJob(Robot& robot, std::string commandID);
+    [[nodiscard]] std::optional<std::size_t> FindHeldJobOrNull(const SettleJob& command) const;
     void Settle(const SettleJob& command);
     void SettleFor(Robot& robot, EJobAnswer answer);
     void AskForJob(Robot& robot);

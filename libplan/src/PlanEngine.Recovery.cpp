@@ -510,24 +510,40 @@ void PlanEngine::Impl::OnJobUncertain(Robot& robot, const JobUncertain& event)
     }
 }
 
-void PlanEngine::Impl::Settle(const SettleJob& command)
+/// The robot that has it.
+std::optional<std::size_t> PlanEngine::Impl::FindHeldJobOrNull(const SettleJob& command) const
 {
     const auto robot = std::ranges::find_if(_robots, [&command](const Robot& candidate) {
         return candidate.bUncertain && candidate.job->planID == command.planID && candidate.job->jobID == command.jobID;
     });
-    if (robot == _robots.end())
+    return robot == _robots.end() ? std::nullopt : std::optional(static_cast<std::size_t>(robot - _robots.begin()));
+}
+
+std::optional<std::string> PlanEngine::Impl::GetObjectionOrNull(const SettleJob& command) const
+{
+    const std::optional<std::size_t> index = FindHeldJobOrNull(command);
+    if (!index.has_value())
     {
-        _actions.emplace_back(ReplyCommand{command.replyToken, false, "No such job is held."});
+        return "No such job is held.";
+    }
+    if (_robots[*index].overdueJobID.has_value() && command.answer == EJobAnswer::Again)
+    {
+        return "Its plan is over: answer done or failed.";
+    }
+    return std::nullopt;
+}
+
+void PlanEngine::Impl::Settle(const SettleJob& command)
+{
+    if (std::optional<std::string> objection = GetObjectionOrNull(command))
+    {
+        _actions.emplace_back(ReplyCommand{command.replyToken, false, std::move(*objection)});
         return;
     }
-    if (robot->overdueJobID.has_value() && command.answer == EJobAnswer::Again)
-    {
-        _actions.emplace_back(ReplyCommand{command.replyToken, false, "Its plan is over: answer done or failed."});
-        return;
-    }
+    Robot& robot = _robots[*FindHeldJobOrNull(command)];
     _actions.emplace_back(ReplyCommand{command.replyToken, true, "Received."});
-    robot->bTouched = true;
-    SettleFor(*robot, command.answer);
+    robot.bTouched = true;
+    SettleFor(robot, command.answer);
 }
 
 /// A job that was done and never written down as commanded is told from its beginning.

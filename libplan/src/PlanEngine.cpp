@@ -95,6 +95,11 @@ std::optional<std::string> PlanEngine::GetObjectionOrNull(const SetCarriers& com
     return _impl->GetObjectionOrNull(command);
 }
 
+std::optional<std::string> PlanEngine::GetObjectionOrNull(const SettleJob& command) const
+{
+    return _impl->GetObjectionOrNull(command);
+}
+
 const std::vector<Alarm>& PlanEngine::GetActiveAlarms() const noexcept
 {
     return _impl->GetActiveAlarms();

@@ -157,3 +157,4 @@ TEST_CASE_METHOD(
 }
 
 } // namespace ACS::Testing
+    CHECK_FALSE(_loop.TryPush(ControlTsc{true, 9}));

@@ -2,7 +2,7 @@
 
 #include "AcsdStatus.hpp"
 #include "Catch.hpp"
-#include "PlanWorld.hpp"
+#include "PlanWorldSteps.hpp"
 #include <acs/core/Timestamp.hpp>
 
 using namespace ACS; // NOLINT(google-build-using-namespace): a test of several of them
@@ -19,11 +19,16 @@ class Operator
 
 public:
     PlanWorld world{1, true};
+    bool bStopping = false;
 
     Operator()
     {
         Acsd::AddOperatorRoutes(_routes, *world.engine, [this](const Planning::PlanCommand& command) {
-            world.Ask(command);
+            if (!bStopping)
+            {
+                world.Ask(command);
+            }
+            return !bStopping;
         });
         world.Connect();
     }
@@ -111,6 +116,34 @@ TEST_CASE("POST /robots/ID/carriers corrects the ports, in their order")
     CHECK(HasText(user.Post("/robots/LR02/carriers?carrier=TRAY_01"), "TRAY_01 is on CR01"));
     CHECK(HasText(user.Post("/robots/LR09/carriers"), "404 "));
     CHECK(HasText(user.GetStatus(), R"("carrierIds":["TRAY_01",null,"TRAY 03"])"));
+}
+
+TEST_CASE("POST /plans/PLAN/jobs/JOB/done, failed and again answer for a job that is held, and for no other")
+{
+    Operator user;
+    user.world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(Testing::TryRunUntil(user.world, "P1", "Job 1 P1-a4 InProgress"));
+    CHECK(HasText(user.Post("/plans/P1/jobs/P1-a4/done"), "404 {\"error\":\"No such job is held."));
+    user.world.Raise("LR01", Planning::JobUncertain{"P1-a4", "it was switched off"});
+    CHECK(HasText(user.GetStatus(), R"("errorCode":"ACS-1008")"));
+    CHECK(HasText(user.Post("/plans/P1/jobs/P1-b2/done"), "404 "));
+    CHECK(HasText(user.Post("/plans/P2/jobs/P1-a4/again"), "404 "));
+    CHECK(HasText(user.Post("/plans/P1/jobs/P1-a4/done"), "202 "));
+    CHECK(HasText(user.Post("/plans/P1/jobs/P1-a4/failed"), "404 "));
+    REQUIRE(user.world.TryRun());
+    CHECK(user.world.GetReportsOf("P1").back() == "Plan Completed");
+}
+
+TEST_CASE("While acsd stops an operator is told that nothing is taken any more")
+{
+    Operator user;
+    user.bStopping = true;
+    for (const char* target :
+         {"/tsc/pause", "/tsc/resume", "/robots/LR01/maintenance/on", "/robots/LR01/carriers?carrier="})
+    {
+        INFO(target);
+        CHECK(HasText(user.Post(target), "503 {\"error\":\"acsd is stopping"));
+    }
 }
 
 TEST_CASE("POST /alarms/clear clears by robot and code")
