@@ -179,6 +179,16 @@ void WriteAlarm(Json::JsonWriter& writer, const Planning::Alarm& alarm)
     WriteMember(writer, "level", GetText(alarm.level));
     WriteMember(writer, "message", std::string_view(alarm.message));
     WriteMember(writer, "planId", alarm.planID);
+    writer.Key("stepNo");
+    if (alarm.stepNo.has_value())
+    {
+        writer.WriteInteger(*alarm.stepNo);
+    }
+    else
+    {
+        writer.WriteNull();
+    }
+    WriteMember(writer, "jobId", alarm.jobID);
     writer.EndObject();
 }
 

@@ -126,6 +126,7 @@ TEST_CASE("POST /plans/PLAN/jobs/JOB/done, failed and again answer for a job tha
     CHECK(HasText(user.Post("/plans/P1/jobs/P1-a4/done"), "404 {\"error\":\"No such job is held."));
     user.world.Raise("LR01", Planning::JobUncertain{"P1-a4", "it was switched off"});
     CHECK(HasText(user.GetStatus(), R"("errorCode":"ACS-1008")"));
+    CHECK(HasText(user.GetStatus(), R"("planId":"P1","stepNo":1,"jobId":"P1-a4"})"));
     CHECK(HasText(user.Post("/plans/P1/jobs/P1-b2/done"), "404 "));
     CHECK(HasText(user.Post("/plans/P2/jobs/P1-a4/again"), "404 "));
     CHECK(HasText(user.Post("/plans/P1/jobs/P1-a4/done"), "202 "));
