@@ -151,7 +151,7 @@ class Line:
         """For a program that a test ends itself."""
         self.programs.remove(program)
 
-    def start_broker(self, port=None):
+    def start_broker(self, port=None, access=("allow_anonymous true",)):
         """mosquitto with a private configuration. It cannot tell a free port itself: pick one and retry."""
         binary = shutil.which("mosquitto") or shutil.which("mosquitto", path="/usr/sbin:/sbin:/usr/local/sbin")
         if binary is None:
@@ -159,7 +159,7 @@ class Line:
         for _ in range(BROKER_TRIES):
             chosen = port or find_free_port()
             config = self.folder / "mosquitto.conf"
-            lines = [f"listener {chosen} 127.0.0.1", "allow_anonymous true", "persistence false"]
+            lines = [f"listener {chosen} 127.0.0.1", *access, "persistence false"]
             if os.geteuid() == 0:
                 lines.append("user root")  # else it becomes user mosquitto, who cannot read in this folder
             config.write_text("\n".join(lines) + "\n")

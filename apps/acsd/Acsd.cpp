@@ -15,7 +15,6 @@
 #include "RobotHost.hpp"
 #include "StoreWorker.hpp"
 #include <acs/core/Overloaded.hpp>
-#include <acs/core/Uuid.hpp>
 #include <acs/plan/PlanEngine.hpp>
 #include <acs/plan_sqlite/SqlitePlanStore.hpp>
 #include <acs/vda5050/Topic.hpp>
@@ -50,20 +49,6 @@ constexpr std::uint64_t DRAIN_TIMER = 3;
 constexpr std::uint64_t SETTLE_TIMER = 4;
 constexpr std::uint64_t STATUS_TIMER = 5;
 constexpr std::uint64_t FIRST_ENGINE_TIMER = 1000;
-
-VDA5050::MosquittoOptions MakeMqttOptions(const AcsdConfig& config, Core::IRandom& random)
-{
-    VDA5050::MosquittoOptions options;
-    // Unique, so that a second acsd on the broker does not push the first one out.
-    options.clientID = "acsd-" + Core::MakeUuid(random);
-    options.host = config.mqtt.url.peer.host;
-    options.port = config.mqtt.url.peer.port;
-    if (Apps::IsSecure(config.mqtt.url.scheme))
-    {
-        options.tls.emplace();
-    }
-    return options;
-}
 
 } // namespace
 
@@ -449,7 +434,7 @@ public:
               _surroundings.executor,
               _surroundings.random,
               _surroundings.logger.MakeFor("mqtt"),
-              MakeMqttOptions(_config, _surroundings.random),
+              MakeMqttOptions(_config.mqtt, _surroundings.random),
               *this),
           _timers(_surroundings.executor, [this](std::uint64_t key) { OnTimer(key); }),
           _http(

@@ -57,16 +57,8 @@ Planning::ERobotType ReadRobotType(const ConfigSection& section, const std::stri
     return section.GetWord(key, {"LR", "CR"}) == "CR" ? Planning::ERobotType::CR : Planning::ERobotType::LR;
 }
 
-void ReadLinks(const ConfigSection& root, AcsdConfig& config)
+void ReadArm(const ConfigSection& root, AcsdConfig& config)
 {
-    const ConfigSection mqtt = root.GetSection("mqtt");
-    config.mqtt.url = mqtt.GetUrl("url", {EUrlScheme::Mqtt, EUrlScheme::Mqtts});
-    config.mqtt.interfaceName = mqtt.GetString("interface_name", config.mqtt.interfaceName);
-    if (config.mqtt.interfaceName.empty() || config.mqtt.interfaceName.find_first_of("/+#$") != std::string::npos)
-    {
-        mqtt.AddMistake("interface_name", "must be one level of a topic: not empty, without / + # $");
-    }
-
     const ConfigSection arm = root.GetSection("arm");
     ArmCounters& counters = config.arm;
     const auto readIndex = [&arm](const std::string& key, std::size_t fallback) {
@@ -368,7 +360,8 @@ AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::st
     std::vector<std::string> otherMistakes;
     ReadMcsConfig(root, fileName, config.mcs, otherMistakes);
     ReadOperationsConfig(root, config.operations);
-    ReadLinks(root, config);
+    ReadMqttConfig(root, fileName, config.mqtt, config.warnings);
+    ReadArm(root, config);
     ReadSite(root, fileName, config);
     ReadStore(root, fileName, config);
     config.httpListen = root.GetSection("http").GetEndpoint("listen", config.httpListen);

@@ -4,6 +4,7 @@
 #include "common/LocalOffset.hpp"
 #include "common/Url.hpp"
 #include "McsConfig.hpp"
+#include "MqttConfig.hpp"
 #include "OperationsConfig.hpp"
 #include <acs/plan/EngineOptions.hpp>
 #include <acs/plan/SiteMap.hpp>
@@ -19,12 +20,6 @@
 
 namespace ACS::Acsd
 {
-
-struct MqttConfig
-{
-    Apps::Url url;
-    std::string interfaceName = "uagv";
-};
 
 /// Where an arm shows what its programs do: one array of words in its relays, read through MONITOR.
 struct ArmCounters
@@ -79,6 +74,7 @@ struct AcsdConfig
     std::optional<Planning::SiteMap> site; ///< Always there when there are no mistakes.
     /// Each key that is given, "mcs.url", with its value as TOML: what a later reading differs in.
     std::map<std::string, std::string> values;
+    std::vector<std::string> warnings; ///< What is not wrong, but should not be so.
     std::vector<std::string> mistakes; ///< Each with file, line and key; empty: the rest is good.
 };
 

@@ -64,6 +64,10 @@ int Serve(const ProgramOptions& options, AcsdConfig config)
     Apps::SystemRandom random;
     Apps::SpdlogSink sink(options.bLogLevelGiven ? options.common.logLevel : config.operations.logLevel);
     const Core::Logger logger(sink, NAME);
+    for (const std::string& warning : config.warnings)
+    {
+        logger.Warning(warning);
+    }
     std::unique_ptr<MessageTrace> trace;
     if (!options.traceFolder.empty())
     {
@@ -134,6 +138,10 @@ int RunAcsd(int argc, const char* const* argv)
     }
     if (options.bCheckOnly)
     {
+        for (const std::string& warning : config.warnings)
+        {
+            fmt::print(stderr, "warning: {}\n", warning);
+        }
         fmt::print("{}: no mistakes\n", options.configFile);
         return 0;
     }

@@ -3,12 +3,13 @@
 
 import json
 import signal
+import subprocess
 import time
 import urllib.request
 
 from mcs_stub import McsStub
 from plan_samples import make_carrying_plan
-from scenario_case import SITE, ScenarioCase, main
+from scenario_case import SITE, TIME_SCALE, ScenarioCase, main
 
 DRAIN_SECONDS = 8
 LOG_SECONDS = 20
@@ -35,6 +36,16 @@ class Operations(ScenarioCase):
             self.assertLess(time.monotonic(), deadline, f"{part!r} was not logged")
             time.sleep(0.02)
 
+    def read_status(self, address):
+        with urllib.request.urlopen(f"http://{address}/status", timeout=LOG_SECONDS) as response:
+            return json.load(response)
+
+    def wait_for_status(self, address, is_reached):
+        deadline = time.monotonic() + LOG_SECONDS
+        while not is_reached(self.read_status(address)):
+            self.assertLess(time.monotonic(), deadline, "the status was not reached")
+            time.sleep(0.02)
+
     def submit(self, stub, plan_id):
         return stub.ask("ExecutionPlan", make_carrying_plan(plan_id))
 
@@ -56,6 +67,28 @@ class Operations(ScenarioCase):
             self.assertRegex(log, rf"not taken mistake=.*acsd\.toml:\d+: {key}: ")
         self.assertTrue(acsd.is_running())
         self.assertEqual(self.submit(stub, "P1")["result"], "Success")
+
+    def test_a_broker_with_a_password_takes_acsd_by_its_name_and_the_password_in_its_file(self):
+        stub = self.start_stub()
+        passwords = self.line.folder / "passwords"
+        passwords.touch(mode=0o600)
+        subprocess.run(["mosquitto_passwd", "-b", passwords, "acsd", "secret"], check=True)
+        self.line.start_broker(access=("allow_anonymous false", f"password_file {passwords}"))
+        arm = self.line.start_arm(TIME_SCALE).wait_ready()
+        for name, right in (("wrong", False), ("right", True)):
+            file = self.line.folder / name
+            file.touch(mode=0o600)
+            file.write_text("secret\n" if right else "guess\n")
+            acsd = self.line.start_acsd(stub.address, arm, "mqtt.username=acsd", f"mqtt.password_file={file}")
+            address = acsd.wait_ready()["http"]
+            if right:
+                self.wait_for_status(address, lambda status: status["links"]["mqtt"])
+            else:
+                self.wait_for_log(acsd, "check user name")
+                self.assertFalse(self.read_status(address)["links"]["mqtt"])
+            self.assertNotIn("can read", acsd.log.read_text())
+            self.assertEqual(acsd.stop(), 0)
+            self.line.forget(acsd)
 
     def test_sigterm_brings_all_reports_to_the_mcs_and_takes_no_more_plans(self):
         stub = self.start_stub()
