@@ -13,6 +13,7 @@
 #include "OperatorRoutes.hpp"
 #include "PlanLog.hpp"
 #include "RobotHost.hpp"
+#include "StoreWatch.hpp"
 #include "StoreWorker.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/plan/PlanEngine.hpp>
@@ -24,6 +25,7 @@
 #include <array>
 #include <cassert>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -48,6 +50,7 @@ constexpr std::uint64_t STOP_TIMER = 2;
 constexpr std::uint64_t DRAIN_TIMER = 3;
 constexpr std::uint64_t SETTLE_TIMER = 4;
 constexpr std::uint64_t STATUS_TIMER = 5;
+constexpr std::uint64_t STORE_TIMER = 6;
 constexpr std::uint64_t FIRST_ENGINE_TIMER = 1000;
 
 } // namespace
@@ -62,6 +65,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     PlanLog _planLog;
     Planning::PlanEngine _engine;
     EngineLoop _loop;
+    StoreWatch _storeWatch;
     StoreWorker _store;
     McsLink _mcs;
     VDA5050::MosquittoLink _mqtt;
@@ -81,19 +85,13 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     bool _bDraining = false; ///< No new plans; what is to be told is told, then the links are left.
     bool _bSettling = false; ///< All is told.
     bool _bStopping = false;
-    bool _bStoreFails = false; ///< The last batch could not be stored.
-    Core::SteadyTime _storeBegan;
     std::size_t _stopsOpen = 0;
     StopHandler _stopHandler;
 
     void OnStored(const Core::Result<void>& result)
     {
-        _bStoreFails = !result.has_value();
-        if (!result)
-        {
-            _surroundings.logger.Error("the store fails", {{"reason", Core::Describe(result.error())}});
-        }
-        _figures.ObserveCommit(_surroundings.clock.GetNow().steady - _storeBegan);
+        _timers.Cancel(STORE_TIMER);
+        _figures.ObserveCommit(_storeWatch.OnStored(result, _surroundings.clock.GetNow().steady));
         _loop.OnStored(result);
         FollowDrain();
         if (_bStopping && !_loop.IsStoring() && _stopsOpen == 0)
@@ -157,6 +155,10 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         else if (key == STATUS_TIMER)
         {
             RepeatStatuses();
+        }
+        else if (key == STORE_TIMER)
+        {
+            _storeWatch.OnLate();
         }
         else
         {
@@ -317,9 +319,9 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         {
             obstacles.emplace_back("acsd draining for shutdown");
         }
-        if (_bStoreFails)
+        if (std::optional<std::string> obstacle = _storeWatch.GetObstacleOrNull())
         {
-            obstacles.emplace_back("the store cannot be written");
+            obstacles.push_back(std::move(*obstacle));
         }
         return obstacles;
     }
@@ -414,9 +416,11 @@ public:
               _surroundings.clock,
               [this](const Planning::EngineAction& action) { Execute(action); },
               [this](const Planning::StoreBatch& batch) {
-                  _storeBegan = _surroundings.clock.GetNow().steady;
+                  _storeWatch.OnBegun(_surroundings.clock.GetNow().steady);
+                  _timers.Start(STORE_TIMER, StoreWatch::LIMIT);
                   _store.Append(batch);
               }),
+          _storeWatch(_surroundings.logger.MakeFor("store")),
           _store(
               _surroundings.executor,
               std::move(store),

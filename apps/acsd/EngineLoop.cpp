@@ -2,6 +2,7 @@
 
 #include <acs/core/Overloaded.hpp>
 
+#include <algorithm>
 #include <span>
 #include <utility>
 #include <vector>
@@ -16,6 +17,12 @@ Planning::SubmitPlan* GetPlanOrNull(EngineTask& task)
 {
     auto* const commandOrNull = std::get_if<Planning::PlanCommand>(&task);
     return commandOrNull == nullptr ? nullptr : std::get_if<Planning::SubmitPlan>(commandOrNull);
+}
+
+const Planning::StateChanged* GetStateOrNull(const EngineTask& task)
+{
+    const auto* const robotOrNull = std::get_if<RobotTask>(&task);
+    return robotOrNull == nullptr ? nullptr : std::get_if<Planning::StateChanged>(&robotOrNull->event);
 }
 
 } // namespace
@@ -45,8 +52,43 @@ void EngineLoop::Push(EngineTask task)
         Refuse(task);
         return;
     }
-    _tasks.push_back(std::move(task));
+    if (!TryMerge(task))
+    {
+        _tasks.push_back(std::move(task));
+    }
     Work();
+}
+
+/// Into the robot's latest task, where that is a state too and nothing but numbers that go by has changed since: nothing
+/// that the engine decides on is lost, and nothing changes its place.
+bool EngineLoop::TryMerge(const EngineTask& task)
+{
+    const Planning::StateChanged* const freshOrNull = GetStateOrNull(task);
+    if (freshOrNull == nullptr)
+    {
+        return false;
+    }
+    const std::string& robotID = std::get<RobotTask>(task).robotID;
+    const auto latest = std::find_if(_tasks.rbegin(), _tasks.rend(), [&robotID](const EngineTask& waiting) {
+        const auto* const robotOrNull = std::get_if<RobotTask>(&waiting);
+        return robotOrNull != nullptr && robotOrNull->robotID == robotID;
+    });
+    const Planning::StateChanged* const oldOrNull = latest == _tasks.rend() ? nullptr : GetStateOrNull(*latest);
+    if (oldOrNull == nullptr)
+    {
+        return false;
+    }
+    Planning::StateChanged moved = *oldOrNull;
+    moved.x = freshOrNull->x;
+    moved.y = freshOrNull->y;
+    moved.theta = freshOrNull->theta;
+    moved.batteryPercent = freshOrNull->batteryPercent;
+    if (moved != *freshOrNull)
+    {
+        return false;
+    }
+    std::get<RobotTask>(*latest).event = std::move(moved);
+    return true;
 }
 
 void EngineLoop::OnStored(const Core::Result<void>& result)
@@ -63,6 +105,16 @@ void EngineLoop::OnStored(const Core::Result<void>& result)
     Work();
 }
 
+bool EngineLoop::TryPush(Planning::PlanCommand command)
+{
+    if (_bClosed)
+    {
+        return false;
+    }
+    Push(std::move(command));
+    return true;
+}
+
 void EngineLoop::Close()
 {
     _bClosed = true;
@@ -75,6 +127,11 @@ void EngineLoop::Close()
 bool EngineLoop::IsStoring() const noexcept
 {
     return _storing.has_value();
+}
+
+std::size_t EngineLoop::GetWaitingCount() const noexcept
+{
+    return _tasks.size();
 }
 
 /// R1: who asked is answered. Nothing was begun, so the MCS may ask again.
@@ -105,16 +162,6 @@ void EngineLoop::Work()
     }
     while (!_storing.has_value() && (_executed < _actions.size() || !_tasks.empty()))
     {
-bool EngineLoop::TryPush(Planning::PlanCommand command)
-{
-    if (_bClosed)
-    {
-        return false;
-    }
-    Push(std::move(command));
-    return true;
-}
-
         if (_executed < _actions.size())
         {
             ExecuteNext();

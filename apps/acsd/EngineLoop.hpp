@@ -4,6 +4,7 @@
 #include <acs/core/Result.hpp>
 #include <acs/plan/PlanEngine.hpp>
 
+#include <cstddef>
 #include <deque>
 #include <functional>
 #include <optional>
@@ -25,7 +26,8 @@ using EngineTask = std::variant<Planning::PlanCommand, RobotTask, Planning::Engi
 
 /// Calls the engine for one task at a time and has its actions carried out strictly in order. While a batch is on its way
 /// to the disk nothing else happens to the engine: tasks wait. Plans that wait together are handed over together, so that
-/// one transaction serves a burst of them. Pure; the store and everything else are the caller's.
+/// one transaction serves a burst of them, and of states of a robot that differ in its pose or battery only the latest
+/// counts, so that a disk that hangs fills no memory. Pure; the store and everything else are the caller's.
 class EngineLoop
 {
 public:
@@ -53,14 +55,14 @@ public:
     /// Once, before anything else: what the store held.
     void Restore(Planning::StoredState state);
 
+    /// A command that comes after Close is refused by its reply.
     void Push(EngineTask task);
 
-    /// A command that comes after Close is refused by its reply.
-    /// The batch is on disk, or could not be stored: then the engine decides anew about what stood behind it.
-    void OnStored(const Core::Result<void>& result);
     /// The same for a command whose sender waits for no reply: false, and nothing done, after Close.
     [[nodiscard]] bool TryPush(Planning::PlanCommand command);
 
+    /// The batch is on disk, or could not be stored: then the engine decides anew about what stood behind it.
+    void OnStored(const Core::Result<void>& result);
 
     /// From now on commands are refused, those that wait too, and all other tasks are forgotten; what is being stored is
     /// still brought to its end.
@@ -68,7 +70,11 @@ public:
 
     [[nodiscard]] bool IsStoring() const noexcept;
 
+    /// Tasks that wait for the disk.
+    [[nodiscard]] std::size_t GetWaitingCount() const noexcept;
+
 private:
+    [[nodiscard]] bool TryMerge(const EngineTask& task);
     void Refuse(const EngineTask& task) const;
     void Work();
     void CallEngine();

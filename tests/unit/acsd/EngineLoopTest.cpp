@@ -142,6 +142,42 @@ TEST_CASE_METHOD(LoopTest, "What comes between two plans keeps its place")
 
 TEST_CASE_METHOD(
     LoopTest,
+    "While the disk hangs a robot's states that differ in pose and battery only are one; all else keeps its place")
+{
+    StateChanged state;
+    state.lastNodeID = "D-CHG01";
+    state.bPoseKnown = true;
+    _loop.Push(RobotTask{"LR01", LinkChanged{true}});
+    Submit("P1", 1);
+    REQUIRE(_loop.IsStoring());
+    for (int i = 0; i < 10'000; ++i)
+    {
+        state.x += 0.01;
+        state.batteryPercent = 100 - i / 1'000.0;
+        _loop.Push(RobotTask{"LR01", state});
+        _loop.Push(RobotTask{"CR01", state}); // another robot's between them
+    }
+    CHECK(_loop.GetWaitingCount() == 2);
+    state.errors.push_back({"AGV-x", EAlarmLevel::Light, "which goes again"});
+    _loop.Push(RobotTask{"LR01", state});
+    state.errors.clear();
+    _loop.Push(RobotTask{"LR01", state});
+    CHECK(_loop.GetWaitingCount() == 4);
+    _loop.Push(RobotTask{"LR01", LinkChanged{false}});
+    _loop.Push(RobotTask{"LR01", LinkChanged{true}});
+    state.x = 7;
+    _loop.Push(RobotTask{"LR01", state}); // behind the new link
+    CHECK(_loop.GetWaitingCount() == 7);
+    while (_loop.IsStoring())
+    {
+        _loop.OnStored({});
+    }
+    REQUIRE(_engine.GetRobotPoses().size() == 1);
+    CHECK(_engine.GetRobotPoses().front().x == 7);
+}
+
+TEST_CASE_METHOD(
+    LoopTest,
     "4.1, R1 A loop that is closed still tells what stands behind the batch on its way, and refuses what comes")
 {
     Submit("P1", 1);
@@ -150,6 +186,7 @@ TEST_CASE_METHOD(
     Submit("P3", 3);
     _loop.Push(PlanCommand(ControlPlan{EPlanControl::Cancel, "P1", {}, 4}));
     _loop.Push(PlanCommand(MessageAcknowledged{1}));
+    CHECK_FALSE(_loop.TryPush(ControlTsc{true, 9}));
     _loop.OnStored({});
     CHECK(ListReplies() == Replies{{2, false}, {3, false}, {4, false}, {1, true}});
     CHECK(_batches.size() == 1);
@@ -157,4 +194,3 @@ TEST_CASE_METHOD(
 }
 
 } // namespace ACS::Testing
-    CHECK_FALSE(_loop.TryPush(ControlTsc{true, 9}));

@@ -1,0 +1,51 @@
+#include "StoreWatch.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace ACS::Acsd
+{
+
+StoreWatch::StoreWatch(Core::Logger logger)
+    : _logger(std::move(logger))
+{
+}
+
+void StoreWatch::OnBegun(Core::SteadyTime now)
+{
+    _began = now;
+}
+
+void StoreWatch::OnLate()
+{
+    _bHangs = true;
+    _logger.Error("the disk does not answer: plans, controls and reports wait for it", {{"for", "5 s"}});
+}
+
+Core::Duration StoreWatch::OnStored(const Core::Result<void>& result, Core::SteadyTime now)
+{
+    const Core::Duration took = now - _began;
+    if (std::exchange(_bHangs, false))
+    {
+        const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(took);
+        _logger.Warning("the disk has answered", {{"after", fmt::format("{} s", seconds.count())}});
+    }
+    _bFails = !result.has_value();
+    if (_bFails)
+    {
+        _logger.Error("the store fails", {{"reason", Core::Describe(result.error())}});
+    }
+    return took;
+}
+
+std::optional<std::string> StoreWatch::GetObstacleOrNull() const
+{
+    if (_bHangs)
+    {
+        return "the store does not answer";
+    }
+    return _bFails ? std::optional<std::string>("the store cannot be written") : std::nullopt;
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,46 @@
+#include "StoreWatch.hpp"
+
+#include "Catch.hpp"
+#include "ManualClock.hpp"
+#include "RecordingLogSink.hpp"
+#include <acs/core/ECoreError.hpp>
+
+namespace ACS::Acsd::Test
+{
+
+using namespace std::chrono_literals;
+
+TEST_CASE("A write that takes too long is told in the log and keeps acsd from being ready until it is over")
+{
+    Testing::ManualClock clock;
+    Testing::RecordingLogSink sink;
+    StoreWatch watch{Core::Logger(sink, "store")};
+    watch.OnBegun(clock.GetNow().steady);
+    CHECK_FALSE(watch.GetObstacleOrNull().has_value());
+    clock.Advance(StoreWatch::LIMIT);
+    watch.OnLate();
+    CHECK(watch.GetObstacleOrNull() == std::string("the store does not answer"));
+    CHECK(sink.Contains(Core::ELogLevel::Error, "the disk does not answer"));
+    clock.Advance(2s);
+    CHECK(watch.OnStored({}, clock.GetNow().steady) == StoreWatch::LIMIT + 2s);
+    CHECK_FALSE(watch.GetObstacleOrNull().has_value());
+    CHECK(sink.ContainsField("after", "7 s"));
+    watch.OnBegun(clock.GetNow().steady);
+    CHECK(watch.OnStored({}, clock.GetNow().steady) == Core::Duration::zero());
+    CHECK(sink.CountLevel(Core::ELogLevel::Warning) == 1);
+}
+
+TEST_CASE("A write that fails keeps acsd from being ready until one succeeds")
+{
+    Testing::ManualClock clock;
+    Testing::RecordingLogSink sink;
+    StoreWatch watch{Core::Logger(sink, "store")};
+    watch.OnBegun(clock.GetNow().steady);
+    watch.OnStored(Core::Fail(Core::ECoreError::TooLarge, "acsd.db", "room", "disk full"), clock.GetNow().steady);
+    CHECK(watch.GetObstacleOrNull() == std::string("the store cannot be written"));
+    CHECK(sink.Contains(Core::ELogLevel::Error, "the store fails"));
+    watch.OnStored({}, clock.GetNow().steady);
+    CHECK_FALSE(watch.GetObstacleOrNull().has_value());
+}
+
+} // namespace ACS::Acsd::Test
