@@ -240,6 +240,16 @@ void ReadQueue(const ConfigSection& root, Planning::EngineOptions& engine)
         plan.AddMistake("allow_mixed_robot_types", "must be false: one robot does the whole of a plan");
     }
 
+    const ConfigSection locations = root.GetSection("locations");
+    static_cast<void>(locations.GetWord("unknown", {"reject"}, "reject"));
+    if (locations.HasKey("robot_aliases")
+        && locations.GetStringList("robot_aliases") != std::vector<std::string>{"AMR"})
+    {
+        locations.AddMistake(
+            "robot_aliases",
+            R"(must be ["AMR"]: the document's own word is the only one that is read)");
+    }
+
     const ConfigSection reports = root.GetSection("reports");
     engine.bInitialPendingReported = reports.IsEnabled("initial_pending", engine.bInitialPendingReported);
 

@@ -237,6 +237,9 @@ TEST_CASE("What of the decision register is not built is a mistake of the config
     REQUIRE(mixed.size() == 1);
     CHECK(mixed[0].find("plan.allow_mixed_robot_types: must be false") != std::string::npos);
     CHECK(Read({"plan.duplicate=replace"}).mistakes.size() == 1);
+    CHECK(Read({"locations.unknown=accept"}).mistakes.size() == 1);
+    CHECK(Read({R"(locations.robot_aliases=["AMR", "AGV"])"}).mistakes.size() == 1);
+    CHECK(Read({R"(locations.robot_aliases=["AMR"])"}).mistakes.empty());
     CHECK(Read({"pause.mode=later"}).mistakes.size() == 1);
 }
 
