@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <string_view>
@@ -132,14 +133,14 @@ void PlanEngine::Impl::AssignPlans()
     }
 }
 
-/// Seconds of driving to the plan's first place; nullopt where no way leads there.
-std::optional<double> PlanEngine::Impl::GetTravelSecondsOrNull(const ActivePlan& plan, const Robot& robot) const
+/// To the plan's first place. By the times that the router keeps for it: the whole route of each robot would be searched
+/// for nothing.
+bool PlanEngine::Impl::HasWay(const ActivePlan& plan, const Robot& robot) const
 {
     const std::string& vehicleTypeID = robot.options->vehicleTypeID;
     const std::size_t dock = *_admission.FindDockOrNull(plan.resolved.steps.front().stationID, vehicleTypeID);
-    const std::optional<Route> route =
-        _router.FindRouteOrNull(vehicleTypeID, _site.GetNodes()[*robot.node].nodeID, _site.GetNodes()[dock].nodeID);
-    return route.has_value() ? std::optional(route->travelSeconds) : std::nullopt;
+    const std::array start{*robot.node};
+    return _router.FindQuickestStartOrNull(vehicleTypeID, start, dock).has_value();
 }
 
 /// Of these, the one with the shortest way to the plan's first place; null where none has a way.
@@ -332,8 +333,7 @@ WaitReason PlanEngine::Impl::DescribeWaiting(const ActivePlan& plan, std::size_t
         {
             objection = DescribeUnfree(robot);
         }
-        else if (objection = JudgePorts(plan, robot).objectionOrNull;
-                 !objection.has_value() && !GetTravelSecondsOrNull(plan, robot).has_value())
+        else if (objection = JudgePorts(plan, robot).objectionOrNull; !objection.has_value() && !HasWay(plan, robot))
         {
             objection = "no route to " + plan.resolved.steps.front().stationID;
         }

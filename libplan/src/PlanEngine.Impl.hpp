@@ -334,7 +334,7 @@ private:
     [[nodiscard]] static bool IsUsable(const Robot& robot);
     [[nodiscard]] static bool IsFree(const Robot& robot);
     [[nodiscard]] std::string DescribeUnfree(const Robot& robot) const;
-    [[nodiscard]] std::optional<double> GetTravelSecondsOrNull(const ActivePlan& plan, const Robot& robot) const;
+    [[nodiscard]] bool HasWay(const ActivePlan& plan, const Robot& robot) const;
     [[nodiscard]] std::optional<std::size_t> FindPortOrNull(
         const Robot& robot,
         const std::optional<Core::Location>& place) const;

@@ -135,6 +135,12 @@ TEST_CASE("Routes: a search goes no farther than it must, however large the site
     const std::uint64_t before = router.CountVisitedNodes();
     CHECK(router.FindQuickestStartOrNull("lr", starts, 1005)->nodeIndex == 1000);
     CHECK(router.CountVisitedNodes() - before <= 12);
+    // One after the other they cost no more than the whole site once: the times to a target are kept.
+    for (const std::size_t start : starts)
+    {
+        CHECK(router.FindQuickestStartOrNull("lr", std::vector<std::size_t>{start}, 1005).has_value());
+    }
+    CHECK(router.CountVisitedNodes() - before <= NODES);
 }
 
 TEST_CASE("Sites: of several stations that share a node the first is the one at that node")
