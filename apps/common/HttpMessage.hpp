@@ -32,6 +32,7 @@ struct HttpResponse
     std::string contentType = "text/plain; charset=utf-8";
     std::string body;
     Core::Duration delay{}; ///< The server sends it so much later; other connections do not wait.
+    std::string allow{};    ///< Header Allow, of a 405: the methods that are served; empty: none.
 };
 
 /// Splits the target of a request line into path and query and decodes both; what is no target is refused.

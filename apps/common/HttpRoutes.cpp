@@ -61,11 +61,12 @@ HttpResponse HttpRoutes::Respond(const HttpRequest& request) const
         {
             continue;
         }
-        if (route.method == request.method)
+        // What answers GET answers HEAD: the server leaves the body out.
+        if (route.method == request.method || (route.method == "GET" && request.method == "HEAD"))
         {
             return route.handler(request, *captures);
         }
-        allowed += (allowed.empty() ? "" : " and ") + route.method;
+        allowed += (allowed.empty() ? "" : ", ") + route.method + (route.method == "GET" ? ", HEAD" : "");
     }
     return Refuse(allowed);
 }
@@ -74,7 +75,7 @@ HttpResponse HttpRoutes::Refuse(const std::string& allowedMethods) const
 {
     if (!allowedMethods.empty())
     {
-        return {HTTP_NOT_ALLOWED, PLAIN_TEXT, "only " + allowedMethods + " is served here\n"};
+        return {HTTP_NOT_ALLOWED, PLAIN_TEXT, "served here: " + allowedMethods + "\n", {}, allowedMethods};
     }
     HttpResponse response{HTTP_NOT_FOUND, PLAIN_TEXT, "there is nothing here; served are:\n"};
     for (const Route& route : _routes)

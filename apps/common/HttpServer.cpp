@@ -261,6 +261,10 @@ private:
         _responseOrNull.emplace(Http::int_to_status(response.status), 11U);
         _responseOrNull->result(response.status);
         _responseOrNull->set(Http::field::content_type, response.contentType);
+        if (!response.allow.empty())
+        {
+            _responseOrNull->set(Http::field::allow, response.allow);
+        }
         _responseOrNull->body() = response.body;
         _responseOrNull->keep_alive(bKeepAlive);
         _responseOrNull->prepare_payload();

@@ -40,7 +40,16 @@ TEST_CASE("A path for another method is answered with 405, which says for which"
 {
     const Apps::HttpRoutes routes = MakeRoutes();
     REQUIRE(Ask(routes, "POST", "/status").status == 405);
-    REQUIRE(Ask(routes, "GET", "/plans/P/jobs/J/done").body == "only POST is served here\n");
+    REQUIRE(Ask(routes, "POST", "/status").allow == "GET, HEAD");
+    REQUIRE(Ask(routes, "GET", "/plans/P/jobs/J/done").body == "served here: POST\n");
+    REQUIRE(Ask(routes, "HEAD", "/plans/P/jobs/J/done").allow == "POST");
+}
+
+TEST_CASE("HEAD is served where GET is")
+{
+    const Apps::HttpResponse response = Ask(MakeRoutes(), "HEAD", "/status");
+    REQUIRE(response.status == 200);
+    REQUIRE(response.allow.empty());
 }
 
 TEST_CASE("A path that is not there is answered with 404 and what is there")

@@ -252,6 +252,20 @@ TEST_CASE("HEAD is answered with the header alone")
     REQUIRE_THAT(answer, EndsWith("\r\n\r\n"));
 }
 
+TEST_CASE("The methods that are served go out in the header Allow, and only where they are told")
+{
+    Fixture fixture;
+    fixture.answer = {405, "text/plain", "<answer>", {}, "GET, HEAD"};
+    RawClient client(fixture.context, fixture.port);
+    client.Send("POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 0\r\n\r\n");
+    REQUIRE(client.HasReceived("<answer>"));
+    REQUIRE_THAT(client.TakeReceived(), Contains("Allow: GET, HEAD\r\n"));
+    fixture.answer.allow.clear();
+    client.Send("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(client.HasReceived("<answer>"));
+    REQUIRE_THAT(client.TakeReceived(), !Contains("Allow"));
+}
+
 TEST_CASE("What is no HTTP is answered with 400 and the server lives on")
 {
     const auto* const garbage = GENERATE("\x16\x03\x01\x02hello\r\n\r\n", "GET\r\n\r\n", "G\x01T / HTTP/1.1\r\n\r\n");
