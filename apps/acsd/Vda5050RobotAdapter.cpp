@@ -566,6 +566,11 @@ void Vda5050RobotAdapter::TakeState(Core::Now now, AdapterActions& out)
         _state.y = state.agvPosition->y;
         _state.theta = state.agvPosition->theta;
         _state.bPoseKnown = state.agvPosition->bPositionInitialized;
+        _bPoseInState = true;
+    }
+    else if (std::exchange(_bPoseInState, false))
+    {
+        _state.bPoseKnown = false; // it knows no longer; one that only ever tells it by visualization has lost nothing
     }
     _state.batteryPercent = state.batteryState.batteryCharge;
     _state.lastNodeID = state.lastNodeID;

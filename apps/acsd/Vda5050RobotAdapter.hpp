@@ -33,6 +33,7 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
 
     bool _bOnline = false;
     Planning::StateChanged _state;
+    bool _bPoseInState = false;                  ///< The latest state had a position.
     std::optional<VDA5050::OrderBuilder> _route; ///< Of the present drive.
     std::size_t _wantedReleased = 0;             ///< Nodes that the engine has released.
     bool _bUpdateUnderWay = false;               ///< The vehicle has not shown the last message of the drive yet.

@@ -155,6 +155,26 @@ Planning::StartJob MakeJob(const std::string& action)
 
 } // namespace
 
+TEST_CASE("6.10.6 A state that leaves the position out after one that had it says that the vehicle knows it no longer")
+{
+    VehicleFixture vehicle;
+    VDA5050::VisualizationMessage seen;
+    seen.agvPosition.emplace();
+    seen.agvPosition->bPositionInitialized = true;
+    seen.agvPosition->x = 3;
+    vehicle.ComeOnline();
+    vehicle.Receive("visualization", seen);
+    vehicle.ShowState(); // of a vehicle that tells its position by visualization only
+    CHECK(vehicle.TakeEvents<Planning::StateChanged>().back().bPoseKnown);
+
+    vehicle.state.agvPosition = seen.agvPosition;
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::StateChanged>().back().bPoseKnown);
+    vehicle.state.agvPosition.reset();
+    vehicle.ShowState();
+    CHECK_FALSE(vehicle.TakeEvents<Planning::StateChanged>().back().bPoseKnown);
+}
+
 TEST_CASE("A vehicle is online once it has said so and shown a state")
 {
     VehicleFixture vehicle;
