@@ -26,7 +26,8 @@ namespace ACS::Acsd
 class McsDialog final
 {
 public:
-    /// Receives the engine's next command; must not call the dialog.
+    /// Receives the engine's next command, as the last thing but what is told here: the engine may answer within the call,
+    /// and whoever carries its actions out may call Reply, Report, TellStatus and TellTsc from it. Nothing else.
     using CommandHandler = std::function<void(Planning::PlanCommand command)>;
     /// Receives what the MCS answered to a report, and how long that took since this connection was given it.
     using AckObserver = std::function<void(const Protocol::Acked& acked, Core::Duration wait)>;
