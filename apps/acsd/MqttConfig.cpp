@@ -84,7 +84,7 @@ void ReadTls(
         const std::string file = mqtt.GetString(key, "");
         if (file.empty())
         {
-            return file;
+            return std::string();
         }
         if (bPlain)
         {

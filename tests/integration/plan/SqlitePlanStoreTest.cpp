@@ -191,7 +191,8 @@ TEST_CASE("Store: files of the first and second schema are brought forward, and 
         CHECK(loaded->carriers.size() == 1);
         CHECK(loaded->robotWorks.empty());
         CHECK(loaded->tscState == (version == 2 ? ETscState::Paused : ETscState::Auto));
-        REQUIRE(store->Append({{PlanAdded{MakeRecord(2, "P2")}, RobotWorkChanged{"LR01", "C", {}, {}, {}, false, false}}}));
+        REQUIRE(
+            store->Append({{PlanAdded{MakeRecord(2, "P2")}, RobotWorkChanged{"LR01", "C", {}, {}, {}, false, false}}}));
         CHECK(store->Load()->plans.back().transactionID == "request-P2");
         CHECK(store->Load()->robotWorks.size() == 1);
     }

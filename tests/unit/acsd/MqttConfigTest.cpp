@@ -22,7 +22,7 @@ AcsdConfig Read(const std::vector<std::string>& overrides)
 
 std::string WriteFile(const Testing::TemporaryFolder& folder, const std::string& name, const std::string& text)
 {
-    const std::string path = (folder.GetPath() / name).string();
+    std::string path = (folder.GetPath() / name).string();
     std::ofstream(path) << text;
     std::filesystem::permissions(path, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
     return path;
