@@ -1,11 +1,9 @@
 #include "Vda5050RobotAdapter.hpp"
 
-#include <acs/core/JsonText.hpp>
 #include <acs/core/Overloaded.hpp>
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -50,23 +48,6 @@ VDA5050::OrderEdge MakeEdge(const Planning::RouteEdge& from)
     edge.bRotationAllowed = from.bRotationAllowed;
     edge.length = from.length;
     return edge;
-}
-
-void AddParameter(VDA5050::Action& action, std::string key, const std::optional<std::string>& value)
-{
-    if (value.has_value())
-    {
-        action.actionParameters.push_back({std::move(key), Core::JsonText::FromString(*value)});
-    }
-}
-
-Planning::RobotError MakeError(const VDA5050::VehicleError& error)
-{
-    const bool bFatal = error.errorLevel == VDA5050::EErrorLevel::Fatal;
-    return {
-        "AGV-" + error.errorType,
-        bFatal ? Planning::EAlarmLevel::Heavy : Planning::EAlarmLevel::Light,
-        error.errorDescription.empty() ? error.errorType : error.errorDescription};
 }
 
 } // namespace
@@ -190,116 +171,6 @@ void Vda5050RobotAdapter::StartDrive(const Planning::Drive& drive, Core::Now now
     _lossReason.reset();
     _pendingOrder = PendingOrder{std::move(*order)};
     SendPendingOrder(now, out);
-}
-
-void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now, AdapterActions& out)
-{
-    const std::optional<std::string> rejection = GetRejectionReasonOrNull(job.action);
-    if (rejection.has_value())
-    {
-        out.emplace_back(RaiseEvent{Planning::JobFailed{job.jobID, *rejection}});
-        return;
-    }
-    const VDA5050::StateMessage* stateOrNull = _session.GetStateOrNull();
-    if (stateOrNull == nullptr || stateOrNull->lastNodeID.empty())
-    {
-        out.emplace_back(RaiseEvent{Planning::JobFailed{job.jobID, "the vehicle does not tell on which node it is"}});
-        return;
-    }
-    _recovery.reset();
-    if (stateOrNull->orderID == job.commandID)
-    {
-        // It came to the vehicle late, and is there all the same.
-        TakeUp(job, MakeJobOrder(job), now, out);
-        return;
-    }
-    _jobID = job.jobID;
-    _jobOrderID = job.commandID;
-    _bJobStarted = false;
-    _pendingOrder = PendingOrder{MakeJobOrder(job)};
-    SendPendingOrder(now, out);
-}
-
-VDA5050::OrderMessage Vda5050RobotAdapter::MakeJobOrder(const Planning::StartJob& job) const
-{
-    VDA5050::Action action;
-    const auto method = _methods.find(job.action);
-    action.actionType = method == _methods.end() ? std::string() : method->second.vehicleAction;
-    action.actionID = job.commandID;
-    action.blockingType = VDA5050::EBlockingType::Hard;
-    AddParameter(action, "stationName", job.position);
-    AddParameter(action, "loadId", job.carrierID);
-
-    VDA5050::OrderMessage order;
-    // Plans may name a job as one before did: a vehicle takes an orderId that it knows for a repetition.
-    order.orderID = job.commandID;
-    VDA5050::OrderNode& node = order.nodes.emplace_back();
-    node.nodeID = _session.GetStateOrNull()->lastNodeID;
-    node.bReleased = true;
-    node.actions.push_back(std::move(action));
-    return order;
-}
-
-void Vda5050RobotAdapter::FindJob(Core::Now now, AdapterActions& out)
-{
-    if (!_recovery.has_value() || !_session.IsReady())
-    {
-        return;
-    }
-    const Planning::RecoverJob recovery = *std::exchange(_recovery, std::nullopt);
-    const Planning::StartJob& job = recovery.job;
-    const VDA5050::StateMessage& state = *_session.GetStateOrNull();
-    const auto tell = [&out, &job](const std::string& reason) {
-        out.emplace_back(RaiseEvent{Planning::JobUncertain{job.jobID, reason}});
-    };
-    const bool bShown = std::ranges::count(state.actionStates, job.commandID, &VDA5050::ActionState::actionID) > 0;
-    if (bShown)
-    {
-        TakeUp(job, MakeJobOrder(job), now, out);
-    }
-    else if (state.orderID.empty())
-    {
-        tell("the vehicle shows no order, as after a restart of its own");
-    }
-    else if (std::ranges::count(recovery.earlierIDs, state.orderID) > 0)
-    {
-        // Orders are taken one after the other: this one never came.
-        out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});
-    }
-    else
-    {
-        tell(fmt::format("the vehicle shows the order {} and nothing of this job", state.orderID));
-    }
-}
-
-void Vda5050RobotAdapter::TakeUp(
-    const Planning::StartJob& job,
-    VDA5050::OrderMessage order,
-    Core::Now now,
-    AdapterActions& out)
-{
-    const VDA5050::StateMessage& state = *_session.GetStateOrNull();
-    _jobID = job.jobID;
-    _jobOrderID = job.commandID;
-    _bJobStarted = false;
-    const auto shown = std::ranges::find(state.actionStates, job.commandID, &VDA5050::ActionState::actionID);
-    if (shown != state.actionStates.end())
-    {
-        TakeAction({shown->actionID, shown->actionType, shown->actionStatus, shown->resultDescription}, out);
-    }
-    if (_jobID.empty() || state.orderID != job.commandID)
-    {
-        return; // its end is told, or will be by the action's own state
-    }
-    VDA5050::OrderRecord record;
-    record.messages.push_back(std::move(order));
-    record.acceptedUpdateID = state.orderUpdateID;
-    const Core::Result<void> resumed = _session.ResumeOrder(std::move(record), now, _sessionActions);
-    if (!resumed)
-    {
-        _jobID.clear();
-        out.emplace_back(RaiseEvent{Planning::JobUncertain{job.jobID, Core::Describe(resumed.error())}});
-    }
 }
 
 void Vda5050RobotAdapter::CancelOrder(std::string_view id, Core::Now now, AdapterActions& out)
@@ -500,153 +371,6 @@ void Vda5050RobotAdapter::TakeCancelFailed(Core::Now now, AdapterActions& out)
     if (!sent)
     {
         RefuseOrder(_route->GetOrderID(), Core::Describe(sent.error()), out);
-    }
-}
-
-bool Vda5050RobotAdapter::IsOccupied(const VDA5050::StateMessage& state) const
-{
-    if (_session.GetOrderPhase() != VDA5050::EOrderPhase::None || state.orderID.empty())
-    {
-        return false;
-    }
-    const bool bActs = std::ranges::any_of(state.actionStates, [](const VDA5050::ActionState& action) {
-        return action.actionStatus == VDA5050::EActionStatus::Initializing
-            || action.actionStatus == VDA5050::EActionStatus::Running
-            || action.actionStatus == VDA5050::EActionStatus::Paused;
-    });
-    return bActs || !state.nodeStates.empty() || !state.edgeStates.empty();
-}
-
-/// Whether the job's action goes on, which a vehicle may show together with paused.
-bool Vda5050RobotAdapter::IsJobRunning(const VDA5050::StateMessage& state) const
-{
-    return !_jobID.empty() && std::ranges::any_of(state.actionStates, [this](const VDA5050::ActionState& action) {
-        return action.actionID == _jobOrderID
-            && (action.actionStatus == VDA5050::EActionStatus::Initializing
-                || action.actionStatus == VDA5050::EActionStatus::Running);
-    });
-}
-
-/// The state's member paused is optional: where it is missing, the ends of these two actions say it.
-void Vda5050RobotAdapter::FollowPauseActions(const VDA5050::StateMessage& state)
-{
-    for (const VDA5050::ActionState& action : state.actionStates)
-    {
-        const bool bStart = action.actionType == VDA5050::ActionTypes::START_PAUSE;
-        const bool bStop = action.actionType == VDA5050::ActionTypes::STOP_PAUSE;
-        if (action.actionStatus == VDA5050::EActionStatus::Finished && (bStart || bStop))
-        {
-            _bPauseDone = bStart;
-        }
-    }
-}
-
-void Vda5050RobotAdapter::CancelForeignOrder(Core::Now now)
-{
-    const VDA5050::StateMessage& state = *_session.GetStateOrNull();
-    const bool bDrives = !state.nodeStates.empty() || !state.edgeStates.empty();
-    if (!bDrives || _foreignOrderID == state.orderID)
-    {
-        return;
-    }
-    VDA5050::Action action;
-    action.actionType = VDA5050::ActionTypes::CANCEL_ORDER;
-    if (_session.SendInstantAction(std::move(action), now, _sessionActions))
-    {
-        _foreignOrderID = state.orderID;
-    }
-}
-
-void Vda5050RobotAdapter::TakeState(Core::Now now, AdapterActions& out)
-{
-    const VDA5050::StateMessage& state = *_session.GetStateOrNull();
-    if (state.agvPosition.has_value())
-    {
-        _state.x = state.agvPosition->x;
-        _state.y = state.agvPosition->y;
-        _state.theta = state.agvPosition->theta;
-        _state.bPoseKnown = state.agvPosition->bPositionInitialized;
-        _bPoseInState = true;
-    }
-    else if (std::exchange(_bPoseInState, false))
-    {
-        _state.bPoseKnown = false; // it knows no longer; one that only ever tells it by visualization has lost nothing
-    }
-    _state.batteryPercent = state.batteryState.batteryCharge;
-    _state.lastNodeID = state.lastNodeID;
-    _state.bDriving = state.bDriving;
-    _state.bCharging = state.batteryState.bCharging;
-    FollowPauseActions(state);
-    // An action that the vehicle cannot pause comes to its end first: before that it does not stand.
-    _state.bPaused = state.bPaused.value_or(_bPauseDone) && !IsJobRunning(state);
-    _state.bAutomatic = state.operatingMode == VDA5050::EOperatingMode::Automatic
-        || state.operatingMode == VDA5050::EOperatingMode::SemiAutomatic;
-    _state.bSafetyStop =
-        state.safetyState.emergencyStop != VDA5050::EEmergencyStop::None || state.safetyState.bFieldViolation;
-    _state.errors.clear();
-    for (const VDA5050::VehicleError& error : state.errors)
-    {
-        _state.errors.push_back(MakeError(error));
-    }
-    FindJob(now, out); // before the state is judged: it may be our own job that keeps the vehicle busy
-    _state.bOccupied = IsOccupied(state);
-    _state.shownCommandID = state.orderID;
-    _state.heldNodeIDs.clear();
-    for (const VDA5050::NodeState& node : state.nodeStates)
-    {
-        if (_state.bOccupied && node.bReleased)
-        {
-            _state.heldNodeIDs.push_back(node.nodeID);
-        }
-    }
-    SetOnline(_session.IsReady(), out);
-    out.emplace_back(RaiseEvent{_state});
-    if (_state.bOccupied)
-    {
-        CancelForeignOrder(now);
-    }
-}
-
-void Vda5050RobotAdapter::TakePosition(const VDA5050::PositionReceived& received, AdapterActions& out)
-{
-    _state.x = received.position.x;
-    _state.y = received.position.y;
-    _state.theta = received.position.theta;
-    _state.bPoseKnown = received.position.bPositionInitialized;
-    if (_bOnline)
-    {
-        out.emplace_back(RaiseEvent{_state});
-    }
-}
-
-void Vda5050RobotAdapter::TakeAction(const VDA5050::ActionChanged& action, AdapterActions& out)
-{
-    if (_jobID.empty() || action.actionID != _jobOrderID)
-    {
-        return;
-    }
-    switch (action.status)
-    {
-        case VDA5050::EActionStatus::Waiting:
-            break;
-        case VDA5050::EActionStatus::Initializing:
-        case VDA5050::EActionStatus::Running:
-        case VDA5050::EActionStatus::Paused:
-            if (!std::exchange(_bJobStarted, true))
-            {
-                out.emplace_back(RaiseEvent{Planning::JobStarted{_jobID}});
-            }
-            break;
-        case VDA5050::EActionStatus::Finished:
-            out.emplace_back(RaiseEvent{Planning::JobFinished{std::exchange(_jobID, {})}});
-            break;
-        case VDA5050::EActionStatus::Failed:
-            out.emplace_back(RaiseEvent{Planning::JobFailed{
-                std::exchange(_jobID, {}),
-                action.resultDescription.empty() ? "the vehicle's action failed" : action.resultDescription}});
-            break;
-        default:
-            break;
     }
 }
 

@@ -1,13 +1,12 @@
+#include "ClientRig.hpp"
+#include "RawMcs.hpp"
 #include "RawPeer.hpp"
 #include "RawServer.hpp"
 #include "WebSocketRig.hpp"
-#include <acs/core/Overloaded.hpp>
-#include <acs/protocol/AcsCodec.hpp>
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,12 +20,15 @@
 using namespace ACS; // NOLINT(google-build-using-namespace)
 using namespace std::chrono_literals;
 using Protocol::EAcsCommand;
+using Testing::ClientRig;
 using Testing::EFrame;
+using Testing::Encode;
 using Testing::MakeFrame;
 using Testing::MakeFrameHead;
 using Testing::MakePlan;
 using Testing::MakeReport;
 using Testing::RawFrame;
+using Testing::RawMcs;
 using Testing::RawPeer;
 using Testing::RawServer;
 using Rig = Testing::WebSocketRig;
@@ -37,147 +39,6 @@ namespace
 constexpr std::uint64_t HUGE_FRAME = 100'000'000;
 constexpr std::string_view REGISTRATION =
     R"({"command":"Registration","transactionId":"t-1","timestamp":"2025-07-02T21:00:00.123+09:00","payload":{}})";
-
-std::string Encode(const Protocol::AcsMessage& message)
-{
-    std::string text;
-    Protocol::AcsCodec::Encode(message, text);
-    return text;
-}
-
-/// Reads also the long texts that fill a socket.
-Protocol::CodecOptions MakeCodecOptions()
-{
-    Protocol::CodecOptions options;
-    options.maximumString = options.maximumBytes;
-    return options;
-}
-
-/// An MCS by hand, on one connection: keeps what comes, and acknowledges it if it is to.
-class RawMcs
-{
-    RawPeer& _peer;
-    Protocol::AcsCodec _codec{MakeCodecOptions()};
-
-public:
-    std::vector<Protocol::AcsRequest> requests;
-    std::vector<Protocol::AcsAck> acks;
-    std::vector<RawFrame> closes;
-    /// Whether the request is to be acknowledged; may do to the connection what it likes.
-    std::function<bool(const Protocol::AcsRequest& request)> onRequest;
-
-    explicit RawMcs(RawPeer& peer)
-        : _peer(peer)
-    {
-        peer.onChange = [this] {
-            OnChange();
-        };
-        peer.ReadAsync();
-    }
-
-    void Send(const std::string& text, EFrame kind = EFrame::Text, bool bFinal = true)
-    {
-        _peer.Write(MakeFrame({kind, text, bFinal}, false));
-    }
-
-    [[nodiscard]] std::vector<EAcsCommand> GetCommands() const
-    {
-        std::vector<EAcsCommand> commands;
-        for (const Protocol::AcsRequest& request : requests)
-        {
-            commands.push_back(GetCommand(request));
-        }
-        return commands;
-    }
-
-    [[nodiscard]] std::size_t Count(EAcsCommand command) const
-    {
-        std::size_t count = 0;
-        for (const Protocol::AcsRequest& request : requests)
-        {
-            count += GetCommand(request) == command ? 1U : 0U;
-        }
-        return count;
-    }
-
-    [[nodiscard]] RawPeer& GetPeer()
-    {
-        return _peer;
-    }
-
-private:
-    void OnChange()
-    {
-        if (!_peer.TryUpgrade())
-        {
-            return;
-        }
-        for (std::optional<RawFrame> frame = _peer.TakeFrameOrNull(); frame.has_value();
-             frame = _peer.TakeFrameOrNull())
-        {
-            if (frame->kind == EFrame::Close)
-            {
-                closes.push_back(*frame);
-                _peer.Close(); // as a server does it, first
-            }
-            else if (frame->kind == EFrame::Text)
-            {
-                CHECK(frame->bFinal); // one unfragmented frame per message
-                OnText(frame->payload);
-            }
-        }
-    }
-
-    void OnText(const std::string& text)
-    {
-        const Protocol::DecodeOutcome outcome = _codec.Decode(text);
-        REQUIRE(outcome.message.has_value());
-        std::visit(
-            Core::Overloaded{
-                [this](const Protocol::AcsAck& ack) { acks.push_back(ack); },
-                [this](const Protocol::AcsRequest& request) {
-                    OnRequest(request);
-                }},
-            *outcome.message);
-    }
-
-    void OnRequest(const Protocol::AcsRequest& request)
-    {
-        requests.push_back(request);
-        const bool bAcknowledged = onRequest ? onRequest(request) : true;
-        if (bAcknowledged && GetCommand(request) != EAcsCommand::RobotPositionUpdate)
-        {
-            Send(Encode(Protocol::AcsAck{GetCommand(request), request.transactionID, request.timestamp, {}, {}, {}}));
-        }
-    }
-};
-
-/// A client of ours against MCS's by hand, one for each connection.
-class ClientRig : public Rig
-{
-public:
-    RawServer raw{io};
-    std::vector<std::unique_ptr<RawMcs>> connections;
-    std::function<void(std::size_t index, RawMcs& mcs)> onConnection;
-
-    ClientRig()
-    {
-        raw.onPeer = [this](std::size_t index, RawPeer& peer) {
-            connections.push_back(std::make_unique<RawMcs>(peer));
-            if (onConnection)
-            {
-                onConnection(index, *connections.back());
-            }
-        };
-    }
-
-    void RegisterWithRaw()
-    {
-        ConnectTo(raw.GetUrl());
-        REQUIRE(WasRegistered());
-        client->ReplayDone();
-    }
-};
 
 /// A server of ours against a client by hand that is registered.
 class ServerRig : public Rig
@@ -509,121 +370,6 @@ TEST_CASE("1 A client that is cut off with RST in mid frame is forgotten, and th
     CHECK(rig.GetFirstMcsLoss().find("the connection broke: ") == 0);
     rig.Connect();
     CHECK(rig.WasRegistered());
-}
-
-TEST_CASE("13.12 While the socket is blocked positions are left out, and none of them follows when it flows again")
-{
-    constexpr std::size_t POSITIONS = 50;
-    constexpr std::size_t WINDOW = 12;
-    ClientRig rig;
-    rig.raw.SetReceiveBuffer(16'384);
-    rig.clientOptions.session.positionInterval = 1ms;
-    rig.clientOptions.session.ackTimeout = 60s; // nothing is sent again
-    rig.RegisterWithRaw();
-    RawMcs& mcs = *rig.connections.at(0);
-
-    // 12 MB that nobody reads are more than the system takes.
-    mcs.GetPeer().StopReading();
-    for (std::size_t i = 0; i < WINDOW; ++i)
-    {
-        REQUIRE(rig.client->TrySendDurable(MakeReport("big-" + std::to_string(i), std::string(1'000'000, 'x'))));
-    }
-    std::size_t due = 0;
-    rig.acsEvents.onEvent = [&rig, &due](const Protocol::SessionEvent& event) {
-        if (std::holds_alternative<Protocol::PositionDue>(event))
-        {
-            ++due;
-            rig.client->SendPosition({{{"LR01", static_cast<double>(due), 0.0, 0.0, 100.0}}});
-        }
-    };
-    REQUIRE(rig.WasReached([&due] { return due >= POSITIONS; }));
-    rig.acsEvents.onEvent = nullptr;
-
-    mcs.GetPeer().ReadAsync();
-    REQUIRE(rig.WasReached([&mcs] { return mcs.Count(EAcsCommand::PlanReport) == WINDOW; }));
-    REQUIRE(rig.client->TrySendDurable(MakeReport("end")));
-    REQUIRE(rig.WasReached([&mcs] { return mcs.Count(EAcsCommand::PlanReport) == WINDOW + 1; }));
-    CHECK(mcs.Count(EAcsCommand::RobotPositionUpdate) == 0);
-
-    // Fresh ones go out again.
-    rig.client->SendPosition({{{"LR01", 1.0, 0.0, 0.0, 100.0}}});
-    REQUIRE(rig.WasReached([&mcs] { return mcs.Count(EAcsCommand::RobotPositionUpdate) == 1; }));
-    CHECK(rig.acsEvents.GetAll<Protocol::LinkLost>().empty());
-}
-
-TEST_CASE("R14 A position goes out together with the reports of the same moment")
-{
-    constexpr std::size_t ROUNDS = 50;
-    constexpr std::size_t REPORTS = 8; // With other bytes than the position has: more than two of it.
-    ClientRig rig;
-    rig.RegisterWithRaw();
-    RawMcs& mcs = *rig.connections.at(0);
-    for (std::size_t round = 1; round <= ROUNDS; ++round)
-    {
-        for (std::size_t i = 0; i < REPORTS; ++i)
-        {
-            REQUIRE(rig.client->TrySendDurable(MakeReport(std::to_string(round) + "-" + std::to_string(i))));
-        }
-        rig.client->SendPosition({{{"LR01", static_cast<double>(round), 0.0, 0.0, 100.0}}});
-        REQUIRE(rig.WasReached([&] { return mcs.Count(EAcsCommand::PlanReport) == REPORTS * round; }));
-        REQUIRE(rig.WasReached([&rig] { return rig.client->GetRoom() >= REPORTS; }));
-    }
-    REQUIRE(rig.client->TrySendDurable(MakeReport("end")));
-    REQUIRE(rig.WasReached([&mcs] { return mcs.Count(EAcsCommand::PlanReport) == REPORTS * ROUNDS + 1; }));
-    CHECK(mcs.Count(EAcsCommand::RobotPositionUpdate) == ROUNDS);
-}
-
-TEST_CASE("5.10 The parts of a position update that was cut go out together, behind the reports of the same moment")
-{
-    constexpr std::size_t ROUNDS = 20;
-    constexpr std::size_t PARTS = 6;
-    constexpr std::size_t REPORTS = 4;
-    const Protocol::RobotPositionUpdate part{std::vector<Protocol::RobotPosition>(50, {"LR01", 1.0, 2.0, 90.0, 75.0})};
-    ClientRig rig;
-    rig.RegisterWithRaw();
-    RawMcs& mcs = *rig.connections.at(0);
-    for (std::size_t round = 1; round <= ROUNDS; ++round)
-    {
-        for (std::size_t i = 0; i < REPORTS; ++i)
-        {
-            REQUIRE(rig.client->TrySendDurable(MakeReport(std::to_string(round) + "-" + std::to_string(i))));
-        }
-        for (std::size_t i = 0; i < PARTS; ++i)
-        {
-            rig.client->SendPosition(part);
-        }
-        REQUIRE(rig.WasReached([&] { return mcs.Count(EAcsCommand::PlanReport) == REPORTS * round; }));
-        REQUIRE(rig.WasReached([&rig] { return rig.client->GetRoom() >= REPORTS; }));
-    }
-    REQUIRE(rig.client->TrySendDurable(MakeReport("end")));
-    REQUIRE(rig.WasReached([&mcs] { return mcs.Count(EAcsCommand::PlanReport) == REPORTS * ROUNDS + 1; }));
-    CHECK(mcs.Count(EAcsCommand::RobotPositionUpdate) == PARTS * ROUNDS);
-}
-
-TEST_CASE("13.12 Positions alone do not pile up in the system either, while the other side takes nothing")
-{
-    constexpr std::size_t POSITIONS = 1'000;
-    ClientRig rig;
-    rig.raw.SetReceiveBuffer(4'096);
-    rig.clientOptions.session.positionInterval = 1ms;
-    rig.RegisterWithRaw();
-    RawMcs& mcs = *rig.connections.at(0);
-    mcs.GetPeer().StopReading();
-    std::size_t due = 0;
-    rig.acsEvents.onEvent = [&rig, &due](const Protocol::SessionEvent& event) {
-        if (std::holds_alternative<Protocol::PositionDue>(event))
-        {
-            rig.client->SendPosition({{{"LR01", static_cast<double>(++due), 0.0, 0.0, 100.0}}});
-        }
-    };
-    REQUIRE(rig.WasReached([&due] { return due >= POSITIONS; }));
-    rig.acsEvents.onEvent = nullptr;
-    mcs.GetPeer().ReadAsync();
-    REQUIRE(rig.client->TrySendDurable(MakeReport("end")));
-    REQUIRE(rig.WasReached([&mcs] { return mcs.Count(EAcsCommand::PlanReport) == 1; }));
-    // What had gone before the other side's own buffer was full, and nothing of the rest.
-    CHECK(mcs.Count(EAcsCommand::RobotPositionUpdate) < POSITIONS / 2);
-    CHECK(rig.acsEvents.GetAll<Protocol::LinkLost>().empty());
 }
 
 TEST_CASE("1 Where more waits to be written than the limit the link is dropped and made anew")

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "RawMcs.hpp"
+#include "RawPeer.hpp"
+#include "RawServer.hpp"
+#include "WebSocketRig.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace ACS::Testing
+{
+
+/// A client of ours against MCS's by hand, one for each connection.
+class ClientRig : public WebSocketRig
+{
+public:
+    RawServer raw{io};
+    std::vector<std::unique_ptr<RawMcs>> connections;
+    std::function<void(std::size_t index, RawMcs& mcs)> onConnection;
+
+    ClientRig()
+    {
+        raw.onPeer = [this](std::size_t index, RawPeer& peer) {
+            connections.push_back(std::make_unique<RawMcs>(peer));
+            if (onConnection)
+            {
+                onConnection(index, *connections.back());
+            }
+        };
+    }
+
+    void RegisterWithRaw()
+    {
+        ConnectTo(raw.GetUrl());
+        REQUIRE(WasRegistered());
+        client->ReplayDone();
+    }
+};
+
+} // namespace ACS::Testing

@@ -1,0 +1,148 @@
+#pragma once
+
+#include "Catch.hpp"
+#include "ManualClock.hpp"
+#include "OpenStreamRobotAdapter.hpp"
+#include <acs/vda5050/Vda5050Codec.hpp>
+
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace ACS::Acsd::Test
+{
+
+inline VDA5050::MasterOptions MakeBaseOptions()
+{
+    VDA5050::MasterOptions options;
+    options.address = {"uagv", "ACS", "CR01"};
+    return options;
+}
+
+/// An adapter whose base is never heard of: only the arm's side is under test here.
+struct ArmFixture
+{
+    Testing::ManualClock clock;
+    RobotOutputs outputs;
+    OpenStreamRobotAdapter adapter{
+        MakeBaseOptions(),
+        ArmCounters{},
+        {{"TrayLoad", {"", 11}}, {"CassetteLoad", {"pick", 0}}},
+        outputs};
+    Planning::AdapterActions actions;
+    std::uint32_t headerID = 0;
+
+    void Tell(const OpenStream::ClientEvent& event)
+    {
+        adapter.OnArmEvent(event, clock.GetNow(), actions);
+    }
+
+    void TellData(std::string_view json)
+    {
+        OpenStream::DataLine line;
+        line.result = Core::JsonText::FromTrusted(std::string(json));
+        Tell(OpenStream::ClientData{line, clock.GetNow()});
+    }
+
+    void Settle(OpenStream::EControlOutcome outcome, int status = 0)
+    {
+        Tell(OpenStream::ClientControlSettled{0, outcome, status, std::nullopt, "detail"});
+    }
+
+    void Command(const std::string& jobID, const std::string& action = "TrayLoad")
+    {
+        Planning::StartJob job;
+        job.jobID = jobID;
+        job.action = action;
+        adapter.Handle(job, clock.GetNow(), actions);
+    }
+
+    /// The base shows a state.
+    void ShowBase(bool bPaused)
+    {
+        VDA5050::StateMessage state;
+        state.header = {++headerID, clock.GetNow().wall, "2.0.0", "ACS", "CR01"};
+        state.lastNodeID = "A";
+        state.bPaused = bPaused;
+        std::string payload;
+        VDA5050::Vda5050Codec().Encode(state, VDA5050::EVda5050Version::Version200, payload);
+        adapter.OnMqttMessage({"uagv/v2/ACS/CR01/state", payload, 0, false}, clock.GetNow(), actions);
+    }
+
+    /// Whether the robot is paused, as it was told last.
+    bool IsToldPaused()
+    {
+        const auto states = TakeEvents<Planning::StateChanged>();
+        return !states.empty() && states.back().bPaused;
+    }
+
+    /// A job whose program runs.
+    void StartRunning()
+    {
+        adapter.OnLinkUp(clock.GetNow(), actions);
+        BringUp();
+        ShowBase(false);
+        Command("J");
+        Settle(OpenStream::EControlOutcome::Accepted);
+        Settle(OpenStream::EControlOutcome::Accepted);
+        TellData("[6,5,0]");
+        static_cast<void>(TakeRequests());
+    }
+
+    /// Handshake, motor on, first counters.
+    void BringUp(std::string_view counters = "[5,5,0]")
+    {
+        Tell(OpenStream::ClientReady{});
+        Settle(OpenStream::EControlOutcome::Accepted); // motor_on
+        TellData(R"({"_type":"JObject","val":0})");
+        TellData(counters);
+        static_cast<void>(TakeRequests());
+        actions.clear();
+    }
+
+    /// "MONITOR url" or "CONTROL url body" of what was asked for since the last call.
+    std::vector<std::string> TakeRequests()
+    {
+        std::vector<std::string> texts;
+        for (const ArmRequest& request : std::exchange(outputs.armRequests, {}))
+        {
+            if (const auto* monitorOrNull = std::get_if<OpenStream::MonitorRequest>(&request))
+            {
+                texts.push_back("MONITOR " + monitorOrNull->url);
+            }
+            else
+            {
+                const auto& control = std::get<OpenStream::ControlRequest>(request);
+                texts.push_back(fmt::format("CONTROL {} {}", control.url, control.body->GetText()));
+            }
+        }
+        return texts;
+    }
+
+    template <typename TEvent>
+    std::vector<TEvent> TakeEvents()
+    {
+        std::vector<TEvent> events;
+        for (const Planning::AdapterAction& action : actions)
+        {
+            const auto* raiseOrNull = std::get_if<Planning::RaiseEvent>(&action);
+            if (raiseOrNull != nullptr && std::holds_alternative<TEvent>(raiseOrNull->event))
+            {
+                events.push_back(std::get<TEvent>(raiseOrNull->event));
+            }
+        }
+        return events;
+    }
+};
+
+inline const std::string SELECT =
+    R"(CONTROL /project/context/tasks[0]/cur_prog_cnt {"pno":11,"sno":0,"fno":0,"ext_sel":0})";
+inline const std::string START = "CONTROL /project/robot/start {}";
+inline const std::string STOP = "CONTROL /project/robot/stop {}";
+inline const std::string RESET = "CONTROL /project/context/tasks[0]/reset {}";
+
+} // namespace ACS::Acsd::Test
