@@ -7,8 +7,8 @@ import time
 import urllib.error
 import urllib.request
 
-from production_line import find_free_port
 from scenario_case import FINISH_SECONDS, PLANS, TIME_SCALE, ScenarioCase, main
+from production_line import find_free_port  # which scenario_case makes known
 
 
 class Operator(ScenarioCase):
