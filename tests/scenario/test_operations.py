@@ -2,9 +2,11 @@
 """How acsd is operated: signals, the message trace, figures. docs/operations.md says what is shown here."""
 
 import json
+import os
 import signal
 import subprocess
 import time
+import urllib.error
 import urllib.request
 
 from mcs_stub import McsStub
@@ -67,6 +69,35 @@ class Operations(ScenarioCase):
             self.assertRegex(log, rf"not taken mistake=.*acsd\.toml:\d+: {key}: ")
         self.assertTrue(acsd.is_running())
         self.assertEqual(self.submit(stub, "P1")["result"], "Success")
+
+    def test_a_disk_that_hangs_is_told_and_what_waits_for_it_goes_on_when_it_answers(self):
+        library = self.line.bin_dir / "libscenario_held_disk.so"
+        if not library.exists():
+            self.skipTest("not built with sanitizers")
+        gate = self.line.folder / "held"
+        environment = os.environ | {"LD_PRELOAD": str(library), "ACS_HELD_DISK": str(gate)}
+        stub = self.start_stub()
+        acsd = self.line.start_acsd(stub.address, self.start_robots(), environment=environment)
+        address = acsd.wait_ready()["http"]
+        stub.wait_for("RobotStatusUpdate", lambda message: message.payload["robotStatus"] == "Idle")
+        os.mkfifo(gate)
+        start = stub.count()
+        stub.send_request("ExecutionPlan", make_carrying_plan("P1"))
+        self.wait_for_status(address, lambda status: "the store does not answer" in status["obstacles"])
+        with self.assertRaises(urllib.error.HTTPError) as refused:
+            urllib.request.urlopen(f"http://{address}/readyz", timeout=LOG_SECONDS)
+        with refused.exception as answer:
+            self.assertEqual((answer.code, answer.read()), (503, b"the store does not answer\n"))
+        self.wait_for_log(acsd, "the disk does not answer")
+        self.assertFalse([message for message in stub.get(start) if message.command == "ExecutionPlanAck"])
+
+        writer = os.open(gate, os.O_WRONLY)
+        gate.unlink()
+        os.close(writer)
+        _, answer = stub.wait_for("ExecutionPlanAck", start=start)
+        self.assertEqual(answer.body["result"], "Success")
+        self.wait_for_log(acsd, "the disk has answered")
+        self.wait_for_status(address, lambda status: not status["obstacles"])
 
     def test_a_broker_with_a_password_takes_acsd_by_its_name_and_the_password_in_its_file(self):
         stub = self.start_stub()
