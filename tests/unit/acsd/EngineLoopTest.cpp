@@ -32,6 +32,7 @@ protected:
     std::vector<StoreBatch> _batches;
     std::vector<ReplyCommand> _replies;
     std::vector<EngineTimer> _timers; ///< That were started.
+    std::vector<StartJob> _jobs;      ///< That were commanded.
 
     void OnAction(const EngineAction& action)
     {
@@ -39,6 +40,11 @@ protected:
         if (const auto* const replyOrNull = std::get_if<ReplyCommand>(&action))
         {
             _replies.push_back(*replyOrNull);
+        }
+        if (const auto* const commandOrNull = std::get_if<CommandRobot>(&action);
+            commandOrNull != nullptr && std::holds_alternative<StartJob>(commandOrNull->command))
+        {
+            _jobs.push_back(std::get<StartJob>(commandOrNull->command));
         }
         if (const auto* const startOrNull = std::get_if<StartEngineTimer>(&action))
         {
@@ -49,6 +55,17 @@ protected:
     void Submit(const std::string& planID, ReplyToken token)
     {
         _loop.Push(SubmitPlan{MakeLogisticsPlan(planID), token});
+    }
+
+    /// The disk answers as long as something is to be stored; false where that has no end.
+    [[nodiscard]] bool TryStoreAll()
+    {
+        constexpr int MANY = 100;
+        for (int i = 0; i < MANY && _loop.IsStoring(); ++i)
+        {
+            _loop.OnStored({});
+        }
+        return !_loop.IsStoring();
     }
 
     [[nodiscard]] static std::vector<std::string> ListAdded(const StoreBatch& batch)
@@ -138,6 +155,40 @@ TEST_CASE_METHOD(LoopTest, "What comes between two plans keeps its place")
         _loop.OnStored({});
     }
     CHECK(ListReplies() == Replies{{1, true}, {2, true}, {3, true}});
+}
+
+TEST_CASE_METHOD(
+    LoopTest,
+    "A job whose robot goes away while its command waits for the disk is sent once more when the robot is back, no sooner")
+{
+    StateChanged state;
+    state.lastNodeID = "D-A01.CP01"; // where the plan begins
+    Submit("P1", 1);
+    _loop.Push(RobotTask{"LR01", LinkChanged{true}});
+    _loop.Push(RobotTask{"LR01", state});
+    const auto hasJob = [](const StoreChange& change) {
+        const auto* const workOrNull = std::get_if<RobotWorkChanged>(&change);
+        return workOrNull != nullptr && workOrNull->job.has_value();
+    };
+    while (_loop.IsStoring() && std::ranges::none_of(_batches.back().changes, hasJob))
+    {
+        _loop.OnStored({});
+    }
+    REQUIRE(_loop.IsStoring());
+    REQUIRE(_jobs.empty());
+    _loop.Push(RobotTask{"LR01", LinkChanged{false}});
+    REQUIRE(TryStoreAll());
+    REQUIRE(_jobs.size() == 1);
+    _loop.Push(RobotTask{"LR01", JobUnknown{"P1-a4"}}); // as the adapter says, which had not sent it
+    REQUIRE(TryStoreAll());
+    CHECK(_jobs.size() == 1);
+    CHECK(_engine.GetPlanOrNull("P1")->state == EPlanState::InProgress);
+
+    _loop.Push(RobotTask{"LR01", LinkChanged{true}});
+    _loop.Push(RobotTask{"LR01", state});
+    REQUIRE(TryStoreAll());
+    REQUIRE(_jobs.size() == 2);
+    CHECK(_jobs[1].commandID == _jobs[0].commandID);
 }
 
 TEST_CASE_METHOD(
