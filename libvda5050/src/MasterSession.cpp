@@ -280,9 +280,10 @@ void MasterSession::OnState(std::string_view payload, Core::Now now, MasterActio
         return;
     }
     ++_statistics.statesReceived;
-    if (_link == EVehicleLink::Unknown)
+    if (_link == EVehicleLink::Unknown || _link == EVehicleLink::Broken)
     {
-        // It lives, whatever became of its connection message.
+        // It lives, whatever became of its connection message; and the will of a connection that it had before, under
+        // another client id, may come after the ONLINE of the present one.
         ComeOnline(now, out);
     }
     _lastStateTime = now.steady;

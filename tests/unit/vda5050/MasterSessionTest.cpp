@@ -33,6 +33,21 @@ TEST_CASE("6 ONLINE asks for state and factsheet; OFFLINE, the will and repeated
     CHECK_FALSE(bench.session.IsReady());
 }
 
+TEST_CASE(
+    "6.5 The will of a connection before, under another client id, comes after ONLINE: a state shows that it is old")
+{
+    MasterBench bench;
+    bench.BeReady();
+    bench.Connect(EConnectionState::ConnectionBroken);
+    CHECK_FALSE(bench.session.IsReady());
+    bench.SendState();
+    CHECK(bench.session.IsReady());
+    CHECK(bench.session.GetLink() == EVehicleLink::Online);
+    bench.Connect(EConnectionState::Offline);
+    bench.SendState(); // it said itself that it leaves
+    CHECK_FALSE(bench.session.IsReady());
+}
+
 TEST_CASE("13 An order is resent until the state shows its ids, and then no more")
 {
     MasterBench bench;
