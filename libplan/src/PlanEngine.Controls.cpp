@@ -346,8 +346,9 @@ void PlanEngine::Impl::Resume(ActivePlan& plan)
     StartConfirming(robot, _options.controls.pauseTimeout);
 }
 
-/// What a robot's state says about a pause that was asked for, or that is to last.
-void PlanEngine::Impl::FollowPause(Robot& robot, bool bFirst, bool bWasPaused)
+/// What a robot's state says about a pause that was asked for, or that is to last. One that is back, in reach or under
+/// control, may have missed what it was told.
+void PlanEngine::Impl::FollowPause(Robot& robot, bool bBack, bool bWasPaused)
 {
     if (!robot.state.has_value())
     {
@@ -355,11 +356,11 @@ void PlanEngine::Impl::FollowPause(Robot& robot, bool bFirst, bool bWasPaused)
     }
     const StateChanged& state = *robot.state;
     robot.bResumeOwed = robot.bResumeOwed && state.bPaused;
-    if (bFirst && robot.bResumeOwed)
+    if (bBack && robot.bResumeOwed)
     {
         Command(robot, Planning::Resume{});
     }
-    if (robot.bPauseWanted && !state.bPaused && (bFirst || bWasPaused))
+    if (robot.bPauseWanted && !state.bPaused && (bBack || bWasPaused))
     {
         Note(robot, "is told once more to pause");
         Command(robot, Planning::Pause{});

@@ -192,7 +192,8 @@ public:
         std::uint64_t noDetourAt = 0;         ///< _standingChanges when it found no way around.
         std::size_t detours = 0;              ///< Taken on the way to its present step.
         std::optional<std::size_t> berthNode; ///< Its home or, without one, where it can be out of the way.
-        std::optional<std::size_t> aheadNode; ///< It has stopped between its node and this one.
+        /// Without a drive: nodes behind its own on the way that it had, up to which it may have come, or may still come.
+        std::vector<std::size_t> aheadNodes;
     };
 
 private:
@@ -365,7 +366,7 @@ private:
     void EndByControl(ActivePlan& plan, EPlanControl control);
     void ConfirmPause(Robot& robot);
     void ConfirmResume(Robot& robot);
-    void FollowPause(Robot& robot, bool bFirst, bool bWasPaused);
+    void FollowPause(Robot& robot, bool bBack, bool bWasPaused);
     void ReleasePause(Robot& robot);
     void LeavePause(ActivePlan& plan);
     void GoOn(Robot& robot);
@@ -395,7 +396,8 @@ private:
     void Place(Robot& robot);
     void CompareErrors(Robot& robot);
     [[nodiscard]] bool TryAdvance(Robot& robot, std::size_t routeIndex);
-    [[nodiscard]] std::optional<std::size_t> FindNodeAheadOrNull(const Robot& robot, std::size_t next) const;
+    [[nodiscard]] std::vector<std::size_t> FindAhead(const Robot& robot, std::span<const std::size_t> ahead) const;
+    [[nodiscard]] static bool IsBetween(const StateChanged& state, const SiteNode& from, const SiteNode& to);
     void EndDrive(Robot& robot);
 
     // Steps and jobs (PlanEngine.Work.cpp).

@@ -54,6 +54,8 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
     const bool bWasUsable = IsUsable(robot);
     const bool bFirst = !robot.state.has_value();
     const bool bWasPaused = !bFirst && robot.state->bPaused;
+    // Whoever has it in hand need not let it hear what it is told.
+    const bool bBack = bFirst || (!robot.state->bAutomatic && event.bAutomatic);
     robot.state = event;
     CompareErrors(robot);
     if (!robot.drive.has_value())
@@ -65,7 +67,7 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
         MarkStepBegun(*robot.planOrNull);
     }
     CheckTrace(robot);
-    FollowPause(robot, bFirst, bWasPaused);
+    FollowPause(robot, bBack, bWasPaused);
     FollowStand(robot);
     FollowBattery(robot);
     if (IsUsable(robot) && !bWasUsable)
@@ -92,11 +94,14 @@ void PlanEngine::Impl::Place(Robot& robot)
             claim.push_back(*held);
         }
     }
-    const bool bBetween =
-        robot.aheadNode.has_value() && node == robot.node && FindNodeAheadOrNull(robot, *robot.aheadNode).has_value();
-    if (bBetween && std::ranges::count(claim, *robot.aheadNode) == 0)
+    std::vector<std::size_t> ahead =
+        node == robot.node ? FindAhead(robot, robot.aheadNodes) : std::vector<std::size_t>();
+    for (const std::size_t between : ahead)
     {
-        claim.push_back(*robot.aheadNode);
+        if (std::ranges::count(claim, between) == 0)
+        {
+            claim.push_back(between);
+        }
     }
     if (robot.bPlaced && node == robot.node && claim == robot.heldNodes)
     {
@@ -124,10 +129,7 @@ void PlanEngine::Impl::Place(Robot& robot)
         return;
     }
     ClearAlarm(alarm);
-    if (!bBetween)
-    {
-        robot.aheadNode.reset();
-    }
+    robot.aheadNodes = std::move(ahead);
     robot.node = node;
     robot.heldNodes = std::move(claim);
     robot.bPlaced = true;
@@ -227,34 +229,47 @@ bool PlanEngine::Impl::TryAdvance(Robot& robot, std::size_t routeIndex)
     {
         _traffic.Pass(robot.index, routeIndex - drive.passed);
         _bDispatchNeeded = true;
-        robot.aheadNode.reset();
+        robot.aheadNodes.clear();
     }
     drive.passed = routeIndex;
     robot.node = drive.nodes[routeIndex];
     return true;
 }
 
-/// The next node, where the robot tells that it stands on the way to it, and no longer on its own node.
-std::optional<std::size_t> PlanEngine::Impl::FindNodeAheadOrNull(const Robot& robot, std::size_t next) const
+/// Which of the nodes ahead a robot without a drive keeps: all while it still drives, or nobody knows; then those between
+/// which it has come to a stand.
+std::vector<std::size_t> PlanEngine::Impl::FindAhead(const Robot& robot, std::span<const std::size_t> ahead) const
 {
-    if (!robot.state.has_value() || !robot.state->bPoseKnown)
+    if (!robot.state.has_value() || robot.state->bDriving)
     {
-        return std::nullopt;
+        return {ahead.begin(), ahead.end()};
     }
-    const SiteNode& from = _site.GetNodes()[*robot.node];
-    const SiteNode& to = _site.GetNodes()[next];
+    std::size_t from = *robot.node;
+    for (const std::size_t next : ahead)
+    {
+        if (robot.state->bPoseKnown && IsBetween(*robot.state, _site.GetNodes()[from], _site.GetNodes()[next]))
+        {
+            return from == *robot.node ? std::vector<std::size_t>{next} : std::vector<std::size_t>{from, next};
+        }
+        from = next;
+    }
+    return {};
+}
+
+/// On the way from one to the other, and no longer on the first one.
+bool PlanEngine::Impl::IsBetween(const StateChanged& state, const SiteNode& from, const SiteNode& to)
+{
     const double length = GetDistance(from, to);
     if (length <= 0)
     {
-        return std::nullopt;
+        return false;
     }
-    const double x = robot.state->x - from.x;
-    const double y = robot.state->y - from.y;
+    const double x = state.x - from.x;
+    const double y = state.y - from.y;
     const double along = (x * (to.x - from.x) + y * (to.y - from.y)) / length;
     const double beside = std::abs(x * (to.y - from.y) - y * (to.x - from.x)) / length;
     const double tolerance = std::min(STAND_TOLERANCE, length / 4);
-    return along > tolerance && along <= length + tolerance && beside <= STAND_TOLERANCE ? std::optional(next)
-                                                                                         : std::nullopt;
+    return along > tolerance && along <= length + tolerance && beside <= STAND_TOLERANCE;
 }
 
 /// The robot stands on drive->passed, or between it and the next node: nothing else of the way is its own any more.
@@ -270,12 +285,26 @@ void PlanEngine::Impl::EndDrive(Robot& robot)
     {
         StopConfirming(robot);
     }
-    const bool bMayBeAhead = drive.bConfirmed && drive.passed + 1 < drive.grantedCount;
-    robot.aheadNode = bMayBeAhead ? FindNodeAheadOrNull(robot, drive.nodes[drive.passed + 1]) : std::nullopt;
-    robot.heldNodes.assign(1, *robot.node);
-    if (robot.aheadNode.has_value())
+    const std::size_t begin = drive.passed + 1;
+    if (!drive.bConfirmed)
     {
-        robot.heldNodes.push_back(*robot.aheadNode);
+        robot.aheadNodes = FindAhead(robot, robot.aheadNodes); // of the drive before: this one it never had
+    }
+    else if (begin < drive.grantedCount)
+    {
+        robot.aheadNodes = FindAhead(robot, std::span(drive.nodes).subspan(begin, drive.grantedCount - begin));
+    }
+    else
+    {
+        robot.aheadNodes.clear();
+    }
+    robot.heldNodes.assign(1, *robot.node);
+    for (const std::size_t between : robot.aheadNodes)
+    {
+        if (std::ranges::count(robot.heldNodes, between) == 0)
+        {
+            robot.heldNodes.push_back(between);
+        }
     }
     const bool bStands = _traffic.TryStand(robot.index, *robot.node, std::span(robot.heldNodes).subspan(1));
     assert(bStands);

@@ -379,6 +379,11 @@ void PlanEngine::Impl::OnNoRoute(Robot& robot, std::size_t target)
 /// Begun with the first nodes that are granted; without any it is not begun.
 bool PlanEngine::Impl::TryBeginDrive(Robot& robot, const Wish& wish)
 {
+    if (!robot.aheadNodes.empty() && robot.state.has_value() && robot.state->bDriving)
+    {
+        robot.blockers.clear();
+        return false; // it is still coming to a stand, and where that is nobody knows
+    }
     const std::size_t wanted = std::min(_options.baseLength, wish.nodes.size() - 1);
     const std::size_t granted = _traffic.Extend(robot.index, std::span(wish.nodes).subspan(1, wanted));
     robot.blockers = _traffic.GetBlockers();

@@ -57,6 +57,11 @@ public:
     std::vector<std::string> doneJobs;
     std::string uncertainReason; ///< Not empty: it cannot tell what became of a job.
 
+    [[nodiscard]] const std::string& GetDriveID() const noexcept
+    {
+        return _drive.driveID;
+    }
+
     /// It was switched off and on, without a drive or a job.
     void Forget()
     {

@@ -1,5 +1,7 @@
 #include "PlanWorldSteps.hpp"
 
+#include <chrono>
+
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using ACS::Testing::Contains;
 using ACS::Testing::MakeControlPlan;
@@ -204,4 +206,29 @@ TEST_CASE("5.9 The position while a robot drives: the last station, the one it d
         REQUIRE(TryRunUntil(world, "P1", "Job 1 P1-a4 InProgress"));
         CHECK(world.engine->GetRobotStatuses().front().position == "A01.CP01");
     }
+}
+
+TEST_CASE("A robot that loses its drive while it moves keeps the nodes ahead until it is known where it stands")
+{
+    PlanWorld world;
+    ACS::Testing::BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").GetOccupied().front() == "L01"; }));
+    world.Submit(MakeControlPlan("P2"));
+    static_cast<void>(ACS::Testing::TryRunFor(world, std::chrono::milliseconds(1)));
+    StateChanged state;
+    state.lastNodeID = "L01";
+    state.bPoseKnown = true;
+    state.bDriving = true;
+    world.Raise("LR01", state);
+    const std::size_t line = world.trace.size();
+    world.Raise("LR01", DriveRejected{world.GetRobot("LR01").GetDriveID(), "the vehicle lost the order"});
+    CHECK(world.GetReportsOf("P1").back() == "Plan Failed");
+    CHECK(ACS::Testing::FindLine(world, "command CR01", line) == world.trace.size()); // it waits at L02
+    state.x = 0.9;
+    state.bDriving = false;
+    world.Raise("LR01", state);
+    CHECK(ACS::Testing::FindLine(world, "command CR01", line) == world.trace.size());
+    state.x = 0;
+    world.Raise("LR01", state);
+    CHECK(ACS::Testing::FindLine(world, "command CR01", line) < world.trace.size());
 }

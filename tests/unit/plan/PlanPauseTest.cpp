@@ -237,6 +237,26 @@ TEST_CASE("6.7 A robot that is lost while it is to pause is told again when it i
     FinishPlan(world);
 }
 
+TEST_CASE("6.8 A robot that somebody had in hand when it was to go on is told again when it is under control")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
+    PausePlan(world);
+    world.GetRobot("LR01").bIgnoresPause = true;
+    StateChanged byHand;
+    byHand.lastNodeID = "D-A01.CP01";
+    byHand.bAutomatic = false;
+    byHand.bPaused = true;
+    world.Raise("LR01", byHand);
+    world.Raise("LR01", JobFailed{"P1-a4", "the operating mode changed"});
+    CHECK(world.GetReportsOf("P1").back() == "Plan Failed");
+    const std::size_t line = world.trace.size();
+    StateChanged back = byHand;
+    back.bAutomatic = true;
+    world.Raise("LR01", back);
+    CHECK(FindLine(world, "command LR01 Resume", line) < world.trace.size());
+}
+
 TEST_CASE("D-16 Abort of a paused plan drops its job, tells where to look, and the robot is used again")
 {
     PlanWorld world;
