@@ -63,15 +63,13 @@ AcsdProcess::~AcsdProcess()
 void AcsdProcess::Begin()
 {
     _around.trace.Tell("acsd: start {}", _around.number);
-    for (const auto& [robotID, radio] : _around.radios)
+    for (const auto& [robotID, robot] : _around.robots)
     {
         _hands.emplace(
             robotID,
-            std::make_unique<RobotHand>(
-                _around.timeline,
-                *radio,
-                _around.number,
-                [this, robotID = robotID](const Planning::RobotEvent& event) { TakeRobotEvent(robotID, event); }));
+            robot->MakeHand(_around.number, [this, robotID = robotID](const Planning::RobotEvent& event) {
+                TakeRobotEvent(robotID, event);
+            }));
     }
     _dialog.Restore(_around.store.GetState().lastReportSequence);
     _loop.Restore(_mutator.OnRestore(_around.store.Load()));
@@ -234,14 +232,22 @@ void AcsdProcess::CommandRobot(const Planning::CommandRobot& command)
     _around.trace.Tell("acsd: {} {}", command.robotID, Describe(command.command));
     const auto found = _hands.find(command.robotID);
     assert(found != _hands.end());
-    RobotHand& hand = *found->second;
+    IRobotHand& hand = *found->second;
     const Mutator::CommandOutcome outcome = _mutator.OnCommand(command);
     for (const Planning::RobotCommand& sent : outcome.sent)
     {
+        if (const auto* jobOrNull = std::get_if<Planning::StartJob>(&sent); jobOrNull != nullptr)
+        {
+            _around.witness.NoteCommand(*jobOrNull);
+        }
         hand.Handle(sent);
     }
     for (const Planning::RobotCommand& sent : outcome.sentLater)
     {
+        if (const auto* jobOrNull = std::get_if<Planning::StartJob>(&sent); jobOrNull != nullptr)
+        {
+            _around.witness.NoteCommand(*jobOrNull);
+        }
         _engineTimers.Post(5s, [&hand, sent] { hand.Handle(sent); });
     }
     for (const Planning::RobotEvent& event : outcome.raised)

@@ -5,13 +5,15 @@
 #include "EMutation.hpp"
 #include "EngineLoop.hpp"
 #include "IMcsOutput.hpp"
+#include "IRobotHand.hpp"
+#include "ISimulatedRobot.hpp"
 #include "McsDialog.hpp"
 #include "Mutator.hpp"
-#include "RobotHand.hpp"
 #include "Scenario.hpp"
 #include "TextNetwork.hpp"
 #include "TimerBank.hpp"
 #include "Trace.hpp"
+#include "WorkWitness.hpp"
 #include <acs/plan/PlanEngine.hpp>
 #include <acs/protocol/AcsSession.hpp>
 
@@ -39,7 +41,8 @@ public:
         Dice& ownRandom; ///< acsd's source of ids.
         CrashableStore& store;
         TextNetwork& network;
-        std::map<std::string, std::unique_ptr<RobotRadio>>& radios;
+        std::map<std::string, std::unique_ptr<ISimulatedRobot>>& robots;
+        WorkWitness& witness;
         const Scenario& scenario;
         EMutation mutation = EMutation::None;
         std::uint64_t number = 0; ///< Of this start.
@@ -61,7 +64,7 @@ private:
     Acsd::EngineLoop _loop;
     Protocol::AcsSession _session;
     Acsd::McsDialog _dialog;
-    std::map<std::string, std::unique_ptr<RobotHand>> _hands;
+    std::map<std::string, std::unique_ptr<IRobotHand>> _hands;
 
     TimerBank<Planning::EngineTimer> _engineTimers;
     TimerBank<Protocol::ESessionTimer> _sessionTimers;

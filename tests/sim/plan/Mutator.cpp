@@ -161,7 +161,7 @@ std::vector<Planning::RobotEvent> Mutator::OnEvent(const std::string& robotID, c
 
 bool Mutator::ShouldForget(const Planning::EngineTimer& timer) const
 {
-    return Is(EMutation::TimerForgotten) && timer.kind == Planning::EEngineTimer::Dispatch && _dice.IsHit(300);
+    return Is(EMutation::TimerForgotten) && timer.kind == Planning::EEngineTimer::Dispatch && _dice.IsHit(700);
 }
 
 } // namespace ACS::Simulation

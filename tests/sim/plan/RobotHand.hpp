@@ -1,5 +1,7 @@
 #pragma once
 
+#include "IRobotHand.hpp"
+#include "ISimulatedRobot.hpp"
 #include "MemoryRobotAdapter.hpp"
 #include "RobotRadio.hpp"
 #include "TimerBank.hpp"
@@ -13,10 +15,10 @@ namespace ACS::Simulation
 
 /// Runs the adapter of one robot in memory as RobotHost runs those of real ones: gives it events and time, keeps its
 /// timers, passes its events on.
-class RobotHand final : private IRadioListener
+class RobotHand final : public IRobotHand, private IRadioListener
 {
 public:
-    using EventHandler = std::function<void(const Planning::RobotEvent& event)>;
+    using EventHandler = ISimulatedRobot::EventHandler;
 
 private:
     Timeline& _timeline;
@@ -40,7 +42,7 @@ public:
     RobotHand& operator=(const RobotHand&) = delete;
     ~RobotHand() override;
 
-    void Handle(const Planning::RobotCommand& command);
+    void Handle(const Planning::RobotCommand& command) override;
 };
 
 } // namespace ACS::Simulation

@@ -295,12 +295,17 @@ void AddTrayWork(Protocol::ExecutionPlan& plan, const Scenario& scenario, Dice& 
 
 } // namespace
 
+std::string_view GetText(ERobotKind kind)
+{
+    return kind == ERobotKind::Vda5050 ? "vda5050" : "memory";
+}
+
 Planning::SiteMap Scenario::MakeSite() const
 {
     return *Planning::SiteMap::Create(nodes, edges, stations);
 }
 
-Scenario MakeScenario(std::uint64_t seed, const FaultSet& without)
+Scenario MakeScenario(std::uint64_t seed, const FaultSet& without, std::optional<ERobotKind> robotsOrNone)
 {
     Dice dice({seed, DICE_PART});
     Scenario scenario;
@@ -334,6 +339,8 @@ Scenario MakeScenario(std::uint64_t seed, const FaultSet& without)
         const bool bChosen = dice.IsHit(500);
         scenario.faults.set(fault, (bAll || bChosen) && !without.test(fault));
     }
+    const bool bVehicles = dice.IsHit(70);
+    scenario.robots = robotsOrNone.value_or(bVehicles ? ERobotKind::Vda5050 : ERobotKind::Memory);
     return scenario;
 }
 

@@ -10,7 +10,9 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ACS::Simulation
@@ -18,11 +20,22 @@ namespace ACS::Simulation
 
 using FaultSet = std::bitset<FAULT_COUNT>;
 
+/// What all robots of a world are.
+enum class ERobotKind : std::uint8_t
+{
+    Memory,  ///< RadioRobot
+    Vda5050, ///< VehicleRobot
+};
+
+/// "memory" or "vda5050".
+[[nodiscard]] std::string_view GetText(ERobotKind kind);
+
 /// What one seed makes of a world: the floor, the robots, the options, how long and how badly things go wrong.
 struct Scenario
 {
     std::uint64_t seed = 0;
     FaultSet faults; ///< By EFault.
+    ERobotKind robots = ERobotKind::Memory;
     std::string siteName;
     std::vector<Planning::SiteNode> nodes;
     std::vector<Planning::SiteEdge> edges;
@@ -44,7 +57,10 @@ struct Scenario
 };
 
 /// Always the same of the same seed.
-[[nodiscard]] Scenario MakeScenario(std::uint64_t seed, const FaultSet& without);
+[[nodiscard]] Scenario MakeScenario(
+    std::uint64_t seed,
+    const FaultSet& without,
+    std::optional<ERobotKind> robotsOrNone);
 
 /// A plan that a robot of the scenario can do.
 [[nodiscard]] Protocol::ExecutionPlan MakeGoodPlan(const Scenario& scenario, Dice& dice, const std::string& planID);

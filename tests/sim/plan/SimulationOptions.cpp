@@ -37,6 +37,19 @@ std::string TakeMutation(std::string_view text, EMutation& mutation)
     return {};
 }
 
+std::string TakeRobots(std::string_view text, std::optional<ERobotKind>& robots)
+{
+    for (const ERobotKind kind : {ERobotKind::Memory, ERobotKind::Vda5050})
+    {
+        if (text == GetText(kind))
+        {
+            robots = kind;
+            return {};
+        }
+    }
+    return fmt::format("expected memory or vda5050, found {}", Core::QuoteForError(text));
+}
+
 } // namespace
 
 std::optional<int> ReadOptionsOrNull(int argc, const char* const* argv, SimulationOptions& options)
@@ -64,6 +77,11 @@ std::optional<int> ReadOptionsOrNull(int argc, const char* const* argv, Simulati
         "--mutation",
         [&options](const std::string& text) { return TakeMutation(text, options.mutation); },
         "breaks one thing around the engine, and must then find a seed that fails");
+    Apps::AddTextOption(
+        app,
+        "--robots",
+        [&options](const std::string& text) { return TakeRobots(text, options.robots); },
+        "what all robots are: memory or vda5050, in place of what the seed says");
     app.add_flag("--mutations", options.bAllMutations, "every mutation in turn, each with at most --seeds worlds");
     app.add_flag("--list-mutations", options.bListMutations, "names and meanings");
     return Apps::ParseCommandLineOrNull(app, argc, argv);

@@ -19,6 +19,7 @@ struct SimulationOptions
     bool bTrace = false;
     std::size_t workers = 2;
     FaultSet without;
+    std::optional<ERobotKind> robots; ///< Absent: as each seed says.
     EMutation mutation = EMutation::None;
     bool bAllMutations = false;
     bool bListMutations = false;

@@ -73,6 +73,10 @@ std::string SimulationRunner::DescribeReplay(EMutation mutation, std::uint64_t s
     {
         text += _options.without.test(fault) ? fmt::format(" --without {}", FAULT_NAMES[fault]) : "";
     }
+    if (_options.robots.has_value())
+    {
+        text += fmt::format(" --robots {}", GetText(*_options.robots));
+    }
     if (mutation != EMutation::None)
     {
         text += fmt::format(" --mutation {}", MUTATION_TEXTS[static_cast<std::size_t>(mutation)].name);
@@ -82,7 +86,7 @@ std::string SimulationRunner::DescribeReplay(EMutation mutation, std::uint64_t s
 
 int SimulationRunner::RunSeed(std::uint64_t seed) const
 {
-    World world(MakeScenario(seed, _options.without), _options.mutation, _options.bTrace);
+    World world(MakeScenario(seed, _options.without, _options.robots), _options.mutation, _options.bTrace);
     const std::vector<std::string> violations = world.Run();
     for (const std::string& violation : violations)
     {
@@ -100,7 +104,7 @@ SimulationRunner::Tally SimulationRunner::RunWorlds(EMutation mutation, bool bPr
     const auto work = [&] {
         for (std::uint64_t seed = next++; seed < end; seed = next++)
         {
-            World world(MakeScenario(seed, _options.without), mutation, false);
+            World world(MakeScenario(seed, _options.without, _options.robots), mutation, false);
             const std::vector<std::string> violations = world.Run();
             const std::lock_guard lock(mutex);
             ++tally.worlds;

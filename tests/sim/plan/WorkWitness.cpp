@@ -16,6 +16,17 @@ WorkWitness::JobKey WorkWitness::MakeKey(const std::string& planID, std::int32_t
     return {planID, stepNo, _named.contains({planID, jobID}) ? jobID : std::string()};
 }
 
+void WorkWitness::NoteCommand(const Planning::StartJob& job)
+{
+    _commands.emplace(job.commandID, job);
+}
+
+const Planning::StartJob* WorkWitness::FindCommandOrNull(const std::string& commandID) const
+{
+    const auto found = _commands.find(commandID);
+    return found == _commands.end() ? nullptr : &found->second;
+}
+
 void WorkWitness::OnPlaced(const std::string& robotID, std::vector<std::string> nodeIDs)
 {
     for (const auto& [other, taken] : _places)

@@ -33,6 +33,8 @@ private:
     std::map<std::string, std::vector<std::string>> _places;
     std::set<std::pair<std::string, std::string>> _named; ///< planID and jobID of what the MCS has called a job.
 
+    std::map<std::string, Planning::StartJob> _commands;
+
     [[nodiscard]] JobKey MakeKey(const std::string& planID, std::int32_t stepNo, const std::string& jobID) const;
 
 public:
@@ -43,6 +45,10 @@ public:
 
     /// The MCS has named this job in a plan.
     void NoteNamed(const std::string& planID, const std::string& jobID);
+
+    /// Under this commandID acsd has sent the job: a robot that knows no more than that can be understood.
+    void NoteCommand(const Planning::StartJob& job);
+    [[nodiscard]] const Planning::StartJob* FindCommandOrNull(const std::string& commandID) const;
 
     /// The robot takes these nodes: one, or both ends of the edge on which it is.
     void OnPlaced(const std::string& robotID, std::vector<std::string> nodeIDs);

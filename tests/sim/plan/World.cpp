@@ -1,6 +1,8 @@
 #include "World.hpp"
 
+#include "RadioRobot.hpp"
 #include "ReportMapper.hpp"
+#include "VehicleRobot.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -23,6 +25,7 @@ enum EDicePart : std::uint64_t
     OWN_RANDOM_PART,
     WEATHER_PART,
     ROBOT_PART,
+    BROKER_PART,
     FIRST_ROBOT_PART = 400,
     FIRST_RADIO_PART = 500,
 };
@@ -41,6 +44,8 @@ World::World(Scenario scenario, EMutation mutation, bool bPrinting)
       _judge(_trace, _store, _witness),
       _network(_timeline, _trace, _scenario.seed),
       _mcs(_timeline, _trace, _network, _judge, _witness, _scenario),
+      _site(_scenario.MakeSite()),
+      _broker(_timeline, _trace, {_scenario.seed, BROKER_PART}, _scenario.Has(EFault::Radio)),
       _habits(_timeline),
       _robotHabits(_timeline),
       _radioHabits(_timeline)
@@ -81,22 +86,22 @@ void World::AddRobots()
     for (const Planning::RobotOptions& options : _scenario.options.robots)
     {
         const std::string& robotID = options.robotID.GetText();
-        auto robot = std::make_unique<MemoryRobot>(
-            _timeline,
-            _trace,
-            _witness,
-            DiceSeed{_scenario.seed, FIRST_ROBOT_PART + number},
-            robotID,
-            options.startNodeID.value_or(std::string()));
-        if (_scenario.Has(EFault::Robots))
+        const std::string nodeID = options.startNodeID.value_or(std::string());
+        const DiceSeed seed{_scenario.seed, FIRST_ROBOT_PART + number};
+        const DiceSeed radioSeed{_scenario.seed, FIRST_RADIO_PART + number};
+        const bool bFaulty = _scenario.Has(EFault::Robots);
+        if (_scenario.robots == ERobotKind::Vda5050)
         {
-            robot->rejectChance = 40;
-            robot->failChance = 60;
+            const VehicleRobot::Surroundings around{_timeline, _trace, _witness, _broker, _site};
+            _robots.emplace(robotID, std::make_unique<VehicleRobot>(around, seed, robotID, nodeID, bFaulty));
         }
-        _radios.emplace(
-            robotID,
-            std::make_unique<RobotRadio>(_timeline, *robot, DiceSeed{_scenario.seed, FIRST_RADIO_PART + number}));
-        _robots.emplace(robotID, std::move(robot));
+        else
+        {
+            const RadioRobot::Seeds seeds{seed, radioSeed};
+            _robots.emplace(
+                robotID,
+                std::make_unique<RadioRobot>(_timeline, _trace, _witness, seeds, robotID, nodeID, bFaulty));
+        }
         ++number;
     }
 }
@@ -104,8 +109,18 @@ void World::AddRobots()
 void World::StartAcsd()
 {
     ++_starts;
-    const AcsdProcess::Surroundings
-        around{_timeline, _trace, _dice, _ownRandom, _store, _network, _radios, _scenario, _mutation, _starts};
+    const AcsdProcess::Surroundings around{
+        _timeline,
+        _trace,
+        _dice,
+        _ownRandom,
+        _store,
+        _network,
+        _robots,
+        _witness,
+        _scenario,
+        _mutation,
+        _starts};
     _process = std::make_unique<AcsdProcess>(
         around,
         [this] { OnCrash(); },
@@ -144,6 +159,10 @@ void World::BeginFaults()
     {
         _habits.Start(EHabit::Crash, _weather.GetBetween(1s, 120s), [this] { CrashSometime(); });
     }
+    if (_scenario.Has(EFault::Radio) && _scenario.robots == ERobotKind::Vda5050)
+    {
+        _habits.Start(EHabit::Broker, _weather.GetBetween(10s, 200s), [this] { TurnBroker(); });
+    }
     for (const auto& [robotID, robot] : _robots)
     {
         if (_scenario.Has(EFault::Robots))
@@ -162,24 +181,24 @@ void World::EndFaults()
     _trace.Tell("nothing goes wrong from now on");
     _bSettling = true;
     _deadline = _timeline.GetNow().steady + SETTLING_LIMIT;
-    for (const EHabit habit : {EHabit::Disk, EHabit::Link, EHabit::Operator, EHabit::Crash})
+    for (const EHabit habit : {EHabit::Disk, EHabit::Link, EHabit::Operator, EHabit::Crash, EHabit::Broker})
     {
         _habits.Cancel(habit);
     }
     _robotHabits.CancelAll();
     _radioHabits.CancelAll();
     _store.bFails = false;
+    _broker.Calm();
     _network.SetReachable(true);
     _network.SetSlow(false);
     for (const auto& [robotID, robot] : _robots)
     {
-        robot->rejectChance = 0;
-        robot->failChance = 0;
         if (robot->IsDisturbed())
         {
             robot->Recover();
         }
-        _radios.at(robotID)->SetUp(true);
+        robot->Calm();
+        robot->SetReachable(true);
     }
     if (_process != nullptr)
     {
@@ -232,9 +251,15 @@ void World::CrashSometime()
     _habits.Start(EHabit::Crash, _weather.GetBetween(1s, 120s), [this] { CrashSometime(); });
 }
 
+void World::TurnBroker()
+{
+    _broker.Restart();
+    _habits.Start(EHabit::Broker, _weather.GetBetween(10s, 200s), [this] { TurnBroker(); });
+}
+
 void World::TurnRobot(const std::string& robotID)
 {
-    MemoryRobot& robot = *_robots.at(robotID);
+    ISimulatedRobot& robot = *_robots.at(robotID);
     if (robot.IsDisturbed())
     {
         robot.Recover();
@@ -253,10 +278,10 @@ void World::TurnRobot(const std::string& robotID)
 
 void World::TurnRadio(const std::string& robotID)
 {
-    RobotRadio& radio = *_radios.at(robotID);
-    radio.SetUp(!radio.IsUp());
-    _trace.Tell("{} is {} reach", robotID, radio.IsUp() ? "in" : "out of");
-    const Core::Duration span = radio.IsUp() ? _robotDice.GetBetween(1s, 90s) : _robotDice.GetBetween(10ms, 30s);
+    ISimulatedRobot& robot = *_robots.at(robotID);
+    robot.SetReachable(!robot.IsReachable());
+    _trace.Tell("{} is {} reach", robotID, robot.IsReachable() ? "in" : "out of");
+    const Core::Duration span = robot.IsReachable() ? _robotDice.GetBetween(1s, 90s) : _robotDice.GetBetween(10ms, 30s);
     _radioHabits.Start(robotID, span, [this, robotID] { TurnRadio(robotID); });
 }
 
@@ -361,13 +386,13 @@ std::string World::DescribeUnrest() const
     }
     for (const Planning::RobotStatus& status : engine.GetRobotStatuses())
     {
-        const RobotSnapshot& truth = _robots.at(status.robotID)->GetSnapshot();
+        const ISimulatedRobot& robot = *_robots.at(status.robotID);
         const auto seen = _judge.GetStatuses().find(status.robotID);
         if (status.status != Planning::ERobotStatus::Idle && status.status != Planning::ERobotStatus::Charging)
         {
             text += fmt::format("{} is {}; ", status.robotID, GetText(status.status));
         }
-        if (truth.state.bPaused || !truth.activeDriveID.empty() || !truth.activeCommandID.empty())
+        if (!robot.IsAtRest())
         {
             text += fmt::format("{} is not at rest; ", status.robotID);
         }
@@ -375,12 +400,12 @@ std::string World::DescribeUnrest() const
         {
             text += fmt::format("the MCS does not know how {} is; ", status.robotID);
         }
-        const auto options = std::ranges::find_if(_scenario.options.robots, [&status](const auto& robot) {
-            return robot.robotID.GetText() == status.robotID;
+        const auto options = std::ranges::find_if(_scenario.options.robots, [&status](const auto& candidate) {
+            return candidate.robotID.GetText() == status.robotID;
         });
-        if (truth.state.lastNodeID != options->startNodeID)
+        if (robot.GetNodeID() != options->startNodeID)
         {
-            text += fmt::format("{} is not at home but on {}; ", status.robotID, truth.state.lastNodeID);
+            text += fmt::format("{} is not at home but on {}; ", status.robotID, robot.GetNodeID());
         }
     }
     return text;

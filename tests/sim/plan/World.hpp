@@ -4,10 +4,10 @@
 #include "CrashableStore.hpp"
 #include "Dice.hpp"
 #include "EMutation.hpp"
+#include "ISimulatedRobot.hpp"
 #include "McsJudge.hpp"
 #include "McsSide.hpp"
-#include "MemoryRobot.hpp"
-#include "RobotRadio.hpp"
+#include "MqttBroker.hpp"
 #include "Scenario.hpp"
 #include "TextNetwork.hpp"
 #include "TimerBank.hpp"
@@ -32,6 +32,7 @@ class World final
         Link,
         Crash,
         Operator,
+        Broker,
         EndFaults,
         Watch,
     };
@@ -49,8 +50,9 @@ class World final
     McsJudge _judge;
     TextNetwork _network;
     McsSide _mcs;
-    std::map<std::string, std::unique_ptr<MemoryRobot>> _robots;
-    std::map<std::string, std::unique_ptr<RobotRadio>> _radios;
+    Planning::SiteMap _site;
+    MqttBroker _broker;
+    std::map<std::string, std::unique_ptr<ISimulatedRobot>> _robots;
     TimerBank<EHabit> _habits;
     TimerBank<std::string> _robotHabits;
     TimerBank<std::string> _radioHabits;
@@ -69,6 +71,7 @@ class World final
     void TurnLink();
     void Operate();
     void CrashSometime();
+    void TurnBroker();
     void TurnRobot(const std::string& robotID);
     void TurnRadio(const std::string& robotID);
     void SettleJobs();

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "ISimulatedRobot.hpp"
+#include "MemoryRobot.hpp"
+#include "RobotRadio.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace ACS::Simulation
+{
+
+/// A robot in memory behind a radio.
+class RadioRobot final : public ISimulatedRobot
+{
+    Timeline& _timeline;
+    MemoryRobot _robot;
+    RobotRadio _radio;
+
+public:
+    struct Seeds
+    {
+        DiceSeed robot;
+        DiceSeed radio;
+    };
+
+    RadioRobot(
+        Timeline& timeline,
+        Trace& trace,
+        WorkWitness& witness,
+        const Seeds& seeds,
+        const std::string& robotID,
+        const std::string& nodeID,
+        bool bFaulty);
+
+    [[nodiscard]] std::unique_ptr<IRobotHand> MakeHand(std::uint64_t number, EventHandler handler) override;
+    void SetReachable(bool bReachable) override;
+    [[nodiscard]] bool IsReachable() const override;
+    void Disturb() override;
+    void Recover() override;
+    [[nodiscard]] bool IsDisturbed() const override;
+    void Forget() override;
+    void Calm() override;
+    [[nodiscard]] std::string GetNodeID() const override;
+    [[nodiscard]] bool IsAtRest() const override;
+};
+
+} // namespace ACS::Simulation

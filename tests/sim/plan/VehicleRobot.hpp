@@ -1,0 +1,88 @@
+#pragma once
+
+#include "Dice.hpp"
+#include "ISimulatedRobot.hpp"
+#include "MqttBroker.hpp"
+#include "TimerBank.hpp"
+#include "Trace.hpp"
+#include "vda-sim/VirtualVehicle.hpp"
+#include "WorkWitness.hpp"
+#include <acs/plan/SiteMap.hpp>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ACS::Simulation
+{
+
+/// The virtual vehicle of vda-sim on the world's broker. What it really does is seen from outside: where it is, and what
+/// became of its actions.
+class VehicleRobot final : public ISimulatedRobot, private VDA5050::IMqttLinkListener
+{
+public:
+    /// What it lives in; everything outlives it.
+    struct Surroundings
+    {
+        Timeline& timeline;
+        Trace& trace;
+        WorkWitness& witness;
+        MqttBroker& broker;
+        const Planning::SiteMap& site;
+    };
+
+private:
+    Surroundings _around;
+    Dice _dice;
+    std::string _robotID;
+    bool _bFaulty;
+    std::unique_ptr<VdaSim::VirtualVehicle> _vehicle;
+    VdaSim::VirtualActions _actions;
+    TimerBank<std::uint64_t> _timers;
+    std::optional<MqttBroker::ClientID> _client;
+    std::vector<std::string> _place;                       ///< As the witness was told.
+    VdaSim::Pose _shownPose;                               ///< Then, or a bit later.
+    std::map<std::string, VDA5050::EActionStatus> _status; ///< Of its jobs, by commandID.
+    bool _bDisturbed = false;
+    bool _bLed = false; ///< By hand: its order is lost.
+    std::uint32_t _handCount = 1000;
+    bool _bReachable = true;
+
+    void SwitchOn(const std::string& nodeID);
+    template <typename TCall>
+    void Call(TCall call);
+    void Execute(const VdaSim::VirtualAction& action);
+    void Inject(VdaSim::Fault fault);
+    void PutOnNode();
+    void ShowPlace();
+    void ShowJobs();
+    [[nodiscard]] std::vector<std::string> FindPlace() const;
+    void OnLinkUp() override;
+    void OnLinkDown(std::error_code reason) override;
+    void OnMqttMessage(const VDA5050::MqttMessage& message) override;
+
+public:
+    VehicleRobot(
+        const Surroundings& around,
+        const DiceSeed& seed,
+        std::string robotID,
+        const std::string& nodeID,
+        bool bFaulty);
+    ~VehicleRobot() override;
+
+    [[nodiscard]] std::unique_ptr<IRobotHand> MakeHand(std::uint64_t number, EventHandler handler) override;
+    void SetReachable(bool bReachable) override;
+    [[nodiscard]] bool IsReachable() const override;
+    void Disturb() override;
+    void Recover() override;
+    [[nodiscard]] bool IsDisturbed() const override;
+    void Forget() override;
+    void Calm() override;
+    [[nodiscard]] std::string GetNodeID() const override;
+    [[nodiscard]] bool IsAtRest() const override;
+};
+
+} // namespace ACS::Simulation
