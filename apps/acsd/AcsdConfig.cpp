@@ -301,6 +301,7 @@ void ReadControls(const ConfigSection& root, Planning::ControlOptions& controls)
     controls.bAbortFinishesPausedJob = abort.GetWord("paused_job", {"discard", "finish"}, "discard") == "finish";
     controls.bJobFailureFailsAbort = abort.GetWord("job_failure_final", {"Failed", "Aborted"}, "Failed") == "Failed";
     controls.bAbortReportsStep = abort.IsEnabled("report_step", controls.bAbortReportsStep);
+    controls.jobEndTimeout = abort.GetDuration("end_timeout", 1ms, 24h, controls.jobEndTimeout);
 
     controls.bResultAfterRefusal =
         root.GetSection("mcs").IsEnabled("result_after_fail_ack", controls.bResultAfterRefusal);

@@ -118,7 +118,10 @@ void PlanEngine::Impl::AssignPlans()
     std::vector<ActivePlan*> queue;
     for (const auto& [key, plan] : _pending)
     {
-        queue.push_back(plan);
+        if (plan->record.sequence <= _lastKnownSequence)
+        {
+            queue.push_back(plan);
+        }
     }
     for (ActivePlan* plan : queue)
     {
@@ -177,11 +180,11 @@ PlanEngine::Impl::Robot* PlanEngine::Impl::FindNearestOrNull(const ActivePlan& p
     std::vector<Robot*> supposed;
     for (const std::size_t index : plan.resolved.candidates)
     {
-        const bool bCanCome = IsFree(_robots[index]) && CanServe(_robots[index], plan);
-        const PortVerdict verdict = bCanCome ? JudgePorts(plan, _robots[index]) : PortVerdict{"", false};
-        if (!verdict.objectionOrNull.has_value())
+        Robot& robot = _robots[index];
+        const PortVerdict verdict = IsFree(robot) ? JudgePorts(plan, robot) : PortVerdict{"", false};
+        if (!verdict.objectionOrNull.has_value() && CanServe(robot, plan))
         {
-            (verdict.bSupposed ? supposed : known).push_back(&_robots[index]);
+            (verdict.bSupposed ? supposed : known).push_back(&robot);
         }
     }
     const bool bAll = known.size() + supposed.size() == plan.resolved.candidates.size();

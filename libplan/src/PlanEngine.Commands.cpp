@@ -44,13 +44,13 @@ Core::Result<ResolvedPlan> PlanEngine::Impl::Admit(const Plan& plan) const
                 _options.maximumReports),
             fmt::format("{}", _outbox.GetUnacknowledged().size()));
     }
-    if (resolved.has_value() && _tscState != ETscState::Auto && !_options.bTscPausedAcceptsPlans)
+    if (resolved.has_value() && GetTscState() != ETscState::Auto && !_options.bTscPausedAcceptsPlans)
     {
         return Core::Fail(
             make_error_code(Core::ECoreError::QueueFull),
             {},
             "plans while the TSC is Auto",
-            std::string(GetText(_tscState)));
+            std::string(GetText(GetTscState())));
     }
     return resolved;
 }
@@ -171,10 +171,18 @@ void PlanEngine::Impl::ChangeTsc(ETscState state)
     assert(CanChange(_tscState, state));
     const ETscState from = std::exchange(_tscState, state);
     _changes.emplace_back(TscChanged{state});
-    _actions.emplace_back(TscStateChanged{state});
+    if (GetTscState() == state)
+    {
+        TellTsc(from);
+    }
+}
+
+void PlanEngine::Impl::TellTsc(ETscState from)
+{
+    _actions.emplace_back(TscStateChanged{_tscState});
     if (_observerOrNull != nullptr)
     {
-        _observerOrNull->OnTscChanged(state, from, _now);
+        _observerOrNull->OnTscChanged(_tscState, from, _now);
     }
 }
 

@@ -65,8 +65,13 @@ void PlanEngine::Impl::Answer(ActivePlan& plan, bool bSucceeded, const std::stri
     _progressed.insert(plan.record.plan.planID);
     if (plan.robot.has_value())
     {
-        _robots[*plan.robot].bStandAwaited = false;
-        StopConfirming(_robots[*plan.robot]);
+        Robot& robot = _robots[*plan.robot];
+        robot.bStandAwaited = false;
+        StopConfirming(robot);
+        if (robot.drive.has_value() && robot.drive->instead.has_value())
+        {
+            StartConfirming(robot, _options.controls.cancelTimeout); // that it gives its present way up for another one
+        }
     }
     for (std::size_t count = std::exchange(plan.record.progress.controlCount, 0); count > 0; --count)
     {
@@ -220,6 +225,7 @@ void PlanEngine::Impl::DropJob(Robot& robot)
     const ActivePlan& plan = *robot.planOrNull;
     robot.overdueJobID = GetJobID(plan);
     Command(robot, CancelJob{*robot.overdueJobID});
+    StartTimer(EEngineTimer::JobEnd, GetRobotID(robot), _options.controls.jobEndTimeout);
     if (HasJob(plan) && plan.record.progress.steps[plan.step].jobs[plan.job] == EJobState::InProgress)
     {
         RaiseDropped(robot);
@@ -228,21 +234,24 @@ void PlanEngine::Impl::DropJob(Robot& robot)
 
 void PlanEngine::Impl::RaiseDropped(const Robot& robot)
 {
-    const ActivePlan& plan = *robot.planOrNull;
-    const ActionRule& rule = *plan.resolved.steps[plan.step].rule;
-    if (rule.from == EPlaceRule::None && rule.to == EPlaceRule::None)
+    const ActionRule& rule = *robot.planOrNull->resolved.steps[robot.planOrNull->step].rule;
+    if (rule.from != EPlaceRule::None || rule.to != EPlaceRule::None)
     {
-        return;
+        RaiseAlarm(MakeDroppedAlarm(robot));
     }
+}
+
+Alarm PlanEngine::Impl::MakeDroppedAlarm(const Robot& robot) const
+{
     Alarm alarm;
     alarm.robotID = GetRobotID(robot);
     alarm.errorCode = ALARM_DROPPED;
     alarm.level = EAlarmLevel::Heavy;
     alarm.message = "A job that had begun was given up: look whether the robot still holds what it moved.";
-    alarm.planID = plan.record.plan.planID;
-    alarm.stepNo = plan.record.plan.steps[plan.step].stepNo;
-    alarm.jobID = GetJobID(plan);
-    RaiseAlarm(std::move(alarm));
+    alarm.planID = robot.job->planID;
+    alarm.stepNo = robot.job->stepNo;
+    alarm.jobID = robot.job->jobID;
+    return alarm;
 }
 
 /// Ends the plan at once, or, where its robot is under way to the step's place, when the robot stands.
@@ -255,6 +264,7 @@ void PlanEngine::Impl::StopDrive(ActivePlan& plan, EPlanControl control)
         EndByControl(plan, control);
         return;
     }
+    robotOrNull->drive->bCancelAsked = true;
     if (!std::exchange(robotOrNull->drive->bCancelling, true))
     {
         Command(*robotOrNull, CancelDrive{robotOrNull->drive->driveID});

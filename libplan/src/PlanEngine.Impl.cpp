@@ -116,7 +116,8 @@ void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineAc
             _bDispatchNeeded = true;
             break;
         case EEngineTimer::StoreRetry:
-            break; // The end of the call stores what is left.
+            _bStoreRetryRuns = false; // The end of the call stores what is left.
+            break;
         case EEngineTimer::Acknowledged:
             std::ranges::move(_acknowledged, std::back_inserter(_changes));
             _acknowledged.clear();
@@ -149,6 +150,13 @@ void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineAc
             break;
         case EEngineTimer::Gathering:
             EndGathering();
+            RaiseMissing();
+            break;
+        case EEngineTimer::JobEnd:
+            if (robotOrNull != nullptr)
+            {
+                OnJobEndTimeout(*robotOrNull);
+            }
             break;
         case EEngineTimer::ChargeRetry:
             if (robotOrNull != nullptr)
@@ -172,6 +180,7 @@ void PlanEngine::Impl::Begin(Core::Now now)
     _now = now;
     _ended.clear();
     _replaced.clear();
+    _lastKnownSequence = _lastPlanSequence;
     NoteStoreSuccess();
     _begun.clear();
     _asked.reset();
@@ -201,6 +210,20 @@ void PlanEngine::Impl::End(EngineActions& out)
     _progressed.clear();
     std::ranges::move(_changes, std::back_inserter(changes));
     _changes.clear();
+    if (!IsStoreWorthTrying(changes))
+    {
+        KeepForStore(std::move(changes));
+        for (EngineAction& action : std::exchange(_actions, {}))
+        {
+            if (auto* reportOrNull = std::get_if<SendReport>(&action); reportOrNull != nullptr)
+            {
+                _held.push_back(std::move(reportOrNull->entry));
+                continue;
+            }
+            out.push_back(std::move(action));
+        }
+        return;
+    }
     if (!changes.empty())
     {
         std::ranges::move(_acknowledged, std::back_inserter(changes));
@@ -210,7 +233,7 @@ void PlanEngine::Impl::End(EngineActions& out)
         if (_bStoreFailing)
         {
             // Whether it works again shows when this call is followed by another.
-            out.emplace_back(StartEngineTimer{{EEngineTimer::StoreRetry, {}}, _options.storeRetry});
+            StartStoreRetry(out);
         }
     }
     for (OutboxEntry& entry : _held)
@@ -395,11 +418,12 @@ void PlanEngine::Impl::ChangeJob(ActivePlan& plan, EJobState state, std::string 
 
 void PlanEngine::Impl::RaiseAlarm(Alarm alarm)
 {
-    const bool bKnown = std::ranges::any_of(_alarms, [&alarm](const Alarm& known) { return known.IsSameAs(alarm); });
-    if (bKnown)
+    const auto known = std::ranges::find_if(_alarms, [&alarm](const Alarm& other) { return other.IsSameAs(alarm); });
+    if (known != _alarms.end() && known->level == alarm.level)
     {
         return;
     }
+    ClearAlarm(alarm); // The MCS hears of another level only so.
     _alarms.push_back(alarm);
     _changes.emplace_back(AlarmSet{alarm});
     const std::string_view transactionID = TellReport(ErrorReport{alarm, true});

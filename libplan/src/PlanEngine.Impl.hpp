@@ -126,7 +126,8 @@ public:
         std::size_t passed = 0;         ///< Index in the route of the last node passed.
         EGoal goal = EGoal::Step;
         bool bConfirmed = false;
-        bool bCancelling = false;
+        bool bCancelAsked = false;   ///< The robot was told to give it up, and may still do so.
+        bool bCancelling = false;    ///< And that is waited for.
         std::optional<Wish> instead; ///< It is cancelled for this way; the first nodes of it are granted.
         bool bInsteadRetreats = false;
     };
@@ -212,6 +213,8 @@ private:
     std::unordered_map<std::string, PlanRecord> _finished;
     std::deque<std::string> _finishedOrder;
     std::uint64_t _lastPlanSequence = 0;
+    /// Before the present call: what came in it is not begun before it is stored.
+    std::uint64_t _lastKnownSequence = 0;
     std::vector<std::string> _begun;             ///< Plans that were begun in the call that is being stored.
     std::map<ReplyToken, std::string> _repeated; ///< Plans that this call brought once more.
     std::optional<std::string> _asked;           ///< TransactionID of the control that this call was.
@@ -224,7 +227,8 @@ private:
     std::vector<Alarm> _alarms;
     ReportOutbox _outbox;
 
-    bool _bGathering = false; ///< After a restart: not every robot has told where it stands.
+    bool _bAwaiting = false;  ///< After a start: not every robot has told where it stands.
+    bool _bGathering = false; ///< And there was work: nothing is begun meanwhile.
 
     // The present call: what is stored first, and what is told after it.
     Core::Now _now;
@@ -238,6 +242,7 @@ private:
     std::vector<StoreChange> _unsaved;
     std::vector<OutboxEntry> _held;
     bool _bStoreFailing = false;
+    bool _bStoreRetryRuns = false; ///< Until then what is left waits.
     bool _bStoreAttempted = false;
     std::vector<StoreChange> _acknowledged; ///< Stored with the next batch, or by the timer.
 
@@ -301,6 +306,7 @@ private:
     void ForgetFinished(const std::string& planID);
     void SwitchTsc(const ControlTsc& command);
     void ChangeTsc(ETscState state);
+    void TellTsc(ETscState from);
     void FinishTscPause();
     [[nodiscard]] bool CanDriveHome() const;
     [[nodiscard]] bool IsAnyPlanRunning() const;
@@ -363,6 +369,7 @@ private:
     void StopDrive(ActivePlan& plan, EPlanControl control);
     void DropJob(Robot& robot);
     void RaiseDropped(const Robot& robot);
+    [[nodiscard]] Alarm MakeDroppedAlarm(const Robot& robot) const;
     void EndByControl(ActivePlan& plan, EPlanControl control);
     void ConfirmPause(Robot& robot);
     void ConfirmResume(Robot& robot);
@@ -392,8 +399,13 @@ private:
     void OnJobUnknown(Robot& robot, const JobUnknown& event);
     void OnJobUncertain(Robot& robot, const JobUncertain& event);
     void OnJobTimeout(Robot& robot);
-    [[nodiscard]] bool TryEndOverdueJob(Robot& robot, const std::string& jobID);
+    void OnJobEndTimeout(Robot& robot);
+    [[nodiscard]] bool TryEndOverdueJob(Robot& robot, const std::string& jobID, bool bDone);
+    [[nodiscard]] Alarm MakeLinkAlarm(const Robot& robot) const;
+    [[nodiscard]] Alarm MakePlaceAlarm(const Robot& robot, std::string message) const;
     void Place(Robot& robot);
+    void LosePlace(Robot& robot);
+    [[nodiscard]] std::vector<std::size_t> ListClaimed(const Robot& robot, std::size_t node) const;
     void CompareErrors(Robot& robot);
     [[nodiscard]] bool TryAdvance(Robot& robot, std::size_t routeIndex);
     [[nodiscard]] std::vector<std::size_t> FindAhead(const Robot& robot, std::span<const std::size_t> ahead) const;
@@ -414,7 +426,7 @@ private:
     void FailPlan(ActivePlan& plan, const std::string& reason);
     void EndPlan(ActivePlan& plan, EPlanState state, const std::string& message);
     void ClearInterrupted(const std::string& robotID);
-    void MoveCarrier(Robot& robot);
+    void MoveCarrier(Robot& robot, const StartJob& job);
     [[nodiscard]] static bool HasJob(const ActivePlan& plan);
     [[nodiscard]] static const std::string& GetJobID(const ActivePlan& plan);
     [[nodiscard]] StartJob MakeStartJob(const Robot& robot) const;
@@ -475,9 +487,10 @@ private:
     void RestoreOverdue(Robot& robot);
     void EndUnfit(ActivePlan& plan, const std::string& reason);
     static void FindPosition(ActivePlan& plan);
-    void BeginGathering();
+    void BeginGathering(bool bHasWork);
     void FollowGathering();
     void EndGathering();
+    void RaiseMissing();
     void FollowStand(Robot& robot);
     void CheckTrace(Robot& robot);
     void HoldDoubtful(Robot& robot);
@@ -487,7 +500,7 @@ private:
     void FindOut(Robot& robot);
     void ReleaseJob(Robot& robot);
     void RepeatJob(Robot& robot, std::string commandID);
-    [[nodiscard]] std::optional<std::size_t> FindHeldJobOrNull(const SettleJob& command) const;
+    [[nodiscard]] std::optional<std::size_t> FindWorkerOrNull(const SettleJob& command) const;
     void Settle(const SettleJob& command);
     void SettleFor(Robot& robot, EJobAnswer answer);
     void AskForJob(Robot& robot);
@@ -496,6 +509,16 @@ private:
 
     // Failures of the store (PlanEngine.StoreFailure.cpp).
     void NoteStoreSuccess();
+    [[nodiscard]] bool TakeBatchBack(const StoreBatch& batch);
+    void TakeActionsBack(
+        std::span<const EngineAction> skipped,
+        bool bPlanRefused,
+        std::string_view reason,
+        EngineActions& out);
+    void StartStoreRetry(EngineActions& out);
+    void KeepForStore(std::vector<StoreChange> changes);
+    [[nodiscard]] static Alarm MakeStoreAlarm();
+    [[nodiscard]] bool IsStoreWorthTrying(const std::vector<StoreChange>& changes) const;
 };
 
 /// What section 4.3 tells of a plan.

@@ -42,15 +42,13 @@ void PlanEngine::Impl::Restore(StoredState state, Core::Now now, EngineActions& 
     {
         RestorePlan(std::move(record));
     }
+    _lastKnownSequence = _lastPlanSequence;
     for (Robot& robot : _robots)
     {
         RestoreOverdue(robot);
     }
     RestoreTsc(state.tscState);
-    if (!_plans.empty() || !state.robotWorks.empty())
-    {
-        BeginGathering();
-    }
+    BeginGathering(!_plans.empty() || !state.robotWorks.empty());
     StartTimer(EEngineTimer::Dispatch, {}, {});
     End(out);
 }
@@ -264,6 +262,7 @@ void PlanEngine::Impl::RestoreOverdue(Robot& robot)
     {
         robot.overdueJobID = robot.job->jobID;
         AskForJob(robot);
+        StartTimer(EEngineTimer::JobEnd, GetRobotID(robot), _options.controls.jobEndTimeout);
     }
 }
 
@@ -279,18 +278,20 @@ bool PlanEngine::Impl::IsAwaited(const Robot& robot)
     return !robot.state.has_value() && !robot.bInMaintenance;
 }
 
-void PlanEngine::Impl::BeginGathering()
+/// bHasWork: before robots have told where they stand and what they do, nothing is begun.
+void PlanEngine::Impl::BeginGathering(bool bHasWork)
 {
     if (_options.restartWait.count() > 0)
     {
-        _bGathering = true;
+        _bAwaiting = true;
+        _bGathering = bHasWork;
         StartTimer(EEngineTimer::Gathering, {}, _options.restartWait);
     }
 }
 
 void PlanEngine::Impl::FollowGathering()
 {
-    if (_bGathering && std::ranges::none_of(_robots, IsAwaited))
+    if (_bAwaiting && std::ranges::none_of(_robots, IsAwaited))
     {
         CancelTimer(EEngineTimer::Gathering, {});
         EndGathering();
@@ -299,22 +300,36 @@ void PlanEngine::Impl::FollowGathering()
 
 void PlanEngine::Impl::EndGathering()
 {
-    if (!std::exchange(_bGathering, false))
+    _bAwaiting = false;
+    if (std::exchange(_bGathering, false))
     {
-        return;
+        _bDispatchNeeded = true;
+        if (_tscState == ETscState::Auto)
+        {
+            TellTsc(ETscState::Paused);
+        }
     }
-    _bDispatchNeeded = true;
+}
+
+/// Section 9: silence from the start on is an alarm, too.
+void PlanEngine::Impl::RaiseMissing()
+{
     for (const Robot& robot : _robots)
     {
-        if (IsAwaited(robot) && (robot.planOrNull != nullptr || robot.job.has_value()))
+        if (!IsAwaited(robot))
         {
-            Alarm alarm;
-            alarm.robotID = GetRobotID(robot);
-            alarm.errorCode = ALARM_LINK_LOST;
-            alarm.level = EAlarmLevel::Heavy;
-            alarm.message = "It has not come back since the ACS was restarted, and has work.";
-            RaiseAlarm(std::move(alarm));
+            continue;
         }
+        if (robot.bOnline)
+        {
+            RaiseAlarm(MakePlaceAlarm(robot, "It is connected and does not tell its state."));
+            continue;
+        }
+        const bool bHasWork = robot.planOrNull != nullptr || robot.job.has_value();
+        Alarm alarm = MakeLinkAlarm(robot);
+        alarm.message = bHasWork ? "It has not come back since the ACS was started, and has work."
+                                 : "It has not been there since the ACS was started.";
+        RaiseAlarm(std::move(alarm));
     }
 }
 
@@ -470,7 +485,7 @@ void PlanEngine::Impl::RepeatJob(Robot& robot, std::string commandID)
 
 void PlanEngine::Impl::OnJobUnknown(Robot& robot, const JobUnknown& event)
 {
-    if (TryEndOverdueJob(robot, event.jobID))
+    if (TryEndOverdueJob(robot, event.jobID, false))
     {
         return;
     }
@@ -510,27 +525,41 @@ void PlanEngine::Impl::OnJobUncertain(Robot& robot, const JobUncertain& event)
     }
 }
 
-/// The robot that has it.
-std::optional<std::size_t> PlanEngine::Impl::FindHeldJobOrNull(const SettleJob& command) const
+/// The robot that has the job, by its index.
+std::optional<std::size_t> PlanEngine::Impl::FindWorkerOrNull(const SettleJob& command) const
 {
     const auto robot = std::ranges::find_if(_robots, [&command](const Robot& candidate) {
-        return candidate.bUncertain && candidate.job->planID == command.planID && candidate.job->jobID == command.jobID;
+        return candidate.job.has_value() && candidate.job->planID == command.planID
+            && candidate.job->jobID == command.jobID;
     });
-    return robot == _robots.end() ? std::nullopt : std::optional(static_cast<std::size_t>(robot - _robots.begin()));
+    return robot == _robots.end() ? std::nullopt : std::optional(robot->index);
 }
 
+/// Answered are jobs that are held, those of plans that are over, and those of robots that are not there to tell.
 std::optional<std::string> PlanEngine::Impl::GetObjectionOrNull(const SettleJob& command) const
 {
-    const std::optional<std::size_t> index = FindHeldJobOrNull(command);
-    if (!index.has_value())
+    const std::optional<std::size_t> worker = FindWorkerOrNull(command);
+    if (!worker.has_value())
     {
-        return "No such job is held.";
+        return "No robot has such a job.";
     }
-    if (_robots[*index].overdueJobID.has_value() && command.answer == EJobAnswer::Again)
+    const Robot& robot = _robots[*worker];
+    const bool bOver = robot.overdueJobID.has_value();
+    if (bOver && command.answer == EJobAnswer::Again)
     {
         return "Its plan is over: answer done or failed.";
     }
-    return std::nullopt;
+    if (robot.bUncertain || bOver)
+    {
+        return std::nullopt;
+    }
+    if (robot.bOnline)
+    {
+        return fmt::format("{} will tell how it ends.", GetRobotID(robot));
+    }
+    return command.answer == EJobAnswer::Again
+        ? std::optional(fmt::format("{} is not there to do it again: answer done or failed.", GetRobotID(robot)))
+        : std::nullopt;
 }
 
 void PlanEngine::Impl::Settle(const SettleJob& command)
@@ -540,7 +569,7 @@ void PlanEngine::Impl::Settle(const SettleJob& command)
         _actions.emplace_back(ReplyCommand{command.replyToken, false, std::move(*objection)});
         return;
     }
-    Robot& robot = _robots[*FindHeldJobOrNull(command)];
+    Robot& robot = _robots[*FindWorkerOrNull(command)];
     _actions.emplace_back(ReplyCommand{command.replyToken, true, "Received."});
     robot.bTouched = true;
     SettleFor(robot, command.answer);
@@ -562,7 +591,7 @@ void PlanEngine::Impl::SettleFor(Robot& robot, EJobAnswer answer)
 {
     robot.bUncertain = false;
     const std::string jobID = robot.job->jobID;
-    if (TryEndOverdueJob(robot, jobID))
+    if (TryEndOverdueJob(robot, jobID, answer == EJobAnswer::Done))
     {
         return;
     }

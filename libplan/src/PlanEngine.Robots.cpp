@@ -19,6 +19,15 @@ constexpr double STAND_TOLERANCE = 0.5;
 
 } // namespace
 
+Alarm PlanEngine::Impl::MakeLinkAlarm(const Robot& robot) const
+{
+    Alarm alarm;
+    alarm.robotID = GetRobotID(robot);
+    alarm.errorCode = ALARM_LINK_LOST;
+    alarm.level = EAlarmLevel::Heavy;
+    return alarm;
+}
+
 void PlanEngine::Impl::OnLink(Robot& robot, const LinkChanged& event)
 {
     if (robot.bOnline == event.bOnline)
@@ -26,10 +35,7 @@ void PlanEngine::Impl::OnLink(Robot& robot, const LinkChanged& event)
         return;
     }
     robot.bOnline = event.bOnline;
-    Alarm alarm;
-    alarm.robotID = GetRobotID(robot);
-    alarm.errorCode = ALARM_LINK_LOST;
-    alarm.level = EAlarmLevel::Heavy;
+    Alarm alarm = MakeLinkAlarm(robot);
     alarm.message = "The connection to the robot is lost.";
     if (event.bOnline)
     {
@@ -83,17 +89,10 @@ void PlanEngine::Impl::Place(Robot& robot)
     const std::optional<std::size_t> node = _site.FindNodeIndexOrNull(nodeID);
     if (!node.has_value())
     {
+        LosePlace(robot);
         return;
     }
-    std::vector<std::size_t> claim{*node};
-    for (const std::string& heldID : robot.state->heldNodeIDs)
-    {
-        const std::optional<std::size_t> held = _site.FindNodeIndexOrNull(heldID);
-        if (held.has_value() && std::ranges::count(claim, *held) == 0)
-        {
-            claim.push_back(*held);
-        }
-    }
+    std::vector<std::size_t> claim = ListClaimed(robot, *node);
     std::vector<std::size_t> ahead =
         node == robot.node ? FindAhead(robot, robot.aheadNodes) : std::vector<std::size_t>();
     for (const std::size_t between : ahead)
@@ -107,28 +106,25 @@ void PlanEngine::Impl::Place(Robot& robot)
     {
         return;
     }
-    Alarm alarm;
-    alarm.robotID = GetRobotID(robot);
-    alarm.errorCode = ALARM_PLACE;
-    alarm.level = EAlarmLevel::Heavy;
     if (!_traffic.TryStand(robot.index, *node, std::span(claim).subspan(1)))
     {
         const auto taken = std::ranges::find_if(claim, [this, &robot](std::size_t other) {
             return !_traffic.IsFreeFor(other, robot.index);
         });
         const std::size_t holder = *_traffic.GetHolderOrNull(*taken);
-        alarm.message = fmt::format(
-            "It {} node {}, which {} holds.",
-            taken == claim.begin() ? "stands on" : "may still go to",
-            _site.GetNodes()[*taken].nodeID,
-            GetRobotID(_robots[holder]));
         robot.bPlaced = false;
         // Where it is all the same nobody else is let.
         _traffic.HoldFree(robot.index, claim);
-        RaiseAlarm(std::move(alarm));
+        RaiseAlarm(MakePlaceAlarm(
+            robot,
+            fmt::format(
+                "It {} node {}, which {} holds.",
+                taken == claim.begin() ? "stands on" : "may still go to",
+                _site.GetNodes()[*taken].nodeID,
+                GetRobotID(_robots[holder]))));
         return;
     }
-    ClearAlarm(alarm);
+    ClearAlarm(MakePlaceAlarm(robot, {}));
     robot.aheadNodes = std::move(ahead);
     robot.node = node;
     robot.heldNodes = std::move(claim);
@@ -140,6 +136,45 @@ void PlanEngine::Impl::Place(Robot& robot)
         robot.position = stationOrNull->stationID;
     }
     _bDispatchNeeded = true;
+}
+
+Alarm PlanEngine::Impl::MakePlaceAlarm(const Robot& robot, std::string message) const
+{
+    Alarm alarm;
+    alarm.robotID = GetRobotID(robot);
+    alarm.errorCode = ALARM_PLACE;
+    alarm.level = EAlarmLevel::Heavy;
+    alarm.message = std::move(message);
+    return alarm;
+}
+
+/// Somebody has taken it off the map, or it does not know where it is. What it held stays its own until it tells a node.
+void PlanEngine::Impl::LosePlace(Robot& robot)
+{
+    if (!std::exchange(robot.bPlaced, false))
+    {
+        return;
+    }
+    const std::string& nodeID = robot.state->lastNodeID;
+    RaiseAlarm(MakePlaceAlarm(
+        robot,
+        nodeID.empty() ? "It does not tell any more on which node it stands."
+                       : fmt::format("It stands on node {}, which the map does not have.", nodeID)));
+}
+
+/// The node on which it stands first, then those to which it may still go.
+std::vector<std::size_t> PlanEngine::Impl::ListClaimed(const Robot& robot, std::size_t node) const
+{
+    std::vector<std::size_t> claim{node};
+    for (const std::string& heldID : robot.state->heldNodeIDs)
+    {
+        const std::optional<std::size_t> held = _site.FindNodeIndexOrNull(heldID);
+        if (held.has_value() && std::ranges::count(claim, *held) == 0)
+        {
+            claim.push_back(*held);
+        }
+    }
+    return claim;
 }
 
 /// Sets and clears an alarm for each error that came or went.
@@ -164,6 +199,14 @@ void PlanEngine::Impl::CompareErrors(Robot& robot)
     }
     for (const RobotError& error : robot.state->errors)
     {
+        const bool bOutweighed = std::ranges::any_of(robot.state->errors, [&error](const RobotError& other) {
+            return other.errorCode == error.errorCode && other.level == EAlarmLevel::Heavy
+                && error.level != EAlarmLevel::Heavy;
+        });
+        if (bOutweighed)
+        {
+            continue;
+        }
         Alarm alarm;
         alarm.robotID = robotID;
         alarm.errorCode = error.errorCode;
@@ -214,12 +257,9 @@ bool PlanEngine::Impl::TryAdvance(Robot& robot, std::size_t routeIndex)
             nodes.subspan(drive.grantedCount, routeIndex + 1 - drive.grantedCount);
         if (drive.instead.has_value() || !_traffic.TryOverrun(robot.index, overrun))
         {
-            Alarm alarm;
-            alarm.robotID = GetRobotID(robot);
-            alarm.errorCode = ALARM_PLACE;
-            alarm.level = EAlarmLevel::Heavy;
-            alarm.message = fmt::format("It drove on to node {} without leave.", drive.route.nodes[routeIndex].nodeID);
-            RaiseAlarm(std::move(alarm));
+            RaiseAlarm(MakePlaceAlarm(
+                robot,
+                fmt::format("It drove on to node {} without leave.", drive.route.nodes[routeIndex].nodeID)));
             return false;
         }
         Note(robot, "drove on beyond what was released");
@@ -281,7 +321,9 @@ void PlanEngine::Impl::EndDrive(Robot& robot)
     {
         CancelTimer(EEngineTimer::DriveExtension, robotID);
     }
-    if (drive.bCancelling)
+    // A pause has still to be shown.
+    const bool bControlOpen = robot.planOrNull != nullptr && robot.planOrNull->record.progress.control.has_value();
+    if (drive.bCancelling && !bControlOpen)
     {
         StopConfirming(robot);
     }
@@ -422,6 +464,14 @@ void PlanEngine::Impl::OnDriveCancelled(Robot& robot, const DriveCancelled& even
         BeginInstead(robot, std::move(instead), bRetreats);
         return;
     }
+    const bool bWanted = control == EPlanControl::Cancel || control == EPlanControl::Abort;
+    if (robot.drive->bCancelAsked && !bWanted)
+    {
+        // Later than anybody waited for it, and the plan goes on: another drive takes it there.
+        robot.retreatNode.reset();
+        EndDrive(robot);
+        return;
+    }
     OnDriveRejected(robot, DriveRejected{event.driveID, "it was cancelled"});
 }
 
@@ -443,15 +493,18 @@ void PlanEngine::Impl::OnJobStarted(Robot& robot, const JobStarted& event)
     }
 }
 
-bool PlanEngine::Impl::TryEndOverdueJob(Robot& robot, const std::string& jobID)
+/// Its plan is over, but what it did to the robot's ports counts. The robot's word is as good as an operator's.
+bool PlanEngine::Impl::TryEndOverdueJob(Robot& robot, const std::string& jobID, bool bDone)
 {
     if (robot.overdueJobID != jobID)
     {
         return false;
     }
-    if (robot.bUncertain)
+    CancelTimer(EEngineTimer::JobEnd, GetRobotID(robot));
+    if (bDone && robot.job.has_value())
     {
-        return true; // an operator has been asked
+        ClearAlarm(MakeDroppedAlarm(robot));
+        MoveCarrier(robot, *robot.job);
     }
     ReleaseJob(robot);
     robot.overdueJobID.reset();
@@ -459,9 +512,18 @@ bool PlanEngine::Impl::TryEndOverdueJob(Robot& robot, const std::string& jobID)
     return true;
 }
 
+/// The robot cannot be used until somebody says how the job ended.
+void PlanEngine::Impl::OnJobEndTimeout(Robot& robot)
+{
+    if (robot.overdueJobID.has_value() && !robot.bUncertain)
+    {
+        HoldJob(robot, "its plan is over, and the robot does not tell the job's end");
+    }
+}
+
 void PlanEngine::Impl::OnJobFinished(Robot& robot, const JobFinished& event)
 {
-    if (TryEndOverdueJob(robot, event.jobID))
+    if (TryEndOverdueJob(robot, event.jobID, true))
     {
         return;
     }
@@ -475,7 +537,7 @@ void PlanEngine::Impl::OnJobFinished(Robot& robot, const JobFinished& event)
 
 void PlanEngine::Impl::OnJobFailed(Robot& robot, const JobFailed& event)
 {
-    if (TryEndOverdueJob(robot, event.jobID))
+    if (TryEndOverdueJob(robot, event.jobID, false))
     {
         return;
     }
@@ -494,8 +556,7 @@ void PlanEngine::Impl::OnJobTimeout(Robot& robot)
         return;
     }
     robot.planOrNull->jobDeadline.reset();
-    robot.overdueJobID = GetJobID(*robot.planOrNull);
-    Command(robot, CancelJob{*robot.overdueJobID});
+    DropJob(robot);
     FailPlan(*robot.planOrNull, "The job took longer than its limit.");
 }
 

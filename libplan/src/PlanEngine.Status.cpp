@@ -229,9 +229,10 @@ const std::vector<Alarm>& PlanEngine::Impl::GetActiveAlarms() const noexcept
     return _alarms;
 }
 
+/// Section 5.2: Paused until the first consistency check is done.
 ETscState PlanEngine::Impl::GetTscState() const noexcept
 {
-    return _tscState;
+    return _bGathering && _tscState == ETscState::Auto ? ETscState::Paused : _tscState;
 }
 
 } // namespace ACS::Planning

@@ -1,7 +1,10 @@
 #include "PlanEngine.Impl.hpp"
 #include <acs/core/Overloaded.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <utility>
 
@@ -18,7 +21,33 @@ void PlanEngine::Impl::OnStoreFailed(
     _now = now;
     _bStoreFailing = true;
     _bStoreAttempted = false;
-    std::string refusal = "The plan cannot be stored: " + std::string(reason);
+    const bool bPlanRefused = TakeBatchBack(batch);
+    TakeActionsBack(skipped, bPlanRefused, reason, out);
+    Alarm alarm = MakeStoreAlarm();
+    alarm.message = "Plans cannot be stored: " + std::string(reason);
+    RaiseAlarm(std::move(alarm));
+    KeepForStore(std::exchange(_changes, {}));
+    for (EngineAction& action : _actions)
+    {
+        if (auto* reportOrNull = std::get_if<SendReport>(&action); reportOrNull != nullptr)
+        {
+            _held.push_back(std::move(reportOrNull->entry));
+        }
+    }
+    _actions.clear();
+    StartStoreRetry(out);
+}
+
+void PlanEngine::Impl::StartStoreRetry(EngineActions& out)
+{
+    _bStoreRetryRuns = true;
+    out.emplace_back(StartEngineTimer{{EEngineTimer::StoreRetry, {}}, _options.storeRetry});
+}
+
+/// What is to be stored later, but for new plans: they are not told to anybody and not begun, as if they had never come.
+/// True: there were some.
+bool PlanEngine::Impl::TakeBatchBack(const StoreBatch& batch)
+{
     bool bPlanRefused = false;
     for (const StoreChange& change : batch.changes)
     {
@@ -34,11 +63,11 @@ void PlanEngine::Impl::OnStoreFailed(
             _unsaved.push_back(change);
             continue;
         }
-        // Not told to anybody and not begun: as if it had never come.
         bPlanRefused = true;
         const auto found = _plans.find(addedOrNull->record.plan.planID);
         if (found != _plans.end())
         {
+            assert(!found->second->robot.has_value());
             _pending.erase(found->second->key);
             _plans.erase(found);
         }
@@ -53,25 +82,29 @@ void PlanEngine::Impl::OnStoreFailed(
     if (_asked.has_value())
     {
         // Its outcome would be owed, and a crash would forget it. What it has set going stays so.
-        refusal = "The request cannot be stored: " + std::string(reason);
         _unstoredIDs.insert(*_asked);
     }
     for (PlanRecord& record : std::exchange(_replaced, {}))
     {
         RememberFinished(std::move(record));
     }
-    Alarm alarm;
-    alarm.robotID = OWN_ROBOT_ID;
-    alarm.errorCode = ALARM_STORE;
-    alarm.level = EAlarmLevel::Heavy;
-    alarm.message = "Plans cannot be stored: " + std::string(reason);
+    return bPlanRefused;
+}
+
+/// What stood behind the batch: reports wait, new plans and controls are refused, everything else goes on.
+void PlanEngine::Impl::TakeActionsBack(
+    std::span<const EngineAction> skipped,
+    bool bPlanRefused,
+    std::string_view reason,
+    EngineActions& out)
+{
+    const std::string refusal =
+        fmt::format("The {} cannot be stored: {}", _asked.has_value() ? "request" : "plan", reason);
     for (const EngineAction& action : skipped)
     {
         std::visit(
             Core::Overloaded{
-                [this](const StorePlans& typed) {
-                    _unsaved.insert(_unsaved.end(), typed.batch.changes.begin(), typed.batch.changes.end());
-                },
+                [this](const StorePlans& typed) { KeepForStore(typed.batch.changes); },
                 [this](const SendReport& typed) { _held.push_back(typed.entry); },
                 [this, &out, &refusal, bPlanRefused](const ReplyCommand& typed) {
                     const auto repeated = _repeated.find(typed.replyToken);
@@ -85,18 +118,20 @@ void PlanEngine::Impl::OnStoreFailed(
                 }},
             action);
     }
-    RaiseAlarm(std::move(alarm));
-    std::ranges::move(_changes, std::back_inserter(_unsaved));
-    _changes.clear();
-    for (EngineAction& action : _actions)
-    {
-        if (auto* reportOrNull = std::get_if<SendReport>(&action); reportOrNull != nullptr)
-        {
-            _held.push_back(std::move(reportOrNull->entry));
-        }
-    }
-    _actions.clear();
-    out.emplace_back(StartEngineTimer{{EEngineTimer::StoreRetry, {}}, _options.storeRetry});
+}
+
+void PlanEngine::Impl::KeepForStore(std::vector<StoreChange> changes)
+{
+    std::ranges::move(changes, std::back_inserter(_unsaved));
+}
+
+Alarm PlanEngine::Impl::MakeStoreAlarm()
+{
+    Alarm alarm;
+    alarm.robotID = OWN_ROBOT_ID;
+    alarm.errorCode = ALARM_STORE;
+    alarm.level = EAlarmLevel::Heavy;
+    return alarm;
 }
 
 /// A call after a batch that did not fail.
@@ -113,10 +148,15 @@ void PlanEngine::Impl::NoteStoreSuccess()
     {
         plan->bUnstored = false;
     }
-    Alarm alarm;
-    alarm.robotID = OWN_ROBOT_ID;
-    alarm.errorCode = ALARM_STORE;
-    ClearAlarm(alarm);
+    ClearAlarm(MakeStoreAlarm());
+}
+
+/// Each attempt costs as much as all that is left to be stored: only new plans and the timer StoreRetry make one.
+bool PlanEngine::Impl::IsStoreWorthTrying(const std::vector<StoreChange>& changes) const
+{
+    return !_bStoreFailing || !_bStoreRetryRuns || std::ranges::any_of(changes, [](const StoreChange& change) {
+        return std::holds_alternative<PlanAdded>(change);
+    });
 }
 
 } // namespace ACS::Planning

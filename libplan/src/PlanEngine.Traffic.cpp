@@ -391,6 +391,7 @@ bool PlanEngine::Impl::TryBeginDrive(Robot& robot, const Wish& wish)
     {
         return false;
     }
+    EndCharging(robot);
     ActiveDrive drive;
     drive.driveID = Core::MakeUuid(_random);
     NoteCommand(robot, drive.driveID);

@@ -43,7 +43,6 @@ void PlanEngine::Impl::BeginPlan(ActivePlan& plan, Robot& robot)
     plan.record.progress.robotID = GetRobotID(robot);
     robot.planOrNull = &plan;
     robot.bHomeRefused = false;
-    EndCharging(robot);
     _begun.push_back(plan.record.plan.planID);
     ChangePlan(plan, EPlanState::InProgress, {});
     BeginStep(plan, robot);
@@ -175,15 +174,14 @@ StartJob PlanEngine::Impl::MakeStartJob(const Robot& robot) const
 
 /// What a finished load or unload does to the robot's ports. What does not fit is told, not refused: the robot has
 /// done it, so the ports were not what the engine believed.
-void PlanEngine::Impl::MoveCarrier(Robot& robot)
+void PlanEngine::Impl::MoveCarrier(Robot& robot, const StartJob& job)
 {
-    const ActivePlan& plan = *robot.planOrNull;
-    const EActionEffect effect = plan.resolved.steps[plan.step].rule->effect;
-    if (effect == EActionEffect::None || !HasJob(plan))
+    const auto rule = _options.actions.find(job.action);
+    const EActionEffect effect = rule == _options.actions.end() ? EActionEffect::None : rule->second.effect;
+    if (effect == EActionEffect::None)
     {
         return;
     }
-    const StartJob job = MakeStartJob(robot);
     const std::optional<std::string>& portText = effect == EActionEffect::Load ? job.to : job.from;
     const std::vector<Core::Location>& ports = robot.options->ports;
     const auto found =
@@ -219,7 +217,7 @@ void PlanEngine::Impl::EndJob(Robot& robot)
     StopJobTimer(robot);
     ReleaseJob(robot);
     plan.jobTimeLeft.reset();
-    MoveCarrier(robot);
+    MoveCarrier(robot, MakeStartJob(robot));
     ChangeJob(plan, EJobState::Completed, {});
     const bool bStepDone = plan.job + 1 >= plan.record.plan.steps[plan.step].jobs.size();
     const bool bAborting = plan.record.progress.control == EPlanControl::Abort;

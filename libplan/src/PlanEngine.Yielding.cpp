@@ -338,6 +338,7 @@ bool PlanEngine::Impl::TryDriveInstead(Robot& robot, Wish wish, bool bRetreats)
     ActiveDrive& drive = *robot.drive;
     drive.instead = std::move(wish);
     drive.bInsteadRetreats = bRetreats;
+    drive.bCancelAsked = true;
     drive.bCancelling = true;
     Command(robot, CancelDrive{drive.driveID});
     StartConfirming(robot, _options.controls.cancelTimeout);

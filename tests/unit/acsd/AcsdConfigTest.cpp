@@ -191,6 +191,7 @@ TEST_CASE("The keys of the decision register are read")
          "abort.paused_job=finish",
          "abort.job_failure_final=Aborted",
          "abort.report_step=true",
+         "abort.end_timeout=7s",
          "mcs.result_after_fail_ack=false",
          "queue.max_plans=7",
          "queue.priority_order=lower_first",
@@ -209,6 +210,7 @@ TEST_CASE("The keys of the decision register are read")
     controls.cancelUntil = Planning::ECancelWindow::FirstJob;
     controls.cancelTimeout = std::chrono::seconds(5);
     controls.pauseTimeout = std::chrono::seconds(6);
+    controls.jobEndTimeout = std::chrono::seconds(7);
     controls.bPausesAfterJob = true;
     controls.bAbortStopsJob = true;
     controls.bAbortFinishesPausedJob = true;

@@ -123,7 +123,8 @@ TEST_CASE("POST /plans/PLAN/jobs/JOB/done, failed and again answer for a job tha
     Operator user;
     user.world.Submit(MakeLogisticsPlan("P1"));
     REQUIRE(Testing::TryRunUntil(user.world, "P1", "Job 1 P1-a4 InProgress"));
-    CHECK(HasText(user.Post("/plans/P1/jobs/P1-a4/done"), "404 {\"error\":\"No such job is held."));
+    CHECK(HasText(user.Post("/plans/P1/jobs/P1-a4/done"), "404 {\"error\":\"LR01 will tell how it ends."));
+    CHECK(HasText(user.Post("/plans/P1/jobs/P1-zz/done"), "404 {\"error\":\"No robot has such a job."));
     user.world.Raise("LR01", Planning::JobUncertain{"P1-a4", "it was switched off"});
     CHECK(HasText(user.GetStatus(), R"("errorCode":"ACS-1008")"));
     CHECK(HasText(user.GetStatus(), R"("planId":"P1","stepNo":1,"jobId":"P1-a4"})"));

@@ -13,6 +13,7 @@ class FaultyPlanStore final : public Planning::IPlanStore
 
 public:
     bool bFails = false;
+    std::size_t attempts = 0;
 
     [[nodiscard]] Core::Result<Planning::StoredState> Load() override
     {
@@ -21,6 +22,7 @@ public:
 
     [[nodiscard]] Core::Result<void> Append(const Planning::StoreBatch& batch) override
     {
+        ++attempts;
         return bFails ? Core::Fail(Planning::EPlanningError::StoreFailed, "acsd.db", "room", "disk full")
                       : _store.Append(batch);
     }

@@ -499,6 +499,7 @@ TEST_CASE("5.8 After a restart alarms that nobody else can clear are cleared")
     REQUIRE(world.TryRun());
     world.Restart(MakeTestOptions(false), MakeTestSite());
     world.Connect();
+    world.Ask(SetCarriers{"LR01", {std::nullopt}, 0}); // what P1 loaded before
     world.Submit(MakeControlPlan("P2"));
     world.Submit(MakeLogisticsPlan("P3"));
     REQUIRE(world.TryRun());

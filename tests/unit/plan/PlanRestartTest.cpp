@@ -432,13 +432,15 @@ TEST_CASE("A job that was given up and had not ended keeps its robot out of work
         world.Submit(MakeLogisticsPlan("P2"));
         if (bUncertain)
         {
-            REQUIRE(world.TryRun());
             CHECK(world.engine->GetPlanOrNull("P2")->state == EPlanState::Pending);
             world.Settle("P1", "P1-a4", EJobAnswer::Again, 8);
             CHECK_FALSE(world.replies.at(8).bAccepted);
             world.Settle("P1", "P1-a4", EJobAnswer::Done, 9);
             CHECK(world.replies.at(9).bAccepted);
         }
+        REQUIRE(world.TryRun());
+        CHECK(world.GetReportsOf("P2").empty()); // the job has filled the port
+        world.Ask(SetCarriers{"LR01", {std::nullopt}, 0});
         REQUIRE(world.TryRun());
         CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
         CHECK(world.engine->GetActiveAlarms().empty());

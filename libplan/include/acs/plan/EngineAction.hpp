@@ -26,8 +26,9 @@ enum class EEngineTimer : std::uint8_t
     ControlConfirm, ///< Of a robot: it has not confirmed that it stopped, or goes on.
     JobTimeout,     ///< Of a robot: its job takes too long.
     HomeRetry,      ///< Of a robot: try again to send it home.
-    Gathering,      ///< After a restart: go on without the robots that have not told where they stand.
+    Gathering,      ///< After a start: go on without the robots that have not told where they stand.
     ChargeRetry,    ///< Of a robot: it was told to charge and has not shown that it does.
+    JobEnd,         ///< Of a robot: it has not told the end of a job that was given up.
 };
 
 /// One timer; of a robot or, with an empty robotID, of the engine.

@@ -89,6 +89,8 @@ struct ControlOptions
     ECancelWindow cancelUntil = ECancelWindow::FirstArrival;
     std::chrono::milliseconds cancelTimeout{30'000}; ///< For a robot to confirm that its drive is at an end.
     std::chrono::milliseconds pauseTimeout{30'000};  ///< For a robot to confirm that it stands, or goes on.
+    /// For a robot to tell the end of a job that was given up; then an operator is asked for it (ACS-1008).
+    std::chrono::milliseconds jobEndTimeout{60'000};
     bool bPausesAfterJob = false;         ///< A running job comes to its end before the pause; a drive never does.
     bool bAbortStopsJob = false;          ///< Abort drops a running job (D-15).
     bool bAbortFinishesPausedJob = false; ///< Abort has a paused job done first (D-16).
