@@ -190,7 +190,6 @@ public:
             detour; ///< Around those who stood in the way at detourAt (_standingChanges); nullopt: none.
         std::uint64_t detourAt = 0;
         std::size_t detourTarget = 0;
-        std::uint64_t noDetourAt = 0;         ///< _standingChanges when it found no way around.
         std::size_t detours = 0;              ///< Taken on the way to its present step.
         std::optional<std::size_t> berthNode; ///< Its home or, without one, where it can be out of the way.
         /// Without a drive: nodes behind its own on the way that it had, up to which it may have come, or may still come.
@@ -454,7 +453,7 @@ private:
         const Robot& robot,
         std::size_t target,
         const Router::NodeFilter& isExcluded) const;
-    [[nodiscard]] bool CanAdvance(const Robot& robot) const;
+    [[nodiscard]] static bool CanAdvance(const Robot& robot);
     [[nodiscard]] bool CanServe(const Robot& robot, const ActivePlan& plan) const;
     [[nodiscard]] static bool IsMoreUrgent(const Robot* left, const Robot* right);
     void OnNoRoute(Robot& robot, std::size_t target);
@@ -475,7 +474,7 @@ private:
     [[nodiscard]] bool TryDriveInstead(Robot& robot, Wish wish, bool bRetreats);
     void BeginInstead(Robot& robot, Wish wish, bool bRetreats);
     void GiveInsteadUp(Robot& robot);
-    void LetGoFirst(Robot& robot, const Robot& leader);
+    static void LetGoFirst(Robot& robot, const Robot& leader);
 
     // After a restart (PlanEngine.Recovery.cpp).
     void RestoreRobot(const RobotWorkChanged& work);

@@ -76,7 +76,7 @@ void PlanEngine::Impl::NoteMovable(const Robot& robot)
 }
 
 /// Whether its drive is to be given more. A robot that is out of reach may still tell of nodes, and then goes on.
-bool PlanEngine::Impl::CanAdvance(const Robot& robot) const
+bool PlanEngine::Impl::CanAdvance(const Robot& robot)
 {
     return IsUsable(robot) ? !robot.bPauseWanted : !robot.bOnline && !robot.bPauseWanted && !IsHeld(robot);
 }

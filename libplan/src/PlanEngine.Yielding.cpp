@@ -192,13 +192,11 @@ bool PlanEngine::Impl::TryDetour(Robot& robot)
     std::optional<Wish> detour = FindWishOrNull(robot, *target, isInTheWay);
     if (!detour.has_value())
     {
-        robot.noDetourAt = bHome ? 0 : _standingChanges;
         return false;
     }
     const bool bBegun = robot.drive.has_value()
         ? TryDriveInstead(robot, std::move(*detour), robot.retreatNode.has_value())
         : TryBeginDrive(robot, *detour);
-    robot.noDetourAt = bHome || bBegun ? 0 : _standingChanges;
     robot.detours += bBegun && !bHome ? 1U : 0U;
     return bBegun;
 }

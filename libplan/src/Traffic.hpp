@@ -42,7 +42,7 @@ class Traffic
         bool bValid = false;
     };
 
-    enum EStanding : std::size_t
+    enum class EStanding : std::uint8_t
     {
         AllMove, ///< As if every robot could move.
         AsIs,    ///< Robots that cannot move stay where they are.
