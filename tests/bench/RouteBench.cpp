@@ -6,6 +6,7 @@
 #include <boost/graph/astar_search.hpp>
 #include <fmt/format.h>
 
+#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
@@ -120,7 +121,7 @@ public:
     }
 };
 
-struct TargetReached
+struct TargetReached final : std::exception
 {
 };
 

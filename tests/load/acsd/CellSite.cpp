@@ -38,9 +38,9 @@ constexpr std::size_t TOP_LEFT = 5;
 
 Place GetCorner(std::size_t cell)
 {
-    return {
-        CELL_WIDTH * static_cast<double>((cell - 1) % CELLS_IN_A_ROW),
-        CELL_HEIGHT * static_cast<double>((cell - 1) / CELLS_IN_A_ROW)};
+    const std::size_t column = (cell - 1) % CELLS_IN_A_ROW;
+    const std::size_t row = (cell - 1) / CELLS_IN_A_ROW;
+    return {CELL_WIDTH * static_cast<double>(column), CELL_HEIGHT * static_cast<double>(row)};
 }
 
 Place GetPlace(std::size_t cell, std::size_t ringNode)

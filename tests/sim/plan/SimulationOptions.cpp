@@ -17,7 +17,7 @@ namespace
 
 std::string TakeFault(std::string_view text, FaultSet& faults)
 {
-    const auto found = std::ranges::find(FAULT_NAMES, text);
+    const auto* const found = std::ranges::find(FAULT_NAMES, text);
     if (found == FAULT_NAMES.end())
     {
         return fmt::format("expected {}, found {}", fmt::join(FAULT_NAMES, ", "), Core::QuoteForError(text));
@@ -28,7 +28,7 @@ std::string TakeFault(std::string_view text, FaultSet& faults)
 
 std::string TakeMutation(std::string_view text, EMutation& mutation)
 {
-    const auto found = std::ranges::find(MUTATION_TEXTS, text, &MutationText::name);
+    const auto* const found = std::ranges::find(MUTATION_TEXTS, text, &MutationText::name);
     if (found == MUTATION_TEXTS.end())
     {
         return fmt::format("expected a name from --list-mutations, found {}", Core::QuoteForError(text));

@@ -26,8 +26,8 @@ double GetSecondsSince(std::chrono::steady_clock::time_point start)
 
 } // namespace
 
-SimulationRunner::SimulationRunner(SimulationOptions options)
-    : _options(std::move(options))
+SimulationRunner::SimulationRunner(const SimulationOptions& options)
+    : _options(options)
 {
 }
 

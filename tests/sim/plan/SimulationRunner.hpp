@@ -36,7 +36,7 @@ class SimulationRunner final
     [[nodiscard]] std::string DescribeReplay(EMutation mutation, std::uint64_t seed) const;
 
 public:
-    explicit SimulationRunner(SimulationOptions options);
+    explicit SimulationRunner(const SimulationOptions& options);
 
     /// The exit code: 0 where all is as it should be.
     [[nodiscard]] int Run() const;

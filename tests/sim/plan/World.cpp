@@ -19,16 +19,14 @@ namespace
 constexpr std::chrono::hours SETTLING_LIMIT{2};
 constexpr std::chrono::seconds WATCH_INTERVAL{1};
 
-enum EDicePart : std::uint64_t
-{
-    PROCESS_PART = 301,
-    OWN_RANDOM_PART,
-    WEATHER_PART,
-    ROBOT_PART,
-    BROKER_PART,
-    FIRST_ROBOT_PART = 400,
-    FIRST_RADIO_PART = 500,
-};
+/// Which stream of the seed's random numbers somebody has.
+constexpr std::uint64_t PROCESS_PART = 301;
+constexpr std::uint64_t OWN_RANDOM_PART = 302;
+constexpr std::uint64_t WEATHER_PART = 303;
+constexpr std::uint64_t ROBOT_PART = 304;
+constexpr std::uint64_t BROKER_PART = 305;
+constexpr std::uint64_t FIRST_ROBOT_PART = 400;
+constexpr std::uint64_t FIRST_RADIO_PART = 500;
 
 } // namespace
 

@@ -114,7 +114,7 @@ TEST_CASE("The keys about messages are read")
 TEST_CASE("A value that the register does not have, or that cannot work, is a mistake with its key")
 {
     for (const char* override :
-         {"mcs.host=\"a\\nb\"",
+         {R"(mcs.host="a\nb")",
           "mcs.ack_dead_after=0",
           "mcs.window=0",
           "mcs.max_rx_bytes=10",

@@ -262,8 +262,8 @@ TEST_CASE("Every given key has its path and value as text, overrides on top, to 
         Read("a = 1\n[mcs]\nurl = \"ws://a\"\nlist = [\"x\", \"y\"]\n[[row]]\nk = true\n", {"mcs.url=ws://b"});
     const std::map<std::string, std::string> expected{
         {"a", "1"},
-        {"mcs.url", "\"ws://b\""},
-        {"mcs.list", "[\"x\",\"y\",]"},
+        {"mcs.url", R"("ws://b")"},
+        {"mcs.list", R"(["x","y",])"},
         {"row", "[{k=true,},]"}};
     CHECK(reader.GetValues() == expected);
 }

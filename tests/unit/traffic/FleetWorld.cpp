@@ -440,20 +440,20 @@ void FleetWorld::CheckPlaces()
             occupy(i, vehicle.drive->route.nodes[vehicle.index + 1].nodeID);
         }
         const std::pair<double, double> position = GetPosition(vehicle);
-        for (std::size_t j = 0; j < i; ++j)
+        for (std::size_t other = 0; other < i; ++other)
         {
-            const double x = positions[j].first - position.first;
-            const double y = positions[j].second - position.second;
+            const double x = positions[other].first - position.first;
+            const double y = positions[other].second - position.second;
             if (x * x + y * y < LEAST_GAP * LEAST_GAP)
             {
-                violations.push_back(fmt::format("{} touches {}", vehicle.robotID, _vehicles[j].robotID));
+                violations.push_back(fmt::format("{} touches {}", vehicle.robotID, _vehicles[other].robotID));
             }
         }
         positions.push_back(position);
     }
 }
 
-double FleetWorld::GetLegLength(const Vehicle& vehicle) const
+double FleetWorld::GetLegLength(const Vehicle& vehicle)
 {
     return vehicle.drive->route.edges[vehicle.index].length;
 }

@@ -138,7 +138,7 @@ private:
     void CheckPlaces();
     [[nodiscard]] std::pair<double, double> GetPosition(const Vehicle& vehicle) const;
     [[nodiscard]] double GetLegDone(const Vehicle& vehicle) const;
-    [[nodiscard]] double GetLegLength(const Vehicle& vehicle) const;
+    [[nodiscard]] static double GetLegLength(const Vehicle& vehicle);
     [[nodiscard]] double GetSeconds(const std::string& from, const std::string& to) const;
 };
 

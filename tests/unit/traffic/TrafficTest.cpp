@@ -2,6 +2,8 @@
 
 #include "Catch.hpp"
 
+#include <fmt/format.h>
+
 #include <string>
 #include <vector>
 
@@ -32,8 +34,8 @@ SiteMap MakeCorridor()
     {
         const std::string left = std::to_string(from);
         const std::string right = std::to_string(to);
-        edges.push_back({left + ">" + right, left, right, {rule}});
-        edges.push_back({right + ">" + left, right, left, {rule}});
+        edges.push_back({fmt::format("{}>{}", left, right), left, right, {rule}});
+        edges.push_back({fmt::format("{}>{}", right, left), right, left, {rule}});
     }
     return *SiteMap::Create(std::move(nodes), std::move(edges), {});
 }
