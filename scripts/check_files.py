@@ -17,6 +17,9 @@ FREE_NAMES = (
     re.compile(r"^tests/install/consumer_[A-Za-z0-9]+\.cpp$"),
     re.compile(r"^tests/unit/compile_fail/"),
 )
+# What one reads first: e09 and later are whole programs.
+FIRST_EXAMPLE = re.compile(r"^examples/e0[1-8]_[a-z0-9_]+\.cpp$")
+FIRST_EXAMPLE_LINES = 150
 # Written in two pieces so that this file does not find itself.
 UNFINISHED = re.compile(r"\b(?:" + "|".join(("TO" "DO", "FIX" "ME", "X" "XX", "HA" "CK", "W" "IP")) + r")\b"
                         + "|filled in by its " + "own change")
@@ -102,6 +105,8 @@ def check_file(root, path):
         place = MACHINE_PATH.search(content)
         if place:
             yield line, "a path of one machine; use a path relative to the repository"
+    if FIRST_EXAMPLE.match(path) and text.count("\n") >= FIRST_EXAMPLE_LINES:
+        yield FIRST_EXAMPLE_LINES, f"the first examples have under {FIRST_EXAMPLE_LINES} lines each; this has {text.count(chr(10))}"
     if path.endswith((".hpp", ".cpp")) and not path.startswith("tests/style/bad/"):
         yield from check_cpp_name(path, text)
     if path.endswith(".hpp") and not path.startswith("tests/style/bad/"):

@@ -93,6 +93,7 @@ PLANTED = [
     ("files", "libplan/src/Engine.cpp", "int one;\nint two;\r\n", 2, "LF"),
     ("files", "libplan/src/Engine.cpp", "int one;\nint two;", 2, "last line"),
     ("files", "libplan/src/Engine.cpp", "int one;\n// TO" "DO: more\n", 2, "unfinished"),
+    ("files", "examples/e07_own_robot_adapter.cpp", "int one;\n" * 150, 150, "under 150 lines"),
     ("files", "README.md", "one\nsee /wo" "rk/main\n", 2, "path of one machine"),
     ("files", "docs/site.md", "`/ho" "me/somebody`\n", 1, "path of one machine"),
 ]
@@ -104,6 +105,8 @@ ACCEPTED = [
     ("files", "libplan/src/PlanEngine.Recovery.cpp", "// /tmp/acs.XXXXXX and https://example.org/home/page\n"),
     ("files", "libplan/src/Text.hpp", "#pragma once\nnamespace ACS::Detail\n{\n\nclass Hidden\n{\n};\n\n}\n\n"
                                       "class Text\n{\n};\n"),
+    ("files", "examples/e07_own_robot_adapter.cpp", "int one;\n" * 149),
+    ("files", "examples/e09_small_acs.cpp", "int one;\n" * 500),
     ("layers", "libplan/src/Engine.cpp", "const char* text = \"steady_clock::now()\"; // steady_clock::now()\n"),
 ]
 
