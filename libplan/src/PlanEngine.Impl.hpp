@@ -391,6 +391,7 @@ private:
     void OnNodePassed(Robot& robot, const NodePassed& event);
     void OnArrived(Robot& robot, const Arrived& event);
     void OnDriveRejected(Robot& robot, const DriveRejected& event);
+    [[nodiscard]] static bool IsEnding(const Robot& robot);
     void OnDriveCancelled(Robot& robot, const DriveCancelled& event);
     void OnJobStarted(Robot& robot, const JobStarted& event);
     void OnJobFinished(Robot& robot, const JobFinished& event);

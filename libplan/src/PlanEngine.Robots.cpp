@@ -431,12 +431,23 @@ void PlanEngine::Impl::OnDriveRejected(Robot& robot, const DriveRejected& event)
         return;
     }
     ActivePlan& plan = *robot.planOrNull;
-    if (plan.record.progress.control == EPlanControl::Cancel || plan.record.progress.control == EPlanControl::Abort)
+    if (IsEnding(robot))
     {
         EndByControl(plan, *plan.record.progress.control);
         return;
     }
     FailPlan(plan, fmt::format("{} did not do its drive: {}", GetRobotID(robot), event.reason));
+}
+
+/// Whether its plan is to be cancelled or aborted.
+bool PlanEngine::Impl::IsEnding(const Robot& robot)
+{
+    if (robot.planOrNull == nullptr)
+    {
+        return false;
+    }
+    const std::optional<EPlanControl>& control = robot.planOrNull->record.progress.control;
+    return control == EPlanControl::Cancel || control == EPlanControl::Abort;
 }
 
 void PlanEngine::Impl::OnDriveCancelled(Robot& robot, const DriveCancelled& event)
@@ -454,9 +465,8 @@ void PlanEngine::Impl::OnDriveCancelled(Robot& robot, const DriveCancelled& even
         robot.bPlaced = false;
         return;
     }
-    const std::optional<EPlanControl> control =
-        robot.planOrNull == nullptr ? std::nullopt : robot.planOrNull->record.progress.control;
-    if (robot.drive->instead.has_value() && control != EPlanControl::Cancel && control != EPlanControl::Abort)
+    const bool bWanted = IsEnding(robot);
+    if (robot.drive->instead.has_value() && !bWanted)
     {
         const bool bRetreats = robot.drive->bInsteadRetreats;
         Wish instead = std::move(*robot.drive->instead);
@@ -464,7 +474,6 @@ void PlanEngine::Impl::OnDriveCancelled(Robot& robot, const DriveCancelled& even
         BeginInstead(robot, std::move(instead), bRetreats);
         return;
     }
-    const bool bWanted = control == EPlanControl::Cancel || control == EPlanControl::Abort;
     if (robot.drive->bCancelAsked && !bWanted)
     {
         // Later than anybody waited for it, and the plan goes on: another drive takes it there.
