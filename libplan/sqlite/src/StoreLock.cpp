@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <fcntl.h>
+#include <filesystem>
 #include <sys/file.h>
 #include <system_error>
 #include <unistd.h>
@@ -33,7 +34,10 @@ StoreLock::~StoreLock()
 
 Core::Result<StoreLock> StoreLock::Acquire(const std::string& storePath)
 {
-    const std::string path = storePath + ".lock";
+    // Whatever it is called: by a link to the same file it is the same store.
+    std::error_code unresolved;
+    const std::filesystem::path resolved = std::filesystem::weakly_canonical(storePath, unresolved);
+    const std::string path = (unresolved ? storePath : resolved.string()) + ".lock";
     const std::error_code code = make_error_code(EPlanningError::StoreFailed);
     StoreLock lock(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, FILE_MODE)); // NOLINT: the system's own signature
     if (lock._descriptor < 0)

@@ -276,6 +276,9 @@ TEST_CASE("Store: a file is one program's at a time, and free again when that on
         CHECK(second.error().code == EPlanningError::StoreFailed);
         CHECK(second.error().path == folder.GetFile());
         CHECK(Core::Describe(second.error()).find("another program") != std::string::npos);
+        const std::string link = folder.GetFile() + ".link";
+        std::filesystem::create_symlink(folder.GetFile(), link);
+        CHECK_FALSE(SqlitePlanStore::Open(link).has_value());
         CHECK(first->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
     }
     CHECK(OpenStore(folder.GetFile())->Load()->plans.size() == 1);
