@@ -492,7 +492,7 @@ private:
     void EndGathering();
     void RaiseMissing();
     void FollowStand(Robot& robot);
-    void CheckTrace(Robot& robot);
+    static void CheckTrace(Robot& robot);
     void HoldDoubtful(Robot& robot);
     void CatchUp(Robot& robot);
     void HoldJob(Robot& robot, const std::string& reason);
@@ -509,7 +509,7 @@ private:
 
     // Failures of the store (PlanEngine.StoreFailure.cpp).
     void NoteStoreSuccess();
-    [[nodiscard]] bool TakeBatchBack(const StoreBatch& batch);
+    [[nodiscard]] std::size_t TakeBatchBack(const StoreBatch& batch);
     void TakeActionsBack(
         std::span<const EngineAction> skipped,
         bool bPlanRefused,

@@ -21,7 +21,7 @@ void PlanEngine::Impl::OnStoreFailed(
     _now = now;
     _bStoreFailing = true;
     _bStoreAttempted = false;
-    const bool bPlanRefused = TakeBatchBack(batch);
+    const bool bPlanRefused = TakeBatchBack(batch) > 0;
     TakeActionsBack(skipped, bPlanRefused, reason, out);
     Alarm alarm = MakeStoreAlarm();
     alarm.message = "Plans cannot be stored: " + std::string(reason);
@@ -45,10 +45,10 @@ void PlanEngine::Impl::StartStoreRetry(EngineActions& out)
 }
 
 /// What is to be stored later, but for new plans: they are not told to anybody and not begun, as if they had never come.
-/// True: there were some.
-bool PlanEngine::Impl::TakeBatchBack(const StoreBatch& batch)
+/// Gives how many there were.
+std::size_t PlanEngine::Impl::TakeBatchBack(const StoreBatch& batch)
 {
-    bool bPlanRefused = false;
+    std::size_t refused = 0;
     for (const StoreChange& change : batch.changes)
     {
         const auto* removedOrNull = std::get_if<PlanRemoved>(&change);
@@ -63,7 +63,7 @@ bool PlanEngine::Impl::TakeBatchBack(const StoreBatch& batch)
             _unsaved.push_back(change);
             continue;
         }
-        bPlanRefused = true;
+        ++refused;
         const auto found = _plans.find(addedOrNull->record.plan.planID);
         if (found != _plans.end())
         {
@@ -88,7 +88,7 @@ bool PlanEngine::Impl::TakeBatchBack(const StoreBatch& batch)
     {
         RememberFinished(std::move(record));
     }
-    return bPlanRefused;
+    return refused;
 }
 
 /// What stood behind the batch: reports wait, new plans and controls are refused, everything else goes on.

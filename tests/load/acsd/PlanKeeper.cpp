@@ -68,7 +68,7 @@ std::uint16_t PlanKeeper::GetPort() const
     return _server->GetPort();
 }
 
-bool PlanKeeper::AreAllIdle() const noexcept
+bool PlanKeeper::IsEveryoneIdle() const noexcept
 {
     return _idle.size() == _robots;
 }
@@ -147,7 +147,7 @@ void PlanKeeper::TakeRequest(const Protocol::AcsRequest& request)
             [this](const Protocol::StepReport&) { ++_count.reports; },
             [this](const Protocol::JobReport&) { ++_count.reports; },
             [this](const Protocol::ErrorReport& error) {
-                if (error.bSet && AreAllIdle()) // before, robots are told as lost until they are found
+                if (error.bSet && IsEveryoneIdle()) // before, robots are told as lost until they are found
                 {
                     CountError(error.errorCode + ": " + error.message);
                 }
@@ -177,7 +177,7 @@ void PlanKeeper::TakePlanReport(const Protocol::PlanReport& report)
 
 void PlanKeeper::TakePositions(const Protocol::RobotPositionUpdate& update)
 {
-    if (!AreAllIdle())
+    if (!IsEveryoneIdle())
     {
         return;
     }

@@ -56,7 +56,7 @@ public:
     [[nodiscard]] std::uint16_t GetPort() const;
 
     /// Whether every robot waits for work.
-    [[nodiscard]] bool AreAllIdle() const noexcept;
+    [[nodiscard]] bool IsEveryoneIdle() const noexcept;
     /// One for each cell.
     void SendFirstPlans();
     [[nodiscard]] std::size_t CountRunning() const noexcept;

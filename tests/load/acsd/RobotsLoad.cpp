@@ -42,25 +42,25 @@ double GetCostOfRobot(const RobotsFigures& figures)
 }
 
 /// Prints it, and returns whether it was kept.
-bool KeepsBound(const std::string& what, const std::string& measured, bool bKept, const std::string& bound)
+bool IsBoundKept(const std::string& what, const std::string& measured, bool bKept, const std::string& bound)
 {
     PrintBound(what, measured, bKept, bound);
     return bKept;
 }
 
-bool KeepsBounds(const RobotsFigures& figures)
+bool IsEveryBoundKept(const RobotsFigures& figures)
 {
     constexpr double KIB = 1024.0;
     const double perSecond = 1.0 / figures.seconds;
     const TickFigures& positions = figures.positions;
     const double resident = static_cast<double>(figures.residentKiB) / KIB;
     fmt::print("\nacsd, {} robots with a plan each, measured for {:.0f} s\n", figures.robots, figures.seconds);
-    bool bKept = KeepsBound(
+    bool bKept = IsBoundKept(
         "CPU of acsd",
         fmt::format("{:.2f} % of a core, {:.3f} % a robot", figures.acsdCpu, GetCostOfRobot(figures)),
         figures.acsdCpu < MOST_CPU,
         fmt::format("{} %", MOST_CPU));
-    bKept = KeepsBound(
+    bKept = IsBoundKept(
                 "memory of acsd",
                 fmt::format("{:.1f} MiB resident", resident),
                 resident < MOST_MIB,
@@ -68,13 +68,13 @@ bool KeepsBounds(const RobotsFigures& figures)
         && bKept;
     // Where the machine had a part in every interval, their mean still shows the schedule.
     const double mean = positions.count > 0 ? positions.mean : positions.meanOfAll;
-    bKept = KeepsBound(
+    bKept = IsBoundKept(
                 "RobotPositionUpdate, mean interval",
                 fmt::format("{:.2f} ms, longest {:.1f} ms", mean, positions.longest),
                 std::abs(mean - PERIOD) <= TOLERANCE * PERIOD,
                 fmt::format("{} ms, {} % more or less", PERIOD, 100.0 * TOLERANCE))
         && bKept;
-    bKept = KeepsBound(
+    bKept = IsBoundKept(
                 "RobotPositionUpdates left out",
                 fmt::format("{} of {}", positions.left, positions.count),
                 positions.left == 0,
@@ -113,7 +113,7 @@ bool WasEverythingWell(const RobotsFigures& figures)
     return bWell;
 }
 
-bool KeepsCurve(const std::vector<RobotsFigures>& rows)
+bool IsCurveKept(const std::vector<RobotsFigures>& rows)
 {
     std::string curve;
     for (const RobotsFigures& row : rows)
@@ -123,7 +123,7 @@ bool KeepsCurve(const std::vector<RobotsFigures>& rows)
     const double ratio = GetCostOfRobot(rows.back()) / GetCostOfRobot(rows.front());
     fmt::print("\n");
     PrintFigure("CPU of acsd for one robot, among", curve);
-    return KeepsBound(
+    return IsBoundKept(
         fmt::format("one among {} by one among {}", rows.back().robots, rows.front().robots),
         fmt::format("{:.2f} times", ratio),
         ratio <= FLAT,
@@ -145,11 +145,11 @@ int Run(Options options)
             return INTERRUPTED;
         }
         rows.push_back(*figures);
-        bKept = KeepsBounds(rows.back()) && bKept;
+        bKept = IsEveryBoundKept(rows.back()) && bKept;
         bWell = WasEverythingWell(rows.back()) && bWell;
         std::fflush(stdout);
     }
-    bKept = (rows.size() < 2 || KeepsCurve(rows)) && bKept;
+    bKept = (rows.size() < 2 || IsCurveKept(rows)) && bKept;
     return bWell && (bKept || options.bCountsOnly) ? 0 : 1;
 }
 

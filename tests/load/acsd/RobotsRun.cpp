@@ -148,7 +148,7 @@ public:
 
     [[nodiscard]] std::optional<RobotsFigures> MeasureOrNull(std::chrono::seconds howLong)
     {
-        RunUntil([this]() { return _keeper.AreAllIdle(); }, "not every robot is there");
+        RunUntil([this]() { return _keeper.IsEveryoneIdle(); }, "not every robot is there");
         if (!_bEnding)
         {
             _keeper.SendFirstPlans();

@@ -37,6 +37,8 @@ public:
         MqttBroker& broker,
         const VDA5050::VehicleAddress& address,
         ISimulatedRobot::EventHandler handler);
+    VehicleHand(const VehicleHand&) = delete;
+    VehicleHand& operator=(const VehicleHand&) = delete;
     ~VehicleHand() override;
 
     void Handle(const Planning::RobotCommand& command) override;
