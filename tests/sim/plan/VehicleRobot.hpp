@@ -71,6 +71,8 @@ public:
         std::string robotID,
         const std::string& nodeID,
         bool bFaulty);
+    VehicleRobot(const VehicleRobot&) = delete;
+    VehicleRobot& operator=(const VehicleRobot&) = delete;
     ~VehicleRobot() override;
 
     [[nodiscard]] std::unique_ptr<IRobotHand> MakeHand(std::uint64_t number, EventHandler handler) override;

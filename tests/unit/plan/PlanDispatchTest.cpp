@@ -3,7 +3,6 @@
 #include <chrono>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
-using ACS::Testing::Contains;
 using ACS::Testing::MakeControlPlan;
 using ACS::Testing::MakeLogisticsPlan;
 using ACS::Testing::MakeWorld;

@@ -41,7 +41,7 @@ std::optional<EAlarmLevel> GetAlarmOrNull(const PlanWorld& world, std::string_vi
     return std::nullopt;
 }
 
-std::optional<std::string> GetCarrier(const PlanWorld& world)
+std::optional<std::string> GetCarrierOrNull(const PlanWorld& world)
 {
     return world.engine->GetRobotStatuses().front().carrierIDs.front();
 }
@@ -183,11 +183,11 @@ TEST_CASE("A load that comes to its end after its plan was over has filled the r
     PlanWorld world = MakeDroppingWorld(60s);
     LetLoadRunOver(world);
     CHECK(GetAlarmOrNull(world, "LR01", "ACS-1007") == EAlarmLevel::Heavy);
-    CHECK(GetCarrier(world) == std::nullopt);
+    CHECK(GetCarrierOrNull(world) == std::nullopt);
     REQUIRE(world.TryRun());
-    CHECK(GetCarrier(world).has_value());
+    CHECK(GetCarrierOrNull(world).has_value());
     CHECK(world.engine->GetActiveAlarms().empty());
-    CHECK(world.store.GetState().carriers.front().carrierIDs.front() == GetCarrier(world));
+    CHECK(world.store.GetState().carriers.front().carrierIDs.front() == GetCarrierOrNull(world));
 }
 
 TEST_CASE("A job over its time limit that had begun to move something is an alarm until its end is told")
@@ -198,7 +198,7 @@ TEST_CASE("A job over its time limit that had begun to move something is an alar
     BeginPlan(world, MakeLogisticsPlan("P1"), "Plan Failed");
     const std::size_t set = FindLine(world, "report - Error ACS-1007 set", 0);
     REQUIRE(world.TryRun());
-    CHECK(GetCarrier(world).has_value());
+    CHECK(GetCarrierOrNull(world).has_value());
     CHECK(world.engine->GetActiveAlarms().empty());
     static_cast<void>(set);
 }
@@ -222,7 +222,7 @@ TEST_CASE(
         }
         REQUIRE(world.TryRun());
         CHECK(GetAlarmOrNull(world, "LR01", "ACS-1008") == std::nullopt);
-        CHECK(GetCarrier(world).has_value() != bOperator);
+        CHECK(GetCarrierOrNull(world).has_value() != bOperator);
     }
 }
 
