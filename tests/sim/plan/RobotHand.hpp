@@ -1,12 +1,11 @@
 #pragma once
 
+#include "AdapterRunner.hpp"
 #include "IRobotHand.hpp"
 #include "ISimulatedRobot.hpp"
 #include "MemoryRobotAdapter.hpp"
 #include "RobotRadio.hpp"
-#include "TimerBank.hpp"
 
-#include <deque>
 #include <functional>
 #include <string>
 
@@ -21,17 +20,10 @@ public:
     using EventHandler = ISimulatedRobot::EventHandler;
 
 private:
-    Timeline& _timeline;
     RobotRadio& _radio;
-    EventHandler _handler;
-    TimerBank<Planning::AdapterTimerID> _timers;
     MemoryRobotAdapter _adapter;
-    std::deque<Planning::AdapterAction> _actions;
-    bool _bExecuting = false;
+    AdapterRunner _runner;
 
-    template <typename TCall>
-    void Call(TCall call);
-    void Execute(const Planning::AdapterAction& action);
     void OnRadioUp() override;
     void OnRadioDown() override;
     void OnSnapshot(const RobotSnapshot& snapshot) override;

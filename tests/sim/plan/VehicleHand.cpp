@@ -1,12 +1,9 @@
 #include "VehicleHand.hpp"
 
 #include "OperationsConfig.hpp"
-#include <acs/core/Overloaded.hpp>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
-#include <variant>
 
 namespace ACS::Simulation
 {
@@ -44,11 +41,9 @@ VehicleHand::VehicleHand(
     MqttBroker& broker,
     const VDA5050::VehicleAddress& address,
     ISimulatedRobot::EventHandler handler)
-    : _timeline(timeline),
-      _broker(broker),
-      _handler(std::move(handler)),
-      _timers(timeline),
+    : _broker(broker),
       _adapter(MakeOptions(address), MakeMethods(), _outputs),
+      _runner(timeline, _adapter, std::move(handler), [this] { Publish(); }),
       _client(broker.Open(*this, _adapter.GetSubscriptions(), std::nullopt))
 {
 }
@@ -58,64 +53,33 @@ VehicleHand::~VehicleHand()
     _broker.Abandon(_client);
 }
 
-template <typename TCall>
-void VehicleHand::Call(TCall call)
+/// What the adapter has put out.
+void VehicleHand::Publish()
 {
-    Planning::AdapterActions wanted;
-    call(_timeline.GetNow(), wanted);
-    std::ranges::move(wanted, std::back_inserter(_actions));
-    if (std::exchange(_bExecuting, true))
-    {
-        return;
-    }
-    while (!_actions.empty())
-    {
-        const Planning::AdapterAction action = std::move(_actions.front());
-        _actions.pop_front();
-        Execute(action);
-    }
-    _bExecuting = false;
     for (const VDA5050::MqttMessage& message : std::exchange(_outputs.messages, {}))
     {
         _broker.Publish(_client, message);
     }
 }
 
-void VehicleHand::Execute(const Planning::AdapterAction& action)
-{
-    std::visit(
-        Core::Overloaded{
-            [this](const Planning::RaiseEvent& raise) { _handler(raise.event); },
-            [this](const Planning::StartAdapterTimer& start) {
-                const Planning::AdapterTimerID timer = start.timer;
-                _timers.Start(timer, start.delay, [this, timer] {
-                    Call([this, timer](Core::Now now, auto& out) { _adapter.OnTimer(timer, now, out); });
-                });
-            },
-            [this](const Planning::CancelAdapterTimer& cancel) {
-                _timers.Cancel(cancel.timer);
-            }},
-        action);
-}
-
 void VehicleHand::Handle(const Planning::RobotCommand& command)
 {
-    Call([this, &command](Core::Now now, auto& out) { _adapter.Handle(command, now, out); });
+    _runner.Run([this, &command](Core::Now now, auto& out) { _adapter.Handle(command, now, out); });
 }
 
 void VehicleHand::OnLinkUp()
 {
-    Call([this](Core::Now now, auto& out) { _adapter.OnLinkUp(now, out); });
+    _runner.Run([this](Core::Now now, auto& out) { _adapter.OnLinkUp(now, out); });
 }
 
 void VehicleHand::OnLinkDown(std::error_code /*reason*/)
 {
-    Call([this](Core::Now now, auto& out) { _adapter.OnLinkDown(now, out); });
+    _runner.Run([this](Core::Now now, auto& out) { _adapter.OnLinkDown(now, out); });
 }
 
 void VehicleHand::OnMqttMessage(const VDA5050::MqttMessage& message)
 {
-    Call([this, &message](Core::Now now, auto& out) { _adapter.OnMqttMessage(message, now, out); });
+    _runner.Run([this, &message](Core::Now now, auto& out) { _adapter.OnMqttMessage(message, now, out); });
 }
 
 } // namespace ACS::Simulation

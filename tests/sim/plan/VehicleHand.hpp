@@ -1,12 +1,10 @@
 #pragma once
 
+#include "AdapterRunner.hpp"
 #include "ISimulatedRobot.hpp"
 #include "MqttBroker.hpp"
 #include "RobotOutputs.hpp"
-#include "TimerBank.hpp"
 #include "Vda5050RobotAdapter.hpp"
-
-#include <deque>
 
 namespace ACS::Simulation
 {
@@ -14,19 +12,13 @@ namespace ACS::Simulation
 /// Runs acsd's own adapter of a VDA5050 vehicle as RobotHost does, over the world's broker.
 class VehicleHand final : public IRobotHand, private VDA5050::IMqttLinkListener
 {
-    Timeline& _timeline;
     MqttBroker& _broker;
-    ISimulatedRobot::EventHandler _handler;
-    TimerBank<Planning::AdapterTimerID> _timers;
     Acsd::RobotOutputs _outputs;
     Acsd::Vda5050RobotAdapter _adapter;
+    AdapterRunner _runner;
     MqttBroker::ClientID _client;
-    std::deque<Planning::AdapterAction> _actions;
-    bool _bExecuting = false;
 
-    template <typename TCall>
-    void Call(TCall call);
-    void Execute(const Planning::AdapterAction& action);
+    void Publish();
     void OnLinkUp() override;
     void OnLinkDown(std::error_code reason) override;
     void OnMqttMessage(const VDA5050::MqttMessage& message) override;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using namespace std::chrono_literals;
@@ -17,6 +16,7 @@ using ACS::Testing::MakeTestOptions;
 using ACS::Testing::MakeTestSite;
 using ACS::Testing::PausePlan;
 using ACS::Testing::PlanWorld;
+using ACS::Testing::RestartEngine;
 using ACS::Testing::TryRunFor;
 using ACS::Testing::TryRunUntil;
 
@@ -39,23 +39,12 @@ const Lines LOGISTICS_REPORTS{
     "Step 2 Completed",
     "Plan Completed"};
 
-void Restart(PlanWorld& world, const std::function<void(EngineOptions&)>& change = {})
-{
-    EngineOptions options = MakeTestOptions(false);
-    if (change)
-    {
-        change(options);
-    }
-    world.Restart(options, MakeTestSite());
-    world.Connect();
-}
-
 /// P1, whose first job runs, after a restart over which nobody knows what became of it.
 void BeginUncertain(PlanWorld& world)
 {
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
     world.GetRobot("LR01").uncertainReason = "it was switched off";
-    Restart(world);
+    RestartEngine(world);
     REQUIRE(world.engine->GetActiveAlarms().size() == 1);
     const Alarm& alarm = world.engine->GetActiveAlarms().front();
     CHECK(alarm.errorCode == "ACS-1008");
@@ -89,7 +78,7 @@ TEST_CASE("13.8 A crash at any action and a restart: each state is reported once
         {
             const auto pause = std::chrono::milliseconds(world.GetRandom(4) * world.GetRandom(3'000));
             static_cast<void>(TryRunFor(world, pause)); // the robot goes on alone
-            Restart(world);
+            RestartEngine(world);
             world.Submit(MakeLogisticsPlan("P1"), 2, "T1"); // its Ack may have been lost
             CHECK(world.replies.at(2).bAccepted);
         }
@@ -162,7 +151,7 @@ TEST_CASE("After a restart a job that ended meanwhile is told once, done or fail
         world.Crash();
         static_cast<void>(TryRunFor(world, 10s));
         const std::size_t told = world.GetReportsOf("P1").size();
-        Restart(world);
+        RestartEngine(world);
         REQUIRE(world.TryRun());
         const Lines reports = GetReportsAfter(world, "P1", told);
         CHECK(reports.front() == (bFails ? "Job 1 P1-a4 Failed" : "Job 1 P1-a4 Completed"));
@@ -180,7 +169,7 @@ TEST_CASE("After a restart a job that cannot be known is held: not repeated, the
     CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::InProgress);
     CHECK(world.engine->GetPlanOrNull("P2")->state == EPlanState::Pending);
     CHECK(CountStarts(world, "P1-a4") == 1);
-    Restart(world); // and still after one more
+    RestartEngine(world); // and still after one more
     REQUIRE(world.TryRun());
     CHECK(world.engine->GetActiveAlarms().size() == 1);
     CHECK(CountStarts(world, "P1-a4") == 1);
@@ -306,7 +295,7 @@ TEST_CASE("After a restart a plan that was paused stays so, and goes on where it
         PausePlan(world);
         world.Crash();
         static_cast<void>(TryRunFor(world, 20s));
-        Restart(world);
+        RestartEngine(world);
         REQUIRE(world.TryRun());
         CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Paused);
         CHECK(world.engine->GetRobotStatuses()[0].status == ERobotStatus::Stopped);
@@ -347,7 +336,7 @@ TEST_CASE(
         world.Crash();
         world.GetRobot("LR01").bIgnoresPause = false;
         world.GetRobot("LR01").bIgnoresDriveCancel = false;
-        Restart(world);
+        RestartEngine(world);
         world.Control(row.control, "P1", 6, "T5"); // the Ack was lost, or so it seems
         CHECK(world.replies.at(6).bAccepted);
         REQUIRE(world.TryRun());
@@ -368,7 +357,7 @@ TEST_CASE("6.8 A Resume whose outcome was open is carried out after the restart"
     world.Control(EPlanControl::Resume, "P1");
     world.Crash();
     world.GetRobot("LR01").bIgnoresPause = false;
-    Restart(world);
+    RestartEngine(world);
     FinishPlan(world);
     CHECK(std::ranges::count(world.GetReportsOf("P1"), "ResumeResult Success") == 1);
 }
@@ -394,10 +383,10 @@ TEST_CASE("D-23, 13.5 The same plan under the same transactionId is answered as 
     world.Connect();
     world.Submit(MakeLogisticsPlan("P1"), 1, "T1");
     world.Submit(MakeLogisticsPlan("P1"), 2, "T1");
-    Restart(world);
+    RestartEngine(world);
     world.Submit(MakeLogisticsPlan("P1"), 3, "T1");
     REQUIRE(world.TryRun());
-    Restart(world);
+    RestartEngine(world);
     world.Submit(MakeLogisticsPlan("P1"), 4, "T1");
     for (const ReplyToken token : {2U, 3U, 4U})
     {
@@ -428,7 +417,7 @@ TEST_CASE("A job that was given up and had not ended keeps its robot out of work
         world.Control(EPlanControl::Abort, "P1");
         CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Aborted);
         world.GetRobot("LR01").uncertainReason = bUncertain ? "it was switched off" : "";
-        Restart(world);
+        RestartEngine(world);
         world.Submit(MakeLogisticsPlan("P2"));
         if (bUncertain)
         {
@@ -459,7 +448,7 @@ TEST_CASE("A store of an older version, which tells nothing of robots, has a run
         record.progress.robotID = "LR01";
         record.progress.steps = {{EStepState::InProgress, {state}}, {EStepState::Pending, {EJobState::Pending}}};
         REQUIRE(world.store.Append({{PlanAdded{record}}}).has_value());
-        Restart(world);
+        RestartEngine(world);
         REQUIRE(world.TryRun());
         const bool bHeld = state == EJobState::InProgress;
         CHECK(world.engine->GetActiveAlarms().size() == (bHeld ? 1 : 0));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,26 +14,14 @@ using ACS::Testing::FinishPlan;
 using ACS::Testing::Lines;
 using ACS::Testing::MakeControlPlan;
 using ACS::Testing::MakeLogisticsPlan;
-using ACS::Testing::MakeTestOptions;
-using ACS::Testing::MakeTestSite;
 using ACS::Testing::PausePlan;
 using ACS::Testing::PlanWorld;
+using ACS::Testing::RestartEngine;
 using ACS::Testing::TryRunFor;
 using ACS::Testing::TryRunUntil;
 
 namespace
 {
-
-void Restart(PlanWorld& world, const std::function<void(EngineOptions&)>& change = {})
-{
-    EngineOptions options = MakeTestOptions(false);
-    if (change)
-    {
-        change(options);
-    }
-    world.Restart(options, MakeTestSite());
-    world.Connect();
-}
 
 std::size_t CountStarts(const PlanWorld& world, const std::string& jobID)
 {
@@ -61,7 +48,7 @@ TEST_CASE("A crash while the disk fails: what the robot did and nobody wrote dow
     REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").doneJobs.size() == 1; }));
     world.Crash();
     world.store.bFails = false;
-    Restart(world);
+    RestartEngine(world);
     REQUIRE(world.TryRun());
     REQUIRE(world.engine->GetActiveAlarms().size() == 1);
     CHECK(world.engine->GetActiveAlarms().front().errorCode == "ACS-1008");
@@ -83,11 +70,11 @@ TEST_CASE("A crash while the disk fails: each job that the robot may have done i
     REQUIRE(world.TryRun([&world] { return world.GetRobot("CR01").doneJobs.size() == 3; }));
     world.Crash();
     world.store.bFails = false;
-    Restart(world);
+    RestartEngine(world);
     REQUIRE(world.TryRun());
     CHECK(GetHeldJob(world) == "P1-b3");
     world.Crash();
-    Restart(world);
+    RestartEngine(world);
     REQUIRE(world.TryRun());
     CHECK(GetHeldJob(world) == "P1-b3");
     world.Settle("P1", "P1-b3", EJobAnswer::Done);
@@ -117,7 +104,7 @@ TEST_CASE("A robot that shows nothing after a restart, as it was switched off me
     REQUIRE(world.TryRun());
     world.Crash();
     world.GetRobot("CR01").Forget();
-    Restart(world);
+    RestartEngine(world);
     world.Control(EPlanControl::Resume, "P1");
     REQUIRE(world.TryRun());
     CHECK_FALSE(GetHeldJob(world).empty());
@@ -166,7 +153,7 @@ TEST_CASE("6.7 A pause that waits for the end of a held job is confirmed when th
     PlanWorld world = ACS::Testing::MakeWorld(change);
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
     world.GetRobot("LR01").uncertainReason = "it was switched off";
-    Restart(world, change);
+    RestartEngine(world, change);
     REQUIRE(world.TryRun());
     REQUIRE(GetHeldJob(world) == "P1-a4");
     world.Control(EPlanControl::Pause, "P1");
@@ -189,7 +176,7 @@ TEST_CASE(
     CHECK(CountStarts(world, "P1-a4") == 0);
     world.Crash();
     world.store.bFails = false;
-    Restart(world);
+    RestartEngine(world);
     FinishPlan(world);
     CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
     world.Submit(MakeLogisticsPlan("P2"));

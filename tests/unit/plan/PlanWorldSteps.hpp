@@ -51,6 +51,18 @@ inline void BeginPlan(PlanWorld& world, Planning::Plan plan, const std::string& 
     REQUIRE(TryRunUntil(world, planID, report));
 }
 
+/// The engine is gone and another one begins on what the store holds, with the robots there.
+inline void RestartEngine(PlanWorld& world, const std::function<void(Planning::EngineOptions&)>& change = {})
+{
+    Planning::EngineOptions options = MakeTestOptions(false);
+    if (change)
+    {
+        change(options);
+    }
+    world.Restart(options, MakeTestSite());
+    world.Connect();
+}
+
 /// P1, until that is told.
 inline void PausePlan(PlanWorld& world)
 {
