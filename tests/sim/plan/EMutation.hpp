@@ -23,6 +23,7 @@ enum class EMutation : std::uint8_t
     ReportNotStored,
     ResultTwice,
     ResultSwallowed,
+    ResultInverted,
     AckForgotten,
     JobStartedTwice,
     JobFinishedEarly,
@@ -40,7 +41,7 @@ struct MutationText
     std::string_view meaning;
 };
 
-inline constexpr std::size_t MUTATION_COUNT = 21;
+inline constexpr std::size_t MUTATION_COUNT = 22;
 
 /// By EMutation.
 inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
@@ -56,6 +57,7 @@ inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
     {"report-not-stored", "now and then a report is told that nobody stored"},
     {"result-twice", "the result of a control is told twice"},
     {"result-swallowed", "the result of a control is not told"},
+    {"result-inverted", "a control that was done is told as failed, and one that failed as done"},
     {"ack-forgotten", "the engine does not hear that a report was acknowledged"},
     {"job-started-twice", "a job is given to the robot once more under another command"},
     {"job-finished-early", "a job counts as done when it begins"},

@@ -28,6 +28,25 @@ Planning::EJobState MakeState(Protocol::EJobStatus status)
     return static_cast<Planning::EJobState>(status);
 }
 
+/// Whether a plan in this state shows that the control was done.
+bool IsDone(Planning::EPlanControl control, Protocol::EPlanStatus status)
+{
+    using Protocol::EPlanStatus;
+    switch (control)
+    {
+        case Planning::EPlanControl::Cancel:
+            return status == EPlanStatus::Cancelled;
+        case Planning::EPlanControl::Abort:
+            return status == EPlanStatus::Aborted;
+        case Planning::EPlanControl::Pause:
+            return status == EPlanStatus::Paused;
+        case Planning::EPlanControl::Resume:
+            return status == EPlanStatus::Pending || status == EPlanStatus::InProgress;
+        default:
+            return false;
+    }
+}
+
 bool IsSameAlarm(const Protocol::ErrorReport& left, const Protocol::ErrorReport& right)
 {
     return left.robotID == right.robotID && left.errorCode == right.errorCode && left.planID == right.planID
@@ -190,16 +209,16 @@ void McsJudge::TakeFirst(const Protocol::AcsPayload& payload)
             [this](const Protocol::JobReport& report) { TakeJobReport(report); },
             [this](const Protocol::ErrorReport& report) { TakeAlarm(report); },
             [this](const Protocol::CancelResultReport& report) {
-                TakeResult(Planning::EPlanControl::Cancel, report.planID);
+                TakeResult(Planning::EPlanControl::Cancel, report.planID, report.result);
             },
             [this](const Protocol::AbortResultReport& report) {
-                TakeResult(Planning::EPlanControl::Abort, report.planID);
+                TakeResult(Planning::EPlanControl::Abort, report.planID, report.result);
             },
             [this](const Protocol::PauseResultReport& report) {
-                TakeResult(Planning::EPlanControl::Pause, report.planID);
+                TakeResult(Planning::EPlanControl::Pause, report.planID, report.result);
             },
             [this](const Protocol::ResumeResultReport& report) {
-                TakeResult(Planning::EPlanControl::Resume, report.planID);
+                TakeResult(Planning::EPlanControl::Resume, report.planID, report.result);
             },
             [](const auto&) {
             }},
@@ -335,9 +354,20 @@ void McsJudge::TakeJobReport(const Protocol::JobReport& report)
     }
 }
 
-void McsJudge::TakeResult(Planning::EPlanControl control, const std::string& planID)
+void McsJudge::TakeResult(Planning::EPlanControl control, const std::string& planID, Protocol::EReportResult result)
 {
+    const auto plan = _plans.find(planID);
+    const bool bFits = plan != _plans.end() && IsDone(control, plan->second.status);
+    if (result == Protocol::EReportResult::Success && !bFits)
+    {
+        _trace.Violate(
+            "{} of {} is told as done, and the plan is {}",
+            GetText(control),
+            planID,
+            plan == _plans.end() ? "not known" : GetText(plan->second.status));
+    }
     ControlView& view = _controls[{planID, control}];
+    view.bDone = view.bDone || result == Protocol::EReportResult::Success;
     if (++view.results > view.sent.size() && !view.bUnknown)
     {
         _trace.Violate(
@@ -444,6 +474,12 @@ std::string McsJudge::DescribeOwed() const
     }
     for (const auto& [key, control] : _controls)
     {
+        const auto plan = _plans.find(key.first);
+        const bool bEnds = key.second == Planning::EPlanControl::Cancel || key.second == Planning::EPlanControl::Abort;
+        if (bEnds && !control.bDone && plan != _plans.end() && IsDone(key.second, plan->second.status))
+        {
+            text += fmt::format("{} of {} was done and is not told so; ", GetText(key.second), key.first);
+        }
         if (control.results < control.acknowledged)
         {
             text += fmt::format(

@@ -50,6 +50,7 @@ private:
         std::set<std::string> sent; ///< TransactionIDs: a repetition has no result of its own.
         std::size_t acknowledged = 0;
         std::size_t results = 0;
+        bool bDone = false;    ///< One of them says so.
         bool bUnknown = false; ///< Sent about a plan that was perhaps not known.
     };
 
@@ -67,7 +68,7 @@ private:
     void TakePlanReport(const Protocol::PlanReport& report);
     void TakeStepReport(const Protocol::StepReport& report);
     void TakeJobReport(const Protocol::JobReport& report);
-    void TakeResult(Planning::EPlanControl control, const std::string& planID);
+    void TakeResult(Planning::EPlanControl control, const std::string& planID, Protocol::EReportResult result);
     void TakeAlarm(const Protocol::ErrorReport& report);
     void TakeFirst(const Protocol::AcsPayload& payload);
     [[nodiscard]] PlanView* FindReportedOrNull(const std::string& planID, std::string_view what);

@@ -79,6 +79,11 @@ Mutator::ReportOutcome Mutator::OnReport(const Planning::OutboxEntry& entry)
     {
         return {{}, true};
     }
+    if (Is(EMutation::ResultInverted) && bResult)
+    {
+        auto& result = std::get<Planning::ControlResultReport>(outcome.told.front().report);
+        result.bSucceeded = !result.bSucceeded;
+    }
     if (Is(EMutation::ReportNotStored) && _dice.IsHit(50))
     {
         outcome.told.push_back(entry);
