@@ -1,5 +1,7 @@
 #include "common/LogText.hpp"
 
+#include <acs/core/ControlCharacter.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,15 +12,6 @@ namespace ACS::Apps
 namespace
 {
 
-constexpr unsigned FIRST_PRINTABLE = 0x20;
-constexpr unsigned DELETE_CHARACTER = 0x7F;
-
-bool IsControl(char character)
-{
-    const auto byte = static_cast<unsigned char>(character);
-    return byte < FIRST_PRINTABLE || byte == DELETE_CHARACTER;
-}
-
 void AppendEscaped(std::string& out, std::string_view text, bool bQuoted)
 {
     for (const char character : text)
@@ -27,7 +20,7 @@ void AppendEscaped(std::string& out, std::string_view text, bool bQuoted)
         {
             out += "\\n";
         }
-        else if (IsControl(character))
+        else if (Core::IsControlCharacter(character))
         {
             out += fmt::format("\\x{:02x}", static_cast<unsigned>(static_cast<unsigned char>(character)));
         }
@@ -42,7 +35,7 @@ void AppendEscaped(std::string& out, std::string_view text, bool bQuoted)
 bool NeedsQuotes(std::string_view value)
 {
     return value.empty() || std::any_of(value.begin(), value.end(), [](char character) {
-               return IsControl(character) || character == ' ' || character == '"' || character == '=';
+               return Core::IsControlCharacter(character) || character == ' ' || character == '"' || character == '=';
            });
 }
 

@@ -1,5 +1,6 @@
 #include "PlanAdmission.hpp"
 
+#include <acs/core/ControlCharacter.hpp>
 #include <acs/core/ECoreError.hpp>
 
 #include <fmt/format.h>
@@ -38,6 +39,14 @@ Core::Result<void> CheckID(const std::string& text, std::string path, bool bMayB
             std::move(path),
             fmt::format("at most {} bytes", MAXIMUM_ID_LENGTH),
             fmt::format("{} bytes", text.size()));
+    }
+    if (Core::HasControlCharacter(text))
+    {
+        return Refuse(
+            ECoreError::InvalidIdentifier,
+            std::move(path),
+            "an id without control characters",
+            Core::QuoteForError(text));
     }
     return {};
 }

@@ -1,4 +1,5 @@
 #include "PlanEngine.Impl.hpp"
+#include <acs/core/ControlCharacter.hpp>
 
 #include <fmt/format.h>
 
@@ -131,6 +132,10 @@ std::optional<std::string> PlanEngine::Impl::GetObjectionOrNull(const SetCarrier
         if (carrier->empty() || carrier->size() > MAXIMUM_ID_LENGTH)
         {
             return fmt::format("A carrierId has 1 to {} bytes.", MAXIMUM_ID_LENGTH);
+        }
+        if (Core::HasControlCharacter(*carrier))
+        {
+            return std::string("A carrierId has no control characters.");
         }
         if (std::ranges::count(command.carrierIDs, carrier) > 1)
         {

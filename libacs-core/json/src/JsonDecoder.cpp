@@ -1,3 +1,4 @@
+#include <acs/core/ControlCharacter.hpp>
 #include <acs/json/JsonDecoder.hpp>
 
 #include <fmt/format.h>
@@ -150,6 +151,13 @@ bool TryDecodeString(const Value& value, std::string_view& out, const FieldBound
                 bounds.minimumLength,
                 std::min(bounds.maximumLength, context.GetOptions().maximumString)),
             fmt::format("{} bytes", out.size()));
+    }
+    if (bounds.bIdentifier && Core::HasControlCharacter(out))
+    {
+        return context.IsFailedWith(
+            make_error_code(Core::ECoreError::InvalidIdentifier),
+            "an identifier without control characters",
+            Core::QuoteForError(out));
     }
     return true;
 }

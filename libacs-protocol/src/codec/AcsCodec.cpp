@@ -1,4 +1,5 @@
 #include "Fields.hpp"
+#include <acs/core/ControlCharacter.hpp>
 #include <acs/core/Location.hpp>
 #include <acs/json/JsonDocument.hpp>
 #include <acs/protocol/AcsCodec.hpp>
@@ -309,7 +310,8 @@ public:
         Json::DecodeContext& context) const
     {
         request.transactionID = GetStringOrEmpty(envelope.transactionID);
-        if (request.transactionID.empty() || request.transactionID.size() > Detail::LONGEST_ID)
+        if (request.transactionID.empty() || request.transactionID.size() > Detail::LONGEST_ID
+            || Core::HasControlCharacter(request.transactionID))
         {
             static_cast<void>(context.IsFailedWith(
                 Core::ECoreError::InvalidIdentifier,

@@ -63,7 +63,7 @@ struct JsonFields<Protocol::PlanJob>
 {
     using Message = Protocol::PlanJob;
     static constexpr auto FIELDS = std::make_tuple(
-        Required("jobId", &Message::jobID).WithLength(1, Protocol::Detail::LONGEST_ID),
+        Required("jobId", &Message::jobID).WithLength(1, Protocol::Detail::LONGEST_ID).AsIdentifier(),
         Optional("from", &Message::from),
         Optional("to", &Message::to));
 };
@@ -74,9 +74,9 @@ struct JsonFields<Protocol::PlanStep>
     using Message = Protocol::PlanStep;
     static constexpr auto FIELDS = std::make_tuple(
         Required("stepNo", &Message::stepNo).Between(1, Protocol::Detail::HIGHEST_STEP),
-        Required("action", &Message::action).WithLength(1, Protocol::Detail::LONGEST_ID),
-        Required("position", &Message::position).WithLength(1, Protocol::Detail::LONGEST_ID),
-        Defaulted("carrierIds", &Message::carrierIDs).WithElements(0, Protocol::Detail::LONGEST_ID),
+        Required("action", &Message::action).WithLength(1, Protocol::Detail::LONGEST_ID).AsIdentifier(),
+        Required("position", &Message::position).WithLength(1, Protocol::Detail::LONGEST_ID).AsIdentifier(),
+        Defaulted("carrierIds", &Message::carrierIDs).WithElements(0, Protocol::Detail::LONGEST_ID).AsIdentifier(),
         Defaulted("jobs", &Message::jobs));
 };
 
@@ -85,8 +85,8 @@ struct JsonFields<Protocol::ExecutionPlan>
 {
     using Message = Protocol::ExecutionPlan;
     static constexpr auto FIELDS = std::make_tuple(
-        Required("planId", &Message::planID).WithLength(1, Protocol::Detail::LONGEST_ID),
-        Defaulted("lotId", &Message::lotID),
+        Required("planId", &Message::planID).WithLength(1, Protocol::Detail::LONGEST_ID).AsIdentifier(),
+        Defaulted("lotId", &Message::lotID).AsIdentifier(),
         Optional("priority", &Message::priority),
         Required("steps", &Message::steps).WithLength(1, Protocol::Detail::MOST_STEPS));
 };
@@ -96,7 +96,7 @@ struct JsonFields<Protocol::PlanControl<COMMAND>>
 {
     using Message = Protocol::PlanControl<COMMAND>;
     static constexpr auto FIELDS = std::make_tuple(
-        Required("planId", &Message::planID).WithLength(1, Protocol::Detail::LONGEST_ID),
+        Required("planId", &Message::planID).WithLength(1, Protocol::Detail::LONGEST_ID).AsIdentifier(),
         Optional("reason", &Message::reason));
 };
 
@@ -105,7 +105,7 @@ struct JsonFields<Protocol::ResultReport<COMMAND>>
 {
     using Message = Protocol::ResultReport<COMMAND>;
     static constexpr auto FIELDS = std::make_tuple(
-        Required("planId", &Message::planID).WithLength(1, Protocol::Detail::LONGEST_ID),
+        Required("planId", &Message::planID).WithLength(1, Protocol::Detail::LONGEST_ID).AsIdentifier(),
         Required("result", &Message::result),
         Defaulted("message", &Message::message));
 };
@@ -120,8 +120,8 @@ template <>
 struct JsonFields<Protocol::RequestAcsPlanHistory>
 {
     using Message = Protocol::RequestAcsPlanHistory;
-    static constexpr auto FIELDS =
-        std::make_tuple(Required("planIds", &Message::planIDs).WithElements(1, Protocol::Detail::LONGEST_ID));
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("planIds", &Message::planIDs).WithElements(1, Protocol::Detail::LONGEST_ID).AsIdentifier());
 };
 
 template <>
@@ -129,12 +129,12 @@ struct JsonFields<Protocol::PlanEntry>
 {
     using Message = Protocol::PlanEntry;
     static constexpr auto FIELDS = std::make_tuple(
-        Required("planId", &Message::planID).WithLength(1, Protocol::Detail::LONGEST_ID),
-        Nullable("robotId", &Message::robotID),
+        Required("planId", &Message::planID).WithLength(1, Protocol::Detail::LONGEST_ID).AsIdentifier(),
+        Nullable("robotId", &Message::robotID).AsIdentifier(),
         Required("status", &Message::status),
         Required("stepNo", &Message::stepNo).Between(0, Protocol::Detail::HIGHEST_STEP),
-        Nullable("jobId", &Message::jobID),
-        Nullable("currentAction", &Message::currentAction),
+        Nullable("jobId", &Message::jobID).AsIdentifier(),
+        Nullable("currentAction", &Message::currentAction).AsIdentifier(),
         Nullable("startTime", &Message::startTime),
         Nullable("endTime", &Message::endTime));
 };
@@ -170,7 +170,7 @@ struct JsonFields<Protocol::PlanReport>
 {
     using Message = Protocol::PlanReport;
     static constexpr auto FIELDS = std::make_tuple(
-        Required("planId", &Message::planID).WithLength(1, Protocol::Detail::LONGEST_ID),
+        Required("planId", &Message::planID).WithLength(1, Protocol::Detail::LONGEST_ID).AsIdentifier(),
         Required("status", &Message::status),
         Defaulted("message", &Message::message));
 };
@@ -180,8 +180,8 @@ struct JsonFields<Protocol::StepReport>
 {
     using Message = Protocol::StepReport;
     static constexpr auto FIELDS = std::make_tuple(
-        Required("planId", &Message::planID).WithLength(1, Protocol::Detail::LONGEST_ID),
-        Required("robotId", &Message::robotID),
+        Required("planId", &Message::planID).WithLength(1, Protocol::Detail::LONGEST_ID).AsIdentifier(),
+        Required("robotId", &Message::robotID).AsIdentifier(),
         Required("stepNo", &Message::stepNo).Between(1, Protocol::Detail::HIGHEST_STEP),
         Required("status", &Message::status),
         Defaulted("message", &Message::message));
@@ -192,10 +192,10 @@ struct JsonFields<Protocol::JobReport>
 {
     using Message = Protocol::JobReport;
     static constexpr auto FIELDS = std::make_tuple(
-        Required("planId", &Message::planID).WithLength(1, Protocol::Detail::LONGEST_ID),
-        Required("robotId", &Message::robotID),
+        Required("planId", &Message::planID).WithLength(1, Protocol::Detail::LONGEST_ID).AsIdentifier(),
+        Required("robotId", &Message::robotID).AsIdentifier(),
         Required("stepNo", &Message::stepNo).Between(1, Protocol::Detail::HIGHEST_STEP),
-        Required("jobId", &Message::jobID).WithLength(1, Protocol::Detail::LONGEST_ID),
+        Required("jobId", &Message::jobID).WithLength(1, Protocol::Detail::LONGEST_ID).AsIdentifier(),
         Required("status", &Message::status),
         Defaulted("message", &Message::message));
 };
@@ -205,11 +205,11 @@ struct JsonFields<Protocol::ErrorReport>
 {
     using Message = Protocol::ErrorReport;
     static constexpr auto FIELDS = std::make_tuple(
-        Required("robotId", &Message::robotID),
-        Optional("planId", &Message::planID),
+        Required("robotId", &Message::robotID).AsIdentifier(),
+        Optional("planId", &Message::planID).AsIdentifier(),
         Required("state", &Message::bSet),
         Optional("stepNo", &Message::stepNo),
-        Optional("jobId", &Message::jobID),
+        Optional("jobId", &Message::jobID).AsIdentifier(),
         Required("errorCode", &Message::errorCode),
         Required("level", &Message::level),
         Defaulted("message", &Message::message));
@@ -220,14 +220,14 @@ struct JsonFields<Protocol::RobotStatusUpdate>
 {
     using Message = Protocol::RobotStatusUpdate;
     static constexpr auto FIELDS = std::make_tuple(
-        Required("robotId", &Message::robotID).WithLength(1, Protocol::Detail::LONGEST_ID),
+        Required("robotId", &Message::robotID).WithLength(1, Protocol::Detail::LONGEST_ID).AsIdentifier(),
         Required("robotType", &Message::robotType),
         Required("robotStatus", &Message::robotStatus),
         Nullable("position", &Message::position),
-        Defaulted("carrierIds", &Message::carrierIDs).WithElements(0, Protocol::Detail::LONGEST_ID),
-        Nullable("planId", &Message::planID),
+        Defaulted("carrierIds", &Message::carrierIDs).WithElements(0, Protocol::Detail::LONGEST_ID).AsIdentifier(),
+        Nullable("planId", &Message::planID).AsIdentifier(),
         Nullable("stepNo", &Message::stepNo),
-        Nullable("jobId", &Message::jobID),
+        Nullable("jobId", &Message::jobID).AsIdentifier(),
         Defaulted("message", &Message::message));
 };
 
@@ -236,7 +236,7 @@ struct JsonFields<Protocol::RobotPosition>
 {
     using Message = Protocol::RobotPosition;
     static constexpr auto FIELDS = std::make_tuple(
-        Required("robotId", &Message::robotID).WithLength(1, Protocol::Detail::LONGEST_ID),
+        Required("robotId", &Message::robotID).WithLength(1, Protocol::Detail::LONGEST_ID).AsIdentifier(),
         Required("x", &Message::x),
         Required("y", &Message::y),
         Required("angle", &Message::angle),
@@ -260,6 +260,7 @@ template <>
 struct JsonFields<Protocol::PlanAck>
 {
     using Message = Protocol::PlanAck;
+    // No identifier: the refusal of one with control characters repeats it.
     static constexpr auto FIELDS = std::make_tuple(Optional("planId", &Message::planID));
 };
 

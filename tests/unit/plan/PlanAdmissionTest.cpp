@@ -20,6 +20,13 @@ TEST_CASE("4.1 What is wrong with a plan is refused with a message that names th
     const std::vector<Case> cases{
         {"no planId", [](Plan& plan) { plan.planID.clear(); }, "planId"},
         {"a long planId", [](Plan& plan) { plan.planID.assign(129, 'x'); }, "planId"},
+        {"a line break in the planId",
+         [](Plan& plan) { plan.planID += '\n'; },
+         "planId: expected an id without control"},
+        {"an escape in a jobId", [](Plan& plan) { plan.steps[0].jobs[0].jobID += '\x1b'; }, "steps[0].jobs[0].jobId"},
+        {"a tab in a carrierId",
+         [](Plan& plan) { plan.steps[0].carrierIDs = {"C\t"}; },
+         "steps[0].carrierIds[0]: expected an id without control"},
         {"no steps", [](Plan& plan) { plan.steps.clear(); }, "steps"},
         {"stepNo 0", [](Plan& plan) { plan.steps[0].stepNo = 0; }, "steps[0].stepNo"},
         {"a stepNo twice", [](Plan& plan) { plan.steps[1].stepNo = 1; }, "steps[1].stepNo"},

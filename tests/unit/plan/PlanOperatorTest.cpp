@@ -149,6 +149,7 @@ TEST_CASE("5.9, R12 Ports that an operator corrects are told at once and stored;
     CHECK(Ask(world, SetCarriers{"CR01", {"TRAY_01"}, 0}).starts_with("no: CR01 has 3 carrier ports"));
     CHECK(Ask(world, SetCarriers{"CR01", {"A", "A", {}}, 0}) == "no: A cannot be on two ports.");
     CHECK(Ask(world, SetCarriers{"CR01", {"", {}, {}}, 0}) == "no: A carrierId has 1 to 128 bytes.");
+    CHECK(Ask(world, SetCarriers{"CR01", {"A\n", {}, {}}, 0}) == "no: A carrierId has no control characters.");
     CHECK(
         Ask(world, SetCarriers{"CR02", {{}, "TRAY_03", {}}, 0})
         == "no: TRAY_03 is on CR01; correct that robot's ports first.");

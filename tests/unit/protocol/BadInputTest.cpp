@@ -73,6 +73,9 @@ std::vector<BadInput> ListCommon(const std::string& command, const std::string& 
         {"a transactionId without end",
          MakeRequestText(command, payload, std::string(513, 't')),
          "transactionId: expected an identifier"},
+        {"a line break in the transactionId",
+         MakeRequestText(command, payload, R"(t\n1)"),
+         "transactionId: expected an identifier"},
         {"5 MB of [", deep, ""},
         {"3 MB of [", deep.substr(0, 3U * 1024U * 1024U), ""},
         {"deep inside a payload",
@@ -111,6 +114,24 @@ std::vector<BadInput> ListForAcs()
         {"a planId in a list null",
          MakeRequestText("RequestAcsPlanHistory", R"({"planIds":[null]})"),
          "payload.planIds[0]: expected a string"},
+        {"a tab in a planId of a list",
+         MakeRequestText("RequestAcsPlanHistory", R"({"planIds":["P","P\t1"]})"),
+         R"(payload.planIds[1]: expected an identifier without control characters, found \"P?1\")"},
+        {"a line break in the planId of a control",
+         MakeRequestText("CancelPlan", R"({"planId":"P\n1"})"),
+         R"(payload.planId: expected an identifier without control characters, found \"P?1\")"},
+        {"a NUL in the planId",
+         MakeRequestText("ExecutionPlan", R"({"planId":"P\u0000","steps":[]})"),
+         "payload.planId: expected an identifier without control characters"},
+        {"an escape in the lotId",
+         MakePlanText(R"("lotId":"\u001b[2J","steps":[])"),
+         "payload.lotId: expected an identifier without control characters"},
+        {"U+007F in a carrierId",
+         MakeStepText(R"("position":"A01.CP01","carrierIds":["C","\u007f"])"),
+         "payload.steps[0].carrierIds[1]: expected an identifier without control characters"},
+        {"U+001F in a jobId",
+         MakeStepText(R"("position":"A01.CP01","jobs":[{"jobId":"J\u001f"}])"),
+         "payload.steps[0].jobs[0].jobId: expected an identifier without control characters"},
         {"planIds a string",
          MakeRequestText("RequestAcsPlanHistory", R"({"planIds":"P"})"),
          "payload.planIds: expected"},
@@ -203,6 +224,14 @@ std::vector<BadInput> ListForMcs()
         {"robotId empty",
          MakeRequestText("RobotStatusUpdate", R"({"robotId":"","robotType":"LR","robotStatus":"Idle"})"),
          "payload.robotId: expected a string of 1"},
+        {"a line break in a robotId",
+         MakeRequestText("StepReport", R"({"planId":"P","robotId":"R\n","stepNo":1,"status":"Failed"})"),
+         "payload.robotId: expected an identifier without control characters"},
+        {"a line break in a carrierId",
+         MakeRequestText(
+             "RobotStatusUpdate",
+             R"({"robotId":"R","robotType":"LR","robotStatus":"Idle","carrierIds":["C\n"]})"),
+         "payload.carrierIds[0]: expected an identifier without control characters"},
         {"positions that are none",
          MakeRequestText("RobotPositionUpdate", R"({"robots":[{"robotId":"R","x":"here"}]})"),
          ""},
@@ -284,6 +313,20 @@ TEST_CASE("R1, R3 Whatever an ACS sends, the MCS refuses or counts it, delivers 
         feed(MakeRequestText("PlanReport", report, "good-" + std::to_string(++good)));
         REQUIRE(probe.GetEvents<Protocol::RequestReceived>().size() == 1);
     }
+}
+
+TEST_CASE("R1, 4.1 The refusal of a planId with a control character repeats it, and the MCS can read that")
+{
+    Testing::AcsSessionBench bench;
+    bench.StartAndReplay();
+    bench.Text(MakeRequestText("CancelPlan", R"({"planId":"P\n1"})"));
+    const auto sent = bench.probe.GetAll<Protocol::SendText>();
+    REQUIRE(sent.size() == 1);
+    const Protocol::DecodeOutcome read = Protocol::AcsCodec().Decode(sent[0].text);
+    REQUIRE(read.message.has_value());
+    const auto& ack = std::get<Protocol::AcsAck>(*read.message);
+    CHECK(ack.result == Protocol::EAckResult::Fail);
+    CHECK(std::get<Protocol::PlanAck>(ack.payload).planID == "P\n1");
 }
 
 TEST_CASE("1 A frame of 100 MB is counted and thrown away unread, by either side")

@@ -188,6 +188,7 @@ struct ValueDecoder<std::vector<T>>
         elementBounds.maximum = bounds.maximum;
         elementBounds.minimumLength = bounds.minimumElement;
         elementBounds.maximumLength = bounds.maximumElement;
+        elementBounds.bIdentifier = bounds.bIdentifier;
         out.reserve(value.Size());
         for (const Value& element : value.GetArray())
         {

@@ -25,7 +25,8 @@ enum class EPresence : std::uint8_t
 using DialectFlags = std::uint8_t;
 inline constexpr DialectFlags ALL_DIALECTS = 0xFF;
 
-/// Bounds of a number or of each number of an array, of a string's bytes, or of an array's elements and the bytes of each.
+/// Bounds of a number or of each number of an array, of a string's bytes, or of an array's elements and the bytes of each;
+/// and whether that string, or each of those elements, names something.
 struct FieldBounds
 {
     double minimum = -std::numeric_limits<double>::infinity();
@@ -34,6 +35,7 @@ struct FieldBounds
     std::size_t maximumLength = std::numeric_limits<std::size_t>::max();
     std::size_t minimumElement = 0;
     std::size_t maximumElement = std::numeric_limits<std::size_t>::max();
+    bool bIdentifier = false; ///< Without control characters.
 };
 
 /// The form that a strict reader takes: the range in which a number is written that Between tolerates, and the first
@@ -127,6 +129,14 @@ struct JsonField
         JsonField field = *this;
         field.bounds.minimumElement = minimum;
         field.bounds.maximumElement = maximum;
+        return field;
+    }
+
+    /// Of a string or an array of strings: what is looked up, shown and logged, hence without control characters.
+    [[nodiscard]] constexpr JsonField AsIdentifier() const
+    {
+        JsonField field = *this;
+        field.bounds.bIdentifier = true;
         return field;
     }
 };
