@@ -5,10 +5,19 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <utility>
 
 namespace ACS::Apps
 {
+
+namespace
+{
+
+/// A program reads it again while it works (SIGHUP), and stands still meanwhile.
+constexpr std::size_t MAX_CONFIG_BYTES = 4U * 1024U * 1024U;
+
+} // namespace
 
 ConfigReader::ConfigReader(std::shared_ptr<ConfigDocument> document)
     : _document(std::move(document))
@@ -17,7 +26,7 @@ ConfigReader::ConfigReader(std::shared_ptr<ConfigDocument> document)
 
 ConfigReader ConfigReader::ReadFile(const std::string& fileName, const std::vector<std::string>& overrides)
 {
-    const tl::expected<std::string, std::string> text = ReadTextFile(fileName);
+    const tl::expected<std::string, std::string> text = ReadTextFileUpTo(fileName, MAX_CONFIG_BYTES);
     if (!text.has_value())
     {
         return ConfigReader(ConfigDocument::MakeUnreadable(

@@ -20,7 +20,7 @@ class ConfigReader final
     explicit ConfigReader(std::shared_ptr<ConfigDocument> document);
 
 public:
-    /// Overrides: "table.key=value", the value in TOML, anything else is taken as a string. A later one wins.
+    /// A regular file of at most 4 MiB. Overrides: "table.key=value", the value in TOML, anything else is taken as a string. A later one wins.
     [[nodiscard]] static ConfigReader ReadFile(const std::string& fileName, const std::vector<std::string>& overrides);
 
     /// The same for text; the name stands in the mistakes.

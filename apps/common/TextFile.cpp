@@ -4,8 +4,11 @@
 
 #include <array>
 #include <cerrno>
-#include <fstream>
+#include <cstddef>
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <system_error>
+#include <unistd.h>
 
 namespace ACS::Apps
 {
@@ -15,29 +18,99 @@ namespace
 
 constexpr std::size_t CHUNK_BYTES = 65'536;
 
+/// An open file, closed at the end.
+class Descriptor final
+{
+    int _number;
+
+public:
+    /// Without waiting: a FIFO that nobody writes to would hold the program for ever.
+    explicit Descriptor(const std::string& path)
+        : _number(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) // NOLINT: the system's signature
+    {
+    }
+
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+
+    ~Descriptor()
+    {
+        if (_number >= 0)
+        {
+            ::close(_number);
+        }
+    }
+
+    [[nodiscard]] int GetNumber() const noexcept
+    {
+        return _number;
+    }
+};
+
+tl::unexpected<std::string> FailForErrno()
+{
+    return tl::make_unexpected(std::generic_category().message(errno));
+}
+
+std::string DescribeKind(mode_t mode)
+{
+    if (S_ISDIR(mode))
+    {
+        return std::generic_category().message(EISDIR);
+    }
+    const char* kind = S_ISFIFO(mode) ? "a pipe" : S_ISSOCK(mode) ? "a socket" : "a device";
+    return fmt::format("it is {}; only regular files are read", kind);
+}
+
 } // namespace
 
 tl::expected<std::string, std::string> ReadTextFile(const std::string& path)
 {
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
+    return ReadTextFileUpTo(path, MAX_TEXT_FILE_BYTES);
+}
+
+tl::expected<std::string, std::string> ReadTextFileUpTo(const std::string& path, std::size_t maximumBytes)
+{
+    const Descriptor file(path);
+    struct stat status = {};
+    if (file.GetNumber() < 0)
+    {
+        // Nobody can open a socket, and a device may have no driver: say what it is rather than the system's words.
+        const int reason = errno;
+        if (reason == ENXIO && ::stat(path.c_str(), &status) == 0)
+        {
+            return tl::make_unexpected(DescribeKind(status.st_mode));
+        }
+        return tl::make_unexpected(std::generic_category().message(reason));
+    }
+    if (::fstat(file.GetNumber(), &status) != 0)
+    {
+        return FailForErrno();
+    }
+    if (!S_ISREG(status.st_mode))
+    {
+        return tl::make_unexpected(DescribeKind(status.st_mode));
+    }
     std::string text;
     std::array<char, CHUNK_BYTES> chunk{};
-    while (file && text.size() <= MAX_TEXT_FILE_BYTES)
+    while (text.size() <= maximumBytes)
     {
-        // A folder can be opened, not read.
-        file.read(chunk.data(), chunk.size());
-        text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
+        const ssize_t count = ::read(file.GetNumber(), chunk.data(), chunk.size());
+        if (count < 0 && errno == EINTR)
+        {
+            continue;
+        }
+        if (count < 0)
+        {
+            return FailForErrno();
+        }
+        if (count == 0)
+        {
+            return text;
+        }
+        text.append(chunk.data(), static_cast<std::size_t>(count));
     }
-    if (text.size() > MAX_TEXT_FILE_BYTES)
-    {
-        return tl::make_unexpected(fmt::format("it is longer than {} bytes", MAX_TEXT_FILE_BYTES));
-    }
-    if (!file.is_open() || !file.eof() || file.bad())
-    {
-        return tl::make_unexpected(std::generic_category().message(errno != 0 ? errno : EIO));
-    }
-    return text;
+    return tl::make_unexpected(fmt::format("it is longer than {} bytes", maximumBytes));
 }
 
 } // namespace ACS::Apps

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What a user meets when something is not there or wrong: one clear line, the right exit code, nothing left running."""
 
+import os
 import socket
 import subprocess
 import time
@@ -85,9 +86,14 @@ class BadInput(ScenarioCase):
         sets = [part for override in overrides for part in ("--set", override)]
         return self.run_program("acsd", "--config", SITE / "acsd.toml", "--check-config", *sets)
 
-    def test_a_folder_and_an_endless_file_are_no_files(self):
+    def test_a_folder_a_device_a_pipe_and_an_endless_file_are_no_files(self):
         broker = ["--broker", "mqtt://127.0.0.1:1", "--vehicle", "LR01"]
-        for path, reason in ((self.line.folder, "Is a directory"), ("/dev/zero", "longer than")):
+        pipe, endless = self.line.folder / "pipe", self.line.folder / "endless"
+        os.mkfifo(pipe)  # nobody will ever write to it
+        with endless.open("wb") as file:
+            file.truncate(1 << 40)
+        for path, reason in ((self.line.folder, "Is a directory"), ("/dev/zero", "it is a device"),
+                             (pipe, "it is a pipe"), (endless, "longer than")):
             with self.subTest(path):
                 self.assert_refused(self.check_config(f"site.map={path}"), 2, "site.map", str(path), reason)
                 self.assert_refused(self.run_program("acsd", "--config", path), 2, str(path), reason)

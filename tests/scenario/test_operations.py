@@ -70,6 +70,14 @@ class Operations(ScenarioCase):
         self.assertTrue(acsd.is_running())
         self.assertEqual(self.submit(stub, "P1")["result"], "Success")
 
+        # A pipe to which nobody writes must not hold acsd.
+        file = self.line.folder / "acsd.toml"
+        file.unlink()
+        os.mkfifo(file)
+        acsd.send_signal(signal.SIGHUP)
+        self.wait_for_log(acsd, "it is a pipe; only regular files are read")
+        self.assertEqual(self.submit(stub, "P2")["result"], "Success")
+
     def test_a_disk_that_hangs_is_told_and_what_waits_for_it_goes_on_when_it_answers(self):
         library = self.line.bin_dir / "libscenario_held_disk.so"
         if not library.exists():

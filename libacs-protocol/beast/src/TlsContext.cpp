@@ -6,6 +6,7 @@
 #include <openssl/x509v3.h>
 
 #include <cerrno>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <system_error>
@@ -38,6 +39,12 @@ tl::unexpected<Core::Error> Refuse(const char* key, const char* expected, const 
 /// Why it cannot be read; OpenSSL would say it less clearly.
 std::optional<std::string> FindFileFaultOrNull(const std::string& name)
 {
+    std::error_code unknown;
+    if (const std::filesystem::file_status status = std::filesystem::status(name, unknown);
+        std::filesystem::is_other(status))
+    {
+        return "it is no regular file"; // to open a pipe would be to wait for whoever writes to it
+    }
     errno = 0;
     std::ifstream file(name, std::ios::binary);
     if (file.is_open() && file.peek() != std::ifstream::traits_type::eof())

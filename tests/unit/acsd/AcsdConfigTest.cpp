@@ -9,6 +9,7 @@
 #include <fstream>
 #include <set>
 #include <string>
+#include <sys/stat.h>
 #include <vector>
 
 using namespace ACS; // NOLINT(google-build-using-namespace)
@@ -82,6 +83,12 @@ TEST_CASE("A file for TLS that is missing or does not fit is a mistake with key,
     REQUIRE(missing.size() == 1);
     CHECK(missing[0].find("mcs.tls.ca: expected a PEM file") != std::string::npos);
     CHECK(missing[0].find("/nowhere/ca.pem: No such file or directory") != std::string::npos);
+
+    const std::string pipe = folder.GetPath() / "pipe"; // nobody will ever write to it
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    const auto piped = Read({"mcs.url=wss://mcs/acs/", "mcs.tls.ca=" + pipe}).mistakes;
+    REQUIRE(piped.size() == 1);
+    CHECK(piped[0].find(pipe + ": it is no regular file") != std::string::npos);
 
     const auto foreign =
         Read({"mcs.url=wss://mcs/acs/", "mcs.tls.certificate=" + own.certificate, "mcs.tls.key=" + ca.key}).mistakes;
