@@ -1,14 +1,17 @@
 #include "OperatorRoutes.hpp"
 
+#include <acs/core/Result.hpp>
 #include <acs/json/JsonWriter.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -19,6 +22,11 @@ namespace
 using Apps::HttpRequest;
 using Apps::HttpResponse;
 using Captures = Apps::HttpRoutes::Captures;
+
+using Parameters = std::vector<std::string_view>;
+
+/// The only parameter that may come more than once.
+constexpr std::string_view CARRIER = "carrier";
 
 constexpr unsigned HTTP_ACCEPTED = 202;
 constexpr unsigned HTTP_BAD_REQUEST = 400;
@@ -47,6 +55,32 @@ HttpResponse HandOn(const OperatorHandler& handler, Planning::PlanCommand comman
 {
     return handler(std::move(command)) ? MakeAnswer(HTTP_ACCEPTED, "message", message)
                                        : Refuse(HTTP_UNAVAILABLE, "acsd is stopping: nothing is taken any more.");
+}
+
+/// What of the request nobody would read: a command that is done otherwise than it was meant is worse than one that is not.
+std::optional<std::string> FindStrayOrNull(const HttpRequest& request, const Parameters& parameters)
+{
+    std::set<std::string_view> seen;
+    for (const auto& [name, value] : request.query)
+    {
+        if (std::ranges::find(parameters, name) == parameters.end())
+        {
+            return parameters.empty()
+                ? fmt::format("There is no parameter {}; this takes none.", name)
+                : fmt::format("There is no parameter {}; there is {}.", name, fmt::join(parameters, ", "));
+        }
+        if (!seen.insert(name).second && name != CARRIER)
+        {
+            return fmt::format("The parameter {} is given twice.", name);
+        }
+    }
+    if (!request.body.empty())
+    {
+        return fmt::format(
+            "A body is not read, found {}; parameters stand behind the path, as in ?robot=LR01&code=ACS-1004.",
+            Core::QuoteForError(request.body));
+    }
+    return std::nullopt;
 }
 
 std::optional<Planning::RobotStatus> FindRobotOrNull(const Planning::PlanEngine& engine, const std::string& robotID)
@@ -97,10 +131,6 @@ HttpResponse SetCarriers(
     Planning::SetCarriers command{robotID, {}, 0};
     for (const auto& [name, value] : request.query)
     {
-        if (name != "carrier")
-        {
-            return Refuse(HTTP_BAD_REQUEST, fmt::format("There is no parameter {}; only carrier.", name));
-        }
         command.carrierIDs.push_back(value.empty() ? std::nullopt : std::optional(value));
     }
     if (std::optional<std::string> objection = engine.GetObjectionOrNull(command))
@@ -112,15 +142,6 @@ HttpResponse SetCarriers(
 
 HttpResponse ClearAlarms(const Planning::PlanEngine& engine, const OperatorHandler& handler, const HttpRequest& request)
 {
-    for (const auto& [name, value] : request.query)
-    {
-        if (name != "robot" && name != "code" && name != "plan" && name != "job")
-        {
-            return Refuse(
-                HTTP_BAD_REQUEST,
-                fmt::format("There is no parameter {}; there are robot, code, plan and job.", name));
-        }
-    }
     const std::optional<std::string> robotID = request.GetQueryOrNull("robot");
     const std::optional<std::string> errorCode = request.GetQueryOrNull("code");
     if (!robotID.has_value() || !errorCode.has_value())
@@ -164,39 +185,52 @@ HttpResponse SettleJob(
 
 void AddOperatorRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& engine, OperatorHandler handler)
 {
-    for (const bool bOn : {true, false})
-    {
+    const auto add = [&routes](const std::string& pattern, Parameters parameters, Apps::HttpRoutes::Handler handle) {
         routes.Add(
             "POST",
-            bOn ? "/robots/{ROBOT}/maintenance/on" : "/robots/{ROBOT}/maintenance/off",
+            pattern,
+            [parameters = std::move(parameters),
+             handle = std::move(handle)](const HttpRequest& request, const Captures& captures) {
+                const std::optional<std::string> stray = FindStrayOrNull(request, parameters);
+                return stray.has_value() ? Refuse(HTTP_BAD_REQUEST, *stray) : handle(request, captures);
+            });
+    };
+    for (const bool bOn : {true, false})
+    {
+        add(bOn ? "/robots/{ROBOT}/maintenance/on" : "/robots/{ROBOT}/maintenance/off",
+            {},
             [&engine, handler, bOn](const HttpRequest&, const Captures& captures) {
                 return Maintain(engine, handler, captures[0], bOn);
             });
     }
-    routes.Add(
-        "POST",
-        "/robots/{ROBOT}/carriers",
+    add("/robots/{ROBOT}/carriers",
+        {CARRIER},
         [&engine, handler](const HttpRequest& request, const Captures& captures) {
             return SetCarriers(engine, handler, captures[0], request);
         });
-    routes.Add("POST", "/alarms/clear", [&engine, handler](const HttpRequest& request, const Captures&) {
-        return ClearAlarms(engine, handler, request);
-    });
-    routes.Add("POST", "/tsc/pause", [handler](const HttpRequest&, const Captures&) {
-        return HandOn(handler, Planning::ControlTsc{true, 0}, "The TSC is told to pause; /status has its state.");
-    });
-    routes.Add("POST", "/tsc/resume", [handler](const HttpRequest&, const Captures&) {
-        return HandOn(handler, Planning::ControlTsc{false, 0}, "The TSC is told to resume; /status has its state.");
-    });
+    add("/alarms/clear",
+        {"robot", "code", "plan", "job"},
+        [&engine, handler](const HttpRequest& request, const Captures&) {
+            return ClearAlarms(engine, handler, request);
+        });
+    for (const bool bPause : {true, false})
+    {
+        const std::string_view word = bPause ? "pause" : "resume";
+        add(fmt::format("/tsc/{}", word), {}, [handler, bPause, word](const HttpRequest&, const Captures&) {
+            return HandOn(
+                handler,
+                Planning::ControlTsc{bPause, 0},
+                fmt::format("The TSC is told to {}; /status has its state.", word));
+        });
+    }
     for (const auto& [word, answer] :
          {std::pair("done", Planning::EJobAnswer::Done),
           std::pair("failed", Planning::EJobAnswer::Failed),
           std::pair("again", Planning::EJobAnswer::Again)})
     {
         const Planning::EJobAnswer said = answer;
-        routes.Add(
-            "POST",
-            std::string("/plans/{PLAN}/jobs/{JOB}/") + word,
+        add(std::string("/plans/{PLAN}/jobs/{JOB}/") + word,
+            {},
             [&engine, handler, said](const HttpRequest&, const Captures& captures) {
                 return SettleJob(engine, handler, {captures[0], captures[1], said, 0});
             });

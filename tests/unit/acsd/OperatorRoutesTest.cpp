@@ -34,10 +34,11 @@ public:
     }
 
     /// "202 …" with the body.
-    std::string Post(std::string_view target)
+    std::string Post(std::string_view target, const std::string& body = {})
     {
         Apps::HttpRequest request = *Apps::ParseHttpTarget(target);
         request.method = "POST";
+        request.body = body;
         const Apps::HttpResponse response = _routes.Respond(request);
         CHECK((response.status == 404 || response.contentType == "application/json"));
         return std::to_string(response.status) + " " + response.body;
@@ -134,6 +135,37 @@ TEST_CASE("POST /plans/PLAN/jobs/JOB/done, failed and again answer for a job tha
     CHECK(HasText(user.Post("/plans/P1/jobs/P1-a4/failed"), "404 "));
     REQUIRE(user.world.TryRun());
     CHECK(user.world.GetReportsOf("P1").back() == "Plan Completed");
+}
+
+TEST_CASE("What nobody would read of a command is refused by name: parameters, twice the same one, a body")
+{
+    Operator user;
+    user.world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(Testing::TryRunUntil(user.world, "P1", "Job 1 P1-a4 InProgress"));
+    for (const std::string target :
+         {"/tsc/pause",
+          "/tsc/resume",
+          "/robots/LR02/maintenance/on",
+          "/robots/LR02/maintenance/off",
+          "/robots/LR02/carriers",
+          "/alarms/clear",
+          "/plans/P1/jobs/P1-a4/done",
+          "/plans/P1/jobs/P1-a4/failed",
+          "/plans/P1/jobs/P1-a4/again"})
+    {
+        INFO(target);
+        CHECK(HasText(user.Post(target + "?force=1"), "400 {\"error\":\"There is no parameter force; th"));
+        CHECK(HasText(
+            user.Post(target, R"({"force":true})"),
+            R"(400 {"error":"A body is not read, found \"{\"force\":)"));
+    }
+    CHECK(user.Post("/tsc/pause?now") == "400 {\"error\":\"There is no parameter now; this takes none.\"}\n");
+    CHECK(HasText(user.Post("/alarms/clear?step=1"), "there is robot, code, plan, job."));
+    CHECK(HasText(
+        user.Post("/alarms/clear?robot=LR01&code=A&robot=LR02"),
+        "400 {\"error\":\"The parameter robot is given twice"));
+    CHECK(user.world.engine->GetTscState() == Planning::ETscState::Auto);
+    CHECK_FALSE(HasText(user.GetStatus(), R"("maintenance":true)"));
 }
 
 TEST_CASE("While acsd stops an operator is told that nothing is taken any more")
