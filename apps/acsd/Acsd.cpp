@@ -286,9 +286,13 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
             UpdateMetrics();
             return _metrics.Respond();
         });
-        AddOperatorRoutes(_routes, _engine, [this](Planning::PlanCommand command) {
-            return _loop.TryPush(std::move(command));
-        });
+        AddOperatorRoutes(
+            _routes,
+            _engine,
+            {[this](Planning::PlanCommand command) { return _loop.TryPush(std::move(command)); },
+             [this] {
+                 return _storeWatch.GetObstacleOrNull();
+             }});
     }
 
     void UpdateMetrics()

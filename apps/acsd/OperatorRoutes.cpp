@@ -51,10 +51,36 @@ HttpResponse Refuse(unsigned status, std::string_view sentence)
     return MakeAnswer(status, "error", sentence);
 }
 
-HttpResponse HandOn(const OperatorHandler& handler, Planning::PlanCommand command, std::string_view message)
+/// What becomes of a command while nothing can be stored.
+enum class EUnstored
 {
-    return handler(std::move(command)) ? MakeAnswer(HTTP_ACCEPTED, "message", message)
-                                       : Refuse(HTTP_UNAVAILABLE, "acsd is stopping: nothing is taken any more.");
+    Refused, ///< As the controls of the MCS are: a crash would forget it.
+    Taken    ///< It takes work away, which cannot wait for a disk; the answer says that a crash would forget it.
+};
+
+HttpResponse HandOn(
+    const OperatorAccess& access,
+    Planning::PlanCommand command,
+    std::string message,
+    EUnstored unstored = EUnstored::Refused)
+{
+    const std::optional<std::string> obstacle = access.getStoreObstacleOrNull();
+    if (obstacle.has_value() && unstored == EUnstored::Refused)
+    {
+        return Refuse(
+            HTTP_UNAVAILABLE,
+            fmt::format(
+                "Nothing is done, as a crash would forget it: {}. Ask again when /readyz says ready.",
+                *obstacle));
+    }
+    if (obstacle.has_value())
+    {
+        message += fmt::format(
+            " It is not stored, and a crash would forget it: {}. Look at /status, and ask again after a restart.",
+            *obstacle);
+    }
+    return access.take(std::move(command)) ? MakeAnswer(HTTP_ACCEPTED, "message", message)
+                                           : Refuse(HTTP_UNAVAILABLE, "acsd is stopping: nothing is taken any more.");
 }
 
 /// What of the request nobody would read: a command that is done otherwise than it was meant is worse than one that is not.
@@ -102,7 +128,7 @@ HttpResponse RefuseRobot(const std::string& robotID)
 
 HttpResponse Maintain(
     const Planning::PlanEngine& engine,
-    const OperatorHandler& handler,
+    const OperatorAccess& access,
     const std::string& robotID,
     bool bOn)
 {
@@ -113,13 +139,17 @@ HttpResponse Maintain(
     }
     std::string message = robotID + (bOn ? " is taken out of service" : " is put back into service");
     message += bOn && robot->planID.has_value() ? fmt::format(" as soon as plan {} is over.", *robot->planID) : ".";
-    return HandOn(handler, Planning::SetMaintenance{robotID, bOn, 0}, message);
+    return HandOn(
+        access,
+        Planning::SetMaintenance{robotID, bOn, 0},
+        std::move(message),
+        bOn ? EUnstored::Taken : EUnstored::Refused);
 }
 
 /// One parameter `carrier` for each port, in their order; an empty one: nothing.
 HttpResponse SetCarriers(
     const Planning::PlanEngine& engine,
-    const OperatorHandler& handler,
+    const OperatorAccess& access,
     const std::string& robotID,
     const HttpRequest& request)
 {
@@ -137,10 +167,10 @@ HttpResponse SetCarriers(
     {
         return Refuse(HTTP_BAD_REQUEST, *objection);
     }
-    return HandOn(handler, std::move(command), fmt::format("The ports of {} are corrected.", robotID));
+    return HandOn(access, std::move(command), fmt::format("The ports of {} are corrected.", robotID));
 }
 
-HttpResponse ClearAlarms(const Planning::PlanEngine& engine, const OperatorHandler& handler, const HttpRequest& request)
+HttpResponse ClearAlarms(const Planning::PlanEngine& engine, const OperatorAccess& access, const HttpRequest& request)
 {
     const std::optional<std::string> robotID = request.GetQueryOrNull("robot");
     const std::optional<std::string> errorCode = request.GetQueryOrNull("code");
@@ -158,20 +188,20 @@ HttpResponse ClearAlarms(const Planning::PlanEngine& engine, const OperatorHandl
         return Refuse(HTTP_NOT_FOUND, fmt::format("{} has no alarm {}; /status has the alarms.", *robotID, *errorCode));
     }
     return HandOn(
-        handler,
+        access,
         Planning::ClearAlarms{*robotID, *errorCode, request.GetQueryOrNull("plan"), request.GetQueryOrNull("job"), 0},
         "The alarm is cleared; it comes back if its cause is still there.");
 }
 
 HttpResponse SettleJob(
     const Planning::PlanEngine& engine,
-    const OperatorHandler& handler,
+    const OperatorAccess& access,
     const Planning::SettleJob& command)
 {
     const std::optional<std::string> objection = engine.GetObjectionOrNull(command);
     if (!objection.has_value())
     {
-        return HandOn(handler, command, "The answer is taken; the alarm ACS-1008 of the job is cleared.");
+        return HandOn(access, command, "The answer is taken; the alarm ACS-1008 of the job is cleared.");
     }
     Planning::SettleJob other = command;
     other.answer = Planning::EJobAnswer::Done;
@@ -183,7 +213,7 @@ HttpResponse SettleJob(
 
 } // namespace
 
-void AddOperatorRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& engine, OperatorHandler handler)
+void AddOperatorRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& engine, const OperatorAccess& access)
 {
     const auto add = [&routes](const std::string& pattern, Parameters parameters, Apps::HttpRoutes::Handler handle) {
         routes.Add(
@@ -199,28 +229,27 @@ void AddOperatorRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& eng
     {
         add(bOn ? "/robots/{ROBOT}/maintenance/on" : "/robots/{ROBOT}/maintenance/off",
             {},
-            [&engine, handler, bOn](const HttpRequest&, const Captures& captures) {
-                return Maintain(engine, handler, captures[0], bOn);
+            [&engine, access, bOn](const HttpRequest&, const Captures& captures) {
+                return Maintain(engine, access, captures[0], bOn);
             });
     }
-    add("/robots/{ROBOT}/carriers",
-        {CARRIER},
-        [&engine, handler](const HttpRequest& request, const Captures& captures) {
-            return SetCarriers(engine, handler, captures[0], request);
-        });
+    add("/robots/{ROBOT}/carriers", {CARRIER}, [&engine, access](const HttpRequest& request, const Captures& captures) {
+        return SetCarriers(engine, access, captures[0], request);
+    });
     add("/alarms/clear",
         {"robot", "code", "plan", "job"},
-        [&engine, handler](const HttpRequest& request, const Captures&) {
-            return ClearAlarms(engine, handler, request);
+        [&engine, access](const HttpRequest& request, const Captures&) {
+            return ClearAlarms(engine, access, request);
         });
     for (const bool bPause : {true, false})
     {
         const std::string_view word = bPause ? "pause" : "resume";
-        add(fmt::format("/tsc/{}", word), {}, [handler, bPause, word](const HttpRequest&, const Captures&) {
+        add(fmt::format("/tsc/{}", word), {}, [access, bPause, word](const HttpRequest&, const Captures&) {
             return HandOn(
-                handler,
+                access,
                 Planning::ControlTsc{bPause, 0},
-                fmt::format("The TSC is told to {}; /status has its state.", word));
+                fmt::format("The TSC is told to {}; /status has its state.", word),
+                bPause ? EUnstored::Taken : EUnstored::Refused);
         });
     }
     for (const auto& [word, answer] :
@@ -231,8 +260,8 @@ void AddOperatorRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& eng
         const Planning::EJobAnswer said = answer;
         add(std::string("/plans/{PLAN}/jobs/{JOB}/") + word,
             {},
-            [&engine, handler, said](const HttpRequest&, const Captures& captures) {
-                return SettleJob(engine, handler, {captures[0], captures[1], said, 0});
+            [&engine, access, said](const HttpRequest&, const Captures& captures) {
+                return SettleJob(engine, access, {captures[0], captures[1], said, 0});
             });
     }
 }

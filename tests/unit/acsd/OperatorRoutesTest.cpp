@@ -20,16 +20,23 @@ class Operator
 public:
     PlanWorld world{1, true};
     bool bStopping = false;
+    std::optional<std::string> storeObstacle;
 
     Operator()
     {
-        Acsd::AddOperatorRoutes(_routes, *world.engine, [this](const Planning::PlanCommand& command) {
-            if (!bStopping)
-            {
-                world.Ask(command);
-            }
-            return !bStopping;
-        });
+        Acsd::AddOperatorRoutes(
+            _routes,
+            *world.engine,
+            {[this](const Planning::PlanCommand& command) {
+                 if (!bStopping)
+                 {
+                     world.Ask(command);
+                 }
+                 return !bStopping;
+             },
+             [this] {
+                 return storeObstacle;
+             }});
         world.Connect();
     }
 
@@ -178,6 +185,52 @@ TEST_CASE("While acsd stops an operator is told that nothing is taken any more")
         INFO(target);
         CHECK(HasText(user.Post(target), "503 {\"error\":\"acsd is stopping"));
     }
+}
+
+TEST_CASE(
+    "While nothing can be stored a command is refused, but for what takes work away, which says that it is not stored")
+{
+    Operator user;
+    user.world.Raise("LR01", Planning::LinkChanged{false});
+    user.world.Submit(MakeLogisticsPlan("P1"));
+    user.storeObstacle = "the store cannot be written";
+    for (const char* target :
+         {"/tsc/resume",
+          "/robots/LR01/maintenance/off",
+          "/robots/LR01/carriers?carrier=C_01",
+          "/alarms/clear?robot=LR01&code=ACS-1002"})
+    {
+        INFO(target);
+        CHECK(
+            user.Post(target)
+            == "503 {\"error\":\"Nothing is done, as a crash would forget it: the store cannot be written. Ask again when "
+               "/readyz says ready.\"}\n");
+    }
+    CHECK_FALSE(HasText(user.GetStatus(), R"("carrierIds":["C_01"])"));
+    CHECK(
+        user.Post("/robots/LR02/maintenance/on")
+        == "202 {\"message\":\"LR02 is taken out of service. It is not stored, and a crash would forget it: the store cannot "
+           "be written. Look at /status, and ask again after a restart.\"}\n");
+    CHECK(HasText(user.GetStatus(), R"("maintenance":true)"));
+    CHECK(HasText(
+        user.Post("/tsc/pause"),
+        "202 {\"message\":\"The TSC is told to pause; /status has its state. It is not"));
+    CHECK(user.world.engine->GetTscState() == Planning::ETscState::Paused);
+    user.storeObstacle.reset();
+    CHECK(user.Post("/tsc/resume") == "202 {\"message\":\"The TSC is told to resume; /status has its state.\"}\n");
+}
+
+TEST_CASE("An answer for a job that is held waits for the store")
+{
+    Operator user;
+    user.world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(Testing::TryRunUntil(user.world, "P1", "Job 1 P1-a4 InProgress"));
+    user.world.Raise("LR01", Planning::JobUncertain{"P1-a4", "it was switched off"});
+    user.storeObstacle = "the store cannot be written";
+    CHECK(HasText(user.Post("/plans/P1/jobs/P1-a4/done"), "503 "));
+    CHECK(HasText(user.GetStatus(), R"("errorCode":"ACS-1008")"));
+    user.storeObstacle.reset();
+    CHECK(HasText(user.Post("/plans/P1/jobs/P1-a4/done"), "202 "));
 }
 
 TEST_CASE("POST /alarms/clear clears by robot and code")
