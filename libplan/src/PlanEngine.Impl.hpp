@@ -515,6 +515,8 @@ private:
         bool bPlanRefused,
         std::string_view reason,
         EngineActions& out);
+    [[nodiscard]] bool TryWithdraw(const CommandRobot& command);
+    void WithdrawPause(Robot& robot);
     void StartStoreRetry(EngineActions& out);
     void KeepForStore(std::vector<StoreChange> changes);
     [[nodiscard]] static Alarm MakeStoreAlarm();

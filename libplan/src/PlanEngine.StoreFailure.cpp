@@ -32,7 +32,9 @@ void PlanEngine::Impl::OnStoreFailed(
         if (auto* reportOrNull = std::get_if<SendReport>(&action); reportOrNull != nullptr)
         {
             _held.push_back(std::move(reportOrNull->entry));
+            continue;
         }
+        out.push_back(std::move(action));
     }
     _actions.clear();
     StartStoreRetry(out);
@@ -113,10 +115,50 @@ void PlanEngine::Impl::TakeActionsBack(
                     const bool bRefusedNow = (bPlanRefused && typed.bAccepted && !bKnown) || _asked.has_value();
                     out.emplace_back(bRefusedNow ? ReplyCommand{typed.replyToken, false, refusal} : typed);
                 },
+                [this, &out](const CommandRobot& typed) {
+                    if (!TryWithdraw(typed))
+                    {
+                        out.emplace_back(typed);
+                    }
+                },
                 [&out](const auto& typed) {
                     out.emplace_back(typed);
                 }},
             action);
+    }
+}
+
+/// What a robot must not do while nobody could know of it after a crash.
+bool PlanEngine::Impl::TryWithdraw(const CommandRobot& command)
+{
+    Robot& robot = _robots[_robotIndices.find(command.robotID)->second];
+    const auto* jobOrNull = std::get_if<StartJob>(&command.command);
+    if (jobOrNull != nullptr && robot.planOrNull != nullptr && robot.planOrNull->bUnstored)
+    {
+        RepeatJob(robot, jobOrNull->commandID);
+        return true;
+    }
+    if (_asked.has_value() && std::holds_alternative<Planning::Pause>(command.command))
+    {
+        WithdrawPause(robot);
+        return true;
+    }
+    return false;
+}
+
+/// The control that wanted it is refused. After a crash nobody would know who has stopped the robot.
+void PlanEngine::Impl::WithdrawPause(Robot& robot)
+{
+    robot.bPauseWanted = false;
+    robot.bWorkTouched = true;
+    _bDispatchNeeded = true;
+    PlanProgress& progress = robot.planOrNull->record.progress;
+    if (progress.control == EPlanControl::Pause)
+    {
+        progress.control.reset();
+        progress.controlCount = 0;
+        _progressed.insert(robot.planOrNull->record.plan.planID);
+        StopConfirming(robot);
     }
 }
 

@@ -110,6 +110,35 @@ TEST_CASE("A robot that shows nothing after a restart, as it was switched off me
     CHECK_FALSE(GetHeldJob(world).empty());
 }
 
+TEST_CASE(
+    "A job is not begun in the call that begins its plan, if that cannot be stored: after a crash it would be again")
+{
+    PlanWorld world =
+        ACS::Testing::MakeWorld([](EngineOptions& options) { options.robots.front().startNodeID = "D-A01.CP01"; });
+    world.Connect();
+    world.Submit(MakeLogisticsPlan("P1"));
+    world.store.bFails = true;
+    static_cast<void>(TryRunFor(world, 500ms));
+    CHECK(CountStarts(world, "P1-a4") == 0);
+    world.store.bFails = false;
+    FinishPlan(world);
+    CHECK(CountStarts(world, "P1-a4") == 1);
+}
+
+TEST_CASE("A robot is not told to pause by a request that cannot be stored: after a crash nobody would let it go on")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    world.store.bFails = true;
+    world.Control(EPlanControl::Pause, "P1", 5, "T5");
+    CHECK_FALSE(world.replies.at(5).bAccepted);
+    CHECK(world.GetTraceOf("command LR01 Pause").empty());
+    world.Crash();
+    world.store.bFails = false;
+    RestartEngine(world);
+    FinishPlan(world);
+}
+
 TEST_CASE("A control that cannot be stored is refused: after a crash nobody would know that it was promised")
 {
     PlanWorld world;
@@ -126,7 +155,7 @@ TEST_CASE("A control that cannot be stored is refused: after a crash nobody woul
     CHECK_FALSE(world.replies.at(8).bAccepted);
     static_cast<void>(TryRunFor(world, 1s));
     world.store.bFails = false;
-    static_cast<void>(TryRunFor(world, 30s));
+    static_cast<void>(TryRunFor(world, 2s));
     CHECK_FALSE(Contains(world.GetReportsOf("P1"), "AbortResult Success"));
     world.Control(EPlanControl::Abort, "P1", 9, "T7");
     CHECK(world.replies.at(9).bAccepted);
