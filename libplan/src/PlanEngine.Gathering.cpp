@@ -1,6 +1,7 @@
 #include "PlanEngine.Impl.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace ACS::Planning
@@ -21,6 +22,10 @@ void PlanEngine::Impl::BeginGathering(bool bHasWork)
         _bGathering = bHasWork;
         StartTimer(EEngineTimer::Gathering, {}, _options.restartWait);
     }
+    else
+    {
+        SupposePlaces();
+    }
 }
 
 void PlanEngine::Impl::FollowGathering()
@@ -35,6 +40,7 @@ void PlanEngine::Impl::FollowGathering()
 void PlanEngine::Impl::EndGathering()
 {
     _bAwaiting = false;
+    SupposePlaces();
     if (std::exchange(_bGathering, false))
     {
         _bDispatchNeeded = true;
@@ -63,8 +69,84 @@ void PlanEngine::Impl::RaiseMissing()
         Alarm alarm = MakeLinkAlarm(robot);
         alarm.message = bHasWork ? "It has not come back since the ACS was started, and has work."
                                  : "It has not been there since the ACS was started.";
+        if (!robot.supposedNodes.empty())
+        {
+            alarm.message += " Where it may be is kept free until it is back, or is taken into maintenance.";
+        }
         RaiseAlarm(std::move(alarm));
     }
+}
+
+/// Nobody else is let to where a robot may be that has not told it. Those that have told come first.
+void PlanEngine::Impl::SupposePlaces()
+{
+    for (const Robot& robot : _robots)
+    {
+        if (!robot.bPlaced)
+        {
+            _traffic.HoldPossible(robot.index, robot.supposedNodes);
+        }
+    }
+}
+
+/// A robot tells that it is there: so nobody is of whom that is only supposed.
+void PlanEngine::Impl::YieldSupposed(std::span<const std::size_t> nodes)
+{
+    for (Robot& robot : _robots)
+    {
+        for (const std::size_t node : nodes)
+        {
+            if (std::erase(robot.supposedNodes, node) > 0)
+            {
+                std::erase(robot.aheadNodes, node);
+                std::erase(robot.heldNodes, node);
+                _traffic.Disown(robot.index, node);
+            }
+        }
+    }
+}
+
+/// It is not on the floor.
+void PlanEngine::Impl::ForgetSupposed(Robot& robot)
+{
+    for (const std::size_t node : std::exchange(robot.supposedNodes, {}))
+    {
+        _traffic.Disown(robot.index, node);
+    }
+    robot.bWorkTouched = true;
+    _bDispatchNeeded = true;
+}
+
+/// Of the way that was written down, what lies behind the node.
+std::vector<std::size_t> PlanEngine::Impl::ListSupposedBehind(const Robot& robot, std::size_t node)
+{
+    const auto here = std::ranges::find(robot.supposedNodes, node);
+    return here == robot.supposedNodes.end() ? std::vector<std::size_t>()
+                                             : std::vector<std::size_t>(here + 1, robot.supposedNodes.end());
+}
+
+/// To be written down: where the robot may be after a restart.
+std::vector<std::string> PlanEngine::Impl::ListNodes(const Robot& robot) const
+{
+    std::span<const std::size_t> nodes = robot.supposedNodes;
+    if (robot.drive.has_value())
+    {
+        nodes = std::span(robot.drive->nodes).subspan(robot.drive->passed);
+    }
+    else if (robot.bPlaced)
+    {
+        nodes = robot.heldNodes;
+    }
+    else if (robot.state.has_value())
+    {
+        return robot.storedWork.nodeIDs; // it has lost its place
+    }
+    std::vector<std::string> nodeIDs;
+    for (const std::size_t node : nodes)
+    {
+        nodeIDs.push_back(_site.GetNodes()[node].nodeID);
+    }
+    return nodeIDs;
 }
 
 } // namespace ACS::Planning

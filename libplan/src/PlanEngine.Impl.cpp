@@ -261,13 +261,17 @@ void PlanEngine::Impl::CollectWork()
             robot.job,
             robot.state.has_value() ? robot.state->mark : robot.storedWork.mark,
             robot.bPauseWanted || robot.bResumeOwed,
-            robot.bDoubtful};
-        const bool bNothing = robot.storedWork.robotID.empty() && work.commandID.empty() && !work.bPauseAsked;
+            robot.bDoubtful,
+            robot.drive.has_value() ? robot.storedWork.nodeIDs : ListNodes(robot)};
+        const bool bNothing =
+            robot.storedWork.robotID.empty() && work.commandID.empty() && !work.bPauseAsked && work.nodeIDs.empty();
+        // While it drives the nodes alone are no reason to write: they only become fewer.
         // A mark alone is no reason to write: it is that of the moment when a command or a job's end was written down.
         RobotWorkChanged unmarked = work;
         unmarked.mark = robot.storedWork.mark;
         if (!bNothing && unmarked != robot.storedWork)
         {
+            work.nodeIDs = ListNodes(robot);
             robot.storedWork = work;
             _changes.emplace_back(std::move(work));
         }

@@ -156,7 +156,9 @@ public:
         bool bChargeAsked = false; ///< It was told to charge and not to stop that.
         bool bChargeShown = false; ///< Its state has shown that it does.
         std::optional<StateChanged> state;
-        std::optional<std::size_t> node;    ///< Where it stands or passed last.
+        std::optional<std::size_t> node; ///< Where it stands or passed last.
+        /// After a restart: where it may be, as far as was written down; once it has told its node, what of that is ahead.
+        std::vector<std::size_t> supposedNodes;
         std::vector<std::size_t> heldNodes; ///< Without a drive: where it may still go all the same, its node included.
         std::string position;               ///< The last station where it stood.
         std::optional<std::size_t> homeNode; ///< Where it goes without work; with a low battery its chargeNode.
@@ -408,7 +410,10 @@ private:
     [[nodiscard]] std::vector<std::size_t> ListClaimed(const Robot& robot, std::size_t node) const;
     void CompareErrors(Robot& robot);
     [[nodiscard]] bool TryAdvance(Robot& robot, std::size_t routeIndex);
-    [[nodiscard]] std::vector<std::size_t> FindAhead(const Robot& robot, std::span<const std::size_t> ahead) const;
+    [[nodiscard]] std::vector<std::size_t> FindAhead(
+        const Robot& robot,
+        std::size_t node,
+        std::span<const std::size_t> ahead) const;
     [[nodiscard]] static bool IsBetween(const StateChanged& state, const SiteNode& from, const SiteNode& to);
     void EndDrive(Robot& robot);
 
@@ -491,6 +496,11 @@ private:
     void FollowGathering();
     void EndGathering();
     void RaiseMissing();
+    void SupposePlaces();
+    void YieldSupposed(std::span<const std::size_t> nodes);
+    void ForgetSupposed(Robot& robot);
+    [[nodiscard]] static std::vector<std::size_t> ListSupposedBehind(const Robot& robot, std::size_t node);
+    [[nodiscard]] std::vector<std::string> ListNodes(const Robot& robot) const;
     void FollowStand(Robot& robot);
     static void CheckTrace(Robot& robot);
     void HoldDoubtful(Robot& robot);

@@ -37,6 +37,11 @@ void PlanEngine::Impl::Maintain(const SetMaintenance& command)
         _bDispatchNeeded = true;
         Note(robot, command.bOn ? "is taken out of service" : "is in service again");
     }
+    if (command.bOn && !robot.bPlaced && !robot.supposedNodes.empty())
+    {
+        ForgetSupposed(robot);
+        Note(robot, "is not on the floor: where it was is free again");
+    }
     const bool bEndsPlan = command.bOn && robot.planOrNull != nullptr;
     Reply(
         command.replyToken,

@@ -102,6 +102,13 @@ void PlanEngine::Impl::RestoreRobot(const RobotWorkChanged& work)
     robot.trace = work;
     robot.bDoubtful = work.bDoubtful;
     robot.job = work.job;
+    for (const std::string& nodeID : work.nodeIDs)
+    {
+        if (const std::optional<std::size_t> node = _site.FindNodeIndexOrNull(nodeID); node.has_value())
+        {
+            robot.supposedNodes.push_back(*node);
+        }
+    }
     robot.bResumeOwed = work.bPauseAsked; // where no plan wants it to stand
 }
 

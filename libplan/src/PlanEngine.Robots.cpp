@@ -92,21 +92,21 @@ void PlanEngine::Impl::Place(Robot& robot)
         LosePlace(robot);
         return;
     }
-    std::vector<std::size_t> claim = ListClaimed(robot, *node);
+    const std::vector<std::size_t> claim = ListClaimed(robot, *node);
     std::vector<std::size_t> ahead =
-        node == robot.node ? FindAhead(robot, robot.aheadNodes) : std::vector<std::size_t>();
-    for (const std::size_t between : ahead)
-    {
-        if (std::ranges::count(claim, between) == 0)
-        {
-            claim.push_back(between);
-        }
-    }
-    if (robot.bPlaced && node == robot.node && claim == robot.heldNodes)
+        FindAhead(robot, *node, node == robot.node ? robot.aheadNodes : ListSupposedBehind(robot, *node));
+    std::erase_if(ahead, [&claim](std::size_t between) { return std::ranges::count(claim, between) > 0; });
+    std::vector<std::size_t> held(claim);
+    held.insert(held.end(), ahead.begin(), ahead.end());
+    if (robot.bPlaced && node == robot.node && held == robot.heldNodes)
     {
         return;
     }
-    if (!_traffic.TryStand(robot.index, *node, std::span(claim).subspan(1)))
+    std::erase_if(robot.supposedNodes, [&ahead](std::size_t supposed) {
+        return std::ranges::count(ahead, supposed) == 0;
+    });
+    YieldSupposed(claim);
+    if (!_traffic.TryStand(robot.index, *node, std::span(claim).subspan(1), ahead))
     {
         const auto taken = std::ranges::find_if(claim, [this, &robot](std::size_t other) {
             return !_traffic.IsFreeFor(other, robot.index);
@@ -114,7 +114,7 @@ void PlanEngine::Impl::Place(Robot& robot)
         const std::size_t holder = *_traffic.GetHolderOrNull(*taken);
         robot.bPlaced = false;
         // Where it is all the same nobody else is let.
-        _traffic.HoldFree(robot.index, claim);
+        _traffic.HoldPossible(robot.index, held);
         RaiseAlarm(MakePlaceAlarm(
             robot,
             fmt::format(
@@ -125,9 +125,10 @@ void PlanEngine::Impl::Place(Robot& robot)
         return;
     }
     ClearAlarm(MakePlaceAlarm(robot, {}));
-    robot.aheadNodes = std::move(ahead);
+    // An order that is none of the engine's may be given up between two nodes, too.
+    robot.aheadNodes.assign(held.begin() + 1, held.end());
     robot.node = node;
-    robot.heldNodes = std::move(claim);
+    robot.heldNodes = std::move(held);
     robot.bPlaced = true;
     robot.wish.reset();
     ++_standingChanges;
@@ -270,6 +271,7 @@ bool PlanEngine::Impl::TryAdvance(Robot& robot, std::size_t routeIndex)
         _traffic.Pass(robot.index, routeIndex - drive.passed);
         _bDispatchNeeded = true;
         robot.aheadNodes.clear();
+        robot.supposedNodes.clear();
     }
     drive.passed = routeIndex;
     robot.node = drive.nodes[routeIndex];
@@ -278,18 +280,21 @@ bool PlanEngine::Impl::TryAdvance(Robot& robot, std::size_t routeIndex)
 
 /// Which of the nodes ahead a robot without a drive keeps: all while it still drives, or nobody knows; then those between
 /// which it has come to a stand.
-std::vector<std::size_t> PlanEngine::Impl::FindAhead(const Robot& robot, std::span<const std::size_t> ahead) const
+std::vector<std::size_t> PlanEngine::Impl::FindAhead(
+    const Robot& robot,
+    std::size_t node,
+    std::span<const std::size_t> ahead) const
 {
     if (!robot.state.has_value() || robot.state->bDriving)
     {
         return {ahead.begin(), ahead.end()};
     }
-    std::size_t from = *robot.node;
+    std::size_t from = node;
     for (const std::size_t next : ahead)
     {
         if (robot.state->bPoseKnown && IsBetween(*robot.state, _site.GetNodes()[from], _site.GetNodes()[next]))
         {
-            return from == *robot.node ? std::vector<std::size_t>{next} : std::vector<std::size_t>{from, next};
+            return from == node ? std::vector<std::size_t>{next} : std::vector<std::size_t>{from, next};
         }
         from = next;
     }
@@ -330,11 +335,13 @@ void PlanEngine::Impl::EndDrive(Robot& robot)
     const std::size_t begin = drive.passed + 1;
     if (!drive.bConfirmed)
     {
-        robot.aheadNodes = FindAhead(robot, robot.aheadNodes); // of the drive before: this one it never had
+        robot.aheadNodes =
+            FindAhead(robot, *robot.node, robot.aheadNodes); // of the drive before: this one it never had
     }
     else if (begin < drive.grantedCount)
     {
-        robot.aheadNodes = FindAhead(robot, std::span(drive.nodes).subspan(begin, drive.grantedCount - begin));
+        robot.aheadNodes =
+            FindAhead(robot, *robot.node, std::span(drive.nodes).subspan(begin, drive.grantedCount - begin));
     }
     else
     {
@@ -348,7 +355,7 @@ void PlanEngine::Impl::EndDrive(Robot& robot)
             robot.heldNodes.push_back(between);
         }
     }
-    const bool bStands = _traffic.TryStand(robot.index, *robot.node, std::span(robot.heldNodes).subspan(1));
+    const bool bStands = _traffic.TryStand(robot.index, *robot.node, {}, std::span(robot.heldNodes).subspan(1));
     assert(bStands);
     static_cast<void>(bStands);
     robot.drive.reset();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -104,6 +105,7 @@ std::size_t Traffic::GetEnd(const Vehicle& vehicle)
 /// What was true of homecomings stays true where nodes were only given back, or granted, if it was so of all robots.
 void Traffic::Note(bool bOnlyFreed)
 {
+    bOnlyFreed = !std::exchange(_bPassedOn, false) && bOnlyFreed;
     for (Homecoming& homecoming : _homecomings)
     {
         homecoming.bValid = homecoming.bValid && bOnlyFreed && homecoming.bAll;
@@ -129,19 +131,27 @@ void Traffic::Free(std::size_t node)
     }
 }
 
-void Traffic::FreeAll(std::size_t robot)
+/// Whoever waits for the node holds it from now on: for nobody else it was free between.
+void Traffic::GiveBack(std::size_t node)
 {
-    Vehicle& vehicle = _vehicles[robot];
-    for (const std::size_t node : vehicle.path)
+    Free(node);
+    const auto waiting = std::ranges::find(_awaited, node, &Awaited::node);
+    if (waiting == _awaited.end())
     {
-        Free(node);
+        return;
     }
-    std::ranges::for_each(vehicle.extra, [this](std::size_t node) { Free(node); });
-    vehicle.path.clear();
-    vehicle.extra.clear();
+    const std::size_t robot = waiting->robot;
+    _awaited.erase(waiting);
+    Hold(robot, node);
+    _vehicles[robot].extra.push_back(node);
+    _bPassedOn = true;
 }
 
-bool Traffic::TryStand(std::size_t robot, std::size_t node, std::span<const std::size_t> extra)
+bool Traffic::TryStand(
+    std::size_t robot,
+    std::size_t node,
+    std::span<const std::size_t> extra,
+    std::span<const std::size_t> possible)
 {
     const auto isOthers = [this, robot](std::size_t wanted) {
         return _holders[wanted].has_value() && _holders[wanted] != robot;
@@ -150,23 +160,38 @@ bool Traffic::TryStand(std::size_t robot, std::size_t node, std::span<const std:
     {
         return false;
     }
+    std::vector<std::size_t> wanted(extra.begin(), extra.end());
+    wanted.insert(wanted.end(), possible.begin(), possible.end());
     // Within what it holds already it takes nothing from others.
-    const auto isOwn = [this, robot](std::size_t wanted) {
-        return _holders[wanted] == robot;
+    const auto isOwn = [this, robot](std::size_t held) {
+        return _holders[held] == robot;
     };
-    const bool bHeld = isOwn(node) && std::ranges::all_of(extra, isOwn);
-    FreeAll(robot);
-    _vehicles[robot].path.push_back(node);
-    Hold(robot, node);
-    if (!extra.empty())
+    const bool bHeld = isOwn(node) && std::ranges::all_of(wanted, isOwn);
+    Vehicle& vehicle = _vehicles[robot];
+    std::vector<std::size_t> held = std::exchange(vehicle.path, {node});
+    std::ranges::move(std::exchange(vehicle.extra, {}), std::back_inserter(held));
+    std::erase_if(_awaited, [robot](const Awaited& awaited) { return awaited.robot == robot; });
+    if (!isOwn(node))
     {
-        HoldFree(robot, extra);
+        Hold(robot, node);
     }
+    for (const std::size_t old : held)
+    {
+        if (old != node && std::ranges::count(wanted, old) == 0)
+        {
+            GiveBack(old);
+        }
+        else if (old != node && std::ranges::count(vehicle.extra, old) == 0)
+        {
+            vehicle.extra.push_back(old);
+        }
+    }
+    HoldPossible(robot, wanted);
     Note(bHeld);
     return true;
 }
 
-void Traffic::HoldFree(std::size_t robot, std::span<const std::size_t> nodes)
+void Traffic::HoldPossible(std::size_t robot, std::span<const std::size_t> nodes)
 {
     for (const std::size_t node : nodes)
     {
@@ -174,9 +199,24 @@ void Traffic::HoldFree(std::size_t robot, std::span<const std::size_t> nodes)
         {
             Hold(robot, node);
             _vehicles[robot].extra.push_back(node);
+            Note(false);
+        }
+        else if (const Awaited awaited{robot, node};
+                 _holders[node] != robot && std::ranges::count(_awaited, awaited) == 0)
+        {
+            _awaited.push_back(awaited);
         }
     }
-    Note(false);
+}
+
+void Traffic::Disown(std::size_t robot, std::size_t node)
+{
+    std::erase(_awaited, Awaited{robot, node});
+    if (std::erase(_vehicles[robot].extra, node) > 0)
+    {
+        GiveBack(node);
+        Note(true);
+    }
 }
 
 std::size_t Traffic::Extend(std::size_t robot, std::span<const std::size_t> ahead)
@@ -238,13 +278,13 @@ void Traffic::Pass(std::size_t robot, std::size_t count)
     assert(count < vehicle.path.size());
     for (std::size_t i = 0; i < count; ++i)
     {
-        Free(vehicle.path[i]);
+        GiveBack(vehicle.path[i]);
     }
     vehicle.path.erase(vehicle.path.begin(), vehicle.path.begin() + static_cast<std::ptrdiff_t>(count));
     if (count > 0)
     {
-        std::ranges::for_each(vehicle.extra, [this](std::size_t node) { Free(node); });
-        vehicle.extra.clear();
+        std::erase_if(_awaited, [robot](const Awaited& awaited) { return awaited.robot == robot; });
+        std::ranges::for_each(std::exchange(vehicle.extra, {}), [this](std::size_t node) { GiveBack(node); });
         Note(true);
     }
 }
@@ -255,7 +295,7 @@ void Traffic::Shorten(std::size_t robot, std::size_t count)
     assert(count > 0);
     while (vehicle.path.size() > count)
     {
-        Free(vehicle.path.back());
+        GiveBack(vehicle.path.back());
         vehicle.path.pop_back();
     }
     Note(true);

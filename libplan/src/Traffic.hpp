@@ -42,6 +42,15 @@ class Traffic
         bool bValid = false;
     };
 
+    /// A node that another one holds, and that the robot is to hold as soon as it is given back.
+    struct Awaited
+    {
+        std::size_t robot = 0;
+        std::size_t node = 0;
+
+        bool operator==(const Awaited&) const = default;
+    };
+
     enum class EStanding : std::uint8_t
     {
         AllMove, ///< As if every robot could move.
@@ -55,6 +64,8 @@ class Traffic
     std::vector<std::uint16_t> _covers; ///< Of each node: how many held nodes exclude it.
     std::vector<std::uint16_t> _homes;  ///< Of each node: how many homes exclude it.
     std::array<Homecoming, 2> _homecomings;
+    std::vector<Awaited> _awaited; ///< In the order in which they were asked for.
+    bool _bPassedOn = false;       ///< Something that was given back is held by another since the last Note.
     std::vector<std::size_t> _blockers;
     bool _bReturnsKnown = false;
     std::uint64_t _freedCount = 0;
@@ -75,12 +86,20 @@ public:
     void SetMovable(std::size_t robot, bool bMovable);
     [[nodiscard]] bool IsMovable(std::size_t robot) const;
 
-    /// It stands on the node, may be on the extra ones too, and holds nothing else. False, and nothing is changed, where
-    /// another robot holds one of them.
-    [[nodiscard]] bool TryStand(std::size_t robot, std::size_t node, std::span<const std::size_t> extra = {});
+    /// It stands on the node, may be on the extra ones too, and holds nothing else but the possible ones (HoldPossible).
+    /// False, and nothing is changed, where another robot holds the node or an extra one.
+    [[nodiscard]] bool TryStand(
+        std::size_t robot,
+        std::size_t node,
+        std::span<const std::size_t> extra = {},
+        std::span<const std::size_t> possible = {});
 
-    /// Holds those of the nodes that nobody has, beside what it holds: it may be there, whoever else is.
-    void HoldFree(std::size_t robot, std::span<const std::size_t> nodes);
+    /// It may be there, whoever else is: holds the nodes beside what it holds, those of others as soon as they give them
+    /// back.
+    void HoldPossible(std::size_t robot, std::span<const std::size_t> nodes);
+
+    /// Takes back one node of HoldPossible.
+    void Disown(std::size_t robot, std::size_t node);
 
     /// Grants the next nodes of its way, behind the last one that it holds: as many as can be, none where the first
     /// cannot. Returns how many; see GetBlockers where it is none.
@@ -128,7 +147,7 @@ private:
     [[nodiscard]] static std::size_t GetEnd(const Vehicle& vehicle);
     void Hold(std::size_t robot, std::size_t node);
     void Free(std::size_t node);
-    void FreeAll(std::size_t robot);
+    void GiveBack(std::size_t node);
     void Note(bool bOnlyFreed);
     void Cover(const Vehicle& vehicle, std::vector<std::uint16_t>& covers, bool bAdd) const;
     [[nodiscard]] bool IsAnyFixed() const;

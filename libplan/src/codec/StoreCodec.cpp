@@ -178,7 +178,8 @@ struct JsonFields<Planning::RobotWorkChanged>
         Optional("mark", &Planning::RobotWorkChanged::mark),
         Optional("job", &Planning::RobotWorkChanged::job),
         Optional("pauseAsked", &Planning::RobotWorkChanged::bPauseAsked),
-        Optional("doubtful", &Planning::RobotWorkChanged::bDoubtful));
+        Optional("doubtful", &Planning::RobotWorkChanged::bDoubtful),
+        Optional("nodeIds", &Planning::RobotWorkChanged::nodeIDs));
 };
 
 template <>

@@ -87,9 +87,9 @@ std::vector<StoreBatch> MakeBatches()
     progressed.progress.control = EPlanControl::Pause;
     progressed.progress.controlCount = 2;
     progressed.progress.requestIDs = {"T1", "T2"};
-    const RobotWorkChanged work{"LR01", "C1", {"C0"}, std::nullopt, "5 5 0", true, false};
+    const RobotWorkChanged work{"LR01", "C1", {"C0"}, std::nullopt, "5 5 0", true, false, {"N1", "N2"}};
     const StartJob job{"P1", 1, "J1", "CassetteLoad", "A01.CP01", "A01.CP01", "LR01.CP01", "C1", "C2", "5 5 0"};
-    const RobotWorkChanged later{"LR01", "C2", {"C1", "C0"}, job, "", false, true};
+    const RobotWorkChanged later{"LR01", "C2", {"C1", "C0"}, job, "", false, true, {"N2"}};
     return {
         {{PlanAdded{MakeRecord(1, "P1")}, PlanAdded{MakeRecord(2, "P2")}, PlanAdded{MakeRecord(3, "P3")}}},
         {{progressed,
@@ -191,8 +191,8 @@ TEST_CASE("Store: files of the first and second schema are brought forward, and 
         CHECK(loaded->carriers.size() == 1);
         CHECK(loaded->robotWorks.empty());
         CHECK(loaded->tscState == (version == 2 ? ETscState::Paused : ETscState::Auto));
-        REQUIRE(
-            store->Append({{PlanAdded{MakeRecord(2, "P2")}, RobotWorkChanged{"LR01", "C", {}, {}, {}, false, false}}}));
+        REQUIRE(store->Append(
+            {{PlanAdded{MakeRecord(2, "P2")}, RobotWorkChanged{"LR01", "C", {}, {}, {}, false, false, {"N1"}}}}));
         CHECK(store->Load()->plans.back().transactionID == "request-P2");
         CHECK(store->Load()->robotWorks.size() == 1);
     }

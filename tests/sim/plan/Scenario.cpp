@@ -212,8 +212,8 @@ void ChooseOptions(Scenario& scenario, Dice& dice)
     {
         std::ranges::move(*Core::ParseLocationRange(set + ".MP01-08"), std::back_inserter(options.places));
     }
-    // Longer than any robot is out of reach: whoever is silent for longer after a restart has no place that is kept for it.
-    options.restartWait = std::chrono::minutes(3);
+    // Shorter, too, than some robots are out of reach.
+    options.restartWait = std::chrono::seconds(dice.GetBetween(0, 60));
     options.baseLength = dice.GetBetween(1, 4);
     options.bInitialPendingReported = dice.IsHit(200);
     options.bLowerPriorityFirst = dice.IsHit(200);

@@ -284,6 +284,28 @@ TEST_CASE("After a restart the nodes that a robot may still drive to are nobody 
     CHECK(world.GetTraceOf("command LR01 ").size() == 1);
 }
 
+TEST_CASE("After a restart nobody is sent to where a robot that is not there yet may be, until it is out of service")
+{
+    for (const bool bDriving : {false, true})
+    {
+        PlanWorld world(1, true);
+        BeginPlan(world, MakeLogisticsPlan("P1"), bDriving ? "Step 1 InProgress" : "Job 1 P1-a4 InProgress");
+        world.Crash();
+        world.Restart(MakeTestOptions(true), MakeTestSite());
+        for (const char* robotID : {"LR02", "CR01", "CR02"})
+        {
+            world.Raise(robotID, LinkChanged{true});
+            world.TellState(robotID);
+        }
+        REQUIRE(TryRunFor(world, MakeTestOptions(true).restartWait));
+        world.Submit(MakeLogisticsPlan("P2")); // its first place is that of P1
+        REQUIRE(world.TryRun());
+        CHECK(world.GetTraceOf("command LR02 ").empty());
+        world.Ask(SetMaintenance{"LR01", true, 0});
+        REQUIRE(TryRunUntil(world, "P2", "Job 1 P2-a4 Completed"));
+    }
+}
+
 TEST_CASE("After a restart a plan that was paused stays so, and goes on where it was when it is resumed")
 {
     for (const char* report :

@@ -76,6 +76,8 @@ struct RobotWorkChanged
     std::string mark;            ///< StateChanged::mark, when all this was written down.
     bool bPauseAsked = false;    ///< It was told to pause, and has not shown since that it goes on.
     bool bDoubtful = false;      ///< It may have done jobs of its plan that could not be written down.
+    /// Where it may be: while it drives what was left of its way when this was written down, else where it stands.
+    std::vector<std::string> nodeIDs;
 
     bool operator==(const RobotWorkChanged&) const = default;
 };
