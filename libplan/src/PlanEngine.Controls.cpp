@@ -67,11 +67,7 @@ void PlanEngine::Impl::Answer(ActivePlan& plan, bool bSucceeded, const std::stri
     {
         Robot& robot = _robots[*plan.robot];
         robot.bStandAwaited = false;
-        StopConfirming(robot);
-        if (robot.drive.has_value() && robot.drive->instead.has_value())
-        {
-            StartConfirming(robot, _options.controls.cancelTimeout); // that it gives its present way up for another one
-        }
+        StopConfirmingControl(robot);
     }
     for (std::size_t count = std::exchange(plan.record.progress.controlCount, 0); count > 0; --count)
     {
@@ -477,6 +473,16 @@ void PlanEngine::Impl::StopConfirming(Robot& robot)
     if (std::exchange(robot.bConfirming, false))
     {
         CancelTimer(EEngineTimer::ControlConfirm, GetRobotID(robot));
+    }
+}
+
+/// What it is to confirm beside the control has its time anew: that it gives its present way up for another one.
+void PlanEngine::Impl::StopConfirmingControl(Robot& robot)
+{
+    StopConfirming(robot);
+    if (robot.drive.has_value() && robot.drive->instead.has_value())
+    {
+        StartConfirming(robot, _options.controls.cancelTimeout);
     }
 }
 

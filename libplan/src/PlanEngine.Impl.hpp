@@ -380,6 +380,7 @@ private:
     void GoOn(Robot& robot);
     void StartConfirming(Robot& robot, Core::Duration limit);
     void StopConfirming(Robot& robot);
+    void StopConfirmingControl(Robot& robot);
     void OnControlTimeout(Robot& robot);
     void StartJobTimer(Robot& robot, Core::Duration limit);
     void StopJobTimer(Robot& robot);

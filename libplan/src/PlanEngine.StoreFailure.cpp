@@ -158,7 +158,7 @@ void PlanEngine::Impl::WithdrawPause(Robot& robot)
         progress.control.reset();
         progress.controlCount = 0;
         _progressed.insert(robot.planOrNull->record.plan.planID);
-        StopConfirming(robot);
+        StopConfirmingControl(robot);
     }
 }
 
