@@ -147,6 +147,7 @@ public:
         bool bOnline = false;
         bool bPlaced = false;      ///< Has told where it stands since the start.
         bool bHomeRefused = false; ///< Until the timer HomeRetry.
+        unsigned homeRefusals = 0; ///< One after the other, without that it moved or had to be made usable.
         bool bTouched = true;      ///< Its status may have changed.
         bool bPauseWanted = false; ///< It was told to pause and not to go on.
         bool bResumeOwed = false;  ///< It was told to go on and has not shown that it does.
@@ -464,6 +465,7 @@ private:
     [[nodiscard]] bool CanServe(const Robot& robot, const ActivePlan& plan) const;
     [[nodiscard]] static bool IsMoreUrgent(const Robot* left, const Robot* right);
     void OnNoRoute(Robot& robot, std::size_t target);
+    void RefuseHome(Robot& robot);
 
     // Robots that wait for one another (PlanEngine.Yielding.cpp).
     void PartStuck();

@@ -78,6 +78,7 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
     FollowBattery(robot);
     if (IsUsable(robot) && !bWasUsable)
     {
+        robot.homeRefusals = 0;
         _bDispatchNeeded = true;
     }
 }
@@ -127,6 +128,7 @@ void PlanEngine::Impl::Place(Robot& robot)
     ClearAlarm(MakePlaceAlarm(robot, {}));
     // An order that is none of the engine's may be given up between two nodes, too.
     robot.aheadNodes.assign(held.begin() + 1, held.end());
+    robot.homeRefusals = node == robot.node ? robot.homeRefusals : 0;
     robot.node = node;
     robot.heldNodes = std::move(held);
     robot.bPlaced = true;
@@ -272,6 +274,7 @@ bool PlanEngine::Impl::TryAdvance(Robot& robot, std::size_t routeIndex)
         _bDispatchNeeded = true;
         robot.aheadNodes.clear();
         robot.supposedNodes.clear();
+        robot.homeRefusals = 0;
     }
     drive.passed = routeIndex;
     robot.node = drive.nodes[routeIndex];
@@ -428,9 +431,7 @@ void PlanEngine::Impl::OnDriveRejected(Robot& robot, const DriveRejected& event)
     Note(robot, "did not do its drive: " + event.reason);
     if (goal == EGoal::Home)
     {
-        robot.retreatNode.reset();
-        robot.bHomeRefused = true;
-        StartTimer(EEngineTimer::HomeRetry, GetRobotID(robot), _options.homeRetry);
+        RefuseHome(robot);
         return;
     }
     if (robot.planOrNull == nullptr)

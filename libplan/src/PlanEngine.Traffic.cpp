@@ -370,10 +370,18 @@ void PlanEngine::Impl::OnNoRoute(Robot& robot, std::size_t target)
         FailPlan(*robot.planOrNull, text);
         return;
     }
+    RefuseHome(robot);
+    Note(robot, text);
+}
+
+/// Sent home again later, each time twice as late: one that stands between two nodes refuses until somebody comes.
+void PlanEngine::Impl::RefuseHome(Robot& robot)
+{
+    constexpr unsigned MOST_DOUBLINGS = 6;
     robot.retreatNode.reset();
     robot.bHomeRefused = true;
-    StartTimer(EEngineTimer::HomeRetry, GetRobotID(robot), _options.homeRetry);
-    Note(robot, text);
+    StartTimer(EEngineTimer::HomeRetry, GetRobotID(robot), _options.homeRetry * (1U << robot.homeRefusals));
+    robot.homeRefusals = std::min(robot.homeRefusals + 1, MOST_DOUBLINGS);
 }
 
 /// Begun with the first nodes that are granted; without any it is not begun.

@@ -159,6 +159,22 @@ TEST_CASE("9 cancel.confirm_timeout: a drive that is given up after that is begu
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
 }
 
+TEST_CASE("A robot that refuses to drive home is asked again less and less often, and goes when it can")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 2 P1-b2 InProgress");
+    world.GetRobot("LR01").bRejectDrives = true;
+    const std::size_t before = world.GetTraceOf("command LR01 Drive").size();
+    static_cast<void>(TryRunFor(world, 1h));
+    CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+    const std::size_t asked = world.GetTraceOf("command LR01 Drive").size() - before;
+    CHECK(asked > 12);
+    CHECK(asked < 20);
+    world.GetRobot("LR01").bRejectDrives = false;
+    REQUIRE(world.TryRun());
+    CHECK(world.GetRobot("LR01").GetOccupied().front() == "D-CHG01");
+}
+
 TEST_CASE("A robot that stands where the map has nothing is not used, keeps what it held, and goes on when it is back")
 {
     for (const std::string nodeID : {"X99", ""})

@@ -147,7 +147,8 @@ struct EngineOptions
     DispatchOptions dispatch;
     EMovingPosition movingPosition = EMovingPosition::Last;
     std::chrono::milliseconds extensionDelay{2'000}; ///< A drive that is not confirmed is extended after this.
-    std::chrono::milliseconds homeRetry{5'000};      ///< Between attempts of a robot that refuses to drive home.
+    /// Before the second attempt of a robot that refuses to drive home; then twice as long each time, up to 64 times that.
+    std::chrono::milliseconds homeRetry{5'000};
     /// After a restart nobody sets out before every robot has told where it stands and may still drive, at most so long.
     std::chrono::milliseconds restartWait{30'000};
     std::chrono::milliseconds storeRetry{1'000};
