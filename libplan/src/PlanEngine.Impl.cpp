@@ -269,7 +269,7 @@ void PlanEngine::Impl::CollectWork()
         // A mark alone is no reason to write: it is that of the moment when a command or a job's end was written down.
         RobotWorkChanged unmarked = work;
         unmarked.mark = robot.storedWork.mark;
-        if (!bNothing && unmarked != robot.storedWork)
+        if (!bNothing && (std::exchange(robot.bMarkDue, false) || unmarked != robot.storedWork))
         {
             work.nodeIDs = ListNodes(robot);
             robot.storedWork = work;

@@ -178,6 +178,7 @@ public:
         bool bStandAwaited = false; ///< After a restart: what its plan's control comes to shows once it stands.
         /// After a restart, until it has shown what it was told last: what of that was written down.
         std::optional<RobotWorkChanged> trace;
+        bool bMarkDue = false; ///< Its mark is stored though nothing else has changed.
         /// It may have done more jobs of its plan than were written down: an operator is asked about each.
         bool bDoubtful = false;
         bool bWorkTouched = false; ///< What is stored of its work may have changed.
@@ -421,6 +422,7 @@ private:
 
     // Steps and jobs (PlanEngine.Work.cpp).
     void BeginPlan(ActivePlan& plan, Robot& robot);
+    static void NoteEvidence(Robot& robot);
     void BeginStep(ActivePlan& plan, Robot& robot);
     void MarkArrived(Robot& robot);
     void BeginWork(Robot& robot);

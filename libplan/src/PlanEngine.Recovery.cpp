@@ -319,8 +319,9 @@ void PlanEngine::Impl::CheckTrace(Robot& robot)
     {
         bMore = !trace->job.has_value() && state.mark != trace->mark; // of one that was commanded the adapter tells
     }
-    else if (state.shownCommandID.has_value() && !trace->commandID.empty())
+    else if (state.shownCommandID.has_value())
     {
+        // Nothing shown: either it never had any, or it was switched off meanwhile.
         const bool bNeverHadAny = state.shownCommandID->empty() && trace->earlierIDs.empty();
         bMore = !bNeverHadAny && *state.shownCommandID != trace->commandID
             && std::ranges::count(trace->earlierIDs, *state.shownCommandID) == 0;

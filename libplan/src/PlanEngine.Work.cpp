@@ -43,9 +43,21 @@ void PlanEngine::Impl::BeginPlan(ActivePlan& plan, Robot& robot)
     plan.record.progress.robotID = GetRobotID(robot);
     robot.planOrNull = &plan;
     robot.bHomeRefused = false;
+    NoteEvidence(robot);
     _begun.push_back(plan.record.plan.planID);
     ChangePlan(plan, EPlanState::InProgress, {});
     BeginStep(plan, robot);
+}
+
+/// What it shows as it begins a plan is stored with that: what it shows beyond it after a crash was done for the plan.
+void PlanEngine::Impl::NoteEvidence(Robot& robot)
+{
+    if (robot.commandID.empty() && robot.state.has_value())
+    {
+        robot.commandID = robot.state->shownCommandID.value_or(std::string()); // of whoever commanded it before
+    }
+    robot.bWorkTouched = true;
+    robot.bMarkDue = true;
 }
 
 void PlanEngine::Impl::BeginStep(ActivePlan& plan, Robot& robot)

@@ -92,6 +92,52 @@ TEST_CASE("A crash while the disk fails: each job that the robot may have done i
     CHECK(GetHeldJob(world).empty());
 }
 
+TEST_CASE("A crash while the disk fails: so is the first job of a robot of which no command is written down")
+{
+    const std::string before = GENERATE("", "an order of another system");
+    PlanWorld world(1, true);
+    world.Connect();
+    StateChanged state;
+    state.lastNodeID = "D-CHG01";
+    state.shownCommandID = before;
+    world.Raise("LR01", state);
+    StateChanged inTheWay;
+    inTheWay.lastNodeID = "D-CHG03";
+    inTheWay.bDriving = true;
+    inTheWay.heldNodeIDs = {"L01"};
+    world.Raise("LR02", inTheWay);
+    world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(TryRunUntil(world, "P1", "Step 1 Dispatched"));
+    world.store.bFails = true;
+    world.TellState("LR02");
+    REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").doneJobs.size() == 1; }));
+    world.Crash();
+    world.store.bFails = false;
+    world.Restart(ACS::Testing::MakeTestOptions(true), ACS::Testing::MakeTestSite());
+    world.Connect();
+    REQUIRE(world.TryRun());
+    CHECK(GetHeldJob(world) == "P1-a4");
+    world.Settle("P1", "P1-a4", EJobAnswer::Done);
+    REQUIRE(world.TryRun());
+    world.Settle("P1", "P1-b2", EJobAnswer::Again);
+    FinishPlan(world);
+    CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
+}
+
+TEST_CASE("What an arm shows as its plan begins is written down with that")
+{
+    PlanWorld world;
+    world.Connect();
+    StateChanged state;
+    state.lastNodeID = "D-CHG02";
+    state.mark = "5 5 0";
+    world.Raise("CR01", state);
+    world.Submit(MakeControlPlan("P1"));
+    REQUIRE(TryRunUntil(world, "P1", "Plan InProgress"));
+    const std::vector<RobotWorkChanged>& works = world.store.GetState().robotWorks;
+    CHECK(std::ranges::find(works, "CR01", &RobotWorkChanged::robotID)->mark == "5 5 0");
+}
+
 TEST_CASE("A robot that shows nothing after a restart, as it was switched off meanwhile, has its next job asked for")
 {
     PlanWorld world;
