@@ -361,7 +361,8 @@ void PlanEngine::Impl::FollowPause(Robot& robot, bool bBack, bool bWasPaused)
         return;
     }
     const StateChanged& state = *robot.state;
-    robot.bResumeOwed = robot.bResumeOwed && state.bPaused;
+    // In manual mode it may not have heard of it, and still come to a stand.
+    robot.bResumeOwed = robot.bResumeOwed && (state.bPaused || !state.bAutomatic);
     if (bBack && robot.bResumeOwed)
     {
         Command(robot, Planning::Resume{});

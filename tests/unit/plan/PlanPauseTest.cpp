@@ -375,3 +375,27 @@ TEST_CASE("A job's time limit stands still while its plan is paused")
     CHECK(world.GetNow().steady - resumed > std::chrono::seconds(4));
     CHECK(world.GetNow().steady - resumed < std::chrono::seconds(10));
 }
+
+TEST_CASE("A robot that comes to a stand in manual mode, after it was told to go on, is told again when it is back")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    world.GetRobot("LR01").bIgnoresPause = true;
+    world.Control(EPlanControl::Pause, "P1");
+    StateChanged state;
+    state.lastNodeID = "L01";
+    state.bAutomatic = false;
+    state.bDriving = true;
+    world.Raise("LR01", state);
+    world.Raise("LR01", DriveRejected{world.driveIDs.at("LR01"), "the vehicle lost the order"});
+    CHECK(world.GetReportsOf("P1").back() == "PauseResult Failed");
+    CHECK(world.GetTraceOf("command LR01 Resume").size() == 1);
+    world.Raise("LR01", state);
+    state.bPaused = true;
+    state.bDriving = false;
+    world.Raise("LR01", state);
+    CHECK(world.GetTraceOf("command LR01 Resume").size() == 1);
+    state.bAutomatic = true;
+    world.Raise("LR01", state);
+    CHECK(world.GetTraceOf("command LR01 Resume").size() == 2);
+}
