@@ -111,6 +111,7 @@ Mutator::CommandOutcome Mutator::OnCommand(const Planning::CommandRobot& command
     if (const auto* driveOrNull = std::get_if<Planning::Drive>(&command.command); driveOrNull != nullptr)
     {
         _drives[command.robotID] = *driveOrNull;
+        _standing.erase(command.robotID);
     }
     if (Is(EMutation::ResumeSwallowed) && std::holds_alternative<Planning::Resume>(command.command))
     {
@@ -139,6 +140,7 @@ Mutator::CommandOutcome Mutator::OnCommand(const Planning::CommandRobot& command
     if (Is(EMutation::StandsTooEarly) && cancelOrNull != nullptr)
     {
         outcome.raised.emplace_back(Planning::DriveCancelled{cancelOrNull->driveID, {}});
+        _standing.insert(command.robotID);
     }
     return outcome;
 }
@@ -146,6 +148,15 @@ Mutator::CommandOutcome Mutator::OnCommand(const Planning::CommandRobot& command
 std::vector<Planning::RobotEvent> Mutator::OnEvent(const std::string& robotID, const Planning::RobotEvent& event) const
 {
     std::vector<Planning::RobotEvent> events{event};
+    auto* const stateOrNull = std::get_if<Planning::StateChanged>(&events.front());
+    if (Is(EMutation::StandsTooEarly) && stateOrNull != nullptr
+        && (stateOrNull->bOccupied || _standing.contains(robotID)))
+    {
+        stateOrNull->bDriving = false;
+        stateOrNull->bOccupied = false;
+        stateOrNull->bPoseKnown = false;
+        stateOrNull->heldNodeIDs.clear();
+    }
     const auto* const startedOrNull = std::get_if<Planning::JobStarted>(&event);
     if (Is(EMutation::JobFinishedEarly) && startedOrNull != nullptr)
     {

@@ -41,6 +41,7 @@ private:
     std::optional<Planning::OutboxEntry> _heldBack;
     std::map<std::string, Planning::Drive> _drives; ///< The latest of each robot.
     std::set<std::string> _denied;                  ///< CommandIDs.
+    std::set<std::string> _standing;                ///< Robots that count as standing until their next drive.
 
 public:
     Mutator(EMutation mutation, Dice& dice, Core::IRandom& random);
