@@ -44,7 +44,7 @@ THIRD_PARTY = {
     "openstream_asio": (
         "fmt/", "tl/", "boost/asio", "boost/system/", "netinet/", "pthread.h", "sched.h", "sys/mman.h", "sys/prctl.h",
         "sys/socket.h"),
-    "plan_sqlite": ("fmt/", "tl/", "SQLiteCpp/", "sqlite3.h", "fcntl.h", "sys/file.h", "unistd.h"),
+    "plan_sqlite": ("fmt/", "tl/", "SQLiteCpp/", "sqlite3.h", "fcntl.h", "sys/file.h", "sys/stat.h", "unistd.h"),
 }
 PUBLIC_THIRD_PARTY = ("fmt/", "tl/", "boost/asio/any_io_executor.hpp")
 IMPURE_STANDARD = ("thread", "mutex", "shared_mutex", "condition_variable", "future", "semaphore", "latch", "barrier",

@@ -13,6 +13,7 @@
 #include "OperatorRoutes.hpp"
 #include "PlanLog.hpp"
 #include "RobotHost.hpp"
+#include "StoreSummary.hpp"
 #include "StoreWatch.hpp"
 #include "StoreWorker.hpp"
 #include <acs/core/Overloaded.hpp>
@@ -51,6 +52,7 @@ constexpr std::uint64_t DRAIN_TIMER = 3;
 constexpr std::uint64_t SETTLE_TIMER = 4;
 constexpr std::uint64_t STATUS_TIMER = 5;
 constexpr std::uint64_t STORE_TIMER = 6;
+constexpr std::uint64_t STORE_CHECK_TIMER = 7;
 constexpr std::uint64_t FIRST_ENGINE_TIMER = 1000;
 
 } // namespace
@@ -97,6 +99,25 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         if (_bStopping && !_loop.IsStoring() && _stopsOpen == 0)
         {
             StopLinks();
+        }
+    }
+
+    /// A write shows by itself whether the file is still there.
+    void CheckStore()
+    {
+        if (!_loop.IsStoring() && !_storeWatch.GetObstacleOrNull().has_value()) // else it is tried all the time
+        {
+            _store.CheckAsync();
+        }
+        _timers.Start(STORE_CHECK_TIMER, StoreWatch::CHECK_INTERVAL);
+    }
+
+    void OnStoreLost(const Core::Error& error)
+    {
+        if (!_loop.IsStoring())
+        {
+            _storeWatch.OnLost(error);
+            _loop.OnStoreLost(error);
         }
     }
 
@@ -159,6 +180,10 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         else if (key == STORE_TIMER)
         {
             _storeWatch.OnLate();
+        }
+        else if (key == STORE_CHECK_TIMER)
+        {
+            CheckStore();
         }
         else
         {
@@ -428,7 +453,8 @@ public:
           _store(
               _surroundings.executor,
               std::move(store),
-              [this](const Core::Result<void>& result) { OnStored(result); }),
+              [this](const Core::Result<void>& result) { OnStored(result); },
+              [this](const Core::Error& error) { OnStoreLost(error); }),
           _mcs(
               _surroundings.clock,
               _surroundings.logger.MakeFor("mcs"),
@@ -501,6 +527,7 @@ public:
         }
         _timers.Start(GRACE_TIMER, _config.operations.workGrace);
         StartStatusTimer();
+        CheckStore();
         _mqtt.Start();
         _mcs.Start();
     }
@@ -556,6 +583,9 @@ Core::Result<std::unique_ptr<Acsd>> Acsd::Create(Surroundings surroundings, Acsd
     {
         return tl::unexpected<Core::Error>(state.error());
     }
+    surroundings.logger.MakeFor("store").Info(
+        MakeStoreSummary((*store)->GetOrigin(), *state),
+        {{"path", config.storeFile}});
     auto impl = std::make_unique<Impl>(std::move(surroundings), std::move(config), std::move(*store));
     const Core::Result<void> opened = impl->Open(std::move(*state));
     if (!opened)

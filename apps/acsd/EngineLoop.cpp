@@ -3,6 +3,7 @@
 #include <acs/core/Overloaded.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <span>
 #include <utility>
 #include <vector>
@@ -102,6 +103,19 @@ void EngineLoop::OnStored(const Core::Result<void>& result)
         _actions = std::move(instead);
         _executed = 0;
     }
+    Work();
+}
+
+void EngineLoop::OnStoreLost(const Core::Error& error)
+{
+    if (_storing.has_value() || _bClosed)
+    {
+        return;
+    }
+    assert(_executed == _actions.size());
+    _actions.clear();
+    _executed = 0;
+    _engine.OnStoreLost(Core::Describe(error), _clock.GetNow(), _actions);
     Work();
 }
 

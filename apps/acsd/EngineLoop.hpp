@@ -64,6 +64,9 @@ public:
     /// The batch is on disk, or could not be stored: then the engine decides anew about what stood behind it.
     void OnStored(const Core::Result<void>& result);
 
+    /// The store has shown, without a batch, that it would fail; nothing while one is on its way, which will fail itself.
+    void OnStoreLost(const Core::Error& error);
+
     /// From now on commands are refused, those that wait too, and all other tasks are forgotten; what is being stored is
     /// still brought to its end.
     void Close();

@@ -31,12 +31,21 @@ Core::Duration StoreWatch::OnStored(const Core::Result<void>& result, Core::Stea
         const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(took);
         _logger.Warning("the disk has answered", {{"after", fmt::format("{} s", seconds.count())}});
     }
-    _bFails = !result.has_value();
-    if (_bFails)
+    if (!result.has_value())
     {
-        _logger.Error("the store fails", {{"reason", Core::Describe(result.error())}});
+        OnLost(result.error());
+    }
+    else if (!std::exchange(_fault, {}).empty())
+    {
+        _logger.Warning("the store works again");
     }
     return took;
+}
+
+void StoreWatch::OnLost(const Core::Error& error)
+{
+    _fault = Core::Describe(error);
+    _logger.Error("the store fails", {{"reason", _fault}});
 }
 
 std::optional<std::string> StoreWatch::GetObstacleOrNull() const
@@ -45,7 +54,7 @@ std::optional<std::string> StoreWatch::GetObstacleOrNull() const
     {
         return "the store does not answer";
     }
-    return _bFails ? std::optional<std::string>("the store cannot be written") : std::nullopt;
+    return _fault.empty() ? std::nullopt : std::optional("the store cannot be written: " + _fault);
 }
 
 } // namespace ACS::Acsd

@@ -17,12 +17,15 @@ class StoreWatch
 {
     Core::Logger _logger;
     Core::SteadyTime _began;
-    bool _bFails = false;
+    std::string _fault; ///< Why the store failed last; empty: it did not.
     bool _bHangs = false;
 
 public:
     /// Nothing is told to anybody before a write is over. A good disk takes milliseconds.
     static constexpr std::chrono::milliseconds LIMIT{5'000};
+
+    /// Between two looks at the file's name: so long a file that was removed can go unnoticed where nothing is written.
+    static constexpr std::chrono::milliseconds CHECK_INTERVAL{2'000};
 
     explicit StoreWatch(Core::Logger logger);
 
@@ -32,6 +35,9 @@ public:
 
     /// Returns how long it took.
     Core::Duration OnStored(const Core::Result<void>& result, Core::SteadyTime now);
+
+    /// A look at the files has failed, without a write.
+    void OnLost(const Core::Error& error);
 
     /// Why plans cannot be taken for the store's sake.
     [[nodiscard]] std::optional<std::string> GetObstacleOrNull() const;

@@ -18,21 +18,30 @@ class StoreWorker final
     struct Impl;
     std::shared_ptr<Impl> _impl;
 
+    template <typename TWork, typename TAnswer>
+    void Do(TWork work, TAnswer answer);
+
 public:
     using StoredHandler = std::function<void(const Core::Result<void>& result)>;
+    using LostHandler = std::function<void(const Core::Error& error)>;
 
+    /// The second handler is called for each check that has failed.
     StoreWorker(
         const boost::asio::any_io_executor& executor,
         std::unique_ptr<Planning::IPlanStore> store,
-        StoredHandler handler);
+        StoredHandler handler,
+        LostHandler lostHandler);
     StoreWorker(const StoreWorker&) = delete;
     StoreWorker& operator=(const StoreWorker&) = delete;
 
-    /// Waits until what was begun is on disk; the handler is not called any more.
+    /// Waits until what was begun is on disk; no handler is called any more.
     ~StoreWorker();
 
     /// One batch after the other, each answered by one call of the handler, never from within.
     void Append(const Planning::StoreBatch& batch);
+
+    /// Has the store look whether what it holds will be found again; nothing while the check before is not answered.
+    void CheckAsync();
 };
 
 } // namespace ACS::Acsd

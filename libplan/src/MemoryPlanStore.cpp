@@ -80,6 +80,11 @@ Core::Result<void> MemoryPlanStore::Append(const StoreBatch& batch)
     return {};
 }
 
+Core::Result<void> MemoryPlanStore::Check()
+{
+    return {};
+}
+
 const StoredState& MemoryPlanStore::GetState() const noexcept
 {
     return _state;

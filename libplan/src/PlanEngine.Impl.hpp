@@ -264,6 +264,7 @@ public:
         std::string_view reason,
         Core::Now now,
         EngineActions& out);
+    void OnStoreLost(std::string_view reason, Core::Now now, EngineActions& out);
 
     [[nodiscard]] std::vector<OutboxEntry> GetUnacknowledged() const;
     [[nodiscard]] OutboxSummary GetOutboxSummary() const;
@@ -532,6 +533,7 @@ private:
         EngineActions& out);
     [[nodiscard]] bool TryWithdraw(const CommandRobot& command);
     void WithdrawPause(Robot& robot);
+    void TellStoreFailure(std::string_view reason, EngineActions& out);
     void StartStoreRetry(EngineActions& out);
     void KeepForStore(std::vector<StoreChange> changes);
     [[nodiscard]] static Alarm MakeStoreAlarm();

@@ -23,6 +23,24 @@ void PlanEngine::Impl::OnStoreFailed(
     _bStoreAttempted = false;
     const bool bPlanRefused = TakeBatchBack(batch) > 0;
     TakeActionsBack(skipped, bPlanRefused, reason, out);
+    TellStoreFailure(reason, out);
+}
+
+void PlanEngine::Impl::OnStoreLost(std::string_view reason, Core::Now now, EngineActions& out)
+{
+    if (_bStoreFailing)
+    {
+        return; // it is tried again all the time, and fails for this or for another reason
+    }
+    _now = now;
+    _bStoreFailing = true;
+    _bStoreAttempted = false;
+    TellStoreFailure(reason, out);
+}
+
+/// By the alarm, which waits for the store with all the rest, and tries again from now on.
+void PlanEngine::Impl::TellStoreFailure(std::string_view reason, EngineActions& out)
+{
     Alarm alarm = MakeStoreAlarm();
     alarm.message = "Plans cannot be stored: " + std::string(reason);
     RaiseAlarm(std::move(alarm));

@@ -50,6 +50,11 @@ void PlanEngine::OnStoreFailed(
     _impl->OnStoreFailed(batch, skipped, reason, now, out);
 }
 
+void PlanEngine::OnStoreLost(std::string_view reason, Core::Now now, EngineActions& out)
+{
+    _impl->OnStoreLost(reason, now, out);
+}
+
 std::vector<OutboxEntry> PlanEngine::GetUnacknowledged() const
 {
     return _impl->GetUnacknowledged();

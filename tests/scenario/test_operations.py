@@ -107,6 +107,68 @@ class Operations(ScenarioCase):
         self.wait_for_log(acsd, "the disk has answered")
         self.wait_for_status(address, lambda status: not status["obstacles"])
 
+    def read_ready(self, address):
+        try:
+            with urllib.request.urlopen(f"http://{address}/readyz", timeout=LOG_SECONDS) as response:
+                return response.status, response.read().decode()
+        except urllib.error.HTTPError as error:
+            with error:
+                return error.code, error.read().decode()
+
+    def post(self, address, path):
+        try:
+            with urllib.request.urlopen(urllib.request.Request(f"http://{address}{path}", method="POST")) as response:
+                return response.status, json.load(response)
+        except urllib.error.HTTPError as error:
+            with error:
+                return error.code, json.load(error)
+
+    def test_a_store_that_is_removed_is_told_saved_and_taken_up_by_the_next_start(self):
+        stub = self.start_stub()
+        robots = self.start_robots()
+        overrides = ("tsc.initial=paused",)
+        acsd = self.line.start_acsd(stub.address, robots, *overrides)
+        address = acsd.wait_ready()["http"]
+        store = self.line.folder / "acsd.db"
+        self.assertRegex(acsd.log.read_text(), rf"store: new, schema \d+ path={store}\n")
+        stub.wait_for("RobotStatusUpdate")
+        self.assertEqual(self.submit(stub, "P1")["result"], "Success")
+        self.wait_for_status(address, lambda status: status["plans"] and not status["obstacles"])
+
+        # Away and back: nobody writes anything, and it is noticed all the same.
+        away = self.line.folder / "away.db"
+        store.rename(away)
+        self.wait_for_status(address, lambda status: [alarm["errorCode"] for alarm in status["alarms"]] == ["ACS-1005"])
+        code, text = self.read_ready(address)
+        self.assertEqual(code, 503)
+        self.assertRegex(text, rf"the store cannot be written: {store}: expected the file .* restart.*\.rescued.*, found")
+        refusal = self.submit(stub, "P2")
+        self.assertEqual(refusal["result"], "Fail")
+        self.assertIn("removed or moved away", refusal["message"])
+        self.assertEqual(self.post(address, "/tsc/resume")[0], 503)
+        code, answer = self.post(address, "/robots/LR01/maintenance/on")
+        self.assertEqual((code, "It is not stored" in answer["message"]), (202, True))
+        away.rename(store)
+        self.wait_for_status(address, lambda status: not status["obstacles"] and not status["alarms"])
+        self.wait_for_log(acsd, "the store works again")
+        self.assertEqual(self.submit(stub, "P3")["result"], "Success")
+        self.assertEqual(self.post(address, "/tsc/pause")[0], 202)
+
+        # For good: the next start has it all, but what came after.
+        store.unlink()
+        self.wait_for_status(address, lambda status: status["obstacles"])
+        acsd.process.kill()
+        acsd.stop()
+        self.line.forget(acsd)
+        acsd = self.line.start_acsd(stub.address, robots, *overrides)
+        address = acsd.wait_ready()["http"]
+        status = self.read_status(address)
+        self.assertEqual({plan["planId"] for plan in status["plans"]}, {"P1", "P3"})
+        self.assertEqual({robot["robotId"] for robot in status["robots"] if robot["maintenance"]}, {"LR01"})
+        self.assertRegex(acsd.log.read_text(), r"store: schema \d+, 2 open plans taken up, no ended plans, .*in maintenance "
+                         r"LR01.*; the file was gone while it was open, and is made again of the copy")
+        self.assertTrue(store.exists())
+
     def test_a_broker_with_a_password_takes_acsd_by_its_name_and_the_password_in_its_file(self):
         stub = self.start_stub()
         passwords = self.line.folder / "passwords"

@@ -1,5 +1,8 @@
 #include "SchemaMigrations.hpp"
+#include "StoreFault.hpp"
+#include "StoreFiles.hpp"
 #include "StoreLock.hpp"
+#include "StoreRescue.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/plan/EPlanningError.hpp>
 #include <acs/plan/StoreCodec.hpp>
@@ -9,6 +12,10 @@
 #include <sqlite3.h>
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <cerrno>
+#include <filesystem>
+#include <optional>
+#include <system_error>
 #include <utility>
 
 namespace ACS::Planning
@@ -32,26 +39,16 @@ Core::WallTime ToTime(std::int64_t count)
     return Core::WallTime(Core::WallTime::duration(count));
 }
 
-tl::unexpected<Core::Error> Refuse(
-    EPlanningError error,
-    const std::string& path,
-    std::string expected,
-    std::string found)
+/// A path may have any character; three of them part a URI.
+std::string EscapeForUri(const std::string& path)
 {
-    return Core::Fail(make_error_code(error), path, std::move(expected), std::move(found));
-}
-
-tl::unexpected<Core::Error> RefuseFor(const SQLite::Exception& exception, const std::string& path)
-{
-    const int code = exception.getErrorCode();
-    const bool bCorrupt = code == SQLITE_CORRUPT || code == SQLITE_NOTADB;
-    return bCorrupt
-        ? Refuse(
-            EPlanningError::StoreCorrupt,
-            path,
-            "an undamaged plan store; restore it from a backup, or move it away to begin with an empty one",
-            exception.what())
-        : Refuse(EPlanningError::StoreFailed, path, "a file that can be read and written", exception.what());
+    std::string escaped;
+    for (const char character : path)
+    {
+        const bool bParts = character == '%' || character == '?' || character == '#';
+        escaped += bParts ? fmt::format("%{:02X}", static_cast<unsigned>(character)) : std::string(1, character);
+    }
+    return escaped;
 }
 
 int GetPragma(SQLite::Database& database, const char* pragma)
@@ -66,6 +63,10 @@ class SqlitePlanStore::Impl
     std::string _path;
     StoreLock _lock; ///< Outlives the database.
     SQLite::Database _database;
+    StoreFiles _files;
+    StoreOrigin _origin;
+    int _systemError = 0;
+    bool _bRescued = false; ///< The files are gone, and what they held is copied.
     // Prepared once; made after the migration, hence by pointer.
     std::unique_ptr<SQLite::Statement> _addPlan;
     std::unique_ptr<SQLite::Statement> _progressPlan;
@@ -82,15 +83,26 @@ class SqlitePlanStore::Impl
 
 public:
     /// Throws SQLite::Exception, as all of this class.
-    explicit Impl(const std::string& path)
+    Impl(const std::string& path, const std::string& file, int flags)
         : _path(path),
-          _database(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, BUSY_MILLISECONDS)
+          _database(file, flags, BUSY_MILLISECONDS)
     {
     }
 
     [[nodiscard]] const std::string& GetPath() const noexcept
     {
         return _path;
+    }
+
+    [[nodiscard]] StoreOrigin& GetOrigin() noexcept
+    {
+        return _origin;
+    }
+
+    /// The system's number of the write that failed last.
+    [[nodiscard]] int GetSystemError() const noexcept
+    {
+        return _systemError;
     }
 
     [[nodiscard]] Core::Result<void> Lock()
@@ -113,14 +125,20 @@ public:
         const bool bEmpty = version == 0 && applicationID == 0 && tables == 0;
         if (!bEmpty && applicationID != STORE_APPLICATION_ID)
         {
-            return Refuse(EPlanningError::StoreCorrupt, _path, "a plan store", "a database of another program");
+            return Refuse(
+                EPlanningError::StoreCorrupt,
+                _path,
+                "a plan store; give another path",
+                "a database of another program");
         }
         if (version > GetNewestSchemaVersion())
         {
             return Refuse(
                 EPlanningError::StoreTooNew,
                 _path,
-                fmt::format("a schema up to version {}", GetNewestSchemaVersion()),
+                fmt::format(
+                    "a schema up to version {}; start the newer program that wrote it, or restore what was saved before it",
+                    GetNewestSchemaVersion()),
                 fmt::format("version {}", version));
         }
         const std::string verdict = _database.execAndGet("PRAGMA quick_check(1)").getString();
@@ -129,9 +147,12 @@ public:
             return Refuse(
                 EPlanningError::StoreCorrupt,
                 _path,
-                "an undamaged plan store; restore it from a backup, or move it away to begin with an empty one",
+                fmt::format("an undamaged plan store; {}", RESTORE_IT),
                 verdict);
         }
+        _origin.bNew = bEmpty;
+        _origin.foundVersion = version;
+        _origin.version = GetNewestSchemaVersion();
         return {};
     }
 
@@ -154,16 +175,41 @@ public:
         _beginMaintenance = MakeStatement("INSERT OR REPLACE INTO maintenance VALUES (?)");
         _endMaintenance = MakeStatement("DELETE FROM maintenance WHERE robot_id = ?");
         _setSetting = MakeStatement("INSERT OR REPLACE INTO settings VALUES (?, ?)");
+        _files = StoreFiles(_path, std::string(sqlite3_db_filename(_database.getHandle(), "main")) + "-wal");
+    }
+
+    /// SQLite would go on writing to a file that has no name any more, and so is lost at the end.
+    [[nodiscard]] Core::Result<void> CheckFiles()
+    {
+        std::optional<StoreFileChange> change = _files.FindChangeOrNull();
+        if (!change.has_value())
+        {
+            if (std::exchange(_bRescued, false))
+            {
+                ForgetRescued(_path);
+            }
+            return {};
+        }
+        return Refuse(EPlanningError::StoreFailed, _path, Rescue(*change), std::move(change->found));
     }
 
     void Append(const StoreBatch& batch)
     {
+        errno = 0;
         SQLite::Transaction transaction(_database);
-        for (const StoreChange& change : batch.changes)
+        try
         {
-            std::visit([this](const auto& typed) { Write(typed); }, change);
+            for (const StoreChange& change : batch.changes)
+            {
+                std::visit([this](const auto& typed) { Write(typed); }, change);
+            }
+            transaction.commit();
         }
-        transaction.commit();
+        catch (const SQLite::Exception&)
+        {
+            _systemError = errno; // before the roll-back; SQLite's own note of it lacks failures of a commit
+            throw;
+        }
     }
 
     [[nodiscard]] Core::Result<StoredState> Load()
@@ -199,6 +245,29 @@ public:
     }
 
 private:
+    /// Saves what is stored, and says what is to be done.
+    [[nodiscard]] std::string Rescue(const StoreFileChange& change)
+    {
+        if (change.bOfLog)
+        {
+            _database.exec("PRAGMA wal_checkpoint(TRUNCATE)");
+            return "the log that it has opened; restart: what was stored is in the store itself, and nothing else is from now on";
+        }
+        const Core::Result<void> rescued = _bRescued ? Core::Result<void>() : RescueStore(_database, _path);
+        _bRescued = rescued.has_value();
+        if (!_bRescued)
+        {
+            return fmt::format(
+                "the file that it has opened; put it back before this program ends, or all is lost with it, as no copy can be "
+                "made: {}",
+                Core::Describe(rescued.error()));
+        }
+        return fmt::format(
+            "the file that it has opened; put it back, or {}restart: what was stored is in {}, and the next start takes it up",
+            change.bReplaced ? "move the other one away and " : "",
+            GetRescuePath(_path));
+    }
+
     [[nodiscard]] std::unique_ptr<SQLite::Statement> MakeStatement(const char* text)
     {
         return std::make_unique<SQLite::Statement>(_database, text);
@@ -297,7 +366,7 @@ private:
         return Refuse(
             EPlanningError::StoreCorrupt,
             _path,
-            "rows that can be read",
+            fmt::format("rows that can be read; {}", RESTORE_IT),
             fmt::format("{}: {}", row, Core::Describe(error)));
     }
 
@@ -317,7 +386,11 @@ private:
             }
             if (!IsFitting(*plan, *progress))
             {
-                return Refuse(EPlanningError::StoreCorrupt, _path, "a state for each step and job", row);
+                return Refuse(
+                    EPlanningError::StoreCorrupt,
+                    _path,
+                    fmt::format("a state for each step and job; {}", RESTORE_IT),
+                    row);
             }
             PlanRecord record;
             record.sequence = static_cast<std::uint64_t>(query.getColumn(0).getInt64());
@@ -393,7 +466,7 @@ private:
                 return {};
             }
         }
-        return Refuse(EPlanningError::StoreCorrupt, _path, "a state of the TSC", word);
+        return Refuse(EPlanningError::StoreCorrupt, _path, fmt::format("a state of the TSC; {}", RESTORE_IT), word);
     }
 
     template <typename TDecode, typename TValue>
@@ -422,9 +495,15 @@ SqlitePlanStore::~SqlitePlanStore() = default;
 
 Core::Result<std::unique_ptr<SqlitePlanStore>> SqlitePlanStore::Open(const std::string& path)
 {
+    Core::Result<void> usable = StoreFiles::CheckUsable(path);
+    const Core::Result<bool> rescued = usable.has_value() ? TakeUpRescued(path) : tl::unexpected(usable.error());
+    if (!rescued.has_value())
+    {
+        return tl::unexpected(rescued.error());
+    }
     try
     {
-        auto impl = std::make_unique<Impl>(path);
+        auto impl = std::make_unique<Impl>(path, path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
         if (Core::Result<void> checked = impl->Check(); !checked.has_value())
         {
             return tl::unexpected(std::move(checked.error()));
@@ -434,12 +513,55 @@ Core::Result<std::unique_ptr<SqlitePlanStore>> SqlitePlanStore::Open(const std::
             return tl::unexpected(std::move(locked.error()));
         }
         impl->Prepare();
+        impl->GetOrigin().bRescued = *rescued;
         return std::unique_ptr<SqlitePlanStore>(new SqlitePlanStore(std::move(impl)));
     }
     catch (const SQLite::Exception& exception)
     {
-        return RefuseFor(exception, path);
+        return RefuseFor(exception, path, "opening", 0);
     }
+}
+
+Core::Result<StoreOrigin> SqlitePlanStore::Inspect(const std::string& path)
+{
+    if (Core::Result<void> usable = StoreFiles::CheckUsable(path); !usable.has_value())
+    {
+        return tl::unexpected(std::move(usable.error()));
+    }
+    if (Core::Result<void> checked = CheckRescued(path); !checked.has_value())
+    {
+        return tl::unexpected(std::move(checked.error()));
+    }
+    std::error_code missing;
+    if (!std::filesystem::exists(path, missing))
+    {
+        const bool bRescued = std::filesystem::exists(GetRescuePath(path), missing);
+        return StoreOrigin{!bRescued, bRescued, 0, GetNewestSchemaVersion()};
+    }
+    try
+    {
+        // Without a log nothing is locked and no file is made beside it; what stands in a log is read by it only.
+        const auto logBytes = std::filesystem::file_size(path + "-wal", missing);
+        const bool bLog = !missing && logBytes > 0;
+        Impl impl(
+            path,
+            bLog ? path : "file:" + EscapeForUri(path) + "?immutable=1",
+            bLog ? SQLite::OPEN_READONLY : SQLite::OPEN_READONLY | SQLite::OPEN_URI);
+        if (Core::Result<void> checked = impl.Check(); !checked.has_value())
+        {
+            return tl::unexpected(std::move(checked.error()));
+        }
+        return impl.GetOrigin();
+    }
+    catch (const SQLite::Exception& exception)
+    {
+        return RefuseFor(exception, path, "opening", 0);
+    }
+}
+
+const StoreOrigin& SqlitePlanStore::GetOrigin() const noexcept
+{
+    return _impl->GetOrigin();
 }
 
 Core::Result<StoredState> SqlitePlanStore::Load()
@@ -450,12 +572,16 @@ Core::Result<StoredState> SqlitePlanStore::Load()
     }
     catch (const SQLite::Exception& exception)
     {
-        return RefuseFor(exception, _impl->GetPath());
+        return RefuseFor(exception, _impl->GetPath(), "reading", 0);
     }
 }
 
 Core::Result<void> SqlitePlanStore::Append(const StoreBatch& batch)
 {
+    if (Core::Result<void> same = Check(); !same.has_value())
+    {
+        return same;
+    }
     try
     {
         _impl->Append(batch);
@@ -463,7 +589,19 @@ Core::Result<void> SqlitePlanStore::Append(const StoreBatch& batch)
     }
     catch (const SQLite::Exception& exception)
     {
-        return RefuseFor(exception, _impl->GetPath());
+        return RefuseFor(exception, _impl->GetPath(), "writing", _impl->GetSystemError());
+    }
+}
+
+Core::Result<void> SqlitePlanStore::Check()
+{
+    try
+    {
+        return _impl->CheckFiles();
+    }
+    catch (const SQLite::Exception& exception)
+    {
+        return RefuseFor(exception, _impl->GetPath(), "saving what was in a lost log", 0);
     }
 }
 

@@ -139,6 +139,39 @@ TEST_CASE_METHOD(
     CHECK(_engine.GetPlanOrNull("P0").has_value());
 }
 
+TEST_CASE_METHOD(
+    LoopTest,
+    "A store that is lost without a write is told by the alarm, refuses plans, and is tried until it is back")
+{
+    Submit("P0", 10);
+    _loop.OnStoreLost(DISK_FULL); // a batch is on its way, and fails by itself where it is so
+    CHECK(_engine.GetActiveAlarms().empty());
+    _loop.OnStored({});
+    const std::size_t stored = _batches.size();
+    _loop.OnStoreLost(DISK_FULL);
+    _loop.OnStoreLost(DISK_FULL);
+    REQUIRE(_engine.GetActiveAlarms().size() == 1);
+    CHECK(_engine.GetActiveAlarms()[0].errorCode == "ACS-1005");
+    CHECK(_engine.GetActiveAlarms()[0].message == "Plans cannot be stored: " + Core::Describe(DISK_FULL));
+    CHECK(_engine.GetPlanOrNull("P0").has_value());
+    CHECK(_batches.size() == stored);
+    const EngineTimer retry{EEngineTimer::StoreRetry, {}};
+    CHECK(std::ranges::count(_timers, retry) == 1);
+    Submit("P1", 1);
+    REQUIRE(_loop.IsStoring());
+    _loop.OnStored(tl::unexpected(DISK_FULL));
+    CHECK(ListReplies() == Replies{{10, true}, {1, false}});
+    _loop.Push(retry);
+    REQUIRE(_loop.IsStoring());
+    REQUIRE(TryStoreAll());
+    _loop.Push(retry);
+    REQUIRE(TryStoreAll());
+    CHECK(_engine.GetActiveAlarms().empty());
+    Submit("P2", 2);
+    REQUIRE(TryStoreAll());
+    CHECK(ListReplies() == Replies{{10, true}, {1, false}, {2, true}});
+}
+
 TEST_CASE_METHOD(LoopTest, "What comes between two plans keeps its place")
 {
     Submit("P1", 1);

@@ -37,8 +37,27 @@ TEST_CASE("A write that fails keeps acsd from being ready until one succeeds")
     StoreWatch watch{Core::Logger(sink, "store")};
     watch.OnBegun(clock.GetNow().steady);
     watch.OnStored(Core::Fail(Core::ECoreError::TooLarge, "acsd.db", "room", "disk full"), clock.GetNow().steady);
-    CHECK(watch.GetObstacleOrNull() == std::string("the store cannot be written"));
+    CHECK(
+        watch.GetObstacleOrNull()
+        == std::string("the store cannot be written: acsd.db: expected room, found disk full"));
     CHECK(sink.Contains(Core::ELogLevel::Error, "the store fails"));
+    CHECK(sink.ContainsField("reason", "acsd.db: expected room, found disk full"));
+    watch.OnStored({}, clock.GetNow().steady);
+    CHECK_FALSE(watch.GetObstacleOrNull().has_value());
+    CHECK(sink.Contains(Core::ELogLevel::Warning, "the store works again"));
+}
+
+TEST_CASE("A file that is gone keeps acsd from being ready without a write, until one succeeds")
+{
+    Testing::ManualClock clock;
+    Testing::RecordingLogSink sink;
+    StoreWatch watch{Core::Logger(sink, "store")};
+    watch.OnLost({Core::ECoreError::OutOfRange, "acsd.db", "the file", "nothing"});
+    CHECK(
+        watch.GetObstacleOrNull()
+        == std::string("the store cannot be written: acsd.db: expected the file, found nothing"));
+    CHECK(sink.Contains(Core::ELogLevel::Error, "the store fails"));
+    watch.OnBegun(clock.GetNow().steady);
     watch.OnStored({}, clock.GetNow().steady);
     CHECK_FALSE(watch.GetObstacleOrNull().has_value());
 }

@@ -27,6 +27,12 @@ public:
                       : _store.Append(batch);
     }
 
+    [[nodiscard]] Core::Result<void> Check() override
+    {
+        return bFails ? Core::Fail(Planning::EPlanningError::StoreFailed, "acsd.db", "the file", "nothing")
+                      : Core::Result<void>();
+    }
+
     [[nodiscard]] const Planning::StoredState& GetState() const
     {
         return _store.GetState();

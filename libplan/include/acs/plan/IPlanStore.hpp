@@ -162,6 +162,10 @@ public:
 
     /// All changes as one transaction, on disk on return; on error none of them. Errors: EPlanningError::StoreFailed.
     [[nodiscard]] virtual Core::Result<void> Append(const StoreBatch& batch) = 0;
+
+    /// Whether what is stored will be found by the next program that opens it, as far as can be told without writing; to be
+    /// asked now and then. Errors: EPlanningError::StoreFailed (see PlanEngine::OnStoreLost).
+    [[nodiscard]] virtual Core::Result<void> Check() = 0;
 };
 
 } // namespace ACS::Planning

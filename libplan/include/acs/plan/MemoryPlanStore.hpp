@@ -13,6 +13,7 @@ class MemoryPlanStore final : public IPlanStore
 public:
     [[nodiscard]] Core::Result<StoredState> Load() override;
     [[nodiscard]] Core::Result<void> Append(const StoreBatch& batch) override;
+    [[nodiscard]] Core::Result<void> Check() override;
 
     [[nodiscard]] const StoredState& GetState() const noexcept;
 };

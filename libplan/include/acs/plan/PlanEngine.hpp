@@ -78,6 +78,10 @@ public:
         Core::Now now,
         EngineActions& out);
 
+    /// The store has shown that it would fail (IPlanStore::Check), with no batch on its way: as if one had failed. It is tried
+    /// again until it works.
+    void OnStoreLost(std::string_view reason, Core::Now now, EngineActions& out);
+
     /// Reports that the MCS has not acknowledged, oldest first: what is sent again after a registration. Those that are
     /// held back for a failing store are not in it.
     [[nodiscard]] std::vector<OutboxEntry> GetUnacknowledged() const;

@@ -2,6 +2,7 @@
 
 #include <acs/core/Result.hpp>
 #include <acs/plan/IPlanStore.hpp>
+#include <acs/plan_sqlite/StoreOrigin.hpp>
 
 #include <memory>
 #include <string>
@@ -27,10 +28,22 @@ public:
     /// Opens the file, or creates it. Errors, each naming the file: EPlanningError::StoreFailed (no such folder, no
     /// permission, another program has it), StoreCorrupt (damaged, or no file of ours), StoreTooNew. A file that is
     /// refused is left as it is.
+    /// Each tells path, what failed with the reason of the system or SQLite, and what to do.
     [[nodiscard]] static Core::Result<std::unique_ptr<SqlitePlanStore>> Open(const std::string& path);
+
+    /// What Open would find, without making, changing or taking anything; the store may be another program's at that
+    /// moment. Errors as of Open, but for who has it.
+    [[nodiscard]] static Core::Result<StoreOrigin> Inspect(const std::string& path);
+
+    [[nodiscard]] const StoreOrigin& GetOrigin() const noexcept;
 
     [[nodiscard]] Core::Result<StoredState> Load() override;
     [[nodiscard]] Core::Result<void> Append(const StoreBatch& batch) override;
+
+    /// The file, or its write-ahead log, was removed, moved or replaced while it is open: Append fails too, as what it
+    /// writes would be lost. All that is stored is copied to the path with ".rescued" at once. The files put back, all goes
+    /// on and the copy goes; else the next Open makes the store of the copy, or is refused where there is another file too.
+    [[nodiscard]] Core::Result<void> Check() override;
 };
 
 } // namespace ACS::Planning

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <acs/plan/IPlanStore.hpp>
+#include <acs/plan_sqlite/StoreOrigin.hpp>
+
+#include <string>
+
+namespace ACS::Acsd
+{
+
+/// What a start has found in its store, for the log: "schema 3, 2 open plans taken up, 120 ended plans, 1 report not
+/// acknowledged, no alarms".
+[[nodiscard]] std::string MakeStoreSummary(const Planning::StoreOrigin& origin, const Planning::StoredState& state);
+
+} // namespace ACS::Acsd

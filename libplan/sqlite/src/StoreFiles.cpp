@@ -1,0 +1,138 @@
+#include "StoreFiles.hpp"
+
+#include "StoreFault.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <fcntl.h>
+#include <filesystem>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+namespace
+{
+
+std::string DescribeErrno(int reason)
+{
+    return std::generic_category().message(reason);
+}
+
+tl::unexpected<Core::Error> RefuseFile(const std::string& path, std::string expected, std::string found)
+{
+    return Refuse(EPlanningError::StoreFailed, path, std::move(expected), std::move(found));
+}
+
+/// A folder in which the store's files can be made: it has more than one.
+Core::Result<void> CheckFolder(const std::string& path)
+{
+    std::string folder = std::filesystem::path(path).parent_path().string();
+    folder = folder.empty() ? "." : folder;
+    struct stat status = {};
+    if (::stat(folder.c_str(), &status) != 0)
+    {
+        return RefuseFile(
+            path,
+            fmt::format("a file in a folder that is there; make the folder {}, or give another path", folder),
+            fmt::format("{}: {}", folder, DescribeErrno(errno)));
+    }
+    if (!S_ISDIR(status.st_mode))
+    {
+        return RefuseFile(path, "a file in a folder; give another path", fmt::format("{}, which is no folder", folder));
+    }
+    if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0)
+    {
+        return RefuseFile(
+            path,
+            fmt::format(
+                "a folder in which this user may make files, as the store has some beside it; correct the owner or the rights "
+                "of {}",
+                folder),
+            fmt::format("{}: {}", folder, DescribeErrno(errno)));
+    }
+    return {};
+}
+
+} // namespace
+
+StoreFiles::StoreFiles(std::string path, std::string logPath)
+    : _path(std::move(path)),
+      _logPath(std::move(logPath)),
+      _store(FindOrNull(_path)),
+      _log(FindOrNull(_logPath))
+{
+}
+
+std::optional<StoreFileChange> StoreFiles::FindChangeOrNull() const
+{
+    if (FindOrNull(_path) != _store)
+    {
+        return MakeChange(_path, false);
+    }
+    return FindOrNull(_logPath) != _log ? std::optional(MakeChange(_logPath, true)) : std::nullopt;
+}
+
+Core::Result<void> StoreFiles::CheckUsable(const std::string& path)
+{
+    struct stat status = {};
+    if (::stat(path.c_str(), &status) != 0)
+    {
+        const int reason = errno;
+        if (reason == ENOENT || reason == ENOTDIR)
+        {
+            return CheckFolder(path);
+        }
+        return RefuseFile(
+            path,
+            "a path that can be followed; correct it, or the rights on its way",
+            DescribeErrno(reason));
+    }
+    if (S_ISDIR(status.st_mode))
+    {
+        return RefuseFile(path, "a file; give the path of one in that folder", "a folder");
+    }
+    if (!S_ISREG(status.st_mode))
+    {
+        return RefuseFile(path, "a regular file; give another path", "a device, a pipe or a socket");
+    }
+    if (::faccessat(AT_FDCWD, path.c_str(), R_OK | W_OK, AT_EACCESS) != 0)
+    {
+        return RefuseFile(
+            path,
+            "a file that this user may read and write; correct its owner or its rights",
+            DescribeErrno(errno));
+    }
+    return CheckFolder(path);
+}
+
+std::optional<StoreFiles::Identity> StoreFiles::FindOrNull(const std::string& path)
+{
+    struct stat status = {};
+    if (::stat(path.c_str(), &status) != 0)
+    {
+        return std::nullopt;
+    }
+    return Identity{status.st_dev, status.st_ino};
+}
+
+StoreFileChange StoreFiles::MakeChange(const std::string& path, bool bOfLog)
+{
+    struct stat status = {};
+    if (::stat(path.c_str(), &status) == 0)
+    {
+        return {bOfLog, true, fmt::format("another file in the place of {}, which was open", path)};
+    }
+    const int reason = errno;
+    return {
+        bOfLog,
+        false,
+        reason == ENOENT ? fmt::format("{} removed or moved away while it was open", path)
+                         : fmt::format("{} out of reach: {}", path, DescribeErrno(reason))};
+}
+
+} // namespace ACS::Planning

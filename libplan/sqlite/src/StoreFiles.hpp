@@ -1,0 +1,55 @@
+#pragma once
+
+#include <acs/core/Result.hpp>
+
+#include <optional>
+#include <string>
+#include <sys/stat.h>
+
+namespace ACS::Planning
+{
+
+/// What has become of a file that is open.
+struct StoreFileChange
+{
+    bool bOfLog = false;    ///< Only the write-ahead log is concerned.
+    bool bReplaced = false; ///< Another file has its name; else it is gone, or out of reach.
+    std::string found;      ///< The same in words.
+};
+
+/// The files of a store as the system sees them: whether they can be one, and whether what is open is still what the path
+/// leads to. A file that was removed while it is open can be written without an error, and is gone at the end.
+class StoreFiles
+{
+    /// Which file it is, whatever it is called.
+    struct Identity
+    {
+        dev_t device = 0;
+        ino_t number = 0;
+
+        bool operator==(const Identity&) const = default;
+    };
+
+    std::string _path;
+    std::string _logPath; ///< Of the write-ahead log: beside the file, where the path is a link.
+    std::optional<Identity> _store;
+    std::optional<Identity> _log;
+
+public:
+    StoreFiles() = default;
+
+    /// What the path leads to now: the database has just been opened by it.
+    StoreFiles(std::string path, std::string logPath);
+
+    /// Where the path does not lead to the files any more that were opened.
+    [[nodiscard]] std::optional<StoreFileChange> FindChangeOrNull() const;
+
+    /// Whether a store is there that this program may write, or can be made. EPlanningError::StoreFailed.
+    [[nodiscard]] static Core::Result<void> CheckUsable(const std::string& path);
+
+private:
+    [[nodiscard]] static std::optional<Identity> FindOrNull(const std::string& path);
+    [[nodiscard]] static StoreFileChange MakeChange(const std::string& path, bool bOfLog);
+};
+
+} // namespace ACS::Planning
