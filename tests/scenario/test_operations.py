@@ -191,6 +191,35 @@ class Operations(ScenarioCase):
             self.assertEqual(acsd.stop(), 0)
             self.line.forget(acsd)
 
+    def test_a_plan_goes_over_mqtts_with_certificates_of_both_sides(self):
+        """With a CA of one's own; without its file the broker is refused, and the log says why."""
+        key, certificate = self.line.folder / "broker.key", self.line.folder / "broker.pem"
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
+                        "-keyout", key, "-out", certificate, "-days", "2", "-subj", "/CN=broker",
+                        "-addext", "subjectAltName=IP:127.0.0.1"], check=True, capture_output=True)
+        broker_port = self.line.start_broker(access=(
+            "allow_anonymous true", f"certfile {certificate}", f"keyfile {key}", f"cafile {certificate}",
+            "require_certificate true"))
+        url = f"mqtts://127.0.0.1:{broker_port}"
+        arm = self.line.start_arm(TIME_SCALE).wait_ready()
+        self.line.start("vda-sim", "--broker", url, "--tls-ca", certificate, "--tls-certificate", certificate,
+                        "--tls-key", key, "--site", self.line.site_dir / "site.lif.json", "--time-scale", TIME_SCALE,
+                        "--vehicle", "LR01,type=LR", "--vehicle", "CR01,type=CR").wait_ready()
+        stub = self.start_stub()
+        stranger = self.line.start_acsd(stub.address, arm, f"mqtt.url={url}")
+        address = stranger.wait_ready()["http"]
+        self.wait_for_log(stranger, "certificate")
+        self.assertFalse(self.read_status(address)["links"]["mqtt"])
+        self.assertEqual(stranger.stop(), 0)
+        self.line.forget(stranger)
+
+        start = stub.count()
+        self.line.start_acsd(stub.address, arm, f"mqtt.url={url}", f"mqtt.ca_file={certificate}",
+                             f"mqtt.cert_file={certificate}", f"mqtt.key_file={key}").wait_ready()
+        stub.wait_for("RobotStatusUpdate", lambda message: message.payload["robotStatus"] == "Idle", start)
+        self.assertEqual(self.submit(stub, "P1")["result"], "Success")
+        stub.wait_for("PlanReport", lambda message: message.payload["status"] == "Completed")
+
     def test_sigterm_brings_all_reports_to_the_mcs_and_takes_no_more_plans(self):
         stub = self.start_stub()
         acsd = self.line.start_acsd(stub.address, self.start_robots(), "mcs.ack_timeout=200ms", "mcs.ack_retries=100",
