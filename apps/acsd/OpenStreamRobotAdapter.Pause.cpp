@@ -26,33 +26,41 @@ void OpenStreamRobotAdapter::CancelJob(const std::string& jobID, AdapterActions&
     {
         return;
     }
-    if (_phase == EJobPhase::Selected)
+    if (_phase == EJobPhase::Looking || _phase == EJobPhase::Selected)
     {
         FailJob("given up before it was begun", out);
+        return;
     }
-    else if (_bStopped && _controls.empty())
-    {
-        SendControl(EControl::ResetProgram, RESET_URL, "{}");
-    }
+    _bGivenUp = _bPauseWanted || _program != EProgram::Runs;
+    FollowPause(out);
 }
 
-/// The next step towards what is wanted, once the arm has answered the one before.
+/// The next step towards what is wanted, once it is known what came of the one before.
 void OpenStreamRobotAdapter::FollowPause(AdapterActions& out)
 {
-    if (_controls.empty() && _armState == EArmState::Ready)
+    const bool bFree = _controls.empty() && _look == ELook::None && _armState == EArmState::Ready;
+    if (bFree && _phase == EJobPhase::Selected && !_bPauseWanted)
     {
-        if (_bPauseWanted && _phase == EJobPhase::Running && !_bStopped)
+        _phase = EJobPhase::Starting;
+        SendControl(EControl::StartProgram, START_URL, "{}");
+    }
+    else if (bFree && _phase == EJobPhase::Running && _bJobStarted)
+    {
+        const bool bToStop = _program == EProgram::Runs && _bPauseWanted && !_bStopRefused;
+        if (bToStop || _program == EProgram::Doubtful)
         {
+            // Starting it on suspicion could run it a second time, had it come to its end.
+            _program = EProgram::Stopping;
             SendControl(EControl::StopProgram, STOP_URL, "{}");
         }
-        else if (!_bPauseWanted && _phase == EJobPhase::Running && _bStopped)
+        else if (_program == EProgram::Stopped && _bGivenUp)
         {
-            SendControl(EControl::GoOn, START_URL, "{}");
+            SendControl(EControl::ResetProgram, RESET_URL, "{}");
         }
-        else if (!_bPauseWanted && _phase == EJobPhase::Selected)
+        else if (_program == EProgram::Stopped && !_bPauseWanted)
         {
-            _phase = EJobPhase::Starting;
-            SendControl(EControl::StartProgram, START_URL, "{}");
+            _program = EProgram::GoingOn;
+            SendControl(EControl::GoOn, START_URL, "{}");
         }
     }
     TellPaused(out);
@@ -66,44 +74,75 @@ void OpenStreamRobotAdapter::TakeSettledPause(EControl kind, OpenStream::EContro
     {
         return; // it has ended meanwhile
     }
-    if (kind == EControl::StopProgram)
-    {
-        _bStopped = bAccepted;
-    }
-    else if (kind == EControl::ResetProgram && bAccepted)
+    if (kind == EControl::ResetProgram && bAccepted)
     {
         FailJob("given up while it was paused", out);
+        return;
     }
-    else if (kind == EControl::GoOn && (bAccepted || (bRefused && _bGoOnDoubtful)))
+    if (kind == EControl::ResetProgram)
     {
-        _bStopped = false;
-        _bGoOnDoubtful = false;
+        _bGivenUp = !bRefused;
+    }
+    else if (bAccepted)
+    {
+        LookAgain();
     }
     else if (kind == EControl::GoOn && bRefused)
     {
-        FailJob("the arm's controller refuses to go on with the program that was paused", out);
+        RefuseGoOn(out);
     }
-    else if (kind == EControl::GoOn)
+    else if (kind == EControl::StopProgram && bRefused)
     {
-        _bGoOnDoubtful = true; // sent again after the reconnect; a program that runs is not started twice
+        _program = EProgram::Runs;
+        _bStopRefused = true;
     }
-    if (!bRefused)
+    else
+    {
+        _bGoOnRepeated = _bGoOnRepeated || kind == EControl::GoOn;
+        _program = EProgram::Doubtful;
+    }
+    if (outcome == OpenStream::EControlOutcome::Unknown)
+    {
+        TellPaused(out); // the connection is gone: it is followed when the counters are back
+    }
+    else
     {
         FollowPause(out);
     }
-    TellPaused(out);
+}
+
+void OpenStreamRobotAdapter::RefuseGoOn(AdapterActions& out)
+{
+    if (_bGoOnRepeated)
+    {
+        _program = EProgram::Runs;
+        return;
+    }
+    FailJob("the arm's controller refuses to go on with the program that was paused", out);
 }
 
 bool OpenStreamRobotAdapter::IsArmStanding() const
 {
-    return _phase == EJobPhase::None || _phase == EJobPhase::Selected || (_phase == EJobPhase::Running && _bStopped);
+    switch (_phase)
+    {
+        case EJobPhase::None:
+        case EJobPhase::Looking:
+        case EJobPhase::Selected:
+            return true;
+        case EJobPhase::Running:
+            return _program == EProgram::Stopped;
+        case EJobPhase::Selecting:
+        case EJobPhase::Starting:
+        default:
+            return false;
+    }
 }
 
 /// When base and arm stand; no longer when both go on.
 bool OpenStreamRobotAdapter::IsPaused() const
 {
-    const bool bStillStopped = _bStopped && !_bPauseWanted;
-    return (_baseState.bPaused && IsArmStanding()) || bStillStopped;
+    const bool bStands = _program == EProgram::Stopped || _program == EProgram::GoingOn;
+    return (_baseState.bPaused && IsArmStanding()) || (bStands && !_bPauseWanted);
 }
 
 void OpenStreamRobotAdapter::TellPaused(AdapterActions& out)

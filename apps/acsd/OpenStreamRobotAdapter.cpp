@@ -146,6 +146,7 @@ void OpenStreamRobotAdapter::Handle(const Planning::RobotCommand& command, Core:
         if (bPause || std::holds_alternative<Planning::Resume>(command))
         {
             _bPauseWanted = bPause;
+            _bStopRefused = false;
             FollowPause(out);
         }
         _base.Handle(command, now, _baseActions);
@@ -156,8 +157,10 @@ void OpenStreamRobotAdapter::Handle(const Planning::RobotCommand& command, Core:
 void OpenStreamRobotAdapter::EndJob()
 {
     _phase = EJobPhase::None;
-    _bStopped = false;
-    _bGoOnDoubtful = false;
+    _program = EProgram::Runs;
+    _bStopRefused = false;
+    _bGoOnRepeated = false;
+    _bGivenUp = false;
 }
 
 Planning::StateChanged OpenStreamRobotAdapter::MakeState() const
@@ -177,7 +180,7 @@ void OpenStreamRobotAdapter::OnTimer(Planning::AdapterTimerID timer, Core::Now n
 {
     if (timer == START_TIMER)
     {
-        CheckDoubtfulStart(out);
+        CheckStart(out);
         return;
     }
     if (timer != MOTOR_TIMER)
@@ -238,14 +241,44 @@ void OpenStreamRobotAdapter::OnArmEvent(const OpenStream::ClientEvent& event, Co
             [&](const OpenStream::ClientReady&) { WatchMotor(out); },
             [&](const OpenStream::ClientData& data) { TakeData(data.line, out); },
             [&](const OpenStream::ClientControlSettled& settled) { TakeSettled(settled, out); },
-            [&](const OpenStream::ClientLost&) {
-                out.emplace_back(Planning::CancelAdapterTimer{MOTOR_TIMER});
-                out.emplace_back(Planning::CancelAdapterTimer{START_TIMER});
-                SetArmState(EArmState::Lost, out);
-            },
+            [&](const OpenStream::ClientMonitorStarted&) { _look = _look == ELook::Asked ? ELook::Due : _look; },
+            [&](const OpenStream::ClientControlFault& fault) { TakeFault(fault, out); },
+            [&](const OpenStream::ClientLost&) { TakeLoss(out); },
             [](const auto&) {
             }},
         event);
+}
+
+void OpenStreamRobotAdapter::TakeLoss(AdapterActions& out)
+{
+    out.emplace_back(Planning::CancelAdapterTimer{MOTOR_TIMER});
+    out.emplace_back(Planning::CancelAdapterTimer{START_TIMER});
+    SetArmState(EArmState::Lost, out);
+    _look = ELook::None;
+    _bGoOnRepeated = _bGoOnRepeated || _program == EProgram::GoingOn;
+    if (_program == EProgram::Stopping || _program == EProgram::GoingOn)
+    {
+        _program = EProgram::Doubtful;
+    }
+    if (_phase == EJobPhase::Looking || _phase == EJobPhase::Selected)
+    {
+        DisownJob(out); // another one may be selected by the time it is back
+    }
+}
+
+/// A refusal that came after the silence.
+void OpenStreamRobotAdapter::TakeFault(const OpenStream::ClientControlFault& fault, AdapterActions& out)
+{
+    const bool bOfStart = _phase == EJobPhase::Running && !_bJobStarted && !_bRecovered;
+    if (_phase == EJobPhase::Looking || bOfStart)
+    {
+        FailJob(fmt::format("the arm's controller refuses, status {}: {}", fault.status, fault.detail), out);
+    }
+    else if (_phase == EJobPhase::Running && (_program == EProgram::Stopping || _program == EProgram::GoingOn))
+    {
+        const bool bStop = _program == EProgram::Stopping;
+        TakeSettledPause(bStop ? EControl::StopProgram : EControl::GoOn, OpenStream::EControlOutcome::Refused, out);
+    }
 }
 
 void OpenStreamRobotAdapter::WatchMotor(AdapterActions& out)
@@ -261,7 +294,6 @@ void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, AdapterActi
     _recovery.reset();
     _jobID = job.jobID;
     _bJobStarted = false;
-    _bStartDoubtful = false;
     _bRecovered = false;
     const std::optional<std::string> rejection = GetRejectionReasonOrNull(job.action);
     if (rejection.has_value())
@@ -324,6 +356,11 @@ void OpenStreamRobotAdapter::TakeSettled(const OpenStream::ClientControlSettled&
     }
     const EControl kind = _controls.front();
     _controls.pop_front();
+    if (kind == EControl::MotorOn)
+    {
+        FollowPause(out); // its state shows what came of it
+        return;
+    }
     if (kind == EControl::StopProgram || kind == EControl::GoOn || kind == EControl::ResetProgram)
     {
         TakeSettledPause(kind, settled.outcome, out);
@@ -333,13 +370,13 @@ void OpenStreamRobotAdapter::TakeSettled(const OpenStream::ClientControlSettled&
         || (kind == EControl::StartProgram && _phase == EJobPhase::Starting);
     if (!bOfJob)
     {
-        return; // motor_on: its state shows what came of it; a job that has ended meanwhile
+        return; // a job that has ended meanwhile
     }
     switch (settled.outcome)
     {
         case OpenStream::EControlOutcome::Accepted:
-            _phase = _phase == EJobPhase::Selecting ? EJobPhase::Selected : EJobPhase::Running;
-            FollowPause(out);
+            _phase = _phase == EJobPhase::Selecting ? EJobPhase::Looking : EJobPhase::Running;
+            LookAgain();
             break;
         case OpenStream::EControlOutcome::Refused:
             FailJob(fmt::format("the arm's controller refuses, status {}: {}", settled.status, settled.detail), out);
@@ -357,7 +394,6 @@ void OpenStreamRobotAdapter::TakeSettled(const OpenStream::ClientControlSettled&
             {
                 // Started or not: the counters will tell after the reconnect. It is never started a second time.
                 _phase = EJobPhase::Running;
-                _bStartDoubtful = true;
             }
             break;
         default:
@@ -390,10 +426,44 @@ void OpenStreamRobotAdapter::TakeMotor(const Core::JsonText& result, AdapterActi
     }
     out.emplace_back(Planning::CancelAdapterTimer{MOTOR_TIMER});
     SetArmState(EArmState::Counting, out);
+    WatchCounters();
+}
+
+void OpenStreamRobotAdapter::WatchCounters()
+{
     const std::size_t words = std::max({_options.startedIndex, _options.finishedIndex, _options.failedIndex}) + 1;
     OpenStream::MonitorRequest monitor = MakeMonitor(_options.monitorUrl, _options.period);
     monitor.args = Core::JsonText::FromTrusted(fmt::format(R"({{"st":{},"len":{}}})", _options.firstByte, words));
     _outputs.armRequests.emplace_back(std::move(monitor));
+}
+
+/// Behind the CONTROL that has just settled.
+void OpenStreamRobotAdapter::LookAgain()
+{
+    _look = ELook::Asked;
+    WatchCounters();
+}
+
+void OpenStreamRobotAdapter::TakeLook(AdapterActions& out)
+{
+    if (_phase == EJobPhase::Looking && _counters != _counted)
+    {
+        DisownJob(
+            out); // the selection has given up a program, or somebody has run one: no evidence could tell them apart
+    }
+    else if (_phase == EJobPhase::Looking)
+    {
+        _phase = EJobPhase::Selected;
+    }
+    else if (_program == EProgram::Stopping)
+    {
+        _program = EProgram::Stopped;
+    }
+    else if (_program == EProgram::GoingOn)
+    {
+        _program = EProgram::Runs;
+    }
+    FollowPause(out);
 }
 
 void OpenStreamRobotAdapter::TakeCounters(const Core::JsonText& result, AdapterActions& out)
@@ -416,18 +486,24 @@ void OpenStreamRobotAdapter::TakeCounters(const Core::JsonText& result, AdapterA
     SetArmState(EArmState::Ready, out);
     const bool bReset = HasFallen(before.started, _counters.started) || HasFallen(before.finished, _counters.finished)
         || HasFallen(before.failed, _counters.failed);
-    if (bReset && _phase != EJobPhase::None)
+    const bool bBegun = _phase == EJobPhase::Starting || _phase == EJobPhase::Running;
+    if (bReset && bBegun)
     {
         FailJob("the arm's controller was restarted while its program ran: its counters began again", out);
         return;
     }
     FindJob(out);
     FollowJob(out);
+    if (_look == ELook::Due)
+    {
+        _look = ELook::None;
+        TakeLook(out);
+    }
     if (bFirst)
     {
         FollowPause(out);
     }
-    if (bFirst && _bStartDoubtful && !_bJobStarted && _phase == EJobPhase::Running)
+    if (bFirst && !_bJobStarted && _phase == EJobPhase::Running)
     {
         out.emplace_back(Planning::StartAdapterTimer{START_TIMER, START_LIMIT});
     }
@@ -472,7 +548,6 @@ void OpenStreamRobotAdapter::FindJob(AdapterActions& out)
     {
         // It may be on its way still. Whoever has not raised its first counter by then was not started.
         _bRecovered = true;
-        _bStartDoubtful = true;
         out.emplace_back(Planning::StartAdapterTimer{START_TIMER, START_LIMIT});
     }
     FollowJob(out);
@@ -480,9 +555,9 @@ void OpenStreamRobotAdapter::FindJob(AdapterActions& out)
 }
 
 /// A start that got lost on the way would leave the job running for ever.
-void OpenStreamRobotAdapter::CheckDoubtfulStart(AdapterActions& out)
+void OpenStreamRobotAdapter::CheckStart(AdapterActions& out)
 {
-    if (_bStartDoubtful && !_bJobStarted && _phase == EJobPhase::Running && _armState == EArmState::Ready)
+    if (!_bJobStarted && _phase == EJobPhase::Running && _armState == EArmState::Ready)
     {
         if (std::exchange(_bRecovered, false))
         {
@@ -499,7 +574,8 @@ void OpenStreamRobotAdapter::FollowJob(AdapterActions& out)
     {
         return;
     }
-    if (_counters.started != _counted.started && !std::exchange(_bJobStarted, true))
+    const bool bBegins = _counters.started != _counted.started && !std::exchange(_bJobStarted, true);
+    if (bBegins)
     {
         out.emplace_back(RaiseEvent{Planning::JobStarted{_jobID}});
     }
@@ -512,6 +588,10 @@ void OpenStreamRobotAdapter::FollowJob(AdapterActions& out)
         EndJob();
         out.emplace_back(RaiseEvent{Planning::JobFinished{std::exchange(_jobID, {})}});
         TellPaused(out);
+    }
+    else if (bBegins)
+    {
+        FollowPause(out);
     }
 }
 

@@ -34,9 +34,29 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     {
         None,
         Selecting, ///< The CONTROL that selects the program is under way.
+        Looking,   ///< It was not refused; the first look behind it has not come.
         Selected,  ///< It is started when the pause ends.
         Starting,  ///< The CONTROL that starts it is under way.
         Running,
+    };
+
+    /// What is known of a job's program that has begun.
+    enum class EProgram : std::uint8_t
+    {
+        Runs,
+        Stopping, ///< The CONTROL that stops it was sent; no look has come behind it.
+        Stopped,
+        GoingOn,  ///< Likewise of the one that starts it again.
+        Doubtful, ///< The connection broke meanwhile: it runs, or stands.
+    };
+
+    /// A CONTROL is answered by silence, also where it got lost. So the MONITOR is sent again behind it: its first sample is
+    /// of the time after the CONTROL, and whatever the controller refused has come before.
+    enum class ELook : std::uint8_t
+    {
+        None,
+        Asked, ///< The MONITOR was sent.
+        Due,   ///< It was taken: the next sample is the look.
     };
 
     /// What a CONTROL was for; they settle in the order in which they were sent.
@@ -73,12 +93,14 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     std::string _jobID;
     bool _bJobStarted = false;
     bool _bPauseWanted = false;
-    bool _bStopped = false;            ///< The program was stopped for a pause and not started again.
-    bool _bGoOnDoubtful = false;       ///< The connection broke while it was being started again.
+    EProgram _program = EProgram::Runs;
+    ELook _look = ELook::None;
+    bool _bStopRefused = false;        ///< The program cannot be stopped; not asked for again before the next pause.
+    bool _bGoOnRepeated = false;       ///< It may run already: that it does is no refusal.
+    bool _bGivenUp = false;            ///< The task is reset as soon as the program surely stands.
     bool _bPaused = false;             ///< As it was told last.
     Planning::StateChanged _baseState; ///< The latest that the base told.
     bool _bBaseStateKnown = false;
-    bool _bStartDoubtful = false;                ///< The connection broke while the program was being started.
     std::optional<Planning::StartJob> _recovery; ///< A job of before a restart; the counters have not come yet.
     bool _bRecovered = false;                    ///< The present job is such a one: its end may be that it never began.
     bool _bCounted = false;                      ///< Counters have come.
@@ -98,10 +120,16 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     void TakeMotor(const Core::JsonText& result, Planning::AdapterActions& out);
     void TakeCounters(const Core::JsonText& result, Planning::AdapterActions& out);
     void FollowJob(Planning::AdapterActions& out);
-    void CheckDoubtfulStart(Planning::AdapterActions& out);
+    void CheckStart(Planning::AdapterActions& out);
     void TakeSettled(const OpenStream::ClientControlSettled& settled, Planning::AdapterActions& out);
+    void WatchCounters();
+    void LookAgain();
+    void TakeLook(Planning::AdapterActions& out);
+    void TakeFault(const OpenStream::ClientControlFault& fault, Planning::AdapterActions& out);
+    void TakeLoss(Planning::AdapterActions& out);
     void TakeData(const OpenStream::DataLine& line, Planning::AdapterActions& out);
     void TakeSettledPause(EControl kind, OpenStream::EControlOutcome outcome, Planning::AdapterActions& out);
+    void RefuseGoOn(Planning::AdapterActions& out);
     void FollowPause(Planning::AdapterActions& out);
     void CancelJob(const std::string& jobID, Planning::AdapterActions& out);
     void EndJob();

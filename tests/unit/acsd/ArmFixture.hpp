@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,6 +16,13 @@
 
 namespace ACS::Acsd::Test
 {
+
+inline const std::string SELECT =
+    R"(CONTROL /project/context/tasks[0]/cur_prog_cnt {"pno":11,"sno":0,"fno":0,"ext_sel":0})";
+inline const std::string START = "CONTROL /project/robot/start {}";
+inline const std::string STOP = "CONTROL /project/robot/stop {}";
+inline const std::string RESET = "CONTROL /project/context/tasks[0]/reset {}";
+inline const std::string LOOK = "MONITOR /project/plc/m/val_s32";
 
 inline VDA5050::MasterOptions MakeBaseOptions()
 {
@@ -46,6 +54,22 @@ struct ArmFixture
         OpenStream::DataLine line;
         line.result = Core::JsonText::FromTrusted(std::string(json));
         Tell(OpenStream::ClientData{line, clock.GetNow()});
+    }
+
+    /// The MONITOR that was sent behind a CONTROL is taken, and shows its first sample.
+    void ShowLook(std::string_view counters = "[5,5,0]")
+    {
+        CHECK(TakeRequests() == std::vector<std::string>{LOOK});
+        Tell(OpenStream::ClientMonitorStarted{});
+        TellData(counters);
+    }
+
+    /// The CONTROL is answered by silence, and by a look behind it.
+    void Accept(std::string_view counters = "[5,5,0]")
+    {
+        static_cast<void>(TakeRequests());
+        Settle(OpenStream::EControlOutcome::Accepted);
+        ShowLook(counters);
     }
 
     void Settle(OpenStream::EControlOutcome outcome, int status = 0)
@@ -80,6 +104,16 @@ struct ArmFixture
         return !states.empty() && states.back().bPaused;
     }
 
+    /// Whether a program has to begin in time.
+    [[nodiscard]] bool IsStartWatched() const
+    {
+        constexpr Planning::AdapterTimerID START_TIMER = 101;
+        return std::any_of(actions.begin(), actions.end(), [](const Planning::AdapterAction& action) {
+            const auto* const startOrNull = std::get_if<Planning::StartAdapterTimer>(&action);
+            return startOrNull != nullptr && startOrNull->timer == START_TIMER;
+        });
+    }
+
     /// A job whose program runs.
     void StartRunning()
     {
@@ -87,10 +121,9 @@ struct ArmFixture
         BringUp();
         ShowBase(false);
         Command("J");
-        Settle(OpenStream::EControlOutcome::Accepted);
-        Settle(OpenStream::EControlOutcome::Accepted);
-        TellData("[6,5,0]");
-        static_cast<void>(TakeRequests());
+        Accept();
+        Accept("[6,5,0]");
+        CHECK(TakeRequests().empty());
     }
 
     /// Handshake, motor on, first counters.
@@ -138,11 +171,5 @@ struct ArmFixture
         return events;
     }
 };
-
-inline const std::string SELECT =
-    R"(CONTROL /project/context/tasks[0]/cur_prog_cnt {"pno":11,"sno":0,"fno":0,"ext_sel":0})";
-inline const std::string START = "CONTROL /project/robot/start {}";
-inline const std::string STOP = "CONTROL /project/robot/stop {}";
-inline const std::string RESET = "CONTROL /project/context/tasks[0]/reset {}";
 
 } // namespace ACS::Acsd::Test

@@ -29,7 +29,7 @@ TEST_CASE("A job selects its program, starts it, and is done when the finished c
     arm.BringUp();
     arm.Command("J");
     CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Accept();
     CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     arm.TellData("[5,5,0]");
     CHECK(arm.TakeEvents<Planning::JobStarted>().empty());
@@ -48,7 +48,7 @@ TEST_CASE("A counter that wraps around has changed, too")
     ArmFixture arm;
     arm.BringUp("[2147483647,2147483647,0]");
     arm.Command("J");
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Accept("[2147483647,2147483647,0]");
     arm.TellData("[-2147483648,-2147483648,0]");
     CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
 }
@@ -58,7 +58,7 @@ TEST_CASE("A program that raises the failed counter fails its job")
     ArmFixture arm;
     arm.BringUp();
     arm.Command("J");
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Accept();
     arm.Settle(OpenStream::EControlOutcome::Accepted);
     arm.TellData("[6,5,1]");
     REQUIRE(arm.TakeEvents<Planning::JobFailed>().size() == 1);
@@ -71,7 +71,7 @@ TEST_CASE("A refused CONTROL fails the job with the controller's status")
     ArmFixture arm;
     arm.BringUp();
     arm.Command("J");
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Accept();
     arm.Settle(OpenStream::EControlOutcome::Refused, 403);
     const auto failed = arm.TakeEvents<Planning::JobFailed>();
     REQUIRE(failed.size() == 1);
@@ -83,7 +83,7 @@ TEST_CASE("A start whose fate is not known is never sent again: the counters dec
     ArmFixture arm;
     arm.BringUp();
     arm.Command("J");
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Accept();
     static_cast<void>(arm.TakeRequests());
     arm.Settle(OpenStream::EControlOutcome::Unknown);
     arm.Tell(OpenStream::ClientLost{});
@@ -103,7 +103,7 @@ TEST_CASE("A start that got lost with the connection fails its job when the prog
     ArmFixture arm;
     arm.BringUp();
     arm.Command("J");
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Accept();
     arm.Settle(OpenStream::EControlOutcome::Unknown);
     arm.Tell(OpenStream::ClientLost{});
     arm.Tell(OpenStream::ClientReady{});
@@ -136,9 +136,8 @@ TEST_CASE("Counters that begin again are the work of a restart: the job has fail
     ArmFixture arm;
     arm.BringUp();
     arm.Command("J");
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
-    arm.TellData("[6,5,0]");
+    arm.Accept();
+    arm.Accept("[6,5,0]");
     arm.Tell(OpenStream::ClientLost{});
     arm.Tell(OpenStream::ClientReady{});
     arm.TellData(R"({"val":0})");
@@ -146,6 +145,74 @@ TEST_CASE("Counters that begin again are the work of a restart: the job has fail
     CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
     REQUIRE(arm.TakeEvents<Planning::JobFailed>().size() == 1);
     CHECK(arm.TakeEvents<Planning::JobFailed>().front().reason.find("restarted") != std::string::npos);
+}
+
+TEST_CASE("A start that was answered by silence and got lost fails its job when the program does not begin")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    arm.Accept();
+    arm.Settle(OpenStream::EControlOutcome::Accepted); // nobody heard it
+    arm.Tell(OpenStream::ClientLost{});
+    arm.Tell(OpenStream::ClientReady{});
+    arm.TellData(R"({"val":0})");
+    arm.actions.clear();
+    arm.TellData("[5,5,0]");
+    CHECK(arm.IsStartWatched());
+    arm.adapter.OnTimer(101, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+}
+
+TEST_CASE("A refusal that comes after the silence fails the job whose program it did not let begin")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    SECTION("Of the selection: nothing is started")
+    {
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT, LOOK});
+    }
+    SECTION("Of the start")
+    {
+        arm.Accept();
+        arm.Accept();
+    }
+    arm.Tell(OpenStream::ClientControlFault{403, std::nullopt, "a task is playing"});
+    CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+    CHECK(arm.TakeRequests().empty());
+}
+
+TEST_CASE("A selection that gave up another program is not taken for this one's failure: the job comes again")
+{
+    ArmFixture arm;
+    arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
+    arm.BringUp();
+    arm.ShowBase(false);
+    arm.Command("J");
+    arm.Accept("[5,5,1]"); // one that stood in its middle
+    CHECK(arm.TakeRequests().empty());
+    CHECK(arm.TakeEvents<Planning::StateChanged>().back().mark == "5 5 1");
+    CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    arm.Command("J");
+    arm.Accept("[5,5,1]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+}
+
+TEST_CASE("A program that was selected before the connection broke is selected again, and not just started")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    arm.Command("J");
+    arm.Accept();
+    arm.Tell(OpenStream::ClientLost{});
+    CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
+    arm.BringUp();
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests().empty());
 }
 
 TEST_CASE("A job of an action without a program fails with a reason")
@@ -207,7 +274,7 @@ TEST_CASE("A program that was surely not started is not the job's failure, whate
     }
     SECTION("Its start never left")
     {
-        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        arm.Accept();
         arm.Settle(OpenStream::EControlOutcome::NotSent);
     }
     CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
@@ -227,7 +294,7 @@ TEST_CASE("The settling of motor_on is not taken for that of a job's CONTROL")
     arm.Command("J");
     arm.Settle(OpenStream::EControlOutcome::Accepted); // motor_on, late
     CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Accept();
     CHECK(arm.TakeRequests() == std::vector<std::string>{START});
 }
 
@@ -236,7 +303,7 @@ TEST_CASE("Answers that are no counters are passed over")
     ArmFixture arm;
     arm.BringUp();
     arm.Command("J");
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Accept();
     for (const std::string_view nonsense : {"[]", "[6]", R"(["a","b","c"])", R"({"val":0})", "null", "[6,6.5,0]"})
     {
         arm.TellData(nonsense);
@@ -253,14 +320,14 @@ TEST_CASE("6.7 Pause stops the arm's program where it is; the robot is paused wh
     CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
     arm.ShowBase(true);
     CHECK_FALSE(arm.IsToldPaused());
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Accept("[6,5,0]");
     CHECK(arm.IsToldPaused());
 
     arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     arm.ShowBase(false);
     CHECK(arm.IsToldPaused());
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Accept("[6,5,0]");
     CHECK_FALSE(arm.IsToldPaused());
     arm.TellData("[6,6,0]");
     CHECK(arm.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
@@ -278,22 +345,24 @@ TEST_CASE("6.7 Pause without a job is the base's alone; a program that was just 
     CHECK(arm.IsToldPaused());
     arm.Command("J");
     CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Accept();
     CHECK(arm.TakeRequests().empty());
     arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeRequests() == std::vector<std::string>{START});
 }
 
-TEST_CASE("6.7 A program that is just being started is stopped once its start is answered")
+TEST_CASE("6.7 A program that is just being started is stopped once it has begun")
 {
     ArmFixture arm;
     arm.BringUp();
     arm.Command("J");
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Accept();
     static_cast<void>(arm.TakeRequests());
     arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeRequests().empty());
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Accept();
+    CHECK(arm.TakeRequests().empty());
+    arm.TellData("[6,5,0]");
     CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
 }
 
@@ -310,25 +379,76 @@ TEST_CASE("6.7 A stop that the arm refuses leaves the robot not paused, and is n
 }
 
 TEST_CASE(
-    "6.8 A program whose going on got lost is started again after the reconnect; that it runs already is no failure")
+    "6.8 A program whose going on got lost is stopped, looked at and started again; that it runs already is no failure")
 {
     ArmFixture arm;
     arm.StartRunning();
     arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Accept("[6,5,0]");
     arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
-    static_cast<void>(arm.TakeRequests());
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+    // While it was under way, or after the silence that was taken for its answer.
+    arm.Settle(GENERATE(OpenStream::EControlOutcome::Unknown, OpenStream::EControlOutcome::Accepted));
     arm.Tell(OpenStream::ClientLost{});
-    arm.Settle(OpenStream::EControlOutcome::Unknown);
     arm.Tell(OpenStream::ClientReady{});
     arm.Settle(OpenStream::EControlOutcome::Accepted); // motor_on
     arm.TellData(R"({"val":0})");
+    static_cast<void>(arm.TakeRequests());
     arm.TellData("[6,5,0]");
-    CHECK(arm.TakeRequests().back() == START);
-    arm.Settle(OpenStream::EControlOutcome::Refused, 403);
-    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
-    arm.TellData("[6,6,0]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
+    SECTION("It has come to its end meanwhile: nothing is started")
+    {
+        arm.Accept("[6,6,0]");
+        CHECK(arm.TakeRequests().empty());
+        CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+    }
+    SECTION("It stands")
+    {
+        arm.Accept("[6,5,0]");
+        CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+        arm.Settle(OpenStream::EControlOutcome::Refused, 403);
+        CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+        arm.TellData("[6,6,0]");
+        CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+    }
+}
+
+TEST_CASE("6.8 A program that ended while it was being stopped is not started again, however late that is told")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    static_cast<void>(arm.TakeRequests());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    arm.TellData("[6,5,0]"); // from before the stop
+    CHECK_FALSE(arm.IsToldPaused());
+    arm.ShowLook("[6,6,0]");
+    CHECK(arm.TakeRequests().empty());
     CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+}
+
+TEST_CASE("6.8 A program whose stop got lost is stopped again, and goes on where nobody wants it paused any more")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    static_cast<void>(arm.TakeRequests());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Tell(OpenStream::ClientLost{});
+    const bool bResumed = GENERATE(false, true);
+    if (bResumed)
+    {
+        arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    }
+    arm.Tell(OpenStream::ClientReady{});
+    arm.Settle(OpenStream::EControlOutcome::Accepted); // motor_on
+    arm.TellData(R"({"val":0})");
+    static_cast<void>(arm.TakeRequests());
+    arm.TellData("[6,5,0]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
+    arm.Accept("[6,5,0]");
+    CHECK(arm.TakeRequests() == (bResumed ? std::vector<std::string>{START} : std::vector<std::string>{}));
 }
 
 TEST_CASE("6.8 A program that the arm refuses to go on with fails its job")
@@ -336,7 +456,7 @@ TEST_CASE("6.8 A program that the arm refuses to go on with fails its job")
     ArmFixture arm;
     arm.StartRunning();
     arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Accept("[6,5,0]");
     arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
     arm.Settle(OpenStream::EControlOutcome::Refused, 403);
     CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
@@ -350,8 +470,7 @@ TEST_CASE(
     arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeRequests().empty());
     arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
-    static_cast<void>(arm.TakeRequests());
+    arm.Accept("[6,5,0]");
     arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
     arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeRequests() == std::vector<std::string>{RESET});
@@ -367,8 +486,7 @@ TEST_CASE("D-16 A job that was held before its program began is given up at once
     arm.BringUp();
     arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
     arm.Command("J");
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
-    static_cast<void>(arm.TakeRequests());
+    arm.Accept();
     arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
     CHECK(arm.TakeRequests().empty());
