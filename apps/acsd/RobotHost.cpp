@@ -2,20 +2,17 @@
 
 #include "ArmTrace.hpp"
 #include "common/TimerSet.hpp"
-#include "OpenStreamRobotAdapter.hpp"
+#include "RobotAdapterFactory.hpp"
 #include "RobotOutputs.hpp"
-#include "Vda5050RobotAdapter.hpp"
 #include "VehicleWatch.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/openstream_asio/OpenStreamClient.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <deque>
 #include <iterator>
 #include <optional>
 #include <string_view>
-#include <tuple>
 #include <utility>
 #include <variant>
 
@@ -25,44 +22,12 @@ namespace ACS::Acsd
 namespace
 {
 
-using namespace std::chrono_literals;
-
-/// The controller's refusals come within a few milliseconds: a longer silence only delays each job.
-constexpr std::chrono::milliseconds CONTROL_WINDOW = 100ms;
-
-VDA5050::MasterOptions MakeMasterOptions(const AcsdConfig& config, const RobotLinkConfig& robot)
-{
-    VDA5050::MasterOptions options;
-    options.address = {config.mqtt.interfaceName, robot.manufacturer, robot.serialNumber};
-    // Longer where the factsheet announces a longer interval between states.
-    options.stateMargin = std::min(options.stateMargin, config.operations.offlineAfter / 3);
-    options.stateInterval = config.operations.offlineAfter - options.stateMargin;
-    options.version = VDA5050::ReadVersionOrNull(robot.protocolVersion).value_or(VDA5050::EVda5050Version::Version200);
-    return options;
-}
-
-/// The adapter, and the same once more where it is one with an arm.
-std::pair<std::unique_ptr<IMqttRobotAdapter>, OpenStreamRobotAdapter*> MakeAdapter(
-    const AcsdConfig& config,
-    const RobotLinkConfig& robot,
-    RobotOutputs& outputs)
-{
-    VDA5050::MasterOptions options = MakeMasterOptions(config, robot);
-    if (!robot.armOrNone.has_value())
-    {
-        return {std::make_unique<Vda5050RobotAdapter>(std::move(options), config.methods, outputs), nullptr};
-    }
-    auto adapter = std::make_unique<OpenStreamRobotAdapter>(std::move(options), config.arm, config.methods, outputs);
-    OpenStreamRobotAdapter* const armAdapter = adapter.get();
-    return {std::move(adapter), armAdapter};
-}
-
 OpenStreamAsio::OpenStreamClientOptions MakeArmOptions(const ArmConfig& arm)
 {
     OpenStreamAsio::OpenStreamClientOptions options;
     options.host = arm.stream.peer.host;
     options.port = arm.stream.peer.port;
-    options.session.controlWindow = CONTROL_WINDOW;
+    options.session = MakeArmSessionOptions();
     return options;
 }
 
@@ -90,7 +55,9 @@ struct RobotHost::Impl
           handler(std::move(eventHandler)),
           watch(*config.site, link.robotID, surroundings.oddities)
     {
-        std::tie(adapter, armAdapterOrNull) = MakeAdapter(config, robot, outputs);
+        RobotAdapter made = MakeRobotAdapter(config, robot, outputs);
+        adapter = std::move(made.adapter);
+        armAdapterOrNull = made.armOrNull;
         timers.emplace(surroundings.executor, [this](std::uint64_t key) {
             Call([this, key](Core::Now now, Planning::AdapterActions& out) {
                 adapter->OnTimer(static_cast<Planning::AdapterTimerID>(key), now, out);
@@ -211,8 +178,8 @@ Planning::RejectedActions RobotHost::FindRejectedActions(
     Planning::ERobotType type)
 {
     RobotOutputs outputs; // stays empty: the adapter is only asked
-    const auto [adapter, armAdapterOrNull] = MakeAdapter(config, robot, outputs);
-    return Planning::FindRejectedActions(*adapter, type, config.engine.actions);
+    const RobotAdapter made = MakeRobotAdapter(config, robot, outputs);
+    return Planning::FindRejectedActions(*made.adapter, type, config.engine.actions);
 }
 
 RobotHost::RobotHost(

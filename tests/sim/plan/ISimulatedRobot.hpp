@@ -43,6 +43,8 @@ public:
     [[nodiscard]] virtual std::string GetNodeID() const = 0;
     /// Without a drive and a job, and not paused.
     [[nodiscard]] virtual bool IsAtRest() const = 0;
+    /// A job runs on without acsd, or its start may still come: whoever looks waits until he can say what became of it.
+    [[nodiscard]] virtual bool IsWorkUnderWay() const = 0;
 };
 
 } // namespace ACS::Simulation

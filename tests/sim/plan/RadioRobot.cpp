@@ -77,4 +77,10 @@ bool RadioRobot::IsAtRest() const
     return !truth.state.bPaused && truth.activeDriveID.empty() && truth.activeCommandID.empty();
 }
 
+/// Who looks sees what it has done.
+bool RadioRobot::IsWorkUnderWay() const
+{
+    return false;
+}
+
 } // namespace ACS::Simulation

@@ -44,6 +44,7 @@ public:
     void Calm() override;
     [[nodiscard]] std::string GetNodeID() const override;
     [[nodiscard]] bool IsAtRest() const override;
+    [[nodiscard]] bool IsWorkUnderWay() const override;
 };
 
 } // namespace ACS::Simulation

@@ -15,6 +15,7 @@ namespace
 {
 
 constexpr std::uint64_t DICE_PART = 1;
+constexpr std::uint64_t ARM_PART = 2; ///< Whether a world has arms: apart, so that the others stay what they were.
 constexpr double SPACING = 2.0;
 
 /// Nodes and edges for both types of vehicles.
@@ -297,7 +298,16 @@ void AddTrayWork(Protocol::ExecutionPlan& plan, const Scenario& scenario, Dice& 
 
 std::string_view GetText(ERobotKind kind)
 {
-    return kind == ERobotKind::Vda5050 ? "vda5050" : "memory";
+    switch (kind)
+    {
+        case ERobotKind::Vda5050:
+            return "vda5050";
+        case ERobotKind::Arms:
+            return "arms";
+        case ERobotKind::Memory:
+        default:
+            return "memory";
+    }
 }
 
 Planning::SiteMap Scenario::MakeSite() const
@@ -340,7 +350,9 @@ Scenario MakeScenario(std::uint64_t seed, const FaultSet& without, std::optional
         scenario.faults.set(fault, (bAll || bChosen) && !without.test(fault));
     }
     const bool bVehicles = dice.IsHit(70);
-    scenario.robots = robotsOrNone.value_or(bVehicles ? ERobotKind::Vda5050 : ERobotKind::Memory);
+    const bool bArms = !bVehicles && Dice({seed, ARM_PART}).IsHit(40);
+    const ERobotKind kind = bArms ? ERobotKind::Arms : ERobotKind::Memory;
+    scenario.robots = robotsOrNone.value_or(bVehicles ? ERobotKind::Vda5050 : kind);
     return scenario;
 }
 

@@ -25,9 +25,10 @@ enum class ERobotKind : std::uint8_t
 {
     Memory,  ///< RadioRobot
     Vda5050, ///< VehicleRobot
+    Arms,    ///< VehicleRobot; a CR is an ArmRobot.
 };
 
-/// "memory" or "vda5050".
+/// "memory", "vda5050" or "arms".
 [[nodiscard]] std::string_view GetText(ERobotKind kind);
 
 /// What one seed makes of a world: the floor, the robots, the options, how long and how badly things go wrong.
@@ -50,6 +51,12 @@ struct Scenario
     [[nodiscard]] bool Has(EFault fault) const
     {
         return faults.test(static_cast<std::size_t>(fault));
+    }
+
+    /// Whether its robots, or their bases, are VDA5050 vehicles.
+    [[nodiscard]] bool HasVehicles() const
+    {
+        return robots != ERobotKind::Memory;
     }
 
     /// Cannot fail: what is made here is without mistakes.

@@ -39,7 +39,7 @@ std::string TakeMutation(std::string_view text, EMutation& mutation)
 
 std::string TakeRobots(std::string_view text, std::optional<ERobotKind>& robots)
 {
-    for (const ERobotKind kind : {ERobotKind::Memory, ERobotKind::Vda5050})
+    for (const ERobotKind kind : {ERobotKind::Memory, ERobotKind::Vda5050, ERobotKind::Arms})
     {
         if (text == GetText(kind))
         {
@@ -47,7 +47,7 @@ std::string TakeRobots(std::string_view text, std::optional<ERobotKind>& robots)
             return {};
         }
     }
-    return fmt::format("expected memory or vda5050, found {}", Core::QuoteForError(text));
+    return fmt::format("expected memory, vda5050 or arms, found {}", Core::QuoteForError(text));
 }
 
 } // namespace
@@ -81,7 +81,7 @@ std::optional<int> ReadOptionsOrNull(int argc, const char* const* argv, Simulati
         app,
         "--robots",
         [&options](const std::string& text) { return TakeRobots(text, options.robots); },
-        "what all robots are: memory or vda5050, in place of what the seed says");
+        "what all robots are: memory, vda5050 or arms (vehicles, those of CRs with arms), in place of what the seed says");
     app.add_flag("--mutations", options.bAllMutations, "every mutation in turn, each with at most --seeds worlds");
     app.add_flag("--list-mutations", options.bListMutations, "names and meanings");
     return Apps::ParseCommandLineOrNull(app, argc, argv);

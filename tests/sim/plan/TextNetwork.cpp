@@ -12,8 +12,6 @@ using namespace std::chrono_literals;
 namespace
 {
 
-constexpr std::uint64_t DICE_PART = 101;
-
 std::size_t GetIndex(ETextEnd end)
 {
     return static_cast<std::size_t>(end);
@@ -26,10 +24,11 @@ ETextEnd GetOther(ETextEnd end)
 
 } // namespace
 
-TextNetwork::TextNetwork(Timeline& timeline, Trace& trace, std::uint64_t seed)
+TextNetwork::TextNetwork(Timeline& timeline, Trace& trace, const DiceSeed& seed, std::optional<TextNames> namesOrNone)
     : _timeline(timeline),
       _trace(trace),
-      _dice({seed, DICE_PART})
+      _dice(seed),
+      _namesOrNone(std::move(namesOrNone))
 {
 }
 
@@ -101,7 +100,12 @@ void TextNetwork::Send(Protocol::ConnectionID id, ETextEnd from, const std::stri
         arriving.underWay.pop_front();
         if (arriving.peerOrNull != nullptr)
         {
-            _trace.Tell("{} {}", end == ETextEnd::Server ? "acsd -> MCS" : "MCS -> acsd", text);
+            if (_namesOrNone.has_value())
+            {
+                const bool bToServer = end == ETextEnd::Server;
+                const std::string& sender = bToServer ? _namesOrNone->client : _namesOrNone->server;
+                _trace.Tell("{} -> {} {}", sender, bToServer ? _namesOrNone->server : _namesOrNone->client, text);
+            }
             arriving.peerOrNull->OnText(id, text);
         }
     }));

@@ -10,6 +10,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace ACS::Simulation
@@ -36,7 +37,14 @@ enum class ETextEnd : std::uint8_t
     Server,
 };
 
-/// WebSockets between one server and clients that come and go. Within a connection the order is kept and nothing is lost;
+/// What the two ends are called in the trace.
+struct TextNames
+{
+    std::string client;
+    std::string server;
+};
+
+/// Connections (WebSockets, TCP) between one server and clients that come and go. Within a connection the order is kept and nothing is lost;
 /// a connection that breaks loses what is under way from some text on, in each direction, and each end hears of it in its
 /// own time.
 class TextNetwork final
@@ -57,6 +65,7 @@ class TextNetwork final
     Timeline& _timeline;
     Trace& _trace;
     Dice _dice;
+    std::optional<TextNames> _namesOrNone;
     ITextPeer* _serverOrNull = nullptr;
     std::map<Protocol::ConnectionID, Connection> _connections;
     Protocol::ConnectionID _lastConnection = 0;
@@ -69,7 +78,8 @@ class TextNetwork final
     void Forget(Protocol::ConnectionID id);
 
 public:
-    TextNetwork(Timeline& timeline, Trace& trace, std::uint64_t seed);
+    /// Without names the texts are not traced.
+    TextNetwork(Timeline& timeline, Trace& trace, const DiceSeed& seed, std::optional<TextNames> namesOrNone);
 
     /// Before any client.
     void Listen(ITextPeer& server);

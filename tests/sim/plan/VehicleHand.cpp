@@ -1,8 +1,9 @@
 #include "VehicleHand.hpp"
 
-#include "OperationsConfig.hpp"
+#include "AcsdConfig.hpp"
+#include "ArmPrograms.hpp"
 
-#include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace ACS::Simulation
@@ -11,27 +12,38 @@ namespace ACS::Simulation
 namespace
 {
 
-/// As acsd makes them of its defaults.
-VDA5050::MasterOptions MakeOptions(const VDA5050::VehicleAddress& address)
+/// Every vehicle of the world takes and brings loads itself, unless it has an arm; what is done at a set is a position that
+/// it takes there.
+Acsd::AcsdConfig MakeConfig(bool bArm)
 {
-    const std::chrono::milliseconds offlineAfter = Acsd::OperationsConfig{}.offlineAfter;
-    VDA5050::MasterOptions options;
-    options.address = address;
-    options.stateMargin = std::min(options.stateMargin, offlineAfter / 3);
-    options.stateInterval = offlineAfter - options.stateMargin;
-    return options;
+    Acsd::AcsdConfig config;
+    config.methods = {{"CassetteLoad", {"pick", 0}}, {"CassetteUnload", {"drop", 0}}};
+    if (bArm)
+    {
+        for (const auto& [action, program] : GetArmPrograms())
+        {
+            config.methods[action] = {"", program};
+        }
+    }
+    else
+    {
+        config.methods["TrayLoad"] = {"pick", 0};
+        config.methods["TrayUnload"] = {"drop", 0};
+        config.methods["MemoryPickAndPlace"] = {"finePositioning", 0};
+        config.methods["OpenSetCover"] = {"finePositioning", 0};
+    }
+    config.arm.period = ARM_PERIOD;
+    return config;
 }
 
-/// Every vehicle of the world takes and brings loads itself; what is done at a set is a position that it takes there.
-Acsd::JobMethods MakeMethods()
+Acsd::RobotLinkConfig MakeLink(const std::string& robotID, bool bArm)
 {
-    return {
-        {"CassetteLoad", {"pick", 0}},
-        {"CassetteUnload", {"drop", 0}},
-        {"TrayLoad", {"pick", 0}},
-        {"TrayUnload", {"drop", 0}},
-        {"MemoryPickAndPlace", {"finePositioning", 0}},
-        {"OpenSetCover", {"finePositioning", 0}}};
+    Acsd::RobotLinkConfig link{robotID, "ACS", robotID, "2.0.0", std::nullopt};
+    if (bArm)
+    {
+        link.armOrNone.emplace(); // its addresses are the network's business
+    }
+    return link;
 }
 
 } // namespace
@@ -39,13 +51,29 @@ Acsd::JobMethods MakeMethods()
 VehicleHand::VehicleHand(
     Timeline& timeline,
     MqttBroker& broker,
-    const VDA5050::VehicleAddress& address,
-    ISimulatedRobot::EventHandler handler)
+    const std::string& robotID,
+    EventHandler handler,
+    ArmController* controllerOrNull)
     : _broker(broker),
-      _adapter(MakeOptions(address), MakeMethods(), _outputs),
-      _runner(timeline, _adapter, std::move(handler), [this] { Publish(); }),
-      _client(broker.Open(*this, _adapter.GetSubscriptions(), std::nullopt))
+      _adapter(Acsd::MakeRobotAdapter(
+          MakeConfig(controllerOrNull != nullptr),
+          MakeLink(robotID, controllerOrNull != nullptr),
+          _outputs)),
+      _runner(timeline, *_adapter.adapter, std::move(handler), [this] { SendAll(); }),
+      _client(broker.Open(*this, _adapter.adapter->GetSubscriptions(), std::nullopt))
 {
+    if (controllerOrNull != nullptr)
+    {
+        _armOrNull = std::make_unique<ArmClient>(
+            timeline,
+            *controllerOrNull,
+            Acsd::MakeArmSessionOptions(),
+            [this](const OpenStream::ClientEvent& event) {
+                _runner.Run(
+                    [this, &event](Core::Now now, auto& out) { _adapter.armOrNull->OnArmEvent(event, now, out); });
+            });
+        _armOrNull->Start();
+    }
 }
 
 VehicleHand::~VehicleHand()
@@ -54,32 +82,40 @@ VehicleHand::~VehicleHand()
 }
 
 /// What the adapter has put out.
-void VehicleHand::Publish()
+void VehicleHand::SendAll()
 {
     for (const VDA5050::MqttMessage& message : std::exchange(_outputs.messages, {}))
     {
         _broker.Publish(_client, message);
     }
+    for (const Acsd::ArmRequest& request : std::exchange(_outputs.armRequests, {}))
+    {
+        _armOrNull->Send(request);
+    }
 }
 
 void VehicleHand::Handle(const Planning::RobotCommand& command)
 {
-    _runner.Run([this, &command](Core::Now now, auto& out) { _adapter.Handle(command, now, out); });
+    if (_armOrNull != nullptr)
+    {
+        _armOrNull->NoteCommand(command);
+    }
+    _runner.Run([this, &command](Core::Now now, auto& out) { _adapter.adapter->Handle(command, now, out); });
 }
 
 void VehicleHand::OnLinkUp()
 {
-    _runner.Run([this](Core::Now now, auto& out) { _adapter.OnLinkUp(now, out); });
+    _runner.Run([this](Core::Now now, auto& out) { _adapter.adapter->OnLinkUp(now, out); });
 }
 
 void VehicleHand::OnLinkDown(std::error_code /*reason*/)
 {
-    _runner.Run([this](Core::Now now, auto& out) { _adapter.OnLinkDown(now, out); });
+    _runner.Run([this](Core::Now now, auto& out) { _adapter.adapter->OnLinkDown(now, out); });
 }
 
 void VehicleHand::OnMqttMessage(const VDA5050::MqttMessage& message)
 {
-    _runner.Run([this, &message](Core::Now now, auto& out) { _adapter.OnMqttMessage(message, now, out); });
+    _runner.Run([this, &message](Core::Now now, auto& out) { _adapter.adapter->OnMqttMessage(message, now, out); });
 }
 
 } // namespace ACS::Simulation

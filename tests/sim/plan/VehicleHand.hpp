@@ -1,34 +1,47 @@
 #pragma once
 
 #include "AdapterRunner.hpp"
+#include "ArmClient.hpp"
+#include "ArmController.hpp"
 #include "ISimulatedRobot.hpp"
 #include "MqttBroker.hpp"
+#include "RobotAdapterFactory.hpp"
 #include "RobotOutputs.hpp"
-#include "Vda5050RobotAdapter.hpp"
+
+#include <memory>
+#include <string>
 
 namespace ACS::Simulation
 {
 
-/// Runs acsd's own adapter of a VDA5050 vehicle as RobotHost does, over the world's broker.
+/// Runs acsd's own adapter of a VDA5050 vehicle, with an arm or without, as RobotHost does: over the world's broker, and
+/// over the network of the arm's controller.
 class VehicleHand final : public IRobotHand, private VDA5050::IMqttLinkListener
 {
+public:
+    using EventHandler = ISimulatedRobot::EventHandler;
+
+private:
     MqttBroker& _broker;
     Acsd::RobotOutputs _outputs;
-    Acsd::Vda5050RobotAdapter _adapter;
+    Acsd::RobotAdapter _adapter;
     AdapterRunner _runner;
     MqttBroker::ClientID _client;
+    std::unique_ptr<ArmClient> _armOrNull;
 
-    void Publish();
+    void SendAll();
     void OnLinkUp() override;
     void OnLinkDown(std::error_code reason) override;
     void OnMqttMessage(const VDA5050::MqttMessage& message) override;
 
 public:
+    /// The controller is that of its arm, where it has one.
     VehicleHand(
         Timeline& timeline,
         MqttBroker& broker,
-        const VDA5050::VehicleAddress& address,
-        ISimulatedRobot::EventHandler handler);
+        const std::string& robotID,
+        EventHandler handler,
+        ArmController* controllerOrNull);
     VehicleHand(const VehicleHand&) = delete;
     VehicleHand& operator=(const VehicleHand&) = delete;
     ~VehicleHand() override;

@@ -216,7 +216,7 @@ void VehicleRobot::ShowJobs()
 
 std::unique_ptr<IRobotHand> VehicleRobot::MakeHand(std::uint64_t /*number*/, EventHandler handler)
 {
-    return std::make_unique<VehicleHand>(_around.timeline, _around.broker, MakeAddress(_robotID), std::move(handler));
+    return std::make_unique<VehicleHand>(_around.timeline, _around.broker, _robotID, std::move(handler), nullptr);
 }
 
 void VehicleRobot::SetReachable(bool bReachable)
@@ -333,6 +333,11 @@ std::string VehicleRobot::GetNodeID() const
     return _place.size() == 1 ? _place.front() : fmt::format("{}", fmt::join(_place, "-"));
 }
 
+bool VehicleRobot::IsDriving() const
+{
+    return _vehicle->GetState().bDriving;
+}
+
 bool VehicleRobot::IsAtRest() const
 {
     const VDA5050::StateMessage state = _vehicle->GetState();
@@ -341,6 +346,12 @@ bool VehicleRobot::IsAtRest() const
             || action.actionStatus == VDA5050::EActionStatus::Paused;
     });
     return !state.bDriving && !state.bPaused.value_or(false) && state.nodeStates.empty() && !bActs;
+}
+
+/// Who looks sees what it has done.
+bool VehicleRobot::IsWorkUnderWay() const
+{
+    return false;
 }
 
 } // namespace ACS::Simulation

@@ -85,6 +85,8 @@ public:
     void Calm() override;
     [[nodiscard]] std::string GetNodeID() const override;
     [[nodiscard]] bool IsAtRest() const override;
+    [[nodiscard]] bool IsWorkUnderWay() const override;
+    [[nodiscard]] bool IsDriving() const;
 };
 
 } // namespace ACS::Simulation

@@ -1,5 +1,6 @@
 #include "World.hpp"
 
+#include "ArmRobot.hpp"
 #include "RadioRobot.hpp"
 #include "ReportMapper.hpp"
 #include "VehicleRobot.hpp"
@@ -20,6 +21,7 @@ constexpr std::chrono::hours SETTLING_LIMIT{2};
 constexpr std::chrono::seconds WATCH_INTERVAL{1};
 
 /// Which stream of the seed's random numbers somebody has.
+constexpr std::uint64_t NETWORK_PART = 101;
 constexpr std::uint64_t PROCESS_PART = 301;
 constexpr std::uint64_t OWN_RANDOM_PART = 302;
 constexpr std::uint64_t WEATHER_PART = 303;
@@ -27,6 +29,9 @@ constexpr std::uint64_t ROBOT_PART = 304;
 constexpr std::uint64_t BROKER_PART = 305;
 constexpr std::uint64_t FIRST_ROBOT_PART = 400;
 constexpr std::uint64_t FIRST_RADIO_PART = 500;
+constexpr std::uint64_t FIRST_ARM_PART = 600;
+constexpr std::uint64_t FIRST_ARM_NETWORK_PART = 700;
+constexpr std::uint64_t FIRST_TROUBLE_PART = 800;
 
 } // namespace
 
@@ -40,7 +45,7 @@ World::World(Scenario scenario, EMutation mutation, bool bPrinting)
       _robotDice({_scenario.seed, ROBOT_PART}),
       _witness(_trace),
       _judge(_trace, _store, _witness),
-      _network(_timeline, _trace, _scenario.seed),
+      _network(_timeline, _trace, {_scenario.seed, NETWORK_PART}, TextNames{"acsd", "MCS"}),
       _mcs(_timeline, _trace, _network, _judge, _witness, _scenario),
       _site(_scenario.MakeSite()),
       _broker(_timeline, _trace, {_scenario.seed, BROKER_PART}, _scenario.Has(EFault::Radio)),
@@ -88,9 +93,17 @@ void World::AddRobots()
         const DiceSeed seed{_scenario.seed, FIRST_ROBOT_PART + number};
         const DiceSeed radioSeed{_scenario.seed, FIRST_RADIO_PART + number};
         const bool bFaulty = _scenario.Has(EFault::Robots);
-        if (_scenario.robots == ERobotKind::Vda5050)
+        const VehicleRobot::Surroundings around{_timeline, _trace, _witness, _broker, _site};
+        if (_scenario.robots == ERobotKind::Arms && options.type == Planning::ERobotType::CR)
         {
-            const VehicleRobot::Surroundings around{_timeline, _trace, _witness, _broker, _site};
+            const ArmController::Seeds armSeeds{
+                {_scenario.seed, FIRST_ARM_PART + number},
+                {_scenario.seed, FIRST_ARM_NETWORK_PART + number}};
+            const ArmRobot::Seeds seeds{seed, armSeeds, {_scenario.seed, FIRST_TROUBLE_PART + number}};
+            _robots.emplace(robotID, std::make_unique<ArmRobot>(around, seeds, robotID, nodeID, bFaulty));
+        }
+        else if (_scenario.HasVehicles())
+        {
             _robots.emplace(robotID, std::make_unique<VehicleRobot>(around, seed, robotID, nodeID, bFaulty));
         }
         else
@@ -157,7 +170,7 @@ void World::BeginFaults()
     {
         _habits.Start(EHabit::Crash, _weather.GetBetween(1s, 120s), [this] { CrashSometime(); });
     }
-    if (_scenario.Has(EFault::Radio) && _scenario.robots == ERobotKind::Vda5050)
+    if (_scenario.Has(EFault::Radio) && _scenario.HasVehicles())
     {
         _habits.Start(EHabit::Broker, _weather.GetBetween(10s, 200s), [this] { TurnBroker(); });
     }
@@ -290,7 +303,7 @@ void World::SettleJobs()
         _process == nullptr ? std::vector<Planning::Alarm>() : _process->GetEngine().GetActiveAlarms();
     for (const Planning::Alarm& alarm : alarms)
     {
-        if (alarm.errorCode != "ACS-1008" || !alarm.planID.has_value())
+        if (alarm.errorCode != "ACS-1008" || !alarm.planID.has_value() || _robots.at(alarm.robotID)->IsWorkUnderWay())
         {
             continue;
         }

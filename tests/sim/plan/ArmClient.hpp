@@ -1,0 +1,67 @@
+#pragma once
+
+#include "ArmController.hpp"
+#include "RobotOutputs.hpp"
+#include "TextNetwork.hpp"
+#include "TimerBank.hpp"
+#include <acs/openstream/ClientSession.hpp>
+#include <acs/plan/RobotCommand.hpp>
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace ACS::Simulation
+{
+
+/// Runs acsd's session with the controller of an arm as OpenStreamClient does, over the network of that controller.
+class ArmClient final : private ITextPeer
+{
+public:
+    using EventHandler = std::function<void(const OpenStream::ClientEvent& event)>;
+
+private:
+    Timeline& _timeline;
+    ArmController& _controller;
+    EventHandler _handler;
+    OpenStream::ClientSession _session;
+    OpenStream::ClientActions _actions;
+    TimerBank<OpenStream::EClientTimer> _timers;
+    std::optional<Protocol::ConnectionID> _connection;
+    bool _bOpened = false;
+    bool _bExecuting = false;
+    std::string _toldSample;
+    std::string _commandID; ///< Of the job that the adapter was given last.
+
+    template <typename TCall>
+    void Call(TCall call);
+    void Tell(const OpenStream::ClientEvent& event);
+    void Do(const OpenStream::ClientEvent& event);
+    void Do(const OpenStream::ClientConnect& action);
+    void Do(const OpenStream::ClientSend& action);
+    void Do(const OpenStream::ClientClose& action);
+    void Do(const OpenStream::ClientStartTimer& action);
+    void Do(const OpenStream::ClientCancelTimer& action);
+    void OnOpened(Protocol::ConnectionID connection) override;
+    void OnText(Protocol::ConnectionID connection, const std::string& text) override;
+    void OnClosed(Protocol::ConnectionID connection, const std::string& reason) override;
+
+public:
+    ArmClient(
+        Timeline& timeline,
+        ArmController& controller,
+        const OpenStream::ClientSessionOptions& options,
+        EventHandler handler);
+    ArmClient(const ArmClient&) = delete;
+    ArmClient& operator=(const ArmClient&) = delete;
+    /// As when acsd dies: nobody takes leave.
+    ~ArmClient() override;
+
+    void Start();
+    void Send(const Acsd::ArmRequest& request);
+
+    /// Before the adapter is given it: whatever starts a program from now on does so for this job.
+    void NoteCommand(const Planning::RobotCommand& command);
+};
+
+} // namespace ACS::Simulation

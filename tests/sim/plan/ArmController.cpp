@@ -1,0 +1,384 @@
+#include "ArmController.hpp"
+
+#include "ArmPrograms.hpp"
+#include "openstream-sim/ControllerMachine.hpp"
+#include "openstream-sim/RelayName.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace ACS::Simulation
+{
+
+using namespace std::chrono_literals;
+
+namespace
+{
+
+constexpr std::string_view START_PATH = "/project/robot/start";
+constexpr std::string_view STOP_PATH = "/project/robot/stop";
+constexpr OpenStreamSim::RelayBlock COUNTER_BLOCK{OpenStreamSim::ERelayBus::None, 0, OpenStreamSim::ERelayArea::M};
+constexpr std::chrono::milliseconds LOOK_INTERVAL = 200ms;
+/// Nothing that was sent is on its way for so long.
+constexpr std::chrono::seconds LONGEST_WAY = 10s;
+
+OpenStreamSim::Fault MakeFault(OpenStreamSim::EFaultKind kind)
+{
+    OpenStreamSim::Fault fault;
+    fault.kind = kind;
+    fault.bOnce = kind == OpenStreamSim::EFaultKind::MotorOff || kind == OpenStreamSim::EFaultKind::Drop;
+    return fault;
+}
+
+} // namespace
+
+ArmController::Machine::Machine(
+    const OpenStreamSim::ControllerOptions& options,
+    OpenStreamSim::IFaultHost& host,
+    Core::Now now)
+    : controller(options, now, Core::Logger()),
+      faults(controller, host, Core::Logger(), now),
+      service(controller, faults, OpenStreamSim::EFaultSide::Stream)
+{
+}
+
+ArmController::ArmController(
+    const Surroundings& around,
+    const Seeds& seeds,
+    std::string robotID,
+    bool bFaulty,
+    std::function<bool()> isDriving)
+    : _around(around),
+      _dice(seeds.controller),
+      _clientRandom({seeds.network.seed, seeds.network.part + 50}),
+      _network(around.timeline, around.trace, seeds.network, std::nullopt),
+      _robotID(std::move(robotID)),
+      _bFaulty(bFaulty),
+      _isDriving(std::move(isDriving)),
+      _habits(around.timeline)
+{
+    _network.Listen(*this);
+    SwitchOn();
+}
+
+ArmController::~ArmController() = default;
+
+/// With nothing in its memory.
+void ArmController::SwitchOn()
+{
+    OpenStreamSim::ControllerOptions options;
+    for (const auto& [action, program] : GetArmPrograms())
+    {
+        OpenStreamSim::ProgramSpec spec;
+        spec.duration = std::chrono::milliseconds(_dice.GetBetween(500, _dice.IsHit(200) ? 20'000 : 5'000));
+        options.programs[static_cast<int>(program)] = spec;
+    }
+    OpenStreamSim::IFaultHost& host = *this;
+    _machine = std::make_unique<Machine>(options, host, _around.timeline.GetNow());
+    _seen = {};
+    _running.clear();
+    _bHaltedByFault = false;
+}
+
+TextNetwork& ArmController::GetNetwork() noexcept
+{
+    return _network;
+}
+
+Core::IRandom& ArmController::GetClientRandom() noexcept
+{
+    return _clientRandom;
+}
+
+void ArmController::NoteStartSent(Protocol::ConnectionID connection, const std::string& commandID)
+{
+    _starts[connection].push_back(commandID);
+    _lastStartAt = _around.timeline.GetNow().steady;
+}
+
+void ArmController::Tell(const std::string& text) const
+{
+    _around.trace.Tell("acsd hears: {} {}", _robotID, text);
+}
+
+std::string ArmController::TakeStart(Protocol::ConnectionID connection)
+{
+    std::deque<std::string>& starts = _starts[connection];
+    if (starts.empty())
+    {
+        return {};
+    }
+    std::string commandID = std::move(starts.front());
+    starts.pop_front();
+    return commandID;
+}
+
+OpenStreamSim::ControllerMachine& ArmController::GetMachine()
+{
+    return _machine->controller.GetMachine(_around.timeline.GetNow());
+}
+
+ArmController::Counters ArmController::ReadCounters()
+{
+    const OpenStreamSim::RelayMemory& relays = GetMachine().GetRelays();
+    return {
+        relays.ReadS32(COUNTER_BLOCK, OpenStreamSim::STARTED_BYTE),
+        relays.ReadS32(COUNTER_BLOCK, OpenStreamSim::FINISHED_BYTE),
+        relays.ReadS32(COUNTER_BLOCK, OpenStreamSim::FAILED_BYTE)};
+}
+
+/// What the counters show since the last look; a program that has begun since has done so for this command.
+void ArmController::Look(const std::string& startedFor)
+{
+    const Counters before = std::exchange(_seen, ReadCounters());
+    if (_seen.started != before.started)
+    {
+        _running = startedFor;
+        _bHaltedByFault = false;
+        const Planning::StartJob* const jobOrNull = _around.witness.FindCommandOrNull(_running);
+        if (jobOrNull == nullptr)
+        {
+            _around.trace.Violate("the arm of {} begins a program for no job", _robotID);
+            return;
+        }
+        CheckProgram(*jobOrNull);
+        _around.witness.OnJobBegun(_robotID, *jobOrNull);
+    }
+    const Planning::StartJob* const jobOrNull = _around.witness.FindCommandOrNull(_running);
+    if (_seen.finished != before.finished && jobOrNull != nullptr)
+    {
+        _around.witness.OnJobFinished(_robotID, *jobOrNull);
+    }
+    if (_seen.failed != before.failed)
+    {
+        _around.trace.Tell("{} gives its program up", _robotID);
+    }
+    if (_seen.finished != before.finished || _seen.failed != before.failed)
+    {
+        _running.clear();
+    }
+    WatchProgram();
+}
+
+void ArmController::WatchProgram()
+{
+    if (!GetMachine().IsPlaying())
+    {
+        return;
+    }
+    if (_isDriving())
+    {
+        _around.trace.Violate("{} drives while its arm works", _robotID);
+    }
+    _habits.Start(EHabit::Look, LOOK_INTERVAL, [this] { Look({}); });
+}
+
+void ArmController::CheckProgram(const Planning::StartJob& job)
+{
+    const int program = GetMachine().GetProgram();
+    if (program != static_cast<int>(GetArmPrograms().at(job.action)))
+    {
+        _around.trace.Violate("the arm of {} does {} by program {}", _robotID, job.action, program);
+    }
+}
+
+void ArmController::Call(
+    Protocol::ConnectionID connection,
+    const OpenStream::ApiRequest& request,
+    OpenStream::ApiResponse& response)
+{
+    const bool bControl = request.method != OpenStream::EApiMethod::Get;
+    const bool bStart = bControl && request.path == START_PATH;
+    const std::string commandID = bStart ? TakeStart(connection) : std::string();
+    Look({});
+    if (bControl && _bFaulty && _dice.IsHit(15))
+    {
+        Inject(MakeFault(OpenStreamSim::EFaultKind::Refuse));
+    }
+    if (bStart && _bFaulty && _dice.IsHit(30))
+    {
+        OpenStreamSim::Fault failure = MakeFault(OpenStreamSim::EFaultKind::ProgramFails);
+        failure.bAtStart = _dice.IsHit(300);
+        Inject(failure);
+    }
+    _machine->service.Call(request, _around.timeline.GetNow(), response);
+    if (bControl)
+    {
+        _around.trace.Tell("{} is asked for {}: {}", _robotID, request.path, response.status);
+        _bStopAsked = request.path == STOP_PATH || (_bStopAsked && !(bStart && response.IsSuccess()));
+    }
+    Look(commandID);
+}
+
+void ArmController::Inject(const OpenStreamSim::Fault& fault)
+{
+    static_cast<void>(_machine->faults.TryAdd(fault, _around.timeline.GetNow()));
+}
+
+void ArmController::DropSessions()
+{
+    for (const auto& [id, connection] : _connections)
+    {
+        connection->Drop();
+    }
+    _habits.Post(0ms, [this] {
+        std::erase_if(_connections, [](const auto& entry) { return entry.second->IsEnded(); });
+    });
+}
+
+void ArmController::WakeAt(std::optional<Core::SteadyTime> time)
+{
+    _habits.Cancel(EHabit::Wake);
+    if (time.has_value())
+    {
+        _habits.Start(EHabit::Wake, *time - _around.timeline.GetNow().steady, [this] {
+            _machine->faults.Advance(_around.timeline.GetNow());
+        });
+    }
+}
+
+void ArmController::OnOpened(Protocol::ConnectionID connection)
+{
+    ArmConnection::Handlers handlers{
+        [this, connection](const OpenStream::ApiRequest& request, OpenStream::ApiResponse& response) {
+            Call(connection, request, response);
+        },
+        [this] { _machine->service.StopControl(_around.timeline.GetNow()); },
+        [this, connection] {
+            _habits.Post(0ms, [this, connection] { _connections.erase(connection); });
+        }};
+    const auto [made, bNew] = _connections.emplace(
+        connection,
+        std::make_unique<ArmConnection>(_around.timeline, _network, connection, std::move(handlers)));
+    made->second->Start();
+}
+
+void ArmController::OnText(Protocol::ConnectionID connection, const std::string& text)
+{
+    if (const auto found = _connections.find(connection); found != _connections.end())
+    {
+        _around.trace.Tell("acsd -> arm of {} {}", _robotID, std::string_view(text).substr(0, text.find('\n')));
+        found->second->OnText(text);
+    }
+}
+
+void ArmController::OnClosed(Protocol::ConnectionID connection, const std::string& /*reason*/)
+{
+    if (const auto found = _connections.find(connection); found != _connections.end())
+    {
+        found->second->OnPeerClosed();
+    }
+}
+
+void ArmController::SetReachable(bool bReachable)
+{
+    _bReachable = bReachable;
+    _network.SetSlow(_dice.IsHit(300) && !_bCalm);
+    UpdateNetwork();
+}
+
+void ArmController::UpdateNetwork()
+{
+    _network.SetReachable(_bReachable && _bPowered);
+    if (!_bReachable || !_bPowered)
+    {
+        _network.Cut();
+    }
+}
+
+void ArmController::Disturb()
+{
+    using OpenStreamSim::EFaultKind;
+    constexpr std::array KINDS{
+        EFaultKind::Silence,
+        EFaultKind::Drop,
+        EFaultKind::Slow,
+        EFaultKind::Mode,
+        EFaultKind::EmergencyStop,
+        EFaultKind::ProtectiveStop,
+        EFaultKind::MotorOff};
+    OpenStreamSim::Fault fault = MakeFault(KINDS.at(_dice.GetBelow(KINDS.size())));
+    fault.time = _dice.GetBetween(50ms, 1'500ms);
+    fault.silence = fault.kind == EFaultKind::Mode ? _dice.GetBetween(0ms, 3s) : Core::Duration::zero();
+    _around.trace.Tell("the arm of {} is disturbed: {}", _robotID, static_cast<int>(fault.kind));
+    Look({});
+    const bool bPlayed = GetMachine().IsPlaying();
+    Inject(fault);
+    _bHaltedByFault = _bHaltedByFault || (bPlayed && !GetMachine().IsPlaying());
+}
+
+void ArmController::Recover()
+{
+    _around.trace.Tell("the arm of {} is well again", _robotID);
+    static_cast<void>(_machine->faults.End(std::nullopt, _around.timeline.GetNow()));
+    SetRight();
+}
+
+/// Somebody at its panel: the motor goes on, and a program that the fault has halted goes on or is given up.
+void ArmController::SetRight()
+{
+    static_cast<void>(GetMachine().SwitchMotorOn());
+    _habits.Start(EHabit::Hand, 1500ms, [this] {
+        Look({});
+        OpenStreamSim::ControllerMachine& machine = GetMachine();
+        if (!std::exchange(_bHaltedByFault, false) || _running.empty() || _bStopAsked || machine.IsPlaying())
+        {
+            return;
+        }
+        const bool bGoesOn = _dice.IsHit(700);
+        _around.trace.Tell("the program of {} {} by hand", _robotID, bGoesOn ? "goes on" : "is given up");
+        if (!bGoesOn || machine.StartProgram() != OpenStreamSim::EApiError::None)
+        {
+            machine.ResetTasks();
+        }
+        Look({});
+    });
+}
+
+void ArmController::Restart()
+{
+    Look({});
+    const bool bForgets = _dice.IsHit(500);
+    _around.trace.Tell("the arm of {} loses its power{}", _robotID, bForgets ? " and its memory" : "");
+    _bPowered = false;
+    DropSessions();
+    UpdateNetwork();
+    if (bForgets)
+    {
+        _habits.Cancel(EHabit::Wake);
+        SwitchOn();
+    }
+    else
+    {
+        _bHaltedByFault = _bHaltedByFault || GetMachine().IsPlaying();
+        GetMachine().SwitchMotorOff();
+    }
+    _habits.Start(EHabit::Power, _dice.GetBetween(1s, 8s), [this] {
+        _bPowered = true;
+        UpdateNetwork();
+        SetRight();
+    });
+}
+
+void ArmController::Calm()
+{
+    _bFaulty = false;
+    _bCalm = true;
+    _network.SetSlow(false);
+    static_cast<void>(_machine->faults.End(std::nullopt, _around.timeline.GetNow()));
+    SetRight();
+}
+
+bool ArmController::IsPlaying()
+{
+    return GetMachine().IsPlaying();
+}
+
+bool ArmController::IsWorkUnderWay()
+{
+    Look({});
+    const bool bMayCome = _around.timeline.GetNow().steady - _lastStartAt < LONGEST_WAY;
+    return GetMachine().IsPlaying() || _bHaltedByFault || bMayCome;
+}
+
+} // namespace ACS::Simulation

@@ -1,0 +1,145 @@
+#pragma once
+
+#include "ArmConnection.hpp"
+#include "Dice.hpp"
+#include "openstream-sim/ControllerFaults.hpp"
+#include "openstream-sim/FaultyService.hpp"
+#include "openstream-sim/IFaultHost.hpp"
+#include "openstream-sim/VirtualController.hpp"
+#include "TextNetwork.hpp"
+#include "TimerBank.hpp"
+#include "Trace.hpp"
+#include "WorkWitness.hpp"
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace ACS::Simulation
+{
+
+/// The controller of an arm: that of openstream-sim, with its sessions, behind a network of its own. What it really does is
+/// seen from outside, by its counters. Each start of a program is known by the job for which acsd sent it.
+class ArmController final : private ITextPeer, private OpenStreamSim::IFaultHost
+{
+public:
+    /// What it lives in; everything outlives it.
+    struct Surroundings
+    {
+        Timeline& timeline;
+        Trace& trace;
+        WorkWitness& witness;
+    };
+
+    struct Seeds
+    {
+        DiceSeed controller;
+        DiceSeed network;
+    };
+
+private:
+    /// What goes when its memory does.
+    struct Machine
+    {
+        OpenStreamSim::VirtualController controller;
+        OpenStreamSim::ControllerFaults faults;
+        OpenStreamSim::FaultyService service;
+
+        Machine(const OpenStreamSim::ControllerOptions& options, OpenStreamSim::IFaultHost& host, Core::Now now);
+    };
+
+    struct Counters
+    {
+        std::int32_t started = 0;
+        std::int32_t finished = 0;
+        std::int32_t failed = 0;
+    };
+
+    enum class EHabit : std::uint8_t
+    {
+        Wake, ///< For the faults.
+        Look, ///< While a program runs.
+        Power,
+        Hand,
+    };
+
+    Surroundings _around;
+    Dice _dice;
+    Dice _clientRandom;
+    TextNetwork _network;
+    std::string _robotID;
+    bool _bFaulty;
+    std::function<bool()> _isDriving;
+    std::unique_ptr<Machine> _machine;
+    std::map<Protocol::ConnectionID, std::unique_ptr<ArmConnection>> _connections;
+    TimerBank<EHabit> _habits;
+    std::map<Protocol::ConnectionID, std::deque<std::string>> _starts; ///< CommandIDs of those that were sent.
+    Core::SteadyTime _lastStartAt{};                                   ///< Sent.
+    Counters _seen;
+    std::string _running; ///< The command of the program that runs, or was stopped; else empty.
+    bool _bStopAsked = false;
+    bool _bHaltedByFault = false;
+    bool _bReachable = true;
+    bool _bPowered = true;
+    bool _bCalm = false;
+
+    void SwitchOn();
+    void UpdateNetwork();
+    [[nodiscard]] OpenStreamSim::ControllerMachine& GetMachine();
+    [[nodiscard]] Counters ReadCounters();
+    void Look(const std::string& startedFor);
+    void WatchProgram();
+    void Call(
+        Protocol::ConnectionID connection,
+        const OpenStream::ApiRequest& request,
+        OpenStream::ApiResponse& response);
+    [[nodiscard]] std::string TakeStart(Protocol::ConnectionID connection);
+    void CheckProgram(const Planning::StartJob& job);
+    void Inject(const OpenStreamSim::Fault& fault);
+    void SetRight();
+    void DropSessions() override;
+    void WakeAt(std::optional<Core::SteadyTime> time) override;
+    void OnOpened(Protocol::ConnectionID connection) override;
+    void OnText(Protocol::ConnectionID connection, const std::string& text) override;
+    void OnClosed(Protocol::ConnectionID connection, const std::string& reason) override;
+
+public:
+    /// IsDriving tells whether the base of the arm moves.
+    ArmController(
+        const Surroundings& around,
+        const Seeds& seeds,
+        std::string robotID,
+        bool bFaulty,
+        std::function<bool()> isDriving);
+    ArmController(const ArmController&) = delete;
+    ArmController& operator=(const ArmController&) = delete;
+    ~ArmController() override;
+
+    [[nodiscard]] TextNetwork& GetNetwork() noexcept;
+    /// Of acsd's sessions with it.
+    [[nodiscard]] Core::IRandom& GetClientRandom() noexcept;
+
+    /// Acsd sends the start of a program on this connection, for this command.
+    void NoteStartSent(Protocol::ConnectionID connection, const std::string& commandID);
+
+    /// What acsd hears of it, for the trace.
+    void Tell(const std::string& text) const;
+
+    void SetReachable(bool bReachable);
+    /// Its operator or its clients have trouble with it, until it recovers.
+    void Disturb();
+    void Recover();
+    /// It loses its power for a while, and its memory with it or not.
+    void Restart();
+    void Calm();
+
+    [[nodiscard]] bool IsPlaying();
+    /// A program runs or was halted by a fault, or its start may be on its way: nobody can say yet what becomes of it.
+    [[nodiscard]] bool IsWorkUnderWay();
+};
+
+} // namespace ACS::Simulation

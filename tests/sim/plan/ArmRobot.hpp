@@ -1,0 +1,56 @@
+#pragma once
+
+#include "ArmController.hpp"
+#include "Dice.hpp"
+#include "ISimulatedRobot.hpp"
+#include "VehicleRobot.hpp"
+
+#include <memory>
+#include <string>
+
+namespace ACS::Simulation
+{
+
+/// A control robot: a VDA5050 vehicle with an arm behind Open Stream.
+class ArmRobot final : public ISimulatedRobot
+{
+public:
+    struct Seeds
+    {
+        DiceSeed base;
+        ArmController::Seeds arm;
+        DiceSeed trouble; ///< Of which part has it.
+    };
+
+private:
+    Timeline& _timeline;
+    MqttBroker& _broker;
+    std::string _robotID;
+    Dice _dice;
+    VehicleRobot _base;
+    mutable ArmController _arm; ///< Whoever looks brings it to the present.
+    bool _bReachable = true;
+    bool _bArmDisturbed = false;
+
+public:
+    ArmRobot(
+        const VehicleRobot::Surroundings& around,
+        const Seeds& seeds,
+        const std::string& robotID,
+        const std::string& nodeID,
+        bool bFaulty);
+
+    [[nodiscard]] std::unique_ptr<IRobotHand> MakeHand(std::uint64_t number, EventHandler handler) override;
+    void SetReachable(bool bReachable) override;
+    [[nodiscard]] bool IsReachable() const override;
+    void Disturb() override;
+    void Recover() override;
+    [[nodiscard]] bool IsDisturbed() const override;
+    void Forget() override;
+    void Calm() override;
+    [[nodiscard]] std::string GetNodeID() const override;
+    [[nodiscard]] bool IsAtRest() const override;
+    [[nodiscard]] bool IsWorkUnderWay() const override;
+};
+
+} // namespace ACS::Simulation
