@@ -111,6 +111,18 @@ void OpenStreamRobotAdapter::TakeSettledPause(EControl kind, OpenStream::EContro
     }
 }
 
+/// Where pauses were about, a program that was found after a restart may stand: only by being stopped and started again it
+/// surely goes on.
+void OpenStreamRobotAdapter::DoubtFound()
+{
+    if (_bFound && _bPauseTold && _program == EProgram::Runs)
+    {
+        _bFound = false;
+        _program = EProgram::Doubtful;
+        _bGoOnRepeated = true;
+    }
+}
+
 void OpenStreamRobotAdapter::RefuseGoOn(AdapterActions& out)
 {
     if (_bGoOnRepeated)

@@ -146,7 +146,9 @@ void OpenStreamRobotAdapter::Handle(const Planning::RobotCommand& command, Core:
         if (bPause || std::holds_alternative<Planning::Resume>(command))
         {
             _bPauseWanted = bPause;
+            _bPauseTold = true;
             _bStopRefused = false;
+            DoubtFound();
             FollowPause(out);
         }
         _base.Handle(command, now, _baseActions);
@@ -160,6 +162,7 @@ void OpenStreamRobotAdapter::EndJob()
     _program = EProgram::Runs;
     _bStopRefused = false;
     _bGoOnRepeated = false;
+    _bFound = false;
     _bGivenUp = false;
 }
 
@@ -550,6 +553,8 @@ void OpenStreamRobotAdapter::FindJob(AdapterActions& out)
         _bRecovered = true;
         out.emplace_back(Planning::StartAdapterTimer{START_TIMER, START_LIMIT});
     }
+    _bFound = begun != 0;
+    DoubtFound();
     FollowJob(out);
     FollowPause(out);
 }
@@ -613,6 +618,7 @@ void OpenStreamRobotAdapter::DrainBase(AdapterActions& out)
         if (stateOrNull != nullptr)
         {
             _baseState = *stateOrNull;
+            _bPauseTold = _bPauseTold || stateOrNull->bPaused;
             _bBaseStateKnown = true;
             _bPaused = IsPaused();
             out.emplace_back(RaiseEvent{MakeState()});

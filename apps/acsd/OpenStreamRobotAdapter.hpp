@@ -95,10 +95,12 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     bool _bPauseWanted = false;
     EProgram _program = EProgram::Runs;
     ELook _look = ELook::None;
-    bool _bStopRefused = false;        ///< The program cannot be stopped; not asked for again before the next pause.
-    bool _bGoOnRepeated = false;       ///< It may run already: that it does is no refusal.
-    bool _bGivenUp = false;            ///< The task is reset as soon as the program surely stands.
-    bool _bPaused = false;             ///< As it was told last.
+    bool _bStopRefused = false;  ///< The program cannot be stopped; not asked for again before the next pause.
+    bool _bGoOnRepeated = false; ///< It may run already: that it does is no refusal.
+    bool _bPauseTold = false;    ///< Somebody paused the robot, or had it go on, as far as this adapter knows.
+    bool _bFound = false;        ///< The job was found running after a restart: who has stopped it before is not known.
+    bool _bGivenUp = false;      ///< The task is reset as soon as the program surely stands.
+    bool _bPaused = false;       ///< As it was told last.
     Planning::StateChanged _baseState; ///< The latest that the base told.
     bool _bBaseStateKnown = false;
     std::optional<Planning::StartJob> _recovery; ///< A job of before a restart; the counters have not come yet.
@@ -129,6 +131,7 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     void TakeLoss(Planning::AdapterActions& out);
     void TakeData(const OpenStream::DataLine& line, Planning::AdapterActions& out);
     void TakeSettledPause(EControl kind, OpenStream::EControlOutcome outcome, Planning::AdapterActions& out);
+    void DoubtFound();
     void RefuseGoOn(Planning::AdapterActions& out);
     void FollowPause(Planning::AdapterActions& out);
     void CancelJob(const std::string& jobID, Planning::AdapterActions& out);

@@ -362,9 +362,11 @@ void PlanEngine::Impl::FollowPause(Robot& robot, bool bBack, bool bWasPaused)
     }
     const StateChanged& state = *robot.state;
     // In manual mode it may not have heard of it, and still come to a stand.
-    robot.bResumeOwed = robot.bResumeOwed && (state.bPaused || !state.bAutomatic);
-    if (bBack && robot.bResumeOwed)
+    const bool bStaysOwed = robot.bResumeOwed && (state.bPaused || !state.bAutomatic);
+    const bool bWasOwed = std::exchange(robot.bResumeOwed, bStaysOwed);
+    if (bBack && bWasOwed)
     {
+        // Also where it shows no pause: its base may go on, and its arm stand.
         Command(robot, Planning::Resume{});
     }
     if (robot.bPauseWanted && !state.bPaused && (bBack || bWasPaused))

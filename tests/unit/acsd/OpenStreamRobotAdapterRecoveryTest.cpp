@@ -86,4 +86,34 @@ TEST_CASE("After a restart counters that are all 0, have fallen or have risen to
     CHECK(unmarked.TakeEvents<Planning::JobUncertain>().size() == 1);
 }
 
+TEST_CASE(
+    "After a restart a program that may have been paused is stopped, looked at and goes on; else it is left alone")
+{
+    ArmRecoveryFixture alone("[6,5,0]");
+    CHECK(alone.TakeRequests().empty());
+
+    ArmRecoveryFixture arm("[6,5,0]");
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
+    SECTION("It stood")
+    {
+        arm.Accept("[6,5,0]");
+        CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+        arm.Accept("[6,5,0]");
+    }
+    SECTION("It has ended meanwhile")
+    {
+        arm.Accept("[6,6,0]");
+        CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+    }
+    SECTION("It stands for a reason of its own")
+    {
+        arm.Accept("[6,5,0]");
+        arm.Settle(OpenStream::EControlOutcome::Refused, 403);
+        static_cast<void>(arm.TakeRequests());
+        CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    }
+    CHECK(arm.TakeRequests().empty());
+}
+
 } // namespace ACS::Acsd::Test

@@ -51,6 +51,7 @@ public:
     bool bIgnoresCharging = false;
     double battery = 80;
     std::size_t chargesAsked = 0;
+    std::size_t resumesAsked = 0;
     std::size_t extensions = 0;
     std::size_t drives = 0;
     std::size_t ranOverBase = 0; ///< Extensions that were needed and had not come when the base ended.
@@ -140,6 +141,7 @@ public:
                     ShowPause(out);
                 },
                 [this, &out](const Planning::Resume&) {
+                    ++resumesAsked;
                     if (!bIgnoresPause && std::exchange(_bPauseAsked, false))
                     {
                         GoOnAfterPause(out);

@@ -384,6 +384,23 @@ TEST_CASE("6.8 A Resume whose outcome was open is carried out after the restart"
     CHECK(std::ranges::count(world.GetReportsOf("P1"), "ResumeResult Success") == 1);
 }
 
+TEST_CASE("6.8 A robot that shows no pause after the restart is told all the same to go on, as a part of it may stand")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
+    PausePlan(world);
+    world.GetRobot("LR01").bIgnoresPause = true;
+    world.Control(EPlanControl::Resume, "P1");
+    world.Crash();
+    world.GetRobot("LR01").bIgnoresPause = false;
+    world.GetRobot("LR01").bFinishesJobs = true; // goes on
+    world.GetRobot("LR01").resumesAsked = 0;
+    RestartEngine(world);
+    FinishPlan(world);
+    CHECK(world.GetRobot("LR01").resumesAsked > 0);
+    CHECK(std::ranges::count(world.GetReportsOf("P1"), "ResumeResult Success") == 1);
+}
+
 TEST_CASE("6.5 A cancel that was open and whose robot arrived meanwhile fails, and the plan goes on")
 {
     PlanWorld world;
