@@ -159,6 +159,7 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
             return;
         }
         SetSocketOptions(_socket);
+        DropUnsentAtClose(_socket); // an old CONTROL must not move anything
         ReadMoreAsync();
         _session.OnConnected(_clock.GetNow(), _actions);
     }
@@ -233,6 +234,12 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
     {
         ++_connection;
         _resolver.cancel();
+        CloseSocket();
+    }
+
+    void CloseSocket()
+    {
+        CloseInPeaceWhenAllArrived(_socket);
         boost::system::error_code ignored;
         static_cast<void>(_socket.close(ignored));
     }
@@ -315,8 +322,7 @@ public:
         _bDown = true;
         _resolver.cancel();
         _timers->CancelAll();
-        boost::system::error_code ignored;
-        static_cast<void>(_socket.close(ignored));
+        CloseSocket();
     }
 
     [[nodiscard]] const OpenStream::ClientSession& GetSession() const noexcept

@@ -5,7 +5,12 @@
 
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
+
+#ifdef __linux__
+#include <linux/sockios.h>
+#endif
 
 namespace ACS::OpenStreamAsio
 {
@@ -16,6 +21,29 @@ inline void SetSocketOptions(boost::asio::ip::tcp::socket& socket)
     boost::system::error_code ignored;
     static_cast<void>(socket.set_option(boost::asio::ip::tcp::no_delay(true), ignored));
     static_cast<void>(socket.set_option(boost::asio::socket_base::keep_alive(true), ignored));
+}
+
+/// When the connection is closed, also because the process ends, what has not arrived is thrown away. As a system has it
+/// by itself, a command would still arrive minutes later, once the network is well again or somebody reads.
+inline void DropUnsentAtClose(boost::asio::ip::tcp::socket& socket)
+{
+    boost::system::error_code ignored;
+    static_cast<void>(socket.set_option(boost::asio::socket_base::linger(true, 0), ignored));
+}
+
+/// Where nothing is left to arrive, and the system can tell, the peer sees a close and no error.
+inline void CloseInPeaceWhenAllArrived(boost::asio::ip::tcp::socket& socket)
+{
+#ifdef SIOCOUTQ
+    int left = 0;
+    if (ioctl(socket.native_handle(), SIOCOUTQ, &left) == 0 && left == 0)
+    {
+        boost::system::error_code ignored;
+        static_cast<void>(socket.set_option(boost::asio::socket_base::linger(false, 0), ignored));
+    }
+#else
+    static_cast<void>(socket);
+#endif
 }
 
 /// Until the next write, where the system has it.

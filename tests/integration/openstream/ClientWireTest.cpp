@@ -1,6 +1,9 @@
 #include "RawPeer.hpp"
 
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/error.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/read.hpp>
 #include <boost/asio/read_until.hpp>
 #include <boost/asio/streambuf.hpp>
 
@@ -30,6 +33,7 @@ class DeafController
 {
     Tcp::acceptor _acceptor;
     std::optional<Tcp::socket> _socket;
+    std::optional<Tcp::socket> _former; ///< Of the connection before.
     boost::asio::streambuf _input;
 
     void AcceptAsync()
@@ -38,7 +42,7 @@ class DeafController
             if (!error)
             {
                 ++connections;
-                _socket.emplace(std::move(socket));
+                _former = std::exchange(_socket, std::move(socket));
                 _socket->set_option(Tcp::no_delay(true));
                 ReadLineAsync();
             }
@@ -89,6 +93,15 @@ public:
         boost::asio::write(*_socket, boost::asio::buffer(text));
     }
 
+    /// What ends the connection before the present one, once all of it has been read.
+    [[nodiscard]] boost::system::error_code ReadFormer()
+    {
+        std::string ignored;
+        boost::system::error_code error;
+        boost::asio::read(*_former, boost::asio::dynamic_buffer(ignored), error);
+        return error;
+    }
+
     /// Whether the client's system has acknowledged every byte.
     [[nodiscard]] bool IsAcknowledged()
     {
@@ -136,6 +149,8 @@ TEST_CASE("3 A controller that does not read loses the connection before old str
     REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientReady>() == 2; }));
     REQUIRE(controller.connections == 2);
     REQUIRE(controller.firstLine.find("HANDSHAKE") != std::string::npos);
+    // What the client's system still had is gone: it does not come as soon as somebody reads.
+    REQUIRE(controller.ReadFormer() == boost::asio::error::connection_reset);
 }
 
 TEST_CASE("1 A client that only listens acknowledges each line as it reads it, not each second one")
