@@ -200,7 +200,7 @@ void AcsdProcess::CarryOut(const Planning::EngineAction& action)
             [this](const Planning::RobotStatusChanged& changed) { _dialog.TellStatus(changed.status); },
             [this](const Planning::TscStateChanged& changed) { _dialog.TellTsc(changed.state); },
             [this](const Planning::StartEngineTimer& start) {
-                if (_mutator.ShouldForget(start.timer))
+                if (_mutator.ShouldForgetTimer())
                 {
                     return;
                 }

@@ -66,7 +66,7 @@ inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
      "a robot whose drive is cancelled, or of an engine that is gone, counts as standing before it does"},
     {"resume-swallowed", "a robot is not told that its pause is over"},
     {"refused-plan-acked", "a plan that was refused is acknowledged as accepted"},
-    {"timer-forgotten", "the engine's timers for work to be given out do not fire"},
+    {"timer-forgotten", "now and then a timer of the engine does not fire"},
     {"recovery-denied", "after a restart each robot seems never to have had its job"},
 }};
 

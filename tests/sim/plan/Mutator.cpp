@@ -175,9 +175,9 @@ std::vector<Planning::RobotEvent> Mutator::OnEvent(const std::string& robotID, c
     return events;
 }
 
-bool Mutator::ShouldForget(const Planning::EngineTimer& timer) const
+bool Mutator::ShouldForgetTimer() const
 {
-    return Is(EMutation::TimerForgotten) && timer.kind == Planning::EEngineTimer::Dispatch && _dice.IsHit(700);
+    return Is(EMutation::TimerForgotten) && _dice.IsHit(700);
 }
 
 } // namespace ACS::Simulation

@@ -55,7 +55,7 @@ public:
     [[nodiscard]] std::vector<Planning::RobotEvent> OnEvent(
         const std::string& robotID,
         const Planning::RobotEvent& event) const;
-    [[nodiscard]] bool ShouldForget(const Planning::EngineTimer& timer) const;
+    [[nodiscard]] bool ShouldForgetTimer() const;
 };
 
 } // namespace ACS::Simulation
