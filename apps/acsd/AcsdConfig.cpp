@@ -4,6 +4,7 @@
 #include "RobotHost.hpp"
 #include <acs/core/Location.hpp>
 #include <acs/plan/LifReader.hpp>
+#include <acs/plan_sqlite/SqlitePlanStore.hpp>
 #include <acs/vda5050/Topic.hpp>
 
 #include <fmt/format.h>
@@ -39,15 +40,21 @@ constexpr std::int64_t MOST_REPORTS = 10'000'000;
 std::vector<Core::Location> ReadPlaces(const ConfigSection& section, const std::string& key, const std::string& prefix)
 {
     std::vector<Core::Location> places;
+    std::string mistakes;
     for (const std::string& text : section.GetStringList(key))
     {
         Core::Result<std::vector<Core::Location>> range = Core::ParseLocationRange(prefix + text);
         if (!range)
         {
-            section.AddMistake(key, fmt::format("\"{}\": {}", text, Core::Describe(range.error())));
+            const std::string_view joint = mistakes.empty() ? "" : "; ";
+            mistakes += fmt::format("{}\"{}\": {}", joint, text, Core::Describe(range.error()));
             continue;
         }
         std::ranges::move(*range, std::back_inserter(places));
+    }
+    if (!mistakes.empty())
+    {
+        section.AddMistake(key, mistakes);
     }
     return places;
 }
@@ -92,6 +99,7 @@ void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig
     }
     if (map.empty())
     {
+        section.AddMistake("map", "is empty; give the path of a LIF file");
         return;
     }
     const tl::expected<std::string, std::string> text = Apps::ReadTextFile(config.siteFile);
@@ -115,16 +123,23 @@ void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig
     }
 }
 
-void ReadStore(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
+void ReadStore(const ConfigSection& root, const std::string& fileName, bool bStoreInspected, AcsdConfig& config)
 {
     const ConfigSection section = root.GetSection("store");
-    const bool bThere = section.HasKey("path");
     const std::string path = section.GetString("path");
-    if (bThere && path.empty())
+    config.storeFile = ResolvePath(fileName, path);
+    if (path.empty())
     {
         section.AddMistake("path", "is empty; give the path of a file, such as \"acsd.db\"");
     }
-    config.storeFile = ResolvePath(fileName, path);
+    else if (bStoreInspected)
+    {
+        const Core::Result<Planning::StoreOrigin> origin = Planning::SqlitePlanStore::Inspect(config.storeFile);
+        if (!origin.has_value())
+        {
+            section.AddMistake("path", Core::Describe(origin.error()));
+        }
+    }
 }
 
 std::optional<ArmConfig> ReadArmOrNull(const ConfigSection& robot, bool bNeeded)
@@ -133,7 +148,7 @@ std::optional<ArmConfig> ReadArmOrNull(const ConfigSection& robot, bool bNeeded)
     {
         if (bNeeded)
         {
-            robot.AddMistake("", "a CR needs arm.url (tcp://) and arm.http (http://) of its arm's controller");
+            robot.AddMistake("arm", "a CR needs arm.url (tcp://) and arm.http (http://) of its arm's controller");
         }
         return std::nullopt;
     }
@@ -149,7 +164,7 @@ void ReadRobot(const ConfigSection& section, const std::string& name, AcsdConfig
     const Core::Result<Core::RobotID> robotID = Core::RobotID::Parse(name);
     if (!robotID)
     {
-        section.AddMistake("", Core::Describe(robotID.error()));
+        section.Refuse(Core::Describe(robotID.error()));
         return;
     }
     Planning::RobotOptions options{*robotID, {}, {}, {}, {}, {}, {}, {}};
@@ -167,9 +182,13 @@ void ReadRobot(const ConfigSection& section, const std::string& name, AcsdConfig
     link.serialNumber = section.GetString("serial");
     link.protocolVersion = section.GetWord("protocol", {"2.0.0", "2.1.0"}, "2.0.0");
     link.armOrNone = ReadArmOrNull(section, options.type == Planning::ERobotType::CR);
-    if (!VDA5050::IsValidAddress({config.mqtt.interfaceName, link.manufacturer, link.serialNumber}))
+    for (const auto& [key, level] :
+         {std::pair("manufacturer", link.manufacturer), std::pair("serial", link.serialNumber)})
     {
-        section.AddMistake("serial", "manufacturer and serial are levels of a topic: not empty, without / + #");
+        if (!VDA5050::IsValidAddress({"uagv", level, level}))
+        {
+            section.AddMistake(key, "is a level of a topic: not empty, without / + #");
+        }
     }
     const auto twin = std::ranges::find_if(config.robots, [&link](const RobotLinkConfig& other) {
         return other.manufacturer == link.manufacturer && other.serialNumber == link.serialNumber;
@@ -363,7 +382,10 @@ void RejectActions(const ConfigSection& root, AcsdConfig& config)
 
 } // namespace
 
-AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::string>& overrides)
+namespace
+{
+
+AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& overrides, bool bStoreInspected)
 {
     AcsdConfig config;
     const Apps::ConfigReader reader = Apps::ConfigReader::ReadFile(fileName, overrides);
@@ -374,7 +396,7 @@ AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::st
     ReadMqttConfig(root, fileName, config.mqtt, config.warnings);
     ReadArm(root, config);
     ReadSite(root, fileName, config);
-    ReadStore(root, fileName, config);
+    ReadStore(root, fileName, bStoreInspected, config);
     config.httpListen = root.GetSection("http").GetEndpoint("listen", config.httpListen);
     ReadQueue(root, config.engine);
     ReadControls(root, config.engine.controls);
@@ -387,17 +409,30 @@ AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::st
     {
         RejectActions(root, config);
     }
+    if (reader.GetMistakes().empty() && config.site.has_value())
+    {
+        for (Core::Error& error : Planning::FindMistakes(config.engine, *config.site))
+        {
+            const std::string path = std::exchange(error.path, {});
+            reader.AddMistake(path, Core::Describe(error));
+        }
+    }
     config.mistakes = reader.GetMistakes();
     std::ranges::move(otherMistakes, std::back_inserter(config.mistakes));
     config.values = reader.GetValues();
-    if (config.mistakes.empty())
-    {
-        for (const Core::Error& error : Planning::FindMistakes(config.engine, *config.site))
-        {
-            config.mistakes.push_back(fmt::format("{}: {}", fileName, Core::Describe(error)));
-        }
-    }
     return config;
+}
+
+} // namespace
+
+AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::string>& overrides)
+{
+    return Read(fileName, overrides, false);
+}
+
+AcsdConfig CheckAcsdConfig(const std::string& fileName, const std::vector<std::string>& overrides)
+{
+    return Read(fileName, overrides, true);
 }
 
 } // namespace ACS::Acsd

@@ -81,4 +81,7 @@ struct AcsdConfig
 /// Reads the file, with the overrides of the command line ("table.key=value") on top, and the map that it names.
 [[nodiscard]] AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::string>& overrides);
 
+/// The same, and looks at the store that it names too, without making, changing or taking it: what a start would find.
+[[nodiscard]] AcsdConfig CheckAcsdConfig(const std::string& fileName, const std::vector<std::string>& overrides);
+
 } // namespace ACS::Acsd

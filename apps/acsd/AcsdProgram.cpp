@@ -127,7 +127,8 @@ int RunAcsd(int argc, const char* const* argv)
     }
 
     options.bLogLevelGiven = app.count("--log-level") > 0;
-    AcsdConfig config = ReadAcsdConfig(options.configFile, options.overrides);
+    AcsdConfig config = options.bCheckOnly ? CheckAcsdConfig(options.configFile, options.overrides)
+                                           : ReadAcsdConfig(options.configFile, options.overrides);
     if (!config.mistakes.empty())
     {
         for (const std::string& mistake : config.mistakes)

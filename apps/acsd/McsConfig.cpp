@@ -1,5 +1,6 @@
 #include "McsConfig.hpp"
 
+#include "common/TextFile.hpp"
 #include <acs/core/Result.hpp>
 
 #include <fmt/format.h>
@@ -151,11 +152,21 @@ void ReadErrors(
     ErrorNames& names,
     std::vector<std::string>& mistakes)
 {
-    const std::optional<std::string> map = root.GetSection("errors").GetStringOrNull("map");
-    if (map.has_value())
+    const ConfigSection section = root.GetSection("errors");
+    const std::optional<std::string> map = section.GetStringOrNull("map");
+    if (!map.has_value())
     {
-        names = ReadErrorNames(ResolvePath(fileName, *map), mistakes);
+        return;
     }
+    const std::string path = ResolvePath(fileName, *map);
+    if (const tl::expected<std::string, std::string> text = Apps::ReadTextFile(path); !text.has_value())
+    {
+        section.AddMistake(
+            "map",
+            fmt::format("{} cannot be read ({}); give the path of a file with names of errors", path, text.error()));
+        return;
+    }
+    names = ReadErrorNames(path, mistakes);
 }
 
 } // namespace

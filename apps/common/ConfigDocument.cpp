@@ -185,7 +185,8 @@ void ConfigDocument::NoteAsked(const std::string& tablePath, const std::string& 
 
 void ConfigDocument::AddMistake(const ConfigNode* nodeOrNull, const std::string& path, const std::string& text)
 {
-    if (_bUnreadable)
+    const bool bTold = !path.empty() && (IsInRefused(path) || !_mistaken.insert(path).second);
+    if (_bUnreadable || bTold)
     {
         return;
     }
@@ -194,6 +195,43 @@ void ConfigDocument::AddMistake(const ConfigNode* nodeOrNull, const std::string&
         {nodeOrNull != nullptr && nodeOrNull->bOverride,
          nodeOrNull != nullptr ? nodeOrNull->line : 0,
          fmt::format("{}: {}", where, text)});
+}
+
+void ConfigDocument::RefuseTable(const ConfigNode* nodeOrNull, const std::string& path, const std::string& text)
+{
+    AddMistake(nodeOrNull, path, text);
+    _refused.insert(path);
+}
+
+const ConfigNode* ConfigDocument::FindNearestOrNull(const std::string& path) const
+{
+    const ConfigNode* nearestOrNull = nullptr;
+    const ConfigNode* nodeOrNull = &_root;
+    for (std::size_t begin = 0; begin <= path.size();)
+    {
+        const std::size_t end = std::min(path.find('.', begin), path.size());
+        const auto* const tableOrNull = std::get_if<ConfigNode::Table>(&nodeOrNull->value);
+        if (tableOrNull == nullptr)
+        {
+            break;
+        }
+        const auto found = tableOrNull->find(path.substr(begin, end - begin));
+        if (found == tableOrNull->end())
+        {
+            break;
+        }
+        nodeOrNull = found->second.get();
+        nearestOrNull = nodeOrNull;
+        begin = end + 1;
+    }
+    return nearestOrNull;
+}
+
+bool ConfigDocument::IsInRefused(const std::string& path) const
+{
+    return std::any_of(_refused.begin(), _refused.end(), [&path](const std::string& table) {
+        return path.starts_with(table + ".");
+    });
 }
 
 std::vector<std::string> ConfigDocument::MakeMistakes() const
@@ -253,6 +291,10 @@ void ConfigDocument::FindUnknown(std::vector<Mistake>& out) const
                 if (WasAsked(path, key))
                 {
                     work.emplace_back(value.get(), JoinPath(path, key));
+                    continue;
+                }
+                if (IsInRefused(JoinPath(path, key)))
+                {
                     continue;
                 }
                 const std::string where = fmt::format("{}: {}", MakeOrigin(value.get()), JoinPath(path, key));

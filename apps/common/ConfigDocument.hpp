@@ -41,6 +41,8 @@ class ConfigDocument final
     std::string _fileName;
     ConfigNode _root;
     std::vector<Mistake> _mistakes;
+    std::set<std::string> _mistaken; ///< The paths of these.
+    std::set<std::string> _refused;  ///< Of tables as a whole: nothing in them is a mistake besides.
     std::map<std::string, std::set<std::string>> _askedByTable;
     bool _bUnreadable = false;
 
@@ -58,8 +60,14 @@ public:
     /// Remembers that the program knows this key.
     void NoteAsked(const std::string& tablePath, const std::string& key);
 
-    /// At the line of the node; without one, at the file.
+    /// At the line of the node; without one, at the file. Of a key only the first is told, as the others come of it.
     void AddMistake(const ConfigNode* nodeOrNull, const std::string& path, const std::string& text);
+
+    /// The same for a table as a whole, whose keys are not looked at.
+    void RefuseTable(const ConfigNode* nodeOrNull, const std::string& path, const std::string& text);
+
+    /// The node of the path, or of as much of it as there is; nullptr for none of it. No part of it has a dot.
+    [[nodiscard]] const ConfigNode* FindNearestOrNull(const std::string& path) const;
 
     /// With the unknown keys, sorted.
     [[nodiscard]] std::vector<std::string> MakeMistakes() const;
@@ -71,6 +79,7 @@ public:
     [[nodiscard]] static std::string JoinPath(const std::string& path, const std::string& key);
 
 private:
+    [[nodiscard]] bool IsInRefused(const std::string& path) const;
     [[nodiscard]] std::string MakeOrigin(const ConfigNode* nodeOrNull) const;
     void FindUnknown(std::vector<Mistake>& out) const;
     [[nodiscard]] bool WasAsked(const std::string& tablePath, const std::string& key) const;

@@ -54,6 +54,11 @@ ConfigSection ConfigReader::GetRoot() const
     return {_document, &_document->GetRoot(), {}};
 }
 
+void ConfigReader::AddMistake(const std::string& path, const std::string& text) const
+{
+    _document->AddMistake(_document->FindNearestOrNull(path), path, text);
+}
+
 std::vector<std::string> ConfigReader::GetMistakes() const
 {
     return _document->MakeMistakes();

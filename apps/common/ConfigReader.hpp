@@ -31,6 +31,10 @@ public:
 
     [[nodiscard]] ConfigSection GetRoot() const;
 
+    /// Notes a mistake of the key with that path ("robots.LR01.home"), whose parts have no dots, at its line, or where it is
+    /// not given at the line of its table.
+    void AddMistake(const std::string& path, const std::string& text) const;
+
     /// All mistakes, by line, those of overrides last: "FILE:LINE: KEY: what is wrong and what is allowed", or
     /// "--set: KEY: …". Empty: every value that the getters returned is good. Where the file cannot be read or is no
     /// TOML, that is the only one.

@@ -185,12 +185,13 @@ std::vector<std::string> ConfigSection::GetStringList(const std::string& key) co
 ConfigSection ConfigSection::GetSection(const std::string& name) const
 {
     const ConfigNode* node = FindGivenOrNull(name, false, {});
+    const std::string path = ConfigDocument::JoinPath(_path, name);
     if (node != nullptr && !std::holds_alternative<ConfigNode::Table>(node->value))
     {
-        AddMistake(name, MakeWrongText(A_TABLE, *node));
+        _document->RefuseTable(node, path, MakeWrongText(A_TABLE, *node));
         node = nullptr;
     }
-    return {_document, node, ConfigDocument::JoinPath(_path, name)};
+    return {_document, node, path};
 }
 
 std::vector<ConfigSection> ConfigSection::GetSectionList(const std::string& name) const
@@ -248,6 +249,11 @@ void ConfigSection::AddMistake(const std::string& key, const std::string& text) 
     }
     const ConfigNode* const node = FindOrNull(key);
     _document->AddMistake(node != nullptr ? node : _nodeOrNull, ConfigDocument::JoinPath(_path, key), text);
+}
+
+void ConfigSection::Refuse(const std::string& text) const
+{
+    _document->RefuseTable(_nodeOrNull, _path, text);
 }
 
 const std::string& ConfigSection::GetPath() const noexcept

@@ -107,8 +107,11 @@ public:
     [[nodiscard]] bool HasKey(const std::string& key) const;
 
     /// Notes a mistake that only the caller can see ("no such station in the map") at the line of that key; an empty
-    /// key means the table itself.
+    /// key means the table itself. Of each key only the first mistake is told.
     void AddMistake(const std::string& key, const std::string& text) const;
+
+    /// Notes a mistake of this table as a whole: its keys are not looked at, and none of them is a mistake besides.
+    void Refuse(const std::string& text) const;
 
     /// "robots.LR01"
     [[nodiscard]] const std::string& GetPath() const noexcept;

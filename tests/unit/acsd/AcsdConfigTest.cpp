@@ -3,13 +3,16 @@
 #include "Catch.hpp"
 #include "CertificateMaker.hpp"
 #include "TemporaryFolder.hpp"
+#include <acs/plan_sqlite/SqlitePlanStore.hpp>
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <set>
 #include <string>
 #include <sys/stat.h>
+#include <tuple>
 #include <vector>
 
 using namespace ACS; // NOLINT(google-build-using-namespace)
@@ -95,6 +98,96 @@ TEST_CASE("A file for TLS that is missing or does not fit is a mistake with key,
     REQUIRE(foreign.size() == 1);
     CHECK(foreign[0].find("mcs.tls.key: ") != std::string::npos);
     CHECK(foreign[0].find("is the key of another certificate than " + own.certificate) != std::string::npos);
+}
+
+TEST_CASE("Each mistake is told once, under its key, with the line of the file or the option that it comes from")
+{
+    struct Row
+    {
+        std::vector<std::string> overrides;
+        std::vector<std::string> mistakes; ///< How each begins.
+    };
+    const std::string file = std::string(ACS_SITE) + "/acsd.toml:";
+    const std::vector<Row> rows{
+        {{"robots.LR01.serial="}, {"--set: robots.LR01.serial: is a level of a topic"}},
+        {{"robots.LR01.manufacturer=a/b"}, {"--set: robots.LR01.manufacturer: is a level of a topic"}},
+        {{"robots.LR01.manufacturer=7"}, {"--set: robots.LR01.manufacturer: expected a string"}},
+        {{"mqtt.interface_name=a/b"}, {"--set: mqtt.interface_name: "}},
+        {{"robots.LR01=7"}, {"--set: robots.LR01: expected a table"}},
+        {{R"(robots."LR 01".type=LR)"}, {R"(--set: robots."LR 01": expected a robot's name)"}},
+        {{"robots.LR01.type=CR"}, {file + "*: robots.LR01.arm: a CR needs"}},
+        {{"robots.LR01.home=X99"}, {"--set: robots.LR01.home: expected a station of the site map, found X99"}},
+        {{"robots.LR01.home=X99", "robots.CR01.start_node=N0", "robot.battery_floor=90"},
+         {"--set: robots.CR01.start_node: expected a node",
+          "--set: robots.LR01.home: expected a station",
+          "--set: robot.battery_floor: expected 0 to 100 percent"}},
+        {{"robots.CR01.home=CHG01"}, {"--set: robots.CR01.home: expected a station"}},
+        {{"actions.Start=7"}, {"--set: actions.Start: expected a table"}},
+        {{"mcs=7"}, {"--set: mcs: expected a table"}},
+        {{"store.path=7"}, {"--set: store.path: expected a string"}},
+        {{"store.path="}, {"--set: store.path: is empty"}},
+        {{"site.map="}, {"--set: site.map: is empty; give the path of a LIF file"}},
+        {{"errors.map=/nowhere"}, {"--set: errors.map: /nowhere cannot be read (No such file or directory)"}},
+        {{"mqtt.ca_file=/nowhere"}, {"--set: mqtt.ca_file: is for mqtts:// only"}},
+        {{"locations.robot_aliases=7"}, {"--set: locations.robot_aliases: expected a list of strings"}},
+        {{R"(site.ports=["X", "A01.CP01", "Y"])"}, {R"(--set: site.ports: "X": expected a location)"}}};
+    for (const Row& row : rows)
+    {
+        INFO(row.overrides.front());
+        std::vector<std::string> mistakes = Read(row.overrides).mistakes;
+        REQUIRE(mistakes.size() == row.mistakes.size());
+        for (std::size_t i = 0; i < mistakes.size(); ++i)
+        {
+            INFO(mistakes[i]);
+            const std::string& begin = row.mistakes[i];
+            const std::size_t star = begin.find('*'); // any line
+            CHECK(mistakes[i].starts_with(begin.substr(0, star)));
+            CHECK(mistakes[i].find(begin.substr(star == std::string::npos ? 0 : star + 1)) != std::string::npos);
+        }
+    }
+    CHECK(
+        Read({R"(site.ports=["X", "Y"])"}).mistakes.front().find(R"(; "Y": expected a location)") != std::string::npos);
+}
+
+TEST_CASE("What the map does not have is told with the line of its key")
+{
+    const Acsd::AcsdConfig config = ReadWithout(
+        {"robots.LR01"},
+        "[robots.LR01]\ntype = \"LR\"\nmanufacturer = \"ACS\"\nserial = \"LR01\"\nvehicle_type = \"lr-base\"\n"
+        "start_node = \"D-CHG01\"\nports = [\"CP01\"]\nhome = \"X99\"\n");
+    REQUIRE(config.mistakes.size() == 1);
+    const std::size_t key =
+        config.mistakes[0].find(": robots.LR01.home: expected a station of the site map, found X99");
+    REQUIRE(key != std::string::npos);
+    const std::string place = config.mistakes[0].substr(0, key);
+    CHECK(std::stoi(place.substr(place.rfind(':') + 1)) > 200);
+}
+
+TEST_CASE("--check-config looks at the store, makes and changes nothing, and tells what is wrong with it under its key")
+{
+    const Testing::TemporaryFolder folder;
+    const std::string path = (folder.GetPath() / "acsd.db").string();
+    const auto check = [](const std::string& store) {
+        return Acsd::CheckAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", {"store.path=" + store}).mistakes;
+    };
+    CHECK(check(path).empty());
+    CHECK(std::filesystem::is_empty(folder.GetPath()));
+    REQUIRE(Planning::SqlitePlanStore::Open(path).has_value());
+    CHECK(check(path).empty());
+    std::ofstream(path, std::ios::trunc) << "no store at all, but long enough to be one";
+    for (const auto& [store, expected, found] :
+         {std::tuple(path, "an undamaged plan store", "file is not a database"),
+          std::tuple(folder.GetPath().string(), "a file; give the path of one in that folder", "a folder"),
+          std::tuple(std::string("/nowhere/acsd.db"), "make the folder /nowhere", "No such file or directory")})
+    {
+        INFO(store);
+        const std::vector<std::string> mistakes = check(store);
+        REQUIRE(mistakes.size() == 1);
+        CHECK(mistakes[0].starts_with("--set: store.path: " + store + ": expected "));
+        CHECK(mistakes[0].find(expected) != std::string::npos);
+        CHECK(mistakes[0].find(found) != std::string::npos);
+        CHECK(Read({"store.path=" + store}).mistakes.empty()); // a SIGHUP does not touch it, a start opens it
+    }
 }
 
 TEST_CASE("4.1 An action that no robot can do as it stands is a mistake that says what to give")

@@ -233,6 +233,47 @@ TEST_CASE("The caller's own mistake stands at the line of its key")
         });
 }
 
+TEST_CASE("Of a key only the first mistake is told, and none of what stands in a table that is refused")
+{
+    const Apps::ConfigReader reader =
+        Apps::ConfigReader::ReadText("a = 7\n[b]\nx = 1\ny = 2\n[c]\nz = 3\n", "f.toml", {"c=4"});
+    const Apps::ConfigSection root = reader.GetRoot();
+    static_cast<void>(root.GetString("a"));
+    root.AddMistake("a", "is empty");
+    root.GetSection("b").Refuse("has no good name");
+    root.GetSection("b").AddMistake("x", "is bad");
+    static_cast<void>(root.GetSection("c").GetString("z"));
+    static_cast<void>(root.GetSection("c"));
+    CHECK(
+        reader.GetMistakes()
+        == std::vector<std::string>{
+            "f.toml:1: a: expected a string, found the integer 7",
+            "f.toml:2: b: has no good name",
+            "--set: c: expected a table, found the integer 4"});
+}
+
+TEST_CASE("A mistake by its path stands at the line of the key, or of as much of the path as is given")
+{
+    const Apps::ConfigReader reader = Apps::ConfigReader::ReadText("[a]\n[a.b]\nc = 1\n", "f.toml", {"d.e=1"});
+    reader.AddMistake("a.b.c", "1");
+    reader.AddMistake("a.b.x", "2");
+    reader.AddMistake("a.b.c.deeper", "3");
+    reader.AddMistake("d.e", "4");
+    reader.AddMistake("nothing.of.it", "5");
+    std::vector<std::string> mistakes = reader.GetMistakes();
+    std::erase_if(mistakes, [](const std::string& mistake) {
+        return mistake.find("unknown key") != std::string::npos;
+    });
+    CHECK(
+        mistakes
+        == std::vector<std::string>{
+            "f.toml: nothing.of.it: 5",
+            "f.toml:2: a.b.x: 2",
+            "f.toml:3: a.b.c: 1",
+            "f.toml:3: a.b.c.deeper: 3",
+            "--set: d.e: 4"});
+}
+
 TEST_CASE("A file that is no TOML is one mistake, with its line")
 {
     const auto reader = Read("[mcs]\nurl = 'x'\nurl = \n", {"bad"});
