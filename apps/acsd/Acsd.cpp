@@ -116,7 +116,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     {
         if (!_loop.IsStoring())
         {
-            _storeWatch.OnLost(error);
+            _storeWatch.OnLost(error, _surroundings.clock.GetNow().steady);
             _loop.OnStoreLost(error);
         }
     }
@@ -437,7 +437,7 @@ public:
         : _surroundings(std::move(surroundings)),
           _config(std::move(config)),
           _figures(_metrics),
-          _oddities(_surroundings.logger.MakeFor("robot")),
+          _oddities(_surroundings.logger.MakeFor("robot"), _surroundings.clock),
           _planLog(_surroundings.logger.MakeFor("plan"), _metrics),
           _engine(_config.engine, *_config.site, _surroundings.random),
           _loop(

@@ -60,6 +60,12 @@ bool IsReplayed(const Planning::Report& report, EOutboxReplay replay)
 
 } // namespace
 
+std::string CutReason(std::string_view reason)
+{
+    constexpr std::size_t LONGEST = 200;
+    return std::string(reason.substr(0, std::min(reason.find(", found "), LONGEST)));
+}
+
 McsDialog::McsDialog(
     const Core::IClock& clock,
     Core::Logger logger,
@@ -69,6 +75,7 @@ McsDialog::McsDialog(
     CommandHandler handler)
     : _clock(clock),
       _logger(std::move(logger)),
+      _log(_logger),
       _localOffset(localOffset),
       _engine(engine),
       _output(output),
@@ -204,12 +211,28 @@ void McsDialog::TakeRequest(const Protocol::AcsRequest& request)
 
 void McsDialog::LogAnswer(const OpenRequest& request, bool bAccepted, std::string_view reason)
 {
-    _logger.Info(
-        bAccepted ? "command accepted" : "command refused",
+    if (bAccepted)
+    {
+        _logger.Info(
+            "command accepted",
+            {{"command", GetText(request.command)},
+             {"planId", request.planID},
+             {"transactionId", request.transactionID},
+             {"reason", reason}});
+        return;
+    }
+    // "steps[0].action: expected …"
+    const std::size_t colon = reason.find(": expected ");
+    _log.Write(
+        _clock.GetNow().steady,
+        Core::ELogLevel::Info,
+        CutReason(reason),
+        "command refused",
         {{"command", GetText(request.command)},
          {"planId", request.planID},
          {"transactionId", request.transactionID},
-         {"reason", reason}});
+         {"reason", reason},
+         {"field", reason.substr(0, colon == std::string_view::npos ? 0 : colon)}});
 }
 
 void McsDialog::AnswerQuery(const Protocol::AcsRequest& request)
@@ -325,7 +348,10 @@ void McsDialog::TakeAck(const Protocol::Acked& acked)
     if (acked.result == Protocol::EAckResult::Fail)
     {
         // Final (register, mcs.on_report_nack): the MCS has it and does not want it. Or it is kept for the next connection.
-        _logger.Warning(
+        _log.Write(
+            _clock.GetNow().steady,
+            Core::ELogLevel::Warning,
+            GetText(acked.command),
             _style.bRefusedReportsRetried ? "the MCS refuses a report, it is sent again with the next registration"
                                           : "the MCS refuses a report",
             {{"command", GetText(acked.command)}, {"transactionId", acked.transactionID}, {"reason", acked.message}});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/LocalOffset.hpp"
+#include "common/LogThinner.hpp"
 #include "IMcsOutput.hpp"
 #include "MessageStyle.hpp"
 #include <acs/core/Logger.hpp>
@@ -16,10 +17,14 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 
 namespace ACS::Acsd
 {
+
+/// Of a refusal what it is about, without what was found: refusals of which this is the same are alike.
+[[nodiscard]] std::string CutReason(std::string_view reason);
 
 /// What acsd and the MCS say to each other: hands requests to the engine as commands, answers them, feeds the engine's
 /// outbox into the session and tells the engine what was acknowledged. Pure: the session is the caller's.
@@ -50,6 +55,7 @@ private:
 
     const Core::IClock& _clock;
     Core::Logger _logger;
+    Apps::LogThinner _log; ///< For what the MCS can make come in a flood.
     Apps::LocalOffset _localOffset;
     const Planning::PlanEngine& _engine;
     IMcsOutput& _output;

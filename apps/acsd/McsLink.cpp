@@ -1,6 +1,5 @@
 #include "McsLink.hpp"
 
-#include "OddityLog.hpp"
 #include <acs/core/Overloaded.hpp>
 
 #include <fmt/format.h>
@@ -66,6 +65,7 @@ McsLink::McsLink(
     CommandHandler handler)
     : _clock(clock),
       _logger(logger),
+      _log(logger),
       _dialog(clock, std::move(logger), localOffset, engine, *this, std::move(handler))
 {
 }
@@ -256,21 +256,29 @@ void McsLink::LogEvent(const Protocol::SessionEvent& event)
                 _loggedOutage.clear();
             },
             [&](const Protocol::RegistrationRefused& refused) {
-                _logger.Warning("the MCS refuses the registration, trying again", {{"reason", refused.message}});
+                Warn("registration", "the MCS refuses the registration, trying again", {{"reason", refused.message}});
             },
             [&](const Protocol::RequestUnanswered& unanswered) {
                 ++_figures.unanswered;
-                if (IsWorthALine(_figures.unanswered))
-                {
-                    _logger.Warning(
-                        "the MCS does not acknowledge",
-                        {{"command", GetText(unanswered.command)},
-                         {"transactionId", unanswered.transactionID},
-                         {"count", fmt::format_int(_figures.unanswered).str()}});
-                }
+                Warn(
+                    "unanswered",
+                    "the MCS does not acknowledge",
+                    {{"command", GetText(unanswered.command)},
+                     {"transactionId", unanswered.transactionID},
+                     {"count", fmt::format_int(_figures.unanswered).str()}});
             },
             [&](const Protocol::LinkLost& lost) { LogOutage(lost); },
             [&](const Protocol::ProtocolNoted& noted) { LogNote(noted); },
+            [&](const Protocol::RequestRefused& refused) {
+                Warn(
+                    "refused " + CutReason(refused.reason),
+                    "command refused",
+                    {{"command", refused.commandName},
+                     {"planId", refused.planID},
+                     {"transactionId", refused.transactionID},
+                     {"reason", refused.reason},
+                     {"field", refused.path}});
+            },
             [](const auto&) { /* not worth a line */ }},
         event);
 }
@@ -278,14 +286,17 @@ void McsLink::LogEvent(const Protocol::SessionEvent& event)
 void McsLink::LogNote(const Protocol::ProtocolNoted& noted)
 {
     const std::uint64_t total = GetStatistics().CountOf(noted.what);
-    if (!IsWorthALine(total, noted.count))
-    {
-        return;
-    }
-    _logger.Write(
+    _log.Write(
+        _clock.GetNow().steady,
         IsHarmless(noted.what) ? Core::ELogLevel::Debug : Core::ELogLevel::Warning,
+        GetText(noted.what),
         "the MCS departs from the protocol",
         {{"what", GetText(noted.what)}, {"detail", noted.detail}, {"count", fmt::format_int(total).str()}});
+}
+
+void McsLink::Warn(std::string_view kind, std::string_view message, std::initializer_list<Core::LogField> fields)
+{
+    _log.Write(_clock.GetNow().steady, Core::ELogLevel::Warning, kind, message, fields);
 }
 
 void McsLink::LogOutage(const Protocol::LinkLost& lost)

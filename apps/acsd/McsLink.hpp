@@ -1,6 +1,7 @@
 #pragma once
 
 #include "AcsdConfig.hpp"
+#include "common/LogThinner.hpp"
 #include "IMcsOutput.hpp"
 #include "McsDialog.hpp"
 #include "MessageTrace.hpp"
@@ -20,6 +21,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -48,6 +50,7 @@ public:
 private:
     const Core::IClock& _clock;
     Core::Logger _logger;
+    Apps::LogThinner _log; ///< For what the MCS can make come in a flood.
     McsDialog _dialog;
     StopHandler _stopHandler;
     std::unique_ptr<ProtocolBeast::AcsClient> _client;
@@ -62,6 +65,7 @@ private:
     void OnSessionEvent(const Protocol::SessionEvent& event) override;
     void LogEvent(const Protocol::SessionEvent& event);
     void LogNote(const Protocol::ProtocolNoted& noted);
+    void Warn(std::string_view kind, std::string_view message, std::initializer_list<Core::LogField> fields);
     void WatchWire(ProtocolBeast::EWireDirection direction, std::string_view text);
     void LogOutage(const Protocol::LinkLost& lost);
 

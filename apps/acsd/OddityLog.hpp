@@ -1,6 +1,8 @@
 #pragma once
 
+#include "common/LogThinner.hpp"
 #include <acs/core/Logger.hpp>
+#include <acs/core/Now.hpp>
 
 #include <cstdint>
 #include <map>
@@ -11,10 +13,7 @@
 namespace ACS::Acsd
 {
 
-/// The first, the tenth, the hundredth…: whoever repeats a mistake does not fill the log. The last `news` of `total` are new.
-[[nodiscard]] bool IsWorthALine(std::uint64_t total, std::uint64_t news = 1);
-
-/// Counts what robots and arms do that they should not, by robot and kind, and tells it in the log now and then. Kinds are a
+/// Counts what robots and arms do that they should not, by robot and kind, and tells it in the log, thinned. Kinds are a
 /// fixed set of words in code; robots are those of the configuration.
 class OddityLog final
 {
@@ -22,11 +21,13 @@ public:
     using Key = std::pair<std::string, std::string>; ///< robotID, kind
 
 private:
-    Core::Logger _logger;
+    const Core::IClock& _clock;
+    Apps::LogThinner _log;
     std::map<Key, std::uint64_t> _counts;
 
 public:
-    explicit OddityLog(Core::Logger logger);
+    /// The clock must outlive the log.
+    OddityLog(Core::Logger logger, const Core::IClock& clock);
 
     void Note(const std::string& robotID, std::string_view kind, std::string_view detail);
 

@@ -1,6 +1,5 @@
 #include "PlanLog.hpp"
 
-#include "OddityLog.hpp"
 #include <acs/plan/PlanTransitions.hpp>
 
 #include <algorithm>
@@ -24,8 +23,8 @@ constexpr const char* JOB_DURATION = "acsd_job_duration_seconds";
 constexpr const char* JOB_FAILURES = "acsd_job_failures_total";
 constexpr const char* NOTES = "acsd_robot_notes_total";
 
-/// Of different notes, so that nobody fills the memory with them.
-constexpr std::size_t MOST_NOTES = 1'000;
+/// Of a robot's alarms that are set and cleared: more than a robot has at a time.
+constexpr std::size_t FEW_ALARMS = 20;
 
 double GetSeconds(Core::WallTime from, Core::WallTime to)
 {
@@ -37,7 +36,9 @@ double GetSeconds(Core::WallTime from, Core::WallTime to)
 
 PlanLog::PlanLog(Core::Logger logger, Apps::MetricsEndpoint& metrics)
     : _logger(std::move(logger)),
-      _metrics(metrics)
+      _metrics(metrics),
+      _notes(_logger),
+      _alarms(_logger, FEW_ALARMS)
 {
     _metrics.AddCounter(PLAN_CHANGES, "Plans that reached a status");
     _metrics.AddCounter(JOB_CHANGES, "Jobs that reached a status");
@@ -163,13 +164,16 @@ void PlanLog::ObserveJob(
     }
 }
 
-void PlanLog::OnAlarmChanged(const Planning::Alarm& alarm, bool bSet, std::string_view transactionID, Core::Now /*now*/)
+void PlanLog::OnAlarmChanged(const Planning::Alarm& alarm, bool bSet, std::string_view transactionID, Core::Now now)
 {
     if (bSet)
     {
         _metrics.Increment(ALARMS_SET, {{"level", std::string(GetText(alarm.level))}});
     }
-    _logger.Warning(
+    _alarms.Write(
+        now.steady,
+        Core::ELogLevel::Warning,
+        alarm.robotID,
         bSet ? "alarm set" : "alarm cleared",
         {{"robotId", alarm.robotID},
          {"errorCode", alarm.errorCode},
@@ -194,18 +198,11 @@ void PlanLog::OnTscChanged(Planning::ETscState state, Planning::ETscState from, 
     _logger.Info("TSC", {{"from", GetText(from)}, {"state", GetText(state)}});
 }
 
-void PlanLog::OnNote(std::string_view robotID, std::string_view text, Core::Now /*now*/)
+void PlanLog::OnNote(std::string_view robotID, std::string_view text, Core::Now now)
 {
     _metrics.Increment(NOTES, {{"robot", std::string(robotID)}});
-    if (_notes.size() >= MOST_NOTES)
-    {
-        _notes.clear();
-    }
-    const std::uint64_t count = ++_notes[std::string(robotID) + ' ' + std::string(text)];
-    if (IsWorthALine(count))
-    {
-        _logger.Warning(text, {{"robotId", robotID}, {"count", std::to_string(count)}});
-    }
+    const std::string kind = std::string(robotID) + ' ' + std::string(text);
+    _notes.Write(now.steady, Core::ELogLevel::Warning, kind, text, {{"robotId", robotID}});
 }
 
 } // namespace ACS::Acsd

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/LogThinner.hpp"
 #include "common/MetricsEndpoint.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/plan/IPlanObserver.hpp>
@@ -20,7 +21,8 @@ class PlanLog final : public Planning::IPlanObserver
     Apps::MetricsEndpoint& _metrics;
     /// When the jobs that run were given to their robots, by planID and jobID.
     std::map<std::pair<std::string, std::string>, Core::SteadyTime> _jobs;
-    std::map<std::string, std::uint64_t> _notes; ///< By robotID and text: how often it was said.
+    Apps::LogThinner _notes;
+    Apps::LogThinner _alarms; ///< A robot may make up as many as it likes.
 
     void ObserveJob(
         const Planning::PlanRecord& record,

@@ -8,7 +8,8 @@ namespace ACS::Acsd
 {
 
 StoreWatch::StoreWatch(Core::Logger logger)
-    : _logger(std::move(logger))
+    : _logger(std::move(logger)),
+      _failures(_logger)
 {
 }
 
@@ -33,7 +34,7 @@ Core::Duration StoreWatch::OnStored(const Core::Result<void>& result, Core::Stea
     }
     if (!result.has_value())
     {
-        OnLost(result.error());
+        OnLost(result.error(), now);
     }
     else if (!std::exchange(_fault, {}).empty())
     {
@@ -42,10 +43,10 @@ Core::Duration StoreWatch::OnStored(const Core::Result<void>& result, Core::Stea
     return took;
 }
 
-void StoreWatch::OnLost(const Core::Error& error)
+void StoreWatch::OnLost(const Core::Error& error, Core::SteadyTime now)
 {
     _fault = Core::Describe(error);
-    _logger.Error("the store fails", {{"reason", _fault}});
+    _failures.Write(now, Core::ELogLevel::Error, _fault, "the store fails", {{"reason", _fault}});
 }
 
 std::optional<std::string> StoreWatch::GetObstacleOrNull() const

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/LogThinner.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
@@ -16,6 +17,7 @@ namespace ACS::Acsd
 class StoreWatch
 {
     Core::Logger _logger;
+    Apps::LogThinner _failures; ///< It is tried again every second.
     Core::SteadyTime _began;
     std::string _fault; ///< Why the store failed last; empty: it did not.
     bool _bHangs = false;
@@ -37,7 +39,7 @@ public:
     Core::Duration OnStored(const Core::Result<void>& result, Core::SteadyTime now);
 
     /// A look at the files has failed, without a write.
-    void OnLost(const Core::Error& error);
+    void OnLost(const Core::Error& error, Core::SteadyTime now);
 
     /// Why plans cannot be taken for the store's sake.
     [[nodiscard]] std::optional<std::string> GetObstacleOrNull() const;

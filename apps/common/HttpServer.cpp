@@ -1,5 +1,6 @@
 #include "common/HttpServer.hpp"
 
+#include "common/LogThinner.hpp"
 #include <acs/net/TcpListener.hpp>
 
 #include <boost/asio/ip/tcp.hpp>
@@ -79,6 +80,7 @@ struct HttpServer::Impl : std::enable_shared_from_this<Impl>
 
     Handler handler;
     Core::Logger logger;
+    LogThinner refusals; ///< Anybody may send anything.
     HttpLimits limits;
     std::shared_ptr<Net::TcpListener> listener;
     ConnectionList connections;
@@ -91,6 +93,7 @@ struct HttpServer::Impl : std::enable_shared_from_this<Impl>
         HttpLimits serverLimits)
         : handler(std::move(handlerToCall)),
           logger(std::move(serverLogger)),
+          refusals(logger),
           limits(serverLimits),
           listener(std::make_shared<Net::TcpListener>(executor, logger, [this](Tcp::socket socket) {
               OnAccepted(std::move(socket));
@@ -221,7 +224,13 @@ private:
             {
                 return Leave();
             }
-            server->logger.Warning("Refused an HTTP request", {{"reason", error.message()}});
+            const std::string reason = error.message();
+            server->refusals.Write(
+                std::chrono::steady_clock::now(),
+                Core::ELogLevel::Warning,
+                reason,
+                "Refused an HTTP request",
+                {{"reason", reason}});
             return WriteAsync(*refusal, false, false);
         }
         const auto& request = _parserOrNull->get();

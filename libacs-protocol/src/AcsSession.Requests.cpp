@@ -34,6 +34,12 @@ void AcsSession::Impl::Refuse(const DecodeFailure& failure, bool bLegacyName, Co
     {
         return;
     }
+    out.emplace_back(Deliver{RequestRefused{
+        failure.commandName,
+        failure.transactionID,
+        failure.planID,
+        failure.error.path,
+        refusal == Detail::ERefusal::Failed ? Detail::MakeRefusal(failure) : std::string(Detail::UNSUPPORTED)}});
     const Core::Timestamp timestamp = Detail::MakeTimestamp(now, _siteOffset);
     if (refusal == Detail::ERefusal::Failed)
     {

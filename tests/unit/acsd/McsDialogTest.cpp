@@ -3,6 +3,7 @@
 #include "Catch.hpp"
 #include "EngineLoop.hpp"
 #include "PlanWorld.hpp"
+#include "RecordingLogSink.hpp"
 
 #include <algorithm>
 
@@ -18,11 +19,12 @@ class DialogTest : private Acsd::IMcsOutput
 {
 protected:
     ManualClock _clock;
+    RecordingLogSink _log;
     SeededRandom _random{1};
     PlanEngine _engine{MakeTestOptions(false), MakeTestSite(), _random};
     Acsd::McsDialog _dialog{
         _clock,
-        Core::Logger(),
+        Core::Logger(_log, "mcs"),
         Apps::LocalOffset(std::chrono::minutes(0)),
         _engine,
         *this,
@@ -36,6 +38,10 @@ protected:
             if (const auto* const reportOrNull = std::get_if<SendReport>(&action))
             {
                 _dialog.Report(reportOrNull->entry);
+            }
+            if (const auto* const replyOrNull = std::get_if<ReplyCommand>(&action))
+            {
+                _dialog.Reply(*replyOrNull);
             }
         },
         [this](const StoreBatch& batch) {
@@ -103,6 +109,46 @@ private:
 };
 
 } // namespace
+
+TEST_CASE_METHOD(
+    DialogTest,
+    "A command that is refused has a line with planId, transactionId, reason and field; of a flood a few, other reasons as well")
+{
+    Register();
+    const auto submit = [this](const std::string& action, int number) {
+        Protocol::ExecutionPlan plan;
+        plan.planID = "P" + std::to_string(number);
+        plan.steps = {{1, action, "A01.CP01", {}, {{"J", "A01.CP01", "AMR.CP01"}}}};
+        _dialog.OnSessionEvent(Protocol::RequestReceived{{"T" + std::to_string(number), {}, std::move(plan)}, false});
+    };
+    submit("Fly", 0);
+    REQUIRE(_log.GetLines().size() == 1);
+    const RecordedLine& line = _log.GetLines().front();
+    CHECK(line.message == "command refused");
+    CHECK(line.HasField("command", "ExecutionPlan"));
+    CHECK(line.HasField("planId", "P0"));
+    CHECK(line.HasField("transactionId", "T0"));
+    CHECK(line.HasField("field", "steps[0].action"));
+    CHECK(std::ranges::any_of(line.fields, [](const auto& field) {
+        return field.first == "reason" && field.second.starts_with("steps[0].action: expected one of");
+    }));
+    for (int number = 1; number < 100; ++number)
+    {
+        submit("Fly", number);
+    }
+    CHECK(_log.GetLines().size() == Apps::LogThinner::FEW);
+    _dialog.OnSessionEvent(Protocol::RequestReceived{{"T", {}, Protocol::CancelPlan{"P9", {}}}, false});
+    while (_loop.IsStoring())
+    {
+        _loop.OnStored({});
+    }
+    CHECK(_log.GetLines().back().HasField("command", "CancelPlan"));
+    CHECK(_log.GetLines().size() == Apps::LogThinner::FEW + 1);
+    _clock.Advance(Apps::LogThinner::INTERVAL);
+    submit("Fly", 100);
+    CHECK(_log.GetLines().back().message == "command refused (95 like it left out before)");
+    CHECK(_log.GetLines().back().HasField("planId", "P100"));
+}
 
 TEST_CASE_METHOD(
     DialogTest,

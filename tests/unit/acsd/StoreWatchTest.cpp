@@ -47,12 +47,32 @@ TEST_CASE("A write that fails keeps acsd from being ready until one succeeds")
     CHECK(sink.Contains(Core::ELogLevel::Warning, "the store works again"));
 }
 
+TEST_CASE("A store that fails each second is told a few times, then once a minute, and each new reason at once")
+{
+    Testing::ManualClock clock;
+    Testing::RecordingLogSink sink;
+    StoreWatch watch{Core::Logger(sink, "store")};
+    const auto fail = [&](const char* reason) {
+        watch.OnStored(Core::Fail(Core::ECoreError::TooLarge, "acsd.db", "room", reason), clock.GetNow().steady);
+        clock.Advance(1s);
+    };
+    for (int second = 0; second < 130; ++second)
+    {
+        fail("disk full");
+    }
+    CHECK(sink.GetLines().size() == 7);
+    CHECK(sink.Contains(Core::ELogLevel::Error, "the store fails (59 like it left out before)"));
+    fail("disk broken");
+    CHECK(sink.GetLines().size() == 8);
+    CHECK(sink.ContainsField("reason", "acsd.db: expected room, found disk broken"));
+}
+
 TEST_CASE("A file that is gone keeps acsd from being ready without a write, until one succeeds")
 {
     Testing::ManualClock clock;
     Testing::RecordingLogSink sink;
     StoreWatch watch{Core::Logger(sink, "store")};
-    watch.OnLost({Core::ECoreError::OutOfRange, "acsd.db", "the file", "nothing"});
+    watch.OnLost({Core::ECoreError::OutOfRange, "acsd.db", "the file", "nothing"}, clock.GetNow().steady);
     CHECK(
         watch.GetObstacleOrNull()
         == std::string("the store cannot be written: acsd.db: expected the file, found nothing"));

@@ -2,6 +2,7 @@
 
 #include "AcsdConfig.hpp"
 #include "Catch.hpp"
+#include "ManualClock.hpp"
 #include "RecordingLogSink.hpp"
 
 #include <cstdint>
@@ -18,7 +19,8 @@ struct WatchFixture
 {
     AcsdConfig config = ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", {});
     Testing::RecordingLogSink sink;
-    OddityLog oddities{Core::Logger(sink, "robot")};
+    Testing::ManualClock clock;
+    OddityLog oddities{Core::Logger(sink, "robot"), clock};
     VehicleWatch watch{*config.site, "LR01", oddities};
     VDA5050::StateMessage state;
 
@@ -170,7 +172,7 @@ TEST_CASE_METHOD(WatchFixture, "An arm that answers nonsense is told by what it 
 
 TEST_CASE_METHOD(
     WatchFixture,
-    "A robot that repeats its mistake does not fill the log: the first, the tenth, the hundredth")
+    "A robot that repeats its mistake does not fill the log: the first few, then one line a minute with its count")
 {
     state.lastNodeID = "nowhere";
     for (int i = 0; i < 250; ++i)
@@ -178,8 +180,11 @@ TEST_CASE_METHOD(
         Show();
     }
     CHECK(CountOf("unknown_node") == 250);
-    CHECK(sink.GetLines().size() == 3);
-    CHECK(sink.ContainsField("count", "100"));
+    CHECK(sink.GetLines().size() == Apps::LogThinner::FEW);
+    clock.Advance(Apps::LogThinner::INTERVAL);
+    Show();
+    CHECK(sink.GetLines().back().message == "the robot says what cannot be (245 like it left out before)");
+    CHECK(sink.ContainsField("count", "251"));
 }
 
 } // namespace ACS::Acsd::Test

@@ -1,6 +1,7 @@
 #include "common/HttpServer.hpp"
 
 #include "Catch.hpp"
+#include "common/LogThinner.hpp"
 #include "RecordingLogSink.hpp"
 
 #include <boost/asio/connect.hpp>
@@ -279,6 +280,19 @@ TEST_CASE("What is no HTTP is answered with 400 and the server lives on")
     RawClient good(fixture.context, fixture.port);
     good.Send("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
     REQUIRE(good.HasReceived("<answer>"));
+}
+
+TEST_CASE("A flood of bad requests is a few lines of the log")
+{
+    Fixture fixture;
+    for (std::size_t count = 0; count < 4 * Apps::LogThinner::FEW; ++count)
+    {
+        RawClient bad(fixture.context, fixture.port);
+        bad.Send("\x16\x03\x01 hello\r\n\r\n");
+        REQUIRE(bad.WasClosed());
+    }
+    CHECK(fixture.log.GetLines().size() == Apps::LogThinner::FEW);
+    CHECK(fixture.log.Contains(Core::ELogLevel::Warning, "Refused an HTTP request"));
 }
 
 TEST_CASE("A target that is not decodable is answered with 400 and the connection lives on")

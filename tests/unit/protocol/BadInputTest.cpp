@@ -315,6 +315,29 @@ TEST_CASE("R1, R3 Whatever an ACS sends, the MCS refuses or counts it, delivers 
     }
 }
 
+TEST_CASE(
+    "R3 A request that cannot be read is told to the ACS with what could be read of it, the member and the reason")
+{
+    Testing::AcsSessionBench bench;
+    bench.StartAndReplay();
+    bench.Text(MakePlanText(R"("steps":[{"stepNo":0}])"));
+    const auto refused = bench.probe.GetEvents<Protocol::RequestRefused>();
+    REQUIRE(refused.size() == 1);
+    CHECK(refused[0].commandName == "ExecutionPlan");
+    CHECK(refused[0].transactionID == "t-1");
+    CHECK(refused[0].planID == "P");
+    CHECK(refused[0].path == "payload.steps[0].stepNo");
+    CHECK(refused[0].reason == "payload.steps[0].stepNo: expected an integer from 1 to 2147483647, found 0");
+    bench.Text(MakeRequestText("Dance", R"({"planId":"P"})"));
+    REQUIRE(bench.probe.GetEvents<Protocol::RequestRefused>().size() == 1);
+    CHECK(bench.probe.GetEvents<Protocol::RequestRefused>()[0].reason == "unsupported command");
+    for (const std::string& text : {std::string("hello"), MakeRequestText("PlanReportAck", "7")})
+    {
+        bench.Text(text); // not answered
+        CHECK(bench.probe.GetEvents<Protocol::RequestRefused>().empty());
+    }
+}
+
 TEST_CASE("R1, 4.1 The refusal of a planId with a control character repeats it, and the MCS can read that")
 {
     Testing::AcsSessionBench bench;

@@ -34,6 +34,18 @@ struct RequestReceived
     bool operator==(const RequestReceived&) const = default;
 };
 
+/// ACS side: a request that could not be read was answered with Fail; it goes no further.
+struct RequestRefused
+{
+    std::string commandName;   ///< As sent.
+    std::string transactionID; ///< This and the next: empty where it could not be read.
+    std::string planID;
+    std::string path;   ///< Of the member that is wrong: "payload.steps[0].action"; may be empty.
+    std::string reason; ///< The message of the Ack.
+
+    bool operator==(const RequestRefused&) const = default;
+};
+
 /// ACS side: the MCS has answered a durable request. Whatever the result, it is final: the caller may forget it.
 struct Acked
 {
@@ -126,6 +138,7 @@ using SessionEvent = std::variant<
     Registered,
     RegistrationRefused,
     RequestReceived,
+    RequestRefused,
     Acked,
     AckReceived,
     RequestUnanswered,

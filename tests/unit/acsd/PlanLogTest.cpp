@@ -1,0 +1,49 @@
+#include "PlanLog.hpp"
+
+#include "Catch.hpp"
+#include "ManualClock.hpp"
+#include "RecordingLogSink.hpp"
+
+namespace ACS::Acsd::Test
+{
+
+TEST_CASE("A robot that makes up new errors without end does not fill the log, nor hide the alarms of another one")
+{
+    Testing::ManualClock clock;
+    Testing::RecordingLogSink sink;
+    Apps::MetricsEndpoint metrics;
+    PlanLog log(Core::Logger(sink, "plan"), metrics);
+    Planning::Alarm alarm;
+    alarm.robotID = "LR01";
+    for (int number = 0; number < 1'000; ++number)
+    {
+        alarm.errorCode = "AGV-" + std::to_string(number);
+        log.OnAlarmChanged(alarm, true, "T", clock.GetNow());
+    }
+    CHECK(sink.GetLines().size() == 20);
+    CHECK(sink.ContainsField("errorCode", "AGV-19"));
+    alarm.robotID = "LR02";
+    log.OnAlarmChanged(alarm, true, "T", clock.GetNow());
+    CHECK(sink.GetLines().back().HasField("robotId", "LR02"));
+    alarm.robotID = "LR01";
+    clock.Advance(Apps::LogThinner::INTERVAL);
+    log.OnAlarmChanged(alarm, false, "T", clock.GetNow());
+    CHECK(sink.GetLines().back().message == "alarm cleared (980 like it left out before)");
+    CHECK(metrics.Respond().body.find("acsd_alarms_set_total") != std::string::npos);
+}
+
+TEST_CASE("What a robot does otherwise again and again is noted a few times, each of its ways")
+{
+    Testing::ManualClock clock;
+    Testing::RecordingLogSink sink;
+    Apps::MetricsEndpoint metrics;
+    PlanLog log(Core::Logger(sink, "plan"), metrics);
+    for (int count = 0; count < 100; ++count)
+    {
+        log.OnNote("LR01", "one way", clock.GetNow());
+    }
+    log.OnNote("LR01", "another way", clock.GetNow());
+    CHECK(sink.GetLines().size() == Apps::LogThinner::FEW + 1);
+}
+
+} // namespace ACS::Acsd::Test
