@@ -1,5 +1,6 @@
 #include "AcsdStatus.hpp"
 
+#include "AlarmText.hpp"
 #include <acs/core/Timestamp.hpp>
 #include <acs/json/JsonWriter.hpp>
 
@@ -177,7 +178,7 @@ void WriteAlarm(Json::JsonWriter& writer, const Planning::Alarm& alarm)
     WriteMember(writer, "robotId", std::string_view(alarm.robotID));
     WriteMember(writer, "errorCode", std::string_view(alarm.errorCode));
     WriteMember(writer, "level", GetText(alarm.level));
-    WriteMember(writer, "message", std::string_view(alarm.message));
+    WriteMember(writer, "message", std::string_view(MakeAlarmText(alarm)));
     WriteMember(writer, "planId", alarm.planID);
     writer.Key("stepNo");
     if (alarm.stepNo.has_value())

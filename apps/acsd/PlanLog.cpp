@@ -1,5 +1,6 @@
 #include "PlanLog.hpp"
 
+#include "AlarmText.hpp"
 #include <acs/plan/PlanTransitions.hpp>
 
 #include <algorithm>
@@ -180,7 +181,7 @@ void PlanLog::OnAlarmChanged(const Planning::Alarm& alarm, bool bSet, std::strin
          {"level", GetText(alarm.level)},
          {"planId", alarm.planID.has_value() ? std::string_view(*alarm.planID) : std::string_view()},
          {"transactionId", transactionID},
-         {"text", alarm.message}});
+         {"text", MakeAlarmText(alarm)}});
 }
 
 void PlanLog::OnRobotStatusChanged(const Planning::RobotStatus& status, Core::Now /*now*/)

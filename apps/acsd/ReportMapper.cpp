@@ -1,5 +1,6 @@
 #include "ReportMapper.hpp"
 
+#include "AlarmText.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/protocol/AcsCodec.hpp>
 
@@ -201,7 +202,9 @@ Protocol::PlanEntry MakePlanEntry(
 
 Protocol::ErrorReport MakeErrorReport(const Planning::Alarm& ownAlarm, bool bSet, const MessageStyle& style)
 {
-    const Planning::Alarm alarm = Rename(ownAlarm, style.errors);
+    Planning::Alarm told = ownAlarm;
+    told.message = MakeAlarmText(ownAlarm);
+    const Planning::Alarm alarm = Rename(std::move(told), style.errors);
     Protocol::ErrorReport report;
     report.robotID = alarm.robotID;
     report.planID = alarm.planID;

@@ -357,14 +357,17 @@ void PlanEngine::Impl::HoldJob(Robot& robot, const std::string& reason)
     robot.bRecovering = false;
     robot.bUncertain = true;
     Alarm alarm = MakeUncertainAlarm(robot);
+    const bool bOfPlan = robot.planOrNull != nullptr && !robot.overdueJobID.has_value();
     alarm.message = fmt::format(
-        "Nobody knows whether {} was done at {}: {}. Look at the robot and at that place, then answer done, failed or "
-        "again, or abort the plan.",
+        "Nobody knows whether {} was done at {}: {}. Look at the robot and at that place, then answer {}.",
         robot.job->action,
         robot.job->position,
-        reason);
+        reason,
+        bOfPlan
+            ? "done (the plan goes on behind it), failed (the plan fails) or again (it was not, and nothing was moved: "
+              "it is begun again now), or have the MCS abort the plan"
+            : "done (the carrier is where it was to go) or failed (it is where it was); the robot is free again then");
     RaiseAlarm(std::move(alarm));
-    const bool bOfPlan = robot.planOrNull != nullptr && !robot.overdueJobID.has_value();
     if (!bOfPlan)
     {
         return;

@@ -136,6 +136,10 @@ TEST_CASE("POST /plans/PLAN/jobs/JOB/done, failed and again answer for a job tha
     user.world.Raise("LR01", Planning::JobUncertain{"P1-a4", "it was switched off"});
     CHECK(HasText(user.GetStatus(), R"("errorCode":"ACS-1008")"));
     CHECK(HasText(user.GetStatus(), R"("planId":"P1","stepNo":1,"jobId":"P1-a4"})"));
+    CHECK(HasText(
+        user.GetStatus(),
+        "then answer done (the plan goes on behind it), failed (the plan fails) or again (it was not, and nothing was moved: "
+        "it is begun again now), or have the MCS abort the plan. To answer, send POST /plans/P1/jobs/P1-a4/done to acsd's"));
     CHECK(HasText(user.Post("/plans/P1/jobs/P1-b2/done"), "404 "));
     CHECK(HasText(user.Post("/plans/P2/jobs/P1-a4/again"), "404 "));
     CHECK(HasText(user.Post("/plans/P1/jobs/P1-a4/done"), "202 "));

@@ -228,6 +228,12 @@ TEST_CASE(
         LetLoadRunOver(world);
         REQUIRE(TryRunFor(world, 1ms));
         REQUIRE(GetAlarmOrNull(world, "LR01", "ACS-1008") == EAlarmLevel::Heavy);
+        const auto asks = [](const Alarm& alarm) {
+            return alarm.message.ends_with(
+                "then answer done (the carrier is where it was to go) or failed (it is where it was); the robot is free again "
+                "then.");
+        };
+        CHECK(std::ranges::count_if(world.engine->GetActiveAlarms(), asks) == 1); // not again: its plan is over
         if (bOperator)
         {
             world.Settle("P1", "P1-a4", EJobAnswer::Again, 8);
