@@ -15,7 +15,8 @@ namespace
 {
 
 constexpr std::uint64_t DICE_PART = 1;
-constexpr std::uint64_t ARM_PART = 2; ///< Whether a world has arms: apart, so that the others stay what they were.
+constexpr std::uint64_t ARM_PART = 2;     ///< Whether a world has arms: apart, so that the others stay what they were.
+constexpr std::uint64_t SERVICE_PART = 3; ///< Maintenance and batteries, likewise.
 constexpr double SPACING = 2.0;
 
 /// Nodes and edges for both types of vehicles.
@@ -233,6 +234,24 @@ void ChooseOptions(Scenario& scenario, Dice& dice)
     }
 }
 
+void ChooseService(Scenario& scenario)
+{
+    Dice dice({scenario.seed, SERVICE_PART});
+    scenario.bMaintenance = dice.IsHit(200) && scenario.Has(EFault::Controls);
+    scenario.bBatteries = dice.IsHit(300) && scenario.HasVehicles();
+    if (!scenario.bBatteries)
+    {
+        return;
+    }
+    // A few runs later whoever left its charger is there again, for half a minute.
+    scenario.options.dispatch.batteryFloor = 20;
+    scenario.options.dispatch.batteryResume = 35;
+    for (Planning::RobotOptions& robot : scenario.options.robots)
+    {
+        robot.chargingStationID = robot.homeStationID;
+    }
+}
+
 Protocol::PlanStep MakeStep(std::int32_t stepNo, std::string action, std::string position)
 {
     Protocol::PlanStep step;
@@ -353,6 +372,7 @@ Scenario MakeScenario(std::uint64_t seed, const FaultSet& without, std::optional
     const bool bArms = !bVehicles && Dice({seed, ARM_PART}).IsHit(40);
     const ERobotKind kind = bArms ? ERobotKind::Arms : ERobotKind::Memory;
     scenario.robots = robotsOrNone.value_or(bVehicles ? ERobotKind::Vda5050 : kind);
+    ChooseService(scenario);
     return scenario;
 }
 

@@ -37,6 +37,8 @@ struct Scenario
     std::uint64_t seed = 0;
     FaultSet faults; ///< By EFault.
     ERobotKind robots = ERobotKind::Memory;
+    bool bMaintenance = false; ///< An operator takes robots out of service and gives them back.
+    bool bBatteries = false;   ///< Vehicles have to charge; those in memory never do.
     std::string siteName;
     std::vector<Planning::SiteNode> nodes;
     std::vector<Planning::SiteEdge> edges;

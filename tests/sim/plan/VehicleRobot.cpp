@@ -32,6 +32,13 @@ double GetDistance(const VdaSim::Pose& pose, const Planning::SiteNode& node)
     return std::hypot(pose.x - node.x, pose.y - node.y);
 }
 
+double ChooseCharge(const DiceSeed& seed, bool bBatteries)
+{
+    constexpr std::uint64_t BATTERY_PARTS = 10'000; // behind all others
+    Dice dice({seed.seed, BATTERY_PARTS + seed.part});
+    return bBatteries ? static_cast<double>(dice.GetBetween(15, 26)) : 100.0;
+}
+
 VdaSim::Fault MakeFault(VdaSim::EFaultKind kind)
 {
     VdaSim::Fault fault;
@@ -52,6 +59,7 @@ VehicleRobot::VehicleRobot(
       _dice(seed),
       _robotID(std::move(robotID)),
       _bFaulty(bFaulty),
+      _charge(ChooseCharge(seed, around.bBatteries)),
       _timers(around.timeline)
 {
     SwitchOn(nodeID);
@@ -68,6 +76,7 @@ void VehicleRobot::SwitchOn(const std::string& nodeID)
     VdaSim::VirtualVehicleOptions options;
     options.address = MakeAddress(_robotID);
     options.startNodeID = nodeID;
+    options.charge = _charge;
     _vehicle = std::make_unique<VdaSim::VirtualVehicle>(std::move(options), _around.site, _dice, Core::Logger());
     _client = _around.broker.Open(*this, _vehicle->GetSubscriptions(), _vehicle->MakeWill(_around.timeline.GetNow()));
     _around.broker.SetReachable(*_client, _bReachable);
@@ -315,6 +324,7 @@ void VehicleRobot::Forget()
         return; // between two nodes it would have to be carried to one
     }
     _around.trace.Tell("{} forgets everything", _robotID);
+    _charge = _vehicle->GetState().batteryState.batteryCharge;
     _timers.CancelAll();
     _actions.clear();
     _status.clear();

@@ -32,6 +32,7 @@ public:
         WorkWitness& witness;
         MqttBroker& broker;
         const Planning::SiteMap& site;
+        bool bBatteries; ///< It is little more than empty at first; else full.
     };
 
 private:
@@ -39,6 +40,7 @@ private:
     Dice _dice;
     std::string _robotID;
     bool _bFaulty;
+    double _charge; ///< Percent, when it is switched on.
     std::unique_ptr<VdaSim::VirtualVehicle> _vehicle;
     VdaSim::VirtualActions _actions;
     TimerBank<std::uint64_t> _timers;

@@ -27,6 +27,7 @@ constexpr std::uint64_t OWN_RANDOM_PART = 302;
 constexpr std::uint64_t WEATHER_PART = 303;
 constexpr std::uint64_t ROBOT_PART = 304;
 constexpr std::uint64_t BROKER_PART = 305;
+constexpr std::uint64_t CARETAKER_PART = 306;
 constexpr std::uint64_t FIRST_ROBOT_PART = 400;
 constexpr std::uint64_t FIRST_RADIO_PART = 500;
 constexpr std::uint64_t FIRST_ARM_PART = 600;
@@ -51,7 +52,8 @@ World::World(Scenario scenario, EMutation mutation, bool bPrinting)
       _broker(_timeline, _trace, {_scenario.seed, BROKER_PART}, _scenario.Has(EFault::Radio)),
       _habits(_timeline),
       _robotHabits(_timeline),
-      _radioHabits(_timeline)
+      _radioHabits(_timeline),
+      _caretaker(_timeline, _trace, {_scenario.seed, CARETAKER_PART}, _robots, [this] { return _process.get(); })
 {
 }
 
@@ -93,7 +95,7 @@ void World::AddRobots()
         const DiceSeed seed{_scenario.seed, FIRST_ROBOT_PART + number};
         const DiceSeed radioSeed{_scenario.seed, FIRST_RADIO_PART + number};
         const bool bFaulty = _scenario.Has(EFault::Robots);
-        const VehicleRobot::Surroundings around{_timeline, _trace, _witness, _broker, _site};
+        const VehicleRobot::Surroundings around{_timeline, _trace, _witness, _broker, _site, _scenario.bBatteries};
         if (_scenario.robots == ERobotKind::Arms && options.type == Planning::ERobotType::CR)
         {
             const ArmController::Seeds armSeeds{
@@ -120,6 +122,7 @@ void World::AddRobots()
 void World::StartAcsd()
 {
     ++_starts;
+    _caretaker.OnStart();
     const AcsdProcess::Surroundings around{
         _timeline,
         _trace,
@@ -166,6 +169,10 @@ void World::BeginFaults()
     {
         _habits.Start(EHabit::Operator, _weather.GetBetween(5s, 90s), [this] { Operate(); });
     }
+    if (_scenario.bMaintenance)
+    {
+        _caretaker.Begin();
+    }
     if (_scenario.Has(EFault::Crashes))
     {
         _habits.Start(EHabit::Crash, _weather.GetBetween(1s, 120s), [this] { CrashSometime(); });
@@ -198,6 +205,7 @@ void World::EndFaults()
     }
     _robotHabits.CancelAll();
     _radioHabits.CancelAll();
+    _caretaker.End();
     _store.bFails = false;
     _broker.Calm();
     _network.SetReachable(true);
@@ -325,6 +333,7 @@ void World::Watch()
     {
         _process->PushCommand(Planning::ControlTsc{false, 0});
     }
+    _caretaker.GiveBack();
     TakeCarriersOff();
     const std::string unrest = DescribeUnrest();
     if (unrest.empty())

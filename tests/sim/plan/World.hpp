@@ -1,6 +1,7 @@
 #pragma once
 
 #include "AcsdProcess.hpp"
+#include "Caretaker.hpp"
 #include "CrashableStore.hpp"
 #include "Dice.hpp"
 #include "EMutation.hpp"
@@ -57,6 +58,7 @@ class World final
     TimerBank<std::string> _robotHabits;
     TimerBank<std::string> _radioHabits;
     std::unique_ptr<AcsdProcess> _process;
+    Caretaker _caretaker;
     std::uint64_t _starts = 0;
     Core::SteadyTime _deadline{};
     bool _bSettling = false;
