@@ -7,6 +7,7 @@
 #include "common/MetricsEndpoint.hpp"
 #include "common/TimerSet.hpp"
 #include "EngineLoop.hpp"
+#include "EngineTimerKeys.hpp"
 #include "LiveConfig.hpp"
 #include "McsLink.hpp"
 #include "OddityLog.hpp"
@@ -22,8 +23,6 @@
 #include <acs/vda5050/Topic.hpp>
 #include <acs/vda5050_mosquitto/MosquittoLink.hpp>
 
-#include <algorithm>
-#include <array>
 #include <cassert>
 #include <map>
 #include <optional>
@@ -80,8 +79,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     Apps::HttpServer _http;
     Apps::Endpoint _httpEndpoint;
 
-    std::map<Planning::EngineTimer, std::uint64_t> _timerKeys;
-    std::map<std::uint64_t, Planning::EngineTimer> _engineTimers;
+    EngineTimerKeys _engineTimers{FIRST_ENGINE_TIMER};
     bool _bMqttUp = false;
     bool _bWorks = false;    ///< Whether work can be taken at this moment.
     bool _bDraining = false; ///< No new plans; what is to be told is told, then the links are left.
@@ -102,7 +100,6 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         }
     }
 
-    /// A write shows by itself whether the file is still there.
     void CheckStore()
     {
         if (!_loop.IsStoring() && !_storeWatch.GetObstacleOrNull().has_value()) // else it is tried all the time
@@ -131,13 +128,19 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
                 [&](const Planning::CommandRobot& command) { CommandRobot(command); },
                 [&](const Planning::RobotStatusChanged& changed) {
                     _mcs.TellStatus(changed.status);
-                    NoteReachable(changed.status);
+                    _reachable.erase(changed.status.robotID);
+                    if (changed.status.status != Planning::ERobotStatus::Disconnected)
+                    {
+                        _reachable.insert(changed.status.robotID);
+                    }
                     TellWorking();
                 },
                 [&](const Planning::TscStateChanged& changed) { _mcs.TellTsc(changed.state); },
-                [&](const Planning::StartEngineTimer& start) { _timers.Start(GetTimerKey(start.timer), start.delay); },
+                [&](const Planning::StartEngineTimer& start) {
+                    _timers.Start(_engineTimers.GetKey(start.timer), start.delay);
+                },
                 [&](const Planning::CancelEngineTimer& cancel) {
-                    _timers.Cancel(GetTimerKey(cancel.timer));
+                    _timers.Cancel(_engineTimers.GetKey(cancel.timer));
                 }},
             action);
     }
@@ -147,16 +150,6 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         const auto found = _robots.find(command.robotID);
         assert(found != _robots.end());
         found->second->Handle(command.command);
-    }
-
-    std::uint64_t GetTimerKey(const Planning::EngineTimer& timer)
-    {
-        const auto [entry, bNew] = _timerKeys.try_emplace(timer, FIRST_ENGINE_TIMER + _timerKeys.size());
-        if (bNew)
-        {
-            _engineTimers.emplace(entry->second, timer);
-        }
-        return entry->second;
     }
 
     void OnTimer(std::uint64_t key)
@@ -187,19 +180,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         }
         else
         {
-            _loop.Push(_engineTimers.at(key));
-        }
-    }
-
-    void NoteReachable(const Planning::RobotStatus& status)
-    {
-        if (status.status == Planning::ERobotStatus::Disconnected)
-        {
-            _reachable.erase(status.robotID);
-        }
-        else
-        {
-            _reachable.insert(status.robotID);
+            _loop.Push(_engineTimers.GetTimer(key));
         }
     }
 

@@ -39,18 +39,6 @@ Core::WallTime ToTime(std::int64_t count)
     return Core::WallTime(Core::WallTime::duration(count));
 }
 
-/// A path may have any character; three of them part a URI.
-std::string EscapeForUri(const std::string& path)
-{
-    std::string escaped;
-    for (const char character : path)
-    {
-        const bool bParts = character == '%' || character == '?' || character == '#';
-        escaped += bParts ? fmt::format("%{:02X}", static_cast<unsigned>(character)) : std::string(1, character);
-    }
-    return escaped;
-}
-
 int GetPragma(SQLite::Database& database, const char* pragma)
 {
     return database.execAndGet(std::string("PRAGMA ") + pragma).getInt();
@@ -540,13 +528,8 @@ Core::Result<StoreOrigin> SqlitePlanStore::Inspect(const std::string& path)
     }
     try
     {
-        // Without a log nothing is locked and no file is made beside it; what stands in a log is read by it only.
-        const auto logBytes = std::filesystem::file_size(path + "-wal", missing);
-        const bool bLog = !missing && logBytes > 0;
-        Impl impl(
-            path,
-            bLog ? path : "file:" + EscapeForUri(path) + "?immutable=1",
-            bLog ? SQLite::OPEN_READONLY : SQLite::OPEN_READONLY | SQLite::OPEN_URI);
+        const std::optional<std::string> uri = StoreFiles::MakeUntouchedUriOrNull(path);
+        Impl impl(path, uri.value_or(path), SQLite::OPEN_READONLY | (uri.has_value() ? SQLite::OPEN_URI : 0));
         if (Core::Result<void> checked = impl.Check(); !checked.has_value())
         {
             return tl::unexpected(std::move(checked.error()));

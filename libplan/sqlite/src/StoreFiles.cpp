@@ -58,6 +58,18 @@ Core::Result<void> CheckFolder(const std::string& path)
     return {};
 }
 
+/// A path may have any character; three of them part a URI.
+std::string EscapeForUri(const std::string& path)
+{
+    std::string escaped;
+    for (const char character : path)
+    {
+        const bool bParts = character == '%' || character == '?' || character == '#';
+        escaped += bParts ? fmt::format("%{:02X}", static_cast<unsigned>(character)) : std::string(1, character);
+    }
+    return escaped;
+}
+
 } // namespace
 
 StoreFiles::StoreFiles(std::string path, std::string logPath)
@@ -108,6 +120,13 @@ Core::Result<void> StoreFiles::CheckUsable(const std::string& path)
             DescribeErrno(errno));
     }
     return CheckFolder(path);
+}
+
+std::optional<std::string> StoreFiles::MakeUntouchedUriOrNull(const std::string& path)
+{
+    struct stat log = {};
+    const bool bLog = ::stat((path + "-wal").c_str(), &log) == 0 && log.st_size > 0;
+    return bLog ? std::nullopt : std::optional("file:" + EscapeForUri(path) + "?immutable=1");
 }
 
 std::optional<StoreFiles::Identity> StoreFiles::FindOrNull(const std::string& path)

@@ -47,6 +47,10 @@ public:
     /// Whether a store is there that this program may write, or can be made. EPlanningError::StoreFailed.
     [[nodiscard]] static Core::Result<void> CheckUsable(const std::string& path);
 
+    /// By which SQLite reads a store without locking it or making a file beside it. nullopt where it has a log: what stands
+    /// in that is read by the path only.
+    [[nodiscard]] static std::optional<std::string> MakeUntouchedUriOrNull(const std::string& path);
+
 private:
     [[nodiscard]] static std::optional<Identity> FindOrNull(const std::string& path);
     [[nodiscard]] static StoreFileChange MakeChange(const std::string& path, bool bOfLog);
