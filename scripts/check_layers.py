@@ -42,39 +42,6 @@ THIRD_PARTY = {
     "vda5050_mosquitto": (
         "fmt/", "tl/", "boost/asio", "boost/system/", "mosquitto.h", "mqtt_protocol.h", "openssl/", "unistd.h"),
     "openstream_asio": (
-        "fmt/", "tl/", "boost/asio", "boost/system/", "linux/sockios.h", "netinet/", "pthread.h", "sched.h", "sys/ioctl.h",
-        "sys/mman.h", "sys/prctl.h", "sys/socket.h"),
-    "plan_sqlite": "plan"}
-
-# The longest matching folder decides.
-FOLDERS = {
-    "libacs-core/": "core",
-    "libacs-core/json/": "json",
-    "libacs-core/net/": "net",
-    "libacs-protocol/": "protocol",
-    "libacs-protocol/beast/": "protocol_beast",
-    "libvda5050/": "vda5050",
-    "libvda5050/mosquitto/": "vda5050_mosquitto",
-    "libopenstream/": "openstream",
-    "libopenstream/asio/": "openstream_asio",
-    "libplan/": "plan",
-    "libplan/sqlite/": "plan_sqlite",
-    "apps/common/": "apps/common",
-    "examples/": "examples",
-    "tests/support/": "tests/support",
-    "tests/": "tests",
-}
-
-LIBRARIES = {"core", *PURE, *IO}
-THIRD_PARTY = {
-    "core": ("fmt/", "tl/"),
-    "json": ("fmt/", "tl/", "rapidjson/"),
-    "net": ("fmt/", "tl/", "boost/asio", "boost/system/"),
-    **{layer: ("fmt/", "tl/") for layer in PURE},
-    "protocol_beast": ("fmt/", "tl/", "boost/", "openssl/", "linux/sockios.h", "sys/ioctl.h"),
-    "vda5050_mosquitto": (
-        "fmt/", "tl/", "boost/asio", "boost/system/", "mosquitto.h", "mqtt_protocol.h", "openssl/", "unistd.h"),
-    "openstream_asio": (
         "fmt/", "tl/", "boost/asio", "boost/system/", "netinet/", "linux/sockios.h", "pthread.h", "sched.h", "sys/ioctl.h", "sys/mman.h", "sys/prctl.h",
         "sys/socket.h"),
     "plan_sqlite": ("fmt/", "tl/", "SQLiteCpp/", "sqlite3.h", "fcntl.h", "sys/file.h", "sys/stat.h", "unistd.h"),
