@@ -85,6 +85,14 @@ struct ArmFixture
         adapter.Handle(job, clock.GetNow(), actions);
     }
 
+    /// The base's state is told, too, and with it the robot's.
+    void BringUpWithBase()
+    {
+        adapter.OnLinkUp(clock.GetNow(), actions);
+        BringUp();
+        ShowBase(false);
+    }
+
     /// The base shows a state.
     void ShowBase(bool bPaused)
     {
@@ -117,9 +125,7 @@ struct ArmFixture
     /// A job whose program runs.
     void StartRunning()
     {
-        adapter.OnLinkUp(clock.GetNow(), actions);
-        BringUp();
-        ShowBase(false);
+        BringUpWithBase();
         Command("J");
         Accept();
         Accept("[6,5,0]");

@@ -187,9 +187,7 @@ TEST_CASE("A refusal that comes after the silence fails the job whose program it
 TEST_CASE("A selection that gave up another program is not taken for this one's failure: the job comes again")
 {
     ArmFixture arm;
-    arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
-    arm.BringUp();
-    arm.ShowBase(false);
+    arm.BringUpWithBase();
     arm.Command("J");
     arm.Accept("[5,5,1]"); // one that stood in its middle
     CHECK(arm.TakeRequests().empty());
@@ -495,9 +493,7 @@ TEST_CASE("D-16 A job that was held before its program began is given up at once
 TEST_CASE("The counters are the mark of the robot's state; a job with another mark is not begun")
 {
     ArmFixture arm;
-    arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
-    arm.BringUp();
-    arm.ShowBase(false);
+    arm.BringUpWithBase();
     CHECK(arm.TakeEvents<Planning::StateChanged>().back().mark == "5 5 0");
     arm.TellData("[6,6,0]"); // a program that somebody ran by hand
     CHECK(arm.TakeEvents<Planning::StateChanged>().back().mark == "6 6 0");

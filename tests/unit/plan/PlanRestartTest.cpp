@@ -61,6 +61,17 @@ std::size_t CountStarts(const PlanWorld& world, const std::string& jobID)
     }));
 }
 
+/// P1 was to go on when the engine ended, and its robot has not heard of it.
+void CrashInResume(PlanWorld& world)
+{
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
+    PausePlan(world);
+    world.GetRobot("LR01").bIgnoresPause = true;
+    world.Control(EPlanControl::Resume, "P1");
+    world.Crash();
+    world.GetRobot("LR01").bIgnoresPause = false;
+}
+
 } // namespace
 
 TEST_CASE("13.8 A crash at any action and a restart: each state is reported once and in order, each job is done once")
@@ -373,12 +384,7 @@ TEST_CASE(
 TEST_CASE("6.8 A Resume whose outcome was open is carried out after the restart")
 {
     PlanWorld world;
-    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
-    PausePlan(world);
-    world.GetRobot("LR01").bIgnoresPause = true;
-    world.Control(EPlanControl::Resume, "P1");
-    world.Crash();
-    world.GetRobot("LR01").bIgnoresPause = false;
+    CrashInResume(world);
     RestartEngine(world);
     FinishPlan(world);
     CHECK(std::ranges::count(world.GetReportsOf("P1"), "ResumeResult Success") == 1);
@@ -387,12 +393,7 @@ TEST_CASE("6.8 A Resume whose outcome was open is carried out after the restart"
 TEST_CASE("6.8 A robot that shows no pause after the restart is told all the same to go on, as a part of it may stand")
 {
     PlanWorld world;
-    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
-    PausePlan(world);
-    world.GetRobot("LR01").bIgnoresPause = true;
-    world.Control(EPlanControl::Resume, "P1");
-    world.Crash();
-    world.GetRobot("LR01").bIgnoresPause = false;
+    CrashInResume(world);
     world.GetRobot("LR01").bFinishesJobs = true; // goes on
     world.GetRobot("LR01").resumesAsked = 0;
     RestartEngine(world);
