@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <chrono>
 #include <tuple>
 #include <utility>
@@ -44,9 +42,6 @@ using Planning::RaiseEvent;
 
 /// The base's session has the numbers of its own timers, which are fewer.
 constexpr Planning::AdapterTimerID MOTOR_TIMER = 100;
-constexpr Planning::AdapterTimerID START_TIMER = 101;
-/// For a program to raise its first counter when nobody knows whether its start arrived.
-constexpr std::chrono::milliseconds START_LIMIT = 10s;
 constexpr std::chrono::milliseconds MOTOR_PERIOD = 200ms;
 constexpr std::chrono::milliseconds MOTOR_RETRY = 5s;
 /// The only value on which the manuals of all versions agree.
@@ -55,18 +50,6 @@ constexpr std::int64_t MOTOR_IS_ON = 0;
 constexpr std::string_view MOTOR_STATE_URL = "/project/robot/motor_on_state";
 constexpr std::string_view MOTOR_ON_URL = "/project/robot/motor_on";
 constexpr std::string_view SELECT_URL = "/project/context/tasks[0]/cur_prog_cnt";
-
-/// Counters are raised, and wrap around: anything else is the work of a restart.
-bool HasFallen(std::int64_t before, std::int64_t after)
-{
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(after) - static_cast<std::uint32_t>(before)) < 0;
-}
-
-/// So often was the counter raised; it wraps around.
-std::int64_t CountSteps(std::int64_t before, std::int64_t after)
-{
-    return static_cast<std::uint32_t>(after) - static_cast<std::uint32_t>(before);
-}
 
 template <typename T>
 std::optional<T> ReadOrNull(const Core::JsonText& text)
@@ -91,24 +74,6 @@ OpenStream::MonitorRequest MakeMonitor(std::string url, std::chrono::millisecond
 }
 
 } // namespace
-
-/// The three numbers of MakeMark.
-std::optional<OpenStreamRobotAdapter::Counters> OpenStreamRobotAdapter::ReadMarkOrNull(std::string_view mark)
-{
-    std::array<std::int64_t, 3> numbers{};
-    const char* begin = mark.data();
-    const char* const end = begin + mark.size();
-    for (std::int64_t& number : numbers)
-    {
-        const auto [rest, error] = std::from_chars(begin, end, number);
-        if (error != std::errc())
-        {
-            return std::nullopt;
-        }
-        begin = rest == end ? rest : rest + 1;
-    }
-    return begin == end ? std::optional(Counters{numbers[0], numbers[1], numbers[2]}) : std::nullopt;
-}
 
 OpenStreamRobotAdapter::OpenStreamRobotAdapter(
     VDA5050::MasterOptions base,
@@ -172,11 +137,6 @@ Planning::StateChanged OpenStreamRobotAdapter::MakeState() const
     state.bPaused = _bPaused;
     state.mark = MakeMark();
     return state;
-}
-
-std::string OpenStreamRobotAdapter::MakeMark() const
-{
-    return _bCounted ? fmt::format("{} {} {}", _counters.started, _counters.finished, _counters.failed) : std::string();
 }
 
 void OpenStreamRobotAdapter::OnTimer(Planning::AdapterTimerID timer, Core::Now now, AdapterActions& out)
@@ -440,35 +400,6 @@ void OpenStreamRobotAdapter::WatchCounters()
     _outputs.armRequests.emplace_back(std::move(monitor));
 }
 
-/// Behind the CONTROL that has just settled.
-void OpenStreamRobotAdapter::LookAgain()
-{
-    _look = ELook::Asked;
-    WatchCounters();
-}
-
-void OpenStreamRobotAdapter::TakeLook(AdapterActions& out)
-{
-    if (_phase == EJobPhase::Looking && _counters != _counted)
-    {
-        DisownJob(
-            out); // the selection has given up a program, or somebody has run one: no evidence could tell them apart
-    }
-    else if (_phase == EJobPhase::Looking)
-    {
-        _phase = EJobPhase::Selected;
-    }
-    else if (_program == EProgram::Stopping)
-    {
-        _program = EProgram::Stopped;
-    }
-    else if (_program == EProgram::GoingOn)
-    {
-        _program = EProgram::Runs;
-    }
-    FollowPause(out);
-}
-
 void OpenStreamRobotAdapter::TakeCounters(const Core::JsonText& result, AdapterActions& out)
 {
     const std::optional<std::vector<std::int64_t>> words = ReadOrNull<std::vector<std::int64_t>>(result);
@@ -487,8 +418,7 @@ void OpenStreamRobotAdapter::TakeCounters(const Core::JsonText& result, AdapterA
         out.emplace_back(RaiseEvent{MakeState()}); // with the new mark, before anybody begins a job on it
     }
     SetArmState(EArmState::Ready, out);
-    const bool bReset = HasFallen(before.started, _counters.started) || HasFallen(before.finished, _counters.finished)
-        || HasFallen(before.failed, _counters.failed);
+    const bool bReset = HasFallen(before, _counters);
     const bool bBegun = _phase == EJobPhase::Starting || _phase == EJobPhase::Running;
     if (bReset && bBegun)
     {
@@ -509,94 +439,6 @@ void OpenStreamRobotAdapter::TakeCounters(const Core::JsonText& result, AdapterA
     if (bFirst && !_bJobStarted && _phase == EJobPhase::Running)
     {
         out.emplace_back(Planning::StartAdapterTimer{START_TIMER, START_LIMIT});
-    }
-}
-
-void OpenStreamRobotAdapter::FindJob(AdapterActions& out)
-{
-    if (!_recovery.has_value() || _armState != EArmState::Ready)
-    {
-        return;
-    }
-    const Planning::StartJob job = *std::exchange(_recovery, std::nullopt);
-    const std::optional<Counters> markOrNull = ReadMarkOrNull(job.mark);
-    const auto tell = [&out, &job](const char* reason) {
-        out.emplace_back(RaiseEvent{Planning::JobUncertain{job.jobID, reason}});
-    };
-    if (!markOrNull.has_value())
-    {
-        tell("the arm's counters of before the job are not known");
-        return;
-    }
-    if (_counters == Counters{})
-    {
-        tell("all of the arm's counters are 0, as after a restart of its controller");
-        return;
-    }
-    const std::int64_t begun = CountSteps(markOrNull->started, _counters.started);
-    const std::int64_t ended =
-        CountSteps(markOrNull->finished, _counters.finished) + CountSteps(markOrNull->failed, _counters.failed);
-    const bool bFallen = HasFallen(markOrNull->started, _counters.started)
-        || HasFallen(markOrNull->finished, _counters.finished) || HasFallen(markOrNull->failed, _counters.failed);
-    if (bFallen || begun > 1 || ended > begun)
-    {
-        tell("the arm's counters have fallen, or more than this one program has run");
-        return;
-    }
-    _jobID = job.jobID;
-    _bJobStarted = false;
-    _counted = *markOrNull;
-    _phase = EJobPhase::Running;
-    if (begun == 0)
-    {
-        // It may be on its way still. Whoever has not raised its first counter by then was not started.
-        _bRecovered = true;
-        out.emplace_back(Planning::StartAdapterTimer{START_TIMER, START_LIMIT});
-    }
-    _bFound = begun != 0;
-    DoubtFound();
-    FollowJob(out);
-    FollowPause(out);
-}
-
-/// A start that got lost on the way would leave the job running for ever.
-void OpenStreamRobotAdapter::CheckStart(AdapterActions& out)
-{
-    if (!_bJobStarted && _phase == EJobPhase::Running && _armState == EArmState::Ready)
-    {
-        if (std::exchange(_bRecovered, false))
-        {
-            DisownJob(out);
-            return;
-        }
-        FailJob("the connection to the arm broke while its program was being started, and it did not begin", out);
-    }
-}
-
-void OpenStreamRobotAdapter::FollowJob(AdapterActions& out)
-{
-    if (_phase != EJobPhase::Starting && _phase != EJobPhase::Running)
-    {
-        return;
-    }
-    const bool bBegins = _counters.started != _counted.started && !std::exchange(_bJobStarted, true);
-    if (bBegins)
-    {
-        out.emplace_back(RaiseEvent{Planning::JobStarted{_jobID}});
-    }
-    if (_counters.failed != _counted.failed)
-    {
-        FailJob("the arm's program gave up", out);
-    }
-    else if (_counters.finished != _counted.finished)
-    {
-        EndJob();
-        out.emplace_back(RaiseEvent{Planning::JobFinished{std::exchange(_jobID, {})}});
-        TellPaused(out);
-    }
-    else if (bBegins)
-    {
-        FollowPause(out);
     }
 }
 

@@ -7,6 +7,7 @@
 #include <acs/core/Now.hpp>
 #include <acs/openstream/ClientSessionActions.hpp>
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -79,6 +80,11 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
         bool operator==(const Counters&) const = default;
     };
 
+    /// The base's session has the numbers of its own timers, which are fewer.
+    static constexpr Planning::AdapterTimerID START_TIMER = 101;
+    /// For a program to raise its first counter when nobody knows whether its start arrived.
+    static constexpr std::chrono::milliseconds START_LIMIT{10'000};
+
     RobotOutputs& _outputs;
     Vda5050RobotAdapter _base;
     ArmCounters _options;
@@ -112,6 +118,8 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     void StartJob(const Planning::StartJob& job, Planning::AdapterActions& out);
     /// What the counters say of a job that was commanded before a restart.
     void FindJob(Planning::AdapterActions& out);
+    /// Any of them: as after a restart of the controller.
+    [[nodiscard]] static bool HasFallen(const Counters& before, const Counters& after);
     [[nodiscard]] std::string MakeMark() const;
     [[nodiscard]] static std::optional<Counters> ReadMarkOrNull(std::string_view mark);
     [[nodiscard]] Planning::StateChanged MakeState() const;
