@@ -1,9 +1,9 @@
+#include "TextStream.hpp"
 #include <acs/core/JsonText.hpp>
 #include <acs/json/JsonDocument.hpp>
 
 #include <fmt/format.h>
 #include <rapidjson/error/en.h>
-#include <rapidjson/memorystream.h>
 #include <rapidjson/reader.h>
 #include <rapidjson/stringbuffer.h>
 #include <rapidjson/writer.h>
@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,8 @@ constexpr std::size_t LONGEST_FOUND = 40;
 /// The encoding is checked before, many bytes at a time: RapidJSON would look at each byte by itself.
 /// Numbers come as text: the full precision of RapidJSON 1.1.0 reads past its tables where a long fraction has a low
 /// exponent, which any peer may send.
-constexpr unsigned PARSE_FLAGS = rapidjson::kParseIterativeFlag | rapidjson::kParseNumbersAsStringsFlag;
+constexpr unsigned PARSE_FLAGS =
+    rapidjson::kParseIterativeFlag | rapidjson::kParseNumbersAsStringsFlag | rapidjson::kParseInsituFlag;
 constexpr unsigned LENIENT_FLAGS = PARSE_FLAGS | rapidjson::kParseCommentsFlag | rapidjson::kParseTrailingCommasFlag;
 
 /// Whether a string has half a surrogate pair in it. RapidJSON refuses an escaped first half that stands alone, but
@@ -193,6 +195,14 @@ std::string_view SkipByteOrderMark(std::string_view text)
     return text.substr(0, MARK.size()) == MARK ? text.substr(MARK.size()) : text;
 }
 
+/// Over a copy in the pool, as the strings of the document stay there.
+TextStream MakeStream(std::string_view text, PoolAllocator& pool)
+{
+    char* const copy = static_cast<char*>(pool.Malloc(text.size() + TextStream::PADDING));
+    std::memset(std::copy(text.begin(), text.end(), copy), 0, TextStream::PADDING);
+    return TextStream(copy);
+}
+
 bool IsUtf8Continuation(char byte)
 {
     return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
@@ -244,7 +254,7 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
     rapidjson::GenericReader<rapidjson::UTF8<>, rapidjson::UTF8<>, PoolAllocator> reader(
         &_stackPool,
         FIRST_STACK_BYTES);
-    rapidjson::MemoryStream stream(body.data(), body.size());
+    TextStream stream = MakeStream(body, _valuePool);
     rapidjson::ParseResult outcome;
     StrictHandler handler(document, limits.depth, body.find('\\') != std::string_view::npos);
     const auto generate = [&](Document& /*target*/) {

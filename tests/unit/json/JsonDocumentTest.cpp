@@ -1,6 +1,8 @@
 #include "Catch.hpp"
 #include <acs/json/JsonDocument.hpp>
 
+#include <fmt/format.h>
+
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +18,14 @@ std::error_code GetParseError(std::string_view text, const ParseLimits& limits =
     JsonDocument document;
     const auto root = document.Parse(text, limits);
     return root ? std::error_code() : root.error().code;
+}
+
+void CheckFailsAt(std::size_t byte, std::string_view text)
+{
+    JsonDocument document;
+    const auto root = document.Parse(text, {});
+    REQUIRE_FALSE(root.has_value());
+    CHECK(root.error().found.starts_with(fmt::format("byte {}:", byte)));
 }
 
 } // namespace
@@ -118,6 +128,64 @@ TEST_CASE("What is no JSON is refused")
     {
         CAPTURE(text);
         CHECK(GetParseError(text) == Core::ECoreError::InvalidJson);
+    }
+}
+
+TEST_CASE("What needs a look is found in a string at each place, however long the string is")
+{
+    using namespace std::string_view_literals;
+    struct Piece
+    {
+        std::string_view text;
+        std::string_view meaning;
+    };
+    constexpr std::size_t LONGEST = 40;
+    for (std::size_t length = 0; length <= LONGEST; ++length)
+    {
+        for (std::size_t place = 0; place <= length; ++place)
+        {
+            const std::string before(place, 'x');
+            const std::string behind(length - place, '\x7F');
+            CAPTURE(length, place);
+            for (const Piece& piece :
+                 {Piece{"", ""},
+                  Piece{R"(\n)", "\n"},
+                  Piece{R"(\")", "\""},
+                  Piece{R"(\\)", "\\"},
+                  Piece{R"(\u0000)", "\0"sv},
+                  Piece{R"(\ud83d\ude00)", "\xF0\x9F\x98\x80"},
+                  Piece{"\xED\x95\x9C", "\xED\x95\x9C"}})
+            {
+                CAPTURE(piece.text);
+                const std::string inside = fmt::format("{}{}{}{}", before, piece.text, behind, piece.text);
+                const std::string meaning = fmt::format("{}{}{}{}", before, piece.meaning, behind, piece.meaning);
+                JsonDocument document;
+                const auto root = document.Parse(fmt::format(R"({{"{}":"{}"}})", inside, inside), {});
+                REQUIRE(root.has_value());
+                const auto member = (*root)->MemberBegin();
+                CHECK(std::string_view(member->name.GetString(), member->name.GetStringLength()) == meaning);
+                CHECK(std::string_view(member->value.GetString(), member->value.GetStringLength()) == meaning);
+            }
+            for (const std::string_view bad : {"\0"sv, "\x01"sv, "\x1F"sv})
+            {
+                CheckFailsAt(place + 1, fmt::format(R"("{}{}{}")", before, bad, behind));
+            }
+            CheckFailsAt(length + 1, fmt::format(R"("{}{})", before, behind));
+        }
+    }
+}
+
+TEST_CASE("A document outlives the text that it was parsed from, short or long")
+{
+    for (const std::size_t length : {std::size_t{3}, std::size_t{100}, std::size_t{100'000}})
+    {
+        const std::string word(length, 'x');
+        std::string text = fmt::format(R"({{"{0}":["{0}","\n{0}",-12.5e1]}})", word);
+        JsonDocument document;
+        const auto root = document.Parse(text, {});
+        REQUIRE(root.has_value());
+        text.assign(text.size(), ' ');
+        CHECK(WriteText(**root) == fmt::format(R"({{"{0}":["{0}","\n{0}",-125.0]}})", word));
     }
 }
 

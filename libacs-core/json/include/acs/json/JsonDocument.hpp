@@ -25,7 +25,8 @@ struct ParseLimits
 };
 
 /// Parses JSON text into RapidJSON's document: iterative (no stack overflow), encoding checked, full precision.
-/// Keeps its buffers between calls, so that a message that fits allocates nothing. Not shared between threads.
+/// Works on a copy of the text, in which the strings of the document stay. Keeps its buffers between calls, so that a
+/// message that fits allocates nothing. Not shared between threads.
 class JsonDocument
 {
     std::unique_ptr<char[]> _valueBuffer; // NOLINT(modernize-avoid-c-arrays)
