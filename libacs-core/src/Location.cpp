@@ -37,11 +37,24 @@ constexpr std::array<Succession, 9> SUCCESSIONS{{
     {ESegmentKind::Robot, ESegmentKind::TrayPort},
 }};
 
+constexpr std::size_t KIND_COUNT = static_cast<std::size_t>(ESegmentKind::Robot) + 1;
+
+/// For each kind the bits of those that may follow it.
+constexpr std::array<unsigned, KIND_COUNT> MakeFollowers()
+{
+    std::array<unsigned, KIND_COUNT> followers{};
+    for (const Succession& succession : SUCCESSIONS)
+    {
+        followers[static_cast<std::size_t>(succession.kind)] |= 1U << static_cast<unsigned>(succession.next);
+    }
+    return followers;
+}
+
+constexpr std::array<unsigned, KIND_COUNT> FOLLOWERS = MakeFollowers();
+
 bool CanFollow(ESegmentKind kind, ESegmentKind next)
 {
-    return std::ranges::any_of(SUCCESSIONS, [kind, next](const Succession& succession) {
-        return succession.kind == kind && succession.next == next;
-    });
+    return (FOLLOWERS[static_cast<std::size_t>(kind)] >> static_cast<unsigned>(next) & 1U) != 0;
 }
 
 bool CanBegin(ESegmentKind kind)
@@ -69,34 +82,35 @@ bool IsChain(std::span<const LocationSegment> segments)
     return !bRobot || segments.size() == 2 || (segments.size() == 3 && segments[1].kind == ESegmentKind::TrayPort);
 }
 
-std::optional<std::uint16_t> ReadNumberOrNull(std::string_view digits)
+/// 0 where the digits spell no number of a segment.
+std::uint16_t ReadNumber(std::string_view digits)
 {
-    std::uint16_t number = 0;
+    unsigned number = 0;
     if (digits.size() > MAX_DIGITS)
     {
-        return std::nullopt;
+        return 0;
     }
     for (const char digit : digits)
     {
         if (digit < '0' || digit > '9')
         {
-            return std::nullopt;
+            return 0;
         }
-        number = static_cast<std::uint16_t>(number * 10 + (digit - '0'));
+        number = number * 10 + static_cast<unsigned>(digit - '0');
     }
-    return number == 0 ? std::nullopt : std::optional(number);
+    return static_cast<std::uint16_t>(number);
 }
 
-std::optional<LocationSegment> ReadSegmentOrNull(std::string_view text)
+bool TryReadSegment(std::string_view text, LocationSegment& out)
 {
     const std::optional<Detail::Element> elementOrNull = Detail::SplitElementOrNull(text);
-    const std::optional<std::uint16_t> numberOrNull =
-        elementOrNull.has_value() ? ReadNumberOrNull(elementOrNull->digits) : std::nullopt;
-    if (!numberOrNull.has_value())
+    if (!elementOrNull.has_value())
     {
-        return std::nullopt;
+        return false;
     }
-    return LocationSegment{elementOrNull->kind, *numberOrNull};
+    out.kind = elementOrNull->kind;
+    out.number = ReadNumber(elementOrNull->digits);
+    return out.number != 0;
 }
 
 /// A text taken apart: valid segments in a valid order.
@@ -113,37 +127,44 @@ struct Parts
 };
 
 /// What the first segment names where it is no element: a robot or nothing.
-std::optional<LocationSegment> ReadRobotOrNull(std::string_view text)
+bool TryReadRobot(std::string_view text, LocationSegment& out)
 {
-    return RobotID::IsRobotID(text) ? std::optional(LocationSegment{ESegmentKind::Robot, 0}) : std::nullopt;
+    out = LocationSegment{ESegmentKind::Robot, 0};
+    return RobotID::IsRobotID(text);
 }
 
-std::optional<Parts> SplitOrNull(std::string_view text)
+/// Takes a text apart, in place and without optionals: it runs for every place of every plan.
+bool TrySplit(std::string_view text, Parts& parts)
 {
-    Parts parts;
     if (text.size() > Location::MAX_LENGTH)
     {
-        return std::nullopt;
+        return false;
     }
     for (std::size_t begin = 0; begin <= text.size();)
     {
-        const std::size_t end = std::min(text.find('.', begin), text.size());
-        const std::string_view part = text.substr(begin, end - begin);
-        std::optional<LocationSegment> segmentOrNull = ReadSegmentOrNull(part);
-        if (parts.count == 0 && !segmentOrNull.has_value())
+        std::size_t end = begin;
+        while (end < text.size() && text[end] != '.')
         {
-            segmentOrNull = ReadRobotOrNull(part);
+            ++end;
+        }
+        const std::string_view part = text.substr(begin, end - begin);
+        if (parts.count == Location::MAX_SEGMENTS)
+        {
+            return false;
+        }
+        LocationSegment& segment = parts.segments[parts.count];
+        if (!TryReadSegment(part, segment))
+        {
+            if (parts.count != 0 || !TryReadRobot(part, segment))
+            {
+                return false;
+            }
             parts.robotName = part;
         }
-        if (!segmentOrNull.has_value() || parts.count == Location::MAX_SEGMENTS)
-        {
-            return std::nullopt;
-        }
-        parts.segments[parts.count] = *segmentOrNull;
         ++parts.count;
         begin = end + 1;
     }
-    return IsChain(parts.GetSegments()) ? std::optional(parts) : std::nullopt;
+    return IsChain(parts.GetSegments());
 }
 
 /// Of what Print would make.
@@ -157,6 +178,13 @@ std::size_t GetPrintedLength(const Parts& parts)
                                                       : Detail::GetPrefix(segment.kind).size() + digits;
     }
     return length;
+}
+
+/// Whether the text is a location, and short enough as Print would make it: with a digit more in a segment at most.
+bool TryReadLocation(std::string_view text, Parts& parts)
+{
+    return TrySplit(text, parts)
+        && (text.size() + parts.count <= Location::MAX_LENGTH || GetPrintedLength(parts) <= Location::MAX_LENGTH);
 }
 
 std::string Print(std::span<const LocationSegment> segments, const std::optional<RobotID>& robotOrNull)
@@ -193,19 +221,19 @@ Location::Location(std::span<const LocationSegment> segments, std::optional<Robo
 
 Result<Location> Location::Parse(std::string_view text)
 {
-    const std::optional<Parts> partsOrNull = SplitOrNull(text);
-    if (!partsOrNull.has_value() || GetPrintedLength(*partsOrNull) > MAX_LENGTH)
+    Parts parts;
+    if (!TryReadLocation(text, parts))
     {
         return Fail(ECoreError::InvalidLocation, {}, std::string(EXPECTED), QuoteForError(text));
     }
     std::optional<RobotID> robotOrNull;
-    if (!partsOrNull->robotName.empty())
+    if (!parts.robotName.empty())
     {
-        const bool bAlias = Detail::IsSameWord(partsOrNull->robotName, RobotID::ALIAS);
-        robotOrNull = RobotID::Parse(bAlias ? RobotID::ALIAS : partsOrNull->robotName).value();
+        const bool bAlias = Detail::IsSameWord(parts.robotName, RobotID::ALIAS);
+        robotOrNull = RobotID::Parse(bAlias ? RobotID::ALIAS : parts.robotName).value();
     }
-    Location location(partsOrNull->GetSegments(), std::move(robotOrNull));
-    assert(location._text.size() == GetPrintedLength(*partsOrNull));
+    Location location(parts.GetSegments(), std::move(robotOrNull));
+    assert(location._text.size() == GetPrintedLength(parts));
     location._originalText = text;
     location._bNormalised = location._originalText != location._text;
     return location;
@@ -213,8 +241,8 @@ Result<Location> Location::Parse(std::string_view text)
 
 bool Location::IsLocation(std::string_view text) noexcept
 {
-    const std::optional<Parts> partsOrNull = SplitOrNull(text);
-    return partsOrNull.has_value() && GetPrintedLength(*partsOrNull) <= MAX_LENGTH;
+    Parts parts;
+    return TryReadLocation(text, parts);
 }
 
 const std::string& Location::GetText() const noexcept
@@ -340,7 +368,7 @@ Result<std::vector<Location>> ParseLocationRange(std::string_view text)
         return std::vector<Location>{std::move(*first)};
     }
     const std::uint16_t begin = first->GetSegments().back().number;
-    const std::uint16_t end = ReadNumberOrNull(text.substr(dash + 1)).value_or(0);
+    const std::uint16_t end = ReadNumber(text.substr(dash + 1));
     if (end < begin || end - begin >= static_cast<int>(MAX_RANGE))
     {
         return Fail(

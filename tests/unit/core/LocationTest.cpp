@@ -255,6 +255,21 @@ TEST_CASE("10 A location has at most 64 characters, also once it is normalised")
     CHECK(Location::Parse(robot + ".CP01").has_value());
     CheckRefused(robot + "r.CP01");
     CheckRefused(robot + "r.CP1");
+    const std::string shorter = robot.substr(5);
+    CHECK(Make(shorter + ".TP1.MP1").GetText().size() == Location::MAX_LENGTH);
+    CheckRefused(shorter + "r.TP1.MP1");
+    CHECK(Location::Parse(shorter + ".TP01.MP01").has_value());
+    CheckRefused(shorter + ".TP01.MP001");
+}
+
+TEST_CASE("10 A NUL in front of an element is no part of its name")
+{
+    const std::string nul(1, '\0');
+    for (const std::string& text : {nul + "A01", nul + nul + "A01.CP01", "A01." + nul + "CP01", nul + "ST01"})
+    {
+        CheckRefused(text);
+        CHECK_FALSE(RobotID::IsRobotID(text));
+    }
 }
 
 TEST_CASE("10 The alias becomes the robot that executes the plan, and keeps the sender's spelling")
