@@ -205,7 +205,6 @@ class Line:
             "store.path": str(self.folder / "acsd.db"),
             "http.listen": "127.0.0.1:0",
             "robots.CR01.arm.url": f"tcp://{arm_addresses['stream']}",
-            "robots.CR01.arm.http": f"http://{arm_addresses['http']}",
         }
         sets = [part for key, value in settings.items() for part in ("--set", f"{key}={value}")]
         sets += [part for override in overrides for part in ("--set", override)]

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -64,6 +65,24 @@ Planning::ERobotType ReadRobotType(const ConfigSection& section, const std::stri
     return section.GetWord(key, {"LR", "CR"}) == "CR" ? Planning::ERobotType::CR : Planning::ERobotType::LR;
 }
 
+using CounterWord = std::pair<std::string, std::size_t>;
+
+/// A job would be told done when it begins.
+void RefuseSharedWord(const ConfigSection& arm, const CounterWord& first, const CounterWord& second)
+{
+    if (first.second == second.second)
+    {
+        // Of the two the one that is given: the other may be the default.
+        const bool bSecond = arm.HasKey(second.first);
+        arm.AddMistake(
+            bSecond ? second.first : first.first,
+            fmt::format(
+                "is {}, as arm.{} is: each counter needs a word of its own",
+                first.second,
+                bSecond ? first.first : second.first));
+    }
+}
+
 void ReadArm(const ConfigSection& root, AcsdConfig& config)
 {
     const ConfigSection arm = root.GetSection("arm");
@@ -79,6 +98,9 @@ void ReadArm(const ConfigSection& root, AcsdConfig& config)
     counters.startedIndex = readIndex("counter_started", counters.startedIndex);
     counters.finishedIndex = readIndex("counter_finished", counters.finishedIndex);
     counters.failedIndex = readIndex("counter_failed", counters.failedIndex);
+    RefuseSharedWord(arm, {"counter_started", counters.startedIndex}, {"counter_finished", counters.finishedIndex});
+    RefuseSharedWord(arm, {"counter_started", counters.startedIndex}, {"counter_failed", counters.failedIndex});
+    RefuseSharedWord(arm, {"counter_finished", counters.finishedIndex}, {"counter_failed", counters.failedIndex});
 }
 
 void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
@@ -142,21 +164,29 @@ void ReadStore(const ConfigSection& root, const std::string& fileName, bool bSto
     }
 }
 
-std::optional<ArmConfig> ReadArmOrNull(const ConfigSection& robot, bool bNeeded)
+std::optional<Apps::Url> ReadArmOrNull(
+    const ConfigSection& robot,
+    bool bNeeded,
+    const std::vector<RobotLinkConfig>& others)
 {
     if (!robot.HasKey("arm"))
     {
         if (bNeeded)
         {
-            robot.AddMistake("arm", "a CR needs arm.url (tcp://) and arm.http (http://) of its arm's controller");
+            robot.AddMistake("arm", "a CR needs arm.url (tcp://) of its arm's controller");
         }
         return std::nullopt;
     }
     const ConfigSection section = robot.GetSection("arm");
-    ArmConfig arm;
-    arm.stream = section.GetUrl("url", {EUrlScheme::Tcp});
-    arm.http = section.GetUrl("http", {EUrlScheme::Http});
-    return arm;
+    Apps::Url url = section.GetUrl("url", {EUrlScheme::Tcp});
+    const auto twin = std::ranges::find_if(others, [&url](const RobotLinkConfig& other) {
+        return other.armOrNone.has_value() && *other.armOrNone == url && !url.peer.host.empty();
+    });
+    if (twin != others.end())
+    {
+        section.AddMistake("url", fmt::format("{} has the same: one arm cannot be of two robots", twin->robotID));
+    }
+    return url;
 }
 
 void ReadRobot(const ConfigSection& section, const std::string& name, AcsdConfig& config)
@@ -181,7 +211,7 @@ void ReadRobot(const ConfigSection& section, const std::string& name, AcsdConfig
     link.manufacturer = section.GetString("manufacturer");
     link.serialNumber = section.GetString("serial");
     link.protocolVersion = section.GetWord("protocol", {"2.0.0", "2.1.0"}, "2.0.0");
-    link.armOrNone = ReadArmOrNull(section, options.type == Planning::ERobotType::CR);
+    link.armOrNone = ReadArmOrNull(section, options.type == Planning::ERobotType::CR, config.robots);
     for (const auto& [key, level] :
          {std::pair("manufacturer", link.manufacturer), std::pair("serial", link.serialNumber)})
     {

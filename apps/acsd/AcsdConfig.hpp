@@ -32,20 +32,14 @@ struct ArmCounters
     std::size_t failedIndex = 2;
 };
 
-struct ArmConfig
-{
-    Apps::Url stream; ///< tcp://, Open Stream
-    Apps::Url http;   ///< http://, Open API
-};
-
 /// The vehicle and the arm of one robot; what the engine must know of it stands in EngineOptions::robots.
 struct RobotLinkConfig
 {
     std::string robotID;
     std::string manufacturer;
     std::string serialNumber;
-    std::string protocolVersion; ///< "2.0.0" or "2.1.0"
-    std::optional<ArmConfig> armOrNone;
+    std::string protocolVersion;        ///< "2.0.0" or "2.1.0"
+    std::optional<Apps::Url> armOrNone; ///< tcp://, Open Stream of its controller
 };
 
 /// How a robot does an action: exactly one of the two.

@@ -22,11 +22,11 @@ namespace ACS::Acsd
 namespace
 {
 
-OpenStreamAsio::OpenStreamClientOptions MakeArmOptions(const ArmConfig& arm)
+OpenStreamAsio::OpenStreamClientOptions MakeArmOptions(const Apps::Url& arm)
 {
     OpenStreamAsio::OpenStreamClientOptions options;
-    options.host = arm.stream.peer.host;
-    options.port = arm.stream.peer.port;
+    options.host = arm.peer.host;
+    options.port = arm.peer.port;
     options.session = MakeArmSessionOptions();
     return options;
 }

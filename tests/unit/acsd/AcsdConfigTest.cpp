@@ -116,6 +116,12 @@ TEST_CASE("Each mistake is told once, under its key, with the line of the file o
         {{"robots.LR01=7"}, {"--set: robots.LR01: expected a table"}},
         {{R"(robots."LR 01".type=LR)"}, {R"(--set: robots."LR 01": expected a robot's name)"}},
         {{"robots.LR01.type=CR"}, {file + "*: robots.LR01.arm: a CR needs"}},
+        {{"robots.CR01.arm.http=http://127.0.0.1:2"}, {"--set: robots.CR01.arm.http: unknown key"}},
+        {{"arm.counter_finished=0"},
+         {"--set: arm.counter_finished: is 0, as arm.counter_started is: each counter needs a word of its own"}},
+        {{"arm.counter_failed=1"}, {"--set: arm.counter_failed: is 1, as arm.counter_finished is"}},
+        {{"arm.counter_started=7", "arm.counter_failed=7"},
+         {"--set: arm.counter_failed: is 7, as arm.counter_started is"}},
         {{"robots.LR01.home=X99"}, {"--set: robots.LR01.home: expected a station of the site map, found X99"}},
         {{"robots.LR01.home=X99", "robots.CR01.start_node=N0", "robot.battery_floor=90"},
          {"--set: robots.CR01.start_node: expected a node",
@@ -208,7 +214,7 @@ TEST_CASE("4.1 What a robot's adapter does not do the engine does not give it, a
     const Acsd::AcsdConfig config = ReadWithout(
         {},
         "[robots.LR02]\ntype = 'LR'\nmanufacturer = 'ACS'\nserial = 'LR02'\nvehicle_type = 'lr-base'\n"
-        "start_node = 'N001'\nports = ['CP01']\narm.url = 'tcp://127.0.0.1:1'\narm.http = 'http://127.0.0.1:2'\n");
+        "start_node = 'N001'\nports = ['CP01']\narm.url = 'tcp://127.0.0.1:1'\n");
     REQUIRE(config.mistakes.empty());
     const auto find = [&config](const std::string& robotID) {
         return *std::ranges::find_if(config.engine.robots, [&robotID](const Planning::RobotOptions& robot) {
@@ -222,6 +228,34 @@ TEST_CASE("4.1 What a robot's adapter does not do the engine does not give it, a
             {"CassetteUnload", "the arm has no program for CassetteUnload"}});
     CHECK(find("LR01").rejectedActions.empty());
     CHECK(find("CR01").rejectedActions.empty());
+}
+
+TEST_CASE("A counter that is left out has its default, which no other may have either")
+{
+    const auto mistakes = ReadWithout({"arm"}, "[arm]\ncounter_started = 2\n").mistakes;
+    REQUIRE(mistakes.size() == 1);
+    CHECK(mistakes[0].find(": arm.counter_started: is 2, as arm.counter_failed is") != std::string::npos);
+    CHECK(ReadWithout({"arm"}, "[arm]\ncounter_started = 3\n").mistakes.empty());
+}
+
+TEST_CASE("Two robots do not share an arm: both would command one controller")
+{
+    const auto add = [](const std::string& address) {
+        return ReadWithout(
+                   {},
+                   "[robots.CR02]\ntype = 'CR'\nmanufacturer = 'ACS'\nserial = 'CR02'\nvehicle_type = 'cr-base'\n"
+                   "start_node = 'N001'\nports = ['TP01-03']\narm.url = '"
+                       + address + "'\n")
+            .mistakes;
+    };
+    CHECK(add("tcp://127.0.0.1:49001").empty());
+    for (const std::string address : {"tcp://127.0.0.1:49000", "tcp://127.0.0.1"}) // 49000 is the default
+    {
+        INFO(address);
+        const auto mistakes = add(address);
+        REQUIRE(mistakes.size() == 1);
+        CHECK(mistakes[0].find(": robots.CR02.arm.url: CR01 has the same: one arm") != std::string::npos);
+    }
 }
 
 TEST_CASE("mcs.tls with a ws URL is a mistake: it would encrypt nothing")
