@@ -281,13 +281,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
 
     void AddRoutes()
     {
-        _routes.Add("GET", "/livez", [](const auto&, const auto&) { return MakeLiveResponse(); });
-        _routes.Add("GET", "/readyz", [this](const auto&, const auto&) {
-            return MakeReadyResponse(GetLinks(), GetObstacles());
-        });
-        _routes.Add("GET", "/status", [this](const auto&, const auto&) {
-            return MakeStatusResponse(GetProgramStatus(), _engine);
-        });
+        AddStatusRoutes(_routes, _engine, [this] { return GetProgramStatus(); });
         _routes.Add("GET", "/metrics", [this](const auto&, const auto&) {
             UpdateMetrics();
             return _metrics.Respond();
@@ -455,7 +449,9 @@ public:
           _http(
               _surroundings.executor,
               [this](const Apps::HttpRequest& request) { return _routes.Respond(request); },
-              _surroundings.logger.MakeFor("http"))
+              _surroundings.logger.MakeFor("http"),
+              {},
+              MakeHttpGuard(_config))
     {
         _engine.SetObserver(_planLog);
         AddRoutes();

@@ -261,6 +261,24 @@ void ReadAction(const ConfigSection& section, const std::string& name, AcsdConfi
     config.methods.insert_or_assign(name, method);
 }
 
+void ReadHttp(const ConfigSection& root, AcsdConfig& config)
+{
+    const ConfigSection http = root.GetSection("http");
+    config.httpListen = http.GetEndpoint("listen", config.httpListen);
+    config.httpHosts = http.GetStringList("hosts");
+    const auto wrong = std::ranges::find_if(config.httpHosts, [](const std::string& name) {
+        return !Apps::ParseEndpoint(name + ":0").has_value();
+    });
+    if (wrong != config.httpHosts.end())
+    {
+        http.AddMistake(
+            "hosts",
+            fmt::format(
+                R"(expected names without port, such as "acs.example", found {})",
+                Core::QuoteForError(*wrong)));
+    }
+}
+
 void ReadQueue(const ConfigSection& root, Planning::EngineOptions& engine)
 {
     const ConfigSection queue = root.GetSection("queue");
@@ -427,7 +445,7 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
     ReadArm(root, config);
     ReadSite(root, fileName, config);
     ReadStore(root, fileName, bStoreInspected, config);
-    config.httpListen = root.GetSection("http").GetEndpoint("listen", config.httpListen);
+    ReadHttp(root, config);
     ReadQueue(root, config.engine);
     ReadControls(root, config.engine.controls);
     ReadDispatch(root, config.engine);

@@ -60,6 +60,7 @@ struct AcsdConfig
     std::string siteFile;
     std::string storeFile;
     Apps::Endpoint httpListen{"127.0.0.1", 8080};
+    std::vector<std::string> httpHosts; ///< Names by which it may be called, without port.
     Apps::LocalOffset localOffset;
     std::vector<RobotLinkConfig> robots;
     JobMethods methods;

@@ -263,4 +263,26 @@ Apps::HttpResponse MakeStatusResponse(const ProgramStatus& program, const Planni
     return response;
 }
 
+void AddStatusRoutes(
+    Apps::HttpRoutes& routes,
+    const Planning::PlanEngine& engine,
+    const std::function<ProgramStatus()>& getStatus)
+{
+    routes.Add("GET", "/livez", [](const auto&, const auto&) { return MakeLiveResponse(); });
+    routes.Add("GET", "/readyz", [getStatus](const auto&, const auto&) {
+        const ProgramStatus program = getStatus();
+        return MakeReadyResponse(program.links, program.obstacles);
+    });
+    routes.Add("GET", "/status", [&engine, getStatus](const auto&, const auto&) {
+        return MakeStatusResponse(getStatus(), engine);
+    });
+}
+
+Apps::HttpGuard MakeHttpGuard(const AcsdConfig& config)
+{
+    std::vector<std::string> names = config.httpHosts;
+    names.push_back(config.httpListen.host);
+    return Apps::HttpGuard({std::move(names), false, {"/livez", "/readyz", "/metrics"}});
+}
+
 } // namespace ACS::Acsd

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "AcsdConfig.hpp"
+#include "common/HttpGuard.hpp"
 #include "common/HttpMessage.hpp"
+#include "common/HttpRoutes.hpp"
 #include <acs/plan/PlanEngine.hpp>
 
 #include <functional>
@@ -36,5 +39,14 @@ struct ProgramStatus
 
 /// GET /status: links, obstacles, the outbox, robots, active plans (with why those that wait do so) and alarms as JSON.
 [[nodiscard]] Apps::HttpResponse MakeStatusResponse(const ProgramStatus& program, const Planning::PlanEngine& engine);
+
+/// These three. The engine must outlive the routes.
+void AddStatusRoutes(
+    Apps::HttpRoutes& routes,
+    const Planning::PlanEngine& engine,
+    const std::function<ProgramStatus()>& getStatus);
+
+/// Who may ask acsd for anything but its health and figures.
+[[nodiscard]] Apps::HttpGuard MakeHttpGuard(const AcsdConfig& config);
 
 } // namespace ACS::Acsd

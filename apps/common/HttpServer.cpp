@@ -82,6 +82,7 @@ struct HttpServer::Impl : std::enable_shared_from_this<Impl>
     Core::Logger logger;
     LogThinner refusals; ///< Anybody may send anything.
     HttpLimits limits;
+    std::optional<HttpGuard> guardOrNone;
     std::shared_ptr<Net::TcpListener> listener;
     ConnectionList connections;
     std::optional<Tcp::socket> nextOrNull; ///< Has come while all others were being answered.
@@ -90,11 +91,13 @@ struct HttpServer::Impl : std::enable_shared_from_this<Impl>
         const Asio::any_io_executor& executor,
         Handler handlerToCall,
         Core::Logger serverLogger,
-        HttpLimits serverLimits)
+        HttpLimits serverLimits,
+        std::optional<HttpGuard> serverGuardOrNone)
         : handler(std::move(handlerToCall)),
           logger(std::move(serverLogger)),
           refusals(logger),
           limits(serverLimits),
+          guardOrNone(std::move(serverGuardOrNone)),
           listener(std::make_shared<Net::TcpListener>(executor, logger, [this](Tcp::socket socket) {
               OnAccepted(std::move(socket));
               return !nextOrNull.has_value();
@@ -103,6 +106,9 @@ struct HttpServer::Impl : std::enable_shared_from_this<Impl>
     }
 
     Core::Result<Endpoint> Listen(const Endpoint& endpoint);
+    void LogRefusal(std::string_view kind, std::string_view reason);
+    [[nodiscard]] std::optional<std::string> FindObjectionOrNull(const HttpRequest& request, const Http::fields& header)
+        const;
     [[nodiscard]] std::shared_ptr<Connection> FindWaitingOrNull() const;
     void OnAccepted(Tcp::socket socket);
     void TakeNext();
@@ -225,12 +231,7 @@ private:
                 return Leave();
             }
             const std::string reason = error.message();
-            server->refusals.Write(
-                std::chrono::steady_clock::now(),
-                Core::ELogLevel::Warning,
-                reason,
-                "Refused an HTTP request",
-                {{"reason", reason}});
+            server->LogRefusal(reason, reason);
             return WriteAsync(*refusal, false, false);
         }
         const auto& request = _parserOrNull->get();
@@ -244,6 +245,11 @@ private:
         }
         parsed->method = std::string(request.method_string());
         parsed->body = request.body();
+        if (const std::optional<std::string> objection = server->FindObjectionOrNull(*parsed, request))
+        {
+            server->LogRefusal("forbidden", *objection);
+            return WriteAsync(MakeRefusal(Http::status::forbidden, *objection), request.keep_alive(), bHead);
+        }
         // A copy: the handler may stop and destroy the server.
         const Handler makeResponse = server->handler;
         const HttpResponse response = makeResponse(*parsed);
@@ -355,6 +361,28 @@ Core::Result<Endpoint> HttpServer::Impl::Listen(const Endpoint& endpoint)
     return Endpoint{endpoint.host, *port};
 }
 
+void HttpServer::Impl::LogRefusal(std::string_view kind, std::string_view reason)
+{
+    refusals.Write(
+        std::chrono::steady_clock::now(),
+        Core::ELogLevel::Warning,
+        kind,
+        "Refused an HTTP request",
+        {{"reason", reason}});
+}
+
+std::optional<std::string> HttpServer::Impl::FindObjectionOrNull(const HttpRequest& request, const Http::fields& header)
+    const
+{
+    const auto get = [&header](std::string_view name) {
+        const auto value = header[name];
+        return std::string_view(value.data(), value.size());
+    };
+    return guardOrNone.has_value()
+        ? guardOrNone->GetObjectionOrNull(request, {get("Host"), get("Origin"), get("Sec-Fetch-Site")})
+        : std::nullopt;
+}
+
 /// Who has waited for a whole request the longest.
 std::shared_ptr<HttpServer::Impl::Connection> HttpServer::Impl::FindWaitingOrNull() const
 {
@@ -413,8 +441,13 @@ void HttpServer::Impl::Stop()
     connections.clear();
 }
 
-HttpServer::HttpServer(const Asio::any_io_executor& executor, Handler handler, Core::Logger logger, HttpLimits limits)
-    : _impl(std::make_shared<Impl>(executor, std::move(handler), std::move(logger), limits))
+HttpServer::HttpServer(
+    const Asio::any_io_executor& executor,
+    Handler handler,
+    Core::Logger logger,
+    HttpLimits limits,
+    std::optional<HttpGuard> guardOrNone)
+    : _impl(std::make_shared<Impl>(executor, std::move(handler), std::move(logger), limits, std::move(guardOrNone)))
 {
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/Endpoint.hpp"
+#include "common/HttpGuard.hpp"
 #include "common/HttpMessage.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Result.hpp>
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace ACS::Apps
 {
@@ -28,7 +30,8 @@ struct HttpLimits
 };
 
 /// A small HTTP/1.1 server: status and metrics of a program, the Open API of the simulated controller. Keeps
-/// connections alive; answers 400, 413 and 431 itself and closes on what is no HTTP. One thread: the executor's.
+/// connections alive; answers 400, 413 and 431 itself, 403 where it has a guard that objects, and closes on what is no HTTP.
+/// One thread: the executor's.
 class HttpServer final
 {
     struct Impl;
@@ -42,7 +45,8 @@ public:
         const boost::asio::any_io_executor& executor,
         Handler handler,
         Core::Logger logger,
-        HttpLimits limits = {});
+        HttpLimits limits = {},
+        std::optional<HttpGuard> guardOrNone = std::nullopt);
     HttpServer(const HttpServer&) = delete;
     HttpServer& operator=(const HttpServer&) = delete;
 

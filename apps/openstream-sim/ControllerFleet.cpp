@@ -40,7 +40,9 @@ ControllerFleet::ControllerFleet(
       _controlServer(
           executor,
           [this](const Apps::HttpRequest& request) { return Handle(request); },
-          _logger)
+          _logger,
+          {},
+          Apps::HttpGuard({{}, true, {}}))
 {
     assert(_options.controllers > 0 && _options.controllers <= FleetOptions::MAX_CONTROLLERS);
     for (std::size_t i = 0; i < _options.controllers; ++i)

@@ -122,6 +122,7 @@ TEST_CASE("Each mistake is told once, under its key, with the line of the file o
         {{"arm.counter_failed=1"}, {"--set: arm.counter_failed: is 1, as arm.counter_finished is"}},
         {{"arm.counter_started=7", "arm.counter_failed=7"},
          {"--set: arm.counter_failed: is 7, as arm.counter_started is"}},
+        {{R"(http.hosts=["acs.example", "acs:80"])"}, {"--set: http.hosts: expected names without port"}},
         {{"robots.LR01.home=X99"}, {"--set: robots.LR01.home: expected a station of the site map, found X99"}},
         {{"robots.LR01.home=X99", "robots.CR01.start_node=N0", "robot.battery_floor=90"},
          {"--set: robots.CR01.start_node: expected a node",

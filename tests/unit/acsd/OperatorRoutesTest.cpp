@@ -89,6 +89,30 @@ TEST_CASE("/status shows links, obstacles, what waits for the MCS since when, an
         R"("outbox":{"reports":)" + std::to_string(waiting.size()) + R"(,"oldest":")" + time + R"("})"));
 }
 
+TEST_CASE("Who may ask: programs by address or a name of the configuration; health and figures under any name; no page")
+{
+    Acsd::AcsdConfig config;
+    config.httpListen.host = "acs.local";
+    config.httpHosts = {"acs.example"};
+    const Apps::HttpGuard guard = Acsd::MakeHttpGuard(config);
+    const auto bServed = [&guard](const std::string& method, const std::string& path, const Apps::HttpSource& source) {
+        Apps::HttpRequest request = *Apps::ParseHttpTarget(path);
+        request.method = method;
+        return !guard.GetObjectionOrNull(request, source).has_value();
+    };
+    for (const char* host : {"127.0.0.1:8080", "acs.local:8080", "acs.example"})
+    {
+        CHECK(bServed("POST", "/tsc/pause", {host, {}, {}}));
+        CHECK_FALSE(bServed("POST", "/tsc/pause", {host, "http://evil.example", {}}));
+    }
+    CHECK_FALSE(bServed("POST", "/tsc/pause", {"evil.example", {}, {}}));
+    CHECK_FALSE(bServed("GET", "/status", {"evil.example", {}, {}}));
+    for (const char* path : {"/livez", "/readyz", "/metrics"})
+    {
+        CHECK(bServed("GET", path, {"monitored-by-name", {}, {}}));
+    }
+}
+
 TEST_CASE("POST /robots/ID/maintenance/on and off; /status shows it and why a plan waits for it")
 {
     Operator user;

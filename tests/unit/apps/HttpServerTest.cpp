@@ -14,6 +14,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -115,13 +116,18 @@ struct Fixture
     std::unique_ptr<Apps::HttpServer> server;
     std::uint16_t port = 0;
 
-    explicit Fixture(Apps::HttpLimits limits = {})
+    explicit Fixture(Apps::HttpLimits limits = {}, std::optional<Apps::HttpGuard> guardOrNone = std::nullopt)
     {
         const auto handler = [this](const Apps::HttpRequest& request) {
             requests.push_back(request);
             return answer;
         };
-        server = std::make_unique<Apps::HttpServer>(context.get_executor(), handler, Core::Logger(log, "http"), limits);
+        server = std::make_unique<Apps::HttpServer>(
+            context.get_executor(),
+            handler,
+            Core::Logger(log, "http"),
+            limits,
+            std::move(guardOrNone));
         const auto endpoint = server->Listen({LOOPBACK, 0});
         REQUIRE(endpoint.has_value());
         REQUIRE(endpoint->host == LOOPBACK);
@@ -293,6 +299,33 @@ TEST_CASE("A flood of bad requests is a few lines of the log")
     }
     CHECK(fixture.log.GetLines().size() == Apps::LogThinner::FEW);
     CHECK(fixture.log.Contains(Core::ELogLevel::Warning, "Refused an HTTP request"));
+}
+
+TEST_CASE("What the guard objects to is answered with 403 and told in the log; the connection lives on")
+{
+    Fixture fixture({}, Apps::HttpGuard({{}, false, {"/metrics"}}));
+    RawClient client(fixture.context, fixture.port);
+    const std::string host = "Host: 127.0.0.1:" + std::to_string(fixture.port) + "\r\n";
+    for (const std::string& header :
+         {host + "Origin: http://evil.example\r\n",
+          host + "sec-fetch-site: cross-site\r\n",
+          std::string("Host: evil.example\r\n")})
+    {
+        INFO(header);
+        client.Send("POST /tsc/pause HTTP/1.1\r\n" + header + "Content-Length: 0\r\n\r\n");
+        REQUIRE(client.HasReceived("\r\n\r\n"));
+        const std::string answer = client.TakeReceived();
+        CHECK_THAT(answer, StartsWith("HTTP/1.1 403 "));
+        CHECK_THAT(answer, EndsWith("\n"));
+    }
+    CHECK(fixture.requests.empty());
+    CHECK(fixture.log.Contains(Core::ELogLevel::Warning, "Refused an HTTP request"));
+    client.Send("POST /tsc/pause HTTP/1.1\r\n" + host + "Content-Length: 0\r\n\r\n");
+    REQUIRE(client.HasReceived("<answer>"));
+    (void)client.TakeReceived();
+    client.Send("GET /metrics HTTP/1.1\r\nHost: acs.example:9090\r\n\r\n");
+    REQUIRE(client.HasReceived("<answer>"));
+    CHECK(fixture.requests.size() == 2);
 }
 
 TEST_CASE("A target that is not decodable is answered with 400 and the connection lives on")
