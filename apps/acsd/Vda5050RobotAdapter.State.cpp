@@ -1,6 +1,7 @@
 #include "Vda5050RobotAdapter.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace ACS::Acsd
@@ -19,6 +20,20 @@ Planning::RobotError MakeError(const VDA5050::VehicleError& error)
         "AGV-" + error.errorType,
         bFatal ? Planning::EAlarmLevel::Heavy : Planning::EAlarmLevel::Light,
         error.errorDescription.empty() ? error.errorType : error.errorDescription};
+}
+
+constexpr double FULL_BATTERY = 100;
+
+/// No site is as large, in m: a vehicle that tells more does not know where it is.
+constexpr double FARTHEST = 1e7;
+
+void TakePose(const VDA5050::AgvPosition& position, Planning::StateChanged& state)
+{
+    state.x = position.x;
+    state.y = position.y;
+    state.theta = position.theta;
+    const bool bPossible = std::abs(position.x) <= FARTHEST && std::abs(position.y) <= FARTHEST;
+    state.bPoseKnown = position.bPositionInitialized && bPossible;
 }
 
 } // namespace
@@ -72,17 +87,14 @@ void Vda5050RobotAdapter::TakeState(Core::Now now, AdapterActions& out)
     const VDA5050::StateMessage& state = *_session.GetStateOrNull();
     if (state.agvPosition.has_value())
     {
-        _state.x = state.agvPosition->x;
-        _state.y = state.agvPosition->y;
-        _state.theta = state.agvPosition->theta;
-        _state.bPoseKnown = state.agvPosition->bPositionInitialized;
+        TakePose(*state.agvPosition, _state);
         _bPoseInState = true;
     }
     else if (std::exchange(_bPoseInState, false))
     {
         _state.bPoseKnown = false; // it knows no longer; one that only ever tells it by visualization has lost nothing
     }
-    _state.batteryPercent = state.batteryState.batteryCharge;
+    _state.batteryPercent = std::clamp(state.batteryState.batteryCharge, 0.0, FULL_BATTERY);
     _state.lastNodeID = state.lastNodeID;
     _state.bDriving = state.bDriving;
     _state.bCharging = state.batteryState.bCharging;
@@ -119,10 +131,7 @@ void Vda5050RobotAdapter::TakeState(Core::Now now, AdapterActions& out)
 
 void Vda5050RobotAdapter::TakePosition(const VDA5050::PositionReceived& received, AdapterActions& out)
 {
-    _state.x = received.position.x;
-    _state.y = received.position.y;
-    _state.theta = received.position.theta;
-    _state.bPoseKnown = received.position.bPositionInitialized;
+    TakePose(received.position, _state);
     if (_bOnline)
     {
         out.emplace_back(RaiseEvent{_state});

@@ -5,6 +5,9 @@
 #include "PlanWorldSteps.hpp"
 #include <acs/core/Timestamp.hpp>
 
+#include <string>
+#include <utility>
+
 using namespace ACS; // NOLINT(google-build-using-namespace): a test of several of them
 using Testing::MakeLogisticsPlan;
 using Testing::PlanWorld;
@@ -87,6 +90,21 @@ TEST_CASE("/status shows links, obstacles, what waits for the MCS since when, an
     CHECK(HasText(
         getStatus(),
         R"("outbox":{"reports":)" + std::to_string(waiting.size()) + R"(,"oldest":")" + time + R"("})"));
+}
+
+TEST_CASE("/status shows a charge as a percentage, whatever a robot tells")
+{
+    Operator user;
+    Planning::StateChanged state;
+    state.bPoseKnown = true;
+    state.bAutomatic = true;
+    state.lastNodeID = "N001";
+    for (const auto& [charge, shown] : {std::pair(1e300, 100), std::pair(-1e300, 0), std::pair(41.6, 42)})
+    {
+        state.batteryPercent = charge;
+        user.world.Raise("LR01", state);
+        CHECK(HasText(user.GetStatus(), R"("battery":)" + std::to_string(shown) + ","));
+    }
 }
 
 TEST_CASE("Who may ask: programs by address or a name of the configuration; health and figures under any name; no page")

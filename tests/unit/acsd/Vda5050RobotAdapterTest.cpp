@@ -7,6 +7,36 @@
 namespace ACS::Acsd::Test
 {
 
+TEST_CASE("A charge that cannot be is taken as the nearest that can, a position that cannot be as not known")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    const auto show = [&vehicle](double charge, double x, double y) {
+        vehicle.state.batteryState.batteryCharge = charge;
+        vehicle.state.agvPosition.emplace();
+        vehicle.state.agvPosition->bPositionInitialized = true;
+        vehicle.state.agvPosition->x = x;
+        vehicle.state.agvPosition->y = y;
+        vehicle.ShowState();
+        return vehicle.TakeEvents<Planning::StateChanged>().back();
+    };
+    CHECK(show(1e300, 1, 2).batteryPercent == 100);
+    CHECK(show(-1e300, 1, 2).batteryPercent == 0);
+    CHECK(show(42.5, 1, 2).batteryPercent == 42.5);
+    CHECK(show(50, 1, -2).bPoseKnown);
+    CHECK_FALSE(show(50, 1e300, 2).bPoseKnown);
+    CHECK_FALSE(show(50, 1, -1e8).bPoseKnown);
+
+    VDA5050::VisualizationMessage seen;
+    seen.agvPosition = vehicle.state.agvPosition;
+    seen.agvPosition->y = 0;
+    vehicle.Receive("visualization", seen);
+    CHECK(vehicle.TakeEvents<Planning::StateChanged>().back().bPoseKnown);
+    seen.agvPosition->x = -1e300;
+    vehicle.Receive("visualization", seen);
+    CHECK_FALSE(vehicle.TakeEvents<Planning::StateChanged>().back().bPoseKnown);
+}
+
 TEST_CASE("6.10.6 A state that leaves the position out after one that had it says that the vehicle knows it no longer")
 {
     VehicleFixture vehicle;
