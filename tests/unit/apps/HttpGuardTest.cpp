@@ -10,7 +10,7 @@ using namespace ACS; // NOLINT(google-build-using-namespace)
 namespace
 {
 
-std::optional<std::string> Ask(const std::string& method, const std::string& path, const Apps::HttpSource& source)
+std::optional<std::string> AskOrNull(const std::string& method, const std::string& path, const Apps::HttpSource& source)
 {
     const Apps::HttpGuard guard({{"acs.example"}, false, {"/metrics"}});
     Apps::HttpRequest request = *Apps::ParseHttpTarget(path);
@@ -35,8 +35,8 @@ TEST_CASE("What a program sends is served: by address, by localhost, by a name o
           ""})
     {
         INFO(host);
-        CHECK(Ask("POST", "/tsc/pause", {host, {}, {}}) == std::nullopt);
-        CHECK(Ask("GET", "/status", {host, {}, {}}) == std::nullopt);
+        CHECK(AskOrNull("POST", "/tsc/pause", {host, {}, {}}) == std::nullopt);
+        CHECK(AskOrNull("GET", "/status", {host, {}, {}}) == std::nullopt);
     }
 }
 
@@ -46,13 +46,13 @@ TEST_CASE("A foreign name is refused but for what is open: a page's own name may
          {"evil.example:8080", "127.0.0.1.evil.example", "localhost.evil", "acs.example.evil", "[evil", ":"})
     {
         INFO(host);
-        CHECK(Ask("POST", "/tsc/pause", {host, {}, {}}).has_value());
-        CHECK(Ask("POST", "/metrics", {host, {}, {}}).has_value());
-        CHECK(Ask("GET", "/status", {host, {}, {}}).has_value());
-        CHECK(Ask("HEAD", "/metrics", {host, {}, {}}) == std::nullopt);
+        CHECK(AskOrNull("POST", "/tsc/pause", {host, {}, {}}).has_value());
+        CHECK(AskOrNull("POST", "/metrics", {host, {}, {}}).has_value());
+        CHECK(AskOrNull("GET", "/status", {host, {}, {}}).has_value());
+        CHECK(AskOrNull("HEAD", "/metrics", {host, {}, {}}) == std::nullopt);
     }
     CHECK(
-        Ask("GET", "/status", {"evil.example:8080", {}, {}})
+        AskOrNull("GET", "/status", {"evil.example:8080", {}, {}})
         == "not served under the name \"evil.example:8080\": ask by the address, or have the configuration allow the name");
 }
 
@@ -60,23 +60,23 @@ TEST_CASE("A page may send commands only to where it has come from")
 {
     for (const char* origin : {"http://127.0.0.1:8080", "https://127.0.0.1:8080"})
     {
-        CHECK(Ask("POST", "/x", {"127.0.0.1:8080", origin, "same-origin"}) == std::nullopt);
+        CHECK(AskOrNull("POST", "/x", {"127.0.0.1:8080", origin, "same-origin"}) == std::nullopt);
     }
-    CHECK(Ask("POST", "/x", {"127.0.0.1:8080", {}, "none"}) == std::nullopt);
+    CHECK(AskOrNull("POST", "/x", {"127.0.0.1:8080", {}, "none"}) == std::nullopt);
     for (const char* origin :
          {"http://evil.example", "http://127.0.0.1:3000", "http://127.0.0.1", "null", "127.0.0.1:8080"})
     {
         INFO(origin);
-        CHECK(Ask("POST", "/x", {"127.0.0.1:8080", origin, {}}).has_value());
-        CHECK(Ask("DELETE", "/x", {"127.0.0.1:8080", origin, {}}).has_value());
-        CHECK(Ask("GET", "/x", {"127.0.0.1:8080", origin, {}}) == std::nullopt);
+        CHECK(AskOrNull("POST", "/x", {"127.0.0.1:8080", origin, {}}).has_value());
+        CHECK(AskOrNull("DELETE", "/x", {"127.0.0.1:8080", origin, {}}).has_value());
+        CHECK(AskOrNull("GET", "/x", {"127.0.0.1:8080", origin, {}}) == std::nullopt);
     }
-    CHECK(Ask("POST", "/x", {{}, "http://evil.example", {}}).has_value());
+    CHECK(AskOrNull("POST", "/x", {{}, "http://evil.example", {}}).has_value());
     for (const char* site : {"cross-site", "same-site"})
     {
         INFO(site);
-        CHECK(Ask("POST", "/x", {"127.0.0.1:8080", {}, site}).has_value());
-        CHECK(Ask("GET", "/x", {"127.0.0.1:8080", {}, site}) == std::nullopt);
+        CHECK(AskOrNull("POST", "/x", {"127.0.0.1:8080", {}, site}).has_value());
+        CHECK(AskOrNull("GET", "/x", {"127.0.0.1:8080", {}, site}) == std::nullopt);
     }
 }
 
