@@ -3,6 +3,8 @@
 #include "AlarmText.hpp"
 #include <acs/plan/PlanTransitions.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <string>
@@ -27,6 +29,9 @@ constexpr const char* NOTES = "acsd_robot_notes_total";
 /// Of a robot's alarms that are set and cleared: more than a robot has at a time.
 constexpr std::size_t FEW_ALARMS = 20;
 
+/// Of a robot's ways into one status at one place: one that works does not come back to it that often within a minute.
+constexpr std::size_t FEW_STATUSES = 20;
+
 double GetSeconds(Core::WallTime from, Core::WallTime to)
 {
     // The wall clock may have been set meanwhile.
@@ -39,7 +44,8 @@ PlanLog::PlanLog(Core::Logger logger, Apps::MetricsEndpoint& metrics)
     : _logger(std::move(logger)),
       _metrics(metrics),
       _notes(_logger),
-      _alarms(_logger, FEW_ALARMS)
+      _alarms(_logger, FEW_ALARMS),
+      _robots(_logger, FEW_STATUSES)
 {
     _metrics.AddCounter(PLAN_CHANGES, "Plans that reached a status");
     _metrics.AddCounter(JOB_CHANGES, "Jobs that reached a status");
@@ -184,9 +190,12 @@ void PlanLog::OnAlarmChanged(const Planning::Alarm& alarm, bool bSet, std::strin
          {"text", MakeAlarmText(alarm)}});
 }
 
-void PlanLog::OnRobotStatusChanged(const Planning::RobotStatus& status, Core::Now /*now*/)
+void PlanLog::OnRobotStatusChanged(const Planning::RobotStatus& status, Core::Now now)
 {
-    _logger.Info(
+    _robots.Write(
+        now.steady,
+        Core::ELogLevel::Info,
+        fmt::format("{} {} {}", status.robotID, GetText(status.status), status.position),
         "robot",
         {{"robotId", status.robotID},
          {"status", GetText(status.status)},

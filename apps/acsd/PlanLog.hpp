@@ -23,6 +23,7 @@ class PlanLog final : public Planning::IPlanObserver
     std::map<std::pair<std::string, std::string>, Core::SteadyTime> _jobs;
     Apps::LogThinner _notes;
     Apps::LogThinner _alarms; ///< A robot may make up as many as it likes.
+    Apps::LogThinner _robots; ///< And come and go as often.
 
     void ObserveJob(
         const Planning::PlanRecord& record,

@@ -32,6 +32,34 @@ TEST_CASE("A robot that makes up new errors without end does not fill the log, n
     CHECK(metrics.Respond().body.find("acsd_alarms_set_total") != std::string::npos);
 }
 
+TEST_CASE(
+    "A robot that comes and goes without end does not fill the log, nor hide its other changes or those of another one")
+{
+    Testing::ManualClock clock;
+    Testing::RecordingLogSink sink;
+    Apps::MetricsEndpoint metrics;
+    PlanLog log(Core::Logger(sink, "plan"), metrics);
+    Planning::RobotStatus status;
+    status.robotID = "LR01";
+    status.position = "A01";
+    for (int count = 0; count < 1'000; ++count)
+    {
+        status.status = count % 2 == 0 ? Planning::ERobotStatus::Disconnected : Planning::ERobotStatus::Idle;
+        log.OnRobotStatusChanged(status, clock.GetNow());
+    }
+    CHECK(sink.GetLines().size() == 40);
+    status.position = "A02";
+    log.OnRobotStatusChanged(status, clock.GetNow());
+    status.robotID = "LR02";
+    status.position = "A01";
+    log.OnRobotStatusChanged(status, clock.GetNow());
+    CHECK(sink.GetLines().size() == 42);
+    clock.Advance(std::chrono::minutes(1));
+    status.robotID = "LR01";
+    log.OnRobotStatusChanged(status, clock.GetNow());
+    CHECK(sink.GetLines().back().message == "robot (480 like it left out before)");
+}
+
 TEST_CASE("What a robot does otherwise again and again is noted a few times, each of its ways")
 {
     Testing::ManualClock clock;
