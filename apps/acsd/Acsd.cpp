@@ -263,12 +263,12 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
 
     [[nodiscard]] std::vector<LinkStatus> GetLinks() const
     {
-        return {{"mcs", _mcs.IsRegistered()}, {"mqtt", _bMqttUp}};
+        return {_mcs.GetLink(), {"mqtt", _bMqttUp}};
     }
 
     [[nodiscard]] ProgramStatus GetProgramStatus() const
     {
-        ProgramStatus program{GetLinks(), GetObstacles(), {}};
+        ProgramStatus program{GetLinks(), GetObstacles(), {}, _mcs.GetFigures().refusedReports};
         for (const auto& [robotID, robot] : _robots)
         {
             if (const RobotHost::Figures figures = robot->GetFigures(); figures.arm.has_value())

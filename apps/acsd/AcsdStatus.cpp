@@ -88,6 +88,29 @@ void WriteOutbox(Json::JsonWriter& writer, const Planning::OutboxSummary& outbox
     writer.EndObject();
 }
 
+/// "last" is null as long as there is none.
+void WriteRefusedReports(Json::JsonWriter& writer, const RefusedReports& refused)
+{
+    writer.Key("refusedReports");
+    writer.BeginObject();
+    writer.Key("count");
+    writer.WriteInteger(static_cast<std::int64_t>(refused.count));
+    writer.Key("last");
+    if (refused.count == 0)
+    {
+        writer.WriteNull();
+    }
+    else
+    {
+        writer.BeginObject();
+        WriteMember(writer, "command", std::string_view(refused.command));
+        WriteMember(writer, "planId", refused.planID.empty() ? std::nullopt : std::optional(refused.planID));
+        WriteMember(writer, "message", std::string_view(refused.message));
+        writer.EndObject();
+    }
+    writer.EndObject();
+}
+
 void WriteRobot(
     Json::JsonWriter& writer,
     const Planning::RobotStatus& robot,
@@ -194,6 +217,11 @@ void WriteAlarm(Json::JsonWriter& writer, const Planning::Alarm& alarm)
     writer.EndObject();
 }
 
+std::string DescribeObstacle(const LinkStatus& link)
+{
+    return link.obstacle.empty() ? "no connection: " + link.name : link.obstacle;
+}
+
 template <typename TItems, typename TWrite>
 void WriteList(Json::JsonWriter& writer, std::string_view key, const TItems& items, TWrite write)
 {
@@ -218,7 +246,7 @@ Apps::HttpResponse MakeReadyResponse(const std::vector<LinkStatus>& links, const
     std::string missing;
     for (const LinkStatus& link : links)
     {
-        missing += link.bUp ? "" : "no connection: " + link.name + "\n";
+        missing += link.bUp ? "" : DescribeObstacle(link) + "\n";
     }
     for (const std::string& obstacle : obstacles)
     {
@@ -241,11 +269,21 @@ Apps::HttpResponse MakeStatusResponse(const ProgramStatus& program, const Planni
         writer.WriteBoolean(link.bUp);
     }
     writer.EndObject();
-    WriteList(writer, "obstacles", program.obstacles, [](Json::JsonWriter& list, const std::string& obstacle) {
+    std::vector<std::string> obstacles;
+    for (const LinkStatus& link : program.links)
+    {
+        if (!link.bUp && !link.obstacle.empty())
+        {
+            obstacles.push_back(link.obstacle);
+        }
+    }
+    obstacles.insert(obstacles.end(), program.obstacles.begin(), program.obstacles.end());
+    WriteList(writer, "obstacles", obstacles, [](Json::JsonWriter& list, const std::string& obstacle) {
         list.WriteString(obstacle);
     });
     WriteMember(writer, "tsc", GetText(engine.GetTscState()));
     WriteOutbox(writer, engine.GetOutboxSummary());
+    WriteRefusedReports(writer, program.refusedReports);
     const std::vector<Planning::RobotPose> poses = engine.GetRobotPoses();
     WriteList(writer, "robots", engine.GetRobotStatuses(), [&](Json::JsonWriter& list, const auto& robot) {
         WriteRobot(list, robot, poses, program);

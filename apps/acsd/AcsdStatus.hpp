@@ -4,6 +4,7 @@
 #include "common/HttpGuard.hpp"
 #include "common/HttpMessage.hpp"
 #include "common/HttpRoutes.hpp"
+#include "RefusedReports.hpp"
 #include <acs/plan/PlanEngine.hpp>
 
 #include <functional>
@@ -19,6 +20,7 @@ struct LinkStatus
 {
     std::string name; ///< "mcs", "mqtt"
     bool bUp = false;
+    std::string obstacle{}; ///< Why not, as a line of /readyz; empty: there is no connection.
 };
 
 /// What /status shows besides the engine's own state.
@@ -27,6 +29,7 @@ struct ProgramStatus
     std::vector<LinkStatus> links;
     std::vector<std::string> obstacles;            ///< Sentences: what besides the links keeps plans from being taken.
     std::map<std::string, bool, std::less<>> arms; ///< By robotID, of robots with an arm: whether it can be commanded.
+    RefusedReports refusedReports{};
 };
 
 /// GET /livez: the process serves.

@@ -36,6 +36,17 @@ std::string GetPlanID(const Planning::PlanCommand& command)
         command);
 }
 
+std::string GetPlanID(const Planning::Report& report)
+{
+    return std::visit(
+        Core::Overloaded{
+            [](const Planning::ErrorReport& error) { return error.alarm.planID.value_or(std::string()); },
+            [](const auto& ofPlan) {
+                return ofPlan.planID;
+            }},
+        report);
+}
+
 /// Some by name: what the MCS has asked for may be longer than what it can read.
 std::string DescribeUnknown(const std::vector<std::string_view>& planIDs)
 {
@@ -347,20 +358,37 @@ void McsDialog::TakeAck(const Protocol::Acked& acked)
     }
     if (acked.result == Protocol::EAckResult::Fail)
     {
-        // Final (register, mcs.on_report_nack): the MCS has it and does not want it. Or it is kept for the next connection.
-        _log.Write(
-            _clock.GetNow().steady,
-            Core::ELogLevel::Warning,
-            GetText(acked.command),
-            _style.bRefusedReportsRetried ? "the MCS refuses a report, it is sent again with the next registration"
-                                          : "the MCS refuses a report",
-            {{"command", GetText(acked.command)}, {"transactionId", acked.transactionID}, {"reason", acked.message}});
+        TakeRefusal(acked, sent);
         if (_style.bRefusedReportsRetried)
         {
             return;
         }
     }
     _handler(Planning::MessageAcknowledged{sent.sequence});
+}
+
+/// Final (register, mcs.on_report_nack): the MCS has it and does not want it. Or it is kept for the next connection.
+void McsDialog::TakeRefusal(const Protocol::Acked& acked, const SentReport& sent)
+{
+    ++_refusedReports.count;
+    _refusedReports.command = GetText(acked.command);
+    _refusedReports.planID = sent.planID;
+    _refusedReports.message = acked.message;
+    _log.Write(
+        _clock.GetNow().steady,
+        Core::ELogLevel::Warning,
+        fmt::format("{} {}", GetText(acked.command), CutReason(acked.message)),
+        _style.bRefusedReportsRetried ? "the MCS refuses a report, it is sent again with the next registration"
+                                      : "the MCS refuses a report",
+        {{"command", GetText(acked.command)},
+         {"planId", sent.planID},
+         {"transactionId", acked.transactionID},
+         {"reason", acked.message}});
+}
+
+const RefusedReports& McsDialog::GetRefusedReports() const noexcept
+{
+    return _refusedReports;
 }
 
 void McsDialog::BeginReplay()
@@ -405,7 +433,9 @@ void McsDialog::Feed()
         {
             return; // WindowOpened or Registered comes
         }
-        _sent.insert_or_assign(entry.transactionID, SentReport{entry.sequence, _clock.GetNow().steady});
+        _sent.insert_or_assign(
+            entry.transactionID,
+            SentReport{entry.sequence, _clock.GetNow().steady, GetPlanID(entry.report)});
         _unsent.pop_front();
     }
     if (std::exchange(_bReplaying, false))

@@ -4,6 +4,7 @@
 #include "common/LogThinner.hpp"
 #include "IMcsOutput.hpp"
 #include "MessageStyle.hpp"
+#include "RefusedReports.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/plan/PlanCommand.hpp>
@@ -51,6 +52,7 @@ private:
     {
         std::uint64_t sequence = 0;
         Core::SteadyTime sentAt;
+        std::string planID; ///< Empty for what belongs to none.
     };
 
     const Core::IClock& _clock;
@@ -70,6 +72,7 @@ private:
     bool _bDraining = false;
     MessageStyle _style;
     AckObserver _ackObserver;
+    RefusedReports _refusedReports;
 
     void TakeRequest(const Protocol::AcsRequest& request);
     template <typename TList, typename TEntries>
@@ -82,6 +85,7 @@ private:
     void AnswerQuery(const Protocol::AcsRequest& request);
     void AnswerHistory(const Protocol::AcsRequest& request, const Protocol::RequestAcsPlanHistory& query);
     void TakeAck(const Protocol::Acked& acked);
+    void TakeRefusal(const Protocol::Acked& acked, const SentReport& sent);
     void BeginReplay();
     void Feed();
     [[nodiscard]] std::chrono::minutes GetOffset() const;
@@ -117,6 +121,8 @@ public:
     void TellStatus(const Planning::RobotStatus& status);
     void TellWorking(bool bWorking);
     void TellTsc(Planning::ETscState state);
+
+    [[nodiscard]] const RefusedReports& GetRefusedReports() const noexcept;
 };
 
 } // namespace ACS::Acsd

@@ -28,30 +28,6 @@ ProtocolBeast::ClientOptions MakeOptions(const AcsdConfig& config)
     return options;
 }
 
-/// Habits that cost nothing.
-bool IsHarmless(Protocol::EProtocolNote what)
-{
-    switch (what)
-    {
-        case Protocol::EProtocolNote::UnknownMember:
-        case Protocol::EProtocolNote::NullOptional:
-        case Protocol::EProtocolNote::LenientWord:
-        case Protocol::EProtocolNote::LenientNumber:
-        case Protocol::EProtocolNote::BadTimestamp:
-        case Protocol::EProtocolNote::DuplicateRequest:
-            return true;
-        case Protocol::EProtocolNote::Undecodable:
-        case Protocol::EProtocolNote::UnknownCommand:
-        case Protocol::EProtocolNote::AckMismatched:
-        case Protocol::EProtocolNote::AckUnexpected:
-        case Protocol::EProtocolNote::AckFailed:
-        case Protocol::EProtocolNote::BeforeRegistered:
-        case Protocol::EProtocolNote::RegistrationUnanswered:
-        default:
-            return false;
-    }
-}
-
 /// Of a text in the log.
 constexpr std::size_t LOGGED_TEXT = 120;
 
@@ -66,6 +42,7 @@ McsLink::McsLink(
     : _clock(clock),
       _logger(logger),
       _log(logger),
+      _notes(logger),
       _dialog(clock, std::move(logger), localOffset, engine, *this, std::move(handler))
 {
 }
@@ -135,6 +112,10 @@ void McsLink::WatchWire(ProtocolBeast::EWireDirection direction, std::string_vie
     if (_traceOrNull != nullptr)
     {
         _traceOrNull->Write({"mcs", direction, {}, {}, text});
+    }
+    if (direction == ProtocolBeast::EWireDirection::In)
+    {
+        _notes.Flush(_clock.GetNow().steady);
     }
     if (direction == ProtocolBeast::EWireDirection::In || text.size() <= _figures.longestSent)
     {
@@ -225,7 +206,14 @@ McsLink::Figures McsLink::GetFigures() const
 {
     Figures figures = _figures;
     figures.bConnected = GetStatistics().connects > _connectsBefore;
+    figures.refusedReports = _dialog.GetRefusedReports();
     return figures;
+}
+
+LinkStatus McsLink::GetLink() const
+{
+    const bool bUp = IsRegistered();
+    return {"mcs", bUp, bUp ? std::string() : _watch.GetObstacle(GetFigures().bConnected)};
 }
 
 const Protocol::SessionStatistics& McsLink::GetStatistics() const
@@ -236,6 +224,7 @@ const Protocol::SessionStatistics& McsLink::GetStatistics() const
 void McsLink::OnSessionEvent(const Protocol::SessionEvent& event)
 {
     LogEvent(event);
+    _watch.OnSessionEvent(event);
     if (std::holds_alternative<Protocol::LinkLost>(event))
     {
         _connectsBefore = GetStatistics().connects;
@@ -249,6 +238,10 @@ void McsLink::OnSessionEvent(const Protocol::SessionEvent& event)
 
 void McsLink::LogEvent(const Protocol::SessionEvent& event)
 {
+    if (!std::holds_alternative<Protocol::RequestRefused>(event))
+    {
+        _notes.Flush(_clock.GetNow().steady);
+    }
     std::visit(
         Core::Overloaded{
             [&](const Protocol::Registered&) {
@@ -268,8 +261,11 @@ void McsLink::LogEvent(const Protocol::SessionEvent& event)
                      {"count", fmt::format_int(_figures.unanswered).str()}});
             },
             [&](const Protocol::LinkLost& lost) { LogOutage(lost); },
-            [&](const Protocol::ProtocolNoted& noted) { LogNote(noted); },
+            [&](const Protocol::ProtocolNoted& noted) {
+                _notes.Take(noted, GetStatistics().CountOf(noted.what), _clock.GetNow().steady);
+            },
             [&](const Protocol::RequestRefused& refused) {
+                _notes.Forget();
                 Warn(
                     "refused " + CutReason(refused.reason),
                     "command refused",
@@ -281,17 +277,6 @@ void McsLink::LogEvent(const Protocol::SessionEvent& event)
             },
             [](const auto&) { /* not worth a line */ }},
         event);
-}
-
-void McsLink::LogNote(const Protocol::ProtocolNoted& noted)
-{
-    const std::uint64_t total = GetStatistics().CountOf(noted.what);
-    _log.Write(
-        _clock.GetNow().steady,
-        IsHarmless(noted.what) ? Core::ELogLevel::Debug : Core::ELogLevel::Warning,
-        GetText(noted.what),
-        "the MCS departs from the protocol",
-        {{"what", GetText(noted.what)}, {"detail", noted.detail}, {"count", fmt::format_int(total).str()}});
 }
 
 void McsLink::Warn(std::string_view kind, std::string_view message, std::initializer_list<Core::LogField> fields)

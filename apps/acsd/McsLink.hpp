@@ -1,10 +1,13 @@
 #pragma once
 
 #include "AcsdConfig.hpp"
+#include "AcsdStatus.hpp"
 #include "common/LogThinner.hpp"
 #include "IMcsOutput.hpp"
 #include "McsDialog.hpp"
+#include "McsNoteLog.hpp"
 #include "MessageTrace.hpp"
+#include "RegistrationWatch.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
@@ -43,6 +46,7 @@ public:
         std::size_t longestSent = 0; ///< Bytes of the longest text that was sent.
         std::uint64_t unanswered = 0;
         std::array<std::uint64_t, Protocol::COMMAND_COUNT> refused{}; ///< Own reports, by the MCS.
+        RefusedReports refusedReports;
     };
     /// Receives the wait for each acknowledgement of a report.
     using AckObserver = std::function<void(Core::Duration wait)>;
@@ -51,6 +55,8 @@ private:
     const Core::IClock& _clock;
     Core::Logger _logger;
     Apps::LogThinner _log; ///< For what the MCS can make come in a flood.
+    McsNoteLog _notes;
+    RegistrationWatch _watch;
     McsDialog _dialog;
     StopHandler _stopHandler;
     std::unique_ptr<ProtocolBeast::AcsClient> _client;
@@ -64,7 +70,6 @@ private:
 
     void OnSessionEvent(const Protocol::SessionEvent& event) override;
     void LogEvent(const Protocol::SessionEvent& event);
-    void LogNote(const Protocol::ProtocolNoted& noted);
     void Warn(std::string_view kind, std::string_view message, std::initializer_list<Core::LogField> fields);
     void WatchWire(ProtocolBeast::EWireDirection direction, std::string_view text);
     void LogOutage(const Protocol::LinkLost& lost);
@@ -123,6 +128,8 @@ public:
     [[nodiscard]] bool IsRegistered() const override;
     [[nodiscard]] const Protocol::SessionStatistics& GetStatistics() const;
     [[nodiscard]] Figures GetFigures() const;
+    /// Up while it is registered.
+    [[nodiscard]] LinkStatus GetLink() const;
 };
 
 } // namespace ACS::Acsd

@@ -200,6 +200,12 @@ TEST_CASE_METHOD(
     dialog.OnSessionEvent(Protocol::Registered{});
     Ack("T1", Protocol::EAckResult::Fail);
     CHECK(sink.Contains(Core::ELogLevel::Warning, "refuses a report"));
+    CHECK(sink.GetLines().back().HasField("planId", "P"));
+    CHECK(sink.GetLines().back().HasField("reason", "no"));
+    CHECK(dialog.GetRefusedReports().count == 1);
+    CHECK(dialog.GetRefusedReports().command == "PlanReport");
+    CHECK(dialog.GetRefusedReports().planID == "P");
+    CHECK(dialog.GetRefusedReports().message == "no");
     CHECK(GetForgotten() == (bRetried ? std::vector<std::uint64_t>{} : std::vector<std::uint64_t>{1}));
     if (bRetried)
     {

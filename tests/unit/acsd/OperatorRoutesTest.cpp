@@ -131,6 +131,32 @@ TEST_CASE("Who may ask: programs by address or a name of the configuration; heal
     }
 }
 
+TEST_CASE("/readyz and /status say why a link is not there, /status what the MCS refused last")
+{
+    PlanWorld world{1, true};
+    Acsd::ProgramStatus program{
+        {{"mcs", false, "connected, not registered: mcs: it refuses the registration"}, {"mqtt", false}},
+        {"acsd draining for shutdown"},
+        {}};
+    const std::string ready = Acsd::MakeReadyResponse(program.links, program.obstacles).body;
+    CHECK(
+        ready
+        == "connected, not registered: mcs: it refuses the registration\nno connection: mqtt\n"
+           "acsd draining for shutdown\n");
+    std::string status = Acsd::MakeStatusResponse(program, *world.engine).body;
+    CHECK(HasText(
+        status,
+        R"("obstacles":["connected, not registered: mcs: it refuses the registration","acsd draining for shutdown"])"));
+    CHECK(HasText(status, R"("refusedReports":{"count":0,"last":null})"));
+    program.refusedReports = {3, "JobReport", "P1", "unknown job"};
+    status = Acsd::MakeStatusResponse(program, *world.engine).body;
+    CHECK(HasText(
+        status,
+        R"("refusedReports":{"count":3,"last":{"command":"JobReport","planId":"P1","message":"unknown job"}})"));
+    program.refusedReports.planID.clear();
+    CHECK(HasText(Acsd::MakeStatusResponse(program, *world.engine).body, R"("planId":null,"message":"unknown job")"));
+}
+
 TEST_CASE("POST /robots/ID/maintenance/on and off; /status shows it and why a plan waits for it")
 {
     Operator user;
