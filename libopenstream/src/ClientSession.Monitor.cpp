@@ -66,7 +66,7 @@ void ClientSession::HandleMonitorError(ErrorLine& error, ClientActions& out)
         return;
     }
     _bMonitorStopFirst = false;
-    Report(ClientMonitorRefused{std::move(error)}, out);
+    Report(ClientMonitorRefused{std::move(error), _sentMonitorUrl}, out);
 }
 
 bool ClientSession::TrySendMonitorWish(Core::Now now, ClientActions& out)
@@ -85,6 +85,7 @@ bool ClientSession::TrySendMonitorWish(Core::Now now, ClientActions& out)
     if (_monitor.has_value())
     {
         _meter.Begin(_monitor->period);
+        _sentMonitorUrl = _monitor->url;
         SendAwaited(*_monitor, EInFlight::Monitor, now, out);
     }
     return _monitor.has_value();

@@ -168,7 +168,9 @@ TEST_CASE("3 A refused MONITOR is reported and not repeated until it is set anew
     MakeReady(client);
     client.SetMonitor(20ms);
     client.Receive("{\"error\":\"invalid_url\",\"message\":\"m\"}\n");
-    REQUIRE(client.Take<ClientMonitorRefused>().at(0).error.code == EOpenStreamErrorCode::InvalidUrl);
+    const ClientMonitorRefused refused = client.Take<ClientMonitorRefused>().at(0);
+    REQUIRE(refused.error.code == EOpenStreamErrorCode::InvalidUrl);
+    REQUIRE(refused.url == "/project/rgen");
     client.Pass(10s);
     REQUIRE(client.CountLines("\"MONITOR\"") == 1);
     client.SetMonitor(20ms);

@@ -135,6 +135,7 @@ struct ClientMonitorStarted
 struct ClientMonitorRefused
 {
     ErrorLine error;
+    std::string url; ///< Of the MONITOR that was refused; SetMonitor may have asked for another one since.
 };
 
 /// Event: a sample.
