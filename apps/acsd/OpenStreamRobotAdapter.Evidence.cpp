@@ -27,6 +27,13 @@ std::int64_t CountSteps(std::int64_t before, std::int64_t after)
     return static_cast<std::uint32_t>(after) - static_cast<std::uint32_t>(before);
 }
 
+/// For the controller to show what a CONTROL has done; then its silence counts.
+constexpr std::chrono::milliseconds LOOK_LIMIT{2'000};
+/// Looks in a row that showed nothing: then this controller shows it otherwise, and is not waited for.
+constexpr std::size_t MOST_UNSHOWN = 3;
+/// Of a program that begins; some count from 0.
+constexpr std::int64_t FIRST_STEP = 1;
+
 } // namespace
 
 bool OpenStreamRobotAdapter::HasFallen(const Counters& before, const Counters& after)
@@ -58,11 +65,70 @@ std::optional<OpenStreamRobotAdapter::Counters> OpenStreamRobotAdapter::ReadMark
     return begin == end ? std::optional(Counters{numbers[0], numbers[1], numbers[2]}) : std::nullopt;
 }
 
-/// Behind the CONTROL that has just settled.
-void OpenStreamRobotAdapter::LookAgain()
+/// Behind the CONTROL that has just settled. One whose effect the controller's general state shows is seen there first: a
+/// controller may take its time for a CONTROL, and go on with the MONITOR meanwhile.
+void OpenStreamRobotAdapter::LookAgain(AdapterActions& out)
+{
+    const bool bToShow =
+        _phase == EJobPhase::Looking || _program == EProgram::Stopping || _program == EProgram::GoingOn;
+    if (!bToShow || _bPlaybackHidden || _unshownLooks >= MOST_UNSHOWN)
+    {
+        LookAtCounters();
+        return;
+    }
+    _look = ELook::Watched;
+    _glance = EGlance::None;
+    Monitor(GENERAL_URL, _options.period);
+    out.emplace_back(Planning::StartAdapterTimer{LOOK_TIMER, LOOK_LIMIT});
+}
+
+void OpenStreamRobotAdapter::LookAtCounters()
 {
     _look = ELook::Asked;
     WatchCounters();
+}
+
+/// Nothing was shown, but nothing was refused either.
+void OpenStreamRobotAdapter::EndWatch()
+{
+    if (_look == ELook::Watched)
+    {
+        ++_unshownLooks;
+        LookAtCounters();
+    }
+}
+
+bool OpenStreamRobotAdapter::TryTakeEffect(const Core::JsonText& sample, AdapterActions& out)
+{
+    const std::optional<GeneralState> stateOrNull = ReadGeneralStateOrNull(sample);
+    if (!stateOrNull.has_value())
+    {
+        return false;
+    }
+    if (IsEffectShown(*stateOrNull))
+    {
+        _unshownLooks = 0;
+        out.emplace_back(Planning::CancelAdapterTimer{LOOK_TIMER});
+        LookAtCounters();
+    }
+    return true;
+}
+
+bool OpenStreamRobotAdapter::IsEffectShown(const GeneralState& state) const
+{
+    if (_phase == EJobPhase::Looking)
+    {
+        return state.program == _armProgram && state.step.value_or(0) <= FIRST_STEP;
+    }
+    if (_phase == EJobPhase::Running && _program == EProgram::Stopping)
+    {
+        return !state.bPlaying;
+    }
+    if (_phase == EJobPhase::Running && _program == EProgram::GoingOn)
+    {
+        return state.bPlaying;
+    }
+    return true; // the job has ended meanwhile
 }
 
 void OpenStreamRobotAdapter::TakeLook(AdapterActions& out)
@@ -137,6 +203,11 @@ void OpenStreamRobotAdapter::CheckStart(AdapterActions& out)
 {
     if (!_bJobStarted && _phase == EJobPhase::Running && _armState == EArmState::Ready)
     {
+        if (!_refusal.empty())
+        {
+            FailJob(_refusal, out);
+            return;
+        }
         if (std::exchange(_bRecovered, false))
         {
             DisownJob(out);
@@ -163,7 +234,7 @@ void OpenStreamRobotAdapter::FollowJob(AdapterActions& out)
     }
     else if (_counters.finished != _counted.finished)
     {
-        EndJob();
+        EndJob(out);
         out.emplace_back(RaiseEvent{Planning::JobFinished{std::exchange(_jobID, {})}});
         TellPaused(out);
     }

@@ -26,7 +26,7 @@ void OpenStreamRobotAdapter::CancelJob(const std::string& jobID, AdapterActions&
     {
         return;
     }
-    if (_phase == EJobPhase::Looking || _phase == EJobPhase::Selected)
+    if (IsJobBefore())
     {
         FailJob("given up before it was begun", out);
         return;
@@ -85,7 +85,7 @@ void OpenStreamRobotAdapter::TakeSettledPause(EControl kind, OpenStream::EContro
     }
     else if (bAccepted)
     {
-        LookAgain();
+        LookAgain(out);
     }
     else if (kind == EControl::GoOn && bRefused)
     {
@@ -133,6 +133,12 @@ void OpenStreamRobotAdapter::RefuseGoOn(AdapterActions& out)
     FailJob("the arm's controller refuses to go on with the program that was paused", out);
 }
 
+/// Its program was surely not started.
+bool OpenStreamRobotAdapter::IsJobBefore() const
+{
+    return _phase == EJobPhase::Looking || _phase == EJobPhase::Selected || _phase == EJobPhase::Refused;
+}
+
 bool OpenStreamRobotAdapter::IsArmStanding() const
 {
     switch (_phase)
@@ -140,6 +146,7 @@ bool OpenStreamRobotAdapter::IsArmStanding() const
         case EJobPhase::None:
         case EJobPhase::Looking:
         case EJobPhase::Selected:
+        case EJobPhase::Refused:
             return true;
         case EJobPhase::Running:
             return _program == EProgram::Stopped;

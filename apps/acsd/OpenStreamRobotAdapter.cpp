@@ -1,8 +1,8 @@
 #include "OpenStreamRobotAdapter.hpp"
 
+#include "ArmAnswers.hpp"
 #include <acs/core/JsonText.hpp>
 #include <acs/core/Overloaded.hpp>
-#include <acs/json/JsonDecoder.hpp>
 
 #include <fmt/format.h>
 
@@ -16,62 +16,19 @@
 namespace ACS::Acsd
 {
 
-/// The answer to GET motor_on_state.
-struct MotorState
-{
-    std::int64_t value = 0;
-};
-
-} // namespace ACS::Acsd
-
-template <>
-struct ACS::Json::JsonFields<ACS::Acsd::MotorState>
-{
-    static constexpr auto FIELDS = std::make_tuple(Required("val", &Acsd::MotorState::value));
-};
-
-namespace ACS::Acsd
-{
-
 namespace
 {
 
-using namespace std::chrono_literals;
 using Planning::AdapterActions;
 using Planning::RaiseEvent;
 
-/// The base's session has the numbers of its own timers, which are fewer.
-constexpr Planning::AdapterTimerID MOTOR_TIMER = 100;
-constexpr std::chrono::milliseconds MOTOR_PERIOD = 200ms;
-constexpr std::chrono::milliseconds MOTOR_RETRY = 5s;
-/// The only value on which the manuals of all versions agree.
-constexpr std::int64_t MOTOR_IS_ON = 0;
+/// Of a controller's words about its refusal.
+constexpr std::size_t MOST_OF_BODY = 200;
 
-constexpr std::string_view MOTOR_STATE_URL = "/project/robot/motor_on_state";
-constexpr std::string_view MOTOR_ON_URL = "/project/robot/motor_on";
 constexpr std::string_view SELECT_URL = "/project/context/tasks[0]/cur_prog_cnt";
 
-template <typename T>
-std::optional<T> ReadOrNull(const Core::JsonText& text)
-{
-    Json::JsonDocument document;
-    const Core::Result<const Json::Value*> root = document.Parse(text.GetText(), {});
-    Json::DecodeContext context;
-    T value{};
-    if (!root || !Json::TryDecode(**root, value, Json::FieldBounds{}, context))
-    {
-        return std::nullopt;
-    }
-    return value;
-}
-
-OpenStream::MonitorRequest MakeMonitor(std::string url, std::chrono::milliseconds period)
-{
-    OpenStream::MonitorRequest monitor;
-    monitor.url = std::move(url);
-    monitor.period = period;
-    return monitor;
-}
+/// For a start behind a refusal to be seen.
+constexpr std::chrono::milliseconds REFUSED_START_LIMIT{2'000};
 
 } // namespace
 
@@ -121,10 +78,11 @@ void OpenStreamRobotAdapter::Handle(const Planning::RobotCommand& command, Core:
     }
 }
 
-void OpenStreamRobotAdapter::EndJob()
+void OpenStreamRobotAdapter::EndJob(AdapterActions& out)
 {
     _phase = EJobPhase::None;
     _program = EProgram::Runs;
+    ForgetHalt(out);
     _bStopRefused = false;
     _bGoOnRepeated = false;
     _bFound = false;
@@ -136,27 +94,45 @@ Planning::StateChanged OpenStreamRobotAdapter::MakeState() const
     Planning::StateChanged state = _baseState;
     state.bPaused = _bPaused;
     state.mark = MakeMark();
+    if (_trouble.has_value())
+    {
+        state.errors.push_back(*_trouble);
+    }
     return state;
 }
 
 void OpenStreamRobotAdapter::OnTimer(Planning::AdapterTimerID timer, Core::Now now, AdapterActions& out)
 {
-    if (timer == START_TIMER)
+    switch (timer)
     {
-        CheckStart(out);
-        return;
+        case RETRY_TIMER:
+            Retry(out);
+            break;
+        case START_TIMER:
+            CheckStart(out);
+            break;
+        case GLANCE_TIMER:
+            LookAround(out);
+            break;
+        case LOOK_TIMER:
+            EndWatch();
+            break;
+        default:
+            _base.OnTimer(timer, now, _baseActions);
+            DrainBase(out);
+            break;
     }
-    if (timer != MOTOR_TIMER)
-    {
-        _base.OnTimer(timer, now, _baseActions);
-        DrainBase(out);
-        return;
-    }
-    if (_armState == EArmState::MotorOff)
-    {
-        SendControl(EControl::MotorOn, MOTOR_ON_URL, "{}");
-        out.emplace_back(Planning::StartAdapterTimer{MOTOR_TIMER, MOTOR_RETRY});
-    }
+}
+
+std::string OpenStreamRobotAdapter::DescribeRefusal(
+    int status,
+    const std::optional<Core::JsonText>& bodyOrNull,
+    const std::string& detail)
+{
+    return fmt::format(
+        "the arm's controller refuses, status {}: {}",
+        status,
+        bodyOrNull.has_value() ? bodyOrNull->GetText().substr(0, MOST_OF_BODY) : detail);
 }
 
 std::optional<std::string> OpenStreamRobotAdapter::GetRejectionReasonOrNull(std::string_view action) const
@@ -204,7 +180,11 @@ void OpenStreamRobotAdapter::OnArmEvent(const OpenStream::ClientEvent& event, Co
             [&](const OpenStream::ClientReady&) { WatchMotor(out); },
             [&](const OpenStream::ClientData& data) { TakeData(data.line, out); },
             [&](const OpenStream::ClientControlSettled& settled) { TakeSettled(settled, out); },
-            [&](const OpenStream::ClientMonitorStarted&) { _look = _look == ELook::Asked ? ELook::Due : _look; },
+            [&](const OpenStream::ClientMonitorStarted&) {
+                _look = _look == ELook::Asked ? ELook::Due : _look;
+                _bGlanceStarted = _glance != EGlance::None;
+            },
+            [&](const OpenStream::ClientMonitorRefused& refused) { TakeMonitorRefused(refused, out); },
             [&](const OpenStream::ClientControlFault& fault) { TakeFault(fault, out); },
             [&](const OpenStream::ClientLost&) { TakeLoss(out); },
             [](const auto&) {
@@ -214,16 +194,25 @@ void OpenStreamRobotAdapter::OnArmEvent(const OpenStream::ClientEvent& event, Co
 
 void OpenStreamRobotAdapter::TakeLoss(AdapterActions& out)
 {
-    out.emplace_back(Planning::CancelAdapterTimer{MOTOR_TIMER});
-    out.emplace_back(Planning::CancelAdapterTimer{START_TIMER});
+    for (const Planning::AdapterTimerID timer : {RETRY_TIMER, START_TIMER, GLANCE_TIMER, LOOK_TIMER})
+    {
+        out.emplace_back(Planning::CancelAdapterTimer{timer});
+    }
+    _trouble.reset();
     SetArmState(EArmState::Lost, out);
     _look = ELook::None;
+    _glance = EGlance::None;
+    _bMonitorRefused = false;
+    _bMotorHidden = false;
+    _bPlaybackHidden = false;
+    _standingGlances = 0;
+    _unshownLooks = 0;
     _bGoOnRepeated = _bGoOnRepeated || _program == EProgram::GoingOn;
     if (_program == EProgram::Stopping || _program == EProgram::GoingOn)
     {
         _program = EProgram::Doubtful;
     }
-    if (_phase == EJobPhase::Looking || _phase == EJobPhase::Selected)
+    if (IsJobBefore())
     {
         DisownJob(out); // another one may be selected by the time it is back
     }
@@ -232,10 +221,20 @@ void OpenStreamRobotAdapter::TakeLoss(AdapterActions& out)
 /// A refusal that came after the silence.
 void OpenStreamRobotAdapter::TakeFault(const OpenStream::ClientControlFault& fault, AdapterActions& out)
 {
-    const bool bOfStart = _phase == EJobPhase::Running && !_bJobStarted && !_bRecovered;
-    if (_phase == EJobPhase::Looking || bOfStart)
+    const std::string reason = DescribeRefusal(fault.status, fault.body, fault.detail);
+    if (_phase == EJobPhase::Looking)
     {
-        FailJob(fmt::format("the arm's controller refuses, status {}: {}", fault.status, fault.detail), out);
+        FailJob(reason, out);
+    }
+    else if (_phase == EJobPhase::Running && !_bJobStarted && !_bRecovered)
+    {
+        // Where the controller was slow it may be of the selection, and the start comes yet.
+        _refusal = reason;
+        out.emplace_back(Planning::StartAdapterTimer{START_TIMER, REFUSED_START_LIMIT});
+    }
+    else if (_armState == EArmState::MotorOff)
+    {
+        _motorRefusal = reason;
     }
     else if (_phase == EJobPhase::Running && (_program == EProgram::Stopping || _program == EProgram::GoingOn))
     {
@@ -244,17 +243,10 @@ void OpenStreamRobotAdapter::TakeFault(const OpenStream::ClientControlFault& fau
     }
 }
 
-void OpenStreamRobotAdapter::WatchMotor(AdapterActions& out)
-{
-    SetArmState(EArmState::MotorOff, out);
-    _outputs.armRequests.emplace_back(MakeMonitor(std::string(MOTOR_STATE_URL), MOTOR_PERIOD));
-    SendControl(EControl::MotorOn, MOTOR_ON_URL, "{}");
-    out.emplace_back(Planning::StartAdapterTimer{MOTOR_TIMER, MOTOR_RETRY});
-}
-
 void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, AdapterActions& out)
 {
     _recovery.reset();
+    _refusal.clear();
     _jobID = job.jobID;
     _bJobStarted = false;
     _bRecovered = false;
@@ -280,24 +272,46 @@ void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, AdapterActi
     }
     _counted = _counters;
     _phase = EJobPhase::Selecting;
-    const std::uint32_t program = _methods.find(job.action)->second.armProgram;
+    _armProgram = _methods.find(job.action)->second.armProgram;
     SendControl(
         EControl::SelectProgram,
         SELECT_URL,
-        fmt::format(R"({{"pno":{},"sno":0,"fno":0,"ext_sel":0}})", program));
+        fmt::format(R"({{"pno":{},"sno":0,"fno":0,"ext_sel":0}})", _armProgram));
+}
+
+/// It was surely not begun; why, is looked at before it is told: a motor that is off is no fault of the job's.
+void OpenStreamRobotAdapter::RefuseJob(std::string reason, AdapterActions& out)
+{
+    if (_bMotorHidden)
+    {
+        FailJob(reason, out);
+        return;
+    }
+    _phase = EJobPhase::Refused;
+    _refusal = std::move(reason);
+    _look = ELook::None;
+    Glance(EGlance::Motor);
 }
 
 void OpenStreamRobotAdapter::FailJob(const std::string& reason, AdapterActions& out)
 {
-    EndJob();
+    EndJob(out);
     out.emplace_back(RaiseEvent{Planning::JobFailed{std::exchange(_jobID, {}), reason}});
+    TellPaused(out);
+}
+
+/// Nobody can tell by what the arm shows.
+void OpenStreamRobotAdapter::HoldJob(std::string reason, AdapterActions& out)
+{
+    EndJob(out);
+    out.emplace_back(RaiseEvent{Planning::JobUncertain{std::exchange(_jobID, {}), std::move(reason)}});
     TellPaused(out);
 }
 
 /// Its program was surely not started: it can be commanded again.
 void OpenStreamRobotAdapter::DisownJob(AdapterActions& out)
 {
-    EndJob();
+    EndJob(out);
     out.emplace_back(RaiseEvent{Planning::JobUnknown{std::exchange(_jobID, {})}});
     TellPaused(out);
 }
@@ -321,7 +335,7 @@ void OpenStreamRobotAdapter::TakeSettled(const OpenStream::ClientControlSettled&
     _controls.pop_front();
     if (kind == EControl::MotorOn)
     {
-        FollowPause(out); // its state shows what came of it
+        TakeSettledMotor(settled, out);
         return;
     }
     if (kind == EControl::StopProgram || kind == EControl::GoOn || kind == EControl::ResetProgram)
@@ -339,10 +353,10 @@ void OpenStreamRobotAdapter::TakeSettled(const OpenStream::ClientControlSettled&
     {
         case OpenStream::EControlOutcome::Accepted:
             _phase = _phase == EJobPhase::Selecting ? EJobPhase::Looking : EJobPhase::Running;
-            LookAgain();
+            LookAgain(out);
             break;
         case OpenStream::EControlOutcome::Refused:
-            FailJob(fmt::format("the arm's controller refuses, status {}: {}", settled.status, settled.detail), out);
+            RefuseJob(DescribeRefusal(settled.status, settled.body, settled.detail), out);
             break;
         case OpenStream::EControlOutcome::NotSent:
             DisownJob(out);
@@ -372,37 +386,29 @@ void OpenStreamRobotAdapter::TakeData(const OpenStream::DataLine& line, AdapterA
     }
     if (_armState == EArmState::MotorOff)
     {
-        TakeMotor(*line.result, out);
+        TakeMotor(ReadMotorOnOrNull(*line.result).value_or(false), out);
     }
-    else if (_armState != EArmState::Lost)
+    else if (_armState != EArmState::Lost && !TryTakeGlance(*line.result, out))
     {
         TakeCounters(*line.result, out);
     }
 }
 
-void OpenStreamRobotAdapter::TakeMotor(const Core::JsonText& result, AdapterActions& out)
-{
-    const std::optional<MotorState> motor = ReadOrNull<MotorState>(result);
-    if (!motor.has_value() || motor->value != MOTOR_IS_ON)
-    {
-        return;
-    }
-    out.emplace_back(Planning::CancelAdapterTimer{MOTOR_TIMER});
-    SetArmState(EArmState::Counting, out);
-    WatchCounters();
-}
-
 void OpenStreamRobotAdapter::WatchCounters()
 {
     const std::size_t words = std::max({_options.startedIndex, _options.finishedIndex, _options.failedIndex}) + 1;
-    OpenStream::MonitorRequest monitor = MakeMonitor(_options.monitorUrl, _options.period);
+    OpenStream::MonitorRequest monitor;
+    monitor.url = _options.monitorUrl;
+    monitor.period = _options.period;
     monitor.args = Core::JsonText::FromTrusted(fmt::format(R"({{"st":{},"len":{}}})", _options.firstByte, words));
     _outputs.armRequests.emplace_back(std::move(monitor));
+    _glance = EGlance::None;
+    _bCountersFresh = false;
 }
 
 void OpenStreamRobotAdapter::TakeCounters(const Core::JsonText& result, AdapterActions& out)
 {
-    const std::optional<std::vector<std::int64_t>> words = ReadOrNull<std::vector<std::int64_t>>(result);
+    const std::optional<std::vector<std::int64_t>> words = ReadRelayWordsOrNull(result);
     const std::size_t needed = std::max({_options.startedIndex, _options.finishedIndex, _options.failedIndex}) + 1;
     if (!words.has_value() || words->size() < needed)
     {
@@ -417,16 +423,26 @@ void OpenStreamRobotAdapter::TakeCounters(const Core::JsonText& result, AdapterA
     {
         out.emplace_back(RaiseEvent{MakeState()}); // with the new mark, before anybody begins a job on it
     }
+    _bCountersFresh = true;
     SetArmState(EArmState::Ready, out);
+    if (bFirst)
+    {
+        SetTrouble(std::nullopt, out);
+        out.emplace_back(Planning::CancelAdapterTimer{RETRY_TIMER});
+        StartGlanceTimer(out);
+    }
     const bool bReset = HasFallen(before, _counters);
     const bool bBegun = _phase == EJobPhase::Starting || _phase == EJobPhase::Running;
     if (bReset && bBegun)
     {
-        FailJob("the arm's controller was restarted while its program ran: its counters began again", out);
+        HoldJob(
+            "the arm's controller was restarted while its program ran, or might have: its counters began again",
+            out);
         return;
     }
     FindJob(out);
     FollowJob(out);
+    CheckHalt(out);
     if (_look == ELook::Due)
     {
         _look = ELook::None;
@@ -468,6 +484,7 @@ void OpenStreamRobotAdapter::DrainBase(AdapterActions& out)
         else if (linkOrNull != nullptr)
         {
             _bBaseOnline = linkOrNull->bOnline;
+            _bBaseStateKnown = _bBaseStateKnown && _bBaseOnline;
             TellOnline(out);
         }
         else
@@ -480,10 +497,16 @@ void OpenStreamRobotAdapter::DrainBase(AdapterActions& out)
 
 void OpenStreamRobotAdapter::TellOnline(AdapterActions& out)
 {
-    const bool bOnline = _bBaseOnline && _armState == EArmState::Ready;
-    if (std::exchange(_bOnline, bOnline) != bOnline)
+    const bool bArmInReach = _armState == EArmState::Ready || (_armState != EArmState::Lost && _trouble.has_value());
+    const bool bOnline = _bBaseOnline && bArmInReach;
+    if (std::exchange(_bOnline, bOnline) == bOnline)
     {
-        out.emplace_back(RaiseEvent{Planning::LinkChanged{bOnline}});
+        return;
+    }
+    out.emplace_back(RaiseEvent{Planning::LinkChanged{bOnline}});
+    if (bOnline && _bBaseStateKnown)
+    {
+        out.emplace_back(RaiseEvent{MakeState()}); // the base may tell its next one much later
     }
 }
 

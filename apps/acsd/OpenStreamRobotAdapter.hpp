@@ -1,6 +1,7 @@
 #pragma once
 
 #include "AcsdConfig.hpp"
+#include "ArmAnswers.hpp"
 #include "IMqttRobotAdapter.hpp"
 #include "RobotOutputs.hpp"
 #include "Vda5050RobotAdapter.hpp"
@@ -8,6 +9,7 @@
 #include <acs/openstream/ClientSessionActions.hpp>
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -39,6 +41,7 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
         Selected,  ///< It is started when the pause ends.
         Starting,  ///< The CONTROL that starts it is under way.
         Running,
+        Refused, ///< The controller refused one of these CONTROLs; the motor is glanced at.
     };
 
     /// What is known of a job's program that has begun.
@@ -51,13 +54,14 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
         Doubtful, ///< The connection broke meanwhile: it runs, or stands.
     };
 
-    /// A CONTROL is answered by silence, also where it got lost. So the MONITOR is sent again behind it: its first sample is
-    /// of the time after the CONTROL, and whatever the controller refused has come before.
+    /// A CONTROL is answered by silence, also where it got lost or takes its time. So it is looked for what it has done, then
+    /// the MONITOR of the counters is sent again: its first sample is of the time after the CONTROL.
     enum class ELook : std::uint8_t
     {
         None,
-        Asked, ///< The MONITOR was sent.
-        Due,   ///< It was taken: the next sample is the look.
+        Watched, ///< The controller's general state is to show what the CONTROL has done.
+        Asked,   ///< The MONITOR of the counters was sent again.
+        Due,     ///< It was taken: the next sample is the look.
     };
 
     /// What a CONTROL was for; they settle in the order in which they were sent.
@@ -71,6 +75,14 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
         ResetProgram, ///< A job that was stopped is given up.
     };
 
+    /// What MONITOR shows for one sample in place of the counters.
+    enum class EGlance : std::uint8_t
+    {
+        None,
+        Motor,
+        Playback, ///< Whether the program runs.
+    };
+
     struct Counters
     {
         std::int64_t started = 0;
@@ -81,7 +93,11 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     };
 
     /// The base's session has the numbers of its own timers, which are fewer.
+    static constexpr Planning::AdapterTimerID RETRY_TIMER = 100;
     static constexpr Planning::AdapterTimerID START_TIMER = 101;
+    static constexpr Planning::AdapterTimerID GLANCE_TIMER = 102;
+    static constexpr Planning::AdapterTimerID LOOK_TIMER = 103;
+    static constexpr std::string_view GENERAL_URL = "/project/rgen";
     /// For a program to raise its first counter when nobody knows whether its start arrived.
     static constexpr std::chrono::milliseconds START_LIMIT{10'000};
 
@@ -100,7 +116,19 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     bool _bJobStarted = false;
     bool _bPauseWanted = false;
     EProgram _program = EProgram::Runs;
+    std::int64_t _armProgram = 0; ///< Of the job.
+    std::string _refusal;         ///< Of a CONTROL of the job; what it means is being found out.
     ELook _look = ELook::None;
+    EGlance _glance = EGlance::None;
+    bool _bGlanceStarted = false;                 ///< The MONITOR of the glance was taken.
+    bool _bCountersFresh = false;                 ///< They have come since they were asked for last.
+    bool _bMotorHidden = false;                   ///< The controller does not show it to a glance.
+    bool _bPlaybackHidden = false;                ///< Likewise.
+    std::size_t _standingGlances = 0;             ///< So many in a row saw that the program stands.
+    std::size_t _unshownLooks = 0;                ///< So many in a row showed nothing of the CONTROL.
+    bool _bMonitorRefused = false;                ///< The one of the motor or the counters, last time.
+    std::string _motorRefusal;                    ///< Of the last CONTROL that was to switch it on; empty: none.
+    std::optional<Planning::RobotError> _trouble; ///< What keeps the arm from its work, its session being there.
     bool _bStopRefused = false;  ///< The program cannot be stopped; not asked for again before the next pause.
     bool _bGoOnRepeated = false; ///< It may run already: that it does is no refusal.
     bool _bPauseTold = false;    ///< Somebody paused the robot, or had it go on, as far as this adapter knows.
@@ -123,17 +151,44 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     [[nodiscard]] std::string MakeMark() const;
     [[nodiscard]] static std::optional<Counters> ReadMarkOrNull(std::string_view mark);
     [[nodiscard]] Planning::StateChanged MakeState() const;
+    [[nodiscard]] static std::string DescribeRefusal(
+        int status,
+        const std::optional<Core::JsonText>& bodyOrNull,
+        const std::string& detail);
+    void RefuseJob(std::string reason, Planning::AdapterActions& out);
     void FailJob(const std::string& reason, Planning::AdapterActions& out);
+    void HoldJob(std::string reason, Planning::AdapterActions& out);
     void DisownJob(Planning::AdapterActions& out);
     void SendControl(EControl kind, std::string_view url, std::string body);
+    [[nodiscard]] static std::string_view GetUrl(EGlance glance);
+    void Monitor(std::string_view url, std::chrono::milliseconds period);
     void WatchMotor(Planning::AdapterActions& out);
-    void TakeMotor(const Core::JsonText& result, Planning::AdapterActions& out);
+    void TakeMotor(bool bOn, Planning::AdapterActions& out);
+    void Retry(Planning::AdapterActions& out);
+    void TellMotorOff(Planning::AdapterActions& out);
+    void TakeSettledMotor(const OpenStream::ClientControlSettled& settled, Planning::AdapterActions& out);
+    void TakeMonitorRefused(const OpenStream::ClientMonitorRefused& refused, Planning::AdapterActions& out);
+    void SetTrouble(std::optional<Planning::RobotError> trouble, Planning::AdapterActions& out);
+    [[nodiscard]] bool IsProgramWatched() const;
+    void LookAround(Planning::AdapterActions& out);
+    void StartGlanceTimer(Planning::AdapterActions& out) const;
+    void Glance(EGlance glance);
+    void GiveUpGlance(bool bForGood, Planning::AdapterActions& out);
+    [[nodiscard]] bool TryTakeGlance(const Core::JsonText& sample, Planning::AdapterActions& out);
+    void TakeMotorGlance(bool bOn, Planning::AdapterActions& out);
+    void TakePlaybackGlance(bool bPlaying, Planning::AdapterActions& out);
+    void CheckHalt(Planning::AdapterActions& out);
+    void ForgetHalt(Planning::AdapterActions& out);
     void TakeCounters(const Core::JsonText& result, Planning::AdapterActions& out);
     void FollowJob(Planning::AdapterActions& out);
     void CheckStart(Planning::AdapterActions& out);
     void TakeSettled(const OpenStream::ClientControlSettled& settled, Planning::AdapterActions& out);
     void WatchCounters();
-    void LookAgain();
+    void LookAgain(Planning::AdapterActions& out);
+    void LookAtCounters();
+    void EndWatch();
+    [[nodiscard]] bool TryTakeEffect(const Core::JsonText& sample, Planning::AdapterActions& out);
+    [[nodiscard]] bool IsEffectShown(const GeneralState& state) const;
     void TakeLook(Planning::AdapterActions& out);
     void TakeFault(const OpenStream::ClientControlFault& fault, Planning::AdapterActions& out);
     void TakeLoss(Planning::AdapterActions& out);
@@ -143,7 +198,8 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     void RefuseGoOn(Planning::AdapterActions& out);
     void FollowPause(Planning::AdapterActions& out);
     void CancelJob(const std::string& jobID, Planning::AdapterActions& out);
-    void EndJob();
+    void EndJob(Planning::AdapterActions& out);
+    [[nodiscard]] bool IsJobBefore() const;
     [[nodiscard]] bool IsArmStanding() const;
     [[nodiscard]] bool IsPaused() const;
     void TellPaused(Planning::AdapterActions& out);

@@ -23,6 +23,13 @@ inline const std::string START = "CONTROL /project/robot/start {}";
 inline const std::string STOP = "CONTROL /project/robot/stop {}";
 inline const std::string RESET = "CONTROL /project/context/tasks[0]/reset {}";
 inline const std::string LOOK = "MONITOR /project/plc/m/val_s32";
+inline const std::string MOTOR_ON = "CONTROL /project/robot/motor_on {}";
+inline const std::string LOOK_AT_MOTOR = "MONITOR /project/robot/motor_on_state";
+/// What the controller's general state shows.
+inline constexpr std::string_view SELECTED = R"({"is_playback":0,"cur_prog_no":11,"cur_step_no":0})";
+inline constexpr std::string_view STANDS = R"({"is_playback":0,"cur_prog_no":11,"cur_step_no":3})";
+inline constexpr std::string_view PLAYS = R"({"is_playback":1,"cur_prog_no":11,"cur_step_no":3})";
+inline const std::string LOOK_AT_PLAYBACK = "MONITOR /project/rgen";
 
 inline VDA5050::MasterOptions MakeBaseOptions()
 {
@@ -34,6 +41,11 @@ inline VDA5050::MasterOptions MakeBaseOptions()
 /// An adapter whose base is never heard of: only the arm's side is under test here.
 struct ArmFixture
 {
+    static constexpr Planning::AdapterTimerID RETRY_TIMER = 100;
+    static constexpr Planning::AdapterTimerID START_TIMER = 101;
+    static constexpr Planning::AdapterTimerID GLANCE_TIMER = 102;
+    static constexpr Planning::AdapterTimerID LOOK_TIMER = 103;
+
     Testing::ManualClock clock;
     RobotOutputs outputs;
     OpenStreamRobotAdapter adapter{
@@ -43,6 +55,7 @@ struct ArmFixture
         outputs};
     Planning::AdapterActions actions;
     std::uint32_t headerID = 0;
+    std::string lastControl; ///< Of those that were taken.
 
     void Tell(const OpenStream::ClientEvent& event)
     {
@@ -56,10 +69,16 @@ struct ArmFixture
         Tell(OpenStream::ClientData{line, clock.GetNow()});
     }
 
-    /// The MONITOR that was sent behind a CONTROL is taken, and shows its first sample.
+    /// What was looked for behind a CONTROL is shown: its effect, where that is to be seen, and the counters.
     void ShowLook(std::string_view counters = "[5,5,0]")
     {
-        CHECK(TakeRequests() == std::vector<std::string>{LOOK});
+        std::vector<std::string> requests = TakeRequests();
+        if (requests == std::vector<std::string>{LOOK_AT_PLAYBACK})
+        {
+            ShowEffect(lastControl == STOP ? STANDS : lastControl == SELECT ? SELECTED : PLAYS);
+            requests = TakeRequests();
+        }
+        CHECK(requests == std::vector<std::string>{LOOK});
         Tell(OpenStream::ClientMonitorStarted{});
         TellData(counters);
     }
@@ -70,6 +89,13 @@ struct ArmFixture
         static_cast<void>(TakeRequests());
         Settle(OpenStream::EControlOutcome::Accepted);
         ShowLook(counters);
+    }
+
+    /// The MONITOR behind a CONTROL is taken, and shows what that has done.
+    void ShowEffect(std::string_view state)
+    {
+        Tell(OpenStream::ClientMonitorStarted{});
+        TellData(state);
     }
 
     void Settle(OpenStream::EControlOutcome outcome, int status = 0)
@@ -112,10 +138,45 @@ struct ArmFixture
         return !states.empty() && states.back().bPaused;
     }
 
+    /// What it glances at, after some time in which nothing happened.
+    std::vector<std::string> LookAround()
+    {
+        static_cast<void>(TakeRequests());
+        Fire(GLANCE_TIMER);
+        return TakeRequests();
+    }
+
+    void Fire(Planning::AdapterTimerID timer)
+    {
+        adapter.OnTimer(timer, clock.GetNow(), actions);
+    }
+
+    void RefuseMonitor(std::string url)
+    {
+        OpenStream::ErrorLine error;
+        error.codeText = "invalid_url";
+        error.message = "no such thing";
+        Tell(OpenStream::ClientMonitorRefused{error, std::move(url)});
+    }
+
+    /// The errors that were told last; "?" where no state was told since.
+    std::string TakeErrors()
+    {
+        const auto states = TakeEvents<Planning::StateChanged>();
+        actions.clear();
+        std::string codes = states.empty() ? "?" : "";
+        for (const Planning::RobotError& error :
+             states.empty() ? decltype(states.back().errors){} : states.back().errors)
+        {
+            CHECK(error.level == Planning::EAlarmLevel::Heavy);
+            codes += error.errorCode;
+        }
+        return codes;
+    }
+
     /// Whether a program has to begin in time.
     [[nodiscard]] bool IsStartWatched() const
     {
-        constexpr Planning::AdapterTimerID START_TIMER = 101;
         return std::any_of(actions.begin(), actions.end(), [](const Planning::AdapterAction& action) {
             const auto* const startOrNull = std::get_if<Planning::StartAdapterTimer>(&action);
             return startOrNull != nullptr && startOrNull->timer == START_TIMER;
@@ -156,7 +217,8 @@ struct ArmFixture
             else
             {
                 const auto& control = std::get<OpenStream::ControlRequest>(request);
-                texts.push_back(fmt::format("CONTROL {} {}", control.url, control.body->GetText()));
+                lastControl = fmt::format("CONTROL {} {}", control.url, control.body->GetText());
+                texts.push_back(lastControl);
             }
         }
         return texts;
