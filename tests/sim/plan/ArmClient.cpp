@@ -2,6 +2,8 @@
 
 #include <acs/core/Overloaded.hpp>
 
+#include <fmt/format.h>
+
 #include <array>
 #include <string_view>
 #include <utility>
@@ -9,6 +11,13 @@
 
 namespace ACS::Simulation
 {
+
+namespace
+{
+
+constexpr std::string_view START_URL = "/project/robot/start";
+
+} // namespace
 
 ArmClient::ArmClient(
     Timeline& timeline,
@@ -54,7 +63,25 @@ void ArmClient::Call(TCall call)
 void ArmClient::Do(const OpenStream::ClientEvent& event)
 {
     Tell(event);
+    Mutate(event);
     _handler(event);
+}
+
+void ArmClient::Mutate(const OpenStream::ClientEvent& event)
+{
+    const auto* const settledOrNull = std::get_if<OpenStream::ClientControlSettled>(&event);
+    if (settledOrNull != nullptr && settledOrNull->outcome == OpenStream::EControlOutcome::Unknown)
+    {
+        _bStartLost = _controller.Is(EMutation::StartRepeated) && settledOrNull->token == _startToken;
+    }
+    if (std::holds_alternative<OpenStream::ClientReady>(event) && std::exchange(_bStartLost, false))
+    {
+        OpenStream::ControlRequest again;
+        again.url = START_URL;
+        again.body = Core::JsonText::FromTrusted("{}");
+        static_cast<void>(
+            _session.SendControl(again, OpenStream::EControlTracking::Streamed, _timeline.GetNow(), _actions));
+    }
 }
 
 /// Samples only where they have changed.
@@ -92,9 +119,9 @@ void ArmClient::Do(const OpenStream::ClientConnect& /*action*/)
 
 void ArmClient::Do(const OpenStream::ClientSend& action)
 {
-    constexpr std::string_view START = "\"/project/robot/start\"";
+    const std::string start = fmt::format("\"{}\"", START_URL);
     const std::string text(action.text);
-    for (std::size_t at = text.find(START); at != std::string::npos; at = text.find(START, at + 1))
+    for (std::size_t at = text.find(start); at != std::string::npos; at = text.find(start, at + 1))
     {
         _controller.NoteStartSent(*_connection, _commandID);
     }
@@ -171,7 +198,8 @@ void ArmClient::Send(const Acsd::ArmRequest& request)
             Core::Overloaded{
                 [&](const OpenStream::MonitorRequest& monitor) { _session.SetMonitor(monitor, now, out); },
                 [&](const OpenStream::ControlRequest& control) {
-                    static_cast<void>(_session.SendControl(control, OpenStream::EControlTracking::Tracked, now, out));
+                    const auto token = _session.SendControl(control, OpenStream::EControlTracking::Tracked, now, out);
+                    _startToken = control.url == START_URL ? token : _startToken;
                 }},
             request);
     });

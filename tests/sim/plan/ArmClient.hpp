@@ -31,11 +31,15 @@ private:
     bool _bOpened = false;
     bool _bExecuting = false;
     std::string _toldSample;
-    std::string _commandID; ///< Of the job that the adapter was given last.
+    std::uint64_t _startToken = 0; ///< Of the last start that was sent.
+    bool _bStartLost = false;      ///< Nobody knows what came of it.
+    std::string _commandID;        ///< Of the job that the adapter was given last.
 
     template <typename TCall>
     void Call(TCall call);
     void Tell(const OpenStream::ClientEvent& event);
+    /// The built-in defect.
+    void Mutate(const OpenStream::ClientEvent& event);
     void Do(const OpenStream::ClientEvent& event);
     void Do(const OpenStream::ClientConnect& action);
     void Do(const OpenStream::ClientSend& action);

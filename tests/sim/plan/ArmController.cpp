@@ -90,6 +90,11 @@ Core::IRandom& ArmController::GetClientRandom() noexcept
     return _clientRandom;
 }
 
+bool ArmController::Is(EMutation mutation) const noexcept
+{
+    return _around.mutation == mutation;
+}
+
 void ArmController::NoteStartSent(Protocol::ConnectionID connection, const std::string& commandID)
 {
     _starts[connection].push_back(commandID);
@@ -202,6 +207,10 @@ void ArmController::Call(
         Inject(failure);
     }
     _machine->service.Call(request, _around.timeline.GetNow(), response);
+    if (bControl && _bFaulty && _dice.IsHit(80))
+    {
+        response.delay += _dice.GetBetween(300ms, 1'500ms); // beyond what is taken for consent
+    }
     if (bControl)
     {
         _around.trace.Tell("{} is asked for {}: {}", _robotID, request.path, response.status);
@@ -255,6 +264,18 @@ void ArmController::OnOpened(Protocol::ConnectionID connection)
 
 void ArmController::OnText(Protocol::ConnectionID connection, const std::string& text)
 {
+    // A start above all: of it nobody may say that it has come to nothing, nor send it again.
+    const bool bControl = text.find("\"CONTROL\"") != std::string::npos;
+    const std::size_t chance = text.find(START_PATH) != std::string::npos ? 150 : 50;
+    const bool bCut = bControl && _around.bBadRadio && !_bCalm && _dice.IsHit(chance);
+    if (bCut)
+    {
+        _network.Cut();
+    }
+    if (bCut && _dice.IsHit(500))
+    {
+        return; // it got lost; else the answer to it does
+    }
     if (const auto found = _connections.find(connection); found != _connections.end())
     {
         _around.trace.Tell("acsd -> arm of {} {}", _robotID, std::string_view(text).substr(0, text.find('\n')));

@@ -2,6 +2,7 @@
 
 #include "ArmConnection.hpp"
 #include "Dice.hpp"
+#include "EMutation.hpp"
 #include "openstream-sim/ControllerFaults.hpp"
 #include "openstream-sim/FaultyService.hpp"
 #include "openstream-sim/IFaultHost.hpp"
@@ -33,6 +34,8 @@ public:
         Timeline& timeline;
         Trace& trace;
         WorkWitness& witness;
+        EMutation mutation;
+        bool bBadRadio; ///< Connections break when there is something to lose.
     };
 
     struct Seeds
@@ -122,6 +125,9 @@ public:
     [[nodiscard]] TextNetwork& GetNetwork() noexcept;
     /// Of acsd's sessions with it.
     [[nodiscard]] Core::IRandom& GetClientRandom() noexcept;
+
+    /// Whether acsd's client of it is to have this defect.
+    [[nodiscard]] bool Is(EMutation mutation) const noexcept;
 
     /// Acsd sends the start of a program on this connection, for this command.
     void NoteStartSent(Protocol::ConnectionID connection, const std::string& commandID);

@@ -18,9 +18,12 @@ ArmRobot::ArmRobot(
       _robotID(robotID),
       _dice(seeds.trouble),
       _base(around, seeds.base, robotID, nodeID, bFaulty),
-      _arm({around.timeline, around.trace, around.witness}, seeds.arm, robotID, bFaulty, [this] {
-          return _base.IsDriving();
-      })
+      _arm(
+          {around.timeline, around.trace, around.witness, around.mutation, around.bBadRadio},
+          seeds.arm,
+          robotID,
+          bFaulty,
+          [this] { return _base.IsDriving(); })
 {
 }
 

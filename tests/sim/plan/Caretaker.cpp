@@ -8,15 +8,25 @@ namespace ACS::Simulation
 
 using namespace std::chrono_literals;
 
+namespace
+{
+
+/// One a second: by then whatever a disk that works was given is on it, also what had waited for it.
+constexpr std::size_t LOOKS_UNTIL_STORED = 15;
+
+} // namespace
+
 Caretaker::Caretaker(
     Timeline& timeline,
     Trace& trace,
     const DiceSeed& seed,
     const Robots& robots,
+    const CrashableStore& store,
     ProcessSource getProcessOrNull)
     : _trace(trace),
       _dice(seed),
       _robots(robots),
+      _store(store),
       _getProcessOrNull(std::move(getProcessOrNull)),
       _habits(timeline)
 {
@@ -36,6 +46,13 @@ void Caretaker::End()
 void Caretaker::OnStart()
 {
     _resting.clear();
+    for (auto& [robotID, service] : _services)
+    {
+        if (std::exchange(service.looks, 0) >= LOOKS_UNTIL_STORED)
+        {
+            _expected[robotID] = service.bInMaintenance;
+        }
+    }
 }
 
 /// Of one that is out of reach he does not say that it is out of service: acsd takes it for one that was carried away.
@@ -52,6 +69,8 @@ void Caretaker::Turn()
             {
                 _trace.Tell("operator: {} is {} service", robot.robotID, robot.bInMaintenance ? "in" : "out of");
                 processOrNull->PushCommand(Planning::SetMaintenance{robot.robotID, !robot.bInMaintenance, 0});
+                _expected.erase(robot.robotID);
+                _services[robot.robotID].looks = 0;
             }
         }
     }
@@ -65,28 +84,50 @@ void Caretaker::Look()
         processOrNull == nullptr ? std::vector<Planning::RobotStatus>() : processOrNull->GetEngine().GetRobotStatuses();
     for (const Planning::RobotStatus& robot : statuses)
     {
-        const ISimulatedRobot& truth = *_robots.at(robot.robotID);
-        const auto resting = _resting.find(robot.robotID);
-        // Else a drive may still be on its way to it.
-        const bool bStands = robot.status == Planning::ERobotStatus::Stopped && truth.IsAtRest();
-        if (!robot.bInMaintenance)
-        {
-            _resting.erase(robot.robotID);
-        }
-        else if (resting == _resting.end() && !robot.planID.has_value() && bStands)
-        {
-            _resting.emplace(robot.robotID, truth.GetNodeID());
-        }
-        else if (resting != _resting.end() && robot.planID.has_value())
-        {
-            _trace.Violate("{} is out of service and has plan {}", robot.robotID, *robot.planID);
-        }
-        else if (resting != _resting.end() && resting->second != truth.GetNodeID())
-        {
-            _trace.Violate("{} is out of service and goes to {}", robot.robotID, truth.GetNodeID());
-        }
+        LookAtRest(robot);
+        LookAtService(robot);
     }
     _habits.Start(EHabit::Look, 1s, [this] { Look(); });
+}
+
+void Caretaker::LookAtRest(const Planning::RobotStatus& robot)
+{
+    const ISimulatedRobot& truth = *_robots.at(robot.robotID);
+    const auto resting = _resting.find(robot.robotID);
+    // Else a drive may still be on its way to it.
+    const bool bStands = robot.status == Planning::ERobotStatus::Stopped && truth.IsAtRest();
+    if (!robot.bInMaintenance || truth.IsDisturbed())
+    { // somebody who has it in hand may carry it elsewhere
+        _resting.erase(robot.robotID);
+    }
+    else if (resting == _resting.end() && !robot.planID.has_value() && bStands)
+    {
+        _resting.emplace(robot.robotID, truth.GetNodeID());
+    }
+    else if (resting != _resting.end() && robot.planID.has_value())
+    {
+        _trace.Violate("{} is out of service and has plan {}", robot.robotID, *robot.planID);
+    }
+    else if (resting != _resting.end() && resting->second != truth.GetNodeID())
+    {
+        _trace.Violate("{} is out of service and goes to {}", robot.robotID, truth.GetNodeID());
+    }
+}
+
+void Caretaker::LookAtService(const Planning::RobotStatus& robot)
+{
+    const auto expected = _expected.find(robot.robotID);
+    if (expected != _expected.end() && expected->second != robot.bInMaintenance)
+    {
+        _trace.Violate("{} is {} service after a restart", robot.robotID, robot.bInMaintenance ? "out of" : "in");
+    }
+    if (expected != _expected.end())
+    {
+        _expected.erase(expected);
+    }
+    Service& service = _services[robot.robotID];
+    const bool bSame = service.bInMaintenance == robot.bInMaintenance && !_store.bFails;
+    service = {robot.bInMaintenance, bSame ? service.looks + 1 : 0};
 }
 
 void Caretaker::GiveBack() const

@@ -33,12 +33,23 @@ private:
     Trace& _trace;
     Dice _dice;
     const Robots& _robots;
+    const CrashableStore& _store;
     ProcessSource _getProcessOrNull;
     TimerBank<EHabit> _habits;
+    struct Service
+    {
+        bool bInMaintenance = false;
+        std::size_t looks = 0; ///< Since it was last another one, or the disk failed.
+    };
+
     std::map<std::string, std::string> _resting; ///< NodeIDs of those that stand out of service.
+    std::map<std::string, Service> _services;    ///< As acsd shows them.
+    std::map<std::string, bool> _expected;       ///< After a start: whether it is in maintenance.
 
     void Turn();
     void Look();
+    void LookAtRest(const Planning::RobotStatus& robot);
+    void LookAtService(const Planning::RobotStatus& robot);
 
 public:
     Caretaker(
@@ -46,11 +57,12 @@ public:
         Trace& trace,
         const DiceSeed& seed,
         const Robots& robots,
+        const CrashableStore& store,
         ProcessSource getProcessOrNull);
 
     void Begin();
     void End();
-    /// Acsd was started. A plan whose end it had not written down is its robot's again.
+    /// Acsd was started. A plan whose end it had not written down is its robot's again; maintenance is as it was.
     void OnStart();
     /// Until all are in service.
     void GiveBack() const;

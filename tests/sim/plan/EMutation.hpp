@@ -33,15 +33,18 @@ enum class EMutation : std::uint8_t
     RefusalAcked,
     TimerForgotten,
     RecoveryDenied,
+    MaintenanceForgotten,
+    StartRepeated,
 };
 
 struct MutationText
 {
     std::string_view name;
     std::string_view meaning;
+    bool bOfArms = false; ///< Looked for in worlds with arms, of which there are few else.
 };
 
-inline constexpr std::size_t MUTATION_COUNT = 22;
+inline constexpr std::size_t MUTATION_COUNT = 24;
 
 /// By EMutation.
 inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
@@ -68,6 +71,8 @@ inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
     {"refused-plan-acked", "a plan that was refused is acknowledged as accepted"},
     {"timer-forgotten", "now and then a timer of the engine does not fire"},
     {"recovery-denied", "after a restart each robot seems never to have had its job"},
+    {"maintenance-forgotten", "after a restart all robots are in service"},
+    {"start-repeated", "a program's start of which nobody knows is sent again when the arm is back", true},
 }};
 
 } // namespace ACS::Simulation

@@ -42,6 +42,10 @@ Planning::StoredState Mutator::OnRestore(Planning::StoredState state) const
     {
         state.plans.erase(lost);
     }
+    if (Is(EMutation::MaintenanceForgotten))
+    {
+        state.robotsInMaintenance.clear();
+    }
     return state;
 }
 

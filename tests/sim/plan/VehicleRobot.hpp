@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Dice.hpp"
+#include "EMutation.hpp"
 #include "ISimulatedRobot.hpp"
 #include "MqttBroker.hpp"
 #include "TimerBank.hpp"
@@ -33,6 +34,8 @@ public:
         MqttBroker& broker;
         const Planning::SiteMap& site;
         bool bBatteries; ///< It is little more than empty at first; else full.
+        EMutation mutation;
+        bool bBadRadio; ///< Of the scenario.
     };
 
 private:

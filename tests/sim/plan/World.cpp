@@ -53,7 +53,9 @@ World::World(Scenario scenario, EMutation mutation, bool bPrinting)
       _habits(_timeline),
       _robotHabits(_timeline),
       _radioHabits(_timeline),
-      _caretaker(_timeline, _trace, {_scenario.seed, CARETAKER_PART}, _robots, [this] { return _process.get(); })
+      _caretaker(_timeline, _trace, {_scenario.seed, CARETAKER_PART}, _robots, _store, [this] {
+          return _process.get();
+      })
 {
 }
 
@@ -95,7 +97,15 @@ void World::AddRobots()
         const DiceSeed seed{_scenario.seed, FIRST_ROBOT_PART + number};
         const DiceSeed radioSeed{_scenario.seed, FIRST_RADIO_PART + number};
         const bool bFaulty = _scenario.Has(EFault::Robots);
-        const VehicleRobot::Surroundings around{_timeline, _trace, _witness, _broker, _site, _scenario.bBatteries};
+        const VehicleRobot::Surroundings around{
+            _timeline,
+            _trace,
+            _witness,
+            _broker,
+            _site,
+            _scenario.bBatteries,
+            _mutation,
+            _scenario.Has(EFault::Radio)};
         if (_scenario.robots == ERobotKind::Arms && options.type == Planning::ERobotType::CR)
         {
             const ArmController::Seeds armSeeds{
