@@ -253,21 +253,21 @@ bool OpenStreamRobotAdapter::TryTakeGlance(const Core::JsonText& sample, Adapter
     {
         return TryTakeEffect(sample, out);
     }
-    const std::optional<bool> motorOnOrNull =
+    const std::optional<bool> bMotorOnOrNull =
         _glance == EGlance::Motor ? ReadMotorOnOrNull(sample) : std::optional<bool>();
     const std::optional<GeneralState> stateOrNull =
         _glance == EGlance::Playback ? ReadGeneralStateOrNull(sample) : std::optional<GeneralState>();
-    if (motorOnOrNull.has_value())
+    if (bMotorOnOrNull.has_value())
     {
         _glance = EGlance::None;
-        TakeMotorGlance(*motorOnOrNull, out);
+        TakeMotorGlance(*bMotorOnOrNull, out);
     }
     else if (stateOrNull.has_value())
     {
         WatchCounters();
         TakePlaybackGlance(stateOrNull->bPlaying, out);
     }
-    return motorOnOrNull.has_value() || stateOrNull.has_value();
+    return bMotorOnOrNull.has_value() || stateOrNull.has_value();
 }
 
 /// Between jobs, or why one was refused: one that could not begin for a motor that is off begins when it is on again.

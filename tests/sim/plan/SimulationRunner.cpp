@@ -73,7 +73,7 @@ std::string SimulationRunner::DescribeReplay(EMutation mutation, std::uint64_t s
     {
         text += _options.without.test(fault) ? fmt::format(" --without {}", FAULT_NAMES[fault]) : "";
     }
-    if (const std::optional<ERobotKind> robots = GetRobots(mutation); robots.has_value())
+    if (const std::optional<ERobotKind> robots = GetRobotsOrNull(mutation); robots.has_value())
     {
         text += fmt::format(" --robots {}", GetText(*robots));
     }
@@ -84,7 +84,7 @@ std::string SimulationRunner::DescribeReplay(EMutation mutation, std::uint64_t s
     return text;
 }
 
-std::optional<ERobotKind> SimulationRunner::GetRobots(EMutation mutation) const
+std::optional<ERobotKind> SimulationRunner::GetRobotsOrNull(EMutation mutation) const
 {
     const bool bOfArms = MUTATION_TEXTS[static_cast<std::size_t>(mutation)].bOfArms;
     return bOfArms && !_options.robots.has_value() ? ERobotKind::Arms : _options.robots;
@@ -92,7 +92,10 @@ std::optional<ERobotKind> SimulationRunner::GetRobots(EMutation mutation) const
 
 int SimulationRunner::RunSeed(std::uint64_t seed) const
 {
-    World world(MakeScenario(seed, _options.without, GetRobots(_options.mutation)), _options.mutation, _options.bTrace);
+    World world(
+        MakeScenario(seed, _options.without, GetRobotsOrNull(_options.mutation)),
+        _options.mutation,
+        _options.bTrace);
     const std::vector<std::string> violations = world.Run();
     for (const std::string& violation : violations)
     {
@@ -110,7 +113,7 @@ SimulationRunner::Tally SimulationRunner::RunWorlds(EMutation mutation, bool bPr
     const auto work = [&] {
         for (std::uint64_t seed = next++; seed < end; seed = next++)
         {
-            World world(MakeScenario(seed, _options.without, GetRobots(mutation)), mutation, false);
+            World world(MakeScenario(seed, _options.without, GetRobotsOrNull(mutation)), mutation, false);
             const std::vector<std::string> violations = world.Run();
             const std::lock_guard lock(mutex);
             ++tally.worlds;

@@ -32,7 +32,7 @@ class SimulationRunner final
     /// Stops at the first that fails.
     [[nodiscard]] Tally RunWorlds(EMutation mutation, bool bProgress) const;
     /// As was asked for; else nullopt, and what the mutation needs.
-    [[nodiscard]] std::optional<ERobotKind> GetRobots(EMutation mutation) const;
+    [[nodiscard]] std::optional<ERobotKind> GetRobotsOrNull(EMutation mutation) const;
     [[nodiscard]] int RunSeed(std::uint64_t seed) const;
     [[nodiscard]] int RunMutations() const;
     [[nodiscard]] std::string DescribeReplay(EMutation mutation, std::uint64_t seed) const;

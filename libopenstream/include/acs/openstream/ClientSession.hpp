@@ -91,7 +91,7 @@ class ClientSession
     bool _bControlTimerArmed = false;
 
     std::optional<MonitorRequest> _monitor;
-    std::string _sentMonitorUrl; ///< Of the last one that was sent.
+    std::string _sentMonitorUrl;     ///< Of the last one that was sent.
     bool _bMonitorDue = false;       ///< The wish has changed and the server does not know.
     bool _bMonitorOn = false;        ///< The server streams, as far as we know.
     bool _bMonitorStopFirst = false; ///< It said monitor_already_active.
