@@ -60,6 +60,31 @@ std::vector<Core::Location> ReadPlaces(const ConfigSection& section, const std::
     return places;
 }
 
+/// Ports that stand twice, and places inside carriers on ports that the robot does not have.
+void CheckPorts(const ConfigSection& section, const Planning::RobotOptions& robot)
+{
+    std::set<std::string_view> seen;
+    for (const auto& [key, places] : {std::pair("ports", &robot.ports), std::pair("child_ports", &robot.childPorts)})
+    {
+        for (const Core::Location& place : *places)
+        {
+            if (!seen.insert(place.GetText()).second)
+            {
+                section.AddMistake(key, fmt::format("{} stands there twice", place.GetText()));
+            }
+        }
+    }
+    for (const Core::Location& child : robot.childPorts)
+    {
+        const std::string_view text = child.GetText();
+        const std::string_view carrier = text.substr(0, text.rfind('.'));
+        if (std::ranges::find(robot.ports, carrier, &Core::Location::GetText) == robot.ports.end())
+        {
+            section.AddMistake("child_ports", fmt::format("{} is in {}, which is none of its ports", text, carrier));
+        }
+    }
+}
+
 Planning::ERobotType ReadRobotType(const ConfigSection& section, const std::string& key)
 {
     return section.GetWord(key, {"LR", "CR"}) == "CR" ? Planning::ERobotType::CR : Planning::ERobotType::LR;
@@ -205,6 +230,7 @@ void ReadRobot(const ConfigSection& section, const std::string& name, AcsdConfig
     options.chargingStationID = section.GetStringOrNull("charge");
     options.ports = ReadPlaces(section, "ports", name + ".");
     options.childPorts = ReadPlaces(section, "child_ports", name + ".");
+    CheckPorts(section, options);
 
     RobotLinkConfig link;
     link.robotID = name;
@@ -390,6 +416,10 @@ void ReadTables(const ConfigSection& root, AcsdConfig& config)
     for (const std::string& name : actions.GetNames())
     {
         ReadAction(actions.GetSection(name), name, config);
+    }
+    if (config.engine.actions.empty())
+    {
+        root.AddMistake("actions", "needs at least one table, such as [actions.CassetteLoad]: no plan could be done");
     }
 }
 

@@ -28,6 +28,12 @@ namespace
 
 constexpr const char* NAME = "acsd";
 
+constexpr const char* FOOTER =
+    "Signals: SIGTERM and SIGINT stop it once its reports are told (a second one at once), SIGHUP reads the "
+    "configuration again.\n"
+    "Exit codes: 0 after a stop, --check-config without mistakes, --help or --version; 1 when it cannot run (store, port, "
+    "trace);\n2 for a mistake of the command line or the configuration.";
+
 struct ProgramOptions
 {
     Apps::CommonOptions common;
@@ -120,6 +126,7 @@ int RunAcsd(int argc, const char* const* argv)
         ->type_name("DIR");
     app.add_flag("--check-config", options.bCheckOnly, "tell every mistake of the configuration and end");
     Apps::AddCommonOptions(app, options.common);
+    app.footer(FOOTER);
     const std::optional<int> exitCodeOrNull = Apps::ParseCommandLineOrNull(app, argc, argv);
     if (exitCodeOrNull.has_value())
     {

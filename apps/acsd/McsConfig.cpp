@@ -66,6 +66,10 @@ void ReadHeaders(const ConfigSection& mcs, McsConfig& config)
     {
         mcs.AddMistake("host", "expected " + host.error().expected);
     }
+    else if (!config.host.empty() && !Apps::ParseEndpoint(config.host) && !Apps::ParseEndpoint(config.host + ":80"))
+    {
+        mcs.AddMistake("host", fmt::format("expected HOST or HOST:PORT, found {}", Core::QuoteForError(config.host)));
+    }
     if (!mcs.HasKey("headers"))
     {
         return;

@@ -232,8 +232,9 @@ void McsDialog::LogAnswer(const OpenRequest& request, bool bAccepted, std::strin
              {"reason", reason}});
         return;
     }
-    // "steps[0].action: expected …"
-    const std::size_t colon = reason.find(": expected ");
+    // "steps[0].action: expected …", but not "The plan cannot be stored: /var/acsd.db: expected …"
+    const std::string_view before = reason.substr(0, reason.find(": expected "));
+    const bool bField = before.size() < reason.size() && before.find(' ') == std::string_view::npos;
     _log.Write(
         _clock.GetNow().steady,
         Core::ELogLevel::Info,
@@ -243,7 +244,7 @@ void McsDialog::LogAnswer(const OpenRequest& request, bool bAccepted, std::strin
          {"planId", request.planID},
          {"transactionId", request.transactionID},
          {"reason", reason},
-         {"field", reason.substr(0, colon == std::string_view::npos ? 0 : colon)}});
+         {"field", bField ? before : std::string_view()}});
 }
 
 void McsDialog::AnswerQuery(const Protocol::AcsRequest& request)

@@ -1,5 +1,6 @@
 #include "OperatorRoutes.hpp"
 
+#include <acs/core/JsonText.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/json/JsonWriter.hpp>
 
@@ -94,6 +95,10 @@ std::optional<std::string> FindStrayOrNull(const HttpRequest& request, const Par
             return parameters.empty()
                 ? fmt::format("There is no parameter {}; this takes none.", name)
                 : fmt::format("There is no parameter {}; there is {}.", name, fmt::join(parameters, ", "));
+        }
+        if (!Core::JsonText::IsUtf8(value))
+        {
+            return fmt::format("The parameter {} is no UTF-8, found {}.", name, Core::QuoteForError(value));
         }
         if (!seen.insert(name).second && name != CARRIER)
         {

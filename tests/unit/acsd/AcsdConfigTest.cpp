@@ -123,6 +123,12 @@ TEST_CASE("Each mistake is told once, under its key, with the line of the file o
         {{"arm.counter_started=7", "arm.counter_failed=7"},
          {"--set: arm.counter_failed: is 7, as arm.counter_started is"}},
         {{R"(http.hosts=["acs.example", "acs:80"])"}, {"--set: http.hosts: expected names without port"}},
+        {{R"(mcs.host="a b")"}, {"--set: mcs.host: expected HOST or HOST:PORT, found \"a b\""}},
+        {{R"(robots.LR01.ports=["CP01-02", "CP02"])"}, {"--set: robots.LR01.ports: LR01.CP02 stands there twice"}},
+        {{R"(robots.CR01.child_ports=["TP01.MP01-03", "TP01.MP03"])"},
+         {"--set: robots.CR01.child_ports: CR01.TP01.MP03 stands there twice"}},
+        {{R"(robots.CR01.child_ports=["TP09.MP01"])"},
+         {"--set: robots.CR01.child_ports: CR01.TP09.MP01 is in CR01.TP09, which is none of its ports"}},
         {{"robots.LR01.home=X99"}, {"--set: robots.LR01.home: expected a station of the site map, found X99"}},
         {{"robots.LR01.home=X99", "robots.CR01.start_node=N0", "robot.battery_floor=90"},
          {"--set: robots.CR01.start_node: expected a node",
@@ -237,6 +243,18 @@ TEST_CASE("A counter that is left out has its default, which no other may have e
     REQUIRE(mistakes.size() == 1);
     CHECK(mistakes[0].find(": arm.counter_started: is 2, as arm.counter_failed is") != std::string::npos);
     CHECK(ReadWithout({"arm"}, "[arm]\ncounter_started = 3\n").mistakes.empty());
+}
+
+TEST_CASE("A site without actions could do no plan")
+{
+    std::set<std::string> all;
+    for (const auto& [name, rule] : Read({}).engine.actions)
+    {
+        all.insert("actions." + name);
+    }
+    const auto mistakes = ReadWithout(all).mistakes;
+    REQUIRE(mistakes.size() == 1);
+    CHECK(mistakes[0].find("actions: needs at least one table, such as [actions.CassetteLoad]") != std::string::npos);
 }
 
 TEST_CASE("Two robots do not share an arm: both would command one controller")

@@ -150,6 +150,24 @@ TEST_CASE_METHOD(
     CHECK(_log.GetLines().back().HasField("planId", "P100"));
 }
 
+TEST_CASE_METHOD(DialogTest, "A refusal that is not about a field of the command names none")
+{
+    Register();
+    Protocol::ExecutionPlan plan;
+    plan.planID = "P1";
+    plan.steps = {{1, "CassetteLoad", "A01.CP01", {}, {{"J", "A01.CP01", "AMR.CP01"}}}};
+    _dialog.OnSessionEvent(Protocol::RequestReceived{{"T1", {}, std::move(plan)}, false});
+    REQUIRE(_loop.IsStoring());
+    _loop.OnStored(Core::Fail(Core::ECoreError::OutOfRange, "acsd.db", "room on the disk", "none"));
+    const auto refused = std::ranges::find(_log.GetLines(), "command refused", &RecordedLine::message);
+    REQUIRE(refused != _log.GetLines().end());
+    CHECK(refused->HasField("planId", "P1"));
+    CHECK(refused->HasField("field", ""));
+    CHECK(std::ranges::any_of(refused->fields, [](const auto& field) {
+        return field.first == "reason" && field.second.find(": expected ") != std::string::npos;
+    }));
+}
+
 TEST_CASE_METHOD(
     DialogTest,
     "A registration while a report is on its way to the disk does not tell it before it is there")

@@ -190,6 +190,9 @@ TEST_CASE("POST /robots/ID/carriers corrects the ports, in their order")
     CHECK(HasText(user.Post("/robots/CR01/carriers?carrier=A"), "400 {\"error\":\"CR01 has 3 carrier ports"));
     CHECK(HasText(user.Post("/robots/LR01/carriers?carriers=A"), "400 {\"error\":\"There is no parameter carriers"));
     CHECK(HasText(user.Post("/robots/LR02/carriers?carrier=TRAY_01"), "TRAY_01 is on CR01"));
+    CHECK(HasText(
+        user.Post("/robots/LR01/carriers?carrier=%FF%FE"),
+        "400 {\"error\":\"The parameter carrier is no UTF-8"));
     CHECK(HasText(user.Post("/robots/LR09/carriers"), "404 "));
     CHECK(HasText(user.GetStatus(), R"("carrierIds":["TRAY_01",null,"TRAY 03"])"));
 }
