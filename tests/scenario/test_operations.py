@@ -55,6 +55,7 @@ class Operations(ScenarioCase):
         stub = self.start_stub()
         acsd = self.line.start_acsd(stub.address, self.start_robots(), config=self.write_config())
         acsd.wait_ready()
+        self.wait_for_log(acsd, "registered with the MCS")
 
         self.write_config(('grace = "10s"', 'grace = "9s"'), ('ack_timeout = "5s"', 'ack_timeout = "6s"'))
         acsd.send_signal(signal.SIGHUP)
