@@ -418,6 +418,7 @@ private:
         const Robot& robot,
         std::size_t node,
         std::span<const std::size_t> ahead) const;
+    [[nodiscard]] static bool IsOn(const StateChanged& state, const SiteNode& node, const SiteNode& next);
     [[nodiscard]] static bool IsBetween(const StateChanged& state, const SiteNode& from, const SiteNode& to);
     void EndDrive(Robot& robot);
 

@@ -292,6 +292,11 @@ std::vector<std::size_t> PlanEngine::Impl::FindAhead(
     {
         return {ahead.begin(), ahead.end()};
     }
+    if (ahead.empty()
+        || (robot.state->bPoseKnown && IsOn(*robot.state, _site.GetNodes()[node], _site.GetNodes()[ahead.front()])))
+    {
+        return {};
+    }
     std::size_t from = node;
     for (const std::size_t next : ahead)
     {
@@ -302,6 +307,12 @@ std::vector<std::size_t> PlanEngine::Impl::FindAhead(
         from = next;
     }
     return {};
+}
+
+/// Still on the first one, of two: its way may come past there again.
+bool PlanEngine::Impl::IsOn(const StateChanged& state, const SiteNode& node, const SiteNode& next)
+{
+    return std::hypot(state.x - node.x, state.y - node.y) <= std::min(STAND_TOLERANCE, GetDistance(node, next) / 4);
 }
 
 /// On the way from one to the other, and no longer on the first one.

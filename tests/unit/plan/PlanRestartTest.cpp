@@ -108,7 +108,7 @@ TEST_CASE("13.8 A crash at any action and a restart: each state is reported once
 
 TEST_CASE("13.8 Crash after crash, at random moments, on four robots: every plan ends and every job is done once")
 {
-    for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    for (std::uint64_t seed = 1; seed <= 80; ++seed)
     {
         INFO("seed " << seed);
         PlanWorld world(seed, true);
