@@ -368,6 +368,8 @@ void ReadDispatch(const ConfigSection& root, Planning::EngineOptions& engine)
     dispatch.batteryResume = readPercent("battery_resume", dispatch.batteryResume);
     dispatch.bLoadsIntoTakenPorts = robot.GetWord("taken_port", {"wait", "load"}, "wait") == "load";
 
+    engine.stallTimeout = root.GetSection("drive").GetDuration("stall_timeout", 0ms, 24h, engine.stallTimeout);
+
     const std::string moving =
         root.GetSection("mcs").GetWord("position_while_moving", {"last", "target", "null"}, "last");
     engine.movingPosition = moving == "target"

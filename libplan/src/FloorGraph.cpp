@@ -36,6 +36,11 @@ std::vector<std::size_t> MakeFirsts(const TList& list, std::size_t nodeCount, TG
 
 } // namespace
 
+double GetDriveSeconds(double length, const std::optional<double>& maxSpeed)
+{
+    return length / maxSpeed.value_or(DEFAULT_SPEED);
+}
+
 double GetAngleBetween(double left, double right)
 {
     return std::abs(std::remainder(left - right, 2 * std::numbers::pi));
@@ -60,7 +65,7 @@ FloorGraph::FloorGraph(const SiteMap& site, std::string_view vehicleTypeID)
         lane.from = from;
         lane.to = to;
         lane.edge = i;
-        lane.seconds = GetDistance(fromNode, toNode) / ruleOrNull->maxSpeed.value_or(DEFAULT_SPEED);
+        lane.seconds = GetDriveSeconds(GetDistance(fromNode, toNode), ruleOrNull->maxSpeed);
         lane.heading = GetHeading(fromNode, toNode, *ruleOrNull);
         lane.turnSpeed = ruleOrNull->maxRotationSpeed.value_or(0);
         _lanes.push_back(lane);

@@ -403,9 +403,12 @@ std::optional<WaitReason> PlanEngine::Impl::DescribeBegunOrNull(const ActivePlan
         reason.message = "The store fails, and does not tell yet that the plan was begun.";
         return reason;
     }
-    const bool bAtBaseEnd = robot.drive.has_value() && !robot.state->bDriving
-        && robot.drive->passed + 1 == robot.drive->releasedCount
-        && robot.drive->releasedCount < robot.drive->nodes.size();
+    if (robot.bStalled)
+    {
+        reason.message = fmt::format("{} does not get on: {}.", GetRobotID(robot), DescribeStall(robot));
+        return reason;
+    }
+    const bool bAtBaseEnd = robot.drive.has_value() && !robot.state->bDriving && IsAtBaseEnd(*robot.drive);
     if (robot.activity != EActivity::Waits || (robot.drive.has_value() && !bAtBaseEnd))
     {
         return std::nullopt;

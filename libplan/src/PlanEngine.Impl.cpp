@@ -164,6 +164,12 @@ void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineAc
                 OnChargeRetry(*robotOrNull);
             }
             break;
+        case EEngineTimer::DriveStall:
+            if (robotOrNull != nullptr)
+            {
+                OnDriveStall(*robotOrNull);
+            }
+            break;
         default:
             assert(false && "a timer has no case");
             break;
@@ -196,6 +202,7 @@ void PlanEngine::Impl::End(EngineActions& out)
         Dispatch();
     }
     FinishTscPause();
+    std::ranges::for_each(_robots, [this](Robot& robot) { FollowDrive(robot); });
     TellStatusChanges();
     WatchOutbox();
     CollectWork();

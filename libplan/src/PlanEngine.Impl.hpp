@@ -29,6 +29,7 @@ inline constexpr std::string_view ALARM_STORE = "ACS-1005";
 inline constexpr std::string_view ALARM_HOME = "ACS-1006";
 inline constexpr std::string_view ALARM_DROPPED = "ACS-1007";
 inline constexpr std::string_view ALARM_UNCERTAIN = "ACS-1008";
+inline constexpr std::string_view ALARM_STALL = "ACS-1009";
 inline constexpr std::string_view ALARM_CHARGE = "ACS-1010";
 inline constexpr std::string_view ALARM_OUTBOX = "ACS-1020";
 /// What alarms of the engine begin with; others are errors that robots told.
@@ -126,10 +127,21 @@ public:
         std::size_t passed = 0;         ///< Index in the route of the last node passed.
         EGoal goal = EGoal::Step;
         bool bConfirmed = false;
+        bool bTaken = false;         ///< The robot itself has shown that it has the drive.
         bool bCancelAsked = false;   ///< The robot was told to give it up, and may still do so.
         bool bCancelling = false;    ///< And that is waited for.
         std::optional<Wish> instead; ///< It is cancelled for this way; the first nodes of it are granted.
         bool bInsteadRetreats = false;
+    };
+
+    /// How far a drive has come.
+    struct Milestone
+    {
+        std::string driveID;
+        bool bTaken = false;
+        std::size_t passed = 0;
+
+        bool operator==(const Milestone&) const = default;
     };
 
     /// A robot lets another one go first until that one is there, or has another aim.
@@ -184,6 +196,10 @@ public:
         bool bWorkTouched = false; ///< What is stored of its work may have changed.
         RobotWorkChanged storedWork;
         std::optional<ActiveDrive> drive;
+        std::optional<Milestone> milestone; ///< The last one of its drive; nullopt: it has none, or is out of reach.
+        std::optional<std::size_t> watchedBase; ///< Released then; nullopt: the timer DriveStall does not run.
+        Core::SteadyTime progressAt;            ///< When it was seen to get on, or was given leave to.
+        bool bStalled = false;                  ///< Its alarm is set.
         std::vector<std::optional<std::string>> carriers;
         RobotStatus lastStatus;
         std::optional<Wish> wish;          ///< The quickest way to where it wants to go, kept while it waits.
@@ -421,6 +437,15 @@ private:
     [[nodiscard]] static bool IsOn(const StateChanged& state, const SiteNode& node, const SiteNode& next);
     [[nodiscard]] static bool IsBetween(const StateChanged& state, const SiteNode& from, const SiteNode& to);
     void EndDrive(Robot& robot);
+
+    // Drives that do not get on (PlanEngine.Progress.cpp).
+    void FollowDrive(Robot& robot);
+    void OnDriveStall(Robot& robot);
+    void ClearStall(const Robot& robot);
+    [[nodiscard]] bool IsToGetOn(const Robot& robot) const;
+    [[nodiscard]] Core::Duration GetStallLimit(const ActiveDrive& drive) const;
+    [[nodiscard]] std::string DescribeStall(const Robot& robot) const;
+    [[nodiscard]] static bool IsAtBaseEnd(const ActiveDrive& drive);
 
     // Steps and jobs (PlanEngine.Work.cpp).
     void BeginPlan(ActivePlan& plan, Robot& robot);

@@ -78,6 +78,10 @@ bool PlanEngine::Impl::HasCause(const Alarm& alarm) const
     {
         return robot.bUncertain;
     }
+    if (alarm.errorCode == ALARM_STALL)
+    {
+        return robot.bStalled;
+    }
     return robot.state.has_value()
         && std::ranges::count(robot.state->errors, alarm.errorCode, &RobotError::errorCode) > 0;
 }

@@ -67,14 +67,15 @@ void PlanEngine::Impl::RestoreTsc(ETscState stored)
     }
 }
 
-/// An alarm about a robot that is gone would have nobody to clear it.
+/// An alarm about a robot that is gone would have nobody to clear it, and drives are begun anew.
 void PlanEngine::Impl::RestoreAlarms(std::vector<Alarm> alarms)
 {
     _alarms = std::move(alarms);
     std::vector<Alarm> orphans;
     for (const Alarm& alarm : _alarms)
     {
-        if (alarm.robotID != OWN_ROBOT_ID && !_robotIndices.contains(alarm.robotID))
+        const bool bRobotGone = alarm.robotID != OWN_ROBOT_ID && !_robotIndices.contains(alarm.robotID);
+        if (bRobotGone || alarm.errorCode == ALARM_STALL)
         {
             orphans.push_back(alarm);
         }

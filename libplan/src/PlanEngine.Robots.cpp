@@ -233,6 +233,7 @@ void PlanEngine::Impl::OnNodePassed(Robot& robot, const NodePassed& event)
         Note(robot, fmt::format("told a node that is not ahead on its way: {}", event.nodeID));
         return;
     }
+    robot.drive->bTaken = true;
     if (!robot.drive->bConfirmed)
     {
         robot.drive->bConfirmed = true;

@@ -356,6 +356,7 @@ TEST_CASE("The keys of the decision register are read")
          "reports.initial_pending=true",
          "traffic.clearance=0.8",
          "traffic.base_length=5",
+         "drive.stall_timeout=90s",
          "history.keep=9",
          "outbox.max=500"});
     REQUIRE(config.mistakes == std::vector<std::string>{});
@@ -373,6 +374,7 @@ TEST_CASE("The keys of the decision register are read")
     CHECK(config.engine.controls == controls);
     CHECK(config.engine.clearance == 0.8);
     CHECK(config.engine.baseLength == 5);
+    CHECK(config.engine.stallTimeout == std::chrono::seconds(90));
     CHECK(config.engine.maximumPlans == 7);
     CHECK(config.engine.bLowerPriorityFirst);
     CHECK(config.engine.defaultPriority == -3);

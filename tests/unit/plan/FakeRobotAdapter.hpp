@@ -46,6 +46,8 @@ public:
     bool bRejectDrives = false;
     bool bIgnoresJobCancel = false; ///< As an arm, whose program is never broken off.
     bool bIgnoresDriveCancel = false;
+    bool bStuck = false;        ///< Takes its drive and stays where it is.
+    bool bDeaf = false;         ///< No drive reaches it.
     bool bIgnoresPause = false; ///< Neither stops nor goes on, as one that does not hear.
     bool bFinishesJobs = false; ///< A job that runs is not paused: the robot stands when it is done.
     bool bIgnoresCharging = false;
@@ -278,6 +280,10 @@ private:
         {
             SetPose(drive.route.nodes.front());
         }
+        if (bDeaf)
+        {
+            return;
+        }
         if (bRejectDrives || _bMoving || drive.route.nodes.front().nodeID != _nodeID)
         {
             Raise(Planning::DriveRejected{drive.driveID, "the test says so"}, out);
@@ -367,7 +373,7 @@ private:
     /// To the next node, where it is released.
     void GoOn(Planning::AdapterActions& out)
     {
-        if (_index + 1 < _drive.releasedCount && !_bPauseAsked)
+        if (_index + 1 < _drive.releasedCount && !_bPauseAsked && !bStuck)
         {
             _bMoving = true;
             RaiseState(out);

@@ -29,6 +29,7 @@ enum class EEngineTimer : std::uint8_t
     Gathering,      ///< After a start: go on without the robots that have not told where they stand.
     ChargeRetry,    ///< Of a robot: it was told to charge and has not shown that it does.
     JobEnd,         ///< Of a robot: it has not told the end of a job that was given up.
+    DriveStall,     ///< Of a robot: its drive has passed no node for long.
 };
 
 /// One timer; of a robot or, with an empty robotID, of the engine.

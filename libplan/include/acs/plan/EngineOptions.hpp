@@ -147,6 +147,9 @@ struct EngineOptions
     DispatchOptions dispatch;
     EMovingPosition movingPosition = EMovingPosition::Last;
     std::chrono::milliseconds extensionDelay{2'000}; ///< A drive that is not confirmed is extended after this.
+    /// A robot that has a drive, is in reach, may drive on and passes no node for so long raises ACS-1009; at least three
+    /// times what the map says for the edge before it. 0: none does.
+    std::chrono::milliseconds stallTimeout{60'000};
     /// Before the second attempt of a robot that refuses to drive home; then twice as long each time, up to 64 times that.
     std::chrono::milliseconds homeRetry{5'000};
     /// After a restart nobody sets out before every robot has told where it stands and may still drive, at most so long.
