@@ -208,10 +208,18 @@ void PlanEngine::Impl::MoveCarrier(Robot& robot, const StartJob& job)
     alarm.errorCode = ALARM_PORT;
     alarm.level = EAlarmLevel::Light;
     const bool bLoad = effect == EActionEffect::Load;
+    const bool bOther = !bLoad && carrier.has_value() && job.carrierID.has_value() && carrier != job.carrierID
+        && carrier != UNKNOWN_CARRIER;
     if (bLoad == carrier.has_value())
     {
         alarm.message = bLoad ? fmt::format("{} was loaded though {} was in it.", *portText, *carrier)
                               : fmt::format("{} was unloaded though nothing was in it.", *portText);
+        RaiseAlarm(std::move(alarm));
+    }
+    else if (bOther)
+    {
+        alarm.message =
+            fmt::format("{} was unloaded from {} though {} was in it.", *job.carrierID, *portText, *carrier);
         RaiseAlarm(std::move(alarm));
     }
     else

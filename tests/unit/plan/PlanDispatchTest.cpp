@@ -106,6 +106,26 @@ TEST_CASE("Carrier continuity: a carrier of which nothing is known is looked for
     CHECK(GetRobotOf(world, "P1") == "LR02");
 }
 
+TEST_CASE("An unload of another carrier than the one on record is told, and so long as nobody knows it is not")
+{
+    for (const std::string known : {"CASSETTE_99", "UNKNOWN"})
+    {
+        PlanWorld world;
+        world.Connect();
+        world.Submit(MakeUnloadPlan("P1", "CASSETTE_07"));
+        REQUIRE(TryRunUntil(world, "P1", "Step 1 InProgress"));
+        SetCarrier(world, "LR01", known);
+        REQUIRE(TryRunUntil(world, "P1", "Plan Completed"));
+        const std::vector<Alarm>& alarms = world.engine->GetActiveAlarms();
+        REQUIRE(alarms.size() == (known == "UNKNOWN" ? 0U : 1U));
+        if (!alarms.empty())
+        {
+            CHECK(alarms.front().errorCode == "ACS-1004");
+            CHECK(alarms.front().message == "CASSETTE_07 was unloaded from LR01.CP01 though CASSETTE_99 was in it.");
+        }
+    }
+}
+
 TEST_CASE("A load into a port that is taken goes to another robot, or waits, unless the option says to try")
 {
     for (const bool bTries : {false, true})
