@@ -269,7 +269,8 @@ void PlanEngine::Impl::CollectWork()
             robot.state.has_value() ? robot.state->mark : robot.storedWork.mark,
             robot.bPauseWanted || robot.bResumeOwed,
             robot.bDoubtful,
-            robot.drive.has_value() ? robot.storedWork.nodeIDs : ListNodes(robot)};
+            robot.drive.has_value() ? robot.storedWork.nodeIDs : ListNodes(robot),
+            robot.bCommandTaken};
         const bool bNothing =
             robot.storedWork.robotID.empty() && work.commandID.empty() && !work.bPauseAsked && work.nodeIDs.empty();
         // While it drives the nodes alone are no reason to write: they only become fewer.

@@ -193,7 +193,8 @@ public:
         bool bMarkDue = false; ///< Its mark is stored though nothing else has changed.
         /// It may have done more jobs of its plan than were written down: an operator is asked about each.
         bool bDoubtful = false;
-        bool bWorkTouched = false; ///< What is stored of its work may have changed.
+        bool bCommandTaken = false; ///< It has shown that it had one of its commands.
+        bool bWorkTouched = false;  ///< What is stored of its work may have changed.
         RobotWorkChanged storedWork;
         std::optional<ActiveDrive> drive;
         std::optional<Milestone> milestone; ///< The last one of its drive; nullopt: it has none, or is out of reach.

@@ -102,6 +102,7 @@ void PlanEngine::Impl::RestoreRobot(const RobotWorkChanged& work)
     robot.earlierIDs = work.earlierIDs;
     robot.trace = work;
     robot.bDoubtful = work.bDoubtful;
+    robot.bCommandTaken = work.bCommandTaken;
     robot.job = work.job;
     for (const std::string& nodeID : work.nodeIDs)
     {
@@ -323,7 +324,7 @@ void PlanEngine::Impl::CheckTrace(Robot& robot)
     else if (state.shownCommandID.has_value())
     {
         // Nothing shown: either it never had any, or it was switched off meanwhile.
-        const bool bNeverHadAny = state.shownCommandID->empty() && trace->earlierIDs.empty();
+        const bool bNeverHadAny = state.shownCommandID->empty() && trace->earlierIDs.empty() && !trace->bCommandTaken;
         bMore = !bNeverHadAny && *state.shownCommandID != trace->commandID
             && std::ranges::count(trace->earlierIDs, *state.shownCommandID) == 0;
     }

@@ -234,6 +234,8 @@ void PlanEngine::Impl::OnNodePassed(Robot& robot, const NodePassed& event)
         return;
     }
     robot.drive->bTaken = true;
+    robot.bCommandTaken = true;
+    robot.bWorkTouched = true;
     if (!robot.drive->bConfirmed)
     {
         robot.drive->bConfirmed = true;
@@ -514,6 +516,8 @@ void PlanEngine::Impl::OnJobStarted(Robot& robot, const JobStarted& event)
     {
         return; // an operator has been asked
     }
+    robot.bCommandTaken = true;
+    robot.bWorkTouched = true;
     FindOut(robot);
     ActivePlan& plan = *robot.planOrNull;
     if (HasJob(plan) && plan.record.progress.steps[plan.step].jobs[plan.job] == EJobState::Instructed)

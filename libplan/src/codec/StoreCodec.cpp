@@ -179,7 +179,8 @@ struct JsonFields<Planning::RobotWorkChanged>
         Optional("job", &Planning::RobotWorkChanged::job),
         Optional("pauseAsked", &Planning::RobotWorkChanged::bPauseAsked),
         Optional("doubtful", &Planning::RobotWorkChanged::bDoubtful),
-        Optional("nodeIds", &Planning::RobotWorkChanged::nodeIDs));
+        Optional("nodeIds", &Planning::RobotWorkChanged::nodeIDs),
+        Optional("commandTaken", &Planning::RobotWorkChanged::bCommandTaken));
 };
 
 template <>

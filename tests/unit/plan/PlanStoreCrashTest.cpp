@@ -124,6 +124,26 @@ TEST_CASE("A crash while the disk fails: so is the first job of a robot of which
     CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
 }
 
+TEST_CASE(
+    "A crash while the disk fails: so is the first job of a robot that took its first drive and was switched off since")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    world.store.bFails = true;
+    REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").doneJobs.size() == 1; }));
+    world.Crash();
+    world.store.bFails = false;
+    world.GetRobot("LR01").Forget();
+    RestartEngine(world);
+    REQUIRE(world.TryRun());
+    CHECK(GetHeldJob(world) == "P1-a4");
+    world.Settle("P1", "P1-a4", EJobAnswer::Done);
+    REQUIRE(world.TryRun());
+    world.Settle("P1", "P1-b2", EJobAnswer::Again);
+    FinishPlan(world);
+    CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
+}
+
 TEST_CASE("What an arm shows as its plan begins is written down with that")
 {
     PlanWorld world;

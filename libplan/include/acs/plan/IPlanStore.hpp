@@ -78,6 +78,7 @@ struct RobotWorkChanged
     bool bDoubtful = false;      ///< It may have done jobs of its plan that could not be written down.
     /// Where it may be: while it drives what was left of its way when this was written down, else where it stands.
     std::vector<std::string> nodeIDs;
+    bool bCommandTaken = false; ///< It has shown that it had one of these commands: showing none, it was switched off.
 
     bool operator==(const RobotWorkChanged&) const = default;
 };
