@@ -133,6 +133,7 @@ void World::StartAcsd()
 {
     ++_starts;
     _caretaker.OnStart();
+    BringIntoReach();
     const AcsdProcess::Surroundings around{
         _timeline,
         _trace,
@@ -155,6 +156,25 @@ void World::StartAcsd()
     }
     _process->Begin();
     _judge.CheckKept();
+}
+
+/// Robots that drove on while the disk failed: nobody can know where they are before they tell it.
+void World::BringIntoReach()
+{
+    constexpr std::chrono::seconds UNTIL_TOLD = 40s;
+    for (const auto& [robotID, robot] : _robots)
+    {
+        const std::vector<Planning::RobotWorkChanged>& works = _store.GetState().robotWorks;
+        const auto work = std::ranges::find(works, robotID, &Planning::RobotWorkChanged::robotID);
+        const bool bStored = work == works.end() || std::ranges::count(work->nodeIDs, robot->GetNodeID()) > 0;
+        if (bStored || _bSettling || !_scenario.Has(EFault::Radio))
+        {
+            continue;
+        }
+        _trace.Tell("{} is kept in reach: its place is on no disk", robotID);
+        robot->SetReachable(true);
+        _radioHabits.Start(robotID, UNTIL_TOLD, [this, robotID = robotID] { TurnRadio(robotID); });
+    }
 }
 
 /// It is still on the stack: it goes when that is empty.

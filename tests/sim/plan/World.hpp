@@ -66,6 +66,7 @@ class World final
 
     void AddRobots();
     void StartAcsd();
+    void BringIntoReach();
     void OnCrash();
     void BeginFaults();
     void EndFaults();
