@@ -69,12 +69,8 @@ void ArmClient::Do(const OpenStream::ClientEvent& event)
 
 void ArmClient::Mutate(const OpenStream::ClientEvent& event)
 {
-    const auto* const settledOrNull = std::get_if<OpenStream::ClientControlSettled>(&event);
-    if (settledOrNull != nullptr && settledOrNull->outcome == OpenStream::EControlOutcome::Unknown)
-    {
-        _bStartLost = _controller.Is(EMutation::StartRepeated) && settledOrNull->token == _startToken;
-    }
-    if (std::holds_alternative<OpenStream::ClientReady>(event) && std::exchange(_bStartLost, false))
+    if (std::holds_alternative<OpenStream::ClientReady>(event) && _controller.Is(EMutation::StartRepeated)
+        && std::exchange(_bStartSent, false))
     {
         OpenStream::ControlRequest again;
         again.url = START_URL;
@@ -198,8 +194,8 @@ void ArmClient::Send(const Acsd::ArmRequest& request)
             Core::Overloaded{
                 [&](const OpenStream::MonitorRequest& monitor) { _session.SetMonitor(monitor, now, out); },
                 [&](const OpenStream::ControlRequest& control) {
-                    const auto token = _session.SendControl(control, OpenStream::EControlTracking::Tracked, now, out);
-                    _startToken = control.url == START_URL ? token : _startToken;
+                    _bStartSent = _bStartSent || control.url == START_URL;
+                    static_cast<void>(_session.SendControl(control, OpenStream::EControlTracking::Tracked, now, out));
                 }},
             request);
     });

@@ -31,9 +31,8 @@ private:
     bool _bOpened = false;
     bool _bExecuting = false;
     std::string _toldSample;
-    std::uint64_t _startToken = 0; ///< Of the last start that was sent.
-    bool _bStartLost = false;      ///< Nobody knows what came of it.
-    std::string _commandID;        ///< Of the job that the adapter was given last.
+    bool _bStartSent = false; ///< Since the session began, or before it.
+    std::string _commandID;   ///< Of the job that the adapter was given last.
 
     template <typename TCall>
     void Call(TCall call);

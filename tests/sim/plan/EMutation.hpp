@@ -72,7 +72,7 @@ inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
     {"timer-forgotten", "now and then a timer of the engine does not fire"},
     {"recovery-denied", "after a restart each robot seems never to have had its job"},
     {"maintenance-forgotten", "after a restart all robots are in service"},
-    {"start-repeated", "a program's start of which nobody knows is sent again when the arm is back", true},
+    {"start-repeated", "a program's start is sent again when the connection to the arm is back", true},
 }};
 
 } // namespace ACS::Simulation
