@@ -111,6 +111,14 @@ struct ArmFixture
         adapter.Handle(job, clock.GetNow(), actions);
     }
 
+    /// The arm is connected, and its motor not yet known; the base has told its state.
+    void ConnectWithBase()
+    {
+        adapter.OnLinkUp(clock.GetNow(), actions);
+        ShowBase(false);
+        Tell(OpenStream::ClientReady{});
+    }
+
     /// The base's state is told, too, and with it the robot's.
     void BringUpWithBase()
     {

@@ -71,9 +71,7 @@ TEST_CASE("A motor that is on is glanced at for one sample, and the counters com
 TEST_CASE("A motor that does not go on after the connection is told, with the robot in reach")
 {
     ArmFixture arm;
-    arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
-    arm.ShowBase(false);
-    arm.Tell(OpenStream::ClientReady{});
+    arm.ConnectWithBase();
     arm.TellData(MOTOR_OFF_SAMPLE);
     CHECK(arm.TakeEvents<Planning::LinkChanged>().empty());
     arm.Settle(OpenStream::EControlOutcome::Refused, 403);
@@ -188,9 +186,7 @@ TEST_CASE("A program that has just come to its end was not halted")
 TEST_CASE("A MONITOR that is refused is told, and asked for again")
 {
     ArmFixture arm;
-    arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
-    arm.ShowBase(false);
-    arm.Tell(OpenStream::ClientReady{});
+    arm.ConnectWithBase();
     SECTION("The one of the motor")
     {
         arm.RefuseMonitor("/project/robot/motor_on_state");
@@ -236,9 +232,7 @@ TEST_CASE("The counters' MONITOR that is refused in mid-job is asked for again, 
 TEST_CASE("Relays that the controller does not have are told with what to look at")
 {
     ArmFixture arm;
-    arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
-    arm.ShowBase(false);
-    arm.Tell(OpenStream::ClientReady{});
+    arm.ConnectWithBase();
     arm.TellData(MOTOR_ON_SAMPLE);
     arm.actions.clear();
     arm.TellData("[5]");

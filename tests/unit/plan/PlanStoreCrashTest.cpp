@@ -38,6 +38,18 @@ std::string GetHeldJob(const PlanWorld& world)
     return held == alarms.end() ? std::string() : held->jobID.value_or(std::string());
 }
 
+/// The first job of LR01 was done, and nobody wrote that down: both of its jobs are asked for, and each is done once.
+void CheckFirstJobHeld(PlanWorld& world)
+{
+    REQUIRE(world.TryRun());
+    CHECK(GetHeldJob(world) == "P1-a4");
+    world.Settle("P1", "P1-a4", EJobAnswer::Done);
+    REQUIRE(world.TryRun());
+    world.Settle("P1", "P1-b2", EJobAnswer::Again);
+    FinishPlan(world);
+    CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
+}
+
 } // namespace
 
 TEST_CASE("A crash while the disk fails: what the robot did and nobody wrote down is held, not done again")
@@ -115,13 +127,7 @@ TEST_CASE("A crash while the disk fails: so is the first job of a robot of which
     world.store.bFails = false;
     world.Restart(ACS::Testing::MakeTestOptions(true), ACS::Testing::MakeTestSite());
     world.Connect();
-    REQUIRE(world.TryRun());
-    CHECK(GetHeldJob(world) == "P1-a4");
-    world.Settle("P1", "P1-a4", EJobAnswer::Done);
-    REQUIRE(world.TryRun());
-    world.Settle("P1", "P1-b2", EJobAnswer::Again);
-    FinishPlan(world);
-    CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
+    CheckFirstJobHeld(world);
 }
 
 TEST_CASE(
@@ -135,13 +141,7 @@ TEST_CASE(
     world.store.bFails = false;
     world.GetRobot("LR01").Forget();
     RestartEngine(world);
-    REQUIRE(world.TryRun());
-    CHECK(GetHeldJob(world) == "P1-a4");
-    world.Settle("P1", "P1-a4", EJobAnswer::Done);
-    REQUIRE(world.TryRun());
-    world.Settle("P1", "P1-b2", EJobAnswer::Again);
-    FinishPlan(world);
-    CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
+    CheckFirstJobHeld(world);
 }
 
 TEST_CASE("What an arm shows as its plan begins is written down with that")

@@ -1,0 +1,208 @@
+#include "ArmFixture.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::Acsd::Test
+{
+
+TEST_CASE("6.8 A program counts as stopped when the controller shows that it stands")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.ShowBase(true);
+    arm.actions.clear();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    REQUIRE(arm.TakeRequests() == std::vector<std::string>{STOP});
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    REQUIRE(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_PLAYBACK});
+    arm.TellData(PLAYS);
+    CHECK(arm.TakeRequests().empty()); // still looked for
+    CHECK_FALSE(arm.IsToldPaused());
+    arm.TellData(STANDS);
+    arm.ShowLook("[6,5,0]");
+    CHECK(arm.IsToldPaused());
+}
+
+TEST_CASE("6.7 Pause stops the arm's program where it is; the robot is paused when base and arm stand")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
+    arm.ShowBase(true);
+    CHECK_FALSE(arm.IsToldPaused());
+    arm.Accept("[6,5,0]");
+    CHECK(arm.IsToldPaused());
+
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+    arm.ShowBase(false);
+    CHECK(arm.IsToldPaused());
+    arm.Accept("[6,5,0]");
+    CHECK_FALSE(arm.IsToldPaused());
+    arm.TellData("[6,6,0]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+}
+
+TEST_CASE("6.7 Pause without a job is the base's alone; a program that was just selected is started by Resume")
+{
+    ArmFixture arm;
+    arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
+    arm.BringUp();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests().empty());
+    arm.ShowBase(true);
+    CHECK(arm.IsToldPaused());
+    arm.Command("J");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
+    arm.Accept();
+    CHECK(arm.TakeRequests().empty());
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+}
+
+TEST_CASE("6.7 A program that is just being started is stopped once it has begun")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    arm.Accept();
+    static_cast<void>(arm.TakeRequests());
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests().empty());
+    arm.Accept();
+    CHECK(arm.TakeRequests().empty());
+    arm.TellData("[6,5,0]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
+}
+
+TEST_CASE("6.7 A stop that the arm refuses leaves the robot not paused, and is not repeated without end")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    static_cast<void>(arm.TakeRequests());
+    arm.ShowBase(true);
+    arm.Settle(OpenStream::EControlOutcome::Refused, 403);
+    CHECK(arm.TakeRequests().empty());
+    CHECK_FALSE(arm.IsToldPaused());
+}
+
+TEST_CASE(
+    "6.8 A program whose going on got lost is stopped, looked at and started again; that it runs already is no failure")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    arm.Accept("[6,5,0]");
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+    // While it was under way, or after the silence that was taken for its answer.
+    arm.Settle(GENERATE(OpenStream::EControlOutcome::Unknown, OpenStream::EControlOutcome::Accepted));
+    arm.Tell(OpenStream::ClientLost{});
+    arm.Tell(OpenStream::ClientReady{});
+    arm.Settle(OpenStream::EControlOutcome::Accepted); // motor_on
+    arm.TellData(R"({"val":0})");
+    static_cast<void>(arm.TakeRequests());
+    arm.TellData("[6,5,0]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
+    SECTION("It has come to its end meanwhile: nothing is started")
+    {
+        arm.Accept("[6,6,0]");
+        CHECK(arm.TakeRequests().empty());
+        CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+    }
+    SECTION("It stands")
+    {
+        arm.Accept("[6,5,0]");
+        CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+        arm.Settle(OpenStream::EControlOutcome::Refused, 403);
+        CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+        arm.TellData("[6,6,0]");
+        CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+    }
+}
+
+TEST_CASE("6.8 A program that ended while it was being stopped is not started again, however late that is told")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    static_cast<void>(arm.TakeRequests());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    arm.TellData("[6,5,0]"); // from before the stop
+    CHECK_FALSE(arm.IsToldPaused());
+    arm.ShowLook("[6,6,0]");
+    CHECK(arm.TakeRequests().empty());
+    CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+}
+
+TEST_CASE("6.8 A program whose stop got lost is stopped again, and goes on where nobody wants it paused any more")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    static_cast<void>(arm.TakeRequests());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Tell(OpenStream::ClientLost{});
+    const bool bResumed = GENERATE(false, true);
+    if (bResumed)
+    {
+        arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    }
+    arm.Tell(OpenStream::ClientReady{});
+    arm.Settle(OpenStream::EControlOutcome::Accepted); // motor_on
+    arm.TellData(R"({"val":0})");
+    static_cast<void>(arm.TakeRequests());
+    arm.TellData("[6,5,0]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
+    arm.Accept("[6,5,0]");
+    CHECK(arm.TakeRequests() == (bResumed ? std::vector<std::string>{START} : std::vector<std::string>{}));
+}
+
+TEST_CASE("6.8 A program that the arm refuses to go on with fails its job")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    arm.Accept("[6,5,0]");
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    arm.Settle(OpenStream::EControlOutcome::Refused, 403);
+    CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+}
+
+TEST_CASE(
+    "D-16 A job that is given up while it is paused resets its program and is told as failed; a running one goes on")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests().empty());
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    arm.Accept("[6,5,0]");
+    arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{RESET});
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+    CHECK(arm.TakeRequests().empty());
+}
+
+TEST_CASE("D-16 A job that was held before its program began is given up at once")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    arm.Command("J");
+    arm.Accept();
+    arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+    CHECK(arm.TakeRequests().empty());
+}
+
+} // namespace ACS::Acsd::Test
