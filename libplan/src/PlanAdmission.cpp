@@ -345,7 +345,32 @@ Core::Result<std::optional<Core::Location>> PlanAdmission::ResolvePlace(
     {
         return tl::unexpected(std::move(checked.error()));
     }
+    if (!place.IsRobotPort() && !IsAt(place, position))
+    {
+        return Refuse(
+            ECoreError::InvalidLocation,
+            path,
+            fmt::format("a place at {}, the step's position", position.GetText()),
+            place.GetOriginalText());
+    }
     return std::optional(std::move(place));
+}
+
+/// Section 4.1: the jobs of a step are done without the robot moving. Places of other stations that have a node with the
+/// position's are within its reach.
+bool PlanAdmission::IsAt(const Core::Location& place, const Core::Location& position) const
+{
+    const std::string dockID = place.GetDockingPlace().GetText();
+    if (dockID == position.GetText() || dockID.starts_with(position.GetText() + '.'))
+    {
+        return true;
+    }
+    const SiteStation* dockOrNull = _site.FindStationOrNull(dockID);
+    const SiteStation* stationOrNull = _site.FindStationOrNull(position.GetText());
+    return dockOrNull != nullptr && stationOrNull != nullptr
+        && std::ranges::any_of(dockOrNull->nodeIDs, [stationOrNull](const std::string& nodeID) {
+               return std::ranges::count(stationOrNull->nodeIDs, nodeID) > 0;
+           });
 }
 
 Core::Result<void> PlanAdmission::CheckPlace(const Core::Location& place, EPlaceRule rule, const std::string& path)

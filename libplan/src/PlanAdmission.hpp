@@ -51,6 +51,7 @@ class PlanAdmission
         EPlaceRule rule,
         const Core::Location& position,
         const std::string& path) const;
+    [[nodiscard]] bool IsAt(const Core::Location& place, const Core::Location& position) const;
     [[nodiscard]] Core::Result<void> CheckPlace(const Core::Location& place, EPlaceRule rule, const std::string& path)
         const;
     [[nodiscard]] Core::Result<void> FindCandidates(const Plan& plan, ResolvedPlan& resolved) const;

@@ -38,6 +38,12 @@ TEST_CASE("4.1 What is wrong with a plan is refused with a message that names th
         {"a position that is no location", [](Plan& plan) { plan.steps[0].position = "here"; }, "steps[0].position"},
         {"a position off the map", [](Plan& plan) { plan.steps[0].position = "A09.CP01"; }, "steps[0].position"},
         {"a from off the map", [](Plan& plan) { plan.steps[0].jobs[0].from = "A01.CP77"; }, "steps[0].jobs[0].from"},
+        {"a from at another place than the step's",
+         [](Plan& plan) { plan.steps[0].jobs[0].from = "A01.CP02"; },
+         "steps[0].jobs[0].from: expected a place at A01.CP01, the step's position"},
+        {"a to at another place than the step's",
+         [](Plan& plan) { plan.steps[1].jobs[0].to = "A02.CP04"; },
+         "steps[1].jobs[0].to: expected a place at A02.CP03, the step's position"},
         {"no from", [](Plan& plan) { plan.steps[0].jobs[0].from.reset(); }, "steps[0].jobs[0].from"},
         {"a to of the wrong kind", [](Plan& plan) { plan.steps[0].jobs[0].to = "A01.CP02"; }, "steps[0].jobs[0].to"},
         {"a port that no robot has", [](Plan& plan) { plan.steps[0].jobs[0].to = "AMR.CP09"; }, "AMR.CP09"},
@@ -101,6 +107,28 @@ TEST_CASE("4.1 A plan that no robot can do is refused with each robot's reason; 
     CHECK_FALSE(world.replies.at(2).bAccepted);
     CHECK(
         world.replies.at(2).message.find("LR01 cannot do CassetteLoad: its gripper is too small") != std::string::npos);
+}
+
+TEST_CASE("4.1 A place of another station is within the reach of a step where the two stations have a node in common")
+{
+    const SiteMap site = ACS::Testing::MakeTestSite();
+    std::vector<SiteStation> stations = site.GetStations();
+    for (SiteStation& station : stations)
+    {
+        if (station.stationID == "A01.CP02")
+        {
+            station.nodeIDs.emplace_back("D-A01.CP01");
+        }
+    }
+    PlanWorld world(
+        1,
+        ACS::Testing::MakeTestOptions(false),
+        *SiteMap::Create(site.GetNodes(), site.GetEdges(), stations));
+    world.Connect();
+    Plan plan = MakeLogisticsPlan("P1");
+    plan.steps[0].jobs[0].from = "A01.CP02";
+    world.Submit(plan, 1);
+    CHECK(world.replies.at(1).bAccepted);
 }
 
 TEST_CASE("4.1 Absent, null and superfluous places, lower case, gaps and disorder are no reason to refuse")
