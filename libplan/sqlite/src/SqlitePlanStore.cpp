@@ -49,7 +49,8 @@ int GetPragma(SQLite::Database& database, const char* pragma)
 class SqlitePlanStore::Impl
 {
     std::string _path;
-    StoreLock _lock; ///< Outlives the database.
+    bool _bFoundWithoutLog; ///< There was a file that was not empty, and no log.
+    StoreLock _lock;        ///< Outlives the database.
     SQLite::Database _database;
     StoreFiles _files;
     StoreOrigin _origin;
@@ -73,6 +74,7 @@ public:
     /// Throws SQLite::Exception, as all of this class.
     Impl(const std::string& path, const std::string& file, int flags)
         : _path(path),
+          _bFoundWithoutLog(StoreFiles::HasOnlyStore(path)),
           _database(file, flags, BUSY_MILLISECONDS)
     {
     }
@@ -119,6 +121,22 @@ public:
                 "a plan store; give another path",
                 "a database of another program");
         }
+        if (bEmpty && _bFoundWithoutLog)
+        {
+            return Refuse(
+                EPlanningError::StoreCorrupt,
+                _path,
+                fmt::format("a plan store, or no file; {}", RESTORE_IT),
+                "a database without any table, and no log beside it");
+        }
+        if (!bEmpty && version <= 0)
+        {
+            return Refuse(
+                EPlanningError::StoreCorrupt,
+                _path,
+                fmt::format("an undamaged plan store; {}", RESTORE_IT),
+                fmt::format("the schema version {}", version));
+        }
         if (version > GetNewestSchemaVersion())
         {
             return Refuse(
@@ -149,7 +167,14 @@ public:
         _database.exec("PRAGMA journal_mode = WAL");
         _database.exec("PRAGMA synchronous = FULL");
         _database.exec("PRAGMA foreign_keys = ON");
-        MigrateSchema(_database, GetPragma(_database, "user_version"));
+        const int found = GetPragma(_database, "user_version");
+        MigrateSchema(_database, found);
+        if (found != GetNewestSchemaVersion())
+        {
+            // Into the file itself, so that it is seen to be a store also where its log is missing.
+            _database.exec("PRAGMA wal_checkpoint(TRUNCATE)");
+        }
+        _lock.Mark(true);
         _addPlan = MakeStatement("INSERT INTO plans VALUES (?, ?, ?, ?, ?, ?, ?)");
         _progressPlan = MakeStatement("UPDATE plans SET state = ?, progress = ? WHERE plan_id = ?");
         _removePlan = MakeStatement("DELETE FROM plans WHERE sequence = ?");
@@ -239,6 +264,7 @@ private:
         if (change.bOfLog)
         {
             _database.exec("PRAGMA wal_checkpoint(TRUNCATE)");
+            _lock.Mark(false);
             return "the log that it has opened; restart: what was stored is in the store itself, and nothing else is from now on";
         }
         const Core::Result<void> rescued = _bRescued ? Core::Result<void>() : RescueStore(_database, _path);
@@ -489,6 +515,10 @@ Core::Result<std::unique_ptr<SqlitePlanStore>> SqlitePlanStore::Open(const std::
     {
         return tl::unexpected(rescued.error());
     }
+    if (Core::Result<void> logged = *rescued ? Core::Result<void>() : StoreLock::CheckLog(path); !logged.has_value())
+    {
+        return tl::unexpected(std::move(logged.error()));
+    }
     try
     {
         auto impl = std::make_unique<Impl>(path, path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
@@ -525,6 +555,10 @@ Core::Result<StoreOrigin> SqlitePlanStore::Inspect(const std::string& path)
     {
         const bool bRescued = std::filesystem::exists(GetRescuePath(path), missing);
         return StoreOrigin{!bRescued, bRescued, 0, GetNewestSchemaVersion()};
+    }
+    if (Core::Result<void> logged = StoreLock::CheckLog(path); !logged.has_value())
+    {
+        return tl::unexpected(std::move(logged.error()));
     }
     try
     {

@@ -19,6 +19,7 @@ std::string MakeAdvice(int code)
 {
     switch (code)
     {
+        case SQLITE_ERROR: // a statement that does not fit what stands in the file
         case SQLITE_CORRUPT:
         case SQLITE_NOTADB:
             return fmt::format("an undamaged plan store; {}", RESTORE_IT);
@@ -64,7 +65,7 @@ tl::unexpected<Core::Error> RefuseFor(
     {
         found += fmt::format(" ({})", std::generic_category().message(systemError));
     }
-    const bool bCorrupt = code == SQLITE_CORRUPT || code == SQLITE_NOTADB;
+    const bool bCorrupt = code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_ERROR;
     return Refuse(
         bCorrupt ? EPlanningError::StoreCorrupt : EPlanningError::StoreFailed,
         path,

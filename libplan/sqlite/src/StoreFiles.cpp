@@ -122,6 +122,16 @@ Core::Result<void> StoreFiles::CheckUsable(const std::string& path)
     return CheckFolder(path);
 }
 
+bool StoreFiles::HasOnlyStore(const std::string& path)
+{
+    std::error_code unresolved;
+    const std::filesystem::path resolved = std::filesystem::weakly_canonical(path, unresolved);
+    const std::string store = unresolved ? path : resolved.string();
+    struct stat status = {};
+    const bool bStore = ::stat(store.c_str(), &status) == 0 && status.st_size > 0;
+    return bStore && ::stat((store + "-wal").c_str(), &status) != 0;
+}
+
 std::optional<std::string> StoreFiles::MakeUntouchedUriOrNull(const std::string& path)
 {
     struct stat log = {};

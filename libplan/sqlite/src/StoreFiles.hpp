@@ -47,6 +47,9 @@ public:
     /// Whether a store is there that this program may write, or can be made. EPlanningError::StoreFailed.
     [[nodiscard]] static Core::Result<void> CheckUsable(const std::string& path);
 
+    /// Whether there is a file that is not empty, and no log beside it.
+    [[nodiscard]] static bool HasOnlyStore(const std::string& path);
+
     /// By which SQLite reads a store without locking it or making a file beside it. nullopt where it has a log: what stands
     /// in that is read by the path only.
     [[nodiscard]] static std::optional<std::string> MakeUntouchedUriOrNull(const std::string& path);

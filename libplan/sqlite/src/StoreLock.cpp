@@ -1,10 +1,14 @@
 #include "StoreLock.hpp"
 
+#include "StoreFault.hpp"
 #include <acs/plan/EPlanningError.hpp>
+
+#include <fmt/format.h>
 
 #include <cerrno>
 #include <fcntl.h>
 #include <filesystem>
+#include <string_view>
 #include <sys/file.h>
 #include <system_error>
 #include <unistd.h>
@@ -16,6 +20,21 @@ namespace
 {
 
 constexpr mode_t FILE_MODE = 0644;
+constexpr std::string_view MARK = "open\n";
+
+/// Whatever it is called: by a link to the same file it is the same store.
+std::string Resolve(const std::string& storePath)
+{
+    std::error_code unresolved;
+    const std::filesystem::path resolved = std::filesystem::weakly_canonical(storePath, unresolved);
+    return unresolved ? storePath : resolved.string();
+}
+
+bool Exists(const std::string& path)
+{
+    std::error_code unreadable;
+    return std::filesystem::exists(path, unreadable);
+}
 
 } // namespace
 
@@ -26,18 +45,53 @@ StoreLock::StoreLock(int descriptor)
 
 StoreLock::~StoreLock()
 {
-    if (_descriptor >= 0)
+    if (_descriptor < 0)
     {
-        ::close(_descriptor);
+        return;
     }
+    if (!_logPath.empty() && !Exists(_logPath))
+    {
+        Mark(false);
+    }
+    ::close(_descriptor);
+}
+
+/// A mark that cannot be written only tells less.
+void StoreLock::Mark(bool bOpen) const
+{
+    const bool bCut = ::ftruncate(_descriptor, 0) == 0;
+    if (bCut && bOpen)
+    {
+        [[maybe_unused]] const ssize_t written = ::pwrite(_descriptor, MARK.data(), MARK.size(), 0);
+    }
+}
+
+Core::Result<void> StoreLock::CheckLog(const std::string& storePath)
+{
+    const std::string resolved = Resolve(storePath);
+    const std::string lockPath = resolved + ".lock";
+    const std::string logPath = resolved + "-wal";
+    std::error_code unreadable;
+    const bool bMarked = std::filesystem::file_size(lockPath, unreadable) > 0 && !unreadable;
+    if (!bMarked || !Exists(resolved) || Exists(logPath))
+    {
+        return {};
+    }
+    return Refuse(
+        EPlanningError::StoreCorrupt,
+        storePath,
+        fmt::format(
+            "{} beside it, with what was stored last, as the program before did not close the store; put it back, restore both "
+            "from a backup, or remove {} to go on with what the store itself has",
+            logPath,
+            lockPath),
+        "no such file");
 }
 
 Core::Result<StoreLock> StoreLock::Acquire(const std::string& storePath)
 {
-    // Whatever it is called: by a link to the same file it is the same store.
-    std::error_code unresolved;
-    const std::filesystem::path resolved = std::filesystem::weakly_canonical(storePath, unresolved);
-    const std::string path = (unresolved ? storePath : resolved.string()) + ".lock";
+    const std::string resolved = Resolve(storePath);
+    const std::string path = resolved + ".lock";
     const std::error_code code = make_error_code(EPlanningError::StoreFailed);
     StoreLock lock(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, FILE_MODE)); // NOLINT: the system's own signature
     if (lock._descriptor < 0)
@@ -53,6 +107,7 @@ Core::Result<StoreLock> StoreLock::Acquire(const std::string& storePath)
             "a store of this program alone; stop the other one, or choose another file",
             reason == EWOULDBLOCK ? "one that another program has open" : std::generic_category().message(reason));
     }
+    lock._logPath = resolved + "-wal";
     return lock;
 }
 

@@ -292,6 +292,87 @@ TEST_CASE(
     CHECK(LoadRobots(*store) == std::vector<std::string>{"LR01", "LR02"});
 }
 
+TEST_CASE("Store: one that was not closed and whose log is missing is not opened, as what was stored last is missing")
+{
+    const StoreFolder folder;
+    const std::string file = folder.GetFile();
+    const std::string copy = folder.GetFile("copy.db");
+    const auto store = OpenStore(file);
+    REQUIRE(store->Append(MakeBatch("LR01")).has_value());
+    // As a program leaves it that is killed.
+    Files::copy_file(file, copy);
+    Files::copy_file(file + ".lock", copy + ".lock");
+    SECTION("The log is missing")
+    {
+        const auto refused = SqlitePlanStore::Open(copy);
+        REQUIRE_FALSE(refused.has_value());
+        CHECK(refused.error().code == EPlanningError::StoreCorrupt);
+        CHECK(Core::Describe(refused.error()).find(copy + "-wal") != std::string::npos);
+        CHECK_FALSE(SqlitePlanStore::Inspect(copy).has_value());
+        Files::remove(copy + ".lock");
+        CHECK_FALSE(OpenStore(copy)->GetOrigin().bNew);
+    }
+    SECTION("It is there")
+    {
+        Files::copy_file(file + "-wal", copy + "-wal");
+        CHECK(OpenStore(copy)->Load()->robotsInMaintenance == std::vector<std::string>{"LR01"});
+    }
+}
+
+TEST_CASE("Store: one that was closed needs no log, and a copy of a new one's file is a store")
+{
+    const StoreFolder folder;
+    const std::string file = folder.GetFile();
+    {
+        const auto store = OpenStore(file);
+        Files::copy_file(file, folder.GetFile("copy.db"));
+        CHECK(Files::file_size(file + ".lock") > 0);
+    }
+    CHECK(Files::file_size(file + ".lock") == 0);
+    CHECK_FALSE(OpenStore(file)->GetOrigin().bNew);
+    CHECK_FALSE(OpenStore(folder.GetFile("copy.db"))->GetOrigin().bNew);
+}
+
+TEST_CASE("Store: a file that lacks its tables, or has a version that cannot be, is told as damaged")
+{
+    const StoreFolder folder;
+    const std::string file = folder.GetFile();
+    std::string found;
+    const auto spoil = [&file](const char* statement) {
+        SQLite::Database(file, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE).exec(statement);
+    };
+    SECTION("No table at all")
+    {
+        spoil("CREATE TABLE plans (a); DROP TABLE plans");
+        found = "without any table";
+    }
+    SECTION("One table is missing")
+    {
+        OpenStore(file);
+        spoil("DROP TABLE reports");
+        found = "no such table";
+    }
+    SECTION("Version 0")
+    {
+        OpenStore(file);
+        spoil("PRAGMA user_version = 0");
+        found = "version 0";
+    }
+    SECTION("A negative version")
+    {
+        OpenStore(file);
+        spoil("PRAGMA user_version = -5");
+        found = "version -5";
+    }
+    const auto refused = SqlitePlanStore::Open(file);
+    REQUIRE_FALSE(refused.has_value());
+    CHECK(refused.error().code == EPlanningError::StoreCorrupt);
+    const std::string text = Core::Describe(refused.error());
+    INFO(text);
+    CHECK(text.find(found) != std::string::npos);
+    CHECK(text.find("restore it from a backup") != std::string::npos);
+}
+
 TEST_CASE("Store: to look at a store makes, changes and takes nothing, also while another program has it open")
 {
     const StoreFolder folder;
