@@ -139,6 +139,8 @@ private:
     void GiveUp(const InFlight& entry, SessionActions& out);
     void SchedulePosition(Core::Now now, SessionActions& out);
     void Refuse(const DecodeFailure& failure, bool bLegacyName, Core::Now now, SessionActions& out);
+    [[nodiscard]] std::uint64_t MakeDigest(AcsRequest& request);
+    [[nodiscard]] static DecodeFailure DescribeReuse(const AcsRequest& request);
     void HandleRequest(AcsRequest& request, bool bLegacyName, Core::Now now, SessionActions& out);
     void RefuseForeign(const AcsRequest& request, Core::Now now, SessionActions& out);
     void HandleAck(const AcsAck& ack, SessionActions& out);

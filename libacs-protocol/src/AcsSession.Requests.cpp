@@ -1,6 +1,9 @@
 #include "AcsSession.Impl.hpp"
 
+#include <functional>
+#include <string>
 #include <utility>
+#include <variant>
 
 namespace ACS::Protocol
 {
@@ -58,6 +61,43 @@ void AcsSession::Impl::Refuse(const DecodeFailure& failure, bool bLegacyName, Co
     out.emplace_back(SendText{0, _scratch, false});
 }
 
+/// Of what the request asks for: a repetition may be written otherwise, and at another time.
+std::uint64_t AcsSession::Impl::MakeDigest(AcsRequest& request)
+{
+    const Core::Timestamp timestamp = std::exchange(request.timestamp, {});
+    AcsCodec::EncodeRequest(request, _scratch);
+    request.timestamp = timestamp;
+    return std::hash<std::string>{}(_scratch);
+}
+
+/// D-23: the answer to another request is none to this one.
+DecodeFailure AcsSession::Impl::DescribeReuse(const AcsRequest& request)
+{
+    const EAcsCommand command = GetCommand(request);
+    DecodeFailure failure;
+    failure.error = {
+        Core::ECoreError::InvalidIdentifier,
+        "transactionId",
+        "one that no other " + std::string(GetText(command)) + " had",
+        Core::QuoteForError(request.transactionID)};
+    failure.commandName = GetText(command);
+    failure.command = command;
+    failure.transactionID = request.transactionID;
+    failure.planID = std::visit(
+        [](const auto& payload) -> std::string {
+            if constexpr (requires { std::string(payload.planID); })
+            {
+                return payload.planID;
+            }
+            else
+            {
+                return {};
+            }
+        },
+        request.payload);
+    return failure;
+}
+
 void AcsSession::Impl::HandleRequest(AcsRequest& request, bool bLegacyName, Core::Now now, SessionActions& out)
 {
     const EAcsCommand command = GetCommand(request);
@@ -67,16 +107,23 @@ void AcsSession::Impl::HandleRequest(AcsRequest& request, bool bLegacyName, Core
         return;
     }
     CommandCounters& counters = _output.statistics.Of(command);
-    ++counters.received;
     if (!IsSentByMcs(command))
     {
+        ++counters.received;
         RefuseForeign(request, now, out);
         return;
     }
+    const std::uint64_t digest = MakeDigest(request);
     const Detail::AnswerStore::Entry* entryOrNull = _answers.FindOrNull(command, request.transactionID, now);
+    if (entryOrNull != nullptr && entryOrNull->digest != digest)
+    {
+        Refuse(DescribeReuse(request), bLegacyName, now, out);
+        return;
+    }
+    ++counters.received;
     if (entryOrNull == nullptr)
     {
-        _answers.Insert(command, request.transactionID, bLegacyName, now);
+        _answers.Insert(command, request.transactionID, bLegacyName, digest, now);
         out.emplace_back(Deliver{RequestReceived{std::move(request), false}});
         return;
     }

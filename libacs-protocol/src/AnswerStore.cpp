@@ -34,14 +34,19 @@ const AnswerStore::Entry* AnswerStore::FindOrNull(EAcsCommand command, std::stri
     return found == _entries.end() ? nullptr : &found->second;
 }
 
-void AnswerStore::Insert(EAcsCommand command, std::string_view transactionID, bool bLegacyName, Core::Now now)
+void AnswerStore::Insert(
+    EAcsCommand command,
+    std::string_view transactionID,
+    bool bLegacyName,
+    std::uint64_t digest,
+    Core::Now now)
 {
     if (_order.size() >= _capacity)
     {
         Erase(_order.begin());
     }
     std::string key = MakeTransactionKey(command, transactionID);
-    if (_entries.try_emplace(key, Entry{command, {}, now.steady, bLegacyName}).second)
+    if (_entries.try_emplace(key, Entry{command, {}, now.steady, bLegacyName, digest}).second)
     {
         _order.push_back(std::move(key));
     }

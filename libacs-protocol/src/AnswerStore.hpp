@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <string>
 #include <string_view>
@@ -24,6 +25,7 @@ public:
         std::string text; ///< The Ack as it was sent; empty: not answered yet.
         Core::SteadyTime receivedAt{};
         bool bLegacyName = false;
+        std::uint64_t digest = 0; ///< Of the request.
     };
 
 private:
@@ -41,7 +43,12 @@ public:
 
     /// Valid until the next call of another function.
     [[nodiscard]] const Entry* FindOrNull(EAcsCommand command, std::string_view transactionID, Core::Now now);
-    void Insert(EAcsCommand command, std::string_view transactionID, bool bLegacyName, Core::Now now);
+    void Insert(
+        EAcsCommand command,
+        std::string_view transactionID,
+        bool bLegacyName,
+        std::uint64_t digest,
+        Core::Now now);
     /// The Ack of an entry that is there.
     void KeepText(EAcsCommand command, std::string_view transactionID, const std::string& text);
 

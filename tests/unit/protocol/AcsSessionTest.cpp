@@ -348,6 +348,42 @@ TEST_CASE("R1 What cannot be answered is counted, and the connection goes on")
     CHECK(bench.session.IsRegistered());
 }
 
+TEST_CASE("D-23 Another request under a known transactionId is refused: the answer to the first is none to it")
+{
+    Bench bench;
+    bench.StartAndReplay();
+    const std::string plan = Testing::ReadFixture("ExecutionPlanLR");
+    const std::string transactionID = "e2a97f63-4ed2-4d85-a2b3-11a51c188111";
+    bench.Text(plan);
+    bench.session.Answer(
+        EAcsCommand::ExecutionPlan,
+        transactionID,
+        EAckResult::Success,
+        "registered",
+        Protocol::PlanAck{"PLAN-20250702-001"},
+        bench.clock.GetNow(),
+        bench.probe.out);
+    const std::string first = bench.probe.GetAll<Protocol::SendText>().back().text;
+
+    std::string other = plan;
+    other.replace(other.find("PLAN-20250702-001"), std::string("PLAN-20250702-001").size(), "PLAN-20250702-002");
+    bench.Text(other);
+    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().empty());
+    const auto refused = bench.probe.GetEvents<Protocol::RequestRefused>();
+    REQUIRE(refused.size() == 1);
+    CHECK(refused.front().planID == "PLAN-20250702-002");
+    CHECK(refused.front().path == "transactionId");
+    const std::string ack = bench.probe.GetAll<Protocol::SendText>().at(0).text;
+    CHECK(ack.find(R"("result":"Fail")") != std::string::npos);
+    CHECK(ack.find("PLAN-20250702-002") != std::string::npos);
+
+    std::string later = plan; // the same one, said again
+    const std::size_t time = later.find("\"timestamp\"");
+    later.replace(later.find("2025", time), 4, "2026");
+    bench.Text(later);
+    CHECK(bench.probe.GetAll<Protocol::SendText>().at(0).text == first);
+}
+
 TEST_CASE("13.5 A request that comes again is answered by the same text and executed once")
 {
     Bench bench;
