@@ -350,16 +350,20 @@ Core::Result<std::optional<Core::Location>> PlanAdmission::ResolvePlace(
         return Refuse(
             ECoreError::InvalidLocation,
             path,
-            fmt::format("a place at {}, the step's position", position.GetText()),
+            fmt::format("a place within reach of {}, the step's position", position.GetText()),
             place.GetOriginalText());
     }
     return std::optional(std::move(place));
 }
 
-/// Section 4.1: the jobs of a step are done without the robot moving. Places of other stations that have a node with the
-/// position's are within its reach.
+/// Section 4.1: the jobs of a step are done without the robot moving. An arm reaches the sets around it, which ones the map
+/// does not say; places of other stations that have a node with the position's are within its reach too.
 bool PlanAdmission::IsAt(const Core::Location& place, const Core::Location& position) const
 {
+    if (place.GetSegments().back().kind == Core::ESegmentKind::MemoryPort)
+    {
+        return place.GetAreaNumberOrNull() == position.GetAreaNumberOrNull();
+    }
     const std::string dockID = place.GetDockingPlace().GetText();
     if (dockID == position.GetText() || dockID.starts_with(position.GetText() + '.'))
     {
