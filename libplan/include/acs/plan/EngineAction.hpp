@@ -55,7 +55,8 @@ struct StorePlans
     bool operator==(const StorePlans&) const = default;
 };
 
-/// The answer to SubmitPlan, ControlPlan or ControlTsc: the Ack.
+/// The one answer to a command that has a replyToken: the Ack of SubmitPlan and ControlPlan, and what the operator is told of
+/// the others.
 struct ReplyCommand
 {
     ReplyToken replyToken = 0;

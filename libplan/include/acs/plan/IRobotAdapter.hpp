@@ -56,7 +56,11 @@ public:
     IRobotAdapter& operator=(const IRobotAdapter&) = delete;
     virtual ~IRobotAdapter() = default;
 
+    /// RobotCommand.hpp says what answers each of them. Answers may be in out at once or come by a later call, and a robot that
+    /// is out of reach owes them when it is back: the engine does not ask again.
     virtual void Handle(const RobotCommand& command, Core::Now now, AdapterActions& out) = 0;
+
+    /// A timer of StartAdapterTimer has come to its end, and was neither cancelled nor started again since.
     virtual void OnTimer(AdapterTimerID timer, Core::Now now, AdapterActions& out) = 0;
 
     /// Why this robot cannot do the action, in words for the MCS; nullopt where it can. Asked at start

@@ -58,15 +58,18 @@ public:
     /// EngineOptions::restartWait has passed. Unacknowledged reports are in GetUnacknowledged.
     void Restore(StoredState state, Core::Now now, EngineActions& out);
 
+    /// Whatever it asks for: what cannot be done is refused by the ReplyCommand, with the reason.
     void Handle(const PlanCommand& command, Core::Now now, EngineActions& out);
 
     /// Plans that have come together, with one StorePlans for all of them: a store on disk takes many in the time of one.
     /// Otherwise as if each had been handled by itself, in this order.
     void Submit(std::span<const SubmitPlan> plans, Core::Now now, EngineActions& out);
 
-    /// Events of robots that are not configured are ignored.
+    /// Events of robots that are not configured are ignored, and those of a drive or a job that is not the robot's present one.
     void Handle(std::string_view robotID, const RobotEvent& event, Core::Now now, EngineActions& out);
 
+    /// A timer that was started has come to its end, and was neither cancelled nor started again since. One that comes late
+    /// delays what it is for, and nothing else.
     void OnTimer(const EngineTimer& timer, Core::Now now, EngineActions& out);
 
     /// The batch could not be stored; skipped are the actions that stood behind it. Plans in it are refused, running ones

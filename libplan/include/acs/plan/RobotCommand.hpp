@@ -51,7 +51,8 @@ struct Route
 };
 
 /// Drive along the route, whose first node is where the robot stands. It may go up to the last released node (the
-/// base) and will be given more (the rest is the horizon).
+/// base) and will be given more (the rest is the horizon). Answered by NodePassed for its first node as soon as the robot has
+/// taken it, then for each further one, and Arrived; or by DriveRejected, at any moment.
 struct Drive
 {
     std::string driveID;           ///< A UUID; never used twice.
@@ -61,7 +62,7 @@ struct Drive
     bool operator==(const Drive&) const = default;
 };
 
-/// The base of the present drive has grown.
+/// The base of the present drive has grown. Has no answer of its own: a robot that cannot take it rejects the drive.
 struct ExtendDrive
 {
     std::string driveID;
@@ -78,7 +79,8 @@ struct CancelDrive
     bool operator==(const CancelDrive&) const = default;
 };
 
-/// Do a job here. All locations are canonical and name the robot itself ("LR01.CP01", never "AMR.CP01").
+/// Do a job here. Answered by JobStarted and then JobFinished or JobFailed, or by JobUnknown where it was surely not begun and
+/// may be given again, or JobUncertain where nobody can tell. All locations are canonical and name the robot itself ("LR01.CP01", never "AMR.CP01").
 struct StartJob
 {
     std::string planID;
@@ -117,18 +119,20 @@ struct CancelJob
     bool operator==(const CancelJob&) const = default;
 };
 
-/// Stop as soon as possible and stay able to go on; the state shows bPaused.
+/// Stop as soon as possible and stay able to go on. Has no answer but the state, which shows bPaused: where it does not in time
+/// (ControlOptions::pauseTimeout), the control has failed and the robot is told to resume.
 struct Pause
 {
     bool operator==(const Pause&) const = default;
 };
 
+/// Go on. Answered by the state likewise: bPaused is false, or the control has failed and the robot is told to pause again.
 struct Resume
 {
     bool operator==(const Resume&) const = default;
 };
 
-/// Charge; the state shows bCharging. Only where the robot stands at its charging station, without a drive or a job.
+/// Charge; the state shows bCharging. Until it does the robot is told again every 10 s, and an alarm tells of it. Only where the robot stands at its charging station, without a drive or a job.
 struct StartCharging
 {
     bool operator==(const StartCharging&) const = default;
