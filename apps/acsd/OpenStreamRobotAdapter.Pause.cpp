@@ -1,5 +1,7 @@
 #include "OpenStreamRobotAdapter.hpp"
 
+#include <fmt/format.h>
+
 #include <string_view>
 #include <utility>
 
@@ -53,7 +55,7 @@ void OpenStreamRobotAdapter::FollowPause(AdapterActions& out)
             _program = EProgram::Stopping;
             SendControl(EControl::StopProgram, STOP_URL, "{}");
         }
-        else if (_program == EProgram::Stopped && _bGivenUp)
+        else if ((_program == EProgram::Stopped || _program == EProgram::Refused) && _bGivenUp)
         {
             SendControl(EControl::ResetProgram, RESET_URL, "{}");
         }
@@ -66,7 +68,11 @@ void OpenStreamRobotAdapter::FollowPause(AdapterActions& out)
     TellPaused(out);
 }
 
-void OpenStreamRobotAdapter::TakeSettledPause(EControl kind, OpenStream::EControlOutcome outcome, AdapterActions& out)
+void OpenStreamRobotAdapter::TakeSettledPause(
+    EControl kind,
+    OpenStream::EControlOutcome outcome,
+    const std::string& refusal,
+    AdapterActions& out)
 {
     const bool bAccepted = outcome == OpenStream::EControlOutcome::Accepted;
     const bool bRefused = outcome == OpenStream::EControlOutcome::Refused;
@@ -89,7 +95,7 @@ void OpenStreamRobotAdapter::TakeSettledPause(EControl kind, OpenStream::EContro
     }
     else if (kind == EControl::GoOn && bRefused)
     {
-        RefuseGoOn(out);
+        RefuseGoOn(refusal, out);
     }
     else if (kind == EControl::StopProgram && bRefused)
     {
@@ -123,14 +129,48 @@ void OpenStreamRobotAdapter::DoubtFound()
     }
 }
 
-void OpenStreamRobotAdapter::RefuseGoOn(AdapterActions& out)
+/// What for, is looked at: a motor that is off, or a program that goes on already, is no fault of the job's.
+void OpenStreamRobotAdapter::RefuseGoOn(const std::string& refusal, AdapterActions& out)
 {
-    if (_bGoOnRepeated)
+    _program = EProgram::Refused;
+    _refusal = refusal;
+    _look = ELook::None;
+    if (_bMotorHidden)
     {
-        _program = EProgram::Runs;
+        LookAtRefusedProgram(out);
         return;
     }
-    FailJob("the arm's controller refuses to go on with the program that was paused", out);
+    Glance(EGlance::Motor, out);
+}
+
+/// The motor is on, or not to be seen.
+void OpenStreamRobotAdapter::LookAtRefusedProgram(AdapterActions& out)
+{
+    if (!_bPlaybackHidden)
+    {
+        Glance(EGlance::Playback, out);
+    }
+    else if (_bGoOnRepeated)
+    {
+        _program = EProgram::Runs;
+    }
+    else
+    {
+        FailJob(fmt::format("it was paused and does not go on: {}", _refusal), out);
+    }
+}
+
+bool OpenStreamRobotAdapter::IsGoOnRefused() const
+{
+    return _phase == EJobPhase::Running && _program == EProgram::Refused;
+}
+
+/// It is to go on, and is not known to.
+bool OpenStreamRobotAdapter::IsGoOnDue() const
+{
+    const bool bStands =
+        _program == EProgram::Stopped || _program == EProgram::GoingOn || _program == EProgram::Refused;
+    return bStands && !_bPauseWanted;
 }
 
 /// Its program was surely not started.
@@ -149,7 +189,7 @@ bool OpenStreamRobotAdapter::IsArmStanding() const
         case EJobPhase::Refused:
             return true;
         case EJobPhase::Running:
-            return _program == EProgram::Stopped;
+            return _program == EProgram::Stopped || _program == EProgram::Refused;
         case EJobPhase::Selecting:
         case EJobPhase::Starting:
         default:
@@ -160,8 +200,7 @@ bool OpenStreamRobotAdapter::IsArmStanding() const
 /// When base and arm stand; no longer when both go on.
 bool OpenStreamRobotAdapter::IsPaused() const
 {
-    const bool bStands = _program == EProgram::Stopped || _program == EProgram::GoingOn;
-    return (_baseState.bPaused && IsArmStanding()) || (bStands && !_bPauseWanted);
+    return (_baseState.bPaused && IsArmStanding()) || IsGoOnDue();
 }
 
 void OpenStreamRobotAdapter::TellPaused(AdapterActions& out)

@@ -80,6 +80,12 @@ void OpenStreamRobotAdapter::TakeMotor(bool bOn, AdapterActions& out)
 void OpenStreamRobotAdapter::Retry(AdapterActions& out)
 {
     const bool bRefused = std::exchange(_bMonitorRefused, false);
+    if (_armState == EArmState::Ready && IsGoOnRefused() && _bCountersFresh)
+    {
+        _program = EProgram::Stopped;
+        FollowPause(out);
+        return;
+    }
     if (_armState == EArmState::MotorOff)
     {
         if (bRefused)
@@ -107,7 +113,7 @@ void OpenStreamRobotAdapter::Retry(AdapterActions& out)
                 out);
         }
     }
-    else
+    else if (!IsGoOnRefused())
     {
         return;
     }
@@ -198,7 +204,7 @@ void OpenStreamRobotAdapter::LookAround(AdapterActions& out)
     {
         return;
     }
-    if (!IsProgramWatched())
+    if (!IsProgramWatched() && !IsGoOnDue())
     {
         ForgetHalt(out);
     }
@@ -212,11 +218,11 @@ void OpenStreamRobotAdapter::LookAround(AdapterActions& out)
     }
     else if (_phase == EJobPhase::None && !_bMotorHidden)
     {
-        Glance(EGlance::Motor);
+        Glance(EGlance::Motor, out);
     }
     else if (IsProgramWatched() && !_bPlaybackHidden)
     {
-        Glance(EGlance::Playback);
+        Glance(EGlance::Playback, out);
     }
 }
 
@@ -226,8 +232,10 @@ void OpenStreamRobotAdapter::StartGlanceTimer(AdapterActions& out) const
     out.emplace_back(Planning::StartAdapterTimer{GLANCE_TIMER, delay});
 }
 
-void OpenStreamRobotAdapter::Glance(EGlance glance)
+/// It has the whole interval to be answered.
+void OpenStreamRobotAdapter::Glance(EGlance glance, AdapterActions& out)
 {
+    StartGlanceTimer(out);
     _glance = glance;
     _bGlanceStarted = false;
     Monitor(GetUrl(glance), _options.period);
@@ -243,6 +251,10 @@ void OpenStreamRobotAdapter::GiveUpGlance(bool bForGood, AdapterActions& out)
     if (_phase == EJobPhase::Refused)
     {
         FailJob(_refusal, out);
+    }
+    else if (IsGoOnRefused())
+    {
+        LookAtRefusedProgram(out);
     }
 }
 
@@ -270,16 +282,21 @@ bool OpenStreamRobotAdapter::TryTakeGlance(const Core::JsonText& sample, Adapter
     return bMotorOnOrNull.has_value() || stateOrNull.has_value();
 }
 
-/// Between jobs, or why one was refused: one that could not begin for a motor that is off begins when it is on again.
+/// Between jobs, or why one was refused: one that could not begin or go on for a motor that is off does so when it is on.
 void OpenStreamRobotAdapter::TakeMotorGlance(bool bOn, AdapterActions& out)
 {
     const bool bRefused = _phase == EJobPhase::Refused;
-    if (bOn || (!bRefused && _phase != EJobPhase::None))
+    const bool bGoOnRefused = IsGoOnRefused();
+    if (bOn || (!bRefused && !bGoOnRefused && _phase != EJobPhase::None))
     {
         WatchCounters();
         if (bRefused)
         {
             FailJob(_refusal, out);
+        }
+        else if (bGoOnRefused)
+        {
+            LookAtRefusedProgram(out);
         }
         return;
     }
@@ -293,6 +310,11 @@ void OpenStreamRobotAdapter::TakeMotorGlance(bool bOn, AdapterActions& out)
 
 void OpenStreamRobotAdapter::TakePlaybackGlance(bool bPlaying, AdapterActions& out)
 {
+    if (IsGoOnRefused())
+    {
+        TakeRefusedGoOn(bPlaying, out);
+        return;
+    }
     if (bPlaying || !IsProgramWatched())
     {
         ForgetHalt(out);
@@ -301,6 +323,28 @@ void OpenStreamRobotAdapter::TakePlaybackGlance(bool bPlaying, AdapterActions& o
     {
         ++_standingGlances;
     }
+}
+
+/// It goes on already, or stands where it was paused: then it is asked again, as that is what was commanded.
+void OpenStreamRobotAdapter::TakeRefusedGoOn(bool bPlaying, AdapterActions& out)
+{
+    if (bPlaying)
+    {
+        _program = EProgram::Runs;
+        ForgetHalt(out);
+        FollowPause(out);
+        return;
+    }
+    SetTrouble(
+        MakeHeavy(
+            ERROR_HALTED,
+            fmt::format(
+                "The arm's program of job {} was paused and does not go on: {}. It is asked again; or have it go on at "
+                "the controller, or give it up there, and the job has failed.",
+                _jobID,
+                _refusal)),
+        out);
+    out.emplace_back(Planning::StartAdapterTimer{RETRY_TIMER, RETRY_DELAY});
 }
 
 /// Behind the counters: a program that has come to its end stands, too.

@@ -239,7 +239,11 @@ void OpenStreamRobotAdapter::TakeFault(const OpenStream::ClientControlFault& fau
     else if (_phase == EJobPhase::Running && (_program == EProgram::Stopping || _program == EProgram::GoingOn))
     {
         const bool bStop = _program == EProgram::Stopping;
-        TakeSettledPause(bStop ? EControl::StopProgram : EControl::GoOn, OpenStream::EControlOutcome::Refused, out);
+        TakeSettledPause(
+            bStop ? EControl::StopProgram : EControl::GoOn,
+            OpenStream::EControlOutcome::Refused,
+            reason,
+            out);
     }
 }
 
@@ -290,7 +294,7 @@ void OpenStreamRobotAdapter::RefuseJob(std::string reason, AdapterActions& out)
     _phase = EJobPhase::Refused;
     _refusal = std::move(reason);
     _look = ELook::None;
-    Glance(EGlance::Motor);
+    Glance(EGlance::Motor, out);
 }
 
 void OpenStreamRobotAdapter::FailJob(const std::string& reason, AdapterActions& out)
@@ -340,7 +344,7 @@ void OpenStreamRobotAdapter::TakeSettled(const OpenStream::ClientControlSettled&
     }
     if (kind == EControl::StopProgram || kind == EControl::GoOn || kind == EControl::ResetProgram)
     {
-        TakeSettledPause(kind, settled.outcome, out);
+        TakeSettledPause(kind, settled.outcome, DescribeRefusal(settled.status, settled.body, settled.detail), out);
         return;
     }
     const bool bOfJob = (kind == EControl::SelectProgram && _phase == EJobPhase::Selecting)
@@ -450,6 +454,7 @@ void OpenStreamRobotAdapter::TakeCounters(const Core::JsonText& result, AdapterA
     }
     if (bFirst)
     {
+        _program = _program == EProgram::Refused ? EProgram::Stopped : _program;
         FollowPause(out);
     }
     if (bFirst && !_bJobStarted && _phase == EJobPhase::Running)

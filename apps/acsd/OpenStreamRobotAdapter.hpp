@@ -52,6 +52,7 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
         Stopped,
         GoingOn,  ///< Likewise of the one that starts it again.
         Doubtful, ///< The connection broke meanwhile: it runs, or stands.
+        Refused,  ///< The controller refused to go on with it: what for is looked at, then it is asked again.
     };
 
     /// A CONTROL is answered by silence, also where it got lost or takes its time. So it is looked for what it has done, then
@@ -172,11 +173,12 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     [[nodiscard]] bool IsProgramWatched() const;
     void LookAround(Planning::AdapterActions& out);
     void StartGlanceTimer(Planning::AdapterActions& out) const;
-    void Glance(EGlance glance);
+    void Glance(EGlance glance, Planning::AdapterActions& out);
     void GiveUpGlance(bool bForGood, Planning::AdapterActions& out);
     [[nodiscard]] bool TryTakeGlance(const Core::JsonText& sample, Planning::AdapterActions& out);
     void TakeMotorGlance(bool bOn, Planning::AdapterActions& out);
     void TakePlaybackGlance(bool bPlaying, Planning::AdapterActions& out);
+    void TakeRefusedGoOn(bool bPlaying, Planning::AdapterActions& out);
     void CheckHalt(Planning::AdapterActions& out);
     void ForgetHalt(Planning::AdapterActions& out);
     void TakeCounters(const Core::JsonText& result, Planning::AdapterActions& out);
@@ -193,9 +195,16 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     void TakeFault(const OpenStream::ClientControlFault& fault, Planning::AdapterActions& out);
     void TakeLoss(Planning::AdapterActions& out);
     void TakeData(const OpenStream::DataLine& line, Planning::AdapterActions& out);
-    void TakeSettledPause(EControl kind, OpenStream::EControlOutcome outcome, Planning::AdapterActions& out);
+    void TakeSettledPause(
+        EControl kind,
+        OpenStream::EControlOutcome outcome,
+        const std::string& refusal,
+        Planning::AdapterActions& out);
     void DoubtFound();
-    void RefuseGoOn(Planning::AdapterActions& out);
+    void RefuseGoOn(const std::string& refusal, Planning::AdapterActions& out);
+    void LookAtRefusedProgram(Planning::AdapterActions& out);
+    [[nodiscard]] bool IsGoOnRefused() const;
+    [[nodiscard]] bool IsGoOnDue() const;
     void FollowPause(Planning::AdapterActions& out);
     void CancelJob(const std::string& jobID, Planning::AdapterActions& out);
     void EndJob(Planning::AdapterActions& out);

@@ -29,6 +29,8 @@ inline const std::string LOOK_AT_MOTOR = "MONITOR /project/robot/motor_on_state"
 inline constexpr std::string_view SELECTED = R"({"is_playback":0,"cur_prog_no":11,"cur_step_no":0})";
 inline constexpr std::string_view STANDS = R"({"is_playback":0,"cur_prog_no":11,"cur_step_no":3})";
 inline constexpr std::string_view PLAYS = R"({"is_playback":1,"cur_prog_no":11,"cur_step_no":3})";
+inline constexpr std::string_view MOTOR_ON_SAMPLE = R"({"_type":"JObject","val":0})";
+inline constexpr std::string_view MOTOR_OFF_SAMPLE = R"({"_type":"JObject","val":1})";
 inline const std::string LOOK_AT_PLAYBACK = "MONITOR /project/rgen";
 
 inline VDA5050::MasterOptions MakeBaseOptions()

@@ -7,6 +7,22 @@
 namespace ACS::Acsd::Test
 {
 
+namespace
+{
+
+/// A paused program is to go on, and that is how the controller takes it.
+void SettleGoingOn(ArmFixture& arm, OpenStream::EControlOutcome outcome = OpenStream::EControlOutcome::Refused)
+{
+    arm.StartRunning();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    arm.Accept("[6,5,0]");
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    REQUIRE(arm.TakeRequests() == std::vector<std::string>{START});
+    arm.Settle(outcome, 403);
+}
+
+} // namespace
+
 TEST_CASE("6.8 A program counts as stopped when the controller shows that it stands")
 {
     ArmFixture arm;
@@ -119,11 +135,24 @@ TEST_CASE(
     {
         arm.Accept("[6,5,0]");
         CHECK(arm.TakeRequests() == std::vector<std::string>{START});
-        arm.Settle(OpenStream::EControlOutcome::Refused, 403);
-        CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+        arm.Accept("[6,5,0]");
+        CHECK(arm.TakeRequests().empty());
         arm.TellData("[6,6,0]");
         CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
     }
+}
+
+TEST_CASE("6.8 A program counts as going on when the controller shows that it plays")
+{
+    ArmFixture arm;
+    SettleGoingOn(arm, OpenStream::EControlOutcome::Accepted);
+    REQUIRE(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_PLAYBACK});
+    arm.TellData(STANDS);
+    CHECK(arm.TakeRequests().empty()); // still looked for
+    arm.TellData(PLAYS);
+    arm.ShowLook("[6,5,0]");
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
 }
 
 TEST_CASE("6.8 A program that ended while it was being stopped is not started again, however late that is told")
@@ -164,15 +193,109 @@ TEST_CASE("6.8 A program whose stop got lost is stopped again, and goes on where
     CHECK(arm.TakeRequests() == (bResumed ? std::vector<std::string>{START} : std::vector<std::string>{}));
 }
 
-TEST_CASE("6.8 A program that the arm refuses to go on with fails its job")
+TEST_CASE("6.8 A program that goes on already refuses to be started, and is watched as ever")
 {
     ArmFixture arm;
-    arm.StartRunning();
-    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
-    arm.Accept("[6,5,0]");
-    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
-    arm.Settle(OpenStream::EControlOutcome::Refused, 403);
-    CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+    SettleGoingOn(arm);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_MOTOR});
+    arm.TellData(MOTOR_ON_SAMPLE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK, LOOK_AT_PLAYBACK});
+    arm.actions.clear();
+    arm.TellData(PLAYS);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    CHECK(arm.TakeErrors().empty());
+    arm.TellData("[6,6,0]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+}
+
+TEST_CASE("6.8 A program that cannot go on for a motor that is off goes on when that is on")
+{
+    ArmFixture arm;
+    SettleGoingOn(arm);
+    REQUIRE(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_MOTOR});
+    arm.actions.clear();
+    arm.TellData(MOTOR_OFF_SAMPLE);
+    CHECK(arm.TakeErrors() == "ARM-motorOff");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_MOTOR, MOTOR_ON});
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.TellData(MOTOR_ON_SAMPLE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    arm.TellData("[6,5,0]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+}
+
+TEST_CASE("6.8 A program that stands and is refused to go on is told, and started again until it does")
+{
+    ArmFixture arm;
+    SettleGoingOn(arm);
+    arm.TellData(MOTOR_ON_SAMPLE);
+    arm.actions.clear();
+    arm.TellData(STANDS);
+    CHECK(arm.IsToldPaused());
+    CHECK(arm.TakeErrors() == "ARM-programHalted");
+    static_cast<void>(arm.TakeRequests());
+    SECTION("It goes on when it is asked again")
+    {
+        arm.Fire(ArmFixture::RETRY_TIMER);
+        CHECK(arm.TakeRequests().empty()); // its end would not have been seen yet
+        arm.TellData("[6,5,0]");
+        CHECK(arm.LookAround().empty());
+        arm.Fire(ArmFixture::RETRY_TIMER);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+        CHECK(arm.LookAround().empty());
+        CHECK(arm.TakeErrors() == "?");
+        arm.Accept("[6,5,0]");
+        CHECK_FALSE(arm.IsToldPaused());
+        CHECK(arm.LookAround() == std::vector<std::string>{LOOK_AT_PLAYBACK});
+        arm.TellData(PLAYS);
+        CHECK(arm.TakeErrors().empty());
+    }
+    SECTION("It has come to its end by other hands")
+    {
+        arm.TellData("[6,6,0]");
+        CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+        CHECK(arm.TakeErrors().empty());
+        arm.Fire(ArmFixture::RETRY_TIMER);
+        CHECK(arm.TakeRequests().empty());
+    }
+    SECTION("It is given up")
+    {
+        arm.TellData("[6,5,0]");
+        arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{RESET});
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+        CHECK(arm.TakeErrors().empty());
+    }
+    SECTION("It is paused again, and goes on after that")
+    {
+        arm.TellData("[6,5,0]");
+        arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+        arm.Fire(ArmFixture::RETRY_TIMER);
+        CHECK(arm.TakeRequests().empty());
+        arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+    }
+    SECTION("The connection is lost meanwhile")
+    {
+        arm.Tell(OpenStream::ClientLost{});
+        arm.BringUp("[6,5,0]");
+        CHECK(arm.lastControl == START);
+    }
+}
+
+TEST_CASE("6.8 A program that is refused to go on fails its job where the controller shows neither motor nor playback")
+{
+    ArmFixture arm;
+    SettleGoingOn(arm);
+    arm.RefuseMonitor("/project/robot/motor_on_state");
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    arm.RefuseMonitor("/project/rgen");
+    const auto failed = arm.TakeEvents<Planning::JobFailed>();
+    REQUIRE(failed.size() == 1);
+    CHECK(failed.front().reason.find("403") != std::string::npos);
 }
 
 TEST_CASE(

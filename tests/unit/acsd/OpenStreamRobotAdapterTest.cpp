@@ -338,6 +338,22 @@ TEST_CASE("A job that comes while the arm is away was not begun: it waits for th
     CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
 }
 
+TEST_CASE("While the base is away nothing that it told before is told again, whatever the arm shows")
+{
+    ArmFixture arm;
+    arm.BringUpWithBase();
+    arm.adapter.OnLinkDown(arm.clock.GetNow(), arm.actions);
+    arm.actions.clear();
+    arm.TellData("[6,5,0]");
+    CHECK(arm.TakeEvents<Planning::StateChanged>().empty());
+    arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeEvents<Planning::StateChanged>().empty());
+    arm.ShowBase(false);
+    const auto states = arm.TakeEvents<Planning::StateChanged>();
+    REQUIRE_FALSE(states.empty());
+    CHECK(states.back().mark == "6 5 0");
+}
+
 TEST_CASE("A program that was surely not started is not the job's failure, whatever got lost on the way")
 {
     ArmFixture arm;

@@ -8,9 +8,6 @@ namespace ACS::Acsd::Test
 namespace
 {
 
-constexpr std::string_view MOTOR_ON_SAMPLE = R"({"_type":"JObject","val":0})";
-constexpr std::string_view MOTOR_OFF_SAMPLE = R"({"_type":"JObject","val":1})";
-
 /// One glance at the program, and the counters behind it.
 void ShowPlayback(ArmFixture& arm, std::string_view sample, std::string_view counters = "[6,5,0]")
 {
