@@ -16,9 +16,6 @@ namespace
 using Planning::AdapterActions;
 using Planning::RaiseEvent;
 
-/// Positions in the vehicle's tolerance count as reached: half the distance to the nearest other node of the site.
-constexpr double NODE_TOLERANCE = 0.5;
-
 VDA5050::OrderNode MakeNode(const Planning::RouteNode& from)
 {
     VDA5050::OrderNode node;
@@ -28,7 +25,7 @@ VDA5050::OrderNode MakeNode(const Planning::RouteNode& from)
     position.y = from.y;
     position.theta = from.theta;
     position.mapID = from.mapID;
-    position.allowedDeviationXY = NODE_TOLERANCE;
+    position.allowedDeviationXY = from.allowedDeviation;
     return node;
 }
 

@@ -6,9 +6,11 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <queue>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace ACS::Planning
 {
@@ -43,18 +45,44 @@ struct Graph
     std::map<std::size_t, Field> fields; ///< By target.
 };
 
+/// Of each node, metres. Nodes in the same place are one place.
+std::vector<double> MeasureDeviations(const std::vector<SiteNode>& nodes)
+{
+    std::vector<std::size_t> byX(nodes.size());
+    std::iota(byX.begin(), byX.end(), std::size_t{0});
+    std::ranges::sort(byX, {}, [&nodes](std::size_t index) { return nodes[index].x; });
+    std::vector<double> deviations(nodes.size(), RouteNode{}.allowedDeviation);
+    for (auto left = byX.begin(); left != byX.end(); ++left)
+    {
+        const SiteNode& node = nodes[*left];
+        for (auto right = left + 1; right != byX.end() && nodes[*right].x - node.x < 2 * RouteNode{}.allowedDeviation;
+             ++right)
+        {
+            const double distance = GetDistance(node, nodes[*right]);
+            if (distance > 0 && nodes[*right].mapID == node.mapID)
+            {
+                deviations[*left] = std::min(deviations[*left], distance / 2);
+                deviations[*right] = std::min(deviations[*right], distance / 2);
+            }
+        }
+    }
+    return deviations;
+}
+
 } // namespace
 
 class Router::Impl
 {
     const SiteMap& _site;
+    std::vector<double> _deviations;                           ///< Of each node.
     mutable std::map<std::string, Graph, std::less<>> _graphs; ///< Searches keep what they found.
     mutable std::uint64_t _visitedNodes = 0;
     mutable std::uint64_t _uses = 0;
 
 public:
     explicit Impl(const SiteMap& site)
-        : _site(site)
+        : _site(site),
+          _deviations(MeasureDeviations(site.GetNodes()))
     {
         for (const SiteEdge& edge : site.GetEdges())
         {
@@ -81,7 +109,13 @@ public:
     {
         const SiteNode& node = _site.GetNodes()[nodeIndex];
         const SiteNodeRule* ruleOrNull = node.FindRuleOrNull(vehicleTypeID);
-        return {node.nodeID, node.x, node.y, ruleOrNull == nullptr ? std::nullopt : ruleOrNull->theta, node.mapID};
+        return {
+            node.nodeID,
+            node.x,
+            node.y,
+            ruleOrNull == nullptr ? std::nullopt : ruleOrNull->theta,
+            node.mapID,
+            _deviations[nodeIndex]};
     }
 
     [[nodiscard]] RouteEdge MakeEdge(std::size_t edgeIndex, std::string_view vehicleTypeID) const

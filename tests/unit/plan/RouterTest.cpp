@@ -183,3 +183,22 @@ TEST_CASE("Routes: turning takes time where the map tells how fast a vehicle tur
     CHECK(GetNodeIDs(route) == std::vector<std::string>{"A", "F", "E"});
     CHECK(route->travelSeconds == Approx(4 / 0.99 + 1.5708 / 0.5).epsilon(0.001));
 }
+
+TEST_CASE("Routes: a node counts as reached at most half of the way to the nearest other one on its map")
+{
+    std::vector<SiteNode> nodes{
+        MakeNode("A", 0, 0),
+        MakeNode("B", 0.9, 0),
+        MakeNode("C", 5, 0),
+        MakeNode("D", 5, 0.2),
+        MakeNode("E", 5, 0.2)};
+    nodes[3].mapID = "upstairs";
+    const SiteMap site = *SiteMap::Create(nodes, {MakeEdge("e1", "A", "B", 1), MakeEdge("e2", "B", "C", 1)}, {});
+    const std::optional<Route> route = Router(site).FindRouteOrNull("lr", "A", "C");
+    REQUIRE(GetNodeIDs(route) == std::vector<std::string>{"A", "B", "C"});
+    CHECK(route->nodes[0].allowedDeviation == Approx(0.45));
+    CHECK(route->nodes[1].allowedDeviation == Approx(0.45));
+    CHECK(route->nodes[2].allowedDeviation == Approx(0.1));
+    const SiteMap apart = *SiteMap::Create({nodes[0], nodes[2], nodes[3]}, {MakeEdge("e", "A", "C", 1)}, {});
+    CHECK(Router(apart).FindRouteOrNull("lr", "A", "C")->nodes[1].allowedDeviation == 0.5);
+}

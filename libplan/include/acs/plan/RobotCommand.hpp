@@ -20,6 +20,8 @@ struct RouteNode
     double y = 0;                ///< Metres.
     std::optional<double> theta; ///< Radians; absent: any.
     std::string mapID;           ///< May be empty.
+    /// Metres: so near to it the node counts as reached. At most half of what the nearest other node is away.
+    double allowedDeviation = 0.5;
 
     bool operator==(const RouteNode&) const = default;
 };
