@@ -10,6 +10,21 @@
 namespace ACS::Planning
 {
 
+namespace
+{
+
+std::string DescribePorts(const std::vector<std::optional<std::string>>& carriers)
+{
+    std::string text;
+    for (const std::optional<std::string>& carrier : carriers)
+    {
+        text += (text.empty() ? "" : ", ") + carrier.value_or("empty");
+    }
+    return text;
+}
+
+} // namespace
+
 void PlanEngine::Impl::Reply(ReplyToken token, bool bAccepted, std::string message)
 {
     _actions.emplace_back(ReplyCommand{token, bAccepted, std::move(message)});
@@ -169,6 +184,12 @@ void PlanEngine::Impl::CorrectCarriers(const SetCarriers& command)
         return;
     }
     Robot& robot = *FindRobotOrNull(command.robotID);
+    Note(
+        robot,
+        fmt::format(
+            "its ports were corrected by an operator, from {} to {}",
+            DescribePorts(robot.carriers),
+            DescribePorts(command.carrierIDs)));
     robot.carriers = command.carrierIDs;
     robot.bTouched = true;
     _bDispatchNeeded = true;
@@ -177,7 +198,6 @@ void PlanEngine::Impl::CorrectCarriers(const SetCarriers& command)
     mismatch.robotID = command.robotID;
     mismatch.errorCode = ALARM_PORT;
     ClearAlarm(mismatch);
-    Note(robot, "its ports were corrected by an operator");
     Reply(command.replyToken, true, fmt::format("The ports of {} are corrected.", command.robotID));
 }
 

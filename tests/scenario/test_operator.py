@@ -79,6 +79,8 @@ class Operator(ScenarioCase):
         self.assertEqual(self.ask("/robots/LR01/maintenance/off", "POST")[0], 202)
         self.wait_for_reason("LR01.CP01 is taken by CASSETTE_99")
         self.assertEqual(self.ask("/robots/LR01/carriers?carrier=", "POST")[0], 202)
+        self.wait_for(lambda _: "from CASSETTE_99 to empty" in self.acsd.log.read_text(errors="replace") or None,
+                      "a line about the corrected port")
         self.assertEqual(mcs.wait(FINISH_SECONDS), 0)
         self.assert_last_line(mcs, "1 plans completed, 0 failed")
 

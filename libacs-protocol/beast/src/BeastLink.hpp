@@ -335,6 +335,11 @@ private:
         {
             return "the other side has not answered any ping";
         }
+        if (error == websocket::error::message_too_big)
+        {
+            return "a message is longer than " + std::to_string(_options.maximumRead)
+                + " bytes, the most that is taken";
+        }
         return "the connection broke: " + Describe(error);
     }
 

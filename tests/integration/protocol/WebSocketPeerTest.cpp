@@ -180,6 +180,7 @@ TEST_CASE("1 A frame that announces 100 MB is answered with 1009 before a byte o
         REQUIRE(rig.WasReached([&mcs] { return !mcs.closes.empty(); }));
         CHECK(mcs.closes[0].payload.substr(0, 2) == "\x03\xF1");
         CHECK(rig.WasRegistered(2));
+        CHECK(rig.acsEvents.GetFirstLoss() == "a message is longer than 4194304 bytes, the most that is taken");
     }
     CHECK(GetPeakKilobytes() - before < 50'000);
 }
