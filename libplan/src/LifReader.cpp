@@ -188,7 +188,10 @@ struct JsonFields<Planning::LifFile>
 namespace ACS::Planning
 {
 
-Core::Result<SiteMap> DecodeLif(std::string_view text)
+namespace
+{
+
+Core::Result<LifFile> DecodeFile(std::string_view text)
 {
     Json::JsonDocument document;
     Json::ParseLimits limits;
@@ -214,6 +217,11 @@ Core::Result<SiteMap> DecodeLif(std::string_view text)
             "a version 1 of LIF (1.0.0)",
             file.meta.lifVersion);
     }
+    return file;
+}
+
+Core::Result<SiteMap> MakeSite(LifFile&& file)
+{
     std::vector<SiteNode> nodes;
     std::vector<SiteEdge> edges;
     std::vector<SiteStation> stations;
@@ -247,6 +255,14 @@ Core::Result<SiteMap> DecodeLif(std::string_view text)
         site.error().path = LocatePath(site.error().path, counts);
     }
     return site;
+}
+
+} // namespace
+
+Core::Result<SiteMap> DecodeLif(std::string_view text)
+{
+    Core::Result<LifFile> file = DecodeFile(text);
+    return file.has_value() ? MakeSite(std::move(*file)) : tl::unexpected(std::move(file.error()));
 }
 
 } // namespace ACS::Planning

@@ -134,7 +134,12 @@ void PlanEngine::Impl::Control(const ControlPlan& command)
             fmt::format("{}Plan of this plan is under way.", GetText(*plan.record.progress.control)));
         return;
     }
-    switch (command.control)
+    Follow(command.control, plan);
+}
+
+void PlanEngine::Impl::Follow(EPlanControl control, ActivePlan& plan)
+{
+    switch (control)
     {
         case EPlanControl::Cancel:
             Cancel(plan);

@@ -378,6 +378,7 @@ private:
 
     // Control of plans (PlanEngine.Controls.cpp).
     void Control(const ControlPlan& command);
+    void Follow(EPlanControl control, ActivePlan& plan);
     void RefuseControl(const ControlPlan& command);
     void Cancel(ActivePlan& plan);
     void Abort(ActivePlan& plan);
