@@ -122,20 +122,29 @@ Core::Result<void> StoreFiles::CheckUsable(const std::string& path)
     return CheckFolder(path);
 }
 
-bool StoreFiles::HasOnlyStore(const std::string& path)
+std::string StoreFiles::Resolve(const std::string& path)
 {
     std::error_code unresolved;
     const std::filesystem::path resolved = std::filesystem::weakly_canonical(path, unresolved);
-    const std::string store = unresolved ? path : resolved.string();
+    return unresolved ? path : resolved.string();
+}
+
+std::string StoreFiles::GetLogPath(const std::string& path)
+{
+    return Resolve(path) + "-wal";
+}
+
+bool StoreFiles::HasOnlyStore(const std::string& path)
+{
     struct stat status = {};
-    const bool bStore = ::stat(store.c_str(), &status) == 0 && status.st_size > 0;
-    return bStore && ::stat((store + "-wal").c_str(), &status) != 0;
+    const bool bStore = ::stat(path.c_str(), &status) == 0 && status.st_size > 0;
+    return bStore && ::stat(GetLogPath(path).c_str(), &status) != 0;
 }
 
 std::optional<std::string> StoreFiles::MakeUntouchedUriOrNull(const std::string& path)
 {
     struct stat log = {};
-    const bool bLog = ::stat((path + "-wal").c_str(), &log) == 0 && log.st_size > 0;
+    const bool bLog = ::stat(GetLogPath(path).c_str(), &log) == 0 && log.st_size > 0;
     return bLog ? std::nullopt : std::optional("file:" + EscapeForUri(path) + "?immutable=1");
 }
 

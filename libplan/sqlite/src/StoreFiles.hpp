@@ -47,6 +47,12 @@ public:
     /// Whether a store is there that this program may write, or can be made. EPlanningError::StoreFailed.
     [[nodiscard]] static Core::Result<void> CheckUsable(const std::string& path);
 
+    /// What a path leads to: by each link to it a store is the same one, and its other files are beside it.
+    [[nodiscard]] static std::string Resolve(const std::string& path);
+
+    /// Of the write-ahead log.
+    [[nodiscard]] static std::string GetLogPath(const std::string& path);
+
     /// Whether there is a file that is not empty, and no log beside it.
     [[nodiscard]] static bool HasOnlyStore(const std::string& path);
 

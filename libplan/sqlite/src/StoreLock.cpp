@@ -1,6 +1,7 @@
 #include "StoreLock.hpp"
 
 #include "StoreFault.hpp"
+#include "StoreFiles.hpp"
 #include <acs/plan/EPlanningError.hpp>
 
 #include <fmt/format.h>
@@ -21,14 +22,6 @@ namespace
 
 constexpr mode_t FILE_MODE = 0644;
 constexpr std::string_view MARK = "open\n";
-
-/// Whatever it is called: by a link to the same file it is the same store.
-std::string Resolve(const std::string& storePath)
-{
-    std::error_code unresolved;
-    const std::filesystem::path resolved = std::filesystem::weakly_canonical(storePath, unresolved);
-    return unresolved ? storePath : resolved.string();
-}
 
 bool Exists(const std::string& path)
 {
@@ -68,12 +61,11 @@ void StoreLock::Mark(bool bOpen) const
 
 Core::Result<void> StoreLock::CheckLog(const std::string& storePath)
 {
-    const std::string resolved = Resolve(storePath);
-    const std::string lockPath = resolved + ".lock";
-    const std::string logPath = resolved + "-wal";
+    const std::string lockPath = StoreFiles::Resolve(storePath) + ".lock";
+    const std::string logPath = StoreFiles::GetLogPath(storePath);
     std::error_code unreadable;
     const bool bMarked = std::filesystem::file_size(lockPath, unreadable) > 0 && !unreadable;
-    if (!bMarked || !Exists(resolved) || Exists(logPath))
+    if (!bMarked || !Exists(storePath) || Exists(logPath))
     {
         return {};
     }
@@ -90,8 +82,7 @@ Core::Result<void> StoreLock::CheckLog(const std::string& storePath)
 
 Core::Result<StoreLock> StoreLock::Acquire(const std::string& storePath)
 {
-    const std::string resolved = Resolve(storePath);
-    const std::string path = resolved + ".lock";
+    const std::string path = StoreFiles::Resolve(storePath) + ".lock";
     const std::error_code code = make_error_code(EPlanningError::StoreFailed);
     StoreLock lock(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, FILE_MODE)); // NOLINT: the system's own signature
     if (lock._descriptor < 0)
@@ -107,7 +98,7 @@ Core::Result<StoreLock> StoreLock::Acquire(const std::string& storePath)
             "a store of this program alone; stop the other one, or choose another file",
             reason == EWOULDBLOCK ? "one that another program has open" : std::generic_category().message(reason));
     }
-    lock._logPath = resolved + "-wal";
+    lock._logPath = StoreFiles::GetLogPath(storePath);
     return lock;
 }
 

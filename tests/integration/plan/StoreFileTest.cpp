@@ -205,6 +205,17 @@ TEST_CASE("Store: by a link the file is watched that the link leads to, with its
     CHECK(Contains(DescribeFailure(store->Check()), file + "-wal removed"));
 }
 
+TEST_CASE("Store: to look at one by a link reads the log of what the link leads to")
+{
+    const StoreFolder folder;
+    const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetFile());
+    SQLite::Database(folder.GetFile(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99"); // into the log
+    Files::create_symlink(folder.GetFile(), folder.GetFile("link.db"));
+    const Core::Result<StoreOrigin> seen = SqlitePlanStore::Inspect(folder.GetFile("link.db"));
+    REQUIRE_FALSE(seen.has_value());
+    CHECK(seen.error().code == EPlanningError::StoreTooNew);
+}
+
 TEST_CASE("Store: each failure to open names the path, the reason and what to do")
 {
     struct Row
