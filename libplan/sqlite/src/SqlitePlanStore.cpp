@@ -164,16 +164,18 @@ public:
 
     void Prepare()
     {
-        _database.exec("PRAGMA journal_mode = WAL");
         _database.exec("PRAGMA synchronous = FULL");
         _database.exec("PRAGMA foreign_keys = ON");
         const int found = GetPragma(_database, "user_version");
+        // A new one gets its schema before its log: where it cannot be written, nothing is left of it.
         MigrateSchema(_database, found);
         if (found != GetNewestSchemaVersion())
         {
             // Into the file itself, so that it is seen to be a store also where its log is missing.
             _database.exec("PRAGMA wal_checkpoint(TRUNCATE)");
         }
+        _database.exec("PRAGMA journal_mode = WAL");
+        static_cast<void>(GetPragma(_database, "user_version")); // the first look makes the log
         _lock.Mark(true);
         _addPlan = MakeStatement("INSERT INTO plans VALUES (?, ?, ?, ?, ?, ?, ?)");
         _progressPlan = MakeStatement("UPDATE plans SET state = ?, progress = ? WHERE plan_id = ?");

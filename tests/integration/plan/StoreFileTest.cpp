@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -84,6 +85,30 @@ bool Contains(const std::string& text, const std::string& part)
 {
     return text.find(part) != std::string::npos;
 }
+
+/// While it lives the system takes no file that is longer.
+class TightDisk
+{
+    rlimit _before{};
+    void (*_handler)(int) = std::signal(SIGXFSZ, SIG_IGN);
+
+public:
+    explicit TightDisk(std::uintmax_t room)
+    {
+        REQUIRE(::getrlimit(RLIMIT_FSIZE, &_before) == 0);
+        const rlimit tight{room, _before.rlim_max};
+        REQUIRE(::setrlimit(RLIMIT_FSIZE, &tight) == 0);
+    }
+
+    TightDisk(const TightDisk&) = delete;
+    TightDisk& operator=(const TightDisk&) = delete;
+
+    ~TightDisk()
+    {
+        ::setrlimit(RLIMIT_FSIZE, &_before);
+        std::signal(SIGXFSZ, _handler);
+    }
+};
 
 } // namespace
 
@@ -287,20 +312,34 @@ TEST_CASE(
     const std::string file = folder.GetFile();
     const std::unique_ptr<SqlitePlanStore> store = OpenStore(file);
     REQUIRE(store->Append(MakeBatch("LR01")).has_value());
-    rlimit before{};
-    REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
-    const auto ignored = std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit tight{Files::file_size(file + "-wal"), before.rlim_max};
-    REQUIRE(::setrlimit(RLIMIT_FSIZE, &tight) == 0);
-    const Core::Result<void> failed = store->Append(MakeBatch("LR02"));
-    REQUIRE(::setrlimit(RLIMIT_FSIZE, &before) == 0);
-    std::signal(SIGXFSZ, ignored);
+    const auto failed = [&store, &file] {
+        const TightDisk disk(Files::file_size(file + "-wal"));
+        return store->Append(MakeBatch("LR02"));
+    }();
     const std::string failure = DescribeFailure(failed);
     CHECK(failure.starts_with(file + ": expected a disk that reads and writes; look at it and at the system's log"));
     INFO(failure);
     CHECK(Contains(failure, "found writing failed: disk I/O error (File too large)"));
     CHECK(store->Append(MakeBatch("LR02")).has_value());
     CHECK(LoadRobots(*store) == std::vector<std::string>{"LR01", "LR02"});
+}
+
+TEST_CASE("Store: one that could not be made for want of room is made when there is some")
+{
+    for (const std::uintmax_t room : {0U, 1U, 4U, 5U, 8U, 16U, 24U, 32U, 40U, 64U})
+    {
+        INFO(room << " KiB");
+        const StoreFolder folder;
+        const std::string file = folder.GetFile();
+        bool bMade = false;
+        {
+            const TightDisk disk(room * 1024);
+            bMade = SqlitePlanStore::Open(file).has_value();
+        }
+        CHECK((room > 32 || !bMade));
+        const std::unique_ptr<SqlitePlanStore> store = OpenStore(file);
+        CHECK(store->Append(MakeBatch("LR01")).has_value());
+    }
 }
 
 TEST_CASE("Store: one that was not closed and whose log is missing is not opened, as what was stored last is missing")
