@@ -77,6 +77,8 @@ public:
           _bFoundWithoutLog(StoreFiles::HasOnlyStore(path)),
           _database(file, flags, BUSY_MILLISECONDS)
     {
+        // Until it is ours: to close a store brings its log into it.
+        KeepLog(!_bFoundWithoutLog);
     }
 
     [[nodiscard]] const std::string& GetPath() const noexcept
@@ -191,6 +193,7 @@ public:
         _endMaintenance = MakeStatement("DELETE FROM maintenance WHERE robot_id = ?");
         _setSetting = MakeStatement("INSERT OR REPLACE INTO settings VALUES (?, ?)");
         _files = StoreFiles(_path, std::string(sqlite3_db_filename(_database.getHandle(), "main")) + "-wal");
+        KeepLog(false);
     }
 
     /// SQLite would go on writing to a file that has no name any more, and so is lost at the end.
@@ -260,6 +263,16 @@ public:
     }
 
 private:
+    /// Whether the log stays as it is when the store is closed.
+    void KeepLog(bool bKept)
+    {
+        sqlite3_db_config( // NOLINT(cppcoreguidelines-pro-type-vararg): the library's own signature
+            _database.getHandle(),
+            SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE,
+            bKept ? 1 : 0,
+            nullptr);
+    }
+
     /// Saves what is stored, and says what is to be done.
     [[nodiscard]] std::string Rescue(const StoreFileChange& change)
     {

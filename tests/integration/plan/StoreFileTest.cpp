@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <sys/resource.h>
@@ -84,6 +85,21 @@ std::string DescribeOpening(const Core::Result<T>& result)
 bool Contains(const std::string& text, const std::string& part)
 {
     return text.find(part) != std::string::npos;
+}
+
+std::string ReadBytes(const std::string& file)
+{
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// What a program leaves that is killed while it has the store open.
+void CopyAsKilled(const std::string& file, const std::string& copy)
+{
+    for (const char* ending : {"", "-wal", ".lock"})
+    {
+        Files::copy_file(file + ending, copy + ending);
+    }
 }
 
 /// While it lives the system takes no file that is longer.
@@ -367,6 +383,25 @@ TEST_CASE("Store: one that was not closed and whose log is missing is not opened
         Files::copy_file(file + "-wal", copy + "-wal");
         CHECK(OpenStore(copy)->Load()->robotsInMaintenance == std::vector<std::string>{"LR01"});
     }
+}
+
+TEST_CASE("Store: one that was not closed and is refused is left as it is, with its log")
+{
+    const StoreFolder folder;
+    const std::string copy = folder.GetFile("copy.db");
+    {
+        const auto store = OpenStore(folder.GetFile());
+        REQUIRE(store->Append(MakeBatch("LR01")).has_value());
+        SQLite::Database(folder.GetFile(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
+        CopyAsKilled(folder.GetFile(), copy);
+    }
+    const std::string before = ReadBytes(copy);
+    const std::string log = ReadBytes(copy + "-wal");
+    const auto refused = SqlitePlanStore::Open(copy);
+    REQUIRE_FALSE(refused.has_value());
+    CHECK(refused.error().code == EPlanningError::StoreTooNew);
+    CHECK((ReadBytes(copy) == before));
+    CHECK((ReadBytes(copy + "-wal") == log));
 }
 
 TEST_CASE("Store: one that was closed needs no log, and a copy of a new one's file is a store")
