@@ -2,6 +2,7 @@
 #include "StoreFault.hpp"
 #include "StoreFiles.hpp"
 #include "StoreLock.hpp"
+#include "StoreLog.hpp"
 #include "StoreRescue.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/plan/EPlanningError.hpp>
@@ -16,6 +17,7 @@
 #include <filesystem>
 #include <optional>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 namespace ACS::Planning
@@ -28,6 +30,9 @@ constexpr int BUSY_MILLISECONDS = 1'000;
 
 /// Names in the table settings.
 constexpr std::string_view TSC_STATE = "tsc_state";
+
+/// The schema that has that table first.
+constexpr int SETTINGS_VERSION = 2;
 
 std::int64_t ToCount(Core::WallTime time)
 {
@@ -49,9 +54,11 @@ int GetPragma(SQLite::Database& database, const char* pragma)
 class SqlitePlanStore::Impl
 {
     std::string _path;
-    bool _bFoundWithoutLog; ///< There was a file that was not empty, and no log.
-    StoreLock _lock;        ///< Outlives the database.
+    bool _bFoundWithoutLog;         ///< There was a file that was not empty, and no log.
+    std::optional<StoreMark> _mark; ///< As it was found.
+    StoreLock _lock;                ///< Outlives the database.
     SQLite::Database _database;
+    std::unique_ptr<StoreLog> _log; ///< Once it is ours.
     StoreFiles _files;
     StoreOrigin _origin;
     int _systemError = 0;
@@ -75,10 +82,11 @@ public:
     Impl(const std::string& path, const std::string& file, int flags)
         : _path(path),
           _bFoundWithoutLog(StoreFiles::HasOnlyStore(path)),
+          _mark(StoreLock::ReadMarkOrNull(path)),
           _database(file, flags, BUSY_MILLISECONDS)
     {
         // Until it is ours: to close a store brings its log into it.
-        KeepLog(!_bFoundWithoutLog);
+        StoreLog::Keep(_database, !_bFoundWithoutLog);
     }
 
     [[nodiscard]] const std::string& GetPath() const noexcept
@@ -149,6 +157,10 @@ public:
                     GetNewestSchemaVersion()),
                 fmt::format("version {}", version));
         }
+        if (Core::Result<void> logged = CheckLog(bEmpty, version); !logged.has_value())
+        {
+            return logged;
+        }
         const std::string verdict = _database.execAndGet("PRAGMA quick_check(1)").getString();
         if (verdict != "ok")
         {
@@ -169,16 +181,13 @@ public:
         _database.exec("PRAGMA synchronous = FULL");
         _database.exec("PRAGMA foreign_keys = ON");
         const int found = GetPragma(_database, "user_version");
+        if (_origin.bNew)
+        {
+            _lock.Unmark(); // of one that was moved away
+        }
         // A new one gets its schema before its log: where it cannot be written, nothing is left of it.
         MigrateSchema(_database, found);
-        if (found != GetNewestSchemaVersion())
-        {
-            // Into the file itself, so that it is seen to be a store also where its log is missing.
-            _database.exec("PRAGMA wal_checkpoint(TRUNCATE)");
-        }
         _database.exec("PRAGMA journal_mode = WAL");
-        static_cast<void>(GetPragma(_database, "user_version")); // the first look makes the log
-        _lock.Mark(true);
         _addPlan = MakeStatement("INSERT INTO plans VALUES (?, ?, ?, ?, ?, ?, ?)");
         _progressPlan = MakeStatement("UPDATE plans SET state = ?, progress = ? WHERE plan_id = ?");
         _removePlan = MakeStatement("DELETE FROM plans WHERE sequence = ?");
@@ -192,8 +201,13 @@ public:
         _beginMaintenance = MakeStatement("INSERT OR REPLACE INTO maintenance VALUES (?)");
         _endMaintenance = MakeStatement("DELETE FROM maintenance WHERE robot_id = ?");
         _setSetting = MakeStatement("INSERT OR REPLACE INTO settings VALUES (?, ?)");
+        // All tables are there: from now on it is not refused any more.
+        _log = std::make_unique<StoreLog>(_database, _lock);
+        if (!_origin.bNew && found != GetNewestSchemaVersion())
+        {
+            static_cast<void>(_log->TryFold()); // a copy of the file alone has the schema too
+        }
         _files = StoreFiles(_path, std::string(sqlite3_db_filename(_database.getHandle(), "main")) + "-wal");
-        KeepLog(false);
     }
 
     /// SQLite would go on writing to a file that has no name any more, and so is lost at the end.
@@ -211,23 +225,23 @@ public:
         return Refuse(EPlanningError::StoreFailed, _path, Rescue(*change), std::move(change->found));
     }
 
-    void Append(const StoreBatch& batch)
+    [[nodiscard]] Core::Result<void> Append(const StoreBatch& batch)
     {
-        errno = 0;
-        SQLite::Transaction transaction(_database);
-        try
+        Core::Result<void> begun = NoteErrors([this] { return _log->Begin(); });
+        if (!begun.has_value())
         {
+            return begun;
+        }
+        SQLite::Transaction transaction(_database);
+        NoteErrors([this, &batch, &transaction] {
             for (const StoreChange& change : batch.changes)
             {
                 std::visit([this](const auto& typed) { Write(typed); }, change);
             }
             transaction.commit();
-        }
-        catch (const SQLite::Exception&)
-        {
-            _systemError = errno; // before the roll-back; SQLite's own note of it lacks failures of a commit
-            throw;
-        }
+        });
+        _log->FoldIfLong();
+        return {};
     }
 
     [[nodiscard]] Core::Result<StoredState> Load()
@@ -263,14 +277,43 @@ public:
     }
 
 private:
-    /// Whether the log stays as it is when the store is closed.
-    void KeepLog(bool bKept)
+    /// What was stored last may have been in a log that is not there any more.
+    [[nodiscard]] Core::Result<void> CheckLog(bool bEmpty, int version)
     {
-        sqlite3_db_config( // NOLINT(cppcoreguidelines-pro-type-vararg): the library's own signature
-            _database.getHandle(),
-            SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE,
-            bKept ? 1 : 0,
-            nullptr);
+        if (bEmpty || !_mark.has_value())
+        {
+            return {};
+        }
+        const std::int64_t number = version < SETTINGS_VERSION ? 0 : StoreLog::GetNumber(_database);
+        if (_mark->bNeedsLog ? !_bFoundWithoutLog : number >= _mark->number)
+        {
+            return {};
+        }
+        return Refuse(
+            EPlanningError::StoreCorrupt,
+            _path,
+            fmt::format(
+                "what was stored last, which was in {}, as the program before did not close the store; put that file back; or, "
+                "to go on with what the store itself has, such as a backup that was restored, remove {}",
+                StoreFiles::GetLogPath(_path),
+                StoreLock::GetPath(_path)),
+            _mark->bNeedsLog ? "no such file" : fmt::format("logs up to number {} of {}", number, _mark->number));
+    }
+
+    /// What the system says of a failure is there before the roll-back; SQLite's own note of it lacks those of a commit.
+    template <typename TWork>
+    std::invoke_result_t<TWork> NoteErrors(TWork work)
+    {
+        errno = 0;
+        try
+        {
+            return work();
+        }
+        catch (const SQLite::Exception&)
+        {
+            _systemError = errno;
+            throw;
+        }
     }
 
     /// Saves what is stored, and says what is to be done.
@@ -278,9 +321,11 @@ private:
     {
         if (change.bOfLog)
         {
-            _database.exec("PRAGMA wal_checkpoint(TRUNCATE)");
-            _lock.Mark(false);
-            return "the log that it has opened; restart: what was stored is in the store itself, and nothing else is from now on";
+            return _log->TryFold()
+                ? "the log that it has opened; restart: what was stored is in the store itself, and nothing else "
+                  "is from now on"
+                : "the log that it has opened; close each other program that reads the store: what was stored "
+                  "last is not in the store itself as long as one does";
         }
         const Core::Result<void> rescued = _bRescued ? Core::Result<void>() : RescueStore(_database, _path);
         _bRescued = rescued.has_value();
@@ -530,10 +575,6 @@ Core::Result<std::unique_ptr<SqlitePlanStore>> SqlitePlanStore::Open(const std::
     {
         return tl::unexpected(rescued.error());
     }
-    if (Core::Result<void> logged = *rescued ? Core::Result<void>() : StoreLock::CheckLog(path); !logged.has_value())
-    {
-        return tl::unexpected(std::move(logged.error()));
-    }
     try
     {
         auto impl = std::make_unique<Impl>(path, path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
@@ -570,10 +611,6 @@ Core::Result<StoreOrigin> SqlitePlanStore::Inspect(const std::string& path)
     {
         const bool bRescued = std::filesystem::exists(GetRescuePath(path), missing);
         return StoreOrigin{!bRescued, bRescued, 0, GetNewestSchemaVersion()};
-    }
-    if (Core::Result<void> logged = StoreLock::CheckLog(path); !logged.has_value())
-    {
-        return tl::unexpected(std::move(logged.error()));
     }
     try
     {
@@ -616,8 +653,7 @@ Core::Result<void> SqlitePlanStore::Append(const StoreBatch& batch)
     }
     try
     {
-        _impl->Append(batch);
-        return {};
+        return _impl->Append(batch);
     }
     catch (const SQLite::Exception& exception)
     {

@@ -28,11 +28,16 @@ tl::unexpected<Core::Error> RefuseFile(const std::string& path, std::string expe
     return Refuse(EPlanningError::StoreFailed, path, std::move(expected), std::move(found));
 }
 
+std::string GetFolder(const std::string& path)
+{
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    return folder.empty() ? "." : folder;
+}
+
 /// A folder in which the store's files can be made: it has more than one.
 Core::Result<void> CheckFolder(const std::string& path)
 {
-    std::string folder = std::filesystem::path(path).parent_path().string();
-    folder = folder.empty() ? "." : folder;
+    const std::string folder = GetFolder(path);
     struct stat status = {};
     if (::stat(folder.c_str(), &status) != 0)
     {
@@ -146,6 +151,25 @@ std::optional<std::string> StoreFiles::MakeUntouchedUriOrNull(const std::string&
     struct stat log = {};
     const bool bLog = ::stat(GetLogPath(path).c_str(), &log) == 0 && log.st_size > 0;
     return bLog ? std::nullopt : std::optional("file:" + EscapeForUri(path) + "?immutable=1");
+}
+
+bool StoreFiles::TrySynchronise(const std::string& path)
+{
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC); // NOLINT: the system's own signature
+    if (file < 0)
+    {
+        return false;
+    }
+    const bool bDone = ::fsync(file) == 0;
+    const int reason = errno;
+    ::close(file);
+    errno = reason;
+    return bDone;
+}
+
+bool StoreFiles::TrySynchroniseFolder(const std::string& path)
+{
+    return TrySynchronise(GetFolder(path));
 }
 
 std::optional<StoreFiles::Identity> StoreFiles::FindOrNull(const std::string& path)

@@ -60,6 +60,12 @@ public:
     /// in that is read by the path only.
     [[nodiscard]] static std::optional<std::string> MakeUntouchedUriOrNull(const std::string& path);
 
+    /// A file, or the names in a folder: on disk when it returns. Else the reason is in errno.
+    [[nodiscard]] static bool TrySynchronise(const std::string& path);
+
+    /// The names in the folder of a file.
+    [[nodiscard]] static bool TrySynchroniseFolder(const std::string& path);
+
 private:
     [[nodiscard]] static std::optional<Identity> FindOrNull(const std::string& path);
     [[nodiscard]] static StoreFileChange MakeChange(const std::string& path, bool bOfLog);

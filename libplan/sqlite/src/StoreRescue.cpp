@@ -1,43 +1,21 @@
 #include "StoreRescue.hpp"
 
 #include "StoreFault.hpp"
+#include "StoreFiles.hpp"
 #include "StoreLock.hpp"
 
 #include <fmt/format.h>
 #include <SQLiteCpp/Statement.h>
 
 #include <cerrno>
-#include <fcntl.h>
 #include <filesystem>
 #include <system_error>
-#include <unistd.h>
 
 namespace ACS::Planning
 {
 
 namespace
 {
-
-/// A file, or the names in a folder.
-bool TrySynchronise(const std::string& path)
-{
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC); // NOLINT: the system's own signature
-    if (file < 0)
-    {
-        return false;
-    }
-    const bool bDone = ::fsync(file) == 0;
-    const int reason = errno;
-    ::close(file);
-    errno = reason;
-    return bDone;
-}
-
-std::string GetFolder(const std::string& path)
-{
-    const std::string folder = std::filesystem::path(path).parent_path().string();
-    return folder.empty() ? "." : folder;
-}
 
 tl::unexpected<Core::Error> RefuseCopy(const std::string& path, const std::error_code& reason)
 {
@@ -49,7 +27,7 @@ Core::Result<void> Rename(const std::string& from, const std::string& to)
 {
     std::error_code failed;
     std::filesystem::rename(from, to, failed);
-    if (!failed && !TrySynchronise(GetFolder(to)))
+    if (!failed && !StoreFiles::TrySynchroniseFolder(to))
     {
         failed = std::error_code(errno, std::generic_category());
     }
@@ -84,7 +62,7 @@ Core::Result<void> RescueStore(SQLite::Database& database, const std::string& st
     {
         return RefuseFor(exception, part, "copying", errno);
     }
-    if (!TrySynchronise(part))
+    if (!StoreFiles::TrySynchronise(part))
     {
         return RefuseCopy(part, std::error_code(errno, std::generic_category()));
     }
@@ -133,6 +111,7 @@ Core::Result<bool> TakeUpRescued(const std::string& storePath)
     std::error_code ignored;
     std::filesystem::remove(storePath + "-wal", ignored);
     std::filesystem::remove(storePath + "-shm", ignored);
+    lock->Unmark();
     Core::Result<void> renamed = Rename(GetRescuePath(storePath), storePath);
     if (!renamed.has_value())
     {

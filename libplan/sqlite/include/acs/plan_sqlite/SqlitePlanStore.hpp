@@ -26,8 +26,8 @@ public:
     ~SqlitePlanStore() override;
 
     /// Opens the file, or creates it. Errors, each naming the file: EPlanningError::StoreFailed (no such folder, no
-    /// permission, another program has it), StoreCorrupt (damaged, or no file of ours), StoreTooNew. A file that is
-    /// refused is left as it is.
+    /// permission, another program has it), StoreCorrupt (damaged, no file of ours, or without the log that it had),
+    /// StoreTooNew. A file that is refused is left as it is, and its log too.
     /// Each tells path, what failed with the reason of the system or SQLite, and what to do.
     [[nodiscard]] static Core::Result<std::unique_ptr<SqlitePlanStore>> Open(const std::string& path);
 
