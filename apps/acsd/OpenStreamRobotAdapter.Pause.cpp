@@ -55,7 +55,7 @@ void OpenStreamRobotAdapter::FollowPause(AdapterActions& out)
             _program = EProgram::Stopping;
             SendControl(EControl::StopProgram, STOP_URL, "{}");
         }
-        else if ((_program == EProgram::Stopped || _program == EProgram::Refused) && _bGivenUp)
+        else if (_program == EProgram::Stopped && _bGivenUp)
         {
             SendControl(EControl::ResetProgram, RESET_URL, "{}");
         }
@@ -63,6 +63,10 @@ void OpenStreamRobotAdapter::FollowPause(AdapterActions& out)
         {
             _program = EProgram::GoingOn;
             SendControl(EControl::GoOn, START_URL, "{}");
+        }
+        else if (_program == EProgram::Retrying && (_bPauseWanted || _bGivenUp) && _glance == EGlance::None)
+        {
+            LookAtRefusedProgram(out);
         }
     }
     TellPaused(out);
@@ -133,6 +137,7 @@ void OpenStreamRobotAdapter::DoubtFound()
 void OpenStreamRobotAdapter::RefuseGoOn(const std::string& refusal, AdapterActions& out)
 {
     _program = EProgram::Refused;
+    _bSeenStanding = false;
     _refusal = refusal;
     _look = ELook::None;
     if (_bMotorHidden)
@@ -143,9 +148,11 @@ void OpenStreamRobotAdapter::RefuseGoOn(const std::string& refusal, AdapterActio
     Glance(EGlance::Motor, out);
 }
 
-/// The motor is on, or not to be seen.
+/// Somebody may have had it go on, and it may have come to its end by now: only one that is seen to stand, with its counters
+/// as they were, is started or given up.
 void OpenStreamRobotAdapter::LookAtRefusedProgram(AdapterActions& out)
 {
+    _bSeenStanding = false;
     if (!_bPlaybackHidden)
     {
         Glance(EGlance::Playback, out);
@@ -153,6 +160,7 @@ void OpenStreamRobotAdapter::LookAtRefusedProgram(AdapterActions& out)
     else if (_bGoOnRepeated)
     {
         _program = EProgram::Runs;
+        FollowPause(out);
     }
     else
     {
@@ -162,15 +170,14 @@ void OpenStreamRobotAdapter::LookAtRefusedProgram(AdapterActions& out)
 
 bool OpenStreamRobotAdapter::IsGoOnRefused() const
 {
-    return _phase == EJobPhase::Running && _program == EProgram::Refused;
+    return _phase == EJobPhase::Running && (_program == EProgram::Refused || _program == EProgram::Retrying);
 }
 
 /// It is to go on, and is not known to.
 bool OpenStreamRobotAdapter::IsGoOnDue() const
 {
-    const bool bStands =
-        _program == EProgram::Stopped || _program == EProgram::GoingOn || _program == EProgram::Refused;
-    return bStands && !_bPauseWanted;
+    const bool bStands = _program == EProgram::Stopped || _program == EProgram::GoingOn;
+    return (bStands || IsGoOnRefused()) && !_bPauseWanted;
 }
 
 /// Its program was surely not started.
@@ -189,7 +196,7 @@ bool OpenStreamRobotAdapter::IsArmStanding() const
         case EJobPhase::Refused:
             return true;
         case EJobPhase::Running:
-            return _program == EProgram::Stopped || _program == EProgram::Refused;
+            return _program == EProgram::Stopped;
         case EJobPhase::Selecting:
         case EJobPhase::Starting:
         default:

@@ -80,12 +80,6 @@ void OpenStreamRobotAdapter::TakeMotor(bool bOn, AdapterActions& out)
 void OpenStreamRobotAdapter::Retry(AdapterActions& out)
 {
     const bool bRefused = std::exchange(_bMonitorRefused, false);
-    if (_armState == EArmState::Ready && IsGoOnRefused() && _bCountersFresh)
-    {
-        _program = EProgram::Stopped;
-        FollowPause(out);
-        return;
-    }
     if (_armState == EArmState::MotorOff)
     {
         if (bRefused)
@@ -113,7 +107,12 @@ void OpenStreamRobotAdapter::Retry(AdapterActions& out)
                 out);
         }
     }
-    else if (!IsGoOnRefused())
+    else if (_armState == EArmState::Ready && _program == EProgram::Retrying && _glance == EGlance::None)
+    {
+        LookAtRefusedProgram(out);
+        return;
+    }
+    else
     {
         return;
     }
@@ -325,16 +324,31 @@ void OpenStreamRobotAdapter::TakePlaybackGlance(bool bPlaying, AdapterActions& o
     }
 }
 
-/// It goes on already, or stands where it was paused: then it is asked again, as that is what was commanded.
 void OpenStreamRobotAdapter::TakeRefusedGoOn(bool bPlaying, AdapterActions& out)
 {
+    _bSeenStanding = !bPlaying;
     if (bPlaying)
     {
         _program = EProgram::Runs;
         ForgetHalt(out);
         FollowPause(out);
+    }
+}
+
+/// Behind the counters, likewise: it has surely not come to its end.
+void OpenStreamRobotAdapter::TakeStanding(AdapterActions& out)
+{
+    if (!std::exchange(_bSeenStanding, false) || !IsGoOnRefused())
+    {
         return;
     }
+    if (_program == EProgram::Retrying || _bPauseWanted || _bGivenUp)
+    {
+        _program = EProgram::Stopped;
+        FollowPause(out);
+        return;
+    }
+    _program = EProgram::Retrying;
     SetTrouble(
         MakeHeavy(
             ERROR_HALTED,

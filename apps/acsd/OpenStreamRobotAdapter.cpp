@@ -447,6 +447,10 @@ void OpenStreamRobotAdapter::TakeCounters(const Core::JsonText& result, AdapterA
     FindJob(out);
     FollowJob(out);
     CheckHalt(out);
+    if (!bFirst)
+    {
+        TakeStanding(out);
+    }
     if (_look == ELook::Due)
     {
         _look = ELook::None;
@@ -454,7 +458,11 @@ void OpenStreamRobotAdapter::TakeCounters(const Core::JsonText& result, AdapterA
     }
     if (bFirst)
     {
-        _program = _program == EProgram::Refused ? EProgram::Stopped : _program;
+        if (IsGoOnRefused())
+        {
+            _program = EProgram::Retrying;
+            LookAtRefusedProgram(out);
+        }
         FollowPause(out);
     }
     if (bFirst && !_bJobStarted && _phase == EJobPhase::Running)

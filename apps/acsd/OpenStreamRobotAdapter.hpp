@@ -52,7 +52,8 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
         Stopped,
         GoingOn,  ///< Likewise of the one that starts it again.
         Doubtful, ///< The connection broke meanwhile: it runs, or stands.
-        Refused,  ///< The controller refused to go on with it: what for is looked at, then it is asked again.
+        Refused,  ///< The controller refused to go on with it; what for is looked at.
+        Retrying, ///< Likewise; it is asked again as soon as another look has seen that it stands.
     };
 
     /// A CONTROL is answered by silence, also where it got lost or takes its time. So it is looked for what it has done, then
@@ -134,6 +135,7 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     bool _bGoOnRepeated = false; ///< It may run already: that it does is no refusal.
     bool _bPauseTold = false;    ///< Somebody paused the robot, or had it go on, as far as this adapter knows.
     bool _bFound = false;        ///< The job was found running after a restart: who has stopped it before is not known.
+    bool _bSeenStanding = false; ///< One that was refused to go on; counters are to come behind that.
     bool _bGivenUp = false;      ///< The task is reset as soon as the program surely stands.
     bool _bPaused = false;       ///< As it was told last.
     Planning::StateChanged _baseState; ///< The latest that the base told.
@@ -179,6 +181,7 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     void TakeMotorGlance(bool bOn, Planning::AdapterActions& out);
     void TakePlaybackGlance(bool bPlaying, Planning::AdapterActions& out);
     void TakeRefusedGoOn(bool bPlaying, Planning::AdapterActions& out);
+    void TakeStanding(Planning::AdapterActions& out);
     void CheckHalt(Planning::AdapterActions& out);
     void ForgetHalt(Planning::AdapterActions& out);
     void TakeCounters(const Core::JsonText& result, Planning::AdapterActions& out);

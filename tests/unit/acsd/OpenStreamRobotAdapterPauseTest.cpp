@@ -21,6 +21,17 @@ void SettleGoingOn(ArmFixture& arm, OpenStream::EControlOutcome outcome = OpenSt
     arm.Settle(outcome, 403);
 }
 
+/// The program is looked at, and the counters behind it.
+void ShowLookAtProgram(ArmFixture& arm, std::string_view sample, std::string_view counters = "[6,5,0]")
+{
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_PLAYBACK});
+    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.TellData(sample);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.TellData(counters);
+}
+
 } // namespace
 
 TEST_CASE("6.8 A program counts as stopped when the controller shows that it stands")
@@ -222,8 +233,10 @@ TEST_CASE("6.8 A program that cannot go on for a motor that is off goes on when 
     arm.TellData(MOTOR_ON_SAMPLE);
     CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
     arm.TellData("[6,5,0]");
+    ShowLookAtProgram(arm, STANDS);
     CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    CHECK(arm.TakeErrors() == "");
 }
 
 TEST_CASE("6.8 A program that stands and is refused to go on is told, and started again until it does")
@@ -231,18 +244,19 @@ TEST_CASE("6.8 A program that stands and is refused to go on is told, and starte
     ArmFixture arm;
     SettleGoingOn(arm);
     arm.TellData(MOTOR_ON_SAMPLE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_MOTOR, LOOK, LOOK_AT_PLAYBACK});
     arm.actions.clear();
     arm.TellData(STANDS);
+    CHECK(arm.TakeErrors() == "?"); // it may have come to its end
+    arm.ShowLook("[6,5,0]");
     CHECK(arm.IsToldPaused());
     CHECK(arm.TakeErrors() == "ARM-programHalted");
-    static_cast<void>(arm.TakeRequests());
+    CHECK(arm.TakeRequests().empty());
     SECTION("It goes on when it is asked again")
     {
-        arm.Fire(ArmFixture::RETRY_TIMER);
-        CHECK(arm.TakeRequests().empty()); // its end would not have been seen yet
-        arm.TellData("[6,5,0]");
         CHECK(arm.LookAround().empty());
         arm.Fire(ArmFixture::RETRY_TIMER);
+        ShowLookAtProgram(arm, STANDS);
         CHECK(arm.TakeRequests() == std::vector<std::string>{START});
         CHECK(arm.LookAround().empty());
         CHECK(arm.TakeErrors() == "?");
@@ -252,9 +266,27 @@ TEST_CASE("6.8 A program that stands and is refused to go on is told, and starte
         arm.TellData(PLAYS);
         CHECK(arm.TakeErrors().empty());
     }
-    SECTION("It has come to its end by other hands")
+    SECTION("Somebody has it go on: it is not started again, and one that is paused then is stopped")
     {
-        arm.TellData("[6,6,0]");
+        const bool bPaused = GENERATE(false, true);
+        if (bPaused)
+        {
+            arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+        }
+        else
+        {
+            arm.Fire(ArmFixture::RETRY_TIMER);
+        }
+        REQUIRE(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_PLAYBACK});
+        arm.TellData(PLAYS);
+        CHECK(arm.TakeRequests() == (bPaused ? std::vector<std::string>{LOOK, STOP} : std::vector<std::string>{LOOK}));
+        CHECK(arm.TakeErrors().empty());
+    }
+    SECTION("It has come to its end by other hands, which the counters say behind the look")
+    {
+        arm.Fire(ArmFixture::RETRY_TIMER);
+        ShowLookAtProgram(arm, STANDS, "[6,6,0]");
+        CHECK(arm.TakeRequests().empty());
         CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
         CHECK(arm.TakeErrors().empty());
         arm.Fire(ArmFixture::RETRY_TIMER);
@@ -262,17 +294,27 @@ TEST_CASE("6.8 A program that stands and is refused to go on is told, and starte
     }
     SECTION("It is given up")
     {
-        arm.TellData("[6,5,0]");
         arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+        ShowLookAtProgram(arm, STANDS);
         CHECK(arm.TakeRequests() == std::vector<std::string>{RESET});
         arm.Settle(OpenStream::EControlOutcome::Accepted);
         CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
         CHECK(arm.TakeErrors().empty());
     }
+    SECTION("It is given up, and runs by other hands: it is not broken off")
+    {
+        arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+        ShowLookAtProgram(arm, PLAYS);
+        CHECK(arm.TakeRequests().empty());
+        arm.TellData("[6,6,0]");
+        CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+    }
     SECTION("It is paused again, and goes on after that")
     {
-        arm.TellData("[6,5,0]");
+        arm.ShowBase(true);
         arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+        ShowLookAtProgram(arm, STANDS);
+        CHECK(arm.IsToldPaused());
         arm.Fire(ArmFixture::RETRY_TIMER);
         CHECK(arm.TakeRequests().empty());
         arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
@@ -281,9 +323,53 @@ TEST_CASE("6.8 A program that stands and is refused to go on is told, and starte
     SECTION("The connection is lost meanwhile")
     {
         arm.Tell(OpenStream::ClientLost{});
-        arm.BringUp("[6,5,0]");
-        CHECK(arm.lastControl == START);
+        arm.Tell(OpenStream::ClientReady{});
+        arm.Settle(OpenStream::EControlOutcome::Accepted); // motor_on
+        arm.TellData(MOTOR_ON_SAMPLE);
+        static_cast<void>(arm.TakeRequests());
+        arm.TellData("[6,5,0]");
+        ShowLookAtProgram(arm, STANDS);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     }
+}
+
+TEST_CASE("D-16 A program that is refused to go on is given up only where it is seen to stand")
+{
+    ArmFixture arm;
+    SettleGoingOn(arm);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_MOTOR});
+    arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests().empty());
+    arm.TellData(MOTOR_ON_SAMPLE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK, LOOK_AT_PLAYBACK});
+    const bool bStands = GENERATE(false, true);
+    arm.TellData(bStands ? STANDS : PLAYS);
+    arm.ShowLook("[6,5,0]");
+    CHECK(arm.TakeRequests() == (bStands ? std::vector<std::string>{RESET} : std::vector<std::string>{}));
+}
+
+TEST_CASE("6.8 A going on that got lost before counts as done where the controller does not show playback")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    arm.Accept("[6,5,0]");
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    arm.Settle(OpenStream::EControlOutcome::Unknown);
+    arm.Tell(OpenStream::ClientLost{});
+    arm.BringUp("[6,5,0]");
+    REQUIRE(arm.lastControl == STOP);
+    arm.Accept("[6,5,0]");
+    REQUIRE(arm.TakeRequests() == std::vector<std::string>{START});
+    arm.Settle(OpenStream::EControlOutcome::Refused, 403);
+    arm.TellData(MOTOR_ON_SAMPLE);
+    arm.RefuseMonitor("/project/rgen");
+    arm.actions.clear();
+    arm.ShowBase(false);
+    CHECK_FALSE(arm.IsToldPaused());
+    static_cast<void>(arm.TakeRequests());
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
 }
 
 TEST_CASE("6.8 A program that is refused to go on fails its job where the controller shows neither motor nor playback")
