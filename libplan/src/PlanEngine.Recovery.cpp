@@ -470,8 +470,8 @@ void PlanEngine::Impl::OnJobUncertain(Robot& robot, const JobUncertain& event)
     const bool bOfPlan = robot.activity == EActivity::Works && GetJobID(*robot.planOrNull) == event.jobID;
     if ((bOverdue || bOfPlan) && !robot.bUncertain)
     {
-        // Marks that do not tell of this job do not tell of those after it either.
-        robot.bDoubtful = robot.bDoubtful || (bOfPlan && !robot.job->mark.empty());
+        // After a restart marks that do not tell of this job do not tell of those after it either.
+        robot.bDoubtful = robot.bDoubtful || (robot.bRecovering && bOfPlan && !robot.job->mark.empty());
         robot.bWorkTouched = true;
         HoldJob(robot, event.reason);
     }

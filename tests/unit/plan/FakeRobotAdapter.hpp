@@ -51,6 +51,7 @@ public:
     bool bIgnoresPause = false; ///< Neither stops nor goes on, as one that does not hear.
     bool bFinishesJobs = false; ///< A job that runs is not paused: the robot stands when it is done.
     bool bIgnoresCharging = false;
+    std::string mark; ///< As arms have one.
     double battery = 80;
     std::size_t chargesAsked = 0;
     std::size_t resumesAsked = 0;
@@ -202,6 +203,7 @@ private:
         state.bDriving = _bMoving;
         state.bPaused = IsPaused();
         state.shownCommandID = _shownCommandID;
+        state.mark = mark;
         state.bOccupied = _bForeign && _bDriving;
         for (std::size_t i = _index + 1; state.bOccupied && i < _drive.releasedCount; ++i)
         {

@@ -297,6 +297,18 @@ TEST_CASE("D-22 pause.mode after_job: the plan is paused when its job is to be d
     CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Paused);
 }
 
+TEST_CASE("A job at work whose end the robot cannot tell is held alone: nothing after it was begun, whatever its marks say")
+{
+    PlanWorld world;
+    world.GetRobot("LR01").mark = "5 5 0";
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
+    world.GetRobot("LR01").mark = "0 0 0";
+    world.Raise("LR01", JobUncertain{"P1-a4", "the test says so"});
+    world.Settle("P1", "P1-a4", EJobAnswer::Done);
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+}
+
 TEST_CASE("5.8 An error that becomes heavier is told anew, once")
 {
     PlanWorld world;
