@@ -10,6 +10,17 @@
 namespace ACS::Planning
 {
 
+namespace
+{
+
+/// A transactionID is one request's of its command; another command may have the same.
+std::string MakeRequestID(const ControlPlan& command)
+{
+    return fmt::format("{} {}", GetText(command.control), command.transactionID);
+}
+
+} // namespace
+
 void PlanEngine::Impl::TellControlResult(
     EPlanControl control,
     const std::string& planID,
@@ -28,7 +39,7 @@ bool PlanEngine::Impl::IsRepetition(const ControlPlan& command) const
         ? &active->second->record.progress
         : (finished != _finished.end() ? &finished->second.progress : nullptr);
     return progressOrNull != nullptr && !command.transactionID.empty()
-        && std::ranges::count(progressOrNull->requestIDs, command.transactionID) > 0;
+        && std::ranges::count(progressOrNull->requestIDs, MakeRequestID(command)) > 0;
 }
 
 void PlanEngine::Impl::Remember(PlanProgress& progress, const ControlPlan& command)
@@ -42,7 +53,7 @@ void PlanEngine::Impl::Remember(PlanProgress& progress, const ControlPlan& comma
     {
         progress.requestIDs.erase(progress.requestIDs.begin());
     }
-    progress.requestIDs.push_back(command.transactionID);
+    progress.requestIDs.push_back(MakeRequestID(command));
     _progressed.insert(command.planID);
 }
 
@@ -96,7 +107,7 @@ void PlanEngine::Impl::RefuseControl(const ControlPlan& command)
 void PlanEngine::Impl::Control(const ControlPlan& command)
 {
     const bool bRepeated = IsRepetition(command);
-    if (_bStoreFailing && (!bRepeated || _unstoredIDs.contains(command.transactionID)))
+    if (_bStoreFailing && (!bRepeated || _unstoredIDs.contains(MakeRequestID(command))))
     {
         _actions.emplace_back(
             ReplyCommand{command.replyToken, false, "The request cannot be stored, as the store fails: ask again."});
@@ -107,7 +118,7 @@ void PlanEngine::Impl::Control(const ControlPlan& command)
         _actions.emplace_back(ReplyCommand{command.replyToken, true, "Received."});
         return;
     }
-    _asked = command.transactionID;
+    _asked = MakeRequestID(command);
     const auto active = _plans.find(command.planID);
     if (active == _plans.end())
     {

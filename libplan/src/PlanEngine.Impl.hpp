@@ -237,8 +237,8 @@ private:
     std::uint64_t _lastKnownSequence = 0;
     std::vector<std::string> _begun;             ///< Plans that were begun in the call that is being stored.
     std::map<ReplyToken, std::string> _repeated; ///< Plans that this call brought once more.
-    std::optional<std::string> _asked;           ///< TransactionID of the control that this call was.
-    std::set<std::string> _unstoredIDs;          ///< TransactionIDs of controls that could not be stored.
+    std::optional<std::string> _asked;           ///< The control that this call was; as in PlanProgress::requestIDs.
+    std::set<std::string> _unstoredIDs;          ///< Controls that could not be stored; likewise.
     std::vector<std::string> _unreported;        ///< Accepted, their PlanReport(Pending) is owed.
     ETscState _tscState = ETscState::Auto;
 

@@ -446,6 +446,23 @@ TEST_CASE("D-23, 13.5 The same plan under the same transactionId is answered as 
     CHECK(world.GetReportsOf("P1") == LOGISTICS_REPORTS);
 }
 
+TEST_CASE(
+    "D-23 Another control under a transactionId that a control of the plan had is no repetition, nor after a restart")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
+    world.Control(EPlanControl::Cancel, "P1", 1, "T");
+    RestartEngine(world);
+    world.Control(EPlanControl::Cancel, "P1", 2, "T");
+    world.Control(EPlanControl::Abort, "P1", 3, "T");
+    REQUIRE(world.TryRun());
+    CHECK(world.replies.at(2).bAccepted);
+    CHECK(world.replies.at(3).bAccepted);
+    const Lines reports = world.GetReportsOf("P1");
+    CHECK(std::ranges::count(reports, "CancelResult Failed") == 1);
+    CHECK(std::ranges::count(reports, "AbortResult Success") == 1);
+}
+
 TEST_CASE("A job that was given up and had not ended keeps its robot out of work over a restart, too")
 {
     for (const bool bUncertain : {false, true})

@@ -37,7 +37,7 @@ struct PlanProgress
     bool bArrived = false;               ///< The place of its first step was reached.
     std::optional<EPlanControl> control; ///< Acknowledged, its outcome not known.
     std::size_t controlCount = 0;        ///< How often it was asked for: each is owed a result.
-    std::vector<std::string> requestIDs; ///< TransactionIDs of its controls; the latest ones.
+    std::vector<std::string> requestIDs; ///< Its controls ("Pause 4711": the transactionID), the latest ones.
 
     bool operator==(const PlanProgress&) const = default;
 };
