@@ -45,7 +45,10 @@ struct Graph
     std::map<std::size_t, Field> fields; ///< By target.
 };
 
-/// Of each node, metres. Nodes in the same place are one place.
+/// Nodes that are nearer than maps are drawn are in the same place.
+constexpr double SAME_PLACE = 0.01;
+
+/// Of each node, metres.
 std::vector<double> MeasureDeviations(const std::vector<SiteNode>& nodes)
 {
     std::vector<std::size_t> byX(nodes.size());
@@ -59,7 +62,7 @@ std::vector<double> MeasureDeviations(const std::vector<SiteNode>& nodes)
              ++right)
         {
             const double distance = GetDistance(node, nodes[*right]);
-            if (distance > 0 && nodes[*right].mapID == node.mapID)
+            if (distance > SAME_PLACE && nodes[*right].mapID == node.mapID)
             {
                 deviations[*left] = std::min(deviations[*left], distance / 2);
                 deviations[*right] = std::min(deviations[*right], distance / 2);

@@ -81,8 +81,9 @@ struct CancelDrive
     bool operator==(const CancelDrive&) const = default;
 };
 
-/// Do a job here. Answered by JobStarted and then JobFinished or JobFailed, or by JobUnknown where it was surely not begun and
-/// may be given again, or JobUncertain where nobody can tell. All locations are canonical and name the robot itself ("LR01.CP01", never "AMR.CP01").
+/// Do a job here. Answered by JobStarted and then JobFinished or JobFailed, or by JobUnknown where it was surely not begun
+/// and may be given again, or JobUncertain where nobody can tell. All locations are canonical and name the robot itself
+/// ("LR01.CP01", never "AMR.CP01").
 struct StartJob
 {
     std::string planID;
@@ -134,7 +135,8 @@ struct Resume
     bool operator==(const Resume&) const = default;
 };
 
-/// Charge; the state shows bCharging. Until it does the robot is told again every 10 s, and an alarm tells of it. Only where the robot stands at its charging station, without a drive or a job.
+/// Charge; the state shows bCharging. Until it does the robot is told again every 10 s, and an alarm tells of it. Only where
+/// the robot stands at its charging station, without a drive or a job.
 struct StartCharging
 {
     bool operator==(const StartCharging&) const = default;
