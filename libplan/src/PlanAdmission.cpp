@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -49,6 +50,11 @@ Core::Result<void> CheckID(const std::string& text, std::string path, bool bMayB
             Core::QuoteForError(text));
     }
     return {};
+}
+
+bool IsSet(const Core::Location& dock)
+{
+    return dock.GetSegments().back().kind == Core::ESegmentKind::Set;
 }
 
 std::string_view DescribeRule(EPlaceRule rule)
@@ -243,6 +249,11 @@ Core::Result<ResolvedPlan> PlanAdmission::Resolve(const Plan& plan) const
                 plan.steps[i].action);
         }
     }
+    if (Core::Result<void> checked = CheckPorts(plan, resolved);
+        !checked.has_value() && !_options.dispatch.bLoadsIntoTakenPorts)
+    {
+        return tl::unexpected(std::move(checked.error()));
+    }
     if (Core::Result<void> found = FindCandidates(plan, resolved); !found.has_value())
     {
         return tl::unexpected(std::move(found.error()));
@@ -356,25 +367,55 @@ Core::Result<std::optional<Core::Location>> PlanAdmission::ResolvePlace(
     return std::optional(std::move(place));
 }
 
-/// Section 4.1: the jobs of a step are done without the robot moving. An arm reaches the sets around it, which ones the map
-/// does not say; places of other stations that have a node with the position's are within its reach too.
+/// Section 4.1: the jobs of a step are done without the robot moving. An arm reaches the sets around the one where it stands,
+/// which ones the map does not say; places of other stations that have a node with the position's are within its reach too.
 bool PlanAdmission::IsAt(const Core::Location& place, const Core::Location& position) const
 {
-    if (place.GetSegments().back().kind == Core::ESegmentKind::MemoryPort)
-    {
-        return place.GetAreaNumberOrNull() == position.GetAreaNumberOrNull();
-    }
-    const std::string dockID = place.GetDockingPlace().GetText();
-    if (dockID == position.GetText() || dockID.starts_with(position.GetText() + '.'))
+    const Core::Location dock = place.GetDockingPlace();
+    if (dock.GetText() == position.GetText() || dock.GetText().starts_with(position.GetText() + '.'))
     {
         return true;
     }
-    const SiteStation* dockOrNull = _site.FindStationOrNull(dockID);
+    if (IsSet(dock) && IsSet(position) && position.HasArea())
+    {
+        return dock.GetAreaNumberOrNull() == position.GetAreaNumberOrNull();
+    }
+    const SiteStation* dockOrNull = _site.FindStationOrNull(dock.GetText());
     const SiteStation* stationOrNull = _site.FindStationOrNull(position.GetText());
     return dockOrNull != nullptr && stationOrNull != nullptr
         && std::ranges::any_of(dockOrNull->nodeIDs, [stationOrNull](const std::string& nodeID) {
                return std::ranges::count(stationOrNull->nodeIDs, nodeID) > 0;
            });
+}
+
+/// A port has one carrier. What is on it before the plan nobody knows here.
+Core::Result<void> PlanAdmission::CheckPorts(const Plan& plan, const ResolvedPlan& resolved)
+{
+    std::map<std::string, EActionEffect> latest; // by port, whichever the robot is
+    for (std::size_t i = 0; i < resolved.steps.size(); ++i)
+    {
+        const ResolvedStep& step = resolved.steps[i];
+        const bool bLoad = step.rule->effect == EActionEffect::Load;
+        for (std::size_t j = 0; step.rule->effect != EActionEffect::None && j < step.jobs.size(); ++j)
+        {
+            const std::optional<Core::Location>& port = bLoad ? step.jobs[j].to : step.jobs[j].from;
+            if (!port.has_value() || !port->IsRobotPort())
+            {
+                continue;
+            }
+            const auto [known, bFirst] =
+                latest.emplace(port->GetText().substr(port->GetText().find('.')), step.rule->effect);
+            if (!bFirst && std::exchange(known->second, step.rule->effect) == step.rule->effect)
+            {
+                return Refuse(
+                    ECoreError::InvalidLocation,
+                    fmt::format("steps[{}].jobs[{}].{}", i, j, bLoad ? "to" : "from"),
+                    bLoad ? "a port that no job before has loaded" : "a port that no job before has unloaded",
+                    fmt::format("{} for job {}", port->GetOriginalText(), plan.steps[i].jobs[j].jobID));
+            }
+        }
+    }
+    return {};
 }
 
 Core::Result<void> PlanAdmission::CheckPlace(const Core::Location& place, EPlaceRule rule, const std::string& path)

@@ -54,6 +54,7 @@ class PlanAdmission
     [[nodiscard]] bool IsAt(const Core::Location& place, const Core::Location& position) const;
     [[nodiscard]] Core::Result<void> CheckPlace(const Core::Location& place, EPlaceRule rule, const std::string& path)
         const;
+    [[nodiscard]] static Core::Result<void> CheckPorts(const Plan& plan, const ResolvedPlan& resolved);
     [[nodiscard]] Core::Result<void> FindCandidates(const Plan& plan, ResolvedPlan& resolved) const;
     [[nodiscard]] std::optional<std::string> GetRobotObjectionOrNull(
         const RobotOptions& robot,

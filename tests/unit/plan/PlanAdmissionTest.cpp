@@ -44,6 +44,21 @@ TEST_CASE("4.1 What is wrong with a plan is refused with a message that names th
         {"a to at another place than the step's",
          [](Plan& plan) { plan.steps[1].jobs[0].to = "A02.CP04"; },
          "steps[1].jobs[0].to: expected a place within reach of A02.CP03, the step's position"},
+        {"a set's memory place from where no set is",
+         [](Plan& plan) {
+             plan.steps = {{1, "MemoryPickAndPlace", "A01.CP01", {}, {{"J", "AMR.TP01.MP01", "A01.SET01.MP01"}}}};
+         },
+         "steps[0].jobs[0].to: expected a place within reach of A01.CP01, the step's position"},
+        {"a load into a port that is loaded already",
+         [](Plan& plan) {
+             plan.steps[0].jobs.push_back({"again", "A01.CP01", "AMR.CP01"});
+         },
+         "steps[0].jobs[1].to: expected a port that no job before has loaded"},
+        {"an unload of a port that is unloaded already",
+         [](Plan& plan) {
+             plan.steps[1].jobs.push_back({"again", "AMR.CP01", "A02.CP03"});
+         },
+         "steps[1].jobs[1].from: expected a port that no job before has unloaded"},
         {"no from", [](Plan& plan) { plan.steps[0].jobs[0].from.reset(); }, "steps[0].jobs[0].from"},
         {"a to of the wrong kind", [](Plan& plan) { plan.steps[0].jobs[0].to = "A01.CP02"; }, "steps[0].jobs[0].to"},
         {"a port that no robot has", [](Plan& plan) { plan.steps[0].jobs[0].to = "AMR.CP09"; }, "AMR.CP09"},
@@ -107,6 +122,27 @@ TEST_CASE("4.1 A plan that no robot can do is refused with each robot's reason; 
     CHECK_FALSE(world.replies.at(2).bAccepted);
     CHECK(
         world.replies.at(2).message.find("LR01 cannot do CassetteLoad: its gripper is too small") != std::string::npos);
+}
+
+TEST_CASE("4.1 A port may be loaded again behind an unload; one that is taken by option")
+{
+    Plan plan = MakeLogisticsPlan("P1");
+    Step again = plan.steps[0];
+    again.stepNo = 3;
+    again.jobs[0].jobID = "again";
+    EngineOptions options = ACS::Testing::MakeTestOptions(false);
+    SECTION("Behind an unload")
+    {
+        plan.steps.push_back(again);
+    }
+    SECTION("By option")
+    {
+        options.dispatch.bLoadsIntoTakenPorts = true;
+        plan.steps[0].jobs.push_back(again.jobs[0]);
+    }
+    PlanWorld world(1, options, ACS::Testing::MakeTestSite());
+    world.Submit(plan, 1);
+    CHECK(world.replies.at(1).bAccepted);
 }
 
 TEST_CASE("4.1 A place of another station is within the reach of a step where the two stations have a node in common")

@@ -352,9 +352,11 @@ TEST_CASE("6.5 to 6.8 What cannot be done is answered by a result report that sa
     CHECK(world.GetReportsOf("P1").back() == "CancelResult Failed");
 }
 
-TEST_CASE("5.9 Carriers stand at their port's place, and an occupied port raises an alarm but stops nothing")
+TEST_CASE("5.9 Carriers stand at their port's place; where a taken port may be loaded that is told")
 {
-    PlanWorld world;
+    EngineOptions options = ACS::Testing::MakeTestOptions(false);
+    options.dispatch.bLoadsIntoTakenPorts = true;
+    PlanWorld world(1, options, ACS::Testing::MakeTestSite());
     world.Connect();
     Plan plan = MakeControlPlan("P1");
     plan.steps[0].jobs[0].to = "AMR.TP02";

@@ -115,7 +115,8 @@ struct DispatchOptions
     double batteryFloor = 20;  ///< Percent; a robot with less takes no plan and drives to its charging station.
     double batteryResume = 80; ///< Percent; until it has that much it takes no plan then, nor leaves the station.
     std::chrono::milliseconds chargeRetry{10'000}; ///< For a robot to show that it charges; then it is told again.
-    /// Whether a load into a port that has a carrier, as far as the engine knows, is begun all the same.
+    /// Whether a load into a port that has a carrier, as far as the engine knows, is begun all the same, and a plan is taken
+    /// that loads one port twice.
     bool bLoadsIntoTakenPorts = false;
 
     bool operator==(const DispatchOptions&) const = default;
