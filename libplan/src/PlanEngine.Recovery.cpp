@@ -135,7 +135,9 @@ void PlanEngine::Impl::RestorePlan(PlanRecord record)
     if (!resolved.has_value() || bRobotGone)
     {
         const std::string reason = resolved.has_value() ? robotID + " is gone" : Core::Describe(resolved.error());
-        EndUnfit(plan, "While the ACS was down, the site, its robots or what plans may ask for have changed: " + reason);
+        EndUnfit(
+            plan,
+            "While the ACS was down, the site, its robots or what plans may ask for have changed: " + reason);
         return;
     }
     plan.resolved = std::move(*resolved);

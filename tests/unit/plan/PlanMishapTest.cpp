@@ -297,7 +297,8 @@ TEST_CASE("D-22 pause.mode after_job: the plan is paused when its job is to be d
     CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Paused);
 }
 
-TEST_CASE("A job at work whose end the robot cannot tell is held alone: nothing after it was begun, whatever its marks say")
+TEST_CASE(
+    "A job at work whose end the robot cannot tell is held alone: nothing after it was begun, whatever its marks say")
 {
     PlanWorld world;
     world.GetRobot("LR01").mark = "5 5 0";
