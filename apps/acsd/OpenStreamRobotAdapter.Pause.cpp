@@ -41,6 +41,11 @@ void OpenStreamRobotAdapter::CancelJob(const std::string& jobID, AdapterActions&
 void OpenStreamRobotAdapter::FollowPause(AdapterActions& out)
 {
     const bool bFree = _controls.empty() && _look == ELook::None && _armState == EArmState::Ready;
+    const bool bToLook = _program == EProgram::Retrying && (_bPauseWanted || _bGivenUp) && _glance == EGlance::None;
+    if (bFree && bToLook && IsGoOnRefused())
+    {
+        LookAtRefusedProgram(out);
+    }
     if (bFree && _phase == EJobPhase::Selected && !_bPauseWanted)
     {
         _phase = EJobPhase::Starting;
@@ -63,10 +68,6 @@ void OpenStreamRobotAdapter::FollowPause(AdapterActions& out)
         {
             _program = EProgram::GoingOn;
             SendControl(EControl::GoOn, START_URL, "{}");
-        }
-        else if (_program == EProgram::Retrying && (_bPauseWanted || _bGivenUp) && _glance == EGlance::None)
-        {
-            LookAtRefusedProgram(out);
         }
     }
     TellPaused(out);
@@ -149,7 +150,7 @@ void OpenStreamRobotAdapter::RefuseGoOn(const std::string& refusal, AdapterActio
 }
 
 /// Somebody may have had it go on, and it may have come to its end by now: only one that is seen to stand, with its counters
-/// as they were, is started or given up.
+/// as they were, is started or given up. FollowPause comes behind it.
 void OpenStreamRobotAdapter::LookAtRefusedProgram(AdapterActions& out)
 {
     _bSeenStanding = false;
@@ -160,7 +161,6 @@ void OpenStreamRobotAdapter::LookAtRefusedProgram(AdapterActions& out)
     else if (_bGoOnRepeated)
     {
         _program = EProgram::Runs;
-        FollowPause(out);
     }
     else
     {

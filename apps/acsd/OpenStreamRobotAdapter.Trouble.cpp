@@ -110,6 +110,7 @@ void OpenStreamRobotAdapter::Retry(AdapterActions& out)
     else if (_armState == EArmState::Ready && _program == EProgram::Retrying && _glance == EGlance::None)
     {
         LookAtRefusedProgram(out);
+        FollowPause(out);
         return;
     }
     else
@@ -254,6 +255,7 @@ void OpenStreamRobotAdapter::GiveUpGlance(bool bForGood, AdapterActions& out)
     else if (IsGoOnRefused())
     {
         LookAtRefusedProgram(out);
+        FollowPause(out);
     }
 }
 
@@ -296,6 +298,7 @@ void OpenStreamRobotAdapter::TakeMotorGlance(bool bOn, AdapterActions& out)
         else if (bGoOnRefused)
         {
             LookAtRefusedProgram(out);
+            FollowPause(out);
         }
         return;
     }

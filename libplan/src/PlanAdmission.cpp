@@ -396,9 +396,9 @@ Core::Result<void> PlanAdmission::CheckPorts(const Plan& plan, const ResolvedPla
     {
         const ResolvedStep& step = resolved.steps[i];
         const bool bLoad = step.rule->effect == EActionEffect::Load;
-        for (std::size_t j = 0; step.rule->effect != EActionEffect::None && j < step.jobs.size(); ++j)
+        for (std::size_t job = 0; step.rule->effect != EActionEffect::None && job < step.jobs.size(); ++job)
         {
-            const std::optional<Core::Location>& port = bLoad ? step.jobs[j].to : step.jobs[j].from;
+            const std::optional<Core::Location>& port = bLoad ? step.jobs[job].to : step.jobs[job].from;
             if (!port.has_value() || !port->IsRobotPort())
             {
                 continue;
@@ -409,9 +409,9 @@ Core::Result<void> PlanAdmission::CheckPorts(const Plan& plan, const ResolvedPla
             {
                 return Refuse(
                     ECoreError::InvalidLocation,
-                    fmt::format("steps[{}].jobs[{}].{}", i, j, bLoad ? "to" : "from"),
+                    fmt::format("steps[{}].jobs[{}].{}", i, job, bLoad ? "to" : "from"),
                     bLoad ? "a port that no job before has loaded" : "a port that no job before has unloaded",
-                    fmt::format("{} for job {}", port->GetOriginalText(), plan.steps[i].jobs[j].jobID));
+                    fmt::format("{} for job {}", port->GetOriginalText(), plan.steps[i].jobs[job].jobID));
             }
         }
     }
