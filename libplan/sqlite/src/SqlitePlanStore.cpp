@@ -575,6 +575,10 @@ Core::Result<std::unique_ptr<SqlitePlanStore>> SqlitePlanStore::Open(const std::
     {
         return tl::unexpected(rescued.error());
     }
+    if (Core::Result<void> logged = StoreFiles::CheckLogHasStore(path); !logged.has_value())
+    {
+        return tl::unexpected(std::move(logged.error()));
+    }
     try
     {
         auto impl = std::make_unique<Impl>(path, path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
@@ -607,9 +611,13 @@ Core::Result<StoreOrigin> SqlitePlanStore::Inspect(const std::string& path)
         return tl::unexpected(std::move(checked.error()));
     }
     std::error_code missing;
+    const bool bRescued = std::filesystem::exists(GetRescuePath(path), missing);
+    if (Core::Result<void> logged = StoreFiles::CheckLogHasStore(path); !logged.has_value() && !bRescued)
+    {
+        return tl::unexpected(std::move(logged.error()));
+    }
     if (!std::filesystem::exists(path, missing))
     {
-        const bool bRescued = std::filesystem::exists(GetRescuePath(path), missing);
         return StoreOrigin{!bRescued, bRescued, 0, GetNewestSchemaVersion()};
     }
     try

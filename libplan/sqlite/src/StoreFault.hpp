@@ -13,7 +13,7 @@ namespace ACS::Planning
 
 /// What to do with a file that holds no plans that can be read.
 inline constexpr std::string_view RESTORE_IT =
-    "restore it from a backup, or move it away with the files -wal and -shm beside it to begin with an empty one";
+    "move it away with the files -wal, -shm and .lock beside it, and put a backup there, or nothing to begin with an empty one";
 
 /// Each error of a store names its path, what is wanted and what to do for it ("expected …; …"), and what failed with the
 /// reason of the system or of SQLite ("found …").

@@ -127,6 +127,24 @@ Core::Result<void> StoreFiles::CheckUsable(const std::string& path)
     return CheckFolder(path);
 }
 
+Core::Result<void> StoreFiles::CheckLogHasStore(const std::string& path)
+{
+    struct stat status = {};
+    const bool bStore = ::stat(path.c_str(), &status) == 0 && status.st_size > 0;
+    const std::string log = GetLogPath(path);
+    if (bStore || ::stat(log.c_str(), &status) != 0 || status.st_size == 0)
+    {
+        return {};
+    }
+    return Refuse(
+        EPlanningError::StoreCorrupt,
+        path,
+        fmt::format(
+            "the store to which {} belongs; put that file back, or move both away to begin with an empty one",
+            log),
+        "a log of a store, and no store");
+}
+
 std::string StoreFiles::Resolve(const std::string& path)
 {
     std::error_code unresolved;

@@ -47,6 +47,10 @@ public:
     /// Whether a store is there that this program may write, or can be made. EPlanningError::StoreFailed.
     [[nodiscard]] static Core::Result<void> CheckUsable(const std::string& path);
 
+    /// What is stored last stands in the log: SQLite throws one away that has no store, or an empty one.
+    /// EPlanningError::StoreCorrupt.
+    [[nodiscard]] static Core::Result<void> CheckLogHasStore(const std::string& path);
+
     /// What a path leads to: by each link to it a store is the same one, and its other files are beside it.
     [[nodiscard]] static std::string Resolve(const std::string& path);
 

@@ -177,6 +177,28 @@ TEST_CASE(
     CHECK_FALSE(Files::exists(file + ".rescued"));
 }
 
+TEST_CASE("Store: a log without its store is not thrown away for a new one")
+{
+    const StoreFolder folder;
+    const std::string file = folder.GetFile();
+    const std::string lost = folder.GetFile("lost.db");
+    const std::unique_ptr<SqlitePlanStore> store = OpenStore(file);
+    REQUIRE(store->Append(MakeBatch("LR01")).has_value());
+    Files::copy_file(file + "-wal", lost + "-wal"); // as a crash leaves it
+    if (GENERATE(false, true))
+    {
+        std::ofstream(lost).flush();
+    }
+    for (const Core::Error& error : {SqlitePlanStore::Open(lost).error(), SqlitePlanStore::Inspect(lost).error()})
+    {
+        CHECK(error.code == EPlanningError::StoreCorrupt);
+        CHECK(Contains(Core::Describe(error), lost + "-wal belongs; put that file back"));
+    }
+    CHECK(Files::file_size(lost + "-wal") == Files::file_size(file + "-wal"));
+    Files::copy_file(file, lost, Files::copy_options::overwrite_existing);
+    CHECK(LoadRobots(*OpenStore(lost)) == std::vector<std::string>{"LR01"});
+}
+
 TEST_CASE("Store: a file that is put back is gone on with, and what was saved meanwhile goes")
 {
     const StoreFolder folder;
@@ -302,7 +324,7 @@ TEST_CASE("Store: each failure to open names the path, the reason and what to do
         {"text/acsd.db", "a file in a folder; give another path", "which is no folder"},
         {"folder", "a file; give the path of one in that folder", "a folder"},
         {"pipe", "a regular file; give another path", "a device, a pipe or a socket"},
-        {"text", "an undamaged plan store; restore it from a backup", "file is not a database"},
+        {"text", "an undamaged plan store; move it away", "file is not a database"},
         {"foreign", "a plan store; give another path", "a database of another program"},
         {"new", "start the newer program that wrote it", "version 99"}};
     if (::geteuid() != 0) // who may do everything
@@ -619,7 +641,7 @@ TEST_CASE("Store: a file that lacks its tables, or has a version that cannot be,
     const std::string text = Core::Describe(refused.error());
     INFO(text);
     CHECK(text.find(found) != std::string::npos);
-    CHECK(text.find("restore it from a backup") != std::string::npos);
+    CHECK(text.find("put a backup there") != std::string::npos);
 }
 
 TEST_CASE("Store: to look at a store makes, changes and takes nothing, also while another program has it open")
