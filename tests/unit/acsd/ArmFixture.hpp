@@ -214,6 +214,16 @@ struct ArmFixture
         actions.clear();
     }
 
+    /// After a loss, with a program that has not ended; what it asks for then is still to be taken.
+    void ComeBack()
+    {
+        Tell(OpenStream::ClientReady{});
+        Settle(OpenStream::EControlOutcome::Accepted); // motor_on
+        TellData(MOTOR_ON_SAMPLE);
+        static_cast<void>(TakeRequests());
+        TellData("[6,5,0]");
+    }
+
     /// "MONITOR url" or "CONTROL url body" of what was asked for since the last call.
     std::vector<std::string> TakeRequests()
     {

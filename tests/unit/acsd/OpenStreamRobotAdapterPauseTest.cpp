@@ -122,19 +122,10 @@ TEST_CASE(
     "6.8 A program whose going on got lost is stopped, looked at and started again; that it runs already is no failure")
 {
     ArmFixture arm;
-    arm.StartRunning();
-    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
-    arm.Accept("[6,5,0]");
-    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
-    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     // While it was under way, or after the silence that was taken for its answer.
-    arm.Settle(GENERATE(OpenStream::EControlOutcome::Unknown, OpenStream::EControlOutcome::Accepted));
+    SettleGoingOn(arm, GENERATE(OpenStream::EControlOutcome::Unknown, OpenStream::EControlOutcome::Accepted));
     arm.Tell(OpenStream::ClientLost{});
-    arm.Tell(OpenStream::ClientReady{});
-    arm.Settle(OpenStream::EControlOutcome::Accepted); // motor_on
-    arm.TellData(R"({"val":0})");
-    static_cast<void>(arm.TakeRequests());
-    arm.TellData("[6,5,0]");
+    arm.ComeBack();
     CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
     SECTION("It has come to its end meanwhile: nothing is started")
     {
@@ -194,11 +185,7 @@ TEST_CASE("6.8 A program whose stop got lost is stopped again, and goes on where
     {
         arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
     }
-    arm.Tell(OpenStream::ClientReady{});
-    arm.Settle(OpenStream::EControlOutcome::Accepted); // motor_on
-    arm.TellData(R"({"val":0})");
-    static_cast<void>(arm.TakeRequests());
-    arm.TellData("[6,5,0]");
+    arm.ComeBack();
     CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
     arm.Accept("[6,5,0]");
     CHECK(arm.TakeRequests() == (bResumed ? std::vector<std::string>{START} : std::vector<std::string>{}));
@@ -323,11 +310,7 @@ TEST_CASE("6.8 A program that stands and is refused to go on is told, and starte
     SECTION("The connection is lost meanwhile")
     {
         arm.Tell(OpenStream::ClientLost{});
-        arm.Tell(OpenStream::ClientReady{});
-        arm.Settle(OpenStream::EControlOutcome::Accepted); // motor_on
-        arm.TellData(MOTOR_ON_SAMPLE);
-        static_cast<void>(arm.TakeRequests());
-        arm.TellData("[6,5,0]");
+        arm.ComeBack();
         ShowLookAtProgram(arm, STANDS);
         CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     }
@@ -351,11 +334,7 @@ TEST_CASE("D-16 A program that is refused to go on is given up only where it is 
 TEST_CASE("6.8 A going on that got lost before counts as done where the controller does not show playback")
 {
     ArmFixture arm;
-    arm.StartRunning();
-    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
-    arm.Accept("[6,5,0]");
-    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
-    arm.Settle(OpenStream::EControlOutcome::Unknown);
+    SettleGoingOn(arm, OpenStream::EControlOutcome::Unknown);
     arm.Tell(OpenStream::ClientLost{});
     arm.BringUp("[6,5,0]");
     REQUIRE(arm.lastControl == STOP);

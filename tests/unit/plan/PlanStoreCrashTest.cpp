@@ -38,6 +38,16 @@ std::string GetHeldJob(const PlanWorld& world)
     return held == alarms.end() ? std::string() : held->jobID.value_or(std::string());
 }
 
+/// While the disk fails LR01 does its first job.
+void CrashBehindFirstJob(PlanWorld& world)
+{
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    world.store.bFails = true;
+    REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").doneJobs.size() == 1; }));
+    world.Crash();
+    world.store.bFails = false;
+}
+
 /// The first job of LR01 was done, and nobody wrote that down: both of its jobs are asked for, and each is done once.
 void CheckFirstJobHeld(PlanWorld& world)
 {
@@ -55,11 +65,7 @@ void CheckFirstJobHeld(PlanWorld& world)
 TEST_CASE("A crash while the disk fails: what the robot did and nobody wrote down is held, not done again")
 {
     PlanWorld world;
-    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
-    world.store.bFails = true;
-    REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").doneJobs.size() == 1; }));
-    world.Crash();
-    world.store.bFails = false;
+    CrashBehindFirstJob(world);
     RestartEngine(world);
     REQUIRE(world.TryRun());
     REQUIRE(world.engine->GetActiveAlarms().size() == 1);
@@ -134,11 +140,7 @@ TEST_CASE(
     "A crash while the disk fails: so is the first job of a robot that took its first drive and was switched off since")
 {
     PlanWorld world;
-    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
-    world.store.bFails = true;
-    REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").doneJobs.size() == 1; }));
-    world.Crash();
-    world.store.bFails = false;
+    CrashBehindFirstJob(world);
     world.GetRobot("LR01").Forget();
     RestartEngine(world);
     CheckFirstJobHeld(world);

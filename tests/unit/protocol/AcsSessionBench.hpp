@@ -70,6 +70,19 @@ public:
         session.OnClosed("gone", clock.GetNow(), probe.out);
     }
 
+    /// The plan of the fixture ExecutionPlanLR is taken.
+    void AnswerPlan()
+    {
+        session.Answer(
+            Protocol::EAcsCommand::ExecutionPlan,
+            "e2a97f63-4ed2-4d85-a2b3-11a51c188111",
+            Protocol::EAckResult::Success,
+            "registered",
+            Protocol::PlanAck{"PLAN-20250702-001"},
+            clock.GetNow(),
+            probe.out);
+    }
+
     [[nodiscard]] bool TrySend(const std::string& transactionID)
     {
         return session.TrySendDurable(MakeReport(transactionID), clock.GetNow(), probe.out);

@@ -353,16 +353,8 @@ TEST_CASE("D-23 Another request under a known transactionId is refused: the answ
     Bench bench;
     bench.StartAndReplay();
     const std::string plan = Testing::ReadFixture("ExecutionPlanLR");
-    const std::string transactionID = "e2a97f63-4ed2-4d85-a2b3-11a51c188111";
     bench.Text(plan);
-    bench.session.Answer(
-        EAcsCommand::ExecutionPlan,
-        transactionID,
-        EAckResult::Success,
-        "registered",
-        Protocol::PlanAck{"PLAN-20250702-001"},
-        bench.clock.GetNow(),
-        bench.probe.out);
+    bench.AnswerPlan();
     const std::string first = bench.probe.GetAll<Protocol::SendText>().back().text;
 
     std::string other = plan;
@@ -389,7 +381,6 @@ TEST_CASE("13.5 A request that comes again is answered by the same text and exec
     Bench bench;
     bench.StartAndReplay();
     const std::string plan = Testing::ReadFixture("ExecutionPlanLR");
-    const std::string transactionID = "e2a97f63-4ed2-4d85-a2b3-11a51c188111";
     bench.Text(plan);
     REQUIRE(bench.probe.GetEvents<Protocol::RequestReceived>().size() == 1);
     bench.Text(plan);
@@ -398,20 +389,10 @@ TEST_CASE("13.5 A request that comes again is answered by the same text and exec
     CHECK(bench.probe.GetNotes() == Notes{EProtocolNote::DuplicateRequest});
 
     bench.probe.Clear();
-    const auto answer = [&bench, &transactionID] {
-        bench.session.Answer(
-            EAcsCommand::ExecutionPlan,
-            transactionID,
-            EAckResult::Success,
-            "registered",
-            Protocol::PlanAck{"PLAN-20250702-001"},
-            bench.clock.GetNow(),
-            bench.probe.out);
-    };
-    answer();
+    bench.AnswerPlan();
     const std::string first = bench.probe.GetAll<Protocol::SendText>().at(0).text;
     bench.probe.Clear();
-    answer();
+    bench.AnswerPlan();
     CHECK(bench.probe.out.empty());
 
     bench.clock.Advance(9min);
