@@ -37,6 +37,7 @@ enum class EActionEffect : std::uint8_t
     None,
     Load,   ///< The port in to has the carrier.
     Unload, ///< The port in from is empty.
+    Move,   ///< Both: whichever of from and to is a carrier port of the robot is emptied or has the carrier.
 };
 
 /// One action of the MCS (section 4.1 of MCS-ACS).
@@ -128,6 +129,8 @@ struct EngineOptions
     std::vector<RobotOptions> robots;
     ActionTable actions = MakeStandardActions();
     std::vector<Core::Location> places; ///< Ports inside stations ("A01.CP01.TP01"); stations are known from the map.
+    /// By station: other stations whose places a robot that is docked at it can work at. Nothing else is within reach.
+    std::map<std::string, std::vector<std::string>, std::less<>> reach;
 
     std::size_t maximumPlans = 100; ///< Plans that are not finished; one more is refused.
     std::size_t maximumReports =

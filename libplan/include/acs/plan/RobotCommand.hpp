@@ -98,6 +98,9 @@ struct StartJob
     /// again, because the robot never had it, has the same commandID.
     std::string commandID;
     std::string mark; ///< StateChanged::mark of the moment before.
+    /// For robots that cannot show a UUID, such as the words of an arm's controller: random, 1 to 2^31 - 1, different from
+    /// that of the robot's previous job, stored with the command. 0: unknown, commanded by an older version.
+    std::int32_t jobNumber = 0;
 
     bool operator==(const StartJob&) const = default;
 };

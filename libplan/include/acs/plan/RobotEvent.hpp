@@ -28,6 +28,16 @@ struct LinkChanged
     bool operator==(const LinkChanged&) const = default;
 };
 
+/// What the robot's own sensors show at one of its carrier ports.
+struct PortLoad
+{
+    std::string port;      ///< A port of RobotOptions::ports ("LR01.CP01").
+    bool bLoaded = false;  ///< Whether a carrier is there.
+    std::string carrierID; ///< Its id; empty: the robot does not know it, or the port is empty.
+
+    bool operator==(const PortLoad&) const = default;
+};
+
 /// The robot's present state; raised on every change, as often as the robot tells.
 struct StateChanged
 {
@@ -53,6 +63,8 @@ struct StateChanged
     /// What is true of the robot now and will have changed once a job has begun, in words of the adapter's own (an arm's
     /// counters). Comes back with the job; empty where the commandID is enough.
     std::string mark;
+    /// One entry per carrier port, in the order of RobotOptions::ports. Absent where the robot reports no loads.
+    std::optional<std::vector<PortLoad>> loads;
 
     bool operator==(const StateChanged&) const = default;
 };

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace ACS::Sim
+{
+
+/// A vehicle has docked: its arm reaches the places of these stations, and no others. Empty: it has left them.
+struct RobotDocked
+{
+    std::string robotID;
+    std::vector<std::string> stationIDs;
+
+    bool operator==(const RobotDocked&) const = default;
+};
+
+/// A robot has moved the carrier, with all that is inside it, from one place to another. One of the two is a port of the
+/// robot ("LR01.CP01"), or both are.
+struct CarrierMoved
+{
+    std::string robotID;
+    std::string carrierID; ///< Empty in a request: whatever is at `from`. Never empty in the journal.
+    std::string from;
+    std::string to;
+
+    bool operator==(const CarrierMoved&) const = default;
+};
+
+/// A robot has moved one memory ("A01.SET01.MP01", "CR01.TP01.MP01").
+struct MemoryMoved
+{
+    std::string robotID;
+    std::string from;
+    std::string to;
+
+    bool operator==(const MemoryMoved&) const = default;
+};
+
+/// A robot has opened or closed the cover of a set.
+struct CoverMoved
+{
+    std::string robotID;
+    std::string set;
+    bool bClosed = false;
+
+    bool operator==(const CoverMoved&) const = default;
+};
+
+/// A robot has pushed the start button of a place.
+struct ButtonPushed
+{
+    std::string robotID;
+    std::string place;
+
+    bool operator==(const ButtonPushed&) const = default;
+};
+
+/// By a person's hand, not by a robot (mcs-sim --restock): the carrier is at the place now, wherever it was before, and what
+/// was at the place is gone. An empty place takes the carrier off the floor.
+struct CarrierPlaced
+{
+    std::string carrierID;
+    std::string place;
+
+    bool operator==(const CarrierPlaced&) const = default;
+};
+
+enum class EMemory : std::uint8_t
+{
+    Unknown,
+    Empty,
+    Occupied,
+};
+
+/// By a person's hand: what a memory place holds.
+struct MemoryPlaced
+{
+    std::string place;
+    EMemory memory = EMemory::Unknown;
+
+    bool operator==(const MemoryPlaced&) const = default;
+};
+
+/// One line of the journal.
+using WorldEvent = std::
+    variant<RobotDocked, CarrierMoved, MemoryMoved, CoverMoved, ButtonPushed, CarrierPlaced, MemoryPlaced>;
+
+} // namespace ACS::Sim
