@@ -189,7 +189,7 @@ void AcsSession::Impl::Forget(SessionActions& out)
     _output.CancelAll(out);
     _inFlight.clear();
     _bWasRegistered = false;
-    _bReplayDone = false;
+    _phase = Detail::EConnectPhase::Replay;
     _bRoomWanted = false;
     _unansweredInRow = 0;
 }

@@ -44,6 +44,14 @@ enum class EAcsSessionState : std::uint8_t
     Stopping,
 };
 
+/// How far a registered connection is in the order of section 6.
+enum class EConnectPhase : std::uint8_t
+{
+    Replay,   ///< Until ReplayDone.
+    Snapshot, ///< States go out as the window has room.
+    Positions,
+};
+
 /// What is kept of a status: the latest of its kind and robot. The map's order is the order of section 6.
 using StatusKey = std::pair<EAcsCommand, std::string>;
 
@@ -87,7 +95,7 @@ class AcsSession::Impl
 
     EState _state = EState::Stopped;
     bool _bWasRegistered = false; ///< On this connection.
-    bool _bReplayDone = false;
+    Detail::EConnectPhase _phase = Detail::EConnectPhase::Replay;
     bool _bRoomWanted = false;
     std::string _registrationID;
     std::string _farewellID;
@@ -130,6 +138,8 @@ private:
     /// After anything that may have made room or work: statuses first, then whoever was turned away.
     void UseRoom(Core::Now now, SessionActions& out);
     void SendStatuses(Core::Now now, SessionActions& out);
+    /// Once, after the last state of the snapshot.
+    void BeginPositions(Core::Now now, SessionActions& out);
     /// What is in flight of this kind and robot is not sent again.
     void Supersede(const AcsPayload& status);
     /// All deadlines lie equally far ahead, so that a timer that runs is never too late; one that is too early finds

@@ -2,6 +2,7 @@
 #include "PendingRequests.hpp"
 #include <acs/core/Uuid.hpp>
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -11,6 +12,7 @@ namespace ACS::Protocol
 namespace
 {
 
+using Detail::EConnectPhase;
 using Detail::StatusKey;
 
 StatusKey MakeStatusKey(const AcsPayload& payload)
@@ -51,17 +53,12 @@ bool AcsSession::Impl::TrySendDurable(const AcsRequest& request, Core::Now now, 
 
 void AcsSession::Impl::ReplayDone(Core::Now now, SessionActions& out)
 {
-    if (_state != EState::Registered || _bReplayDone)
+    if (_state != EState::Registered || _phase != EConnectPhase::Replay)
     {
         return;
     }
-    _bReplayDone = true;
+    _phase = EConnectPhase::Snapshot;
     UseRoom(now, out);
-    if (_options.positionInterval.count() > 0)
-    {
-        _nextPosition = now.steady;
-        SchedulePosition(now, out);
-    }
 }
 
 void AcsSession::Impl::SendStatus(const AcsPayload& status, Core::Now now, SessionActions& out)
@@ -76,7 +73,7 @@ void AcsSession::Impl::SendStatus(const AcsPayload& status, Core::Now now, Sessi
 
 void AcsSession::Impl::SendPosition(const RobotPositionUpdate& positions, Core::Now now, SessionActions& out)
 {
-    if (_state != EState::Registered || !_bReplayDone)
+    if (_state != EState::Registered || _phase != EConnectPhase::Positions)
     {
         return;
     }
@@ -124,7 +121,7 @@ std::string AcsSession::Impl::SendPayload(AcsPayload payload, StatusKey statusKe
 
 void AcsSession::Impl::UseRoom(Core::Now now, SessionActions& out)
 {
-    if (_bReplayDone)
+    if (_phase != EConnectPhase::Replay)
     {
         SendStatuses(now, out);
     }
@@ -134,6 +131,22 @@ void AcsSession::Impl::UseRoom(Core::Now now, SessionActions& out)
         out.emplace_back(Deliver{WindowOpened{}});
     }
     ArmAckTimer(now, out);
+    BeginPositions(now, out);
+}
+
+void AcsSession::Impl::BeginPositions(Core::Now now, SessionActions& out)
+{
+    const bool bDue = _state == EState::Registered && _phase == EConnectPhase::Snapshot;
+    if (!bDue || std::ranges::any_of(_statuses, [](const auto& entry) { return entry.second.bPending; }))
+    {
+        return;
+    }
+    _phase = EConnectPhase::Positions;
+    if (_options.positionInterval.count() > 0)
+    {
+        _nextPosition = now.steady;
+        SchedulePosition(now, out);
+    }
 }
 
 void AcsSession::Impl::Supersede(const AcsPayload& status)

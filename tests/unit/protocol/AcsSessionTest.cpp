@@ -81,6 +81,33 @@ TEST_CASE("6 After registration: replay, TSC state, comm state, each robot, then
     CHECK(std::holds_alternative<Protocol::PositionDue>(std::get<Protocol::Deliver>(bench.probe.out.back()).event));
 }
 
+TEST_CASE("6 While the replay fills the window, positions wait for the states as these wait for room")
+{
+    Protocol::SessionOptions options;
+    options.window = 2;
+    Bench bench(options);
+    const Core::Now now = bench.clock.GetNow();
+    bench.session.SendStatus(Protocol::TscStateUpdate{}, now, bench.probe.out);
+    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Idle), now, bench.probe.out);
+    bench.StartAndRegister();
+    REQUIRE(bench.TrySend("a"));
+    REQUIRE(bench.TrySend("b"));
+    bench.probe.Clear();
+    bench.session.ReplayDone(now, bench.probe.out);
+    bench.session.SendPosition({}, now, bench.probe.out);
+    CHECK(bench.probe.GetCommands().empty());
+    CHECK(bench.probe.GetEvents<Protocol::PositionDue>().empty());
+
+    bench.Text(MakeAckText("PlanReport", "a"));
+    CHECK(bench.probe.GetCommands() == Strings{"TscStateUpdate"});
+    CHECK(bench.probe.GetEvents<Protocol::PositionDue>().empty());
+
+    bench.Text(MakeAckText("PlanReport", "b"));
+    CHECK(bench.probe.GetCommands() == Strings{"RobotStatusUpdate"});
+    CHECK(bench.probe.GetEvents<Protocol::PositionDue>().size() == 1);
+    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Position) == 200ms);
+}
+
 TEST_CASE("9 A durable request keeps the caller's transactionId and timestamp on every connection")
 {
     Bench bench;

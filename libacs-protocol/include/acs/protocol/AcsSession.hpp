@@ -61,7 +61,8 @@ public:
     /// timestamp are the caller's, and the same on every attempt. True and nothing done where it is in flight already.
     [[nodiscard]] bool TrySendDurable(const AcsRequest& request, Core::Now now, SessionActions& out);
 
-    /// After the replay that Registered asked for, once per connection: SendText, StartTimer, Deliver PositionDue.
+    /// After the replay that Registered asked for, once per connection: SendText, StartTimer, Deliver PositionDue. Where
+    /// the replay fills the window, the states and the first PositionDue follow as Acks make room.
     void ReplayDone(Core::Now now, SessionActions& out);
 
     /// A TscStateUpdate, AcsCommStateUpdate or RobotStatusUpdate: the latest of each kind and robot is kept, sent at once
@@ -69,7 +70,7 @@ public:
     /// StartTimer. Other payloads are a defect of the caller.
     void SendStatus(const AcsPayload& status, Core::Now now, SessionActions& out);
 
-    /// SendText that may be dropped; nothing at all before ReplayDone.
+    /// SendText that may be dropped; nothing at all before the first PositionDue of the connection.
     void SendPosition(const RobotPositionUpdate& positions, Core::Now now, SessionActions& out);
 
     /// The answer to a RequestReceived: SendText where registered. Kept, so that the request, if it comes again, is

@@ -91,7 +91,7 @@ struct WindowOpened
     bool operator==(const WindowOpened&) const = default;
 };
 
-/// ACS side: time for SendPosition; comes only between ReplayDone and the loss of the link.
+/// ACS side: time for SendPosition; comes only between the states that follow ReplayDone and the loss of the link.
 struct PositionDue
 {
     bool operator==(const PositionDue&) const = default;
