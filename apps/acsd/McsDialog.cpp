@@ -365,7 +365,26 @@ void McsDialog::TakeAck(const Protocol::Acked& acked)
             return;
         }
     }
-    _handler(Planning::MessageAcknowledged{sent.sequence});
+    Acknowledge(sent.sequence);
+}
+
+/// Remembered, as the engine may be waiting for the disk: a replay meanwhile is made without it.
+void McsDialog::Acknowledge(std::uint64_t sequence)
+{
+    if (_acknowledged.size() >= _acknowledgedLimit)
+    {
+        PruneAcknowledged(_engine.GetUnacknowledged());
+        _acknowledgedLimit = std::max(FIRST_ACKNOWLEDGED_LIMIT, 2 * _acknowledged.size());
+    }
+    _acknowledged.insert(sequence);
+    _handler(Planning::MessageAcknowledged{sequence});
+}
+
+void McsDialog::PruneAcknowledged(const std::vector<Planning::OutboxEntry>& outbox)
+{
+    std::erase_if(_acknowledged, [&outbox](std::uint64_t sequence) {
+        return !std::ranges::binary_search(outbox, sequence, {}, &Planning::OutboxEntry::sequence);
+    });
 }
 
 /// Final (register, mcs.on_report_nack): the MCS has it and does not want it. Or it is kept for the next connection.
@@ -397,11 +416,13 @@ void McsDialog::BeginReplay()
     _unsent.clear();
     _sent.clear();
     std::vector<std::uint64_t> leftOut;
-    for (Planning::OutboxEntry& entry : _engine.GetUnacknowledged())
+    std::vector<Planning::OutboxEntry> outbox = _engine.GetUnacknowledged();
+    PruneAcknowledged(outbox);
+    for (Planning::OutboxEntry& entry : outbox)
     {
-        if (entry.sequence > _lastTold)
+        if (entry.sequence > _lastTold || _acknowledged.contains(entry.sequence))
         {
-            continue; // still on its way to the disk: told when it is there
+            continue; // still on its way to the disk, where it is told after, or from which it is removed
         }
         if (IsReplayed(entry.report, _style.replay))
         {
@@ -420,7 +441,7 @@ void McsDialog::BeginReplay()
     }
     for (const std::uint64_t sequence : leftOut)
     {
-        _handler(Planning::MessageAcknowledged{sequence});
+        Acknowledge(sequence);
     }
     Feed();
 }

@@ -13,13 +13,16 @@
 #include <acs/plan/RobotStatus.hpp>
 #include <acs/protocol/SessionEvent.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -55,6 +58,8 @@ private:
         std::string planID; ///< Empty for what belongs to none.
     };
 
+    static constexpr std::size_t FIRST_ACKNOWLEDGED_LIMIT = 1000;
+
     const Core::IClock& _clock;
     Core::Logger _logger;
     Apps::LogThinner _log; ///< For what the MCS can make come in a flood.
@@ -66,6 +71,9 @@ private:
     Planning::ReplyToken _lastToken = 0;
     std::deque<Planning::OutboxEntry> _unsent; ///< Only while registered: what this connection has not been given yet.
     std::unordered_map<std::string, SentReport> _sent; ///< By transactionId.
+    /// Sequences that the MCS has acknowledged and the engine may not have removed: its commands wait for the disk.
+    std::set<std::uint64_t> _acknowledged;
+    std::size_t _acknowledgedLimit = FIRST_ACKNOWLEDGED_LIMIT; ///< Then those that the engine has removed go.
     std::uint64_t _lastTold = 0; ///< The highest sequence that is on disk: behind it the engine may know more already.
     bool _bOpen = false;         ///< The replay has begun: what is told now goes behind it.
     bool _bReplaying = false;
@@ -86,6 +94,9 @@ private:
     void AnswerHistory(const Protocol::AcsRequest& request, const Protocol::RequestAcsPlanHistory& query);
     void TakeAck(const Protocol::Acked& acked);
     void TakeRefusal(const Protocol::Acked& acked, const SentReport& sent);
+    void Acknowledge(std::uint64_t sequence);
+    /// Forgets what the engine has removed from its outbox.
+    void PruneAcknowledged(const std::vector<Planning::OutboxEntry>& outbox);
     void BeginReplay();
     void Feed();
     [[nodiscard]] std::chrono::minutes GetOffset() const;

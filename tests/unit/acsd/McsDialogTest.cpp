@@ -207,6 +207,35 @@ TEST_CASE_METHOD(DialogTest, "A report that comes between the registration and i
     CHECK(std::ranges::equal(_sent, entries, {}, &Protocol::AcsRequest::transactionID, &OutboxEntry::transactionID));
 }
 
+TEST_CASE_METHOD(
+    DialogTest,
+    "A report that was acknowledged while the disk was busy is not replayed on the next connection")
+{
+    Register();
+    BeginPlan("P1");
+    while (_loop.IsStoring())
+    {
+        _loop.OnStored({});
+    }
+    REQUIRE(_sent.size() >= 2);
+    const std::string first = _sent[0].transactionID;
+    const std::string second = _sent[1].transactionID;
+
+    _loop.Push(SubmitPlan{MakeLogisticsPlan("P2"), 2});
+    REQUIRE(_loop.IsStoring());
+    _dialog.OnSessionEvent(
+        Protocol::Acked{Protocol::EAcsCommand::PlanReport, first, Protocol::EAckResult::Success, {}});
+    REQUIRE(_engine.GetUnacknowledged().front().transactionID == first);
+    _dialog.OnSessionEvent(Protocol::LinkLost{"reset", true});
+    _sent.clear();
+    Register();
+    REQUIRE_FALSE(_sent.empty());
+    CHECK(_sent.front().transactionID == second);
+
+    _loop.OnStored({});
+    CHECK(_engine.GetUnacknowledged().front().transactionID == second);
+}
+
 TEST_CASE_METHOD(DialogTest, "What the store held is replayed after a restart")
 {
     OutboxEntry entry{7, "T7", _clock.GetNow().wall, PlanReport{"P0", EPlanState::Completed, {}}};
