@@ -61,7 +61,9 @@ class McsStub:
         self._reading.set()
         self._upgrades_to_refuse = 0
         self.upgrades_refused = 0
-        self.unacknowledged = ()  # commands that get no Ack; "*" for all but Registration
+        self.unacknowledged = ()  # commands that get no Ack
+        self._withheld_from = None  # the command with which to begin to withhold
+        self._withholding = False
         threading.Thread(target=self._accept, daemon=True).start()
 
     def close(self):
@@ -124,6 +126,17 @@ class McsStub:
         start = self.count()
         transaction = self.send_request(command, payload)
         return self.wait_for(command + "Ack", lambda ack: ack.body.get("transactionId") == transaction, start)[1].body
+
+    def withhold_acks_from(self, command):
+        """The next message of the command, and all after it up to the next Registration, get no Ack. The reader decides it
+        with the message in hand: a test that sets `unacknowledged` when it has seen a message cannot know whether the
+        messages that come meanwhile get theirs."""
+        with self._changed:
+            self._withheld_from = command
+
+    def wait_until_acks_are_read(self):
+        """The ACS reads in order: with its answer to a request, it has read every Ack that was sent before."""
+        self.ask("RequestAcsPlans", {})
 
     def refuse_upgrades(self, count):
         self._upgrades_to_refuse = count
@@ -219,10 +232,17 @@ class McsStub:
         with self._changed:
             self._messages.append(message)
             self._changed.notify_all()
-        if message.command.endswith("Ack") or message.command == "RobotPositionUpdate":
-            return
-        if message.command in self.unacknowledged or ("*" in self.unacknowledged and message.command != "Registration"):
-            return
-        ack = {"command": message.command + "Ack", "transactionId": message.body["transactionId"],
-               "timestamp": make_timestamp(), "result": "Success", "message": "", "payload": {}}
-        peer.sendall(make_frame(TEXT, json.dumps(ack).encode()))
+            # Under the lock: whoever has seen the message finds its Ack sent.
+            if self._is_acknowledged(message.command):
+                ack = {"command": message.command + "Ack", "transactionId": message.body["transactionId"],
+                       "timestamp": make_timestamp(), "result": "Success", "message": "", "payload": {}}
+                peer.sendall(make_frame(TEXT, json.dumps(ack).encode()))
+
+    def _is_acknowledged(self, command):
+        if command.endswith("Ack") or command == "RobotPositionUpdate":
+            return False
+        if command == self._withheld_from:
+            self._withheld_from, self._withholding = None, True
+        elif command == "Registration":
+            self._withholding = False
+        return not self._withholding and command not in self.unacknowledged
