@@ -33,7 +33,7 @@ public:
     [[nodiscard]] virtual EMemory GetMemory(std::string_view place) = 0;
     [[nodiscard]] virtual bool IsCovered(std::string_view set) = 0;
 
-    /// Every event since the last call, of all processes, in the order in which they happened.
+    /// Every event since the last call, or since this object exists, of all processes, in the order in which they happened.
     [[nodiscard]] virtual std::vector<WorldEvent> TakeEvents() = 0;
 };
 

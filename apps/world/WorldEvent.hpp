@@ -17,8 +17,8 @@ struct RobotDocked
     bool operator==(const RobotDocked&) const = default;
 };
 
-/// A robot has moved the carrier, with all that is inside it, from one place to another. One of the two is a port of the
-/// robot ("LR01.CP01"), or both are.
+/// A robot has moved the carrier, with all that is inside it, from one place to another. Each of the two is a port of the
+/// robot ("LR01.CP01") or a fixed place in its reach.
 struct CarrierMoved
 {
     std::string robotID;
@@ -59,7 +59,7 @@ struct ButtonPushed
 };
 
 /// By a person's hand, not by a robot (mcs-sim --restock): the carrier is at the place now, wherever it was before, and what
-/// was at the place is gone. An empty place takes the carrier off the floor.
+/// was at the place is gone. An empty place takes the carrier off the floor; an empty carrier clears the place.
 struct CarrierPlaced
 {
     std::string carrierID;
@@ -85,7 +85,7 @@ struct MemoryPlaced
 };
 
 /// One line of the journal.
-using WorldEvent = std::
-    variant<RobotDocked, CarrierMoved, MemoryMoved, CoverMoved, ButtonPushed, CarrierPlaced, MemoryPlaced>;
+using WorldEvent =
+    std::variant<RobotDocked, CarrierMoved, MemoryMoved, CoverMoved, ButtonPushed, CarrierPlaced, MemoryPlaced>;
 
 } // namespace ACS::Sim

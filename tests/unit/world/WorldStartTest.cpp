@@ -1,0 +1,114 @@
+#include "Catch.hpp"
+#include "world/MemoryWorld.hpp"
+
+#include <memory>
+
+using namespace ACS;
+using Sim::EMemory;
+
+namespace
+{
+
+Core::Result<std::unique_ptr<Sim::MemoryWorld>> Load(std::string_view text)
+{
+    const Core::Result<Sim::WorldStart> start = Sim::DecodeWorldStart(text);
+    if (!start.has_value())
+    {
+        return tl::make_unexpected(start.error());
+    }
+    return Sim::MemoryWorld::Create(*start);
+}
+
+} // namespace
+
+TEST_CASE("A world file says where carriers are, which covers are closed and what memories hold")
+{
+    const auto world = Load(R"({"version":1,
+        "carriers":{"CASSETTE_01":"a01.cp1","TRAY_01":"A01.CP01.TP01","TRAY_02":"LR01.CP01.TP03","BOX":"LR01.CP01"},
+        "covers":{"A01.SET01":"closed","A01.SET02":"open"},
+        "memories":{"A01.SET01.MP01":"occupied","A01.SET01.MP02":"empty","A01.CP01.TP01.MP01":"unknown"}})");
+    REQUIRE(world.has_value());
+    CHECK((*world)->GetPlaceOrNull("CASSETTE_01") == "A01.CP01");
+    CHECK((*world)->GetCarrierOrNull("LR01.CP01.TP03") == "TRAY_02");
+    CHECK((*world)->IsCovered("A01.SET01"));
+    CHECK_FALSE((*world)->IsCovered("A01.SET02"));
+    CHECK((*world)->GetMemory("A01.SET01.MP01") == EMemory::Occupied);
+    CHECK((*world)->GetMemory("A01.SET01.MP02") == EMemory::Empty);
+    CHECK((*world)->GetMemory("A01.SET01.MP03") == EMemory::Unknown);
+    CHECK((*world)->TakeEvents().empty());
+}
+
+TEST_CASE("An empty floor is one too")
+{
+    CHECK(Load(R"({"version":1})").has_value());
+}
+
+TEST_CASE("A floor that lists its places has no others")
+{
+    const auto world = Load(R"({"version":1,"places":["A01.CP01.TP01-04","A01.SET01.MP01-02","CR01.TP01-02","A01.CP02"],
+        "carriers":{"TRAY_01":"A01.CP01.TP04","CASSETTE_01":"LR07.CP09"}})");
+    REQUIRE(world.has_value());
+    const auto place = [&world](const char* carrier, const char* where) {
+        return (*world)->Act(Sim::CarrierPlaced{carrier, where}).has_value();
+    };
+    CHECK(place("TRAY_02", "CR01.TP02"));
+    CHECK_FALSE(place("TRAY_03", "CR01.TP03"));
+    CHECK(place("TRAY_03", "CR02.TP03"));
+    CHECK_FALSE(place("TRAY_03", "A01.CP01.TP05"));
+    CHECK_FALSE(place("TRAY_03", "A01.CP02.TP01"));
+    CHECK(place("CASSETTE_02", "A01.CP02"));
+    CHECK(place("TRAY_04", "LR07.CP09.TP01"));
+    CHECK((*world)->Act(Sim::MemoryPlaced{"CR01.TP02.MP05", EMemory::Empty}).has_value());
+    CHECK((*world)->Act(Sim::MemoryPlaced{"A01.CP01.TP04.MP05", EMemory::Empty}).has_value());
+    CHECK_FALSE((*world)->Act(Sim::MemoryPlaced{"A01.SET01.MP03", EMemory::Empty}).has_value());
+    REQUIRE((*world)->Act(Sim::RobotDocked{"CR01", {"A01.SET01", "A01.SET02"}}).has_value());
+    CHECK((*world)->Act(Sim::CoverMoved{"CR01", "A01.SET01", true}).has_value());
+    CHECK_FALSE((*world)->Act(Sim::CoverMoved{"CR01", "A01.SET02", true}).has_value());
+}
+
+TEST_CASE("A mistake is refused with its place in the file")
+{
+    struct Mistake
+    {
+        const char* text;
+        const char* path;
+    };
+    for (const Mistake& mistake : {
+             Mistake{"", ""},
+             Mistake{"[]", ""},
+             Mistake{"{}", "version"},
+             Mistake{R"({"version":2})", "version"},
+             Mistake{R"({"version":"1"})", "version"},
+             Mistake{R"({"version":1,"carriers":{},"carriers":{}})", ""},
+             Mistake{R"({"version":1,"cariers":{}})", "\"cariers\""},
+             Mistake{R"({"version":1,"carriers":[]})", "carriers"},
+             Mistake{R"({"version":1,"carriers":{"TRAY_01":7}})", "carriers.TRAY_01"},
+             Mistake{R"({"version":1,"carriers":{"TRAY_01":"A01"}})", "carriers.TRAY_01"},
+             Mistake{R"({"version":1,"carriers":{"TRAY_01":"AMR.TP01"}})", "carriers.TRAY_01"},
+             Mistake{R"({"version":1,"carriers":{"TRAY_01":""}})", "carriers.TRAY_01"},
+             Mistake{R"({"version":1,"carriers":{"":"A01.CP01"}})", "carriers."},
+             Mistake{R"({"version":1,"carriers":{"A":"A01.CP01","B":"A01.cp1"}})", "carriers.B"},
+             Mistake{R"({"version":1,"carriers":{"A":"LR01.CP01.TP01"}})", "carriers.A"},
+             Mistake{R"({"version":1,"covers":{"A01.SET01":"shut"}})", "covers.A01.SET01"},
+             Mistake{R"({"version":1,"covers":{"A01.CP01":"closed"}})", "covers.A01.CP01"},
+             Mistake{R"({"version":1,"memories":{"A01.SET01.MP01":"full"}})", "memories.A01.SET01.MP01"},
+             Mistake{R"({"version":1,"memories":{"A01.SET01":"empty"}})", "memories.A01.SET01"},
+             Mistake{R"({"version":1,"memories":{"CR01.TP01.MP01":"empty"}})", "memories.CR01.TP01.MP01"},
+             Mistake{R"({"version":1,"places":"A01.CP01"})", "places"},
+             Mistake{R"({"version":1,"places":["A01.CP01",3]})", "places[1]"},
+             Mistake{R"({"version":1,"places":["A01.CP01.TP04-01"]})", "places \"A01.CP01.TP04-01\""},
+             Mistake{R"({"version":1,"places":["A01.CP01"],"carriers":{"A":"A01.CP02"}})", "carriers.A"},
+         })
+    {
+        INFO(mistake.text);
+        const auto world = Load(mistake.text);
+        REQUIRE_FALSE(world.has_value());
+        CHECK(world.error().path == mistake.path);
+        CHECK_FALSE(Core::Describe(world.error()).empty());
+    }
+}
+
+TEST_CASE("Deep nesting is refused")
+{
+    CHECK_FALSE(Load(R"({"version":1,"carriers":)" + std::string(100'000, '[')).has_value());
+}
