@@ -9,39 +9,18 @@
 
 namespace ACS::VdaSim
 {
-namespace
-{
-
-std::string GetParameterText(const VDA5050::Action& action, std::string_view key)
-{
-    const VDA5050::ActionParameter* const parameter = VDA5050::FindParameterOrNull(action, key);
-    if (parameter == nullptr)
-    {
-        return {};
-    }
-    return parameter->value.GetStringOrNull().value_or(parameter->value.GetText());
-}
-
-VDA5050::Load MakeLoad(const VDA5050::Action& action)
-{
-    VDA5050::Load load;
-    load.loadID = GetParameterText(action, "loadId");
-    load.loadType = GetParameterText(action, "loadType");
-    load.loadPosition = GetParameterText(action, "lhd");
-    return load;
-}
-
-} // namespace
-
-ActionRunner::ActionRunner(std::map<std::string, double, std::less<>> seconds, std::vector<std::string> loadPositions)
+ActionRunner::ActionRunner(std::map<std::string, double, std::less<>> seconds, LoadDevice device)
     : _seconds(std::move(seconds)),
-      _loadPositions(std::move(loadPositions))
+      _device(std::move(device))
 {
 }
 
 double ActionRunner::GetSeconds(std::string_view actionType) const
 {
-    const auto known = _seconds.find(actionType);
+    const bool bPick = _device.IsPick(actionType);
+    const bool bHandling = bPick || _device.IsDrop(actionType);
+    const std::string_view meaning = !bHandling ? actionType : bPick ? ACTION_PICK : ACTION_DROP;
+    const auto known = _seconds.find(meaning);
     if (known != _seconds.end())
     {
         return known->second;
@@ -50,7 +29,7 @@ double ActionRunner::GetSeconds(std::string_view actionType) const
     {
         return std::numeric_limits<double>::infinity();
     }
-    return actionType == ACTION_PICK || actionType == ACTION_DROP ? HANDLING_SECONDS : SHORT_SECONDS;
+    return bHandling ? HANDLING_SECONDS : SHORT_SECONDS;
 }
 
 std::string ActionRunner::Start(
@@ -58,7 +37,7 @@ std::string ActionRunner::Start(
     bool bAtCharger,
     std::optional<VDA5050::VehicleError> failureOrNull)
 {
-    if (action.actionType == ACTION_DROP && _loads.empty())
+    if (_device.IsDrop(action.actionType) && _device.GetLoads().empty())
     {
         return "there is no load on board";
     }
@@ -156,13 +135,12 @@ ActionOutcome ActionRunner::Finish(const RunningAction& running)
     {
         return {action.actionID, VDA5050::EActionStatus::Failed, running.failure->errorDescription, running.failure};
     }
-    if (action.actionType == ACTION_PICK)
+    const bool bPick = _device.IsPick(action.actionType);
+    if (bPick || _device.IsDrop(action.actionType))
     {
-        return PickUp(action);
-    }
-    if (action.actionType == ACTION_DROP)
-    {
-        return PutDown(action);
+        std::string failure = bPick ? _device.PickUp(action) : _device.PutDown(action);
+        const auto status = failure.empty() ? VDA5050::EActionStatus::Finished : VDA5050::EActionStatus::Failed;
+        return {action.actionID, status, std::move(failure), {}};
     }
     if (action.actionType == ACTION_START_CHARGING)
     {
@@ -180,60 +158,6 @@ ActionOutcome ActionRunner::Finish(const RunningAction& running)
     return outcome;
 }
 
-ActionOutcome ActionRunner::PickUp(const VDA5050::Action& action)
-{
-    const auto fail = [&action](std::string reason) {
-        return ActionOutcome{action.actionID, VDA5050::EActionStatus::Failed, std::move(reason), {}};
-    };
-    const auto isFree = [this](std::string_view position) {
-        return std::ranges::find(_loads, position, &VDA5050::Load::loadPosition) == _loads.end();
-    };
-    VDA5050::Load load = MakeLoad(action);
-    if (std::max(load.loadID->size(), load.loadType.size()) > MAX_ID_LENGTH)
-    {
-        return fail("the load's id or type is too long");
-    }
-    if (!load.loadID->empty() && std::ranges::find(_loads, load.loadID, &VDA5050::Load::loadID) != _loads.end())
-    {
-        return fail("this load is on board already");
-    }
-    // The place that is named, else the first free one.
-    const auto place = std::ranges::find_if(_loadPositions, [&](const std::string& position) {
-        return load.loadPosition.empty() ? isFree(position) : position == load.loadPosition;
-    });
-    if (place == _loadPositions.end())
-    {
-        return fail(
-            load.loadPosition.empty() ? "there is no free place for a load" : "there is no such place for a load");
-    }
-    if (!isFree(*place))
-    {
-        return fail("there is a load in this place already");
-    }
-    load.loadPosition = *place;
-    _loads.push_back(std::move(load));
-    return {action.actionID, VDA5050::EActionStatus::Finished, {}, {}};
-}
-
-ActionOutcome ActionRunner::PutDown(const VDA5050::Action& action)
-{
-    // The load that is named, else the one in the place that is named, else the last one.
-    const VDA5050::Load wanted = MakeLoad(action);
-    auto found = std::ranges::find_if(_loads, [&wanted](const VDA5050::Load& load) {
-        return !wanted.loadID->empty() ? load.loadID == wanted.loadID : load.loadPosition == wanted.loadPosition;
-    });
-    if (found == _loads.end() && wanted.loadID->empty() && wanted.loadPosition.empty() && !_loads.empty())
-    {
-        found = std::prev(_loads.end());
-    }
-    if (found == _loads.end())
-    {
-        return {action.actionID, VDA5050::EActionStatus::Failed, "this load is not on board", {}};
-    }
-    _loads.erase(found);
-    return {action.actionID, VDA5050::EActionStatus::Finished, {}, {}};
-}
-
 void ActionRunner::Undock()
 {
     _bCharging = false;
@@ -249,9 +173,9 @@ bool ActionRunner::IsCharging() const noexcept
     return _bCharging;
 }
 
-const std::vector<VDA5050::Load>& ActionRunner::GetLoads() const noexcept
+LoadDevice& ActionRunner::GetDevice() noexcept
 {
-    return _loads;
+    return _device;
 }
 
 } // namespace ACS::VdaSim

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "vda-sim/LoadDevice.hpp"
 #include <acs/vda5050/Action.hpp>
 #include <acs/vda5050/StateMessage.hpp>
 
@@ -24,8 +25,8 @@ struct ActionOutcome
     bool operator==(const ActionOutcome&) const = default;
 };
 
-/// The vehicle's hands: performs actions in simulated time, each for as long as its type takes, and knows what the
-/// vehicle carries and whether it charges.
+/// Performs actions in simulated time, each in the time that its type takes: those of loads by the load handling device. Knows
+/// whether the vehicle charges.
 class ActionRunner
 {
     struct RunningAction
@@ -37,10 +38,8 @@ class ActionRunner
     };
 
     std::map<std::string, double, std::less<>> _seconds;
-    std::vector<std::string> _loadPositions;
-
+    LoadDevice _device;
     std::vector<RunningAction> _running;
-    std::vector<VDA5050::Load> _loads;
     bool _bCharging = false;
 
 public:
@@ -48,9 +47,9 @@ public:
     static constexpr double HANDLING_SECONDS = 3.0; ///< pick, drop
     static constexpr double SHORT_SECONDS = 1.0;    ///< all others
 
-    /// How long actions of a type take, where it is not as above: seconds of simulated time by actionType. And the
-    /// places that a load each can be in.
-    ActionRunner(std::map<std::string, double, std::less<>> seconds, std::vector<std::string> loadPositions);
+    /// Duration of actions of a type, where it is not as above: seconds of simulated time by actionType. That of `pick` and
+    /// `drop` applies to those that mean them at this make.
+    ActionRunner(std::map<std::string, double, std::less<>> seconds, LoadDevice device);
 
     /// Begins; the empty text, or why it cannot. With a failure it ends with that instead of doing its work.
     [[nodiscard]] std::string Start(
@@ -74,14 +73,12 @@ public:
 
     [[nodiscard]] bool IsBusy() const noexcept;
     [[nodiscard]] bool IsCharging() const noexcept;
-    [[nodiscard]] const std::vector<VDA5050::Load>& GetLoads() const noexcept;
+    [[nodiscard]] LoadDevice& GetDevice() noexcept;
 
 private:
     [[nodiscard]] double GetSeconds(std::string_view actionType) const;
     [[nodiscard]] std::vector<RunningAction>::iterator Find(std::string_view actionID);
     [[nodiscard]] ActionOutcome Finish(const RunningAction& running);
-    [[nodiscard]] ActionOutcome PickUp(const VDA5050::Action& action);
-    [[nodiscard]] ActionOutcome PutDown(const VDA5050::Action& action);
 };
 
 } // namespace ACS::VdaSim

@@ -7,13 +7,16 @@
 #include "common/SpdlogSink.hpp"
 #include "common/SystemClock.hpp"
 #include "common/SystemRandom.hpp"
+#include "common/TimerSet.hpp"
 #include "vda-sim/ControlChannel.hpp"
 #include "vda-sim/VehicleRandom.hpp"
 #include "vda-sim/VehicleRunner.hpp"
+#include "world/WorldFile.hpp"
 
 #include <boost/asio/io_context.hpp>
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -40,6 +43,7 @@ class Fleet
 
     const VdaSimOptions* _options;
     const Planning::SiteMap* _site;
+    Sim::IWorld* _worldOrNull;
     boost::asio::io_context _context;
     Apps::SystemClock _clock;
     Apps::SystemRandom _random;
@@ -48,17 +52,20 @@ class Fleet
     std::uint64_t _seed;
     std::vector<Member> _members;
     std::optional<ControlChannel> _control;
+    Apps::TimerSet _worldTimer;
     std::set<std::size_t> _connected; ///< The control channel's number is that after the last vehicle.
     bool _bReady = false;
 
 public:
-    /// Both outlive it.
-    Fleet(const VdaSimOptions& options, const Planning::SiteMap& site)
+    /// All outlive it.
+    Fleet(const VdaSimOptions& options, const Planning::SiteMap& site, Sim::IWorld* worldOrNull)
         : _options(&options),
           _site(&site),
+          _worldOrNull(worldOrNull),
           _log(options.common.logLevel),
           _logger(_log, "vda-sim"),
-          _seed(options.seed.has_value() ? *options.seed : _random.GetNext())
+          _seed(options.seed.has_value() ? *options.seed : _random.GetNext()),
+          _worldTimer(_context.get_executor(), [this](std::uint64_t /*key*/) { FollowWorld(); })
     {
         if (!_options->controlTopic.empty())
         {
@@ -84,6 +91,8 @@ public:
         vehicle.timeScale = _options->timeScale;
         vehicle.charge = spec.charge;
         vehicle.actionSeconds = _options->actionSeconds;
+        vehicle.handling = spec.handling;
+        vehicle.worldOrNull = _worldOrNull;
 
         const Core::Logger logger(_log, spec.name);
         Member& member = _members.emplace_back();
@@ -120,10 +129,28 @@ public:
         {
             _control->Start([this]() { CountConnected(_members.size()); });
         }
+        if (_worldOrNull != nullptr)
+        {
+            FollowWorld();
+        }
         _context.run();
     }
 
 private:
+    /// What other programs and people have changed on the floor shows in the states soon.
+    void FollowWorld()
+    {
+        constexpr std::chrono::milliseconds INTERVAL{500};
+        if (!_worldOrNull->TakeEvents().empty())
+        {
+            for (const Member& member : _members)
+            {
+                member.runner->OnWorldChanged();
+            }
+        }
+        _worldTimer.Start(0, INTERVAL);
+    }
+
     [[nodiscard]] VDA5050::MosquittoOptions MakeLinkOptions(std::string clientID) const
     {
         VDA5050::MosquittoOptions link;
@@ -217,6 +244,7 @@ private:
 
     void Stop()
     {
+        _worldTimer.CancelAll();
         const auto left = std::make_shared<std::size_t>(_members.size() + (_control.has_value() ? 1 : 0));
         const auto countOut = [this, left]() {
             --*left;
@@ -251,8 +279,18 @@ int RunVdaSim(const VdaSimOptions& options)
     {
         return Refuse(site.error());
     }
+    std::unique_ptr<Sim::WorldFile> world;
+    if (!options.worldPath.empty())
+    {
+        Core::Result<std::unique_ptr<Sim::WorldFile>> opened = Sim::WorldFile::Open(options.worldPath);
+        if (!opened.has_value())
+        {
+            return Refuse(Core::Describe(opened.error()));
+        }
+        world = std::move(*opened);
+    }
     Apps::RaiseFileLimit(); // Each vehicle has two descriptors.
-    Fleet fleet(options, *site);
+    Fleet fleet(options, *site, world.get());
     for (std::size_t i = 0; i < options.vehicles.size(); ++i)
     {
         const VehicleSpec& vehicle = options.vehicles[i];

@@ -3,6 +3,7 @@
 #include "common/DurationText.hpp"
 #include "common/FaultOptions.hpp"
 #include "common/TextFile.hpp"
+#include <acs/core/RobotID.hpp>
 #include <acs/plan/LifReader.hpp>
 #include <acs/vda5050/PredefinedActions.hpp>
 
@@ -162,6 +163,21 @@ std::string MakeFooter()
         Apps::MakeFaultHelp(GetFaultGrammar()));
 }
 
+/// In a world ports are named by their robot.
+std::string CheckWorld(const VdaSimOptions& options)
+{
+    const auto misnamed = std::ranges::find_if(options.vehicles, [](const VehicleSpec& vehicle) {
+        return !Core::RobotID::IsRobotID(vehicle.name) || vehicle.name == Core::RobotID::ALIAS;
+    });
+    if (options.worldPath.empty() || misnamed == options.vehicles.end())
+    {
+        return {};
+    }
+    return fmt::format(
+        "with --world a vehicle needs the name of a robot (LR01), found {}",
+        Core::QuoteForError(misnamed->name));
+}
+
 /// A word that is to stand as one level of a topic.
 std::string ReadLevel(const std::string& text, std::string& level)
 {
@@ -194,6 +210,12 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
     app.add_option("--site", options.sitePath, "layout of the site, a VDMA LIF 1.0 file")
         ->required()
         ->type_name("FILE.lif.json");
+    app.add_option(
+           "--world",
+           options.worldPath,
+           "world file that the simulators share (docs/world.md): loads are picked and dropped only where they are; "
+           "without it every load is where an action asks for it")
+        ->type_name("FILE");
     Apps::AddRepeatedOption(
         app,
         "--vehicle",
@@ -204,9 +226,11 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         },
         "a vehicle: its serialNumber; type LR (default) carries cassettes, CR is the base of an arm; node is where it "
         "stands at first, by default the dock of the charger CHG01 for the first vehicle, CHG02 for the second and so "
-        "on, else a node of the site; protocol, where it differs from --protocol; battery is its charge at first. May be "
-        "repeated")
-        .type_name("NAME[,type=LR|CR][,node=NODEID][,protocol=VERSION][,battery=PERCENT]");
+        "on, else a node of the site; protocol, where it differs from --protocol; battery is its charge at first. "
+        "How it handles loads: ports=N places CP01, CP02 ... (default 4 of an LR, 0 of a CR), load=PORT:NAME the "
+        "vehicle's name of one, pick=ACTIONTYPE and drop=ACTIONTYPE, and PARAMETER=NAME[:TYPE] for parameters of pick "
+        "and drop that this make names otherwise (nothing: it has none). May be repeated")
+        .type_name("NAME[,KEY=VALUE]...");
     app.add_option("--count", row.count, "so many vehicles more, named by --prefix and a number: LR01, LR02, ...")
         ->check(CLI::Range(std::size_t{1}, MAX_VEHICLES))
         ->type_name("N");
@@ -286,6 +310,7 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
     options.controlTopic = bNoControl ? std::string() : options.controlTopic;
     std::string mistake = CheckBrokerOptions(options.link, options.broker.scheme);
     mistake = mistake.empty() ? AddVehicles(row, options.vehicles) : mistake;
+    mistake = mistake.empty() ? CheckWorld(options) : mistake;
     mistake = mistake.empty() ? CheckFaults(options.faults, options.vehicles) : mistake;
     if (!mistake.empty())
     {

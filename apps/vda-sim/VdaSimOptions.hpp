@@ -25,6 +25,7 @@ struct VdaSimOptions
     Apps::Url broker{Apps::EUrlScheme::Mqtt, {}, {}};
     BrokerOptions link;
     std::string sitePath;
+    std::string worldPath; ///< Empty: none.
     std::vector<VehicleSpec> vehicles;
     std::string manufacturer = "ACS";
     std::string interfaceName = "uagv";

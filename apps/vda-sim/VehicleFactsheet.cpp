@@ -27,15 +27,18 @@ bool IsNeeded(const AgvAction& action, const AgvActionParameter& parameter)
     return !parameter.bOptional.value_or(false) && (bOfMap || bOfPose);
 }
 
-/// All that the standard names, as it names them; without a place for loads all but pick and drop.
-std::vector<AgvAction> MakeActions(bool bHandlesLoads)
+bool IsOfLoads(const AgvAction& action)
+{
+    return action.actionType == ACTION_PICK || action.actionType == ACTION_DROP;
+}
+
+/// All that the standard names, as it names them, but pick and drop as the make has them: not without a place for loads.
+std::vector<AgvAction> MakeActions(bool bHandlesLoads, const LoadHandling& handling)
 {
     std::vector<AgvAction> actions = VDA5050::GetPredefinedActions();
     if (!bHandlesLoads)
     {
-        std::erase_if(actions, [](const AgvAction& action) {
-            return action.actionType == ACTION_PICK || action.actionType == ACTION_DROP;
-        });
+        std::erase_if(actions, IsOfLoads);
     }
     for (AgvAction& action : actions)
     {
@@ -43,13 +46,17 @@ std::vector<AgvAction> MakeActions(bool bHandlesLoads)
         {
             parameter.bOptional = !IsNeeded(action, parameter);
         }
+        if (IsOfLoads(action))
+        {
+            action = AdaptAction(std::move(action), handling);
+        }
         action.blockingTypes = {EBlockingType::None, EBlockingType::Soft, EBlockingType::Hard};
     }
     return actions;
 }
 
 /// The sizes that the session holds messages against, and keeps to.
-VDA5050::ProtocolLimits MakeLimits(EVehicleType type)
+VDA5050::ProtocolLimits MakeLimits(std::size_t loads)
 {
     constexpr std::uint32_t MAX_NODES = 1000;
     constexpr std::uint32_t MAX_OF_ONE = 100; ///< Actions of a node, an edge or a message, parameters of an action.
@@ -72,7 +79,6 @@ VDA5050::ProtocolLimits MakeLimits(EVehicleType type)
     arrays.stateEdgeStates = MAX_NODES;
     arrays.stateActionStates = MAX_ACTION_STATES;
     arrays.stateErrors = MAX_ERRORS;
-    const std::size_t loads = GetLoadPositions(type).size();
     if (loads > 0) // 0 would say that there is no limit
     {
         arrays.stateLoads = static_cast<std::uint32_t>(loads);
@@ -107,13 +113,11 @@ std::vector<VDA5050::OptionalParameter> MakeOptionalParameters(VDA5050::EVda5050
 
 } // namespace
 
-std::vector<std::string> GetLoadPositions(EVehicleType type)
-{
-    return type == EVehicleType::Logistics ? std::vector<std::string>{"CP01", "CP02", "CP03", "CP04"}
-                                           : std::vector<std::string>{};
-}
-
-VDA5050::FactsheetMessage MakeFactsheet(EVehicleType type, const MotionLimits& limits, VDA5050::EVda5050Version version)
+VDA5050::FactsheetMessage MakeFactsheet(
+    EVehicleType type,
+    const MotionLimits& limits,
+    VDA5050::EVda5050Version version,
+    const LoadHandling& handling)
 {
     const bool bCarriesCassettes = type == EVehicleType::Logistics;
     VDA5050::FactsheetMessage factsheet;
@@ -133,10 +137,14 @@ VDA5050::FactsheetMessage MakeFactsheet(EVehicleType type, const MotionLimits& l
     factsheet.physicalParameters.heightMax = 1.2;
     factsheet.physicalParameters.width = 0.8;
     factsheet.physicalParameters.length = 0.8;
-    factsheet.protocolLimits = MakeLimits(type);
+    const std::vector<LoadPosition> positions = GetLoadPositions(type, handling);
+    factsheet.protocolLimits = MakeLimits(positions.size());
     factsheet.protocolLimits.timing.visualizationInterval = 0.2;
-    factsheet.loadSpecification.loadPositions = GetLoadPositions(type);
-    factsheet.protocolFeatures.agvActions = MakeActions(!factsheet.loadSpecification.loadPositions.empty());
+    for (const LoadPosition& position : positions)
+    {
+        factsheet.loadSpecification.loadPositions.push_back(position.name);
+    }
+    factsheet.protocolFeatures.agvActions = MakeActions(!positions.empty(), handling);
     factsheet.protocolFeatures.optionalParameters = MakeOptionalParameters(version);
     return factsheet;
 }

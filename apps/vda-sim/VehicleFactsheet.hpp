@@ -1,14 +1,12 @@
 #pragma once
 
+#include "vda-sim/LoadHandling.hpp"
 #include "vda-sim/VehicleMotion.hpp"
-#include "vda-sim/VehicleSpec.hpp"
 #include <acs/vda5050/EVda5050Version.hpp>
 #include <acs/vda5050/FactsheetMessage.hpp>
 
 #include <cstdint>
-#include <string>
 #include <string_view>
-#include <vector>
 
 namespace ACS::VdaSim
 {
@@ -27,14 +25,11 @@ constexpr std::string_view ACTION_INIT_POSITION = "initPosition";
 /// Of every id, bytes: what the library takes as a name, and what a load may be called.
 constexpr std::uint32_t MAX_ID_LENGTH = 1024;
 
-/// Where a vehicle of this type carries loads by itself: a cassette each. None on the base of an arm, which carries what
-/// the arm has put there.
-[[nodiscard]] std::vector<std::string> GetLoadPositions(EVehicleType type);
-
 /// The factsheet of a vehicle of this type, as its version can say it. The header is left to the session.
 [[nodiscard]] VDA5050::FactsheetMessage MakeFactsheet(
     EVehicleType type,
     const MotionLimits& limits,
-    VDA5050::EVda5050Version version);
+    VDA5050::EVda5050Version version,
+    const LoadHandling& handling = {});
 
 } // namespace ACS::VdaSim

@@ -73,6 +73,12 @@ public:
         return count;
     }
 
+    void OnWorldChanged()
+    {
+        _vehicle.OnWorldChanged(_clock->GetNow(), _actions);
+        Execute();
+    }
+
     void StopAsync(Handler onStopped)
     {
         _bStopping = true;
@@ -225,6 +231,11 @@ std::size_t VehicleRunner::EndFaults(std::optional<EFaultKind> kindOrNull)
 std::size_t VehicleRunner::Trigger()
 {
     return _impl->Trigger();
+}
+
+void VehicleRunner::OnWorldChanged()
+{
+    _impl->OnWorldChanged();
 }
 
 void VehicleRunner::StopAsync(Handler onStopped)

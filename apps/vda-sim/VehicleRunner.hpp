@@ -47,6 +47,7 @@ public:
     std::size_t EndFaults(std::optional<EFaultKind> kindOrNull);
     /// How many actions waited for it.
     std::size_t Trigger();
+    void OnWorldChanged();
 
     /// Says OFFLINE and disconnects, then calls back, once.
     void StopAsync(Handler onStopped);

@@ -48,7 +48,8 @@ Core::Result<void> ReadPart(std::string_view part, VehicleSpec& spec, std::set<s
 {
     const std::size_t equals = part.find('=');
     const std::string_view key = part.substr(0, equals);
-    if (!known.insert(key).second)
+    const bool bRepeatable = key == "load"; // once for each port
+    if (!known.insert(key).second && !bRepeatable)
     {
         return Core::Fail(Core::ECoreError::UnknownWord, {}, "each key once", Core::QuoteForError(part));
     }
@@ -70,11 +71,20 @@ Core::Result<void> ReadPart(std::string_view part, VehicleSpec& spec, std::set<s
         spec.startNodeID = std::string(value);
         return {};
     }
-    return Core::Fail(
-        Core::ECoreError::UnknownWord,
-        {},
-        "type=LR|CR, node=NODEID, protocol=VERSION or battery=PERCENT",
-        Core::QuoteForError(part));
+    const Core::Result<bool> read = TryReadHandlingKey(key, value, spec.handling);
+    if (!read.has_value())
+    {
+        return tl::make_unexpected(read.error());
+    }
+    if (!*read || equals == std::string_view::npos)
+    {
+        return Core::Fail(
+            Core::ECoreError::UnknownWord,
+            {},
+            fmt::format("type=LR|CR, node=NODEID, protocol=VERSION, battery=PERCENT, {}", LOAD_HANDLING_KEYS),
+            Core::QuoteForError(part));
+    }
+    return {};
 }
 
 } // namespace
@@ -108,6 +118,11 @@ Core::Result<VehicleSpec> ParseVehicleSpec(std::string_view text)
         {
             return tl::make_unexpected(part.error());
         }
+    }
+    const Core::Result<void> fits = CheckHandling(spec.type, spec.handling);
+    if (!fits.has_value())
+    {
+        return tl::make_unexpected(fits.error());
     }
     return spec;
 }

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "vda-sim/LoadHandling.hpp"
 #include <acs/core/Result.hpp>
 #include <acs/vda5050/EVda5050Version.hpp>
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,14 +12,7 @@
 namespace ACS::VdaSim
 {
 
-/// What the MCS calls the two kinds of robots.
-enum class EVehicleType : std::uint8_t
-{
-    Logistics, ///< LR: carries cassettes.
-    Control,   ///< CR: the mobile base of an arm.
-};
-
-/// One `--vehicle NAME[,type=LR|CR][,node=NODEID][,protocol=VERSION][,battery=PERCENT]`.
+/// One `--vehicle NAME[,type=LR|CR][,node=NODEID][,protocol=VERSION][,battery=PERCENT]` with the keys of LOAD_HANDLING_KEYS.
 struct VehicleSpec
 {
     std::string name; ///< The serialNumber.
@@ -27,6 +20,7 @@ struct VehicleSpec
     std::optional<std::string> startNodeID;          ///< Absent: a charger of the site.
     std::optional<VDA5050::EVda5050Version> version; ///< Absent: what --protocol says.
     double charge = 100.0;                           ///< %
+    LoadHandling handling{};
 
     bool operator==(const VehicleSpec&) const = default;
 };

@@ -56,6 +56,7 @@ void VirtualVehicle::Drive(const VDA5050::DriveTo& drive, Core::Now now)
     _bStopWanted = false;
     _bAbandons = false;
     _hands.Undock();
+    UpdateDock(now);
     // Whether an obstacle can be passed depends on the edge.
     TellCondition(now);
     TellBattery(now);

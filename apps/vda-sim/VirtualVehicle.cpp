@@ -24,7 +24,6 @@ constexpr double CHARGE_PER_SECOND = 0.5;
 constexpr double MIN_CHARGE = 5.0;
 constexpr double FULL_CHARGE = 100.0;
 constexpr double REACH_PER_PERCENT = 50.0; ///< m
-constexpr std::string_view CHARGER_PREFIX = "CHG";
 constexpr Core::Duration STATE_WHILE_DRIVING = 1s;
 
 VDA5050::VehicleOptions MakeSessionOptions(const VirtualVehicleOptions& options, const Planning::SiteMap& site)
@@ -33,7 +32,7 @@ VDA5050::VehicleOptions MakeSessionOptions(const VirtualVehicleOptions& options,
     session.address = options.address;
     session.version = options.version;
     session.qos = options.qos;
-    session.factsheet = MakeFactsheet(options.type, options.limits, options.version);
+    session.factsheet = MakeFactsheet(options.type, options.limits, options.version, options.handling);
     session.visualizationInterval = 200ms;
     session.bStopsBetweenNodes = false; // as a line-guided vehicle: a cancelled order ends on a node
     session.initialNodeID = options.startNodeID;
@@ -73,7 +72,9 @@ VirtualVehicle::VirtualVehicle(
       _logger(std::move(logger)),
       _session(MakeSessionOptions(_options, site)),
       _motion(_options.limits, {}),
-      _hands(_options.actionSeconds, GetLoadPositions(_options.type)),
+      _hands(
+          _options.actionSeconds,
+          LoadDevice(_options.address.serialNumber, _options.type, _options.handling, _options.worldOrNull)),
       _nodeID(_options.startNodeID),
       _charge(_options.charge)
 {
@@ -98,7 +99,10 @@ VDA5050::MqttWill VirtualVehicle::MakeWill(Core::Now now)
 void VirtualVehicle::OnLinkUp(Core::Now now, VirtualActions& out)
 {
     PassTime(now, out);
-    _session.OnLoads(_hands.GetLoads(), now, _sessionActions);
+    UpdateDock(now);
+    _hands.GetDevice().UpdateLoads();
+    _reportedLoads = _hands.GetDevice().GetLoads();
+    _session.OnLoads(_reportedLoads, now, _sessionActions);
     if (!_bWasOnline && !_mapID.empty())
     {
         const VDA5050::MapState map{_mapID, "1", VDA5050::EMapStatus::Enabled, {}};
@@ -170,6 +174,7 @@ void VirtualVehicle::Settle(Core::Now now, VirtualActions& out)
 {
     Pump(now, out);
     ApplyFaults(now, out);
+    UpdateDock(now);
     KeepTicking(out);
     ScheduleEvents(now, out);
 }
@@ -258,6 +263,7 @@ void VirtualVehicle::ReachNode(Core::Now now, VirtualActions& out)
         _mapID = leg.node.nodePosition->mapID;
     }
     TellPosition();
+    UpdateDock(now);
     if (!_session.TryReachNode(leg.node.sequenceID, now, _sessionActions))
     {
         _logger.Warning("reached a node that the session does not expect", {{"node", _nodeID}});
@@ -269,21 +275,6 @@ void VirtualVehicle::ReachNode(Core::Now now, VirtualActions& out)
     }
     _faults.OnPlace(_nodeID, now.steady, _faultChanges);
     ApplyFaults(now, out);
-}
-
-void VirtualVehicle::EndActions(Core::Now now, VirtualActions& out)
-{
-    TellLoads(now);
-    TellBattery(now);
-    for (ActionOutcome& outcome : std::exchange(_outcomes, {}))
-    {
-        if (outcome.error.has_value())
-        {
-            AddOrderError(std::move(*outcome.error), now);
-        }
-        SetStatus(outcome.actionID, outcome.status, std::move(outcome.result), now);
-    }
-    Pump(now, out);
 }
 
 void VirtualVehicle::Pump(Core::Now now, VirtualActions& out)
@@ -436,15 +427,6 @@ void VirtualVehicle::TellBattery(Core::Now now)
     }
 }
 
-void VirtualVehicle::TellLoads(Core::Now now)
-{
-    if (_reportedLoads != _hands.GetLoads().size())
-    {
-        _reportedLoads = _hands.GetLoads().size();
-        _session.OnLoads(_hands.GetLoads(), now, _sessionActions);
-    }
-}
-
 void VirtualVehicle::KeepTicking(VirtualActions& out)
 {
     const bool bMoving = _bDriving || (_motion.HasLeg() && !_motion.IsStanding());
@@ -456,80 +438,6 @@ void VirtualVehicle::KeepTicking(VirtualActions& out)
     // The faster the simulated time, the shorter the tick, so that a node is not noticed a second late.
     const auto tick = std::chrono::duration_cast<Core::Duration>(50ms / std::clamp(_options.timeScale, 1.0, 5.0));
     out.emplace_back(StartVirtualTimer{KEY_TICK, tick});
-}
-
-void VirtualVehicle::Start(const VDA5050::StartAction& start, Core::Now now)
-{
-    std::string refusal;
-    if (std::optional<VDA5050::VehicleError> error = TakeActionFaultOrNull(start.action, true); error.has_value())
-    {
-        refusal = error->errorDescription;
-        AddOrderError(std::move(*error), now);
-    }
-    if (refusal.empty() && start.action.actionType == ACTION_INIT_POSITION)
-    {
-        refusal = InitialisePosition(start.action, now);
-    }
-    if (refusal.empty())
-    {
-        refusal = _hands.Start(start.action, IsAtCharger(), TakeActionFaultOrNull(start.action, false));
-    }
-    const bool bRuns = refusal.empty();
-    SetStatus(start.action.actionID, VDA5050::EActionStatus::Running, {}, now);
-    if (!bRuns)
-    {
-        SetStatus(start.action.actionID, VDA5050::EActionStatus::Failed, std::move(refusal), now);
-    }
-}
-
-/// Why it cannot be, or nothing: the vehicle is where the action says then.
-std::string VirtualVehicle::InitialisePosition(const VDA5050::Action& action, Core::Now now)
-{
-    const auto getNumber = [&action](std::string_view key) {
-        const VDA5050::ActionParameter* const parameter = VDA5050::FindParameterOrNull(action, key);
-        return parameter != nullptr ? parameter->value.GetNumberOrNull() : std::nullopt;
-    };
-    const std::optional<double> x = getNumber("x");
-    const std::optional<double> y = getNumber("y");
-    const std::optional<double> theta = getNumber("theta");
-    const VDA5050::ActionParameter* const map = VDA5050::FindParameterOrNull(action, "mapId");
-    const std::optional<std::string> mapID = map != nullptr ? map->value.GetStringOrNull() : std::nullopt;
-    if (!x.has_value() || !y.has_value() || !theta.has_value() || !mapID.has_value())
-    {
-        return "x, y and theta have to be numbers, mapId a string";
-    }
-    if (!IsInReach(*_site, *x, *y))
-    {
-        return "this is too far from the site";
-    }
-    if (_motion.HasLeg() && !_motion.IsStanding())
-    {
-        return "the vehicle drives";
-    }
-    _motion.Place({*x, *y, NormaliseAngle(*theta)});
-    _mapID = *mapID;
-    _faults.End(EFaultKind::Lost, "initPosition", _faultChanges);
-    TellCondition(now);
-    return {};
-}
-
-void VirtualVehicle::SetStatus(
-    std::string_view actionID,
-    VDA5050::EActionStatus status,
-    std::string result,
-    Core::Now now)
-{
-    _logger.Debug("action", {{"actionId", CutForLog(actionID)}, {"status", VDA5050::GetStatusText(status)}});
-    if (!_session.TrySetActionStatus(actionID, status, std::move(result), now, _sessionActions))
-    {
-        _logger.Warning("the session does not take a status", {{"actionId", CutForLog(actionID)}});
-    }
-}
-
-bool VirtualVehicle::IsAtCharger() const
-{
-    const Planning::SiteStation* const station = _site->FindStationAtOrNull(_nodeID);
-    return station != nullptr && station->stationID.starts_with(CHARGER_PREFIX) && !_motion.HasLeg();
 }
 
 } // namespace ACS::VdaSim

@@ -64,6 +64,9 @@ struct VirtualVehicleOptions
     MotionLimits limits{};
     double charge = 100.0;                                      ///< % at first.
     std::map<std::string, double, std::less<>> actionSeconds{}; ///< Simulated, by actionType.
+    LoadHandling handling{};
+    Sim::IWorld* worldOrNull =
+        nullptr; ///< The floor that it works on, which outlives it; null: every load is where it is asked for.
 };
 
 /// A whole vehicle in software: a VehicleSession, the motion that carries out its legs, the actions, a battery, and
@@ -89,7 +92,8 @@ class VirtualVehicle
     std::string _mapID;
     double _charge;               ///< %
     double _unlivedSeconds = 0.0; ///< Simulated: less than a slice.
-    std::size_t _reportedLoads = 0;
+    std::vector<VDA5050::Load> _reportedLoads;
+    std::string _dockNodeID; ///< Where it was docked last; empty: nowhere.
     bool _bDriving = false;
     bool _bTicking = false;
     bool _bStopWanted = false; ///< By the session.
@@ -105,6 +109,7 @@ class VirtualVehicle
     WarningLimiter _refusals;
     WarningLimiter _ignored;
     WarningLimiter _overflows;
+    WarningLimiter _worldErrors;
     bool _bWasOnline = false;
     bool _bBatteryLow = false;
 
@@ -127,6 +132,8 @@ public:
     void OnTimer(std::uint64_t key, Core::Now now, VirtualActions& out);
     /// Publishes OFFLINE, as the last message.
     void Leave(Core::Now now, VirtualActions& out);
+    /// Another robot, or a person, has changed the world: what is on board may be something else now.
+    void OnWorldChanged(Core::Now now, VirtualActions& out);
 
     /// Its delay counts from now, or from the first OnLinkUp where that is still to come.
     /// False where it has FaultBoard::MAX_FAULTS already.
@@ -152,6 +159,8 @@ private:
     void TellDriving(bool bDriving, Core::Now now);
     void TellBattery(Core::Now now);
     void TellLoads(Core::Now now);
+    /// Reports to the world at which stations the vehicle is docked, where that has changed.
+    void UpdateDock(Core::Now now);
     void KeepTicking(VirtualActions& out);
     /// Ends each call from outside: what the session asks for, and the timers.
     void Settle(Core::Now now, VirtualActions& out);

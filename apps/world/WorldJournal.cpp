@@ -81,6 +81,10 @@ Core::Result<void> WorldJournal::ReadNews(const LineReader& read)
     {
         return Core::Fail(EWorldError::JournalFailed, _path, "a journal that grows; start again", "one that was cut");
     }
+    if (*size == _offset)
+    {
+        return {};
+    }
     std::string text;
     std::array<char, CHUNK_BYTES> chunk{};
     std::uint64_t next = _offset;

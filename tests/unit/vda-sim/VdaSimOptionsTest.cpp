@@ -22,6 +22,23 @@ TEST_CASE("A vehicle is its name, and optionally its type and its node, in any o
         == VehicleSpec{"X", EVehicleType::Logistics, {}, VDA5050::EVda5050Version::Version210, 7.5});
 }
 
+TEST_CASE("A vehicle may have its own number of ports, names of them, action types and parameters")
+{
+    const VdaSim::LoadHandling handling =
+        VdaSim::ParseVehicleSpec("A,ports=2,load=CP02:rear,drop=unload,lhd=arm:INTEGER,side=").value().handling;
+    CHECK(
+        VdaSim::GetLoadPositions(EVehicleType::Logistics, handling)
+        == std::vector<VdaSim::LoadPosition>{{"CP01", "CP01"}, {"CP02", "rear"}});
+    CHECK(handling.pickType == "pick");
+    CHECK(handling.dropType == "unload");
+    CHECK(handling.GetParameterName("lhd") == "arm");
+    CHECK(handling.GetParameterName("side").empty());
+    CHECK(handling.GetParameterName("loadId") == "loadId");
+    CHECK(VdaSim::GetLoadPositions(EVehicleType::Logistics).size() == 4);
+    CHECK(VdaSim::GetLoadPositions(EVehicleType::Control).empty());
+    CHECK(VdaSim::ParseVehicleSpec("A,lhd=side,side=lhd").has_value());
+}
+
 TEST_CASE("What is no vehicle is told with what would be one")
 {
     for (const std::string text :
@@ -48,6 +65,26 @@ TEST_CASE("What is no vehicle is told with what would be one")
           "A,battery=5%",
           "A,type=LR,type=CR",
           "A,node=N1,node=N2",
+          "A,ports=",
+          "A,ports=100",
+          "A,ports=2,ports=3",
+          "A,load=CP01",
+          "A,load=CP01:",
+          "A,load=CP05:front",
+          "A,load=CP01:one,load=CP01:two",
+          "A,load=CP01:one,load=CP02:one",
+          "A,load=CP01:CP02",
+          "A,type=CR,load=CP01:front",
+          "A,pick=",
+          "A,pick=drop",
+          "A,pick=cancelOrder",
+          "A,pick=same,drop=same",
+          "A,lhd",
+          "A,lhd=side",
+          "A,lhd=one,side=one",
+          "A,lhd=one two",
+          "A,lhd=one:TEXT",
+          "A,triggerType=one",
           "A,,"})
     {
         CAPTURE(text);
@@ -139,6 +176,16 @@ TEST_CASE("The command line counts vehicles, and takes faults, their files, acti
     CHECK(good.options.seed == 42);
     CHECK(good.options.controlTopic.empty());
     CHECK(good.options.actionSeconds.at("pick") == 0.25);
+}
+
+TEST_CASE("With a world every vehicle has the name of a robot")
+{
+    const ReadOptions good = ReadOptionsFrom({"--vehicle", "LR01", "--world", "world.json"});
+    REQUIRE_FALSE(good.exitCode.has_value());
+    CHECK(good.options.worldPath == "world.json");
+    CHECK(ReadOptionsFrom({"--vehicle", "A.B", "--world", "world.json"}).exitCode == 2);
+    CHECK(ReadOptionsFrom({"--vehicle", "AMR", "--world", "world.json"}).exitCode == 2);
+    CHECK_FALSE(ReadOptionsFrom({"--vehicle", "A.B"}).exitCode.has_value());
 }
 
 TEST_CASE("The command line says how to speak to the broker: MQTT's version, qualities of service, user and password")

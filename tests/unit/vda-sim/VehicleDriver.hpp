@@ -25,6 +25,7 @@ namespace ACS::Testing
 {
 
 /// N0 --10 m--> N1 --5 m, to the north--> N2 --1 m--> CHG01's dock, a charger that is entered without rotation, and back.
+/// A01.CP01 and A01.CP02 are at N1, A02.CP01 at N2.
 inline Planning::SiteMap MakeTestSite()
 {
     const auto node = [](std::string nodeID, double x, double y, std::optional<double> theta) {
@@ -44,7 +45,7 @@ inline Planning::SiteMap MakeTestSite()
          edge("N1", "N2", 1.2, 0.0, true),
          edge("N2", "DOCK", 0.4, 0.0, false),
          edge("DOCK", "N2", 0.4, std::numbers::pi, false)},
-        {{"CHG01", {"DOCK"}}});
+        {{"CHG01", {"DOCK"}}, {"A01.CP01", {"N1"}}, {"A01.CP02", {"N1"}}, {"A02.CP01", {"N2"}}});
     if (!site.has_value())
     {
         throw std::runtime_error(Core::Describe(site.error()));
@@ -123,6 +124,12 @@ public:
         const std::size_t count = _vehicle.Trigger(_clock.GetNow(), _actions);
         Execute();
         return count;
+    }
+
+    void NoteWorldChanged()
+    {
+        _vehicle.OnWorldChanged(_clock.GetNow(), _actions);
+        Execute();
     }
 
     /// Whether the vehicle wants a connection; it has one then.

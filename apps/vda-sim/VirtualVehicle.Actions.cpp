@@ -1,0 +1,163 @@
+#include "vda-sim/VirtualVehicle.hpp"
+
+#include "vda-sim/OrderLimits.hpp"
+#include "vda-sim/VehicleFactsheet.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ACS::VdaSim
+{
+namespace
+{
+
+constexpr std::string_view CHARGER_PREFIX = "CHG";
+
+/// The nearest node of those at which a vehicle at this point stands; empty where there is none.
+std::string FindNodeAt(const Planning::SiteMap& site, double x, double y)
+{
+    constexpr double TOLERANCE = 0.5; // as of a first node that states no deviation
+    const auto getDistance = [x, y](const Planning::SiteNode& node) {
+        return std::hypot(node.x - x, node.y - y);
+    };
+    const auto nearest = std::ranges::min_element(site.GetNodes(), {}, getDistance);
+    return nearest != site.GetNodes().end() && getDistance(*nearest) <= TOLERANCE ? nearest->nodeID : std::string();
+}
+
+} // namespace
+
+void VirtualVehicle::OnWorldChanged(Core::Now now, VirtualActions& out)
+{
+    PassTime(now, out);
+    _hands.GetDevice().UpdateLoads();
+    TellLoads(now);
+    Settle(now, out);
+}
+
+void VirtualVehicle::Start(const VDA5050::StartAction& start, Core::Now now)
+{
+    std::string refusal;
+    if (std::optional<VDA5050::VehicleError> error = TakeActionFaultOrNull(start.action, true); error.has_value())
+    {
+        refusal = error->errorDescription;
+        AddOrderError(std::move(*error), now);
+    }
+    if (refusal.empty() && start.action.actionType == ACTION_INIT_POSITION)
+    {
+        refusal = InitialisePosition(start.action, now);
+    }
+    if (refusal.empty())
+    {
+        refusal = _hands.Start(start.action, IsAtCharger(), TakeActionFaultOrNull(start.action, false));
+    }
+    const bool bRuns = refusal.empty();
+    SetStatus(start.action.actionID, VDA5050::EActionStatus::Running, {}, now);
+    if (!bRuns)
+    {
+        SetStatus(start.action.actionID, VDA5050::EActionStatus::Failed, std::move(refusal), now);
+    }
+}
+
+/// Why it cannot be, or nothing: the vehicle is where the action says then.
+std::string VirtualVehicle::InitialisePosition(const VDA5050::Action& action, Core::Now now)
+{
+    const auto getNumber = [&action](std::string_view key) {
+        const VDA5050::ActionParameter* const parameter = VDA5050::FindParameterOrNull(action, key);
+        return parameter != nullptr ? parameter->value.GetNumberOrNull() : std::nullopt;
+    };
+    const std::optional<double> x = getNumber("x");
+    const std::optional<double> y = getNumber("y");
+    const std::optional<double> theta = getNumber("theta");
+    const VDA5050::ActionParameter* const map = VDA5050::FindParameterOrNull(action, "mapId");
+    const std::optional<std::string> mapID = map != nullptr ? map->value.GetStringOrNull() : std::nullopt;
+    if (!x.has_value() || !y.has_value() || !theta.has_value() || !mapID.has_value())
+    {
+        return "x, y and theta have to be numbers, mapId a string";
+    }
+    if (!IsInReach(*_site, *x, *y))
+    {
+        return "this is too far from the site";
+    }
+    if (_motion.HasLeg() && !_motion.IsStanding())
+    {
+        return "the vehicle drives";
+    }
+    _motion.Place({*x, *y, NormaliseAngle(*theta)});
+    _nodeID = FindNodeAt(*_site, *x, *y);
+    _mapID = *mapID;
+    _faults.End(EFaultKind::Lost, "initPosition", _faultChanges);
+    TellCondition(now);
+    return {};
+}
+
+void VirtualVehicle::SetStatus(
+    std::string_view actionID,
+    VDA5050::EActionStatus status,
+    std::string result,
+    Core::Now now)
+{
+    _logger.Debug("action", {{"actionId", CutForLog(actionID)}, {"status", VDA5050::GetStatusText(status)}});
+    if (!_session.TrySetActionStatus(actionID, status, std::move(result), now, _sessionActions))
+    {
+        _logger.Warning("the session does not take a status", {{"actionId", CutForLog(actionID)}});
+    }
+}
+
+bool VirtualVehicle::IsAtCharger() const
+{
+    const Planning::SiteStation* const station = _site->FindStationAtOrNull(_nodeID);
+    return station != nullptr && station->stationID.starts_with(CHARGER_PREFIX) && !_motion.HasLeg();
+}
+
+void VirtualVehicle::EndActions(Core::Now now, VirtualActions& out)
+{
+    TellLoads(now);
+    TellBattery(now);
+    for (ActionOutcome& outcome : std::exchange(_outcomes, {}))
+    {
+        if (outcome.error.has_value())
+        {
+            AddOrderError(std::move(*outcome.error), now);
+        }
+        SetStatus(outcome.actionID, outcome.status, std::move(outcome.result), now);
+    }
+    Pump(now, out);
+}
+
+void VirtualVehicle::TellLoads(Core::Now now)
+{
+    const std::vector<VDA5050::Load>& loads = _hands.GetDevice().GetLoads();
+    if (_reportedLoads != loads)
+    {
+        _reportedLoads = loads;
+        _session.OnLoads(loads, now, _sessionActions);
+    }
+}
+
+void VirtualVehicle::UpdateDock(Core::Now now)
+{
+    const std::string nodeID = _motion.HasLeg() || !_motion.IsStanding() ? std::string() : _nodeID;
+    if (nodeID == _dockNodeID)
+    {
+        return;
+    }
+    _dockNodeID = nodeID;
+    std::vector<std::string> stationIDs;
+    for (const Planning::SiteStation& station : _site->GetStations())
+    {
+        if (std::ranges::find(station.nodeIDs, nodeID) != station.nodeIDs.end())
+        {
+            stationIDs.push_back(station.stationID);
+        }
+    }
+    const Core::Result<void> docked = _hands.GetDevice().Dock(std::move(stationIDs));
+    if (!docked.has_value() && _worldErrors.PassOrNull(now.steady).has_value())
+    {
+        _logger.Warning(
+            "the world does not know where the vehicle is docked",
+            {{"reason", Core::Describe(docked.error())}});
+    }
+}
+
+} // namespace ACS::VdaSim

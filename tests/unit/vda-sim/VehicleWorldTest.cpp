@@ -1,0 +1,301 @@
+#include "Catch.hpp"
+#include "vda-sim/VehicleFactsheet.hpp"
+#include "VehicleDriver.hpp"
+#include "world/MemoryWorld.hpp"
+
+#include <chrono>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace ACS::Testing
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+using Sim::MemoryWorld;
+using VDA5050::ActionParameter;
+using VDA5050::EActionStatus;
+
+ActionParameter MakeText(std::string_view key, std::string_view value)
+{
+    return {std::string(key), Core::JsonText::FromString(value)};
+}
+
+/// A conforming pick or drop, with what is to be different.
+std::vector<ActionParameter> MakeParameters(std::string_view station, std::vector<ActionParameter> more = {})
+{
+    std::vector<ActionParameter> parameters{
+        MakeText("stationType", "rack"),
+        MakeText("stationName", station),
+        MakeText("loadType", "cassette")};
+    parameters.insert(parameters.end(), more.begin(), more.end());
+    return parameters;
+}
+
+/// LR01 at N1, the dock of A01.CP01 and A01.CP02, over a world with a cassette at A01.CP01.
+class WorldFixture
+{
+    MemoryWorld _world;
+    VdaSim::VirtualVehicleOptions _options = VehicleDriver::MakeOptions("N1");
+    int _orders = 0;
+
+public:
+    WorldFixture()
+    {
+        REQUIRE(_world.Act(Sim::CarrierPlaced{"CASSETTE_01", "A01.CP01"}));
+        _options.worldOrNull = &_world;
+    }
+
+    [[nodiscard]] MemoryWorld& GetWorld() noexcept
+    {
+        return _world;
+    }
+
+    [[nodiscard]] VdaSim::VirtualVehicleOptions& GetOptions() noexcept
+    {
+        return _options;
+    }
+
+    /// Sends an order with one action on its last node and returns how that ended.
+    [[nodiscard]] VDA5050::ActionState Perform(
+        VehicleDriver& driver,
+        std::string_view actionType,
+        std::vector<ActionParameter> parameters,
+        const std::vector<std::string>& nodeIDs = {"N1"})
+    {
+        ++_orders;
+        auto route = driver.MakeRoute("order-" + std::to_string(_orders), nodeIDs);
+        auto order = VehicleDriver::Take(route.MakeOrder(nodeIDs.size()));
+        VDA5050::Action action;
+        action.actionType = std::string(actionType);
+        action.actionID = "action-" + std::to_string(_orders);
+        action.blockingType = VDA5050::EBlockingType::Hard;
+        action.actionParameters = std::move(parameters);
+        const std::string actionID = action.actionID;
+        order.nodes.back().actions.push_back(std::move(action));
+        driver.Send(std::move(order));
+        driver.Pass(60s);
+        for (const VDA5050::ActionState& state : driver.GetState().actionStates)
+        {
+            if (state.actionID == actionID)
+            {
+                return state;
+            }
+        }
+        FAIL(
+            "the order was refused: "
+            << (driver.GetState().errors.empty() ? "" : driver.GetState().errors[0].errorDescription));
+        return {};
+    }
+};
+
+/// "CP01=CASSETTE_01 ": what the state shows on board.
+std::string ListLoads(const VehicleDriver& driver)
+{
+    std::string list;
+    for (const VDA5050::Load& load : driver.GetState().loads.value_or(std::vector<VDA5050::Load>()))
+    {
+        list += load.loadPosition + "=" + load.loadID.value_or("?") + " ";
+    }
+    return list;
+}
+
+} // namespace
+
+TEST_CASE("A vehicle moves the carrier of the place that its action names to the port that it names, and back")
+{
+    WorldFixture floor;
+    VehicleDriver driver(floor.GetOptions());
+    CHECK(driver.GetState().loads->empty());
+    const auto picked = floor.Perform(
+        driver,
+        "pick",
+        MakeParameters("A01.CP01", {MakeText("loadId", "CASSETTE_01"), MakeText("lhd", "CP03")}));
+    CHECK(picked.actionStatus == EActionStatus::Finished);
+    CHECK(floor.GetWorld().GetPlaceOrNull("CASSETTE_01") == "LR01.CP03");
+    CHECK(ListLoads(driver) == "CP03=CASSETTE_01 ");
+    CHECK(driver.GetState().loads->front().loadType == "cassette");
+
+    const auto dropped = floor.Perform(driver, "drop", MakeParameters("A01.CP02", {MakeText("lhd", "CP03")}));
+    CHECK(dropped.actionStatus == EActionStatus::Finished);
+    CHECK(floor.GetWorld().GetPlaceOrNull("CASSETTE_01") == "A01.CP02");
+    CHECK(driver.GetState().loads->empty());
+}
+
+TEST_CASE("What is physically impossible fails with a reason, and nothing moves")
+{
+    WorldFixture floor;
+    REQUIRE(floor.GetWorld().Act(Sim::CarrierPlaced{"CASSETTE_02", "LR01.CP02"}));
+    VehicleDriver driver(floor.GetOptions());
+    CHECK(ListLoads(driver) == "CP02=CASSETTE_02 "); // what the world file has there
+    struct Impossible
+    {
+        const char* actionType;
+        std::vector<ActionParameter> parameters;
+        const char* reason;
+    };
+    for (const Impossible& impossible : {
+             Impossible{"pick", MakeParameters("A01.CP02"), "empty place"},
+             Impossible{"pick", MakeParameters("A01.CP01", {MakeText("loadId", "CASSETTE_07")}), "CASSETTE_07"},
+             Impossible{"pick", MakeParameters("A01.CP01", {MakeText("lhd", "CP02")}), "in this place already"},
+             Impossible{"pick", MakeParameters("A01.CP01", {MakeText("lhd", "CP05")}), "no such place"},
+             Impossible{"pick", MakeParameters("A02.CP01"), "docked at"},
+             Impossible{"pick", MakeParameters("nowhere"), "place"},
+             Impossible{"pick", MakeParameters(""), "no station"},
+             Impossible{"drop", MakeParameters("A01.CP01", {MakeText("loadId", "CASSETTE_02")}), "free place"},
+             Impossible{"drop", MakeParameters("A01.CP02", {MakeText("loadId", "CASSETTE_01")}), "not on board"},
+             Impossible{"drop", MakeParameters("A01.CP02", {MakeText("lhd", "CP01")}), "not on board"},
+             Impossible{
+                 "drop",
+                 MakeParameters("A01.CP02", {MakeText("loadId", "CASSETTE_02"), MakeText("lhd", "CP01")}),
+                 "another place"},
+         })
+    {
+        const auto ended = floor.Perform(driver, impossible.actionType, impossible.parameters);
+        CHECK(ended.actionStatus == EActionStatus::Failed);
+        CHECK_THAT(ended.resultDescription, Catch::Contains(impossible.reason));
+        CHECK(floor.GetWorld().GetPlaceOrNull("CASSETTE_01") == "A01.CP01");
+        CHECK(floor.GetWorld().GetPlaceOrNull("CASSETTE_02") == "LR01.CP02");
+    }
+}
+
+TEST_CASE("An action that a fault lets fail moves nothing")
+{
+    WorldFixture floor;
+    VehicleDriver driver(floor.GetOptions());
+    driver.Inject("action-fails");
+    CHECK(floor.Perform(driver, "pick", MakeParameters("A01.CP01")).actionStatus == EActionStatus::Failed);
+    CHECK(floor.GetWorld().GetPlaceOrNull("CASSETTE_01") == "A01.CP01");
+    CHECK(driver.GetState().loads->empty());
+}
+
+TEST_CASE("Without a stationName the only station of the node is meant")
+{
+    WorldFixture floor;
+    REQUIRE(floor.GetWorld().Act(Sim::CarrierPlaced{"CASSETTE_02", "A02.CP01"}));
+    floor.GetOptions().startNodeID = "N2";
+    VehicleDriver driver(floor.GetOptions());
+    const auto picked =
+        floor.Perform(driver, "pick", {MakeText("stationType", "rack"), MakeText("loadType", "cassette")}, {"N2"});
+    CHECK(picked.actionStatus == EActionStatus::Finished);
+    CHECK(ListLoads(driver) == "CP01=CASSETTE_02 ");
+}
+
+TEST_CASE("A vehicle docks at all stations of the node where it is stationary, and leaves them when it drives off")
+{
+    WorldFixture floor;
+    floor.GetOptions().startNodeID = "N0";
+    VehicleDriver driver(floor.GetOptions());
+    CHECK(floor.GetWorld().TakeEvents().size() == 1); // the cassette: no robot has docked
+    static_cast<void>(floor.Perform(driver, "finePositioning", {}, {"N0", "N1"}));
+    std::vector<Sim::WorldEvent> events = floor.GetWorld().TakeEvents();
+    REQUIRE(events.size() == 1);
+    CHECK((events[0] == Sim::WorldEvent(Sim::RobotDocked{"LR01", {"A01.CP01", "A01.CP02"}})));
+    static_cast<void>(floor.Perform(driver, "finePositioning", {}, {"N1", "N2"}));
+    events = floor.GetWorld().TakeEvents();
+    REQUIRE(events.size() == 2);
+    CHECK((events[0] == Sim::WorldEvent(Sim::RobotDocked{"LR01", {}})));
+    CHECK((events[1] == Sim::WorldEvent(Sim::RobotDocked{"LR01", {"A02.CP01"}})));
+}
+
+TEST_CASE("A vehicle that drives through a node does not dock there")
+{
+    WorldFixture floor;
+    floor.GetOptions().startNodeID = "N0";
+    VehicleDriver driver(floor.GetOptions());
+    static_cast<void>(floor.GetWorld().TakeEvents());
+    static_cast<void>(floor.Perform(driver, "finePositioning", {}, {"N0", "N1", "N2"}));
+    const std::vector<Sim::WorldEvent> events = floor.GetWorld().TakeEvents();
+    REQUIRE(events.size() == 1);
+    CHECK((events[0] == Sim::WorldEvent(Sim::RobotDocked{"LR01", {"A02.CP01"}})));
+}
+
+TEST_CASE("A vehicle that initPosition puts elsewhere has left its stations")
+{
+    WorldFixture floor;
+    VehicleDriver driver(floor.GetOptions());
+    static_cast<void>(floor.GetWorld().TakeEvents());
+    const auto place = [&driver](const char* actionID, double x, double y) {
+        driver.SendInstantly(
+            "initPosition",
+            actionID,
+            {{"x", Core::JsonText::FromNumber(x)},
+             {"y", Core::JsonText::FromNumber(y)},
+             {"theta", Core::JsonText::FromNumber(0.0)},
+             MakeText("mapId", "floor"),
+             MakeText("lastNodeId", "N1")});
+        driver.Pass(5s);
+    };
+    place("away", 5.0, 0.0);
+    place("back", 10.1, 0.0);
+    const std::vector<Sim::WorldEvent> events = floor.GetWorld().TakeEvents();
+    REQUIRE(events.size() == 2);
+    CHECK((events[0] == Sim::WorldEvent(Sim::RobotDocked{"LR01", {}})));
+    CHECK((events[1] == Sim::WorldEvent(Sim::RobotDocked{"LR01", {"A01.CP01", "A01.CP02"}})));
+}
+
+TEST_CASE("What others put on the vehicle shows in its loads")
+{
+    WorldFixture floor;
+    VehicleDriver driver(floor.GetOptions());
+    REQUIRE(floor.GetWorld().Act(Sim::CarrierPlaced{"CASSETTE_05", "LR01.CP04"}));
+    driver.NoteWorldChanged();
+    CHECK(ListLoads(driver) == "CP04=CASSETTE_05 ");
+}
+
+TEST_CASE("A make of its own: other actionTypes, parameters and names of the load positions")
+{
+    WorldFixture floor;
+    const auto spec = VdaSim::ParseVehicleSpec(
+        "LR01,ports=2,load=CP01:front,load=CP02:7,pick=loadCassette,drop=unloadCassette,stationName=rack,"
+        "lhd=gripper,loadId=barcode,stationType=,height=level:INTEGER");
+    REQUIRE(spec.has_value());
+    floor.GetOptions().handling = spec->handling;
+    VehicleDriver driver(floor.GetOptions());
+    const auto picked = floor.Perform(
+        driver,
+        "loadCassette",
+        {MakeText("rack", "A01.CP01"),
+         MakeText("gripper", "7"),
+         MakeText("barcode", "CASSETTE_01"),
+         MakeText("loadType", "cassette")});
+    CHECK(picked.actionStatus == EActionStatus::Finished);
+    CHECK(floor.GetWorld().GetPlaceOrNull("CASSETTE_01") == "LR01.CP02");
+    CHECK(ListLoads(driver) == "7=CASSETTE_01 ");
+    const auto dropped =
+        floor.Perform(driver, "unloadCassette", {MakeText("rack", "A01.CP02"), MakeText("gripper", "7")});
+    CHECK(dropped.actionStatus == EActionStatus::Finished);
+    CHECK(floor.GetWorld().GetPlaceOrNull("CASSETTE_01") == "A01.CP02");
+}
+
+TEST_CASE("The factsheet of a make of its own lists what it has")
+{
+    const auto spec =
+        VdaSim::ParseVehicleSpec("LR02,ports=1,load=CP01:front,pick=loadCassette,stationType=,height=level:INTEGER");
+    REQUIRE(spec.has_value());
+    const VDA5050::FactsheetMessage factsheet = VdaSim::MakeFactsheet(
+        VdaSim::EVehicleType::Logistics,
+        {},
+        VDA5050::EVda5050Version::Version210,
+        spec->handling);
+    CHECK(factsheet.loadSpecification.loadPositions == std::vector<std::string>{"front"});
+    CHECK(factsheet.protocolLimits.maxArrayLengths.stateLoads == 1U);
+    const auto& actions = factsheet.protocolFeatures.agvActions;
+    CHECK(std::ranges::find(actions, "pick", &VDA5050::AgvAction::actionType) == actions.end());
+    CHECK(std::ranges::find(actions, "drop", &VDA5050::AgvAction::actionType) != actions.end());
+    const auto pick = std::ranges::find(actions, "loadCassette", &VDA5050::AgvAction::actionType);
+    REQUIRE(pick != actions.end());
+    const auto& parameters = pick->actionParameters;
+    const auto find = [&parameters](std::string_view key) {
+        return std::ranges::find(parameters, key, &VDA5050::AgvActionParameter::key);
+    };
+    CHECK(find("stationType") == parameters.end());
+    CHECK(find("height") == parameters.end());
+    REQUIRE(find("level") != parameters.end());
+    CHECK(find("level")->valueDataType == VDA5050::EValueDataType::Integer);
+}
+
+} // namespace ACS::Testing
