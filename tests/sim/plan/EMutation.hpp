@@ -34,6 +34,9 @@ enum class EMutation : std::uint8_t
     TimerForgotten,
     RecoveryDenied,
     MaintenanceForgotten,
+    InputsOfAnotherJob,
+    PortOffByOne,
+    WrongPlace,
     StartRepeated,
 };
 
@@ -44,7 +47,7 @@ struct MutationText
     bool bOfArms = false; ///< Looked for in worlds with arms, of which there are few else.
 };
 
-inline constexpr std::size_t MUTATION_COUNT = 24;
+inline constexpr std::size_t MUTATION_COUNT = 27;
 
 /// By EMutation.
 inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
@@ -72,6 +75,9 @@ inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
     {"timer-forgotten", "now and then a timer of the engine does not fire"},
     {"recovery-denied", "after a restart each robot seems never to have had its job"},
     {"maintenance-forgotten", "after a restart all robots are in service"},
+    {"inputs-of-another-job", "a job is given to the robot with the places of the one before of the same action"},
+    {"port-off-by-one", "a job is given to the robot with the next port of it, or the next memory place there"},
+    {"wrong-place", "a job is given to the robot with the fixed place beside the right one"},
     {"start-repeated", "a program's start is sent again when the connection to the arm is back", true},
 }};
 

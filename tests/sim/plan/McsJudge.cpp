@@ -273,7 +273,8 @@ void McsJudge::CheckCompleted(const std::string& planID, const PlanView& plan)
         {
             _trace.Violate("plan {} is Completed, its step {} is {}", planID, stepNo, GetText(step.status));
         }
-        if (step.jobs.empty() && _witness.GetTruth(planID, stepNo, {}).finished == 0)
+        const WorkWitness::JobTruth truth = _witness.GetTruth(planID, stepNo, {});
+        if (step.jobs.empty() && (truth.finished == 0 || !truth.bMoved))
         {
             _trace.Violate("plan {} is Completed, and no robot has done its step {}", planID, stepNo);
         }
@@ -351,6 +352,13 @@ void McsJudge::TakeJobReport(const Protocol::JobReport& report)
     {
         _trace
             .Violate("job {} of {} is told as {}, and it was not", report.jobID, report.planID, GetText(report.status));
+    }
+    if (bNeedsEnd && !truth.bMoved)
+    {
+        _trace.Violate(
+            "job {} of {} is told as Completed, and nothing was moved to its place",
+            report.jobID,
+            report.planID);
     }
 }
 

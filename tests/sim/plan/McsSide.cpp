@@ -252,13 +252,7 @@ void McsSide::SendPlan()
     Protocol::ExecutionPlan plan =
         bGood ? MakeGoodPlan(_scenario, _dice, planID) : MakeBadPlan(_scenario, _dice, planID);
     _planIDs.push_back(planID);
-    for (const Protocol::PlanStep& step : plan.steps)
-    {
-        for (const Protocol::PlanJob& job : step.jobs)
-        {
-            _witness.NoteNamed(planID, job.jobID);
-        }
-    }
+    _witness.NotePlan(plan);
     _judge.NotePlan(plan, bGood);
     const Protocol::AcsRequest request = _session.MakeRequest(std::move(plan), _timeline.GetNow());
     _unanswered.emplace(request.transactionID, request);

@@ -204,10 +204,23 @@ void MemoryRobot::OnJobTimer()
     }
     else
     {
-        _witness.OnJobFinished(_robotID, *_job);
-        EndJob(EJobState::Finished, {});
+        FinishJob();
     }
     Show();
+}
+
+/// It does what it was commanded, whatever the plan demands.
+void MemoryRobot::FinishJob()
+{
+    const std::optional<Sim::WorldEvent> move = MakeMoveOrNull(_robotID, *_job);
+    const Core::Result<void> done = move.has_value() ? _witness.GetFloor().Act(*move) : Core::Result<void>();
+    if (!done.has_value())
+    {
+        EndJob(EJobState::Failed, Core::Describe(done.error()));
+        return;
+    }
+    _witness.OnJobFinished(_robotID, *_job);
+    EndJob(EJobState::Finished, {});
 }
 
 void MemoryRobot::EndJob(EJobState state, const std::string& reason)

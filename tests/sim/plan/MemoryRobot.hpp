@@ -64,6 +64,7 @@ private:
     void GoOn();
     void OnMoveTimer();
     void OnJobTimer();
+    void FinishJob();
     void EndDrive(EDriveState state);
     void EndJob(EJobState state, const std::string& reason);
     void Unhalt();

@@ -3,6 +3,8 @@
 #include <acs/core/Uuid.hpp>
 #include <acs/plan/PlanTransitions.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 #include <variant>
@@ -12,6 +14,18 @@ namespace ACS::Simulation
 
 namespace
 {
+
+/// "CR01.TP02" of "CR01.TP01".
+std::optional<std::string> MakeNextOrNull(const std::optional<std::string>& placeOrNull)
+{
+    constexpr std::size_t DIGITS = 2;
+    if (!placeOrNull.has_value() || placeOrNull->size() < DIGITS)
+    {
+        return placeOrNull;
+    }
+    const std::string number = placeOrNull->substr(placeOrNull->size() - DIGITS);
+    return placeOrNull->substr(0, placeOrNull->size() - DIGITS) + fmt::format("{:02}", std::stoi(number) + 1);
+}
 
 bool IsFinalReport(const Planning::Report& report)
 {
@@ -128,6 +142,10 @@ Mutator::CommandOutcome Mutator::OnCommand(const Planning::CommandRobot& command
         again.commandID = Core::MakeUuid(_random);
         outcome.sentLater.emplace_back(std::move(again));
     }
+    if (jobOrNull != nullptr)
+    {
+        std::get<Planning::StartJob>(outcome.sent.front()) = Misdirect(command.robotID, *jobOrNull);
+    }
     const auto* const recoveryOrNull = std::get_if<Planning::RecoverJob>(&command.command);
     if (Is(EMutation::RecoveryDenied) && recoveryOrNull != nullptr)
     {
@@ -147,6 +165,29 @@ Mutator::CommandOutcome Mutator::OnCommand(const Planning::CommandRobot& command
         _standing.insert(command.robotID);
     }
     return outcome;
+}
+
+/// To other places than the engine has chosen.
+Planning::StartJob Mutator::Misdirect(const std::string& robotID, Planning::StartJob job)
+{
+    const auto latest = _latestJobs.try_emplace({robotID, job.action}, job).first;
+    const Planning::StartJob before = std::exchange(latest->second, job);
+    if (Is(EMutation::InputsOfAnotherJob))
+    {
+        job.from = before.from;
+        job.to = before.to;
+        job.carrierID = before.carrierID;
+    }
+    const bool bRobotFirst = job.from.has_value() && job.from->starts_with(robotID + ".");
+    if (Is(EMutation::PortOffByOne))
+    {
+        (bRobotFirst ? job.from : job.to) = MakeNextOrNull(bRobotFirst ? job.from : job.to);
+    }
+    if (Is(EMutation::WrongPlace))
+    {
+        (bRobotFirst ? job.to : job.from) = MakeNextOrNull(bRobotFirst ? job.to : job.from);
+    }
+    return job;
 }
 
 std::vector<Planning::RobotEvent> Mutator::OnEvent(const std::string& robotID, const Planning::RobotEvent& event) const

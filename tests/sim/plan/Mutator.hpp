@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ACS::Simulation
@@ -39,9 +40,12 @@ private:
     Dice& _dice;
     Core::IRandom& _random;
     std::optional<Planning::OutboxEntry> _heldBack;
-    std::map<std::string, Planning::Drive> _drives; ///< The latest of each robot.
-    std::set<std::string> _denied;                  ///< CommandIDs.
-    std::set<std::string> _standing;                ///< Robots that count as standing until their next drive.
+    std::map<std::string, Planning::Drive> _drives;                                ///< The latest of each robot.
+    std::set<std::string> _denied;                                                 ///< CommandIDs.
+    std::map<std::pair<std::string, std::string>, Planning::StartJob> _latestJobs; ///< By robot and action.
+    std::set<std::string> _standing; ///< Robots that count as standing until their next drive.
+
+    [[nodiscard]] Planning::StartJob Misdirect(const std::string& robotID, Planning::StartJob job);
 
 public:
     Mutator(EMutation mutation, Dice& dice, Core::IRandom& random);

@@ -6,12 +6,30 @@
 namespace ACS::Simulation
 {
 
-void WorkWitness::NoteNamed(const std::string& planID, const std::string& jobID)
+WorkWitness::WorkWitness(Trace& trace, const Planning::SiteMap& site, EHandling handling)
+    : _trace(trace),
+      _floor(trace, site, handling)
 {
-    _named.emplace(planID, jobID);
 }
 
-WorkWitness::JobKey WorkWitness::MakeKey(const std::string& planID, std::int32_t stepNo, const std::string& jobID) const
+void WorkWitness::NotePlan(const Protocol::ExecutionPlan& plan)
+{
+    _floor.NotePlan(plan);
+    for (const Protocol::PlanStep& step : plan.steps)
+    {
+        for (const Protocol::PlanJob& job : step.jobs)
+        {
+            _named.emplace(plan.planID, job.jobID);
+        }
+    }
+}
+
+FloorChecker& WorkWitness::GetFloor() noexcept
+{
+    return _floor;
+}
+
+JobKey WorkWitness::MakeKey(const std::string& planID, std::int32_t stepNo, const std::string& jobID) const
 {
     return {planID, stepNo, _named.contains({planID, jobID}) ? jobID : std::string()};
 }
@@ -40,29 +58,36 @@ void WorkWitness::OnPlaced(const std::string& robotID, std::vector<std::string> 
         }
     }
     _trace.Tell("{} is at {}", robotID, fmt::join(nodeIDs, " > "));
+    _floor.OnPlaced(robotID, nodeIDs.size() == 1 ? nodeIDs.front() : std::string());
     _places[robotID] = std::move(nodeIDs);
 }
 
 void WorkWitness::OnJobBegun(const std::string& robotID, const Planning::StartJob& job)
 {
     _trace.Tell("{} begins job {} of {} step {}", robotID, job.jobID, job.planID, job.stepNo);
-    if (++_jobs[MakeKey(job.planID, job.stepNo, job.jobID)].begun > 1)
+    const JobKey key = MakeKey(job.planID, job.stepNo, job.jobID);
+    if (++_jobs[key].begun > 1)
     {
         _trace.Violate("job {} of {} step {} is executed twice", job.jobID, job.planID, job.stepNo);
     }
+    _floor.OnJobBegun(robotID, key);
 }
 
 void WorkWitness::OnJobFinished(const std::string& robotID, const Planning::StartJob& job)
 {
     _trace.Tell("{} has done job {} of {}", robotID, job.jobID, job.planID);
     ++_jobs[MakeKey(job.planID, job.stepNo, job.jobID)].finished;
+    _floor.OnJobEnded(robotID);
 }
 
 WorkWitness::JobTruth WorkWitness::GetTruth(const std::string& planID, std::int32_t stepNo, const std::string& jobID)
     const
 {
-    const auto found = _jobs.find(MakeKey(planID, stepNo, jobID));
-    return found == _jobs.end() ? JobTruth{} : found->second;
+    const JobKey key = MakeKey(planID, stepNo, jobID);
+    const auto found = _jobs.find(key);
+    JobTruth truth = found == _jobs.end() ? JobTruth{} : found->second;
+    truth.bMoved = _floor.IsMoved(key);
+    return truth;
 }
 
 } // namespace ACS::Simulation

@@ -1,7 +1,10 @@
 #pragma once
 
+#include "FloorChecker.hpp"
 #include "Trace.hpp"
 #include <acs/plan/RobotCommand.hpp>
+#include <acs/plan/SiteMap.hpp>
+#include <acs/protocol/AcsMessage.hpp>
 
 #include <cstddef>
 #include <map>
@@ -22,29 +25,26 @@ public:
     {
         std::size_t begun = 0;
         std::size_t finished = 0;
+        bool bMoved = false; ///< What it moves is where the plan demanded, or was brought on from there.
     };
 
 private:
-    /// A step without jobs has one that the engine makes up: its jobID says nothing.
-    using JobKey = std::tuple<std::string, std::int32_t, std::string>;
-
     Trace& _trace;
     std::map<JobKey, JobTruth> _jobs;
     std::map<std::string, std::vector<std::string>> _places;
     std::set<std::pair<std::string, std::string>> _named; ///< planID and jobID of what the MCS has called a job.
 
     std::map<std::string, Planning::StartJob> _commands;
+    FloorChecker _floor;
 
+    /// A step without jobs has one that the engine makes up: its jobID says nothing.
     [[nodiscard]] JobKey MakeKey(const std::string& planID, std::int32_t stepNo, const std::string& jobID) const;
 
 public:
-    explicit WorkWitness(Trace& trace)
-        : _trace(trace)
-    {
-    }
+    WorkWitness(Trace& trace, const Planning::SiteMap& site, EHandling handling);
 
-    /// The MCS has named this job in a plan.
-    void NoteNamed(const std::string& planID, const std::string& jobID);
+    /// The MCS is about to send the plan.
+    void NotePlan(const Protocol::ExecutionPlan& plan);
 
     /// Under this commandID acsd has sent the job: a robot that knows no more than that can be understood.
     void NoteCommand(const Planning::StartJob& job);
@@ -54,6 +54,8 @@ public:
     void OnPlaced(const std::string& robotID, std::vector<std::string> nodeIDs);
     void OnJobBegun(const std::string& robotID, const Planning::StartJob& job);
     void OnJobFinished(const std::string& robotID, const Planning::StartJob& job);
+
+    [[nodiscard]] FloorChecker& GetFloor() noexcept;
 
     /// Of a step without jobs the jobID does not matter.
     [[nodiscard]] JobTruth GetTruth(const std::string& planID, std::int32_t stepNo, const std::string& jobID) const;

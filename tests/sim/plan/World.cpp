@@ -34,6 +34,11 @@ constexpr std::uint64_t FIRST_ARM_PART = 600;
 constexpr std::uint64_t FIRST_ARM_NETWORK_PART = 700;
 constexpr std::uint64_t FIRST_TROUBLE_PART = 800;
 
+EHandling GetHandling(ERobotKind robots)
+{
+    return robots == ERobotKind::Memory ? EHandling::Everything : EHandling::None;
+}
+
 } // namespace
 
 World::World(Scenario scenario, EMutation mutation, bool bPrinting)
@@ -44,11 +49,11 @@ World::World(Scenario scenario, EMutation mutation, bool bPrinting)
       _ownRandom({_scenario.seed, OWN_RANDOM_PART}),
       _weather({_scenario.seed, WEATHER_PART}),
       _robotDice({_scenario.seed, ROBOT_PART}),
-      _witness(_trace),
+      _site(_scenario.MakeSite()),
+      _witness(_trace, _site, GetHandling(_scenario.robots)),
       _judge(_trace, _store, _witness),
       _network(_timeline, _trace, {_scenario.seed, NETWORK_PART}, TextNames{"acsd", "MCS"}),
       _mcs(_timeline, _trace, _network, _judge, _witness, _scenario),
-      _site(_scenario.MakeSite()),
       _broker(_timeline, _trace, {_scenario.seed, BROKER_PART}, _scenario.Has(EFault::Radio)),
       _habits(_timeline),
       _robotHabits(_timeline),
@@ -393,12 +398,31 @@ void World::TakeCarriersOff()
     for (const Planning::RobotStatus& robot : engine.GetRobotStatuses())
     {
         const std::vector<std::optional<std::string>> empty(robot.carrierIDs.size());
-        if (bAnyWaits && !robot.planID.has_value() && robot.carrierIDs != empty)
+        const ISimulatedRobot& body = *_robots.at(robot.robotID);
+        const bool bStill = body.IsAtRest() && !body.IsWorkUnderWay();
+        if (bAnyWaits && bStill && !robot.planID.has_value() && robot.carrierIDs != empty)
         {
             _trace.Tell("operator: takes the carriers off {}", robot.robotID);
             _process->PushCommand(Planning::SetCarriers{robot.robotID, empty, 0});
+            _witness.GetFloor().TakeCarriersOff(GetPorts(robot.robotID));
         }
     }
+}
+
+std::vector<std::string> World::GetPorts(std::string_view robotID) const
+{
+    std::vector<std::string> ports;
+    for (const Planning::RobotOptions& robot : _scenario.options.robots)
+    {
+        for (const Core::Location& port : robot.ports)
+        {
+            if (robot.robotID.GetText() == robotID)
+            {
+                ports.push_back(port.GetText());
+            }
+        }
+    }
+    return ports;
 }
 
 std::string World::DescribeUnrest() const

@@ -18,6 +18,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ACS::Simulation
@@ -47,11 +48,11 @@ class World final
     Dice _weather;   ///< Of what breaks from outside.
     Dice _robotDice; ///< Of what happens to robots.
     CrashableStore _store;
+    Planning::SiteMap _site;
     WorkWitness _witness;
     McsJudge _judge;
     TextNetwork _network;
     McsSide _mcs;
-    Planning::SiteMap _site;
     MqttBroker _broker;
     std::map<std::string, std::unique_ptr<ISimulatedRobot>> _robots;
     TimerBank<EHabit> _habits;
@@ -80,6 +81,7 @@ class World final
     void SettleJobs();
     void Watch();
     void TakeCarriersOff();
+    [[nodiscard]] std::vector<std::string> GetPorts(std::string_view robotID) const;
     [[nodiscard]] std::string DescribeUnrest() const;
 
 public:
