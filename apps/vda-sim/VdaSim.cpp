@@ -92,6 +92,8 @@ public:
         vehicle.charge = spec.charge;
         vehicle.actionSeconds = _options->actionSeconds;
         vehicle.handling = spec.handling;
+        vehicle.parameterCheck =
+            _options->bLenientParameters ? VDA5050::EParameterCheck::Lenient : VDA5050::EParameterCheck::Strict;
         vehicle.worldOrNull = _worldOrNull;
 
         const Core::Logger logger(_log, spec.name);

@@ -282,6 +282,11 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         "how long the actions of a type take, in simulated time; else pick and drop 3 s, waitForTrigger until it is "
         "triggered, others 1 s. May be repeated")
         .type_name("ACTIONTYPE=DURATION");
+    app.add_flag(
+        "--lenient-parameters",
+        options.bLenientParameters,
+        "accept parameters of actions that the factsheet does not list, and report them (WARNING unlistedParameter in "
+        "the state, log); also numbers and booleans as text. By default orders with either are refused");
     Apps::AddFaultOptions(
         app,
         GetFaultGrammar(),

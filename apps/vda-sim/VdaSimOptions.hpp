@@ -33,7 +33,8 @@ struct VdaSimOptions
     double timeScale = 1.0;
     std::optional<std::uint64_t> seed; ///< Absent: another one each time, told on the log.
     std::map<std::string, double, std::less<>> actionSeconds;
-    std::vector<FaultCommand> faults;             ///< Of --fault and --fault-file; all of them begin one.
+    std::vector<FaultCommand> faults; ///< Of --fault and --fault-file; all of them begin one.
+    bool bLenientParameters = false;
     std::string controlTopic = "vda-sim/control"; ///< Empty: none.
 };
 

@@ -14,18 +14,7 @@ namespace
 {
 
 using VDA5050::AgvAction;
-using VDA5050::AgvActionParameter;
 using VDA5050::EBlockingType;
-
-/// Whether a vehicle could not do without it; loads and stations may stay unnamed, logs and triggers too.
-bool IsNeeded(const AgvAction& action, const AgvActionParameter& parameter)
-{
-    const bool bOfMap = action.actionType == VDA5050::ActionTypes::ENABLE_MAP
-        || action.actionType == VDA5050::ActionTypes::DOWNLOAD_MAP
-        || action.actionType == VDA5050::ActionTypes::DELETE_MAP;
-    const bool bOfPose = action.actionType == ACTION_INIT_POSITION && parameter.key != "lastNodeId";
-    return !parameter.bOptional.value_or(false) && (bOfMap || bOfPose);
-}
 
 bool IsOfLoads(const AgvAction& action)
 {
@@ -42,10 +31,6 @@ std::vector<AgvAction> MakeActions(bool bHandlesLoads, const LoadHandling& handl
     }
     for (AgvAction& action : actions)
     {
-        for (AgvActionParameter& parameter : action.actionParameters)
-        {
-            parameter.bOptional = !IsNeeded(action, parameter);
-        }
         if (IsOfLoads(action))
         {
             action = AdaptAction(std::move(action), handling);

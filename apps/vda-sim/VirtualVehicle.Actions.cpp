@@ -37,6 +37,7 @@ void VirtualVehicle::OnWorldChanged(Core::Now now, VirtualActions& out)
 
 void VirtualVehicle::Start(const VDA5050::StartAction& start, Core::Now now)
 {
+    LogUnlisted(start.action.actionID, now);
     std::string refusal;
     if (std::optional<VDA5050::VehicleError> error = TakeActionFaultOrNull(start.action, true); error.has_value())
     {
@@ -108,6 +109,39 @@ bool VirtualVehicle::IsAtCharger() const
 {
     const Planning::SiteStation* const station = _site->FindStationAtOrNull(_nodeID);
     return station != nullptr && station->stationID.starts_with(CHARGER_PREFIX) && !_motion.HasLeg();
+}
+
+void VirtualVehicle::LogUnlisted(const std::string& actionID, Core::Now now)
+{
+    if (_options.parameterCheck != VDA5050::EParameterCheck::Lenient)
+    {
+        return;
+    }
+    for (const VDA5050::VehicleError& error : _session.GetState().errors)
+    {
+        const std::string* const reported = VDA5050::FindReferenceOrNull(error, "actionId");
+        if (error.errorType != VDA5050::ErrorTypes::UNLISTED_PARAMETER || reported == nullptr || *reported != actionID)
+        {
+            continue;
+        }
+        std::string keys;
+        for (const VDA5050::ErrorReference& reference : error.errorReferences)
+        {
+            if (reference.referenceKey == "parameter")
+            {
+                keys += (keys.empty() ? "" : ", ") + reference.referenceValue;
+            }
+        }
+        const std::optional<std::uint64_t> unsaid = _unlisted.PassOrNull(now.steady);
+        if (unsaid.has_value())
+        {
+            _logger.Warning(
+                error.errorDescription,
+                {{"actionId", CutForLog(actionID)},
+                 {"parameters", CutForLog(keys)},
+                 {"unsaid", std::to_string(*unsaid)}});
+        }
+    }
 }
 
 void VirtualVehicle::EndActions(Core::Now now, VirtualActions& out)

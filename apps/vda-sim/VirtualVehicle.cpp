@@ -33,6 +33,7 @@ VDA5050::VehicleOptions MakeSessionOptions(const VirtualVehicleOptions& options,
     session.version = options.version;
     session.qos = options.qos;
     session.factsheet = MakeFactsheet(options.type, options.limits, options.version, options.handling);
+    session.parameterCheck = options.parameterCheck;
     session.visualizationInterval = 200ms;
     session.bStopsBetweenNodes = false; // as a line-guided vehicle: a cancelled order ends on a node
     session.initialNodeID = options.startNodeID;

@@ -65,6 +65,7 @@ struct VirtualVehicleOptions
     double charge = 100.0;                                      ///< % at first.
     std::map<std::string, double, std::less<>> actionSeconds{}; ///< Simulated, by actionType.
     LoadHandling handling{};
+    VDA5050::EParameterCheck parameterCheck = VDA5050::EParameterCheck::Strict;
     Sim::IWorld* worldOrNull =
         nullptr; ///< The floor that it works on, which outlives it; null: every load is where it is asked for.
 };
@@ -110,6 +111,7 @@ class VirtualVehicle
     WarningLimiter _ignored;
     WarningLimiter _overflows;
     WarningLimiter _worldErrors;
+    WarningLimiter _unlisted;
     bool _bWasOnline = false;
     bool _bBatteryLow = false;
 
@@ -189,6 +191,8 @@ private:
     void Start(const VDA5050::StartAction& start, Core::Now now);
     [[nodiscard]] std::string InitialisePosition(const VDA5050::Action& action, Core::Now now);
     void SetStatus(std::string_view actionID, VDA5050::EActionStatus status, std::string result, Core::Now now);
+    /// Logs parameters of the action that the factsheet does not list.
+    void LogUnlisted(const std::string& actionID, Core::Now now);
     void LogRefusal(const VDA5050::OrderRefused& refused, Core::Now now);
     void LogIgnored(const VDA5050::MessageIgnored& ignored, Core::Now now);
     void LogOverflow(std::size_t lost, Core::Now now);

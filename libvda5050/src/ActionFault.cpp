@@ -27,8 +27,12 @@ std::optional<double> ReadNumberOrNull(const Core::JsonText& value)
     return error == std::errc() && rest == end && std::isfinite(number) ? std::optional(number) : std::nullopt;
 }
 
-bool IsOfType(const Core::JsonText& value, EValueDataType type)
+bool IsOfType(const Core::JsonText& value, EValueDataType type, bool bTextTaken)
 {
+    if (!bTextTaken && value.GetText().starts_with('"'))
+    {
+        return type == EValueDataType::String;
+    }
     const char first = value.GetText().empty() ? '\0' : value.GetText().front();
     switch (type)
     {
@@ -54,8 +58,18 @@ bool IsOfType(const Core::JsonText& value, EValueDataType type)
     }
 }
 
-std::optional<ActionFault> FindParameterFaultOrNull(const Action& action, const AgvAction& row, bool bClosed)
+bool IsListed(const AgvAction& row, std::string_view key)
 {
+    return std::ranges::find(row.actionParameters, key, &AgvActionParameter::key) != row.actionParameters.end();
+}
+
+std::optional<ActionFault> FindParameterFaultOrNull(
+    const Action& action,
+    const AgvAction& row,
+    bool bClosed,
+    EParameterCheck check)
+{
+    const bool bTextTaken = check != EParameterCheck::Strict;
     for (const AgvActionParameter& known : row.actionParameters)
     {
         const ActionParameter* given = FindParameterOrNull(action, known.key);
@@ -63,7 +77,7 @@ std::optional<ActionFault> FindParameterFaultOrNull(const Action& action, const 
         {
             return ActionFault{"the parameter " + known.key + " of " + action.actionType + " is missing", known.key};
         }
-        if (given != nullptr && !IsOfType(given->value, known.valueDataType))
+        if (given != nullptr && !IsOfType(given->value, known.valueDataType, bTextTaken))
         {
             return ActionFault{
                 "the parameter " + known.key + " of " + action.actionType + " has the wrong type",
@@ -72,9 +86,7 @@ std::optional<ActionFault> FindParameterFaultOrNull(const Action& action, const 
     }
     for (const ActionParameter& given : action.actionParameters)
     {
-        const bool bKnown =
-            std::ranges::find(row.actionParameters, given.key, &AgvActionParameter::key) != row.actionParameters.end();
-        if (bClosed && !bKnown)
+        if (bClosed && !IsListed(row, given.key))
         {
             return ActionFault{"the vehicle knows no parameter " + given.key + " of " + action.actionType, given.key};
         }
@@ -99,7 +111,8 @@ bool IsBlockingTypeKnown(const AgvAction& row, const Action& action, EActionScop
 std::optional<ActionFault> FindActionFaultOrNull(
     const FactsheetMessage& factsheet,
     const Action& action,
-    EActionScope scope)
+    EActionScope scope,
+    EParameterCheck check)
 {
     for (const ActionParameter& given : action.actionParameters)
     {
@@ -130,11 +143,25 @@ std::optional<ActionFault> FindActionFaultOrNull(
             "the vehicle does not perform " + action.actionType + " with this blocking type",
             "blockingType"};
     }
-    if (!row->actionParameters.empty())
+    const bool bOfStandard = row->actionParameters.empty() && predefined != nullptr;
+    const bool bClosed =
+        check == EParameterCheck::Strict || (check == EParameterCheck::Tolerant && !row->actionParameters.empty());
+    return FindParameterFaultOrNull(action, bOfStandard ? *predefined : *row, bClosed, check);
+}
+
+std::vector<std::string> FindUnlistedParameters(const FactsheetMessage& factsheet, const Action& action)
+{
+    const std::vector<AgvAction>& listed = factsheet.protocolFeatures.agvActions;
+    const auto row = std::ranges::find(listed, action.actionType, &AgvAction::actionType);
+    std::vector<std::string> keys;
+    for (const ActionParameter& given : action.actionParameters)
     {
-        return FindParameterFaultOrNull(action, *row, true);
+        if (row != listed.end() && !IsListed(*row, given.key))
+        {
+            keys.push_back(given.key);
+        }
     }
-    return predefined == nullptr ? std::nullopt : FindParameterFaultOrNull(action, *predefined, false);
+    return keys;
 }
 
 std::optional<std::string> GetTextParameterOrNull(const Action& action, std::string_view key)

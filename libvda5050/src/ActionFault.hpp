@@ -1,10 +1,13 @@
 #pragma once
 
 #include <acs/vda5050/Action.hpp>
+#include <acs/vda5050/EParameterCheck.hpp>
 #include <acs/vda5050/FactsheetMessage.hpp>
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace ACS::VDA5050
 {
@@ -21,7 +24,11 @@ struct ActionFault
 [[nodiscard]] std::optional<ActionFault> FindActionFaultOrNull(
     const FactsheetMessage& factsheet,
     const Action& action,
-    EActionScope scope);
+    EActionScope scope,
+    EParameterCheck check);
+
+/// The keys of the action's parameters that the factsheet does not list; none where it does not list the action.
+[[nodiscard]] std::vector<std::string> FindUnlistedParameters(const FactsheetMessage& factsheet, const Action& action);
 
 /// The parameter as text or as a number, which may be written as text too; nullopt where it is absent or something else.
 [[nodiscard]] std::optional<std::string> GetTextParameterOrNull(const Action& action, std::string_view key);

@@ -148,8 +148,9 @@ Core::Result<void> MasterSession::FitInstantAction(Action& action, Core::Now now
         return {};
     }
     const std::vector<AgvAction>& rows = rules->protocolFeatures.agvActions;
-    const std::optional<ActionFault> fault =
-        rows.empty() ? std::nullopt : FindActionFaultOrNull(*rules, action, EActionScope::Instant);
+    const std::optional<ActionFault> fault = rows.empty()
+        ? std::nullopt
+        : FindActionFaultOrNull(*rules, action, EActionScope::Instant, EParameterCheck::Tolerant);
     if (fault.has_value() && !IsAlwaysSent(action.actionType))
     {
         return Core::Fail(EVda5050Error::NotSupported, fault->field, fault->rule, action.actionType);

@@ -180,15 +180,12 @@ void CheckMembers(
 }
 
 template <typename TElement>
-void CheckActions(
-    const TElement& element,
-    EActionScope scope,
-    const FactsheetMessage& factsheet,
-    OrderFindings& unusable)
+void CheckActions(const TElement& element, EActionScope scope, const OrderContext& context, OrderFindings& unusable)
 {
     for (const Action& action : element.actions)
     {
-        const std::optional<ActionFault> fault = FindActionFaultOrNull(factsheet, action, scope);
+        const std::optional<ActionFault> fault =
+            FindActionFaultOrNull(*context.factsheet, action, scope, context.parameterCheck);
         if (fault.has_value())
         {
             VehicleError& error = unusable.Add(fault->rule);
@@ -274,11 +271,11 @@ std::vector<OrderViolation> FindUnusable(const OrderMessage& order, const OrderC
         const FactsheetMessage& factsheet = *context.factsheet;
         for (const OrderNode& node : order.nodes)
         {
-            CheckActions(node, EActionScope::Node, factsheet, unusable);
+            CheckActions(node, EActionScope::Node, context, unusable);
         }
         for (const OrderEdge& edge : order.edges)
         {
-            CheckActions(edge, EActionScope::Edge, factsheet, unusable);
+            CheckActions(edge, EActionScope::Edge, context, unusable);
         }
         if (!factsheet.protocolFeatures.optionalParameters.empty())
         {

@@ -1,3 +1,5 @@
+#include "ActionFault.hpp"
+#include "OrderErrors.hpp"
 #include "OrderGeometry.hpp"
 #include <acs/vda5050/VehicleSession.hpp>
 
@@ -105,7 +107,33 @@ void VehicleSession::AddActions(
     {
         ActionState state{action.actionID, action.actionType, action.actionDescription, EActionStatus::Waiting, {}};
         _actions.Add(HeldAction{action, ActionMachine(std::move(state)), scope, elementID, sequenceID});
+        ReportUnlistedParameters(action, ETopic::Order);
     }
+}
+
+void VehicleSession::ReportUnlistedParameters(const Action& action, ETopic topic)
+{
+    if (_options.parameterCheck != EParameterCheck::Lenient)
+    {
+        return;
+    }
+    const std::vector<std::string> keys = FindUnlistedParameters(_options.factsheet, action);
+    if (keys.empty())
+    {
+        return;
+    }
+    VehicleError report;
+    report.errorType = ErrorTypes::UNLISTED_PARAMETER;
+    report.errorDescription = "parameters of " + action.actionType + " that the factsheet does not list have no effect";
+    AddReference(report, ReferenceKeys::TOPIC, GetTopicName(topic));
+    AddReference(report, ReferenceKeys::ACTION_ID, action.actionID);
+    for (const std::string& key : keys)
+    {
+        AddReference(report, ReferenceKeys::PARAMETER, key);
+    }
+    AddSessionError(
+        std::move(report),
+        topic == ETopic::Order ? EErrorLifetime::UntilOrder : EErrorLifetime::UntilInstantAction);
 }
 
 void VehicleSession::Enqueue(std::span<const Action> actions)

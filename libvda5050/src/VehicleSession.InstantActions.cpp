@@ -201,13 +201,14 @@ void VehicleSession::PerformOwnInstantAction(
     else
     {
         const std::optional<ActionFault> fault =
-            FindActionFaultOrNull(_options.factsheet, action, EActionScope::Instant);
+            FindActionFaultOrNull(_options.factsheet, action, EActionScope::Instant, _options.parameterCheck);
         const std::string reason = fault.has_value() ? fault->rule : FindOwnFault(action, EActionScope::Instant);
         if (!reason.empty())
         {
             FailInstantAction(action, header, ErrorTypes::INSTANT_ACTION_ERROR, reason);
             return;
         }
+        ReportUnlistedParameters(action, ETopic::InstantActions);
         Start(AddInstantAction(action, EActionStatus::Waiting), out);
     }
 }

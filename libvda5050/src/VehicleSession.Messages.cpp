@@ -221,6 +221,7 @@ OrderContext VehicleSession::MakeContext() const
     }
     context.zoneSetIDs = _options.zoneSetIDs;
     context.factsheet = &_options.factsheet;
+    context.parameterCheck = _options.parameterCheck;
     context.bCleared = _bCleared;
     context.orderCheck = _options.orderCheck;
     context.keptNodes = released;

@@ -73,6 +73,9 @@ protected:
         pick.actionType = "pick";
         pick.actionID = "pick-here";
         pick.blockingType = VDA5050::EBlockingType::Hard;
+        pick.actionParameters = {
+            {"stationType", Core::JsonText::FromString("rack")},
+            {"loadType", Core::JsonText::FromString("cassette")}};
         order.nodes[1].actions.push_back(std::move(pick));
         const std::string payload = _codec.Encode(order, VDA5050::EVda5050Version::Version200);
         REQUIRE(_master->link.Publish({GetTopic(vehicle, "order"), payload, 2, false}).has_value());

@@ -57,6 +57,9 @@ inline VDA5050::OrderMessage MakeOrder(std::size_t releasedNodes)
     pick.actionType = "pick";
     pick.actionID = "pick-1";
     pick.blockingType = VDA5050::EBlockingType::Hard;
+    pick.actionParameters = {
+        {"stationType", Core::JsonText::FromString("rack")},
+        {"loadType", Core::JsonText::FromString("cassette")}};
     nodes.back().actions.push_back(pick);
     auto builder = VDA5050::OrderBuilder::Create("order-1", std::move(nodes), std::move(edges));
     REQUIRE(builder.has_value());

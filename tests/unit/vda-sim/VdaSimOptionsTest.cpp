@@ -183,6 +183,8 @@ TEST_CASE("With a world every vehicle has the name of a robot")
     const ReadOptions good = ReadOptionsFrom({"--vehicle", "LR01", "--world", "world.json"});
     REQUIRE_FALSE(good.exitCode.has_value());
     CHECK(good.options.worldPath == "world.json");
+    CHECK_FALSE(good.options.bLenientParameters);
+    CHECK(ReadOptionsFrom({"--vehicle", "A", "--lenient-parameters"}).options.bLenientParameters);
     CHECK(ReadOptionsFrom({"--vehicle", "A.B", "--world", "world.json"}).exitCode == 2);
     CHECK(ReadOptionsFrom({"--vehicle", "AMR", "--world", "world.json"}).exitCode == 2);
     CHECK_FALSE(ReadOptionsFrom({"--vehicle", "A.B"}).exitCode.has_value());

@@ -86,6 +86,7 @@ Action MakeAction(std::string_view type, std::vector<ActionParameter> parameters
     action.actionID = "work";
     action.blockingType = VDA5050::EBlockingType::None;
     action.actionParameters = std::move(parameters);
+    AddMandatoryParameters(action);
     return action;
 }
 
@@ -144,6 +145,7 @@ TEST_CASE("6.8.2 The factsheet lists every action that the standard names, with 
         {
             CHECK(row->actionParameters[index].key == standard.actionParameters[index].key);
             CHECK(row->actionParameters[index].valueDataType == standard.actionParameters[index].valueDataType);
+            CHECK(row->actionParameters[index].bOptional == standard.actionParameters[index].bOptional);
         }
         CHECK(row->blockingTypes.size() == 3);
     }
@@ -306,6 +308,95 @@ TEST_CASE("6.8 A pick takes the place that it names, or the first free one, and 
         places.push_back(load.loadPosition);
     }
     CHECK(places == std::vector<std::string>{"CP02", "CP01", "CP04"});
+}
+
+TEST_CASE("6.6 An order is refused whose action lacks a mandatory parameter, or has another type or an unlisted one")
+{
+    struct Refused
+    {
+        std::string_view actionType;
+        std::vector<ActionParameter> parameters;
+        std::string_view blamed;
+    };
+    const ActionParameter type = MakeText("stationType", "rack");
+    const ActionParameter load = MakeText("loadType", "cassette");
+    for (const Refused& refused : {
+             Refused{ActionTypes::PICK, {load}, "stationType"},
+             Refused{ActionTypes::PICK, {type}, "loadType"},
+             Refused{ActionTypes::PICK, {type, {"loadType", Core::JsonText::FromNumber(7)}}, "loadType"},
+             Refused{ActionTypes::PICK, {type, load, MakeText("height", "0.8")}, "height"},
+             Refused{ActionTypes::PICK, {type, load, MakeText("priority", "high")}, "priority"},
+             Refused{ActionTypes::DROP, {MakeText("priority", "high")}, "priority"},
+             Refused{ActionTypes::START_CHARGING, {MakeText("current", "high")}, "current"},
+             Refused{ActionTypes::WAIT_FOR_TRIGGER, {}, "triggerType"},
+         })
+    {
+        CAPTURE(refused.actionType, refused.blamed);
+        VehicleDriver driver(MakeOptions());
+        Action action;
+        action.actionType = refused.actionType;
+        action.actionID = "work";
+        action.actionParameters = refused.parameters;
+        SendOrder(driver, action, EActionScope::Node);
+        CHECK(driver.GetState().orderID.empty());
+        REQUIRE(driver.GetState().errors.size() == 1);
+        const VDA5050::VehicleError error = driver.GetState().errors[0];
+        CHECK(error.errorType == VDA5050::ErrorTypes::ORDER_ERROR);
+        REQUIRE(VDA5050::FindReferenceOrNull(error, "parameter") != nullptr);
+        CHECK(*VDA5050::FindReferenceOrNull(error, "parameter") == refused.blamed);
+        CHECK(*VDA5050::FindReferenceOrNull(error, "actionId") == "work");
+    }
+}
+
+TEST_CASE("--lenient-parameters: unlisted parameters are accepted and reported, mandatory ones stay mandatory")
+{
+    VdaSim::VirtualVehicleOptions options = MakeOptions();
+    options.parameterCheck = VDA5050::EParameterCheck::Lenient;
+    VehicleDriver driver(std::move(options));
+    SendOrder(
+        driver,
+        MakeAction(
+            ActionTypes::PICK,
+            {MakeText("height", "0.8"), MakeText("priority", "high"), MakeText("colour", "red")}),
+        EActionScope::Node);
+    driver.Pass(1s);
+    CHECK(driver.GetStatus("work") == EActionStatus::Finished);
+    REQUIRE(driver.GetState().errors.size() == 1);
+    const VDA5050::VehicleError error = driver.GetState().errors[0];
+    CHECK(error.errorType == VDA5050::ErrorTypes::UNLISTED_PARAMETER);
+    CHECK(error.errorLevel == VDA5050::EErrorLevel::Warning);
+    CHECK(*VDA5050::FindReferenceOrNull(error, "actionId") == "work");
+    CHECK(std::ranges::count(error.errorReferences, "parameter", &VDA5050::ErrorReference::referenceKey) == 2);
+    CHECK(std::ranges::any_of(driver.GetLog().GetLines(), [](const RecordedLine& line) {
+        return line.level == Core::ELogLevel::Warning && line.HasField("parameters", "priority, colour");
+    }));
+
+    driver.Pass(20s);
+    auto route = driver.MakeRoute("order-next", {"N2", "DOCK"});
+    auto order = VehicleDriver::Take(route.MakeOrder(2));
+    driver.Send(order);
+    CHECK(driver.GetState().errors.empty());
+    driver.Pass(20s);
+    Action drop = MakeAction(ActionTypes::WAIT_FOR_TRIGGER, {});
+    drop.actionParameters.clear();
+    SendOrder(driver, drop, EActionScope::Node);
+    REQUIRE(driver.GetState().errors.size() == 1);
+    CHECK(driver.GetState().errors[0].errorType == VDA5050::ErrorTypes::ORDER_ERROR);
+}
+
+TEST_CASE("An instant action is held against the factsheet likewise")
+{
+    for (const bool bLenient : {false, true})
+    {
+        VdaSim::VirtualVehicleOptions options = MakeOptions();
+        options.parameterCheck = bLenient ? VDA5050::EParameterCheck::Lenient : VDA5050::EParameterCheck::Strict;
+        VehicleDriver driver(std::move(options));
+        driver.SendInstantly(ActionTypes::LOG_REPORT, "more", {MakeText("reason", "test"), MakeText("lines", "10")});
+        driver.SendInstantly(ActionTypes::LOG_REPORT, "less");
+        driver.Pass(2s);
+        CHECK(driver.GetStatus("more") == (bLenient ? EActionStatus::Finished : EActionStatus::Failed));
+        CHECK(driver.GetStatus("less") == EActionStatus::Failed);
+    }
 }
 
 TEST_CASE("6.6 The base of an arm has no place for loads: an order that has it pick is refused")

@@ -7,6 +7,7 @@
 #include "vda-sim/VirtualVehicle.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/vda5050/OrderBuilder.hpp>
+#include <acs/vda5050/PredefinedActions.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -51,6 +52,23 @@ inline Planning::SiteMap MakeTestSite()
         throw std::runtime_error(Core::Describe(site.error()));
     }
     return std::move(*site);
+}
+
+/// Adds the parameters that the standard makes mandatory and the action lacks.
+inline void AddMandatoryParameters(VDA5050::Action& action)
+{
+    const VDA5050::AgvAction* const row = VDA5050::FindPredefinedActionOrNull(action.actionType);
+    if (row == nullptr)
+    {
+        return;
+    }
+    for (const VDA5050::AgvActionParameter& listed : row->actionParameters)
+    {
+        if (!listed.bOptional.value_or(false) && VDA5050::FindParameterOrNull(action, listed.key) == nullptr)
+        {
+            action.actionParameters.push_back({listed.key, Core::JsonText::FromString("any")});
+        }
+    }
 }
 
 /// A virtual vehicle in virtual time: its timers fire when the test lets the time pass. What it publishes is held against

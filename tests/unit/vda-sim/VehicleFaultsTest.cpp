@@ -47,10 +47,7 @@ VDA5050::OrderMessage MakeOrderWith(VehicleDriver& driver, std::string_view acti
     action.actionType = std::string(actionType);
     action.actionID = actionID;
     action.blockingType = VDA5050::EBlockingType::Hard;
-    if (actionType == VdaSim::ACTION_WAIT_FOR_TRIGGER)
-    {
-        action.actionParameters.push_back({"triggerType", Core::JsonText::FromString("LOCAL")});
-    }
+    AddMandatoryParameters(action);
     order.nodes[1].actions.push_back(action);
     return order;
 }
@@ -315,6 +312,7 @@ TEST_CASE(
         VDA5050::Action pick;
         pick.actionType = VdaSim::ACTION_PICK;
         pick.blockingType = VDA5050::EBlockingType::Hard;
+        AddMandatoryParameters(pick);
         pick.actionID = "first";
         order.nodes[0].actions.push_back(pick);
         pick.actionID = "second";

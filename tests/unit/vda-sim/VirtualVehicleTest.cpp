@@ -30,6 +30,7 @@ VDA5050::OrderBuilder AddAction(
     action.blockingType = VDA5050::EBlockingType::Hard;
     action.actionParameters.push_back({"loadId", Core::JsonText::FromString("CASSETTE-1")});
     action.actionParameters.push_back({"lhd", Core::JsonText::FromString("CP01")});
+    AddMandatoryParameters(action);
     nodes[nodeIndex].actions.push_back(action);
     const VDA5050::OrderMessage whole = VehicleDriver::Take(driver.MakeRoute("plain", route).MakeOrder(route.size()));
     return VehicleDriver::Take(

@@ -74,7 +74,7 @@ std::vector<ActionParameter> MakeParameters(const Row& row, bool bAll)
 }
 
 /// Whether a vehicle that lists the standard's rows takes an order with this action; the field that it blames, else.
-std::string FindBlame(const Action& action, EActionScope scope)
+std::string FindBlame(const Action& action, EActionScope scope, EParameterCheck check = EParameterCheck::Tolerant)
 {
     OrderMessage order = MakeOrder(2, 2);
     (scope == EActionScope::Node ? order.nodes[1].actions : order.edges[0].actions).push_back(action);
@@ -83,6 +83,7 @@ std::string FindBlame(const Action& action, EActionScope scope)
     OrderContext context;
     context.lastNodeID = "N0";
     context.factsheet = &factsheet;
+    context.parameterCheck = check;
     const OrderJudgement judgement = JudgeOrder(order, context);
     if (judgement.verdict != EOrderVerdict::Reject)
     {
@@ -207,6 +208,31 @@ TEST_CASE("5.7 A value may be written as text, as the older documents show it")
     CHECK(FindBlame(action, EActionScope::Node).empty());
     action.actionParameters[0].value = Core::JsonText::FromString("1.5m");
     CHECK(FindBlame(action, EActionScope::Node) == "x");
+}
+
+TEST_CASE("3.7 Parameters are checked strictly or leniently where the vehicle wants it so")
+{
+    Action pick = MakeRowAction({"pick", "NE", {"stationType", "loadType"}}, true);
+    Action text = pick;
+    text.actionParameters.push_back({"height", Core::JsonText::FromString("0.8")});
+    CHECK(FindBlame(text, EActionScope::Node, EParameterCheck::Tolerant).empty());
+    CHECK(FindBlame(text, EActionScope::Node, EParameterCheck::Strict) == "height");
+    CHECK(FindBlame(text, EActionScope::Node, EParameterCheck::Lenient).empty());
+
+    Action more = pick;
+    more.actionParameters.push_back({"invented", Core::JsonText::FromBoolean(true)});
+    CHECK(FindBlame(more, EActionScope::Node, EParameterCheck::Tolerant) == "invented");
+    CHECK(FindBlame(more, EActionScope::Node, EParameterCheck::Strict) == "invented");
+    CHECK(FindBlame(more, EActionScope::Node, EParameterCheck::Lenient).empty());
+
+    Action bare = MakeAction("a1", EBlockingType::Hard, "startCharging");
+    CHECK(FindBlame(bare, EActionScope::Node, EParameterCheck::Strict).empty());
+    bare.actionParameters.push_back({"invented", Core::JsonText::FromBoolean(true)});
+    CHECK(FindBlame(bare, EActionScope::Node, EParameterCheck::Tolerant).empty());
+    CHECK(FindBlame(bare, EActionScope::Node, EParameterCheck::Strict) == "invented");
+
+    pick.actionParameters.pop_back();
+    CHECK(FindBlame(pick, EActionScope::Node, EParameterCheck::Lenient) == "loadType");
 }
 
 TEST_CASE("3.7 A blocking type that the factsheet does not list refuses the order")

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/vda5050/EParameterCheck.hpp>
 #include <acs/vda5050/FactsheetMessage.hpp>
 #include <acs/vda5050/OrderMessage.hpp>
 #include <acs/vda5050/StateMessage.hpp>
@@ -58,7 +59,8 @@ struct OrderContext
     bool bMapsKnown = false;                     ///< mapIDs is checked even where it is empty.
     std::vector<std::string> zoneSetIDs;         ///< Zone sets on the vehicle; empty: not checked.
     const FactsheetMessage* factsheet = nullptr; ///< What it can do: actions, optional members, sizes; null: all.
-    std::size_t payloadBytes = 0;                ///< Of the message, held against the factsheet's msgLen.
+    EParameterCheck parameterCheck = EParameterCheck::Tolerant;
+    std::size_t payloadBytes = 0;              ///< Of the message, held against the factsheet's msgLen.
     bool bCleared = false;                     ///< The last order was cancelled: the vehicle may have left lastNodeID.
     std::vector<std::string> actionIDs;        ///< Reported actions that an update does not remove.
     std::vector<std::string> instantActionIDs; ///< Instant actions that outlive a new order.

@@ -204,6 +204,7 @@ inline constexpr std::string_view NO_ORDER_TO_CANCEL = "noOrderToCancel";
 inline constexpr std::string_view INSTANT_ACTION_ERROR = "instantActionError";
 inline constexpr std::string_view ACTION_ERROR = "actionError"; ///< An action failed after it had been started.
 inline constexpr std::string_view OUTSIDE_OF_CORRIDOR = "outsideOfCorridor";
+inline constexpr std::string_view UNLISTED_PARAMETER = "unlistedParameter"; ///< Accepted, without effect.
 } // namespace ErrorTypes
 
 /// The value of the reference with this key, null where there is none.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/vda5050/EParameterCheck.hpp>
 #include <acs/vda5050/EVda5050Version.hpp>
 #include <acs/vda5050/FactsheetMessage.hpp>
 #include <acs/vda5050/OrderValidator.hpp>
@@ -22,6 +23,7 @@ struct VehicleOptions
     /// What the vehicle can do; header and timing are filled in by the session. An order is held against it: an action,
     /// a parameter, an optional member or a size that it does not list is refused. Lists that are empty refuse nothing.
     FactsheetMessage factsheet;
+    EParameterCheck parameterCheck = EParameterCheck::Tolerant;
 
     /// Changes closer together than this go into one state.
     std::chrono::milliseconds minimumStateInterval{50};

@@ -138,6 +138,7 @@ class VehicleSession
         EActionScope scope,
         const std::string& elementID,
         std::uint32_t sequenceID);
+    void ReportUnlistedParameters(const Action& action, ETopic topic);
     void Enqueue(std::span<const Action> actions);
     void Start(HeldAction& tracked, VehicleActions& out);
     void SetStatus(std::string_view actionID, EActionStatus status, const std::string& result = {});
