@@ -88,6 +88,11 @@ void ArmRobot::Forget()
     }
 }
 
+void ArmRobot::OnFloorChanged()
+{
+    _base.OnFloorChanged();
+}
+
 void ArmRobot::Calm()
 {
     _base.Calm();

@@ -115,8 +115,8 @@ void FloorChecker::OnJobEnded(const std::string& robotID)
 bool FloorChecker::IsMoved(const JobKey& key) const
 {
     const std::optional<Sim::WorldEvent> demanded = MakeDemandedOrNull({}, key);
-    const bool bCarrier = demanded.has_value() && std::holds_alternative<Sim::CarrierMoved>(*demanded);
-    const bool bHandled = _handling == EHandling::Everything || (_handling == EHandling::Carriers && bCarrier);
+    const bool bHandled =
+        _handling == EHandling::Everything || (demanded.has_value() && _demands.at(key).action.starts_with("Cassette"));
     return !demanded.has_value() || !bHandled || _moved.contains(key);
 }
 

@@ -24,9 +24,8 @@ using JobKey = std::tuple<std::string, std::int32_t, std::string>;
 /// Which moves the robots of a world make on the floor. The others they only pretend.
 enum class EHandling : std::uint8_t
 {
-    None,
-    Carriers,
-    Everything, ///< Memories and covers too.
+    Cassettes, ///< Those of logistics robots only.
+    Everything,
 };
 
 /// The floor on which the simulated robots act. Each move is compared with what the plan demands of the job that the robot
@@ -57,7 +56,7 @@ public:
 
     void NotePlan(const Protocol::ExecutionPlan& plan);
 
-    /// The robot stands on the node, and reaches the station there; an empty nodeID: it drives.
+    /// A robot that does not report it itself stands on the node, and reaches the station there; an empty nodeID: it drives.
     void OnPlaced(const std::string& robotID, std::string_view nodeID);
     void OnJobBegun(const std::string& robotID, const JobKey& key);
     void OnJobEnded(const std::string& robotID);

@@ -36,6 +36,9 @@ public:
     /// It is switched off and on, where it stands on a node: what it was doing is given up, and it remembers nothing.
     virtual void Forget() = 0;
 
+    /// People have put something on it or taken something off.
+    virtual void OnFloorChanged() = 0;
+
     /// It refuses nothing, and no job fails, from now on.
     virtual void Calm() = 0;
 

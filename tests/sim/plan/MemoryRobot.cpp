@@ -29,7 +29,7 @@ MemoryRobot::MemoryRobot(
     _nature.slowness = _dice.GetBetween(1, 3);
     _snapshot.state.batteryPercent = 80;
     _snapshot.state.lastNodeID = std::move(nodeID);
-    _witness.OnPlaced(_robotID, {_snapshot.state.lastNodeID});
+    ShowPlace();
 }
 
 void MemoryRobot::SetListener(Listener listener)
@@ -346,6 +346,7 @@ void MemoryRobot::ShowPlace()
         nodeIDs.push_back(_drive->route.nodes[_index + 1].nodeID);
     }
     _witness.OnPlaced(_robotID, std::move(nodeIDs));
+    _witness.GetFloor().OnPlaced(_robotID, _bMoving ? std::string() : GetNodeID());
 }
 
 void MemoryRobot::Show()

@@ -55,6 +55,11 @@ bool RadioRobot::IsDisturbed() const
     return _robot.IsDisturbed();
 }
 
+/// It has no sensors for what it carries.
+void RadioRobot::OnFloorChanged()
+{
+}
+
 void RadioRobot::Forget()
 {
     _robot.Forget();

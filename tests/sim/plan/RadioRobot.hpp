@@ -41,6 +41,7 @@ public:
     void Recover() override;
     [[nodiscard]] bool IsDisturbed() const override;
     void Forget() override;
+    void OnFloorChanged() override;
     void Calm() override;
     [[nodiscard]] std::string GetNodeID() const override;
     [[nodiscard]] bool IsAtRest() const override;

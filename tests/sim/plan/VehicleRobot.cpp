@@ -77,6 +77,11 @@ void VehicleRobot::SwitchOn(const std::string& nodeID)
     options.address = MakeAddress(_robotID);
     options.startNodeID = nodeID;
     options.charge = _charge;
+    if (_around.type == Planning::ERobotType::LR)
+    {
+        options.handling.ports = 1;
+        options.worldOrNull = &_around.witness.GetFloor();
+    }
     _vehicle = std::make_unique<VdaSim::VirtualVehicle>(std::move(options), _around.site, _dice, Core::Logger());
     _client = _around.broker.Open(*this, _vehicle->GetSubscriptions(), _vehicle->MakeWill(_around.timeline.GetNow()));
     _around.broker.SetReachable(*_client, _bReachable);
@@ -96,6 +101,18 @@ void VehicleRobot::Call(TCall call)
     {
         ShowJobs();
     }
+}
+
+void VehicleRobot::OnFloorChanged()
+{
+    Call([this](Core::Now now, auto& out) { _vehicle->OnWorldChanged(now, out); });
+}
+
+/// What people have changed for its job; not from within a call of it.
+void VehicleRobot::SeeFloor()
+{
+    constexpr std::uint64_t FLOOR_KEY = 1'001; // no timer of the vehicle's own
+    _timers.Start(FLOOR_KEY, 0ms, [this] { OnFloorChanged(); });
 }
 
 void VehicleRobot::Execute(const VdaSim::VirtualAction& action)
@@ -215,6 +232,7 @@ void VehicleRobot::ShowJobs()
         if (bBegun && !bWasBegun)
         {
             _around.witness.OnJobBegun(_robotID, *jobOrNull);
+            SeeFloor();
         }
         if (action.actionStatus == VDA5050::EActionStatus::Finished)
         {

@@ -8,6 +8,7 @@
 #include "Trace.hpp"
 #include "vda-sim/VirtualVehicle.hpp"
 #include "WorkWitness.hpp"
+#include <acs/plan/ERobotType.hpp>
 #include <acs/plan/SiteMap.hpp>
 
 #include <cstdint>
@@ -36,6 +37,7 @@ public:
         bool bBatteries; ///< It is little more than empty at first; else full.
         EMutation mutation;
         bool bBadRadio; ///< Of the scenario.
+        Planning::ERobotType type;
     };
 
 private:
@@ -64,6 +66,7 @@ private:
     void PutOnNode();
     void ShowPlace();
     void ShowJobs();
+    void SeeFloor();
     [[nodiscard]] std::vector<std::string> FindPlace() const;
     void OnLinkUp() override;
     void OnLinkDown(std::error_code reason) override;
@@ -87,6 +90,7 @@ public:
     void Recover() override;
     [[nodiscard]] bool IsDisturbed() const override;
     void Forget() override;
+    void OnFloorChanged() override;
     void Calm() override;
     [[nodiscard]] std::string GetNodeID() const override;
     [[nodiscard]] bool IsAtRest() const override;

@@ -58,7 +58,6 @@ void WorkWitness::OnPlaced(const std::string& robotID, std::vector<std::string> 
         }
     }
     _trace.Tell("{} is at {}", robotID, fmt::join(nodeIDs, " > "));
-    _floor.OnPlaced(robotID, nodeIDs.size() == 1 ? nodeIDs.front() : std::string());
     _places[robotID] = std::move(nodeIDs);
 }
 

@@ -36,7 +36,7 @@ constexpr std::uint64_t FIRST_TROUBLE_PART = 800;
 
 EHandling GetHandling(ERobotKind robots)
 {
-    return robots == ERobotKind::Memory ? EHandling::Everything : EHandling::None;
+    return robots == ERobotKind::Memory ? EHandling::Everything : EHandling::Cassettes;
 }
 
 } // namespace
@@ -110,7 +110,8 @@ void World::AddRobots()
             _site,
             _scenario.bBatteries,
             _mutation,
-            _scenario.Has(EFault::Radio)};
+            _scenario.Has(EFault::Radio),
+            options.type};
         if (_scenario.robots == ERobotKind::Arms && options.type == Planning::ERobotType::CR)
         {
             const ArmController::Seeds armSeeds{
@@ -405,6 +406,7 @@ void World::TakeCarriersOff()
             _trace.Tell("operator: takes the carriers off {}", robot.robotID);
             _process->PushCommand(Planning::SetCarriers{robot.robotID, empty, 0});
             _witness.GetFloor().TakeCarriersOff(GetPorts(robot.robotID));
+            _robots.at(robot.robotID)->OnFloorChanged();
         }
     }
 }
