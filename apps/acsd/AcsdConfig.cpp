@@ -111,7 +111,7 @@ void RefuseSharedWord(const ConfigSection& arm, const CounterWord& first, const 
 void ReadArm(const ConfigSection& root, AcsdConfig& config)
 {
     const ConfigSection arm = root.GetSection("arm");
-    ArmCounters& counters = config.arm;
+    ArmOptions& counters = config.arm;
     const auto readIndex = [&arm](const std::string& key, std::size_t fallback) {
         return static_cast<std::size_t>(
             arm.GetInteger(key, 0, HIGHEST_WORD_INDEX, static_cast<std::int64_t>(fallback)));

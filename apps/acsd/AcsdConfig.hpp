@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ArmOptions.hpp"
 #include "common/ConfigReader.hpp"
 #include "common/LocalOffset.hpp"
 #include "common/Url.hpp"
@@ -20,17 +21,6 @@
 
 namespace ACS::Acsd
 {
-
-/// Where an arm shows what its programs do: one array of words in its relays, read through MONITOR.
-struct ArmCounters
-{
-    std::string monitorUrl = "/project/plc/m/val_s32";
-    std::uint32_t firstByte = 400;
-    std::chrono::milliseconds period{20};
-    std::size_t startedIndex = 0;
-    std::size_t finishedIndex = 1;
-    std::size_t failedIndex = 2;
-};
 
 /// The vehicle and the arm of one robot; what the engine must know of it stands in EngineOptions::robots.
 struct RobotLinkConfig
@@ -56,7 +46,7 @@ struct AcsdConfig
 {
     McsConfig mcs;
     MqttConfig mqtt;
-    ArmCounters arm;
+    ArmOptions arm;
     std::string siteFile;
     std::string storeFile;
     Apps::Endpoint httpListen{"127.0.0.1", 8080};

@@ -34,13 +34,15 @@ constexpr std::chrono::milliseconds REFUSED_START_LIMIT{2'000};
 
 OpenStreamRobotAdapter::OpenStreamRobotAdapter(
     VDA5050::MasterOptions base,
-    ArmCounters counters,
+    ArmOptions arm,
     JobMethods methods,
+    ArmInputResolver inputs,
     RobotOutputs& outputs)
     : _outputs(outputs),
       _base(std::move(base), methods, outputs),
-      _options(std::move(counters)),
-      _methods(std::move(methods))
+      _options(std::move(arm)),
+      _methods(std::move(methods)),
+      _resolveInputs(std::move(inputs))
 {
 }
 

@@ -2,6 +2,7 @@
 
 #include "AcsdConfig.hpp"
 #include "ArmAnswers.hpp"
+#include "ArmInput.hpp"
 #include "IMqttRobotAdapter.hpp"
 #include "RobotOutputs.hpp"
 #include "Vda5050RobotAdapter.hpp"
@@ -105,8 +106,9 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
 
     RobotOutputs& _outputs;
     Vda5050RobotAdapter _base;
-    ArmCounters _options;
+    ArmOptions _options;
     JobMethods _methods;
+    ArmInputResolver _resolveInputs;
     Planning::AdapterActions _baseActions;
 
     bool _bBaseOnline = false;
@@ -222,11 +224,12 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     void TellOnline(Planning::AdapterActions& out);
 
 public:
-    /// The outputs must outlive the adapter.
+    /// The outputs must outlive the adapter. An empty resolver: no action has inputs.
     OpenStreamRobotAdapter(
         VDA5050::MasterOptions base,
-        ArmCounters counters,
+        ArmOptions arm,
         JobMethods methods,
+        ArmInputResolver inputs,
         RobotOutputs& outputs);
 
     void Handle(const Planning::RobotCommand& command, Core::Now now, Planning::AdapterActions& out) override;

@@ -37,7 +37,12 @@ RobotAdapter MakeRobotAdapter(const AcsdConfig& config, const RobotLinkConfig& r
     {
         return {std::make_unique<Vda5050RobotAdapter>(std::move(options), config.methods, outputs), nullptr};
     }
-    auto adapter = std::make_unique<OpenStreamRobotAdapter>(std::move(options), config.arm, config.methods, outputs);
+    auto adapter = std::make_unique<OpenStreamRobotAdapter>(
+        std::move(options),
+        config.arm,
+        config.methods,
+        ArmInputResolver(),
+        outputs);
     OpenStreamRobotAdapter* const arm = adapter.get();
     return {std::move(adapter), arm};
 }

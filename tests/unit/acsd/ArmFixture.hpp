@@ -50,11 +50,8 @@ struct ArmFixture
 
     Testing::ManualClock clock;
     RobotOutputs outputs;
-    OpenStreamRobotAdapter adapter{
-        MakeBaseOptions(),
-        ArmCounters{},
-        {{"TrayLoad", {"", 11}}, {"CassetteLoad", {"pick", 0}}},
-        outputs};
+    OpenStreamRobotAdapter
+        adapter{MakeBaseOptions(), ArmOptions{}, {{"TrayLoad", {"", 11}}, {"CassetteLoad", {"pick", 0}}}, {}, outputs};
     Planning::AdapterActions actions;
     std::uint32_t headerID = 0;
     std::string lastControl; ///< Of those that were taken.
