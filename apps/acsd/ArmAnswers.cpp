@@ -2,6 +2,8 @@
 
 #include <acs/json/JsonDecoder.hpp>
 
+#include <charconv>
+#include <string>
 #include <tuple>
 
 namespace ACS::Acsd
@@ -21,7 +23,31 @@ struct GeneralAnswer
     std::optional<std::int64_t> step;
 };
 
+/// The body of a refusal.
+struct ErrorNumber
+{
+    std::int64_t code = 0;
+};
+
+/// Likewise, of other versions.
+struct ErrorText
+{
+    std::string code;
+};
+
 } // namespace ACS::Acsd
+
+template <>
+struct ACS::Json::JsonFields<ACS::Acsd::ErrorNumber>
+{
+    static constexpr auto FIELDS = std::make_tuple(Required("err_code", &Acsd::ErrorNumber::code));
+};
+
+template <>
+struct ACS::Json::JsonFields<ACS::Acsd::ErrorText>
+{
+    static constexpr auto FIELDS = std::make_tuple(Required("err_code", &Acsd::ErrorText::code));
+};
 
 template <>
 struct ACS::Json::JsonFields<ACS::Acsd::MotorState>
@@ -83,6 +109,19 @@ std::optional<GeneralState> ReadGeneralStateOrNull(const Core::JsonText& sample)
 std::optional<std::vector<std::int64_t>> ReadRelayWordsOrNull(const Core::JsonText& sample)
 {
     return ReadOrNull<std::vector<std::int64_t>>(sample);
+}
+
+std::optional<std::int64_t> ReadErrorCodeOrNull(const Core::JsonText& body)
+{
+    if (const std::optional<ErrorNumber> numberOrNull = ReadOrNull<ErrorNumber>(body); numberOrNull.has_value())
+    {
+        return numberOrNull->code;
+    }
+    const std::string text = ReadOrNull<ErrorText>(body).value_or(ErrorText{}).code;
+    std::int64_t code = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), code);
+    const bool bWhole = !text.empty() && error == std::errc() && end == text.data() + text.size();
+    return bWhole ? std::optional(code) : std::nullopt;
 }
 
 } // namespace ACS::Acsd

@@ -27,4 +27,7 @@ struct GeneralState
 /// Of GET val_s32.
 [[nodiscard]] std::optional<std::vector<std::int64_t>> ReadRelayWordsOrNull(const Core::JsonText& sample);
 
+/// The err_code of a refused CONTROL, which some versions write as a string.
+[[nodiscard]] std::optional<std::int64_t> ReadErrorCodeOrNull(const Core::JsonText& body);
+
 } // namespace ACS::Acsd

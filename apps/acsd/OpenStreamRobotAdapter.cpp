@@ -1,17 +1,13 @@
 #include "OpenStreamRobotAdapter.hpp"
 
-#include "ArmAnswers.hpp"
-#include <acs/core/JsonText.hpp>
+#include "ArmTimers.hpp"
 #include <acs/core/Overloaded.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <tuple>
 #include <utility>
 #include <variant>
-#include <vector>
 
 namespace ACS::Acsd
 {
@@ -22,14 +18,6 @@ namespace
 using Planning::AdapterActions;
 using Planning::RaiseEvent;
 
-/// Of a controller's words about its refusal.
-constexpr std::size_t MOST_OF_BODY = 200;
-
-constexpr std::string_view SELECT_URL = "/project/context/tasks[0]/cur_prog_cnt";
-
-/// For a start behind a refusal to be seen.
-constexpr std::chrono::milliseconds REFUSED_START_LIMIT{2'000};
-
 } // namespace
 
 OpenStreamRobotAdapter::OpenStreamRobotAdapter(
@@ -38,11 +26,13 @@ OpenStreamRobotAdapter::OpenStreamRobotAdapter(
     JobMethods methods,
     ArmInputResolver inputs,
     RobotOutputs& outputs)
-    : _outputs(outputs),
-      _base(std::move(base), methods, outputs),
+    : _base(std::move(base), methods, outputs),
       _options(std::move(arm)),
       _methods(std::move(methods)),
-      _resolveInputs(std::move(inputs))
+      _resolveInputs(std::move(inputs)),
+      _controls(outputs),
+      _monitor(_options, outputs, _controls),
+      _program(_options, _controls)
 {
 }
 
@@ -58,83 +48,61 @@ void OpenStreamRobotAdapter::Handle(const Planning::RobotCommand& command, Core:
     else if (recoverOrNull != nullptr)
     {
         _recovery = recoverOrNull->job;
-        FindJob(out);
+        if (_monitor.IsReady())
+        {
+            RecoverJob(out);
+            Update(out);
+        }
     }
     else if (cancelOrNull != nullptr)
     {
-        CancelJob(cancelOrNull->jobID, out);
+        _program.Cancel(cancelOrNull->jobID, out);
+        Update(out);
     }
     else
     {
         const bool bPause = std::holds_alternative<Planning::Pause>(command);
         if (bPause || std::holds_alternative<Planning::Resume>(command))
         {
-            _bPauseWanted = bPause;
-            _bPauseTold = true;
-            _bStopRefused = false;
-            DoubtFound();
-            FollowPause(out);
+            _program.SetPauseWanted(bPause);
+            Update(out);
         }
         _base.Handle(command, now, _baseActions);
         DrainBase(out);
     }
 }
 
-void OpenStreamRobotAdapter::EndJob(AdapterActions& out)
-{
-    _phase = EJobPhase::None;
-    _program = EProgram::Runs;
-    ForgetHalt(out);
-    _bStopRefused = false;
-    _bGoOnRepeated = false;
-    _bFound = false;
-    _bGivenUp = false;
-}
-
-Planning::StateChanged OpenStreamRobotAdapter::MakeState() const
-{
-    Planning::StateChanged state = _baseState;
-    state.bPaused = _bPaused;
-    state.mark = MakeMark();
-    if (_trouble.has_value())
-    {
-        state.errors.push_back(*_trouble);
-    }
-    return state;
-}
-
 void OpenStreamRobotAdapter::OnTimer(Planning::AdapterTimerID timer, Core::Now now, AdapterActions& out)
 {
     switch (timer)
     {
-        case RETRY_TIMER:
-            Retry(out);
+        case ArmTimers::RETRY:
+            if (!_monitor.TryRetry(out) && !_monitor.IsProbing())
+            {
+                _program.Retry();
+            }
             break;
-        case START_TIMER:
-            CheckStart(out);
+        case ArmTimers::PROBE:
+            OnProbeTimer(out);
             break;
-        case GLANCE_TIMER:
-            LookAround(out);
+        case ArmTimers::EFFECT:
+            _monitor.OnEffectTimer();
             break;
-        case LOOK_TIMER:
-            EndWatch();
+        case ArmTimers::START:
+            if (_monitor.IsReady())
+            {
+                _program.OnStartTimer(_evidence.IsEchoed(), out);
+            }
+            break;
+        case ArmTimers::INPUT:
+            _program.OnInputTimer(out);
             break;
         default:
             _base.OnTimer(timer, now, _baseActions);
             DrainBase(out);
-            break;
+            return;
     }
-}
-
-std::string OpenStreamRobotAdapter::DescribeRefusal(
-    int status,
-    const std::optional<Core::JsonText>& bodyOrNull,
-    const std::string& detail)
-{
-    return fmt::format(
-        "the arm's controller refuses, status {}: {}",
-        status,
-        bodyOrNull.has_value() ? bodyOrNull->GetText().substr(0, MOST_OF_BODY) : detail);
+    Update(out);
 }
 
 std::optional<std::string> OpenStreamRobotAdapter::GetRejectionReasonOrNull(std::string_view action) const
@@ -179,350 +147,333 @@ void OpenStreamRobotAdapter::OnArmEvent(const OpenStream::ClientEvent& event, Co
 {
     std::visit(
         Core::Overloaded{
-            [&](const OpenStream::ClientReady&) { WatchMotor(out); },
-            [&](const OpenStream::ClientData& data) { TakeData(data.line, out); },
-            [&](const OpenStream::ClientControlSettled& settled) { TakeSettled(settled, out); },
-            [&](const OpenStream::ClientMonitorStarted&) {
-                _look = _look == ELook::Asked ? ELook::Due : _look;
-                _bGlanceStarted = _glance != EGlance::None;
+            [&](const OpenStream::ClientReady&) {
+                _monitor.WatchMotor(out);
+                ReportArm(out);
             },
-            [&](const OpenStream::ClientMonitorRefused& refused) { TakeMonitorRefused(refused, out); },
-            [&](const OpenStream::ClientControlFault& fault) { TakeFault(fault, out); },
-            [&](const OpenStream::ClientLost&) { TakeLoss(out); },
+            [&](const OpenStream::ClientData& data) { OnData(data.line, out); },
+            [&](const OpenStream::ClientControlSettled& settled) { OnSettled(settled, out); },
+            [&](const OpenStream::ClientMonitorStarted&) { _monitor.OnTaken(); },
+            [&](const OpenStream::ClientMonitorRefused& refused) {
+                OnFact(_monitor.OnRefused(refused, out), out);
+                Update(out);
+            },
+            [&](const OpenStream::ClientControlFault& fault) { OnFault(fault, out); },
+            [&](const OpenStream::ClientLost&) { OnLost(out); },
             [](const auto&) {
             }},
         event);
 }
 
-void OpenStreamRobotAdapter::TakeLoss(AdapterActions& out)
+void OpenStreamRobotAdapter::OnLost(AdapterActions& out)
 {
-    for (const Planning::AdapterTimerID timer : {RETRY_TIMER, START_TIMER, GLANCE_TIMER, LOOK_TIMER})
+    _monitor.OnLost(out);
+    _trouble.reset(); // with the robot out of reach it is not reported by itself
+    ReportArm(out);   // before a job is given back, which would come again at once
+    const bool bHadJob = _program.HasJob();
+    _program.OnLost(out);
+    if (bHadJob && !_program.HasJob())
     {
-        out.emplace_back(Planning::CancelAdapterTimer{timer});
-    }
-    _trouble.reset();
-    SetArmState(EArmState::Lost, out);
-    _look = ELook::None;
-    _glance = EGlance::None;
-    _bMonitorRefused = false;
-    _bMotorHidden = false;
-    _bPlaybackHidden = false;
-    _standingGlances = 0;
-    _unshownLooks = 0;
-    _bGoOnRepeated = _bGoOnRepeated || _program == EProgram::GoingOn;
-    if (_program == EProgram::Stopping || _program == EProgram::GoingOn)
-    {
-        _program = EProgram::Doubtful;
-    }
-    if (IsJobBefore())
-    {
-        DisownJob(out); // another one may be selected by the time it is back
+        ReportPaused(out);
     }
 }
 
-/// A refusal that came after the silence.
-void OpenStreamRobotAdapter::TakeFault(const OpenStream::ClientControlFault& fault, AdapterActions& out)
+void OpenStreamRobotAdapter::OnFault(const OpenStream::ClientControlFault& fault, AdapterActions& out)
 {
-    const std::string reason = DescribeRefusal(fault.status, fault.body, fault.detail);
-    if (_phase == EJobPhase::Looking)
+    const ArmRefusal refusal = MakeArmRefusal(fault.status, fault.body, fault.detail);
+    if (!_monitor.TryTakeFault(refusal.reason))
     {
-        FailJob(reason, out);
+        _program.OnFault(refusal, out);
+        Update(out);
     }
-    else if (_phase == EJobPhase::Running && !_bJobStarted && !_bRecovered)
+}
+
+void OpenStreamRobotAdapter::OnSettled(const OpenStream::ClientControlSettled& settled, AdapterActions& out)
+{
+    const std::optional<ArmSettlement> settlementOrNull = _controls.SettleOrNull(settled);
+    if (!settlementOrNull.has_value())
     {
-        // Where the controller was slow it may be of the selection, and the start comes yet.
-        _refusal = reason;
-        out.emplace_back(Planning::StartAdapterTimer{START_TIMER, REFUSED_START_LIMIT});
+        return;
     }
-    else if (_armState == EArmState::MotorOff)
+    if (settlementOrNull->kind == EArmControl::SwitchMotorOn)
     {
-        _motorRefusal = reason;
+        _monitor.OnMotorSettled(*settlementOrNull);
+        Update(out);
+        return;
     }
-    else if (_phase == EJobPhase::Running && (_program == EProgram::Stopping || _program == EProgram::GoingOn))
+    _program.OnSettled(*settlementOrNull, out);
+    if (settled.outcome == OpenStream::EControlOutcome::Unknown)
     {
-        const bool bStop = _program == EProgram::Stopping;
-        TakeSettledPause(
-            bStop ? EControl::StopProgram : EControl::GoOn,
-            OpenStream::EControlOutcome::Refused,
-            reason,
-            out);
+        ReportPaused(out); // the connection is gone: the program continues when the counters are back
     }
+    else
+    {
+        Update(out);
+    }
+}
+
+void OpenStreamRobotAdapter::OnData(const OpenStream::DataLine& line, AdapterActions& out)
+{
+    if (line.result.has_value())
+    {
+        OnFact(_monitor.OnSample(*line.result, out), out);
+    }
+}
+
+void OpenStreamRobotAdapter::OnFact(const ArmFact& fact, AdapterActions& out)
+{
+    std::visit(
+        Core::Overloaded{
+            [](const std::monostate&) {},
+            [&](const ArmCounted& counted) { OnCounted(counted, out); },
+            [&](const ArmEffectShown& shown) {
+                if (_program.IsEffectShown(shown.state))
+                {
+                    _monitor.EndEffect(out);
+                }
+            },
+            [&](const ArmProbed& probed) { OnProbed(probed, out); },
+            [&](const ArmRelaysRead& read) {
+                _program.OnInputsRead(read.ranges, out);
+                Update(out);
+            },
+            [&](const ArmRelaysRefused& refused) {
+                _program.OnInputsRefused(refused.reason, out);
+                Update(out);
+            }},
+        fact);
+}
+
+void OpenStreamRobotAdapter::OnCounted(const ArmCounted& counted, AdapterActions& out)
+{
+    const ArmJobEvidence::EChange change = _evidence.Update(counted.sample);
+    if (change != ArmJobEvidence::EChange::None)
+    {
+        ReportState(out); // with the new mark, before a job begins on it
+    }
+    if (counted.bFirst)
+    {
+        _program.ForgetHalt();
+    }
+    ReportArm(out);
+    if (change == ArmJobEvidence::EChange::Fallen && _program.IsCounted())
+    {
+        _program.OnRestarted(out);
+        Update(out);
+        return;
+    }
+    if (_recovery.has_value())
+    {
+        RecoverJob(out);
+    }
+    if (_program.IsCounted())
+    {
+        const ArmProof proof = _evidence.Evaluate();
+        _program.OnProof(proof, _evidence.DescribeEcho(), out);
+    }
+    else if (_program.IsPreparing() && !_evidence.IsUnchanged())
+    {
+        _program.OnCountedBeforeStart(out);
+    }
+    if (!counted.bFirst)
+    {
+        _program.OnCounted(IsProgramWatched(), out);
+    }
+    if (counted.bVerifies)
+    {
+        _program.OnVerified(_evidence.IsUnchanged(), out);
+    }
+    if (counted.bFirst)
+    {
+        _program.OnCountersBack(out);
+    }
+    Update(out);
+}
+
+void OpenStreamRobotAdapter::OnProbed(const ArmProbed& probed, AdapterActions& out)
+{
+    const bool bMotor = probed.probe == EArmProbe::Motor;
+    if (bMotor && probed.bOnOrNone == false && _program.IsMotorDecisive())
+    {
+        _monitor.ReportMotorOff();
+        _monitor.WatchMotor(out);
+        ReportArm(out); // before a job is given back, which would come again at once
+        _program.OnMotorOff(out);
+    }
+    else if (bMotor)
+    {
+        _monitor.WatchCounters();
+        _program.OnMotorProbed(out);
+    }
+    else
+    {
+        _monitor.WatchCounters();
+        _program.OnPlaybackProbed(probed.bOnOrNone, IsProgramWatched());
+    }
+    Update(out);
+}
+
+/// MONITOR reads one thing at a time: now and then, between two samples of the counters, it is another one.
+void OpenStreamRobotAdapter::OnProbeTimer(AdapterActions& out)
+{
+    const bool bWatched = IsProgramWatched();
+    if (_monitor.IsReady() && !bWatched && !_program.IsResumeDue())
+    {
+        _program.ForgetHalt();
+    }
+    std::optional<EArmProbe> wanted;
+    if (!_program.HasJob())
+    {
+        wanted = EArmProbe::Motor;
+    }
+    else if (bWatched)
+    {
+        wanted = EArmProbe::Playback;
+    }
+    OnFact(_monitor.OnProbeTimer(wanted, out), out);
 }
 
 void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, AdapterActions& out)
 {
     _recovery.reset();
-    _refusal.clear();
-    _jobID = job.jobID;
-    _bJobStarted = false;
-    _bRecovered = false;
-    const std::optional<std::string> rejection = GetRejectionReasonOrNull(job.action);
-    if (rejection.has_value())
+    tl::expected<ArmJob, std::string> made = MakeJob(job);
+    if (!made.has_value())
     {
-        FailJob(*rejection, out);
+        out.emplace_back(RaiseEvent{Planning::JobFailed{job.jobID, made.error()}});
         return;
     }
-    if (_armState != EArmState::Ready)
+    if (!_monitor.IsReady())
     {
-        // It went away while the job waited to be stored. The robot is offline as long as that, so the job comes again
-        // when it is there.
-        DisownJob(out);
+        // It went away while the job waited to be stored. The robot is offline for that time, so the job comes again when it
+        // is there.
+        out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});
         return;
     }
-    if (!job.mark.empty() && job.mark != MakeMark())
+    if (!job.mark.empty() && job.mark != _evidence.MakeProgressToken())
     {
         // A program has run meanwhile: after a restart this one could not be told from it.
         out.emplace_back(RaiseEvent{MakeState()});
-        DisownJob(out);
+        out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});
         return;
     }
-    _counted = _counters;
-    _phase = EJobPhase::Selecting;
-    _armProgram = _methods.find(job.action)->second.armProgram;
-    SendControl(
-        EControl::SelectProgram,
-        SELECT_URL,
-        fmt::format(R"({{"pno":{},"sno":0,"fno":0,"ext_sel":0}})", _armProgram));
+    _evidence.Begin(job.jobNumber);
+    _program.Start(std::move(*made));
 }
 
-/// It was surely not begun; why, is looked at before it is told: a motor that is off is no fault of the job's.
-void OpenStreamRobotAdapter::RefuseJob(std::string reason, AdapterActions& out)
+tl::expected<ArmJob, std::string> OpenStreamRobotAdapter::MakeJob(const Planning::StartJob& job) const
 {
-    if (_bMotorHidden)
+    if (std::optional<std::string> rejection = GetRejectionReasonOrNull(job.action); rejection.has_value())
     {
-        FailJob(reason, out);
+        return tl::unexpected(std::move(*rejection));
+    }
+    ArmJob made{job.jobID, _methods.FindMethodOrNull(job.action, _methods.MakeData(job))->armProgram, {}};
+    if (_resolveInputs)
+    {
+        tl::expected<std::vector<ArmInput>, std::string> inputs = _resolveInputs(job);
+        if (!inputs.has_value())
+        {
+            return tl::unexpected(fmt::format("no inputs for the arm's program: {}", inputs.error()));
+        }
+        made.inputs = std::move(*inputs);
+    }
+    for (const ArmInput& input : made.inputs)
+    {
+        if (!CanHold(input.relay, input.value))
+        {
+            return tl::unexpected(
+                fmt::format("relay {} of the arm is too narrow for the value {}", input.relay.name, input.value));
+        }
+    }
+    return made;
+}
+
+/// A job that was commanded before a restart: the counters show whether its program has begun.
+void OpenStreamRobotAdapter::RecoverJob(AdapterActions& out)
+{
+    const Planning::StartJob job = *std::exchange(_recovery, std::nullopt);
+    const tl::expected<bool, std::string> begun = _evidence.Recover(job.mark, job.jobNumber);
+    if (!begun.has_value())
+    {
+        out.emplace_back(RaiseEvent{Planning::JobUncertain{job.jobID, begun.error()}});
         return;
     }
-    _phase = EJobPhase::Refused;
-    _refusal = std::move(reason);
-    _look = ELook::None;
-    Glance(EGlance::Motor, out);
+    _program.Recover({job.jobID, 0, {}}, *begun, out);
 }
 
-void OpenStreamRobotAdapter::FailJob(const std::string& reason, AdapterActions& out)
+void OpenStreamRobotAdapter::ServeProgram(AdapterActions& out)
 {
-    EndJob(out);
-    out.emplace_back(RaiseEvent{Planning::JobFailed{std::exchange(_jobID, {}), reason}});
-    TellPaused(out);
-}
-
-/// Nobody can tell by what the arm shows.
-void OpenStreamRobotAdapter::HoldJob(std::string reason, AdapterActions& out)
-{
-    EndJob(out);
-    out.emplace_back(RaiseEvent{Planning::JobUncertain{std::exchange(_jobID, {}), std::move(reason)}});
-    TellPaused(out);
-}
-
-/// Its program was surely not started: it can be commanded again.
-void OpenStreamRobotAdapter::DisownJob(AdapterActions& out)
-{
-    EndJob(out);
-    out.emplace_back(RaiseEvent{Planning::JobUnknown{std::exchange(_jobID, {})}});
-    TellPaused(out);
-}
-
-void OpenStreamRobotAdapter::SendControl(EControl kind, std::string_view url, std::string body)
-{
-    OpenStream::ControlRequest request;
-    request.url = url;
-    request.body = Core::JsonText::FromTrusted(std::move(body));
-    _controls.push_back(kind);
-    _outputs.armRequests.emplace_back(std::move(request));
-}
-
-void OpenStreamRobotAdapter::TakeSettled(const OpenStream::ClientControlSettled& settled, AdapterActions& out)
-{
-    if (_controls.empty())
+    for (std::vector<EArmRequest> requests = _program.TakeRequests(); !requests.empty();
+         requests = _program.TakeRequests())
     {
-        return;
+        for (const EArmRequest request : requests)
+        {
+            Serve(request, out);
+        }
     }
-    const EControl kind = _controls.front();
-    _controls.pop_front();
-    if (kind == EControl::MotorOn)
+}
+
+void OpenStreamRobotAdapter::Serve(EArmRequest request, AdapterActions& out)
+{
+    switch (request)
     {
-        TakeSettledMotor(settled, out);
-        return;
-    }
-    if (kind == EControl::StopProgram || kind == EControl::GoOn || kind == EControl::ResetProgram)
-    {
-        TakeSettledPause(kind, settled.outcome, DescribeRefusal(settled.status, settled.body, settled.detail), out);
-        return;
-    }
-    const bool bOfJob = (kind == EControl::SelectProgram && _phase == EJobPhase::Selecting)
-        || (kind == EControl::StartProgram && _phase == EJobPhase::Starting);
-    if (!bOfJob)
-    {
-        return; // a job that has ended meanwhile
-    }
-    switch (settled.outcome)
-    {
-        case OpenStream::EControlOutcome::Accepted:
-            _phase = _phase == EJobPhase::Selecting ? EJobPhase::Looking : EJobPhase::Running;
-            LookAgain(out);
+        case EArmRequest::VerifyEffect:
+            _monitor.VerifyEffect(out);
             break;
-        case OpenStream::EControlOutcome::Refused:
-            RefuseJob(DescribeRefusal(settled.status, settled.body, settled.detail), out);
+        case EArmRequest::VerifyCounters:
+            _monitor.VerifyCounters();
             break;
-        case OpenStream::EControlOutcome::NotSent:
-            DisownJob(out);
-            break;
-        case OpenStream::EControlOutcome::Unconfirmed: // not asked for
-        case OpenStream::EControlOutcome::Unknown:
-            if (_phase == EJobPhase::Selecting)
+        case EArmRequest::ReadInputs:
+        {
+            std::vector<ArmRelay> relays;
+            for (const ArmInput& input : _program.GetInputs())
             {
-                DisownJob(out); // selected perhaps, but not started
+                relays.push_back(input.relay);
             }
-            else
+            _monitor.ReadRelays(MakeRelayRanges(relays));
+            break;
+        }
+        case EArmRequest::ProbeMotor:
+            if (_monitor.IsHidden(EArmProbe::Motor))
             {
-                // Started or not: the counters will tell after the reconnect. It is never started a second time.
-                _phase = EJobPhase::Running;
+                _program.OnMotorProbed(out);
+                break;
             }
+            _monitor.BeginProbe(EArmProbe::Motor, out);
+            break;
+        case EArmRequest::ProbePlayback:
+            if (_monitor.IsHidden(EArmProbe::Playback))
+            {
+                _program.OnPlaybackHidden(out);
+                break;
+            }
+            _monitor.BeginProbe(EArmProbe::Playback, out);
             break;
         default:
             break;
     }
 }
 
-void OpenStreamRobotAdapter::TakeData(const OpenStream::DataLine& line, AdapterActions& out)
+void OpenStreamRobotAdapter::Update(AdapterActions& out)
 {
-    if (!line.result.has_value())
+    ServeProgram(out);
+    if (_monitor.IsReadingRelays() && !_program.IsReadingInputs())
     {
-        return;
+        _monitor.WatchCounters();
     }
-    if (_armState == EArmState::MotorOff)
-    {
-        TakeMotor(ReadMotorOnOrNull(*line.result).value_or(false), out);
-    }
-    else if (_armState != EArmState::Lost && !TryTakeGlance(*line.result, out))
-    {
-        TakeCounters(*line.result, out);
-    }
+    _program.Advance(IsFree(), _monitor.IsProbing(), out);
+    ServeProgram(out);
+    ReportArm(out);
+    ReportPaused(out);
 }
 
-void OpenStreamRobotAdapter::WatchCounters()
+bool OpenStreamRobotAdapter::IsFree() const
 {
-    const std::size_t words = std::max({_options.startedIndex, _options.finishedIndex, _options.failedIndex}) + 1;
-    OpenStream::MonitorRequest monitor;
-    monitor.url = _options.monitorUrl;
-    monitor.period = _options.period;
-    monitor.args = Core::JsonText::FromTrusted(fmt::format(R"({{"st":{},"len":{}}})", _options.firstByte, words));
-    _outputs.armRequests.emplace_back(std::move(monitor));
-    _glance = EGlance::None;
-    _bCountersFresh = false;
+    return _controls.IsIdle() && _monitor.IsIdle();
 }
 
-void OpenStreamRobotAdapter::TakeCounters(const Core::JsonText& result, AdapterActions& out)
+bool OpenStreamRobotAdapter::IsProgramWatched() const
 {
-    const std::optional<std::vector<std::int64_t>> words = ReadRelayWordsOrNull(result);
-    const std::size_t needed = std::max({_options.startedIndex, _options.finishedIndex, _options.failedIndex}) + 1;
-    if (!words.has_value() || words->size() < needed)
-    {
-        return; // a late sample of the MONITOR before, or a controller that lacks these relays
-    }
-    const Counters before = std::exchange(
-        _counters,
-        {(*words)[_options.startedIndex], (*words)[_options.finishedIndex], (*words)[_options.failedIndex]});
-    const bool bFirst = _armState != EArmState::Ready;
-    const bool bNews = !std::exchange(_bCounted, true) || before != _counters;
-    if (bNews && _bBaseStateKnown)
-    {
-        out.emplace_back(RaiseEvent{MakeState()}); // with the new mark, before anybody begins a job on it
-    }
-    _bCountersFresh = true;
-    SetArmState(EArmState::Ready, out);
-    if (bFirst)
-    {
-        SetTrouble(std::nullopt, out);
-        out.emplace_back(Planning::CancelAdapterTimer{RETRY_TIMER});
-        StartGlanceTimer(out);
-    }
-    const bool bReset = HasFallen(before, _counters);
-    const bool bBegun = _phase == EJobPhase::Starting || _phase == EJobPhase::Running;
-    if (bReset && bBegun)
-    {
-        HoldJob(
-            "the arm's controller was restarted while its program ran, or might have: its counters began again",
-            out);
-        return;
-    }
-    FindJob(out);
-    FollowJob(out);
-    CheckHalt(out);
-    if (!bFirst)
-    {
-        TakeStanding(out);
-    }
-    if (_look == ELook::Due)
-    {
-        _look = ELook::None;
-        TakeLook(out);
-    }
-    if (bFirst)
-    {
-        if (IsGoOnRefused())
-        {
-            _program = EProgram::Retrying;
-            LookAtRefusedProgram(out);
-        }
-        FollowPause(out);
-    }
-    if (bFirst && !_bJobStarted && _phase == EJobPhase::Running)
-    {
-        out.emplace_back(Planning::StartAdapterTimer{START_TIMER, START_LIMIT});
-    }
-}
-
-void OpenStreamRobotAdapter::SetArmState(EArmState state, AdapterActions& out)
-{
-    _armState = state;
-    TellOnline(out);
-}
-
-void OpenStreamRobotAdapter::DrainBase(AdapterActions& out)
-{
-    for (Planning::AdapterAction& action : _baseActions)
-    {
-        const RaiseEvent* raiseOrNull = std::get_if<RaiseEvent>(&action);
-        const Planning::LinkChanged* linkOrNull =
-            raiseOrNull == nullptr ? nullptr : std::get_if<Planning::LinkChanged>(&raiseOrNull->event);
-        const Planning::StateChanged* stateOrNull =
-            raiseOrNull == nullptr ? nullptr : std::get_if<Planning::StateChanged>(&raiseOrNull->event);
-        if (stateOrNull != nullptr)
-        {
-            _baseState = *stateOrNull;
-            _bPauseTold = _bPauseTold || stateOrNull->bPaused;
-            _bBaseStateKnown = true;
-            _bPaused = IsPaused();
-            out.emplace_back(RaiseEvent{MakeState()});
-        }
-        else if (linkOrNull != nullptr)
-        {
-            _bBaseOnline = linkOrNull->bOnline;
-            _bBaseStateKnown = _bBaseStateKnown && _bBaseOnline;
-            TellOnline(out);
-        }
-        else
-        {
-            out.push_back(std::move(action));
-        }
-    }
-    _baseActions.clear();
-}
-
-void OpenStreamRobotAdapter::TellOnline(AdapterActions& out)
-{
-    const bool bArmInReach = _armState == EArmState::Ready || (_armState != EArmState::Lost && _trouble.has_value());
-    const bool bOnline = _bBaseOnline && bArmInReach;
-    if (std::exchange(_bOnline, bOnline) == bOnline)
-    {
-        return;
-    }
-    out.emplace_back(RaiseEvent{Planning::LinkChanged{bOnline}});
-    if (bOnline && _bBaseStateKnown)
-    {
-        out.emplace_back(RaiseEvent{MakeState()}); // the base may tell its next one much later
-    }
+    return IsFree() && _program.IsRunning();
 }
 
 } // namespace ACS::Acsd

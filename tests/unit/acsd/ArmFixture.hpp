@@ -18,10 +18,11 @@ namespace ACS::Acsd::Test
 {
 
 inline const std::string SELECT =
-    R"(CONTROL /project/context/tasks[0]/cur_prog_cnt {"pno":11,"sno":0,"fno":0,"ext_sel":0})";
+    R"(CONTROL /project/context/tasks[0]/cur_prog_cnt {"pno":11,"sno":0,"fno":0,"ext_sel":1})";
 inline const std::string START = "CONTROL /project/robot/start {}";
 inline const std::string STOP = "CONTROL /project/robot/stop {}";
-inline const std::string RESET = "CONTROL /project/context/tasks[0]/reset {}";
+inline const std::string RESET = R"(CONTROL /project/service/r_code/execute {"code":1})";
+inline const std::string RESET_TASK = "CONTROL /project/context/tasks[0]/reset {}";
 inline const std::string LOOK = "MONITOR /project/plc/m/val_s32";
 inline const std::string MOTOR_ON = "CONTROL /project/robot/motor_on {}";
 inline const std::string LOOK_AT_MOTOR = "MONITOR /project/robot/motor_on_state";
@@ -32,6 +33,14 @@ inline constexpr std::string_view PLAYS = R"({"is_playback":1,"cur_prog_no":11,"
 inline constexpr std::string_view MOTOR_ON_SAMPLE = R"({"_type":"JObject","val":0})";
 inline constexpr std::string_view MOTOR_OFF_SAMPLE = R"({"_type":"JObject","val":1})";
 inline const std::string LOOK_AT_PLAYBACK = "MONITOR /project/rgen";
+
+/// Of programs that cannot echo the number of their job.
+inline ArmOptions MakeArmOptions()
+{
+    ArmOptions options;
+    options.echoIndex.reset();
+    return options;
+}
 
 inline VDA5050::MasterOptions MakeBaseOptions()
 {
@@ -47,14 +56,29 @@ struct ArmFixture
     static constexpr Planning::AdapterTimerID START_TIMER = 101;
     static constexpr Planning::AdapterTimerID GLANCE_TIMER = 102;
     static constexpr Planning::AdapterTimerID LOOK_TIMER = 103;
+    static constexpr Planning::AdapterTimerID INPUT_TIMER = 104;
 
     Testing::ManualClock clock;
     RobotOutputs outputs;
-    OpenStreamRobotAdapter
-        adapter{MakeBaseOptions(), ArmOptions{}, {{"TrayLoad", {"", 11}}, {"CassetteLoad", {"pick", 0}}}, {}, outputs};
+    OpenStreamRobotAdapter adapter;
     Planning::AdapterActions actions;
     std::uint32_t headerID = 0;
     std::string lastControl; ///< Of those that were taken.
+
+    ArmFixture()
+        : ArmFixture(MakeArmOptions(), {})
+    {
+    }
+
+    ArmFixture(ArmOptions options, ArmInputResolver inputs)
+        : adapter(
+            MakeBaseOptions(),
+            std::move(options),
+            {{"TrayLoad", {"", 11}}, {"CassetteLoad", {"pick", 0}}},
+            std::move(inputs),
+            outputs)
+    {
+    }
 
     void Tell(const OpenStream::ClientEvent& event)
     {
@@ -95,6 +119,17 @@ struct ArmFixture
     {
         Tell(OpenStream::ClientMonitorStarted{});
         TellData(state);
+    }
+
+    /// A CONTROL is refused with the controller's own error code.
+    void RefuseWith(int status, std::string_view body)
+    {
+        Tell(OpenStream::ClientControlSettled{
+            0,
+            OpenStream::EControlOutcome::Refused,
+            status,
+            Core::JsonText::FromTrusted(std::string(body)),
+            "detail"});
     }
 
     void Settle(OpenStream::EControlOutcome outcome, int status = 0)

@@ -381,6 +381,46 @@ TEST_CASE(
     CHECK(arm.TakeRequests().empty());
 }
 
+TEST_CASE("D-16 An older controller does not know r_code: its task is reset, and that is remembered for the connection")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    arm.Accept("[6,5,0]");
+    arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+    REQUIRE(arm.TakeRequests() == std::vector<std::string>{RESET});
+    arm.Settle(OpenStream::EControlOutcome::Refused, GENERATE(403, 404));
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    REQUIRE(arm.TakeRequests() == std::vector<std::string>{RESET_TASK});
+    SECTION("Neither way works: the job stays as it is")
+    {
+        arm.Settle(OpenStream::EControlOutcome::Refused, 403);
+        CHECK(arm.TakeRequests().empty());
+        CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+        arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+    }
+    SECTION("The task is reset")
+    {
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+        const bool bReconnect = GENERATE(false, true);
+        if (bReconnect)
+        {
+            arm.Tell(OpenStream::ClientLost{});
+            arm.BringUp("[6,5,0]");
+        }
+        arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+        arm.Command("K");
+        arm.Accept("[6,5,0]");
+        arm.Accept("[7,5,0]");
+        arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+        arm.Accept("[7,5,0]");
+        arm.adapter.Handle(Planning::CancelJob{"K"}, arm.clock.GetNow(), arm.actions);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{bReconnect ? RESET : RESET_TASK});
+    }
+}
+
 TEST_CASE("D-16 A job that was held before its program began is given up at once")
 {
     ArmFixture arm;

@@ -79,6 +79,60 @@ TEST_CASE("A refused CONTROL fails the job with the controller's status")
     CHECK(failed.front().reason.find("403") != std::string::npos);
 }
 
+TEST_CASE("A selection that is refused for the program counter is repeated once after set_cur_pc_idx")
+{
+    const std::string rewind = R"(CONTROL /project/context/tasks[0]/set_cur_pc_idx {"idx":1})";
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    static_cast<void>(arm.TakeRequests());
+    const std::string body = GENERATE(R"({"err_code":-1245280})", R"({"err_code":"-1245280"})");
+    const bool bLate = GENERATE(false, true);
+    if (bLate)
+    {
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        static_cast<void>(arm.TakeRequests());
+        arm.Tell(OpenStream::ClientControlFault{403, Core::JsonText::FromTrusted(body), "late"});
+    }
+    else
+    {
+        arm.RefuseWith(403, body);
+    }
+    REQUIRE(arm.TakeRequests() == std::vector<std::string>{rewind});
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    REQUIRE(arm.TakeRequests() == std::vector<std::string>{SELECT});
+    SECTION("Then it is accepted")
+    {
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        arm.ShowLook();
+        CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+    }
+    SECTION("It is refused again: the job fails")
+    {
+        arm.RefuseWith(403, body);
+        REQUIRE(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_MOTOR});
+        arm.TellData(MOTOR_ON_SAMPLE);
+        const auto failed = arm.TakeEvents<Planning::JobFailed>();
+        REQUIRE(failed.size() == 1);
+        CHECK(failed.front().reason.find("-1245280") != std::string::npos);
+    }
+}
+
+TEST_CASE("A program that ran after the selection and before the start is not taken for the job's own")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    arm.Command("J");
+    arm.Accept();
+    arm.TellData("[6,6,0]");
+    CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests().empty());
+    CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
+}
+
 TEST_CASE("A start whose fate is not known is never sent again: the counters decide")
 {
     ArmFixture arm;

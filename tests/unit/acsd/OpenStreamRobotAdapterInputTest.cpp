@@ -1,0 +1,408 @@
+#include "ArmFixture.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+// The inputs of an arm's program, and the number of its job that it echoes.
+
+namespace ACS::Acsd::Test
+{
+
+namespace
+{
+
+const std::string WRITE_NUMBER = R"(CONTROL /project/plc/set_relay_value {"name":"ml105","value":4711})";
+const std::string WRITE_AREA = R"(CONTROL /project/plc/set_relay_value {"name":"ml106","value":1})";
+const std::string READ_OUTPUTS = "MONITOR /project/plc/do/val_s32";
+/// The number of the job; 0 until it is known.
+constexpr std::string_view BEFORE = "[5,5,0,0,17]";
+constexpr std::string_view BEGUN = "[6,5,0,11,4711]";
+constexpr std::string_view DONE = "[6,6,0,11,4711]";
+
+tl::expected<std::vector<ArmInput>, std::string> ResolveInputs(const Planning::StartJob& job)
+{
+    if (!job.from.has_value())
+    {
+        return tl::unexpected<std::string>("{from.area}: the job has no from");
+    }
+    return std::vector<ArmInput>{{*ParseArmRelay("ml105"), job.jobNumber}, {*ParseArmRelay("ml106"), 1}};
+}
+
+/// Its programs have inputs and echo the number of their job.
+struct ArmInputFixture : ArmFixture
+{
+    explicit ArmInputFixture(ArmInputResolver inputs = ResolveInputs)
+        : ArmFixture(ArmOptions{}, std::move(inputs))
+    {
+        BringUp(BEFORE);
+    }
+
+    static Planning::StartJob MakeJob(std::int32_t number = 4711)
+    {
+        Planning::StartJob job;
+        job.jobID = "J";
+        job.action = "TrayLoad";
+        job.from = "A01.CP01.TP01";
+        job.mark = "5 5 0";
+        job.jobNumber = number;
+        return job;
+    }
+
+    void Command(const Planning::StartJob& job)
+    {
+        adapter.Handle(job, clock.GetNow(), actions);
+    }
+
+    /// The program is selected, and the inputs are written; they are being read.
+    void WriteInputs()
+    {
+        Command(MakeJob());
+        CHECK(TakeRequests() == std::vector<std::string>{SELECT});
+        Settle(OpenStream::EControlOutcome::Accepted);
+        ShowLook(BEFORE);
+        WriteAll();
+    }
+
+    void WriteAll()
+    {
+        CHECK(TakeRequests() == std::vector<std::string>{WRITE_NUMBER});
+        Settle(OpenStream::EControlOutcome::Accepted);
+        CHECK(TakeRequests() == std::vector<std::string>{WRITE_AREA});
+        Settle(OpenStream::EControlOutcome::Accepted);
+        CHECK(TakeRequests() == std::vector<std::string>{LOOK});
+        Tell(OpenStream::ClientMonitorStarted{});
+    }
+
+    /// The program is started.
+    void StartWithInputs()
+    {
+        WriteInputs();
+        TellData("[4711,1]");
+        CHECK(TakeRequests() == std::vector<std::string>{LOOK, START});
+        Settle(OpenStream::EControlOutcome::Accepted);
+        ShowLook(BEFORE);
+    }
+
+    std::string TakeFailure()
+    {
+        const auto failed = TakeEvents<Planning::JobFailed>();
+        CHECK(failed.size() == 1);
+        return failed.empty() ? std::string() : failed.front().reason;
+    }
+};
+
+} // namespace
+
+TEST_CASE("Inputs are written after the selection, read back, and only then the program is started")
+{
+    ArmInputFixture arm;
+    arm.StartWithInputs();
+    arm.TellData(BEGUN);
+    CHECK(arm.TakeEvents<Planning::JobStarted>().size() == 1);
+    arm.TellData(DONE);
+    CHECK(arm.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+}
+
+TEST_CASE("Inputs that read back late are waited for; those of before the writing are not taken for them")
+{
+    ArmInputFixture arm;
+    arm.Command(ArmInputFixture::MakeJob());
+    static_cast<void>(arm.TakeRequests());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.ShowLook(BEFORE);
+    arm.WriteAll();
+    arm.TellData("[4711,0]");
+    arm.TellData("[17,1]");
+    arm.TellData("[4711]");
+    arm.TellData(R"({"val":0})");
+    CHECK(arm.TakeRequests().empty());
+    arm.TellData("[4711,1]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK, START});
+}
+
+TEST_CASE("Samples that were on their way before the inputs are read are still those of the counters")
+{
+    ArmInputFixture arm([](const Planning::StartJob&) {
+        return std::vector<ArmInput>{{*ParseArmRelay("ml105"), 5}, {*ParseArmRelay("ml106"), 5}};
+    });
+    arm.Command(ArmInputFixture::MakeJob());
+    static_cast<void>(arm.TakeRequests());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.ShowLook(BEFORE);
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    static_cast<void>(arm.TakeRequests());
+    arm.TellData(BEFORE); // [5,5,…], before the MONITOR of the inputs was taken
+    CHECK(arm.TakeRequests().empty());
+    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.TellData("[5,5]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK, START});
+}
+
+TEST_CASE(
+    "Inputs that differ are written again, and then the job fails with relay, written and read; nothing was started")
+{
+    ArmInputFixture arm;
+    arm.WriteInputs();
+    for (int retry = 0; retry < 2; ++retry)
+    {
+        arm.TellData("[4711,2]");
+        arm.Fire(ArmFixture::INPUT_TIMER);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{WRITE_NUMBER, LOOK});
+        arm.outputs.armRequests.clear();
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{WRITE_AREA, LOOK});
+        arm.Tell(OpenStream::ClientMonitorStarted{});
+    }
+    arm.TellData("[4711,2]");
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    arm.Fire(ArmFixture::INPUT_TIMER);
+    CHECK(arm.TakeFailure().find("relay ml106 was written as 1 and reads 2") != std::string::npos);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    arm.Fire(ArmFixture::INPUT_TIMER);
+    CHECK(arm.TakeRequests().empty());
+    arm.TellData(BEFORE);
+    CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+}
+
+TEST_CASE("Relays that the controller refuses or does not show fail the job; nothing was started")
+{
+    ArmInputFixture arm;
+    SECTION("It refuses to write one")
+    {
+        arm.Command(ArmInputFixture::MakeJob());
+        static_cast<void>(arm.TakeRequests());
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        arm.ShowLook(BEFORE);
+        static_cast<void>(arm.TakeRequests());
+        arm.Settle(OpenStream::EControlOutcome::Refused, 400);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_MOTOR});
+        arm.TellData(MOTOR_ON_SAMPLE);
+        const std::string reason = arm.TakeFailure();
+        CHECK(reason.find("ml105") != std::string::npos);
+        CHECK(reason.find("400") != std::string::npos);
+    }
+    SECTION("It refuses to show them")
+    {
+        arm.WriteInputs();
+        arm.RefuseMonitor("/project/plc/m/val_s32");
+        CHECK(arm.TakeFailure().find("/project/plc/m/val_s32") != std::string::npos);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    }
+    SECTION("It shows nothing")
+    {
+        arm.WriteInputs();
+        for (int retry = 0; retry < 3; ++retry)
+        {
+            arm.Fire(ArmFixture::INPUT_TIMER);
+            arm.Settle(OpenStream::EControlOutcome::Accepted);
+            arm.Settle(OpenStream::EControlOutcome::Accepted);
+        }
+        CHECK(arm.TakeFailure().find("not shown") != std::string::npos);
+    }
+    const std::vector<std::string> requests = arm.TakeRequests();
+    CHECK(std::ranges::find(requests, START) == requests.end());
+}
+
+TEST_CASE("Inputs of several areas are read one after the other, and all again until they are right")
+{
+    ArmInputFixture arm([](const Planning::StartJob&) {
+        return std::vector<ArmInput>{{*ParseArmRelay("do3"), 1}, {*ParseArmRelay("ml105"), 7}};
+    });
+    arm.Command(ArmInputFixture::MakeJob());
+    static_cast<void>(arm.TakeRequests());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.ShowLook(BEFORE);
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    static_cast<void>(arm.TakeRequests());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{READ_OUTPUTS});
+    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.TellData("[8]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    arm.TellData("[8]"); // of the range before
+    CHECK(arm.TakeRequests().empty());
+    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.TellData("[6]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{READ_OUTPUTS});
+    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.TellData("[8]");
+    arm.Tell(OpenStream::ClientMonitorStarted{});
+    static_cast<void>(arm.TakeRequests());
+    arm.TellData("[7]");
+    CHECK(arm.TakeRequests().back() == START);
+}
+
+TEST_CASE("Inputs that cannot be derived from the job, or do not fit into their relay, fail it before anything is sent")
+{
+    SECTION("They cannot be derived")
+    {
+        ArmInputFixture arm;
+        Planning::StartJob job = ArmInputFixture::MakeJob();
+        job.from.reset();
+        arm.Command(job);
+        CHECK(arm.TakeFailure().find("{from.area}") != std::string::npos);
+        CHECK(arm.TakeRequests().empty());
+    }
+    SECTION("One does not fit")
+    {
+        ArmInputFixture arm([](const Planning::StartJob&) {
+            return std::vector<ArmInput>{{*ParseArmRelay("mb5"), 300}};
+        });
+        arm.Command(ArmInputFixture::MakeJob());
+        CHECK(arm.TakeFailure().find("mb5") != std::string::npos);
+        CHECK(arm.TakeRequests().empty());
+    }
+}
+
+TEST_CASE("A pause while inputs are written holds the start; they are read again after it")
+{
+    ArmInputFixture arm;
+    arm.WriteInputs();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    arm.TellData("[4711,1]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.TellData(BEFORE);
+    CHECK(arm.TakeRequests().empty());
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    arm.Tell(OpenStream::ClientMonitorStarted{});
+    SECTION("They are as they were")
+    {
+        arm.TellData("[4711,1]");
+        CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK, START});
+    }
+    SECTION("They were overwritten")
+    {
+        arm.TellData("[4711,9]");
+        CHECK(arm.TakeRequests().empty());
+        arm.Fire(ArmFixture::INPUT_TIMER);
+        CHECK(arm.TakeRequests().front() == WRITE_NUMBER);
+    }
+}
+
+TEST_CASE("A job that is cancelled, or whose connection is lost, while its inputs are written was not started")
+{
+    ArmInputFixture arm;
+    const bool bRead = GENERATE(false, true);
+    if (bRead)
+    {
+        arm.WriteInputs();
+    }
+    else
+    {
+        arm.Command(ArmInputFixture::MakeJob());
+        static_cast<void>(arm.TakeRequests());
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        arm.ShowLook(BEFORE);
+        static_cast<void>(arm.TakeRequests());
+    }
+    SECTION("Cancelled")
+    {
+        arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+        CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+        if (bRead)
+        {
+            CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+        }
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+    }
+    SECTION("Lost")
+    {
+        arm.Tell(OpenStream::ClientLost{});
+        CHECK(arm.TakeEvents<Planning::JobUnknown>().size() == 1);
+    }
+    SECTION("A program was run at the controller")
+    {
+        if (!bRead)
+        {
+            arm.TellData("[6,5,0,0,17]");
+            CHECK(arm.TakeEvents<Planning::JobUnknown>().size() == 1);
+        }
+    }
+    for (const std::string& request : arm.TakeRequests())
+    {
+        CHECK(request != START);
+    }
+}
+
+TEST_CASE("Counters that change under another job's number are no evidence: after two samples the outcome is unknown")
+{
+    ArmInputFixture arm;
+    arm.StartWithInputs();
+    arm.TellData("[6,5,0,11,17]");
+    CHECK(arm.TakeEvents<Planning::JobStarted>().empty());
+    SECTION("The words of one sample were of two moments")
+    {
+        arm.TellData(BEGUN);
+        CHECK(arm.TakeEvents<Planning::JobStarted>().size() == 1);
+        CHECK(arm.TakeEvents<Planning::JobUncertain>().empty());
+    }
+    SECTION("It was another program")
+    {
+        arm.TellData("[6,6,0,11,17]");
+        const auto uncertain = arm.TakeEvents<Planning::JobUncertain>();
+        REQUIRE(uncertain.size() == 1);
+        CHECK(uncertain.front().reason.find("4711") != std::string::npos);
+        CHECK(uncertain.front().reason.find("17") != std::string::npos);
+    }
+    CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+}
+
+TEST_CASE("A job whose number is unknown, from before an update, counts any change for its own")
+{
+    ArmInputFixture arm([](const Planning::StartJob&) { return std::vector<ArmInput>{}; });
+    arm.Command(ArmInputFixture::MakeJob(0));
+    static_cast<void>(arm.TakeRequests());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.ShowLook(BEFORE);
+    arm.Accept(BEFORE);
+    arm.TellData("[6,6,0,11,17]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+}
+
+TEST_CASE("After a restart the echo shows whether the program that ran was this job's")
+{
+    ArmFixture arm(ArmOptions{}, ResolveInputs);
+    arm.adapter.Handle(Planning::RecoverJob{ArmInputFixture::MakeJob(), {}}, arm.clock.GetNow(), arm.actions);
+    SECTION("It was, and has finished")
+    {
+        arm.BringUp("[5,5,0,0,4711]");
+        arm.TellData(DONE);
+        CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+    }
+    SECTION("Another one ran")
+    {
+        arm.Tell(OpenStream::ClientReady{});
+        arm.TellData(MOTOR_ON_SAMPLE);
+        arm.TellData("[6,6,0,11,17]");
+        CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
+        REQUIRE(arm.TakeEvents<Planning::JobUncertain>().size() == 1);
+        CHECK(arm.TakeEvents<Planning::JobUncertain>().front().reason.find("4711") != std::string::npos);
+    }
+    SECTION("It echoed its number and raised no counter: it is not commanded again")
+    {
+        arm.BringUp("[5,5,0,0,4711]");
+        arm.Fire(ArmFixture::START_TIMER);
+        CHECK(arm.TakeEvents<Planning::JobUnknown>().empty());
+        CHECK(arm.TakeEvents<Planning::JobUncertain>().size() == 1);
+    }
+    SECTION("It was not started")
+    {
+        arm.BringUp(BEFORE);
+        arm.Fire(ArmFixture::START_TIMER);
+        CHECK(arm.TakeEvents<Planning::JobUnknown>().size() == 1);
+    }
+    for (const std::string& request : arm.TakeRequests())
+    {
+        CHECK(request != START);
+        CHECK(request != SELECT);
+    }
+}
+
+} // namespace ACS::Acsd::Test
