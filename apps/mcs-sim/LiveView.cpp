@@ -95,6 +95,8 @@ std::string DescribeStatus(const TrackedPlan& plan)
     {
         case EDelivery::Refused:
             return "Refused";
+        case EDelivery::Blocked:
+            return "Blocked";
         case EDelivery::Waiting:
             return plan.bReported ? std::string(GetText(plan.status)) : "Waiting";
         case EDelivery::Sent:

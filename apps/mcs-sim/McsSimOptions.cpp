@@ -72,6 +72,25 @@ std::string TakeProfile(const std::string& text, EProfile& profile)
     return "expected spec or nexus, found '" + text + "'";
 }
 
+void AddWorldOptions(CLI::App& app, McsSimOptions& options)
+{
+    CLI::Option& world = Apps::AddTextOption(
+        app,
+        "--world",
+        [&options](const std::string& text) {
+            options.worldFile = text;
+            return text.empty() ? "expected the name of a file, found nothing" : std::string();
+        },
+        "Compare the reports with what the simulated robots have moved: the world file that they share (docs/mcs-sim.md)");
+    world.type_name("FILE.json");
+    app.add_flag(
+           "--restock,!--no-restock",
+           options.bRestock,
+           "With --world, before a plan is sent: put its carriers and memories where it picks them first and empty the places "
+           "where it puts some; plans that share a station or a carrier go one after the other (default: on)")
+        ->needs(&world);
+}
+
 /// What is wrong with options that do not go together; empty: nothing.
 std::string FindContradiction(const McsSimOptions& options)
 {
@@ -98,7 +117,7 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimO
     CLI::App app{
         "Plays the MCS: waits for an ACS on a WebSocket, sends it plans and shows what it reports until all have "
         "ended, or plays scenarios. Exit code 0 when every plan was completed, or every expectation of the scenarios "
-        "held, and every report was right, else 1; 2 for a command line or a file that is wrong.",
+        "held, every report was right and no carrier was misplaced, else 1; 2 for a command line or a file that is wrong.",
         std::string(PROGRAM_NAME)};
     Apps::AddEndpointOption(app, "--listen", options.listen, "Where to wait for the ACS; port 0 takes a free one");
     Apps::AddTextOption(
@@ -165,6 +184,7 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimO
         "--console",
         options.bConsole,
         "Read lines from standard input: plan FILE, cancel PLANID, abort, pause, resume, drop, list, help, quit");
+    AddWorldOptions(app, options);
     Apps::AddCommonOptions(app, options.common);
     const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
     if (exitCode.has_value())

@@ -41,6 +41,8 @@ struct McsSimOptions
     std::string traceFile; ///< Empty: none.
     EProfile profile = EProfile::Spec;
     bool bConsole = false;
+    std::string worldFile; ///< Empty: none.
+    bool bRestock = true;  ///< With a world file.
 };
 
 /// Fills the options. Nullopt: go on; else the exit code to leave with, everything having been said.

@@ -53,6 +53,13 @@ std::uint64_t MakeKey(ETimer timer)
     return static_cast<std::uint64_t>(timer);
 }
 
+/// Renamed carriers are on no floor but one that is restocked.
+ECarrierNames GetCarrierNames(const SimulatorOptions& options)
+{
+    const bool bFound = options.worldOrNull != nullptr && options.stocking == EStocking::Leave;
+    return bFound ? ECarrierNames::Kept : ECarrierNames::Fresh;
+}
+
 std::chrono::milliseconds GetMilliseconds(Core::Duration duration)
 {
     return std::chrono::duration_cast<std::chrono::milliseconds>(duration);
@@ -72,6 +79,7 @@ class McsSimulator::Impl final : private ProtocolBeast::ISessionHandler
     boost::asio::any_io_executor _executor;
 
     PlanTracker _tracker;
+    std::optional<FloorChecker> _floor;
     PlanRefresher _refresher;
     RobotBoard _board;
     PlanSender _sender;
@@ -109,10 +117,15 @@ public:
           _onDone(std::move(onDone)),
           _executor(executor),
           _tracker(std::move(plans), options.profile == EProfile::Spec),
-          _refresher(random, options.date),
+          _floor(
+              options.worldOrNull == nullptr
+                  ? std::nullopt
+                  : std::optional<FloorChecker>(std::in_place, _tracker, *options.worldOrNull, options.stocking)),
+          _refresher(random, options.date, GetCarrierNames(options)),
           _sender(
               _tracker,
               _board,
+              _floor.has_value() ? &*_floor : nullptr,
               options.profile,
               options.bFreshPlans,
               [this](const Protocol::ExecutionPlan& plan, const std::string& transactionID) {
@@ -122,7 +135,7 @@ public:
               executor,
               ScenarioStage{clock, random, _sender, _notes, _lines},
               options.scenarios,
-              options.date,
+              PlanRefresher(random, options.date, GetCarrierNames(options)),
               [this] { OnPlayed(); }),
           _view(options.columns, options.rows),
           _started(clock.GetNow().steady),
@@ -272,6 +285,10 @@ private:
                 [](const auto& /*other*/) {
                 }},
             event);
+        if (_floor.has_value())
+        {
+            _floor->EndPlans(_lines);
+        }
         SendDue();
         Flush();
         if (_bEnding && !_bDone && !_server->IsRegistered())
@@ -376,6 +393,10 @@ private:
         {
             _tracker.OnRequest(payload, _lines);
         }
+        if (_floor.has_value())
+        {
+            _floor->OnRequest(payload, _lines);
+        }
     }
 
     void SendDue()
@@ -464,6 +485,10 @@ private:
         _bDone = true;
         _scenarios.End();
         _timers.CancelAll();
+        if (_floor.has_value())
+        {
+            _floor->Finish(_lines);
+        }
         Flush();
         Draw();
         const Core::SteadyTime end = _finished.value_or(_clock.GetNow().steady);
@@ -484,6 +509,7 @@ private:
             {
                 _out << " The ACS knows a planId already: with --fresh-ids plans go under new ids.\n";
             }
+            PrintDeliveries();
             _out << MakeLastLine(_tracker) << std::endl;
             _onDone(_tracker.IsSuccess() ? 0 : 1);
             return;
@@ -493,8 +519,17 @@ private:
         {
             _out << MakeText(line, MAX_SUMMARY_COLUMNS, _screenOrNull != nullptr) << '\n';
         }
+        PrintDeliveries();
         _out << MakeScenarioLastLine(results, _tracker.CountViolations()) << std::endl;
         _onDone(_scenarios.HasHeld() && _tracker.CountViolations() == 0 ? 0 : 1);
+    }
+
+    void PrintDeliveries()
+    {
+        if (_floor.has_value())
+        {
+            _out << MakeDeliveryLine(_floor->GetCount()) << '\n';
+        }
     }
 
     void Draw()

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "common/Endpoint.hpp"
+#include "FloorChecker.hpp"
 #include "PlannedPlan.hpp"
 #include "Profile.hpp"
 #include "Scenario.hpp"
+#include "world/IWorld.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
@@ -41,6 +43,9 @@ struct SimulatorOptions
     EProfile profile = EProfile::Spec;
     bool bFreshPlans = false; ///< The plans were made for this run: in the profile nexus they name their robot.
     bool bConsole = false;    ///< Execute is called; the run ends when it is told to.
+    Sim::IWorld* worldOrNull =
+        nullptr; ///< What the robots have moved, to compare the reports with. Outlives the simulator.
+    EStocking stocking = EStocking::Leave; ///< With a world. Carriers get fresh ids only where the floor is restocked.
 };
 
 /// The MCS of a run: serves one ACS at a time, sends it the plans or plays scenarios, shows what it reports, and closes
@@ -53,7 +58,7 @@ class McsSimulator
 
 public:
     /// Called once, when the table stands on the output: 0 where every plan was completed (with scenarios:
-    /// every expectation held) and no report was wrong.
+    /// every expectation held), no report was wrong, and no carrier was misplaced.
     using DoneHandler = std::function<void(int exitCode)>;
 
     /// Clock, random source, log sink and output outlive the simulator; so does the screen. Without a screen the output

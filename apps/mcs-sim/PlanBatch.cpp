@@ -1,6 +1,5 @@
 #include "PlanBatch.hpp"
 
-#include "PlanRefresher.hpp"
 #include <acs/core/Uuid.hpp>
 
 #include <unordered_set>
@@ -14,7 +13,7 @@ std::vector<PlannedPlan> MakeBatch(
     Core::IRandom& random)
 {
     const bool bFresh = options.bFreshIDs || options.repeat > 1;
-    PlanRefresher refresher(random, options.date);
+    PlanRefresher refresher(random, options.date, options.carrierNames);
     std::vector<PlannedPlan> plans;
     plans.reserve(files.size() * options.repeat);
     for (std::size_t i = 0; i < options.repeat; ++i)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "PlannedPlan.hpp"
+#include "PlanRefresher.hpp"
 #include <acs/core/IRandom.hpp>
 
 #include <cstddef>
@@ -18,6 +19,7 @@ struct BatchOptions
     std::size_t repeat = 1;
     bool bFreshIDs = false; ///< Always done where repeat is more than 1.
     std::string date;       ///< Eight digits (20261121), for the fresh planIds.
+    ECarrierNames carrierNames = ECarrierNames::Fresh;
 };
 
 /// The plans to send, in order. Fresh ids are those of a PlanRefresher. A plan without a transactionId gets one in any

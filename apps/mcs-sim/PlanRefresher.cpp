@@ -16,9 +16,10 @@ constexpr std::uint64_t TAG_MASK = 0xFFFF;
 
 } // namespace
 
-PlanRefresher::PlanRefresher(Core::IRandom& random, std::string date)
+PlanRefresher::PlanRefresher(Core::IRandom& random, std::string date, ECarrierNames carrierNames)
     : _random(random),
-      _date(std::move(date))
+      _date(std::move(date)),
+      _carrierNames(carrierNames)
 {
 }
 
@@ -31,7 +32,7 @@ void PlanRefresher::Refresh(PlannedPlan& planned)
     {
         for (std::string& carrierID : step.carrierIDs)
         {
-            carrierID += carrierID.empty() ? "" : "-" + tag;
+            carrierID += carrierID.empty() || _carrierNames == ECarrierNames::Kept ? "" : "-" + tag;
         }
         for (Protocol::PlanJob& job : step.jobs)
         {

@@ -2,6 +2,7 @@
 
 #include "RobotNaming.hpp"
 
+#include <iterator>
 #include <utility>
 
 namespace ACS::McsSim
@@ -10,12 +11,14 @@ namespace ACS::McsSim
 PlanSender::PlanSender(
     PlanTracker& tracker,
     const RobotBoard& board,
+    FloorChecker* floorOrNull,
     EProfile profile,
     bool bFreshPlans,
     TrySendPlan trySend)
     : _tracker(tracker),
       _board(board),
       _profile(profile),
+      _floorOrNull(floorOrNull),
       _trySend(std::move(trySend))
 {
     for (std::size_t i = 0; bFreshPlans && i < tracker.GetPlans().size(); ++i)
@@ -24,13 +27,18 @@ PlanSender::PlanSender(
     }
 }
 
-void PlanSender::Add(PlannedPlan planned, bool bFresh)
+std::size_t PlanSender::Add(PlannedPlan planned, bool bFresh)
 {
     const std::size_t index = _tracker.AddPlan(std::move(planned));
     if (bFresh)
     {
         _freshPlans.insert(index);
     }
+    if (_floorOrNull != nullptr)
+    {
+        _floorOrNull->OnPlansAdded();
+    }
+    return index;
 }
 
 bool PlanSender::TrySendOrHold(
@@ -40,9 +48,8 @@ bool PlanSender::TrySendOrHold(
     Core::Now now,
     PlanTracker::Lines& lines)
 {
-    Add(planned, bFresh);
-    const std::size_t index = _tracker.GetPlans().size() - 1;
-    if (bPlansTaken && IsNamed(index))
+    const std::size_t index = Add(planned, bFresh);
+    if (bPlansTaken && !IsBlocked(index) && IsNamed(index))
     {
         return TrySend(index, now, lines);
     }
@@ -52,9 +59,14 @@ bool PlanSender::TrySendOrHold(
 
 void PlanSender::SendHeld(Core::Now now, PlanTracker::Lines& lines)
 {
-    while (!_heldPlans.empty() && TrySend(_heldPlans.front(), now, lines))
+    for (auto held = _heldPlans.begin(); held != _heldPlans.end();)
     {
-        _heldPlans.pop_front();
+        const bool bBlocked = IsBlocked(*held);
+        if (!bBlocked && !TrySend(*held, now, lines))
+        {
+            return;
+        }
+        held = bBlocked ? std::next(held) : _heldPlans.erase(held);
     }
 }
 
@@ -78,6 +90,10 @@ bool PlanSender::TrySend(std::size_t index, Core::Now now, PlanTracker::Lines& l
     {
         return false;
     }
+    if (_floorOrNull != nullptr && _tracker.GetPlans()[index].sends == 0)
+    {
+        _floorOrNull->OnSending(index, lines);
+    }
     const PlannedPlan& planned = _tracker.GetPlans()[index].planned;
     if (!_trySend(planned.plan, planned.transactionID))
     {
@@ -86,6 +102,11 @@ bool PlanSender::TrySend(std::size_t index, Core::Now now, PlanTracker::Lines& l
     _firstSent = _firstSent.value_or(now.steady);
     _tracker.OnSent(index, now, lines);
     return true;
+}
+
+bool PlanSender::IsBlocked(std::size_t index) const
+{
+    return _tracker.GetPlans()[index].delivery == EDelivery::Blocked;
 }
 
 bool PlanSender::IsNamed(std::size_t index)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "FloorChecker.hpp"
 #include "PlannedPlan.hpp"
 #include "PlanTracker.hpp"
 #include "Profile.hpp"
@@ -8,8 +9,8 @@
 #include <acs/protocol/messages/ExecutionPlan.hpp>
 
 #include <cstddef>
-#include <deque>
 #include <functional>
+#include <list>
 #include <optional>
 #include <set>
 #include <string>
@@ -29,20 +30,30 @@ private:
     PlanTracker& _tracker;
     const RobotBoard& _board;
     EProfile _profile;
+    FloorChecker* _floorOrNull;
     TrySendPlan _trySend;
-    std::set<std::size_t> _freshPlans;  ///< Made for this run; the others go as they were written.
-    std::deque<std::size_t> _heldPlans; ///< Of a scenario, until the ACS takes plans and has told of a robot.
+    std::set<std::size_t> _freshPlans; ///< Made for this run; the others go as they were written.
+    std::list<std::size_t>
+        _heldPlans; ///< Of a scenario: they wait for the ACS, for a robot or for another plan to end.
     std::optional<Core::SteadyTime> _firstSent;
 
 public:
-    /// Tracker and board outlive the sender.
+    /// Tracker, board and floor outlive the sender.
+    /// @param floorOrNull Learns of every plan, and may block it in the tracker.
     /// @param bFreshPlans The plans that the tracker holds already were made for this run.
-    PlanSender(PlanTracker& tracker, const RobotBoard& board, EProfile profile, bool bFreshPlans, TrySendPlan trySend);
+    PlanSender(
+        PlanTracker& tracker,
+        const RobotBoard& board,
+        FloorChecker* floorOrNull,
+        EProfile profile,
+        bool bFreshPlans,
+        TrySendPlan trySend);
 
-    /// One more plan, for SendDue.
-    void Add(PlannedPlan planned, bool bFresh);
+    /// One more plan, for SendDue. Its index in the tracker.
+    std::size_t Add(PlannedPlan planned, bool bFresh);
 
-    /// One more plan, now. True where it was sent, or waits for a robot, or for an ACS that takes plans again.
+    /// One more plan, now. True where it was sent, or waits for a robot, for an ACS that takes plans again, or for another
+    /// plan to end.
     [[nodiscard]] bool TrySendOrHold(
         const PlannedPlan& planned,
         bool bFresh,
@@ -60,6 +71,7 @@ public:
 
 private:
     [[nodiscard]] bool TrySend(std::size_t index, Core::Now now, PlanTracker::Lines& lines);
+    [[nodiscard]] bool IsBlocked(std::size_t index) const;
     /// Whether the plan can go as it is. Names its robot where the profile wants that and one is known.
     [[nodiscard]] bool IsNamed(std::size_t index);
 };

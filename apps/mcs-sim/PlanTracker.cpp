@@ -119,7 +119,8 @@ std::optional<std::size_t> PlanTracker::GetNextToSendOrNull(Core::Now now)
         {
             return i;
         }
-        _firstWaiting += !bSent && i == _firstWaiting ? 1U : 0U;
+        const bool bDueLater = bSent || plan.delivery == EDelivery::Blocked;
+        _firstWaiting += !bDueLater && i == _firstWaiting ? 1U : 0U;
         unanswered += bSent ? 1U : 0U;
         if (unanswered >= SEND_WINDOW && _bResending)
         {
@@ -127,6 +128,18 @@ std::optional<std::size_t> PlanTracker::GetNextToSendOrNull(Core::Now now)
         }
     }
     return std::nullopt;
+}
+
+void PlanTracker::Block(std::size_t index)
+{
+    assert(_plans[index].sends == 0);
+    _plans[index].delivery = EDelivery::Blocked;
+}
+
+void PlanTracker::Unblock(std::size_t index)
+{
+    assert(_plans[index].delivery == EDelivery::Blocked);
+    _plans[index].delivery = EDelivery::Waiting;
 }
 
 void PlanTracker::ReplacePlan(std::size_t index, const Protocol::ExecutionPlan& plan)
@@ -350,7 +363,14 @@ const std::vector<TrackedPlan>& PlanTracker::GetPlans() const noexcept
 const TrackedPlan* PlanTracker::FindPlanOrNull(const std::string& planID) const
 {
     const auto found = _byPlanID.find(planID);
-    return found == _byPlanID.end() ? nullptr : &_plans[found->second.front()];
+    if (found == _byPlanID.end())
+    {
+        return nullptr;
+    }
+    const auto index = std::find_if(found->second.begin(), found->second.end(), [this](std::size_t candidate) {
+        return _plans[candidate].delivery != EDelivery::Refused;
+    });
+    return &_plans[index == found->second.end() ? found->second.front() : *index];
 }
 
 std::size_t PlanTracker::CountOutcome(EOutcome outcome) const noexcept
@@ -440,17 +460,13 @@ void PlanTracker::ChangePlan(TrackedPlan& plan, const std::function<void()>& cha
 
 TrackedPlan* PlanTracker::FindReportedOrNull(std::string_view what, const std::string& planID, Lines& out)
 {
-    const auto found = _byPlanID.find(planID);
-    if (found == _byPlanID.end())
+    const TrackedPlan* const foundOrNull = FindPlanOrNull(planID);
+    if (foundOrNull == nullptr)
     {
         AddViolation(fmt::format("{} {} for an unknown plan", CleanText(planID), what), out);
         return nullptr;
     }
-    // Of plans that share their planId the ACS has accepted one: the first that it did not refuse.
-    const auto index = std::find_if(found->second.begin(), found->second.end(), [this](std::size_t candidate) {
-        return _plans[candidate].delivery != EDelivery::Refused;
-    });
-    TrackedPlan& plan = _plans[index == found->second.end() ? found->second.front() : *index];
+    TrackedPlan& plan = _plans[static_cast<std::size_t>(foundOrNull - _plans.data())];
     if (plan.sends == 0)
     {
         AddViolation(fmt::format("{} {} before it was sent", CleanText(planID), what), out);

@@ -64,6 +64,9 @@ public:
     /// The plan to send now, by its index: none while no ACS is there or it cannot take work (section 6.21), or while too
     /// many wait for their Ack.
     [[nodiscard]] std::optional<std::size_t> GetNextToSendOrNull(Core::Now now);
+    /// For a plan that was not sent yet: it is not due until it is unblocked.
+    void Block(std::size_t index);
+    void Unblock(std::size_t index);
     /// Other places than before, in a plan that was not sent yet.
     void ReplacePlan(std::size_t index, const Protocol::ExecutionPlan& plan);
     void OnSent(std::size_t index, Core::Now now, Lines& out);
@@ -77,6 +80,7 @@ public:
     void AddViolation(std::string text, Lines& out);
 
     [[nodiscard]] const std::vector<TrackedPlan>& GetPlans() const noexcept;
+    /// Of plans that share their planId the ACS has accepted one: the first that it did not refuse.
     [[nodiscard]] const TrackedPlan* FindPlanOrNull(const std::string& planID) const;
     [[nodiscard]] std::size_t CountOutcome(EOutcome outcome) const noexcept;
     /// Failed, Cancelled, Aborted and refused.

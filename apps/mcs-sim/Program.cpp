@@ -14,6 +14,7 @@
 #include "Screen.hpp"
 #include "ScreenLogSink.hpp"
 #include "TraceFile.hpp"
+#include "world/WorldFile.hpp"
 #include <acs/core/Timestamp.hpp>
 
 #include <boost/asio/io_context.hpp>
@@ -60,7 +61,9 @@ tl::expected<std::vector<PlannedPlan>, std::string> LoadPlans(
         }
         files.push_back(std::move(*planned));
     }
-    std::vector<PlannedPlan> plans = MakeBatch(files, {options.repeat, options.bFreshIDs, date}, random);
+    const bool bCarriersKept = !options.worldFile.empty() && !options.bRestock;
+    const ECarrierNames carrierNames = bCarriersKept ? ECarrierNames::Kept : ECarrierNames::Fresh;
+    std::vector<PlannedPlan> plans = MakeBatch(files, {options.repeat, options.bFreshIDs, date, carrierNames}, random);
     const std::optional<std::string> shared = FindSharedTransactionOrNull(plans);
     if (shared.has_value())
     {
@@ -169,7 +172,22 @@ int Run(const McsSimOptions& options)
         date,
         options.profile,
         options.bFreshIDs || options.repeat > 1,
-        options.bConsole};
+        options.bConsole,
+        nullptr,
+        EStocking::Leave};
+    std::unique_ptr<Sim::IWorld> world;
+    if (!options.worldFile.empty())
+    {
+        Core::Result<std::unique_ptr<Sim::WorldFile>> opened = Sim::WorldFile::Open(options.worldFile);
+        if (!opened.has_value())
+        {
+            Apps::PrintMistake(PROGRAM_NAME, "--world: " + Describe(opened.error()));
+            return Apps::EXIT_BAD_COMMAND_LINE;
+        }
+        world = std::move(*opened);
+        simulated.worldOrNull = world.get();
+        simulated.stocking = options.bRestock ? EStocking::Restock : EStocking::Leave;
+    }
     std::unique_ptr<TraceFile> trace;
     if (!options.traceFile.empty())
     {

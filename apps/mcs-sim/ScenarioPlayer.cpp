@@ -33,10 +33,10 @@ ScenarioPlayer::ScenarioPlayer(
     const boost::asio::any_io_executor& executor,
     const ScenarioStage& stage,
     std::vector<Scenario> scenarios,
-    std::string date,
+    PlanRefresher refresher,
     std::function<void()> onPlayed)
     : _stage(stage),
-      _scenarios(std::move(scenarios), stage.random, std::move(date)),
+      _scenarios(std::move(scenarios), stage.random, std::move(refresher)),
       _onPlayed(std::move(onPlayed)),
       _timers(executor, [this](std::uint64_t key) { OnTimer(key); })
 {

@@ -47,13 +47,12 @@ class ScenarioPlayer
     Apps::TimerSet _timers;
 
 public:
-    /// @param date As of ScenarioSequence.
     /// @param onPlayed Called whenever a timer of the player has let a scenario go on, or end.
     ScenarioPlayer(
         const boost::asio::any_io_executor& executor,
         const ScenarioStage& stage,
         std::vector<Scenario> scenarios,
-        std::string date,
+        PlanRefresher refresher,
         std::function<void()> onPlayed);
 
     /// Before all others. The server outlives the player's last call.

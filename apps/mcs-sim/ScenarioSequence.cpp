@@ -6,8 +6,8 @@
 namespace ACS::McsSim
 {
 
-ScenarioSequence::ScenarioSequence(std::vector<Scenario> scenarios, Core::IRandom& random, std::string date)
-    : _refresher(random, std::move(date))
+ScenarioSequence::ScenarioSequence(std::vector<Scenario> scenarios, Core::IRandom& random, PlanRefresher refresher)
+    : _refresher(std::move(refresher))
 {
     for (Scenario& scenario : scenarios)
     {

@@ -29,8 +29,8 @@ class ScenarioSequence
     bool _bRegistered = false;
 
 public:
-    /// The date is for fresh planIds (PlanRefresher). The random source outlives the sequence.
-    ScenarioSequence(std::vector<Scenario> scenarios, Core::IRandom& random, std::string date);
+    /// The random source outlives the sequence.
+    ScenarioSequence(std::vector<Scenario> scenarios, Core::IRandom& random, PlanRefresher refresher);
     ScenarioSequence(const ScenarioSequence&) = delete; // the runners know the refresher
     ScenarioSequence& operator=(const ScenarioSequence&) = delete;
     ~ScenarioSequence() = default;

@@ -226,6 +226,11 @@ bool WasDuplicateRefused(const PlanTracker& tracker)
     });
 }
 
+std::string MakeDeliveryLine(const DeliveryCount& count)
+{
+    return fmt::format("{} carriers delivered, {} misplaced", count.delivered, count.misplaced);
+}
+
 std::string MakeLastLine(const PlanTracker& tracker)
 {
     return fmt::format(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "FloorChecker.hpp"
 #include "NoteJudge.hpp"
 #include "PlanTracker.hpp"
 #include "StyledLine.hpp"
@@ -24,6 +25,9 @@ namespace ACS::McsSim
 
 /// Whether a plan was refused because of its planId (section 6.4: "Duplicated Plan").
 [[nodiscard]] bool WasDuplicateRefused(const PlanTracker& tracker);
+
+/// The line before the last one, where there is a world: "3 carriers delivered, 0 misplaced".
+[[nodiscard]] std::string MakeDeliveryLine(const DeliveryCount& count);
 
 /// The very last line: "2 plans completed, 0 failed".
 [[nodiscard]] std::string MakeLastLine(const PlanTracker& tracker);

@@ -16,6 +16,7 @@ namespace ACS::McsSim
 /// How far the plan itself has got on its way to the ACS.
 enum class EDelivery : std::uint8_t
 {
+    Blocked,  ///< Another plan must end first.
     Waiting,  ///< To be sent, for the first time or again.
     Sent,     ///< No Ack yet.
     Accepted, ///< Ack Success: never sent again.

@@ -48,6 +48,15 @@ TEST_CASE("The command line has the documented defaults")
     CHECK_FALSE(outcome.options.bFreshIDs);
     CHECK_FALSE(outcome.options.bKeep);
     CHECK_FALSE(outcome.options.bWaitForEnter);
+    CHECK(outcome.options.worldFile.empty());
+}
+
+TEST_CASE("With a world file the floor is restocked, unless that is off")
+{
+    CHECK(Parse({"--plan", "a.json", "--world", "w.json"}).options.worldFile == "w.json");
+    CHECK(Parse({"--plan", "a.json", "--world", "w.json"}).options.bRestock);
+    CHECK(Parse({"--plan", "a.json", "--world", "w.json", "--restock"}).options.bRestock);
+    CHECK_FALSE(Parse({"--plan", "a.json", "--world", "w.json", "--no-restock"}).options.bRestock);
 }
 
 TEST_CASE("Plans may follow one --plan or several, in order")
@@ -81,6 +90,8 @@ TEST_CASE("A bad command line is told in one line, with exit code 2")
         Arguments{"--console", "--scenario", "b.json"},
         Arguments{"--plan", "a.json", "--repeat", "0"},
         Arguments{"--plan", "a.json", "--live", "perhaps"},
+        Arguments{"--plan", "a.json", "--no-restock"},
+        Arguments{"--plan", "a.json", "--world", ""},
         Arguments{"--plan", "a.json", "--path", "acs"},
         Arguments{"--plan", "a.json", "--tls-key", "a.key"},
         Arguments{"--plan", "a.json", "--tls-certificate", "a.pem"},

@@ -7,6 +7,7 @@
 #include "ScenarioFile.hpp"
 #include "Screen.hpp"
 #include "SeededRandom.hpp"
+#include "world/MemoryWorld.hpp"
 #include <acs/core/Uuid.hpp>
 #include <acs/protocol_beast/AcsClient.hpp>
 
@@ -435,6 +436,45 @@ TEST_CASE("A scenario sends its plan, sees what the ACS does, and its verdicts s
         GetLastLine(output)
         == (bHeld ? "1 of 1 scenarios passed, 2 of 2 expectations held, 0 violations"
                   : "0 of 1 scenarios passed, 0 of 2 expectations held, 0 violations"));
+}
+
+TEST_CASE("A scenario sends the plan again that it names, not the last one")
+{
+    ACS::McsSim::SimulatorOptions options;
+    const auto scenario = ACS::McsSim::ParseScenario(
+        R"({"name":"test","steps":[{"send":"ExecutionPlan","file":"PA","as":"A","freshIds":false},
+            {"send":"ExecutionPlan","file":"PB","as":"B","freshIds":false},
+            {"waitFor":"B","status":"Completed"},{"sendAgain":"A"}]})",
+        [](const std::string& path) {
+            return tl::expected<PlannedPlan, std::string>(MakeSamplePlan(path.substr(path.size() - 2), "T-" + path));
+        });
+    REQUIRE(scenario.has_value());
+    options.scenarios = {*scenario};
+    Bench bench(0, false, options);
+    bench.simulator->Release();
+    const std::string output = bench.Run();
+    INFO(output);
+    CHECK(Contains(output, " PA ExecutionPlan sent again\n"));
+    CHECK_FALSE(Contains(output, " PB ExecutionPlan sent again\n"));
+}
+
+TEST_CASE("With a world plans that share a place wait for each other, and reports without a move make the run fail")
+{
+    ACS::Sim::MemoryWorld world;
+    ACS::McsSim::SimulatorOptions options;
+    options.worldOrNull = &world;
+    options.stocking = ACS::McsSim::EStocking::Restock;
+    Bench bench(2, false, options);
+    bench.simulator->Release();
+    const std::string output = bench.Run();
+    INFO(output);
+    CHECK(bench.exitCode == 1);
+    CHECK(output.find("P2 ExecutionPlan sent") > output.find("P1 PlanReport Completed"));
+    CHECK(world.GetPlaceOrNull("C1") == "A01.CP01");
+    CHECK(Contains(
+        output,
+        "\n violation: P1 JobReport step 1 Completed, but not moved: LR01: C1 from A01.CP01 to LR01.CP01\n"));
+    CHECK(Contains(output, "\n0 carriers delivered, 4 misplaced\n2 plans completed, 0 failed\n"));
 }
 
 TEST_CASE("A connection that is not the registered ACS fulfils no expectation")

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+using ACS::McsSim::ECarrierNames;
 using ACS::McsSim::FindSharedTransactionOrNull;
 using ACS::McsSim::MakeBatch;
 using ACS::McsSim::PlannedPlan;
@@ -18,7 +19,7 @@ TEST_CASE("Without fresh ids the plans go out as they are, but for a transaction
 {
     SeededRandom random;
     const std::vector<PlannedPlan> files{MakeSamplePlan("A", ""), MakeSamplePlan("B", "T")};
-    const std::vector<PlannedPlan> plans = MakeBatch(files, {1, false, "20261121"}, random);
+    const std::vector<PlannedPlan> plans = MakeBatch(files, {1, false, "20261121", ECarrierNames::Fresh}, random);
     REQUIRE(plans.size() == 2);
     CHECK(plans[0].plan == files[0].plan);
     CHECK(plans[0].transactionID.size() == 36);
@@ -30,7 +31,7 @@ TEST_CASE("Repeated files go out in rotation, always with fresh ids")
     SeededRandom random;
     std::vector<PlannedPlan> files{MakeSamplePlan("A", "T"), MakeSamplePlan("B", "T")};
     files[1].plan.lotID = "OTHER";
-    const std::vector<PlannedPlan> plans = MakeBatch(files, {3, false, "20261121"}, random);
+    const std::vector<PlannedPlan> plans = MakeBatch(files, {3, false, "20261121", ECarrierNames::Fresh}, random);
     REQUIRE(plans.size() == 6);
     std::set<std::string> ids;
     for (std::size_t i = 0; i < plans.size(); ++i)
@@ -56,7 +57,8 @@ TEST_CASE("Repeated files go out in rotation, always with fresh ids")
 TEST_CASE("A carrier that appears twice in a plan keeps one fresh id, and another plan gives it another")
 {
     SeededRandom random;
-    const std::vector<PlannedPlan> plans = MakeBatch({MakeSamplePlan("A", "T")}, {2, true, "20261121"}, random);
+    const std::vector<PlannedPlan> plans =
+        MakeBatch({MakeSamplePlan("A", "T")}, {2, true, "20261121", ECarrierNames::Fresh}, random);
     const auto& steps = plans[0].plan.steps;
     CHECK(steps[0].carrierIDs[0] == steps[1].carrierIDs[0]);
     CHECK(steps[0].carrierIDs[0] == "C1-" + plans[0].plan.planID.substr(19));
@@ -64,10 +66,21 @@ TEST_CASE("A carrier that appears twice in a plan keeps one fresh id, and anothe
     CHECK(steps[0].carrierIDs[0] != plans[1].plan.steps[0].carrierIDs[0]);
 }
 
+TEST_CASE("Carriers that are on a floor under their own ids keep them")
+{
+    SeededRandom random;
+    const std::vector<PlannedPlan> plans =
+        MakeBatch({MakeSamplePlan("A", "T")}, {2, true, "20261121", ECarrierNames::Kept}, random);
+    CHECK(plans[0].plan.steps[0].carrierIDs == std::vector<std::string>{"C1", "C2"});
+    CHECK(plans[1].plan.steps[0].carrierIDs == std::vector<std::string>{"C1", "C2"});
+    CHECK(plans[0].plan.planID != plans[1].plan.planID);
+}
+
 TEST_CASE("Carriers of many plans never share an id")
 {
     SeededRandom random;
-    const std::vector<PlannedPlan> plans = MakeBatch({MakeSamplePlan("A", "T")}, {5'000, true, "20261121"}, random);
+    const std::vector<PlannedPlan> plans =
+        MakeBatch({MakeSamplePlan("A", "T")}, {5'000, true, "20261121", ECarrierNames::Fresh}, random);
     std::set<std::string> carriers;
     for (const PlannedPlan& planned : plans)
     {

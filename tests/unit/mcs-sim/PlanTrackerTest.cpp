@@ -209,6 +209,44 @@ TEST_CASE("Only so many plans wait for their Ack at a time")
     CHECK(bench.Send() == "P" + std::to_string(PlanTracker::SEND_WINDOW + 1));
 }
 
+TEST_CASE("A plan that is blocked lets later ones go, and is due when it is unblocked")
+{
+    Bench bench(3);
+    bench.tracker.Block(0);
+    bench.tracker.OnRegistered();
+    CHECK(bench.Send() == "P2 P3");
+    bench.Ack(1);
+    bench.Ack(2);
+    CHECK(bench.Send().empty());
+    bench.tracker.Unblock(0);
+    CHECK(bench.Send() == "P1");
+}
+
+TEST_CASE("6.13 A step is Skipped before it begins or while it is InProgress, and the plan goes on without a JobReport")
+{
+    Bench bench;
+    bench.tracker.OnRegistered();
+    bench.Send();
+    bench.Report({MakePlanReport("P1", EPlanStatus::InProgress)});
+    SECTION("from InProgress")
+    {
+        bench.Report(
+            {MakeStepReport("P1", 1, EStepStatus::Dispatched),
+             MakeStepReport("P1", 1, EStepStatus::InProgress),
+             MakeJobReport("P1", 1, "J1", EJobStatus::Instructed)});
+    }
+    SECTION("from Pending")
+    {
+    }
+    bench.Report({MakeStepReport("P1", 1, EStepStatus::Skipped)});
+    bench.RunSecondStep();
+    bench.Report({MakePlanReport("P1", EPlanStatus::Completed)});
+    CHECK(bench.tracker.CountViolations() == 0);
+    CHECK(bench.tracker.IsSuccess());
+    bench.Report({MakeStepReport("P1", 1, EStepStatus::Skipped)});
+    CHECK(bench.tracker.CountViolations() == 1);
+}
+
 TEST_CASE("6.4 A refused plan has failed, for the reason that the ACS gave")
 {
     Bench bench;

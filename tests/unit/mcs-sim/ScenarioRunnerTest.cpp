@@ -47,7 +47,7 @@ struct Bench
 {
     ACS::Testing::ManualClock clock;
     ACS::Testing::SeededRandom random;
-    PlanRefresher refresher{random, "20250702"};
+    PlanRefresher refresher{random, "20250702", ECarrierNames::Fresh};
     ScenarioRunner runner;
     ScenarioActions out;
 
@@ -391,7 +391,7 @@ TEST_CASE("Scenarios follow one another, the faults of one end with it, and the 
         {MakeScenario(R"({"withholdAcks":"*","for":"1h"},{"expect":"PlanReport"})"),
          MakeScenario(R"({"expect":"PlanReport","within":"1s"},{"expectNothing":"StepReport","for":"1s"})")},
         random,
-        "20250702");
+        PlanRefresher(random, "20250702", ECarrierNames::Fresh));
     ScenarioActions out;
     sequence.Start(clock.GetNow(), out);
     sequence.OnMessage(MakeReport("InProgress"), clock.GetNow(), out);

@@ -100,4 +100,5 @@ TEST_CASE("The closing table counts plans by outcome and messages by command, a 
 )";
     CHECK(text == expected);
     CHECK(MakeLastLine(tracker) == "1 plans completed, 1 failed");
+    CHECK(ACS::McsSim::MakeDeliveryLine({3, 1}) == "3 carriers delivered, 1 misplaced");
 }
