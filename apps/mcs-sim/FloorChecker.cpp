@@ -182,7 +182,7 @@ void FloorChecker::EndPlans(PlanTracker::Lines& out)
 void FloorChecker::Finish(PlanTracker::Lines& out)
 {
     EndPlans(out);
-    for (const std::size_t index : _open)
+    for (const std::size_t index : std::exchange(_open, {}))
     {
         CountCarriers(index, out);
     }
@@ -278,7 +278,7 @@ void FloorChecker::CountCarriers(std::size_t index, PlanTracker::Lines& out)
         {
             _count.delivered += way.bLast ? 1U : 0U;
         }
-        else if (!way.bUncertain)
+        else if (!way.bUncertain && !IsClaimed(carrierID))
         {
             ++_count.misplaced;
             _tracker.AddViolation(
@@ -291,6 +291,14 @@ void FloorChecker::CountCarriers(std::size_t index, PlanTracker::Lines& out)
                 out);
         }
     }
+}
+
+bool FloorChecker::IsClaimed(const std::string& carrierID) const
+{
+    return std::any_of(_open.begin(), _open.end(), [this, &carrierID](std::size_t index) {
+        const std::vector<std::string>& claims = _plans[index].floor.claims;
+        return std::find(claims.begin(), claims.end(), carrierID) != claims.end();
+    });
 }
 
 void FloorChecker::ExcuseUnfinished(std::size_t index)

@@ -92,6 +92,8 @@ private:
     /// Takes the first move of this kind since the plan was sent. False: there is none.
     [[nodiscard]] bool TryClaim(const CheckedPlan& plan, const Sim::WorldEvent& expected);
     void CountCarriers(std::size_t index, PlanTracker::Lines& out);
+    /// Whether a plan that is not over moves the carrier, too.
+    [[nodiscard]] bool IsClaimed(const std::string& carrierID) const;
     void ExcuseUnfinished(std::size_t index);
 };
 

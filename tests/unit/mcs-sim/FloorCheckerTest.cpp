@@ -131,6 +131,12 @@ public:
     /// As an ACS that is right does it, but for the last tray's port.
     void RunPlan(const std::string& planID, const std::string& lastPort = "A01.CP02.TP04")
     {
+        RunSteps(planID, lastPort);
+        Report(MakePlanReport(planID, EPlanStatus::Completed));
+    }
+
+    void RunSteps(const std::string& planID, const std::string& lastPort)
+    {
         BeginPlan(planID);
         BeginStep(planID, 1);
         Dock("A01.CP02");
@@ -159,7 +165,6 @@ public:
         MoveTray("TRAY_02", "CR01.TP02", lastPort);
         CompleteJob(planID, 3, 6);
         EndStep(planID, 3);
-        Report(MakePlanReport(planID, EPlanStatus::Completed));
     }
 
     /// All violations, each with a line end.
@@ -323,6 +328,19 @@ TEST_CASE("Without restocking the floor stays as it is, and all plans go at once
     FloorFixture fixture(2, EStocking::Leave);
     CHECK(fixture.Send() == "P1 P2 ");
     CHECK_FALSE(fixture.world.GetPlaceOrNull("TRAY_01").has_value());
+}
+
+TEST_CASE("A carrier is not misplaced where another plan, which is not over, has moved it on")
+{
+    FloorFixture fixture(2, EStocking::Leave);
+    fixture.Act(CarrierPlaced{"TRAY_01", "A01.CP02.TP01"});
+    fixture.Act(CarrierPlaced{"TRAY_02", "A01.CP02.TP02"});
+    CHECK(fixture.Send() == "P1 P2 ");
+    fixture.RunSteps("P1", "A01.CP02.TP04");
+    fixture.Act(CarrierPlaced{"TRAY_01", "A01.CP02.TP01"});
+    fixture.Report(MakePlanReport("P1", EPlanStatus::Completed));
+    CHECK(fixture.checker.GetCount() == DeliveryCount{1, 0});
+    CHECK(fixture.tracker.CountViolations() == 0);
 }
 
 TEST_CASE("A planId that is there already claims nothing and stocks nothing: the ACS must see it at once")
