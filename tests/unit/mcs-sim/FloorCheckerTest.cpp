@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-using namespace ACS::Sim;
+using namespace ACS::Sim; // NOLINT(google-build-using-namespace)
 using ACS::McsSim::DeliveryCount;
 using ACS::McsSim::EStocking;
 using ACS::McsSim::FloorChecker;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-using namespace ACS::Sim;
+using namespace ACS::Sim; // NOLINT(google-build-using-namespace)
 using ACS::McsSim::Describe;
 using ACS::McsSim::FloorMove;
 using ACS::McsSim::FloorPlan;
