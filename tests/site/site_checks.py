@@ -12,6 +12,7 @@ import pathlib
 import re
 import tomllib
 
+FILES = {"site.lif.json", "acsd.toml", "site.svg", "world.json", "programs.toml"}  # the other table of the README
 VEHICLE_TYPES = ("lr-base", "cr-base")
 CLEARANCE = 0.9  # metres between a node and whatever is not its own; a vehicle is 0.8 m wide
 FLOOR = (40.0, 20.0)
@@ -461,7 +462,7 @@ def check_key_table(config, text, readme):
         return {re.sub(r"^(robots|actions)\.[^.]+", r"\1.NAME", key) for key in keys}
     used = make_general(list_keys_recursive(config))
     listed = set(re.findall(r"^\| `([a-zA-Z_.]+)` \|", readme, re.MULTILINE))
-    listed = {key for key in listed if "." in key and key not in ("site.lif.json", "acsd.toml", "site.svg")}
+    listed = {key for key in listed if "." in key and key not in FILES}
     return ([f"key {key} is not in the README" for key in sorted(used - listed)]
             + [f"key {key} of the README is not in acsd.toml"
                for key in sorted(listed - used - make_general(list_sample_keys(text)))])
