@@ -70,6 +70,7 @@ ServerSession::ServerSession(const ServerSessionOptions& options)
 
 void ServerSession::Start(Core::Now now, ServerActions& out)
 {
+    _connectedAt = now.steady;
     _lastCommandAt = now.steady;
     ArmWatchdog(out);
 }
@@ -296,8 +297,17 @@ void ServerSession::OnTimer(EServerTimer timer, Core::Now now, ServerActions& ou
     Flush(out);
 }
 
+bool ServerSession::IsHandshakeDue() const noexcept
+{
+    return _state == EServerState::Connected && _options.handshakeTimeout > std::chrono::milliseconds::zero();
+}
+
 Core::SteadyTime ServerSession::GetWatchdogDeadline() const
 {
+    if (IsHandshakeDue())
+    {
+        return _connectedAt + _options.handshakeTimeout;
+    }
     // While streaming, silence counts from when the next line was due: the longest period is longer than the limit.
     return _state == EServerState::Streaming ? _lastDataAt + _period + _options.streamingTimeout
                                              : _lastCommandAt + _options.idleTimeout;
@@ -329,12 +339,26 @@ void ServerSession::CheckWatchdog(Core::Now now, ServerActions& out)
         ArmWatchdog(out);
         return;
     }
-    const bool bStreaming = _state == EServerState::Streaming;
+    EndForTimeout(now, out);
+}
+
+void ServerSession::EndForTimeout(Core::Now now, ServerActions& out)
+{
+    EServerCloseReason reason = EServerCloseReason::IdleTimeout;
+    std::string_view message = "no command came for too long";
+    if (_state == EServerState::Streaming)
+    {
+        reason = EServerCloseReason::StreamingTimeout;
+        message = "the stream was interrupted for too long";
+    }
+    else if (IsHandshakeDue())
+    {
+        reason = EServerCloseReason::HandshakeTimeout;
+        message = "no HANDSHAKE came in time";
+    }
     StopMonitor(out);
-    AppendError(
-        EOpenStreamErrorCode::SessionTimeout,
-        bStreaming ? "the stream was interrupted for too long" : "no command came for too long");
-    BeginClosing(bStreaming ? EServerCloseReason::StreamingTimeout : EServerCloseReason::IdleTimeout, now, out);
+    AppendError(EOpenStreamErrorCode::SessionTimeout, message);
+    BeginClosing(reason, now, out);
 }
 
 void ServerSession::OnSendCompleted(Core::Now now, ServerActions& out)

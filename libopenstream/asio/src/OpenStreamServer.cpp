@@ -14,7 +14,8 @@ namespace ACS::OpenStreamAsio
 namespace
 {
 
-constexpr std::size_t REJECTED_AT_ONCE = 8; ///< Connections that are told why they are closed; more are just closed.
+/// Connections that end but have not closed yet: their last lines leave. More are closed without a line.
+constexpr std::size_t MAX_ENDING = 8;
 
 } // namespace
 
@@ -30,31 +31,61 @@ class OpenStreamServer::Impl final : public std::enable_shared_from_this<OpenStr
 
     void OnAccepted(boost::asio::ip::tcp::socket socket)
     {
-        const std::size_t count = _connections.size();
-        if (count < _options.maximumSessions + REJECTED_AT_ONCE)
+        const bool bRoom = CountSessions() < _options.maximumSessions || TryEvictSilent();
+        if (_connections.size() >= _options.maximumSessions + MAX_ENDING)
         {
-            auto connection = std::make_shared<ServerConnection>(
-                std::move(socket),
-                _clock,
-                _logger,
-                _options.session,
-                _service,
-                [weak = weak_from_this()](ServerConnection& closed) {
-                    if (const std::shared_ptr<Impl> self = weak.lock())
-                    {
-                        self->Forget(closed);
-                    }
-                });
-            _connections.push_back(connection);
-            if (count < _options.maximumSessions)
-            {
-                connection->Start();
-            }
-            else
-            {
-                connection->Reject("this controller serves no more sessions at once");
-            }
+            return;
         }
+        auto connection = std::make_shared<ServerConnection>(
+            std::move(socket),
+            _clock,
+            _logger,
+            _options.session,
+            _service,
+            [weak = weak_from_this()](ServerConnection& closed) {
+                if (const std::shared_ptr<Impl> self = weak.lock())
+                {
+                    self->Forget(closed);
+                }
+            });
+        _connections.push_back(connection);
+        if (bRoom)
+        {
+            connection->Start();
+        }
+        else
+        {
+            connection->Reject("this controller serves no more sessions at once");
+        }
+    }
+
+    /// Those that end do not count: they are served no more.
+    [[nodiscard]] std::size_t CountSessions() const
+    {
+        return static_cast<std::size_t>(std::ranges::count_if(_connections, [](const auto& connection) {
+            return connection->GetState() < OpenStream::EServerState::Closing;
+        }));
+    }
+
+    /// Ends the oldest connection that has sent no HANDSHAKE yet. False where there is none.
+    [[nodiscard]] bool TryEvictSilent()
+    {
+        const auto oldest = std::ranges::find_if(_connections, [](const auto& connection) {
+            return connection->GetState() == OpenStream::EServerState::Connected;
+        });
+        if (oldest == _connections.end())
+        {
+            return false;
+        }
+        const std::shared_ptr<ServerConnection> connection = *oldest;
+        if (_connections.size() < _options.maximumSessions + MAX_ENDING)
+        {
+            connection->Reject("no HANDSHAKE came, and another client needs the session");
+            return true;
+        }
+        connection->Abort();
+        Forget(*connection);
+        return true;
     }
 
     void Forget(const ServerConnection& closed)

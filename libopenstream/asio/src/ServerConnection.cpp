@@ -35,6 +35,8 @@ std::string_view GetReasonText(OpenStream::EServerCloseReason reason)
             return "the client closed";
         case EServerCloseReason::StopSession:
             return "STOP session";
+        case EServerCloseReason::HandshakeTimeout:
+            return "no HANDSHAKE in time";
         case EServerCloseReason::IdleTimeout:
             return "idle for too long";
         case EServerCloseReason::StreamingTimeout:
@@ -99,6 +101,11 @@ void ServerConnection::Abort()
     _answerTimers->CancelAll();
     boost::system::error_code ignored;
     static_cast<void>(_socket.close(ignored));
+}
+
+OpenStream::EServerState ServerConnection::GetState() const noexcept
+{
+    return _session.GetState();
 }
 
 const OpenStream::ServerSessionStats& ServerConnection::GetStats() const noexcept

@@ -94,11 +94,12 @@ public:
         ClosedHandler onClosed);
 
     void Start();
-    /// Instead of Start.
+    /// Instead of Start, or later to give its place to another client.
     void Reject(std::string_view message);
     /// Closes at once. The closed handler is not called.
     void Abort();
 
+    [[nodiscard]] OpenStream::EServerState GetState() const noexcept;
     [[nodiscard]] const OpenStream::ServerSessionStats& GetStats() const noexcept;
 };
 

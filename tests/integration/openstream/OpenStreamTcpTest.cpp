@@ -190,6 +190,74 @@ TEST_CASE("7.12 The session too many is rejected with a line, and its place is f
     REQUIRE(third.TryAwait("handshake_ack"));
 }
 
+TEST_CASE("D-10 A ninth client is served while eight others stay silent")
+{
+    TcpFixture fixture;
+    const auto server = fixture.StartServer();
+    std::vector<std::unique_ptr<RawPeer>> silent;
+    for (std::size_t count = 0; count < 8; ++count)
+    {
+        silent.push_back(std::make_unique<RawPeer>(fixture, server->GetPort()));
+        REQUIRE(fixture.TryRunUntil([&]() { return server->GetSessionCount() == count + 1; }));
+    }
+    RawPeer ninth(fixture, server->GetPort());
+    ninth.Send("{\"cmd\":\"HANDSHAKE\",\"payload\":{\"major\":1}}\n");
+    REQUIRE(ninth.TryAwait("handshake_ack"));
+    REQUIRE(silent.front()->TryAwait("handshake_rejected"));
+    REQUIRE(silent.front()->TryAwaitClose());
+    for (std::size_t index = 1; index < silent.size(); ++index)
+    {
+        CHECK(silent[index]->GetReceived().empty());
+    }
+}
+
+TEST_CASE("D-10 Many silent connections at once do not keep a client out")
+{
+    TcpFixture fixture;
+    const auto server = fixture.StartServer();
+    std::vector<std::unique_ptr<RawPeer>> silent;
+    for (std::size_t count = 0; count < 40; ++count)
+    {
+        silent.push_back(std::make_unique<RawPeer>(fixture, server->GetPort()));
+    }
+    RawPeer client(fixture, server->GetPort());
+    client.Send("{\"cmd\":\"HANDSHAKE\",\"payload\":{\"major\":1}}\n");
+    REQUIRE(client.TryAwait("handshake_ack"));
+    REQUIRE(server->GetSessionCount() <= 16);
+}
+
+TEST_CASE("D-10 A client that has shaken hands never gives its place to another one")
+{
+    TcpFixture fixture;
+    OpenStreamServerOptions options = TcpFixture::MakeOptions();
+    options.maximumSessions = 2;
+    const auto server = fixture.StartServer(options);
+    RawPeer first(fixture, server->GetPort());
+    first.Send("{\"cmd\":\"HANDSHAKE\",\"payload\":{\"major\":1}}\n");
+    REQUIRE(first.TryAwait("handshake_ack"));
+    RawPeer silent(fixture, server->GetPort());
+    REQUIRE(fixture.TryRunUntil([&]() { return server->GetSessionCount() == 2; }));
+    RawPeer second(fixture, server->GetPort());
+    second.Send("{\"cmd\":\"HANDSHAKE\",\"payload\":{\"major\":1}}\n");
+    REQUIRE(second.TryAwait("handshake_ack"));
+    REQUIRE(silent.TryAwait("handshake_rejected"));
+    RawPeer third(fixture, server->GetPort());
+    REQUIRE(third.TryAwait("handshake_rejected"));
+    first.Send("{\"cmd\":\"STOP\",\"payload\":{\"target\":\"session\"}}\n");
+    REQUIRE(first.TryAwait("stop_ack"));
+}
+
+TEST_CASE("D-10 A connection without a HANDSHAKE is closed at its deadline")
+{
+    TcpFixture fixture;
+    OpenStreamServerOptions options = TcpFixture::MakeOptions();
+    options.session.handshakeTimeout = 50ms;
+    const auto server = fixture.StartServer(options);
+    RawPeer silent(fixture, server->GetPort());
+    REQUIRE(silent.TryAwait("session_timeout"));
+    REQUIRE(silent.TryAwaitClose());
+}
+
 TEST_CASE("1 A port in use is a sentence that names the address and what to do")
 {
     TcpFixture fixture;

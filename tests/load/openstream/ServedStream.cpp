@@ -318,6 +318,7 @@ class ServedTurn
             OpenStreamAsio::OpenStreamServerOptions options;
             options.port = 0;
             options.maximumSessions = _kind.connections;
+            options.session.handshakeTimeout = PATIENCE;
             options.session.streamingTimeout = PATIENCE;
             _stream = std::make_unique<OpenStreamAsio::OpenStreamServer>(
                 _server.GetContext().get_executor(),

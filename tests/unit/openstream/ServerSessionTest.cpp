@@ -346,9 +346,36 @@ TEST_CASE("7.12 4 A session too many is told so and closed")
     REQUIRE(server.closed == EServerCloseReason::Rejected);
 }
 
-TEST_CASE("7.25 Idle for 180 s ends the session, before the HANDSHAKE too; garbage keeps nobody in")
+TEST_CASE("D-10 Without a HANDSHAKE the session ends after 5 s; no other line extends the deadline")
 {
     ServerHarness server;
+    server.Pass(4s);
+    server.Receive("garbage\n\n");
+    server.Receive(MakeMonitorLine(2));
+    server.Receive("{\"cmd\":\"HANDSHAKE\",\"payload\":{\"major\":2}}\n");
+    server.Pass(999ms);
+    REQUIRE(server.Count("session_timeout") == 0);
+    server.Pass(1ms);
+    REQUIRE(server.Count("session_timeout") == 1);
+    server.Pass(1'000ms);
+    REQUIRE(server.closed == EServerCloseReason::HandshakeTimeout);
+}
+
+TEST_CASE("D-10 A HANDSHAKE just before the deadline is in time")
+{
+    ServerHarness server;
+    server.Pass(4'999ms);
+    server.Receive(HANDSHAKE);
+    server.Pass(10s);
+    REQUIRE(server.Count("handshake_ack") == 1);
+    REQUIRE(server.Count("session_timeout") == 0);
+}
+
+TEST_CASE("D-10 7.25 Without a deadline for the HANDSHAKE the 180 s run before it too; garbage does not extend them")
+{
+    ServerSessionOptions options;
+    options.handshakeTimeout = 0ms;
+    ServerHarness server(options);
     server.Pass(100s);
     server.Receive("garbage\n");
     server.Receive(MakeMonitorLine(2));
@@ -363,6 +390,7 @@ TEST_CASE("7.25 Idle for 180 s ends the session, before the HANDSHAKE too; garba
 TEST_CASE("7.25 A good command begins the 180 s anew")
 {
     ServerHarness server;
+    server.Receive(HANDSHAKE);
     server.Pass(100s);
     server.Receive(HANDSHAKE);
     server.Pass(179'999ms);

@@ -51,6 +51,7 @@ class ServerSession
     std::uint64_t _lastToken = 0;
     bool _bControlled = false; ///< A CONTROL came since HANDSHAKE or the last STOP control.
 
+    Core::SteadyTime _connectedAt;
     Core::SteadyTime _lastCommandAt;
     Core::SteadyTime _lastDataAt;
     Core::SteadyTime _watchdogAt;
@@ -82,7 +83,10 @@ class ServerSession
     void Tick(Core::Now now, ServerActions& out);
     void ReportMonitorFailure();
     void CheckWatchdog(Core::Now now, ServerActions& out);
+    void EndForTimeout(Core::Now now, ServerActions& out);
     void ArmWatchdog(ServerActions& out);
+    /// No HANDSHAKE has succeeded yet, and there is a deadline for it.
+    [[nodiscard]] bool IsHandshakeDue() const noexcept;
     [[nodiscard]] Core::SteadyTime GetWatchdogDeadline() const;
     void AppendError(EOpenStreamErrorCode code, std::string_view message);
     void BeginClosing(EServerCloseReason reason, Core::Now now, ServerActions& out);
@@ -95,8 +99,8 @@ public:
     /// The connection was accepted. → StartTimer.
     void Start(Core::Now now, ServerActions& out);
 
-    /// The connection was accepted, but there is no room for it, or the server goes down while it lives: one
-    /// handshake_rejected, then the orderly end. → Send, StartTimer, CancelTimer.
+    /// The connection was accepted, but there is no room for it, another client needs its place, or the server goes down
+    /// while it lives: one handshake_rejected, then the orderly end. → Send, StartTimer, CancelTimer.
     void Reject(std::string_view message, Core::Now now, ServerActions& out);
 
     /// Bytes came. → everything.

@@ -17,6 +17,7 @@ namespace ACS::OpenStream
 /// All times and limits of a server's session.
 struct ServerSessionOptions
 {
+    std::chrono::milliseconds handshakeTimeout{5'000}; ///< No HANDSHAKE for so long: the end. 0: idleTimeout only.
     std::chrono::milliseconds idleTimeout{180'000};    ///< No MONITOR and no good command for so long: the end.
     std::chrono::milliseconds streamingTimeout{5'000}; ///< No data line left for so long after it was due: the end.
     std::chrono::milliseconds serviceTimeout{1'000};   ///< Of a call: beyond it a MONITOR reports an internal error.
@@ -32,7 +33,7 @@ struct ServerSessionOptions
 enum class EServerTimer : std::uint8_t
 {
     MonitorTick,
-    Watchdog, ///< The idle one, or while streaming the one of interrupted streaming.
+    Watchdog, ///< Of the HANDSHAKE, then of an idle client, while streaming of interrupted streaming.
     ControlBusy,
     Close,
 };
@@ -44,6 +45,7 @@ enum class EServerCloseReason : std::uint8_t
 {
     PeerClosed,
     StopSession,
+    HandshakeTimeout,
     IdleTimeout,
     StreamingTimeout,
     LineTooLong,

@@ -18,9 +18,11 @@ namespace ACS::OpenStreamAsio
 
 struct OpenStreamServerOptions
 {
-    std::string host = "127.0.0.1";  ///< An address, or a name that resolves to one.
-    std::uint16_t port = 49'000;     ///< 0 picks a free one: see GetPort.
-    std::size_t maximumSessions = 8; ///< One more gets handshake_rejected and is closed.
+    std::string host = "127.0.0.1"; ///< An address, or a name that resolves to one.
+    std::uint16_t port = 49'000;    ///< 0 picks a free one: see GetPort.
+    /// One more takes the place of the oldest connection without a HANDSHAKE. Where there is none, it gets
+    /// handshake_rejected and is closed.
+    std::size_t maximumSessions = 8;
     OpenStream::ServerSessionOptions session;
 };
 
