@@ -41,6 +41,17 @@ std::string_view GetSentence(EApiError error)
             return "the trajectory buffer is full";
         case EApiError::BufferLeft:
             return "points of a trajectory that was stopped are in the buffer; POST joint_traject_init first";
+        case EApiError::RemoteSelection:
+            return "remote mode takes a selection with ext_sel 1 only";
+        case EApiError::LocalSelection:
+            return "ext_sel 1 selects in remote mode only";
+        case EApiError::BadCounter:
+            return "the program counter is invalid; POST /project/context/tasks[0]/set_cur_pc_idx with idx 1 after a start "
+                   "or stop, and select a program from 1 to 9999";
+        case EApiError::NotInWait:
+            return "no program waits";
+        case EApiError::Withdrawn:
+            return "withdrawn since version 60.30; POST /project/service/r_code/execute resets the tasks";
         case EApiError::AxisTooFast:
             return "E159: the trajectory was too fast for an axis; POST joint_traject_init first";
         case EApiError::NotWaiting:

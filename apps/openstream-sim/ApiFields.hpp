@@ -3,6 +3,8 @@
 #include "ApiMessages.hpp"
 #include "TrajectoryFollower.hpp"
 #include "TrajectoryPoints.hpp"
+#include <acs/json/JsonDecoder.hpp>
+#include <acs/json/JsonEncoder.hpp>
 #include <acs/json/JsonFields.hpp>
 
 // The members of the Open API's bodies and their ranges: the only place that spells them.
@@ -57,7 +59,8 @@ struct ACS::Json::JsonFields<ACS::OpenStreamSim::PoseAnswer>
         Optional("j3", &Message::j3),
         Optional("j4", &Message::j4),
         Optional("j5", &Message::j5),
-        Optional("j6", &Message::j6));
+        Optional("j6", &Message::j6),
+        Optional("enc_cur", &Message::encCur));
 };
 
 template <>
@@ -93,6 +96,8 @@ struct ACS::Json::JsonFields<ACS::OpenStreamSim::GeneralAnswer>
         Required("axis_lock", &Message::axisLock),
         Required("call_depth", &Message::callDepth),
         Required("call_pno", &Message::callPno),
+        Required("job_state", &Message::jobState),
+        Required("job_sub_state", &Message::jobSubState),
         Required("next_exe_pno", &Message::nextExePno),
         Required("cur_mech_no", &Message::curMechNo),
         Required("cur_mech_axis_info", &Message::curMechAxisInfo),
@@ -144,6 +149,33 @@ struct ACS::Json::JsonFields<ACS::OpenStreamSim::Tool>
         Required("bias_3", &Message::bias3),
         Required("bias_4", &Message::bias4),
         Required("bias_5", &Message::bias5));
+};
+
+template <>
+struct ACS::Json::ValueDecoder<ACS::OpenStreamSim::PlaybackMode>
+{
+    [[nodiscard]] static bool TryDecode(
+        const Value& value,
+        OpenStreamSim::PlaybackMode& out,
+        const FieldBounds& bounds,
+        DecodeContext& context)
+    {
+        if (value.IsTrue())
+        {
+            out = OpenStreamSim::PlaybackMode{};
+            return true;
+        }
+        return ValueDecoder<int>::TryDecode(value, out.value, bounds, context);
+    }
+};
+
+template <>
+struct ACS::Json::ValueEncoder<ACS::OpenStreamSim::PlaybackMode>
+{
+    static void Encode(const OpenStreamSim::PlaybackMode& value, JsonWriter& writer)
+    {
+        writer.WriteInteger(value.value);
+    }
 };
 
 template <>
@@ -218,7 +250,7 @@ struct ACS::Json::JsonFields<ACS::OpenStreamSim::ProgramCounterCommand>
         Defaulted("pno", &Message::pno).Between(-1, 9999),
         Defaulted("sno", &Message::sno).Between(-1, 9999),
         Defaulted("fno", &Message::fno).Between(-1, 9999),
-        Defaulted("ext_sel", &Message::extSel));
+        Defaulted("ext_sel", &Message::extSel).Between(0, 1));
 };
 
 template <>
@@ -296,6 +328,12 @@ struct ACS::Json::JsonFields<ACS::OpenStreamSim::PcIndexCommand>
 {
     static constexpr auto FIELDS =
         std::make_tuple(Required("idx", &OpenStreamSim::PcIndexCommand::idx).Between(0, 1'000'000));
+};
+
+template <>
+struct ACS::Json::JsonFields<ACS::OpenStreamSim::ServiceCode>
+{
+    static constexpr auto FIELDS = std::make_tuple(Required("code", &OpenStreamSim::ServiceCode::code).Between(0, 1));
 };
 
 template <>

@@ -47,12 +47,13 @@ struct PoseAnswer
     std::optional<double> x, y, z;                ///< mm
     std::optional<double> rx, ry, rz;             ///< deg
     std::optional<double> j1, j2, j3, j4, j5, j6; ///< deg
+    std::span<const double> encCur;               ///< Of each axis.
 };
 
 /// GET /project/rgen. The lists are views.
 struct GeneralAnswer
 {
-    std::string robotModel = "ACS-SIM-6";
+    std::string robotModel;
     int curMode = 0;
     int enableState = 0;
     int isPlayback = 0;
@@ -80,6 +81,8 @@ struct GeneralAnswer
     int axisLock = 0;
     int callDepth = 0;
     int callPno = -1;
+    int jobState = 0;
+    int jobSubState = 0;
     int nextExePno = -1;
     int curMechNo = 0;
     int curMechAxisInfo = 0; ///< A bit for each axis.
@@ -116,10 +119,18 @@ struct Tool
     double bias0 = 0.0, bias1 = 0.0, bias2 = 0.0, bias3 = 0.0, bias4 = 0.0, bias5 = 0.0;
 };
 
+/// 1: one cycle, 2: repeat. true, which some clients send, is 1.
+struct PlaybackMode
+{
+    int value = 1;
+
+    bool operator==(const PlaybackMode&) const = default;
+};
+
 /// GET and PUT /project/control/op_cnd
 struct OperatingConditions
 {
-    int playbackMode = 1;
+    PlaybackMode playbackMode;
     int stepGobackMaxSpd = 100;
     int stepGoFuncEx = 0;
     int funcReexeOnTrace = 0;
@@ -179,7 +190,7 @@ struct ProgramCounterCommand
     int pno = -1;
     int sno = -1;
     int fno = -1;
-    int extSel = 0;
+    int extSel = 0; ///< 1: from outside, in remote mode.
 };
 
 struct ProgramCounterAnswer
@@ -230,6 +241,12 @@ struct LogCommand
 struct PcIndexCommand
 {
     int idx = 0;
+};
+
+/// POST /project/service/r_code/execute, and its answer.
+struct ServiceCode
+{
+    int code = 0;
 };
 
 struct ModuleVersion

@@ -18,11 +18,20 @@ namespace
 
 using enum OpenStream::EApiMethod;
 
+/// Which versions of the controller serve an endpoint.
+enum class EServed : std::uint8_t
+{
+    Always,
+    BeforeRCode, ///< Then it is withdrawn: 403.
+    SinceRCode,  ///< Before, there is no such path: 404.
+};
+
 struct ApiRoute
 {
     OpenStream::EApiMethod method;
     std::string_view pattern;
     ApiHandler handler;
+    EServed served = EServed::Always;
 };
 
 constexpr std::array ROUTES{
@@ -37,7 +46,7 @@ constexpr std::array ROUTES{
     ApiRoute{Get, "/project/rgen", RobotApi::GetGeneral},
     ApiRoute{Get, "/project/robot/motor_on_state", RobotApi::GetMotorState},
     ApiRoute{Post, "/project/robot/motor_on", RobotApi::SwitchMotorOn},
-    ApiRoute{Post, "/project/robot/motor_off", RobotApi::SwitchMotorOff},
+    ApiRoute{Post, "/project/robot/motor_off", RobotApi::SwitchMotorOff, EServed::BeforeRCode},
     ApiRoute{Get, "/project/robot/emergency_stop", RobotApi::GetEmergencyStop},
     ApiRoute{Post, "/project/robot/emergency_stop", RobotApi::PressEmergencyStop},
     ApiRoute{Get, "/project/robot/cur_tool_data", RobotApi::GetCurrentTool},
@@ -59,10 +68,12 @@ constexpr std::array ROUTES{
 
     ApiRoute{Post, "/project/robot/start", ControlApi::StartProgram},
     ApiRoute{Post, "/project/robot/stop", ControlApi::StopProgram},
-    ApiRoute{Post, "/project/context/tasks/reset", ControlApi::ResetTasks},
-    ApiRoute{Post, "/project/context/tasks[{}]/reset", ControlApi::ResetTask},
+    ApiRoute{Post, "/project/context/tasks/reset", ControlApi::ResetTasks, EServed::BeforeRCode},
+    ApiRoute{Post, "/project/context/tasks[{}]/reset", ControlApi::ResetTask, EServed::BeforeRCode},
+    ApiRoute{Post, "/project/service/r_code/execute", ControlApi::ExecuteServiceCode, EServed::SinceRCode},
     ApiRoute{Post, "/project/context/tasks[0]/cur_prog_cnt", ControlApi::SetProgramCounter},
     ApiRoute{Post, "/project/context/tasks[{}]/set_cur_pc_idx", ControlApi::SetPcIndex},
+    ApiRoute{Post, "/project/context/tasks[0]/release_wait", ControlApi::ReleaseWait},
     ApiRoute{Post, "/project/context/tasks[{}]/execute_move", ControlApi::ExecuteMove},
     ApiRoute{Post, "/console/execute_cmd", ControlApi::ExecuteCommand},
 
@@ -99,17 +110,20 @@ bool MatchesPattern(std::string_view path, std::string_view pattern, std::string
 
 OpenStream::ApiResponse Route(ControllerMachine& machine, const OpenStream::ApiRequest& request, std::string room)
 {
+    const bool bRCode = machine.GetVersion() >= FIRST_WITH_R_CODE;
     bool bOtherMethod = false;
     for (const ApiRoute& route : ROUTES)
     {
         ApiCall call{request, {}, room};
-        if (!MatchesPattern(request.path, route.pattern, call.argument))
+        const bool bNotYet = route.served == EServed::SinceRCode && !bRCode;
+        if (bNotYet || !MatchesPattern(request.path, route.pattern, call.argument))
         {
             continue;
         }
         if (route.method == request.method)
         {
-            return route.handler(machine, call);
+            const bool bWithdrawn = route.served == EServed::BeforeRCode && bRCode;
+            return bWithdrawn ? Answer(EApiError::Withdrawn) : route.handler(machine, call);
         }
         bOtherMethod = true;
     }

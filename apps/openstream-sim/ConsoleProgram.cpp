@@ -67,6 +67,13 @@ void ConsoleProgram::Reset()
     _bMoving = false;
 }
 
+bool ConsoleProgram::TryReleaseWait()
+{
+    const bool bWaiting = IsWaiting();
+    _next += bWaiting ? 1U : 0U;
+    return bWaiting;
+}
+
 void ConsoleProgram::Advance(Core::Duration from, Core::Duration until, Arm& arm, const RelayMemory& relays)
 {
     Core::Duration now = from;

@@ -57,6 +57,9 @@ public:
     /// Back to the beginning.
     void Reset();
 
+    /// Leaves the wait at which it stands; false where it stands at none.
+    [[nodiscard]] bool TryReleaseWait();
+
     /// What happens between the two times. The arm stops at its end.
     void Advance(Core::Duration from, Core::Duration until, Arm& arm, const RelayMemory& relays);
 

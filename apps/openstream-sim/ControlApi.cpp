@@ -110,7 +110,7 @@ ApiResponse SetConditions(ControllerMachine& machine, const ApiCall& call)
         return Refuse(conditions.error());
     }
     settings.conditions = *conditions;
-    return Succeed();
+    return ApiResponse{200, Core::JsonText::FromTrusted(R"({"_text":""})")};
 }
 
 ApiResponse GetInput(ControllerMachine& machine, const ApiCall& call)
@@ -132,8 +132,13 @@ ApiResponse SetOutput(ControllerMachine& machine, const ApiCall& call)
     }
     const RelayBlock block{ERelayBus::Fb, static_cast<std::uint8_t>(command->blkNo), ERelayArea::Do};
     const Core::Result<RelayName> name = MakeName(command->type, block, command->sigNo);
-    const Core::Result<void> written =
-        name.has_value() ? machine.GetRelays().Write(*name, command->val) : tl::unexpected(name.error());
+    if (!name.has_value())
+    {
+        return Refuse(name.error());
+    }
+    // A manual's own sample sets a bit with the value of a byte.
+    const bool bOn = name->width == ERelayWidth::Bit && command->val != 0.0;
+    const Core::Result<void> written = machine.GetRelays().Write(*name, bOn ? 1.0 : command->val);
     return written.has_value() ? Succeed() : Refuse(written.error());
 }
 
@@ -229,12 +234,33 @@ ApiResponse ResetTask(ControllerMachine& machine, const ApiCall& call)
     return Succeed();
 }
 
+ApiResponse ExecuteServiceCode(ControllerMachine& machine, const ApiCall& call)
+{
+    constexpr int CLEAR_COUNTER = 0;
+    const Core::Result<ServiceCode> code = ReadBody<ServiceCode>(call.request);
+    if (!code.has_value())
+    {
+        return Refuse(code.error());
+    }
+    machine.ResetTasks();
+    if (code->code == CLEAR_COUNTER)
+    {
+        machine.ClearSelection();
+    }
+    return Succeed(*code);
+}
+
 ApiResponse SetProgramCounter(ControllerMachine& machine, const ApiCall& call)
 {
     const Core::Result<ProgramCounterCommand> command = ReadBody<ProgramCounterCommand>(call.request);
     if (!command.has_value())
     {
         return Refuse(command.error());
+    }
+    const EApiError refusal = machine.CheckSelection(command->extSel == 1);
+    if (refusal != EApiError::None)
+    {
+        return Answer(refusal);
     }
     if (command->pno == 0)
     {
@@ -247,7 +273,7 @@ ApiResponse SetProgramCounter(ControllerMachine& machine, const ApiCall& call)
     const int number = command->pno < 0 ? machine.GetProgram() : command->pno;
     if (number == 0)
     {
-        return Answer(EApiError::NoProgram);
+        return Answer(EApiError::BadCounter);
     }
     const EApiError error = machine.SelectProgram(number);
     if (error != EApiError::None)
@@ -269,7 +295,13 @@ ApiResponse SetPcIndex(ControllerMachine& machine, const ApiCall& call)
     {
         return Refuse(command.error());
     }
-    return Answer(machine.IsPlaying() ? EApiError::TaskPlaying : EApiError::None);
+    // The other tasks have no program of their own.
+    return Answer(call.argument == "0" ? machine.SetCursor() : EApiError::None);
+}
+
+ApiResponse ReleaseWait(ControllerMachine& machine, const ApiCall& /*call*/)
+{
+    return Answer(machine.ReleaseWait());
 }
 
 ApiResponse ExecuteMove(ControllerMachine& machine, const ApiCall& call)
@@ -303,6 +335,11 @@ ApiResponse ExecuteCommand(ControllerMachine& machine, const ApiCall& call)
     if (line == "rl.reinit")
     {
         machine.ClearConsole();
+        return Succeed();
+    }
+    if (line == "rl.exit")
+    {
+        machine.ExitConsole();
         return Succeed();
     }
     const bool bAdded = line.starts_with(ADD) && machine.AddStatement(line.substr(ADD.size())) == EApiError::None;

@@ -20,8 +20,10 @@ namespace ACS::OpenStreamSim::ControlApi
 [[nodiscard]] OpenStream::ApiResponse StopProgram(ControllerMachine& machine, const ApiCall& call);
 [[nodiscard]] OpenStream::ApiResponse ResetTasks(ControllerMachine& machine, const ApiCall& call);
 [[nodiscard]] OpenStream::ApiResponse ResetTask(ControllerMachine& machine, const ApiCall& call);
+[[nodiscard]] OpenStream::ApiResponse ExecuteServiceCode(ControllerMachine& machine, const ApiCall& call);
 [[nodiscard]] OpenStream::ApiResponse SetProgramCounter(ControllerMachine& machine, const ApiCall& call);
 [[nodiscard]] OpenStream::ApiResponse SetPcIndex(ControllerMachine& machine, const ApiCall& call);
+[[nodiscard]] OpenStream::ApiResponse ReleaseWait(ControllerMachine& machine, const ApiCall& call);
 [[nodiscard]] OpenStream::ApiResponse ExecuteMove(ControllerMachine& machine, const ApiCall& call);
 [[nodiscard]] OpenStream::ApiResponse ExecuteCommand(ControllerMachine& machine, const ApiCall& call);
 

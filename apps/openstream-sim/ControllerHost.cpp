@@ -12,11 +12,13 @@ namespace ACS::OpenStreamSim
 namespace
 {
 
-OpenStreamAsio::OpenStreamServerOptions MakeServerOptions(const Apps::Endpoint& endpoint)
+OpenStreamAsio::OpenStreamServerOptions MakeServerOptions(const HostOptions& host)
 {
     OpenStreamAsio::OpenStreamServerOptions options;
-    options.host = endpoint.host;
-    options.port = endpoint.port;
+    options.host = host.stream.host;
+    options.port = host.stream.port;
+    options.maximumSessions = host.sessions;
+    options.session.handshakeTimeout = host.handshakeTimeout;
     return options;
 }
 
@@ -43,7 +45,7 @@ ControllerHost::ControllerHost(
           executor,
           clock,
           MakeLogger(logger, "stream", _options),
-          MakeServerOptions(_options.stream),
+          MakeServerOptions(_options),
           _streamService),
       _httpServer(
           executor,

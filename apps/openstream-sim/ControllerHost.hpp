@@ -13,6 +13,7 @@
 
 #include <boost/asio/any_io_executor.hpp>
 
+#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -24,8 +25,10 @@ struct HostOptions
 {
     /// Behind what its log lines begin with ("stream 2"); empty for a controller that is alone.
     std::string label;
-    Apps::Endpoint stream{"127.0.0.1", 49'000}; ///< Port 0 takes a free one.
-    Apps::Endpoint http{"127.0.0.1", 8888};     ///< Likewise.
+    Apps::Endpoint stream{"127.0.0.1", 49'000};        ///< Port 0 takes a free one.
+    Apps::Endpoint http{"127.0.0.1", 8888};            ///< Likewise.
+    std::size_t sessions = 8;                          ///< Of the Open Stream at a time.
+    std::chrono::milliseconds handshakeTimeout{5'000}; ///< Of an Open Stream connection; 0: none.
     ControllerOptions controller;
 };
 

@@ -19,6 +19,8 @@ constexpr RelayBlock PROGRAM_BLOCK{ERelayBus::None, 0, ERelayArea::M};
 
 ControllerMachine::ControllerMachine(const ControllerOptions& options, Core::Now now, Core::Logger logger)
     : _logger(std::move(logger)),
+      _version(options.version),
+      _robotModel(options.robotModel),
       _timeScale(options.timeScale),
       _startedAt(now.steady),
       _motor(options.motorOnTime, options.bMotorOn || options.bWaiting),
@@ -140,7 +142,7 @@ EApiError ControllerMachine::SwitchMotorOn()
 
 void ControllerMachine::SwitchMotorOff()
 {
-    StopProgram();
+    HaltProgram();
     _motor.SwitchOff();
 }
 
@@ -163,6 +165,7 @@ EApiError ControllerMachine::StartProgram()
     {
         return EApiError::NoProgram;
     }
+    _bCursorMoved = true;
     _runner.Start(_now, _events);
     const bool bBegins = !_events.empty(); // Else it goes on after a stop.
     HandleEvents({});
@@ -211,6 +214,7 @@ EApiError ControllerMachine::StartConsole()
         return EApiError::NoProgram;
     }
     GiveProgramUp();
+    _bCursorMoved = true;
     _logger.Info("console program started");
     _console.Start();
     return EApiError::None;
@@ -227,11 +231,24 @@ void ControllerMachine::ClearConsole()
     _console.Clear();
 }
 
+void ControllerMachine::ExitConsole()
+{
+    if (_console.IsRunning())
+    {
+        _arm.Stop(_now);
+    }
+    _console.Clear();
+}
+
 EApiError ControllerMachine::SelectProgram(int number)
 {
     if (IsPlaying())
     {
-        return EApiError::TaskPlaying;
+        return EApiError::Playing;
+    }
+    if (_bCursorMoved)
+    {
+        return EApiError::BadCounter;
     }
     _console.Reset();
     const Core::Duration elapsed = _runner.GetElapsed(_now);
@@ -240,7 +257,37 @@ EApiError ControllerMachine::SelectProgram(int number)
     return EApiError::None;
 }
 
+EApiError ControllerMachine::CheckSelection(bool bExternal) const
+{
+    if (bExternal != _bRemote)
+    {
+        return _bRemote ? EApiError::RemoteSelection : EApiError::LocalSelection;
+    }
+    return IsPlaying() ? EApiError::Playing : EApiError::None;
+}
+
+EApiError ControllerMachine::SetCursor()
+{
+    if (IsPlaying())
+    {
+        return EApiError::TaskPlaying;
+    }
+    _bCursorMoved = false;
+    return EApiError::None;
+}
+
+EApiError ControllerMachine::ReleaseWait()
+{
+    return _console.TryReleaseWait() ? EApiError::None : EApiError::NotInWait;
+}
+
 void ControllerMachine::StopProgram()
+{
+    HaltProgram();
+    _bCursorMoved = true;
+}
+
+void ControllerMachine::HaltProgram()
 {
     if (_runner.IsRunning())
     {
@@ -253,9 +300,15 @@ void ControllerMachine::StopProgram()
 
 void ControllerMachine::ResetTasks()
 {
-    StopProgram();
+    HaltProgram();
     GiveProgramUp();
     _console.Reset();
+}
+
+void ControllerMachine::ClearSelection()
+{
+    _runner.Select(0, _events);
+    HandleEvents({});
 }
 
 void ControllerMachine::PressEmergencyStop(bool bPressed)
@@ -272,7 +325,7 @@ void ControllerMachine::TurnModeSwitch(bool bRemote)
     _bRemote = bRemote;
     if (!bRemote)
     {
-        StopProgram();
+        HaltProgram();
     }
 }
 
@@ -298,6 +351,16 @@ RelayMemory& ControllerMachine::GetRelays() noexcept
 ControllerSettings& ControllerMachine::GetSettings() noexcept
 {
     return _settings;
+}
+
+const ControllerVersion& ControllerMachine::GetVersion() const noexcept
+{
+    return _version;
+}
+
+const std::string& ControllerMachine::GetRobotModel() const noexcept
+{
+    return _robotModel;
 }
 
 bool ControllerMachine::IsRemote() const noexcept

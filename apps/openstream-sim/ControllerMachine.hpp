@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace ACS::OpenStreamSim
@@ -56,6 +57,8 @@ struct ControllerSettings
 class ControllerMachine
 {
     Core::Logger _logger;
+    ControllerVersion _version;
+    std::string _robotModel;
     double _timeScale;
     Core::SteadyTime _startedAt;
     Core::Duration _now{}; ///< Simulated, since _startedAt.
@@ -70,10 +73,12 @@ class ControllerMachine
     RelayMemory _relays;
     ControllerSettings _settings;
     bool _bProtectiveStop = false;
+    bool _bCursorMoved = false; ///< By a start or stop: no selection before SetCursor.
     ProgramJudge _shouldFail;
 
     void HandleEvents(Core::Duration elapsed);
     void Count(std::size_t byte);
+    void HaltProgram();
     void GiveProgramUp();
     void RaiseAlarm(EAlarm alarm);
     [[nodiscard]] ProgramProgress GetProgress() const;
@@ -90,6 +95,14 @@ public:
     [[nodiscard]] EApiError StartProgram();
     [[nodiscard]] EApiError SelectProgram(int number);
 
+    /// Whether a selection may come at all: external ones (ext_sel 1) in remote mode, others outside of it, and none while
+    /// a program plays.
+    [[nodiscard]] EApiError CheckSelection(bool bExternal) const;
+    /// set_cur_pc_idx of task 0: a selection may follow.
+    [[nodiscard]] EApiError SetCursor();
+    /// The console's program leaves the wait at which it stands.
+    [[nodiscard]] EApiError ReleaseWait();
+
     /// The base task's single move; the program must not run. Gives up a program that was stopped in its middle.
     [[nodiscard]] EApiError ExecuteMove(std::string_view statement);
     /// Runs what AddStatement has put together.
@@ -97,6 +110,8 @@ public:
     /// Language where it is no statement that the simulator knows.
     [[nodiscard]] EApiError AddStatement(std::string_view statement);
     void ClearConsole();
+    /// The console's program ends, and its statements are forgotten. A selected program is not touched.
+    void ExitConsole();
 
     /// joint_traject_init: the arm stops where it is, the buffer is empty, the alarm forgotten.
     [[nodiscard]] EApiError InitTrajectory(const TrajectoryAgility& agility);
@@ -112,6 +127,8 @@ public:
     void SwitchMotorOff();
     void StopProgram();
     void ResetTasks();
+    /// No program is selected any more. None may play.
+    void ClearSelection();
 
     /// By the operator's hand. Both stop the program; pressing the emergency stop takes the motor's power too.
     void PressEmergencyStop(bool bPressed);
@@ -126,6 +143,8 @@ public:
     [[nodiscard]] RelayMemory& GetRelays() noexcept;
     [[nodiscard]] ControllerSettings& GetSettings() noexcept;
 
+    [[nodiscard]] const ControllerVersion& GetVersion() const noexcept;
+    [[nodiscard]] const std::string& GetRobotModel() const noexcept;
     [[nodiscard]] bool IsRemote() const noexcept;
     [[nodiscard]] bool IsEmergencyStop() const noexcept;
     [[nodiscard]] bool IsPlaying() const noexcept;

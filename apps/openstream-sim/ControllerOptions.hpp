@@ -1,7 +1,10 @@
 #pragma once
 
+#include "ControllerVersion.hpp"
+
 #include <chrono>
 #include <map>
+#include <string>
 
 namespace ACS::OpenStreamSim
 {
@@ -26,6 +29,8 @@ struct ControllerOptions
     std::chrono::milliseconds motorOnTime{1'000}; ///< Simulated, from the command to motor on.
     std::map<int, ProgramSpec> programs;          ///< By number, FIRST_PROGRAM to LAST_PROGRAM.
     ProgramSpec otherPrograms;                    ///< Every number that is not in `programs`.
+    ControllerVersion version;
+    std::string robotModel = "HA006B-01"; ///< As rgen shows it; clients refuse models that they do not know.
 };
 
 } // namespace ACS::OpenStreamSim

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
 namespace ACS::OpenStreamSim
@@ -25,19 +26,53 @@ std::optional<int> ParseProgramNumberOrNull(std::string_view text)
     return bProgram ? std::optional(number) : std::nullopt;
 }
 
-std::string TakeControllers(std::string_view text, std::size_t& controllers)
+std::string ReadCount(std::string_view text, std::size_t maximum, std::size_t& target)
 {
     std::size_t count = 0;
     const char* const last = text.data() + text.size();
     const auto [end, error] = std::from_chars(text.data(), last, count);
-    if (error != std::errc{} || end != last || count < 1 || count > FleetOptions::MAX_CONTROLLERS)
+    if (error != std::errc{} || end != last || count < 1 || count > maximum)
+    {
+        return fmt::format("expected a number from 1 to {}, found {}", maximum, Core::QuoteForError(text));
+    }
+    target = count;
+    return {};
+}
+
+std::string ReadTimeout(std::string_view text, std::chrono::milliseconds& target)
+{
+    const Core::Result<std::chrono::milliseconds> timeout = Apps::ParseDuration(text);
+    if (!timeout.has_value())
+    {
+        return fmt::format("expected {}, found {}", timeout.error().expected, Core::QuoteForError(text));
+    }
+    target = *timeout;
+    return {};
+}
+
+std::string ReadVersion(std::string_view text, ControllerVersion& target)
+{
+    const std::optional<ControllerVersion> version = ParseControllerVersionOrNull(text);
+    if (!version.has_value())
+    {
+        return fmt::format("expected a version such as 70.04-00, found {}", Core::QuoteForError(text));
+    }
+    target = *version;
+    return {};
+}
+
+std::string ReadModel(std::string_view text, std::string& target)
+{
+    constexpr std::size_t MAX_LENGTH = 64;
+    const bool bPrintable = std::ranges::all_of(text, [](char letter) { return letter > ' ' && letter <= '~'; });
+    if (text.empty() || text.size() > MAX_LENGTH || !bPrintable)
     {
         return fmt::format(
-            "expected a number from 1 to {}, found {}",
-            FleetOptions::MAX_CONTROLLERS,
+            "expected a name of 1 to {} letters, digits and signs such as HA006B-01, found {}",
+            MAX_LENGTH,
             Core::QuoteForError(text));
     }
-    controllers = count;
+    target = text;
     return {};
 }
 
@@ -102,6 +137,43 @@ std::string CheckFaults(const FleetOptions& fleet)
         }
     }
     return {};
+}
+
+void AddSessionOptions(CLI::App& app, HostOptions& host)
+{
+    constexpr std::size_t MAX_SESSIONS = 1'000;
+    Apps::AddTextOption(
+        app,
+        "--sessions",
+        [&host](const std::string& text) { return ReadCount(text, MAX_SESSIONS, host.sessions); },
+        "Open Stream sessions at a time of a controller. One more takes the place of the oldest one without a HANDSHAKE")
+        .default_str("8")
+        ->type_name("N");
+    Apps::AddTextOption(
+        app,
+        "--handshake-timeout",
+        [&host](const std::string& text) { return ReadTimeout(text, host.handshakeTimeout); },
+        "Maximum time from an Open Stream connection to its HANDSHAKE; 0s disables it")
+        .default_str("5s")
+        ->type_name("DURATION");
+}
+
+void AddModelOptions(CLI::App& app, ControllerOptions& controller)
+{
+    Apps::AddTextOption(
+        app,
+        "--controller-version",
+        [&controller](const std::string& text) { return ReadVersion(text, controller.version); },
+        "Version of the controller, which sysver reports; from 60.30-00 on it serves r_code instead of reset and motor_off")
+        .default_str(MakeText(controller.version))
+        ->type_name("NN.NN-NN");
+    Apps::AddTextOption(
+        app,
+        "--robot-model",
+        [&controller](const std::string& text) { return ReadModel(text, controller.robotModel); },
+        "Model of the robot, which rgen reports")
+        .default_str(controller.robotModel)
+        ->type_name("NAME");
 }
 
 std::string MakeFooter()
@@ -181,10 +253,14 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, OpenStr
     Apps::AddTextOption(
         app,
         "--controllers",
-        [&options](const std::string& text) { return TakeControllers(text, options.fleet.controllers); },
+        [&options](const std::string& text) {
+            return ReadCount(text, FleetOptions::MAX_CONTROLLERS, options.fleet.controllers);
+        },
         "So many controllers, each on the next port of --listen and of --http; on free ones where they say 0")
         .default_str("1")
         ->type_name("N");
+    AddSessionOptions(app, options.fleet.first);
+    AddModelOptions(app, options.fleet.first.controller);
     Apps::AddTimeScaleOption(app, options.fleet.first.controller.timeScale);
     Apps::AddRepeatedOption(
         app,

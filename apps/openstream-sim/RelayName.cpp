@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <string>
 #include <utility>
 
 namespace ACS::OpenStreamSim
@@ -32,6 +33,16 @@ constexpr std::array WIDTHS{
     std::pair{'w', ERelayWidth::Word},
     std::pair{'l', ERelayWidth::Long},
     std::pair{'f', ERelayWidth::Float}};
+
+std::string ToLowerCase(std::string_view text)
+{
+    std::string result(text);
+    for (char& letter : result)
+    {
+        letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+    }
+    return result;
+}
 
 std::optional<std::size_t> ParseNumberOrNull(std::string_view text)
 {
@@ -121,8 +132,10 @@ std::optional<RelayBlock> ParseRelayBlockOrNull(std::string_view text)
     return block;
 }
 
-std::optional<RelayName> ParseRelayNameOrNull(std::string_view text)
+std::optional<RelayName> ParseRelayNameOrNull(std::string_view anyCase)
 {
+    const std::string lowerCase = ToLowerCase(anyCase);
+    std::string_view text = lowerCase;
     RelayName name;
     if (!TryTakeBus('.', text, name.block))
     {

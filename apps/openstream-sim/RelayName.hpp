@@ -105,7 +105,7 @@ struct RelayName
 /// "m", "fb0_di": a block as it stands in the path of val_s32; not si and so.
 [[nodiscard]] std::optional<RelayBlock> ParseRelayBlockOrNull(std::string_view text);
 
-/// "ml100", "fb0.di23". Nothing where it is no name or lies outside its block.
-[[nodiscard]] std::optional<RelayName> ParseRelayNameOrNull(std::string_view text);
+/// "ml100", "fb0.di23", also in upper case. Nothing where it is no name or lies outside its block.
+[[nodiscard]] std::optional<RelayName> ParseRelayNameOrNull(std::string_view anyCase);
 
 } // namespace ACS::OpenStreamSim

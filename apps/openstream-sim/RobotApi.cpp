@@ -70,6 +70,13 @@ void FillAxes(const JointVector& position, PoseAnswer& answer)
     answer.j6 = position[5];
 }
 
+JointVector ToEncoderCounts(const JointVector& position)
+{
+    JointVector counts{};
+    std::ranges::transform(position, counts.begin(), [](double angle) { return std::round(angle * ENCODER_COUNTS); });
+    return counts;
+}
+
 bool IsStanding(const JointVector& velocity)
 {
     return std::ranges::all_of(velocity, [](double speed) { return std::abs(speed) <= STANDING_SPEED; });
@@ -92,13 +99,14 @@ ApiResponse GetApiVersion(ControllerMachine& /*machine*/, const ApiCall& /*call*
     return ApiResponse{200, Core::JsonText::FromInteger(API_VERSION)};
 }
 
-ApiResponse GetSystemVersions(ControllerMachine& /*machine*/, const ApiCall& /*call*/)
+ApiResponse GetSystemVersions(ControllerMachine& machine, const ApiCall& /*call*/)
 {
     // Clients read the version of "com" as a number and want at least 60.
+    const std::string version = MakeText(machine.GetVersion());
     VersionsAnswer answer;
     for (const char* name : {"com", "tp"})
     {
-        answer.modules.push_back(ModuleVersion{name, "70.00-00", "2025-01-01", "00:00:00", std::string(Apps::VERSION)});
+        answer.modules.push_back(ModuleVersion{name, version, "2025-01-01", "00:00:00", std::string(Apps::VERSION)});
     }
     return Succeed(answer);
 }
@@ -157,7 +165,7 @@ ApiResponse GetPose(ControllerMachine& machine, const ApiCall& call)
             return Refuse(value->error());
         }
     }
-    JointVector position = machine.GetJointStates().position;
+    const JointVector position = machine.GetJointStates().position;
     PoseAnswer answer;
     answer.mechinfo = *mechanisms == -1 ? ALL_MECHANISMS : static_cast<int>(*mechanisms);
     answer.crd = "base";
@@ -165,6 +173,8 @@ ApiResponse GetPose(ControllerMachine& machine, const ApiCall& call)
     {
         FillCartesian(position, answer);
         FillAxes(position, answer);
+        const JointVector counts = ToEncoderCounts(position);
+        answer.encCur = counts;
         return Succeed(answer, "Pose", std::move(call.room));
     }
     const bool bAxes = machine.GetSettings().coordinates == AXIS_COORDINATES;
@@ -177,10 +187,7 @@ ApiResponse GetPose(ControllerMachine& machine, const ApiCall& call)
             return Succeed(answer, "Pose", std::move(call.room));
         case EPoseCoordinates::Encoder:
             answer.crd = "encoder";
-            std::ranges::transform(position, position.begin(), [](double angle) {
-                return std::round(angle * ENCODER_COUNTS);
-            });
-            FillAxes(position, answer);
+            FillAxes(ToEncoderCounts(position), answer);
             return Succeed(answer, "Pose", std::move(call.room));
         case EPoseCoordinates::Robot:
             answer.crd = "robot";
@@ -200,6 +207,7 @@ ApiResponse GetGeneral(ControllerMachine& machine, const ApiCall& call)
 {
     const ControllerSettings& settings = machine.GetSettings();
     GeneralAnswer answer;
+    answer.robotModel = machine.GetRobotModel();
     answer.curMode = machine.IsRemote() ? AUTO_ONE_CYCLE : MANUAL_MODE;
     answer.enableState = static_cast<int>(machine.GetMotorState()) | DEADMAN_HELD;
     answer.isPlayback = ToInteger(machine.IsPlaying());

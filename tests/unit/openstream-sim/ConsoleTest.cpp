@@ -228,7 +228,8 @@ TEST_CASE("A execute_cmd: a selected program takes the place of the console's, w
     ControllerHarness harness(ControllerHarness::MakeReadyOptions());
     REQUIRE(Command(harness, "rl.i wait di1") == 200);
     REQUIRE(Command(harness, "rl.start") == 200);
-    REQUIRE(harness.PostForCode("/project/context/tasks[0]/cur_prog_cnt", R"({"pno":11})") == "403 -38501");
+    REQUIRE(
+        harness.PostForCode("/project/context/tasks[0]/cur_prog_cnt", R"({"pno":11,"ext_sel":1})") == "403 -1442080");
     REQUIRE(Command(harness, "rl.stop") == 200);
     REQUIRE(harness.Select(11) == 200);
     REQUIRE(harness.Start() == 200);
@@ -238,10 +239,46 @@ TEST_CASE("A execute_cmd: a selected program takes the place of the console's, w
     REQUIRE(Command(harness, "rl.start") == 200);
     REQUIRE(harness.GetCounters() == "[1,0,1,11]");
     REQUIRE(harness.Contains("/project/robot/trajectory/joint_traject_ready", R"("ready":true)"));
-    REQUIRE(harness.Post("/project/context/tasks/reset") == 200);
+    REQUIRE(harness.Reset() == 200);
     REQUIRE_FALSE(IsPlaying(harness));
     REQUIRE(harness.Start() == 200); // the selected one again
     REQUIRE(harness.GetCounters() == "[2,0,1,11]");
+}
+
+TEST_CASE("D-7 execute_cmd: rl.exit ends the console's program and forgets it; a selected program is not touched")
+{
+    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    REQUIRE(Command(harness, "rl.i move P,spd=2sec [40, 90, 0, 0, 0, 0]") == 200);
+    REQUIRE(Command(harness, "rl.start") == 200);
+    harness.clock.Advance(1s);
+    REQUIRE(Command(harness, "rl.exit") == 200);
+    REQUIRE_FALSE(IsPlaying(harness));
+    harness.clock.Advance(1s);
+    REQUIRE(IsAt(harness, "20"));
+    REQUIRE(harness.PostForCode("/console/execute_cmd", R"({"cmd_line":"rl.start"})") == "403 -3");
+    REQUIRE(harness.Select(11) == 200);
+    REQUIRE(harness.Start() == 200);
+    REQUIRE(Command(harness, "rl.exit") == 200);
+    REQUIRE(IsPlaying(harness));
+    REQUIRE(harness.GetCounters() == "[1,0,0,0]");
+}
+
+TEST_CASE("D-6 release_wait: the program leaves the wait at which it stands; refused where none waits")
+{
+    constexpr const char* RELEASE = "/project/context/tasks[0]/release_wait";
+    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    REQUIRE(harness.PostForCode(RELEASE) == "403 -104");
+    REQUIRE(Command(harness, "rl.i wait di1") == 200);
+    REQUIRE(Command(harness, "rl.i wait di2") == 200);
+    REQUIRE(harness.PostForCode(RELEASE) == "403 -104"); // it does not run
+    REQUIRE(Command(harness, "rl.start") == 200);
+    REQUIRE(harness.Post(RELEASE) == 200);
+    REQUIRE(IsPlaying(harness));
+    REQUIRE(harness.Post(RELEASE) == 200);
+    REQUIRE_FALSE(IsPlaying(harness));
+    REQUIRE(harness.Select(11) == 200);
+    REQUIRE(harness.Start() == 200);
+    REQUIRE(harness.PostForCode(RELEASE) == "403 -104");
 }
 
 TEST_CASE("A execute_cmd: what is no command, or no statement, is answered with ecode 1 and changes nothing")

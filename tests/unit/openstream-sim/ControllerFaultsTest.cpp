@@ -39,7 +39,7 @@ TEST_CASE("9 In a silence the MONITOR gets no line; CONTROL and HTTP are served,
     CHECK(harness.Sample(MOTOR) == ON);
     harness.Pass(1ms);
     CHECK(harness.Sample(MOTOR).empty());
-    CHECK(harness.Control("/project/robot/motor_off") == 200);
+    CHECK(harness.Control("/project/robot/emergency_stop") == 200);
     CHECK(harness.GetOverHttp(MOTOR) == OFF);
     harness.Pass(1999ms);
     CHECK(harness.Sample(MOTOR).empty());
@@ -100,7 +100,7 @@ TEST_CASE("9 A slow service answers later on the side that is meant, and does wh
     harness.Begin("slow time=300ms for=1s");
     CHECK(harness.Sample(MOTOR) == ON);
     CHECK(harness.response.delay == 300ms);
-    CHECK(harness.Control("/project/robot/motor_off") == 200);
+    CHECK(harness.Control("/project/robot/emergency_stop") == 200);
     CHECK(harness.response.delay == 300ms);
     CHECK(harness.GetOverHttp(MOTOR) == OFF);
     CHECK(harness.response.delay == 300ms);

@@ -72,9 +72,17 @@ public:
             + (key == std::string::npos ? "" : " " + text.substr(begin, text.find(',', begin) - begin));
     }
 
+    /// As the manual has it in remote mode: the cursor is set first, in case that a program was started or stopped.
     int Select(int program)
     {
-        return Post("/project/context/tasks[0]/cur_prog_cnt", R"({"pno":)" + std::to_string(program) + "}");
+        Post("/project/context/tasks[0]/set_cur_pc_idx", R"({"idx":1})");
+        return Post("/project/context/tasks[0]/cur_prog_cnt", R"({"ext_sel":1,"pno":)" + std::to_string(program) + "}");
+    }
+
+    /// A reset as the controllers before 60.30 have it too.
+    int Reset()
+    {
+        return Post("/project/service/r_code/execute", R"({"code":1})");
     }
 
     int Start()

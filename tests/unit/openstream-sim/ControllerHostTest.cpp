@@ -126,7 +126,7 @@ TEST_CASE("3 A program is started by CONTROL, MONITOR shows its counters rise, H
 
     fixture.Monitor("/project/plc/m/val_s32", R"({"st":400,"len":4})");
     REQUIRE(fixture.TryAwaitSample("[0,0,0,0]"));
-    REQUIRE(IsAccepted(fixture.Control("/project/context/tasks[0]/cur_prog_cnt", R"({"pno":11,"sno":0,"fno":0})")));
+    REQUIRE(IsAccepted(fixture.Control("/project/context/tasks[0]/cur_prog_cnt", R"({"pno":11,"ext_sel":1})")));
     REQUIRE(Contains(fixture.GetOverHttp("/project/rgen"), R"("cur_prog_no":11)"));
     REQUIRE(IsAccepted(fixture.Control("/project/robot/start", "{}")));
     REQUIRE(fixture.TryAwaitSample("[1,0,0,0]"));
@@ -176,7 +176,7 @@ TEST_CASE(
 TEST_CASE("A Over HTTP the encoded path, the status and the content type are right")
 {
     Fixture fixture;
-    const std::string body = R"({"pno":12})";
+    const std::string body = R"({"pno":12,"ext_sel":1})";
     const std::string selected = fixture.SendHttp(
         "POST /project/context/tasks%5B0%5D/cur_prog_cnt HTTP/1.1\r\nHost: sim\r\nConnection: close\r\n"
         "Content-Type: text/plain\r\nContent-Length: "

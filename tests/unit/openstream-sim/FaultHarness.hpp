@@ -142,8 +142,9 @@ public:
 
     int StartProgram(int number)
     {
-        REQUIRE(
-            PostOverHttp("/project/context/tasks[0]/cur_prog_cnt", R"({"pno":)" + std::to_string(number) + "}") == 200);
+        const std::string body = R"({"ext_sel":1,"pno":)" + std::to_string(number) + "}";
+        REQUIRE(PostOverHttp("/project/context/tasks[0]/set_cur_pc_idx", R"({"idx":1})") == 200);
+        REQUIRE(PostOverHttp("/project/context/tasks[0]/cur_prog_cnt", body) == 200);
         return PostOverHttp("/project/robot/start");
     }
 

@@ -47,7 +47,7 @@ TEST_CASE("9 Over a socket: in a silence the data grows old and nothing else is 
     fixture.Begin("silence");
     REQUIRE(fixture.TryAwaitCount<ClientMonitorStale>(1));
     CHECK(fixture.GetLast<ClientMonitorStale>().age >= 100ms);
-    CHECK(fixture.Control("/project/robot/motor_off", "{}").outcome == EControlOutcome::Accepted);
+    CHECK(fixture.Control("/project/robot/emergency_stop", "{}").outcome == EControlOutcome::Accepted);
     CHECK(fixture.GetSample() == ON);
     CHECK(fixture.Count<ClientLost>() == 0);
     CHECK(fixture.Count<OpenStream::ClientErrorReported>() == 0);
@@ -170,7 +170,7 @@ TEST_CASE("9 Over a socket: the start of a program that fails where it begins is
     HostFixture fixture;
     SwitchOn(fixture);
     REQUIRE(
-        fixture.Control("/project/context/tasks[0]/cur_prog_cnt", R"({"pno":11})").outcome
+        fixture.Control("/project/context/tasks[0]/cur_prog_cnt", R"({"pno":11,"ext_sel":1})").outcome
         == EControlOutcome::Accepted);
     fixture.Begin("program-fails when=start");
     fixture.Monitor("/project/robot", "{}");

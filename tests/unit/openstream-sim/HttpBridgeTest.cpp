@@ -20,7 +20,9 @@ HttpResponse Send(ControllerHarness& harness, const HttpRequest& request)
 TEST_CASE("HTTP and Open Stream see the same controller")
 {
     ControllerHarness harness(ControllerHarness::MakeReadyOptions());
-    REQUIRE(Send(harness, {"POST", "/project/context/tasks[0]/cur_prog_cnt", {}, R"({ "pno" : 11 })"}).status == 200);
+    REQUIRE(
+        Send(harness, {"POST", "/project/context/tasks[0]/cur_prog_cnt", {}, R"({ "pno" : 11, "ext_sel" : 1 })"}).status
+        == 200);
     REQUIRE(Send(harness, {"POST", "/robot/start", {}, ""}).status == 200); // an empty body counts as {}
     REQUIRE(harness.GetCounters() == "[1,0,0,0]");
     const HttpResponse words = Send(harness, {"GET", "/project/plc/m/val_s32", {{"st", "400"}, {"len", "1"}}, ""});
@@ -53,7 +55,7 @@ TEST_CASE("A body that is no JSON object or array is refused, a method that the 
 TEST_CASE("A path is decoded once: what came as %255B is no bracket, and a NUL or another byte is no end of it")
 {
     ControllerHarness harness;
-    const std::string body = R"({"pno":11})";
+    const std::string body = R"({"pno":11,"ext_sel":1})";
     REQUIRE(Send(harness, {"POST", "/project/context/tasks%5B0%5D/cur_prog_cnt", {}, body}).status == 404);
     REQUIRE(Send(harness, {"POST", "/project/context/tasks[0]/cur_prog_cnt", {}, body}).status == 200);
     for (const std::string& end :

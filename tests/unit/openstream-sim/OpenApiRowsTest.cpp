@@ -48,8 +48,8 @@ const std::vector<Call> CALLS{
     {Get, "/project/robot/tools", "", R"("_type":"Tools","t_0":{)"},
     {Get, "/project/robot/tools/t_0", "", R"("mass":0)"},
     {Get, "/project/control/op_cnd", "", R"("_type":"CondGrp")"},
-    {Put, "/project/control/op_cnd", R"({"playback_spd_rate":50})", EMPTY},
-    {Post, "/project/control/op_cnd", R"({"playback_mode":2})", EMPTY},
+    {Put, "/project/control/op_cnd", R"({"playback_spd_rate":50})", R"({"_text":""})"},
+    {Post, "/project/control/op_cnd", R"({"playback_mode":2})", R"({"_text":""})"},
     {Get, "/project/control/ios/dio/di_val?type=di&blk_no=9&sig_no=0", "", R"("val":0)"},
     {Get, "/project/control/ios/dio/di_val?type=dib", "", R"("val":0)"},
     {Get, "/project/control/ios/dio/di_val?type=diw", "", R"("val":0)"},
@@ -76,7 +76,6 @@ const std::vector<Call> CALLS{
     {Post, "/project/plc/set_relay_value", R"({"name":"fb0.di23","value":1})", EMPTY},
     {Post, "/project/plc/set_relay_value", R"({"name":"fb0.di23","value":"1"})", EMPTY},
     {Post, "/project/robot/motor_on", "{}", EMPTY},
-    {Post, "/project/robot/motor_off", "{}", EMPTY},
     {Post, "/project/robot/stop", "{}", EMPTY},
     {Post, "/robot/stop", "{}", EMPTY},
     {Post, "/project/robot/tool_no", R"({"val":31})", EMPTY},
@@ -101,22 +100,22 @@ const std::vector<Call> CALLS{
     {Post, "/project/robot/trajectory/joint_traject_off", "{}", EMPTY},
     {Get, "/project/robot/trajectory/joint_traject_log", "", R"("val":0)"},
     {Post, "/project/robot/trajectory/joint_traject_log", R"({"enable":true})", EMPTY},
-    {Post, "/project/context/tasks/reset", "{}", EMPTY},
-    {Post, "/project/context/tasks[3]/reset", "{}", EMPTY},
-    {Post, "/project/context/tasks%5B3%5D/reset", "{}", EMPTY},
+    {Post, "/project/service/r_code/execute", R"({"code":1})", R"("code":1)"},
+    {Post, "/project/context/tasks[0]/release_wait", "{}", EMPTY},
+    {Post, "/console/execute_cmd", R"({"cmd_line":"rl.exit"})", EMPTY},
     {Post, "/console/execute_cmd", R"({"cmd_line":"rl.stop"})", EMPTY},
     {Post, "/console/execute_cmd", R"({"cmd_line":"rl.reinit"})", EMPTY},
     {Get, "/api_ver", "", "5"},
-    {Get, "/versions/sysver", "", R"({"name":"com","ver":"70.00-00","build-date":)"},
+    {Get, "/versions/sysver", "", R"({"name":"com","ver":"70.04-00","build-date":)"},
 };
 
 /// The same, of calls that need a base task that does not play.
 // NOLINTNEXTLINE(cert-err58-cpp)
 const std::vector<Call> IDLE_CALLS{
-    {Post, "/project/context/tasks[0]/cur_prog_cnt", R"({"pno":11,"sno":-1,"fno":-1,"ext_sel":0})", R"("ofs_moved":0)"},
+    {Post, "/project/context/tasks[0]/cur_prog_cnt", R"({"pno":11,"sno":-1,"fno":-1,"ext_sel":1})", R"("ofs_moved":0)"},
     {Post,
      "/project/context/tasks%5B0%5D/cur_prog_cnt",
-     R"({"pno":-1,"sno":-1,"fno":-1,"ext_sel":0})",
+     R"({"pno":-1,"sno":-1,"fno":-1,"ext_sel":1})",
      R"("ln_new":0)"},
     {Post, "/project/context/tasks[0]/set_cur_pc_idx", R"({"idx":1})", EMPTY},
     {Post, "/project/context/tasks[7]/set_cur_pc_idx", R"({"idx":1})", EMPTY},
@@ -126,6 +125,15 @@ const std::vector<Call> IDLE_CALLS{
      EMPTY},
     {Post, "/console/execute_cmd", R"({"cmd_line":"rl.i wait di1"})", EMPTY},
     {Post, "/console/execute_cmd", R"({"cmd_line":"rl.x"})", R"({"_type":"JObject","ecode":1})"},
+};
+
+/// Of a controller before 60.30.
+// NOLINTNEXTLINE(cert-err58-cpp)
+const std::vector<Call> OLD_CALLS{
+    {Post, "/project/robot/motor_off", "{}", EMPTY},
+    {Post, "/project/context/tasks/reset", "{}", EMPTY},
+    {Post, "/project/context/tasks[3]/reset", "{}", EMPTY},
+    {Post, "/project/context/tasks%5B3%5D/reset", "{}", EMPTY},
 };
 
 struct Refusal
@@ -141,7 +149,7 @@ struct Refusal
 constexpr const char* ON = "/project/robot/motor_on";
 constexpr const char* SELECT = "/project/context/tasks[0]/cur_prog_cnt";
 constexpr const char* START = "/project/robot/start";
-constexpr const char* PROGRAM = R"({"pno":11})";
+constexpr const char* PROGRAM = R"({"pno":11,"ext_sel":1})";
 constexpr const char* MOVE = "/project/context/tasks[0]/execute_move";
 constexpr const char* GOOD_MOVE = R"({"stmt":"move P,spd=1sec,accu=0,tool=0 [10 90 0 0 0 0]"})";
 constexpr const char* CONSOLE = "/console/execute_cmd";
@@ -156,7 +164,7 @@ const std::vector<Refusal> REFUSALS{
     {{}, Post, START, "{}", "403 -1442071"},
     {{{ON, "{}"}}, Post, START, "{}", "403 -3"},
     {{{ON, "{}"}, {SELECT, PROGRAM}, {START, "{}"}}, Post, START, "{}", "403 -1442080"},
-    {{{ON, "{}"}, {SELECT, PROGRAM}, {START, "{}"}}, Post, SELECT, PROGRAM, "403 -38501"},
+    {{{ON, "{}"}, {SELECT, PROGRAM}, {START, "{}"}}, Post, SELECT, PROGRAM, "403 -1442080"},
     {{{ON, "{}"}, {SELECT, PROGRAM}, {START, "{}"}},
      Post,
      "/project/context/tasks[0]/set_cur_pc_idx",
@@ -220,6 +228,9 @@ TEST_CASE("A Each row of section A is served with the query, the body and the al
 {
     CheckCalls(CALLS, MakePlayingOptions());
     CheckCalls(IDLE_CALLS, ControllerHarness::MakeReadyOptions());
+    ControllerOptions old = MakePlayingOptions();
+    old.version = {60, 29, 0};
+    CheckCalls(OLD_CALLS, old);
 }
 
 TEST_CASE("A Each refusal that a row of section A names has its status and its code, and a sentence")

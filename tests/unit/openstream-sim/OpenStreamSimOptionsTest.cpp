@@ -30,6 +30,9 @@ TEST_CASE("Without options it serves the manuals' ports on the loopback, with th
     REQUIRE_FALSE(options.fleet.first.controller.bMotorOn);
     REQUIRE_FALSE(options.bRealTime);
     REQUIRE(options.fleet.first.controller.timeScale == 1.0);
+    REQUIRE(options.fleet.first.sessions == 8);
+    REQUIRE(options.fleet.first.handshakeTimeout == 5s);
+    REQUIRE(MakeText(options.fleet.first.controller.version) == "70.04-00");
     REQUIRE(options.fleet.first.controller.otherPrograms == ProgramSpec{2s, false});
 }
 
@@ -52,6 +55,14 @@ TEST_CASE("Every option reaches its place")
         "--ready",
         "--playing",
         "--realtime",
+        "--sessions",
+        "2",
+        "--handshake-timeout",
+        "0s",
+        "--controller-version",
+        "60.20-01",
+        "--robot-model",
+        "HS220-02",
         "--log-level",
         "error"};
     REQUIRE_FALSE(ParseOptionsOrNull(static_cast<int>(arguments.size()), arguments.data(), options).has_value());
@@ -61,6 +72,10 @@ TEST_CASE("Every option reaches its place")
     REQUIRE(options.fleet.first.controller.bMotorOn);
     REQUIRE(options.fleet.first.controller.bWaiting);
     REQUIRE(options.fleet.controllers == 3);
+    REQUIRE(options.fleet.first.sessions == 2);
+    REQUIRE(options.fleet.first.handshakeTimeout == 0ms);
+    REQUIRE(options.fleet.first.controller.version == ControllerVersion{60, 20, 1});
+    REQUIRE(options.fleet.first.controller.robotModel == "HS220-02");
     REQUIRE(options.bRealTime);
     REQUIRE(options.fleet.first.controller.programs.size() == 2);
     REQUIRE(options.fleet.first.controller.programs.at(11) == ProgramSpec{3s, false});
@@ -112,6 +127,16 @@ TEST_CASE("A mistake on the command line is exit code 2")
              {"--controllers", "2x"},
              {"--controllers", "2", "--controllers", "2"},
              {"--controllers"},
+             {"--sessions", "0"},
+             {"--sessions", "1001"},
+             {"--handshake-timeout", "5"},
+             {"--handshake-timeout", "-5s"},
+             {"--controller-version", "70"},
+             {"--controller-version", "70.4-0"},
+             {"--controller-version", "70.04-000"},
+             {"--controller-version", "7x.04-00"},
+             {"--robot-model", ""},
+             {"--robot-model", "HA 006"},
              {"--log-level", "loud"},
              {"--ready=maybe"},
              {"--frobnicate", "1"},

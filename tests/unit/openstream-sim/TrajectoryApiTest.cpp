@@ -409,7 +409,7 @@ TEST_CASE(
     REQUIRE(GetFree(harness) == "2048");
     harness.clock.Advance(1s);
     REQUIRE(GetFirstAngle(harness) == stopped);
-    REQUIRE(harness.Post("/project/robot/motor_off") == 200);
+    harness.controller.GetMachine(harness.clock.GetNow()).SwitchMotorOff();
     REQUIRE(harness.Post(INIT) == 200);
     harness.controller.TurnModeSwitch(false, harness.clock.GetNow());
     REQUIRE(harness.PostForCode(INIT) == "403 -38500");
@@ -484,7 +484,7 @@ TEST_CASE("C.1 What ends the playback stops the arm; what is left of the points 
     constexpr std::array<Interruption, 4> INTERRUPTIONS{
         [](ControllerHarness& harness) { REQUIRE(harness.Post("/project/robot/stop") == 200); },
         [](ControllerHarness& harness) {
-            REQUIRE(harness.Post("/project/robot/motor_off") == 200);
+            harness.controller.GetMachine(harness.clock.GetNow()).SwitchMotorOff();
             REQUIRE(harness.PostForCode(INSERT_POINT, GOOD_POINT) == "403 -1442071");
             REQUIRE(harness.Post("/project/robot/motor_on") == 200);
         },

@@ -11,6 +11,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import urllib.error
 import urllib.request
@@ -139,6 +140,35 @@ class ReadmeClient(unittest.TestCase):
                     process.send_signal(number)
                     self.assertEqual(process.wait(LIMIT), 0)
 
+    def connect(self, address):
+        host, port = address.split(":")
+        client = socket.create_connection((host, int(port)), timeout=LIMIT)
+        self.addCleanup(client.close)
+        return client
+
+    def test_a_ninth_client_is_served_while_eight_others_stay_silent(self):
+        _, stream, _ = self.start()
+        silent = [self.connect(stream) for _ in range(8)]
+        ninth = self.connect(stream)
+        begin = time.monotonic()
+        ninth.sendall(b'{"cmd":"HANDSHAKE","payload":{"major":1}}\n')
+        self.assertIn(b"handshake_ack", ninth.recv(1000))
+        self.assertLess(time.monotonic() - begin, 5.0)
+        self.assertIn(b"handshake_rejected", silent[0].recv(1000))
+
+    def test_a_connection_without_a_handshake_is_closed_at_its_deadline(self):
+        _, stream, _ = self.start("--handshake-timeout", "50ms")
+        silent = self.connect(stream)
+        self.assertIn(b"session_timeout", silent.recv(1000))
+        self.assertEqual(silent.recv(1000), b"")
+
+    def test_the_number_of_sessions_can_be_set(self):
+        _, stream, _ = self.start("--sessions", "1")
+        first = self.connect(stream)
+        first.sendall(b'{"cmd":"HANDSHAKE","payload":{"major":1}}\n')
+        self.assertIn(b"handshake_ack", first.recv(1000))
+        self.assertIn(b"handshake_rejected", self.connect(stream).recv(1000))
+
     def test_a_port_in_use_is_one_line_that_names_it(self):
         with socket.create_server(("127.0.0.1", 0)) as taken:
             address = f"127.0.0.1:{taken.getsockname()[1]}"
@@ -153,6 +183,7 @@ class ReadmeClient(unittest.TestCase):
         for arguments in (
                 ("--program", "0=3s"), ("--time-scale", "-1"), ("--time-scale", "nan"), ("--listen", "nowhere"),
                 ("--http", "127.0.0.1:99999"), ("--controllers", "0"), ("--controllers", "9999"), ("--control", "8890"),
+                ("--sessions", "0"), ("--handshake-timeout", "5"), ("--controller-version", "70"), ("--robot-model", ""),
                 ("--fault", "explode"), ("--fault", "1 hole for=5"), ("--fault", "1 end"), ("--fault", "*"), ("--fault", ""),
                 ("--fault-file", "/nowhere"), ("--fault-file", "/"), ("--log-level", "loud"), ("--frobnicate",)):
             with self.subTest(arguments[0]):

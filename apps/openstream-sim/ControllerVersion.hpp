@@ -1,0 +1,27 @@
+#pragma once
+
+#include <compare>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace ACS::OpenStreamSim
+{
+
+/// The version of a controller's software, "70.04-00".
+struct ControllerVersion
+{
+    int major = 70;
+    int minor = 4;
+    int patch = 0;
+
+    auto operator<=>(const ControllerVersion&) const = default;
+};
+
+/// The first version that serves r_code, and no motor_off and no reset of tasks any more.
+inline constexpr ControllerVersion FIRST_WITH_R_CODE{60, 30, 0};
+
+[[nodiscard]] std::optional<ControllerVersion> ParseControllerVersionOrNull(std::string_view text);
+[[nodiscard]] std::string MakeText(const ControllerVersion& version);
+
+} // namespace ACS::OpenStreamSim
