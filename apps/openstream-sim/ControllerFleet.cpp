@@ -51,6 +51,10 @@ ControllerFleet::ControllerFleet(
         host.stream = MakeEndpoint(host.stream, i);
         host.http = MakeEndpoint(host.http, i);
         host.label = _options.controllers > 1 ? std::to_string(i + 1) : std::string();
+        if (const auto robot = _options.robots.find(i + 1); robot != _options.robots.end())
+        {
+            host.controller.robotID = robot->second;
+        }
         _hosts.push_back(std::make_unique<ControllerHost>(executor, clock, logger, std::move(host)));
     }
 }

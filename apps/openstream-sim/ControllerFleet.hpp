@@ -12,6 +12,7 @@
 #include <boost/asio/any_io_executor.hpp>
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,10 +26,11 @@ struct FleetOptions
 {
     static constexpr std::size_t MAX_CONTROLLERS = 500;
 
-    HostOptions first;           ///< The next ones have the next ports; where its port is 0, each takes a free one.
-    std::size_t controllers = 1; ///< 1 to MAX_CONTROLLERS; the ports must not go beyond 65535.
-    std::vector<FaultCommand> faults;      ///< Each begins one; their times count from Start.
-    std::optional<Apps::Endpoint> control; ///< Where commands are taken over HTTP; port 0 takes a free one.
+    HostOptions first; ///< The next ones have the next ports; where its port is 0, each takes a free one.
+    std::map<std::size_t, std::string> robots; ///< By the number of their controller, from 1.
+    std::size_t controllers = 1;               ///< 1 to MAX_CONTROLLERS; the ports must not go beyond 65535.
+    std::vector<FaultCommand> faults;          ///< Each begins one; their times count from Start.
+    std::optional<Apps::Endpoint> control;     ///< Where commands are taken over HTTP; port 0 takes a free one.
 };
 
 /// The controllers of one process, called 1, 2 and so on, and what is commanded to them. Runs on the executor's one

@@ -24,7 +24,8 @@ ControllerMachine::ControllerMachine(const ControllerOptions& options, Core::Now
       _timeScale(options.timeScale),
       _startedAt(now.steady),
       _motor(options.motorOnTime, options.bMotorOn || options.bWaiting),
-      _runner(options.programs, options.otherPrograms)
+      _runner(options.programs, options.otherPrograms),
+      _floorWork(options.world, options.robotID)
 {
     Tool gripper;
     gripper.x = 120.0;
@@ -59,15 +60,16 @@ void ControllerMachine::HandleEvents(Core::Duration elapsed)
     for (ProgramEvent& event : _events)
     {
         const std::string number = fmt::to_string(event.number);
-        if (event.kind == EProgramEvent::Finished && _shouldFail && _shouldFail(event.number, false))
+        if (event.kind == EProgramEvent::Finished)
         {
-            event.kind = EProgramEvent::Failed;
+            FinishWork(event);
         }
         switch (event.kind)
         {
             case EProgramEvent::Started:
                 _logger.Info("program started", {{"program", number}});
                 _arm.BeginProgram(_runner.GetDuration(), _now);
+                BeginWork();
                 Count(STARTED_BYTE);
                 break;
             case EProgramEvent::Finished:
@@ -87,6 +89,34 @@ void ControllerMachine::HandleEvents(Core::Duration elapsed)
         }
     }
     _events.clear();
+}
+
+void ControllerMachine::BeginWork()
+{
+    const ProgramSpec& spec = _runner.GetSpec();
+    if (spec.echo.has_value())
+    {
+        const auto number = static_cast<std::int64_t>(_relays.Read(*spec.echo));
+        _relays.WriteU32(PROGRAM_BLOCK, ECHO_BYTE, static_cast<std::uint32_t>(number));
+    }
+    _floorWork.Plan(spec.work, _relays);
+}
+
+void ControllerMachine::FinishWork(ProgramEvent& event)
+{
+    if (_shouldFail && _shouldFail(event.number, false))
+    {
+        event.kind = EProgramEvent::Failed;
+        return;
+    }
+    const Core::Result<void> done = _floorWork.Finish();
+    if (!done.has_value())
+    {
+        event.kind = EProgramEvent::Failed;
+        _logger.Warning(
+            "program cannot do its work",
+            {{"program", fmt::to_string(event.number)}, {"reason", Core::Describe(done.error())}});
+    }
 }
 
 void ControllerMachine::Count(std::size_t byte)

@@ -5,6 +5,7 @@
 #include "ConsoleProgram.hpp"
 #include "ControllerOptions.hpp"
 #include "EApiError.hpp"
+#include "FloorWork.hpp"
 #include "MotorSwitch.hpp"
 #include "ProgramRunner.hpp"
 #include "RelayMemory.hpp"
@@ -30,6 +31,7 @@ inline constexpr std::size_t STARTED_BYTE = 400;  ///< Counts programs that bega
 inline constexpr std::size_t FINISHED_BYTE = 404; ///< Counts programs that ended well.
 inline constexpr std::size_t FAILED_BYTE = 408;   ///< Counts programs that gave up.
 inline constexpr std::size_t LAST_BYTE = 412;     ///< The number of the program that ended last.
+inline constexpr std::size_t ECHO_BYTE = 416;     ///< The job number that the program read where it began.
 
 /// What the controller warns of, by the number that rgen shows.
 enum class EAlarm : std::int32_t
@@ -75,8 +77,12 @@ class ControllerMachine
     bool _bProtectiveStop = false;
     bool _bCursorMoved = false; ///< By a start or stop: no selection before SetCursor.
     ProgramJudge _shouldFail;
+    FloorWork _floorWork;
 
     void HandleEvents(Core::Duration elapsed);
+    void BeginWork();
+    /// Makes a good end a failed one where the program cannot do its work.
+    void FinishWork(ProgramEvent& event);
     void Count(std::size_t byte);
     void HaltProgram();
     void GiveProgramUp();

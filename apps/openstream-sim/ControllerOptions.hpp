@@ -1,6 +1,8 @@
 #pragma once
 
 #include "ControllerVersion.hpp"
+#include "ProgramSpec.hpp"
+#include "world/IWorld.hpp"
 
 #include <chrono>
 #include <map>
@@ -8,18 +10,6 @@
 
 namespace ACS::OpenStreamSim
 {
-
-inline constexpr int FIRST_PROGRAM = 1;
-inline constexpr int LAST_PROGRAM = 9999;
-
-/// What a program of the controller does, as far as the simulator knows: it takes its time and ends, well or not.
-struct ProgramSpec
-{
-    std::chrono::milliseconds duration{2'000}; ///< Simulated.
-    bool bFails = false;                       ///< Gives up at its end.
-
-    bool operator==(const ProgramSpec&) const = default;
-};
 
 struct ControllerOptions
 {
@@ -31,6 +21,8 @@ struct ControllerOptions
     ProgramSpec otherPrograms;                    ///< Every number that is not in `programs`.
     ControllerVersion version;
     std::string robotModel = "HA006B-01"; ///< As rgen shows it; clients refuse models that they do not know.
+    std::string robotID;                  ///< Of the robot that carries the arm: {robot} in the places of programs.
+    Sim::IWorld* world = nullptr;         ///< The floor on which programs work; outlives the controller. Null: none.
 };
 
 } // namespace ACS::OpenStreamSim

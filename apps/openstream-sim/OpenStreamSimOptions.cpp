@@ -2,12 +2,17 @@
 
 #include "common/DurationText.hpp"
 #include "common/FaultOptions.hpp"
+#include "ProgramFile.hpp"
+#include <acs/core/RobotID.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
+#include <map>
+#include <set>
+#include <utility>
 
 namespace ACS::OpenStreamSim
 {
@@ -176,6 +181,104 @@ void AddModelOptions(CLI::App& app, ControllerOptions& controller)
         ->type_name("NAME");
 }
 
+/// "1=CR01"
+std::string ReadRobot(std::string_view text, std::map<std::size_t, std::string>& robots)
+{
+    const std::size_t equals = std::min(text.find('='), text.size());
+    const std::string_view name = text.substr(std::min(equals + 1, text.size()));
+    std::size_t controller = 0;
+    const bool bNumber = ReadCount(text.substr(0, equals), FleetOptions::MAX_CONTROLLERS, controller).empty();
+    const Core::Result<Core::RobotID> robotID = Core::RobotID::Parse(name);
+    if (!bNumber || !robotID.has_value() || robotID->IsAlias())
+    {
+        return fmt::format(
+            "expected CONTROLLER=ROBOT with a number from 1 and a robot's name (1=CR01), found {}",
+            Core::QuoteForError(text));
+    }
+    if (!robots.emplace(controller, robotID->GetText()).second)
+    {
+        return fmt::format("controller {} is given twice", controller);
+    }
+    return {};
+}
+
+void AddFloorOptions(CLI::App& app, OpenStreamSimOptions& options)
+{
+    Apps::AddTextOption(
+        app,
+        "--programs",
+        [&options](const std::string& text) {
+            options.programFile = text;
+            return std::string(text.empty() ? "expected a file" : "");
+        },
+        "TOML file with what each program does: the places that its relay words name, its echo, its time")
+        .type_name("FILE");
+    Apps::AddTextOption(
+        app,
+        "--world",
+        [&options](const std::string& text) {
+            options.worldFile = text;
+            return std::string(text.empty() ? "expected a file" : "");
+        },
+        "World file of the floor that the simulators share; with --programs")
+        .type_name("FILE");
+    Apps::AddRepeatedOption(
+        app,
+        "--robot",
+        [&options](const std::string& text) { return ReadRobot(text, options.fleet.robots); },
+        "Robot that carries the arm of a controller: 1=CR01. May be repeated")
+        .type_name("CONTROLLER=ROBOT");
+}
+
+/// The file's programs; the time and the failure that --program gives win.
+void AddPrograms(const ProgramFile& file, ControllerOptions& controller)
+{
+    for (const auto& [number, spec] : file.programs)
+    {
+        const auto [entry, bNew] = controller.programs.emplace(number, spec);
+        if (!bNew)
+        {
+            entry->second.echo = spec.echo;
+            entry->second.work = spec.work;
+        }
+    }
+}
+
+/// Whether each controller has a robot where one is needed, and each robot a controller.
+std::string CheckRobots(const OpenStreamSimOptions& options, const ProgramFile& programs)
+{
+    const std::map<std::size_t, std::string>& robots = options.fleet.robots;
+    if (!options.worldFile.empty() && options.programFile.empty())
+    {
+        return "--world needs --programs: without it no program moves anything";
+    }
+    std::set<std::string> names;
+    for (const auto& [controller, robot] : robots)
+    {
+        if (controller > options.fleet.controllers)
+        {
+            return fmt::format(
+                "--robot {}={} is for no controller that there is: they are called 1 to {}",
+                controller,
+                robot,
+                options.fleet.controllers);
+        }
+        if (!names.insert(robot).second)
+        {
+            return fmt::format("--robot: robot {} has two controllers; give each a robot of its own", robot);
+        }
+    }
+    const bool bNeeded = !options.worldFile.empty() || programs.NamesRobot();
+    for (std::size_t controller = 1; bNeeded && controller <= options.fleet.controllers; ++controller)
+    {
+        if (robots.count(controller) == 0)
+        {
+            return fmt::format("controller {0} has no robot: give --robot {0}=NAME", controller);
+        }
+    }
+    return {};
+}
+
 std::string MakeFooter()
 {
     return fmt::format(
@@ -191,7 +294,9 @@ std::string MakeFooter()
         "A program takes its time and ends: {} s unless --program says otherwise. Its own statements are: at its\n"
         "beginning it adds 1 to the 32-bit counter in relay m at byte {} (ml{}), at its good end to the one at byte {},\n"
         "when it fails or is given up to the one at byte {}; byte {} holds the number of the program that ended last.\n"
-        "Read them with GET /project/plc/m/val_s32?st={}&len=4.",
+        "With --programs it also copies the job number that it reads to byte {} before it counts its beginning, and at\n"
+        "its good end moves on the floor of --world what its relay words named at its beginning; a floor that does not\n"
+        "allow it makes the program fail. Read all five with GET /project/plc/m/val_s32?st={}&len=5.",
         Apps::MakeFaultHelp(GetFaultGrammar()),
         std::chrono::duration_cast<std::chrono::seconds>(ProgramSpec{}.duration).count(),
         STARTED_BYTE,
@@ -199,6 +304,7 @@ std::string MakeFooter()
         FINISHED_BYTE,
         FAILED_BYTE,
         LAST_BYTE,
+        ECHO_BYTE,
         STARTED_BYTE);
 }
 
@@ -261,6 +367,7 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, OpenStr
         ->type_name("N");
     AddSessionOptions(app, options.fleet.first);
     AddModelOptions(app, options.fleet.first.controller);
+    AddFloorOptions(app, options);
     Apps::AddTimeScaleOption(app, options.fleet.first.controller.timeScale);
     Apps::AddRepeatedOption(
         app,
@@ -298,8 +405,19 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, OpenStr
     {
         options.fleet.control = control;
     }
+    const ProgramFile programs = options.programFile.empty() ? ProgramFile() : ProgramFile::Read(options.programFile);
+    if (!programs.mistakes.empty())
+    {
+        for (const std::string& mistake : programs.mistakes)
+        {
+            Apps::PrintMistake(PROGRAM_NAME, mistake);
+        }
+        return Apps::EXIT_BAD_COMMAND_LINE;
+    }
+    AddPrograms(programs, options.fleet.first.controller);
     std::string mistake = CheckPorts(options.fleet);
     mistake = mistake.empty() ? CheckFaults(options.fleet) : mistake;
+    mistake = mistake.empty() ? CheckRobots(options, programs) : mistake;
     if (!mistake.empty())
     {
         Apps::PrintMistake(PROGRAM_NAME, fmt::format("{}; try {} --help", mistake, PROGRAM_NAME));

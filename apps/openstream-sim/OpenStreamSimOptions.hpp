@@ -15,6 +15,8 @@ inline constexpr std::string_view PROGRAM_NAME = "openstream-sim";
 struct OpenStreamSimOptions
 {
     FleetOptions fleet;
+    std::string worldFile;   ///< Empty: no floor.
+    std::string programFile; ///< Empty: programs only take their time.
     bool bRealTime = false;
     Apps::CommonOptions common;
 };

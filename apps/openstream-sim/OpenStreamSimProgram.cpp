@@ -7,12 +7,16 @@
 #include "common/SystemClock.hpp"
 #include "ControllerFleet.hpp"
 #include "OpenStreamSimOptions.hpp"
+#include "world/WorldFile.hpp"
 #include <acs/openstream_asio/RealTime.hpp>
 
 #include <boost/asio/io_context.hpp>
+#include <fmt/format.h>
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace ACS::OpenStreamSim
 {
@@ -35,6 +39,18 @@ int RunOpenStreamSim(int argc, const char* const* argv)
         {
             logger.Warning(refusal);
         }
+    }
+    std::unique_ptr<Sim::WorldFile> world;
+    if (!options.worldFile.empty())
+    {
+        Core::Result<std::unique_ptr<Sim::WorldFile>> opened = Sim::WorldFile::Open(options.worldFile);
+        if (!opened.has_value())
+        {
+            Apps::PrintMistake(PROGRAM_NAME, fmt::format("--world: {}", Core::Describe(opened.error())));
+            return Apps::EXIT_BAD_COMMAND_LINE;
+        }
+        world = std::move(*opened);
+        options.fleet.first.controller.world = world.get();
     }
     Apps::RaiseFileLimit(); // Each controller has two ports, and each client a connection.
     ControllerFleet fleet(context.get_executor(), clock, logger, options.fleet);

@@ -8,7 +8,7 @@ namespace ACS::OpenStreamSim
 
 ProgramRunner::ProgramRunner(std::map<int, ProgramSpec> programs, ProgramSpec otherPrograms)
     : _programs(std::move(programs)),
-      _otherPrograms(otherPrograms)
+      _otherPrograms(std::move(otherPrograms))
 {
 }
 
@@ -80,6 +80,11 @@ bool ProgramRunner::IsAtBeginning() const noexcept
 int ProgramRunner::GetSelected() const noexcept
 {
     return _selected;
+}
+
+const ProgramSpec& ProgramRunner::GetSpec() const noexcept
+{
+    return _spec;
 }
 
 Core::Duration ProgramRunner::GetElapsed(Core::Duration now) const noexcept

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ControllerOptions.hpp"
+#include "ProgramSpec.hpp"
 #include <acs/core/Now.hpp>
 
 #include <cstdint>
@@ -70,6 +70,8 @@ public:
 
     /// 0 where none is selected.
     [[nodiscard]] int GetSelected() const noexcept;
+    /// Of the selected program.
+    [[nodiscard]] const ProgramSpec& GetSpec() const noexcept;
 
     /// How long the selected program has run, stops left out.
     [[nodiscard]] Core::Duration GetElapsed(Core::Duration now) const noexcept;

@@ -3,7 +3,10 @@
 #include "Catch.hpp"
 
 #include <array>
+#include <map>
 #include <optional>
+#include <string>
+#include <variant>
 #include <vector>
 
 using namespace ACS::OpenStreamSim; // NOLINT(google-build-using-namespace)
@@ -63,6 +66,14 @@ TEST_CASE("Every option reaches its place")
         "60.20-01",
         "--robot-model",
         "HS220-02",
+        "--robot",
+        "1=CR01",
+        "--robot=2=CR02",
+        "--robot=3=CR03",
+        "--programs",
+        ACS_SITE "/programs.toml",
+        "--world",
+        "floor.json",
         "--log-level",
         "error"};
     REQUIRE_FALSE(ParseOptionsOrNull(static_cast<int>(arguments.size()), arguments.data(), options).has_value());
@@ -77,9 +88,16 @@ TEST_CASE("Every option reaches its place")
     REQUIRE(options.fleet.first.controller.version == ControllerVersion{60, 20, 1});
     REQUIRE(options.fleet.first.controller.robotModel == "HS220-02");
     REQUIRE(options.bRealTime);
-    REQUIRE(options.fleet.first.controller.programs.size() == 2);
-    REQUIRE(options.fleet.first.controller.programs.at(11) == ProgramSpec{3s, false});
-    REQUIRE(options.fleet.first.controller.programs.at(12) == ProgramSpec{500ms, true});
+    REQUIRE(options.fleet.robots == std::map<std::size_t, std::string>{{1, "CR01"}, {2, "CR02"}, {3, "CR03"}});
+    REQUIRE(options.worldFile == "floor.json");
+    const std::map<int, ProgramSpec>& programs = options.fleet.first.controller.programs;
+    REQUIRE(programs.size() == 6);
+    REQUIRE(programs.at(11).duration == 3s); // --program wins
+    REQUIRE(std::holds_alternative<TransferWork>(programs.at(11).work));
+    REQUIRE(programs.at(11).echo.has_value());
+    REQUIRE(programs.at(12).duration == 500ms);
+    REQUIRE(programs.at(12).bFails);
+    REQUIRE(programs.at(13).duration == 2s);
     REQUIRE(options.common.logLevel == ACS::Core::ELogLevel::Error);
 }
 
@@ -137,6 +155,18 @@ TEST_CASE("A mistake on the command line is exit code 2")
              {"--controller-version", "7x.04-00"},
              {"--robot-model", ""},
              {"--robot-model", "HA 006"},
+             {"--robot", "CR01"},
+             {"--robot", "0=CR01"},
+             {"--robot", "1="},
+             {"--robot", "1=AMR"},
+             {"--robot", "1=CR01", "--robot", "1=CR02"},
+             {"--robot", "2=CR01"},
+             {"--controllers", "2", "--robot", "1=CR01", "--robot", "2=CR01"},
+             {"--programs", ""},
+             {"--programs", "/nowhere/programs.toml"},
+             {"--programs", ACS_SITE "/programs.toml"}, // names {robot}
+             {"--programs", ACS_SITE "/acsd.toml", "--robot", "1=CR01"},
+             {"--world", "floor.json"},
              {"--log-level", "loud"},
              {"--ready=maybe"},
              {"--frobnicate", "1"},

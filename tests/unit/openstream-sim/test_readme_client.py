@@ -169,6 +169,42 @@ class ReadmeClient(unittest.TestCase):
         self.assertIn(b"handshake_ack", first.recv(1000))
         self.assertIn(b"handshake_rejected", self.connect(stream).recv(1000))
 
+    def test_programs_move_carriers_on_the_floor_that_the_world_file_describes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            world = pathlib.Path(folder) / "floor.json"
+            world.write_text('{"version":1,"carriers":{"TRAY_01":"CR02.TP01","TRAY_02":"CR01.TP03"}}', encoding="utf-8")
+            programs = pathlib.Path(folder) / "programs.toml"
+            programs.write_text('[11]\nfrom = ["{robot}.TP{ml106}"]\nto = ["{robot}.TP{ml107}"]\n', encoding="utf-8")
+            ready = self.start_for_ready("--controllers", "2", "--ready", "--time-scale", "100", "--world", str(world),
+                                         "--programs", str(programs), "--robot", "1=CR01", "--robot", "2=CR02")
+            for http, outcome in (("http2", [1, 1, 0, 11, 4711]), ("http", [1, 0, 1, 11, 4711])):
+                for name, value in (("ml105", 4711), ("ml106", 1), ("ml107", 2)):
+                    self.post(ready[http], json.dumps({"name": name, "value": value}), "/project/plc/set_relay_value")
+                self.post(ready[http], '{"pno":11,"ext_sel":1}', "/project/context/tasks[0]/cur_prog_cnt")
+                self.assertEqual(self.post(ready[http], "{}", "/project/robot/start")[0], 200)
+                end = time.monotonic() + LIMIT
+                words = []
+                while words[3:4] != [11] and time.monotonic() < end:
+                    with urllib.request.urlopen(f"http://{ready[http]}/project/plc/m/val_s32?st=400&len=5",
+                                                timeout=LIMIT) as answer:
+                        words = json.load(answer)
+                self.assertEqual(words, outcome)
+            lines = [json.loads(line) for line in pathlib.Path(f"{world}.journal").read_text(encoding="utf-8").splitlines()]
+            moves = [line for line in lines if line.get("event") == "CarrierMoved"]
+            self.assertEqual(moves, [{"event": "CarrierMoved", "robot": "CR02", "carrier": "TRAY_01", "from": "CR02.TP01",
+                                      "to": "CR02.TP02"}])
+
+    def test_each_mistake_of_the_programs_is_one_line_with_file_line_and_key(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".toml", encoding="utf-8") as programs:
+            programs.write('[11]\necho = "q1"\n[12]\nbutton = ["A{ml106}"]\n')
+            programs.flush()
+            result = self.run_program("--programs", programs.name)
+        self.assertEqual(result.returncode, 2)
+        lines = result.stderr.strip().splitlines()
+        self.assertEqual(len(lines), 2, result.stderr)
+        self.assertIn(f"{programs.name}:2: 11.echo: expected", lines[0])
+        self.assertIn(f"{programs.name}:4: 12.button: expected", lines[1])
+
     def test_a_port_in_use_is_one_line_that_names_it(self):
         with socket.create_server(("127.0.0.1", 0)) as taken:
             address = f"127.0.0.1:{taken.getsockname()[1]}"
@@ -184,6 +220,7 @@ class ReadmeClient(unittest.TestCase):
                 ("--program", "0=3s"), ("--time-scale", "-1"), ("--time-scale", "nan"), ("--listen", "nowhere"),
                 ("--http", "127.0.0.1:99999"), ("--controllers", "0"), ("--controllers", "9999"), ("--control", "8890"),
                 ("--sessions", "0"), ("--handshake-timeout", "5"), ("--controller-version", "70"), ("--robot-model", ""),
+                ("--robot", "CR01"), ("--world", "/nowhere"), ("--programs", ""),
                 ("--fault", "explode"), ("--fault", "1 hole for=5"), ("--fault", "1 end"), ("--fault", "*"), ("--fault", ""),
                 ("--fault-file", "/nowhere"), ("--fault-file", "/"), ("--log-level", "loud"), ("--frobnicate",)):
             with self.subTest(arguments[0]):
