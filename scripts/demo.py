@@ -19,7 +19,8 @@ PLANS = [REPOSITORY / "examples" / "plans" / name for name in ("lr-cassette.json
 def parse_arguments():
     parser = argparse.ArgumentParser(
         prog="demo", description="Sends example plans from a simulated MCS through acsd to simulated robots: real "
-        "WebSocket, real MQTT broker, real Open Stream. Exit code 0 when every plan was completed, else 1.")
+        "WebSocket, real MQTT broker, real Open Stream. Exit code 0 when every plan was completed, every report was right "
+        "and every carrier is where its plan had it brought, else 1.")
     parser.add_argument("--plans", type=int, default=1, metavar="N", help="send N of each example plan (default 1)")
     parser.add_argument("--keep", action="store_true",
                         help="print the addresses, send the plans when Enter is pressed (at once without a terminal), "
@@ -82,6 +83,7 @@ class Output:
 
 def start_line(line, arguments, output):
     """The order is that of a plant: first what others connect to. Everybody retries, so it does not matter."""
+    line.share_world()
     line.start_broker()
     vehicles = line.start_vehicles(arguments.time_scale)
     arm = line.start_arm(arguments.time_scale)
@@ -103,6 +105,7 @@ def start_line(line, arguments, output):
               f"Open Stream tcp://{arm.addresses['stream']}\n"
               f"Open API    http://{arm.addresses['http']}\n"
               f"acsd        http://{acsd.addresses['http']}/status\n"
+              f"world       {line.world}.journal\n"
               f"logs        {line.folder}", flush=True)
     if wait:
         input("Press Enter to send the plans, Ctrl-C to end everything. ")

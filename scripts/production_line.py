@@ -126,6 +126,7 @@ class Line:
         self.programs = []
         self.broker = None
         self.broker_port = None
+        self.world = None
 
     def __enter__(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="acs-line-"))
@@ -185,17 +186,25 @@ class Line:
                     pass
         return False
 
+    def share_world(self):
+        """Lets the simulators that are started from now on share one floor: the site's world file and its journal."""
+        self.world = pathlib.Path(shutil.copy(self.site_dir / "world.json", self.folder))
+
+    def _world_options(self):
+        return () if self.world is None else ("--world", self.world)
+
     def start_vehicles(self, time_scale, vehicles=("LR01,type=LR", "CR01,type=CR"), port=None):
         options = [part for vehicle in vehicles for part in ("--vehicle", vehicle)]
         return self.start("vda-sim", "--broker", f"mqtt://127.0.0.1:{port or self.broker_port}", "--site",
-                          self.site_dir / "site.lif.json", "--time-scale", time_scale, *options)
+                          self.site_dir / "site.lif.json", "--time-scale", time_scale, *options, *self._world_options())
 
-    def start_arm(self, time_scale):
+    def start_arm(self, time_scale, *options):
         return self.start("openstream-sim", "--listen", "127.0.0.1:0", "--http", "127.0.0.1:0",
-                          "--time-scale", time_scale)
+                          "--programs", self.site_dir / "programs.toml", "--robot", "1=CR01", "--time-scale", time_scale,
+                          *options, *self._world_options())
 
     def start_mcs(self, plans, *arguments, port=0, **options):
-        return self.start("mcs-sim", "--listen", f"127.0.0.1:{port}", *arguments,
+        return self.start("mcs-sim", "--listen", f"127.0.0.1:{port}", *self._world_options(), *arguments,
                           *[part for plan in plans for part in ("--plan", plan)], **options)
 
     def start_acsd(self, mcs_address, arm_addresses, *overrides, config=None, arguments=(), **options):

@@ -54,7 +54,14 @@ class Demo(unittest.TestCase):
         demo = self.start("--time-scale", "20")
         output, _ = demo.communicate(timeout=FINISH_SECONDS)
         self.assertEqual(demo.returncode, 0, output)
-        self.assertEqual(output.splitlines()[-1], "2 plans completed, 0 failed")
+        self.assertEqual(output.splitlines()[-2:], ["3 carriers delivered, 0 misplaced", "2 plans completed, 0 failed"])
+        self.assert_nothing_left()
+
+    def test_repeated_plans_deliver_new_carriers_each_time(self):
+        demo = self.start("--time-scale", "20", "--plans", "3")
+        output, _ = demo.communicate(timeout=FINISH_SECONDS)
+        self.assertEqual(demo.returncode, 0, output)
+        self.assertEqual(output.splitlines()[-2:], ["9 carriers delivered, 0 misplaced", "6 plans completed, 0 failed"])
         self.assert_nothing_left()
 
     def run_in_shell(self, redirections):

@@ -63,8 +63,7 @@ class Scenarios(ScenarioCase):
         """mcs-sim, and a whole line for it."""
         line.start_broker()
         vehicles = line.start_vehicles(TIME_SCALE, batch.vehicles)
-        arm = line.start("openstream-sim", "--listen", "127.0.0.1:0", "--http", "127.0.0.1:0", "--time-scale", TIME_SCALE,
-                         *batch.arm)
+        arm = line.start_arm(TIME_SCALE, *batch.arm)
         vehicles.wait_ready()
         mcs = line.start("mcs-sim", "--listen", "127.0.0.1:0", *batch.mcs, *arguments)
         line.start_acsd(mcs.wait_ready()["ws"], arm.wait_ready(), *batch.acsd).wait_ready()

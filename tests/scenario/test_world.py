@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+"""The right carrier at the right place: what the simulated robots have moved, against what the plans demand and what acsd
+reports."""
+
+import json
+import re
+import unittest
+
+from scenario_case import FINISH_SECONDS, PLANS, SITE, ScenarioCase, main
+
+CR_PLAN = json.loads(PLANS[1].read_text())
+RELAYS = "/project/plc/set_relay_value"
+
+
+class World(ScenarioCase):
+    def run_plans(self, plans, *options, config=None):
+        """Plans through a whole line on one floor; returns mcs-sim after it has ended."""
+        self.line.share_world()
+        arm = self.start_robots()
+        mcs = self.line.start_mcs(plans, *options)
+        self.trace = self.line.folder / "trace"
+        self.line.start_acsd(mcs.wait_ready()["ws"], arm, config=config, arguments=("--trace", self.trace)).wait_ready()
+        self.exit_code = mcs.wait(FINISH_SECONDS)
+        return mcs
+
+    def read_events(self, *kinds):
+        """What is in the journal, but for what was placed by hand and where robots are docked."""
+        lines = (self.line.folder / "world.json.journal").read_text().splitlines()
+        return [event for event in map(json.loads, lines) if event["event"] in kinds]
+
+    def read_moves(self):
+        return [(event["event"], event.get("carrier"), event["from"], event["to"])
+                for event in self.read_events("CarrierMoved", "MemoryMoved")]
+
+    def write_plan(self, name, change):
+        plan = json.loads(json.dumps(CR_PLAN))
+        change(plan["steps"])
+        path = self.line.folder / name
+        path.write_text(json.dumps(plan))
+        return path
+
+    def write_config_with_swapped_inputs(self, action, first, second):
+        """The site's configuration, but each of the two relay words gets what the other one should."""
+        text = (SITE / "acsd.toml").read_text().replace('map = "site.lif.json"', f'map = "{SITE / "site.lif.json"}"')
+        section = re.search(rf"^\[actions\.{action}\]$.*?(?=^\[|\Z)", text, re.MULTILINE | re.DOTALL)
+        values = dict(re.findall(r'(ml\d+) = ("[^"]*")', section[0]))
+        swapped = {first: values[second], second: values[first]}
+        self.assertNotEqual(values[first], values[second])
+        changed = re.sub(r'(ml\d+) = ("[^"]*")', lambda match: f"{match[1]} = {swapped.get(match[1], match[2])}", section[0])
+        path = self.line.folder / "acsd.toml"
+        path.write_text(text.replace(section[0], changed))
+        return path
+
+    def read_inputs(self):
+        """The relay words of each job, in the order in which acsd had them written."""
+        texts = [json.loads(line) for file in sorted(self.trace.iterdir()) for line in file.read_text().splitlines()]
+        return [entry["text"] for entry in texts
+                if entry["link"] == "arm" and entry["direction"] == "out" and RELAYS in entry["text"]]
+
+    def assert_summary(self, mcs, deliveries, plans):
+        self.assertEqual(mcs.tail(2), [deliveries, plans])
+
+    def test_every_tray_and_memory_ends_where_the_plan_demands_it(self):
+        mcs = self.run_plans(PLANS[1:])
+        self.assert_summary(mcs, "2 carriers delivered, 0 misplaced", "1 plans completed, 0 failed")
+        self.assertEqual(self.exit_code, 0)
+        self.assertEqual(self.read_moves(), [
+            ("CarrierMoved", "TRAY_01", "A01.CP02.TP01", "CR01.TP01"),
+            ("CarrierMoved", "TRAY_02", "A01.CP02.TP02", "CR01.TP02"),
+            ("MemoryMoved", None, "CR01.TP01.MP01", "A01.SET01.MP01"),
+            ("MemoryMoved", None, "CR01.TP02.MP01", "A01.SET01.MP02"),
+            ("CarrierMoved", "TRAY_01", "CR01.TP01", "A01.CP02.TP03"),
+            ("CarrierMoved", "TRAY_02", "CR01.TP02", "A01.CP02.TP04")])
+
+    def test_the_inputs_of_two_jobs_differ_as_their_places_do(self):
+        self.run_plans(PLANS[1:])
+        self.assertEqual(self.exit_code, 0)
+        inputs = {}
+        for number, text in enumerate(self.read_inputs()):
+            for relay, value in re.findall(r'"(ml\d+)","value":(-?\d+)', self.flatten(text)):
+                inputs.setdefault(relay, []).append((number, int(value)))
+        # TrayLoad and TrayUnload have five words each, MemoryPickAndPlace has nine.
+        self.assertEqual([value for _, value in inputs["ml108"]], [1, 2, 1, 2, 3, 4])
+        self.assertEqual([value for _, value in inputs["ml107"]][:2], [2, 2])
+        self.assertEqual([value for _, value in inputs["ml109"]][:2], [1, 2])
+        numbers = [value for _, value in inputs["ml105"]]
+        self.assertEqual(len(set(numbers)), len(numbers))
+        self.assertEqual(len(numbers), 6)
+
+    @staticmethod
+    def flatten(text):
+        return re.sub(r"\s", "", text)
+
+    def test_swapped_inputs_of_an_unload_fail_the_plan(self):
+        """The arm would unload the port with the number of the tray's place: it is empty."""
+        mcs = self.run_plans(PLANS[1:], config=self.write_config_with_swapped_inputs("TrayUnload", "ml108", "ml109"))
+        self.assertEqual(self.exit_code, 1)
+        self.assert_summary(mcs, "0 carriers delivered, 0 misplaced", "0 plans completed, 1 failed")
+        self.assertEqual([move[2:] for move in self.read_moves() if move[2].startswith("CR01.TP0") and move[1]], [])
+
+    def test_swapped_inputs_that_the_arm_can_execute_are_found_by_the_mcs(self):
+        """The trays go crosswise onto the robot, so the swapped inputs move the other tray of the two each time: the arm
+        and acsd notice nothing."""
+        def cross(steps):
+            steps[0]["jobs"][0]["to"], steps[0]["jobs"][1]["to"] = "AMR.TP02", "AMR.TP01"
+            steps[2:] = []
+            steps[1]["jobs"][0]["from"], steps[1]["jobs"][1]["from"] = "AMR.TP02.MP01", "AMR.TP01.MP01"
+
+        mcs = self.run_plans([self.write_plan("cross.json", cross)],
+                             config=self.write_config_with_swapped_inputs("TrayLoad", "ml108", "ml109"))
+        self.assertEqual(self.exit_code, 1)
+        self.assert_summary(mcs, "0 carriers delivered, 2 misplaced", "1 plans completed, 0 failed")
+        output = mcs.log.read_text()
+        for carrier, origin, port in (("TRAY_01", 1, 2), ("TRAY_02", 2, 1)):
+            self.assertIn(f" violation: {CR_PLAN['planId']} JobReport step 1 Completed, but not moved: "
+                          f"CR01: {carrier} from A01.CP02.TP0{origin} to CR01.TP0{port}\n", output)
+            self.assertIn(f" violation: {CR_PLAN['planId']} {carrier} is at CR01.TP0{origin}, not at CR01.TP0{port}\n",
+                          output)
+
+    def test_repeated_plans_find_the_floor_that_they_need(self):
+        mcs = self.run_plans(PLANS, "--repeat", "2")
+        self.assert_summary(mcs, "6 carriers delivered, 0 misplaced", "4 plans completed, 0 failed")
+        self.assertEqual(self.exit_code, 0)
+
+    def test_without_restocking_the_plans_move_the_carriers_of_the_world_file(self):
+        mcs = self.run_plans(PLANS, "--fresh-ids", "--no-restock")
+        self.assert_summary(mcs, "3 carriers delivered, 0 misplaced", "2 plans completed, 0 failed")
+        self.assertEqual(self.exit_code, 0)
+        self.assertEqual(self.read_events("CarrierPlaced", "MemoryPlaced"), [])
+        self.assertIn(("CarrierMoved", "CASSETTE_01", "LR01.CP01", "A02.CP03"), self.read_moves())
+
+
+if __name__ == "__main__":
+    main()
