@@ -200,7 +200,7 @@ ApiResponse SetRelay(ControllerMachine& machine, const ApiCall& call)
     {
         return RefuseInput("value", "a number", Core::QuoteForError(command->value.GetText()));
     }
-    const Core::Result<void> written = machine.GetRelays().Write(*name, *value);
+    const Core::Result<void> written = machine.WriteRelay(*name, *value);
     return written.has_value() ? Succeed() : Refuse(written.error());
 }
 

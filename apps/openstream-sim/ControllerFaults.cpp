@@ -18,8 +18,9 @@ ControllerFaults::ControllerFaults(VirtualController& controller, IFaultHost& ho
       _silentUntil(now.steady),
       _now(now)
 {
-    _controller.GetMachine(now).SetProgramJudge(
-        [this](int number, bool bAtStart) { return ShouldFail(number, bAtStart); });
+    ControllerMachine& machine = _controller.GetMachine(now);
+    machine.SetProgramJudge([this](int number, bool bAtStart) { return ShouldFail(number, bAtStart); });
+    machine.SetRelayJudge([this] { return StoresWrongValue(); });
 }
 
 bool ControllerFaults::TryAdd(const Fault& fault, Core::Now now)
@@ -122,6 +123,7 @@ void ControllerFaults::Apply(const FaultChange& change)
         case EFaultKind::Slow:
         case EFaultKind::Refuse:
         case EFaultKind::ProgramFails:
+        case EFaultKind::WrongValue:
             break;
         default:
             assert(false && "unhandled EFaultKind");
@@ -151,6 +153,19 @@ bool ControllerFaults::ShouldFail(int number, bool bAtStart)
     const Fault* const fault = _board.FindOrNull(EFaultKind::ProgramFails, [bAtStart](const Fault& candidate) {
         return candidate.bAtStart == bAtStart;
     });
+    if (fault == nullptr)
+    {
+        return false;
+    }
+    _board.Use(*fault, _changes);
+    Finish();
+    return true;
+}
+
+/// Within a call of the controller: a client writes a relay.
+bool ControllerFaults::StoresWrongValue()
+{
+    const Fault* const fault = _board.FindOrNull(EFaultKind::WrongValue);
     if (fault == nullptr)
     {
         return false;

@@ -373,6 +373,21 @@ void ControllerMachine::SetProgramJudge(ProgramJudge shouldFail)
     _shouldFail = std::move(shouldFail);
 }
 
+void ControllerMachine::SetRelayJudge(RelayJudge storesWrongValue)
+{
+    _storesWrongValue = std::move(storesWrongValue);
+}
+
+Core::Result<void> ControllerMachine::WriteRelay(const RelayName& name, double value)
+{
+    Core::Result<void> written = _relays.Write(name, value);
+    if (written.has_value() && _storesWrongValue && _storesWrongValue())
+    {
+        return _relays.Write(name, value > 0.0 ? value - 1.0 : 1.0);
+    }
+    return written;
+}
+
 RelayMemory& ControllerMachine::GetRelays() noexcept
 {
     return _relays;

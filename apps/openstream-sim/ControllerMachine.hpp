@@ -42,6 +42,8 @@ enum class EAlarm : std::int32_t
 };
 /// Asked when a program has begun, and when it is at its good end: whether it fails there.
 using ProgramJudge = std::function<bool(int number, bool bAtStart)>;
+/// Asked when a client writes a relay: whether another value is stored.
+using RelayJudge = std::function<bool()>;
 
 /// What an operator or a client has set and what nothing but the answers depends on.
 struct ControllerSettings
@@ -77,6 +79,7 @@ class ControllerMachine
     bool _bProtectiveStop = false;
     bool _bCursorMoved = false; ///< By a start or stop: no selection before SetCursor.
     ProgramJudge _shouldFail;
+    RelayJudge _storesWrongValue;
     FloorWork _floorWork;
 
     void HandleEvents(Core::Duration elapsed);
@@ -145,6 +148,11 @@ public:
 
     /// Who lets programs fail; at first nobody.
     void SetProgramJudge(ProgramJudge shouldFail);
+    /// Who lets wrong values be stored; at first no one.
+    void SetRelayJudge(RelayJudge storesWrongValue);
+
+    /// set_relay_value; the name must lie inside its block.
+    [[nodiscard]] Core::Result<void> WriteRelay(const RelayName& name, double value);
 
     [[nodiscard]] RelayMemory& GetRelays() noexcept;
     [[nodiscard]] ControllerSettings& GetSettings() noexcept;

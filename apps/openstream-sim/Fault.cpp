@@ -92,7 +92,7 @@ constexpr std::array<Apps::FaultParameter<Fault>, 11> PARAMETERS{
           return Apps::ReadWordValue(text, MOMENTS, fault.bAtStart);
       }}}};
 
-constexpr std::array<Apps::FaultRow<Fault>, 10> ROWS{
+constexpr std::array<Apps::FaultRow<Fault>, 11> ROWS{
     {{EFaultKind::Silence, "silence", "", "connected and answering commands, but no data line leaves"},
      {EFaultKind::Hole, "hole", "", "the same, for 100 ms unless for says otherwise"},
      {EFaultKind::Drop, "drop", "", "closes each Open Stream connection without a line", true},
@@ -102,10 +102,8 @@ constexpr std::array<Apps::FaultRow<Fault>, 10> ROWS{
      {EFaultKind::EmergencyStop, "estop", "", "the emergency stop is pressed"},
      {EFaultKind::ProtectiveStop, "protective-stop", "", "a safeguard is open: the motor is off and stays so"},
      {EFaultKind::MotorOff, "motor-off", "", "the operator switches the motor off", true},
-     {EFaultKind::ProgramFails,
-      "program-fails",
-      "when count",
-      "the next program fails at its end, or where it begins"}}};
+     {EFaultKind::ProgramFails, "program-fails", "when count", "the next program fails at its end, or where it begins"},
+     {EFaultKind::WrongValue, "wrong-value", "count", "the next relay that a client writes gets another value"}}};
 
 /// What goes without saying, and what could never show.
 Core::Result<void> CheckWhole(Fault& fault, const std::set<std::string_view>& keys)

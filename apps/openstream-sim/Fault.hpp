@@ -26,6 +26,7 @@ enum class EFaultKind : std::uint8_t
     ProtectiveStop,
     MotorOff,
     ProgramFails,
+    WrongValue,
 };
 
 /// Which side of the controller a fault is about.

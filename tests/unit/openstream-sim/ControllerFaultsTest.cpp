@@ -270,6 +270,23 @@ TEST_CASE("9 The next program fails at its end, or where it begins, and the one 
     CHECK(harness.GetCounters() == "[4,2,2,14]");
 }
 
+TEST_CASE("9 The next relay that is written gets another value, and those after it their own")
+{
+    FaultHarness harness;
+    const auto write = [&harness](const std::string& name, int value) {
+        const std::string body = R"({"name":")" + name + R"(","value":)" + std::to_string(value) + "}";
+        REQUIRE(harness.Control("/project/plc/set_relay_value", body) == 200);
+    };
+    harness.Begin("wrong-value count=3");
+    CHECK(harness.Control("/project/plc/set_relay_value", R"({"name":"m1","value":7})") == 400); // not used up by that
+    write("ml105", 4711);
+    write("ml106", 0);
+    write("m3424", 1); // the first bit of ml107
+    write("ml108", 5);
+    CHECK(harness.GetOverHttp("/project/plc/m/val_s32?st=420&len=4") == "[4710,1,0,5]");
+    CHECK(harness.GetChanges() == Texts{"+wrong-value count=3", "-wrong-value count=3 it is used up"});
+}
+
 TEST_CASE("9 A fault with a program waits until that one begins")
 {
     FaultHarness harness;

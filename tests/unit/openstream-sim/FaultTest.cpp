@@ -69,6 +69,7 @@ TEST_CASE("9 A fault of a controller is its name and its parameters; some go wit
     CHECK(MakeFault("program-fails when=start").bAtStart);
     CHECK_FALSE(MakeFault("program-fails when=end").bAtStart);
     CHECK(MakeFault("program-fails count=2").maxUses == 2U);
+    CHECK(MakeFault("wrong-value count=3").maxUses == 3U);
     CHECK(MakeFault("  slow\ttime=1s ").text == "slow time=1s");
 }
 
