@@ -270,7 +270,8 @@ void PlanEngine::Impl::CollectWork()
             robot.bPauseWanted || robot.bResumeOwed,
             robot.bDoubtful,
             robot.drive.has_value() ? robot.storedWork.nodeIDs : ListNodes(robot),
-            robot.bCommandTaken};
+            robot.bCommandTaken,
+            robot.jobNumber};
         const bool bNothing =
             robot.storedWork.robotID.empty() && work.commandID.empty() && !work.bPauseAsked && work.nodeIDs.empty();
         // While it drives the nodes alone are no reason to write: they only become fewer.

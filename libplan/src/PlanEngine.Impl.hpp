@@ -184,6 +184,7 @@ public:
         std::optional<std::string> overdueJobID;
         std::optional<StartJob> job;         ///< Commanded, and its end not told: of the plan, or overdue.
         std::string commandID;               ///< Of its last drive or job.
+        std::int32_t jobNumber = 0;          ///< Of its last job; 0: none, or commanded by an older version.
         std::vector<std::string> earlierIDs; ///< Of those before, the latest first.
         bool bRecovering = false;            ///< After a restart: it was asked what became of the job.
         bool bUncertain = false;             ///< It cannot tell what became of the job: an operator has to.
@@ -468,6 +469,7 @@ private:
     [[nodiscard]] static bool HasJob(const ActivePlan& plan);
     [[nodiscard]] static const std::string& GetJobID(const ActivePlan& plan);
     [[nodiscard]] StartJob MakeStartJob(const Robot& robot) const;
+    [[nodiscard]] std::int32_t DrawJobNumber(std::int32_t previous);
 
     // Who does what (PlanEngine.Dispatch.cpp).
     void Dispatch();

@@ -100,6 +100,7 @@ void PlanEngine::Impl::RestoreRobot(const RobotWorkChanged& work)
     robot.storedWork = work;
     robot.commandID = work.commandID;
     robot.earlierIDs = work.earlierIDs;
+    robot.jobNumber = work.jobNumber;
     robot.trace = work;
     robot.bDoubtful = work.bDoubtful;
     robot.bCommandTaken = work.bCommandTaken;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace ACS::Planning
@@ -128,11 +129,22 @@ void PlanEngine::Impl::BeginJob(Robot& robot)
     const std::string repeated = std::exchange(plan.repeatedCommandID, {});
     StartJob job = MakeStartJob(robot);
     job.commandID = repeated.empty() ? Core::MakeUuid(_random) : repeated;
+    const bool bNumberKept = !repeated.empty() && robot.jobNumber != 0;
+    robot.jobNumber = bNumberKept ? robot.jobNumber : DrawJobNumber(robot.jobNumber);
+    job.jobNumber = robot.jobNumber;
     job.mark = robot.state.has_value() ? robot.state->mark : std::string();
     NoteCommand(robot, job.commandID);
     robot.job = job;
     Command(robot, std::move(job));
     LimitJob(robot);
+}
+
+/// 1 to 2^31 - 1, and not the previous one.
+std::int32_t PlanEngine::Impl::DrawJobNumber(std::int32_t previous)
+{
+    constexpr std::int32_t MAXIMUM = std::numeric_limits<std::int32_t>::max();
+    const auto drawn = static_cast<std::int32_t>(_random.GetNext() % static_cast<std::uint64_t>(MAXIMUM)) + 1;
+    return drawn == previous ? previous % MAXIMUM + 1 : drawn;
 }
 
 void PlanEngine::Impl::NoteCommand(Robot& robot, const std::string& commandID)

@@ -165,7 +165,8 @@ struct JsonFields<Planning::StartJob>
         Optional("to", &Planning::StartJob::to),
         Optional("carrierId", &Planning::StartJob::carrierID),
         Required("commandId", &Planning::StartJob::commandID),
-        Optional("mark", &Planning::StartJob::mark));
+        Optional("mark", &Planning::StartJob::mark),
+        Optional("jobNumber", &Planning::StartJob::jobNumber));
 };
 
 template <>
@@ -180,7 +181,8 @@ struct JsonFields<Planning::RobotWorkChanged>
         Optional("pauseAsked", &Planning::RobotWorkChanged::bPauseAsked),
         Optional("doubtful", &Planning::RobotWorkChanged::bDoubtful),
         Optional("nodeIds", &Planning::RobotWorkChanged::nodeIDs),
-        Optional("commandTaken", &Planning::RobotWorkChanged::bCommandTaken));
+        Optional("commandTaken", &Planning::RobotWorkChanged::bCommandTaken),
+        Optional("jobNumber", &Planning::RobotWorkChanged::jobNumber));
 };
 
 template <>

@@ -48,6 +48,7 @@ public:
     bool bIgnoresDriveCancel = false;
     bool bStuck = false;        ///< Takes its drive and stays where it is.
     bool bDeaf = false;         ///< No drive reaches it.
+    bool bMissesJobs = false;   ///< No job reaches it.
     bool bIgnoresPause = false; ///< Neither stops nor goes on, as one that does not hear.
     bool bFinishesJobs = false; ///< A job that runs is not paused: the robot stands when it is done.
     bool bIgnoresCharging = false;
@@ -59,7 +60,9 @@ public:
     std::size_t drives = 0;
     std::size_t ranOverBase = 0; ///< Extensions that were needed and had not come when the base ended.
     std::vector<std::string> doneJobs;
-    std::string uncertainReason; ///< Not empty: it cannot tell what became of a job.
+    std::vector<Planning::StartJob> commandedJobs; ///< As they came, repeated ones too.
+    std::vector<Planning::StartJob> recoveredJobs; ///< Of which it was asked what became of them.
+    std::string uncertainReason;                   ///< Not empty: it cannot tell what became of a job.
 
     [[nodiscard]] const std::string& GetDriveID() const noexcept
     {
@@ -122,13 +125,21 @@ public:
                 [this, &out](const Planning::ExtendDrive& extend) { Extend(extend, out); },
                 [this, &out](const Planning::CancelDrive& cancel) { Cancel(cancel, out); },
                 [this, &out](const Planning::StartJob& job) {
+                    commandedJobs.push_back(job);
+                    if (bMissesJobs)
+                    {
+                        return;
+                    }
                     _jobID = job.jobID;
                     _commandID = job.commandID;
                     _shownCommandID = job.commandID;
                     _bJobStarted = false;
                     StartTimer(JOB_TIMER, 500, out);
                 },
-                [this, &out](const Planning::RecoverJob& recover) { Recover(recover.job, out); },
+                [this, &out](const Planning::RecoverJob& recover) {
+                    recoveredJobs.push_back(recover.job);
+                    Recover(recover.job, out);
+                },
                 [this, &out](const Planning::CancelJob& job) {
                     if (bIgnoresJobCancel || job.jobID != _jobID)
                     {

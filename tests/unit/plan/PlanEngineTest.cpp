@@ -192,7 +192,8 @@ TEST_CASE("VDA5050: every drive has a base and is extended before the robot reac
     PlanWorld world;
     world.Connect();
     world.Submit(MakeLogisticsPlan("P1"));
-    world.Submit(MakeControlPlan("P2"));
+    REQUIRE(world.TryRun());
+    world.Submit(MakeControlPlan("P2")); // alone, too: who waits for another robot stands at the end of its base
     REQUIRE(world.TryRun());
     for (const std::string robotID : {"LR01", "CR01"})
     {

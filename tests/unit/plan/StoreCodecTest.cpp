@@ -24,6 +24,26 @@ TEST_CASE("Store texts: plans, states, carriers and alarms come back as they wen
     CHECK(DecodeAlarm(EncodeAlarm(alarm)) == alarm);
 }
 
+TEST_CASE("Store texts: a robot's work comes back with its job, also as older versions wrote it")
+{
+    RobotWorkChanged work;
+    work.robotID = "CR01";
+    work.commandID = "command";
+    work.job =
+        StartJob{"P1", 2, "J1", "TrayLoad", "A01.CP01", "A01.CP01.TP01", "CR01.TP01", "TRAY_01", "command", "m", 4711};
+    work.jobNumber = 4711;
+    CHECK(DecodeRobotWork(EncodeRobotWork(work)) == work);
+
+    const Core::Result<RobotWorkChanged> old = DecodeRobotWork(
+        R"({"robotId":"CR01","commandId":"command","job":{"planId":"P1","stepNo":2,"jobId":"J1","action":"TrayLoad",)"
+        R"("position":"A01.CP01","from":"A01.CP01.TP01","to":"CR01.TP01","carrierId":"TRAY_01","commandId":"command",)"
+        R"("mark":"m"}})");
+    REQUIRE(old.has_value());
+    work.jobNumber = 0;
+    work.job->jobNumber = 0;
+    CHECK(*old == work);
+}
+
 TEST_CASE("Store texts: what was accepted comes back however long it is")
 {
     constexpr std::size_t LONGEST_MESSAGE_BY_DEFAULT = 4U * 1024 * 1024;

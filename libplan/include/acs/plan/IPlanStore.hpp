@@ -79,6 +79,7 @@ struct RobotWorkChanged
     /// Where it may be: while it drives what was left of its way when this was written down, else where it stands.
     std::vector<std::string> nodeIDs;
     bool bCommandTaken = false; ///< It has shown that it had one of these commands: showing none, it was switched off.
+    std::int32_t jobNumber = 0; ///< StartJob::jobNumber of its last job; 0: none yet.
 
     bool operator==(const RobotWorkChanged&) const = default;
 };
