@@ -74,6 +74,22 @@ public:
         }
     }
 
+    void CheckReach(const std::string& stationID, const std::vector<std::string>& reached)
+    {
+        const std::string path = fmt::format("stations.\"{}\".reach", stationID);
+        if (_site.FindStationOrNull(stationID) == nullptr)
+        {
+            Add(path, "a station of the site map", stationID);
+        }
+        for (const std::string& other : reached)
+        {
+            if (_site.FindStationOrNull(other) == nullptr)
+            {
+                Add(path, "stations of the site map", other);
+            }
+        }
+    }
+
     [[nodiscard]] std::vector<Core::Error> TakeMistakes()
     {
         return std::move(_mistakes);
@@ -168,6 +184,10 @@ std::vector<Core::Error> FindMistakes(const EngineOptions& options, const SiteMa
         finder.Check(robot);
     }
     finder.CheckPlaces(options.places);
+    for (const auto& [stationID, reached] : options.reach)
+    {
+        finder.CheckReach(stationID, reached);
+    }
     if (options.baseLength == 0)
     {
         finder.Add("traffic.base_length", "at least 1", "0");

@@ -52,9 +52,10 @@ Core::Result<void> CheckID(const std::string& text, std::string path, bool bMayB
     return {};
 }
 
-bool IsSet(const Core::Location& dock)
+bool IsInside(const Core::Location& place, const std::string& stationID)
 {
-    return dock.GetSegments().back().kind == Core::ESegmentKind::Set;
+    const std::string dock = place.GetDockingPlace().GetText();
+    return dock == stationID || dock.starts_with(stationID + '.');
 }
 
 std::string_view DescribeRule(EPlaceRule rule)
@@ -356,61 +357,57 @@ Core::Result<std::optional<Core::Location>> PlanAdmission::ResolvePlace(
     {
         return tl::unexpected(std::move(checked.error()));
     }
-    if (!place.IsRobotPort() && !IsAt(place, position))
+    if (!place.IsRobotPort() && !IsWithinReach(place, position))
     {
         return Refuse(
             ECoreError::InvalidLocation,
             path,
-            fmt::format("a place within reach of {}, the step's position", position.GetText()),
+            fmt::format(
+                "a place within reach of {0}, the step's position (stations.\"{0}\".reach does not list {1})",
+                position.GetText(),
+                place.GetDockingPlace().GetText()),
             place.GetOriginalText());
     }
     return std::optional(std::move(place));
 }
 
-/// Section 4.1: the jobs of a step are done without the robot moving. An arm reaches the sets around the one where it stands,
-/// which ones the map does not say; places of other stations that have a node with the position's are within its reach too.
-bool PlanAdmission::IsAt(const Core::Location& place, const Core::Location& position) const
+/// Section 4.1: the jobs of a step are done without the robot moving. What a robot can work at from a station the map does
+/// not say: only the configuration does.
+bool PlanAdmission::IsWithinReach(const Core::Location& place, const Core::Location& position) const
 {
-    const Core::Location dock = place.GetDockingPlace();
-    if (dock.GetText() == position.GetText() || dock.GetText().starts_with(position.GetText() + '.'))
+    if (IsInside(place, position.GetText()))
     {
         return true;
     }
-    if (IsSet(dock) && IsSet(position) && position.HasArea())
-    {
-        return dock.GetAreaNumberOrNull() == position.GetAreaNumberOrNull();
-    }
-    const SiteStation* dockOrNull = _site.FindStationOrNull(dock.GetText());
-    const SiteStation* stationOrNull = _site.FindStationOrNull(position.GetText());
-    return dockOrNull != nullptr && stationOrNull != nullptr
-        && std::ranges::any_of(dockOrNull->nodeIDs, [stationOrNull](const std::string& nodeID) {
-               return std::ranges::count(stationOrNull->nodeIDs, nodeID) > 0;
+    const auto reach = _options.reach.find(position.GetText());
+    return reach != _options.reach.end() && std::ranges::any_of(reach->second, [&place](const std::string& stationID) {
+               return IsInside(place, stationID);
            });
 }
 
 /// A port has one carrier. What is on it before the plan nobody knows here.
 Core::Result<void> PlanAdmission::CheckPorts(const Plan& plan, const ResolvedPlan& resolved)
 {
-    std::map<std::string, EActionEffect> latest; // by port, whichever the robot is
+    std::map<std::string, bool> filled; // by port, whichever the robot is
     for (std::size_t i = 0; i < resolved.steps.size(); ++i)
     {
         const ResolvedStep& step = resolved.steps[i];
-        const bool bLoad = step.rule->effect == EActionEffect::Load;
-        for (std::size_t job = 0; step.rule->effect != EActionEffect::None && job < step.jobs.size(); ++job)
+        for (std::size_t end = 0; end < 2 * step.jobs.size(); ++end)
         {
-            const std::optional<Core::Location>& port = bLoad ? step.jobs[job].to : step.jobs[job].from;
-            if (!port.has_value() || !port->IsRobotPort())
+            const std::size_t job = end / 2;
+            const bool bFills = end % 2 == 1; // the from of a job, then its to
+            const std::optional<Core::Location>& port = bFills ? step.jobs[job].to : step.jobs[job].from;
+            if (!ChangesPort(step.rule->effect, bFills) || !port.has_value() || !port->IsRobotPort())
             {
                 continue;
             }
-            const auto [known, bFirst] =
-                latest.emplace(port->GetText().substr(port->GetText().find('.')), step.rule->effect);
-            if (!bFirst && std::exchange(known->second, step.rule->effect) == step.rule->effect)
+            const auto [known, bFirst] = filled.emplace(port->GetText().substr(port->GetText().find('.')), bFills);
+            if (!bFirst && std::exchange(known->second, bFills) == bFills)
             {
                 return Refuse(
                     ECoreError::InvalidLocation,
-                    fmt::format("steps[{}].jobs[{}].{}", i, job, bLoad ? "to" : "from"),
-                    bLoad ? "a port that no job before has loaded" : "a port that no job before has unloaded",
+                    fmt::format("steps[{}].jobs[{}].{}", i, job, bFills ? "to" : "from"),
+                    bFills ? "a port that no job before has loaded" : "a port that no job before has unloaded",
                     fmt::format("{} for job {}", port->GetOriginalText(), plan.steps[i].jobs[job].jobID));
             }
         }

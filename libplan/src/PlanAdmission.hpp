@@ -16,6 +16,12 @@
 namespace ACS::Planning
 {
 
+/// Whether a job of this effect fills the port in its to, or empties the port in its from.
+[[nodiscard]] constexpr bool ChangesPort(EActionEffect effect, bool bFills) noexcept
+{
+    return effect == EActionEffect::Move || effect == (bFills ? EActionEffect::Load : EActionEffect::Unload);
+}
+
 /// The places of a job; a robot's port may still have the alias AMR.
 struct ResolvedJob
 {
@@ -51,7 +57,7 @@ class PlanAdmission
         EPlaceRule rule,
         const Core::Location& position,
         const std::string& path) const;
-    [[nodiscard]] bool IsAt(const Core::Location& place, const Core::Location& position) const;
+    [[nodiscard]] bool IsWithinReach(const Core::Location& place, const Core::Location& position) const;
     [[nodiscard]] Core::Result<void> CheckPlace(const Core::Location& place, EPlaceRule rule, const std::string& path)
         const;
     [[nodiscard]] static Core::Result<void> CheckPorts(const Plan& plan, const ResolvedPlan& resolved);

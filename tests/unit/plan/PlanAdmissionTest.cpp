@@ -145,26 +145,44 @@ TEST_CASE("4.1 A port may be loaded again behind an unload; one that is taken by
     CHECK(world.replies.at(1).bAccepted);
 }
 
-TEST_CASE("4.1 A place of another station is within the reach of a step where the two stations have a node in common")
+TEST_CASE("4.1 A place outside the step's position is refused unless the reach of that position lists its station")
 {
     const SiteMap site = ACS::Testing::MakeTestSite();
     std::vector<SiteStation> stations = site.GetStations();
-    for (SiteStation& station : stations)
+    // A node in common does not bring a place within reach, nor does the area of a set.
+    std::ranges::find(stations, "A01.CP02", &SiteStation::stationID)->nodeIDs.emplace_back("D-A01.CP01");
+    Plan cassette = MakeLogisticsPlan("P1");
+    cassette.steps[0].jobs[0].from = "A01.CP02";
+    Plan tray = MakeControlPlan("P2");
+    tray.steps[0].jobs[1].from = "A01.CP02.TP01";
+    Plan memory = MakeControlPlan("P3");
+    memory.steps[1].jobs[1].to = "SET02.MP07";
+    const std::vector<std::pair<Plan, std::string>> plans{
+        {cassette,
+         "steps[0].jobs[0].from: expected a place within reach of A01.CP01, the step's position "
+         "(stations.\"A01.CP01\".reach does not list A01.CP02), found A01.CP02"},
+        {tray, "(stations.\"A01.CP01\".reach does not list A01.CP02), found A01.CP02.TP01"},
+        {memory, "(stations.\"A01.SET01\".reach does not list A01.SET02), found SET02.MP07"}};
+    for (const auto& [plan, refusal] : plans)
     {
-        if (station.stationID == "A01.CP02")
+        for (const bool bListed : {false, true})
         {
-            station.nodeIDs.emplace_back("D-A01.CP01");
+            INFO(plan.planID << (bListed ? " listed" : ""));
+            EngineOptions options = ACS::Testing::MakeTestOptions(false);
+            options.reach["A01.CP02"] = {"A01.CP01"}; // what can be reached from there is another matter
+            options.reach["A01.SET02"] = {"A01.SET01"};
+            if (bListed)
+            {
+                options.reach["A01.CP01"] = {"A01.CP03", "A01.CP02"};
+                options.reach["A01.SET01"] = {"A01.SET02"};
+            }
+            PlanWorld world(1, options, *SiteMap::Create(site.GetNodes(), site.GetEdges(), stations));
+            world.Submit(plan, 1);
+            INFO(world.replies.at(1).message);
+            CHECK(world.replies.at(1).bAccepted == bListed);
+            CHECK((bListed || world.replies.at(1).message.find(refusal) != std::string::npos));
         }
     }
-    PlanWorld world(
-        1,
-        ACS::Testing::MakeTestOptions(false),
-        *SiteMap::Create(site.GetNodes(), site.GetEdges(), stations));
-    world.Connect();
-    Plan plan = MakeLogisticsPlan("P1");
-    plan.steps[0].jobs[0].from = "A01.CP02";
-    world.Submit(plan, 1);
-    CHECK(world.replies.at(1).bAccepted);
 }
 
 TEST_CASE("4.1 Absent, null and superfluous places, lower case, gaps and disorder are no reason to refuse")
@@ -177,6 +195,7 @@ TEST_CASE("4.1 Absent, null and superfluous places, lower case, gaps and disorde
         {3, "opensetcover", "a01.set1", {}, {}},
         {5, "MemoryPickAndPlace", "SET02", {}, {{"J1", "AMR.TP01.MP01", "SET02.MP05"}}}};
     world.Connect();
+    world.Ask(SetCarriers{"CR01", {"TRAY_01", {}, {}}, 2});
     world.Submit(plan, 1);
     REQUIRE(world.replies.at(1).bAccepted);
     CHECK(world.engine->GetPlanOrNull("P1")->currentAction == "OpenSetCover");
@@ -231,11 +250,17 @@ TEST_CASE("Options that do not fit the site are all told at once")
     options.robots[1].startNodeID = "nowhere";
     options.places.push_back(*ACS::Core::Location::Parse("A77.CP01.TP01"));
     options.places.push_back(*ACS::Core::Location::Parse("A77.CP01.TP02"));
+    options.reach["A01.CP01"] = {"A01.CP02", "A77.CP02"};
+    options.reach["A77.CP03"] = {"A01.CP01"};
     const std::vector<ACS::Core::Error> mistakes = FindMistakes(options, ACS::Testing::MakeTestSite());
-    REQUIRE(mistakes.size() == 4);
+    REQUIRE(mistakes.size() == 6);
     CHECK(mistakes[0].path == "robots.LR01.vehicle_type");
     CHECK(mistakes[1].path == "robots.CR01.start_node");
     CHECK(mistakes[2].path == "robots.CR01.home");
     CHECK(mistakes[3].path == "site.ports");
     CHECK(mistakes[3].found == "A77.CP01.TP01");
+    CHECK(mistakes[4].path == "stations.\"A01.CP01\".reach");
+    CHECK(mistakes[4].found == "A77.CP02");
+    CHECK(mistakes[5].path == "stations.\"A77.CP03\".reach");
+    CHECK(mistakes[5].found == "A77.CP03");
 }
