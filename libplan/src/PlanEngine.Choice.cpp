@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <set>
 #include <string_view>
 #include <utility>
 
@@ -213,38 +212,36 @@ std::optional<std::size_t> PlanEngine::Impl::FindPortOrNull(
         return std::nullopt;
     }
     const Core::Result<Core::Location> port = place->WithRobot(_options.robots[robot.index].robotID);
+    return port.has_value() ? FindNamedPortOrNull(robot, port->GetText()) : std::nullopt;
+}
+
+std::optional<std::size_t> PlanEngine::Impl::FindNamedPortOrNull(const Robot& robot, std::string_view name)
+{
     const std::vector<Core::Location>& ports = robot.options->ports;
-    const auto found = port.has_value() ? std::ranges::find(ports, *port) : ports.end();
+    const auto found =
+        std::ranges::find_if(ports, [name](const Core::Location& port) { return port.GetText() == name; });
     return found == ports.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - ports.begin()));
 }
 
-/// The plan's first load or unload of each port, held against what the robot is known to have there. What a plan does to a
-/// port afterwards is its own affair: if it is wrong, no other robot does it better.
+/// The plan's first load or unload of each port, checked against what the robot is known to have there, and the trays that
+/// its memory jobs need. What a plan does to a port afterwards is its own affair: if it is wrong, no other robot does it
+/// better.
 PlanEngine::Impl::PortVerdict PlanEngine::Impl::JudgePorts(const ActivePlan& plan, const Robot& robot) const
 {
     PortVerdict verdict;
-    std::set<std::size_t> judged;
+    PortContents planned;
     for (std::size_t step = 0; step < plan.resolved.steps.size(); ++step)
     {
-        const ResolvedStep& resolved = plan.resolved.steps[step];
-        if (resolved.rule->effect == EActionEffect::None)
-        {
-            continue;
-        }
-        const bool bLoad = resolved.rule->effect == EActionEffect::Load;
         const std::vector<std::string>& carrierIDs = plan.record.plan.steps[step].carrierIDs;
-        for (std::size_t job = 0; job < resolved.jobs.size(); ++job)
+        for (std::size_t job = 0; job < plan.resolved.steps[step].jobs.size(); ++job)
         {
-            const std::optional<std::size_t> port =
-                FindPortOrNull(robot, bLoad ? resolved.jobs[job].to : resolved.jobs[job].from);
-            if (!port.has_value() || !judged.insert(*port).second)
-            {
-                continue;
-            }
-            const std::string carrierID = job < carrierIDs.size() ? carrierIDs[job] : std::string();
-            verdict.bSupposed = verdict.bSupposed || (!bLoad && !robot.carriers[*port].has_value());
-            verdict.objectionOrNull =
-                bLoad ? GetLoadObjectionOrNull(robot, *port) : GetUnloadObjectionOrNull(robot, *port, carrierID);
+            JudgeJob(
+                robot,
+                plan.resolved.steps[step],
+                job,
+                job < carrierIDs.size() ? carrierIDs[job] : std::string(),
+                planned,
+                verdict);
             if (verdict.objectionOrNull.has_value())
             {
                 return verdict;
@@ -252,6 +249,86 @@ PlanEngine::Impl::PortVerdict PlanEngine::Impl::JudgePorts(const ActivePlan& pla
         }
     }
     return verdict;
+}
+
+void PlanEngine::Impl::JudgeJob(
+    const Robot& robot,
+    const ResolvedStep& step,
+    std::size_t job,
+    const std::string& carrierID,
+    PortContents& planned,
+    PortVerdict& verdict) const
+{
+    const ResolvedJob& places = step.jobs[job];
+    if (std::optional<std::string> objection = GetTrayObjectionOrNull(robot, places, planned))
+    {
+        verdict.objectionOrNull = std::move(objection);
+        return;
+    }
+    for (const bool bFills : {false, true})
+    {
+        const std::optional<std::size_t> port = ChangesPort(step.rule->effect, bFills)
+            ? FindPortOrNull(robot, bFills ? places.to : places.from)
+            : std::nullopt;
+        if (!port.has_value() || !planned.insert_or_assign(*port, bFills).second)
+        {
+            continue;
+        }
+        verdict.bSupposed = verdict.bSupposed || (!bFills && !robot.carriers[*port].has_value());
+        verdict.objectionOrNull =
+            bFills ? GetLoadObjectionOrNull(robot, *port) : GetUnloadObjectionOrNull(robot, *port, carrierID);
+        if (verdict.objectionOrNull.has_value())
+        {
+            return;
+        }
+    }
+}
+
+/// A memory place on a robot is inside a tray: the tray must be on record on its port, or be loaded by a job before.
+std::optional<std::string> PlanEngine::Impl::GetTrayObjectionOrNull(
+    const Robot& robot,
+    const ResolvedJob& job,
+    const PortContents& planned) const
+{
+    for (const std::optional<Core::Location>* place : {&job.from, &job.to})
+    {
+        if (!place->has_value() || !(*place)->IsMemoryPort() || !(*place)->IsRobotPort())
+        {
+            continue;
+        }
+        const std::string_view memory = (*place)->GetText();
+        const std::size_t begin = memory.find('.'); // whichever the robot is
+        const std::size_t end = memory.rfind('.');
+        const std::string_view tray = memory.substr(begin, end - begin);
+        const std::vector<Core::Location>& ports = robot.options->ports;
+        const auto found = std::ranges::find_if(ports, [tray](const Core::Location& port) {
+            const std::string_view text = port.GetText();
+            return text.substr(text.find('.')) == tray;
+        });
+        if (found == ports.end())
+        {
+            continue;
+        }
+        const auto port = static_cast<std::size_t>(found - ports.begin());
+        const auto known = planned.find(port);
+        const bool bThere = known == planned.end() ? robot.carriers[port].has_value() : known->second;
+        if (!bThere)
+        {
+            return fmt::format(
+                "{} has no tray for {}",
+                found->GetText(),
+                found->GetText() + std::string(memory.substr(end)));
+        }
+    }
+    return std::nullopt;
+}
+
+/// Of the present job.
+std::optional<std::string> PlanEngine::Impl::GetTrayObjectionOrNull(const Robot& robot) const
+{
+    const ActivePlan& plan = *robot.planOrNull;
+    return HasJob(plan) ? GetTrayObjectionOrNull(robot, plan.resolved.steps[plan.step].jobs[plan.job], {})
+                        : std::nullopt;
 }
 
 std::optional<std::string> PlanEngine::Impl::GetLoadObjectionOrNull(const Robot& robot, std::size_t port) const
@@ -408,6 +485,14 @@ std::optional<WaitReason> PlanEngine::Impl::DescribeBegunOrNull(const ActivePlan
         reason.message = fmt::format("{} does not get on: {}.", GetRobotID(robot), DescribeStall(robot));
         return reason;
     }
+    if (robot.activity == EActivity::Waits && IsAtPlace(robot))
+    {
+        const std::optional<std::string> objection = GetTrayObjectionOrNull(robot);
+        reason.message = objection.has_value()
+            ? fmt::format("{}: load the tray by hand and correct the record.", *objection)
+            : GetRobotID(robot) + " is about to work.";
+        return reason;
+    }
     const bool bAtBaseEnd = robot.drive.has_value() && !robot.state->bDriving && IsAtBaseEnd(*robot.drive);
     if (robot.activity != EActivity::Waits || (robot.drive.has_value() && !bAtBaseEnd))
     {
@@ -429,16 +514,16 @@ std::string PlanEngine::Impl::DescribeStanding(const Robot& robot) const
     {
         const RouteNode& next = robot.drive->route.nodes[robot.drive->releasedCount];
         return fmt::format(
-            "{} waits for node {} on its way{}.",
+            "{} waits for node {} on its route{}.",
             GetRobotID(robot),
             next.nodeID,
-            holders.empty() ? "" : ", for the sake of " + holders);
+            holders.empty() ? "" : ", until it is clear of " + holders);
     }
     if (holders.empty())
     {
         return GetRobotID(robot) + " is about to drive.";
     }
-    return fmt::format("{} waits for its way, for the sake of {}.", GetRobotID(robot), holders);
+    return fmt::format("{} waits for {} to clear its route.", GetRobotID(robot), holders);
 }
 
 } // namespace ACS::Planning

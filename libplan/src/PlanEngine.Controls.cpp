@@ -288,7 +288,10 @@ void PlanEngine::Impl::StopDrive(ActivePlan& plan, EPlanControl control)
 
 void PlanEngine::Impl::EndByControl(ActivePlan& plan, EPlanControl control)
 {
-    EndPlan(plan, control == EPlanControl::Cancel ? EPlanState::Cancelled : EPlanState::Aborted, {});
+    EndPlan(
+        plan,
+        control == EPlanControl::Cancel ? EPlanState::Cancelled : EPlanState::Aborted,
+        fmt::format("Ended by {}Plan.", GetText(control)));
 }
 
 /// Section 6.7, register D-21, D-22. A plan without a robot is held in the queue; a robot that stands is just held; one
@@ -306,7 +309,7 @@ void PlanEngine::Impl::Pause(ActivePlan& plan)
     if (!plan.robot.has_value())
     {
         _pending.erase(plan.key);
-        ChangePlan(plan, EPlanState::Paused, {});
+        ChangePlan(plan, EPlanState::Paused, "Held in the queue by PausePlan.");
         Answer(plan, true, "The plan is held in the queue.");
         return;
     }
@@ -350,7 +353,7 @@ void PlanEngine::Impl::Resume(ActivePlan& plan)
     Ask(plan, EPlanControl::Resume);
     if (!plan.robot.has_value())
     {
-        LeavePause(plan);
+        LeavePause(plan, "Resumed by ResumePlan.");
         _pending.emplace(plan.key, &plan);
         Answer(plan, true, "The plan waits in the queue again.");
         _bDispatchNeeded = true;
@@ -416,7 +419,7 @@ void PlanEngine::Impl::ConfirmPause(Robot& robot)
     robot.bTouched = true;
     if (plan.record.progress.state != EPlanState::Paused)
     {
-        ChangePlan(plan, EPlanState::Paused, {});
+        ChangePlan(plan, EPlanState::Paused, "Paused by PausePlan.");
     }
     Answer(plan, true, "The plan is paused.");
 }
@@ -426,14 +429,14 @@ void PlanEngine::Impl::ConfirmResume(Robot& robot)
 {
     ActivePlan& plan = *robot.planOrNull;
     TellStatus(robot, DeriveStatus(robot));
-    LeavePause(plan);
+    LeavePause(plan, "Resumed by ResumePlan.");
     Answer(plan, true, "The plan goes on.");
     GoOn(robot);
 }
 
-void PlanEngine::Impl::LeavePause(ActivePlan& plan)
+void PlanEngine::Impl::LeavePause(ActivePlan& plan, std::string message)
 {
-    ChangePlan(plan, plan.robot.has_value() ? EPlanState::InProgress : EPlanState::Pending, {});
+    ChangePlan(plan, plan.robot.has_value() ? EPlanState::InProgress : EPlanState::Pending, std::move(message));
 }
 
 /// The robot's own pause ends, where the engine has asked for it.
@@ -549,7 +552,7 @@ void PlanEngine::Impl::OnControlTimeout(Robot& robot)
     }
     if (plan.record.progress.state == EPlanState::Paused)
     {
-        LeavePause(plan);
+        LeavePause(plan, "PausePlan failed: the robot did not confirm that it stopped.");
     }
     Answer(plan, false, "The robot did not confirm that it stopped; the plan goes on.");
     GoOn(robot);

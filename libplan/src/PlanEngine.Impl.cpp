@@ -55,8 +55,9 @@ void PlanEngine::Impl::HandleCommand(const PlanCommand& command, Core::Now now, 
             [this](const SettleJob& settle) { Settle(settle); },
             [this](const SetMaintenance& maintenance) { Maintain(maintenance); },
             [this](const ClearAlarms& clear) { ClearByOperator(clear); },
-            [this](const SetCarriers& carriers) {
-                CorrectCarriers(carriers);
+            [this](const SetCarriers& carriers) { CorrectCarriers(carriers); },
+            [this](const SkipStep& skip) {
+                Skip(skip);
             }},
         command);
     if (!std::holds_alternative<MessageAcknowledged>(command))
@@ -390,19 +391,24 @@ void PlanEngine::Impl::ChangePlan(ActivePlan& plan, EPlanState state, std::strin
 
 void PlanEngine::Impl::ChangeStep(ActivePlan& plan, EStepState state, std::string message)
 {
-    StepProgress& progress = plan.record.progress.steps[plan.step];
+    ChangeStepAt(plan, plan.step, state, std::move(message));
+}
+
+void PlanEngine::Impl::ChangeStepAt(ActivePlan& plan, std::size_t index, EStepState state, std::string message)
+{
+    StepProgress& progress = plan.record.progress.steps[index];
     assert(CanChange(progress.state, state));
     const EStepState from = std::exchange(progress.state, state);
     _progressed.insert(plan.record.plan.planID);
     const std::string_view transactionID = TellReport(StepReport{
         plan.record.plan.planID,
         plan.record.progress.robotID,
-        plan.record.plan.steps[plan.step].stepNo,
+        plan.record.plan.steps[index].stepNo,
         state,
         std::move(message)});
     if (_observerOrNull != nullptr)
     {
-        _observerOrNull->OnStepChanged(plan.record, plan.step, from, transactionID, _now);
+        _observerOrNull->OnStepChanged(plan.record, index, from, transactionID, _now);
     }
 }
 

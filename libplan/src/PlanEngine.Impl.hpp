@@ -31,6 +31,7 @@ inline constexpr std::string_view ALARM_DROPPED = "ACS-1007";
 inline constexpr std::string_view ALARM_UNCERTAIN = "ACS-1008";
 inline constexpr std::string_view ALARM_STALL = "ACS-1009";
 inline constexpr std::string_view ALARM_CHARGE = "ACS-1010";
+inline constexpr std::string_view ALARM_LOADS = "ACS-1011";
 inline constexpr std::string_view ALARM_OUTBOX = "ACS-1020";
 /// What alarms of the engine begin with; others are errors that robots told.
 inline constexpr std::string_view ALARM_PREFIX = "ACS-";
@@ -65,7 +66,7 @@ public:
         std::size_t job = 0;
         std::string madeJobID; ///< Of a step without jobs.
         std::optional<std::size_t> robot;
-        bool bStepArrived = false;     ///< The present step's place was reached, and told.
+        bool bStepArrived = false;     ///< Arrival was reported for the present step, and its drive.
         bool bJobBegun = false;        ///< Any of its jobs.
         bool bUnstored = false;        ///< That it was begun could not be stored: its first job waits for that.
         bool bStepOwed = false;        ///< The present step is begun when the pause ends.
@@ -96,12 +97,22 @@ public:
         Occupied,
     };
 
+    /// A port of a robot that a job empties or fills.
+    struct PortUse
+    {
+        std::size_t port = 0;
+        bool bFills = false;
+    };
+
     /// Whether a robot's ports fit a plan.
     struct PortVerdict
     {
         std::optional<std::string> objectionOrNull;
         bool bSupposed = false; ///< A carrier that it is to unload was put on by hand, if it is there at all.
     };
+
+    /// By port: whether a plan's jobs so far have filled it, or emptied it.
+    using PortContents = std::map<std::size_t, bool>;
 
     enum class EGoal : std::uint8_t
     {
@@ -203,6 +214,8 @@ public:
         Core::SteadyTime progressAt;            ///< When it was seen to get on, or was given leave to.
         bool bStalled = false;                  ///< Its alarm is set.
         std::vector<std::optional<std::string>> carriers;
+        /// By port: what was on record there when the robot showed something else.
+        std::map<std::size_t, std::optional<std::string>> disputedPorts;
         RobotStatus lastStatus;
         std::optional<Wish> wish;          ///< The quickest way to where it wants to go, kept while it waits.
         std::vector<std::size_t> blockers; ///< Robots that kept it from driving on when it last wanted to.
@@ -294,6 +307,7 @@ public:
     [[nodiscard]] std::optional<WaitReason> GetWaitReasonOrNull(std::string_view planID) const;
     [[nodiscard]] std::optional<std::string> GetObjectionOrNull(const SetCarriers& command) const;
     [[nodiscard]] std::optional<std::string> GetObjectionOrNull(const SettleJob& command) const;
+    [[nodiscard]] std::optional<std::string> GetObjectionOrNull(const SkipStep& command) const;
     [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;
     [[nodiscard]] ETscState GetTscState() const noexcept;
 
@@ -312,13 +326,18 @@ private:
     void Note(const Robot& robot, const std::string& text);
     void ChangePlan(ActivePlan& plan, EPlanState state, std::string message);
     void ChangeStep(ActivePlan& plan, EStepState state, std::string message);
+    void ChangeStepAt(ActivePlan& plan, std::size_t index, EStepState state, std::string message);
     void ChangeJob(ActivePlan& plan, EJobState state, std::string message);
     void RaiseAlarm(Alarm alarm);
     void ClearAlarm(const Alarm& alarm);
     [[nodiscard]] bool IsHeldBack(const OutboxEntry& entry) const;
     void RememberFinished(PlanRecord record);
-    [[nodiscard]] static ERobotStatus DeriveStatus(const Robot& robot);
-    [[nodiscard]] std::string GetToldPosition(const Robot& robot) const;
+    [[nodiscard]] ERobotStatus DeriveStatus(const Robot& robot) const;
+    [[nodiscard]] ERobotStatus DeriveDriveStatus(const ActiveDrive& drive) const;
+    [[nodiscard]] static bool IsApproaching(const ActiveDrive& drive);
+    [[nodiscard]] bool IsAtPlace(const Robot& robot) const;
+    [[nodiscard]] std::string GetToldPosition(const Robot& robot, ERobotStatus status) const;
+    [[nodiscard]] std::string DescribeStatus(const Robot& robot) const;
     [[nodiscard]] RobotStatus MakeStatus(const Robot& robot, ERobotStatus status) const;
     [[nodiscard]] const std::string& GetRobotID(const Robot& robot) const;
 
@@ -342,6 +361,10 @@ private:
     void Maintain(const SetMaintenance& command);
     void ClearByOperator(const ClearAlarms& command);
     void CorrectCarriers(const SetCarriers& command);
+    void Skip(const SkipStep& command);
+    void SkipUnresolved(Robot& robot);
+    [[nodiscard]] static std::optional<std::size_t> FindStepOrNull(const Plan& plan, std::int32_t stepNo);
+    [[nodiscard]] static std::optional<std::size_t> FindOpenStepOrNull(const ActivePlan& plan, std::size_t from);
     [[nodiscard]] Robot* FindRobotOrNull(std::string_view robotID);
     [[nodiscard]] bool HasCause(const Alarm& alarm) const;
 
@@ -367,7 +390,20 @@ private:
     [[nodiscard]] std::optional<std::size_t> FindPortOrNull(
         const Robot& robot,
         const std::optional<Core::Location>& place) const;
+    [[nodiscard]] static std::optional<std::size_t> FindNamedPortOrNull(const Robot& robot, std::string_view name);
     [[nodiscard]] PortVerdict JudgePorts(const ActivePlan& plan, const Robot& robot) const;
+    void JudgeJob(
+        const Robot& robot,
+        const ResolvedStep& step,
+        std::size_t job,
+        const std::string& carrierID,
+        PortContents& planned,
+        PortVerdict& verdict) const;
+    [[nodiscard]] std::optional<std::string> GetTrayObjectionOrNull(
+        const Robot& robot,
+        const ResolvedJob& job,
+        const PortContents& planned) const;
+    [[nodiscard]] std::optional<std::string> GetTrayObjectionOrNull(const Robot& robot) const;
     [[nodiscard]] std::optional<std::string> GetLoadObjectionOrNull(const Robot& robot, std::size_t port) const;
     [[nodiscard]] std::optional<std::string> GetUnloadObjectionOrNull(
         const Robot& robot,
@@ -398,7 +434,7 @@ private:
     void ConfirmResume(Robot& robot);
     void FollowPause(Robot& robot, bool bBack, bool bWasPaused);
     void ReleasePause(Robot& robot);
-    void LeavePause(ActivePlan& plan);
+    void LeavePause(ActivePlan& plan, std::string message);
     void GoOn(Robot& robot);
     void StartConfirming(Robot& robot, Core::Duration limit);
     void StopConfirming(Robot& robot);
@@ -420,6 +456,7 @@ private:
     void OnDriveCancelled(Robot& robot, const DriveCancelled& event);
     void OnJobStarted(Robot& robot, const JobStarted& event);
     void OnJobFinished(Robot& robot, const JobFinished& event);
+    void FollowApproach(Robot& robot);
     void OnJobFailed(Robot& robot, const JobFailed& event);
     void OnJobUnknown(Robot& robot, const JobUnknown& event);
     void OnJobUncertain(Robot& robot, const JobUncertain& event);
@@ -459,13 +496,26 @@ private:
     void BeginJob(Robot& robot);
     void LimitJob(Robot& robot);
     static void NoteCommand(Robot& robot, const std::string& commandID);
-    void EndJob(Robot& robot);
+    void EndJob(Robot& robot, std::string message);
+    void LeaveStep(Robot& robot);
+    void ContinuePlan(Robot& robot);
     void BeginNext(Robot& robot);
     void MarkStepBegun(ActivePlan& plan);
     void FailPlan(ActivePlan& plan, const std::string& reason);
     void EndPlan(ActivePlan& plan, EPlanState state, const std::string& message);
     void ClearInterrupted(const std::string& robotID);
     void MoveCarrier(Robot& robot, const StartJob& job);
+    [[nodiscard]] static std::string DescribeMisfit(
+        const Robot& robot,
+        std::size_t port,
+        const std::optional<std::string>& carrierID,
+        bool bFills);
+    [[nodiscard]] std::vector<PortUse> ListPortUses(const Robot& robot, const StartJob& job) const;
+
+    // What robots show on their ports (PlanEngine.Loads.cpp).
+    void CompareLoads(Robot& robot);
+    void CompareLoad(Robot& robot, std::size_t port, const PortLoad& load);
+    void UpdateLoadAlarm(const Robot& robot);
     [[nodiscard]] static bool HasJob(const ActivePlan& plan);
     [[nodiscard]] static const std::string& GetJobID(const ActivePlan& plan);
     [[nodiscard]] StartJob MakeStartJob(const Robot& robot) const;

@@ -1,5 +1,6 @@
 #include "PlanEngine.Impl.hpp"
 #include <acs/core/ControlCharacter.hpp>
+#include <acs/plan/PlanTransitions.hpp>
 
 #include <fmt/format.h>
 
@@ -114,6 +115,11 @@ void PlanEngine::Impl::ClearByOperator(const ClearAlarms& command)
         Reply(command.replyToken, false, fmt::format("{} has no alarm {}.", command.robotID, command.errorCode));
         return;
     }
+    if (Robot* robotOrNull = FindRobotOrNull(command.robotID);
+        robotOrNull != nullptr && command.errorCode == ALARM_LOADS)
+    {
+        robotOrNull->disputedPorts.clear(); // the record has followed the robot already
+    }
     std::size_t lasting = 0;
     for (const Alarm& alarm : cleared)
     {
@@ -198,7 +204,100 @@ void PlanEngine::Impl::CorrectCarriers(const SetCarriers& command)
     mismatch.robotID = command.robotID;
     mismatch.errorCode = ALARM_PORT;
     ClearAlarm(mismatch);
+    robot.disputedPorts.clear();
+    UpdateLoadAlarm(robot);
     Reply(command.replyToken, true, fmt::format("The ports of {} are corrected.", command.robotID));
+}
+
+std::optional<std::size_t> PlanEngine::Impl::FindStepOrNull(const Plan& plan, std::int32_t stepNo)
+{
+    const auto found = std::ranges::find(plan.steps, stepNo, &Step::stepNo);
+    return found == plan.steps.end() ? std::nullopt
+                                     : std::optional(static_cast<std::size_t>(found - plan.steps.begin()));
+}
+
+/// The first step from this one on that is not at its end.
+std::optional<std::size_t> PlanEngine::Impl::FindOpenStepOrNull(const ActivePlan& plan, std::size_t from)
+{
+    const std::vector<StepProgress>& steps = plan.record.progress.steps;
+    for (std::size_t index = from; index < steps.size(); ++index)
+    {
+        if (!IsFinal(steps[index].state))
+        {
+            return index;
+        }
+    }
+    return std::nullopt;
+}
+
+/// Why the step cannot be skipped.
+std::optional<std::string> PlanEngine::Impl::GetObjectionOrNull(const SkipStep& command) const
+{
+    const auto active = _plans.find(command.planID);
+    if (active == _plans.end())
+    {
+        const auto finished = _finished.find(command.planID);
+        return finished == _finished.end()
+            ? fmt::format("There is no plan {}.", command.planID)
+            : fmt::format("Plan {} is already {}.", command.planID, GetText(finished->second.progress.state));
+    }
+    const ActivePlan& plan = *active->second;
+    const std::optional<std::size_t> index = FindStepOrNull(plan.record.plan, command.stepNo);
+    if (!index.has_value())
+    {
+        return fmt::format("Plan {} has no step {}.", command.planID, command.stepNo);
+    }
+    if (!plan.robot.has_value())
+    {
+        return fmt::format("No robot has plan {} yet: skip the step when the plan is InProgress.", command.planID);
+    }
+    const EStepState state = plan.record.progress.steps[*index].state;
+    const Robot& robot = _robots[*plan.robot];
+    const bool bUnresolved = *index == plan.step && state == EStepState::InProgress && robot.bUncertain
+        && robot.activity == EActivity::Works;
+    if (state == EStepState::Pending || bUnresolved)
+    {
+        return std::nullopt;
+    }
+    return fmt::format(
+        "Step {} is {}: only a step that is Pending, or whose job is unresolved, can be skipped.",
+        command.stepNo,
+        GetText(state));
+}
+
+/// Section 6.13.
+void PlanEngine::Impl::Skip(const SkipStep& command)
+{
+    if (std::optional<std::string> objection = GetObjectionOrNull(command))
+    {
+        Reply(command.replyToken, false, std::move(*objection));
+        return;
+    }
+    Reply(command.replyToken, true, fmt::format("Step {} is skipped.", command.stepNo));
+    ActivePlan& plan = *_plans.find(command.planID)->second;
+    Robot& robot = _robots[*plan.robot];
+    const std::size_t index = *FindStepOrNull(plan.record.plan, command.stepNo);
+    const bool bUnresolved = plan.record.progress.steps[index].state == EStepState::InProgress;
+    robot.bTouched = true;
+    Note(robot, fmt::format("step {} of plan {} is skipped by an operator", command.stepNo, command.planID));
+    ChangeStepAt(plan, index, EStepState::Skipped, "Skipped by the operator.");
+    if (bUnresolved)
+    {
+        SkipUnresolved(robot);
+    }
+    else if (index == plan.step)
+    {
+        LeaveStep(robot); // the plan is paused before it
+    }
+}
+
+/// What became of the job stays unknown, and what is on the robot's ports as it is on record.
+void PlanEngine::Impl::SkipUnresolved(Robot& robot)
+{
+    StopJobTimer(robot);
+    ReleaseJob(robot);
+    robot.planOrNull->jobTimeLeft.reset();
+    LeaveStep(robot);
 }
 
 } // namespace ACS::Planning

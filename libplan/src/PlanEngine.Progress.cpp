@@ -86,6 +86,7 @@ void PlanEngine::Impl::OnDriveStall(Robot& robot)
         return;
     }
     robot.bStalled = true;
+    robot.bTouched = true;
     Alarm alarm;
     alarm.robotID = GetRobotID(robot);
     alarm.errorCode = ALARM_STALL;

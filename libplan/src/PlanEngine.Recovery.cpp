@@ -209,7 +209,8 @@ void PlanEngine::Impl::RestoreWork(ActivePlan& plan, Robot& robot)
     plan.bStepOwed = step.state == EStepState::Pending;
     const bool bOpen = robot.job.has_value() && robot.job->planID == plan.record.plan.planID;
     // A store of before schema version 3 tells nothing of robots.
-    const bool bUntraced = !bOpen && robot.storedWork.robotID.empty() && job != EJobState::Pending && !IsFinal(job);
+    const bool bUntraced = !bOpen && robot.storedWork.robotID.empty() && job != EJobState::Pending && !IsFinal(job)
+        && !IsFinal(step.state);
     const bool bStepWorked = bOpen || plan.job > 0 || job != EJobState::Pending;
     plan.bStepArrived = bStepWorked;
     plan.bJobBegun = bStepWorked || plan.step > 0;
@@ -361,6 +362,7 @@ void PlanEngine::Impl::HoldJob(Robot& robot, const std::string& reason)
 {
     robot.bRecovering = false;
     robot.bUncertain = true;
+    robot.bTouched = true;
     Alarm alarm = MakeUncertainAlarm(robot);
     const bool bOfPlan = robot.planOrNull != nullptr && !robot.overdueJobID.has_value();
     alarm.message = fmt::format(
@@ -554,7 +556,8 @@ void PlanEngine::Impl::SettleFor(Robot& robot, EJobAnswer answer)
     {
         case EJobAnswer::Done:
             CatchUp(robot);
-            OnJobFinished(robot, JobFinished{jobID});
+            OnJobStarted(robot, JobStarted{jobID});
+            EndJob(robot, "Reported as done by the operator.");
             break;
         case EJobAnswer::Again:
             robot.bDoubtful = false; // nor was anything after it done

@@ -73,6 +73,7 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
         MarkStepBegun(*robot.planOrNull);
     }
     CheckTrace(robot);
+    CompareLoads(robot);
     FollowPause(robot, bBack, bWasPaused);
     FollowStand(robot);
     FollowBattery(robot);
@@ -247,7 +248,18 @@ void PlanEngine::Impl::OnNodePassed(Robot& robot, const NodePassed& event)
     }
     if (TryAdvance(robot, routeIndex))
     {
+        FollowApproach(robot);
         ExtendBase(robot);
+    }
+}
+
+/// People hear of the arrival before the robot docks. One that is about to give its drive up has not arrived.
+void PlanEngine::Impl::FollowApproach(Robot& robot)
+{
+    const ActiveDrive& drive = *robot.drive;
+    if (drive.goal == EGoal::Step && robot.planOrNull != nullptr && !drive.bCancelling && IsApproaching(drive))
+    {
+        MarkArrived(robot);
     }
 }
 
@@ -565,7 +577,7 @@ void PlanEngine::Impl::OnJobFinished(Robot& robot, const JobFinished& event)
         return;
     }
     OnJobStarted(robot, JobStarted{event.jobID});
-    EndJob(robot);
+    EndJob(robot, {});
 }
 
 void PlanEngine::Impl::OnJobFailed(Robot& robot, const JobFailed& event)

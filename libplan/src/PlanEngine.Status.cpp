@@ -1,5 +1,7 @@
 #include "PlanEngine.Impl.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -8,7 +10,7 @@ namespace ACS::Planning
 {
 
 /// Section 5: the first that holds.
-ERobotStatus PlanEngine::Impl::DeriveStatus(const Robot& robot)
+ERobotStatus PlanEngine::Impl::DeriveStatus(const Robot& robot) const
 {
     if (!robot.bOnline)
     {
@@ -47,9 +49,10 @@ ERobotStatus PlanEngine::Impl::DeriveStatus(const Robot& robot)
     }
     if (robot.drive.has_value())
     {
-        return ERobotStatus::Moving;
+        return DeriveDriveStatus(*robot.drive);
     }
-    if (state.bOccupied && state.bDriving)
+    const bool bWaitsForWay = robot.planOrNull != nullptr && !IsAtPlace(robot);
+    if (bWaitsForWay || (state.bOccupied && state.bDriving))
     {
         return ERobotStatus::Moving;
     }
@@ -60,18 +63,85 @@ ERobotStatus PlanEngine::Impl::DeriveStatus(const Robot& robot)
     return ERobotStatus::Idle;
 }
 
-std::string PlanEngine::Impl::GetToldPosition(const Robot& robot) const
+/// The first edge leads out of a station, the last one into one. Who waits between them for others is not docking.
+ERobotStatus PlanEngine::Impl::DeriveDriveStatus(const ActiveDrive& drive) const
 {
-    if (!robot.drive.has_value() || _options.movingPosition == EMovingPosition::Last)
+    const bool bWaits = drive.passed + 1 >= drive.grantedCount && drive.grantedCount < drive.nodes.size();
+    if (bWaits)
+    {
+        return ERobotStatus::Moving;
+    }
+    const std::vector<RouteNode>& nodes = drive.route.nodes;
+    if (drive.bTaken && IsApproaching(drive) && _site.FindStationAtOrNull(nodes.back().nodeID) != nullptr)
+    {
+        return ERobotStatus::Docking;
+    }
+    const bool bLeaves = drive.passed == 0 && _site.FindStationAtOrNull(nodes.front().nodeID) != nullptr;
+    return bLeaves ? ERobotStatus::UnDocking : ERobotStatus::Moving;
+}
+
+/// Whether the last node before its aim is passed.
+bool PlanEngine::Impl::IsApproaching(const ActiveDrive& drive)
+{
+    return drive.passed + 2 >= drive.nodes.size();
+}
+
+/// Whether the robot stands where its present step is done.
+bool PlanEngine::Impl::IsAtPlace(const Robot& robot) const
+{
+    if (robot.planOrNull == nullptr || robot.drive.has_value() || !robot.node.has_value())
+    {
+        return false;
+    }
+    const ActivePlan& plan = *robot.planOrNull;
+    return robot.node
+        == _admission.FindDockOrNull(plan.resolved.steps[plan.step].stationID, robot.options->vehicleTypeID);
+}
+
+/// Who has reached a station's last node before the dock is as good as there.
+std::string PlanEngine::Impl::GetToldPosition(const Robot& robot, ERobotStatus status) const
+{
+    const bool bArrives = status == ERobotStatus::Arrival || status == ERobotStatus::Docking;
+    if (!robot.drive.has_value() || (!bArrives && _options.movingPosition == EMovingPosition::Last))
     {
         return robot.position;
     }
-    if (_options.movingPosition == EMovingPosition::None)
+    if (!bArrives && _options.movingPosition == EMovingPosition::None)
     {
         return {};
     }
     const SiteStation* stationOrNull = _site.FindStationAtOrNull(robot.drive->route.nodes.back().nodeID);
     return stationOrNull == nullptr ? robot.position : stationOrNull->stationID;
+}
+
+/// Why the robot does not do more than it does; empty where nothing keeps it.
+std::string PlanEngine::Impl::DescribeStatus(const Robot& robot) const
+{
+    if (robot.bInMaintenance)
+    {
+        return "In maintenance.";
+    }
+    if (robot.bStalled && robot.drive.has_value())
+    {
+        const std::vector<RouteNode>& nodes = robot.drive->route.nodes;
+        return fmt::format(
+            "Robot stalled: node {} not reached.",
+            nodes[std::min(robot.drive->passed + 1, nodes.size() - 1)].nodeID);
+    }
+    if (robot.planOrNull != nullptr && robot.retreatNode.has_value() && robot.courtesy.has_value())
+    {
+        return fmt::format("Makes way for {}.", GetRobotID(_robots[robot.courtesy->leader]));
+    }
+    if (robot.planOrNull != nullptr)
+    {
+        const std::optional<WaitReason> reason = DescribeBegunOrNull(*robot.planOrNull);
+        return reason.has_value() ? reason->message : std::string();
+    }
+    if (const EHindrance hindrance = GetHindrance(robot); hindrance != EHindrance::None)
+    {
+        return fmt::format("{}: {}.", GetRobotID(robot), Describe(robot, hindrance));
+    }
+    return robot.bBatteryLow ? "Battery low." : "";
 }
 
 RobotStatus PlanEngine::Impl::MakeStatus(const Robot& robot, ERobotStatus status) const
@@ -80,9 +150,9 @@ RobotStatus PlanEngine::Impl::MakeStatus(const Robot& robot, ERobotStatus status
     made.robotID = GetRobotID(robot);
     made.type = robot.options->type;
     made.status = status;
-    made.position = GetToldPosition(robot);
+    made.position = GetToldPosition(robot, status);
     made.bInMaintenance = robot.bInMaintenance;
-    made.message = robot.bInMaintenance ? "In maintenance." : "";
+    made.message = DescribeStatus(robot);
     made.carrierIDs = robot.carriers;
     if (robot.planOrNull != nullptr)
     {

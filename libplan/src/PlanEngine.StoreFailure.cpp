@@ -206,7 +206,10 @@ void PlanEngine::Impl::NoteStoreSuccess()
     _bDispatchNeeded = true;
     for (const auto& [planID, plan] : _plans)
     {
-        plan->bUnstored = false;
+        if (std::exchange(plan->bUnstored, false) && plan->robot.has_value())
+        {
+            _robots[*plan->robot].bTouched = true;
+        }
     }
     ClearAlarm(MakeStoreAlarm());
 }

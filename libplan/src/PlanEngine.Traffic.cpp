@@ -167,7 +167,9 @@ void PlanEngine::Impl::MoveWaiting()
     ExtendDrives();
     for (Robot* robot : GetWaiting())
     {
+        const std::vector<std::size_t> blockers = robot->blockers;
         static_cast<void>(TryDrive(*robot));
+        robot->bTouched = robot->bTouched || robot->blockers != blockers;
     }
 }
 
@@ -209,6 +211,7 @@ void PlanEngine::Impl::ExtendBase(Robot& robot)
         const std::size_t granted =
             _traffic.Extend(robot.index, nodes.subspan(drive.grantedCount, wanted - drive.grantedCount));
         drive.grantedCount += granted;
+        robot.bTouched = robot.bTouched || granted > 0 || robot.blockers != _traffic.GetBlockers();
         robot.blockers = _traffic.GetBlockers();
         robot.refusedAt = _traffic.GetFreedCount();
     }
@@ -410,7 +413,11 @@ bool PlanEngine::Impl::TryBeginDrive(Robot& robot, const Wish& wish)
     drive.releasedCount = std::min({_options.baseLength, drive.grantedCount, drive.nodes.size() - 1});
     drive.goal = robot.planOrNull == nullptr || robot.retreatNode.has_value() ? EGoal::Home : EGoal::Step;
     robot.bTouched = true;
-    robot.courtesy = drive.goal == EGoal::Step ? std::nullopt : robot.courtesy;
+    if (drive.goal == EGoal::Step)
+    {
+        robot.courtesy.reset();
+        robot.planOrNull->bStepArrived = false;
+    }
     Command(robot, Drive{drive.driveID, drive.route, drive.releasedCount});
     StartTimer(EEngineTimer::DriveExtension, GetRobotID(robot), _options.extensionDelay);
     robot.drive = std::move(drive);

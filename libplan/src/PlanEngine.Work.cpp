@@ -46,7 +46,7 @@ void PlanEngine::Impl::BeginPlan(ActivePlan& plan, Robot& robot)
     robot.bHomeRefused = false;
     NoteEvidence(robot);
     _begun.push_back(plan.record.plan.planID);
-    ChangePlan(plan, EPlanState::InProgress, {});
+    ChangePlan(plan, EPlanState::InProgress, fmt::format("Assigned to {}.", GetRobotID(robot)));
     BeginStep(plan, robot);
 }
 
@@ -81,7 +81,7 @@ void PlanEngine::Impl::MarkStepBegun(ActivePlan& plan)
     }
 }
 
-/// The robot stands at its step's place.
+/// The robot is at the last node before its step's place, or there.
 void PlanEngine::Impl::MarkArrived(Robot& robot)
 {
     ActivePlan& plan = *robot.planOrNull;
@@ -100,9 +100,9 @@ void PlanEngine::Impl::MarkArrived(Robot& robot)
 void PlanEngine::Impl::BeginWork(Robot& robot)
 {
     MarkArrived(robot);
-    if (robot.planOrNull->bUnstored)
+    if (robot.planOrNull->bUnstored || GetTrayObjectionOrNull(robot).has_value())
     {
-        return; // after a crash nobody would know that it was ever begun
+        return; // after a crash nobody would know that it was ever begun; or its tray is not there
     }
     robot.activity = EActivity::Works;
     BeginJob(robot);
@@ -196,61 +196,98 @@ StartJob PlanEngine::Impl::MakeStartJob(const Robot& robot) const
     return job;
 }
 
-/// What a finished load or unload does to the robot's ports. What does not fit is told, not refused: the robot has
-/// done it, so the ports were not what the engine believed.
-void PlanEngine::Impl::MoveCarrier(Robot& robot, const StartJob& job)
+/// The ports of its robot that a job empties and fills, in this order.
+std::vector<PlanEngine::Impl::PortUse> PlanEngine::Impl::ListPortUses(const Robot& robot, const StartJob& job) const
 {
     const auto rule = _options.actions.find(job.action);
     const EActionEffect effect = rule == _options.actions.end() ? EActionEffect::None : rule->second.effect;
-    if (effect == EActionEffect::None)
+    std::vector<PortUse> uses;
+    for (const bool bFills : {false, true})
+    {
+        const std::optional<std::string>& place = bFills ? job.to : job.from;
+        const std::optional<std::size_t> port =
+            ChangesPort(effect, bFills) && place.has_value() ? FindNamedPortOrNull(robot, *place) : std::nullopt;
+        if (port.has_value())
+        {
+            uses.push_back({*port, bFills});
+        }
+    }
+    return uses;
+}
+
+/// What a finished job does to the robot's ports. What does not fit is reported, not refused: the robot has done it, so the
+/// ports were not what the engine believed.
+void PlanEngine::Impl::MoveCarrier(Robot& robot, const StartJob& job)
+{
+    const std::vector<PortUse> uses = ListPortUses(robot, job);
+    if (uses.empty())
     {
         return;
     }
-    const std::optional<std::string>& portText = effect == EActionEffect::Load ? job.to : job.from;
-    const std::vector<Core::Location>& ports = robot.options->ports;
-    const auto found =
-        std::ranges::find_if(ports, [&portText](const Core::Location& port) { return portText == port.GetText(); });
-    if (found == ports.end())
+    std::optional<std::string> carrier = job.carrierID;
+    std::string misfit;
+    for (const auto& [port, bFills] : uses)
     {
-        return;
+        misfit += misfit.empty() ? DescribeMisfit(robot, port, job.carrierID, bFills) : std::string();
+        if (bFills)
+        {
+            robot.carriers[port] = carrier.value_or(std::string(UNKNOWN_CARRIER));
+        }
+        else
+        {
+            carrier = carrier.has_value() ? carrier : robot.carriers[port];
+            robot.carriers[port].reset();
+        }
+        robot.disputedPorts.erase(port);
     }
-    std::optional<std::string>& carrier = robot.carriers[static_cast<std::size_t>(found - ports.begin())];
     Alarm alarm;
     alarm.robotID = GetRobotID(robot);
     alarm.errorCode = ALARM_PORT;
     alarm.level = EAlarmLevel::Light;
-    const bool bLoad = effect == EActionEffect::Load;
-    const bool bOther = !bLoad && carrier.has_value() && job.carrierID.has_value() && carrier != job.carrierID
-        && carrier != UNKNOWN_CARRIER;
-    if (bLoad == carrier.has_value())
-    {
-        alarm.message = bLoad ? fmt::format("{} was loaded though {} was in it.", *portText, *carrier)
-                              : fmt::format("{} was unloaded though nothing was in it.", *portText);
-        RaiseAlarm(std::move(alarm));
-    }
-    else if (bOther)
-    {
-        alarm.message =
-            fmt::format("{} was unloaded from {} though {} was in it.", *job.carrierID, *portText, *carrier);
-        RaiseAlarm(std::move(alarm));
-    }
-    else
+    alarm.message = misfit;
+    if (misfit.empty())
     {
         ClearAlarm(alarm);
     }
-    carrier = bLoad ? std::optional(job.carrierID.value_or(std::string(UNKNOWN_CARRIER))) : std::nullopt;
+    else
+    {
+        RaiseAlarm(std::move(alarm));
+    }
+    UpdateLoadAlarm(robot);
     robot.bTouched = true;
     _changes.emplace_back(CarriersChanged{GetRobotID(robot), robot.carriers});
 }
 
-void PlanEngine::Impl::EndJob(Robot& robot)
+/// Why what is on record there contradicts what the job did; empty where it does not.
+std::string PlanEngine::Impl::DescribeMisfit(
+    const Robot& robot,
+    std::size_t port,
+    const std::optional<std::string>& carrierID,
+    bool bFills)
+{
+    const std::string& name = robot.options->ports[port].GetText();
+    const std::optional<std::string>& carrier = robot.carriers[port];
+    if (bFills)
+    {
+        return carrier.has_value() ? fmt::format("{} was loaded though {} was in it.", name, *carrier) : std::string();
+    }
+    if (!carrier.has_value())
+    {
+        return fmt::format("{} was unloaded though nothing was in it.", name);
+    }
+    const bool bOther = carrierID.has_value() && carrier != carrierID && carrier != UNKNOWN_CARRIER;
+    return bOther ? fmt::format("{} was unloaded from {} though {} was in it.", *carrierID, name, *carrier)
+                  : std::string();
+}
+
+void PlanEngine::Impl::EndJob(Robot& robot, std::string message)
 {
     ActivePlan& plan = *robot.planOrNull;
     StopJobTimer(robot);
     ReleaseJob(robot);
     plan.jobTimeLeft.reset();
     MoveCarrier(robot, MakeStartJob(robot));
-    ChangeJob(plan, EJobState::Completed, {});
+    ChangeJob(plan, EJobState::Completed, std::move(message));
     const bool bStepDone = plan.job + 1 >= plan.record.plan.steps[plan.step].jobs.size();
     const bool bAborting = plan.record.progress.control == EPlanControl::Abort;
     if (bStepDone && (!bAborting || _options.controls.bAbortReportsStep))
@@ -262,16 +299,39 @@ void PlanEngine::Impl::EndJob(Robot& robot)
         EndByControl(plan, EPlanControl::Abort);
         return;
     }
-    const bool bAllDone = bStepDone && plan.step + 1 >= plan.record.plan.steps.size();
-    if (bAllDone && plan.record.progress.state != EPlanState::Paused)
+    if (bStepDone)
+    {
+        LeaveStep(robot);
+        return;
+    }
+    ++plan.job;
+    ContinuePlan(robot);
+}
+
+/// On to the next step that is not skipped, or to the end.
+void PlanEngine::Impl::LeaveStep(Robot& robot)
+{
+    ActivePlan& plan = *robot.planOrNull;
+    const std::optional<std::size_t> next = FindOpenStepOrNull(plan, plan.step + 1);
+    plan.bEndOwed = !next.has_value();
+    plan.bStepOwed = next.has_value();
+    if (plan.bEndOwed && plan.record.progress.state != EPlanState::Paused)
     {
         EndPlan(plan, EPlanState::Completed, {});
         return;
     }
-    plan.bEndOwed = bAllDone;
-    plan.bStepOwed = bStepDone && !bAllDone;
-    plan.step += plan.bStepOwed ? 1U : 0U;
-    plan.job = plan.bStepOwed ? 0 : plan.job + (bAllDone ? 0U : 1U);
+    if (next.has_value())
+    {
+        plan.step = *next;
+        plan.job = 0;
+    }
+    ContinuePlan(robot);
+}
+
+/// With the next job or step, unless the plan is to begin nothing further.
+void PlanEngine::Impl::ContinuePlan(Robot& robot)
+{
+    const ActivePlan& plan = *robot.planOrNull;
     if (!IsHeld(robot))
     {
         BeginNext(robot);
@@ -294,12 +354,12 @@ void PlanEngine::Impl::BeginNext(Robot& robot)
         BeginStep(*robot.planOrNull, robot);
         return;
     }
-    if (IsUsable(robot))
+    if (IsUsable(robot) && !GetTrayObjectionOrNull(robot).has_value())
     {
         BeginJob(robot);
         return;
     }
-    // As soon as it is there again.
+    // As soon as it is there again, or its tray is.
     robot.activity = EActivity::Waits;
     robot.bTouched = true;
 }
@@ -311,7 +371,7 @@ void PlanEngine::Impl::FailPlan(ActivePlan& plan, const std::string& reason)
         plan.record.progress.control == EPlanControl::Abort && !_options.controls.bJobFailureFailsAbort;
     if (plan.record.progress.state == EPlanState::Paused && !bAborting)
     {
-        LeavePause(plan);
+        LeavePause(plan, reason);
     }
     if (HasJob(plan))
     {
@@ -353,12 +413,16 @@ void PlanEngine::Impl::EndPlan(ActivePlan& plan, EPlanState state, const std::st
 {
     if (!CanChange(plan.record.progress.state, state))
     {
-        LeavePause(plan);
+        LeavePause(plan, message);
     }
     ChangePlan(plan, state, message);
     const bool bAsAsked = (plan.record.progress.control == EPlanControl::Cancel && state == EPlanState::Cancelled)
         || (plan.record.progress.control == EPlanControl::Abort && state == EPlanState::Aborted);
-    Answer(plan, bAsAsked, fmt::format("The plan is {}{}{}", GetText(state), message.empty() ? "." : ": ", message));
+    const bool bReasoned = !bAsAsked && !message.empty();
+    Answer(
+        plan,
+        bAsAsked,
+        fmt::format("The plan is {}{}{}", GetText(state), bReasoned ? ": " : ".", bReasoned ? message : ""));
     _pending.erase(plan.key);
     if (plan.robot.has_value())
     {

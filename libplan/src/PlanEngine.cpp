@@ -105,6 +105,11 @@ std::optional<std::string> PlanEngine::GetObjectionOrNull(const SettleJob& comma
     return _impl->GetObjectionOrNull(command);
 }
 
+std::optional<std::string> PlanEngine::GetObjectionOrNull(const SkipStep& command) const
+{
+    return _impl->GetObjectionOrNull(command);
+}
+
 const std::vector<Alarm>& PlanEngine::GetActiveAlarms() const noexcept
 {
     return _impl->GetActiveAlarms();

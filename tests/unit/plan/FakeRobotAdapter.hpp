@@ -52,7 +52,8 @@ public:
     bool bIgnoresPause = false; ///< Neither stops nor goes on, as one that does not hear.
     bool bFinishesJobs = false; ///< A job that runs is not paused: the robot stands when it is done.
     bool bIgnoresCharging = false;
-    std::string mark; ///< As arms have one.
+    std::string mark;                                     ///< As arms have one.
+    std::optional<std::vector<Planning::PortLoad>> loads; ///< What its sensors show.
     double battery = 80;
     std::size_t chargesAsked = 0;
     std::size_t resumesAsked = 0;
@@ -215,6 +216,7 @@ private:
         state.bPaused = IsPaused();
         state.shownCommandID = _shownCommandID;
         state.mark = mark;
+        state.loads = loads;
         state.bOccupied = _bForeign && _bDriving;
         for (std::size_t i = _index + 1; state.bOccupied && i < _drive.releasedCount; ++i)
         {

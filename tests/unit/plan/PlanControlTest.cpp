@@ -92,10 +92,11 @@ TEST_CASE("R5, R6, 13.6 CancelPlan one event before the arrival succeeds, one ev
         PlanWorld world;
         world.Connect();
         world.Submit(MakeLogisticsPlan("P1"));
-        REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").GetOccupied() == Lines{"L03", "D-A01.CP01"}; }));
+        REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").GetOccupied() == Lines{"L02", "L03"}; }));
         if (bAfter)
         {
             REQUIRE(world.TryRun([&world] { return Contains(world.trace, "status LR01 Arrival A01.CP01"); }));
+            CHECK(world.GetRobot("LR01").GetOccupied().front() == "L03"); // the last node before the dock
             world.Control(EPlanControl::Cancel, "P1");
             CHECK(world.GetReportsOf("P1").back() == "CancelResult Failed");
             REQUIRE(world.TryRun());
@@ -105,7 +106,7 @@ TEST_CASE("R5, R6, 13.6 CancelPlan one event before the arrival succeeds, one ev
         // What is asked before and confirmed before: the robot turns out to have stood still.
         world.Control(EPlanControl::Cancel, "P1");
         const std::string driveID = world.driveIDs.at("LR01");
-        world.Raise("LR01", DriveCancelled{driveID, "L03"});
+        world.Raise("LR01", DriveCancelled{driveID, "L02"});
         CHECK(GetReportsAfter(world, "P1", 3) == Lines{"Plan Cancelled", "CancelResult Success"});
     }
 }
@@ -115,9 +116,11 @@ TEST_CASE("R6 A cancel that is overtaken by the arrival fails, and the plan goes
     PlanWorld world;
     world.Connect();
     world.Submit(MakeLogisticsPlan("P1"));
-    REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").GetOccupied() == Lines{"L03", "D-A01.CP01"}; }));
+    REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").GetOccupied() == Lines{"L02", "L03"}; }));
+    world.GetRobot("LR01").bIgnoresDriveCancel = true;
     world.Control(EPlanControl::Cancel, "P1");
     REQUIRE(world.TryRun());
+    CHECK(world.GetTraceOf("status LR01 Arrival") == Lines{" A01.CP01", " A02.CP03"});
     CHECK(Contains(world.GetReportsOf("P1"), "CancelResult Failed"));
     CHECK_FALSE(Contains(world.GetReportsOf("P1"), "Plan Cancelled"));
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
@@ -145,7 +148,7 @@ TEST_CASE("D-14 cancel.until first_job: a robot that has arrived and has not beg
     SECTION("it waits at the place")
     {
         world.Raise("CR01", LinkChanged{false});
-        REQUIRE(world.TryRun([&world] { return Contains(world.trace, "status CR01 Arrival A01.CP01"); }));
+        REQUIRE(world.TryRun([&world] { return world.GetRobot("CR01").GetOccupied() == Lines{"D-A01.CP01"}; }));
         world.Control(EPlanControl::Cancel, "P1");
         CHECK(world.GetReportsOf("P1").back() == "CancelResult Success");
     }
@@ -209,6 +212,7 @@ TEST_CASE("R7, 13.7 AbortPlan during job 2 of 5: exactly its end, the plan's and
     {
         plan.steps[0].jobs.push_back({"J" + number, "AMR.TP01.MP0" + number, "A01.SET01.MP0" + number});
     }
+    world.Ask(SetCarriers{"CR01", {"TRAY_01", {}, {}}, 0});
     world.Submit(plan);
     REQUIRE(TryRunUntil(world, "P1", "Job 1 J2 InProgress"));
     const std::size_t before = world.GetReportsOf("P1").size();

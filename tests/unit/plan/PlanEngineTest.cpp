@@ -43,13 +43,19 @@ TEST_CASE("6.3 The logistics plan of the document completes and reports every st
         == Lines{
             "Init ",
             "Idle CHG01",
+            "UnDocking CHG01",
             "Moving CHG01",
             "Arrival A01.CP01",
+            "Docking A01.CP01",
             "Working A01.CP01",
+            "UnDocking A01.CP01",
             "Moving A01.CP01",
             "Arrival A02.CP03",
+            "Docking A02.CP03",
             "Working A02.CP03",
+            "UnDocking A02.CP03",
             "Moving A02.CP03",
+            "Docking CHG01",
             "Idle CHG01"});
 }
 
@@ -116,6 +122,7 @@ TEST_CASE("Robots that stand on the lane and keep each other from home are parte
     world.Submit({"P2", "", 0, {{1, "CassetteLoad", "A01.CP01", {}, {{"J", "A01.CP01", "LR01.CP01"}}}}});
     world.Submit({"P3", "", 0, {{1, "CassetteLoad", "A01.CP02", {}, {{"J", "A01.CP02", "LR02.CP01"}}}}});
     const Job place{"J", "CR02.TP01.MP01", "A01.SET01.MP01"};
+    world.Ask(SetCarriers{"CR02", {"TRAY_01", {}, {}}, 0});
     world.Submit({"P4", "", 0, {{1, "MemoryPickAndPlace", "A01.SET01", {}, {place}}}});
     world.Connect();
     REQUIRE(world.TryRun());
@@ -361,6 +368,7 @@ TEST_CASE("5.9 Carriers stand at their port's place; where a taken port may be l
     world.Connect();
     Plan plan = MakeControlPlan("P1");
     plan.steps[0].jobs[0].to = "AMR.TP02";
+    plan.steps[1].jobs[0].from = "AMR.TP02.MP02";
     plan.steps[2].jobs.pop_back();
     world.Submit(plan);
     REQUIRE(TryRunUntil(world, "P1", "Job 1 P1-cd Completed"));

@@ -146,7 +146,7 @@ TEST_CASE("drive.stall_timeout: who waits for another one at the end of its way 
     world.TellState("LR02");
     const std::optional<WaitReason> reason = world.engine->GetWaitReasonOrNull("P2");
     REQUIRE(reason.has_value());
-    CHECK(reason->message.ends_with("for the sake of LR01."));
+    CHECK(reason->message.ends_with("until it is clear of LR01."));
     CHECK(FindStallOrNull(world, "LR01") != nullptr);
     CHECK(FindStallOrNull(world, "LR02") == nullptr);
 }

@@ -24,6 +24,11 @@ TEST_CASE("7 Plans, steps and jobs change as the section draws it and not otherw
     CHECK(CanChange(EStepState::Dispatched, EStepState::InProgress));
     CHECK_FALSE(CanChange(EStepState::Pending, EStepState::InProgress));
     CHECK_FALSE(CanChange(EStepState::Completed, EStepState::Failed));
+    CHECK(CanChange(EStepState::Pending, EStepState::Skipped));
+    CHECK(CanChange(EStepState::InProgress, EStepState::Skipped));
+    CHECK_FALSE(CanChange(EStepState::Dispatched, EStepState::Skipped));
+    CHECK_FALSE(CanChange(EStepState::Failed, EStepState::Skipped));
+    CHECK(IsFinal(EStepState::Skipped));
     CHECK(CanChange(EJobState::Instructed, EJobState::InProgress));
     CHECK_FALSE(CanChange(EJobState::Instructed, EJobState::Completed));
     CHECK_FALSE(CanChange(EJobState::Pending, EJobState::Failed));

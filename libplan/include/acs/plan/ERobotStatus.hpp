@@ -13,14 +13,14 @@ enum class ERobotStatus : std::uint8_t
     Disconnected, ///< No connection.
     Manual,       ///< Not under automatic control.
     Idle,         ///< No assigned work.
-    Moving,       ///< Drives.
-    Arrival,      ///< Has just reached its place; always told once.
-    Docking,      ///< Docks.
-    UnDocking,    ///< Leaves a dock.
-    Working,      ///< A job runs, or it waits for its way with a plan.
-    Charging,     ///< Charges.
-    Error,        ///< A fatal error, an emergency or a protective stop.
-    Stopped,      ///< Paused.
+    Moving,       ///< Drives, or waits for its way with a plan.
+    Arrival,   ///< Has reached the last node before its step's place, or the place; reported once for each drive there.
+    Docking,   ///< On the last edge of its way, which leads to a station.
+    UnDocking, ///< On the first edge of its way, which leads out of a station.
+    Working,   ///< A job runs, or the robot waits at its step's place.
+    Charging,  ///< Charges.
+    Error,     ///< A fatal error, an emergency or a protective stop.
+    Stopped,   ///< Paused.
 };
 
 /// The word of section 3 ("UnDocking").

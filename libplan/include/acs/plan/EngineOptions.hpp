@@ -80,7 +80,7 @@ struct RobotOptions
 enum class ECancelWindow : std::uint8_t
 {
     Dispatch,     ///< While no robot has it.
-    FirstArrival, ///< Until its robot has reached its first place.
+    FirstArrival, ///< Until its robot has come to the last node before its first place.
     FirstJob,     ///< Until its first job is begun.
 };
 

@@ -104,6 +104,18 @@ struct SetCarriers
     bool operator==(const SetCarriers&) const = default;
 };
 
+/// Of the operator: leave this step out (section 6.13). One that is Pending in a plan that a robot has, or one whose job is
+/// unresolved (alarm ACS-1008): the job has no further report, and the record of the robot's ports stays as it is. Answered
+/// by one ReplyCommand.
+struct SkipStep
+{
+    std::string planID;
+    std::int32_t stepNo = 0;
+    ReplyToken replyToken = 0;
+
+    bool operator==(const SkipStep&) const = default;
+};
+
 using PlanCommand = std::variant<
     SubmitPlan,
     ControlPlan,
@@ -112,6 +124,7 @@ using PlanCommand = std::variant<
     SettleJob,
     SetMaintenance,
     ClearAlarms,
-    SetCarriers>;
+    SetCarriers,
+    SkipStep>;
 
 } // namespace ACS::Planning

@@ -34,7 +34,7 @@ struct PlanProgress
     std::optional<Core::WallTime> startedAt;
     std::optional<Core::WallTime> endedAt;
     std::vector<StepProgress> steps;     ///< As many as the plan has, in ascending stepNo.
-    bool bArrived = false;               ///< The place of its first step was reached.
+    bool bArrived = false;               ///< The last node before the place of its first step was reached.
     std::optional<EPlanControl> control; ///< Acknowledged, its outcome not known.
     std::size_t controlCount = 0;        ///< How often it was asked for: each is owed a result.
     std::vector<std::string> requestIDs; ///< Its controls ("Pause 4711": the transactionID), the latest ones.

@@ -19,7 +19,7 @@ struct Transition
     TState to;
 };
 
-/// Every change of state that section 7 of MCS-ACS allows. The only truth: the engine changes no state but through it.
+/// Every change of state that section 7 of MCS-ACS allows, and one that section 6.13 needs. The only truth: the engine changes no state but through it.
 inline constexpr std::array PLAN_TRANSITIONS{
     Transition<EPlanState>{EPlanState::Pending, EPlanState::InProgress},
     Transition<EPlanState>{EPlanState::Pending, EPlanState::Paused},
@@ -42,6 +42,7 @@ inline constexpr std::array STEP_TRANSITIONS{
     Transition<EStepState>{EStepState::Dispatched, EStepState::Failed},
     Transition<EStepState>{EStepState::InProgress, EStepState::Completed},
     Transition<EStepState>{EStepState::InProgress, EStepState::Failed},
+    Transition<EStepState>{EStepState::InProgress, EStepState::Skipped}, // by an operator, where its job is unresolved
 };
 
 inline constexpr std::array JOB_TRANSITIONS{

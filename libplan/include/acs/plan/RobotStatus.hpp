@@ -22,7 +22,7 @@ struct RobotStatus
     std::optional<std::string> planID;
     std::optional<std::int32_t> stepNo;
     std::optional<std::string> jobID;
-    std::string message;
+    std::string message;         ///< Why the robot does not do more, such as what it waits for; may be empty.
     bool bInMaintenance = false; ///< Not told to the MCS but by the message.
 
     bool operator==(const RobotStatus&) const = default;
