@@ -161,7 +161,8 @@ struct JsonFields<Planning::SiteStation>
 {
     static constexpr auto FIELDS = std::make_tuple(
         Required("stationId", &Planning::SiteStation::stationID).WithLength(1, Planning::MAXIMUM_NAME),
-        Required("interactionNodeIds", &Planning::SiteStation::nodeIDs));
+        Required("interactionNodeIds", &Planning::SiteStation::nodeIDs),
+        Optional("stationHeight", &Planning::SiteStation::height));
 };
 
 template <>

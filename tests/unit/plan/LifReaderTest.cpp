@@ -25,7 +25,8 @@ const std::string& GetLif()
           {"edgeId": "E1", "startNodeId": "N1", "endNodeId": "N2", "vehicleTypeEdgeProperties":
            [{"vehicleTypeId": "lr", "vehicleOrientation": 270.0, "orientationType": "TANGENTIAL",
              "rotationAllowed": true, "maxSpeed": 1.2}]}],
-        "stations": [{"stationId": "A01.CP01", "interactionNodeIds": ["N2"]}]}]})";
+        "stations": [{"stationId": "A01.CP01", "interactionNodeIds": ["N2"]},
+                     {"stationId": "A01.CP02", "interactionNodeIds": ["N1"], "stationHeight": 0.85}]}]})";
     return TEXT;
 }
 
@@ -54,6 +55,8 @@ TEST_CASE("LIF: nodes, edges and stations become a map, degrees become radians")
     CHECK(rule.maxSpeed == 1.2);
     CHECK(site->FindStationOrNull("A01.CP01")->nodeIDs == std::vector<std::string>{"N2"});
     CHECK(site->FindStationAtOrNull("N2")->stationID == "A01.CP01");
+    CHECK(site->FindStationOrNull("A01.CP01")->height == std::nullopt);
+    CHECK(site->FindStationOrNull("A01.CP02")->height == 0.85);
     CHECK(site->HasVehicleType("lr"));
     CHECK_FALSE(site->HasVehicleType("cr"));
 }

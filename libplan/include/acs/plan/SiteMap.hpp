@@ -67,7 +67,8 @@ struct SiteEdge
 struct SiteStation
 {
     std::string stationID;
-    std::vector<std::string> nodeIDs; ///< Where a robot docks; at least one.
+    std::vector<std::string> nodeIDs;            ///< Where a robot docks; at least one.
+    std::optional<double> height = std::nullopt; ///< Metres.
 
     bool operator==(const SiteStation&) const = default;
 };
