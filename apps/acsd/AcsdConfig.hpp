@@ -4,6 +4,8 @@
 #include "common/ConfigReader.hpp"
 #include "common/LocalOffset.hpp"
 #include "common/Url.hpp"
+#include "JobData.hpp"
+#include "JobMethods.hpp"
 #include "McsConfig.hpp"
 #include "MqttConfig.hpp"
 #include "OperationsConfig.hpp"
@@ -14,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,7 +25,7 @@
 namespace ACS::Acsd
 {
 
-/// The vehicle and the arm of one robot; what the engine must know of it stands in EngineOptions::robots.
+/// The vehicle and the arm of one robot; what the engine must know of it is in EngineOptions::robots.
 struct RobotLinkConfig
 {
     std::string robotID;
@@ -30,30 +33,23 @@ struct RobotLinkConfig
     std::string serialNumber;
     std::string protocolVersion;        ///< "2.0.0" or "2.1.0"
     std::optional<Apps::Url> armOrNone; ///< tcp://, Open Stream of its controller
+    ArmOptions armOptions = {};
+    JobMethods methods = {}; ///< Of the actions of its type.
 };
-
-/// How a robot does an action: exactly one of the two.
-struct JobMethod
-{
-    std::string vehicleAction; ///< VDA5050 actionType; empty: the arm does it.
-    std::uint32_t armProgram = 0;
-};
-
-using JobMethods = std::map<std::string, JobMethod, std::less<>>;
 
 /// acsd's configuration, checked as a whole.
 struct AcsdConfig
 {
     McsConfig mcs;
     MqttConfig mqtt;
-    ArmOptions arm;
+    ArmOptions arm; ///< Of arms whose robot does not give its own.
     std::string siteFile;
     std::string storeFile;
     Apps::Endpoint httpListen{"127.0.0.1", 8080};
     std::vector<std::string> httpHosts; ///< Names by which it may be called, without port.
     Apps::LocalOffset localOffset;
     std::vector<RobotLinkConfig> robots;
-    JobMethods methods;
+    std::shared_ptr<const StationTable> stations = std::make_shared<const StationTable>();
     OperationsConfig operations;
     Planning::EngineOptions engine;
     std::optional<Planning::SiteMap> site; ///< Always there when there are no mistakes.

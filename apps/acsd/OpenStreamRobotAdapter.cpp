@@ -107,8 +107,8 @@ void OpenStreamRobotAdapter::OnTimer(Planning::AdapterTimerID timer, Core::Now n
 
 std::optional<std::string> OpenStreamRobotAdapter::GetRejectionReasonOrNull(std::string_view action) const
 {
-    const auto method = _methods.find(action);
-    if (method == _methods.end() || method->second.armProgram == 0)
+    const JobMethod* const methodOrNull = _methods.FindMethodOrNull(action);
+    if (methodOrNull == nullptr || methodOrNull->armProgram == 0)
     {
         return fmt::format("the arm has no program for {}", action);
     }
@@ -356,8 +356,13 @@ void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, AdapterActi
         out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});
         return;
     }
-    _evidence.Begin(job.jobNumber);
-    _program.Start(std::move(*made));
+    _counted = _counters;
+    _phase = EJobPhase::Selecting;
+    _armProgram = _methods.FindMethodOrNull(job.action, _methods.MakeData(job))->armProgram;
+    SendControl(
+        EControl::SelectProgram,
+        SELECT_URL,
+        fmt::format(R"({{"pno":{},"sno":0,"fno":0,"ext_sel":0}})", _armProgram));
 }
 
 tl::expected<ArmJob, std::string> OpenStreamRobotAdapter::MakeJob(const Planning::StartJob& job) const

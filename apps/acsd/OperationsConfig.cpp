@@ -49,6 +49,7 @@ void ReadOperationsConfig(const ConfigSection& root, OperationsConfig& config)
 
     const ConfigSection robot = root.GetSection("robot");
     config.offlineAfter = robot.GetDuration("offline_after", 100ms, 1h, config.offlineAfter);
+    config.loadTimeout = robot.GetDuration("load_timeout", 0ms, 1h, config.loadTimeout);
     config.statusInterval = robot.GetDuration("status_interval", 0ms, 1h, config.statusInterval);
 
     config.drainTimeout = root.GetSection("shutdown").GetDuration("drain_timeout", 0ms, 1min, config.drainTimeout);

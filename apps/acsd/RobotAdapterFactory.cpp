@@ -1,5 +1,6 @@
 #include "RobotAdapterFactory.hpp"
 
+#include "ArmInputs.hpp"
 #include "Vda5050RobotAdapter.hpp"
 
 #include <algorithm>
@@ -35,13 +36,18 @@ RobotAdapter MakeRobotAdapter(const AcsdConfig& config, const RobotLinkConfig& r
     VDA5050::MasterOptions options = MakeMasterOptions(config, robot);
     if (!robot.armOrNone.has_value())
     {
-        return {std::make_unique<Vda5050RobotAdapter>(std::move(options), config.methods, outputs), nullptr};
+        auto vehicle = std::make_unique<Vda5050RobotAdapter>(
+            std::move(options),
+            robot.methods,
+            outputs,
+            config.operations.loadTimeout);
+        return {std::move(vehicle), nullptr};
     }
     auto adapter = std::make_unique<OpenStreamRobotAdapter>(
         std::move(options),
-        config.arm,
-        config.methods,
-        ArmInputResolver(),
+        robot.armOptions,
+        robot.methods,
+        [methods = robot.methods](const Planning::StartJob& job) { return MakeArmInputs(methods, job); },
         outputs);
     OpenStreamRobotAdapter* const arm = adapter.get();
     return {std::move(adapter), arm};

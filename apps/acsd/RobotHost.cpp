@@ -53,7 +53,7 @@ struct RobotHost::Impl
         : surroundings(std::move(around)),
           robot(link),
           handler(std::move(eventHandler)),
-          watch(*config.site, link.robotID, surroundings.oddities)
+          watch(*config.site, link.robotID, surroundings.oddities, link.methods.GetPositions())
     {
         RobotAdapter made = MakeRobotAdapter(config, robot, outputs);
         adapter = std::move(made.adapter);

@@ -1,11 +1,12 @@
 #include "Vda5050RobotAdapter.hpp"
 
-#include <acs/core/JsonText.hpp>
+#include "VehicleParameters.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -15,14 +16,6 @@ namespace
 
 using Planning::AdapterActions;
 using Planning::RaiseEvent;
-
-void AddParameter(VDA5050::Action& action, std::string key, const std::optional<std::string>& value)
-{
-    if (value.has_value())
-    {
-        action.actionParameters.push_back({std::move(key), Core::JsonText::FromString(*value)});
-    }
-}
 
 } // namespace
 
@@ -41,28 +34,44 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
         return;
     }
     _recovery.reset();
+    DropLoadCheck(out);
     if (stateOrNull->orderID == job.commandID)
     {
         // It came to the vehicle late, and is there all the same.
-        TakeUp(job, MakeJobOrder(job), now, out);
+        TakeUp(job, now, out);
         return;
     }
-    _jobID = job.jobID;
-    _jobOrderID = job.commandID;
+    tl::expected<VDA5050::OrderMessage, std::string> order = MakeJobOrder(job);
+    if (!order.has_value())
+    {
+        out.emplace_back(RaiseEvent{Planning::JobFailed{job.jobID, order.error()}});
+        return;
+    }
+    _job = job;
     _bJobStarted = false;
-    _pendingOrder = PendingOrder{MakeJobOrder(job)};
+    _pendingOrder = PendingOrder{std::move(*order)};
     SendPendingOrder(now, out);
 }
 
-VDA5050::OrderMessage Vda5050RobotAdapter::MakeJobOrder(const Planning::StartJob& job) const
+tl::expected<VDA5050::OrderMessage, std::string> Vda5050RobotAdapter::MakeJobOrder(const Planning::StartJob& job) const
 {
+    const JobData data = _methods.MakeData(job);
+    const JobMethod* const methodOrNull = _methods.FindMethodOrNull(job.action, data);
+    if (methodOrNull == nullptr)
+    {
+        return tl::unexpected(fmt::format("the vehicle has no action for {}", job.action));
+    }
+    tl::expected<std::vector<VDA5050::ActionParameter>, std::string> parameters =
+        MakeActionParameters(*methodOrNull, data, _session.GetFactsheetOrNull());
+    if (!parameters.has_value())
+    {
+        return tl::unexpected(std::move(parameters.error()));
+    }
     VDA5050::Action action;
-    const auto method = _methods.find(job.action);
-    action.actionType = method == _methods.end() ? std::string() : method->second.vehicleAction;
+    action.actionType = methodOrNull->vehicleAction;
     action.actionID = job.commandID;
     action.blockingType = VDA5050::EBlockingType::Hard;
-    AddParameter(action, "stationName", job.position);
-    AddParameter(action, "loadId", job.carrierID);
+    action.actionParameters = std::move(*parameters);
 
     VDA5050::OrderMessage order;
     // Plans may name a job as one before did: a vehicle takes an orderId that it knows for a repetition.
@@ -89,7 +98,7 @@ void Vda5050RobotAdapter::FindJob(Core::Now now, AdapterActions& out)
     const bool bShown = std::ranges::count(state.actionStates, job.commandID, &VDA5050::ActionState::actionID) > 0;
     if (bShown)
     {
-        TakeUp(job, MakeJobOrder(job), now, out);
+        TakeUp(job, now, out);
     }
     else if (state.orderID.empty())
     {
@@ -106,49 +115,54 @@ void Vda5050RobotAdapter::FindJob(Core::Now now, AdapterActions& out)
     }
 }
 
-void Vda5050RobotAdapter::TakeUp(
-    const Planning::StartJob& job,
-    VDA5050::OrderMessage order,
-    Core::Now now,
-    AdapterActions& out)
+void Vda5050RobotAdapter::TakeUp(const Planning::StartJob& job, Core::Now now, AdapterActions& out)
 {
     const VDA5050::StateMessage& state = *_session.GetStateOrNull();
-    _jobID = job.jobID;
-    _jobOrderID = job.commandID;
+    DropLoadCheck(out);
+    _job = job;
     _bJobStarted = false;
     const auto shown = std::ranges::find(state.actionStates, job.commandID, &VDA5050::ActionState::actionID);
     if (shown != state.actionStates.end())
     {
         TakeAction({shown->actionID, shown->actionType, shown->actionStatus, shown->resultDescription}, out);
     }
-    if (_jobID.empty() || state.orderID != job.commandID)
+    if (!_job.has_value() || state.orderID != job.commandID)
     {
         return; // its end is told, or will be by the action's own state
     }
+    const auto abandon = [this, &job, &out](const std::string& reason) {
+        _job.reset();
+        out.emplace_back(RaiseEvent{Planning::JobUncertain{job.jobID, reason}});
+    };
+    tl::expected<VDA5050::OrderMessage, std::string> order = MakeJobOrder(job);
+    if (!order.has_value())
+    {
+        abandon(order.error());
+        return;
+    }
     VDA5050::OrderRecord record;
-    record.messages.push_back(std::move(order));
+    record.messages.push_back(std::move(*order));
     record.acceptedUpdateID = state.orderUpdateID;
     const Core::Result<void> resumed = _session.ResumeOrder(std::move(record), now, _sessionActions);
     if (!resumed)
     {
-        _jobID.clear();
-        out.emplace_back(RaiseEvent{Planning::JobUncertain{job.jobID, Core::Describe(resumed.error())}});
+        abandon(Core::Describe(resumed.error()));
     }
 }
 
 /// Whether the job's action goes on, which a vehicle may show together with paused.
 bool Vda5050RobotAdapter::IsJobRunning(const VDA5050::StateMessage& state) const
 {
-    return !_jobID.empty() && std::ranges::any_of(state.actionStates, [this](const VDA5050::ActionState& action) {
-        return action.actionID == _jobOrderID
-            && (action.actionStatus == VDA5050::EActionStatus::Initializing
-                || action.actionStatus == VDA5050::EActionStatus::Running);
-    });
+    return _job.has_value() && std::ranges::any_of(state.actionStates, [this](const VDA5050::ActionState& action) {
+               return action.actionID == _job->commandID
+                   && (action.actionStatus == VDA5050::EActionStatus::Initializing
+                       || action.actionStatus == VDA5050::EActionStatus::Running);
+           });
 }
 
 void Vda5050RobotAdapter::TakeAction(const VDA5050::ActionChanged& action, AdapterActions& out)
 {
-    if (_jobID.empty() || action.actionID != _jobOrderID)
+    if (!_job.has_value() || action.actionID != _job->commandID)
     {
         return;
     }
@@ -161,15 +175,15 @@ void Vda5050RobotAdapter::TakeAction(const VDA5050::ActionChanged& action, Adapt
         case VDA5050::EActionStatus::Paused:
             if (!std::exchange(_bJobStarted, true))
             {
-                out.emplace_back(RaiseEvent{Planning::JobStarted{_jobID}});
+                out.emplace_back(RaiseEvent{Planning::JobStarted{_job->jobID}});
             }
             break;
         case VDA5050::EActionStatus::Finished:
-            out.emplace_back(RaiseEvent{Planning::JobFinished{std::exchange(_jobID, {})}});
+            OnJobDone(out);
             break;
         case VDA5050::EActionStatus::Failed:
             out.emplace_back(RaiseEvent{Planning::JobFailed{
-                std::exchange(_jobID, {}),
+                std::exchange(_job, std::nullopt)->jobID,
                 action.resultDescription.empty() ? "the vehicle's action failed" : action.resultDescription}});
             break;
         default:

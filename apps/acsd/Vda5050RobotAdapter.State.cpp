@@ -121,8 +121,10 @@ void Vda5050RobotAdapter::TakeState(Core::Now now, AdapterActions& out)
             _state.heldNodeIDs.push_back(node.nodeID);
         }
     }
+    _state.loads = _methods.GetPositions().MakePortLoadsOrNull(state);
     SetOnline(_session.IsReady(), out);
     out.emplace_back(RaiseEvent{_state});
+    VerifyLoads(out);
     if (_state.bOccupied)
     {
         CancelForeignOrder(now);

@@ -1,5 +1,6 @@
 #include "Vda5050RobotAdapter.hpp"
 
+#include "VehicleParameters.hpp"
 #include <acs/core/Overloaded.hpp>
 
 #include <fmt/format.h>
@@ -49,10 +50,15 @@ VDA5050::OrderEdge MakeEdge(const Planning::RouteEdge& from)
 
 } // namespace
 
-Vda5050RobotAdapter::Vda5050RobotAdapter(VDA5050::MasterOptions options, JobMethods methods, RobotOutputs& outputs)
+Vda5050RobotAdapter::Vda5050RobotAdapter(
+    VDA5050::MasterOptions options,
+    JobMethods methods,
+    RobotOutputs& outputs,
+    std::chrono::milliseconds loadTimeout)
     : _session(std::move(options)),
       _methods(std::move(methods)),
-      _outputs(outputs)
+      _outputs(outputs),
+      _loadTimeout(loadTimeout)
 {
 }
 
@@ -75,9 +81,9 @@ void Vda5050RobotAdapter::Handle(const Planning::RobotCommand& command, Core::No
                 FindJob(now, out);
             },
             [&](const Planning::CancelJob& cancel) {
-                if (cancel.jobID == _jobID)
+                if (_job.has_value() && cancel.jobID == _job->jobID)
                 {
-                    CancelOrder(_jobOrderID, now, out);
+                    CancelOrder(_job->commandID, now, out);
                 }
             },
             [&](const Planning::Pause&) { SendInstantAction(VDA5050::ActionTypes::START_PAUSE, now); },
@@ -92,18 +98,23 @@ void Vda5050RobotAdapter::Handle(const Planning::RobotCommand& command, Core::No
 
 void Vda5050RobotAdapter::OnTimer(Planning::AdapterTimerID timer, Core::Now now, AdapterActions& out)
 {
+    if (timer == LOAD_TIMER)
+    {
+        OnLoadTimeout(out);
+        return;
+    }
     _session.OnTimer(static_cast<VDA5050::EMasterTimer>(timer), now, _sessionActions);
     Drain(now, out);
 }
 
 std::optional<std::string> Vda5050RobotAdapter::GetRejectionReasonOrNull(std::string_view action) const
 {
-    const auto method = _methods.find(action);
-    if (method == _methods.end() || method->second.vehicleAction.empty())
+    const JobMethod* const methodOrNull = _methods.FindMethodOrNull(action);
+    if (methodOrNull == nullptr || methodOrNull->vehicleAction.empty())
     {
         return fmt::format("the vehicle has no action for {}", action);
     }
-    return std::nullopt;
+    return FindParameterFaultOrNull(*methodOrNull, _methods.GetStations());
 }
 
 std::vector<VDA5050::MqttSubscription> Vda5050RobotAdapter::GetSubscriptions() const
@@ -254,9 +265,9 @@ void Vda5050RobotAdapter::RefuseOrder(const std::string& orderID, const std::str
         _lossReason.reset();
         out.emplace_back(RaiseEvent{Planning::DriveRejected{orderID, reason}});
     }
-    else if (!_jobID.empty() && _jobOrderID == orderID)
+    else if (_job.has_value() && _job->commandID == orderID)
     {
-        out.emplace_back(RaiseEvent{Planning::JobFailed{std::exchange(_jobID, {}), reason}});
+        out.emplace_back(RaiseEvent{Planning::JobFailed{std::exchange(_job, std::nullopt)->jobID, reason}});
     }
 }
 

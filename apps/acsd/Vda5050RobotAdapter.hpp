@@ -1,12 +1,16 @@
 #pragma once
 
-#include "AcsdConfig.hpp"
 #include "IMqttRobotAdapter.hpp"
+#include "JobMethods.hpp"
+#include "LoadCheck.hpp"
 #include "RobotOutputs.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/vda5050/MasterSession.hpp>
 #include <acs/vda5050/OrderBuilder.hpp>
 
+#include <tl/expected.hpp>
+
+#include <chrono>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,9 +30,14 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
         VDA5050::OrderMessage order;
     };
 
+    /// The session has the numbers of its own timers, which are fewer.
+    static constexpr Planning::AdapterTimerID LOAD_TIMER = 50;
+    static constexpr std::chrono::milliseconds LOAD_TIMEOUT{10'000};
+
     VDA5050::MasterSession _session;
     JobMethods _methods;
     RobotOutputs& _outputs;
+    std::chrono::milliseconds _loadTimeout;
     VDA5050::MasterActions _sessionActions;
 
     bool _bOnline = false;
@@ -38,9 +47,9 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
     std::size_t _wantedReleased = 0;             ///< Nodes that the engine has released.
     bool _bUpdateUnderWay = false;               ///< The vehicle has not shown the last message of the drive yet.
     std::string _lastPassedNodeID;
-    std::string _jobID;      ///< Empty: no job.
-    std::string _jobOrderID; ///< What the vehicle knows the job by, as order and as action.
+    std::optional<Planning::StartJob> _job; ///< The vehicle knows it by its commandID, as order and as action.
     bool _bJobStarted = false;
+    std::optional<LoadCheck> _loadCheck; ///< Of a job whose action is finished and whose loads do not show it yet.
     std::optional<PendingOrder> _pendingOrder;
     std::optional<Planning::RecoverJob> _recovery;    ///< Asked for, and the vehicle has not told its state yet.
     std::optional<VDA5050::OrderMessage> _lastUpdate; ///< Sent and not shown yet.
@@ -50,16 +59,17 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
 
     void StartDrive(const Planning::Drive& drive, Core::Now now, Planning::AdapterActions& out);
     void StartJob(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
-    [[nodiscard]] VDA5050::OrderMessage MakeJobOrder(const Planning::StartJob& job) const;
+    /// The error says which parameter of the action has no value.
+    [[nodiscard]] tl::expected<VDA5050::OrderMessage, std::string> MakeJobOrder(const Planning::StartJob& job) const;
+    void OnJobDone(Planning::AdapterActions& out);
+    void VerifyLoads(Planning::AdapterActions& out);
+    void OnLoadTimeout(Planning::AdapterActions& out);
+    void DropLoadCheck(Planning::AdapterActions& out);
 
     /// What the vehicle's state says of a job that was commanded before a restart.
     void FindJob(Core::Now now, Planning::AdapterActions& out);
     /// Goes on with the order of the job, which the vehicle shows, as if this adapter had sent it.
-    void TakeUp(
-        const Planning::StartJob& job,
-        VDA5050::OrderMessage order,
-        Core::Now now,
-        Planning::AdapterActions& out);
+    void TakeUp(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
     void CancelOrder(std::string_view id, Core::Now now, Planning::AdapterActions& out);
     void SendInstantAction(std::string_view actionType, Core::Now now);
     void SendPendingOrder(Core::Now now, Planning::AdapterActions& out);
@@ -89,8 +99,12 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
     void SetOnline(bool bOnline, Planning::AdapterActions& out);
 
 public:
-    /// The outputs must outlive the adapter.
-    Vda5050RobotAdapter(VDA5050::MasterOptions options, JobMethods methods, RobotOutputs& outputs);
+    /// The outputs must outlive the adapter. The time limit is for the loads to agree with a job whose action is finished.
+    Vda5050RobotAdapter(
+        VDA5050::MasterOptions options,
+        JobMethods methods,
+        RobotOutputs& outputs,
+        std::chrono::milliseconds loadTimeout = LOAD_TIMEOUT);
 
     void Handle(const Planning::RobotCommand& command, Core::Now now, Planning::AdapterActions& out) override;
     void OnTimer(Planning::AdapterTimerID timer, Core::Now now, Planning::AdapterActions& out) override;

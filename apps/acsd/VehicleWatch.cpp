@@ -44,10 +44,15 @@ bool IsBackwards(VDA5050::EActionStatus before, VDA5050::EActionStatus after)
 
 } // namespace
 
-VehicleWatch::VehicleWatch(const Planning::SiteMap& site, std::string robotID, OddityLog& oddities)
+VehicleWatch::VehicleWatch(
+    const Planning::SiteMap& site,
+    std::string robotID,
+    OddityLog& oddities,
+    LoadPositions positions)
     : _site(site),
       _robotID(std::move(robotID)),
       _oddities(oddities),
+      _positions(std::move(positions)),
       _rangeX(FindRange(site, &Planning::SiteNode::x)),
       _rangeY(FindRange(site, &Planning::SiteNode::y))
 {
@@ -67,6 +72,7 @@ void VehicleWatch::Note(std::string_view kind, std::string_view detail)
 void VehicleWatch::OnState(const VDA5050::StateMessage& state)
 {
     LookAtPlace(state);
+    CheckLoads(state);
     if (_shown.has_value())
     {
         LookAtOrder(state);
@@ -106,6 +112,24 @@ void VehicleWatch::LookAtPlace(const VDA5050::StateMessage& state)
     if (charge < 0 || charge > FULL_BATTERY)
     {
         Note("battery_range", fmt::format("{} %", charge));
+    }
+}
+
+/// Of a robot whose ports the vehicle shows: such a load is on no port, as far as acsd knows.
+void VehicleWatch::CheckLoads(const VDA5050::StateMessage& state)
+{
+    if (!_positions.MakePortLoadsOrNull(state).has_value())
+    {
+        return;
+    }
+    for (const VDA5050::Load& load : *state.loads)
+    {
+        if (_positions.FindPortOrNull(load.loadPosition) == nullptr)
+        {
+            Note(
+                "unknown_load_position",
+                fmt::format("\"{}\": give the port that is meant in load_positions", load.loadPosition));
+        }
     }
 }
 

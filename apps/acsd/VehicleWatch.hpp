@@ -1,5 +1,6 @@
 #pragma once
 
+#include "LoadPositions.hpp"
 #include "OddityLog.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/openstream/ClientSessionActions.hpp>
@@ -38,6 +39,7 @@ class VehicleWatch final
     const Planning::SiteMap& _site;
     std::string _robotID;
     OddityLog& _oddities;
+    LoadPositions _positions;
     std::optional<Shown> _shown;
     VDA5050::MasterStatistics _statistics; ///< As they were at the last look.
     Range _rangeX;                         ///< Both: around the site's nodes.
@@ -45,6 +47,7 @@ class VehicleWatch final
 
     [[nodiscard]] static Range FindRange(const Planning::SiteMap& site, double Planning::SiteNode::*coordinate);
     void LookAtPlace(const VDA5050::StateMessage& state);
+    void CheckLoads(const VDA5050::StateMessage& state);
     void LookAtOrder(const VDA5050::StateMessage& state);
     void LookAtActions(const VDA5050::StateMessage& state);
     void Note(std::string_view kind, std::string_view detail);
@@ -54,7 +57,7 @@ public:
     static constexpr double MARGIN = 5.0;
 
     /// Site and log outlive it.
-    VehicleWatch(const Planning::SiteMap& site, std::string robotID, OddityLog& oddities);
+    VehicleWatch(const Planning::SiteMap& site, std::string robotID, OddityLog& oddities, LoadPositions positions);
 
     /// A state that the session took as new.
     void OnState(const VDA5050::StateMessage& state);

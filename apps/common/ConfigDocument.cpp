@@ -183,6 +183,32 @@ void ConfigDocument::NoteAsked(const std::string& tablePath, const std::string& 
     _askedByTable[tablePath].insert(key);
 }
 
+void ConfigDocument::NoteAllAsked(const ConfigNode& value, const std::string& path)
+{
+    std::vector<std::pair<const ConfigNode*, std::string>> work;
+    work.emplace_back(&value, path);
+    while (!work.empty())
+    {
+        const auto [node, nodePath] = std::move(work.back());
+        work.pop_back();
+        if (const auto* const array = std::get_if<ConfigNode::Array>(&node->value))
+        {
+            for (std::size_t index = 0; index < array->size(); ++index)
+            {
+                work.emplace_back((*array)[index].get(), fmt::format("{}[{}]", nodePath, index));
+            }
+        }
+        else if (const auto* const table = std::get_if<ConfigNode::Table>(&node->value))
+        {
+            for (const auto& [key, entry] : *table)
+            {
+                NoteAsked(nodePath, key);
+                work.emplace_back(entry.get(), JoinPath(nodePath, key));
+            }
+        }
+    }
+}
+
 void ConfigDocument::AddMistake(const ConfigNode* nodeOrNull, const std::string& path, const std::string& text)
 {
     const bool bTold = !path.empty() && (IsInRefused(path) || !_mistaken.insert(path).second);

@@ -60,6 +60,9 @@ public:
     /// Remembers that the program knows this key.
     void NoteAsked(const std::string& tablePath, const std::string& key);
 
+    /// The same for every key inside a value.
+    void NoteAllAsked(const ConfigNode& value, const std::string& path);
+
     /// At the line of the node; without one, at the file. Of a key only the first is told, as the others come of it.
     void AddMistake(const ConfigNode* nodeOrNull, const std::string& path, const std::string& text);
 

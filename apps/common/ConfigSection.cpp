@@ -182,6 +182,16 @@ std::vector<std::string> ConfigSection::GetStringList(const std::string& key) co
     return values;
 }
 
+const ConfigNode* ConfigSection::FindValueOrNull(const std::string& key) const
+{
+    const ConfigNode* const nodeOrNull = FindGivenOrNull(key, false, {});
+    if (nodeOrNull != nullptr)
+    {
+        _document->NoteAllAsked(*nodeOrNull, ConfigDocument::JoinPath(_path, key));
+    }
+    return nodeOrNull;
+}
+
 ConfigSection ConfigSection::GetSection(const std::string& name) const
 {
     const ConfigNode* node = FindGivenOrNull(name, false, {});

@@ -73,6 +73,10 @@ public:
     /// A list of strings; empty where the key is absent.
     [[nodiscard]] std::vector<std::string> GetStringList(const std::string& key) const;
 
+    /// The value of an optional key as it stands, for keys that take anything; null where the key is absent. All that is in it
+    /// counts as asked for.
+    [[nodiscard]] const ConfigNode* FindValueOrNull(const std::string& key) const;
+
     /// A required string that a function reads: `section.GetParsed<Location>("dock", ParseLocation)`. Its error becomes
     /// the mistake, a value-initialised TValue the result.
     template <typename TValue, typename TParse>

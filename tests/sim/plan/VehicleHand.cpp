@@ -14,34 +14,34 @@ namespace
 
 /// Every vehicle of the world takes and brings loads itself, unless it has an arm; what is done at a set is a position that
 /// it takes there.
-Acsd::AcsdConfig MakeConfig(bool bArm)
+Acsd::JobMethods MakeMethods(bool bArm)
 {
-    Acsd::AcsdConfig config;
-    config.methods = {{"CassetteLoad", {"pick", 0}}, {"CassetteUnload", {"drop", 0}}};
-    if (bArm)
+    if (!bArm)
     {
-        for (const auto& [action, program] : GetArmPrograms())
-        {
-            config.methods[action] = {"", program};
-        }
+        return {
+            {"CassetteLoad", {"pick", 0}},
+            {"CassetteUnload", {"drop", 0}},
+            {"TrayLoad", {"pick", 0}},
+            {"TrayUnload", {"drop", 0}},
+            {"MemoryPickAndPlace", {"finePositioning", 0}},
+            {"OpenSetCover", {"finePositioning", 0}}};
     }
-    else
+    Acsd::JobMethods methods{{"CassetteLoad", {"pick", 0}}, {"CassetteUnload", {"drop", 0}}};
+    for (const auto& [action, program] : GetArmPrograms())
     {
-        config.methods["TrayLoad"] = {"pick", 0};
-        config.methods["TrayUnload"] = {"drop", 0};
-        config.methods["MemoryPickAndPlace"] = {"finePositioning", 0};
-        config.methods["OpenSetCover"] = {"finePositioning", 0};
+        methods.SetMethod(action, {}, {"", program});
     }
-    config.arm.period = ARM_PERIOD;
-    return config;
+    return methods;
 }
 
 Acsd::RobotLinkConfig MakeLink(const std::string& robotID, bool bArm)
 {
     Acsd::RobotLinkConfig link{robotID, "ACS", robotID, "2.0.0", std::nullopt};
+    link.methods = MakeMethods(bArm);
     if (bArm)
     {
         link.armOrNone.emplace(); // its addresses are the network's business
+        link.armOptions.period = ARM_PERIOD;
     }
     return link;
 }
@@ -55,10 +55,7 @@ VehicleHand::VehicleHand(
     EventHandler handler,
     ArmController* controllerOrNull)
     : _broker(broker),
-      _adapter(Acsd::MakeRobotAdapter(
-          MakeConfig(controllerOrNull != nullptr),
-          MakeLink(robotID, controllerOrNull != nullptr),
-          _outputs)),
+      _adapter(Acsd::MakeRobotAdapter(Acsd::AcsdConfig(), MakeLink(robotID, controllerOrNull != nullptr), _outputs)),
       _runner(timeline, *_adapter.adapter, std::move(handler), [this] { SendAll(); }),
       _client(broker.Open(*this, _adapter.adapter->GetSubscriptions(), std::nullopt))
 {

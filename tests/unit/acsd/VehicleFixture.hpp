@@ -23,7 +23,7 @@ struct VehicleFixture
     VDA5050::Vda5050Codec codec;
     VDA5050::StateMessage state;
     Planning::AdapterActions actions;
-    Vda5050RobotAdapter adapter{MakeOptions(), {{"CassetteLoad", {"pick", 0}}, {"TrayLoad", {"", 11}}}, outputs};
+    Vda5050RobotAdapter adapter;
 
     static VDA5050::MasterOptions MakeOptions()
     {
@@ -35,6 +35,12 @@ struct VehicleFixture
     }
 
     VehicleFixture()
+        : VehicleFixture(JobMethods{{"CassetteLoad", {"pick", 0}}, {"TrayLoad", {"", 11}}})
+    {
+    }
+
+    explicit VehicleFixture(JobMethods methods)
+        : adapter(MakeOptions(), std::move(methods), outputs)
     {
         state.header.version = "2.0.0";
         state.header.manufacturer = "ACS";

@@ -21,7 +21,7 @@ struct WatchFixture
     Testing::RecordingLogSink sink;
     Testing::ManualClock clock;
     OddityLog oddities{Core::Logger(sink, "robot"), clock};
-    VehicleWatch watch{*config.site, "LR01", oddities};
+    VehicleWatch watch{*config.site, "LR01", oddities, config.robots.back().methods.GetPositions()};
     VDA5050::StateMessage state;
 
     WatchFixture()
@@ -185,6 +185,21 @@ TEST_CASE_METHOD(
     Show();
     CHECK(sink.GetLines().back().message == "the robot says what cannot be (245 like it left out before)");
     CHECK(sink.ContainsField("count", "251"));
+}
+
+TEST_CASE_METHOD(WatchFixture, "A load at a position that no port has is reported")
+{
+    REQUIRE(config.robots.back().robotID == "LR01");
+    VDA5050::Load load;
+    load.loadPosition = "CP01";
+    state.loads = {load};
+    Show();
+    state.loads->front().loadPosition.clear(); // of the only port
+    Show();
+    CHECK(CountOf("unknown_load_position") == 0);
+    state.loads->front().loadPosition = "front";
+    Show();
+    CHECK(CountOf("unknown_load_position") == 1);
 }
 
 } // namespace ACS::Acsd::Test

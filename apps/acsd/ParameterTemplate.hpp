@@ -1,0 +1,61 @@
+#pragma once
+
+#include "common/ConfigDocument.hpp"
+#include "JobTemplate.hpp"
+#include <acs/core/JsonText.hpp>
+#include <acs/vda5050/FactsheetMessage.hpp>
+
+#include <tl/expected.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+/// Why a parameter has no value for a job.
+struct ParameterFault
+{
+    std::optional<JobName> missing; ///< The name that the job does not have; absent: the value has the wrong type.
+    std::string reason;
+};
+
+/// The value of a parameter of a vehicle's action: a scalar, or a table or list of scalars. Strings are templates.
+class ParameterTemplate final
+{
+    using Scalar = std::variant<JobTemplate, std::int64_t, double, bool>;
+
+    /// JSON text, and the scalar that follows it.
+    struct Piece
+    {
+        std::string json;
+        std::optional<Scalar> scalarOrNone;
+    };
+
+    std::vector<Piece> _pieces; ///< A scalar is one piece without text.
+
+    ParameterTemplate() = default;
+
+public:
+    /// The error is a text for a person.
+    [[nodiscard]] static tl::expected<ParameterTemplate, std::string> Make(const Apps::ConfigNode& node);
+
+    /// A string.
+    [[nodiscard]] static tl::expected<ParameterTemplate, std::string> Make(std::string_view text);
+
+    [[nodiscard]] std::vector<JobName> GetNames() const;
+
+    /// Of the type that the vehicle's factsheet declares; absent: as TOML has it.
+    [[nodiscard]] tl::expected<Core::JsonText, ParameterFault> Resolve(
+        const JobData& data,
+        std::optional<VDA5050::EValueDataType> type) const;
+
+private:
+    [[nodiscard]] bool IsScalar() const noexcept;
+    [[nodiscard]] std::string_view GetJsonKind() const noexcept;
+};
+
+} // namespace ACS::Acsd

@@ -1,0 +1,125 @@
+#include "StationConfig.hpp"
+
+#include "common/ConfigDocument.hpp"
+#include <acs/core/Overloaded.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+using Apps::ConfigNode;
+using Apps::ConfigSection;
+
+constexpr std::string_view DEFAULT_TYPE = "rack";
+/// Metres: nothing at a station is higher or deeper.
+constexpr double FARTHEST_HEIGHT = 1'000;
+
+StationValues MakeValues(const Planning::SiteStation& station)
+{
+    StationValues values{{"type", std::string(DEFAULT_TYPE)}};
+    if (station.height.has_value())
+    {
+        values.emplace("height", *station.height);
+    }
+    return values;
+}
+
+/// A key that acsd does not know, for templates.
+void ReadValue(const ConfigSection& section, const std::string& key, StationValues& values)
+{
+    const ConfigNode* const nodeOrNull = section.FindValueOrNull(key);
+    const auto refuse = [&section, &key] {
+        section.AddMistake(key, "expected a string, a number or a boolean");
+    };
+    std::visit(
+        Core::Overloaded{
+            [&refuse](const ConfigNode::Table&) { refuse(); },
+            [&refuse](const ConfigNode::Array&) { refuse(); },
+            [&refuse](const ConfigNode::Other&) { refuse(); },
+            [&values, &key](const auto& value) {
+                values.insert_or_assign(key, JobValue(value));
+            }},
+        nodeOrNull->value);
+}
+
+void ReadReach(const ConfigSection& section, const std::string& stationID, AcsdConfig& config)
+{
+    std::vector<std::string> reach = section.GetStringList("reach");
+    const auto wrong = std::ranges::find_if(reach, [&stationID, &config](const std::string& other) {
+        return other == stationID || config.site->FindStationOrNull(other) == nullptr;
+    });
+    if (wrong != reach.end())
+    {
+        section.AddMistake(
+            "reach",
+            fmt::format("expected other stations of the site map, found {}", Core::QuoteForError(*wrong)));
+    }
+    else if (!reach.empty())
+    {
+        config.engine.reach.insert_or_assign(stationID, std::move(reach));
+    }
+}
+
+void ReadStation(const ConfigSection& section, const std::string& stationID, AcsdConfig& config, StationValues& values)
+{
+    values.insert_or_assign("type", section.GetString("type", std::string(DEFAULT_TYPE)));
+    if (section.HasKey("height"))
+    {
+        values.insert_or_assign("height", section.GetNumber("height", -FARTHEST_HEIGHT, FARTHEST_HEIGHT));
+    }
+    if (std::optional<std::string> side = section.GetStringOrNull("side"))
+    {
+        values.insert_or_assign("side", std::move(*side));
+    }
+    ReadReach(section, stationID, config);
+    static_cast<void>(section.HasKey("actions")); // read with the actions
+    for (const std::string& key : section.GetNames())
+    {
+        if (key != "reach" && key != "actions" && !values.contains(key))
+        {
+            ReadValue(section, key, values);
+        }
+    }
+}
+
+} // namespace
+
+void ReadStations(const ConfigSection& root, AcsdConfig& config)
+{
+    const ConfigSection stations = root.GetSection("stations");
+    if (!config.site.has_value())
+    {
+        static_cast<void>(root.FindValueOrNull("stations")); // cannot be judged without a map
+        return;
+    }
+    StationTable table;
+    for (const Planning::SiteStation& station : config.site->GetStations())
+    {
+        table.emplace(station.stationID, MakeValues(station));
+    }
+    for (const std::string& stationID : stations.GetNames())
+    {
+        const ConfigSection section = stations.GetSection(stationID);
+        const auto values = table.find(stationID);
+        if (values == table.end())
+        {
+            section.Refuse("expected a station of the site map");
+            continue;
+        }
+        ReadStation(section, stationID, config, values->second);
+    }
+    config.stations = std::make_shared<const StationTable>(std::move(table));
+}
+
+} // namespace ACS::Acsd
