@@ -435,10 +435,14 @@ def check_config(config, lif):
     return mistakes
 
 
+# Tables whose keys are names of the site: each counts as one key.
+FREE_TABLES = ("parameters", "arm_inputs", "load_positions")
+
+
 def list_keys_recursive(table, prefix=""):
     keys = []
     for key, value in table.items():
-        if isinstance(value, dict):
+        if isinstance(value, dict) and key not in FREE_TABLES:
             keys += list_keys_recursive(value, f"{prefix}{key}.")
         else:
             keys.append(prefix + key)
@@ -449,8 +453,8 @@ def list_sample_keys(text):
     """Keys that a configuration shows in comments only, as "# key = value", in tables that may be comments too."""
     table, keys = "", set()
     for line in text.splitlines():
-        if match := re.match(r"^(?:# )?\[([a-zA-Z0-9_.]+)\]", line):
-            table = match[1]
+        if match := re.match(r"^(?:# )?\[([a-zA-Z0-9_.\"]+)\]", line):
+            table = match[1].replace('"', "")
         elif match := re.match(r"^# ([a-zA-Z_.]+) = ", line):
             keys.add(f"{table}.{match[1]}")
     return keys
@@ -459,7 +463,8 @@ def list_sample_keys(text):
 def check_key_table(config, text, readme):
     """The README's table of keys and the file, read and as text, name the same keys."""
     def make_general(keys):
-        return {re.sub(r"^(robots|actions)\.[^.]+", r"\1.NAME", key) for key in keys}
+        names = {re.sub(r"^(robots|actions)\.[^.]+", r"\1.NAME", key) for key in keys}
+        return {re.sub(r"^stations\..+\.", "stations.NAME.", name) for name in names}
     used = make_general(list_keys_recursive(config))
     listed = set(re.findall(r"^\| `([a-zA-Z_.]+)` \|", readme, re.MULTILINE))
     listed = {key for key in listed if "." in key and key not in FILES}
