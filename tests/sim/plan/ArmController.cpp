@@ -2,6 +2,7 @@
 
 #include "ArmPrograms.hpp"
 #include "openstream-sim/ControllerMachine.hpp"
+#include "openstream-sim/PlaceTemplate.hpp"
 #include "openstream-sim/RelayName.hpp"
 
 #include <algorithm>
@@ -21,6 +22,25 @@ constexpr OpenStreamSim::RelayBlock COUNTER_BLOCK{OpenStreamSim::ERelayBus::None
 constexpr std::chrono::milliseconds LOOK_INTERVAL = 200ms;
 /// Nothing that was sent is on its way for so long.
 constexpr std::chrono::seconds LONGEST_WAY = 10s;
+
+OpenStreamSim::PlaceTemplates MakeTemplates(const std::vector<std::string>& texts)
+{
+    OpenStreamSim::PlaceTemplates templates;
+    for (const std::string& text : texts)
+    {
+        templates.push_back(*OpenStreamSim::PlaceTemplate::Parse(text));
+    }
+    return templates;
+}
+
+OpenStreamSim::ProgramWork MakeWork(const ArmProgramTexts& program)
+{
+    if (!program.openedSet.empty())
+    {
+        return OpenStreamSim::CoverWork{MakeTemplates({program.openedSet}), false};
+    }
+    return OpenStreamSim::TransferWork{MakeTemplates(program.from), MakeTemplates(program.to)};
+}
 
 OpenStreamSim::Fault MakeFault(OpenStreamSim::EFaultKind kind)
 {
@@ -71,8 +91,12 @@ void ArmController::SwitchOn()
     {
         OpenStreamSim::ProgramSpec spec;
         spec.duration = std::chrono::milliseconds(_dice.GetBetween(500, _dice.IsHit(200) ? 20'000 : 5'000));
-        options.programs[static_cast<int>(program)] = spec;
+        spec.echo = OpenStreamSim::ParseRelayNameOrNull(program.inputs.front().first);
+        spec.work = MakeWork(program);
+        options.programs[static_cast<int>(program.program)] = spec;
     }
+    options.robotID = _robotID;
+    options.world = &_around.witness.GetFloor();
     OpenStreamSim::IFaultHost& host = *this;
     _machine = std::make_unique<Machine>(options, host, _around.timeline.GetNow());
     _seen = {};
@@ -181,7 +205,7 @@ void ArmController::WatchProgram()
 void ArmController::CheckProgram(const Planning::StartJob& job)
 {
     const int program = GetMachine().GetProgram();
-    if (program != static_cast<int>(GetArmPrograms().at(job.action)))
+    if (program != static_cast<int>(GetArmPrograms().at(job.action).program))
     {
         _around.trace.Violate("the arm of {} does {} by program {}", _robotID, job.action, program);
     }
@@ -274,6 +298,10 @@ void ArmController::OnText(Protocol::ConnectionID connection, const std::string&
     }
     if (bCut && _dice.IsHit(500))
     {
+        if (text.find(START_PATH) != std::string::npos && _dice.IsHit(300))
+        {
+            RunByHand();
+        }
         return; // it got lost; else the answer to it does
     }
     if (const auto found = _connections.find(connection); found != _connections.end())
@@ -354,6 +382,23 @@ void ArmController::SetRight()
         }
         Look({});
     });
+}
+
+/// Somebody at its panel runs a program of the site's own, which moves nothing and has a number of its own.
+void ArmController::RunByHand()
+{
+    constexpr std::uint32_t OWN_NUMBER = 0;
+    Look({});
+    if (GetMachine().IsPlaying() || !_running.empty())
+    {
+        return;
+    }
+    _around.trace.Tell("the arm of {} runs a program by hand", _robotID);
+    OpenStreamSim::RelayMemory& relays = GetMachine().GetRelays();
+    relays.WriteU32(COUNTER_BLOCK, OpenStreamSim::ECHO_BYTE, OWN_NUMBER);
+    relays.WriteU32(COUNTER_BLOCK, OpenStreamSim::STARTED_BYTE, static_cast<std::uint32_t>(_seen.started) + 1U);
+    relays.WriteU32(COUNTER_BLOCK, OpenStreamSim::FINISHED_BYTE, static_cast<std::uint32_t>(_seen.finished) + 1U);
+    _seen = ReadCounters();
 }
 
 void ArmController::Restart()

@@ -104,6 +104,7 @@ private:
     void CheckProgram(const Planning::StartJob& job);
     void Inject(const OpenStreamSim::Fault& fault);
     void SetRight();
+    void RunByHand();
     void DropSessions() override;
     void WakeAt(std::optional<Core::SteadyTime> time) override;
     void OnOpened(Protocol::ConnectionID connection) override;

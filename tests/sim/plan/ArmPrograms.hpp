@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace ACS::Simulation
 {
@@ -11,15 +13,17 @@ namespace ACS::Simulation
 /// How often acsd has an arm's counters told. Less often than in a real site: a world has hours of them.
 inline constexpr std::chrono::milliseconds ARM_PERIOD{100};
 
-/// Which program of an arm does which action.
-[[nodiscard]] inline const std::map<std::string, std::uint32_t>& GetArmPrograms()
+/// One program of an arm: the words that acsd writes before it, and what it does with them. As those of the example site.
+struct ArmProgramTexts
 {
-    static const std::map<std::string, std::uint32_t> PROGRAMS{
-        {"TrayLoad", 11},
-        {"TrayUnload", 12},
-        {"MemoryPickAndPlace", 13},
-        {"OpenSetCover", 14}};
-    return PROGRAMS;
-}
+    std::uint32_t program = 0;
+    std::vector<std::pair<std::string, std::string>> inputs; ///< Relay and template.
+    std::vector<std::string> from;
+    std::vector<std::string> to;
+    std::string openedSet; ///< Empty: it moves something `from` a place `to` another.
+};
+
+/// By action.
+[[nodiscard]] const std::map<std::string, ArmProgramTexts>& GetArmPrograms();
 
 } // namespace ACS::Simulation

@@ -15,7 +15,7 @@ ArmRobot::ArmRobot(
     bool bFaulty)
     : _timeline(around.timeline),
       _broker(around.broker),
-      _robotID(robotID),
+      _robot(around.robot),
       _dice(seeds.trouble),
       _base(around, seeds.base, robotID, nodeID, bFaulty),
       _arm(
@@ -29,7 +29,7 @@ ArmRobot::ArmRobot(
 
 std::unique_ptr<IRobotHand> ArmRobot::MakeHand(std::uint64_t /*number*/, EventHandler handler)
 {
-    return std::make_unique<VehicleHand>(_timeline, _broker, _robotID, std::move(handler), &_arm);
+    return std::make_unique<VehicleHand>(_timeline, _broker, _robot, std::move(handler), &_arm);
 }
 
 /// Mostly both parts have one radio.

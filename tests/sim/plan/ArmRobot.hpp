@@ -25,7 +25,7 @@ public:
 private:
     Timeline& _timeline;
     MqttBroker& _broker;
-    std::string _robotID;
+    const Planning::RobotOptions& _robot;
     Dice _dice;
     VehicleRobot _base;
     mutable ArmController _arm; ///< Whoever looks brings it to the present.

@@ -38,6 +38,7 @@ enum class EMutation : std::uint8_t
     PortOffByOne,
     WrongPlace,
     StartRepeated,
+    EchoIgnored,
 };
 
 struct MutationText
@@ -47,7 +48,7 @@ struct MutationText
     bool bOfArms = false; ///< Looked for in worlds with arms, of which there are few else.
 };
 
-inline constexpr std::size_t MUTATION_COUNT = 27;
+inline constexpr std::size_t MUTATION_COUNT = 28;
 
 /// By EMutation.
 inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
@@ -79,6 +80,7 @@ inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
     {"port-off-by-one", "a job is given to the robot with the next port of it, or the next memory place there"},
     {"wrong-place", "a job is given to the robot with the fixed place beside the right one"},
     {"start-repeated", "a program's start is sent again when the connection to the arm is back", true},
+    {"echo-ignored", "the numbers that an arm's programs echo are not read: any program counts for the job", true},
 }};
 
 } // namespace ACS::Simulation

@@ -115,9 +115,9 @@ void FloorChecker::OnJobEnded(const std::string& robotID)
 bool FloorChecker::IsMoved(const JobKey& key) const
 {
     const std::optional<Sim::WorldEvent> demanded = MakeDemandedOrNull({}, key);
-    const bool bHandled =
-        _handling == EHandling::Everything || (demanded.has_value() && _demands.at(key).action.starts_with("Cassette"));
-    return !demanded.has_value() || !bHandled || _moved.contains(key);
+    const bool bCarrier = demanded.has_value() && std::holds_alternative<Sim::CarrierMoved>(*demanded);
+    const bool bPretended = !demanded.has_value() || (_handling == EHandling::Carriers && !bCarrier);
+    return bPretended || _moved.contains(key);
 }
 
 void FloorChecker::TakeCarriersOff(const std::vector<std::string>& ports)

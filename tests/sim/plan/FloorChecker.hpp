@@ -24,7 +24,7 @@ using JobKey = std::tuple<std::string, std::int32_t, std::string>;
 /// Which moves the robots of a world make on the floor. The others they only pretend.
 enum class EHandling : std::uint8_t
 {
-    Cassettes, ///< Those of logistics robots only.
+    Carriers,
     Everything,
 };
 

@@ -3,7 +3,10 @@
 #include "AcsdConfig.hpp"
 #include "ArmPrograms.hpp"
 
+#include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace ACS::Simulation
@@ -12,36 +15,74 @@ namespace ACS::Simulation
 namespace
 {
 
-/// Every vehicle of the world takes and brings loads itself, unless it has an arm; what is done at a set is a position that
-/// it takes there.
-Acsd::JobMethods MakeMethods(bool bArm)
+Acsd::VehicleParameter MakeParameter(std::string key, std::string_view text)
 {
-    if (!bArm)
+    return {std::move(key), *Acsd::ParameterTemplate::Make(text)};
+}
+
+/// A pick or drop with all that the factsheet of the standard demands.
+Acsd::JobMethod MakeHandling(std::string vehicleAction, std::string_view loadType, Planning::EActionEffect effect)
+{
+    return {
+        std::move(vehicleAction),
+        0,
+        {MakeParameter("stationType", "rack"),
+         MakeParameter("stationName", "{place}"),
+         MakeParameter("loadType", loadType),
+         MakeParameter("loadId", "{carrier}"),
+         MakeParameter("lhd", "{robot_port}")},
+        {},
+        effect};
+}
+
+Acsd::JobMethod MakeArmMethod(const ArmProgramTexts& program, Planning::EActionEffect effect)
+{
+    Acsd::JobMethod method{"", program.program, {}, {}, effect};
+    for (const auto& [relay, text] : program.inputs)
     {
-        return {
-            {"CassetteLoad", {"pick", 0}},
-            {"CassetteUnload", {"drop", 0}},
-            {"TrayLoad", {"pick", 0}},
-            {"TrayUnload", {"drop", 0}},
-            {"MemoryPickAndPlace", {"finePositioning", 0}},
-            {"OpenSetCover", {"finePositioning", 0}}};
+        method.armInputs.push_back({*Acsd::ParseArmRelay(relay), *Acsd::NumberTemplate::Parse(text)});
     }
-    Acsd::JobMethods methods{{"CassetteLoad", {"pick", 0}}, {"CassetteUnload", {"drop", 0}}};
+    return method;
+}
+
+/// Every vehicle of the world takes and brings loads itself, unless it has an arm; what is done at a set is a position that
+/// it takes there. The base of an arm shows no loads.
+Acsd::JobMethods MakeMethods(const Planning::RobotOptions& robot, bool bArm)
+{
+    using Planning::EActionEffect;
+    const auto positions = bArm ? Acsd::LoadPositions() : Acsd::LoadPositions(robot.ports, {});
+    Acsd::JobMethods methods(positions, std::make_shared<const Acsd::StationTable>());
+    methods.SetMethod("CassetteLoad", {}, MakeHandling("pick", "cassette", EActionEffect::Load));
+    methods.SetMethod("CassetteUnload", {}, MakeHandling("drop", "cassette", EActionEffect::Unload));
+    methods.SetMethod("TrayLoad", {}, MakeHandling("pick", "tray", EActionEffect::Load));
+    methods.SetMethod("TrayUnload", {}, MakeHandling("drop", "tray", EActionEffect::Unload));
+    methods.SetMethod("MemoryPickAndPlace", {}, {"finePositioning", 0});
+    methods.SetMethod("OpenSetCover", {}, {"finePositioning", 0});
+    const Planning::ActionTable rules = Planning::MakeStandardActions();
     for (const auto& [action, program] : GetArmPrograms())
     {
-        methods.SetMethod(action, {}, {"", program});
+        if (bArm)
+        {
+            methods.SetMethod(action, {}, MakeArmMethod(program, rules.at(action).effect));
+        }
     }
     return methods;
 }
 
-Acsd::RobotLinkConfig MakeLink(const std::string& robotID, bool bArm)
+Acsd::RobotLinkConfig MakeLink(const Planning::RobotOptions& robot, const ArmController* controllerOrNull)
 {
+    const std::string& robotID = robot.robotID.GetText();
     Acsd::RobotLinkConfig link{robotID, "ACS", robotID, "2.0.0", std::nullopt};
-    link.methods = MakeMethods(bArm);
-    if (bArm)
+    link.methods = MakeMethods(robot, controllerOrNull != nullptr);
+    if (controllerOrNull == nullptr)
     {
-        link.armOrNone.emplace(); // its addresses are the network's business
-        link.armOptions.period = ARM_PERIOD;
+        return link;
+    }
+    link.armOrNone.emplace(); // its addresses are the network's business
+    link.armOptions.period = ARM_PERIOD;
+    if (controllerOrNull->Is(EMutation::EchoIgnored))
+    {
+        link.armOptions.echoIndex.reset();
     }
     return link;
 }
@@ -51,11 +92,11 @@ Acsd::RobotLinkConfig MakeLink(const std::string& robotID, bool bArm)
 VehicleHand::VehicleHand(
     Timeline& timeline,
     MqttBroker& broker,
-    const std::string& robotID,
+    const Planning::RobotOptions& robot,
     EventHandler handler,
     ArmController* controllerOrNull)
     : _broker(broker),
-      _adapter(Acsd::MakeRobotAdapter(Acsd::AcsdConfig(), MakeLink(robotID, controllerOrNull != nullptr), _outputs)),
+      _adapter(Acsd::MakeRobotAdapter(Acsd::AcsdConfig(), MakeLink(robot, controllerOrNull), _outputs)),
       _runner(timeline, *_adapter.adapter, std::move(handler), [this] { SendAll(); }),
       _client(broker.Open(*this, _adapter.adapter->GetSubscriptions(), std::nullopt))
 {

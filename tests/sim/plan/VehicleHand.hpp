@@ -39,7 +39,7 @@ public:
     VehicleHand(
         Timeline& timeline,
         MqttBroker& broker,
-        const std::string& robotID,
+        const Planning::RobotOptions& robot,
         EventHandler handler,
         ArmController* controllerOrNull);
     VehicleHand(const VehicleHand&) = delete;

@@ -60,6 +60,7 @@ VehicleRobot::VehicleRobot(
       _robotID(std::move(robotID)),
       _bFaulty(bFaulty),
       _charge(ChooseCharge(seed, around.bBatteries)),
+      _trayPorts(around.witness.GetFloor(), _robotID),
       _timers(around.timeline)
 {
     SwitchOn(nodeID);
@@ -77,14 +78,31 @@ void VehicleRobot::SwitchOn(const std::string& nodeID)
     options.address = MakeAddress(_robotID);
     options.startNodeID = nodeID;
     options.charge = _charge;
-    if (_around.type == Planning::ERobotType::LR)
-    {
-        options.handling.ports = 1;
-        options.worldOrNull = &_around.witness.GetFloor();
-    }
+    Equip(options);
     _vehicle = std::make_unique<VdaSim::VirtualVehicle>(std::move(options), _around.site, _dice, Core::Logger());
     _client = _around.broker.Open(*this, _vehicle->GetSubscriptions(), _vehicle->MakeWill(_around.timeline.GetNow()));
     _around.broker.SetReachable(*_client, _bReachable);
+}
+
+/// With what carries its loads.
+void VehicleRobot::Equip(VdaSim::VirtualVehicleOptions& options)
+{
+    const bool bTrays = _around.robot.type == Planning::ERobotType::CR;
+    options.worldOrNull = &_around.witness.GetFloor();
+    options.handling.ports = _around.robot.ports.size();
+    if (bTrays && _around.bArms)
+    {
+        options.type = VdaSim::EVehicleType::Control;
+        options.handling.ports = 0;
+    }
+    else if (bTrays)
+    {
+        options.worldOrNull = &_trayPorts;
+        for (std::size_t number = 1; number <= _around.robot.ports.size(); ++number)
+        {
+            options.handling.positions.emplace(fmt::format("CP{:02}", number), fmt::format("TP{:02}", number));
+        }
+    }
 }
 
 template <typename TCall>
@@ -243,7 +261,7 @@ void VehicleRobot::ShowJobs()
 
 std::unique_ptr<IRobotHand> VehicleRobot::MakeHand(std::uint64_t /*number*/, EventHandler handler)
 {
-    return std::make_unique<VehicleHand>(_around.timeline, _around.broker, _robotID, std::move(handler), nullptr);
+    return std::make_unique<VehicleHand>(_around.timeline, _around.broker, _around.robot, std::move(handler), nullptr);
 }
 
 void VehicleRobot::SetReachable(bool bReachable)

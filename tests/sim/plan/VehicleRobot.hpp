@@ -6,9 +6,10 @@
 #include "MqttBroker.hpp"
 #include "TimerBank.hpp"
 #include "Trace.hpp"
+#include "TrayPortWorld.hpp"
 #include "vda-sim/VirtualVehicle.hpp"
 #include "WorkWitness.hpp"
-#include <acs/plan/ERobotType.hpp>
+#include <acs/plan/EngineOptions.hpp>
 #include <acs/plan/SiteMap.hpp>
 
 #include <cstdint>
@@ -37,7 +38,8 @@ public:
         bool bBatteries; ///< It is little more than empty at first; else full.
         EMutation mutation;
         bool bBadRadio; ///< Of the scenario.
-        Planning::ERobotType type;
+        const Planning::RobotOptions& robot;
+        bool bArms; ///< Control robots have one; else the vehicle handles trays by itself.
     };
 
 private:
@@ -45,7 +47,8 @@ private:
     Dice _dice;
     std::string _robotID;
     bool _bFaulty;
-    double _charge; ///< Percent, when it is switched on.
+    double _charge;           ///< Percent, when it is switched on.
+    TrayPortWorld _trayPorts; ///< The floor of a vehicle that carries trays.
     std::unique_ptr<VdaSim::VirtualVehicle> _vehicle;
     VdaSim::VirtualActions _actions;
     TimerBank<std::uint64_t> _timers;
@@ -59,6 +62,7 @@ private:
     bool _bReachable = true;
 
     void SwitchOn(const std::string& nodeID);
+    void Equip(VdaSim::VirtualVehicleOptions& options);
     template <typename TCall>
     void Call(TCall call);
     void Execute(const VdaSim::VirtualAction& action);

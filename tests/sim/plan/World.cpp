@@ -36,7 +36,7 @@ constexpr std::uint64_t FIRST_TROUBLE_PART = 800;
 
 EHandling GetHandling(ERobotKind robots)
 {
-    return robots == ERobotKind::Memory ? EHandling::Everything : EHandling::Cassettes;
+    return robots == ERobotKind::Vda5050 ? EHandling::Carriers : EHandling::Everything;
 }
 
 } // namespace
@@ -111,7 +111,8 @@ void World::AddRobots()
             _scenario.bBatteries,
             _mutation,
             _scenario.Has(EFault::Radio),
-            options.type};
+            options,
+            _scenario.robots == ERobotKind::Arms};
         if (_scenario.robots == ERobotKind::Arms && options.type == Planning::ERobotType::CR)
         {
             const ArmController::Seeds armSeeds{
