@@ -271,7 +271,7 @@ std::string CheckRobots(const OpenStreamSimOptions& options, const ProgramFile& 
     const bool bNeeded = !options.worldFile.empty() || programs.NamesRobot();
     for (std::size_t controller = 1; bNeeded && controller <= options.fleet.controllers; ++controller)
     {
-        if (robots.count(controller) == 0)
+        if (!robots.contains(controller))
         {
             return fmt::format("controller {0} has no robot: give --robot {0}=NAME", controller);
         }
