@@ -13,9 +13,9 @@ template <>
 struct EnumWords<Sim::EMemory>
 {
     static constexpr std::array WORDS{
-        EnumWord{Sim::EMemory::Unknown, "unknown"},
-        EnumWord{Sim::EMemory::Empty, "empty"},
-        EnumWord{Sim::EMemory::Occupied, "occupied"}};
+        EnumWord<Sim::EMemory>{Sim::EMemory::Unknown, "unknown"},
+        EnumWord<Sim::EMemory>{Sim::EMemory::Empty, "empty"},
+        EnumWord<Sim::EMemory>{Sim::EMemory::Occupied, "occupied"}};
 };
 
 } // namespace ACS::Json

@@ -44,13 +44,13 @@ template <>
 struct EnumWords<Sim::EWorldEvent>
 {
     static constexpr std::array WORDS{
-        EnumWord{Sim::EWorldEvent::RobotDocked, "RobotDocked"},
-        EnumWord{Sim::EWorldEvent::CarrierMoved, "CarrierMoved"},
-        EnumWord{Sim::EWorldEvent::MemoryMoved, "MemoryMoved"},
-        EnumWord{Sim::EWorldEvent::CoverMoved, "CoverMoved"},
-        EnumWord{Sim::EWorldEvent::ButtonPushed, "ButtonPushed"},
-        EnumWord{Sim::EWorldEvent::CarrierPlaced, "CarrierPlaced"},
-        EnumWord{Sim::EWorldEvent::MemoryPlaced, "MemoryPlaced"}};
+        EnumWord<Sim::EWorldEvent>{Sim::EWorldEvent::RobotDocked, "RobotDocked"},
+        EnumWord<Sim::EWorldEvent>{Sim::EWorldEvent::CarrierMoved, "CarrierMoved"},
+        EnumWord<Sim::EWorldEvent>{Sim::EWorldEvent::MemoryMoved, "MemoryMoved"},
+        EnumWord<Sim::EWorldEvent>{Sim::EWorldEvent::CoverMoved, "CoverMoved"},
+        EnumWord<Sim::EWorldEvent>{Sim::EWorldEvent::ButtonPushed, "ButtonPushed"},
+        EnumWord<Sim::EWorldEvent>{Sim::EWorldEvent::CarrierPlaced, "CarrierPlaced"},
+        EnumWord<Sim::EWorldEvent>{Sim::EWorldEvent::MemoryPlaced, "MemoryPlaced"}};
 };
 
 template <>

@@ -105,7 +105,7 @@ Core::Result<void> WorldJournal::ReadNews(const LineReader& read)
         }
         next += static_cast<std::uint64_t>(count);
         text.append(chunk.data(), static_cast<std::size_t>(count));
-        const Core::Result<void> done = ReadLines(text, read);
+        Core::Result<void> done = ReadLines(text, read);
         if (!done.has_value())
         {
             return done;

@@ -69,7 +69,7 @@ Core::Result<void> ReadCarriers(const Json::Value& value, WorldStart& start)
 
 Core::Result<void> ReadCovers(const Json::Value& value, WorldStart& start)
 {
-    constexpr std::string_view EXPECTED = "\"open\" or \"closed\"";
+    constexpr std::string_view EXPECTED = R"("open" or "closed")";
     return ReadWords(value, "covers", EXPECTED, [&start](const std::string& name, std::string_view word) {
         start.covers.emplace(name, word == "closed");
         return word == "closed" || word == "open";
