@@ -7,10 +7,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -216,6 +218,28 @@ HttpResponse SettleJob(
         : Refuse(HTTP_NOT_FOUND, *objection + " The alarms ACS-1008 in /status name the plan and the job of each.");
 }
 
+HttpResponse SkipStep(
+    const Planning::PlanEngine& engine,
+    const OperatorAccess& access,
+    const std::string& planID,
+    const std::string& stepText)
+{
+    Planning::SkipStep command{planID, 0, 0};
+    const char* end = stepText.data() + stepText.size();
+    const auto [parsed, error] = std::from_chars(stepText.data(), end, command.stepNo);
+    if (error != std::errc() || parsed != end)
+    {
+        return Refuse(
+            HTTP_BAD_REQUEST,
+            fmt::format("A step is named by its stepNo, a number from 1, found {}.", Core::QuoteForError(stepText)));
+    }
+    if (const std::optional<std::string> objection = engine.GetObjectionOrNull(command))
+    {
+        return Refuse(engine.GetPlanOrNull(planID).has_value() ? HTTP_CONFLICT : HTTP_NOT_FOUND, *objection);
+    }
+    return HandOn(access, std::move(command), fmt::format("Step {} of plan {} is skipped.", stepText, planID));
+}
+
 } // namespace
 
 void AddOperatorRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& engine, const OperatorAccess& access)
@@ -257,6 +281,9 @@ void AddOperatorRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& eng
                 bPause ? EUnstored::Taken : EUnstored::Refused);
         });
     }
+    add("/plans/{PLAN}/steps/{STEP}/skip", {}, [&engine, access](const HttpRequest&, const Captures& captures) {
+        return SkipStep(engine, access, captures[0], captures[1]);
+    });
     for (const auto& [word, answer] :
          {std::pair("done", Planning::EJobAnswer::Done),
           std::pair("failed", Planning::EJobAnswer::Failed),

@@ -41,7 +41,7 @@ constexpr std::array STEP_TRANSITIONS{
     Transition<EStepStatus>{EStepStatus::Dispatched, EStepStatus::Failed},
     Transition<EStepStatus>{EStepStatus::InProgress, EStepStatus::Completed},
     Transition<EStepStatus>{EStepStatus::InProgress, EStepStatus::Failed},
-    Transition<EStepStatus>{EStepStatus::InProgress, EStepStatus::Skipped},
+    Transition<EStepStatus>{EStepStatus::InProgress, EStepStatus::Skipped}, // where its job is unresolved
 };
 
 constexpr std::array JOB_TRANSITIONS{

@@ -151,7 +151,7 @@ def make_oddities():
         ("D-29: a tray port as position", change(trays, "steps.0.position", "A01.CP01.TP01")),
         ("D-29: a memory port as position", change(cover, "steps.0.position", "A01.SET01.MP01")),
         ("10: a set without area, of the position's",
-         change(make_memory_plan("P", 1), "steps.0.jobs.0.to", "SET02.MP15")),
+         change(make_memory_plan("P", 1), "steps.0.jobs.0.to", "SET01.MP15")),
         ("10: from set to tray", change(change(make_memory_plan("P", 1), "steps.0.jobs.0.from", "A01.SET01.MP01"),
                                         "steps.0.jobs.0.to", "AMR.TP01.MP01")),
     ]

@@ -8,7 +8,7 @@ import unittest
 import urllib.request
 
 from mcs_stub import McsStub
-from plan_samples import make_carrying_plan, make_memory_plan
+from plan_samples import make_carrying_plan, make_tray_memory_plan
 from scenario_case import ScenarioCase, main
 
 POSITION_SECONDS = 0.2
@@ -117,7 +117,7 @@ class Network(ScenarioCase):
         stub = self.start_stub()
         self.start_acsd(stub)
         self.wait_for_idle(stub, "CR01")
-        plan = make_memory_plan("LONG", 75)
+        plan = make_tray_memory_plan("LONG", 75)
         ack = self.submit(stub, plan, fragments=3)
         self.assertEqual((ack["result"], ack["payload"]), ("Success", {"planId": "LONG"}))
         stub.wait_for("JobReport", lambda message: message.payload["status"] == "Completed"

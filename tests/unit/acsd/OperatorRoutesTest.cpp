@@ -219,6 +219,32 @@ TEST_CASE("POST /plans/PLAN/jobs/JOB/done, failed and again answer for a job tha
     CHECK(user.world.GetReportsOf("P1").back() == "Plan Completed");
 }
 
+TEST_CASE("POST /plans/PLAN/steps/NO/skip skips a step that is Pending or whose job is unresolved, and no other")
+{
+    Operator user;
+    user.world.Submit(MakeLogisticsPlan("P1"));
+    CHECK(HasText(user.Post("/plans/P1/steps/1/skip"), "409 {\"error\":\"No robot has plan P1 yet"));
+    REQUIRE(Testing::TryRunUntil(user.world, "P1", "Job 1 P1-a4 InProgress"));
+    CHECK(HasText(user.Post("/plans/P9/steps/1/skip"), "404 {\"error\":\"There is no plan P9."));
+    CHECK(HasText(user.Post("/plans/P1/steps/9/skip"), "409 {\"error\":\"Plan P1 has no step 9."));
+    CHECK(HasText(user.Post("/plans/P1/steps/1/skip"), "409 {\"error\":\"Step 1 is InProgress"));
+    for (const std::string number : {"one", "1x", "%201", "99999999999"})
+    {
+        CHECK(HasText(
+            user.Post("/plans/P1/steps/" + number + "/skip"),
+            "400 {\"error\":\"A step is named by its stepNo"));
+    }
+    user.storeObstacle = "the store cannot be written";
+    CHECK(HasText(user.Post("/plans/P1/steps/2/skip"), "503 "));
+    user.storeObstacle.reset();
+    CHECK(user.Post("/plans/P1/steps/2/skip") == "202 {\"message\":\"Step 2 of plan P1 is skipped.\"}\n");
+    user.world.Raise("LR01", Planning::JobUncertain{"P1-a4", "it was switched off"});
+    CHECK(HasText(user.Post("/plans/P1/steps/1/skip"), "202 "));
+    CHECK_FALSE(HasText(user.GetStatus(), R"("errorCode":"ACS-1008")"));
+    CHECK(user.world.GetReportsOf("P1").back() == "Plan Completed");
+    CHECK(HasText(user.Post("/plans/P1/steps/1/skip"), "409 {\"error\":\"Plan P1 is already Completed."));
+}
+
 TEST_CASE("What nobody would read of a command is refused by name: parameters, twice the same one, a body")
 {
     Operator user;
@@ -233,7 +259,8 @@ TEST_CASE("What nobody would read of a command is refused by name: parameters, t
           "/alarms/clear",
           "/plans/P1/jobs/P1-a4/done",
           "/plans/P1/jobs/P1-a4/failed",
-          "/plans/P1/jobs/P1-a4/again"})
+          "/plans/P1/jobs/P1-a4/again",
+          "/plans/P1/steps/2/skip"})
     {
         INFO(target);
         CHECK(HasText(user.Post(target + "?force=1"), "400 {\"error\":\"There is no parameter force; th"));

@@ -360,6 +360,31 @@ TEST_CASE("A step is not Completed before all its jobs")
     CHECK(bench.GetViolation() == "P1 StepReport step 2 Completed before all its jobs");
 }
 
+TEST_CASE("6.13 A step is skipped before it is begun, or while its job is unresolved; a step that failed is not")
+{
+    Bench bench;
+    bench.RunFirstJob();
+    bench.Report(
+        {MakeStepReport("P1", 1, EStepStatus::Completed),
+         MakeStepReport("P1", 2, EStepStatus::Dispatched),
+         MakeStepReport("P1", 2, EStepStatus::InProgress),
+         MakeJobReport("P1", 2, "J2", EJobStatus::Instructed)});
+    SECTION("unresolved")
+    {
+        bench.Report({MakeStepReport("P1", 2, EStepStatus::Skipped), MakePlanReport("P1", EPlanStatus::Completed)});
+        CHECK(bench.tracker.CountViolations() == 0);
+        CHECK(bench.tracker.CountOutcome(EOutcome::Completed) == 1);
+    }
+    SECTION("failed")
+    {
+        bench.Report(
+            {MakeJobReport("P1", 2, "J2", EJobStatus::Failed),
+             MakeStepReport("P1", 2, EStepStatus::Failed),
+             MakeStepReport("P1", 2, EStepStatus::Skipped)});
+        CHECK(bench.GetViolation() == "P1 StepReport step 2 Skipped after Failed");
+    }
+}
+
 TEST_CASE("A violation makes the run fail even where every plan is completed")
 {
     Bench bench;
