@@ -16,9 +16,9 @@ bool IsTray(Planning::EPlaceRule rule)
     return rule == Planning::EPlaceRule::FixedTray || rule == Planning::EPlaceRule::RobotTray;
 }
 
-VehicleParameter MakeParameter(std::string key, std::string_view text, bool bDropped = true)
+VehicleParameter MakeParameter(std::string key, std::string_view text)
 {
-    return {std::move(key), *ParameterTemplate::Make(text), bDropped};
+    return {std::move(key), *ParameterTemplate::Make(text), true};
 }
 
 } // namespace
@@ -37,7 +37,8 @@ std::vector<VehicleParameter> MakeDefaultParameters(
     }
     parameters.push_back(MakeParameter("stationType", "{station.type}"));
     parameters.push_back(MakeParameter("loadType", IsTray(rule.from) || IsTray(rule.to) ? "tray" : "cassette"));
-    parameters.push_back(MakeParameter("lhd", "{robot_port}", portCount <= 1));
+    parameters.push_back(MakeParameter("lhd", "{robot_port}"));
+    parameters.back().bDefault = portCount <= 1;
     parameters.push_back(MakeParameter("height", "{station.height}"));
     parameters.push_back(MakeParameter("side", "{station.side}"));
     return parameters;

@@ -122,12 +122,6 @@ std::optional<JsonText> ConvertOrNull(const JobValue& value, EValueDataType type
     }
 }
 
-template <typename TFrom>
-std::string MakeJsonString(const TFrom& text)
-{
-    return JsonText::FromString(text).TakeText();
-}
-
 /// A step of writing a node as JSON: text, or a node.
 using Work = std::vector<std::variant<std::string, const ConfigNode*>>;
 
@@ -138,7 +132,7 @@ void PushTable(const ConfigNode::Table& table, Work& work)
     {
         work.emplace_back(entry->second.get());
         const std::string_view joint = std::next(entry) == table.rend() ? "" : ",";
-        work.emplace_back(fmt::format("{}{}:", joint, MakeJsonString(entry->first)));
+        work.emplace_back(fmt::format("{}{}:", joint, JsonText::FromString(entry->first).GetText()));
     }
     work.emplace_back("{");
 }
