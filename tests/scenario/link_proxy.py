@@ -1,5 +1,5 @@
-"""A TCP proxy that a test can cut, between acsd and the MCS or before the broker. On the way to the MCS it shows each
-WebSocket message from acsd before it is passed on."""
+"""TCP proxies that a test can cut, between acsd and the MCS, the broker or an arm. On the way to the MCS each WebSocket
+message from acsd is shown before it is passed on, on the way to an arm each line."""
 
 import socket
 import threading
@@ -87,6 +87,9 @@ class LinkProxy:
                 sink.sendall(data)
         except OSError:
             pass
+        self._end(source, sink)
+
+    def _end(self, source, sink):
         for end in (source, sink):
             try:
                 end.shutdown(socket.SHUT_RDWR)
@@ -114,3 +117,22 @@ class LinkProxy:
     def close(self):
         self._listener.close()
         self.cut()
+
+
+class LineProxy(LinkProxy):
+    """on_message(line) is called before the line is passed on. False: neither it nor anything after it is, and the connection
+    ends."""
+
+    def _pump(self, source, sink, reader):
+        if reader is None:
+            super()._pump(source, sink, None)
+            return
+        try:
+            with source.makefile("rb") as stream:
+                for line in stream:
+                    if not self._on_message(line.decode()):
+                        break
+                    sink.sendall(line)
+        except OSError:
+            pass
+        self._end(source, sink)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Whatever is killed at whatever moment: no plan that was acknowledged is lost, each has exactly one final report, reports
 come in causal order, and no job is done twice. Judged from mcs-sim's trace, from what the vehicles say to the broker and
-from the counters of the arm's controller.
+from the counters of the arm's controller; where acsd is killed before a program starts, from the floor of the simulators too.
 
 --kills N   how often something is killed in each test (5)
 --seed N    of the moments; printed on failure
@@ -20,12 +20,15 @@ import time
 import unittest
 import urllib.request
 
-from link_proxy import LinkProxy
+from link_proxy import LineProxy, LinkProxy
 from scenario_case import PLANS, TIME_SCALE, ScenarioCase
 from scenario_case import main as run_tests
 
 MOST_OPEN = 4
 FINISH_SECONDS = 180
+INPUT_URL = '"/project/plc/set_relay_value"'
+START_URL = '"/project/robot/start"'
+MOST_LINES = 12  # from the first input of a program to its start, and some more
 SETTINGS = argparse.Namespace(kills=5, seed=1, long=False)
 
 
@@ -105,7 +108,40 @@ class Trace:
         return sum(not self.get_final(plan_id) for plan_id in self.plans)
 
 
+class InputChecker:
+    """Reads what acsd sends to an arm, and kills acsd between the first input of a program and its start."""
+
+    def __init__(self, kill):
+        self._kill = kill
+        self._most_lines = None  # from the first input on, that are passed; None: nothing is killed
+        self._lines = 0
+        self.killed = threading.Event()
+        self.starts = 0  # that were passed on
+        self.inputs = 0  # of all programs of which the start never came
+
+    def arm(self, most_lines):
+        self._most_lines = most_lines
+
+    def on_line(self, line):
+        """Whether the line is passed on."""
+        is_start = START_URL in line
+        if self._most_lines is not None and self._lines > 0 and (is_start or self._lines >= self._most_lines):
+            self.inputs += self._lines
+            self._most_lines, self._lines = None, 0
+            self._kill()
+            self.killed.set()
+            return False
+        if is_start:
+            self.starts += 1
+            self._lines = 0
+        elif INPUT_URL in line or self._lines > 0:
+            self._lines += 1
+        return True
+
+
 class Kill(ScenarioCase):
+    plan_files = PLANS
+
     def setUp(self):
         super().setUp()
         self.random = random.Random(f"{SETTINGS.seed} {self.id()}")
@@ -123,15 +159,16 @@ class Kill(ScenarioCase):
         self.addCleanup(proxy.close)
         return proxy
 
-    def start_line(self, make_vehicle_port=lambda port: port, make_mcs_port=lambda port: port):
-        self.arm = self.start_robots(make_vehicle_port)
+    def start_line(self, make_vehicle_port=lambda port: port, make_mcs_port=lambda port: port,
+                   make_arm_port=lambda port: port):
+        self.arm = dict(self.start_robots(make_vehicle_port))
+        self.arm["stream"] = f"127.0.0.1:{make_arm_port(int(self.arm['stream'].rsplit(':', 1)[1]))}"
         for relay in ("ml100", "ml101"):  # counters that are all 0 prove nothing
             self.post(f"http://{self.arm['http']}/project/plc/set_relay_value", {"name": relay, "value": 1})
         self.start_spy()
         self.trace_file = self.line.folder / "trace.ndjson"
         self.trace = Trace(self.trace_file)
-        self.mcs = self.line.start("mcs-sim", "--listen", "127.0.0.1:0", "--console", "--trace", self.trace_file,
-                                   stdin=subprocess.PIPE, bufsize=0)
+        self.mcs = self.line.start_mcs((), "--console", "--trace", self.trace_file, stdin=subprocess.PIPE, bufsize=0)
         self.addCleanup(self.mcs.process.stdin.close)
         self.mcs_address = f"127.0.0.1:{make_mcs_port(int(self.mcs.wait_ready()['ws'].rsplit(':', 1)[1]))}"
         self.start_acsd()
@@ -176,7 +213,7 @@ class Kill(ScenarioCase):
         sent = len(self.trace.plans)
         if sent == getattr(self, "asked", 0) and self.trace.count_open() < MOST_OPEN:
             self.asked = sent + 1
-            self.mcs.process.stdin.write(f"plan {PLANS[sent % len(PLANS)]}\n".encode())
+            self.mcs.process.stdin.write(f"plan {self.plan_files[sent % len(self.plan_files)]}\n".encode())
 
     def supply_for(self, seconds):
         end = time.monotonic() + seconds
@@ -244,6 +281,57 @@ class Kill(ScenarioCase):
         self.start_line()
         self.play(self.kill_acsd, SETTINGS.kills)
         self.judge()
+
+    def test_acsd_is_killed_between_the_inputs_and_the_start_of_a_program(self):
+        """Whatever inputs it leaves in the relays: each job is done once, and moves what its plan demands."""
+        self.line.share_world()
+        self.plan_files = PLANS[1:]
+
+        def kill():
+            self.acsd.process.kill()
+            self.acsd.process.wait()
+
+        checker = InputChecker(kill)
+
+        def make_port(port):
+            proxy = LineProxy(port, checker.on_line)
+            self.addCleanup(proxy.close)
+            return proxy.port
+
+        def strike():
+            checker.arm(self.random.choice((MOST_LINES, self.random.randrange(1, MOST_LINES))))
+            end = time.monotonic() + FINISH_SECONDS
+            while not checker.killed.wait(0.02):
+                self.assertLess(time.monotonic(), end, "acsd starts another program")
+                self.supply()
+            checker.killed.clear()
+            self.line.forget(self.acsd)
+            self.acsd.stop()
+            self.start_acsd()
+
+        self.start_line(make_arm_port=make_port)
+        self.play(strike, SETTINGS.kills)
+        self.judge()
+        moves = self.list_demanded_moves()
+        self.assertEqual(self.read_moves(), moves, "each job moved what its plan demands, once")
+        self.assertEqual(self.read_counter("ml100") - 1, len(moves))
+        self.assertEqual(checker.starts, len(moves))
+        self.assertGreater(checker.inputs, SETTINGS.kills)
+
+    def list_demanded_moves(self):
+        moves = []
+        for plan in self.trace.plans.values():
+            for step in plan["steps"]:
+                carriers = step["carrierIds"] or [None] * len(step["jobs"])
+                moves += [(carrier, job["from"].replace("AMR.", "CR01."), job["to"].replace("AMR.", "CR01."))
+                          for carrier, job in zip(carriers, step["jobs"])]
+        return moves
+
+    def read_moves(self):
+        """What the robots have moved, memories without a name."""
+        lines = (self.line.folder / "world.json.journal").read_text().splitlines()
+        return [(event.get("carrier"), event["from"], event["to"]) for event in map(json.loads, lines)
+                if event["event"] in ("CarrierMoved", "MemoryMoved")]
 
     def play_long(self, strike):
         self.play(strike, max(1, SETTINGS.kills // 10))
