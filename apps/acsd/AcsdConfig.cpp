@@ -120,7 +120,10 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
     ReadMcsConfig(root, fileName, config.mcs, otherMistakes);
     ReadOperationsConfig(root, config.operations);
     ReadMqttConfig(root, fileName, config.mqtt, config.warnings);
-    config.arm = ReadArmOptions(root.GetSection("arm"), config.arm);
+    const ConfigSection arm = root.GetSection("arm");
+    config.arm = ReadArmOptions(arm, config.arm);
+    const bool bByte = arm.GetWord("relay_index", {"value", "byte"}, "value") == "byte";
+    config.relayIndex = bByte ? EArmRelayIndex::Byte : EArmRelayIndex::Value;
     ReadSite(root, fileName, config);
     ReadStore(root, fileName, bStoreInspected, config);
     ReadHttp(root, config);

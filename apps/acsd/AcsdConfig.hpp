@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ArmOptions.hpp"
+#include "ArmRelay.hpp"
 #include "common/ConfigReader.hpp"
 #include "common/LocalOffset.hpp"
 #include "common/Url.hpp"
@@ -43,6 +44,7 @@ struct AcsdConfig
     McsConfig mcs;
     MqttConfig mqtt;
     ArmOptions arm; ///< Of arms whose robot does not give its own.
+    EArmRelayIndex relayIndex = EArmRelayIndex::Value;
     std::string siteFile;
     std::string storeFile;
     Apps::Endpoint httpListen{"127.0.0.1", 8080};

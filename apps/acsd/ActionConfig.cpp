@@ -3,8 +3,10 @@
 #include "common/ConfigDocument.hpp"
 #include "DefaultParameters.hpp"
 
+#include <fmt/format.h>
 #include <tl/expected.hpp>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <string_view>
@@ -129,11 +131,18 @@ std::vector<ArmInputTemplate> ReadArmInputs(
     for (const std::string& key : section.GetNames())
     {
         tl::expected<NumberTemplate, std::string> value = MakeNumber(*section.FindValueOrNull(key));
-        tl::expected<ArmRelay, std::string> relay = ParseArmRelay(key);
+        tl::expected<ArmRelay, std::string> relay = ParseArmRelay(key, check.GetRelayIndex());
         if (!relay.has_value() || !value.has_value())
         {
             section.AddMistake(key, relay.has_value() ? value.error() : relay.error());
             continue;
+        }
+        const auto overlapped = std::ranges::find_if(inputs, [&relay](const ArmInputTemplate& input) {
+            return IsOverlapping(input.relay, *relay);
+        });
+        if (overlapped != inputs.end())
+        {
+            section.AddMistake(key, fmt::format("shares bytes with {}; see arm.relay_index", overlapped->relay.name));
         }
         inputs.push_back({std::move(*relay), std::move(*value)});
         if (const std::optional<std::string> fault = check.FindFaultOrNull(inputs.back(), rule))

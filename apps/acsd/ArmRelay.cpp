@@ -16,9 +16,12 @@ namespace
 {
 
 constexpr std::uint32_t BITS_PER_BYTE = 8;
+constexpr std::uint32_t BYTE_MASK = 0xFF;
 constexpr std::uint32_t WORD_BYTES = 4; ///< Of one number of val_s32.
-/// Of each area.
-constexpr std::uint32_t RELAY_BYTES = 4096;
+/// Of m and s.
+constexpr std::uint32_t MEMORY_BYTES = 20'000;
+/// Of r and k, and of each block or node of a fieldbus.
+constexpr std::uint32_t BLOCK_BYTES = 128;
 constexpr std::uint32_t FIELDBUS_BLOCKS = 10;
 constexpr std::uint32_t FIELDBUS_NODES = 64;
 /// A longer gap is not read along.
@@ -40,6 +43,15 @@ std::uint32_t GetBytes(EArmRelayWidth width)
         default:
             return 1;
     }
+}
+
+std::uint32_t GetAreaBytes(std::string_view area, bool bFieldbus)
+{
+    if (bFieldbus || area == "r" || area == "k")
+    {
+        return BLOCK_BYTES;
+    }
+    return area == "m" || area == "s" ? MEMORY_BYTES : BLOCK_BYTES * FIELDBUS_BLOCKS;
 }
 
 std::uint32_t GetBits(EArmRelayWidth width)
@@ -84,6 +96,11 @@ std::optional<EArmRelayWidth> ReadWidthOrNull(std::string_view text)
 
 tl::expected<ArmRelay, std::string> ParseArmRelay(std::string_view name)
 {
+    return ParseArmRelay(name, EArmRelayIndex::Value);
+}
+
+tl::expected<ArmRelay, std::string> ParseArmRelay(std::string_view name, EArmRelayIndex index)
+{
     const auto fail = [name](std::string_view why) {
         return tl::unexpected(fmt::format(
             "{} is no relay that can be read back: {}. Give [fbN.|fnN.], one of di, do, x, y, m, s, r, k, then nothing, b, "
@@ -111,8 +128,11 @@ tl::expected<ArmRelay, std::string> ParseArmRelay(std::string_view name)
         return fail("its area or width is unknown");
     }
     const std::optional<std::uint32_t> numberOrNull = ReadNumberOrNull(rest.substr(digits));
+    const std::uint32_t width = GetBytes(*widthOrNull);
+    const std::uint32_t step = index == EArmRelayIndex::Value ? width : 1;
     const bool bBit = *widthOrNull == EArmRelayWidth::Bit;
-    const std::uint32_t count = bBit ? RELAY_BYTES * BITS_PER_BYTE : RELAY_BYTES / GetBytes(*widthOrNull);
+    const std::uint32_t bytes = GetAreaBytes(*area, !bus.empty());
+    const std::uint32_t count = bBit ? bytes * BITS_PER_BYTE : (bytes - width) / step + 1;
     if (!numberOrNull.has_value() || *numberOrNull >= count)
     {
         return fail(fmt::format("its number is not one of 0 to {}", count - 1));
@@ -121,7 +141,7 @@ tl::expected<ArmRelay, std::string> ParseArmRelay(std::string_view name)
     relay.name = name;
     relay.url = fmt::format("/project/plc/{}{}{}/val_s32", bus, bus.empty() ? "" : "_", *area);
     relay.width = *widthOrNull;
-    relay.firstByte = bBit ? *numberOrNull / BITS_PER_BYTE : *numberOrNull * GetBytes(relay.width);
+    relay.firstByte = bBit ? *numberOrNull / BITS_PER_BYTE : *numberOrNull * step;
     relay.bit = bBit ? static_cast<std::uint8_t>(*numberOrNull % BITS_PER_BYTE) : std::uint8_t{0};
     return relay;
 }
@@ -140,6 +160,14 @@ bool CanHold(const ArmRelay& relay, std::int64_t value) noexcept
     return value >= -values / 2 && value < values;
 }
 
+bool IsOverlapping(const ArmRelay& left, const ArmRelay& right) noexcept
+{
+    const std::uint32_t leftBit = left.firstByte * BITS_PER_BYTE + left.bit;
+    const std::uint32_t rightBit = right.firstByte * BITS_PER_BYTE + right.bit;
+    return left.url == right.url && leftBit < rightBit + GetBits(right.width)
+        && rightBit < leftBit + GetBits(left.width);
+}
+
 std::vector<ArmRelayRange> MakeRelayRanges(const std::vector<ArmRelay>& relays)
 {
     std::vector<ArmRelay> sorted = relays;
@@ -155,11 +183,9 @@ std::vector<ArmRelayRange> MakeRelayRanges(const std::vector<ArmRelay>& relays)
         {
             ranges.push_back({relay.url, first, 1});
         }
-        else
-        {
-            // No relay lies in two words: each begins at a multiple of its width.
-            ranges.back().words = std::max(ranges.back().words, (first - ranges.back().firstByte) / WORD_BYTES + 1);
-        }
+        ArmRelayRange& range = ranges.back();
+        const std::uint32_t last = relay.firstByte + GetBytes(relay.width) - 1;
+        range.words = std::max(range.words, (last - range.firstByte) / WORD_BYTES + 1);
     }
     return ranges;
 }
@@ -169,28 +195,30 @@ std::optional<std::int32_t> ReadRelayOrNull(
     const ArmRelayRange& range,
     const std::vector<std::int64_t>& words)
 {
-    if (relay.url != range.url || relay.firstByte < range.firstByte)
+    const std::uint32_t bytes = GetBytes(relay.width);
+    if (relay.url != range.url || relay.firstByte < range.firstByte
+        || relay.firstByte - range.firstByte + bytes > words.size() * WORD_BYTES)
     {
         return std::nullopt;
     }
-    const std::uint32_t offset = relay.firstByte - range.firstByte;
-    if (offset / WORD_BYTES >= words.size())
+    std::uint32_t value = 0; // a relay may lie in two words
+    for (std::uint32_t i = 0; i < bytes; ++i)
     {
-        return std::nullopt;
+        const std::uint32_t offset = relay.firstByte - range.firstByte + i;
+        const auto word = static_cast<std::uint32_t>(words[offset / WORD_BYTES]);
+        value |= (word >> (offset % WORD_BYTES * BITS_PER_BYTE) & BYTE_MASK) << (i * BITS_PER_BYTE);
     }
-    const auto word = static_cast<std::uint32_t>(words[offset / WORD_BYTES]);
-    const std::uint32_t shifted = word >> (offset % WORD_BYTES * BITS_PER_BYTE + relay.bit);
     switch (relay.width)
     {
         case EArmRelayWidth::Bit:
-            return static_cast<std::int32_t>(shifted & 1U);
+            return static_cast<std::int32_t>(value >> relay.bit & 1U);
         case EArmRelayWidth::Byte:
-            return static_cast<std::int8_t>(shifted);
+            return static_cast<std::int8_t>(value);
         case EArmRelayWidth::Word:
-            return static_cast<std::int16_t>(shifted);
+            return static_cast<std::int16_t>(value);
         case EArmRelayWidth::Long:
         default:
-            return static_cast<std::int32_t>(shifted);
+            return static_cast<std::int32_t>(value);
     }
 }
 

@@ -19,6 +19,13 @@ enum class EArmRelayWidth : std::uint8_t
     Long, ///< "l": 4 bytes.
 };
 
+/// What the number in a relay's name counts.
+enum class EArmRelayIndex : std::uint8_t
+{
+    Value, ///< Values of the relay's width: ml105 begins at byte 420.
+    Byte,  ///< Bytes, unless it is a bit: ml420 begins at byte 420.
+};
+
 /// A relay of an arm's controller that can be written by its name and read back through val_s32.
 struct ArmRelay
 {
@@ -31,12 +38,17 @@ struct ArmRelay
     bool operator==(const ArmRelay&) const = default;
 };
 
-/// Names are [fb0.|fn0.]{di,do,x,y,m,s,r,k}[b|w|l]NUMBER in lower case; the number counts values of the width: m100 is bit 4
-/// of byte 12, and mb400, mw200 and ml100 begin at byte 400. The error says what is wrong with the name.
+/// Names are [fb0.|fn0.]{di,do,x,y,m,s,r,k}[b|w|l]NUMBER in lower case. The error says what is wrong with the name.
+[[nodiscard]] tl::expected<ArmRelay, std::string> ParseArmRelay(std::string_view name, EArmRelayIndex index);
+
+/// The number counts values.
 [[nodiscard]] tl::expected<ArmRelay, std::string> ParseArmRelay(std::string_view name);
 
 /// Whether the relay is wide enough. An integer may be meant signed or unsigned.
 [[nodiscard]] bool CanHold(const ArmRelay& relay, std::int64_t value) noexcept;
+
+/// Whether the two share a bit.
+[[nodiscard]] bool IsOverlapping(const ArmRelay& left, const ArmRelay& right) noexcept;
 
 /// The first byte and the number of 32-bit words by which val_s32 shows some relays of one URL.
 struct ArmRelayRange

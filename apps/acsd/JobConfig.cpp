@@ -169,7 +169,7 @@ StationTables ReadStationTables(const ConfigSection& root, const AcsdConfig& con
 
 void ReadJobs(const ConfigSection& root, AcsdConfig& config)
 {
-    const TemplateCheck check(*config.stations, config.engine);
+    const TemplateCheck check(*config.stations, config.engine, config.relayIndex);
     const MethodTables actions = ReadActions(root, check, config.engine.actions);
     const StationTables stations = ReadStationTables(root, config, check);
     for (const auto& [stationID, tables] : stations)

@@ -78,8 +78,12 @@ std::string MakeWidthText(const ArmInputTemplate& input, std::int64_t value)
 
 } // namespace
 
-TemplateCheck::TemplateCheck(const StationTable& stations, const Planning::EngineOptions& engine)
-    : _stations(stations)
+TemplateCheck::TemplateCheck(
+    const StationTable& stations,
+    const Planning::EngineOptions& engine,
+    EArmRelayIndex relayIndex)
+    : _stations(stations),
+      _relayIndex(relayIndex)
 {
     for (const auto& [stationID, values] : stations)
     {
@@ -99,6 +103,11 @@ TemplateCheck::TemplateCheck(const StationTable& stations, const Planning::Engin
             _highestRobotPort = std::max(_highestRobotPort, std::int64_t{port.GetSegments().back().number});
         }
     }
+}
+
+EArmRelayIndex TemplateCheck::GetRelayIndex() const noexcept
+{
+    return _relayIndex;
 }
 
 void TemplateCheck::Count(const Core::Location& place)

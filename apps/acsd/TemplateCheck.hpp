@@ -19,6 +19,7 @@ class TemplateCheck final
     const StationTable& _stations;
     std::map<Core::ESegmentKind, std::int64_t> _highest; ///< Number of each kind at this site and its robots.
     std::int64_t _highestRobotPort = 0;
+    EArmRelayIndex _relayIndex;
 
     [[nodiscard]] std::optional<std::string> FindStationFaultOrNull(const std::string& key) const;
     [[nodiscard]] std::optional<std::string> FindStationNumberFaultOrNull(const ArmInputTemplate& input) const;
@@ -27,7 +28,10 @@ class TemplateCheck final
 
 public:
     /// The stations must outlive it.
-    TemplateCheck(const StationTable& stations, const Planning::EngineOptions& engine);
+    TemplateCheck(const StationTable& stations, const Planning::EngineOptions& engine, EArmRelayIndex relayIndex);
+
+    /// What the numbers of relays count.
+    [[nodiscard]] EArmRelayIndex GetRelayIndex() const noexcept;
 
     /// Why the name means nothing in any job of the action: a key that no station has, or a number that no place can have.
     [[nodiscard]] std::optional<std::string> FindFaultOrNull(const JobName& name, const Planning::ActionRule& rule)

@@ -187,6 +187,21 @@ TEST_CASE("A robot's arm has keys of its own, and those of the table arm for the
     CHECK(Read({}).arm.echoIndex == 4U);
 }
 
+TEST_CASE("The numbers of relays count values, or bytes as in the vendor's manual; relays must not share bytes")
+{
+    const std::string tray = "actions.TrayLoad.arm_inputs";
+    const Acsd::AcsdConfig overlapping = Read({"arm.relay_index=byte"});
+    REQUIRE_FALSE(overlapping.mistakes.empty());
+    CHECK(overlapping.mistakes.front().find("ml106: shares bytes with ml105") != std::string::npos);
+    const Acsd::AcsdConfig counter = Read({"arm.relay_index=byte", tray + "={ml400=1}"});
+    CHECK(std::ranges::any_of(counter.mistakes, [](const std::string& mistake) {
+        return mistake.find("ml400: is a counter of the arm of CR01") != std::string::npos;
+    }));
+    CHECK(Read({tray + "={ml105='{job_number}', m3360=1}"}).mistakes.size() == 1);
+    CHECK(Read({"arm.relay_index=word"}).mistakes.size() == 1);
+    CHECK(Read({"robots.CR01.arm.relay_index=byte"}).mistakes.size() == 1);
+}
+
 TEST_CASE("Stations have a type, a height, a reach and keys of their own")
 {
     const Acsd::AcsdConfig config = Read(
