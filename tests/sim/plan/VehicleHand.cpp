@@ -15,24 +15,7 @@ namespace ACS::Simulation
 namespace
 {
 
-/// A pick or a drop with what its factsheet demands.
-Acsd::JobMethod MakeHandling(const std::string& actionType)
-{
-    Acsd::JobMethod method{actionType};
-    for (const auto& [key, value] :
-         {std::pair("stationType", "rack"),
-          std::pair("stationName", "{place}"),
-          std::pair("loadType", "carrier"),
-          std::pair("loadId", "{carrier}")})
-    {
-        method.parameters.push_back({key, *Acsd::ParameterTemplate::Make(std::string_view(value)), false});
-    }
-    return method;
-}
-
-/// Every vehicle of the world takes and brings loads itself, unless it has an arm; what is done at a set is a position that
-/// it takes there.
-Acsd::JobMethods MakeMethods(bool bArm)
+Acsd::VehicleParameter MakeParameter(std::string key, std::string_view text)
 {
     return {std::move(key), *Acsd::ParameterTemplate::Make(text)};
 }
@@ -57,15 +40,25 @@ Acsd::JobMethod MakeArmMethod(const ArmProgramTexts& program, Planning::EActionE
     Acsd::JobMethod method{"", program.program, {}, {}, effect};
     for (const auto& [relay, text] : program.inputs)
     {
-        return {
-            {"CassetteLoad", MakeHandling("pick")},
-            {"CassetteUnload", MakeHandling("drop")},
-            {"TrayLoad", MakeHandling("pick")},
-            {"TrayUnload", MakeHandling("drop")},
-            {"MemoryPickAndPlace", {"finePositioning", 0}},
-            {"OpenSetCover", {"finePositioning", 0}}};
+        method.armInputs.push_back({*Acsd::ParseArmRelay(relay), *Acsd::NumberTemplate::Parse(text)});
     }
-    Acsd::JobMethods methods{{"CassetteLoad", MakeHandling("pick")}, {"CassetteUnload", MakeHandling("drop")}};
+    return method;
+}
+
+/// Every vehicle of the world takes and brings loads itself, unless it has an arm; what is done at a set is a position that
+/// it takes there. The base of an arm shows no loads.
+Acsd::JobMethods MakeMethods(const Planning::RobotOptions& robot, bool bArm)
+{
+    using Planning::EActionEffect;
+    const auto positions = bArm ? Acsd::LoadPositions() : Acsd::LoadPositions(robot.ports, {});
+    Acsd::JobMethods methods(positions, std::make_shared<const Acsd::StationTable>());
+    methods.SetMethod("CassetteLoad", {}, MakeHandling("pick", "cassette", EActionEffect::Load));
+    methods.SetMethod("CassetteUnload", {}, MakeHandling("drop", "cassette", EActionEffect::Unload));
+    methods.SetMethod("TrayLoad", {}, MakeHandling("pick", "tray", EActionEffect::Load));
+    methods.SetMethod("TrayUnload", {}, MakeHandling("drop", "tray", EActionEffect::Unload));
+    methods.SetMethod("MemoryPickAndPlace", {}, {"finePositioning", 0});
+    methods.SetMethod("OpenSetCover", {}, {"finePositioning", 0});
+    const Planning::ActionTable rules = Planning::MakeStandardActions();
     for (const auto& [action, program] : GetArmPrograms())
     {
         if (bArm)
