@@ -10,7 +10,9 @@
 namespace ACS::Acsd
 {
 
-using namespace ArmViews;
+using ArmViews::Counters;
+using ArmViews::Effect;
+using ArmViews::Probe;
 
 namespace
 {

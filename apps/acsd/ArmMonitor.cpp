@@ -10,7 +10,12 @@
 namespace ACS::Acsd
 {
 
-using namespace ArmViews;
+using ArmViews::ArmView;
+using ArmViews::Counters;
+using ArmViews::Effect;
+using ArmViews::Probe;
+using ArmViews::Relays;
+using ArmViews::Verification;
 
 namespace
 {

@@ -11,7 +11,9 @@
 namespace ACS::Acsd
 {
 
-using namespace ArmStates;
+using ArmStates::Prepared;
+using ArmStates::ReadingInputs;
+using ArmStates::WritingInputs;
 
 namespace
 {

@@ -11,7 +11,20 @@
 namespace ACS::Acsd
 {
 
-using namespace ArmStates;
+using ArmStates::Awaited;
+using ArmStates::Doubtful;
+using ArmStates::Refused;
+using ArmStates::Resetting;
+using ArmStates::ResumeRefused;
+using ArmStates::Resuming;
+using ArmStates::Rewinding;
+using ArmStates::Running;
+using ArmStates::Selecting;
+using ArmStates::Starting;
+using ArmStates::Stopped;
+using ArmStates::Stopping;
+using ArmStates::VerifyingSelection;
+using ArmStates::WritingInputs;
 
 namespace
 {
@@ -33,13 +46,16 @@ void ArmProgram::OnSettled(const ArmSettlement& settlement, AdapterActions& out)
     {
         return; // of a job that has ended meanwhile
     }
+    const bool bMoves = settlement.kind == EArmControl::StartProgram || settlement.kind == EArmControl::StopProgram
+        || settlement.kind == EArmControl::ResumeProgram;
+    _bRewindDue = _bRewindDue || (bMoves && settlement.outcome != OpenStream::EControlOutcome::NotSent);
     switch (settlement.outcome)
     {
         case OpenStream::EControlOutcome::Accepted:
             OnAccepted(settlement.kind, out);
             break;
         case OpenStream::EControlOutcome::Refused:
-            OnControlRefused(settlement.kind, settlement.refusal);
+            OnControlRefused(settlement.kind, settlement.refusal, out);
             break;
         case OpenStream::EControlOutcome::NotSent:
         case OpenStream::EControlOutcome::Unconfirmed: // not asked for
@@ -88,7 +104,8 @@ void ArmProgram::OnAccepted(EArmControl kind, AdapterActions& out)
             _requests.push_back(EArmRequest::VerifyEffect);
             break;
         case EArmControl::RewindProgram:
-            Select();
+            _bRewindDue = false;
+            SelectUnlessCancelled(out);
             break;
         case EArmControl::WriteInput:
             OnInputWritten(out);
@@ -107,6 +124,18 @@ void ArmProgram::OnAccepted(EArmControl kind, AdapterActions& out)
         default:
             _requests.push_back(EArmRequest::VerifyEffect);
             break;
+    }
+}
+
+void ArmProgram::SelectUnlessCancelled(AdapterActions& out)
+{
+    if (_bCancelled)
+    {
+        Fail("cancelled before it was started", out);
+    }
+    else
+    {
+        Select();
     }
 }
 
@@ -155,15 +184,20 @@ void ArmProgram::OnUnanswered(EArmControl kind, OpenStream::EControlOutcome outc
     }
 }
 
-void ArmProgram::OnControlRefused(EArmControl kind, const ArmRefusal& refusal)
+void ArmProgram::OnControlRefused(EArmControl kind, const ArmRefusal& refusal, AdapterActions& out)
 {
+    const bool bBeforeStart = kind == EArmControl::SelectProgram || kind == EArmControl::WriteInput;
+    if (bBeforeStart && TryRewind(refusal))
+    {
+        return; // of the selection, however late
+    }
     switch (kind)
     {
         case EArmControl::SelectProgram:
-            if (!TryRewind(refusal))
-            {
-                Refuse(refusal.reason);
-            }
+            Refuse(refusal.reason);
+            break;
+        case EArmControl::RewindProgram:
+            SelectUnlessCancelled(out); // a controller may not know it, and the selection shows whether it is needed
             break;
         case EArmControl::WriteInput:
             Refuse(fmt::format(
@@ -182,13 +216,30 @@ void ArmProgram::OnControlRefused(EArmControl kind, const ArmRefusal& refusal)
         case EArmControl::ResetProgram:
             OnResetRefused();
             break;
-        case EArmControl::RewindProgram:
         case EArmControl::StartProgram:
+            OnStartRefused(refusal, out);
+            break;
         case EArmControl::SwitchMotorOn:
         default:
-            Refuse(refusal.reason);
             break;
     }
+}
+
+/// One of the selection, that came late, says nothing of the start: whether the program begins shows it.
+void ArmProgram::OnStartRefused(const ArmRefusal& refusal, AdapterActions& out)
+{
+    if (!IsOfSelection(refusal))
+    {
+        Refuse(refusal.reason);
+        return;
+    }
+    LeaveStarting();
+    if (Awaited* const awaitedOrNull = std::get_if<Awaited>(&_state))
+    {
+        awaitedOrNull->refusal = refusal.reason;
+        out.emplace_back(Planning::StartAdapterTimer{ArmTimers::START, REFUSED_START_LIMIT});
+    }
+    _requests.push_back(EArmRequest::VerifyCounters);
 }
 
 /// The program was surely not started. The motor is probed before the job fails: one that is off is no fault of the job's.
@@ -228,11 +279,11 @@ void ArmProgram::OnFault(const ArmRefusal& refusal, AdapterActions& out)
     }
     else if (Is<Stopping>())
     {
-        OnControlRefused(EArmControl::StopProgram, refusal);
+        OnControlRefused(EArmControl::StopProgram, refusal, out);
     }
     else if (Is<Resuming>())
     {
-        OnControlRefused(EArmControl::ResumeProgram, refusal);
+        OnControlRefused(EArmControl::ResumeProgram, refusal, out);
     }
 }
 

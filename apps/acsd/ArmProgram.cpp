@@ -9,7 +9,23 @@
 namespace ACS::Acsd
 {
 
-using namespace ArmStates;
+using ArmStates::Awaited;
+using ArmStates::Doubtful;
+using ArmStates::NoJob;
+using ArmStates::Prepared;
+using ArmStates::ReadingInputs;
+using ArmStates::Refused;
+using ArmStates::Resetting;
+using ArmStates::ResumeRefused;
+using ArmStates::Resuming;
+using ArmStates::Rewinding;
+using ArmStates::Running;
+using ArmStates::Selecting;
+using ArmStates::Starting;
+using ArmStates::Stopped;
+using ArmStates::Stopping;
+using ArmStates::VerifyingSelection;
+using ArmStates::WritingInputs;
 
 namespace
 {
@@ -44,7 +60,14 @@ void ArmProgram::Start(ArmJob job)
 {
     _job = std::move(job);
     _bRewound = false;
-    Select();
+    if (_bRewindDue)
+    {
+        Rewind();
+    }
+    else
+    {
+        Select();
+    }
 }
 
 void ArmProgram::Select()
@@ -57,16 +80,26 @@ void ArmProgram::Select()
         fmt::format(R"({{"pno":{},"sno":0,"fno":0,"ext_sel":1}})", _job.program));
 }
 
-/// After a start or stop a controller may refuse a selection for its program counter: that is set, once, and it is selected
-/// again.
+/// After a start or stop a controller may refuse a selection for its program counter, which is set before the next one.
+void ArmProgram::Rewind()
+{
+    _state = Rewinding{};
+    _controls.Send(EArmControl::RewindProgram, REWIND_URL, R"({"idx":1})");
+}
+
+bool ArmProgram::IsOfSelection(const ArmRefusal& refusal)
+{
+    return refusal.codeOrNone == BAD_COUNTER;
+}
+
+/// A program that was started or stopped by others: the counter is set, once, and it is selected again.
 bool ArmProgram::TryRewind(const ArmRefusal& refusal)
 {
-    if (refusal.codeOrNone != BAD_COUNTER || std::exchange(_bRewound, true))
+    if (!IsOfSelection(refusal) || std::exchange(_bRewound, true))
     {
         return false;
     }
-    _state = Rewinding{};
-    _controls.Send(EArmControl::RewindProgram, REWIND_URL, R"({"idx":1})");
+    Rewind();
     return true;
 }
 

@@ -58,6 +58,7 @@ class ArmProgram
     std::vector<EArmRequest> _requests;
     ArmStates::ArmProgramState _state;
     ArmJob _job;
+    bool _bRewindDue = false;      ///< A program was started or stopped since the program counter was set.
     bool _bRewound = false;        ///< For this job's selection.
     bool _bResumeRepeated = false; ///< It may run already: that it does is no refusal.
     bool _bFound = false;          ///< It was found running after a restart: whether it was paused before is not known.
@@ -89,8 +90,11 @@ class ArmProgram
     void OnResetRefused();
     void OnAccepted(EArmControl kind, Planning::AdapterActions& out);
     void OnUnanswered(EArmControl kind, OpenStream::EControlOutcome outcome, Planning::AdapterActions& out);
-    void OnControlRefused(EArmControl kind, const ArmRefusal& refusal);
+    void OnControlRefused(EArmControl kind, const ArmRefusal& refusal, Planning::AdapterActions& out);
+    void OnStartRefused(const ArmRefusal& refusal, Planning::AdapterActions& out);
+    void SelectUnlessCancelled(Planning::AdapterActions& out);
     [[nodiscard]] bool TryRewind(const ArmRefusal& refusal);
+    [[nodiscard]] static bool IsOfSelection(const ArmRefusal& refusal);
     void Refuse(std::string reason);
     void Begin(Planning::AdapterActions& out);
     /// The job's ID, which is the program's no longer.

@@ -18,6 +18,14 @@ namespace
 using Planning::AdapterActions;
 using Planning::RaiseEvent;
 
+/// The number that the job's program echoes; 0 where it gets none, and cannot.
+std::int32_t GetEchoedNumber(const Planning::StartJob& job, const ArmJob& made)
+{
+    const bool bGiven =
+        std::ranges::any_of(made.inputs, [&job](const ArmInput& input) { return input.value == job.jobNumber; });
+    return bGiven ? job.jobNumber : 0;
+}
+
 } // namespace
 
 OpenStreamRobotAdapter::OpenStreamRobotAdapter(
@@ -356,13 +364,8 @@ void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, AdapterActi
         out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});
         return;
     }
-    _counted = _counters;
-    _phase = EJobPhase::Selecting;
-    _armProgram = _methods.FindMethodOrNull(job.action, _methods.MakeData(job))->armProgram;
-    SendControl(
-        EControl::SelectProgram,
-        SELECT_URL,
-        fmt::format(R"({{"pno":{},"sno":0,"fno":0,"ext_sel":0}})", _armProgram));
+    _evidence.Begin(GetEchoedNumber(job, *made));
+    _program.Start(std::move(*made));
 }
 
 tl::expected<ArmJob, std::string> OpenStreamRobotAdapter::MakeJob(const Planning::StartJob& job) const
@@ -396,7 +399,9 @@ tl::expected<ArmJob, std::string> OpenStreamRobotAdapter::MakeJob(const Planning
 void OpenStreamRobotAdapter::RecoverJob(AdapterActions& out)
 {
     const Planning::StartJob job = *std::exchange(_recovery, std::nullopt);
-    const tl::expected<bool, std::string> begun = _evidence.Recover(job.mark, job.jobNumber);
+    const tl::expected<ArmJob, std::string> made = MakeJob(job);
+    const std::int32_t number = made.has_value() ? GetEchoedNumber(job, *made) : job.jobNumber;
+    const tl::expected<bool, std::string> begun = _evidence.Recover(job.mark, number);
     if (!begun.has_value())
     {
         out.emplace_back(RaiseEvent{Planning::JobUncertain{job.jobID, begun.error()}});

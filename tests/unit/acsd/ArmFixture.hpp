@@ -19,6 +19,7 @@ namespace ACS::Acsd::Test
 
 inline const std::string SELECT =
     R"(CONTROL /project/context/tasks[0]/cur_prog_cnt {"pno":11,"sno":0,"fno":0,"ext_sel":1})";
+inline const std::string REWIND = R"(CONTROL /project/context/tasks[0]/set_cur_pc_idx {"idx":1})";
 inline const std::string START = "CONTROL /project/robot/start {}";
 inline const std::string STOP = "CONTROL /project/robot/stop {}";
 inline const std::string RESET = R"(CONTROL /project/service/r_code/execute {"code":1})";
@@ -110,6 +111,11 @@ struct ArmFixture
     void Accept(std::string_view counters = "[5,5,0]")
     {
         static_cast<void>(TakeRequests());
+        if (lastControl == REWIND) // before the selection after a start
+        {
+            Settle(OpenStream::EControlOutcome::Accepted);
+            static_cast<void>(TakeRequests());
+        }
         Settle(OpenStream::EControlOutcome::Accepted);
         ShowLook(counters);
     }

@@ -176,6 +176,7 @@ TEST_CASE("A CONTROL that settles after the end of its job changes nothing")
     arm.Settle(EControlOutcome::Refused); // the stop
     CHECK(arm.program.TakeRequests().empty());
     CHECK_FALSE(arm.HasReported<Planning::JobFailed>());
+    arm.Settle(EControlOutcome::Accepted); // the program counter
     arm.Settle(EControlOutcome::Accepted); // the selection
     CHECK(arm.program.TakeRequests() == std::vector<EArmRequest>{EArmRequest::VerifyEffect});
 }

@@ -366,6 +366,30 @@ TEST_CASE("A job whose number is unknown, from before an update, counts any chan
     CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
 }
 
+TEST_CASE("A program that gets no number of its job cannot echo one: any change counts for it")
+{
+    ArmInputFixture arm([](const Planning::StartJob&) { return std::vector<ArmInput>{{*ParseArmRelay("ml105"), 3}}; });
+    SECTION("Of a job that was commanded before a restart")
+    {
+        arm.TellData("[6,5,0,11,17]");
+        arm.adapter.Handle(Planning::RecoverJob{ArmInputFixture::MakeJob(), {}}, arm.clock.GetNow(), arm.actions);
+    }
+    SECTION("Of another one")
+    {
+        arm.Command(ArmInputFixture::MakeJob());
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        static_cast<void>(arm.TakeRequests());
+        arm.ShowEffect(SELECTED);
+        arm.ShowLook(BEFORE);
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        arm.Tell(OpenStream::ClientMonitorStarted{});
+        arm.TellData("[3]");
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+    }
+    arm.TellData("[6,6,0,11,17]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+}
+
 TEST_CASE("After a restart the echo shows whether the program that ran was this job's")
 {
     ArmFixture arm(ArmOptions{}, ResolveInputs);
