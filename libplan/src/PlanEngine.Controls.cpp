@@ -44,7 +44,7 @@ bool PlanEngine::Impl::IsRepetition(const ControlPlan& command) const
 
 void PlanEngine::Impl::Remember(PlanProgress& progress, const ControlPlan& command)
 {
-    constexpr std::size_t MOST_REMEMBERED = 8;
+    constexpr std::size_t MOST_REMEMBERED = 64; // an MCS without an Ack may send one again after many others
     if (command.transactionID.empty())
     {
         return;
