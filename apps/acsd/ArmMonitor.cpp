@@ -85,6 +85,7 @@ std::size_t ArmMonitor::GetWordCount() const
 void ArmMonitor::WatchCounters(ArmView view)
 {
     Monitor(_options.monitorUrl, _options.period, MakeRangeArgs(_options.firstByte, GetWordCount()));
+    _bRelaysLate = _bRelaysLate || IsReadingRelays();
     _view = std::move(view);
 }
 
@@ -118,6 +119,7 @@ void ArmMonitor::OnLost(AdapterActions& out)
     _view = Counters{};
     _trouble.reset();
     _bMonitorRefused = false;
+    _bRelaysLate = false;
     _bMotorHidden = false;
     _bGeneralHidden = false;
     _unshownEffects = 0;
@@ -248,7 +250,7 @@ std::optional<ArmSample> ArmMonitor::ReadSampleOrNull(const Core::JsonText& json
 ArmFact ArmMonitor::TakeCounters(const Core::JsonText& json, AdapterActions& out)
 {
     const std::optional<ArmSample> sampleOrNull = ReadSampleOrNull(json);
-    if (!sampleOrNull.has_value())
+    if (!sampleOrNull.has_value() || _bRelaysLate)
     {
         return {};
     }
@@ -270,6 +272,7 @@ ArmFact ArmMonitor::TakeCounters(const Core::JsonText& json, AdapterActions& out
 
 void ArmMonitor::OnTaken()
 {
+    _bRelaysLate = false;
     if (Verification* const verificationOrNull = std::get_if<Verification>(&_view))
     {
         verificationOrNull->bTaken = true;

@@ -41,11 +41,12 @@ class ArmMonitor
     ArmControls& _controls;
     ELink _link = ELink::Lost;
     ArmViews::ArmView _view;
-    bool _bMotorHidden = false;                   ///< The controller does not show it to a probe.
-    bool _bGeneralHidden = false;                 ///< Likewise its general state.
-    std::size_t _unshownEffects = 0;              ///< In a row, of CONTROLs that were not refused.
-    bool _bMonitorRefused = false;                ///< The one of the motor or the counters, last time.
-    std::string _motorRefusal;                    ///< Of the last CONTROL that was to switch it on; empty: none.
+    bool _bRelaysLate = false;       ///< Samples of relays that were read may still come in place of the counters.
+    bool _bMotorHidden = false;      ///< The controller does not show it to a probe.
+    bool _bGeneralHidden = false;    ///< Likewise its general state.
+    std::size_t _unshownEffects = 0; ///< In a row, of CONTROLs that were not refused.
+    bool _bMonitorRefused = false;   ///< The one of the motor or the counters, last time.
+    std::string _motorRefusal;       ///< Of the last CONTROL that was to switch it on; empty: none.
     std::optional<Planning::RobotError> _trouble; ///< What keeps the arm from its work, its session being there.
 
     void Monitor(std::string_view url, std::chrono::milliseconds period, std::optional<Core::JsonText> argsOrNull);

@@ -141,6 +141,41 @@ TEST_CASE("Samples that were on their way before the inputs are read are still t
     CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK, START});
 }
 
+TEST_CASE("Samples of the inputs that come after the counters are asked for again are not taken for the counters")
+{
+    ArmInputFixture arm([](const Planning::StartJob& job) {
+        std::vector<ArmInput> inputs{{*ParseArmRelay("ml105"), job.jobNumber}};
+        for (const char* const relay : {"ml106", "ml107", "ml108", "ml109"})
+        {
+            inputs.push_back({*ParseArmRelay(relay), 1});
+        }
+        return inputs;
+    });
+    arm.Command(ArmInputFixture::MakeJob());
+    static_cast<void>(arm.TakeRequests());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.ShowLook(BEFORE);
+    for (int written = 0; written < 5; ++written)
+    {
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+    }
+    static_cast<void>(arm.TakeRequests());
+    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.TellData("[4711,1,1,1,1]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK, START});
+    for (int late = 0; late < 3; ++late)
+    {
+        arm.TellData("[4711,1,1,1,1]");
+    }
+    CHECK(arm.TakeEvents<Planning::JobUncertain>().empty());
+    CHECK(arm.TakeEvents<Planning::JobStarted>().empty());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.ShowLook(BEFORE);
+    arm.TellData(BEGUN);
+    arm.TellData(DONE);
+    CHECK(arm.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
+}
+
 TEST_CASE(
     "Inputs that differ are written again, and then the job fails with relay, written and read; nothing was started")
 {
@@ -384,6 +419,7 @@ TEST_CASE("A program that gets no number of its job cannot echo one: any change 
         arm.Settle(OpenStream::EControlOutcome::Accepted);
         arm.Tell(OpenStream::ClientMonitorStarted{});
         arm.TellData("[3]");
+        arm.Tell(OpenStream::ClientMonitorStarted{}); // of the counters
         arm.Settle(OpenStream::EControlOutcome::Accepted);
     }
     arm.TellData("[6,6,0,11,17]");
