@@ -28,6 +28,7 @@ MOST_OPEN = 4
 FINISH_SECONDS = 180
 INPUT_URL = '"/project/plc/set_relay_value"'
 START_URL = '"/project/robot/start"'
+SHORT_KILLS = 3  # after each, acsd waits 10 s for a start that may be on its way
 MOST_LINES = 12  # from the first input of a program to its start, and some more
 SETTINGS = argparse.Namespace(kills=5, seed=1, long=False)
 
@@ -310,13 +311,14 @@ class Kill(ScenarioCase):
             self.start_acsd()
 
         self.start_line(make_arm_port=make_port)
-        self.play(strike, SETTINGS.kills)
+        kills = SETTINGS.kills if SETTINGS.long else min(SETTINGS.kills, SHORT_KILLS)
+        self.play(strike, kills)
         self.judge()
         moves = self.list_demanded_moves()
         self.assertEqual(self.read_moves(), moves, "each job moved what its plan demands, once")
         self.assertEqual(self.read_counter("ml100") - 1, len(moves))
         self.assertEqual(checker.starts, len(moves))
-        self.assertGreater(checker.inputs, SETTINGS.kills)
+        self.assertGreaterEqual(checker.inputs, kills)
 
     def list_demanded_moves(self):
         moves = []
