@@ -58,9 +58,12 @@ class Vehicles(ScenarioCase):
         config.write_text((site / "acsd.toml").read_text().replace('"site.lif.json"', f'"{site / "site.lif.json"}"')
                           + tables)
         self.trace = self.line.folder / "trace"
-        self.line.start_acsd(mcs.wait_ready()["ws"], arm, *overrides, config=config,
-                             arguments=("--trace", self.trace)).wait_ready()
+        acsd = self.line.start_acsd(mcs.wait_ready()["ws"], arm, *overrides, config=config,
+                                    arguments=("--trace", self.trace))
+        acsd.wait_ready()
         self.exit_code = mcs.wait(FINISH_SECONDS)
+        self.line.forget(acsd)
+        acsd.stop()  # else the last line of the trace may be half written
         return mcs
 
     def read_moves(self, robot):
