@@ -288,7 +288,7 @@ void PlanEngine::Impl::JudgeJob(
 std::optional<std::string> PlanEngine::Impl::GetTrayObjectionOrNull(
     const Robot& robot,
     const ResolvedJob& job,
-    const PortContents& planned) const
+    const PortContents& planned)
 {
     for (const std::optional<Core::Location>* place : {&job.from, &job.to})
     {
@@ -324,7 +324,7 @@ std::optional<std::string> PlanEngine::Impl::GetTrayObjectionOrNull(
 }
 
 /// Of the present job.
-std::optional<std::string> PlanEngine::Impl::GetTrayObjectionOrNull(const Robot& robot) const
+std::optional<std::string> PlanEngine::Impl::GetTrayObjectionOrNull(const Robot& robot)
 {
     const ActivePlan& plan = *robot.planOrNull;
     return HasJob(plan) ? GetTrayObjectionOrNull(robot, plan.resolved.steps[plan.step].jobs[plan.job], {})

@@ -145,7 +145,8 @@ void PlanEngine::Impl::TellAccepted()
         const auto found = _plans.find(planID);
         if (found != _plans.end() && found->second->record.progress.state == EPlanState::Pending)
         {
-            TellReport(PlanReport{planID, EPlanState::Pending, {}});
+            TellReport(
+                PlanReport{planID, EPlanState::Pending, GetWaitReasonOrNull(planID).value_or(WaitReason()).message});
         }
     }
 }

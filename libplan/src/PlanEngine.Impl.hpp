@@ -399,11 +399,11 @@ private:
         const std::string& carrierID,
         PortContents& planned,
         PortVerdict& verdict) const;
-    [[nodiscard]] std::optional<std::string> GetTrayObjectionOrNull(
+    [[nodiscard]] static std::optional<std::string> GetTrayObjectionOrNull(
         const Robot& robot,
         const ResolvedJob& job,
-        const PortContents& planned) const;
-    [[nodiscard]] std::optional<std::string> GetTrayObjectionOrNull(const Robot& robot) const;
+        const PortContents& planned);
+    [[nodiscard]] static std::optional<std::string> GetTrayObjectionOrNull(const Robot& robot);
     [[nodiscard]] std::optional<std::string> GetLoadObjectionOrNull(const Robot& robot, std::size_t port) const;
     [[nodiscard]] std::optional<std::string> GetUnloadObjectionOrNull(
         const Robot& robot,
@@ -514,7 +514,7 @@ private:
 
     // What robots show on their ports (PlanEngine.Loads.cpp).
     void CompareLoads(Robot& robot);
-    void CompareLoad(Robot& robot, std::size_t port, const PortLoad& load);
+    static void CompareLoad(Robot& robot, std::size_t port, const PortLoad& load);
     void UpdateLoadAlarm(const Robot& robot);
     [[nodiscard]] static bool HasJob(const ActivePlan& plan);
     [[nodiscard]] static const std::string& GetJobID(const ActivePlan& plan);

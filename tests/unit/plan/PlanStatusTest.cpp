@@ -185,6 +185,16 @@ TEST_CASE("5.4 The message of a plan's report says which robot has it, and which
     CHECK(std::get<ControlResultReport>(world.reports.back().report).message == "The plan is Cancelled.");
 }
 
+TEST_CASE("5.4, D-24 The message of a plan that is reported as Pending says why it waits")
+{
+    EngineOptions options = MakeTestOptions(false);
+    options.bInitialPendingReported = true;
+    PlanWorld world(1, options, MakeTestSite());
+    world.Submit(MakeLoadPlan());
+    REQUIRE(world.TryRun());
+    CHECK(GetMessage(world, "P1", EPlanState::Pending) == "No robot that can do it is free for it.");
+}
+
 TEST_CASE("5.6 The message of a job's report says why it failed, and who reported it as done")
 {
     PlanWorld world;
