@@ -39,7 +39,7 @@ BATCHES = [
           arm=("--program", "12=20s,fail")),
     Batch(["pause-resume", "pause-refused", "pause-driving", "pause-waiting", "pause-repeated", "cancel-paused",
            "controls-race", "abort-paused"]),
-    Batch(["pause-cr", "abort-second-of-five", "abort-last-job", "abort-paused-cr"],
+    Batch(["pause-cr", "abort-paused-cr", "abort-second-of-five", "abort-last-job"],
           arm=("--program", "11=40s", "--program", "12=20s")),
     Batch(["pinned-robots"], vehicles=("LR01,type=LR", "CR01,type=CR", "RBT01,type=LR,node=D-A02.CP06"),
           acsd=("robots.RBT01.type=LR", "robots.RBT01.manufacturer=ACS", "robots.RBT01.serial=RBT01",
