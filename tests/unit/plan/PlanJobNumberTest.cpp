@@ -9,8 +9,6 @@ using ACS::Testing::BeginPlan;
 using ACS::Testing::FinishPlan;
 using ACS::Testing::MakeControlPlan;
 using ACS::Testing::MakeLogisticsPlan;
-using ACS::Testing::MakeTestOptions;
-using ACS::Testing::MakeTestSite;
 using ACS::Testing::PlanWorld;
 using ACS::Testing::RestartEngine;
 using ACS::Testing::TryRunUntil;

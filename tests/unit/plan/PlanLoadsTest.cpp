@@ -6,7 +6,6 @@
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using ACS::Testing::BeginPlan;
-using ACS::Testing::Contains;
 using ACS::Testing::FinishPlan;
 using ACS::Testing::MakeLogisticsPlan;
 using ACS::Testing::PlanWorld;

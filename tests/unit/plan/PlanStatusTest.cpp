@@ -5,7 +5,6 @@
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using ACS::Testing::BeginPlan;
-using ACS::Testing::Contains;
 using ACS::Testing::FinishPlan;
 using ACS::Testing::Lines;
 using ACS::Testing::MakeControlPlan;

@@ -1,12 +1,8 @@
 #include "PlanWorldSteps.hpp"
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
-using ACS::Testing::BeginPlan;
-using ACS::Testing::Contains;
 using ACS::Testing::FinishPlan;
 using ACS::Testing::MakeControlPlan;
-using ACS::Testing::MakeTestOptions;
-using ACS::Testing::MakeTestSite;
 using ACS::Testing::MakeWorld;
 using ACS::Testing::PlanWorld;
 using ACS::Testing::TryRunUntil;
