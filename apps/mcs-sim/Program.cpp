@@ -17,6 +17,7 @@
 #include "world/WorldFile.hpp"
 #include <acs/core/Timestamp.hpp>
 
+#include <boost/asio/any_io_executor.hpp>
 #include <boost/asio/io_context.hpp>
 #include <fmt/format.h>
 
@@ -117,6 +118,50 @@ tl::expected<std::vector<Scenario>, std::string> LoadScenarios(const McsSimOptio
     return scenarios;
 }
 
+/// The floor of a world file; none where no file is named.
+Core::Result<std::unique_ptr<Sim::IWorld>> OpenWorld(const std::string& path)
+{
+    if (path.empty())
+    {
+        return nullptr;
+    }
+    Core::Result<std::unique_ptr<Sim::WorldFile>> opened = Sim::WorldFile::Open(path);
+    if (!opened.has_value())
+    {
+        return tl::make_unexpected(std::move(opened.error()));
+    }
+    return std::move(*opened);
+}
+
+/// What standard input is for; nothing where it is not read.
+std::unique_ptr<InputLines> MakeInput(
+    const McsSimOptions& options,
+    const boost::asio::any_io_executor& executor,
+    const std::string& work,
+    McsSimulator& simulator)
+{
+    const auto release = [&simulator] {
+        simulator.Release();
+    };
+    if (options.bWaitForEnter)
+    {
+        if (::isatty(STDIN_FILENO) != 0)
+        {
+            std::cout << fmt::format("Press Enter to {}.", work) << std::endl;
+        }
+        return std::make_unique<InputLines>(
+            executor,
+            [release](const std::string& /*line*/) { release(); },
+            release);
+    }
+    release();
+    return !options.bConsole ? nullptr
+                             : std::make_unique<InputLines>(
+                                 executor,
+                                 [&simulator](const std::string& line) { simulator.Execute(line); },
+                                 [&simulator] { simulator.Interrupt(); });
+}
+
 /// Some terminals only print: an editor's, a log's.
 bool CanTerminalDraw()
 {
@@ -146,6 +191,12 @@ int Run(const McsSimOptions& options)
         Apps::PrintMistake(PROGRAM_NAME, plans.has_value() ? scenarios.error() : plans.error());
         return Apps::EXIT_BAD_COMMAND_LINE;
     }
+    const Core::Result<std::unique_ptr<Sim::IWorld>> world = OpenWorld(options.worldFile);
+    if (!world.has_value())
+    {
+        Apps::PrintMistake(PROGRAM_NAME, "--world: " + Describe(world.error()));
+        return Apps::EXIT_BAD_COMMAND_LINE;
+    }
     const std::string work = scenarios->empty() ? fmt::format("send {} plans", plans->size())
                                                 : fmt::format("play {} scenarios", scenarios->size());
 
@@ -173,21 +224,8 @@ int Run(const McsSimOptions& options)
         options.profile,
         options.bFreshIDs || options.repeat > 1,
         options.bConsole,
-        nullptr,
-        EStocking::Leave};
-    std::unique_ptr<Sim::IWorld> world;
-    if (!options.worldFile.empty())
-    {
-        Core::Result<std::unique_ptr<Sim::WorldFile>> opened = Sim::WorldFile::Open(options.worldFile);
-        if (!opened.has_value())
-        {
-            Apps::PrintMistake(PROGRAM_NAME, "--world: " + Describe(opened.error()));
-            return Apps::EXIT_BAD_COMMAND_LINE;
-        }
-        world = std::move(*opened);
-        simulated.worldOrNull = world.get();
-        simulated.stocking = options.bRestock ? EStocking::Restock : EStocking::Leave;
-    }
+        world->get(),
+        options.bRestock ? EStocking::Restock : EStocking::Leave};
     std::unique_ptr<TraceFile> trace;
     if (!options.traceFile.empty())
     {
@@ -225,32 +263,7 @@ int Run(const McsSimOptions& options)
         return TellStartFailure(endpoint.error());
     }
     Apps::PrintReadyLine({{options.tls.has_value() ? "wss" : "ws", *endpoint}});
-    std::unique_ptr<InputLines> input;
-    if (options.bWaitForEnter)
-    {
-        if (::isatty(STDIN_FILENO) != 0)
-        {
-            std::cout << fmt::format("Press Enter to {}.", work) << std::endl;
-        }
-        const auto release = [&simulator] {
-            simulator.Release();
-        };
-        input = std::make_unique<InputLines>(
-            context.get_executor(),
-            [release](const std::string& /*line*/) { release(); },
-            release);
-    }
-    else
-    {
-        simulator.Release();
-    }
-    if (options.bConsole)
-    {
-        input = std::make_unique<InputLines>(
-            context.get_executor(),
-            [&simulator](const std::string& line) { simulator.Execute(line); },
-            [&simulator] { simulator.Interrupt(); });
-    }
+    const std::unique_ptr<InputLines> input = MakeInput(options, context.get_executor(), work, simulator);
     context.run();
     if (trace != nullptr && !trace->IsComplete())
     {
