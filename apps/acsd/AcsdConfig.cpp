@@ -24,14 +24,6 @@ namespace
 
 using Apps::ConfigSection;
 
-constexpr std::int64_t HIGHEST_PROGRAM = 9999;
-constexpr std::int64_t HIGHEST_RELAY_BYTE = 65'535;
-constexpr std::int64_t HIGHEST_WORD_INDEX = 255;
-constexpr std::int64_t MOST_BASE_NODES = 1'000;
-constexpr double MOST_CLEARANCE = 100;
-constexpr std::int64_t FULL_BATTERY = 100;
-constexpr std::int64_t MOST_PLANS = 100'000;
-
 void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
 {
     const ConfigSection section = root.GetSection("site");
