@@ -151,7 +151,9 @@ class Scenarios(ScenarioCase):
         """The base of LR01 dies and comes back; the will of its connection makes it an error at once."""
         self.line.start_broker()
         arm = self.line.start_arm(TIME_SCALE)
-        logistics, control = (self.line.start_vehicles(TIME_SCALE, (name,)) for name in ("LR01,type=LR", "CR01,type=CR"))
+        # Each program alone would put its vehicle on the first charger.
+        logistics, control = (self.line.start_vehicles(TIME_SCALE, (vehicle,))
+                              for vehicle in ("LR01,type=LR", "CR01,type=CR,node=D-CHG02"))
         for vehicle in (logistics, control):
             vehicle.wait_ready()
         mcs = self.line.start("mcs-sim", "--listen", "127.0.0.1:0", "--scenario", SCENARIOS / "error-set-cleared.json",
