@@ -163,6 +163,21 @@ class Scenarios(ScenarioCase):
         self.line.start_acsd(mcs.wait_ready()["ws"], arm.wait_ready()).wait_ready()
         self.assertEqual(mcs.wait(FINISH_SECONDS), 0, mcs.log.read_text())
 
+    def test_a_program_is_reset_by_the_path_that_the_controller_serves(self):
+        """From 60.30 on r_code, before it the task's own path: acsd tries the one and then the other."""
+        for version, urls in (("70.04-00", {"r_code"}), ("60.20-00", {"r_code", "tasks[0]/reset"})):
+            with self.subTest(version), Line(self.line.bin_dir, self.line.site_dir) as line:
+                line.start_broker()
+                vehicles = line.start_vehicles(TIME_SCALE)
+                arm = line.start_arm(TIME_SCALE, "--program", "11=40s", "--controller-version", version)
+                vehicles.wait_ready()
+                mcs = line.start("mcs-sim", "--listen", "127.0.0.1:0", "--scenario", *get_paths(["abort-paused-cr"]))
+                trace = line.folder / "trace"
+                line.start_acsd(mcs.wait_ready()["ws"], arm.wait_ready(), arguments=("--trace", trace)).wait_ready()
+                self.assertEqual(mcs.wait(FINISH_SECONDS), 0, mcs.log.read_text())
+                text = "".join(file.read_text() for file in trace.iterdir())
+                self.assertEqual({url for url in ("r_code", "tasks[0]/reset") if url in text}, urls)
+
     def test_scenario_tsc_paused(self):
         """The operator of acsd asks for it over HTTP."""
         acsd = []
