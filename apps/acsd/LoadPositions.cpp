@@ -38,6 +38,11 @@ const std::string* LoadPositions::FindPortOrNull(std::string_view position) cons
     return position.empty() && _ports.size() == 1 ? &_ports.front().location : nullptr;
 }
 
+bool LoadPositions::IsEmpty() const noexcept
+{
+    return _ports.empty();
+}
+
 std::optional<std::vector<Planning::PortLoad>> LoadPositions::MakePortLoadsOrNull(
     const VDA5050::StateMessage& state) const
 {
@@ -55,7 +60,7 @@ std::optional<std::vector<Planning::PortLoad>> LoadPositions::MakePortLoadsOrNul
         const std::string* const port = FindPortOrNull(load.loadPosition);
         if (port == nullptr)
         {
-            continue; // VehicleWatch reports it
+            return std::nullopt; // it may be on any port: nothing is known of them. VehicleWatch reports it
         }
         Planning::PortLoad& shown = *std::ranges::find(loads, *port, &Planning::PortLoad::port);
         shown.bLoaded = true;

@@ -41,7 +41,11 @@ public:
     /// The port of a load; null where its position is none of the robot's. A load without a position is on the only port.
     [[nodiscard]] const std::string* FindPortOrNull(std::string_view position) const;
 
-    /// What the vehicle shows, one entry per port; absent where the robot has no ports or the vehicle reports no loads.
+    /// The robot has no ports.
+    [[nodiscard]] bool IsEmpty() const noexcept;
+
+    /// What the vehicle shows, one entry per port; absent where the robot has no ports, where the vehicle reports no loads, and
+    /// where one of them is at an unknown position: it may be on any port.
     [[nodiscard]] std::optional<std::vector<Planning::PortLoad>> MakePortLoadsOrNull(
         const VDA5050::StateMessage& state) const;
 };

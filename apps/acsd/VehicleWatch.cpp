@@ -115,10 +115,10 @@ void VehicleWatch::LookAtPlace(const VDA5050::StateMessage& state)
     }
 }
 
-/// Of a robot whose ports the vehicle shows: such a load is on no port, as far as acsd knows.
+/// Of a robot whose ports the vehicle shows: with such a load acsd does not know what is on any of them.
 void VehicleWatch::CheckLoads(const VDA5050::StateMessage& state)
 {
-    if (!_positions.MakePortLoadsOrNull(state).has_value())
+    if (!state.loads.has_value() || _positions.IsEmpty())
     {
         return;
     }

@@ -86,7 +86,7 @@ TEST_CASE("6.10 The loads of the vehicle become one entry per port, in the order
     vehicle.Show({LoadFixture::MakeLoad("CP01", std::nullopt), LoadFixture::MakeLoad("rear", "")});
     CHECK(vehicle.GetLoads() == std::vector<PortLoad>{{"LR01.CP01", true, ""}, {"LR01.CP02", true, ""}});
     vehicle.Show({LoadFixture::MakeLoad("CP02", "C7"), LoadFixture::MakeLoad("", "C8")});
-    CHECK(vehicle.GetLoads() == std::vector<PortLoad>{{"LR01.CP01", false, ""}, {"LR01.CP02", false, ""}});
+    CHECK_FALSE(vehicle.GetLoads().has_value()); // where they are is not known
     vehicle.state.loads.reset();
     vehicle.ShowState();
     CHECK_FALSE(vehicle.GetLoads().has_value());
