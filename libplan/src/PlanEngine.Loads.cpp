@@ -1,4 +1,5 @@
 #include "PlanEngine.Impl.hpp"
+#include <acs/core/ControlCharacter.hpp>
 
 #include <fmt/format.h>
 
@@ -10,9 +11,11 @@ namespace ACS::Planning
 namespace
 {
 
+/// An id that an operator could not give a carrier either is none.
 bool HasID(const PortLoad& load)
 {
-    return !load.carrierID.empty() && load.carrierID != UNKNOWN_CARRIER;
+    return !load.carrierID.empty() && load.carrierID.size() <= MAXIMUM_ID_LENGTH
+        && !Core::HasControlCharacter(load.carrierID) && load.carrierID != UNKNOWN_CARRIER;
 }
 
 /// A robot that knows no ids contradicts none, and nothing contradicts an unknown carrier but an empty port.

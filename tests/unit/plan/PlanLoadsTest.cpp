@@ -108,6 +108,10 @@ TEST_CASE("A loaded port without an id keeps the carrier on record, or has an un
     Show(world, true, "CASSETTE_02"); // no difference: now it is known
     CHECK(GetCarrier(world) == "CASSETTE_02");
     CHECK(GetAlarm(world).empty());
+    Show(world, true, std::string(MAXIMUM_ID_LENGTH + 1, 'C')); // ids that no carrier can have
+    Show(world, true, "CASSETTE\n03");
+    CHECK(GetCarrier(world) == "CASSETTE_02");
+    CHECK(GetAlarm(world).empty());
     Show(world, false);
     Show(world, true); // a sensor that flickered
     CHECK(GetCarrier(world) == "CASSETTE_02");
