@@ -82,6 +82,19 @@ tl::expected<std::vector<VDA5050::ActionParameter>, std::string> MakeActionParam
                 value.error().reason));
         }
     }
+    if (listedOrNull != nullptr)
+    {
+        for (const AgvActionParameter& rule : listedOrNull->actionParameters)
+        {
+            if (IsMandatory(&rule) && std::ranges::count(method.parameters, rule.key, &VehicleParameter::key) == 0)
+            {
+                return tl::unexpected(fmt::format(
+                    "the parameter {} of {} is mandatory and not configured",
+                    rule.key,
+                    method.vehicleAction));
+            }
+        }
+    }
     return parameters;
 }
 

@@ -206,6 +206,16 @@ TEST_CASE("An optional parameter without a value is left out, a mandatory one is
     CHECK(make(std::nullopt) == reason); // the standard's default
 }
 
+TEST_CASE("A mandatory parameter of the factsheet that is not configured is an error, an optional one is not")
+{
+    VDA5050::FactsheetMessage factsheet =
+        MakeFactsheet({{"fork", EValueDataType::Integer, "", false}, {"speed", EValueDataType::Float, "", true}});
+    CHECK(Make({"lift", 0, Parse("fork = 1")}, MakeLoad(), &factsheet) == "fork=1");
+    CHECK(
+        Make({"lift", 0, Parse("speed = 0.5")}, MakeLoad(), &factsheet)
+        == "the parameter fork of lift is mandatory and not configured");
+}
+
 TEST_CASE("Without a factsheet the standard says what a pick needs")
 {
     const JobMethod pick{"pick", 0, Parse("stationType = '{station.side}'\nloadType = 'cassette'")};
