@@ -71,15 +71,15 @@ void CheckEffect(const ConfigSection& section, const Planning::ActionRule& rule)
 {
     if (rule.effect == EActionEffect::Load && !IsRobotPort(rule.to))
     {
-        section.AddMistake("effect", "load needs to = \"robot_cp\" or \"robot_tp\"");
+        section.AddMistake("effect", R"(load needs to = "robot_cp" or "robot_tp")");
     }
     else if (rule.effect == EActionEffect::Unload && !IsRobotPort(rule.from))
     {
-        section.AddMistake("effect", "unload needs from = \"robot_cp\" or \"robot_tp\"");
+        section.AddMistake("effect", R"(unload needs from = "robot_cp" or "robot_tp")");
     }
     else if (rule.effect == EActionEffect::Move && !IsRobotPort(rule.from) && !IsRobotPort(rule.to))
     {
-        section.AddMistake("effect", "move needs from or to as \"robot_cp\" or \"robot_tp\"");
+        section.AddMistake("effect", R"(move needs from or to as "robot_cp" or "robot_tp")");
     }
 }
 

@@ -15,7 +15,7 @@ struct ControllerVersion
     int minor = 4;
     int patch = 0;
 
-    auto operator<=>(const ControllerVersion&) const = default;
+    auto operator<=>(const ControllerVersion&) const = default; // NOLINT(modernize-use-nullptr)
 };
 
 /// The first version that serves r_code, and no motor_off and no reset of tasks any more.

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-using namespace ACS;
+using namespace ACS; // NOLINT(google-build-using-namespace)
 using Sim::EMemory;
 using Sim::EWorldError;
 using Sim::MemoryWorld;

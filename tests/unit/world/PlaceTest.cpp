@@ -3,7 +3,7 @@
 #include "Catch.hpp"
 #include "world/EWorldError.hpp"
 
-using namespace ACS;
+using namespace ACS; // NOLINT(google-build-using-namespace)
 using Core::ESegmentKind;
 
 TEST_CASE("A place has a canonical text, a kind and a station or a robot")

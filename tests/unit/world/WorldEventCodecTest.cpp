@@ -4,7 +4,7 @@
 
 #include <vector>
 
-using namespace ACS;
+using namespace ACS; // NOLINT(google-build-using-namespace)
 
 TEST_CASE("Each event is a line that reads as the same event")
 {

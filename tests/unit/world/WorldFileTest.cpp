@@ -18,7 +18,7 @@
 #include <unistd.h>
 #include <vector>
 
-using namespace ACS;
+using namespace ACS; // NOLINT(google-build-using-namespace)
 using Sim::EWorldError;
 
 namespace

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-using namespace ACS;
+using namespace ACS; // NOLINT(google-build-using-namespace)
 using Sim::EMemory;
 
 namespace
