@@ -257,7 +257,7 @@ tl::expected<JsonText, ParameterFault> ParameterTemplate::Resolve(
         const tl::expected<JobValue, JobName> value = std::visit(
             Core::Overloaded{
                 [&data](const JobTemplate& text) { return text.Resolve(data); },
-                [](auto scalar) {
+                [](const auto& scalar) {
                     return tl::expected<JobValue, JobName>(JobValue(scalar));
                 }},
             *piece.scalarOrNone);

@@ -20,7 +20,7 @@ ControllerFaults::ControllerFaults(VirtualController& controller, IFaultHost& ho
 {
     ControllerMachine& machine = _controller.GetMachine(now);
     machine.SetProgramJudge([this](int number, bool bAtStart) { return ShouldFail(number, bAtStart); });
-    machine.SetRelayJudge([this] { return StoresWrongValue(); });
+    machine.SetRelayJudge([this] { return ShouldStoreWrongValue(); });
 }
 
 bool ControllerFaults::TryAdd(const Fault& fault, Core::Now now)
@@ -163,7 +163,7 @@ bool ControllerFaults::ShouldFail(int number, bool bAtStart)
 }
 
 /// Within a call of the controller: a client writes a relay.
-bool ControllerFaults::StoresWrongValue()
+bool ControllerFaults::ShouldStoreWrongValue()
 {
     const Fault* const fault = _board.FindOrNull(EFaultKind::WrongValue);
     if (fault == nullptr)

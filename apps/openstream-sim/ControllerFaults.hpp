@@ -31,7 +31,7 @@ class ControllerFaults final
     void Apply(const FaultChange& change);
     void TurnModeSwitch(const Fault& fault);
     [[nodiscard]] bool ShouldFail(int number, bool bAtStart);
-    [[nodiscard]] bool StoresWrongValue();
+    [[nodiscard]] bool ShouldStoreWrongValue();
     void Finish();
 
 public:

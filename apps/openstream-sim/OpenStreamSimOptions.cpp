@@ -268,7 +268,7 @@ std::string CheckRobots(const OpenStreamSimOptions& options, const ProgramFile& 
             return fmt::format("--robot: robot {} has two controllers; give each a robot of its own", robot);
         }
     }
-    const bool bNeeded = !options.worldFile.empty() || programs.NamesRobot();
+    const bool bNeeded = !options.worldFile.empty() || programs.HasRobotName();
     for (std::size_t controller = 1; bNeeded && controller <= options.fleet.controllers; ++controller)
     {
         if (!robots.contains(controller))

@@ -83,7 +83,7 @@ Core::Result<PlaceTemplate> PlaceTemplate::Parse(std::string_view text)
         result._parts.push_back(std::move(*tag));
         rest.remove_prefix(close + 1);
     }
-    const bool bRobotFirst = !result.NamesRobot() || (text.starts_with(ROBOT_FRONT) && text.rfind(ROBOT_FRONT) == 0);
+    const bool bRobotFirst = !result.HasRobotName() || (text.starts_with(ROBOT_FRONT) && text.rfind(ROBOT_FRONT) == 0);
     if (!bRobotFirst || !Core::Location::IsLocation(result.MakeSample()))
     {
         return RefuseText(text);
@@ -150,7 +150,7 @@ Core::ESegmentKind PlaceTemplate::GetKind() const
     return sample->GetKind();
 }
 
-bool PlaceTemplate::NamesRobot() const
+bool PlaceTemplate::HasRobotName() const
 {
     return std::ranges::any_of(_parts, [](const Part& part) { return std::holds_alternative<RobotTag>(part); });
 }

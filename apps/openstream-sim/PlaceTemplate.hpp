@@ -49,7 +49,7 @@ public:
 
     [[nodiscard]] const std::string& GetText() const noexcept;
     [[nodiscard]] Core::ESegmentKind GetKind() const;
-    [[nodiscard]] bool NamesRobot() const;
+    [[nodiscard]] bool HasRobotName() const;
 
     bool operator==(const PlaceTemplate&) const = default;
 };

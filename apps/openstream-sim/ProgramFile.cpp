@@ -227,9 +227,9 @@ ProgramFile ReadPrograms(const Apps::ConfigReader& reader)
     return file;
 }
 
-bool NamesRobotIn(const PlaceTemplates& templates)
+bool HasRobotNameIn(const PlaceTemplates& templates)
 {
-    return std::ranges::any_of(templates, [](const PlaceTemplate& place) { return place.NamesRobot(); });
+    return std::ranges::any_of(templates, [](const PlaceTemplate& place) { return place.HasRobotName(); });
 }
 
 } // namespace
@@ -244,16 +244,16 @@ ProgramFile ProgramFile::ReadText(std::string_view text, const std::string& file
     return ReadPrograms(Apps::ConfigReader::ReadText(text, fileName, {}));
 }
 
-bool ProgramFile::NamesRobot() const
+bool ProgramFile::HasRobotName() const
 {
     return std::ranges::any_of(programs, [](const auto& entry) {
         return std::visit(
             Core::Overloaded{
                 [](const std::monostate&) { return false; },
-                [](const TransferWork& work) { return NamesRobotIn(work.from) || NamesRobotIn(work.to); },
-                [](const CoverWork& work) { return NamesRobotIn(work.set); },
+                [](const TransferWork& work) { return HasRobotNameIn(work.from) || HasRobotNameIn(work.to); },
+                [](const CoverWork& work) { return HasRobotNameIn(work.set); },
                 [](const ButtonWork& work) {
-                    return NamesRobotIn(work.place);
+                    return HasRobotNameIn(work.place);
                 }},
             entry.second.work);
     });

@@ -20,7 +20,7 @@ struct ProgramFile
     [[nodiscard]] static ProgramFile ReadText(std::string_view text, const std::string& fileName);
 
     /// Whether a program needs the name of the robot.
-    [[nodiscard]] bool NamesRobot() const;
+    [[nodiscard]] bool HasRobotName() const;
 };
 
 } // namespace ACS::OpenStreamSim

@@ -397,7 +397,7 @@ Core::Result<void> PlanAdmission::CheckPorts(const Plan& plan, const ResolvedPla
             const std::size_t job = end / 2;
             const bool bFills = end % 2 == 1; // the from of a job, then its to
             const std::optional<Core::Location>& port = bFills ? step.jobs[job].to : step.jobs[job].from;
-            if (!ChangesPort(step.rule->effect, bFills) || !port.has_value() || !port->IsRobotPort())
+            if (!IsPortChanged(step.rule->effect, bFills) || !port.has_value() || !port->IsRobotPort())
             {
                 continue;
             }

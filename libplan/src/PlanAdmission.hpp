@@ -17,7 +17,7 @@ namespace ACS::Planning
 {
 
 /// Whether a job of this effect fills the port in its to, or empties the port in its from.
-[[nodiscard]] constexpr bool ChangesPort(EActionEffect effect, bool bFills) noexcept
+[[nodiscard]] constexpr bool IsPortChanged(EActionEffect effect, bool bFills) noexcept
 {
     return effect == EActionEffect::Move || effect == (bFills ? EActionEffect::Load : EActionEffect::Unload);
 }

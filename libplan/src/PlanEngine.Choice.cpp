@@ -267,7 +267,7 @@ void PlanEngine::Impl::JudgeJob(
     }
     for (const bool bFills : {false, true})
     {
-        const std::optional<std::size_t> port = ChangesPort(step.rule->effect, bFills)
+        const std::optional<std::size_t> port = IsPortChanged(step.rule->effect, bFills)
             ? FindPortOrNull(robot, bFills ? places.to : places.from)
             : std::nullopt;
         if (!port.has_value() || !planned.insert_or_assign(*port, bFills).second)

@@ -19,7 +19,7 @@ bool HasID(const PortLoad& load)
 }
 
 /// A robot that knows no ids contradicts none, and nothing contradicts an unknown carrier but an empty port.
-bool Agrees(const std::optional<std::string>& expected, const PortLoad& load)
+bool IsAgreed(const std::optional<std::string>& expected, const PortLoad& load)
 {
     if (!load.bLoaded || !expected.has_value())
     {
@@ -28,7 +28,7 @@ bool Agrees(const std::optional<std::string>& expected, const PortLoad& load)
     return !HasID(load) || *expected == UNKNOWN_CARRIER || *expected == load.carrierID;
 }
 
-std::optional<std::string> Merge(const std::optional<std::string>& known, const PortLoad& load)
+std::optional<std::string> MergeOrNull(const std::optional<std::string>& known, const PortLoad& load)
 {
     if (!load.bLoaded)
     {
@@ -73,17 +73,17 @@ void PlanEngine::Impl::CompareLoad(Robot& robot, std::size_t port, const PortLoa
 {
     std::optional<std::string>& record = robot.carriers[port];
     const auto disputed = robot.disputedPorts.find(port);
-    if (!Agrees(record, load) && disputed != robot.disputedPorts.end() && Agrees(disputed->second, load))
+    if (!IsAgreed(record, load) && disputed != robot.disputedPorts.end() && IsAgreed(disputed->second, load))
     {
-        record = Merge(disputed->second, load); // what was expected there is back
+        record = MergeOrNull(disputed->second, load); // what was expected there is back
         robot.disputedPorts.erase(disputed);
         return;
     }
-    if (!Agrees(record, load))
+    if (!IsAgreed(record, load))
     {
         robot.disputedPorts.try_emplace(port, record);
     }
-    record = Merge(record, load);
+    record = MergeOrNull(record, load);
 }
 
 /// Set until each port shows again what was expected there, a job has moved its carrier, or an operator has looked.

@@ -206,7 +206,7 @@ std::vector<PlanEngine::Impl::PortUse> PlanEngine::Impl::ListPortUses(const Robo
     {
         const std::optional<std::string>& place = bFills ? job.to : job.from;
         const std::optional<std::size_t> port =
-            ChangesPort(effect, bFills) && place.has_value() ? FindNamedPortOrNull(robot, *place) : std::nullopt;
+            IsPortChanged(effect, bFills) && place.has_value() ? FindNamedPortOrNull(robot, *place) : std::nullopt;
         if (port.has_value())
         {
             uses.push_back({*port, bFills});

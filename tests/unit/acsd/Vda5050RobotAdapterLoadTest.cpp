@@ -69,7 +69,7 @@ struct LoadFixture : VehicleFixture
         adapter.OnTimer(LOAD_TIMER, clock.GetNow(), actions);
     }
 
-    [[nodiscard]] std::optional<std::vector<PortLoad>> GetLoads() const
+    [[nodiscard]] std::optional<std::vector<PortLoad>> GetLoadsOrNull() const
     {
         return TakeEvents<Planning::StateChanged>().back().loads;
     }
@@ -80,23 +80,23 @@ struct LoadFixture : VehicleFixture
 TEST_CASE("6.10 The loads of the vehicle become one entry per port, in the order of the ports")
 {
     LoadFixture vehicle;
-    CHECK(vehicle.GetLoads() == std::vector<PortLoad>{{"LR01.CP01", false, ""}, {"LR01.CP02", false, ""}});
+    CHECK(vehicle.GetLoadsOrNull() == std::vector<PortLoad>{{"LR01.CP01", false, ""}, {"LR01.CP02", false, ""}});
     vehicle.Show({LoadFixture::MakeLoad("rear", "C7")});
-    CHECK(vehicle.GetLoads() == std::vector<PortLoad>{{"LR01.CP01", false, ""}, {"LR01.CP02", true, "C7"}});
+    CHECK(vehicle.GetLoadsOrNull() == std::vector<PortLoad>{{"LR01.CP01", false, ""}, {"LR01.CP02", true, "C7"}});
     vehicle.Show({LoadFixture::MakeLoad("CP01", std::nullopt), LoadFixture::MakeLoad("rear", "")});
-    CHECK(vehicle.GetLoads() == std::vector<PortLoad>{{"LR01.CP01", true, ""}, {"LR01.CP02", true, ""}});
+    CHECK(vehicle.GetLoadsOrNull() == std::vector<PortLoad>{{"LR01.CP01", true, ""}, {"LR01.CP02", true, ""}});
     vehicle.Show({LoadFixture::MakeLoad("CP02", "C7"), LoadFixture::MakeLoad("", "C8")});
-    CHECK_FALSE(vehicle.GetLoads().has_value()); // where they are is not known
+    CHECK_FALSE(vehicle.GetLoadsOrNull().has_value()); // where they are is not known
     vehicle.state.loads.reset();
     vehicle.ShowState();
-    CHECK_FALSE(vehicle.GetLoads().has_value());
+    CHECK_FALSE(vehicle.GetLoadsOrNull().has_value());
 }
 
 TEST_CASE("A load without a position is on the only port; a robot without ports has no loads")
 {
     LoadFixture one("CP01");
     one.Show({LoadFixture::MakeLoad("", "C1")});
-    CHECK(one.GetLoads() == std::vector<PortLoad>{{"LR01.CP01", true, "C1"}});
+    CHECK(one.GetLoadsOrNull() == std::vector<PortLoad>{{"LR01.CP01", true, "C1"}});
     VehicleFixture none;
     none.state.loads.emplace();
     none.ComeOnline();

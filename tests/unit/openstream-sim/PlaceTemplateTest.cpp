@@ -59,8 +59,8 @@ TEST_CASE("A template knows the kind of its places and whether they need the rob
     REQUIRE(Parse("A{ml1}.CP{ml2}").GetKind() == ESegmentKind::CassettePort);
     REQUIRE(Parse("{robot}.TP{ml2}").GetKind() == ESegmentKind::TrayPort);
     REQUIRE(Parse("A{ml1}.SET{ml2}.MP{ml3}").GetKind() == ESegmentKind::MemoryPort);
-    REQUIRE(Parse("{robot}.TP{ml2}").NamesRobot());
-    REQUIRE_FALSE(Parse("A{ml1}.SET{ml2}").NamesRobot());
+    REQUIRE(Parse("{robot}.TP{ml2}").HasRobotName());
+    REQUIRE_FALSE(Parse("A{ml1}.SET{ml2}").HasRobotName());
 }
 
 TEST_CASE("What is no place, or has a tag that is no relay with a whole number, is refused")

@@ -57,8 +57,8 @@ button = ["A{ml106}.SET{ml107}"]
     REQUIRE(std::get<CoverWork>(file.programs.at(13).work).set.size() == 2);
     REQUIRE_FALSE(file.programs.at(9999).echo.has_value());
     REQUIRE(std::holds_alternative<ButtonWork>(file.programs.at(9999).work));
-    REQUIRE(file.NamesRobot());
-    REQUIRE_FALSE(ProgramFile::ReadText("[1]\nbutton = [\"A01.SET01\"]", "p.toml").NamesRobot());
+    REQUIRE(file.HasRobotName());
+    REQUIRE_FALSE(ProgramFile::ReadText("[1]\nbutton = [\"A01.SET01\"]", "p.toml").HasRobotName());
 }
 
 TEST_CASE("Each mistake of the file is reported with file, line and key")

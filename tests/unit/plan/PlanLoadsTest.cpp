@@ -31,7 +31,7 @@ void SetCarrier(PlanWorld& world, std::optional<std::string> carrierID)
     REQUIRE(world.replies.at(77).bAccepted);
 }
 
-std::optional<std::string> GetCarrier(const PlanWorld& world)
+std::optional<std::string> GetCarrierOrNull(const PlanWorld& world)
 {
     return world.engine->GetRobotStatuses().front().carrierIDs.front();
 }
@@ -73,16 +73,16 @@ TEST_CASE("Reported loads replace the record, and a difference is an alarm until
     Show(world, true, "CASSETTE_01");
     CHECK(GetAlarm(world).empty());
     Show(world, true, "CASSETTE_09");
-    CHECK(GetCarrier(world) == "CASSETTE_09");
+    CHECK(GetCarrierOrNull(world) == "CASSETTE_09");
     CHECK(world.store.GetState().carriers.back().carrierIDs == Carriers{"CASSETTE_09"});
     CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, shown CASSETTE_09"));
     Show(world, true, "CASSETTE_09");
     CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, shown CASSETTE_09"));
     Show(world, false);
-    CHECK(GetCarrier(world) == std::nullopt);
+    CHECK(GetCarrierOrNull(world) == std::nullopt);
     CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, shown no carrier"));
     Show(world, true, "CASSETTE_01");
-    CHECK(GetCarrier(world) == "CASSETTE_01");
+    CHECK(GetCarrierOrNull(world) == "CASSETTE_01");
     CHECK(GetAlarm(world).empty());
     CHECK(
         world.GetReportsOf("-")
@@ -98,23 +98,23 @@ TEST_CASE("A loaded port without an id keeps the carrier on record, or has an un
     PlanWorld world;
     world.Connect();
     Show(world, true);
-    CHECK(GetCarrier(world) == "UNKNOWN");
+    CHECK(GetCarrierOrNull(world) == "UNKNOWN");
     CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected no carrier, shown UNKNOWN"));
     SetCarrier(world, "CASSETTE_01");
     CHECK(GetAlarm(world).empty());
     Show(world, true);
-    CHECK(GetCarrier(world) == "CASSETTE_01");
+    CHECK(GetCarrierOrNull(world) == "CASSETTE_01");
     SetCarrier(world, "UNKNOWN");
     Show(world, true, "CASSETTE_02"); // no difference: now it is known
-    CHECK(GetCarrier(world) == "CASSETTE_02");
+    CHECK(GetCarrierOrNull(world) == "CASSETTE_02");
     CHECK(GetAlarm(world).empty());
     Show(world, true, std::string(MAXIMUM_ID_LENGTH + 1, 'C')); // ids that no carrier can have
     Show(world, true, "CASSETTE\n03");
-    CHECK(GetCarrier(world) == "CASSETTE_02");
+    CHECK(GetCarrierOrNull(world) == "CASSETTE_02");
     CHECK(GetAlarm(world).empty());
     Show(world, false);
     Show(world, true); // a sensor that flickered
-    CHECK(GetCarrier(world) == "CASSETTE_02");
+    CHECK(GetCarrierOrNull(world) == "CASSETTE_02");
     CHECK(GetAlarm(world).empty());
 }
 
@@ -124,13 +124,13 @@ TEST_CASE("A robot that reports no loads keeps its record, and so does a port th
     world.Connect();
     SetCarrier(world, "CASSETTE_01");
     world.TellState("LR01");
-    CHECK(GetCarrier(world) == "CASSETTE_01");
+    CHECK(GetCarrierOrNull(world) == "CASSETTE_01");
     world.GetRobot("LR01").loads = Loads{};
     world.TellState("LR01");
-    CHECK(GetCarrier(world) == "CASSETTE_01");
+    CHECK(GetCarrierOrNull(world) == "CASSETTE_01");
     world.GetRobot("LR01").loads = Loads{{"LR01.CP07", true, "CASSETTE_02"}};
     world.TellState("LR01");
-    CHECK(GetCarrier(world) == "CASSETTE_01");
+    CHECK(GetCarrierOrNull(world) == "CASSETTE_01");
     CHECK(GetAlarm(world).empty());
 }
 
@@ -142,12 +142,12 @@ TEST_CASE("While a job loads or unloads a port what is shown there is no differe
     Show(world, true, "CASSETTE_01");
     CHECK(GetAlarm(world).empty());
     REQUIRE(TryRunUntil(world, "P1", "Job 1 P1-a4 Completed"));
-    CHECK(GetCarrier(world) == "CASSETTE_01");
+    CHECK(GetCarrierOrNull(world) == "CASSETTE_01");
     REQUIRE(TryRunUntil(world, "P1", "Job 2 P1-b2 InProgress"));
     Show(world, false);
     FinishPlan(world);
     Show(world, false);
-    CHECK(GetCarrier(world) == std::nullopt);
+    CHECK(GetCarrierOrNull(world) == std::nullopt);
     CHECK(world.engine->GetActiveAlarms().empty());
 }
 
@@ -163,7 +163,7 @@ TEST_CASE("After a job its robot shows what it has: another carrier, or one thou
     BeginPlan(world, MakeLoadPlan(), "Job 1 P1-a4 InProgress");
     world.GetRobot("LR01").loads = Loads{{"LR01.CP01", true, "CASSETTE_09"}};
     REQUIRE(world.TryRun());
-    CHECK(GetCarrier(world) == "CASSETTE_09");
+    CHECK(GetCarrierOrNull(world) == "CASSETTE_09");
     CHECK(
         GetAlarm(world)
         == MakeAlarm(fmt::format("LR01.CP01: expected {}, shown CASSETTE_09", bFails ? "no carrier" : "CASSETTE_01")));
@@ -195,10 +195,10 @@ TEST_CASE("A port whose job is unresolved is not compared before an operator has
     world.GetRobot("LR01").loads = Loads{{"LR01.CP01", true, "CASSETTE_01"}};
     RestartEngine(world);
     CHECK(GetAlarm(world).empty());
-    CHECK(GetCarrier(world) == std::nullopt);
+    CHECK(GetCarrierOrNull(world) == std::nullopt);
     world.Settle("P1", "P1-a4", EJobAnswer::Done);
     REQUIRE(world.TryRun());
-    CHECK(GetCarrier(world) == "CASSETTE_01");
+    CHECK(GetCarrierOrNull(world) == "CASSETTE_01");
     CHECK(world.engine->GetActiveAlarms().empty());
 }
 
@@ -212,7 +212,7 @@ TEST_CASE(
     CHECK_FALSE(GetAlarm(world).empty());
     RestartEngine(world);
     CHECK_FALSE(GetAlarm(world).empty());
-    CHECK(GetCarrier(world) == std::nullopt);
+    CHECK(GetCarrierOrNull(world) == std::nullopt);
     SECTION("cleared")
     {
         world.Ask(ClearAlarms{"LR01", "ACS-1011", {}, {}, 1});
@@ -226,7 +226,7 @@ TEST_CASE(
         Show(world, true);
         FinishPlan(world);
         CHECK(GetAlarm(world).empty());
-        CHECK(GetCarrier(world) == "CASSETTE_01");
+        CHECK(GetCarrierOrNull(world) == "CASSETTE_01");
     }
 }
 
