@@ -536,6 +536,7 @@ void PlanEngine::Impl::OnControlTimeout(Robot& robot)
     if (robot.drive.has_value())
     {
         robot.drive->bCancelling = false;
+        UpdateApproach(robot);
     }
     const bool bStaysPaused = control != EPlanControl::Pause && plan.record.progress.state == EPlanState::Paused;
     if (bStaysPaused)

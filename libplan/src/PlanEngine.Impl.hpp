@@ -333,7 +333,7 @@ private:
     [[nodiscard]] bool IsHeldBack(const OutboxEntry& entry) const;
     void RememberFinished(PlanRecord record);
     [[nodiscard]] ERobotStatus DeriveStatus(const Robot& robot) const;
-    [[nodiscard]] ERobotStatus DeriveDriveStatus(const ActiveDrive& drive) const;
+    [[nodiscard]] ERobotStatus DeriveDriveStatus(const Robot& robot, const ActiveDrive& drive) const;
     [[nodiscard]] static bool IsApproaching(const ActiveDrive& drive);
     [[nodiscard]] bool IsAtPlace(const Robot& robot) const;
     [[nodiscard]] std::string GetToldPosition(const Robot& robot, ERobotStatus status) const;
@@ -456,7 +456,7 @@ private:
     void OnDriveCancelled(Robot& robot, const DriveCancelled& event);
     void OnJobStarted(Robot& robot, const JobStarted& event);
     void OnJobFinished(Robot& robot, const JobFinished& event);
-    void FollowApproach(Robot& robot);
+    void UpdateApproach(Robot& robot);
     void OnJobFailed(Robot& robot, const JobFailed& event);
     void OnJobUnknown(Robot& robot, const JobUnknown& event);
     void OnJobUncertain(Robot& robot, const JobUncertain& event);

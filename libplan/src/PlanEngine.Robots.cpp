@@ -248,16 +248,17 @@ void PlanEngine::Impl::OnNodePassed(Robot& robot, const NodePassed& event)
     }
     if (TryAdvance(robot, routeIndex))
     {
-        FollowApproach(robot);
+        UpdateApproach(robot);
         ExtendBase(robot);
     }
 }
 
-/// People hear of the arrival before the robot docks. One that is about to give its drive up has not arrived.
-void PlanEngine::Impl::FollowApproach(Robot& robot)
+/// Arrival is reported before the robot docks. A robot whose drive is to be cancelled has not arrived.
+void PlanEngine::Impl::UpdateApproach(Robot& robot)
 {
     const ActiveDrive& drive = *robot.drive;
-    if (drive.goal == EGoal::Step && robot.planOrNull != nullptr && !drive.bCancelling && IsApproaching(drive))
+    if (drive.bTaken && drive.goal == EGoal::Step && robot.planOrNull != nullptr && !drive.bCancelling
+        && IsApproaching(drive))
     {
         MarkArrived(robot);
     }

@@ -49,7 +49,7 @@ ERobotStatus PlanEngine::Impl::DeriveStatus(const Robot& robot) const
     }
     if (robot.drive.has_value())
     {
-        return DeriveDriveStatus(*robot.drive);
+        return DeriveDriveStatus(robot, *robot.drive);
     }
     const bool bWaitsForWay = robot.planOrNull != nullptr && !IsAtPlace(robot);
     if (bWaitsForWay || (state.bOccupied && state.bDriving))
@@ -63,8 +63,9 @@ ERobotStatus PlanEngine::Impl::DeriveStatus(const Robot& robot) const
     return ERobotStatus::Idle;
 }
 
-/// The first edge leads out of a station, the last one into one. Who waits between them for others is not docking.
-ERobotStatus PlanEngine::Impl::DeriveDriveStatus(const ActiveDrive& drive) const
+/// The first edge leads out of a station, the last one into one. A robot that waits between them for others is not docking,
+/// nor is one whose Arrival is not reported because its drive is to be cancelled.
+ERobotStatus PlanEngine::Impl::DeriveDriveStatus(const Robot& robot, const ActiveDrive& drive) const
 {
     const bool bWaits = drive.passed + 1 >= drive.grantedCount && drive.grantedCount < drive.nodes.size();
     if (bWaits)
@@ -72,7 +73,10 @@ ERobotStatus PlanEngine::Impl::DeriveDriveStatus(const ActiveDrive& drive) const
         return ERobotStatus::Moving;
     }
     const std::vector<RouteNode>& nodes = drive.route.nodes;
-    if (drive.bTaken && IsApproaching(drive) && _site.FindStationAtOrNull(nodes.back().nodeID) != nullptr)
+    const bool bArrivalDue =
+        drive.goal == EGoal::Step && robot.planOrNull != nullptr && !robot.planOrNull->bStepArrived;
+    if (drive.bTaken && !bArrivalDue && IsApproaching(drive)
+        && _site.FindStationAtOrNull(nodes.back().nodeID) != nullptr)
     {
         return ERobotStatus::Docking;
     }

@@ -121,6 +121,7 @@ TEST_CASE("R6 A cancel that is overtaken by the arrival fails, and the plan goes
     world.Control(EPlanControl::Cancel, "P1");
     REQUIRE(world.TryRun());
     CHECK(world.GetTraceOf("status LR01 Arrival") == Lines{" A01.CP01", " A02.CP03"});
+    CHECK(FindLine(world, "status LR01 Arrival", 0) < FindLine(world, "status LR01 Docking", 0));
     CHECK(Contains(world.GetReportsOf("P1"), "CancelResult Failed"));
     CHECK_FALSE(Contains(world.GetReportsOf("P1"), "Plan Cancelled"));
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");

@@ -1,6 +1,7 @@
 #include "PlanWorldSteps.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
@@ -79,6 +80,21 @@ TEST_CASE("5.9 A robot that starts on the last node before the dock arrives as s
     PlanWorld world(1, options, MakeTestSite());
     world.Submit(MakeLoadPlan());
     world.Connect();
+    CHECK(GetStatuses(world) == Lines{"Moving ", "Arrival A01.CP01", "Docking A01.CP01", "Working A01.CP01"});
+}
+
+TEST_CASE("5.9 A robot whose drive is to be cancelled is Moving; when the cancel has failed it arrives, then docks")
+{
+    EngineOptions options = MakeTestOptions(false);
+    options.robots[0].startNodeID = "L03";
+    options.controls.cancelTimeout = std::chrono::milliseconds(900);
+    PlanWorld world(1, options, MakeTestSite());
+    world.GetRobot("LR01").bIgnoresDriveCancel = true;
+    world.Submit(MakeLoadPlan());
+    world.Connect();
+    REQUIRE(TryRunUntil(world, "P1", "Step 1 Dispatched"));
+    world.Control(EPlanControl::Cancel, "P1");
+    REQUIRE(TryRunUntil(world, "P1", "CancelResult Failed"));
     CHECK(GetStatuses(world) == Lines{"Moving ", "Arrival A01.CP01", "Docking A01.CP01", "Working A01.CP01"});
 }
 
