@@ -171,6 +171,12 @@ void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineAc
                 OnDriveStall(*robotOrNull);
             }
             break;
+        case EEngineTimer::LoadAlarm:
+            if (robotOrNull != nullptr)
+            {
+                OnLoadAlarmTimer(*robotOrNull);
+            }
+            break;
         default:
             assert(false && "a timer has no case");
             break;

@@ -104,6 +104,13 @@ public:
         bool bFills = false;
     };
 
+    /// A port at which a robot shows something other than what was on record, or a carrier that it shows at another port, too.
+    struct DisputedPort
+    {
+        std::optional<std::string> expected;
+        std::string shown;
+    };
+
     /// Whether a robot's ports fit a plan.
     struct PortVerdict
     {
@@ -214,8 +221,8 @@ public:
         Core::SteadyTime progressAt;            ///< When it was seen to get on, or was given leave to.
         bool bStalled = false;                  ///< Its alarm is set.
         std::vector<std::optional<std::string>> carriers;
-        /// By port: what was on record there when the robot showed something else.
-        std::map<std::size_t, std::optional<std::string>> disputedPorts;
+        std::map<std::size_t, DisputedPort> disputedPorts;
+        bool bLoadAlarmLimited = false; ///< The timer LoadAlarm runs.
         RobotStatus lastStatus;
         std::optional<Wish> wish;          ///< The quickest way to where it wants to go, kept while it waits.
         std::vector<std::size_t> blockers; ///< Robots that kept it from driving on when it last wanted to.
@@ -515,7 +522,9 @@ private:
     // What robots show on their ports (PlanEngine.Loads.cpp).
     void CompareLoads(Robot& robot);
     static void CompareLoad(Robot& robot, std::size_t port, const PortLoad& load);
-    void UpdateLoadAlarm(const Robot& robot);
+    [[nodiscard]] Alarm MakeLoadAlarm(const Robot& robot) const;
+    void UpdateLoadAlarm(Robot& robot);
+    void OnLoadAlarmTimer(Robot& robot);
     [[nodiscard]] static bool HasJob(const ActivePlan& plan);
     [[nodiscard]] static const std::string& GetJobID(const ActivePlan& plan);
     [[nodiscard]] StartJob MakeStartJob(const Robot& robot) const;

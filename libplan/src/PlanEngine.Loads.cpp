@@ -4,12 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 
 namespace ACS::Planning
 {
 
 namespace
 {
+
+/// The alarm is set or updated once in this time at most. It is cleared at once.
+constexpr std::chrono::seconds LOAD_ALARM_INTERVAL{10};
 
 /// An id that an operator could not give a carrier either is none.
 bool HasID(const PortLoad& load)
@@ -28,6 +32,21 @@ bool IsAgreed(const std::optional<std::string>& expected, const PortLoad& load)
     return !HasID(load) || *expected == UNKNOWN_CARRIER || *expected == load.carrierID;
 }
 
+/// At which ports other than its own the load's carrier is shown, too ("CR01.TP02, CR01.TP03"); empty: at none.
+std::string ListOtherPorts(const std::vector<PortLoad>& loads, const PortLoad& load)
+{
+    std::string ports;
+    for (const PortLoad& other : loads)
+    {
+        if (load.bLoaded && HasID(load) && other.bLoaded && other.port != load.port
+            && other.carrierID == load.carrierID)
+        {
+            ports += (ports.empty() ? "" : ", ") + other.port;
+        }
+    }
+    return ports;
+}
+
 std::optional<std::string> MergeOrNull(const std::optional<std::string>& known, const PortLoad& load)
 {
     if (!load.bLoaded)
@@ -39,7 +58,7 @@ std::optional<std::string> MergeOrNull(const std::optional<std::string>& known, 
 
 } // namespace
 
-/// The robot's sensors replace the record. Not at the ports of a job that has not ended, or whose outcome nobody knows: what
+/// The robot's sensors replace the record. Not at the ports of a job that has not ended, or whose outcome is unknown: what
 /// is there meanwhile says nothing yet.
 void PlanEngine::Impl::CompareLoads(Robot& robot)
 {
@@ -49,7 +68,7 @@ void PlanEngine::Impl::CompareLoads(Robot& robot)
     }
     const std::vector<PortUse> uses = robot.job.has_value() ? ListPortUses(robot, *robot.job) : std::vector<PortUse>();
     const std::vector<std::optional<std::string>> recorded = robot.carriers;
-    const std::map<std::size_t, std::optional<std::string>> disputed = robot.disputedPorts;
+    const bool bWasDisputed = !robot.disputedPorts.empty();
     for (const PortLoad& load : *robot.state->loads)
     {
         const std::optional<std::size_t> port = FindNamedPortOrNull(robot, load.port);
@@ -63,58 +82,89 @@ void PlanEngine::Impl::CompareLoads(Robot& robot)
         _changes.emplace_back(CarriersChanged{GetRobotID(robot), robot.carriers});
         _bDispatchNeeded = true;
     }
-    if (robot.carriers != recorded || robot.disputedPorts != disputed)
+    if (bWasDisputed || !robot.disputedPorts.empty())
     {
         UpdateLoadAlarm(robot);
     }
 }
 
+/// A carrier that is shown at two ports is evidence for neither: both are loaded, and their ids stay as on record.
 void PlanEngine::Impl::CompareLoad(Robot& robot, std::size_t port, const PortLoad& load)
 {
     std::optional<std::string>& record = robot.carriers[port];
-    const auto disputed = robot.disputedPorts.find(port);
-    if (!IsAgreed(record, load) && disputed != robot.disputedPorts.end() && IsAgreed(disputed->second, load))
+    const std::string others = ListOtherPorts(*robot.state->loads, load);
+    auto disputed = robot.disputedPorts.find(port);
+    if (others.empty() && disputed != robot.disputedPorts.end() && IsAgreed(disputed->second.expected, load)
+        && (!IsAgreed(record, load) || record == disputed->second.expected))
     {
-        record = MergeOrNull(disputed->second, load); // what was expected there is back
+        record = MergeOrNull(disputed->second.expected, load); // what was expected there is back
         robot.disputedPorts.erase(disputed);
         return;
     }
-    if (!IsAgreed(record, load))
+    if (!others.empty() || !IsAgreed(record, load))
     {
-        robot.disputedPorts.try_emplace(port, record);
+        disputed = robot.disputedPorts.try_emplace(port, DisputedPort{record, {}}).first;
     }
-    record = MergeOrNull(record, load);
+    record = MergeOrNull(record, others.empty() ? load : PortLoad{load.port, true, {}});
+    if (disputed != robot.disputedPorts.end())
+    {
+        disputed->second.shown =
+            others.empty() ? record.value_or("no carrier") : fmt::format("{}, also at {}", load.carrierID, others);
+    }
 }
 
-/// Set until each port shows again what was expected there, a job has moved its carrier, or an operator has looked.
-void PlanEngine::Impl::UpdateLoadAlarm(const Robot& robot)
+Alarm PlanEngine::Impl::MakeLoadAlarm(const Robot& robot) const
 {
     Alarm alarm;
     alarm.robotID = GetRobotID(robot);
     alarm.errorCode = ALARM_LOADS;
     alarm.level = EAlarmLevel::Light;
     std::string differences;
-    for (const auto& [port, expected] : robot.disputedPorts)
+    for (const auto& [port, disputed] : robot.disputedPorts)
     {
         differences += fmt::format(
             "{}{}: expected {}, shown {}",
             differences.empty() ? "" : "; ",
             robot.options->ports[port].GetText(),
-            expected.value_or("no carrier"),
-            robot.carriers[port].value_or("no carrier"));
+            disputed.expected.value_or("no carrier"),
+            disputed.shown);
     }
     alarm.message = fmt::format(
-        "Reported loads differ from the record: {}. The record follows the robot. Check the port, then correct the record "
-        "or clear the alarm.",
+        "Reported loads differ from the record: {}. The record follows the robot, but a carrier shown at two ports changes no "
+        "id. Check the ports, then correct the record or clear the alarm.",
         differences);
-    const auto known = std::ranges::find_if(_alarms, [&alarm](const Alarm& other) { return other.IsSameAs(alarm); });
-    if (known != _alarms.end() && (robot.disputedPorts.empty() || known->message != alarm.message))
+    return alarm;
+}
+
+/// Set until each port shows again what was expected there, a job has moved its carrier, or an operator has checked it. A robot
+/// whose loads change with each state must not flood the MCS: the first difference is reported at once, then the latest one
+/// when the timer LoadAlarm has expired.
+void PlanEngine::Impl::UpdateLoadAlarm(Robot& robot)
+{
+    Alarm alarm = MakeLoadAlarm(robot);
+    if (robot.disputedPorts.empty())
     {
         ClearAlarm(alarm);
+        return;
     }
+    const auto known = std::ranges::find_if(_alarms, [&alarm](const Alarm& other) { return other.IsSameAs(alarm); });
+    const bool bShown = known != _alarms.end() && known->message == alarm.message;
+    if (bShown || robot.bLoadAlarmLimited)
+    {
+        return;
+    }
+    robot.bLoadAlarmLimited = true;
+    StartTimer(EEngineTimer::LoadAlarm, GetRobotID(robot), LOAD_ALARM_INTERVAL);
+    ClearAlarm(alarm);
+    RaiseAlarm(std::move(alarm));
+}
+
+void PlanEngine::Impl::OnLoadAlarmTimer(Robot& robot)
+{
+    robot.bLoadAlarmLimited = false;
     if (!robot.disputedPorts.empty())
     {
-        RaiseAlarm(std::move(alarm));
+        UpdateLoadAlarm(robot);
     }
 }
 

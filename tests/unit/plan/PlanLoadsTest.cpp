@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <utility>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using ACS::Testing::BeginPlan;
@@ -53,7 +55,8 @@ std::string GetAlarm(const PlanWorld& world)
 std::string MakeAlarm(const std::string& differences)
 {
     return "Reported loads differ from the record: " + differences
-        + ". The record follows the robot. Check the port, then correct the record or clear the alarm.";
+        + ". The record follows the robot, but a carrier shown at two ports changes no id. Check the ports, then correct the "
+          "record or clear the alarm.";
 }
 
 Plan MakeLoadPlan()
@@ -80,6 +83,7 @@ TEST_CASE("Reported loads replace the record, and a difference is an alarm until
     CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, shown CASSETTE_09"));
     Show(world, false);
     CHECK(GetCarrierOrNull(world) == std::nullopt);
+    REQUIRE(world.TryRun());
     CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, shown no carrier"));
     Show(world, true, "CASSETTE_01");
     CHECK(GetCarrierOrNull(world) == "CASSETTE_01");
@@ -91,6 +95,86 @@ TEST_CASE("Reported loads replace the record, and a difference is an alarm until
             "Error ACS-1011 cleared",
             "Error ACS-1011 set",
             "Error ACS-1011 cleared"});
+}
+
+TEST_CASE("A robot that shows another carrier in each state sets the alarm at once, then updates it every 10 s at most")
+{
+    PlanWorld world;
+    world.Connect();
+    SetCarrier(world, "CASSETTE_01");
+    const auto showAll = [&world] {
+        for (int number = 10; number < 30; ++number)
+        {
+            Show(world, true, fmt::format("CASSETTE_{}", number));
+        }
+    };
+    const auto asked = world.GetNow().steady;
+    showAll();
+    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, shown CASSETTE_10"));
+    CHECK(GetCarrierOrNull(world) == "CASSETTE_29");
+    REQUIRE(world.TryRun([&world] { return world.GetReportsOf("-").size() > 1; }));
+    CHECK(world.GetNow().steady - asked == std::chrono::seconds(10));
+    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, shown CASSETTE_29"));
+    showAll();
+    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, shown CASSETTE_29"));
+    REQUIRE(world.TryRun());
+    CHECK(
+        world.GetReportsOf("-")
+        == std::vector<std::string>{"Error ACS-1011 set", "Error ACS-1011 cleared", "Error ACS-1011 set"});
+}
+
+TEST_CASE("A robot whose carrier appears and disappears clears the alarm at once and sets it again every 10 s at most")
+{
+    PlanWorld world;
+    world.Connect();
+    SetCarrier(world, "CASSETTE_01");
+    for (int number = 0; number < 20; ++number)
+    {
+        Show(world, false);
+        Show(world, true, "CASSETTE_01");
+    }
+    CHECK(GetAlarm(world).empty());
+    CHECK(world.GetReportsOf("-").size() == 2);
+    Show(world, false);
+    CHECK(GetAlarm(world).empty());
+    REQUIRE(world.TryRun());
+    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, shown no carrier"));
+    CHECK(world.GetReportsOf("-").size() == 3);
+}
+
+TEST_CASE("A carrier that a robot shows at two ports is evidence for neither: the record stays, the alarm names both ports")
+{
+    PlanWorld world;
+    world.Connect();
+    world.Ask(SetCarriers{"CR01", {"TRAY_01", "TRAY_02", {}}, 1});
+    const auto show = [&world](Loads loads) {
+        world.GetRobot("CR01").loads = std::move(loads);
+        world.TellState("CR01");
+    };
+    const auto getMessages = [&world] {
+        Carriers messages;
+        for (const Alarm& alarm : world.engine->GetActiveAlarms())
+        {
+            messages.emplace_back(alarm.message);
+        }
+        return messages;
+    };
+    show({{"CR01.TP01", true, "TRAY_01"}, {"CR01.TP02", true, "TRAY_02"}, {"CR01.TP03", true, "TRAY_01"}});
+    CHECK(world.engine->GetRobotStatuses()[1].carrierIDs == Carriers{"TRAY_01", "TRAY_02", "UNKNOWN"});
+    CHECK(
+        getMessages()
+        == Carriers{MakeAlarm("CR01.TP01: expected TRAY_01, shown TRAY_01, also at CR01.TP03; CR01.TP03: expected no "
+                              "carrier, shown TRAY_01, also at CR01.TP01")});
+    show({{"CR01.TP01", true, "TRAY_02"}, {"CR01.TP02", true, "TRAY_02"}, {"CR01.TP03", false, {}}});
+    CHECK(world.engine->GetRobotStatuses()[1].carrierIDs == Carriers{"TRAY_01", "TRAY_02", {}});
+    REQUIRE(world.TryRun());
+    CHECK(
+        getMessages()
+        == Carriers{MakeAlarm("CR01.TP01: expected TRAY_01, shown TRAY_02, also at CR01.TP02; CR01.TP02: expected "
+                              "TRAY_02, shown TRAY_02, also at CR01.TP01")});
+    show({{"CR01.TP01", true, "TRAY_01"}, {"CR01.TP02", true, "TRAY_02"}, {"CR01.TP03", false, {}}});
+    CHECK(getMessages().empty());
+    CHECK(world.engine->GetRobotStatuses()[1].carrierIDs == Carriers{"TRAY_01", "TRAY_02", {}});
 }
 
 TEST_CASE("A loaded port without an id keeps the carrier on record, or has an unknown one")

@@ -30,6 +30,7 @@ enum class EEngineTimer : std::uint8_t
     ChargeRetry,    ///< Of a robot: it was told to charge and has not shown that it does.
     JobEnd,         ///< Of a robot: it has not told the end of a job that was given up.
     DriveStall,     ///< Of a robot: its drive has passed no node for long.
+    LoadAlarm,      ///< Of a robot: the alarm about its reported loads may be set or updated again.
 };
 
 /// One timer; of a robot or, with an empty robotID, of the engine.
