@@ -19,7 +19,8 @@ struct Transition
     TState to;
 };
 
-/// Every change of state that section 7 of MCS-ACS allows, and one that section 6.13 needs. The only truth: the engine changes no state but through it.
+/// The transitions that section 7 of MCS-ACS allows, and one that section 6.13 needs. The engine changes states only by these
+/// tables.
 inline constexpr std::array PLAN_TRANSITIONS{
     Transition<EPlanState>{EPlanState::Pending, EPlanState::InProgress},
     Transition<EPlanState>{EPlanState::Pending, EPlanState::Paused},
