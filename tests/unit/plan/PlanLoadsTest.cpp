@@ -142,7 +142,8 @@ TEST_CASE("A robot whose carrier appears and disappears clears the alarm at once
     CHECK(world.GetReportsOf("-").size() == 3);
 }
 
-TEST_CASE("A carrier that a robot shows at two ports is evidence for neither: the record stays, the alarm names both ports")
+TEST_CASE(
+    "A carrier that a robot shows at two ports is evidence for neither: the record stays, the alarm names both ports")
 {
     PlanWorld world;
     world.Connect();

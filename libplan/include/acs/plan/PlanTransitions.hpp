@@ -19,8 +19,8 @@ struct Transition
     TState to;
 };
 
-/// The transitions that section 7 of MCS-ACS allows, and one that section 6.13 needs. The engine changes states only by these
-/// tables.
+/// The transitions that section 7 of MCS-ACS allows, and one that section 6.13 needs. The engine changes states only by
+/// these tables.
 inline constexpr std::array PLAN_TRANSITIONS{
     Transition<EPlanState>{EPlanState::Pending, EPlanState::InProgress},
     Transition<EPlanState>{EPlanState::Pending, EPlanState::Paused},
