@@ -12,6 +12,8 @@ namespace
 {
 
 constexpr std::string_view WAITS_FOR_ANSWER = "ACS-1008";
+/// What the engine's message says where the step can be skipped: not where the job's plan is over.
+constexpr std::string_view SKIP_OFFERED = "skip the step";
 
 /// A segment of a path.
 std::string EncodeSegment(std::string_view text)
@@ -35,11 +37,17 @@ std::string MakeAlarmText(const Planning::Alarm& alarm)
     {
         return alarm.message;
     }
-    return fmt::format(
+    const std::string planID = EncodeSegment(*alarm.planID);
+    std::string text = fmt::format(
         "{} To answer, send POST /plans/{}/jobs/{}/done to acsd's HTTP address, with the answer in the place of done.",
         alarm.message,
-        EncodeSegment(*alarm.planID),
+        planID,
         EncodeSegment(*alarm.jobID));
+    if (alarm.stepNo.has_value() && alarm.message.find(SKIP_OFFERED) != std::string::npos)
+    {
+        text += fmt::format(" To skip the step, send POST /plans/{}/steps/{}/skip.", planID, *alarm.stepNo);
+    }
+    return text;
 }
 
 } // namespace ACS::Acsd

@@ -366,13 +366,14 @@ void PlanEngine::Impl::HoldJob(Robot& robot, const std::string& reason)
     Alarm alarm = MakeUncertainAlarm(robot);
     const bool bOfPlan = robot.planOrNull != nullptr && !robot.overdueJobID.has_value();
     alarm.message = fmt::format(
-        "Nobody knows whether {} was done at {}: {}. Look at the robot and at that place, then answer {}.",
+        "It is unknown whether {} was done at {}: {}. Check the robot and that place, then answer {}.",
         robot.job->action,
         robot.job->position,
         reason,
         bOfPlan
-            ? "done (the plan goes on behind it), failed (the plan fails) or again (it was not, and nothing was moved: "
-              "it is begun again now), or have the MCS abort the plan"
+            ? "done (the plan continues with the next job), failed (the plan fails) or again (it was not done and nothing "
+              "was moved: it starts again now). Or skip the step (the plan continues with the next step; the job has no "
+              "further report), or have the MCS abort the plan"
             : "done (the carrier is where it was to go) or failed (it is where it was); the robot is free again then");
     RaiseAlarm(std::move(alarm));
     if (!bOfPlan)

@@ -27,6 +27,12 @@ TEST_CASE("ACS-1008 tells the request that answers it, to the MCS too; the site'
     CHECK(target->segments == std::vector<std::string>{"plans", "P/1 ü", "jobs", "J-1", "done"});
     CHECK(MakeErrorReport(alarm, true).message == text);
 
+    alarm.stepNo = 3;
+    CHECK(MakeAlarmText(alarm) == text); // its plan is over
+    alarm.message = "Look. Or skip the step.";
+    CHECK(MakeAlarmText(alarm).ends_with(" To skip the step, send POST /plans/P%2F1%20%C3%BC/steps/3/skip."));
+    alarm.message = "Look.";
+
     MessageStyle style;
     style.errors["ACS-1008"].message = "Call 110";
     CHECK(MakeErrorReport(alarm, true, style).message == "Call 110");

@@ -209,8 +209,10 @@ TEST_CASE("POST /plans/PLAN/jobs/JOB/done, failed and again answer for a job tha
     CHECK(HasText(user.GetStatus(), R"("planId":"P1","stepNo":1,"jobId":"P1-a4"})"));
     CHECK(HasText(
         user.GetStatus(),
-        "then answer done (the plan goes on behind it), failed (the plan fails) or again (it was not, and nothing was moved: "
-        "it is begun again now), or have the MCS abort the plan. To answer, send POST /plans/P1/jobs/P1-a4/done to acsd's"));
+        "then answer done (the plan continues with the next job), failed (the plan fails) or again (it was not done and nothing "
+        "was moved: it starts again now). Or skip the step (the plan continues with the next step; the job has no further "
+        "report), or have the MCS abort the plan. To answer, send POST /plans/P1/jobs/P1-a4/done to acsd's HTTP address, with "
+        "the answer in the place of done. To skip the step, send POST /plans/P1/steps/1/skip."));
     CHECK(HasText(user.Post("/plans/P1/jobs/P1-b2/done"), "404 "));
     CHECK(HasText(user.Post("/plans/P2/jobs/P1-a4/again"), "404 "));
     CHECK(HasText(user.Post("/plans/P1/jobs/P1-a4/done"), "202 "));
