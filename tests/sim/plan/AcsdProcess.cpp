@@ -93,7 +93,7 @@ void AcsdProcess::Crash(std::string_view where)
     _loop.Close();
     if (_writing.has_value() && _around.dice.IsHit(500))
     {
-        _around.trace.Tell("acsd: what it was writing is on the disk");
+        _around.trace.Tell("acsd: the batch being written is stored");
         static_cast<void>(TryCommit(*_writing));
     }
     _onCrash();
@@ -264,7 +264,7 @@ void AcsdProcess::TakeRobotEvent(const std::string& robotID, const Planning::Rob
     {
         return;
     }
-    _around.trace.Tell("acsd hears: {} {}", robotID, Describe(event));
+    _around.trace.Tell("acsd receives: {} {}", robotID, Describe(event));
     for (const Planning::RobotEvent& heard : _mutator.OnEvent(robotID, event))
     {
         _loop.Push(Acsd::RobotTask{robotID, heard});

@@ -127,7 +127,7 @@ void ArmController::NoteStartSent(Protocol::ConnectionID connection, const std::
 
 void ArmController::Tell(const std::string& text) const
 {
-    _around.trace.Tell("acsd hears: {} {}", _robotID, text);
+    _around.trace.Tell("acsd receives: {} {}", _robotID, text);
 }
 
 std::string ArmController::TakeStart(Protocol::ConnectionID connection)
@@ -167,7 +167,7 @@ void ArmController::Look(const std::string& startedFor)
         const Planning::StartJob* const jobOrNull = _around.witness.FindCommandOrNull(_running);
         if (jobOrNull == nullptr)
         {
-            _around.trace.Violate("the arm of {} begins a program for no job", _robotID);
+            _around.trace.Violate("the arm of {} starts a program without a job", _robotID);
             return;
         }
         CheckProgram(*jobOrNull);
@@ -180,7 +180,7 @@ void ArmController::Look(const std::string& startedFor)
     }
     if (_seen.failed != before.failed)
     {
-        _around.trace.Tell("{} gives its program up", _robotID);
+        _around.trace.Tell("{} aborts its program", _robotID);
     }
     if (_seen.finished != before.finished || _seen.failed != before.failed)
     {
@@ -197,7 +197,7 @@ void ArmController::WatchProgram()
     }
     if (_isDriving())
     {
-        _around.trace.Violate("{} drives while its arm works", _robotID);
+        _around.trace.Violate("{} drives while its arm executes a job", _robotID);
     }
     _habits.Start(EHabit::Look, LOOK_INTERVAL, [this] { Look({}); });
 }
@@ -207,7 +207,11 @@ void ArmController::CheckProgram(const Planning::StartJob& job)
     const int program = GetMachine().GetProgram();
     if (program != static_cast<int>(GetArmPrograms().at(job.action).program))
     {
-        _around.trace.Violate("the arm of {} does {} by program {}", _robotID, job.action, program);
+        _around.trace.Violate(
+            "the arm of {} executes {} with program {}, the program of another action",
+            _robotID,
+            job.action,
+            program);
     }
 }
 
@@ -237,7 +241,7 @@ void ArmController::Call(
     }
     if (bControl)
     {
-        _around.trace.Tell("{} is asked for {}: {}", _robotID, request.path, response.status);
+        _around.trace.Tell("{} answers {}: {}", _robotID, request.path, response.status);
         _bStopAsked = request.path == STOP_PATH || (_bStopAsked && !(bStart && response.IsSuccess()));
     }
     Look(commandID);
@@ -349,7 +353,7 @@ void ArmController::Disturb()
     OpenStreamSim::Fault fault = MakeFault(KINDS.at(_dice.GetBelow(KINDS.size())));
     fault.time = _dice.GetBetween(50ms, 1'500ms);
     fault.silence = fault.kind == EFaultKind::Mode ? _dice.GetBetween(0ms, 3s) : Core::Duration::zero();
-    _around.trace.Tell("the arm of {} is disturbed: {}", _robotID, static_cast<int>(fault.kind));
+    _around.trace.Tell("the arm of {} has a fault: {}", _robotID, static_cast<int>(fault.kind));
     Look({});
     const bool bPlayed = GetMachine().IsPlaying();
     Inject(fault);
@@ -358,7 +362,7 @@ void ArmController::Disturb()
 
 void ArmController::Recover()
 {
-    _around.trace.Tell("the arm of {} is well again", _robotID);
+    _around.trace.Tell("the arm of {} has recovered", _robotID);
     static_cast<void>(_machine->faults.End(std::nullopt, _around.timeline.GetNow()));
     SetRight();
 }
@@ -375,7 +379,7 @@ void ArmController::SetRight()
             return;
         }
         const bool bGoesOn = _dice.IsHit(700);
-        _around.trace.Tell("the program of {} {} by hand", _robotID, bGoesOn ? "goes on" : "is given up");
+        _around.trace.Tell("the program of {} is {} by hand", _robotID, bGoesOn ? "continued" : "aborted");
         if (!bGoesOn || machine.StartProgram() != OpenStreamSim::EApiError::None)
         {
             machine.ResetTasks();

@@ -106,11 +106,11 @@ void Caretaker::LookAtRest(const Planning::RobotStatus& robot)
     }
     else if (resting != _resting.end() && robot.planID.has_value())
     {
-        _trace.Violate("{} is out of service and has plan {}", robot.robotID, *robot.planID);
+        _trace.Violate("{} is out of service and was assigned plan {}", robot.robotID, *robot.planID);
     }
     else if (resting != _resting.end() && resting->second != truth.GetNodeID())
     {
-        _trace.Violate("{} is out of service and goes to {}", robot.robotID, truth.GetNodeID());
+        _trace.Violate("{} is out of service and moves to {}", robot.robotID, truth.GetNodeID());
     }
 }
 
@@ -119,7 +119,10 @@ void Caretaker::LookAtService(const Planning::RobotStatus& robot)
     const auto expected = _expected.find(robot.robotID);
     if (expected != _expected.end() && expected->second != robot.bInMaintenance)
     {
-        _trace.Violate("{} is {} service after a restart", robot.robotID, robot.bInMaintenance ? "out of" : "in");
+        _trace.Violate(
+            "{} is {} service after a restart, unlike before",
+            robot.robotID,
+            robot.bInMaintenance ? "out of" : "in");
     }
     if (expected != _expected.end())
     {

@@ -165,7 +165,7 @@ void FloorChecker::Prepare(const Sim::CarrierMoved& demanded, const std::string&
     const std::optional<std::string> left = _world.GetCarrierOrNull(demanded.to);
     if (left.has_value() && _carriers.at(*left) != planID)
     {
-        _trace.Tell("{} is taken off {}: its plan is over", *left, demanded.to);
+        _trace.Tell("{} is removed from {}: its plan is finished", *left, demanded.to);
         ActByHand(Sim::CarrierPlaced{{}, demanded.to});
     }
 }
@@ -204,12 +204,15 @@ Core::Result<void> FloorChecker::Act(const Sim::WorldEvent& event)
     Report(event, done);
     if (!robotID.empty() && !done.has_value())
     {
-        _trace.Violate("{} cannot do what it was commanded: {}", robotID, Core::Describe(done.error()));
+        _trace.Violate(
+            "{} received a command that is impossible on the floor: {}",
+            robotID,
+            Core::Describe(done.error()));
     }
     else if (const auto current = _current.find(robotID); current != _current.end() && ++_moved[current->second] > 1)
     {
         const auto& [planID, stepNo, jobID] = current->second;
-        _trace.Violate("job {} of {} has moved something twice", jobID, planID);
+        _trace.Violate("job {} of plan {} moved something twice", jobID, planID);
     }
     return done;
 }
@@ -224,7 +227,7 @@ void FloorChecker::Check(const std::string& robotID, const Sim::WorldEvent& even
     }
     if (current == _current.end())
     {
-        _trace.Violate("{} moves something for no job: {}", robotID, Sim::EncodeWorldEvent(found));
+        _trace.Violate("{} moves something without a job: {}", robotID, Sim::EncodeWorldEvent(found));
         return;
     }
     const auto& [planID, stepNo, jobID] = current->second;
@@ -232,7 +235,7 @@ void FloorChecker::Check(const std::string& robotID, const Sim::WorldEvent& even
     if (demanded != found)
     {
         _trace.Violate(
-            "{} does job {} of {} with {}, and the plan demands {}",
+            "{} executes job {} of plan {} with {}, but the plan specifies {}",
             robotID,
             jobID,
             planID,

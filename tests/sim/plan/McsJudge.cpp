@@ -109,7 +109,7 @@ void McsJudge::NotePlanAck(const Protocol::AcsAck& ack)
     const auto found = payloadOrNull == nullptr ? _plans.end() : _plans.find(payloadOrNull->planID);
     if (found == _plans.end())
     {
-        _trace.Violate("an ExecutionPlanAck of no plan: {}", ack.message);
+        _trace.Violate("ExecutionPlanAck for an unknown plan: {}", ack.message);
         return;
     }
     PlanView& plan = found->second;
@@ -118,11 +118,11 @@ void McsJudge::NotePlanAck(const Protocol::AcsAck& ack)
     const bool bKnown = !bAccepted && plan.sent > 1 && ack.message.find("Duplicated Plan") != std::string::npos;
     if (bAccepted && !plan.bGood)
     {
-        _trace.Violate("plan {} was accepted and cannot be done", found->first);
+        _trace.Violate("plan {} was accepted although it is invalid", found->first);
     }
     if (plan.knowledge == EKnowledge::Accepted && !bAccepted && !bKnown)
     {
-        _trace.Violate("plan {} was accepted, and refused then: {}", found->first, ack.message);
+        _trace.Violate("plan {} was accepted, then refused: {}", found->first, ack.message);
     }
     if (plan.knowledge != EKnowledge::Accepted)
     {
@@ -180,18 +180,18 @@ void McsJudge::OnRequest(const Protocol::AcsRequest& request)
     {
         if (seen->second != request.payload)
         {
-            _trace.Violate("the report {} came again with another content", request.transactionID);
+            _trace.Violate("report {} was repeated with different content", request.transactionID);
         }
         return;
     }
     const std::optional<std::uint64_t> sequence = _store.GetSequenceOrNull(request.transactionID);
     if (!sequence.has_value())
     {
-        _trace.Violate("a {} was told that is not stored", GetText(command));
+        _trace.Violate("{} was sent before it was stored", GetText(command));
     }
     else if (*sequence <= _lastSequence)
     {
-        _trace.Violate("report {} came after report {}", *sequence, _lastSequence);
+        _trace.Violate("report {} was sent after report {}", *sequence, _lastSequence);
     }
     else
     {
@@ -231,12 +231,12 @@ McsJudge::PlanView* McsJudge::FindReportedOrNull(const std::string& planID, std:
     const auto found = _plans.find(planID);
     if (found == _plans.end() || found->second.knowledge == EKnowledge::Refused)
     {
-        _trace.Violate("{} of plan {}, which was {}", what, planID, found == _plans.end() ? "never sent" : "refused");
+        _trace.Violate("{} for plan {}, which was {}", what, planID, found == _plans.end() ? "never sent" : "refused");
         return nullptr;
     }
     if (Planning::IsFinal(MakeState(found->second.status)))
     {
-        _trace.Violate("{} of plan {}, which is {}", what, planID, GetText(found->second.status));
+        _trace.Violate("{} for plan {}, which is already {}", what, planID, GetText(found->second.status));
         return nullptr;
     }
     // Who reports a plan has taken it, whatever has become of the Ack.
@@ -255,8 +255,11 @@ void McsJudge::TakePlanReport(const Protocol::PlanReport& report)
         report.status == Protocol::EPlanStatus::Pending && planOrNull->status == Protocol::EPlanStatus::Pending;
     if (!bFirstPending && !Planning::CanChange(MakeState(planOrNull->status), MakeState(report.status)))
     {
-        _trace
-            .Violate("plan {} went from {} to {}", report.planID, GetText(planOrNull->status), GetText(report.status));
+        _trace.Violate(
+            "plan {} changed from {} to {}, which section 7 forbids",
+            report.planID,
+            GetText(planOrNull->status),
+            GetText(report.status));
     }
     planOrNull->status = report.status;
     if (report.status == Protocol::EPlanStatus::Completed)
@@ -271,12 +274,12 @@ void McsJudge::CheckCompleted(const std::string& planID, const PlanView& plan)
     {
         if (step.status != Protocol::EStepStatus::Completed)
         {
-            _trace.Violate("plan {} is Completed, its step {} is {}", planID, stepNo, GetText(step.status));
+            _trace.Violate("plan {} is Completed, but its step {} is {}", planID, stepNo, GetText(step.status));
         }
         const WorkWitness::JobTruth truth = _witness.GetTruth(planID, stepNo, {});
         if (step.jobs.empty() && (truth.finished == 0 || !truth.bMoved))
         {
-            _trace.Violate("plan {} is Completed, and no robot has done its step {}", planID, stepNo);
+            _trace.Violate("plan {} is Completed, but no robot executed its step {}", planID, stepNo);
         }
     }
 }
@@ -294,7 +297,7 @@ void McsJudge::TakeStepReport(const Protocol::StepReport& report)
     if (!Planning::CanChange(MakeState(step.status), MakeState(report.status)))
     {
         _trace.Violate(
-            "step {} of {} went from {} to {}",
+            "step {} of plan {} changed from {} to {}, which section 7 forbids",
             report.stepNo,
             report.planID,
             GetText(step.status),
@@ -306,13 +309,16 @@ void McsJudge::TakeStepReport(const Protocol::StepReport& report)
     });
     if (!bEarlierDone || planOrNull->status == Protocol::EPlanStatus::Pending)
     {
-        _trace.Violate("step {} of {} is told before its time", report.stepNo, report.planID);
+        _trace.Violate(
+            "step {} of plan {} is reported before the previous step has ended",
+            report.stepNo,
+            report.planID);
     }
     const bool bJobsDone =
         std::ranges::all_of(step.jobs, [](const auto& job) { return job.second == Protocol::EJobStatus::Completed; });
     if (report.status == Protocol::EStepStatus::Completed && !bJobsDone)
     {
-        _trace.Violate("step {} of {} is Completed before its jobs", report.stepNo, report.planID);
+        _trace.Violate("step {} of plan {} is Completed before its jobs", report.stepNo, report.planID);
     }
 }
 
@@ -327,14 +333,14 @@ void McsJudge::TakeJobReport(const Protocol::JobReport& report)
     const bool bKnown = step != planOrNull->steps.end() && step->second.jobs.contains(report.jobID);
     if (!bKnown)
     {
-        _trace.Violate("a report of job {}, which plan {} does not have", report.jobID, report.planID);
+        _trace.Violate("JobReport for job {}, which plan {} does not have", report.jobID, report.planID);
         return;
     }
     Protocol::EJobStatus& status = step->second.jobs[report.jobID];
     if (!Planning::CanChange(MakeState(status), MakeState(report.status)))
     {
         _trace.Violate(
-            "job {} of {} went from {} to {}",
+            "job {} of plan {} changed from {} to {}, which section 7 forbids",
             report.jobID,
             report.planID,
             GetText(status),
@@ -343,20 +349,23 @@ void McsJudge::TakeJobReport(const Protocol::JobReport& report)
     status = report.status;
     if (step->second.status != Protocol::EStepStatus::InProgress)
     {
-        _trace.Violate("job {} of {} is told outside of its step", report.jobID, report.planID);
+        _trace.Violate("job {} of plan {} is reported while its step is not InProgress", report.jobID, report.planID);
     }
     const WorkWitness::JobTruth truth = _witness.GetTruth(report.planID, report.stepNo, report.jobID);
     const bool bNeedsEnd = report.status == Protocol::EJobStatus::Completed;
     const bool bNeedsBegin = bNeedsEnd || report.status == Protocol::EJobStatus::InProgress;
     if ((bNeedsEnd && truth.finished == 0) || (bNeedsBegin && truth.begun == 0))
     {
-        _trace
-            .Violate("job {} of {} is told as {}, and it was not", report.jobID, report.planID, GetText(report.status));
+        _trace.Violate(
+            "job {} of plan {} is reported as {}, but no robot did that",
+            report.jobID,
+            report.planID,
+            GetText(report.status));
     }
     if (bNeedsEnd && !truth.bMoved)
     {
         _trace.Violate(
-            "job {} of {} is told as Completed, and nothing was moved to its place",
+            "job {} of plan {} is reported as Completed, but nothing was moved to its target",
             report.jobID,
             report.planID);
     }
@@ -369,7 +378,7 @@ void McsJudge::TakeResult(Planning::EPlanControl control, const std::string& pla
     if (result == Protocol::EReportResult::Success && !bFits)
     {
         _trace.Violate(
-            "{} of {} is told as done, and the plan is {}",
+            "{} of plan {} is reported as successful, but the plan is {}",
             GetText(control),
             planID,
             plan == _plans.end() ? "not known" : GetText(plan->second.status));
@@ -379,7 +388,7 @@ void McsJudge::TakeResult(Planning::EPlanControl control, const std::string& pla
     if (++view.results > view.sent.size() && !view.bUnknown)
     {
         _trace.Violate(
-            "{} results of {} {}, which was asked for {} times",
+            "{} results for {} {}, which was requested {} times",
             view.results,
             GetText(control),
             planID,
@@ -418,7 +427,7 @@ void McsJudge::CheckKept()
         const Planning::PlanRecord* const recordOrNull = _store.FindPlanOrNull(planID);
         if (recordOrNull == nullptr)
         {
-            _trace.Violate("plan {} was acknowledged and is not on the disk", planID);
+            _trace.Violate("plan {} was acknowledged but is not stored", planID);
             continue;
         }
         const Planning::EPlanState state = recordOrNull->progress.state;
@@ -428,7 +437,7 @@ void McsJudge::CheckKept()
         };
         if (Planning::IsFinal(state) && std::ranges::none_of(_store.GetState().outbox, isItsEnd))
         {
-            _trace.Violate("plan {} has ended, and nothing on the disk will tell the MCS", planID);
+            _trace.Violate("plan {} has ended, but its final report is not stored", planID);
         }
     }
 }
@@ -486,7 +495,10 @@ std::string McsJudge::DescribeOwed() const
         const bool bEnds = key.second == Planning::EPlanControl::Cancel || key.second == Planning::EPlanControl::Abort;
         if (bEnds && !control.bDone && plan != _plans.end() && IsDone(key.second, plan->second.status))
         {
-            text += fmt::format("{} of {} was done and is not told so; ", GetText(key.second), key.first);
+            text += fmt::format(
+                "{} of plan {} took effect, but no result reports success; ",
+                GetText(key.second),
+                key.first);
         }
         if (control.results < control.acknowledged)
         {

@@ -66,11 +66,11 @@ void MemoryRobot::BeginDrive(const Planning::Drive& drive)
     const bool bRefused = _drive.has_value() || _job.has_value() || drive.route.nodes.front().nodeID != GetNodeID();
     if (bRefused || _dice.IsHit(rejectChance))
     {
-        _trace.Tell("{} refuses a drive to {}", _robotID, drive.route.nodes.back().nodeID);
+        _trace.Tell("{} rejects a drive to {}", _robotID, drive.route.nodes.back().nodeID);
         view->second.state = EDriveState::Rejected;
         return;
     }
-    _trace.Tell("{} takes a drive to {}", _robotID, drive.route.nodes.back().nodeID);
+    _trace.Tell("{} accepts a drive to {}", _robotID, drive.route.nodes.back().nodeID);
     view->second.passedCount = 1;
     _snapshot.lastCommandID = drive.driveID;
     _drive = drive;
@@ -241,13 +241,13 @@ void MemoryRobot::CancelJob(const std::string& commandID)
     {
         // It never came, and will not be begun any more.
         view->second.state = EJobState::Failed;
-        view->second.reason = "given up before it came";
+        view->second.reason = "cancelled before it arrived";
         return;
     }
     const bool bEndable = view->second.state == EJobState::Waiting || !_nature.bIgnoresJobCancel;
     if (_job.has_value() && _job->commandID == commandID && bEndable)
     {
-        EndJob(EJobState::Failed, "given up");
+        EndJob(EJobState::Failed, "cancelled");
     }
 }
 
@@ -294,7 +294,7 @@ void MemoryRobot::Forget()
     {
         return; // between two nodes it would have to be carried to one
     }
-    _trace.Tell("{} forgets everything", _robotID);
+    _trace.Tell("{} loses its memory", _robotID);
     _timers.CancelAll();
     _drive.reset();
     _job.reset();
@@ -323,7 +323,7 @@ void MemoryRobot::Disturb()
             _snapshot.state.errors = {{"AGV-lost", Planning::EAlarmLevel::Heavy, "lost its way"}};
             break;
     }
-    _trace.Tell("{} is disturbed", _robotID);
+    _trace.Tell("{} has a fault", _robotID);
     Show();
 }
 
@@ -333,7 +333,7 @@ void MemoryRobot::Recover()
     _snapshot.state.bSafetyStop = false;
     _snapshot.state.bAutomatic = true;
     _snapshot.state.errors.clear();
-    _trace.Tell("{} is well again", _robotID);
+    _trace.Tell("{} has recovered", _robotID);
     Unhalt();
     Show();
 }

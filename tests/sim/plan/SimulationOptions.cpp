@@ -56,34 +56,34 @@ std::optional<int> ReadOptionsOrNull(int argc, const char* const* argv, Simulati
 {
     CLI::App app{
         "Runs acsd's engine, sessions and adapters against a simulated MCS, disk, network and robots in virtual time, and\n"
-        "checks after every event that nothing is lost, done twice, told wrongly or left undone.\n"
+        "checks after every event that nothing is lost, executed twice, reported wrongly or never finished.\n"
         "See docs/simulation.md.",
         "plan_simulation"};
-    app.add_option("--seeds", options.seeds, "how many worlds, each from a seed of its own")->capture_default_str();
+    app.add_option("--seeds", options.seeds, "number of worlds, each from its own seed")->capture_default_str();
     app.add_option("--first", options.first, "the first seed")->capture_default_str();
     app.add_option("--seed", options.seedOrNone, "only this seed");
     app.add_flag("--trace", options.bTrace, "print everything that happens; with --seed");
-    app.add_flag("--keep-going", options.bKeepsGoing, "do not stop at the first seed that fails, tell them all");
-    app.add_option("--workers", options.workers, "threads, each with worlds of its own")
+    app.add_flag("--keep-going", options.bKeepsGoing, "do not stop at the first seed that fails; report all");
+    app.add_option("--workers", options.workers, "number of threads, each running its own worlds")
         ->capture_default_str()
         ->check(CLI::Range(1, 64));
     Apps::AddRepeatedOption(
         app,
         "--without",
         [&options](const std::string& text) { return TakeFault(text, options.without); },
-        fmt::format("leaves one kind of fault out: {}", fmt::join(FAULT_NAMES, ", ")));
+        fmt::format("leave out one kind of fault: {}", fmt::join(FAULT_NAMES, ", ")));
     Apps::AddTextOption(
         app,
         "--mutation",
         [&options](const std::string& text) { return TakeMutation(text, options.mutation); },
-        "breaks one thing around the engine, and must then find a seed that fails");
+        "break one thing around the engine; a seed that fails must be found");
     Apps::AddTextOption(
         app,
         "--robots",
         [&options](const std::string& text) { return TakeRobots(text, options.robots); },
-        "what all robots are: memory, vda5050 or arms (vehicles, those of CRs with arms), in place of what the seed says");
-    app.add_flag("--mutations", options.bAllMutations, "every mutation in turn, each with at most --seeds worlds");
-    app.add_flag("--list-mutations", options.bListMutations, "names and meanings");
+        "kind of all robots: memory, vda5050 or arms (vehicles, CRs with arms); default: from the seed");
+    app.add_flag("--mutations", options.bAllMutations, "run every mutation, each in at most --seeds worlds");
+    app.add_flag("--list-mutations", options.bListMutations, "list the mutations with their meaning");
     return Apps::ParseCommandLineOrNull(app, argc, argv);
 }
 

@@ -166,7 +166,7 @@ void VehicleRobot::OnMqttMessage(const VDA5050::MqttMessage& message)
 {
     const Core::Result<VDA5050::ParsedTopic> topic = VDA5050::ParseTopic(message.topic);
     const bool bOrder = topic.has_value() && topic->topic == VDA5050::ETopic::Order;
-    _around.trace.Tell("{} gets {} {}", _robotID, message.topic, message.payload);
+    _around.trace.Tell("{} receives {} {}", _robotID, message.topic, message.payload);
     if (bOrder && _bFaulty && _dice.IsHit(15))
     {
         VdaSim::Fault refusal = MakeFault(VdaSim::EFaultKind::Refuse);
@@ -294,14 +294,14 @@ void VehicleRobot::Disturb()
             fault.errorLevel = VDA5050::EErrorLevel::Fatal;
             break;
     }
-    _around.trace.Tell("{} is disturbed: {}", _robotID, fault.text);
+    _around.trace.Tell("{} has a fault: {}", _robotID, fault.text);
     Inject(std::move(fault));
 }
 
 void VehicleRobot::Recover()
 {
     _bDisturbed = false;
-    _around.trace.Tell("{} is well again", _robotID);
+    _around.trace.Tell("{} has recovered", _robotID);
     Call([this](Core::Now now, auto& out) {
         for (const VdaSim::EFaultKind kind :
              {VdaSim::EFaultKind::EmergencyStop, VdaSim::EFaultKind::Mode, VdaSim::EFaultKind::Stuck})
@@ -359,7 +359,7 @@ void VehicleRobot::Forget()
     {
         return; // between two nodes it would have to be carried to one
     }
-    _around.trace.Tell("{} forgets everything", _robotID);
+    _around.trace.Tell("{} loses its memory", _robotID);
     _charge = _vehicle->GetState().batteryState.batteryCharge;
     _timers.CancelAll();
     _actions.clear();

@@ -53,7 +53,7 @@ void WorkWitness::OnPlaced(const std::string& robotID, std::vector<std::string> 
         {
             if (other != robotID && std::ranges::find(taken, nodeID) != taken.end())
             {
-                _trace.Violate("two robots in one place: {} comes to {}, where {} is", robotID, nodeID, other);
+                _trace.Violate("two robots on one node: {} enters {}, which {} occupies", robotID, nodeID, other);
             }
         }
     }
@@ -67,7 +67,7 @@ void WorkWitness::OnJobBegun(const std::string& robotID, const Planning::StartJo
     const JobKey key = MakeKey(job.planID, job.stepNo, job.jobID);
     if (++_jobs[key].begun > 1)
     {
-        _trace.Violate("job {} of {} step {} is executed twice", job.jobID, job.planID, job.stepNo);
+        _trace.Violate("job {} of plan {} step {} is executed twice", job.jobID, job.planID, job.stepNo);
     }
     _floor.OnJobBegun(robotID, key);
 }

@@ -178,7 +178,7 @@ void World::BringIntoReach()
         {
             continue;
         }
-        _trace.Tell("{} is kept in reach: its place is on no disk", robotID);
+        _trace.Tell("{} is kept in reach: its position is not stored", robotID);
         robot->SetReachable(true);
         _radioHabits.Start(robotID, UNTIL_TOLD, [this, robotID = robotID] { TurnRadio(robotID); });
     }
@@ -233,7 +233,7 @@ void World::BeginFaults()
 
 void World::EndFaults()
 {
-    _trace.Tell("nothing goes wrong from now on");
+    _trace.Tell("no more faults from now on");
     _bSettling = true;
     _deadline = _timeline.GetNow().steady + SETTLING_LIMIT;
     for (const EHabit habit : {EHabit::Disk, EHabit::Link, EHabit::Operator, EHabit::Crash, EHabit::Broker})
@@ -302,7 +302,7 @@ void World::CrashSometime()
 {
     if (_process != nullptr)
     {
-        _process->Crash("at some moment");
+        _process->Crash("at a random time");
     }
     _habits.Start(EHabit::Crash, _weather.GetBetween(1s, 120s), [this] { CrashSometime(); });
 }
@@ -380,7 +380,7 @@ void World::Watch()
     }
     if (_timeline.GetNow().steady >= _deadline)
     {
-        _trace.Violate("not over long after everything worked again: {}", unrest);
+        _trace.Violate("not finished in time after the last fault: {}", unrest);
         return;
     }
     _habits.Start(EHabit::Watch, WATCH_INTERVAL, [this] { Watch(); });
@@ -404,7 +404,7 @@ void World::TakeCarriersOff()
         const bool bStill = body.IsAtRest() && !body.IsWorkUnderWay();
         if (bAnyWaits && bStill && !robot.planID.has_value() && robot.carrierIDs != empty)
         {
-            _trace.Tell("operator: takes the carriers off {}", robot.robotID);
+            _trace.Tell("operator: removes the carriers from {}", robot.robotID);
             _process->PushCommand(Planning::SetCarriers{robot.robotID, empty, 0});
             _witness.GetFloor().TakeCarriersOff(GetPorts(robot.robotID));
             _robots.at(robot.robotID)->OnFloorChanged();
@@ -432,7 +432,7 @@ std::string World::DescribeUnrest() const
 {
     if (_process == nullptr)
     {
-        return "acsd does not run";
+        return "acsd is not running";
     }
     const Planning::PlanEngine& engine = _process->GetEngine();
     std::string text = _judge.DescribeOwed();
@@ -442,7 +442,7 @@ std::string World::DescribeUnrest() const
     }
     if (_judge.GetTscStateOrNull() != Protocol::ETscState::Auto)
     {
-        text += "for the MCS the TSC is not Auto; ";
+        text += "the TSC state known to the MCS is not Auto; ";
     }
     std::vector<Protocol::ErrorReport> alarms;
     for (const Planning::Alarm& alarm : engine.GetActiveAlarms())
@@ -451,7 +451,7 @@ std::string World::DescribeUnrest() const
     }
     if (!std::ranges::is_permutation(alarms, _judge.GetAlarms()))
     {
-        text += fmt::format("the MCS knows of {} alarms, acsd has {}; ", _judge.GetAlarms().size(), alarms.size());
+        text += fmt::format("the MCS lists {} alarms, acsd {}; ", _judge.GetAlarms().size(), alarms.size());
     }
     for (const Planning::PlanSummary& plan : engine.GetActivePlans())
     {
@@ -471,18 +471,18 @@ std::string World::DescribeUnrest() const
         }
         if (!robot.IsAtRest())
         {
-            text += fmt::format("{} is not at rest; ", status.robotID);
+            text += fmt::format("{} is still moving or working; ", status.robotID);
         }
         if (seen == _judge.GetStatuses().end() || seen->second != Acsd::MakeStatusUpdate(status))
         {
-            text += fmt::format("the MCS does not know how {} is; ", status.robotID);
+            text += fmt::format("the status of {} known to the MCS is out of date; ", status.robotID);
         }
         const auto options = std::ranges::find_if(_scenario.options.robots, [&status](const auto& candidate) {
             return candidate.robotID.GetText() == status.robotID;
         });
         if (robot.GetNodeID() != options->startNodeID)
         {
-            text += fmt::format("{} is not at home but on {}; ", status.robotID, robot.GetNodeID());
+            text += fmt::format("{} is on {}, not at its parking position; ", status.robotID, robot.GetNodeID());
         }
     }
     return text;
