@@ -170,7 +170,7 @@ HttpResponse SetCarriers(
     {
         command.carrierIDs.push_back(value.empty() ? std::nullopt : std::optional(value));
     }
-    if (std::optional<std::string> objection = engine.GetObjectionOrNull(command))
+    if (std::optional<std::string> objection = engine.GetRejectionReasonOrNull(command))
     {
         return Refuse(HTTP_BAD_REQUEST, *objection);
     }
@@ -205,14 +205,14 @@ HttpResponse SettleJob(
     const OperatorAccess& access,
     const Planning::SettleJob& command)
 {
-    const std::optional<std::string> objection = engine.GetObjectionOrNull(command);
+    const std::optional<std::string> objection = engine.GetRejectionReasonOrNull(command);
     if (!objection.has_value())
     {
         return HandOn(access, command, "The answer is taken; the alarm ACS-1008 of the job is cleared.");
     }
     Planning::SettleJob other = command;
     other.answer = Planning::EJobAnswer::Done;
-    const bool bHeld = !engine.GetObjectionOrNull(other).has_value();
+    const bool bHeld = !engine.GetRejectionReasonOrNull(other).has_value();
     return bHeld
         ? Refuse(HTTP_CONFLICT, *objection)
         : Refuse(HTTP_NOT_FOUND, *objection + " The alarms ACS-1008 in /status name the plan and the job of each.");
@@ -233,7 +233,7 @@ HttpResponse SkipStep(
             HTTP_BAD_REQUEST,
             fmt::format("A step is named by its stepNo, a number from 1, found {}.", Core::QuoteForError(stepText)));
     }
-    if (const std::optional<std::string> objection = engine.GetObjectionOrNull(command))
+    if (const std::optional<std::string> objection = engine.GetRejectionReasonOrNull(command))
     {
         return Refuse(engine.GetPlanOrNull(planID).has_value() ? HTTP_CONFLICT : HTTP_NOT_FOUND, *objection);
     }

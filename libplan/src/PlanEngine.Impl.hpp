@@ -312,9 +312,9 @@ public:
     [[nodiscard]] std::optional<PlanSummary> GetPlanOrNull(std::string_view planID) const;
     [[nodiscard]] std::vector<WaitReason> GetWaitReasons() const;
     [[nodiscard]] std::optional<WaitReason> GetWaitReasonOrNull(std::string_view planID) const;
-    [[nodiscard]] std::optional<std::string> GetObjectionOrNull(const SetCarriers& command) const;
-    [[nodiscard]] std::optional<std::string> GetObjectionOrNull(const SettleJob& command) const;
-    [[nodiscard]] std::optional<std::string> GetObjectionOrNull(const SkipStep& command) const;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SetCarriers& command) const;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SettleJob& command) const;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SkipStep& command) const;
     [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;
     [[nodiscard]] ETscState GetTscState() const noexcept;
 

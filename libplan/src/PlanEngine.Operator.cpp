@@ -137,7 +137,7 @@ void PlanEngine::Impl::ClearByOperator(const ClearAlarms& command)
 }
 
 /// Why these cannot be what is on the robot's ports.
-std::optional<std::string> PlanEngine::Impl::GetObjectionOrNull(const SetCarriers& command) const
+std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const SetCarriers& command) const
 {
     const auto index = _robotIndices.find(command.robotID);
     if (index == _robotIndices.end())
@@ -184,9 +184,9 @@ std::optional<std::string> PlanEngine::Impl::GetObjectionOrNull(const SetCarrier
 
 void PlanEngine::Impl::CorrectCarriers(const SetCarriers& command)
 {
-    if (std::optional<std::string> objection = GetObjectionOrNull(command))
+    if (std::optional<std::string> reason = GetRejectionReasonOrNull(command))
     {
-        Reply(command.replyToken, false, std::move(*objection));
+        Reply(command.replyToken, false, std::move(*reason));
         return;
     }
     Robot& robot = *FindRobotOrNull(command.robotID);
@@ -231,7 +231,7 @@ std::optional<std::size_t> PlanEngine::Impl::FindOpenStepOrNull(const ActivePlan
 }
 
 /// Why the step cannot be skipped.
-std::optional<std::string> PlanEngine::Impl::GetObjectionOrNull(const SkipStep& command) const
+std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const SkipStep& command) const
 {
     const auto active = _plans.find(command.planID);
     if (active == _plans.end())
@@ -268,9 +268,9 @@ std::optional<std::string> PlanEngine::Impl::GetObjectionOrNull(const SkipStep& 
 /// Section 6.13.
 void PlanEngine::Impl::Skip(const SkipStep& command)
 {
-    if (std::optional<std::string> objection = GetObjectionOrNull(command))
+    if (std::optional<std::string> reason = GetRejectionReasonOrNull(command))
     {
-        Reply(command.replyToken, false, std::move(*objection));
+        Reply(command.replyToken, false, std::move(*reason));
         return;
     }
     Reply(command.replyToken, true, fmt::format("Step {} is skipped.", command.stepNo));

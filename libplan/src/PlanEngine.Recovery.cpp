@@ -494,7 +494,7 @@ std::optional<std::size_t> PlanEngine::Impl::FindWorkerOrNull(const SettleJob& c
 }
 
 /// Answered are jobs that are held, those of plans that are over, and those of robots that are not there to tell.
-std::optional<std::string> PlanEngine::Impl::GetObjectionOrNull(const SettleJob& command) const
+std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const SettleJob& command) const
 {
     const std::optional<std::size_t> worker = FindWorkerOrNull(command);
     if (!worker.has_value())
@@ -522,9 +522,9 @@ std::optional<std::string> PlanEngine::Impl::GetObjectionOrNull(const SettleJob&
 
 void PlanEngine::Impl::Settle(const SettleJob& command)
 {
-    if (std::optional<std::string> objection = GetObjectionOrNull(command))
+    if (std::optional<std::string> reason = GetRejectionReasonOrNull(command))
     {
-        _actions.emplace_back(ReplyCommand{command.replyToken, false, std::move(*objection)});
+        _actions.emplace_back(ReplyCommand{command.replyToken, false, std::move(*reason)});
         return;
     }
     Robot& robot = _robots[*FindWorkerOrNull(command)];

@@ -95,19 +95,19 @@ std::optional<WaitReason> PlanEngine::GetWaitReasonOrNull(std::string_view planI
     return _impl->GetWaitReasonOrNull(planID);
 }
 
-std::optional<std::string> PlanEngine::GetObjectionOrNull(const SetCarriers& command) const
+std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const SetCarriers& command) const
 {
-    return _impl->GetObjectionOrNull(command);
+    return _impl->GetRejectionReasonOrNull(command);
 }
 
-std::optional<std::string> PlanEngine::GetObjectionOrNull(const SettleJob& command) const
+std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const SettleJob& command) const
 {
-    return _impl->GetObjectionOrNull(command);
+    return _impl->GetRejectionReasonOrNull(command);
 }
 
-std::optional<std::string> PlanEngine::GetObjectionOrNull(const SkipStep& command) const
+std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const SkipStep& command) const
 {
-    return _impl->GetObjectionOrNull(command);
+    return _impl->GetRejectionReasonOrNull(command);
 }
 
 const std::vector<Alarm>& PlanEngine::GetActiveAlarms() const noexcept

@@ -20,7 +20,7 @@ namespace
 std::string Skip(PlanWorld& world, std::int32_t stepNo, const std::string& planID = "P1")
 {
     const SkipStep command{planID, stepNo, 7};
-    const std::optional<std::string> objection = world.engine->GetObjectionOrNull(command);
+    const std::optional<std::string> objection = world.engine->GetRejectionReasonOrNull(command);
     world.Ask(command);
     const ReplyCommand& reply = world.replies.at(7);
     CHECK(reply.bAccepted == !objection.has_value());

@@ -109,9 +109,9 @@ public:
     [[nodiscard]] std::vector<WaitReason> GetWaitReasons() const;
 
     /// Why the engine would refuse the command at this moment; nullopt where it would not.
-    [[nodiscard]] std::optional<std::string> GetObjectionOrNull(const SetCarriers& command) const;
-    [[nodiscard]] std::optional<std::string> GetObjectionOrNull(const SettleJob& command) const;
-    [[nodiscard]] std::optional<std::string> GetObjectionOrNull(const SkipStep& command) const;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SetCarriers& command) const;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SettleJob& command) const;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SkipStep& command) const;
 
     /// nullopt where the plan is not known, is finished or goes on.
     [[nodiscard]] std::optional<WaitReason> GetWaitReasonOrNull(std::string_view planID) const;
