@@ -198,10 +198,10 @@ class Line:
         return self.start("vda-sim", "--broker", f"mqtt://127.0.0.1:{port or self.broker_port}", "--site",
                           self.site_dir / "site.lif.json", "--time-scale", time_scale, *options, *self._world_options())
 
-    def start_arm(self, time_scale, *options):
+    def start_arm(self, time_scale, *options, programs=None):
         return self.start("openstream-sim", "--listen", "127.0.0.1:0", "--http", "127.0.0.1:0",
-                          "--programs", self.site_dir / "programs.toml", "--robot", "1=CR01", "--time-scale", time_scale,
-                          *options, *self._world_options())
+                          "--programs", programs or self.site_dir / "programs.toml", "--robot", "1=CR01",
+                          "--time-scale", time_scale, *options, *self._world_options())
 
     def start_mcs(self, plans, *arguments, port=0, **options):
         return self.start("mcs-sim", "--listen", f"127.0.0.1:{port}", *self._world_options(), *arguments,

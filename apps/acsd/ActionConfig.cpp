@@ -128,8 +128,6 @@ std::vector<ArmInputTemplate> ReadArmInputs(
     const TemplateCheck& check)
 {
     std::vector<ArmInputTemplate> inputs;
-    std::vector<ArmRelay> relays;
-    bool bFaulty = false;
     for (const std::string& key : section.GetNames())
     {
         tl::expected<NumberTemplate, std::string> value = MakeNumber(*section.FindValueOrNull(key));
@@ -137,7 +135,6 @@ std::vector<ArmInputTemplate> ReadArmInputs(
         if (!relay.has_value() || !value.has_value())
         {
             section.AddMistake(key, relay.has_value() ? value.error() : relay.error());
-            bFaulty = true;
             continue;
         }
         const auto overlapped = std::ranges::find_if(inputs, [&relay](const ArmInputTemplate& input) {
@@ -146,22 +143,12 @@ std::vector<ArmInputTemplate> ReadArmInputs(
         if (overlapped != inputs.end())
         {
             section.AddMistake(key, fmt::format("shares bytes with {}; see arm.relay_index", overlapped->relay.name));
-            bFaulty = true;
         }
-        relays.push_back(*relay);
         inputs.push_back({std::move(*relay), std::move(*value)});
         if (const std::optional<std::string> fault = check.FindFaultOrNull(inputs.back(), rule))
         {
             section.AddMistake(key, *fault);
-            bFaulty = true;
         }
-    }
-    // While several ranges are read one after the other, a late sample of one could be taken for another.
-    if (!bFaulty && MakeRelayRanges(relays).size() > 1)
-    {
-        section.AddMistake(
-            "",
-            "is in several areas of relays, or has a gap of over 64 bytes; give neighbouring relays of one area");
     }
     return inputs;
 }

@@ -62,6 +62,7 @@ void ArmMonitor::Monitor(
     monitor.url = url;
     monitor.period = period;
     monitor.args = std::move(argsOrNull);
+    ++_requestNumber;
     _outputs.armRequests.emplace_back(std::move(monitor));
 }
 
@@ -146,13 +147,13 @@ ArmFact ArmMonitor::OnSample(const Core::JsonText& json, AdapterActions& out)
     }
 }
 
-/// A sample of the counters may still be on its way when another one is watched.
+/// A sample of the counters may still be on its way when another one is watched. Those of relays look like it: until the
+/// MONITOR of a range was taken, a sample can be of that one, of the range before, or of the counters.
 ArmFact ArmMonitor::TakeSample(const Core::JsonText& json, AdapterActions& out)
 {
-    const Relays* const relaysOrNull = std::get_if<Relays>(&_view);
-    if (relaysOrNull != nullptr && relaysOrNull->bTaken)
+    if (const Relays* const relaysOrNull = std::get_if<Relays>(&_view))
     {
-        return TakeRelays(json);
+        return relaysOrNull->bTaken ? TakeRelays(json) : ArmFact();
     }
     if (std::holds_alternative<Effect>(_view))
     {
@@ -200,17 +201,13 @@ ArmFact ArmMonitor::TakeRelays(const Core::JsonText& json)
         return {};
     }
     relays.read.push_back({range, std::move(*words)});
-    const bool bAll = relays.read.size() == relays.ranges.size();
-    ArmFact fact;
-    if (bAll)
-    {
-        fact = ArmRelaysRead{std::exchange(relays.read, {})};
-    }
-    if (relays.ranges.size() > 1)
+    if (relays.read.size() < relays.ranges.size())
     {
         MonitorRange();
+        return {};
     }
-    return fact;
+    relays.bTaken = relays.ranges.size() == 1; // several ones are asked for again
+    return ArmRelaysRead{std::exchange(relays.read, {})};
 }
 
 /// The next range that is to be read.
@@ -226,6 +223,16 @@ void ArmMonitor::ReadRelays(std::vector<ArmRelayRange> ranges)
 {
     _view = Relays{std::move(ranges), {}, false};
     MonitorRange();
+}
+
+/// A single range comes again by itself.
+void ArmMonitor::RepeatRelays()
+{
+    const Relays* const relaysOrNull = std::get_if<Relays>(&_view);
+    if (relaysOrNull != nullptr && relaysOrNull->ranges.size() > 1)
+    {
+        MonitorRange();
+    }
 }
 
 std::optional<ArmSample> ArmMonitor::ReadSampleOrNull(const Core::JsonText& json) const
@@ -270,8 +277,12 @@ ArmFact ArmMonitor::TakeCounters(const Core::JsonText& json, AdapterActions& out
     return ArmCounted{*sampleOrNull, bFirst, bVerifies};
 }
 
-void ArmMonitor::OnTaken()
+void ArmMonitor::OnTaken(std::uint64_t requestNumber)
 {
+    if (requestNumber != _requestNumber)
+    {
+        return; // another one has been asked for since
+    }
     _bRelaysLate = false;
     if (Verification* const verificationOrNull = std::get_if<Verification>(&_view))
     {

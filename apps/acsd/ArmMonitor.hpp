@@ -41,12 +41,13 @@ class ArmMonitor
     ArmControls& _controls;
     ELink _link = ELink::Lost;
     ArmViews::ArmView _view;
-    bool _bRelaysLate = false;       ///< Samples of relays that were read may still come in place of the counters.
-    bool _bMotorHidden = false;      ///< The controller does not show it to a probe.
-    bool _bGeneralHidden = false;    ///< Likewise its general state.
-    std::size_t _unshownEffects = 0; ///< In a row, of CONTROLs that were not refused.
-    bool _bMonitorRefused = false;   ///< The one of the motor or the counters, last time.
-    std::string _motorRefusal;       ///< Of the last CONTROL that was to switch it on; empty: none.
+    std::uint64_t _requestNumber = 0; ///< Of the last MONITOR that was asked for, as the session counts them.
+    bool _bRelaysLate = false;        ///< Samples of relays that were read may still come in place of the counters.
+    bool _bMotorHidden = false;       ///< The controller does not show it to a probe.
+    bool _bGeneralHidden = false;     ///< Likewise its general state.
+    std::size_t _unshownEffects = 0;  ///< In a row, of CONTROLs that were not refused.
+    bool _bMonitorRefused = false;    ///< The one of the motor or the counters, last time.
+    std::string _motorRefusal;        ///< Of the last CONTROL that was to switch it on; empty: none.
     std::optional<Planning::RobotError> _trouble; ///< What keeps the arm from its work, its session being there.
 
     void Monitor(std::string_view url, std::chrono::milliseconds period, std::optional<Core::JsonText> argsOrNull);
@@ -72,7 +73,8 @@ public:
     void WatchMotor(Planning::AdapterActions& out);
     void OnLost(Planning::AdapterActions& out);
     [[nodiscard]] ArmFact OnSample(const Core::JsonText& json, Planning::AdapterActions& out);
-    void OnTaken();
+    /// The controller has taken the MONITOR with this number.
+    void OnTaken(std::uint64_t requestNumber);
     [[nodiscard]] ArmFact OnRefused(const OpenStream::ClientMonitorRefused& refused, Planning::AdapterActions& out);
     void OnMotorSettled(const ArmSettlement& settlement);
     /// A refusal that came late. Returns whether it is the motor's.
@@ -92,8 +94,10 @@ public:
     /// for a CONTROL, and continue with the MONITOR meanwhile.
     void VerifyEffect(Planning::AdapterActions& out);
     void EndEffect(Planning::AdapterActions& out);
-    /// They are read again and again until something else is watched.
+    /// One range after the other. After ArmRelaysRead they are read again, or something else is watched.
     void ReadRelays(std::vector<ArmRelayRange> ranges);
+    /// They are still to be read.
+    void RepeatRelays();
 
     [[nodiscard]] bool IsLost() const noexcept;
     [[nodiscard]] bool IsReady() const noexcept;

@@ -161,7 +161,7 @@ void OpenStreamRobotAdapter::OnArmEvent(const OpenStream::ClientEvent& event, Co
             },
             [&](const OpenStream::ClientData& data) { OnData(data.line, out); },
             [&](const OpenStream::ClientControlSettled& settled) { OnSettled(settled, out); },
-            [&](const OpenStream::ClientMonitorStarted&) { _monitor.OnTaken(); },
+            [&](const OpenStream::ClientMonitorStarted& started) { _monitor.OnTaken(started.requestNumber); },
             [&](const OpenStream::ClientMonitorRefused& refused) {
                 OnFact(_monitor.OnRefused(refused, out), out);
                 Update(out);
@@ -243,6 +243,10 @@ void OpenStreamRobotAdapter::OnFact(const ArmFact& fact, AdapterActions& out)
             [&](const ArmProbed& probed) { OnProbed(probed, out); },
             [&](const ArmRelaysRead& read) {
                 _program.OnInputsRead(read.ranges, out);
+                if (_program.IsReadingInputs())
+                {
+                    _monitor.RepeatRelays();
+                }
                 Update(out);
             },
             [&](const ArmRelaysRefused& refused) {

@@ -80,7 +80,8 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     [[nodiscard]] bool IsPaused() const;
 
 public:
-    /// The outputs must outlive the adapter. An empty resolver: no action has inputs.
+    /// The outputs must outlive the adapter. Each MONITOR in them is one SetMonitor call of one session, which has no other.
+    /// An empty resolver: no action has inputs.
     OpenStreamRobotAdapter(
         VDA5050::MasterOptions base,
         ArmOptions arm,

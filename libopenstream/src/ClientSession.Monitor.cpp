@@ -12,6 +12,7 @@ using Detail::Report;
 void ClientSession::SetMonitor(std::optional<MonitorRequest> monitorOrNull, Core::Now now, ClientActions& out)
 {
     _monitor = std::move(monitorOrNull);
+    ++_monitorNumber;
     if (_monitor.has_value())
     {
         _monitor->period = std::clamp(_monitor->period, MINIMUM_PERIOD, MAXIMUM_PERIOD);
@@ -32,7 +33,7 @@ void ClientSession::Handle(MonitorAck& /*ack*/, Core::Now now, ClientActions& ou
     _bStale = false;
     _meter.Begin(_monitor.has_value() ? _monitor->period : MINIMUM_PERIOD);
     _lastDataAt = now.steady;
-    Report(ClientMonitorStarted{}, out);
+    Report(ClientMonitorStarted{_sentMonitorNumber}, out);
     ArmDataAge(out);
     SendNext(now, out);
 }
@@ -85,6 +86,7 @@ bool ClientSession::TrySendMonitorWish(Core::Now now, ClientActions& out)
     if (_monitor.has_value())
     {
         _meter.Begin(_monitor->period);
+        _sentMonitorNumber = _monitorNumber;
         _sentMonitorUrl = _monitor->url;
         SendAwaited(*_monitor, EInFlight::Monitor, now, out);
     }

@@ -32,11 +32,11 @@ class ScenarioCase(unittest.TestCase):
             for program in self.line.programs:
                 print(f"--- {program.name} ---", *program.tail(40), sep="\n", file=sys.stderr)
 
-    def start_robots(self, make_vehicle_port=lambda broker_port: broker_port):
+    def start_robots(self, make_vehicle_port=lambda broker_port: broker_port, **arm_options):
         self.line.start_broker()
         vehicles = self.line.start_vehicles(TIME_SCALE, port=make_vehicle_port(self.line.broker_port))
         self.vehicles = vehicles
-        arm = self.line.start_arm(TIME_SCALE)
+        arm = self.line.start_arm(TIME_SCALE, **arm_options)
         vehicles.wait_ready()
         return arm.wait_ready()
 

@@ -13,10 +13,10 @@ RELAYS = "/project/plc/set_relay_value"
 
 
 class World(ScenarioCase):
-    def run_plans(self, plans, *options, config=None):
+    def run_plans(self, plans, *options, config=None, programs=None):
         """Plans through a whole line on one floor; returns mcs-sim after it has ended."""
         self.line.share_world()
-        arm = self.start_robots()
+        arm = self.start_robots(programs=programs)
         mcs = self.line.start_mcs(plans, *options)
         self.trace = self.line.folder / "trace"
         self.line.start_acsd(mcs.wait_ready()["ws"], arm, config=config, arguments=("--trace", self.trace)).wait_ready()
@@ -40,17 +40,23 @@ class World(ScenarioCase):
         path.write_text(json.dumps(plan))
         return path
 
+    def read_config(self):
+        return (SITE / "acsd.toml").read_text().replace('map = "site.lif.json"', f'map = "{SITE / "site.lif.json"}"')
+
+    def write_file(self, name, text):
+        path = self.line.folder / name
+        path.write_text(text)
+        return path
+
     def write_config_with_swapped_inputs(self, action, first, second):
         """The site's configuration, but each of the two relay words gets what the other one should."""
-        text = (SITE / "acsd.toml").read_text().replace('map = "site.lif.json"', f'map = "{SITE / "site.lif.json"}"')
+        text = self.read_config()
         section = re.search(rf"^\[actions\.{action}\]$.*?(?=^\[|\Z)", text, re.MULTILINE | re.DOTALL)
         values = dict(re.findall(r'(ml\d+) = ("[^"]*")', section[0]))
         swapped = {first: values[second], second: values[first]}
         self.assertNotEqual(values[first], values[second])
         changed = re.sub(r'(ml\d+) = ("[^"]*")', lambda match: f"{match[1]} = {swapped.get(match[1], match[2])}", section[0])
-        path = self.line.folder / "acsd.toml"
-        path.write_text(text.replace(section[0], changed))
-        return path
+        return self.write_file("acsd.toml", text.replace(section[0], changed))
 
     def read_inputs(self):
         """The relay words of each job, in the order in which acsd had them written."""
@@ -72,6 +78,19 @@ class World(ScenarioCase):
             ("MemoryMoved", None, "CR01.TP02.MP01", "A01.SET01.MP02"),
             ("CarrierMoved", "TRAY_01", "CR01.TP01", "A01.CP02.TP03"),
             ("CarrierMoved", "TRAY_02", "CR01.TP02", "A01.CP02.TP04")])
+
+    def test_inputs_in_two_ranges_of_relays(self):
+        """The robot's port is far from the other words: it is read back by a MONITOR of its own."""
+        port = "ml109 = \"{robot_port}\""
+        config = self.read_config()
+        programs = (SITE / "programs.toml").read_text()
+        self.assertEqual((config.count(port), programs.count("{robot}.TP{ml109}")), (2, 2))
+        mcs = self.run_plans(
+            PLANS[1:],
+            config=self.write_file("acsd.toml", config.replace(port, port.replace("ml109", "ml2000"))),
+            programs=self.write_file("programs.toml", programs.replace("{robot}.TP{ml109}", "{robot}.TP{ml2000}")))
+        self.assert_summary(mcs, "2 carriers delivered, 0 misplaced", "1 plans completed, 0 failed")
+        self.assertEqual(self.exit_code, 0)
 
     def test_the_inputs_of_two_jobs_differ_as_their_places_do(self):
         self.run_plans(PLANS[1:])

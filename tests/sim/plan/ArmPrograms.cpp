@@ -36,8 +36,8 @@ const std::map<std::string, ArmProgramTexts>& GetArmPrograms()
            {"ml106", "{to.area}"},
            {"ml107", "{to.cp}"},
            {"ml108", "{to.tp}"},
-           {"ml109", "{robot_port}"}},
-          {"{robot}.TP{ml109}"},
+           {"ml2000", "{robot_port}"}}, // a second range to read back
+          {"{robot}.TP{ml2000}"},
           {"A{ml106}.CP{ml107}.TP{ml108}"},
           {}}},
         {"OpenSetCover",

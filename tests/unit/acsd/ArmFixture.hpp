@@ -64,7 +64,8 @@ struct ArmFixture
     OpenStreamRobotAdapter adapter;
     Planning::AdapterActions actions;
     std::uint32_t headerID = 0;
-    std::string lastControl; ///< Of those that were taken.
+    std::string lastControl;        ///< Of those that were taken.
+    std::uint64_t monitorCount = 0; ///< Likewise.
 
     ArmFixture()
         : ArmFixture(MakeArmOptions(), {})
@@ -86,6 +87,15 @@ struct ArmFixture
         adapter.OnArmEvent(event, clock.GetNow(), actions);
     }
 
+    /// The controller takes the MONITOR that was asked for last, or so many before it.
+    void AcknowledgeMonitor(std::uint64_t before = 0)
+    {
+        const auto waiting = std::ranges::count_if(outputs.armRequests, [](const ArmRequest& request) {
+            return std::holds_alternative<OpenStream::MonitorRequest>(request);
+        });
+        Tell(OpenStream::ClientMonitorStarted{monitorCount + static_cast<std::uint64_t>(waiting) - before});
+    }
+
     void TellData(std::string_view json)
     {
         OpenStream::DataLine line;
@@ -103,7 +113,7 @@ struct ArmFixture
             requests = TakeRequests();
         }
         CHECK(requests == std::vector<std::string>{LOOK});
-        Tell(OpenStream::ClientMonitorStarted{});
+        AcknowledgeMonitor();
         TellData(counters);
     }
 
@@ -123,7 +133,7 @@ struct ArmFixture
     /// The MONITOR behind a CONTROL is taken, and shows what that has done.
     void ShowEffect(std::string_view state)
     {
-        Tell(OpenStream::ClientMonitorStarted{});
+        AcknowledgeMonitor();
         TellData(state);
     }
 
@@ -270,6 +280,7 @@ struct ArmFixture
         {
             if (const auto* monitorOrNull = std::get_if<OpenStream::MonitorRequest>(&request))
             {
+                ++monitorCount;
                 texts.push_back("MONITOR " + monitorOrNull->url);
             }
             else

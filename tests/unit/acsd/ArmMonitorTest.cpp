@@ -21,6 +21,7 @@ struct MonitorFixture
     ArmControls controls{outputs};
     ArmMonitor monitor{ArmOptions{}, outputs, controls};
     Planning::AdapterActions actions;
+    std::uint64_t monitorCount = 0; ///< Of those that were taken.
 
     /// "url args" of the MONITORs since the last call.
     std::vector<std::string> TakeMonitors()
@@ -30,11 +31,19 @@ struct MonitorFixture
         {
             if (const auto* const monitorOrNull = std::get_if<OpenStream::MonitorRequest>(&request))
             {
+                ++monitorCount;
                 const std::string args = monitorOrNull->args.has_value() ? monitorOrNull->args->GetText() : "";
                 texts.push_back(monitorOrNull->url + " " + args);
             }
         }
         return texts;
+    }
+
+    /// The controller takes the MONITOR that was asked for last, or so many before it.
+    void Acknowledge(std::uint64_t before = 0)
+    {
+        static_cast<void>(TakeMonitors());
+        monitor.OnTaken(monitorCount - before);
     }
 
     ArmFact Show(std::string_view json)
@@ -91,7 +100,7 @@ TEST_CASE("Only a sample of after the MONITOR was taken again verifies a CONTROL
     arm.monitor.VerifyCounters();
     CHECK_FALSE(arm.monitor.IsIdle());
     CHECK_FALSE(std::get<ArmCounted>(arm.Show("[5,5,0,11,17]")).bVerifies);
-    arm.monitor.OnTaken();
+    arm.Acknowledge();
     CHECK(std::get<ArmCounted>(arm.Show("[5,5,0,11,17]")).bVerifies);
     CHECK_FALSE(std::get<ArmCounted>(arm.Show("[5,5,0,11,17]")).bVerifies);
     CHECK(arm.monitor.IsIdle());
@@ -106,7 +115,7 @@ TEST_CASE("A MONITOR of counters that is refused while a CONTROL is verified is 
     REQUIRE(arm.monitor.GetTroubleOrNull().has_value());
     CHECK(arm.monitor.GetTroubleOrNull()->errorCode == "ARM-monitorRefused");
     CHECK(arm.monitor.TryRetry(arm.actions));
-    arm.monitor.OnTaken();
+    arm.Acknowledge();
     CHECK(std::get<ArmCounted>(arm.Show("[5,5,0,11,17]")).bVerifies);
     CHECK_FALSE(arm.monitor.GetTroubleOrNull().has_value());
 }
@@ -156,7 +165,7 @@ TEST_CASE("A probe begins only between fresh counters, and one that is not answe
     }
     SECTION("It was taken and shows nothing: it is hidden")
     {
-        arm.monitor.OnTaken();
+        arm.Acknowledge();
         const ArmFact fact = arm.monitor.OnProbeTimer(EArmProbe::Motor, arm.actions);
         REQUIRE(std::holds_alternative<ArmProbed>(fact));
         CHECK_FALSE(std::get<ArmProbed>(fact).bOnOrNone.has_value());
@@ -170,24 +179,93 @@ TEST_CASE("A probe begins only between fresh counters, and one that is not answe
     }
 }
 
-TEST_CASE("Relays are read range after range, and again until something else is watched")
+TEST_CASE("Relays are read range after range, and again if they are still to be read")
 {
     MonitorFixture arm;
     arm.BringUp();
     arm.monitor.ReadRelays({{"/project/plc/do/val_s32", 0, 1}, {"/project/plc/m/val_s32", 420, 2}});
     CHECK(arm.TakeMonitors() == std::vector<std::string>{R"(/project/plc/do/val_s32 {"st":0,"len":1})"});
-    CHECK(std::holds_alternative<ArmCounted>(arm.Show("[5,5,0,11,17]")));
-    arm.monitor.OnTaken();
+    CHECK(std::holds_alternative<std::monostate>(arm.Show("[5,5,0,11,17]")));
+    arm.Acknowledge();
     CHECK(std::holds_alternative<std::monostate>(arm.Show("[8]")));
     CHECK(arm.TakeMonitors() == std::vector<std::string>{R"(/project/plc/m/val_s32 {"st":420,"len":2})"});
-    arm.monitor.OnTaken();
+    arm.Acknowledge();
     CHECK(std::holds_alternative<std::monostate>(arm.Show("[1]")));
     const ArmFact fact = arm.Show("[1,2]");
     REQUIRE(std::holds_alternative<ArmRelaysRead>(fact));
     CHECK(std::get<ArmRelaysRead>(fact).ranges.size() == 2);
     CHECK(std::get<ArmRelaysRead>(fact).ranges[1].words == std::vector<std::int64_t>{1, 2});
-    CHECK(arm.TakeMonitors().size() == 1);
+    CHECK(arm.TakeMonitors().empty());
+    CHECK(std::holds_alternative<std::monostate>(arm.Show("[3,4]")));
+    arm.monitor.RepeatRelays();
+    CHECK(arm.TakeMonitors() == std::vector<std::string>{R"(/project/plc/do/val_s32 {"st":0,"len":1})"});
     CHECK(std::holds_alternative<ArmRelaysRefused>(arm.Refuse("/project/plc/do/val_s32")));
+}
+
+TEST_CASE("A single range of relays comes again by itself")
+{
+    MonitorFixture arm;
+    arm.BringUp();
+    arm.monitor.ReadRelays({{"/project/plc/m/val_s32", 420, 2}});
+    arm.Acknowledge();
+    for (int count = 0; count < 2; ++count)
+    {
+        CHECK(std::holds_alternative<ArmRelaysRead>(arm.Show("[1,2]")));
+        arm.monitor.RepeatRelays();
+    }
+    CHECK(arm.TakeMonitors().empty());
+}
+
+TEST_CASE("Samples of one range of relays are taken neither for the next range nor for the counters")
+{
+    MonitorFixture arm;
+    arm.BringUp();
+    const std::string_view firstWords = "[4711,1,2,3,4,5]";
+    const std::string_view secondWords = "[7,7,7,7,7,7]";
+    arm.monitor.ReadRelays({{"/project/plc/m/val_s32", 420, 6}, {"/project/plc/m/val_s32", 8000, 6}});
+    arm.Acknowledge();
+    static_cast<void>(arm.Show(firstWords));
+    CHECK(std::holds_alternative<std::monostate>(arm.Show(firstWords)));
+    arm.Acknowledge();
+    const ArmFact read = arm.Show(secondWords);
+    REQUIRE(std::holds_alternative<ArmRelaysRead>(read));
+    CHECK(std::get<ArmRelaysRead>(read).ranges[1].words == std::vector<std::int64_t>{7, 7, 7, 7, 7, 7});
+    arm.monitor.WatchCounters();
+    CHECK(std::holds_alternative<std::monostate>(arm.Show(secondWords)));
+    arm.Acknowledge();
+    CHECK(std::holds_alternative<ArmCounted>(arm.Show("[5,5,0,11,17]")));
+}
+
+TEST_CASE("The acknowledgement of a MONITOR that another one has replaced says nothing of that one")
+{
+    MonitorFixture arm;
+    arm.BringUp();
+    SECTION("Ranges of relays")
+    {
+        arm.monitor.ReadRelays({{"/project/plc/do/val_s32", 0, 1}});
+        arm.Acknowledge(1);
+        CHECK(std::holds_alternative<std::monostate>(arm.Show("[8]")));
+        arm.Acknowledge();
+        CHECK(std::holds_alternative<ArmRelaysRead>(arm.Show("[8]")));
+    }
+    SECTION("Counters after relays")
+    {
+        arm.monitor.ReadRelays({{"/project/plc/m/val_s32", 420, 5}});
+        arm.monitor.WatchCounters();
+        arm.Acknowledge(1);
+        CHECK(std::holds_alternative<std::monostate>(arm.Show("[4711,1,2,3,4]")));
+        arm.Acknowledge();
+        CHECK(std::holds_alternative<ArmCounted>(arm.Show("[5,5,0,11,17]")));
+    }
+    SECTION("The counters of after a CONTROL")
+    {
+        arm.monitor.VerifyEffect(arm.actions);
+        arm.monitor.OnEffectTimer();
+        arm.Acknowledge(1);
+        CHECK_FALSE(std::get<ArmCounted>(arm.Show("[5,5,0,11,17]")).bVerifies);
+        arm.Acknowledge();
+        CHECK(std::get<ArmCounted>(arm.Show("[5,5,0,11,17]")).bVerifies);
+    }
 }
 
 } // namespace ACS::Acsd::Test

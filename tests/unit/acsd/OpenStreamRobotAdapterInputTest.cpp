@@ -71,7 +71,7 @@ struct ArmInputFixture : ArmFixture
         CHECK(TakeRequests() == std::vector<std::string>{WRITE_AREA});
         Settle(OpenStream::EControlOutcome::Accepted);
         CHECK(TakeRequests() == std::vector<std::string>{LOOK});
-        Tell(OpenStream::ClientMonitorStarted{});
+        AcknowledgeMonitor();
     }
 
     /// The program is started.
@@ -136,7 +136,7 @@ TEST_CASE("Samples that were on their way before the inputs are read are still t
     static_cast<void>(arm.TakeRequests());
     arm.TellData(BEFORE); // [5,5,…], before the MONITOR of the inputs was taken
     CHECK(arm.TakeRequests().empty());
-    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.AcknowledgeMonitor();
     arm.TellData("[5,5]");
     CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK, START});
 }
@@ -160,7 +160,7 @@ TEST_CASE("Samples of the inputs that come after the counters are asked for agai
         arm.Settle(OpenStream::EControlOutcome::Accepted);
     }
     static_cast<void>(arm.TakeRequests());
-    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.AcknowledgeMonitor();
     arm.TellData("[4711,1,1,1,1]");
     CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK, START});
     for (int late = 0; late < 3; ++late)
@@ -186,11 +186,11 @@ TEST_CASE(
         arm.TellData("[4711,2]");
         arm.Fire(ArmFixture::INPUT_TIMER);
         CHECK(arm.TakeRequests() == std::vector<std::string>{WRITE_NUMBER, LOOK});
-        arm.outputs.armRequests.clear();
+        static_cast<void>(arm.TakeRequests());
         arm.Settle(OpenStream::EControlOutcome::Accepted);
         arm.Settle(OpenStream::EControlOutcome::Accepted);
         CHECK(arm.TakeRequests() == std::vector<std::string>{WRITE_AREA, LOOK});
-        arm.Tell(OpenStream::ClientMonitorStarted{});
+        arm.AcknowledgeMonitor();
     }
     arm.TellData("[4711,2]");
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
@@ -255,20 +255,60 @@ TEST_CASE("Inputs of several areas are read one after the other, and all again u
     static_cast<void>(arm.TakeRequests());
     arm.Settle(OpenStream::EControlOutcome::Accepted);
     CHECK(arm.TakeRequests() == std::vector<std::string>{READ_OUTPUTS});
-    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.AcknowledgeMonitor();
     arm.TellData("[8]");
     CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
     arm.TellData("[8]"); // of the range before
     CHECK(arm.TakeRequests().empty());
-    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.AcknowledgeMonitor();
     arm.TellData("[6]");
     CHECK(arm.TakeRequests() == std::vector<std::string>{READ_OUTPUTS});
-    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.AcknowledgeMonitor();
     arm.TellData("[8]");
-    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.AcknowledgeMonitor();
     static_cast<void>(arm.TakeRequests());
     arm.TellData("[7]");
     CHECK(arm.TakeRequests().back() == START);
+}
+
+TEST_CASE("Late samples of one range of inputs are not taken for the next one, nor its acknowledgement for another")
+{
+    ArmInputFixture arm([](const Planning::StartJob& job) {
+        return std::vector<ArmInput>{
+            {*ParseArmRelay("ml105"), job.jobNumber},
+            {*ParseArmRelay("ml110"), 1},
+            {*ParseArmRelay("ml2000"), job.jobNumber},
+            {*ParseArmRelay("ml2005"), 2}};
+    });
+    arm.Command(ArmInputFixture::MakeJob());
+    static_cast<void>(arm.TakeRequests());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.ShowLook(BEFORE);
+    for (int written = 0; written < 4; ++written)
+    {
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+    }
+    static_cast<void>(arm.TakeRequests());
+    arm.AcknowledgeMonitor();
+    arm.TellData("[4711,0,0,0,0,1]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK}); // of the second range
+    for (int late = 0; late < 2; ++late)
+    {
+        arm.TellData("[4711,0,0,0,0,1]");
+        arm.AcknowledgeMonitor(1);
+    }
+    CHECK(arm.TakeRequests().empty());
+    CHECK(arm.TakeEvents<Planning::JobUnknown>().empty());
+    arm.AcknowledgeMonitor();
+    arm.TellData("[4711,0,0,0,0,3]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK}); // of the first range again
+    arm.AcknowledgeMonitor();
+    arm.TellData("[4711,0,0,0,0,1]");
+    static_cast<void>(arm.TakeRequests());
+    arm.AcknowledgeMonitor();
+    arm.TellData("[4711,0,0,0,0,2]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK, START}); // no range again
+    CHECK(arm.TakeEvents<Planning::JobUnknown>().empty());
 }
 
 TEST_CASE("Inputs that cannot be derived from the job, or do not fit into their relay, fail it before anything is sent")
@@ -300,12 +340,12 @@ TEST_CASE("A pause while inputs are written holds the start; they are read again
     arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
     arm.TellData("[4711,1]");
     CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
-    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.AcknowledgeMonitor();
     arm.TellData(BEFORE);
     CHECK(arm.TakeRequests().empty());
     arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
-    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.AcknowledgeMonitor();
     SECTION("They are as they were")
     {
         arm.TellData("[4711,1]");
@@ -417,9 +457,9 @@ TEST_CASE("A program that gets no number of its job cannot echo one: any change 
         arm.ShowEffect(SELECTED);
         arm.ShowLook(BEFORE);
         arm.Settle(OpenStream::EControlOutcome::Accepted);
-        arm.Tell(OpenStream::ClientMonitorStarted{});
+        arm.AcknowledgeMonitor();
         arm.TellData("[3]");
-        arm.Tell(OpenStream::ClientMonitorStarted{}); // of the counters
+        arm.AcknowledgeMonitor(); // of the counters
         arm.Settle(OpenStream::EControlOutcome::Accepted);
     }
     arm.TellData("[6,6,0,11,17]");

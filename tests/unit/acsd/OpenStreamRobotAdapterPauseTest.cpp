@@ -25,10 +25,10 @@ void SettleGoingOn(ArmFixture& arm, OpenStream::EControlOutcome outcome = OpenSt
 void ShowLookAtProgram(ArmFixture& arm, std::string_view sample, std::string_view counters = "[6,5,0]")
 {
     CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_PLAYBACK});
-    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.AcknowledgeMonitor();
     arm.TellData(sample);
     CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
-    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.AcknowledgeMonitor();
     arm.TellData(counters);
 }
 

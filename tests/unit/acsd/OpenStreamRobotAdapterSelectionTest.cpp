@@ -56,7 +56,7 @@ TEST_CASE("A selection is started when the controller shows it, however slow it 
     static_cast<void>(arm.TakeRequests());
     arm.Settle(OpenStream::EControlOutcome::Accepted);
     REQUIRE(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_PLAYBACK});
-    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.AcknowledgeMonitor();
     arm.TellData("[5,5,0]"); // of the MONITOR before
     arm.TellData(R"({"is_playback":0,"cur_prog_no":12,"cur_step_no":0})");
     arm.TellData(R"({"is_playback":0,"cur_prog_no":11,"cur_step_no":7})");
@@ -101,7 +101,7 @@ TEST_CASE("A controller that never shows what it has selected is not waited for 
         arm.Fire(ArmFixture::LOOK_TIMER);
         REQUIRE(arm.TakeRequests() == std::vector<std::string>{LOOK});
         arm.Tell(OpenStream::ClientControlFault{403, std::nullopt, "late"});
-        arm.Tell(OpenStream::ClientMonitorStarted{});
+        arm.AcknowledgeMonitor();
         arm.TellData("[5,5,0]");
     }
     arm.Command("J");

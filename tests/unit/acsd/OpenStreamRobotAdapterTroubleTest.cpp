@@ -12,7 +12,7 @@ namespace
 void ShowPlayback(ArmFixture& arm, std::string_view sample, std::string_view counters = "[6,5,0]")
 {
     CHECK(arm.LookAround() == std::vector<std::string>{LOOK_AT_PLAYBACK});
-    arm.Tell(OpenStream::ClientMonitorStarted{});
+    arm.AcknowledgeMonitor();
     arm.TellData(sample);
     arm.ShowLook(counters);
 }
@@ -248,7 +248,7 @@ TEST_CASE("A controller that takes the MONITOR of a glance and shows nothing is 
     REQUIRE(arm.LookAround() == std::vector<std::string>{LOOK_AT_MOTOR});
     SECTION("It was taken")
     {
-        arm.Tell(OpenStream::ClientMonitorStarted{});
+        arm.AcknowledgeMonitor();
         CHECK(arm.LookAround() == std::vector<std::string>{LOOK});
         arm.TellData("[5,5,0]");
         CHECK(arm.LookAround().empty());

@@ -177,6 +177,27 @@ TEST_CASE("3 A refused MONITOR is reported and not repeated until it is set anew
     REQUIRE(client.CountLines("\"MONITOR\"") == 2);
 }
 
+TEST_CASE("3 The acknowledgement of a MONITOR has the number of the call that asked for it")
+{
+    ClientHarness client;
+    MakeReady(client);
+    client.SetMonitor(20ms);
+    client.SetMonitor(30ms);
+    client.SetMonitor(40ms);
+    REQUIRE(client.CountLines("\"MONITOR\"") == 1);
+    client.Receive(MONITOR_ACK);
+    REQUIRE(client.Take<ClientMonitorStarted>().at(0).requestNumber == 1);
+    REQUIRE(client.CountLines("\"MONITOR\"") == 2);
+    client.Receive(MONITOR_ACK);
+    REQUIRE(client.Take<ClientMonitorStarted>().at(0).requestNumber == 3);
+    client.session.OnPeerClosed(client.GetNow(), client.actions);
+    client.Execute();
+    client.Pass(client.Take<ClientLost>().at(0).retryIn);
+    client.ConnectAndShake();
+    client.Receive(MONITOR_ACK);
+    REQUIRE(client.Take<ClientMonitorStarted>().at(0).requestNumber == 3);
+}
+
 TEST_CASE("7.22 Data after the stream was stopped is tolerated and not reported")
 {
     ClientHarness client;

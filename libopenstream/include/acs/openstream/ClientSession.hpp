@@ -91,10 +91,12 @@ class ClientSession
     bool _bControlTimerArmed = false;
 
     std::optional<MonitorRequest> _monitor;
-    std::string _sentMonitorUrl;     ///< Of the last one that was sent.
-    bool _bMonitorDue = false;       ///< The wish has changed and the server does not know.
-    bool _bMonitorOn = false;        ///< The server streams, as far as we know.
-    bool _bMonitorStopFirst = false; ///< It said monitor_already_active.
+    std::uint64_t _monitorNumber = 0;     ///< Of the last SetMonitor call.
+    std::uint64_t _sentMonitorNumber = 0; ///< Of the last MONITOR that was sent.
+    std::string _sentMonitorUrl;          ///< Likewise.
+    bool _bMonitorDue = false;            ///< The wish has changed and the server does not know.
+    bool _bMonitorOn = false;             ///< The server streams, as far as we know.
+    bool _bMonitorStopFirst = false;      ///< It said monitor_already_active.
     bool _bStale = false;
     bool _bDataAgeArmed = false;
     Core::SteadyTime _dataAgeAt;
@@ -155,7 +157,8 @@ public:
     /// ClientControlSettled, ClientEnded.
     void Stop(Core::Now now, ClientActions& out);
 
-    /// The MONITOR to have from now on and after every reconnect; nullopt for none. The period is clamped. → Send, timers.
+    /// The MONITOR to have from now on and after every reconnect; nullopt for none. The period is clamped. The calls are
+    /// numbered, the first one is 1: ClientMonitorStarted has the number. → Send, timers.
     void SetMonitor(std::optional<MonitorRequest> monitorOrNull, Core::Now now, ClientActions& out);
 
     /// Sends a CONTROL, at once or in its turn. The token comes back in ClientControlSettled, for a tracked one, which

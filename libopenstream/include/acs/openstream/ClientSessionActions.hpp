@@ -129,6 +129,7 @@ struct ClientReady
 /// Event: the server took the MONITOR.
 struct ClientMonitorStarted
 {
+    std::uint64_t requestNumber = 0; ///< Of the SetMonitor call that it was sent for; another one may have followed.
 };
 
 /// Event: the server refused the MONITOR. It is tried again after SetMonitor or a reconnect.
