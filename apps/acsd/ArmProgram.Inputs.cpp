@@ -6,13 +6,15 @@
 
 #include <string_view>
 
-// The inputs of a job's program: written after its selection, read back before its start.
+// The inputs of a job's program: written after its selection, read back before its start. The counters are read last: while
+// MONITOR shows the inputs, another program may run.
 
 namespace ACS::Acsd
 {
 
 using ArmStates::Prepared;
 using ArmStates::ReadingInputs;
+using ArmStates::VerifyingCounters;
 using ArmStates::WritingInputs;
 
 namespace
@@ -79,7 +81,8 @@ void ArmProgram::OnInputsRead(const std::vector<ArmRelayWords>& ranges, AdapterA
         }
     }
     out.emplace_back(Planning::CancelAdapterTimer{ArmTimers::INPUT});
-    _state = Prepared{true};
+    _state = VerifyingCounters{};
+    _requests.push_back(EArmRequest::VerifyCounters);
 }
 
 void ArmProgram::OnInputsRefused(const std::string& reason, AdapterActions& out)

@@ -24,6 +24,7 @@ using ArmStates::Selecting;
 using ArmStates::Starting;
 using ArmStates::Stopped;
 using ArmStates::Stopping;
+using ArmStates::VerifyingCounters;
 using ArmStates::VerifyingSelection;
 using ArmStates::WritingInputs;
 
@@ -284,7 +285,8 @@ void ArmProgram::OnCountedBeforeStart(AdapterActions& out)
 
 void ArmProgram::OnVerified(bool bUnchanged, AdapterActions& out)
 {
-    if (Is<VerifyingSelection>() && !bUnchanged)
+    const bool bBeforeStart = Is<VerifyingSelection>() || Is<VerifyingCounters>();
+    if (bBeforeStart && !bUnchanged)
     {
         // The selection has abandoned a program, or another one was run: no evidence could tell them apart.
         Disown(out);
@@ -292,6 +294,10 @@ void ArmProgram::OnVerified(bool bUnchanged, AdapterActions& out)
     else if (Is<VerifyingSelection>())
     {
         Prepare();
+    }
+    else if (Is<VerifyingCounters>())
+    {
+        _state = Prepared{true};
     }
     else if (Is<Stopping>())
     {
@@ -446,7 +452,7 @@ bool ArmProgram::IsBeforeStart() const
 
 bool ArmProgram::IsPreparing() const
 {
-    return Is<WritingInputs>() || Is<ReadingInputs>() || Is<Prepared>();
+    return Is<WritingInputs>() || Is<ReadingInputs>() || Is<VerifyingCounters>() || Is<Prepared>();
 }
 
 bool ArmProgram::IsCounted() const

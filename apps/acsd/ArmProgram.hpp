@@ -40,8 +40,8 @@ struct ArmJob
     std::vector<ArmInput> inputs;
 };
 
-/// The program of one job, from its selection to its end: select, write the inputs, read them back, start; stop and resume it
-/// for pauses, reset it where the job is cancelled. Each step is verified before the next. Whatever it needs to see is
+/// The program of one job, from its selection to its end: select, write the inputs, read them back, verify that no program
+/// has run meanwhile, start; stop and resume it for pauses, reset it where the job is cancelled. Each step is verified before the next. Whatever it needs to see is
 /// requested, and comes as an On… call.
 class ArmProgram
 {

@@ -38,10 +38,15 @@ struct ReadingInputs
     std::string difference; ///< Of the latest sample; empty: none has come.
 };
 
+/// The inputs are as they were written; the first counters of after that have not come.
+struct VerifyingCounters
+{
+};
+
 /// It can be started, at the latest when the pause ends.
 struct Prepared
 {
-    bool bVerified = false; ///< The inputs have just been read.
+    bool bVerified = false; ///< Inputs and counters, just now.
 };
 
 /// The controller refused one of these CONTROLs; the motor is probed.
@@ -110,6 +115,7 @@ using ArmProgramState = std::variant<
     VerifyingSelection,
     WritingInputs,
     ReadingInputs,
+    VerifyingCounters,
     Prepared,
     Refused,
     Starting,

@@ -105,12 +105,33 @@ TEST_CASE("Each step of a program waits for the one before to be verified")
     arm.Advance();
     CHECK(arm.TakeControls().empty());
     arm.program.OnInputsRead({{{"/project/plc/m/val_s32", 420, 1}, {7}}}, arm.actions);
+    CHECK(arm.program.TakeRequests() == std::vector<EArmRequest>{EArmRequest::VerifyCounters});
+    arm.Advance();
+    CHECK(arm.TakeControls().empty());
+    arm.program.OnVerified(true, arm.actions);
     arm.program.Advance(false, false, arm.actions);
     CHECK(arm.TakeControls().empty());
     arm.Advance();
     CHECK(arm.TakeControls() == std::vector<std::string>{"start"});
     CHECK(arm.program.IsCounted());
     CHECK_FALSE(arm.HasReported<Planning::JobStarted>());
+}
+
+TEST_CASE("A program is not started where the counters have changed since its inputs were read")
+{
+    ProgramFixture arm;
+    arm.program.Start({"J", 11, {{*ParseArmRelay("ml105"), 7}}});
+    arm.Settle(EControlOutcome::Accepted);
+    arm.program.OnVerified(true, arm.actions);
+    arm.Settle(EControlOutcome::Accepted);
+    arm.program.OnInputsRead({{{"/project/plc/m/val_s32", 420, 1}, {7}}}, arm.actions);
+    CHECK(arm.program.IsPreparing());
+    static_cast<void>(arm.TakeControls());
+    arm.program.OnVerified(false, arm.actions);
+    arm.Advance();
+    CHECK(arm.TakeControls().empty());
+    CHECK(arm.HasReported<Planning::JobUnknown>());
+    CHECK_FALSE(arm.program.HasJob());
 }
 
 TEST_CASE("A program ends as the counters prove, and only once")

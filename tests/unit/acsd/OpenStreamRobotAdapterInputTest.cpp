@@ -32,8 +32,8 @@ tl::expected<std::vector<ArmInput>, std::string> ResolveInputs(const Planning::S
 /// Its programs have inputs and echo the number of their job.
 struct ArmInputFixture : ArmFixture
 {
-    explicit ArmInputFixture(ArmInputResolver inputs = ResolveInputs)
-        : ArmFixture(ArmOptions{}, std::move(inputs))
+    explicit ArmInputFixture(ArmInputResolver inputs = ResolveInputs, ArmOptions options = {})
+        : ArmFixture(std::move(options), std::move(inputs))
     {
         BringUp(BEFORE);
     }
@@ -79,7 +79,8 @@ struct ArmInputFixture : ArmFixture
     {
         WriteInputs();
         TellData("[4711,1]");
-        CHECK(TakeRequests() == std::vector<std::string>{LOOK, START});
+        ShowLook(BEFORE);
+        CHECK(TakeRequests() == std::vector<std::string>{START});
         Settle(OpenStream::EControlOutcome::Accepted);
         ShowLook(BEFORE);
     }
@@ -119,7 +120,8 @@ TEST_CASE("Inputs that read back late are waited for; those of before the writin
     arm.TellData(R"({"val":0})");
     CHECK(arm.TakeRequests().empty());
     arm.TellData("[4711,1]");
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK, START});
+    arm.ShowLook(BEFORE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
 }
 
 TEST_CASE("Samples that were on their way before the inputs are read are still those of the counters")
@@ -138,7 +140,8 @@ TEST_CASE("Samples that were on their way before the inputs are read are still t
     CHECK(arm.TakeRequests().empty());
     arm.AcknowledgeMonitor();
     arm.TellData("[5,5]");
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK, START});
+    arm.ShowLook(BEFORE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
 }
 
 TEST_CASE("Samples of the inputs that come after the counters are asked for again are not taken for the counters")
@@ -162,13 +165,17 @@ TEST_CASE("Samples of the inputs that come after the counters are asked for agai
     static_cast<void>(arm.TakeRequests());
     arm.AcknowledgeMonitor();
     arm.TellData("[4711,1,1,1,1]");
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK, START});
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
     for (int late = 0; late < 3; ++late)
     {
         arm.TellData("[4711,1,1,1,1]");
+        arm.AcknowledgeMonitor(1);
     }
-    CHECK(arm.TakeEvents<Planning::JobUncertain>().empty());
-    CHECK(arm.TakeEvents<Planning::JobStarted>().empty());
+    CHECK(arm.TakeRequests().empty());
+    CHECK(arm.TakeEvents<Planning::JobUnknown>().empty());
+    arm.AcknowledgeMonitor();
+    arm.TellData(BEFORE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     arm.Settle(OpenStream::EControlOutcome::Accepted);
     arm.ShowLook(BEFORE);
     arm.TellData(BEGUN);
@@ -268,7 +275,8 @@ TEST_CASE("Inputs of several areas are read one after the other, and all again u
     arm.AcknowledgeMonitor();
     static_cast<void>(arm.TakeRequests());
     arm.TellData("[7]");
-    CHECK(arm.TakeRequests().back() == START);
+    arm.ShowLook(BEFORE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
 }
 
 TEST_CASE("Late samples of one range of inputs are not taken for the next one, nor its acknowledgement for another")
@@ -307,8 +315,99 @@ TEST_CASE("Late samples of one range of inputs are not taken for the next one, n
     static_cast<void>(arm.TakeRequests());
     arm.AcknowledgeMonitor();
     arm.TellData("[4711,0,0,0,0,2]");
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK, START}); // no range again
+    arm.ShowLook(BEFORE); // no range again
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     CHECK(arm.TakeEvents<Planning::JobUnknown>().empty());
+}
+
+TEST_CASE("A program that was run after the inputs were read back is not taken for the job's: nothing is started")
+{
+    const bool bEcho = GENERATE(false, true);
+    ArmInputFixture arm(
+        [](const Planning::StartJob& job) {
+            return std::vector<ArmInput>{{*ParseArmRelay("ml105"), job.jobNumber}, {*ParseArmRelay("ml106"), 1}};
+        },
+        bEcho ? ArmOptions{} : MakeArmOptions());
+    arm.WriteInputs();
+    arm.TellData("[4711,1]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    arm.AcknowledgeMonitor();
+    const std::string_view counters = GENERATE(
+        std::string_view("[6,5,0,11,17]"),
+        std::string_view("[6,6,0,11,17]"),
+        std::string_view("[6,5,1,11,17]"),
+        std::string_view("[0,0,0,0,0]"));
+    arm.TellData(counters);
+    CHECK(arm.TakeRequests().empty());
+    CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
+    CHECK(arm.TakeEvents<Planning::JobStarted>().empty());
+    CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    CHECK(arm.TakeEvents<Planning::JobUncertain>().empty());
+}
+
+TEST_CASE("A job that was sent again has the counters of after the program that another one ran for its own base")
+{
+    ArmInputFixture arm(ResolveInputs, MakeArmOptions());
+    arm.WriteInputs();
+    arm.TellData("[4711,1]");
+    arm.ShowLook("[6,6,0]");
+    CHECK(arm.TakeEvents<Planning::JobUnknown>().size() == 1);
+    Planning::StartJob again = ArmInputFixture::MakeJob();
+    again.mark = "6 6 0";
+    arm.Command(again);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.ShowLook("[6,6,0]");
+    arm.WriteAll();
+    arm.TellData("[4711,1]");
+    arm.ShowLook("[6,6,0]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.ShowLook("[6,6,0]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
+    arm.TellData("[7,7,0]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+}
+
+TEST_CASE("Between the inputs and the start a pause, a cancellation and a loss are as before it")
+{
+    ArmInputFixture arm;
+    arm.WriteInputs();
+    arm.TellData("[4711,1]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    SECTION("Paused: the inputs are read again after it")
+    {
+        arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+        arm.AcknowledgeMonitor();
+        arm.TellData(BEFORE);
+        CHECK(arm.TakeRequests().empty());
+        arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+        arm.AcknowledgeMonitor();
+        arm.TellData("[4711,1]");
+        arm.ShowLook(BEFORE);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+    }
+    SECTION("Cancelled")
+    {
+        arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+        CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+        arm.AcknowledgeMonitor();
+        arm.TellData(BEFORE);
+        CHECK(arm.TakeRequests().empty());
+    }
+    SECTION("Lost")
+    {
+        arm.Tell(OpenStream::ClientLost{});
+        CHECK(arm.TakeEvents<Planning::JobUnknown>().size() == 1);
+        CHECK(arm.TakeRequests().empty());
+    }
+    SECTION("A refusal of the selection that came late")
+    {
+        arm.Tell(OpenStream::ClientControlFault{403, Core::JsonText::FromTrusted(R"({"err_code":-1245280})"), ""});
+        CHECK(arm.TakeRequests() == std::vector<std::string>{REWIND});
+    }
 }
 
 TEST_CASE("Inputs that cannot be derived from the job, or do not fit into their relay, fail it before anything is sent")
@@ -349,7 +448,8 @@ TEST_CASE("A pause while inputs are written holds the start; they are read again
     SECTION("They are as they were")
     {
         arm.TellData("[4711,1]");
-        CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK, START});
+        arm.ShowLook(BEFORE);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     }
     SECTION("They were overwritten")
     {
@@ -458,8 +558,9 @@ TEST_CASE("A program that gets no number of its job cannot echo one: any change 
         arm.ShowLook(BEFORE);
         arm.Settle(OpenStream::EControlOutcome::Accepted);
         arm.AcknowledgeMonitor();
+        static_cast<void>(arm.TakeRequests());
         arm.TellData("[3]");
-        arm.AcknowledgeMonitor(); // of the counters
+        arm.ShowLook(BEFORE);
         arm.Settle(OpenStream::EControlOutcome::Accepted);
     }
     arm.TellData("[6,6,0,11,17]");
