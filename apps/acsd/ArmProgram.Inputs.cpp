@@ -1,5 +1,6 @@
 #include "ArmProgram.hpp"
 
+#include "ArmProgramNames.hpp"
 #include "ArmTimers.hpp"
 
 #include <fmt/format.h>
@@ -12,11 +13,6 @@
 namespace ACS::Acsd
 {
 
-using ArmStates::Prepared;
-using ArmStates::ReadingInputs;
-using ArmStates::VerifyingCounters;
-using ArmStates::WritingInputs;
-
 namespace
 {
 
@@ -28,7 +24,7 @@ constexpr std::string_view WRITE_URL = "/project/plc/set_relay_value";
 
 void ArmProgram::Prepare()
 {
-    if (_job.inputs.empty())
+    if (_work.job.inputs.empty())
     {
         _state = Prepared{true};
     }
@@ -41,7 +37,7 @@ void ArmProgram::Prepare()
 void ArmProgram::WriteInput(WritingInputs writing)
 {
     _state = writing;
-    const ArmInput& input = _job.inputs[writing.next];
+    const ArmInput& input = _work.job.inputs[writing.next];
     _controls.Send(
         EArmControl::WriteInput,
         WRITE_URL,
@@ -63,7 +59,7 @@ void ArmProgram::OnInputsRead(const std::vector<ArmRelayWords>& ranges, AdapterA
         return;
     }
     readingOrNull->difference.clear();
-    for (const ArmInput& input : _job.inputs)
+    for (const ArmInput& input : _work.job.inputs)
     {
         std::optional<std::int32_t> value;
         for (const ArmRelayWords& shown : ranges)
@@ -115,7 +111,7 @@ void ArmProgram::OnInputTimer(AdapterActions& out)
 void ArmProgram::OnInputWritten(AdapterActions& out)
 {
     const WritingInputs writing = std::get<WritingInputs>(_state);
-    if (writing.next + 1 < _job.inputs.size())
+    if (writing.next + 1 < _work.job.inputs.size())
     {
         WriteInput({writing.attempt, writing.next + 1});
     }

@@ -1,5 +1,6 @@
 #include "ArmProgram.hpp"
 
+#include "ArmProgramNames.hpp"
 #include "ArmTimers.hpp"
 
 #include <fmt/format.h>
@@ -10,21 +11,6 @@
 
 namespace ACS::Acsd
 {
-
-using ArmStates::Awaited;
-using ArmStates::Doubtful;
-using ArmStates::Refused;
-using ArmStates::Resetting;
-using ArmStates::ResumeRefused;
-using ArmStates::Resuming;
-using ArmStates::Rewinding;
-using ArmStates::Running;
-using ArmStates::Selecting;
-using ArmStates::Starting;
-using ArmStates::Stopped;
-using ArmStates::Stopping;
-using ArmStates::VerifyingSelection;
-using ArmStates::WritingInputs;
 
 namespace
 {
@@ -95,7 +81,7 @@ void ArmProgram::OnAccepted(EArmControl kind, AdapterActions& out)
     switch (kind)
     {
         case EArmControl::SelectProgram:
-            if (_bCancelled)
+            if (_work.bCancelled)
             {
                 Fail("cancelled before it was started", out);
                 return;
@@ -129,7 +115,7 @@ void ArmProgram::OnAccepted(EArmControl kind, AdapterActions& out)
 
 void ArmProgram::SelectUnlessCancelled(AdapterActions& out)
 {
-    if (_bCancelled)
+    if (_work.bCancelled)
     {
         Fail("cancelled before it was started", out);
     }
@@ -168,7 +154,7 @@ void ArmProgram::OnUnanswered(EArmControl kind, OpenStream::EControlOutcome outc
             break;
         case EArmControl::StopProgram:
         case EArmControl::ResumeProgram:
-            _bResumeRepeated = _bResumeRepeated || kind == EArmControl::ResumeProgram;
+            _work.bResumeRepeated = _work.bResumeRepeated || kind == EArmControl::ResumeProgram;
             _state = Doubtful{};
             break;
         case EArmControl::ResetProgram:
@@ -202,11 +188,11 @@ void ArmProgram::OnControlRefused(EArmControl kind, const ArmRefusal& refusal, A
         case EArmControl::WriteInput:
             Refuse(fmt::format(
                 "relay {} of the arm was not written: {}",
-                _job.inputs[std::get<WritingInputs>(_state).next].relay.name,
+                _work.job.inputs[std::get<WritingInputs>(_state).next].relay.name,
                 refusal.reason));
             break;
         case EArmControl::StopProgram:
-            _state = Running{true, 0};
+            _state = Running{EArmStart::Sent, true, 0};
             break;
         case EArmControl::ResumeProgram:
             // A motor that is off, or a program that runs already, is no fault of the job's.
@@ -257,7 +243,7 @@ void ArmProgram::OnResetRefused()
         ResetProgram(EResetPath::TaskReset);
         return;
     }
-    _bCancelled = false;
+    _work.bCancelled = false;
     _state = Stopped{};
 }
 
@@ -271,7 +257,7 @@ void ArmProgram::OnFault(const ArmRefusal& refusal, AdapterActions& out)
             Fail(refusal.reason, out);
         }
     }
-    else if (awaitedOrNull != nullptr && !awaitedOrNull->bRecovered)
+    else if (awaitedOrNull != nullptr && awaitedOrNull->start != EArmStart::Unknown)
     {
         // Where the controller was slow it may be of the selection, and the program begins yet.
         awaitedOrNull->refusal = refusal.reason;
@@ -323,7 +309,7 @@ void ArmProgram::OnPlaybackHidden(AdapterActions& out)
     {
         return;
     }
-    if (_bResumeRepeated)
+    if (_work.bResumeRepeated)
     {
         _state = Running{};
         return;
@@ -374,14 +360,14 @@ void ArmProgram::OnCounted(bool bWatched, AdapterActions& out)
         Halt(fmt::format(
             "The arm's program of job {} is stopped before its end. Find out why at the controller. Resume it there, or "
             "abandon it there: the job then fails.",
-            _job.jobID));
+            _work.job.jobID));
     }
     ResumeRefused* const refusedOrNull = std::get_if<ResumeRefused>(&_state);
     if (refusedOrNull == nullptr || !std::exchange(refusedOrNull->bSeenStopped, false))
     {
         return;
     }
-    if (refusedOrNull->bRetries || _bPauseWanted || _bCancelled)
+    if (refusedOrNull->bRetries || _bPauseWanted || _work.bCancelled)
     {
         _state = Stopped{};
         return;
@@ -390,7 +376,7 @@ void ArmProgram::OnCounted(bool bWatched, AdapterActions& out)
     Halt(fmt::format(
         "The arm's program of job {} was paused and does not resume: {}. Retrying in 5 s. Or resume it at the controller, or "
         "abandon it there: the job then fails.",
-        _job.jobID,
+        _work.job.jobID,
         refusedOrNull->refusal));
     out.emplace_back(Planning::StartAdapterTimer{ArmTimers::RETRY, ArmTimers::RETRY_DELAY});
 }

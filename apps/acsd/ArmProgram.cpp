@@ -1,5 +1,6 @@
 #include "ArmProgram.hpp"
 
+#include "ArmProgramNames.hpp"
 #include "ArmTimers.hpp"
 
 #include <fmt/format.h>
@@ -8,25 +9,6 @@
 
 namespace ACS::Acsd
 {
-
-using ArmStates::Awaited;
-using ArmStates::Doubtful;
-using ArmStates::NoJob;
-using ArmStates::Prepared;
-using ArmStates::ReadingInputs;
-using ArmStates::Refused;
-using ArmStates::Resetting;
-using ArmStates::ResumeRefused;
-using ArmStates::Resuming;
-using ArmStates::Rewinding;
-using ArmStates::Running;
-using ArmStates::Selecting;
-using ArmStates::Starting;
-using ArmStates::Stopped;
-using ArmStates::Stopping;
-using ArmStates::VerifyingCounters;
-using ArmStates::VerifyingSelection;
-using ArmStates::WritingInputs;
 
 namespace
 {
@@ -59,8 +41,7 @@ ArmProgram::ArmProgram(ArmOptions options, ArmControls& controls)
 
 void ArmProgram::Start(ArmJob job)
 {
-    _job = std::move(job);
-    _bRewound = false;
+    _work = {std::move(job)};
     if (_bRewindDue)
     {
         Rewind();
@@ -78,7 +59,7 @@ void ArmProgram::Select()
     _controls.Send(
         EArmControl::SelectProgram,
         SELECT_URL,
-        fmt::format(R"({{"pno":{},"sno":0,"fno":0,"ext_sel":1}})", _job.program));
+        fmt::format(R"({{"pno":{},"sno":0,"fno":0,"ext_sel":1}})", _work.job.program));
 }
 
 /// After a start or stop a controller may refuse a selection for its program counter, which is set before the next one.
@@ -96,7 +77,7 @@ bool ArmProgram::IsOfSelection(const ArmRefusal& refusal)
 /// A program that was started or stopped by others: the counter is set, once, and it is selected again.
 bool ArmProgram::TryRewind(const ArmRefusal& refusal)
 {
-    if (!IsOfSelection(refusal) || std::exchange(_bRewound, true))
+    if (!IsOfSelection(refusal) || std::exchange(_work.bRewound, true))
     {
         return false;
     }
@@ -131,7 +112,7 @@ void ArmProgram::ResetProgram(EResetPath path)
 
 void ArmProgram::Cancel(const std::string& jobID, AdapterActions& out)
 {
-    if (jobID != _job.jobID || !HasJob())
+    if (jobID != _work.job.jobID || !HasJob())
     {
         return;
     }
@@ -141,7 +122,7 @@ void ArmProgram::Cancel(const std::string& jobID, AdapterActions& out)
         return;
     }
     const bool bRuns = Is<Starting>() || Is<Awaited>() || Is<Running>();
-    _bCancelled = _bPauseWanted || !bRuns;
+    _work.bCancelled = _bPauseWanted || !bRuns;
 }
 
 void ArmProgram::SetPauseWanted(bool bWanted)
@@ -164,19 +145,18 @@ void ArmProgram::OnPauseSeen() noexcept
 /// it surely runs.
 void ArmProgram::DoubtFound()
 {
-    if (_bFound && _bPauseKnown && Is<Running>())
+    const Running* const runningOrNull = std::get_if<Running>(&_state);
+    if (runningOrNull != nullptr && runningOrNull->start == EArmStart::Counted && _bPauseKnown)
     {
-        _bFound = false;
-        _bResumeRepeated = true;
+        _work.bResumeRepeated = true;
         _state = Doubtful{};
     }
 }
 
 void ArmProgram::Recover(ArmJob job, bool bBegun, AdapterActions& out)
 {
-    _job = std::move(job);
-    _bFound = bBegun;
-    _state = Awaited{!bBegun, {}};
+    _work = {std::move(job)};
+    _state = Awaited{bBegun ? EArmStart::Counted : EArmStart::Unknown, {}};
     if (!bBegun)
     {
         // It may be on its way still. A program that has not raised its first counter by then was not started.
@@ -194,7 +174,7 @@ void ArmProgram::Advance(bool bFree, bool bProbing, AdapterActions& out)
     {
         if (_bPauseWanted)
         {
-            preparedOrNull->bVerified = _job.inputs.empty(); // they may be overwritten meanwhile
+            preparedOrNull->bVerified = _work.job.inputs.empty(); // they may be overwritten meanwhile
         }
         else if (preparedOrNull->bVerified)
         {
@@ -216,7 +196,7 @@ void ArmProgram::Advance(bool bFree, bool bProbing, AdapterActions& out)
     {
         StopProgram(); // starting it on suspicion could run it a second time, had it come to its end
     }
-    else if (Is<Stopped>() && _bCancelled)
+    else if (Is<Stopped>() && _work.bCancelled)
     {
         ResetProgram(_resetPath == EResetPath::Unknown ? EResetPath::RCode : _resetPath);
     }
@@ -226,7 +206,8 @@ void ArmProgram::Advance(bool bFree, bool bProbing, AdapterActions& out)
     }
     else if (const ResumeRefused* const refusedOrNull = std::get_if<ResumeRefused>(&_state))
     {
-        const bool bDue = refusedOrNull->bRetries && !refusedOrNull->bSeenStopped && (_bPauseWanted || _bCancelled);
+        const bool bDue =
+            refusedOrNull->bRetries && !refusedOrNull->bSeenStopped && (_bPauseWanted || _work.bCancelled);
         if (bDue && !bProbing)
         {
             ProbeRefusedProgram();
@@ -262,12 +243,12 @@ void ArmProgram::Begin(AdapterActions& out)
     Starting* const startingOrNull = std::get_if<Starting>(&_state);
     if (startingOrNull != nullptr && !std::exchange(startingOrNull->bBegun, true))
     {
-        out.emplace_back(RaiseEvent{Planning::JobStarted{_job.jobID}});
+        out.emplace_back(RaiseEvent{Planning::JobStarted{_work.job.jobID}});
     }
-    else if (Is<Awaited>())
+    else if (const Awaited* const awaitedOrNull = std::get_if<Awaited>(&_state))
     {
-        out.emplace_back(RaiseEvent{Planning::JobStarted{_job.jobID}});
-        _state = Running{};
+        out.emplace_back(RaiseEvent{Planning::JobStarted{_work.job.jobID}});
+        _state = Running{awaitedOrNull->start};
         DoubtFound();
     }
 }
@@ -313,7 +294,7 @@ bool ArmProgram::IsEffectShown(const GeneralState& state) const
 {
     if (Is<VerifyingSelection>())
     {
-        return state.program == std::int64_t{_job.program} && state.step.value_or(0) <= FIRST_STEP;
+        return state.program == std::int64_t{_work.job.program} && state.step.value_or(0) <= FIRST_STEP;
     }
     if (Is<Stopping>())
     {
@@ -342,7 +323,7 @@ void ArmProgram::OnStartTimer(bool bEchoed, AdapterActions& out)
     {
         Fail(std::string(awaitedOrNull->refusal), out);
     }
-    else if (awaitedOrNull->bRecovered)
+    else if (awaitedOrNull->start == EArmStart::Unknown)
     {
         Disown(out);
     }
@@ -375,7 +356,7 @@ void ArmProgram::OnLost(AdapterActions& out)
     {
         runningOrNull->standingProbes = 0;
     }
-    _bResumeRepeated = _bResumeRepeated || Is<Resuming>();
+    _work.bResumeRepeated = _work.bResumeRepeated || Is<Resuming>();
     if (Is<Stopping>() || Is<Resuming>())
     {
         _state = Doubtful{};
@@ -398,10 +379,7 @@ std::string ArmProgram::End(AdapterActions& out)
     }
     _state = NoJob{};
     _trouble.reset();
-    _bResumeRepeated = false;
-    _bFound = false;
-    _bCancelled = false;
-    return std::exchange(_job, {}).jobID;
+    return std::exchange(_work, {}).job.jobID;
 }
 
 void ArmProgram::Finish(AdapterActions& out)
@@ -437,7 +415,7 @@ std::vector<EArmRequest> ArmProgram::TakeRequests()
 
 const std::vector<ArmInput>& ArmProgram::GetInputs() const noexcept
 {
-    return _job.inputs;
+    return _work.job.inputs;
 }
 
 bool ArmProgram::HasJob() const noexcept

@@ -53,16 +53,21 @@ class ArmProgram
         TaskReset, ///< Before.
     };
 
+    /// The job, and what holds in several of its states.
+    struct Work
+    {
+        ArmJob job;
+        bool bRewound = false;        ///< For its selection.
+        bool bResumeRepeated = false; ///< Its program may run already: that it does is no refusal.
+        bool bCancelled = false;      ///< Its program is reset as soon as it is surely stopped.
+    };
+
     ArmOptions _options;
     ArmControls& _controls;
     std::vector<EArmRequest> _requests;
     ArmStates::ArmProgramState _state;
-    ArmJob _job;
-    bool _bRewindDue = false;      ///< A program was started or stopped since the program counter was set.
-    bool _bRewound = false;        ///< For this job's selection.
-    bool _bResumeRepeated = false; ///< It may run already: that it does is no refusal.
-    bool _bFound = false;          ///< It was found running after a restart: whether it was paused before is not known.
-    bool _bCancelled = false;      ///< It is reset as soon as it is surely stopped.
+    Work _work;               ///< Empty without a job.
+    bool _bRewindDue = false; ///< A program was started or stopped since the program counter was set.
     bool _bPauseWanted = false;
     bool _bPauseKnown = false; ///< The robot was paused or resumed, as far as is known here.
     EResetPath _resetPath = EResetPath::Unknown;

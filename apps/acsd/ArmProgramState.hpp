@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <variant>
 
@@ -61,15 +62,24 @@ struct Starting
     bool bBegun = false;
 };
 
+/// What is known of a program that is awaited.
+enum class EArmStart : std::uint8_t
+{
+    Sent,    ///< It was started now.
+    Unknown, ///< It was started before a restart, or never.
+    Counted, ///< The counters show after a restart that it has begun; it may have been paused since.
+};
+
 /// It was started, and has not begun.
 struct Awaited
 {
-    bool bRecovered = false; ///< Or was never started, before a restart.
-    std::string refusal;     ///< One that came late; empty: none.
+    EArmStart start = EArmStart::Sent;
+    std::string refusal; ///< One that came late; empty: none.
 };
 
 struct Running
 {
+    EArmStart start = EArmStart::Sent;
     bool bStopRefused = false;      ///< Not asked for again before the next pause.
     std::size_t standingProbes = 0; ///< In a row.
 };
