@@ -120,6 +120,27 @@ void RefuseCounters(const MethodTable& table, const RobotLinkConfig& robot)
     }
 }
 
+/// Its program cannot echo a number that it does not get.
+void WarnWithoutNumber(const MethodTable& table, const RobotLinkConfig& robot, std::vector<std::string>& warnings)
+{
+    if (!table.keys.armInputs.has_value() || table.keys.armInputs->empty() || !robot.armOptions.echoIndex.has_value())
+    {
+        return;
+    }
+    const bool bNumbered = std::ranges::any_of(*table.keys.armInputs, [](const ArmInputTemplate& input) {
+        const JobName* const nameOrNull = input.value.GetNameOrNull();
+        return nameOrNull != nullptr && nameOrNull->subject == JobName::ESubject::JobNumber;
+    });
+    std::string warning = fmt::format(
+        "{}.arm_inputs: has no {{job_number}}, so its program cannot echo it: every change of the counters counts for the job. "
+        "Add it, or set arm.counter_echo = -1 where no program of the arm can echo",
+        table.section.GetPath());
+    if (!bNumbered && std::ranges::find(warnings, warning) == warnings.end())
+    {
+        warnings.push_back(std::move(warning));
+    }
+}
+
 /// A table of a station is for robots that do the action in the same way: with the vehicle, or with the arm.
 bool IsSameKind(const MethodKeys& keys, const MethodKeys& by)
 {
@@ -133,7 +154,8 @@ void SetMethods(
     const MethodKeys& keys,
     const StationTables& stations,
     std::size_t portCount,
-    RobotLinkConfig& robot)
+    RobotLinkConfig& robot,
+    std::vector<std::string>& warnings)
 {
     robot.methods.SetMethod(action, {}, MakeMethod(keys, rule, portCount));
     for (const auto& [stationID, tables] : stations)
@@ -146,6 +168,7 @@ void SetMethods(
         MethodKeys atStation = keys;
         ReplaceKeys(atStation, table->second.keys);
         RefuseCounters(table->second, robot);
+        WarnWithoutNumber(table->second, robot, warnings);
         robot.methods.SetMethod(action, stationID, MakeMethod(atStation, rule, portCount));
     }
 }
@@ -200,12 +223,18 @@ void ReadJobs(const ConfigSection& root, AcsdConfig& config)
             RefuseCounters(table, robot);
             MethodKeys keys = table.keys;
             const auto own = overrides.find(name);
-            if (own != overrides.end())
+            const bool bOwn = own != overrides.end();
+            if (bOwn)
             {
                 RefuseCounters(own->second, robot);
                 ReplaceKeys(keys, own->second.keys);
             }
-            SetMethods(name, rule, keys, stations, options.ports.size(), robot);
+            if (keys.IsOfArm())
+            {
+                const bool bOwnInputs = bOwn && own->second.keys.armInputs.has_value();
+                WarnWithoutNumber(bOwnInputs ? own->second : table, robot, config.warnings);
+            }
+            SetMethods(name, rule, keys, stations, options.ports.size(), robot, config.warnings);
         }
     }
 }

@@ -206,6 +206,27 @@ TEST_CASE("The numbers of relays count values, or bytes as in the vendor's manua
     CHECK(Read({"robots.CR01.arm.relay_index=byte"}).mistakes.size() == 1);
 }
 
+TEST_CASE("Inputs without the job's number are warned of where the arm's programs echo it")
+{
+    const std::string tray = "actions.TrayLoad.arm_inputs";
+    const std::string own = "robots.CR01." + tray;
+    const auto read = [](const std::vector<std::string>& overrides) {
+        const Acsd::AcsdConfig config = Read(overrides);
+        CHECK(config.mistakes == std::vector<std::string>{});
+        return config.warnings;
+    };
+    CHECK(read({}).empty());
+    const std::vector<std::string> warnings = read({tray + ".ml105=5"});
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings.front().starts_with(tray + ": has no {job_number}"));
+    CHECK(read({own + "={ml120=5}"}).size() == 1);
+    CHECK(read({R"(stations."A01.CP01".)" + tray + "={ml120=5}"}).size() == 1);
+    CHECK(read({tray + ".ml105=5", own + "={ml120=5, ml105='{job_number}'}"}).empty());
+    CHECK(read({tray + ".ml105=5", "arm.counter_echo=-1"}).empty());
+    CHECK(read({tray + ".ml105=5", "robots.CR01.arm.counter_echo=-1"}).empty());
+    CHECK(read({"actions.Wave={robot='CR', arm_program=30}"}).empty());
+}
+
 TEST_CASE("Stations have a type, a height, a reach and keys of their own")
 {
     const Acsd::AcsdConfig config = Read(
