@@ -22,7 +22,8 @@ tl::expected<std::vector<ArmInput>, std::string> MakeArmInputs(const JobMethods&
         const std::int64_t value = input.value.Resolve(data);
         if (!CanHold(input.relay, value))
         {
-            return tl::unexpected(fmt::format("{} cannot hold {}", input.relay.name, value));
+            return tl::unexpected(
+                fmt::format("{} cannot hold {}, it holds {}", input.relay.name, value, MakeRangeText(input.relay)));
         }
         inputs.push_back({input.relay, static_cast<std::int32_t>(value)});
     }

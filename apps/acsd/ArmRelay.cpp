@@ -59,6 +59,27 @@ std::uint32_t GetBits(EArmRelayWidth width)
     return width == EArmRelayWidth::Bit ? 1 : GetBytes(width) * BITS_PER_BYTE;
 }
 
+struct ValueRange
+{
+    std::int64_t lowest;
+    std::int64_t highest;
+};
+
+/// Bytes and words may be meant signed or unsigned.
+ValueRange GetValueRange(EArmRelayWidth width)
+{
+    if (width == EArmRelayWidth::Bit)
+    {
+        return {0, 1};
+    }
+    if (width == EArmRelayWidth::Long)
+    {
+        return {std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max()};
+    }
+    const std::int64_t values = std::int64_t{1} << GetBits(width);
+    return {-values / 2, values - 1};
+}
+
 std::optional<std::uint32_t> ReadNumberOrNull(std::string_view text)
 {
     std::uint32_t number = 0;
@@ -148,16 +169,14 @@ tl::expected<ArmRelay, std::string> ParseArmRelay(std::string_view name, EArmRel
 
 bool CanHold(const ArmRelay& relay, std::int64_t value) noexcept
 {
-    if (relay.width == EArmRelayWidth::Bit)
-    {
-        return value == 0 || value == 1;
-    }
-    if (relay.width == EArmRelayWidth::Long)
-    {
-        return value >= std::numeric_limits<std::int32_t>::min() && value <= std::numeric_limits<std::int32_t>::max();
-    }
-    const std::int64_t values = std::int64_t{1} << GetBits(relay.width);
-    return value >= -values / 2 && value < values;
+    const ValueRange range = GetValueRange(relay.width);
+    return value >= range.lowest && value <= range.highest;
+}
+
+std::string MakeRangeText(const ArmRelay& relay)
+{
+    const ValueRange range = GetValueRange(relay.width);
+    return fmt::format("{} to {}", range.lowest, range.highest);
 }
 
 bool IsOverlapping(const ArmRelay& left, const ArmRelay& right) noexcept

@@ -47,6 +47,9 @@ struct ArmRelay
 /// Whether the relay is wide enough. An integer may be meant signed or unsigned.
 [[nodiscard]] bool CanHold(const ArmRelay& relay, std::int64_t value) noexcept;
 
+/// What it can hold, for a person: "-128 to 255".
+[[nodiscard]] std::string MakeRangeText(const ArmRelay& relay);
+
 /// Whether the two share a bit.
 [[nodiscard]] bool IsOverlapping(const ArmRelay& left, const ArmRelay& right) noexcept;
 

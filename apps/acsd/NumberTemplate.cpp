@@ -53,7 +53,7 @@ tl::expected<NumberTemplate, std::string> NumberTemplate::Parse(std::string_view
     }
     if (!IsNumeric(*name))
     {
-        return tl::unexpected(fmt::format("{} is no number; give one such as {{from.cp}}", MakeNameText(*name)));
+        return tl::unexpected(fmt::format("{} is not a number; give a name such as {{from.cp}}", MakeNameText(*name)));
     }
     result._value = std::move(*name);
     return result;

@@ -71,9 +71,10 @@ bool IsOnRobot(EPlaceRule rule)
     return rule == EPlaceRule::RobotCassette || rule == EPlaceRule::RobotTray || rule == EPlaceRule::Memory;
 }
 
-std::string MakeWidthText(const ArmInputTemplate& input, std::int64_t value)
+/// The source says where the value comes from; empty: it is written in the input.
+std::string MakeWidthText(const ArmInputTemplate& input, std::int64_t value, const std::string& source)
 {
-    return fmt::format("{} cannot hold {}", input.relay.name, value);
+    return fmt::format("{} cannot hold {}{}; it holds {}", input.relay.name, value, source, MakeRangeText(input.relay));
 }
 
 } // namespace
@@ -83,6 +84,7 @@ TemplateCheck::TemplateCheck(
     const Planning::EngineOptions& engine,
     EArmRelayIndex relayIndex)
     : _stations(stations),
+      _places(stations, engine),
       _relayIndex(relayIndex)
 {
     for (const auto& [stationID, values] : stations)
@@ -103,6 +105,11 @@ TemplateCheck::TemplateCheck(
             _highestRobotPort = std::max(_highestRobotPort, std::int64_t{port.GetSegments().back().number});
         }
     }
+}
+
+const SitePlaces& TemplateCheck::GetPlaces() const noexcept
+{
+    return _places;
 }
 
 EArmRelayIndex TemplateCheck::GetRelayIndex() const noexcept
@@ -133,6 +140,23 @@ std::int64_t TemplateCheck::GetHighest(const JobName& name) const
     return highest == _highest.end() ? 0 : highest->second;
 }
 
+std::optional<std::string> TemplateCheck::FindPlaceFaultOrNull(const JobName& name, const Planning::ActionRule& rule)
+    const
+{
+    const EPlaceRule place = GetRule(name.subject, rule);
+    if (place == EPlaceRule::None || (name.segment.has_value() && !CanHave(place, *name.segment)))
+    {
+        return fmt::format(
+            "no job of this action has {}: its {} is {}",
+            MakeNameText(name),
+            name.subject == ESubject::To ? "to" : "from",
+            GetRuleName(place));
+    }
+    return !name.segment.has_value() || _places.HasSegment(place, rule.robotType, *name.segment)
+        ? std::nullopt
+        : std::optional(fmt::format("no place of this action has {}", MakeNameText(name)));
+}
+
 std::optional<std::string> TemplateCheck::FindStationFaultOrNull(const std::string& key) const
 {
     const bool bKnown = std::ranges::find(STANDARD_KEYS, key) != STANDARD_KEYS.end()
@@ -155,11 +179,11 @@ std::optional<std::string> TemplateCheck::FindStationNumberFaultOrNull(const Arm
         const auto* const number = std::get_if<std::int64_t>(&value->second);
         if (number == nullptr)
         {
-            return fmt::format("{} is no whole number at station {}", MakeNameText(name), stationID);
+            return fmt::format("{} is not a whole number at station {}", MakeNameText(name), stationID);
         }
         if (!CanHold(input.relay, *number))
         {
-            return fmt::format("{}, the {} of station {}", MakeWidthText(input, *number), name.key, stationID);
+            return MakeWidthText(input, *number, fmt::format(", the {} of station {}", name.key, stationID));
         }
     }
     return std::nullopt;
@@ -171,22 +195,11 @@ std::optional<std::string> TemplateCheck::FindFaultOrNull(const JobName& name, c
     {
         case ESubject::From:
         case ESubject::To:
-        {
-            const EPlaceRule place = GetRule(name.subject, rule);
-            if (place != EPlaceRule::None && (!name.segment.has_value() || CanHave(place, *name.segment)))
-            {
-                return std::nullopt;
-            }
-            return fmt::format(
-                "no job of this action has {}: its {} is {}",
-                MakeNameText(name),
-                name.subject == ESubject::To ? "to" : "from",
-                GetRuleName(place));
-        }
+            return FindPlaceFaultOrNull(name, rule);
         case ESubject::Position:
-            return name.segment == ESegmentKind::TrayPort || name.segment == ESegmentKind::MemoryPort
-                ? std::optional(fmt::format("no station has {}", MakeNameText(name)))
-                : std::nullopt;
+            return !name.segment.has_value() || _places.HasStationSegment(*name.segment)
+                ? std::nullopt
+                : std::optional(fmt::format("no station has {}", MakeNameText(name)));
         case ESubject::RobotPort:
             return IsOnRobot(rule.from) || IsOnRobot(rule.to)
                 ? std::nullopt
@@ -210,7 +223,7 @@ std::optional<std::string> TemplateCheck::FindFaultOrNull(
     if (name == nullptr)
     {
         const std::int64_t number = *input.value.GetNumberOrNull();
-        return CanHold(input.relay, number) ? std::nullopt : std::optional(MakeWidthText(input, number));
+        return CanHold(input.relay, number) ? std::nullopt : std::optional(MakeWidthText(input, number, {}));
     }
     if (std::optional<std::string> fault = FindFaultOrNull(*name, rule); fault.has_value())
     {
@@ -223,7 +236,7 @@ std::optional<std::string> TemplateCheck::FindFaultOrNull(
     const std::int64_t highest = GetHighest(*name);
     return CanHold(input.relay, highest)
         ? std::nullopt
-        : std::optional(fmt::format("{}, the highest {}", MakeWidthText(input, highest), MakeNameText(*name)));
+        : std::optional(MakeWidthText(input, highest, fmt::format(", the highest {}", MakeNameText(*name))));
 }
 
 } // namespace ACS::Acsd

@@ -2,6 +2,7 @@
 
 #include "JobMethod.hpp"
 #include "JobName.hpp"
+#include "SitePlaces.hpp"
 #include <acs/plan/EngineOptions.hpp>
 
 #include <cstdint>
@@ -17,10 +18,13 @@ namespace ACS::Acsd
 class TemplateCheck final
 {
     const StationTable& _stations;
+    SitePlaces _places;
     std::map<Core::ESegmentKind, std::int64_t> _highest; ///< Number of each kind at this site and its robots.
     std::int64_t _highestRobotPort = 0;
     EArmRelayIndex _relayIndex;
 
+    [[nodiscard]] std::optional<std::string> FindPlaceFaultOrNull(const JobName& name, const Planning::ActionRule& rule)
+        const;
     [[nodiscard]] std::optional<std::string> FindStationFaultOrNull(const std::string& key) const;
     [[nodiscard]] std::optional<std::string> FindStationNumberFaultOrNull(const ArmInputTemplate& input) const;
     [[nodiscard]] std::int64_t GetHighest(const JobName& name) const;
@@ -30,10 +34,12 @@ public:
     /// The stations must outlive it.
     TemplateCheck(const StationTable& stations, const Planning::EngineOptions& engine, EArmRelayIndex relayIndex);
 
+    [[nodiscard]] const SitePlaces& GetPlaces() const noexcept;
+
     /// What the numbers of relays count.
     [[nodiscard]] EArmRelayIndex GetRelayIndex() const noexcept;
 
-    /// Why the name means nothing in any job of the action: a key that no station has, or a number that no place can have.
+    /// Why the name means nothing in any job of the action: a key that no station has, or a number that no place has.
     [[nodiscard]] std::optional<std::string> FindFaultOrNull(const JobName& name, const Planning::ActionRule& rule)
         const;
 

@@ -165,8 +165,8 @@ TEST_CASE("A template that means nothing says why")
              {"1.5", "exactly one name"},
              {"99999999999999999999", "exactly one name"},
              {"{from.cp}{from.tp}", "exactly one name"},
-             {"{carrier}", "{carrier} is no number"},
-             {"{from}", "{from} is no number"},
+             {"{carrier}", "{carrier} is not a number"},
+             {"{from}", "{from} is not a number"},
              {"{nothing}", "unknown name"}})
     {
         INFO(text);
