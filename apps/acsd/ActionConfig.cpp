@@ -2,6 +2,7 @@
 
 #include "common/ConfigDocument.hpp"
 #include "DefaultParameters.hpp"
+#include "MessageValue.hpp"
 
 #include <fmt/format.h>
 #include <tl/expected.hpp>
@@ -91,6 +92,10 @@ std::vector<VehicleParameter> ReadParameters(
     std::vector<VehicleParameter> parameters;
     for (const std::string& key : section.GetNames())
     {
+        if (const std::optional<std::string> fault = FindNameFaultOrNull(key))
+        {
+            section.AddMistake(key, *fault);
+        }
         tl::expected<ParameterTemplate, std::string> value = ParameterTemplate::Make(*section.FindValueOrNull(key));
         if (!value.has_value())
         {
@@ -201,6 +206,10 @@ MethodKeys ReadMethodKeys(const ConfigSection& section, const Planning::ActionRu
         if (keys.vehicleAction->empty())
         {
             section.AddMistake("vehicle_action", "is empty; give a VDA5050 actionType");
+        }
+        else if (const std::optional<std::string> fault = FindNameFaultOrNull(*keys.vehicleAction))
+        {
+            section.AddMistake("vehicle_action", *fault);
         }
     }
     if (section.HasKey("parameters"))

@@ -1,5 +1,6 @@
 #include "ParameterTemplate.hpp"
 
+#include "MessageValue.hpp"
 #include <acs/core/Overloaded.hpp>
 
 #include <fmt/format.h>
@@ -125,6 +126,18 @@ std::optional<JsonText> ConvertOrNull(const JobValue& value, EValueDataType type
 /// A step of writing a node as JSON: text, or a node.
 using Work = std::vector<std::variant<std::string, const ConfigNode*>>;
 
+std::optional<std::string> FindKeyFaultOrNull(const ConfigNode::Table& table)
+{
+    for (const auto& [name, value] : table)
+    {
+        if (std::optional<std::string> fault = FindNameFaultOrNull(name))
+        {
+            return fault;
+        }
+    }
+    return std::nullopt;
+}
+
 void PushTable(const ConfigNode::Table& table, Work& work)
 {
     work.emplace_back("}");
@@ -155,6 +168,10 @@ void PushArray(const ConfigNode::Array& array, Work& work)
 
 tl::expected<ParameterTemplate, std::string> ParameterTemplate::Make(std::string_view text)
 {
+    if (std::optional<std::string> fault = FindTextFaultOrNull(text))
+    {
+        return tl::unexpected(std::move(*fault));
+    }
     tl::expected<JobTemplate, std::string> parsed = JobTemplate::Parse(text);
     if (!parsed.has_value())
     {
@@ -169,12 +186,12 @@ tl::expected<ParameterTemplate, std::string> ParameterTemplate::Make(const Confi
 {
     ParameterTemplate result;
     std::string json;
-    std::string error;
+    std::optional<std::string> fault;
     const auto add = [&result, &json](Scalar scalar) {
         result._pieces.push_back({std::exchange(json, {}), std::move(scalar)});
     };
     Work work{&node};
-    while (!work.empty() && error.empty())
+    while (!work.empty() && !fault.has_value())
     {
         const auto step = std::move(work.back());
         work.pop_back();
@@ -185,30 +202,36 @@ tl::expected<ParameterTemplate, std::string> ParameterTemplate::Make(const Confi
         }
         std::visit(
             Core::Overloaded{
-                [&work](const ConfigNode::Table& table) { PushTable(table, work); },
+                [&work, &fault](const ConfigNode::Table& table) {
+                    fault = FindKeyFaultOrNull(table);
+                    PushTable(table, work);
+                },
                 [&work](const ConfigNode::Array& array) { PushArray(array, work); },
-                [&add, &error](const std::string& text) {
-                    tl::expected<JobTemplate, std::string> parsed = JobTemplate::Parse(text);
+                [&add, &fault](const std::string& text) {
+                    tl::expected<ParameterTemplate, std::string> parsed = Make(std::string_view(text));
                     if (parsed.has_value())
                     {
-                        add(std::move(*parsed));
+                        add(std::move(*parsed->_pieces.front().scalarOrNone));
                     }
                     else
                     {
-                        error = std::move(parsed.error());
+                        fault = std::move(parsed.error());
                     }
                 },
                 [&add](std::int64_t integer) { add(integer); },
-                [&add](double number) { add(number); },
+                [&add, &fault](double number) {
+                    fault = FindNumberFaultOrNull(number);
+                    add(number);
+                },
                 [&add](bool bValue) { add(bValue); },
-                [&error](const ConfigNode::Other&) {
-                    error = "expected a string, number, boolean, table or list, found a date or time";
+                [&fault](const ConfigNode::Other&) {
+                    fault = "expected a string, number, boolean, table or list, found a date or time";
                 }},
             std::get<const ConfigNode*>(step)->value);
     }
-    if (!error.empty())
+    if (fault.has_value())
     {
-        return tl::unexpected(std::move(error));
+        return tl::unexpected(std::move(*fault));
     }
     if (!json.empty())
     {

@@ -1,6 +1,7 @@
 #include "RobotConfig.hpp"
 
 #include "ArmConfig.hpp"
+#include "MessageValue.hpp"
 #include "PlaceConfig.hpp"
 #include <acs/core/Location.hpp>
 #include <acs/core/RobotID.hpp>
@@ -88,6 +89,10 @@ LoadPositions ReadLoadPositions(const ConfigSection& robot, const std::vector<Co
         if (!bPort || position.empty())
         {
             section.AddMistake(name, "expected a port of this robot, such as CP01, and the vehicle's name of it");
+        }
+        else if (const std::optional<std::string> fault = FindNameFaultOrNull(position))
+        {
+            section.AddMistake(name, *fault);
         }
         names.emplace(name, position);
     }

@@ -1,13 +1,16 @@
 #include "StationConfig.hpp"
 
 #include "common/ConfigDocument.hpp"
+#include "MessageValue.hpp"
 #include <acs/core/Overloaded.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -33,6 +36,28 @@ StationValues MakeValues(const Planning::SiteStation& station)
         values.emplace("height", *station.height);
     }
     return values;
+}
+
+/// What a template cannot put into a message.
+std::optional<std::string> FindFaultOrNull(const JobValue& value)
+{
+    if (const auto* const text = std::get_if<std::string>(&value))
+    {
+        return FindTextFaultOrNull(*text);
+    }
+    const auto* const number = std::get_if<double>(&value);
+    return number == nullptr ? std::nullopt : FindNumberFaultOrNull(*number);
+}
+
+void CheckValues(const ConfigSection& section, const StationValues& values)
+{
+    for (const auto& [key, value] : values)
+    {
+        if (const std::optional<std::string> fault = FindFaultOrNull(value))
+        {
+            section.AddMistake(key, *fault);
+        }
+    }
 }
 
 /// A key that acsd does not know, for templates.
@@ -91,6 +116,7 @@ void ReadStation(const ConfigSection& section, const std::string& stationID, Acs
             ReadValue(section, key, values);
         }
     }
+    CheckValues(section, values);
 }
 
 } // namespace

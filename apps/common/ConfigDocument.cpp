@@ -1,6 +1,7 @@
 #include "common/ConfigDocument.hpp"
 
 #include "common/TomlTree.hpp"
+#include <acs/core/ControlCharacter.hpp>
 #include <acs/core/Overloaded.hpp>
 
 #include <fmt/format.h>
@@ -25,6 +26,18 @@ bool IsBareKey(std::string_view key)
         return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z')
             || (character >= '0' && character <= '9') || character == '-' || character == '_';
     });
+}
+
+/// In quotes, as TOML has it.
+std::string QuoteKey(std::string_view key)
+{
+    std::string text;
+    for (const char character : key)
+    {
+        text += Core::IsControlCharacter(character) ? fmt::format("\\u{:04X}", static_cast<unsigned char>(character))
+                                                    : std::string(1, character);
+    }
+    return fmt::format("\"{}\"", text);
 }
 
 /// How many characters must be inserted, removed, replaced or exchanged with their neighbour to make one of the other.
@@ -281,7 +294,7 @@ std::vector<std::string> ConfigDocument::MakeMistakes() const
 
 std::string ConfigDocument::JoinPath(const std::string& path, const std::string& key)
 {
-    const std::string name = IsBareKey(key) ? key : fmt::format("\"{}\"", key);
+    const std::string name = IsBareKey(key) ? key : QuoteKey(key);
     return path.empty() ? name : fmt::format("{}.{}", path, name);
 }
 
