@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -27,7 +28,7 @@ namespace
 using Apps::ConfigSection;
 using Apps::EUrlScheme;
 
-/// Ports that stand twice, and places inside carriers on ports that the robot does not have.
+/// Ports that are listed twice, and places inside carriers on ports that the robot does not have.
 void CheckPorts(const ConfigSection& section, const Planning::RobotOptions& robot)
 {
     std::set<std::string_view> seen;
@@ -37,7 +38,7 @@ void CheckPorts(const ConfigSection& section, const Planning::RobotOptions& robo
         {
             if (!seen.insert(place.GetText()).second)
             {
-                section.AddMistake(key, fmt::format("{} stands there twice", place.GetText()));
+                section.AddMistake(key, fmt::format("{} is listed twice", place.GetText()));
             }
         }
     }
@@ -47,7 +48,7 @@ void CheckPorts(const ConfigSection& section, const Planning::RobotOptions& robo
         const std::string_view carrier = text.substr(0, text.rfind('.'));
         if (std::ranges::find(robot.ports, carrier, &Core::Location::GetText) == robot.ports.end())
         {
-            section.AddMistake("child_ports", fmt::format("{} is in {}, which is none of its ports", text, carrier));
+            section.AddMistake("child_ports", fmt::format("{} is in {}, which is not in ports", text, carrier));
         }
     }
 }
@@ -113,12 +114,26 @@ LoadPositions ReadLoadPositions(const ConfigSection& robot, const std::vector<Co
     return {ports, names};
 }
 
+/// Whether the table has one of the keys that each robot needs. One with overrides under a misspelled name has none.
+bool HasRobotKey(const ConfigSection& section)
+{
+    static constexpr std::array KEYS{"type", "manufacturer", "serial", "vehicle_type", "start_node"};
+    const std::vector<std::string> names = section.GetNames();
+    return std::ranges::any_of(KEYS, [&names](const char* key) { return std::ranges::count(names, key) > 0; });
+}
+
 void ReadRobot(const ConfigSection& section, const std::string& name, AcsdConfig& config)
 {
     const Core::Result<Core::RobotID> robotID = Core::RobotID::Parse(name);
     if (!robotID)
     {
         section.Refuse(Core::Describe(robotID.error()));
+        return;
+    }
+    if (!HasRobotKey(section))
+    {
+        section.Refuse(
+            "describes no robot; correct the name, or give type, manufacturer, serial, vehicle_type and start_node");
         return;
     }
     Planning::RobotOptions options{*robotID, {}, {}, {}, {}, {}, {}, {}};

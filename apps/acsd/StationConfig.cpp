@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -89,8 +90,18 @@ void ReadReach(const ConfigSection& section, const std::string& stationID, AcsdC
         section.AddMistake(
             "reach",
             fmt::format("expected other stations of the site map, found {}", Core::QuoteForError(*wrong)));
+        return;
     }
-    else if (!reach.empty())
+    std::set<std::string_view> seen;
+    for (const std::string& other : reach)
+    {
+        if (!seen.insert(other).second)
+        {
+            section.AddMistake("reach", fmt::format("{} is listed twice", other));
+            return;
+        }
+    }
+    if (!reach.empty())
     {
         config.engine.reach.insert_or_assign(stationID, std::move(reach));
     }

@@ -114,6 +114,8 @@ TEST_CASE("Each mistake is told once, under its key, with the line of the file o
         {{"robots.LR01.manufacturer=7"}, {"--set: robots.LR01.manufacturer: expected a string"}},
         {{"mqtt.interface_name=a/b"}, {"--set: mqtt.interface_name: "}},
         {{"robots.LR01=7"}, {"--set: robots.LR01: expected a table"}},
+        {{"robots.LR1.actions.CassetteLoad.vehicle_action=x"},
+         {"--set: robots.LR1: describes no robot; correct the name, or give type"}},
         {{R"(robots."LR 01".type=LR)"}, {R"(--set: robots."LR 01": expected a robot's name)"}},
         {{"robots.LR01.type=CR"}, {file + "*: robots.LR01.arm: a CR needs"}},
         {{"robots.CR01.arm.http=http://127.0.0.1:2"}, {"--set: robots.CR01.arm.http: unknown key"}},
@@ -127,11 +129,11 @@ TEST_CASE("Each mistake is told once, under its key, with the line of the file o
          {"--set: arm.counter_failed: is 30, as arm.counter_started is"}},
         {{R"(http.hosts=["acs.example", "acs:80"])"}, {"--set: http.hosts: expected names without port"}},
         {{R"(mcs.host="a b")"}, {"--set: mcs.host: expected HOST or HOST:PORT, found \"a b\""}},
-        {{R"(robots.LR01.ports=["CP01-02", "CP02"])"}, {"--set: robots.LR01.ports: LR01.CP02 stands there twice"}},
+        {{R"(robots.LR01.ports=["CP01-02", "CP02"])"}, {"--set: robots.LR01.ports: LR01.CP02 is listed twice"}},
         {{R"(robots.CR01.child_ports=["TP01.MP01-03", "TP01.MP03"])"},
-         {"--set: robots.CR01.child_ports: CR01.TP01.MP03 stands there twice"}},
+         {"--set: robots.CR01.child_ports: CR01.TP01.MP03 is listed twice"}},
         {{R"(robots.CR01.child_ports=["TP09.MP01"])"},
-         {"--set: robots.CR01.child_ports: CR01.TP09.MP01 is in CR01.TP09, which is none of its ports"}},
+         {"--set: robots.CR01.child_ports: CR01.TP09.MP01 is in CR01.TP09, which is not in ports"}},
         {{"robots.LR01.home=X99"}, {"--set: robots.LR01.home: expected a station of the site map, found X99"}},
         {{"robots.LR01.home=X99", "robots.CR01.start_node=N0", "robot.battery_floor=90"},
          {"--set: robots.CR01.start_node: expected a node",
@@ -212,11 +214,15 @@ TEST_CASE("4.1 An action that no robot can do as it stands is a mistake that say
         ReadWithout({"actions.Start"}, "[actions.Start]\nrobot = 'CR'\nvehicle_action = 'start'\n").mistakes;
     REQUIRE(noProgram.size() == 1);
     CHECK(
-        noProgram[0].find("actions.Start: no robot can do it, CR01: the arm has no program for Start; give arm_program")
+        noProgram[0].find(
+            "actions.Start.vehicle_action: no robot can do it, CR01: the arm has no program for Start; give "
+            "arm_program")
         != std::string::npos);
     const auto noArm = ReadWithout({"actions.Start"}, "[actions.Start]\nrobot = 'LR'\narm_program = 3\n").mistakes;
     REQUIRE(noArm.size() == 1);
-    CHECK(noArm[0].find("LR01: the vehicle has no action for Start") != std::string::npos);
+    CHECK(
+        noArm[0].find("actions.Start.arm_program: no robot can do it, LR01: the vehicle has no action for Start")
+        != std::string::npos);
 }
 
 TEST_CASE("4.1 What a robot's adapter does not do the engine does not give it, and says why")
