@@ -1,7 +1,9 @@
 #include "JobData.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <initializer_list>
+#include <string_view>
 
 namespace ACS::Acsd
 {
@@ -39,6 +41,22 @@ std::string MakePortText(const Core::Location& place)
     return place.IsMemoryPort() ? text.substr(0, text.rfind('.')) : text;
 }
 
+/// The innermost station of the table that the place is, or is inside; null where there is none.
+const StationTable::value_type* FindStationOfOrNull(const StationTable& stations, const Core::Location& place)
+{
+    std::string_view text = place.GetText();
+    while (!text.empty())
+    {
+        if (const auto station = stations.find(text); station != stations.end())
+        {
+            return &*station;
+        }
+        const std::size_t dot = text.rfind('.');
+        text = text.substr(0, dot == std::string_view::npos ? 0 : dot);
+    }
+    return nullptr;
+}
+
 } // namespace
 
 JobData::JobData(const Planning::StartJob& job, const StationTable& stations, const LoadPositions& positions)
@@ -50,9 +68,17 @@ JobData::JobData(const Planning::StartJob& job, const StationTable& stations, co
       _jobNumber(job.jobNumber)
 {
     const Core::Location* const place = FindPlaceOrNull();
-    _stationID = place == nullptr ? job.position : place->GetDockingPlace().GetText();
-    const auto station = stations.find(_stationID);
-    _stationOrNull = station == stations.end() ? nullptr : &station->second;
+    if (const auto* const own = place == nullptr ? nullptr : FindStationOfOrNull(stations, *place))
+    {
+        _stationID = own->first;
+        _stationOrNull = &own->second;
+    }
+    else
+    {
+        const auto station = stations.find(job.position);
+        _stationID = job.position;
+        _stationOrNull = station == stations.end() ? nullptr : &station->second;
+    }
     if (const Core::Location* const robotPlace = FindRobotPlaceOrNull())
     {
         const std::string port = MakePortText(*robotPlace);

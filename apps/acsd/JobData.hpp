@@ -46,7 +46,8 @@ public:
     /// The stations must outlive it.
     JobData(const Planning::StartJob& job, const StationTable& stations, const LoadPositions& positions);
 
-    /// Of the job's own fixed place, which may be another station than the one where the robot is docked.
+    /// The innermost station that has the job's own fixed place, which may be another one than where the robot is docked;
+    /// that one where no station has the place.
     [[nodiscard]] const std::string& GetStationID() const noexcept;
 
     /// nullopt where the job has no such thing. A number of a place is 0 where the place lacks it.

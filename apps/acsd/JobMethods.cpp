@@ -56,9 +56,4 @@ const LoadPositions& JobMethods::GetPositions() const noexcept
     return _positions;
 }
 
-const StationTable& JobMethods::GetStations() const noexcept
-{
-    return *_stations;
-}
-
 } // namespace ACS::Acsd

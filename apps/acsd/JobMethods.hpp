@@ -46,7 +46,6 @@ public:
     [[nodiscard]] JobData MakeData(const Planning::StartJob& job) const;
 
     [[nodiscard]] const LoadPositions& GetPositions() const noexcept;
-    [[nodiscard]] const StationTable& GetStations() const noexcept;
 };
 
 } // namespace ACS::Acsd

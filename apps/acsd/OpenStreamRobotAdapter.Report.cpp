@@ -25,6 +25,12 @@ void OpenStreamRobotAdapter::DrainBase(AdapterActions& out)
             raiseOrNull == nullptr ? nullptr : std::get_if<Planning::LinkChanged>(&raiseOrNull->event);
         const Planning::StateChanged* stateOrNull =
             raiseOrNull == nullptr ? nullptr : std::get_if<Planning::StateChanged>(&raiseOrNull->event);
+        const bool bJobCheck =
+            raiseOrNull != nullptr && std::holds_alternative<Planning::JobCheckChanged>(raiseOrNull->event);
+        if (bJobCheck)
+        {
+            continue; // the base does no jobs
+        }
         if (stateOrNull != nullptr)
         {
             _baseState = *stateOrNull;

@@ -265,9 +265,8 @@ std::vector<JobName> ParameterTemplate::GetNames() const
     return names;
 }
 
-tl::expected<JsonText, ParameterFault> ParameterTemplate::Resolve(
-    const JobData& data,
-    std::optional<EValueDataType> type) const
+tl::expected<JsonText, std::string> ParameterTemplate::Resolve(const JobData& data, std::optional<EValueDataType> type)
+    const
 {
     std::string json;
     for (const Piece& piece : _pieces)
@@ -286,17 +285,19 @@ tl::expected<JsonText, ParameterFault> ParameterTemplate::Resolve(
             *piece.scalarOrNone);
         if (!value.has_value())
         {
-            return tl::unexpected(
-                ParameterFault{value.error(), fmt::format("the job has no {}", MakeNameText(value.error()))});
+            return tl::unexpected(fmt::format("the job has no {}", MakeNameText(value.error())));
+        }
+        if (const auto* const number = std::get_if<double>(&*value); number != nullptr && !std::isfinite(*number))
+        {
+            return tl::unexpected(fmt::format("{} is not a finite number", *number));
         }
         const bool bConverted = IsScalar() && type.has_value();
         const std::optional<JsonText> converted =
             bConverted ? ConvertOrNull(*value, *type) : std::optional(MakeJson(*value));
         if (!converted.has_value())
         {
-            return tl::unexpected(ParameterFault{
-                std::nullopt,
-                fmt::format("{} is not of type {}", MakeJson(*value).GetText(), GetTypeName(*type))});
+            return tl::unexpected(
+                fmt::format("{} is not of type {}", MakeJson(*value).GetText(), GetTypeName(*type)));
         }
         json += converted->GetText();
     }
@@ -304,8 +305,7 @@ tl::expected<JsonText, ParameterFault> ParameterTemplate::Resolve(
     const EValueDataType structure = bObject ? EValueDataType::Object : EValueDataType::Array;
     if (!IsScalar() && type.value_or(structure) != structure)
     {
-        return tl::unexpected(
-            ParameterFault{std::nullopt, fmt::format("{} is not of type {}", GetJsonKind(), GetTypeName(*type))});
+        return tl::unexpected(fmt::format("{} is not of type {}", GetJsonKind(), GetTypeName(*type)));
     }
     return JsonText::FromTrusted(std::move(json));
 }

@@ -16,13 +16,6 @@
 namespace ACS::Acsd
 {
 
-/// Why a parameter has no value for a job.
-struct ParameterFault
-{
-    std::optional<JobName> missing; ///< The name that the job does not have; absent: the value has the wrong type.
-    std::string reason;
-};
-
 /// The value of a parameter of a vehicle's action: a scalar, or a table or list of scalars. Strings are templates.
 class ParameterTemplate final
 {
@@ -48,8 +41,9 @@ public:
 
     [[nodiscard]] std::vector<JobName> GetNames() const;
 
-    /// Of the type that the vehicle's factsheet declares; absent: as TOML has it.
-    [[nodiscard]] tl::expected<Core::JsonText, ParameterFault> Resolve(
+    /// Of the type that the vehicle's factsheet declares; absent: as TOML has it. The error says which name the job does not
+    /// have, or which value has another type.
+    [[nodiscard]] tl::expected<Core::JsonText, std::string> Resolve(
         const JobData& data,
         std::optional<VDA5050::EValueDataType> type) const;
 

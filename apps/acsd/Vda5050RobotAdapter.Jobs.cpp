@@ -1,7 +1,5 @@
 #include "Vda5050RobotAdapter.hpp"
 
-#include "VehicleParameters.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -55,31 +53,18 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
 
 tl::expected<VDA5050::OrderMessage, std::string> Vda5050RobotAdapter::MakeJobOrder(const Planning::StartJob& job) const
 {
-    const JobData data = _methods.MakeData(job);
-    const JobMethod* const methodOrNull = _methods.FindMethodOrNull(job.action, data);
-    if (methodOrNull == nullptr)
+    tl::expected<VDA5050::Action, std::string> action = _jobCheck->MakeAction(job);
+    if (!action.has_value())
     {
-        return tl::unexpected(fmt::format("the vehicle has no action for {}", job.action));
+        return tl::unexpected(std::move(action.error()));
     }
-    tl::expected<std::vector<VDA5050::ActionParameter>, std::string> parameters =
-        MakeActionParameters(*methodOrNull, data, _session.GetFactsheetOrNull());
-    if (!parameters.has_value())
-    {
-        return tl::unexpected(std::move(parameters.error()));
-    }
-    VDA5050::Action action;
-    action.actionType = methodOrNull->vehicleAction;
-    action.actionID = job.commandID;
-    action.blockingType = VDA5050::EBlockingType::Hard;
-    action.actionParameters = std::move(*parameters);
-
     VDA5050::OrderMessage order;
     // Plans may name a job as one before did: a vehicle takes an orderId that it knows for a repetition.
     order.orderID = job.commandID;
     VDA5050::OrderNode& node = order.nodes.emplace_back();
     node.nodeID = _session.GetStateOrNull()->lastNodeID;
     node.bReleased = true;
-    node.actions.push_back(std::move(action));
+    node.actions.push_back(std::move(*action));
     return order;
 }
 

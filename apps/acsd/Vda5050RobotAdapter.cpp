@@ -1,6 +1,5 @@
 #include "Vda5050RobotAdapter.hpp"
 
-#include "VehicleParameters.hpp"
 #include <acs/core/Overloaded.hpp>
 
 #include <fmt/format.h>
@@ -55,8 +54,10 @@ Vda5050RobotAdapter::Vda5050RobotAdapter(
     JobMethods methods,
     RobotOutputs& outputs,
     std::chrono::milliseconds loadTimeout)
-    : _session(std::move(options)),
+    : _bFactsheetAwaited(options.bFactsheetRequested),
+      _session(std::move(options)),
       _methods(std::move(methods)),
+      _jobCheck(std::make_shared<const VehicleJobCheck>(_methods, nullptr, _bFactsheetAwaited)),
       _outputs(outputs),
       _loadTimeout(loadTimeout)
 {
@@ -103,6 +104,11 @@ void Vda5050RobotAdapter::OnTimer(Planning::AdapterTimerID timer, Core::Now now,
         OnLoadTimeout(out);
         return;
     }
+    if (timer == FACTSHEET_TIMER)
+    {
+        OnFactsheet(out);
+        return;
+    }
     _session.OnTimer(static_cast<VDA5050::EMasterTimer>(timer), now, _sessionActions);
     Drain(now, out);
 }
@@ -114,7 +120,7 @@ std::optional<std::string> Vda5050RobotAdapter::GetRejectionReasonOrNull(std::st
     {
         return fmt::format("the vehicle has no action for {}", action);
     }
-    return FindParameterFaultOrNull(*methodOrNull, _methods.GetStations());
+    return std::nullopt;
 }
 
 std::vector<VDA5050::MqttSubscription> Vda5050RobotAdapter::GetSubscriptions() const
@@ -300,6 +306,10 @@ void Vda5050RobotAdapter::Take(const VDA5050::MasterAction& action, Core::Now no
             },
             [&](const VDA5050::StateReceived&) { TakeState(now, out); },
             [&](const VDA5050::PositionReceived& received) { TakePosition(received, out); },
+            [&](const VDA5050::FactsheetReceived&) {
+                out.emplace_back(Planning::CancelAdapterTimer{FACTSHEET_TIMER});
+                OnFactsheet(out);
+            },
             [&](const VDA5050::VehicleOnline&) { _foreignOrderID.clear(); },
             [&](const VDA5050::VehicleOffline&) { SetOnline(false, out); },
             [&](const VDA5050::VehicleBroken&) { SetOnline(false, out); },
@@ -395,10 +405,35 @@ void Vda5050RobotAdapter::TakeFinished(const std::string& orderID, AdapterAction
 
 void Vda5050RobotAdapter::SetOnline(bool bOnline, AdapterActions& out)
 {
-    if (std::exchange(_bOnline, bOnline) != bOnline)
+    if (std::exchange(_bOnline, bOnline) == bOnline)
     {
-        out.emplace_back(RaiseEvent{Planning::LinkChanged{bOnline}});
+        return;
     }
+    if (bOnline)
+    {
+        UpdateJobCheck(out); // before the engine gives it a plan
+    }
+    if (_bFactsheetAwaited && bOnline)
+    {
+        out.emplace_back(Planning::StartAdapterTimer{FACTSHEET_TIMER, FACTSHEET_TIMEOUT});
+    }
+    else if (_bFactsheetAwaited)
+    {
+        out.emplace_back(Planning::CancelAdapterTimer{FACTSHEET_TIMER});
+    }
+    out.emplace_back(RaiseEvent{Planning::LinkChanged{bOnline}});
+}
+
+void Vda5050RobotAdapter::OnFactsheet(AdapterActions& out)
+{
+    _bFactsheetAwaited = false;
+    UpdateJobCheck(out);
+}
+
+void Vda5050RobotAdapter::UpdateJobCheck(AdapterActions& out)
+{
+    _jobCheck = std::make_shared<const VehicleJobCheck>(_methods, _session.GetFactsheetOrNull(), _bFactsheetAwaited);
+    out.emplace_back(RaiseEvent{Planning::JobCheckChanged{_jobCheck}});
 }
 
 } // namespace ACS::Acsd

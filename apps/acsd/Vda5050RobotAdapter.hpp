@@ -4,6 +4,7 @@
 #include "JobMethods.hpp"
 #include "LoadCheck.hpp"
 #include "RobotOutputs.hpp"
+#include "VehicleJobCheck.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/vda5050/MasterSession.hpp>
 #include <acs/vda5050/OrderBuilder.hpp>
@@ -11,6 +12,7 @@
 #include <tl/expected.hpp>
 
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,9 +35,14 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
     /// The session has the numbers of its own timers, which are fewer.
     static constexpr Planning::AdapterTimerID LOAD_TIMER = 50;
     static constexpr std::chrono::milliseconds LOAD_TIMEOUT{10'000};
+    static constexpr Planning::AdapterTimerID FACTSHEET_TIMER = 51;
+    /// For the answer to the first factsheetRequest. Then the vehicle counts as one that publishes none.
+    static constexpr std::chrono::milliseconds FACTSHEET_TIMEOUT{5'000};
 
+    bool _bFactsheetAwaited;
     VDA5050::MasterSession _session;
     JobMethods _methods;
+    std::shared_ptr<const VehicleJobCheck> _jobCheck;
     RobotOutputs& _outputs;
     std::chrono::milliseconds _loadTimeout;
     VDA5050::MasterActions _sessionActions;
@@ -97,6 +104,9 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
     void TakeAction(const VDA5050::ActionChanged& action, Planning::AdapterActions& out);
     void TakeFinished(const std::string& orderID, Planning::AdapterActions& out);
     void SetOnline(bool bOnline, Planning::AdapterActions& out);
+    /// The factsheet has come, or is awaited no longer.
+    void OnFactsheet(Planning::AdapterActions& out);
+    void UpdateJobCheck(Planning::AdapterActions& out);
 
 public:
     /// The outputs must outlive the adapter. The time limit is for the loads to agree with a job whose action is finished.

@@ -16,7 +16,7 @@ namespace
 using VDA5050::AgvAction;
 using VDA5050::AgvActionParameter;
 
-/// The vehicle's own description of the action; null where it gives none, or none of its parameters.
+/// The vehicle's own description of the action; null where it gives none.
 const AgvAction* FindListedOrNull(const VDA5050::FactsheetMessage* factsheetOrNull, const std::string& actionType)
 {
     if (factsheetOrNull == nullptr)
@@ -25,7 +25,7 @@ const AgvAction* FindListedOrNull(const VDA5050::FactsheetMessage* factsheetOrNu
     }
     const std::vector<AgvAction>& listed = factsheetOrNull->protocolFeatures.agvActions;
     const auto row = std::ranges::find(listed, actionType, &AgvAction::actionType);
-    return row == listed.end() || row->actionParameters.empty() ? nullptr : &*row;
+    return row == listed.end() ? nullptr : &*row;
 }
 
 const AgvActionParameter* FindParameterOrNull(const AgvAction* actionOrNull, const std::string& key)
@@ -43,9 +43,13 @@ bool IsMandatory(const AgvActionParameter* parameterOrNull)
     return parameterOrNull != nullptr && !parameterOrNull->bOptional.value_or(false);
 }
 
-bool HasKey(const StationTable& stations, const std::string& key)
+/// A mandatory parameter of the factsheet that has no template.
+const AgvActionParameter* FindUnnamedOrNull(const AgvAction& listed, const JobMethod& method)
 {
-    return std::ranges::any_of(stations, [&key](const auto& station) { return station.second.contains(key); });
+    const auto unnamed = std::ranges::find_if(listed.actionParameters, [&method](const AgvActionParameter& rule) {
+        return IsMandatory(&rule) && std::ranges::count(method.parameters, rule.key, &VehicleParameter::key) == 0;
+    });
+    return unnamed == listed.actionParameters.end() ? nullptr : &*unnamed;
 }
 
 } // namespace
@@ -55,71 +59,52 @@ tl::expected<std::vector<VDA5050::ActionParameter>, std::string> MakeActionParam
     const JobData& data,
     const VDA5050::FactsheetMessage* factsheetOrNull)
 {
-    const AgvAction* const listedOrNull = FindListedOrNull(factsheetOrNull, method.vehicleAction);
+    const std::string& actionType = method.vehicleAction;
+    const AgvAction* listedOrNull = FindListedOrNull(factsheetOrNull, actionType);
+    const bool bListsOthers = factsheetOrNull != nullptr && !factsheetOrNull->protocolFeatures.agvActions.empty();
+    if (listedOrNull == nullptr && bListsOthers)
+    {
+        return tl::unexpected(fmt::format("the vehicle's factsheet does not list {}", actionType));
+    }
+    if (listedOrNull != nullptr && listedOrNull->actionParameters.empty())
+    {
+        listedOrNull = nullptr; // says nothing of parameters
+    }
     const AgvAction* const rulesOrNull =
-        listedOrNull == nullptr ? VDA5050::FindPredefinedActionOrNull(method.vehicleAction) : listedOrNull;
+        listedOrNull == nullptr ? VDA5050::FindPredefinedActionOrNull(actionType) : listedOrNull;
     std::vector<VDA5050::ActionParameter> parameters;
     for (const VehicleParameter& parameter : method.parameters)
     {
         const AgvActionParameter* const knownOrNull = FindParameterOrNull(listedOrNull, parameter.key);
-        if (parameter.bDefault && listedOrNull != nullptr && knownOrNull == nullptr)
+        if (listedOrNull != nullptr && knownOrNull == nullptr)
         {
-            continue;
+            if (parameter.bDefault)
+            {
+                continue;
+            }
+            return tl::unexpected(
+                fmt::format("the vehicle's factsheet does not list the parameter {} of {}", parameter.key, actionType));
         }
-        tl::expected<Core::JsonText, ParameterFault> value = parameter.value.Resolve(
+        tl::expected<Core::JsonText, std::string> value = parameter.value.Resolve(
             data,
             knownOrNull == nullptr ? std::nullopt : std::optional(knownOrNull->valueDataType));
         if (value.has_value())
         {
             parameters.push_back({parameter.key, std::move(*value)});
         }
-        else if (!value.error().missing.has_value() || IsMandatory(FindParameterOrNull(rulesOrNull, parameter.key)))
+        else if (IsMandatory(FindParameterOrNull(rulesOrNull, parameter.key)))
         {
-            return tl::unexpected(fmt::format(
-                "the parameter {} of {} cannot be given: {}",
-                parameter.key,
-                method.vehicleAction,
-                value.error().reason));
+            return tl::unexpected(
+                fmt::format("the parameter {} of {} cannot be given: {}", parameter.key, actionType, value.error()));
         }
     }
-    if (listedOrNull != nullptr)
+    if (const AgvActionParameter* const unnamedOrNull =
+            listedOrNull == nullptr ? nullptr : FindUnnamedOrNull(*listedOrNull, method))
     {
-        for (const AgvActionParameter& rule : listedOrNull->actionParameters)
-        {
-            if (IsMandatory(&rule) && std::ranges::count(method.parameters, rule.key, &VehicleParameter::key) == 0)
-            {
-                return tl::unexpected(fmt::format(
-                    "the parameter {} of {} is mandatory and not configured",
-                    rule.key,
-                    method.vehicleAction));
-            }
-        }
+        return tl::unexpected(
+            fmt::format("the parameter {} of {} is mandatory and not configured", unnamedOrNull->key, actionType));
     }
     return parameters;
-}
-
-std::optional<std::string> FindParameterFaultOrNull(const JobMethod& method, const StationTable& stations)
-{
-    const AgvAction* const rulesOrNull = VDA5050::FindPredefinedActionOrNull(method.vehicleAction);
-    for (const VehicleParameter& parameter : method.parameters)
-    {
-        if (!IsMandatory(FindParameterOrNull(rulesOrNull, parameter.key)))
-        {
-            continue;
-        }
-        for (const JobName& name : parameter.value.GetNames())
-        {
-            if (name.subject == JobName::ESubject::Station && !HasKey(stations, name.key))
-            {
-                return fmt::format(
-                    "the parameter {} of {} cannot be given: no station has a {}",
-                    parameter.key,
-                    method.vehicleAction,
-                    name.key);
-            }
-        }
-    }
-    return std::nullopt;
 }
 
 } // namespace ACS::Acsd

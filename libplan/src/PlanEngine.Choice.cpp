@@ -171,8 +171,8 @@ PlanEngine::Impl::Robot* PlanEngine::Impl::FindQuickestOrNull(const ActivePlan& 
     return nearest == robots.end() ? nullptr : *nearest;
 }
 
-/// Of the robots that are free and whose ports fit, the nearest; one that is known to have the carriers before one of which
-/// that is only supposed.
+/// Of the robots that are free, can do the jobs and whose ports fit, the nearest; one that is known to have the carriers
+/// before one of which that is only supposed.
 PlanEngine::Impl::Robot* PlanEngine::Impl::FindNearestOrNull(const ActivePlan& plan)
 {
     std::vector<Robot*> known;
@@ -180,7 +180,8 @@ PlanEngine::Impl::Robot* PlanEngine::Impl::FindNearestOrNull(const ActivePlan& p
     for (const std::size_t index : plan.resolved.candidates)
     {
         Robot& robot = _robots[index];
-        const PortVerdict verdict = IsFree(robot) ? JudgePorts(plan, robot) : PortVerdict{"", false};
+        const bool bPossible = IsFree(robot) && !plan.rejections.contains(index);
+        const PortVerdict verdict = bPossible ? JudgePorts(plan, robot) : PortVerdict{"", false};
         if (!verdict.objectionOrNull.has_value() && CanServe(robot, plan))
         {
             (verdict.bSupposed ? supposed : known).push_back(&robot);
@@ -400,6 +401,30 @@ std::optional<WaitReason> PlanEngine::Impl::GetWaitReasonOrNull(std::string_view
             DescribeWaiting(*found->second, static_cast<std::size_t>(std::distance(_pending.begin(), pending)) + 1));
 }
 
+/// Why the robot is not given the plan now; nullopt where it is.
+std::optional<std::string> PlanEngine::Impl::FindObjectionOrNull(const ActivePlan& plan, const Robot& robot) const
+{
+    if (const auto rejection = plan.rejections.find(robot.index); rejection != plan.rejections.end())
+    {
+        return rejection->second;
+    }
+    if (!IsFree(robot))
+    {
+        return DescribeUnfree(robot);
+    }
+    if (std::optional<std::string> objection = JudgePorts(plan, robot).objectionOrNull)
+    {
+        return objection;
+    }
+    if (!HasWay(plan, robot))
+    {
+        return "no route to " + plan.resolved.steps.front().stationID;
+    }
+    return CanServe(robot, plan)
+        ? std::nullopt
+        : std::optional<std::string>("robots that cannot move keep it from the way there, or home");
+}
+
 WaitReason PlanEngine::Impl::DescribeWaiting(const ActivePlan& plan, std::size_t position) const
 {
     WaitReason reason;
@@ -407,23 +432,9 @@ WaitReason PlanEngine::Impl::DescribeWaiting(const ActivePlan& plan, std::size_t
     reason.queuePosition = position;
     for (const std::size_t index : plan.resolved.candidates)
     {
-        const Robot& robot = _robots[index];
-        std::optional<std::string> objection;
-        if (!IsFree(robot))
+        if (std::optional<std::string> objection = FindObjectionOrNull(plan, _robots[index]))
         {
-            objection = DescribeUnfree(robot);
-        }
-        else if (objection = JudgePorts(plan, robot).objectionOrNull; !objection.has_value() && !HasWay(plan, robot))
-        {
-            objection = "no route to " + plan.resolved.steps.front().stationID;
-        }
-        else if (!objection.has_value() && !CanServe(robot, plan))
-        {
-            objection = "robots that cannot move keep it from the way there, or home";
-        }
-        if (objection.has_value())
-        {
-            reason.robots.push_back({GetRobotID(robot), std::move(*objection)});
+            reason.robots.push_back({GetRobotID(_robots[index]), std::move(*objection)});
         }
     }
     if (_tscState != ETscState::Auto)
@@ -437,6 +448,10 @@ WaitReason PlanEngine::Impl::DescribeWaiting(const ActivePlan& plan, std::size_t
     else if (_bGathering)
     {
         reason.message = "Not every robot has told where it stands since the restart.";
+    }
+    else if (IsRejectedByAll(plan))
+    {
+        reason.message = DescribeRejections(plan);
     }
     else if (reason.robots.size() < plan.resolved.candidates.size())
     {

@@ -119,6 +119,7 @@ void PlanEngine::Impl::Submit(const SubmitPlan& command)
     _actions.emplace_back(ReplyCommand{command.replyToken, true, REGISTERED});
     StartTimer(EEngineTimer::Dispatch, {}, {});
     _pending.emplace(plan->key, plan.get());
+    std::ranges::for_each(_robots, [this, &plan](const Robot& robot) { CheckJobs(*plan, robot); });
     const std::string planID = plan->record.plan.planID;
     _plans.emplace(planID, std::move(plan));
 }

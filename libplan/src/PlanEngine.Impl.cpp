@@ -97,8 +97,9 @@ void PlanEngine::Impl::HandleEvent(std::string_view robotID, const RobotEvent& e
             [this, &robot](const JobFinished& typed) { OnJobFinished(robot, typed); },
             [this, &robot](const JobFailed& typed) { OnJobFailed(robot, typed); },
             [this, &robot](const JobUnknown& typed) { OnJobUnknown(robot, typed); },
-            [this, &robot](const JobUncertain& typed) {
-                OnJobUncertain(robot, typed);
+            [this, &robot](const JobUncertain& typed) { OnJobUncertain(robot, typed); },
+            [this, &robot](const JobCheckChanged& typed) {
+                OnJobCheck(robot, typed);
             }},
         event);
     NoteMovable(robot);

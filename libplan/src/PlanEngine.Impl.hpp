@@ -74,6 +74,7 @@ public:
         std::string repeatedCommandID; ///< Of a job that the robot never had: it is sent again under this.
         std::optional<Core::SteadyTime> jobDeadline;
         std::optional<Core::Duration> jobTimeLeft; ///< Of a job that is paused.
+        std::map<std::size_t, std::string> rejections; ///< While no robot has it, by robot: why that one cannot do a job.
     };
 
     enum class EActivity : std::uint8_t
@@ -183,6 +184,7 @@ public:
         bool bResumeOwed = false;  ///< It was told to go on and has not shown that it does.
         bool bConfirming = false;  ///< The timer ControlConfirm runs.
         bool bInMaintenance = false;
+        std::shared_ptr<const IJobCheck> jobCheck; ///< Null: no job is rejected.
         bool bBatteryLow = false;  ///< Was under the floor and is not full enough yet.
         bool bChargeAsked = false; ///< It was told to charge and not to stop that.
         bool bChargeShown = false; ///< Its state has shown that it does.
@@ -416,6 +418,7 @@ private:
         const Robot& robot,
         std::size_t port,
         const std::string& carrierID) const;
+    [[nodiscard]] std::optional<std::string> FindObjectionOrNull(const ActivePlan& plan, const Robot& robot) const;
     [[nodiscard]] WaitReason DescribeWaiting(const ActivePlan& plan, std::size_t position) const;
     [[nodiscard]] std::optional<WaitReason> DescribeBegunOrNull(const ActivePlan& plan) const;
     [[nodiscard]] std::string DescribeStanding(const Robot& robot) const;
@@ -485,6 +488,12 @@ private:
     [[nodiscard]] static bool IsBetween(const StateChanged& state, const SiteNode& from, const SiteNode& to);
     void EndDrive(Robot& robot);
 
+    // Which jobs a robot can do (PlanEngine.JobCheck.cpp).
+    void OnJobCheck(Robot& robot, const JobCheckChanged& event);
+    void CheckJobs(ActivePlan& plan, const Robot& robot) const;
+    [[nodiscard]] static bool IsRejectedByAll(const ActivePlan& plan);
+    [[nodiscard]] std::string DescribeRejections(const ActivePlan& plan) const;
+
     // Drives that do not get on (PlanEngine.Progress.cpp).
     void FollowDrive(Robot& robot);
     void OnDriveStall(Robot& robot);
@@ -528,6 +537,11 @@ private:
     [[nodiscard]] static bool HasJob(const ActivePlan& plan);
     [[nodiscard]] static const std::string& GetJobID(const ActivePlan& plan);
     [[nodiscard]] StartJob MakeStartJob(const Robot& robot) const;
+    [[nodiscard]] StartJob MakeStartJob(
+        const ActivePlan& plan,
+        std::size_t stepIndex,
+        std::size_t jobIndex,
+        const Robot& robot) const;
     [[nodiscard]] std::int32_t DrawJobNumber(std::int32_t previous);
 
     // Who does what (PlanEngine.Dispatch.cpp).

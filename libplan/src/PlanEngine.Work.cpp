@@ -175,23 +175,35 @@ void PlanEngine::Impl::LimitJob(Robot& robot)
 StartJob PlanEngine::Impl::MakeStartJob(const Robot& robot) const
 {
     const ActivePlan& plan = *robot.planOrNull;
-    const Step& step = plan.record.plan.steps[plan.step];
-    const ResolvedStep& resolved = plan.resolved.steps[plan.step];
+    StartJob job = MakeStartJob(plan, plan.step, plan.job, robot);
+    job.jobID = GetJobID(plan);
+    return job;
+}
+
+/// As the plan has it. A step without jobs has one job, without places and without an id.
+StartJob PlanEngine::Impl::MakeStartJob(
+    const ActivePlan& plan,
+    std::size_t stepIndex,
+    std::size_t jobIndex,
+    const Robot& robot) const
+{
+    const Step& step = plan.record.plan.steps[stepIndex];
+    const ResolvedStep& resolved = plan.resolved.steps[stepIndex];
     const Core::RobotID& robotID = _options.robots[robot.index].robotID;
     StartJob job;
     job.planID = plan.record.plan.planID;
     job.stepNo = step.stepNo;
-    job.jobID = GetJobID(plan);
     job.action = step.action;
     job.position = resolved.stationID;
-    if (HasJob(plan))
+    if (jobIndex < resolved.jobs.size())
     {
-        job.from = GetTextForOrNull(resolved.jobs[plan.job].from, robotID);
-        job.to = GetTextForOrNull(resolved.jobs[plan.job].to, robotID);
+        job.jobID = step.jobs[jobIndex].jobID;
+        job.from = GetTextForOrNull(resolved.jobs[jobIndex].from, robotID);
+        job.to = GetTextForOrNull(resolved.jobs[jobIndex].to, robotID);
     }
-    if (plan.job < step.carrierIDs.size() && !step.carrierIDs[plan.job].empty())
+    if (jobIndex < step.carrierIDs.size() && !step.carrierIDs[jobIndex].empty())
     {
-        job.carrierID = step.carrierIDs[plan.job];
+        job.carrierID = step.carrierIDs[jobIndex];
     }
     return job;
 }

@@ -5,7 +5,9 @@ import json
 import os
 import pathlib
 import sys
+import time
 import unittest
+import urllib.request
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "scripts"))
@@ -15,6 +17,7 @@ SITE = REPOSITORY / "examples" / "site"
 PLANS = [REPOSITORY / "examples" / "plans" / name for name in ("lr-cassette.json", "cr-tray.json")]
 TIME_SCALE = 20
 FINISH_SECONDS = 120
+STATUS_SECONDS = 20
 
 
 class ScenarioCase(unittest.TestCase):
@@ -39,6 +42,16 @@ class ScenarioCase(unittest.TestCase):
         arm = self.line.start_arm(TIME_SCALE, **arm_options)
         vehicles.wait_ready()
         return arm.wait_ready()
+
+    def read_status(self, address):
+        with urllib.request.urlopen(f"http://{address}/status", timeout=STATUS_SECONDS) as response:
+            return json.load(response)
+
+    def wait_for_status(self, address, is_reached, seconds=STATUS_SECONDS):
+        deadline = time.monotonic() + seconds
+        while not is_reached(self.read_status(address)):
+            self.assertLess(time.monotonic(), deadline, "the status was not reached")
+            time.sleep(0.02)
 
     def assert_last_line(self, program, expected):
         self.assertEqual(program.tail(1), [expected])

@@ -38,16 +38,6 @@ class Operations(ScenarioCase):
             self.assertLess(time.monotonic(), deadline, f"{part!r} was not logged")
             time.sleep(0.02)
 
-    def read_status(self, address):
-        with urllib.request.urlopen(f"http://{address}/status", timeout=LOG_SECONDS) as response:
-            return json.load(response)
-
-    def wait_for_status(self, address, is_reached):
-        deadline = time.monotonic() + LOG_SECONDS
-        while not is_reached(self.read_status(address)):
-            self.assertLess(time.monotonic(), deadline, "the status was not reached")
-            time.sleep(0.02)
-
     def submit(self, stub, plan_id):
         return stub.ask("ExecutionPlan", make_carrying_plan(plan_id))
 

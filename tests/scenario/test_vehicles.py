@@ -9,7 +9,7 @@ from scenario_case import FINISH_SECONDS, TIME_SCALE, ScenarioCase, main
 # A make whose actions, parameters and load positions have names of their own. It knows no stationType.
 OTHER_MAKE = ("LR02,type=LR,node=N001,ports=2,load=CP01:1,load=CP02:2,pick=loadCassette,drop=unloadCassette,"
               "stationName=rack,lhd=fork:INTEGER,stationType=")
-OTHER_ROBOT = """
+ROBOT = """
 [robots.LR02]
 type = "LR"
 manufacturer = "ACS"
@@ -18,7 +18,8 @@ vehicle_type = "lr-base"
 start_node = "N001"
 ports = ["CP01-02"]
 load_positions = { CP01 = "1", CP02 = "2" }
-
+"""
+OTHER_ROBOT = ROBOT + """
 [robots.LR02.actions.CassetteLoad]
 vehicle_action = "loadCassette"
 parameters = { rack = "{place}", fork = "{robot_port}", loadType = "cassette", loadId = "{carrier}" }
@@ -42,8 +43,8 @@ def make_plan(plan_id, robot, jobs):
 
 
 class Vehicles(ScenarioCase):
-    def run_plans(self, plans, vehicles, *overrides, tables=""):
-        """Plans through a whole line on one floor; returns mcs-sim after it has ended."""
+    def start_plans(self, plans, vehicles, *overrides, tables=""):
+        """A whole line on one floor, and mcs-sim with the plans."""
         self.line.share_world()
         self.line.start_broker()
         self.line.start_vehicles(TIME_SCALE, vehicles).wait_ready()
@@ -58,13 +59,29 @@ class Vehicles(ScenarioCase):
         config.write_text((site / "acsd.toml").read_text().replace('"site.lif.json"', f'"{site / "site.lif.json"}"')
                           + tables)
         self.trace = self.line.folder / "trace"
-        acsd = self.line.start_acsd(mcs.wait_ready()["ws"], arm, *overrides, config=config,
-                                    arguments=("--trace", self.trace))
-        acsd.wait_ready()
-        self.exit_code = mcs.wait(FINISH_SECONDS)
-        self.line.forget(acsd)
-        acsd.stop()  # else the last line of the trace may be half written
+        self.acsd = self.line.start_acsd(mcs.wait_ready()["ws"], arm, *overrides, config=config,
+                                         arguments=("--trace", self.trace))
+        self.http = self.acsd.wait_ready()["http"]
         return mcs
+
+    def stop_acsd(self):
+        """Else the last line of the trace may be half written."""
+        self.line.forget(self.acsd)
+        self.acsd.stop()
+
+    def run_plans(self, plans, vehicles, *overrides, tables=""):
+        """Returns mcs-sim after it has ended."""
+        mcs = self.start_plans(plans, vehicles, *overrides, tables=tables)
+        self.exit_code = mcs.wait(FINISH_SECONDS)
+        self.stop_acsd()
+        return mcs
+
+    def wait_for_reason(self, plan_id, reason):
+        """Until only this plan is left, and waits with this reason."""
+        message = f"No robot can do it: {reason}."
+        self.wait_for_status(self.http, lambda status: [
+            (plan["planId"], (plan["waits"] or {}).get("message")) for plan in status["plans"]] == [(plan_id, message)],
+            FINISH_SECONDS)
 
     def read_moves(self, robot):
         """(carrier, from, to) of everything that the robot has moved."""
@@ -113,14 +130,28 @@ class Vehicles(ScenarioCase):
             ("unloadCassette", {"rack": "A02.CP02", "fork": 2, "loadId": "C2"}),
             ("unloadCassette", {"rack": "A02.CP03", "fork": 1, "loadId": "C3"})])
 
-    def test_a_mandatory_parameter_without_a_value_fails_the_job_and_nothing_is_sent(self):
-        plan = make_plan("NONE", "LR01", [("C1", "A01.CP02", "CP01", "A02.CP01")])
-        mcs = self.run_plans([plan], ("LR01,type=LR", "CR01,type=CR"),
-                             'actions.CassetteLoad.parameters={stationType="{station.height}", loadType="cassette"}')
-        self.assertEqual(self.exit_code, 1)
-        self.assertEqual(mcs.tail(1), ["0 plans completed, 1 failed"])
+    def test_a_plan_with_a_mandatory_parameter_that_has_no_value_waits_with_the_reason(self):
+        plans = [make_plan("NONE", "LR01", [("C1", "A01.CP02", "CP01", "A02.CP01")])]
+        self.start_plans(plans, ("LR01,type=LR", "CR01,type=CR"),
+                         'actions.CassetteLoad.parameters={stationType="{station.height}", loadType="cassette"}')
+        self.wait_for_reason("NONE", "LR01: the parameter stationType of pick cannot be given: "
+                                     "the job has no {station.height}")
+        self.stop_acsd()
         self.assertEqual(self.read_actions("LR01"), [])
         self.assertEqual(self.read_moves("LR01"), [])
+
+    def test_a_vehicle_that_demands_an_unknown_parameter_gets_no_plan_and_another_one_does_the_work(self):
+        plans = [make_plan("OPEN", "AMR", [("C1", "A01.CP01", "CP01", "A02.CP01")]),
+                 make_plan("PINNED", "LR02", [("C2", "A01.CP03", "CP02", "A02.CP02")])]
+        demanding = "LR02,type=LR,node=N001,ports=2,load=CP01:1,load=CP02:2,stationType=kind"
+        names = 'parameters = { stationName = "{place}", loadType = "cassette", loadId = "{carrier}" }'
+        self.start_plans(plans, ("LR01,type=LR", "CR01,type=CR", demanding),
+                         tables=f"{ROBOT}[robots.LR02.actions.CassetteLoad]\n{names}\n")
+        self.wait_for_reason("PINNED", "LR02: the parameter kind of pick is mandatory and not configured")
+        self.stop_acsd()
+        self.assertEqual([kind for kind, _ in self.read_actions("LR01")], ["pick", "drop"])
+        self.assertEqual(self.read_actions("LR02"), [])
+        self.assertEqual(self.read_moves("LR02"), [])
 
 
 if __name__ == "__main__":

@@ -99,6 +99,7 @@ std::string Describe(const Planning::RobotEvent& event)
             [](const Planning::JobUncertain& typed) {
                 return fmt::format("job {} is uncertain: {}", typed.jobID, typed.reason);
             },
+            [](const Planning::JobCheckChanged&) { return std::string("checks jobs anew"); },
             [](const auto&) {
                 return std::string("other event");
             }},

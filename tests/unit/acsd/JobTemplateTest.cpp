@@ -96,6 +96,25 @@ TEST_CASE("The station is that of the job's own place, where the robot reaches o
     CHECK(Resolve("{station.type}", job) == "rack");
 }
 
+TEST_CASE("The station is the innermost one that has the job's own place, else the one where the robot is docked")
+{
+    const StationTable stations{
+        {"A01.CP01", {{"type", std::string("rack")}}},
+        {"A01.CP01.TP02", {{"type", std::string("tray")}}},
+        {"A02", {{"type", std::string("hall")}}}};
+    const LoadPositions positions = MakePositions();
+    const auto find = [&stations, &positions](const std::string& from) {
+        Planning::StartJob job = MakeTrayLoad();
+        job.from = from;
+        const JobData data(job, stations, positions);
+        return data.GetStationID() + " " + std::get<std::string>(*data.FindOrNull(*ParseJobName("station.type")));
+    };
+    CHECK(find("A01.CP01.TP02") == "A01.CP01.TP02 tray");
+    CHECK(find("A01.CP01.TP01") == "A01.CP01 rack");
+    CHECK(find("A02.CP05.TP01") == "A02 hall");
+    CHECK(find("A03.CP01.TP01") == "A01.CP01 rack");
+}
+
 TEST_CASE("What is exactly one name keeps the type of its value")
 {
     const LoadPositions positions = MakePositions();

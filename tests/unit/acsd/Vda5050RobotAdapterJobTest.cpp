@@ -2,8 +2,14 @@
 #include "VehicleFixture.hpp"
 #include <acs/vda5050/PredefinedActions.hpp>
 
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace ACS::Acsd::Test
@@ -26,7 +32,6 @@ JobMethods MakeMethods()
         "CassetteLoad",
         "A01.CP02",
         {"takeOver", 0, {{"kind", *ParameterTemplate::Make("{station.type}")}}});
-    methods.SetMethod("Weigh", {}, {"pick", 0, {{"stationType", *ParameterTemplate::Make("{station.side}")}}});
     return methods;
 }
 
@@ -48,11 +53,19 @@ std::string MakeText(const VDA5050::Action& action)
     return text;
 }
 
-/// The standard's factsheet, without what the codec demands beside it.
-VDA5050::FactsheetMessage MakeStandardFactsheet()
+/// The standard's factsheet, without what the codec demands beside it. With a pick that demands the height and the side, too.
+VDA5050::FactsheetMessage MakeStandardFactsheet(bool bAllMandatory = false)
 {
     VDA5050::FactsheetMessage factsheet;
     factsheet.protocolFeatures.agvActions = VDA5050::GetPredefinedActions();
+    auto& pick = *std::ranges::find(
+        factsheet.protocolFeatures.agvActions,
+        VDA5050::ActionTypes::PICK,
+        &VDA5050::AgvAction::actionType);
+    for (VDA5050::AgvActionParameter& parameter : pick.actionParameters)
+    {
+        parameter.bOptional = parameter.bOptional.value_or(false) && !bAllMandatory;
+    }
     return factsheet;
 }
 
@@ -93,16 +106,7 @@ TEST_CASE("A job whose mandatory parameter has no value fails with the reason, a
 {
     VehicleFixture vehicle(MakeMethods());
     vehicle.ComeOnline();
-    VDA5050::FactsheetMessage factsheet = MakeStandardFactsheet();
-    auto& pick = *std::ranges::find(
-        factsheet.protocolFeatures.agvActions,
-        VDA5050::ActionTypes::PICK,
-        &VDA5050::AgvAction::actionType);
-    for (VDA5050::AgvActionParameter& parameter : pick.actionParameters)
-    {
-        parameter.bOptional = false;
-    }
-    vehicle.Receive("factsheet", factsheet);
+    vehicle.Receive("factsheet", MakeStandardFactsheet(true));
     vehicle.Command(MakeLoad("A01.CP01", "LR01.CP01"));
     CHECK(vehicle.TakeOrders().empty());
     CHECK(
@@ -111,14 +115,74 @@ TEST_CASE("A job whose mandatory parameter has no value fails with the reason, a
             {"J", "the parameter height of pick cannot be given: the job has no {station.height}"}});
 }
 
-TEST_CASE("A mandatory parameter that no configured station has a value for makes the robot unavailable for the action")
+TEST_CASE("An action without a method makes the robot unavailable for it from the start")
 {
     const VehicleFixture vehicle(MakeMethods());
     CHECK_FALSE(vehicle.adapter.GetRejectionReasonOrNull("CassetteLoad").has_value());
-    CHECK(
-        vehicle.adapter.GetRejectionReasonOrNull("Weigh")
-        == "the parameter stationType of pick cannot be given: no station has a side");
     CHECK(vehicle.adapter.GetRejectionReasonOrNull("TrayLoad") == "the vehicle has no action for TrayLoad");
+}
+
+TEST_CASE("Each factsheet decides anew which jobs the vehicle can do")
+{
+    VehicleFixture vehicle(MakeMethods());
+    vehicle.ComeOnline();
+    const auto check = [&vehicle](const Planning::StartJob& job) {
+        return vehicle.TakeEvents<Planning::JobCheckChanged>().back().jobCheck->GetRejectionReasonOrNull(job);
+    };
+    const Planning::StartJob load = MakeLoad("A01.CP01", "LR01.CP01");
+    CHECK_FALSE(check(load).has_value());
+    vehicle.Receive("factsheet", MakeStandardFactsheet(true));
+    CHECK(check(load) == "the parameter height of pick cannot be given: the job has no {station.height}");
+    CHECK(check(MakeLoad("A01.CP02", "LR01.CP01")) == "the vehicle's factsheet does not list takeOver");
+    CHECK(check(MakeJob("TrayLoad")) == "the vehicle has no action for TrayLoad");
+    vehicle.Receive("factsheet", MakeStandardFactsheet());
+    CHECK_FALSE(check(load).has_value());
+}
+
+TEST_CASE("A vehicle that is asked for its factsheet is given no job before the answer, at most for 5 s")
+{
+    for (const bool bAnswers : {true, false})
+    {
+        VDA5050::MasterOptions options = VehicleFixture::MakeOptions();
+        options.bFactsheetRequested = true;
+        VehicleFixture vehicle(MakeMethods(), options);
+        const auto check = [&vehicle] {
+            return vehicle.TakeEvents<Planning::JobCheckChanged>().back().jobCheck->GetRejectionReasonOrNull(
+                MakeLoad("A01.CP01", "LR01.CP01"));
+        };
+        vehicle.ComeOnline();
+        CHECK(check() == "the vehicle has not sent its factsheet yet");
+        std::optional<Planning::StartAdapterTimer> timer;
+        std::vector<std::size_t> kinds; // of the events
+        for (const Planning::AdapterAction& action : std::exchange(vehicle.actions, {}))
+        {
+            const auto* const startOrNull = std::get_if<Planning::StartAdapterTimer>(&action);
+            timer = startOrNull != nullptr && startOrNull->delay == std::chrono::seconds(5) ? *startOrNull : timer;
+            if (const auto* const raiseOrNull = std::get_if<Planning::RaiseEvent>(&action))
+            {
+                kinds.push_back(raiseOrNull->event.index());
+            }
+        }
+        REQUIRE(timer.has_value());
+        REQUIRE(kinds.size() >= 2);
+        // Else a plan that waits would be given to the vehicle in between.
+        CHECK(kinds[0] == Planning::RobotEvent(Planning::JobCheckChanged()).index());
+        CHECK(kinds[1] == Planning::RobotEvent(Planning::LinkChanged()).index());
+        if (bAnswers)
+        {
+            vehicle.Receive("factsheet", MakeStandardFactsheet());
+            const Planning::AdapterAction cancelled = Planning::CancelAdapterTimer{timer->timer};
+            CHECK(std::ranges::count(vehicle.actions, cancelled) == 1);
+        }
+        else
+        {
+            vehicle.adapter.OnTimer(timer->timer, vehicle.clock.GetNow(), vehicle.actions);
+        }
+        CHECK_FALSE(check().has_value());
+        vehicle.adapter.OnLinkDown(vehicle.clock.GetNow(), vehicle.actions);
+        vehicle.ComeOnline();
+        CHECK_FALSE(check().has_value());
+    }
 }
 
 } // namespace ACS::Acsd::Test

@@ -39,8 +39,8 @@ struct VehicleFixture
     {
     }
 
-    explicit VehicleFixture(JobMethods methods)
-        : adapter(MakeOptions(), std::move(methods), outputs)
+    explicit VehicleFixture(JobMethods methods, VDA5050::MasterOptions options = MakeOptions())
+        : adapter(std::move(options), std::move(methods), outputs)
     {
         state.header.version = "2.0.0";
         state.header.manufacturer = "ACS";

@@ -64,7 +64,7 @@ public:
     virtual void OnTimer(AdapterTimerID timer, Core::Now now, AdapterActions& out) = 0;
 
     /// Why this robot cannot do the action, in words for the MCS; nullopt where it can. Asked at start
-    /// (FindRejectedActions), so it follows from how the robot is configured, not from how it does.
+    /// (FindRejectedActions), so it follows from how the robot is configured, not from how it does (JobCheckChanged).
     [[nodiscard]] virtual std::optional<std::string> GetRejectionReasonOrNull(std::string_view action) const = 0;
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <acs/plan/EAlarmLevel.hpp>
+#include <acs/plan/IJobCheck.hpp>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -146,6 +148,15 @@ struct JobUncertain
     bool operator==(const JobUncertain&) const = default;
 };
 
+/// What is known of the jobs that the robot can do has changed, as with a vehicle's factsheet. Plans that no robot has are
+/// checked with it, and those that it rejects are not given to the robot. Stays in effect while the robot is out of reach.
+struct JobCheckChanged
+{
+    std::shared_ptr<const IJobCheck> jobCheck; ///< Null, as before the first one: no job is rejected.
+
+    bool operator==(const JobCheckChanged&) const = default;
+};
+
 /// What an adapter tells the engine about its robot. What does not belong to the present drive or job is ignored, so
 /// an adapter may repeat itself.
 using RobotEvent = std::variant<
@@ -159,6 +170,7 @@ using RobotEvent = std::variant<
     JobFinished,
     JobFailed,
     JobUnknown,
-    JobUncertain>;
+    JobUncertain,
+    JobCheckChanged>;
 
 } // namespace ACS::Planning
