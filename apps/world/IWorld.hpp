@@ -35,6 +35,12 @@ public:
 
     /// Every event since the last call, or since this object exists, of all processes, in the order in which they happened.
     [[nodiscard]] virtual std::vector<WorldEvent> TakeEvents() = 0;
+
+    /// Why the last call did not see what other processes did; nullopt: it saw everything.
+    [[nodiscard]] virtual std::optional<Core::Error> GetFailureOrNull() const
+    {
+        return std::nullopt;
+    }
 };
 
 } // namespace ACS::Sim

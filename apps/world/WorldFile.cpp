@@ -65,7 +65,11 @@ Core::Result<std::unique_ptr<WorldFile>> WorldFile::Open(const std::string& path
 
 Core::Result<void> WorldFile::Act(const WorldEvent& event)
 {
-    const WorldJournal::Lock lock = _journal.Acquire();
+    const Core::Result<WorldJournal::Lock> lock = _journal.Acquire();
+    if (!lock.has_value())
+    {
+        return tl::make_unexpected(lock.error());
+    }
     Core::Result<void> done = ReadNews();
     if (!done.has_value())
     {
@@ -114,12 +118,19 @@ std::vector<WorldEvent> WorldFile::TakeEvents()
     return _world->TakeEvents();
 }
 
+std::optional<Core::Error> WorldFile::GetFailureOrNull() const
+{
+    return _failure;
+}
+
 Core::Result<void> WorldFile::ReadNews()
 {
-    return _journal.ReadNews([this](std::string_view line) -> Core::Result<void> {
+    Core::Result<void> done = _journal.ReadNews([this](std::string_view line) -> Core::Result<void> {
         const Core::Result<WorldEvent> event = DecodeWorldEvent(line);
         return event.has_value() ? _world->Act(*event) : tl::make_unexpected(event.error());
     });
+    _failure = done.has_value() ? std::nullopt : std::optional(done.error());
+    return done;
 }
 
 } // namespace ACS::Sim

@@ -5,6 +5,7 @@
 #include "world/WorldJournal.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,7 @@ class WorldFile final : public IWorld
 {
     std::unique_ptr<MemoryWorld> _world;
     WorldJournal _journal;
+    std::optional<Core::Error> _failure; ///< Of the last ReadNews.
 
     WorldFile(std::unique_ptr<MemoryWorld> world, WorldJournal journal);
 
@@ -26,12 +28,13 @@ public:
     [[nodiscard]] static Core::Result<std::unique_ptr<WorldFile>> Open(const std::string& path);
 
     [[nodiscard]] Core::Result<void> Act(const WorldEvent& event) override;
-    // Without the news where the journal cannot be read; Act says so.
+    // Without the news where the journal cannot be read; Act and GetFailureOrNull say so.
     [[nodiscard]] std::optional<std::string> GetCarrierOrNull(std::string_view place) override;
     [[nodiscard]] std::optional<std::string> GetPlaceOrNull(std::string_view carrierID) override;
     [[nodiscard]] EMemory GetMemory(std::string_view place) override;
     [[nodiscard]] bool IsCovered(std::string_view set) override;
     [[nodiscard]] std::vector<WorldEvent> TakeEvents() override;
+    [[nodiscard]] std::optional<Core::Error> GetFailureOrNull() const override;
 
 private:
     [[nodiscard]] Core::Result<void> ReadNews();

@@ -10,6 +10,7 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <system_error>
+#include <thread>
 #include <unistd.h>
 
 namespace ACS::Sim
@@ -19,20 +20,21 @@ namespace
 
 constexpr mode_t FILE_MODE = 0666;
 constexpr std::size_t CHUNK_BYTES = 64U * 1024U;
+constexpr std::chrono::milliseconds LOCK_POLL{1};
 
 } // namespace
 
 WorldJournal::Lock::Lock(int descriptor)
     : _descriptor(descriptor)
 {
-    while (::flock(_descriptor, LOCK_EX) != 0 && errno == EINTR)
-    {
-    }
 }
 
 WorldJournal::Lock::~Lock()
 {
-    ::flock(_descriptor, LOCK_UN);
+    if (_descriptor >= 0)
+    {
+        ::flock(_descriptor, LOCK_UN);
+    }
 }
 
 WorldJournal::WorldJournal(std::string path, int descriptor)
@@ -65,8 +67,28 @@ Core::Result<WorldJournal> WorldJournal::Open(const std::string& path)
     return journal;
 }
 
-WorldJournal::Lock WorldJournal::Acquire() const
+Core::Result<WorldJournal::Lock> WorldJournal::Acquire()
 {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point deadline = Clock::now() + (_bLockMissed ? std::chrono::seconds(0) : LOCK_TIMEOUT);
+    while (::flock(_descriptor, LOCK_EX | LOCK_NB) != 0)
+    {
+        if (errno != EWOULDBLOCK && errno != EINTR)
+        {
+            return FailForErrno("a file that can be locked");
+        }
+        if (Clock::now() >= deadline)
+        {
+            _bLockMissed = true;
+            return Core::Fail(
+                EWorldError::JournalFailed,
+                _path,
+                fmt::format("its lock within {} s", LOCK_TIMEOUT.count()),
+                "another process that holds it; end that process ('lslocks' lists it)");
+        }
+        std::this_thread::sleep_for(LOCK_POLL);
+    }
+    _bLockMissed = false;
     return Lock(_descriptor);
 }
 

@@ -2,6 +2,7 @@
 
 #include <acs/core/Result.hpp>
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -20,6 +21,7 @@ class WorldJournal
     int _descriptor = -1;
     std::uint64_t _offset = 0; ///< Of the first line that is not read yet.
     std::uint64_t _line = 0;   ///< Lines that are read.
+    bool _bLockMissed = false; ///< By the last Acquire.
 
     WorldJournal(std::string path, int descriptor);
 
@@ -27,15 +29,26 @@ public:
     static constexpr std::uint64_t MAX_BYTES = 256U * 1024U * 1024U;
     static constexpr std::size_t MAX_LINE = 64U * 1024U;
 
+    /// Maximum time that Acquire waits.
+    static constexpr std::chrono::seconds LOCK_TIMEOUT{2};
+
     /// The lock of all writers, held while it exists. The system lifts it when the process ends, however it ends.
     class Lock
     {
         int _descriptor;
 
     public:
+        /// Of a descriptor that has the lock.
         explicit Lock(int descriptor);
         Lock(const Lock&) = delete;
         Lock& operator=(const Lock&) = delete;
+
+        Lock(Lock&& other) noexcept
+            : _descriptor(std::exchange(other._descriptor, -1))
+        {
+        }
+
+        Lock& operator=(Lock&&) = delete;
         ~Lock();
     };
 
@@ -48,7 +61,8 @@ public:
         : _path(std::exchange(other._path, {})),
           _descriptor(std::exchange(other._descriptor, -1)),
           _offset(other._offset),
-          _line(other._line)
+          _line(other._line),
+          _bLockMissed(other._bLockMissed)
     {
     }
 
@@ -58,8 +72,9 @@ public:
     /// Created when missing. All errors are EWorldError::JournalFailed, with path and line.
     [[nodiscard]] static Core::Result<WorldJournal> Open(const std::string& path);
 
-    /// Waits for another writer, each of which holds it only while it reads the news and appends a line.
-    [[nodiscard]] Lock Acquire() const;
+    /// Waits up to LOCK_TIMEOUT for other writers, each of which holds the lock only while it reads the news and appends a
+    /// line. After a failure the next call tries once and does not wait, so that a caller's event loop is blocked only once.
+    [[nodiscard]] Core::Result<Lock> Acquire();
 
     /// Hands over the complete lines since the last call. An error of the reader ends it: that line is read again next time.
     [[nodiscard]] Core::Result<void> ReadNews(const LineReader& read);

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <optional>
+#include <set>
 #include <utility>
 
 namespace ACS::Sim
@@ -121,6 +123,39 @@ constexpr std::array MEMBERS{
     Member{"memories", ReadMemories},
     Member{"places", ReadPlaces}};
 
+/// The first name that the object has more than once.
+std::optional<std::string> FindRepeatedOrNull(const Json::Value& object)
+{
+    std::set<std::string_view> names;
+    for (const auto& member : object.GetObject())
+    {
+        if (!names.insert(GetView(member.name)).second)
+        {
+            return std::string(GetView(member.name));
+        }
+    }
+    return std::nullopt;
+}
+
+/// Each member once, also in the objects of the root.
+Core::Result<void> CheckNames(const Json::Value& root)
+{
+    std::optional<std::string> repeated = FindRepeatedOrNull(root);
+    for (auto member = root.MemberBegin(); !repeated.has_value() && member != root.MemberEnd(); ++member)
+    {
+        repeated = member->value.IsObject() ? FindRepeatedOrNull(member->value) : std::nullopt;
+        if (repeated.has_value())
+        {
+            repeated = fmt::format("{}.{}", GetView(member->name), *repeated);
+        }
+    }
+    if (repeated.has_value())
+    {
+        return Core::Fail(Core::ECoreError::InvalidJson, *repeated, "each member once", "it twice");
+    }
+    return {};
+}
+
 Core::Result<void> ReadMember(std::string_view name, const Json::Value& value, WorldStart& start)
 {
     for (const Member& member : MEMBERS)
@@ -150,9 +185,10 @@ Core::Result<WorldStart> DecodeWorldStart(std::string_view text)
     {
         return RefuseType({}, "an object", **root);
     }
-    if (Json::HasDuplicateNames(**root))
+    const Core::Result<void> named = CheckNames(**root);
+    if (!named.has_value())
     {
-        return Core::Fail(Core::ECoreError::InvalidJson, {}, "each member once");
+        return tl::make_unexpected(named.error());
     }
     if (Json::FindFirstOrNull(**root, "version") == nullptr)
     {

@@ -203,6 +203,18 @@ TextStream MakeStream(std::string_view text, PoolAllocator& pool)
     return TextStream(copy);
 }
 
+/// "byte 17", or "line 3, column 5" of a text with several lines. Both count bytes; the first line and column is 1.
+std::string DescribePosition(std::string_view text, std::size_t offset)
+{
+    if (text.find('\n') == std::string_view::npos)
+    {
+        return fmt::format("byte {}", offset);
+    }
+    const std::string_view before = text.substr(0, offset);
+    const std::size_t lineStart = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
+    return fmt::format("line {}, column {}", 1 + std::ranges::count(before, '\n'), offset - lineStart + 1);
+}
+
 bool IsUtf8Continuation(char byte)
 {
     return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
@@ -280,12 +292,19 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
             Core::ECoreError::InvalidJson,
             {},
             "JSON",
-            fmt::format("byte {}: {}", outcome.Offset(), rapidjson::GetParseError_En(outcome.Code())));
+            fmt::format(
+                "{}: {}",
+                DescribePosition(body, outcome.Offset()),
+                rapidjson::GetParseError_En(outcome.Code())));
     }
     // A NUL byte ends RapidJSON's stream as the real end does: what follows it would pass unseen.
     if (stream.Tell() != body.size())
     {
-        return Core::Fail(Core::ECoreError::InvalidJson, {}, "JSON", fmt::format("a NUL at byte {}", stream.Tell()));
+        return Core::Fail(
+            Core::ECoreError::InvalidJson,
+            {},
+            "JSON",
+            fmt::format("a NUL at {}", DescribePosition(body, stream.Tell())));
     }
     return &document;
 }

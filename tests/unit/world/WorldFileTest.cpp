@@ -9,10 +9,12 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -261,6 +263,49 @@ TEST_CASE("A journal that is cut, removed or spoilt while it is in use is an err
     REQUIRE_FALSE(acted.has_value());
     CHECK(acted.error().code == EWorldError::JournalFailed);
     CHECK(world->GetPlaceOrNull("CASSETTE_01") == "A01.CP01");
+}
+
+TEST_CASE(
+    "A journal that another process keeps locked is an error of Act that says so, and nothing happens until it is free")
+{
+    const FloorFixture floor;
+    const auto world = floor.Open();
+    REQUIRE(world->Act(DOCK));
+    const std::string before = floor.ReadJournal();
+    const int other = ::open(floor.GetJournalPath().c_str(), O_RDWR | O_CLOEXEC); // NOLINT: the system's signature
+    REQUIRE(other >= 0);
+    REQUIRE(::flock(other, LOCK_EX) == 0);
+    for (int attempt = 0; attempt < 3; ++attempt)
+    {
+        const Core::Result<void> acted = world->Act(PICK);
+        REQUIRE_FALSE(acted.has_value());
+        CHECK(acted.error().code == EWorldError::JournalFailed);
+        CHECK_THAT(
+            Core::Describe(acted.error()),
+            Catch::Contains("world.json.journal: expected its lock within 2 s") && Catch::Contains("end that process"));
+    }
+    CHECK(world->GetPlaceOrNull("CASSETTE_01") == "A01.CP01");
+    CHECK_FALSE(world->GetFailureOrNull().has_value()); // it can be read
+    CHECK(floor.ReadJournal() == before);
+    REQUIRE(::close(other) == 0);
+    REQUIRE(world->Act(PICK));
+    CHECK(world->GetPlaceOrNull("CASSETTE_01") == "LR01.CP01");
+}
+
+TEST_CASE("A journal that cannot be read says so with file and line, until it can be read again")
+{
+    const FloorFixture floor;
+    const auto world = floor.Open();
+    REQUIRE(world->Act(DOCK));
+    CHECK_FALSE(world->GetFailureOrNull().has_value());
+    const std::string whole = floor.ReadJournal();
+    FloorFixture::Write(floor.GetJournalPath(), "?\n", std::ios::app);
+    CHECK(world->TakeEvents().size() == 1);
+    REQUIRE(world->GetFailureOrNull().has_value());
+    CHECK_THAT(Core::Describe(*world->GetFailureOrNull()), Catch::Contains("world.json.journal:2: "));
+    std::filesystem::resize_file(floor.GetJournalPath(), whole.size());
+    CHECK(world->TakeEvents().empty());
+    CHECK_FALSE(world->GetFailureOrNull().has_value());
 }
 
 TEST_CASE("A world file with a mistake, or none, is refused by its name")

@@ -79,7 +79,8 @@ TEST_CASE("A mistake is refused with its place in the file")
              Mistake{"{}", "version"},
              Mistake{R"({"version":2})", "version"},
              Mistake{R"({"version":"1"})", "version"},
-             Mistake{R"({"version":1,"carriers":{},"carriers":{}})", ""},
+             Mistake{R"({"version":1,"carriers":{},"carriers":{}})", "carriers"},
+             Mistake{R"({"version":1,"carriers":{"TRAY_01":"A01.CP01","TRAY_01":"A01.CP02"}})", "carriers.TRAY_01"},
              Mistake{R"({"version":1,"cariers":{}})", "\"cariers\""},
              Mistake{R"({"version":1,"carriers":[]})", "carriers"},
              Mistake{R"({"version":1,"carriers":{"TRAY_01":7}})", "carriers.TRAY_01"},
@@ -106,6 +107,13 @@ TEST_CASE("A mistake is refused with its place in the file")
         CHECK(world.error().path == mistake.path);
         CHECK_FALSE(Core::Describe(world.error()).empty());
     }
+}
+
+TEST_CASE("A mistake of the syntax is reported with its line and column")
+{
+    const auto world = Load("{\n  \"version\": 1,\n  \"carriers\": {\"A\": \"A01.CP01\" \"B\"}\n}\n");
+    REQUIRE_FALSE(world.has_value());
+    CHECK_THAT(Core::Describe(world.error()), Catch::Contains("line 3, column 32: Missing a comma"));
 }
 
 TEST_CASE("Deep nesting is refused")
