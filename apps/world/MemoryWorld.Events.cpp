@@ -2,6 +2,7 @@
 
 #include "world/EWorldError.hpp"
 #include "world/WorldNames.hpp"
+#include <acs/core/Location.hpp>
 
 #include <fmt/format.h>
 
@@ -74,6 +75,26 @@ Core::Result<void> CheckNotHolding(const Place& place, EMemory found, EMemory ex
                                       : Core::Fail(EWorldError::PlaceOccupied, place.text, "a free place", "a memory");
 }
 
+/// Where a robot can dock: a fixed place, or what is no place, such as a charger. The floor need not have it.
+Core::Result<void> CheckStation(std::string_view stationID)
+{
+    const Core::Result<Place> place = ParsePlace(stationID);
+    if (!place.has_value())
+    {
+        return Core::Location::IsLocation(stationID) ? tl::make_unexpected(place.error()) : CheckName(stationID);
+    }
+    if (place->station != place->text)
+    {
+        return Core::Fail(
+            EWorldError::InvalidPlace,
+            place->text,
+            "a fixed place at which a robot docks (A01.CP01, A01.SET01)",
+            place->robotID.empty() ? fmt::format("a place inside {}", place->station)
+                                   : fmt::format("a port of {}", place->robotID));
+    }
+    return {};
+}
+
 } // namespace
 
 Core::Result<WorldEvent> MemoryWorld::CheckEvent(const RobotDocked& docked) const
@@ -81,10 +102,10 @@ Core::Result<WorldEvent> MemoryWorld::CheckEvent(const RobotDocked& docked) cons
     RobotDocked canonical{docked.robotID, {}};
     for (const std::string& stationID : docked.stationIDs)
     {
-        const Core::Result<void> named = CheckName(stationID);
-        if (!named.has_value())
+        const Core::Result<void> possible = CheckStation(stationID);
+        if (!possible.has_value())
         {
-            return tl::make_unexpected(named.error());
+            return tl::make_unexpected(possible.error());
         }
         canonical.stationIDs.push_back(MakeCanonical(stationID));
     }

@@ -244,6 +244,19 @@ TEST_CASE("Names are checked")
     CHECK(GetError(world.Act(Sim::RobotDocked{"CR01", stations})) == EWorldError::LimitExceeded);
 }
 
+TEST_CASE("A robot docks at fixed places and chargers, not in a port of a robot or inside a station")
+{
+    MemoryWorld world;
+    CHECK(world.Act(Sim::RobotDocked{"CR01", {"A01.CP01", "a01.set1", "CHG01", "gate 7"}}).has_value());
+    CHECK(world.TakeEvents().size() == 1);
+    for (const char* station : {"LR01.CP01", "LR01.CP01.TP01", "AMR.CP01", "SET01", "A01.CP01.TP01", "A01.SET01.MP01"})
+    {
+        INFO(station);
+        CHECK(GetError(world.Act(Sim::RobotDocked{"CR01", {"CHG01", station}})) == EWorldError::InvalidPlace);
+    }
+    CHECK(world.TakeEvents().empty());
+}
+
 TEST_CASE("A world has a bounded number of carriers")
 {
     MemoryWorld world;
