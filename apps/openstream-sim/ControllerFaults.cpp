@@ -69,10 +69,27 @@ void ControllerFaults::AdvanceAll(Core::Now now)
     static_cast<void>(_controller.GetMachine(now));
 }
 
+void ControllerFaults::OnTimer(Core::Now now)
+{
+    _wakeAt.reset();
+    AdvanceAll(now);
+    ScheduleWakeUp();
+}
+
 void ControllerFaults::Finish()
 {
     ApplyChanges();
-    const std::optional<Core::SteadyTime> next = _board.GetNextTimeOrNull();
+    ScheduleWakeUp();
+}
+
+void ControllerFaults::ScheduleWakeUp()
+{
+    std::optional<Core::SteadyTime> next = _board.GetNextTimeOrNull();
+    const std::optional<Core::SteadyTime> programEnd = _controller.GetNextTimeOrNull();
+    if (programEnd.has_value())
+    {
+        next = std::min(next.value_or(*programEnd), *programEnd);
+    }
     if (next != _wakeAt)
     {
         _wakeAt = next;

@@ -14,7 +14,8 @@ namespace ACS::OpenStreamSim
 {
 
 /// The faults of one controller: which are active, and what they do to it and to its answers. Pure: the time comes with
-/// each call, and what was due since the last one happens first, at its own time. Begin and end of each are logged.
+/// each call, and what was due since the last one happens first, at its own time. Begin and end of each are logged. Asks the
+/// host for the time of what comes next, of the faults and of the controller itself.
 class ControllerFaults final
 {
     VirtualController& _controller;
@@ -48,6 +49,12 @@ public:
     std::size_t End(std::optional<EFaultKind> kindOrNull, Core::Now now);
 
     void Advance(Core::Now now);
+
+    /// The host was asked to wake it: what faults and controller have to do by now.
+    void OnTimer(Core::Now now);
+
+    /// After each call of the controller: what comes next may have changed.
+    void ScheduleWakeUp();
 
     /// What the service that stands before the controller does with a call, after Advance.
     [[nodiscard]] bool IsSilent() const;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <string>
 #include <utility>
 
@@ -11,9 +12,10 @@ namespace ACS::OpenStreamSim
 namespace
 {
 
+using FloatingDuration = std::chrono::duration<double, Core::Duration::period>;
+
 constexpr int STEPS = 10;
 constexpr std::string_view WAITING_STATEMENT = "wait di1";
-constexpr RelayBlock PROGRAM_BLOCK{ERelayBus::None, 0, ERelayArea::M};
 
 } // namespace
 
@@ -41,7 +43,6 @@ ControllerMachine::ControllerMachine(const ControllerOptions& options, Core::Now
 
 void ControllerMachine::Advance(Core::Now now)
 {
-    using FloatingDuration = std::chrono::duration<double, Core::Duration::period>;
     const FloatingDuration real = now.steady - _startedAt;
     const Core::Duration before = _now;
     _now = std::chrono::duration_cast<Core::Duration>(real * _timeScale);
@@ -53,6 +54,17 @@ void ControllerMachine::Advance(Core::Now now)
     }
     _runner.Advance(_now, _events);
     HandleEvents(_runner.GetDuration());
+}
+
+std::optional<Core::SteadyTime> ControllerMachine::GetNextTimeOrNull() const
+{
+    const std::optional<Core::Duration> end = _runner.GetEndOrNull();
+    if (!end.has_value())
+    {
+        return std::nullopt;
+    }
+    // Rounded up: at that time the program is over.
+    return _startedAt + std::chrono::ceil<Core::Duration>(FloatingDuration(*end) / _timeScale);
 }
 
 void ControllerMachine::HandleEvents(Core::Duration elapsed)

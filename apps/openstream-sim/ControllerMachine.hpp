@@ -27,6 +27,7 @@ namespace ACS::OpenStreamSim
 inline constexpr std::size_t TOOLS = 32;
 
 /// Where a program tells what became of it: 32-bit words in relay block m, at these bytes.
+inline constexpr RelayBlock PROGRAM_BLOCK{ERelayBus::None, 0, ERelayArea::M};
 inline constexpr std::size_t STARTED_BYTE = 400;  ///< Counts programs that began.
 inline constexpr std::size_t FINISHED_BYTE = 404; ///< Counts programs that ended well.
 inline constexpr std::size_t FAILED_BYTE = 408;   ///< Counts programs that gave up.
@@ -98,6 +99,9 @@ public:
     ControllerMachine(const ControllerOptions& options, Core::Now now, Core::Logger logger);
 
     void Advance(Core::Now now);
+
+    /// When it next does something that others notice although no client asks: the running program ends. Advance then.
+    [[nodiscard]] std::optional<Core::SteadyTime> GetNextTimeOrNull() const;
 
     /// Each of these returns None where it was done.
     [[nodiscard]] EApiError SwitchMotorOn();

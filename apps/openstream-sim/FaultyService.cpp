@@ -27,6 +27,7 @@ void FaultyService::Call(const OpenStream::ApiRequest& request, Core::Now now, O
     else
     {
         _controller.Call(request, now, response);
+        _faults.ScheduleWakeUp();
     }
     response.delay = _faults.GetDelay(_side);
     response.bNoSample = bSample && _faults.IsSilent();
@@ -36,6 +37,7 @@ void FaultyService::StopControl(Core::Now now)
 {
     _faults.Advance(now);
     _controller.StopControl(now);
+    _faults.ScheduleWakeUp();
 }
 
 } // namespace ACS::OpenStreamSim

@@ -19,7 +19,7 @@ public:
     /// Close every Open Stream connection without a line.
     virtual void DropSessions() = 0;
 
-    /// Call ControllerFaults::Advance then; nothing: no more. Replaces what was asked for before.
+    /// Call ControllerFaults::OnTimer then; nothing: no more. Replaces what was asked for before.
     virtual void WakeAt(std::optional<Core::SteadyTime> time) = 0;
 };
 

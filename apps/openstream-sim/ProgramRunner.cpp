@@ -87,6 +87,11 @@ const ProgramSpec& ProgramRunner::GetSpec() const noexcept
     return _spec;
 }
 
+std::optional<Core::Duration> ProgramRunner::GetEndOrNull() const noexcept
+{
+    return _phase == EPhase::Running ? std::optional(_resumedAt + GetDuration() - _elapsed) : std::nullopt;
+}
+
 Core::Duration ProgramRunner::GetElapsed(Core::Duration now) const noexcept
 {
     return _phase == EPhase::Running ? _elapsed + (now - _resumedAt) : _elapsed;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace ACS::OpenStreamSim
@@ -72,6 +73,9 @@ public:
     [[nodiscard]] int GetSelected() const noexcept;
     /// Of the selected program.
     [[nodiscard]] const ProgramSpec& GetSpec() const noexcept;
+
+    /// When the running program ends; nullopt: none runs.
+    [[nodiscard]] std::optional<Core::Duration> GetEndOrNull() const noexcept;
 
     /// How long the selected program has run, stops left out.
     [[nodiscard]] Core::Duration GetElapsed(Core::Duration now) const noexcept;

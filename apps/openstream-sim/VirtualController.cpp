@@ -79,6 +79,11 @@ void VirtualController::TurnModeSwitch(bool bRemote, Core::Now now)
     _machine.TurnModeSwitch(bRemote);
 }
 
+std::optional<Core::SteadyTime> VirtualController::GetNextTimeOrNull() const
+{
+    return _machine.GetNextTimeOrNull();
+}
+
 ControllerMachine& VirtualController::GetMachine(Core::Now now)
 {
     _machine.Advance(now);

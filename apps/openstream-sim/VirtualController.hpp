@@ -4,6 +4,8 @@
 #include <acs/core/Logger.hpp>
 #include <acs/openstream/IOpenApiService.hpp>
 
+#include <optional>
+
 namespace ACS::OpenStreamSim
 {
 
@@ -23,6 +25,9 @@ public:
 
     /// By the operator's hand: out of remote mode, which stops the program, or into it.
     void TurnModeSwitch(bool bRemote, Core::Now now);
+
+    /// When it has something to do by itself; GetMachine then. Nullopt: nothing before the next call.
+    [[nodiscard]] std::optional<Core::SteadyTime> GetNextTimeOrNull() const;
 
     /// For what happens to the machine itself; brought to the present.
     [[nodiscard]] ControllerMachine& GetMachine(Core::Now now);

@@ -34,6 +34,11 @@ public:
         return options;
     }
 
+    [[nodiscard]] const RecordingLogSink& GetLog() const noexcept
+    {
+        return _log;
+    }
+
     OpenStream::ApiResponse Call(OpenStream::EApiMethod method, std::string_view url, std::string body = "{}")
     {
         OpenStream::ApiRequest request;

@@ -1,8 +1,13 @@
 #include "HostFixture.hpp"
+#include "ProgramFile.hpp"
+#include "TemporaryFolder.hpp"
+#include "world/WorldFile.hpp"
 
 #include <boost/asio/steady_timer.hpp>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -188,6 +193,33 @@ TEST_CASE("A Over HTTP the encoded path, the status and the content type are rig
     const std::string missing = fixture.GetOverHttp("/project/nothing");
     REQUIRE(Contains(missing, "HTTP/1.1 404 "));
     REQUIRE(Contains(missing, R"("err_code":-2)"));
+}
+
+TEST_CASE("A program whose client is gone moves its carrier: the journal has it, though nobody asks the controller")
+{
+    const ACS::Testing::TemporaryFolder folder;
+    const std::string file = folder.GetPath() / "world.json";
+    std::ofstream(file) << R"({"version":1,"carriers":{"TRAY_01":"CR01.TP01"}})";
+    const auto world = ACS::Sim::WorldFile::Open(file);
+    REQUIRE(world.has_value());
+    ControllerOptions options = Fixture::MakeFastOptions();
+    options.programs =
+        ProgramFile::ReadText("[11]\nfrom = [\"CR01.TP01\"]\nto = [\"CR01.TP02\"]", "programs.toml").programs;
+    options.robotID = "CR01";
+    options.world = world->get();
+    options.bMotorOn = true;
+    Fixture fixture({}, options);
+    fixture.Monitor("/project/robot/motor_on_state", "{}");
+    REQUIRE(fixture.TryAwaitSample(R"({"_type":"JObject","val":0})"));
+    REQUIRE(IsAccepted(fixture.Control("/project/context/tasks[0]/cur_prog_cnt", R"({"pno":11,"ext_sel":1})")));
+    REQUIRE(IsAccepted(fixture.Control("/project/robot/start", "{}")));
+    fixture.client.reset();
+    const std::string moved =
+        R"({"event":"CarrierMoved","robot":"CR01","carrier":"TRAY_01","from":"CR01.TP01","to":"CR01.TP02"})";
+    REQUIRE(fixture.TryRunUntil([&file, &moved]() {
+        std::ifstream journal(file + ".journal");
+        return std::string(std::istreambuf_iterator<char>(journal), {}) == moved + "\n";
+    }));
 }
 
 TEST_CASE("7.28 A MONITOR of an unknown path goes on and tells 404 with every sample")

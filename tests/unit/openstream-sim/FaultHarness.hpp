@@ -47,8 +47,8 @@ public:
     std::optional<Core::SteadyTime> wakeAt;
     OpenStream::ApiResponse response; ///< Of the last call.
 
-    FaultHarness()
-        : _controller(MakeOptions(), clock.GetNow(), Core::Logger(_log, "controller"))
+    explicit FaultHarness(const OpenStreamSim::ControllerOptions& options = MakeOptions())
+        : _controller(options, clock.GetNow(), Core::Logger(_log, "controller"))
     {
         _faults.emplace(_controller, *this, Core::Logger(_log, "controller"), clock.GetNow());
         _stream.emplace(_controller, *_faults, OpenStreamSim::EFaultSide::Stream);
@@ -104,7 +104,8 @@ public:
         while (wakeAt.has_value() && *wakeAt <= end)
         {
             clock.Advance(std::chrono::duration_cast<std::chrono::milliseconds>(*wakeAt - clock.GetNow().steady));
-            _faults->Advance(clock.GetNow());
+            wakeAt.reset();
+            _faults->OnTimer(clock.GetNow());
         }
         clock.Advance(std::chrono::duration_cast<std::chrono::milliseconds>(end - clock.GetNow().steady));
     }

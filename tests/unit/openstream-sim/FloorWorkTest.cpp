@@ -1,8 +1,13 @@
 #include "Catch.hpp"
 #include "ControllerHarness.hpp"
+#include "FaultHarness.hpp"
 #include "ProgramFile.hpp"
+#include "TemporaryFolder.hpp"
 #include "world/MemoryWorld.hpp"
+#include "world/WorldFile.hpp"
 
+#include <algorithm>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,32 +15,33 @@
 using ACS::OpenStreamSim::ControllerOptions;
 using ACS::OpenStreamSim::ProgramFile;
 using ACS::Testing::ControllerHarness;
+using ACS::Testing::FaultHarness;
 using namespace ACS::Sim; // NOLINT(google-build-using-namespace)
 using namespace std::chrono_literals;
 
 namespace
 {
 
+/// The arm of CR01 with these programs, ready, on the floor.
+ControllerOptions MakeArmOptions(IWorld& world, const ProgramFile& file)
+{
+    REQUIRE(file.mistakes.empty());
+    ControllerOptions options = ControllerHarness::MakeReadyOptions();
+    options.programs = file.programs;
+    options.robotID = "CR01";
+    options.world = &world;
+    return options;
+}
+
 /// An arm of CR01 with the programs of the example site, docked at A01.CP01 and A01.SET01 of a floor in memory.
 class FloorFixture
 {
-    static ControllerOptions MakeOptions(IWorld& world)
-    {
-        ControllerOptions options = ControllerHarness::MakeReadyOptions();
-        const ProgramFile file = ProgramFile::Read(ACS_SITE "/programs.toml");
-        REQUIRE(file.mistakes.empty());
-        options.programs = file.programs;
-        options.robotID = "CR01";
-        options.world = &world;
-        return options;
-    }
-
 public:
     MemoryWorld world;
     ControllerHarness harness;
 
     FloorFixture()
-        : harness(MakeOptions(world))
+        : harness(MakeArmOptions(world, ProgramFile::Read(ACS_SITE "/programs.toml")))
     {
         Do(RobotDocked{"CR01", {"A01.CP01", "A01.SET01"}});
         Do(CarrierPlaced{"TRAY_01", "A01.CP01.TP01"});
@@ -198,4 +204,74 @@ TEST_CASE("An echo is an unsigned word of 32 bits")
     REQUIRE(fixture.harness.Post("/project/plc/set_relay_value", R"({"name":"ml105","value":2147483647})") == 200);
     fixture.Start(11);
     REQUIRE(fixture.harness.Get("/project/plc/m/val_s32?st=416&len=1") == "[2147483647]");
+}
+
+TEST_CASE("A program fails where the journal of the floor cannot be read, and the log has file and line")
+{
+    const ACS::Testing::TemporaryFolder folder;
+    const std::string file = folder.GetPath() / "world.json";
+    std::ofstream(file) << R"({"version":1,"carriers":{"TRAY_01":"CR01.TP01"}})";
+    const auto world = WorldFile::Open(file);
+    REQUIRE(world.has_value());
+    std::ofstream(file + ".journal", std::ios::app) << "no JSON\n";
+    ControllerHarness harness(
+        MakeArmOptions(**world, ProgramFile::ReadText("[11]\nfrom = [\"CR01.TP01\"]\nto = [\"CR01.TP02\"]", "p.toml")));
+    REQUIRE(harness.Select(11) == 200);
+    REQUIRE(harness.Start() == 200);
+    harness.clock.Advance(2s);
+    REQUIRE(harness.GetCounters() == "[1,0,1,11]");
+    const auto& lines = harness.GetLog().GetLines();
+    const auto reason = std::ranges::find(lines, "program cannot do its work", &ACS::Testing::RecordedLine::message);
+    REQUIRE(reason != lines.end());
+    REQUIRE_THAT(reason->fields.at(1).second, Catch::StartsWith(file + ".journal:1: "));
+}
+
+TEST_CASE("A program ends in its time though no client asks")
+{
+    MemoryWorld world;
+    const WorldEvent move = CarrierMoved{"CR01", "TRAY_01", "CR01.TP01", "CR01.TP02"};
+    REQUIRE(world.Act(CarrierPlaced{"TRAY_01", "CR01.TP01"}).has_value());
+    static_cast<void>(world.TakeEvents());
+    ControllerOptions options = MakeArmOptions(
+        world,
+        ProgramFile::ReadText("[11]\nduration = \"10s\"\nfrom = [\"CR01.TP01\"]\nto = [\"CR01.TP02\"]", "p.toml"));
+    options.timeScale = 2.5;
+    FaultHarness harness(options);
+    REQUIRE_FALSE(harness.wakeAt.has_value());
+    REQUIRE(harness.StartProgram(11) == 200);
+    SECTION("it runs through")
+    {
+        harness.Pass(3'999ms);
+        REQUIRE(world.TakeEvents().empty());
+        harness.Pass(1ms);
+        REQUIRE(world.TakeEvents() == std::vector{move});
+        REQUIRE_FALSE(harness.wakeAt.has_value());
+        REQUIRE(harness.GetCounters() == "[1,1,0,11]");
+    }
+    SECTION("it is stopped and goes on")
+    {
+        harness.Pass(1s);
+        REQUIRE(harness.PostOverHttp("/project/robot/stop") == 200);
+        REQUIRE_FALSE(harness.wakeAt.has_value());
+        harness.Pass(10s);
+        REQUIRE(harness.PostOverHttp("/project/robot/start") == 200);
+        harness.Pass(2'999ms);
+        REQUIRE(world.TakeEvents().empty());
+        harness.Pass(1ms);
+        REQUIRE(world.TakeEvents() == std::vector{move});
+    }
+    SECTION("a fault begins and ends meanwhile")
+    {
+        harness.Begin("silence at=1s for=1s");
+        harness.Pass(4s);
+        REQUIRE(world.TakeEvents() == std::vector{move});
+        REQUIRE(harness.GetChanges().size() == 2);
+    }
+    SECTION("a fault halts it")
+    {
+        harness.Begin("estop at=1s");
+        harness.Pass(1h);
+        REQUIRE(world.TakeEvents().empty());
+        REQUIRE_FALSE(harness.wakeAt.has_value());
+    }
 }
