@@ -268,12 +268,19 @@ std::string CheckRobots(const OpenStreamSimOptions& options, const ProgramFile& 
             return fmt::format("--robot: robot {} has two controllers; give each a robot of its own", robot);
         }
     }
-    const bool bNeeded = !options.worldFile.empty() || programs.HasRobotName();
-    for (std::size_t controller = 1; bNeeded && controller <= options.fleet.controllers; ++controller)
+    const bool bNamed = programs.HasRobotName();
+    if (!robots.empty() && options.worldFile.empty() && !bNamed)
+    {
+        return "--robot has no effect without --world and without {robot} in --programs: leave it out, or give --world";
+    }
+    const std::string reason = !options.worldFile.empty() ? fmt::format("--world {}", options.worldFile)
+        : bNamed                                          ? fmt::format("{{robot}} in {}", options.programFile)
+                                                          : std::string();
+    for (std::size_t controller = 1; !reason.empty() && controller <= options.fleet.controllers; ++controller)
     {
         if (!robots.contains(controller))
         {
-            return fmt::format("controller {0} has no robot: give --robot {0}=NAME", controller);
+            return fmt::format("{0} needs the robot of controller {1}: give --robot {1}=NAME", reason, controller);
         }
     }
     return {};

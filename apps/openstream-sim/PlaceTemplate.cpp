@@ -155,4 +155,9 @@ bool PlaceTemplate::HasRobotName() const
     return std::ranges::any_of(_parts, [](const Part& part) { return std::holds_alternative<RobotTag>(part); });
 }
 
+bool PlaceTemplate::HasRelays() const
+{
+    return std::ranges::any_of(_parts, [](const Part& part) { return std::holds_alternative<WordTag>(part); });
+}
+
 } // namespace ACS::OpenStreamSim

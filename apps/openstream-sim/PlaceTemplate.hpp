@@ -50,6 +50,8 @@ public:
     [[nodiscard]] const std::string& GetText() const noexcept;
     [[nodiscard]] Core::ESegmentKind GetKind() const;
     [[nodiscard]] bool HasRobotName() const;
+    /// Without relays it is the same place always, and always applies.
+    [[nodiscard]] bool HasRelays() const;
 
     bool operator==(const PlaceTemplate&) const = default;
 };

@@ -1,6 +1,7 @@
 #include "ProgramFile.hpp"
 
 #include "common/ConfigReader.hpp"
+#include "ControllerMachine.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/core/Result.hpp>
 
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <utility>
@@ -36,6 +38,14 @@ std::optional<int> ParseNumberOrNull(const std::string& text)
     const auto [end, error] = std::from_chars(text.data(), last, number);
     const bool bWhole = error == std::errc{} && end == last && text == fmt::to_string(number);
     return bWhole && number >= FIRST_PROGRAM && number <= LAST_PROGRAM ? std::optional(number) : std::nullopt;
+}
+
+/// Whether the relay shares a byte with the words in which programs report what became of them.
+bool IsOutcome(const RelayName& relay)
+{
+    const std::size_t first = GetFirstByte(relay);
+    const std::size_t end = first + GetBytes(relay.width);
+    return relay.block == PROGRAM_BLOCK && first < ECHO_BYTE + GetBytes(ERelayWidth::Long) && end > STARTED_BYTE;
 }
 
 /// The places of one key: which kinds it takes, and how a mistake names them.
@@ -90,6 +100,15 @@ class ProgramReader
                 places.push_back(std::move(*place));
             }
         }
+        const auto last = std::ranges::find_if(places, [](const PlaceTemplate& place) { return !place.HasRelays(); });
+        if (last != places.end() && std::next(last) != places.end())
+        {
+            _section.AddMistake(
+                key.key,
+                fmt::format(
+                    "expected {} at the end: it always applies, and the places after it never do",
+                    Core::QuoteForError(last->GetText())));
+        }
         if (bGiven && texts.empty())
         {
             _section.AddMistake(key.key, "expected at least one place, found an empty list");
@@ -113,6 +132,15 @@ class ProgramReader
                     "expected a relay that holds a whole number, such as 'ml105', or -1 for none, found {}",
                     Core::QuoteForError(text)));
             return std::nullopt;
+        }
+        if (IsOutcome(*relay))
+        {
+            _section.AddMistake(
+                ECHO,
+                fmt::format(
+                    "expected a relay that a client writes, such as 'ml105', found {}: the program itself writes ml100 to "
+                    "ml104",
+                    Core::QuoteForError(text)));
         }
         return relay;
     }

@@ -3,8 +3,10 @@
 #include "Catch.hpp"
 
 #include <array>
+#include <iostream>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <variant>
 #include <vector>
@@ -14,6 +16,20 @@ using namespace std::chrono_literals;
 
 namespace
 {
+
+/// What standard error has of a command line that is refused.
+std::string ReadRefusal(std::vector<const char*> arguments)
+{
+    OpenStreamSimOptions options;
+    const std::ostringstream errors;
+    std::streambuf* const before = std::cerr.rdbuf(errors.rdbuf());
+    arguments.insert(arguments.begin(), "openstream-sim");
+    const std::optional<int> exitCode =
+        ParseOptionsOrNull(static_cast<int>(arguments.size()), arguments.data(), options);
+    std::cerr.rdbuf(before);
+    REQUIRE(exitCode == 2);
+    return errors.str();
+}
 
 std::optional<int> ParseOrNull(std::vector<const char*> arguments, OpenStreamSimOptions& options)
 {
@@ -161,6 +177,7 @@ TEST_CASE("A mistake on the command line is exit code 2")
              {"--robot", "1=AMR"},
              {"--robot", "1=CR01", "--robot", "1=CR02"},
              {"--robot", "2=CR01"},
+             {"--robot", "1=CR01"}, // nothing names it
              {"--controllers", "2", "--robot", "1=CR01", "--robot", "2=CR01"},
              {"--programs", ""},
              {"--programs", "/nowhere/programs.toml"},
@@ -176,6 +193,24 @@ TEST_CASE("A mistake on the command line is exit code 2")
         OpenStreamSimOptions options;
         REQUIRE(ParseOrNull(arguments, options) == 2);
     }
+}
+
+TEST_CASE("A controller without a robot is reported with the file that needs it")
+{
+    REQUIRE_THAT(
+        ReadRefusal(
+            {"--programs",
+             ACS_SITE "/programs.toml",
+             "--world",
+             "floor.json",
+             "--controllers",
+             "2",
+             "--robot",
+             "1=CR01"}),
+        Catch::Contains("--world floor.json needs the robot of controller 2: give --robot 2=NAME"));
+    REQUIRE_THAT(
+        ReadRefusal({"--programs", ACS_SITE "/programs.toml"}),
+        Catch::Contains("{robot} in " ACS_SITE "/programs.toml needs the robot of controller 1: give --robot 1=NAME"));
 }
 
 TEST_CASE("Ports beyond the last one, or the same ones for both sides, are refused; one less is not, nor is port 0")

@@ -79,8 +79,22 @@ TEST_CASE("Each mistake of the file is reported with file, line and key")
         FindMistakes("[11]\n\necho = \"ml9999\"")
         == Texts{
             "p.toml:3: 11.echo: expected a relay that holds a whole number, such as 'ml105', or -1 for none, found \"ml9999\""});
+    REQUIRE(
+        FindMistakes("[11]\necho = \"ml100\"")
+        == Texts{
+            "p.toml:2: 11.echo: expected a relay that a client writes, such as 'ml105', found \"ml100\": the program itself "
+            "writes ml100 to ml104"});
+    REQUIRE(
+        FindMistakes("[11]\nbutton = [\"A{ml1}.SET01\", \"A01.SET01\", \"A01.SET{ml1}\"]")
+        == Texts{
+            "p.toml:2: 11.button: expected \"A01.SET01\" at the end: it always applies, and the places after it never do"});
     for (const char* text :
          {"[0]",
+          "[11]\necho = \"ml104\"",
+          "[11]\necho = \"mb419\"",
+          "[11]\necho = \"mw200\"",
+          "[11]\necho = \"m3200\"",
+          "[11]\nbutton = [\"A01.SET01\", \"A01.SET01\"]",
           "[10000]",
           "[x]",
           "[011]",
@@ -105,6 +119,15 @@ TEST_CASE("Each mistake of the file is reported with file, line and key")
         const Texts mistakes = FindMistakes(text);
         REQUIRE(mistakes.size() == 1);
         REQUIRE(mistakes.front().starts_with("p.toml:"));
+    }
+}
+
+TEST_CASE("Relays beside the words that programs write can be echoed")
+{
+    for (const char* echo : {"ml99", "mb399", "mb420", "ml105", "m3199", "sl100", "fb0.dil100"})
+    {
+        INFO(echo);
+        REQUIRE(ProgramFile::ReadText(std::string("[11]\necho = \"") + echo + "\"", "p.toml").mistakes.empty());
     }
 }
 
