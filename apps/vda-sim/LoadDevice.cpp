@@ -87,9 +87,20 @@ std::string LoadDevice::Move(std::string carrierID, std::string from, std::strin
     return moved.has_value() ? std::string() : Core::Describe(moved.error());
 }
 
-std::string LoadDevice::PickUp(const VDA5050::Action& action)
+std::string LoadDevice::ReadWorld()
 {
     UpdateLoads();
+    const std::optional<Core::Error> failed = _worldOrNull == nullptr ? std::nullopt : _worldOrNull->GetFailureOrNull();
+    return failed.has_value() ? Core::Describe(*failed) : std::string();
+}
+
+std::string LoadDevice::PickUp(const VDA5050::Action& action)
+{
+    std::string unreadable = ReadWorld();
+    if (!unreadable.empty())
+    {
+        return unreadable;
+    }
     VDA5050::Load load = MakeLoad(action);
     if (std::max(load.loadID->size(), load.loadType.size()) > MAX_ID_LENGTH)
     {
@@ -128,7 +139,11 @@ std::string LoadDevice::PickUp(const VDA5050::Action& action)
 
 std::string LoadDevice::PutDown(const VDA5050::Action& action)
 {
-    UpdateLoads();
+    std::string unreadable = ReadWorld();
+    if (!unreadable.empty())
+    {
+        return unreadable;
+    }
     // The load that is named, else the one in the place that is named, else the last one.
     const VDA5050::Load wanted = MakeLoad(action);
     auto found = std::ranges::find_if(_loads, [&wanted](const VDA5050::Load& load) {

@@ -48,6 +48,8 @@ private:
     [[nodiscard]] VDA5050::Load MakeLoad(const VDA5050::Action& action) const;
     [[nodiscard]] bool IsFree(std::string_view position) const;
     [[nodiscard]] std::string GetPort(const LoadPosition& position) const;
+    /// Sees in the world what is on board; why it cannot be read, or the empty text.
+    [[nodiscard]] std::string ReadWorld();
     /// The station that the action names, else the only one here; empty: neither.
     [[nodiscard]] std::string GetStation(const VDA5050::Action& action) const;
     [[nodiscard]] std::string Move(std::string carrierID, std::string from, std::string to);

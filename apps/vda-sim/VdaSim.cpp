@@ -11,6 +11,7 @@
 #include "vda-sim/ControlChannel.hpp"
 #include "vda-sim/VehicleRandom.hpp"
 #include "vda-sim/VehicleRunner.hpp"
+#include "vda-sim/WorldWatch.hpp"
 #include "world/WorldFile.hpp"
 
 #include <boost/asio/io_context.hpp>
@@ -52,6 +53,7 @@ class Fleet
     std::uint64_t _seed;
     std::vector<Member> _members;
     std::optional<ControlChannel> _control;
+    std::optional<WorldWatch> _worldWatch;
     Apps::TimerSet _worldTimer;
     std::set<std::size_t> _connected; ///< The control channel's number is that after the last vehicle.
     bool _bReady = false;
@@ -65,6 +67,8 @@ public:
           _log(options.common.logLevel),
           _logger(_log, "vda-sim"),
           _seed(options.seed.has_value() ? *options.seed : _random.GetNext()),
+          _worldWatch(
+              worldOrNull == nullptr ? std::nullopt : std::optional<WorldWatch>(std::in_place, *worldOrNull, _logger)),
           _worldTimer(_context.get_executor(), [this](std::uint64_t /*key*/) { FollowWorld(); })
     {
         if (!_options->controlTopic.empty())
@@ -131,7 +135,7 @@ public:
         {
             _control->Start([this]() { CountConnected(_members.size()); });
         }
-        if (_worldOrNull != nullptr)
+        if (_worldWatch.has_value())
         {
             FollowWorld();
         }
@@ -143,7 +147,7 @@ private:
     void FollowWorld()
     {
         constexpr std::chrono::milliseconds INTERVAL{500};
-        if (!_worldOrNull->TakeEvents().empty())
+        if (_worldWatch->HasChanged())
         {
             for (const Member& member : _members)
             {
@@ -287,7 +291,7 @@ int RunVdaSim(const VdaSimOptions& options)
         Core::Result<std::unique_ptr<Sim::WorldFile>> opened = Sim::WorldFile::Open(options.worldPath);
         if (!opened.has_value())
         {
-            return Refuse(Core::Describe(opened.error()));
+            return Refuse(fmt::format("--world: {}", Core::Describe(opened.error())));
         }
         world = std::move(*opened);
     }

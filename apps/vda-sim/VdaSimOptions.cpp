@@ -174,7 +174,7 @@ std::string CheckWorld(const VdaSimOptions& options)
         return {};
     }
     return fmt::format(
-        "with --world a vehicle needs the name of a robot (LR01), found {}",
+        "--world: expected vehicles with names of robots (LR01), found {}",
         Core::QuoteForError(misnamed->name));
 }
 
@@ -210,12 +210,16 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
     app.add_option("--site", options.sitePath, "layout of the site, a VDMA LIF 1.0 file")
         ->required()
         ->type_name("FILE.lif.json");
-    app.add_option(
-           "--world",
-           options.worldPath,
-           "world file that the simulators share (docs/world.md): loads are picked and dropped only where they are; "
-           "without it every load is where an action asks for it")
-        ->type_name("FILE");
+    Apps::AddTextOption(
+        app,
+        "--world",
+        [&options](const std::string& text) {
+            options.worldPath = text;
+            return std::string(text.empty() ? "expected a file" : "");
+        },
+        "world file that the simulators share (docs/world.md): loads are picked and dropped only where they are; "
+        "without it every load is where an action asks for it")
+        .type_name("FILE");
     Apps::AddRepeatedOption(
         app,
         "--vehicle",

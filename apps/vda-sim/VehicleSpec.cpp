@@ -12,6 +12,13 @@ namespace ACS::VdaSim
 namespace
 {
 
+/// The error with the vehicle's name in front: "LR01: ports".
+tl::unexpected<Core::Error> RefuseVehicle(const std::string& name, Core::Error error)
+{
+    error.path = error.path.empty() ? name : fmt::format("{}: {}", name, error.path);
+    return tl::make_unexpected(std::move(error));
+}
+
 /// Cuts the text before the next comma off the front.
 std::string_view TakePart(std::string_view& text)
 {
@@ -116,13 +123,13 @@ Core::Result<VehicleSpec> ParseVehicleSpec(std::string_view text)
         const Core::Result<void> part = ReadPart(TakePart(text), spec, known);
         if (!part.has_value())
         {
-            return tl::make_unexpected(part.error());
+            return RefuseVehicle(spec.name, part.error());
         }
     }
     const Core::Result<void> fits = CheckHandling(spec.type, spec.handling);
     if (!fits.has_value())
     {
-        return tl::make_unexpected(fits.error());
+        return RefuseVehicle(spec.name, fits.error());
     }
     return spec;
 }

@@ -2,6 +2,7 @@
 
 #include "vda-sim/OrderLimits.hpp"
 #include "vda-sim/VehicleFactsheet.hpp"
+#include "world/EWorldError.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -154,9 +155,26 @@ void VirtualVehicle::EndActions(Core::Now now, VirtualActions& out)
         {
             AddOrderError(std::move(*outcome.error), now);
         }
+        else if (outcome.status == VDA5050::EActionStatus::Failed)
+        {
+            LogFailure(outcome, now);
+        }
         SetStatus(outcome.actionID, outcome.status, std::move(outcome.result), now);
     }
     Pump(now, out);
+}
+
+void VirtualVehicle::LogFailure(const ActionOutcome& outcome, Core::Now now)
+{
+    const std::optional<std::uint64_t> unsaid = _failures.PassOrNull(now.steady);
+    if (unsaid.has_value())
+    {
+        _logger.Warning(
+            "action failed",
+            {{"actionId", CutForLog(outcome.actionID)},
+             {"reason", outcome.result},
+             {"unsaid", std::to_string(*unsaid)}});
+    }
 }
 
 void VirtualVehicle::TellLoads(Core::Now now)
@@ -172,7 +190,7 @@ void VirtualVehicle::TellLoads(Core::Now now)
 void VirtualVehicle::UpdateDock(Core::Now now)
 {
     const std::string nodeID = _motion.HasLeg() || !_motion.IsStanding() ? std::string() : _nodeID;
-    if (nodeID == _dockNodeID)
+    if (nodeID == _dockNodeID && !_bDockUnknown)
     {
         return;
     }
@@ -186,6 +204,7 @@ void VirtualVehicle::UpdateDock(Core::Now now)
         }
     }
     const Core::Result<void> docked = _hands.GetDevice().Dock(std::move(stationIDs));
+    _bDockUnknown = !docked.has_value() && docked.error().code == Sim::EWorldError::JournalFailed;
     if (!docked.has_value() && _worldErrors.PassOrNull(now.steady).has_value())
     {
         _logger.Warning(

@@ -431,7 +431,7 @@ void VirtualVehicle::TellBattery(Core::Now now)
 void VirtualVehicle::KeepTicking(VirtualActions& out)
 {
     const bool bMoving = _bDriving || (_motion.HasLeg() && !_motion.IsStanding());
-    if (_bTicking || !(bMoving || _hands.IsBusy() || _hands.IsCharging()))
+    if (_bTicking || !(bMoving || _hands.IsBusy() || _hands.IsCharging() || _bDockUnknown))
     {
         return;
     }

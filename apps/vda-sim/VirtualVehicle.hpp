@@ -94,7 +94,8 @@ class VirtualVehicle
     double _charge;               ///< %
     double _unlivedSeconds = 0.0; ///< Simulated: less than a slice.
     std::vector<VDA5050::Load> _reportedLoads;
-    std::string _dockNodeID; ///< Where it was docked last; empty: nowhere.
+    std::string _dockNodeID;    ///< Where it was docked last; empty: nowhere.
+    bool _bDockUnknown = false; ///< The world could not be written when it docked or left: again at the next tick.
     bool _bDriving = false;
     bool _bTicking = false;
     bool _bStopWanted = false; ///< By the session.
@@ -111,6 +112,7 @@ class VirtualVehicle
     WarningLimiter _ignored;
     WarningLimiter _overflows;
     WarningLimiter _worldErrors;
+    WarningLimiter _failures;
     WarningLimiter _unlisted;
     bool _bWasOnline = false;
     bool _bBatteryLow = false;
@@ -190,6 +192,8 @@ private:
     [[nodiscard]] Pose GetNodePose(const VDA5050::OrderNode& node) const;
     void Start(const VDA5050::StartAction& start, Core::Now now);
     [[nodiscard]] std::string InitialisePosition(const VDA5050::Action& action, Core::Now now);
+    /// Logs why a pick or a drop has failed.
+    void LogFailure(const ActionOutcome& outcome, Core::Now now);
     void SetStatus(std::string_view actionID, VDA5050::EActionStatus status, std::string result, Core::Now now);
     /// Logs parameters of the action that the factsheet does not list.
     void LogUnlisted(const std::string& actionID, Core::Now now);

@@ -2,9 +2,12 @@
 
 #include "Catch.hpp"
 #include "TemporaryFolder.hpp"
+#include "vda-sim/VdaSim.hpp"
 #include "VehicleDriver.hpp"
 
 #include <fstream>
+#include <iostream>
+#include <sstream>
 
 namespace ACS::Testing
 {
@@ -92,6 +95,17 @@ TEST_CASE("What is no vehicle is told with what would be one")
         REQUIRE_FALSE(spec.has_value());
         CHECK_FALSE(spec.error().expected.empty());
     }
+}
+
+TEST_CASE("A mistake in a vehicle's keys names the vehicle")
+{
+    const auto describe = [](std::string_view text) {
+        return Core::Describe(VdaSim::ParseVehicleSpec(text).error());
+    };
+    CHECK(describe("LR07,ports=100") == "LR07: ports: expected a number from 0 to 99, found \"100\"");
+    CHECK_THAT(describe("LR07,load=CP05:front"), Catch::StartsWith("LR07: load: expected one of the 4 ports"));
+    CHECK_THAT(describe("LR07,type=XR"), Catch::StartsWith("LR07: type: expected LR or CR"));
+    CHECK_THAT(describe("LR07,speed=3"), Catch::StartsWith("LR07: expected type=LR|CR"));
 }
 
 TEST_CASE("A vehicle begins at its own node, else at the charger of its number, else at some node")
@@ -187,7 +201,21 @@ TEST_CASE("With a world every vehicle has the name of a robot")
     CHECK(ReadOptionsFrom({"--vehicle", "A", "--lenient-parameters"}).options.bLenientParameters);
     CHECK(ReadOptionsFrom({"--vehicle", "A.B", "--world", "world.json"}).exitCode == 2);
     CHECK(ReadOptionsFrom({"--vehicle", "AMR", "--world", "world.json"}).exitCode == 2);
+    CHECK(ReadOptionsFrom({"--vehicle", "LR01", "--world", ""}).exitCode == 2);
     CHECK_FALSE(ReadOptionsFrom({"--vehicle", "A.B"}).exitCode.has_value());
+}
+
+TEST_CASE("A world file that cannot be used is an error of --world")
+{
+    VdaSim::VdaSimOptions options;
+    options.sitePath = ACS_SITE "/site.lif.json";
+    options.worldPath = "/nonexistent/world.json";
+    const std::ostringstream errors;
+    std::streambuf* const before = std::cerr.rdbuf(errors.rdbuf());
+    const int exitCode = VdaSim::RunVdaSim(options);
+    std::cerr.rdbuf(before);
+    CHECK(exitCode == 2);
+    CHECK_THAT(errors.str(), Catch::StartsWith("vda-sim: --world: /nonexistent/world.json: expected a world file"));
 }
 
 TEST_CASE("The command line says how to speak to the broker: MQTT's version, qualities of service, user and password")

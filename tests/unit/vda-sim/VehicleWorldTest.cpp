@@ -1,9 +1,15 @@
 #include "Catch.hpp"
+#include "TemporaryFolder.hpp"
 #include "vda-sim/VehicleFactsheet.hpp"
+#include "vda-sim/WorldWatch.hpp"
 #include "VehicleDriver.hpp"
+#include "world/EWorldError.hpp"
 #include "world/MemoryWorld.hpp"
+#include "world/WorldFile.hpp"
 
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -89,6 +95,54 @@ public:
             "the order was refused: "
             << (driver.GetState().errors.empty() ? "" : driver.GetState().errors[0].errorDescription));
         return {};
+    }
+};
+
+/// A world whose journal another process keeps locked at first.
+class LockedWorld final : public Sim::IWorld
+{
+    Sim::IWorld& _floor;
+    bool _bLocked = true;
+
+public:
+    explicit LockedWorld(Sim::IWorld& floor)
+        : _floor(floor)
+    {
+    }
+
+    void Unlock() noexcept
+    {
+        _bLocked = false;
+    }
+
+    [[nodiscard]] Core::Result<void> Act(const Sim::WorldEvent& event) override
+    {
+        return _bLocked ? Core::Fail(Sim::EWorldError::JournalFailed) : _floor.Act(event);
+    }
+
+    [[nodiscard]] std::optional<std::string> GetCarrierOrNull(std::string_view place) override
+    {
+        return _floor.GetCarrierOrNull(place);
+    }
+
+    [[nodiscard]] std::optional<std::string> GetPlaceOrNull(std::string_view carrierID) override
+    {
+        return _floor.GetPlaceOrNull(carrierID);
+    }
+
+    [[nodiscard]] Sim::EMemory GetMemory(std::string_view place) override
+    {
+        return _floor.GetMemory(place);
+    }
+
+    [[nodiscard]] bool IsCovered(std::string_view set) override
+    {
+        return _floor.IsCovered(set);
+    }
+
+    [[nodiscard]] std::vector<Sim::WorldEvent> TakeEvents() override
+    {
+        return _floor.TakeEvents();
     }
 };
 
@@ -235,6 +289,73 @@ TEST_CASE("A vehicle that initPosition puts elsewhere has left its stations")
     REQUIRE(events.size() == 2);
     CHECK((events[0] == Sim::WorldEvent(Sim::RobotDocked{"LR01", {}})));
     CHECK((events[1] == Sim::WorldEvent(Sim::RobotDocked{"LR01", {"A01.CP01", "A01.CP02"}})));
+}
+
+TEST_CASE("A journal that cannot be read fails pick and drop with file and line, in the action and in the log")
+{
+    const TemporaryFolder folder;
+    const std::string file = folder.GetPath() / "world.json";
+    std::ofstream(file) << R"({"version":1,"carriers":{"CASSETTE_01":"A01.CP01","CASSETTE_02":"LR01.CP02"}})";
+    const auto world = Sim::WorldFile::Open(file);
+    REQUIRE(world.has_value());
+    WorldFixture floor;
+    floor.GetOptions().worldOrNull = world->get();
+    VehicleDriver driver(floor.GetOptions());
+    std::ofstream(file + ".journal", std::ios::app) << "no JSON\n";
+    const std::string place = file + ".journal:2: ";
+    for (const char* actionType : {"pick", "drop"})
+    {
+        const auto ended = floor.Perform(driver, actionType, MakeParameters("A01.CP01"));
+        CHECK(ended.actionStatus == EActionStatus::Failed);
+        CHECK_THAT(ended.resultDescription, Catch::StartsWith(place));
+        CHECK(std::ranges::any_of(driver.GetLog().GetLines(), [&ended](const RecordedLine& line) {
+            return line.message == "action failed" && line.HasField("actionId", ended.actionID)
+                && line.HasField("reason", ended.resultDescription);
+        }));
+    }
+    CHECK((*world)->GetPlaceOrNull("CASSETTE_01") == "A01.CP01");
+}
+
+TEST_CASE("The world's state is logged when it changes: it cannot be read, and it can again")
+{
+    const TemporaryFolder folder;
+    const std::string file = folder.GetPath() / "world.json";
+    std::ofstream(file) << R"({"version":1})";
+    const auto world = Sim::WorldFile::Open(file);
+    REQUIRE(world.has_value());
+    RecordingLogSink log;
+    VdaSim::WorldWatch watch(**world, Core::Logger(log, "vda-sim"));
+    CHECK_FALSE(watch.HasChanged());
+    REQUIRE((*world)->Act(Sim::CarrierPlaced{"CASSETTE_01", "A01.CP01"}));
+    CHECK(watch.HasChanged());
+    CHECK(log.GetLines().empty());
+    const auto whole = std::filesystem::file_size(file + ".journal");
+    std::ofstream(file + ".journal", std::ios::app) << "no JSON\n";
+    CHECK_FALSE(watch.HasChanged());
+    CHECK_FALSE(watch.HasChanged());
+    REQUIRE(log.GetLines().size() == 1);
+    CHECK(log.GetLines()[0].level == Core::ELogLevel::Error);
+    CHECK_THAT(log.GetLines()[0].fields[0].second, Catch::StartsWith(file + ".journal:2: "));
+    std::filesystem::resize_file(file + ".journal", whole);
+    CHECK_FALSE(watch.HasChanged());
+    CHECK(log.GetLines().size() == 2);
+}
+
+TEST_CASE("A docking that could not be written to the world is written later")
+{
+    WorldFixture floor;
+    LockedWorld world(floor.GetWorld());
+    floor.GetOptions().worldOrNull = &world;
+    static_cast<void>(floor.GetWorld().TakeEvents());
+    VehicleDriver driver(floor.GetOptions());
+    driver.Pass(1s);
+    CHECK(floor.GetWorld().TakeEvents().empty());
+    CHECK(driver.GetLog().Contains(Core::ELogLevel::Warning, "does not know where the vehicle is docked"));
+    world.Unlock();
+    driver.Pass(1s);
+    const std::vector<Sim::WorldEvent> events = floor.GetWorld().TakeEvents();
+    REQUIRE(events.size() == 1);
+    CHECK((events[0] == Sim::WorldEvent(Sim::RobotDocked{"LR01", {"A01.CP01", "A01.CP02"}})));
 }
 
 TEST_CASE("What others put on the vehicle shows in its loads")
