@@ -140,9 +140,18 @@ void FloorChecker::OnSending(std::size_t index, PlanTracker::Lines& out)
     const TrackedPlan& plan = _tracker.GetPlans()[index];
     if (_stocking == EStocking::Restock && _tracker.FindPlanOrNull(plan.planned.plan.planID) == &plan)
     {
-        Restock(_plans[index].floor, _world, out);
+        const Core::Result<void> restocked = Restock(_plans[index].floor, _world, out);
+        if (!restocked.has_value())
+        {
+            _tracker.AddViolation(
+                fmt::format(
+                    "{} is sent without restocking: {}",
+                    CleanText(plan.planned.plan.planID),
+                    CleanText(Core::Describe(restocked.error()))),
+                out);
+        }
     }
-    ReadEvents();
+    ReadEvents(out);
     _plans[index].firstEvent = _eventCount;
     _open.insert(index);
 }
@@ -186,7 +195,7 @@ void FloorChecker::Finish(PlanTracker::Lines& out)
     {
         CountCarriers(index, out);
     }
-    ReadEvents();
+    ReadEvents(out);
     for (std::size_t i = 0; i < _plans.size() && !_moves.empty(); ++i)
     {
         ExcuseUnfinished(i);
@@ -203,7 +212,7 @@ const DeliveryCount& FloorChecker::GetCount() const noexcept
     return _count;
 }
 
-void FloorChecker::ReadEvents()
+void FloorChecker::ReadEvents(PlanTracker::Lines& out)
 {
     for (Sim::WorldEvent& event : _world.TakeEvents())
     {
@@ -213,6 +222,13 @@ void FloorChecker::ReadEvents()
         }
         ++_eventCount;
     }
+    const std::optional<Core::Error> failed = _world.GetFailureOrNull();
+    std::string failure = failed.has_value() ? CleanText(Core::Describe(*failed)) : std::string();
+    if (!failure.empty() && failure != _failure)
+    {
+        _tracker.AddViolation("the world cannot be read, moves may be missing: " + failure, out);
+    }
+    _failure = std::move(failure);
 }
 
 void FloorChecker::CheckReport(
@@ -236,7 +252,7 @@ void FloorChecker::CheckReport(
     {
         return;
     }
-    ReadEvents();
+    ReadEvents(out);
     const Sim::WorldEvent expected = WithRobot(move->event, robotID);
     if (!TryClaim(plan, expected))
     {

@@ -35,7 +35,7 @@ struct DeliveryCount
 
 /// Compares what the ACS reports of its plans with what the simulated robots have moved: each job that is reported Completed
 /// has one move of its own, and each move has such a job. What is wrong becomes a violation of the tracker. Moves that
-/// happened before a plan was sent are not its own.
+/// happened before a plan was sent are not its own. A world that cannot be read or written is a violation, too.
 class FloorChecker
 {
     struct Move
@@ -59,6 +59,7 @@ class FloorChecker
     std::list<Move> _moves; ///< Those that no report has claimed.
     std::size_t _eventCount = 0;
     DeliveryCount _count;
+    std::string _failure; ///< Of the world, as it was reported last; empty: none.
 
 public:
     /// Tracker and world outlive the checker. What happened in the world before does not count.
@@ -82,7 +83,7 @@ public:
     [[nodiscard]] const DeliveryCount& GetCount() const noexcept;
 
 private:
-    void ReadEvents();
+    void ReadEvents(PlanTracker::Lines& out);
     void CheckReport(
         const std::string& planID,
         const std::string& robotID,

@@ -1,6 +1,7 @@
 #include "FloorStock.hpp"
 
 #include "CleanText.hpp"
+#include "world/EWorldError.hpp"
 #include <acs/core/Location.hpp>
 
 #include <fmt/format.h>
@@ -19,43 +20,55 @@ bool IsOnRobot(const std::string& place)
     return location.has_value() && location->IsRobotPort();
 }
 
-void Act(const Sim::WorldEvent& event, const std::string& place, Sim::IWorld& world, std::vector<std::string>& lines)
+/// What the floor does not allow is a line; the error is the world's own.
+Core::Result<void> Act(
+    const Sim::WorldEvent& event,
+    const std::string& place,
+    Sim::IWorld& world,
+    std::vector<std::string>& lines)
 {
-    const Core::Result<void> done = world.Act(event);
-    if (!done.has_value())
+    Core::Result<void> done = world.Act(event);
+    if (done.has_value() || done.error().code == Sim::EWorldError::JournalFailed)
     {
-        lines.push_back(fmt::format("{} not restocked: {}", CleanText(place), Core::Describe(done.error())));
+        return done;
     }
+    lines.push_back(fmt::format("{} not restocked: {}", CleanText(place), CleanText(Core::Describe(done.error()))));
+    return {};
+}
+
+Core::Result<void> RestockCarrier(const Sim::CarrierPlaced& wanted, Sim::IWorld& world, std::vector<std::string>& lines)
+{
+    const std::optional<std::string> place =
+        wanted.carrierID.empty() ? std::nullopt : world.GetPlaceOrNull(wanted.carrierID);
+    if (place.has_value() && IsOnRobot(*place))
+    {
+        lines.push_back(fmt::format(
+            "{} not restocked: {} is on {}",
+            CleanText(wanted.place),
+            CleanText(wanted.carrierID),
+            CleanText(*place)));
+        return {};
+    }
+    return place == wanted.place ? Core::Result<void>() : Act(wanted, wanted.place, world, lines);
 }
 
 } // namespace
 
-void Restock(const FloorPlan& plan, Sim::IWorld& world, std::vector<std::string>& lines)
+Core::Result<void> Restock(const FloorPlan& plan, Sim::IWorld& world, std::vector<std::string>& lines)
 {
-    for (const Sim::CarrierPlaced& wanted : plan.carriers)
+    Core::Result<void> done;
+    for (auto wanted = plan.carriers.begin(); done.has_value() && wanted != plan.carriers.end(); ++wanted)
     {
-        const std::optional<std::string> place =
-            wanted.carrierID.empty() ? std::nullopt : world.GetPlaceOrNull(wanted.carrierID);
-        if (place.has_value() && IsOnRobot(*place))
+        done = RestockCarrier(*wanted, world, lines);
+    }
+    for (auto wanted = plan.memories.begin(); done.has_value() && wanted != plan.memories.end(); ++wanted)
+    {
+        if (world.GetMemory(wanted->place) != wanted->memory)
         {
-            lines.push_back(fmt::format(
-                "{} not restocked: {} is on {}",
-                CleanText(wanted.place),
-                CleanText(wanted.carrierID),
-                CleanText(*place)));
-        }
-        else if (place != wanted.place)
-        {
-            Act(wanted, wanted.place, world, lines);
+            done = Act(*wanted, wanted->place, world, lines);
         }
     }
-    for (const Sim::MemoryPlaced& wanted : plan.memories)
-    {
-        if (world.GetMemory(wanted.place) != wanted.memory)
-        {
-            Act(wanted, wanted.place, world, lines);
-        }
-    }
+    return done;
 }
 
 } // namespace ACS::McsSim

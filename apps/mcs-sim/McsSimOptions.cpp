@@ -83,12 +83,19 @@ void AddWorldOptions(CLI::App& app, McsSimOptions& options)
         },
         "Compare the reports with what the simulated robots have moved: the world file that they share (docs/mcs-sim.md)");
     world.type_name("FILE.json");
-    app.add_flag(
-           "--restock,!--no-restock",
-           options.bRestock,
-           "With --world, before a plan is sent: put its carriers and memories where it picks them first and empty the places "
-           "where it puts some; plans that share a station or a carrier go one after the other (default: on)")
-        ->needs(&world);
+    CLI::Option* const restock =
+        app.add_flag(
+               "--restock",
+               options.bRestock,
+               "With --world, before a plan is sent: put its carriers and memories where it picks them first and empty the "
+               "places where it puts some; plans that share a station or a carrier go one after the other (default)")
+            ->needs(&world);
+    app.add_flag_callback(
+           "--no-restock",
+           [&options] { options.bRestock = false; },
+           "With --world: leave the floor as it is")
+        ->needs(&world)
+        ->excludes(restock);
 }
 
 /// What is wrong with options that do not go together; empty: nothing.

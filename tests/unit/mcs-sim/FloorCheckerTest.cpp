@@ -4,9 +4,12 @@
 #include "FloorPlans.hpp"
 #include "ManualClock.hpp"
 #include "SamplePlans.hpp"
+#include "TemporaryFolder.hpp"
 #include "world/MemoryWorld.hpp"
+#include "world/WorldFile.hpp"
 
 #include <cstddef>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -128,6 +131,17 @@ public:
         Act(CarrierMoved{ROBOT, trayID, from, to});
     }
 
+    /// Sends plan P1, whose first job loads TRAY_01 but is not reported Completed.
+    void LoadFirstTray()
+    {
+        static_cast<void>(Send());
+        BeginPlan("P1");
+        BeginStep("P1", 1);
+        Dock("A01.CP02");
+        BeginJob("P1", 1, 1);
+        MoveTray("TRAY_01", "A01.CP02.TP01", "CR01.TP01");
+    }
+
     /// As an ACS that is right does it, but for the last tray's port.
     void RunPlan(const std::string& planID, const std::string& lastPort = "A01.CP02.TP04")
     {
@@ -224,12 +238,7 @@ TEST_CASE("Another place than the job's is a report without a move, a move witho
 TEST_CASE("One move serves one report only")
 {
     FloorFixture fixture;
-    static_cast<void>(fixture.Send());
-    fixture.BeginPlan("P1");
-    fixture.BeginStep("P1", 1);
-    fixture.Dock("A01.CP02");
-    fixture.BeginJob("P1", 1, 1);
-    fixture.MoveTray("TRAY_01", "A01.CP02.TP01", "CR01.TP01");
+    fixture.LoadFirstTray();
     fixture.CompleteJob("P1", 1, 1);
     CHECK(fixture.tracker.CountViolations() == 0);
     fixture.CompleteJob("P1", 1, 1); // also wrong by the rules of the reports
@@ -250,12 +259,7 @@ TEST_CASE("A move that no plan has asked for is a violation at the end; a person
 TEST_CASE("A job that was begun and is not Completed may have been done: its move is excused, once")
 {
     FloorFixture fixture;
-    static_cast<void>(fixture.Send());
-    fixture.BeginPlan("P1");
-    fixture.BeginStep("P1", 1);
-    fixture.Dock("A01.CP02");
-    fixture.BeginJob("P1", 1, 1);
-    fixture.MoveTray("TRAY_01", "A01.CP02.TP01", "CR01.TP01");
+    fixture.LoadFirstTray();
     fixture.Report(MakePlanReport("P1", EPlanStatus::Aborted));
     SECTION("once")
     {
@@ -275,12 +279,7 @@ TEST_CASE("A job that was begun and is not Completed may have been done: its mov
 TEST_CASE("A carrier that an aborted plan left on the robot is neither delivered nor misplaced")
 {
     FloorFixture fixture;
-    static_cast<void>(fixture.Send());
-    fixture.BeginPlan("P1");
-    fixture.BeginStep("P1", 1);
-    fixture.Dock("A01.CP02");
-    fixture.BeginJob("P1", 1, 1);
-    fixture.MoveTray("TRAY_01", "A01.CP02.TP01", "CR01.TP01");
+    fixture.LoadFirstTray();
     fixture.CompleteJob("P1", 1, 1);
     fixture.Report(MakePlanReport("P1", EPlanStatus::Aborted));
     CHECK(fixture.Finish().empty());
@@ -365,6 +364,34 @@ TEST_CASE("A carrier on a robot is not restocked: the ACS has it on record")
     CHECK(fixture.lines.front() == "A01.CP02.TP01 not restocked: TRAY_01 is on CR01.TP01");
     CHECK(fixture.world.GetPlaceOrNull("TRAY_01") == "CR01.TP01");
     CHECK(fixture.world.GetPlaceOrNull("TRAY_02") == "A01.CP02.TP02");
+}
+
+TEST_CASE("A world that cannot be read or written is a violation, once for each reason")
+{
+    const ACS::Testing::TemporaryFolder folder;
+    const std::string file = folder.GetPath() / "world.json";
+    std::ofstream(file) << R"({"version":1})";
+    const auto world = WorldFile::Open(file);
+    REQUIRE(world.has_value());
+    const EStocking stocking = GENERATE(EStocking::Restock, EStocking::Leave);
+    PlanTracker tracker(MakePlans(2));
+    FloorChecker checker(tracker, **world, stocking);
+    PlanTracker::Lines lines;
+    std::ofstream(file + ".journal", std::ios::app) << "no JSON\n";
+    checker.OnSending(0, lines);
+    checker.OnSending(1, lines);
+    checker.Finish(lines);
+    const std::vector<std::string>& violations = tracker.GetViolations();
+    REQUIRE(violations.size() == (stocking == EStocking::Restock ? 3U : 1U));
+    for (const std::string& violation : violations)
+    {
+        CHECK_THAT(violation, Catch::Contains("world.json.journal:1: "));
+    }
+    CHECK_THAT(
+        violations.front(),
+        Catch::StartsWith(
+            stocking == EStocking::Restock ? "P1 is sent without restocking: " : "the world cannot be read"));
+    CHECK_FALSE(tracker.IsSuccess());
 }
 
 TEST_CASE("A step without jobs is compared by its own report")

@@ -59,6 +59,17 @@ TEST_CASE("With a world file the floor is restocked, unless that is off")
     CHECK_FALSE(Parse({"--plan", "a.json", "--world", "w.json", "--no-restock"}).options.bRestock);
 }
 
+TEST_CASE("A message names the option that was given, not its opposite")
+{
+    CHECK_THAT(
+        Parse({"--plan", "a.json", "--no-restock"}).errors,
+        Catch::Contains("mcs-sim: --no-restock requires --world"));
+    CHECK_THAT(Parse({"--plan", "a.json", "--restock"}).errors, Catch::Contains("mcs-sim: --restock requires --world"));
+    const Outcome both = Parse({"--plan", "a.json", "--world", "w.json", "--restock", "--no-restock"});
+    CHECK(both.exitCode == 2);
+    CHECK_THAT(both.errors, Catch::Contains("--restock excludes --no-restock"));
+}
+
 TEST_CASE("Plans may follow one --plan or several, in order")
 {
     const Outcome outcome =
@@ -91,6 +102,8 @@ TEST_CASE("A bad command line is told in one line, with exit code 2")
         Arguments{"--plan", "a.json", "--repeat", "0"},
         Arguments{"--plan", "a.json", "--live", "perhaps"},
         Arguments{"--plan", "a.json", "--no-restock"},
+        Arguments{"--plan", "a.json", "--restock"},
+        Arguments{"--plan", "a.json", "--no-restock", "--restock", "--world", "w.json"},
         Arguments{"--plan", "a.json", "--world", ""},
         Arguments{"--plan", "a.json", "--path", "acs"},
         Arguments{"--plan", "a.json", "--tls-key", "a.key"},
