@@ -2,12 +2,12 @@
 
 #include "common/LogText.hpp"
 #include "common/Version.hpp"
+#include <acs/core/ControlCharacter.hpp>
 #include <acs/core/Result.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -151,8 +151,22 @@ std::optional<int> ParseCommandLineOrNull(CLI::App& app, int argc, const char* c
 
 void PrintMistake(std::string_view program, std::string_view text)
 {
-    std::string line = fmt::format("{}: {}", program, text);
-    std::replace(line.begin(), line.end(), '\n', ' ');
+    std::string line = fmt::format("{}: ", program);
+    for (const char character : text)
+    {
+        if (character == '\n')
+        {
+            line += ' ';
+        }
+        else if (Core::IsControlCharacter(character))
+        {
+            line += fmt::format("\\x{:02x}", static_cast<unsigned>(static_cast<unsigned char>(character)));
+        }
+        else
+        {
+            line += character;
+        }
+    }
     std::cerr << line << std::endl;
 }
 

@@ -60,7 +60,7 @@ CLI::Option& AddRepeatedOption(CLI::App& app, const std::string& name, TextReade
 /// standard output), 2 after a mistake, told in one line on standard error.
 [[nodiscard]] std::optional<int> ParseCommandLineOrNull(CLI::App& app, int argc, const char* const* argv);
 
-/// One line on standard error, "NAME: text"; line ends within the text become spaces.
+/// One line on standard error, "NAME: text"; line ends within the text become spaces, other control characters are escaped.
 void PrintMistake(std::string_view program, std::string_view text);
 
 /// Runs the body of main(). What a third party throws past everything becomes one line on standard error and exit

@@ -30,6 +30,23 @@ void CheckFailsAt(std::size_t byte, std::string_view text)
 
 } // namespace
 
+TEST_CASE("A mistake in a text of several lines is found by line and column")
+{
+    JsonDocument document;
+    const auto missing = document.Parse("\xEF\xBB\xBF{\n  \"a\": 1\n  \"b\": 2\n}", {});
+    REQUIRE_FALSE(missing.has_value());
+    CHECK(missing.error().found.starts_with("line 3, column 3: "));
+    const auto cut = document.Parse("[1,\n", {});
+    REQUIRE_FALSE(cut.has_value());
+    CHECK(cut.error().found.starts_with("line 2, column 1: "));
+    const auto early = document.Parse("x\n", {});
+    REQUIRE_FALSE(early.has_value());
+    CHECK(early.error().found.starts_with("line 1, column 1: "));
+    const auto nul = document.Parse(std::string_view("[1]\n\0", 5), {});
+    REQUIRE_FALSE(nul.has_value());
+    CHECK(nul.error().found == "a NUL at line 2, column 1");
+}
+
 TEST_CASE("Five megabytes of opening brackets are refused without a crash")
 {
     ParseLimits limits;
