@@ -296,8 +296,7 @@ tl::expected<JsonText, std::string> ParameterTemplate::Resolve(const JobData& da
             bConverted ? ConvertOrNull(*value, *type) : std::optional(MakeJson(*value));
         if (!converted.has_value())
         {
-            return tl::unexpected(
-                fmt::format("{} is not of type {}", MakeJson(*value).GetText(), GetTypeName(*type)));
+            return tl::unexpected(fmt::format("{} is not of type {}", MakeJson(*value).GetText(), GetTypeName(*type)));
         }
         json += converted->GetText();
     }

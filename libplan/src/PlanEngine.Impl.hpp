@@ -74,7 +74,8 @@ public:
         std::string repeatedCommandID; ///< Of a job that the robot never had: it is sent again under this.
         std::optional<Core::SteadyTime> jobDeadline;
         std::optional<Core::Duration> jobTimeLeft; ///< Of a job that is paused.
-        std::map<std::size_t, std::string> rejections; ///< While no robot has it, by robot: why that one cannot do a job.
+        std::map<std::size_t, std::string>
+            rejections; ///< While no robot has it, by robot: why that one cannot do a job.
     };
 
     enum class EActivity : std::uint8_t
@@ -185,9 +186,9 @@ public:
         bool bConfirming = false;  ///< The timer ControlConfirm runs.
         bool bInMaintenance = false;
         std::shared_ptr<const IJobCheck> jobCheck; ///< Null: no job is rejected.
-        bool bBatteryLow = false;  ///< Was under the floor and is not full enough yet.
-        bool bChargeAsked = false; ///< It was told to charge and not to stop that.
-        bool bChargeShown = false; ///< Its state has shown that it does.
+        bool bBatteryLow = false;                  ///< Was under the floor and is not full enough yet.
+        bool bChargeAsked = false;                 ///< It was told to charge and not to stop that.
+        bool bChargeShown = false;                 ///< Its state has shown that it does.
         std::optional<StateChanged> state;
         std::optional<std::size_t> node; ///< Where it stands or passed last.
         /// After a restart: where it may be, as far as was written down; once it has told its node, what of that is ahead.

@@ -115,8 +115,7 @@ TEST_CASE("A vehicle whose factsheet demands a parameter that is not configured 
     AvailabilityFixture site;
     CHECK(site.Run(MakePlan("P1", "LR01", "A01.CP01")) == "LR01 Completed");
     site.Publish("fork");
-    const std::string reason =
-        "No robot can do it: LR01: the parameter fork of pick is mandatory and not configured.";
+    const std::string reason = "No robot can do it: LR01: the parameter fork of pick is mandatory and not configured.";
     CHECK(site.Run(MakePlan("P2", "LR01", "A01.CP01")) == reason);
     CHECK(site.Run(MakePlan("P3", "AMR", "A01.CP01")) == "LR02 Completed");
     CHECK(site.Describe("P2") == reason);
