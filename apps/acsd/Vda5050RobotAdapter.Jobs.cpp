@@ -19,6 +19,11 @@ using Planning::RaiseEvent;
 
 void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now, AdapterActions& out)
 {
+    if (_bFactsheetAwaited)
+    {
+        _deferredJob = job;
+        return;
+    }
     const std::optional<std::string> rejection = GetRejectionReasonOrNull(job.action);
     if (rejection.has_value())
     {
@@ -39,32 +44,27 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
         TakeUp(job, now, out);
         return;
     }
-    tl::expected<VDA5050::OrderMessage, std::string> order = MakeJobOrder(job);
-    if (!order.has_value())
+    tl::expected<VDA5050::Action, std::string> action = _jobCheck->MakeAction(job);
+    if (!action.has_value())
     {
-        out.emplace_back(RaiseEvent{Planning::JobFailed{job.jobID, order.error()}});
+        out.emplace_back(RaiseEvent{Planning::JobFailed{job.jobID, action.error()}});
         return;
     }
     _job = job;
     _bJobStarted = false;
-    _pendingOrder = PendingOrder{std::move(*order)};
+    _pendingOrder = PendingOrder{MakeJobOrder(job, std::move(*action))};
     SendPendingOrder(now, out);
 }
 
-tl::expected<VDA5050::OrderMessage, std::string> Vda5050RobotAdapter::MakeJobOrder(const Planning::StartJob& job) const
+VDA5050::OrderMessage Vda5050RobotAdapter::MakeJobOrder(const Planning::StartJob& job, VDA5050::Action action) const
 {
-    tl::expected<VDA5050::Action, std::string> action = _jobCheck->MakeAction(job);
-    if (!action.has_value())
-    {
-        return tl::unexpected(std::move(action.error()));
-    }
     VDA5050::OrderMessage order;
     // Plans may name a job as one before did: a vehicle takes an orderId that it knows for a repetition.
     order.orderID = job.commandID;
     VDA5050::OrderNode& node = order.nodes.emplace_back();
     node.nodeID = _session.GetStateOrNull()->lastNodeID;
     node.bReleased = true;
-    node.actions.push_back(std::move(*action));
+    node.actions.push_back(std::move(action));
     return order;
 }
 
@@ -115,23 +115,19 @@ void Vda5050RobotAdapter::TakeUp(const Planning::StartJob& job, Core::Now now, A
     {
         return; // its end is told, or will be by the action's own state
     }
-    const auto abandon = [this, &job, &out](const std::string& reason) {
-        _job.reset();
-        out.emplace_back(RaiseEvent{Planning::JobUncertain{job.jobID, reason}});
-    };
-    tl::expected<VDA5050::OrderMessage, std::string> order = MakeJobOrder(job);
-    if (!order.has_value())
-    {
-        abandon(order.error());
-        return;
-    }
+    // The vehicle has the parameters. They may not be known here before its factsheet has come.
+    VDA5050::Action action;
+    action.actionType = shown == state.actionStates.end() || shown->actionType.empty() ? job.action : shown->actionType;
+    action.actionID = job.commandID;
+    action.blockingType = VDA5050::EBlockingType::Hard;
     VDA5050::OrderRecord record;
-    record.messages.push_back(std::move(*order));
+    record.messages.push_back(MakeJobOrder(job, std::move(action)));
     record.acceptedUpdateID = state.orderUpdateID;
     const Core::Result<void> resumed = _session.ResumeOrder(std::move(record), now, _sessionActions);
     if (!resumed)
     {
-        abandon(Core::Describe(resumed.error()));
+        _job.reset();
+        out.emplace_back(RaiseEvent{Planning::JobUncertain{job.jobID, Core::Describe(resumed.error())}});
     }
 }
 

@@ -78,11 +78,18 @@ void Vda5050RobotAdapter::Handle(const Planning::RobotCommand& command, Core::No
             [&](const Planning::CancelDrive& cancel) { CancelOrder(cancel.driveID, now, out); },
             [&](const Planning::StartJob& job) { StartJob(job, now, out); },
             [&](const Planning::RecoverJob& recover) {
+                _deferredJob.reset();
                 _recovery = recover;
                 FindJob(now, out);
             },
             [&](const Planning::CancelJob& cancel) {
-                if (_job.has_value() && cancel.jobID == _job->jobID)
+                if (_deferredJob.has_value() && cancel.jobID == _deferredJob->jobID)
+                {
+                    _deferredJob.reset();
+                    out.emplace_back(
+                        RaiseEvent{Planning::JobFailed{cancel.jobID, "cancelled before the vehicle had it"}});
+                }
+                else if (_job.has_value() && cancel.jobID == _job->jobID)
                 {
                     CancelOrder(_job->commandID, now, out);
                 }
@@ -106,7 +113,8 @@ void Vda5050RobotAdapter::OnTimer(Planning::AdapterTimerID timer, Core::Now now,
     }
     if (timer == FACTSHEET_TIMER)
     {
-        OnFactsheet(out);
+        OnFactsheet(now, out);
+        Drain(now, out);
         return;
     }
     _session.OnTimer(static_cast<VDA5050::EMasterTimer>(timer), now, _sessionActions);
@@ -308,7 +316,7 @@ void Vda5050RobotAdapter::Take(const VDA5050::MasterAction& action, Core::Now no
             [&](const VDA5050::PositionReceived& received) { TakePosition(received, out); },
             [&](const VDA5050::FactsheetReceived&) {
                 out.emplace_back(Planning::CancelAdapterTimer{FACTSHEET_TIMER});
-                OnFactsheet(out);
+                OnFactsheet(now, out);
             },
             [&](const VDA5050::VehicleOnline&) { _foreignOrderID.clear(); },
             [&](const VDA5050::VehicleOffline&) { SetOnline(false, out); },
@@ -424,10 +432,17 @@ void Vda5050RobotAdapter::SetOnline(bool bOnline, AdapterActions& out)
     out.emplace_back(RaiseEvent{Planning::LinkChanged{bOnline}});
 }
 
-void Vda5050RobotAdapter::OnFactsheet(AdapterActions& out)
+void Vda5050RobotAdapter::OnFactsheet(Core::Now now, AdapterActions& out)
 {
-    _bFactsheetAwaited = false;
-    UpdateJobCheck(out);
+    const bool bAwaited = std::exchange(_bFactsheetAwaited, false);
+    if (bAwaited || !_jobCheck->IsFor(_session.GetFactsheetOrNull()))
+    {
+        UpdateJobCheck(out);
+    }
+    if (_deferredJob.has_value())
+    {
+        StartJob(*std::exchange(_deferredJob, std::nullopt), now, out);
+    }
 }
 
 void Vda5050RobotAdapter::UpdateJobCheck(AdapterActions& out)

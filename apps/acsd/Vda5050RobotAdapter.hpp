@@ -56,6 +56,7 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
     std::string _lastPassedNodeID;
     std::optional<Planning::StartJob> _job; ///< The vehicle knows it by its commandID, as order and as action.
     bool _bJobStarted = false;
+    std::optional<Planning::StartJob> _deferredJob; ///< Until the factsheet has come, or is awaited no longer.
     std::optional<LoadCheck> _loadCheck; ///< Of a job whose action is finished and whose loads do not show it yet.
     std::optional<PendingOrder> _pendingOrder;
     std::optional<Planning::RecoverJob> _recovery;    ///< Asked for, and the vehicle has not told its state yet.
@@ -66,8 +67,7 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
 
     void StartDrive(const Planning::Drive& drive, Core::Now now, Planning::AdapterActions& out);
     void StartJob(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
-    /// The error says which parameter of the action has no value.
-    [[nodiscard]] tl::expected<VDA5050::OrderMessage, std::string> MakeJobOrder(const Planning::StartJob& job) const;
+    [[nodiscard]] VDA5050::OrderMessage MakeJobOrder(const Planning::StartJob& job, VDA5050::Action action) const;
     void OnJobDone(Planning::AdapterActions& out);
     void VerifyLoads(Planning::AdapterActions& out);
     void OnLoadTimeout(Planning::AdapterActions& out);
@@ -105,7 +105,7 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
     void TakeFinished(const std::string& orderID, Planning::AdapterActions& out);
     void SetOnline(bool bOnline, Planning::AdapterActions& out);
     /// The factsheet has come, or is awaited no longer.
-    void OnFactsheet(Planning::AdapterActions& out);
+    void OnFactsheet(Core::Now now, Planning::AdapterActions& out);
     void UpdateJobCheck(Planning::AdapterActions& out);
 
 public:

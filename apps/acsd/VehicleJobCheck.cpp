@@ -20,6 +20,17 @@ VehicleJobCheck::VehicleJobCheck(
 {
 }
 
+bool VehicleJobCheck::IsFor(const VDA5050::FactsheetMessage* factsheetOrNull) const
+{
+    if (factsheetOrNull == nullptr || !_factsheet.has_value())
+    {
+        return factsheetOrNull == nullptr && !_factsheet.has_value();
+    }
+    VDA5050::FactsheetMessage other = *factsheetOrNull;
+    other.header = _factsheet->header;
+    return other == *_factsheet;
+}
+
 tl::expected<VDA5050::Action, std::string> VehicleJobCheck::MakeAction(const Planning::StartJob& job) const
 {
     const JobData data = _methods.MakeData(job);

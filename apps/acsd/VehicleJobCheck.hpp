@@ -24,6 +24,9 @@ public:
     /// With an awaited factsheet every job is rejected for now.
     VehicleJobCheck(JobMethods methods, const VDA5050::FactsheetMessage* factsheetOrNull, bool bFactsheetAwaited);
 
+    /// Whether it is by this factsheet, however often that was sent; null: by none.
+    [[nodiscard]] bool IsFor(const VDA5050::FactsheetMessage* factsheetOrNull) const;
+
     /// The vehicle's action for the job, by what is known of its factsheet. The error says why it has none.
     [[nodiscard]] tl::expected<VDA5050::Action, std::string> MakeAction(const Planning::StartJob& job) const;
 

@@ -202,7 +202,7 @@ void MasterSession::ComeOnline(Core::Now now, MasterActions& out)
     {
         ask(ActionTypes::STATE_REQUEST);
     }
-    if (_options.bFactsheetRequested && !_factsheet.has_value())
+    if (_options.bFactsheetRequested)
     {
         ask(ActionTypes::FACTSHEET_REQUEST);
     }

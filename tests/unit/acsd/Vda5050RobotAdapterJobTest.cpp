@@ -185,4 +185,63 @@ TEST_CASE("A vehicle that is asked for its factsheet is given no job before the 
     }
 }
 
+TEST_CASE("A job that is commanded before the factsheet has come is sent after it, with the types that it declares")
+{
+    VDA5050::MasterOptions options = VehicleFixture::MakeOptions();
+    options.bFactsheetRequested = true;
+    JobMethods methods = MakeMethods();
+    methods.SetMethod("CassetteLoad", {}, {"pick", 0, {{"fork", *ParameterTemplate::Make("2")}}});
+    VehicleFixture vehicle(std::move(methods), options);
+    vehicle.ComeOnline();
+    vehicle.Command(MakeLoad("A01.CP01", "LR01.CP01"));
+    CHECK(vehicle.TakeOrders().empty());
+    VDA5050::FactsheetMessage factsheet;
+    factsheet.protocolFeatures.agvActions = {{"pick", "", {VDA5050::EActionScope::Node}}};
+    factsheet.protocolFeatures.agvActions[0].actionParameters = {{"fork", VDA5050::EValueDataType::Integer}};
+    SECTION("the factsheet comes")
+    {
+        vehicle.Receive("factsheet", factsheet);
+        const auto orders = vehicle.TakeOrders();
+        REQUIRE(orders.size() == 1);
+        CHECK(MakeText(orders[0].nodes.at(0).actions.at(0)) == "pick fork=2");
+    }
+    SECTION("the job is cancelled first")
+    {
+        vehicle.Command(Planning::CancelJob{"J"});
+        CHECK(
+            vehicle.TakeEvents<Planning::JobFailed>()
+            == std::vector<Planning::JobFailed>{{"J", "cancelled before the vehicle had it"}});
+        vehicle.Receive("factsheet", factsheet);
+        CHECK(vehicle.TakeOrders().empty());
+    }
+}
+
+TEST_CASE("A job that the vehicle shows after a restart goes on before its factsheet has come")
+{
+    VDA5050::MasterOptions options = VehicleFixture::MakeOptions();
+    options.bFactsheetRequested = true;
+    JobMethods methods = MakeMethods();
+    methods.SetMethod("CassetteLoad", {}, {"pick", 0, {{"fork", *ParameterTemplate::Make("2")}}}); // no stationType
+    VehicleFixture vehicle(std::move(methods), options);
+    vehicle.state.orderID = "U1";
+    vehicle.state.actionStates = {{"U1", "pick", "", VDA5050::EActionStatus::Running, ""}};
+    vehicle.ComeOnline();
+    vehicle.Command(Planning::RecoverJob{MakeLoad("A01.CP01", "LR01.CP01"), {}});
+    CHECK(vehicle.TakeEvents<Planning::JobUncertain>().empty());
+    vehicle.state.actionStates[0].actionStatus = VDA5050::EActionStatus::Finished;
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::JobFinished>().size() == 1);
+}
+
+TEST_CASE("A factsheet that is the same again changes nothing")
+{
+    VehicleFixture vehicle(MakeMethods());
+    vehicle.ComeOnline();
+    vehicle.Receive("factsheet", MakeStandardFactsheet());
+    const std::size_t count = vehicle.TakeEvents<Planning::JobCheckChanged>().size();
+    ++vehicle.state.header.headerID;
+    vehicle.Receive("factsheet", MakeStandardFactsheet());
+    CHECK(vehicle.TakeEvents<Planning::JobCheckChanged>().size() == count);
+}
+
 } // namespace ACS::Acsd::Test

@@ -33,6 +33,22 @@ TEST_CASE("6 ONLINE asks for state and factsheet; OFFLINE, the will and repeated
     CHECK_FALSE(bench.session.IsReady());
 }
 
+TEST_CASE("6 ONLINE asks for the factsheet again, which may have changed meanwhile")
+{
+    MasterBench bench;
+    bench.BeReady();
+    bench.Say(ETopic::Factsheet, Vda5050Codec().Encode(FactsheetMessage(), EVda5050Version::Version210));
+    REQUIRE(bench.session.GetFactsheetOrNull() != nullptr);
+    bench.Connect(EConnectionState::Offline);
+    static_cast<void>(bench.Clear());
+    bench.Connect(EConnectionState::Online);
+    const auto sent = bench.GetSent(ETopic::InstantActions);
+    REQUIRE(sent.size() == 1);
+    const auto request = Vda5050Codec().Decode<InstantActionsMessage>(sent[0].payload);
+    REQUIRE(request.has_value());
+    CHECK(std::ranges::count(request->actions, "factsheetRequest", &Action::actionType) == 1);
+}
+
 TEST_CASE(
     "6.5 The will of a connection before, under another client id, comes after ONLINE: a state shows that it is old")
 {
