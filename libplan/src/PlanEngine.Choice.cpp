@@ -402,8 +402,12 @@ std::optional<WaitReason> PlanEngine::Impl::GetWaitReasonOrNull(std::string_view
 }
 
 /// Why the robot is not given the plan now; nullopt where it is.
-std::optional<std::string> PlanEngine::Impl::FindObjectionOrNull(const ActivePlan& plan, const Robot& robot) const
+std::optional<std::string> PlanEngine::Impl::GetUnavailabilityOrNull(const ActivePlan& plan, const Robot& robot) const
 {
+    if (!robot.bOnline)
+    {
+        return DescribeUnfree(robot);
+    }
     if (const auto rejection = plan.rejections.find(robot.index); rejection != plan.rejections.end())
     {
         return rejection->second;
@@ -412,9 +416,9 @@ std::optional<std::string> PlanEngine::Impl::FindObjectionOrNull(const ActivePla
     {
         return DescribeUnfree(robot);
     }
-    if (std::optional<std::string> objection = JudgePorts(plan, robot).objectionOrNull)
+    if (std::optional<std::string> reason = JudgePorts(plan, robot).objectionOrNull)
     {
-        return objection;
+        return reason;
     }
     if (!HasWay(plan, robot))
     {
@@ -422,7 +426,8 @@ std::optional<std::string> PlanEngine::Impl::FindObjectionOrNull(const ActivePla
     }
     return CanServe(robot, plan)
         ? std::nullopt
-        : std::optional<std::string>("robots that cannot move keep it from the way there, or home");
+        : std::optional<std::string>(
+            "robots that cannot move block the route to the station, or from there to its parking position");
 }
 
 WaitReason PlanEngine::Impl::DescribeWaiting(const ActivePlan& plan, std::size_t position) const
@@ -432,9 +437,9 @@ WaitReason PlanEngine::Impl::DescribeWaiting(const ActivePlan& plan, std::size_t
     reason.queuePosition = position;
     for (const std::size_t index : plan.resolved.candidates)
     {
-        if (std::optional<std::string> objection = FindObjectionOrNull(plan, _robots[index]))
+        if (std::optional<std::string> robotReason = GetUnavailabilityOrNull(plan, _robots[index]))
         {
-            reason.robots.push_back({GetRobotID(_robots[index]), std::move(*objection)});
+            reason.robots.push_back({GetRobotID(_robots[index]), std::move(*robotReason)});
         }
     }
     if (_tscState != ETscState::Auto)

@@ -419,7 +419,7 @@ private:
         const Robot& robot,
         std::size_t port,
         const std::string& carrierID) const;
-    [[nodiscard]] std::optional<std::string> FindObjectionOrNull(const ActivePlan& plan, const Robot& robot) const;
+    [[nodiscard]] std::optional<std::string> GetUnavailabilityOrNull(const ActivePlan& plan, const Robot& robot) const;
     [[nodiscard]] WaitReason DescribeWaiting(const ActivePlan& plan, std::size_t position) const;
     [[nodiscard]] std::optional<WaitReason> DescribeBegunOrNull(const ActivePlan& plan) const;
     [[nodiscard]] std::string DescribeStanding(const Robot& robot) const;
@@ -492,7 +492,7 @@ private:
     // Which jobs a robot can do (PlanEngine.JobCheck.cpp).
     void OnJobCheck(Robot& robot, const JobCheckChanged& event);
     void CheckJobs(ActivePlan& plan, const Robot& robot) const;
-    [[nodiscard]] static bool IsRejectedByAll(const ActivePlan& plan);
+    [[nodiscard]] bool IsRejectedByAll(const ActivePlan& plan) const;
     [[nodiscard]] std::string DescribeRejections(const ActivePlan& plan) const;
 
     // Drives that do not get on (PlanEngine.Progress.cpp).
@@ -531,7 +531,7 @@ private:
 
     // What robots show on their ports (PlanEngine.Loads.cpp).
     void CompareLoads(Robot& robot);
-    static void CompareLoad(Robot& robot, std::size_t port, const PortLoad& load);
+    static void CompareLoad(Robot& robot, std::size_t port, const PortLoad& load, const std::string& others);
     [[nodiscard]] Alarm MakeLoadAlarm(const Robot& robot) const;
     void UpdateLoadAlarm(Robot& robot);
     void OnLoadAlarmTimer(Robot& robot);

@@ -46,9 +46,12 @@ void PlanEngine::Impl::CheckJobs(ActivePlan& plan, const Robot& robot) const
     }
 }
 
-bool PlanEngine::Impl::IsRejectedByAll(const ActivePlan& plan)
+/// What a robot that is out of reach would reject is not known for certain.
+bool PlanEngine::Impl::IsRejectedByAll(const ActivePlan& plan) const
 {
-    return plan.rejections.size() == plan.resolved.candidates.size();
+    return std::ranges::all_of(plan.resolved.candidates, [this, &plan](std::size_t index) {
+        return _robots[index].bOnline && plan.rejections.contains(index);
+    });
 }
 
 std::string PlanEngine::Impl::DescribeRejections(const ActivePlan& plan) const

@@ -32,7 +32,7 @@ bool IsAgreed(const std::optional<std::string>& expected, const PortLoad& load)
     return !HasID(load) || *expected == UNKNOWN_CARRIER || *expected == load.carrierID;
 }
 
-/// At which ports other than its own the load's carrier is shown, too ("CR01.TP02, CR01.TP03"); empty: at none.
+/// At which ports other than its own the load's carrier is shown ("CR01.TP02, CR01.TP03"); empty: at none.
 std::string ListOtherPorts(const std::vector<PortLoad>& loads, const PortLoad& load)
 {
     std::string ports;
@@ -69,13 +69,20 @@ void PlanEngine::Impl::CompareLoads(Robot& robot)
     const std::vector<PortUse> uses = robot.job.has_value() ? ListPortUses(robot, *robot.job) : std::vector<PortUse>();
     const std::vector<std::optional<std::string>> recorded = robot.carriers;
     const bool bWasDisputed = !robot.disputedPorts.empty();
+    std::vector<std::size_t> ports;
+    std::vector<PortLoad> loads;
     for (const PortLoad& load : *robot.state->loads)
     {
         const std::optional<std::size_t> port = FindNamedPortOrNull(robot, load.port);
         if (port.has_value() && std::ranges::count(uses, *port, &PortUse::port) == 0)
         {
-            CompareLoad(robot, *port, load);
+            ports.push_back(*port);
+            loads.push_back(load);
         }
+    }
+    for (std::size_t i = 0; i < loads.size(); ++i)
+    {
+        CompareLoad(robot, ports[i], loads[i], ListOtherPorts(loads, loads[i]));
     }
     if (robot.carriers != recorded)
     {
@@ -88,11 +95,10 @@ void PlanEngine::Impl::CompareLoads(Robot& robot)
     }
 }
 
-/// A carrier that is shown at two ports is evidence for neither: both are loaded, and their ids stay as on record.
-void PlanEngine::Impl::CompareLoad(Robot& robot, std::size_t port, const PortLoad& load)
+/// The other ports are those that show the same carrier. A carrier that is shown at two ports is evidence for neither: both are loaded, and their ids stay as on record.
+void PlanEngine::Impl::CompareLoad(Robot& robot, std::size_t port, const PortLoad& load, const std::string& others)
 {
     std::optional<std::string>& record = robot.carriers[port];
-    const std::string others = ListOtherPorts(*robot.state->loads, load);
     auto disputed = robot.disputedPorts.find(port);
     if (others.empty() && disputed != robot.disputedPorts.end() && IsAgreed(disputed->second.expected, load)
         && (!IsAgreed(record, load) || record == disputed->second.expected))

@@ -41,6 +41,7 @@ void PlanEngine::Impl::BeginPlan(ActivePlan& plan, Robot& robot)
 {
     _pending.erase(plan.key);
     plan.robot = robot.index;
+    plan.rejections.clear();
     plan.record.progress.robotID = GetRobotID(robot);
     robot.planOrNull = &plan;
     robot.bHomeRefused = false;

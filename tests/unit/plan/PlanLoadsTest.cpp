@@ -271,6 +271,19 @@ TEST_CASE("A job at another place of the robot does not hide what is shown at a 
     CHECK(world.engine->GetRobotStatuses()[1].carrierIDs == Carriers{{}, {}, {}});
 }
 
+TEST_CASE("What is shown at the port of a running job is no evidence against another port either")
+{
+    PlanWorld world;
+    world.Connect();
+    world.Ask(SetCarriers{"CR01", {"TRAY_01", "TRAY_02", {}}, 1});
+    world.Submit({"P1", "", 1, {{1, "TrayUnload", "A01.CP01", {"TRAY_01"}, {{"J1", "AMR.TP01", "A01.CP01.TP01"}}}}});
+    REQUIRE(TryRunUntil(world, "P1", "Job 1 J1 InProgress"));
+    world.GetRobot("CR01").loads = Loads{{"CR01.TP01", true, "TRAY_02"}, {"CR01.TP02", true, "TRAY_02"}};
+    world.TellState("CR01");
+    CHECK(world.engine->GetActiveAlarms().empty());
+    CHECK(world.engine->GetRobotStatuses()[1].carrierIDs == Carriers{"TRAY_01", "TRAY_02", {}});
+}
+
 TEST_CASE("A port whose job is unresolved is not compared before an operator has answered")
 {
     PlanWorld world;
