@@ -28,7 +28,8 @@ Core::Result<void> Act(
     std::vector<std::string>& lines)
 {
     Core::Result<void> done = world.Act(event);
-    if (done.has_value() || done.error().code == Sim::EWorldError::JournalFailed)
+    if (done.has_value() || done.error().code == Sim::EWorldError::JournalFailed
+        || done.error().code == Sim::EWorldError::LimitExceeded)
     {
         return done;
     }

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <filesystem>
 #include <utility>
 
@@ -531,27 +530,6 @@ Core::Result<Scenario> ParseScenario(std::string_view text, const PlanReader& re
     return scenario;
 }
 
-namespace
-{
-
-/// "byte 120: …" of the JSON parser, for people: ":7" is line 7 of the file.
-std::string MakeLine(std::string_view text, std::string_view found)
-{
-    constexpr std::string_view BYTE = "byte ";
-    const std::size_t start = found.find(BYTE);
-    std::size_t offset = 0;
-    if (start == std::string_view::npos)
-    {
-        return {};
-    }
-    const char* const first = found.data() + start + BYTE.size();
-    std::from_chars(first, found.data() + found.size(), offset);
-    const std::string_view before = text.substr(0, offset);
-    return fmt::format(":{}", std::count(before.begin(), before.end(), '\n') + 1);
-}
-
-} // namespace
-
 tl::expected<Scenario, std::string> ReadScenarioFile(const std::string& path)
 {
     const tl::expected<std::string, std::string> content = Apps::ReadTextFile(path);
@@ -564,9 +542,7 @@ tl::expected<Scenario, std::string> ReadScenarioFile(const std::string& path)
         ParseScenario(*content, [&folder](const std::string& file) { return ReadPlanFile((folder / file).string()); });
     if (!scenario.has_value())
     {
-        const bool bJson = scenario.error().code == Core::ECoreError::InvalidJson;
-        const std::string line = bJson ? MakeLine(*content, scenario.error().found) : std::string();
-        return tl::make_unexpected("the scenario file " + path + line + ": " + Describe(scenario.error()));
+        return tl::make_unexpected("the scenario file " + path + ": " + Describe(scenario.error()));
     }
     return std::move(*scenario);
 }

@@ -7,10 +7,10 @@
 #include <array>
 #include <cerrno>
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <system_error>
-#include <thread>
 #include <unistd.h>
 
 namespace ACS::Sim
@@ -20,7 +20,7 @@ namespace
 
 constexpr mode_t FILE_MODE = 0666;
 constexpr std::size_t CHUNK_BYTES = 64U * 1024U;
-constexpr std::chrono::milliseconds LOCK_POLL{1};
+constexpr int LOCK_POLL_MS = 1;
 
 } // namespace
 
@@ -70,7 +70,7 @@ Core::Result<WorldJournal> WorldJournal::Open(const std::string& path)
 Core::Result<WorldJournal::Lock> WorldJournal::Acquire()
 {
     using Clock = std::chrono::steady_clock;
-    const Clock::time_point deadline = Clock::now() + (_bLockMissed ? std::chrono::seconds(0) : LOCK_TIMEOUT);
+    const Clock::time_point deadline = Clock::now() + (_bLockMissed ? MISSED_LOCK_TIMEOUT : LOCK_TIMEOUT);
     while (::flock(_descriptor, LOCK_EX | LOCK_NB) != 0)
     {
         if (errno != EWOULDBLOCK && errno != EINTR)
@@ -86,7 +86,7 @@ Core::Result<WorldJournal::Lock> WorldJournal::Acquire()
                 fmt::format("its lock within {} s", LOCK_TIMEOUT.count()),
                 "another process that holds it; end that process ('lslocks' lists it)");
         }
-        std::this_thread::sleep_for(LOCK_POLL);
+        ::poll(nullptr, 0, LOCK_POLL_MS); // flock has no time limit, and nothing announces its end
     }
     _bLockMissed = false;
     return Lock(_descriptor);

@@ -31,6 +31,8 @@ public:
 
     /// Maximum time that Acquire waits.
     static constexpr std::chrono::seconds LOCK_TIMEOUT{2};
+    /// The same after a failure: enough for a writer that does its work.
+    static constexpr std::chrono::milliseconds MISSED_LOCK_TIMEOUT{50};
 
     /// The lock of all writers, held while it exists. The system lifts it when the process ends, however it ends.
     class Lock
@@ -73,7 +75,7 @@ public:
     [[nodiscard]] static Core::Result<WorldJournal> Open(const std::string& path);
 
     /// Waits up to LOCK_TIMEOUT for other writers, each of which holds the lock only while it reads the news and appends a
-    /// line. After a failure the next call tries once and does not wait, so that a caller's event loop is blocked only once.
+    /// line. After a failure the next call waits up to MISSED_LOCK_TIMEOUT, so that a caller's event loop is blocked only once.
     [[nodiscard]] Core::Result<Lock> Acquire();
 
     /// Hands over the complete lines since the last call. An error of the reader ends it: that line is read again next time.
