@@ -41,8 +41,8 @@ struct ArmJob
 };
 
 /// The program of one job, from its selection to its end: select, write the inputs, read them back, verify that no program
-/// has run meanwhile, start; stop and resume it for pauses, reset it where the job is cancelled. Each step is verified before the next. Whatever it needs to see is
-/// requested, and comes as an On… call.
+/// has run meanwhile, start; stop and resume it for pauses, reset it where the job is cancelled. Each step is verified before
+/// the next. Whatever it needs to see is requested, and comes as an On… call.
 class ArmProgram
 {
     /// Found out once a connection.

@@ -178,7 +178,7 @@ void MethodResolver::SetMethods(const MethodTable* overrideOrNull, std::size_t p
         _bOverrideFault = true;
         given.section.AddMistake(
             fault->key,
-            fmt::format("takes the action from {} ({}); {}", robot.robotID, fault->reason, fault->remedy));
+            fmt::format("{} cannot do {} with it: {}; {}", robot.robotID, _action, fault->reason, fault->remedy));
     }
     else if (fault.has_value() && !_baseFaultOrNone.has_value())
     {

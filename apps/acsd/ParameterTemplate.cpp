@@ -287,10 +287,6 @@ tl::expected<JsonText, std::string> ParameterTemplate::Resolve(const JobData& da
         {
             return tl::unexpected(fmt::format("the job has no {}", MakeNameText(value.error())));
         }
-        if (const auto* const number = std::get_if<double>(&*value); number != nullptr && !std::isfinite(*number))
-        {
-            return tl::unexpected(fmt::format("{} is not a finite number", *number));
-        }
         const bool bConverted = IsScalar() && type.has_value();
         const std::optional<JsonText> converted =
             bConverted ? ConvertOrNull(*value, *type) : std::optional(MakeJson(*value));

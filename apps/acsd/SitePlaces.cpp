@@ -40,6 +40,12 @@ bool IsFixed(EPlaceRule rule)
     return rule == EPlaceRule::FixedCassette || rule == EPlaceRule::FixedTray || rule == EPlaceRule::Memory;
 }
 
+/// A job with both ends on the robot, or with none, can be at any station.
+bool CanBeOnRobot(EPlaceRule rule)
+{
+    return rule != EPlaceRule::FixedCassette && rule != EPlaceRule::FixedTray;
+}
+
 /// Whether places of the rule that are on a robot have such a segment: "CR01.TP01.MP03".
 bool IsSegmentOnRobot(EPlaceRule rule, ESegmentKind kind)
 {
@@ -128,7 +134,7 @@ bool SitePlaces::HasPlaceAt(std::string_view stationID, const Planning::ActionRu
     const auto isAt = [&stationID](const Location& place) {
         return place.GetDockingPlace().GetText() == stationID;
     };
-    if (!IsFixed(rule.from) && !IsFixed(rule.to))
+    if (CanBeOnRobot(rule.from) && CanBeOnRobot(rule.to))
     {
         return std::ranges::any_of(_stations, isAt);
     }

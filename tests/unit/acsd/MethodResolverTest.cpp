@@ -38,18 +38,19 @@ TEST_CASE("An override that takes an action from its robot is an error, also whe
     const std::string load = "actions.CassetteLoad";
     CheckMistakes({
         {{SECOND_VEHICLE + load + ".arm_program=5}"},
-         "robots.LR02.actions.CassetteLoad.arm_program: takes the action from LR02 (the vehicle has no action for "
-         "CassetteLoad); give vehicle_action, as LR02 has no arm"},
+         "robots.LR02.actions.CassetteLoad.arm_program: LR02 cannot do CassetteLoad with it: the vehicle has no action for "
+         "CassetteLoad; give vehicle_action, as LR02 has no arm"},
         {{SECOND_VEHICLE + load + ".arm_inputs={ml120=1}}"},
-         "robots.LR02.actions.CassetteLoad.arm_inputs: takes the action from LR02"},
+         "robots.LR02.actions.CassetteLoad.arm_inputs: LR02 cannot do CassetteLoad with it"},
         {{"robots.LR01.actions.CassetteLoad={arm_program=5, arm_inputs={ml120=1}}"},
-         "robots.LR01.actions.CassetteLoad.arm_program: takes the action from LR01"},
+         "robots.LR01.actions.CassetteLoad.arm_program: LR01 cannot do CassetteLoad with it"},
         {{SECOND_ARM + "actions.TrayLoad.vehicle_action='pick'}"},
-         "robots.CR02.actions.TrayLoad.vehicle_action: takes the action from CR02 (the arm has no program for TrayLoad); "
+         "robots.CR02.actions.TrayLoad.vehicle_action: CR02 cannot do TrayLoad with it: the arm has no program for TrayLoad; "
          "give arm_program, as CR02 has an arm"},
         {{SECOND_ARM + "actions.TrayLoad.parameters={a=1}}"},
-         "robots.CR02.actions.TrayLoad.parameters: takes the action from CR02"},
-        {{"robots.CR01.actions.TrayLoad.parameters={}"}, "robots.CR01.actions.TrayLoad.parameters: takes the action"},
+         "robots.CR02.actions.TrayLoad.parameters: CR02 cannot do TrayLoad with it"},
+        {{"robots.CR01.actions.TrayLoad.parameters={}"},
+         "robots.CR01.actions.TrayLoad.parameters: CR01 cannot do TrayLoad with it"},
         // One error for each cause.
         {{"robots.CR01.actions.TrayLoad={vehicle_action='pick', arm_program=5}"},
          "robots.CR01.actions.TrayLoad: has keys of a vehicle"},
@@ -74,7 +75,8 @@ TEST_CASE("An override's error has the file and the line of its key")
     const auto mistakes = ReadAcsdConfig(file, {"site.map=" + std::string(ACS_SITE) + "/site.lif.json"}).mistakes;
     REQUIRE(mistakes.size() == 1);
     CHECK(mistakes[0].starts_with(
-        file + ":" + std::to_string(lines + 2) + ": robots.CR01.actions.TrayLoad.vehicle_action: takes the action"));
+        file + ":" + std::to_string(lines + 2)
+        + ": robots.CR01.actions.TrayLoad.vehicle_action: CR01 cannot do TrayLoad with it"));
 }
 
 TEST_CASE("An action of the site that no robot can do is reported at the key that says how")
@@ -111,8 +113,6 @@ TEST_CASE("A station's table for an action that has no job there, or that no rob
          R"(stations."ST01.CP01".actions.TrayLoad: has no effect: TrayLoad has no job)"},
         {{"stations.CHG01.actions.OpenSetCover.arm_program=5"},
          "stations.CHG01.actions.OpenSetCover: has no effect: OpenSetCover has no job"},
-        {{R"(stations."A01.CP01".actions.MemoryPickAndPlace.arm_program=5)"},
-         R"(stations."A01.CP01".actions.MemoryPickAndPlace: has no effect)"},
         {{"actions.X={robot='LR', arm_program=5}",
           "robots.LR01.actions.X.vehicle_action=x",
           R"(stations."A01.CP01".actions.X.arm_program=6)"},
@@ -122,6 +122,7 @@ TEST_CASE("A station's table for an action that has no job there, or that no rob
         ReadSite({R"(stations."A01.CP01".actions.TrayLoad.arm_program=5)",
                   R"(stations."ST01.CP01".actions.CassetteLoad.vehicle_action="x")",
                   R"(stations."A01.SET01".actions.MemoryPickAndPlace.arm_program=5)",
+                  R"(stations."A01.CP01".actions.MemoryPickAndPlace.arm_program=5)", // from tray to tray of the robot
                   R"(stations."A01.CP01".actions.OpenSetCover.arm_program=5)"})
             .mistakes
         == std::vector<std::string>{});

@@ -194,18 +194,6 @@ TEST_CASE("Values have the type that the factsheet declares")
     }
 }
 
-TEST_CASE("A number that JSON does not have counts as no value, also without a factsheet")
-{
-    const JobMethod method{"pick", 0, Parse("height = nan\nside = 'left'")};
-    CHECK(Make(method, MakeLoad()) == R"(side="left")");
-    const JobMethod nested{"pick", 0, Parse("height = [1, -inf]\nside = 'left'")};
-    CHECK(Make(nested, MakeLoad()) == R"(side="left")");
-    const VDA5050::FactsheetMessage factsheet = MakeFactsheet({{"height", EValueDataType::Number, "", false}});
-    CHECK(
-        Make({"lift", 0, Parse("height = nan")}, MakeLoad(), &factsheet)
-        == "the parameter height of lift cannot be given: nan is not a finite number");
-}
-
 TEST_CASE("An action or a configured parameter that the factsheet does not list is an error")
 {
     const VDA5050::FactsheetMessage factsheet = MakeFactsheet({{"height", EValueDataType::Float, "", true}});
