@@ -87,8 +87,8 @@ class World(ScenarioCase):
         self.assertEqual((config.count(port), programs.count("{robot}.TP{ml109}")), (2, 2))
         mcs = self.run_plans(
             PLANS[1:],
-            config=self.write_file("acsd.toml", config.replace(port, port.replace("ml109", "ml2000"))),
-            programs=self.write_file("programs.toml", programs.replace("{robot}.TP{ml109}", "{robot}.TP{ml2000}")))
+            config=self.write_file("acsd.toml", config.replace(port, port.replace("ml109", "ml900"))),
+            programs=self.write_file("programs.toml", programs.replace("{robot}.TP{ml109}", "{robot}.TP{ml900}")))
         self.assert_summary(mcs, "2 carriers delivered, 0 misplaced", "1 plans completed, 0 failed")
         self.assertEqual(self.exit_code, 0)
 

@@ -36,8 +36,8 @@ const std::map<std::string, ArmProgramTexts>& GetArmPrograms()
            {"ml106", "{to.area}"},
            {"ml107", "{to.cp}"},
            {"ml108", "{to.tp}"},
-           {"ml2000", "{robot_port}"}}, // a second range to read back
-          {"{robot}.TP{ml2000}"},
+           {"ml900", "{robot_port}"}}, // a second range to read back
+          {"{robot}.TP{ml900}"},
           {"A{ml106}.CP{ml107}.TP{ml108}"},
           {}}},
         {"OpenSetCover",
