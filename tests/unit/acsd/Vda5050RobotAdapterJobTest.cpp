@@ -196,8 +196,10 @@ TEST_CASE("A job that is commanded before the factsheet has come is sent after i
     vehicle.Command(MakeLoad("A01.CP01", "LR01.CP01"));
     CHECK(vehicle.TakeOrders().empty());
     VDA5050::FactsheetMessage factsheet;
-    factsheet.protocolFeatures.agvActions = {{"pick", "", {VDA5050::EActionScope::Node}}};
-    factsheet.protocolFeatures.agvActions[0].actionParameters = {{"fork", VDA5050::EValueDataType::Integer}};
+    VDA5050::AgvAction& pick = factsheet.protocolFeatures.agvActions.emplace_back();
+    pick.actionType = "pick";
+    pick.actionScopes = {VDA5050::EActionScope::Node};
+    pick.actionParameters = {{"fork", VDA5050::EValueDataType::Integer, "", false}};
     SECTION("the factsheet comes")
     {
         vehicle.Receive("factsheet", factsheet);
@@ -221,7 +223,8 @@ TEST_CASE("A job that the vehicle shows after a restart goes on before its facts
     VDA5050::MasterOptions options = VehicleFixture::MakeOptions();
     options.bFactsheetRequested = true;
     JobMethods methods = MakeMethods();
-    methods.SetMethod("CassetteLoad", {}, {"pick", 0, {{"fork", *ParameterTemplate::Make("2")}}}); // no stationType
+    // Mandatory by the standard, and without a value at the station.
+    methods.SetMethod("CassetteLoad", {}, {"pick", 0, {{"stationType", *ParameterTemplate::Make("{station.kind}")}}});
     VehicleFixture vehicle(std::move(methods), options);
     vehicle.state.orderID = "U1";
     vehicle.state.actionStates = {{"U1", "pick", "", VDA5050::EActionStatus::Running, ""}};
