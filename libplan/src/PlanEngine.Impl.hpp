@@ -176,19 +176,20 @@ public:
     {
         std::size_t index = 0;
         const RobotOptions* options = nullptr;
-        bool bOnline = false;
-        bool bPlaced = false;      ///< Has told where it stands since the start.
-        bool bHomeRefused = false; ///< Until the timer HomeRetry.
-        unsigned homeRefusals = 0; ///< One after the other, without that it moved or had to be made usable.
-        bool bTouched = true;      ///< Its status may have changed.
-        bool bPauseWanted = false; ///< It was told to pause and not to go on.
-        bool bResumeOwed = false;  ///< It was told to go on and has not shown that it does.
-        bool bConfirming = false;  ///< The timer ControlConfirm runs.
-        bool bInMaintenance = false;
         std::shared_ptr<const IJobCheck> jobCheck; ///< Null: no job is rejected.
-        bool bBatteryLow = false;                  ///< Was under the floor and is not full enough yet.
-        bool bChargeAsked = false;                 ///< It was told to charge and not to stop that.
-        bool bChargeShown = false;                 ///< Its state has shown that it does.
+        bool bOnline = false;
+        bool bPlaced = false;           ///< Has told where it stands since the start.
+        bool bLoadAlarmLimited = false; ///< The timer LoadAlarm runs.
+        bool bHomeRefused = false;      ///< Until the timer HomeRetry.
+        unsigned homeRefusals = 0;      ///< One after the other, without that it moved or had to be made usable.
+        bool bTouched = true;           ///< Its status may have changed.
+        bool bPauseWanted = false;      ///< It was told to pause and not to go on.
+        bool bResumeOwed = false;       ///< It was told to go on and has not shown that it does.
+        bool bConfirming = false;       ///< The timer ControlConfirm runs.
+        bool bInMaintenance = false;
+        bool bBatteryLow = false;  ///< Was under the floor and is not full enough yet.
+        bool bChargeAsked = false; ///< It was told to charge and not to stop that.
+        bool bChargeShown = false; ///< Its state has shown that it does.
         std::optional<StateChanged> state;
         std::optional<std::size_t> node; ///< Where it stands or passed last.
         /// After a restart: where it may be, as far as was written down; once it has told its node, what of that is ahead.
@@ -225,7 +226,6 @@ public:
         bool bStalled = false;                  ///< Its alarm is set.
         std::vector<std::optional<std::string>> carriers;
         std::map<std::size_t, DisputedPort> disputedPorts;
-        bool bLoadAlarmLimited = false; ///< The timer LoadAlarm runs.
         RobotStatus lastStatus;
         std::optional<Wish> wish;          ///< The quickest way to where it wants to go, kept while it waits.
         std::vector<std::size_t> blockers; ///< Robots that kept it from driving on when it last wanted to.
