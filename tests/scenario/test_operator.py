@@ -42,12 +42,12 @@ class Operator(ScenarioCase):
             never.wait(0.05)
         return found
 
-    def wait_for_robot(self, status):
+    def wait_for_robot(self, robot_id, status):
         def get(answer):
-            robot = next(robot for robot in answer["robots"] if robot["robotId"] == "LR01")
+            robot = next(robot for robot in answer["robots"] if robot["robotId"] == robot_id)
             return robot if robot["status"] == status else None
 
-        return self.wait_for(get, f"LR01 is {status}")
+        return self.wait_for(get, f"{robot_id} is {status}")
 
     def wait_for_reason(self, start):
         def get(answer):
@@ -59,13 +59,13 @@ class Operator(ScenarioCase):
 
     def test_maintenance_and_ports_hold_a_plan_back_over_a_restart_and_let_it_go(self):
         self.start_line()
-        self.wait_for_robot("Idle")
-        self.assertEqual(self.ask("/robots/LR01/maintenance/on", "POST"),
-                         (202, {"message": "LR01 is taken out of service."}))
-        self.assertTrue(self.wait_for_robot("Stopped")["maintenance"])
-        self.assertEqual(self.ask("/robots/LR09/maintenance/on", "POST")[0], 404)
-        self.assertEqual(self.ask("/alarms/clear?robot=LR01&code=ACS-1004", "POST")[0], 404)
-        mcs = self.line.start_mcs(PLANS[:1], "--fresh-ids", port=self.mcs_port)
+        self.wait_for_robot("CR01", "Idle")
+        self.assertEqual(self.ask("/robots/CR01/maintenance/on", "POST"),
+                         (202, {"message": "CR01 is taken out of service."}))
+        self.assertTrue(self.wait_for_robot("CR01", "Stopped")["maintenance"])
+        self.assertEqual(self.ask("/robots/CR09/maintenance/on", "POST")[0], 404)
+        self.assertEqual(self.ask("/alarms/clear?robot=CR01&code=ACS-1004", "POST")[0], 404)
+        mcs = self.line.start_mcs(PLANS[1:], "--fresh-ids", port=self.mcs_port)
         mcs.wait_ready()
         self.assertEqual(self.wait_for_reason("in maintenance")["queuePosition"], 1)
 
@@ -74,12 +74,12 @@ class Operator(ScenarioCase):
         self.start_acsd()
         self.wait_for_reason("in maintenance")
 
-        self.assertEqual(self.ask("/robots/LR01/carriers?carrier=CASSETTE_99", "POST")[0], 202)
-        self.assertEqual(self.ask("/robots/LR01/carriers?carrier=A&carrier=B", "POST")[0], 400)
-        self.assertEqual(self.ask("/robots/LR01/maintenance/off", "POST")[0], 202)
-        self.wait_for_reason("LR01.CP01 is taken by CASSETTE_99")
-        self.assertEqual(self.ask("/robots/LR01/carriers?carrier=", "POST")[0], 202)
-        self.wait_for(lambda _: "from CASSETTE_99 to empty" in self.acsd.log.read_text(errors="replace") or None,
+        self.assertEqual(self.ask("/robots/CR01/carriers?carrier=TRAY_99&carrier=&carrier=", "POST")[0], 202)
+        self.assertEqual(self.ask("/robots/CR01/carriers?carrier=A&carrier=B", "POST")[0], 400)
+        self.assertEqual(self.ask("/robots/CR01/maintenance/off", "POST")[0], 202)
+        self.wait_for_reason("CR01.TP01 is taken by TRAY_99")
+        self.assertEqual(self.ask("/robots/CR01/carriers?carrier=&carrier=&carrier=", "POST")[0], 202)
+        self.wait_for(lambda _: "from TRAY_99, empty, empty to empty, empty, empty" in self.acsd.log.read_text(errors="replace") or None,
                       "a line about the corrected port")
         self.assertEqual(mcs.wait(FINISH_SECONDS), 0)
         self.assert_last_line(mcs, "1 plans completed, 0 failed")
@@ -87,7 +87,7 @@ class Operator(ScenarioCase):
     def test_a_vehicle_with_a_low_battery_charges_before_it_works(self):
         self.start_line("robots.LR01.charge=CHG01", "robot.battery_resume=40",
                         vehicles=("LR01,type=LR,battery=10", "CR01,type=CR"))
-        self.wait_for_robot("Charging")
+        self.wait_for_robot("LR01", "Charging")
         mcs = self.line.start_mcs(PLANS[:1], "--fresh-ids", port=self.mcs_port)
         mcs.wait_ready()
         self.assertEqual(mcs.wait(FINISH_SECONDS), 0)
