@@ -106,6 +106,20 @@ CLI::Option& AddTextOption(CLI::App& app, const std::string& name, TextReader re
     return *option.multi_option_policy(CLI::MultiOptionPolicy::Throw);
 }
 
+CLI::Option& AddFileOption(CLI::App& app, const std::string& name, std::string& target, const std::string& help)
+{
+    CLI::Option& option = AddTextOption(
+        app,
+        name,
+        [&target](const std::string& text) {
+            target = text;
+            return std::string(text.empty() ? "expected a file" : "");
+        },
+        help);
+    option.type_name("FILE");
+    return option;
+}
+
 CLI::Option& AddRepeatedOption(CLI::App& app, const std::string& name, TextReader reader, const std::string& help)
 {
     CLI::Option* const option = app.add_option_function<std::vector<std::string>>(
@@ -154,18 +168,7 @@ void PrintMistake(std::string_view program, std::string_view text)
     std::string line = fmt::format("{}: ", program);
     for (const char character : text)
     {
-        if (character == '\n')
-        {
-            line += ' ';
-        }
-        else if (Core::IsControlCharacter(character))
-        {
-            line += fmt::format("\\x{:02x}", static_cast<unsigned>(static_cast<unsigned char>(character)));
-        }
-        else
-        {
-            line += character;
-        }
+        AppendPrintable(line, character == '\n' ? ' ' : character);
     }
     std::cerr << line << std::endl;
 }

@@ -52,6 +52,9 @@ using TextReader = std::function<std::string(const std::string& value)>;
 /// An option that is given at most once, whose value one's own function reads.
 CLI::Option& AddTextOption(CLI::App& app, const std::string& name, TextReader reader, const std::string& help);
 
+/// A file, not empty; whether it exists is not checked.
+CLI::Option& AddFileOption(CLI::App& app, const std::string& name, std::string& target, const std::string& help);
+
 /// An option that may be given again and again, one value each time; `.allow_extra_args()` on the result lets several values
 /// follow one name (--plan a.json b.json). The function is called for each value, in order.
 CLI::Option& AddRepeatedOption(CLI::App& app, const std::string& name, TextReader reader, const std::string& help);

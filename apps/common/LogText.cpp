@@ -20,14 +20,10 @@ void AppendEscaped(std::string& out, std::string_view text, bool bQuoted)
         {
             out += "\\n";
         }
-        else if (Core::IsControlCharacter(character))
-        {
-            out += fmt::format("\\x{:02x}", static_cast<unsigned>(static_cast<unsigned char>(character)));
-        }
         else
         {
             out += bQuoted && (character == '"' || character == '\\') ? "\\" : "";
-            out += character;
+            AppendPrintable(out, character);
         }
     }
 }
@@ -40,6 +36,18 @@ bool NeedsQuotes(std::string_view value)
 }
 
 } // namespace
+
+void AppendPrintable(std::string& out, char character)
+{
+    if (Core::IsControlCharacter(character))
+    {
+        out += fmt::format("\\x{:02x}", static_cast<unsigned>(static_cast<unsigned char>(character)));
+    }
+    else
+    {
+        out += character;
+    }
+}
 
 std::string MakeLogText(
     std::string_view component,

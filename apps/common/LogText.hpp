@@ -17,6 +17,9 @@ namespace ACS::Apps
     std::string_view message,
     std::initializer_list<Core::LogField> fields);
 
+/// A control character as \xNN, any other byte as it is.
+void AppendPrintable(std::string& out, char character);
+
 /// "debug", "info", "warning", "error"
 [[nodiscard]] Core::Result<Core::ELogLevel> ParseLogLevel(std::string_view text);
 

@@ -74,13 +74,10 @@ std::string TakeProfile(const std::string& text, EProfile& profile)
 
 void AddWorldOptions(CLI::App& app, McsSimOptions& options)
 {
-    CLI::Option& world = Apps::AddTextOption(
+    CLI::Option& world = Apps::AddFileOption(
         app,
         "--world",
-        [&options](const std::string& text) {
-            options.worldFile = text;
-            return text.empty() ? "expected the name of a file, found nothing" : std::string();
-        },
+        options.worldFile,
         "Compare the reports with what the simulated robots have moved: the world file that they share (docs/mcs-sim.md)");
     world.type_name("FILE.json");
     CLI::Option* const restock =
@@ -170,15 +167,11 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimO
         ->default_str("auto");
     app.add_flag("--keep", options.bKeep, "Stay when all plans have ended, until SIGINT or SIGTERM");
     app.add_flag("--wait-for-enter", options.bWaitForEnter, "Send the plans only after a line came on standard input");
-    Apps::AddTextOption(
+    Apps::AddFileOption(
         app,
         "--trace",
-        [&options](const std::string& text) {
-            options.traceFile = text;
-            return text.empty() ? "expected the name of a file, found nothing" : std::string();
-        },
-        "Write every message of both directions to this file, a line of JSON each, with time and connection")
-        .type_name("FILE");
+        options.traceFile,
+        "Write every message of both directions to this file, a line of JSON each, with time and connection");
     Apps::AddTextOption(
         app,
         "--profile",

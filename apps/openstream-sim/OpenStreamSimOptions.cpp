@@ -204,22 +204,15 @@ std::string ReadRobot(std::string_view text, std::map<std::size_t, std::string>&
 
 void AddFloorOptions(CLI::App& app, OpenStreamSimOptions& options)
 {
-    Apps::AddTextOption(
+    Apps::AddFileOption(
         app,
         "--programs",
-        [&options](const std::string& text) {
-            options.programFile = text;
-            return std::string(text.empty() ? "expected a file" : "");
-        },
-        "TOML file with what each program does: the places that its relay words name, its echo, its time")
-        .type_name("FILE");
-    Apps::AddTextOption(
+        options.programFile,
+        "TOML file with what each program does: the places that its relay words name, its echo, its time");
+    Apps::AddFileOption(
         app,
         "--world",
-        [&options](const std::string& text) {
-            options.worldFile = text;
-            return std::string(text.empty() ? "expected a file" : "");
-        },
+        options.worldFile,
         "World file of the floor that the simulators share; with --programs")
         .type_name("FILE");
     Apps::AddRepeatedOption(

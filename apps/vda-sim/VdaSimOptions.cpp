@@ -210,13 +210,10 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
     app.add_option("--site", options.sitePath, "layout of the site, a VDMA LIF 1.0 file")
         ->required()
         ->type_name("FILE.lif.json");
-    Apps::AddTextOption(
+    Apps::AddFileOption(
         app,
         "--world",
-        [&options](const std::string& text) {
-            options.worldPath = text;
-            return std::string(text.empty() ? "expected a file" : "");
-        },
+        options.worldPath,
         "world file that the simulators share (docs/world.md): loads are picked and dropped only where they are; "
         "without it every load is where an action asks for it")
         .type_name("FILE");
