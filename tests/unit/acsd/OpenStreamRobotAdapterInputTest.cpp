@@ -64,6 +64,27 @@ struct ArmInputFixture : ArmFixture
         WriteAll();
     }
 
+    /// The program is selected; its first input is being written.
+    void SelectWithInputs()
+    {
+        Command(MakeJob());
+        static_cast<void>(TakeRequests());
+        Settle(OpenStream::EControlOutcome::Accepted);
+        ShowLook(BEFORE);
+    }
+
+    /// All inputs are written; the first range is being read.
+    void WriteInputs(int count)
+    {
+        SelectWithInputs();
+        for (int written = 0; written < count; ++written)
+        {
+            Settle(OpenStream::EControlOutcome::Accepted);
+        }
+        static_cast<void>(TakeRequests());
+        AcknowledgeMonitor();
+    }
+
     void WriteAll()
     {
         CHECK(TakeRequests() == std::vector<std::string>{WRITE_NUMBER});
@@ -109,10 +130,7 @@ TEST_CASE("Inputs are written after the selection, read back, and only then the 
 TEST_CASE("Inputs that read back late are waited for; those of before the writing are not taken for them")
 {
     ArmInputFixture arm;
-    arm.Command(ArmInputFixture::MakeJob());
-    static_cast<void>(arm.TakeRequests());
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
-    arm.ShowLook(BEFORE);
+    arm.SelectWithInputs();
     arm.WriteAll();
     arm.TellData("[4711,0]");
     arm.TellData("[17,1]");
@@ -129,10 +147,7 @@ TEST_CASE("Samples that were on their way before the inputs are read are still t
     ArmInputFixture arm([](const Planning::StartJob&) {
         return std::vector<ArmInput>{{*ParseArmRelay("ml105"), 5}, {*ParseArmRelay("ml106"), 5}};
     });
-    arm.Command(ArmInputFixture::MakeJob());
-    static_cast<void>(arm.TakeRequests());
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
-    arm.ShowLook(BEFORE);
+    arm.SelectWithInputs();
     arm.Settle(OpenStream::EControlOutcome::Accepted);
     arm.Settle(OpenStream::EControlOutcome::Accepted);
     static_cast<void>(arm.TakeRequests());
@@ -154,16 +169,7 @@ TEST_CASE("Samples of the inputs that come after the counters are asked for agai
         }
         return inputs;
     });
-    arm.Command(ArmInputFixture::MakeJob());
-    static_cast<void>(arm.TakeRequests());
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
-    arm.ShowLook(BEFORE);
-    for (int written = 0; written < 5; ++written)
-    {
-        arm.Settle(OpenStream::EControlOutcome::Accepted);
-    }
-    static_cast<void>(arm.TakeRequests());
-    arm.AcknowledgeMonitor();
+    arm.WriteInputs(5);
     arm.TellData("[4711,1,1,1,1]");
     CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
     for (int late = 0; late < 3; ++late)
@@ -215,10 +221,7 @@ TEST_CASE("Relays that the controller refuses or does not show fail the job; not
     ArmInputFixture arm;
     SECTION("It refuses to write one")
     {
-        arm.Command(ArmInputFixture::MakeJob());
-        static_cast<void>(arm.TakeRequests());
-        arm.Settle(OpenStream::EControlOutcome::Accepted);
-        arm.ShowLook(BEFORE);
+        arm.SelectWithInputs();
         static_cast<void>(arm.TakeRequests());
         arm.Settle(OpenStream::EControlOutcome::Refused, 400);
         CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_MOTOR});
@@ -254,10 +257,7 @@ TEST_CASE("Inputs of several areas are read one after the other, and all again u
     ArmInputFixture arm([](const Planning::StartJob&) {
         return std::vector<ArmInput>{{*ParseArmRelay("do3"), 1}, {*ParseArmRelay("ml105"), 7}};
     });
-    arm.Command(ArmInputFixture::MakeJob());
-    static_cast<void>(arm.TakeRequests());
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
-    arm.ShowLook(BEFORE);
+    arm.SelectWithInputs();
     arm.Settle(OpenStream::EControlOutcome::Accepted);
     static_cast<void>(arm.TakeRequests());
     arm.Settle(OpenStream::EControlOutcome::Accepted);
@@ -288,16 +288,7 @@ TEST_CASE("Late samples of one range of inputs are not taken for the next one, n
             {*ParseArmRelay("ml2000"), job.jobNumber},
             {*ParseArmRelay("ml2005"), 2}};
     });
-    arm.Command(ArmInputFixture::MakeJob());
-    static_cast<void>(arm.TakeRequests());
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
-    arm.ShowLook(BEFORE);
-    for (int written = 0; written < 4; ++written)
-    {
-        arm.Settle(OpenStream::EControlOutcome::Accepted);
-    }
-    static_cast<void>(arm.TakeRequests());
-    arm.AcknowledgeMonitor();
+    arm.WriteInputs(4);
     arm.TellData("[4711,0,0,0,0,1]");
     CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK}); // of the second range
     for (int late = 0; late < 2; ++late)
@@ -470,10 +461,7 @@ TEST_CASE("A job that is cancelled, or whose connection is lost, while its input
     }
     else
     {
-        arm.Command(ArmInputFixture::MakeJob());
-        static_cast<void>(arm.TakeRequests());
-        arm.Settle(OpenStream::EControlOutcome::Accepted);
-        arm.ShowLook(BEFORE);
+        arm.SelectWithInputs();
         static_cast<void>(arm.TakeRequests());
     }
     SECTION("Cancelled")

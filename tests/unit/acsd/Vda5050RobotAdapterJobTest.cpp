@@ -1,6 +1,5 @@
 #include "DefaultParameters.hpp"
 #include "VehicleFixture.hpp"
-#include <acs/vda5050/PredefinedActions.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -56,17 +55,13 @@ std::string MakeText(const VDA5050::Action& action)
 /// The standard's factsheet, without what the codec demands beside it. With a pick that demands the height and the side, too.
 VDA5050::FactsheetMessage MakeStandardFactsheet(bool bAllMandatory = false)
 {
-    VDA5050::FactsheetMessage factsheet;
-    factsheet.protocolFeatures.agvActions = VDA5050::GetPredefinedActions();
-    auto& pick = *std::ranges::find(
-        factsheet.protocolFeatures.agvActions,
-        VDA5050::ActionTypes::PICK,
-        &VDA5050::AgvAction::actionType);
+    StandardFactsheet standard;
+    VDA5050::AgvAction& pick = standard.GetPick();
     for (VDA5050::AgvActionParameter& parameter : pick.actionParameters)
     {
         parameter.bOptional = parameter.bOptional.value_or(false) && !bAllMandatory;
     }
-    return factsheet;
+    return standard.factsheet;
 }
 
 } // namespace

@@ -1,9 +1,7 @@
 #include "DefaultParameters.hpp"
 #include "PlanWorld.hpp"
 #include "VehicleFixture.hpp"
-#include <acs/vda5050/PredefinedActions.hpp>
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,15 +35,11 @@ JobMethods MakeMethods()
 /// The standard's, but for one parameter of the pick that is mandatory.
 VDA5050::FactsheetMessage MakeFactsheet(const std::string& mandatory)
 {
-    VDA5050::FactsheetMessage factsheet;
-    factsheet.protocolFeatures.agvActions = VDA5050::GetPredefinedActions();
-    auto& pick = *std::ranges::find(
-        factsheet.protocolFeatures.agvActions,
-        VDA5050::ActionTypes::PICK,
-        &VDA5050::AgvAction::actionType);
+    StandardFactsheet standard;
+    VDA5050::AgvAction& pick = standard.GetPick();
     std::erase_if(pick.actionParameters, [&mandatory](const auto& known) { return known.key == mandatory; });
     pick.actionParameters.push_back({mandatory, VDA5050::EValueDataType::String, "", false});
-    return factsheet;
+    return standard.factsheet;
 }
 
 Planning::Plan MakePlan(
@@ -136,7 +130,7 @@ TEST_CASE("The station of each job decides whether a vehicle can do the plan, an
     CHECK(site.Describe("P1") == "LR01 Completed");
 }
 
-TEST_CASE("A plan without carriers is not for a vehicle that has to be told the load")
+TEST_CASE("A plan without carriers is rejected by a vehicle whose pick requires the load's id")
 {
     AvailabilityFixture site;
     site.Publish("loadId");

@@ -3,6 +3,7 @@
 #include "Catch.hpp"
 #include "ManualClock.hpp"
 #include "Vda5050RobotAdapter.hpp"
+#include <acs/vda5050/PredefinedActions.hpp>
 #include <acs/vda5050/Vda5050Codec.hpp>
 
 #include <algorithm>
@@ -14,6 +15,25 @@
 
 namespace ACS::Acsd::Test
 {
+
+/// The predefined actions with the parameters of the standard, for a test to change.
+struct StandardFactsheet
+{
+    VDA5050::FactsheetMessage factsheet;
+
+    StandardFactsheet()
+    {
+        factsheet.protocolFeatures.agvActions = VDA5050::GetPredefinedActions();
+    }
+
+    VDA5050::AgvAction& GetPick()
+    {
+        return *std::ranges::find(
+            factsheet.protocolFeatures.agvActions,
+            VDA5050::ActionTypes::PICK,
+            &VDA5050::AgvAction::actionType);
+    }
+};
 
 /// The vehicle's side is played by hand: it shows what a test lets it show.
 struct VehicleFixture
