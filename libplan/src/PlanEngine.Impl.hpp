@@ -178,18 +178,18 @@ public:
         const RobotOptions* options = nullptr;
         std::shared_ptr<const IJobCheck> jobCheck; ///< Null: no job is rejected.
         bool bOnline = false;
-        bool bPlaced = false;           ///< Has told where it stands since the start.
+        bool bPlaced = false;           ///< Has reported its position since the start.
         bool bLoadAlarmLimited = false; ///< The timer LoadAlarm runs.
         bool bHomeRefused = false;      ///< Until the timer HomeRetry.
         unsigned homeRefusals = 0;      ///< One after the other, without that it moved or had to be made usable.
         bool bTouched = true;           ///< Its status may have changed.
-        bool bPauseWanted = false;      ///< It was told to pause and not to go on.
-        bool bResumeOwed = false;       ///< It was told to go on and has not shown that it does.
+        bool bPauseWanted = false;      ///< A pause was commanded, and no resume since.
+        bool bResumeOwed = false;       ///< A resume was commanded, and no state has confirmed it.
         bool bConfirming = false;       ///< The timer ControlConfirm runs.
         bool bInMaintenance = false;
         bool bBatteryLow = false;  ///< Was under the floor and is not full enough yet.
-        bool bChargeAsked = false; ///< It was told to charge and not to stop that.
-        bool bChargeShown = false; ///< Its state has shown that it does.
+        bool bChargeAsked = false; ///< Charging was commanded, and no stop since.
+        bool bChargeShown = false; ///< Its state has confirmed it.
         std::optional<StateChanged> state;
         std::optional<std::size_t> node; ///< Where it stands or passed last.
         /// After a restart: where it may be, as far as was written down; once it has told its node, what of that is ahead.

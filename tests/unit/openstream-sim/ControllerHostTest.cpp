@@ -195,7 +195,7 @@ TEST_CASE("A Over HTTP the encoded path, the status and the content type are rig
     REQUIRE(Contains(missing, R"("err_code":-2)"));
 }
 
-TEST_CASE("A program whose client is gone moves its carrier: the journal has it, though nobody asks the controller")
+TEST_CASE("A program moves its carrier after its client has disconnected: the journal lists the move")
 {
     const ACS::Testing::TemporaryFolder folder;
     const std::string file = folder.GetPath() / "world.json";
