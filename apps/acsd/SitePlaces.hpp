@@ -15,7 +15,7 @@ class SitePlaces final
 {
     struct RobotPlace
     {
-        Planning::ERobotType robotType;
+        Planning::ERobotType robotType = Planning::ERobotType::LR;
         Core::Location place;
     };
 

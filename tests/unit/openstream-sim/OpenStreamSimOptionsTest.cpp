@@ -17,6 +17,8 @@ using namespace std::chrono_literals;
 namespace
 {
 
+constexpr const char* PROGRAMS = ACS_SITE "/programs.toml";
+
 /// What standard error has of a command line that is refused.
 std::string ReadRefusal(std::vector<const char*> arguments)
 {
@@ -87,7 +89,7 @@ TEST_CASE("Every option reaches its place")
         "--robot=2=CR02",
         "--robot=3=CR03",
         "--programs",
-        ACS_SITE "/programs.toml",
+        PROGRAMS,
         "--world",
         "floor.json",
         "--log-level",
@@ -181,7 +183,7 @@ TEST_CASE("A mistake on the command line is exit code 2")
              {"--controllers", "2", "--robot", "1=CR01", "--robot", "2=CR01"},
              {"--programs", ""},
              {"--programs", "/nowhere/programs.toml"},
-             {"--programs", ACS_SITE "/programs.toml"}, // names {robot}
+             {"--programs", PROGRAMS}, // names {robot}
              {"--programs", ACS_SITE "/acsd.toml", "--robot", "1=CR01"},
              {"--world", "floor.json"},
              {"--log-level", "loud"},
@@ -198,18 +200,10 @@ TEST_CASE("A mistake on the command line is exit code 2")
 TEST_CASE("A controller without a robot is reported with the file that needs it")
 {
     REQUIRE_THAT(
-        ReadRefusal(
-            {"--programs",
-             ACS_SITE "/programs.toml",
-             "--world",
-             "floor.json",
-             "--controllers",
-             "2",
-             "--robot",
-             "1=CR01"}),
+        ReadRefusal({"--programs", PROGRAMS, "--world", "floor.json", "--controllers", "2", "--robot", "1=CR01"}),
         Catch::Contains("--world floor.json needs the robot of controller 2: give --robot 2=NAME"));
     REQUIRE_THAT(
-        ReadRefusal({"--programs", ACS_SITE "/programs.toml"}),
+        ReadRefusal({"--programs", PROGRAMS}),
         Catch::Contains("{robot} in " ACS_SITE "/programs.toml needs the robot of controller 1: give --robot 1=NAME"));
 }
 
