@@ -213,8 +213,7 @@ void AddFloorOptions(CLI::App& app, OpenStreamSimOptions& options)
         app,
         "--world",
         options.worldFile,
-        "World file of the floor that the simulators share; with --programs")
-        .type_name("FILE");
+        "World file of the floor that the simulators share; with --programs");
     Apps::AddRepeatedOption(
         app,
         "--robot",

@@ -215,8 +215,7 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         "--world",
         options.worldPath,
         "world file that the simulators share (docs/world.md): loads are picked and dropped only where they are; "
-        "without it every load is where an action asks for it")
-        .type_name("FILE");
+        "without it every load is where an action asks for it");
     Apps::AddRepeatedOption(
         app,
         "--vehicle",
