@@ -19,7 +19,7 @@ namespace
 {
 
 constexpr unsigned HTTP_UNAVAILABLE = 503;
-constexpr double FULL_BATTERY = 100;
+constexpr double FULL_PERCENT = 100;
 
 void WriteMember(Json::JsonWriter& writer, std::string_view key, std::string_view value)
 {
@@ -51,7 +51,7 @@ void WriteBattery(Json::JsonWriter& writer, const std::vector<Planning::RobotPos
     }
     else
     {
-        writer.WriteInteger(std::lround(std::clamp(pose->batteryPercent, 0.0, FULL_BATTERY)));
+        writer.WriteInteger(std::lround(std::clamp(pose->batteryPercent, 0.0, FULL_PERCENT)));
     }
 }
 

@@ -18,7 +18,7 @@ using Apps::ConfigSection;
 
 constexpr std::int64_t MOST_BASE_NODES = 1'000;
 constexpr double MOST_CLEARANCE = 100;
-constexpr std::int64_t FULL_BATTERY = 100;
+constexpr std::int64_t MAXIMUM_PERCENT = 100;
 constexpr std::int64_t MOST_PLANS = 100'000;
 constexpr std::int64_t FEWEST_REPORTS = 100;
 constexpr std::int64_t MOST_REPORTS = 10'000'000;
@@ -80,7 +80,7 @@ void ReadDispatch(const ConfigSection& root, Planning::EngineOptions& engine)
     const ConfigSection robot = root.GetSection("robot");
     Planning::DispatchOptions& dispatch = engine.dispatch;
     const auto readPercent = [&robot](const std::string& key, double fallback) {
-        return static_cast<double>(robot.GetInteger(key, 0, FULL_BATTERY, static_cast<std::int64_t>(fallback)));
+        return static_cast<double>(robot.GetInteger(key, 0, MAXIMUM_PERCENT, static_cast<std::int64_t>(fallback)));
     };
     dispatch.batteryFloor = readPercent("battery_floor", dispatch.batteryFloor);
     dispatch.batteryResume = readPercent("battery_resume", dispatch.batteryResume);

@@ -15,7 +15,7 @@ namespace ACS::Acsd
 namespace
 {
 
-constexpr double FULL_BATTERY = 100.0;
+constexpr double HIGHEST_CHARGE = 100.0;
 
 /// How far an action is. Running and paused take turns, so they are alike.
 int GetProgress(VDA5050::EActionStatus status)
@@ -109,7 +109,7 @@ void VehicleWatch::LookAtPlace(const VDA5050::StateMessage& state)
         }
     }
     const double charge = state.batteryState.batteryCharge;
-    if (charge < 0 || charge > FULL_BATTERY)
+    if (charge < 0 || charge > HIGHEST_CHARGE)
     {
         Note("battery_range", fmt::format("{} %", charge));
     }

@@ -15,7 +15,7 @@ namespace
 
 using Json::Value;
 
-std::string_view GetView(const Value& text)
+std::string_view GetTextView(const Value& text)
 {
     return {text.GetString(), text.GetStringLength()};
 }
@@ -32,14 +32,14 @@ void WriteFilledRecursive( // NOLINT(misc-no-recursion): as deep as the parser's
 {
     if (value.IsString())
     {
-        writer.WriteString(FillPlaceholders(GetView(value), read));
+        writer.WriteString(FillPlaceholders(GetTextView(value), read));
     }
     else if (value.IsObject())
     {
         writer.BeginObject();
         for (const auto& member : value.GetObject())
         {
-            writer.Key(GetView(member.name));
+            writer.Key(GetTextView(member.name));
             WriteFilledRecursive(member.value, read, writer);
         }
         writer.EndObject();
@@ -109,7 +109,7 @@ private:
             std::optional<std::string> mismatch = FindOrNullRecursive(
                 found == object.MemberEnd() ? nullptr : &found->value,
                 member.value,
-                MakePath(path, GetView(member.name)));
+                MakePath(path, GetTextView(member.name)));
             if (mismatch.has_value())
             {
                 return mismatch;
@@ -139,15 +139,15 @@ private:
     {
         if (pattern.IsString())
         {
-            const std::string wanted = FillPlaceholders(GetView(pattern), _read);
-            return value.IsString() ? MatchesGlob(GetView(value), wanted) : wanted == "*" && !value.IsNull();
+            const std::string wanted = FillPlaceholders(GetTextView(pattern), _read);
+            return value.IsString() ? MatchesGlob(GetTextView(value), wanted) : wanted == "*" && !value.IsNull();
         }
         return !pattern.IsObject() && !pattern.IsArray() && value == pattern;
     }
 
     [[nodiscard]] std::string Describe(const std::string& path, const Value& pattern, std::string_view found) const
     {
-        const std::string wanted = pattern.IsString() ? FillPlaceholders(GetView(pattern), _read) : std::string();
+        const std::string wanted = pattern.IsString() ? FillPlaceholders(GetTextView(pattern), _read) : std::string();
         return fmt::format(
             "{}: expected {}, found {}",
             path,

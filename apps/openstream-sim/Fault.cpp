@@ -21,7 +21,7 @@ namespace
 
 constexpr std::chrono::milliseconds HOLE{100};
 constexpr std::chrono::milliseconds SLOWNESS{500};
-constexpr std::chrono::minutes SLOWEST{1};
+constexpr std::chrono::minutes LONGEST_DELAY{1};
 constexpr int FIRST_REFUSAL = 400;
 constexpr int LAST_REFUSAL = 599;
 
@@ -46,7 +46,7 @@ std::string ReadInteger(std::string_view text, TInteger lowest, TInteger highest
 std::string ReadSlowness(std::string_view text, Fault& fault)
 {
     const std::string expected = Apps::ReadDurationValue(text, fault.time);
-    return expected.empty() && fault.time > SLOWEST ? "a duration of at most 1m" : expected;
+    return expected.empty() && fault.time > LONGEST_DELAY ? "a duration of at most 1m" : expected;
 }
 
 std::string ReadProgram(std::string_view text, Fault& fault)

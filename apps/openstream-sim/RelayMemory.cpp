@@ -13,7 +13,6 @@ namespace ACS::OpenStreamSim
 namespace
 {
 
-constexpr std::size_t BITS_PER_BYTE = 8;
 constexpr std::uint32_t BYTE_MASK = 0xFF;
 constexpr std::size_t LONG_BYTES = 4;
 

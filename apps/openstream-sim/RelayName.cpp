@@ -11,7 +11,6 @@ namespace ACS::OpenStreamSim
 namespace
 {
 
-constexpr std::size_t BITS_PER_BYTE = 8;
 constexpr std::size_t FIELDBUS_BLOCKS = 10;
 constexpr std::size_t FIELDBUS_NODES = 64;
 

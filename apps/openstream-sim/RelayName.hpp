@@ -11,6 +11,7 @@ namespace ACS::OpenStreamSim
 
 /// Bytes of every block of relays.
 inline constexpr std::size_t RELAY_BYTES = 4096;
+inline constexpr std::size_t BITS_PER_BYTE = 8;
 
 enum class ERelayBus : std::uint8_t
 {

@@ -11,7 +11,7 @@ namespace ACS::VDA5050
 namespace
 {
 
-constexpr std::uint32_t SEQUENCE_STEP = 2; // nodes even, edges odd
+constexpr std::uint32_t SEQUENCE_INCREMENT = 2; // nodes even, edges odd
 
 void NumberElements(std::vector<OrderNode>& nodes, std::vector<OrderEdge>& edges)
 {
@@ -25,7 +25,7 @@ void NumberElements(std::vector<OrderNode>& nodes, std::vector<OrderEdge>& edges
             edges[index].startNodeID = nodes[index].nodeID;
             edges[index].endNodeID = nodes[index + 1].nodeID;
         }
-        sequenceID += SEQUENCE_STEP;
+        sequenceID += SEQUENCE_INCREMENT;
     }
 }
 

@@ -10,11 +10,11 @@ namespace
 
 constexpr std::size_t QUOTES = 2;
 constexpr std::size_t LONGEST_ESCAPE = 6;
-constexpr unsigned char FIRST_PRINTABLE = 0x20;
+constexpr unsigned char FIRST_UNESCAPED = 0x20;
 
 std::size_t MeasureLetter(char letter)
 {
-    if (static_cast<unsigned char>(letter) < FIRST_PRINTABLE)
+    if (static_cast<unsigned char>(letter) < FIRST_UNESCAPED)
     {
         return LONGEST_ESCAPE;
     }

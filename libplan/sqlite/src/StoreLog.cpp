@@ -13,7 +13,7 @@ namespace
 {
 
 constexpr int FOLDED_PAGES = 1'000; ///< As SQLite does of itself.
-constexpr int BUSY_MILLISECONDS = 1'000;
+constexpr int READER_BUSY_MILLISECONDS = 1'000;
 
 /// In the table settings.
 constexpr const char* NUMBER_NAME = "log_number";
@@ -34,7 +34,7 @@ int NotePages(void* pages, sqlite3* /*database*/, const char* /*name*/, int coun
 StoreLog::StoreLog(SQLite::Database& database, const StoreLock& lock)
     : _database(database),
       _lock(lock),
-      _reader(GetFile(database), SQLite::OPEN_READONLY, BUSY_MILLISECONDS),
+      _reader(GetFile(database), SQLite::OPEN_READONLY, READER_BUSY_MILLISECONDS),
       _setNumber(database, "INSERT OR REPLACE INTO settings VALUES (?, ?)"),
       _foldAt(FOLDED_PAGES)
 {

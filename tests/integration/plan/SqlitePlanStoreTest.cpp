@@ -19,7 +19,7 @@ using namespace ACS;           // NOLINT(google-build-using-namespace)
 namespace
 {
 
-class StoreFolder : public Testing::TemporaryFolder
+class DatabaseFolder : public Testing::TemporaryFolder
 {
 public:
     [[nodiscard]] std::string GetFile() const
@@ -111,7 +111,7 @@ std::vector<StoreBatch> MakeBatches()
           later}}};
 }
 
-std::unique_ptr<SqlitePlanStore> OpenStore(const std::string& file)
+std::unique_ptr<SqlitePlanStore> OpenDatabase(const std::string& file)
 {
     Core::Result<std::unique_ptr<SqlitePlanStore>> store = SqlitePlanStore::Open(file);
     REQUIRE(store.has_value());
@@ -122,14 +122,14 @@ std::unique_ptr<SqlitePlanStore> OpenStore(const std::string& file)
 
 TEST_CASE("Store: what was appended is there after the file was closed and opened, as the store in memory has it")
 {
-    const StoreFolder folder;
+    const DatabaseFolder folder;
     MemoryPlanStore memory;
     for (const StoreBatch& batch : MakeBatches())
     {
-        REQUIRE(OpenStore(folder.GetFile())->Append(batch).has_value());
+        REQUIRE(OpenDatabase(folder.GetFile())->Append(batch).has_value());
         REQUIRE(memory.Append(batch).has_value());
     }
-    const Core::Result<StoredState> loaded = OpenStore(folder.GetFile())->Load();
+    const Core::Result<StoredState> loaded = OpenDatabase(folder.GetFile())->Load();
     REQUIRE(loaded.has_value());
     CHECK(*loaded == memory.GetState());
     CHECK(loaded->lastReportSequence == 3);
@@ -137,15 +137,15 @@ TEST_CASE("Store: what was appended is there after the file was closed and opene
     CHECK(loaded->tscState == ETscState::Pausing);
     CHECK(loaded->robotsInMaintenance == std::vector<std::string>{"CR01"});
 
-    REQUIRE(OpenStore(folder.GetFile())->Append({{AlarmCleared{GetAlarm()}}}).has_value());
-    CHECK(OpenStore(folder.GetFile())->Load()->alarms.empty());
+    REQUIRE(OpenDatabase(folder.GetFile())->Append({{AlarmCleared{GetAlarm()}}}).has_value());
+    CHECK(OpenDatabase(folder.GetFile())->Load()->alarms.empty());
 }
 
 TEST_CASE("Store: an empty file becomes a store with a schema version, in a write-ahead log")
 {
-    const StoreFolder folder;
+    const DatabaseFolder folder;
     std::ofstream(folder.GetFile()).close();
-    const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetFile());
+    const std::unique_ptr<SqlitePlanStore> store = OpenDatabase(folder.GetFile());
     CHECK(*store->Load() == StoredState{});
     SQLite::Database database(folder.GetFile(), SQLite::OPEN_READONLY);
     CHECK(database.execAndGet("PRAGMA user_version").getInt() == 3);
@@ -154,8 +154,8 @@ TEST_CASE("Store: an empty file becomes a store with a schema version, in a writ
 
 TEST_CASE("Store: a planID whose plan was removed can be stored again, in the same batch too")
 {
-    const StoreFolder folder;
-    const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetFile());
+    const DatabaseFolder folder;
+    const std::unique_ptr<SqlitePlanStore> store = OpenDatabase(folder.GetFile());
     REQUIRE(store->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
     REQUIRE(store->Append({{PlanRemoved{1}, PlanAdded{MakeRecord(2, "P1")}}}).has_value());
     REQUIRE(store->Load()->plans.size() == 1);
@@ -167,7 +167,7 @@ TEST_CASE("Store: files of the first and second schema are brought forward, and 
     for (const int version : {1, 2})
     {
         INFO("version " << version);
-        const StoreFolder folder;
+        const DatabaseFolder folder;
         {
             SQLite::Database database(folder.GetFile(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
             database.exec(FIRST_SCHEMA);
@@ -177,7 +177,7 @@ TEST_CASE("Store: files of the first and second schema are brought forward, and 
             }
             database.exec("PRAGMA application_id = 0x41435350; PRAGMA user_version = " + std::to_string(version));
         }
-        const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetFile());
+        const std::unique_ptr<SqlitePlanStore> store = OpenDatabase(folder.GetFile());
         const Core::Result<StoredState> loaded = store->Load();
         REQUIRE(loaded.has_value());
         REQUIRE(loaded->plans.size() == 1);
@@ -200,8 +200,8 @@ TEST_CASE("Store: files of the first and second schema are brought forward, and 
 
 TEST_CASE("Store: a batch that fails in the middle leaves nothing behind and the store goes on")
 {
-    const StoreFolder folder;
-    const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetFile());
+    const DatabaseFolder folder;
+    const std::unique_ptr<SqlitePlanStore> store = OpenDatabase(folder.GetFile());
     REQUIRE(store->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
     const Core::Result<void> twice = store->Append({{ReportAdded{MakeEntry(1, "P1")}, PlanAdded{MakeRecord(2, "P1")}}});
     REQUIRE_FALSE(twice.has_value());
@@ -214,7 +214,7 @@ TEST_CASE("Store: a batch that fails in the middle leaves nothing behind and the
 
 TEST_CASE("Store: damage, another program's file and a newer version are told apart and left as they are")
 {
-    const StoreFolder folder;
+    const DatabaseFolder folder;
     const auto refuse = [&folder](EPlanningError error) {
         const std::uintmax_t size = std::filesystem::file_size(folder.GetFile());
         const Core::Result<std::unique_ptr<SqlitePlanStore>> store = SqlitePlanStore::Open(folder.GetFile());
@@ -231,7 +231,7 @@ TEST_CASE("Store: damage, another program's file and a newer version are told ap
     SECTION("a damaged page")
     {
         {
-            const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetFile());
+            const std::unique_ptr<SqlitePlanStore> store = OpenDatabase(folder.GetFile());
             for (std::uint64_t sequence = 1; sequence <= 100; ++sequence)
             {
                 const PlanRecord record = MakeRecord(sequence, "P" + std::to_string(sequence));
@@ -251,15 +251,15 @@ TEST_CASE("Store: damage, another program's file and a newer version are told ap
     }
     SECTION("a newer version")
     {
-        static_cast<void>(OpenStore(folder.GetFile()));
+        static_cast<void>(OpenDatabase(folder.GetFile()));
         SQLite::Database(folder.GetFile(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
         refuse(EPlanningError::StoreTooNew);
     }
     SECTION("a row that cannot be read")
     {
-        REQUIRE(OpenStore(folder.GetFile())->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
+        REQUIRE(OpenDatabase(folder.GetFile())->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
         SQLite::Database(folder.GetFile(), SQLite::OPEN_READWRITE).exec("UPDATE plans SET progress = '{}'");
-        const Core::Result<StoredState> loaded = OpenStore(folder.GetFile())->Load();
+        const Core::Result<StoredState> loaded = OpenDatabase(folder.GetFile())->Load();
         REQUIRE_FALSE(loaded.has_value());
         CHECK(loaded.error().code == EPlanningError::StoreCorrupt);
         CHECK(loaded.error().found.find("plan P1") != std::string::npos);
@@ -268,9 +268,9 @@ TEST_CASE("Store: damage, another program's file and a newer version are told ap
 
 TEST_CASE("Store: a file is one program's at a time, and free again when that one has closed it")
 {
-    const StoreFolder folder;
+    const DatabaseFolder folder;
     {
-        const std::unique_ptr<SqlitePlanStore> first = OpenStore(folder.GetFile());
+        const std::unique_ptr<SqlitePlanStore> first = OpenDatabase(folder.GetFile());
         const Core::Result<std::unique_ptr<SqlitePlanStore>> second = SqlitePlanStore::Open(folder.GetFile());
         REQUIRE_FALSE(second.has_value());
         CHECK(second.error().code == EPlanningError::StoreFailed);
@@ -281,7 +281,7 @@ TEST_CASE("Store: a file is one program's at a time, and free again when that on
         CHECK_FALSE(SqlitePlanStore::Open(link).has_value());
         CHECK(first->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
     }
-    CHECK(OpenStore(folder.GetFile())->Load()->plans.size() == 1);
+    CHECK(OpenDatabase(folder.GetFile())->Load()->plans.size() == 1);
 }
 
 TEST_CASE("Store: a folder that is not there is a failure that names the file")

@@ -20,12 +20,12 @@ namespace
 {
 
 /// Over TLS where it is wanted.
-class Rig : public Testing::WebSocketRig
+class LinkRig : public Testing::WebSocketRig
 {
     Testing::TemporaryFolder _folder;
 
 public:
-    explicit Rig(bool bSecure = false)
+    explicit LinkRig(bool bSecure = false)
     {
         if (bSecure)
         {
@@ -52,7 +52,7 @@ public:
 
 TEST_CASE("6 Over a real socket, ws and wss: register, plan, Ack, reports, goodbye")
 {
-    Rig rig(GENERATE(false, true));
+    LinkRig rig(GENERATE(false, true));
     rig.RegisterBoth();
     CHECK(rig.server->IsRegistered());
 
@@ -89,7 +89,7 @@ TEST_CASE("6 Over a real socket, ws and wss: register, plan, Ack, reports, goodb
 
 TEST_CASE("1 After a cut, ws and wss, the client registers again and what was not acknowledged is fed again")
 {
-    Rig rig(GENERATE(false, true));
+    LinkRig rig(GENERATE(false, true));
     rig.RegisterBoth();
     REQUIRE(rig.client->TrySendDurable(MakeReport("a")));
     rig.server->Cut();
@@ -108,7 +108,7 @@ TEST_CASE("1 After a cut, ws and wss, the client registers again and what was no
 
 TEST_CASE("1 A server that goes and comes back on its port is found again")
 {
-    Rig rig;
+    LinkRig rig;
     rig.RegisterBoth();
     rig.server.reset();
     REQUIRE(rig.WasReached([&rig] { return rig.acsEvents.GetAll<Protocol::LinkLost>().size() >= 3; }));
@@ -119,7 +119,7 @@ TEST_CASE("1 A server that goes and comes back on its port is found again")
 
 TEST_CASE("12.3 A close with 1008 is followed by another attempt")
 {
-    Rig rig;
+    LinkRig rig;
     rig.RegisterBoth();
     rig.server->Drop(1008, "not today");
     REQUIRE(rig.WasReached([&rig] { return rig.acsEvents.GetAll<Protocol::Registered>().size() == 2; }));
@@ -128,7 +128,7 @@ TEST_CASE("12.3 A close with 1008 is followed by another attempt")
 
 TEST_CASE("1 A close reason that is too long for its frame is cut between characters")
 {
-    Rig rig;
+    LinkRig rig;
     rig.RegisterBoth();
     std::string reason = "x"; // the 123 bytes of a close frame end within the 41st of the characters that follow
     for (int i = 0; i < 50; ++i)
@@ -143,7 +143,7 @@ TEST_CASE("1 A close reason that is too long for its frame is cut between charac
 
 TEST_CASE("12.3 A second client is refused with 403 where the option says so, and goes on trying")
 {
-    Rig rig;
+    LinkRig rig;
     rig.serverOptions.session.bSecondRefused = true;
     rig.RegisterBoth();
     Recorder others;
@@ -158,7 +158,7 @@ TEST_CASE("12.3 A second client is refused with 403 where the option says so, an
 
 TEST_CASE("1 A wrong path is answered with 404, plain HTTP politely, garbage without harm")
 {
-    Rig rig;
+    LinkRig rig;
     rig.Listen();
     CHECK(rig.TalkRaw("GET /other HTTP/1.1\r\nHost: x\r\n\r\n").find("HTTP/1.1 404") == 0);
     const std::string plain = rig.TalkRaw("GET /acs/ HTTP/1.1\r\nHost: x\r\n\r\n");
@@ -176,7 +176,7 @@ TEST_CASE("1 A wrong path is answered with 404, plain HTTP politely, garbage wit
 
 TEST_CASE("1 Garbage inside a WebSocket is counted and the connection goes on")
 {
-    Rig rig;
+    LinkRig rig;
     rig.RegisterBoth();
     // A plan with a name that no JSON text can hold is written with a replacement, so that the peer can read it.
     REQUIRE(rig.client->TrySendDurable(MakeReport("bad \xFF utf-8")));
@@ -187,7 +187,7 @@ TEST_CASE("1 Garbage inside a WebSocket is counted and the connection goes on")
 
 TEST_CASE("A port in use and a bad address are refused with a sentence that names them")
 {
-    Rig rig;
+    LinkRig rig;
     rig.Listen();
     const auto second = rig.TryListen();
     REQUIRE_FALSE(second.has_value());
@@ -199,7 +199,7 @@ TEST_CASE("A port in use and a bad address are refused with a sentence that name
 
 TEST_CASE("An MCS listens on a name, too")
 {
-    Rig rig;
+    LinkRig rig;
     rig.serverOptions.address = "localhost";
     rig.Listen();
     CHECK(rig.server->GetPort() != 0);
@@ -207,7 +207,7 @@ TEST_CASE("An MCS listens on a name, too")
 
 TEST_CASE("A URL that is none is refused with a sentence")
 {
-    Rig rig;
+    LinkRig rig;
     for (const std::string url :
          {"",
           "http://x/",
@@ -230,7 +230,7 @@ TEST_CASE("A URL that is none is refused with a sentence")
 
 TEST_CASE("After destruction, ws and wss, no handler is called and nothing is left to run")
 {
-    Rig rig(GENERATE(false, true));
+    LinkRig rig(GENERATE(false, true));
     rig.RegisterBoth();
     REQUIRE(rig.client->TrySendDurable(MakeReport("a")));
     REQUIRE(rig.server->TrySend(rig.server->MakeRequest(Protocol::RequestAcsPlans{})));
@@ -248,7 +248,7 @@ TEST_CASE("After destruction, ws and wss, no handler is called and nothing is le
 
 TEST_CASE("An observer sees every text of both directions before the session judges it")
 {
-    Rig rig;
+    LinkRig rig;
     std::vector<std::string> seen;
     rig.serverOptions.onWire =
         [&seen](ProtocolBeast::EWireDirection direction, Protocol::ConnectionID connection, std::string_view text) {

@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 using VDA5050::EActionStatus;
 using VDA5050::StateMessage;
 
-const std::string CONTROL = "vda-sim/control";
+const std::string CONTROL_TOPIC = "vda-sim/control";
 const std::string WITNESS = "W"; ///< A vehicle without a fault: what reaches the master from it shows that time passes.
 
 /// How a fault is commanded.
@@ -36,7 +36,7 @@ class WaysTest : public VdaSimFixture
 protected:
     WaysTest()
     {
-        _master->link.Subscribe({{CONTROL + "/result", 1}});
+        _master->link.Subscribe({{CONTROL_TOPIC + "/result", 1}});
     }
 
     [[nodiscard]] static std::string GetTopic(const std::string& vehicle, std::string_view topic)
@@ -231,10 +231,10 @@ TEST_CASE_METHOD(WaysTest, "vda-sim: the master sees every fault, whether by com
         {
             WaitUntil([&]() { return Count(row.vehicle, "state") > 0; });
         }
-        REQUIRE(_master->link.Publish({CONTROL, lines, 1, false}).has_value());
-        WaitUntil([&]() { return _master->listener.CountTopic(CONTROL + "/result") == 1; });
+        REQUIRE(_master->link.Publish({CONTROL_TOPIC, lines, 1, false}).has_value());
+        WaitUntil([&]() { return _master->listener.CountTopic(CONTROL_TOPIC + "/result") == 1; });
         CHECK_THAT(
-            _master->listener.FindLastOrNull(CONTROL + "/result")->payload,
+            _master->listener.FindLastOrNull(CONTROL_TOPIC + "/result")->payload,
             !Catch::Contains("error:") && Catch::StartsWith("ok: vehicles=1 stuck"));
     }
     LetPass(2); // what was on its way before the faults

@@ -23,7 +23,7 @@ namespace
 using Tcp = boost::asio::ip::tcp;
 
 constexpr std::size_t LINE_BYTES = 200;
-constexpr std::chrono::milliseconds WARM_UP{200};
+constexpr std::chrono::milliseconds BARE_WARM_UP{200};
 constexpr std::chrono::seconds LAST_LINES{5};
 
 class BareSender
@@ -156,7 +156,7 @@ void RunBareTurn(std::chrono::milliseconds duration, StreamFigures& figures)
     std::optional<BareSender> sender;
     server.Call([&]() { sender.emplace(server.GetContext()); });
     BareReader reader(context, sender->GetEndpoint(), figures.frames);
-    context.run_for(WARM_UP);
+    context.run_for(BARE_WARM_UP);
 
     const Core::Duration serverBefore = server.GetProcessorTime();
     const Core::Duration clientBefore = GetOwnProcessorTime();

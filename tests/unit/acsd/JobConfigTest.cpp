@@ -20,7 +20,7 @@ using Planning::EActionEffect;
 using Planning::EPlaceRule;
 
 /// The example site with these keys on top.
-Acsd::AcsdConfig Read(const std::vector<std::string>& overrides)
+Acsd::AcsdConfig ReadJobs(const std::vector<std::string>& overrides)
 {
     return Acsd::ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", overrides);
 }
@@ -88,7 +88,7 @@ const std::string SECOND_ROBOT = "robots.LR02={type='LR', manufacturer='B', seri
 /// The one mistake, without the place that it comes from.
 std::string FindMistake(const std::vector<std::string>& overrides)
 {
-    const std::vector<std::string> mistakes = Read(overrides).mistakes;
+    const std::vector<std::string> mistakes = ReadJobs(overrides).mistakes;
     if (mistakes.size() != 1)
     {
         return std::to_string(mistakes.size()) + " mistakes";
@@ -100,7 +100,7 @@ std::string FindMistake(const std::vector<std::string>& overrides)
 
 TEST_CASE("The example site tells each arm's program where to take the carrier from and where to put it")
 {
-    const Acsd::AcsdConfig config = Read({});
+    const Acsd::AcsdConfig config = ReadJobs({});
     REQUIRE(config.mistakes == std::vector<std::string>{});
     CHECK(
         MakeInputs(config, MakeJob("TrayLoad", "A01.CP02", "A01.CP02.TP03", "CR01.TP02"))
@@ -124,15 +124,15 @@ TEST_CASE("The example site's pick and drop have the job's own place and the rob
 {
     const std::string load =
         R"(pick height=0.8 lhd="CP01" loadId="C1" loadType="cassette" stationName="A01.CP01" stationType="rack")";
-    CHECK(MakeAction(Read({}), MakeJob("CassetteLoad", "A01.CP01", "A01.CP01", "LR01.CP01")) == load);
+    CHECK(MakeAction(ReadJobs({}), MakeJob("CassetteLoad", "A01.CP01", "A01.CP01", "LR01.CP01")) == load);
     CHECK(
-        MakeAction(Read({}), MakeJob("CassetteUnload", "A01.CP02", "LR01.CP01", "A01.CP02"))
+        MakeAction(ReadJobs({}), MakeJob("CassetteUnload", "A01.CP02", "LR01.CP01", "A01.CP02"))
         == R"(drop lhd="CP01" loadId="C1" loadType="cassette" stationName="A01.CP02" stationType="rack")");
 }
 
 TEST_CASE("Two makes of robot do one action in two ways, and a station in a third")
 {
-    const Acsd::AcsdConfig config = Read(
+    const Acsd::AcsdConfig config = ReadJobs(
         {SECOND_ROBOT
              + "load_positions={CP01='front', CP02='rear'}, actions.CassetteLoad={vehicle_action='liftCassette', "
                "parameters={rack='{place}', level=2, fork='{robot_port}'}}, "
@@ -158,8 +158,8 @@ TEST_CASE("Two makes of robot do one action in two ways, and a station in a thir
 
 TEST_CASE("A robot's own arm_program keeps the inputs, and the other way round")
 {
-    const Acsd::AcsdConfig config =
-        Read({"robots.CR01.actions.TrayLoad.arm_program=21", "robots.CR01.actions.TrayUnload.arm_inputs={ml120=5}"});
+    const Acsd::AcsdConfig config = ReadJobs(
+        {"robots.CR01.actions.TrayLoad.arm_program=21", "robots.CR01.actions.TrayUnload.arm_inputs={ml120=5}"});
     REQUIRE(config.mistakes == std::vector<std::string>{});
     const Acsd::JobMethods& methods = FindRobot(config, "CR01").methods;
     CHECK(methods.FindMethodOrNull("TrayLoad")->armProgram == 21);
@@ -170,7 +170,7 @@ TEST_CASE("A robot's own arm_program keeps the inputs, and the other way round")
 
 TEST_CASE("A robot's arm has keys of its own, and those of the table arm for the rest")
 {
-    const Acsd::AcsdConfig config = Read(
+    const Acsd::AcsdConfig config = ReadJobs(
         {"arm.counter_echo=-1",
          "arm.input_timeout=3s",
          "arm.input_retries=4",
@@ -184,26 +184,26 @@ TEST_CASE("A robot's arm has keys of its own, and those of the table arm for the
     CHECK(arm.firstByte == 800);
     CHECK(arm.inputTimeout == std::chrono::seconds(3));
     CHECK(arm.inputRetries == 4);
-    CHECK(Read({}).arm.echoIndex == 4U);
+    CHECK(ReadJobs({}).arm.echoIndex == 4U);
 }
 
 TEST_CASE("The numbers of relays count values, or bytes as in the vendor's manual; relays must not share bytes")
 {
     const std::string tray = "actions.TrayLoad.arm_inputs";
-    const Acsd::AcsdConfig overlapping = Read({"arm.relay_index=byte"});
+    const Acsd::AcsdConfig overlapping = ReadJobs({"arm.relay_index=byte"});
     REQUIRE_FALSE(overlapping.mistakes.empty());
     CHECK(overlapping.mistakes.front().find("ml106: shares bytes with ml105") != std::string::npos);
-    const Acsd::AcsdConfig counter = Read({"arm.relay_index=byte", tray + "={ml400=1}"});
+    const Acsd::AcsdConfig counter = ReadJobs({"arm.relay_index=byte", tray + "={ml400=1}"});
     CHECK(std::ranges::any_of(counter.mistakes, [](const std::string& mistake) {
         return mistake.find("ml400: is a counter of the arm of CR01") != std::string::npos;
     }));
-    CHECK(Read({tray + "={ml105='{job_number}', m3360=1}"}).mistakes.size() == 1);
+    CHECK(ReadJobs({tray + "={ml105='{job_number}', m3360=1}"}).mistakes.size() == 1);
     for (const char* const other : {"ml120", "ml2000", "sl105"})
     {
-        CHECK(Read({tray + "={ml105='{job_number}', " + other + "=1}"}).mistakes.empty());
+        CHECK(ReadJobs({tray + "={ml105='{job_number}', " + other + "=1}"}).mistakes.empty());
     }
-    CHECK(Read({"arm.relay_index=word"}).mistakes.size() == 1);
-    CHECK(Read({"robots.CR01.arm.relay_index=byte"}).mistakes.size() == 1);
+    CHECK(ReadJobs({"arm.relay_index=word"}).mistakes.size() == 1);
+    CHECK(ReadJobs({"robots.CR01.arm.relay_index=byte"}).mistakes.size() == 1);
 }
 
 TEST_CASE("Inputs without the job's number are warned of where the arm's programs echo it")
@@ -211,7 +211,7 @@ TEST_CASE("Inputs without the job's number are warned of where the arm's program
     const std::string tray = "actions.TrayLoad.arm_inputs";
     const std::string own = "robots.CR01." + tray;
     const auto read = [](const std::vector<std::string>& overrides) {
-        const Acsd::AcsdConfig config = Read(overrides);
+        const Acsd::AcsdConfig config = ReadJobs(overrides);
         CHECK(config.mistakes == std::vector<std::string>{});
         return config.warnings;
     };
@@ -229,7 +229,7 @@ TEST_CASE("Inputs without the job's number are warned of where the arm's program
 
 TEST_CASE("Stations have a type, a height, a reach and keys of their own")
 {
-    const Acsd::AcsdConfig config = Read(
+    const Acsd::AcsdConfig config = ReadJobs(
         {R"(stations."A01.CP01".reach=["A01.CP02", "A01.CP03"])",
          R"(stations."A01.CP01".side="left")",
          R"(stations."A01.CP01".lit=true)",
@@ -242,13 +242,13 @@ TEST_CASE("Stations have a type, a height, a reach and keys of their own")
     CHECK(config.stations->at("A01.CP02").at("type") == Acsd::JobValue(std::string("rack")));
     CHECK_FALSE(config.stations->at("A01.CP02").contains("height"));
     CHECK(config.operations.loadTimeout == std::chrono::seconds(4));
-    CHECK(Read({}).operations.loadTimeout == std::chrono::seconds(10));
+    CHECK(ReadJobs({}).operations.loadTimeout == std::chrono::seconds(10));
 }
 
 TEST_CASE("4.1 An action beyond the document says what its places are and what it does to the ports")
 {
     const auto read = [](const std::string& keys) {
-        return Read({"actions.Shift={robot='CR', arm_program=30, " + keys + "}"});
+        return ReadJobs({"actions.Shift={robot='CR', arm_program=30, " + keys + "}"});
     };
     const Acsd::AcsdConfig config = read("from='robot_tp', to='fixed_tp', effect='unload'");
     REQUIRE(config.mistakes == std::vector<std::string>{});
@@ -367,5 +367,5 @@ TEST_CASE("A mistake in a template has file and line")
 
 TEST_CASE("A parameter that no station has a value for is left to the vehicle's factsheet and to each plan")
 {
-    CHECK(Read({"actions.CassetteLoad.parameters.stationType='{station.side}'"}).mistakes.empty());
+    CHECK(ReadJobs({"actions.CassetteLoad.parameters.stationType='{station.side}'"}).mistakes.empty());
 }

@@ -15,7 +15,7 @@ namespace ACS::Acsd::Test
 namespace
 {
 
-AcsdConfig Read(const std::vector<std::string>& overrides)
+AcsdConfig ReadLive(const std::vector<std::string>& overrides)
 {
     AcsdConfig config = ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", overrides);
     REQUIRE(config.mistakes == std::vector<std::string>{});
@@ -35,9 +35,9 @@ TEST_CASE("A second reading says per key what holds from now on and what needs a
 
 TEST_CASE("Taking a second reading changes the live keys and nothing else")
 {
-    AcsdConfig present = Read({});
+    AcsdConfig present = ReadLive({});
     const AcsdConfig before = present;
-    const AcsdConfig fresh = Read(
+    const AcsdConfig fresh = ReadLive(
         {"log.level=debug",
          "comm.grace=1s",
          "robot.status_interval=2s",
@@ -85,12 +85,12 @@ TEST_CASE("Of how messages are written the live keys are taken, and no other")
     std::vector<std::string> all = live;
     all.insert(all.end(), waiting.begin(), waiting.end());
 
-    AcsdConfig present = Read({});
-    const AcsdConfig fresh = Read(all);
+    AcsdConfig present = ReadLive({});
+    const AcsdConfig fresh = ReadLive(all);
     REQUIRE_FALSE(fresh.mcs.style.errors == present.mcs.style.errors);
     REQUIRE(fresh.mcs.style.bResultFailureIsFail);
     TakeLiveKeys(fresh, present);
-    CHECK((present.mcs.style == Read(live).mcs.style));
+    CHECK((present.mcs.style == ReadLive(live).mcs.style));
     CHECK_FALSE((present.mcs.style == fresh.mcs.style));
 }
 

@@ -17,7 +17,7 @@ namespace
 using Testing::PlanWorld;
 
 /// The default pick and drop on a site where one station has a height.
-JobMethods MakeMethods()
+JobMethods MakeLoadMethods()
 {
     const Planning::ActionTable actions = Planning::MakeStandardActions();
     auto stations = std::make_shared<const StationTable>(StationTable{
@@ -61,7 +61,7 @@ Planning::Plan MakePlan(
 struct AvailabilityFixture
 {
     PlanWorld world{1, true};
-    VehicleFixture vehicle{MakeMethods()};
+    VehicleFixture vehicle{MakeLoadMethods()};
 
     AvailabilityFixture()
     {

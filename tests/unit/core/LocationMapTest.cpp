@@ -13,7 +13,7 @@ using ACS::Core::RobotID;
 namespace
 {
 
-Location Make(std::string_view text)
+Location MakeKey(std::string_view text)
 {
     return Location::Parse(text).value();
 }
@@ -44,13 +44,13 @@ TEST_CASE("10 A map is the ranges that it was made of, each place once")
 {
     LocationMap map = MakeMap();
     CHECK(map.GetCount() == 6 + 6 + 4 + 12 + 32 + 32 + 1 + 1 + 32 + 1 + 3 + 25);
-    CHECK(map.Contains(Make("A01.CP01.TP04")));
-    CHECK(map.Contains(Make("a1.cp1.tp4")));
-    CHECK_FALSE(map.Contains(Make("A01.CP01.TP05")));
-    CHECK_FALSE(map.Contains(Make("A01")));
-    CHECK_FALSE(map.Contains(Make("SET01")));
+    CHECK(map.Contains(MakeKey("A01.CP01.TP04")));
+    CHECK(map.Contains(MakeKey("a1.cp1.tp4")));
+    CHECK_FALSE(map.Contains(MakeKey("A01.CP01.TP05")));
+    CHECK_FALSE(map.Contains(MakeKey("A01")));
+    CHECK_FALSE(map.Contains(MakeKey("SET01")));
     const std::size_t count = map.GetCount();
-    map.Add(Make("a01.cp1"));
+    map.Add(MakeKey("a01.cp1"));
     CHECK(map.GetCount() == count);
 }
 
@@ -70,47 +70,47 @@ TEST_CASE("10 AMR and the robot's own name are ports of the robot that executes 
     for (const std::string_view text : {"AMR.CP01", "LR01.CP01", "amr.cp1"})
     {
         INFO(text);
-        const Result<Location> place = map.Resolve(Make(text), robotID);
+        const Result<Location> place = map.Resolve(MakeKey(text), robotID);
         REQUIRE(place.has_value());
-        CHECK(*place == Make("LR01.CP01"));
+        CHECK(*place == MakeKey("LR01.CP01"));
         CHECK(place->GetOriginalText() == text);
     }
-    const Result<Location> other = map.Resolve(Make("CR01.TP01"), robotID);
+    const Result<Location> other = map.Resolve(MakeKey("CR01.TP01"), robotID);
     REQUIRE_FALSE(other.has_value());
     CHECK(other.error().expected == "a port of LR01");
-    CHECK_FALSE(map.Resolve(Make("AMR.CP02"), robotID).has_value());
-    CHECK_FALSE(map.Resolve(Make("AMR.TP01"), robotID).has_value());
+    CHECK_FALSE(map.Resolve(MakeKey("AMR.CP02"), robotID).has_value());
+    CHECK_FALSE(map.Resolve(MakeKey("AMR.TP01"), robotID).has_value());
 }
 
 TEST_CASE("10 A set without its area is that of the position's area, else the only one of the site, else refused")
 {
     const LocationMap map = MakeMap();
     const RobotID robotID = RobotID::Parse("CR01").value();
-    const Location inFirst = Make("A01.CP03");
-    const Location inSecond = Make("A02.SET17");
-    const Location outside = Make("ST01.CP01");
+    const Location inFirst = MakeKey("A01.CP03");
+    const Location inSecond = MakeKey("A02.SET17");
+    const Location outside = MakeKey("ST01.CP01");
 
-    const Result<Location> first = map.Resolve(Make("SET02.MP15"), robotID, &inFirst);
+    const Result<Location> first = map.Resolve(MakeKey("SET02.MP15"), robotID, &inFirst);
     REQUIRE(first.has_value());
     CHECK(first->GetText() == "A01.SET02.MP15");
     CHECK(first->GetOriginalText() == "SET02.MP15");
-    CHECK(map.Resolve(Make("SET02"), robotID, &inSecond).value().GetText() == "A02.SET02");
-    CHECK(map.Resolve(Make("SET17.MP01"), robotID).value().GetText() == "A02.SET17.MP01");
-    CHECK(map.Resolve(Make("set17.mp1"), robotID, &outside).value().GetText() == "A02.SET17.MP01");
+    CHECK(map.Resolve(MakeKey("SET02"), robotID, &inSecond).value().GetText() == "A02.SET02");
+    CHECK(map.Resolve(MakeKey("SET17.MP01"), robotID).value().GetText() == "A02.SET17.MP01");
+    CHECK(map.Resolve(MakeKey("set17.mp1"), robotID, &outside).value().GetText() == "A02.SET17.MP01");
 
     // Both areas have SET02; no area has SET13; the position's area has no SET17.
-    CHECK_FALSE(map.Resolve(Make("SET02"), robotID).has_value());
-    CHECK_FALSE(map.Resolve(Make("SET13"), robotID).has_value());
-    CHECK_FALSE(map.Resolve(Make("SET17"), robotID, &inFirst).has_value());
-    CHECK_FALSE(map.CompleteSetOrNull(Make("A01.SET01")).has_value());
+    CHECK_FALSE(map.Resolve(MakeKey("SET02"), robotID).has_value());
+    CHECK_FALSE(map.Resolve(MakeKey("SET13"), robotID).has_value());
+    CHECK_FALSE(map.Resolve(MakeKey("SET17"), robotID, &inFirst).has_value());
+    CHECK_FALSE(map.CompleteSetOrNull(MakeKey("A01.SET01")).has_value());
 }
 
 TEST_CASE("10 A fixed place is itself where the site has it")
 {
     const LocationMap map = MakeMap();
     const RobotID robotID = RobotID::Parse("CR01").value();
-    CHECK(map.Resolve(Make("a01.set1.mp32"), robotID).value() == Make("A01.SET01.MP32"));
-    const Result<Location> unknown = map.Resolve(Make("A01.SET01.MP33"), robotID);
+    CHECK(map.Resolve(MakeKey("a01.set1.mp32"), robotID).value() == MakeKey("A01.SET01.MP32"));
+    const Result<Location> unknown = map.Resolve(MakeKey("A01.SET01.MP33"), robotID);
     REQUIRE_FALSE(unknown.has_value());
     CHECK(unknown.error().code == ECoreError::InvalidLocation);
     CHECK(unknown.error().expected == "a place of this site");

@@ -49,13 +49,13 @@ std::string FindMistake(const std::string& steps)
     return Describe(scenario.error());
 }
 
-const std::string SEND = R"({"send":"ExecutionPlan","file":"plan.json","as":"A"})";
+const std::string SEND_PLAN = R"({"send":"ExecutionPlan","file":"plan.json","as":"A"})";
 
 } // namespace
 
 TEST_CASE("A plan is sent from a file or from the scenario itself, with fresh ids unless told otherwise")
 {
-    const auto fromFile = ParseOne<SendPlanStep>(SEND);
+    const auto fromFile = ParseOne<SendPlanStep>(SEND_PLAN);
     CHECK(fromFile.name == "A");
     CHECK(fromFile.bFreshIDs);
     CHECK(fromFile.times == 1);
@@ -72,7 +72,7 @@ TEST_CASE("A plan is sent from a file or from the scenario itself, with fresh id
 TEST_CASE("Every other command of an MCS is sent with its payload, or an empty one")
 {
     const auto history =
-        ParseOne<SendRequestStep>(SEND + R"(,{"send":"RequestAcsPlanHistory","payload":{"planIds":["{A}","x"]}})");
+        ParseOne<SendRequestStep>(SEND_PLAN + R"(,{"send":"RequestAcsPlanHistory","payload":{"planIds":["{A}","x"]}})");
     CHECK(history.command == EAcsCommand::RequestAcsPlanHistory);
     CHECK(history.payload.GetText() == R"({"planIds":["{A}","x"]})");
     CHECK(ParseOne<SendRequestStep>(R"({"send":"SyncConfig"})").payload.GetText() == "{}");
@@ -80,13 +80,13 @@ TEST_CASE("Every other command of an MCS is sent with its payload, or an empty o
 
 TEST_CASE("Plans are cancelled, aborted, paused and resumed by the name that the scenario gave them")
 {
-    const auto cancel = ParseOne<SendRequestStep>(SEND + R"(,{"cancel":"A","reason":"late"})");
+    const auto cancel = ParseOne<SendRequestStep>(SEND_PLAN + R"(,{"cancel":"A","reason":"late"})");
     CHECK(cancel.command == EAcsCommand::CancelPlan);
     CHECK(cancel.payload.GetText() == R"({"planId":"{A}","reason":"late"})");
-    CHECK(ParseOne<SendRequestStep>(SEND + R"(,{"abort":"A"})").command == EAcsCommand::AbortPlan);
-    CHECK(ParseOne<SendRequestStep>(SEND + R"(,{"pause":"A"})").command == EAcsCommand::PausePlan);
-    CHECK(ParseOne<SendRequestStep>(SEND + R"(,{"resume":"A"})").payload.GetText() == R"({"planId":"{A}"})");
-    CHECK(ParseOne<SendAgainStep>(SEND + R"(,{"sendAgain":"A","freshTransaction":true})").bFreshTransaction);
+    CHECK(ParseOne<SendRequestStep>(SEND_PLAN + R"(,{"abort":"A"})").command == EAcsCommand::AbortPlan);
+    CHECK(ParseOne<SendRequestStep>(SEND_PLAN + R"(,{"pause":"A"})").command == EAcsCommand::PausePlan);
+    CHECK(ParseOne<SendRequestStep>(SEND_PLAN + R"(,{"resume":"A"})").payload.GetText() == R"({"planId":"{A}"})");
+    CHECK(ParseOne<SendAgainStep>(SEND_PLAN + R"(,{"sendAgain":"A","freshTransaction":true})").bFreshTransaction);
 }
 
 TEST_CASE("An expectation takes its members from the message, and the time limit of the scenario by default")
@@ -99,7 +99,7 @@ TEST_CASE("An expectation takes its members from the message, and the time limit
     CHECK(ParseOne<ExpectStep>(R"({"expect":"*","within":"200ms"})").within == 200ms);
     CHECK(ParseOne<ExpectStep>(R"({"expect":"*ResultReport"})").pattern.command == "*ResultReport");
     CHECK(ParseOne<ExpectNothingStep>(R"({"expectNothing":"StepReport","for":"2s"})").duration == 2s);
-    const auto wait = ParseOne<WaitForPlanStep>(SEND + R"(,{"waitFor":"A","status":"Cancelled"})");
+    const auto wait = ParseOne<WaitForPlanStep>(SEND_PLAN + R"(,{"waitFor":"A","status":"Cancelled"})");
     CHECK(wait.status == ACS::Protocol::EPlanStatus::Cancelled);
     CHECK(wait.within == 7s);
 }
@@ -124,7 +124,8 @@ TEST_CASE("Faults are read with their command and duration")
 TEST_CASE("A step tells people what it is, in its own words where it has some")
 {
     const auto scenario = Parse(
-        SEND + R"(,{"expect":"PlanReport","payload":{"planId":"{A}","status":"Failed"}},{"wait":"2s","note":"look"})");
+        SEND_PLAN
+        + R"(,{"expect":"PlanReport","payload":{"planId":"{A}","status":"Failed"}},{"wait":"2s","note":"look"})");
     REQUIRE(scenario.has_value());
     CHECK(scenario->steps[0].title == "send ExecutionPlan A");
     CHECK(scenario->steps[1].title == "expect PlanReport planId={A}, status=Failed");
@@ -195,11 +196,12 @@ TEST_CASE("A placeholder that stands for nothing is a mistake of the file, other
         Row{R"({"expectNext":"PlanReport","as":"S"})", "steps[1]: expected one of the members expectNext, "},
         Row{R"({"send":"ExecutionPlan","file":"plan.json","as":"the plan"})",
             "steps[1].as: expected a name of letters, "});
-    const std::string mistake = FindMistake(SEND + "," + row.first);
+    const std::string mistake = FindMistake(SEND_PLAN + "," + row.first);
     CAPTURE(row.first, mistake);
     CHECK(mistake.find(row.second) == 0);
     CHECK(Parse(
-        SEND + R"(,{"expect":"PlanReport","message":"{} { A } {\"A\"} {A}{A.transactionId}{A.2.1}{A.1.carrier.1}"})"));
+        SEND_PLAN
+        + R"(,{"expect":"PlanReport","message":"{} { A } {\"A\"} {A}{A.transactionId}{A.2.1}{A.1.carrier.1}"})"));
 }
 
 TEST_CASE("The head of a scenario is checked as its steps are")

@@ -43,7 +43,7 @@ std::string MakeReport(const std::string& status, const std::string& planID = "P
 }
 
 /// A scenario and the time that it lives in.
-struct Bench
+struct RunnerFixture
 {
     ACS::Testing::ManualClock clock;
     ACS::Testing::SeededRandom random;
@@ -51,7 +51,7 @@ struct Bench
     ScenarioRunner runner;
     ScenarioActions out;
 
-    explicit Bench(const std::string& steps, bool bRegistered = true)
+    explicit RunnerFixture(const std::string& steps, bool bRegistered = true)
         : runner(MakeScenario(steps), refresher, random)
     {
         runner.Start(bRegistered, clock.GetNow(), out);
@@ -92,7 +92,7 @@ struct Bench
 
 TEST_CASE("A scenario sends its plan as soon as an ACS is registered")
 {
-    Bench bench(SEND + R"({"expect":"PlanReport"})", false);
+    RunnerFixture bench(SEND + R"({"expect":"PlanReport"})", false);
     CHECK(bench.GetAll<SendPlannedPlan>().empty());
     CHECK(bench.GetAll<StartScenarioTimer>().back().delay == 10s);
     SECTION("in time")
@@ -115,7 +115,7 @@ TEST_CASE("A scenario sends its plan as soon as an ACS is registered")
 
 TEST_CASE("A plan goes with fresh ids as often as asked, and is spoken of by its name")
 {
-    Bench bench(
+    RunnerFixture bench(
         R"({"send":"ExecutionPlan","file":"p","as":"A","times":3},{"cancel":"A"},
            {"send":"RequestAcsPlanHistory","payload":{"planIds":["{A}","{A.transactionId}","{A.2.1}","{A.1.carrier.1}"]}},
            {"sendAgain":"A"},{"sendAgain":"A","freshTransaction":true},{"sendText":"{A} { {} { A } {\"A\"}"})");
@@ -143,7 +143,8 @@ TEST_CASE("A plan goes with fresh ids as often as asked, and is spoken of by its
 
 TEST_CASE("An expectation is held by the first message that matches, within its time")
 {
-    Bench bench(SEND + R"({"expect":"PlanReport","payload":{"planId":"{A}","status":"InProgress"},"within":"5s"})");
+    RunnerFixture bench(
+        SEND + R"({"expect":"PlanReport","payload":{"planId":"{A}","status":"InProgress"},"within":"5s"})");
     bench.Receive(MakeReport("InProgress", "other"));
     CHECK_FALSE(bench.runner.IsFinished());
     SECTION("held")
@@ -167,7 +168,7 @@ TEST_CASE("An expectation is held by the first message that matches, within its 
 
 TEST_CASE("An expectation for which nothing comes fails when its time is over, not before")
 {
-    Bench bench(R"({"expect":"TscStateUpdate","within":"5s"},{"wait":"1s"})");
+    RunnerFixture bench(R"({"expect":"TscStateUpdate","within":"5s"},{"wait":"1s"})");
     bench.Receive(MakeReport("InProgress"));
     bench.Pass(4'999ms);
     CHECK_FALSE(bench.runner.IsFinished());
@@ -179,7 +180,7 @@ TEST_CASE("An expectation for which nothing comes fails when its time is over, n
 
 TEST_CASE("Expectations look at what came after the one before, also where it came during a wait")
 {
-    Bench bench(
+    RunnerFixture bench(
         R"({"wait":"1s"},{"expect":"PlanReport","payload":{"status":"Paused"}},
            {"expect":"PlanReport","payload":{"status":"InProgress"},"within":"1s"})");
     bench.Receive(MakeReport("InProgress"));
@@ -192,7 +193,7 @@ TEST_CASE("Expectations look at what came after the one before, also where it ca
 
 TEST_CASE("What came before an action does not answer it")
 {
-    Bench bench(R"({"wait":"1s"},{"send":"RequestAcsPlans"},{"expect":"PlanReport","within":"1s"})");
+    RunnerFixture bench(R"({"wait":"1s"},{"send":"RequestAcsPlans"},{"expect":"PlanReport","within":"1s"})");
     bench.Receive(MakeReport("InProgress"));
     bench.Pass(1s);
     bench.Pass(1s);
@@ -205,7 +206,7 @@ TEST_CASE("Where nothing is expected, what comes fails at once, and what came be
         R"({"expect":"TscStateUpdate"},{"expectNothing":"PlanReport","payload":{"status":"Failed"},"for":"2s"})";
     const std::string tsc =
         R"({"command":"TscStateUpdate","transactionId":"t","timestamp":"2025-07-02T21:00:00Z","payload":{"state":"Auto"}})";
-    Bench bench(steps);
+    RunnerFixture bench(steps);
     bench.Receive(MakeReport("Failed"));
     bench.Receive(tsc);
     bench.Receive(MakeReport("Completed"));
@@ -226,7 +227,7 @@ TEST_CASE("Where nothing is expected, what comes fails at once, and what came be
 
 TEST_CASE("An expectation may follow one of nothing and see the same messages")
 {
-    Bench bench(R"({"expectNothing":"StepReport","for":"2s"},{"expect":"PlanReport","within":"1s"})");
+    RunnerFixture bench(R"({"expectNothing":"StepReport","for":"2s"},{"expect":"PlanReport","within":"1s"})");
     bench.Receive(MakeReport("Failed"));
     bench.Pass(2s);
     CHECK(bench.runner.HasHeld());
@@ -238,7 +239,7 @@ TEST_CASE(
     const std::string tsc = ACS::Testing::MakeText("TscStateUpdate", "t1", R"({"state":"Auto"})");
     const std::string comm = ACS::Testing::MakeText("AcsCommStateUpdate", "t2", R"({"isConnected":true})");
     const std::string position = ACS::Testing::MakeText("RobotPositionUpdate", "t3", R"({"robots":[]})");
-    Bench bench(
+    RunnerFixture bench(
         R"({"expectNext":"TscStateUpdate","besides":"RobotPositionUpdate","within":"5s"},
            {"expectNext":[{"command":"PlanReport","payload":{"planId":"1"}},
                           {"command":"PlanReport","payload":{"planId":"2"}}],"within":"5s"})");
@@ -286,7 +287,7 @@ TEST_CASE("A message is remembered by its name, and what is sent again is told f
             transactionID,
             R"({"planId":"P","status":"InProgress","message":""})");
     };
-    Bench bench(
+    RunnerFixture bench(
         R"({"expect":"PlanReport","as":"S"},
            {"expect":"PlanReport","repeated":true,"transactionId":"{S.transactionId}","timestamp":"{S.timestamp}"},
            {"expectNothing":"*","repeated":true,"for":"5s"})");
@@ -310,7 +311,7 @@ TEST_CASE("A message is remembered by its name, and what is sent again is told f
 
 TEST_CASE("A plan is waited for until its last report says so, or can never say so")
 {
-    Bench bench(SEND + R"({"waitFor":"A","status":"Completed","within":"20s"})");
+    RunnerFixture bench(SEND + R"({"waitFor":"A","status":"Completed","within":"20s"})");
     bench.Receive(MakeReport("Completed", "other"));
     bench.Receive(MakeReport("InProgress"));
     CHECK_FALSE(bench.runner.IsFinished());
@@ -333,7 +334,7 @@ TEST_CASE("A plan is waited for until its last report says so, or can never say 
 
 TEST_CASE("Faults go out as they stand in the file, and a drop waits for the next registration")
 {
-    Bench bench(
+    RunnerFixture bench(
         R"({"withholdAcks":"PlanReport","for":"6s"},{"delayAcks":"*","by":"1s","for":"2s"},
            {"refuseRegistration":2},{"drop":"cut"},{"send":"SyncConfig"})");
     CHECK(bench.GetAll<HoldAcksStep>().size() == 2);
@@ -348,7 +349,7 @@ TEST_CASE("Faults go out as they stand in the file, and a drop waits for the nex
 
 TEST_CASE("Somebody is asked for something once an ACS is there, and what came before does not answer it")
 {
-    Bench bench(R"({"drop":"cut"},{"ask":"open the door"},{"expect":"ErrorReport"})");
+    RunnerFixture bench(R"({"drop":"cut"},{"ask":"open the door"},{"expect":"ErrorReport"})");
     bench.runner.OnLinkLost();
     const auto count = [&bench] {
         const auto lines = bench.GetAll<TellLine>();
@@ -364,7 +365,7 @@ TEST_CASE("Somebody is asked for something once an ACS is there, and what came b
 
 TEST_CASE("A message that could not be sent fails the scenario")
 {
-    Bench bench(SEND + R"({"expect":"PlanReport"})");
+    RunnerFixture bench(SEND + R"({"expect":"PlanReport"})");
     bench.runner.OnSendFailed(bench.clock.GetNow(), bench.out);
     CHECK(bench.runner.IsFinished());
     CHECK(bench.GetVerdict(2).reason == "a message could not be sent: the link had just gone");
@@ -372,7 +373,7 @@ TEST_CASE("A message that could not be sent fails the scenario")
 
 TEST_CASE("Messages that no expectation names are not kept, those that one names are kept up to a limit")
 {
-    Bench bench(R"({"wait":"1s"},{"expect":"PlanReport","payload":{"planId":"first"},"within":"1s"})");
+    RunnerFixture bench(R"({"wait":"1s"},{"expect":"PlanReport","payload":{"planId":"first"},"within":"1s"})");
     bench.Receive(MakeReport("InProgress", "first"));
     for (std::size_t i = 0; i < ScenarioRunner::MAX_KEPT; ++i)
     {

@@ -13,7 +13,7 @@ using ACS::Testing::ControllerHarness;
 namespace
 {
 
-constexpr const char* MOVE = "/project/context/tasks[0]/execute_move";
+constexpr const char* MOVE_PATH = "/project/context/tasks[0]/execute_move";
 constexpr const char* JOINTS = "/project/robot/joint_states?jno_start=1&jno_n=1";
 
 int Command(ControllerHarness& harness, const std::string& line)
@@ -30,7 +30,7 @@ bool IsKnown(ControllerHarness& harness, const std::string& line)
 
 std::string ExecuteMove(ControllerHarness& harness, const std::string& statement)
 {
-    return harness.PostForCode(MOVE, R"({"stmt":")" + statement + R"("})");
+    return harness.PostForCode(MOVE_PATH, R"({"stmt":")" + statement + R"("})");
 }
 
 bool IsPlaying(ControllerHarness& harness)
@@ -103,7 +103,7 @@ TEST_CASE("A execute_move: what is no statement of the robot language is -137627
         CHECK_FALSE(ParseMoveOrNull(statement).has_value());
         CHECK(ExecuteMove(harness, statement) == "403 -1376272");
     }
-    REQUIRE(harness.PostForCode(MOVE, "{}") == "400 -1");
+    REQUIRE(harness.PostForCode(MOVE_PATH, "{}") == "400 -1");
     REQUIRE(ExecuteMove(harness, std::string(1'001, 'm')) == "400 -1");
     harness.clock.Advance(1s);
     REQUIRE(IsAt(harness, "0"));

@@ -17,7 +17,7 @@ struct Row
     const char* part; ///< Of the answer's body.
 };
 
-constexpr const char* EMPTY = R"({"_type":"JObject"})";
+constexpr const char* EMPTY_OBJECT = R"({"_type":"JObject"})";
 
 // NOLINTNEXTLINE(cert-err58-cpp)
 const std::vector<Row> ROWS{
@@ -82,7 +82,7 @@ const std::vector<Row> ROWS{
     {EApiMethod::Get, "/project/robot/tools/t_1x", "", 404, "err_msg"},
     {EApiMethod::Post, "/project/robot/tool_no", R"({"val":32})", 400, "val: expected"},
     {EApiMethod::Post, "/project/robot/tool_no", "{}", 400, "val"},
-    {EApiMethod::Post, "/project/robot/tool_no", R"({"val":31})", 200, EMPTY},
+    {EApiMethod::Post, "/project/robot/tool_no", R"({"val":31})", 200, EMPTY_OBJECT},
     {EApiMethod::Post, "/project/robot/crd_sys", R"({"val":3})", 200, R"({"_type":"JObject","cur_crd":3,"ucrd_no":0})"},
     {EApiMethod::Post, "/project/robot/crd_sys", R"({"val":4})", 400, "val"},
     {EApiMethod::Get,
@@ -126,7 +126,7 @@ const std::vector<Row> ROWS{
     {EApiMethod::Get, "/project/plc/q/val_s32", "", 404, "err_msg"},
     {EApiMethod::Get, "/project/plc/fb10_di/val_s32", "", 404, "err_msg"},
     {EApiMethod::Get, "/project/plc/m/x/val_s32", "", 404, "err_msg"},
-    {EApiMethod::Post, "/project/plc/set_relay_value", R"({"name":"fb0.di23","value":"1"})", 200, EMPTY},
+    {EApiMethod::Post, "/project/plc/set_relay_value", R"({"name":"fb0.di23","value":"1"})", 200, EMPTY_OBJECT},
     {EApiMethod::Post,
      "/project/plc/set_relay_value",
      R"({"name":"fb0.di23","value":"on"})",
@@ -140,8 +140,8 @@ const std::vector<Row> ROWS{
      "value: expected a number from 0 to 1"},
     {EApiMethod::Post, "/project/plc/set_relay_value", "[1]", 400, "object"},
     {EApiMethod::Post, "/project/robot/motor_off", "{}", 403, R"("err_code":-103)"},
-    {EApiMethod::Post, "/project/robot/stop", "{}", 200, EMPTY},
-    {EApiMethod::Post, "/robot/stop", "{}", 200, EMPTY},
+    {EApiMethod::Post, "/project/robot/stop", "{}", 200, EMPTY_OBJECT},
+    {EApiMethod::Post, "/robot/stop", "{}", 200, EMPTY_OBJECT},
     {EApiMethod::Post, "/robot/start", R"({"speed":10})", 403, R"("err_code":-1442071)"},
     {EApiMethod::Post,
      "/project/context/tasks[0]/cur_prog_cnt",
@@ -159,7 +159,7 @@ const std::vector<Row> ROWS{
      403,
      R"("err_code":-1245280)"},
     {EApiMethod::Post, "/project/context/tasks[1]/cur_prog_cnt", R"({"pno":11})", 404, "err_msg"},
-    {EApiMethod::Post, "/project/context/tasks[0]/set_cur_pc_idx", R"({"idx":0})", 200, EMPTY},
+    {EApiMethod::Post, "/project/context/tasks[0]/set_cur_pc_idx", R"({"idx":0})", 200, EMPTY_OBJECT},
     {EApiMethod::Post, "/project/context/tasks[0]/set_cur_pc_idx", "{}", 400, "idx"},
     {EApiMethod::Post, "/project/context/tasks[8]/set_cur_pc_idx", R"({"idx":0})", 404, "err_msg"},
     {EApiMethod::Post, "/project/context/tasks/reset", "{}", 403, R"("err_code":-103)"},

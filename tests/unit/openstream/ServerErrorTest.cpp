@@ -19,12 +19,12 @@ struct BadLine
     std::string line; ///< Without its end.
 };
 
-std::string MakeMonitor(const std::string& members)
+std::string MakeMonitorWith(const std::string& members)
 {
     return R"({"cmd":"MONITOR","payload":{)" + members + "}}";
 }
 
-std::string MakeControl(const std::string& members)
+std::string MakeControlWith(const std::string& members)
 {
     return R"({"cmd":"CONTROL","payload":{)" + members + "}}";
 }
@@ -33,7 +33,7 @@ std::string MakeNested(std::size_t depth)
 {
     // The line's own object, the payload and the body are three levels.
     const std::size_t inner = depth - 2;
-    return MakeControl(R"("url":"/a","method":"POST","body":)" + std::string(inner, '[') + std::string(inner, ']'));
+    return MakeControlWith(R"("url":"/a","method":"POST","body":)" + std::string(inner, '[') + std::string(inner, ']'));
 }
 
 /// One error with this code and no other line; the stream and the session go on.
@@ -66,15 +66,15 @@ TEST_CASE("4 Each code of a line that is wrong: one error line, and the stream g
         {"4 invalid_ndjson", "invalid_ndjson", "no JSON"},
         {"4 invalid_cmd", "invalid_cmd", R"({"payload":{}})"},
         {"4 invalid_payload", "invalid_payload", R"({"cmd":"STOP"})"},
-        {"4 missing_url", "missing_url", MakeMonitor(R"("method":"GET","period_ms":2)")},
-        {"4 invalid_url", "invalid_url", MakeControl(R"("url":"a","method":"POST")")},
-        {"4 url_too_long", "url_too_long", MakeMonitor(R"("url":"/)" + std::string(LONGEST_URL, 'a') + "\"")},
-        {"4 missing_method", "missing_method", MakeControl(R"("url":"/a")")},
-        {"4 invalid_method", "invalid_method", MakeControl(get + R"("body":{})")},
-        {"4 missing_period_ms", "missing_period_ms", MakeMonitor(get + R"("args":{})")},
-        {"4 invalid_period", "invalid_period", MakeMonitor(get + R"("period_ms":"10")")},
-        {"4 invalid_args", "invalid_args", MakeMonitor(get + R"("period_ms":2,"args":[])")},
-        {"4 invalid_body", "invalid_body", MakeControl(post + R"("body":"x")")},
+        {"4 missing_url", "missing_url", MakeMonitorWith(R"("method":"GET","period_ms":2)")},
+        {"4 invalid_url", "invalid_url", MakeControlWith(R"("url":"a","method":"POST")")},
+        {"4 url_too_long", "url_too_long", MakeMonitorWith(R"("url":"/)" + std::string(LONGEST_URL, 'a') + "\"")},
+        {"4 missing_method", "missing_method", MakeControlWith(R"("url":"/a")")},
+        {"4 invalid_method", "invalid_method", MakeControlWith(get + R"("body":{})")},
+        {"4 missing_period_ms", "missing_period_ms", MakeMonitorWith(get + R"("args":{})")},
+        {"4 invalid_period", "invalid_period", MakeMonitorWith(get + R"("period_ms":"10")")},
+        {"4 invalid_args", "invalid_args", MakeMonitorWith(get + R"("period_ms":2,"args":[])")},
+        {"4 invalid_body", "invalid_body", MakeControlWith(post + R"("body":"x")")},
         {"4 missing_target", "missing_target", R"({"cmd":"STOP","payload":{}})"},
         {"4 invalid_target", "invalid_target", R"({"cmd":"STOP","payload":{"target":"robot"}})"},
         {"4 nothing_to_stop", "nothing_to_stop", R"({"cmd":"STOP","payload":{"target":"control"}})"},
@@ -118,27 +118,29 @@ TEST_CASE(
     const std::string get = url + R"("method":"GET",)";
     const std::string post = url + R"("method":"POST",)";
     const std::vector<BadLine> lines{
-        {"7.2", "invalid_period", MakeMonitor(get + R"("period_ms":10.5)")},
-        {"7.2", "invalid_period", MakeMonitor(get + R"("period_ms":true)")},
-        {"7.2", "invalid_period", MakeMonitor(get + R"("period_ms":null)")},
-        {"7.8", "missing_url", MakeMonitor(R"("stop":true)")},
+        {"7.2", "invalid_period", MakeMonitorWith(get + R"("period_ms":10.5)")},
+        {"7.2", "invalid_period", MakeMonitorWith(get + R"("period_ms":true)")},
+        {"7.2", "invalid_period", MakeMonitorWith(get + R"("period_ms":null)")},
+        {"7.8", "missing_url", MakeMonitorWith(R"("stop":true)")},
         {"7.23", "missing_target", R"({"cmd":"STOP","payload":{"id":1}})"},
-        {"7.29", "invalid_url", MakeControl(R"("url":"/a b","method":"POST")")},
-        {"7.29", "invalid_url", MakeControl(R"("url":"/a\u007fb","method":"POST")")},
-        {"7.29", "invalid_url", MakeControl(R"("url":"/a\nb","method":"POST")")},
-        {"7.30", "url_too_long", MakeControl(R"("url":"/)" + std::string(LONGEST_URL, 'a') + R"(","method":"POST")")},
-        {"7.31", "invalid_method", MakeMonitor(url + R"("method":"get","period_ms":2)")},
-        {"7.31", "invalid_method", MakeControl(url + R"("method":"post")")},
-        {"7.32", "invalid_args", MakeControl(post + R"("args":null)")},
-        {"7.32", "invalid_body", MakeControl(post + R"("body":null)")},
+        {"7.29", "invalid_url", MakeControlWith(R"("url":"/a b","method":"POST")")},
+        {"7.29", "invalid_url", MakeControlWith(R"("url":"/a\u007fb","method":"POST")")},
+        {"7.29", "invalid_url", MakeControlWith(R"("url":"/a\nb","method":"POST")")},
+        {"7.30",
+         "url_too_long",
+         MakeControlWith(R"("url":"/)" + std::string(LONGEST_URL, 'a') + R"(","method":"POST")")},
+        {"7.31", "invalid_method", MakeMonitorWith(url + R"("method":"get","period_ms":2)")},
+        {"7.31", "invalid_method", MakeControlWith(url + R"("method":"post")")},
+        {"7.32", "invalid_args", MakeControlWith(post + R"("args":null)")},
+        {"7.32", "invalid_body", MakeControlWith(post + R"("body":null)")},
         {"7.34", "invalid_ndjson", R"({"cmd":"STOP","payload":{"target":"monitor"})"},
         {"7.35", "invalid_ndjson", "{\"cmd\":\"STOP\",\"x\":\"\xC3\x28\"}"},
         {"7.36", "invalid_ndjson", R"({"cmd":"STOP","cmd":"STOP","payload":{"target":"monitor"}})"},
         {"7.36", "invalid_ndjson", R"({"cmd":"STOP","payload":{"target":"monitor","target":"session"}})"},
         {"7.36", "invalid_ndjson", R"({"cmd":"STOP","payload":{"target":"monitor"}} {})"},
-        {"7.37", "invalid_ndjson", MakeMonitor(get + R"("period_ms":NaN)")},
-        {"7.37", "invalid_ndjson", MakeMonitor(get + R"("period_ms":Infinity)")},
-        {"7.37", "invalid_ndjson", MakeMonitor(get + R"("period_ms":-Infinity)")},
+        {"7.37", "invalid_ndjson", MakeMonitorWith(get + R"("period_ms":NaN)")},
+        {"7.37", "invalid_ndjson", MakeMonitorWith(get + R"("period_ms":Infinity)")},
+        {"7.37", "invalid_ndjson", MakeMonitorWith(get + R"("period_ms":-Infinity)")},
         {"7.38", "invalid_ndjson", MakeNested(DEEPEST_NESTING + 1)},
         {"7.38", "invalid_ndjson", std::string(100'000, '[')},
     };
@@ -152,16 +154,16 @@ TEST_CASE("7.30 7.32 7.38 What is just inside a bound is taken")
 {
     ServerHarness server;
     server.Receive(HANDSHAKE);
-    server.Receive(MakeControl(R"("url":"/)" + std::string(LONGEST_URL - 1, 'a') + R"(","method":"POST")") + "\n");
+    server.Receive(MakeControlWith(R"("url":"/)" + std::string(LONGEST_URL - 1, 'a') + R"(","method":"POST")") + "\n");
     server.Receive(MakeNested(DEEPEST_NESTING) + "\n");
-    server.Receive(MakeControl(R"("url":"/a","method":"DELETE")") + "\n");
+    server.Receive(MakeControlWith(R"("url":"/a","method":"DELETE")") + "\n");
     // 2048 bytes after decoding, more than that on the wire
     std::string escaped;
     for (std::size_t count = 1; count < LONGEST_URL; ++count)
     {
         escaped += "\\u0061";
     }
-    server.Receive(MakeControl(R"("url":"/)" + escaped + R"(","method":"PUT")") + "\n");
+    server.Receive(MakeControlWith(R"("url":"/)" + escaped + R"(","method":"PUT")") + "\n");
     CHECK(server.calls.size() == 4);
     CHECK(server.Count("error") == 0);
 }
@@ -173,13 +175,13 @@ TEST_CASE("7.1 7.37 A period that no integer holds is clamped like every other")
     for (const char* period : {"1", "-99999999999999999999", "0", "2.0"})
     {
         INFO(period);
-        server.Receive(MakeMonitor(R"("url":"/a","method":"GET","period_ms":)" + std::string(period)) + "\n");
+        server.Receive(MakeMonitorWith(R"("url":"/a","method":"GET","period_ms":)" + std::string(period)) + "\n");
         server.lines.clear();
         server.Pass(6ms);
         CHECK(server.Count("\"data\"") == 3);
     }
     server.Receive(MakeStopLine("monitor"));
-    server.Receive(MakeMonitor(R"("url":"/a","method":"GET","period_ms":4294967298)") + "\n");
+    server.Receive(MakeMonitorWith(R"("url":"/a","method":"GET","period_ms":4294967298)") + "\n");
     server.lines.clear();
     server.Pass(29'999ms);
     CHECK(server.lines.empty());
@@ -204,7 +206,7 @@ TEST_CASE("7.4 A body that ends with a line end tears no line and swallows no co
     ServerHarness server;
     server.answer = ApiResponse{404, ACS::Core::JsonText::FromTrusted("{\n  \"a\": 1\n}\n")};
     server.Receive(HANDSHAKE);
-    server.Receive(MakeMonitor(R"("url":"/a","method":"GET","period_ms":2,"id":7)") + "\n" + std::string(CONTROL));
+    server.Receive(MakeMonitorWith(R"("url":"/a","method":"GET","period_ms":2,"id":7)") + "\n" + std::string(CONTROL));
     server.Pass(2ms);
     OpenStreamCodec codec;
     for (const std::string& line : server.lines)

@@ -56,7 +56,7 @@ Plan MakePlan(const std::string& planID, const std::string& robotID, const std::
          {2, "CassetteUnload", "A02.CP03", {"C1"}, {{planID + "-u", port, "A02.CP03"}}}}};
 }
 
-std::string GetRobotOf(const PlanWorld& world, const std::string& planID)
+std::string GetOwner(const PlanWorld& world, const std::string& planID)
 {
     return world.engine->GetPlanOrNull(planID)->robotID.value_or("");
 }
@@ -72,7 +72,7 @@ TEST_CASE("A plan goes to a robot that can do all of its jobs, however far it is
         world.Connect();
         world.Submit(MakePlan("P1", "AMR"));
         REQUIRE(world.TryRun());
-        CHECK(GetRobotOf(world, "P1") == able);
+        CHECK(GetOwner(world, "P1") == able);
         CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
     }
 }
@@ -94,7 +94,7 @@ TEST_CASE("A plan with a job that no robot can do waits with the reasons until o
         == std::vector<RobotObjection>{{"LR01", "no fork for CassetteUnload"}, {"LR02", "CassetteLoad is not listed"}});
     SetCheck(world, "LR02", [](const StartJob&) { return std::string(); });
     REQUIRE(world.TryRun());
-    CHECK(GetRobotOf(world, "P1") == "LR02");
+    CHECK(GetOwner(world, "P1") == "LR02");
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
 }
 
@@ -163,10 +163,10 @@ TEST_CASE("A plan that a robot has stays with it, whatever is learnt of the robo
     world.Connect();
     world.Submit(MakePlan("P1", "AMR"));
     REQUIRE(TryRunUntil(world, "P1", "Job 1 P1-l InProgress"));
-    const std::string robotID = GetRobotOf(world, "P1");
+    const std::string robotID = GetOwner(world, "P1");
     SetCheck(world, robotID, RejectUnloads);
     REQUIRE(world.TryRun());
-    CHECK(GetRobotOf(world, "P1") == robotID);
+    CHECK(GetOwner(world, "P1") == robotID);
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
 }
 

@@ -25,7 +25,7 @@ using Sim::MemoryWorld;
 using VDA5050::ActionParameter;
 using VDA5050::EActionStatus;
 
-ActionParameter MakeText(std::string_view key, std::string_view value)
+ActionParameter MakeParameter(std::string_view key, std::string_view value)
 {
     return {std::string(key), Core::JsonText::FromString(value)};
 }
@@ -34,9 +34,9 @@ ActionParameter MakeText(std::string_view key, std::string_view value)
 std::vector<ActionParameter> MakeParameters(std::string_view station, std::vector<ActionParameter> more = {})
 {
     std::vector<ActionParameter> parameters{
-        MakeText("stationType", "rack"),
-        MakeText("stationName", station),
-        MakeText("loadType", "cassette")};
+        MakeParameter("stationType", "rack"),
+        MakeParameter("stationName", station),
+        MakeParameter("loadType", "cassette")};
     parameters.insert(parameters.end(), more.begin(), more.end());
     return parameters;
 }
@@ -167,13 +167,13 @@ TEST_CASE("A vehicle moves the carrier of the place that its action names to the
     const auto picked = floor.Perform(
         driver,
         "pick",
-        MakeParameters("A01.CP01", {MakeText("loadId", "CASSETTE_01"), MakeText("lhd", "CP03")}));
+        MakeParameters("A01.CP01", {MakeParameter("loadId", "CASSETTE_01"), MakeParameter("lhd", "CP03")}));
     CHECK(picked.actionStatus == EActionStatus::Finished);
     CHECK(floor.GetWorld().GetPlaceOrNull("CASSETTE_01") == "LR01.CP03");
     CHECK(ListLoads(driver) == "CP03=CASSETTE_01 ");
     CHECK(driver.GetState().loads->front().loadType == "cassette");
 
-    const auto dropped = floor.Perform(driver, "drop", MakeParameters("A01.CP02", {MakeText("lhd", "CP03")}));
+    const auto dropped = floor.Perform(driver, "drop", MakeParameters("A01.CP02", {MakeParameter("lhd", "CP03")}));
     CHECK(dropped.actionStatus == EActionStatus::Finished);
     CHECK(floor.GetWorld().GetPlaceOrNull("CASSETTE_01") == "A01.CP02");
     CHECK(driver.GetState().loads->empty());
@@ -193,18 +193,18 @@ TEST_CASE("What is physically impossible fails with a reason, and nothing moves"
     };
     for (const Impossible& impossible : {
              Impossible{"pick", MakeParameters("A01.CP02"), "empty place"},
-             Impossible{"pick", MakeParameters("A01.CP01", {MakeText("loadId", "CASSETTE_07")}), "CASSETTE_07"},
-             Impossible{"pick", MakeParameters("A01.CP01", {MakeText("lhd", "CP02")}), "in this place already"},
-             Impossible{"pick", MakeParameters("A01.CP01", {MakeText("lhd", "CP05")}), "no such place"},
+             Impossible{"pick", MakeParameters("A01.CP01", {MakeParameter("loadId", "CASSETTE_07")}), "CASSETTE_07"},
+             Impossible{"pick", MakeParameters("A01.CP01", {MakeParameter("lhd", "CP02")}), "in this place already"},
+             Impossible{"pick", MakeParameters("A01.CP01", {MakeParameter("lhd", "CP05")}), "no such place"},
              Impossible{"pick", MakeParameters("A02.CP01"), "docked at"},
              Impossible{"pick", MakeParameters("nowhere"), "place"},
              Impossible{"pick", MakeParameters(""), "no station"},
-             Impossible{"drop", MakeParameters("A01.CP01", {MakeText("loadId", "CASSETTE_02")}), "free place"},
-             Impossible{"drop", MakeParameters("A01.CP02", {MakeText("loadId", "CASSETTE_01")}), "not on board"},
-             Impossible{"drop", MakeParameters("A01.CP02", {MakeText("lhd", "CP01")}), "not on board"},
+             Impossible{"drop", MakeParameters("A01.CP01", {MakeParameter("loadId", "CASSETTE_02")}), "free place"},
+             Impossible{"drop", MakeParameters("A01.CP02", {MakeParameter("loadId", "CASSETTE_01")}), "not on board"},
+             Impossible{"drop", MakeParameters("A01.CP02", {MakeParameter("lhd", "CP01")}), "not on board"},
              Impossible{
                  "drop",
-                 MakeParameters("A01.CP02", {MakeText("loadId", "CASSETTE_02"), MakeText("lhd", "CP01")}),
+                 MakeParameters("A01.CP02", {MakeParameter("loadId", "CASSETTE_02"), MakeParameter("lhd", "CP01")}),
                  "another place"},
          })
     {
@@ -232,8 +232,11 @@ TEST_CASE("Without a stationName the only station of the node is meant")
     REQUIRE(floor.GetWorld().Act(Sim::CarrierPlaced{"CASSETTE_02", "A02.CP01"}));
     floor.GetOptions().startNodeID = "N2";
     VehicleDriver driver(floor.GetOptions());
-    const auto picked =
-        floor.Perform(driver, "pick", {MakeText("stationType", "rack"), MakeText("loadType", "cassette")}, {"N2"});
+    const auto picked = floor.Perform(
+        driver,
+        "pick",
+        {MakeParameter("stationType", "rack"), MakeParameter("loadType", "cassette")},
+        {"N2"});
     CHECK(picked.actionStatus == EActionStatus::Finished);
     CHECK(ListLoads(driver) == "CP01=CASSETTE_02 ");
 }
@@ -279,8 +282,8 @@ TEST_CASE("A vehicle that initPosition puts elsewhere has left its stations")
             {{"x", Core::JsonText::FromNumber(x)},
              {"y", Core::JsonText::FromNumber(y)},
              {"theta", Core::JsonText::FromNumber(0.0)},
-             MakeText("mapId", "floor"),
-             MakeText("lastNodeId", "N1")});
+             MakeParameter("mapId", "floor"),
+             MakeParameter("lastNodeId", "N1")});
         driver.Pass(5s);
     };
     place("away", 5.0, 0.0);
@@ -379,15 +382,15 @@ TEST_CASE("A make of its own: other actionTypes, parameters and names of the loa
     const auto picked = floor.Perform(
         driver,
         "loadCassette",
-        {MakeText("rack", "A01.CP01"),
-         MakeText("gripper", "7"),
-         MakeText("barcode", "CASSETTE_01"),
-         MakeText("loadType", "cassette")});
+        {MakeParameter("rack", "A01.CP01"),
+         MakeParameter("gripper", "7"),
+         MakeParameter("barcode", "CASSETTE_01"),
+         MakeParameter("loadType", "cassette")});
     CHECK(picked.actionStatus == EActionStatus::Finished);
     CHECK(floor.GetWorld().GetPlaceOrNull("CASSETTE_01") == "LR01.CP02");
     CHECK(ListLoads(driver) == "7=CASSETTE_01 ");
     const auto dropped =
-        floor.Perform(driver, "unloadCassette", {MakeText("rack", "A01.CP02"), MakeText("gripper", "7")});
+        floor.Perform(driver, "unloadCassette", {MakeParameter("rack", "A01.CP02"), MakeParameter("gripper", "7")});
     CHECK(dropped.actionStatus == EActionStatus::Finished);
     CHECK(floor.GetWorld().GetPlaceOrNull("CASSETTE_01") == "A01.CP02");
 }

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 using VDA5050::EActionStatus;
 using VDA5050::ETopic;
 
-constexpr double EXACT = 1e-9;
+constexpr double TOLERANCE = 1e-9;
 constexpr double NORTH = std::numbers::pi / 2;
 
 VDA5050::OrderBuilder AddAction(
@@ -50,7 +50,7 @@ TEST_CASE("6.6 A vehicle drives to the end of its base and never beyond, however
         farthest = std::max(farthest, driver.GetPose().x);
         CHECK(driver.GetPose().y == 0.0);
     });
-    CHECK(farthest == Approx(10.0).margin(EXACT));
+    CHECK(farthest == Approx(10.0).margin(TOLERANCE));
     const VDA5050::StateMessage state = driver.GetState();
     CHECK(state.lastNodeID == "N1");
     CHECK(state.lastNodeSequenceID == 2);
@@ -76,9 +76,9 @@ TEST_CASE("6.6 An update that comes after the vehicle has stopped sends it on, a
     CHECK(state.nodeStates.empty());
     CHECK(state.edgeStates.empty());
     CHECK_FALSE(state.bDriving);
-    CHECK(driver.GetPose().x == Approx(10.0).margin(EXACT));
-    CHECK(driver.GetPose().y == Approx(5.0).margin(EXACT));
-    CHECK(driver.GetPose().theta == Approx(NORTH).margin(EXACT));
+    CHECK(driver.GetPose().x == Approx(10.0).margin(TOLERANCE));
+    CHECK(driver.GetPose().y == Approx(5.0).margin(TOLERANCE));
+    CHECK(driver.GetPose().theta == Approx(NORTH).margin(TOLERANCE));
 }
 
 TEST_CASE("6.6 An update that comes in time is driven through without a stop, slowly round the corner")
@@ -172,9 +172,9 @@ TEST_CASE("7 Where an edge allows no rotation, the vehicle turns on the node bef
     driver.Pass(30s, [&]() {
         const VdaSim::Pose& pose = driver.GetPose();
         bTurnedStanding = bTurnedStanding || (pose.x == 10.0 && pose.theta > 0.5 && pose.theta < 1.0);
-        if (pose.x > 10.0 + EXACT)
+        if (pose.x > 10.0 + TOLERANCE)
         {
-            CHECK(pose.theta == Approx(0.0).margin(EXACT));
+            CHECK(pose.theta == Approx(0.0).margin(TOLERANCE));
         }
     });
     CHECK(bTurnedStanding);
@@ -190,8 +190,8 @@ TEST_CASE("7 An orientation of pi on a tangential edge is driven backwards")
     driver.Pass(1s);
     CHECK(driver.GetState().velocity->vx.value_or(0.0) < -0.3);
     driver.Pass(20s);
-    CHECK(driver.GetPose().x == Approx(10.0).margin(EXACT));
-    CHECK(driver.GetPose().theta == Approx(0.0).margin(EXACT));
+    CHECK(driver.GetPose().x == Approx(10.0).margin(TOLERANCE));
+    CHECK(driver.GetPose().theta == Approx(0.0).margin(TOLERANCE));
 }
 
 TEST_CASE("6.8 A pick runs at its node, standing, for its time; the load is in the state then, and gone after a drop")
@@ -201,7 +201,7 @@ TEST_CASE("6.8 A pick runs at its node, standing, for its time; the load is in t
     driver.Send(VehicleDriver::Take(pick.MakeOrder(3)));
     CHECK(driver.GetStatus("work") == EActionStatus::Waiting);
     REQUIRE(driver.TryPassUntil([&]() { return driver.GetStatus("work") == EActionStatus::Running; }, 60s));
-    CHECK(driver.GetPose().x == Approx(10.0).margin(EXACT));
+    CHECK(driver.GetPose().x == Approx(10.0).margin(TOLERANCE));
     CHECK(driver.GetState().lastNodeID == "N1");
     CHECK_FALSE(driver.GetState().bDriving);
     driver.Pass(2900ms);
@@ -260,7 +260,7 @@ TEST_CASE("6.6.3 A cancelled vehicle ends on the next node, and is ready for ano
     CHECK(state.lastNodeID == "N1");
     CHECK(state.nodeStates.empty());
     CHECK_FALSE(state.bDriving);
-    CHECK(driver.GetPose().x == Approx(10.0).margin(EXACT));
+    CHECK(driver.GetPose().x == Approx(10.0).margin(TOLERANCE));
     auto next = driver.MakeRoute("order-2", {"N1", "N2"});
     driver.Send(VehicleDriver::Take(next.MakeOrder(2)));
     driver.Pass(60s);

@@ -38,7 +38,7 @@ std::string GetSentActionID(const MasterBench& bench)
     return message->actions.back().actionID;
 }
 
-void Tell(MasterBench& bench, FactsheetMessage factsheet)
+void PublishFactsheet(MasterBench& bench, FactsheetMessage factsheet)
 {
     factsheet.header = Header{0, {}, "2.0.0", "ACS", "LR01"};
     bench.Say(ETopic::Factsheet, Vda5050Codec().Encode(factsheet, EVda5050Version::Version210));
@@ -140,7 +140,7 @@ TEST_CASE("3.7 The session's own ids are as the vehicle wants them, and other id
     MaximumStringLengths& limits = factsheet.protocolLimits.maxStringLengths;
     limits.identifier = 12;
     limits.bIdentifierNumericalOnly = GENERATE(false, true);
-    Tell(bench, factsheet);
+    PublishFactsheet(bench, factsheet);
     bench.BeReady();
     REQUIRE(SendAction(bench, {}, "startPause").has_value());
     const std::string first = GetSentActionID(bench);
@@ -158,7 +158,7 @@ TEST_CASE("3.7 An instant action beyond the vehicle's sizes is not sent, and tho
     FactsheetMessage factsheet;
     factsheet.protocolLimits.maxStringLengths.message = 400;
     factsheet.protocolLimits.maxArrayLengths.actionParameters = 1;
-    Tell(bench, factsheet);
+    PublishFactsheet(bench, factsheet);
     bench.BeReady();
     Action action = MakeAction("i1", EBlockingType::None, "takePicture");
     action.actionParameters = {{"a", Core::JsonText::FromString("1")}, {"b", Core::JsonText::FromString("2")}};

@@ -10,7 +10,7 @@ namespace
 {
 
 /// An order over three nodes with an action on the last, taken by the vehicle.
-OrderMessage Run(MasterBench& bench)
+OrderMessage SendFirstOrder(MasterBench& bench)
 {
     bench.BeReady();
     OrderMessage order = MakeOrder(3, 3);
@@ -37,7 +37,7 @@ std::string CancelOrder(MasterBench& bench)
 TEST_CASE("5.5 An action that vanishes before its end is told as lost, once; one that ended is not")
 {
     MasterBench bench;
-    Run(bench);
+    SendFirstOrder(bench);
     const bool bEnded = GENERATE(true, false);
     bench.state.actionStates[0].actionStatus = bEnded ? EActionStatus::Failed : EActionStatus::Running;
     bench.SendState();
@@ -52,7 +52,7 @@ TEST_CASE("5.5 An action that vanishes before its end is told as lost, once; one
 TEST_CASE("5.5 The actions of an order that is lost end with it, and so does an instant action of a restarted vehicle")
 {
     MasterBench bench;
-    Run(bench);
+    SendFirstOrder(bench);
     Action picture = MakeAction("i1", EBlockingType::None, "takePicture");
     REQUIRE(bench.session.SendInstantAction(picture, bench.GetNow(), bench.Clear()).has_value());
     bench.state.actionStates.push_back(ActionState{"i1", "takePicture", {}, EActionStatus::Running, {}});
@@ -87,7 +87,7 @@ TEST_CASE("5.5 An action that an update drops with its horizon is not lost")
 TEST_CASE("5.4 A cancel of an order that has just ended finishes it")
 {
     MasterBench bench;
-    const OrderMessage order = Run(bench);
+    const OrderMessage order = SendFirstOrder(bench);
     const std::string cancelID = CancelOrder(bench);
     bench.Hold(order, 0);
     bench.state.actionStates[0].actionStatus = EActionStatus::Finished;
@@ -101,7 +101,7 @@ TEST_CASE("5.4 A cancel of an order that has just ended finishes it")
 TEST_CASE("5.4 A cancel that the vehicle fails while it goes on leaves the order running")
 {
     MasterBench bench;
-    Run(bench);
+    SendFirstOrder(bench);
     const std::string cancelID = CancelOrder(bench);
     bench.state.actionStates.push_back(ActionState{cancelID, "cancelOrder", {}, EActionStatus::Failed, {}});
     bench.SendState();

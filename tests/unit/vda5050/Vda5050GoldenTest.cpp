@@ -61,7 +61,7 @@ std::optional<std::string> RewriteOrNull(const std::string& text, EVda5050Versio
     return codec.Encode(*message, version);
 }
 
-struct Kind
+struct GoldenKind
 {
     ETopic topic;
     Rewritten (*rewrite)(const std::string& text, EVda5050Version version);
@@ -69,13 +69,13 @@ struct Kind
     bool bOptionals; ///< Whether anything may be missing.
 };
 
-constexpr std::array<Kind, TOPIC_COUNT> KINDS{
-    Kind{ETopic::Order, &Rewrite<OrderMessage>, &RewriteOrNull<OrderMessage>, true},
-    Kind{ETopic::InstantActions, &Rewrite<InstantActionsMessage>, &RewriteOrNull<InstantActionsMessage>, true},
-    Kind{ETopic::State, &Rewrite<StateMessage>, &RewriteOrNull<StateMessage>, true},
-    Kind{ETopic::Visualization, &Rewrite<VisualizationMessage>, &RewriteOrNull<VisualizationMessage>, true},
-    Kind{ETopic::Connection, &Rewrite<ConnectionMessage>, &RewriteOrNull<ConnectionMessage>, false},
-    Kind{ETopic::Factsheet, &Rewrite<FactsheetMessage>, &RewriteOrNull<FactsheetMessage>, true}};
+constexpr std::array<GoldenKind, TOPIC_COUNT> GOLDEN_KINDS{
+    GoldenKind{ETopic::Order, &Rewrite<OrderMessage>, &RewriteOrNull<OrderMessage>, true},
+    GoldenKind{ETopic::InstantActions, &Rewrite<InstantActionsMessage>, &RewriteOrNull<InstantActionsMessage>, true},
+    GoldenKind{ETopic::State, &Rewrite<StateMessage>, &RewriteOrNull<StateMessage>, true},
+    GoldenKind{ETopic::Visualization, &Rewrite<VisualizationMessage>, &RewriteOrNull<VisualizationMessage>, true},
+    GoldenKind{ETopic::Connection, &Rewrite<ConnectionMessage>, &RewriteOrNull<ConnectionMessage>, false},
+    GoldenKind{ETopic::Factsheet, &Rewrite<FactsheetMessage>, &RewriteOrNull<FactsheetMessage>, true}};
 
 void CheckSchema(EVda5050Version version, ETopic topic, const std::string& text)
 {
@@ -89,7 +89,7 @@ TEST_CASE(
 {
     for (const EVda5050Version version : VERSIONS)
     {
-        for (const Kind& kind : KINDS)
+        for (const GoldenKind& kind : GOLDEN_KINDS)
         {
             for (const std::string variant : {"full", "minimal"})
             {
@@ -109,7 +109,7 @@ TEST_CASE(
 {
     for (const EVda5050Version version : VERSIONS)
     {
-        for (const Kind& kind : KINDS)
+        for (const GoldenKind& kind : GOLDEN_KINDS)
         {
             if (!kind.bOptionals)
             {
@@ -131,7 +131,7 @@ TEST_CASE(
 
 TEST_CASE("3 What one version knows more than the other is left out there: each is written as the other's schema asks")
 {
-    for (const Kind& kind : KINDS)
+    for (const GoldenKind& kind : GOLDEN_KINDS)
     {
         for (const std::string variant : {"full", "minimal"})
         {
@@ -153,7 +153,7 @@ TEST_CASE("3 The full messages have every member that their schemas name")
     }
     for (const EVda5050Version version : VERSIONS)
     {
-        for (const Kind& kind : KINDS)
+        for (const GoldenKind& kind : GOLDEN_KINDS)
         {
             INFO(MakeGoldenName(kind.topic, version, "full"));
             std::vector<std::string> expected;
@@ -176,7 +176,7 @@ TEST_CASE("1, 3 What was read leniently is written as the schemas ask, in either
     {
         std::ifstream file(entry.path(), std::ios::binary);
         const std::string text{std::istreambuf_iterator<char>(file), {}};
-        for (const Kind& kind : KINDS)
+        for (const GoldenKind& kind : GOLDEN_KINDS)
         {
             for (const EVda5050Version version : VERSIONS)
             {
@@ -211,7 +211,7 @@ TEST_CASE("3 There is a golden file of each kind for every message, and none bes
     std::set<std::string> expected;
     for (const EVda5050Version version : VERSIONS)
     {
-        for (const Kind& kind : KINDS)
+        for (const GoldenKind& kind : GOLDEN_KINDS)
         {
             expected.insert(MakeGoldenName(kind.topic, version, "full"));
             expected.insert(MakeGoldenName(kind.topic, version, "minimal"));

@@ -14,7 +14,7 @@ namespace ACS::VDA5050::Test
 namespace
 {
 
-constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+constexpr double INVALID_NUMBER = std::numeric_limits<double>::quiet_NaN();
 constexpr double ENDLESS = std::numeric_limits<double>::infinity();
 
 VehicleOptions MakeLimited(const std::function<void(ProtocolLimits&)>& limit)
@@ -278,7 +278,7 @@ TEST_CASE("3.7 A state is no longer than the factsheet says: loads, errors, info
 
 TEST_CASE("2 What is no number is never published: optional members are left out, the last position and charge stay")
 {
-    for (const double bad : {NOT_A_NUMBER, ENDLESS, -ENDLESS})
+    for (const double bad : {INVALID_NUMBER, ENDLESS, -ENDLESS})
     {
         CAPTURE(bad);
         VehicleBench bench;

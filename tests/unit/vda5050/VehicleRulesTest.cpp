@@ -14,7 +14,7 @@ namespace
 
 using Names = std::vector<std::string>;
 
-VehicleOptions MakeAble()
+VehicleOptions MakeCapable()
 {
     VehicleOptions options = VehicleBench::MakeOptions();
     options.factsheet.protocolFeatures.agvActions = GetPredefinedActions();
@@ -313,7 +313,7 @@ TEST_CASE("5.7 initPosition enables the only version of its map, and chooses non
 {
     for (const bool bSeveral : {false, true})
     {
-        VehicleBench bench(MakeAble());
+        VehicleBench bench(MakeCapable());
         std::vector<MapState> maps{{"roof", "1", EMapStatus::Disabled, {}}, {"floor", "1", EMapStatus::Enabled, {}}};
         if (bSeveral)
         {
@@ -332,7 +332,7 @@ TEST_CASE("5.7 initPosition enables the only version of its map, and chooses non
 
 TEST_CASE("5.7 After initPosition the vehicle is on the node that it was told, and counts within its old order")
 {
-    VehicleBench bench(MakeAble());
+    VehicleBench bench(MakeCapable());
     OrderBuilder builder = MakeBuilder(2);
     Complete(bench, *builder.MakeOrder(2));
     bench.Instant("initPosition", "i1", MakePose("floor"));
@@ -362,7 +362,7 @@ TEST_CASE("5.7 After initPosition the vehicle is on the node that it was told, a
 
 TEST_CASE("5.7 What an action came to is its resultDescription: the name of a logReport, of an order's action too")
 {
-    VehicleBench bench(MakeAble());
+    VehicleBench bench(MakeCapable());
     OrderMessage order = MakeOrder(1, 1);
     order.nodes[0].actions.push_back(MakeAction("find", EBlockingType::None, "detectObject"));
     bench.Order(order);
@@ -388,7 +388,7 @@ TEST_CASE("5.7 What an action came to is its resultDescription: the name of a lo
 
 TEST_CASE("5.7 An instant action that fails after it was started is a warning until another one is taken")
 {
-    VehicleBench bench(MakeAble());
+    VehicleBench bench(MakeCapable());
     bench.Instant("startCharging", "charge");
     bench.Status("charge", EActionStatus::Running);
     VehicleActions out;
@@ -410,7 +410,7 @@ TEST_CASE("5.7 An instant action that fails after it was started is a warning un
 
 TEST_CASE("5.7 charging and loads are what the vehicle measures, not what an action should have changed")
 {
-    VehicleBench bench(MakeAble());
+    VehicleBench bench(MakeCapable());
     bench.Instant("startCharging", "charge");
     bench.Status("charge", EActionStatus::Running);
     bench.Status("charge", EActionStatus::Finished);

@@ -13,7 +13,7 @@ namespace
 
 constexpr std::chrono::milliseconds MINIMUM{50};
 
-VehicleOptions MakeSlow()
+VehicleOptions MakeSlowStates()
 {
     VehicleOptions options = VehicleBench::MakeOptions();
     options.minimumStateInterval = MINIMUM;
@@ -126,7 +126,7 @@ TEST_CASE("4.6 Each reason to send a state sends one, and what is no reason send
 
 TEST_CASE("4.6 Between two states lies the minimum interval, whatever happens; the last change is in the last one")
 {
-    VehicleBench bench(MakeSlow());
+    VehicleBench bench(MakeSlowStates());
     bench.Advance(std::chrono::seconds(1));
     bench.Order(MakeOrder(2, 2));
     CHECK(bench.GetPublishedStates().size() == 1);
@@ -146,7 +146,7 @@ TEST_CASE("4.6 Between two states lies the minimum interval, whatever happens; t
 
 TEST_CASE("4.6 The factsheet says which intervals the vehicle keeps")
 {
-    VehicleOptions options = MakeSlow();
+    VehicleOptions options = MakeSlowStates();
     options.maximumStateInterval = std::chrono::seconds(10);
     options.visualizationInterval = std::chrono::milliseconds(250);
     VehicleBench bench(options);
