@@ -26,19 +26,21 @@ die_usage()
     exit 2
 }
 
+# setup SET: installs the packages of that set (scripts/setup --help).
 setup()
 {
-    "$ACS_ROOT/scripts/setup" || die "cannot go on without the packages above"
+    "$ACS_ROOT/scripts/setup" --for "$1" || die "cannot go on without the packages above"
 }
 
-# configure PRESET: runs CMake where the folder has never been configured, or the presets or the list of folders have
-# changed since. A clone that was moved or copied begins anew: its build folder would build the old place. Changes
-# inside a CMakeLists.txt are the build's own business: Ninja reruns CMake by itself.
+# configure PRESET [OPTION...]: runs CMake if the folder has never been configured with these options, or if the presets
+# or the list of folders have changed since. A clone that was moved or copied starts again: its build folder would build
+# the old place. Changes inside a CMakeLists.txt are left to Ninja, which reruns CMake by itself.
 configure()
 {
     local preset="$1" folder="$ACS_ROOT/build/$1" log state home
+    shift
     state="$(cd "$ACS_ROOT" && { pwd -P; cat CMakePresets.json; find . -name build -prune -o -name CMakeLists.txt -print | sort; } | cksum)"
-    if [ -f "$folder/build.ninja" ] && [ "$(cat "$folder/.configured" 2>/dev/null)" = "$state" ]; then
+    if [ -f "$folder/build.ninja" ] && [ -f "$folder/.configured" ] && is_configured "$state" "$*" <"$folder/.configured"; then
         return
     fi
     note "configure $preset"
@@ -48,19 +50,26 @@ configure()
     fi
     mkdir -p "$folder"
     log="$folder/configure.log"
-    if ! (cd "$ACS_ROOT" && cmake --preset "$preset") >"$log" 2>&1 </dev/null; then
+    if ! (cd "$ACS_ROOT" && cmake --preset "$preset" "$@") >"$log" 2>&1 </dev/null; then
         cat "$log" >&2
         die "CMake could not configure preset '$preset'; its message is above"
     fi
-    printf '%s\n' "$state" >"$folder/.configured"
+    printf '%s\n%s\n' "$state" "$*" >"$folder/.configured"
 }
 
-# configure_and_build PRESET [TARGET...]: says nothing when there is nothing to do. The build goes to standard error.
-configure_and_build()
+# is_configured STATE OPTIONS: compares with the two lines of .configured. Whoever needs no options takes any.
+is_configured()
+{
+    local state options
+    read -r state && read -r options
+    [ "$state" = "$1" ] && { [ -z "$2" ] || [ "$options" = "$2" ]; }
+}
+
+# build PRESET [TARGET...]: prints nothing if there is nothing to do. The build's output goes to standard error.
+build()
 {
     local preset="$1" folder="$ACS_ROOT/build/$1" plan targets=()
     shift
-    configure "$preset"
     if [ $# -gt 0 ]; then
         targets=(--target "$@")
     fi
