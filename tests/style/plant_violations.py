@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Plants one violation after another in an otherwise right tree, and requires that scripts/check_layers.py and
-scripts/check_files.py report it at its line; the tree without it must pass."""
+"""Plants one violation after another in an otherwise right tree, and requires that scripts/check_layers.py,
+scripts/check_files.py and scripts/check_sizes.py report it at its line; the tree without it must pass."""
 
 import os
 import subprocess
@@ -12,8 +12,9 @@ sys.path.insert(0, os.path.join(ROOT, "scripts"))
 sys.dont_write_bytecode = True
 import check_files  # noqa: E402
 import check_layers  # noqa: E402
+import check_sizes  # noqa: E402
 
-CHECKS = {"layers": check_layers, "files": check_files}
+CHECKS = {"layers": check_layers, "files": check_files, "sizes": check_sizes}
 
 RIGHT = {
     "libacs-core/include/acs/core/Location.hpp": "#pragma once\n#include <fmt/core.h>\nclass Location\n{\n};\n",
@@ -27,6 +28,8 @@ RIGHT = {
     "libacs-protocol/beast/src/Client.cpp": "#include <boost/beast/websocket.hpp>\n#include <thread>\n",
     "libvda5050/include/acs/vda5050/Header.hpp": "#pragma once\n#include <acs/core/Location.hpp>\n",
     "libvda5050/mosquitto/src/Link.cpp": "#include <acs/vda5050/Header.hpp>\n#include <mosquitto.h>\n",
+    "libplan/src/traffic/Router.hpp": "#pragma once\n#include \"../engine/EngineFacts.hpp\"\n",
+    "libplan/src/engine/EngineFacts.hpp": "#pragma once\nclass EngineFacts\n{\n};\n",
     "libplan/sqlite/src/Store.cpp": "#include <SQLiteCpp/Database.h>\n",
     "apps/common/ConfigReader.hpp": "#pragma once\n#include <acs/core/Location.hpp>\n",
     "apps/acsd/Acsd.hpp": "#pragma once\n#include \"../common/ConfigReader.hpp\"\n#include <acs/protocol/Codec.hpp>\n",
@@ -98,9 +101,24 @@ PLANTED = [
     ("files", "examples/e07_own_robot_adapter.cpp", "int one;\n" * 150, 150, "under 150 lines"),
     ("files", "README.md", "one\nsee /wo" "rk/main\n", 2, "path of one machine"),
     ("files", "docs/site.md", "`/ho" "me/somebody`\n", 1, "path of one machine"),
+    ("sizes", "libplan/src/engine/Engine.hpp", "#pragma once\nclass Engine\n{\n" + "    void Run();\n" * 61 + "};\n", 2,
+     "61 methods"),
+    ("sizes", "libplan/src/engine/Engine.hpp",
+     "#pragma once\n\nclass Engine\n{\n" + "    std::map<int, std::function<void(int)>> _a{1};\n" * 21 + "};\n", 3, "21 members"),
+    ("sizes", "apps/acsd/Robot.hpp", "#pragma once\nstruct Robot\n{\n" + "    int a = 0;\n" * 16 + "};\n", 2, "16 fields"),
+    ("sizes", "apps/acsd/Outer.cpp", "class Outer::Impl\n{\n    struct Inner\n    {\n" + "        bool b;\n" * 16
+     + "    };\n};\n", 3, "Inner has 16 fields"),
+    ("sizes", "libplan/src/Long.cpp", "int one;\n" * 501, 1, "501 lines"),
+    ("sizes", "libplan/src/engine/PlanEngine.hpp", "#pragma once\n#include \"../traffic/Router.hpp\"\n", 2,
+     "engine -> traffic -> engine"),
+    ("sizes", "scripts/sizes-exceeded.txt", "libplan/src/Gone.hpp Gone methods 70\n", 1, "remove its entry"),
 ]
 
 ACCEPTED = [
+    ("sizes", "apps/acsd/RobotOptions.hpp",
+     "#pragma once\nstruct RobotOptions\n{\n" + "    int a = 0;\n" * 30 + "};\n"),
+    ("sizes", "apps/acsd/Robot.hpp", "#pragma once\nclass Robot\n{\n    static constexpr int A = 1;\n    using B = int;\n"
+     + "    void Run() { int one; int two; }\n" * 60 + "    int _a = 0;\n" * 20 + "};\n"),
     ("files", "libplan/src/Engine.hpp", "#pragma once\nclass IStore\n{\n};\n\nstruct Change\n{\n};\n\nclass Engine;\n\n"
                                         "class Engine final : public IStore\n{\n    class Inner\n    {\n    };\n};\n"),
     ("files", "libplan/include/acs/plan/Reports.hpp", "#pragma once\nstruct PlanReport\n{\n};\n\nstruct JobReport\n{\n};\n"),
