@@ -6,12 +6,11 @@
 #include "ExampleFloor.hpp"
 #include "ExampleRandom.hpp"
 #include <acs/plan/MemoryPlanStore.hpp>
-#include <acs/plan/PlanEngine.hpp>
+#include <acs/plan/PlanEngineHost.hpp>
 
 #include <fmt/core.h>
 
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <variant>
 
@@ -21,36 +20,70 @@ namespace Core = ACS::Core;
 namespace
 {
 
-/// Prints what a program would send, and stores what must survive.
-void Execute(PlanEngine& engine, IPlanStore& store, EngineActions& actions, Core::Now now)
+/// An ACS without timers: the engine, its host, and a store that outlives both. Prints what a program would send.
+class MemoryAcs : private Core::IClock
 {
-    for (std::size_t i = 0; i < actions.size(); ++i)
+    IPlanStore& _store;
+    PlanEngine _engine;
+    PlanEngineHost _host;
+
+public:
+    MemoryAcs(const EngineOptions& options, const SiteMap& site, IPlanStore& store, Core::IRandom& random)
+        : _store(store),
+          _engine(options, site, random),
+          _host(
+              _engine,
+              *this,
+              [](const EngineAction& action) { Execute(action); },
+              // A store can fail, on a full disk for example. The engine then rejects new plans and repeats the rest later.
+              [this](const StoreBatch& batch) { _host.OnStored(_store.Append(batch)); })
     {
-        if (const auto* storeOrNull = std::get_if<StorePlans>(&actions[i]))
-        {
-            const Core::Result<void> stored = store.Append(storeOrNull->batch);
-            if (!stored.has_value()) // A full disk, for example: nothing behind this action must be told to anybody.
-            {
-                EngineActions instead;
-                const auto skipped = std::span<const EngineAction>(actions).subspan(i + 1);
-                engine.OnStoreFailed(storeOrNull->batch, skipped, Core::Describe(stored.error()), now, instead);
-                actions = std::move(instead);
-                return; // A program goes on with these actions.
-            }
-        }
-        else if (const auto* sendOrNull = std::get_if<SendReport>(&actions[i]))
+    }
+
+    void Restore(StoredState state)
+    {
+        _host.Restore(std::move(state));
+    }
+
+    void Push(EngineInput input)
+    {
+        _host.Push(std::move(input));
+    }
+
+    /// The robot connects and reports where it is.
+    void ConnectRobot()
+    {
+        Push(RobotInput{ExampleFloor::ROBOT, LinkChanged{true}});
+        StateChanged state;
+        state.lastNodeID = "N-HOME";
+        Push(RobotInput{ExampleFloor::ROBOT, state});
+    }
+
+    [[nodiscard]] const PlanEngine& GetEngine() const noexcept
+    {
+        return _engine;
+    }
+
+private:
+    [[nodiscard]] Core::Now GetNow() const override
+    {
+        return {};
+    }
+
+    static void Execute(const EngineAction& action)
+    {
+        if (const auto* sendOrNull = std::get_if<SendReport>(&action))
         {
             fmt::print("  to the MCS: report {}\n", sendOrNull->entry.sequence);
         }
-        else if (const auto* commandOrNull = std::get_if<CommandRobot>(&actions[i]))
+        else if (const auto* commandOrNull = std::get_if<CommandRobot>(&action))
         {
             const bool bDrive = std::holds_alternative<Drive>(commandOrNull->command);
             fmt::print("  to {}: {}\n", commandOrNull->robotID, bDrive ? "drive" : "another command");
         }
-        // Timers are ignored: this lesson calls OnTimer by hand.
+        // Timers are ignored: this lesson pushes the one that it needs.
     }
-    actions.clear();
-}
+};
 
 /// The engine's view of the plan.
 void PrintPlan(const PlanEngine& engine)
@@ -62,35 +95,21 @@ void PrintPlan(const PlanEngine& engine)
         engine.GetUnacknowledged().size());
 }
 
-/// Until the robot is under way with the plan.
-void RunFirstEngine(const EngineOptions& options, const SiteMap& site, IPlanStore& store, Core::IRandom& random)
+/// Until the robot is driving.
+void RunFirstAcs(const EngineOptions& options, const SiteMap& site, IPlanStore& store, Core::IRandom& random)
 {
-    const Core::Now now;
-    PlanEngine engine(options, site, random);
-    EngineActions actions;
-
-    fmt::print("the robot comes into reach\n");
-    engine.Handle(ExampleFloor::ROBOT, LinkChanged{true}, now, actions);
-    Execute(engine, store, actions, now);
-    StateChanged state;
-    state.lastNodeID = "N-HOME";
-    engine.Handle(ExampleFloor::ROBOT, state, now, actions);
-    Execute(engine, store, actions, now);
-
+    MemoryAcs acs(options, site, store, random);
+    fmt::print("the robot connects\n");
+    acs.ConnectRobot();
     fmt::print("the MCS submits a plan\n");
-    engine.Handle(SubmitPlan{ExampleFloor::MakePlan(), 1}, now, actions);
-    Execute(engine, store, actions, now);
-
-    fmt::print("time to look for work\n");
-    engine.OnTimer({EEngineTimer::Dispatch, {}}, now, actions);
-    Execute(engine, store, actions, now);
-
+    acs.Push(SubmitPlan{ExampleFloor::MakePlan(), 1});
+    fmt::print("the engine assigns plans to robots\n");
+    acs.Push(EngineTimer{EEngineTimer::Dispatch, {}});
     // Acknowledgements are stored a little later, together: a crash before that only repeats a report.
     fmt::print("the MCS acknowledges the first report\n");
-    engine.Handle(MessageAcknowledged{1}, now, actions);
-    Execute(engine, store, actions, now);
-    PrintPlan(engine);
-} // The engine is gone, as in a crash: all that is left is the store.
+    acs.Push(MessageAcknowledged{1});
+    PrintPlan(acs.GetEngine());
+} // The engine is gone, as in a crash: only the store is left.
 
 } // namespace
 
@@ -105,7 +124,7 @@ int main()
     }
     MemoryPlanStore store;
     ExampleRandom random;
-    RunFirstEngine(*options, *site, store, random);
+    RunFirstAcs(*options, *site, store, random);
 
     fmt::print("crash and restart\n");
     Core::Result<StoredState> stored = store.Load();
@@ -114,19 +133,13 @@ int main()
         fmt::print("{}\n", Core::Describe(stored.error()));
         return 1;
     }
-    PlanEngine engine(*options, *site, random);
-    EngineActions actions;
-    // The plan is still its robot's. A job would be asked for (RecoverJob); here it was driving, and begins to anew as soon
-    // as it has told where it stands.
-    engine.Restore(std::move(*stored), {}, actions);
-    Execute(engine, store, actions, {});
-    PrintPlan(engine);
-    fmt::print("the robot comes into reach\n");
-    engine.Handle(ExampleFloor::ROBOT, LinkChanged{true}, {}, actions);
-    StateChanged state;
-    state.lastNodeID = "N-HOME";
-    engine.Handle(ExampleFloor::ROBOT, state, {}, actions);
-    Execute(engine, store, actions, {});
-    const std::optional<PlanSummary> planOrNull = engine.GetPlanOrNull("PLAN-1");
+    MemoryAcs acs(*options, *site, store, random);
+    // The plan still has its robot. The outcome of a job would be requested (RecoverJob); this robot was driving, and its
+    // drive starts again as soon as it has reported its position.
+    acs.Restore(std::move(*stored));
+    PrintPlan(acs.GetEngine());
+    fmt::print("the robot connects\n");
+    acs.ConnectRobot();
+    const std::optional<PlanSummary> planOrNull = acs.GetEngine().GetPlanOrNull("PLAN-1");
     return planOrNull.has_value() && planOrNull->state == EPlanState::InProgress ? 0 : 1;
 }

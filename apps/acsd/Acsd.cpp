@@ -6,7 +6,6 @@
 #include "common/HttpServer.hpp"
 #include "common/MetricsEndpoint.hpp"
 #include "common/TimerSet.hpp"
-#include "EngineLoop.hpp"
 #include "EngineTimerKeys.hpp"
 #include "LiveConfig.hpp"
 #include "McsLink.hpp"
@@ -19,6 +18,7 @@
 #include "StoreWorker.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/plan/PlanEngine.hpp>
+#include <acs/plan/PlanEngineHost.hpp>
 #include <acs/plan_sqlite/SqlitePlanStore.hpp>
 #include <acs/vda5050/Topic.hpp>
 #include <acs/vda5050_mosquitto/MosquittoLink.hpp>
@@ -65,7 +65,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     OddityLog _oddities;
     PlanLog _planLog;
     Planning::PlanEngine _engine;
-    EngineLoop _loop;
+    Planning::PlanEngineHost _host;
     StoreWatch _storeWatch;
     StoreWorker _store;
     McsLink _mcs;
@@ -92,9 +92,9 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     {
         _timers.Cancel(STORE_TIMER);
         _figures.ObserveCommit(_storeWatch.OnStored(result, _surroundings.clock.GetNow().steady));
-        _loop.OnStored(result);
+        _host.OnStored(result);
         FollowDrain();
-        if (_bStopping && !_loop.IsStoring() && _stopsOpen == 0)
+        if (_bStopping && !_host.IsStoring() && _stopsOpen == 0)
         {
             StopLinks();
         }
@@ -102,7 +102,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
 
     void CheckStore()
     {
-        if (!_loop.IsStoring() && !_storeWatch.GetObstacleOrNull().has_value()) // else it is tried all the time
+        if (!_host.IsStoring() && !_storeWatch.GetObstacleOrNull().has_value()) // else it is tried all the time
         {
             _store.CheckAsync();
         }
@@ -111,10 +111,10 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
 
     void OnStoreLost(const Core::Error& error)
     {
-        if (!_loop.IsStoring())
+        if (!_host.IsStoring())
         {
             _storeWatch.OnLost(error, _surroundings.clock.GetNow().steady);
-            _loop.OnStoreLost(error);
+            _host.OnStoreLost(error);
         }
     }
 
@@ -180,7 +180,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         }
         else
         {
-            _loop.Push(_engineTimers.GetTimer(key));
+            _host.Push(_engineTimers.GetTimer(key));
         }
     }
 
@@ -289,7 +289,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         AddOperatorRoutes(
             _routes,
             _engine,
-            {[this](Planning::PlanCommand command) { return _loop.TryPush(std::move(command)); },
+            {[this](Planning::PlanCommand command) { return _host.TryPush(std::move(command)); },
              [this] {
                  return _storeWatch.GetObstacleOrNull();
              }});
@@ -355,7 +355,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     /// Whether everything is told, or can be told to nobody.
     void FollowDrain()
     {
-        if (!_bDraining || _bStopping || _loop.IsStoring())
+        if (!_bDraining || _bStopping || _host.IsStoring())
         {
             return;
         }
@@ -369,10 +369,10 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     void EndDrain()
     {
         _bStopping = true;
-        _loop.Close();
+        _host.Close();
         _timers.CancelAll();
         _timers.Start(STOP_TIMER, STOP_LIMIT);
-        if (!_loop.IsStoring()) // else what stands behind the batch is told first
+        if (!_host.IsStoring()) // else what stands behind the batch is told first
         {
             StopLinks();
         }
@@ -415,7 +415,7 @@ public:
           _oddities(_surroundings.logger.MakeFor("robot"), _surroundings.clock),
           _planLog(_surroundings.logger.MakeFor("plan"), _metrics),
           _engine(_config.engine, *_config.site, _surroundings.random),
-          _loop(
+          _host(
               _engine,
               _surroundings.clock,
               [this](const Planning::EngineAction& action) { Execute(action); },
@@ -436,7 +436,7 @@ public:
               _config.localOffset,
               _engine,
               [this](Planning::PlanCommand command) {
-                  _loop.Push(std::move(command));
+                  _host.Push(std::move(command));
                   FollowDrain();
               }),
           _mqtt(
@@ -470,7 +470,7 @@ public:
                 _config,
                 robot,
                 [this](const std::string& robotID, const Planning::RobotEvent& event) {
-                    _loop.Push(RobotTask{robotID, event});
+                    _host.Push(Planning::RobotInput{robotID, event});
                 });
             _vehicles[{robot.manufacturer, robot.serialNumber}] = host.get();
             _robots.emplace(robot.robotID, std::move(host));
@@ -492,7 +492,7 @@ public:
         }
         _httpEndpoint = *endpoint;
         _mcs.Restore(state.lastReportSequence);
-        _loop.Restore(std::move(state));
+        _host.Restore(std::move(state));
         return {};
     }
 

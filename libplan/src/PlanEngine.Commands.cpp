@@ -124,7 +124,7 @@ void PlanEngine::Impl::Submit(const SubmitPlan& command)
     _plans.emplace(planID, std::move(plan));
 }
 
-/// Register D-23, plan.reuse_finished_id. What the store cannot take comes back (OnStoreFailed).
+/// Register D-23, plan.reuse_finished_id. What the store cannot take comes back (OnStored).
 void PlanEngine::Impl::ForgetFinished(const std::string& planID)
 {
     const auto found = _finished.find(planID);

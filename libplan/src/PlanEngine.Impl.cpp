@@ -191,6 +191,7 @@ void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineAc
 
 void PlanEngine::Impl::Begin(Core::Now now)
 {
+    assert(!_gate.IsClosed());
     _now = now;
     _ended.clear();
     _replaced.clear();
@@ -239,25 +240,33 @@ void PlanEngine::Impl::End(EngineActions& out)
         }
         return;
     }
+    EngineActions dependent;
     if (!changes.empty())
     {
         std::ranges::move(_acknowledged, std::back_inserter(changes));
         _acknowledged.clear();
         _bStoreAttempted = true;
-        out.emplace_back(StorePlans{StoreBatch{std::move(changes)}});
         if (_bStoreFailing)
         {
             // Whether it works again shows when this call is followed by another.
-            StartStoreRetry(out);
+            StartStoreRetry(dependent);
         }
     }
     for (OutboxEntry& entry : _held)
     {
-        out.emplace_back(SendReport{std::move(entry)});
+        dependent.emplace_back(SendReport{std::move(entry)});
     }
     _held.clear();
-    std::ranges::move(_actions, std::back_inserter(out));
+    std::ranges::move(_actions, std::back_inserter(dependent));
     _actions.clear();
+    if (changes.empty())
+    {
+        std::ranges::move(dependent, std::back_inserter(out));
+        return;
+    }
+    StoreBatch batch{std::move(changes)};
+    _gate.Close(batch, std::move(dependent));
+    out.emplace_back(StorePlans{std::move(batch)});
 }
 
 /// What robots were told in this call is stored before they are told.

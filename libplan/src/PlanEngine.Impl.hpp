@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/CommitGate.hpp"
 #include "PlanAdmission.hpp"
 #include "Traffic.hpp"
 #include <acs/plan/PlanEngine.hpp>
@@ -274,6 +275,8 @@ private:
     bool _bAwaiting = false;  ///< After a start: not every robot has told where it stands.
     bool _bGathering = false; ///< And there was work: nothing is begun meanwhile.
 
+    CommitGate _gate;
+
     // The present call: what is stored first, and what is told after it.
     Core::Now _now;
     std::vector<StoreChange> _changes;
@@ -299,12 +302,8 @@ public:
     void SubmitAll(std::span<const SubmitPlan> plans, Core::Now now, EngineActions& out);
     void HandleEvent(std::string_view robotID, const RobotEvent& event, Core::Now now, EngineActions& out);
     void OnTimer(const EngineTimer& timer, Core::Now now, EngineActions& out);
-    void OnStoreFailed(
-        const StoreBatch& batch,
-        std::span<const EngineAction> skipped,
-        std::string_view reason,
-        Core::Now now,
-        EngineActions& out);
+    void OnStored(const Core::Result<void>& result, Core::Now now, EngineActions& out);
+    [[nodiscard]] bool IsStoring() const noexcept;
     void OnStoreLost(std::string_view reason, Core::Now now, EngineActions& out);
 
     [[nodiscard]] std::vector<OutboxEntry> GetUnacknowledged() const;
@@ -630,8 +629,8 @@ private:
     // Failures of the store (PlanEngine.StoreFailure.cpp).
     void NoteStoreSuccess();
     [[nodiscard]] std::size_t TakeBatchBack(const StoreBatch& batch);
-    void TakeActionsBack(
-        std::span<const EngineAction> skipped,
+    void ReleaseWithoutStore(
+        const EngineActions& withheld,
         bool bPlanRefused,
         std::string_view reason,
         EngineActions& out);

@@ -11,23 +11,31 @@
 namespace ACS::Planning
 {
 
-void PlanEngine::Impl::OnStoreFailed(
-    const StoreBatch& batch,
-    std::span<const EngineAction> skipped,
-    std::string_view reason,
-    Core::Now now,
-    EngineActions& out)
+void PlanEngine::Impl::OnStored(const Core::Result<void>& result, Core::Now now, EngineActions& out)
 {
+    const CommitGate::Transaction transaction = _gate.Open();
+    if (result.has_value())
+    {
+        std::ranges::copy(transaction.dependent, std::back_inserter(out));
+        return;
+    }
+    const std::string reason = Core::Describe(result.error());
     _now = now;
     _bStoreFailing = true;
     _bStoreAttempted = false;
-    const bool bPlanRefused = TakeBatchBack(batch) > 0;
-    TakeActionsBack(skipped, bPlanRefused, reason, out);
+    const bool bPlanRefused = TakeBatchBack(transaction.batch) > 0;
+    ReleaseWithoutStore(transaction.dependent, bPlanRefused, reason, out);
     TellStoreFailure(reason, out);
+}
+
+bool PlanEngine::Impl::IsStoring() const noexcept
+{
+    return _gate.IsClosed();
 }
 
 void PlanEngine::Impl::OnStoreLost(std::string_view reason, Core::Now now, EngineActions& out)
 {
+    assert(!_gate.IsClosed());
     if (_bStoreFailing)
     {
         return; // it is tried again all the time, and fails for this or for another reason
@@ -111,16 +119,16 @@ std::size_t PlanEngine::Impl::TakeBatchBack(const StoreBatch& batch)
     return refused;
 }
 
-/// What stood behind the batch: reports wait, new plans and controls are refused, everything else goes on.
-void PlanEngine::Impl::TakeActionsBack(
-    std::span<const EngineAction> skipped,
+/// What depends on the batch: reports wait, new plans and controls are rejected, everything else is released.
+void PlanEngine::Impl::ReleaseWithoutStore(
+    const EngineActions& withheld,
     bool bPlanRefused,
     std::string_view reason,
     EngineActions& out)
 {
     const std::string refusal =
         fmt::format("The {} cannot be stored: {}", _asked.has_value() ? "request" : "plan", reason);
-    for (const EngineAction& action : skipped)
+    for (const EngineAction& action : withheld)
     {
         std::visit(
             Core::Overloaded{

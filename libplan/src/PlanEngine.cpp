@@ -40,14 +40,14 @@ void PlanEngine::OnTimer(const EngineTimer& timer, Core::Now now, EngineActions&
     _impl->OnTimer(timer, now, out);
 }
 
-void PlanEngine::OnStoreFailed(
-    const StoreBatch& batch,
-    std::span<const EngineAction> skipped,
-    std::string_view reason,
-    Core::Now now,
-    EngineActions& out)
+void PlanEngine::OnStored(const Core::Result<void>& result, Core::Now now, EngineActions& out)
 {
-    _impl->OnStoreFailed(batch, skipped, reason, now, out);
+    _impl->OnStored(result, now, out);
+}
+
+bool PlanEngine::IsStoring() const noexcept
+{
+    return _impl->IsStoring();
 }
 
 void PlanEngine::OnStoreLost(std::string_view reason, Core::Now now, EngineActions& out)

@@ -160,6 +160,10 @@ public:
 private:
     void Answer()
     {
+        if (_engine.IsStoring())
+        {
+            _engine.OnStored({}, {}, _actions);
+        }
         for (const EngineAction& action : std::exchange(_actions, {}))
         {
             if (const auto* const reportOrNull = std::get_if<SendReport>(&action); reportOrNull != nullptr)
@@ -174,6 +178,10 @@ private:
         for (const std::uint64_t sequence : std::exchange(_reported, {}))
         {
             _engine.Handle(MessageAcknowledged{sequence}, {}, _actions);
+            if (_engine.IsStoring())
+            {
+                _engine.OnStored({}, {}, _actions);
+            }
         }
         _actions.clear(); // of the acknowledgements: a timer at most
     }

@@ -33,7 +33,7 @@ AcsdProcess::AcsdProcess(const Surroundings& around, CrashHandler onCrash, Commi
       _onCommit(std::move(onCommit)),
       _bCrashing(_around.scenario.Has(EFault::Crashes)),
       _engine(_around.scenario.options, _around.scenario.MakeSite(), _around.ownRandom),
-      _loop(
+      _host(
           _engine,
           _around.timeline,
           [this](const Planning::EngineAction& action) { Execute(action); },
@@ -72,7 +72,7 @@ void AcsdProcess::Begin()
             }));
     }
     _dialog.Restore(_around.store.GetState().lastReportSequence);
-    _loop.Restore(_mutator.OnRestore(_around.store.Load()));
+    _host.Restore(_mutator.OnRestore(_around.store.Load()));
     if (_bDead)
     {
         return;
@@ -90,7 +90,7 @@ void AcsdProcess::Crash(std::string_view where)
     _around.trace.Tell("acsd: crash {}", where);
     _engineTimers.CancelAll();
     _sessionTimers.CancelAll();
-    _loop.Close();
+    _host.Close();
     if (_writing.has_value() && _around.dice.IsHit(500))
     {
         _around.trace.Tell("acsd: the batch being written is stored");
@@ -119,7 +119,7 @@ void AcsdProcess::PushCommand(Planning::PlanCommand command)
     {
         return;
     }
-    _loop.Push(std::move(command));
+    _host.Push(std::move(command));
 }
 
 const Planning::PlanEngine& AcsdProcess::GetEngine() const noexcept
@@ -151,7 +151,7 @@ void AcsdProcess::Store(const Planning::StoreBatch& batch)
     if (bEarly)
     {
         // The batch before this one must not be lost by another reason.
-        _engineTimers.Post(0ms, [this] { _loop.OnStored({}); });
+        _engineTimers.Post(0ms, [this] { _host.OnStored({}); });
     }
 }
 
@@ -175,7 +175,7 @@ void AcsdProcess::Commit()
         return;
     }
     const bool bTold = bStored || _mutator.Is(EMutation::StoreHidesFailure);
-    _loop.OnStored(
+    _host.OnStored(
         bTold ? Core::Result<void>()
               : Core::Fail(Planning::EPlanningError::StoreFailed, "acsd.db", "room", "disk full"));
 }
@@ -205,7 +205,7 @@ void AcsdProcess::CarryOut(const Planning::EngineAction& action)
                     return;
                 }
                 const Planning::EngineTimer timer = start.timer;
-                _engineTimers.Start(timer, start.delay, [this, timer] { _loop.Push(timer); });
+                _engineTimers.Start(timer, start.delay, [this, timer] { _host.Push(timer); });
             },
             [this](const Planning::CancelEngineTimer& cancel) {
                 _engineTimers.Cancel(cancel.timer);
@@ -253,7 +253,7 @@ void AcsdProcess::CommandRobot(const Planning::CommandRobot& command)
     for (const Planning::RobotEvent& event : outcome.raised)
     {
         _engineTimers.Post(1ms, [this, robotID = command.robotID, event] {
-            _loop.Push(Acsd::RobotTask{robotID, event});
+            _host.Push(Planning::RobotInput{robotID, event});
         });
     }
 }
@@ -267,7 +267,7 @@ void AcsdProcess::TakeRobotEvent(const std::string& robotID, const Planning::Rob
     _around.trace.Tell("acsd receives: {} {}", robotID, Describe(event));
     for (const Planning::RobotEvent& heard : _mutator.OnEvent(robotID, event))
     {
-        _loop.Push(Acsd::RobotTask{robotID, heard});
+        _host.Push(Planning::RobotInput{robotID, heard});
     }
 }
 

@@ -3,7 +3,6 @@
 #include "CrashableStore.hpp"
 #include "Dice.hpp"
 #include "EMutation.hpp"
-#include "EngineLoop.hpp"
 #include "IMcsOutput.hpp"
 #include "IRobotHand.hpp"
 #include "ISimulatedRobot.hpp"
@@ -15,6 +14,7 @@
 #include "Trace.hpp"
 #include "WorkWitness.hpp"
 #include <acs/plan/PlanEngine.hpp>
+#include <acs/plan/PlanEngineHost.hpp>
 #include <acs/protocol/AcsSession.hpp>
 
 #include <deque>
@@ -61,7 +61,7 @@ private:
     bool _bCrashing; ///< By chance; ends with the faults.
 
     Planning::PlanEngine _engine;
-    Acsd::EngineLoop _loop;
+    Planning::PlanEngineHost _host;
     Protocol::AcsSession _session;
     Acsd::McsDialog _dialog;
     std::map<std::string, std::unique_ptr<IRobotHand>> _hands;

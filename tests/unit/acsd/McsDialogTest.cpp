@@ -1,9 +1,9 @@
 #include "McsDialog.hpp"
 
 #include "Catch.hpp"
-#include "EngineLoop.hpp"
 #include "PlanWorld.hpp"
 #include "RecordingLogSink.hpp"
+#include <acs/plan/PlanEngineHost.hpp>
 
 #include <algorithm>
 
@@ -29,9 +29,9 @@ protected:
         _engine,
         *this,
         [this](PlanCommand command) {
-            _loop.Push(std::move(command));
+            _host.Push(std::move(command));
         }};
-    Acsd::EngineLoop _loop{
+    Planning::PlanEngineHost _host{
         _engine,
         _clock,
         [this](const EngineAction& action) {
@@ -61,12 +61,12 @@ protected:
 
     void BeginPlan(const std::string& planID)
     {
-        _loop.Push(SubmitPlan{MakeLogisticsPlan(planID), 1});
-        _loop.OnStored({});
-        _loop.Push(Acsd::RobotTask{"LR01", LinkChanged{true}});
+        _host.Push(SubmitPlan{MakeLogisticsPlan(planID), 1});
+        _host.OnStored({});
+        _host.Push(Planning::RobotInput{"LR01", LinkChanged{true}});
         StateChanged state;
         state.lastNodeID = "D-CHG01";
-        _loop.Push(Acsd::RobotTask{"LR01", state});
+        _host.Push(Planning::RobotInput{"LR01", state});
     }
 
 private:
@@ -138,9 +138,9 @@ TEST_CASE_METHOD(
     }
     CHECK(_log.GetLines().size() == Apps::LogThinner::FEW);
     _dialog.OnSessionEvent(Protocol::RequestReceived{{"T", {}, Protocol::CancelPlan{"P9", {}}}, false});
-    while (_loop.IsStoring())
+    while (_host.IsStoring())
     {
-        _loop.OnStored({});
+        _host.OnStored({});
     }
     CHECK(_log.GetLines().back().HasField("command", "CancelPlan"));
     CHECK(_log.GetLines().size() == Apps::LogThinner::FEW + 1);
@@ -157,8 +157,8 @@ TEST_CASE_METHOD(DialogTest, "A refusal that is not about a field of the command
     plan.planID = "P1";
     plan.steps = {{1, "CassetteLoad", "A01.CP01", {}, {{"J", "A01.CP01", "AMR.CP01"}}}};
     _dialog.OnSessionEvent(Protocol::RequestReceived{{"T1", {}, std::move(plan)}, false});
-    REQUIRE(_loop.IsStoring());
-    _loop.OnStored(Core::Fail(Core::ECoreError::OutOfRange, "acsd.db", "room on the disk", "none"));
+    REQUIRE(_host.IsStoring());
+    _host.OnStored(Core::Fail(Core::ECoreError::OutOfRange, "acsd.db", "room on the disk", "none"));
     const auto refused = std::ranges::find(_log.GetLines(), "command refused", &RecordedLine::message);
     REQUIRE(refused != _log.GetLines().end());
     CHECK(refused->HasField("planId", "P1"));
@@ -173,7 +173,7 @@ TEST_CASE_METHOD(
     "A registration while a report is on its way to the disk does not tell it before it is there")
 {
     BeginPlan("P1");
-    REQUIRE(_loop.IsStoring());
+    REQUIRE(_host.IsStoring());
     REQUIRE_FALSE(_engine.GetUnacknowledged().empty());
 
     Register();
@@ -181,7 +181,7 @@ TEST_CASE_METHOD(
     CHECK(_replays == 1);
 
     const std::size_t waiting = _engine.GetUnacknowledged().size();
-    _loop.OnStored({});
+    _host.OnStored({});
     CHECK(_sent.size() >= waiting);
     CHECK(_sent.front().transactionID == _engine.GetUnacknowledged().front().transactionID);
 }
@@ -189,15 +189,15 @@ TEST_CASE_METHOD(
 TEST_CASE_METHOD(DialogTest, "A report that comes between the registration and its event does not overtake the replay")
 {
     BeginPlan("P1");
-    _loop.OnStored({});
+    _host.OnStored({});
     REQUIRE(_sent.empty());
     const std::size_t before = _engine.GetUnacknowledged().size();
 
     _bRegistered = true; // the event is on its way
-    _loop.Push(ControlPlan{EPlanControl::Resume, "P1", {}, 2});
-    while (_loop.IsStoring())
+    _host.Push(ControlPlan{EPlanControl::Resume, "P1", {}, 2});
+    while (_host.IsStoring())
     {
-        _loop.OnStored({});
+        _host.OnStored({});
     }
     CHECK(_sent.empty());
 
@@ -213,16 +213,16 @@ TEST_CASE_METHOD(
 {
     Register();
     BeginPlan("P1");
-    while (_loop.IsStoring())
+    while (_host.IsStoring())
     {
-        _loop.OnStored({});
+        _host.OnStored({});
     }
     REQUIRE(_sent.size() >= 2);
     const std::string first = _sent[0].transactionID;
     const std::string second = _sent[1].transactionID;
 
-    _loop.Push(SubmitPlan{MakeLogisticsPlan("P2"), 2});
-    REQUIRE(_loop.IsStoring());
+    _host.Push(SubmitPlan{MakeLogisticsPlan("P2"), 2});
+    REQUIRE(_host.IsStoring());
     _dialog.OnSessionEvent(
         Protocol::Acked{Protocol::EAcsCommand::PlanReport, first, Protocol::EAckResult::Success, {}});
     REQUIRE(_engine.GetUnacknowledged().front().transactionID == first);
@@ -232,7 +232,7 @@ TEST_CASE_METHOD(
     REQUIRE_FALSE(_sent.empty());
     CHECK(_sent.front().transactionID == second);
 
-    _loop.OnStored({});
+    _host.OnStored({});
     CHECK(_engine.GetUnacknowledged().front().transactionID == second);
 }
 
@@ -243,7 +243,7 @@ TEST_CASE_METHOD(DialogTest, "What the store held is replayed after a restart")
     state.outbox.push_back(entry);
     state.lastReportSequence = 7;
     _dialog.Restore(state.lastReportSequence);
-    _loop.Restore(std::move(state));
+    _host.Restore(std::move(state));
 
     Register();
     REQUIRE(_sent.size() == 1);

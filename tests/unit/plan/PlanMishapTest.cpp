@@ -1,7 +1,5 @@
 #include "PlanWorldSteps.hpp"
 
-#include <span>
-
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using ACS::Testing::BeginPlan;
 using ACS::Testing::Contains;
@@ -41,7 +39,7 @@ std::optional<EAlarmLevel> GetAlarmOrNull(const PlanWorld& world, std::string_vi
     return std::nullopt;
 }
 
-std::optional<std::string> GetCarrierOrNull(const PlanWorld& world)
+std::optional<std::string> FindCarrierOrNull(const PlanWorld& world)
 {
     return world.engine->GetRobotStatuses().front().carrierIDs.front();
 }
@@ -99,15 +97,11 @@ TEST_CASE("D-23 A repetition of a plan that runs is accepted though a plan besid
         SubmitPlan{MakeLogisticsPlan("P2"), 3, "T2"}};
     EngineActions actions;
     world.engine->Submit(both, world.GetNow(), actions);
-    const auto store = std::ranges::find_if(actions, [](const EngineAction& action) {
-        return std::holds_alternative<StorePlans>(action);
-    });
-    REQUIRE(store != actions.end());
+    REQUIRE(actions.size() == 1);
+    REQUIRE(std::holds_alternative<StorePlans>(actions.front()));
     EngineActions instead;
-    world.engine->OnStoreFailed(
-        std::get<StorePlans>(*store).batch,
-        std::span<const EngineAction>(store + 1, actions.end()),
-        "disk full",
+    world.engine->OnStored(
+        ACS::Core::Fail(EPlanningError::StoreFailed, "acsd.db", "room", "disk full"),
         world.GetNow(),
         instead);
     std::map<ReplyToken, bool> accepted;
@@ -199,11 +193,11 @@ TEST_CASE("A load that comes to its end after its plan was over has filled the r
     PlanWorld world = MakeDroppingWorld(60s);
     LetLoadRunOver(world);
     CHECK(GetAlarmOrNull(world, "LR01", "ACS-1007") == EAlarmLevel::Heavy);
-    CHECK(GetCarrierOrNull(world) == std::nullopt);
+    CHECK(FindCarrierOrNull(world) == std::nullopt);
     REQUIRE(world.TryRun());
-    CHECK(GetCarrierOrNull(world).has_value());
+    CHECK(FindCarrierOrNull(world).has_value());
     CHECK(world.engine->GetActiveAlarms().empty());
-    CHECK(world.store.GetState().carriers.front().carrierIDs.front() == GetCarrierOrNull(world));
+    CHECK(world.store.GetState().carriers.front().carrierIDs.front() == FindCarrierOrNull(world));
 }
 
 TEST_CASE("A job over its time limit that had begun to move something is an alarm until its end is told")
@@ -214,7 +208,7 @@ TEST_CASE("A job over its time limit that had begun to move something is an alar
     BeginPlan(world, MakeLogisticsPlan("P1"), "Plan Failed");
     const std::size_t set = FindLine(world, "report - Error ACS-1007 set", 0);
     REQUIRE(world.TryRun());
-    CHECK(GetCarrierOrNull(world).has_value());
+    CHECK(FindCarrierOrNull(world).has_value());
     CHECK(world.engine->GetActiveAlarms().empty());
     static_cast<void>(set);
 }
@@ -244,7 +238,7 @@ TEST_CASE(
         }
         REQUIRE(world.TryRun());
         CHECK(GetAlarmOrNull(world, "LR01", "ACS-1008") == std::nullopt);
-        CHECK(GetCarrierOrNull(world).has_value() != bOperator);
+        CHECK(FindCarrierOrNull(world).has_value() != bOperator);
     }
 }
 

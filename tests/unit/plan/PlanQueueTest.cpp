@@ -286,6 +286,10 @@ TEST_CASE("9 outbox.max: with so many unacknowledged reports plans are refused, 
     for (const OutboxEntry& entry : waiting)
     {
         world.engine->Handle(PlanCommand(MessageAcknowledged{entry.sequence}), world.GetNow(), ignored);
+        if (world.engine->IsStoring())
+        {
+            world.engine->OnStored({}, world.GetNow(), ignored);
+        }
     }
     CHECK_FALSE(isFull());
     world.Submit(MakeLogisticsPlan("P3"), 3);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
+#include <iterator>
 #include <set>
 
 namespace ACS::Testing
@@ -364,18 +366,10 @@ void PlanWorld::ExecuteAll(EngineActions actions)
         }
         const Core::Result<void> stored = store.Append(storeOrNull->batch);
         trace.emplace_back(stored.has_value() ? "store" : "store failed");
-        if (!stored.has_value())
-        {
-            EngineActions out;
-            engine->OnStoreFailed(
-                storeOrNull->batch,
-                std::span<const EngineAction>(actions).subspan(i + 1),
-                stored.error().found,
-                GetNow(),
-                out);
-            ExecuteAll(std::move(out));
-            return;
-        }
+        assert(i + 1 == actions.size() && "everything else is withheld");
+        EngineActions released;
+        engine->OnStored(stored, GetNow(), released);
+        std::ranges::move(released, std::back_inserter(actions));
     }
     for (const std::uint64_t sequence : acknowledged)
     {

@@ -158,6 +158,11 @@ void FleetWorld::Execute(const EngineActions& actions)
     {
         std::visit(
             Core::Overloaded{
+                [this](const StorePlans&) {
+                    EngineActions released;
+                    _engine.OnStored({}, _clock.GetNow(), released);
+                    Execute(released);
+                },
                 [this](const ReplyCommand& typed) {
                     if (!typed.bAccepted)
                     {

@@ -47,8 +47,8 @@ struct EngineTimer
     }
 };
 
-/// Append the batch to the store, as one transaction, and go on with the next action only when it is on disk. On
-/// failure leave out all further actions of this call and hand them to PlanEngine::OnStoreFailed.
+/// Append the batch to the store, as one transaction, and call PlanEngine::OnStored with the result. The only action of its
+/// call: what depends on it is withheld until then.
 struct StorePlans
 {
     StoreBatch batch;

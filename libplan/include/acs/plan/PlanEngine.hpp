@@ -2,6 +2,7 @@
 
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Now.hpp>
+#include <acs/core/Result.hpp>
 #include <acs/plan/EngineAction.hpp>
 #include <acs/plan/EngineOptions.hpp>
 #include <acs/plan/IPlanObserver.hpp>
@@ -23,13 +24,15 @@
 namespace ACS::Planning
 {
 
-/// Takes plans, chooses robots, drives them, has their jobs done and reports everything once and in order. Pure: no I/O,
+/// Accepts plans, chooses robots, drives them, has their jobs done and reports everything once and in order. Pure: no I/O,
 /// no clock, no thread; one thread at a time calls it. Every call appends actions to out, which the caller owns and
-/// executes strictly in order before the next call; see EngineAction.hpp for what each demands.
+/// executes strictly in order before the next call; see EngineAction.hpp for what each demands. PlanEngineHost is the loop
+/// around it.
 ///
-/// One call makes at most one StorePlans, and it is the first action that matters to others: what follows it (the reply,
-/// reports, commands) is told only once the state behind it is stored. A submitted plan is started by a later call
-/// (EEngineTimer::Dispatch), so that its refusal for a failed store leaves no trace.
+/// The commit gate: a call whose changes must be stored returns StorePlans and withholds everything that depends on it (the
+/// reply, reports, commands, timers). OnStored releases that, or what is done instead if the store has failed. Until then no
+/// other call that changes the engine is allowed. A submitted plan is started by a later call (EEngineTimer::Dispatch), so
+/// that its rejection for a failed store leaves no trace.
 ///
 /// Traffic (docs/traffic.md): a node is held by one robot at a time. Nodes of a way are granted and released step by step,
 /// only if afterwards all robots that could drive home one after another still can, and given back when the robot has told
@@ -72,14 +75,13 @@ public:
     /// delays what it is for, and nothing else.
     void OnTimer(const EngineTimer& timer, Core::Now now, EngineActions& out);
 
-    /// The batch could not be stored; skipped are the actions that stood behind it. Plans in it are refused, running ones
-    /// go on: commands are given again in out, reports are held back until the store works again.
-    void OnStoreFailed(
-        const StoreBatch& batch,
-        std::span<const EngineAction> skipped,
-        std::string_view reason,
-        Core::Now now,
-        EngineActions& out);
+    /// The batch of StorePlans is on disk, or could not be stored; call it exactly once for each StorePlans. On success the
+    /// withheld actions are released. On failure plans of the batch are rejected and running ones continue: their commands
+    /// are released, their reports wait until the store works again.
+    void OnStored(const Core::Result<void>& result, Core::Now now, EngineActions& out);
+
+    /// Whether OnStored is due.
+    [[nodiscard]] bool IsStoring() const noexcept;
 
     /// The store has shown that it would fail (IPlanStore::Check), with no batch on its way: as if one had failed. It is tried
     /// again until it works.

@@ -4,13 +4,11 @@
 #include <acs/plan/IRobotAdapter.hpp>
 #include <acs/plan/MemoryPlanStore.hpp>
 #include <acs/plan/PlanEngine.hpp>
+#include <acs/plan/PlanEngineHost.hpp>
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cstddef>
-#include <deque>
-#include <iterator>
 #include <map>
 #include <string>
 #include <utility>
@@ -18,7 +16,7 @@
 
 /// Joins a plan engine, a store and one robot in virtual time. A program does the same with real timers, the store on disk
 /// and reports that go to the MCS.
-class EngineHost
+class ExampleAcs : private ACS::Core::IClock
 {
     using Timer = std::variant<ACS::Planning::EngineTimer, ACS::Planning::AdapterTimerID>;
 
@@ -27,15 +25,13 @@ class EngineHost
     ACS::Planning::IRobotAdapter& _robot;
     ACS::Planning::MemoryPlanStore _store;
     ACS::Planning::PlanEngine _engine;
-    ACS::Planning::EngineActions _fromEngine;
-    ACS::Planning::AdapterActions _fromRobot;
-    std::deque<ACS::Planning::AdapterAction> _waiting; ///< Until the engine is done with what came before.
-    std::map<Timer, ACS::Core::SteadyTime> _timers;    ///< When each is due.
+    ACS::Planning::PlanEngineHost _host;
+    std::map<Timer, ACS::Core::SteadyTime> _timers; ///< When each is due.
     bool _bCompleted = false;
 
 public:
     /// The random source and the robot outlive the host.
-    EngineHost(
+    ExampleAcs(
         ACS::Planning::EngineOptions options,
         ACS::Planning::SiteMap site,
         ACS::Core::IRandom& random,
@@ -43,7 +39,12 @@ public:
         ACS::Planning::IRobotAdapter& robot)
         : _robotID(std::move(robotID)),
           _robot(robot),
-          _engine(RejectActions(std::move(options), robot), std::move(site), random)
+          _engine(RejectActions(std::move(options), robot), std::move(site), random),
+          _host(
+              _engine,
+              *this,
+              [this](const ACS::Planning::EngineAction& action) { Execute(action); },
+              [this](const ACS::Planning::StoreBatch& batch) { _host.OnStored(_store.Append(batch)); })
     {
     }
 
@@ -59,15 +60,16 @@ public:
 
     void Submit(ACS::Planning::Plan plan)
     {
-        _engine.Handle(ACS::Planning::SubmitPlan{std::move(plan), 0}, _now, _fromEngine);
-        Settle();
+        _host.Push(ACS::Planning::SubmitPlan{std::move(plan), 0});
     }
 
-    /// Carries out what the robot said without being asked.
-    void Run(ACS::Planning::AdapterActions actions)
+    /// Executes what the adapter returned.
+    void Run(const ACS::Planning::AdapterActions& actions)
     {
-        _fromRobot = std::move(actions);
-        Settle();
+        for (const ACS::Planning::AdapterAction& action : actions)
+        {
+            Execute(action);
+        }
     }
 
     /// Time jumps to the next timer. False: there is none.
@@ -85,12 +87,13 @@ public:
         _timers.erase(next);
         std::visit(
             ACS::Core::Overloaded{
-                [this](const ACS::Planning::EngineTimer& typed) { _engine.OnTimer(typed, _now, _fromEngine); },
+                [this](const ACS::Planning::EngineTimer& typed) { _host.Push(typed); },
                 [this](ACS::Planning::AdapterTimerID typed) {
-                    _robot.OnTimer(typed, _now, _fromRobot);
+                    ACS::Planning::AdapterActions actions;
+                    _robot.OnTimer(typed, _now, actions);
+                    Run(actions);
                 }},
             timer);
-        Settle();
         return true;
     }
 
@@ -100,24 +103,9 @@ public:
     }
 
 private:
-    /// One event at a time: all actions of a call are carried out before the engine's next call.
-    void Settle()
+    [[nodiscard]] ACS::Core::Now GetNow() const override
     {
-        do
-        {
-            for (const ACS::Planning::EngineAction& action : std::exchange(_fromEngine, {}))
-            {
-                Execute(action);
-            }
-            std::ranges::move(std::exchange(_fromRobot, {}), std::back_inserter(_waiting));
-            if (!_waiting.empty())
-            {
-                const ACS::Planning::AdapterAction action = std::move(_waiting.front());
-                _waiting.pop_front();
-                Execute(action);
-            }
-        }
-        while (!_fromEngine.empty() || !_waiting.empty());
+        return _now;
     }
 
     void Execute(const ACS::Planning::EngineAction& action)
@@ -125,9 +113,12 @@ private:
         using namespace ACS::Planning; // NOLINT(google-build-using-namespace): eight actions in a row
         std::visit(
             ACS::Core::Overloaded{
-                // This store never fails; lesson 8 shows what to do about one that does.
-                [this](const StorePlans& store) { static_cast<void>(_store.Append(store.batch)); },
-                [this](const CommandRobot& typed) { _robot.Handle(typed.command, _now, _fromRobot); },
+                [](const StorePlans&) { /* executed by the host */ },
+                [this](const CommandRobot& typed) {
+                    AdapterActions actions;
+                    _robot.Handle(typed.command, _now, actions);
+                    Run(actions);
+                },
                 [this](const StartEngineTimer& start) { _timers[start.timer] = _now.steady + start.delay; },
                 [this](const CancelEngineTimer& cancel) { _timers.erase(cancel.timer); },
                 [this](const SendReport& send) { Show(send.entry.report); },
@@ -144,7 +135,7 @@ private:
         std::visit(
             ACS::Core::Overloaded{
                 [this](const ACS::Planning::RaiseEvent& raise) {
-                    _engine.Handle(_robotID, raise.event, _now, _fromEngine);
+                    _host.Push(ACS::Planning::RobotInput{_robotID, raise.event});
                 },
                 [this](const ACS::Planning::StartAdapterTimer& start) {
                     _timers[start.timer] = _now.steady + start.delay;

@@ -1,7 +1,6 @@
-#include "EngineLoop.hpp"
-
 #include "Catch.hpp"
 #include "PlanWorld.hpp"
+#include <acs/plan/PlanEngineHost.hpp>
 
 #include <algorithm>
 
@@ -11,17 +10,15 @@ namespace
 {
 
 using namespace Planning; // NOLINT(google-build-using-namespace): a test of that namespace
-using Acsd::EngineLoop;
-using Acsd::RobotTask;
 
-/// The loop with an engine, and a disk that answers when the test says so.
-class LoopTest
+/// The host with an engine, and a disk that answers when the test says so.
+class HostTest
 {
 protected:
     ManualClock _clock;
     SeededRandom _random{1};
     PlanEngine _engine{MakeTestOptions(false), MakeTestSite(), _random};
-    EngineLoop _loop{
+    PlanEngineHost _host{
         _engine,
         _clock,
         [this](const EngineAction& action) { OnAction(action); },
@@ -54,18 +51,18 @@ protected:
 
     void Submit(const std::string& planID, ReplyToken token)
     {
-        _loop.Push(SubmitPlan{MakeLogisticsPlan(planID), token});
+        _host.Push(SubmitPlan{MakeLogisticsPlan(planID), token});
     }
 
     /// The disk answers as long as something is to be stored; false where that has no end.
     [[nodiscard]] bool TryStoreAll()
     {
         constexpr int MANY = 100;
-        for (int i = 0; i < MANY && _loop.IsStoring(); ++i)
+        for (int i = 0; i < MANY && _host.IsStoring(); ++i)
         {
-            _loop.OnStored({});
+            _host.OnStored({});
         }
-        return !_loop.IsStoring();
+        return !_host.IsStoring();
     }
 
     [[nodiscard]] static std::vector<std::string> ListAdded(const StoreBatch& batch)
@@ -100,37 +97,37 @@ const Core::Error DISK_FULL{make_error_code(EPlanningError::StoreFailed), "acsd.
 } // namespace
 
 TEST_CASE_METHOD(
-    LoopTest,
+    HostTest,
     "4.1 Plans that come while the disk works share the next commit, and each has its own Ack behind it")
 {
     Submit("P1", 1);
     REQUIRE(_batches.size() == 1);
-    CHECK(_loop.IsStoring());
+    CHECK(_host.IsStoring());
     Submit("P2", 2);
     Submit("P3", 3);
     Submit("P2", 4);
     CHECK(_batches.size() == 1);
     CHECK(_replies.empty());
-    _loop.OnStored({});
+    _host.OnStored({});
     CHECK(ListReplies() == Replies{{1, true}});
     REQUIRE(_batches.size() == 2);
     CHECK(ListAdded(_batches[1]) == Texts{"P2", "P3"});
-    _loop.OnStored({});
+    _host.OnStored({});
     CHECK(ListReplies() == Replies{{1, true}, {2, true}, {3, true}, {4, false}});
-    CHECK_FALSE(_loop.IsStoring());
+    CHECK_FALSE(_host.IsStoring());
 }
 
 TEST_CASE_METHOD(
-    LoopTest,
+    HostTest,
     "4.1 A burst that cannot be stored is refused as a whole, with the reason, and nothing of it is left")
 {
     Submit("P0", 10);
     Submit("P1", 1);
     Submit("P2", 2);
     Submit("P1", 3);
-    _loop.OnStored({});
+    _host.OnStored({});
     REQUIRE(ListAdded(_batches.back()) == Texts{"P1", "P2"});
-    _loop.OnStored(tl::unexpected(DISK_FULL));
+    _host.OnStored(tl::unexpected(DISK_FULL));
     CHECK(ListReplies() == Replies{{10, true}, {1, false}, {2, false}, {3, false}});
     CHECK(_replies[1].message.find("disk full") != std::string::npos);
     CHECK(_replies[3].message.find("Duplicated Plan") != std::string::npos); // refused before it, for its own reason
@@ -140,16 +137,16 @@ TEST_CASE_METHOD(
 }
 
 TEST_CASE_METHOD(
-    LoopTest,
+    HostTest,
     "A store that is lost without a write is told by the alarm, refuses plans, and is tried until it is back")
 {
     Submit("P0", 10);
-    _loop.OnStoreLost(DISK_FULL); // a batch is on its way, and fails by itself where it is so
+    _host.OnStoreLost(DISK_FULL); // a batch is on its way, and fails by itself where it is so
     CHECK(_engine.GetActiveAlarms().empty());
-    _loop.OnStored({});
+    _host.OnStored({});
     const std::size_t stored = _batches.size();
-    _loop.OnStoreLost(DISK_FULL);
-    _loop.OnStoreLost(DISK_FULL);
+    _host.OnStoreLost(DISK_FULL);
+    _host.OnStoreLost(DISK_FULL);
     REQUIRE(_engine.GetActiveAlarms().size() == 1);
     CHECK(_engine.GetActiveAlarms()[0].errorCode == "ACS-1005");
     CHECK(_engine.GetActiveAlarms()[0].message == "Plans cannot be stored: " + Core::Describe(DISK_FULL));
@@ -158,13 +155,13 @@ TEST_CASE_METHOD(
     const EngineTimer retry{EEngineTimer::StoreRetry, {}};
     CHECK(std::ranges::count(_timers, retry) == 1);
     Submit("P1", 1);
-    REQUIRE(_loop.IsStoring());
-    _loop.OnStored(tl::unexpected(DISK_FULL));
+    REQUIRE(_host.IsStoring());
+    _host.OnStored(tl::unexpected(DISK_FULL));
     CHECK(ListReplies() == Replies{{10, true}, {1, false}});
-    _loop.Push(retry);
-    REQUIRE(_loop.IsStoring());
+    _host.Push(retry);
+    REQUIRE(_host.IsStoring());
     REQUIRE(TryStoreAll());
-    _loop.Push(retry);
+    _host.Push(retry);
     REQUIRE(TryStoreAll());
     CHECK(_engine.GetActiveAlarms().empty());
     Submit("P2", 2);
@@ -172,106 +169,106 @@ TEST_CASE_METHOD(
     CHECK(ListReplies() == Replies{{10, true}, {1, false}, {2, true}});
 }
 
-TEST_CASE_METHOD(LoopTest, "What comes between two plans keeps its place")
+TEST_CASE_METHOD(HostTest, "What comes between two plans keeps its place")
 {
     Submit("P1", 1);
     Submit("P2", 2);
-    _loop.Push(RobotTask{"LR01", LinkChanged{true}});
+    _host.Push(RobotInput{"LR01", LinkChanged{true}});
     Submit("P3", 3);
-    _loop.OnStored({});
+    _host.OnStored({});
     REQUIRE(ListAdded(_batches.back()) == Texts{"P2"});
     CHECK(_engine.GetRobotStatuses().front().status == ERobotStatus::Disconnected);
-    _loop.OnStored({});
+    _host.OnStored({});
     CHECK(_engine.GetRobotStatuses().front().status != ERobotStatus::Disconnected);
-    while (_loop.IsStoring())
+    while (_host.IsStoring())
     {
-        _loop.OnStored({});
+        _host.OnStored({});
     }
     CHECK(ListReplies() == Replies{{1, true}, {2, true}, {3, true}});
 }
 
 TEST_CASE_METHOD(
-    LoopTest,
+    HostTest,
     "A job whose robot goes away while its command waits for the disk is sent once more when the robot is back, no sooner")
 {
     StateChanged state;
     state.lastNodeID = "D-A01.CP01"; // where the plan begins
     Submit("P1", 1);
-    _loop.Push(RobotTask{"LR01", LinkChanged{true}});
-    _loop.Push(RobotTask{"LR01", state});
+    _host.Push(RobotInput{"LR01", LinkChanged{true}});
+    _host.Push(RobotInput{"LR01", state});
     const auto hasJob = [](const StoreChange& change) {
         const auto* const workOrNull = std::get_if<RobotWorkChanged>(&change);
         return workOrNull != nullptr && workOrNull->job.has_value();
     };
-    while (_loop.IsStoring() && std::ranges::none_of(_batches.back().changes, hasJob))
+    while (_host.IsStoring() && std::ranges::none_of(_batches.back().changes, hasJob))
     {
-        _loop.OnStored({});
+        _host.OnStored({});
     }
-    REQUIRE(_loop.IsStoring());
+    REQUIRE(_host.IsStoring());
     REQUIRE(_jobs.empty());
-    _loop.Push(RobotTask{"LR01", LinkChanged{false}});
+    _host.Push(RobotInput{"LR01", LinkChanged{false}});
     REQUIRE(TryStoreAll());
     REQUIRE(_jobs.size() == 1);
-    _loop.Push(RobotTask{"LR01", JobUnknown{"P1-a4"}}); // as the adapter says, which had not sent it
+    _host.Push(RobotInput{"LR01", JobUnknown{"P1-a4"}}); // as the adapter says, which had not sent it
     REQUIRE(TryStoreAll());
     CHECK(_jobs.size() == 1);
     CHECK(_engine.GetPlanOrNull("P1")->state == EPlanState::InProgress);
 
-    _loop.Push(RobotTask{"LR01", LinkChanged{true}});
-    _loop.Push(RobotTask{"LR01", state});
+    _host.Push(RobotInput{"LR01", LinkChanged{true}});
+    _host.Push(RobotInput{"LR01", state});
     REQUIRE(TryStoreAll());
     REQUIRE(_jobs.size() == 2);
     CHECK(_jobs[1].commandID == _jobs[0].commandID);
 }
 
 TEST_CASE_METHOD(
-    LoopTest,
+    HostTest,
     "While the disk hangs a robot's states that differ in pose and battery only are one; all else keeps its place")
 {
     StateChanged state;
     state.lastNodeID = "D-CHG01";
     state.bPoseKnown = true;
-    _loop.Push(RobotTask{"LR01", LinkChanged{true}});
+    _host.Push(RobotInput{"LR01", LinkChanged{true}});
     Submit("P1", 1);
-    REQUIRE(_loop.IsStoring());
+    REQUIRE(_host.IsStoring());
     for (int i = 0; i < 10'000; ++i)
     {
         state.x += 0.01;
         state.batteryPercent = 100 - i / 1'000.0;
-        _loop.Push(RobotTask{"LR01", state});
-        _loop.Push(RobotTask{"CR01", state}); // another robot's between them
+        _host.Push(RobotInput{"LR01", state});
+        _host.Push(RobotInput{"CR01", state}); // another robot's between them
     }
-    CHECK(_loop.GetWaitingCount() == 2);
+    CHECK(_host.GetWaitingCount() == 2);
     state.errors.push_back({"AGV-x", EAlarmLevel::Light, "which goes again"});
-    _loop.Push(RobotTask{"LR01", state});
+    _host.Push(RobotInput{"LR01", state});
     state.errors.clear();
-    _loop.Push(RobotTask{"LR01", state});
-    CHECK(_loop.GetWaitingCount() == 4);
-    _loop.Push(RobotTask{"LR01", LinkChanged{false}});
-    _loop.Push(RobotTask{"LR01", LinkChanged{true}});
+    _host.Push(RobotInput{"LR01", state});
+    CHECK(_host.GetWaitingCount() == 4);
+    _host.Push(RobotInput{"LR01", LinkChanged{false}});
+    _host.Push(RobotInput{"LR01", LinkChanged{true}});
     state.x = 7;
-    _loop.Push(RobotTask{"LR01", state}); // behind the new link
-    CHECK(_loop.GetWaitingCount() == 7);
-    while (_loop.IsStoring())
+    _host.Push(RobotInput{"LR01", state}); // behind the new link
+    CHECK(_host.GetWaitingCount() == 7);
+    while (_host.IsStoring())
     {
-        _loop.OnStored({});
+        _host.OnStored({});
     }
     REQUIRE(_engine.GetRobotPoses().size() == 1);
     CHECK(_engine.GetRobotPoses().front().x == 7);
 }
 
 TEST_CASE_METHOD(
-    LoopTest,
+    HostTest,
     "4.1, R1 A loop that is closed still tells what stands behind the batch on its way, and refuses what comes")
 {
     Submit("P1", 1);
     Submit("P2", 2);
-    _loop.Close();
+    _host.Close();
     Submit("P3", 3);
-    _loop.Push(PlanCommand(ControlPlan{EPlanControl::Cancel, "P1", {}, 4}));
-    _loop.Push(PlanCommand(MessageAcknowledged{1}));
-    CHECK_FALSE(_loop.TryPush(ControlTsc{true, 9}));
-    _loop.OnStored({});
+    _host.Push(PlanCommand(ControlPlan{EPlanControl::Cancel, "P1", {}, 4}));
+    _host.Push(PlanCommand(MessageAcknowledged{1}));
+    CHECK_FALSE(_host.TryPush(ControlTsc{true, 9}));
+    _host.OnStored({});
     CHECK(ListReplies() == Replies{{2, false}, {3, false}, {4, false}, {1, true}});
     CHECK(_batches.size() == 1);
     CHECK(std::ranges::count(_timers, EngineTimer{EEngineTimer::Dispatch, {}}) == 1);
