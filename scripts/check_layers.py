@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Who may include whom: docs/ARCHITECTURE.md as a program. Headers in /usr/include need no link line, so only reading
+"""Who may include whom: docs/design/architecture.md as a program. Headers in /usr/include need no link line, so only reading
 the sources shows a pure library that reaches for a socket or a clock."""
 
 import argparse

@@ -14,7 +14,7 @@
 namespace ACS::Acsd
 {
 
-/// acsd's figures by their names at /metrics; docs/operations.md lists them. Those that something else counts are fetched
+/// acsd's figures by their names at /metrics; docs/reference/metrics.md lists them. Those that something else counts are fetched
 /// when somebody asks; waits are observed when they end.
 class AcsdMetrics final
 {

@@ -78,7 +78,7 @@ void AddWorldOptions(CLI::App& app, McsSimOptions& options)
         app,
         "--world",
         options.worldFile,
-        "Compare the reports with what the simulated robots have moved: the world file that they share (docs/mcs-sim.md)");
+        "Compare the reports with what the simulated robots have moved: the world file that they share (docs/reference/mcs-sim.md)");
     world.type_name("FILE.json");
     CLI::Option* const restock =
         app.add_flag(
@@ -151,7 +151,7 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimO
             return std::string();
         },
         "Scenarios to play instead of plans, one after the other: files of what to send and what to expect "
-        "(docs/mcs-sim.md has the format)")
+        "(docs/reference/mcs-sim.md has the format)")
         .type_name("FILE.json")
         ->allow_extra_args();
     app.add_option("--repeat", options.repeat, "Send every file so often, in rotation, with fresh ids")

@@ -169,7 +169,7 @@ struct ScenarioStep
     bool operator==(const ScenarioStep&) const = default;
 };
 
-/// What a scenario file says; docs/mcs-sim.md describes the format.
+/// What a scenario file says; docs/reference/mcs-sim.md describes the format.
 struct Scenario
 {
     std::string name;

@@ -41,7 +41,7 @@ enum class EFaultDirection : std::uint8_t
     Both,
 };
 
-/// One fault with its parameters; docs/vda-sim.md has the table of kinds. The place is a node.
+/// One fault with its parameters; docs/reference/vda-sim.md has the table of kinds. The place is a node.
 struct Fault : Apps::FaultBase<EFaultKind>
 {
     // Each for the kinds that have it.

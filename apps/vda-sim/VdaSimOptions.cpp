@@ -159,7 +159,7 @@ std::string MakeFooter()
         "{}"
         "Example: vda-sim ... --fault 'LR01 blocked node=N045 for=10s' --fault 'LR* loss percent=5'\n"
         "         mosquitto_pub -t vda-sim/control -m 'LR01 estop for=5s'\n"
-        "docs/vda-sim.md explains each.",
+        "docs/reference/vda-sim.md explains each.",
         Apps::MakeFaultHelp(GetFaultGrammar()));
 }
 
@@ -214,7 +214,7 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         app,
         "--world",
         options.worldPath,
-        "world file that the simulators share (docs/world.md): loads are picked and dropped only where they are; "
+        "world file that the simulators share (docs/reference/world.md): loads are picked and dropped only where they are; "
         "without it every load is where an action asks for it");
     Apps::AddRepeatedOption(
         app,

@@ -19,7 +19,7 @@
 namespace ACS::Sim
 {
 
-/// The floor and its rules, in the memory of one process; docs/world.md has the rules. Pure: no files, threads or clocks.
+/// The floor and its rules, in the memory of one process; docs/reference/world.md has the rules. Pure: no files, threads or clocks.
 class MemoryWorld final : public IWorld
 {
     FloorContents _contents;

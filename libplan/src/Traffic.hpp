@@ -16,7 +16,7 @@
 namespace ACS::Planning
 {
 
-/// Who may drive onto which node of the map, and when: docs/traffic.md. Robots and nodes by index.
+/// Who may drive onto which node of the map, and when: docs/design/traffic.md. Robots and nodes by index.
 ///
 /// A node, with all nodes that are nearer to it than the clearance, belongs to one robot at a time. A robot holds the node
 /// where it stands and the nodes of its way that it was granted; it gives them back as it passes them. A grant never takes

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""docs/protocol-acs.md, "What shows it": a row for each sequence, rule, decision and vector of the specification, and in
+"""docs/protocols/mcs-acs.md, "What shows it": a row for each sequence, rule, decision and vector of the specification, and in
 each row things that exist. With ACS_SPEC_DIR the list of rows is held against the specification itself."""
 
 import os
@@ -65,7 +65,7 @@ class Evidence:
 class Table(unittest.TestCase):
     def setUp(self):
         self.evidence = Evidence()
-        self.text = (REPOSITORY / "docs" / "protocol-acs.md").read_text()
+        self.text = (REPOSITORY / "docs" / "protocols" / "mcs-acs.md").read_text()
 
     def test_each_row_is_there_and_names_what_exists(self):
         self.assertEqual(self.evidence.find_mistakes(self.text), [])

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How acsd is operated: signals, the message trace, figures. docs/operations.md says what is shown here."""
+"""How acsd is operated: signals, the message trace, figures. docs/guide/operate.md says what is shown here."""
 
 import json
 import os

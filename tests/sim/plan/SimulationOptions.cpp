@@ -57,7 +57,7 @@ std::optional<int> ReadOptionsOrNull(int argc, const char* const* argv, Simulati
     CLI::App app{
         "Runs acsd's engine, sessions and adapters against a simulated MCS, disk, network and robots in virtual time, and\n"
         "checks after every event that nothing is lost, executed twice, reported wrongly or never finished.\n"
-        "See docs/simulation.md.",
+        "See docs/design/simulation.md.",
         "plan_simulation"};
     app.add_option("--seeds", options.seeds, "number of worlds, each from its own seed")->capture_default_str();
     app.add_option("--first", options.first, "the first seed")->capture_default_str();

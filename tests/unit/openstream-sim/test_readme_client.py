@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The program as a user starts it, and the Python client of its README, taken from there and run against it."""
+"""The program as a user starts it, and the Python client of its page, taken from there and run against it."""
 
 import argparse
 import contextlib
@@ -17,7 +17,7 @@ import urllib.error
 import urllib.request
 
 LIMIT = 30
-README = pathlib.Path(__file__).resolve().parents[3] / "apps" / "openstream-sim" / "README.md"
+PAGE = pathlib.Path(__file__).resolve().parents[3] / "docs" / "reference" / "openstream-sim.md"
 PROGRAM = None
 
 
@@ -44,7 +44,7 @@ class ReadmeClient(unittest.TestCase):
         return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=LIMIT, check=False)
 
     def test_the_client_of_the_readme_runs_a_program_to_its_end(self):
-        code = re.search(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), re.DOTALL).group(1)
+        code = re.search(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL).group(1)
         _, stream, http = self.start("--time-scale", "10", "--program", "11=3s")
         with tempfile.NamedTemporaryFile("w", suffix=".py", encoding="utf-8") as client:
             client.write(code)
@@ -55,7 +55,7 @@ class ReadmeClient(unittest.TestCase):
         self.assertEqual(result.stdout.splitlines()[-1], "finished, started 1 ended 1")
 
     def test_the_shell_sessions_of_the_readme_print_what_they_say(self):
-        blocks = re.findall(r"```bash\n(.*?)```", README.read_text(encoding="utf-8"), re.DOTALL)
+        blocks = re.findall(r"```bash\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
         self.assertEqual(len(blocks), 3)
         ready = self.start_for_ready("--ready", "--control", "127.0.0.1:0")
         self.assertEqual(list(ready), ["stream", "http", "control"])

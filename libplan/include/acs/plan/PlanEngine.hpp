@@ -34,7 +34,7 @@ namespace ACS::Planning
 /// other call that changes the engine is allowed. A submitted plan is started by a later call (EEngineTimer::Dispatch), so
 /// that its rejection for a failed store leaves no trace.
 ///
-/// Traffic (docs/traffic.md): a node is held by one robot at a time. Nodes of a way are granted and released step by step,
+/// Traffic (docs/design/traffic.md): a node is held by one robot at a time. Nodes of a way are granted and released step by step,
 /// only if afterwards all robots that could drive home one after another still can, and given back when the robot has told
 /// of the next one. Robots that wait for one another are parted by sending one of them around or home first. A robot without
 /// work goes home, and steps aside where it stands in somebody's way.
