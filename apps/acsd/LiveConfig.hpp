@@ -20,7 +20,7 @@ struct ConfigChange
     bool operator==(const ConfigChange&) const = default;
 };
 
-/// Whether acsd takes this key ("log.level") while it runs; examples/site/README.md marks them.
+/// Whether acsd takes this key ("log.level") while it runs; docs/reference/configuration.md marks them.
 [[nodiscard]] bool IsLiveKey(std::string_view key);
 
 /// Both as AcsdConfig::values. A key that is given now and was not before, or the other way round, has changed.

@@ -12,7 +12,6 @@ import pathlib
 import re
 import tomllib
 
-FILES = {"site.lif.json", "acsd.toml", "site.svg", "world.json", "programs.toml"}  # the other table of the README
 VEHICLE_TYPES = ("lr-base", "cr-base")
 CLEARANCE = 0.9  # metres between a node and whatever is not its own; a vehicle is 0.8 m wide
 FLOOR = (40.0, 20.0)
@@ -460,16 +459,16 @@ def list_sample_keys(text):
     return keys
 
 
-def check_key_table(config, text, readme):
-    """The README's table of keys and the file, read and as text, name the same keys."""
+def check_key_table(config, text, document):
+    """The document's tables of keys and the file, read and as text, name the same keys."""
     def make_general(keys):
         names = {re.sub(r"^(robots|actions)\.[^.]+", r"\1.NAME", key) for key in keys}
         return {re.sub(r"^stations\..+\.", "stations.NAME.", name) for name in names}
     used = make_general(list_keys_recursive(config))
-    listed = set(re.findall(r"^\| `([a-zA-Z_.]+)` \|", readme, re.MULTILINE))
-    listed = {key for key in listed if "." in key and key not in FILES}
-    return ([f"key {key} is not in the README" for key in sorted(used - listed)]
-            + [f"key {key} of the README is not in acsd.toml"
+    listed = set(re.findall(r"^\| `([a-zA-Z_.]+)` \|", document, re.MULTILINE))
+    listed = {key for key in listed if "." in key}
+    return ([f"key {key} is not documented" for key in sorted(used - listed)]
+            + [f"documented key {key} is not in acsd.toml"
                for key in sorted(listed - used - make_general(list_sample_keys(text)))])
 
 

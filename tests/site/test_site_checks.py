@@ -16,7 +16,7 @@ import site_checks as checks
 LIF = checks.read_json(check_site.SITE / "site.lif.json")
 CONFIG = checks.read_toml(check_site.SITE / "acsd.toml")
 TEXT = (check_site.SITE / "acsd.toml").read_text(encoding="utf-8")
-README = (check_site.SITE / "README.md").read_text(encoding="utf-8")
+KEYS = check_site.KEYS.read_text(encoding="utf-8")
 
 
 def find(entries, key, value):
@@ -259,10 +259,10 @@ class ConfigurationChecks(unittest.TestCase):
         self.complain(lambda config: config["robots"]["CR01"].pop("arm"), "no CR has an arm")
 
     def test_key_table(self):
-        self.assertEqual(checks.check_key_table(CONFIG, TEXT, README), [])
-        self.assertIn("mcs.urls", str(checks.check_key_table(CONFIG, TEXT, README.replace("`mcs.url`", "`mcs.urls`"))))
-        self.assertIn("mcs.host of", str(checks.check_key_table(CONFIG, TEXT.replace("# host =", "# hosts ="), README)))
-        self.assertIn("key mcs.url is not", str(checks.check_key_table(CONFIG, TEXT, README.replace("`mcs.url`", ""))))
+        self.assertEqual(checks.check_key_table(CONFIG, TEXT, KEYS), [])
+        self.assertIn("mcs.urls", str(checks.check_key_table(CONFIG, TEXT, KEYS.replace("`mcs.url`", "`mcs.urls`"))))
+        self.assertIn("mcs.host is not in acsd.toml", str(checks.check_key_table(CONFIG, TEXT.replace("# host =", "# hosts ="), KEYS)))
+        self.assertIn("key mcs.url is not", str(checks.check_key_table(CONFIG, TEXT, KEYS.replace("`mcs.url`", ""))))
 
 
 class PlanChecks(unittest.TestCase):
