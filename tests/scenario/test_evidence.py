@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""docs/protocols/mcs-acs.md, "What shows it": a row for each sequence, rule, decision and vector of the specification, and in
+"""docs/protocols/mcs-acs.md, "Conformance": a row for each sequence, rule, decision and vector of the specification, and in
 each row things that exist. With ACS_SPEC_DIR the list of rows is held against the specification itself."""
 
 import os
@@ -10,7 +10,7 @@ import unittest
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 SCENARIOS = REPOSITORY / "examples" / "scenarios"
 TESTS = REPOSITORY / "tests"
-TITLE = "## What shows it"
+TITLE = "## Conformance"
 
 SEQUENCES = ("Connect", "Plan", "Job failure", "Cancel", "Abort", "Pause", "Resume", "Comm loss")
 EXPECTED = [*[f"6 {name}" for name in SEQUENCES], *[f"R{number}" for number in range(1, 20)],
