@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""House rules about files: names, one class per file, line ends, and nothing left over."""
+"""House rules about files: names, one class per file, line ends, links of documents, and nothing left over."""
 
 import argparse
 import os
@@ -26,6 +26,29 @@ UNFINISHED = re.compile(r"\b(?:" + "|".join(("TO" "DO", "FIX" "ME", "X" "XX", "H
 MACHINE_PATH = re.compile(r"(?<![\w.$})/~-])/(?:work|home|root|Users)/\w" + r"|/tm" + r"p/(?:w|h)/")
 TYPE = re.compile(r"^(?:template\s*<.*>\s*)?(class|struct|union|enum\s+class|enum|concept|using)\s+"
                   r"(?:\[\[[^\]]*\]\]\s*)?(?:alignas\([^)]*\)\s*)?([A-Za-z_]\w*)(?!\w)(?!\s*::)(?!\w*;)")
+
+
+# A fenced or inline piece of a document that is code; a link to a file or a heading, not to another site.
+DOCUMENT_CODE = re.compile(r"^```.*?^```|`[^`\n]+`", re.DOTALL | re.MULTILINE)
+LINK = re.compile(r"\]\((?![a-z]+:)([^)#\s]*)(?:#([^)\s]+))?\)")
+HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
+
+
+def list_anchors(text):
+    """The anchors that headings get: lower case, words joined by hyphens, no other signs."""
+    without_code = re.sub(r"^```.*?^```", "", text, flags=re.DOTALL | re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", heading.strip().lower()).replace(" ", "-") for heading in HEADING.findall(without_code)}
+
+
+def check_links(root, path, text):
+    prose = DOCUMENT_CODE.sub(lambda match: re.sub(r"[^\n]", " ", match.group(0)), text)
+    for match in LINK.finditer(prose):
+        target = os.path.normpath(os.path.join(os.path.dirname(path), match.group(1))) if match.group(1) else path
+        line = prose.count("\n", 0, match.start()) + 1
+        if not os.path.exists(os.path.join(root, target)):
+            yield line, f"a link to {target}, which does not exist"
+        elif match.group(2) and target.endswith(".md") and match.group(2) not in list_anchors(read_text(root, target)):
+            yield line, f"a link to the heading #{match.group(2)}, which {target} does not have"
 
 
 def list_types(code):
@@ -105,6 +128,8 @@ def check_file(root, path):
         place = MACHINE_PATH.search(content)
         if place:
             yield line, "a path of one machine; use a path relative to the repository"
+    if path.endswith(".md"):
+        yield from check_links(root, path, text)
     if FIRST_EXAMPLE.match(path) and text.count("\n") >= FIRST_EXAMPLE_LINES:
         yield FIRST_EXAMPLE_LINES, f"the first examples have under {FIRST_EXAMPLE_LINES} lines each; this has {text.count(chr(10))}"
     if path.endswith((".hpp", ".cpp")) and not path.startswith("tests/style/bad/"):

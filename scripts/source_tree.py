@@ -6,7 +6,7 @@ import subprocess
 
 CPP_SUFFIXES = (".hpp", ".cpp")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
-_COMMENT_OR_STRING = re.compile(
+COMMENT_OR_STRING = re.compile(
     r'//[^\n]*|/\*.*?\*/|R"([^\s()\\]{0,16})\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'', re.DOTALL)
 
 
@@ -37,7 +37,7 @@ def _blank(match):
 
 def strip_comments_and_strings(text):
     """The same text with comments and literals blanked: lines and columns stay where they were."""
-    return _COMMENT_OR_STRING.sub(_blank, text)
+    return COMMENT_OR_STRING.sub(_blank, text)
 
 
 def list_includes(text):

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Plants one violation after another in an otherwise right tree, and requires that scripts/check_layers.py,
-scripts/check_files.py and scripts/check_sizes.py report it at its line; the tree without it must pass."""
+scripts/check_files.py, scripts/check_sizes.py and scripts/check_words.py report it at its line; the tree without
+it must pass."""
 
 import os
 import subprocess
@@ -13,8 +14,9 @@ sys.dont_write_bytecode = True
 import check_files  # noqa: E402
 import check_layers  # noqa: E402
 import check_sizes  # noqa: E402
+import check_words  # noqa: E402
 
-CHECKS = {"layers": check_layers, "files": check_files, "sizes": check_sizes}
+CHECKS = {"layers": check_layers, "files": check_files, "sizes": check_sizes, "words": check_words}
 
 RIGHT = {
     "libacs-core/include/acs/core/Location.hpp": "#pragma once\n#include <fmt/core.h>\nclass Location\n{\n};\n",
@@ -39,6 +41,11 @@ RIGHT = {
     "tests/support/ManualClock.hpp": "#pragma once\n#include <acs/core/Location.hpp>\n",
     "tests/unit/core/LocationTest.cpp": "#include \"ManualClock.hpp\"\nTEST_CASE(\"one\")\n{\n}\n",
     "examples/e01_locations.cpp": "#include <acs/core/Location.hpp>\n",
+    "tests/install/consumer_Core.cpp": "// Links the library alone.\nint main()\n{\n}\n",
+    "docs/guide.md": "# Guide\n\n## Parking positions\n\nSee [above](#guide), [the other](reference/keys.md#the-keys) and "
+                     "[elsewhere](https://example.org/#none).\n",
+    "docs/reference/keys.md": "# Reference\n\n## The keys\n\n`look at` and `[1](2)` are code.\n\n```\nnobody gives up\n# Not a heading\n"
+                              "```\n\n    so many\n\n[Guide](../guide.md#parking-positions)\n",
 }
 
 # check, file, content, line that must be named, what the sentence must hold
@@ -112,6 +119,30 @@ PLANTED = [
     ("sizes", "libplan/src/engine/PlanEngine.hpp", "#pragma once\n#include \"../traffic/Router.hpp\"\n", 2,
      "engine -> traffic -> engine"),
     ("sizes", "scripts/sizes-exceeded.txt", "libplan/src/Gone.hpp Gone methods 70\n", 1, "remove its entry"),
+    ("files", "docs/guide.md", "# Guide\n\n## Parking positions\n\n[keys](keys.md)\n", 5, "docs/keys.md, which does not exist"),
+    ("files", "docs/guide.md", "# Guide\n\n## Parking positions\n[keys](reference/keys.md#key)\n", 4, "heading #key"),
+    ("files", "docs/guide.md", "## Parking positions\n[code](reference/keys.md#not-a-heading)\n", 2, "heading #not-a-heading"),
+    ("words", "docs/guide.md", "The alarm\ntells that\n", 2, "'tells': write report"),
+    ("words", "README.md", "A robot waits for\never.\n", 1, "'for ever': write indefinitely"),
+    ("words", "docs/guide.md", "1. Nobody\n   is notified.\n", 1, "'Nobody': write the operator"),
+    ("words", "docs/guide.md", "one\n\n- two\n\n    three\n\nHomecomers wait.\n", 7, "'Homecomers': write safe state"),
+    ("words", "docs/guide.md", "Lines are thinned.\n", 1, "write rate-limited"),
+    ("words", "docs/guide.md", "```\ncode\n```\nReports a host that is none.\n", 4, "write invalid"),
+    ("words", "docs/guide.md", "The text is no UTF-8.\n", 1, "write not valid UTF-8"),
+    ("words", "docs/guide.md", "The job is given up.\n", 1, "write cancel"),
+    ("words", "docs/guide.md", "It does not get on.\n", 1, "write make progress"),
+    ("words", "docs/guide.md", "The plan goes on.\n", 1, "write continue"),
+    ("words", "docs/guide.md", "It is taken up again.\n", 1, "write accept, resume"),
+    ("words", "docs/guide.md", "Time to look around.\n", 1, "write check"),
+    ("words", "docs/guide.md", "`a` Every mistake `b`\n", 1, "write error"),
+    ("words", "docs/guide.md", "There is no objection.\n", 1, "write rejection reason"),
+    ("words", "docs/guide.md", "As long as it is there\n", 1, "write while"),
+    ("words", "docs/guide.md", "So many controllers\n", 1, "write number of"),
+    ("words", "docs/guide.md", "The robot stands at a node; it stands for AMR.\n", 1, "write is stationary"),
+    ("words", "docs/guide.md", "It drove without leave.\n", 1, "write without a reservation"),
+    ("words", "docs/guide.md", "[tells](reference/keys.md)\n", 1, "'tells'"),
+    ("words", "tests/install/consumer_Core.cpp", "int tells = 1; // the plan\n// is told so\n", 2, "'told': write report"),
+    ("words", "tests/install/consumer_Core.cpp", "const char* text = \"a mistake\";\n", 1, "'mistake': write error"),
 ]
 
 ACCEPTED = [
@@ -128,6 +159,9 @@ ACCEPTED = [
     ("files", "examples/e07_own_robot_adapter.cpp", "int one;\n" * 149),
     ("files", "examples/e09_small_acs.cpp", "int one;\n" * 500),
     ("layers", "libplan/src/Engine.cpp", "const char* text = \"steady_clock::now()\"; // steady_clock::now()\n"),
+    ("words", "docs/guide.md", "`nobody` stands for [it](told.md); a look-up, on-going, wished.\n"),
+    ("words", "tests/install/consumer_Core.cpp", "int mistake = nobody(told); // counts\n"),
+    ("words", "libplan/src/Engine.cpp", "// Sources that are not covered yet: nobody is told.\n"),
 ]
 
 
