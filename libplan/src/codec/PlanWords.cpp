@@ -1,4 +1,4 @@
-#include "PlanWords.hpp"
+#include "codec/PlanWords.hpp"
 
 namespace ACS::Planning
 {

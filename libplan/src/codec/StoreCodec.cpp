@@ -1,4 +1,4 @@
-#include "PlanWords.hpp"
+#include "codec/PlanWords.hpp"
 #include <acs/core/ECoreError.hpp>
 #include <acs/core/Overloaded.hpp>
 #include <acs/json/JsonDecoder.hpp>

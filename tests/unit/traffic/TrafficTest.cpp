@@ -1,4 +1,4 @@
-#include "Traffic.hpp"
+#include "traffic/Traffic.hpp"
 
 #include "Catch.hpp"
 

@@ -1,4 +1,4 @@
-#include "FloorGraph.hpp"
+#include "traffic/FloorGraph.hpp"
 
 #include <acs/plan/Router.hpp>
 

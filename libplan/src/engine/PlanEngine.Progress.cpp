@@ -1,5 +1,5 @@
-#include "FloorGraph.hpp"
-#include "PlanEngine.Impl.hpp"
+#include "engine/PlanEngine.Impl.hpp"
+#include "traffic/FloorGraph.hpp"
 
 #include <fmt/format.h>
 

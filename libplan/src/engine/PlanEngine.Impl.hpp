@@ -1,8 +1,8 @@
 #pragma once
 
 #include "engine/CommitGate.hpp"
-#include "PlanAdmission.hpp"
-#include "Traffic.hpp"
+#include "plan/PlanAdmission.hpp"
+#include "traffic/Traffic.hpp"
 #include <acs/plan/PlanEngine.hpp>
 #include <acs/plan/PlanTransitions.hpp>
 #include <acs/plan/ReportOutbox.hpp>

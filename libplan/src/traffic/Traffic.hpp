@@ -1,6 +1,6 @@
 #pragma once
 
-#include "FloorGraph.hpp"
+#include "traffic/FloorGraph.hpp"
 #include <acs/plan/SiteMap.hpp>
 
 #include <array>

@@ -1,4 +1,4 @@
-#include "PlanAdmission.hpp"
+#include "plan/PlanAdmission.hpp"
 
 #include <acs/core/ControlCharacter.hpp>
 #include <acs/core/ECoreError.hpp>

@@ -1,4 +1,4 @@
-#include "PlanEngine.Impl.hpp"
+#include "engine/PlanEngine.Impl.hpp"
 #include <acs/core/ECoreError.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/plan/PlanTransitions.hpp>

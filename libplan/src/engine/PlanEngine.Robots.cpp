@@ -1,4 +1,4 @@
-#include "PlanEngine.Impl.hpp"
+#include "engine/PlanEngine.Impl.hpp"
 
 #include <fmt/format.h>
 
