@@ -9,12 +9,11 @@ namespace ACS::Planning
 
 Alarm PlanEngine::Impl::MakeChargeAlarm(const Robot& robot) const
 {
-    Alarm alarm;
-    alarm.robotID = GetRobotID(robot);
-    alarm.errorCode = ALARM_CHARGE;
-    alarm.level = EAlarmLevel::Light;
-    alarm.message = "It stands at its charging station with a low battery and does not charge.";
-    return alarm;
+    return MakeAlarm(
+        GetRobotID(robot),
+        ALARM_CHARGE,
+        EAlarmLevel::Light,
+        "It stands at its charging station with a low battery and does not charge.");
 }
 
 /// Its new state has told how full the battery is.

@@ -255,11 +255,11 @@ void PlanEngine::Impl::RaiseDropped(const Robot& robot)
 
 Alarm PlanEngine::Impl::MakeDroppedAlarm(const Robot& robot) const
 {
-    Alarm alarm;
-    alarm.robotID = GetRobotID(robot);
-    alarm.errorCode = ALARM_DROPPED;
-    alarm.level = EAlarmLevel::Heavy;
-    alarm.message = "A job that had begun was given up: look whether the robot still holds what it moved.";
+    Alarm alarm = MakeAlarm(
+        GetRobotID(robot),
+        ALARM_DROPPED,
+        EAlarmLevel::Heavy,
+        "A job that had begun was given up: look whether the robot still holds what it moved.");
     alarm.planID = robot.job->planID;
     alarm.stepNo = robot.job->stepNo;
     alarm.jobID = robot.job->jobID;

@@ -66,9 +66,10 @@ void PlanEngine::Impl::RaiseMissing()
             continue;
         }
         const bool bHasWork = robot.planOrNull != nullptr || robot.job.has_value();
-        Alarm alarm = MakeLinkAlarm(robot);
-        alarm.message = bHasWork ? "It has not come back since the ACS was started, and has work."
-                                 : "It has not been there since the ACS was started.";
+        Alarm alarm = MakeLinkAlarm(
+            robot,
+            bHasWork ? "It has not come back since the ACS was started, and has work."
+                     : "It has not been there since the ACS was started.");
         if (!robot.supposedNodes.empty())
         {
             alarm.message += " Where it may be is kept free until it is back, or is taken into maintenance.";

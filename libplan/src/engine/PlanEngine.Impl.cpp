@@ -317,14 +317,14 @@ std::string_view PlanEngine::Impl::TellReport(Report report)
 void PlanEngine::Impl::WatchOutbox()
 {
     constexpr std::size_t TENTH = 10;
-    Alarm alarm;
-    alarm.robotID = OWN_ROBOT_ID;
-    alarm.errorCode = ALARM_OUTBOX;
-    alarm.level = EAlarmLevel::Heavy;
+    Alarm alarm = MakeAlarm(
+        OWN_ROBOT_ID,
+        ALARM_OUTBOX,
+        EAlarmLevel::Heavy,
+        "The MCS has not acknowledged too many reports: new plans are refused.");
     const std::size_t count = _outbox.GetUnacknowledged().size();
     if (count >= _options.maximumReports)
     {
-        alarm.message = "The MCS has not acknowledged too many reports: new plans are refused.";
         RaiseAlarm(std::move(alarm));
     }
     else if (count < _options.maximumReports - _options.maximumReports / TENTH)
@@ -451,38 +451,28 @@ void PlanEngine::Impl::ChangeJob(ActivePlan& plan, EJobState state, std::string 
     }
 }
 
+void PlanEngine::Impl::ReportAlarms(const std::vector<ErrorReport>& reports)
+{
+    for (const ErrorReport& report : reports)
+    {
+        const Alarm& alarm = report.alarm;
+        _changes.push_back(report.bSet ? StoreChange(AlarmSet{alarm}) : StoreChange(AlarmCleared{alarm}));
+        const std::string_view transactionID = TellReport(report);
+        if (_observerOrNull != nullptr)
+        {
+            _observerOrNull->OnAlarmChanged(alarm, report.bSet, transactionID, _now);
+        }
+    }
+}
+
 void PlanEngine::Impl::RaiseAlarm(Alarm alarm)
 {
-    const auto known = std::ranges::find_if(_alarms, [&alarm](const Alarm& other) { return other.IsSameAs(alarm); });
-    if (known != _alarms.end() && known->level == alarm.level)
-    {
-        return;
-    }
-    ClearAlarm(alarm); // The MCS hears of another level only so.
-    _alarms.push_back(alarm);
-    _changes.emplace_back(AlarmSet{alarm});
-    const std::string_view transactionID = TellReport(ErrorReport{alarm, true});
-    if (_observerOrNull != nullptr)
-    {
-        _observerOrNull->OnAlarmChanged(alarm, true, transactionID, _now);
-    }
+    ReportAlarms(_alarms.Raise(std::move(alarm)));
 }
 
 void PlanEngine::Impl::ClearAlarm(const Alarm& alarm)
 {
-    const auto found = std::ranges::find_if(_alarms, [&alarm](const Alarm& known) { return known.IsSameAs(alarm); });
-    if (found == _alarms.end())
-    {
-        return;
-    }
-    Alarm cleared = std::move(*found);
-    _alarms.erase(found);
-    _changes.emplace_back(AlarmCleared{cleared});
-    const std::string_view transactionID = TellReport(ErrorReport{cleared, false});
-    if (_observerOrNull != nullptr)
-    {
-        _observerOrNull->OnAlarmChanged(cleared, false, transactionID, _now);
-    }
+    ReportAlarms(_alarms.Clear(alarm));
 }
 
 void PlanEngine::Impl::RememberFinished(PlanRecord record)

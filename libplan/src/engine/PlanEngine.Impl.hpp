@@ -1,6 +1,8 @@
 #pragma once
 
 #include "engine/CommitGate.hpp"
+#include "engine/AlarmBook.hpp"
+#include "engine/EngineAlarm.hpp"
 #include "plan/PlanAdmission.hpp"
 #include "traffic/Traffic.hpp"
 #include <acs/plan/PlanEngine.hpp>
@@ -20,24 +22,6 @@
 
 namespace ACS::Planning
 {
-
-// Error codes of alarms that the engine itself raises.
-inline constexpr std::string_view ALARM_INTERRUPTED = "ACS-1001";
-inline constexpr std::string_view ALARM_LINK_LOST = "ACS-1002";
-inline constexpr std::string_view ALARM_PLACE = "ACS-1003";
-inline constexpr std::string_view ALARM_PORT = "ACS-1004";
-inline constexpr std::string_view ALARM_STORE = "ACS-1005";
-inline constexpr std::string_view ALARM_HOME = "ACS-1006";
-inline constexpr std::string_view ALARM_DROPPED = "ACS-1007";
-inline constexpr std::string_view ALARM_UNCERTAIN = "ACS-1008";
-inline constexpr std::string_view ALARM_STALL = "ACS-1009";
-inline constexpr std::string_view ALARM_CHARGE = "ACS-1010";
-inline constexpr std::string_view ALARM_LOADS = "ACS-1011";
-inline constexpr std::string_view ALARM_OUTBOX = "ACS-1020";
-/// What alarms of the engine begin with; others are errors that robots told.
-inline constexpr std::string_view ALARM_PREFIX = "ACS-";
-/// The robotID of alarms about the engine itself.
-inline constexpr std::string_view OWN_ROBOT_ID = "ACS";
 
 /// What stands for a carrier whose id the plan does not tell.
 inline constexpr std::string_view UNKNOWN_CARRIER = "UNKNOWN";
@@ -269,7 +253,7 @@ private:
 
     std::vector<Robot> _robots;
     std::map<std::string, std::size_t, std::less<>> _robotIndices;
-    std::vector<Alarm> _alarms;
+    AlarmBook _alarms;
     ReportOutbox _outbox;
 
     bool _bAwaiting = false;  ///< After a start: not every robot has told where it stands.
@@ -337,6 +321,7 @@ private:
     void ChangeStep(ActivePlan& plan, EStepState state, std::string message);
     void ChangeStepAt(ActivePlan& plan, std::size_t index, EStepState state, std::string message);
     void ChangeJob(ActivePlan& plan, EJobState state, std::string message);
+    void ReportAlarms(const std::vector<ErrorReport>& reports);
     void RaiseAlarm(Alarm alarm);
     void ClearAlarm(const Alarm& alarm);
     [[nodiscard]] bool IsHeldBack(const OutboxEntry& entry) const;
@@ -473,7 +458,7 @@ private:
     void OnJobTimeout(Robot& robot);
     void OnJobEndTimeout(Robot& robot);
     [[nodiscard]] bool TryEndOverdueJob(Robot& robot, const std::string& jobID, bool bDone);
-    [[nodiscard]] Alarm MakeLinkAlarm(const Robot& robot) const;
+    [[nodiscard]] Alarm MakeLinkAlarm(const Robot& robot, std::string message) const;
     [[nodiscard]] Alarm MakePlaceAlarm(const Robot& robot, std::string message) const;
     void Place(Robot& robot);
     void LosePlace(Robot& robot);
@@ -497,7 +482,6 @@ private:
     // Drives that do not get on (PlanEngine.Progress.cpp).
     void FollowDrive(Robot& robot);
     void OnDriveStall(Robot& robot);
-    void ClearStall(const Robot& robot);
     [[nodiscard]] bool IsToGetOn(const Robot& robot) const;
     [[nodiscard]] Core::Duration GetStallLimit(const ActiveDrive& drive) const;
     [[nodiscard]] std::string DescribeStall(const Robot& robot) const;
@@ -519,7 +503,6 @@ private:
     void MarkStepBegun(ActivePlan& plan);
     void FailPlan(ActivePlan& plan, const std::string& reason);
     void EndPlan(ActivePlan& plan, EPlanState state, const std::string& message);
-    void ClearInterrupted(const std::string& robotID);
     void MoveCarrier(Robot& robot, const StartJob& job);
     [[nodiscard]] static std::string DescribeMisfit(
         const Robot& robot,
@@ -639,7 +622,7 @@ private:
     void TellStoreFailure(std::string_view reason, EngineActions& out);
     void StartStoreRetry(EngineActions& out);
     void KeepForStore(std::vector<StoreChange> changes);
-    [[nodiscard]] static Alarm MakeStoreAlarm();
+    [[nodiscard]] static Alarm MakeStoreAlarm(std::string message);
     [[nodiscard]] bool IsStoreWorthTrying(const std::vector<StoreChange>& changes) const;
 };
 

@@ -121,10 +121,6 @@ void PlanEngine::Impl::CompareLoad(Robot& robot, std::size_t port, const PortLoa
 
 Alarm PlanEngine::Impl::MakeLoadAlarm(const Robot& robot) const
 {
-    Alarm alarm;
-    alarm.robotID = GetRobotID(robot);
-    alarm.errorCode = ALARM_LOADS;
-    alarm.level = EAlarmLevel::Light;
     std::string differences;
     for (const auto& [port, disputed] : robot.disputedPorts)
     {
@@ -135,11 +131,14 @@ Alarm PlanEngine::Impl::MakeLoadAlarm(const Robot& robot) const
             disputed.expected.value_or("no carrier"),
             disputed.shown);
     }
-    alarm.message = fmt::format(
-        "Reported loads differ from the record: {}. The record follows the robot, but a carrier shown at two ports changes no "
-        "id. Check the ports, then correct the record or clear the alarm.",
-        differences);
-    return alarm;
+    return MakeAlarm(
+        GetRobotID(robot),
+        ALARM_LOADS,
+        EAlarmLevel::Light,
+        fmt::format(
+            "Reported loads differ from the record: {}. The record follows the robot, but a carrier shown at two ports "
+            "changes no id. Check the ports, then correct the record or clear the alarm.",
+            differences));
 }
 
 /// Set until each port shows again what was expected there, a job has moved its carrier, or an operator has checked it. A robot
@@ -153,16 +152,13 @@ void PlanEngine::Impl::UpdateLoadAlarm(Robot& robot)
         ClearAlarm(alarm);
         return;
     }
-    const auto known = std::ranges::find_if(_alarms, [&alarm](const Alarm& other) { return other.IsSameAs(alarm); });
-    const bool bShown = known != _alarms.end() && known->message == alarm.message;
-    if (bShown || robot.bLoadAlarmLimited)
+    if (_alarms.Contains(alarm) || robot.bLoadAlarmLimited)
     {
         return;
     }
     robot.bLoadAlarmLimited = true;
     StartTimer(EEngineTimer::LoadAlarm, GetRobotID(robot), LOAD_ALARM_INTERVAL);
-    ClearAlarm(alarm);
-    RaiseAlarm(std::move(alarm));
+    ReportAlarms(_alarms.Update(std::move(alarm)));
 }
 
 void PlanEngine::Impl::OnLoadAlarmTimer(Robot& robot)

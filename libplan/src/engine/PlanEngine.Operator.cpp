@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace ACS::Planning
@@ -90,7 +89,7 @@ bool PlanEngine::Impl::HasCause(const Alarm& alarm) const
     {
         return robot.bOnline && !robot.bPlaced;
     }
-    if (alarm.errorCode == ALARM_UNCERTAIN)
+    if (alarm.errorCode == ALARM_UNRESOLVED)
     {
         return robot.bUncertain;
     }
@@ -104,8 +103,7 @@ bool PlanEngine::Impl::HasCause(const Alarm& alarm) const
 
 void PlanEngine::Impl::ClearByOperator(const ClearAlarms& command)
 {
-    std::vector<Alarm> cleared;
-    std::ranges::copy_if(_alarms, std::back_inserter(cleared), [&command](const Alarm& alarm) {
+    const std::vector<ErrorReport> cleared = _alarms.ClearIf([&command](const Alarm& alarm) {
         return alarm.robotID == command.robotID && alarm.errorCode == command.errorCode
             && (!command.planID.has_value() || alarm.planID == command.planID)
             && (!command.jobID.has_value() || alarm.jobID == command.jobID);
@@ -121,13 +119,13 @@ void PlanEngine::Impl::ClearByOperator(const ClearAlarms& command)
         robotOrNull->disputedPorts.clear(); // the record has followed the robot already
     }
     std::size_t lasting = 0;
-    for (const Alarm& alarm : cleared)
+    for (const ErrorReport& report : cleared)
     {
-        ClearAlarm(alarm);
-        if (HasCause(alarm))
+        ReportAlarms({report});
+        if (HasCause(report.alarm))
         {
             ++lasting;
-            RaiseAlarm(alarm);
+            RaiseAlarm(report.alarm);
         }
     }
     Reply(
@@ -200,10 +198,7 @@ void PlanEngine::Impl::CorrectCarriers(const SetCarriers& command)
     robot.bTouched = true;
     _bDispatchNeeded = true;
     _changes.emplace_back(CarriersChanged{command.robotID, robot.carriers});
-    Alarm mismatch;
-    mismatch.robotID = command.robotID;
-    mismatch.errorCode = ALARM_PORT;
-    ClearAlarm(mismatch);
+    ClearAlarm(MakeAlarm(command.robotID, ALARM_PORT, EAlarmLevel::Light, {}));
     robot.disputedPorts.clear();
     UpdateLoadAlarm(robot);
     Reply(command.replyToken, true, fmt::format("The ports of {} are corrected.", command.robotID));

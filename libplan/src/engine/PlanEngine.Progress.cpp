@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -59,7 +58,10 @@ void PlanEngine::Impl::FollowDrive(Robot& robot)
     robot.milestone = std::move(milestone);
     if (bGotOn && std::exchange(robot.bStalled, false))
     {
-        ClearStall(robot);
+        // Its plan may be over meanwhile.
+        ReportAlarms(_alarms.ClearIf([this, &robot](const Alarm& alarm) {
+            return alarm.robotID == GetRobotID(robot) && alarm.errorCode == ALARM_STALL;
+        }));
     }
     const std::optional<std::size_t> base = IsToGetOn(robot) ? std::optional(robot.drive->releasedCount) : std::nullopt;
     const bool bWatched = robot.watchedBase.has_value();
@@ -87,11 +89,11 @@ void PlanEngine::Impl::OnDriveStall(Robot& robot)
     }
     robot.bStalled = true;
     robot.bTouched = true;
-    Alarm alarm;
-    alarm.robotID = GetRobotID(robot);
-    alarm.errorCode = ALARM_STALL;
-    alarm.level = EAlarmLevel::Light;
-    alarm.message = fmt::format("It does not get on: {}.", DescribeStall(robot));
+    Alarm alarm = MakeAlarm(
+        GetRobotID(robot),
+        ALARM_STALL,
+        EAlarmLevel::Light,
+        fmt::format("It does not get on: {}.", DescribeStall(robot)));
     if (robot.planOrNull != nullptr)
     {
         const Plan& plan = robot.planOrNull->record.plan;
@@ -99,19 +101,6 @@ void PlanEngine::Impl::OnDriveStall(Robot& robot)
         alarm.stepNo = plan.steps[robot.planOrNull->step].stepNo;
     }
     RaiseAlarm(std::move(alarm));
-}
-
-/// Its plan may be over meanwhile.
-void PlanEngine::Impl::ClearStall(const Robot& robot)
-{
-    std::vector<Alarm> spent;
-    std::ranges::copy_if(_alarms, std::back_inserter(spent), [this, &robot](const Alarm& alarm) {
-        return alarm.robotID == GetRobotID(robot) && alarm.errorCode == ALARM_STALL;
-    });
-    for (const Alarm& alarm : spent)
-    {
-        ClearAlarm(alarm);
-    }
 }
 
 std::string PlanEngine::Impl::DescribeStall(const Robot& robot) const

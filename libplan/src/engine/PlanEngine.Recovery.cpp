@@ -70,22 +70,13 @@ void PlanEngine::Impl::RestoreTsc(ETscState stored)
 /// An alarm about a robot that is gone would have nobody to clear it, and drives are begun anew.
 void PlanEngine::Impl::RestoreAlarms(std::vector<Alarm> alarms)
 {
-    _alarms = std::move(alarms);
-    std::vector<Alarm> orphans;
-    for (const Alarm& alarm : _alarms)
-    {
+    _alarms.Restore(std::move(alarms));
+    // Set when the store worked again, to be cleared by what was not called any more.
+    _bStoreFailing = _bStoreFailing || std::ranges::count(_alarms.GetAlarms(), ALARM_STORE, &Alarm::errorCode) > 0;
+    ReportAlarms(_alarms.ClearIf([this](const Alarm& alarm) {
         const bool bRobotGone = alarm.robotID != OWN_ROBOT_ID && !_robotIndices.contains(alarm.robotID);
-        if (bRobotGone || alarm.errorCode == ALARM_STALL)
-        {
-            orphans.push_back(alarm);
-        }
-        // Set when the store worked again, to be cleared by what was not called any more.
-        _bStoreFailing = _bStoreFailing || alarm.errorCode == ALARM_STORE;
-    }
-    for (const Alarm& orphan : orphans)
-    {
-        ClearAlarm(orphan);
-    }
+        return bRobotGone || alarm.errorCode == ALARM_STALL;
+    }));
 }
 
 /// Of a robot that is not configured any more nobody can ask; its row stays, in case that it comes back.
@@ -160,11 +151,11 @@ void PlanEngine::Impl::EndUnfit(ActivePlan& plan, const std::string& reason)
     if (!plan.record.progress.robotID.empty())
     {
         const PlanSummary summary = MakeSummary(plan.record);
-        Alarm alarm;
-        alarm.robotID = plan.record.progress.robotID;
-        alarm.errorCode = ALARM_INTERRUPTED;
-        alarm.level = EAlarmLevel::Heavy;
-        alarm.message = "This plan cannot go on after the restart: look at the robot and its carriers.";
+        Alarm alarm = MakeAlarm(
+            plan.record.progress.robotID,
+            ALARM_INTERRUPTED,
+            EAlarmLevel::Heavy,
+            "This plan cannot go on after the restart: look at the robot and its carriers.");
         alarm.planID = summary.planID;
         alarm.stepNo = summary.stepNo;
         alarm.jobID = summary.jobID;
@@ -347,10 +338,7 @@ void PlanEngine::Impl::HoldDoubtful(Robot& robot)
 
 Alarm PlanEngine::Impl::MakeUncertainAlarm(const Robot& robot) const
 {
-    Alarm alarm;
-    alarm.robotID = GetRobotID(robot);
-    alarm.errorCode = ALARM_UNCERTAIN;
-    alarm.level = EAlarmLevel::Heavy;
+    Alarm alarm = MakeAlarm(GetRobotID(robot), ALARM_UNRESOLVED, EAlarmLevel::Heavy, {});
     alarm.planID = robot.job->planID;
     alarm.stepNo = robot.job->stepNo;
     alarm.jobID = robot.job->jobID;

@@ -19,13 +19,9 @@ constexpr double STAND_TOLERANCE = 0.5;
 
 } // namespace
 
-Alarm PlanEngine::Impl::MakeLinkAlarm(const Robot& robot) const
+Alarm PlanEngine::Impl::MakeLinkAlarm(const Robot& robot, std::string message) const
 {
-    Alarm alarm;
-    alarm.robotID = GetRobotID(robot);
-    alarm.errorCode = ALARM_LINK_LOST;
-    alarm.level = EAlarmLevel::Heavy;
-    return alarm;
+    return MakeAlarm(GetRobotID(robot), ALARM_LINK_LOST, EAlarmLevel::Heavy, std::move(message));
 }
 
 void PlanEngine::Impl::OnLink(Robot& robot, const LinkChanged& event)
@@ -35,8 +31,7 @@ void PlanEngine::Impl::OnLink(Robot& robot, const LinkChanged& event)
         return;
     }
     robot.bOnline = event.bOnline;
-    Alarm alarm = MakeLinkAlarm(robot);
-    alarm.message = "The connection to the robot is lost.";
+    Alarm alarm = MakeLinkAlarm(robot, "The connection to the robot is lost.");
     if (event.bOnline)
     {
         ClearAlarm(alarm);
@@ -144,12 +139,7 @@ void PlanEngine::Impl::Place(Robot& robot)
 
 Alarm PlanEngine::Impl::MakePlaceAlarm(const Robot& robot, std::string message) const
 {
-    Alarm alarm;
-    alarm.robotID = GetRobotID(robot);
-    alarm.errorCode = ALARM_PLACE;
-    alarm.level = EAlarmLevel::Heavy;
-    alarm.message = std::move(message);
-    return alarm;
+    return MakeAlarm(GetRobotID(robot), ALARM_PLACE, EAlarmLevel::Heavy, std::move(message));
 }
 
 /// Somebody has taken it off the map, or it does not know where it is. What it held stays its own until it tells a node.
@@ -185,38 +175,20 @@ std::vector<std::size_t> PlanEngine::Impl::ListClaimed(const Robot& robot, std::
 void PlanEngine::Impl::CompareErrors(Robot& robot)
 {
     const std::string& robotID = GetRobotID(robot);
-    std::vector<Alarm> gone;
-    for (const Alarm& alarm : _alarms)
-    {
-        const bool bRobotsOwn = alarm.robotID == robotID && !alarm.errorCode.starts_with(ALARM_PREFIX);
-        const bool bActive = std::ranges::any_of(robot.state->errors, [&alarm](const RobotError& error) {
-            return error.errorCode == alarm.errorCode;
-        });
-        if (bRobotsOwn && !bActive)
-        {
-            gone.push_back(alarm);
-        }
-    }
-    for (const Alarm& alarm : gone)
-    {
-        ClearAlarm(alarm);
-    }
+    ReportAlarms(_alarms.ClearIf([&robot, &robotID](const Alarm& alarm) {
+        return alarm.robotID == robotID && !alarm.errorCode.starts_with(ALARM_PREFIX)
+            && std::ranges::count(robot.state->errors, alarm.errorCode, &RobotError::errorCode) == 0;
+    }));
     for (const RobotError& error : robot.state->errors)
     {
         const bool bOutweighed = std::ranges::any_of(robot.state->errors, [&error](const RobotError& other) {
             return other.errorCode == error.errorCode && other.level == EAlarmLevel::Heavy
                 && error.level != EAlarmLevel::Heavy;
         });
-        if (bOutweighed)
+        if (!bOutweighed)
         {
-            continue;
+            RaiseAlarm(MakeAlarm(robotID, error.errorCode, error.level, error.message));
         }
-        Alarm alarm;
-        alarm.robotID = robotID;
-        alarm.errorCode = error.errorCode;
-        alarm.level = error.level;
-        alarm.message = error.message;
-        RaiseAlarm(std::move(alarm));
     }
 }
 

@@ -300,7 +300,7 @@ std::optional<PlanSummary> PlanEngine::Impl::GetPlanOrNull(std::string_view plan
 
 const std::vector<Alarm>& PlanEngine::Impl::GetActiveAlarms() const noexcept
 {
-    return _alarms;
+    return _alarms.GetAlarms();
 }
 
 /// Section 5.2: Paused until the first consistency check is done.

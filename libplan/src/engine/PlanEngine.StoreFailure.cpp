@@ -49,9 +49,7 @@ void PlanEngine::Impl::OnStoreLost(std::string_view reason, Core::Now now, Engin
 /// By the alarm, which waits for the store with all the rest, and tries again from now on.
 void PlanEngine::Impl::TellStoreFailure(std::string_view reason, EngineActions& out)
 {
-    Alarm alarm = MakeStoreAlarm();
-    alarm.message = "Plans cannot be stored: " + std::string(reason);
-    RaiseAlarm(std::move(alarm));
+    RaiseAlarm(MakeStoreAlarm("Plans cannot be stored: " + std::string(reason)));
     KeepForStore(std::exchange(_changes, {}));
     for (EngineAction& action : _actions)
     {
@@ -193,13 +191,9 @@ void PlanEngine::Impl::KeepForStore(std::vector<StoreChange> changes)
     std::ranges::move(changes, std::back_inserter(_unsaved));
 }
 
-Alarm PlanEngine::Impl::MakeStoreAlarm()
+Alarm PlanEngine::Impl::MakeStoreAlarm(std::string message)
 {
-    Alarm alarm;
-    alarm.robotID = OWN_ROBOT_ID;
-    alarm.errorCode = ALARM_STORE;
-    alarm.level = EAlarmLevel::Heavy;
-    return alarm;
+    return MakeAlarm(OWN_ROBOT_ID, ALARM_STORE, EAlarmLevel::Heavy, std::move(message));
 }
 
 /// A call after a batch that did not fail.
@@ -219,7 +213,7 @@ void PlanEngine::Impl::NoteStoreSuccess()
             _robots[*plan->robot].bTouched = true;
         }
     }
-    ClearAlarm(MakeStoreAlarm());
+    ClearAlarm(MakeStoreAlarm({}));
 }
 
 /// Each attempt costs as much as all that is left to be stored: only new plans and the timer StoreRetry make one.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -253,11 +252,7 @@ void PlanEngine::Impl::MoveCarrier(Robot& robot, const StartJob& job)
         }
         robot.disputedPorts.erase(port);
     }
-    Alarm alarm;
-    alarm.robotID = GetRobotID(robot);
-    alarm.errorCode = ALARM_PORT;
-    alarm.level = EAlarmLevel::Light;
-    alarm.message = misfit;
+    Alarm alarm = MakeAlarm(GetRobotID(robot), ALARM_PORT, EAlarmLevel::Light, misfit);
     if (misfit.empty())
     {
         ClearAlarm(alarm);
@@ -407,19 +402,6 @@ void PlanEngine::Impl::FailPlan(ActivePlan& plan, const std::string& reason)
     EndPlan(plan, EPlanState::Failed, reason);
 }
 
-/// Who has done a whole plan since was looked at; the list of alarms would only grow otherwise.
-void PlanEngine::Impl::ClearInterrupted(const std::string& robotID)
-{
-    std::vector<Alarm> spent;
-    std::ranges::copy_if(_alarms, std::back_inserter(spent), [&robotID](const Alarm& alarm) {
-        return alarm.robotID == robotID && (alarm.errorCode == ALARM_INTERRUPTED || alarm.errorCode == ALARM_DROPPED);
-    });
-    for (const Alarm& alarm : spent)
-    {
-        ClearAlarm(alarm);
-    }
-}
-
 /// The robot is free again, the plan is history. The plan lives to the end of this call. A control that is under way has
 /// its answer in that.
 void PlanEngine::Impl::EndPlan(ActivePlan& plan, EPlanState state, const std::string& message)
@@ -458,7 +440,11 @@ void PlanEngine::Impl::EndPlan(ActivePlan& plan, EPlanState state, const std::st
     assert(found != _plans.end());
     if (state == EPlanState::Completed)
     {
-        ClearInterrupted(plan.record.progress.robotID);
+        // A robot that has completed a plan since was checked; otherwise the list of alarms would only grow.
+        ReportAlarms(_alarms.ClearIf([&plan](const Alarm& alarm) {
+            return alarm.robotID == plan.record.progress.robotID
+                && (alarm.errorCode == ALARM_INTERRUPTED || alarm.errorCode == ALARM_DROPPED);
+        }));
     }
     RememberFinished(plan.record);
     _ended.push_back(std::move(found->second));
