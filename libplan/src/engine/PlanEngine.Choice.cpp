@@ -500,7 +500,7 @@ std::optional<WaitReason> PlanEngine::Impl::DescribeBegunOrNull(const ActivePlan
         reason.message = "The store fails, and does not tell yet that the plan was begun.";
         return reason;
     }
-    if (robot.bStalled)
+    if (robot.stall.IsStalled() && robot.drive.has_value())
     {
         reason.message = fmt::format("{} does not get on: {}.", GetRobotID(robot), DescribeStall(robot));
         return reason;

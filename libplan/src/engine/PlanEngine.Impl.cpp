@@ -211,7 +211,7 @@ void PlanEngine::Impl::End(EngineActions& out)
         Dispatch();
     }
     FinishTscPause();
-    std::ranges::for_each(_robots, [this](Robot& robot) { FollowDrive(robot); });
+    std::ranges::for_each(_robots, [this](Robot& robot) { UpdateStall(robot); });
     TellStatusChanges();
     WatchOutbox();
     CollectWork();

@@ -4,6 +4,7 @@
 #include "engine/AlarmBook.hpp"
 #include "engine/EngineAlarm.hpp"
 #include "plan/PlanAdmission.hpp"
+#include "robot/StallMonitor.hpp"
 #include "traffic/Traffic.hpp"
 #include <acs/plan/PlanEngine.hpp>
 #include <acs/plan/PlanTransitions.hpp>
@@ -139,16 +140,6 @@ public:
         bool bInsteadRetreats = false;
     };
 
-    /// How far a drive has come.
-    struct Milestone
-    {
-        std::string driveID;
-        bool bTaken = false;
-        std::size_t passed = 0;
-
-        bool operator==(const Milestone&) const = default;
-    };
-
     /// A robot lets another one go first until that one is there, or has another aim.
     struct Courtesy
     {
@@ -205,10 +196,7 @@ public:
         bool bWorkTouched = false;  ///< What is stored of its work may have changed.
         RobotWorkChanged storedWork;
         std::optional<ActiveDrive> drive;
-        std::optional<Milestone> milestone; ///< The last one of its drive; nullopt: it has none, or is out of reach.
-        std::optional<std::size_t> watchedBase; ///< Released then; nullopt: the timer DriveStall does not run.
-        Core::SteadyTime progressAt;            ///< When it was seen to get on, or was given leave to.
-        bool bStalled = false;                  ///< Its alarm is set.
+        StallMonitor stall;
         std::vector<std::optional<std::string>> carriers;
         std::map<std::size_t, DisputedPort> disputedPorts;
         RobotStatus lastStatus;
@@ -479,11 +467,10 @@ private:
     [[nodiscard]] bool IsRejectedByAll(const ActivePlan& plan) const;
     [[nodiscard]] std::string DescribeRejections(const ActivePlan& plan) const;
 
-    // Drives that do not get on (PlanEngine.Progress.cpp).
-    void FollowDrive(Robot& robot);
+    // Stalled drives (PlanEngine.Progress.cpp).
+    void UpdateStall(Robot& robot);
     void OnDriveStall(Robot& robot);
-    [[nodiscard]] bool IsToGetOn(const Robot& robot) const;
-    [[nodiscard]] Core::Duration GetStallLimit(const ActiveDrive& drive) const;
+    [[nodiscard]] bool IsProgressExpected(const Robot& robot) const;
     [[nodiscard]] std::string DescribeStall(const Robot& robot) const;
     [[nodiscard]] static bool IsAtBaseEnd(const ActiveDrive& drive);
 

@@ -95,7 +95,7 @@ bool PlanEngine::Impl::HasCause(const Alarm& alarm) const
     }
     if (alarm.errorCode == ALARM_STALL)
     {
-        return robot.bStalled;
+        return robot.stall.IsStalled();
     }
     return robot.state.has_value()
         && std::ranges::count(robot.state->errors, alarm.errorCode, &RobotError::errorCode) > 0;

@@ -13,69 +13,49 @@
 namespace ACS::Planning
 {
 
-/// Whether it has come to the last node that it may go to, short of its aim.
+/// Whether the robot is on the last node of its base, and the route continues.
 bool PlanEngine::Impl::IsAtBaseEnd(const ActiveDrive& drive)
 {
     return drive.passed + 1 >= drive.releasedCount && drive.releasedCount < drive.nodes.size();
 }
 
-/// Whether another node is to be expected of it, and nobody but itself keeps it from that.
-bool PlanEngine::Impl::IsToGetOn(const Robot& robot) const
+/// Whether the robot must pass another node soon: it is connected, may drive and has a base ahead.
+bool PlanEngine::Impl::IsProgressExpected(const Robot& robot) const
 {
     return _options.stallTimeout.count() > 0 && robot.bOnline && robot.drive.has_value() && !robot.bPauseWanted
         && (!robot.drive->bTaken || !IsAtBaseEnd(*robot.drive));
 }
 
-/// A long edge at low speed takes its time.
-Core::Duration PlanEngine::Impl::GetStallLimit(const ActiveDrive& drive) const
-{
-    constexpr double PATIENCE = 3;
-    constexpr std::chrono::duration<double> LONGEST = std::chrono::hours(24);
-    Core::Duration limit = _options.stallTimeout;
-    if (drive.passed < drive.route.edges.size())
-    {
-        const RouteEdge& edge = drive.route.edges[drive.passed];
-        const std::chrono::duration<double> patient(PATIENCE * GetDriveSeconds(edge.length, edge.maxSpeed));
-        const Core::Duration edgeLimit = std::chrono::ceil<std::chrono::milliseconds>(std::min(patient, LONGEST));
-        limit = std::max(limit, edgeLimit);
-    }
-    return limit;
-}
-
-/// At the end of every call: the watch begins anew with each node, each extension, and when it may go on again.
-void PlanEngine::Impl::FollowDrive(Robot& robot)
+/// At the end of every call.
+void PlanEngine::Impl::UpdateStall(Robot& robot)
 {
     if (!robot.bWorkTouched)
     {
         return;
     }
-    std::optional<Milestone> milestone;
+    std::optional<DriveProgress> progress;
     if (robot.drive.has_value() && robot.bOnline)
     {
-        milestone = Milestone{robot.drive->driveID, robot.drive->bTaken, robot.drive->passed};
+        progress = DriveProgress{robot.drive->driveID, robot.drive->bTaken, robot.drive->passed};
     }
-    const bool bGotOn = milestone != robot.milestone;
-    robot.milestone = std::move(milestone);
-    if (bGotOn && std::exchange(robot.bStalled, false))
+    const std::optional<std::size_t> releasedCount =
+        IsProgressExpected(robot) ? std::optional(robot.drive->releasedCount) : std::nullopt;
+    const StallMonitor::Update update = robot.stall.OnProgress(std::move(progress), releasedCount, _now.steady);
+    if (update.bStallEnded)
     {
         // Its plan may be over meanwhile.
         ReportAlarms(_alarms.ClearIf([this, &robot](const Alarm& alarm) {
             return alarm.robotID == GetRobotID(robot) && alarm.errorCode == ALARM_STALL;
         }));
     }
-    const std::optional<std::size_t> base = IsToGetOn(robot) ? std::optional(robot.drive->releasedCount) : std::nullopt;
-    const bool bWatched = robot.watchedBase.has_value();
-    if (!bGotOn && base == robot.watchedBase)
+    if (update.timer == EStallTimer::Start)
     {
-        return;
+        const std::vector<RouteEdge>& edges = robot.drive->route.edges;
+        const std::size_t edge = robot.drive->passed;
+        const double seconds = edge < edges.size() ? GetDriveSeconds(edges[edge].length, edges[edge].maxSpeed) : 0.0;
+        StartTimer(EEngineTimer::DriveStall, GetRobotID(robot), StallMonitor::GetLimit(_options.stallTimeout, seconds));
     }
-    robot.watchedBase = base;
-    if (base.has_value())
-    {
-        robot.progressAt = _now.steady;
-        StartTimer(EEngineTimer::DriveStall, GetRobotID(robot), GetStallLimit(*robot.drive));
-    }
-    else if (bWatched)
+    else if (update.timer == EStallTimer::Cancel)
     {
         CancelTimer(EEngineTimer::DriveStall, GetRobotID(robot));
     }
@@ -83,11 +63,10 @@ void PlanEngine::Impl::FollowDrive(Robot& robot)
 
 void PlanEngine::Impl::OnDriveStall(Robot& robot)
 {
-    if (!robot.watchedBase.has_value())
+    if (!robot.stall.TryStall())
     {
         return;
     }
-    robot.bStalled = true;
     robot.bTouched = true;
     Alarm alarm = MakeAlarm(
         GetRobotID(robot),
@@ -113,7 +92,7 @@ std::string PlanEngine::Impl::DescribeStall(const Robot& robot) const
         drive.bTaken ? "it has not come to" : "it has not shown that it took its drive to",
         nodes[std::min(drive.passed + 1, nodes.size() - 1)].nodeID,
         robot.planOrNull == nullptr ? std::string() : " for plan " + robot.planOrNull->record.plan.planID,
-        std::chrono::duration_cast<std::chrono::seconds>(_now.steady - robot.progressAt).count(),
+        std::chrono::duration_cast<std::chrono::seconds>(robot.stall.GetTimeWithoutProgress(_now.steady)).count(),
         hindrance == EHindrance::None ? std::string() : fmt::format(" ({})", Describe(robot, hindrance)));
 }
 

@@ -125,7 +125,7 @@ std::string PlanEngine::Impl::DescribeStatus(const Robot& robot) const
     {
         return "In maintenance.";
     }
-    if (robot.bStalled && robot.drive.has_value())
+    if (robot.stall.IsStalled() && robot.drive.has_value())
     {
         const std::vector<RouteNode>& nodes = robot.drive->route.nodes;
         return fmt::format(
