@@ -16,18 +16,20 @@ Alarm PlanEngine::Impl::MakeChargeAlarm(const Robot& robot) const
         "It stands at its charging station with a low battery and does not charge.");
 }
 
-/// Its new state has told how full the battery is.
-void PlanEngine::Impl::FollowBattery(Robot& robot)
+/// By the robot's new state.
+void PlanEngine::Impl::UpdateBattery(Robot& robot)
 {
+    using EBatteryChange = ChargingPolicy::EBatteryChange;
+    using EChargingChange = ChargingPolicy::EChargingChange;
     if (!robot.chargeNode.has_value())
     {
         return;
     }
     const DispatchOptions& dispatch = _options.dispatch;
-    const bool bLow =
-        robot.state->batteryPercent < (robot.bBatteryLow ? dispatch.batteryResume : dispatch.batteryFloor);
-    if (bLow != std::exchange(robot.bBatteryLow, bLow))
+    const EBatteryChange battery = robot.charging.UpdateBattery(robot.state->batteryPercent, dispatch);
+    if (battery != EBatteryChange::None)
     {
+        const bool bLow = battery == EBatteryChange::Low;
         Note(
             robot,
             fmt::format("its battery is {}", bLow ? "low: it takes no new plan" : "full enough for plans again"));
@@ -39,19 +41,17 @@ void PlanEngine::Impl::FollowBattery(Robot& robot)
             EndCharging(robot);
         }
     }
-    if (robot.state->bCharging)
+    const EChargingChange charging = robot.charging.UpdateCharging(robot.state->bCharging);
+    if (charging == EChargingChange::Begun)
     {
         CancelTimer(EEngineTimer::ChargeRetry, GetRobotID(robot));
-        robot.bChargeAsked = true;
-        robot.bChargeShown = true;
         ClearAlarm(MakeChargeAlarm(robot));
     }
-    else if (std::exchange(robot.bChargeShown, false) && robot.bChargeAsked)
+    else if (charging == EChargingChange::Interrupted)
     {
-        // It has ended that by itself: asked again only after a while.
         StartTimer(EEngineTimer::ChargeRetry, GetRobotID(robot), dispatch.chargeRetry);
     }
-    _bDispatchNeeded = _bDispatchNeeded || (IsChargeDue(robot) && !robot.bChargeAsked);
+    _bDispatchNeeded = _bDispatchNeeded || (IsChargeDue(robot) && !robot.charging.IsCommanded());
 }
 
 std::optional<std::size_t> PlanEngine::Impl::GetHomeOrNull(const Robot& robot) const
@@ -72,9 +72,8 @@ void PlanEngine::Impl::ChargeIdle()
 {
     for (Robot& robot : _robots)
     {
-        if (IsChargeDue(robot) && !robot.state->bCharging && !robot.bChargeAsked)
+        if (IsChargeDue(robot) && !robot.state->bCharging && robot.charging.TryBegin())
         {
-            robot.bChargeAsked = true;
             Command(robot, StartCharging{});
             StartTimer(EEngineTimer::ChargeRetry, GetRobotID(robot), _options.dispatch.chargeRetry);
         }
@@ -83,26 +82,24 @@ void PlanEngine::Impl::ChargeIdle()
 
 void PlanEngine::Impl::OnChargeRetry(Robot& robot)
 {
-    if (!robot.bChargeAsked || !IsChargeDue(robot) || robot.state->bCharging)
+    if (!IsChargeDue(robot) || robot.state->bCharging || !robot.charging.TryRepeat())
     {
         return;
     }
-    if (robot.bBatteryLow)
+    if (robot.charging.IsBatteryLow())
     {
         RaiseAlarm(MakeChargeAlarm(robot));
     }
-    robot.bChargeAsked = false;
     _bDispatchNeeded = true;
 }
 
 /// Before it leaves, or as it is full enough.
 void PlanEngine::Impl::EndCharging(Robot& robot)
 {
-    if (!robot.chargeNode.has_value() || !std::exchange(robot.bChargeAsked, false))
+    if (!robot.chargeNode.has_value() || !robot.charging.TryEnd())
     {
         return;
     }
-    robot.bChargeShown = false;
     CancelTimer(EEngineTimer::ChargeRetry, GetRobotID(robot));
     Command(robot, StopCharging{});
 }

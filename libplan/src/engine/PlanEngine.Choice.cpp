@@ -88,7 +88,7 @@ bool PlanEngine::Impl::IsUsable(const Robot& robot)
 /// Whether it may be given a plan, as far as the robot itself goes.
 bool PlanEngine::Impl::IsFree(const Robot& robot)
 {
-    return robot.planOrNull == nullptr && !robot.drive.has_value() && !robot.bBatteryLow && IsUsable(robot);
+    return robot.planOrNull == nullptr && !robot.drive.has_value() && !robot.charging.IsBatteryLow() && IsUsable(robot);
 }
 
 std::string PlanEngine::Impl::DescribeUnfree(const Robot& robot) const
@@ -101,7 +101,7 @@ std::string PlanEngine::Impl::DescribeUnfree(const Robot& robot) const
     {
         return "busy with plan " + robot.planOrNull->record.plan.planID;
     }
-    if (robot.bBatteryLow)
+    if (robot.charging.IsBatteryLow())
     {
         const double percent = robot.state->batteryPercent;
         const DispatchOptions& dispatch = _options.dispatch;

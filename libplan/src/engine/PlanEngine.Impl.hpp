@@ -4,6 +4,7 @@
 #include "engine/AlarmBook.hpp"
 #include "engine/EngineAlarm.hpp"
 #include "plan/PlanAdmission.hpp"
+#include "robot/ChargingPolicy.hpp"
 #include "robot/StallMonitor.hpp"
 #include "traffic/Traffic.hpp"
 #include <acs/plan/PlanEngine.hpp>
@@ -163,9 +164,6 @@ public:
         bool bResumeOwed = false;       ///< A resume was commanded, and no state has confirmed it.
         bool bConfirming = false;       ///< The timer ControlConfirm runs.
         bool bInMaintenance = false;
-        bool bBatteryLow = false;  ///< Was under the floor and is not full enough yet.
-        bool bChargeAsked = false; ///< Charging was commanded, and no stop since.
-        bool bChargeShown = false; ///< Its state has confirmed it.
         std::optional<StateChanged> state;
         std::optional<std::size_t> node; ///< Where it stands or passed last.
         /// After a restart: where it may be, as far as was written down; once it has told its node, what of that is ahead.
@@ -197,6 +195,7 @@ public:
         RobotWorkChanged storedWork;
         std::optional<ActiveDrive> drive;
         StallMonitor stall;
+        ChargingPolicy charging;
         std::vector<std::optional<std::string>> carriers;
         std::map<std::size_t, DisputedPort> disputedPorts;
         RobotStatus lastStatus;
@@ -351,7 +350,7 @@ private:
     [[nodiscard]] bool HasCause(const Alarm& alarm) const;
 
     // Batteries (PlanEngine.Charging.cpp).
-    void FollowBattery(Robot& robot);
+    void UpdateBattery(Robot& robot);
     void ChargeIdle();
     void EndCharging(Robot& robot);
     void OnChargeRetry(Robot& robot);

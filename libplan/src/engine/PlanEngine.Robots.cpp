@@ -40,8 +40,7 @@ void PlanEngine::Impl::OnLink(Robot& robot, const LinkChanged& event)
     }
     // Where it is and how it does is old news when it comes back.
     robot.state.reset();
-    robot.bChargeAsked = false;
-    robot.bChargeShown = false;
+    robot.charging.OnLinkLost();
     _bDispatchNeeded = true;
     RaiseAlarm(std::move(alarm));
 }
@@ -71,7 +70,7 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
     CompareLoads(robot);
     FollowPause(robot, bBack, bWasPaused);
     FollowStand(robot);
-    FollowBattery(robot);
+    UpdateBattery(robot);
     if (IsUsable(robot) && !bWasUsable)
     {
         robot.homeRefusals = 0;

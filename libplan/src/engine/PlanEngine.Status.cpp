@@ -145,7 +145,7 @@ std::string PlanEngine::Impl::DescribeStatus(const Robot& robot) const
     {
         return fmt::format("{}: {}.", GetRobotID(robot), Describe(robot, hindrance));
     }
-    return robot.bBatteryLow ? "Battery low." : "";
+    return robot.charging.IsBatteryLow() ? "Battery low." : "";
 }
 
 RobotStatus PlanEngine::Impl::MakeStatus(const Robot& robot, ERobotStatus status) const

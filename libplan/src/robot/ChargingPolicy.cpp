@@ -1,0 +1,73 @@
+#include "robot/ChargingPolicy.hpp"
+
+#include <utility>
+
+namespace ACS::Planning
+{
+
+ChargingPolicy::EBatteryChange ChargingPolicy::UpdateBattery(double percent, const DispatchOptions& limits)
+{
+    const bool bLow = percent < (_bLow ? limits.batteryResume : limits.batteryFloor);
+    if (bLow == std::exchange(_bLow, bLow))
+    {
+        return EBatteryChange::None;
+    }
+    return bLow ? EBatteryChange::Low : EBatteryChange::Charged;
+}
+
+ChargingPolicy::EChargingChange ChargingPolicy::UpdateCharging(bool bCharging)
+{
+    if (bCharging)
+    {
+        const bool bKnown = std::exchange(_state, EState::Charging) == EState::Charging;
+        return bKnown ? EChargingChange::None : EChargingChange::Begun;
+    }
+    if (_state != EState::Charging)
+    {
+        return EChargingChange::None;
+    }
+    _state = EState::Commanded;
+    return EChargingChange::Interrupted;
+}
+
+bool ChargingPolicy::TryBegin()
+{
+    if (_state != EState::Idle)
+    {
+        return false;
+    }
+    _state = EState::Commanded;
+    return true;
+}
+
+bool ChargingPolicy::TryEnd()
+{
+    return std::exchange(_state, EState::Idle) != EState::Idle;
+}
+
+bool ChargingPolicy::TryRepeat()
+{
+    if (_state != EState::Commanded)
+    {
+        return false;
+    }
+    _state = EState::Idle;
+    return true;
+}
+
+void ChargingPolicy::OnLinkLost()
+{
+    _state = EState::Idle;
+}
+
+bool ChargingPolicy::IsBatteryLow() const noexcept
+{
+    return _bLow;
+}
+
+bool ChargingPolicy::IsCommanded() const noexcept
+{
+    return _state != EState::Idle;
+}
+
+} // namespace ACS::Planning

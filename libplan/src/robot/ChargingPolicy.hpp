@@ -1,0 +1,56 @@
+#pragma once
+
+#include <acs/plan/EngineOptions.hpp>
+
+#include <cstdint>
+
+namespace ACS::Planning
+{
+
+/// A robot's battery and whether the robot charges. A low battery stays low until it has reached the upper limit.
+class ChargingPolicy
+{
+public:
+    enum class EBatteryChange : std::uint8_t
+    {
+        None,
+        Low,     ///< Below DispatchOptions::batteryFloor: no more plans.
+        Charged, ///< At DispatchOptions::batteryResume: plans again.
+    };
+
+    enum class EChargingChange : std::uint8_t
+    {
+        None,
+        Begun,
+        Interrupted, ///< By the robot itself: the charge command is repeated later.
+    };
+
+private:
+    enum class EState : std::uint8_t
+    {
+        Idle,
+        Commanded, ///< The robot has not shown yet that it charges.
+        Charging,
+    };
+
+    bool _bLow = false;
+    EState _state = EState::Idle;
+
+public:
+    [[nodiscard]] EBatteryChange UpdateBattery(double percent, const DispatchOptions& limits);
+    [[nodiscard]] EChargingChange UpdateCharging(bool bCharging);
+
+    /// True: command the robot to charge. False: it has the command, or charges.
+    [[nodiscard]] bool TryBegin();
+    /// True: command the robot to stop charging.
+    [[nodiscard]] bool TryEnd();
+    /// True: the robot had the command and does not charge; it may be commanded again.
+    [[nodiscard]] bool TryRepeat();
+    void OnLinkLost();
+
+    [[nodiscard]] bool IsBatteryLow() const noexcept;
+    /// Charging was commanded or is shown.
+    [[nodiscard]] bool IsCommanded() const noexcept;
+};
+
+} // namespace ACS::Planning
