@@ -450,7 +450,7 @@ WaitReason PlanEngine::Impl::DescribeWaiting(const ActivePlan& plan, std::size_t
     {
         reason.message = "The store fails: no plan is begun that cannot be stored as begun.";
     }
-    else if (_bGathering)
+    else if (_startup.IsHoldingWork())
     {
         reason.message = "Not every robot has told where it stands since the restart.";
     }

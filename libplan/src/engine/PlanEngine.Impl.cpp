@@ -150,8 +150,8 @@ void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineAc
                 _bDispatchNeeded = true;
             }
             break;
-        case EEngineTimer::Gathering:
-            EndGathering();
+        case EEngineTimer::Startup:
+            EndStartup();
             RaiseMissing();
             break;
         case EEngineTimer::JobEnd:
@@ -205,8 +205,8 @@ void PlanEngine::Impl::Begin(Core::Now now)
 /// One batch for the whole call, then everything that waits for it.
 void PlanEngine::Impl::End(EngineActions& out)
 {
-    FollowGathering();
-    if (_bDispatchNeeded && !_bGathering)
+    UpdateStartup();
+    if (_bDispatchNeeded && !_startup.IsHoldingWork())
     {
         Dispatch();
     }

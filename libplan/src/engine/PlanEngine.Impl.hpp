@@ -4,6 +4,7 @@
 #include "engine/AlarmBook.hpp"
 #include "engine/EngineAlarm.hpp"
 #include "plan/PlanAdmission.hpp"
+#include "restart/StartupBarrier.hpp"
 #include "robot/ChargingPolicy.hpp"
 #include "robot/StallMonitor.hpp"
 #include "traffic/Traffic.hpp"
@@ -243,8 +244,7 @@ private:
     AlarmBook _alarms;
     ReportOutbox _outbox;
 
-    bool _bAwaiting = false;  ///< After a start: not every robot has told where it stands.
-    bool _bGathering = false; ///< And there was work: nothing is begun meanwhile.
+    StartupBarrier _startup;
 
     CommitGate _gate;
 
@@ -570,9 +570,9 @@ private:
     void RestoreOverdue(Robot& robot);
     void EndUnfit(ActivePlan& plan, const std::string& reason);
     static void FindPosition(ActivePlan& plan);
-    void BeginGathering(bool bHasWork);
-    void FollowGathering();
-    void EndGathering();
+    void BeginStartup(bool bHasWork);
+    void UpdateStartup();
+    void EndStartup();
     void RaiseMissing();
     void SupposePlaces();
     void YieldSupposed(std::span<const std::size_t> nodes);

@@ -48,7 +48,7 @@ void PlanEngine::Impl::Restore(StoredState state, Core::Now now, EngineActions& 
         RestoreOverdue(robot);
     }
     RestoreTsc(state.tscState);
-    BeginGathering(!_plans.empty() || !state.robotWorks.empty());
+    BeginStartup(!_plans.empty() || !state.robotWorks.empty());
     StartTimer(EEngineTimer::Dispatch, {}, {});
     End(out);
 }

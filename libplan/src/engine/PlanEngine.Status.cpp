@@ -306,7 +306,7 @@ const std::vector<Alarm>& PlanEngine::Impl::GetActiveAlarms() const noexcept
 /// Section 5.2: Paused until the first consistency check is done.
 ETscState PlanEngine::Impl::GetTscState() const noexcept
 {
-    return _bGathering && _tscState == ETscState::Auto ? ETscState::Paused : _tscState;
+    return _startup.IsHoldingWork() && _tscState == ETscState::Auto ? ETscState::Paused : _tscState;
 }
 
 } // namespace ACS::Planning

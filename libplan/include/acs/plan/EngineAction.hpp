@@ -26,7 +26,7 @@ enum class EEngineTimer : std::uint8_t
     ControlConfirm, ///< Of a robot: it has not confirmed that it stopped, or goes on.
     JobTimeout,     ///< Of a robot: its job takes too long.
     HomeRetry,      ///< Of a robot: try again to send it home.
-    Gathering,      ///< After a start: go on without the robots that have not told where they stand.
+    Startup,        ///< After a start: continue without the robots that have not reported their position.
     ChargeRetry,    ///< Of a robot: it was told to charge and has not shown that it does.
     JobEnd,         ///< Of a robot: it has not told the end of a job that was given up.
     DriveStall,     ///< Of a robot: its drive has passed no node for long.

@@ -13,14 +13,12 @@ bool PlanEngine::Impl::IsAwaited(const Robot& robot)
     return !robot.state.has_value() && !robot.bInMaintenance;
 }
 
-/// bHasWork: before robots have told where they stand and what they do, nothing is begun.
-void PlanEngine::Impl::BeginGathering(bool bHasWork)
+void PlanEngine::Impl::BeginStartup(bool bHasWork)
 {
     if (_options.restartWait.count() > 0)
     {
-        _bAwaiting = true;
-        _bGathering = bHasWork;
-        StartTimer(EEngineTimer::Gathering, {}, _options.restartWait);
+        _startup.Begin(bHasWork);
+        StartTimer(EEngineTimer::Startup, {}, _options.restartWait);
     }
     else
     {
@@ -28,20 +26,19 @@ void PlanEngine::Impl::BeginGathering(bool bHasWork)
     }
 }
 
-void PlanEngine::Impl::FollowGathering()
+void PlanEngine::Impl::UpdateStartup()
 {
-    if (_bAwaiting && std::ranges::none_of(_robots, IsAwaited))
+    if (_startup.IsWaiting() && std::ranges::none_of(_robots, IsAwaited))
     {
-        CancelTimer(EEngineTimer::Gathering, {});
-        EndGathering();
+        CancelTimer(EEngineTimer::Startup, {});
+        EndStartup();
     }
 }
 
-void PlanEngine::Impl::EndGathering()
+void PlanEngine::Impl::EndStartup()
 {
-    _bAwaiting = false;
     SupposePlaces();
-    if (std::exchange(_bGathering, false))
+    if (_startup.TryRelease())
     {
         _bDispatchNeeded = true;
         if (_tscState == ETscState::Auto)
