@@ -213,15 +213,7 @@ std::optional<std::size_t> PlanEngine::Impl::FindPortOrNull(
         return std::nullopt;
     }
     const Core::Result<Core::Location> port = place->WithRobot(_options.robots[robot.index].robotID);
-    return port.has_value() ? FindNamedPortOrNull(robot, port->GetText()) : std::nullopt;
-}
-
-std::optional<std::size_t> PlanEngine::Impl::FindNamedPortOrNull(const Robot& robot, std::string_view name)
-{
-    const std::vector<Core::Location>& ports = robot.options->ports;
-    const auto found =
-        std::ranges::find_if(ports, [name](const Core::Location& port) { return port.GetText() == name; });
-    return found == ports.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - ports.begin()));
+    return port.has_value() ? robot.ports.FindPortOrNull(port->GetText()) : std::nullopt;
 }
 
 /// The plan's first load or unload of each port, checked against what the robot is known to have there, and the trays that
@@ -230,7 +222,7 @@ std::optional<std::size_t> PlanEngine::Impl::FindNamedPortOrNull(const Robot& ro
 PlanEngine::Impl::PortVerdict PlanEngine::Impl::JudgePorts(const ActivePlan& plan, const Robot& robot) const
 {
     PortVerdict verdict;
-    PortContents planned;
+    PortLedger::Contents planned;
     for (std::size_t step = 0; step < plan.resolved.steps.size(); ++step)
     {
         const std::vector<std::string>& carrierIDs = plan.record.plan.steps[step].carrierIDs;
@@ -257,7 +249,7 @@ void PlanEngine::Impl::JudgeJob(
     const ResolvedStep& step,
     std::size_t job,
     const std::string& carrierID,
-    PortContents& planned,
+    PortLedger::Contents& planned,
     PortVerdict& verdict) const
 {
     const ResolvedJob& places = step.jobs[job];
@@ -275,7 +267,7 @@ void PlanEngine::Impl::JudgeJob(
         {
             continue;
         }
-        verdict.bSupposed = verdict.bSupposed || (!bFills && !robot.carriers[*port].has_value());
+        verdict.bSupposed = verdict.bSupposed || (!bFills && !robot.ports.GetCarriers()[*port].has_value());
         verdict.objectionOrNull =
             bFills ? GetLoadObjectionOrNull(robot, *port) : GetUnloadObjectionOrNull(robot, *port, carrierID);
         if (verdict.objectionOrNull.has_value())
@@ -289,36 +281,17 @@ void PlanEngine::Impl::JudgeJob(
 std::optional<std::string> PlanEngine::Impl::GetTrayObjectionOrNull(
     const Robot& robot,
     const ResolvedJob& job,
-    const PortContents& planned)
+    const PortLedger::Contents& planned)
 {
     for (const std::optional<Core::Location>* place : {&job.from, &job.to})
     {
-        if (!place->has_value() || !(*place)->IsMemoryPort() || !(*place)->IsRobotPort())
+        const std::optional<std::size_t> port =
+            place->has_value() ? robot.ports.FindMissingTrayOrNull(**place, planned) : std::nullopt;
+        if (port.has_value())
         {
-            continue;
-        }
-        const std::string_view memory = (*place)->GetText();
-        const std::size_t begin = memory.find('.'); // whichever the robot is
-        const std::size_t end = memory.rfind('.');
-        const std::string_view tray = memory.substr(begin, end - begin);
-        const std::vector<Core::Location>& ports = robot.options->ports;
-        const auto found = std::ranges::find_if(ports, [tray](const Core::Location& port) {
-            const std::string_view text = port.GetText();
-            return text.substr(text.find('.')) == tray;
-        });
-        if (found == ports.end())
-        {
-            continue;
-        }
-        const auto port = static_cast<std::size_t>(found - ports.begin());
-        const auto known = planned.find(port);
-        const bool bThere = known == planned.end() ? robot.carriers[port].has_value() : known->second;
-        if (!bThere)
-        {
-            return fmt::format(
-                "{} has no tray for {}",
-                found->GetText(),
-                found->GetText() + std::string(memory.substr(end)));
+            const std::string& tray = robot.ports.GetName(*port);
+            const std::string& memory = (*place)->GetText();
+            return fmt::format("{} has no tray for {}{}", tray, tray, memory.substr(memory.rfind('.')));
         }
     }
     return std::nullopt;
@@ -334,11 +307,10 @@ std::optional<std::string> PlanEngine::Impl::GetTrayObjectionOrNull(const Robot&
 
 std::optional<std::string> PlanEngine::Impl::GetLoadObjectionOrNull(const Robot& robot, std::size_t port) const
 {
-    if (!robot.carriers[port].has_value() || _options.dispatch.bLoadsIntoTakenPorts)
-    {
-        return std::nullopt;
-    }
-    return fmt::format("{} is taken by {}", robot.options->ports[port].GetText(), *robot.carriers[port]);
+    const std::optional<std::string>& carrier = robot.ports.GetCarriers()[port];
+    return carrier.has_value() && !_options.dispatch.bLoadsIntoTakenPorts
+        ? std::optional(fmt::format("{} is taken by {}", robot.ports.GetName(port), *carrier))
+        : std::nullopt;
 }
 
 /// A carrier is only where it is known to be. One that nobody is known to have may have been put on by hand.
@@ -347,23 +319,21 @@ std::optional<std::string> PlanEngine::Impl::GetUnloadObjectionOrNull(
     std::size_t port,
     const std::string& carrierID) const
 {
-    const std::optional<std::string>& held = robot.carriers[port];
+    const std::optional<std::string>& held = robot.ports.GetCarriers()[port];
     if (carrierID.empty() || held == carrierID)
     {
         return std::nullopt;
     }
     for (const Robot& other : _robots)
     {
-        const auto found = std::ranges::find(other.carriers, std::optional(carrierID));
-        if (found != other.carriers.end())
+        if (const std::optional<std::size_t> found = other.ports.FindCarrierOrNull(carrierID))
         {
-            const auto index = static_cast<std::size_t>(found - other.carriers.begin());
-            return fmt::format("{} is on {}", carrierID, other.options->ports[index].GetText());
+            return fmt::format("{} is on {}", carrierID, other.ports.GetName(*found));
         }
     }
     if (held.has_value() && *held != UNKNOWN_CARRIER)
     {
-        return fmt::format("{} holds {}, not {}", robot.options->ports[port].GetText(), *held, carrierID);
+        return fmt::format("{} holds {}, not {}", robot.ports.GetName(port), *held, carrierID);
     }
     return std::nullopt;
 }

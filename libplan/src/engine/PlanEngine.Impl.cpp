@@ -24,7 +24,7 @@ PlanEngine::Impl::Impl(EngineOptions options, SiteMap site, Core::IRandom& rando
         Robot& robot = _robots[i];
         robot.index = i;
         robot.options = &_options.robots[i];
-        robot.carriers.resize(robot.options->ports.size());
+        robot.ports = PortLedger(robot.options->ports);
         _robotIndices.emplace(GetRobotID(robot), i);
         robot.homeNode = GetHomeOrNull(robot);
         if (robot.options->chargingStationID.has_value())

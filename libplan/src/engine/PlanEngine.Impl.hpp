@@ -6,6 +6,7 @@
 #include "plan/PlanAdmission.hpp"
 #include "restart/StartupBarrier.hpp"
 #include "robot/ChargingPolicy.hpp"
+#include "robot/PortLedger.hpp"
 #include "robot/StallMonitor.hpp"
 #include "traffic/Traffic.hpp"
 #include <acs/plan/PlanEngine.hpp>
@@ -25,9 +26,6 @@
 
 namespace ACS::Planning
 {
-
-/// What stands for a carrier whose id the plan does not tell.
-inline constexpr std::string_view UNKNOWN_CARRIER = "UNKNOWN";
 
 class PlanEngine::Impl
 {
@@ -87,29 +85,12 @@ public:
         Occupied,
     };
 
-    /// A port of a robot that a job empties or fills.
-    struct PortUse
-    {
-        std::size_t port = 0;
-        bool bFills = false;
-    };
-
-    /// A port at which a robot shows something other than what was on record, or a carrier that it shows at another port, too.
-    struct DisputedPort
-    {
-        std::optional<std::string> expected;
-        std::string shown;
-    };
-
     /// Whether a robot's ports fit a plan.
     struct PortVerdict
     {
         std::optional<std::string> objectionOrNull;
         bool bSupposed = false; ///< A carrier that it is to unload was put on by hand, if it is there at all.
     };
-
-    /// By port: whether a plan's jobs so far have filled it, or emptied it.
-    using PortContents = std::map<std::size_t, bool>;
 
     enum class EGoal : std::uint8_t
     {
@@ -156,14 +137,13 @@ public:
         const RobotOptions* options = nullptr;
         std::shared_ptr<const IJobCheck> jobCheck; ///< Null: no job is rejected.
         bool bOnline = false;
-        bool bPlaced = false;           ///< Has reported its position since the start.
-        bool bLoadAlarmLimited = false; ///< The timer LoadAlarm runs.
-        bool bHomeRefused = false;      ///< Until the timer HomeRetry.
-        unsigned homeRefusals = 0;      ///< One after the other, without that it moved or had to be made usable.
-        bool bTouched = true;           ///< Its status may have changed.
-        bool bPauseWanted = false;      ///< A pause was commanded, and no resume since.
-        bool bResumeOwed = false;       ///< A resume was commanded, and no state has confirmed it.
-        bool bConfirming = false;       ///< The timer ControlConfirm runs.
+        bool bPlaced = false;      ///< Has reported its position since the start.
+        bool bHomeRefused = false; ///< Until the timer HomeRetry.
+        unsigned homeRefusals = 0; ///< One after the other, without that it moved or had to be made usable.
+        bool bTouched = true;      ///< Its status may have changed.
+        bool bPauseWanted = false; ///< A pause was commanded, and no resume since.
+        bool bResumeOwed = false;  ///< A resume was commanded, and no state has confirmed it.
+        bool bConfirming = false;  ///< The timer ControlConfirm runs.
         bool bInMaintenance = false;
         std::optional<StateChanged> state;
         std::optional<std::size_t> node; ///< Where it stands or passed last.
@@ -195,10 +175,9 @@ public:
         bool bWorkTouched = false;  ///< What is stored of its work may have changed.
         RobotWorkChanged storedWork;
         std::optional<ActiveDrive> drive;
+        PortLedger ports;
         StallMonitor stall;
         ChargingPolicy charging;
-        std::vector<std::optional<std::string>> carriers;
-        std::map<std::size_t, DisputedPort> disputedPorts;
         RobotStatus lastStatus;
         std::optional<Wish> wish;          ///< The quickest way to where it wants to go, kept while it waits.
         std::vector<std::size_t> blockers; ///< Robots that kept it from driving on when it last wanted to.
@@ -371,19 +350,18 @@ private:
     [[nodiscard]] std::optional<std::size_t> FindPortOrNull(
         const Robot& robot,
         const std::optional<Core::Location>& place) const;
-    [[nodiscard]] static std::optional<std::size_t> FindNamedPortOrNull(const Robot& robot, std::string_view name);
     [[nodiscard]] PortVerdict JudgePorts(const ActivePlan& plan, const Robot& robot) const;
     void JudgeJob(
         const Robot& robot,
         const ResolvedStep& step,
         std::size_t job,
         const std::string& carrierID,
-        PortContents& planned,
+        PortLedger::Contents& planned,
         PortVerdict& verdict) const;
     [[nodiscard]] static std::optional<std::string> GetTrayObjectionOrNull(
         const Robot& robot,
         const ResolvedJob& job,
-        const PortContents& planned);
+        const PortLedger::Contents& planned);
     [[nodiscard]] static std::optional<std::string> GetTrayObjectionOrNull(const Robot& robot);
     [[nodiscard]] std::optional<std::string> GetLoadObjectionOrNull(const Robot& robot, std::size_t port) const;
     [[nodiscard]] std::optional<std::string> GetUnloadObjectionOrNull(
@@ -490,17 +468,10 @@ private:
     void FailPlan(ActivePlan& plan, const std::string& reason);
     void EndPlan(ActivePlan& plan, EPlanState state, const std::string& message);
     void MoveCarrier(Robot& robot, const StartJob& job);
-    [[nodiscard]] static std::string DescribeMisfit(
-        const Robot& robot,
-        std::size_t port,
-        const std::optional<std::string>& carrierID,
-        bool bFills);
     [[nodiscard]] std::vector<PortUse> ListPortUses(const Robot& robot, const StartJob& job) const;
 
     // What robots show on their ports (PlanEngine.Loads.cpp).
     void CompareLoads(Robot& robot);
-    static void CompareLoad(Robot& robot, std::size_t port, const PortLoad& load, const std::string& others);
-    [[nodiscard]] Alarm MakeLoadAlarm(const Robot& robot) const;
     void UpdateLoadAlarm(Robot& robot);
     void OnLoadAlarmTimer(Robot& robot);
     [[nodiscard]] static bool HasJob(const ActivePlan& plan);

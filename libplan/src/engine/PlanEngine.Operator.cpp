@@ -13,7 +13,7 @@ namespace ACS::Planning
 namespace
 {
 
-std::string DescribePorts(const std::vector<std::optional<std::string>>& carriers)
+std::string DescribePorts(const CarrierIDs& carriers)
 {
     std::string text;
     for (const std::optional<std::string>& carrier : carriers)
@@ -116,7 +116,7 @@ void PlanEngine::Impl::ClearByOperator(const ClearAlarms& command)
     if (Robot* robotOrNull = FindRobotOrNull(command.robotID);
         robotOrNull != nullptr && command.errorCode == ALARM_LOADS)
     {
-        robotOrNull->disputedPorts.clear(); // the record has followed the robot already
+        robotOrNull->ports.ForgetDisputes(); // the record has followed the robot already
     }
     std::size_t lasting = 0;
     for (const ErrorReport& report : cleared)
@@ -143,12 +143,12 @@ std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const SetC
         return fmt::format("There is no robot {}.", command.robotID);
     }
     const Robot& robot = _robots[index->second];
-    if (command.carrierIDs.size() != robot.carriers.size())
+    if (command.carrierIDs.size() != robot.ports.GetCarriers().size())
     {
         return fmt::format(
             "{} has {} carrier ports, and {} carriers were given; one for each port, empty for none.",
             command.robotID,
-            robot.carriers.size(),
+            robot.ports.GetCarriers().size(),
             command.carrierIDs.size());
     }
     for (const std::optional<std::string>& carrier : command.carrierIDs)
@@ -171,7 +171,7 @@ std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const SetC
         }
         for (const Robot& other : _robots)
         {
-            if (&other != &robot && std::ranges::count(other.carriers, carrier) > 0)
+            if (&other != &robot && other.ports.FindCarrierOrNull(*carrier).has_value())
             {
                 return fmt::format("{} is on {}; correct that robot's ports first.", *carrier, GetRobotID(other));
             }
@@ -192,14 +192,13 @@ void PlanEngine::Impl::CorrectCarriers(const SetCarriers& command)
         robot,
         fmt::format(
             "its ports were corrected by an operator, from {} to {}",
-            DescribePorts(robot.carriers),
+            DescribePorts(robot.ports.GetCarriers()),
             DescribePorts(command.carrierIDs)));
-    robot.carriers = command.carrierIDs;
+    robot.ports.Correct(command.carrierIDs);
     robot.bTouched = true;
     _bDispatchNeeded = true;
-    _changes.emplace_back(CarriersChanged{command.robotID, robot.carriers});
+    _changes.emplace_back(CarriersChanged{command.robotID, command.carrierIDs});
     ClearAlarm(MakeAlarm(command.robotID, ALARM_PORT, EAlarmLevel::Light, {}));
-    robot.disputedPorts.clear();
     UpdateLoadAlarm(robot);
     Reply(command.replyToken, true, fmt::format("The ports of {} are corrected.", command.robotID));
 }

@@ -18,10 +18,10 @@ void PlanEngine::Impl::Restore(StoredState state, Core::Now now, EngineActions& 
     for (const CarriersChanged& stored : state.carriers)
     {
         const auto found = _robotIndices.find(stored.robotID);
-        if (found != _robotIndices.end() && stored.carrierIDs.size() == _robots[found->second].carriers.size())
+        if (found != _robotIndices.end())
         {
             Robot& robot = _robots[found->second];
-            robot.carriers = stored.carrierIDs;
+            robot.ports.Restore(stored.carrierIDs);
             robot.lastStatus = MakeStatus(robot, DeriveStatus(robot));
         }
     }

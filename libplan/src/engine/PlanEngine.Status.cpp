@@ -157,7 +157,7 @@ RobotStatus PlanEngine::Impl::MakeStatus(const Robot& robot, ERobotStatus status
     made.position = GetToldPosition(robot, status);
     made.bInMaintenance = robot.bInMaintenance;
     made.message = DescribeStatus(robot);
-    made.carrierIDs = robot.carriers;
+    made.carrierIDs = robot.ports.GetCarriers();
     if (robot.planOrNull != nullptr)
     {
         const ActivePlan& plan = *robot.planOrNull;

@@ -209,7 +209,7 @@ StartJob PlanEngine::Impl::MakeStartJob(
 }
 
 /// The ports of its robot that a job empties and fills, in this order.
-std::vector<PlanEngine::Impl::PortUse> PlanEngine::Impl::ListPortUses(const Robot& robot, const StartJob& job) const
+std::vector<PortUse> PlanEngine::Impl::ListPortUses(const Robot& robot, const StartJob& job) const
 {
     const auto rule = _options.actions.find(job.action);
     const EActionEffect effect = rule == _options.actions.end() ? EActionEffect::None : rule->second.effect;
@@ -218,7 +218,7 @@ std::vector<PlanEngine::Impl::PortUse> PlanEngine::Impl::ListPortUses(const Robo
     {
         const std::optional<std::string>& place = bFills ? job.to : job.from;
         const std::optional<std::size_t> port =
-            IsPortChanged(effect, bFills) && place.has_value() ? FindNamedPortOrNull(robot, *place) : std::nullopt;
+            IsPortChanged(effect, bFills) && place.has_value() ? robot.ports.FindPortOrNull(*place) : std::nullopt;
         if (port.has_value())
         {
             uses.push_back({*port, bFills});
@@ -236,24 +236,9 @@ void PlanEngine::Impl::MoveCarrier(Robot& robot, const StartJob& job)
     {
         return;
     }
-    std::optional<std::string> carrier = job.carrierID;
-    std::string misfit;
-    for (const auto& [port, bFills] : uses)
-    {
-        misfit += misfit.empty() ? DescribeMisfit(robot, port, job.carrierID, bFills) : std::string();
-        if (bFills)
-        {
-            robot.carriers[port] = carrier.value_or(std::string(UNKNOWN_CARRIER));
-        }
-        else
-        {
-            carrier = carrier.has_value() ? carrier : robot.carriers[port];
-            robot.carriers[port].reset();
-        }
-        robot.disputedPorts.erase(port);
-    }
-    Alarm alarm = MakeAlarm(GetRobotID(robot), ALARM_PORT, EAlarmLevel::Light, misfit);
-    if (misfit.empty())
+    const std::string contradiction = robot.ports.Move(uses, job.carrierID);
+    Alarm alarm = MakeAlarm(GetRobotID(robot), ALARM_PORT, EAlarmLevel::Light, contradiction);
+    if (contradiction.empty())
     {
         ClearAlarm(alarm);
     }
@@ -263,29 +248,7 @@ void PlanEngine::Impl::MoveCarrier(Robot& robot, const StartJob& job)
     }
     UpdateLoadAlarm(robot);
     robot.bTouched = true;
-    _changes.emplace_back(CarriersChanged{GetRobotID(robot), robot.carriers});
-}
-
-/// Why what is on record there contradicts what the job did; empty where it does not.
-std::string PlanEngine::Impl::DescribeMisfit(
-    const Robot& robot,
-    std::size_t port,
-    const std::optional<std::string>& carrierID,
-    bool bFills)
-{
-    const std::string& name = robot.options->ports[port].GetText();
-    const std::optional<std::string>& carrier = robot.carriers[port];
-    if (bFills)
-    {
-        return carrier.has_value() ? fmt::format("{} was loaded though {} was in it.", name, *carrier) : std::string();
-    }
-    if (!carrier.has_value())
-    {
-        return fmt::format("{} was unloaded though nothing was in it.", name);
-    }
-    const bool bOther = carrierID.has_value() && carrier != carrierID && carrier != UNKNOWN_CARRIER;
-    return bOther ? fmt::format("{} was unloaded from {} though {} was in it.", *carrierID, name, *carrier)
-                  : std::string();
+    _changes.emplace_back(CarriersChanged{GetRobotID(robot), robot.ports.GetCarriers()});
 }
 
 void PlanEngine::Impl::EndJob(Robot& robot, std::string message)

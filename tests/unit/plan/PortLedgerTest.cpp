@@ -1,0 +1,147 @@
+#include "robot/PortLedger.hpp"
+
+#include "Catch.hpp"
+
+#include <array>
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using ACS::Core::Location;
+
+namespace
+{
+
+const std::array<Location, 2>& GetTestPorts()
+{
+    static const std::array<Location, 2> PORTS{*Location::Parse("CR01.TP01"), *Location::Parse("CR01.TP02")};
+    return PORTS;
+}
+
+PortLedger MakeLedger(const CarrierIDs& carriers = {std::nullopt, std::nullopt})
+{
+    PortLedger ledger(GetTestPorts());
+    ledger.Restore(carriers);
+    return ledger;
+}
+
+std::vector<PortLoad> MakeLoads(const CarrierIDs& carriers)
+{
+    std::vector<PortLoad> loads;
+    for (std::size_t i = 0; i < carriers.size(); ++i)
+    {
+        loads.push_back({GetTestPorts().at(i).GetText(), carriers[i].has_value(), carriers[i].value_or("")});
+    }
+    return loads;
+}
+
+} // namespace
+
+TEST_CASE("PortLedger: a job moves its carrier, and an unknown one where the plan gives no id")
+{
+    PortLedger ledger = MakeLedger();
+    CHECK(ledger.Move(std::array{PortUse{0, true}}, "T1").empty());
+    CHECK(ledger.Move(std::array{PortUse{0, false}, PortUse{1, true}}, std::nullopt).empty());
+    CHECK(ledger.GetCarriers() == CarrierIDs{std::nullopt, "T1"});
+    CHECK(ledger.FindCarrierOrNull("T1") == 1U);
+    CHECK(ledger.Move(std::array{PortUse{0, true}}, std::nullopt).empty());
+    CHECK(ledger.GetCarriers() == CarrierIDs{"UNKNOWN", "T1"});
+}
+
+TEST_CASE("PortLedger: a job that contradicts the record counts all the same")
+{
+    PortLedger ledger = MakeLedger({"T1", std::nullopt});
+    CHECK(ledger.Move(std::array{PortUse{0, true}}, "T2") == "CR01.TP01 was loaded though T1 was in it.");
+    CHECK(ledger.Move(std::array{PortUse{1, false}}, "T3") == "CR01.TP02 was unloaded though nothing was in it.");
+    CHECK(ledger.Move(std::array{PortUse{0, false}}, "T3") == "T3 was unloaded from CR01.TP01 though T2 was in it.");
+    CHECK(ledger.GetCarriers() == CarrierIDs{std::nullopt, std::nullopt});
+}
+
+TEST_CASE("PortLedger: a report replaces the record and the port is disputed until the expected carrier is back")
+{
+    PortLedger ledger = MakeLedger({"T1", std::nullopt});
+    CHECK_FALSE(ledger.Compare(MakeLoads({"T1", std::nullopt}), {}).bDisputed);
+
+    const PortLedger::Comparison comparison = ledger.Compare(MakeLoads({"T2", std::nullopt}), {});
+    CHECK(comparison.bRecordChanged);
+    CHECK(comparison.bDisputed);
+    CHECK(ledger.GetCarriers() == CarrierIDs{"T2", std::nullopt});
+    CHECK(ledger.DescribeDisputes() == "CR01.TP01: expected T1, shown T2");
+
+    CHECK(ledger.Compare(MakeLoads({"T1", std::nullopt}), {}).bRecordChanged);
+    CHECK_FALSE(ledger.IsDisputed());
+    CHECK(ledger.GetCarriers() == CarrierIDs{"T1", std::nullopt});
+}
+
+TEST_CASE("PortLedger: a report without an id keeps the id on record")
+{
+    PortLedger ledger = MakeLedger({"T1", std::nullopt});
+    CHECK_FALSE(ledger.Compare(std::array{PortLoad{"CR01.TP01", true, ""}}, {}).bRecordChanged);
+    CHECK(ledger.Compare(std::array{PortLoad{"CR01.TP02", true, ""}}, {}).bRecordChanged);
+    CHECK(ledger.GetCarriers() == CarrierIDs{"T1", "UNKNOWN"});
+}
+
+TEST_CASE("PortLedger: a carrier that is reported at two ports changes no id")
+{
+    PortLedger ledger = MakeLedger({"T1", std::nullopt});
+    CHECK(ledger.Compare(MakeLoads({"T1", "T1"}), {}).bDisputed);
+    CHECK(ledger.GetCarriers() == CarrierIDs{"T1", "UNKNOWN"});
+    CHECK(
+        ledger.DescribeDisputes()
+        == "CR01.TP01: expected T1, shown T1, also at CR01.TP02; CR01.TP02: expected no carrier, shown T1, also at "
+           "CR01.TP01");
+}
+
+TEST_CASE("PortLedger: a report about the port of an open job is no evidence")
+{
+    PortLedger ledger = MakeLedger({"T1", std::nullopt});
+    const PortLedger::Comparison comparison =
+        ledger.Compare(MakeLoads({std::nullopt, "T1"}), std::array{PortUse{0, false}, PortUse{1, true}});
+    CHECK_FALSE(comparison.bRecordChanged);
+    CHECK_FALSE(comparison.bDisputed);
+}
+
+TEST_CASE("PortLedger: a job or an operator settles a dispute")
+{
+    PortLedger ledger = MakeLedger({"T1", std::nullopt});
+    static_cast<void>(ledger.Compare(MakeLoads({std::nullopt, std::nullopt}), {}));
+    REQUIRE(ledger.IsDisputed());
+    SECTION("a job that uses the port")
+    {
+        static_cast<void>(ledger.Move(std::array{PortUse{0, true}}, "T2"));
+    }
+    SECTION("a correction of the record")
+    {
+        ledger.Correct({"T2", std::nullopt});
+        CHECK(ledger.GetCarriers() == CarrierIDs{"T2", std::nullopt});
+    }
+    SECTION("a cleared alarm")
+    {
+        ledger.ForgetDisputes();
+    }
+    CHECK_FALSE(ledger.IsDisputed());
+}
+
+TEST_CASE("PortLedger: disputes are reported once in an interval")
+{
+    PortLedger ledger = MakeLedger();
+    CHECK(ledger.TryBeginReportInterval());
+    CHECK_FALSE(ledger.TryBeginReportInterval());
+    ledger.EndReportInterval();
+    CHECK(ledger.TryBeginReportInterval());
+}
+
+TEST_CASE("PortLedger: a memory place needs its tray on record, or a job that loads it before")
+{
+    PortLedger ledger = MakeLedger({"T1", std::nullopt});
+    const Location first = *Location::Parse("CR01.TP01.MP01");
+    const Location second = *Location::Parse("AMR.TP02.MP01");
+    CHECK_FALSE(ledger.FindMissingTrayOrNull(first, {}).has_value());
+    CHECK(ledger.FindMissingTrayOrNull(second, {}) == 1U);
+    CHECK_FALSE(ledger.FindMissingTrayOrNull(second, {{1, true}}).has_value());
+    CHECK(ledger.FindMissingTrayOrNull(first, {{0, false}}) == 0U);
+    CHECK_FALSE(ledger.FindMissingTrayOrNull(*Location::Parse("ST01.MP15"), {}).has_value());
+}
+
+TEST_CASE("PortLedger: a stored record of another number of ports is ignored")
+{
+    CHECK(MakeLedger({"T1"}).GetCarriers() == CarrierIDs{std::nullopt, std::nullopt});
+}
