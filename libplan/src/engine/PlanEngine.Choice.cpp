@@ -114,15 +114,7 @@ std::string PlanEngine::Impl::DescribeUnfree(const Robot& robot) const
 
 void PlanEngine::Impl::AssignPlans()
 {
-    std::vector<ActivePlan*> queue;
-    for (const auto& [key, plan] : _pending)
-    {
-        if (plan->record.sequence <= _lastKnownSequence)
-        {
-            queue.push_back(plan);
-        }
-    }
-    for (ActivePlan* plan : queue)
+    for (ActivePlan* plan : _plans.ListStoredQueue())
     {
         if (std::ranges::none_of(_robots, IsFree))
         {
@@ -341,7 +333,7 @@ std::optional<std::string> PlanEngine::Impl::GetUnloadObjectionOrNull(
 std::vector<WaitReason> PlanEngine::Impl::GetWaitReasons() const
 {
     std::vector<WaitReason> reasons;
-    for (const auto& [planID, plan] : _plans)
+    for (const auto& [planID, plan] : _plans.GetActive())
     {
         if (std::optional<WaitReason> reason = DescribeBegunOrNull(*plan))
         {
@@ -349,7 +341,7 @@ std::vector<WaitReason> PlanEngine::Impl::GetWaitReasons() const
         }
     }
     std::size_t position = 0;
-    for (const auto& [key, plan] : _pending)
+    for (const auto& [key, plan] : _plans.GetQueue())
     {
         ++position;
         reasons.push_back(DescribeWaiting(*plan, position));
@@ -359,16 +351,17 @@ std::vector<WaitReason> PlanEngine::Impl::GetWaitReasons() const
 
 std::optional<WaitReason> PlanEngine::Impl::GetWaitReasonOrNull(std::string_view planID) const
 {
-    const auto found = _plans.find(planID);
-    if (found == _plans.end())
+    const ActivePlan* planOrNull = _plans.FindActiveOrNull(planID);
+    if (planOrNull == nullptr)
     {
         return std::nullopt;
     }
-    const auto pending = _pending.find(found->second->key);
-    return pending == _pending.end()
-        ? DescribeBegunOrNull(*found->second)
+    const PlanBook::Queue& queue = _plans.GetQueue();
+    const auto queued = queue.find(planOrNull->key);
+    return queued == queue.end()
+        ? DescribeBegunOrNull(*planOrNull)
         : std::optional(
-            DescribeWaiting(*found->second, static_cast<std::size_t>(std::distance(_pending.begin(), pending)) + 1));
+            DescribeWaiting(*planOrNull, static_cast<std::size_t>(std::distance(queue.begin(), queued)) + 1));
 }
 
 /// Why the robot is not given the plan now; nullopt where it is.

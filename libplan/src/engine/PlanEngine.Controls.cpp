@@ -33,13 +33,9 @@ void PlanEngine::Impl::TellControlResult(
 /// Register D-23: after a crash the Ack may have been lost, and not the control.
 bool PlanEngine::Impl::IsRepetition(const ControlPlan& command) const
 {
-    const auto active = _plans.find(command.planID);
-    const auto finished = _finished.find(command.planID);
-    const PlanProgress* progressOrNull = active != _plans.end()
-        ? &active->second->record.progress
-        : (finished != _finished.end() ? &finished->second.progress : nullptr);
-    return progressOrNull != nullptr && !command.transactionID.empty()
-        && std::ranges::count(progressOrNull->requestIDs, MakeRequestID(command)) > 0;
+    const PlanRecord* recordOrNull = _plans.FindRecordOrNull(command.planID);
+    return recordOrNull != nullptr && !command.transactionID.empty()
+        && std::ranges::count(recordOrNull->progress.requestIDs, MakeRequestID(command)) > 0;
 }
 
 void PlanEngine::Impl::Remember(PlanProgress& progress, const ControlPlan& command)
@@ -54,13 +50,13 @@ void PlanEngine::Impl::Remember(PlanProgress& progress, const ControlPlan& comma
         progress.requestIDs.erase(progress.requestIDs.begin());
     }
     progress.requestIDs.push_back(MakeRequestID(command));
-    _progressed.insert(command.planID);
+    _plans.MarkProgressed(command.planID);
 }
 
 /// A control is open from here on until Answer.
 void PlanEngine::Impl::Ask(ActivePlan& plan, EPlanControl control)
 {
-    _progressed.insert(plan.record.plan.planID);
+    _plans.MarkProgressed(plan.record.plan.planID);
     plan.record.progress.control = control;
     plan.record.progress.controlCount = 1;
 }
@@ -73,7 +69,7 @@ void PlanEngine::Impl::Answer(ActivePlan& plan, bool bSucceeded, const std::stri
     {
         return;
     }
-    _progressed.insert(plan.record.plan.planID);
+    _plans.MarkProgressed(plan.record.plan.planID);
     if (plan.robot.has_value())
     {
         Robot& robot = _robots[*plan.robot];
@@ -89,14 +85,14 @@ void PlanEngine::Impl::Answer(ActivePlan& plan, bool bSucceeded, const std::stri
 /// Register D-19, D-20.
 void PlanEngine::Impl::RefuseControl(const ControlPlan& command)
 {
-    const auto finished = _finished.find(command.planID);
-    const bool bKnown = finished != _finished.end();
-    const std::string reason = bKnown ? fmt::format("The plan is already {}.", GetText(finished->second.progress.state))
+    PlanRecord* finishedOrNull = _plans.FindFinishedOrNull(command.planID);
+    const bool bKnown = finishedOrNull != nullptr;
+    const std::string reason = bKnown ? fmt::format("The plan is already {}.", GetText(finishedOrNull->progress.state))
                                       : fmt::format("There is no plan {}.", command.planID);
     _actions.emplace_back(ReplyCommand{command.replyToken, bKnown, bKnown ? "Received." : reason});
     if (bKnown)
     {
-        Remember(finished->second.progress, command);
+        Remember(finishedOrNull->progress, command);
     }
     if (bKnown || _options.controls.bResultAfterRefusal)
     {
@@ -119,19 +115,19 @@ void PlanEngine::Impl::Control(const ControlPlan& command)
         return;
     }
     _asked = MakeRequestID(command);
-    const auto active = _plans.find(command.planID);
-    if (active == _plans.end())
+    ActivePlan* planOrNull = _plans.FindActiveOrNull(command.planID);
+    if (planOrNull == nullptr)
     {
         RefuseControl(command);
         return;
     }
     _actions.emplace_back(ReplyCommand{command.replyToken, true, "Received."});
-    ActivePlan& plan = *active->second;
+    ActivePlan& plan = *planOrNull;
     Remember(plan.record.progress, command);
     if (plan.record.progress.control == command.control)
     {
         ++plan.record.progress.controlCount;
-        _progressed.insert(command.planID);
+        _plans.MarkProgressed(command.planID);
         return;
     }
     const bool bEnding = plan.record.progress.control == EPlanControl::Abort
@@ -238,7 +234,7 @@ void PlanEngine::Impl::DropJob(Robot& robot)
     robot.overdueJobID = GetJobID(plan);
     Command(robot, CancelJob{*robot.overdueJobID});
     StartTimer(EEngineTimer::JobEnd, GetRobotID(robot), _options.controls.jobEndTimeout);
-    if (HasJob(plan) && plan.record.progress.steps[plan.step].jobs[plan.job] == EJobState::InProgress)
+    if (GetJobState(plan) == EJobState::InProgress)
     {
         RaiseDropped(robot);
     }
@@ -308,7 +304,7 @@ void PlanEngine::Impl::Pause(ActivePlan& plan)
     Ask(plan, EPlanControl::Pause);
     if (!plan.robot.has_value())
     {
-        _pending.erase(plan.key);
+        _plans.Dequeue(plan);
         ChangePlan(plan, EPlanState::Paused, "Held in the queue by PausePlan.");
         Answer(plan, true, "The plan is held in the queue.");
         return;
@@ -354,7 +350,7 @@ void PlanEngine::Impl::Resume(ActivePlan& plan)
     if (!plan.robot.has_value())
     {
         LeavePause(plan, "Resumed by ResumePlan.");
-        _pending.emplace(plan.key, &plan);
+        _plans.Enqueue(plan);
         Answer(plan, true, "The plan waits in the queue again.");
         _bDispatchNeeded = true;
         return;
@@ -456,7 +452,7 @@ void PlanEngine::Impl::GoOn(Robot& robot)
     ReleasePause(robot);
     _bDispatchNeeded = true;
     robot.bTouched = true;
-    if (plan.bEndOwed)
+    if (plan.next == EContinuation::End)
     {
         EndPlan(plan, EPlanState::Completed, {});
         return;
@@ -465,7 +461,7 @@ void PlanEngine::Impl::GoOn(Robot& robot)
     {
         StartJobTimer(robot, *std::exchange(plan.jobTimeLeft, std::nullopt));
     }
-    if (std::exchange(plan.bStepOwed, false))
+    if (plan.next == EContinuation::Step)
     {
         BeginStep(plan, robot);
     }

@@ -15,7 +15,8 @@ PlanEngine::Impl::Impl(EngineOptions options, SiteMap site, Core::IRandom& rando
       _random(random),
       _router(_site),
       _admission(_options, _site),
-      _traffic(_site, _options.clearance)
+      _traffic(_site, _options.clearance),
+      _plans(_options)
 {
     assert(FindMistakes(_options, _site).empty());
     _robots.resize(_options.robots.size());
@@ -193,9 +194,7 @@ void PlanEngine::Impl::Begin(Core::Now now)
 {
     assert(!_gate.IsClosed());
     _now = now;
-    _ended.clear();
-    _replaced.clear();
-    _lastKnownSequence = _lastPlanSequence;
+    _plans.BeginCall();
     NoteStoreSuccess();
     _begun.clear();
     _asked.reset();
@@ -216,14 +215,7 @@ void PlanEngine::Impl::End(EngineActions& out)
     WatchOutbox();
     CollectWork();
     std::vector<StoreChange> changes = std::exchange(_unsaved, {});
-    for (const std::string& planID : _progressed)
-    {
-        const auto active = _plans.find(planID);
-        const PlanProgress& progress =
-            active != _plans.end() ? active->second->record.progress : _finished.at(planID).progress;
-        changes.emplace_back(PlanProgressed{planID, progress});
-    }
-    _progressed.clear();
+    std::ranges::move(_plans.TakeProgress(), std::back_inserter(changes));
     std::ranges::move(_changes, std::back_inserter(changes));
     _changes.clear();
     if (!IsStoreWorthTrying(changes))
@@ -385,19 +377,7 @@ void PlanEngine::Impl::Note(const Robot& robot, const std::string& text)
 
 void PlanEngine::Impl::ChangePlan(ActivePlan& plan, EPlanState state, std::string message)
 {
-    PlanProgress& progress = plan.record.progress;
-    assert(CanChange(progress.state, state));
-    const EPlanState from = std::exchange(progress.state, state);
-    if (state == EPlanState::InProgress && !progress.startedAt.has_value())
-    {
-        progress.startedAt = _now.wall;
-    }
-    if (IsFinal(state))
-    {
-        progress.endedAt = _now.wall;
-    }
-    progress.message = message;
-    _progressed.insert(plan.record.plan.planID);
+    const EPlanState from = _plans.Change(plan, state, message, _now.wall);
     const std::string_view transactionID = TellReport(PlanReport{plan.record.plan.planID, state, std::move(message)});
     if (_observerOrNull != nullptr)
     {
@@ -412,10 +392,7 @@ void PlanEngine::Impl::ChangeStep(ActivePlan& plan, EStepState state, std::strin
 
 void PlanEngine::Impl::ChangeStepAt(ActivePlan& plan, std::size_t index, EStepState state, std::string message)
 {
-    StepProgress& progress = plan.record.progress.steps[index];
-    assert(CanChange(progress.state, state));
-    const EStepState from = std::exchange(progress.state, state);
-    _progressed.insert(plan.record.plan.planID);
+    const EStepState from = _plans.ChangeStep(plan, index, state);
     const std::string_view transactionID = TellReport(StepReport{
         plan.record.plan.planID,
         plan.record.progress.robotID,
@@ -434,10 +411,7 @@ void PlanEngine::Impl::ChangeJob(ActivePlan& plan, EJobState state, std::string 
     {
         return; // The engine made this job: the MCS has no id for it.
     }
-    EJobState& current = plan.record.progress.steps[plan.step].jobs[plan.job];
-    assert(CanChange(current, state));
-    const EJobState from = std::exchange(current, state);
-    _progressed.insert(plan.record.plan.planID);
+    const EJobState from = _plans.ChangeJob(plan, state);
     const std::string_view transactionID = TellReport(JobReport{
         plan.record.plan.planID,
         plan.record.progress.robotID,
@@ -449,6 +423,11 @@ void PlanEngine::Impl::ChangeJob(ActivePlan& plan, EJobState state, std::string 
     {
         _observerOrNull->OnJobChanged(plan.record, plan.step, plan.job, from, transactionID, _now);
     }
+}
+
+void PlanEngine::Impl::Store(std::vector<StoreChange> changes)
+{
+    std::ranges::move(changes, std::back_inserter(_changes));
 }
 
 void PlanEngine::Impl::ReportAlarms(const std::vector<ErrorReport>& reports)
@@ -473,25 +452,6 @@ void PlanEngine::Impl::RaiseAlarm(Alarm alarm)
 void PlanEngine::Impl::ClearAlarm(const Alarm& alarm)
 {
     ReportAlarms(_alarms.Clear(alarm));
-}
-
-void PlanEngine::Impl::RememberFinished(PlanRecord record)
-{
-    const std::string planID = record.plan.planID;
-    _finished.insert_or_assign(planID, std::move(record));
-    _finishedOrder.push_back(planID);
-    while (_finishedOrder.size() > _options.finishedPlansKept)
-    {
-        // What this call still has to store is not forgotten yet.
-        if (_progressed.contains(_finishedOrder.front()))
-        {
-            break;
-        }
-        const auto oldest = _finished.find(_finishedOrder.front());
-        _changes.emplace_back(PlanRemoved{oldest->second.sequence});
-        _finished.erase(oldest);
-        _finishedOrder.pop_front();
-    }
 }
 
 } // namespace ACS::Planning

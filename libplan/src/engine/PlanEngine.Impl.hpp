@@ -4,6 +4,7 @@
 #include "engine/AlarmBook.hpp"
 #include "engine/EngineAlarm.hpp"
 #include "plan/PlanAdmission.hpp"
+#include "plan/PlanBook.hpp"
 #include "restart/StartupBarrier.hpp"
 #include "robot/ChargingPolicy.hpp"
 #include "robot/PortLedger.hpp"
@@ -30,40 +31,6 @@ namespace ACS::Planning
 class PlanEngine::Impl
 {
 public:
-    /// The lower rank first, then the order of acceptance.
-    struct QueueKey
-    {
-        std::int64_t rank = 0;
-        std::uint64_t sequence = 0;
-
-        bool operator<(const QueueKey& other) const noexcept
-        {
-            return std::tie(rank, sequence) < std::tie(other.rank, other.sequence);
-        }
-    };
-
-    /// A plan that is not finished.
-    struct ActivePlan
-    {
-        PlanRecord record;
-        ResolvedPlan resolved;
-        QueueKey key;
-        std::size_t step = 0;
-        std::size_t job = 0;
-        std::string madeJobID; ///< Of a step without jobs.
-        std::optional<std::size_t> robot;
-        bool bStepArrived = false;     ///< Arrival was reported for the present step, and its drive.
-        bool bJobBegun = false;        ///< Any of its jobs.
-        bool bUnstored = false;        ///< That it was begun could not be stored: its first job waits for that.
-        bool bStepOwed = false;        ///< The present step is begun when the pause ends.
-        bool bEndOwed = false;         ///< All is done, to be told when the pause ends.
-        std::string repeatedCommandID; ///< Of a job that the robot never had: it is sent again under this.
-        std::optional<Core::SteadyTime> jobDeadline;
-        std::optional<Core::Duration> jobTimeLeft; ///< Of a job that is paused.
-        std::map<std::size_t, std::string>
-            rejections; ///< While no robot has it, by robot: why that one cannot do a job.
-    };
-
     enum class EActivity : std::uint8_t
     {
         Idle,  ///< No plan.
@@ -203,14 +170,7 @@ private:
     Traffic _traffic;
     std::uint64_t _standingChanges = 1; ///< Grows when a robot stops, sets out, or can move no more or again.
 
-    std::map<std::string, std::unique_ptr<ActivePlan>, std::less<>> _plans;
-    std::map<QueueKey, ActivePlan*> _pending;
-    std::vector<std::unique_ptr<ActivePlan>> _ended; ///< Kept to the end of the call that ended them.
-    std::unordered_map<std::string, PlanRecord> _finished;
-    std::deque<std::string> _finishedOrder;
-    std::uint64_t _lastPlanSequence = 0;
-    /// Before the present call: what came in it is not begun before it is stored.
-    std::uint64_t _lastKnownSequence = 0;
+    PlanBook _plans;
     std::vector<std::string> _begun;             ///< Plans that were begun in the call that is being stored.
     std::map<ReplyToken, std::string> _repeated; ///< Plans that this call brought once more.
     std::optional<std::string> _asked;           ///< The control that this call was; as in PlanProgress::requestIDs.
@@ -230,10 +190,8 @@ private:
     // The present call: what is stored first, and what is told after it.
     Core::Now _now;
     std::vector<StoreChange> _changes;
-    std::set<std::string> _progressed;
     EngineActions _actions;
     bool _bDispatchNeeded = false;
-    std::vector<PlanRecord> _replaced; ///< Finished plans whose id was given to a new one.
 
     // A store that fails: what is still to be stored, and the reports that wait for it.
     std::vector<StoreChange> _unsaved;
@@ -287,11 +245,11 @@ private:
     void ChangeStep(ActivePlan& plan, EStepState state, std::string message);
     void ChangeStepAt(ActivePlan& plan, std::size_t index, EStepState state, std::string message);
     void ChangeJob(ActivePlan& plan, EJobState state, std::string message);
+    void Store(std::vector<StoreChange> changes);
     void ReportAlarms(const std::vector<ErrorReport>& reports);
     void RaiseAlarm(Alarm alarm);
     void ClearAlarm(const Alarm& alarm);
     [[nodiscard]] bool IsHeldBack(const OutboxEntry& entry) const;
-    void RememberFinished(PlanRecord record);
     [[nodiscard]] ERobotStatus DeriveStatus(const Robot& robot) const;
     [[nodiscard]] ERobotStatus DeriveDriveStatus(const Robot& robot, const ActiveDrive& drive) const;
     [[nodiscard]] static bool IsApproaching(const ActiveDrive& drive);
@@ -304,14 +262,11 @@ private:
     // Commands (PlanEngine.Commands.cpp).
     void Submit(const SubmitPlan& command);
     void TellAccepted();
-    void ForgetFinished(const std::string& planID);
     void SwitchTsc(const ControlTsc& command);
     void ChangeTsc(ETscState state);
     void TellTsc(ETscState from);
     void FinishTscPause();
     [[nodiscard]] bool CanDriveHome() const;
-    [[nodiscard]] bool IsAnyPlanRunning() const;
-    [[nodiscard]] QueueKey MakeQueueKey(const PlanRecord& record) const;
     void Acknowledge(const MessageAcknowledged& command);
     [[nodiscard]] Core::Result<ResolvedPlan> Admit(const Plan& plan) const;
     [[nodiscard]] bool IsRepetition(const Plan& plan, const std::string& transactionID) const;
@@ -323,8 +278,6 @@ private:
     void CorrectCarriers(const SetCarriers& command);
     void Skip(const SkipStep& command);
     void SkipUnresolved(Robot& robot);
-    [[nodiscard]] static std::optional<std::size_t> FindStepOrNull(const Plan& plan, std::int32_t stepNo);
-    [[nodiscard]] static std::optional<std::size_t> FindOpenStepOrNull(const ActivePlan& plan, std::size_t from);
     [[nodiscard]] Robot* FindRobotOrNull(std::string_view robotID);
     [[nodiscard]] bool HasCause(const Alarm& alarm) const;
 
@@ -474,8 +427,6 @@ private:
     void CompareLoads(Robot& robot);
     void UpdateLoadAlarm(Robot& robot);
     void OnLoadAlarmTimer(Robot& robot);
-    [[nodiscard]] static bool HasJob(const ActivePlan& plan);
-    [[nodiscard]] static const std::string& GetJobID(const ActivePlan& plan);
     [[nodiscard]] StartJob MakeStartJob(const Robot& robot) const;
     [[nodiscard]] StartJob MakeStartJob(
         const ActivePlan& plan,
@@ -540,7 +491,6 @@ private:
     void RestoreTsc(ETscState stored);
     void RestoreOverdue(Robot& robot);
     void EndUnfit(ActivePlan& plan, const std::string& reason);
-    static void FindPosition(ActivePlan& plan);
     void BeginStartup(bool bHasWork);
     void UpdateStartup();
     void EndStartup();

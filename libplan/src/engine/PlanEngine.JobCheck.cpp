@@ -12,7 +12,7 @@ namespace ACS::Planning
 void PlanEngine::Impl::OnJobCheck(Robot& robot, const JobCheckChanged& event)
 {
     robot.jobCheck = event.jobCheck;
-    for (const auto& [planID, plan] : _plans)
+    for (const auto& [planID, plan] : _plans.GetActive())
     {
         if (!plan->robot.has_value())
         {

@@ -203,39 +203,18 @@ void PlanEngine::Impl::CorrectCarriers(const SetCarriers& command)
     Reply(command.replyToken, true, fmt::format("The ports of {} are corrected.", command.robotID));
 }
 
-std::optional<std::size_t> PlanEngine::Impl::FindStepOrNull(const Plan& plan, std::int32_t stepNo)
-{
-    const auto found = std::ranges::find(plan.steps, stepNo, &Step::stepNo);
-    return found == plan.steps.end() ? std::nullopt
-                                     : std::optional(static_cast<std::size_t>(found - plan.steps.begin()));
-}
-
-/// The first step from this one on that is not at its end.
-std::optional<std::size_t> PlanEngine::Impl::FindOpenStepOrNull(const ActivePlan& plan, std::size_t from)
-{
-    const std::vector<StepProgress>& steps = plan.record.progress.steps;
-    for (std::size_t index = from; index < steps.size(); ++index)
-    {
-        if (!IsFinal(steps[index].state))
-        {
-            return index;
-        }
-    }
-    return std::nullopt;
-}
-
 /// Why the step cannot be skipped.
 std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const SkipStep& command) const
 {
-    const auto active = _plans.find(command.planID);
-    if (active == _plans.end())
+    const ActivePlan* planOrNull = _plans.FindActiveOrNull(command.planID);
+    if (planOrNull == nullptr)
     {
-        const auto finished = _finished.find(command.planID);
-        return finished == _finished.end()
+        const PlanRecord* finishedOrNull = _plans.FindFinishedOrNull(command.planID);
+        return finishedOrNull == nullptr
             ? fmt::format("There is no plan {}.", command.planID)
-            : fmt::format("Plan {} is already {}.", command.planID, GetText(finished->second.progress.state));
+            : fmt::format("Plan {} is already {}.", command.planID, GetText(finishedOrNull->progress.state));
     }
-    const ActivePlan& plan = *active->second;
+    const ActivePlan& plan = *planOrNull;
     const std::optional<std::size_t> index = FindStepOrNull(plan.record.plan, command.stepNo);
     if (!index.has_value())
     {
@@ -268,7 +247,7 @@ void PlanEngine::Impl::Skip(const SkipStep& command)
         return;
     }
     Reply(command.replyToken, true, fmt::format("Step {} is skipped.", command.stepNo));
-    ActivePlan& plan = *_plans.find(command.planID)->second;
+    ActivePlan& plan = *_plans.FindActiveOrNull(command.planID);
     Robot& robot = _robots[*plan.robot];
     const std::size_t index = *FindStepOrNull(plan.record.plan, command.stepNo);
     const bool bUnresolved = plan.record.progress.steps[index].state == EStepState::InProgress;

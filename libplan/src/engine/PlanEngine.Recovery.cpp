@@ -42,13 +42,12 @@ void PlanEngine::Impl::Restore(StoredState state, Core::Now now, EngineActions& 
     {
         RestorePlan(std::move(record));
     }
-    _lastKnownSequence = _lastPlanSequence;
     for (Robot& robot : _robots)
     {
         RestoreOverdue(robot);
     }
     RestoreTsc(state.tscState);
-    BeginStartup(!_plans.empty() || !state.robotWorks.empty());
+    BeginStartup(!_plans.GetActive().empty() || !state.robotWorks.empty());
     StartTimer(EEngineTimer::Dispatch, {}, {});
     End(out);
 }
@@ -59,7 +58,7 @@ void PlanEngine::Impl::RestoreTsc(ETscState stored)
     _tscState = ETscState::Auto;
     if (_options.bTscStartsPaused || stored != ETscState::Auto)
     {
-        _tscState = IsAnyPlanRunning() ? ETscState::Pausing : ETscState::Paused;
+        _tscState = _plans.IsAnyRunning() ? ETscState::Pausing : ETscState::Paused;
     }
     if (_tscState != stored)
     {
@@ -108,18 +107,13 @@ void PlanEngine::Impl::RestoreRobot(const RobotWorkChanged& work)
 
 void PlanEngine::Impl::RestorePlan(PlanRecord record)
 {
-    _lastPlanSequence = std::max(_lastPlanSequence, record.sequence);
     if (IsFinal(record.progress.state))
     {
-        RememberFinished(std::move(record));
+        Store(_plans.RestoreFinished(std::move(record)));
         return;
     }
-    auto owned = std::make_unique<ActivePlan>();
-    ActivePlan& plan = *owned;
-    plan.record = std::move(record);
-    plan.key = MakeQueueKey(plan.record);
+    ActivePlan& plan = _plans.RestoreActive(std::move(record));
     Core::Result<ResolvedPlan> resolved = _admission.Resolve(plan.record.plan);
-    _plans.emplace(plan.record.plan.planID, std::move(owned));
     const std::string& robotID = plan.record.progress.robotID;
     const auto robot = _robotIndices.find(robotID);
     const bool bRobotGone =
@@ -140,7 +134,7 @@ void PlanEngine::Impl::RestorePlan(PlanRecord record)
     }
     else if (plan.record.progress.state == EPlanState::Pending) // else it is held in the queue
     {
-        _pending.emplace(plan.key, &plan);
+        _plans.Enqueue(plan);
     }
 }
 
@@ -171,33 +165,18 @@ void PlanEngine::Impl::EndUnfit(ActivePlan& plan, const std::string& reason)
     }
 }
 
-/// Its present step and job: the first ones that are not at their end.
-void PlanEngine::Impl::FindPosition(ActivePlan& plan)
-{
-    const std::vector<StepProgress>& steps = plan.record.progress.steps;
-    while (plan.step + 1 < steps.size() && IsFinal(steps[plan.step].state))
-    {
-        ++plan.step;
-    }
-    const std::vector<EJobState>& jobs = steps[plan.step].jobs;
-    while (plan.job + 1 < jobs.size() && IsFinal(jobs[plan.job]))
-    {
-        ++plan.job;
-    }
-}
-
 /// The plan stays with its robot. A job whose end nobody has heard is asked for; everything else begins where it stands.
 void PlanEngine::Impl::RestoreWork(ActivePlan& plan, Robot& robot)
 {
     FindPosition(plan);
     const StepProgress& step = plan.record.progress.steps[plan.step];
-    const EJobState job = step.jobs.empty() ? EJobState::Pending : step.jobs[plan.job];
+    const EJobState job = GetJobState(plan);
     plan.robot = robot.index;
     robot.planOrNull = &plan;
     robot.activity = EActivity::Waits;
     robot.bTouched = true;
-    plan.bEndOwed = IsFinal(step.state);
-    plan.bStepOwed = step.state == EStepState::Pending;
+    const EContinuation unbegun = step.state == EStepState::Pending ? EContinuation::Step : EContinuation::Job;
+    plan.next = IsFinal(step.state) ? EContinuation::End : unbegun;
     const bool bOpen = robot.job.has_value() && robot.job->planID == plan.record.plan.planID;
     // A store of before schema version 3 tells nothing of robots.
     const bool bUntraced = !bOpen && robot.storedWork.robotID.empty() && job != EJobState::Pending && !IsFinal(job)
@@ -440,7 +419,7 @@ void PlanEngine::Impl::OnJobUnknown(Robot& robot, const JobUnknown& event)
         return;
     }
     ActivePlan& plan = *robot.planOrNull;
-    if (HasJob(plan) && plan.record.progress.steps[plan.step].jobs[plan.job] == EJobState::InProgress)
+    if (GetJobState(plan) == EJobState::InProgress)
     {
         HoldJob(robot, "the robot does not know it, though it had begun it");
     }
@@ -527,7 +506,7 @@ void PlanEngine::Impl::CatchUp(Robot& robot)
     ActivePlan& plan = *robot.planOrNull;
     MarkArrived(robot);
     plan.bJobBegun = true;
-    if (HasJob(plan) && plan.record.progress.steps[plan.step].jobs[plan.job] == EJobState::Pending)
+    if (HasJob(plan) && GetJobState(plan) == EJobState::Pending)
     {
         ChangeJob(plan, EJobState::Instructed, {});
     }

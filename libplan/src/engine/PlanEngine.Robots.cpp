@@ -504,7 +504,7 @@ void PlanEngine::Impl::OnJobStarted(Robot& robot, const JobStarted& event)
     robot.bWorkTouched = true;
     FindOut(robot);
     ActivePlan& plan = *robot.planOrNull;
-    if (HasJob(plan) && plan.record.progress.steps[plan.step].jobs[plan.job] == EJobState::Instructed)
+    if (GetJobState(plan) == EJobState::Instructed)
     {
         ChangeJob(plan, EJobState::InProgress, {});
     }

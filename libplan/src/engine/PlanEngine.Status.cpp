@@ -271,8 +271,8 @@ std::vector<PlanSummary> PlanEngine::Impl::GetActivePlans() const
         return state == EPlanState::InProgress ? 0 : (state == EPlanState::Paused ? 1 : 2);
     };
     std::vector<const ActivePlan*> ordered;
-    ordered.reserve(_plans.size());
-    for (const auto& [planID, plan] : _plans)
+    ordered.reserve(_plans.GetActive().size());
+    for (const auto& [planID, plan] : _plans.GetActive())
     {
         ordered.push_back(plan.get());
     }
@@ -290,12 +290,8 @@ std::vector<PlanSummary> PlanEngine::Impl::GetActivePlans() const
 
 std::optional<PlanSummary> PlanEngine::Impl::GetPlanOrNull(std::string_view planID) const
 {
-    if (const auto active = _plans.find(planID); active != _plans.end())
-    {
-        return MakeSummary(active->second->record);
-    }
-    const auto finished = _finished.find(std::string(planID));
-    return finished == _finished.end() ? std::nullopt : std::optional(MakeSummary(finished->second));
+    const PlanRecord* recordOrNull = _plans.FindRecordOrNull(planID);
+    return recordOrNull == nullptr ? std::nullopt : std::optional(MakeSummary(*recordOrNull));
 }
 
 const std::vector<Alarm>& PlanEngine::Impl::GetActiveAlarms() const noexcept

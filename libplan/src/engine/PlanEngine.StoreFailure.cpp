@@ -78,8 +78,7 @@ std::size_t PlanEngine::Impl::TakeBatchBack(const StoreBatch& batch)
     for (const StoreChange& change : batch.changes)
     {
         const auto* removedOrNull = std::get_if<PlanRemoved>(&change);
-        if (removedOrNull != nullptr
-            && std::ranges::count(_replaced, removedOrNull->sequence, &PlanRecord::sequence) > 0)
+        if (removedOrNull != nullptr && _plans.IsReplaced(removedOrNull->sequence))
         {
             continue; // it comes back below
         }
@@ -90,19 +89,13 @@ std::size_t PlanEngine::Impl::TakeBatchBack(const StoreBatch& batch)
             continue;
         }
         ++refused;
-        const auto found = _plans.find(addedOrNull->record.plan.planID);
-        if (found != _plans.end())
-        {
-            assert(!found->second->robot.has_value());
-            _pending.erase(found->second->key);
-            _plans.erase(found);
-        }
+        _plans.Withdraw(addedOrNull->record.plan.planID);
     }
     for (const std::string& planID : _begun)
     {
-        if (const auto begun = _plans.find(planID); begun != _plans.end())
+        if (ActivePlan* begunOrNull = _plans.FindActiveOrNull(planID); begunOrNull != nullptr)
         {
-            begun->second->bUnstored = true;
+            begunOrNull->bUnstored = true;
         }
     }
     if (_asked.has_value())
@@ -110,10 +103,7 @@ std::size_t PlanEngine::Impl::TakeBatchBack(const StoreBatch& batch)
         // Its outcome would be owed, and a crash would forget it. What it has set going stays so.
         _unstoredIDs.insert(*_asked);
     }
-    for (PlanRecord& record : std::exchange(_replaced, {}))
-    {
-        RememberFinished(std::move(record));
-    }
+    Store(_plans.RestoreReplaced());
     return refused;
 }
 
@@ -134,8 +124,8 @@ void PlanEngine::Impl::ReleaseWithoutStore(
                 [this](const SendReport& typed) { _held.push_back(typed.entry); },
                 [this, &out, &refusal, bPlanRefused](const ReplyCommand& typed) {
                     const auto repeated = _repeated.find(typed.replyToken);
-                    const bool bKnown = repeated != _repeated.end()
-                        && (_plans.contains(repeated->second) || _finished.contains(repeated->second));
+                    const bool bKnown =
+                        repeated != _repeated.end() && _plans.FindRecordOrNull(repeated->second) != nullptr;
                     const bool bRefusedNow = (bPlanRefused && typed.bAccepted && !bKnown) || _asked.has_value();
                     out.emplace_back(bRefusedNow ? ReplyCommand{typed.replyToken, false, refusal} : typed);
                 },
@@ -181,7 +171,7 @@ void PlanEngine::Impl::WithdrawPause(Robot& robot)
     {
         progress.control.reset();
         progress.controlCount = 0;
-        _progressed.insert(robot.planOrNull->record.plan.planID);
+        _plans.MarkProgressed(robot.planOrNull->record.plan.planID);
         StopConfirmingControl(robot);
     }
 }
@@ -206,7 +196,7 @@ void PlanEngine::Impl::NoteStoreSuccess()
     _bStoreFailing = false;
     _unstoredIDs.clear();
     _bDispatchNeeded = true;
-    for (const auto& [planID, plan] : _plans)
+    for (const auto& [planID, plan] : _plans.GetActive())
     {
         if (std::exchange(plan->bUnstored, false) && plan->robot.has_value())
         {

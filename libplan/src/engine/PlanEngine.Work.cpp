@@ -26,19 +26,9 @@ std::optional<std::string> GetTextForOrNull(const std::optional<Core::Location>&
 
 } // namespace
 
-bool PlanEngine::Impl::HasJob(const ActivePlan& plan)
-{
-    return !plan.record.plan.steps[plan.step].jobs.empty();
-}
-
-const std::string& PlanEngine::Impl::GetJobID(const ActivePlan& plan)
-{
-    return HasJob(plan) ? plan.record.plan.steps[plan.step].jobs[plan.job].jobID : plan.madeJobID;
-}
-
 void PlanEngine::Impl::BeginPlan(ActivePlan& plan, Robot& robot)
 {
-    _pending.erase(plan.key);
+    _plans.Dequeue(plan);
     plan.robot = robot.index;
     plan.rejections.clear();
     plan.record.progress.robotID = GetRobotID(robot);
@@ -64,6 +54,7 @@ void PlanEngine::Impl::NoteEvidence(Robot& robot)
 void PlanEngine::Impl::BeginStep(ActivePlan& plan, Robot& robot)
 {
     plan.job = 0;
+    plan.next = EContinuation::Job;
     plan.bStepArrived = false;
     robot.activity = EActivity::Waits;
     robot.bTouched = true;
@@ -87,7 +78,7 @@ void PlanEngine::Impl::MarkArrived(Robot& robot)
     ActivePlan& plan = *robot.planOrNull;
     if (!std::exchange(plan.record.progress.bArrived, true))
     {
-        _progressed.insert(plan.record.plan.planID);
+        _plans.MarkProgressed(plan.record.plan.planID);
     }
     MarkStepBegun(plan);
     if (!std::exchange(plan.bStepArrived, true))
@@ -122,7 +113,7 @@ void PlanEngine::Impl::BeginJob(Robot& robot)
         HoldDoubtful(robot);
         return;
     }
-    if (HasJob(plan) && plan.record.progress.steps[plan.step].jobs[plan.job] == EJobState::Pending)
+    if (HasJob(plan) && GetJobState(plan) == EJobState::Pending)
     {
         ChangeJob(plan, EJobState::Instructed, {});
     }
@@ -284,9 +275,8 @@ void PlanEngine::Impl::LeaveStep(Robot& robot)
 {
     ActivePlan& plan = *robot.planOrNull;
     const std::optional<std::size_t> next = FindOpenStepOrNull(plan, plan.step + 1);
-    plan.bEndOwed = !next.has_value();
-    plan.bStepOwed = next.has_value();
-    if (plan.bEndOwed && plan.record.progress.state != EPlanState::Paused)
+    plan.next = next.has_value() ? EContinuation::Step : EContinuation::End;
+    if (!next.has_value() && plan.record.progress.state != EPlanState::Paused)
     {
         EndPlan(plan, EPlanState::Completed, {});
         return;
@@ -320,7 +310,7 @@ void PlanEngine::Impl::ContinuePlan(Robot& robot)
 /// What comes after a job.
 void PlanEngine::Impl::BeginNext(Robot& robot)
 {
-    if (std::exchange(robot.planOrNull->bStepOwed, false))
+    if (robot.planOrNull->next == EContinuation::Step)
     {
         BeginStep(*robot.planOrNull, robot);
         return;
@@ -344,13 +334,10 @@ void PlanEngine::Impl::FailPlan(ActivePlan& plan, const std::string& reason)
     {
         LeavePause(plan, reason);
     }
-    if (HasJob(plan))
+    const EJobState job = GetJobState(plan);
+    if (job == EJobState::Instructed || job == EJobState::InProgress)
     {
-        const EJobState job = plan.record.progress.steps[plan.step].jobs[plan.job];
-        if (job == EJobState::Instructed || job == EJobState::InProgress)
-        {
-            ChangeJob(plan, EJobState::Failed, reason);
-        }
+        ChangeJob(plan, EJobState::Failed, reason);
     }
     if (bAborting)
     {
@@ -369,7 +356,7 @@ void PlanEngine::Impl::FailPlan(ActivePlan& plan, const std::string& reason)
 /// its answer in that.
 void PlanEngine::Impl::EndPlan(ActivePlan& plan, EPlanState state, const std::string& message)
 {
-    if (!CanChange(plan.record.progress.state, state))
+    if (!PlanBook::CanEnd(plan, state))
     {
         LeavePause(plan, message);
     }
@@ -381,7 +368,6 @@ void PlanEngine::Impl::EndPlan(ActivePlan& plan, EPlanState state, const std::st
         plan,
         bAsAsked,
         fmt::format("The plan is {}{}{}", GetText(state), bReasoned ? ": " : ".", bReasoned ? message : ""));
-    _pending.erase(plan.key);
     if (plan.robot.has_value())
     {
         Robot& robot = _robots[*plan.robot];
@@ -399,8 +385,6 @@ void PlanEngine::Impl::EndPlan(ActivePlan& plan, EPlanState state, const std::st
         robot.wish.reset();
     }
     _bDispatchNeeded = true;
-    const auto found = _plans.find(plan.record.plan.planID);
-    assert(found != _plans.end());
     if (state == EPlanState::Completed)
     {
         // A robot that has completed a plan since was checked; otherwise the list of alarms would only grow.
@@ -409,9 +393,7 @@ void PlanEngine::Impl::EndPlan(ActivePlan& plan, EPlanState state, const std::st
                 && (alarm.errorCode == ALARM_INTERRUPTED || alarm.errorCode == ALARM_DROPPED);
         }));
     }
-    RememberFinished(plan.record);
-    _ended.push_back(std::move(found->second));
-    _plans.erase(found);
+    Store(_plans.End(plan));
 }
 
 } // namespace ACS::Planning

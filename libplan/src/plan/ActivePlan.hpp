@@ -1,0 +1,69 @@
+#pragma once
+
+#include "plan/PlanAdmission.hpp"
+#include <acs/core/Now.hpp>
+#include <acs/plan/PlanRecord.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+
+namespace ACS::Planning
+{
+
+/// The lower rank first, then the order of acceptance.
+struct QueueKey
+{
+    std::int64_t rank = 0;
+    std::uint64_t sequence = 0;
+
+    bool operator<(const QueueKey& other) const noexcept
+    {
+        return std::tie(rank, sequence) < std::tie(other.rank, other.sequence);
+    }
+};
+
+/// What a plan that a robot has continues with.
+enum class EContinuation : std::uint8_t
+{
+    Job,  ///< The present job of the present step.
+    Step, ///< The present step, which is not begun.
+    End,  ///< All steps are done: the end is reported when the pause ends.
+};
+
+/// A plan that is not finished.
+struct ActivePlan
+{
+    PlanRecord record;
+    ResolvedPlan resolved;
+    QueueKey key;
+    std::size_t step = 0;
+    std::size_t job = 0;
+    EContinuation next = EContinuation::Job;
+    std::string madeJobID; ///< Of a step without jobs.
+    std::optional<std::size_t> robot;
+    bool bStepArrived = false;     ///< Arrival was reported for the present step, and its drive.
+    bool bJobBegun = false;        ///< Any of its jobs.
+    bool bUnstored = false;        ///< That it was begun could not be stored: its first job waits for that.
+    std::string repeatedCommandID; ///< Of a job that the robot never had: it is sent again under this.
+    std::optional<Core::SteadyTime> jobDeadline;
+    std::optional<Core::Duration> jobTimeLeft;     ///< Of a job that is paused.
+    std::map<std::size_t, std::string> rejections; ///< While no robot has it, by robot: why it cannot do a job.
+};
+
+/// Whether the present step has jobs. Without them the engine makes one, whose id the MCS does not know.
+[[nodiscard]] bool HasJob(const ActivePlan& plan);
+/// Of the present job.
+[[nodiscard]] const std::string& GetJobID(const ActivePlan& plan);
+/// State of the present job; Pending of a step without jobs.
+[[nodiscard]] EJobState GetJobState(const ActivePlan& plan);
+[[nodiscard]] std::optional<std::size_t> FindStepOrNull(const Plan& plan, std::int32_t stepNo);
+/// The first step from this one on that is not in a final state.
+[[nodiscard]] std::optional<std::size_t> FindOpenStepOrNull(const ActivePlan& plan, std::size_t from);
+/// Sets the present step and job: the first ones that are not in a final state.
+void FindPosition(ActivePlan& plan);
+
+} // namespace ACS::Planning

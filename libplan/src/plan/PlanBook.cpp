@@ -1,0 +1,254 @@
+#include "plan/PlanBook.hpp"
+
+#include <acs/plan/PlanTransitions.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <iterator>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+PlanBook::PlanBook(const EngineOptions& options)
+    : _options(options)
+{
+}
+
+void PlanBook::BeginCall()
+{
+    _ended.clear();
+    _replaced.clear();
+    _lastStoredSequence = _lastSequence;
+}
+
+std::vector<PlanProgressed> PlanBook::TakeProgress()
+{
+    std::vector<PlanProgressed> changes;
+    for (const std::string& planID : std::exchange(_progressed, {}))
+    {
+        changes.push_back({planID, FindRecordOrNull(planID)->progress});
+    }
+    return changes;
+}
+
+std::vector<StoreChange> PlanBook::Accept(std::unique_ptr<ActivePlan> plan, Core::WallTime now)
+{
+    PlanRecord& record = plan->record;
+    record.sequence = ++_lastSequence;
+    record.acceptedAt = now;
+    for (const Step& step : record.plan.steps)
+    {
+        record.progress.steps.push_back(
+            {EStepState::Pending, std::vector<EJobState>(step.jobs.size(), EJobState::Pending)});
+    }
+    plan->key = MakeQueueKey(record);
+    std::vector<StoreChange> changes;
+    if (const auto finished = _finished.find(record.plan.planID); finished != _finished.end())
+    {
+        changes.emplace_back(PlanRemoved{finished->second.sequence});
+        _replaced.push_back(std::move(finished->second));
+        _finished.erase(finished);
+        std::erase(_finishedOrder, record.plan.planID);
+    }
+    changes.emplace_back(PlanAdded{record});
+    Enqueue(*plan);
+    std::string planID = record.plan.planID;
+    _active.emplace(std::move(planID), std::move(plan));
+    return changes;
+}
+
+ActivePlan& PlanBook::RestoreActive(PlanRecord record)
+{
+    _lastSequence = std::max(_lastSequence, record.sequence);
+    _lastStoredSequence = _lastSequence;
+    auto plan = std::make_unique<ActivePlan>();
+    plan->record = std::move(record);
+    plan->key = MakeQueueKey(plan->record);
+    std::string planID = plan->record.plan.planID;
+    return *_active.emplace(std::move(planID), std::move(plan)).first->second;
+}
+
+std::vector<StoreChange> PlanBook::RestoreFinished(PlanRecord record)
+{
+    _lastSequence = std::max(_lastSequence, record.sequence);
+    return Remember(std::move(record));
+}
+
+void PlanBook::Withdraw(std::string_view planID)
+{
+    if (const auto found = _active.find(planID); found != _active.end())
+    {
+        assert(!found->second->robot.has_value());
+        Dequeue(*found->second);
+        _active.erase(found);
+    }
+}
+
+std::vector<StoreChange> PlanBook::RestoreReplaced()
+{
+    std::vector<StoreChange> changes;
+    for (PlanRecord& record : std::exchange(_replaced, {}))
+    {
+        std::ranges::move(Remember(std::move(record)), std::back_inserter(changes));
+    }
+    return changes;
+}
+
+bool PlanBook::IsReplaced(std::uint64_t sequence) const
+{
+    return std::ranges::count(_replaced, sequence, &PlanRecord::sequence) > 0;
+}
+
+void PlanBook::Enqueue(ActivePlan& plan)
+{
+    _queue.emplace(plan.key, &plan);
+}
+
+void PlanBook::Dequeue(const ActivePlan& plan)
+{
+    _queue.erase(plan.key);
+}
+
+EPlanState PlanBook::Change(ActivePlan& plan, EPlanState state, std::string message, Core::WallTime now)
+{
+    PlanProgress& progress = plan.record.progress;
+    assert(CanChange(progress.state, state));
+    if (state == EPlanState::InProgress && !progress.startedAt.has_value())
+    {
+        progress.startedAt = now;
+    }
+    if (IsFinal(state))
+    {
+        progress.endedAt = now;
+    }
+    progress.message = std::move(message);
+    MarkProgressed(plan.record.plan.planID);
+    return std::exchange(progress.state, state);
+}
+
+EStepState PlanBook::ChangeStep(ActivePlan& plan, std::size_t index, EStepState state)
+{
+    EStepState& current = plan.record.progress.steps[index].state;
+    assert(CanChange(current, state));
+    MarkProgressed(plan.record.plan.planID);
+    return std::exchange(current, state);
+}
+
+EJobState PlanBook::ChangeJob(ActivePlan& plan, EJobState state)
+{
+    EJobState& current = plan.record.progress.steps[plan.step].jobs[plan.job];
+    assert(CanChange(current, state));
+    MarkProgressed(plan.record.plan.planID);
+    return std::exchange(current, state);
+}
+
+void PlanBook::MarkProgressed(const std::string& planID)
+{
+    _progressed.insert(planID);
+}
+
+bool PlanBook::CanEnd(const ActivePlan& plan, EPlanState state)
+{
+    return CanChange(plan.record.progress.state, state);
+}
+
+std::vector<StoreChange> PlanBook::End(ActivePlan& plan)
+{
+    assert(IsFinal(plan.record.progress.state));
+    Dequeue(plan);
+    std::vector<StoreChange> changes = Remember(plan.record);
+    const auto found = _active.find(plan.record.plan.planID);
+    assert(found != _active.end());
+    _ended.push_back(std::move(found->second));
+    _active.erase(found);
+    return changes;
+}
+
+const PlanBook::ActivePlans& PlanBook::GetActive() const noexcept
+{
+    return _active;
+}
+
+const PlanBook::Queue& PlanBook::GetQueue() const noexcept
+{
+    return _queue;
+}
+
+std::vector<ActivePlan*> PlanBook::ListStoredQueue() const
+{
+    std::vector<ActivePlan*> plans;
+    for (const auto& [key, plan] : _queue)
+    {
+        if (plan->record.sequence <= _lastStoredSequence)
+        {
+            plans.push_back(plan);
+        }
+    }
+    return plans;
+}
+
+ActivePlan* PlanBook::FindActiveOrNull(std::string_view planID) const
+{
+    const auto found = _active.find(planID);
+    return found == _active.end() ? nullptr : found->second.get();
+}
+
+PlanRecord* PlanBook::FindFinishedOrNull(std::string_view planID)
+{
+    const auto found = _finished.find(std::string(planID));
+    return found == _finished.end() ? nullptr : &found->second;
+}
+
+const PlanRecord* PlanBook::FindFinishedOrNull(std::string_view planID) const
+{
+    const auto found = _finished.find(std::string(planID));
+    return found == _finished.end() ? nullptr : &found->second;
+}
+
+const PlanRecord* PlanBook::FindRecordOrNull(std::string_view planID) const
+{
+    const ActivePlan* activeOrNull = FindActiveOrNull(planID);
+    return activeOrNull != nullptr ? &activeOrNull->record : FindFinishedOrNull(planID);
+}
+
+bool PlanBook::IsAnyRunning() const
+{
+    return std::ranges::any_of(_active, [](const auto& entry) {
+        return entry.second->record.progress.state == EPlanState::InProgress;
+    });
+}
+
+/// Time in the queue counts as priority, continuously: of two plans the same one is always ahead, so keys never change.
+QueueKey PlanBook::MakeQueueKey(const PlanRecord& record) const
+{
+    const std::int64_t given = record.plan.priority.value_or(_options.defaultPriority);
+    const std::int64_t priority = _options.bLowerPriorityFirst ? -given : given;
+    const std::int64_t ageing = _options.queueAgeing.count();
+    if (ageing == 0)
+    {
+        return {-priority, record.sequence};
+    }
+    const auto acceptedAt = std::chrono::duration_cast<std::chrono::milliseconds>(record.acceptedAt.time_since_epoch());
+    return {acceptedAt.count() - priority * ageing, record.sequence};
+}
+
+std::vector<StoreChange> PlanBook::Remember(PlanRecord record)
+{
+    std::vector<StoreChange> changes;
+    const std::string planID = record.plan.planID;
+    _finished.insert_or_assign(planID, std::move(record));
+    _finishedOrder.push_back(planID);
+    // What is still to be stored is not forgotten yet.
+    while (_finishedOrder.size() > _options.finishedPlansKept && !_progressed.contains(_finishedOrder.front()))
+    {
+        const auto oldest = _finished.find(_finishedOrder.front());
+        changes.emplace_back(PlanRemoved{oldest->second.sequence});
+        _finished.erase(oldest);
+        _finishedOrder.pop_front();
+    }
+    return changes;
+}
+
+} // namespace ACS::Planning

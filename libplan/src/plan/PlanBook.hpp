@@ -1,0 +1,94 @@
+#pragma once
+
+#include "plan/ActivePlan.hpp"
+#include <acs/core/Now.hpp>
+#include <acs/plan/EngineOptions.hpp>
+#include <acs/plan/IPlanStore.hpp>
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+/// All plans: those that are not finished, the queue of those that wait for a robot, and the history. Changes states, and
+/// only by the transition tables. What is to be stored of a change is collected (TakeProgress) or returned.
+class PlanBook
+{
+public:
+    using ActivePlans = std::map<std::string, std::unique_ptr<ActivePlan>, std::less<>>;
+    using Queue = std::map<QueueKey, ActivePlan*>;
+
+private:
+    const EngineOptions& _options;
+    ActivePlans _active;
+    Queue _queue;
+    std::vector<std::unique_ptr<ActivePlan>> _ended; ///< In the present call: references to them stay valid.
+    std::unordered_map<std::string, PlanRecord> _finished;
+    std::deque<std::string> _finishedOrder;
+    std::vector<PlanRecord> _replaced; ///< In the present call: finished plans whose id a new plan has.
+    std::set<std::string> _progressed; ///< By id; not stored yet.
+    std::uint64_t _lastSequence = 0;
+    std::uint64_t _lastStoredSequence = 0;
+
+public:
+    /// The options must outlive the book.
+    explicit PlanBook(const EngineOptions& options);
+
+    /// What the call before has added is stored, and what it has ended is history.
+    void BeginCall();
+    /// The changes of states since the last time, one for each plan.
+    [[nodiscard]] std::vector<PlanProgressed> TakeProgress();
+
+    /// Numbers the plan and queues it. Returns what is to be stored, a finished plan of the same id first.
+    [[nodiscard]] std::vector<StoreChange> Accept(std::unique_ptr<ActivePlan> plan, Core::WallTime now);
+    /// After a restart; the record is not finished. The plan is not queued.
+    [[nodiscard]] ActivePlan& RestoreActive(PlanRecord record);
+    [[nodiscard]] std::vector<StoreChange> RestoreFinished(PlanRecord record);
+    /// A plan that could not be stored: it was never accepted.
+    void Withdraw(std::string_view planID);
+    /// The finished plans that new ones have replaced in this call, as those could not be stored. Returns what is to be stored.
+    [[nodiscard]] std::vector<StoreChange> RestoreReplaced();
+    [[nodiscard]] bool IsReplaced(std::uint64_t sequence) const;
+
+    void Enqueue(ActivePlan& plan);
+    void Dequeue(const ActivePlan& plan);
+
+    /// These return the state before. The transition must be in its table.
+    EPlanState Change(ActivePlan& plan, EPlanState state, std::string message, Core::WallTime now);
+    EStepState ChangeStep(ActivePlan& plan, std::size_t index, EStepState state);
+    /// Of the present job.
+    EJobState ChangeJob(ActivePlan& plan, EJobState state);
+    /// Something else of the plan's progress has changed.
+    void MarkProgressed(const std::string& planID);
+    /// Whether the plan can end so from its present state.
+    [[nodiscard]] static bool CanEnd(const ActivePlan& plan, EPlanState state);
+    /// A plan in a final state becomes history. It lives to the end of the call. Returns what is to be stored: the oldest
+    /// finished plans are forgotten.
+    [[nodiscard]] std::vector<StoreChange> End(ActivePlan& plan);
+
+    [[nodiscard]] const ActivePlans& GetActive() const noexcept;
+    [[nodiscard]] const Queue& GetQueue() const noexcept;
+    /// Queued plans that were accepted before this call: only those are stored.
+    [[nodiscard]] std::vector<ActivePlan*> ListStoredQueue() const;
+    [[nodiscard]] ActivePlan* FindActiveOrNull(std::string_view planID) const;
+    [[nodiscard]] PlanRecord* FindFinishedOrNull(std::string_view planID);
+    [[nodiscard]] const PlanRecord* FindFinishedOrNull(std::string_view planID) const;
+    /// Of an active or a finished plan.
+    [[nodiscard]] const PlanRecord* FindRecordOrNull(std::string_view planID) const;
+    [[nodiscard]] bool IsAnyRunning() const;
+
+private:
+    [[nodiscard]] QueueKey MakeQueueKey(const PlanRecord& record) const;
+    [[nodiscard]] std::vector<StoreChange> Remember(PlanRecord record);
+};
+
+} // namespace ACS::Planning
