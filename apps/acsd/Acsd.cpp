@@ -9,7 +9,6 @@
 #include "EngineTimerKeys.hpp"
 #include "LiveConfig.hpp"
 #include "McsLink.hpp"
-#include "OddityLog.hpp"
 #include "OperatorRoutes.hpp"
 #include "PlanLog.hpp"
 #include "RobotHost.hpp"
@@ -62,7 +61,6 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     AcsdConfig _config;
     Apps::MetricsEndpoint _metrics;
     AcsdMetrics _figures;
-    OddityLog _oddities;
     PlanLog _planLog;
     Planning::PlanEngine _engine;
     Planning::PlanEngineHost _host;
@@ -308,7 +306,6 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         {
             _figures.UpdateRobot(*robot, now);
         }
-        _figures.UpdateOddities(_oddities);
         if (_surroundings.traceOrNull != nullptr)
         {
             _figures.UpdateTrace(_surroundings.traceOrNull->GetLost());
@@ -412,7 +409,6 @@ public:
         : _surroundings(std::move(surroundings)),
           _config(std::move(config)),
           _figures(_metrics),
-          _oddities(_surroundings.logger.MakeFor("robot"), _surroundings.clock),
           _planLog(_surroundings.logger.MakeFor("plan"), _metrics),
           _engine(_config.engine, *_config.site, _surroundings.random),
           _host(
@@ -465,7 +461,7 @@ public:
                     _surroundings.random,
                     _mqtt,
                     _surroundings.logger,
-                    _oddities,
+                    _metrics,
                     _surroundings.traceOrNull},
                 _config,
                 robot,

@@ -38,7 +38,6 @@ constexpr const char* ALARMS = "acsd_alarms_active";
 constexpr const char* ROBOT_STATE = "acsd_robot_state";
 constexpr const char* ROBOT_BATTERY = "acsd_robot_battery";
 constexpr const char* ROBOT_SEEN = "acsd_robot_last_seen_seconds";
-constexpr const char* ROBOT_ODDITIES = "acsd_robot_oddities_total";
 constexpr const char* ROBOT_STATES = "acsd_robot_states_received_total";
 constexpr const char* ROBOT_RESENT = "acsd_robot_orders_resent_total";
 constexpr const char* ARM_UP = "acsd_arm_up";
@@ -103,7 +102,6 @@ AcsdMetrics::AcsdMetrics(Apps::MetricsEndpoint& metrics)
     _metrics.AddGauge(ROBOT_STATE, "1 for the robot's present status, 0 for all others");
     _metrics.AddGauge(ROBOT_BATTERY, "Charge in percent");
     _metrics.AddGauge(ROBOT_SEEN, "Since the vehicle said anything; absent: it never did");
-    _metrics.AddCounter(ROBOT_ODDITIES, "What robots say that cannot be, by kind");
     _metrics.AddCounter(ROBOT_STATES, "VDA5050 states received");
     _metrics.AddCounter(ROBOT_RESENT, "VDA5050 orders that had to be sent again");
     _metrics.AddGauge(ARM_UP, "Whether the arm's Open Stream session stands");
@@ -219,14 +217,6 @@ void AcsdMetrics::UpdateRobot(const RobotHost& robot, Core::Now now)
         _metrics.SetGauge(ARM_UP, labels, figures.bArmReady ? 1.0 : 0.0);
         _metrics.SetTotal(ARM_CONNECTS, labels, ToNumber(figures.arm->connects));
         _metrics.SetTotal(ARM_MISSING, labels, ToNumber(figures.arm->missingLines));
-    }
-}
-
-void AcsdMetrics::UpdateOddities(const OddityLog& oddities)
-{
-    for (const auto& [key, count] : oddities.GetCounts())
-    {
-        _metrics.SetTotal(ROBOT_ODDITIES, {{"robot", key.first}, {"kind", key.second}}, ToNumber(count));
     }
 }
 

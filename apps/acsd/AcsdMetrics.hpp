@@ -2,7 +2,6 @@
 
 #include "common/MetricsEndpoint.hpp"
 #include "McsLink.hpp"
-#include "OddityLog.hpp"
 #include "RobotHost.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/plan/PlanEngine.hpp>
@@ -33,7 +32,6 @@ public:
     void UpdateMcs(const McsLink& mcs);
     void UpdatePlans(const Planning::PlanEngine& engine, Core::Now now);
     void UpdateRobot(const RobotHost& robot, Core::Now now);
-    void UpdateOddities(const OddityLog& oddities);
     void UpdateTrace(std::uint64_t lost);
 };
 

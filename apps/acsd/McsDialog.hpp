@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/LocalOffset.hpp"
-#include "common/LogThinner.hpp"
+#include "common/LogRateLimiter.hpp"
 #include "IMcsOutput.hpp"
 #include "MessageStyle.hpp"
 #include "RefusedReports.hpp"
@@ -62,7 +62,7 @@ private:
 
     const Core::IClock& _clock;
     Core::Logger _logger;
-    Apps::LogThinner _log; ///< For what the MCS can make come in a flood.
+    Apps::LogRateLimiter _log; ///< For what the MCS can make come in a flood.
     Apps::LocalOffset _localOffset;
     const Planning::PlanEngine& _engine;
     IMcsOutput& _output;

@@ -2,7 +2,7 @@
 
 #include "AcsdConfig.hpp"
 #include "AcsdStatus.hpp"
-#include "common/LogThinner.hpp"
+#include "common/LogRateLimiter.hpp"
 #include "IMcsOutput.hpp"
 #include "McsDialog.hpp"
 #include "McsNoteLog.hpp"
@@ -54,7 +54,7 @@ public:
 private:
     const Core::IClock& _clock;
     Core::Logger _logger;
-    Apps::LogThinner _log; ///< For what the MCS can make come in a flood.
+    Apps::LogRateLimiter _log; ///< For what the MCS can make come in a flood.
     McsNoteLog _notes;
     RegistrationWatch _watch;
     McsDialog _dialog;

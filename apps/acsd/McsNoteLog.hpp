@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/LogThinner.hpp"
+#include "common/LogRateLimiter.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/protocol/SessionEvent.hpp>
@@ -21,7 +21,7 @@ class McsNoteLog
         std::uint64_t total = 0;
     };
 
-    Apps::LogThinner _log;
+    Apps::LogRateLimiter _log;
     std::optional<Waiting> _waiting;
 
     void Write(const Waiting& note, Core::SteadyTime now);

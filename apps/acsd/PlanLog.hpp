@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/LogThinner.hpp"
+#include "common/LogRateLimiter.hpp"
 #include "common/MetricsEndpoint.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/plan/IPlanObserver.hpp>
@@ -21,9 +21,9 @@ class PlanLog final : public Planning::IPlanObserver
     Apps::MetricsEndpoint& _metrics;
     /// When the jobs that run were given to their robots, by planID and jobID.
     std::map<std::pair<std::string, std::string>, Core::SteadyTime> _jobs;
-    Apps::LogThinner _notes;
-    Apps::LogThinner _alarms; ///< A robot may make up as many as it likes.
-    Apps::LogThinner _robots; ///< And come and go as often.
+    Apps::LogRateLimiter _notes;
+    Apps::LogRateLimiter _alarms; ///< A robot may make up as many as it likes.
+    Apps::LogRateLimiter _robots; ///< And come and go as often.
 
     void ObserveJob(
         const Planning::PlanRecord& record,

@@ -53,7 +53,11 @@ struct RobotHost::Impl
         : surroundings(std::move(around)),
           robot(link),
           handler(std::move(eventHandler)),
-          watch(*config.site, link.robotID, surroundings.oddities, link.methods.GetPositions())
+          watch(
+              *config.site,
+              link.robotID,
+              {surroundings.clock, surroundings.logger.MakeFor("robot"), surroundings.metrics},
+              link.methods.GetPositions())
     {
         RobotAdapter made = MakeRobotAdapter(config, robot, outputs);
         adapter = std::move(made.adapter);

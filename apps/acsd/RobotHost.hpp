@@ -1,8 +1,8 @@
 #pragma once
 
 #include "AcsdConfig.hpp"
+#include "common/MetricsEndpoint.hpp"
 #include "MessageTrace.hpp"
-#include "OddityLog.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
@@ -52,7 +52,7 @@ public:
         Core::IRandom& random;
         VDA5050::IMqttLink& mqtt;
         Core::Logger logger;
-        OddityLog& oddities;
+        Apps::MetricsEndpoint& metrics;
         MessageTrace* traceOrNull = nullptr;
     };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/LogThinner.hpp"
+#include "common/LogRateLimiter.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
@@ -17,7 +17,7 @@ namespace ACS::Acsd
 class StoreWatch
 {
     Core::Logger _logger;
-    Apps::LogThinner _failures; ///< It is tried again every second.
+    Apps::LogRateLimiter _failures; ///< It is tried again every second.
     Core::SteadyTime _began;
     std::string _fault; ///< Why the store failed last; empty: it did not.
     bool _bHangs = false;

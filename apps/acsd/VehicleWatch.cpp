@@ -15,6 +15,7 @@ namespace ACS::Acsd
 namespace
 {
 
+constexpr const char* ODDITIES = "acsd_robot_oddities_total";
 constexpr double HIGHEST_CHARGE = 100.0;
 
 /// How far an action is. Running and paused take turns, so they are alike.
@@ -47,15 +48,18 @@ bool IsBackwards(VDA5050::EActionStatus before, VDA5050::EActionStatus after)
 VehicleWatch::VehicleWatch(
     const Planning::SiteMap& site,
     std::string robotID,
-    OddityLog& oddities,
+    const Dependencies& dependencies,
     LoadPositions positions)
     : _site(site),
       _robotID(std::move(robotID)),
-      _oddities(oddities),
+      _clock(dependencies.clock),
+      _log(dependencies.logger),
+      _metrics(dependencies.metrics),
       _positions(std::move(positions)),
       _rangeX(FindRange(site, &Planning::SiteNode::x)),
       _rangeY(FindRange(site, &Planning::SiteNode::y))
 {
+    _metrics.AddCounter(ODDITIES, "Contradictions in what robots report, by kind");
 }
 
 VehicleWatch::Range VehicleWatch::FindRange(const Planning::SiteMap& site, double Planning::SiteNode::*coordinate)
@@ -66,7 +70,15 @@ VehicleWatch::Range VehicleWatch::FindRange(const Planning::SiteMap& site, doubl
 
 void VehicleWatch::Note(std::string_view kind, std::string_view detail)
 {
-    _oddities.Note(_robotID, kind, detail);
+    const std::string name(kind);
+    const std::uint64_t total = ++_counts[name];
+    _metrics.Increment(ODDITIES, {{"robot", _robotID}, {"kind", name}});
+    _log.Write(
+        _clock.GetNow().steady,
+        Core::ELogLevel::Warning,
+        kind,
+        "the robot reports a contradiction",
+        {{"robotId", _robotID}, {"what", kind}, {"detail", detail}, {"count", std::to_string(total)}});
 }
 
 void VehicleWatch::OnState(const VDA5050::StateMessage& state)

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "common/LogRateLimiter.hpp"
+#include "common/MetricsEndpoint.hpp"
 #include "LoadPositions.hpp"
-#include "OddityLog.hpp"
+#include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/openstream/ClientSessionActions.hpp>
 #include <acs/plan/SiteMap.hpp>
@@ -17,8 +19,8 @@
 namespace ACS::Acsd
 {
 
-/// Looks at what one robot says for what cannot be, beside the sessions and the engine, which survive it anyway: nothing is
-/// decided here. Pure.
+/// Checks what one robot reports for contradictions; logs them, rate-limited, and counts them by kind. Decides nothing:
+/// sessions and engine tolerate them by themselves. Pure.
 class VehicleWatch final
 {
     struct Shown
@@ -38,7 +40,10 @@ class VehicleWatch final
 
     const Planning::SiteMap& _site;
     std::string _robotID;
-    OddityLog& _oddities;
+    const Core::IClock& _clock;
+    Apps::LogRateLimiter _log;
+    Apps::MetricsEndpoint& _metrics;
+    std::map<std::string, std::uint64_t, std::less<>> _counts; ///< By kind. Kinds are constants of the code.
     LoadPositions _positions;
     std::optional<Shown> _shown;
     VDA5050::MasterStatistics _statistics; ///< As they were at the last look.
@@ -53,11 +58,23 @@ class VehicleWatch final
     void Note(std::string_view kind, std::string_view detail);
 
 public:
+    /// Everything outlives the watch.
+    struct Dependencies
+    {
+        const Core::IClock& clock;
+        Core::Logger logger;
+        Apps::MetricsEndpoint& metrics;
+    };
+
     /// How far outside the rectangle around all nodes a vehicle may be, in metres.
     static constexpr double MARGIN = 5.0;
 
-    /// Site and log outlive it.
-    VehicleWatch(const Planning::SiteMap& site, std::string robotID, OddityLog& oddities, LoadPositions positions);
+    /// The site outlives the watch.
+    VehicleWatch(
+        const Planning::SiteMap& site,
+        std::string robotID,
+        const Dependencies& dependencies,
+        LoadPositions positions);
 
     /// A state that the session took as new.
     void OnState(const VDA5050::StateMessage& state);

@@ -1,6 +1,6 @@
 #include "common/HttpServer.hpp"
 
-#include "common/LogThinner.hpp"
+#include "common/LogRateLimiter.hpp"
 #include <acs/net/TcpListener.hpp>
 
 #include <boost/asio/ip/tcp.hpp>
@@ -80,7 +80,7 @@ struct HttpServer::Impl : std::enable_shared_from_this<Impl>
 
     Handler handler;
     Core::Logger logger;
-    LogThinner refusals; ///< Anybody may send anything.
+    LogRateLimiter refusals; ///< Anybody may send anything.
     HttpLimits limits;
     std::optional<HttpGuard> guardOrNone;
     std::shared_ptr<Net::TcpListener> listener;

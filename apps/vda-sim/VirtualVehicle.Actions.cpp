@@ -1,5 +1,6 @@
 #include "vda-sim/VirtualVehicle.hpp"
 
+#include "vda-sim/CutForLog.hpp"
 #include "vda-sim/OrderLimits.hpp"
 #include "vda-sim/VehicleFactsheet.hpp"
 #include "world/EWorldError.hpp"
@@ -133,15 +134,7 @@ void VirtualVehicle::LogUnlisted(const std::string& actionID, Core::Now now)
                 keys += (keys.empty() ? "" : ", ") + reference.referenceValue;
             }
         }
-        const std::optional<std::uint64_t> unsaid = _unlisted.PassOrNull(now.steady);
-        if (unsaid.has_value())
-        {
-            _logger.Warning(
-                error.errorDescription,
-                {{"actionId", CutForLog(actionID)},
-                 {"parameters", CutForLog(keys)},
-                 {"unsaid", std::to_string(*unsaid)}});
-        }
+        LogWarning(now, error.errorDescription, {{"actionId", CutForLog(actionID)}, {"parameters", CutForLog(keys)}});
     }
 }
 
@@ -166,15 +159,7 @@ void VirtualVehicle::EndActions(Core::Now now, VirtualActions& out)
 
 void VirtualVehicle::LogFailure(const ActionOutcome& outcome, Core::Now now)
 {
-    const std::optional<std::uint64_t> unsaid = _failures.PassOrNull(now.steady);
-    if (unsaid.has_value())
-    {
-        _logger.Warning(
-            "action failed",
-            {{"actionId", CutForLog(outcome.actionID)},
-             {"reason", outcome.result},
-             {"unsaid", std::to_string(*unsaid)}});
-    }
+    LogWarning(now, "action failed", {{"actionId", CutForLog(outcome.actionID)}, {"reason", outcome.result}});
 }
 
 void VirtualVehicle::TellLoads(Core::Now now)
@@ -205,9 +190,10 @@ void VirtualVehicle::UpdateDock(Core::Now now)
     }
     const Core::Result<void> docked = _hands.GetDevice().Dock(std::move(stationIDs));
     _bDockUnknown = !docked.has_value() && docked.error().code == Sim::EWorldError::JournalFailed;
-    if (!docked.has_value() && _worldErrors.PassOrNull(now.steady).has_value())
+    if (!docked.has_value())
     {
-        _logger.Warning(
+        LogWarning(
+            now,
             "the world does not know where the vehicle is docked",
             {{"reason", Core::Describe(docked.error())}});
     }

@@ -1,5 +1,6 @@
 #include "vda-sim/VirtualVehicle.hpp"
 
+#include "vda-sim/CutForLog.hpp"
 #include "vda-sim/OrderLimits.hpp"
 #include "vda-sim/VehicleFactsheet.hpp"
 #include <acs/core/Overloaded.hpp>
@@ -77,7 +78,8 @@ VirtualVehicle::VirtualVehicle(
           _options.actionSeconds,
           LoadDevice(_options.address.serialNumber, _options.type, _options.handling, _options.worldOrNull)),
       _nodeID(_options.startNodeID),
-      _charge(_options.charge)
+      _charge(_options.charge),
+      _warnings(_logger)
 {
     const Planning::SiteNode* const node = site.FindNodeOrNull(_nodeID);
     if (node != nullptr)
@@ -358,34 +360,31 @@ void VirtualVehicle::CarryOut(VDA5050::VehicleAction& action, Core::Now now, Vir
 
 void VirtualVehicle::LogRefusal(const VDA5050::OrderRefused& refused, Core::Now now)
 {
-    const std::optional<std::uint64_t> unsaid = _refusals.PassOrNull(now.steady);
-    if (unsaid.has_value())
-    {
-        _logger.Warning(
-            "order refused",
-            {{"orderId", CutForLog(refused.orderID)},
-             {"error", CutForLog(refused.errorType)},
-             {"reason", CutForLog(refused.reason)},
-             {"unsaid", std::to_string(*unsaid)}});
-    }
+    LogWarning(
+        now,
+        "order refused",
+        {{"orderId", CutForLog(refused.orderID)},
+         {"error", CutForLog(refused.errorType)},
+         {"reason", CutForLog(refused.reason)}});
 }
 
 void VirtualVehicle::LogIgnored(const VDA5050::MessageIgnored& ignored, Core::Now now)
 {
-    const std::optional<std::uint64_t> unsaid = _ignored.PassOrNull(now.steady);
-    if (unsaid.has_value())
-    {
-        const std::string reason = Core::Describe(ignored.error);
-        _logger.Warning("message ignored", {{"reason", CutForLog(reason)}, {"unsaid", std::to_string(*unsaid)}});
-    }
+    const std::string reason = Core::Describe(ignored.error);
+    LogWarning(now, "message ignored", {{"reason", CutForLog(reason)}});
 }
 
 void VirtualVehicle::LogOverflow(std::size_t lost, Core::Now now)
 {
-    if (lost > 0 && _overflows.PassOrNull(now.steady).has_value())
+    if (lost > 0)
     {
-        _logger.Warning("more is delayed than a network holds: messages are lost");
+        LogWarning(now, "more is delayed than a network holds: messages are lost", {});
     }
+}
+
+void VirtualVehicle::LogWarning(Core::Now now, std::string_view message, std::initializer_list<Core::LogField> fields)
+{
+    _warnings.Write(now.steady, Core::ELogLevel::Warning, message, message, fields);
 }
 
 void VirtualVehicle::TellPosition()

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "common/LogRateLimiter.hpp"
 #include "vda-sim/ActionRunner.hpp"
 #include "vda-sim/Fault.hpp"
 #include "vda-sim/MessageGate.hpp"
 #include "vda-sim/VehicleMotion.hpp"
 #include "vda-sim/VehicleSpec.hpp"
-#include "vda-sim/WarningLimiter.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -108,12 +109,7 @@ class VirtualVehicle
     MessageGate _outgoing{EFaultDirection::Out};
     std::vector<VDA5050::VehicleError> _orderErrors; ///< Until an order is taken.
     std::optional<Core::SteadyTime> _nextEvent;      ///< What the event timer runs for.
-    WarningLimiter _refusals;
-    WarningLimiter _ignored;
-    WarningLimiter _overflows;
-    WarningLimiter _worldErrors;
-    WarningLimiter _failures;
-    WarningLimiter _unlisted;
+    Apps::LogRateLimiter _warnings;                  ///< Those that a peer can trigger.
     bool _bWasOnline = false;
     bool _bBatteryLow = false;
 
@@ -200,6 +196,8 @@ private:
     void LogRefusal(const VDA5050::OrderRefused& refused, Core::Now now);
     void LogIgnored(const VDA5050::MessageIgnored& ignored, Core::Now now);
     void LogOverflow(std::size_t lost, Core::Now now);
+    /// Rate-limited by message.
+    void LogWarning(Core::Now now, std::string_view message, std::initializer_list<Core::LogField> fields);
     [[nodiscard]] bool IsAtCharger() const;
 };
 

@@ -136,17 +136,17 @@ TEST_CASE_METHOD(
     {
         submit("Fly", number);
     }
-    CHECK(_log.GetLines().size() == Apps::LogThinner::FEW);
+    CHECK(_log.GetLines().size() == Apps::LogRateLimiter::BURST);
     _dialog.OnSessionEvent(Protocol::RequestReceived{{"T", {}, Protocol::CancelPlan{"P9", {}}}, false});
     while (_host.IsStoring())
     {
         _host.OnStored({});
     }
     CHECK(_log.GetLines().back().HasField("command", "CancelPlan"));
-    CHECK(_log.GetLines().size() == Apps::LogThinner::FEW + 1);
-    _clock.Advance(Apps::LogThinner::INTERVAL);
+    CHECK(_log.GetLines().size() == Apps::LogRateLimiter::BURST + 1);
+    _clock.Advance(Apps::LogRateLimiter::INTERVAL);
     submit("Fly", 100);
-    CHECK(_log.GetLines().back().message == "command refused (95 like it left out before)");
+    CHECK(_log.GetLines().back().message == "command refused (95 similar lines suppressed)");
     CHECK(_log.GetLines().back().HasField("planId", "P100"));
 }
 

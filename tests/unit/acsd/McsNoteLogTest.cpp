@@ -56,10 +56,10 @@ TEST_CASE_METHOD(NoteLogFixture, "Each departure has a few lines for each of its
         Take(EProtocolNote::Undecodable, "command: expected a string, found " + std::to_string(count));
     }
     log.Flush(now);
-    CHECK(sink.GetLines().size() == Apps::LogThinner::FEW);
+    CHECK(sink.GetLines().size() == Apps::LogRateLimiter::BURST);
     Take(EProtocolNote::Undecodable, "transactionId: expected a string, found 1");
     Take(EProtocolNote::AckUnexpected, "PlanReport");
-    CHECK(sink.GetLines().size() == Apps::LogThinner::FEW + 2);
+    CHECK(sink.GetLines().size() == Apps::LogRateLimiter::BURST + 2);
     Take(EProtocolNote::UnknownMember, {});
     CHECK(sink.GetLines().back().level == Core::ELogLevel::Debug);
 }

@@ -26,9 +26,9 @@ TEST_CASE("A robot that makes up new errors without end does not fill the log, n
     log.OnAlarmChanged(alarm, true, "T", clock.GetNow());
     CHECK(sink.GetLines().back().HasField("robotId", "LR02"));
     alarm.robotID = "LR01";
-    clock.Advance(Apps::LogThinner::INTERVAL);
+    clock.Advance(Apps::LogRateLimiter::INTERVAL);
     log.OnAlarmChanged(alarm, false, "T", clock.GetNow());
-    CHECK(sink.GetLines().back().message == "alarm cleared (980 like it left out before)");
+    CHECK(sink.GetLines().back().message == "alarm cleared (980 similar lines suppressed)");
     CHECK(metrics.Respond().body.find("acsd_alarms_set_total") != std::string::npos);
 }
 
@@ -57,7 +57,7 @@ TEST_CASE(
     clock.Advance(std::chrono::minutes(1));
     status.robotID = "LR01";
     log.OnRobotStatusChanged(status, clock.GetNow());
-    CHECK(sink.GetLines().back().message == "robot (480 like it left out before)");
+    CHECK(sink.GetLines().back().message == "robot (480 similar lines suppressed)");
 }
 
 TEST_CASE("What a robot does otherwise again and again is noted a few times, each of its ways")
@@ -71,7 +71,7 @@ TEST_CASE("What a robot does otherwise again and again is noted a few times, eac
         log.OnNote("LR01", "one way", clock.GetNow());
     }
     log.OnNote("LR01", "another way", clock.GetNow());
-    CHECK(sink.GetLines().size() == Apps::LogThinner::FEW + 1);
+    CHECK(sink.GetLines().size() == Apps::LogRateLimiter::BURST + 1);
 }
 
 } // namespace ACS::Acsd::Test

@@ -61,7 +61,7 @@ TEST_CASE("A store that fails each second is told a few times, then once a minut
         fail("disk full");
     }
     CHECK(sink.GetLines().size() == 7);
-    CHECK(sink.Contains(Core::ELogLevel::Error, "the store fails (59 like it left out before)"));
+    CHECK(sink.Contains(Core::ELogLevel::Error, "the store fails (59 similar lines suppressed)"));
     fail("disk broken");
     CHECK(sink.GetLines().size() == 8);
     CHECK(sink.ContainsField("reason", "acsd.db: expected room, found disk broken"));

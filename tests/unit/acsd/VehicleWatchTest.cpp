@@ -20,8 +20,12 @@ struct WatchFixture
     AcsdConfig config = ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", {});
     Testing::RecordingLogSink sink;
     Testing::ManualClock clock;
-    OddityLog oddities{Core::Logger(sink, "robot"), clock};
-    VehicleWatch watch{*config.site, "LR01", oddities, config.robots.back().methods.GetPositions()};
+    Apps::MetricsEndpoint metrics;
+    VehicleWatch watch{
+        *config.site,
+        "LR01",
+        {clock, Core::Logger(sink, "robot"), metrics},
+        config.robots.back().methods.GetPositions()};
     VDA5050::StateMessage state;
 
     WatchFixture()
@@ -44,10 +48,25 @@ struct WatchFixture
         Show();
     }
 
+    /// As /metrics shows it.
     [[nodiscard]] std::uint64_t CountOf(const std::string& kind) const
     {
-        const auto found = oddities.GetCounts().find({"LR01", kind});
-        return found == oddities.GetCounts().end() ? 0 : found->second;
+        const std::string text = metrics.Render();
+        const std::string series = "acsd_robot_oddities_total{kind=\"" + kind + "\",robot=\"LR01\"} ";
+        const std::size_t found = text.find(series);
+        return found == std::string::npos ? 0 : std::stoull(text.substr(found + series.size()));
+    }
+
+    [[nodiscard]] std::size_t CountKinds() const
+    {
+        const std::string text = metrics.Render();
+        const std::string series = "acsd_robot_oddities_total{";
+        std::size_t count = 0;
+        for (std::size_t at = text.find(series); at != std::string::npos; at = text.find(series, at + 1))
+        {
+            ++count;
+        }
+        return count;
     }
 };
 
@@ -67,7 +86,7 @@ TEST_CASE_METHOD(WatchFixture, "An honest robot is not told of: states may be lo
     ShowAction(E::Finished);
     state.lastNodeID.clear(); // it may not know yet
     Show();
-    CHECK(oddities.GetCounts().empty());
+    CHECK(CountKinds() == 0);
     CHECK(sink.GetLines().empty());
 }
 
@@ -167,7 +186,7 @@ TEST_CASE_METHOD(WatchFixture, "An arm that answers nonsense is told by what it 
     {
         CHECK(CountOf(kind) == 1);
     }
-    CHECK(oddities.GetCounts().size() == 5);
+    CHECK(CountKinds() == 5);
 }
 
 TEST_CASE_METHOD(
@@ -180,10 +199,10 @@ TEST_CASE_METHOD(
         Show();
     }
     CHECK(CountOf("unknown_node") == 250);
-    CHECK(sink.GetLines().size() == Apps::LogThinner::FEW);
-    clock.Advance(Apps::LogThinner::INTERVAL);
+    CHECK(sink.GetLines().size() == Apps::LogRateLimiter::BURST);
+    clock.Advance(Apps::LogRateLimiter::INTERVAL);
     Show();
-    CHECK(sink.GetLines().back().message == "the robot says what cannot be (245 like it left out before)");
+    CHECK(sink.GetLines().back().message == "the robot reports a contradiction (245 similar lines suppressed)");
     CHECK(sink.ContainsField("count", "251"));
 }
 

@@ -1,7 +1,7 @@
 #include "common/HttpServer.hpp"
 
 #include "Catch.hpp"
-#include "common/LogThinner.hpp"
+#include "common/LogRateLimiter.hpp"
 #include "RecordingLogSink.hpp"
 
 #include <boost/asio/connect.hpp>
@@ -291,13 +291,13 @@ TEST_CASE("What is no HTTP is answered with 400 and the server lives on")
 TEST_CASE("A flood of bad requests is a few lines of the log")
 {
     Fixture fixture;
-    for (std::size_t count = 0; count < 4 * Apps::LogThinner::FEW; ++count)
+    for (std::size_t count = 0; count < 4 * Apps::LogRateLimiter::BURST; ++count)
     {
         RawClient bad(fixture.context, fixture.port);
         bad.Send("\x16\x03\x01 hello\r\n\r\n");
         REQUIRE(bad.WasClosed());
     }
-    CHECK(fixture.log.GetLines().size() == Apps::LogThinner::FEW);
+    CHECK(fixture.log.GetLines().size() == Apps::LogRateLimiter::BURST);
     CHECK(fixture.log.Contains(Core::ELogLevel::Warning, "Refused an HTTP request"));
 }
 

@@ -1,9 +1,9 @@
 #include "Catch.hpp"
 #include "SeededRandom.hpp"
+#include "vda-sim/CutForLog.hpp"
 #include "vda-sim/FaultCommand.hpp"
 #include "vda-sim/MessageGate.hpp"
 #include "vda-sim/VehicleRandom.hpp"
-#include "vda-sim/WarningLimiter.hpp"
 
 #include <chrono>
 #include <set>
@@ -411,19 +411,6 @@ TEST_CASE("A fault that ends as it begins leaves the others alone")
     CHECK(board.CountFaults() == 1);
     board.OnTime(START + 2s, changes);
     CHECK(TakeTexts(changes) == Texts{"+lost"});
-}
-
-TEST_CASE("Of warnings of one kind some pass in a span of time, and the next one says how many did not")
-{
-    VdaSim::WarningLimiter limiter;
-    for (std::uint32_t i = 0; i < VdaSim::WarningLimiter::MOST; ++i)
-    {
-        CHECK(limiter.PassOrNull(START) == 0U);
-    }
-    CHECK_FALSE(limiter.PassOrNull(START).has_value());
-    CHECK_FALSE(limiter.PassOrNull(START + VdaSim::WarningLimiter::SPAN - 1ms).has_value());
-    CHECK(limiter.PassOrNull(START + VdaSim::WarningLimiter::SPAN) == 2U);
-    CHECK(limiter.PassOrNull(START + VdaSim::WarningLimiter::SPAN) == 0U);
 }
 
 TEST_CASE("What a log repeats of a text from outside is short, and whole characters")

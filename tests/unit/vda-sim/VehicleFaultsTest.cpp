@@ -136,8 +136,8 @@ TEST_CASE("The log says of a flood of bad messages the first ones, each in a sho
     const auto count = [&driver](std::string_view message) {
         return std::ranges::count(driver.GetLog().GetLines(), message, &RecordedLine::message);
     };
-    CHECK(count("order refused") == VdaSim::WarningLimiter::MOST);
-    CHECK(count("more is delayed than a network holds: messages are lost") == VdaSim::WarningLimiter::MOST);
+    CHECK(count("order refused") == Apps::LogRateLimiter::BURST);
+    CHECK(count("more is delayed than a network holds: messages are lost") == Apps::LogRateLimiter::BURST);
     for (const RecordedLine& line : driver.GetLog().GetLines())
     {
         for (const auto& [key, value] : line.fields)
