@@ -6,7 +6,6 @@
 #include "common/HttpServer.hpp"
 #include "common/MetricsEndpoint.hpp"
 #include "common/TimerSet.hpp"
-#include "EngineTimerKeys.hpp"
 #include "LiveConfig.hpp"
 #include "McsLink.hpp"
 #include "OperatorRoutes.hpp"
@@ -23,6 +22,7 @@
 #include <acs/vda5050_mosquitto/MosquittoLink.hpp>
 
 #include <cassert>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -44,14 +44,16 @@ constexpr std::chrono::milliseconds STOP_LIMIT = 5s;
 /// The engine stores acknowledgements together, a little later: a stop waits for that.
 constexpr std::chrono::milliseconds SETTLE_TIME = 300ms;
 
-constexpr std::uint64_t GRACE_TIMER = 1;
-constexpr std::uint64_t STOP_TIMER = 2;
-constexpr std::uint64_t DRAIN_TIMER = 3;
-constexpr std::uint64_t SETTLE_TIMER = 4;
-constexpr std::uint64_t STATUS_TIMER = 5;
-constexpr std::uint64_t STORE_TIMER = 6;
-constexpr std::uint64_t STORE_CHECK_TIMER = 7;
-constexpr std::uint64_t FIRST_ENGINE_TIMER = 1000;
+enum class EAcsdTimer : std::uint8_t
+{
+    WorkGrace,  ///< Until the MCS is told that no work can be accepted.
+    Drain,      ///< For everything to be reported.
+    Settle,     ///< Everything is reported; the acknowledgements are still to be stored.
+    Stop,       ///< For the links to close.
+    Status,     ///< Until the robots' statuses are repeated.
+    StoreLate,  ///< For a batch to be stored.
+    StoreCheck, ///< Until the store is checked again.
+};
 
 } // namespace
 
@@ -72,12 +74,12 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     /// By manufacturer and serial number: a message costs one look-up, however many robots there are.
     std::map<std::pair<std::string, std::string>, RobotHost*> _vehicles;
     std::set<std::string> _reachable; ///< Robots that are not Disconnected.
-    Apps::TimerSet _timers;
+    Apps::TimerSet<EAcsdTimer> _timers;
+    Apps::TimerSet<Planning::EngineTimer> _engineTimers;
     Apps::HttpRoutes _routes;
     Apps::HttpServer _http;
     Apps::Endpoint _httpEndpoint;
 
-    EngineTimerKeys _engineTimers{FIRST_ENGINE_TIMER};
     bool _bMqttUp = false;
     bool _bWorks = false;    ///< Whether work can be taken at this moment.
     bool _bDraining = false; ///< No new plans; what is to be told is told, then the links are left.
@@ -88,7 +90,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
 
     void OnStored(const Core::Result<void>& result)
     {
-        _timers.Cancel(STORE_TIMER);
+        _timers.Cancel(EAcsdTimer::StoreLate);
         _figures.ObserveCommit(_storeWatch.OnStored(result, _surroundings.clock.GetNow().steady));
         _host.OnStored(result);
         FollowDrain();
@@ -104,7 +106,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         {
             _store.CheckAsync();
         }
-        _timers.Start(STORE_CHECK_TIMER, StoreWatch::CHECK_INTERVAL);
+        _timers.Start(EAcsdTimer::StoreCheck, StoreWatch::CHECK_INTERVAL);
     }
 
     void OnStoreLost(const Core::Error& error)
@@ -134,11 +136,9 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
                     TellWorking();
                 },
                 [&](const Planning::TscStateChanged& changed) { _mcs.TellTsc(changed.state); },
-                [&](const Planning::StartEngineTimer& start) {
-                    _timers.Start(_engineTimers.GetKey(start.timer), start.delay);
-                },
+                [&](const Planning::StartEngineTimer& start) { _engineTimers.Start(start.timer, start.delay); },
                 [&](const Planning::CancelEngineTimer& cancel) {
-                    _timers.Cancel(_engineTimers.GetKey(cancel.timer));
+                    _engineTimers.Cancel(cancel.timer);
                 }},
             action);
     }
@@ -150,35 +150,32 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         found->second->Handle(command.command);
     }
 
-    void OnTimer(std::uint64_t key)
+    void OnTimer(EAcsdTimer timer)
     {
-        if (key == GRACE_TIMER)
+        switch (timer)
         {
-            _mcs.TellWorking(false);
-        }
-        else if (key == STOP_TIMER)
-        {
-            FinishStop();
-        }
-        else if (key == DRAIN_TIMER || key == SETTLE_TIMER)
-        {
-            EndDrain();
-        }
-        else if (key == STATUS_TIMER)
-        {
-            RepeatStatuses();
-        }
-        else if (key == STORE_TIMER)
-        {
-            _storeWatch.OnLate();
-        }
-        else if (key == STORE_CHECK_TIMER)
-        {
-            CheckStore();
-        }
-        else
-        {
-            _host.Push(_engineTimers.GetTimer(key));
+            case EAcsdTimer::WorkGrace:
+                _mcs.TellWorking(false);
+                break;
+            case EAcsdTimer::Drain:
+            case EAcsdTimer::Settle:
+                EndDrain();
+                break;
+            case EAcsdTimer::Stop:
+                FinishStop();
+                break;
+            case EAcsdTimer::Status:
+                RepeatStatuses();
+                break;
+            case EAcsdTimer::StoreLate:
+                _storeWatch.OnLate();
+                break;
+            case EAcsdTimer::StoreCheck:
+                CheckStore();
+                break;
+            default:
+                assert(false);
+                break;
         }
     }
 
@@ -197,12 +194,12 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         _bWorks = bWorks;
         if (bWorks)
         {
-            _timers.Cancel(GRACE_TIMER);
+            _timers.Cancel(EAcsdTimer::WorkGrace);
             _mcs.TellWorking(true);
         }
         else
         {
-            _timers.Start(GRACE_TIMER, _config.operations.workGrace);
+            _timers.Start(EAcsdTimer::WorkGrace, _config.operations.workGrace);
         }
     }
 
@@ -331,11 +328,11 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     {
         if (_config.operations.statusInterval.count() > 0)
         {
-            _timers.Start(STATUS_TIMER, _config.operations.statusInterval);
+            _timers.Start(EAcsdTimer::Status, _config.operations.statusInterval);
         }
         else
         {
-            _timers.Cancel(STATUS_TIMER);
+            _timers.Cancel(EAcsdTimer::Status);
         }
     }
 
@@ -359,7 +356,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         const bool bTold = !_mcs.IsRegistered() || _engine.GetOutboxSummary().count == 0;
         if (bTold && !std::exchange(_bSettling, true))
         {
-            _timers.Start(SETTLE_TIMER, SETTLE_TIME);
+            _timers.Start(EAcsdTimer::Settle, SETTLE_TIME);
         }
     }
 
@@ -368,7 +365,8 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         _bStopping = true;
         _host.Close();
         _timers.CancelAll();
-        _timers.Start(STOP_TIMER, STOP_LIMIT);
+        _engineTimers.CancelAll();
+        _timers.Start(EAcsdTimer::Stop, STOP_LIMIT);
         if (!_host.IsStoring()) // else what stands behind the batch is told first
         {
             StopLinks();
@@ -378,6 +376,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     void FinishStop()
     {
         _timers.CancelAll();
+        _engineTimers.CancelAll();
         _http.Stop();
         if (_stopHandler)
         {
@@ -417,7 +416,7 @@ public:
               [this](const Planning::EngineAction& action) { Execute(action); },
               [this](const Planning::StoreBatch& batch) {
                   _storeWatch.OnBegun(_surroundings.clock.GetNow().steady);
-                  _timers.Start(STORE_TIMER, StoreWatch::LIMIT);
+                  _timers.Start(EAcsdTimer::StoreLate, StoreWatch::LIMIT);
                   _store.Append(batch);
               }),
           _storeWatch(_surroundings.logger.MakeFor("store")),
@@ -441,7 +440,8 @@ public:
               _surroundings.logger.MakeFor("mqtt"),
               MakeMqttOptions(_config.mqtt, _surroundings.random),
               *this),
-          _timers(_surroundings.executor, [this](std::uint64_t key) { OnTimer(key); }),
+          _timers(_surroundings.executor, [this](EAcsdTimer timer) { OnTimer(timer); }),
+          _engineTimers(_surroundings.executor, [this](const Planning::EngineTimer& timer) { _host.Push(timer); }),
           _http(
               _surroundings.executor,
               [this](const Apps::HttpRequest& request) { return _routes.Respond(request); },
@@ -498,7 +498,7 @@ public:
         {
             robot->Start();
         }
-        _timers.Start(GRACE_TIMER, _config.operations.workGrace);
+        _timers.Start(EAcsdTimer::WorkGrace, _config.operations.workGrace);
         StartStatusTimer();
         CheckStore();
         _mqtt.Start();
@@ -509,8 +509,8 @@ public:
     {
         _stopHandler = std::move(handler);
         _bDraining = true;
-        _timers.Cancel(GRACE_TIMER);
-        _timers.Start(DRAIN_TIMER, _config.operations.drainTimeout);
+        _timers.Cancel(EAcsdTimer::WorkGrace);
+        _timers.Start(EAcsdTimer::Drain, _config.operations.drainTimeout);
         _mcs.BeginDraining();
         FollowDrain();
     }

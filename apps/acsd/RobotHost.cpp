@@ -41,7 +41,7 @@ struct RobotHost::Impl
     RobotOutputs outputs;
     std::unique_ptr<IMqttRobotAdapter> adapter;
     OpenStreamRobotAdapter* armAdapterOrNull = nullptr;
-    std::optional<Apps::TimerSet> timers;
+    std::optional<Apps::TimerSet<Planning::AdapterTimerID>> timers;
     std::deque<Planning::AdapterAction> actions; ///< Still to be carried out.
     bool bExecuting = false;
     std::optional<ArmTrace> armTrace;
@@ -62,10 +62,8 @@ struct RobotHost::Impl
         RobotAdapter made = MakeRobotAdapter(config, robot, outputs);
         adapter = std::move(made.adapter);
         armAdapterOrNull = made.armOrNull;
-        timers.emplace(surroundings.executor, [this](std::uint64_t key) {
-            Call([this, key](Core::Now now, Planning::AdapterActions& out) {
-                adapter->OnTimer(static_cast<Planning::AdapterTimerID>(key), now, out);
-            });
+        timers.emplace(surroundings.executor, [this](Planning::AdapterTimerID timer) {
+            Call([this, timer](Core::Now now, Planning::AdapterActions& out) { adapter->OnTimer(timer, now, out); });
         });
     }
 

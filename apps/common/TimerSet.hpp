@@ -3,38 +3,94 @@
 #include <acs/core/Now.hpp>
 
 #include <boost/asio/any_io_executor.hpp>
+#include <boost/asio/steady_timer.hpp>
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
+#include <utility>
 
 namespace ACS::Apps
 {
 
-/// The timers that a pure machine asks for (StartTimer, CancelTimer), kept by key. The driver feeds the handler's key
-/// back as OnTimer. The handler may start and cancel timers and even destroy the set; it is never called for a timer
-/// that was cancelled or started anew, nor after destruction. One thread: the executor's.
+/// The timers of a pure state machine or a program by a key of its own: an enum, a number, anything that is ordered. The
+/// handler may start and cancel timers and even destroy the set. It is never called for a timer that was cancelled or
+/// restarted, nor after the destruction. One thread: the executor's.
+template <typename TKey>
 class TimerSet final
 {
-    struct Impl;
-    std::shared_ptr<Impl> _impl;
+public:
+    using Handler = std::function<void(const TKey& key)>;
+
+private:
+    /// A wait that has expired cannot be cancelled any more: the run tells whether it still counts.
+    struct Timer
+    {
+        boost::asio::steady_timer timer;
+        std::uint64_t run = 0;
+    };
+
+    struct State
+    {
+        boost::asio::any_io_executor executor;
+        Handler handler;
+        std::map<TKey, Timer> timers{};
+        std::uint64_t lastRun = 0;
+    };
+
+    std::shared_ptr<State> _state;
 
 public:
-    using Handler = std::function<void(std::uint64_t key)>;
+    TimerSet(const boost::asio::any_io_executor& executor, Handler handler)
+        : _state(std::make_shared<State>(State{executor, std::move(handler)}))
+    {
+    }
 
-    TimerSet(const boost::asio::any_io_executor& executor, Handler handler);
     TimerSet(const TimerSet&) = delete;
     TimerSet& operator=(const TimerSet&) = delete;
-    ~TimerSet();
 
-    /// Starts the timer, anew where it runs already.
-    void Start(std::uint64_t key, Core::Duration delay);
+    ~TimerSet()
+    {
+        CancelAll();
+    }
 
-    /// Nothing happens where it does not run.
-    void Cancel(std::uint64_t key);
-    void CancelAll();
+    /// Restarts a timer that is running.
+    void Start(const TKey& key, Core::Duration delay)
+    {
+        _state->timers.erase(key);
+        const std::uint64_t run = ++_state->lastRun;
+        Timer started{boost::asio::steady_timer(_state->executor, delay), run};
+        Timer& entry = _state->timers.emplace(key, std::move(started)).first->second;
+        entry.timer.async_wait([weak = std::weak_ptr(_state), key, run](const boost::system::error_code&) {
+            const std::shared_ptr<State> state = weak.lock();
+            if (state == nullptr)
+            {
+                return;
+            }
+            const auto found = state->timers.find(key);
+            if (found != state->timers.end() && found->second.run == run)
+            {
+                state->timers.erase(found);
+                state->handler(key);
+            }
+        });
+    }
 
-    [[nodiscard]] bool IsRunning(std::uint64_t key) const;
+    void Cancel(const TKey& key)
+    {
+        _state->timers.erase(key);
+    }
+
+    void CancelAll()
+    {
+        _state->timers.clear();
+    }
+
+    [[nodiscard]] bool IsRunning(const TKey& key) const
+    {
+        return _state->timers.contains(key);
+    }
 };
 
 } // namespace ACS::Apps

@@ -48,11 +48,6 @@ constexpr std::chrono::milliseconds TICK{100};
 constexpr std::chrono::milliseconds LINGER{300};
 constexpr std::chrono::milliseconds CLOSE_LIMIT{1'500};
 
-std::uint64_t MakeKey(ETimer timer)
-{
-    return static_cast<std::uint64_t>(timer);
-}
-
 /// Renamed carriers are on no floor but one that is restocked.
 ECarrierNames GetCarrierNames(const SimulatorOptions& options)
 {
@@ -95,7 +90,7 @@ class McsSimulator::Impl final : private ProtocolBeast::ISessionHandler
     bool _bDone = false;
 
     std::unique_ptr<ProtocolBeast::McsServer> _server;
-    Apps::TimerSet _timers;
+    Apps::TimerSet<ETimer> _timers;
 
 public:
     Impl(
@@ -139,7 +134,7 @@ public:
               [this] { OnPlayed(); }),
           _view(options.columns, options.rows),
           _started(clock.GetNow().steady),
-          _timers(executor, [this](std::uint64_t key) { OnTimer(static_cast<ETimer>(key)); })
+          _timers(executor, [this](ETimer timer) { OnTimer(timer); })
     {
     }
 
@@ -166,7 +161,7 @@ public:
         _scenarios.SetServer(*_server);
         const Apps::Endpoint endpoint{_options.listen.host, _server->GetPort()};
         _heading.address = (_options.tls.has_value() ? "wss://" : "ws://") + MakeText(endpoint) + _options.path;
-        _timers.Start(MakeKey(ETimer::Tick), TICK);
+        _timers.Start(ETimer::Tick, TICK);
         return endpoint;
     }
 
@@ -428,7 +423,7 @@ private:
                 SendDue();
                 Flush();
                 Draw();
-                _timers.Start(MakeKey(ETimer::Tick), TICK);
+                _timers.Start(ETimer::Tick, TICK);
                 break;
             case ETimer::Linger:
                 End();
@@ -453,7 +448,7 @@ private:
         _finished = _clock.GetNow().steady;
         if (!_options.bKeep)
         {
-            _timers.Start(MakeKey(ETimer::Linger), LINGER);
+            _timers.Start(ETimer::Linger, LINGER);
             return;
         }
         _heading.bKept = true;
@@ -469,11 +464,11 @@ private:
         }
         _bEnding = true;
         _scenarios.End();
-        _timers.Cancel(MakeKey(ETimer::Linger));
+        _timers.Cancel(ETimer::Linger);
         const bool bWait = _server->IsRegistered();
         _server->Stop();
         // Not at once: this may be called from the server's own event.
-        _timers.Start(MakeKey(ETimer::Close), bWait ? CLOSE_LIMIT : std::chrono::milliseconds(0));
+        _timers.Start(ETimer::Close, bWait ? CLOSE_LIMIT : std::chrono::milliseconds(0));
     }
 
     void FinishRun()

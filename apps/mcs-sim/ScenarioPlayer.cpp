@@ -13,22 +13,6 @@
 namespace ACS::McsSim
 {
 
-namespace
-{
-
-enum class ETimer : std::uint8_t
-{
-    Inbox,    ///< A text has come that the scenario has not seen yet.
-    Scenario, ///< The one that the scenario has asked for.
-};
-
-std::uint64_t MakeKey(ETimer timer)
-{
-    return static_cast<std::uint64_t>(timer);
-}
-
-} // namespace
-
 ScenarioPlayer::ScenarioPlayer(
     const boost::asio::any_io_executor& executor,
     const ScenarioStage& stage,
@@ -38,7 +22,7 @@ ScenarioPlayer::ScenarioPlayer(
     : _stage(stage),
       _scenarios(std::move(scenarios), stage.random, std::move(refresher)),
       _onPlayed(std::move(onPlayed)),
-      _timers(executor, [this](std::uint64_t key) { OnTimer(key); })
+      _timers(executor, [this](ETimer timer) { OnTimer(timer); })
 {
 }
 
@@ -70,7 +54,7 @@ void ScenarioPlayer::OnWire(
     if (!_scenarios.IsFinished() && _wireFilter.ShouldPass(direction, connection, text))
     {
         _inbox.emplace_back(text);
-        _timers.Start(MakeKey(ETimer::Inbox), std::chrono::milliseconds(0));
+        _timers.Start(ETimer::Inbox, std::chrono::milliseconds(0));
     }
 }
 
@@ -170,7 +154,7 @@ bool ScenarioPlayer::CanPerform(const ScenarioAction& action)
                 return true;
             },
             [this](const StartScenarioTimer& start) {
-                _timers.Start(MakeKey(ETimer::Scenario), start.delay);
+                _timers.Start(ETimer::Scenario, start.delay);
                 return true;
             },
             [this](const TellLine& line) {
@@ -180,10 +164,10 @@ bool ScenarioPlayer::CanPerform(const ScenarioAction& action)
         action);
 }
 
-void ScenarioPlayer::OnTimer(std::uint64_t key)
+void ScenarioPlayer::OnTimer(ETimer timer)
 {
     ReadInbox();
-    if (key == MakeKey(ETimer::Scenario))
+    if (timer == ETimer::Scenario)
     {
         Play([this](Core::Now now, ScenarioActions& out) { _scenarios.OnTimer(now, out); });
     }

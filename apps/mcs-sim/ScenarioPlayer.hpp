@@ -37,6 +37,12 @@ struct ScenarioStage
 /// they want done. One thread: the executor's.
 class ScenarioPlayer
 {
+    enum class ETimer : std::uint8_t
+    {
+        Inbox,    ///< Texts wait for the scenario.
+        Scenario, ///< The one that the scenario has asked for.
+    };
+
     ScenarioStage _stage;
     ScenarioSequence _scenarios;
     WireFilter _wireFilter;
@@ -44,7 +50,7 @@ class ScenarioPlayer
     ProtocolBeast::McsServer* _serverOrNull = nullptr;
     std::function<void()> _onPlayed;
     bool _bEnded = false;
-    Apps::TimerSet _timers;
+    Apps::TimerSet<ETimer> _timers;
 
 public:
     /// @param onPlayed Called whenever a timer of the player has let a scenario go on, or end.
@@ -78,7 +84,7 @@ private:
     void Play(const std::function<void(Core::Now now, ScenarioActions& out)>& call);
     /// Does it. False where there is no ACS to send to.
     [[nodiscard]] bool CanPerform(const ScenarioAction& action);
-    void OnTimer(std::uint64_t key);
+    void OnTimer(ETimer timer);
 };
 
 } // namespace ACS::McsSim

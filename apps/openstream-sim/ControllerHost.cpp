@@ -37,7 +37,7 @@ ControllerHost::ControllerHost(
     : _clock(clock),
       _options(std::move(options)),
       _controller(_options.controller, clock.GetNow(), MakeLogger(logger, "controller", _options)),
-      _timers(executor, [this](std::uint64_t /*key*/) { _faults.OnTimer(_clock.GetNow()); }),
+      _timers(executor, [this](int /*key*/) { _faults.OnTimer(_clock.GetNow()); }),
       _faults(_controller, *this, MakeLogger(logger, "controller", _options), clock.GetNow()),
       _streamService(_controller, _faults, EFaultSide::Stream),
       _httpService(_controller, _faults, EFaultSide::Http),

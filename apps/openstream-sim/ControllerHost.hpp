@@ -39,7 +39,7 @@ class ControllerHost final : private IFaultHost
     Core::IClock& _clock;
     HostOptions _options;
     VirtualController _controller;
-    Apps::TimerSet _timers; ///< One: for what comes next of the faults and the controller.
+    Apps::TimerSet<int> _timers; ///< One: for what comes next of the faults and the controller.
     ControllerFaults _faults;
     FaultyService _streamService;
     FaultyService _httpService;

@@ -54,7 +54,7 @@ class Fleet
     std::vector<Member> _members;
     std::optional<ControlChannel> _control;
     std::optional<WorldWatch> _worldWatch;
-    Apps::TimerSet _worldTimer;
+    Apps::TimerSet<int> _worldTimer;
     std::set<std::size_t> _connected; ///< The control channel's number is that after the last vehicle.
     bool _bReady = false;
 
@@ -69,7 +69,7 @@ public:
           _seed(options.seed.has_value() ? *options.seed : _random.GetNext()),
           _worldWatch(
               worldOrNull == nullptr ? std::nullopt : std::optional<WorldWatch>(std::in_place, *worldOrNull, _logger)),
-          _worldTimer(_context.get_executor(), [this](std::uint64_t /*key*/) { FollowWorld(); })
+          _worldTimer(_context.get_executor(), [this](int /*key*/) { FollowWorld(); })
     {
         if (!_options->controlTopic.empty())
         {

@@ -21,7 +21,7 @@ class VehicleRunner::Impl final : public VDA5050::IMqttLinkListener
     Core::Logger _logger;
     VirtualVehicle _vehicle;
     VirtualActions _actions;
-    Apps::TimerSet _timers;
+    Apps::TimerSet<std::uint64_t> _timers;
     VDA5050::MosquittoOptions _linkOptions;
     std::unique_ptr<VDA5050::MosquittoLink> _linkOrNull;    ///< None while a fault has cut the connection.
     std::unique_ptr<VDA5050::MosquittoLink> _leavingOrNull; ///< One that takes leave without OFFLINE.

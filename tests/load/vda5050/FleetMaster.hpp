@@ -62,7 +62,7 @@ class FleetMaster final : public VDA5050::IMqttLinkListener
     VDA5050::MasterFleet _fleet;
     VDA5050::FleetActions _actions;
     VDA5050::MosquittoLink _link;
-    Apps::TimerSet _timers;
+    Apps::TimerSet<std::uint64_t> _timers;
     std::vector<Job> _jobs;
     std::vector<VehicleCount> _counts;
     MasterCount _total;
