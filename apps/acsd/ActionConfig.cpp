@@ -1,6 +1,5 @@
 #include "ActionConfig.hpp"
 
-#include "common/ConfigDocument.hpp"
 #include "DefaultParameters.hpp"
 #include "MessageValue.hpp"
 
@@ -21,7 +20,6 @@ namespace
 {
 
 using namespace std::chrono_literals;
-using Apps::ConfigNode;
 using Apps::ConfigSection;
 using Planning::EActionEffect;
 using Planning::EPlaceRule;
@@ -114,13 +112,13 @@ std::vector<VehicleParameter> ReadParameters(
     return parameters;
 }
 
-tl::expected<NumberTemplate, std::string> MakeNumber(const ConfigNode& node)
+tl::expected<NumberTemplate, std::string> MakeNumber(const toml::node& node)
 {
-    if (const auto* const number = std::get_if<std::int64_t>(&node.value))
+    if (const std::optional<std::int64_t> number = node.value_exact<std::int64_t>())
     {
         return NumberTemplate(*number);
     }
-    if (const auto* const text = std::get_if<std::string>(&node.value))
+    if (const std::optional<std::string> text = node.value_exact<std::string>())
     {
         return NumberTemplate::Parse(*text);
     }

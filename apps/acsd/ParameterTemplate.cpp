@@ -8,7 +8,6 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
-#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -18,7 +17,6 @@ namespace ACS::Acsd
 namespace
 {
 
-using Apps::ConfigNode;
 using Core::JsonText;
 using VDA5050::EValueDataType;
 
@@ -123,47 +121,6 @@ std::optional<JsonText> ConvertOrNull(const JobValue& value, EValueDataType type
     }
 }
 
-/// A step of writing a node as JSON: text, or a node.
-using Work = std::vector<std::variant<std::string, const ConfigNode*>>;
-
-std::optional<std::string> FindKeyFaultOrNull(const ConfigNode::Table& table)
-{
-    for (const auto& [name, value] : table)
-    {
-        if (std::optional<std::string> fault = FindNameFaultOrNull(name))
-        {
-            return fault;
-        }
-    }
-    return std::nullopt;
-}
-
-void PushTable(const ConfigNode::Table& table, Work& work)
-{
-    work.emplace_back("}");
-    for (auto entry = table.rbegin(); entry != table.rend(); ++entry)
-    {
-        work.emplace_back(entry->second.get());
-        const std::string_view joint = std::next(entry) == table.rend() ? "" : ",";
-        work.emplace_back(fmt::format("{}{}:", joint, JsonText::FromString(entry->first).GetText()));
-    }
-    work.emplace_back("{");
-}
-
-void PushArray(const ConfigNode::Array& array, Work& work)
-{
-    work.emplace_back("]");
-    for (auto entry = array.rbegin(); entry != array.rend(); ++entry)
-    {
-        work.emplace_back(entry->get());
-        if (std::next(entry) != array.rend())
-        {
-            work.emplace_back(",");
-        }
-    }
-    work.emplace_back("[");
-}
-
 } // namespace
 
 tl::expected<ParameterTemplate, std::string> ParameterTemplate::Make(std::string_view text)
@@ -182,54 +139,11 @@ tl::expected<ParameterTemplate, std::string> ParameterTemplate::Make(std::string
     return result;
 }
 
-tl::expected<ParameterTemplate, std::string> ParameterTemplate::Make(const ConfigNode& node)
+tl::expected<ParameterTemplate, std::string> ParameterTemplate::Make(const toml::node& node)
 {
     ParameterTemplate result;
     std::string json;
-    std::optional<std::string> fault;
-    const auto add = [&result, &json](Scalar scalar) {
-        result._pieces.push_back({std::exchange(json, {}), std::move(scalar)});
-    };
-    Work work{&node};
-    while (!work.empty() && !fault.has_value())
-    {
-        const auto step = std::move(work.back());
-        work.pop_back();
-        if (const auto* const text = std::get_if<std::string>(&step))
-        {
-            json += *text;
-            continue;
-        }
-        std::visit(
-            Core::Overloaded{
-                [&work, &fault](const ConfigNode::Table& table) {
-                    fault = FindKeyFaultOrNull(table);
-                    PushTable(table, work);
-                },
-                [&work](const ConfigNode::Array& array) { PushArray(array, work); },
-                [&add, &fault](const std::string& text) {
-                    tl::expected<ParameterTemplate, std::string> parsed = Make(std::string_view(text));
-                    if (parsed.has_value())
-                    {
-                        add(std::move(*parsed->_pieces.front().scalarOrNone));
-                    }
-                    else
-                    {
-                        fault = std::move(parsed.error());
-                    }
-                },
-                [&add](std::int64_t integer) { add(integer); },
-                [&add, &fault](double number) {
-                    fault = FindNumberFaultOrNull(number);
-                    add(number);
-                },
-                [&add](bool bValue) { add(bValue); },
-                [&fault](const ConfigNode::Other&) {
-                    fault = "expected a string, number, boolean, table or list, found a date or time";
-                }},
-            std::get<const ConfigNode*>(step)->value);
-    }
-    if (fault.has_value())
+    if (std::optional<std::string> fault = result.AppendRecursiveOrNull(node, json))
     {
         return tl::unexpected(std::move(*fault));
     }
@@ -238,6 +152,66 @@ tl::expected<ParameterTemplate, std::string> ParameterTemplate::Make(const Confi
         result._pieces.push_back({std::move(json), std::nullopt});
     }
     return result;
+}
+
+// NOLINTNEXTLINE(misc-no-recursion): toml++ refuses what is nested deeper than 256
+std::optional<std::string> ParameterTemplate::AppendRecursiveOrNull(const toml::node& node, std::string& json)
+{
+    std::optional<std::string> fault;
+    std::string_view joint;
+    if (const toml::table* const table = node.as_table())
+    {
+        json += '{';
+        for (auto entry = table->begin(); entry != table->end() && !fault.has_value(); ++entry)
+        {
+            const std::string name(entry->first.str());
+            json += fmt::format("{}{}:", std::exchange(joint, ","), JsonText::FromString(name).GetText());
+            fault = FindNameFaultOrNull(name);
+            fault = fault.has_value() ? fault : AppendRecursiveOrNull(entry->second, json);
+        }
+        json += '}';
+        return fault;
+    }
+    if (const toml::array* const array = node.as_array())
+    {
+        json += '[';
+        for (auto entry = array->begin(); entry != array->end() && !fault.has_value(); ++entry)
+        {
+            json += std::exchange(joint, ",");
+            fault = AppendRecursiveOrNull(*entry, json);
+        }
+        json += ']';
+        return fault;
+    }
+    Scalar scalar;
+    if (const std::optional<std::string> text = node.value_exact<std::string>())
+    {
+        tl::expected<ParameterTemplate, std::string> parsed = Make(std::string_view(*text));
+        if (!parsed.has_value())
+        {
+            return std::move(parsed.error());
+        }
+        scalar = std::move(*parsed->_pieces.front().scalarOrNone);
+    }
+    else if (const std::optional<std::int64_t> integer = node.value_exact<std::int64_t>())
+    {
+        scalar = *integer;
+    }
+    else if (const std::optional<double> number = node.value_exact<double>())
+    {
+        fault = FindNumberFaultOrNull(*number);
+        scalar = *number;
+    }
+    else if (const std::optional<bool> bValue = node.value_exact<bool>())
+    {
+        scalar = *bValue;
+    }
+    else
+    {
+        return "expected a string, number, boolean, table or list, found a date or time";
+    }
+    _pieces.push_back({std::exchange(json, {}), std::move(scalar)});
+    return fault;
 }
 
 bool ParameterTemplate::IsScalar() const noexcept

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "common/ConfigDocument.hpp"
 #include "JobTemplate.hpp"
 #include <acs/core/JsonText.hpp>
 #include <acs/vda5050/FactsheetMessage.hpp>
 
 #include <tl/expected.hpp>
+#include <toml++/toml.h>
 
 #include <optional>
 #include <string>
@@ -34,7 +34,7 @@ class ParameterTemplate final
 
 public:
     /// The error is a text for a person.
-    [[nodiscard]] static tl::expected<ParameterTemplate, std::string> Make(const Apps::ConfigNode& node);
+    [[nodiscard]] static tl::expected<ParameterTemplate, std::string> Make(const toml::node& node);
 
     /// A string.
     [[nodiscard]] static tl::expected<ParameterTemplate, std::string> Make(std::string_view text);
@@ -48,6 +48,8 @@ public:
         std::optional<VDA5050::EValueDataType> type) const;
 
 private:
+    /// Appends the pieces of the value; the JSON text after the last one stays in `json`. Returns what is wrong with it.
+    [[nodiscard]] std::optional<std::string> AppendRecursiveOrNull(const toml::node& node, std::string& json);
     [[nodiscard]] bool IsScalar() const noexcept;
     [[nodiscard]] std::string_view GetJsonKind() const noexcept;
 };

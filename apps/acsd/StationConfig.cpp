@@ -1,8 +1,6 @@
 #include "StationConfig.hpp"
 
-#include "common/ConfigDocument.hpp"
 #include "MessageValue.hpp"
-#include <acs/core/Overloaded.hpp>
 
 #include <fmt/format.h>
 
@@ -13,7 +11,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
 namespace ACS::Acsd
@@ -22,7 +19,6 @@ namespace ACS::Acsd
 namespace
 {
 
-using Apps::ConfigNode;
 using Apps::ConfigSection;
 
 constexpr std::string_view DEFAULT_TYPE = "rack";
@@ -64,19 +60,17 @@ void CheckValues(const ConfigSection& section, const StationValues& values)
 /// A key that acsd does not know, for templates.
 void ReadValue(const ConfigSection& section, const std::string& key, StationValues& values)
 {
-    const ConfigNode* const nodeOrNull = section.FindValueOrNull(key);
-    const auto refuse = [&section, &key] {
-        section.AddMistake(key, "expected a string, a number or a boolean");
-    };
-    std::visit(
-        Core::Overloaded{
-            [&refuse](const ConfigNode::Table&) { refuse(); },
-            [&refuse](const ConfigNode::Array&) { refuse(); },
-            [&refuse](const ConfigNode::Other&) { refuse(); },
-            [&values, &key](const auto& value) {
-                values.insert_or_assign(key, JobValue(value));
-            }},
-        nodeOrNull->value);
+    section.FindValueOrNull(key)->visit([&section, &key, &values](const auto& node) {
+        if constexpr (
+            toml::is_string<decltype(node)> || toml::is_number<decltype(node)> || toml::is_boolean<decltype(node)>)
+        {
+            values.insert_or_assign(key, JobValue(node.get()));
+        }
+        else
+        {
+            section.AddMistake(key, "expected a string, a number or a boolean");
+        }
+    });
 }
 
 void ReadReach(const ConfigSection& section, const std::string& stationID, AcsdConfig& config)

@@ -1,14 +1,14 @@
 #include "common/ConfigDocument.hpp"
 
-#include "common/TomlTree.hpp"
 #include <acs/core/ControlCharacter.hpp>
-#include <acs/core/Overloaded.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
-#include <tuple>
+#include <optional>
+#include <sstream>
 #include <utility>
 
 namespace ACS::Apps
@@ -17,7 +17,9 @@ namespace ACS::Apps
 namespace
 {
 
-/// A key this far from a known one, in edits, is taken for a slip of the pen.
+constexpr std::string_view OVERRIDE = "--set";
+
+/// An unknown key that is at most this many edits from a known one is taken for a typing error.
 constexpr std::size_t MAX_SLIP = 3;
 
 bool IsBareKey(std::string_view key)
@@ -66,66 +68,31 @@ std::size_t CountEdits(std::string_view left, std::string_view right)
     return previous.back();
 }
 
-/// Tables are joined key by key; anything else replaces what was there.
-void Merge(ConfigNode& target, ConfigNode source)
+std::optional<toml::table> ParseOverrideOrNull(const std::string& text)
 {
-    std::vector<std::pair<ConfigNode*, ConfigNode>> work;
-    work.emplace_back(&target, std::move(source));
-    while (!work.empty())
+    try
     {
-        auto [place, node] = std::move(work.back());
-        work.pop_back();
-        auto* const placeTable = std::get_if<ConfigNode::Table>(&place->value);
-        auto* const nodeTable = std::get_if<ConfigNode::Table>(&node.value);
-        if (placeTable == nullptr || nodeTable == nullptr)
-        {
-            *place = std::move(node);
-            continue;
-        }
-        for (auto& [key, value] : *nodeTable)
-        {
-            const auto [found, bNew] = placeTable->try_emplace(key, nullptr);
-            if (bNew)
-            {
-                found->second = std::move(value);
-            }
-            else
-            {
-                work.emplace_back(found->second.get(), std::move(*value));
-            }
-        }
+        return toml::parse(text, OVERRIDE);
+    }
+    catch (const toml::parse_error&)
+    {
+        return std::nullopt;
     }
 }
 
-/// What is no table; of the tables in a list, their keys. Lists and tables alternate in depth as the file has them.
-std::string MakeValueTextRecursive(const ConfigNode& node) // NOLINT(misc-no-recursion): as deep as the parser took it
+std::string MakeUnknownText(const std::set<std::string>& known, const std::string& key)
 {
-    return std::visit(
-        Core::Overloaded{
-            [](const ConfigNode::Table& table) { // NOLINT(misc-no-recursion)
-                std::string text = "{";
-                for (const auto& [key, value] : table)
-                {
-                    text += fmt::format("{}={},", key, MakeValueTextRecursive(*value));
-                }
-                return text + "}";
-            },
-            [](const ConfigNode::Array& array) { // NOLINT(misc-no-recursion)
-                std::string text = "[";
-                for (const auto& value : array)
-                {
-                    text += MakeValueTextRecursive(*value) + ",";
-                }
-                return text + "]";
-            },
-            [](const std::string& text) { return fmt::format("\"{}\"", text); },
-            [](std::int64_t integer) { return fmt::format("{}", integer); },
-            [](double number) { return fmt::format("{}", number); },
-            [](bool bValue) { return std::string(bValue ? "true" : "false"); },
-            [](const ConfigNode::Other&) {
-                return std::string("?");
-            }},
-        node.value);
+    if (known.empty())
+    {
+        return "unknown key; this table takes none";
+    }
+    const auto nearest =
+        std::ranges::min_element(known, {}, [&key](const std::string& other) { return CountEdits(key, other); });
+    if (CountEdits(key, *nearest) <= std::min(MAX_SLIP, key.size() / 2))
+    {
+        return fmt::format("unknown key; did you mean '{}'?", *nearest);
+    }
+    return fmt::format("unknown key; allowed here: {}", fmt::join(known, ", "));
 }
 
 } // namespace
@@ -133,17 +100,15 @@ std::string MakeValueTextRecursive(const ConfigNode& node) // NOLINT(misc-no-rec
 ConfigDocument::ConfigDocument(std::string_view text, std::string fileName)
     : _fileName(std::move(fileName))
 {
-    auto root = ParseToml(text, false);
-    if (root.has_value())
+    try
     {
-        _root = std::move(*root);
-        _root.line = 0;
-        return;
+        _root = toml::parse(text, _fileName);
     }
-    ConfigNode place;
-    place.line = root.error().line;
-    AddMistake(&place, {}, fmt::format("not TOML: {}", root.error().text));
-    _bUnreadable = true;
+    catch (const toml::parse_error& error)
+    {
+        AddMistakeAt(error.source(), {}, fmt::format("not TOML: {}", error.description()));
+        _bUnreadable = true;
+    }
 }
 
 std::shared_ptr<ConfigDocument> ConfigDocument::MakeUnreadable(std::string fileName, const std::string& reason)
@@ -156,121 +121,97 @@ std::shared_ptr<ConfigDocument> ConfigDocument::MakeUnreadable(std::string fileN
 
 void ConfigDocument::Override(const std::string& text)
 {
-    ConfigNode place;
-    place.bOverride = true;
     const std::size_t equals = text.find('=');
     const std::string key = text.substr(0, equals);
     // A key with a line break or '#' in it would make other TOML than it seems to.
-    const bool bOneKey = equals != std::string::npos && key.find_first_of("\n\r#[") == std::string::npos
-        && ParseToml(key + " = 0", true).has_value();
-    if (!bOneKey)
+    std::optional<toml::table> table = equals != std::string::npos && key.find_first_of("\n\r#[") == std::string::npos
+        ? ParseOverrideOrNull(key + " = ''")
+        : std::nullopt;
+    if (!table.has_value())
     {
-        AddMistake(&place, {}, fmt::format("'{}': write table.key=value", text));
+        const toml::source_region source{{}, {}, std::make_shared<const std::string>(OVERRIDE)};
+        AddMistakeAt(source, {}, fmt::format("'{}': write table.key=value", text));
         return;
     }
     const std::string value = text.substr(equals + 1);
     const bool bOneLine = value.find_first_of("\n\r") == std::string::npos;
-    auto node = bOneLine ? ParseToml(fmt::format("{} = {}", key, value), true)
-                         : tl::expected<ConfigNode, TomlMistake>(tl::unexpect, TomlMistake{});
-    if (!node.has_value())
+    std::optional<toml::table> typed = bOneLine ? ParseOverrideOrNull(key + " = " + value) : std::nullopt;
+    if (!typed.has_value())
     {
-        node = ParseToml(key + " = ''", true);
-        ConfigNode* leaf = &*node;
-        while (auto* const table = std::get_if<ConfigNode::Table>(&leaf->value))
+        // Anything that is not a TOML value is a string.
+        toml::node* leaf = &*table;
+        while (leaf->is_table())
         {
-            leaf = table->begin()->second.get();
+            leaf = &leaf->as_table()->begin()->second;
         }
-        leaf->value = value;
+        leaf->as_string()->get() = value;
     }
-    node->bOverride = false;
-    Merge(_root, std::move(*node));
+    Merge(std::move(typed.has_value() ? *typed : *table));
 }
 
-const ConfigNode& ConfigDocument::GetRoot() const noexcept
+void ConfigDocument::Merge(toml::table source)
+{
+    std::vector<std::pair<toml::table*, toml::table*>> work{{&_root, &source}};
+    while (!work.empty())
+    {
+        const auto [target, from] = work.back();
+        work.pop_back();
+        for (auto&& [key, value] : *from)
+        {
+            auto* const present = target->get_as<toml::table>(key.str());
+            if (present != nullptr && value.is_table())
+            {
+                work.emplace_back(present, value.as_table());
+            }
+            else
+            {
+                target->insert_or_assign(key, std::move(value));
+            }
+        }
+    }
+}
+
+const toml::table& ConfigDocument::GetRoot() const noexcept
 {
     return _root;
 }
 
-void ConfigDocument::NoteAsked(const std::string& tablePath, const std::string& key)
+void ConfigDocument::AddKnownKey(const toml::table& table, const std::string& key)
 {
-    _askedByTable[tablePath].insert(key);
+    _knownKeys[&table].insert(key);
 }
 
-void ConfigDocument::NoteAllAsked(const ConfigNode& value, const std::string& path)
+void ConfigDocument::AcceptAll(const toml::node& value)
 {
-    std::vector<std::pair<const ConfigNode*, std::string>> work;
-    work.emplace_back(&value, path);
-    while (!work.empty())
-    {
-        const auto [node, nodePath] = std::move(work.back());
-        work.pop_back();
-        if (const auto* const array = std::get_if<ConfigNode::Array>(&node->value))
-        {
-            for (std::size_t index = 0; index < array->size(); ++index)
-            {
-                work.emplace_back((*array)[index].get(), fmt::format("{}[{}]", nodePath, index));
-            }
-        }
-        else if (const auto* const table = std::get_if<ConfigNode::Table>(&node->value))
-        {
-            for (const auto& [key, entry] : *table)
-            {
-                NoteAsked(nodePath, key);
-                work.emplace_back(entry.get(), JoinPath(nodePath, key));
-            }
-        }
-    }
+    _accepted.insert(&value);
 }
 
-void ConfigDocument::AddMistake(const ConfigNode* nodeOrNull, const std::string& path, const std::string& text)
+void ConfigDocument::AddMistake(const toml::node* nodeOrNull, const std::string& path, const std::string& text)
 {
-    const bool bTold = !path.empty() && (IsInRefused(path) || !_mistaken.insert(path).second);
-    if (_bUnreadable || bTold)
-    {
-        return;
-    }
-    const std::string where = path.empty() ? MakeOrigin(nodeOrNull) : MakeOrigin(nodeOrNull) + ": " + path;
-    _mistakes.push_back(
-        {nodeOrNull != nullptr && nodeOrNull->bOverride,
-         nodeOrNull != nullptr ? nodeOrNull->line : 0,
-         fmt::format("{}: {}", where, text)});
+    AddMistakeAt(GetSource(nodeOrNull), path, text);
 }
 
-void ConfigDocument::RefuseTable(const ConfigNode* nodeOrNull, const std::string& path, const std::string& text)
+void ConfigDocument::RefuseTable(const toml::node* nodeOrNull, const std::string& path, const std::string& text)
 {
     AddMistake(nodeOrNull, path, text);
     _refused.insert(path);
 }
 
-const ConfigNode* ConfigDocument::FindNearestOrNull(const std::string& path) const
+const toml::node* ConfigDocument::FindNearestOrNull(const std::string& path) const
 {
-    const ConfigNode* nearestOrNull = nullptr;
-    const ConfigNode* nodeOrNull = &_root;
-    for (std::size_t begin = 0; begin <= path.size();)
+    const toml::node* nearest = &_root;
+    for (std::size_t begin = 0; begin <= path.size() && nearest->is_table();)
     {
         const std::size_t end = std::min(path.find('.', begin), path.size());
-        const auto* const tableOrNull = std::get_if<ConfigNode::Table>(&nodeOrNull->value);
-        if (tableOrNull == nullptr)
+        const toml::node* const child = nearest->as_table()->get(std::string_view(path).substr(begin, end - begin));
+        if (child == nullptr)
         {
             break;
         }
-        const auto found = tableOrNull->find(path.substr(begin, end - begin));
-        if (found == tableOrNull->end())
-        {
-            break;
-        }
-        nodeOrNull = found->second.get();
-        nearestOrNull = nodeOrNull;
+        nearest = child;
         begin = end + 1;
     }
-    return nearestOrNull;
-}
-
-bool ConfigDocument::IsInRefused(const std::string& path) const
-{
-    return std::any_of(_refused.begin(), _refused.end(), [&path](const std::string& table) {
-        return path.starts_with(table + ".");
-    });
+    return nearest == &_root ? nullptr : nearest;
 }
 
 std::vector<std::string> ConfigDocument::MakeMistakes() const
@@ -280,16 +221,35 @@ std::vector<std::string> ConfigDocument::MakeMistakes() const
     {
         FindUnknown(mistakes);
     }
-    std::stable_sort(mistakes.begin(), mistakes.end(), [](const Mistake& left, const Mistake& right) {
-        return std::tie(left.bOverride, left.line) < std::tie(right.bOverride, right.line);
+    std::ranges::stable_sort(mistakes, {}, [](const Mistake& mistake) {
+        return std::pair(mistake.bOverride, mistake.line);
     });
     std::vector<std::string> texts;
-    texts.reserve(mistakes.size());
-    for (Mistake& mistake : mistakes)
-    {
-        texts.push_back(std::move(mistake.text));
-    }
+    std::ranges::transform(mistakes, std::back_inserter(texts), &Mistake::text);
     return texts;
+}
+
+std::map<std::string, std::string> ConfigDocument::MakeValues() const
+{
+    std::map<std::string, std::string> values;
+    std::vector<std::pair<std::string, const toml::node*>> work{{std::string(), &_root}};
+    while (!work.empty())
+    {
+        const auto [path, node] = std::move(work.back());
+        work.pop_back();
+        if (const toml::table* const table = node->as_table())
+        {
+            for (auto&& [key, value] : *table)
+            {
+                work.emplace_back(JoinPath(path, std::string(key.str())), &value);
+            }
+            continue;
+        }
+        std::ostringstream text;
+        text << toml::toml_formatter(*node, toml::format_flags::allow_unicode_strings);
+        values.emplace(path, text.str());
+    }
+    return values;
 }
 
 std::string ConfigDocument::JoinPath(const std::string& path, const std::string& key)
@@ -298,98 +258,77 @@ std::string ConfigDocument::JoinPath(const std::string& path, const std::string&
     return path.empty() ? name : fmt::format("{}.{}", path, name);
 }
 
-std::string ConfigDocument::MakeOrigin(const ConfigNode* nodeOrNull) const
+void ConfigDocument::AddMistakeAt(const toml::source_region& source, const std::string& path, const std::string& text)
 {
-    if (nodeOrNull != nullptr && nodeOrNull->bOverride)
+    const bool bKnown = !path.empty() && (IsInRefused(path) || !_mistaken.insert(path).second);
+    if (!_bUnreadable && !bKnown)
     {
-        return "--set";
+        _mistakes.push_back(MakeMistake(source, path, text));
     }
-    const bool bHasLine = nodeOrNull != nullptr && nodeOrNull->line != 0;
-    return bHasLine ? fmt::format("{}:{}", _fileName, nodeOrNull->line) : _fileName;
+}
+
+toml::source_region ConfigDocument::GetSource(const toml::node* nodeOrNull) const
+{
+    const bool bHasLine = nodeOrNull != nullptr && nodeOrNull != &_root;
+    return bHasLine ? nodeOrNull->source() : toml::source_region{};
+}
+
+ConfigDocument::Mistake ConfigDocument::MakeMistake(
+    const toml::source_region& source,
+    const std::string& path,
+    const std::string& text) const
+{
+    const bool bOverride = source.path != nullptr && *source.path == OVERRIDE;
+    const std::uint32_t line = bOverride ? 0 : source.begin.line;
+    std::string where = bOverride ? std::string(OVERRIDE) : _fileName;
+    where += line == 0 ? std::string() : fmt::format(":{}", line);
+    where += path.empty() ? std::string() : fmt::format(": {}", path);
+    return {bOverride, line, fmt::format("{}: {}", where, text)};
+}
+
+bool ConfigDocument::IsInRefused(const std::string& path) const
+{
+    return std::ranges::any_of(_refused, [&path](const std::string& table) { return path.starts_with(table + "."); });
 }
 
 void ConfigDocument::FindUnknown(std::vector<Mistake>& out) const
 {
-    std::vector<std::pair<const ConfigNode*, std::string>> work;
-    work.emplace_back(&_root, std::string());
+    static const std::set<std::string> NONE;
+    std::vector<std::pair<const toml::node*, std::string>> work{{&_root, std::string()}};
     while (!work.empty())
     {
         const auto [node, path] = std::move(work.back());
         work.pop_back();
-        if (const auto* const array = std::get_if<ConfigNode::Array>(&node->value))
+        if (_accepted.contains(node))
+        {
+            continue;
+        }
+        if (const toml::array* const array = node->as_array())
         {
             for (std::size_t index = 0; index < array->size(); ++index)
             {
-                work.emplace_back((*array)[index].get(), fmt::format("{}[{}]", path, index));
+                work.emplace_back(array->get(index), fmt::format("{}[{}]", path, index));
             }
         }
-        else if (const auto* const table = std::get_if<ConfigNode::Table>(&node->value))
+        else if (const toml::table* const table = node->as_table())
         {
-            for (const auto& [key, value] : *table)
+            const auto found = _knownKeys.find(table);
+            const std::set<std::string>& known = found == _knownKeys.end() ? NONE : found->second;
+            for (auto&& [tomlKey, value] : *table)
             {
-                if (WasAsked(path, key))
+                const std::string key(tomlKey.str());
+                const std::string keyPath = JoinPath(path, key);
+                if (known.contains(key))
                 {
-                    work.emplace_back(value.get(), JoinPath(path, key));
-                    continue;
+                    work.emplace_back(&value, keyPath);
                 }
-                if (IsInRefused(JoinPath(path, key)))
+                else if (!IsInRefused(keyPath))
                 {
-                    continue;
+                    out.push_back(MakeMistake(value.source(), keyPath, MakeUnknownText(known, key)));
                 }
-                const std::string where = fmt::format("{}: {}", MakeOrigin(value.get()), JoinPath(path, key));
-                out.push_back(
-                    {value->bOverride, value->line, fmt::format("{}: {}", where, MakeUnknownText(path, key))});
             }
         }
     }
-}
-
-bool ConfigDocument::WasAsked(const std::string& tablePath, const std::string& key) const
-{
-    const auto asked = _askedByTable.find(tablePath);
-    return asked != _askedByTable.end() && asked->second.find(key) != asked->second.end();
-}
-
-std::string ConfigDocument::MakeUnknownText(const std::string& tablePath, const std::string& key) const
-{
-    const auto asked = _askedByTable.find(tablePath);
-    if (asked == _askedByTable.end() || asked->second.empty())
-    {
-        return "unknown key; this table takes none";
-    }
-    const auto nearest = std::min_element(
-        asked->second.begin(),
-        asked->second.end(),
-        [&key](const std::string& left, const std::string& right) {
-            return CountEdits(key, left) < CountEdits(key, right);
-        });
-    if (CountEdits(key, *nearest) <= std::min(MAX_SLIP, key.size() / 2))
-    {
-        return fmt::format("unknown key; did you mean '{}'?", *nearest);
-    }
-    return fmt::format("unknown key; allowed here: {}", fmt::join(asked->second, ", "));
-}
-
-std::map<std::string, std::string> ConfigDocument::MakeValues() const
-{
-    std::map<std::string, std::string> values;
-    std::vector<std::pair<std::string, const ConfigNode*>> work{{std::string(), &_root}};
-    while (!work.empty())
-    {
-        const auto [path, nodeOrNull] = std::move(work.back());
-        work.pop_back();
-        const auto* const tableOrNull = std::get_if<ConfigNode::Table>(&nodeOrNull->value);
-        if (tableOrNull == nullptr)
-        {
-            values.emplace(path, MakeValueTextRecursive(*nodeOrNull));
-            continue;
-        }
-        for (const auto& [key, value] : *tableOrNull)
-        {
-            work.emplace_back(JoinPath(path, key), value.get());
-        }
-    }
-    return values;
 }
 
 } // namespace ACS::Apps

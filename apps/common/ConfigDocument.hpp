@@ -1,34 +1,19 @@
 #pragma once
 
+#include <toml++/toml.h>
+
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 namespace ACS::Apps
 {
 
-/// One value of a configuration, with the place that it came from. Knows nothing of TOML.
-struct ConfigNode
-{
-    using Table = std::map<std::string, std::unique_ptr<ConfigNode>>;
-    using Array = std::vector<std::unique_ptr<ConfigNode>>;
-
-    /// What no key takes: dates and times.
-    struct Other
-    {
-    };
-
-    bool bOverride = false; ///< From --set.
-    std::uint32_t line = 0; ///< In the file; 0 where unknown.
-    std::variant<Table, Array, std::string, std::int64_t, double, bool, Other> value;
-};
-
-/// The tree behind a ConfigReader, what was asked of it, and the mistakes found. Shared by its sections.
+/// The tables of a configuration, the keys that the program knows, and the mistakes found. Shared by its sections.
 class ConfigDocument final
 {
     struct Mistake
@@ -39,54 +24,60 @@ class ConfigDocument final
     };
 
     std::string _fileName;
-    ConfigNode _root;
+    toml::table _root; ///< Each node names its source: the file or --set.
     std::vector<Mistake> _mistakes;
-    std::set<std::string> _mistaken; ///< The paths of these.
-    std::set<std::string> _refused;  ///< Of tables as a whole: nothing in them is a mistake besides.
-    std::map<std::string, std::set<std::string>> _askedByTable;
+    std::set<std::string> _mistaken; ///< Paths that have a mistake.
+    std::set<std::string> _refused;  ///< Paths of tables that were refused as a whole.
+    std::map<const toml::table*, std::set<std::string>> _knownKeys;
+    std::set<const toml::node*> _accepted; ///< Values that may contain any key.
     bool _bUnreadable = false;
 
 public:
     ConfigDocument(std::string_view text, std::string fileName);
 
-    /// A document that holds nothing but one mistake.
+    /// A document with one mistake and nothing else.
     static std::shared_ptr<ConfigDocument> MakeUnreadable(std::string fileName, const std::string& reason);
 
-    /// Puts "table.key=value" in its place.
+    /// Applies "table.key=value". Tables are merged key by key; anything else is replaced.
     void Override(const std::string& text);
 
-    [[nodiscard]] const ConfigNode& GetRoot() const noexcept;
+    [[nodiscard]] const toml::table& GetRoot() const noexcept;
 
-    /// Remembers that the program knows this key.
-    void NoteAsked(const std::string& tablePath, const std::string& key);
+    /// Makes the key known in this table.
+    void AddKnownKey(const toml::table& table, const std::string& key);
 
-    /// The same for every key inside a value.
-    void NoteAllAsked(const ConfigNode& value, const std::string& path);
+    /// Makes every key inside the value known.
+    void AcceptAll(const toml::node& value);
 
-    /// At the line of the node; without one, at the file. Of a key only the first is told, as the others come of it.
-    void AddMistake(const ConfigNode* nodeOrNull, const std::string& path, const std::string& text);
+    /// At the line of the node; without one, at the file. Only the first mistake of a path is kept, and none inside a
+    /// refused table.
+    void AddMistake(const toml::node* nodeOrNull, const std::string& path, const std::string& text);
 
-    /// The same for a table as a whole, whose keys are not looked at.
-    void RefuseTable(const ConfigNode* nodeOrNull, const std::string& path, const std::string& text);
+    /// The same for a table as a whole.
+    void RefuseTable(const toml::node* nodeOrNull, const std::string& path, const std::string& text);
 
-    /// The node of the path, or of as much of it as there is; nullptr for none of it. No part of it has a dot.
-    [[nodiscard]] const ConfigNode* FindNearestOrNull(const std::string& path) const;
+    /// The node at the path, or its nearest parent that exists; nullptr if there is none. No part of the path has a dot.
+    [[nodiscard]] const toml::node* FindNearestOrNull(const std::string& path) const;
 
-    /// With the unknown keys, sorted.
+    /// With the unknown keys, sorted by line.
     [[nodiscard]] std::vector<std::string> MakeMistakes() const;
 
-    /// Every leaf of the tree by its path; a list is one leaf.
+    /// Every value by its path; a list is one value.
     [[nodiscard]] std::map<std::string, std::string> MakeValues() const;
 
     /// "mcs" and "url" make "mcs.url"; a key with other characters is quoted.
     [[nodiscard]] static std::string JoinPath(const std::string& path, const std::string& key);
 
 private:
+    void AddMistakeAt(const toml::source_region& source, const std::string& path, const std::string& text);
+    [[nodiscard]] toml::source_region GetSource(const toml::node* nodeOrNull) const;
+    [[nodiscard]] Mistake MakeMistake(
+        const toml::source_region& source,
+        const std::string& path,
+        const std::string& text) const;
     [[nodiscard]] bool IsInRefused(const std::string& path) const;
-    [[nodiscard]] std::string MakeOrigin(const ConfigNode* nodeOrNull) const;
     void FindUnknown(std::vector<Mistake>& out) const;
-    [[nodiscard]] bool WasAsked(const std::string& tablePath, const std::string& key) const;
-    [[nodiscard]] std::string MakeUnknownText(const std::string& tablePath, const std::string& key) const;
+    void Merge(toml::table source);
 };
 
 } // namespace ACS::Apps

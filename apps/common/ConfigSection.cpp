@@ -2,11 +2,11 @@
 
 #include "common/ConfigDocument.hpp"
 #include "common/DurationText.hpp"
-#include <acs/core/Overloaded.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace ACS::Apps
 {
@@ -17,22 +17,41 @@ namespace
 constexpr std::string_view A_STRING = "a string";
 constexpr std::string_view A_TABLE = "a table";
 
-std::string DescribeValue(const ConfigNode& node)
+std::string DescribeValue(const toml::node& node)
 {
-    return std::visit(
-        Core::Overloaded{
-            [](const ConfigNode::Table&) { return std::string("a table"); },
-            [](const ConfigNode::Array&) { return std::string("a list"); },
-            [](const std::string& text) { return fmt::format("the string '{}'", text); },
-            [](std::int64_t integer) { return fmt::format("the integer {}", integer); },
-            [](double number) { return fmt::format("the number {}", number); },
-            [](bool bValue) { return std::string(bValue ? "true" : "false"); },
-            [](const ConfigNode::Other&) { return std::string("a date or time"); },
-        },
-        node.value);
+    return node.visit([](const auto& value) -> std::string {
+        if constexpr (toml::is_table<decltype(value)>)
+        {
+            return "a table";
+        }
+        else if constexpr (toml::is_array<decltype(value)>)
+        {
+            return "a list";
+        }
+        else if constexpr (toml::is_string<decltype(value)>)
+        {
+            return fmt::format("the string '{}'", value.get());
+        }
+        else if constexpr (toml::is_integer<decltype(value)>)
+        {
+            return fmt::format("the integer {}", value.get());
+        }
+        else if constexpr (toml::is_floating_point<decltype(value)>)
+        {
+            return fmt::format("the number {}", value.get());
+        }
+        else if constexpr (toml::is_boolean<decltype(value)>)
+        {
+            return value.get() ? "true" : "false";
+        }
+        else
+        {
+            return "a date or time";
+        }
+    });
 }
 
-std::string MakeWrongText(std::string_view allowed, const ConfigNode& node)
+std::string MakeWrongText(std::string_view allowed, const toml::node& node)
 {
     return fmt::format("expected {}, found {}", allowed, DescribeValue(node));
 }
@@ -44,31 +63,31 @@ std::string JoinWords(std::initializer_list<std::string_view> words)
 
 } // namespace
 
-ConfigSection::ConfigSection(std::shared_ptr<ConfigDocument> document, const ConfigNode* nodeOrNull, std::string path)
+ConfigSection::ConfigSection(std::shared_ptr<ConfigDocument> document, const toml::table* tableOrNull, std::string path)
     : _document(std::move(document)),
-      _nodeOrNull(nodeOrNull),
+      _tableOrNull(tableOrNull),
       _path(std::move(path))
 {
 }
 
 std::string ConfigSection::GetString(const std::string& key) const
 {
-    return GetStringIfGivenOrNull(key, true).value_or(std::string());
+    return ReadStringOrNull(key, true).value_or(std::string());
 }
 
 std::string ConfigSection::GetString(const std::string& key, const std::string& fallback) const
 {
-    return GetStringIfGivenOrNull(key, false).value_or(fallback);
+    return ReadStringOrNull(key, false).value_or(fallback);
 }
 
 std::optional<std::string> ConfigSection::GetStringOrNull(const std::string& key) const
 {
-    return GetStringIfGivenOrNull(key, false);
+    return ReadStringOrNull(key, false);
 }
 
 std::string ConfigSection::GetWord(const std::string& key, std::initializer_list<std::string_view> words) const
 {
-    return GetWordIfGivenOrNull(key, words, true).value_or(std::string());
+    return ReadWordOrNull(key, words, true).value_or(std::string());
 }
 
 std::string ConfigSection::GetWord(
@@ -76,12 +95,12 @@ std::string ConfigSection::GetWord(
     std::initializer_list<std::string_view> words,
     const std::string& fallback) const
 {
-    return GetWordIfGivenOrNull(key, words, false).value_or(fallback);
+    return ReadWordOrNull(key, words, false).value_or(fallback);
 }
 
 std::int64_t ConfigSection::GetInteger(const std::string& key, std::int64_t min, std::int64_t max) const
 {
-    return GetIntegerIfGivenOrNull(key, min, max, true).value_or(min);
+    return ReadIntegerOrNull(key, min, max, true).value_or(min);
 }
 
 std::int64_t ConfigSection::GetInteger(
@@ -90,33 +109,23 @@ std::int64_t ConfigSection::GetInteger(
     std::int64_t max,
     std::int64_t fallback) const
 {
-    return GetIntegerIfGivenOrNull(key, min, max, false).value_or(fallback);
+    return ReadIntegerOrNull(key, min, max, false).value_or(fallback);
 }
 
 double ConfigSection::GetNumber(const std::string& key, double min, double max) const
 {
-    return GetNumberIfGivenOrNull(key, min, max, true).value_or(min);
+    return ReadNumberOrNull(key, min, max, true).value_or(min);
 }
 
 double ConfigSection::GetNumber(const std::string& key, double min, double max, double fallback) const
 {
-    return GetNumberIfGivenOrNull(key, min, max, false).value_or(fallback);
+    return ReadNumberOrNull(key, min, max, false).value_or(fallback);
 }
 
 bool ConfigSection::IsEnabled(const std::string& key, bool bFallback) const
 {
-    const ConfigNode* const node = FindGivenOrNull(key, false, {});
-    if (node == nullptr)
-    {
-        return bFallback;
-    }
-    const bool* const value = std::get_if<bool>(&node->value);
-    if (value == nullptr)
-    {
-        AddMistake(key, MakeWrongText("true or false", *node));
-        return bFallback;
-    }
-    return *value;
+    return ReadOrNull(key, false, "true or false", [](const toml::node& node) { return node.value_exact<bool>(); })
+        .value_or(bFallback);
 }
 
 std::chrono::milliseconds ConfigSection::GetDuration(
@@ -158,76 +167,73 @@ std::optional<Url> ConfigSection::GetUrlOrNull(const std::string& key, const std
 std::vector<std::string> ConfigSection::GetStringList(const std::string& key) const
 {
     std::vector<std::string> values;
-    const ConfigNode* const node = FindGivenOrNull(key, false, {});
-    if (node == nullptr)
+    const toml::node* const nodeOrNull = FindGivenOrNull(key);
+    if (nodeOrNull == nullptr)
     {
         return values;
     }
-    const auto* const array = std::get_if<ConfigNode::Array>(&node->value);
-    if (array == nullptr)
+    if (!nodeOrNull->is_array())
     {
-        AddMistake(key, MakeWrongText("a list of strings", *node));
+        AddMistake(key, MakeWrongText("a list of strings", *nodeOrNull));
         return values;
     }
-    for (const std::unique_ptr<ConfigNode>& item : *array)
+    for (const toml::node& item : *nodeOrNull->as_array())
     {
-        const auto* const text = std::get_if<std::string>(&item->value);
-        if (text == nullptr)
+        if (!item.is_string())
         {
-            AddMistake(key, MakeWrongText("a list of strings", *item));
+            AddMistake(key, MakeWrongText("a list of strings", item));
             return {};
         }
-        values.push_back(*text);
+        values.push_back(item.as_string()->get());
     }
     return values;
 }
 
-const ConfigNode* ConfigSection::FindValueOrNull(const std::string& key) const
+const toml::node* ConfigSection::FindValueOrNull(const std::string& key) const
 {
-    const ConfigNode* const nodeOrNull = FindGivenOrNull(key, false, {});
+    const toml::node* const nodeOrNull = FindGivenOrNull(key);
     if (nodeOrNull != nullptr)
     {
-        _document->NoteAllAsked(*nodeOrNull, ConfigDocument::JoinPath(_path, key));
+        _document->AcceptAll(*nodeOrNull);
     }
     return nodeOrNull;
 }
 
 ConfigSection ConfigSection::GetSection(const std::string& name) const
 {
-    const ConfigNode* node = FindGivenOrNull(name, false, {});
+    const toml::node* const nodeOrNull = FindGivenOrNull(name);
     const std::string path = ConfigDocument::JoinPath(_path, name);
-    if (node != nullptr && !std::holds_alternative<ConfigNode::Table>(node->value))
+    if (nodeOrNull != nullptr && !nodeOrNull->is_table())
     {
-        _document->RefuseTable(node, path, MakeWrongText(A_TABLE, *node));
-        node = nullptr;
+        _document->RefuseTable(nodeOrNull, path, MakeWrongText(A_TABLE, *nodeOrNull));
     }
-    return {_document, node, path};
+    return {_document, nodeOrNull == nullptr ? nullptr : nodeOrNull->as_table(), path};
 }
 
 std::vector<ConfigSection> ConfigSection::GetSectionList(const std::string& name) const
 {
     std::vector<ConfigSection> sections;
-    const ConfigNode* const node = FindGivenOrNull(name, false, {});
-    if (node == nullptr)
+    const toml::node* const nodeOrNull = FindGivenOrNull(name);
+    if (nodeOrNull == nullptr)
     {
         return sections;
     }
     const std::string path = ConfigDocument::JoinPath(_path, name);
-    const auto* const array = std::get_if<ConfigNode::Array>(&node->value);
-    if (array == nullptr)
+    const toml::array* const arrayOrNull = nodeOrNull->as_array();
+    if (arrayOrNull == nullptr)
     {
-        AddMistake(name, MakeWrongText(fmt::format("a list of tables ([[{}]])", path), *node));
+        AddMistake(name, MakeWrongText(fmt::format("a list of tables ([[{}]])", path), *nodeOrNull));
         return sections;
     }
-    for (std::size_t index = 0; index < array->size(); ++index)
+    for (std::size_t index = 0; index < arrayOrNull->size(); ++index)
     {
-        const ConfigNode* const item = (*array)[index].get();
-        if (!std::holds_alternative<ConfigNode::Table>(item->value))
+        const toml::node& item = *arrayOrNull->get(index);
+        if (!item.is_table())
         {
-            AddMistake(name, MakeWrongText(A_TABLE, *item));
+            AddMistake(name, MakeWrongText(A_TABLE, item));
             continue;
         }
-        sections.emplace_back(_document, item, fmt::format("{}[{}]", path, index));
+        sections.emplace_back(_document, item.as_table(), fmt::format("{}[{}]", path, index));
     }
     return sections;
 }
@@ -235,11 +241,11 @@ std::vector<ConfigSection> ConfigSection::GetSectionList(const std::string& name
 std::vector<std::string> ConfigSection::GetNames() const
 {
     std::vector<std::string> names;
-    if (_nodeOrNull != nullptr)
+    if (_tableOrNull != nullptr)
     {
-        for (const auto& [name, node] : std::get<ConfigNode::Table>(_nodeOrNull->value))
+        for (auto&& [key, value] : *_tableOrNull)
         {
-            names.push_back(name);
+            names.emplace_back(key.str());
         }
     }
     return names;
@@ -247,23 +253,19 @@ std::vector<std::string> ConfigSection::GetNames() const
 
 bool ConfigSection::HasKey(const std::string& key) const
 {
-    return FindGivenOrNull(key, false, {}) != nullptr;
+    return FindGivenOrNull(key) != nullptr;
 }
 
 void ConfigSection::AddMistake(const std::string& key, const std::string& text) const
 {
-    if (key.empty())
-    {
-        _document->AddMistake(_nodeOrNull, _path, text);
-        return;
-    }
-    const ConfigNode* const node = FindOrNull(key);
-    _document->AddMistake(node != nullptr ? node : _nodeOrNull, ConfigDocument::JoinPath(_path, key), text);
+    const toml::node* const nodeOrNull = key.empty() ? nullptr : FindOrNull(key);
+    const std::string path = key.empty() ? _path : ConfigDocument::JoinPath(_path, key);
+    _document->AddMistake(nodeOrNull != nullptr ? nodeOrNull : _tableOrNull, path, text);
 }
 
 void ConfigSection::Refuse(const std::string& text) const
 {
-    _document->RefuseTable(_nodeOrNull, _path, text);
+    _document->RefuseTable(_tableOrNull, _path, text);
 }
 
 const std::string& ConfigSection::GetPath() const noexcept
@@ -271,114 +273,86 @@ const std::string& ConfigSection::GetPath() const noexcept
     return _path;
 }
 
-const ConfigNode* ConfigSection::FindOrNull(const std::string& key) const
+const toml::node* ConfigSection::FindOrNull(const std::string& key) const
 {
-    if (_nodeOrNull == nullptr)
-    {
-        return nullptr;
-    }
-    const auto& table = std::get<ConfigNode::Table>(_nodeOrNull->value);
-    const auto found = table.find(key);
-    return found == table.end() ? nullptr : found->second.get();
+    return _tableOrNull == nullptr ? nullptr : _tableOrNull->get(key);
 }
 
-const ConfigNode* ConfigSection::FindGivenOrNull(const std::string& key, bool bRequired, std::string_view allowed) const
+const toml::node* ConfigSection::FindGivenOrNull(const std::string& key) const
 {
-    _document->NoteAsked(_path, key);
-    const ConfigNode* const node = FindOrNull(key);
-    if (node == nullptr && bRequired)
+    if (_tableOrNull != nullptr)
     {
-        AddMissing(key, allowed);
+        _document->AddKnownKey(*_tableOrNull, key);
     }
-    return node;
+    return FindOrNull(key);
 }
 
-std::optional<std::string> ConfigSection::GetStringIfGivenOrNull(const std::string& key, bool bRequired) const
+template <typename TRead>
+auto ConfigSection::ReadOrNull(const std::string& key, bool bRequired, std::string_view allowed, TRead readOrNull) const
+    -> decltype(readOrNull(std::declval<const toml::node&>()))
 {
-    const ConfigNode* const node = FindGivenOrNull(key, bRequired, A_STRING);
-    if (node == nullptr)
+    const toml::node* const nodeOrNull = FindGivenOrNull(key);
+    if (nodeOrNull == nullptr)
     {
-        return std::nullopt;
+        if (bRequired)
+        {
+            AddMissing(key, allowed);
+        }
+        return {};
     }
-    const auto* const text = std::get_if<std::string>(&node->value);
-    if (text == nullptr)
+    auto valueOrNull = readOrNull(*nodeOrNull);
+    if (!valueOrNull.has_value())
     {
-        AddMistake(key, MakeWrongText(A_STRING, *node));
-        return std::nullopt;
+        AddMistake(key, MakeWrongText(allowed, *nodeOrNull));
     }
-    return *text;
+    return valueOrNull;
 }
 
-std::optional<std::int64_t> ConfigSection::GetIntegerIfGivenOrNull(
+std::optional<std::string> ConfigSection::ReadStringOrNull(const std::string& key, bool bRequired) const
+{
+    return ReadOrNull(key, bRequired, A_STRING, [](const toml::node& node) { return node.value_exact<std::string>(); });
+}
+
+std::optional<std::int64_t> ConfigSection::ReadIntegerOrNull(
     const std::string& key,
     std::int64_t min,
     std::int64_t max,
     bool bRequired) const
 {
-    const std::string allowed = fmt::format("an integer from {} to {}", min, max);
-    const ConfigNode* const node = FindGivenOrNull(key, bRequired, allowed);
-    if (node == nullptr)
-    {
-        return std::nullopt;
-    }
-    const auto* const integer = std::get_if<std::int64_t>(&node->value);
-    if (integer == nullptr || *integer < min || *integer > max)
-    {
-        AddMistake(key, MakeWrongText(allowed, *node));
-        return std::nullopt;
-    }
-    return *integer;
+    return ReadOrNull(
+        key,
+        bRequired,
+        fmt::format("an integer from {} to {}", min, max),
+        [min, max](const toml::node& node) {
+            const std::optional<std::int64_t> value = node.value_exact<std::int64_t>();
+            return value >= min && value <= max ? value : std::nullopt;
+        });
 }
 
-std::optional<double> ConfigSection::GetNumberIfGivenOrNull(
-    const std::string& key,
-    double min,
-    double max,
-    bool bRequired) const
+std::optional<double> ConfigSection::ReadNumberOrNull(const std::string& key, double min, double max, bool bRequired)
+    const
 {
-    const std::string allowed = fmt::format("a number from {} to {}", min, max);
-    const ConfigNode* const node = FindGivenOrNull(key, bRequired, allowed);
-    if (node == nullptr)
-    {
-        return std::nullopt;
-    }
-    const auto* const integer = std::get_if<std::int64_t>(&node->value);
-    const auto* const number = std::get_if<double>(&node->value);
-    std::optional<double> value;
-    if (integer != nullptr)
-    {
-        value = static_cast<double>(*integer);
-    }
-    else if (number != nullptr)
-    {
-        value = *number;
-    }
-    // Written so that "nan" fails, too.
-    if (!value.has_value() || !(*value >= min && *value <= max))
-    {
-        AddMistake(key, MakeWrongText(allowed, *node));
-        return std::nullopt;
-    }
-    return value;
+    return ReadOrNull(
+        key,
+        bRequired,
+        fmt::format("a number from {} to {}", min, max),
+        [min, max](const toml::node& node) {
+            // Not a boolean, which toml++ would convert; "nan" fails the comparisons.
+            const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+            return value >= min && value <= max ? value : std::nullopt;
+        });
 }
 
-std::optional<std::string> ConfigSection::GetWordIfGivenOrNull(
+std::optional<std::string> ConfigSection::ReadWordOrNull(
     const std::string& key,
     std::initializer_list<std::string_view> words,
     bool bRequired) const
 {
-    const ConfigNode* const node = FindGivenOrNull(key, bRequired, JoinWords(words));
-    if (node == nullptr)
-    {
-        return std::nullopt;
-    }
-    const auto* const text = std::get_if<std::string>(&node->value);
-    if (text == nullptr || std::find(words.begin(), words.end(), *text) == words.end())
-    {
-        AddMistake(key, MakeWrongText(JoinWords(words), *node));
-        return std::nullopt;
-    }
-    return *text;
+    return ReadOrNull(key, bRequired, JoinWords(words), [words](const toml::node& node) {
+        const std::optional<std::string> text = node.value_exact<std::string>();
+        const bool bListed = text.has_value() && std::ranges::find(words, *text) != words.end();
+        return bListed ? text : std::nullopt;
+    });
 }
 
 void ConfigSection::AddMissing(const std::string& key, std::string_view allowed) const

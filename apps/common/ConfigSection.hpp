@@ -4,6 +4,8 @@
 #include "common/Url.hpp"
 #include <acs/core/Result.hpp>
 
+#include <toml++/toml.h>
+
 #include <chrono>
 #include <cstdint>
 #include <initializer_list>
@@ -18,7 +20,6 @@ namespace ACS::Apps
 {
 
 class ConfigDocument;
-struct ConfigNode;
 
 /// One table of a configuration. A getter that finds a mistake notes it (ConfigReader::GetMistakes) and returns the
 /// default, or an empty value where the key is required: the caller reads on and checks once at the end.
@@ -26,12 +27,12 @@ struct ConfigNode;
 class ConfigSection final
 {
     std::shared_ptr<ConfigDocument> _document;
-    const ConfigNode* _nodeOrNull = nullptr;
+    const toml::table* _tableOrNull = nullptr;
     std::string _path;
 
 public:
-    /// For ConfigReader. No node: a table that is not there.
-    ConfigSection(std::shared_ptr<ConfigDocument> document, const ConfigNode* nodeOrNull, std::string path);
+    /// For ConfigReader. nullptr: a table that is absent.
+    ConfigSection(std::shared_ptr<ConfigDocument> document, const toml::table* tableOrNull, std::string path);
 
     [[nodiscard]] std::string GetString(const std::string& key) const;
     [[nodiscard]] std::string GetString(const std::string& key, const std::string& fallback) const;
@@ -73,9 +74,8 @@ public:
     /// A list of strings; empty where the key is absent.
     [[nodiscard]] std::vector<std::string> GetStringList(const std::string& key) const;
 
-    /// The value of an optional key as it stands, for keys that take anything; null where the key is absent. All that is in it
-    /// counts as asked for.
-    [[nodiscard]] const ConfigNode* FindValueOrNull(const std::string& key) const;
+    /// The value of an optional key that takes anything; nullptr if the key is absent. Every key inside it is known then.
+    [[nodiscard]] const toml::node* FindValueOrNull(const std::string& key) const;
 
     /// A required string that a function reads: `section.GetParsed<Location>("dock", ParseLocation)`. Its error becomes
     /// the mistake, a value-initialised TValue the result.
@@ -88,14 +88,14 @@ public:
             AddMissing(key, nothing.has_value() ? std::string() : nothing.error().expected);
             return TValue{};
         }
-        return ParseOr<TValue>(key, GetStringIfGivenOrNull(key, false), parse, TValue{});
+        return ParseOr<TValue>(key, ReadStringOrNull(key, false), parse, TValue{});
     }
 
     /// The same for an optional key.
     template <typename TValue, typename TParse>
     [[nodiscard]] TValue GetParsed(const std::string& key, TParse parse, TValue fallback) const
     {
-        return ParseOr<TValue>(key, GetStringIfGivenOrNull(key, false), parse, std::move(fallback));
+        return ParseOr<TValue>(key, ReadStringOrNull(key, false), parse, std::move(fallback));
     }
 
     /// The table of that name. Where it is not there, its required keys are mistakes when they are asked for.
@@ -121,24 +121,24 @@ public:
     [[nodiscard]] const std::string& GetPath() const noexcept;
 
 private:
-    [[nodiscard]] const ConfigNode* FindOrNull(const std::string& key) const;
-    [[nodiscard]] const ConfigNode* FindGivenOrNull(const std::string& key, bool bRequired, std::string_view allowed)
-        const;
-    [[nodiscard]] std::optional<std::string> GetStringIfGivenOrNull(const std::string& key, bool bRequired) const;
-    [[nodiscard]] std::optional<std::int64_t> GetIntegerIfGivenOrNull(
+    [[nodiscard]] const toml::node* FindOrNull(const std::string& key) const;
+    [[nodiscard]] const toml::node* FindGivenOrNull(const std::string& key) const;
+    [[nodiscard]] std::optional<std::string> ReadStringOrNull(const std::string& key, bool bRequired) const;
+    [[nodiscard]] std::optional<std::int64_t> ReadIntegerOrNull(
         const std::string& key,
         std::int64_t min,
         std::int64_t max,
         bool bRequired) const;
-    [[nodiscard]] std::optional<double> GetNumberIfGivenOrNull(
-        const std::string& key,
-        double min,
-        double max,
-        bool bRequired) const;
-    [[nodiscard]] std::optional<std::string> GetWordIfGivenOrNull(
+    [[nodiscard]] std::optional<double> ReadNumberOrNull(const std::string& key, double min, double max, bool bRequired)
+        const;
+    [[nodiscard]] std::optional<std::string> ReadWordOrNull(
         const std::string& key,
         std::initializer_list<std::string_view> words,
         bool bRequired) const;
+    /// What the function makes of the node; a mistake where it makes nothing of it.
+    template <typename TRead>
+    [[nodiscard]] auto ReadOrNull(const std::string& key, bool bRequired, std::string_view allowed, TRead readOrNull)
+        const -> decltype(readOrNull(std::declval<const toml::node&>()));
     void AddMissing(const std::string& key, std::string_view allowed) const;
     void AddParseMistake(const std::string& key, const Core::Error& error) const;
 

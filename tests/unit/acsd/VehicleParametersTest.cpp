@@ -1,7 +1,6 @@
 #include "VehicleParameters.hpp"
 
 #include "Catch.hpp"
-#include "common/TomlTree.hpp"
 #include "DefaultParameters.hpp"
 #include "VehicleFixture.hpp"
 #include <acs/vda5050/PredefinedActions.hpp>
@@ -40,16 +39,15 @@ LoadPositions MakePositions()
 }
 
 /// As of a table `parameters` with these lines.
-std::vector<VehicleParameter> Parse(const std::string& toml)
+std::vector<VehicleParameter> Parse(const std::string& lines)
 {
-    const auto table = Apps::ParseToml(toml, false);
-    REQUIRE(table.has_value());
     std::vector<VehicleParameter> parameters;
-    for (const auto& [key, value] : std::get<Apps::ConfigNode::Table>(table->value))
+    const toml::table table = toml::parse(lines);
+    for (auto&& [key, value] : table)
     {
-        auto parsed = ParameterTemplate::Make(*value);
+        auto parsed = ParameterTemplate::Make(value);
         REQUIRE(parsed.has_value());
-        parameters.push_back({key, *parsed, false});
+        parameters.push_back({std::string(key.str()), *parsed, false});
     }
     return parameters;
 }

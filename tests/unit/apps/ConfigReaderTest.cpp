@@ -304,7 +304,7 @@ TEST_CASE("Every given key has its path and value as text, overrides on top, to 
     const std::map<std::string, std::string> expected{
         {"a", "1"},
         {"mcs.url", R"("ws://b")"},
-        {"mcs.list", R"(["x","y",])"},
-        {"row", "[{k=true,},]"}};
+        {"mcs.list", R"([ "x", "y" ])"},
+        {"row", "[ { k = true } ]"}};
     CHECK(reader.GetValues() == expected);
 }
