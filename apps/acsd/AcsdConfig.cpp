@@ -5,6 +5,7 @@
 #include "EngineConfig.hpp"
 #include "JobConfig.hpp"
 #include "PlaceConfig.hpp"
+#include "RemovedKeys.hpp"
 #include "RobotConfig.hpp"
 #include "StationConfig.hpp"
 #include <acs/plan/LifReader.hpp>
@@ -123,6 +124,7 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
     ReadStations(root, config);
     ReadRobots(root, config);
     ReadJobs(root, config);
+    ReportRemovedKeys(root);
     if (reader.GetMistakes().empty())
     {
         RejectActions(root, config);

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <limits>
 #include <string>
-#include <vector>
 
 namespace ACS::Acsd
 {
@@ -44,22 +43,6 @@ void ReadQueue(const ConfigSection& root, Planning::EngineOptions& engine)
 
     const ConfigSection plan = root.GetSection("plan");
     engine.bFinishedIDsReused = plan.IsEnabled("reuse_finished_id", engine.bFinishedIDsReused);
-    // The register has these keys; only what stands here is built, and whoever wants the other is told.
-    static_cast<void>(plan.GetWord("duplicate", {"fail"}, "fail"));
-    if (plan.IsEnabled("allow_mixed_robot_types", false))
-    {
-        plan.AddMistake("allow_mixed_robot_types", "must be false: one robot does the whole of a plan");
-    }
-
-    const ConfigSection locations = root.GetSection("locations");
-    static_cast<void>(locations.GetWord("unknown", {"reject"}, "reject"));
-    if (locations.HasKey("robot_aliases")
-        && locations.GetStringList("robot_aliases") != std::vector<std::string>{"AMR"})
-    {
-        locations.AddMistake(
-            "robot_aliases",
-            R"(must be ["AMR"]: the document's own word is the only one that is read)");
-    }
 
     const ConfigSection reports = root.GetSection("reports");
     engine.bInitialPendingReported = reports.IsEnabled("initial_pending", engine.bInitialPendingReported);

@@ -139,8 +139,6 @@ void ReadStyle(const ConfigSection& mcs, McsConfig& config)
         mcs.GetWord("empty_carriers", {"positional_null", "omit"}, "positional_null") == "omit";
     style.bResultFailureIsFail = mcs.GetWord("result_report_failure", {"Failed", "Fail"}, "Failed") == "Fail";
     style.bRefusedReportsRetried = mcs.GetWord("on_report_nack", {"log", "retry"}, "log") == "retry";
-    // The register has "store" too; nothing of acsd would ever read what is stored, so it is not taken for done.
-    static_cast<void>(mcs.GetWord("sync_config", {"reject"}, "reject"));
     config.warnBytes = static_cast<std::size_t>(
         mcs.GetInteger("tx_warn_bytes", 0, LARGEST_TEXT, static_cast<std::int64_t>(config.warnBytes)));
     style.longestText = static_cast<std::size_t>(mcs.GetInteger("tx_max_bytes", 0, LARGEST_TEXT, 0));
@@ -205,12 +203,6 @@ void ReadMcsConfig(
     config.style.replay =
         replay == "all" ? EOutboxReplay::All : (replay == "none" ? EOutboxReplay::None : EOutboxReplay::FinalOnly);
     ReadErrors(root, fileName, config.style.errors, mistakes);
-    if (root.GetSection("ext").IsEnabled("battery_station", false))
-    {
-        root.GetSection("ext").AddMistake(
-            "battery_station",
-            "must be false: MCS-ACS 1.2.1 took that message out again");
-    }
 }
 
 } // namespace ACS::Acsd

@@ -263,6 +263,15 @@ void ConfigSection::AddMistake(const std::string& key, const std::string& text) 
     _document->AddMistake(nodeOrNull != nullptr ? nodeOrNull : _tableOrNull, path, text);
 }
 
+void ConfigSection::ReportRemoved(const std::string& key, std::string_view replacement) const
+{
+    if (FindOrNull(key) != nullptr)
+    {
+        static_cast<void>(FindValueOrNull(key)); // not unknown as well
+        AddMistake(key, fmt::format("removed: {}", replacement));
+    }
+}
+
 void ConfigSection::Refuse(const std::string& text) const
 {
     _document->RefuseTable(_tableOrNull, _path, text);

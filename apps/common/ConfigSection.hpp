@@ -114,6 +114,9 @@ public:
     /// key means the table itself. Of each key only the first mistake is told.
     void AddMistake(const std::string& key, const std::string& text) const;
 
+    /// Notes a mistake if the key is given: this version does not read it any more. The text says what replaces it.
+    void ReportRemoved(const std::string& key, std::string_view replacement) const;
+
     /// Notes a mistake of this table as a whole: its keys are not looked at, and none of them is a mistake besides.
     void Refuse(const std::string& text) const;
 

@@ -147,7 +147,7 @@ TEST_CASE("Each mistake is told once, under its key, with the line of the file o
         {{"site.map="}, {"--set: site.map: is empty; give the path of a LIF file"}},
         {{"errors.map=/nowhere"}, {"--set: errors.map: /nowhere cannot be read (No such file or directory)"}},
         {{"mqtt.ca_file=/nowhere"}, {"--set: mqtt.ca_file: is for mqtts:// only"}},
-        {{"locations.robot_aliases=7"}, {"--set: locations.robot_aliases: expected a list of strings"}},
+        {{"http.hosts=7"}, {"--set: http.hosts: expected a list of strings"}},
         {{R"(site.ports=["X", "A01.CP01", "Y"])"}, {R"(--set: site.ports: "X": expected a location)"}}};
     for (const Row& row : rows)
     {
@@ -397,15 +397,27 @@ TEST_CASE("The keys of the decision register are read")
     CHECK(Read({"cancel.until=dispatch"}).engine.controls.cancelUntil == Planning::ECancelWindow::Dispatch);
 }
 
-TEST_CASE("What of the decision register is not built is a mistake of the configuration, not silence")
+TEST_CASE("A removed key is a mistake that says what replaces it, whatever its value")
 {
-    const auto mixed = Read({"plan.allow_mixed_robot_types=true"}).mistakes;
-    REQUIRE(mixed.size() == 1);
-    CHECK(mixed[0].find("plan.allow_mixed_robot_types: must be false") != std::string::npos);
-    CHECK(Read({"plan.duplicate=replace"}).mistakes.size() == 1);
-    CHECK(Read({"locations.unknown=accept"}).mistakes.size() == 1);
-    CHECK(Read({R"(locations.robot_aliases=["AMR", "AGV"])"}).mistakes.size() == 1);
-    CHECK(Read({R"(locations.robot_aliases=["AMR"])"}).mistakes.empty());
+    for (const char* override :
+         {"plan.duplicate=fail",
+          "plan.allow_mixed_robot_types=false",
+          "locations.unknown=reject",
+          R"(locations.robot_aliases=["AMR"])",
+          "mcs.sync_config={a=1}",
+          "ext.battery_station=false"})
+    {
+        INFO(override);
+        const std::string key = std::string(override).substr(0, std::string(override).find('='));
+        const std::vector<std::string> mistakes = Read({override}).mistakes;
+        REQUIRE(mistakes.size() == 1);
+        CHECK(mistakes[0].starts_with("--set: " + key + ": removed: "));
+    }
+    CHECK(Read({"plan.duplicate=fail"}).mistakes[0].ends_with("; see plan.reuse_finished_id"));
+}
+
+TEST_CASE("A word that a key does not have is a mistake")
+{
     CHECK(Read({"pause.mode=later"}).mistakes.size() == 1);
 }
 

@@ -71,12 +71,10 @@ TEST_CASE("The keys about messages are read")
          "mcs.unassigned_robot_id=\"\"",
          "mcs.empty_carriers=omit",
          "mcs.on_report_nack=retry",
-         "mcs.sync_config=reject",
          "mcs.tx_warn_bytes=0",
          "mcs.tx_max_bytes=4096",
          "outbox.replay=final_only",
          "position.interval=0s",
-         "ext.battery_station=false",
          "comm.grace=0s",
          "robot.offline_after=20s",
          "robot.status_interval=1m",
@@ -135,9 +133,6 @@ TEST_CASE("A value that the register does not have, or that cannot work, is a mi
         const std::string key = std::string(override).substr(0, std::string(override).find('='));
         CHECK(mistake.find(key == "errors.map" ? "/nowhere/errors.toml" : key) != std::string::npos);
     }
-    // What is left open on purpose says why.
-    CHECK(FindMistake("ext.battery_station=true").find("must be false") != std::string::npos);
-    CHECK(FindMistake("mcs.sync_config=store").find("mcs.sync_config") != std::string::npos);
     CHECK(FindMistake("mcs.ping_timeout=11s").find("twice mcs.ping_interval") != std::string::npos);
 }
 
