@@ -1,6 +1,6 @@
 #pragma once
 
-#include "TraceFolder.hpp"
+#include "common/TraceWriter.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
@@ -25,44 +25,39 @@ struct TraceEntry
     std::string_view text;    ///< Any bytes.
 };
 
-/// The entry as one line of JSON, without its end. Text that is no UTF-8 is kept with \xNN for each byte that is not and a
-/// doubled backslash, and says so ("escaped":true).
+/// The entry as one line of JSON, without its end. In text that is not valid UTF-8, \xNN stands for each invalid byte, each
+/// backslash is doubled, and the line has "escaped":true.
 [[nodiscard]] std::string MakeTraceLine(const TraceEntry& entry, Core::Now now);
 
-/// Writes every message of every link into files, by a thread of its own: the caller never waits for the disk. What the
-/// thread cannot keep up with, and what a full disk does not take, is lost and counted, in the trace as well. Called on one
-/// thread, the executor's.
+/// Writes every message of every link to a trace. Called on one thread, the executor's.
 class MessageTrace final
 {
-    struct Impl;
-    std::unique_ptr<Impl> _impl;
+    const Core::IClock& _clock;
+    Apps::TraceWriter _writer;
 
-    explicit MessageTrace(std::unique_ptr<Impl> impl);
+    MessageTrace(
+        const std::string& folder,
+        const Apps::TraceLimits& limits,
+        const Core::IClock& clock,
+        Core::Logger logger,
+        std::size_t maxQueuedBytes);
 
 public:
-    static constexpr std::size_t DEFAULT_QUEUE_BYTES = 32U * 1024U * 1024U;
-
-    /// Begins a file in the folder, which is made where it is not there. The error is a sentence. Clock and the log's sink
+    /// Opens a file in the folder, which is created if necessary. The error is a sentence. Clock and the logger's sink
     /// outlive the trace.
     [[nodiscard]] static Core::Result<std::unique_ptr<MessageTrace>> Create(
         const std::string& folder,
-        const TraceLimits& limits,
+        const Apps::TraceLimits& limits,
         const Core::IClock& clock,
         Core::Logger logger,
-        std::size_t maximumQueuedBytes = DEFAULT_QUEUE_BYTES);
-
-    MessageTrace(const MessageTrace&) = delete;
-    MessageTrace& operator=(const MessageTrace&) = delete;
-
-    /// Waits until what was taken is written.
-    ~MessageTrace();
+        std::size_t maxQueuedBytes = Apps::TraceWriter::DEFAULT_QUEUE_BYTES);
 
     void Write(const TraceEntry& entry);
 
-    /// From the next file on.
-    void SetLimits(const TraceLimits& limits);
+    /// For the next file.
+    void SetLimits(const Apps::TraceLimits& limits);
 
-    /// Messages that are in no file and will not be.
+    /// Messages that are missing in the trace.
     [[nodiscard]] std::uint64_t GetLost() const;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common/ConfigSection.hpp"
-#include "TraceFolder.hpp"
+#include "common/TraceFiles.hpp"
 #include <acs/core/Logger.hpp>
 
 #include <chrono>
@@ -13,7 +13,7 @@ namespace ACS::Acsd
 struct OperationsConfig
 {
     Core::ELogLevel logLevel = Core::ELogLevel::Info;
-    TraceLimits trace;
+    Apps::TraceLimits trace;
     std::chrono::milliseconds workGrace{10'000}; ///< `comm.grace`: without broker or robots before isConnected=false.
     std::chrono::milliseconds offlineAfter{15'000}; ///< `robot.offline_after`: of silence; see RobotHost.
     /// `robot.load_timeout`: for a vehicle's loads to agree with the end of its action.

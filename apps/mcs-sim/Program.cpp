@@ -265,7 +265,7 @@ int Run(const McsSimOptions& options)
     Apps::PrintReadyLine({{options.tls.has_value() ? "wss" : "ws", *endpoint}});
     const std::unique_ptr<InputLines> input = MakeInput(options, context.get_executor(), work, simulator);
     context.run();
-    if (trace != nullptr && !trace->IsComplete())
+    if (trace != nullptr && !trace->TryClose())
     {
         Apps::PrintMistake(PROGRAM_NAME, "the trace file " + options.traceFile + " is incomplete");
         return exitCode == EXIT_SUCCESS ? EXIT_FAILURE : exitCode;

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
+#include <cstdint>
+#include <limits>
 #include <system_error>
-#include <utility>
 
 namespace ACS::McsSim
 {
@@ -50,16 +50,20 @@ std::string MakeTraceLine(
 }
 
 TraceFile::TraceFile(
-    std::ofstream file,
-    std::string path,
+    const std::string& path,
     const Core::IClock& clock,
     std::chrono::minutes offset,
     const Core::Logger& logger)
-    : _file(std::move(file)),
-      _path(std::move(path)),
+    : _writer(
+        {path,
+         {std::numeric_limits<std::uint64_t>::max(), 0},
+         [offset](std::uint64_t lost, Core::Now now) {
+             return fmt::format(R"({{"time":"{}","lost":{}}})", Core::FormatLocal(now.wall, offset), lost);
+         }},
+        clock,
+        logger),
       _clock(clock),
-      _offset(offset),
-      _logger(logger)
+      _offset(offset)
 {
 }
 
@@ -69,34 +73,25 @@ tl::expected<std::unique_ptr<TraceFile>, std::string> TraceFile::Create(
     std::chrono::minutes offset,
     const Core::Logger& logger)
 {
-    errno = 0;
-    std::ofstream file(path, std::ios::binary | std::ios::trunc);
-    if (!file)
-    {
-        const std::string reason = std::generic_category().message(errno != 0 ? errno : EIO);
-        return tl::make_unexpected("the trace file " + path + " cannot be written: " + reason);
-    }
     // The constructor is private.
-    return std::unique_ptr<TraceFile>(new TraceFile(std::move(file), path, clock, offset, logger));
+    std::unique_ptr<TraceFile> trace(new TraceFile(path, clock, offset, logger));
+    if (const std::error_code error = trace->_writer.Open())
+    {
+        return tl::make_unexpected("the trace file " + path + " cannot be written: " + error.message());
+    }
+    return trace;
 }
 
 void TraceFile::Write(ProtocolBeast::EWireDirection direction, Protocol::ConnectionID connection, std::string_view text)
 {
-    if (_bBroken)
-    {
-        return;
-    }
-    _file << MakeTraceLine(_clock.GetNow().wall, _offset, direction, connection, text) << std::endl;
-    if (!_file)
-    {
-        _bBroken = true;
-        _logger.Warning("the trace file cannot be written any more: is the disk full?", {{"file", _path}});
-    }
+    const Core::Now now = _clock.GetNow();
+    _writer.Write(MakeTraceLine(now.wall, _offset, direction, connection, text), now);
 }
 
-bool TraceFile::IsComplete() const noexcept
+bool TraceFile::TryClose()
 {
-    return !_bBroken;
+    _writer.Close();
+    return _writer.GetLost() == 0;
 }
 
 } // namespace ACS::McsSim

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/TraceWriter.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/protocol_beast/ServerOptions.hpp>
@@ -7,7 +8,6 @@
 #include <tl/expected.hpp>
 
 #include <chrono>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -24,36 +24,31 @@ namespace ACS::McsSim
     Protocol::ConnectionID connection,
     std::string_view text);
 
-/// Writes every message of a run to a file (NDJSON), each at once, so that a program that dies leaves all of them.
+/// Writes every message of a run to a file (NDJSON), without waiting for the disk.
 class TraceFile
 {
-    std::ofstream _file;
-    std::string _path;
+    Apps::TraceWriter _writer;
     const Core::IClock& _clock;
     std::chrono::minutes _offset;
-    Core::Logger _logger;
-    bool _bBroken = false;
 
     TraceFile(
-        std::ofstream file,
-        std::string path,
+        const std::string& path,
         const Core::IClock& clock,
         std::chrono::minutes offset,
         const Core::Logger& logger);
 
 public:
-    /// Replaces a file that is there. The error is one sentence. Clock and log sink outlive the trace.
+    /// Replaces an existing file. The error is one sentence. Clock and log sink outlive the trace.
     [[nodiscard]] static tl::expected<std::unique_ptr<TraceFile>, std::string> Create(
         const std::string& path,
         const Core::IClock& clock,
         std::chrono::minutes offset,
         const Core::Logger& logger);
 
-    /// What cannot be written any more is told once, in the log; the run goes on.
     void Write(ProtocolBeast::EWireDirection direction, Protocol::ConnectionID connection, std::string_view text);
 
-    /// Whether every message so far is in the file.
-    [[nodiscard]] bool IsComplete() const noexcept;
+    /// Ends the trace. False: messages are missing in the file.
+    [[nodiscard]] bool TryClose();
 };
 
 } // namespace ACS::McsSim

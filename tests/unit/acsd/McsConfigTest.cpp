@@ -105,7 +105,7 @@ TEST_CASE("The keys about messages are read")
     CHECK(config.operations.statusInterval == 1min);
     CHECK(config.operations.logLevel == Core::ELogLevel::Warning);
     CHECK(config.operations.drainTimeout == 7s);
-    CHECK(config.operations.trace == TraceLimits{4096, 2});
+    CHECK(config.operations.trace == Apps::TraceLimits{4096, 2});
     CHECK(ReadMcs({"outbox.replay=none"}).mcs.style.replay == EOutboxReplay::None);
 }
 

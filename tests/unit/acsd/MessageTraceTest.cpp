@@ -2,17 +2,15 @@
 
 #include "ArmTrace.hpp"
 #include "Catch.hpp"
+#include "FolderLines.hpp"
+#include "FullDisk.hpp"
 #include "ManualClock.hpp"
 #include "RecordingLogSink.hpp"
 #include "TemporaryFolder.hpp"
-#include "TraceFolder.hpp"
 
-#include <algorithm>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <sys/resource.h>
 #include <thread>
 #include <vector>
 
@@ -23,55 +21,8 @@ namespace
 {
 
 using ProtocolBeast::EWireDirection;
-
-std::vector<std::string> ListNames(const std::filesystem::path& folder)
-{
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-    {
-        names.push_back(entry.path().filename().string());
-    }
-    std::sort(names.begin(), names.end());
-    return names;
-}
-
-std::vector<std::string> ReadLines(const std::filesystem::path& folder)
-{
-    std::vector<std::string> lines;
-    for (const std::string& name : ListNames(folder))
-    {
-        std::ifstream file(folder / name);
-        for (std::string line; std::getline(file, line);)
-        {
-            lines.push_back(line);
-        }
-    }
-    return lines;
-}
-
-/// No file of this process grows beyond so many bytes: as a full disk, without one.
-class FullDisk
-{
-    rlimit _before{};
-
-public:
-    explicit FullDisk(std::size_t bytes)
-    {
-        std::signal(SIGXFSZ, SIG_IGN);
-        getrlimit(RLIMIT_FSIZE, &_before);
-        rlimit limit = _before;
-        limit.rlim_cur = bytes;
-        setrlimit(RLIMIT_FSIZE, &limit);
-    }
-
-    FullDisk(const FullDisk&) = delete;
-    FullDisk& operator=(const FullDisk&) = delete;
-
-    ~FullDisk()
-    {
-        setrlimit(RLIMIT_FSIZE, &_before);
-    }
-};
+using Testing::FullDisk;
+using Testing::ReadLines;
 
 struct TraceFixture
 {
@@ -79,7 +30,7 @@ struct TraceFixture
     Testing::ManualClock clock;
     Testing::RecordingLogSink sink;
 
-    [[nodiscard]] std::unique_ptr<MessageTrace> Begin(std::size_t queueBytes = MessageTrace::DEFAULT_QUEUE_BYTES)
+    [[nodiscard]] std::unique_ptr<MessageTrace> Begin(std::size_t queueBytes = Apps::TraceWriter::DEFAULT_QUEUE_BYTES)
     {
         auto trace =
             MessageTrace::Create(folder.GetPath().string(), {}, clock, Core::Logger(sink, "trace"), queueBytes);
@@ -116,54 +67,6 @@ TEST_CASE("Text that is no UTF-8 is kept byte for byte in an escaped form that s
     CHECK(line.find(R"("text":"\\xFF{\\\\}é\\xC3","escaped":true})") != std::string::npos);
     const std::string good = MakeTraceLine({"arm", EWireDirection::In, "CR01", {}, "{\\}\xC3\xA9\n"}, {});
     CHECK(good.find(R"("text":"{\\}é\n"})") != std::string::npos);
-}
-
-TEST_CASE("Files of a trace are bounded in size and count; the oldest go, and nobody else's")
-{
-    const Testing::TemporaryFolder place;
-    std::ofstream(place.GetPath() / "acsd-notes.ndjson") << "mine\n";
-    TraceFolder folder(place.GetPath().string());
-    const TraceLimits limits{100, 2};
-    REQUIRE_FALSE(folder.Open(limits));
-    for (int i = 0; i < 9; ++i)
-    {
-        REQUIRE_FALSE(folder.Append(std::to_string(i) + std::string(29, '-'), limits));
-    }
-    REQUIRE_FALSE(folder.Flush());
-    CHECK(
-        ListNames(place.GetPath())
-        == std::vector<std::string>{"acsd-000002.ndjson", "acsd-000003.ndjson", "acsd-notes.ndjson"});
-    CHECK(std::filesystem::file_size(place.GetPath() / "acsd-000003.ndjson") == 93);
-
-    // A restart begins a new file, and a line that is longer than a file has one of its own.
-    TraceFolder next(place.GetPath().string());
-    REQUIRE_FALSE(next.Open(limits));
-    REQUIRE_FALSE(next.Append(std::string(200, 'x'), limits));
-    REQUIRE_FALSE(next.Append("y", limits));
-    REQUIRE_FALSE(next.Flush());
-    CHECK(
-        ListNames(place.GetPath())
-        == std::vector<std::string>{"acsd-000004.ndjson", "acsd-000005.ndjson", "acsd-notes.ndjson"});
-    CHECK(std::filesystem::file_size(place.GetPath() / "acsd-000004.ndjson") == 201);
-}
-
-TEST_CASE("A full disk costs whole lines, never half a one, and their number is known")
-{
-    const Testing::TemporaryFolder place;
-    TraceFolder folder(place.GetPath().string());
-    REQUIRE_FALSE(folder.Open({}));
-    REQUIRE_FALSE(folder.Append("first", {}));
-    REQUIRE_FALSE(folder.Flush());
-    {
-        const FullDisk full(10);
-        REQUIRE_FALSE(folder.Append("second", {}));
-        REQUIRE_FALSE(folder.Append("third", {}));
-        CHECK(folder.Flush());
-        CHECK(folder.GetLostLines() == 2);
-    }
-    REQUIRE_FALSE(folder.Append("fourth", {}));
-    REQUIRE_FALSE(folder.Flush());
-    CHECK(ReadLines(place.GetPath()) == std::vector<std::string>{"first", "fourth"});
 }
 
 TEST_CASE_METHOD(TraceFixture, "What the queue has no room for is lost, counted, and told in the trace")

@@ -46,6 +46,7 @@ TEST_CASE("A trace replaces the file that was there, and a place that cannot be 
     REQUIRE(trace.has_value());
     (*trace)->Write(EWireDirection::In, 1, "{}");
     (*trace)->Write(EWireDirection::Out, 1, "{}");
+    CHECK((*trace)->TryClose());
     std::ostringstream content;
     content << std::ifstream(path).rdbuf();
     CHECK(content.str().find("older") == std::string::npos);
@@ -61,7 +62,6 @@ TEST_CASE("A trace says that it is incomplete when its disk is full")
     const ACS::Testing::ManualClock clock;
     const auto trace = TraceFile::Create("/dev/full", clock, std::chrono::minutes(0), ACS::Core::Logger());
     REQUIRE(trace.has_value());
-    CHECK((*trace)->IsComplete());
     (*trace)->Write(EWireDirection::In, 1, "{}");
-    CHECK_FALSE((*trace)->IsComplete());
+    CHECK_FALSE((*trace)->TryClose());
 }

@@ -1,4 +1,4 @@
-#include "TraceFolder.hpp"
+#include "common/TraceFiles.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace ACS::Acsd
+namespace ACS::Apps
 {
 
 namespace
@@ -19,7 +19,7 @@ namespace
 
 constexpr std::string_view PREFIX = "acsd-";
 constexpr std::string_view SUFFIX = ".ndjson";
-constexpr mode_t FILE_MODE = 0640; // what an MCS and robots say is not for everybody
+constexpr mode_t FILE_MODE = 0640; // messages may be confidential
 constexpr std::size_t FLUSH_BYTES = 256U * 1024U;
 
 /// 0: not one of ours.
@@ -60,42 +60,58 @@ std::error_code GetLastError()
 
 } // namespace
 
-TraceFolder::TraceFolder(std::string path)
+TraceFiles::TraceFiles(std::string path)
     : _path(std::move(path))
 {
 }
 
-TraceFolder::~TraceFolder()
+TraceFiles::~TraceFiles()
 {
     Close();
 }
 
-std::error_code TraceFolder::Open(const TraceLimits& limits)
+std::error_code TraceFiles::Open(const TraceLimits& limits)
 {
+    if (limits.maxFiles == 0)
+    {
+        return OpenFile(_path, O_TRUNC);
+    }
     std::error_code error;
     std::filesystem::create_directories(_path, error);
     return error ? error : OpenNext(limits);
 }
 
-std::error_code TraceFolder::OpenNext(const TraceLimits& limits)
+std::error_code TraceFiles::OpenNext(const TraceLimits& limits)
 {
-    Close();
+    if (limits.maxFiles == 0)
+    {
+        return OpenFile(_path, 0);
+    }
     auto files = ListFiles(_path);
     const std::uint64_t number = files.empty() ? 1 : files.back().first + 1;
     // Room is made before it is needed.
-    const std::size_t kept = std::max<std::size_t>(limits.maxFiles, 1) - 1;
-    for (std::size_t i = 0; i + kept < files.size(); ++i)
+    for (std::size_t i = 0; i + limits.maxFiles <= files.size(); ++i)
     {
         std::error_code ignored;
         std::filesystem::remove(files[i].second, ignored);
     }
-    const std::string path = (std::filesystem::path(_path) / fmt::format("{}{:06}{}", PREFIX, number, SUFFIX)).string();
-    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): POSIX has no other
-    _file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, FILE_MODE);
-    return _file < 0 ? GetLastError() : std::error_code();
+    return OpenFile(std::filesystem::path(_path) / fmt::format("{}{:06}{}", PREFIX, number, SUFFIX), O_EXCL);
 }
 
-void TraceFolder::Close() noexcept
+std::error_code TraceFiles::OpenFile(const std::string& path, int flags)
+{
+    Close();
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): POSIX has no other
+    _file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | flags, FILE_MODE);
+    if (_file < 0)
+    {
+        return GetLastError();
+    }
+    _written = static_cast<std::uint64_t>(std::max<off_t>(::lseek(_file, 0, SEEK_END), 0));
+    return {};
+}
+
+void TraceFiles::Close() noexcept
 {
     if (_file >= 0)
     {
@@ -106,7 +122,7 @@ void TraceFolder::Close() noexcept
     _bufferedLines = 0;
 }
 
-std::error_code TraceFolder::Append(std::string_view line, const TraceLimits& limits)
+std::error_code TraceFiles::Append(std::string_view line, const TraceLimits& limits)
 {
     const std::uint64_t size = _written + _buffer.size();
     if (size > 0 && size + line.size() + 1 > limits.maxFileBytes)
@@ -134,13 +150,13 @@ std::error_code TraceFolder::Append(std::string_view line, const TraceLimits& li
     return _buffer.size() >= FLUSH_BYTES ? Flush() : std::error_code();
 }
 
-std::error_code TraceFolder::Flush()
+std::error_code TraceFiles::Flush()
 {
     const std::error_code error = WriteBuffer();
     if (error)
     {
         _lostLines = _bufferedLines;
-        // Half a line is none: back to the last whole one.
+        // Back to the end of the last whole line.
         static_cast<void>(::ftruncate(_file, static_cast<off_t>(_written)) == 0);
         Close();
         return error;
@@ -151,12 +167,12 @@ std::error_code TraceFolder::Flush()
     return {};
 }
 
-std::size_t TraceFolder::GetLostLines() const noexcept
+std::size_t TraceFiles::GetLostLines() const noexcept
 {
     return _lostLines;
 }
 
-std::error_code TraceFolder::WriteBuffer()
+std::error_code TraceFiles::WriteBuffer()
 {
     std::size_t done = 0;
     while (done < _buffer.size())
@@ -175,4 +191,4 @@ std::error_code TraceFolder::WriteBuffer()
     return {};
 }
 
-} // namespace ACS::Acsd
+} // namespace ACS::Apps

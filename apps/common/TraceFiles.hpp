@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace ACS::Apps
+{
+
+/// Bounds the size of a trace to about their product.
+struct TraceLimits
+{
+    std::uint64_t maxFileBytes = 100U * 1024U * 1024U; ///< Exceeded only by a single line that is longer.
+    std::size_t maxFiles = 10;                         ///< The oldest are deleted; 0: the path is one file.
+
+    bool operator==(const TraceLimits&) const = default;
+};
+
+/// The files of a trace: numbered ones in a folder, "acsd-000001.ndjson" and up, of which the oldest are deleted, or one
+/// file, which is replaced at the start. A file never ends with a partial line, even if the disk is full. One thread.
+class TraceFiles final
+{
+    std::string _path;
+    std::string _buffer;
+    std::uint64_t _written = 0; ///< Bytes of the file, all of whole lines.
+    std::size_t _bufferedLines = 0;
+    std::size_t _lostLines = 0;
+    int _file = -1;
+
+    [[nodiscard]] std::error_code OpenNext(const TraceLimits& limits);
+    [[nodiscard]] std::error_code OpenFile(const std::string& path, int flags);
+    [[nodiscard]] std::error_code WriteBuffer();
+    void Close() noexcept;
+
+public:
+    /// Opens nothing.
+    explicit TraceFiles(std::string path);
+    TraceFiles(const TraceFiles&) = delete;
+    TraceFiles& operator=(const TraceFiles&) = delete;
+    ~TraceFiles();
+
+    /// Creates the folder if necessary, and a file.
+    [[nodiscard]] std::error_code Open(const TraceLimits& limits);
+
+    /// Adds a line (without its end), to be written by the next Flush at the latest. After an error this line and all that
+    /// were not written yet are lost (GetLostLines), and the next call opens a file again.
+    [[nodiscard]] std::error_code Append(std::string_view line, const TraceLimits& limits);
+    [[nodiscard]] std::error_code Flush();
+
+    /// Of the last error.
+    [[nodiscard]] std::size_t GetLostLines() const noexcept;
+};
+
+} // namespace ACS::Apps
