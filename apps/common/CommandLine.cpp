@@ -22,7 +22,7 @@ namespace
 constexpr double MIN_TIME_SCALE = 0.01;
 constexpr double MAX_TIME_SCALE = 1000.0;
 
-/// Puts the value in its place, or returns the mistake.
+/// Assigns the value, or returns what is wrong with it.
 template <typename TValue>
 std::string Take(Core::Result<TValue> value, TValue& target)
 {
@@ -85,7 +85,7 @@ CLI::Option& AddUrlOption(
 CLI::Option& AddTimeScaleOption(CLI::App& app, double& target)
 {
     CLI::Option* const option = app.add_option("--time-scale", target, "How many times faster than real time to run");
-    // A range alone lets pass what is no number.
+    // A range alone accepts what is not a number.
     option->check([](const std::string& text) {
         double scale = 0.0;
         const bool bNumber =

@@ -14,7 +14,7 @@ namespace ACS::Apps
 namespace
 {
 
-/// A program reads it again while it works (SIGHUP), and stands still meanwhile.
+/// A program that reloads the file (SIGHUP) does nothing else meanwhile.
 constexpr std::size_t MAX_CONFIG_BYTES = 4U * 1024U * 1024U;
 
 } // namespace

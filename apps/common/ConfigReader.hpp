@@ -12,7 +12,7 @@ namespace ACS::Apps
 {
 
 /// Reads a TOML file and the overrides of the command line, and collects every mistake instead of stopping at the
-/// first: ask the sections for all keys, then look at GetMistakes(). Keys that nobody asked for are mistakes too.
+/// first: read all keys from the sections, then check GetMistakes(). Keys that were not read are mistakes too.
 class ConfigReader final
 {
     std::shared_ptr<ConfigDocument> _document;
@@ -20,10 +20,11 @@ class ConfigReader final
     explicit ConfigReader(std::shared_ptr<ConfigDocument> document);
 
 public:
-    /// A regular file of at most 4 MiB. Overrides: "table.key=value", the value in TOML, anything else is taken as a string. A later one wins.
+    /// A regular file of at most 4 MiB. Overrides: "table.key=value". A value that is not TOML is a string; the last override
+    /// of a key wins.
     [[nodiscard]] static ConfigReader ReadFile(const std::string& fileName, const std::vector<std::string>& overrides);
 
-    /// The same for text; the name stands in the mistakes.
+    /// The same for text; the mistakes show the name.
     [[nodiscard]] static ConfigReader ReadText(
         std::string_view text,
         const std::string& fileName,
@@ -31,16 +32,16 @@ public:
 
     [[nodiscard]] ConfigSection GetRoot() const;
 
-    /// Notes a mistake of the key with that path ("robots.LR01.home"), whose parts have no dots, at its line, or where it is
-    /// not given at the line of its table.
+    /// Adds a mistake of the key with that path ("robots.LR01.home"; no name in it has a dot), at the line of the key, or at
+    /// that of its table if the key is absent.
     void AddMistake(const std::string& path, const std::string& text) const;
 
     /// All mistakes, by line, those of overrides last: "FILE:LINE: KEY: what is wrong and what is allowed", or
-    /// "--set: KEY: …". Empty: every value that the getters returned is good. Where the file cannot be read or is no
-    /// TOML, that is the only one.
+    /// "--set: KEY: …". Empty: every value that the getters returned is valid. If the file cannot be read or is not valid
+    /// TOML, that is the only mistake.
     [[nodiscard]] std::vector<std::string> GetMistakes() const;
 
-    /// Every key that is given, with its path ("mcs.url") and its value as text: two readings with the same text are the same.
+    /// The value of every given key as text, by path ("mcs.url"). Equal texts mean equal values.
     [[nodiscard]] std::map<std::string, std::string> GetValues() const;
 };
 

@@ -21,9 +21,9 @@ namespace ACS::Apps
 
 class ConfigDocument;
 
-/// One table of a configuration. A getter that finds a mistake notes it (ConfigReader::GetMistakes) and returns the
-/// default, or an empty value where the key is required: the caller reads on and checks once at the end.
-/// Getters that take a default read an optional key, those without a required one. Copied freely.
+/// One table of a configuration. A getter that finds a mistake adds it to ConfigReader::GetMistakes and returns the default,
+/// or an empty value if the key is required: the caller reads all keys and checks once at the end. Getters with a default
+/// read an optional key, those without one a required key. Cheap to copy.
 class ConfigSection final
 {
     std::shared_ptr<ConfigDocument> _document;
@@ -98,7 +98,7 @@ public:
         return ParseOr<TValue>(key, ReadStringOrNull(key, false), parse, std::move(fallback));
     }
 
-    /// The table of that name. Where it is not there, its required keys are mistakes when they are asked for.
+    /// The table of that name. If it is absent, each required key that is read from it is a mistake.
     [[nodiscard]] ConfigSection GetSection(const std::string& name) const;
 
     /// A list of tables ([[name]]), in order; empty where it is absent.
@@ -107,17 +107,17 @@ public:
     /// Every key of this table, sorted: for tables whose keys are names, such as `robots`.
     [[nodiscard]] std::vector<std::string> GetNames() const;
 
-    /// Whether the key or table is given. Asking makes it known.
+    /// Whether the key or table is given. It is a known key from then on.
     [[nodiscard]] bool HasKey(const std::string& key) const;
 
-    /// Notes a mistake that only the caller can see ("no such station in the map") at the line of that key; an empty
-    /// key means the table itself. Of each key only the first mistake is told.
+    /// Adds a mistake that only the caller can detect ("no such station in the map") at the line of that key; an empty key
+    /// means the table itself. Only the first mistake of a key is kept.
     void AddMistake(const std::string& key, const std::string& text) const;
 
-    /// Notes a mistake if the key is given: this version does not read it any more. The text says what replaces it.
+    /// Adds a mistake if the key is given, because this version no longer reads it. The text says what replaces it.
     void ReportRemoved(const std::string& key, std::string_view replacement) const;
 
-    /// Notes a mistake of this table as a whole: its keys are not looked at, and none of them is a mistake besides.
+    /// Adds a mistake of this table as a whole. Mistakes of its keys are ignored.
     void Refuse(const std::string& text) const;
 
     /// "robots.LR01"
@@ -138,7 +138,7 @@ private:
         const std::string& key,
         std::initializer_list<std::string_view> words,
         bool bRequired) const;
-    /// What the function makes of the node; a mistake where it makes nothing of it.
+    /// The result of the function for the node; a mistake if it has none.
     template <typename TRead>
     [[nodiscard]] auto ReadOrNull(const std::string& key, bool bRequired, std::string_view allowed, TRead readOrNull)
         const -> decltype(readOrNull(std::declval<const toml::node&>()));

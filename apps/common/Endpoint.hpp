@@ -9,7 +9,7 @@
 namespace ACS::Apps
 {
 
-/// Where to listen, or what was listened on.
+/// A host and a port.
 struct Endpoint
 {
     std::string host;       ///< A name or an address; an IPv6 address without its brackets.
@@ -18,10 +18,10 @@ struct Endpoint
     bool operator==(const Endpoint&) const = default;
 };
 
-/// "HOST:PORT"; an IPv6 address stands in brackets ("[::1]:80"). Port 0 is allowed.
+/// "HOST:PORT"; an IPv6 address is in brackets ("[::1]:80"). Port 0 is allowed.
 [[nodiscard]] Core::Result<Endpoint> ParseEndpoint(std::string_view text);
 
-/// The same form back.
+/// The same form.
 [[nodiscard]] std::string MakeText(const Endpoint& endpoint);
 
 } // namespace ACS::Apps

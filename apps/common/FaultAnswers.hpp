@@ -11,12 +11,12 @@
 namespace ACS::Apps
 {
 
-// What the answer to a command begins with.
+// Prefixes of the answer to a command.
 inline constexpr std::string_view COMMAND_DONE = "ok: ";
 inline constexpr std::string_view COMMAND_WRONG = "error: ";
 
-/// The answer to a message of a control channel: a line for each command, from the function that carries it out. Is one
-/// of them wrong, none is done.
+/// The answer to a message of a control channel: one line per command, from the function that executes it. If one of them is
+/// invalid, none is executed.
 template <typename TFault>
 [[nodiscard]] std::string AnswerCommands(
     const FaultGrammar<TFault>& grammar,

@@ -17,12 +17,12 @@ struct FaultBase
     using Kind = TKind;
 
     TKind kind{};
-    std::string text;                     ///< As it was written, blanks made one: what the log says.
-    bool bOnce = false;                   ///< It is done, and is over as soon as it has begun.
-    Core::Duration delay{};               ///< Until it begins: after the start, or after the place was reached.
+    std::string text;                     ///< As written, with single blanks; for the log.
+    bool bOnce = false;                   ///< Takes effect once and ends at once.
+    Core::Duration delay{};               ///< From the start, or from the arrival at the place, to the begin.
     std::string place;                    ///< Not empty: begins once this was reached (FaultBoard::OnPlace).
     std::optional<Core::Duration> lasts;  ///< Absent: until it is ended, or used up.
-    std::optional<Core::Duration> every;  ///< Begins again so long after it began; longer than it lasts.
+    std::optional<Core::Duration> every;  ///< Period of repetition; longer than it lasts.
     std::optional<std::uint32_t> maxUses; ///< Of kinds that are used: how often; absent: once, or while it lasts.
 
     bool operator==(const FaultBase&) const = default;

@@ -14,7 +14,7 @@
 namespace ACS::Apps
 {
 
-/// Told: a fault has begun, or has ended.
+/// A fault has begun or ended.
 template <typename TFault>
 struct FaultChange
 {
@@ -46,7 +46,7 @@ class FaultBoard
     std::vector<Entry> _entries;
 
 public:
-    /// Active and to come. The owner asks first: one more is its mistake.
+    /// Active and waiting faults. The owner must check before it adds one.
     static constexpr std::size_t MAX_FAULTS = 1000;
 
     [[nodiscard]] std::size_t CountFaults() const noexcept
@@ -54,7 +54,7 @@ public:
         return _entries.size();
     }
 
-    /// Begins at once where neither a delay nor a place says otherwise.
+    /// Begins at once unless it has a delay or a place.
     void Add(TFault fault, Core::SteadyTime now, Changes& out)
     {
         assert(_entries.size() < MAX_FAULTS);
@@ -66,7 +66,7 @@ public:
             return;
         }
         entry.due = now + entry.fault.delay;
-        // The others have their time; looking at all of them for each would take its square.
+        // The others wait for their time; checking all of them for each addition would be quadratic.
         if (*entry.due <= now)
         {
             Begin(entry, now, out);
@@ -77,7 +77,7 @@ public:
         }
     }
 
-    /// Ends those of the kind (absent: all), also those that have not begun; how many.
+    /// Ends the faults of the kind (absent: all), also those that have not begun. Returns their number.
     std::size_t End(std::optional<Kind> kindOrNull, std::string_view reason, Changes& out)
     {
         return std::erase_if(_entries, [&](const Entry& entry) {
@@ -116,7 +116,7 @@ public:
         std::erase_if(_entries, [&](Entry& entry) { return TryEnd(entry, now, out); });
     }
 
-    /// When OnTime has something to do next.
+    /// The next time at which OnTime has something to do.
     [[nodiscard]] std::optional<Core::SteadyTime> GetNextTimeOrNull() const
     {
         std::optional<Core::SteadyTime> next;
@@ -146,13 +146,13 @@ public:
         return found != _entries.rend() ? &found->fault : nullptr;
     }
 
-    /// It has had its effect once; ends where that was the last time. The fault is one that FindOrNull gave.
+    /// The fault took effect once; it ends if that was the last time. The fault is a result of FindOrNull.
     void Use(const TFault& fault, Changes& out)
     {
         const auto found = std::ranges::find(_entries, &fault, [](const Entry& entry) { return &entry.fault; });
         assert(found != _entries.end());
         ++found->uses;
-        // Without a number and without an end it is meant for the next one alone.
+        // Without a number of uses and an end it applies to the next occasion only.
         const std::uint32_t whileItLasts = found->fault.lasts.has_value() ? UINT32_MAX : 1;
         if (found->uses >= found->fault.maxUses.value_or(whileItLasts))
         {
@@ -169,7 +169,7 @@ public:
         return FindOrNull(kind) != nullptr;
     }
 
-    /// Neither active nor to come.
+    /// Neither active nor waiting.
     [[nodiscard]] bool IsEmpty() const noexcept
     {
         return _entries.empty();
@@ -184,7 +184,7 @@ private:
         out.push_back({entry.fault, true, {}});
     }
 
-    /// Whether an active one has come to its end for good; an end is told.
+    /// Whether an active fault has ended for good; adds the change.
     [[nodiscard]] static bool TryEnd(Entry& entry, Core::SteadyTime now, Changes& out)
     {
         const bool bOver = entry.bActive && entry.due.has_value() && *entry.due <= now;
@@ -196,7 +196,7 @@ private:
         return (bOver || bDone) && !TryRepeat(entry);
     }
 
-    /// Where it comes again, it waits for that.
+    /// A repeated fault waits for its next begin.
     [[nodiscard]] static bool TryRepeat(Entry& entry)
     {
         if (!entry.fault.every.has_value())

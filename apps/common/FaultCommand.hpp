@@ -20,7 +20,7 @@ enum class EFaultVerb : std::uint8_t
 };
 
 /// One line of a fault file, of a control channel or of --fault: "TARGETS FAULT [KEY=VALUE]…", "TARGETS end [FAULT]" or,
-/// where the grammar has it, "TARGETS trigger".
+/// if the grammar has it, "TARGETS trigger".
 template <typename TFault>
 struct FaultCommand
 {
@@ -32,7 +32,7 @@ struct FaultCommand
     bool operator==(const FaultCommand&) const = default;
 };
 
-/// The command, where nothing follows.
+/// The command, if nothing follows.
 template <typename TFault>
 [[nodiscard]] Core::Result<FaultCommand<TFault>> FinishFaultCommand(FaultCommand<TFault> command, std::string_view rest)
 {
@@ -44,7 +44,7 @@ template <typename TFault>
     return command;
 }
 
-/// "end [FAULT]", behind its first word.
+/// "end [FAULT]", after its first word.
 template <typename TFault>
 [[nodiscard]] Core::Result<FaultCommand<TFault>> ParseEndCommand(
     const FaultGrammar<TFault>& grammar,
@@ -110,7 +110,7 @@ template <typename TFault>
     return command;
 }
 
-/// A whole file or message, as ReadCommandLines has it.
+/// A whole file or message, as in ReadCommandLines.
 template <typename TFault>
 [[nodiscard]] Core::Result<std::vector<FaultCommand<TFault>>> ParseFaultCommands(
     const FaultGrammar<TFault>& grammar,

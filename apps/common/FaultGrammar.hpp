@@ -22,7 +22,7 @@ struct FaultParameter
 {
     std::string_view key;
     std::string_view values; ///< For the help.
-    /// Puts the value into the fault and returns nothing, or what was expected.
+    /// Assigns the value to the fault. Returns what was expected if it is invalid, else an empty text.
     std::string (*read)(std::string_view text, TFault& fault) = nullptr;
 };
 
@@ -32,26 +32,26 @@ struct FaultRow
 {
     typename TFault::Kind kind{};
     std::string_view name;
-    std::string_view parameters; ///< Beside those that say when.
+    std::string_view parameters; ///< Besides those of the time.
     std::string_view effect;
-    bool bOnce = false; ///< It is done, and is over at once.
+    bool bOnce = false; ///< Takes effect once and ends at once.
 };
 
 /// How a program's faults are written: NAME [KEY=VALUE]... The tables are the program's constants.
 template <typename TFault>
 struct FaultGrammar
 {
-    std::string_view target;   ///< What stands before a command: "VEHICLE".
+    std::string_view target;   ///< Precedes a command: "VEHICLE".
     std::string_view when;     ///< The keys that every kind has: "at for".
-    std::string_view whenOnce; ///< Those of a kind that is done once: "at".
+    std::string_view whenOnce; ///< The keys of a kind that takes effect once: "at".
     bool bTriggers = false;    ///< Whether there is the command "trigger".
     std::span<const FaultParameter<TFault>> parameters;
     std::span<const FaultRow<TFault>> rows;
-    /// What together makes no fault; may fill in what goes without saying. The keys are those that were given.
+    /// Checks the combination of the given keys; may set implied values.
     Core::Result<void> (*check)(TFault& fault, const std::set<std::string_view>& keys) = nullptr;
 };
 
-/// The shortest time after which a fault comes again.
+/// The shortest period of a repeated fault.
 inline constexpr std::chrono::milliseconds SHORTEST_REPEAT{10};
 inline constexpr std::uint32_t MAX_USES = 1'000'000;
 
@@ -79,7 +79,7 @@ template <typename TFault>
     return *std::ranges::find(grammar.rows, kind, &FaultRow<TFault>::kind);
 }
 
-/// Fails with ECoreError::UnknownWord, and the names that there are.
+/// Fails with ECoreError::UnknownWord and the known names.
 template <typename TFault>
 [[nodiscard]] Core::Result<typename TFault::Kind> ParseFaultKind(
     const FaultGrammar<TFault>& grammar,
@@ -139,7 +139,7 @@ template <typename TFault>
     return {};
 }
 
-/// What comes again has to end before that.
+/// A repeated fault has to end before it begins again.
 template <typename TFault>
 [[nodiscard]] Core::Result<void> CheckRepeat(const FaultRow<TFault>& row, const TFault& fault)
 {

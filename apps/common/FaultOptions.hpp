@@ -13,7 +13,7 @@
 namespace ACS::Apps
 {
 
-/// Commands that begin a fault, behind those that there are; else what is wrong.
+/// Appends commands that begin a fault. Returns what is wrong, if anything.
 template <typename TFault>
 [[nodiscard]] std::string TakeFaults(
     const Core::Result<std::vector<FaultCommand<TFault>>>& commands,
@@ -53,7 +53,7 @@ template <typename TFault>
     return mistake.empty() ? mistake : fmt::format("{}: {}", path, mistake);
 }
 
-/// --fault LINE and --fault-file FILE, both again and again. The grammar and the target must outlive parsing.
+/// --fault LINE and --fault-file FILE; both may be repeated. The grammar and the target must outlive parsing.
 template <typename TFault>
 void AddFaultOptions(
     CLI::App& app,

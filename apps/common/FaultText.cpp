@@ -15,7 +15,7 @@ namespace ACS::Apps
 namespace
 {
 
-constexpr std::size_t MAX_LINE_LENGTH = 1000; ///< A fault's words come back in the log and in messages.
+constexpr std::size_t MAX_LINE_LENGTH = 1000; ///< Log lines and messages repeat the text.
 constexpr std::size_t MAX_COMMANDS = 1000;
 constexpr std::string_view BYTE_ORDER_MARK = "\xEF\xBB\xBF";
 constexpr char EVERY = '*';

@@ -17,12 +17,12 @@ namespace ACS::Apps
 
 /// Each reads the value of a KEY=VALUE. Returns an empty text, or what was expected.
 [[nodiscard]] std::string ReadDurationValue(std::string_view text, Core::Duration& target);
-/// From 0 to the highest one, which is shown as it is.
+/// From 0 to the highest value, which is shown as given.
 [[nodiscard]] std::string ReadNumberValue(std::string_view text, double max, double& target);
 [[nodiscard]] std::string ReadCountValue(std::string_view text, std::uint32_t max, std::uint32_t& target);
 [[nodiscard]] std::string ReadNameValue(std::string_view text, std::string& target);
 
-/// The words that a value may be, and what each stands for.
+/// The allowed words and their values.
 template <typename TValue, std::size_t Count>
 using ValueWords = std::array<std::pair<std::string_view, TValue>, Count>;
 
@@ -43,16 +43,16 @@ template <typename TValue, std::size_t Count>
     return "one of " + expected;
 }
 
-/// Whether a command's line may be read at all: at most 1000 bytes of UTF-8.
+/// Whether the line of a command is acceptable: at most 1000 bytes of UTF-8.
 [[nodiscard]] Core::Result<void> CheckCommandLine(std::string_view line);
 
-/// Calls the reader with each line of a file or message that has a command: empty lines and what follows a `#` are passed
-/// over, and a byte order mark is. More than 1000 are refused. The path of an error begins with "line N".
+/// Calls the reader with each line of a file or message that has a command. Empty lines, comments after `#` and a byte order
+/// mark are skipped. More than 1000 commands are refused. The path of an error begins with "line N".
 [[nodiscard]] Core::Result<void> ReadCommandLines(
     std::string_view text,
     const std::function<Core::Result<void>(std::string_view line)>& reader);
 
-/// Whether a command's targets, a name or its beginning and `*`, are or hold the one of this name.
+/// Whether the targets of a command (a name, or a prefix and `*`) include this name.
 [[nodiscard]] bool IsTarget(std::string_view targets, std::string_view name);
 
 } // namespace ACS::Apps

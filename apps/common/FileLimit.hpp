@@ -3,8 +3,8 @@
 namespace ACS::Apps
 {
 
-/// Lets the process have as many descriptors as the system allows it: the usual limit of 1024 is soft, and too few for
-/// a program that plays hundreds of machines. Nothing happens where the system refuses.
+/// Raises the soft limit of open descriptors to the hard one: the usual 1024 are too few for a program that simulates
+/// hundreds of machines. Does nothing if the system refuses.
 void RaiseFileLimit();
 
 } // namespace ACS::Apps

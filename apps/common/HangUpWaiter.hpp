@@ -22,7 +22,7 @@ public:
     HangUpWaiter(const HangUpWaiter&) = delete;
     HangUpWaiter& operator=(const HangUpWaiter&) = delete;
 
-    /// The handler is not called any more; SIGHUP is what it was before.
+    /// The handler is not called any more; the previous action of SIGHUP is restored.
     ~HangUpWaiter();
 };
 

@@ -39,7 +39,7 @@ bool IsAddress(std::string_view host)
     return !error.failed();
 }
 
-/// The page has come from the server that it asks now.
+/// The page comes from this server.
 bool IsOwnOrigin(std::string_view origin, std::string_view host)
 {
     const std::size_t colon = origin.find("://");
@@ -67,7 +67,7 @@ std::optional<std::string> HttpGuard::GetObjectionOrNull(const HttpRequest& requ
     {
         return std::nullopt;
     }
-    // HTTP/1.0 needs no Host, but each browser gives one.
+    // HTTP/1.0 needs no Host, but every browser sends one.
     if (!source.host.empty() && !IsOwnName(source.host))
     {
         return fmt::format(
@@ -76,7 +76,7 @@ std::optional<std::string> HttpGuard::GetObjectionOrNull(const HttpRequest& requ
     }
     if (bReads)
     {
-        return std::nullopt; // the browser keeps the answer from a page of another origin
+        return std::nullopt; // the browser hides the response from a page of another origin
     }
     if (!source.origin.empty() && !IsOwnOrigin(source.origin, source.host))
     {

@@ -10,7 +10,7 @@
 namespace ACS::Apps
 {
 
-/// What a request's header says of where it comes from; empty where it does not say.
+/// The headers that show where a request comes from; empty if absent.
 struct HttpSource
 {
     std::string_view host;      ///< Host
@@ -18,18 +18,18 @@ struct HttpSource
     std::string_view fetchSite; ///< Sec-Fetch-Site
 };
 
-/// Keeps web pages from using a program by the browser of somebody who may reach it: any page may have a POST sent, and
-/// may have its own name resolve to the program's address (DNS rebinding), for which what it reads is its own then.
-/// A program that is no browser sends neither Origin nor Sec-Fetch-Site and gives the Host that it was told. Pure.
+/// Protects a program from web pages in the browser of a user who can reach it. Any page can send a POST (cross-site request
+/// forgery), and can make its own name resolve to the address of the program (DNS rebinding). Clients other than browsers
+/// send neither Origin nor Sec-Fetch-Site, and the configured Host. Pure.
 class HttpGuard
 {
 public:
     struct Options
     {
-        /// By which the server may be called, without port, besides localhost and IP addresses, which no page can take.
+        /// Allowed names of the server, without port, besides localhost and IP addresses, which no page can spoof.
         std::vector<std::string> names;
         bool bAnyName = false;
-        /// GET and HEAD of these are served under any name: there is nothing to hide in them.
+        /// GET and HEAD of these paths are served under any name: they contain nothing confidential.
         std::vector<std::string> openPaths;
     };
 

@@ -19,7 +19,7 @@ struct HttpRequest
     std::string path;   ///< Percent-decoded, without the query: "/project/robot/tasks[0]".
     std::vector<std::pair<std::string, std::string>> query; ///< Decoded, in the order given; names may repeat.
     std::string body;                                       ///< At most 1 MiB.
-    /// What stands between the slashes of the path, each decoded by itself: a %2F does not part.
+    /// The segments of the path, each decoded by itself: %2F does not separate.
     std::vector<std::string> segments{};
 
     /// The value of the first query parameter of that name.
@@ -31,11 +31,11 @@ struct HttpResponse
     unsigned status = 200;
     std::string contentType = "text/plain; charset=utf-8";
     std::string body;
-    Core::Duration delay{}; ///< The server sends it so much later; other connections do not wait.
+    Core::Duration delay{}; ///< Before the server sends it; other connections do not wait.
     std::string allow{};    ///< Header Allow, of a 405: the methods that are served; empty: none.
 };
 
-/// Splits the target of a request line into path and query and decodes both; what is no target is refused.
+/// Splits the target of a request line into path and query and decodes both; an invalid target is refused.
 [[nodiscard]] Core::Result<HttpRequest> ParseHttpTarget(std::string_view target);
 
 } // namespace ACS::Apps

@@ -61,7 +61,7 @@ HttpResponse HttpRoutes::Respond(const HttpRequest& request) const
         {
             continue;
         }
-        // What answers GET answers HEAD: the server leaves the body out.
+        // The handler of GET serves HEAD: the server omits the body.
         if (route.method == request.method || (route.method == "GET" && request.method == "HEAD"))
         {
             return route.handler(request, *captures);

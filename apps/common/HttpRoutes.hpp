@@ -10,12 +10,12 @@
 namespace ACS::Apps
 {
 
-/// Which handler serves which method and path of a program. A path that is not there is answered with 404 and a list of
-/// what is, one that is there for another method only with 405.
+/// Maps methods and paths to handlers. An unknown path is answered with 404 and a list of the known ones, a path that exists
+/// for another method only with 405.
 class HttpRoutes
 {
 public:
-    /// The segments of the path that stand where the pattern has {}, decoded, in order.
+    /// The decoded segments of the path that match a {NAME} of the pattern, in order.
     using Captures = std::vector<std::string>;
     using Handler = std::function<HttpResponse(const HttpRequest& request, const Captures& captures)>;
 
@@ -24,14 +24,14 @@ private:
     {
         std::string method;
         std::string pattern;
-        std::vector<std::string> segments; ///< Of the pattern; {}: any.
+        std::vector<std::string> segments; ///< Of the pattern.
         Handler handler;
     };
 
     std::vector<Route> _routes;
 
 public:
-    /// A pattern is a path, with {NAME} for a segment that may be anything but empty: "/robots/{ID}/maintenance/on".
+    /// A pattern is a path, with {NAME} for any segment that is not empty: "/robots/{ID}/maintenance/on".
     void Add(std::string_view method, std::string_view pattern, Handler handler);
 
     [[nodiscard]] HttpResponse Respond(const HttpRequest& request) const;

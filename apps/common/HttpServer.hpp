@@ -18,19 +18,19 @@
 namespace ACS::Apps
 {
 
-/// What a server accepts from one peer, and from all of them.
+/// What a server accepts from one peer and from all of them.
 struct HttpLimits
 {
     std::uint32_t maxHeaderBytes = 16U * 1024U;
     std::uint64_t maxBodyBytes = 1024U * 1024U;
-    std::chrono::milliseconds timeout{30'000}; ///< For a whole request, and for a connection without one.
-    /// One more takes the place of the one that has waited the longest for a whole request; where all are being answered,
-    /// it waits until one is.
+    std::chrono::milliseconds timeout{30'000}; ///< For a whole request, and for an idle connection.
+    /// One more replaces the connection that has waited longest for a whole request. If all are being answered, it waits until
+    /// one is finished.
     std::size_t maxConnections = 64;
 };
 
 /// A small HTTP/1.1 server: status and metrics of a program, the Open API of the simulated controller. Keeps
-/// connections alive; answers 400, 413 and 431 itself, 403 where it has a guard that objects, and closes on what is no HTTP.
+/// connections alive; answers 400, 413 and 431 itself, 403 if its guard refuses the request, and closes after what is not HTTP.
 /// One thread: the executor's.
 class HttpServer final
 {
@@ -53,8 +53,8 @@ public:
     /// Stops.
     ~HttpServer();
 
-    /// Starts to serve. The result is the same host with the port that was got. Refused where the address is not
-    /// this machine's or the port is in use; then another call may try again.
+    /// Starts to serve. Returns the same host with the actual port. Fails if the address is not one of this machine or the
+    /// port is in use; another call may follow.
     [[nodiscard]] Core::Result<Endpoint> Listen(const Endpoint& endpoint);
 
     /// Closes the port and all connections. The handler is not called any more.

@@ -10,7 +10,7 @@
 namespace ACS::Apps
 {
 
-/// How far local time is ahead of UTC: the zone of the system, followed through summer time, or a fixed distance.
+/// Offset of local time from UTC: that of the system's time zone, daylight saving time included, or a fixed one.
 class LocalOffset final
 {
     std::optional<std::chrono::minutes> _fixedOrNull;
@@ -20,7 +20,7 @@ public:
     LocalOffset() = default;
     explicit LocalOffset(std::chrono::minutes fixed);
 
-    /// "system", "Z", or a distance from "-12:00" to "+14:00".
+    /// "system", "Z", or an offset from "-12:00" to "+14:00".
     [[nodiscard]] static Core::Result<LocalOffset> Parse(std::string_view text);
 
     /// Minutes to add to UTC at that moment.

@@ -10,7 +10,7 @@
 namespace ACS::Apps
 {
 
-/// "component: message key=value …" on one line: values with spaces, quotes or nothing in them are quoted, and control
+/// "component: message key=value …" on one line: empty values and those with spaces or quotes are quoted, and control
 /// characters are escaped, so that what a peer sent cannot forge a line.
 [[nodiscard]] std::string MakeLogText(
     std::string_view component,

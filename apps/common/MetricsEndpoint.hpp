@@ -10,8 +10,8 @@
 namespace ACS::Apps
 {
 
-/// Counters, gauges and histograms of one program, served as Prometheus text. Names and label names are the program's own
-/// ([a-zA-Z_][a-zA-Z0-9_]*, a name is one of these); label values may be anything.
+/// Counters, gauges and histograms of one program, served as Prometheus text. Names and label names match
+/// [a-zA-Z_][a-zA-Z0-9_]*; label values may be any text.
 class MetricsEndpoint final
 {
     struct Impl;
@@ -25,13 +25,13 @@ public:
     MetricsEndpoint& operator=(const MetricsEndpoint&) = delete;
     ~MetricsEndpoint();
 
-    /// Makes the metric known, with its help text. The first call for a name counts.
+    /// Adds the metric with its help text. Only the first call for a name counts.
     void AddCounter(const std::string& name, const std::string& help);
     void AddGauge(const std::string& name, const std::string& help);
-    /// The bounds, ascending, are those of its buckets; a last one takes the rest.
+    /// The bounds of its buckets, ascending; the last bucket has no bound.
     void AddHistogram(const std::string& name, const std::string& help, const std::vector<double>& bounds);
 
-    /// These take names that were added.
+    /// For metrics that were added.
     void Increment(const std::string& name, const Labels& labels = {}, double delta = 1.0);
     /// Raises a counter to the total that a library's statistics show; a smaller total changes nothing.
     void SetTotal(const std::string& name, const Labels& labels, double total);
@@ -41,7 +41,7 @@ public:
     /// The text exposition format.
     [[nodiscard]] std::string Render() const;
 
-    /// The answer to GET /metrics.
+    /// The response to GET /metrics.
     [[nodiscard]] HttpResponse Respond() const;
 };
 

@@ -8,7 +8,7 @@
 namespace ACS::Apps
 {
 
-/// One address of a program that can serve.
+/// One address on which a program serves.
 struct ReadyAddress
 {
     std::string name;  ///< "http", "ws", "stream", "broker"; each once.
@@ -18,7 +18,7 @@ struct ReadyAddress
 /// "ready: http=127.0.0.1:8080 ws=…", without line end.
 [[nodiscard]] std::string MakeReadyLine(const std::vector<ReadyAddress>& addresses);
 
-/// Prints that line on standard output and flushes, so that whoever waits for it in a pipe sees it at once.
+/// Prints that line on standard output and flushes, so that a reader of the pipe gets it at once.
 void PrintReadyLine(const std::vector<ReadyAddress>& addresses);
 
 } // namespace ACS::Apps

@@ -9,7 +9,7 @@ namespace ACS::Apps
 {
 
 /// Calls its handler at the first SIGINT or SIGTERM, on the executor: the program then stops cleanly. A second signal
-/// ends the process at once, with 130 or 143, even when the event loop hangs. At most one lives at a time.
+/// ends the process at once, with 130 or 143, even when the event loop hangs. At most one instance exists at a time.
 class SignalWaiter final
 {
     struct Impl;
@@ -24,7 +24,7 @@ public:
     SignalWaiter& operator=(const SignalWaiter&) = delete;
     ~SignalWaiter();
 
-    /// Waits no longer, so that an event loop with nothing else to do ends. The handler is not called any more.
+    /// Stops waiting, so that an otherwise idle event loop ends. The handler is not called any more.
     void Stop();
 };
 

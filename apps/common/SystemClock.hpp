@@ -5,7 +5,7 @@
 namespace ACS::Apps
 {
 
-/// The clocks of the system. Only programs use it: libraries are given the time.
+/// The clocks of the system. Only programs use it; libraries receive the time as an argument.
 class SystemClock final : public Core::IClock
 {
 public:

@@ -24,7 +24,7 @@ class Descriptor final
     int _number;
 
 public:
-    /// Without waiting: a FIFO that nobody writes to would hold the program for ever.
+    /// Without waiting: a FIFO without a writer would block the program indefinitely.
     explicit Descriptor(const std::string& path)
         : _number(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) // NOLINT: the system's signature
     {
@@ -75,7 +75,7 @@ tl::expected<std::string, std::string> ReadTextFileUpTo(const std::string& path,
     struct stat status = {};
     if (file.GetNumber() < 0)
     {
-        // Nobody can open a socket, and a device may have no driver: say what it is rather than the system's words.
+        // A socket cannot be opened and a device may have no driver: name the type of the file instead of the error.
         const int reason = errno;
         if (reason == ENXIO && ::stat(path.c_str(), &status) == 0)
         {

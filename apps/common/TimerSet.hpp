@@ -24,7 +24,7 @@ public:
     using Handler = std::function<void(const TKey& key)>;
 
 private:
-    /// A wait that has expired cannot be cancelled any more: the run tells whether it still counts.
+    /// A wait that has expired cannot be cancelled any more: the run shows whether it is still valid.
     struct Timer
     {
         boost::asio::steady_timer timer;

@@ -13,7 +13,7 @@ namespace ACS::Apps
 
 enum class EUrlScheme : std::uint8_t
 {
-    Ws,    ///< Port 80 where none is given.
+    Ws,    ///< Default port 80.
     Wss,   ///< 443
     Mqtt,  ///< 1883
     Mqtts, ///< 8883
@@ -26,15 +26,15 @@ struct Url
 {
     EUrlScheme scheme = EUrlScheme::Tcp;
     Endpoint peer;    ///< The port is never 0.
-    std::string path; ///< With its query. "/" where none is given for ws, wss and http; empty for mqtt, mqtts and tcp.
+    std::string path; ///< With its query. Default "/" for ws, wss and http; always empty for mqtt, mqtts and tcp.
 
     bool operator==(const Url&) const = default;
 };
 
-/// SCHEME://HOST[:PORT][/PATH]; other schemes than the allowed ones are refused, and so are user names and fragments.
+/// SCHEME://HOST[:PORT][/PATH]; other schemes, user names and fragments are refused.
 [[nodiscard]] Core::Result<Url> ParseUrl(std::string_view text, const std::vector<EUrlScheme>& allowed);
 
-/// With its port, always.
+/// Always with the port.
 [[nodiscard]] std::string MakeText(const Url& url);
 
 /// wss and mqtts: the connection is encrypted.

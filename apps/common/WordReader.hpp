@@ -5,7 +5,7 @@
 namespace ACS::Apps
 {
 
-/// Cuts the next word, without the blanks before it, off the front; empty where there is none left.
+/// Removes the next word, without leading blanks, from the front of the text; empty if there is none.
 [[nodiscard]] inline std::string_view TakeWord(std::string_view& text)
 {
     constexpr std::string_view BLANKS = " \t\r";
@@ -21,7 +21,7 @@ namespace ACS::Apps
     return word;
 }
 
-/// Whether one of the words is the wanted one.
+/// Whether the word is among the words.
 [[nodiscard]] inline bool ContainsWord(std::string_view words, std::string_view wanted)
 {
     while (!words.empty())
