@@ -4,6 +4,7 @@
 #include "vda-sim/OrderLimits.hpp"
 #include "vda-sim/VehicleFactsheet.hpp"
 #include "world/EWorldError.hpp"
+#include <acs/vda5050/ActionMachine.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
+#include "MasterSession.Impl.hpp"
 #include <acs/vda5050/ActionMachine.hpp>
 #include <acs/vda5050/EVda5050Error.hpp>
-#include <acs/vda5050/MasterSession.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -10,7 +10,7 @@
 namespace ACS::VDA5050
 {
 
-Core::Result<void> MasterSession::Cancel(Core::Now now, MasterActions& out)
+Core::Result<void> MasterSession::Impl::Cancel(Core::Now now, MasterActions& out)
 {
     if (_phase == EOrderPhase::None)
     {
@@ -40,7 +40,7 @@ Core::Result<void> MasterSession::Cancel(Core::Now now, MasterActions& out)
     return {};
 }
 
-void MasterSession::FollowCancel(MasterActions& out)
+void MasterSession::Impl::FollowCancel(MasterActions& out)
 {
     if (_phase != EOrderPhase::Cancelling || IsPending(_cancelActionID) || !_state.has_value())
     {
@@ -58,7 +58,7 @@ void MasterSession::FollowCancel(MasterActions& out)
     }
 }
 
-void MasterSession::EndCancel(EActionStatus status, MasterActions& out)
+void MasterSession::Impl::EndCancel(EActionStatus status, MasterActions& out)
 {
     const bool bHeld = _bAccepted && _state->orderID == _orderID;
     if (status == EActionStatus::Failed && bHeld && IsOrderDone())
@@ -84,7 +84,7 @@ void MasterSession::EndCancel(EActionStatus status, MasterActions& out)
     EndOrder(out);
 }
 
-void MasterSession::Withdraw(const OrderMessage* messageOrNull, bool bRejected)
+void MasterSession::Impl::Withdraw(const OrderMessage* messageOrNull, bool bRejected)
 {
     WithdrawnOrder order{_orderID, {}, bRejected};
     const auto add = [&order](const auto& elements) {
@@ -107,7 +107,7 @@ void MasterSession::Withdraw(const OrderMessage* messageOrNull, bool bRejected)
     _withdrawnOrders.push_back(std::move(order));
 }
 
-bool MasterSession::IsRunning(const WithdrawnOrder& order) const
+bool MasterSession::Impl::IsRunning(const WithdrawnOrder& order) const
 {
     return IsBusy() || std::ranges::any_of(_state->actionStates, [&order](const ActionState& action) {
                return !IsTerminal(action.actionStatus) && std::ranges::binary_search(order.actionIDs, action.actionID);
@@ -115,7 +115,7 @@ bool MasterSession::IsRunning(const WithdrawnOrder& order) const
 }
 
 /// An order that ended for us before the vehicle had it: that may come late, from a queue.
-void MasterSession::CancelReappeared(Core::Now now, MasterActions& out)
+void MasterSession::Impl::CancelReappeared(Core::Now now, MasterActions& out)
 {
     const auto found = std::ranges::find(_withdrawnOrders, _state->orderID, &WithdrawnOrder::orderID);
     if (_phase != EOrderPhase::None || found == _withdrawnOrders.end() || _link != EVehicleLink::Online || !IsLed())

@@ -1,8 +1,8 @@
 #include "ActionFault.hpp"
+#include "MasterSession.Impl.hpp"
 #include "OrderCapability.hpp"
 #include "OrderErrors.hpp"
 #include <acs/vda5050/EVda5050Error.hpp>
-#include <acs/vda5050/MasterSession.hpp>
 
 #include <algorithm>
 #include <array>
@@ -71,12 +71,12 @@ struct SizeLimit
 
 } // namespace
 
-const FactsheetMessage* MasterSession::GetRulesOrNull() const
+const FactsheetMessage* MasterSession::Impl::GetRulesOrNull() const
 {
     return _options.bFactsheetObeyed && _factsheet.has_value() ? &*_factsheet : nullptr;
 }
 
-Core::Result<void> MasterSession::FitOrder(OrderMessage& order, Core::Now now) const
+Core::Result<void> MasterSession::Impl::FitOrder(OrderMessage& order, Core::Now now) const
 {
     OrderContext context;
     context.factsheet = GetRulesOrNull();
@@ -110,7 +110,7 @@ Core::Result<void> MasterSession::FitOrder(OrderMessage& order, Core::Now now) c
         "order " + order.orderID);
 }
 
-std::string MasterSession::MakeActionID(std::string_view actionType, Core::Now now)
+std::string MasterSession::Impl::MakeActionID(std::string_view actionType, Core::Now now)
 {
     constexpr int MOST_TRIES = 100; // an id that has to be short may be in use
     std::string id = MakeNextActionID(actionType, now);
@@ -121,7 +121,7 @@ std::string MasterSession::MakeActionID(std::string_view actionType, Core::Now n
     return id;
 }
 
-std::string MasterSession::MakeNextActionID(std::string_view actionType, Core::Now now)
+std::string MasterSession::Impl::MakeNextActionID(std::string_view actionType, Core::Now now)
 {
     const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(now.wall.time_since_epoch());
     const std::string moment = std::to_string(milliseconds.count());
@@ -140,7 +140,7 @@ std::string MasterSession::MakeNextActionID(std::string_view actionType, Core::N
     return id;
 }
 
-Core::Result<void> MasterSession::FitInstantAction(Action& action, Core::Now now) const
+Core::Result<void> MasterSession::Impl::FitInstantAction(Action& action, Core::Now now) const
 {
     const FactsheetMessage* const rules = GetRulesOrNull();
     if (rules == nullptr)
@@ -195,13 +195,13 @@ Core::Result<void> MasterSession::FitInstantAction(Action& action, Core::Now now
     return {};
 }
 
-Core::Duration MasterSession::GetOrderInterval() const
+Core::Duration MasterSession::Impl::GetOrderInterval() const
 {
     const FactsheetMessage* const rules = GetRulesOrNull();
     return rules == nullptr ? Core::Duration::zero() : ToDuration(rules->protocolLimits.timing.minOrderInterval);
 }
 
-Core::Duration MasterSession::GetAllowedSilence() const
+Core::Duration MasterSession::Impl::GetAllowedSilence() const
 {
     Core::Duration interval = _options.stateInterval;
     if (_factsheet.has_value())
@@ -212,7 +212,7 @@ Core::Duration MasterSession::GetAllowedSilence() const
     return interval + _options.stateMargin;
 }
 
-std::size_t MasterSession::GetMaximumInstantActions() const
+std::size_t MasterSession::Impl::GetMaximumInstantActions() const
 {
     const FactsheetMessage* const rules = GetRulesOrNull();
     if (rules != nullptr && rules->protocolLimits.maxStringLengths.message.value_or(0) != 0)

@@ -1,7 +1,7 @@
 #include "ActionIndex.hpp"
+#include "MasterSession.Impl.hpp"
 #include "OrderErrors.hpp"
 #include <acs/vda5050/ActionMachine.hpp>
-#include <acs/vda5050/MasterSession.hpp>
 
 #include <algorithm>
 #include <array>
@@ -24,19 +24,19 @@ constexpr std::array ORDER_ERROR_TYPES{
 
 } // namespace
 
-bool MasterSession::IsPending(std::string_view actionID) const
+bool MasterSession::Impl::IsPending(std::string_view actionID) const
 {
     return std::ranges::any_of(_pendingActions, [actionID](const PendingAction& pending) {
         return pending.action.actionID == actionID;
     });
 }
 
-bool MasterSession::IsTracked(std::string_view actionID) const
+bool MasterSession::Impl::IsTracked(std::string_view actionID) const
 {
     return std::ranges::find(_tracked, actionID, &TrackedAction::actionID) != _tracked.end();
 }
 
-void MasterSession::SettlePendingActions(const ActionIndex& shown, MasterActions& out)
+void MasterSession::Impl::SettlePendingActions(const ActionIndex& shown, MasterActions& out)
 {
     if (_pendingActions.empty())
     {
@@ -67,7 +67,7 @@ void MasterSession::SettlePendingActions(const ActionIndex& shown, MasterActions
     }
 }
 
-void MasterSession::SettleInFlight(Core::Now now, MasterActions& out)
+void MasterSession::Impl::SettleInFlight(Core::Now now, MasterActions& out)
 {
     if (!_inFlight.has_value())
     {
@@ -85,7 +85,7 @@ void MasterSession::SettleInFlight(Core::Now now, MasterActions& out)
     }
 }
 
-void MasterSession::ExtendRoute(const OrderMessage& order)
+void MasterSession::Impl::ExtendRoute(const OrderMessage& order)
 {
     const bool bFirst = _route.empty();
     const std::uint32_t stitch = order.nodes.front().sequenceID;
@@ -105,7 +105,7 @@ void MasterSession::ExtendRoute(const OrderMessage& order)
     }
 }
 
-void MasterSession::TakeIntoRoute(const OrderMessage& order)
+void MasterSession::Impl::TakeIntoRoute(const OrderMessage& order)
 {
     ExtendRoute(order);
     TrackOrderActions(order);
@@ -113,7 +113,7 @@ void MasterSession::TakeIntoRoute(const OrderMessage& order)
     _phase = EOrderPhase::Active;
 }
 
-void MasterSession::AcceptInFlight(Core::Now now, MasterActions& out)
+void MasterSession::Impl::AcceptInFlight(Core::Now now, MasterActions& out)
 {
     TakeIntoRoute(*_inFlight);
     // A master that takes an order up again may know less of it than the vehicle has.
@@ -129,7 +129,7 @@ void MasterSession::AcceptInFlight(Core::Now now, MasterActions& out)
 }
 
 /// The one in flight, and what waits for it: an update on top of a refused one has no place to begin.
-void MasterSession::RejectInFlight(const std::string& errorType, const std::string& reason, MasterActions& out)
+void MasterSession::Impl::RejectInFlight(const std::string& errorType, const std::string& reason, MasterActions& out)
 {
     out.emplace_back(CancelMasterTimer{EMasterTimer::ResendOrder});
     out.emplace_back(OrderRejected{_orderID, _inFlight->orderUpdateID, errorType, reason});
@@ -149,7 +149,7 @@ void MasterSession::RejectInFlight(const std::string& errorType, const std::stri
     }
 }
 
-bool MasterSession::IsSentHeader(std::string_view headerID) const
+bool MasterSession::Impl::IsSentHeader(std::string_view headerID) const
 {
     std::uint32_t number = 0;
     const char* const end = headerID.data() + headerID.size();
@@ -157,7 +157,7 @@ bool MasterSession::IsSentHeader(std::string_view headerID) const
     return error == std::errc() && rest == end && number - _firstHeaderID < _sendCount;
 }
 
-bool MasterSession::IsRejection(const VehicleError& error) const
+bool MasterSession::Impl::IsRejection(const VehicleError& error) const
 {
     const std::string* topicOrNull = FindReferenceOrNull(error, ReferenceKeys::TOPIC);
     if (topicOrNull != nullptr && *topicOrNull != GetTopicName(ETopic::Order))
@@ -189,14 +189,14 @@ bool MasterSession::IsRejection(const VehicleError& error) const
     return bAnswer || !_bAccepted;
 }
 
-const VehicleError* MasterSession::FindRejectionOrNull() const
+const VehicleError* MasterSession::Impl::FindRejectionOrNull() const
 {
     const auto found =
         std::ranges::find_if(_state->errors, [this](const VehicleError& error) { return IsRejection(error); });
     return found == _state->errors.end() ? nullptr : &*found;
 }
 
-void MasterSession::TellReachedNodes(MasterActions& out)
+void MasterSession::Impl::TellReachedNodes(MasterActions& out)
 {
     const auto isReached = [this](const RouteNode& node) {
         return node.bReleased && node.sequenceID == _state->lastNodeSequenceID && node.nodeID == _state->lastNodeID
@@ -216,7 +216,7 @@ void MasterSession::TellReachedNodes(MasterActions& out)
     _reachedNodes = static_cast<std::size_t>(std::distance(_route.begin(), last)) + 1;
 }
 
-bool MasterSession::IsOrderDone() const
+bool MasterSession::Impl::IsOrderDone() const
 {
     if (_inFlight.has_value() || _reachedNodes != _route.size() || !_state->nodeStates.empty()
         || !_state->edgeStates.empty())
@@ -229,7 +229,7 @@ bool MasterSession::IsOrderDone() const
     });
 }
 
-void MasterSession::FollowOrder(MasterActions& out)
+void MasterSession::Impl::FollowOrder(MasterActions& out)
 {
     if (!_bAccepted || _phase == EOrderPhase::None)
     {
@@ -263,7 +263,7 @@ void MasterSession::FollowOrder(MasterActions& out)
     }
 }
 
-void MasterSession::EndOrder(MasterActions& out)
+void MasterSession::Impl::EndOrder(MasterActions& out)
 {
     if (_inFlight.has_value())
     {

@@ -1,7 +1,7 @@
 #include "ActionIndex.hpp"
+#include "MasterSession.Impl.hpp"
 #include <acs/vda5050/ActionMachine.hpp>
 #include <acs/vda5050/EVda5050Error.hpp>
-#include <acs/vda5050/MasterSession.hpp>
 #include <acs/vda5050/OrderValidator.hpp>
 
 #include <algorithm>
@@ -101,14 +101,14 @@ Core::Result<void> CheckRecord(const std::vector<OrderMessage>& messages)
 
 } // namespace
 
-Header MasterSession::MakeHeader(ETopic topic, Core::Now now)
+Header MasterSession::Impl::MakeHeader(ETopic topic, Core::Now now)
 {
     Header header = PeekHeader(topic, now);
     ++_headerIDs.at(static_cast<std::size_t>(topic));
     return header;
 }
 
-Header MasterSession::PeekHeader(ETopic topic, Core::Now now) const
+Header MasterSession::Impl::PeekHeader(ETopic topic, Core::Now now) const
 {
     return Header{
         _headerIDs.at(static_cast<std::size_t>(topic)),
@@ -118,7 +118,7 @@ Header MasterSession::PeekHeader(ETopic topic, Core::Now now) const
         _options.address.serialNumber};
 }
 
-void MasterSession::PublishPayload(ETopic topic, std::string payload, MasterActions& out)
+void MasterSession::Impl::PublishPayload(ETopic topic, std::string payload, MasterActions& out)
 {
     ++_statistics.messagesSent;
     out.emplace_back(PublishMessage{MqttMessage{
@@ -128,7 +128,7 @@ void MasterSession::PublishPayload(ETopic topic, std::string payload, MasterActi
         IsRetained(topic)}});
 }
 
-void MasterSession::PublishOrder(Core::Now now, MasterActions& out)
+void MasterSession::Impl::PublishOrder(Core::Now now, MasterActions& out)
 {
     if (_link != EVehicleLink::Online || !IsLed())
     {
@@ -153,7 +153,7 @@ void MasterSession::PublishOrder(Core::Now now, MasterActions& out)
     out.emplace_back(StartMasterTimer{EMasterTimer::ResendOrder, _options.resendInterval});
 }
 
-void MasterSession::ResendOrder(Core::Now now, MasterActions& out)
+void MasterSession::Impl::ResendOrder(Core::Now now, MasterActions& out)
 {
     if (!_inFlight.has_value() || _link != EVehicleLink::Online || !IsLed())
     {
@@ -169,7 +169,7 @@ void MasterSession::ResendOrder(Core::Now now, MasterActions& out)
     _statistics.ordersResent += sentBefore != 0 && _sendCount != sentBefore ? 1U : 0U;
 }
 
-void MasterSession::PublishInstantActions(std::vector<Action> actions, Core::Now now, MasterActions& out)
+void MasterSession::Impl::PublishInstantActions(std::vector<Action> actions, Core::Now now, MasterActions& out)
 {
     const std::size_t most = GetMaximumInstantActions();
     while (!actions.empty())
@@ -183,7 +183,7 @@ void MasterSession::PublishInstantActions(std::vector<Action> actions, Core::Now
     }
 }
 
-void MasterSession::ResendInstantActions(Core::Now now, MasterActions& out)
+void MasterSession::Impl::ResendInstantActions(Core::Now now, MasterActions& out)
 {
     if (_link != EVehicleLink::Online || !IsLed())
     {
@@ -218,7 +218,7 @@ void MasterSession::ResendInstantActions(Core::Now now, MasterActions& out)
     FollowCancel(out);
 }
 
-void MasterSession::BeginOrder(std::string orderID, std::uint32_t lastUpdateID)
+void MasterSession::Impl::BeginOrder(std::string orderID, std::uint32_t lastUpdateID)
 {
     std::erase_if(_withdrawnOrders, [&orderID](const WithdrawnOrder& order) { return order.orderID == orderID; });
     _phase = EOrderPhase::Sent;
@@ -229,7 +229,7 @@ void MasterSession::BeginOrder(std::string orderID, std::uint32_t lastUpdateID)
     _reachedNodes = 0;
 }
 
-void MasterSession::PutInFlight(OrderMessage order, Core::Now now, MasterActions& out)
+void MasterSession::Impl::PutInFlight(OrderMessage order, Core::Now now, MasterActions& out)
 {
     _errorsBeforeSend = _state->errors;
     std::ranges::sort(_errorsBeforeSend);
@@ -238,7 +238,7 @@ void MasterSession::PutInFlight(OrderMessage order, Core::Now now, MasterActions
     PublishOrder(now, out);
 }
 
-Core::Result<void> MasterSession::SendOrder(OrderMessage order, Core::Now now, MasterActions& out)
+Core::Result<void> MasterSession::Impl::SendOrder(OrderMessage order, Core::Now now, MasterActions& out)
 {
     if (_phase != EOrderPhase::None)
     {
@@ -278,7 +278,7 @@ Core::Result<void> MasterSession::SendOrder(OrderMessage order, Core::Now now, M
     return {};
 }
 
-std::pair<std::string, std::uint32_t> MasterSession::GetDecisionPoint() const
+std::pair<std::string, std::uint32_t> MasterSession::Impl::GetDecisionPoint() const
 {
     if (_inFlight.has_value())
     {
@@ -292,7 +292,7 @@ std::pair<std::string, std::uint32_t> MasterSession::GetDecisionPoint() const
     return point;
 }
 
-Core::Result<void> MasterSession::SendOrderUpdate(OrderMessage update, Core::Now now, MasterActions& out)
+Core::Result<void> MasterSession::Impl::SendOrderUpdate(OrderMessage update, Core::Now now, MasterActions& out)
 {
     if (_phase != EOrderPhase::Sent && _phase != EOrderPhase::Active)
     {
@@ -327,7 +327,7 @@ Core::Result<void> MasterSession::SendOrderUpdate(OrderMessage update, Core::Now
     return {};
 }
 
-Core::Result<void> MasterSession::ResumeOrder(OrderRecord record, Core::Now now, MasterActions& out)
+Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::Now now, MasterActions& out)
 {
     if (_phase != EOrderPhase::None)
     {
@@ -395,7 +395,7 @@ Core::Result<void> MasterSession::ResumeOrder(OrderRecord record, Core::Now now,
     return {};
 }
 
-const ActionState* MasterSession::FindShownOrNull(std::string_view actionID) const
+const ActionState* MasterSession::Impl::FindShownOrNull(std::string_view actionID) const
 {
     if (!_state.has_value())
     {
@@ -405,7 +405,7 @@ const ActionState* MasterSession::FindShownOrNull(std::string_view actionID) con
     return found == _state->actionStates.end() ? nullptr : &*found;
 }
 
-Core::Result<std::string> MasterSession::SendInstantAction(Action action, Core::Now now, MasterActions& out)
+Core::Result<std::string> MasterSession::Impl::SendInstantAction(Action action, Core::Now now, MasterActions& out)
 {
     const bool bTaken = IsLed() || IsRequest(action.actionType);
     if (_link != EVehicleLink::Online || !bTaken)

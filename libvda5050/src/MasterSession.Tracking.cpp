@@ -1,6 +1,6 @@
 #include "ActionIndex.hpp"
+#include "MasterSession.Impl.hpp"
 #include <acs/vda5050/ActionMachine.hpp>
-#include <acs/vda5050/MasterSession.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -10,7 +10,7 @@
 namespace ACS::VDA5050
 {
 
-void MasterSession::TrackOrderActions(const OrderMessage& order)
+void MasterSession::Impl::TrackOrderActions(const OrderMessage& order)
 {
     std::set<std::string_view> ofRoute;
     for (const RouteNode& node : _route)
@@ -47,7 +47,7 @@ void MasterSession::TrackOrderActions(const OrderMessage& order)
     }
 }
 
-void MasterSession::FollowActions(const ActionIndex& shown, MasterActions& out)
+void MasterSession::Impl::FollowActions(const ActionIndex& shown, MasterActions& out)
 {
     const auto isEnded = [&shown, &out](TrackedAction& tracked) {
         const ActionState* const state = shown.FindOrNull(tracked.actionID);
@@ -65,7 +65,7 @@ void MasterSession::FollowActions(const ActionIndex& shown, MasterActions& out)
     std::erase_if(_tracked, isEnded);
 }
 
-void MasterSession::EndOrderActions(MasterActions& out)
+void MasterSession::Impl::EndOrderActions(MasterActions& out)
 {
     const auto isOfOrder = [&out](const TrackedAction& tracked) {
         if (!tracked.bInstant)
@@ -77,12 +77,12 @@ void MasterSession::EndOrderActions(MasterActions& out)
     std::erase_if(_tracked, isOfOrder);
 }
 
-void MasterSession::ForgetAction(std::string_view actionID)
+void MasterSession::Impl::ForgetAction(std::string_view actionID)
 {
     std::erase_if(_tracked, [actionID](const TrackedAction& tracked) { return tracked.actionID == actionID; });
 }
 
-std::vector<ReservedElement> MasterSession::ListReserved() const
+std::vector<ReservedElement> MasterSession::Impl::ListReserved() const
 {
     std::vector<ReservedElement> reserved;
     if (_state.has_value())

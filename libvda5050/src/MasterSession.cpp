@@ -1,22 +1,21 @@
-#include "ActionIndex.hpp"
-#include <acs/vda5050/ActionMachine.hpp>
+#include "MasterSession.Impl.hpp"
 #include <acs/vda5050/EVda5050Error.hpp>
-#include <acs/vda5050/MasterSession.hpp>
 
-#include <algorithm>
 #include <utility>
 
 namespace ACS::VDA5050
 {
 
 MasterSession::MasterSession(MasterOptions options)
-    : _options(std::move(options))
+    : _impl(std::make_unique<Impl>(std::move(options)))
 {
-    for (std::size_t index = 0; index < TOPIC_COUNT; ++index)
-    {
-        _topics.at(index) = BuildTopic(_options.address, static_cast<ETopic>(index));
-    }
 }
+
+MasterSession::MasterSession(MasterSession&&) noexcept = default;
+
+MasterSession& MasterSession::operator=(MasterSession&&) noexcept = default;
+
+MasterSession::~MasterSession() = default;
 
 Core::Result<MasterSession> MasterSession::Create(MasterOptions options)
 {
@@ -34,405 +33,107 @@ Core::Result<MasterSession> MasterSession::Create(MasterOptions options)
 
 std::vector<MqttSubscription> MasterSession::GetSubscriptions() const
 {
-    std::vector<MqttSubscription> subscriptions;
-    for (const ETopic topic : {ETopic::State, ETopic::Visualization, ETopic::Connection, ETopic::Factsheet})
-    {
-        subscriptions.push_back(MqttSubscription{_topics.at(static_cast<std::size_t>(topic)), _options.qos.Get(topic)});
-    }
-    return subscriptions;
+    return _impl->GetSubscriptions();
 }
 
-void MasterSession::OnLinkUp(Core::Now /*now*/, MasterActions& /*out*/)
+void MasterSession::OnLinkUp(Core::Now now, MasterActions& out)
 {
-    _bLinkUp = true;
+    _impl->OnLinkUp(now, out);
 }
 
-void MasterSession::OnLinkDown(Core::Now /*now*/, MasterActions& out)
+void MasterSession::OnLinkDown(Core::Now now, MasterActions& out)
 {
-    _bLinkUp = false;
-    _bStateFresh = false;
-    _link = EVehicleLink::Unknown;
-    for (const EMasterTimer timer :
-         {EMasterTimer::ResendOrder, EMasterTimer::ResendInstantActions, EMasterTimer::Silence})
-    {
-        out.emplace_back(CancelMasterTimer{timer});
-    }
-}
-
-void MasterSession::OnMessage(std::string_view topic, std::string_view payload, Core::Now now, MasterActions& out)
-{
-    Read(topic, payload, false, now, out);
+    _impl->OnLinkDown(now, out);
 }
 
 void MasterSession::OnMessage(const MqttMessage& message, Core::Now now, MasterActions& out)
 {
-    Read(message.topic, message.payload, message.bRetained, now, out);
+    _impl->OnMessage(message.topic, message.payload, message.bRetained, now, out);
 }
 
-void MasterSession::Read(
-    std::string_view topic,
-    std::string_view payload,
-    bool bRetained,
-    Core::Now now,
-    MasterActions& out)
+void MasterSession::OnMessage(std::string_view topic, std::string_view payload, Core::Now now, MasterActions& out)
 {
-    const auto* const found = std::ranges::find(_topics, topic);
-    if (found == _topics.end() || !_bLinkUp)
-    {
-        return;
-    }
-    const auto said = static_cast<ETopic>(found - _topics.begin());
-    if (bRetained && !IsRetained(said))
-    {
-        // Nobody is to retain it, so nobody knows how old it is: no sign of life, and no word about an order.
-        ++_statistics.retainedIgnored;
-        return;
-    }
-    switch (said)
-    {
-        case ETopic::State:
-            OnState(payload, now, out);
-            break;
-        case ETopic::Visualization:
-            OnVisualization(payload, out);
-            break;
-        case ETopic::Connection:
-            OnConnection(payload, now, out);
-            break;
-        case ETopic::Factsheet:
-            OnFactsheet(payload, out);
-            break;
-        case ETopic::Order:
-        case ETopic::InstantActions:
-        default:
-            break; // what masters send
-    }
+    _impl->OnMessage(topic, payload, false, now, out);
 }
 
 void MasterSession::OnTimer(EMasterTimer timer, Core::Now now, MasterActions& out)
 {
-    switch (timer)
-    {
-        case EMasterTimer::ResendOrder:
-            ResendOrder(now, out);
-            break;
-        case EMasterTimer::ResendInstantActions:
-            ResendInstantActions(now, out);
-            break;
-        case EMasterTimer::Silence:
-            CheckSilence(now, out);
-            break;
-        default:
-            break;
-    }
+    _impl->OnTimer(timer, now, out);
 }
 
-void MasterSession::Refuse(ETopic topic, Core::Error error, MasterActions& out)
+Core::Result<void> MasterSession::SendOrder(OrderMessage order, Core::Now now, MasterActions& out)
 {
-    ++_statistics.messagesRefused;
-    out.emplace_back(MessageRefused{topic, std::move(error)});
+    return _impl->SendOrder(std::move(order), now, out);
 }
 
-/// An empty version is tolerated, as empty names are: the topic has said it already.
-bool MasterSession::IsForeign(ETopic topic, const Header& header, MasterActions& out)
+Core::Result<void> MasterSession::SendOrderUpdate(OrderMessage update, Core::Now now, MasterActions& out)
 {
-    if (std::optional<Core::Error> foreign = FindForeignNameOrNull(header, _options.address))
-    {
-        Refuse(topic, std::move(*foreign), out);
-        return true;
-    }
-    if (!header.version.empty() && !ReadVersionOrNull(header.version).has_value())
-    {
-        Refuse(
-            topic,
-            Core::Error{make_error_code(EVda5050Error::UnsupportedVersion), "version", "2.x", header.version},
-            out);
-        return true;
-    }
-    return false;
+    return _impl->SendOrderUpdate(std::move(update), now, out);
 }
 
-void MasterSession::OnConnection(std::string_view payload, Core::Now now, MasterActions& out)
+Core::Result<void> MasterSession::ResumeOrder(OrderRecord record, Core::Now now, MasterActions& out)
 {
-    const Core::Result<ConnectionMessage> message = _codec.Decode<ConnectionMessage>(payload);
-    if (!message)
-    {
-        Refuse(ETopic::Connection, message.error(), out);
-        return;
-    }
-    if (IsForeign(ETopic::Connection, message->header, out))
-    {
-        return;
-    }
-    switch (message->connectionState)
-    {
-        case EConnectionState::Online:
-            _bNumbersKnown = false;
-            if (_link != EVehicleLink::Online)
-            {
-                ComeOnline(now, out);
-            }
-            break;
-        case EConnectionState::Offline:
-            GoAway(EVehicleLink::Offline, out);
-            break;
-        case EConnectionState::ConnectionBroken:
-            GoAway(EVehicleLink::Broken, out);
-            break;
-        default:
-            break;
-    }
+    return _impl->ResumeOrder(std::move(record), now, out);
 }
 
-void MasterSession::ComeOnline(Core::Now now, MasterActions& out)
+Core::Result<std::string> MasterSession::SendInstantAction(Action action, Core::Now now, MasterActions& out)
 {
-    _link = EVehicleLink::Online;
-    _bSilent = false;
-    _bStateFresh = false;
-    _lastStateTime = now.steady;
-    out.emplace_back(VehicleOnline{});
-    out.emplace_back(StartMasterTimer{EMasterTimer::Silence, GetAllowedSilence()});
-    std::vector<Action> requests;
-    const auto ask = [this, now, &requests](std::string_view actionType) {
-        Action& action = requests.emplace_back();
-        action.actionType = actionType;
-        action.actionID = MakeActionID(actionType, now);
-    };
-    if (_options.bStateRequested)
-    {
-        ask(ActionTypes::STATE_REQUEST);
-    }
-    if (_options.bFactsheetRequested)
-    {
-        ask(ActionTypes::FACTSHEET_REQUEST);
-    }
-    if (!requests.empty())
-    {
-        PublishInstantActions(std::move(requests), now, out);
-    }
-    ResendOrder(now, out);
-    ResendInstantActions(now, out);
+    return _impl->SendInstantAction(std::move(action), now, out);
 }
 
-void MasterSession::GoAway(EVehicleLink link, MasterActions& out)
+Core::Result<void> MasterSession::Cancel(Core::Now now, MasterActions& out)
 {
-    if (_link == link)
-    {
-        return; // a repeated retained message, or a will after it was read once
-    }
-    _link = link;
-    _bStateFresh = false;
-    for (const EMasterTimer timer :
-         {EMasterTimer::ResendOrder, EMasterTimer::ResendInstantActions, EMasterTimer::Silence})
-    {
-        out.emplace_back(CancelMasterTimer{timer});
-    }
-    if (link == EVehicleLink::Broken)
-    {
-        out.emplace_back(VehicleBroken{});
-    }
-    else
-    {
-        out.emplace_back(VehicleOffline{});
-    }
+    return _impl->Cancel(now, out);
 }
 
-/// The timer is not moved at each state: it looks back when it ends, and waits for the rest.
-void MasterSession::CheckSilence(Core::Now now, MasterActions& out)
+std::vector<ReservedElement> MasterSession::ListReserved() const
 {
-    if (_link != EVehicleLink::Online || _bSilent)
-    {
-        return;
-    }
-    const Core::Duration allowed = GetAllowedSilence();
-    const Core::Duration age = now.steady - _lastStateTime;
-    if (age < allowed)
-    {
-        out.emplace_back(StartMasterTimer{EMasterTimer::Silence, allowed - age});
-        return;
-    }
-    _bSilent = true;
-    out.emplace_back(VehicleSilent{age});
-}
-
-/// Both must be older: clocks are set. After a restart both may be, and its ONLINE comes first.
-bool MasterSession::IsStale(const StateMessage& state) const
-{
-    return _bNumbersKnown && _state.has_value() && state.header.headerID < _state->header.headerID
-        && state.header.timestamp < _state->header.timestamp;
-}
-
-void MasterSession::OnState(std::string_view payload, Core::Now now, MasterActions& out)
-{
-    Core::Result<StateMessage> state = _codec.Decode<StateMessage>(payload);
-    if (!state)
-    {
-        Refuse(ETopic::State, state.error(), out);
-        return;
-    }
-    if (IsForeign(ETopic::State, state->header, out))
-    {
-        return;
-    }
-    if (IsStale(*state))
-    {
-        ++_statistics.statesIgnored;
-        return;
-    }
-    ++_statistics.statesReceived;
-    if (_link == EVehicleLink::Unknown || _link == EVehicleLink::Broken)
-    {
-        // It lives, whatever became of its connection message; and the will of a connection that it had before, under
-        // another client id, may come after the ONLINE of the present one.
-        ComeOnline(now, out);
-    }
-    _lastStateTime = now.steady;
-    _bStateFresh = true;
-    _bNumbersKnown = true;
-    const bool bWasLed = IsLed();
-    if (_bSilent && _link == EVehicleLink::Online)
-    {
-        _bSilent = false;
-        out.emplace_back(StartMasterTimer{EMasterTimer::Silence, GetAllowedSilence()});
-    }
-    const std::optional<StateMessage> previous = std::exchange(_state, std::move(*state));
-    out.emplace_back(StateReceived{});
-    if (_state->agvPosition.has_value())
-    {
-        out.emplace_back(PositionReceived{*_state->agvPosition, _state->velocity});
-    }
-    SettleInFlight(now, out);
-    TellDifferences(previous, out);
-    const ActionIndex shown(_state->actionStates);
-    SettlePendingActions(shown, out);
-    FollowActions(shown, out);
-    FollowOrder(out);
-    FollowCancel(out);
-    CancelReappeared(now, out);
-    if (!bWasLed && IsLed())
-    {
-        ResendOrder(now, out);
-        ResendInstantActions(now, out);
-    }
-}
-
-void MasterSession::OnVisualization(std::string_view payload, MasterActions& out)
-{
-    const Core::Result<VisualizationMessage> message = _codec.Decode<VisualizationMessage>(payload);
-    if (!message)
-    {
-        Refuse(ETopic::Visualization, message.error(), out);
-        return;
-    }
-    if (IsForeign(ETopic::Visualization, message->header, out))
-    {
-        return;
-    }
-    if (message->agvPosition.has_value())
-    {
-        out.emplace_back(PositionReceived{*message->agvPosition, message->velocity});
-    }
-}
-
-void MasterSession::OnFactsheet(std::string_view payload, MasterActions& out)
-{
-    Core::Result<FactsheetMessage> message = _codec.Decode<FactsheetMessage>(payload);
-    if (!message)
-    {
-        Refuse(ETopic::Factsheet, message.error(), out);
-        return;
-    }
-    if (IsForeign(ETopic::Factsheet, message->header, out))
-    {
-        return;
-    }
-    _factsheet = std::move(*message);
-    out.emplace_back(FactsheetReceived{});
-}
-
-void MasterSession::TellDifferences(const std::optional<StateMessage>& previous, MasterActions& out) const
-{
-    const StateMessage none;
-    const StateMessage& before = previous.has_value() ? *previous : none;
-    const ActionIndex actionsBefore(before.actionStates);
-    for (const ActionState& action : _state->actionStates)
-    {
-        const ActionState* const known = actionsBefore.FindOrNull(action.actionID);
-        const bool bSame = known != nullptr && known->actionStatus == action.actionStatus
-            && known->resultDescription == action.resultDescription;
-        if (!bSame)
-        {
-            out.emplace_back(
-                ActionChanged{action.actionID, action.actionType, action.actionStatus, action.resultDescription});
-        }
-    }
-    const auto tell = [&out](const StateMessage& from, const StateMessage& other, bool bActive) {
-        const SortedIndex<VehicleError> known(other.errors);
-        for (const VehicleError& error : from.errors)
-        {
-            if (known.FindOrNull(error) == nullptr)
-            {
-                out.emplace_back(VehicleErrorChanged{error, bActive});
-            }
-        }
-    };
-    tell(*_state, before, true);
-    tell(before, *_state, false);
+    return _impl->ListReserved();
 }
 
 EVehicleLink MasterSession::GetLink() const noexcept
 {
-    return _link;
+    return _impl->GetLink();
 }
 
 EOrderPhase MasterSession::GetOrderPhase() const noexcept
 {
-    return _phase;
+    return _impl->GetOrderPhase();
 }
 
 const std::string& MasterSession::GetOrderID() const noexcept
 {
-    return _orderID;
-}
-
-bool MasterSession::IsReady() const
-{
-    return _link == EVehicleLink::Online && _bStateFresh && !_bSilent;
+    return _impl->GetOrderID();
 }
 
 bool MasterSession::CanTakeOrder() const
 {
-    return IsReady() && _phase == EOrderPhase::None && IsLed() && !IsBusy();
+    return _impl->CanTakeOrder();
 }
 
-bool MasterSession::IsBusy() const
+bool MasterSession::IsReady() const
 {
-    return _state.has_value() && !(_state->nodeStates.empty() && _state->edgeStates.empty());
-}
-
-bool MasterSession::IsLed() const
-{
-    return !_state.has_value() || IsLedByMaster(_state->operatingMode);
+    return _impl->IsReady();
 }
 
 const StateMessage* MasterSession::GetStateOrNull() const noexcept
 {
-    return _state.has_value() ? &*_state : nullptr;
+    return _impl->GetStateOrNull();
 }
 
 const FactsheetMessage* MasterSession::GetFactsheetOrNull() const noexcept
 {
-    return _factsheet.has_value() ? &*_factsheet : nullptr;
+    return _impl->GetFactsheetOrNull();
 }
 
 const MasterStatistics& MasterSession::GetStatistics() const noexcept
 {
-    return _statistics;
+    return _impl->GetStatistics();
 }
 
 const MasterOptions& MasterSession::GetOptions() const noexcept
 {
-    return _options;
+    return _impl->GetOptions();
 }
 
 } // namespace ACS::VDA5050

@@ -1,5 +1,5 @@
 #include "OrderErrors.hpp"
-#include <acs/vda5050/VehicleSession.hpp>
+#include "VehicleSession.Impl.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -7,7 +7,7 @@
 namespace ACS::VDA5050
 {
 
-void VehicleSession::StopMoving(VehicleActions& out)
+void VehicleSession::Impl::StopMoving(VehicleActions& out)
 {
     if (_bLegActive)
     {
@@ -18,12 +18,12 @@ void VehicleSession::StopMoving(VehicleActions& out)
 }
 
 /// What was told to stop counts as moving until the owner says that it stands.
-bool VehicleSession::IsStanding() const
+bool VehicleSession::Impl::IsStanding() const
 {
     return !_bDriving && !_bHalting;
 }
 
-bool VehicleSession::IsPauseOverridden(const Action& action, const Header& header)
+bool VehicleSession::Impl::IsPauseOverridden(const Action& action, const Header& header)
 {
     if (_bPauseOverridden)
     {
@@ -36,7 +36,7 @@ bool VehicleSession::IsPauseOverridden(const Action& action, const Header& heade
     return _bPauseOverridden;
 }
 
-void VehicleSession::StartPause(const Action& action, const Header& header, VehicleActions& out)
+void VehicleSession::Impl::StartPause(const Action& action, const Header& header, VehicleActions& out)
 {
     if (IsPauseOverridden(action, header))
     {
@@ -44,7 +44,7 @@ void VehicleSession::StartPause(const Action& action, const Header& header, Vehi
     }
     AddInstantAction(action, EActionStatus::Running);
     _pauseActionIDs.push_back(action.actionID);
-    const bool bWasPaused = IsHeldByPause();
+    const bool bWasPaused = IsPaused();
     _bMasterPause = true;
     if (!bWasPaused)
     {
@@ -52,7 +52,7 @@ void VehicleSession::StartPause(const Action& action, const Header& header, Vehi
     }
 }
 
-void VehicleSession::StopPause(const Action& action, const Header& header, VehicleActions& out)
+void VehicleSession::Impl::StopPause(const Action& action, const Header& header, VehicleActions& out)
 {
     if (IsPauseOverridden(action, header))
     {
@@ -62,7 +62,7 @@ void VehicleSession::StopPause(const Action& action, const Header& header, Vehic
     {
         SetStatus(actionID, EActionStatus::Failed, "stopPause came first");
     }
-    const bool bWasPaused = IsHeldByPause();
+    const bool bWasPaused = IsPaused();
     _bMasterPause = false;
     _bHardwarePause = false;
     AddInstantAction(action, EActionStatus::Finished);
@@ -72,12 +72,12 @@ void VehicleSession::StopPause(const Action& action, const Header& header, Vehic
     }
 }
 
-void VehicleSession::OnHardwarePause(bool bPaused, bool bOverridesMaster, Core::Now now, VehicleActions& out)
+void VehicleSession::Impl::OnHardwarePause(bool bPaused, bool bOverridesMaster, Core::Now now, VehicleActions& out)
 {
-    const bool bWasPaused = IsHeldByPause();
+    const bool bWasPaused = IsPaused();
     _bHardwarePause = bPaused;
     _bPauseOverridden = bOverridesMaster;
-    if (IsHeldByPause() != bWasPaused)
+    if (IsPaused() != bWasPaused)
     {
         _bStateDue = true;
         if (bWasPaused)
@@ -93,15 +93,15 @@ void VehicleSession::OnHardwarePause(bool bPaused, bool bOverridesMaster, Core::
     Settle(now, out);
 }
 
-bool VehicleSession::IsHeldByPause() const noexcept
+bool VehicleSession::Impl::IsPaused() const noexcept
 {
     return _bMasterPause || _bHardwarePause;
 }
 
-void VehicleSession::EnterPause(VehicleActions& out)
+void VehicleSession::Impl::EnterPause(VehicleActions& out)
 {
     StopMoving(out);
-    for (const HeldAction& tracked : _actions)
+    for (const ReportedAction& tracked : _actions)
     {
         if (tracked.IsRunningInOrder())
         {
@@ -110,9 +110,9 @@ void VehicleSession::EnterPause(VehicleActions& out)
     }
 }
 
-void VehicleSession::LeavePause(VehicleActions& out) const
+void VehicleSession::Impl::LeavePause(VehicleActions& out) const
 {
-    for (const HeldAction& tracked : _actions)
+    for (const ReportedAction& tracked : _actions)
     {
         if (tracked.machine.GetStatus() == EActionStatus::Paused)
         {
@@ -121,7 +121,7 @@ void VehicleSession::LeavePause(VehicleActions& out) const
     }
 }
 
-void VehicleSession::FinishPauseIfStanding()
+void VehicleSession::Impl::FinishPauseIfStanding()
 {
     if (!IsStanding())
     {
@@ -133,7 +133,7 @@ void VehicleSession::FinishPauseIfStanding()
     }
 }
 
-void VehicleSession::StartCancel(const Action& action, const Header& header, VehicleActions& out)
+void VehicleSession::Impl::StartCancel(const Action& action, const Header& header, VehicleActions& out)
 {
     if (!IsExecuting())
     {
@@ -160,10 +160,10 @@ void VehicleSession::StartCancel(const Action& action, const Header& header, Veh
 }
 
 /// Those that wait have failed; those that run are told to stop.
-void VehicleSession::StopOrderActions(const std::string& reason, VehicleActions& out)
+void VehicleSession::Impl::StopOrderActions(const std::string& reason, VehicleActions& out)
 {
     _actionQueue.clear();
-    for (HeldAction& tracked : _actions)
+    for (ReportedAction& tracked : _actions)
     {
         if (tracked.IsInstant() || tracked.IsEnded())
         {
@@ -181,7 +181,7 @@ void VehicleSession::StopOrderActions(const std::string& reason, VehicleActions&
     }
 }
 
-void VehicleSession::FinishCancelIfStanding(VehicleActions& out)
+void VehicleSession::Impl::FinishCancelIfStanding(VehicleActions& out)
 {
     // Outside of its corridor a vehicle does not get to the next node by itself.
     const bool bOnTheWay = _bLegActive || (_bLastLeg && !_route.IsEmpty() && !_corridorError.has_value());
@@ -191,7 +191,7 @@ void VehicleSession::FinishCancelIfStanding(VehicleActions& out)
     }
 }
 
-void VehicleSession::ForgetRoute()
+void VehicleSession::Impl::ForgetRoute()
 {
     _route.Clear();
     _actionQueue.clear();
@@ -201,7 +201,7 @@ void VehicleSession::ForgetRoute()
     _corridorError.reset();
 }
 
-void VehicleSession::ClearOrder(VehicleActions& out)
+void VehicleSession::Impl::ClearOrder(VehicleActions& out)
 {
     ForgetRoute();
     _bLegActive = false;
@@ -216,7 +216,7 @@ void VehicleSession::ClearOrder(VehicleActions& out)
     out.emplace_back(OrderCleared{_orderID});
 }
 
-bool VehicleSession::TrySetOutsideCorridor(bool bOutside, Core::Now now, VehicleActions& out)
+bool VehicleSession::Impl::TrySetOutsideCorridor(bool bOutside, Core::Now now, VehicleActions& out)
 {
     if (!_bEdgeEntered || _route.IsEmpty() || !_route.HasCorridor(0))
     {
@@ -244,7 +244,7 @@ bool VehicleSession::TrySetOutsideCorridor(bool bOutside, Core::Now now, Vehicle
     return true;
 }
 
-void VehicleSession::OnOperatingMode(EOperatingMode mode, Core::Now now, VehicleActions& out)
+void VehicleSession::Impl::OnOperatingMode(EOperatingMode mode, Core::Now now, VehicleActions& out)
 {
     if (mode == _operatingMode)
     {
@@ -267,7 +267,7 @@ void VehicleSession::OnOperatingMode(EOperatingMode mode, Core::Now now, Vehicle
     {
         const std::string reason = "the operating mode changed";
         StopOrderActions(reason, out);
-        for (HeldAction& tracked : _actions)
+        for (ReportedAction& tracked : _actions)
         {
             if (!tracked.IsInstant() && !tracked.IsEnded())
             {
@@ -280,7 +280,7 @@ void VehicleSession::OnOperatingMode(EOperatingMode mode, Core::Now now, Vehicle
     Settle(now, out);
 }
 
-bool VehicleSession::CanMoveByItself() const
+bool VehicleSession::Impl::CanMoveByItself() const
 {
     return IsLedByMaster(_operatingMode);
 }

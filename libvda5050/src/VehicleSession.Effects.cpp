@@ -1,7 +1,7 @@
 #include "ActionFault.hpp"
 #include "AngleBound.hpp"
 #include "OrderErrors.hpp"
-#include <acs/vda5050/VehicleSession.hpp>
+#include "VehicleSession.Impl.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +48,7 @@ MapState* FindMapOrNull(std::optional<std::vector<MapState>>& maps, const MapKey
 } // namespace
 
 /// Why an action fails before it begins, by what the session itself knows; empty where it may begin.
-std::string VehicleSession::FindOwnFault(const Action& action, EActionScope scope)
+std::string VehicleSession::Impl::FindOwnFault(const Action& action, EActionScope scope)
 {
     for (const std::string_view key : {"mapId", "mapVersion", "lastNodeId"})
     {
@@ -80,7 +80,7 @@ std::string VehicleSession::FindOwnFault(const Action& action, EActionScope scop
     return bDelete && mapOrNull->mapStatus == EMapStatus::Enabled ? name + " is in use" : std::string();
 }
 
-std::string VehicleSession::FindPoseFault(const Action& action, EActionScope scope) const
+std::string VehicleSession::Impl::FindPoseFault(const Action& action, EActionScope scope) const
 {
     const std::string mapID = GetTextParameterOrNull(action, "mapId").value_or(std::string());
     const bool bMapKnown = std::ranges::find(_options.mapIDs, mapID) != _options.mapIDs.end()
@@ -102,7 +102,7 @@ std::string VehicleSession::FindPoseFault(const Action& action, EActionScope sco
 }
 
 /// What a finished action has changed, as far as the session reports it; the owner may have told it already.
-void VehicleSession::ApplyOwnEffect(const Action& action, EActionScope scope)
+void VehicleSession::Impl::ApplyOwnEffect(const Action& action, EActionScope scope)
 {
     if (action.actionType == ActionTypes::INIT_POSITION)
     {
@@ -126,7 +126,7 @@ void VehicleSession::ApplyOwnEffect(const Action& action, EActionScope scope)
 }
 
 /// A vehicle that finds itself on a map uses it, and a map in use is ENABLED. Of several versions it is not said which.
-void VehicleSession::EnableOnlyVersion(const std::string& mapID)
+void VehicleSession::Impl::EnableOnlyVersion(const std::string& mapID)
 {
     const auto isVersion = [&mapID](const MapState& map) {
         return map.mapID == mapID;
@@ -137,7 +137,7 @@ void VehicleSession::EnableOnlyVersion(const std::string& mapID)
     }
 }
 
-void VehicleSession::ApplyMapEffect(const Action& action)
+void VehicleSession::Impl::ApplyMapEffect(const Action& action)
 {
     const MapKey key = GetMapKey(action);
     MapState* mapOrNull = FindMapOrNull(_maps, key);
@@ -170,7 +170,7 @@ void VehicleSession::ApplyMapEffect(const Action& action)
 }
 
 /// lastNodeSequenceId stays: it counts within the order that is held, and an update may still follow.
-void VehicleSession::SetLastNode(std::string nodeID)
+void VehicleSession::Impl::SetLastNode(std::string nodeID)
 {
     _lastNodeID = std::move(nodeID);
     _distanceSinceLastNode.reset();
@@ -178,7 +178,7 @@ void VehicleSession::SetLastNode(std::string nodeID)
     _bStateDue = true;
 }
 
-bool VehicleSession::TrySetLastNode(std::string nodeID, Core::Now now, VehicleActions& out)
+bool VehicleSession::Impl::TrySetLastNode(std::string nodeID, Core::Now now, VehicleActions& out)
 {
     if (IsExecuting())
     {
@@ -190,7 +190,7 @@ bool VehicleSession::TrySetLastNode(std::string nodeID, Core::Now now, VehicleAc
 }
 
 /// The owner's word that an action did not succeed.
-void VehicleSession::OnActionFailed(const HeldAction& tracked, VehicleActions& out)
+void VehicleSession::Impl::OnActionFailed(const ReportedAction& tracked, VehicleActions& out)
 {
     if (!tracked.IsInstant())
     {
@@ -206,7 +206,7 @@ void VehicleSession::OnActionFailed(const HeldAction& tracked, VehicleActions& o
 }
 
 /// 2.x does not stop an order for a failed action; a vehicle may, for the kinds that it names.
-void VehicleSession::OnOrderActionFailed(const HeldAction& tracked, VehicleActions& out)
+void VehicleSession::Impl::OnOrderActionFailed(const ReportedAction& tracked, VehicleActions& out)
 {
     if (tracked.bCancelled)
     {

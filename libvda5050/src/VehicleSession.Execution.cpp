@@ -1,7 +1,7 @@
 #include "ActionFault.hpp"
 #include "OrderErrors.hpp"
 #include "OrderGeometry.hpp"
-#include <acs/vda5050/VehicleSession.hpp>
+#include "VehicleSession.Impl.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -25,7 +25,7 @@ bool HasBlocking(std::span<const Action> actions)
 
 } // namespace
 
-bool VehicleSession::TryReachNode(std::uint32_t sequenceID, Core::Now now, VehicleActions& out)
+bool VehicleSession::Impl::TryReachNode(std::uint32_t sequenceID, Core::Now now, VehicleActions& out)
 {
     if (_route.IsEmpty() || !_bEdgeEntered || _route.GetNodeSequenceID(0) != sequenceID)
     {
@@ -38,7 +38,7 @@ bool VehicleSession::TryReachNode(std::uint32_t sequenceID, Core::Now now, Vehic
     return true;
 }
 
-void VehicleSession::OnDrivingChanged(bool bDriving, Core::Now now, VehicleActions& out)
+void VehicleSession::Impl::OnDrivingChanged(bool bDriving, Core::Now now, VehicleActions& out)
 {
     const bool bHalted = _bHalting && !bDriving;
     if (bDriving == _bDriving && !bHalted)
@@ -54,7 +54,7 @@ void VehicleSession::OnDrivingChanged(bool bDriving, Core::Now now, VehicleActio
     Settle(now, out);
 }
 
-bool VehicleSession::TrySetTrajectory(
+bool VehicleSession::Impl::TrySetTrajectory(
     std::uint32_t edgeSequenceID,
     Trajectory trajectory,
     Core::Now now,
@@ -69,14 +69,14 @@ bool VehicleSession::TrySetTrajectory(
     return true;
 }
 
-bool VehicleSession::TrySetActionStatus(
+bool VehicleSession::Impl::TrySetActionStatus(
     std::string_view actionID,
     EActionStatus status,
     std::string resultDescription,
     Core::Now now,
     VehicleActions& out)
 {
-    HeldAction* trackedOrNull = _actions.FindOrNull(actionID);
+    ReportedAction* trackedOrNull = _actions.FindOrNull(actionID);
     if (trackedOrNull == nullptr || !trackedOrNull->bStarted
         || !_actions.TrySetStatus(*trackedOrNull, status, std::move(resultDescription)))
     {
@@ -97,7 +97,7 @@ bool VehicleSession::TrySetActionStatus(
     return true;
 }
 
-void VehicleSession::AddActions(
+void VehicleSession::Impl::AddActions(
     const std::vector<Action>& actions,
     EActionScope scope,
     const std::string& elementID,
@@ -106,12 +106,12 @@ void VehicleSession::AddActions(
     for (const Action& action : actions)
     {
         ActionState state{action.actionID, action.actionType, action.actionDescription, EActionStatus::Waiting, {}};
-        _actions.Add(HeldAction{action, ActionMachine(std::move(state)), scope, elementID, sequenceID});
+        _actions.Add(ReportedAction{action, ActionMachine(std::move(state)), scope, elementID, sequenceID});
         ReportUnlistedParameters(action, ETopic::Order);
     }
 }
 
-void VehicleSession::ReportUnlistedParameters(const Action& action, ETopic topic)
+void VehicleSession::Impl::ReportUnlistedParameters(const Action& action, ETopic topic)
 {
     if (_options.parameterCheck != EParameterCheck::Lenient)
     {
@@ -136,14 +136,14 @@ void VehicleSession::ReportUnlistedParameters(const Action& action, ETopic topic
         topic == ETopic::Order ? EErrorLifetime::UntilOrder : EErrorLifetime::UntilInstantAction);
 }
 
-void VehicleSession::Enqueue(std::span<const Action> actions)
+void VehicleSession::Impl::Enqueue(std::span<const Action> actions)
 {
     std::ranges::transform(actions, std::back_inserter(_actionQueue), &Action::actionID);
 }
 
-void VehicleSession::SetStatus(std::string_view actionID, EActionStatus status, const std::string& result)
+void VehicleSession::Impl::SetStatus(std::string_view actionID, EActionStatus status, const std::string& result)
 {
-    HeldAction* trackedOrNull = _actions.FindOrNull(actionID);
+    ReportedAction* trackedOrNull = _actions.FindOrNull(actionID);
     if (trackedOrNull != nullptr && _actions.TrySetStatus(*trackedOrNull, status, result))
     {
         _bStateDue = true;
@@ -151,7 +151,7 @@ void VehicleSession::SetStatus(std::string_view actionID, EActionStatus status, 
 }
 
 /// One that cannot succeed, by what the session knows itself, fails instead.
-void VehicleSession::Start(HeldAction& tracked, VehicleActions& out)
+void VehicleSession::Impl::Start(ReportedAction& tracked, VehicleActions& out)
 {
     std::string fault = tracked.IsInstant() ? std::string() : FindOwnFault(tracked.action, tracked.scope);
     if (!fault.empty())
@@ -165,9 +165,9 @@ void VehicleSession::Start(HeldAction& tracked, VehicleActions& out)
     out.emplace_back(StartAction{tracked.action, tracked.scope, tracked.elementID, tracked.sequenceID});
 }
 
-void VehicleSession::Advance(VehicleActions& out)
+void VehicleSession::Impl::Advance(VehicleActions& out)
 {
-    if (!IsHeldByPause() && CanMoveByItself())
+    if (!IsPaused() && CanMoveByItself())
     {
         if (_cancelActionIDs.empty())
         {
@@ -184,11 +184,11 @@ void VehicleSession::Advance(VehicleActions& out)
 }
 
 /// 6.11: None and Soft run beside each other; Hard waits for all of them and holds up all that follow.
-void VehicleSession::StartQueuedActions(VehicleActions& out)
+void VehicleSession::Impl::StartQueuedActions(VehicleActions& out)
 {
     while (!_actionQueue.empty() && !_bHeldByFailure)
     {
-        HeldAction* nextOrNull = _actions.FindOrNull(_actionQueue.front());
+        ReportedAction* nextOrNull = _actions.FindOrNull(_actionQueue.front());
         if (nextOrNull == nullptr || nextOrNull->bStarted || nextOrNull->machine.GetStatus() != EActionStatus::Waiting)
         {
             _actionQueue.pop_front();
@@ -204,17 +204,17 @@ void VehicleSession::StartQueuedActions(VehicleActions& out)
     }
 }
 
-bool VehicleSession::CanDrive() const
+bool VehicleSession::Impl::CanDrive() const
 {
     return _actionQueue.empty() && _actions.CountRunningBlocking() == 0;
 }
 
-bool VehicleSession::NeedsStopAtFront() const
+bool VehicleSession::Impl::NeedsStopAtFront() const
 {
     return _route.CountReleased() < 2 || HasBlocking(_route.GetNodeActions(0)) || HasBlocking(_route.GetEdgeActions(1));
 }
 
-void VehicleSession::DriveOn(VehicleActions& out)
+void VehicleSession::Impl::DriveOn(VehicleActions& out)
 {
     if (_route.CountReleased() == 0 || _bHeldByFailure || _corridorError.has_value())
     {
@@ -246,7 +246,7 @@ void VehicleSession::DriveOn(VehicleActions& out)
     DriveToFront(NeedsStopAtFront(), out);
 }
 
-void VehicleSession::DriveToFront(bool bStopAtNode, VehicleActions& out)
+void VehicleSession::Impl::DriveToFront(bool bStopAtNode, VehicleActions& out)
 {
     _bLegActive = true;
     _bLegBegun = true;
@@ -261,7 +261,7 @@ void VehicleSession::DriveToFront(bool bStopAtNode, VehicleActions& out)
 }
 
 /// 6.6.3: a cancelled vehicle that is bound to nodes still has one to reach.
-void VehicleSession::DriveLastLeg(VehicleActions& out)
+void VehicleSession::Impl::DriveLastLeg(VehicleActions& out)
 {
     const bool bTold = _bLegActive && _bLegStops;
     if (_bLastLeg && !_route.IsEmpty() && !bTold && !_corridorError.has_value())
@@ -271,11 +271,11 @@ void VehicleSession::DriveLastLeg(VehicleActions& out)
 }
 
 /// 6.10.2: what one traversal changes belongs to one state.
-void VehicleSession::ReachFront(VehicleActions& out)
+void VehicleSession::Impl::ReachFront(VehicleActions& out)
 {
     for (const Action& action : _route.GetEdgeActions(0))
     {
-        HeldAction* trackedOrNull = _actions.FindOrNull(action.actionID);
+        ReportedAction* trackedOrNull = _actions.FindOrNull(action.actionID);
         if (trackedOrNull == nullptr || trackedOrNull->IsEnded())
         {
             continue;
@@ -302,12 +302,12 @@ void VehicleSession::ReachFront(VehicleActions& out)
     _route.DropFront();
 }
 
-bool VehicleSession::IsExecuting() const
+bool VehicleSession::Impl::IsExecuting() const
 {
     return !_route.IsEmpty() || !_cancelActionIDs.empty() || _actions.CountOpen() > 0;
 }
 
-void VehicleSession::FinishOrderIfDone(VehicleActions& out)
+void VehicleSession::Impl::FinishOrderIfDone(VehicleActions& out)
 {
     if (_bOrderRunning && !IsExecuting())
     {
@@ -316,7 +316,7 @@ void VehicleSession::FinishOrderIfDone(VehicleActions& out)
     }
 }
 
-bool VehicleSession::NeedsNewBase() const
+bool VehicleSession::Impl::NeedsNewBase() const
 {
     const std::size_t released = _route.CountReleased();
     return released < _route.GetSize() && released <= _options.lowBaseNodes && _cancelActionIDs.empty();

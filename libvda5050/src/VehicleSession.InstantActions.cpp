@@ -2,8 +2,8 @@
 #include "MessageSizes.hpp"
 #include "OrderErrors.hpp"
 #include "StateRoom.hpp"
+#include "VehicleSession.Impl.hpp"
 #include <acs/vda5050/EVda5050Error.hpp>
-#include <acs/vda5050/VehicleSession.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -38,7 +38,7 @@ ActionState MakeInstantState(const Action& action)
 
 } // namespace
 
-void VehicleSession::OnInstantActions(std::string_view payload, Core::Now now, VehicleActions& out)
+void VehicleSession::Impl::OnInstantActions(std::string_view payload, Core::Now now, VehicleActions& out)
 {
     const Core::Result<InstantActionsMessage> message = _codec.Decode<InstantActionsMessage>(payload);
     if (!message)
@@ -86,7 +86,7 @@ void VehicleSession::OnInstantActions(std::string_view payload, Core::Now now, V
     Advance(out);
 }
 
-bool VehicleSession::TryTakeInstantAction(
+bool VehicleSession::Impl::TryTakeInstantAction(
     const Action& action,
     const Header& header,
     bool bTooMany,
@@ -127,14 +127,14 @@ bool VehicleSession::TryTakeInstantAction(
     {
         FailInstantAction(action, header, ErrorTypes::INSTANT_ACTION_ERROR, reason);
     }
-    const HeldAction* trackedOrNull = _actions.FindOrNull(action.actionID);
+    const ReportedAction* trackedOrNull = _actions.FindOrNull(action.actionID);
     return trackedOrNull != nullptr && trackedOrNull->machine.GetStatus() != EActionStatus::Failed;
 }
 
 /// A repeated id is the same action, sent again by a master that has not seen it in a state.
-bool VehicleSession::IsRepeated(const Action& action)
+bool VehicleSession::Impl::IsRepeated(const Action& action)
 {
-    const HeldAction* const knownOrNull = _actions.FindOrNull(action.actionID);
+    const ReportedAction* const knownOrNull = _actions.FindOrNull(action.actionID);
     const bool bHeld =
         knownOrNull != nullptr && knownOrNull->IsInstant() && knownOrNull->action.actionType == action.actionType;
     return bHeld || std::ranges::any_of(_evicted, [&action](const EvictedAction& evicted) {
@@ -143,7 +143,7 @@ bool VehicleSession::IsRepeated(const Action& action)
 }
 
 /// Why an action cannot even be shown; empty where it can. A cancel that is not done must not look as if it were.
-std::string VehicleSession::FindClash(const Action& action)
+std::string VehicleSession::Impl::FindClash(const Action& action)
 {
     if (std::max(action.actionID.size(), action.actionType.size()) > LONGEST_FOREIGN_TEXT)
     {
@@ -155,7 +155,7 @@ std::string VehicleSession::FindClash(const Action& action)
 }
 
 /// Why an instant action fails whatever it is; empty where it is looked at.
-std::string VehicleSession::FindRefusal(const Action& action, bool bTooMany) const
+std::string VehicleSession::Impl::FindRefusal(const Action& action, bool bTooMany) const
 {
     const bool bRequest =
         action.actionType == ActionTypes::STATE_REQUEST || action.actionType == ActionTypes::FACTSHEET_REQUEST;
@@ -171,7 +171,7 @@ std::string VehicleSession::FindRefusal(const Action& action, bool bTooMany) con
     return faults.empty() ? std::string() : faults[0].rule;
 }
 
-void VehicleSession::PerformOwnInstantAction(
+void VehicleSession::Impl::PerformOwnInstantAction(
     const Action& action,
     const Header& header,
     Core::Now now,
@@ -214,9 +214,9 @@ void VehicleSession::PerformOwnInstantAction(
 }
 
 /// The oldest instant action that has ended, and was seen to, makes way. False where there is none.
-bool VehicleSession::TryEvict()
+bool VehicleSession::Impl::TryEvict()
 {
-    const auto oldest = std::ranges::find_if(_actions, [](const HeldAction& tracked) {
+    const auto oldest = std::ranges::find_if(_actions, [](const ReportedAction& tracked) {
         return tracked.IsInstant() && tracked.IsEnded() && tracked.bShown;
     });
     if (oldest == _actions.end())
@@ -233,7 +233,7 @@ bool VehicleSession::TryEvict()
 }
 
 /// False where the state cannot show another action. The factsheet's limit does not keep a vehicle from being stopped.
-bool VehicleSession::TryMakeRoomFor(const Action& action)
+bool VehicleSession::Impl::TryMakeRoomFor(const Action& action)
 {
     const bool bControl = IsControl(action);
     const std::size_t mostActions = bControl ? StateRoom::CONTROL_ACTIONS : StateRoom::INSTANT_ACTIONS;
@@ -255,15 +255,18 @@ bool VehicleSession::TryMakeRoomFor(const Action& action)
     }
 }
 
-HeldAction& VehicleSession::AddInstantAction(const Action& action, EActionStatus status, const std::string& result)
+ReportedAction& VehicleSession::Impl::AddInstantAction(
+    const Action& action,
+    EActionStatus status,
+    const std::string& result)
 {
     ActionState state = MakeInstantState(action);
     state.actionStatus = status;
     state.resultDescription = result;
-    return _actions.Add(HeldAction{action, ActionMachine(std::move(state)), EActionScope::Instant});
+    return _actions.Add(ReportedAction{action, ActionMachine(std::move(state)), EActionScope::Instant});
 }
 
-void VehicleSession::FailInstantAction(
+void VehicleSession::Impl::FailInstantAction(
     const Action& action,
     const Header& header,
     std::string_view errorType,
@@ -273,7 +276,7 @@ void VehicleSession::FailInstantAction(
     ReportInstantAction(action, header.headerID, errorType, reason);
 }
 
-void VehicleSession::ReportInstantAction(
+void VehicleSession::Impl::ReportInstantAction(
     const Action& action,
     std::optional<std::uint32_t> headerIDOrNull,
     std::string_view errorType,

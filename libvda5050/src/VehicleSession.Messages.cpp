@@ -1,7 +1,7 @@
 #include "OrderErrors.hpp"
 #include "StateRoom.hpp"
+#include "VehicleSession.Impl.hpp"
 #include <acs/vda5050/EVda5050Error.hpp>
-#include <acs/vda5050/VehicleSession.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -31,7 +31,7 @@ bool IsSameReport(const VehicleError& left, const VehicleError& right)
 
 } // namespace
 
-std::vector<MqttSubscription> VehicleSession::GetSubscriptions() const
+std::vector<MqttSubscription> VehicleSession::Impl::GetSubscriptions() const
 {
     std::vector<MqttSubscription> subscriptions;
     for (const ETopic topic : {ETopic::Order, ETopic::InstantActions})
@@ -41,7 +41,7 @@ std::vector<MqttSubscription> VehicleSession::GetSubscriptions() const
     return subscriptions;
 }
 
-void VehicleSession::OnMessage(
+void VehicleSession::Impl::OnMessage(
     std::string_view topic,
     std::string_view payload,
     bool bRetained,
@@ -72,12 +72,7 @@ void VehicleSession::OnMessage(
     Settle(now, out);
 }
 
-void VehicleSession::OnMessage(const MqttMessage& message, Core::Now now, VehicleActions& out)
-{
-    OnMessage(message.topic, message.payload, message.bRetained, now, out);
-}
-
-bool VehicleSession::IsForeign(ETopic topic, const Header& header, VehicleActions& out) const
+bool VehicleSession::Impl::IsForeign(ETopic topic, const Header& header, VehicleActions& out) const
 {
     std::optional<Core::Error> foreign = FindForeignNameOrNull(header, _options.address);
     if (foreign.has_value())
@@ -87,7 +82,7 @@ bool VehicleSession::IsForeign(ETopic topic, const Header& header, VehicleAction
     return foreign.has_value();
 }
 
-void VehicleSession::AddSessionError(VehicleError error, EErrorLifetime lifetime)
+void VehicleSession::Impl::AddSessionError(VehicleError error, EErrorLifetime lifetime)
 {
     error.errorDescription.resize(CutForeignText(error.errorDescription).size());
     std::erase_if(_sessionErrors, [&error](const SessionError& known) { return IsSameReport(error, known.error); });
@@ -99,7 +94,7 @@ void VehicleSession::AddSessionError(VehicleError error, EErrorLifetime lifetime
     _bStateDue = true;
 }
 
-void VehicleSession::RefusePayload(
+void VehicleSession::Impl::RefusePayload(
     ETopic topic,
     std::string_view payload,
     const Core::Error& error,
@@ -136,7 +131,7 @@ void VehicleSession::RefusePayload(
     out.emplace_back(MessageIgnored{topic, error});
 }
 
-bool VehicleSession::ShouldTake(ETopic topic, const Header& header, VehicleActions& out)
+bool VehicleSession::Impl::ShouldTake(ETopic topic, const Header& header, VehicleActions& out)
 {
     if (IsForeign(topic, header, out))
     {
@@ -160,7 +155,7 @@ bool VehicleSession::ShouldTake(ETopic topic, const Header& header, VehicleActio
     return false;
 }
 
-void VehicleSession::OnOrder(std::string_view payload, VehicleActions& out)
+void VehicleSession::Impl::OnOrder(std::string_view payload, VehicleActions& out)
 {
     Core::Result<OrderMessage> order = _codec.Decode<OrderMessage>(payload);
     if (!order)
@@ -194,7 +189,7 @@ void VehicleSession::OnOrder(std::string_view payload, VehicleActions& out)
     }
 }
 
-OrderContext VehicleSession::MakeContext() const
+OrderContext VehicleSession::Impl::MakeContext() const
 {
     OrderContext context;
     context.heldOrderID = _orderID;
@@ -228,7 +223,7 @@ OrderContext VehicleSession::MakeContext() const
     context.keptBytes = _route.GetReleasedBytes();
     const std::uint32_t baseEnd =
         released == _route.GetSize() ? std::numeric_limits<std::uint32_t>::max() : _route.GetEdgeSequenceID(released);
-    for (const HeldAction& tracked : _actions)
+    for (const ReportedAction& tracked : _actions)
     {
         const bool bInstant = tracked.IsInstant();
         const bool bInstantRuns = bInstant && !tracked.IsEnded();
@@ -250,7 +245,7 @@ OrderContext VehicleSession::MakeContext() const
     return context;
 }
 
-void VehicleSession::RefuseOrder(const OrderMessage& order, OrderJudgement judgement, VehicleActions& out)
+void VehicleSession::Impl::RefuseOrder(const OrderMessage& order, OrderJudgement judgement, VehicleActions& out)
 {
     const OrderViolation& first = judgement.violations.front();
     out.emplace_back(OrderRefused{order.orderID, order.orderUpdateID, first.error.errorType, first.rule});
@@ -262,9 +257,9 @@ void VehicleSession::RefuseOrder(const OrderMessage& order, OrderJudgement judge
     }
 }
 
-void VehicleSession::TakeNewOrder(OrderMessage order, VehicleActions& out)
+void VehicleSession::Impl::TakeNewOrder(OrderMessage order, VehicleActions& out)
 {
-    _actions.EraseIf([](const HeldAction& tracked) { return !tracked.IsInstant() || tracked.IsEnded(); });
+    _actions.EraseIf([](const ReportedAction& tracked) { return !tracked.IsInstant() || tracked.IsEnded(); });
     _evicted.clear();
     _sessionErrors.clear();
     ForgetRoute();
@@ -285,7 +280,7 @@ void VehicleSession::TakeNewOrder(OrderMessage order, VehicleActions& out)
     Advance(out);
 }
 
-void VehicleSession::TakeUpdate(OrderMessage order, VehicleActions& out)
+void VehicleSession::Impl::TakeUpdate(OrderMessage order, VehicleActions& out)
 {
     _sessionErrors.clear();
     DropHorizon();
@@ -308,7 +303,7 @@ void VehicleSession::TakeUpdate(OrderMessage order, VehicleActions& out)
 }
 
 /// All but the first node, which the vehicle knows already.
-void VehicleSession::AppendElements(OrderMessage order)
+void VehicleSession::Impl::AppendElements(OrderMessage order)
 {
     for (std::size_t index = 0; index < order.edges.size(); ++index)
     {
@@ -320,7 +315,7 @@ void VehicleSession::AppendElements(OrderMessage order)
     _route.Append(std::move(order));
 }
 
-void VehicleSession::DropHorizon()
+void VehicleSession::Impl::DropHorizon()
 {
     const std::size_t kept = _route.CountReleased();
     if (kept == _route.GetSize())
@@ -330,7 +325,7 @@ void VehicleSession::DropHorizon()
     const std::uint32_t firstDropped = _route.GetEdgeSequenceID(kept);
     _route.Cut(kept);
     // Gone from the report: an id that comes back with the update would else have to leave a terminal status.
-    _actions.EraseIf([firstDropped](const HeldAction& tracked) {
+    _actions.EraseIf([firstDropped](const ReportedAction& tracked) {
         return !tracked.IsInstant() && !tracked.IsEnded() && tracked.sequenceID >= firstDropped;
     });
 }

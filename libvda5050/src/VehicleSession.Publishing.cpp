@@ -1,6 +1,6 @@
 #include "StateBounds.hpp"
 #include "StateRoom.hpp"
-#include <acs/vda5050/VehicleSession.hpp>
+#include "VehicleSession.Impl.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -9,7 +9,7 @@
 namespace ACS::VDA5050
 {
 
-Header VehicleSession::MakeHeader(ETopic topic, Core::Now now)
+Header VehicleSession::Impl::MakeHeader(ETopic topic, Core::Now now)
 {
     return Header{
         _headerIDs.at(static_cast<std::size_t>(topic))++,
@@ -20,7 +20,7 @@ Header VehicleSession::MakeHeader(ETopic topic, Core::Now now)
 }
 
 template <typename TMessage>
-MqttMessage VehicleSession::MakeMessage(ETopic topic, const TMessage& message)
+MqttMessage VehicleSession::Impl::MakeMessage(ETopic topic, const TMessage& message)
 {
     constexpr std::size_t SLACK = 64; // numbers have more digits at one time than at another
     const auto index = static_cast<std::size_t>(topic);
@@ -31,7 +31,7 @@ MqttMessage VehicleSession::MakeMessage(ETopic topic, const TMessage& message)
     return made;
 }
 
-MqttWill VehicleSession::MakeWill(Core::Now now)
+MqttWill VehicleSession::Impl::MakeWill(Core::Now now)
 {
     ConnectionMessage message;
     message.header = MakeHeader(ETopic::Connection, now);
@@ -39,7 +39,7 @@ MqttWill VehicleSession::MakeWill(Core::Now now)
     return MqttWill{MakeMessage(ETopic::Connection, message)};
 }
 
-void VehicleSession::OnLinkUp(Core::Now now, VehicleActions& out)
+void VehicleSession::Impl::OnLinkUp(Core::Now now, VehicleActions& out)
 {
     _bLinkUp = true;
     PublishConnection(EConnectionState::Online, now, out);
@@ -51,7 +51,7 @@ void VehicleSession::OnLinkUp(Core::Now now, VehicleActions& out)
     }
 }
 
-void VehicleSession::OnLinkDown(Core::Now /*now*/, VehicleActions& out)
+void VehicleSession::Impl::OnLinkDown(Core::Now /*now*/, VehicleActions& out)
 {
     _bLinkUp = false;
     _bMinimumTimerRuns = false;
@@ -62,7 +62,7 @@ void VehicleSession::OnLinkDown(Core::Now /*now*/, VehicleActions& out)
     }
 }
 
-void VehicleSession::Leave(Core::Now now, VehicleActions& out)
+void VehicleSession::Impl::Leave(Core::Now now, VehicleActions& out)
 {
     if (_bLinkUp)
     {
@@ -71,7 +71,7 @@ void VehicleSession::Leave(Core::Now now, VehicleActions& out)
     }
 }
 
-void VehicleSession::OnTimer(EVehicleTimer timer, Core::Now now, VehicleActions& out)
+void VehicleSession::Impl::OnTimer(EVehicleTimer timer, Core::Now now, VehicleActions& out)
 {
     if (!_bLinkUp)
     {
@@ -95,7 +95,7 @@ void VehicleSession::OnTimer(EVehicleTimer timer, Core::Now now, VehicleActions&
     }
 }
 
-void VehicleSession::Settle(Core::Now now, VehicleActions& out)
+void VehicleSession::Impl::Settle(Core::Now now, VehicleActions& out)
 {
     if (!_bStateDue || !_bLinkUp || _bMinimumTimerRuns)
     {
@@ -112,7 +112,7 @@ void VehicleSession::Settle(Core::Now now, VehicleActions& out)
     out.emplace_back(StartVehicleTimer{EVehicleTimer::MinimumStateInterval, due - now.steady});
 }
 
-StateMessage VehicleSession::BuildState() const
+StateMessage VehicleSession::Impl::GetState() const
 {
     StateMessage state;
     state.header.manufacturer = _options.address.manufacturer;
@@ -139,11 +139,11 @@ StateMessage VehicleSession::BuildState() const
     state.velocity = _velocity;
     state.loads = _loads;
     state.bDriving = _bDriving;
-    state.bPaused = IsHeldByPause() && IsStanding();
+    state.bPaused = IsPaused() && IsStanding();
     state.bNewBaseRequest = NeedsNewBase();
     state.distanceSinceLastNode = _distanceSinceLastNode;
     state.actionStates.reserve(_actions.GetSize());
-    for (const HeldAction& tracked : _actions)
+    for (const ReportedAction& tracked : _actions)
     {
         state.actionStates.push_back(tracked.machine.GetState());
     }
@@ -161,13 +161,13 @@ StateMessage VehicleSession::BuildState() const
     return state;
 }
 
-void VehicleSession::PublishState(Core::Now now, VehicleActions& out)
+void VehicleSession::Impl::PublishState(Core::Now now, VehicleActions& out)
 {
     if (!_bLinkUp)
     {
         return;
     }
-    StateMessage state = BuildState();
+    StateMessage state = GetState();
     state.header = MakeHeader(ETopic::State, now);
     MqttMessage message = MakeMessage(ETopic::State, state);
     if (message.payload.size() > CodecLimits{}.payloadBytes)
@@ -176,7 +176,7 @@ void VehicleSession::PublishState(Core::Now now, VehicleActions& out)
         message = MakeMessage(ETopic::State, state);
     }
     out.emplace_back(PublishMessage{std::move(message)});
-    for (HeldAction& tracked : _actions)
+    for (ReportedAction& tracked : _actions)
     {
         tracked.bShown = tracked.IsEnded();
     }
@@ -190,7 +190,7 @@ void VehicleSession::PublishState(Core::Now now, VehicleActions& out)
     out.emplace_back(StartVehicleTimer{EVehicleTimer::MaximumStateInterval, _options.maximumStateInterval});
 }
 
-void VehicleSession::PublishFactsheet(Core::Now now, VehicleActions& out)
+void VehicleSession::Impl::PublishFactsheet(Core::Now now, VehicleActions& out)
 {
     if (!_bLinkUp)
     {
@@ -200,7 +200,7 @@ void VehicleSession::PublishFactsheet(Core::Now now, VehicleActions& out)
     out.emplace_back(PublishMessage{MakeMessage(ETopic::Factsheet, _options.factsheet)});
 }
 
-void VehicleSession::PublishVisualization(Core::Now now, VehicleActions& out)
+void VehicleSession::Impl::PublishVisualization(Core::Now now, VehicleActions& out)
 {
     if (!_position.has_value())
     {
@@ -213,7 +213,7 @@ void VehicleSession::PublishVisualization(Core::Now now, VehicleActions& out)
     out.emplace_back(PublishMessage{MakeMessage(ETopic::Visualization, message)});
 }
 
-void VehicleSession::PublishConnection(EConnectionState state, Core::Now now, VehicleActions& out)
+void VehicleSession::Impl::PublishConnection(EConnectionState state, Core::Now now, VehicleActions& out)
 {
     ConnectionMessage message;
     message.header = MakeHeader(ETopic::Connection, now);

@@ -1,49 +1,88 @@
-#include "AngleBound.hpp"
-#include "OrderErrors.hpp"
-#include "StateBounds.hpp"
-#include <acs/vda5050/VehicleSession.hpp>
+#include "VehicleSession.Impl.hpp"
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace ACS::VDA5050
 {
 
-namespace
-{
-
-bool IsFinite(const AgvPosition& position)
-{
-    return std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.theta);
-}
-
-double ToSeconds(std::chrono::milliseconds interval)
-{
-    return std::chrono::duration<double>(interval).count();
-}
-
-} // namespace
-
 VehicleSession::VehicleSession(VehicleOptions options)
-    : _options(std::move(options)),
-      _lastNodeID(_options.initialNodeID)
+    : _impl(std::make_unique<Impl>(std::move(options)))
 {
-    // What the factsheet says about timing is what the vehicle does.
-    ProtocolTiming& timing = _options.factsheet.protocolLimits.timing;
-    timing.minStateInterval = ToSeconds(_options.minimumStateInterval);
-    timing.defaultStateInterval = ToSeconds(_options.maximumStateInterval);
-    timing.visualizationInterval.reset();
-    if (_options.visualizationInterval.count() > 0)
-    {
-        timing.visualizationInterval = ToSeconds(_options.visualizationInterval);
-    }
-    for (std::size_t index = 0; index < TOPIC_COUNT; ++index)
-    {
-        _topics.at(index) = BuildTopic(_options.address, static_cast<ETopic>(index));
-    }
+}
+
+VehicleSession::VehicleSession(VehicleSession&&) noexcept = default;
+
+VehicleSession& VehicleSession::operator=(VehicleSession&&) noexcept = default;
+
+VehicleSession::~VehicleSession() = default;
+
+std::vector<MqttSubscription> VehicleSession::GetSubscriptions() const
+{
+    return _impl->GetSubscriptions();
+}
+
+MqttWill VehicleSession::MakeWill(Core::Now now)
+{
+    return _impl->MakeWill(now);
+}
+
+void VehicleSession::OnLinkUp(Core::Now now, VehicleActions& out)
+{
+    _impl->OnLinkUp(now, out);
+}
+
+void VehicleSession::OnLinkDown(Core::Now now, VehicleActions& out)
+{
+    _impl->OnLinkDown(now, out);
+}
+
+void VehicleSession::Leave(Core::Now now, VehicleActions& out)
+{
+    _impl->Leave(now, out);
+}
+
+void VehicleSession::OnMessage(
+    std::string_view topic,
+    std::string_view payload,
+    bool bRetained,
+    Core::Now now,
+    VehicleActions& out)
+{
+    _impl->OnMessage(topic, payload, bRetained, now, out);
+}
+
+void VehicleSession::OnMessage(const MqttMessage& message, Core::Now now, VehicleActions& out)
+{
+    _impl->OnMessage(message.topic, message.payload, message.bRetained, now, out);
+}
+
+void VehicleSession::OnTimer(EVehicleTimer timer, Core::Now now, VehicleActions& out)
+{
+    _impl->OnTimer(timer, now, out);
+}
+
+bool VehicleSession::TryReachNode(std::uint32_t sequenceID, Core::Now now, VehicleActions& out)
+{
+    return _impl->TryReachNode(sequenceID, now, out);
+}
+
+bool VehicleSession::TrySetLastNode(std::string nodeID, Core::Now now, VehicleActions& out)
+{
+    return _impl->TrySetLastNode(std::move(nodeID), now, out);
+}
+
+bool VehicleSession::TrySetOutsideCorridor(bool bOutside, Core::Now now, VehicleActions& out)
+{
+    return _impl->TrySetOutsideCorridor(bOutside, now, out);
+}
+
+bool VehicleSession::TrySetTrajectory(
+    std::uint32_t edgeSequenceID,
+    Trajectory trajectory,
+    Core::Now now,
+    VehicleActions& out)
+{
+    return _impl->TrySetTrajectory(edgeSequenceID, std::move(trajectory), now, out);
 }
 
 void VehicleSession::OnPosition(
@@ -51,97 +90,77 @@ void VehicleSession::OnPosition(
     const Velocity& velocity,
     std::optional<double> distanceSinceLastNode)
 {
-    if (!IsFinite(position))
-    {
-        return;
-    }
-    _position = position;
-    DropNonFinite(*_position);
-    // A heading that was counted on past a half turn; what rounding added is the codec's.
-    if (std::abs(position.theta) > PI_BOUND)
-    {
-        _position->theta = std::remainder(position.theta, 2.0 * std::numbers::pi);
-    }
-    _velocity = velocity;
-    DropNonFinite(*_velocity);
-    _distanceSinceLastNode = distanceSinceLastNode;
-    if (!std::isfinite(distanceSinceLastNode.value_or(0.0)))
-    {
-        _distanceSinceLastNode.reset();
-    }
+    _impl->OnPosition(position, velocity, distanceSinceLastNode);
+}
+
+void VehicleSession::OnDrivingChanged(bool bDriving, Core::Now now, VehicleActions& out)
+{
+    _impl->OnDrivingChanged(bDriving, now, out);
+}
+
+bool VehicleSession::TrySetActionStatus(
+    std::string_view actionID,
+    EActionStatus status,
+    std::string resultDescription,
+    Core::Now now,
+    VehicleActions& out)
+{
+    return _impl->TrySetActionStatus(actionID, status, std::move(resultDescription), now, out);
 }
 
 void VehicleSession::OnBattery(const BatteryState& battery, Core::Now now, VehicleActions& out)
 {
-    _bStateDue = _bStateDue || battery.bCharging != _battery.bCharging;
-    const double lastCharge = _battery.batteryCharge;
-    _battery = battery;
-    DropNonFinite(_battery);
-    if (!std::isfinite(_battery.batteryCharge))
-    {
-        _battery.batteryCharge = lastCharge;
-    }
-    Settle(now, out);
+    _impl->OnBattery(battery, now, out);
 }
 
 void VehicleSession::OnLoads(std::optional<std::vector<Load>> loads, Core::Now now, VehicleActions& out)
 {
-    if (loads.has_value())
-    {
-        std::ranges::for_each(*loads, [](Load& load) { DropNonFinite(load); });
-    }
-    _bStateDue = _bStateDue || loads != _loads;
-    _loads = std::move(loads);
-    Settle(now, out);
+    _impl->OnLoads(std::move(loads), now, out);
 }
 
 void VehicleSession::OnMaps(std::optional<std::vector<MapState>> maps, Core::Now now, VehicleActions& out)
 {
-    _bStateDue = _bStateDue || maps != _maps;
-    _maps = std::move(maps);
-    Settle(now, out);
+    _impl->OnMaps(std::move(maps), now, out);
 }
 
 void VehicleSession::OnErrors(std::vector<VehicleError> errors, Core::Now now, VehicleActions& out)
 {
-    for (VehicleError& error : errors)
-    {
-        // There are masters that take every error without an orderId and a topic for the refusal of the last order.
-        if (FindReferenceOrNull(error, ReferenceKeys::TOPIC) == nullptr)
-        {
-            AddReference(error, ReferenceKeys::TOPIC, GetTopicName(ETopic::State));
-        }
-    }
-    _bStateDue = _bStateDue || errors != _ownerErrors;
-    _ownerErrors = std::move(errors);
-    Settle(now, out);
+    _impl->OnErrors(std::move(errors), now, out);
 }
 
 void VehicleSession::OnInformation(std::vector<Information> information)
 {
-    _information = std::move(information);
+    _impl->OnInformation(std::move(information));
 }
 
 void VehicleSession::OnSafetyState(const SafetyState& safety, Core::Now now, VehicleActions& out)
 {
-    _bStateDue = _bStateDue || safety != _safety;
-    _safety = safety;
-    Settle(now, out);
+    _impl->OnSafetyState(safety, now, out);
+}
+
+void VehicleSession::OnHardwarePause(bool bPaused, bool bOverridesMaster, Core::Now now, VehicleActions& out)
+{
+    _impl->OnHardwarePause(bPaused, bOverridesMaster, now, out);
+}
+
+void VehicleSession::OnOperatingMode(EOperatingMode mode, Core::Now now, VehicleActions& out)
+{
+    _impl->OnOperatingMode(mode, now, out);
 }
 
 StateMessage VehicleSession::GetState() const
 {
-    return BuildState();
+    return _impl->GetState();
 }
 
 bool VehicleSession::IsPaused() const noexcept
 {
-    return IsHeldByPause();
+    return _impl->IsPaused();
 }
 
 bool VehicleSession::IsOrderRunning() const noexcept
 {
-    return _bOrderRunning;
+    return _impl->IsOrderRunning();
 }
 
 } // namespace ACS::VDA5050

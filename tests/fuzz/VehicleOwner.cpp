@@ -1,6 +1,7 @@
 #include "VehicleOwner.hpp"
 
 #include "FuzzCheck.hpp"
+#include <acs/vda5050/ActionMachine.hpp>
 #include <acs/vda5050/Topic.hpp>
 
 #include <algorithm>

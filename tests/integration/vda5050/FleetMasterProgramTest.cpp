@@ -2,6 +2,7 @@
 #include "ChildProcess.hpp"
 #include "LinkedVehicle.hpp"
 #include "TemporaryFolder.hpp"
+#include <acs/vda5050/Vda5050Codec.hpp>
 
 #include <boost/asio/steady_timer.hpp>
 

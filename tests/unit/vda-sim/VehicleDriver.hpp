@@ -8,6 +8,7 @@
 #include <acs/core/Overloaded.hpp>
 #include <acs/vda5050/OrderBuilder.hpp>
 #include <acs/vda5050/PredefinedActions.hpp>
+#include <acs/vda5050/Vda5050Codec.hpp>
 
 #include <algorithm>
 #include <chrono>

@@ -4,6 +4,7 @@
 #include "ManualClock.hpp"
 #include "Vda5050Sample.hpp"
 #include <acs/vda5050/MasterSession.hpp>
+#include <acs/vda5050/Vda5050Codec.hpp>
 
 #include <chrono>
 #include <cstdint>

@@ -1,5 +1,6 @@
 #include "Catch.hpp"
 #include "VehicleBench.hpp"
+#include <acs/vda5050/ActionMachine.hpp>
 
 #include <functional>
 

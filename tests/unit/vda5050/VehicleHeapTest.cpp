@@ -3,6 +3,7 @@
 #include "ManualClock.hpp"
 #include <acs/vda5050/OrderBuilder.hpp>
 #include <acs/vda5050/PredefinedActions.hpp>
+#include <acs/vda5050/Vda5050Codec.hpp>
 #include <acs/vda5050/VehicleSession.hpp>
 
 #include <chrono>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/vda5050/MasterSession.hpp>
+#include <acs/vda5050/Vda5050Codec.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,7 @@
+#include "RemainingRoute.hpp"
+
 #include "Catch.hpp"
 #include "Vda5050Sample.hpp"
-#include <acs/vda5050/HeldRoute.hpp>
 
 #include <string>
 #include <vector>
@@ -68,7 +69,7 @@ OrderMessage MakeFullOrder()
 TEST_CASE("A held route gives back every member of its edges and nodes, those that are not there either")
 {
     const OrderMessage order = MakeFullOrder();
-    HeldRoute route;
+    RemainingRoute route;
     route.Append(order);
     REQUIRE(route.GetSize() == 2);
     CHECK(route.CountReleased() == 1);
@@ -92,7 +93,7 @@ TEST_CASE("A held route gives back every member of its edges and nodes, those th
 TEST_CASE("A held route forgets from its front and from its end, and knows where its first edge begins")
 {
     const OrderMessage order = MakeFullOrder();
-    HeldRoute route;
+    RemainingRoute route;
     route.Append(order);
     route.DropFrontActions();
     CHECK(route.GetNodeActions(0).empty());

@@ -1,5 +1,6 @@
+#include "RemainingRoute.hpp"
+
 #include "StateRoom.hpp"
-#include <acs/vda5050/HeldRoute.hpp>
 
 #include <algorithm>
 #include <cassert>
@@ -19,7 +20,7 @@ std::unique_ptr<TExtras> KeepOrNull(TExtras extras)
 
 } // namespace
 
-HeldRoute::Step HeldRoute::MakeStep(OrderEdge edge, OrderNode node)
+RemainingRoute::Step RemainingRoute::MakeStep(OrderEdge edge, OrderNode node)
 {
     Step step;
     step.edgeID = std::move(edge.edgeID);
@@ -59,7 +60,7 @@ HeldRoute::Step HeldRoute::MakeStep(OrderEdge edge, OrderNode node)
     return step;
 }
 
-void HeldRoute::Append(OrderMessage order)
+void RemainingRoute::Append(OrderMessage order)
 {
     assert(order.nodes.size() == order.edges.size() + 1);
     if (_steps.empty())
@@ -75,7 +76,7 @@ void HeldRoute::Append(OrderMessage order)
     }
 }
 
-void HeldRoute::DropFront()
+void RemainingRoute::DropFront()
 {
     assert(!_steps.empty());
     _startNodeID = std::move(_steps.front().nodeID);
@@ -84,7 +85,7 @@ void HeldRoute::DropFront()
     _released -= std::min<std::size_t>(_released, 1);
 }
 
-void HeldRoute::Cut(std::size_t size)
+void RemainingRoute::Cut(std::size_t size)
 {
     while (_steps.size() > size)
     {
@@ -94,7 +95,7 @@ void HeldRoute::Cut(std::size_t size)
     _released = std::min(_released, size);
 }
 
-void HeldRoute::DropFrontActions()
+void RemainingRoute::DropFrontActions()
 {
     if (_steps.front().nodeExtrasOrNull != nullptr)
     {
@@ -102,7 +103,7 @@ void HeldRoute::DropFrontActions()
     }
 }
 
-bool HeldRoute::TrySetTrajectory(std::uint32_t edgeSequenceID, Trajectory trajectory)
+bool RemainingRoute::TrySetTrajectory(std::uint32_t edgeSequenceID, Trajectory trajectory)
 {
     const auto step = std::ranges::find(_steps, edgeSequenceID, &Step::edgeSequenceID);
     if (step == _steps.end() || (step->edgeExtrasOrNull != nullptr && step->edgeExtrasOrNull->trajectory.has_value()))
@@ -123,34 +124,34 @@ bool HeldRoute::TrySetTrajectory(std::uint32_t edgeSequenceID, Trajectory trajec
     return true;
 }
 
-void HeldRoute::Clear()
+void RemainingRoute::Clear()
 {
     _steps.clear();
     _released = 0;
     _bytes = 0;
 }
 
-bool HeldRoute::IsEmpty() const noexcept
+bool RemainingRoute::IsEmpty() const noexcept
 {
     return _steps.empty();
 }
 
-std::size_t HeldRoute::GetSize() const noexcept
+std::size_t RemainingRoute::GetSize() const noexcept
 {
     return _steps.size();
 }
 
-std::size_t HeldRoute::CountReleased() const
+std::size_t RemainingRoute::CountReleased() const
 {
     return _released;
 }
 
-std::size_t HeldRoute::Measure(std::size_t index) const
+std::size_t RemainingRoute::Measure(std::size_t index) const
 {
     return MeasureEdgeState(GetEdgeState(index)) + MeasureNodeState(GetNodeState(index));
 }
 
-std::size_t HeldRoute::GetReleasedBytes() const
+std::size_t RemainingRoute::GetReleasedBytes() const
 {
     std::size_t bytes = _bytes;
     for (std::size_t index = _released; index < _steps.size(); ++index)
@@ -160,12 +161,12 @@ std::size_t HeldRoute::GetReleasedBytes() const
     return bytes;
 }
 
-const std::string& HeldRoute::GetStartNodeID(std::size_t index) const
+const std::string& RemainingRoute::GetStartNodeID(std::size_t index) const
 {
     return index == 0 ? _startNodeID : _steps[index - 1].nodeID;
 }
 
-OrderEdge HeldRoute::GetEdge(std::size_t index) const
+OrderEdge RemainingRoute::GetEdge(std::size_t index) const
 {
     const Step& step = _steps[index];
     OrderEdge edge;
@@ -194,7 +195,7 @@ OrderEdge HeldRoute::GetEdge(std::size_t index) const
     return edge;
 }
 
-OrderNode HeldRoute::GetNode(std::size_t index) const
+OrderNode RemainingRoute::GetNode(std::size_t index) const
 {
     const Step& step = _steps[index];
     OrderNode node;
@@ -226,45 +227,45 @@ OrderNode HeldRoute::GetNode(std::size_t index) const
     return node;
 }
 
-const std::string& HeldRoute::GetEdgeID(std::size_t index) const
+const std::string& RemainingRoute::GetEdgeID(std::size_t index) const
 {
     return _steps[index].edgeID;
 }
 
-bool HeldRoute::HasCorridor(std::size_t index) const
+bool RemainingRoute::HasCorridor(std::size_t index) const
 {
     const std::unique_ptr<EdgeExtras>& extrasOrNull = _steps[index].edgeExtrasOrNull;
     return extrasOrNull != nullptr && extrasOrNull->corridor.has_value();
 }
 
-const std::string& HeldRoute::GetNodeID(std::size_t index) const
+const std::string& RemainingRoute::GetNodeID(std::size_t index) const
 {
     return _steps[index].nodeID;
 }
 
-std::uint32_t HeldRoute::GetNodeSequenceID(std::size_t index) const
+std::uint32_t RemainingRoute::GetNodeSequenceID(std::size_t index) const
 {
     return _steps[index].nodeSequenceID;
 }
 
-std::uint32_t HeldRoute::GetEdgeSequenceID(std::size_t index) const
+std::uint32_t RemainingRoute::GetEdgeSequenceID(std::size_t index) const
 {
     return _steps[index].edgeSequenceID;
 }
 
-std::span<const Action> HeldRoute::GetNodeActions(std::size_t index) const
+std::span<const Action> RemainingRoute::GetNodeActions(std::size_t index) const
 {
     const std::unique_ptr<NodeExtras>& extrasOrNull = _steps[index].nodeExtrasOrNull;
     return extrasOrNull != nullptr ? std::span<const Action>(extrasOrNull->actions) : std::span<const Action>();
 }
 
-std::span<const Action> HeldRoute::GetEdgeActions(std::size_t index) const
+std::span<const Action> RemainingRoute::GetEdgeActions(std::size_t index) const
 {
     const std::unique_ptr<EdgeExtras>& extrasOrNull = _steps[index].edgeExtrasOrNull;
     return extrasOrNull != nullptr ? std::span<const Action>(extrasOrNull->actions) : std::span<const Action>();
 }
 
-NodeState HeldRoute::GetNodeState(std::size_t index) const
+NodeState RemainingRoute::GetNodeState(std::size_t index) const
 {
     const Step& step = _steps[index];
     NodeState state;
@@ -283,7 +284,7 @@ NodeState HeldRoute::GetNodeState(std::size_t index) const
     return state;
 }
 
-EdgeState HeldRoute::GetEdgeState(std::size_t index) const
+EdgeState RemainingRoute::GetEdgeState(std::size_t index) const
 {
     const Step& step = _steps[index];
     EdgeState state;

@@ -16,8 +16,8 @@
 namespace ACS::VDA5050
 {
 
-/// An action that a vehicle's state shows. Status and start change through HeldActions alone, which counts them.
-struct HeldAction
+/// An action that a vehicle's state shows. Status and start change through ReportedActions alone, which counts them.
+struct ReportedAction
 {
     Action action;
     ActionMachine machine;
@@ -36,11 +36,11 @@ struct HeldAction
 
 /// What a vehicle keeps of actions, in the order of its report: found by their id, and counted by what decides whether
 /// the next one may begin and the vehicle may drive, so that neither takes longer where there are thousands.
-class HeldActions
+class ReportedActions
 {
 public:
-    using Iterator = std::list<HeldAction>::iterator;
-    using ConstIterator = std::list<HeldAction>::const_iterator;
+    using Iterator = std::list<ReportedAction>::iterator;
+    using ConstIterator = std::list<ReportedAction>::const_iterator;
 
 private:
     /// See the functions that tell them.
@@ -56,29 +56,29 @@ private:
 
     using Counts = std::array<std::size_t, 6>;
 
-    std::list<HeldAction> _held;
+    std::list<ReportedAction> _held;
     std::unordered_map<std::string_view, Iterator> _index; ///< The keys lie in _held, whose elements never move.
     Counts _counts{};
 
-    [[nodiscard]] static Counts Measure(const HeldAction& held);
-    void Count(const HeldAction& held);
-    void Discount(const HeldAction& held);
+    [[nodiscard]] static Counts Measure(const ReportedAction& held);
+    void Count(const ReportedAction& held);
+    void Discount(const ReportedAction& held);
     [[nodiscard]] std::size_t Get(ECount count) const noexcept;
 
 public:
-    HeldActions() = default;
-    HeldActions(const HeldActions&) = delete;
-    HeldActions& operator=(const HeldActions&) = delete;
-    HeldActions(HeldActions&&) = default;
-    HeldActions& operator=(HeldActions&&) = default;
-    ~HeldActions() = default;
+    ReportedActions() = default;
+    ReportedActions(const ReportedActions&) = delete;
+    ReportedActions& operator=(const ReportedActions&) = delete;
+    ReportedActions(ReportedActions&&) = default;
+    ReportedActions& operator=(ReportedActions&&) = default;
+    ~ReportedActions() = default;
 
     /// At the end; no action with this id is held. The element stays where it is until it is erased.
-    HeldAction& Add(HeldAction held);
-    [[nodiscard]] HeldAction* FindOrNull(std::string_view actionID);
+    ReportedAction& Add(ReportedAction held);
+    [[nodiscard]] ReportedAction* FindOrNull(std::string_view actionID);
     /// As ActionMachine::TrySet; a long description is cut.
-    bool TrySetStatus(HeldAction& held, EActionStatus status, std::string resultDescription = {});
-    void MarkStarted(HeldAction& held);
+    bool TrySetStatus(ReportedAction& held, EActionStatus status, std::string resultDescription = {});
+    void MarkStarted(ReportedAction& held);
     Iterator Erase(Iterator position);
 
     /// Erases all that the predicate says yes to.

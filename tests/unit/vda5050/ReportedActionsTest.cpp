@@ -1,6 +1,7 @@
+#include "ReportedActions.hpp"
+
 #include "Catch.hpp"
 #include "Vda5050Sample.hpp"
-#include <acs/vda5050/HeldActions.hpp>
 
 #include <string>
 #include <utility>
@@ -12,17 +13,17 @@ namespace ACS::VDA5050::Test
 namespace
 {
 
-HeldAction MakeHeld(const std::string& actionID, EActionScope scope, EBlockingType blockingType)
+ReportedAction MakeHeld(const std::string& actionID, EActionScope scope, EBlockingType blockingType)
 {
     Action action = MakeAction(actionID, blockingType);
     ActionState state{actionID, action.actionType, {}, EActionStatus::Waiting, {}};
-    return HeldAction{std::move(action), ActionMachine(std::move(state)), scope, {}, 0, false, false};
+    return ReportedAction{std::move(action), ActionMachine(std::move(state)), scope, {}, 0, false, false};
 }
 
-std::vector<std::string> ListIDs(const HeldActions& actions)
+std::vector<std::string> ListIDs(const ReportedActions& actions)
 {
     std::vector<std::string> ids;
-    for (const HeldAction& held : actions)
+    for (const ReportedAction& held : actions)
     {
         ids.push_back(held.action.actionID);
     }
@@ -33,19 +34,19 @@ std::vector<std::string> ListIDs(const HeldActions& actions)
 
 TEST_CASE("6.11 Actions are found by their id, wherever others were erased, and stay in the order of the report")
 {
-    HeldActions actions;
+    ReportedActions actions;
     for (int i = 0; i < 100; ++i)
     {
         actions.Add(MakeHeld("a" + std::to_string(i), EActionScope::Node, EBlockingType::None));
     }
-    actions.EraseIf([](const HeldAction& held) { return held.action.actionID.size() == 3; });
+    actions.EraseIf([](const ReportedAction& held) { return held.action.actionID.size() == 3; });
     CHECK(actions.GetSize() == 10);
     CHECK(actions.CountOpen() == 10);
     CHECK(actions.FindOrNull("a42") == nullptr);
     REQUIRE(actions.FindOrNull("a7") != nullptr);
     CHECK(actions.FindOrNull("a7")->action.actionID == "a7");
     actions.Erase(actions.begin());
-    HeldActions moved = std::move(actions);
+    ReportedActions moved = std::move(actions);
     CHECK(ListIDs(moved) == std::vector<std::string>{"a1", "a2", "a3", "a4", "a5", "a6", "a7", "a8", "a9"});
     CHECK(moved.FindOrNull("a9")->action.actionID == "a9");
     CHECK(moved.FindOrNull("a0") == nullptr);
@@ -72,8 +73,8 @@ TEST_CASE("6.11 What runs is counted by what it holds up, from its start to its 
         for (const bool bErased : {false, true})
         {
             CAPTURE(row.scope, row.blockingType, bErased);
-            HeldActions actions;
-            HeldAction& held = actions.Add(MakeHeld("a", row.scope, row.blockingType));
+            ReportedActions actions;
+            ReportedAction& held = actions.Add(MakeHeld("a", row.scope, row.blockingType));
             const bool bInstant = row.scope == EActionScope::Instant;
             CHECK(actions.CountInstant() == (bInstant ? 1 : 0));
             CHECK(actions.CountOpen() == (bInstant ? 0 : 1));

@@ -18,7 +18,7 @@ namespace ACS::VDA5050
 /// What a vehicle keeps of an order: the edges and nodes that are still to come, each edge with the node that it leads
 /// to. Takes less than half of the messages' own room, as what most routes leave out lies apart: a fleet of hundreds in
 /// one process holds long ones. For orders without violations.
-class HeldRoute
+class RemainingRoute
 {
     /// What only some nodes and edges have.
     struct NodeExtras

@@ -1,6 +1,7 @@
+#include "ReportedActions.hpp"
+
 #include "OrderErrors.hpp"
 #include "StateRoom.hpp"
-#include <acs/vda5050/HeldActions.hpp>
 
 #include <algorithm>
 #include <cassert>
@@ -10,22 +11,22 @@
 namespace ACS::VDA5050
 {
 
-bool HeldAction::IsInstant() const noexcept
+bool ReportedAction::IsInstant() const noexcept
 {
     return scope == EActionScope::Instant;
 }
 
-bool HeldAction::IsEnded() const noexcept
+bool ReportedAction::IsEnded() const noexcept
 {
     return IsTerminal(machine.GetStatus());
 }
 
-bool HeldAction::IsRunningInOrder() const noexcept
+bool ReportedAction::IsRunningInOrder() const noexcept
 {
     return !IsInstant() && bStarted && !IsEnded();
 }
 
-HeldActions::Counts HeldActions::Measure(const HeldAction& held)
+ReportedActions::Counts ReportedActions::Measure(const ReportedAction& held)
 {
     Counts counts{};
     const auto set = [&counts](ECount count, bool bCounts) {
@@ -44,22 +45,22 @@ HeldActions::Counts HeldActions::Measure(const HeldAction& held)
     return counts;
 }
 
-void HeldActions::Count(const HeldAction& held)
+void ReportedActions::Count(const ReportedAction& held)
 {
     std::ranges::transform(_counts, Measure(held), _counts.begin(), std::plus<>());
 }
 
-void HeldActions::Discount(const HeldAction& held)
+void ReportedActions::Discount(const ReportedAction& held)
 {
     std::ranges::transform(_counts, Measure(held), _counts.begin(), std::minus<>());
 }
 
-std::size_t HeldActions::Get(ECount count) const noexcept
+std::size_t ReportedActions::Get(ECount count) const noexcept
 {
     return _counts[static_cast<std::size_t>(count)];
 }
 
-HeldAction& HeldActions::Add(HeldAction held)
+ReportedAction& ReportedActions::Add(ReportedAction held)
 {
     const Iterator position = _held.insert(_held.end(), std::move(held));
     const bool bNew = _index.emplace(position->action.actionID, position).second;
@@ -69,13 +70,13 @@ HeldAction& HeldActions::Add(HeldAction held)
     return *position;
 }
 
-HeldAction* HeldActions::FindOrNull(std::string_view actionID)
+ReportedAction* ReportedActions::FindOrNull(std::string_view actionID)
 {
     const auto found = _index.find(actionID);
     return found == _index.end() ? nullptr : &*found->second;
 }
 
-bool HeldActions::TrySetStatus(HeldAction& held, EActionStatus status, std::string resultDescription)
+bool ReportedActions::TrySetStatus(ReportedAction& held, EActionStatus status, std::string resultDescription)
 {
     resultDescription.resize(CutForeignText(resultDescription).size());
     Discount(held);
@@ -84,71 +85,71 @@ bool HeldActions::TrySetStatus(HeldAction& held, EActionStatus status, std::stri
     return bSet;
 }
 
-void HeldActions::MarkStarted(HeldAction& held)
+void ReportedActions::MarkStarted(ReportedAction& held)
 {
     Discount(held);
     held.bStarted = true;
     Count(held);
 }
 
-HeldActions::Iterator HeldActions::Erase(Iterator position)
+ReportedActions::Iterator ReportedActions::Erase(Iterator position)
 {
     Discount(*position);
     _index.erase(position->action.actionID);
     return _held.erase(position);
 }
 
-std::size_t HeldActions::GetSize() const noexcept
+std::size_t ReportedActions::GetSize() const noexcept
 {
     return _held.size();
 }
 
-std::size_t HeldActions::CountInstant() const noexcept
+std::size_t ReportedActions::CountInstant() const noexcept
 {
     return Get(ECount::Instant);
 }
 
-std::size_t HeldActions::GetInstantBytes() const noexcept
+std::size_t ReportedActions::GetInstantBytes() const noexcept
 {
     return Get(ECount::InstantBytes);
 }
 
-std::size_t HeldActions::CountOpen() const noexcept
+std::size_t ReportedActions::CountOpen() const noexcept
 {
     return Get(ECount::Open);
 }
 
-std::size_t HeldActions::CountRunning() const noexcept
+std::size_t ReportedActions::CountRunning() const noexcept
 {
     return Get(ECount::Running);
 }
 
-std::size_t HeldActions::CountRunningBlocking() const noexcept
+std::size_t ReportedActions::CountRunningBlocking() const noexcept
 {
     return Get(ECount::RunningBlocking);
 }
 
-std::size_t HeldActions::CountRunningHard() const noexcept
+std::size_t ReportedActions::CountRunningHard() const noexcept
 {
     return Get(ECount::RunningHard);
 }
 
-HeldActions::Iterator HeldActions::begin() noexcept
+ReportedActions::Iterator ReportedActions::begin() noexcept
 {
     return _held.begin();
 }
 
-HeldActions::Iterator HeldActions::end() noexcept
+ReportedActions::Iterator ReportedActions::end() noexcept
 {
     return _held.end();
 }
 
-HeldActions::ConstIterator HeldActions::begin() const noexcept
+ReportedActions::ConstIterator ReportedActions::begin() const noexcept
 {
     return _held.begin();
 }
 
-HeldActions::ConstIterator HeldActions::end() const noexcept
+ReportedActions::ConstIterator ReportedActions::end() const noexcept
 {
     return _held.end();
 }
