@@ -1,5 +1,5 @@
 #include "ClientEvents.hpp"
-#include <acs/openstream/ClientSession.hpp>
+#include "ClientSession.Impl.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@ namespace ACS::OpenStream
 
 using Detail::Report;
 
-std::uint64_t ClientSession::SendControl(
+std::uint64_t ClientSession::Impl::SendControl(
     const ControlRequest& request,
     EControlTracking tracking,
     Core::Now now,
@@ -28,7 +28,7 @@ std::uint64_t ClientSession::SendControl(
     return SendControlCall(std::move(call), now, out);
 }
 
-std::uint64_t ClientSession::SendControlCall(ControlCall call, Core::Now now, ClientActions& out)
+std::uint64_t ClientSession::Impl::SendControlCall(ControlCall call, Core::Now now, ClientActions& out)
 {
     const std::uint64_t token = ++_lastToken;
     const bool bReady = _state == EClientState::Ready && !_outbox.IsFull();
@@ -56,21 +56,21 @@ std::uint64_t ClientSession::SendControlCall(ControlCall call, Core::Now now, Cl
     return token;
 }
 
-Core::SteadyTime ClientSession::GetControlDeadline(std::chrono::milliseconds own, Core::Now now) const
+Core::SteadyTime ClientSession::Impl::GetControlDeadline(std::chrono::milliseconds own, Core::Now now) const
 {
     const std::chrono::milliseconds timeout = own.count() > 0 ? own : _options.controlTimeout;
     return timeout.count() > 0 ? now.steady + timeout : Core::SteadyTime::max();
 }
 
 /// Sends what must not leave later.
-void ClientSession::SendUntil(const OpenStreamRequest& request, Core::SteadyTime deadline, ClientActions& out)
+void ClientSession::Impl::SendUntil(const OpenStreamRequest& request, Core::SteadyTime deadline, ClientActions& out)
 {
     _waitingDue = std::min(_waitingDue, deadline);
     SendNow(request, out);
     ArmControlTimer(out);
 }
 
-void ClientSession::SendControlInTurn(PendingControl control, ClientActions& out)
+void ClientSession::Impl::SendControlInTurn(PendingControl control, ClientActions& out)
 {
     _control = std::move(control);
     _bControlLeft = false;
@@ -82,7 +82,7 @@ void ClientSession::SendControlInTurn(PendingControl control, ClientActions& out
 }
 
 /// No refusal came: that is success, unless a sample has to show it and none has yet.
-void ClientSession::FinishControlWindow(Core::Now now, ClientActions& out)
+void ClientSession::Impl::FinishControlWindow(Core::Now now, ClientActions& out)
 {
     if (!_control.call.isConfirmed || _bControlConfirmed)
     {
@@ -97,7 +97,7 @@ void ClientSession::FinishControlWindow(Core::Now now, ClientActions& out)
     CheckControls(now, out);
 }
 
-void ClientSession::Confirm(const DataLine& sample, ClientActions& out)
+void ClientSession::Impl::Confirm(const DataLine& sample, ClientActions& out)
 {
     const bool bAsked = _inFlight == EInFlight::Control && _bControlLeft && _control.call.isConfirmed != nullptr;
     _bControlConfirmed = _bControlConfirmed || (bAsked && _control.call.isConfirmed(sample));
@@ -112,7 +112,7 @@ void ClientSession::Confirm(const DataLine& sample, ClientActions& out)
 }
 
 /// Ends what has waited for too long: for the socket, for its turn, for its confirmation.
-void ClientSession::CheckControls(Core::Now now, ClientActions& out)
+void ClientSession::Impl::CheckControls(Core::Now now, ClientActions& out)
 {
     if (_state == EClientState::Ready && now.steady >= GetSendDeadline())
     {
@@ -143,14 +143,14 @@ void ClientSession::CheckControls(Core::Now now, ClientActions& out)
 }
 
 /// When the first of the CONTROLs that have been given to the socket has to have left.
-Core::SteadyTime ClientSession::GetSendDeadline() const noexcept
+Core::SteadyTime ClientSession::Impl::GetSendDeadline() const noexcept
 {
     const bool bTracked = _inFlight == EInFlight::Control && !_bControlLeft;
     return std::min({_waitingDue, _sendingDue, bTracked ? _control.deadline : Core::SteadyTime::max()});
 }
 
 /// Started forward only, and again where it fires early: see the watchdog of ServerSession.
-void ClientSession::ArmControlTimer(ClientActions& out)
+void ClientSession::Impl::ArmControlTimer(ClientActions& out)
 {
     Core::SteadyTime earliest = GetSendDeadline();
     for (const PendingControl& control : std::as_const(_controls))
@@ -169,7 +169,7 @@ void ClientSession::ArmControlTimer(ClientActions& out)
     }
 }
 
-void ClientSession::SettleConfirmations(std::string_view detail, ClientActions& out)
+void ClientSession::Impl::SettleConfirmations(std::string_view detail, ClientActions& out)
 {
     for (const Confirmation& confirmation : std::exchange(_confirmations, {}))
     {
@@ -179,7 +179,7 @@ void ClientSession::SettleConfirmations(std::string_view detail, ClientActions& 
     }
 }
 
-void ClientSession::StopControl(Core::Now now, ClientActions& out)
+void ClientSession::Impl::StopControl(Core::Now now, ClientActions& out)
 {
     if (_state != EClientState::Ready)
     {
@@ -192,7 +192,7 @@ void ClientSession::StopControl(Core::Now now, ClientActions& out)
     SendNext(now, out);
 }
 
-void ClientSession::Handle(ControlError& error, Core::Now now, ClientActions& out)
+void ClientSession::Impl::Handle(ControlError& error, Core::Now now, ClientActions& out)
 {
     RefuseControl(
         error.status,
@@ -202,7 +202,7 @@ void ClientSession::Handle(ControlError& error, Core::Now now, ClientActions& ou
     SendNext(now, out);
 }
 
-void ClientSession::RefuseControl(
+void ClientSession::Impl::RefuseControl(
     int status,
     std::optional<Core::JsonText> body,
     std::string detail,
@@ -220,7 +220,7 @@ void ClientSession::RefuseControl(
 }
 
 /// Ends the tracking of a CONTROL in flight, if there is one.
-void ClientSession::SettleInFlight(EControlOutcome outcome, std::string_view detail, ClientActions& out)
+void ClientSession::Impl::SettleInFlight(EControlOutcome outcome, std::string_view detail, ClientActions& out)
 {
     if (_inFlight == EInFlight::Control)
     {
@@ -229,7 +229,7 @@ void ClientSession::SettleInFlight(EControlOutcome outcome, std::string_view det
     }
 }
 
-void ClientSession::SettleWaiting(std::string_view detail, ClientActions& out)
+void ClientSession::Impl::SettleWaiting(std::string_view detail, ClientActions& out)
 {
     while (const std::optional<PendingControl> control = _controls.PopFrontOrNull())
     {

@@ -1,5 +1,5 @@
 #include "ClientEvents.hpp"
-#include <acs/openstream/ClientSession.hpp>
+#include "ClientSession.Impl.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -9,7 +9,7 @@ namespace ACS::OpenStream
 
 using Detail::Report;
 
-void ClientSession::SetMonitor(std::optional<MonitorRequest> monitorOrNull, Core::Now now, ClientActions& out)
+void ClientSession::Impl::SetMonitor(std::optional<MonitorRequest> monitorOrNull, Core::Now now, ClientActions& out)
 {
     _monitor = std::move(monitorOrNull);
     ++_monitorNumber;
@@ -22,7 +22,7 @@ void ClientSession::SetMonitor(std::optional<MonitorRequest> monitorOrNull, Core
     SendNext(now, out);
 }
 
-void ClientSession::Handle(MonitorAck& /*ack*/, Core::Now now, ClientActions& out)
+void ClientSession::Impl::Handle(MonitorAck& /*ack*/, Core::Now now, ClientActions& out)
 {
     if (_inFlight != EInFlight::Monitor)
     {
@@ -38,7 +38,7 @@ void ClientSession::Handle(MonitorAck& /*ack*/, Core::Now now, ClientActions& ou
     SendNext(now, out);
 }
 
-void ClientSession::Handle(DataLine& line, Core::Now now, ClientActions& out)
+void ClientSession::Impl::Handle(DataLine& line, Core::Now now, ClientActions& out)
 {
     if (_state != EClientState::Ready || !_monitor.has_value())
     {
@@ -57,7 +57,7 @@ void ClientSession::Handle(DataLine& line, Core::Now now, ClientActions& out)
     _latest = ClientData{std::move(line), now};
 }
 
-void ClientSession::HandleMonitorError(ErrorLine& error, ClientActions& out)
+void ClientSession::Impl::HandleMonitorError(ErrorLine& error, ClientActions& out)
 {
     FinishInFlight(out);
     if (error.code == EOpenStreamErrorCode::MonitorAlreadyActive && !std::exchange(_bMonitorStopFirst, true))
@@ -70,7 +70,7 @@ void ClientSession::HandleMonitorError(ErrorLine& error, ClientActions& out)
     Report(ClientMonitorRefused{std::move(error), _sentMonitorUrl}, out);
 }
 
-bool ClientSession::TrySendMonitorWish(Core::Now now, ClientActions& out)
+bool ClientSession::Impl::TrySendMonitorWish(Core::Now now, ClientActions& out)
 {
     if (!_bMonitorDue)
     {
@@ -93,14 +93,14 @@ bool ClientSession::TrySendMonitorWish(Core::Now now, ClientActions& out)
     return _monitor.has_value();
 }
 
-std::chrono::milliseconds ClientSession::GetDataLimit() const noexcept
+std::chrono::milliseconds ClientSession::Impl::GetDataLimit() const noexcept
 {
     const bool bWaitsForStale = !_bStale && _options.staleAfter.count() > 0;
     return bWaitsForStale ? _options.staleAfter : _options.lostAfter;
 }
 
 /// Started forward only, and again where it fires early: see the watchdog of ServerSession.
-void ClientSession::ArmDataAge(ClientActions& out)
+void ClientSession::Impl::ArmDataAge(ClientActions& out)
 {
     const std::chrono::milliseconds limit = GetDataLimit();
     if (!_bMonitorOn || !_monitor.has_value() || limit.count() <= 0)
@@ -116,7 +116,7 @@ void ClientSession::ArmDataAge(ClientActions& out)
     }
 }
 
-void ClientSession::CheckDataAge(Core::Now now, ClientActions& out)
+void ClientSession::Impl::CheckDataAge(Core::Now now, ClientActions& out)
 {
     if (_state != EClientState::Ready || !_bMonitorOn || !_monitor.has_value())
     {
@@ -137,12 +137,12 @@ void ClientSession::CheckDataAge(Core::Now now, ClientActions& out)
     ArmDataAge(out);
 }
 
-const ClientData* ClientSession::GetLatestOrNull() const noexcept
+const ClientData* ClientSession::Impl::GetLatestOrNull() const noexcept
 {
     return _latest.has_value() ? &*_latest : nullptr;
 }
 
-StreamQuality ClientSession::GetQuality() const
+StreamQuality ClientSession::Impl::GetQuality() const
 {
     return _meter.GetQuality();
 }

@@ -1,429 +1,104 @@
-#include "ClientEvents.hpp"
-#include <acs/openstream/ClientSession.hpp>
+#include "ClientSession.Impl.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cassert>
 #include <utility>
 
 namespace ACS::OpenStream
 {
 
-namespace
-{
-
-std::string Describe(const ErrorLine& error)
-{
-    return fmt::format("{}: {}{}{}", error.codeText, error.message, error.hint.empty() ? "" : "; hint: ", error.hint);
-}
-
-} // namespace
-
-using Detail::Report;
-
 ClientSession::ClientSession(const ClientSessionOptions& options, Core::IRandom& random)
-    : _options(options),
-      _random(random),
-      _backoff(options.reconnect),
-      _framer(options.longestLine),
-      _outbox(options.maximumOutput),
-      _controls(options.maximumControls)
+    : _impl(std::make_unique<Impl>(options, random))
 {
 }
+
+ClientSession::~ClientSession() = default;
 
 void ClientSession::Start(Core::Now now, ClientActions& out)
 {
-    if (_state == EClientState::Stopped)
-    {
-        _backoff.Reset();
-        Connect(now, out);
-    }
-}
-
-void ClientSession::Connect(Core::Now now, ClientActions& out)
-{
-    _framer.Reset();
-    _outbox.Reset();
-    _waitingDue = Core::SteadyTime::max();
-    _sendingDue = Core::SteadyTime::max();
-    _state = EClientState::Connecting;
-    out.emplace_back(ClientStartTimer{EClientTimer::Connect, now.steady + _options.connectTimeout});
-    out.emplace_back(ClientConnect{});
+    _impl->Start(now, out);
 }
 
 void ClientSession::Stop(Core::Now now, ClientActions& out)
 {
-    if (_state == EClientState::Stopped || _state == EClientState::Ending)
-    {
-        return;
-    }
-    if (_state != EClientState::Ready)
-    {
-        End(out);
-        return;
-    }
-    SettleInFlight(EControlOutcome::Unknown, "the session was stopped", out);
-    SettleWaiting("the session was stopped", out);
-    _state = EClientState::Ending;
-    SendAwaited(StopRequest{EStopTarget::Session}, EInFlight::StopSession, now, out);
+    _impl->Stop(now, out);
+}
+
+void ClientSession::SetMonitor(std::optional<MonitorRequest> monitorOrNull, Core::Now now, ClientActions& out)
+{
+    _impl->SetMonitor(std::move(monitorOrNull), now, out);
+}
+
+std::uint64_t ClientSession::SendControl(
+    const ControlRequest& request,
+    EControlTracking tracking,
+    Core::Now now,
+    ClientActions& out)
+{
+    return _impl->SendControl(request, tracking, now, out);
+}
+
+std::uint64_t ClientSession::SendControlCall(ControlCall call, Core::Now now, ClientActions& out)
+{
+    return _impl->SendControlCall(std::move(call), now, out);
+}
+
+void ClientSession::StopControl(Core::Now now, ClientActions& out)
+{
+    _impl->StopControl(now, out);
 }
 
 void ClientSession::OnConnected(Core::Now now, ClientActions& out)
 {
-    if (_state != EClientState::Connecting)
-    {
-        return;
-    }
-    out.emplace_back(ClientCancelTimer{EClientTimer::Connect});
-    _state = EClientState::Handshaking;
-    SendAwaited(HandshakeRequest{}, EInFlight::Handshake, now, out);
+    _impl->OnConnected(now, out);
 }
 
 void ClientSession::OnConnectFailed(std::string_view detail, Core::Now now, ClientActions& out)
 {
-    if (_state == EClientState::Connecting)
-    {
-        Lose(EClientLossReason::ConnectFailed, detail, now, out);
-    }
+    _impl->OnConnectFailed(detail, now, out);
 }
 
 void ClientSession::OnBytes(std::string_view bytes, Core::Now now, ClientActions& out)
 {
-    if (!IsConnected())
-    {
-        return;
-    }
-    _framer.Feed(bytes);
-    while (IsConnected())
-    {
-        const std::optional<std::string_view> line = _framer.TakeLineOrNull();
-        if (!line.has_value())
-        {
-            break;
-        }
-        ProcessLine(*line, now, out);
-    }
-    _framer.Keep();
-    if (IsConnected() && _framer.HasOverflown())
-    {
-        Lose(EClientLossReason::LineTooLong, "the controller sent a line beyond the limit", now, out);
-    }
-}
-
-void ClientSession::ProcessLine(std::string_view text, Core::Now now, ClientActions& out)
-{
-    Core::Result<OpenStreamLine> line = _codec.DecodeLine(text);
-    if (!line.has_value())
-    {
-        ++_stats.badLines;
-        Report(ClientBadLine{Core::Describe(line.error())}, out);
-        return;
-    }
-    std::visit([this, now, &out](auto& content) { Handle(content, now, out); }, *line);
-}
-
-void ClientSession::Handle(HandshakeAck& ack, Core::Now now, ClientActions& out)
-{
-    if (_inFlight != EInFlight::Handshake)
-    {
-        return;
-    }
-    if (!ack.bOk)
-    {
-        Lose(EClientLossReason::HandshakeFailed, "the controller did not accept the HANDSHAKE", now, out);
-        return;
-    }
-    FinishInFlight(out);
-    ++_stats.connects;
-    _backoff.Reset();
-    _state = EClientState::Ready;
-    _bMonitorOn = false;
-    _bMonitorStopFirst = false;
-    _bMonitorDue = _monitor.has_value();
-    Report(ClientReady{std::move(ack.version)}, out);
-    SendNext(now, out);
-}
-
-void ClientSession::Handle(StopAck& ack, Core::Now now, ClientActions& out)
-{
-    if (_state == EClientState::Ending && ack.target == EStopTarget::Session)
-    {
-        End(out);
-        return;
-    }
-    if (_inFlight == EInFlight::StopMonitor && ack.target == EStopTarget::Monitor)
-    {
-        FinishInFlight(out);
-        _bMonitorOn = false;
-        _bMonitorStopFirst = false;
-    }
-    Report(ClientStopped{ack.target}, out);
-    SendNext(now, out);
-}
-
-void ClientSession::Handle(ErrorLine& error, Core::Now now, ClientActions& out)
-{
-    switch (_state)
-    {
-        case EClientState::Handshaking:
-            Lose(EClientLossReason::HandshakeFailed, Describe(error), now, out);
-            break;
-        case EClientState::Ready:
-            HandleErrorWhenReady(error, now, out);
-            break;
-        case EClientState::Ending:
-            End(out);
-            break;
-        case EClientState::Stopped:
-        case EClientState::Connecting:
-        case EClientState::Waiting:
-            break;
-        default:
-            assert(false && "unhandled EClientState");
-            break;
-    }
-}
-
-void ClientSession::HandleErrorWhenReady(ErrorLine& error, Core::Now now, ClientActions& out)
-{
-    const EErrorScope scope = GetErrorScope(error.code);
-    const bool bOfRequest = scope == EErrorScope::Request;
-    if (scope == EErrorScope::Fatal)
-    {
-        Lose(EClientLossReason::SessionEnded, Describe(error), now, out);
-        return;
-    }
-    if (_inFlight == EInFlight::Monitor && (bOfRequest || scope == EErrorScope::Monitor))
-    {
-        HandleMonitorError(error, out);
-    }
-    else if (scope == EErrorScope::Stop || (bOfRequest && _inFlight == EInFlight::StopMonitor))
-    {
-        HandleStopError(error, out);
-    }
-    else if (bOfRequest || scope == EErrorScope::Control)
-    {
-        RefuseControl(GetErrorStatus(error.code), std::nullopt, Describe(error), out);
-    }
-    else
-    {
-        Report(ClientErrorReported{std::move(error)}, out);
-    }
-    SendNext(now, out);
-}
-
-void ClientSession::HandleStopError(ErrorLine& error, ClientActions& out)
-{
-    const bool bOfMonitor = _inFlight == EInFlight::StopMonitor;
-    if (bOfMonitor)
-    {
-        FinishInFlight(out);
-        _bMonitorOn = false;
-        _bMonitorStopFirst = false;
-    }
-    if (error.code == EOpenStreamErrorCode::NothingToStop)
-    {
-        Report(ClientStopped{bOfMonitor ? EStopTarget::Monitor : EStopTarget::Control}, out);
-    }
-    else
-    {
-        Report(ClientErrorReported{std::move(error)}, out);
-    }
-}
-
-void ClientSession::FinishInFlight(ClientActions& out)
-{
-    _inFlight = EInFlight::Nothing;
-    out.emplace_back(ClientCancelTimer{EClientTimer::Answer});
-}
-
-/// One awaited command at a time: the MONITOR's wish goes before the CONTROLs.
-void ClientSession::SendNext(Core::Now now, ClientActions& out)
-{
-    if (_state != EClientState::Ready || _inFlight != EInFlight::Nothing || TrySendMonitorWish(now, out))
-    {
-        return;
-    }
-    if (std::optional<PendingControl> control = _controls.PopFrontOrNull())
-    {
-        SendControlInTurn(std::move(*control), out);
-    }
-}
-
-void ClientSession::SendNow(const OpenStreamRequest& request, ClientActions& out)
-{
-    OpenStreamCodec::EncodeRequest(request, _outbox.GetLines());
-    Flush(out);
-}
-
-void ClientSession::SendAwaited(const OpenStreamRequest& request, EInFlight kind, Core::Now now, ClientActions& out)
-{
-    _inFlight = kind;
-    out.emplace_back(ClientStartTimer{EClientTimer::Answer, now.steady + _options.answerTimeout});
-    SendNow(request, out);
-}
-
-void ClientSession::Flush(ClientActions& out)
-{
-    if (const std::string_view text = _outbox.TakeForSend(); !text.empty())
-    {
-        _sendingDue = std::exchange(_waitingDue, Core::SteadyTime::max());
-        out.emplace_back(ClientSend{text});
-    }
+    _impl->OnBytes(bytes, now, out);
 }
 
 void ClientSession::OnSendCompleted(Core::Now now, ClientActions& out)
 {
-    if (!IsConnected() || !_outbox.IsSending())
-    {
-        return;
-    }
-    static_cast<void>(_outbox.CompleteSend());
-    _sendingDue = Core::SteadyTime::max();
-    if (_inFlight == EInFlight::Control && !_bControlLeft && _outbox.WasSent(_controlMark))
-    {
-        _bControlLeft = true;
-        _controlLeftAt = now.steady;
-        out.emplace_back(ClientStartTimer{EClientTimer::Answer, now.steady + _options.controlWindow});
-    }
-    Flush(out);
+    _impl->OnSendCompleted(now, out);
 }
 
 void ClientSession::OnPeerClosed(Core::Now now, ClientActions& out)
 {
-    Disconnect(EClientLossReason::PeerClosed, "the controller closed the connection", now, out);
+    _impl->OnPeerClosed(now, out);
 }
 
 void ClientSession::OnSocketError(std::string_view detail, Core::Now now, ClientActions& out)
 {
-    Disconnect(EClientLossReason::SocketError, detail, now, out);
-}
-
-void ClientSession::Disconnect(EClientLossReason reason, std::string_view detail, Core::Now now, ClientActions& out)
-{
-    if (_state == EClientState::Ending)
-    {
-        End(out);
-    }
-    else if (IsConnected())
-    {
-        Lose(reason, detail, now, out);
-    }
+    _impl->OnSocketError(detail, now, out);
 }
 
 void ClientSession::OnTimer(EClientTimer timer, Core::Now now, ClientActions& out)
 {
-    switch (timer)
-    {
-        case EClientTimer::Connect:
-            if (_state == EClientState::Connecting)
-            {
-                Lose(EClientLossReason::ConnectTimeout, "the connection was not made in time", now, out);
-            }
-            break;
-        case EClientTimer::Answer:
-            OnAnswerTimeout(now, out);
-            break;
-        case EClientTimer::DataAge:
-            _bDataAgeArmed = false;
-            CheckDataAge(now, out);
-            break;
-        case EClientTimer::Control:
-            _bControlTimerArmed = false;
-            CheckControls(now, out);
-            break;
-        case EClientTimer::Retry:
-            if (_state == EClientState::Waiting)
-            {
-                Connect(now, out);
-            }
-            break;
-        default:
-            assert(false && "unhandled EClientTimer");
-            break;
-    }
-}
-
-void ClientSession::OnAnswerTimeout(Core::Now now, ClientActions& out)
-{
-    switch (_inFlight)
-    {
-        case EInFlight::Nothing:
-            break;
-        case EInFlight::Control:
-            FinishControlWindow(now, out);
-            SendNext(now, out);
-            break;
-        case EInFlight::StopSession:
-            End(out);
-            break;
-        case EInFlight::Handshake:
-        case EInFlight::Monitor:
-        case EInFlight::StopMonitor:
-            Lose(EClientLossReason::AnswerTimeout, "the controller did not answer in time", now, out);
-            break;
-        default:
-            assert(false && "unhandled EInFlight");
-            break;
-    }
-}
-
-bool ClientSession::IsConnected() const noexcept
-{
-    return _state == EClientState::Handshaking || _state == EClientState::Ready || _state == EClientState::Ending;
-}
-
-void ClientSession::Lose(EClientLossReason reason, std::string_view detail, Core::Now now, ClientActions& out)
-{
-    // The detail may stand in the buffers that the next connection uses.
-    std::string reasonText(detail);
-    DropConnection(detail, out);
-    _state = EClientState::Waiting;
-    const std::chrono::milliseconds delay = _backoff.GetNextDelay(_random);
-    out.emplace_back(ClientStartTimer{EClientTimer::Retry, now.steady + delay});
-    Report(ClientLost{reason, std::move(reasonText), delay}, out);
-}
-
-void ClientSession::DropConnection(std::string_view detail, ClientActions& out)
-{
-    const bool bLeft = _outbox.WasTaken(_controlMark);
-    SettleInFlight(bLeft ? EControlOutcome::Unknown : EControlOutcome::NotSent, detail, out);
-    SettleConfirmations(detail, out);
-    SettleWaiting(detail, out);
-    _inFlight = EInFlight::Nothing;
-    _latest.reset();
-    _bControlTimerArmed = false;
-    _bMonitorOn = false;
-    _bStale = false;
-    _bDataAgeArmed = false;
-    for (const EClientTimer timer :
-         {EClientTimer::Connect,
-          EClientTimer::Answer,
-          EClientTimer::DataAge,
-          EClientTimer::Retry,
-          EClientTimer::Control})
-    {
-        out.emplace_back(ClientCancelTimer{timer});
-    }
-    out.emplace_back(ClientClose{});
-}
-
-void ClientSession::End(ClientActions& out)
-{
-    DropConnection("the session was stopped", out);
-    _state = EClientState::Stopped;
-    Report(ClientEnded{}, out);
+    _impl->OnTimer(timer, now, out);
 }
 
 EClientState ClientSession::GetState() const noexcept
 {
-    return _state;
+    return _impl->GetState();
 }
 
 const ClientSessionStats& ClientSession::GetStats() const noexcept
 {
-    return _stats;
+    return _impl->GetStats();
+}
+
+const ClientData* ClientSession::GetLatestOrNull() const noexcept
+{
+    return _impl->GetLatestOrNull();
+}
+
+StreamQuality ClientSession::GetQuality() const
+{
+    return _impl->GetQuality();
 }
 
 } // namespace ACS::OpenStream

@@ -1,4 +1,4 @@
-#include <acs/openstream/GapHistogram.hpp>
+#include "GapHistogram.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -74,7 +74,7 @@ double GapHistogram::GetPercentile(double share) const
     return _largest;
 }
 
-GapFigures GapHistogram::GetFigures() const
+GapStatistics GapHistogram::GetStatistics() const
 {
     if (_count == 0)
     {
@@ -83,7 +83,7 @@ GapFigures GapHistogram::GetFigures() const
     constexpr double HALF = 0.5;
     constexpr double HUNDREDTH = 0.99;
     constexpr double THOUSANDTH = 0.999;
-    return GapFigures{
+    return GapStatistics{
         _count,
         _sum / static_cast<double>(_count),
         GetPercentile(HALF),

@@ -1,4 +1,4 @@
-#include <acs/openstream/LineFramer.hpp>
+#include "LineFramer.hpp"
 
 namespace ACS::OpenStream
 {

@@ -1,4 +1,4 @@
-#include <acs/openstream/LineOutbox.hpp>
+#include "LineOutbox.hpp"
 
 #include <cassert>
 #include <utility>

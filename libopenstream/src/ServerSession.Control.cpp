@@ -1,4 +1,4 @@
-#include <acs/openstream/ServerSession.hpp>
+#include "ServerSession.Impl.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -23,12 +23,12 @@ std::size_t CountBytes(const ApiRequest& call)
 } // namespace
 
 /// False until the first one is done.
-bool ServerSession::HasRoomForControls() const noexcept
+bool ServerSession::Impl::HasRoomForControls() const noexcept
 {
     return !_controls.IsFull() && _controlBytes < _options.maximumControlBytes;
 }
 
-void ServerSession::Handle(const ControlRequest& request, Core::Now /*now*/, ServerActions& out)
+void ServerSession::Impl::Handle(const ControlRequest& request, Core::Now /*now*/, ServerActions& out)
 {
     ApiRequest call;
     FillRequest(request.method, request.url, request.args, call);
@@ -44,7 +44,7 @@ void ServerSession::Handle(const ControlRequest& request, Core::Now /*now*/, Ser
     CallNextControl(out);
 }
 
-bool ServerSession::TryStopControl(ServerActions& out)
+bool ServerSession::Impl::TryStopControl(ServerActions& out)
 {
     if (!_bControlled)
     {
@@ -61,7 +61,7 @@ bool ServerSession::TryStopControl(ServerActions& out)
     return true;
 }
 
-void ServerSession::CallNextControl(ServerActions& out)
+void ServerSession::Impl::CallNextControl(ServerActions& out)
 {
     const ApiRequest* next = _controls.GetFrontOrNull();
     if (_controlToken == 0 && next != nullptr)
@@ -71,7 +71,7 @@ void ServerSession::CallNextControl(ServerActions& out)
     }
 }
 
-void ServerSession::FinishControl(const ApiResponse& response, Core::Now now, ServerActions& out)
+void ServerSession::Impl::FinishControl(const ApiResponse& response, Core::Now now, ServerActions& out)
 {
     if (!response.IsSuccess())
     {

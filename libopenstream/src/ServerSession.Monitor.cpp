@@ -1,4 +1,4 @@
-#include <acs/openstream/ServerSession.hpp>
+#include "ServerSession.Impl.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -14,7 +14,7 @@ constexpr int FIRST_SERVICE_FAILURE = 500;
 
 } // namespace
 
-void ServerSession::Handle(const MonitorRequest& request, Core::Now now, ServerActions& out)
+void ServerSession::Impl::Handle(const MonitorRequest& request, Core::Now now, ServerActions& out)
 {
     // No line of the old recipe may come behind this ack.
     _outbox.SealData();
@@ -41,7 +41,7 @@ void ServerSession::Handle(const MonitorRequest& request, Core::Now now, ServerA
     ArmWatchdog(out);
 }
 
-void ServerSession::StopMonitor(ServerActions& out)
+void ServerSession::Impl::StopMonitor(ServerActions& out)
 {
     if (_state != EServerState::Streaming)
     {
@@ -53,7 +53,7 @@ void ServerSession::StopMonitor(ServerActions& out)
     out.emplace_back(ServerCancelTimer{EServerTimer::MonitorTick});
 }
 
-void ServerSession::Tick(Core::Now now, ServerActions& out)
+void ServerSession::Impl::Tick(Core::Now now, ServerActions& out)
 {
     if (_state != EServerState::Streaming)
     {
@@ -83,7 +83,7 @@ void ServerSession::Tick(Core::Now now, ServerActions& out)
     out.emplace_back(ServerCall{_monitorToken, &_monitorCall});
 }
 
-void ServerSession::FinishMonitor(const ApiResponse& response, Core::Now now, ServerActions& /*out*/)
+void ServerSession::Impl::FinishMonitor(const ApiResponse& response, Core::Now now, ServerActions& /*out*/)
 {
     using Milliseconds = std::chrono::duration<double, std::milli>;
     _monitorToken = 0;
@@ -108,7 +108,7 @@ void ServerSession::FinishMonitor(const ApiResponse& response, Core::Now now, Se
     OpenStreamCodec::EncodeData(ts.count(), duration.count(), response, _monitorID, data);
 }
 
-void ServerSession::ReportMonitorFailure()
+void ServerSession::Impl::ReportMonitorFailure()
 {
     if (!_bMonitorFailing)
     {

@@ -1,4 +1,4 @@
-#include <acs/openstream/StreamMeter.hpp>
+#include "StreamMeter.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -60,8 +60,8 @@ StreamQuality StreamMeter::GetQuality() const
     StreamQuality quality;
     quality.samples = _samples;
     quality.missing = _missing;
-    quality.byServer = _byServer.GetFigures();
-    quality.byArrival = _byArrival.GetFigures();
+    quality.byServer = _byServer.GetStatistics();
+    quality.byArrival = _byArrival.GetStatistics();
     quality.inTime = _filled == 0 ? 1.0 : static_cast<double>(_inTime.count()) / static_cast<double>(_filled);
     return quality;
 }

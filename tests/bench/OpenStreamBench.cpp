@@ -1,4 +1,4 @@
-#include <acs/openstream/LineFramer.hpp>
+#include "LineFramer.hpp"
 #include <acs/openstream/OpenStreamCodec.hpp>
 
 #include <benchmark/benchmark.h>

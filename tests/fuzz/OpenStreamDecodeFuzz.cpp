@@ -1,5 +1,5 @@
 #include "FuzzCheck.hpp"
-#include <acs/openstream/LineFramer.hpp>
+#include "LineFramer.hpp"
 #include <acs/openstream/OpenStreamCodec.hpp>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 #include "RawPeer.hpp"
+#include <acs/openstream/OpenStreamCodec.hpp>
 
 #include <chrono>
 #include <string>

@@ -1,5 +1,6 @@
+#include "LineFramer.hpp"
+
 #include "Catch.hpp"
-#include <acs/openstream/LineFramer.hpp>
 
 #include <string>
 #include <string_view>

@@ -1,5 +1,6 @@
+#include "LineOutbox.hpp"
+
 #include "Catch.hpp"
-#include <acs/openstream/LineOutbox.hpp>
 
 #include <string>
 

@@ -1,6 +1,7 @@
 #include "Catch.hpp"
 #include "ServerHarness.hpp"
 #include <acs/openstream/EOpenStreamErrorCode.hpp>
+#include <acs/openstream/OpenStreamCodec.hpp>
 
 #include <string>
 #include <vector>

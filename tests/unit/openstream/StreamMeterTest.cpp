@@ -1,6 +1,7 @@
+#include "StreamMeter.hpp"
+
 #include "Catch.hpp"
 #include <acs/openstream/JointStepLimiter.hpp>
-#include <acs/openstream/StreamMeter.hpp>
 
 #include <array>
 #include <chrono>
@@ -75,7 +76,7 @@ TEST_CASE("11 A percentile is never below what it stands for, over nine orders o
         GapHistogram histogram;
         histogram.Add(gap);
         histogram.Add(gap * 1000.0);
-        const GapFigures figures = histogram.GetFigures();
+        const GapStatistics figures = histogram.GetStatistics();
         CHECK(figures.p50 >= gap - 0.0006);
         CHECK(figures.p50 <= gap * (1.0 + 1.0 / 16) + 0.0006);
         CHECK(figures.p99 == figures.largest);
@@ -83,9 +84,9 @@ TEST_CASE("11 A percentile is never below what it stands for, over nine orders o
     GapHistogram histogram;
     histogram.Add(-1.0);
     histogram.Add(std::numeric_limits<double>::quiet_NaN());
-    CHECK(histogram.GetFigures() == GapFigures{});
+    CHECK(histogram.GetStatistics() == GapStatistics{});
     histogram.Add(1e30);
-    CHECK(histogram.GetFigures().largest == 1e30);
+    CHECK(histogram.GetStatistics().largest == 1e30);
 }
 
 TEST_CASE("7.46 A frame that is missing among a hundred thousand shows in the figures")

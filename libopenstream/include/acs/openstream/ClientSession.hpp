@@ -1,21 +1,15 @@
 #pragma once
 
-#include <acs/core/Backoff.hpp>
-#include <acs/core/BoundedQueue.hpp>
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/openstream/ClientSessionActions.hpp>
-#include <acs/openstream/LineFramer.hpp>
-#include <acs/openstream/LineOutbox.hpp>
-#include <acs/openstream/OpenStreamCodec.hpp>
-#include <acs/openstream/StreamMeter.hpp>
+#include <acs/openstream/OpenStreamRequests.hpp>
+#include <acs/openstream/StreamQuality.hpp>
 
 #include <cstdint>
-#include <functional>
+#include <memory>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 namespace ACS::OpenStream
 {
@@ -43,112 +37,15 @@ enum class EClientState : std::uint8_t
 /// kinds, as a streamed one's refusal would be taken for that of the tracked one in flight.
 class ClientSession
 {
-    struct PendingControl
-    {
-        std::uint64_t token = 0;
-        Core::SteadyTime deadline; ///< By then it has left.
-        ControlCall call;
-    };
-
-    /// Of a CONTROL whose window has passed.
-    struct Confirmation
-    {
-        std::uint64_t token = 0;
-        Core::SteadyTime deadline;
-        std::function<bool(const DataLine& sample)> isConfirmed;
-    };
-
-    enum class EInFlight : std::uint8_t
-    {
-        Nothing,
-        Handshake,
-        Monitor,
-        Control,
-        StopMonitor,
-        StopSession,
-    };
-
-    ClientSessionOptions _options;
-    Core::IRandom& _random;
-    Core::Backoff _backoff;
-    OpenStreamCodec _codec;
-    LineFramer _framer;
-    LineOutbox _outbox;
-    ClientSessionStats _stats;
-    EClientState _state = EClientState::Stopped;
-
-    EInFlight _inFlight = EInFlight::Nothing;
-    PendingControl _control;        ///< The one in flight.
-    std::uint64_t _controlMark = 0; ///< Of its last byte in the outbox.
-    Core::SteadyTime _controlLeftAt;
-    bool _bControlLeft = false;
-    bool _bControlConfirmed = false;
-    std::vector<Confirmation> _confirmations;
-    Core::SteadyTime _waitingDue =
-        Core::SteadyTime::max(); ///< When the CONTROLs that wait in the outbox have to have left.
-    Core::SteadyTime _sendingDue = Core::SteadyTime::max(); ///< Likewise those in flight, the tracked one apart.
-    Core::SteadyTime _controlTimerAt;
-    bool _bControlTimerArmed = false;
-
-    std::optional<MonitorRequest> _monitor;
-    std::uint64_t _monitorNumber = 0;     ///< Of the last SetMonitor call.
-    std::uint64_t _sentMonitorNumber = 0; ///< Of the last MONITOR that was sent.
-    std::string _sentMonitorUrl;          ///< Likewise.
-    bool _bMonitorDue = false;            ///< The wish has changed and the server does not know.
-    bool _bMonitorOn = false;             ///< The server streams, as far as we know.
-    bool _bMonitorStopFirst = false;      ///< It said monitor_already_active.
-    bool _bStale = false;
-    bool _bDataAgeArmed = false;
-    Core::SteadyTime _dataAgeAt;
-    Core::SteadyTime _lastDataAt;
-    StreamMeter _meter;
-    std::optional<ClientData> _latest;
-
-    Core::BoundedQueue<PendingControl> _controls;
-    std::uint64_t _lastToken = 0;
-
-    void Connect(Core::Now now, ClientActions& out);
-    void ProcessLine(std::string_view text, Core::Now now, ClientActions& out);
-    void Handle(HandshakeAck& ack, Core::Now now, ClientActions& out);
-    void Handle(MonitorAck& ack, Core::Now now, ClientActions& out);
-    void Handle(DataLine& line, Core::Now now, ClientActions& out);
-    void Handle(StopAck& ack, Core::Now now, ClientActions& out);
-    void Handle(ControlError& error, Core::Now now, ClientActions& out);
-    void Handle(ErrorLine& error, Core::Now now, ClientActions& out);
-    void HandleErrorWhenReady(ErrorLine& error, Core::Now now, ClientActions& out);
-    void HandleMonitorError(ErrorLine& error, ClientActions& out);
-    void HandleStopError(ErrorLine& error, ClientActions& out);
-    void RefuseControl(int status, std::optional<Core::JsonText> body, std::string detail, ClientActions& out);
-    void SettleInFlight(EControlOutcome outcome, std::string_view detail, ClientActions& out);
-    void SettleWaiting(std::string_view detail, ClientActions& out);
-    void FinishInFlight(ClientActions& out);
-    void SendNext(Core::Now now, ClientActions& out);
-    [[nodiscard]] bool TrySendMonitorWish(Core::Now now, ClientActions& out);
-    void SendNow(const OpenStreamRequest& request, ClientActions& out);
-    void SendUntil(const OpenStreamRequest& request, Core::SteadyTime deadline, ClientActions& out);
-    [[nodiscard]] Core::SteadyTime GetControlDeadline(std::chrono::milliseconds own, Core::Now now) const;
-    [[nodiscard]] Core::SteadyTime GetSendDeadline() const noexcept;
-    void SendAwaited(const OpenStreamRequest& request, EInFlight kind, Core::Now now, ClientActions& out);
-    void Flush(ClientActions& out);
-    void FinishControlWindow(Core::Now now, ClientActions& out);
-    void Confirm(const DataLine& sample, ClientActions& out);
-    void CheckControls(Core::Now now, ClientActions& out);
-    void ArmControlTimer(ClientActions& out);
-    void SettleConfirmations(std::string_view detail, ClientActions& out);
-    void SendControlInTurn(PendingControl control, ClientActions& out);
-    [[nodiscard]] bool IsConnected() const noexcept;
-    [[nodiscard]] std::chrono::milliseconds GetDataLimit() const noexcept;
-    void ArmDataAge(ClientActions& out);
-    void CheckDataAge(Core::Now now, ClientActions& out);
-    void OnAnswerTimeout(Core::Now now, ClientActions& out);
-    void Lose(EClientLossReason reason, std::string_view detail, Core::Now now, ClientActions& out);
-    void Disconnect(EClientLossReason reason, std::string_view detail, Core::Now now, ClientActions& out);
-    void DropConnection(std::string_view detail, ClientActions& out);
-    void End(ClientActions& out);
+    class Impl;
+    std::unique_ptr<Impl> _impl;
 
 public:
     /// The random source scatters the reconnects and must outlive the session.
     ClientSession(const ClientSessionOptions& options, Core::IRandom& random);
+    ClientSession(const ClientSession&) = delete;
+    ClientSession& operator=(const ClientSession&) = delete;
+    ~ClientSession();
 
     /// Begins, and connects for ever. → Connect, StartTimer. Nothing where it has begun already.
     void Start(Core::Now now, ClientActions& out);

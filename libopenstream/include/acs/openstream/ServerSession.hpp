@@ -1,14 +1,11 @@
 #pragma once
 
-#include <acs/core/BoundedQueue.hpp>
 #include <acs/core/Now.hpp>
-#include <acs/openstream/LineFramer.hpp>
-#include <acs/openstream/LineOutbox.hpp>
-#include <acs/openstream/OpenStreamCodec.hpp>
+#include <acs/openstream/ApiRequest.hpp>
 #include <acs/openstream/ServerSessionActions.hpp>
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <string_view>
 
 namespace ACS::OpenStream
@@ -28,73 +25,14 @@ enum class EServerState : std::uint8_t
 /// that come of carrying them out (OnServiceAnswer, OnSendCompleted) append to the same batch.
 class ServerSession
 {
-    ServerSessionOptions _options;
-    OpenStreamCodec _codec;
-    LineFramer _framer;
-    LineOutbox _outbox;
-    ServerSessionStats _stats;
-    EServerState _state = EServerState::Connected;
-    EServerCloseReason _closeReason = EServerCloseReason::PeerClosed;
-
-    ApiRequest _monitorCall;
-    std::optional<Core::JsonText> _monitorID;
-    std::chrono::milliseconds _period{};
-    Core::SteadyTime _monitorBegin;
-    Core::SteadyTime _nextTick;
-    Core::SteadyTime _monitorAskedAt;
-    std::uint64_t _monitorToken = 0; ///< Of the call in flight; 0 where there is none.
-    bool _bMonitorFailing = false;   ///< Within an episode of internal errors, reported once.
-
-    Core::BoundedQueue<ApiRequest> _controls; ///< The first one is in flight.
-    std::size_t _controlBytes = 0;            ///< Of all of them.
-    std::uint64_t _controlToken = 0;
-    std::uint64_t _lastToken = 0;
-    bool _bControlled = false; ///< A CONTROL came since HANDSHAKE or the last STOP control.
-
-    Core::SteadyTime _connectedAt;
-    Core::SteadyTime _lastCommandAt;
-    Core::SteadyTime _lastDataAt;
-    Core::SteadyTime _watchdogAt;
-    bool _bWatchdogArmed = false;
-    bool _bReadingPaused = false;
-    bool _bContinuing = false;
-    bool _bRefusingControls = false;
-    bool _bPeerClosed = false;
-    bool _bSendShutDown = false;
-
-    void ProcessLines(Core::Now now, ServerActions& out);
-    void ProcessLine(std::string_view line, Core::Now now, ServerActions& out);
-    [[nodiscard]] std::optional<EOpenStreamErrorCode> GetGateErrorOrNull(EOpenStreamCommand command) const;
-    void Handle(const HandshakeRequest& request, Core::Now now, ServerActions& out);
-    void Handle(const MonitorRequest& request, Core::Now now, ServerActions& out);
-    void Handle(const ControlRequest& request, Core::Now now, ServerActions& out);
-    void Handle(const StopRequest& request, Core::Now now, ServerActions& out);
-    static void FillRequest(
-        EApiMethod method,
-        std::string_view url,
-        const std::optional<Core::JsonText>& args,
-        ApiRequest& request);
-    void StopMonitor(ServerActions& out);
-    [[nodiscard]] bool TryStopControl(ServerActions& out);
-    [[nodiscard]] bool HasRoomForControls() const noexcept;
-    void CallNextControl(ServerActions& out);
-    void FinishControl(const ApiResponse& response, Core::Now now, ServerActions& out);
-    void FinishMonitor(const ApiResponse& response, Core::Now now, ServerActions& out);
-    void Tick(Core::Now now, ServerActions& out);
-    void ReportMonitorFailure();
-    void CheckWatchdog(Core::Now now, ServerActions& out);
-    void EndForTimeout(Core::Now now, ServerActions& out);
-    void ArmWatchdog(ServerActions& out);
-    /// No HANDSHAKE has succeeded yet, and there is a deadline for it.
-    [[nodiscard]] bool IsHandshakeDue() const noexcept;
-    [[nodiscard]] Core::SteadyTime GetWatchdogDeadline() const;
-    void AppendError(EOpenStreamErrorCode code, std::string_view message);
-    void BeginClosing(EServerCloseReason reason, Core::Now now, ServerActions& out);
-    void Close(ServerActions& out);
-    void Flush(ServerActions& out);
+    class Impl;
+    std::unique_ptr<Impl> _impl;
 
 public:
     explicit ServerSession(const ServerSessionOptions& options = {});
+    ServerSession(const ServerSession&) = delete;
+    ServerSession& operator=(const ServerSession&) = delete;
+    ~ServerSession();
 
     /// The connection was accepted. → StartTimer.
     void Start(Core::Now now, ServerActions& out);

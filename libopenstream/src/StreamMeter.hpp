@@ -1,7 +1,8 @@
 #pragma once
 
+#include "GapHistogram.hpp"
 #include <acs/core/Now.hpp>
-#include <acs/openstream/GapHistogram.hpp>
+#include <acs/openstream/StreamQuality.hpp>
 
 #include <bitset>
 #include <chrono>
@@ -11,20 +12,6 @@
 
 namespace ACS::OpenStream
 {
-
-/// How good a MONITOR is, since its ack.
-struct StreamQuality
-{
-    std::uint64_t samples = 0;
-    std::uint64_t missing = 0; ///< Periods that `ts` skipped.
-    GapFigures byServer;       ///< Between the ts of neighbours: how evenly the controller samples. Whole ms.
-    GapFigures byArrival;      ///< Between arrivals: what the network and this machine make of it.
-    /// The share of the last 100 periods (fewer at first) whose sample came, and no more than half a period late after the
-    /// one before; 0 to 1, 1 before the first.
-    double inTime = 1.0;
-
-    bool operator==(const StreamQuality&) const = default;
-};
 
 /// Measures a stream by its samples.
 class StreamMeter

@@ -1,24 +1,13 @@
 #pragma once
 
+#include <acs/openstream/StreamQuality.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
 namespace ACS::OpenStream
 {
-
-/// Gaps between samples, in milliseconds. Percentiles are the upper bounds of classes that are at most a sixteenth wide.
-struct GapFigures
-{
-    std::uint64_t count = 0;
-    double mean = 0.0;
-    double p50 = 0.0;
-    double p99 = 0.0;
-    double p999 = 0.0;
-    double largest = 0.0;
-
-    bool operator==(const GapFigures&) const = default;
-};
 
 /// Gaps in fixed room: sixteen classes an octave of microseconds.
 class GapHistogram
@@ -37,7 +26,7 @@ public:
     /// Of 0 or more; what is not is left out.
     void Add(double milliseconds);
     void Clear();
-    [[nodiscard]] GapFigures GetFigures() const;
+    [[nodiscard]] GapStatistics GetStatistics() const;
 };
 
 } // namespace ACS::OpenStream

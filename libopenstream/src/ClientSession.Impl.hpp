@@ -1,0 +1,153 @@
+#pragma once
+
+#include "LineFramer.hpp"
+#include "LineOutbox.hpp"
+#include "StreamMeter.hpp"
+#include <acs/core/Backoff.hpp>
+#include <acs/core/BoundedQueue.hpp>
+#include <acs/openstream/ClientSession.hpp>
+#include <acs/openstream/OpenStreamCodec.hpp>
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace ACS::OpenStream
+{
+
+class ClientSession::Impl
+{
+    struct PendingControl
+    {
+        std::uint64_t token = 0;
+        Core::SteadyTime deadline; ///< By then it has left.
+        ControlCall call;
+    };
+
+    /// Of a CONTROL whose window has passed.
+    struct Confirmation
+    {
+        std::uint64_t token = 0;
+        Core::SteadyTime deadline;
+        std::function<bool(const DataLine& sample)> isConfirmed;
+    };
+
+    enum class EInFlight : std::uint8_t
+    {
+        Nothing,
+        Handshake,
+        Monitor,
+        Control,
+        StopMonitor,
+        StopSession,
+    };
+
+    ClientSessionOptions _options;
+    Core::IRandom& _random;
+    Core::Backoff _backoff;
+    OpenStreamCodec _codec;
+    LineFramer _framer;
+    LineOutbox _outbox;
+    ClientSessionStats _stats;
+    EClientState _state = EClientState::Stopped;
+
+    EInFlight _inFlight = EInFlight::Nothing;
+    PendingControl _control;        ///< The one in flight.
+    std::uint64_t _controlMark = 0; ///< Of its last byte in the outbox.
+    Core::SteadyTime _controlLeftAt;
+    bool _bControlLeft = false;
+    bool _bControlConfirmed = false;
+    std::vector<Confirmation> _confirmations;
+    Core::SteadyTime _waitingDue =
+        Core::SteadyTime::max(); ///< When the CONTROLs that wait in the outbox have to have left.
+    Core::SteadyTime _sendingDue = Core::SteadyTime::max(); ///< Likewise those in flight, the tracked one apart.
+    Core::SteadyTime _controlTimerAt;
+    bool _bControlTimerArmed = false;
+
+    std::optional<MonitorRequest> _monitor;
+    std::uint64_t _monitorNumber = 0;     ///< Of the last SetMonitor call.
+    std::uint64_t _sentMonitorNumber = 0; ///< Of the last MONITOR that was sent.
+    std::string _sentMonitorUrl;          ///< Likewise.
+    bool _bMonitorDue = false;            ///< The wish has changed and the server does not know.
+    bool _bMonitorOn = false;             ///< The server streams, as far as we know.
+    bool _bMonitorStopFirst = false;      ///< It said monitor_already_active.
+    bool _bStale = false;
+    bool _bDataAgeArmed = false;
+    Core::SteadyTime _dataAgeAt;
+    Core::SteadyTime _lastDataAt;
+    StreamMeter _meter;
+    std::optional<ClientData> _latest;
+
+    Core::BoundedQueue<PendingControl> _controls;
+    std::uint64_t _lastToken = 0;
+
+public:
+    Impl(const ClientSessionOptions& options, Core::IRandom& random);
+
+    void Start(Core::Now now, ClientActions& out);
+    void Stop(Core::Now now, ClientActions& out);
+    void SetMonitor(std::optional<MonitorRequest> monitorOrNull, Core::Now now, ClientActions& out);
+    std::uint64_t SendControl(
+        const ControlRequest& request,
+        EControlTracking tracking,
+        Core::Now now,
+        ClientActions& out);
+    std::uint64_t SendControlCall(ControlCall call, Core::Now now, ClientActions& out);
+    void StopControl(Core::Now now, ClientActions& out);
+    void OnConnected(Core::Now now, ClientActions& out);
+    void OnConnectFailed(std::string_view detail, Core::Now now, ClientActions& out);
+    void OnBytes(std::string_view bytes, Core::Now now, ClientActions& out);
+    void OnSendCompleted(Core::Now now, ClientActions& out);
+    void OnPeerClosed(Core::Now now, ClientActions& out);
+    void OnSocketError(std::string_view detail, Core::Now now, ClientActions& out);
+    void OnTimer(EClientTimer timer, Core::Now now, ClientActions& out);
+    [[nodiscard]] EClientState GetState() const noexcept;
+    [[nodiscard]] const ClientSessionStats& GetStats() const noexcept;
+    [[nodiscard]] const ClientData* GetLatestOrNull() const noexcept;
+    [[nodiscard]] StreamQuality GetQuality() const;
+
+private:
+    void Connect(Core::Now now, ClientActions& out);
+    void ProcessLine(std::string_view text, Core::Now now, ClientActions& out);
+    void Handle(HandshakeAck& ack, Core::Now now, ClientActions& out);
+    void Handle(MonitorAck& ack, Core::Now now, ClientActions& out);
+    void Handle(DataLine& line, Core::Now now, ClientActions& out);
+    void Handle(StopAck& ack, Core::Now now, ClientActions& out);
+    void Handle(ControlError& error, Core::Now now, ClientActions& out);
+    void Handle(ErrorLine& error, Core::Now now, ClientActions& out);
+    void HandleErrorWhenReady(ErrorLine& error, Core::Now now, ClientActions& out);
+    void HandleMonitorError(ErrorLine& error, ClientActions& out);
+    void HandleStopError(ErrorLine& error, ClientActions& out);
+    void RefuseControl(int status, std::optional<Core::JsonText> body, std::string detail, ClientActions& out);
+    void SettleInFlight(EControlOutcome outcome, std::string_view detail, ClientActions& out);
+    void SettleWaiting(std::string_view detail, ClientActions& out);
+    void FinishInFlight(ClientActions& out);
+    void SendNext(Core::Now now, ClientActions& out);
+    [[nodiscard]] bool TrySendMonitorWish(Core::Now now, ClientActions& out);
+    void SendNow(const OpenStreamRequest& request, ClientActions& out);
+    void SendUntil(const OpenStreamRequest& request, Core::SteadyTime deadline, ClientActions& out);
+    [[nodiscard]] Core::SteadyTime GetControlDeadline(std::chrono::milliseconds own, Core::Now now) const;
+    [[nodiscard]] Core::SteadyTime GetSendDeadline() const noexcept;
+    void SendAwaited(const OpenStreamRequest& request, EInFlight kind, Core::Now now, ClientActions& out);
+    void Flush(ClientActions& out);
+    void FinishControlWindow(Core::Now now, ClientActions& out);
+    void Confirm(const DataLine& sample, ClientActions& out);
+    void CheckControls(Core::Now now, ClientActions& out);
+    void ArmControlTimer(ClientActions& out);
+    void SettleConfirmations(std::string_view detail, ClientActions& out);
+    void SendControlInTurn(PendingControl control, ClientActions& out);
+    [[nodiscard]] bool IsConnected() const noexcept;
+    [[nodiscard]] std::chrono::milliseconds GetDataLimit() const noexcept;
+    void ArmDataAge(ClientActions& out);
+    void CheckDataAge(Core::Now now, ClientActions& out);
+    void OnAnswerTimeout(Core::Now now, ClientActions& out);
+    void Lose(EClientLossReason reason, std::string_view detail, Core::Now now, ClientActions& out);
+    void Disconnect(EClientLossReason reason, std::string_view detail, Core::Now now, ClientActions& out);
+    void DropConnection(std::string_view detail, ClientActions& out);
+    void End(ClientActions& out);
+};
+
+} // namespace ACS::OpenStream
