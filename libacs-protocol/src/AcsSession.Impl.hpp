@@ -1,6 +1,6 @@
 #pragma once
 
-#include "AnswerStore.hpp"
+#include "AnswerCache.hpp"
 #include "RecentTransactions.hpp"
 #include "SessionOutput.hpp"
 #include <acs/core/Backoff.hpp>
@@ -90,7 +90,7 @@ class AcsSession::Impl
     AcsCodec _codec;
     Core::Backoff _backoff;
     std::chrono::minutes _siteOffset;
-    Detail::AnswerStore _answers;
+    Detail::AnswerCache _answers;
     Detail::SessionOutput _output;
 
     EState _state = EState::Stopped;

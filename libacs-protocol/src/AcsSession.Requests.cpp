@@ -10,7 +10,7 @@ namespace ACS::Protocol
 
 void AcsSession::Impl::Answer(const AcsAck& answer, Core::Now now, SessionActions& out)
 {
-    const Detail::AnswerStore::Entry* entryOrNull = _answers.FindOrNull(answer.command, answer.transactionID, now);
+    const Detail::AnswerCache::Entry* entryOrNull = _answers.FindOrNull(answer.command, answer.transactionID, now);
     if (entryOrNull != nullptr && !entryOrNull->text.empty())
     {
         return;
@@ -114,7 +114,7 @@ void AcsSession::Impl::HandleRequest(AcsRequest& request, bool bLegacyName, Core
         return;
     }
     const std::uint64_t digest = MakeDigest(request);
-    const Detail::AnswerStore::Entry* entryOrNull = _answers.FindOrNull(command, request.transactionID, now);
+    const Detail::AnswerCache::Entry* entryOrNull = _answers.FindOrNull(command, request.transactionID, now);
     if (entryOrNull != nullptr && entryOrNull->digest != digest)
     {
         Refuse(DescribeReuse(request), bLegacyName, now, out);

@@ -1,4 +1,4 @@
-#include "AnswerStore.hpp"
+#include "AnswerCache.hpp"
 
 #include "TransactionMemory.hpp"
 
@@ -20,21 +20,21 @@ bool IsQuestion(EAcsCommand command)
 
 } // namespace
 
-AnswerStore::AnswerStore(std::chrono::milliseconds memory, std::size_t capacity, std::size_t maximumBytes)
+AnswerCache::AnswerCache(std::chrono::milliseconds memory, std::size_t capacity, std::size_t maximumBytes)
     : _memory(memory),
       _capacity(std::max<std::size_t>(capacity, 1)),
       _maximumBytes(maximumBytes)
 {
 }
 
-const AnswerStore::Entry* AnswerStore::FindOrNull(EAcsCommand command, std::string_view transactionID, Core::Now now)
+const AnswerCache::Entry* AnswerCache::FindOrNull(EAcsCommand command, std::string_view transactionID, Core::Now now)
 {
     Forget(now);
     const auto found = _entries.find(MakeTransactionKey(command, transactionID));
     return found == _entries.end() ? nullptr : &found->second;
 }
 
-void AnswerStore::Insert(
+void AnswerCache::Insert(
     EAcsCommand command,
     std::string_view transactionID,
     bool bLegacyName,
@@ -52,7 +52,7 @@ void AnswerStore::Insert(
     }
 }
 
-void AnswerStore::KeepText(EAcsCommand command, std::string_view transactionID, const std::string& text)
+void AnswerCache::KeepText(EAcsCommand command, std::string_view transactionID, const std::string& text)
 {
     const auto found = _entries.find(MakeTransactionKey(command, transactionID));
     if (found == _entries.end())
@@ -71,7 +71,7 @@ void AnswerStore::KeepText(EAcsCommand command, std::string_view transactionID, 
     }
 }
 
-void AnswerStore::Forget(Core::Now now)
+void AnswerCache::Forget(Core::Now now)
 {
     while (!_order.empty() && _entries.at(_order.front()).receivedAt + _memory < now.steady)
     {
@@ -79,7 +79,7 @@ void AnswerStore::Forget(Core::Now now)
     }
 }
 
-void AnswerStore::Erase(const std::deque<std::string>::const_iterator& place)
+void AnswerCache::Erase(const std::deque<std::string>::const_iterator& place)
 {
     const auto found = _entries.find(*place);
     _bytes -= found->second.text.size();

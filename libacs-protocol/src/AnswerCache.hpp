@@ -16,7 +16,7 @@ namespace ACS::Protocol::Detail
 
 /// Which requests came in and how they were answered, so that one that comes again is not executed again. Bounded in
 /// time, number and bytes; the oldest go first, questions before what was executed.
-class AnswerStore
+class AnswerCache
 {
 public:
     struct Entry
@@ -39,7 +39,7 @@ private:
 public:
     /// @param capacity Entries; at least one is kept.
     /// @param maximumBytes Of all Acks together.
-    AnswerStore(std::chrono::milliseconds memory, std::size_t capacity, std::size_t maximumBytes);
+    AnswerCache(std::chrono::milliseconds memory, std::size_t capacity, std::size_t maximumBytes);
 
     /// Valid until the next call of another function.
     [[nodiscard]] const Entry* FindOrNull(EAcsCommand command, std::string_view transactionID, Core::Now now);
