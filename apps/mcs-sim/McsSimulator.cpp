@@ -13,6 +13,7 @@
 #include "ScenarioPlayer.hpp"
 #include "ScenarioSummary.hpp"
 #include "Screen.hpp"
+#include "SimulatedMcsSession.hpp"
 #include "Summary.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/protocol_beast/ISessionHandler.hpp>
@@ -39,6 +40,7 @@ enum class ETimer : std::uint8_t
     Tick,   ///< Time to draw, and to see whether an Ack is overdue.
     Linger, ///< All plans have ended: what the ACS still says, right or wrong, is heard for so long.
     Close,  ///< The ACS does not answer the closing handshake.
+    Delay,  ///< A delayed Ack is due.
 };
 
 /// The summary is written once: a terminal may wrap a long reason, cut off it would be of no use.
@@ -90,6 +92,7 @@ class McsSimulator::Impl final : private ProtocolBeast::ISessionHandler
     bool _bDone = false;
 
     std::unique_ptr<ProtocolBeast::McsServer> _server;
+    SimulatedMcsSession* _sessionOrNull = nullptr; ///< Of the server.
     Apps::TimerSet<ETimer> _timers;
 
 public:
@@ -148,17 +151,24 @@ public:
         server.onWire = [this](auto direction, auto connection, std::string_view text) {
             OnWire(direction, connection, text);
         };
-        server.session = MakeSessionOptions(_options.profile);
         server.link.bLastFrameOnly = _options.profile == EProfile::Nexus;
-        server.session.ackTimeout = PlanTracker::RESEND_AFTER;
-        server.session.codec.siteOffset = _options.siteOffset;
-        auto created = ProtocolBeast::McsServer::Create(_executor, _clock, _random, _logger, server, *this);
+        Protocol::McsSessionOptions options;
+        options.bSecondRefused = _options.profile == EProfile::Nexus;
+        options.ackTimeout = PlanTracker::RESEND_AFTER;
+        options.codec.siteOffset = _options.siteOffset;
+        auto session = std::make_unique<SimulatedMcsSession>(
+            options,
+            MakeBehaviour(_options.profile),
+            _random,
+            [this](std::chrono::milliseconds delay) { _timers.Start(MakeKey(ETimer::Delay), delay); });
+        _sessionOrNull = session.get();
+        auto created = ProtocolBeast::McsServer::Create(_executor, _clock, _logger, server, std::move(session), *this);
         if (!created.has_value())
         {
             return tl::make_unexpected(created.error());
         }
         _server = std::move(*created);
-        _scenarios.SetServer(*_server);
+        _scenarios.SetServer(*_server, *_sessionOrNull);
         const Apps::Endpoint endpoint{_options.listen.host, _server->GetPort()};
         _heading.address = (_options.tls.has_value() ? "wss://" : "ws://") + MakeText(endpoint) + _options.path;
         _timers.Start(ETimer::Tick, TICK);
@@ -224,7 +234,9 @@ private:
                 break;
             case EConsoleVerb::Drop:
                 _lines.emplace_back(_server->IsRegistered() ? "the connection is cut" : "no ACS is registered");
-                _server->Cut();
+                _server->Run([this](Core::Now /*now*/, auto& out) {
+                    _sessionOrNull->Drop(Protocol::CLOSE_ABNORMAL, CONSOLE_REASON, out);
+                });
                 break;
             case EConsoleVerb::List:
                 std::ranges::copy(DescribePlans(_tracker), std::back_inserter(_lines));
@@ -430,6 +442,9 @@ private:
                 break;
             case ETimer::Close:
                 FinishRun();
+                break;
+            case ETimer::Delay:
+                _server->Run([this](Core::Now now, auto& out) { _sessionOrNull->SendDelayed(now, out); });
                 break;
             default:
                 assert(false);

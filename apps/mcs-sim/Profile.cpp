@@ -3,18 +3,17 @@
 namespace ACS::McsSim
 {
 
-Protocol::McsSessionOptions MakeSessionOptions(EProfile profile)
+McsBehaviour MakeBehaviour(EProfile profile)
 {
-    Protocol::McsSessionOptions options;
+    McsBehaviour behaviour;
     if (profile == EProfile::Nexus)
     {
-        options.bSecondRefused = true;
-        options.finalChunkBytes = NEXUS_BUFFER_BYTES;
-        options.bErrorsUnanswered = true;
-        options.bPositionsUnknown = true;
-        options.bNullResults = true;
+        behaviour.finalChunkBytes = NEXUS_BUFFER_BYTES;
+        behaviour.bErrorsUnanswered = true;
+        behaviour.bPositionsUnknown = true;
+        behaviour.bNullResults = true;
     }
-    return options;
+    return behaviour;
 }
 
 } // namespace ACS::McsSim

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <acs/protocol/SessionOptions.hpp>
+#include "McsBehaviour.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -8,17 +8,16 @@
 namespace ACS::McsSim
 {
 
-/// Whose habits the MCS has.
+/// MCS behaviour profile.
 enum class EProfile : std::uint8_t
 {
-    Spec,  ///< Those of the document.
-    Nexus, ///< Those of the public MCS (section 12 of the specification).
+    Spec,  ///< As specified.
+    Nexus, ///< As the public MCS behaves (section 12 of the specification).
 };
 
-/// The buffer into which the public MCS reads.
+/// Size of the receive buffer of the public MCS.
 inline constexpr std::size_t NEXUS_BUFFER_BYTES = 4096;
 
-/// The session's part of a profile.
-[[nodiscard]] Protocol::McsSessionOptions MakeSessionOptions(EProfile profile);
+[[nodiscard]] McsBehaviour MakeBehaviour(EProfile profile);
 
 } // namespace ACS::McsSim

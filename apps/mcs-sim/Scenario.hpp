@@ -1,9 +1,10 @@
 #pragma once
 
+#include "AckHold.hpp"
 #include "PlannedPlan.hpp"
 #include <acs/core/JsonText.hpp>
 #include <acs/protocol/EAcsCommand.hpp>
-#include <acs/protocol/McsSession.hpp>
+#include <acs/protocol/SessionAction.hpp>
 
 #include <chrono>
 #include <cstddef>
@@ -133,7 +134,7 @@ struct DropStep
 
 struct HoldAcksStep
 {
-    Protocol::AckHold hold;
+    AckHold hold;
 
     bool operator==(const HoldAcksStep&) const = default;
 };

@@ -394,9 +394,9 @@ ScenarioStep ReadDrop(StepsContext& /*context*/, ObjectReader& reader, const Ver
     return {DropStep{EDrop::Close, code}, fmt::format("close the connection with {}", code)};
 }
 
-Protocol::AckHold ReadHold(ObjectReader& reader, std::string_view member)
+AckHold ReadHold(ObjectReader& reader, std::string_view member)
 {
-    Protocol::AckHold hold;
+    AckHold hold;
     const std::string name = reader.TakeText(member);
     hold.command = FindCommandOrNull(name);
     hold.duration = reader.TakeDuration("for");
@@ -407,7 +407,7 @@ Protocol::AckHold ReadHold(ObjectReader& reader, std::string_view member)
     return hold;
 }
 
-std::string DescribeHold(std::string_view verb, const Protocol::AckHold& hold)
+std::string DescribeHold(std::string_view verb, const AckHold& hold)
 {
     return fmt::format(
         "{} the Acks of {} for {}",
@@ -418,13 +418,13 @@ std::string DescribeHold(std::string_view verb, const Protocol::AckHold& hold)
 
 ScenarioStep ReadWithhold(StepsContext& /*context*/, ObjectReader& reader, const Verb& verb)
 {
-    const Protocol::AckHold hold = ReadHold(reader, verb.name);
+    const AckHold hold = ReadHold(reader, verb.name);
     return {HoldAcksStep{hold}, DescribeHold("withhold", hold)};
 }
 
 ScenarioStep ReadDelay(StepsContext& /*context*/, ObjectReader& reader, const Verb& verb)
 {
-    Protocol::AckHold hold = ReadHold(reader, verb.name);
+    AckHold hold = ReadHold(reader, verb.name);
     hold.delay = reader.TakeDuration("by");
     return {HoldAcksStep{hold}, DescribeHold("delay", hold)};
 }

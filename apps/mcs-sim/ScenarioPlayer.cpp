@@ -26,9 +26,10 @@ ScenarioPlayer::ScenarioPlayer(
 {
 }
 
-void ScenarioPlayer::SetServer(ProtocolBeast::McsServer& server) noexcept
+void ScenarioPlayer::SetServer(ProtocolBeast::McsServer& server, SimulatedMcsSession& session) noexcept
 {
     _serverOrNull = &server;
+    _sessionOrNull = &session;
 }
 
 void ScenarioPlayer::Start()
@@ -115,6 +116,7 @@ void ScenarioPlayer::Play(const std::function<void(Core::Now now, ScenarioAction
 bool ScenarioPlayer::CanPerform(const ScenarioAction& action)
 {
     ProtocolBeast::McsServer& server = *_serverOrNull;
+    SimulatedMcsSession& session = *_sessionOrNull;
     return std::visit(
         Core::Overloaded{
             [this, &server](const SendPlannedPlan& send) {
@@ -126,31 +128,27 @@ bool ScenarioPlayer::CanPerform(const ScenarioAction& action)
                 _stage.lines.push_back(fmt::format("{} sent", GetText(GetCommand(send.payload))));
                 return server.TrySend(server.MakeRequest(send.payload));
             },
-            [this, &server](const SendRawText& send) {
+            [this, &server, &session](const SendRawText& send) {
                 _stage.notes.OnTextSent(send.text);
-                return server.TrySendText(send.text);
+                bool bSent = false;
+                server.Run([&](Core::Now /*now*/, auto& out) { bSent = session.TrySendText(send.text, out); });
+                return bSent;
             },
-            [&server](const DropStep& drop) {
-                if (drop.how == EDrop::Cut)
-                {
-                    server.Cut();
-                }
-                else
-                {
-                    server.Drop(drop.code, "asked for by a scenario");
-                }
+            [&server, &session](const DropStep& drop) {
+                const std::uint16_t code = drop.how == EDrop::Cut ? Protocol::CLOSE_ABNORMAL : drop.code;
+                server.Run([&](Core::Now /*now*/, auto& out) { session.Drop(code, "requested by a scenario", out); });
                 return true;
             },
-            [&server](const HoldAcksStep& step) {
-                server.HoldAcks(step.hold);
+            [this, &session](const HoldAcksStep& step) {
+                session.HoldAcks(step.hold, _stage.clock.GetNow());
                 return true;
             },
-            [&server](const RefuseRegistrationStep& step) {
-                server.RefuseRegistrations(step.times, step.message);
+            [&session](const RefuseRegistrationStep& step) {
+                session.RefuseRegistrations(step.times, step.message);
                 return true;
             },
-            [&server](const EndFaults& /*action*/) {
-                server.EndFaults();
+            [&session](const EndFaults& /*action*/) {
+                session.EndFaults();
                 return true;
             },
             [this](const StartScenarioTimer& start) {

@@ -6,6 +6,7 @@
 #include "PlanTracker.hpp"
 #include "ScenarioAction.hpp"
 #include "ScenarioSequence.hpp"
+#include "SimulatedMcsSession.hpp"
 #include "WireFilter.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Now.hpp>
@@ -48,6 +49,7 @@ class ScenarioPlayer
     WireFilter _wireFilter;
     std::deque<std::string> _inbox; ///< What came from the ACS, for the scenarios.
     ProtocolBeast::McsServer* _serverOrNull = nullptr;
+    SimulatedMcsSession* _sessionOrNull = nullptr;
     std::function<void()> _onPlayed;
     bool _bEnded = false;
     Apps::TimerSet<ETimer> _timers;
@@ -61,8 +63,8 @@ public:
         PlanRefresher refresher,
         std::function<void()> onPlayed);
 
-    /// Before all others. The server outlives the player's last call.
-    void SetServer(ProtocolBeast::McsServer& server) noexcept;
+    /// Before all other functions. Server and session must outlive the player's last call.
+    void SetServer(ProtocolBeast::McsServer& server, SimulatedMcsSession& session) noexcept;
 
     void Start();
     void OnRegistered();

@@ -150,7 +150,6 @@ void AcsSession::Impl::OnTimer(ESessionTimer timer, Core::Now now, SessionAction
         case ESessionTimer::Shutdown:
             Leave(EState::Stopping, CLOSE_NORMAL, "shutting down", out);
             break;
-        case ESessionTimer::DelayedAck:
         default:
             assert(false && "not a timer of this side");
             break;

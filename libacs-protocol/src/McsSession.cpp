@@ -1,4 +1,3 @@
-#include "HeldAcks.hpp"
 #include "PendingRequests.hpp"
 #include "RecentTransactions.hpp"
 #include "SessionOutput.hpp"
@@ -49,9 +48,6 @@ class McsSession::Impl
     std::vector<PendingRequest> _pending;
     Detail::RecentTransactions _recent;
     Detail::TransactionMemory _seen;
-    Detail::HeldAcks _held;
-    std::size_t _refusalsLeft = 0;
-    std::string _refusalMessage;
     std::string _scratch;
 
 public:
@@ -83,7 +79,7 @@ public:
         {
             return;
         }
-        DecodeOutcome outcome = _codec.Decode(GetReadPart(text));
+        DecodeOutcome outcome = _codec.Decode(text);
         _output.NoteAll(outcome.notes, out);
         if (!outcome.message.has_value())
         {
@@ -108,7 +104,6 @@ public:
     {
         std::erase(_connections, connection);
         Know(connection, out);
-        _held.Forget(connection);
         if (_registered == connection)
         {
             LoseRegistered(reason, out);
@@ -125,9 +120,6 @@ public:
         {
             case ESessionTimer::Registration:
                 CloseStrangers(now, out);
-                break;
-            case ESessionTimer::DelayedAck:
-                SendDelayed(now, out);
                 break;
             case ESessionTimer::Ack:
                 GiveUpLate(now, out);
@@ -158,50 +150,11 @@ public:
             return false;
         }
         AcsCodec::EncodeRequest(request, _scratch);
-        if (_options.bNullResults)
-        {
-            _scratch.pop_back(); // the brace
-            _scratch += R"(,"result":null,"message":null})";
-        }
         ++_output.statistics.Of(command).sent;
         out.emplace_back(SendText{*_registered, _scratch, false});
         _pending.push_back({command, request.transactionID, now.steady + _options.ackTimeout});
         ArmAckTimer(now, out);
         return true;
-    }
-
-    bool TrySendText(std::string_view text, SessionActions& out) const
-    {
-        if (_registered.has_value())
-        {
-            out.emplace_back(SendText{*_registered, std::string(text), false});
-        }
-        return _registered.has_value();
-    }
-
-    void HoldAcks(const AckHold& hold, Core::Now now)
-    {
-        _held.Begin(hold, now);
-    }
-
-    void RefuseRegistrations(std::size_t count, std::string_view message)
-    {
-        _refusalsLeft = count;
-        _refusalMessage = message;
-    }
-
-    void EndFaults() noexcept
-    {
-        _held.EndAll();
-        _refusalsLeft = 0;
-    }
-
-    void Drop(std::uint16_t code, std::string_view reason, SessionActions& out) const
-    {
-        if (_registered.has_value())
-        {
-            out.emplace_back(Close{*_registered, code, std::string(reason)});
-        }
     }
 
     [[nodiscard]] const std::optional<ConnectionID>& GetRegisteredOrNull() const noexcept
@@ -230,13 +183,6 @@ public:
     }
 
 private:
-    /// What a receiver with a fixed buffer reads that forgets all chunks of a text but the last.
-    [[nodiscard]] std::string_view GetReadPart(std::string_view text) const
-    {
-        const std::size_t chunk = _options.finalChunkBytes;
-        return chunk == 0 || text.size() <= chunk ? text : text.substr((text.size() - 1) / chunk * chunk);
-    }
-
     void ArmRegistrationTimer(Core::Now now, SessionActions& out)
     {
         if (!_strangers.empty() && !_output.IsRunning(ESessionTimer::Registration))
@@ -319,51 +265,18 @@ private:
         {
             return;
         }
-        const AckHold* const holdOrNull = _held.FindOrNull(command, now);
-        if (holdOrNull != nullptr && !holdOrNull->delay.has_value())
-        {
-            return;
-        }
         _output.statistics.Of(command).CountAnswer(result);
         const Core::Timestamp timestamp = Detail::MakeTimestamp(now, _siteOffset);
         AcsCodec::EncodeAck(
             {command, request.transactionID, timestamp, result, std::string(message), EmptyAck{}, false},
             _scratch);
-        if (holdOrNull == nullptr)
-        {
-            out.emplace_back(SendText{connection, _scratch, false});
-            return;
-        }
-        const bool bRegisters = command == EAcsCommand::Registration && result == EAckResult::Success;
-        _held.Keep({connection, _scratch, now.steady + *holdOrNull->delay, bRegisters});
-        ArmDelayedTimer(now, out);
-    }
-
-    void ArmDelayedTimer(Core::Now now, SessionActions& out)
-    {
-        if (const std::optional<std::chrono::milliseconds> delay = _held.GetDelayOrNull(now); delay.has_value())
-        {
-            _output.Start(ESessionTimer::DelayedAck, *delay, out);
-        }
-    }
-
-    void SendDelayed(Core::Now now, SessionActions& out)
-    {
-        for (const Detail::HeldAcks::Ack& ack : _held.TakeDue(now))
-        {
-            out.emplace_back(SendText{ack.connection, ack.text, false});
-            if (ack.bRegisters)
-            {
-                TakeRegistered(ack.connection, out);
-            }
-        }
-        ArmDelayedTimer(now, out);
+        out.emplace_back(SendText{connection, _scratch, false});
     }
 
     void Refuse(ConnectionID connection, const DecodeFailure& failure, Core::Now now, SessionActions& out)
     {
         const Detail::ERefusal refusal = _output.NoteFailure(failure, false, out);
-        if (refusal == Detail::ERefusal::None || _options.bErrorsUnanswered)
+        if (refusal == Detail::ERefusal::None)
         {
             return;
         }
@@ -394,21 +307,15 @@ private:
         if (_registered != connection)
         {
             _output.Note(EProtocolNote::BeforeRegistered, std::string(GetText(command)), out);
-            if (!_options.bErrorsUnanswered)
-            {
-                Acknowledge(connection, request, EAckResult::Fail, "Register first.", now, out);
-            }
+            Acknowledge(connection, request, EAckResult::Fail, "Register first.", now, out);
             return;
         }
         CommandCounters& counters = _output.statistics.Of(command);
         ++counters.received;
-        if (IsSentByMcs(command) || (_options.bPositionsUnknown && command == EAcsCommand::RobotPositionUpdate))
+        if (IsSentByMcs(command))
         {
             _output.Note(EProtocolNote::UnknownCommand, std::string(GetText(command)), out);
-            if (!_options.bErrorsUnanswered)
-            {
-                Acknowledge(connection, request, EAckResult::Fail, Detail::UNSUPPORTED, now, out);
-            }
+            Acknowledge(connection, request, EAckResult::Fail, Detail::UNSUPPORTED, now, out);
             return;
         }
         // Positions come five times a second and are never sent again.
@@ -425,46 +332,19 @@ private:
 
     void Register(ConnectionID connection, const AcsRequest& request, Core::Now now, SessionActions& out)
     {
-        if (_refusalsLeft > 0)
-        {
-            --_refusalsLeft;
-            Acknowledge(connection, request, EAckResult::Fail, _refusalMessage, now, out);
-            return;
-        }
-        if (IsTaken(connection) && _options.bSecondRefused)
+        if (_registered.has_value() && _options.bSecondRefused)
         {
             Acknowledge(connection, request, EAckResult::Fail, "An ACS is registered already.", now, out);
             out.emplace_back(Close{connection, CLOSE_POLICY, "an ACS is registered already"});
             return;
         }
         Know(connection, out);
-        Replace(connection, out);
-        Acknowledge(connection, request, EAckResult::Success, "Registered.", now, out);
-        // The ACS is registered when it can know that it is.
-        if (_held.FindOrNull(EAcsCommand::Registration, now) == nullptr)
-        {
-            TakeRegistered(connection, out);
-        }
-    }
-
-    /// Whether one is registered, or another one will be as soon as its delayed Ack has gone.
-    [[nodiscard]] bool IsTaken(ConnectionID connection) const
-    {
-        return _registered.has_value() || _held.HasRegistrationOfOther(connection);
-    }
-
-    void Replace(ConnectionID connection, SessionActions& out)
-    {
         if (_registered.value_or(connection) != connection)
         {
             out.emplace_back(Close{*_registered, CLOSE_POLICY, "replaced by a new connection"});
             LoseRegistered("replaced by a new connection", out);
         }
-    }
-
-    void TakeRegistered(ConnectionID connection, SessionActions& out)
-    {
-        Replace(connection, out);
+        Acknowledge(connection, request, EAckResult::Success, "Registered.", now, out);
         if (_registered != connection)
         {
             _registered = connection;
@@ -548,31 +428,6 @@ AcsRequest McsSession::MakeRequest(AcsPayload payload, Core::Now now)
 bool McsSession::TrySend(const AcsRequest& request, Core::Now now, SessionActions& out)
 {
     return _impl->TrySend(request, now, out);
-}
-
-bool McsSession::TrySendText(std::string_view text, SessionActions& out)
-{
-    return _impl->TrySendText(text, out);
-}
-
-void McsSession::HoldAcks(const AckHold& hold, Core::Now now)
-{
-    _impl->HoldAcks(hold, now);
-}
-
-void McsSession::RefuseRegistrations(std::size_t count, std::string_view message)
-{
-    _impl->RefuseRegistrations(count, message);
-}
-
-void McsSession::EndFaults() noexcept
-{
-    _impl->EndFaults();
-}
-
-void McsSession::Drop(std::uint16_t code, std::string_view reason, SessionActions& out)
-{
-    _impl->Drop(code, reason, out);
 }
 
 std::optional<ConnectionID> McsSession::GetRegisteredOrNull() const noexcept

@@ -46,7 +46,7 @@ class McsServer::Impl : public std::enable_shared_from_this<McsServer::Impl>
     const Core::IClock& _clock;
     Core::Logger _logger;
     ServerOptions _options;
-    Protocol::McsSession _session;
+    std::unique_ptr<Protocol::IMcsSession> _session;
     std::shared_ptr<EventQueue> _events;
     std::shared_ptr<SessionTimers> _timers;
     std::unique_ptr<ITransport> _transport;
@@ -60,15 +60,15 @@ public:
     Impl(
         const boost::asio::any_io_executor& executor,
         const Core::IClock& clock,
-        Core::IRandom& random,
         const Core::Logger& logger,
         const ServerOptions& options,
         std::unique_ptr<ITransport> transport,
+        std::unique_ptr<Protocol::IMcsSession> ownedSession,
         ISessionHandler& handler)
         : _clock(clock),
           _logger(logger),
           _options(options),
-          _session(options.session, random),
+          _session(std::move(ownedSession)),
           _events(std::make_shared<EventQueue>(executor, handler)),
           _timers(std::make_shared<SessionTimers>(
               executor,
@@ -122,20 +122,11 @@ public:
         }
     }
 
-    void Cut()
-    {
-        const auto found = _links.find(_session.GetRegisteredOrNull().value_or(0));
-        if (found != _links.end())
-        {
-            found->second->Abort("cut");
-        }
-    }
-
     template <typename TCall>
     void Run(TCall call)
     {
         _pump.Run(
-            [this, &call](Protocol::SessionActions& out) { call(_session, _clock.GetNow(), out); },
+            [this, &call](Protocol::SessionActions& out) { call(*_session, _clock.GetNow(), out); },
             [this](const Protocol::SessionAction& action) { Act(action); });
     }
 
@@ -144,9 +135,9 @@ public:
         return _options.port;
     }
 
-    [[nodiscard]] const Protocol::McsSession& GetSession() const
+    [[nodiscard]] const Protocol::IMcsSession& GetSession() const
     {
-        return _session;
+        return *_session;
     }
 
 private:
@@ -204,7 +195,7 @@ private:
         {
             return UpgradeRefusal{HTTP_UPGRADE_REQUIRED, "This is the MCS end of MCS-ACS: connect with a WebSocket.\n"};
         }
-        if (_session.ShouldRefuseUpgrade())
+        if (_session->ShouldRefuseUpgrade())
         {
             return UpgradeRefusal{HTTP_FORBIDDEN, "An ACS is connected already.\n"};
         }
@@ -268,10 +259,16 @@ private:
                 [](const Protocol::Connect& /*connect*/) {},
                 [this](const Protocol::Close& close) {
                     const auto found = _links.find(close.connection);
-                    if (found != _links.end())
+                    if (found == _links.end())
                     {
-                        found->second->Close(close.code, close.reason);
+                        return;
                     }
+                    if (close.code == Protocol::CLOSE_ABNORMAL)
+                    {
+                        found->second->Abort(close.reason);
+                        return;
+                    }
+                    found->second->Close(close.code, close.reason);
                 },
                 [this](const Protocol::StartTimer& start) { _timers->Start(start.timer, start.delay); },
                 [this](const Protocol::CancelTimer& cancel) { _timers->Cancel(cancel.timer); },
@@ -299,13 +296,31 @@ Core::Result<std::unique_ptr<McsServer>> McsServer::Create(
     const ServerOptions& options,
     ISessionHandler& handler)
 {
+    return Create(
+        executor,
+        clock,
+        logger,
+        options,
+        std::make_unique<Protocol::McsSession>(options.session, random),
+        handler);
+}
+
+Core::Result<std::unique_ptr<McsServer>> McsServer::Create(
+    const boost::asio::any_io_executor& executor,
+    const Core::IClock& clock,
+    const Core::Logger& logger,
+    const ServerOptions& options,
+    std::unique_ptr<Protocol::IMcsSession> session,
+    ISessionHandler& handler)
+{
     Core::Result<std::unique_ptr<ITransport>> transport =
         options.tls.has_value() ? MakeTlsServerTransport(*options.tls) : MakePlainTransport();
     if (!transport.has_value())
     {
         return tl::unexpected<Core::Error>(std::move(transport.error()));
     }
-    auto impl = std::make_shared<Impl>(executor, clock, random, logger, options, std::move(*transport), handler);
+    auto impl =
+        std::make_shared<Impl>(executor, clock, logger, options, std::move(*transport), std::move(session), handler);
     Core::Result<void> listened = impl->Listen();
     if (!listened.has_value())
     {
@@ -340,39 +355,9 @@ bool McsServer::TrySend(const Protocol::AcsRequest& request)
     return bTaken;
 }
 
-bool McsServer::TrySendText(std::string_view text)
+void McsServer::Run(const SessionCall& call)
 {
-    bool bTaken = false;
-    _impl->Run(
-        [text, &bTaken](auto& session, Core::Now /*now*/, auto& out) { bTaken = session.TrySendText(text, out); });
-    return bTaken;
-}
-
-void McsServer::HoldAcks(const Protocol::AckHold& hold)
-{
-    _impl->Run([&hold](auto& session, Core::Now now, auto& /*out*/) { session.HoldAcks(hold, now); });
-}
-
-void McsServer::RefuseRegistrations(std::size_t count, std::string_view message)
-{
-    _impl->Run([count, message](auto& session, Core::Now /*now*/, auto& /*out*/) {
-        session.RefuseRegistrations(count, message);
-    });
-}
-
-void McsServer::EndFaults()
-{
-    _impl->Run([](auto& session, Core::Now /*now*/, auto& /*out*/) { session.EndFaults(); });
-}
-
-void McsServer::Drop(std::uint16_t code, std::string_view reason)
-{
-    _impl->Run([code, reason](auto& session, Core::Now /*now*/, auto& out) { session.Drop(code, reason, out); });
-}
-
-void McsServer::Cut()
-{
-    _impl->Cut();
+    _impl->Run([&call](auto& /*session*/, Core::Now now, auto& out) { call(now, out); });
 }
 
 bool McsServer::IsTakingPlans() const
@@ -382,7 +367,7 @@ bool McsServer::IsTakingPlans() const
 
 bool McsServer::IsRegistered() const
 {
-    return _impl->GetSession().IsRegistered();
+    return _impl->GetSession().GetRegisteredOrNull().has_value();
 }
 
 std::size_t McsServer::GetPendingCount() const

@@ -12,6 +12,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -87,6 +88,14 @@ public:
     void Connect(const std::string& path = "/acs/")
     {
         ConnectTo(GetUrl(path));
+    }
+
+    /// Closes the first connection of the server.
+    void CloseFromServer(std::uint16_t code, const std::string& reason)
+    {
+        server->Run([code, &reason](Core::Now /*now*/, Protocol::SessionActions& out) {
+            out.emplace_back(Protocol::Close{1, code, reason});
+        });
     }
 
     /// Runs the loop until the condition holds; false where it never does.

@@ -92,7 +92,7 @@ TEST_CASE("1 After a cut, ws and wss, the client registers again and what was no
     LinkRig rig(GENERATE(false, true));
     rig.RegisterBoth();
     REQUIRE(rig.client->TrySendDurable(MakeReport("a")));
-    rig.server->Cut();
+    rig.CloseFromServer(Protocol::CLOSE_ABNORMAL, "cut");
     rig.acsEvents.onEvent = [&rig](const Protocol::SessionEvent& event) {
         if (std::holds_alternative<Protocol::Registered>(event))
         {
@@ -121,7 +121,7 @@ TEST_CASE("12.3 A close with 1008 is followed by another attempt")
 {
     LinkRig rig;
     rig.RegisterBoth();
-    rig.server->Drop(1008, "not today");
+    rig.CloseFromServer(1008, "not today");
     REQUIRE(rig.WasReached([&rig] { return rig.acsEvents.GetAll<Protocol::Registered>().size() == 2; }));
     CHECK(rig.acsEvents.GetAll<Protocol::LinkLost>().at(0).reason.find("1008: not today") != std::string::npos);
 }
@@ -135,7 +135,7 @@ TEST_CASE("1 A close reason that is too long for its frame is cut between charac
     {
         reason += "\xEA\xB0\x80";
     }
-    rig.server->Drop(1008, reason);
+    rig.CloseFromServer(1008, reason);
     REQUIRE(rig.WasLost());
     CHECK(rig.acsEvents.GetFirstLoss().find("1008: " + reason.substr(0, 121)) != std::string::npos);
     CHECK(rig.acsEvents.GetFirstLoss().find("1008: " + reason.substr(0, 122)) == std::string::npos);

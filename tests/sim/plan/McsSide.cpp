@@ -78,8 +78,17 @@ McsSide::McsSide(
       _scenario(scenario),
       _dice({scenario.seed, DICE_PART}),
       _idDice({scenario.seed, ID_DICE_PART}),
-      _session(Protocol::McsSessionOptions{}, _idDice),
+      _session(
+          Protocol::McsSessionOptions{},
+          McsSim::McsBehaviour{},
+          _idDice,
+          [this](std::chrono::milliseconds delay) {
+              _delays.Start(EDelay::Ack, delay, [this] {
+                  Run([this](Core::Now now, auto& out) { _session.SendDelayed(now, out); });
+              });
+          }),
       _sessionTimers(timeline),
+      _delays(timeline),
       _habits(timeline)
 {
     _network.Listen(*this);

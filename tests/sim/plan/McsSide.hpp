@@ -1,14 +1,15 @@
 #pragma once
 
 #include "Dice.hpp"
+#include "mcs-sim/SimulatedMcsSession.hpp"
 #include "McsJudge.hpp"
 #include "Scenario.hpp"
 #include "TextNetwork.hpp"
 #include "TimerBank.hpp"
 #include "Trace.hpp"
-#include <acs/protocol/McsSession.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <string>
@@ -31,6 +32,11 @@ class McsSide final : public ITextPeer
         Settle,
     };
 
+    enum class EDelay : std::uint8_t
+    {
+        Ack,
+    };
+
     Timeline& _timeline;
     Trace& _trace;
     TextNetwork& _network;
@@ -39,8 +45,9 @@ class McsSide final : public ITextPeer
     const Scenario& _scenario;
     Dice _dice;
     Dice _idDice;
-    Protocol::McsSession _session;
+    McsSim::SimulatedMcsSession _session;
     TimerBank<Protocol::ESessionTimer> _sessionTimers;
+    TimerBank<EDelay> _delays; ///< Not ended with the habits.
     TimerBank<EHabit> _habits;
     std::deque<Protocol::SessionAction> _actions;
     bool _bActing = false;

@@ -108,10 +108,8 @@ TEST_CASE("Faults are read with their command and duration")
 {
     CHECK(
         ParseOne<HoldAcksStep>(R"({"withholdAcks":"PlanReport","for":"6s"})").hold
-        == ACS::Protocol::AckHold{EAcsCommand::PlanReport, std::nullopt, 6s});
-    CHECK(
-        ParseOne<HoldAcksStep>(R"({"delayAcks":"*","by":"1s","for":"6s"})").hold
-        == ACS::Protocol::AckHold{std::nullopt, 1s, 6s});
+        == AckHold{EAcsCommand::PlanReport, std::nullopt, 6s});
+    CHECK(ParseOne<HoldAcksStep>(R"({"delayAcks":"*","by":"1s","for":"6s"})").hold == AckHold{std::nullopt, 1s, 6s});
     CHECK(ParseOne<RefuseRegistrationStep>(R"({"refuseRegistration":2,"message":"no"})").times == 2);
     CHECK(ParseOne<DropStep>(R"({"drop":"cut"})").how == EDrop::Cut);
     CHECK(ParseOne<DropStep>(R"({"drop":"close","code":1008})").code == 1008);

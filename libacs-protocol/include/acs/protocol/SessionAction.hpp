@@ -12,23 +12,23 @@
 namespace ACS::Protocol
 {
 
-/// Which connection of a server; an AcsSession has one only and always says 0.
+/// A connection of a server. An AcsSession has only one and always uses 0.
 using ConnectionID = std::uint64_t;
 
 enum class ESessionTimer : std::uint8_t
 {
-    Registration, ///< ACS side: the Ack of Registration. MCS side: the earliest Registration that has to come.
-    Ack,          ///< The earliest deadline of what waits for an Ack.
+    Registration, ///< ACS side: the Ack of Registration. MCS side: the earliest deadline of a Registration.
+    Ack,          ///< The earliest deadline of an Ack.
     Reconnect,    ///< ACS side.
     Position,     ///< ACS side.
     Shutdown,     ///< ACS side.
-    DelayedAck,   ///< MCS side: the earliest Ack that is held back (McsSession::HoldAcks).
 };
 
-inline constexpr std::size_t TIMER_COUNT = 6;
+inline constexpr std::size_t TIMER_COUNT = 5;
 
-/// Close codes of RFC 6455 that the sessions use.
+/// Close codes of RFC 6455.
 inline constexpr std::uint16_t CLOSE_NORMAL = 1000;
+inline constexpr std::uint16_t CLOSE_ABNORMAL = 1006; ///< Never sent: the connection ends without a closing handshake.
 inline constexpr std::uint16_t CLOSE_POLICY = 1008;
 
 /// Send one unfragmented text message.
@@ -36,19 +36,19 @@ struct SendText
 {
     ConnectionID connection = 0;
     std::string text;
-    bool bDroppable =
-        false; ///< Leave it out where the other side does not keep up, so that it would come late (positions).
+    bool bDroppable = false; ///< May be dropped if the other side does not keep up (positions).
 
     bool operator==(const SendText&) const = default;
 };
 
-/// Open the connection; then report OnConnected or OnClosed.
+/// Open the connection, then call OnConnected or OnClosed.
 struct Connect
 {
     bool operator==(const Connect&) const = default;
 };
 
-/// Close the connection after what was sent before; then report OnClosed, once, within a bounded time.
+/// Close the connection after everything that was sent before, or at once for CLOSE_ABNORMAL; then call OnClosed, once,
+/// within a bounded time.
 struct Close
 {
     ConnectionID connection = 0;
@@ -58,7 +58,7 @@ struct Close
     bool operator==(const Close&) const = default;
 };
 
-/// Call OnTimer after the delay. Replaces a timer of the same name that is running.
+/// Call OnTimer after the delay. Replaces a running timer of the same name.
 struct StartTimer
 {
     ESessionTimer timer = ESessionTimer::Ack;
@@ -74,7 +74,7 @@ struct CancelTimer
     bool operator==(const CancelTimer&) const = default;
 };
 
-/// Give the event to the user of the session.
+/// Pass the event to the user of the session.
 struct Deliver
 {
     SessionEvent event;
@@ -82,7 +82,7 @@ struct Deliver
     bool operator==(const Deliver&) const = default;
 };
 
-/// What a session wants done, in this order. Executing it may call the session again; what that returns comes after.
+/// To be carried out in order. Carrying an action out may call the session again; the actions of that call are appended.
 using SessionAction = std::variant<SendText, Connect, Close, StartTimer, CancelTimer, Deliver>;
 using SessionActions = std::vector<SessionAction>;
 

@@ -9,39 +9,33 @@
 namespace ACS::Protocol
 {
 
-/// Times and limits of an AcsSession; the defaults are those of section 9 of the specification.
+/// Times and limits of an AcsSession. The defaults are those of section 9 of the specification.
 struct SessionOptions
 {
-    std::chrono::milliseconds ackTimeout{5'000}; ///< `mcs.ack_timeout`, for the Ack of Registration too.
-    std::size_t ackRetries = 3;                  ///< `mcs.ack_retries`: resends of one message per connection.
-    std::size_t ackDeadAfter = 5;                ///< `mcs.ack_dead_after`: given up in a row, then a new link.
-    std::size_t window = 16;                     ///< `mcs.window`: messages that wait for their Ack; at least 1.
-    bool bAcksMatchedByCommand =
-        true; ///< `mcs.ack_match`: an Ack with a foreign id answers the oldest of its command (D-4).
-    std::chrono::milliseconds positionInterval{200}; ///< `position.interval_ms`; zero: no PositionDue.
-    std::chrono::milliseconds answerMemory{600'000}; ///< How long an Ack is kept for a repeated request.
-    std::size_t answerCount = 1024;                  ///< And how many at most,
-    std::size_t answerBytes = 4U * 1024U * 1024U;    ///< and how many bytes of Acks together.
-    std::chrono::milliseconds shutdownGrace{2'000};  ///< Stop waits so long for its last Ack.
+    std::chrono::milliseconds ackTimeout{5'000}; ///< Maximum time to wait for an Ack, that of Registration included.
+    std::size_t ackRetries = 3;                  ///< Resends of one message per connection.
+    std::size_t ackDeadAfter = 5; ///< Consecutive messages without an Ack after which the connection is renewed.
+    std::size_t window = 16;      ///< Maximum number of messages without an Ack; at least 1.
+    /// Whether an Ack with an unknown transactionID is matched to the oldest message of its command (D-4).
+    bool bAcksMatchedByCommand = true;
+    std::chrono::milliseconds positionInterval{200}; ///< Interval of PositionDue; 0 disables it.
+    std::chrono::milliseconds answerMemory{600'000}; ///< How long an Ack is kept for repeated requests.
+    std::size_t answerCount = 1024;                  ///< Maximum number of Acks that are kept.
+    std::size_t answerBytes = 4U * 1024U * 1024U;    ///< Maximum size of all Acks that are kept.
+    std::chrono::milliseconds shutdownGrace{2'000};  ///< Maximum time that Stop waits for its last Ack.
     Core::BackoffOptions reconnect{};                ///< 0.5 s to 10 s.
-    CodecOptions codec{};                            ///< Its siteOffset is also that of the timestamps sent.
+    CodecOptions codec{};                            ///< Its siteOffset also applies to the timestamps that are sent.
 };
 
 /// Times and limits of an McsSession.
 struct McsSessionOptions
 {
     std::chrono::milliseconds ackTimeout{5'000}; ///< Then RequestUnanswered is delivered; an MCS does not resend.
-    std::size_t maximumPending = 1024;           ///< Requests that wait for their Ack.
-    std::size_t duplicateMemory = 4'096;         ///< Transactions remembered, to tell repeated reports.
+    std::size_t maximumPending = 1024;           ///< Maximum number of requests without an Ack.
+    std::size_t duplicateMemory = 4'096;         ///< Transactions remembered in order to recognise repeated reports.
     std::chrono::milliseconds registrationTimeout{10'000}; ///< A connection without Registration is closed (1008).
-    bool bPlansWithheld = true;  ///< Send no ExecutionPlan while the ACS has said isConnected=false (section 6.21).
-    bool bSecondRefused = false; ///< Refuse a second client (403, 1008) while one is there; else replace.
-    /// Habits of the public MCS (section 12), off by default. Of a text longer than this its last chunk of this size is
-    /// read, as if it were all of it; 0: every text is read whole.
-    std::size_t finalChunkBytes = 0;
-    bool bErrorsUnanswered = false; ///< What cannot be read gets no Ack.
-    bool bPositionsUnknown = false; ///< RobotPositionUpdate is noted as an unknown command, not delivered.
-    bool bNullResults = false;      ///< Requests bear `"result":null,"message":null`.
+    bool bPlansWithheld = true;  ///< Send no ExecutionPlan while the ACS reports isConnected=false (section 6.21).
+    bool bSecondRefused = false; ///< Refuse a second client (403, 1008) instead of replacing the first.
     CodecOptions codec{};
 };
 

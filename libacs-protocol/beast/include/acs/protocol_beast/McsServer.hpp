@@ -5,7 +5,7 @@
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/protocol/AcsMessage.hpp>
-#include <acs/protocol/McsSession.hpp>
+#include <acs/protocol/IMcsSession.hpp>
 #include <acs/protocol/SessionStatistics.hpp>
 #include <acs/protocol_beast/ISessionHandler.hpp>
 #include <acs/protocol_beast/ServerOptions.hpp>
@@ -14,14 +14,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
-#include <string>
-#include <string_view>
 
 namespace ACS::ProtocolBeast
 {
 
-/// An McsSession behind a WebSocket server. Everything runs on the given executor, which must be that of one thread (or a
+/// An McsSession behind a WebSocket server. Runs entirely on the given executor, which must be single-threaded (or a
 /// strand), and is called from there only.
 class McsServer
 {
@@ -31,8 +30,11 @@ class McsServer
     explicit McsServer(std::shared_ptr<Impl> impl);
 
 public:
-    /// Listens. Fails with a sentence that names the address, or the file for TLS, and says what to do. Clock, random
-    /// source, log sink and handler outlive the server.
+    /// Adds actions to be carried out, for example by calling a session of one's own.
+    using SessionCall = std::function<void(Core::Now now, Protocol::SessionActions& out)>;
+
+    /// Listens, with an McsSession made of options.session. The error names the address, or the file for TLS, and the
+    /// remedy. Clock, random source, log sink and handler must outlive the server.
     [[nodiscard]] static Core::Result<std::unique_ptr<McsServer>> Create(
         const boost::asio::any_io_executor& executor,
         const Core::IClock& clock,
@@ -41,30 +43,33 @@ public:
         const ServerOptions& options,
         ISessionHandler& handler);
 
+    /// Likewise, with a given session; options.session is ignored.
+    [[nodiscard]] static Core::Result<std::unique_ptr<McsServer>> Create(
+        const boost::asio::any_io_executor& executor,
+        const Core::IClock& clock,
+        const Core::Logger& logger,
+        const ServerOptions& options,
+        std::unique_ptr<Protocol::IMcsSession> session,
+        ISessionHandler& handler);
+
     McsServer(const McsServer&) = delete;
     McsServer& operator=(const McsServer&) = delete;
-    /// Drops every connection at once; the handler is not called any more.
+    /// Closes all connections at once, without a closing handshake; the handler is not called any more.
     ~McsServer();
 
-    /// The port that is listened on.
+    /// The port that the server listens on.
     [[nodiscard]] std::uint16_t GetPort() const;
 
-    /// No new connections, a closing handshake for those that are there. No event tells its end: destroy the server when
-    /// the executor has run dry or enough time has passed.
+    /// Accepts no new connections and starts the closing handshake of the open ones. Its end is not reported: destroy the
+    /// server when the executor has run out of work, or after a time limit.
     void Stop();
 
-    /// These run McsSession's function of the same name and carry out what it returns; events reach the handler after
+    /// These call the session's function of the same name and carry out its actions; events reach the handler after
     /// the call has returned.
     [[nodiscard]] Protocol::AcsRequest MakeRequest(Protocol::AcsPayload payload);
     [[nodiscard]] bool TrySend(const Protocol::AcsRequest& request);
-    [[nodiscard]] bool TrySendText(std::string_view text);
-    void HoldAcks(const Protocol::AckHold& hold);
-    void RefuseRegistrations(std::size_t count, std::string_view message);
-    void EndFaults();
-    void Drop(std::uint16_t code, std::string_view reason);
-
-    /// Closes the registered connection's socket without a handshake, as a cut cable would.
-    void Cut();
+    /// Carries out the actions that the call adds.
+    void Run(const SessionCall& call);
 
     [[nodiscard]] bool IsRegistered() const;
     [[nodiscard]] bool IsTakingPlans() const;

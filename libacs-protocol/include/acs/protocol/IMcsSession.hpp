@@ -1,0 +1,63 @@
+#pragma once
+
+#include <acs/core/Now.hpp>
+#include <acs/protocol/AcsMessage.hpp>
+#include <acs/protocol/SessionAction.hpp>
+#include <acs/protocol/SessionStatistics.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+namespace ACS::Protocol
+{
+
+/// The MCS side of the protocol as a server drives it: McsSession, or a decorator around one (a simulated MCS that
+/// loses Acks, for example). Not shared between threads.
+class IMcsSession
+{
+public:
+    IMcsSession() = default;
+    IMcsSession(const IMcsSession&) = delete;
+    IMcsSession& operator=(const IMcsSession&) = delete;
+    virtual ~IMcsSession() = default;
+
+    /// Whether a WebSocket upgrade is refused with 403 now (option bSecondRefused, and a client is connected).
+    [[nodiscard]] virtual bool ShouldRefuseUpgrade() const noexcept = 0;
+
+    /// A client has connected: StartTimer. The caller assigns the id and never reuses one.
+    virtual void OnConnected(ConnectionID connection, Core::Now now, SessionActions& out) = 0;
+
+    /// SendText (Acks), Close (a connection that is replaced, or the second one where that is refused), CancelTimer,
+    /// StartTimer, Deliver of Registered, LinkLost, RequestReceived, AckReceived, ProtocolNoted.
+    virtual void OnText(ConnectionID connection, std::string_view text, Core::Now now, SessionActions& out) = 0;
+
+    /// If it was the registered connection: Deliver RequestUnanswered for each pending request, then LinkLost;
+    /// CancelTimer.
+    virtual void OnClosed(ConnectionID connection, std::string_view reason, Core::Now now, SessionActions& out) = 0;
+
+    /// Deliver RequestUnanswered, Close (no Registration in time), StartTimer. A timer that is not running is ignored.
+    virtual void OnTimer(ESessionTimer timer, Core::Now now, SessionActions& out) = 0;
+
+    /// A request with a new transactionID and the current time as its timestamp, to be sent once or more often.
+    [[nodiscard]] virtual AcsRequest MakeRequest(AcsPayload payload, Core::Now now) = 0;
+
+    /// SendText, StartTimer. Returns false and does nothing if no ACS is registered, if too many requests are pending,
+    /// or for a plan while IsTakingPlans is false and the option bPlansWithheld is set.
+    [[nodiscard]] virtual bool TrySend(const AcsRequest& request, Core::Now now, SessionActions& out) = 0;
+
+    /// Whether an ACS is registered and its last AcsCommStateUpdate on this connection, if any, reported
+    /// isConnected=true. Otherwise the MCS withholds its plans (section 6.21). Changes with a RequestReceived of
+    /// AcsCommStateUpdate.
+    [[nodiscard]] virtual bool IsTakingPlans() const noexcept = 0;
+
+    /// The registered connection; nullopt: none.
+    [[nodiscard]] virtual std::optional<ConnectionID> GetRegisteredOrNull() const noexcept = 0;
+
+    /// Number of requests without an Ack.
+    [[nodiscard]] virtual std::size_t GetPendingCount() const noexcept = 0;
+
+    [[nodiscard]] virtual const SessionStatistics& GetStatistics() const noexcept = 0;
+};
+
+} // namespace ACS::Protocol
