@@ -1,6 +1,6 @@
 #pragma once
 
-#include "OrderJournal.hpp"
+#include "JournalFile.hpp"
 #include <acs/core/Result.hpp>
 #include <acs/vda5050/MasterSession.hpp>
 #include <acs/vda5050/OrderBuilder.hpp>
@@ -64,7 +64,7 @@ class FleetOrders
         std::set<std::string> orderIDs; ///< Of all that were ever taken.
     };
 
-    OrderJournal _journal;
+    JournalFile _journal;
     ACS::VDA5050::Vda5050Codec _codec;
     std::map<std::string, Queue> _queues; ///< By the vehicle's name.
 

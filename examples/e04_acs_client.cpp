@@ -1,9 +1,11 @@
 // Lesson 4: an AcsClient and an McsServer talk over a real WebSocket, both in this program, on a port that is free.
 //
-// The client registers, reconnects and resends by itself. What it asks of its user is an outbox: whatever must reach the
-// MCS is kept until it is acknowledged, and is given to the client again after every registration.
+// The client registers, reconnects and resends by itself. Its user keeps an outbox: a report that must reach the MCS is
+// kept until it is acknowledged, and is given to the client again after every registration. DurableOutbox does this
+// bookkeeping over any store; here the store keeps nothing, in lesson 9 it is a file.
 
 #include "ExampleRandom.hpp"
+#include <acs/protocol/DurableOutbox.hpp>
 #include <acs/protocol_beast/AcsClient.hpp>
 #include <acs/protocol_beast/McsServer.hpp>
 
@@ -16,7 +18,6 @@
 #include <string>
 #include <utility>
 #include <variant>
-#include <vector>
 
 using namespace ACS; // NOLINT(google-build-using-namespace): an example reads better without the prefix
 
@@ -48,26 +49,42 @@ public:
     }
 };
 
+/// The reports are lost with the program.
+class NoStore final : public Protocol::IOutboxStore
+{
+public:
+    [[nodiscard]] Core::Result<void> Append(const Protocol::DurableRequest& /*request*/) override
+    {
+        return {};
+    }
+
+    [[nodiscard]] Core::Result<void> Remove(std::uint64_t /*sequence*/) override
+    {
+        return {};
+    }
+};
+
 class AcsSide final : public ProtocolBeast::ISessionHandler
 {
     ProtocolBeast::McsServer& _server;
+    Protocol::DurableOutbox& _outbox;
 
 public:
     std::unique_ptr<ProtocolBeast::AcsClient> client;
-    std::vector<Protocol::AcsRequest> outbox; ///< A real one is on disk: see IPlanStore in libplan.
     bool bStopped = false;
 
-    explicit AcsSide(ProtocolBeast::McsServer& server)
-        : _server(server)
+    AcsSide(ProtocolBeast::McsServer& server, Protocol::DurableOutbox& outbox)
+        : _server(server),
+          _outbox(outbox)
     {
     }
 
     void OnSessionEvent(const Protocol::SessionEvent& event) override
     {
+        static_cast<void>(_outbox.OnEvent(event)); // An error of the store; this one has none.
         if (std::holds_alternative<Protocol::Registered>(event))
         {
             fmt::print("ACS: registered\n");
-            Replay();
         }
         else if (const auto* ackedOrNull = std::get_if<Protocol::Acked>(&event))
         {
@@ -78,29 +95,16 @@ public:
             _server.Stop(); // With the last connection and the port gone, the io_context runs dry and main goes on.
             bStopped = true;
         }
+        _outbox.Feed(*client); // In order, as far as the client has room; the client sends its status after the replay.
     }
 
 private:
-    /// Oldest first, then ReplayDone: only now does the client send its status. One report fits into the window of 16;
-    /// a program with more goes on at WindowOpened and calls ReplayDone after the last.
-    void Replay()
-    {
-        for (const Protocol::AcsRequest& request : outbox)
-        {
-            if (!client->TrySendDurable(request))
-            {
-                return;
-            }
-        }
-        client->ReplayDone();
-    }
-
     void OnAcked(const Protocol::Acked& acked)
     {
-        std::erase_if(outbox, [&acked](const Protocol::AcsRequest& request) {
-            return request.transactionID == acked.transactionID;
-        });
-        fmt::print("ACS: {} is acknowledged, {} left in the outbox\n", acked.transactionID, outbox.size());
+        fmt::print(
+            "ACS: {} is acknowledged, {} left in the outbox\n",
+            acked.transactionID,
+            _outbox.GetRequests().size());
         client->Stop(); // Says goodbye (AcsCommStateUpdate) and closes; Stopped is the last event.
     }
 };
@@ -121,9 +125,12 @@ int main() // NOLINT(bugprone-exception-escape): nothing throws here but a full 
         return 1;
     }
 
-    AcsSide acs(**server);
-    acs.outbox.push_back(
-        {"report-1", {clock.GetNow().wall, {}}, Protocol::PlanReport{"PLAN-1", Protocol::EPlanStatus::Completed, ""}});
+    NoStore store;
+    Protocol::DurableOutbox outbox(store, random);
+    // Add assigns a transactionID; Queue accepts a request that has one, so that the lesson can print it.
+    const Protocol::PlanReport report{"PLAN-1", Protocol::EPlanStatus::Completed, ""};
+    outbox.Queue({1, {"report-1", {clock.GetNow().wall, {}}, report}});
+    AcsSide acs(**server, outbox);
     ProtocolBeast::ClientOptions options;
     options.url = fmt::format("ws://127.0.0.1:{}/acs/", (*server)->GetPort());
     auto client = ProtocolBeast::AcsClient::Create(io.get_executor(), clock, random, logger, options, acs);
@@ -136,5 +143,5 @@ int main() // NOLINT(bugprone-exception-escape): nothing throws here but a full 
     acs.client->Start();
 
     io.run_for(PATIENCE);
-    return acs.bStopped && acs.outbox.empty() ? 0 : 1;
+    return acs.bStopped && outbox.GetRequests().empty() ? 0 : 1;
 }

@@ -3,15 +3,17 @@
 // the states of the TSC, errors set and cleared.
 //
 //     mcs-sim --listen 127.0.0.1:9001 --scenario examples/scenarios/pause-resume.json
-//     e09_small_acs ws://127.0.0.1:9001/acs/
+//     e09_small_acs ws://127.0.0.1:9001/acs/ outbox.log
 //
 // The operator's commands come from the keyboard: pause, auto, error, clear, quit. The robot is a timer: a drive takes a
-// second, a job takes another. What a real ACS has besides is a store: here the outbox is lost with the program, see
-// libplan's IPlanStore.
+// second, a job takes another. Reports survive in the file; plans do not: a real ACS stores them as well, see libplan's
+// IPlanStore.
 
 #include "ExampleLines.hpp"
 #include "ExampleRandom.hpp"
+#include "OutboxFile.hpp"
 #include <acs/core/Overloaded.hpp>
+#include <acs/protocol/DurableOutbox.hpp>
 #include <acs/protocol_beast/AcsClient.hpp>
 
 #include <boost/asio/io_context.hpp>
@@ -20,10 +22,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstddef>
-#include <cstdint>
 #include <cstdio>
 #include <deque>
 #include <functional>
@@ -31,8 +33,10 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <variant>
+#include <vector>
 
 using namespace ACS;           // NOLINT(google-build-using-namespace): an example reads better without the prefix
 using namespace ACS::Protocol; // NOLINT(google-build-using-namespace)
@@ -69,10 +73,7 @@ class SmallAcs final : public ProtocolBeast::ISessionHandler
     const Core::IClock& _clock;
     boost::asio::steady_timer _timer; ///< Runs while the robot does something.
     std::chrono::steady_clock::duration _remaining{};
-    std::uint64_t _lastReport = 0;
-    std::deque<AcsRequest> _outbox; ///< Until acknowledged. Its first _sent entries are on their way.
-    std::size_t _sent = 0;
-    bool _bReplaying = false;
+    DurableOutbox& _outbox;
     std::deque<ExecutionPlan> _waiting;
     std::optional<ActivePlan> _active;
     std::set<std::string> _knownPlans;
@@ -83,9 +84,10 @@ public:
     std::unique_ptr<ProtocolBeast::AcsClient> client;
     std::function<void()> onStopped;
 
-    SmallAcs(boost::asio::io_context& io, const Core::IClock& clock)
+    SmallAcs(boost::asio::io_context& io, const Core::IClock& clock, DurableOutbox& outbox)
         : _clock(clock),
-          _timer(io)
+          _timer(io),
+          _outbox(outbox)
     {
     }
 
@@ -100,15 +102,10 @@ public:
 
     void OnSessionEvent(const SessionEvent& event) override
     {
+        Check(_outbox.OnEvent(event));
+        _outbox.Feed(*client);
         std::visit(
             Core::Overloaded{
-                [this](const Registered& /*event*/) {
-                    _sent = 0; // What has no Ack goes again, oldest first.
-                    _bReplaying = true;
-                    Feed();
-                },
-                [this](const WindowOpened& /*event*/) { Feed(); },
-                [this](const Acked& acked) { OnAcked(acked.transactionID); },
                 [this](const RequestReceived& received) {
                     if (!received.bDuplicate)
                     {
@@ -154,37 +151,17 @@ private:
 
     void Report(AcsPayload payload)
     {
-        const Core::Now now = _clock.GetNow();
-        const std::string transactionID = fmt::format("{}-{}", now.wall.time_since_epoch().count(), ++_lastReport);
-        _outbox.push_back({transactionID, {now.wall, {}}, std::move(payload)});
-        Feed();
+        Check(_outbox.Add(std::move(payload), {_clock.GetNow().wall, {}}));
+        _outbox.Feed(*client);
     }
 
-    void Feed()
+    /// A report that cannot be stored would be lost with the program: it ends instead.
+    void Check(const Core::Result<void>& stored)
     {
-        while (_sent < _outbox.size() && client->TrySendDurable(_outbox[_sent]))
+        if (!stored.has_value())
         {
-            ++_sent;
-        }
-        if (_bReplaying && client->IsRegistered() && _sent == _outbox.size())
-        {
-            _bReplaying = false;
-            client->ReplayDone();
-        }
-    }
-
-    void OnAcked(const std::string& transactionID)
-    {
-        const auto found = std::find_if(_outbox.begin(), _outbox.end(), [&transactionID](const AcsRequest& request) {
-            return request.transactionID == transactionID;
-        });
-        if (found != _outbox.end())
-        {
-            if (std::cmp_less(found - _outbox.begin(), _sent))
-            {
-                --_sent;
-            }
-            _outbox.erase(found);
+            fmt::print("{}\n", Core::Describe(stored.error()));
+            onStopped();
         }
     }
 
@@ -470,18 +447,31 @@ private:
 
 int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing throws here but a full memory
 {
-    if (argc != 2)
+    const std::vector<std::string> arguments(argv + 1, argv + argc); // NOLINT(*-pointer-arithmetic)
+    if (arguments.empty() || arguments.size() > 2)
     {
-        fmt::print("Usage: e09_small_acs URL   (of the MCS, for example ws://127.0.0.1:9001/acs/)\n");
+        fmt::print("Usage: e09_small_acs URL [OUTBOX]   (URL of the MCS, for example ws://127.0.0.1:9001/acs/)\n");
         return 2;
     }
     boost::asio::io_context io;
     const SystemClock clock;
     ExampleRandom random;
     const Core::Logger logger;
-    SmallAcs acs(io, clock);
+    OutboxFile outboxFile;
+    DurableOutbox outbox(outboxFile, random);
+    if (arguments.size() == 2)
+    {
+        std::optional<std::vector<DurableRequest>> requests = outboxFile.OpenOrNull(arguments[1]);
+        if (!requests.has_value())
+        {
+            fmt::print("{}: {}\n", arguments[1], std::generic_category().message(errno));
+            return 2;
+        }
+        outbox.Restore(std::move(*requests));
+    }
+    SmallAcs acs(io, clock, outbox);
     ProtocolBeast::ClientOptions options;
-    options.url = argv[1]; // NOLINT(cppcoreguidelines-pro-bounds-pointer-arithmetic)
+    options.url = arguments[0];
     auto client = ProtocolBeast::AcsClient::Create(io.get_executor(), clock, random, logger, options, acs);
     if (!client.has_value())
     {

@@ -200,6 +200,35 @@ class Scenarios(ScenarioCase):
         acsd[0].wait_ready()
         self.assertEqual(mcs.wait(FINISH_SECONDS), 0, mcs.log.read_text())
 
+    def test_the_small_acs_replays_its_reports_after_a_kill(self):
+        """The file holds what the MCS has not acknowledged, with the same transactionId and timestamp."""
+        small = []
+
+        def start_small_acs():
+            small.append(self.line.start("e09_small_acs", f"ws://{mcs.addresses['ws']}/acs/", self.line.folder / "outbox"))
+
+        def restart():
+            self.kill_program(small[0])
+            start_small_acs()
+
+        job = {"planId": "{A}", "jobId": "{A.1.1}"}
+        scenario = self.write_scenario(
+            {"send": "ExecutionPlan", "file": str(PLANS[0]), "as": "A"},
+            {"expect": "StepReport", "payload": {"planId": "{A}", "stepNo": 1, "status": "InProgress"}},
+            {"withholdAcks": "JobReport", "for": "1m"},
+            {"expect": "JobReport", "payload": {**job, "status": "Instructed"}, "as": "first"},
+            {"expect": "JobReport", "payload": {**job, "status": "InProgress"}, "as": "second"},
+            {"ask": "kill the ACS and start it again"},
+            {"expect": "Registration", "payload": {}},
+            *({"expectNext": "JobReport", "repeated": True, "transactionId": f"{{{name}.transactionId}}",
+               "timestamp": f"{{{name}.timestamp}}", "payload": {**job, "status": status}}
+              for name, status in (("first", "Instructed"), ("second", "InProgress"))))
+        mcs = self.line.start("mcs-sim", "--listen", "127.0.0.1:0", "--scenario", scenario,
+                              on_output=self.answer({"kill the ACS and start it again": restart}))
+        mcs.wait_ready()
+        start_small_acs()
+        self.assertEqual(mcs.wait(FINISH_SECONDS), 0, mcs.log.read_text())
+
     def write_scenario(self, *steps):
         path = self.line.folder / "scenario.json"
         path.write_text(json.dumps({"name": "test", "steps": steps}))

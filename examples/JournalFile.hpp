@@ -10,16 +10,16 @@
 #include <vector>
 
 /// Lines that are on the disk when TryAppend returns. The last one may be torn by a kill: it counts as never written.
-class OrderJournal
+class JournalFile
 {
     int _file = -1;
 
 public:
-    OrderJournal() = default;
-    OrderJournal(const OrderJournal&) = delete;
-    OrderJournal& operator=(const OrderJournal&) = delete;
+    JournalFile() = default;
+    JournalFile(const JournalFile&) = delete;
+    JournalFile& operator=(const JournalFile&) = delete;
 
-    ~OrderJournal()
+    ~JournalFile()
     {
         ::close(_file);
     }

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <acs/core/IRandom.hpp>
+#include <acs/core/Result.hpp>
+#include <acs/core/Timestamp.hpp>
+#include <acs/protocol/DurableRequest.hpp>
+#include <acs/protocol/IOutboxStore.hpp>
+#include <acs/protocol/SessionEvent.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::Protocol
+{
+
+/// The reports that an ACS must not lose: stored before they are sent, sent in order, replayed after a reconnect or a
+/// restart, and forgotten when the MCS has acknowledged them. Pure: the store and the session are the caller's. Not
+/// shared between threads.
+///
+///     outbox.Add(report, timestamp);           // or: outbox.OnEvent(event), for each event of the session
+///     outbox.Feed(client);
+class DurableOutbox
+{
+    IOutboxStore& _store;
+    Core::IRandom& _random;
+    std::deque<DurableRequest> _requests; ///< Without an Ack, in order. The first _sent of them are with the session.
+    std::size_t _sent = 0;
+    std::uint64_t _lastSequence = 0;
+    bool _bReplaying = false; ///< From Registered until everything was sent once.
+
+public:
+    /// The random source generates transaction ids. Store and random source must outlive the outbox.
+    DurableOutbox(IOutboxStore& store, Core::IRandom& random);
+
+    /// Requests that the store returned at start, in any order. Call before all other functions.
+    void Restore(std::vector<DurableRequest> requests);
+
+    /// Assigns sequence and transactionID, stores the report and queues it. On an error of the store the report is not
+    /// queued: whatever it reports must not have happened, or the caller adds it again.
+    [[nodiscard]] Core::Result<void> Add(AcsPayload payload, const Core::Timestamp& timestamp);
+
+    /// Queues a request that the caller has stored itself, for example together with the state it reports. Its sequence
+    /// is higher than that of all requests before it.
+    void Queue(DurableRequest request);
+
+    /// Handles Registered, LinkLost and Acked; other events have no effect. An error is that of IOutboxStore::Remove; the
+    /// outbox has forgotten the request nevertheless.
+    [[nodiscard]] Core::Result<void> OnEvent(const SessionEvent& event);
+
+    /// Sends what the session accepts, in order, and ends the replay of a connection. Call after Restore, Add, Queue and
+    /// OnEvent. The session has TrySendDurable(request) and ReplayDone(), as an AcsClient has.
+    template <typename TSession>
+    void Feed(TSession& session)
+    {
+        while (_sent < _requests.size() && session.TrySendDurable(_requests[_sent].request))
+        {
+            ++_sent;
+        }
+        if (_bReplaying && _sent == _requests.size())
+        {
+            _bReplaying = false;
+            session.ReplayDone();
+        }
+    }
+
+    /// Requests without an Ack, in order.
+    [[nodiscard]] const std::deque<DurableRequest>& GetRequests() const noexcept;
+
+private:
+    [[nodiscard]] Core::Result<void> Remove(std::string_view transactionID);
+};
+
+} // namespace ACS::Protocol

@@ -1,0 +1,92 @@
+#include <acs/core/Overloaded.hpp>
+#include <acs/core/Uuid.hpp>
+#include <acs/protocol/DurableOutbox.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <iterator>
+#include <utility>
+#include <variant>
+
+namespace ACS::Protocol
+{
+
+DurableOutbox::DurableOutbox(IOutboxStore& store, Core::IRandom& random)
+    : _store(store),
+      _random(random)
+{
+}
+
+void DurableOutbox::Restore(std::vector<DurableRequest> requests)
+{
+    assert(_requests.empty() && "the store is read before the first report");
+    std::ranges::sort(requests, {}, &DurableRequest::sequence);
+    _requests.assign(std::make_move_iterator(requests.begin()), std::make_move_iterator(requests.end()));
+    _lastSequence = _requests.empty() ? 0 : _requests.back().sequence;
+}
+
+Core::Result<void> DurableOutbox::Add(AcsPayload payload, const Core::Timestamp& timestamp)
+{
+    DurableRequest request{_lastSequence + 1, {Core::MakeUuid(_random), timestamp, std::move(payload)}};
+    Core::Result<void> stored = _store.Append(request);
+    if (stored.has_value())
+    {
+        Queue(std::move(request));
+        return stored;
+    }
+    // The number is not used again: the store may have it.
+    _lastSequence = request.sequence;
+    return stored;
+}
+
+void DurableOutbox::Queue(DurableRequest request)
+{
+    assert(request.sequence > _lastSequence && "requests are queued in their order");
+    _lastSequence = request.sequence;
+    _requests.push_back(std::move(request));
+}
+
+Core::Result<void> DurableOutbox::OnEvent(const SessionEvent& event)
+{
+    return std::visit(
+        Core::Overloaded{
+            [this](const Registered& /*registered*/) -> Core::Result<void> {
+                _sent = 0;
+                _bReplaying = true;
+                return {};
+            },
+            [this](const LinkLost& /*lost*/) -> Core::Result<void> {
+                _bReplaying = false;
+                return {};
+            },
+            [this](const Acked& acked) { return Remove(acked.transactionID); },
+            [](const auto& /*other*/) -> Core::Result<void> {
+                return {};
+            }},
+        event);
+}
+
+const std::deque<DurableRequest>& DurableOutbox::GetRequests() const noexcept
+{
+    return _requests;
+}
+
+Core::Result<void> DurableOutbox::Remove(std::string_view transactionID)
+{
+    const auto found = std::ranges::find(_requests, transactionID, [](const DurableRequest& request) {
+        return std::string_view(request.request.transactionID);
+    });
+    if (found == _requests.end())
+    {
+        return {}; // a second Ack
+    }
+    const std::uint64_t sequence = found->sequence;
+    if (std::cmp_less(found - _requests.begin(), _sent))
+    {
+        --_sent;
+    }
+    _requests.erase(found);
+    return _store.Remove(sequence);
+}
+
+} // namespace ACS::Protocol
