@@ -28,7 +28,7 @@ struct PendingRequest
 struct Connection
 {
     ConnectionID id = 0;
-    Core::SteadyTime deadline{}; ///< Of its Registration.
+    Core::SteadyTime deadline{}; ///< For its Registration.
 };
 
 } // namespace
@@ -41,10 +41,10 @@ class McsSession::Impl
     std::chrono::minutes _siteOffset;
     Detail::SessionOutput _output;
 
-    std::vector<ConnectionID> _connections; ///< All that are open.
-    std::vector<Connection> _strangers;     ///< Those of them from which no Registration has come.
+    std::vector<ConnectionID> _connections; ///< All open connections.
+    std::vector<Connection> _strangers;     ///< Open connections without a Registration.
     std::optional<ConnectionID> _registered;
-    bool _bAcsConnected = true; ///< What the registered ACS said of itself last.
+    bool _bAcsConnected = true; ///< The last AcsCommStateUpdate of the registered ACS.
     std::vector<PendingRequest> _pending;
     Detail::RecentTransactions _recent;
     Detail::TransactionMemory _seen;
@@ -318,7 +318,7 @@ private:
             Acknowledge(connection, request, EAckResult::Fail, Detail::UNSUPPORTED, now, out);
             return;
         }
-        // Positions come five times a second and are never sent again.
+        // Positions arrive five times a second and are never resent.
         const bool bDuplicate = HasAck(command) && !_seen.TryInsert(command, request.transactionID);
         counters.duplicates += bDuplicate ? 1U : 0U;
         Acknowledge(connection, request, EAckResult::Success, "Received.", now, out);

@@ -6,7 +6,7 @@
 namespace ACS::ProtocolBeast
 {
 
-/// The text, or as much of its beginning as fits into so many bytes without a part of a character (UTF-8).
+/// The text, truncated to this number of bytes at a character boundary (UTF-8).
 [[nodiscard]] std::string_view CutAtCharacter(std::string_view text, std::size_t maximum);
 
 } // namespace ACS::ProtocolBeast

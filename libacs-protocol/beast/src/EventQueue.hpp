@@ -11,7 +11,7 @@
 namespace ACS::ProtocolBeast
 {
 
-/// Hands the events of a session to its user one by one on the executor, never from within a call of the user's own.
+/// Passes the events of a session to its user one by one on the executor, never during a call of the user.
 class EventQueue : public std::enable_shared_from_this<EventQueue>
 {
     boost::asio::any_io_executor _executor;

@@ -11,7 +11,7 @@
 namespace ACS::ProtocolBeast
 {
 
-/// What an HTTP request at the beginning of a connection asks for.
+/// The HTTP request at the start of a connection.
 struct UpgradeRequest
 {
     std::string_view target;
@@ -21,21 +21,20 @@ struct UpgradeRequest
 /// Why a request is refused.
 struct UpgradeRefusal
 {
-    unsigned status = 0; ///< Of HTTP.
+    unsigned status = 0; ///< HTTP status.
     std::string text;
 };
 
-/// Who owns a gate. Called on the executor, never from within a call of the owner; nothing after onAccepted, onEnded or
-/// Kill.
+/// The owner of a gate. Called on the executor, never during a call of the owner, and not after onAccepted, onEnded or Kill.
 struct GateOwner
 {
     std::function<std::optional<UpgradeRefusal>(const UpgradeRequest& request)> judge;
-    std::function<void(const std::string& reason)> onRefused;    ///< Somebody should know; onEnded follows.
+    std::function<void(const std::string& reason)> onRefused;    ///< To be logged; onEnded follows.
     std::function<void(std::shared_ptr<ILink> link)> onAccepted; ///< The link opens next.
     std::function<void()> onEnded;                               ///< Without a link.
 };
 
-/// The beginning of a connection to a server: TLS where it has it, then the HTTP request.
+/// The start of a connection to a server: TLS if configured, then the HTTP request.
 class IGate
 {
 public:
@@ -46,7 +45,7 @@ public:
 
     virtual void RunAsync() = 0;
 
-    /// Closes the socket; the owner hears nothing any more.
+    /// Closes the socket; the owner is not called any more.
     virtual void Kill() = 0;
 };
 

@@ -12,7 +12,7 @@
 namespace ACS::ProtocolBeast
 {
 
-/// Who owns a link. Called on the executor, never from within a call of the owner; nothing after onClosed or Kill.
+/// The owner of a link. Called on the executor, never during a call of the owner, and not after onClosed or Kill.
 struct LinkOwner
 {
     std::function<void()> onOpen;
@@ -20,7 +20,7 @@ struct LinkOwner
     std::function<void(const std::string& reason)> onClosed; ///< Once.
 };
 
-/// What a client asks for.
+/// The upgrade request of a client.
 struct UpgradeOffer
 {
     std::string host; ///< Of the Host header.
@@ -28,7 +28,7 @@ struct UpgradeOffer
     std::vector<std::pair<std::string, std::string>> headers;
 };
 
-/// One WebSocket connection, over whatever stream. One thread: the executor's.
+/// A WebSocket connection over any stream. Runs on the single thread of the executor.
 class ILink
 {
 public:
@@ -37,22 +37,22 @@ public:
     ILink& operator=(const ILink&) = delete;
     virtual ~ILink() = default;
 
-    /// For a client to connect, before HandshakeAsync.
+    /// The socket that a client connects before HandshakeAsync.
     [[nodiscard]] virtual boost::beast::tcp_stream& GetTcpStream() = 0;
 
-    /// As a client, over a TCP stream that is connected: TLS where it has it, then the upgrade.
+    /// As a client, over a connected TCP stream: TLS if configured, then the upgrade.
     virtual void HandshakeAsync(UpgradeOffer offer) = 0;
 
-    /// A droppable text is left out where it would come late. Where too much waits, the link is dropped.
+    /// A droppable text is dropped if it would be late. If too many bytes wait, the link is closed.
     virtual void Send(std::string text, bool bDroppable) = 0;
 
-    /// After what waits to be written; bounded by the close timeout.
+    /// Closes after the waiting texts; limited by the close timeout.
     virtual void Close(std::uint16_t code, const std::string& reason) = 0;
 
-    /// Closes the socket without a handshake; onClosed follows. With a reset, so that the other side notices at once.
+    /// Closes the socket without a closing handshake; onClosed follows. Sends a reset, so that the other side notices at once.
     virtual void Abort(std::string reason) = 0;
 
-    /// Closes the socket; the owner hears nothing any more.
+    /// Closes the socket; the owner is not called any more.
     virtual void Kill() = 0;
 };
 

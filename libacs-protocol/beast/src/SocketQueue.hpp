@@ -5,8 +5,7 @@
 namespace ACS::ProtocolBeast
 {
 
-/// Bytes that were written to a TCP socket and that the other side's system has not taken yet; 0 where that cannot be
-/// told.
+/// Bytes that were written to a TCP socket and are not acknowledged yet; 0 if unknown.
 [[nodiscard]] std::size_t CountUntaken(int socket) noexcept;
 
 } // namespace ACS::ProtocolBeast

@@ -11,8 +11,8 @@
 namespace ACS::Protocol
 {
 
-/// Text to message and back. Keeps its scratch memory between calls, so that no message costs more allocations than its
-/// own strings and vectors. Not shared between threads.
+/// Converts texts to messages and back. Reuses its buffers: a message costs no allocations except for its own strings and
+/// vectors. Not shared between threads.
 class AcsCodec
 {
     class Impl;
@@ -24,16 +24,16 @@ public:
     AcsCodec& operator=(const AcsCodec&) = delete;
     ~AcsCodec();
 
-    /// Total: any bytes give a message or a failure. Request or response is decided by the Ack suffix of the command
-    /// alone (an MCS exists whose requests carry `"result":null`). Times are cut to the millisecond, the wire's own.
+    /// Any bytes result in a message or a failure. Only the Ack suffix of the command distinguishes a response from a
+    /// request (an MCS exists whose requests carry `"result":null`). Times are truncated to milliseconds.
     [[nodiscard]] DecodeOutcome Decode(std::string_view text);
 
-    /// Replaces out by the compact JSON of the message, in the document's member order and exact spellings.
+    /// Replaces out by the compact JSON of the message, with members in the order of the specification.
     static void Encode(const AcsMessage& message, std::string& out);
     static void EncodeRequest(const AcsRequest& request, std::string& out);
     static void EncodeAck(const AcsAck& ack, std::string& out);
 
-    /// The refusal of a command that AcsAck cannot name: `commandName` + Ack, Fail, empty payload.
+    /// Fail for a command that is not an EAcsCommand: `commandName` + Ack, empty payload.
     static void EncodeRefusal(
         std::string_view commandName,
         std::string_view transactionID,

@@ -21,7 +21,7 @@
 namespace ACS::Protocol
 {
 
-/// The payload of a request; which alternative it holds is its command (GetCommand).
+/// The payload of a request. Its alternative is the command (GetCommand).
 using AcsPayload = std::variant<
     ExecutionPlan,
     CancelPlan,
@@ -54,7 +54,7 @@ using AckPayload = std::variant<EmptyAck, PlanAck, PlanListAck, ErrorListAck>;
 struct AcsRequest
 {
     std::string transactionID;
-    Core::Timestamp timestamp; ///< To the millisecond; the epoch where the sender gave none that could be read.
+    Core::Timestamp timestamp; ///< To the millisecond; the epoch if missing or unreadable.
     AcsPayload payload;
 
     bool operator==(const AcsRequest&) const = default;
@@ -63,11 +63,11 @@ struct AcsRequest
 /// A response (section 6.1).
 struct AcsAck
 {
-    EAcsCommand command = EAcsCommand::ExecutionPlan; ///< What is answered.
-    std::string transactionID;                        ///< That of the request.
+    EAcsCommand command = EAcsCommand::ExecutionPlan; ///< Of the request.
+    std::string transactionID;                        ///< Of the request.
     Core::Timestamp timestamp;
     EAckResult result = EAckResult::Success;
-    std::string message; ///< For people; may be empty.
+    std::string message; ///< For the operator; may be empty.
     AckPayload payload;
     bool bLegacyName = false; ///< RequestAcsPlans under its old name, RequestAcsStatus (D-5).
 

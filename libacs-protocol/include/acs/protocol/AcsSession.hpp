@@ -14,68 +14,69 @@
 namespace ACS::Protocol
 {
 
-/// The ACS's side of the protocol as a pure state machine: events and the time go in, actions come out, appended to a
+/// The ACS side of the protocol as a pure state machine: events and the time go in, actions come out, appended to a
 /// vector that the caller clears and reuses. No I/O, no clock, no thread; not shared between threads.
 ///
-/// Order on every connection (section 6): Registration and nothing else; after its Ack `Registered`; the caller feeds
-/// its unacknowledged requests, oldest first, with TrySendDurable (false: wait for WindowOpened), then calls ReplayDone
-/// once; the session sends TscStateUpdate, AcsCommStateUpdate and one RobotStatusUpdate per robot, as far as
-/// SendStatus ever set them, and asks for positions. What is durable stays with the caller until `Acked`.
+/// Every connection follows section 6: Registration first; after its Ack the session delivers `Registered`; the caller
+/// sends its unacknowledged requests, oldest first, with TrySendDurable (false: wait for WindowOpened), and calls
+/// ReplayDone once; the session then sends TscStateUpdate, AcsCommStateUpdate and one RobotStatusUpdate per robot, as set
+/// by SendStatus, and requests positions. The caller keeps a durable request until `Acked`: see DurableOutbox.
 ///
-/// Any function that takes a text or answers one may deliver ProtocolNoted.
+/// Any function that receives or answers a text may deliver ProtocolNoted.
 class AcsSession
 {
     class Impl;
     std::unique_ptr<Impl> _impl;
 
 public:
-    /// The random source makes transaction ids and the jitter of reconnects; it outlives the session.
+    /// The random source generates transaction ids and the jitter of reconnects. It must outlive the session.
     AcsSession(const SessionOptions& options, Core::IRandom& random);
     AcsSession(const AcsSession&) = delete;
     AcsSession& operator=(const AcsSession&) = delete;
     ~AcsSession();
 
-    /// Connect. Nothing if it is started already.
+    /// Connect. No effect if the session is started already.
     void Start(Core::Now now, SessionActions& out);
 
-    /// Where registered: AcsCommStateUpdate(false) as SendText, and after its Ack or the grace Close; else Close, or
-    /// where there is no connection Stopped at once. Timers are cancelled. Ends with Deliver Stopped.
+    /// If registered: SendText of AcsCommStateUpdate(false), then Close after its Ack or SessionOptions::shutdownGrace;
+    /// otherwise Close at once. Timers are cancelled. Ends with Deliver Stopped, at once if there is no connection.
     void Stop(Core::Now now, SessionActions& out);
 
     /// The connection is open: SendText (Registration), StartTimer.
     void OnConnected(Core::Now now, SessionActions& out);
 
-    /// A whole message, text or binary. SendText (refusals, stored Acks, what waited for room), StartTimer, CancelTimer,
+    /// A whole message, text or binary. SendText (refusals, cached Acks, queued messages), StartTimer, CancelTimer,
     /// Close (registration refused), Deliver of Registered, RegistrationRefused, RequestReceived, Acked, WindowOpened.
     void OnText(std::string_view text, Core::Now now, SessionActions& out);
 
-    /// The connection is closed, was lost or could not be made: Deliver LinkLost or Stopped, CancelTimer, StartTimer.
+    /// The connection was closed, was lost or could not be opened: Deliver LinkLost or Stopped, CancelTimer, StartTimer.
     void OnClosed(std::string_view reason, Core::Now now, SessionActions& out);
 
     /// SendText (resends), Connect, Close, StartTimer, Deliver of RequestUnanswered, WindowOpened, PositionDue.
     /// A timer that is not running is ignored.
     void OnTimer(ESessionTimer timer, Core::Now now, SessionActions& out);
 
-    /// SendText, StartTimer. False, and nothing done, where the session is not registered, is stopping, or the window is
-    /// full: the caller keeps the request and feeds it after Registered or WindowOpened. The transactionID and the
-    /// timestamp are the caller's, and the same on every attempt. True and nothing done where it is in flight already.
+    /// SendText, StartTimer. Returns false and does nothing if the session is not registered or is stopping, or if the
+    /// window is full: the caller keeps the request and sends it after Registered or WindowOpened. The caller assigns
+    /// transactionID and timestamp, which are the same on every attempt. Returns true and does nothing if the request is
+    /// in flight already.
     [[nodiscard]] bool TrySendDurable(const AcsRequest& request, Core::Now now, SessionActions& out);
 
-    /// After the replay that Registered asked for, once per connection: SendText, StartTimer, Deliver PositionDue. Where
-    /// the replay fills the window, the states and the first PositionDue follow as Acks make room.
+    /// Ends the replay after Registered, once per connection: SendText, StartTimer, Deliver PositionDue. If the replay has
+    /// filled the window, the states and the first PositionDue follow as Acks arrive.
     void ReplayDone(Core::Now now, SessionActions& out);
 
-    /// A TscStateUpdate, AcsCommStateUpdate or RobotStatusUpdate: the latest of each kind and robot is kept, sent at once
-    /// where possible and after every ReplayDone again; a TSC or comm state that has not changed is not sent. SendText,
-    /// StartTimer. Other payloads are a defect of the caller.
+    /// A TscStateUpdate, AcsCommStateUpdate or RobotStatusUpdate. The latest of each kind and robot is kept, sent as soon
+    /// as possible and again after every ReplayDone; an unchanged TSC or comm state is not sent. SendText, StartTimer.
+    /// Other payloads are a programming error.
     void SendStatus(const AcsPayload& status, Core::Now now, SessionActions& out);
 
-    /// SendText that may be dropped; nothing at all before the first PositionDue of the connection.
+    /// SendText that may be dropped. No effect before the first PositionDue of the connection.
     void SendPosition(const RobotPositionUpdate& positions, Core::Now now, SessionActions& out);
 
-    /// The answer to a RequestReceived: SendText where registered. Kept, so that the request, if it comes again, is
-    /// answered by the same text and not delivered. A second answer is ignored; one to a
-    /// request that is forgotten by now is sent and not kept.
+    /// Answers a RequestReceived: SendText if registered. The Ack is cached, and a repeated request is answered with the
+    /// same text and not delivered. A second answer is ignored; an answer to a request that is no longer remembered is sent
+    /// and not cached.
     void Answer(
         EAcsCommand command,
         std::string_view transactionID,
@@ -87,10 +88,10 @@ public:
 
     [[nodiscard]] bool IsRegistered() const noexcept;
 
-    /// How many more TrySendDurable would be taken now.
+    /// Number of requests that TrySendDurable would accept now.
     [[nodiscard]] std::size_t GetRoom() const noexcept;
 
-    /// For the timestamps sent from now on (daylight saving).
+    /// UTC offset of the timestamps that are sent from now on (daylight saving).
     void SetSiteOffset(std::chrono::minutes offset) noexcept;
 
     [[nodiscard]] const SessionStatistics& GetStatistics() const noexcept;

@@ -40,7 +40,7 @@ inline constexpr std::size_t COMMAND_COUNT = 22;
 /// The name on the wire, without `Ack`.
 [[nodiscard]] std::string_view GetText(EAcsCommand command);
 
-/// Whether the MCS is the one who sends this command; else the ACS is.
+/// Whether the MCS sends this command; otherwise the ACS does.
 [[nodiscard]] bool IsSentByMcs(EAcsCommand command) noexcept;
 
 /// Whether the receiver answers with an Ack: every command but RobotPositionUpdate (sections 6.1 and 6.19).

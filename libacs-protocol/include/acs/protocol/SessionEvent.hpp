@@ -11,13 +11,13 @@
 namespace ACS::Protocol
 {
 
-/// Both sides: registration succeeded. The ACS replays its outbox now and then calls ReplayDone.
+/// Both sides: registration succeeded. The ACS replays its outbox, then calls ReplayDone.
 struct Registered
 {
     bool operator==(const Registered&) const = default;
 };
 
-/// ACS side: the MCS refused; the session tries again for ever, but somebody should know.
+/// ACS side: the MCS refused the registration. The session retries indefinitely; the operator should be informed.
 struct RegistrationRefused
 {
     std::string message;
@@ -25,32 +25,33 @@ struct RegistrationRefused
     bool operator==(const RegistrationRefused&) const = default;
 };
 
-/// The other side asks (of the ACS) or reports (to the MCS).
+/// A request of the MCS (at the ACS), or a report of the ACS (at the MCS).
 struct RequestReceived
 {
     AcsRequest request;
-    bool bDuplicate = false; ///< MCS side only: a report with this transaction came before. The ACS side never repeats.
+    bool bDuplicate = false; ///< MCS side only: a report with this transactionID was received before.
 
     bool operator==(const RequestReceived&) const = default;
 };
 
-/// ACS side: a request that could not be read was answered with Fail; it goes no further.
+/// ACS side: a malformed request was answered with Fail and is not delivered.
 struct RequestRefused
 {
     std::string commandName;   ///< As sent.
-    std::string transactionID; ///< This and the next: empty where it could not be read.
+    std::string transactionID; ///< This and planID are empty if unreadable.
     std::string planID;
-    std::string path;   ///< Of the member that is wrong: "payload.steps[0].action"; may be empty.
+    std::string path;   ///< Of the invalid member, for example "payload.steps[0].action"; may be empty.
     std::string reason; ///< The message of the Ack.
 
     bool operator==(const RequestRefused&) const = default;
 };
 
-/// ACS side: the MCS has answered a durable request. Whatever the result, it is final: the caller may forget it.
+/// ACS side: the MCS has answered a durable request. The answer is final, whatever its result: the caller may forget the
+/// request.
 struct Acked
 {
     EAcsCommand command = EAcsCommand::PlanReport;
-    std::string transactionID; ///< That of the request, even if the Ack bore another one (D-4).
+    std::string transactionID; ///< Of the request, even if the Ack carried another one (D-4).
     EAckResult result = EAckResult::Success;
     std::string message;
 
@@ -65,9 +66,8 @@ struct AckReceived
     bool operator==(const AckReceived&) const = default;
 };
 
-/// No Ack in time. ACS side: after all resends; the caller keeps the request and feeds it again after the next
-/// Registered. MCS side: after the ack timeout, or because the link was lost; an Ack that comes late is delivered as
-/// AckReceived all the same.
+/// No Ack in time. ACS side: after all resends; the caller keeps the request and sends it again after the next Registered.
+/// MCS side: after the ack timeout, or because the link was lost; a late Ack is still delivered as AckReceived.
 struct RequestUnanswered
 {
     EAcsCommand command = EAcsCommand::PlanReport;
@@ -76,7 +76,7 @@ struct RequestUnanswered
     bool operator==(const RequestUnanswered&) const = default;
 };
 
-/// The connection is gone, or could not be made. The ACS side connects again by itself.
+/// The connection was lost or could not be opened. The ACS side reconnects by itself.
 struct LinkLost
 {
     std::string reason;
@@ -85,40 +85,40 @@ struct LinkLost
     bool operator==(const LinkLost&) const = default;
 };
 
-/// ACS side: there is room again after TrySendDurable had returned false.
+/// ACS side: the window has room again after TrySendDurable returned false.
 struct WindowOpened
 {
     bool operator==(const WindowOpened&) const = default;
 };
 
-/// ACS side: time for SendPosition; comes only between the states that follow ReplayDone and the loss of the link.
+/// ACS side: SendPosition is due. Delivered only after the states that follow ReplayDone, until the link is lost.
 struct PositionDue
 {
     bool operator==(const PositionDue&) const = default;
 };
 
-/// ACS side: Stop has ended; nothing follows until Start.
+/// ACS side: Stop is complete; no events follow until Start.
 struct Stopped
 {
     bool operator==(const Stopped&) const = default;
 };
 
-/// What a session put up with or threw away. For logs and metrics; nothing is to be done.
+/// A deviation that a session tolerated or discarded. For logs and metrics; requires no action.
 enum class EProtocolNote : std::uint8_t
 {
     UnknownMember,          ///< Ignored.
     NullOptional,           ///< Read as absent.
-    LenientWord,            ///< A word in another case.
+    LenientWord,            ///< A name with different upper or lower case.
     LenientNumber,          ///< A number in a string.
     BadTimestamp,           ///< Missing or unreadable.
-    Undecodable,            ///< No message: thrown away, or refused where it had a command.
-    UnknownCommand,         ///< Refused: undefined, or not for this side.
+    Undecodable,            ///< Not a valid message: discarded, or refused if its command was readable.
+    UnknownCommand,         ///< Refused: undefined, or not a command for this side.
     AckMismatched,          ///< An Ack with a foreign transactionId, matched by its command (D-4).
-    AckUnexpected,          ///< An Ack that nothing waits for.
+    AckUnexpected,          ///< An Ack without a pending request.
     AckFailed,              ///< The other side refused a status.
-    DuplicateRequest,       ///< Answered from memory.
-    BeforeRegistered,       ///< Came before registration: ignored.
-    RegistrationUnanswered, ///< The connection is closed and made anew.
+    DuplicateRequest,       ///< Answered from the cache.
+    BeforeRegistered,       ///< Received before registration and ignored.
+    RegistrationUnanswered, ///< The session reconnects.
 };
 
 inline constexpr std::size_t NOTE_COUNT = 13;
@@ -128,7 +128,7 @@ inline constexpr std::size_t NOTE_COUNT = 13;
 struct ProtocolNoted
 {
     EProtocolNote what = EProtocolNote::UnknownMember;
-    std::uint32_t count = 1; ///< How often in this one text.
+    std::uint32_t count = 1; ///< Occurrences in this text.
     std::string detail;      ///< One sentence, may be empty.
 
     bool operator==(const ProtocolNoted&) const = default;

@@ -11,17 +11,17 @@
 namespace ACS::Protocol
 {
 
-/// What happened with one command since the session was made, over all connections.
+/// Counters of one command since the session was created, over all connections.
 struct CommandCounters
 {
-    std::uint64_t sent = 0;         ///< Requests, resends included.
-    std::uint64_t received = 0;     ///< Requests, repeated ones included.
-    std::uint64_t duplicates = 0;   ///< Requests received whose transaction had come before.
-    std::uint64_t acknowledged = 0; ///< Requests of the other side that were answered, with either result.
-    std::uint64_t refused = 0;      ///< Of these with Fail.
-    std::uint64_t answered = 0;     ///< Own requests for which an Ack came.
+    std::uint64_t sent = 0;         ///< Requests, including resends.
+    std::uint64_t received = 0;     ///< Requests, including repeated ones.
+    std::uint64_t duplicates = 0;   ///< Received requests whose transaction was known.
+    std::uint64_t acknowledged = 0; ///< Received requests that were answered, with any result.
+    std::uint64_t refused = 0;      ///< Received requests that were answered with Fail.
+    std::uint64_t answered = 0;     ///< Sent requests that were acknowledged.
 
-    /// A request of the other side is answered.
+    /// Counts the answer to a received request.
     void CountAnswer(EAckResult result)
     {
         ++acknowledged;
@@ -35,10 +35,11 @@ struct SessionStatistics
 {
     std::array<CommandCounters, COMMAND_COUNT> commands{};
     std::array<std::uint64_t, NOTE_COUNT> notes{};
-    std::uint64_t connects = 0;      ///< Connections that were opened.
-    std::uint64_t registrations = 0; ///< That succeeded.
+    std::uint64_t connects = 0;      ///< Opened connections.
+    std::uint64_t registrations = 0; ///< Successful ones.
     std::uint64_t linkLosses = 0;
-    std::uint64_t positionTicksMissed = 0; ///< ACS side: of PositionDue, because the session was called too late.
+    std::uint64_t positionTicksMissed =
+        0; ///< ACS side: PositionDue events that were skipped because OnTimer was called too late.
 
     [[nodiscard]] CommandCounters& Of(EAcsCommand command)
     {

@@ -18,8 +18,8 @@
 namespace ACS::ProtocolBeast
 {
 
-/// An AcsSession over a WebSocket: connects, registers, reconnects for ever. Everything runs on the given executor, which
-/// must be that of one thread (or a strand), and is called from there only.
+/// An AcsSession over a WebSocket: connects, registers and reconnects indefinitely. Runs entirely on the given executor,
+/// which must be single-threaded (or a strand), and is called from there only.
 class AcsClient
 {
     class Impl;
@@ -28,8 +28,8 @@ class AcsClient
     explicit AcsClient(std::shared_ptr<Impl> impl);
 
 public:
-    /// Fails with a sentence about the URL, a header or a file for TLS; opens no connection. Clock, random source, log
-    /// sink and handler outlive the client.
+    /// Opens no connection. The error concerns the URL, a header or a TLS file. Clock, random source, log sink and handler
+    /// must outlive the client.
     [[nodiscard]] static Core::Result<std::unique_ptr<AcsClient>> Create(
         const boost::asio::any_io_executor& executor,
         const Core::IClock& clock,
@@ -40,11 +40,11 @@ public:
 
     AcsClient(const AcsClient&) = delete;
     AcsClient& operator=(const AcsClient&) = delete;
-    /// Drops the connection at once, without a goodbye; the handler is not called any more.
+    /// Closes the connection at once, without a closing handshake; the handler is not called any more.
     ~AcsClient();
 
-    /// These run AcsSession's function of the same name and carry out what it returns; events reach the handler after
-    /// the call has returned.
+    /// These call AcsSession's function of the same name and carry out its actions; events reach the handler after the
+    /// call has returned.
     void Start();
     void Stop();
     [[nodiscard]] bool TrySendDurable(const Protocol::AcsRequest& request);

@@ -5,8 +5,8 @@
 namespace ACS::ProtocolBeast
 {
 
-/// Who uses an AcsClient or an McsServer. Called on the executor, never from within a call of the user's own, so that it
-/// may call the client or server freely; not after their destruction.
+/// Receives the events of an AcsClient or an McsServer. Called on the executor and never during a call of the client or
+/// server, so that it may call them; not called after their destruction.
 class ISessionHandler
 {
 public:

@@ -14,8 +14,8 @@
 namespace ACS::ProtocolBeast
 {
 
-/// Sees every text: what comes before the session judges it, what goes as it is handed to the connection. The view is
-/// valid during the call, which is made on the executor and must not call the server.
+/// Called with every text: received ones before the session handles them, sent ones when they are passed to the
+/// connection. The view is valid during the call, which is made on the executor and must not call the server.
 using WireObserver =
     std::function<void(EWireDirection direction, Protocol::ConnectionID connection, std::string_view text)>;
 
@@ -23,10 +23,10 @@ using WireObserver =
 struct ServerOptions
 {
     std::string address = "127.0.0.1"; ///< An address, or a name that resolves to one.
-    std::uint16_t port = 0;            ///< 0: one that is free; GetPort tells.
-    std::string path = "/acs/";        ///< With or without the last slash; every other path gets 404.
-    std::size_t maximumClients = 16;   ///< Connections at a time, those without an upgrade included.
-    std::optional<TlsOptions> tls{};   ///< There: wss and nothing else, with certificate and key.
+    std::uint16_t port = 0;            ///< 0: a free port, see GetPort.
+    std::string path = "/acs/";        ///< With or without the trailing slash; other paths are answered with 404.
+    std::size_t maximumClients = 16;   ///< Maximum number of connections, including those before the upgrade.
+    std::optional<TlsOptions> tls{};   ///< If set: wss only, with certificate and key.
     LinkOptions link{};
     Protocol::McsSessionOptions session{};
     WireObserver onWire; ///< May be empty.
