@@ -15,12 +15,12 @@
 namespace ACS::VDA5050
 {
 
-/// What a vehicle keeps of an order: the edges and nodes that are still to come, each edge with the node that it leads
-/// to. Takes less than half of the messages' own room, as what most routes leave out lies apart: a fleet of hundreds in
-/// one process holds long ones. For orders without violations.
+/// The rest of an order: its remaining edges and nodes, each edge with its end node. Rarely used members are stored
+/// separately, so that a route needs less than half the memory of its message: one process may hold the long routes of
+/// hundreds of vehicles. Only for valid orders.
 class RemainingRoute
 {
-    /// What only some nodes and edges have.
+    /// Rarely used members of a node.
     struct NodeExtras
     {
         std::string nodeDescription;
@@ -73,35 +73,35 @@ class RemainingRoute
     };
 
     std::deque<Step> _steps;
-    std::size_t _released = 0; ///< They come first.
-    std::size_t _bytes = 0;    ///< In a state, at most.
-    std::string _startNodeID;  ///< Where the first edge begins.
+    std::size_t _released = 0; ///< Number of released steps, which come first.
+    std::size_t _bytes = 0;    ///< Maximum size of the released steps in a state.
+    std::string _startNodeID;  ///< Start node of the first edge.
 
     [[nodiscard]] static Step MakeStep(OrderEdge edge, OrderNode node);
     [[nodiscard]] const std::string& GetStartNodeID(std::size_t index) const;
     [[nodiscard]] std::size_t Measure(std::size_t index) const;
 
 public:
-    /// All of the order but its first node.
+    /// Appends the order without its first node.
     void Append(OrderMessage order);
-    /// Forgets the first edge and node.
+    /// Removes the first edge and node.
     void DropFront();
-    /// Forgets all from this number on.
+    /// Removes all edges and nodes except for the first ones.
     void Cut(std::size_t size);
-    /// The first node is only to be reached: its actions are forgotten.
+    /// Removes the actions of the first node, which still has to be reached.
     void DropFrontActions();
-    /// False where there is no such edge, where it has a trajectory already, and where a state has no room for it.
+    /// False if there is no such edge, if it already has a trajectory, or if a state has no room for it.
     bool TrySetTrajectory(std::uint32_t edgeSequenceID, Trajectory trajectory);
     void Clear();
 
     [[nodiscard]] bool IsEmpty() const noexcept;
     [[nodiscard]] std::size_t GetSize() const noexcept;
-    /// How many nodes are released; the base comes first.
+    /// Number of released nodes; the base comes first.
     [[nodiscard]] std::size_t CountReleased() const;
-    /// What the released part takes in a state, at most.
+    /// Maximum size of the released part in a state.
     [[nodiscard]] std::size_t GetReleasedBytes() const;
 
-    // Of an index below GetSize: edge n leads to node n.
+    // The index must be below GetSize. Edge n leads to node n.
     [[nodiscard]] OrderEdge GetEdge(std::size_t index) const;
     [[nodiscard]] OrderNode GetNode(std::size_t index) const;
     [[nodiscard]] const std::string& GetEdgeID(std::size_t index) const;

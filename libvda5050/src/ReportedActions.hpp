@@ -16,7 +16,7 @@
 namespace ACS::VDA5050
 {
 
-/// An action that a vehicle's state shows. Status and start change through ReportedActions alone, which counts them.
+/// An action in a vehicle's state. Only ReportedActions, which counts them, changes status and start.
 struct ReportedAction
 {
     Action action;
@@ -24,18 +24,18 @@ struct ReportedAction
     EActionScope scope = EActionScope::Node;
     std::string elementID = {};   ///< Of its node or edge.
     std::uint32_t sequenceID = 0; ///< Of its node or edge.
-    bool bStarted = false;        ///< The owner was told to.
+    bool bStarted = false;        ///< StartAction was sent to the owner.
     bool bCancelled = false;
-    bool bShown = false; ///< Its end was in a state that was published.
+    bool bShown = false; ///< Its end was published in a state.
 
     [[nodiscard]] bool IsInstant() const noexcept;
     [[nodiscard]] bool IsEnded() const noexcept;
-    /// Of an order, begun and not ended.
+    /// An order action that was started and has not ended.
     [[nodiscard]] bool IsRunningInOrder() const noexcept;
 };
 
-/// What a vehicle keeps of actions, in the order of its report: found by their id, and counted by what decides whether
-/// the next one may begin and the vehicle may drive, so that neither takes longer where there are thousands.
+/// The actions in a vehicle's state, in their order. Indexed by id, and counted by the properties that decide whether the
+/// next action may start and the vehicle may drive: neither becomes slower with thousands of actions.
 class ReportedActions
 {
 public:
@@ -43,7 +43,7 @@ public:
     using ConstIterator = std::list<ReportedAction>::const_iterator;
 
 private:
-    /// See the functions that tell them.
+    /// See the functions below.
     enum class ECount : std::uint8_t
     {
         Open,
@@ -57,7 +57,7 @@ private:
     using Counts = std::array<std::size_t, 6>;
 
     std::list<ReportedAction> _held;
-    std::unordered_map<std::string_view, Iterator> _index; ///< The keys lie in _held, whose elements never move.
+    std::unordered_map<std::string_view, Iterator> _index; ///< The keys point into _held, whose elements never move.
     Counts _counts{};
 
     [[nodiscard]] static Counts Measure(const ReportedAction& held);
@@ -73,15 +73,15 @@ public:
     ReportedActions& operator=(ReportedActions&&) = default;
     ~ReportedActions() = default;
 
-    /// At the end; no action with this id is held. The element stays where it is until it is erased.
+    /// Appends an action with a new id. The reference is valid until the action is erased.
     ReportedAction& Add(ReportedAction held);
     [[nodiscard]] ReportedAction* FindOrNull(std::string_view actionID);
-    /// As ActionMachine::TrySet; a long description is cut.
+    /// Like ActionMachine::TrySet; a long description is truncated.
     bool TrySetStatus(ReportedAction& held, EActionStatus status, std::string resultDescription = {});
     void MarkStarted(ReportedAction& held);
     Iterator Erase(Iterator position);
 
-    /// Erases all that the predicate says yes to.
+    /// Erases all actions that match the predicate.
     template <typename TPredicate>
     void EraseIf(TPredicate predicate)
     {
@@ -93,11 +93,11 @@ public:
 
     [[nodiscard]] std::size_t GetSize() const noexcept;
     [[nodiscard]] std::size_t CountInstant() const noexcept;
-    /// What the instant ones take in a state, at most, without their results.
+    /// Maximum size of the instant actions in a state, without their results.
     [[nodiscard]] std::size_t GetInstantBytes() const noexcept;
-    /// Of an order and not ended, begun or not.
+    /// Order actions that have not ended.
     [[nodiscard]] std::size_t CountOpen() const noexcept;
-    // Of an order, begun and not ended: all, those beside which nobody drives, those beside which nothing begins.
+    // Order actions that run: all; those that block driving (SOFT, HARD); those that block other actions as well (HARD).
     [[nodiscard]] std::size_t CountRunning() const noexcept;
     [[nodiscard]] std::size_t CountRunningBlocking() const noexcept;
     [[nodiscard]] std::size_t CountRunningHard() const noexcept;

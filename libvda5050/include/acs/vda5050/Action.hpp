@@ -10,7 +10,7 @@
 namespace ACS::VDA5050
 {
 
-/// What may happen beside an action (section 6.11): None anything, Soft no driving, Hard nothing else at all.
+/// What an action blocks (section 6.11): None nothing, Soft driving, Hard driving and all other actions.
 enum class EBlockingType : std::uint8_t
 {
     None,
@@ -38,7 +38,7 @@ struct Action
     bool operator==(const Action&) const = default;
 };
 
-/// The parameter of this key, null where there is none.
+/// The parameter with this key; null if there is none.
 [[nodiscard]] const ActionParameter* FindParameterOrNull(const Action& action, std::string_view key);
 
 /// The predefined actions of 2.x (section 6.8.2); PredefinedActions.hpp has their scopes and parameters.

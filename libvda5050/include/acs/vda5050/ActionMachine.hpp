@@ -12,16 +12,16 @@ namespace ACS::VDA5050
 /// needs it). No status changes to itself.
 [[nodiscard]] bool CanChangeStatus(EActionStatus from, EActionStatus to);
 
-/// Whether an action may be reported with this status first.
+/// Whether this status is allowed as the first one of an action.
 [[nodiscard]] bool CanBeginWith(EActionStatus status);
 
 /// Finished or Failed.
 [[nodiscard]] bool IsTerminal(EActionStatus status);
 
-/// "WAITING", "RUNNING", … as on the wire; for logs.
+/// The name on the wire, for example "RUNNING".
 [[nodiscard]] std::string_view GetStatusText(EActionStatus status);
 
-/// The life of one action: keeps its reported state and refuses what the transition table forbids.
+/// The reported state of one action; rejects transitions that the table forbids.
 class ActionMachine
 {
     ActionState _state;
@@ -32,7 +32,8 @@ public:
     [[nodiscard]] const ActionState& GetState() const noexcept;
     [[nodiscard]] EActionStatus GetStatus() const noexcept;
 
-    /// False, and nothing changed, where the table forbids it. A new result description alone is allowed before the end.
+    /// Returns false and changes nothing if the table forbids the transition. Before the end, a new result description alone
+    /// is allowed.
     [[nodiscard]] bool TrySet(EActionStatus status, std::string resultDescription = {});
 };
 

@@ -10,8 +10,8 @@ namespace ACS::VDA5050
 enum class EConnectionState : std::uint8_t
 {
     Online,
-    Offline,          ///< Said by a vehicle that leaves in order.
-    ConnectionBroken, ///< Said by the broker: the will.
+    Offline,          ///< Orderly disconnect of the vehicle.
+    ConnectionBroken, ///< The last will, published by the broker.
 };
 
 /// Topic connection (section 6.14), retained.

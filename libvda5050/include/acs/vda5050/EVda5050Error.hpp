@@ -5,16 +5,16 @@
 namespace ACS::VDA5050
 {
 
-/// Why this library refuses a call or a message; what is wrong inside a payload is a Core::ECoreError with its path.
+/// Why a call or a message is refused. Errors inside a payload are a Core::ECoreError with its path.
 enum class EVda5050Error
 {
     InvalidTopic = 1,       ///< Not interfaceName/v2/manufacturer/serialNumber/topic.
     UnsupportedVersion = 2, ///< A major version other than 2.
-    InvalidOrder = 3,       ///< The order breaks a rule of its structure; it was not sent.
-    VehicleNotReady = 4,    ///< Not online, no state yet, or a mode in which master control has no say.
+    InvalidOrder = 3,       ///< The structure of the order is invalid; it was not sent.
+    VehicleNotReady = 4,    ///< Not online, no state yet, or a mode without master control.
     OrderActive = 5,        ///< Another order is not finished; cancel it or wait.
     NoOrder = 6,            ///< There is no order to update or to cancel.
-    UpdatePending = 7,      ///< An update already waits until the one before is echoed.
+    UpdatePending = 7,      ///< An update waits already until the vehicle shows the previous one.
     NotSupported = 8,       ///< The vehicle's factsheet has no such action, optional member or size; it was not sent.
 };
 

@@ -48,7 +48,7 @@ struct PhysicalParameters
 {
     double speedMin = 0.0;
     double speedMax = 0.0;
-    std::optional<double> angularSpeedMin; ///< Written from 2.1 on, by its text: its schema forgot the two.
+    std::optional<double> angularSpeedMin; ///< Written from 2.1 on, according to its text; missing in its schema.
     std::optional<double> angularSpeedMax;
     double accelerationMax = 0.0;
     double decelerationMax = 0.0;
@@ -97,7 +97,7 @@ struct MaximumArrayLengths
     bool operator==(const MaximumArrayLengths&) const = default;
 };
 
-/// The longest interval of ProtocolTiming that is read, in seconds: a day.
+/// Maximum interval of ProtocolTiming that is accepted, in seconds: one day.
 inline constexpr double LONGEST_INTERVAL = 86'400.0;
 
 /// Seconds, 0 to LONGEST_INTERVAL.
@@ -178,7 +178,7 @@ struct AgvAction
 
 struct ProtocolFeatures
 {
-    std::vector<OptionalParameter> optionalParameters; ///< What is not listed is not supported.
+    std::vector<OptionalParameter> optionalParameters; ///< Unlisted parameters are not supported.
     std::vector<AgvAction> agvActions;
 
     bool operator==(const ProtocolFeatures&) const = default;
@@ -236,7 +236,7 @@ struct Envelope3D
 {
     std::string set;
     std::string format;
-    std::optional<Core::JsonText> data; ///< An object whose form the format says.
+    std::optional<Core::JsonText> data; ///< An object, defined by the format.
     std::string url;
     /// A string, but an integer in the schema of 2.1: written in 2.0 only.
     std::optional<Core::JsonText> description;

@@ -8,10 +8,11 @@
 namespace ACS::VDA5050
 {
 
-/// The members with which each message begins (section 6.4). Sessions fill it; flat in the JSON object.
+/// The first members of each message (section 6.4), set by the sessions. Flat in the JSON object.
 struct Header
 {
-    std::uint32_t headerID = 0; ///< One counter per topic. Never to be relied on for order: wills carry old ones.
+    std::uint32_t headerID =
+        0; ///< One counter per topic. Does not reflect the order of messages: wills carry old values.
     Core::WallTime timestamp{}; ///< Written with milliseconds and Z.
     std::string version;        ///< "2.0.0"
     std::string manufacturer;

@@ -9,7 +9,7 @@
 namespace ACS::VDA5050
 {
 
-/// A message as a session wants it published, or as it came from the broker.
+/// A message to publish, or one from the broker.
 struct MqttMessage
 {
     std::string topic;
@@ -20,7 +20,7 @@ struct MqttMessage
     bool operator==(const MqttMessage&) const = default;
 };
 
-/// What a session asks of its owner: hand the message to the link.
+/// Action of a session: pass the message to the link.
 struct PublishMessage
 {
     MqttMessage message;
@@ -28,7 +28,7 @@ struct PublishMessage
     bool operator==(const PublishMessage&) const = default;
 };
 
-/// What the broker publishes for a client that vanishes; handed over before connecting.
+/// The last will: the broker publishes it if the client's connection breaks. Set before connecting.
 struct MqttWill
 {
     MqttMessage message;
@@ -44,7 +44,7 @@ struct MqttSubscription
     bool operator==(const MqttSubscription&) const = default;
 };
 
-/// What a link tells its owner, on the owner's thread. The owner forwards it to its sessions.
+/// Events of a link, on the owner's thread. The owner forwards them to its sessions.
 class IMqttLinkListener
 {
 public:
@@ -53,14 +53,13 @@ public:
     IMqttLinkListener& operator=(const IMqttLinkListener&) = delete;
     virtual ~IMqttLinkListener() = default;
 
-    /// Connected, and all subscriptions confirmed.
+    /// Connected, and all subscriptions are confirmed.
     virtual void OnLinkUp() = 0;
     virtual void OnLinkDown(std::error_code reason) = 0;
     virtual void OnMqttMessage(const MqttMessage& message) = 0;
 };
 
-/// A connection to a broker: executes what sessions ask for, decides nothing. Implemented over libmosquitto and by the
-/// broker of the tests. All calls on the owner's thread.
+/// A connection to a broker, without any logic of the protocol. All calls on the owner's thread.
 class IMqttLink
 {
 public:
@@ -69,7 +68,7 @@ public:
     IMqttLink& operator=(const IMqttLink&) = delete;
     virtual ~IMqttLink() = default;
 
-    /// Queues a message. Fails with Core::ECoreError::QueueFull when the link's queue has no room.
+    /// Queues a message. Fails with Core::ECoreError::QueueFull if the link's queue is full.
     [[nodiscard]] virtual Core::Result<void> Publish(const MqttMessage& message) = 0;
     /// Subscribes now and after each reconnect.
     virtual void Subscribe(const std::vector<MqttSubscription>& subscriptions) = 0;

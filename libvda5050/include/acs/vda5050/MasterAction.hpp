@@ -22,7 +22,7 @@ enum class EMasterTimer : std::uint8_t
     Silence,
 };
 
-/// To do: call OnTimer after the delay; replaces a running timer of the same name.
+/// Call OnTimer after the delay. Replaces a running timer of the same name.
 struct StartMasterTimer
 {
     EMasterTimer timer = EMasterTimer::ResendOrder;
@@ -38,25 +38,25 @@ struct CancelMasterTimer
     bool operator==(const CancelMasterTimer&) const = default;
 };
 
-/// Said ONLINE. Orders can be sent once a state has come, too: MasterSession::CanTakeOrder.
+/// The vehicle reported ONLINE. Orders can be sent once a state was received as well: MasterSession::CanTakeOrder.
 struct VehicleOnline
 {
     bool operator==(const VehicleOnline&) const = default;
 };
 
-/// Left in order.
+/// The vehicle has disconnected in an orderly way.
 struct VehicleOffline
 {
     bool operator==(const VehicleOffline&) const = default;
 };
 
-/// Its connection broke; it may still drive to the end of its base.
+/// The vehicle's connection broke; it may still drive to the end of its base.
 struct VehicleBroken
 {
     bool operator==(const VehicleBroken&) const = default;
 };
 
-/// No state for longer than MasterOptions allows, though its connection stands. Told once; the next state ends it.
+/// No state for longer than MasterOptions allows, while the vehicle is online. Reported once, until the next state.
 struct VehicleSilent
 {
     Core::Duration age{};
@@ -64,13 +64,13 @@ struct VehicleSilent
     bool operator==(const VehicleSilent&) const = default;
 };
 
-/// MasterSession::GetStateOrNull has it. Comes before the events that were drawn from it.
+/// See MasterSession::GetStateOrNull. Precedes the events that were derived from the state.
 struct StateReceived
 {
     bool operator==(const StateReceived&) const = default;
 };
 
-/// MasterSession::GetFactsheetOrNull has it.
+/// See MasterSession::GetFactsheetOrNull.
 struct FactsheetReceived
 {
     bool operator==(const FactsheetReceived&) const = default;
@@ -85,7 +85,7 @@ struct PositionReceived
     bool operator==(const PositionReceived&) const = default;
 };
 
-/// The vehicle shows the ids in its state.
+/// The vehicle's state shows this orderID and orderUpdateID.
 struct OrderAccepted
 {
     std::string orderID;
@@ -94,18 +94,18 @@ struct OrderAccepted
     bool operator==(const OrderAccepted&) const = default;
 };
 
-/// The vehicle refuses this message (an order in the running order's place leaves that one alive), or never echoed it.
+/// The vehicle has refused this message (an order that runs is not affected), or has never shown it.
 struct OrderRejected
 {
     std::string orderID;
     std::uint32_t orderUpdateID = 0;
-    std::string errorType; ///< "validationError", …; empty where the resends ran out.
-    std::string reason;    ///< A sentence for people.
+    std::string errorType; ///< For example "validationError"; empty after the last resend.
+    std::string reason;    ///< For the operator.
 
     bool operator==(const OrderRejected&) const = default;
 };
 
-/// A message of the order waits until the vehicle takes another: its factsheet's minOrderInterval. Sent by itself then.
+/// A message of the order waits for the minOrderInterval of the vehicle's factsheet. It is sent by itself then.
 struct OrderDelayed
 {
     std::string orderID;
@@ -115,7 +115,7 @@ struct OrderDelayed
     bool operator==(const OrderDelayed&) const = default;
 };
 
-/// Each node of the order once and in order, also when the states in between were lost.
+/// Reported once per node of the order, in order, even if states were lost.
 struct NodeReached
 {
     std::string nodeID;
@@ -124,7 +124,7 @@ struct NodeReached
     bool operator==(const NodeReached&) const = default;
 };
 
-/// The reported status (or result) of an action changed; order and instant actions. Statuses in between may be missing.
+/// The reported status (or result) of an order action or instant action has changed. Intermediate statuses may be missing.
 struct ActionChanged
 {
     std::string actionID;
@@ -135,7 +135,7 @@ struct ActionChanged
     bool operator==(const ActionChanged&) const = default;
 };
 
-/// An action that was seen, or belonged to an order that has ended, and whose end nobody will hear of any more.
+/// The outcome of an action remains unknown: it disappeared from the state, or its order ended.
 struct ActionLost
 {
     std::string actionID;
@@ -145,7 +145,7 @@ struct ActionLost
     bool operator==(const ActionLost&) const = default;
 };
 
-/// The vehicle refuses an instant action by an error, or never showed it.
+/// The vehicle has refused an instant action with an error, or has never shown it.
 struct InstantActionRejected
 {
     std::string actionID;
@@ -155,7 +155,7 @@ struct InstantActionRejected
     bool operator==(const InstantActionRejected&) const = default;
 };
 
-/// Everything released is done and there was no horizon: nothing left to reach, every action ended.
+/// All nodes are reached, all actions have ended, and there is no horizon.
 struct OrderFinished
 {
     std::string orderID;
@@ -163,7 +163,7 @@ struct OrderFinished
     bool operator==(const OrderFinished&) const = default;
 };
 
-/// The order ended by Cancel; the vehicle is ready for another.
+/// The order was cancelled; the vehicle can accept another one.
 struct OrderCancelled
 {
     std::string orderID;
@@ -171,9 +171,9 @@ struct OrderCancelled
     bool operator==(const OrderCancelled&) const = default;
 };
 
-/// The vehicle has taken an order that was cancelled before it had seen it, or rejected, or never shown (OrderRejected): a
-/// message that came late. Where it still runs it is cancelled once more by itself, and the end of that is told as that of
-/// any cancel; else OrderFinished follows.
+/// The vehicle has accepted a late message of an order that was cancelled before the vehicle had shown it, or that was
+/// reported as OrderRejected. If it still runs, the session cancels it again and reports the end as for any cancel;
+/// otherwise OrderFinished follows.
 struct OrderReappeared
 {
     std::string orderID;
@@ -181,7 +181,7 @@ struct OrderReappeared
     bool operator==(const OrderReappeared&) const = default;
 };
 
-/// The cancelOrder action failed though the vehicle still holds the order, or was refused.
+/// The cancelOrder action was refused, or it failed and the vehicle still has the order.
 struct CancelFailed
 {
     std::string orderID;
@@ -190,7 +190,7 @@ struct CancelFailed
     bool operator==(const CancelFailed&) const = default;
 };
 
-/// The vehicle dropped the order by itself: restarted, taken over by hand, or given another order by somebody else.
+/// The vehicle has dropped the order by itself: restart, manual mode, or an order of another master.
 struct OrderLost
 {
     std::string orderID;
@@ -199,7 +199,7 @@ struct OrderLost
     bool operator==(const OrderLost&) const = default;
 };
 
-/// An error that is in this state and was not in the one before (or no longer is).
+/// An error that is new in the state, or no longer in it.
 struct VehicleErrorChanged
 {
     VehicleError error;
@@ -208,7 +208,7 @@ struct VehicleErrorChanged
     bool operator==(const VehicleErrorChanged&) const = default;
 };
 
-/// A payload that could not be read, counted and left out.
+/// An unreadable payload, which is counted and ignored.
 struct MessageRefused
 {
     ETopic topic = ETopic::State;
@@ -217,7 +217,7 @@ struct MessageRefused
     bool operator==(const MessageRefused&) const = default;
 };
 
-/// What a MasterSession asks for (the first three) and tells.
+/// Requests (the first three) and events of a MasterSession.
 using MasterAction = std::variant<
     PublishMessage,
     StartMasterTimer,

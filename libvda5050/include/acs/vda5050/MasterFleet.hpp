@@ -18,18 +18,18 @@ namespace ACS::VDA5050
 
 struct FleetOptions
 {
-    /// For every vehicle. Of its address only the interfaceName counts; its version holds for vehicles that name none.
+    /// For every vehicle. Of its address only interfaceName is used; its version applies to vehicles that report none.
     MasterOptions vehicle;
-    /// Whether vehicles that were not added are taken in when they are heard.
+    /// Whether vehicles that were not added are accepted when they send a message.
     bool bDiscovery = true;
-    /// Asked before an unknown vehicle is taken in; none: all are welcome. Anybody may write to a broker, and what writes to
-    /// the topics of enough vehicles that do not exist leaves no room for those that do.
+    /// Decides whether an unknown vehicle is accepted; empty: all are. Any client of a broker can publish to the topics of
+    /// vehicles that do not exist and so use up maxVehicles.
     std::function<bool(const VehicleAddress&)> isWelcome;
-    /// Discovered vehicles beyond this are left out and counted. Add is not bound by it.
+    /// Maximum number of vehicles for discovery; more are ignored and counted. Add is not limited.
     std::size_t maxVehicles = 1'000;
 };
 
-/// What the session of one vehicle asks for or tells; MasterFleet::GetSession has it by the number.
+/// An action of the session of one vehicle, see MasterFleet::GetSession.
 struct FleetAction
 {
     std::size_t vehicle = 0;
@@ -40,7 +40,7 @@ struct FleetAction
 
 using FleetActions = std::vector<FleetAction>;
 
-/// A message that made no vehicle known, and why.
+/// A message of an unknown vehicle that was not accepted, and the reason.
 struct LeftOutMessage
 {
     std::string topic;
@@ -49,13 +49,13 @@ struct LeftOutMessage
     bool operator==(const LeftOutMessage&) const = default;
 };
 
-/// What calls of one vehicle's session appended becomes the fleet's: moves the actions behind out and leaves none.
+/// Moves the actions of one vehicle's session to the end of out and clears them.
 void AppendActions(std::size_t vehicle, MasterActions& actions, FleetActions& out);
 
-/// A MasterSession for each vehicle on a broker, added by its address or discovered by its connection message (retained:
-/// all are known at once) or a live state. Vehicles are numbered from 0 as they come; a number is never given twice. Pure
-/// like its sessions. Four subscriptions serve all vehicles; a message costs one look-up, however many there are. All
-/// calls on one thread; and none while its out is iterated, as calls append to it.
+/// A MasterSession for each vehicle on a broker, added by its address or discovered by its connection message (which is
+/// retained, so that all vehicles are known at once) or by a live state. Vehicles are numbered from 0; a number is never
+/// reused. Pure like its sessions. Four subscriptions serve all vehicles; a message costs one look-up, regardless of their
+/// number. Not shared between threads. Calls append to out: do not call while iterating over it.
 class MasterFleet
 {
     FleetOptions _options;
@@ -77,43 +77,43 @@ class MasterFleet
     std::size_t Insert(std::unique_ptr<MasterSession> session);
 
 public:
-    /// The interfaceName must be one: see Create.
+    /// The interfaceName must be valid: see Create.
     explicit MasterFleet(FleetOptions options);
 
-    /// For an interfaceName that comes from outside. Fails with InvalidTopic where it cannot stand in a topic.
+    /// For an interfaceName from outside. Fails with InvalidTopic if it is not allowed in a topic.
     [[nodiscard]] static Core::Result<MasterFleet> Create(FleetOptions options);
 
     /// state, visualization, connection and factsheet of all vehicles of the interface.
     [[nodiscard]] std::vector<MqttSubscription> GetSubscriptions() const;
 
-    /// Takes a vehicle in before it is heard; its number, also where it is known already. Fails with InvalidTopic.
+    /// Adds a vehicle before its first message. Returns its number, also if it is known already. Fails with InvalidTopic.
     [[nodiscard]] Core::Result<std::size_t> Add(const VehicleAddress& address, Core::Now now, FleetActions& out);
 
-    /// Forgets a vehicle with its order, its session and its number; its timers are cancelled, nothing is sent to it. Heard
-    /// again, and welcome, it is a new one: a connection message that is retained on the broker is heard at each OnLinkUp.
-    /// False where there is none with this number (any more).
+    /// Removes a vehicle with its order, its session and its number; its timers are cancelled, nothing is sent to it. With
+    /// its next message it can be discovered again under a new number: a retained connection message arrives after each
+    /// OnLinkUp. False if there is no vehicle with this number.
     bool TryRemove(std::size_t vehicle, FleetActions& out);
 
     void OnLinkUp(Core::Now now, FleetActions& out);
     void OnLinkDown(Core::Now now, FleetActions& out);
-    /// Of a vehicle that is not known yet: takes it in. Its first FleetAction bears a new number.
+    /// Discovers an unknown vehicle. Its first FleetAction has a new number.
     void OnMessage(const MqttMessage& message, Core::Now now, FleetActions& out);
-    /// Late ones of a vehicle that was removed do nothing.
+    /// No effect for a vehicle that was removed.
     void OnTimer(std::size_t vehicle, EMasterTimer timer, Core::Now now, FleetActions& out);
 
-    /// How many numbers were given: those of removed vehicles count.
+    /// Number of vehicles ever known, including removed ones.
     [[nodiscard]] std::size_t GetSize() const noexcept;
-    /// Whether there is a vehicle with this number, not removed.
+    /// Whether there is a vehicle with this number.
     [[nodiscard]] bool Contains(std::size_t vehicle) const noexcept;
-    /// The session of a vehicle, for orders and questions. What its calls append is of this vehicle: see AppendActions.
-    /// The reference holds until the vehicle is removed. Contains(vehicle) is true.
+    /// The session of a vehicle. Pass the actions of its calls to AppendActions. The reference is valid until the vehicle is
+    /// removed. Requires Contains(vehicle).
     [[nodiscard]] MasterSession& GetSession(std::size_t vehicle);
     [[nodiscard]] const MasterSession& GetSession(std::size_t vehicle) const;
     [[nodiscard]] std::optional<std::size_t> FindOrNull(const VehicleAddress& address) const;
-    /// Messages of vehicles that were not taken in: too many, not welcome, unreadable, of another vehicle or major version than their
-    /// topic says, or not discovered.
+    /// Number of messages of vehicles that were not accepted: too many vehicles, rejected by isWelcome, unreadable, another
+    /// vehicle or major version than the topic, or no discovery.
     [[nodiscard]] std::uint64_t GetLeftOutCount() const noexcept;
-    /// The last of them, for the log; null where there was none.
+    /// The last of them, for the log; null if there was none.
     [[nodiscard]] const LeftOutMessage* GetLastLeftOutOrNull() const noexcept;
     /// The sum over all vehicles.
     [[nodiscard]] MasterStatistics GetStatistics() const;

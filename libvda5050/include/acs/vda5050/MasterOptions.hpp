@@ -14,24 +14,24 @@ namespace ACS::VDA5050
 struct MasterOptions
 {
     VehicleAddress address;
-    EVda5050Version version = EVda5050Version::Version200; ///< What is written; either is read.
+    EVda5050Version version = EVda5050Version::Version200; ///< Of sent messages; both versions are read.
     QosTable qos;
 
-    /// An order or instant action is sent again this often until the vehicle shows it.
+    /// Interval of resends of an order or instant action until the vehicle shows it.
     std::chrono::milliseconds resendInterval{2'000};
-    /// Resends of one message before it counts as rejected; 0: for ever, a vehicle that is silent is told of anyway.
+    /// Resends of a message before it counts as rejected; 0: no limit (a silent vehicle is reported in any case).
     std::uint32_t resendCount = 0;
-    /// A state is due at the latest after this (the standard's 30 s) and the margin.
+    /// Maximum interval of states (30 s in the standard); VehicleSilent after this and the margin.
     std::chrono::milliseconds stateInterval{30'000};
     std::chrono::milliseconds stateMargin{5'000};
-    /// Ask for the factsheet at online unless the retained one has come.
+    /// Request the factsheet when the vehicle comes online, unless the retained one was received.
     bool bFactsheetRequested = true;
-    /// Send only what the factsheet supports, once it has come: see MasterSession::SendOrder.
+    /// Send only what the received factsheet supports: see MasterSession::SendOrder.
     bool bFactsheetObeyed = true;
-    /// Ask for a state at online: the retained ONLINE may be the only thing that the broker still has.
+    /// Request a state when the vehicle comes online: the broker retains ONLINE, but no state.
     bool bStateRequested = true;
-    /// Prefix of the ids of the session's own actions (cancelOrder, stateRequest, …). They are made unique by the wall
-    /// clock and a counter; give each master of one vehicle another prefix.
+    /// Prefix of the ids of the session's own actions (cancelOrder, stateRequest, …), which the wall clock and a counter make
+    /// unique. Each master of a vehicle needs its own prefix.
     std::string actionIDPrefix = "acs";
 };
 

@@ -20,48 +20,48 @@ namespace ACS::VDA5050
 
 enum class EVehicleLink : std::uint8_t
 {
-    Unknown, ///< No connection message yet, or our own link is down.
+    Unknown, ///< No connection message yet, or the own link is down.
     Online,
     Offline,
     Broken,
 };
 
-/// Where the order stands, as far as the vehicle has shown it.
+/// Progress of the order, according to the vehicle's states.
 enum class EOrderPhase : std::uint8_t
 {
     None,       ///< No order, or the last one ended.
-    Sent,       ///< The first message of it waits for the echo.
-    Active,     ///< Accepted. An update may wait for its echo.
-    Cancelling, ///< Cancel was asked for.
+    Sent,       ///< The vehicle has not shown the first message yet.
+    Active,     ///< Accepted. An update may not be shown yet.
+    Cancelling, ///< Cancel was requested.
 };
 
-/// A node or an edge on which the vehicle may drive without another word from us.
+/// A node or an edge on which the vehicle may drive without a further message.
 struct ReservedElement
 {
     std::string elementID;
     std::uint32_t sequenceID = 0;
     bool bEdge = false;
-    bool bShown = false; ///< By the vehicle's state; else sent to it and not yet answered.
+    bool bShown = false; ///< Shown by the vehicle's state; otherwise sent and not shown yet.
 
     bool operator==(const ReservedElement&) const = default;
 };
 
-/// An order as a master wrote it down, to go on with it after a restart: each message before SendOrder or SendOrderUpdate
-/// was called, and what OrderAccepted told.
+/// An order as a master has stored it in order to resume it after a restart: each message before the call of SendOrder or
+/// SendOrderUpdate, and the number from OrderAccepted.
 struct OrderRecord
 {
-    std::vector<OrderMessage> messages; ///< All of the order, the first one first, each with its orderUpdateID.
+    std::vector<OrderMessage> messages; ///< All messages of the order, oldest first, each with its orderUpdateID.
     std::optional<std::uint32_t> acceptedUpdateID;
 
     bool operator==(const OrderRecord&) const = default;
 };
 
-/// What a session has counted since it was made.
+/// Counters of a session since it was created.
 struct MasterStatistics
 {
     std::uint64_t statesReceived = 0;
-    std::uint64_t statesIgnored = 0;   ///< Older than one that came before it.
-    std::uint64_t retainedIgnored = 0; ///< States and visualizations that somebody had retained: of unknown age.
+    std::uint64_t statesIgnored = 0;   ///< Older than the latest state.
+    std::uint64_t retainedIgnored = 0; ///< Retained states and visualizations, whose age is unknown.
     std::uint64_t messagesRefused = 0;
     std::uint64_t messagesSent = 0;
     std::uint64_t ordersResent = 0;
@@ -69,17 +69,17 @@ struct MasterStatistics
     bool operator==(const MasterStatistics&) const = default;
 };
 
-/// One vehicle as master control sees it: sends orders and instant actions until the vehicle shows them, and draws from
-/// its states what became of them. Pure: no clock, no I/O; all output is appended to out, which the caller reuses.
-/// The truth is what the vehicle says: lost states, repeated retained messages and old wills do no harm. All calls on one
-/// thread; and none while its out is iterated, as calls append to it.
+/// One vehicle from the point of view of master control: resends orders and instant actions until the vehicle shows them,
+/// and derives their progress from its states. Pure: no clock, no I/O; all output is appended to out, which the caller
+/// reuses. The vehicle's state is authoritative: lost states, repeated retained messages and old wills are harmless. Not
+/// shared between threads. Calls append to out: do not call while iterating over it.
 class MasterSession
 {
     class Impl;
     std::unique_ptr<Impl> _impl;
 
 public:
-    /// The address must be one (IsValidAddress): see Create.
+    /// The address must be valid (IsValidAddress): see Create.
     explicit MasterSession(MasterOptions options);
     MasterSession(const MasterSession&) = delete;
     MasterSession& operator=(const MasterSession&) = delete;
@@ -87,61 +87,60 @@ public:
     MasterSession& operator=(MasterSession&&) noexcept;
     ~MasterSession();
 
-    /// For an address that comes from outside. Fails with InvalidTopic where a part of it cannot stand in a topic.
+    /// For an address from outside. Fails with InvalidTopic if a part of it is not allowed in a topic.
     [[nodiscard]] static Core::Result<MasterSession> Create(MasterOptions options);
 
-    /// What to subscribe to before OnLinkUp: state, visualization, connection and factsheet of this vehicle.
+    /// Subscriptions to make before OnLinkUp: state, visualization, connection and factsheet of this vehicle.
     [[nodiscard]] std::vector<MqttSubscription> GetSubscriptions() const;
 
-    /// The broker is connected and the subscriptions stand. The retained connection message follows by itself.
+    /// The broker is connected and the subscriptions are made. The retained connection message follows by itself.
     void OnLinkUp(Core::Now now, MasterActions& out);
-    /// Our own link is down: the vehicle is Unknown from now on, orders stay as they are and are resent after OnLinkUp.
+    /// The own link is down: the vehicle is Unknown from now on. Orders are kept, and resent after OnLinkUp.
     void OnLinkDown(Core::Now now, MasterActions& out);
-    /// Messages of other vehicles and topics are ignored. A header with another vehicle's name or another major version
-    /// is refused; a state or visualization that was retained is no news, and only counted.
+    /// Messages of other vehicles and topics are ignored. A message whose header has another vehicle's name or another
+    /// major version is refused; a retained state or visualization is only counted.
     void OnMessage(const MqttMessage& message, Core::Now now, MasterActions& out);
-    /// As a message that was not retained.
+    /// A message that was not retained.
     void OnMessage(std::string_view topic, std::string_view payload, Core::Now now, MasterActions& out);
     void OnTimer(EMasterTimer timer, Core::Now now, MasterActions& out);
 
-    /// Sends an order (orderID and its route filled in, its header not) and resends it until the vehicle shows it. The
-    /// orderUpdateID is sent as given. The orderID is one that the vehicle does not show: it would take the order for the
-    /// one that it has, or had last; see ResumeOrder.
-    /// Held against the factsheet, if one has come: unlisted tolerances and lengths are left out, any other optional
-    /// member, action, parameter or size that it does not list is an error; an empty list refuses nothing.
-    /// Errors: VehicleNotReady, OrderActive (also where the vehicle runs an order of somebody else), InvalidOrder,
-    /// NotSupported.
+    /// Sends an order (with orderID and route, without header) and resends it until the vehicle shows it. The
+    /// orderUpdateID is sent as given. The orderID must be new to the vehicle, which would otherwise mistake the order for
+    /// its current or last one; see ResumeOrder.
+    /// Once a factsheet was received, the order is checked against it: unlisted tolerances and lengths are omitted; any
+    /// other optional member, action, parameter or size that is not listed is an error. An empty list allows everything.
+    /// Errors: VehicleNotReady, OrderActive (also for an order of another master), InvalidOrder, NotSupported.
     [[nodiscard]] Core::Result<void> SendOrder(OrderMessage order, Core::Now now, MasterActions& out);
-    /// The next update of the running order: nodes from the decision point on. Its orderID and orderUpdateID are set
-    /// here. Waits for the echo of the message before it; one may wait.
+    /// The next update of the running order: nodes from the decision point on. The session sets orderID and orderUpdateID.
+    /// The update is sent once the vehicle shows the previous message; at most one update can wait.
     /// Errors: NoOrder, UpdatePending, InvalidOrder, NotSupported.
     [[nodiscard]] Core::Result<void> SendOrderUpdate(OrderMessage update, Core::Now now, MasterActions& out);
-    /// Takes up an order after a restart of the master. What the vehicle's state shows of it is taken as accepted and not
-    /// sent; the messages behind that, two at most, are. An order that was accepted and that the vehicle no longer shows
-    /// is told as lost and not sent a second time. NodeReached counts from the first node again.
+    /// Resumes an order after a restart of the master. Messages that the vehicle's state shows count as accepted and are
+    /// not sent; the later ones, two at most, are sent. An order that was accepted and is no longer shown is reported as
+    /// lost and not sent again. NodeReached starts at the first node again.
     /// Errors: OrderActive, VehicleNotReady, InvalidOrder, NotSupported.
     [[nodiscard]] Core::Result<void> ResumeOrder(OrderRecord record, Core::Now now, MasterActions& out);
-    /// Sends an instant action until the vehicle shows its id. One that it shows already is not sent, and its status is
-    /// told (ActionChanged): a master that wrote its ids down may ask again after a restart. blockingType is set as vehicles
-    /// of 2.x want it. An empty actionID is filled in; the result is the id. Errors: VehicleNotReady (also in a mode that
-    /// takes none, but for stateRequest and factsheetRequest), InvalidOrder (the id of another action that the vehicle
-    /// shows, or of one that has not ended), NotSupported (for cancelOrder, startPause, stopPause, stateRequest and
-    /// factsheetRequest only where their id is not as the vehicle wants ids).
+    /// Sends an instant action until the vehicle shows its id. An action that is shown already is not sent; its status is
+    /// reported (ActionChanged), so that a master that has stored its ids can repeat the call after a restart. The session
+    /// sets blockingType as vehicles of 2.x expect it, and fills in an empty actionID; the result is the id.
+    /// Errors: VehicleNotReady (also in a mode without master control, except for stateRequest and factsheetRequest),
+    /// InvalidOrder (the id belongs to another action that is shown or has not ended), NotSupported (for cancelOrder,
+    /// startPause, stopPause, stateRequest and factsheetRequest only if the id violates the vehicle's limits).
     [[nodiscard]] Core::Result<std::string> SendInstantAction(Action action, Core::Now now, MasterActions& out);
-    /// Cancels the order: not yet seen by the vehicle, or running. Ends with OrderCancelled, OrderFinished (it was
-    /// quicker), OrderLost or CancelFailed. Errors: NoOrder, VehicleNotReady.
+    /// Cancels the order, whether or not the vehicle has shown it. Ends with OrderCancelled, OrderFinished (the order ended
+    /// first), OrderLost or CancelFailed. Errors: NoOrder, VehicleNotReady.
     [[nodiscard]] Core::Result<void> Cancel(Core::Now now, MasterActions& out);
 
-    /// What must be kept free for the vehicle: its last node and the base that its last state shows, by whoever gave it
-    /// and however old the state is, and then the base of the message that it has not answered.
+    /// Nodes and edges that must be kept free for the vehicle: its last node and the base of its last state, regardless of
+    /// the order's sender and the state's age, followed by the base of the message that is not shown yet.
     [[nodiscard]] std::vector<ReservedElement> ListReserved() const;
 
     [[nodiscard]] EVehicleLink GetLink() const noexcept;
     [[nodiscard]] EOrderPhase GetOrderPhase() const noexcept;
     [[nodiscard]] const std::string& GetOrderID() const noexcept;
-    /// Online, a state has come, mode AUTOMATIC or SEMIAUTOMATIC, and no order runs, nor one of somebody else.
+    /// Online, a state was received, mode AUTOMATIC or SEMIAUTOMATIC, and no order of any master runs.
     [[nodiscard]] bool CanTakeOrder() const;
-    /// Online, a state has come since then and is not overdue.
+    /// Online, a state was received since then, and the next one is not overdue.
     [[nodiscard]] bool IsReady() const;
     /// The last state, null before the first.
     [[nodiscard]] const StateMessage* GetStateOrNull() const noexcept;

@@ -12,9 +12,8 @@
 namespace ACS::VDA5050
 {
 
-/// A route and how much of it is released. Makes the order and each of its updates: sequence ids, released flags and
-/// the edges' start and end nodes are filled in, an update begins at the decision point (the last released node). The
-/// caller fills in ids, positions, actions and limits only.
+/// Creates an order and its updates from a route: sets sequence ids, released flags and the start and end nodes of edges; an
+/// update begins at the decision point (the last released node). The caller sets ids, positions, actions and limits.
 class OrderBuilder
 {
     std::string _orderID;
@@ -29,25 +28,27 @@ class OrderBuilder
 public:
     static constexpr std::size_t WHOLE_ROUTE = std::numeric_limits<std::size_t>::max();
 
-    /// At least one node; one edge less than nodes, edge n from node n to node n + 1. Fails with InvalidOrder.
+    /// Requires at least one node, and one edge less than nodes: edge n leads from node n to node n + 1. Fails with
+    /// InvalidOrder.
     [[nodiscard]] static Core::Result<OrderBuilder> Create(
         std::string orderID,
         std::vector<OrderNode> nodes,
         std::vector<OrderEdge> edges);
 
     /// The first message: the first releasedNodes nodes (1 to all) are the base, at most horizonNodes more the horizon.
-    /// Fails with InvalidOrder where one was made already.
+    /// Fails with InvalidOrder if it was created already.
     [[nodiscard]] Core::Result<OrderMessage> MakeOrder(
         std::size_t releasedNodes,
         std::size_t horizonNodes = WHOLE_ROUTE);
 
-    /// The next update: releases the route up to its node number releasedNodes, counted from the route's begin, no less
-    /// than before. orderUpdateID is one more than the last one.
+    /// The next update: releases the first releasedNodes nodes of the route, at least as many as before. Increments
+    /// orderUpdateID.
     [[nodiscard]] Core::Result<OrderMessage> MakeUpdate(
         std::size_t releasedNodes,
         std::size_t horizonNodes = WHOLE_ROUTE);
 
-    /// Lengthens the route: as many edges as nodes; the first edge leaves the route's last node. Not yet released.
+    /// Extends the route by the same number of edges and nodes, which are not released yet; the first edge starts at the last
+    /// node.
     [[nodiscard]] Core::Result<void> Append(std::vector<OrderNode> nodes, std::vector<OrderEdge> edges);
 
     [[nodiscard]] const std::string& GetOrderID() const noexcept;

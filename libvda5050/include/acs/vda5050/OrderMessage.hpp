@@ -17,7 +17,7 @@ struct NodePosition
     double x = 0.0;
     double y = 0.0;
     std::optional<double> theta;
-    std::optional<double> allowedDeviationXY;    ///< Radius in metres; 0 is the maker's own tolerance.
+    std::optional<double> allowedDeviationXY;    ///< Radius in metres; 0: the tolerance of the vehicle.
     std::optional<double> allowedDeviationTheta; ///< [0, pi]
     std::string mapID;
     std::string mapDescription;
@@ -28,9 +28,9 @@ struct NodePosition
 struct OrderNode
 {
     std::string nodeID;
-    std::uint32_t sequenceID = 0; ///< Even; runs over nodes and edges together.
+    std::uint32_t sequenceID = 0; ///< Even; nodes and edges share one sequence.
     std::string nodeDescription;
-    bool bReleased = false; ///< Base, else horizon.
+    bool bReleased = false; ///< Base; otherwise horizon.
     std::optional<NodePosition> nodePosition;
     std::vector<Action> actions;
 
@@ -41,7 +41,7 @@ struct ControlPoint
 {
     double x = 0.0;
     double y = 0.0;
-    std::optional<double> weight; ///< 1 where absent.
+    std::optional<double> weight; ///< Absent: 1.
 
     bool operator==(const ControlPoint&) const = default;
 };
@@ -90,12 +90,12 @@ struct OrderEdge
     std::optional<double> maxHeight; ///< m
     std::optional<double> minHeight; ///< m
     std::optional<double> orientation;
-    std::optional<EOrientationType> orientationType; ///< Tangential where absent.
+    std::optional<EOrientationType> orientationType; ///< Absent: Tangential.
     std::string direction;
     std::optional<bool> bRotationAllowed;
     std::optional<double> maxRotationSpeed; ///< rad/s
     std::optional<double> length;           ///< m
-    std::optional<Trajectory> trajectory;   ///< A straight line where absent.
+    std::optional<Trajectory> trajectory;   ///< Absent: a straight line.
     std::optional<Corridor> corridor;       ///< Written from 2.1 on.
     std::vector<Action> actions;
 

@@ -19,59 +19,59 @@ namespace ACS::VDA5050
 /// A broken rule, with the error that a vehicle reports for it.
 struct OrderViolation
 {
-    std::string rule; ///< Short English sentence.
+    std::string rule; ///< One sentence.
     VehicleError error;
 
     bool operator==(const OrderViolation&) const = default;
 };
 
-/// A violation as a vehicle reports it: a warning that refers to topic, headerId, orderId and orderUpdateId. For checks
-/// of the caller's own.
+/// A violation as a vehicle reports it: a warning that refers to topic, headerId, orderId and orderUpdateId. For an
+/// OrderCheck.
 [[nodiscard]] OrderViolation MakeOrderViolation(
     const OrderMessage& order,
     std::string_view errorType,
     std::string rule);
 
 /// Checks an order by itself: counts, sequence ids, base before horizon, neighbours of edges, unique action ids, curve
-/// and angle ranges. Empty where it keeps all rules.
+/// and angle ranges. Empty if the order is valid.
 [[nodiscard]] std::vector<OrderViolation> ValidateOrder(const OrderMessage& order);
 
-/// A check of the vehicle's own: orders that its control cannot drive, say. Empty where the order can be taken.
+/// An additional check of the vehicle, for example for orders that its control cannot drive. Empty: no violations.
 using OrderCheck = std::function<std::vector<OrderViolation>(const OrderMessage&)>;
 
-/// What a vehicle knows when an order arrives.
+/// State of a vehicle when an order arrives.
 struct OrderContext
 {
     std::string heldOrderID;
     std::uint32_t heldOrderUpdateID = 0;
     bool bExecuting = false;  ///< Nodes left (horizon included), order actions not ended, or a cancel running.
-    bool bCancelling = false; ///< An update is refused while a cancel runs.
+    bool bCancelling = false; ///< Updates are refused while a cancel runs.
     EOperatingMode operatingMode = EOperatingMode::Automatic;
     std::string decisionNodeID; ///< Last released node; lastNode where no order runs.
     std::uint32_t decisionSequenceID = 0;
-    std::size_t keptNodes = 0;   ///< Released ones still to be reached: what an update adds to.
-    std::size_t keptActions = 0; ///< Those of the order that an update leaves, and instant ones that stay.
-    std::size_t keptBytes = 0;   ///< What the kept nodes, edges and order actions take in a state, at most.
+    std::size_t keptNodes = 0;   ///< Released nodes that are not reached yet: an update adds to them.
+    std::size_t keptActions = 0; ///< Order actions that an update keeps, and instant actions.
+    std::size_t keptBytes = 0;   ///< Maximum size of the kept nodes, edges and order actions in a state.
     std::string lastNodeID;
     std::optional<AgvPosition> position;
-    double defaultDeviationXY = 0.5;             ///< Metres, where the first node states none or 0.
+    double defaultDeviationXY = 0.5;             ///< Metres, if the first node states none or 0.
     std::vector<std::string> mapIDs;             ///< Maps on the vehicle; empty: not checked.
-    bool bMapsKnown = false;                     ///< mapIDs is checked even where it is empty.
+    bool bMapsKnown = false;                     ///< mapIDs is checked even if it is empty.
     std::vector<std::string> zoneSetIDs;         ///< Zone sets on the vehicle; empty: not checked.
-    const FactsheetMessage* factsheet = nullptr; ///< What it can do: actions, optional members, sizes; null: all.
+    const FactsheetMessage* factsheet = nullptr; ///< Supported actions, optional members and sizes; null: all.
     EParameterCheck parameterCheck = EParameterCheck::Tolerant;
-    std::size_t payloadBytes = 0;              ///< Of the message, held against the factsheet's msgLen.
-    bool bCleared = false;                     ///< The last order was cancelled: the vehicle may have left lastNodeID.
+    std::size_t payloadBytes = 0;              ///< Of the message, compared with the factsheet's msgLen.
+    bool bCleared = false;                     ///< The last order was cancelled; the vehicle may have left lastNodeID.
     std::vector<std::string> actionIDs;        ///< Reported actions that an update does not remove.
     std::vector<std::string> instantActionIDs; ///< Instant actions that outlive a new order.
-    OrderCheck orderCheck;                     ///< Asked last; empty: none.
+    OrderCheck orderCheck;                     ///< Called last; empty: none.
 };
 
 enum class EOrderVerdict : std::uint8_t
 {
     NewOrder,
     Update,
-    Discard, ///< The update that the vehicle has already.
+    Discard, ///< An update that the vehicle has already accepted.
     Reject,
 };
 
@@ -79,10 +79,10 @@ struct OrderJudgement
 {
     EOrderVerdict verdict = EOrderVerdict::Reject;
     std::vector<OrderViolation> violations; ///< Of a rejected order: at least one.
-    bool bUntilMode = false;                ///< Rejected for the operating mode alone.
+    bool bUntilMode = false;                ///< Rejected only because of the operating mode.
 };
 
-/// The acceptance tree of 2.x (section 6.6.4): what a vehicle does with an order that its codec could read.
+/// The acceptance rules of 2.x (section 6.6.4) for an order that was decoded.
 [[nodiscard]] OrderJudgement JudgeOrder(const OrderMessage& order, const OrderContext& context);
 
 } // namespace ACS::VDA5050

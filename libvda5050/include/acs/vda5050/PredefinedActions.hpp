@@ -8,11 +8,11 @@
 namespace ACS::VDA5050
 {
 
-/// The actions that 2.0 and 2.1 name (section 6.8.2): where each may stand and its parameters, as a factsheet lists
-/// them. A vehicle that can do one copies its row.
+/// The predefined actions of 2.0 and 2.1 (section 6.8.2) with their scopes and parameters, in the form of a factsheet. A
+/// vehicle copies the entries that it supports.
 [[nodiscard]] const std::vector<AgvAction>& GetPredefinedActions();
 
-/// Null for an action of a vendor's own.
+/// Null for a vendor-specific action.
 [[nodiscard]] const AgvAction* FindPredefinedActionOrNull(std::string_view actionType);
 
 } // namespace ACS::VDA5050

@@ -8,18 +8,18 @@
 namespace ACS::VDA5050
 {
 
-/// The quality of service per topic: a profile, of which single topics may be changed.
+/// The quality of service per topic: a profile, with changes for single topics.
 class QosTable
 {
     std::array<std::uint8_t, TOPIC_COUNT> _levels{};
 
 public:
-    /// The project's profile.
+    /// The default profile.
     QosTable();
     explicit QosTable(EQosProfile profile);
 
     [[nodiscard]] std::uint8_t Get(ETopic topic) const;
-    /// qos is 0, 1 or 2.
+    /// Requires qos 0, 1 or 2.
     void Set(ETopic topic, std::uint8_t qos);
 
     bool operator==(const QosTable&) const = default;

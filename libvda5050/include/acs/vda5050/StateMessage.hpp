@@ -29,7 +29,7 @@ struct MapState
     bool operator==(const MapState&) const = default;
 };
 
-/// The position of a node as a state repeats it. What only the schema of 2.0.0 has is written there alone.
+/// The position of a node in a state. Members that exist only in the schema of 2.0.0 are written in 2.0 only.
 struct NodeStatePosition
 {
     double x = 0.0;
@@ -79,7 +79,7 @@ struct AgvPosition
     bool operator==(const AgvPosition&) const = default;
 };
 
-/// In the vehicle's own frame.
+/// In the vehicle's frame.
 struct Velocity
 {
     std::optional<double> vx;    ///< m/s
@@ -110,7 +110,7 @@ struct LoadDimensions
 
 struct Load
 {
-    std::optional<std::string> loadID; ///< "" where the vehicle could identify it and has not yet.
+    std::optional<std::string> loadID; ///< "": can be identified, but is not yet.
     std::string loadType;
     std::string loadPosition;
     std::optional<BoundingBoxReference> boundingBoxReference;
@@ -162,7 +162,7 @@ enum class EOperatingMode : std::uint8_t
     TeachIn,
 };
 
-/// Whether orders and instant actions are taken in this mode (section 6.10.6).
+/// Whether orders and instant actions are accepted in this mode (section 6.10.6).
 [[nodiscard]] bool IsLedByMaster(EOperatingMode mode);
 
 enum class EErrorLevel : std::uint8_t
@@ -193,7 +193,7 @@ struct VehicleError
     std::strong_ordering operator<=>(const VehicleError&) const = default; // NOLINT(modernize-use-nullptr)
 };
 
-/// The error types that 2.x names; instantActionError, actionError and outsideOfCorridor are this library's.
+/// The error types of 2.x; instantActionError, actionError and outsideOfCorridor are specific to this library.
 namespace ErrorTypes
 {
 inline constexpr std::string_view VALIDATION_ERROR = "validationError";
@@ -202,12 +202,12 @@ inline constexpr std::string_view ORDER_UPDATE_ERROR = "orderUpdateError";
 inline constexpr std::string_view NO_ROUTE_ERROR = "noRouteError";
 inline constexpr std::string_view NO_ORDER_TO_CANCEL = "noOrderToCancel";
 inline constexpr std::string_view INSTANT_ACTION_ERROR = "instantActionError";
-inline constexpr std::string_view ACTION_ERROR = "actionError"; ///< An action failed after it had been started.
+inline constexpr std::string_view ACTION_ERROR = "actionError"; ///< An action failed after its start.
 inline constexpr std::string_view OUTSIDE_OF_CORRIDOR = "outsideOfCorridor";
 inline constexpr std::string_view UNLISTED_PARAMETER = "unlistedParameter"; ///< Accepted, without effect.
 } // namespace ErrorTypes
 
-/// The value of the reference with this key, null where there is none.
+/// The value of the reference with this key; null if there is none.
 [[nodiscard]] const std::string* FindReferenceOrNull(const VehicleError& error, std::string_view key);
 
 enum class EInformationLevel : std::uint8_t
@@ -216,7 +216,7 @@ enum class EInformationLevel : std::uint8_t
     Debug,
 };
 
-/// For people only: no program decides by it.
+/// For the operator only; must not be evaluated by programs.
 struct Information
 {
     std::string infoType;
@@ -248,16 +248,16 @@ struct StateMessage
 {
     Header header;
     std::optional<std::vector<MapState>> maps; ///< Written from 2.1 on; empty: no map on the vehicle.
-    std::string orderID;                       ///< The running or the last order; empty where there never was one.
+    std::string orderID;                       ///< The current or last order; empty before the first one.
     std::uint32_t orderUpdateID = 0;
     std::string zoneSetID;
     std::string lastNodeID;
     std::uint32_t lastNodeSequenceID = 0;
-    std::vector<NodeState> nodeStates; ///< What is still to be reached, horizon included.
+    std::vector<NodeState> nodeStates; ///< Remaining nodes, including the horizon.
     std::vector<EdgeState> edgeStates;
     std::optional<AgvPosition> agvPosition;
     std::optional<Velocity> velocity;
-    std::optional<std::vector<Load>> loads; ///< Absent: the vehicle cannot tell.
+    std::optional<std::vector<Load>> loads; ///< Absent: unknown to the vehicle.
     bool bDriving = false;
     std::optional<bool> bPaused;
     std::optional<bool> bNewBaseRequest;

@@ -25,7 +25,7 @@ enum class ETopic : std::uint8_t
 
 inline constexpr std::size_t TOPIC_COUNT = 6;
 
-/// Project: order and instantActions 2, state and connection 1, the rest 0. Standard: connection 1, the rest 0.
+/// Project: order and instantActions 2, state and connection 1, others 0. Standard: connection 1, others 0.
 enum class EQosProfile : std::uint8_t
 {
     Project,
@@ -41,8 +41,8 @@ enum class EQosProfile : std::uint8_t
 /// The quality of service of a profile; QosTable changes single topics of it.
 [[nodiscard]] std::uint8_t GetQos(ETopic topic, EQosProfile profile);
 
-/// Where a vehicle lives on the broker. A level has no `/`, `+`, `#` and no control characters, does not begin with `$`, and
-/// is not empty.
+/// The address of a vehicle on the broker. A level has no `/`, `+`, `#` and no control characters, does not begin with `$`,
+/// and is not empty.
 struct VehicleAddress
 {
     std::string interfaceName = "uagv";
@@ -52,11 +52,11 @@ struct VehicleAddress
     bool operator==(const VehicleAddress&) const = default;
 };
 
-/// Whether each level may stand in a topic.
+/// Whether each level is allowed in a topic.
 [[nodiscard]] bool IsValidAddress(const VehicleAddress& address);
 
-/// Why a message whose topic is the vehicle's is another's by its header; nothing where it is not. Empty names are
-/// tolerated: there are senders that leave them out, and the topic has said it already.
+/// Why the header does not belong to the vehicle of the topic; nullopt if it does. Empty names are accepted, because some
+/// senders omit them.
 [[nodiscard]] std::optional<Core::Error> FindForeignNameOrNull(const Header& header, const VehicleAddress& address);
 
 /// "uagv/v2/KIT/0001/order"
@@ -73,7 +73,7 @@ struct ParsedTopic
     bool operator==(const ParsedTopic&) const = default;
 };
 
-/// Fails with InvalidTopic, or UnsupportedVersion where only the major version is not 2.
+/// Fails with InvalidTopic, or with UnsupportedVersion if only the major version is not 2.
 [[nodiscard]] Core::Result<ParsedTopic> ParseTopic(std::string_view text);
 
 } // namespace ACS::VDA5050

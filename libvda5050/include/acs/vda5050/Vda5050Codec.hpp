@@ -18,7 +18,7 @@
 namespace ACS::VDA5050
 {
 
-/// One place for what a payload may be at most.
+/// Limits of a payload.
 struct CodecLimits
 {
     std::size_t payloadBytes = 4U * 1024U * 1024U;
@@ -27,20 +27,20 @@ struct CodecLimits
     bool operator==(const CodecLimits&) const = default;
 };
 
-/// What the last Decode tolerated.
+/// Deviations that the last Decode tolerated.
 struct DecodeTolerance
 {
     std::uint32_t unknownMembers = 0;
-    std::uint32_t nullOptionals = 0; ///< null in an optional member is read as absent.
-    std::uint32_t lenientWords = 0;  ///< An enumeration in other letter case.
+    std::uint32_t nullOptionals = 0; ///< null in an optional member, read as absent.
+    std::uint32_t lenientWords = 0;  ///< An enumeration name with different upper or lower case.
 
     bool operator==(const DecodeTolerance&) const = default;
 };
 
-/// Whose a message is, and which order it belongs to.
+/// The sender of a message and its order.
 struct MessageIdentity
 {
-    Header header; ///< Without its timestamp; empty where a member is missing or of another type.
+    Header header; ///< Without its timestamp; members of another type are empty.
     bool bHeaderIDGiven = false;
     std::string orderID;
     std::optional<std::uint32_t> orderUpdateID;
@@ -48,10 +48,10 @@ struct MessageIdentity
     bool operator==(const MessageIdentity&) const = default;
 };
 
-/// Turns payloads into messages and back. Reads 2.0 and 2.1 and what their schemas misspell (allowedDeviationXy,
-/// actionName, instantActions); writes one version strictly: members that it does not know are left out.
-/// Total: bad input is an error value with its JSON path. Holds no buffers between calls, so that hundreds of sessions
-/// with a codec each cost nothing; one thread at a time.
+/// Converts payloads to messages and back. Reads 2.0 and 2.1, including the misspellings of their schemas
+/// (allowedDeviationXy, actionName, instantActions); writes exactly one version, without members of other versions. Invalid
+/// input results in an error with its JSON path. Keeps no buffers between calls, so that a codec per session is cheap. Not
+/// shared between threads.
 class Vda5050Codec
 {
     CodecLimits _limits;
@@ -67,11 +67,11 @@ public:
     /// Tolerances of the last Decode.
     [[nodiscard]] const DecodeTolerance& GetTolerance() const noexcept;
 
-    /// What names a message, as far as it can be read: for the error report about a payload that Decode refused. A member
-    /// of the wrong type is left out; an error is only what is no JSON.
+    /// The readable parts of the header and order ids, for the error report about a payload that Decode has refused. Members
+    /// of the wrong type are omitted; fails only for invalid JSON.
     [[nodiscard]] Core::Result<MessageIdentity> DecodeIdentity(std::string_view payload);
 
-    /// Replaces out by the payload; out is reused by the caller, so that writing allocates nothing once it has grown.
+    /// Replaces out by the payload. A reused out needs no further allocations.
     template <typename TMessage>
     void Encode(const TMessage& message, EVda5050Version version, std::string& out) const;
 

@@ -24,7 +24,7 @@ enum class EVehicleTimer : std::uint8_t
     Visualization,
 };
 
-/// To do: call OnTimer after the delay; replaces a running timer of the same name.
+/// Call OnTimer after the delay. Replaces a running timer of the same name.
 struct StartVehicleTimer
 {
     EVehicleTimer timer = EVehicleTimer::MaximumStateInterval;
@@ -40,7 +40,7 @@ struct CancelVehicleTimer
     bool operator==(const CancelVehicleTimer&) const = default;
 };
 
-/// The leg behind a node that is passed without a stop.
+/// The leg after a node that is passed without a stop.
 struct NextLeg
 {
     OrderEdge edge;
@@ -49,27 +49,27 @@ struct NextLeg
     bool operator==(const NextLeg&) const = default;
 };
 
-/// To do: drive along the edge to its end node, then call TryReachNode with the node's sequenceID. One leg at a time.
-/// The same sequenceID again, while on the way: only bStopAtNode has changed; after StopDriving: drive on.
+/// Drive along the edge to its end node, then call TryReachNode with the node's sequenceID. One leg at a time. A repeated
+/// sequenceID changes only bStopAtNode while driving, and resumes the drive after StopDriving.
 struct DriveTo
 {
     OrderEdge edge;
     OrderNode node;
-    bool bStopAtNode = true; ///< False: the next leg is released and nothing is to be done at the node: do not brake.
-    /// Just where it does not stop: how fast and how turned the vehicle has to be there. Its own DriveTo follows at the
-    /// node.
+    bool bStopAtNode = true; ///< False: the next leg is released and the node has no actions: do not brake.
+    /// Set if the vehicle does not stop: gives the speed and heading it needs at the node. The DriveTo of this leg follows
+    /// at the node.
     std::optional<NextLeg> next;
 
     bool operator==(const DriveTo&) const = default;
 };
 
-/// To do: stand still, wherever that is; OnDrivingChanged(false) follows.
+/// Stop at once, wherever the vehicle is; then call OnDrivingChanged(false).
 struct StopDriving
 {
     bool operator==(const StopDriving&) const = default;
 };
 
-/// To do: perform it, and tell with TrySetActionStatus: Initializing or Running, then Finished or Failed.
+/// Perform the action and report with TrySetActionStatus: Initializing or Running, then Finished or Failed.
 struct StartAction
 {
     Action action;
@@ -80,7 +80,7 @@ struct StartAction
     bool operator==(const StartAction&) const = default;
 };
 
-/// To do, if it can be: TrySetActionStatus(Paused) follows; an action that cannot be paused goes on.
+/// Pause the action if possible, then call TrySetActionStatus(Paused); an action that cannot be paused continues.
 struct PauseAction
 {
     std::string actionID;
@@ -88,7 +88,7 @@ struct PauseAction
     bool operator==(const PauseAction&) const = default;
 };
 
-/// To do: TrySetActionStatus(Running) follows.
+/// Resume the action, then call TrySetActionStatus(Running).
 struct ResumeAction
 {
     std::string actionID;
@@ -96,17 +96,17 @@ struct ResumeAction
     bool operator==(const ResumeAction&) const = default;
 };
 
-/// To do: end it now (Failed), or let it end by itself if it cannot be interrupted. At the end of its edge an action
-/// that has no goal of its own ends with Finished.
+/// End the action now (Failed), or let it finish if it cannot be interrupted. At the end of its edge an action without a
+/// goal of its own ends with Finished.
 struct StopAction
 {
     std::string actionID;
-    bool bEdgeEnded = false; ///< Else the order was cancelled.
+    bool bEdgeEnded = false; ///< Otherwise the order was cancelled.
 
     bool operator==(const StopAction&) const = default;
 };
 
-/// Told: a new order, or an update of it, was taken.
+/// Event: an order or an order update was accepted.
 struct OrderTaken
 {
     std::string orderID;
@@ -116,7 +116,7 @@ struct OrderTaken
     bool operator==(const OrderTaken&) const = default;
 };
 
-/// Told: a message was refused; the errors are in the state.
+/// Event: a message was refused; the errors are in the state.
 struct OrderRefused
 {
     std::string orderID;
@@ -127,7 +127,7 @@ struct OrderRefused
     bool operator==(const OrderRefused&) const = default;
 };
 
-/// Told: nothing left to reach, every action ended.
+/// Event: all nodes are reached and all actions have ended.
 struct OrderCompleted
 {
     std::string orderID;
@@ -135,7 +135,7 @@ struct OrderCompleted
     bool operator==(const OrderCompleted&) const = default;
 };
 
-/// Told: the order was cancelled (by master control or by a change of the operating mode).
+/// Event: the order was cancelled (by master control or by a change of the operating mode).
 struct OrderCleared
 {
     std::string orderID;
@@ -143,7 +143,7 @@ struct OrderCleared
     bool operator==(const OrderCleared&) const = default;
 };
 
-/// Told: a message that was ignored, and why (another vehicle's name in its header, retained, unreadable).
+/// Event: a message was ignored (another vehicle's name in its header, retained, unreadable).
 struct MessageIgnored
 {
     ETopic topic = ETopic::Order;
@@ -152,7 +152,7 @@ struct MessageIgnored
     bool operator==(const MessageIgnored&) const = default;
 };
 
-/// What a VehicleSession asks of its owner, and tells him.
+/// Requests and events of a VehicleSession.
 using VehicleAction = std::variant<
     PublishMessage,
     StartVehicleTimer,

@@ -20,32 +20,32 @@ struct VehicleOptions
     VehicleAddress address;
     EVda5050Version version = EVda5050Version::Version200;
     QosTable qos;
-    /// What the vehicle can do; header and timing are filled in by the session. An order is held against it: an action,
-    /// a parameter, an optional member or a size that it does not list is refused. Lists that are empty refuse nothing.
+    /// Capabilities of the vehicle; the session sets header and timing. Orders are checked against it: an action, a
+    /// parameter, an optional member or a size that it does not list is refused. An empty list allows everything.
     FactsheetMessage factsheet;
     EParameterCheck parameterCheck = EParameterCheck::Tolerant;
 
-    /// Changes closer together than this go into one state.
+    /// Changes within this interval are merged into one state.
     std::chrono::milliseconds minimumStateInterval{50};
-    /// A state at the latest after this.
+    /// Maximum interval of states.
     std::chrono::milliseconds maximumStateInterval{30'000};
-    /// 0: no visualization.
+    /// Interval of visualization messages; 0 disables them.
     std::chrono::milliseconds visualizationInterval{0};
-    /// newBaseRequest once no more than this many released nodes are left and there is a horizon.
+    /// newBaseRequest if at most this number of released nodes is left and there is a horizon.
     std::size_t lowBaseNodes = 1;
-    /// Metres: how far from its first node a vehicle may stand where the order states no deviation, or 0.
+    /// Maximum distance in metres from the first node of an order that states no deviation, or 0.
     double defaultDeviationXY = 0.5;
-    /// An order does not go on after one of these has failed: the error is FATAL, and master control has to cancel it.
+    /// If one of these fails, the order stops with a FATAL error until master control cancels it.
     std::vector<std::string> criticalActionTypes;
-    /// Whether a cancel stops the vehicle between two nodes; else it drives to the next one (line guided).
+    /// Whether a cancel stops the vehicle between two nodes; otherwise it drives to the next one (line guided).
     bool bStopsBetweenNodes = true;
-    /// Asked before an order or update is taken that is right in all else; not for a resent one.
+    /// Additional check of an otherwise valid order or update; not called for a resent one.
     OrderCheck orderCheck;
-    /// Maps that the vehicle has beside those of OnMaps. Orders with other maps are refused; where both are empty, none.
+    /// Maps of the vehicle in addition to those of OnMaps. Orders with other maps are refused, unless both are empty.
     std::vector<std::string> mapIDs;
-    /// Zone sets that the vehicle has. Orders for another one are refused; where empty, none.
+    /// Zone sets of the vehicle. Orders with another one are refused, unless empty.
     std::vector<std::string> zoneSetIDs;
-    /// Where the vehicle stands at first; empty: not on a node.
+    /// Node of the vehicle at start; empty: not on a node.
     std::string initialNodeID;
 };
 
