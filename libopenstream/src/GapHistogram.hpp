@@ -9,7 +9,7 @@
 namespace ACS::OpenStream
 {
 
-/// Gaps in fixed room: sixteen classes an octave of microseconds.
+/// A histogram of fixed size: sixteen classes per octave of microseconds.
 class GapHistogram
 {
     static constexpr std::size_t OCTAVES = 37; ///< Up to days.
@@ -23,7 +23,7 @@ class GapHistogram
     [[nodiscard]] double GetPercentile(double share) const;
 
 public:
-    /// Of 0 or more; what is not is left out.
+    /// Negative values are ignored.
     void Add(double milliseconds);
     void Clear();
     [[nodiscard]] GapStatistics GetStatistics() const;

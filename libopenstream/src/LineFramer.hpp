@@ -8,8 +8,8 @@
 namespace ACS::OpenStream
 {
 
-/// Cuts a stream of bytes into lines, wherever the stream was split. A line that lies whole in the input is not copied.
-/// Lines of blanks only are skipped, a carriage return before the line's end is dropped.
+/// Splits a stream of bytes into lines. A line that is entirely within one input is not copied. Blank lines are skipped, and
+/// a carriage return before the line end is removed.
 ///
 ///     framer.Feed(bytes);
 ///     while (const auto line = framer.TakeLineOrNull()) { … }
@@ -17,9 +17,9 @@ namespace ACS::OpenStream
 class LineFramer
 {
     std::size_t _maximumLine;
-    std::string _kept;         ///< Bytes that outlived their Feed.
-    std::size_t _keptRead = 0; ///< How many of them were handed out.
-    std::size_t _scanned = 0;  ///< How many of them are known to hold no line end.
+    std::string _kept;         ///< Bytes kept from earlier inputs.
+    std::size_t _keptRead = 0; ///< Number of them that were returned.
+    std::size_t _scanned = 0;  ///< Number of them that contain no line end.
     std::string_view _input;
     bool _bOverflown = false;
 
@@ -28,26 +28,25 @@ class LineFramer
     void KeepPartialLine();
 
 public:
-    /// The bound is on a line's bytes without its end.
+    /// Maximum number of bytes of a line without its end.
     explicit LineFramer(std::size_t maximumLine);
 
-    /// Gives further bytes, which must stay valid until Keep, or until TakeLineOrNull returns nullopt.
+    /// Adds bytes, which must stay valid until Keep, or until TakeLineOrNull returns nullopt.
     void Feed(std::string_view bytes);
 
-    /// The next whole line; nullopt where more bytes are needed, and for ever after an overflow. Valid until the next
-    /// call.
+    /// The next line; nullopt if more bytes are needed, and always after an overflow. Valid until the next call.
     [[nodiscard]] std::optional<std::string_view> TakeLineOrNull();
 
-    /// Copies what was not yet handed out, so that the input may go. Harmless where nothing is left.
+    /// Copies the bytes that were not returned yet, so that the input may be released.
     void Keep();
 
-    /// Whether a line came that is longer than the bound. The stream cannot be trusted any more.
+    /// Whether a line exceeded the maximum. The stream is unusable then.
     [[nodiscard]] bool HasOverflown() const noexcept;
 
-    /// Whether bytes wait that belong to no whole line yet.
+    /// Whether there is an incomplete line.
     [[nodiscard]] bool HasPartialLine() const noexcept;
 
-    /// Forgets everything, for a new connection.
+    /// Discards everything, for a new connection.
     void Reset();
 };
 

@@ -13,7 +13,7 @@
 namespace ACS::OpenStream
 {
 
-/// Measures a stream by its samples.
+/// Measures the quality of a MONITOR by its samples.
 class StreamMeter
 {
     static constexpr std::size_t WINDOW = 100;
@@ -32,10 +32,10 @@ class StreamMeter
     void Note(bool bInTime);
 
 public:
-    /// A MONITOR begins, or another one replaces it: all figures begin anew.
+    /// A MONITOR starts or replaces another one: resets all values.
     void Begin(std::chrono::milliseconds period);
 
-    /// Returns how many periods were skipped before this sample.
+    /// Returns the number of periods that were skipped before this sample.
     std::uint64_t Add(double ts, Core::SteadyTime receivedAt);
 
     [[nodiscard]] StreamQuality GetQuality() const;

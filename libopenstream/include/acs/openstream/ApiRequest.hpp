@@ -12,7 +12,7 @@
 namespace ACS::OpenStream
 {
 
-/// One parameter of a query, unescaped as the peer wrote it.
+/// One parameter of a query, as received, without decoding.
 struct QueryParameter
 {
     std::string name;
@@ -25,11 +25,11 @@ struct QueryParameter
 struct ApiRequest
 {
     EApiMethod method = EApiMethod::Get;
-    std::string path; ///< "/project/robot/po_cur", as it came: percent signs are not decoded.
+    std::string path; ///< For example "/project/robot/po_cur"; as received, without percent-decoding.
     std::vector<QueryParameter> query;
-    std::optional<Core::JsonText> body; ///< Nothing with a GET; `{}` with a CONTROL that named none.
+    std::optional<Core::JsonText> body; ///< None for a GET; `{}` for a CONTROL without one.
 
-    /// The value of the first parameter of this name; null where there is none.
+    /// The value of the first parameter of this name; null if there is none.
     [[nodiscard]] const std::string* GetParameterOrNull(std::string_view name) const noexcept;
 
     bool operator==(const ApiRequest&) const = default;
@@ -40,30 +40,30 @@ struct ApiResponse
 {
     int status = 200; ///< HTTP; every 2xx is a success.
     std::optional<Core::JsonText> body;
-    /// The server hands it on so much later, as if the call had taken that long: a service that is slow on purpose, or
-    /// waits on behalf of another machine, need not keep the server's thread. What was asked for is done by then.
+    /// The server delays the answer by this time, as if the call had taken that long: a service that is deliberately slow
+    /// does not block the server's thread. The call itself is complete.
     Core::Duration delay{};
-    /// To a MONITOR: there is nothing to show this time, no line is sent and the tick counts as skipped. So a controller
-    /// falls silent while it changes its mode. Elsewhere it means nothing.
+    /// For a MONITOR: no data this time. No line is sent and the period counts as skipped, as on a controller that changes
+    /// its mode. Otherwise ignored.
     bool bNoSample = false;
 
     [[nodiscard]] bool IsSuccess() const noexcept;
 
-    /// Makes this 200 without a body, and gives back the text that its body had, emptied: the next one is written into it
-    /// without taking room anew.
+    /// Resets this to 200 without a body, and returns the emptied buffer of the former body for reuse without an
+    /// allocation.
     [[nodiscard]] std::string TakeRoom();
 
     bool operator==(const ApiResponse&) const = default;
 };
 
-/// Takes "/path?name=value&name2=value2" apart: sets path and query of the request.
+/// Parses "/path?name=value&name2=value2" into path and query of the request.
 void SplitUrl(std::string_view url, ApiRequest& request);
 
-/// Puts the arguments (text of a JSON object, as MONITOR and CONTROL carry them) into the query. An argument replaces a
-/// parameter of the same name.
+/// Adds the arguments (a JSON object, as in MONITOR and CONTROL) to the query. An argument replaces a parameter of the same
+/// name.
 void AddArguments(const Core::JsonText& args, ApiRequest& request);
 
-/// Path and query as a target for HTTP, the query's names and values percent-encoded.
+/// Path and query as an HTTP target, with percent-encoded names and values.
 [[nodiscard]] std::string BuildUrl(const ApiRequest& request);
 
 } // namespace ACS::OpenStream

@@ -20,83 +20,83 @@ enum class EClientState : std::uint8_t
     Connecting,
     Handshaking,
     Ready,
-    Waiting, ///< For the next attempt.
-    Ending,  ///< STOP session is on its way.
+    Waiting, ///< For the next connection attempt.
+    Ending,  ///< STOP session was sent.
 };
 
-/// The client's side of an Open Stream, without I/O: events and the time in, actions and events out, appended to a vector
-/// that the caller reuses. The caller carries out each batch, in order, before the next event. Reconnects for ever, and
-/// after each handshake establishes the MONITOR again.
+/// The client side of an Open Stream, without I/O: events and the time go in, actions and events come out, appended to a
+/// vector that the caller reuses. The caller carries out each batch, in order, before the next event. Reconnects
+/// indefinitely, and establishes the MONITOR again after each handshake.
 ///
-/// MONITOR data is not fit for real-time decisions: the network, both systems and the controller's load delay it by tens
-/// of milliseconds now and then.
+/// MONITOR data is not suitable for real-time decisions: the network, both systems and the controller's load occasionally
+/// delay it by tens of milliseconds.
 ///
-/// CONTROL, MONITOR and STOP carry no number, and neither do the refusals. So that a refusal can be told to belong to
-/// one of them, they go one after another: the next is sent when the previous has its ack or, a CONTROL, when its window
-/// (ClientSessionOptions::controlWindow) has passed in silence. A CONTROL that is Streamed does not wait; do not mix both
-/// kinds, as a streamed one's refusal would be taken for that of the tracked one in flight.
+/// CONTROL, MONITOR and STOP carry no number, and neither do refusals. The session therefore sends them one at a time, in
+/// order to match a refusal to its command: the next one follows the ack of the previous one or, for a CONTROL, the end of
+/// its window (ClientSessionOptions::controlWindow) without a refusal. A Streamed CONTROL does not wait; do not mix both
+/// kinds, because the refusal of a streamed one would be matched to the tracked one in flight.
 class ClientSession
 {
     class Impl;
     std::unique_ptr<Impl> _impl;
 
 public:
-    /// The random source scatters the reconnects and must outlive the session.
+    /// The random source provides the jitter of reconnects. It must outlive the session.
     ClientSession(const ClientSessionOptions& options, Core::IRandom& random);
     ClientSession(const ClientSession&) = delete;
     ClientSession& operator=(const ClientSession&) = delete;
     ~ClientSession();
 
-    /// Begins, and connects for ever. → Connect, StartTimer. Nothing where it has begun already.
+    /// Connects, and reconnects until Stop. → Connect, StartTimer. No effect if started already.
     void Start(Core::Now now, ClientActions& out);
 
-    /// STOP session, then the close: ClientEnded is the last event. Without a session at once. → Send, timers, Close,
-    /// ClientControlSettled, ClientEnded.
+    /// Sends STOP session, then closes; without a session, closes at once. ClientEnded is the last event. → Send, timers,
+    /// Close, ClientControlSettled, ClientEnded.
     void Stop(Core::Now now, ClientActions& out);
 
-    /// The MONITOR to have from now on and after every reconnect; nullopt for none. The period is clamped. The calls are
-    /// numbered, the first one is 1: ClientMonitorStarted has the number. → Send, timers.
+    /// Sets the MONITOR, also for later connections; nullopt: none. The period is clamped. The calls are numbered from 1:
+    /// ClientMonitorStarted has the number. → Send, timers.
     void SetMonitor(std::optional<MonitorRequest> monitorOrNull, Core::Now now, ClientActions& out);
 
-    /// Sends a CONTROL, at once or in its turn. The token comes back in ClientControlSettled, for a tracked one, which
-    /// may be in this very batch (NotSent). Nothing is sent later than the session that it was given in. → Send, timers,
-    /// ClientControlSettled, ClientControlFault.
+    /// Sends a CONTROL, at once or in its turn. For a tracked one, ClientControlSettled has the returned token; it may be in
+    /// the same batch (NotSent). A CONTROL is never sent in a later session. → Send, timers, ClientControlSettled,
+    /// ClientControlFault.
     std::uint64_t SendControl(
         const ControlRequest& request,
         EControlTracking tracking,
         Core::Now now,
         ClientActions& out);
 
-    /// Likewise, with a time limit and a confirmation of its own.
+    /// Like SendControl, with its own time limit and confirmation.
     std::uint64_t SendControlCall(ControlCall call, Core::Now now, ClientActions& out);
 
-    /// STOP control: the hard stop. Goes at once, whatever is in flight: a CONTROL that is becomes Unknown, those that
-    /// wait are settled as NotSent, those that wait for a confirmation as Unknown. Nothing without a session. → Send, timers, ClientControlSettled, later ClientStopped.
+    /// STOP control, the hard stop. Sent at once: a CONTROL in flight or waiting for a confirmation is settled as Unknown, a
+    /// queued one as NotSent. No effect without a session. → Send, timers, ClientControlSettled, later ClientStopped.
     void StopControl(Core::Now now, ClientActions& out);
 
     /// → Send, timers.
     void OnConnected(Core::Now now, ClientActions& out);
     /// → ClientLost, timers.
     void OnConnectFailed(std::string_view detail, Core::Now now, ClientActions& out);
-    /// → everything.
+    /// → any action.
     void OnBytes(std::string_view bytes, Core::Now now, ClientActions& out);
-    /// The text of the last ClientSend has left. → Send, timers.
+    /// The text of the last ClientSend was written. → Send, timers.
     void OnSendCompleted(Core::Now now, ClientActions& out);
     /// The server closed the connection. → Close, ClientLost, timers.
     void OnPeerClosed(Core::Now now, ClientActions& out);
     /// → Close, ClientLost, timers.
     void OnSocketError(std::string_view detail, Core::Now now, ClientActions& out);
-    /// As asked for by ClientStartTimer. → everything.
+    /// Requested by ClientStartTimer. → any action.
     void OnTimer(EClientTimer timer, Core::Now now, ClientActions& out);
 
     [[nodiscard]] EClientState GetState() const noexcept;
     [[nodiscard]] const ClientSessionStats& GetStats() const noexcept;
 
-    /// The newest sample of the present MONITOR; null before its first one and without a connection. Valid until the next
-    /// event. How old it is tells its receivedAt.
+    /// The newest sample of the current MONITOR; null before the first one and without a connection. Valid until the next
+    /// event. Its receivedAt gives its age.
     [[nodiscard]] const ClientData* GetLatestOrNull() const noexcept;
 
-    /// How good the present MONITOR is, since it was (re-)established.
+    /// Quality of the current MONITOR since it was (re-)established.
     [[nodiscard]] StreamQuality GetQuality() const;
 };
 

@@ -19,31 +19,33 @@
 namespace ACS::OpenStream
 {
 
-/// All times and limits of a client's session. A time of 0 switches off what its comment says.
+/// Times and limits of a ClientSession.
 struct ClientSessionOptions
 {
     std::chrono::milliseconds connectTimeout{3'000};
-    std::chrono::milliseconds answerTimeout{2'000}; ///< For the ack of HANDSHAKE, MONITOR and STOP.
-    std::chrono::milliseconds controlWindow{500};   ///< Silence for so long after a CONTROL left means that it worked.
-    std::chrono::milliseconds staleAfter{500};      ///< Data overdue for so long: MonitorStale. 0: never.
-    std::chrono::milliseconds lostAfter{3'000};     ///< Data overdue for so long: reconnect. 0: never.
+    std::chrono::milliseconds answerTimeout{
+        2'000};                                   ///< Maximum time to wait for the ack of HANDSHAKE, MONITOR and STOP.
+    std::chrono::milliseconds controlWindow{500}; ///< A CONTROL without a refusal within this time has succeeded.
+    std::chrono::milliseconds staleAfter{500};    ///< Delay of data that is reported as stale; 0 disables.
+    std::chrono::milliseconds lostAfter{3'000};   ///< Delay of data that causes a reconnect; 0 disables.
     Core::BackoffOptions reconnect;
-    /// A CONTROL or a STOP control that has not left for so long: where it is tracked and waits for its turn, NotSent; where
-    /// the socket does not take it, the connection is given up, so that it cannot leave later. 0: waits for ever.
+    /// Maximum time until a CONTROL or STOP control is sent. A queued tracked one is then settled as NotSent; if the socket
+    /// does not accept it, the connection is closed, so that it cannot be sent later. 0: no limit.
     std::chrono::milliseconds controlTimeout{5'000};
-    bool bSampleEvents = true; ///< Every sample as ClientData. Off, only GetLatestOrNull shows them, the newest one.
+    bool bSampleEvents =
+        true; ///< Report every sample as ClientData; otherwise only GetLatestOrNull has the newest one.
     std::size_t longestLine = LONGEST_LINE;
-    std::size_t maximumControls = 64;          ///< Waiting for their turn.
-    std::size_t maximumOutput = 1024U * 1024U; ///< Bytes unsent, beyond which a CONTROL is not taken.
+    std::size_t maximumControls = 64;          ///< Maximum number of queued CONTROLs.
+    std::size_t maximumOutput = 1024U * 1024U; ///< Unsent bytes above which a CONTROL is not accepted.
 };
 
 enum class EClientTimer : std::uint8_t
 {
     Connect,
-    Answer, ///< To the command in flight, or the end of a CONTROL's window.
+    Answer, ///< Deadline of the command in flight, or end of a CONTROL's window.
     DataAge,
     Retry,
-    Control, ///< CONTROLs that do not leave, confirmations that do not come.
+    Control, ///< Deadlines for sending and confirming CONTROLs.
 };
 
 inline constexpr std::size_t CLIENT_TIMER_COUNT = 5;
@@ -52,29 +54,29 @@ inline constexpr std::size_t CLIENT_TIMER_COUNT = 5;
 enum class EControlTracking : std::uint8_t
 {
     Tracked,  ///< One at a time, each with an outcome.
-    Streamed, ///< At once, between others, with no outcome but ClientControlFault. For points at a short period.
+    Streamed, ///< Sent at once, without an outcome except ClientControlFault. For points at a short period.
 };
 
-/// A CONTROL, and what its outcome depends on.
+/// A CONTROL with its time limit and confirmation.
 struct ControlCall
 {
     ControlRequest request;
     EControlTracking tracking = EControlTracking::Tracked;
-    /// For this one in place of ClientSessionOptions::controlTimeout; 0: that.
+    /// Replaces ClientSessionOptions::controlTimeout; 0: use that.
     std::chrono::milliseconds timeout{0};
-    /// Tracked: what a sample must show that comes after the CONTROL has left, or else silence is no success. Called for
-    /// each sample, on the session's thread, from within the session, and must not call it.
+    /// Tracked only: if set, the CONTROL succeeds only if a later sample satisfies this predicate. Called by the session for
+    /// each sample; must not call the session.
     std::function<bool(const DataLine& sample)> isConfirmed;
-    std::chrono::milliseconds confirmWithin{1'000}; ///< Of having left. The window passes in any case.
+    std::chrono::milliseconds confirmWithin{1'000}; ///< After it was sent; at least the window.
 };
 
 enum class EControlOutcome : std::uint8_t
 {
-    Accepted, ///< No refusal came within the window, and a sample confirmed it where that was asked for.
-    Refused,  ///< A control_err or an error line came; whether it was this one's, see ClientSession.
-    Unknown,  ///< It left, or partly left, and the connection was lost within the window or before it was confirmed.
-    NotSent,  ///< It surely never left: no session, queue full, too late, or the connection was lost before its turn.
-    Unconfirmed, ///< No refusal came, but no sample confirmed it in time.
+    Accepted,    ///< No refusal within the window, and confirmed by a sample if a confirmation was requested.
+    Refused,     ///< A control_err or an error line was received; for the match see ClientSession.
+    Unknown,     ///< Sent at least partly; the connection was lost within the window or before the confirmation.
+    NotSent,     ///< Certainly not sent: no session, queue full, time limit, or connection lost before its turn.
+    Unconfirmed, ///< No refusal, but no confirmation in time.
 };
 
 enum class EClientLossReason : std::uint8_t
@@ -87,11 +89,11 @@ enum class EClientLossReason : std::uint8_t
     SocketError,
     SessionEnded, ///< An error line that ends the session, such as session_timeout.
     DataSilent,   ///< ClientSessionOptions::lostAfter.
-    SendTimeout,  ///< The socket did not take a CONTROL in time.
+    SendTimeout,  ///< The socket did not accept a CONTROL in time.
     LineTooLong,
 };
 
-/// Connect; then OnConnected or OnConnectFailed.
+/// Connect, then call OnConnected or OnConnectFailed.
 struct ClientConnect
 {
 };
@@ -103,12 +105,12 @@ struct ClientSend
     std::string_view text;
 };
 
-/// Close the connection, or give up connecting. No event of it may follow.
+/// Close the connection, or cancel the connection attempt. No event of it may follow.
 struct ClientClose
 {
 };
 
-/// Calls OnTimer at the deadline (of Now::steady); replaces the same timer.
+/// Call OnTimer at the deadline (of Now::steady). Replaces a running timer of the same name.
 struct ClientStartTimer
 {
     EClientTimer timer = EClientTimer::Connect;
@@ -120,23 +122,23 @@ struct ClientCancelTimer
     EClientTimer timer = EClientTimer::Connect;
 };
 
-/// Event: the handshake is done. The MONITOR is being established again, CONTROLs are taken.
+/// Event: the handshake succeeded. The MONITOR is established again, and CONTROLs are accepted.
 struct ClientReady
 {
     std::string version; ///< Of the server; may be empty.
 };
 
-/// Event: the server took the MONITOR.
+/// Event: the server accepted the MONITOR.
 struct ClientMonitorStarted
 {
-    std::uint64_t requestNumber = 0; ///< Of the SetMonitor call that it was sent for; another one may have followed.
+    std::uint64_t requestNumber = 0; ///< Number of its SetMonitor call; later calls may have followed.
 };
 
-/// Event: the server refused the MONITOR. It is tried again after SetMonitor or a reconnect.
+/// Event: the server refused the MONITOR. It is sent again after SetMonitor or a reconnect.
 struct ClientMonitorRefused
 {
     ErrorLine error;
-    std::string url; ///< Of the MONITOR that was refused; SetMonitor may have asked for another one since.
+    std::string url; ///< Of the refused MONITOR; SetMonitor may have set another one since.
 };
 
 /// Event: a sample.
@@ -146,23 +148,23 @@ struct ClientData
     Core::Now receivedAt;
 };
 
-/// Event, once an episode: the MONITOR is active and its data is overdue.
+/// Event: the MONITOR is active and its data is overdue. Reported once until data arrives again.
 struct ClientMonitorStale
 {
     std::chrono::milliseconds age{}; ///< Since the last sample or the start.
 };
 
-/// Event: what became of a tracked CONTROL. Every token comes exactly once.
+/// Event: the outcome of a tracked CONTROL. Reported exactly once per token.
 struct ClientControlSettled
 {
     std::uint64_t token = 0;
     EControlOutcome outcome = EControlOutcome::Unknown;
-    int status = 0;                     ///< HTTP, where refused.
+    int status = 0;                     ///< HTTP status if refused.
     std::optional<Core::JsonText> body; ///< Of the refusal.
-    std::string detail;                 ///< For people; empty where accepted.
+    std::string detail;                 ///< For the operator; empty if accepted.
 };
 
-/// Event: a refusal while no tracked CONTROL was in flight: a streamed one's, or one that came after the window.
+/// Event: a refusal while no tracked CONTROL was in flight: of a streamed one, or after the window.
 struct ClientControlFault
 {
     int status = 0;
@@ -176,19 +178,19 @@ struct ClientStopped
     EStopTarget target = EStopTarget::Monitor;
 };
 
-/// Event: an error line that belongs to none of the above (monitor_internal_error, invalid_ndjson …).
+/// Event: any other error line (monitor_internal_error, invalid_ndjson …).
 struct ClientErrorReported
 {
     ErrorLine error;
 };
 
-/// Event: a line that is none. It was skipped.
+/// Event: an invalid line, which was skipped.
 struct ClientBadLine
 {
     std::string detail;
 };
 
-/// Event: the connection is gone, or could not be made. The session tries again by itself.
+/// Event: the connection was lost or could not be opened. The session reconnects by itself.
 struct ClientLost
 {
     EClientLossReason reason = EClientLossReason::SocketError;
@@ -196,7 +198,7 @@ struct ClientLost
     std::chrono::milliseconds retryIn{};
 };
 
-/// Event: as asked for by Stop. The last one.
+/// Event: Stop is complete. The last event.
 struct ClientEnded
 {
 };
@@ -219,11 +221,11 @@ using ClientAction =
     std::variant<ClientConnect, ClientSend, ClientClose, ClientStartTimer, ClientCancelTimer, ClientEvent>;
 using ClientActions = std::vector<ClientAction>;
 
-/// Figures of the MONITOR, since the session was made.
+/// Counters since the session was created.
 struct ClientSessionStats
 {
     std::uint64_t dataLines = 0;
-    std::uint64_t missingLines = 0; ///< Periods that `ts` skipped.
+    std::uint64_t missingLines = 0; ///< Periods without a sample, according to `ts`.
     std::uint64_t badLines = 0;
     std::uint64_t connects = 0; ///< Successful handshakes.
 

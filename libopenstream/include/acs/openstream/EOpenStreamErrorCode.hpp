@@ -7,8 +7,8 @@
 namespace ACS::OpenStream
 {
 
-/// The codes of an error line of the Open Stream, and what is wrong with a request. The numbers are stable: they appear
-/// in logs and metrics; on the wire stands the text of GetErrorText.
+/// The codes of error lines and of invalid requests. The numbers are stable, for logs and metrics; the wire carries the
+/// text of GetErrorText.
 enum class EOpenStreamErrorCode
 {
     InvalidNdjson = 1,
@@ -20,7 +20,7 @@ enum class EOpenStreamErrorCode
     SessionTimeout = 7,
     InvalidCmd = 8,
     InvalidPayload = 9,
-    MissingField = 10, ///< Generic forms: understood, never sent by ServerSession, which sends the specific codes.
+    MissingField = 10, ///< Generic form: read, but never sent; ServerSession sends the specific codes.
     InvalidType = 11,
     InvalidValue = 12,
     MissingMajor = 13,
@@ -37,33 +37,33 @@ enum class EOpenStreamErrorCode
     InvalidBody = 24,
     MonitorAlreadyActive = 25,
     MonitorInternalError = 26,
-    MethodNotAllowed = 27, ///< A synonym of InvalidMethod in CONTROL: understood, never sent.
+    MethodNotAllowed = 27, ///< Synonym of InvalidMethod in CONTROL: read, but never sent.
     ControlBusy = 28,
-    ControlErr = 29, ///< A line type of its own (ControlError); as an error code only understood.
+    ControlErr = 29, ///< Has its own line type (ControlError); as an error code read, but never sent.
     MissingTarget = 30,
     InvalidTarget = 31,
     NothingToStop = 32,
     StopFailed = 33,
-    Unknown = 34, ///< A code that this table does not have; never sent.
+    Unknown = 34, ///< A code that is not in this table; never sent.
 };
 
-/// What an error line means to the client that reads it.
+/// What an error line refers to.
 enum class EErrorScope : std::uint8_t
 {
-    Session, ///< Whatever was asked; the connection goes on.
+    Session, ///< Any command; the connection continues.
     Monitor, ///< The MONITOR, its request or its stream.
     Control, ///< A CONTROL.
     Stop,    ///< A STOP.
     Request, ///< A MONITOR or a CONTROL: the line does not say which.
-    Fatal,   ///< The session is over: only a new connection helps.
+    Fatal,   ///< The session has ended; a new connection is required.
 };
 
-/// The code as it stands on the wire ("handshake_required").
+/// The code on the wire ("handshake_required").
 [[nodiscard]] std::string_view GetErrorText(EOpenStreamErrorCode code) noexcept;
-/// The HTTP status that the manual gives the code, ours where it gives none. It is in no error line.
+/// The HTTP status of the code in the manual, or a suitable one. Error lines do not carry it.
 [[nodiscard]] int GetErrorStatus(EOpenStreamErrorCode code) noexcept;
 [[nodiscard]] EErrorScope GetErrorScope(EOpenStreamErrorCode code) noexcept;
-/// Unknown where the table has no such text.
+/// Unknown if the text is not in the table.
 [[nodiscard]] EOpenStreamErrorCode GetErrorCode(std::string_view text) noexcept;
 
 [[nodiscard]] std::error_code make_error_code(EOpenStreamErrorCode code) noexcept;

@@ -9,8 +9,8 @@ namespace ACS::OpenStream
 enum class EStopTarget : std::uint8_t
 {
     Monitor,
-    Control, ///< Also releases what was buffered, such as a trajectory: the hard stop.
-    Session, ///< Announces the orderly end of the connection.
+    Control, ///< The hard stop: also discards buffered data such as a trajectory.
+    Session, ///< Orderly end of the connection.
 };
 
 } // namespace ACS::OpenStream

@@ -7,10 +7,10 @@
 namespace ACS::OpenStream
 {
 
-/// Bounds how far each joint moves from one streamed point to the next, against the last point that was sent. For the owner
-/// of a trajectory: each point goes through Limit before it goes into a CONTROL. Bounds the step, not the speed: the speed
-/// is step by interval, so the limits belong to one interval. A point that is held back stays behind what was wanted until
-/// later points let it catch up; nothing is sent besides. No substitute for the robot's own limits.
+/// Limits the step of each joint between consecutive streamed points. The owner of a trajectory passes each point to Limit
+/// before sending it in a CONTROL. Limits the step, not the speed: the speed is step by interval, so the limits apply to one
+/// interval. A limited point lags behind the requested one until later points let it catch up; no additional points are
+/// sent. Not a substitute for the robot's own limits.
 class JointStepLimiter
 {
     std::vector<double> _largestSteps;
@@ -18,19 +18,19 @@ class JointStepLimiter
     bool _bLimited = false;
 
 public:
-    /// For each joint the largest step, in the unit of the points; 0 holds the joint, infinity leaves it free. Joints
-    /// beyond these are free.
+    /// The largest step of each joint, in the unit of the points; 0 locks the joint, infinity does not limit it. Further
+    /// joints are not limited.
     explicit JointStepLimiter(std::vector<double> largestSteps);
 
-    /// Where the arm is: before the first point, and again after each stop or reconnect, as the real position is then
-    /// another than that of the last point.
+    /// Sets the current position. Call before the first point and after each stop or reconnect, when the position differs
+    /// from the last point.
     void Begin(std::span<const double> position);
 
-    /// The point to send, of as many joints; valid until the next call. A joint that is no finite number stays where it is,
-    /// at 0 where nothing is known of it. Before Begin the first point passes as it is, as far as it is finite.
+    /// The point to send, with the same number of joints; valid until the next call. A joint that is not finite keeps its
+    /// last value, or 0. Without Begin the first point is not limited.
     [[nodiscard]] std::span<const double> Limit(std::span<const double> wanted);
 
-    /// Whether the last point differs from what was wanted.
+    /// Whether the last point was limited.
     [[nodiscard]] bool WasLimited() const noexcept;
 };
 

@@ -14,8 +14,8 @@
 namespace ACS::OpenStream
 {
 
-/// One JSON object a line, both ways. Total: any bytes give a message or an Error. Keeps its buffers between calls; not
-/// shared between threads. What encodes appends a whole line, with its end, to a string that the caller reuses.
+/// Encodes and decodes lines of one JSON object each. Any bytes result in a message or an Error. Reuses its buffers; not
+/// shared between threads. Encoding appends a whole line, with its end, to a string that the caller reuses.
 class OpenStreamCodec
 {
     struct Scratch;
@@ -30,16 +30,16 @@ public:
     OpenStreamCodec& operator=(OpenStreamCodec&&) noexcept;
     ~OpenStreamCodec();
 
-    /// First half of reading a request: is it JSON, an object, a known command? A server asks its state between the two
-    /// halves, so that handshake_required goes before what is wrong with the payload. The error's code is always an
-    /// EOpenStreamErrorCode: InvalidNdjson or InvalidCmd.
+    /// First step of reading a request: a JSON object with a known command. A server checks its state before the second
+    /// step, so that handshake_required takes precedence over payload errors. The error's code is an EOpenStreamErrorCode:
+    /// InvalidNdjson or InvalidCmd.
     [[nodiscard]] Core::Result<EOpenStreamCommand> ReadCommand(std::string_view line);
 
-    /// Second half, for the line of the last successful ReadCommand, which must still be there: payload, then url,
-    /// method, period, args, body. The code of the first thing that is wrong.
+    /// Second step, for the line of the last successful ReadCommand, which must still be valid: checks payload, url, method,
+    /// period, args and body in this order, and returns the first error.
     [[nodiscard]] Core::Result<OpenStreamRequest> ReadRequest();
 
-    /// Both halves.
+    /// Both steps.
     [[nodiscard]] Core::Result<OpenStreamRequest> DecodeRequest(std::string_view line);
 
     /// Reads a line of a server: the member `error` first, then `type`. Errors are those of ACS::Core.
@@ -48,7 +48,7 @@ public:
     static void EncodeRequest(const OpenStreamRequest& request, std::string& out);
     static void EncodeLine(const OpenStreamLine& line, std::string& out);
 
-    /// A data line straight from the answer of a service, without a copy of it.
+    /// Encodes a data line from the answer of a service without copying it.
     static void EncodeData(
         std::int64_t ts,
         double serviceDurationMs,
@@ -57,7 +57,7 @@ public:
         std::string& out);
 };
 
-/// Whether a url may stand in MONITOR or CONTROL: begins with '/', no blank or control character. Not its length.
+/// Whether a url is valid in MONITOR or CONTROL: begins with '/', no blank or control character. Ignores its length.
 [[nodiscard]] bool IsUrl(std::string_view url) noexcept;
 
 } // namespace ACS::OpenStream

@@ -14,7 +14,7 @@ namespace ACS::OpenStream
 struct HandshakeAck
 {
     bool bOk = true;
-    std::string version; ///< "MAJOR.MINOR.PATCH"; empty where the server sent none.
+    std::string version; ///< "MAJOR.MINOR.PATCH"; empty if the server sent none.
 
     bool operator==(const HandshakeAck&) const = default;
 };
@@ -27,11 +27,11 @@ struct MonitorAck
 /// One sample of a MONITOR.
 struct DataLine
 {
-    double ts = 0.0;                      ///< ms on a clock of the server: only differences mean anything.
-    double serviceDurationMs = 0.0;       ///< How long the server took for the GET.
+    double ts = 0.0;                      ///< Milliseconds on a clock of the server; only differences are meaningful.
+    double serviceDurationMs = 0.0;       ///< Duration of the GET at the server.
     std::optional<Core::JsonText> result; ///< The body of the GET.
-    std::optional<int> status;            ///< HTTP status where there was no body or no success.
-    std::optional<Core::JsonText> id;     ///< What the MONITOR gave.
+    std::optional<int> status;            ///< HTTP status if there was no body or no success.
+    std::optional<Core::JsonText> id;     ///< Of the MONITOR.
 
     bool operator==(const DataLine&) const = default;
 };
@@ -43,7 +43,7 @@ struct StopAck
     bool operator==(const StopAck&) const = default;
 };
 
-/// A CONTROL that the service refused (`control_err`). Does not say which one.
+/// The service refused a CONTROL (`control_err`). The line does not identify it.
 struct ControlError
 {
     int status = 0; ///< HTTP.
@@ -52,18 +52,18 @@ struct ControlError
     bool operator==(const ControlError&) const = default;
 };
 
-/// What is wrong with a command, or why the session ends (`error`). Does not say with which command.
+/// A command is invalid, or the session ends (`error`). The line does not identify the command.
 struct ErrorLine
 {
     EOpenStreamErrorCode code = EOpenStreamErrorCode::Unknown;
-    std::string codeText; ///< As it stood on the wire; not used when encoding.
+    std::string codeText; ///< As received; not used for encoding.
     std::string message;
-    std::string hint; ///< Left out where empty.
+    std::string hint; ///< Omitted if empty.
 
     bool operator==(const ErrorLine&) const = default;
 };
 
-/// Everything that a server sends.
+/// All lines of a server.
 using OpenStreamLine = std::variant<HandshakeAck, MonitorAck, DataLine, StopAck, ControlError, ErrorLine>;
 
 } // namespace ACS::OpenStream

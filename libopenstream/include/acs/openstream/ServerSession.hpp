@@ -16,13 +16,13 @@ enum class EServerState : std::uint8_t
     Connected, ///< Waits for HANDSHAKE.
     Ready,
     Streaming, ///< A MONITOR is active.
-    Closing,   ///< The last lines leave; commands are answered with handshake_required.
+    Closing,   ///< The last lines are sent; commands are answered with handshake_required.
     Closed,
 };
 
-/// The controller's side of one Open Stream connection, without I/O: events and the time in, actions out, appended to a
-/// vector that the caller reuses. The caller carries out each batch of actions, in order, before the next event; events
-/// that come of carrying them out (OnServiceAnswer, OnSendCompleted) append to the same batch.
+/// The controller side of one Open Stream connection, without I/O: events and the time go in, actions come out, appended
+/// to a vector that the caller reuses. The caller carries out each batch of actions, in order, before the next event;
+/// events that result from them (OnServiceAnswer, OnSendCompleted) append to the same batch.
 class ServerSession
 {
     class Impl;
@@ -37,29 +37,29 @@ public:
     /// The connection was accepted. → StartTimer.
     void Start(Core::Now now, ServerActions& out);
 
-    /// The connection was accepted, but there is no room for it, another client needs its place, or the server goes down
-    /// while it lives: one handshake_rejected, then the orderly end. → Send, StartTimer, CancelTimer.
+    /// Rejects an accepted connection (no room, replaced by another client, or shutdown of the server): sends
+    /// handshake_rejected, then closes. → Send, StartTimer, CancelTimer.
     void Reject(std::string_view message, Core::Now now, ServerActions& out);
 
-    /// Bytes came. → everything.
+    /// → any action.
     void OnBytes(std::string_view bytes, Core::Now now, ServerActions& out);
 
-    /// As asked for by ServerContinue. → everything.
+    /// Requested by ServerContinue. → any action.
     void OnContinue(Core::Now now, ServerActions& out);
 
-    /// As asked for by ServerStartTimer. → Send, Call, timers, Close.
+    /// Requested by ServerStartTimer. → Send, Call, timers, Close.
     void OnTimer(EServerTimer timer, Core::Now now, ServerActions& out);
 
-    /// The answer to a ServerCall; one that nobody waits for any more is ignored. → Send, Call, timers, ResumeReading.
+    /// The answer to a ServerCall; an outdated one is ignored. → Send, Call, timers, ResumeReading.
     void OnServiceAnswer(std::uint64_t token, const ApiResponse& response, Core::Now now, ServerActions& out);
 
-    /// The text of the last ServerSend has left. → Send, ShutdownSend, Close.
+    /// The text of the last ServerSend was written. → Send, ShutdownSend, Close.
     void OnSendCompleted(Core::Now now, ServerActions& out);
 
     /// The client closed its sending side. → Send, timers, Close.
     void OnPeerClosed(Core::Now now, ServerActions& out);
 
-    /// The connection broke. → CancelTimer, Close.
+    /// The connection was lost. → CancelTimer, Close.
     void OnSocketError(ServerActions& out);
 
     [[nodiscard]] EServerState GetState() const noexcept;

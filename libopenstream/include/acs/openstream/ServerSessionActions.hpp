@@ -14,33 +14,33 @@
 namespace ACS::OpenStream
 {
 
-/// All times and limits of a server's session.
+/// Times and limits of a ServerSession.
 struct ServerSessionOptions
 {
-    std::chrono::milliseconds handshakeTimeout{5'000}; ///< No HANDSHAKE for so long: the end. 0: idleTimeout only.
-    std::chrono::milliseconds idleTimeout{180'000};    ///< No MONITOR and no good command for so long: the end.
-    std::chrono::milliseconds streamingTimeout{5'000}; ///< No data line left for so long after it was due: the end.
-    std::chrono::milliseconds serviceTimeout{1'000};   ///< Of a call: beyond it a MONITOR reports an internal error.
-    std::chrono::milliseconds controlBusyAfter{1'000}; ///< The queue of CONTROLs full for so long: control_busy.
-    std::chrono::milliseconds closeTimeout{1'000};     ///< For the last lines to leave and the client to close.
+    std::chrono::milliseconds handshakeTimeout{5'000}; ///< Maximum time until HANDSHAKE; 0: idleTimeout applies.
+    std::chrono::milliseconds idleTimeout{180'000};    ///< Maximum time without a MONITOR or a valid command.
+    std::chrono::milliseconds streamingTimeout{5'000}; ///< Maximum delay of a data line.
+    std::chrono::milliseconds serviceTimeout{1'000};   ///< Of a call; a MONITOR then reports an internal error.
+    std::chrono::milliseconds controlBusyAfter{1'000}; ///< Full queue of CONTROLs for this time: control_busy.
+    std::chrono::milliseconds closeTimeout{1'000};     ///< To send the last lines and for the client to close.
     std::size_t longestLine = LONGEST_LINE;
-    std::size_t maximumOutput = 1024U * 1024U; ///< Bytes of unsent lines, data apart; beyond it the session is closed.
-    std::size_t maximumControls = 256;         ///< Waiting; beyond it the session stops reading.
-    std::size_t maximumControlBytes = 4U * 1024U * 1024U; ///< Of those that wait; likewise.
-    std::size_t commandsPerTurn = 64;                     ///< After so many lines a due tick may go first.
+    std::size_t maximumOutput = 1024U * 1024U; ///< Unsent bytes (without data) above which the session closes.
+    std::size_t maximumControls = 256;         ///< Queued CONTROLs; if full, the session stops reading.
+    std::size_t maximumControlBytes = 4U * 1024U * 1024U; ///< Size of all queued CONTROLs; likewise.
+    std::size_t commandsPerTurn = 64;                     ///< Lines processed before a due timer is served.
 };
 
 enum class EServerTimer : std::uint8_t
 {
     MonitorTick,
-    Watchdog, ///< Of the HANDSHAKE, then of an idle client, while streaming of interrupted streaming.
+    Watchdog, ///< handshakeTimeout, idleTimeout or streamingTimeout.
     ControlBusy,
     Close,
 };
 
 inline constexpr std::size_t SERVER_TIMER_COUNT = 4;
 
-/// Why a server's session came to its end.
+/// Why a session ended.
 enum class EServerCloseReason : std::uint8_t
 {
     PeerClosed,
@@ -60,20 +60,20 @@ struct ServerSend
     std::string_view text;
 };
 
-/// Ask the service, then call OnServiceAnswer with the token: at once, or later with a copy of the request, which is
-/// valid only until the next event.
+/// Call the service, then call OnServiceAnswer with the token: at once, or later with a copy of the request, which is valid
+/// only until the next event.
 struct ServerCall
 {
     std::uint64_t token = 0;
     const ApiRequest* request = nullptr; ///< Never null.
 };
 
-/// The client sent STOP control: tell the service.
+/// The client sent STOP control: call IOpenApiService accordingly.
 struct ServerStopControl
 {
 };
 
-/// Calls OnTimer at the deadline (of Now::steady); replaces the same timer.
+/// Call OnTimer at the deadline (of Now::steady). Replaces a running timer of the same name.
 struct ServerStartTimer
 {
     EServerTimer timer = EServerTimer::MonitorTick;
@@ -85,7 +85,7 @@ struct ServerCancelTimer
     EServerTimer timer = EServerTimer::MonitorTick;
 };
 
-/// Start no read until ServerResumeReading (TCP then slows the client down).
+/// Stop reading until ServerResumeReading (TCP then slows the client down).
 struct ServerPauseReading
 {
 };
@@ -99,7 +99,7 @@ struct ServerContinue
 {
 };
 
-/// Everything has left: shut down the sending side, keep reading until the client closes.
+/// Everything was sent: shut down the sending side, and keep reading until the client closes.
 struct ServerShutdownSend
 {
 };
@@ -123,14 +123,14 @@ using ServerAction = std::variant<
     ServerClose>;
 using ServerActions = std::vector<ServerAction>;
 
-/// What a session did, for metrics and for tests.
+/// Counters of a session.
 struct ServerSessionStats
 {
-    std::uint64_t dataLines = 0;     ///< Data lines that left.
-    std::uint64_t replacedLines = 0; ///< Data lines that a newer one replaced before they left.
-    std::uint64_t skippedTicks = 0;  ///< Ticks without a sample: the timer or the service was late, or it had none.
-    std::uint64_t commands = 0;      ///< Good requests.
-    std::uint64_t errorLines = 0;    ///< Error lines, control_err not counted.
+    std::uint64_t dataLines = 0;     ///< Data lines that were sent.
+    std::uint64_t replacedLines = 0; ///< Data lines that a newer one replaced before they were sent.
+    std::uint64_t skippedTicks = 0;  ///< Periods without a sample: late timer or service, or no data.
+    std::uint64_t commands = 0;      ///< Valid requests.
+    std::uint64_t errorLines = 0;    ///< Error lines, without control_err.
     std::uint64_t controlErrors = 0; ///< control_err lines.
 
     bool operator==(const ServerSessionStats&) const = default;

@@ -22,14 +22,14 @@ struct OpenStreamClientOptions
     std::string host = "127.0.0.1"; ///< A name or an address.
     std::uint16_t port = 49'000;
     OpenStream::ClientSessionOptions session;
-    /// See every byte as it is read, or handed to the socket, whatever the session makes of it. May be empty. The view is
-    /// valid during the call, which is made on the executor and must not call the client.
+    /// Called with all bytes that are received or passed to the socket. May be empty. The view is valid during the call,
+    /// which is made on the executor and must not call the client.
     std::function<void(std::string_view bytes)> onReceived;
     std::function<void(std::string_view bytes)> onSent;
 };
 
-/// Runs a ClientSession over TCP (no delay, keep-alive). Everything happens on the executor's one thread; destroying or
-/// stopping it lets no handler touch it later. Clock and random source must outlive it.
+/// Runs a ClientSession over TCP (no delay, keep-alive) on a single-threaded executor. After destruction no handler is
+/// called. Clock and random source must outlive the client.
 class OpenStreamClient
 {
     class Impl;
@@ -37,7 +37,7 @@ class OpenStreamClient
     std::shared_ptr<Impl> _impl;
 
 public:
-    /// May call any method of the client, but not destroy it.
+    /// May call the client, but must not destroy it.
     using EventHandler = std::function<void(const OpenStream::ClientEvent& event, Core::Now now)>;
 
     OpenStreamClient(
@@ -51,7 +51,7 @@ public:
     OpenStreamClient& operator=(const OpenStreamClient&) = delete;
     ~OpenStreamClient();
 
-    /// See ClientSession. The handler is called from within, or later.
+    /// See ClientSession. The handler is called during the call or later.
     void Start();
     void Stop();
     void SetMonitor(std::optional<OpenStream::MonitorRequest> monitorOrNull);

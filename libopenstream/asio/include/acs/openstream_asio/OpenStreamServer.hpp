@@ -19,15 +19,15 @@ namespace ACS::OpenStreamAsio
 struct OpenStreamServerOptions
 {
     std::string host = "127.0.0.1"; ///< An address, or a name that resolves to one.
-    std::uint16_t port = 49'000;    ///< 0 picks a free one: see GetPort.
-    /// One more takes the place of the oldest connection without a HANDSHAKE. Where there is none, it gets
-    /// handshake_rejected and is closed.
+    std::uint16_t port = 49'000;    ///< 0: a free port, see GetPort.
+    /// Maximum number of connections. One more replaces the oldest connection without a HANDSHAKE, or is rejected with
+    /// handshake_rejected if there is none.
     std::size_t maximumSessions = 8;
     OpenStream::ServerSessionOptions session;
 };
 
-/// Serves the Open Stream over TCP: a ServerSession for each connection, one service behind all. Everything happens on the
-/// executor's one thread; destroying or stopping it lets no handler touch it later. Clock and service must outlive it.
+/// Serves the Open Stream over TCP on a single-threaded executor: a ServerSession for each connection, and one service for
+/// all. After destruction or Stop no handler is called. Clock and service must outlive the server.
 class OpenStreamServer
 {
     class Impl;
@@ -45,20 +45,20 @@ public:
     OpenStreamServer& operator=(const OpenStreamServer&) = delete;
     ~OpenStreamServer();
 
-    /// Binds and listens; nothing where it listens already. The error names the address and what to do.
+    /// Listens; no effect if it listens already. The error names the address and the remedy.
     [[nodiscard]] Core::Result<void> Start();
 
-    /// Closes the port and every connection, without a last line. Start may follow.
+    /// Closes the port and all connections without a last line. Start may follow.
     void Stop();
 
-    /// Closes every connection without a last line, as a controller that breaks down does; goes on listening.
+    /// Closes all connections without a last line, like a controller that fails; continues to listen.
     void DropSessions();
 
-    /// The port that it listens on; 0 where it does not.
+    /// The port that the server listens on; 0 if it does not listen.
     [[nodiscard]] std::uint16_t GetPort() const noexcept;
     [[nodiscard]] std::size_t GetSessionCount() const noexcept;
 
-    /// What all sessions did since the server was made, those that have ended too.
+    /// Counters of all sessions since the server was created, including ended ones.
     [[nodiscard]] OpenStream::ServerSessionStats GetStats() const noexcept;
 };
 

@@ -7,23 +7,20 @@
 namespace ACS::OpenStreamAsio
 {
 
-/// What helps a thread to keep a short period. Everything is off at first: a program that is given too much of the machine
-/// can stop all else on it.
+/// Scheduling of a thread with a short period. Everything is off by default: a real-time program can starve all others.
 struct RealTimeOptions
 {
-    int priority =
-        0; ///< SCHED_FIFO, 1 to 99; 0 leaves the scheduling as it is. Needs CAP_SYS_NICE or a limit for rtprio.
-    /// How late the kernel may fire a timer so as to fire several at once, 50 µs by default; 0 leaves it as it is.
+    int priority = 0; ///< SCHED_FIFO priority, 1 to 99; 0: unchanged. Requires CAP_SYS_NICE or a limit for rtprio.
+    /// Timer slack: by how much the kernel may delay a timer in order to combine several, 50 µs by default; 0: unchanged.
     std::chrono::nanoseconds timerSlack{0};
-    bool bLockMemory =
-        false; ///< The whole process's, now and later: no page of it is read from disk at the wrong moment.
+    bool bLockMemory = false; ///< Lock all memory of the process, so that no page is read from disk later.
 
-    /// All three, with values that do for the Open Stream at 2 ms.
+    /// All three, with values suitable for the Open Stream at 2 ms.
     [[nodiscard]] static RealTimeOptions MakeAll();
 };
 
-/// Tunes the calling thread; threads that it starts later inherit priority and slack. Never fails: returns a sentence for
-/// each wish that the system did not grant and says what would make it, and the program runs as it would have without.
+/// Configures the calling thread; threads that it starts later inherit priority and slack. Never fails: returns a sentence
+/// for each setting that the system refused, with the remedy, and leaves that setting unchanged.
 [[nodiscard]] std::vector<std::string> TuneThread(const RealTimeOptions& options);
 
 } // namespace ACS::OpenStreamAsio
