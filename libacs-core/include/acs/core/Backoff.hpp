@@ -7,16 +7,16 @@
 namespace ACS::Core
 {
 
-/// How long to wait between attempts. What makes no sense is pulled to the nearest value that does.
+/// Delays between attempts. Values out of range are clamped.
 struct BackoffOptions
 {
     std::chrono::milliseconds initial{500};    ///< Before the second attempt; at least 1 ms.
-    std::chrono::milliseconds maximum{10'000}; ///< Never more than this; at least initial.
-    double factor = 2.0;                       ///< Each wait is this times the one before; 1 or more.
-    double jitter = 0.5;                       ///< The part of each wait that chance may take away, 0 to 1.
+    std::chrono::milliseconds maximum{10'000}; ///< Upper limit; at least initial.
+    double factor = 2.0;                       ///< Ratio of consecutive delays; at least 1.
+    double jitter = 0.5;                       ///< Maximum random reduction of a delay, as a share of it; 0 to 1.
 };
 
-/// Ever longer waits between attempts, scattered so that many clients do not come back in step. A value, no timer.
+/// Exponential backoff with jitter, which spreads the reconnects of many clients. A value, not a timer.
 class Backoff
 {
     BackoffOptions _options;
@@ -25,10 +25,10 @@ class Backoff
 public:
     explicit Backoff(const BackoffOptions& options = {});
 
-    /// The wait before the next attempt; every call makes the following one longer, up to the maximum.
+    /// The delay before the next attempt; increases with every call, up to the maximum.
     [[nodiscard]] std::chrono::milliseconds GetNextDelay(IRandom& random);
 
-    /// After a success: the next wait is the initial one again.
+    /// After a success: the next delay is the initial one again.
     void Reset() noexcept;
 };
 

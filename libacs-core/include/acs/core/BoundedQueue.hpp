@@ -8,7 +8,7 @@
 namespace ACS::Core
 {
 
-/// First in, first out, and full at a fixed number of elements. Not shared between threads.
+/// A FIFO queue with a fixed capacity. Not shared between threads.
 template <typename TElement>
 class BoundedQueue
 {
@@ -27,7 +27,7 @@ public:
     {
     }
 
-    /// False and nothing changed, not even the element, where the queue is full.
+    /// Returns false and leaves the element unchanged if the queue is full.
     [[nodiscard]] bool TryPush(TElement&& element)
     {
         if (IsFull())
@@ -48,7 +48,7 @@ public:
         return true;
     }
 
-    /// The oldest element; null where the queue is empty. Valid until the next change of the queue.
+    /// The oldest element; null if the queue is empty. Valid until the queue is changed.
     [[nodiscard]] TElement* GetFrontOrNull() noexcept
     {
         return _elements.empty() ? nullptr : &_elements.front();
@@ -59,7 +59,7 @@ public:
         return _elements.empty() ? nullptr : &_elements.front();
     }
 
-    /// Takes the oldest element out; nullopt where the queue is empty.
+    /// Removes and returns the oldest element; nullopt if the queue is empty.
     std::optional<TElement> PopFrontOrNull()
     {
         if (_elements.empty())
@@ -71,7 +71,7 @@ public:
         return front;
     }
 
-    /// Takes out every element that the predicate accepts, keeps the order of the others; returns how many went.
+    /// Removes all elements that match the predicate; returns their number.
     template <typename TPredicate>
     std::size_t EraseIf(TPredicate predicate)
     {

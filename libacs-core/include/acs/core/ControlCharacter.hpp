@@ -6,7 +6,7 @@
 namespace ACS::Core
 {
 
-/// U+0000 to U+001F and U+007F: in an identifier, or raw in a log, they can only be a mistake or a trick.
+/// U+0000 to U+001F and U+007F, which are invalid in identifiers and must not reach a log unescaped.
 [[nodiscard]] constexpr bool IsControlCharacter(char character) noexcept
 {
     constexpr unsigned FIRST_PRINTABLE = 0x20;

@@ -5,20 +5,20 @@
 namespace ACS::Core
 {
 
-/// What can be wrong with a value that comes from outside. The numbers are stable: they appear in logs and metrics.
+/// Errors of values from outside. The numbers are stable: they appear in logs and metrics.
 enum class ECoreError
 {
-    InvalidJson = 1,       ///< The text is no JSON, no UTF-8, or repeats a member name.
+    InvalidJson = 1,       ///< Not valid JSON or UTF-8, or a repeated member name.
     MissingField = 2,      ///< A required member is absent.
     WrongType = 3,         ///< A member has another JSON type than required.
-    OutOfRange = 4,        ///< A number, a length or a count lies outside its bounds.
-    UnknownWord = 5,       ///< An enumeration has no such word.
-    TooLarge = 6,          ///< A text is longer, or nested deeper, than allowed.
-    InvalidLocation = 7,   ///< A location does not follow the grammar.
-    InvalidTimestamp = 8,  ///< A time is no ISO 8601 date and time.
-    InvalidIdentifier = 9, ///< An identifier is empty, too long or has a character that may not be in it.
-    QueueFull = 10,        ///< A bounded queue has no room.
-    UnhandledEnum = 11,    ///< An enumerator has no case: a defect of this library.
+    OutOfRange = 4,        ///< A number, a length or a count exceeds its limits.
+    UnknownWord = 5,       ///< Not a name of the enumeration.
+    TooLarge = 6,          ///< A text is longer or nested more deeply than allowed.
+    InvalidLocation = 7,   ///< Not a valid location.
+    InvalidTimestamp = 8,  ///< Not a valid ISO 8601 date and time.
+    InvalidIdentifier = 9, ///< An identifier is empty, too long or has an invalid character.
+    QueueFull = 10,        ///< A bounded queue is full.
+    UnhandledEnum = 11,    ///< An enumerator without a case: a defect of this library.
 };
 
 [[nodiscard]] std::error_code make_error_code(ECoreError error) noexcept;

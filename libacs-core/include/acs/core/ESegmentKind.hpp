@@ -5,7 +5,7 @@
 namespace ACS::Core
 {
 
-/// What one segment of a location names (section 10 of MCS-ACS).
+/// The kind of a segment of a location (section 10 of MCS-ACS).
 enum class ESegmentKind : std::uint8_t
 {
     Stocker,      ///< ST01

@@ -10,8 +10,8 @@
 namespace ACS::Core
 {
 
-/// Any JSON value, kept as its compact text: what a protocol carries without looking inside (the result of a GET, the
-/// value of an action parameter). Valid JSON by construction.
+/// Any JSON value as compact text, for values that a protocol passes through (the result of a GET, the value of an action
+/// parameter). Valid JSON by construction.
 class JsonText
 {
     std::string _text = "null";
@@ -22,29 +22,29 @@ public:
     /// null
     JsonText() = default;
 
-    /// A JSON string (what is no UTF-8 becomes U+FFFD), a number (null where it is not finite), a boolean: made, not parsed.
+    /// A JSON string (invalid UTF-8 becomes U+FFFD), number (null if not finite) or boolean with this value.
     [[nodiscard]] static JsonText FromString(std::string_view value);
     [[nodiscard]] static JsonText FromNumber(double value);
     [[nodiscard]] static JsonText FromInteger(std::int64_t value);
     [[nodiscard]] static JsonText FromBoolean(bool bValue);
 
-    /// Appends what FromString makes: the one place that writes JSON strings.
+    /// Appends the text of FromString. All JSON strings are written here.
     static void AppendString(std::string_view value, std::string& out);
 
-    /// Whether JSON may carry this text as it is: well-formed UTF-8, without halves of surrogate pairs.
+    /// Whether JSON can carry this text unchanged: well-formed UTF-8 without lone surrogates.
     [[nodiscard]] static bool IsUtf8(std::string_view text) noexcept;
 
-    /// Text that is known to be JSON, such as what a codec of this SDK cut out of a parsed message. Not checked:
-    /// text from outside goes through the parser of ACS::Json.
+    /// A text that is known to be JSON, for example a part of a message that a codec has parsed. Not checked: use a codec
+    /// for texts from outside.
     [[nodiscard]] static JsonText FromTrusted(std::string text);
 
     [[nodiscard]] const std::string& GetText() const noexcept;
 
-    /// Gives the text away, with its room on the heap; what is left is null.
+    /// Moves the text out with its buffer; the value becomes null.
     [[nodiscard]] std::string TakeText();
 
-    /// The text of a JSON string without quotes and escapes, half a surrogate pair replaced by U+FFFD; nullopt where
-    /// this is no string.
+    /// The text of a JSON string without quotes and escapes, with lone surrogates replaced by U+FFFD; nullopt if this is not a
+    /// string.
     [[nodiscard]] std::optional<std::string> GetStringOrNull() const;
     [[nodiscard]] std::optional<double> GetNumberOrNull() const;
     [[nodiscard]] std::optional<bool> GetBooleanOrNull() const;

@@ -51,23 +51,23 @@ public:
     /// robot's name keeps its case. Fails with ECoreError::InvalidLocation.
     [[nodiscard]] static Result<Location> Parse(std::string_view text);
 
-    /// Whether Parse would take this text, without making anything of it.
+    /// Whether Parse would accept this text.
     [[nodiscard]] static bool IsLocation(std::string_view text) noexcept;
 
     /// Upper case, numbers of two digits or more.
     [[nodiscard]] const std::string& GetText() const noexcept;
 
-    /// The spelling of the sender, which reports repeat. A location that was made from another one by WithRobot or
-    /// WithArea still has it; a docking place has its canonical text.
+    /// The spelling of the sender, for use in reports. WithRobot and WithAreaOf keep it; a docking place has its canonical
+    /// text.
     [[nodiscard]] const std::string& GetOriginalText() const noexcept;
 
-    /// Whether the sender's own spelling was not canonical (worth a warning).
+    /// Whether the sender's spelling was not canonical.
     [[nodiscard]] bool WasNormalised() const noexcept;
 
     /// From the outermost to the innermost; never empty.
     [[nodiscard]] std::span<const LocationSegment> GetSegments() const noexcept;
 
-    /// The kind of the innermost segment: what the location as a whole names.
+    /// The kind of the innermost segment, and so of the location.
     [[nodiscard]] ESegmentKind GetKind() const noexcept;
     [[nodiscard]] bool IsCassettePort() const noexcept;
     [[nodiscard]] bool IsTrayPort() const noexcept;
@@ -82,7 +82,7 @@ public:
     /// Whether it begins with an area (A01…).
     [[nodiscard]] bool HasArea() const noexcept;
 
-    /// The number of the area; nullopt where there is none.
+    /// The number of the area; nullopt without an area.
     [[nodiscard]] std::optional<std::uint16_t> GetAreaNumberOrNull() const noexcept;
 
     /// Where a robot docks to reach this fixed place: without the trailing tray and memory ports (A01.CP01.TP01 is
@@ -90,12 +90,12 @@ public:
     [[nodiscard]] Location GetDockingPlace() const;
 
     /// This location with the alias replaced by the robot (AMR.CP01 becomes LR01.CP01). A fixed place and a port that
-    /// already names a robot are returned as they are. Fails with ECoreError::InvalidLocation where the result would
-    /// be longer than MAX_LENGTH.
+    /// already names a robot are returned unchanged. Fails with ECoreError::InvalidLocation if the result would be longer
+    /// than MAX_LENGTH.
     [[nodiscard]] Result<Location> WithRobot(const RobotID& robotID) const;
 
     /// The short form of a set completed by the area of another location (SET02.MP15 with A01.CP01 becomes
-    /// A01.SET02.MP15). Returned as it is where it is no short form or the other one has no area.
+    /// A01.SET02.MP15). Returned unchanged if it is not a short form or the other location has no area.
     [[nodiscard]] Location WithAreaOf(const Location& other) const;
 
     friend bool operator==(const Location& left, const Location& right) noexcept

@@ -14,11 +14,10 @@
 namespace ACS::Core
 {
 
-/// The places that a site has, as data: fixed ones and the ports of its robots (section 10). Nothing about a site's size
-/// or numbering is built in.
+/// The places of a site: fixed places and the ports of its robots (section 10). Any site size and numbering is possible.
 class LocationMap
 {
-    /// The place that a set's short form stands for, and whether another area has one of the same number.
+    /// The place of a set's short form, and whether another area has a set of the same number.
     struct ShortForm
     {
         Location place;
@@ -35,22 +34,22 @@ public:
     /// the line: "[3]".
     [[nodiscard]] static Result<LocationMap> Create(std::span<const std::string> ranges);
 
-    /// A place that is there already is not added again.
+    /// No effect for a place that was added before.
     void Add(const Location& location);
     void Add(std::span<const Location> locations);
 
     [[nodiscard]] std::size_t GetCount() const noexcept;
 
-    /// Exactly this place, in whatever spelling; a port does not bring along what is inside it.
+    /// Whether exactly this place was added, in any spelling; a port does not include the ports inside it.
     [[nodiscard]] bool Contains(const Location& location) const;
 
-    /// A set without its area (SET02, SET02.MP15) with the only area that has it; nullopt where none or several have.
+    /// A set without its area (SET02, SET02.MP15), completed by the area that has it; nullopt if no or several areas do.
     [[nodiscard]] std::optional<Location> CompleteSetOrNull(const Location& shortForm) const;
 
-    /// The place that a location of a plan means while this robot executes it: AMR.CP01 and LR01.CP01 are the port of
-    /// LR01, and a short set is that in the area of the position (nullptr: unknown), else the only one of the site. Fails
-    /// with ECoreError::InvalidLocation for the port of another robot, for a set of several areas, and for what the site
-    /// does not have. The place keeps the sender's spelling (GetOriginalText), but for a set completed by the map.
+    /// The place of a plan's location while this robot executes the plan: AMR.CP01 and LR01.CP01 are the port of LR01, and a
+    /// short set is the one in the area of the position (nullptr: unknown), otherwise the only one of the site. Fails with
+    /// ECoreError::InvalidLocation for the port of another robot, for an ambiguous set, and for an unknown place. The place
+    /// keeps the sender's spelling (GetOriginalText), except for a set completed by the map.
     [[nodiscard]] Result<Location> Resolve(
         const Location& location,
         const RobotID& robotID,

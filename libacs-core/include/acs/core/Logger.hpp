@@ -23,7 +23,7 @@ struct LogField
     std::string_view value;
 };
 
-/// Where log lines go. Programs plug spdlog in, tests a recorder. Called on the thread that logs; must not throw.
+/// The destination of log lines, for example spdlog. Called on the thread that logs; must not throw.
 class ILogSink
 {
 public:
@@ -40,7 +40,8 @@ public:
         std::initializer_list<LogField> fields) = 0;
 };
 
-/// A sink and the name of the part that logs. Copied freely; the sink must outlive every copy. There is no global one.
+/// A sink and the name of the component that logs. Cheap to copy; the sink must outlive all copies. There is no global
+/// logger.
 class Logger
 {
     ILogSink* _sinkOrNull = nullptr;
@@ -57,7 +58,7 @@ public:
     void Error(std::string_view message, std::initializer_list<LogField> fields = {}) const;
     void Write(ELogLevel level, std::string_view message, std::initializer_list<LogField> fields) const;
 
-    /// The same sink under another name.
+    /// A logger for the same sink with another component name.
     [[nodiscard]] Logger MakeFor(std::string component) const;
 };
 

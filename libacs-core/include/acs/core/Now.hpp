@@ -9,14 +9,14 @@ using SteadyTime = std::chrono::steady_clock::time_point;
 using WallTime = std::chrono::system_clock::time_point;
 using Duration = std::chrono::steady_clock::duration;
 
-/// The present, as the caller sees it: an argument of every call of a state machine. No library reads a clock.
+/// The current time, which the caller passes to every call of a state machine. No library reads a clock.
 struct Now
 {
     SteadyTime steady; ///< For deadlines and periods; never goes back.
     WallTime wall;     ///< For the timestamps of messages only; may jump.
 };
 
-/// Makes the Now. Implemented by programs (the system's clocks) and by tests (time that they move by hand).
+/// Returns the current time: from the system's clocks in programs, from a manual clock in tests.
 class IClock
 {
 public:

@@ -12,7 +12,7 @@ namespace ACS::Core
 {
 
 /// The name of a robot ("LR01"), valid by construction: 1 to 64 of the characters A-Z a-z 0-9 _ -, and nothing that
-/// reads as an element of a location (A01, ST1, SET12, T01, CP01 …, in either case). Upper and lower case differ.
+/// is a segment of a location (A01, ST1, SET12, T01, CP01 …, in any case). Case-sensitive.
 class RobotID
 {
     std::string _text;
@@ -21,10 +21,10 @@ class RobotID
 
 public:
     static constexpr std::size_t MAX_LENGTH = 64;
-    /// What MCS-ACS writes for whichever robot executes the plan (section 10).
+    /// Stands for the robot that executes the plan (section 10 of MCS-ACS).
     static constexpr std::string_view ALIAS = "AMR";
 
-    /// Whether Parse would take this text.
+    /// Whether Parse would accept this text.
     [[nodiscard]] static bool IsRobotID(std::string_view text) noexcept;
 
     /// Fails with ECoreError::InvalidIdentifier.
@@ -32,7 +32,7 @@ public:
 
     [[nodiscard]] const std::string& GetText() const noexcept;
 
-    /// Whether this is the alias and therefore names no robot. A fleet must have no robot of this name.
+    /// Whether this is the alias, which is not a valid name for a robot of a fleet.
     [[nodiscard]] bool IsAlias() const noexcept;
 
     bool operator==(const RobotID&) const = default;

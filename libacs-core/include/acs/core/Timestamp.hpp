@@ -12,7 +12,7 @@
 namespace ACS::Core
 {
 
-/// A moment and how far the sender's local time was ahead of UTC (negative: behind).
+/// A point in time and the sender's UTC offset.
 struct Timestamp
 {
     WallTime time;
@@ -33,7 +33,7 @@ struct Timestamp
 inline constexpr std::size_t LOCAL_TIME_LENGTH = 29;
 using LocalTimeText = std::array<char, LOCAL_TIME_LENGTH>;
 
-/// As FormatLocal, without memory from the heap.
+/// Like FormatLocal, without a heap allocation.
 [[nodiscard]] LocalTimeText PrintLocal(WallTime time, std::chrono::minutes offset);
 
 /// UTC, as VDA5050 writes it: 2025-07-02T12:00:00.123Z. Cuts below a millisecond.

@@ -7,8 +7,8 @@
 namespace ACS::Core
 {
 
-/// A random UUID (version 4) in its canonical lower-case form, for example for a transactionId. As unique as the
-/// random source is good.
+/// A random UUID (version 4) in its canonical lower-case form, for example for a transactionId. Its uniqueness
+/// depends on the random source.
 [[nodiscard]] std::string MakeUuid(IRandom& random);
 
 } // namespace ACS::Core
