@@ -38,7 +38,7 @@ void AcsSession::Impl::ResendLate(Core::Now now, SessionActions& out)
         }
         else
         {
-            GiveUp(entry, out);
+            Abandon(entry, out);
         }
     }
     if (_unansweredInRow >= _options.ackDeadAfter && _state == EState::Registered)
@@ -47,7 +47,7 @@ void AcsSession::Impl::ResendLate(Core::Now now, SessionActions& out)
     }
 }
 
-void AcsSession::Impl::GiveUp(const InFlight& entry, SessionActions& out)
+void AcsSession::Impl::Abandon(const InFlight& entry, SessionActions& out)
 {
     ++_unansweredInRow;
     _recent.Remember(entry.command, entry.transactionID, entry.bDurable);
@@ -57,7 +57,7 @@ void AcsSession::Impl::GiveUp(const InFlight& entry, SessionActions& out)
     }
     else if (const auto status = _statuses.find(entry.statusKey); status != _statuses.end())
     {
-        status->second.bGivenUp = true;
+        status->second.bUnanswered = true;
     }
 }
 

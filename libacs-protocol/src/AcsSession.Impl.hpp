@@ -44,22 +44,22 @@ enum class EAcsSessionState : std::uint8_t
     Stopping,
 };
 
-/// How far a registered connection is in the order of section 6.
+/// Phase of a registered connection (section 6).
 enum class EConnectPhase : std::uint8_t
 {
     Replay,   ///< Until ReplayDone.
-    Snapshot, ///< States go out as the window has room.
+    Snapshot, ///< States are sent as the window permits.
     Positions,
 };
 
-/// What is kept of a status: the latest of its kind and robot. The map's order is the order of section 6.
+/// Key of the latest status of its kind and robot. The map's order is that of section 6.
 using StatusKey = std::pair<EAcsCommand, std::string>;
 
 struct Status
 {
     AcsPayload payload;
     bool bPending = false;
-    bool bGivenUp = false; ///< The MCS may not know it.
+    bool bUnanswered = false; ///< No Ack: the MCS may not know it.
 };
 
 struct InFlight
@@ -70,14 +70,14 @@ struct InFlight
     Core::SteadyTime deadline{};
     std::size_t resends = 0;
     bool bDurable = false;
-    bool bSuperseded = false; ///< A newer status of this robot has gone out: this one would go back in time.
+    bool bSuperseded = false; ///< A newer status of this robot was sent: do not resend this one.
     StatusKey statusKey{};
 };
 
 } // namespace Detail
 
-/// The session itself: connection and timers in AcsSession.Impl.cpp, what goes out in AcsSession.Sending.cpp, what waits
-/// for its Ack in AcsSession.Acks.cpp, the requests of the MCS in AcsSession.Requests.cpp.
+/// Connection and timers are in AcsSession.Impl.cpp, sending in AcsSession.Sending.cpp, Acks in AcsSession.Acks.cpp, the
+/// requests of the MCS in AcsSession.Requests.cpp.
 class AcsSession::Impl
 {
     using EState = Detail::EAcsSessionState;
@@ -126,27 +126,27 @@ public:
 
 private:
     [[nodiscard]] bool IsUp() const noexcept;
-    /// A state is told on change only (sections 6.20, 6.21); the status of a robot whenever the caller likes.
+    /// A state is sent on change only (sections 6.20, 6.21), the status of a robot always.
     [[nodiscard]] bool IsKnownState(const AcsPayload& status) const;
-    /// Closes the connection; OnClosed goes on from the given state.
+    /// Closes the connection; OnClosed continues from the given state.
     void Leave(EState state, std::uint16_t code, std::string reason, SessionActions& out);
-    /// Everything that ends with the connection.
+    /// Discards everything that ends with the connection.
     void Forget(SessionActions& out);
     void End(SessionActions& out);
     void Send(const AcsRequest& request, bool bDurable, StatusKey statusKey, Core::Now now, SessionActions& out);
     std::string SendPayload(AcsPayload payload, StatusKey statusKey, Core::Now now, SessionActions& out);
-    /// After anything that may have made room or work: statuses first, then whoever was turned away.
+    /// Uses room in the window: for statuses first, then WindowOpened.
     void UseRoom(Core::Now now, SessionActions& out);
     void SendStatuses(Core::Now now, SessionActions& out);
     /// Once, after the last state of the snapshot.
     void BeginPositions(Core::Now now, SessionActions& out);
-    /// What is in flight of this kind and robot is not sent again.
+    /// Messages in flight of this kind and robot are not resent.
     void Supersede(const AcsPayload& status);
-    /// All deadlines lie equally far ahead, so that a timer that runs is never too late; one that is too early finds
-    /// nothing and is started again.
+    /// All deadlines have the same timeout, so that a running timer never fires too late; if it fires too early, it is
+    /// started again.
     void ArmAckTimer(Core::Now now, SessionActions& out);
     void ResendLate(Core::Now now, SessionActions& out);
-    void GiveUp(const InFlight& entry, SessionActions& out);
+    void Abandon(const InFlight& entry, SessionActions& out);
     void SchedulePosition(Core::Now now, SessionActions& out);
     void Refuse(const DecodeFailure& failure, bool bLegacyName, Core::Now now, SessionActions& out);
     [[nodiscard]] std::uint64_t MakeDigest(AcsRequest& request);
@@ -154,7 +154,7 @@ private:
     void HandleRequest(AcsRequest& request, bool bLegacyName, Core::Now now, SessionActions& out);
     void RefuseForeign(const AcsRequest& request, Core::Now now, SessionActions& out);
     void HandleAck(const AcsAck& ack, SessionActions& out);
-    /// Whether the Ack belongs to what has left the window: the second one after a resend, or one that comes too late.
+    /// Whether the Ack belongs to a message that is no longer in flight: a second Ack after a resend, or a late one.
     [[nodiscard]] bool IsLateAck(const AcsAck& ack, SessionActions& out);
     void HandleRegistrationAck(const AcsAck& ack, SessionActions& out);
 };

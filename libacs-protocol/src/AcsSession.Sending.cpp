@@ -90,7 +90,7 @@ std::size_t AcsSession::Impl::GetRoom() const noexcept
 bool AcsSession::Impl::IsKnownState(const AcsPayload& status) const
 {
     const auto found = _statuses.find(MakeStatusKey(status));
-    return !std::holds_alternative<RobotStatusUpdate>(status) && found != _statuses.end() && !found->second.bGivenUp
+    return !std::holds_alternative<RobotStatusUpdate>(status) && found != _statuses.end() && !found->second.bUnanswered
         && found->second.payload == status;
 }
 

@@ -14,15 +14,15 @@
 namespace ACS::Protocol::Detail
 {
 
-/// Which requests came in and how they were answered, so that one that comes again is not executed again. Bounded in
-/// time, number and bytes; the oldest go first, questions before what was executed.
+/// The received requests and their Acks: a repeated request is answered from here and not executed again. Limited in time,
+/// number and bytes; the oldest entries are dropped first, queries before commands.
 class AnswerCache
 {
 public:
     struct Entry
     {
         EAcsCommand command = EAcsCommand::ExecutionPlan;
-        std::string text; ///< The Ack as it was sent; empty: not answered yet.
+        std::string text; ///< The sent Ack; empty: not answered yet.
         Core::SteadyTime receivedAt{};
         bool bLegacyName = false;
         std::uint64_t digest = 0; ///< Of the request.
@@ -37,8 +37,8 @@ private:
     std::size_t _bytes = 0; ///< Of the texts.
 
 public:
-    /// @param capacity Entries; at least one is kept.
-    /// @param maximumBytes Of all Acks together.
+    /// @param capacity Maximum number of entries; at least one is kept.
+    /// @param maximumBytes Maximum size of all Acks.
     AnswerCache(std::chrono::milliseconds memory, std::size_t capacity, std::size_t maximumBytes);
 
     /// Valid until the next call of another function.
@@ -49,7 +49,7 @@ public:
         bool bLegacyName,
         std::uint64_t digest,
         Core::Now now);
-    /// The Ack of an entry that is there.
+    /// Sets the Ack of an entry, if it still exists.
     void KeepText(EAcsCommand command, std::string_view transactionID, const std::string& text);
 
 private:

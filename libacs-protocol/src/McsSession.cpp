@@ -42,7 +42,7 @@ class McsSession::Impl
     Detail::SessionOutput _output;
 
     std::vector<ConnectionID> _connections; ///< All open connections.
-    std::vector<Connection> _strangers;     ///< Open connections without a Registration.
+    std::vector<Connection> _unregistered;  ///< Open connections without a Registration.
     std::optional<ConnectionID> _registered;
     bool _bAcsConnected = true; ///< The last AcsCommStateUpdate of the registered ACS.
     std::vector<PendingRequest> _pending;
@@ -69,7 +69,7 @@ public:
     {
         ++_output.statistics.connects;
         _connections.push_back(connection);
-        _strangers.push_back({connection, now.steady + _options.registrationTimeout});
+        _unregistered.push_back({connection, now.steady + _options.registrationTimeout});
         ArmRegistrationTimer(now, out);
     }
 
@@ -103,10 +103,10 @@ public:
     void OnClosed(ConnectionID connection, std::string_view reason, SessionActions& out)
     {
         std::erase(_connections, connection);
-        Know(connection, out);
+        RemoveUnregistered(connection, out);
         if (_registered == connection)
         {
-            LoseRegistered(reason, out);
+            EndRegistration(reason, out);
         }
     }
 
@@ -119,10 +119,10 @@ public:
         switch (timer)
         {
             case ESessionTimer::Registration:
-                CloseStrangers(now, out);
+                CloseUnregistered(now, out);
                 break;
             case ESessionTimer::Ack:
-                GiveUpLate(now, out);
+                AbandonOverdue(now, out);
                 break;
             case ESessionTimer::Reconnect:
             case ESessionTimer::Position:
@@ -185,47 +185,51 @@ public:
 private:
     void ArmRegistrationTimer(Core::Now now, SessionActions& out)
     {
-        if (!_strangers.empty() && !_output.IsRunning(ESessionTimer::Registration))
+        if (!_unregistered.empty() && !_output.IsRunning(ESessionTimer::Registration))
         {
-            _output.Start(ESessionTimer::Registration, Detail::GetNextDelay(_strangers, now), out);
+            _output.Start(ESessionTimer::Registration, Detail::GetNextDelay(_unregistered, now), out);
         }
     }
 
-    void Know(ConnectionID connection, SessionActions& out)
+    void RemoveUnregistered(ConnectionID connection, SessionActions& out)
     {
-        std::erase_if(_strangers, [connection](const Connection& stranger) { return stranger.id == connection; });
-        if (_strangers.empty())
+        std::erase_if(_unregistered, [connection](const Connection& unregistered) {
+            return unregistered.id == connection;
+        });
+        if (_unregistered.empty())
         {
             _output.Cancel(ESessionTimer::Registration, out);
         }
     }
 
-    void CloseStrangers(Core::Now now, SessionActions& out)
+    void CloseUnregistered(Core::Now now, SessionActions& out)
     {
-        for (const Connection& stranger : _strangers)
+        for (const Connection& unregistered : _unregistered)
         {
-            if (stranger.deadline <= now.steady)
+            if (unregistered.deadline <= now.steady)
             {
-                out.emplace_back(Close{stranger.id, CLOSE_POLICY, "no Registration has come"});
+                out.emplace_back(Close{unregistered.id, CLOSE_POLICY, "no Registration has come"});
             }
         }
-        std::erase_if(_strangers, [now](const Connection& stranger) { return stranger.deadline <= now.steady; });
+        std::erase_if(_unregistered, [now](const Connection& unregistered) {
+            return unregistered.deadline <= now.steady;
+        });
         ArmRegistrationTimer(now, out);
     }
 
-    void GiveUp(const PendingRequest& request, SessionActions& out)
+    void Abandon(const PendingRequest& request, SessionActions& out)
     {
         _recent.Remember(request.command, request.transactionID, true);
         out.emplace_back(Deliver{RequestUnanswered{request.command, request.transactionID}});
     }
 
-    void GiveUpLate(Core::Now now, SessionActions& out)
+    void AbandonOverdue(Core::Now now, SessionActions& out)
     {
         for (const PendingRequest& request : _pending)
         {
             if (request.deadline <= now.steady)
             {
-                GiveUp(request, out);
+                Abandon(request, out);
             }
         }
         std::erase_if(_pending, [now](const PendingRequest& request) { return request.deadline <= now.steady; });
@@ -240,14 +244,14 @@ private:
         }
     }
 
-    void LoseRegistered(std::string_view reason, SessionActions& out)
+    void EndRegistration(std::string_view reason, SessionActions& out)
     {
         _output.Cancel(ESessionTimer::Ack, out);
         _registered.reset();
         ++_output.statistics.linkLosses;
         for (const PendingRequest& request : std::exchange(_pending, {}))
         {
-            GiveUp(request, out);
+            Abandon(request, out);
         }
         out.emplace_back(Deliver{LinkLost{std::string(reason), true}});
     }
@@ -338,11 +342,11 @@ private:
             out.emplace_back(Close{connection, CLOSE_POLICY, "an ACS is registered already"});
             return;
         }
-        Know(connection, out);
+        RemoveUnregistered(connection, out);
         if (_registered.value_or(connection) != connection)
         {
             out.emplace_back(Close{*_registered, CLOSE_POLICY, "replaced by a new connection"});
-            LoseRegistered("replaced by a new connection", out);
+            EndRegistration("replaced by a new connection", out);
         }
         Acknowledge(connection, request, EAckResult::Success, "Registered.", now, out);
         if (_registered != connection)

@@ -13,16 +13,16 @@
 namespace ACS::Protocol::Detail
 {
 
-/// Which entry an Ack belongs to.
+/// The entry that an Ack belongs to.
 struct PendingMatch
 {
     std::size_t index = 0;
     bool bFound = false;
-    bool bByCommand = false; ///< The transactionId was a foreign one (D-4).
+    bool bByCommand = false; ///< The transactionId was unknown (D-4).
 };
 
-/// The oldest entry of this command with this transaction, else the oldest of this command. Entries have the members
-/// command and transactionID and stand in the order in which they were sent.
+/// The oldest entry of this command with this transaction, otherwise the oldest of this command. Entries have the members
+/// command and transactionID and are in the order of sending.
 template <typename TEntry>
 [[nodiscard]] PendingMatch FindPendingByID(
     const std::vector<TEntry>& entries,
@@ -44,7 +44,7 @@ template <typename TEntry>
     return {static_cast<std::size_t>(found - entries.begin()), found != entries.end(), true};
 }
 
-/// From now until the earliest deadline, rounded up, at least zero. Of at least one entry.
+/// Time until the earliest deadline, rounded up, at least zero. Requires at least one entry.
 template <typename TEntry>
 [[nodiscard]] std::chrono::milliseconds GetNextDelay(const std::vector<TEntry>& entries, Core::Now now)
 {

@@ -11,15 +11,15 @@
 namespace ACS::Protocol::Detail
 {
 
-/// What an Ack is whose request waits no more.
+/// The kind of an Ack whose request is not pending.
 enum class ELateAck : std::uint8_t
 {
-    Unknown,  ///< Its transactionId is a foreign one.
-    Late,     ///< The first one of a request that was given up.
-    Repeated, ///< There was one already, or nobody wants to know.
+    Unknown,  ///< Its transactionId is unknown.
+    Late,     ///< The first Ack of a request that was abandoned.
+    Repeated, ///< A second Ack, or of no interest.
 };
 
-/// The transactions that waited for an Ack last: a late or second Ack must not be taken for that of another one.
+/// The last transactions that were pending: a late or second Ack must not be matched to another one.
 class RecentTransactions
 {
     struct Entry
@@ -34,10 +34,10 @@ class RecentTransactions
     std::deque<Entry> _entries;
 
 public:
-    /// @param bAwaited It was given up, and a late Ack is of interest.
+    /// @param bAwaited The request was abandoned, and a late Ack is of interest.
     void Remember(EAcsCommand command, std::string transactionID, bool bAwaited);
 
-    /// It waits again.
+    /// The transaction is pending again.
     void Forget(EAcsCommand command, std::string_view transactionID);
 
     [[nodiscard]] ELateAck TakeAck(EAcsCommand command, std::string_view transactionID);

@@ -14,15 +14,15 @@
 namespace ACS::Protocol::Detail
 {
 
-/// Which answer a message gets that cannot be read.
+/// The answer to an unreadable message.
 enum class ERefusal : std::uint8_t
 {
-    None,       ///< No command, an Ack, or a command that has none: it is counted, that is all.
-    Failed,     ///< A command of the other side's: Fail, and what is wrong with it.
+    None,       ///< None, only counted: no command, an Ack, or a command without Ack.
+    Failed,     ///< A command of the other side: Fail with the error.
     Unsupported ///< Any other command: Fail, "unsupported command".
 };
 
-/// What both sessions do alike when they put out actions: counting what they note, and knowing which timers run.
+/// The common part of both sessions: statistics and notes, and the running timers.
 class SessionOutput
 {
     std::array<bool, TIMER_COUNT> _running{};
@@ -33,26 +33,25 @@ public:
     void Note(EProtocolNote what, std::string detail, SessionActions& out, std::uint32_t count = 1);
     void NoteAll(const DecodeNotes& notes, SessionActions& out);
 
-    /// Counts a message that cannot be read, and says how it is answered by a side that takes such commands from the
-    /// MCS, or from the ACS.
+    /// Counts an unreadable message, and returns the answer of a side that accepts the commands of the MCS, or of the ACS.
     [[nodiscard]] ERefusal NoteFailure(const DecodeFailure& failure, bool bTakesFromMcs, SessionActions& out);
 
     void Start(ESessionTimer timer, std::chrono::milliseconds delay, SessionActions& out);
-    /// Nothing where it does not run.
+    /// No effect if the timer is not running.
     void Cancel(ESessionTimer timer, SessionActions& out);
     void CancelAll(SessionActions& out);
-    /// Whether it was running; it is not any more.
+    /// Whether the timer was running; it is stopped.
     [[nodiscard]] bool TryExpire(ESessionTimer timer);
     [[nodiscard]] bool IsRunning(ESessionTimer timer) const;
 };
 
-/// The present as the wire shows it.
+/// The current time in the format of messages.
 [[nodiscard]] Core::Timestamp MakeTimestamp(Core::Now now, std::chrono::minutes offset);
 
-/// The sentence of a refusal: what is wrong with the message.
+/// The message of a refusal: what is wrong.
 [[nodiscard]] std::string MakeRefusal(const DecodeFailure& failure);
 
-/// An empty payload for a refusal, with the plan's id where the command has one.
+/// An empty payload for a refusal, with the planID if the command has one.
 [[nodiscard]] AckPayload MakeRefusalPayload(const DecodeFailure& failure);
 
 inline constexpr std::string_view UNSUPPORTED = "unsupported command";

@@ -11,14 +11,14 @@
 namespace ACS::Protocol::Detail
 {
 
-/// What one transaction of one command is found by.
+/// Key of a transaction of a command.
 [[nodiscard]] std::string MakeTransactionKey(EAcsCommand command, std::string_view transactionID);
 
-/// Which transactions have come; the oldest are forgotten first.
+/// The received transactions; the oldest are dropped first.
 class TransactionMemory
 {
     std::unordered_set<std::string> _keys;
-    std::deque<const std::string*> _order; ///< Into the keys, which stay where they are.
+    std::deque<const std::string*> _order; ///< Pointers to the keys, which never move.
     std::size_t _capacity;
 
 public:
@@ -27,7 +27,7 @@ public:
     TransactionMemory& operator=(const TransactionMemory&) = delete;
     ~TransactionMemory() = default;
 
-    /// False where it is there already.
+    /// False if it is known already.
     [[nodiscard]] bool TryInsert(EAcsCommand command, std::string_view transactionID);
 };
 
