@@ -121,7 +121,7 @@ Core::Result<std::size_t> MasterFleet::Add(const VehicleAddress& address, Core::
     return vehicle;
 }
 
-void MasterFleet::LeaveOut(const MqttMessage& message, Core::Error reason)
+void MasterFleet::Ignore(const MqttMessage& message, Core::Error reason)
 {
     ++_leftOut;
     _lastLeftOut = LeftOutMessage{message.topic, std::move(reason)};
@@ -163,13 +163,13 @@ void MasterFleet::Discover(const MqttMessage& message, Core::Now now, FleetActio
     }
     if (_options.bDiscovery && _options.isWelcome && !_options.isWelcome(topic->address))
     {
-        LeaveOut(message, Core::Error{EVda5050Error::InvalidTopic, {}, "a vehicle that is welcome", message.topic});
+        Ignore(message, Core::Error{EVda5050Error::InvalidTopic, {}, "a vehicle that is welcome", message.topic});
         return;
     }
     const Core::Result<EVda5050Version> version = ReadVersion(message);
     if (!version)
     {
-        LeaveOut(message, version.error());
+        Ignore(message, version.error());
         return;
     }
     std::unique_ptr<MasterSession> session = MakeSession(topic->address, *version);
@@ -183,7 +183,7 @@ void MasterFleet::Discover(const MqttMessage& message, Core::Now now, FleetActio
     {
         if (const auto* const refused = std::get_if<MessageRefused>(&action))
         {
-            LeaveOut(message, refused->error);
+            Ignore(message, refused->error);
             _scratch.clear();
             return;
         }

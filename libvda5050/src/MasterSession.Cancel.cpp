@@ -40,7 +40,7 @@ Core::Result<void> MasterSession::Impl::Cancel(Core::Now now, MasterActions& out
     return {};
 }
 
-void MasterSession::Impl::FollowCancel(MasterActions& out)
+void MasterSession::Impl::UpdateCancel(MasterActions& out)
 {
     if (_phase != EOrderPhase::Cancelling || IsPending(_cancelActionID) || !_state.has_value())
     {
@@ -118,7 +118,8 @@ bool MasterSession::Impl::IsRunning(const WithdrawnOrder& order) const
 void MasterSession::Impl::CancelReappeared(Core::Now now, MasterActions& out)
 {
     const auto found = std::ranges::find(_withdrawnOrders, _state->orderID, &WithdrawnOrder::orderID);
-    if (_phase != EOrderPhase::None || found == _withdrawnOrders.end() || _link != EVehicleLink::Online || !IsLed())
+    if (_phase != EOrderPhase::None || found == _withdrawnOrders.end() || _link != EVehicleLink::Online
+        || !IsUnderMasterControl())
     {
         return;
     }

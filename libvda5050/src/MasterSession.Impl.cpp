@@ -147,21 +147,21 @@ void MasterSession::Impl::OnConnection(std::string_view payload, Core::Now now, 
             _bNumbersKnown = false;
             if (_link != EVehicleLink::Online)
             {
-                ComeOnline(now, out);
+                OnVehicleOnline(now, out);
             }
             break;
         case EConnectionState::Offline:
-            GoAway(EVehicleLink::Offline, out);
+            OnVehicleGone(EVehicleLink::Offline, out);
             break;
         case EConnectionState::ConnectionBroken:
-            GoAway(EVehicleLink::Broken, out);
+            OnVehicleGone(EVehicleLink::Broken, out);
             break;
         default:
             break;
     }
 }
 
-void MasterSession::Impl::ComeOnline(Core::Now now, MasterActions& out)
+void MasterSession::Impl::OnVehicleOnline(Core::Now now, MasterActions& out)
 {
     _link = EVehicleLink::Online;
     _bSilent = false;
@@ -191,7 +191,7 @@ void MasterSession::Impl::ComeOnline(Core::Now now, MasterActions& out)
     ResendInstantActions(now, out);
 }
 
-void MasterSession::Impl::GoAway(EVehicleLink link, MasterActions& out)
+void MasterSession::Impl::OnVehicleGone(EVehicleLink link, MasterActions& out)
 {
     if (_link == link)
     {
@@ -261,12 +261,12 @@ void MasterSession::Impl::OnState(std::string_view payload, Core::Now now, Maste
     {
         // It lives, whatever became of its connection message; and the will of a connection that it had before, under
         // another client id, may come after the ONLINE of the present one.
-        ComeOnline(now, out);
+        OnVehicleOnline(now, out);
     }
     _lastStateTime = now.steady;
     _bStateFresh = true;
     _bNumbersKnown = true;
-    const bool bWasLed = IsLed();
+    const bool bWasLed = IsUnderMasterControl();
     if (_bSilent && _link == EVehicleLink::Online)
     {
         _bSilent = false;
@@ -279,14 +279,14 @@ void MasterSession::Impl::OnState(std::string_view payload, Core::Now now, Maste
         out.emplace_back(PositionReceived{*_state->agvPosition, _state->velocity});
     }
     SettleInFlight(now, out);
-    TellDifferences(previous, out);
+    ReportDifferences(previous, out);
     const ActionIndex shown(_state->actionStates);
     SettlePendingActions(shown, out);
-    FollowActions(shown, out);
-    FollowOrder(out);
-    FollowCancel(out);
+    UpdateActions(shown, out);
+    UpdateOrder(out);
+    UpdateCancel(out);
     CancelReappeared(now, out);
-    if (!bWasLed && IsLed())
+    if (!bWasLed && IsUnderMasterControl())
     {
         ResendOrder(now, out);
         ResendInstantActions(now, out);
@@ -327,7 +327,7 @@ void MasterSession::Impl::OnFactsheet(std::string_view payload, MasterActions& o
     out.emplace_back(FactsheetReceived{});
 }
 
-void MasterSession::Impl::TellDifferences(const std::optional<StateMessage>& previous, MasterActions& out) const
+void MasterSession::Impl::ReportDifferences(const std::optional<StateMessage>& previous, MasterActions& out) const
 {
     const StateMessage none;
     const StateMessage& before = previous.has_value() ? *previous : none;
@@ -379,7 +379,7 @@ bool MasterSession::Impl::IsReady() const
 
 bool MasterSession::Impl::CanTakeOrder() const
 {
-    return IsReady() && _phase == EOrderPhase::None && IsLed() && !IsBusy();
+    return IsReady() && _phase == EOrderPhase::None && IsUnderMasterControl() && !IsBusy();
 }
 
 bool MasterSession::Impl::IsBusy() const
@@ -387,7 +387,7 @@ bool MasterSession::Impl::IsBusy() const
     return _state.has_value() && !(_state->nodeStates.empty() && _state->edgeStates.empty());
 }
 
-bool MasterSession::Impl::IsLed() const
+bool MasterSession::Impl::IsUnderMasterControl() const
 {
     return !_state.has_value() || IsLedByMaster(_state->operatingMode);
 }

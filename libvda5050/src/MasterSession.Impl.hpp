@@ -33,12 +33,12 @@ class MasterSession::Impl
         bool bShown = false;
     };
 
-    /// One that has ended for us, though the vehicle may still have it in a queue.
+    /// An order that has ended for the master, while a message of it may still be under way.
     struct WithdrawnOrder
     {
         std::string orderID;
         std::vector<std::string> actionIDs;
-        bool bRejected = false; ///< Or never shown; else cancelled.
+        bool bRejected = false; ///< Rejected or never shown; otherwise cancelled.
     };
 
     struct RouteNode
@@ -46,7 +46,7 @@ class MasterSession::Impl
         std::string nodeID;
         std::uint32_t sequenceID = 0;
         bool bReleased = false;
-        std::vector<std::string> actionIDs; ///< Of the node and of the edge that leads to it.
+        std::vector<std::string> actionIDs; ///< Of the node and of the edge to it.
     };
 
     MasterOptions _options;
@@ -57,8 +57,8 @@ class MasterSession::Impl
     bool _bLinkUp = false;
     EVehicleLink _link = EVehicleLink::Unknown;
     bool _bSilent = false;
-    bool _bStateFresh = false;   ///< A state came since the vehicle is online.
-    bool _bNumbersKnown = false; ///< A state came since the vehicle said ONLINE last: before, its headerIds count anew.
+    bool _bStateFresh = false;   ///< A state was received since the vehicle is online.
+    bool _bNumbersKnown = false; ///< A state was received since ONLINE, which restarts the headerIds.
     Core::SteadyTime _lastStateTime;
     std::optional<StateMessage> _state;
     std::optional<FactsheetMessage> _factsheet;
@@ -66,18 +66,18 @@ class MasterSession::Impl
     std::string _orderID;
     std::uint32_t _lastSentUpdateID = 0;
     std::uint32_t _acceptedUpdateID = 0;
-    bool _bAccepted = false;               ///< Any message of this order was echoed.
-    std::optional<OrderMessage> _inFlight; ///< Sent and not yet echoed.
-    std::optional<OrderMessage> _queued;   ///< Waits for the echo of the one in flight.
+    bool _bAccepted = false;               ///< The vehicle has shown a message of this order.
+    std::optional<OrderMessage> _inFlight; ///< Sent, and not shown yet.
+    std::optional<OrderMessage> _queued;   ///< Waits until the one in flight is shown.
     std::uint32_t _sendCount = 0;
-    std::optional<Core::SteadyTime> _lastOrderTime; ///< When one was published last.
-    std::optional<OrderMessage> _withdrawn;         ///< In flight when the cancel was sent: the vehicle may have it.
-    std::vector<WithdrawnOrder> _withdrawnOrders;   ///< Without having been seen; the last ones.
+    std::optional<Core::SteadyTime> _lastOrderTime; ///< Of the last published message.
+    std::optional<OrderMessage> _withdrawn;         ///< In flight when the cancel was sent; the vehicle may receive it.
+    std::vector<WithdrawnOrder> _withdrawnOrders;   ///< The last orders that ended before they were shown.
     std::vector<TrackedAction> _tracked;            ///< Not yet ended.
     std::vector<VehicleError> _errorsBeforeSend;    ///< Sorted.
-    std::uint32_t _firstHeaderID = 0;               ///< Of the message in flight; each resend has the next one.
+    std::uint32_t _firstHeaderID = 0;               ///< Of the message in flight; increases with each resend.
     std::vector<RouteNode> _route;                  ///< Accepted nodes, base and horizon.
-    std::size_t _reachedNodes = 0;                  ///< How many of _route were told.
+    std::size_t _reachedNodes = 0;                  ///< Number of nodes of _route that were reported.
     std::vector<PendingAction> _pendingActions;
     std::string _cancelActionID;
     std::uint32_t _ownActionCount = 0;
@@ -113,52 +113,52 @@ private:
     void OnVisualization(std::string_view payload, MasterActions& out);
     void OnFactsheet(std::string_view payload, MasterActions& out);
     void Refuse(ETopic topic, Core::Error error, MasterActions& out);
-    void ComeOnline(Core::Now now, MasterActions& out);
-    void GoAway(EVehicleLink link, MasterActions& out);
+    void OnVehicleOnline(Core::Now now, MasterActions& out);
+    void OnVehicleGone(EVehicleLink link, MasterActions& out);
     void CheckSilence(Core::Now now, MasterActions& out);
     [[nodiscard]] bool IsStale(const StateMessage& state) const;
-    /// Whether its mode takes orders and instant actions, as far as is known.
-    [[nodiscard]] bool IsLed() const;
+    /// Whether the last known mode allows orders and instant actions.
+    [[nodiscard]] bool IsUnderMasterControl() const;
 
-    void TellDifferences(const std::optional<StateMessage>& previous, MasterActions& out) const;
+    void ReportDifferences(const std::optional<StateMessage>& previous, MasterActions& out) const;
     void SettlePendingActions(const ActionIndex& shown, MasterActions& out);
     void SettleInFlight(Core::Now now, MasterActions& out);
     void AcceptInFlight(Core::Now now, MasterActions& out);
     void RejectInFlight(const std::string& errorType, const std::string& reason, MasterActions& out);
     [[nodiscard]] bool IsRejection(const VehicleError& error) const;
     [[nodiscard]] const VehicleError* FindRejectionOrNull() const;
-    void FollowOrder(MasterActions& out);
-    void TellReachedNodes(MasterActions& out);
+    void UpdateOrder(MasterActions& out);
+    void ReportReachedNodes(MasterActions& out);
     [[nodiscard]] bool IsOrderDone() const;
-    void FollowCancel(MasterActions& out);
+    void UpdateCancel(MasterActions& out);
     void EndCancel(EActionStatus status, MasterActions& out);
     void EndOrder(MasterActions& out);
     void ExtendRoute(const OrderMessage& order);
-    /// Forgets the order before it.
+    /// Discards the previous order.
     void BeginOrder(std::string orderID, std::uint32_t lastUpdateID);
-    void TakeIntoRoute(const OrderMessage& order);
-    /// From now on this message waits for its echo.
-    void PutInFlight(OrderMessage order, Core::Now now, MasterActions& out);
-    /// Where an update has to begin: the last released node of what was sent last.
+    void AddToRoute(const OrderMessage& order);
+    /// The message is in flight until the vehicle shows it.
+    void StartWaitingForEcho(OrderMessage order, Core::Now now, MasterActions& out);
+    /// The start of an update: the last released node of the last message.
     [[nodiscard]] std::pair<std::string, std::uint32_t> GetDecisionPoint() const;
     [[nodiscard]] bool IsPending(std::string_view actionID) const;
-    /// Whether an action with this id, of an order or not, has not ended yet.
+    /// Whether an order action or instant action with this id has not ended.
     [[nodiscard]] bool IsTracked(std::string_view actionID) const;
     [[nodiscard]] bool IsSentHeader(std::string_view headerID) const;
     [[nodiscard]] const ActionState* FindShownOrNull(std::string_view actionID) const;
 
     void TrackOrderActions(const OrderMessage& order);
-    void FollowActions(const ActionIndex& shown, MasterActions& out);
+    void UpdateActions(const ActionIndex& shown, MasterActions& out);
     void EndOrderActions(MasterActions& out);
-    void ForgetAction(std::string_view actionID);
-    /// Remembers it in case that it comes late. The message that the vehicle may have; null where none was sent.
+    void RemoveTrackedAction(std::string_view actionID);
+    /// Remembers the order in case the vehicle receives its message late; null if none was sent.
     void Withdraw(const OrderMessage* messageOrNull, bool bRejected);
     [[nodiscard]] bool IsRunning(const WithdrawnOrder& order) const;
     void CancelReappeared(Core::Now now, MasterActions& out);
-    /// Whether the vehicle has nodes or edges left, of whatever order.
+    /// Whether the vehicle has nodes or edges left, of any order.
     [[nodiscard]] bool IsBusy() const;
 
-    /// Null where there is no factsheet, or it is not to be obeyed.
+    /// Null without a factsheet, or if it is not obeyed.
     [[nodiscard]] const FactsheetMessage* GetRulesOrNull() const;
     [[nodiscard]] Core::Result<void> FitOrder(OrderMessage& order, Core::Now now) const;
     [[nodiscard]] Core::Result<void> FitInstantAction(Action& action, Core::Now now) const;

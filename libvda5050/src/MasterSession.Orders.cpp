@@ -57,7 +57,7 @@ void MasterSession::Impl::SettlePendingActions(const ActionIndex& shown, MasterA
             return false;
         }
         out.emplace_back(InstantActionRejected{actionID, refused->errorType, refused->errorDescription});
-        ForgetAction(actionID);
+        RemoveTrackedAction(actionID);
         return true;
     };
     std::erase_if(_pendingActions, isSettled);
@@ -105,7 +105,7 @@ void MasterSession::Impl::ExtendRoute(const OrderMessage& order)
     }
 }
 
-void MasterSession::Impl::TakeIntoRoute(const OrderMessage& order)
+void MasterSession::Impl::AddToRoute(const OrderMessage& order)
 {
     ExtendRoute(order);
     TrackOrderActions(order);
@@ -115,7 +115,7 @@ void MasterSession::Impl::TakeIntoRoute(const OrderMessage& order)
 
 void MasterSession::Impl::AcceptInFlight(Core::Now now, MasterActions& out)
 {
-    TakeIntoRoute(*_inFlight);
+    AddToRoute(*_inFlight);
     // A master that takes an order up again may know less of it than the vehicle has.
     _acceptedUpdateID = std::max(_inFlight->orderUpdateID, _state->orderUpdateID);
     _lastSentUpdateID = std::max(_lastSentUpdateID, _acceptedUpdateID);
@@ -124,7 +124,7 @@ void MasterSession::Impl::AcceptInFlight(Core::Now now, MasterActions& out)
     out.emplace_back(OrderAccepted{_orderID, _acceptedUpdateID});
     if (_queued.has_value())
     {
-        PutInFlight(*std::exchange(_queued, std::nullopt), now, out);
+        StartWaitingForEcho(*std::exchange(_queued, std::nullopt), now, out);
     }
 }
 
@@ -196,7 +196,7 @@ const VehicleError* MasterSession::Impl::FindRejectionOrNull() const
     return found == _state->errors.end() ? nullptr : &*found;
 }
 
-void MasterSession::Impl::TellReachedNodes(MasterActions& out)
+void MasterSession::Impl::ReportReachedNodes(MasterActions& out)
 {
     const auto isReached = [this](const RouteNode& node) {
         return node.bReleased && node.sequenceID == _state->lastNodeSequenceID && node.nodeID == _state->lastNodeID
@@ -223,13 +223,13 @@ bool MasterSession::Impl::IsOrderDone() const
     {
         return false;
     }
-    // FollowActions has dropped what has ended.
+    // UpdateActions has dropped what has ended.
     return std::ranges::none_of(_tracked, [](const TrackedAction& tracked) {
         return !tracked.bInstant && tracked.bShown;
     });
 }
 
-void MasterSession::Impl::FollowOrder(MasterActions& out)
+void MasterSession::Impl::UpdateOrder(MasterActions& out)
 {
     if (!_bAccepted || _phase == EOrderPhase::None)
     {
@@ -243,7 +243,7 @@ void MasterSession::Impl::FollowOrder(MasterActions& out)
         EndOrder(out);
         return;
     }
-    TellReachedNodes(out);
+    ReportReachedNodes(out);
     if (_phase == EOrderPhase::Cancelling)
     {
         return;

@@ -130,7 +130,7 @@ void MasterSession::Impl::PublishPayload(ETopic topic, std::string payload, Mast
 
 void MasterSession::Impl::PublishOrder(Core::Now now, MasterActions& out)
 {
-    if (_link != EVehicleLink::Online || !IsLed())
+    if (_link != EVehicleLink::Online || !IsUnderMasterControl())
     {
         return; // sent when it comes online, and back to a mode that takes orders
     }
@@ -155,7 +155,7 @@ void MasterSession::Impl::PublishOrder(Core::Now now, MasterActions& out)
 
 void MasterSession::Impl::ResendOrder(Core::Now now, MasterActions& out)
 {
-    if (!_inFlight.has_value() || _link != EVehicleLink::Online || !IsLed())
+    if (!_inFlight.has_value() || _link != EVehicleLink::Online || !IsUnderMasterControl())
     {
         return;
     }
@@ -185,7 +185,7 @@ void MasterSession::Impl::PublishInstantActions(std::vector<Action> actions, Cor
 
 void MasterSession::Impl::ResendInstantActions(Core::Now now, MasterActions& out)
 {
-    if (_link != EVehicleLink::Online || !IsLed())
+    if (_link != EVehicleLink::Online || !IsUnderMasterControl())
     {
         return;
     }
@@ -194,7 +194,7 @@ void MasterSession::Impl::ResendInstantActions(Core::Now now, MasterActions& out
         if (_options.resendCount != 0 && pending.sendCount > _options.resendCount)
         {
             out.emplace_back(InstantActionRejected{pending.action.actionID, {}, "the vehicle never showed the action"});
-            ForgetAction(pending.action.actionID);
+            RemoveTrackedAction(pending.action.actionID);
             return true;
         }
         ++pending.sendCount;
@@ -215,7 +215,7 @@ void MasterSession::Impl::ResendInstantActions(Core::Now now, MasterActions& out
         PublishInstantActions(std::move(actions), now, out);
         out.emplace_back(StartMasterTimer{EMasterTimer::ResendInstantActions, _options.resendInterval});
     }
-    FollowCancel(out);
+    UpdateCancel(out);
 }
 
 void MasterSession::Impl::BeginOrder(std::string orderID, std::uint32_t lastUpdateID)
@@ -229,7 +229,7 @@ void MasterSession::Impl::BeginOrder(std::string orderID, std::uint32_t lastUpda
     _reachedNodes = 0;
 }
 
-void MasterSession::Impl::PutInFlight(OrderMessage order, Core::Now now, MasterActions& out)
+void MasterSession::Impl::StartWaitingForEcho(OrderMessage order, Core::Now now, MasterActions& out)
 {
     _errorsBeforeSend = _state->errors;
     std::ranges::sort(_errorsBeforeSend);
@@ -244,7 +244,7 @@ Core::Result<void> MasterSession::Impl::SendOrder(OrderMessage order, Core::Now 
     {
         return Core::Fail(EVda5050Error::OrderActive, {}, "no order", _orderID);
     }
-    if (IsReady() && IsLed() && _state->orderID == order.orderID)
+    if (IsReady() && IsUnderMasterControl() && _state->orderID == order.orderID)
     {
         return Core::Fail(
             EVda5050Error::InvalidOrder,
@@ -252,7 +252,7 @@ Core::Result<void> MasterSession::Impl::SendOrder(OrderMessage order, Core::Now 
             "an id that the vehicle does not show, or else ResumeOrder",
             order.orderID);
     }
-    if (IsReady() && IsLed() && IsBusy())
+    if (IsReady() && IsUnderMasterControl() && IsBusy())
     {
         return Core::Fail(EVda5050Error::OrderActive, {}, "no order", _state->orderID);
     }
@@ -274,7 +274,7 @@ Core::Result<void> MasterSession::Impl::SendOrder(OrderMessage order, Core::Now 
         return check;
     }
     BeginOrder(order.orderID, order.orderUpdateID);
-    PutInFlight(std::move(order), now, out);
+    StartWaitingForEcho(std::move(order), now, out);
     return {};
 }
 
@@ -323,7 +323,7 @@ Core::Result<void> MasterSession::Impl::SendOrderUpdate(OrderMessage update, Cor
         _queued = std::move(update);
         return {};
     }
-    PutInFlight(std::move(update), now, out);
+    StartWaitingForEcho(std::move(update), now, out);
     return {};
 }
 
@@ -374,7 +374,7 @@ Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::No
     BeginOrder(orderID, messages.back().orderUpdateID);
     for (auto message = messages.begin(); message != open; ++message)
     {
-        TakeIntoRoute(*message);
+        AddToRoute(*message);
     }
     if (_bAccepted)
     {
@@ -388,10 +388,10 @@ Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::No
     }
     if (open != messages.end())
     {
-        PutInFlight(std::move(*open), now, out);
+        StartWaitingForEcho(std::move(*open), now, out);
     }
-    FollowActions(ActionIndex(_state->actionStates), out);
-    FollowOrder(out);
+    UpdateActions(ActionIndex(_state->actionStates), out);
+    UpdateOrder(out);
     return {};
 }
 
@@ -407,7 +407,7 @@ const ActionState* MasterSession::Impl::FindShownOrNull(std::string_view actionI
 
 Core::Result<std::string> MasterSession::Impl::SendInstantAction(Action action, Core::Now now, MasterActions& out)
 {
-    const bool bTaken = IsLed() || IsRequest(action.actionType);
+    const bool bTaken = IsUnderMasterControl() || IsRequest(action.actionType);
     if (_link != EVehicleLink::Online || !bTaken)
     {
         return Core::Fail(

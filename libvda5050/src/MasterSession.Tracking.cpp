@@ -47,7 +47,7 @@ void MasterSession::Impl::TrackOrderActions(const OrderMessage& order)
     }
 }
 
-void MasterSession::Impl::FollowActions(const ActionIndex& shown, MasterActions& out)
+void MasterSession::Impl::UpdateActions(const ActionIndex& shown, MasterActions& out)
 {
     const auto isEnded = [&shown, &out](TrackedAction& tracked) {
         const ActionState* const state = shown.FindOrNull(tracked.actionID);
@@ -77,7 +77,7 @@ void MasterSession::Impl::EndOrderActions(MasterActions& out)
     std::erase_if(_tracked, isOfOrder);
 }
 
-void MasterSession::Impl::ForgetAction(std::string_view actionID)
+void MasterSession::Impl::RemoveTrackedAction(std::string_view actionID)
 {
     std::erase_if(_tracked, [actionID](const TrackedAction& tracked) { return tracked.actionID == actionID; });
 }

@@ -18,7 +18,7 @@ void VehicleSession::Impl::StopMoving(VehicleActions& out)
 }
 
 /// What was told to stop counts as moving until the owner says that it stands.
-bool VehicleSession::Impl::IsStanding() const
+bool VehicleSession::Impl::IsStationary() const
 {
     return !_bDriving && !_bHalting;
 }
@@ -121,9 +121,9 @@ void VehicleSession::Impl::LeavePause(VehicleActions& out) const
     }
 }
 
-void VehicleSession::Impl::FinishPauseIfStanding()
+void VehicleSession::Impl::FinishPauseIfStationary()
 {
-    if (!IsStanding())
+    if (!IsStationary())
     {
         return;
     }
@@ -181,17 +181,17 @@ void VehicleSession::Impl::StopOrderActions(const std::string& reason, VehicleAc
     }
 }
 
-void VehicleSession::Impl::FinishCancelIfStanding(VehicleActions& out)
+void VehicleSession::Impl::FinishCancelIfStationary(VehicleActions& out)
 {
     // Outside of its corridor a vehicle does not get to the next node by itself.
     const bool bOnTheWay = _bLegActive || (_bLastLeg && !_route.IsEmpty() && !_corridorError.has_value());
-    if (!_cancelActionIDs.empty() && IsStanding() && !bOnTheWay && _actions.CountOpen() == 0)
+    if (!_cancelActionIDs.empty() && IsStationary() && !bOnTheWay && _actions.CountOpen() == 0)
     {
         ClearOrder(out);
     }
 }
 
-void VehicleSession::Impl::ForgetRoute()
+void VehicleSession::Impl::DiscardRoute()
 {
     _route.Clear();
     _actionQueue.clear();
@@ -203,7 +203,7 @@ void VehicleSession::Impl::ForgetRoute()
 
 void VehicleSession::Impl::ClearOrder(VehicleActions& out)
 {
-    ForgetRoute();
+    DiscardRoute();
     _bLegActive = false;
     _bLastLeg = false;
     _bCleared = true;
@@ -237,7 +237,7 @@ bool VehicleSession::Impl::TrySetOutsideCorridor(bool bOutside, Core::Now now, V
         AddReference(error, ReferenceKeys::TOPIC, GetTopicName(ETopic::Order));
         AddReference(error, ReferenceKeys::EDGE_ID, edgeID);
         StopMoving(out);
-        FinishCancelIfStanding(out);
+        FinishCancelIfStationary(out);
     }
     Advance(out);
     Settle(now, out);

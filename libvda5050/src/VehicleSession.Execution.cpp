@@ -32,7 +32,7 @@ bool VehicleSession::Impl::TryReachNode(std::uint32_t sequenceID, Core::Now now,
         return false;
     }
     ReachFront(out);
-    FinishCancelIfStanding(out);
+    FinishCancelIfStationary(out);
     Advance(out);
     Settle(now, out);
     return true;
@@ -49,8 +49,8 @@ void VehicleSession::Impl::OnDrivingChanged(bool bDriving, Core::Now now, Vehicl
     _bStateDue = true;
     _bDriving = bDriving;
     _bHalting = _bHalting && bDriving;
-    FinishPauseIfStanding();
-    FinishCancelIfStanding(out);
+    FinishPauseIfStationary();
+    FinishCancelIfStationary(out);
     Settle(now, out);
 }
 
@@ -91,7 +91,7 @@ bool VehicleSession::Impl::TrySetActionStatus(
     {
         OnActionFailed(*trackedOrNull, out);
     }
-    FinishCancelIfStanding(out);
+    FinishCancelIfStationary(out);
     Advance(out);
     Settle(now, out);
     return true;
@@ -172,7 +172,7 @@ void VehicleSession::Impl::Advance(VehicleActions& out)
         if (_cancelActionIDs.empty())
         {
             StartQueuedActions(out);
-            DriveOn(out);
+            ContinueDriving(out);
         }
         else
         {
@@ -214,7 +214,7 @@ bool VehicleSession::Impl::NeedsStopAtFront() const
     return _route.CountReleased() < 2 || HasBlocking(_route.GetNodeActions(0)) || HasBlocking(_route.GetEdgeActions(1));
 }
 
-void VehicleSession::Impl::DriveOn(VehicleActions& out)
+void VehicleSession::Impl::ContinueDriving(VehicleActions& out)
 {
     if (_route.CountReleased() == 0 || _bHeldByFailure || _corridorError.has_value())
     {

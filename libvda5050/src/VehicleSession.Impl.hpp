@@ -21,12 +21,12 @@ namespace ACS::VDA5050
 
 class VehicleSession::Impl
 {
-    /// All end with an order that is taken; some earlier.
+    /// All errors end with the next accepted order; some earlier.
     enum class EErrorLifetime : std::uint8_t
     {
         UntilOrder,
-        UntilInstantAction, ///< Taken in a later message.
-        UntilMode,          ///< Until orders can be taken.
+        UntilInstantAction, ///< Until an instant action of a later message is accepted.
+        UntilMode,          ///< Until the operating mode allows orders.
     };
 
     struct SessionError
@@ -46,9 +46,9 @@ class VehicleSession::Impl
     Vda5050Codec _codec;
     std::array<std::uint32_t, TOPIC_COUNT> _headerIDs{};
     std::array<std::string, TOPIC_COUNT> _topics;
-    std::array<std::size_t, TOPIC_COUNT> _payloadBytes{}; ///< Of the last message: the next one will be about as long.
+    std::array<std::size_t, TOPIC_COUNT> _payloadBytes{}; ///< Size of the last message, to reserve that of the next.
 
-    // What the owner says.
+    // Reported by the owner.
     std::optional<AgvPosition> _position;
     std::optional<Velocity> _velocity;
     std::optional<double> _distanceSinceLastNode;
@@ -67,23 +67,23 @@ class VehicleSession::Impl
     std::string _lastNodeID;
     std::uint32_t _orderUpdateID = 0;
     std::uint32_t _lastNodeSequenceID = 0;
-    RemainingRoute _route; ///< Still to be driven.
+    RemainingRoute _route; ///< Remaining nodes and edges.
     ReportedActions _actions;
-    std::deque<std::string> _actionQueue; ///< Of what was reached or entered, not yet started.
-    std::vector<EvictedAction> _evicted;  ///< Instant actions that were shown and made way, the latest.
+    std::deque<std::string> _actionQueue; ///< Actions of reached nodes and entered edges that are not started.
+    std::vector<EvictedAction> _evicted;  ///< The latest shown instant actions that were removed for new ones.
     std::vector<SessionError> _sessionErrors;
-    std::optional<VehicleError> _corridorError; ///< While the vehicle is outside of its edge's corridor.
-    std::vector<std::string> _pauseActionIDs;   ///< startPause that waits for the vehicle to stand.
+    std::optional<VehicleError> _corridorError; ///< Set while the vehicle is outside the corridor.
+    std::vector<std::string> _pauseActionIDs;   ///< startPause actions that wait until the vehicle is stationary.
     std::vector<std::string> _cancelActionIDs;
-    bool _bOrderRunning = false; ///< Taken and not yet told as completed.
+    bool _bOrderRunning = false; ///< Accepted, and OrderCompleted not sent.
     bool _bCleared = false;      ///< The order was cancelled.
     bool _bEdgeEntered = false;
     bool _bHeldByFailure = false; ///< A critical action failed.
-    bool _bLegActive = false;     ///< DriveTo was told last.
+    bool _bLegActive = false;     ///< DriveTo was sent last.
     bool _bLegBegun = false;      ///< Between two nodes, driving or not.
     bool _bLegStops = true;
-    bool _bLastLeg = false; ///< A cancelled vehicle that is bound to nodes drives to the next one.
-    bool _bHalting = false; ///< StopDriving was told, and not yet that the vehicle stands.
+    bool _bLastLeg = false; ///< After a cancel, a line-guided vehicle drives to the next node.
+    bool _bHalting = false; ///< StopDriving was sent, and the vehicle is not stationary yet.
     bool _bMasterPause = false;
     bool _bHardwarePause = false;
     bool _bPauseOverridden = false;
@@ -136,7 +136,7 @@ public:
 private:
     void OnOrder(std::string_view payload, VehicleActions& out);
     void OnInstantActions(std::string_view payload, Core::Now now, VehicleActions& out);
-    [[nodiscard]] bool TryTakeInstantAction(
+    [[nodiscard]] bool TryHandleInstantAction(
         const Action& action,
         const Header& header,
         bool bTooMany,
@@ -144,18 +144,18 @@ private:
         VehicleActions& out);
     [[nodiscard]] bool IsForeign(ETopic topic, const Header& header, VehicleActions& out) const;
     void RefusePayload(ETopic topic, std::string_view payload, const Core::Error& error, VehicleActions& out);
-    [[nodiscard]] bool ShouldTake(ETopic topic, const Header& header, VehicleActions& out);
+    [[nodiscard]] bool ShouldAccept(ETopic topic, const Header& header, VehicleActions& out);
     void AddSessionError(VehicleError error, EErrorLifetime lifetime);
     [[nodiscard]] OrderContext MakeContext() const;
     void RefuseOrder(const OrderMessage& order, OrderJudgement judgement, VehicleActions& out);
-    void TakeNewOrder(OrderMessage order, VehicleActions& out);
-    void TakeUpdate(OrderMessage order, VehicleActions& out);
+    void AcceptOrder(OrderMessage order, VehicleActions& out);
+    void AcceptUpdate(OrderMessage order, VehicleActions& out);
     void AppendElements(OrderMessage order);
     void DropHorizon();
 
     void Advance(VehicleActions& out);
     void StartQueuedActions(VehicleActions& out);
-    void DriveOn(VehicleActions& out);
+    void ContinueDriving(VehicleActions& out);
     void DriveToFront(bool bStopAtNode, VehicleActions& out);
     void DriveLastLeg(VehicleActions& out);
     void FinishOrderIfDone(VehicleActions& out);
@@ -196,14 +196,14 @@ private:
     void StopPause(const Action& action, const Header& header, VehicleActions& out);
     void EnterPause(VehicleActions& out);
     void LeavePause(VehicleActions& out) const;
-    [[nodiscard]] bool IsStanding() const;
+    [[nodiscard]] bool IsStationary() const;
     void StartCancel(const Action& action, const Header& header, VehicleActions& out);
     void StopOrderActions(const std::string& reason, VehicleActions& out);
     void StopMoving(VehicleActions& out);
-    void ForgetRoute();
+    void DiscardRoute();
     void ClearOrder(VehicleActions& out);
-    void FinishCancelIfStanding(VehicleActions& out);
-    void FinishPauseIfStanding();
+    void FinishCancelIfStationary(VehicleActions& out);
+    void FinishPauseIfStationary();
     [[nodiscard]] std::string FindOwnFault(const Action& action, EActionScope scope);
     [[nodiscard]] std::string FindPoseFault(const Action& action, EActionScope scope) const;
     void ApplyOwnEffect(const Action& action, EActionScope scope);
@@ -221,7 +221,7 @@ private:
     void PublishFactsheet(Core::Now now, VehicleActions& out);
     void PublishVisualization(Core::Now now, VehicleActions& out);
     void PublishConnection(EConnectionState state, Core::Now now, VehicleActions& out);
-    /// Ends each call from outside: sends the state that has become due, now or when it may be sent again.
+    /// Ends each public call: sends a state that has become due, now or after the minimum interval.
     void Settle(Core::Now now, VehicleActions& out);
 };
 

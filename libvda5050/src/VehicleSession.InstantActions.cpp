@@ -46,7 +46,7 @@ void VehicleSession::Impl::OnInstantActions(std::string_view payload, Core::Now 
         RefusePayload(ETopic::InstantActions, payload, message.error(), out);
         return;
     }
-    if (!ShouldTake(ETopic::InstantActions, message->header, out))
+    if (!ShouldAccept(ETopic::InstantActions, message->header, out))
     {
         return;
     }
@@ -72,7 +72,7 @@ void VehicleSession::Impl::OnInstantActions(std::string_view payload, Core::Now 
     for (std::size_t index = 0; index < message->actions.size(); ++index)
     {
         const bool bTooMany = allowed != 0 && index >= allowed;
-        bTaken = TryTakeInstantAction(message->actions[index], message->header, bTooMany, now, out) || bTaken;
+        bTaken = TryHandleInstantAction(message->actions[index], message->header, bTooMany, now, out) || bTaken;
     }
     if (bTaken)
     {
@@ -81,12 +81,12 @@ void VehicleSession::Impl::OnInstantActions(std::string_view payload, Core::Now 
             return known.lifetime == EErrorLifetime::UntilInstantAction && known.bShown;
         });
     }
-    FinishPauseIfStanding();
-    FinishCancelIfStanding(out);
+    FinishPauseIfStationary();
+    FinishCancelIfStationary(out);
     Advance(out);
 }
 
-bool VehicleSession::Impl::TryTakeInstantAction(
+bool VehicleSession::Impl::TryHandleInstantAction(
     const Action& action,
     const Header& header,
     bool bTooMany,

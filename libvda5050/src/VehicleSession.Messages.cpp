@@ -131,7 +131,7 @@ void VehicleSession::Impl::RefusePayload(
     out.emplace_back(MessageIgnored{topic, error});
 }
 
-bool VehicleSession::Impl::ShouldTake(ETopic topic, const Header& header, VehicleActions& out)
+bool VehicleSession::Impl::ShouldAccept(ETopic topic, const Header& header, VehicleActions& out)
 {
     if (IsForeign(topic, header, out))
     {
@@ -163,7 +163,7 @@ void VehicleSession::Impl::OnOrder(std::string_view payload, VehicleActions& out
         RefusePayload(ETopic::Order, payload, order.error(), out);
         return;
     }
-    if (!ShouldTake(ETopic::Order, order->header, out))
+    if (!ShouldAccept(ETopic::Order, order->header, out))
     {
         return;
     }
@@ -173,10 +173,10 @@ void VehicleSession::Impl::OnOrder(std::string_view payload, VehicleActions& out
     switch (judgement.verdict)
     {
         case EOrderVerdict::NewOrder:
-            TakeNewOrder(std::move(*order), out);
+            AcceptOrder(std::move(*order), out);
             break;
         case EOrderVerdict::Update:
-            TakeUpdate(std::move(*order), out);
+            AcceptUpdate(std::move(*order), out);
             break;
         case EOrderVerdict::Reject:
             RefuseOrder(*order, std::move(judgement), out);
@@ -257,12 +257,12 @@ void VehicleSession::Impl::RefuseOrder(const OrderMessage& order, OrderJudgement
     }
 }
 
-void VehicleSession::Impl::TakeNewOrder(OrderMessage order, VehicleActions& out)
+void VehicleSession::Impl::AcceptOrder(OrderMessage order, VehicleActions& out)
 {
     _actions.EraseIf([](const ReportedAction& tracked) { return !tracked.IsInstant() || tracked.IsEnded(); });
     _evicted.clear();
     _sessionErrors.clear();
-    ForgetRoute();
+    DiscardRoute();
     _bCleared = false;
     _bOrderRunning = true;
     _orderID = order.orderID;
@@ -280,7 +280,7 @@ void VehicleSession::Impl::TakeNewOrder(OrderMessage order, VehicleActions& out)
     Advance(out);
 }
 
-void VehicleSession::Impl::TakeUpdate(OrderMessage order, VehicleActions& out)
+void VehicleSession::Impl::AcceptUpdate(OrderMessage order, VehicleActions& out)
 {
     _sessionErrors.clear();
     DropHorizon();

@@ -139,7 +139,7 @@ StateMessage VehicleSession::Impl::GetState() const
     state.velocity = _velocity;
     state.loads = _loads;
     state.bDriving = _bDriving;
-    state.bPaused = IsPaused() && IsStanding();
+    state.bPaused = IsPaused() && IsStationary();
     state.bNewBaseRequest = NeedsNewBase();
     state.distanceSinceLastNode = _distanceSinceLastNode;
     state.actionStates.reserve(_actions.GetSize());

@@ -69,7 +69,7 @@ class MasterFleet
 
     [[nodiscard]] const std::size_t* FindNumberOrNull(std::string_view topic) const;
     void Discover(const MqttMessage& message, Core::Now now, FleetActions& out);
-    void LeaveOut(const MqttMessage& message, Core::Error reason);
+    void Ignore(const MqttMessage& message, Core::Error reason);
     /// The version that an unknown vehicle's message names, or why it makes none known.
     [[nodiscard]] Core::Result<EVda5050Version> ReadVersion(const MqttMessage& message);
     [[nodiscard]] std::unique_ptr<MasterSession> MakeSession(const VehicleAddress& address, EVda5050Version version)
