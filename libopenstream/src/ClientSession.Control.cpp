@@ -116,7 +116,7 @@ void ClientSession::Impl::CheckControls(Core::Now now, ClientActions& out)
 {
     if (_state == EClientState::Ready && now.steady >= GetSendDeadline())
     {
-        Lose(EClientLossReason::SendTimeout, "the connection did not take a CONTROL in time", now, out);
+        HandleLoss(EClientLossReason::SendTimeout, "the connection did not take a CONTROL in time", now, out);
         return;
     }
     _controls.EraseIf([now, &out](const PendingControl& control) {

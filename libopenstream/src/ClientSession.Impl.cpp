@@ -85,7 +85,7 @@ void ClientSession::Impl::OnConnectFailed(std::string_view detail, Core::Now now
 {
     if (_state == EClientState::Connecting)
     {
-        Lose(EClientLossReason::ConnectFailed, detail, now, out);
+        HandleLoss(EClientLossReason::ConnectFailed, detail, now, out);
     }
 }
 
@@ -108,7 +108,7 @@ void ClientSession::Impl::OnBytes(std::string_view bytes, Core::Now now, ClientA
     _framer.Keep();
     if (IsConnected() && _framer.HasOverflown())
     {
-        Lose(EClientLossReason::LineTooLong, "the controller sent a line beyond the limit", now, out);
+        HandleLoss(EClientLossReason::LineTooLong, "the controller sent a line beyond the limit", now, out);
     }
 }
 
@@ -132,7 +132,7 @@ void ClientSession::Impl::Handle(HandshakeAck& ack, Core::Now now, ClientActions
     }
     if (!ack.bOk)
     {
-        Lose(EClientLossReason::HandshakeFailed, "the controller did not accept the HANDSHAKE", now, out);
+        HandleLoss(EClientLossReason::HandshakeFailed, "the controller did not accept the HANDSHAKE", now, out);
         return;
     }
     FinishInFlight(out);
@@ -168,7 +168,7 @@ void ClientSession::Impl::Handle(ErrorLine& error, Core::Now now, ClientActions&
     switch (_state)
     {
         case EClientState::Handshaking:
-            Lose(EClientLossReason::HandshakeFailed, Describe(error), now, out);
+            HandleLoss(EClientLossReason::HandshakeFailed, Describe(error), now, out);
             break;
         case EClientState::Ready:
             HandleErrorWhenReady(error, now, out);
@@ -192,7 +192,7 @@ void ClientSession::Impl::HandleErrorWhenReady(ErrorLine& error, Core::Now now, 
     const bool bOfRequest = scope == EErrorScope::Request;
     if (scope == EErrorScope::Fatal)
     {
-        Lose(EClientLossReason::SessionEnded, Describe(error), now, out);
+        HandleLoss(EClientLossReason::SessionEnded, Describe(error), now, out);
         return;
     }
     if (_inFlight == EInFlight::Monitor && (bOfRequest || scope == EErrorScope::Monitor))
@@ -242,7 +242,7 @@ void ClientSession::Impl::FinishInFlight(ClientActions& out)
 /// One awaited command at a time: the MONITOR's wish goes before the CONTROLs.
 void ClientSession::Impl::SendNext(Core::Now now, ClientActions& out)
 {
-    if (_state != EClientState::Ready || _inFlight != EInFlight::Nothing || TrySendMonitorWish(now, out))
+    if (_state != EClientState::Ready || _inFlight != EInFlight::Nothing || TrySendMonitor(now, out))
     {
         return;
     }
@@ -317,7 +317,7 @@ void ClientSession::Impl::Disconnect(
     }
     else if (IsConnected())
     {
-        Lose(reason, detail, now, out);
+        HandleLoss(reason, detail, now, out);
     }
 }
 
@@ -328,7 +328,7 @@ void ClientSession::Impl::OnTimer(EClientTimer timer, Core::Now now, ClientActio
         case EClientTimer::Connect:
             if (_state == EClientState::Connecting)
             {
-                Lose(EClientLossReason::ConnectTimeout, "the connection was not made in time", now, out);
+                HandleLoss(EClientLossReason::ConnectTimeout, "the connection was not made in time", now, out);
             }
             break;
         case EClientTimer::Answer:
@@ -370,7 +370,7 @@ void ClientSession::Impl::OnAnswerTimeout(Core::Now now, ClientActions& out)
         case EInFlight::Handshake:
         case EInFlight::Monitor:
         case EInFlight::StopMonitor:
-            Lose(EClientLossReason::AnswerTimeout, "the controller did not answer in time", now, out);
+            HandleLoss(EClientLossReason::AnswerTimeout, "the controller did not answer in time", now, out);
             break;
         default:
             assert(false && "unhandled EInFlight");
@@ -383,7 +383,11 @@ bool ClientSession::Impl::IsConnected() const noexcept
     return _state == EClientState::Handshaking || _state == EClientState::Ready || _state == EClientState::Ending;
 }
 
-void ClientSession::Impl::Lose(EClientLossReason reason, std::string_view detail, Core::Now now, ClientActions& out)
+void ClientSession::Impl::HandleLoss(
+    EClientLossReason reason,
+    std::string_view detail,
+    Core::Now now,
+    ClientActions& out)
 {
     // The detail may stand in the buffers that the next connection uses.
     std::string reasonText(detail);

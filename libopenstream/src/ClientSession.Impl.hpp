@@ -23,11 +23,11 @@ class ClientSession::Impl
     struct PendingControl
     {
         std::uint64_t token = 0;
-        Core::SteadyTime deadline; ///< By then it has left.
+        Core::SteadyTime deadline; ///< For sending it.
         ControlCall call;
     };
 
-    /// Of a CONTROL whose window has passed.
+    /// A CONTROL whose window has passed and whose confirmation is pending.
     struct Confirmation
     {
         std::uint64_t token = 0;
@@ -56,24 +56,24 @@ class ClientSession::Impl
 
     EInFlight _inFlight = EInFlight::Nothing;
     PendingControl _control;        ///< The one in flight.
-    std::uint64_t _controlMark = 0; ///< Of its last byte in the outbox.
+    std::uint64_t _controlMark = 0; ///< Position of its last byte in the outbox.
     Core::SteadyTime _controlLeftAt;
     bool _bControlLeft = false;
     bool _bControlConfirmed = false;
     std::vector<Confirmation> _confirmations;
-    Core::SteadyTime _waitingDue =
-        Core::SteadyTime::max(); ///< When the CONTROLs that wait in the outbox have to have left.
-    Core::SteadyTime _sendingDue = Core::SteadyTime::max(); ///< Likewise those in flight, the tracked one apart.
+    Core::SteadyTime _waitingDue = Core::SteadyTime::max(); ///< Deadline for sending the CONTROLs in the outbox.
+    Core::SteadyTime _sendingDue =
+        Core::SteadyTime::max(); ///< Likewise for those in flight, except for the tracked one.
     Core::SteadyTime _controlTimerAt;
     bool _bControlTimerArmed = false;
 
     std::optional<MonitorRequest> _monitor;
     std::uint64_t _monitorNumber = 0;     ///< Of the last SetMonitor call.
-    std::uint64_t _sentMonitorNumber = 0; ///< Of the last MONITOR that was sent.
+    std::uint64_t _sentMonitorNumber = 0; ///< Of the last MONITOR sent.
     std::string _sentMonitorUrl;          ///< Likewise.
-    bool _bMonitorDue = false;            ///< The wish has changed and the server does not know.
-    bool _bMonitorOn = false;             ///< The server streams, as far as we know.
-    bool _bMonitorStopFirst = false;      ///< It said monitor_already_active.
+    bool _bMonitorDue = false;            ///< SetMonitor was called and nothing was sent yet.
+    bool _bMonitorOn = false;             ///< The server streams, as far as known.
+    bool _bMonitorStopFirst = false;      ///< The server answered monitor_already_active.
     bool _bStale = false;
     bool _bDataAgeArmed = false;
     Core::SteadyTime _dataAgeAt;
@@ -126,7 +126,7 @@ private:
     void SettleWaiting(std::string_view detail, ClientActions& out);
     void FinishInFlight(ClientActions& out);
     void SendNext(Core::Now now, ClientActions& out);
-    [[nodiscard]] bool TrySendMonitorWish(Core::Now now, ClientActions& out);
+    [[nodiscard]] bool TrySendMonitor(Core::Now now, ClientActions& out);
     void SendNow(const OpenStreamRequest& request, ClientActions& out);
     void SendUntil(const OpenStreamRequest& request, Core::SteadyTime deadline, ClientActions& out);
     [[nodiscard]] Core::SteadyTime GetControlDeadline(std::chrono::milliseconds own, Core::Now now) const;
@@ -144,7 +144,7 @@ private:
     void ArmDataAge(ClientActions& out);
     void CheckDataAge(Core::Now now, ClientActions& out);
     void OnAnswerTimeout(Core::Now now, ClientActions& out);
-    void Lose(EClientLossReason reason, std::string_view detail, Core::Now now, ClientActions& out);
+    void HandleLoss(EClientLossReason reason, std::string_view detail, Core::Now now, ClientActions& out);
     void Disconnect(EClientLossReason reason, std::string_view detail, Core::Now now, ClientActions& out);
     void DropConnection(std::string_view detail, ClientActions& out);
     void End(ClientActions& out);

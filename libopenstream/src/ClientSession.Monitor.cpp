@@ -70,7 +70,7 @@ void ClientSession::Impl::HandleMonitorError(ErrorLine& error, ClientActions& ou
     Report(ClientMonitorRefused{std::move(error), _sentMonitorUrl}, out);
 }
 
-bool ClientSession::Impl::TrySendMonitorWish(Core::Now now, ClientActions& out)
+bool ClientSession::Impl::TrySendMonitor(Core::Now now, ClientActions& out)
 {
     if (!_bMonitorDue)
     {
@@ -131,7 +131,7 @@ void ClientSession::Impl::CheckDataAge(Core::Now now, ClientActions& out)
     }
     if (_options.lostAfter.count() > 0 && overdue >= _options.lostAfter)
     {
-        Lose(EClientLossReason::DataSilent, "the controller sent no data", now, out);
+        HandleLoss(EClientLossReason::DataSilent, "the controller sent no data", now, out);
         return;
     }
     ArmDataAge(out);

@@ -31,14 +31,14 @@ class ServerSession::Impl
     Core::SteadyTime _monitorBegin;
     Core::SteadyTime _nextTick;
     Core::SteadyTime _monitorAskedAt;
-    std::uint64_t _monitorToken = 0; ///< Of the call in flight; 0 where there is none.
-    bool _bMonitorFailing = false;   ///< Within an episode of internal errors, reported once.
+    std::uint64_t _monitorToken = 0; ///< Of the call in flight; 0: none.
+    bool _bMonitorFailing = false;   ///< Internal errors persist and were reported.
 
     Core::BoundedQueue<ApiRequest> _controls; ///< The first one is in flight.
     std::size_t _controlBytes = 0;            ///< Of all of them.
     std::uint64_t _controlToken = 0;
     std::uint64_t _lastToken = 0;
-    bool _bControlled = false; ///< A CONTROL came since HANDSHAKE or the last STOP control.
+    bool _bControlled = false; ///< A CONTROL was received since HANDSHAKE or the last STOP control.
 
     Core::SteadyTime _connectedAt;
     Core::SteadyTime _lastCommandAt;
@@ -90,7 +90,7 @@ private:
     void CheckWatchdog(Core::Now now, ServerActions& out);
     void EndForTimeout(Core::Now now, ServerActions& out);
     void ArmWatchdog(ServerActions& out);
-    /// No HANDSHAKE has succeeded yet, and there is a deadline for it.
+    /// Whether a deadline for HANDSHAKE applies.
     [[nodiscard]] bool IsHandshakeDue() const noexcept;
     [[nodiscard]] Core::SteadyTime GetWatchdogDeadline() const;
     void AppendError(EOpenStreamErrorCode code, std::string_view message);
