@@ -1,7 +1,7 @@
 #pragma once
 
-#include "engine/CommitGate.hpp"
 #include "engine/AlarmBook.hpp"
+#include "engine/CommitGate.hpp"
 #include "engine/EngineAlarm.hpp"
 #include "plan/PlanAdmission.hpp"
 #include "plan/PlanBook.hpp"
