@@ -173,7 +173,7 @@ std::optional<std::uint32_t> TakeLowSurrogateOrNull(std::string_view& rest)
     return lowOrNull;
 }
 
-/// Takes what stands behind \u. Half a surrogate pair has no UTF-8 and is replaced: parsers let a low one pass.
+/// Reads the rest of a \u escape. A lone surrogate has no UTF-8 and is replaced: parsers accept a low one.
 std::optional<std::uint32_t> TakeCodePointOrNull(std::string_view& rest)
 {
     const std::optional<std::uint32_t> unitOrNull = TakeHexOrNull(rest);

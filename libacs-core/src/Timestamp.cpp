@@ -26,7 +26,7 @@ bool IsDigit(char character)
     return character >= '0' && character <= '9';
 }
 
-/// Takes a text apart from the left; every step says whether the text was as expected.
+/// Parses a text from the left; every step returns whether the text is valid so far.
 class Scanner
 {
     std::string_view _rest;

@@ -11,7 +11,7 @@ namespace ACS::Protocol::Detail
 namespace
 {
 
-/// Answering it anew does no harm.
+/// Answering it again is harmless.
 bool IsQuestion(EAcsCommand command)
 {
     return command == EAcsCommand::RequestAcsPlans || command == EAcsCommand::RequestAcsPlanHistory

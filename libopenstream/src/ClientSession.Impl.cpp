@@ -239,7 +239,7 @@ void ClientSession::Impl::FinishInFlight(ClientActions& out)
     out.emplace_back(ClientCancelTimer{EClientTimer::Answer});
 }
 
-/// One awaited command at a time: the MONITOR's wish goes before the CONTROLs.
+/// One command in flight at a time: the MONITOR precedes the CONTROLs.
 void ClientSession::Impl::SendNext(Core::Now now, ClientActions& out)
 {
     if (_state != EClientState::Ready || _inFlight != EInFlight::Nothing || TrySendMonitor(now, out))
@@ -389,7 +389,7 @@ void ClientSession::Impl::HandleLoss(
     Core::Now now,
     ClientActions& out)
 {
-    // The detail may stand in the buffers that the next connection uses.
+    // The detail may be in the buffers that the next connection uses.
     std::string reasonText(detail);
     DropConnection(detail, out);
     _state = EClientState::Waiting;

@@ -13,7 +13,7 @@ namespace
 constexpr double MICROSECONDS = 1000.0;
 constexpr unsigned CLASS_BITS = 4;
 
-/// Below sixteen each number has its own class; above, the four bits behind the highest one tell.
+/// Each number below sixteen has its own class; for larger ones the four bits after the highest one select it.
 std::size_t GetClass(std::uint64_t microseconds)
 {
     constexpr std::uint64_t FIRST = 1U << CLASS_BITS;

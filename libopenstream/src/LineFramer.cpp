@@ -81,7 +81,7 @@ std::optional<std::string_view> LineFramer::CutKeptOrNull()
     std::size_t end = _kept.find(LINE_END, _scanned);
     if (end == std::string::npos)
     {
-        // Only as much of the input as ends this line: the lines behind it need no copy.
+        // Only the input up to the end of this line: later lines need no copy.
         const std::size_t inputEnd = _input.find(LINE_END);
         if (inputEnd == std::string_view::npos)
         {
@@ -110,7 +110,7 @@ void LineFramer::Keep()
 {
     if (_bOverflown)
     {
-        _input = {}; // nobody will ask for it, so nothing may pile up
+        _input = {}; // discarded, so that nothing accumulates
     }
     if (_input.empty())
     {

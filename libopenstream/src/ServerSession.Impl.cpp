@@ -21,7 +21,7 @@ enum class EVerdict : std::uint8_t
     Busy,
 };
 
-/// What each state says to each command, before its payload is looked at.
+/// The verdict of each state on each command, before its payload is checked.
 struct GateRow
 {
     EServerState state;
@@ -98,7 +98,7 @@ void ServerSession::Impl::OnContinue(Core::Now now, ServerActions& out)
     ProcessLines(now, out);
 }
 
-/// Takes whole lines as long as there is room for what they ask and their turn lasts.
+/// Processes lines while there is room for their commands and their turn lasts.
 void ServerSession::Impl::ProcessLines(Core::Now now, ServerActions& out)
 {
     if (_state == EServerState::Closed)

@@ -64,7 +64,7 @@ void ServerSession::Impl::Tick(Core::Now now, ServerActions& out)
         out.emplace_back(ServerStartTimer{EServerTimer::MonitorTick, _nextTick});
         return;
     }
-    // The phase stays: a late tick moves none of those behind it, and those that it has missed are not made up for.
+    // The phase is kept: a late tick does not shift later ones, and missed ticks are not repeated.
     const auto missed = (now.steady - _nextTick) / std::chrono::duration_cast<Core::Duration>(_period);
     _stats.skippedTicks += static_cast<std::uint64_t>(missed);
     _nextTick += _period * (missed + 1);

@@ -56,7 +56,7 @@ Core::Result<MasterFleet> MasterFleet::Create(FleetOptions options)
         return Core::Fail(
             EVda5050Error::InvalidTopic,
             "interfaceName",
-            "a name that may stand in a topic",
+            "a name that is allowed in a topic",
             Core::QuoteForError(options.vehicle.address.interfaceName));
     }
     return MasterFleet(std::move(options));
@@ -104,7 +104,7 @@ Core::Result<std::size_t> MasterFleet::Add(const VehicleAddress& address, Core::
         return Core::Fail(
             EVda5050Error::InvalidTopic,
             {},
-            "names that may stand in a topic",
+            "names that are allowed in a topic",
             address.manufacturer + "/" + address.serialNumber);
     }
     const std::optional<std::size_t> known = FindOrNull(address);
@@ -178,7 +178,7 @@ void MasterFleet::Discover(const MqttMessage& message, Core::Now now, FleetActio
         session->OnLinkUp(now, _scratch);
     }
     session->OnMessage(message, now, _scratch);
-    // What its own session refuses makes no vehicle known: anybody may write to a broker.
+    // A message that its session would refuse makes no vehicle known: any client can publish on a broker.
     for (const MasterAction& action : _scratch)
     {
         if (const auto* const refused = std::get_if<MessageRefused>(&action))

@@ -54,7 +54,7 @@ Core::Duration ToDuration(double seconds)
     return std::chrono::duration_cast<Core::Duration>(std::chrono::duration<double>(seconds));
 }
 
-/// A vehicle without these could not be led at all: they are sent whatever its factsheet says.
+/// Master control needs these actions: they are sent regardless of the factsheet.
 bool IsAlwaysSent(std::string_view actionType)
 {
     return actionType == ActionTypes::CANCEL_ORDER || actionType == ActionTypes::START_PAUSE

@@ -61,7 +61,7 @@ void MasterSession::Impl::OnMessage(
     const auto said = static_cast<ETopic>(found - _topics.begin());
     if (bRetained && !IsRetained(said))
     {
-        // Nobody is to retain it, so nobody knows how old it is: no sign of life, and no word about an order.
+        // A topic that must not be retained: its age is unknown, so it proves neither life nor progress of an order.
         ++_statistics.retainedIgnored;
         return;
     }
@@ -110,7 +110,7 @@ void MasterSession::Impl::Refuse(ETopic topic, Core::Error error, MasterActions&
     out.emplace_back(MessageRefused{topic, std::move(error)});
 }
 
-/// An empty version is tolerated, as empty names are: the topic has said it already.
+/// An empty version is accepted, like empty names: the topic has both.
 bool MasterSession::Impl::IsForeign(ETopic topic, const Header& header, MasterActions& out)
 {
     if (std::optional<Core::Error> foreign = FindForeignNameOrNull(header, _options.address))

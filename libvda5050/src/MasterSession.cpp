@@ -25,7 +25,7 @@ Core::Result<MasterSession> MasterSession::Create(MasterOptions options)
         return Core::Fail(
             EVda5050Error::InvalidTopic,
             "address",
-            "names that may stand in a topic",
+            "names that are allowed in a topic",
             Core::QuoteForError(address.interfaceName + "/" + address.manufacturer + "/" + address.serialNumber));
     }
     return MasterSession(std::move(options));

@@ -12,7 +12,7 @@
 namespace ACS::VDA5050
 {
 
-/// More are not told: nobody mends an order by them, and each repeats what the order is called.
+/// Maximum number of reported violations: more do not help, and each one repeats the ids of the order.
 inline constexpr std::size_t MAXIMUM_VIOLATIONS = 16;
 
 /// Collects the first violations of one order, all of one errorType.
@@ -21,7 +21,7 @@ class OrderFindings
     const OrderMessage& _order;
     std::string_view _errorType;
     std::vector<OrderViolation> _violations;
-    OrderViolation _surplus; ///< Beyond what is told.
+    OrderViolation _surplus; ///< Beyond the maximum.
 
 public:
     /// The order outlives the findings; so does the text of the type.

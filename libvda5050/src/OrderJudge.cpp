@@ -31,8 +31,8 @@ OrderJudgement Reject(const OrderMessage& order, std::string_view errorType, con
     return Reject({MakeOrderViolation(order, errorType, rule)});
 }
 
-/// 6.6.4: on the first node, or inside its range. Where both positions are known they decide: a vehicle that was
-/// cancelled between two nodes has a lastNodeId and does not stand on it.
+/// 6.6.4: on the first node, or inside its range. If both positions are known, they decide: after a cancel
+/// between two nodes the vehicle is not on its lastNodeId.
 bool IsAtFirstNode(const OrderNode& node, const OrderContext& context)
 {
     if (!node.nodePosition.has_value() || !context.position.has_value())
@@ -141,7 +141,7 @@ OrderJudgement JudgeUpdate(const OrderMessage& order, const OrderContext& contex
             "an update begins at the node " + context.decisionNodeID + ", sequenceId "
                 + std::to_string(context.decisionSequenceID));
     }
-    // After a cancel lastNodeId is where the vehicle was last, and maybe not where it stands.
+    // After a cancel the vehicle may have left lastNodeId.
     if (!context.bExecuting && context.bCleared && !IsAtFirstNode(first, context))
     {
         return RejectUnreachable(order);

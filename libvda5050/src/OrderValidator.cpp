@@ -166,7 +166,7 @@ void CheckActions(const OrderMessage& order, OrderFindings& findings)
     }
 }
 
-/// Names that states repeat for as long as the order lasts.
+/// Names that all states repeat until the order ends.
 void CheckNames(const OrderMessage& order, OrderFindings& findings)
 {
     const auto check = [&findings](std::string_view name) {

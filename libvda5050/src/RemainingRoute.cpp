@@ -11,7 +11,7 @@ namespace ACS::VDA5050
 namespace
 {
 
-/// Null where they say nothing.
+/// Null if all members are empty.
 template <typename TExtras>
 std::unique_ptr<TExtras> KeepOrNull(TExtras extras)
 {

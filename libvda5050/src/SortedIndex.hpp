@@ -8,8 +8,8 @@
 namespace ACS::VDA5050
 {
 
-/// Finds elements of a list by a key, also among thousands that somebody else has chosen: n log n in any case. Where a key
-/// is repeated, the first element has it. Refers to the list, which must neither move nor change meanwhile.
+/// Finds elements of a list by a key, with n log n also for adversarial keys. Of a repeated key the first element is found.
+/// Refers to the list, which must neither move nor change meanwhile.
 template <typename TItem, typename TKey = std::identity>
 class SortedIndex
 {

@@ -13,7 +13,7 @@ namespace ACS::VDA5050
 {
 
 /// How the room of a state is shared out, so that what a vehicle publishes can be read by every receiver that has the limits
-/// of this library's codec. What is left over is for errors and for what the owner says.
+/// of this library's codec. The rest is for errors and for data of the owner.
 namespace StateRoom
 {
 inline constexpr std::size_t KIB = 1024;
@@ -60,7 +60,7 @@ template <typename TEdge>
     return FIXED + MeasureText(edge.edgeID) + MeasureText(edge.edgeDescription) + MeasureTrajectory(edge.trajectory);
 }
 
-/// Of a state that is too long to be read: leaves out what is for people, for nobody decides by it.
+/// Removes the information entries from a state that is too long: no program evaluates them.
 void DropTextsForPeople(StateMessage& state);
 
 } // namespace ACS::VDA5050

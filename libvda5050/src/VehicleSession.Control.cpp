@@ -17,7 +17,7 @@ void VehicleSession::Impl::StopMoving(VehicleActions& out)
     }
 }
 
-/// What was told to stop counts as moving until the owner says that it stands.
+/// After StopDriving the vehicle counts as moving until the owner reports that it is stationary.
 bool VehicleSession::Impl::IsStationary() const
 {
     return !_bDriving && !_bHalting;
@@ -159,7 +159,7 @@ void VehicleSession::Impl::StartCancel(const Action& action, const Header& heade
     _route.DropFrontActions();
 }
 
-/// Those that wait have failed; those that run are told to stop.
+/// Waiting actions fail; running ones get StopAction.
 void VehicleSession::Impl::StopOrderActions(const std::string& reason, VehicleActions& out)
 {
     _actionQueue.clear();

@@ -97,11 +97,11 @@ std::string VehicleSession::Impl::FindPoseFault(const Action& action, EActionSco
             return "the pose is no pose: " + std::string(key);
         }
     }
-    // Inside an order the order itself says which node the vehicle stands on.
+    // During an order, the order determines the node of the vehicle.
     return scope == EActionScope::Instant && IsExecuting() ? "an order runs" : std::string();
 }
 
-/// What a finished action has changed, as far as the session reports it; the owner may have told it already.
+/// Applies the effects of a finished action on the reported state; the owner may have reported them already.
 void VehicleSession::Impl::ApplyOwnEffect(const Action& action, EActionScope scope)
 {
     if (action.actionType == ActionTypes::INIT_POSITION)
@@ -125,7 +125,7 @@ void VehicleSession::Impl::ApplyOwnEffect(const Action& action, EActionScope sco
     }
 }
 
-/// A vehicle that finds itself on a map uses it, and a map in use is ENABLED. Of several versions it is not said which.
+/// A vehicle that is localised on a map uses it, and a map in use is ENABLED. Of several versions the one is unknown.
 void VehicleSession::Impl::EnableOnlyVersion(const std::string& mapID)
 {
     const auto isVersion = [&mapID](const MapState& map) {

@@ -45,7 +45,7 @@ void VehicleSession::Impl::OnDrivingChanged(bool bDriving, Core::Now now, Vehicl
     {
         return;
     }
-    // A halt may end without a change of driving: what was stopped had not begun to move. paused is told only now.
+    // A stop may end without a change of driving, if the vehicle had not started to move. paused is reported only now.
     _bStateDue = true;
     _bDriving = bDriving;
     _bHalting = _bHalting && bDriving;

@@ -32,7 +32,7 @@ VehicleSession::Impl::Impl(VehicleOptions options)
     : _options(std::move(options)),
       _lastNodeID(_options.initialNodeID)
 {
-    // What the factsheet says about timing is what the vehicle does.
+    // The factsheet states the actual timing of the vehicle.
     ProtocolTiming& timing = _options.factsheet.protocolLimits.timing;
     timing.minStateInterval = ToSeconds(_options.minimumStateInterval);
     timing.defaultStateInterval = ToSeconds(_options.maximumStateInterval);

@@ -15,7 +15,7 @@ namespace ACS::VDA5050
 namespace
 {
 
-/// Of evicted actions, whose ids still must not be performed anew.
+/// Maximum number of evicted actions, whose ids must not be performed again.
 constexpr std::size_t MAXIMUM_EVICTED = 256;
 
 /// A vehicle can always be stopped, and set free again, even where its state has no room to show it.
@@ -154,7 +154,7 @@ std::string VehicleSession::Impl::FindClash(const Action& action)
     return bUsed ? "the actionId is in use already" : std::string();
 }
 
-/// Why an instant action fails whatever it is; empty where it is looked at.
+/// Why an instant action fails regardless of its type; empty if it is processed.
 std::string VehicleSession::Impl::FindRefusal(const Action& action, bool bTooMany) const
 {
     const bool bRequest =

@@ -270,7 +270,7 @@ void VehicleSession::Impl::AcceptOrder(OrderMessage order, VehicleActions& out)
     _zoneSetID = order.zoneSetID;
     _bStateDue = true;
     out.emplace_back(OrderTaken{_orderID, _orderUpdateID, false});
-    // The first node is where the vehicle stands: reached with the acceptance, never in nodeStates.
+    // The vehicle is on the first node: it is reached on acceptance and never in nodeStates.
     const OrderNode first = order.nodes.front();
     _lastNodeID = first.nodeID;
     _lastNodeSequenceID = first.sequenceID;

@@ -26,15 +26,15 @@ constexpr std::size_t VALUE_POOL_BYTES = 24U * 1024U;
 constexpr std::size_t STACK_POOL_BYTES = 12U * 1024U;
 constexpr std::size_t FIRST_STACK_BYTES = 1024;
 constexpr std::size_t LONGEST_FOUND = 40;
-/// The encoding is checked before, many bytes at a time: RapidJSON would look at each byte by itself.
+/// The encoding is checked before, several bytes at a time: RapidJSON would check each byte separately.
 /// Numbers come as text: the full precision of RapidJSON 1.1.0 reads past its tables where a long fraction has a low
 /// exponent, which any peer may send.
 constexpr unsigned PARSE_FLAGS =
     rapidjson::kParseIterativeFlag | rapidjson::kParseNumbersAsStringsFlag | rapidjson::kParseInsituFlag;
 constexpr unsigned LENIENT_FLAGS = PARSE_FLAGS | rapidjson::kParseCommentsFlag | rapidjson::kParseTrailingCommasFlag;
 
-/// Whether a string has half a surrogate pair in it. RapidJSON refuses an escaped first half that stands alone, but
-/// writes a second one as three bytes that are no UTF-8; nothing else makes such bytes, as it checks what is not escaped.
+/// Whether a string contains a lone surrogate. RapidJSON refuses an escaped lone high surrogate, but writes a low one as
+/// three bytes of invalid UTF-8. Nothing else results in such bytes, because it checks unescaped text.
 bool HasHalfSurrogate(std::string_view text)
 {
     constexpr char SURROGATE_LEAD = '\xED';
@@ -257,7 +257,7 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
     const std::string_view body = SkipByteOrderMark(text);
     if (!Core::JsonText::IsUtf8(body))
     {
-        return Core::Fail(Core::ECoreError::InvalidJson, {}, "JSON", "bytes that are no UTF-8");
+        return Core::Fail(Core::ECoreError::InvalidJson, {}, "JSON", "invalid UTF-8");
     }
     _document.reset();
     _valuePool.Clear();

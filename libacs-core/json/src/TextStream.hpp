@@ -10,8 +10,8 @@
 namespace ACS::Json
 {
 
-/// RapidJSON's stream over a text that it may write into: strings stay where they stand and are unescaped there. What a
-/// string begins with and needs no look, mostly all of it, is passed eight bytes at a time.
+/// RapidJSON's stream over a writable text: strings are unescaped in place. The leading part of a string without escapes,
+/// usually all of it, is skipped eight bytes at a time.
 class TextStream : public rapidjson::InsituStringStream
 {
     static constexpr std::uint64_t ONES = 0x0101010101010101;
@@ -60,7 +60,7 @@ class TextStream : public rapidjson::InsituStringStream
     }
 
 public:
-    /// Bytes of zero that must stand behind the text: its end, and as many as are looked at together.
+    /// Number of zero bytes required after the text: its end, and one block of bytes that are checked together.
     static constexpr std::size_t PADDING = sizeof(std::uint64_t);
 
     using rapidjson::InsituStringStream::InsituStringStream;

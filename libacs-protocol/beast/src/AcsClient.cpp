@@ -214,7 +214,7 @@ Core::Result<std::unique_ptr<ITransport>> MakeTransport(const ClientOptions& opt
     }
     if (options.tls != TlsOptions())
     {
-        // Whoever names certificates does not want to talk in the open.
+        // TLS options with a ws URL: the connection would not be encrypted.
         return Core::Fail(
             Core::ECoreError::OutOfRange,
             "url",

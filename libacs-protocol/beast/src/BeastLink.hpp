@@ -26,7 +26,7 @@ namespace ACS::ProtocolBeast
 {
 
 /// One WebSocket connection of either role: reads whole messages, writes one unfragmented text frame after the other,
-/// pings, closes. The one place that touches Beast's WebSocket. TLayer tells what it runs over: the type Stream,
+/// pings, closes. The only user of Beast's WebSocket. TLayer defines the layer below: the type Stream,
 /// HandshakeAsync(stream, handler), which may call the handler at once, and Describe(stream, error).
 template <typename TLayer>
 class BeastLink final : public ILink, public std::enable_shared_from_this<BeastLink<TLayer>>
@@ -41,10 +41,10 @@ class BeastLink final : public ILink, public std::enable_shared_from_this<BeastL
     boost::beast::flat_buffer _buffer;
     std::deque<std::string> _queue;
     std::size_t _queuedBytes = 0;
-    std::size_t _bytesBefore = 0;  ///< Of texts that were sent since the last droppable one of an earlier turn.
-    std::size_t _bytesPassed = 0;  ///< So many of them up to the last droppable one of this turn; 0: there was none.
-    std::size_t _bytesOfParts = 0; ///< Of the droppable ones of this turn.
-    std::size_t _bytesOfLast = 0;  ///< Of those of the turn before that had any.
+    std::size_t _bytesBefore = 0;  ///< Of texts since the last droppable one of an earlier turn.
+    std::size_t _bytesPassed = 0;  ///< Those up to the last droppable text of this turn; 0: none.
+    std::size_t _bytesOfParts = 0; ///< Of the droppable texts of this turn.
+    std::size_t _bytesOfLast = 0;  ///< Likewise of the last turn that had any.
     bool _bOpen = false;
     bool _bCloseWanted = false;
     bool _bCloseSent = false;
@@ -167,10 +167,10 @@ public:
     }
 
 private:
-    /// Whether so much waits, here or in the system, that what may be left out would come late. One droppable text that is
-    /// on its way is no delay, nor are the few others that were sent just before this one: they count here until their
-    /// write is over, and in the system until the other side's has acknowledged them, both of which takes its time where
-    /// nothing is held up. Droppable texts that are sent together are the parts of one.
+    /// Whether too many bytes wait, here or in the system for a droppable text to be in time. One droppable text under way
+    /// is not a delay, nor are a few others sent just before this one: they count here until they are written, and in the
+    /// system until the other side has acknowledged them, which takes time even without congestion. Droppable texts sent
+    /// in one turn are the parts of one.
     [[nodiscard]] bool IsHeldUp(std::size_t size)
     {
         constexpr std::size_t MAX_OTHERS = 65'536;
@@ -178,7 +178,7 @@ private:
         return waiting > 2 * std::max(size, _bytesOfLast) + std::min(2 * _bytesBefore, MAX_OTHERS);
     }
 
-    /// What is sent after the present handler has returned was not sent together with what was sent in it.
+    /// Texts sent after the current handler has returned belong to the next turn.
     void EndTurnAsync()
     {
         boost::asio::post(_stream.get_executor(), [self = this->shared_from_this()] {
@@ -286,7 +286,7 @@ private:
             OnRead(error);
             return;
         }
-        // Beast does not tell where frames end, but its hint is the rest of the frame only where that is the last one.
+        // Beast does not report the end of a frame, but its hint is the rest of the frame only for the last one.
         constexpr std::size_t UNKNOWN = std::numeric_limits<std::size_t>::max();
         if (_stream.read_size_hint(UNKNOWN) == UNKNOWN)
         {

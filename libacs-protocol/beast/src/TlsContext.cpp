@@ -36,14 +36,14 @@ tl::unexpected<Core::Error> Refuse(const char* key, const char* expected, const 
     return Core::Fail(std::make_error_code(std::errc::invalid_argument), key, expected, found);
 }
 
-/// Why it cannot be read; OpenSSL would say it less clearly.
+/// Why the file cannot be read, more clearly than OpenSSL reports it.
 std::optional<std::string> FindFileFaultOrNull(const std::string& name)
 {
     std::error_code unknown;
     if (const std::filesystem::file_status status = std::filesystem::status(name, unknown);
         std::filesystem::is_other(status))
     {
-        return "it is no regular file"; // to open a pipe would be to wait for whoever writes to it
+        return "it is no regular file"; // opening a pipe would block until it has a writer
     }
     errno = 0;
     std::ifstream file(name, std::ios::binary);
@@ -78,7 +78,7 @@ Core::Result<void> LoadKey(ssl::context& context, const TlsOptions& options)
         static_cast<void>(context.use_private_key_file(options.keyFile, ssl::context::pem, error));
         if (error && ERR_GET_REASON(static_cast<unsigned long>(error.value())) == X509_R_KEY_VALUES_MISMATCH)
         {
-            error.clear(); // told below
+            error.clear(); // reported below
         }
     });
     if (!loaded.has_value())
@@ -167,7 +167,7 @@ Core::Result<ssl::context> MakeClientContext(const TlsOptions& options, std::str
     }
     else if (done.has_value())
     {
-        // A system without any CA trusts nobody; that is found out at the handshake.
+        // A system without any CA is detected at the handshake.
         static_cast<void>(context.set_default_verify_paths(error));
     }
     if (done.has_value() && options.certificateFile.empty() != options.keyFile.empty())
@@ -190,7 +190,7 @@ Core::Result<ssl::context> MakeServerContext(const TlsOptions& options)
 {
     ssl::context context(ssl::context::tls_server);
     Harden(context);
-    // Nothing is remembered of a client: it comes rarely, and each time its certificate is looked at.
+    // No session cache: clients connect rarely, and their certificate is checked each time.
     SSL_CTX* const handle = context.native_handle();
     SSL_CTX_set_session_cache_mode(handle, SSL_SESS_CACHE_OFF);
     SSL_CTX_set_options(handle, SSL_OP_NO_TICKET);

@@ -37,7 +37,7 @@ std::string GetExpectedName(SSL* stream)
     return address == nullptr ? std::string() : address.get();
 }
 
-/// What goes on after "the server's certificate ".
+/// Continues "the server's certificate ".
 std::string DescribeCertificateFault(SSL* stream, long result)
 {
     switch (result)
@@ -66,7 +66,7 @@ std::string DescribeCertificateFault(SSL* stream, long result)
     }
 }
 
-/// Of a failure of the library itself; nothing where it says it well enough.
+/// A failure of the library itself; empty if its own text is clear.
 std::string_view GetSentence(int reason)
 {
     switch (reason)
@@ -75,12 +75,12 @@ std::string_view GetSentence(int reason)
             return "the client shows no certificate";
         case SSL_R_TLSV13_ALERT_CERTIFICATE_REQUIRED:
             return "the other side demands a client certificate";
-        case SSL_R_SSLV3_ALERT_HANDSHAKE_FAILURE: // what TLS 1.2 says where a certificate is missing
+        case SSL_R_SSLV3_ALERT_HANDSHAKE_FAILURE: // TLS 1.2: a certificate is missing
             return "the other side refuses the handshake (it may demand a client certificate)";
         case SSL_R_TLSV1_ALERT_UNKNOWN_CA:
             return "the other side does not know the CA of our certificate";
         case SSL_R_SSLV3_ALERT_CERTIFICATE_EXPIRED:
-            return "the other side says that our certificate has expired";
+            return "the other side reports that our certificate has expired";
         case SSL_R_SSLV3_ALERT_BAD_CERTIFICATE:
         case SSL_R_SSLV3_ALERT_CERTIFICATE_UNKNOWN:
         case SSL_R_SSLV3_ALERT_UNSUPPORTED_CERTIFICATE:

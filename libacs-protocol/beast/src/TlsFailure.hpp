@@ -8,8 +8,8 @@
 namespace ACS::ProtocolBeast
 {
 
-/// Why a TLS stream failed, in a few words for an operator: which certificate is wrong and what about it, where it is
-/// that; else what the library says.
+/// Why a TLS stream failed, in a few words for an operator: which certificate is invalid and why, or
+/// otherwise the text of the library.
 [[nodiscard]] std::string DescribeTlsFailure(SSL* stream, const boost::system::error_code& error);
 
 } // namespace ACS::ProtocolBeast

@@ -20,8 +20,8 @@
 namespace ACS::ProtocolBeast
 {
 
-/// Reads the HTTP request at the beginning of a connection and makes a link of it if it asks for a WebSocket that may be;
-/// else answers politely and closes. Lives as long as it has work. TLayer: see BeastLink.
+/// Reads the HTTP request at the start of a connection and creates a link for a valid WebSocket upgrade; otherwise answers
+/// and closes. Exists while it has work. TLayer: see BeastLink.
 template <typename TLayer>
 class UpgradeGate final : public IGate, public std::enable_shared_from_this<UpgradeGate<TLayer>>
 {
@@ -135,7 +135,7 @@ private:
             });
     }
 
-    /// A probe that connects and goes, or says nothing.
+    /// A probe that connects and disconnects, or sends nothing.
     [[nodiscard]] static bool IsSilence(ErrorCode error)
     {
         return error == boost::asio::error::eof || error == boost::asio::error::connection_reset
@@ -143,7 +143,7 @@ private:
             || error == boost::beast::http::error::end_of_stream;
     }
 
-    /// Says no more and waits for the other side to go: closing with something unread would take back what was said.
+    /// Stops sending and waits until the other side closes: closing with unread data would discard the answer.
     void LeaveAsync(const std::string& reason)
     {
         if (!reason.empty() && _owner.onRefused)

@@ -150,7 +150,7 @@ std::string_view GetStringOrEmpty(const Json::DeferredValue& value)
                    : std::string_view();
 }
 
-/// What a message that could not be decoded still tells; empty where it is missing or too long to be an identifier.
+/// An identifier of a message that could not be decoded; empty if it is missing or too long.
 std::string FindIdentifier(const Json::DeferredValue& payload, std::string_view name)
 {
     if (payload.valueOrNull == nullptr || !payload.valueOrNull->IsObject())
@@ -161,7 +161,7 @@ std::string FindIdentifier(const Json::DeferredValue& payload, std::string_view 
     return std::string(text.size() <= Detail::LONGEST_ID ? text : std::string_view());
 }
 
-/// What a text that names a member twice said first: it is refused, but it can be answered.
+/// The first value of a repeated member: the text is refused, but can be answered.
 Detail::WireEnvelope FindEnvelope(const Json::Value& root)
 {
     Detail::WireEnvelope envelope;
@@ -187,7 +187,7 @@ bool TryTakeAckSuffix(std::string_view& name)
     return bAck;
 }
 
-/// What a text says it is.
+/// The kind of a text.
 struct WireKind
 {
     std::optional<EAcsCommand> command;
@@ -214,7 +214,7 @@ WireKind ReadKind(std::string_view commandName, const CodecOptions& options, Jso
     return kind;
 }
 
-/// Section 4.1: what these say about from and to means nothing, so that it is not looked at either.
+/// Section 4.1: from and to have no meaning for these actions and are not checked.
 bool HasPlaces(std::string_view action)
 {
     constexpr std::array<std::string_view, 3> PLACELESS{"CloseSetCover", "OpenSetCover", "Start"};
@@ -249,7 +249,7 @@ bool TryCheckJobs(const std::vector<PlanJob>& jobs, Json::DecodeContext& context
     return true;
 }
 
-/// Section 10: a plan's locations follow the grammar. Whether the site has them is not the codec's to say.
+/// Section 10: a plan's locations are valid. Whether the site has them is not checked by the codec.
 bool TryCheckLocations(const ExecutionPlan& plan, Json::DecodeContext& context)
 {
     for (std::size_t i = 0; i < plan.steps.size(); ++i)

@@ -21,7 +21,7 @@ inline constexpr std::size_t LONGEST_ID = 512;
 inline constexpr std::size_t MOST_STEPS = 10'000;
 inline constexpr double HIGHEST_STEP = std::numeric_limits<std::int32_t>::max();
 
-/// The members that every message has, found but not yet looked at: what is wrong with one must not hide the others.
+/// The members of every message, found but not decoded: an error in one must not hide the others.
 struct WireEnvelope
 {
     Json::DeferredValue command;

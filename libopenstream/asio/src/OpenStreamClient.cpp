@@ -40,14 +40,14 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
     std::array<char, READ_BYTES> _input{};
     std::uint64_t _connection = 0; ///< Handlers of an earlier connection do nothing.
     bool _bWrote = false;          ///< Since the last read.
-    bool _bAcknowledging = false;  ///< At once, as long as nothing is written.
+    bool _bAcknowledging = false;  ///< At once, until the next write.
     bool _bExecuting = false;
     bool _bDown = false;
     bool _bWasReady = false;   ///< Since the last loss.
-    bool _bLossLogged = false; ///< Of the outage that goes on.
+    bool _bLossLogged = false; ///< Of the current outage.
 
-    /// Calls a method as long as the client lives and the connection is the one that it was made for. No lambda: the
-    /// handlers of one operation start the next one, which is no recursion.
+    /// Calls a method while the client and its connection exist. Not a lambda: the handlers of one operation start the next
+    /// one, which is not a recursion.
     template <typename... TResults>
     class GuardedHandler
     {
@@ -196,9 +196,9 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
         }
     }
 
-    /// To a client that has written, the system leaves the acknowledgement of each first line for its next words, or 40 ms,
-    /// and sends it with that of each second line: so every second read takes longer, and a controller that holds small
-    /// lines back until then (Nagle) stands still. A client that only listens has it told so, until it writes again.
+    /// After a write, the system delays the acknowledgement of every other line until the next write, or 40 ms. So every
+    /// second read takes longer, and a controller that buffers small lines until then (Nagle) stalls. A client that only
+    /// reads therefore requests immediate acknowledgements until it writes again.
     void AcknowledgeAtOnce()
     {
         if (!std::exchange(_bWrote, false) && !std::exchange(_bAcknowledging, true))

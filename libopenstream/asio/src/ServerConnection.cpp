@@ -163,7 +163,7 @@ void ServerConnection::Do(const OpenStream::ServerCall& action)
     }
     if (answer.response.delay > Core::Duration::zero())
     {
-        // One that still waits here is to a MONITOR that was replaced: nobody wants it.
+        // A pending answer belongs to a MONITOR that was replaced: discard it.
         _answerTimers->Start(kind, answer.response.delay);
         return;
     }

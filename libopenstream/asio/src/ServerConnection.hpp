@@ -20,8 +20,8 @@
 namespace ACS::OpenStreamAsio
 {
 
-/// One accepted connection: carries out what its ServerSession wants and tells it what happens. Lives as long as a handler
-/// or the server holds it; after Abort no handler does anything.
+/// An accepted connection: carries out the actions of its ServerSession and reports events to it. Exists while a handler or
+/// the server holds it; after Abort its handlers do nothing.
 class ServerConnection final : public std::enable_shared_from_this<ServerConnection>
 {
 public:

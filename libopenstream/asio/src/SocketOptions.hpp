@@ -23,15 +23,15 @@ inline void SetSocketOptions(boost::asio::ip::tcp::socket& socket)
     static_cast<void>(socket.set_option(boost::asio::socket_base::keep_alive(true), ignored));
 }
 
-/// When the connection is closed, also because the process ends, what has not arrived is thrown away. As a system has it
-/// by itself, a command would still arrive minutes later, once the network is well again or somebody reads.
+/// Discards unsent data when the connection is closed, also at the end of the process. By default the system could deliver
+/// a command minutes later, when the network or the peer has recovered.
 inline void DropUnsentAtClose(boost::asio::ip::tcp::socket& socket)
 {
     boost::system::error_code ignored;
     static_cast<void>(socket.set_option(boost::asio::socket_base::linger(true, 0), ignored));
 }
 
-/// Where nothing is left to arrive, and the system can tell, the peer sees a close and no error.
+/// If all data has arrived, as far as the system knows, the peer sees an orderly close and no error.
 inline void CloseInPeaceWhenAllArrived(boost::asio::ip::tcp::socket& socket)
 {
 #ifdef SIOCOUTQ

@@ -14,7 +14,7 @@ std::error_code AssignDuplicate(boost::asio::posix::stream_descriptor& stream, i
         return {errno, std::system_category()};
     }
     boost::system::error_code refused;
-    stream.assign(duplicate, refused); // NOLINT(bugprone-unused-return-value): refused says it
+    stream.assign(duplicate, refused); // NOLINT(bugprone-unused-return-value): in refused
     if (refused)
     {
         close(duplicate); // a stream takes over what it accepts only

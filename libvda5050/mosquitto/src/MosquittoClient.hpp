@@ -20,16 +20,16 @@ struct ReceivedPublish
     bool operator==(const ReceivedPublish&) const = default;
 };
 
-/// What one line of libmosquitto's log says, null where it is about something else. There is no other word from it about
-/// a message of QoS 2 before the broker has released it.
+/// The received message in a line of libmosquitto's log; nullopt for other lines. libmosquitto reports a message of QoS 2 in
+/// no other way before the broker has released it.
 [[nodiscard]] std::optional<ReceivedPublish> ReadPublishLineOrNull(std::string_view line);
 
-/// A client of libmosquitto, with what it holds of messages that are half handed over. A persistent session goes on with
-/// the same client after an outage: it answers the broker where it was interrupted, and sends again what was not answered.
+/// A client of libmosquitto with its incomplete message exchanges. A persistent session continues with the same client
+/// after an outage: it resumes the exchanges with the broker and resends unanswered messages.
 ///
-/// libmosquitto 2.0 takes no notice of a message that it has already and that the broker sends again (its PUBREC was
-/// lost): it keeps the second copy for ever, and would deliver it in the place of a later message with the same packet id.
-/// So such a client is not used any longer than it must be.
+/// libmosquitto 2.0 does not recognise a message that the broker resends because its PUBREC was lost: it keeps the second
+/// copy indefinitely, and would deliver it in place of a later message with the same packet id. Such a client is replaced as
+/// soon as possible.
 class MosquittoClient
 {
     struct Deleter
@@ -57,9 +57,9 @@ public:
     void OnPublishCame(int messageID);
     void OnReleased(int messageID);
 
-    /// Nothing is half handed over: a new client would miss nothing.
+    /// Whether no exchange is incomplete, so that a new client would miss nothing.
     [[nodiscard]] bool IsQuiet() const noexcept;
-    /// It holds a copy that nobody is to have.
+    /// Whether it holds a second copy of a message.
     [[nodiscard]] bool IsSpoilt() const noexcept;
 };
 

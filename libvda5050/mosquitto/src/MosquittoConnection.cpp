@@ -21,7 +21,7 @@ namespace ACS::VDA5050
 namespace
 {
 
-constexpr std::chrono::seconds HOUSE_KEEPING_PERIOD{1}; ///< libmosquitto looks at its keep-alive then.
+constexpr std::chrono::seconds HOUSE_KEEPING_PERIOD{1}; ///< Interval of libmosquitto's keep-alive check.
 constexpr int MAX_READS = 64;                           ///< Before others on the executor have their turn.
 constexpr int SUBSCRIPTION_REFUSED = 0x80;              ///< And above: the reasons of MQTT 5.
 constexpr int PACKETS_PER_CALL = 1;
@@ -302,7 +302,7 @@ Core::Result<int> MosquittoConnection::Publish(const MqttMessage& message)
     }
     int messageID = 0;
     const std::size_t ofQosZero = message.qos == 0 ? 1U : 0U;
-    _unsent += ofQosZero; // before the call: such a message may be told as sent from within
+    _unsent += ofQosZero; // before the call, which may report such a message as sent
     errno = 0;
     const int code = mosquitto_publish(
         GetClientOrNull(),

@@ -24,7 +24,7 @@ struct mosquitto_message;
 namespace ACS::VDA5050
 {
 
-/// Told by one MosquittoConnection, never from inside a call of it.
+/// Events of a MosquittoConnection, never sent during a call of it.
 class IMosquittoConnectionOwner
 {
 public:
@@ -84,8 +84,8 @@ class MosquittoConnection final : public std::enable_shared_from_this<MosquittoC
     std::size_t _maxPayloadBytes = 0;
     int _closeCode = 0;
     bool _bPersistent = false;
-    bool _bGoesOn = false;    ///< With the client of a connection before.
-    bool _bForgotten = false; ///< By the broker, with the session that the client goes on with.
+    bool _bGoesOn = false;    ///< With the client of the previous connection.
+    bool _bForgotten = false; ///< The broker has forgotten the session of the client.
     bool _bRenewing = false;
     bool _bUp = false;
     bool _bClosed = false;
@@ -98,12 +98,12 @@ public:
     /// Begins, with the client that a connection before has left or with a new one; an error means that nothing will
     /// follow but TakeClientOrNull.
     [[nodiscard]] std::error_code Open(const MosquittoOptions& options, std::optional<MosquittoClient> clientOrNull);
-    /// After the end: what the next connection of a persistent session goes on with.
+    /// After the end: the client for the next connection of a persistent session.
     [[nodiscard]] std::optional<MosquittoClient> TakeClientOrNull();
-    /// After the end: it was ended to begin anew with a fresh client, or because the broker had forgotten the session.
+    /// After the end: whether the next connection needs a new client, also because the broker has forgotten the session.
     [[nodiscard]] bool IsRenewal() const;
 
-    /// The id of the message, with which OnSent comes. Fails with not_connected, QueueFull, or what libmosquitto says.
+    /// The id of the message, with which OnSent comes. Fails with not_connected, QueueFull, or an error of libmosquitto.
     [[nodiscard]] Core::Result<int> Publish(const MqttMessage& message);
     /// The id with which OnSubscribed comes; nothing where there is no connection or the filter is none.
     [[nodiscard]] std::optional<int> SubscribeOrNull(const MqttSubscription& subscription);
@@ -111,7 +111,7 @@ public:
     void Confirm();
     /// Ends with OnConnectionClosed.
     void TakeLeave();
-    /// Ends at once; the owner hears no more.
+    /// Ends at once; the owner is not called any more.
     void Abandon();
 
     [[nodiscard]] bool IsUp() const;

@@ -30,13 +30,13 @@ class MosquittoLink::Impl final : public IMosquittoConnectionOwner, public std::
     std::vector<MqttSubscription> _subscriptions;
     std::map<int, std::string> _unconfirmed; ///< The filters that OnLinkUp waits for, by the id of their message.
     std::map<int, std::string> _later;       ///< Those that came after them.
-    std::string _refusedFilter;              ///< Because of which the connection is given up.
+    std::string _refusedFilter;              ///< The reason why the connection is closed.
     std::vector<MqttMessage> _early;
     std::size_t _earlyBytes = 0;
     std::size_t _earlyDropped = 0;
     std::vector<StopHandler> _stopHandlers;
     std::chrono::steady_clock::time_point _upSince;
-    std::size_t _shortLives = 0; ///< Connections in a row that ended as soon as they stood.
+    std::size_t _shortLives = 0; ///< Consecutive connections that ended right after they were established.
     bool _bUp = false;
     bool _bOutageLogged = false;
     bool _bRefusalLogged = false;
@@ -88,7 +88,7 @@ private:
 namespace
 {
 
-/// A connection that holds this long was no mistake: the next outage begins with short pauses again.
+/// After a connection of this duration the next outage starts with the initial backoff again.
 constexpr std::chrono::seconds STABLE_AFTER{5};
 constexpr std::size_t SUSPICIOUS_LIVES = 3;
 
@@ -241,7 +241,7 @@ void MosquittoLink::Impl::LogOutage(bool bWasUp, const std::error_code& reason)
         MakeConnectAdvice(reason)));
 }
 
-/// MQTT 5 says so, 3.1.1 only closes: there it shows by connections that end as soon as they stand.
+/// MQTT 5 reports it. 3.1.1 only closes the connection, which is detected by repeated short connections.
 bool MosquittoLink::Impl::HasRival(bool bWasUp, const std::error_code& reason)
 {
     const auto life =
@@ -270,7 +270,7 @@ void MosquittoLink::Impl::LogEnd(bool bWasUp, bool bRenewal, bool bRival, const 
     }
     else if (bRenewal)
     {
-        _logger.Info("begins its session on the MQTT broker anew", {{"broker", GetAddress()}});
+        _logger.Info("starts a new session on the MQTT broker", {{"broker", GetAddress()}});
     }
     else
     {
@@ -359,7 +359,7 @@ void MosquittoLink::Impl::OnSubscribed(int messageID, bool bGranted)
     AnnounceWhenConfirmed();
 }
 
-/// A session above that believes that it is heard, and is not, is worse than none. Takes leave, so that no will is sent.
+/// Without its subscriptions a session would wait for messages in vain. Disconnects, so that no will is sent.
 void MosquittoLink::Impl::GiveUp(const std::string& filter)
 {
     if (!_refusedFilter.empty() || _bStopping)
@@ -388,7 +388,7 @@ void MosquittoLink::Impl::AnnounceWhenConfirmed()
     if (_earlyDropped > 0)
     {
         _logger.Error(
-            "too much came in before the subscriptions stood: the rest is dropped",
+            "too many messages before the subscriptions were confirmed: the rest is dropped",
             {{"broker", GetAddress()}, {"dropped", std::to_string(_earlyDropped)}});
     }
     _timer.expires_after(STABLE_AFTER);

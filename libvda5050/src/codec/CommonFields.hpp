@@ -101,7 +101,7 @@ struct JsonFields<VDA5050::ActionParameter>
 template <>
 struct JsonFields<VDA5050::Action>
 {
-    // actionName: what the instantActions schema of 2.0.0 asks for by mistake.
+    // actionName: an error in the instantActions schema of 2.0.0.
     static constexpr auto FIELDS = std::make_tuple(
         Required("actionType", &VDA5050::Action::actionType),
         Alias("actionName", &VDA5050::Action::actionType),

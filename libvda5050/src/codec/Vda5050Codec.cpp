@@ -45,7 +45,7 @@ Core::Result<MessageIdentity> Vda5050Codec::DecodeIdentity(std::string_view payl
     {
         return tl::unexpected(root.error());
     }
-    // Each by itself: the message is a bad one, and what is right in it still says which.
+    // Each by itself: the valid members of an invalid message identify it.
     const std::optional<std::uint32_t> headerID = ReadMemberOrNull<std::uint32_t>(**root, "headerId");
     MessageIdentity identity;
     identity.bHeaderIDGiven = headerID.has_value();

@@ -251,7 +251,7 @@ TEST_CASE("1 wss: a server with a client CA takes only those who show its certif
     SECTION("expired")
     {
         rig.UseOnClient(rig.maker.Make(rig.ca, MakeWish(-48h)));
-        CHECK(Contains(rig.ConnectInVain(), "the other side says that our certificate has expired"));
+        CHECK(Contains(rig.ConnectInVain(), "the other side reports that our certificate has expired"));
         CHECK(rig.WasLogged(start + "the client's certificate has expired (or this machine's clock is wrong)"));
     }
 }

@@ -119,7 +119,7 @@ TEST_CASE_METHOD(
     const auto& lines = receiver->log.GetLines();
     const auto isRenewed = [&]() {
         const auto renewal =
-            std::ranges::find(lines, "begins its session on the MQTT broker anew", &RecordedLine::message);
+            std::ranges::find(lines, "starts a new session on the MQTT broker", &RecordedLine::message);
         return std::any_of(renewal, lines.end(), [](const RecordedLine& line) {
             return line.message == "connected to the MQTT broker";
         });
@@ -128,7 +128,7 @@ TEST_CASE_METHOD(
     const std::size_t downs = receiver->listener.downs;
     CHECK(receiver->listener.ups == downs + 1);
     CHECK(ListPayloads(*receiver) == std::vector<std::string>{"1"});
-    CHECK(std::ranges::count(lines, "begins its session on the MQTT broker anew", &RecordedLine::message) == 1);
+    CHECK(std::ranges::count(lines, "starts a new session on the MQTT broker", &RecordedLine::message) == 1);
     CHECK(receiver->log.CountLevel(Core::ELogLevel::Warning) == 1); // the cut
     CHECK_FALSE(TryRunUntil(
         _context,
@@ -138,7 +138,7 @@ TEST_CASE_METHOD(
 
 TEST_CASE_METHOD(
     SessionTest,
-    "2 What was acknowledged before the subscriptions stood is handed over after the next connection")
+    "2 Messages acknowledged before the subscriptions were confirmed are delivered after the next connection")
 {
     const EMqttVersion version = GENERATE(EMqttVersion::Version311, EMqttVersion::Version5);
     auto receiver = MakeConnected(_proxy.GetPort(), "receiver", version);

@@ -54,7 +54,7 @@ enum class EErrorScope : std::uint8_t
     Monitor, ///< The MONITOR, its request or its stream.
     Control, ///< A CONTROL.
     Stop,    ///< A STOP.
-    Request, ///< A MONITOR or a CONTROL: the line does not say which.
+    Request, ///< A MONITOR or a CONTROL; the line does not identify it.
     Fatal,   ///< The session has ended; a new connection is required.
 };
 

@@ -105,8 +105,8 @@ public:
     void OnTimer(EMasterTimer timer, Core::Now now, MasterActions& out);
 
     /// Sends an order (with orderID and route, without header) and resends it until the vehicle shows it. The
-    /// orderUpdateID is sent as given. The orderID must be new to the vehicle, which would otherwise mistake the order for
-    /// its current or last one; see ResumeOrder.
+    /// orderUpdateID is sent as given. The orderID must be new to the vehicle, which would otherwise treat the order as its
+    /// current or last one; see ResumeOrder.
     /// Once a factsheet was received, the order is checked against it: unlisted tolerances and lengths are omitted; any
     /// other optional member, action, parameter or size that is not listed is an error. An empty list allows everything.
     /// Errors: VehicleNotReady, OrderActive (also for an order of another master), InvalidOrder, NotSupported.

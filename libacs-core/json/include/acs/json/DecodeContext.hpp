@@ -14,7 +14,7 @@
 namespace ACS::Json
 {
 
-/// What a decoder tolerated: counted, so that a peer's habits show in metrics.
+/// Deviations that a decoder tolerated, for metrics.
 struct DecodeNotes
 {
     std::uint32_t unknownMembers = 0;
@@ -36,8 +36,8 @@ struct DecodeOptions
     std::chrono::minutes assumedOffset{0};   ///< Of a timestamp without one, in codecs that read such.
 };
 
-/// What a decode carries along: options in; notes and the first error out. The error's path is put together from the
-/// inside out while the calls return, so that a good message pays nothing for it.
+/// The context of a decode: its options, notes and first error. The path of an error is composed from the inside out while
+/// the calls return, so that valid messages have no cost.
 class DecodeContext
 {
     DecodeOptions _options;

@@ -22,7 +22,7 @@
 namespace ACS::Json
 {
 
-/// A value that is decoded later, when its kind is known (the payload behind a command). Valid as long as the document.
+/// A value that is decoded later, when its kind is known (the payload behind a command). Valid while the document is.
 struct DeferredValue
 {
     const Value* valueOrNull = nullptr;
@@ -275,7 +275,7 @@ struct FieldTable
     static constexpr std::uint64_t REQUIRED = MakeRequired(std::make_index_sequence<COUNT>{});
 };
 
-/// Index of the field of this name, COUNT where there is none; looks at the expected place first.
+/// Index of the field of this name, COUNT where there is none; checks the expected place first.
 template <std::size_t COUNT>
 [[nodiscard]] std::size_t FindField(
     const std::array<std::string_view, COUNT>& names,

@@ -54,7 +54,7 @@ struct WrittenForm
     constexpr bool operator==(const WrittenForm&) const = default;
 };
 
-/// One member of a message: its JSON name, where it stands in the struct, and its rules. This one description drives
+/// One member of a message: its JSON name, its struct member and its rules. This one description drives
 /// decode, encode and checks.
 template <typename TAccessor>
 struct JsonField
@@ -157,7 +157,7 @@ struct MemberAccessor
     }
 };
 
-/// A member of a member: the field of a struct whose fields stand flat in the same JSON object.
+/// A member of a member: the field of a struct whose fields are flat in the same JSON object.
 template <typename TOuter, typename TInner>
 struct NestedAccessor
 {
@@ -206,14 +206,14 @@ template <typename TStruct, typename TMember>
     return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Defaulted, {}, ALL_DIALECTS, {}};
 }
 
-/// Stands right behind the field that it names again, with the same member.
+/// Directly follows its field, with the same member.
 template <typename TStruct, typename TMember>
 [[nodiscard]] constexpr auto Alias(std::string_view name, TMember TStruct::*member)
 {
     return JsonField<MemberAccessor<TStruct, TMember>>{name, {member}, EPresence::Alias, {}, ALL_DIALECTS, {}};
 }
 
-/// A struct whose fields stand flat in the JSON object of the struct that holds it (a message's header).
+/// A struct whose fields are flat in the JSON object of the enclosing struct (a message's header).
 template <typename TStruct, typename TMember>
 struct FlatField
 {

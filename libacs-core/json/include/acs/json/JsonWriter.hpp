@@ -17,7 +17,7 @@ class JsonWriter
     std::string& _out;
     DialectFlags _dialect;
 
-    /// Whether what comes next stands behind another member or element.
+    /// Whether the next value follows another member or element.
     [[nodiscard]] bool NeedsComma() const noexcept
     {
         const char last = _out.empty() ? '\n' : _out.back();

@@ -20,26 +20,26 @@
 namespace ACS::Net
 {
 
-/// A TCP port that is listened on: hands over one connection after the other. Its owner alone holds it, so that the
-/// handler, which may destroy the owner, is never called without one, nor after Stop. One thread: the executor's.
+/// Listens on a TCP port and passes the connections to a handler. Only its owner holds it, so that the handler, which may
+/// destroy the owner, is not called afterwards, nor after Stop. Runs on the single thread of the executor.
 class TcpListener final : public std::enable_shared_from_this<TcpListener>
 {
 public:
     using Tcp = boost::asio::ip::tcp;
-    /// Returns whether the next connection may come at once; else AcceptAsync lets it.
+    /// Returns whether to accept the next connection at once; otherwise after AcceptAsync.
     using Handler = std::function<bool(Tcp::socket socket)>;
 
 private:
     using ErrorCode = boost::system::error_code;
 
-    /// Before the next accept after the system refused one: no descriptor is free, for example.
+    /// Delay after a failed accept, for example without a free descriptor.
     static constexpr std::chrono::milliseconds PAUSE{100};
 
     Core::Logger _logger;
     Handler _handler;
     Tcp::acceptor _acceptor;
     boost::asio::steady_timer _pause;
-    std::uint64_t _run = 0; ///< Handlers of the time before a Stop do nothing.
+    std::uint64_t _run = 0; ///< Handlers from before a Stop do nothing.
     std::uint16_t _port = 0;
     bool _bAccepting = false;
 
@@ -78,7 +78,7 @@ public:
         return _port;
     }
 
-    /// Where none is awaited already.
+    /// No effect while already accepting.
     void AcceptAsync()
     {
         if (_bAccepting || !_acceptor.is_open())
@@ -106,7 +106,7 @@ public:
         static_cast<void>(_pause.cancel(ignored));
     }
 
-    /// 0 where it does not listen.
+    /// 0 if it does not listen.
     [[nodiscard]] std::uint16_t GetPort() const noexcept
     {
         return _port;
@@ -157,7 +157,7 @@ private:
         }
     }
 
-    /// Trying again at once would only burn the processor.
+    /// Retrying at once would keep the processor busy.
     void PauseAsync(const ErrorCode& error)
     {
         _logger.Warning("cannot accept a connection", {{"reason", error.message()}});

@@ -16,8 +16,8 @@
 namespace ACS::Net
 {
 
-/// The timers that a session asks for, one for each enumerator. Its owner alone holds it, so that the handler, which may
-/// destroy the owner, is never called without one. One thread: the executor's.
+/// The timers of a session, one per enumerator. Only its owner holds it, so that the handler, which may destroy the owner,
+/// is never called afterwards. Runs on the single thread of the executor.
 template <typename TTimer, std::size_t COUNT>
 class TimerArray final : public std::enable_shared_from_this<TimerArray<TTimer, COUNT>>
 {
@@ -26,7 +26,7 @@ public:
 
 private:
     std::vector<boost::asio::steady_timer> _timers;
-    /// A wait that has expired cannot be cancelled any more: the round tells whether it still counts.
+    /// An expired wait cannot be cancelled any more; with another round it is ignored.
     std::array<std::uint64_t, COUNT> _rounds{};
     Handler _handler;
 
@@ -41,7 +41,7 @@ public:
         }
     }
 
-    /// Anew where it runs already.
+    /// Restarts a running timer.
     void Start(TTimer timer, Core::Duration delay)
     {
         const auto index = static_cast<std::size_t>(timer);
@@ -65,7 +65,7 @@ public:
         static_cast<void>(_timers[index].cancel(ignored));
     }
 
-    /// Nothing that was started before fires any more.
+    /// No timer that was started before fires any more.
     void CancelAll()
     {
         for (std::size_t index = 0; index < COUNT; ++index)

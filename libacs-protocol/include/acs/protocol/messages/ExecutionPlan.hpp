@@ -23,7 +23,7 @@ struct PlanStep
 {
     std::int32_t stepNo = 0; ///< From 1; gaps and any order are allowed, the codec does not look for repeats.
     std::string action;      ///< For example CassetteLoad; which actions exist is the site's data.
-    std::string position;    ///< Where the robot stands.
+    std::string position;    ///< Where the robot executes the step.
     std::vector<std::string> carrierIDs; ///< Of load steps entry i belongs to job i; empty for MemoryPickAndPlace.
     std::vector<PlanJob> jobs;           ///< May be empty for actions on a set.
 
