@@ -160,7 +160,7 @@ public:
             options,
             MakeBehaviour(_options.profile),
             _random,
-            [this](std::chrono::milliseconds delay) { _timers.Start(MakeKey(ETimer::Delay), delay); });
+            [this](std::chrono::milliseconds delay) { _timers.Start(ETimer::Delay, delay); });
         _sessionOrNull = session.get();
         auto created = ProtocolBeast::McsServer::Create(_executor, _clock, _logger, server, std::move(session), *this);
         if (!created.has_value())
