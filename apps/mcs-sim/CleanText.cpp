@@ -15,7 +15,7 @@ constexpr char32_t FIRST_PRINTABLE = 0x20;
 constexpr char32_t DELETE = 0x7F;
 constexpr char32_t LAST_CONTROL = 0x9F;
 
-/// One character of a text, as code point and bytes; zero bytes at its end. What is no UTF-8 is '?' of one byte.
+/// One character of a text, as code point and bytes; zero bytes at its end. Invalid UTF-8 is '?' of one byte.
 struct Character
 {
     char32_t code = 0;

@@ -13,10 +13,10 @@ namespace ACS::McsSim
 /// Columns that clean text takes on a terminal: 2 for East Asian wide characters, else 1 each.
 [[nodiscard]] std::size_t GetColumns(std::string_view text);
 
-/// Clean text in exactly so many columns: filled with spaces, or cut and ended by an ellipsis, never inside a character.
+/// Clean text in exactly this number of columns: filled with spaces, or truncated with an ellipsis between characters.
 [[nodiscard]] std::string FitText(std::string_view text, std::size_t columns);
 
-/// Clean text in at most so many columns.
+/// Clean text in at most this number of columns.
 [[nodiscard]] std::string CutText(std::string_view text, std::size_t columns);
 
 /// As FitText, but filled in front: for numbers.

@@ -12,7 +12,7 @@ namespace ACS::McsSim
 /// Exactly as spelled on the wire.
 [[nodiscard]] std::optional<Protocol::EAcsCommand> FindCommandOrNull(std::string_view name);
 
-/// "ExecutionPlan, CancelPlan": the names of all for which the function says yes.
+/// "ExecutionPlan, CancelPlan": the names of all commands that match the predicate.
 [[nodiscard]] std::string ListCommands(bool (*isListed)(Protocol::EAcsCommand));
 
 [[nodiscard]] bool IsSentByAcs(Protocol::EAcsCommand command);

@@ -20,11 +20,11 @@ using Protocol::EStepStatus;
 namespace
 {
 
-/// What the reports say of a move.
+/// The state of a move according to the reports.
 enum class EMoveReport : std::uint8_t
 {
     None,  ///< It was not begun.
-    Begun, ///< Whether it was done, the reports do not say.
+    Begun, ///< The reports leave open whether it was done.
     Completed,
 };
 
@@ -241,7 +241,7 @@ void FloorChecker::CheckReport(
     const TrackedPlan* const planOrNull = _tracker.FindPlanOrNull(planID);
     if (planOrNull == nullptr)
     {
-        return; // The tracker has said so.
+        return; // reported by the tracker
     }
     const CheckedPlan& plan = _plans[static_cast<std::size_t>(planOrNull - _tracker.GetPlans().data())];
     const auto& moves = plan.floor.moves;

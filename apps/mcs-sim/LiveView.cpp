@@ -115,7 +115,7 @@ std::string MakeShare(std::size_t index, std::size_t count)
     return count == 0 ? "–" : fmt::format("{}/{}", index + 1, count);
 }
 
-/// The end of a long planId tells plans apart.
+/// Plans differ in the end of a long planId.
 std::string ShortenID(const std::string& planID, std::size_t columns)
 {
     const std::string clean = CleanText(planID);

@@ -11,12 +11,12 @@
 namespace ACS::McsSim
 {
 
-/// What stands above the robots and plans.
+/// The heading above the robots and plans.
 struct ViewHeading
 {
     std::string address; ///< ws://127.0.0.1:9001/acs/
     bool bRegistered = false;
-    bool bKept = false; ///< Everything is done, and the program stays until it is told to end.
+    bool bKept = false; ///< Everything is done, and the program waits for a signal.
     std::chrono::milliseconds elapsed{0};
 };
 
@@ -32,7 +32,7 @@ private:
     std::size_t _rows;
 
 public:
-    /// The size of the terminal. Fewer than 40 columns or 8 rows are taken for so many.
+    /// The size of the terminal. At least 40 columns and 8 rows are used.
     LiveView(std::size_t columns, std::size_t rows);
 
     [[nodiscard]] StyledLines Render(const PlanTracker& tracker, const RobotBoard& board, const ViewHeading& heading)
@@ -44,7 +44,7 @@ private:
     [[nodiscard]] StyledLine MakePlanLine(const TrackedPlan& plan, std::size_t idColumns) const;
 };
 
-/// "########......" in block characters, so many columns long.
+/// "########......" in block characters, of this number of columns.
 [[nodiscard]] std::string MakeBar(double fraction, std::size_t columns);
 
 } // namespace ACS::McsSim

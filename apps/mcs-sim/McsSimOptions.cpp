@@ -54,9 +54,9 @@ void AddTlsOptions(CLI::App& app, ProtocolBeast::TlsOptions& tls)
     addFile(
         "--tls-certificate",
         tls.certificateFile,
-        "Speak wss, with this certificate (and those between it and its CA)");
+        "Serve wss with this certificate (and its intermediate certificates)");
     addFile("--tls-key", tls.keyFile, "The private key of --tls-certificate, without a passphrase");
-    addFile("--tls-client-ca", tls.caFile, "Take only an ACS that shows a certificate of this CA");
+    addFile("--tls-client-ca", tls.caFile, "Accept only an ACS with a certificate of this CA");
 }
 
 std::string TakeProfile(const std::string& text, EProfile& profile)
@@ -119,11 +119,11 @@ std::string FindContradiction(const McsSimOptions& options)
 std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimOptions& options)
 {
     CLI::App app{
-        "Plays the MCS: waits for an ACS on a WebSocket, sends it plans and shows what it reports until all have "
-        "ended, or plays scenarios. Exit code 0 when every plan was completed, or every expectation of the scenarios "
-        "held, every report was right and no carrier was misplaced, else 1; 2 for a command line or a file that is wrong.",
+        "Simulates the MCS: accepts an ACS on a WebSocket, sends it plans and shows its reports until all plans have "
+        "ended, or plays scenarios. Exit code 0 if every plan was completed or every expectation of the scenarios held, "
+        "every report was valid and no carrier was misplaced; otherwise 1; 2 for an invalid command line or file.",
         std::string(PROGRAM_NAME)};
-    Apps::AddEndpointOption(app, "--listen", options.listen, "Where to wait for the ACS; port 0 takes a free one");
+    Apps::AddEndpointOption(app, "--listen", options.listen, "Address to listen on; port 0 selects a free one");
     Apps::AddTextOption(
         app,
         "--path",
@@ -154,7 +154,7 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimO
         "(docs/reference/mcs-sim.md has the format)")
         .type_name("FILE.json")
         ->allow_extra_args();
-    app.add_option("--repeat", options.repeat, "Send every file so often, in rotation, with fresh ids")
+    app.add_option("--repeat", options.repeat, "Number of times that each file is sent, in rotation, with fresh ids")
         ->check(CLI::Range(std::size_t{1}, MAX_REPEAT))
         ->capture_default_str();
     app.add_flag("--fresh-ids", options.bFreshIDs, "Replace the ids of plans, transactions, jobs and carriers");
@@ -165,8 +165,11 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimO
         "Show robots and plans in place: auto (on a terminal), always or never")
         .type_name("MODE")
         ->default_str("auto");
-    app.add_flag("--keep", options.bKeep, "Stay when all plans have ended, until SIGINT or SIGTERM");
-    app.add_flag("--wait-for-enter", options.bWaitForEnter, "Send the plans only after a line came on standard input");
+    app.add_flag("--keep", options.bKeep, "Keep running when all plans have ended, until SIGINT or SIGTERM");
+    app.add_flag(
+        "--wait-for-enter",
+        options.bWaitForEnter,
+        "Send the plans only after a line was read from standard input");
     Apps::AddFileOption(
         app,
         "--trace",
@@ -176,8 +179,8 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimO
         app,
         "--profile",
         [&options](const std::string& text) { return TakeProfile(text, options.profile); },
-        "Whose habits to have: spec, those of the document, or nexus, those of the public MCS (what is longer than 4096 "
-        "bytes is lost, a second client is refused, nothing is sent again, plans with fresh ids name their robot)")
+        "MCS behaviour profile: spec (as specified) or nexus (as the public MCS: longer messages than 4096 bytes are lost, "
+        "a second client is refused, nothing is resent, plans with fresh ids name their robot)")
         .type_name("NAME")
         ->default_str("spec");
     app.add_flag(

@@ -45,7 +45,7 @@ struct McsSimOptions
     bool bRestock = true;  ///< With a world file.
 };
 
-/// Fills the options. Nullopt: go on; else the exit code to leave with, everything having been said.
+/// Sets the options. Nullopt: continue; otherwise the exit code, after all output was printed.
 [[nodiscard]] std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimOptions& options);
 
 } // namespace ACS::McsSim

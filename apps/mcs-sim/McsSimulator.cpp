@@ -38,7 +38,7 @@ namespace
 enum class ETimer : std::uint8_t
 {
     Tick,   ///< Time to draw, and to see whether an Ack is overdue.
-    Linger, ///< All plans have ended: what the ACS still says, right or wrong, is heard for so long.
+    Linger, ///< All plans have ended: late messages of the ACS are still checked.
     Close,  ///< The ACS does not answer the closing handshake.
     Delay,  ///< A delayed Ack is due.
 };

@@ -42,7 +42,7 @@ struct SimulatorOptions
     std::string date; ///< Eight digits (20261121), for the fresh planIds of scenarios and of the console.
     EProfile profile = EProfile::Spec;
     bool bFreshPlans = false; ///< The plans were made for this run: in the profile nexus they name their robot.
-    bool bConsole = false;    ///< Execute is called; the run ends when it is told to.
+    bool bConsole = false;    ///< Execute is called; the run ends on request.
     Sim::IWorld* worldOrNull =
         nullptr; ///< What the robots have moved, to compare the reports with. Outlives the simulator.
     EStocking stocking = EStocking::Leave; ///< With a world. Carriers get fresh ids only where the floor is restocked.
@@ -57,8 +57,8 @@ class McsSimulator
     std::unique_ptr<Impl> _impl;
 
 public:
-    /// Called once, when the table stands on the output: 0 where every plan was completed (with scenarios:
-    /// every expectation held), no report was wrong, and no carrier was misplaced.
+    /// Called once, after the table was printed: 0 if every plan was completed (with scenarios: every expectation held), no
+    /// report was invalid, and no carrier was misplaced.
     using DoneHandler = std::function<void(int exitCode)>;
 
     /// Clock, random source, log sink and output outlive the simulator; so does the screen. Without a screen the output
@@ -77,7 +77,7 @@ public:
     McsSimulator& operator=(const McsSimulator&) = delete;
     ~McsSimulator();
 
-    /// Listens; the result says where. The error names the address and says what to do.
+    /// Listens; returns the address. The error names the address and the remedy.
     [[nodiscard]] Core::Result<Apps::Endpoint> Start();
 
     /// From now on plans are sent, and the live view is drawn.

@@ -22,13 +22,13 @@ struct NoteRule
     std::string_view meaning;
 };
 
-/// The document's own examples spell words in several ways and repeat members (D-1 to D-3, D-27): habits. What breaks a
+/// The document's own examples spell words in several ways and repeat members (D-1 to D-3, D-27): deviations. What breaks a
 /// rule that it states is a fault.
 constexpr std::array<NoteRule, Protocol::NOTE_COUNT> RULES{
-    {{EProtocolNote::UnknownMember, EBlame::Habit, "member that the document does not have"},
-     {EProtocolNote::NullOptional, EBlame::Habit, "null where a member is left out"},
-     {EProtocolNote::LenientWord, EBlame::Habit, "word in another case than the document's"},
-     {EProtocolNote::LenientNumber, EBlame::Habit, "number written as a text"},
+    {{EProtocolNote::UnknownMember, EBlame::Deviation, "member that the document does not have"},
+     {EProtocolNote::NullOptional, EBlame::Deviation, "null where a member is left out"},
+     {EProtocolNote::LenientWord, EBlame::Deviation, "word in another case than the document's"},
+     {EProtocolNote::LenientNumber, EBlame::Deviation, "number written as a text"},
      {EProtocolNote::BadTimestamp, EBlame::Fault, "missing or unreadable timestamp"},
      {EProtocolNote::Undecodable, EBlame::BadAnswer, "unreadable message"},
      {EProtocolNote::UnknownCommand, EBlame::Fault, "command that an ACS does not send"},
@@ -58,8 +58,8 @@ const NoteRule& GetRule(EProtocolNote note)
     return RULES[static_cast<std::size_t>(note)];
 }
 
-/// The public MCS does not know positions: a habit of the MCS, which the session notes as one of the ACS's.
-bool IsOwnHabit(const Protocol::ProtocolNoted& noted)
+/// The public MCS does not know positions. The session notes this as a deviation of the ACS, although it is one of the MCS.
+bool IsOfProfile(const Protocol::ProtocolNoted& noted)
 {
     return noted.what == EProtocolNote::UnknownCommand
         && noted.detail == GetText(Protocol::EAcsCommand::RobotPositionUpdate);
@@ -99,7 +99,7 @@ void NoteJudge::OnTextSent(std::string_view text)
 std::optional<NoteJudge::Verdict> NoteJudge::JudgeOrNull(const Protocol::ProtocolNoted& noted)
 {
     const EBlame blame = GetBlame(noted.what);
-    if (blame == EBlame::None || IsOwnHabit(noted))
+    if (blame == EBlame::None || IsOfProfile(noted))
     {
         return std::nullopt;
     }
@@ -108,15 +108,15 @@ std::optional<NoteJudge::Verdict> NoteJudge::JudgeOrNull(const Protocol::Protoco
     std::uint64_t& count = _counts[static_cast<std::size_t>(noted.what)];
     const bool bFirst = count == 0;
     count += bExcused ? 0U : noted.count;
-    if (blame == EBlame::Habit && !bFirst)
+    if (blame == EBlame::Deviation && !bFirst)
     {
         return std::nullopt;
     }
     std::string text = fmt::format("ACS {}", GetMeaning(noted.what));
     text += noted.detail.empty() ? "" : ": " + CleanText(noted.detail);
-    if (blame == EBlame::Habit)
+    if (blame == EBlame::Deviation)
     {
-        return Verdict{text + " (told once)", false};
+        return Verdict{text + " (reported once)", false};
     }
     return Verdict{text + (bExcused ? " (as asked for)" : ""), !bExcused};
 }

@@ -16,7 +16,7 @@ namespace ACS::McsSim
 enum class EBlame : std::uint8_t
 {
     None,      ///< Nothing of the ACS's, or only noted on its side of a link.
-    Habit,     ///< Put up with, but not what the document says: told once per kind, then only counted.
+    Deviation, ///< Tolerated, but not as specified: reported once per kind, then only counted.
     Fault,     ///< A violation.
     BadAnswer, ///< A violation, unless what was sent asked for it: a text that is no message of this session.
 };
@@ -28,7 +28,7 @@ enum class EBlame : std::uint8_t
 /// By EProtocolNote.
 using NoteCounts = std::array<std::uint64_t, Protocol::NOTE_COUNT>;
 
-/// Says of each thing that the session put up with or threw away whether it is a fault of the ACS. Pure.
+/// Decides for each deviation that the session tolerated or discarded whether it is a fault of the ACS. Pure.
 class NoteJudge
 {
     std::size_t _excuses = 0;
@@ -44,17 +44,17 @@ public:
         bool operator==(const Verdict&) const = default;
     };
 
-    /// One answer that fits nothing will come through no fault of the ACS: a request was given up, of which the Ack may
+    /// One answer that fits nothing will come through no fault of the ACS: a request was abandoned, of which the Ack may
     /// still come, or a message was cut on purpose.
     void Excuse() noexcept;
 
     /// A text was sent past the session. Where it can be answered, that is excused, as the session will not know the Ack.
     void OnTextSent(std::string_view text);
 
-    /// Nullopt: nothing to tell, it is only counted.
+    /// Nullopt: only counted.
     [[nodiscard]] std::optional<Verdict> JudgeOrNull(const Protocol::ProtocolNoted& noted);
 
-    /// Faults and habits of the ACS; what is excused is none.
+    /// Faults and deviations of the ACS, without excused ones.
     [[nodiscard]] const NoteCounts& GetCounts() const noexcept;
 };
 

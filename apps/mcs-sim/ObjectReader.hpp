@@ -13,8 +13,8 @@
 namespace ACS::McsSim
 {
 
-/// Takes the members of a JSON object of a file one after the other, each at most once. The first mistake is kept; what is
-/// taken after it is of no use. A member that nobody took is a mistake too (Finish): it is misspelt.
+/// Reads the members of a JSON object of a file one after the other, each at most once. The first error is kept; values read
+/// after it are meaningless. A member that was not read is an error as well (Finish): it is misspelt.
 class ObjectReader
 {
     const Json::Value& _object;
@@ -23,7 +23,7 @@ class ObjectReader
     std::optional<Core::Error> _error;
 
 public:
-    /// The value outlives the reader; one that is no object is a mistake. The path leads to it, empty for the whole file.
+    /// The value outlives the reader; one that is not an object is an error. The path leads to it, empty for the whole file.
     ObjectReader(const Json::Value& object, std::string path);
 
     [[nodiscard]] bool HasMember(std::string_view name) const;
@@ -48,7 +48,7 @@ public:
     /// An error from within a member.
     void Refuse(Core::Error error);
     [[nodiscard]] bool HasFailed() const noexcept;
-    /// The first mistake, or success.
+    /// The first error, or success.
     [[nodiscard]] Core::Result<void> Finish();
 
 private:

@@ -19,7 +19,7 @@ using PlaceholderReader = std::function<std::optional<std::string>(std::string_v
 /// The same in every string of a JSON text, member names excepted.
 [[nodiscard]] Core::JsonText FillPlaceholders(const Core::JsonText& json, const PlaceholderReader& read);
 
-/// Whether the text is what the pattern says, in which '*' stands for any characters.
+/// Whether the text matches the pattern, in which '*' matches any characters.
 [[nodiscard]] bool MatchesGlob(std::string_view text, std::string_view pattern);
 
 /// Why a message is not what the pattern asks for, beginning with the place ("payload.status: …"); nullopt: it is.

@@ -26,8 +26,8 @@ using ScenarioNames = std::map<std::string, std::variant<PlannedPlan, FoundMessa
 /// Whether a step may give this name: letters, digits, '_' and '-'.
 [[nodiscard]] bool IsScenarioName(std::string_view text);
 
-/// What "A" (the planId), "A.transactionId", "A.2.1" (the jobId of the first job of step 2) and "A.2.carrier.1" stand
-/// for, and "S.transactionId" and "S.timestamp" of a message; nullopt: for nothing.
+/// The value of "A" (the planId), "A.transactionId", "A.2.1" (the jobId of the first job of step 2) or "A.2.carrier.1", or
+/// of "S.transactionId" or "S.timestamp" of a message; nullopt for other names.
 [[nodiscard]] std::optional<std::string> ReadPlaceholderOrNull(const ScenarioNames& names, std::string_view name);
 
 /// The first "{name}" in any text of the value that looks like a placeholder, and stands for nothing; its path begins

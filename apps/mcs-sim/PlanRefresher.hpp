@@ -34,7 +34,7 @@ public:
     void Refresh(PlannedPlan& planned);
 
 private:
-    /// Four hexadecimal digits that no other plan has, as long as there are any left.
+    /// Four hexadecimal digits that no other plan has, while there are any left.
     [[nodiscard]] std::string MakeTag();
 };
 

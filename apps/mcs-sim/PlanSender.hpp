@@ -19,7 +19,7 @@ namespace ACS::McsSim
 {
 
 /// Decides which plan of the tracker goes next, and names its robot where the profile wants that: a plan that was made
-/// for this run then waits until the ACS has told of a robot that can work it.
+/// for this run then waits until the ACS has reported a robot that can execute it.
 class PlanSender
 {
 public:

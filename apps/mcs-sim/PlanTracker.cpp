@@ -193,7 +193,7 @@ void PlanTracker::OnAck(const Protocol::AcsAck& ack, Lines& out)
     {
         return; // The answer to one that was sent twice.
     }
-    // What is being reported was accepted, whatever the answer to a repetition says.
+    // A plan that is reported was accepted, regardless of the answer to a repetition.
     const bool bAccepted = ack.result == EAckResult::Success || planOrNull->bReported;
     ChangePlan(*planOrNull, [planOrNull, bAccepted, &ack] {
         planOrNull->delivery = bAccepted ? EDelivery::Accepted : EDelivery::Refused;
@@ -220,7 +220,7 @@ void PlanTracker::OnRequest(const Protocol::AcsPayload& payload, Lines& out)
             [&out](const Protocol::AbortResultReport& report) { TellResult("AbortResultReport", report, out); },
             [&out](const Protocol::PauseResultReport& report) { TellResult("PauseResultReport", report, out); },
             [&out](const Protocol::ResumeResultReport& report) { TellResult("ResumeResultReport", report, out); },
-            // The rest says nothing about a plan, or answers what is never asked here.
+            // Other messages do not concern a plan, or answer a request that is never sent here.
             [](const auto& /*other*/) {
             }},
         payload);

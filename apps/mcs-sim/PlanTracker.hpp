@@ -31,7 +31,7 @@ class PlanTracker
 public:
     /// A plan that is not acknowledged is sent again after this time.
     static constexpr std::chrono::milliseconds RESEND_AFTER{5'000};
-    /// So many plans wait for their Ack at most.
+    /// Maximum number of plans without an Ack.
     static constexpr std::size_t SEND_WINDOW = 32;
     /// Violations beyond this number are only counted.
     static constexpr std::size_t MAX_VIOLATION_TEXTS = 20;

@@ -84,7 +84,7 @@ std::optional<std::string_view> FindOptionOrNull(const Core::Error& error)
     return found == OPTIONS.end() ? std::nullopt : std::optional(found->second);
 }
 
-/// Tells why the server cannot start; the exit code.
+/// Prints why the server cannot start; returns the exit code.
 int TellStartFailure(Core::Error error)
 {
     const std::optional<std::string_view> option = FindOptionOrNull(error);
@@ -202,7 +202,7 @@ int Run(const McsSimOptions& options)
 
     const TerminalSize size = ReadTerminalSize();
     Screen screen(std::cout, size.columns);
-    // Whoever is asked for something must see it as a line.
+    // A request to the operator must be a line of its own.
     const bool bLive = !options.bConsole && !NeedsHelp(*scenarios) && ShouldDraw(options.liveMode);
     Apps::SpdlogSink plainSink(options.common.logLevel);
     ScreenLogSink screenSink(plainSink, screen);

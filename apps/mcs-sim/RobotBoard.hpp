@@ -19,7 +19,7 @@ struct RobotEntry
     std::optional<Protocol::RobotPosition> position;
 };
 
-/// All robots that the ACS ever told about. Pure.
+/// All robots that the ACS has reported. Pure.
 class RobotBoard
 {
 public:
@@ -45,7 +45,7 @@ private:
     [[nodiscard]] RobotEntry* TakeEntryOrNull(const std::string& robotID, std::vector<std::string>& out);
 };
 
-/// "TRAY_01 – TRAY_03": what stands on the robot, a dash for an empty port.
+/// "TRAY_01 – TRAY_03": the carriers on the robot, a dash for an empty port.
 [[nodiscard]] std::string DescribeCarriers(const Protocol::RobotStatusUpdate& status);
 
 } // namespace ACS::McsSim

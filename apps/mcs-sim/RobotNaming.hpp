@@ -14,7 +14,7 @@ namespace ACS::McsSim
 [[nodiscard]] bool NeedsRobot(const Protocol::ExecutionPlan& plan);
 
 /// A robot that can do the plan's actions: those with a cassette are a logistics robot's, all others a control robot's. The
-/// turn chooses among several. Nullopt: the ACS has told of none.
+/// turn chooses among several. Nullopt: the ACS has reported none.
 [[nodiscard]] std::optional<std::string> ChooseRobotOrNull(
     const Protocol::ExecutionPlan& plan,
     const RobotBoard& board,

@@ -33,7 +33,7 @@ struct SendPlanStep
 {
     PlannedPlan plan;
     std::string name;
-    std::size_t times = 1; ///< So many copies; with fresh ids only. The name is that of the last.
+    std::size_t times = 1; ///< Number of copies; with fresh ids only. The name refers to the last one.
     bool bFreshIDs = false;
 
     bool operator==(const SendPlanStep&) const = default;
@@ -93,7 +93,7 @@ struct ExpectNothingStep
     bool operator==(const ExpectNothingStep&) const = default;
 };
 
-/// Waits until the last PlanReport of a plan says this.
+/// Waits until the last PlanReport of a plan has this status.
 struct WaitForPlanStep
 {
     std::string name;
@@ -170,7 +170,7 @@ struct ScenarioStep
     bool operator==(const ScenarioStep&) const = default;
 };
 
-/// What a scenario file says; docs/reference/mcs-sim.md describes the format.
+/// The contents of a scenario file; docs/reference/mcs-sim.md describes the format.
 struct Scenario
 {
     std::string name;

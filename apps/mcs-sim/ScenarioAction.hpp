@@ -15,7 +15,7 @@ namespace ACS::McsSim
 struct SendPlannedPlan
 {
     PlannedPlan planned;
-    bool bFreshIDs = false; ///< It was made for this run, and is nobody's own.
+    bool bFreshIDs = false; ///< The plan was created for this run.
 
     bool operator==(const SendPlannedPlan&) const = default;
 };
@@ -50,11 +50,11 @@ struct StartScenarioTimer
 };
 
 /// A line for people.
-struct TellLine
+struct PrintLine
 {
     std::string text;
 
-    bool operator==(const TellLine&) const = default;
+    bool operator==(const PrintLine&) const = default;
 };
 
 /// What a scenario wants done, in this order.
@@ -67,7 +67,7 @@ using ScenarioAction = std::variant<
     RefuseRegistrationStep,
     EndFaults,
     StartScenarioTimer,
-    TellLine>;
+    PrintLine>;
 using ScenarioActions = std::vector<ScenarioAction>;
 
 } // namespace ACS::McsSim

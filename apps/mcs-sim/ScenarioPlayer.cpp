@@ -155,7 +155,7 @@ bool ScenarioPlayer::CanPerform(const ScenarioAction& action)
                 _timers.Start(ETimer::Scenario, start.delay);
                 return true;
             },
-            [this](const TellLine& line) {
+            [this](const PrintLine& line) {
                 _stage.lines.push_back(line.text);
                 return true;
             }},

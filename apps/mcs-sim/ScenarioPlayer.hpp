@@ -55,7 +55,7 @@ class ScenarioPlayer
     Apps::TimerSet<ETimer> _timers;
 
 public:
-    /// @param onPlayed Called whenever a timer of the player has let a scenario go on, or end.
+    /// @param onPlayed Called whenever a timer of the player has continued or ended a scenario.
     ScenarioPlayer(
         const boost::asio::any_io_executor& executor,
         const ScenarioStage& stage,

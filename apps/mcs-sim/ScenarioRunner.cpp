@@ -34,7 +34,7 @@ std::string GetCommandName(const Protocol::DecodeOutcome& outcome)
     return ack.bLegacyName ? "RequestAcsStatusAck" : std::string(GetText(ack.command)) + "Ack";
 }
 
-/// What a message says of itself, as it is on the wire.
+/// The envelope of a message, as on the wire.
 FoundMessage ReadEnvelope(std::string_view text)
 {
     FoundMessage envelope;
@@ -76,7 +76,7 @@ const MessagePattern* FindPatternOrNull(const ScenarioStep& step)
     return nothingOrNull == nullptr ? nullptr : &nothingOrNull->pattern;
 }
 
-/// How long a step may take; zero: it is done at once, or waits as long as the scenario says for an ACS.
+/// Maximum duration of a step; 0: done at once, or waits for an ACS for the scenario's time.
 std::chrono::milliseconds GetLimit(const ScenarioStep& step, std::chrono::milliseconds otherwise)
 {
     if (const auto* const expectOrNull = std::get_if<ExpectStep>(&step.kind))
@@ -119,7 +119,7 @@ void ScenarioRunner::Start(bool bRegistered, Core::Now now, ScenarioActions& out
 {
     _bStarted = true;
     _bRegistered = bRegistered;
-    out.emplace_back(TellLine{"scenario " + CleanText(_scenario.name)});
+    out.emplace_back(PrintLine{"scenario " + CleanText(_scenario.name)});
     Advance(now, out);
 }
 
@@ -230,7 +230,7 @@ void ScenarioRunner::Leave(EProgress progress, Core::Now now, ScenarioActions& o
     verdict.verdict = progress == EProgress::Done ? EVerdict::Held : EVerdict::Failed;
     verdict.duration = std::chrono::duration_cast<std::chrono::milliseconds>(now.steady - _entered);
     verdict.reason = std::exchange(_failure, {});
-    out.emplace_back(TellLine{fmt::format(
+    out.emplace_back(PrintLine{fmt::format(
         "step {} {}{}{}",
         verdict.number,
         verdict.title,
@@ -400,7 +400,7 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const AskStep& step, Core::Now now,
     if (progress == EProgress::Done)
     {
         Forget(_kept.size());
-        out.emplace_back(TellLine{"asked for: " + CleanText(step.text)});
+        out.emplace_back(PrintLine{"asked for: " + CleanText(step.text)});
     }
     return progress;
 }

@@ -34,20 +34,20 @@ struct StepVerdict
     std::size_t number = 0; ///< From 1.
     std::string title;
     EVerdict verdict = EVerdict::NotReached;
-    bool bExpectation = false; ///< Else an action, which is told of only where it could not be done.
+    bool bExpectation = false; ///< Otherwise an action, which is reported only if it failed.
     std::string reason;        ///< Of a failure.
     std::chrono::milliseconds duration{0};
 };
 
 /// Runs one scenario as a pure state machine: what happened and the time go in, what is to be done comes out. The first
-/// step that fails ends it. An expectation looks at what came since the last action, or since the message that
+/// step that fails ends it. An expectation checks the messages since the last action, or since the message that
 /// fulfilled an expectation after it; what it skips is gone.
 class ScenarioRunner
 {
 public:
-    /// Of the messages that an expectation may ask for so many are kept; then the oldest goes.
+    /// Maximum number of messages kept for expectations; then the oldest is dropped.
     static constexpr std::size_t MAX_KEPT = 10'000;
-    /// So many transactions are remembered to tell what is repeated.
+    /// Maximum number of transactions remembered in order to recognise repeated messages.
     static constexpr std::size_t MAX_TRANSACTIONS = 100'000;
 
 private:
@@ -74,7 +74,7 @@ private:
     std::deque<KeptMessage> _kept;
     std::unordered_set<std::string> _transactions; ///< Of all messages so far, each with its command.
     std::vector<MessagePattern> _open;             ///< Of the present step: those of a group that have not come yet.
-    std::size_t _scanned = 0;                      ///< So many of those that are kept the present step has looked at.
+    std::size_t _scanned = 0;                      ///< Number of kept messages that the current step has checked.
     std::vector<StepVerdict> _verdicts;
     std::size_t _index = 0;
     bool _bStarted = false;

@@ -21,7 +21,7 @@ constexpr std::string_view CLEAR_LINE_END = "\x1b[K";
 constexpr std::string_view CLEAR_BELOW = "\x1b[J";
 constexpr std::size_t MAX_SIZE = 1000;
 
-/// Replaces the size by what the variable says, where that is a sensible number.
+/// Replaces the size by the value of the variable, if it is a valid number.
 void TakeVariable(const char* name, std::size_t& size)
 {
     const char* const textOrNull = std::getenv(name); // NOLINT(concurrency-mt-unsafe): one thread
@@ -34,7 +34,7 @@ void TakeVariable(const char* name, std::size_t& size)
     }
 }
 
-/// To the first of so many lines above the cursor.
+/// Moves to the first of this number of lines above the cursor.
 std::string MakeUp(std::size_t lines)
 {
     return lines == 0 ? "\r" : fmt::format("\r\x1b[{}A", lines);

@@ -14,10 +14,10 @@ struct TerminalSize
     std::size_t rows = 24;
 };
 
-/// COLUMNS and LINES where they are set, else what the terminal on standard output says, else the defaults.
+/// COLUMNS and LINES if set, otherwise the size of the terminal on standard output, otherwise the defaults.
 [[nodiscard]] TerminalSize ReadTerminalSize();
 
-/// Draws lines over those that it drew before. The cursor is hidden within a frame only, and stands below it
+/// Draws lines over those that it drew before. The cursor is hidden within a frame only, and is below it
 /// afterwards, so that nothing has to be put right however the program ends.
 class Screen
 {
@@ -31,7 +31,7 @@ public:
 
     void Draw(const StyledLines& lines);
 
-    /// Takes the last frame away, for what somebody else wants to print in its place.
+    /// Removes the last frame, so that other output can be printed in its place.
     void Erase();
 
     /// The last frame stays; what is drawn next comes below.

@@ -29,7 +29,7 @@ struct Span
 using StyledLine = std::vector<Span>;
 using StyledLines = std::vector<StyledLine>;
 
-/// The line in at most so many columns, without spaces at its end; with the escape sequences of its styles or without.
+/// The line in at most this number of columns, without spaces at its end; with the escape sequences of its styles or without.
 [[nodiscard]] std::string MakeText(const StyledLine& line, std::size_t columns, bool bStyled);
 
 } // namespace ACS::McsSim

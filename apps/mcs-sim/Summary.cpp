@@ -132,7 +132,7 @@ void AddNotes(const NoteCounts& notes, StyledLines& out)
         {
             rows.push_back(
                 {{fmt::format(" {} {}", FitRight(fmt::format("{}", notes[i]), 6), GetMeaning(note)),
-                  GetBlame(note) == EBlame::Habit ? EStyle::Plain : EStyle::Bad}});
+                  GetBlame(note) == EBlame::Deviation ? EStyle::Plain : EStyle::Bad}});
         }
     }
     if (!rows.empty())

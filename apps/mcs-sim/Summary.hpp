@@ -20,7 +20,7 @@ namespace ACS::McsSim
     const NoteCounts& notes,
     std::chrono::milliseconds duration);
 
-/// A line per plan and what became of it so far; one that says so where there are none.
+/// A line per plan with its current state; a line that states so if there are none.
 [[nodiscard]] std::vector<std::string> DescribePlans(const PlanTracker& tracker);
 
 /// Whether a plan was refused because of its planId (section 6.4: "Duplicated Plan").

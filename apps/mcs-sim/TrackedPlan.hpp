@@ -13,7 +13,7 @@
 namespace ACS::McsSim
 {
 
-/// How far the plan itself has got on its way to the ACS.
+/// State of the transfer of the plan to the ACS.
 enum class EDelivery : std::uint8_t
 {
     Blocked,  ///< Another plan must end first.
@@ -53,7 +53,7 @@ struct TrackedStep
     std::vector<TrackedJob> jobs;
 };
 
-/// A plan as its reports tell it.
+/// A plan according to its reports.
 struct TrackedPlan
 {
     PlannedPlan planned;

@@ -363,8 +363,8 @@ TEST_CASE("R1, R2 What an ACS may not send makes the run fail, and is told of")
     CHECK(Contains(output, " VIOLATION ACS unreadable message: payload.status: expected "));
     CHECK(Contains(output, " VIOLATION ACS command that an ACS does not send: ResumePlan\n"));
     CHECK(Contains(output, " VIOLATION ACS Ack of nothing that was asked: CancelPlan\n"));
-    CHECK(Contains(output, " ACS word in another case than the document's (told once)\n"));
-    CHECK(Contains(output, " ACS member that the document does not have (told once)\n"));
+    CHECK(Contains(output, " ACS word in another case than the document's (reported once)\n"));
+    CHECK(Contains(output, " ACS member that the document does not have (reported once)\n"));
     CHECK(Contains(output, "\n violations              5\n"));
     CHECK(Contains(output, "\n PlanReport                          0            0            0            1\n"));
     CHECK(Contains(output, "\n      2 unreadable message\n"));

@@ -44,7 +44,7 @@ TEST_CASE("12 A generated plan names its ports by a robot of the type that its a
     CHECK(ChooseRobotOrNull(plan, board, 5) == "CR01");
 }
 
-TEST_CASE("12 The profile nexus has the habits of the public MCS, the profile spec none of them")
+TEST_CASE("12 The profile nexus behaves like the public MCS, the profile spec as specified")
 {
     const McsBehaviour nexus = MakeBehaviour(EProfile::Nexus);
     CHECK(nexus.finalChunkBytes == 4096);

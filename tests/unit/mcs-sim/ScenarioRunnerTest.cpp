@@ -153,7 +153,7 @@ TEST_CASE("An expectation is held by the first message that matches, within its 
         bench.Receive(MakeReport("InProgress"));
         CHECK(bench.runner.HasHeld());
         CHECK(bench.GetVerdict(2).duration == 2s);
-        CHECK(bench.GetAll<TellLine>().back().text == "step 2 expect PlanReport planId={A}, status=InProgress: held");
+        CHECK(bench.GetAll<PrintLine>().back().text == "step 2 expect PlanReport planId={A}, status=InProgress: held");
     }
     SECTION("failed with the last message that nearly matched")
     {
@@ -352,8 +352,8 @@ TEST_CASE("Somebody is asked for something once an ACS is there, and what came b
     RunnerFixture bench(R"({"drop":"cut"},{"ask":"open the door"},{"expect":"ErrorReport"})");
     bench.runner.OnLinkLost();
     const auto count = [&bench] {
-        const auto lines = bench.GetAll<TellLine>();
-        return std::count(lines.begin(), lines.end(), TellLine{"asked for: open the door"});
+        const auto lines = bench.GetAll<PrintLine>();
+        return std::count(lines.begin(), lines.end(), PrintLine{"asked for: open the door"});
     };
     CHECK(count() == 0);
     bench.runner.OnRegistered(bench.clock.GetNow(), bench.out);
