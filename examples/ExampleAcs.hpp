@@ -48,7 +48,7 @@ public:
     {
     }
 
-    /// Once, at start, the robot's adapter is asked what it does not do: the MCS is told why, and no plan fails half-way.
+    /// Once, at start, the adapter lists the actions that it rejects: the MCS gets the reason, and no plan fails half-way.
     [[nodiscard]] static ACS::Planning::EngineOptions RejectActions(
         ACS::Planning::EngineOptions options,
         const ACS::Planning::IRobotAdapter& robot)

@@ -36,7 +36,7 @@ inline ACS::Core::Result<ACS::Planning::SiteMap> MakeSite()
     return ACS::Planning::SiteMap::Create(std::move(nodes), std::move(edges), std::move(stations));
 }
 
-/// Everything from outside is checked, so every piece may fail; FindMistakes then looks at the whole.
+/// Every value from outside is checked and may fail; FindMistakes then checks the whole.
 inline ACS::Core::Result<ACS::Planning::EngineOptions> MakeOptions(const ACS::Planning::SiteMap& site)
 {
     auto robotID = ACS::Core::RobotID::Parse(ROBOT);

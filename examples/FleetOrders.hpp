@@ -71,7 +71,7 @@ class FleetOrders
 public:
     std::function<void(const std::string& reason)> onBroken;
 
-    /// False where the journal cannot be read and written (errno says why).
+    /// False where the journal cannot be read and written (see errno).
     [[nodiscard]] bool TryOpen(const std::string& path)
     {
         const std::optional<std::vector<std::string>> lines = _journal.OpenOrNull(path);
@@ -138,7 +138,7 @@ public:
         return Taking{orderID, ETaking::Taken};
     }
 
-    /// The first order's next message, which releases so many of its nodes: see record.
+    /// The next message of the first order, which releases this number of nodes: see record.
     [[nodiscard]] bool TryRelease(const std::string& vehicle, std::size_t nodes)
     {
         return TryWrite("release", vehicle, std::to_string(nodes)) && TryMakeMessage(*GetFirstOrNull(vehicle), nodes);

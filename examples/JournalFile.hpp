@@ -24,7 +24,7 @@ public:
         ::close(_file);
     }
 
-    /// The lines that were there; null where the file cannot be used (errno says why).
+    /// The lines of the file; nullopt if it cannot be used (see errno).
     [[nodiscard]] std::optional<std::vector<std::string>> OpenOrNull(const std::string& path)
     {
         std::vector<std::string> lines;
@@ -40,7 +40,7 @@ public:
         return bUsable ? std::optional(std::move(lines)) : std::nullopt;
     }
 
-    /// False where the disk takes no more (errno says why).
+    /// False if the line cannot be written (see errno).
     [[nodiscard]] bool TryAppend(std::string line) const
     {
         line += '\n';

@@ -26,7 +26,7 @@ class OutboxFile final : public ACS::Protocol::IOutboxStore
     bool _bOpen = false;
 
 public:
-    /// The requests without an Ack; nullopt: the file cannot be used (errno tells why).
+    /// The requests without an Ack; nullopt if the file cannot be used (see errno).
     [[nodiscard]] std::optional<std::vector<ACS::Protocol::DurableRequest>> OpenOrNull(const std::string& path)
     {
         const std::optional<std::vector<std::string>> lines = _journal.OpenOrNull(path);

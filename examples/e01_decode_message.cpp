@@ -1,4 +1,4 @@
-// Lesson 1: a text from the MCS becomes a typed message, or an error that says where, what was expected, what came.
+// Lesson 1: a text from the MCS becomes a typed message, or an error with its place, what was expected and what was found.
 //
 // Decoding is the border of the SDK: it is total (any bytes give a message or a failure, nothing throws), and what has
 // passed it needs no second check.

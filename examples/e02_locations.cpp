@@ -37,7 +37,7 @@ Core::Result<Core::Location> ResolveAlias(std::string_view place, std::string_vi
     {
         return tl::unexpected(robotID.error());
     }
-    // and_then goes on only where there is a value; the first error of the chain comes out at its end.
+    // and_then continues only with a value; the chain results in its first error.
     return Core::Location::Parse(place).and_then(
         [&robotID](const Core::Location& location) { return location.WithRobot(*robotID); });
 }

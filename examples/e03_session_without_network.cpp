@@ -1,6 +1,6 @@
 // Lesson 3: both ends of MCS-ACS in one process, without a socket, a thread or a clock.
 //
-// The sessions are pure: events and the time go in, actions come out. Whoever carries out the actions decides what the
+// The sessions are pure: events and the time go in, actions come out. The code that carries out the actions decides what the
 // network is; here it is two vectors, and the time is a variable. So a lost Ack and the five seconds after it cost
 // nothing. AcsClient and McsServer (lesson 4) carry out the same actions over a WebSocket.
 

@@ -92,7 +92,8 @@ public:
         }
         else if (std::holds_alternative<Protocol::Stopped>(event))
         {
-            _server.Stop(); // With the last connection and the port gone, the io_context runs dry and main goes on.
+            _server
+                .Stop(); // With the last connection and the port gone, the io_context runs out of work and main continues.
             bStopped = true;
         }
         _outbox.Feed(*client); // In order, as far as the client has room; the client sends its status after the replay.
@@ -105,7 +106,7 @@ private:
             "ACS: {} is acknowledged, {} left in the outbox\n",
             acked.transactionID,
             _outbox.GetRequests().size());
-        client->Stop(); // Says goodbye (AcsCommStateUpdate) and closes; Stopped is the last event.
+        client->Stop(); // Sends AcsCommStateUpdate(false) and closes; Stopped is the last event.
     }
 };
 
@@ -116,7 +117,7 @@ int main() // NOLINT(bugprone-exception-escape): nothing throws here but a full 
     boost::asio::io_context io; // Everything runs on its one thread, hence no locks anywhere.
     const SystemClock clock;
     ExampleRandom random;
-    const Core::Logger logger; // Discards all; give it an ILogSink to see what goes on.
+    const Core::Logger logger; // Discards everything; construct it with an ILogSink to see the log.
     McsSide mcs;
     const auto server = ProtocolBeast::McsServer::Create(io.get_executor(), clock, random, logger, {}, mcs);
     if (!server.has_value())

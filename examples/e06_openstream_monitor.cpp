@@ -77,7 +77,7 @@ public:
         : _server(server),
           _client(executor, clock, random, {}, options, [this](const auto& event, Core::Now) { OnEvent(event); })
     {
-        // A wish, not a command: the client establishes the MONITOR after this handshake and after every reconnect.
+        // Not sent at once: the client establishes the MONITOR after this handshake and after every reconnect.
         _client.SetMonitor(MonitorRequest{"/demo/counter", 20ms, std::nullopt, std::nullopt});
         _client.Start();
     }
@@ -91,7 +91,7 @@ private:
         }
         else if (const auto* settledOrNull = std::get_if<ClientControlSettled>(&event))
         {
-            // Success is silence on the wire: Accepted says that no refusal came within the window.
+            // Success is not answered on the wire: Accepted means that no refusal came within the window.
             bAccepted = settledOrNull->outcome == EControlOutcome::Accepted;
             fmt::print("client: the CONTROL was {}\n", bAccepted ? "accepted" : "not accepted");
             _client.Stop();
@@ -99,7 +99,7 @@ private:
         else if (std::holds_alternative<ClientEnded>(event))
         {
             bEnded = true;
-            _server.Stop(); // Now the io_context runs dry and main goes on.
+            _server.Stop(); // Now the io_context runs out of work and main continues.
         }
     }
 

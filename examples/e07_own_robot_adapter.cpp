@@ -1,5 +1,5 @@
 // Lesson 7: a robot of one's own under the plan engine. An IRobotAdapter joins a make of robot to the SDK: it takes the
-// engine's commands and tells the robot's events. The one here stands in for its robot, too, in virtual time. ExampleAcs.hpp carries out what both want.
+// engine's commands and reports the robot's events. The one here stands in for its robot, too, in virtual time. ExampleAcs.hpp carries out what both want.
 
 #include "ExampleAcs.hpp"
 #include "ExampleFloor.hpp"
@@ -30,11 +30,11 @@ class SlowRobotAdapter final : public IRobotAdapter
     static constexpr AdapterTimerID JOB_TIMER = 2;
 
     Drive _drive;
-    std::size_t _node = 0; ///< Where it stands on the route.
+    std::size_t _node = 0; ///< Its position on the route.
     std::string _jobID;
 
 public:
-    /// What a robot tells when it comes into reach.
+    /// What a robot reports when it is connected.
     static void Connect(const std::string& nodeID, AdapterActions& out)
     {
         StateChanged state;
@@ -64,7 +64,7 @@ public:
                     out.emplace_back(StartAdapterTimer{JOB_TIMER, std::chrono::seconds(2)});
                 },
                 [](const auto& /*other*/) {
-                }}, // A real one cancels and pauses, too, and tells after a restart what it holds (RecoverJob).
+                }}, // A real one cancels and pauses, too, and reports after a restart what it carries (RecoverJob).
             command);
     }
 
@@ -86,7 +86,7 @@ public:
         }
     }
 
-    /// Asked at start (ExampleAcs): so the MCS is told why, and no plan fails half-way.
+    /// Called at start (ExampleAcs): the MCS gets the reason, and no plan fails half-way.
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(std::string_view action) const override
     {
         return action.starts_with("Cassette") ? std::nullopt : std::optional<std::string>("it carries cassettes only");

@@ -1,6 +1,6 @@
 // Lesson 8: the plan engine by hand: one event after the other, and after a crash a second engine on the same store.
 //
-// The engine tells nobody anything before the store has it. So what the MCS was promised survives the crash, and a report
+// The engine publishes nothing before it is stored. So what the MCS was promised survives the crash, and a report
 // that it did not acknowledge is sent again as the very same message. SqlitePlanStore is the store that is on disk.
 
 #include "ExampleFloor.hpp"

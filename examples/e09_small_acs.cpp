@@ -91,7 +91,7 @@ public:
     {
     }
 
-    /// The latest of each status is sent on every connection, whenever it was told.
+    /// The client sends the latest of each status on every connection.
     void Start()
     {
         client->SendStatus(TscStateUpdate{_tsc});
@@ -122,7 +122,7 @@ public:
     {
         if (line == "pause" && _tsc == ETscState::Auto)
         {
-            // What runs goes on to its end (SEMI E82), nothing new is begun.
+            // The running plan is completed (SEMI E82), and no other one is started.
             SetTsc(ETscState::Pausing);
             StartNext();
         }
@@ -482,7 +482,7 @@ int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing th
     const ExampleLines operatorLines(
         io,
         [&acs](const std::string& line) { acs.OnOperator(line); },
-        []() {}); // at the end of the input the ACS simply goes on
+        []() {}); // at the end of the input the ACS continues
     boost::asio::signal_set signals(io, SIGINT, SIGTERM);
     signals.async_wait([&acs](const boost::system::error_code& error, int /*number*/) {
         if (!error)

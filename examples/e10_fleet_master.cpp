@@ -12,7 +12,7 @@
 //     cancel ACS/LR01
 //     do ACS/LR01 startPause
 //
-// An order is "taken" once it stands in the journal: from then on it is carried out, whatever becomes of this program.
+// An order is "taken" once it is in the journal: from then on it is carried out, whatever becomes of this program.
 // One that was not yet taken when the program died is given again; an id that is in the journal is not taken twice.
 // After the last command the program ends when all orders have ended. What waits for the vehicle is the MasterSession's
 // business: nothing here sends a message a second time. The journal only grows: delete it when no order is open.
@@ -57,7 +57,7 @@ using namespace ACS::VDA5050; // NOLINT(google-build-using-namespace)
 namespace
 {
 
-constexpr std::size_t NODES_AHEAD = 2; ///< So many nodes are released before the vehicle.
+constexpr std::size_t NODES_AHEAD = 2; ///< Number of released nodes ahead of the vehicle.
 
 Core::Now ReadClock()
 {
@@ -187,7 +187,7 @@ private:
         VehicleAddress address;
         address.manufacturer = name.substr(0, slash);
         address.serialNumber = name.substr(std::min(slash + 1, name.size()));
-        FleetActions out; // Empty: a vehicle that has not been heard asks for nothing.
+        FleetActions out; // Stays empty: there are no actions for a vehicle without messages.
         const Core::Result<std::size_t> number = _fleet.Add(address, ReadClock(), out);
         return number ? std::optional(*number) : std::nullopt;
     }
@@ -308,7 +308,7 @@ private:
         return session.SendOrderUpdate(order.record.messages.back(), ReadClock(), out);
     }
 
-    // ---- what the sessions want and tell
+    // ---- actions and events of the sessions
 
     /// What is done for one action may lead to others, of the same vehicle.
     void Settle(FleetActions actions)

@@ -137,7 +137,7 @@ public:
     void OnLinkUp() override
     {
         fmt::print("connected\n");
-        _link.SetWill(_session.MakeWill(ReadClock())); // for the next connection: each will tells its own time
+        _link.SetWill(_session.MakeWill(ReadClock())); // for the next connection: each will has its own time
         _session.OnLinkUp(ReadClock(), _actions);
         Execute();
     }
@@ -184,7 +184,7 @@ private:
     {
         if (const Core::Result<void> done = _link.Publish(publish.message); !done)
         {
-            fmt::print("not published: {}\n", Core::Describe(done.error())); // the next state tells it all again
+            fmt::print("not published: {}\n", Core::Describe(done.error())); // the next state contains everything
         }
     }
 
