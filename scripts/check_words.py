@@ -11,6 +11,7 @@ from source_tree import COMMENT_OR_STRING, list_files, read_text
 # (beginning, end) of the paths that are covered. Sources are added as their words are brought to the glossary.
 COVERED = (
     ("", ".md"),
+    ("examples/site/", ".toml"),
     ("tests/install/", ".cpp"),
 )
 
@@ -64,9 +65,11 @@ def _blank(text):
 
 def keep_prose(path, text):
     """The words for a reader, everything else blank, lines and columns as they were: of a document all but code and the
-    targets of links; of a source its comments and literals."""
+    targets of links; of a configuration everything; of a source its comments and literals."""
     if path.endswith(".md"):
         return _CODE.sub(lambda match: _blank(match.group(0)), text)
+    if path.endswith(".toml"):
+        return text
     kept, end = "", 0
     for match in COMMENT_OR_STRING.finditer(text):
         kept += _blank(text[end:match.start()]) + match.group(0)
