@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plants one violation after another in an otherwise right tree, and requires that scripts/check_layers.py,
-scripts/check_files.py, scripts/check_sizes.py and scripts/check_words.py report it at its line; the tree without
-it must pass."""
+scripts/check_files.py, scripts/check_references.py, scripts/check_sizes.py and scripts/check_words.py report it at its
+line; the tree without it must pass."""
 
 import os
 import subprocess
@@ -13,10 +13,12 @@ sys.path.insert(0, os.path.join(ROOT, "scripts"))
 sys.dont_write_bytecode = True
 import check_files  # noqa: E402
 import check_layers  # noqa: E402
+import check_references  # noqa: E402
 import check_sizes  # noqa: E402
 import check_words  # noqa: E402
 
-CHECKS = {"layers": check_layers, "files": check_files, "sizes": check_sizes, "words": check_words}
+CHECKS = {"layers": check_layers, "files": check_files, "references": check_references, "sizes": check_sizes,
+          "words": check_words}
 
 RIGHT = {
     "libacs-core/include/acs/core/Location.hpp": "#pragma once\n#include <fmt/core.h>\nclass Location\n{\n};\n",
@@ -42,6 +44,10 @@ RIGHT = {
     "tests/unit/core/LocationTest.cpp": "#include \"ManualClock.hpp\"\nTEST_CASE(\"one\")\n{\n}\n",
     "examples/e01_locations.cpp": "#include <acs/core/Location.hpp>\n",
     "tests/install/consumer_Core.cpp": "// Links the library alone.\nint main()\n{\n}\n",
+    "libplan/src/engine/EngineAlarm.hpp": "#pragma once\ninline constexpr std::string_view ALARM_STORE = \"ACS-1005\";\n",
+    "apps/acsd/AcsdMetrics.cpp": "constexpr const char* LINK = \"acsd_link_up\";\n",
+    "docs/reference/alarms.md": "| Code | Level |\n|---|---|\n| `ACS-1005` | as `ACS-1004` |\n",
+    "docs/reference/metrics.md": "| Metric |\n|---|\n| `acsd_link_up{link}` |\n",
     "docs/guide.md": "# Guide\n\n## Parking positions\n\nSee [above](#guide), [the other](reference/keys.md#the-keys) and "
                      "[elsewhere](https://example.org/#none).\n",
     "docs/reference/keys.md": "# Reference\n\n## The keys\n\n`look at` and `[1](2)` are code.\n\n```\nnobody gives up\n# Not a heading\n"
@@ -122,6 +128,11 @@ PLANTED = [
     ("files", "docs/guide.md", "# Guide\n\n## Parking positions\n\n[keys](keys.md)\n", 5, "docs/keys.md, which does not exist"),
     ("files", "docs/guide.md", "# Guide\n\n## Parking positions\n[keys](reference/keys.md#key)\n", 4, "heading #key"),
     ("files", "docs/guide.md", "## Parking positions\n[code](reference/keys.md#not-a-heading)\n", 2, "heading #not-a-heading"),
+    ("references", "libplan/src/engine/EngineAlarm.hpp",
+     "#pragma once\ninline constexpr std::string_view ALARM_STORE = \"ACS-1005\";\n"
+     "inline constexpr std::string_view ALARM_STALL = \"ACS-1009\";\n", 3, "ACS-1009 is not listed in docs/reference/alarms.md"),
+    ("references", "docs/reference/alarms.md", "| `ACS-1005` |\n| `ARM-motorOff` |\n", 2, "ARM-motorOff is not defined"),
+    ("references", "docs/reference/metrics.md", "| `acsd_link_up{link}`, `acsd_plans` |\n", 1, "acsd_plans is not defined"),
     ("words", "docs/guide.md", "The alarm\ntells that\n", 2, "'tells': write report"),
     ("words", "README.md", "A robot waits for\never.\n", 1, "'for ever': write indefinitely"),
     ("words", "docs/guide.md", "1. Nobody\n   is notified.\n", 1, "'Nobody': write the operator"),
