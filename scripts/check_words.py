@@ -37,7 +37,7 @@ WORDS = (
     (r"(?:go|goes|went|going|gone) on", "continue"),
     (r"(?:take|takes|took|taken|taking) up", "accept, resume"),
     (r"(?:look|looks|looked|looking) (?:around|at|into|whether|again)|glances?", "check, probe, poll or verify"),
-    (r"mistakes?", "error"),
+    (r"mistakes?(?! \w+ \w+ for\b)", "error"),
     (r"objections?|hindrances?", "rejection reason, unavailability"),
     (r"as long as", "while"),
     (r"so (?:many|long|often|much)", "number of, duration of, at most N"),
