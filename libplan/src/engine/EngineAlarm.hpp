@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/plan/Report.hpp>
+#include <acs/plan/RobotCommand.hpp>
 
 #include <string>
 #include <string_view>
@@ -38,6 +39,14 @@ inline constexpr std::string_view OWN_ROBOT_ID = "ACS";
     alarm.level = level;
     alarm.message = std::move(message);
     return alarm;
+}
+
+/// What the alarm is about.
+inline void AddJob(Alarm& alarm, const StartJob& job)
+{
+    alarm.planID = job.planID;
+    alarm.stepNo = job.stepNo;
+    alarm.jobID = job.jobID;
 }
 
 } // namespace ACS::Planning

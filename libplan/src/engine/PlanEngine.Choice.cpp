@@ -46,7 +46,7 @@ PlanEngine::Impl::EHindrance PlanEngine::Impl::GetHindrance(const Robot& robot)
     {
         return EHindrance::Manual;
     }
-    const bool bOccupied = state.bOccupied || robot.bStandAwaited || robot.overdueJobID.has_value();
+    const bool bOccupied = state.bOccupied || robot.bStandAwaited || robot.job.IsOverdue();
     return bOccupied ? EHindrance::Occupied : EHindrance::None;
 }
 
@@ -452,7 +452,7 @@ std::optional<WaitReason> PlanEngine::Impl::DescribeBegunOrNull(const ActivePlan
         reason.message = fmt::format("{}: {}.", GetRobotID(robot), Describe(robot, hindrance));
         return reason;
     }
-    if (robot.activity == EActivity::Works && robot.bUncertain)
+    if (robot.activity == EActivity::Works && robot.job.IsUnresolved())
     {
         reason.message =
             fmt::format("{} cannot tell what became of job {}: look, and answer.", GetRobotID(robot), GetJobID(plan));

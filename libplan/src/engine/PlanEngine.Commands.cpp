@@ -156,7 +156,7 @@ void PlanEngine::Impl::FinishTscPause()
     const auto isBusy = [](const Robot& robot) {
         const bool bPlanPaused =
             robot.planOrNull != nullptr && robot.planOrNull->record.progress.state == EPlanState::Paused;
-        return !bPlanPaused && (robot.drive.has_value() || robot.overdueJobID.has_value());
+        return !bPlanPaused && (robot.drive.has_value() || robot.job.IsOverdue());
     };
     if (_tscState == ETscState::Pausing && !_plans.IsAnyRunning() && std::ranges::none_of(_robots, isBusy))
     {

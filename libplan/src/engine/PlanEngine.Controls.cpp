@@ -207,7 +207,7 @@ void PlanEngine::Impl::Abort(ActivePlan& plan)
     }
     Robot& robot = _robots[*plan.robot];
     Ask(plan, EPlanControl::Abort);
-    if (robot.bUncertain)
+    if (robot.job.IsUnresolved())
     {
         AbortHeldJob(robot);
         return;
@@ -231,8 +231,8 @@ void PlanEngine::Impl::Abort(ActivePlan& plan)
 void PlanEngine::Impl::DropJob(Robot& robot)
 {
     const ActivePlan& plan = *robot.planOrNull;
-    robot.overdueJobID = GetJobID(plan);
-    Command(robot, CancelJob{*robot.overdueJobID});
+    robot.job.MarkOverdue();
+    Command(robot, CancelJob{GetJobID(plan)});
     StartTimer(EEngineTimer::JobEnd, GetRobotID(robot), _options.controls.jobEndTimeout);
     if (GetJobState(plan) == EJobState::InProgress)
     {
@@ -256,9 +256,7 @@ Alarm PlanEngine::Impl::MakeDroppedAlarm(const Robot& robot) const
         ALARM_DROPPED,
         EAlarmLevel::Heavy,
         "A job that had begun was given up: look whether the robot still holds what it moved.");
-    alarm.planID = robot.job->planID;
-    alarm.stepNo = robot.job->stepNo;
-    alarm.jobID = robot.job->jobID;
+    AddJob(alarm, *robot.job.GetOrNull());
     return alarm;
 }
 
@@ -320,11 +318,10 @@ void PlanEngine::Impl::Pause(ActivePlan& plan)
         ConfirmPause(robot);
         return;
     }
-    robot.bPauseWanted = true;
-    robot.bResumeOwed = false;
+    robot.pause.Pause();
     Command(robot, Planning::Pause{});
     StartConfirming(robot, _options.controls.pauseTimeout);
-    FollowPause(robot, false, false);
+    UpdatePause(robot, false, false);
 }
 
 /// Section 6.8.
@@ -357,41 +354,38 @@ void PlanEngine::Impl::Resume(ActivePlan& plan)
     }
     Robot& robot = _robots[*plan.robot];
     const bool bShowsPaused = robot.state.has_value() && robot.state->bPaused;
-    if (!robot.bPauseWanted && !bShowsPaused)
+    if (!robot.pause.IsPaused() && !bShowsPaused)
     {
         ConfirmResume(robot);
         return;
     }
-    robot.bPauseWanted = true;
-    ReleasePause(robot);
+    robot.pause.Resume();
+    Command(robot, Planning::Resume{});
     StartConfirming(robot, _options.controls.pauseTimeout);
 }
 
 /// What a robot's state says about a pause that was asked for, or that is to last. One that is back, in reach or under
 /// control, may have missed what it was told.
-void PlanEngine::Impl::FollowPause(Robot& robot, bool bBack, bool bWasPaused)
+void PlanEngine::Impl::UpdatePause(Robot& robot, bool bBack, bool bWasPaused)
 {
     if (!robot.state.has_value())
     {
         return;
     }
     const StateChanged& state = *robot.state;
-    // In manual mode it may not have heard of it, and still come to a stand.
-    const bool bStaysOwed = robot.bResumeOwed && (state.bPaused || !state.bAutomatic);
-    const bool bWasOwed = std::exchange(robot.bResumeOwed, bStaysOwed);
-    if (bBack && bWasOwed)
+    const PauseTracker::ERepeat repeat = robot.pause.OnState(state.bPaused, bWasPaused, state.bAutomatic, bBack);
+    if (repeat == PauseTracker::ERepeat::Resume)
     {
-        // Also where it shows no pause: its base may go on, and its arm stand.
         Command(robot, Planning::Resume{});
     }
-    if (robot.bPauseWanted && !state.bPaused && (bBack || bWasPaused))
+    else if (repeat == PauseTracker::ERepeat::Pause)
     {
         Note(robot, "is told once more to pause");
         Command(robot, Planning::Pause{});
     }
     const std::optional<EPlanControl> control =
         robot.planOrNull == nullptr ? std::nullopt : robot.planOrNull->record.progress.control;
-    if (control == EPlanControl::Pause && robot.bPauseWanted && state.bPaused && !state.bDriving)
+    if (control == EPlanControl::Pause && robot.pause.IsPaused() && state.bPaused && !state.bDriving)
     {
         ConfirmPause(robot);
     }
@@ -438,9 +432,8 @@ void PlanEngine::Impl::LeavePause(ActivePlan& plan, std::string message)
 /// The robot's own pause ends, where the engine has asked for it.
 void PlanEngine::Impl::ReleasePause(Robot& robot)
 {
-    if (std::exchange(robot.bPauseWanted, false))
+    if (robot.pause.TryResume())
     {
-        robot.bResumeOwed = true;
         Command(robot, Planning::Resume{});
     }
 }
@@ -542,8 +535,7 @@ void PlanEngine::Impl::OnControlTimeout(Robot& robot)
             false,
             control == EPlanControl::Resume ? "The robot did not show that it goes on; the plan stays paused."
                                             : "The robot did not confirm that it stopped; the plan stays paused.");
-        robot.bPauseWanted = true;
-        robot.bResumeOwed = false;
+        robot.pause.Pause();
         Command(robot, Planning::Pause{});
         return;
     }

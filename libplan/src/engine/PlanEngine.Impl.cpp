@@ -270,13 +270,14 @@ void PlanEngine::Impl::CollectWork()
         {
             continue;
         }
+        const StartJob* jobOrNull = robot.job.GetOrNull();
         RobotWorkChanged work{
             GetRobotID(robot),
             robot.commandID,
             robot.earlierIDs,
-            robot.job,
+            jobOrNull == nullptr ? std::nullopt : std::optional(*jobOrNull),
             robot.state.has_value() ? robot.state->mark : robot.storedWork.mark,
-            robot.bPauseWanted || robot.bResumeOwed,
+            robot.pause.IsPaused() || robot.pause.IsResuming(),
             robot.bDoubtful,
             robot.drive.has_value() ? robot.storedWork.nodeIDs : ListNodes(robot),
             robot.bCommandTaken,

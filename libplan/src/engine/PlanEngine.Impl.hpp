@@ -7,6 +7,8 @@
 #include "plan/PlanBook.hpp"
 #include "restart/StartupBarrier.hpp"
 #include "robot/ChargingPolicy.hpp"
+#include "robot/JobTracker.hpp"
+#include "robot/PauseTracker.hpp"
 #include "robot/PortLedger.hpp"
 #include "robot/StallMonitor.hpp"
 #include "traffic/Traffic.hpp"
@@ -108,8 +110,6 @@ public:
         bool bHomeRefused = false; ///< Until the timer HomeRetry.
         unsigned homeRefusals = 0; ///< One after the other, without that it moved or had to be made usable.
         bool bTouched = true;      ///< Its status may have changed.
-        bool bPauseWanted = false; ///< A pause was commanded, and no resume since.
-        bool bResumeOwed = false;  ///< A resume was commanded, and no state has confirmed it.
         bool bConfirming = false;  ///< The timer ControlConfirm runs.
         bool bInMaintenance = false;
         std::optional<StateChanged> state;
@@ -123,15 +123,11 @@ public:
         std::optional<std::size_t> retreatNode; ///< Goes here first, out of the way of others.
         EActivity activity = EActivity::Idle;
         ActivePlan* planOrNull = nullptr;
-        /// A job of a plan that has failed for its time limit, and may still be running: until its end is told, the robot
-        /// neither drives nor works.
-        std::optional<std::string> overdueJobID;
-        std::optional<StartJob> job;         ///< Commanded, and its end not told: of the plan, or overdue.
+        JobTracker job;
+        PauseTracker pause;
         std::string commandID;               ///< Of its last drive or job.
         std::int32_t jobNumber = 0;          ///< Of its last job; 0: none, or commanded by an older version.
         std::vector<std::string> earlierIDs; ///< Of those before, the latest first.
-        bool bRecovering = false;            ///< After a restart: it was asked what became of the job.
-        bool bUncertain = false;             ///< It cannot tell what became of the job: an operator has to.
         bool bStandAwaited = false; ///< After a restart: what its plan's control comes to shows once it stands.
         /// After a restart, until it has shown what it was told last: what of that was written down.
         std::optional<RobotWorkChanged> trace;
@@ -345,7 +341,7 @@ private:
     void EndByControl(ActivePlan& plan, EPlanControl control);
     void ConfirmPause(Robot& robot);
     void ConfirmResume(Robot& robot);
-    void FollowPause(Robot& robot, bool bBack, bool bWasPaused);
+    void UpdatePause(Robot& robot, bool bBack, bool bWasPaused);
     void ReleasePause(Robot& robot);
     void LeavePause(ActivePlan& plan, std::string message);
     void GoOn(Robot& robot);

@@ -23,8 +23,9 @@ void PlanEngine::Impl::CompareLoads(Robot& robot)
     {
         return;
     }
+    const StartJob* jobOrNull = robot.job.GetOrNull();
     const std::vector<PortUse> openUses =
-        robot.job.has_value() ? ListPortUses(robot, *robot.job) : std::vector<PortUse>();
+        jobOrNull != nullptr ? ListPortUses(robot, *jobOrNull) : std::vector<PortUse>();
     const PortLedger::Comparison comparison = robot.ports.Compare(*robot.state->loads, openUses);
     if (comparison.bRecordChanged)
     {

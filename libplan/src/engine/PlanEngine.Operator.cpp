@@ -91,7 +91,7 @@ bool PlanEngine::Impl::HasCause(const Alarm& alarm) const
     }
     if (alarm.errorCode == ALARM_UNRESOLVED)
     {
-        return robot.bUncertain;
+        return robot.job.IsUnresolved();
     }
     if (alarm.errorCode == ALARM_STALL)
     {
@@ -226,7 +226,7 @@ std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const Skip
     }
     const EStepState state = plan.record.progress.steps[*index].state;
     const Robot& robot = _robots[*plan.robot];
-    const bool bUnresolved = *index == plan.step && state == EStepState::InProgress && robot.bUncertain
+    const bool bUnresolved = *index == plan.step && state == EStepState::InProgress && robot.job.IsUnresolved()
         && robot.activity == EActivity::Works;
     if (state == EStepState::Pending || bUnresolved)
     {

@@ -22,7 +22,7 @@ bool PlanEngine::Impl::IsAtBaseEnd(const ActiveDrive& drive)
 /// Whether the robot must pass another node soon: it is connected, may drive and has a base ahead.
 bool PlanEngine::Impl::IsProgressExpected(const Robot& robot) const
 {
-    return _options.stallTimeout.count() > 0 && robot.bOnline && robot.drive.has_value() && !robot.bPauseWanted
+    return _options.stallTimeout.count() > 0 && robot.bOnline && robot.drive.has_value() && !robot.pause.IsPaused()
         && (!robot.drive->bTaken || !IsAtBaseEnd(*robot.drive));
 }
 

@@ -94,7 +94,10 @@ void PlanEngine::Impl::RestoreRobot(const RobotWorkChanged& work)
     robot.trace = work;
     robot.bDoubtful = work.bDoubtful;
     robot.bCommandTaken = work.bCommandTaken;
-    robot.job = work.job;
+    if (work.job.has_value())
+    {
+        robot.job.Begin(*work.job);
+    }
     for (const std::string& nodeID : work.nodeIDs)
     {
         if (const std::optional<std::size_t> node = _site.FindNodeIndexOrNull(nodeID); node.has_value())
@@ -102,7 +105,10 @@ void PlanEngine::Impl::RestoreRobot(const RobotWorkChanged& work)
             robot.supposedNodes.push_back(*node);
         }
     }
-    robot.bResumeOwed = work.bPauseAsked; // where no plan wants it to stand
+    if (work.bPauseAsked)
+    {
+        robot.pause.Resume(); // where no plan wants it to stand
+    }
 }
 
 void PlanEngine::Impl::RestorePlan(PlanRecord record)
@@ -177,7 +183,8 @@ void PlanEngine::Impl::RestoreWork(ActivePlan& plan, Robot& robot)
     robot.bTouched = true;
     const EContinuation unbegun = step.state == EStepState::Pending ? EContinuation::Step : EContinuation::Job;
     plan.next = IsFinal(step.state) ? EContinuation::End : unbegun;
-    const bool bOpen = robot.job.has_value() && robot.job->planID == plan.record.plan.planID;
+    const StartJob* jobOrNull = robot.job.GetOrNull();
+    const bool bOpen = jobOrNull != nullptr && jobOrNull->planID == plan.record.plan.planID;
     // A store of before schema version 3 tells nothing of robots.
     const bool bUntraced = !bOpen && robot.storedWork.robotID.empty() && job != EJobState::Pending && !IsFinal(job)
         && !IsFinal(step.state);
@@ -192,12 +199,12 @@ void PlanEngine::Impl::RestoreWork(ActivePlan& plan, Robot& robot)
     robot.activity = EActivity::Works;
     if (bUntraced)
     {
-        robot.job = MakeStartJob(robot);
+        robot.job.Begin(MakeStartJob(robot));
         robot.bWorkTouched = true;
         HoldJob(robot, "the ACS that commanded it did not write down how to ask for it");
         return;
     }
-    plan.madeJobID = HasJob(plan) ? std::string() : robot.job->jobID;
+    plan.madeJobID = HasJob(plan) ? std::string() : jobOrNull->jobID;
     AskForJob(robot);
 }
 
@@ -209,8 +216,10 @@ void PlanEngine::Impl::RestoreControl(ActivePlan& plan, Robot& robot)
     if (!progress.control.has_value())
     {
         const bool bPaused = progress.state == EPlanState::Paused;
-        robot.bPauseWanted = bPaused && (robot.bResumeOwed || bWorks);
-        robot.bResumeOwed = robot.bResumeOwed && !bPaused;
+        if (bPaused && (robot.pause.IsResuming() || bWorks))
+        {
+            robot.pause.Pause();
+        }
         return;
     }
     constexpr std::size_t MOST_OWED = 1'000;
@@ -218,11 +227,14 @@ void PlanEngine::Impl::RestoreControl(ActivePlan& plan, Robot& robot)
     switch (*progress.control)
     {
         case EPlanControl::Pause:
-            robot.bPauseWanted = !bWorks || !_options.controls.bPausesAfterJob;
-            robot.bResumeOwed = false;
+            robot.pause.Reset();
+            if (!bWorks || !_options.controls.bPausesAfterJob)
+            {
+                robot.pause.Pause();
+            }
             break;
         case EPlanControl::Resume:
-            robot.bResumeOwed = true;
+            robot.pause.Resume();
             break;
         case EPlanControl::Cancel:
         case EPlanControl::Abort:
@@ -230,7 +242,7 @@ void PlanEngine::Impl::RestoreControl(ActivePlan& plan, Robot& robot)
             robot.bStandAwaited = !bWorks;
             break;
     }
-    if (!bWorks || progress.control == EPlanControl::Resume || robot.bPauseWanted)
+    if (!bWorks || progress.control == EPlanControl::Resume || robot.pause.IsPaused())
     {
         const bool bEnding = robot.bStandAwaited;
         StartConfirming(robot, bEnding ? _options.controls.cancelTimeout : _options.controls.pauseTimeout);
@@ -241,9 +253,9 @@ void PlanEngine::Impl::RestoreControl(ActivePlan& plan, Robot& robot)
 void PlanEngine::Impl::RestoreOverdue(Robot& robot)
 {
     const bool bOfPlan = robot.planOrNull != nullptr && robot.activity == EActivity::Works;
-    if (robot.job.has_value() && !bOfPlan)
+    if (robot.job.GetOrNull() != nullptr && !bOfPlan)
     {
-        robot.overdueJobID = robot.job->jobID;
+        robot.job.MarkOverdue();
         AskForJob(robot);
         StartTimer(EEngineTimer::JobEnd, GetRobotID(robot), _options.controls.jobEndTimeout);
     }
@@ -251,8 +263,8 @@ void PlanEngine::Impl::RestoreOverdue(Robot& robot)
 
 void PlanEngine::Impl::AskForJob(Robot& robot)
 {
-    robot.bRecovering = true;
-    Command(robot, RecoverJob{*robot.job, robot.earlierIDs});
+    robot.job.BeginRecovery();
+    Command(robot, RecoverJob{*robot.job.GetOrNull(), robot.earlierIDs});
 }
 
 /// A drive that was to be cancelled before the restart: the adapter gives up what is left of it, and here it stands.
@@ -310,7 +322,7 @@ void PlanEngine::Impl::CheckTrace(Robot& robot)
 void PlanEngine::Impl::HoldDoubtful(Robot& robot)
 {
     robot.planOrNull->repeatedCommandID.clear();
-    robot.job = MakeStartJob(robot);
+    robot.job.Begin(MakeStartJob(robot));
     robot.bWorkTouched = true;
     HoldJob(robot, "the robot may have done work that the ACS could not write down before it stopped");
 }
@@ -318,24 +330,22 @@ void PlanEngine::Impl::HoldDoubtful(Robot& robot)
 Alarm PlanEngine::Impl::MakeUncertainAlarm(const Robot& robot) const
 {
     Alarm alarm = MakeAlarm(GetRobotID(robot), ALARM_UNRESOLVED, EAlarmLevel::Heavy, {});
-    alarm.planID = robot.job->planID;
-    alarm.stepNo = robot.job->stepNo;
-    alarm.jobID = robot.job->jobID;
+    AddJob(alarm, *robot.job.GetOrNull());
     return alarm;
 }
 
 /// It is not done again, and nothing else is done with this robot, before somebody has looked.
 void PlanEngine::Impl::HoldJob(Robot& robot, const std::string& reason)
 {
-    robot.bRecovering = false;
-    robot.bUncertain = true;
+    robot.job.MarkUnresolved();
     robot.bTouched = true;
+    const StartJob& job = *robot.job.GetOrNull();
     Alarm alarm = MakeUncertainAlarm(robot);
-    const bool bOfPlan = robot.planOrNull != nullptr && !robot.overdueJobID.has_value();
+    const bool bOfPlan = robot.planOrNull != nullptr && !robot.job.IsOverdue();
     alarm.message = fmt::format(
         "It is unknown whether {} was done at {}: {}. Check the robot and that place, then answer {}.",
-        robot.job->action,
-        robot.job->position,
+        job.action,
+        job.position,
         reason,
         bOfPlan
             ? "done (the plan continues with the next job), failed (the plan fails) or again (it was not done and nothing "
@@ -364,7 +374,7 @@ void PlanEngine::Impl::AbortHeldJob(Robot& robot)
 /// The robot has told what became of the job.
 void PlanEngine::Impl::FindOut(Robot& robot)
 {
-    if (!std::exchange(robot.bRecovering, false))
+    if (!robot.job.TryEndRecovery())
     {
         return;
     }
@@ -382,14 +392,12 @@ void PlanEngine::Impl::FindOut(Robot& robot)
 /// Nothing is open any more about the job that the robot was commanded.
 void PlanEngine::Impl::ReleaseJob(Robot& robot)
 {
-    if (!robot.job.has_value())
+    if (robot.job.GetOrNull() == nullptr)
     {
         return;
     }
     ClearAlarm(MakeUncertainAlarm(robot));
-    robot.bRecovering = false;
-    robot.bUncertain = false;
-    robot.job.reset();
+    robot.job.Release();
     robot.bWorkTouched = true;
 }
 
@@ -402,7 +410,7 @@ void PlanEngine::Impl::RepeatJob(Robot& robot, std::string commandID)
     robot.activity = EActivity::Waits;
     robot.bTouched = true;
     _bDispatchNeeded = true;
-    if (robot.planOrNull->record.progress.control == EPlanControl::Pause && !robot.bPauseWanted)
+    if (robot.planOrNull->record.progress.control == EPlanControl::Pause && !robot.pause.IsPaused())
     {
         ConfirmPause(robot); // it was to wait for the job's end
     }
@@ -414,7 +422,7 @@ void PlanEngine::Impl::OnJobUnknown(Robot& robot, const JobUnknown& event)
     {
         return;
     }
-    if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID || robot.bUncertain)
+    if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID || robot.job.IsUnresolved())
     {
         return;
     }
@@ -423,7 +431,7 @@ void PlanEngine::Impl::OnJobUnknown(Robot& robot, const JobUnknown& event)
     {
         HoldJob(robot, "the robot does not know it, though it had begun it");
     }
-    else if (robot.job->commandID.empty())
+    else if (robot.job.GetOrNull()->commandID.empty())
     {
         HoldJob(robot, "what became of it was asked before, and not answered");
     }
@@ -433,18 +441,19 @@ void PlanEngine::Impl::OnJobUnknown(Robot& robot, const JobUnknown& event)
     }
     else
     {
-        RepeatJob(robot, robot.job->commandID);
+        RepeatJob(robot, robot.job.GetOrNull()->commandID);
     }
 }
 
 void PlanEngine::Impl::OnJobUncertain(Robot& robot, const JobUncertain& event)
 {
-    const bool bOverdue = robot.overdueJobID == event.jobID;
+    const bool bOverdue = robot.job.IsOverdue(event.jobID);
     const bool bOfPlan = robot.activity == EActivity::Works && GetJobID(*robot.planOrNull) == event.jobID;
-    if ((bOverdue || bOfPlan) && !robot.bUncertain)
+    if ((bOverdue || bOfPlan) && !robot.job.IsUnresolved())
     {
         // After a restart marks that do not tell of this job do not tell of those after it either.
-        robot.bDoubtful = robot.bDoubtful || (robot.bRecovering && bOfPlan && !robot.job->mark.empty());
+        robot.bDoubtful =
+            robot.bDoubtful || (robot.job.IsRecovering() && bOfPlan && !robot.job.GetOrNull()->mark.empty());
         robot.bWorkTouched = true;
         HoldJob(robot, event.reason);
     }
@@ -454,8 +463,8 @@ void PlanEngine::Impl::OnJobUncertain(Robot& robot, const JobUncertain& event)
 std::optional<std::size_t> PlanEngine::Impl::FindWorkerOrNull(const SettleJob& command) const
 {
     const auto robot = std::ranges::find_if(_robots, [&command](const Robot& candidate) {
-        return candidate.job.has_value() && candidate.job->planID == command.planID
-            && candidate.job->jobID == command.jobID;
+        const StartJob* jobOrNull = candidate.job.GetOrNull();
+        return jobOrNull != nullptr && jobOrNull->planID == command.planID && jobOrNull->jobID == command.jobID;
     });
     return robot == _robots.end() ? std::nullopt : std::optional(robot->index);
 }
@@ -469,12 +478,12 @@ std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const Sett
         return "No robot has such a job.";
     }
     const Robot& robot = _robots[*worker];
-    const bool bOver = robot.overdueJobID.has_value();
+    const bool bOver = robot.job.IsOverdue();
     if (bOver && command.answer == EJobAnswer::Again)
     {
         return "Its plan is over: answer done or failed.";
     }
-    if (robot.bUncertain || bOver)
+    if (robot.job.IsUnresolved() || bOver)
     {
         return std::nullopt;
     }
@@ -514,8 +523,8 @@ void PlanEngine::Impl::CatchUp(Robot& robot)
 
 void PlanEngine::Impl::SettleFor(Robot& robot, EJobAnswer answer)
 {
-    robot.bUncertain = false;
-    const std::string jobID = robot.job->jobID;
+    robot.job.Resolve();
+    const std::string jobID = robot.job.GetOrNull()->jobID;
     if (TryEndOverdueJob(robot, jobID, answer == EJobAnswer::Done))
     {
         return;

@@ -68,7 +68,7 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
     }
     CheckTrace(robot);
     CompareLoads(robot);
-    FollowPause(robot, bBack, bWasPaused);
+    UpdatePause(robot, bBack, bWasPaused);
     FollowStand(robot);
     UpdateBattery(robot);
     if (IsUsable(robot) && !bWasUsable)
@@ -496,7 +496,7 @@ void PlanEngine::Impl::OnJobStarted(Robot& robot, const JobStarted& event)
     {
         return;
     }
-    if (robot.bUncertain)
+    if (robot.job.IsUnresolved())
     {
         return; // an operator has been asked
     }
@@ -513,18 +513,17 @@ void PlanEngine::Impl::OnJobStarted(Robot& robot, const JobStarted& event)
 /// Its plan is over, but what it did to the robot's ports counts. The robot's word is as good as an operator's.
 bool PlanEngine::Impl::TryEndOverdueJob(Robot& robot, const std::string& jobID, bool bDone)
 {
-    if (robot.overdueJobID != jobID)
+    if (!robot.job.IsOverdue(jobID))
     {
         return false;
     }
     CancelTimer(EEngineTimer::JobEnd, GetRobotID(robot));
-    if (bDone && robot.job.has_value())
+    if (bDone)
     {
         ClearAlarm(MakeDroppedAlarm(robot));
-        MoveCarrier(robot, *robot.job);
+        MoveCarrier(robot, *robot.job.GetOrNull());
     }
     ReleaseJob(robot);
-    robot.overdueJobID.reset();
     _bDispatchNeeded = true;
     return true;
 }
@@ -532,7 +531,7 @@ bool PlanEngine::Impl::TryEndOverdueJob(Robot& robot, const std::string& jobID, 
 /// The robot cannot be used until somebody says how the job ended.
 void PlanEngine::Impl::OnJobEndTimeout(Robot& robot)
 {
-    if (robot.overdueJobID.has_value() && !robot.bUncertain)
+    if (robot.job.IsOverdue() && !robot.job.IsUnresolved())
     {
         HoldJob(robot, "its plan is over, and the robot does not tell the job's end");
     }
@@ -544,7 +543,7 @@ void PlanEngine::Impl::OnJobFinished(Robot& robot, const JobFinished& event)
     {
         return;
     }
-    if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID || robot.bUncertain)
+    if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID || robot.job.IsUnresolved())
     {
         return;
     }
@@ -558,7 +557,7 @@ void PlanEngine::Impl::OnJobFailed(Robot& robot, const JobFailed& event)
     {
         return;
     }
-    if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID || robot.bUncertain)
+    if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID || robot.job.IsUnresolved())
     {
         return;
     }

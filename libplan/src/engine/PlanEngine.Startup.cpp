@@ -62,7 +62,7 @@ void PlanEngine::Impl::RaiseMissing()
             RaiseAlarm(MakePlaceAlarm(robot, "It is connected and does not tell its state."));
             continue;
         }
-        const bool bHasWork = robot.planOrNull != nullptr || robot.job.has_value();
+        const bool bHasWork = robot.planOrNull != nullptr || robot.job.GetOrNull() != nullptr;
         Alarm alarm = MakeLinkAlarm(
             robot,
             bHasWork ? "It has not come back since the ACS was started, and has work."

@@ -56,7 +56,7 @@ ERobotStatus PlanEngine::Impl::DeriveStatus(const Robot& robot) const
     {
         return ERobotStatus::Moving;
     }
-    if (robot.planOrNull != nullptr || state.bOccupied || robot.overdueJobID.has_value())
+    if (robot.planOrNull != nullptr || state.bOccupied || robot.job.IsOverdue())
     {
         return ERobotStatus::Working;
     }

@@ -163,7 +163,7 @@ bool PlanEngine::Impl::TryWithdraw(const CommandRobot& command)
 /// The control that wanted it is refused. After a crash nobody would know who has stopped the robot.
 void PlanEngine::Impl::WithdrawPause(Robot& robot)
 {
-    robot.bPauseWanted = false;
+    robot.pause.Reset();
     robot.bWorkTouched = true;
     _bDispatchNeeded = true;
     PlanProgress& progress = robot.planOrNull->record.progress;

@@ -66,7 +66,7 @@ bool PlanEngine::Impl::IsBerth(const RobotOptions& robot, std::size_t dock) cons
 /// A robot that is not able to drive now is an obstacle for the others.
 void PlanEngine::Impl::NoteMovable(const Robot& robot)
 {
-    const bool bMovable = IsUsable(robot) && !robot.bPauseWanted;
+    const bool bMovable = IsUsable(robot) && !robot.pause.IsPaused();
     if (_traffic.IsMovable(robot.index) != bMovable)
     {
         _traffic.SetMovable(robot.index, bMovable);
@@ -78,7 +78,7 @@ void PlanEngine::Impl::NoteMovable(const Robot& robot)
 /// Whether its drive is to be given more. A robot that is out of reach may still tell of nodes, and then goes on.
 bool PlanEngine::Impl::CanAdvance(const Robot& robot)
 {
-    return IsUsable(robot) ? !robot.bPauseWanted : !robot.bOnline && !robot.bPauseWanted && !IsHeld(robot);
+    return IsUsable(robot) ? !robot.pause.IsPaused() : !robot.bOnline && !robot.pause.IsPaused() && !IsHeld(robot);
 }
 
 /// Whether those that cannot move leave it a way to all places of the plan and from each of them home.

@@ -125,7 +125,7 @@ void PlanEngine::Impl::BeginJob(Robot& robot)
     job.jobNumber = robot.jobNumber;
     job.mark = robot.state.has_value() ? robot.state->mark : std::string();
     NoteCommand(robot, job.commandID);
-    robot.job = job;
+    robot.job.Begin(job);
     Command(robot, std::move(job));
     LimitJob(robot);
 }
@@ -301,7 +301,7 @@ void PlanEngine::Impl::ContinuePlan(Robot& robot)
     // The rest is for when the pause ends.
     robot.activity = EActivity::Waits;
     robot.bTouched = true;
-    if (plan.record.progress.control == EPlanControl::Pause && !robot.bPauseWanted)
+    if (plan.record.progress.control == EPlanControl::Pause && !robot.pause.IsPaused())
     {
         ConfirmPause(robot);
     }
@@ -373,7 +373,7 @@ void PlanEngine::Impl::EndPlan(ActivePlan& plan, EPlanState state, const std::st
         Robot& robot = _robots[*plan.robot];
         StopJobTimer(robot);
         ReleasePause(robot);
-        if (!robot.overdueJobID.has_value())
+        if (!robot.job.IsOverdue())
         {
             ReleaseJob(robot);
         }

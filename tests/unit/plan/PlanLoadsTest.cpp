@@ -9,6 +9,7 @@
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using ACS::Testing::BeginPlan;
 using ACS::Testing::FinishPlan;
+using ACS::Testing::GetCarrierOrNull;
 using ACS::Testing::MakeLogisticsPlan;
 using ACS::Testing::PlanWorld;
 using ACS::Testing::RestartEngine;
@@ -31,11 +32,6 @@ void SetCarrier(PlanWorld& world, std::optional<std::string> carrierID)
 {
     world.Ask(SetCarriers{"LR01", {std::move(carrierID)}, 77});
     REQUIRE(world.replies.at(77).bAccepted);
-}
-
-std::optional<std::string> GetCarrierOrNull(const PlanWorld& world)
-{
-    return world.engine->GetRobotStatuses().front().carrierIDs.front();
 }
 
 /// What the alarm about reported loads says; empty where there is none.

@@ -4,6 +4,7 @@ using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test o
 using ACS::Testing::BeginPlan;
 using ACS::Testing::Contains;
 using ACS::Testing::FindLine;
+using ACS::Testing::GetCarrierOrNull;
 using ACS::Testing::Lines;
 using ACS::Testing::MakeLogisticsPlan;
 using ACS::Testing::MakeTestOptions;
@@ -37,11 +38,6 @@ std::optional<EAlarmLevel> GetAlarmOrNull(const PlanWorld& world, std::string_vi
         }
     }
     return std::nullopt;
-}
-
-std::optional<std::string> FindCarrierOrNull(const PlanWorld& world)
-{
-    return world.engine->GetRobotStatuses().front().carrierIDs.front();
 }
 
 /// The plan's load takes longer than it may, and goes on.
@@ -193,11 +189,11 @@ TEST_CASE("A load that comes to its end after its plan was over has filled the r
     PlanWorld world = MakeDroppingWorld(60s);
     LetLoadRunOver(world);
     CHECK(GetAlarmOrNull(world, "LR01", "ACS-1007") == EAlarmLevel::Heavy);
-    CHECK(FindCarrierOrNull(world) == std::nullopt);
+    CHECK(GetCarrierOrNull(world) == std::nullopt);
     REQUIRE(world.TryRun());
-    CHECK(FindCarrierOrNull(world).has_value());
+    CHECK(GetCarrierOrNull(world).has_value());
     CHECK(world.engine->GetActiveAlarms().empty());
-    CHECK(world.store.GetState().carriers.front().carrierIDs.front() == FindCarrierOrNull(world));
+    CHECK(world.store.GetState().carriers.front().carrierIDs.front() == GetCarrierOrNull(world));
 }
 
 TEST_CASE("A job over its time limit that had begun to move something is an alarm until its end is told")
@@ -208,7 +204,7 @@ TEST_CASE("A job over its time limit that had begun to move something is an alar
     BeginPlan(world, MakeLogisticsPlan("P1"), "Plan Failed");
     const std::size_t set = FindLine(world, "report - Error ACS-1007 set", 0);
     REQUIRE(world.TryRun());
-    CHECK(FindCarrierOrNull(world).has_value());
+    CHECK(GetCarrierOrNull(world).has_value());
     CHECK(world.engine->GetActiveAlarms().empty());
     static_cast<void>(set);
 }
@@ -238,7 +234,7 @@ TEST_CASE(
         }
         REQUIRE(world.TryRun());
         CHECK(GetAlarmOrNull(world, "LR01", "ACS-1008") == std::nullopt);
-        CHECK(FindCarrierOrNull(world).has_value() != bOperator);
+        CHECK(GetCarrierOrNull(world).has_value() != bOperator);
     }
 }
 

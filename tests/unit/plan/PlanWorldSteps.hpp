@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -82,6 +83,12 @@ inline void FinishPlan(PlanWorld& world)
 {
     const Lines reports = world.GetReportsOf(planID);
     return {reports.begin() + static_cast<std::ptrdiff_t>(std::min(count, reports.size())), reports.end()};
+}
+
+/// On the first port of the first robot.
+[[nodiscard]] inline std::optional<std::string> GetCarrierOrNull(const PlanWorld& world)
+{
+    return world.engine->GetRobotStatuses().front().carrierIDs.front();
 }
 
 /// Where in the trace a line stands that begins so, from an index on; the trace's size where none does.

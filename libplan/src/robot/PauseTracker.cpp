@@ -1,0 +1,60 @@
+#include "robot/PauseTracker.hpp"
+
+namespace ACS::Planning
+{
+
+void PauseTracker::Pause() noexcept
+{
+    _state = EState::Paused;
+}
+
+void PauseTracker::Resume() noexcept
+{
+    _state = EState::Resuming;
+}
+
+bool PauseTracker::TryResume() noexcept
+{
+    if (!IsPaused())
+    {
+        return false;
+    }
+    Resume();
+    return true;
+}
+
+void PauseTracker::Reset() noexcept
+{
+    _state = EState::Running;
+}
+
+PauseTracker::ERepeat PauseTracker::OnState(bool bPaused, bool bWasPaused, bool bAutomatic, bool bBack) noexcept
+{
+    if (IsPaused())
+    {
+        return !bPaused && (bBack || bWasPaused) ? ERepeat::Pause : ERepeat::None;
+    }
+    if (!IsResuming())
+    {
+        return ERepeat::None;
+    }
+    // In manual mode it may have missed the pause, and still stop.
+    if (!bPaused && bAutomatic)
+    {
+        Reset();
+    }
+    // Also where it shows no pause: its base may continue, and its arm stand still.
+    return bBack ? ERepeat::Resume : ERepeat::None;
+}
+
+bool PauseTracker::IsPaused() const noexcept
+{
+    return _state == EState::Paused;
+}
+
+bool PauseTracker::IsResuming() const noexcept
+{
+    return _state == EState::Resuming;
+}
+
+} // namespace ACS::Planning

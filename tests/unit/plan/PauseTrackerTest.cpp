@@ -1,0 +1,44 @@
+#include "robot/PauseTracker.hpp"
+
+#include "Catch.hpp"
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using ERepeat = PauseTracker::ERepeat;
+
+TEST_CASE("PauseTracker: only a pause that was commanded is ended")
+{
+    PauseTracker tracker;
+    CHECK_FALSE(tracker.TryResume());
+    tracker.Pause();
+    CHECK(tracker.IsPaused());
+    CHECK(tracker.TryResume());
+    CHECK(tracker.IsResuming());
+    CHECK_FALSE(tracker.IsPaused());
+    CHECK_FALSE(tracker.TryResume());
+    tracker.Reset();
+    CHECK_FALSE(tracker.IsResuming());
+}
+
+TEST_CASE("PauseTracker: a pause is commanded again when the robot is back, or has left its pause")
+{
+    PauseTracker tracker;
+    tracker.Pause();
+    CHECK(tracker.OnState(false, false, true, false) == ERepeat::None); // it has not stopped yet
+    CHECK(tracker.OnState(true, false, true, true) == ERepeat::None);
+    CHECK(tracker.OnState(false, true, true, false) == ERepeat::Pause);
+    CHECK(tracker.OnState(false, false, true, true) == ERepeat::Pause);
+    CHECK(tracker.IsPaused());
+}
+
+TEST_CASE("PauseTracker: a resume is owed until the robot shows in automatic mode that it is not paused")
+{
+    PauseTracker tracker;
+    tracker.Resume();
+    CHECK(tracker.OnState(true, true, true, false) == ERepeat::None);
+    CHECK(tracker.OnState(false, true, false, false) == ERepeat::None);
+    CHECK(tracker.IsResuming());
+    CHECK(tracker.OnState(true, true, true, true) == ERepeat::Resume);
+    CHECK(tracker.OnState(false, true, true, true) == ERepeat::Resume); // it may have missed the command
+    CHECK_FALSE(tracker.IsResuming());
+    CHECK(tracker.OnState(false, false, true, true) == ERepeat::None);
+}
