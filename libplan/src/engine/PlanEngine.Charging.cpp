@@ -34,7 +34,7 @@ void PlanEngine::Impl::UpdateBattery(Robot& robot)
             robot,
             fmt::format("its battery is {}", bLow ? "low: it takes no new plan" : "full enough for plans again"));
         robot.homeNode = bLow ? robot.chargeNode : GetHomeOrNull(robot);
-        robot.wish.reset();
+        robot.plannedRoute.reset();
         _bDispatchNeeded = true;
         if (!bLow && robot.homeNode.has_value() && robot.homeNode != robot.chargeNode)
         {

@@ -12,68 +12,68 @@ namespace ACS::Planning
 {
 
 /// The first that holds, but for having other work.
-PlanEngine::Impl::EHindrance PlanEngine::Impl::GetHindrance(const Robot& robot)
+PlanEngine::Impl::EUnavailability PlanEngine::Impl::GetUnavailability(const Robot& robot)
 {
     if (!robot.bOnline)
     {
-        return EHindrance::Link;
+        return EUnavailability::Link;
     }
     if (!robot.state.has_value() || !robot.bPlaced || !robot.node.has_value())
     {
-        return EHindrance::Place;
+        return EUnavailability::Place;
     }
     // It ends its plan first, and a drive home.
     if (robot.bInMaintenance && robot.planOrNull == nullptr && !robot.drive.has_value())
     {
-        return EHindrance::Maintenance;
+        return EUnavailability::Maintenance;
     }
     const StateChanged& state = *robot.state;
     const bool bFatal =
         std::ranges::any_of(state.errors, [](const RobotError& error) { return error.level == EAlarmLevel::Heavy; });
     if (bFatal)
     {
-        return EHindrance::Error;
+        return EUnavailability::Error;
     }
     if (state.bSafetyStop)
     {
-        return EHindrance::SafetyStop;
+        return EUnavailability::SafetyStop;
     }
     if (state.bPaused || IsHeld(robot))
     {
-        return EHindrance::Paused;
+        return EUnavailability::Paused;
     }
     if (!state.bAutomatic)
     {
-        return EHindrance::Manual;
+        return EUnavailability::Manual;
     }
-    const bool bOccupied = state.bOccupied || robot.bStandAwaited || robot.job.IsOverdue();
-    return bOccupied ? EHindrance::Occupied : EHindrance::None;
+    const bool bOccupied = state.bOccupied || robot.bStandstillAwaited || robot.job.IsOverdue();
+    return bOccupied ? EUnavailability::Occupied : EUnavailability::None;
 }
 
-std::string PlanEngine::Impl::Describe(const Robot& robot, EHindrance hindrance)
+std::string PlanEngine::Impl::Describe(const Robot& robot, EUnavailability unavailability)
 {
-    switch (hindrance)
+    switch (unavailability)
     {
-        case EHindrance::None:
+        case EUnavailability::None:
             return {};
-        case EHindrance::Link:
+        case EUnavailability::Link:
             return "no connection";
-        case EHindrance::Place:
+        case EUnavailability::Place:
             return "its place is not known";
-        case EHindrance::Maintenance:
+        case EUnavailability::Maintenance:
             return "in maintenance";
-        case EHindrance::Error:
+        case EUnavailability::Error:
         {
             const std::vector<RobotError>& errors = robot.state->errors;
             return "error " + std::ranges::find(errors, EAlarmLevel::Heavy, &RobotError::level)->errorCode;
         }
-        case EHindrance::SafetyStop:
+        case EUnavailability::SafetyStop:
             return "emergency or protective stop";
-        case EHindrance::Paused:
+        case EUnavailability::Paused:
             return "paused";
-        case EHindrance::Manual:
+        case EUnavailability::Manual:
             return "not in automatic mode";
-        case EHindrance::Occupied:
+        case EUnavailability::Occupied:
             return "busy with work that is no part of a plan any more";
         default:
             return "cannot be used";
@@ -82,7 +82,7 @@ std::string PlanEngine::Impl::Describe(const Robot& robot, EHindrance hindrance)
 
 bool PlanEngine::Impl::IsUsable(const Robot& robot)
 {
-    return GetHindrance(robot) == EHindrance::None;
+    return GetUnavailability(robot) == EUnavailability::None;
 }
 
 /// Whether it may be given a plan, as far as the robot itself goes.
@@ -93,9 +93,9 @@ bool PlanEngine::Impl::IsFree(const Robot& robot)
 
 std::string PlanEngine::Impl::DescribeUnfree(const Robot& robot) const
 {
-    if (const EHindrance hindrance = GetHindrance(robot); hindrance != EHindrance::None)
+    if (const EUnavailability unavailability = GetUnavailability(robot); unavailability != EUnavailability::None)
     {
-        return Describe(robot, hindrance);
+        return Describe(robot, unavailability);
     }
     if (robot.planOrNull != nullptr)
     {
@@ -174,7 +174,7 @@ PlanEngine::Impl::Robot* PlanEngine::Impl::FindNearestOrNull(const ActivePlan& p
         Robot& robot = _robots[index];
         const bool bPossible = IsFree(robot) && !plan.rejections.contains(index);
         const PortVerdict verdict = bPossible ? JudgePorts(plan, robot) : PortVerdict{"", false};
-        if (!verdict.objectionOrNull.has_value() && CanServe(robot, plan))
+        if (!verdict.unavailabilityOrNull.has_value() && CanServe(robot, plan))
         {
             (verdict.bSupposed ? supposed : known).push_back(&robot);
         }
@@ -227,7 +227,7 @@ PlanEngine::Impl::PortVerdict PlanEngine::Impl::JudgePorts(const ActivePlan& pla
                 job < carrierIDs.size() ? carrierIDs[job] : std::string(),
                 planned,
                 verdict);
-            if (verdict.objectionOrNull.has_value())
+            if (verdict.unavailabilityOrNull.has_value())
             {
                 return verdict;
             }
@@ -245,9 +245,9 @@ void PlanEngine::Impl::JudgeJob(
     PortVerdict& verdict) const
 {
     const ResolvedJob& places = step.jobs[job];
-    if (std::optional<std::string> objection = GetTrayObjectionOrNull(robot, places, planned))
+    if (std::optional<std::string> objection = DescribeMissingTrayOrNull(robot, places, planned))
     {
-        verdict.objectionOrNull = std::move(objection);
+        verdict.unavailabilityOrNull = std::move(objection);
         return;
     }
     for (const bool bFills : {false, true})
@@ -260,9 +260,9 @@ void PlanEngine::Impl::JudgeJob(
             continue;
         }
         verdict.bSupposed = verdict.bSupposed || (!bFills && !robot.ports.GetCarriers()[*port].has_value());
-        verdict.objectionOrNull =
-            bFills ? GetLoadObjectionOrNull(robot, *port) : GetUnloadObjectionOrNull(robot, *port, carrierID);
-        if (verdict.objectionOrNull.has_value())
+        verdict.unavailabilityOrNull =
+            bFills ? DescribeLoadConflictOrNull(robot, *port) : DescribeUnloadConflictOrNull(robot, *port, carrierID);
+        if (verdict.unavailabilityOrNull.has_value())
         {
             return;
         }
@@ -270,7 +270,7 @@ void PlanEngine::Impl::JudgeJob(
 }
 
 /// A memory place on a robot is inside a tray: the tray must be on record on its port, or be loaded by a job before.
-std::optional<std::string> PlanEngine::Impl::GetTrayObjectionOrNull(
+std::optional<std::string> PlanEngine::Impl::DescribeMissingTrayOrNull(
     const Robot& robot,
     const ResolvedJob& job,
     const PortLedger::Contents& planned)
@@ -290,14 +290,14 @@ std::optional<std::string> PlanEngine::Impl::GetTrayObjectionOrNull(
 }
 
 /// Of the present job.
-std::optional<std::string> PlanEngine::Impl::GetTrayObjectionOrNull(const Robot& robot)
+std::optional<std::string> PlanEngine::Impl::DescribeMissingTrayOrNull(const Robot& robot)
 {
     const ActivePlan& plan = *robot.planOrNull;
-    return HasJob(plan) ? GetTrayObjectionOrNull(robot, plan.resolved.steps[plan.step].jobs[plan.job], {})
+    return HasJob(plan) ? DescribeMissingTrayOrNull(robot, plan.resolved.steps[plan.step].jobs[plan.job], {})
                         : std::nullopt;
 }
 
-std::optional<std::string> PlanEngine::Impl::GetLoadObjectionOrNull(const Robot& robot, std::size_t port) const
+std::optional<std::string> PlanEngine::Impl::DescribeLoadConflictOrNull(const Robot& robot, std::size_t port) const
 {
     const std::optional<std::string>& carrier = robot.ports.GetCarriers()[port];
     return carrier.has_value() && !_options.dispatch.bLoadsIntoTakenPorts
@@ -306,7 +306,7 @@ std::optional<std::string> PlanEngine::Impl::GetLoadObjectionOrNull(const Robot&
 }
 
 /// A carrier is only where it is known to be. One that nobody is known to have may have been put on by hand.
-std::optional<std::string> PlanEngine::Impl::GetUnloadObjectionOrNull(
+std::optional<std::string> PlanEngine::Impl::DescribeUnloadConflictOrNull(
     const Robot& robot,
     std::size_t port,
     const std::string& carrierID) const
@@ -365,7 +365,8 @@ std::optional<WaitReason> PlanEngine::Impl::GetWaitReasonOrNull(std::string_view
 }
 
 /// Why the robot is not given the plan now; nullopt where it is.
-std::optional<std::string> PlanEngine::Impl::GetUnavailabilityOrNull(const ActivePlan& plan, const Robot& robot) const
+std::optional<std::string> PlanEngine::Impl::DescribeUnavailabilityOrNull(const ActivePlan& plan, const Robot& robot)
+    const
 {
     if (!robot.bOnline)
     {
@@ -379,7 +380,7 @@ std::optional<std::string> PlanEngine::Impl::GetUnavailabilityOrNull(const Activ
     {
         return DescribeUnfree(robot);
     }
-    if (std::optional<std::string> reason = JudgePorts(plan, robot).objectionOrNull)
+    if (std::optional<std::string> reason = JudgePorts(plan, robot).unavailabilityOrNull)
     {
         return reason;
     }
@@ -400,7 +401,7 @@ WaitReason PlanEngine::Impl::DescribeWaiting(const ActivePlan& plan, std::size_t
     reason.queuePosition = position;
     for (const std::size_t index : plan.resolved.candidates)
     {
-        if (std::optional<std::string> robotReason = GetUnavailabilityOrNull(plan, _robots[index]))
+        if (std::optional<std::string> robotReason = DescribeUnavailabilityOrNull(plan, _robots[index]))
         {
             reason.robots.push_back({GetRobotID(_robots[index]), std::move(*robotReason)});
         }
@@ -447,9 +448,9 @@ std::optional<WaitReason> PlanEngine::Impl::DescribeBegunOrNull(const ActivePlan
         return std::nullopt;
     }
     const Robot& robot = _robots[*plan.robot];
-    if (const EHindrance hindrance = GetHindrance(robot); hindrance != EHindrance::None)
+    if (const EUnavailability unavailability = GetUnavailability(robot); unavailability != EUnavailability::None)
     {
-        reason.message = fmt::format("{}: {}.", GetRobotID(robot), Describe(robot, hindrance));
+        reason.message = fmt::format("{}: {}.", GetRobotID(robot), Describe(robot, unavailability));
         return reason;
     }
     if (robot.activity == EActivity::Works && robot.job.IsUnresolved())
@@ -470,7 +471,7 @@ std::optional<WaitReason> PlanEngine::Impl::DescribeBegunOrNull(const ActivePlan
     }
     if (robot.activity == EActivity::Waits && IsAtPlace(robot))
     {
-        const std::optional<std::string> objection = GetTrayObjectionOrNull(robot);
+        const std::optional<std::string> objection = DescribeMissingTrayOrNull(robot);
         reason.message = objection.has_value()
             ? fmt::format("{}: load the tray by hand and correct the record.", *objection)
             : GetRobotID(robot) + " is about to work.";

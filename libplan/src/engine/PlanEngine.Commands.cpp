@@ -95,14 +95,14 @@ void PlanEngine::Impl::Submit(const SubmitPlan& command)
 }
 
 /// Register D-24. Not with the reply: a plan that cannot be stored is refused, and must not have been reported.
-void PlanEngine::Impl::TellAccepted()
+void PlanEngine::Impl::ReportAccepted()
 {
     for (const std::string& planID : std::exchange(_unreported, {}))
     {
         const ActivePlan* planOrNull = _plans.FindActiveOrNull(planID);
         if (planOrNull != nullptr && planOrNull->record.progress.state == EPlanState::Pending)
         {
-            TellReport(
+            AddReport(
                 PlanReport{planID, EPlanState::Pending, GetWaitReasonOrNull(planID).value_or(WaitReason()).message});
         }
     }
@@ -131,11 +131,11 @@ void PlanEngine::Impl::ChangeTsc(ETscState state)
     _changes.emplace_back(TscChanged{state});
     if (GetTscState() == state)
     {
-        TellTsc(from);
+        PublishTscState(from);
     }
 }
 
-void PlanEngine::Impl::TellTsc(ETscState from)
+void PlanEngine::Impl::PublishTscState(ETscState from)
 {
     _actions.emplace_back(TscStateChanged{_tscState});
     if (_observerOrNull != nullptr)

@@ -21,13 +21,13 @@ std::string MakeRequestID(const ControlPlan& command)
 
 } // namespace
 
-void PlanEngine::Impl::TellControlResult(
+void PlanEngine::Impl::ReportControlResult(
     EPlanControl control,
     const std::string& planID,
     bool bSucceeded,
     std::string message)
 {
-    TellReport(ControlResultReport{control, planID, bSucceeded, std::move(message)});
+    AddReport(ControlResultReport{control, planID, bSucceeded, std::move(message)});
 }
 
 /// Register D-23: after a crash the Ack may have been lost, and not the control.
@@ -73,12 +73,12 @@ void PlanEngine::Impl::Answer(ActivePlan& plan, bool bSucceeded, const std::stri
     if (plan.robot.has_value())
     {
         Robot& robot = _robots[*plan.robot];
-        robot.bStandAwaited = false;
+        robot.bStandstillAwaited = false;
         StopConfirmingControl(robot);
     }
     for (std::size_t count = std::exchange(plan.record.progress.controlCount, 0); count > 0; --count)
     {
-        TellControlResult(*control, plan.record.plan.planID, bSucceeded, message);
+        ReportControlResult(*control, plan.record.plan.planID, bSucceeded, message);
     }
 }
 
@@ -96,7 +96,7 @@ void PlanEngine::Impl::RefuseControl(const ControlPlan& command)
     }
     if (bKnown || _options.controls.bResultAfterRefusal)
     {
-        TellControlResult(command.control, command.planID, false, reason);
+        ReportControlResult(command.control, command.planID, false, reason);
     }
 }
 
@@ -134,17 +134,17 @@ void PlanEngine::Impl::Control(const ControlPlan& command)
         || (plan.record.progress.control == EPlanControl::Cancel && command.control != EPlanControl::Abort);
     if (bEnding)
     {
-        TellControlResult(
+        ReportControlResult(
             command.control,
             command.planID,
             false,
             fmt::format("{}Plan of this plan is under way.", GetText(*plan.record.progress.control)));
         return;
     }
-    Follow(command.control, plan);
+    Apply(command.control, plan);
 }
 
-void PlanEngine::Impl::Follow(EPlanControl control, ActivePlan& plan)
+void PlanEngine::Impl::Apply(EPlanControl control, ActivePlan& plan)
 {
     switch (control)
     {
@@ -188,7 +188,7 @@ void PlanEngine::Impl::Cancel(ActivePlan& plan)
         const char* reason = _options.controls.cancelUntil == ECancelWindow::Dispatch
             ? "A robot has the plan."
             : (plan.bJobBegun ? "The work has begun." : "The robot has arrived.");
-        TellControlResult(EPlanControl::Cancel, plan.record.plan.planID, false, reason);
+        ReportControlResult(EPlanControl::Cancel, plan.record.plan.planID, false, reason);
         return;
     }
     Answer(plan, false, "CancelPlan came in between.");
@@ -209,7 +209,7 @@ void PlanEngine::Impl::Abort(ActivePlan& plan)
     Ask(plan, EPlanControl::Abort);
     if (robot.job.IsUnresolved())
     {
-        AbortHeldJob(robot);
+        AbortUnresolvedJob(robot);
         return;
     }
     const bool bPaused = plan.record.progress.state == EPlanState::Paused;
@@ -295,7 +295,7 @@ void PlanEngine::Impl::Pause(ActivePlan& plan)
     const bool bPaused = plan.record.progress.state == EPlanState::Paused;
     if (bPaused && !plan.record.progress.control.has_value())
     {
-        TellControlResult(EPlanControl::Pause, plan.record.plan.planID, true, "The plan is paused already.");
+        ReportControlResult(EPlanControl::Pause, plan.record.plan.planID, true, "The plan is paused already.");
         return;
     }
     Answer(plan, false, "PausePlan came in between.");
@@ -330,12 +330,12 @@ void PlanEngine::Impl::Resume(ActivePlan& plan)
     const std::string& planID = plan.record.plan.planID;
     if (plan.record.progress.state != EPlanState::Paused)
     {
-        TellControlResult(EPlanControl::Resume, planID, false, "The plan is not paused.");
+        ReportControlResult(EPlanControl::Resume, planID, false, "The plan is not paused.");
         return;
     }
     if (_tscState != ETscState::Auto && plan.robot.has_value())
     {
-        TellControlResult(
+        ReportControlResult(
             EPlanControl::Resume,
             planID,
             false,
@@ -405,7 +405,7 @@ void PlanEngine::Impl::ConfirmPause(Robot& robot)
         plan.jobTimeLeft = std::max(least, *plan.jobDeadline - _now.steady);
         StopJobTimer(robot);
     }
-    TellStatus(robot, ERobotStatus::Stopped);
+    PublishStatus(robot, ERobotStatus::Stopped);
     robot.bTouched = true;
     if (plan.record.progress.state != EPlanState::Paused)
     {
@@ -418,10 +418,10 @@ void PlanEngine::Impl::ConfirmPause(Robot& robot)
 void PlanEngine::Impl::ConfirmResume(Robot& robot)
 {
     ActivePlan& plan = *robot.planOrNull;
-    TellStatus(robot, DeriveStatus(robot));
+    PublishStatus(robot, DeriveStatus(robot));
     LeavePause(plan, "Resumed by ResumePlan.");
     Answer(plan, true, "The plan goes on.");
-    GoOn(robot);
+    ContinueAfterControl(robot);
 }
 
 void PlanEngine::Impl::LeavePause(ActivePlan& plan, std::string message)
@@ -439,7 +439,7 @@ void PlanEngine::Impl::ReleasePause(Robot& robot)
 }
 
 /// With what a pause, or a control that came to nothing, has held up.
-void PlanEngine::Impl::GoOn(Robot& robot)
+void PlanEngine::Impl::ContinueAfterControl(Robot& robot)
 {
     ActivePlan& plan = *robot.planOrNull;
     ReleasePause(robot);
@@ -491,7 +491,7 @@ void PlanEngine::Impl::StopConfirming(Robot& robot)
 void PlanEngine::Impl::StopConfirmingControl(Robot& robot)
 {
     StopConfirming(robot);
-    if (robot.drive.has_value() && robot.drive->instead.has_value())
+    if (robot.drive.has_value() && robot.drive->reroute.has_value())
     {
         StartConfirming(robot, _options.controls.cancelTimeout);
     }
@@ -515,7 +515,7 @@ void PlanEngine::Impl::StopJobTimer(Robot& robot)
 /// The robot has not shown in time that it stopped, or that it goes on: what was asked for came to nothing.
 void PlanEngine::Impl::OnControlTimeout(Robot& robot)
 {
-    GiveInsteadUp(robot);
+    AbandonReroute(robot);
     if (robot.planOrNull == nullptr || !robot.planOrNull->record.progress.control.has_value())
     {
         return;
@@ -544,7 +544,7 @@ void PlanEngine::Impl::OnControlTimeout(Robot& robot)
         LeavePause(plan, "PausePlan failed: the robot did not confirm that it stopped.");
     }
     Answer(plan, false, "The robot did not confirm that it stopped; the plan goes on.");
-    GoOn(robot);
+    ContinueAfterControl(robot);
 }
 
 } // namespace ACS::Planning

@@ -20,7 +20,7 @@ void PlanEngine::Impl::Dispatch()
         {
             SendIdleHome();
         }
-        PartStuck();
+        ResolveDeadlocks();
         ChargeIdle();
     }
 }

@@ -36,7 +36,7 @@ PlanEngine::Impl::Impl(EngineOptions options, SiteMap site, Core::IRandom& rando
         robot.lastStatus = MakeStatus(robot, DeriveStatus(robot));
         robot.bTouched = false;
     }
-    FindBerths();
+    AssignParking();
 }
 
 void PlanEngine::Impl::SetObserver(IPlanObserver& observer)
@@ -115,7 +115,7 @@ void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineAc
     switch (timer.kind)
     {
         case EEngineTimer::Dispatch:
-            TellAccepted();
+            ReportAccepted();
             _bDispatchNeeded = true;
             break;
         case EEngineTimer::StoreRetry:
@@ -211,11 +211,11 @@ void PlanEngine::Impl::End(EngineActions& out)
     }
     FinishTscPause();
     std::ranges::for_each(_robots, [this](Robot& robot) { UpdateStall(robot); });
-    TellStatusChanges();
+    PublishStatusChanges();
     WatchOutbox();
     CollectWork();
     std::vector<StoreChange> changes = std::exchange(_unsaved, {});
-    std::ranges::move(_plans.TakeProgress(), std::back_inserter(changes));
+    std::ranges::move(_plans.CollectProgress(), std::back_inserter(changes));
     std::ranges::move(_changes, std::back_inserter(changes));
     _changes.clear();
     if (!IsStoreWorthTrying(changes))
@@ -298,7 +298,7 @@ void PlanEngine::Impl::CollectWork()
 }
 
 /// Gives the report's transactionID, until the next one.
-std::string_view PlanEngine::Impl::TellReport(Report report)
+std::string_view PlanEngine::Impl::AddReport(Report report)
 {
     const OutboxEntry& entry = _outbox.Add(std::move(report), _now.wall, _random);
     _changes.emplace_back(ReportAdded{entry});
@@ -326,18 +326,18 @@ void PlanEngine::Impl::WatchOutbox()
     }
 }
 
-void PlanEngine::Impl::TellStatusChanges()
+void PlanEngine::Impl::PublishStatusChanges()
 {
     for (Robot& robot : _robots)
     {
         if (std::exchange(robot.bTouched, false))
         {
-            TellStatus(robot, DeriveStatus(robot));
+            PublishStatus(robot, DeriveStatus(robot));
         }
     }
 }
 
-void PlanEngine::Impl::TellStatus(Robot& robot, ERobotStatus status)
+void PlanEngine::Impl::PublishStatus(Robot& robot, ERobotStatus status)
 {
     RobotStatus made = MakeStatus(robot, status);
     if (made == robot.lastStatus)
@@ -379,7 +379,7 @@ void PlanEngine::Impl::Note(const Robot& robot, const std::string& text)
 void PlanEngine::Impl::ChangePlan(ActivePlan& plan, EPlanState state, std::string message)
 {
     const EPlanState from = _plans.Change(plan, state, message, _now.wall);
-    const std::string_view transactionID = TellReport(PlanReport{plan.record.plan.planID, state, std::move(message)});
+    const std::string_view transactionID = AddReport(PlanReport{plan.record.plan.planID, state, std::move(message)});
     if (_observerOrNull != nullptr)
     {
         _observerOrNull->OnPlanChanged(plan.record, from, transactionID, _now);
@@ -394,7 +394,7 @@ void PlanEngine::Impl::ChangeStep(ActivePlan& plan, EStepState state, std::strin
 void PlanEngine::Impl::ChangeStepAt(ActivePlan& plan, std::size_t index, EStepState state, std::string message)
 {
     const EStepState from = _plans.ChangeStep(plan, index, state);
-    const std::string_view transactionID = TellReport(StepReport{
+    const std::string_view transactionID = AddReport(StepReport{
         plan.record.plan.planID,
         plan.record.progress.robotID,
         plan.record.plan.steps[index].stepNo,
@@ -413,7 +413,7 @@ void PlanEngine::Impl::ChangeJob(ActivePlan& plan, EJobState state, std::string 
         return; // The engine made this job: the MCS has no id for it.
     }
     const EJobState from = _plans.ChangeJob(plan, state);
-    const std::string_view transactionID = TellReport(JobReport{
+    const std::string_view transactionID = AddReport(JobReport{
         plan.record.plan.planID,
         plan.record.progress.robotID,
         plan.record.plan.steps[plan.step].stepNo,
@@ -437,7 +437,7 @@ void PlanEngine::Impl::ReportAlarms(const std::vector<ErrorReport>& reports)
     {
         const Alarm& alarm = report.alarm;
         _changes.push_back(report.bSet ? StoreChange(AlarmSet{alarm}) : StoreChange(AlarmCleared{alarm}));
-        const std::string_view transactionID = TellReport(report);
+        const std::string_view transactionID = AddReport(report);
         if (_observerOrNull != nullptr)
         {
             _observerOrNull->OnAlarmChanged(alarm, report.bSet, transactionID, _now);

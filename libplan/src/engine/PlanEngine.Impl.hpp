@@ -41,7 +41,7 @@ public:
     };
 
     /// Why a robot can neither be driven nor work.
-    enum class EHindrance : std::uint8_t
+    enum class EUnavailability : std::uint8_t
     {
         None,
         Link,
@@ -57,7 +57,7 @@ public:
     /// Whether a robot's ports fit a plan.
     struct PortVerdict
     {
-        std::optional<std::string> objectionOrNull;
+        std::optional<std::string> unavailabilityOrNull;
         bool bSupposed = false; ///< A carrier that it is to unload was put on by hand, if it is there at all.
     };
 
@@ -68,7 +68,7 @@ public:
     };
 
     /// Where a robot wants to go, and how.
-    struct Wish
+    struct PlannedRoute
     {
         std::size_t target = 0;
         Route route;
@@ -85,15 +85,15 @@ public:
         std::size_t passed = 0;         ///< Index in the route of the last node passed.
         EGoal goal = EGoal::Step;
         bool bConfirmed = false;
-        bool bTaken = false;         ///< The robot itself has shown that it has the drive.
-        bool bCancelAsked = false;   ///< The robot was told to give it up, and may still do so.
-        bool bCancelling = false;    ///< And that is waited for.
-        std::optional<Wish> instead; ///< It is cancelled for this way; the first nodes of it are granted.
-        bool bInsteadRetreats = false;
+        bool bTaken = false;                 ///< The robot itself has shown that it has the drive.
+        bool bCancelAsked = false;           ///< The robot was told to give it up, and may still do so.
+        bool bCancelling = false;            ///< And that is waited for.
+        std::optional<PlannedRoute> reroute; ///< It is cancelled for this way; the first nodes of it are granted.
+        bool bRerouteRetreats = false;
     };
 
     /// A robot lets another one go first until that one is there, or has another aim.
-    struct Courtesy
+    struct Yield
     {
         std::size_t leader = 0;
         std::optional<std::uint64_t> planSequence; ///< nullopt: the leader goes home.
@@ -115,7 +115,7 @@ public:
         std::optional<StateChanged> state;
         std::optional<std::size_t> node; ///< Where it stands or passed last.
         /// After a restart: where it may be, as far as was written down; once it has told its node, what of that is ahead.
-        std::vector<std::size_t> supposedNodes;
+        std::vector<std::size_t> possibleNodes;
         std::vector<std::size_t> heldNodes; ///< Without a drive: where it may still go all the same, its node included.
         std::string position;               ///< The last station where it stood.
         std::optional<std::size_t> homeNode; ///< Where it goes without work; with a low battery its chargeNode.
@@ -128,7 +128,7 @@ public:
         std::string commandID;               ///< Of its last drive or job.
         std::int32_t jobNumber = 0;          ///< Of its last job; 0: none, or commanded by an older version.
         std::vector<std::string> earlierIDs; ///< Of those before, the latest first.
-        bool bStandAwaited = false; ///< After a restart: what its plan's control comes to shows once it stands.
+        bool bStandstillAwaited = false; ///< After a restart: what its plan's control comes to shows once it stands.
         /// After a restart, until it has shown what it was told last: what of that was written down.
         std::optional<RobotWorkChanged> trace;
         bool bMarkDue = false; ///< Its mark is stored though nothing else has changed.
@@ -142,16 +142,16 @@ public:
         StallMonitor stall;
         ChargingPolicy charging;
         RobotStatus lastStatus;
-        std::optional<Wish> wish;          ///< The quickest way to where it wants to go, kept while it waits.
-        std::vector<std::size_t> blockers; ///< Robots that kept it from driving on when it last wanted to.
-        std::uint64_t refusedAt = 0;       ///< Traffic::GetFreedCount then.
-        std::optional<Courtesy> courtesy;
-        std::optional<Wish>
+        std::optional<PlannedRoute> plannedRoute; ///< The quickest way to where it wants to go, kept while it waits.
+        std::vector<std::size_t> blockers;        ///< Robots that kept it from driving on when it last wanted to.
+        std::uint64_t refusedAt = 0;              ///< Traffic::GetFreedCount then.
+        std::optional<Yield> yield;
+        std::optional<PlannedRoute>
             detour; ///< Around those who stood in the way at detourAt (_standingChanges); nullopt: none.
         std::uint64_t detourAt = 0;
         std::size_t detourTarget = 0;
-        std::size_t detours = 0;              ///< Taken on the way to its present step.
-        std::optional<std::size_t> berthNode; ///< Its home or, without one, where it can be out of the way.
+        std::size_t detours = 0;                ///< Taken on the way to its present step.
+        std::optional<std::size_t> parkingNode; ///< Its home or, without one, where it can be out of the way.
         /// Without a drive: nodes behind its own on the way that it had, up to which it may have come, or may still come.
         std::vector<std::size_t> aheadNodes;
     };
@@ -229,10 +229,10 @@ private:
     void Begin(Core::Now now);
     void CollectWork();
     void End(EngineActions& out);
-    std::string_view TellReport(Report report);
+    std::string_view AddReport(Report report);
     void WatchOutbox();
-    void TellStatusChanges();
-    void TellStatus(Robot& robot, ERobotStatus status);
+    void PublishStatusChanges();
+    void PublishStatus(Robot& robot, ERobotStatus status);
     void StartTimer(EEngineTimer kind, const std::string& robotID, Core::Duration delay);
     void CancelTimer(EEngineTimer kind, const std::string& robotID);
     void Command(Robot& robot, RobotCommand command);
@@ -250,17 +250,17 @@ private:
     [[nodiscard]] ERobotStatus DeriveDriveStatus(const Robot& robot, const ActiveDrive& drive) const;
     [[nodiscard]] static bool IsApproaching(const ActiveDrive& drive);
     [[nodiscard]] bool IsAtPlace(const Robot& robot) const;
-    [[nodiscard]] std::string GetToldPosition(const Robot& robot, ERobotStatus status) const;
+    [[nodiscard]] std::string GetReportedPosition(const Robot& robot, ERobotStatus status) const;
     [[nodiscard]] std::string DescribeStatus(const Robot& robot) const;
     [[nodiscard]] RobotStatus MakeStatus(const Robot& robot, ERobotStatus status) const;
     [[nodiscard]] const std::string& GetRobotID(const Robot& robot) const;
 
     // Commands (PlanEngine.Commands.cpp).
     void Submit(const SubmitPlan& command);
-    void TellAccepted();
+    void ReportAccepted();
     void SwitchTsc(const ControlTsc& command);
     void ChangeTsc(ETscState state);
-    void TellTsc(ETscState from);
+    void PublishTscState(ETscState from);
     void FinishTscPause();
     [[nodiscard]] bool CanDriveHome() const;
     void Acknowledge(const MessageAcknowledged& command);
@@ -290,8 +290,8 @@ private:
     void AssignPlans();
     [[nodiscard]] Robot* FindNearestOrNull(const ActivePlan& plan);
     [[nodiscard]] Robot* FindQuickestOrNull(const ActivePlan& plan, const std::vector<Robot*>& robots) const;
-    [[nodiscard]] static EHindrance GetHindrance(const Robot& robot);
-    [[nodiscard]] static std::string Describe(const Robot& robot, EHindrance hindrance);
+    [[nodiscard]] static EUnavailability GetUnavailability(const Robot& robot);
+    [[nodiscard]] static std::string Describe(const Robot& robot, EUnavailability unavailability);
     [[nodiscard]] static bool IsUsable(const Robot& robot);
     [[nodiscard]] static bool IsFree(const Robot& robot);
     [[nodiscard]] std::string DescribeUnfree(const Robot& robot) const;
@@ -307,24 +307,25 @@ private:
         const std::string& carrierID,
         PortLedger::Contents& planned,
         PortVerdict& verdict) const;
-    [[nodiscard]] static std::optional<std::string> GetTrayObjectionOrNull(
+    [[nodiscard]] static std::optional<std::string> DescribeMissingTrayOrNull(
         const Robot& robot,
         const ResolvedJob& job,
         const PortLedger::Contents& planned);
-    [[nodiscard]] static std::optional<std::string> GetTrayObjectionOrNull(const Robot& robot);
-    [[nodiscard]] std::optional<std::string> GetLoadObjectionOrNull(const Robot& robot, std::size_t port) const;
-    [[nodiscard]] std::optional<std::string> GetUnloadObjectionOrNull(
+    [[nodiscard]] static std::optional<std::string> DescribeMissingTrayOrNull(const Robot& robot);
+    [[nodiscard]] std::optional<std::string> DescribeLoadConflictOrNull(const Robot& robot, std::size_t port) const;
+    [[nodiscard]] std::optional<std::string> DescribeUnloadConflictOrNull(
         const Robot& robot,
         std::size_t port,
         const std::string& carrierID) const;
-    [[nodiscard]] std::optional<std::string> GetUnavailabilityOrNull(const ActivePlan& plan, const Robot& robot) const;
+    [[nodiscard]] std::optional<std::string> DescribeUnavailabilityOrNull(const ActivePlan& plan, const Robot& robot)
+        const;
     [[nodiscard]] WaitReason DescribeWaiting(const ActivePlan& plan, std::size_t position) const;
     [[nodiscard]] std::optional<WaitReason> DescribeBegunOrNull(const ActivePlan& plan) const;
     [[nodiscard]] std::string DescribeStanding(const Robot& robot) const;
 
     // Control of plans (PlanEngine.Controls.cpp).
     void Control(const ControlPlan& command);
-    void Follow(EPlanControl control, ActivePlan& plan);
+    void Apply(EPlanControl control, ActivePlan& plan);
     void RefuseControl(const ControlPlan& command);
     void Cancel(ActivePlan& plan);
     void Abort(ActivePlan& plan);
@@ -344,14 +345,14 @@ private:
     void UpdatePause(Robot& robot, bool bBack, bool bWasPaused);
     void ReleasePause(Robot& robot);
     void LeavePause(ActivePlan& plan, std::string message);
-    void GoOn(Robot& robot);
+    void ContinueAfterControl(Robot& robot);
     void StartConfirming(Robot& robot, Core::Duration limit);
     void StopConfirming(Robot& robot);
     void StopConfirmingControl(Robot& robot);
     void OnControlTimeout(Robot& robot);
     void StartJobTimer(Robot& robot, Core::Duration limit);
     void StopJobTimer(Robot& robot);
-    void TellControlResult(EPlanControl control, const std::string& planID, bool bSucceeded, std::string message);
+    void ReportControlResult(EPlanControl control, const std::string& planID, bool bSucceeded, std::string message);
     [[nodiscard]] bool IsCancellable(const ActivePlan& plan) const;
     [[nodiscard]] static bool IsHeld(const Robot& robot);
 
@@ -375,7 +376,7 @@ private:
     [[nodiscard]] Alarm MakeLinkAlarm(const Robot& robot, std::string message) const;
     [[nodiscard]] Alarm MakePlaceAlarm(const Robot& robot, std::string message) const;
     void Place(Robot& robot);
-    void LosePlace(Robot& robot);
+    void OnPositionLost(Robot& robot);
     [[nodiscard]] std::vector<std::size_t> ListClaimed(const Robot& robot, std::size_t node) const;
     void CompareErrors(Robot& robot);
     [[nodiscard]] bool TryAdvance(Robot& robot, std::size_t routeIndex);
@@ -435,22 +436,22 @@ private:
     void Dispatch();
 
     // Who drives when (PlanEngine.Traffic.cpp).
-    void FindBerths();
-    [[nodiscard]] bool IsBerth(const RobotOptions& robot, std::size_t dock) const;
+    void AssignParking();
+    [[nodiscard]] bool CanParkAt(const RobotOptions& robot, std::size_t dock) const;
     void NoteMovable(const Robot& robot);
     void MoveWaiting();
     void ExtendDrives();
     void ExtendBase(Robot& robot);
     void SendIdleHome();
-    [[nodiscard]] std::vector<Robot*> GetHomeless();
+    [[nodiscard]] std::vector<Robot*> ListAwayFromHome();
     [[nodiscard]] std::vector<Robot*> GetWaiting();
     [[nodiscard]] std::optional<std::size_t> GetTargetOrNull(const Robot& robot) const;
     [[nodiscard]] std::vector<std::size_t> GetTargetHolders(const Robot& robot, std::size_t target) const;
     [[nodiscard]] bool TryDrive(Robot& robot);
-    [[nodiscard]] bool TryTakeWish(Robot& robot);
-    [[nodiscard]] bool TryBeginDrive(Robot& robot, const Wish& wish);
-    [[nodiscard]] bool TryFindWish(Robot& robot, std::size_t target);
-    [[nodiscard]] std::optional<Wish> FindWishOrNull(
+    [[nodiscard]] bool TryBeginPlannedRoute(Robot& robot);
+    [[nodiscard]] bool TryBeginDrive(Robot& robot, const PlannedRoute& plannedRoute);
+    [[nodiscard]] bool TryPlanRoute(Robot& robot, std::size_t target);
+    [[nodiscard]] std::optional<PlannedRoute> PlanRouteOrNull(
         const Robot& robot,
         std::size_t target,
         const Router::NodeFilter& isExcluded) const;
@@ -461,22 +462,22 @@ private:
     void RefuseHome(Robot& robot);
 
     // Robots that wait for one another (PlanEngine.Yielding.cpp).
-    void PartStuck();
+    void ResolveDeadlocks();
     [[nodiscard]] bool IsMoving(const Robot& robot) const;
     [[nodiscard]] bool IsWaiting(const Robot& robot) const;
     [[nodiscard]] bool IsHelpable(const Robot& robot) const;
     [[nodiscard]] bool IsYielding(const Robot& robot) const;
-    [[nodiscard]] std::vector<Robot*> GetStuck();
+    [[nodiscard]] std::vector<Robot*> ListDeadlocked();
     [[nodiscard]] std::vector<Robot*> GetBlockersOf(const Robot& start);
-    [[nodiscard]] bool TryPart(const std::vector<Robot*>& stuck);
+    [[nodiscard]] bool TryResolveDeadlock(const std::vector<Robot*>& stuck);
     [[nodiscard]] bool TryDetour(Robot& robot);
     [[nodiscard]] bool TryMakeWay(Robot& leader, const std::vector<Robot*>& stuck);
     [[nodiscard]] bool TryRetreat(Robot& robot, const Robot& leader);
     [[nodiscard]] bool TryStepAside(Robot& robot, const Robot& leader);
-    [[nodiscard]] bool TryDriveInstead(Robot& robot, Wish wish, bool bRetreats);
-    void BeginInstead(Robot& robot, Wish wish, bool bRetreats);
-    void GiveInsteadUp(Robot& robot);
-    static void LetGoFirst(Robot& robot, const Robot& leader);
+    [[nodiscard]] bool TryReroute(Robot& robot, PlannedRoute plannedRoute, bool bRetreats);
+    void BeginReroute(Robot& robot, PlannedRoute plannedRoute, bool bRetreats);
+    void AbandonReroute(Robot& robot);
+    static void YieldTo(Robot& robot, const Robot& leader);
 
     // After a restart (PlanEngine.Recovery.cpp).
     void RestoreRobot(const RobotWorkChanged& work);
@@ -491,30 +492,30 @@ private:
     void UpdateStartup();
     void EndStartup();
     void RaiseMissing();
-    void SupposePlaces();
-    void YieldSupposed(std::span<const std::size_t> nodes);
-    void ForgetSupposed(Robot& robot);
-    [[nodiscard]] static std::vector<std::size_t> ListSupposedBehind(const Robot& robot, std::size_t node);
+    void ReservePossibleNodes();
+    void ReleasePossibleNodes(std::span<const std::size_t> nodes);
+    void ForgetPossibleNodes(Robot& robot);
+    [[nodiscard]] static std::vector<std::size_t> ListPossibleAhead(const Robot& robot, std::size_t node);
     [[nodiscard]] std::vector<std::string> ListNodes(const Robot& robot) const;
-    void FollowStand(Robot& robot);
-    static void CheckTrace(Robot& robot);
-    void HoldDoubtful(Robot& robot);
+    void UpdateStandstill(Robot& robot);
+    static void CheckEvidence(Robot& robot);
+    void SuspendDoubtfulJob(Robot& robot);
     void CatchUp(Robot& robot);
-    void HoldJob(Robot& robot, const std::string& reason);
-    void AbortHeldJob(Robot& robot);
-    void FindOut(Robot& robot);
+    void SuspendJob(Robot& robot, const std::string& reason);
+    void AbortUnresolvedJob(Robot& robot);
+    void EndRecovery(Robot& robot);
     void ReleaseJob(Robot& robot);
     void RepeatJob(Robot& robot, std::string commandID);
     [[nodiscard]] std::optional<std::size_t> FindWorkerOrNull(const SettleJob& command) const;
     void Settle(const SettleJob& command);
-    void SettleFor(Robot& robot, EJobAnswer answer);
-    void AskForJob(Robot& robot);
-    [[nodiscard]] static bool IsAwaited(const Robot& robot);
-    [[nodiscard]] Alarm MakeUncertainAlarm(const Robot& robot) const;
+    void ApplyAnswer(Robot& robot, EJobAnswer answer);
+    void RequestJobOutcome(Robot& robot);
+    [[nodiscard]] static bool IsPositionAwaited(const Robot& robot);
+    [[nodiscard]] Alarm MakeUnresolvedAlarm(const Robot& robot) const;
 
     // Failures of the store (PlanEngine.StoreFailure.cpp).
     void NoteStoreSuccess();
-    [[nodiscard]] std::size_t TakeBatchBack(const StoreBatch& batch);
+    [[nodiscard]] std::size_t RecoverBatch(const StoreBatch& batch);
     void ReleaseWithoutStore(
         const EngineActions& withheld,
         bool bPlanRefused,
@@ -522,7 +523,7 @@ private:
         EngineActions& out);
     [[nodiscard]] bool TryWithdraw(const CommandRobot& command);
     void WithdrawPause(Robot& robot);
-    void TellStoreFailure(std::string_view reason, EngineActions& out);
+    void ReportStoreFailure(std::string_view reason, EngineActions& out);
     void StartStoreRetry(EngineActions& out);
     void KeepForStore(std::vector<StoreChange> changes);
     [[nodiscard]] static Alarm MakeStoreAlarm(std::string message);

@@ -52,9 +52,9 @@ void PlanEngine::Impl::Maintain(const SetMaintenance& command)
         _bDispatchNeeded = true;
         Note(robot, command.bOn ? "is taken out of service" : "is in service again");
     }
-    if (command.bOn && !robot.bPlaced && !robot.supposedNodes.empty())
+    if (command.bOn && !robot.bPlaced && !robot.possibleNodes.empty())
     {
-        ForgetSupposed(robot);
+        ForgetPossibleNodes(robot);
         Note(robot, "is not on the floor: where it was is free again");
     }
     const bool bEndsPlan = command.bOn && robot.planOrNull != nullptr;

@@ -86,14 +86,15 @@ std::string PlanEngine::Impl::DescribeStall(const Robot& robot) const
 {
     const ActiveDrive& drive = *robot.drive;
     const std::vector<RouteNode>& nodes = drive.route.nodes;
-    const EHindrance hindrance = GetHindrance(robot);
+    const EUnavailability unavailability = GetUnavailability(robot);
     return fmt::format(
         "{} node {}{} since {} s{}; look at the robot",
         drive.bTaken ? "it has not come to" : "it has not shown that it took its drive to",
         nodes[std::min(drive.passed + 1, nodes.size() - 1)].nodeID,
         robot.planOrNull == nullptr ? std::string() : " for plan " + robot.planOrNull->record.plan.planID,
         std::chrono::duration_cast<std::chrono::seconds>(robot.stall.GetTimeWithoutProgress(_now.steady)).count(),
-        hindrance == EHindrance::None ? std::string() : fmt::format(" ({})", Describe(robot, hindrance)));
+        unavailability == EUnavailability::None ? std::string()
+                                                : fmt::format(" ({})", Describe(robot, unavailability)));
 }
 
 } // namespace ACS::Planning

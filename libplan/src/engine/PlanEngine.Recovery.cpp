@@ -102,7 +102,7 @@ void PlanEngine::Impl::RestoreRobot(const RobotWorkChanged& work)
     {
         if (const std::optional<std::size_t> node = _site.FindNodeIndexOrNull(nodeID); node.has_value())
         {
-            robot.supposedNodes.push_back(*node);
+            robot.possibleNodes.push_back(*node);
         }
     }
     if (work.bPauseAsked)
@@ -201,11 +201,11 @@ void PlanEngine::Impl::RestoreWork(ActivePlan& plan, Robot& robot)
     {
         robot.job.Begin(MakeStartJob(robot));
         robot.bWorkTouched = true;
-        HoldJob(robot, "the ACS that commanded it did not write down how to ask for it");
+        SuspendJob(robot, "the ACS that commanded it did not write down how to ask for it");
         return;
     }
     plan.madeJobID = HasJob(plan) ? std::string() : jobOrNull->jobID;
-    AskForJob(robot);
+    RequestJobOutcome(robot);
 }
 
 /// An outcome that was open is still owed, once; and what was paused stays so.
@@ -239,12 +239,12 @@ void PlanEngine::Impl::RestoreControl(ActivePlan& plan, Robot& robot)
         case EPlanControl::Cancel:
         case EPlanControl::Abort:
         default:
-            robot.bStandAwaited = !bWorks;
+            robot.bStandstillAwaited = !bWorks;
             break;
     }
     if (!bWorks || progress.control == EPlanControl::Resume || robot.pause.IsPaused())
     {
-        const bool bEnding = robot.bStandAwaited;
+        const bool bEnding = robot.bStandstillAwaited;
         StartConfirming(robot, bEnding ? _options.controls.cancelTimeout : _options.controls.pauseTimeout);
     }
 }
@@ -256,26 +256,26 @@ void PlanEngine::Impl::RestoreOverdue(Robot& robot)
     if (robot.job.GetOrNull() != nullptr && !bOfPlan)
     {
         robot.job.MarkOverdue();
-        AskForJob(robot);
+        RequestJobOutcome(robot);
         StartTimer(EEngineTimer::JobEnd, GetRobotID(robot), _options.controls.jobEndTimeout);
     }
 }
 
-void PlanEngine::Impl::AskForJob(Robot& robot)
+void PlanEngine::Impl::RequestJobOutcome(Robot& robot)
 {
     robot.job.BeginRecovery();
     Command(robot, RecoverJob{*robot.job.GetOrNull(), robot.earlierIDs});
 }
 
 /// A drive that was to be cancelled before the restart: the adapter gives up what is left of it, and here it stands.
-void PlanEngine::Impl::FollowStand(Robot& robot)
+void PlanEngine::Impl::UpdateStandstill(Robot& robot)
 {
     const StateChanged& state = *robot.state;
-    if (!robot.bStandAwaited || !robot.bPlaced || state.bOccupied || state.bDriving)
+    if (!robot.bStandstillAwaited || !robot.bPlaced || state.bOccupied || state.bDriving)
     {
         return;
     }
-    robot.bStandAwaited = false;
+    robot.bStandstillAwaited = false;
     ActivePlan& plan = *robot.planOrNull;
     const EPlanControl control = *plan.record.progress.control;
     const bool bArrived = robot.node == GetTargetOrNull(robot);
@@ -288,13 +288,13 @@ void PlanEngine::Impl::FollowStand(Robot& robot)
     Answer(plan, false, "The robot has arrived.");
     if (plan.record.progress.state != EPlanState::Paused)
     {
-        GoOn(robot);
+        ContinueAfterControl(robot);
     }
 }
 
 /// While the store fails work goes on. After a crash then the robot shows what nobody wrote down, or that it has forgotten
 /// what it had: the next jobs of its plan may have been a part of that.
-void PlanEngine::Impl::CheckTrace(Robot& robot)
+void PlanEngine::Impl::CheckEvidence(Robot& robot)
 {
     const std::optional<RobotWorkChanged> trace = std::exchange(robot.trace, std::nullopt);
     if (!trace.has_value() || robot.planOrNull == nullptr)
@@ -319,15 +319,15 @@ void PlanEngine::Impl::CheckTrace(Robot& robot)
 }
 
 /// Instead of beginning the present job.
-void PlanEngine::Impl::HoldDoubtful(Robot& robot)
+void PlanEngine::Impl::SuspendDoubtfulJob(Robot& robot)
 {
     robot.planOrNull->repeatedCommandID.clear();
     robot.job.Begin(MakeStartJob(robot));
     robot.bWorkTouched = true;
-    HoldJob(robot, "the robot may have done work that the ACS could not write down before it stopped");
+    SuspendJob(robot, "the robot may have done work that the ACS could not write down before it stopped");
 }
 
-Alarm PlanEngine::Impl::MakeUncertainAlarm(const Robot& robot) const
+Alarm PlanEngine::Impl::MakeUnresolvedAlarm(const Robot& robot) const
 {
     Alarm alarm = MakeAlarm(GetRobotID(robot), ALARM_UNRESOLVED, EAlarmLevel::Heavy, {});
     AddJob(alarm, *robot.job.GetOrNull());
@@ -335,12 +335,12 @@ Alarm PlanEngine::Impl::MakeUncertainAlarm(const Robot& robot) const
 }
 
 /// It is not done again, and nothing else is done with this robot, before somebody has looked.
-void PlanEngine::Impl::HoldJob(Robot& robot, const std::string& reason)
+void PlanEngine::Impl::SuspendJob(Robot& robot, const std::string& reason)
 {
     robot.job.MarkUnresolved();
     robot.bTouched = true;
     const StartJob& job = *robot.job.GetOrNull();
-    Alarm alarm = MakeUncertainAlarm(robot);
+    Alarm alarm = MakeUnresolvedAlarm(robot);
     const bool bOfPlan = robot.planOrNull != nullptr && !robot.job.IsOverdue();
     alarm.message = fmt::format(
         "It is unknown whether {} was done at {}: {}. Check the robot and that place, then answer {}.",
@@ -360,25 +360,25 @@ void PlanEngine::Impl::HoldJob(Robot& robot, const std::string& reason)
     StopJobTimer(robot);
     if (robot.planOrNull->record.progress.control == EPlanControl::Abort)
     {
-        AbortHeldJob(robot);
+        AbortUnresolvedJob(robot);
     }
 }
 
 /// Whoever aborts the plan need not answer for its job.
-void PlanEngine::Impl::AbortHeldJob(Robot& robot)
+void PlanEngine::Impl::AbortUnresolvedJob(Robot& robot)
 {
     RaiseDropped(robot);
     EndByControl(*robot.planOrNull, EPlanControl::Abort);
 }
 
 /// The robot has told what became of the job.
-void PlanEngine::Impl::FindOut(Robot& robot)
+void PlanEngine::Impl::EndRecovery(Robot& robot)
 {
     if (!robot.job.TryEndRecovery())
     {
         return;
     }
-    ClearAlarm(MakeUncertainAlarm(robot));
+    ClearAlarm(MakeUnresolvedAlarm(robot));
     if (robot.planOrNull->record.progress.state == EPlanState::Paused)
     {
         const std::chrono::milliseconds timeout =
@@ -396,7 +396,7 @@ void PlanEngine::Impl::ReleaseJob(Robot& robot)
     {
         return;
     }
-    ClearAlarm(MakeUncertainAlarm(robot));
+    ClearAlarm(MakeUnresolvedAlarm(robot));
     robot.job.Release();
     robot.bWorkTouched = true;
 }
@@ -429,11 +429,11 @@ void PlanEngine::Impl::OnJobUnknown(Robot& robot, const JobUnknown& event)
     ActivePlan& plan = *robot.planOrNull;
     if (GetJobState(plan) == EJobState::InProgress)
     {
-        HoldJob(robot, "the robot does not know it, though it had begun it");
+        SuspendJob(robot, "the robot does not know it, though it had begun it");
     }
     else if (robot.job.GetOrNull()->commandID.empty())
     {
-        HoldJob(robot, "what became of it was asked before, and not answered");
+        SuspendJob(robot, "what became of it was asked before, and not answered");
     }
     else if (plan.record.progress.control == EPlanControl::Abort)
     {
@@ -455,7 +455,7 @@ void PlanEngine::Impl::OnJobUncertain(Robot& robot, const JobUncertain& event)
         robot.bDoubtful =
             robot.bDoubtful || (robot.job.IsRecovering() && bOfPlan && !robot.job.GetOrNull()->mark.empty());
         robot.bWorkTouched = true;
-        HoldJob(robot, event.reason);
+        SuspendJob(robot, event.reason);
     }
 }
 
@@ -506,7 +506,7 @@ void PlanEngine::Impl::Settle(const SettleJob& command)
     Robot& robot = _robots[*FindWorkerOrNull(command)];
     _actions.emplace_back(ReplyCommand{command.replyToken, true, "Received."});
     robot.bTouched = true;
-    SettleFor(robot, command.answer);
+    ApplyAnswer(robot, command.answer);
 }
 
 /// A job that was done and never written down as commanded is told from its beginning.
@@ -521,7 +521,7 @@ void PlanEngine::Impl::CatchUp(Robot& robot)
     }
 }
 
-void PlanEngine::Impl::SettleFor(Robot& robot, EJobAnswer answer)
+void PlanEngine::Impl::ApplyAnswer(Robot& robot, EJobAnswer answer)
 {
     robot.job.Resolve();
     const std::string jobID = robot.job.GetOrNull()->jobID;

@@ -66,10 +66,10 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
     {
         MarkStepBegun(*robot.planOrNull);
     }
-    CheckTrace(robot);
+    CheckEvidence(robot);
     CompareLoads(robot);
     UpdatePause(robot, bBack, bWasPaused);
-    FollowStand(robot);
+    UpdateStandstill(robot);
     UpdateBattery(robot);
     if (IsUsable(robot) && !bWasUsable)
     {
@@ -85,12 +85,12 @@ void PlanEngine::Impl::Place(Robot& robot)
     const std::optional<std::size_t> node = _site.FindNodeIndexOrNull(nodeID);
     if (!node.has_value())
     {
-        LosePlace(robot);
+        OnPositionLost(robot);
         return;
     }
     const std::vector<std::size_t> claim = ListClaimed(robot, *node);
     std::vector<std::size_t> ahead =
-        FindAhead(robot, *node, node == robot.node ? robot.aheadNodes : ListSupposedBehind(robot, *node));
+        FindAhead(robot, *node, node == robot.node ? robot.aheadNodes : ListPossibleAhead(robot, *node));
     std::erase_if(ahead, [&claim](std::size_t between) { return std::ranges::count(claim, between) > 0; });
     std::vector<std::size_t> held(claim);
     held.insert(held.end(), ahead.begin(), ahead.end());
@@ -98,10 +98,10 @@ void PlanEngine::Impl::Place(Robot& robot)
     {
         return;
     }
-    std::erase_if(robot.supposedNodes, [&ahead](std::size_t supposed) {
+    std::erase_if(robot.possibleNodes, [&ahead](std::size_t supposed) {
         return std::ranges::count(ahead, supposed) == 0;
     });
-    YieldSupposed(claim);
+    ReleasePossibleNodes(claim);
     if (!_traffic.TryStand(robot.index, *node, std::span(claim).subspan(1), ahead))
     {
         const auto taken = std::ranges::find_if(claim, [this, &robot](std::size_t other) {
@@ -127,7 +127,7 @@ void PlanEngine::Impl::Place(Robot& robot)
     robot.node = node;
     robot.heldNodes = std::move(held);
     robot.bPlaced = true;
-    robot.wish.reset();
+    robot.plannedRoute.reset();
     ++_standingChanges;
     if (const SiteStation* stationOrNull = _site.FindStationAtOrNull(nodeID); stationOrNull != nullptr)
     {
@@ -142,7 +142,7 @@ Alarm PlanEngine::Impl::MakePlaceAlarm(const Robot& robot, std::string message) 
 }
 
 /// Somebody has taken it off the map, or it does not know where it is. What it held stays its own until it tells a node.
-void PlanEngine::Impl::LosePlace(Robot& robot)
+void PlanEngine::Impl::OnPositionLost(Robot& robot)
 {
     if (!std::exchange(robot.bPlaced, false))
     {
@@ -245,7 +245,7 @@ bool PlanEngine::Impl::TryAdvance(Robot& robot, std::size_t routeIndex)
         const std::span<const std::size_t> nodes(drive.nodes);
         const std::span<const std::size_t> overrun =
             nodes.subspan(drive.grantedCount, routeIndex + 1 - drive.grantedCount);
-        if (drive.instead.has_value() || !_traffic.TryOverrun(robot.index, overrun))
+        if (drive.reroute.has_value() || !_traffic.TryOverrun(robot.index, overrun))
         {
             RaiseAlarm(MakePlaceAlarm(
                 robot,
@@ -260,7 +260,7 @@ bool PlanEngine::Impl::TryAdvance(Robot& robot, std::size_t routeIndex)
         _traffic.Pass(robot.index, routeIndex - drive.passed);
         _bDispatchNeeded = true;
         robot.aheadNodes.clear();
-        robot.supposedNodes.clear();
+        robot.possibleNodes.clear();
         robot.homeRefusals = 0;
     }
     drive.passed = routeIndex;
@@ -361,7 +361,7 @@ void PlanEngine::Impl::EndDrive(Robot& robot)
     static_cast<void>(bStands);
     robot.drive.reset();
     ++_standingChanges;
-    robot.wish.reset();
+    robot.plannedRoute.reset();
     robot.blockers.clear();
     _bDispatchNeeded = true;
 }
@@ -408,7 +408,7 @@ void PlanEngine::Impl::OnArrived(Robot& robot, const Arrived& event)
         Answer(plan, false, "The robot has arrived.");
         if (plan.record.progress.state != EPlanState::Paused)
         {
-            GoOn(robot);
+            ContinueAfterControl(robot);
         }
     }
     // Otherwise the work begins when the robot is there again: the drive may well end while its arm is out of reach.
@@ -472,12 +472,12 @@ void PlanEngine::Impl::OnDriveCancelled(Robot& robot, const DriveCancelled& even
         return;
     }
     const bool bWanted = IsEnding(robot);
-    if (robot.drive->instead.has_value() && !bWanted)
+    if (robot.drive->reroute.has_value() && !bWanted)
     {
-        const bool bRetreats = robot.drive->bInsteadRetreats;
-        Wish instead = std::move(*robot.drive->instead);
+        const bool bRetreats = robot.drive->bRerouteRetreats;
+        PlannedRoute reroute = std::move(*robot.drive->reroute);
         EndDrive(robot);
-        BeginInstead(robot, std::move(instead), bRetreats);
+        BeginReroute(robot, std::move(reroute), bRetreats);
         return;
     }
     if (robot.drive->bCancelAsked && !bWanted)
@@ -502,7 +502,7 @@ void PlanEngine::Impl::OnJobStarted(Robot& robot, const JobStarted& event)
     }
     robot.bCommandTaken = true;
     robot.bWorkTouched = true;
-    FindOut(robot);
+    EndRecovery(robot);
     ActivePlan& plan = *robot.planOrNull;
     if (GetJobState(plan) == EJobState::Instructed)
     {
@@ -533,7 +533,7 @@ void PlanEngine::Impl::OnJobEndTimeout(Robot& robot)
 {
     if (robot.job.IsOverdue() && !robot.job.IsUnresolved())
     {
-        HoldJob(robot, "its plan is over, and the robot does not tell the job's end");
+        SuspendJob(robot, "its plan is over, and the robot does not tell the job's end");
     }
 }
 

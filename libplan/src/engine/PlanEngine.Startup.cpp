@@ -8,7 +8,7 @@ namespace ACS::Planning
 {
 
 /// Whether it has still to tell where it stands. One that is out of service may be switched off for days.
-bool PlanEngine::Impl::IsAwaited(const Robot& robot)
+bool PlanEngine::Impl::IsPositionAwaited(const Robot& robot)
 {
     return !robot.state.has_value() && !robot.bInMaintenance;
 }
@@ -22,13 +22,13 @@ void PlanEngine::Impl::BeginStartup(bool bHasWork)
     }
     else
     {
-        SupposePlaces();
+        ReservePossibleNodes();
     }
 }
 
 void PlanEngine::Impl::UpdateStartup()
 {
-    if (_startup.IsWaiting() && std::ranges::none_of(_robots, IsAwaited))
+    if (_startup.IsWaiting() && std::ranges::none_of(_robots, IsPositionAwaited))
     {
         CancelTimer(EEngineTimer::Startup, {});
         EndStartup();
@@ -37,13 +37,13 @@ void PlanEngine::Impl::UpdateStartup()
 
 void PlanEngine::Impl::EndStartup()
 {
-    SupposePlaces();
+    ReservePossibleNodes();
     if (_startup.TryRelease())
     {
         _bDispatchNeeded = true;
         if (_tscState == ETscState::Auto)
         {
-            TellTsc(ETscState::Paused);
+            PublishTscState(ETscState::Paused);
         }
     }
 }
@@ -53,7 +53,7 @@ void PlanEngine::Impl::RaiseMissing()
 {
     for (const Robot& robot : _robots)
     {
-        if (!IsAwaited(robot))
+        if (!IsPositionAwaited(robot))
         {
             continue;
         }
@@ -67,7 +67,7 @@ void PlanEngine::Impl::RaiseMissing()
             robot,
             bHasWork ? "It has not come back since the ACS was started, and has work."
                      : "It has not been there since the ACS was started.");
-        if (!robot.supposedNodes.empty())
+        if (!robot.possibleNodes.empty())
         {
             alarm.message += " Where it may be is kept free until it is back, or is taken into maintenance.";
         }
@@ -76,25 +76,25 @@ void PlanEngine::Impl::RaiseMissing()
 }
 
 /// Nobody else is let to where a robot may be that has not told it. Those that have told come first.
-void PlanEngine::Impl::SupposePlaces()
+void PlanEngine::Impl::ReservePossibleNodes()
 {
     for (const Robot& robot : _robots)
     {
         if (!robot.bPlaced)
         {
-            _traffic.HoldPossible(robot.index, robot.supposedNodes);
+            _traffic.HoldPossible(robot.index, robot.possibleNodes);
         }
     }
 }
 
 /// A robot tells that it is there: so nobody is of whom that is only supposed.
-void PlanEngine::Impl::YieldSupposed(std::span<const std::size_t> nodes)
+void PlanEngine::Impl::ReleasePossibleNodes(std::span<const std::size_t> nodes)
 {
     for (Robot& robot : _robots)
     {
         for (const std::size_t node : nodes)
         {
-            if (std::erase(robot.supposedNodes, node) > 0)
+            if (std::erase(robot.possibleNodes, node) > 0)
             {
                 std::erase(robot.aheadNodes, node);
                 std::erase(robot.heldNodes, node);
@@ -105,9 +105,9 @@ void PlanEngine::Impl::YieldSupposed(std::span<const std::size_t> nodes)
 }
 
 /// It is not on the floor.
-void PlanEngine::Impl::ForgetSupposed(Robot& robot)
+void PlanEngine::Impl::ForgetPossibleNodes(Robot& robot)
 {
-    for (const std::size_t node : std::exchange(robot.supposedNodes, {}))
+    for (const std::size_t node : std::exchange(robot.possibleNodes, {}))
     {
         _traffic.Disown(robot.index, node);
     }
@@ -116,17 +116,17 @@ void PlanEngine::Impl::ForgetSupposed(Robot& robot)
 }
 
 /// Of the way that was written down, what lies behind the node.
-std::vector<std::size_t> PlanEngine::Impl::ListSupposedBehind(const Robot& robot, std::size_t node)
+std::vector<std::size_t> PlanEngine::Impl::ListPossibleAhead(const Robot& robot, std::size_t node)
 {
-    const auto here = std::ranges::find(robot.supposedNodes, node);
-    return here == robot.supposedNodes.end() ? std::vector<std::size_t>()
-                                             : std::vector<std::size_t>(here + 1, robot.supposedNodes.end());
+    const auto here = std::ranges::find(robot.possibleNodes, node);
+    return here == robot.possibleNodes.end() ? std::vector<std::size_t>()
+                                             : std::vector<std::size_t>(here + 1, robot.possibleNodes.end());
 }
 
 /// To be written down: where the robot may be after a restart.
 std::vector<std::string> PlanEngine::Impl::ListNodes(const Robot& robot) const
 {
-    std::span<const std::size_t> nodes = robot.supposedNodes;
+    std::span<const std::size_t> nodes = robot.possibleNodes;
     if (robot.drive.has_value())
     {
         nodes = std::span(robot.drive->nodes).subspan(robot.drive->passed);

@@ -103,7 +103,7 @@ bool PlanEngine::Impl::IsAtPlace(const Robot& robot) const
 }
 
 /// Who has reached a station's last node before the dock is as good as there.
-std::string PlanEngine::Impl::GetToldPosition(const Robot& robot, ERobotStatus status) const
+std::string PlanEngine::Impl::GetReportedPosition(const Robot& robot, ERobotStatus status) const
 {
     const bool bArrives = status == ERobotStatus::Arrival || status == ERobotStatus::Docking;
     if (!robot.drive.has_value() || (!bArrives && _options.movingPosition == EMovingPosition::Last))
@@ -132,18 +132,18 @@ std::string PlanEngine::Impl::DescribeStatus(const Robot& robot) const
             "Robot stalled: node {} not reached.",
             nodes[std::min(robot.drive->passed + 1, nodes.size() - 1)].nodeID);
     }
-    if (robot.planOrNull != nullptr && robot.retreatNode.has_value() && robot.courtesy.has_value())
+    if (robot.planOrNull != nullptr && robot.retreatNode.has_value() && robot.yield.has_value())
     {
-        return fmt::format("Makes way for {}.", GetRobotID(_robots[robot.courtesy->leader]));
+        return fmt::format("Makes way for {}.", GetRobotID(_robots[robot.yield->leader]));
     }
     if (robot.planOrNull != nullptr)
     {
         const std::optional<WaitReason> reason = DescribeBegunOrNull(*robot.planOrNull);
         return reason.has_value() ? reason->message : std::string();
     }
-    if (const EHindrance hindrance = GetHindrance(robot); hindrance != EHindrance::None)
+    if (const EUnavailability unavailability = GetUnavailability(robot); unavailability != EUnavailability::None)
     {
-        return fmt::format("{}: {}.", GetRobotID(robot), Describe(robot, hindrance));
+        return fmt::format("{}: {}.", GetRobotID(robot), Describe(robot, unavailability));
     }
     return robot.charging.IsBatteryLow() ? "Battery low." : "";
 }
@@ -154,7 +154,7 @@ RobotStatus PlanEngine::Impl::MakeStatus(const Robot& robot, ERobotStatus status
     made.robotID = GetRobotID(robot);
     made.type = robot.options->type;
     made.status = status;
-    made.position = GetToldPosition(robot, status);
+    made.position = GetReportedPosition(robot, status);
     made.bInMaintenance = robot.bInMaintenance;
     made.message = DescribeStatus(robot);
     made.carrierIDs = robot.ports.GetCarriers();

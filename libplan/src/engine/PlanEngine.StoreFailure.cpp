@@ -23,9 +23,9 @@ void PlanEngine::Impl::OnStored(const Core::Result<void>& result, Core::Now now,
     _now = now;
     _bStoreFailing = true;
     _bStoreAttempted = false;
-    const bool bPlanRefused = TakeBatchBack(transaction.batch) > 0;
+    const bool bPlanRefused = RecoverBatch(transaction.batch) > 0;
     ReleaseWithoutStore(transaction.dependent, bPlanRefused, reason, out);
-    TellStoreFailure(reason, out);
+    ReportStoreFailure(reason, out);
 }
 
 bool PlanEngine::Impl::IsStoring() const noexcept
@@ -43,11 +43,11 @@ void PlanEngine::Impl::OnStoreLost(std::string_view reason, Core::Now now, Engin
     _now = now;
     _bStoreFailing = true;
     _bStoreAttempted = false;
-    TellStoreFailure(reason, out);
+    ReportStoreFailure(reason, out);
 }
 
 /// By the alarm, which waits for the store with all the rest, and tries again from now on.
-void PlanEngine::Impl::TellStoreFailure(std::string_view reason, EngineActions& out)
+void PlanEngine::Impl::ReportStoreFailure(std::string_view reason, EngineActions& out)
 {
     RaiseAlarm(MakeStoreAlarm("Plans cannot be stored: " + std::string(reason)));
     KeepForStore(std::exchange(_changes, {}));
@@ -72,7 +72,7 @@ void PlanEngine::Impl::StartStoreRetry(EngineActions& out)
 
 /// What is to be stored later, but for new plans: they are not told to anybody and not begun, as if they had never come.
 /// Gives how many there were.
-std::size_t PlanEngine::Impl::TakeBatchBack(const StoreBatch& batch)
+std::size_t PlanEngine::Impl::RecoverBatch(const StoreBatch& batch)
 {
     std::size_t refused = 0;
     for (const StoreChange& change : batch.changes)

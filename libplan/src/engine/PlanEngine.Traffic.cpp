@@ -12,9 +12,9 @@
 namespace ACS::Planning
 {
 
-/// A robot without a home has a berth all the same: the first station that is nobody's, beside the lanes, with a way there
-/// and back. It goes there only to make way.
-void PlanEngine::Impl::FindBerths()
+/// The parking position of a robot without a home is the first free station beside the lanes with a route there and back. The
+/// robot goes there only to make way.
+void PlanEngine::Impl::AssignParking()
 {
     std::set<std::size_t> taken;
     for (const Robot& robot : _robots)
@@ -31,17 +31,17 @@ void PlanEngine::Impl::FindBerths()
     for (Robot& robot : _robots)
     {
         const RobotOptions& options = *robot.options;
-        robot.berthNode = robot.homeNode.has_value() ? robot.homeNode : robot.chargeNode;
+        robot.parkingNode = robot.homeNode.has_value() ? robot.homeNode : robot.chargeNode;
         for (const SiteStation& station : _site.GetStations())
         {
             const std::optional<std::size_t> dock = _admission.FindDockOrNull(station.stationID, options.vehicleTypeID);
-            if (!robot.berthNode.has_value() && dock.has_value() && IsBerth(options, *dock)
+            if (!robot.parkingNode.has_value() && dock.has_value() && CanParkAt(options, *dock)
                 && taken.insert(*dock).second)
             {
-                robot.berthNode = dock;
+                robot.parkingNode = dock;
             }
         }
-        _traffic.AddRobot(options.vehicleTypeID, robot.berthNode);
+        _traffic.AddRobot(options.vehicleTypeID, robot.parkingNode);
         if (options.startNodeID.has_value())
         {
             const bool bStands = _traffic.TryStand(robot.index, *_site.FindNodeIndexOrNull(*options.startNodeID));
@@ -51,7 +51,7 @@ void PlanEngine::Impl::FindBerths()
     }
 }
 
-bool PlanEngine::Impl::IsBerth(const RobotOptions& robot, std::size_t dock) const
+bool PlanEngine::Impl::CanParkAt(const RobotOptions& robot, std::size_t dock) const
 {
     if (!_traffic.IsSpur(robot.vehicleTypeID, dock))
     {
@@ -120,18 +120,18 @@ std::vector<PlanEngine::Impl::Robot*> PlanEngine::Impl::GetWaiting()
 }
 
 /// Robots without work that stand elsewhere than at home.
-std::vector<PlanEngine::Impl::Robot*> PlanEngine::Impl::GetHomeless()
+std::vector<PlanEngine::Impl::Robot*> PlanEngine::Impl::ListAwayFromHome()
 {
-    std::vector<Robot*> homeless;
+    std::vector<Robot*> away;
     for (Robot& robot : _robots)
     {
         const bool bIdle = robot.planOrNull == nullptr && !robot.drive.has_value() && !robot.bHomeRefused;
         if (bIdle && IsUsable(robot) && robot.homeNode.has_value() && robot.homeNode != robot.node)
         {
-            homeless.push_back(&robot);
+            away.push_back(&robot);
         }
     }
-    return homeless;
+    return away;
 }
 
 std::optional<std::size_t> PlanEngine::Impl::GetTargetOrNull(const Robot& robot) const
@@ -224,7 +224,7 @@ void PlanEngine::Impl::ExtendBase(Robot& robot)
 
 void PlanEngine::Impl::SendIdleHome()
 {
-    for (Robot* robot : GetHomeless())
+    for (Robot* robot : ListAwayFromHome())
     {
         static_cast<void>(TryDrive(*robot));
     }
@@ -247,15 +247,15 @@ bool PlanEngine::Impl::TryDrive(Robot& robot)
         }
         return true;
     }
-    const bool bFirst = !robot.wish.has_value() || robot.wish->target != *target;
-    if (!TryFindWish(robot, *target))
+    const bool bFirst = !robot.plannedRoute.has_value() || robot.plannedRoute->target != *target;
+    if (!TryPlanRoute(robot, *target))
     {
         OnNoRoute(robot, *target);
         return false;
     }
     if (IsYielding(robot))
     {
-        robot.blockers.assign(1, robot.courtesy->leader);
+        robot.blockers.assign(1, robot.yield->leader);
         return false;
     }
     std::vector<std::size_t> holders = GetTargetHolders(robot, *target);
@@ -274,17 +274,17 @@ bool PlanEngine::Impl::TryDrive(Robot& robot)
         robot.refusedAt = _traffic.GetFreedCount();
         return false;
     }
-    const bool bBegun = TryTakeWish(robot);
+    const bool bBegun = TryBeginPlannedRoute(robot);
     robot.refusedAt = _traffic.GetFreedCount();
     return bBegun;
 }
 
 /// Around those who stand in the way and have no reason to leave soon, where there is a way around them.
-bool PlanEngine::Impl::TryTakeWish(Robot& robot)
+bool PlanEngine::Impl::TryBeginPlannedRoute(Robot& robot)
 {
     std::vector<std::size_t> standing;
     std::vector<std::size_t> fixed;
-    for (const std::size_t node : robot.wish->nodes)
+    for (const std::size_t node : robot.plannedRoute->nodes)
     {
         for (const std::size_t holder : _traffic.GetHolders(node, robot.index))
         {
@@ -300,10 +300,10 @@ bool PlanEngine::Impl::TryTakeWish(Robot& robot)
     }
     if (fixed.empty() && standing.empty())
     {
-        return TryBeginDrive(robot, *robot.wish);
+        return TryBeginDrive(robot, *robot.plannedRoute);
     }
     // Who stands where is the same for many events: so is the way around.
-    if (robot.detourAt != _standingChanges || robot.detourTarget != robot.wish->target)
+    if (robot.detourAt != _standingChanges || robot.detourTarget != robot.plannedRoute->target)
     {
         const auto isStandingInTheWay = [this, &robot](std::size_t node) {
             const std::vector<std::size_t> holders = _traffic.GetHolders(node, robot.index);
@@ -311,9 +311,9 @@ bool PlanEngine::Impl::TryTakeWish(Robot& robot)
                 return !_robots[holder].drive.has_value() || !_traffic.IsMovable(holder);
             });
         };
-        robot.detour = FindWishOrNull(robot, robot.wish->target, isStandingInTheWay);
+        robot.detour = PlanRouteOrNull(robot, robot.plannedRoute->target, isStandingInTheWay);
         robot.detourAt = _standingChanges;
-        robot.detourTarget = robot.wish->target;
+        robot.detourTarget = robot.plannedRoute->target;
     }
     if (robot.detour.has_value())
     {
@@ -324,10 +324,10 @@ bool PlanEngine::Impl::TryTakeWish(Robot& robot)
         robot.blockers = std::move(fixed);
         return false;
     }
-    return TryBeginDrive(robot, *robot.wish);
+    return TryBeginDrive(robot, *robot.plannedRoute);
 }
 
-std::optional<PlanEngine::Impl::Wish> PlanEngine::Impl::FindWishOrNull(
+std::optional<PlanEngine::Impl::PlannedRoute> PlanEngine::Impl::PlanRouteOrNull(
     const Robot& robot,
     std::size_t target,
     const Router::NodeFilter& isExcluded) const
@@ -342,23 +342,23 @@ std::optional<PlanEngine::Impl::Wish> PlanEngine::Impl::FindWishOrNull(
     {
         return std::nullopt;
     }
-    Wish wish;
-    wish.target = target;
+    PlannedRoute plannedRoute;
+    plannedRoute.target = target;
     for (const RouteNode& node : route->nodes)
     {
-        wish.nodes.push_back(*_site.FindNodeIndexOrNull(node.nodeID));
+        plannedRoute.nodes.push_back(*_site.FindNodeIndexOrNull(node.nodeID));
     }
-    wish.route = std::move(*route);
-    return wish;
+    plannedRoute.route = std::move(*route);
+    return plannedRoute;
 }
 
-bool PlanEngine::Impl::TryFindWish(Robot& robot, std::size_t target)
+bool PlanEngine::Impl::TryPlanRoute(Robot& robot, std::size_t target)
 {
-    if (!robot.wish.has_value() || robot.wish->target != target)
+    if (!robot.plannedRoute.has_value() || robot.plannedRoute->target != target)
     {
-        robot.wish = FindWishOrNull(robot, target, {});
+        robot.plannedRoute = PlanRouteOrNull(robot, target, {});
     }
-    return robot.wish.has_value();
+    return robot.plannedRoute.has_value();
 }
 
 void PlanEngine::Impl::OnNoRoute(Robot& robot, std::size_t target)
@@ -388,15 +388,15 @@ void PlanEngine::Impl::RefuseHome(Robot& robot)
 }
 
 /// Begun with the first nodes that are granted; without any it is not begun.
-bool PlanEngine::Impl::TryBeginDrive(Robot& robot, const Wish& wish)
+bool PlanEngine::Impl::TryBeginDrive(Robot& robot, const PlannedRoute& plannedRoute)
 {
     if (!robot.aheadNodes.empty() && robot.state.has_value() && robot.state->bDriving)
     {
         robot.blockers.clear();
         return false; // it is still coming to a stand, and where that is nobody knows
     }
-    const std::size_t wanted = std::min(_options.baseLength, wish.nodes.size() - 1);
-    const std::size_t granted = _traffic.Extend(robot.index, std::span(wish.nodes).subspan(1, wanted));
+    const std::size_t wanted = std::min(_options.baseLength, plannedRoute.nodes.size() - 1);
+    const std::size_t granted = _traffic.Extend(robot.index, std::span(plannedRoute.nodes).subspan(1, wanted));
     robot.blockers = _traffic.GetBlockers();
     if (granted == 0)
     {
@@ -406,8 +406,8 @@ bool PlanEngine::Impl::TryBeginDrive(Robot& robot, const Wish& wish)
     ActiveDrive drive;
     drive.driveID = Core::MakeUuid(_random);
     NoteCommand(robot, drive.driveID);
-    drive.route = wish.route;
-    drive.nodes = wish.nodes;
+    drive.route = plannedRoute.route;
+    drive.nodes = plannedRoute.nodes;
     drive.grantedCount = granted + 1;
     // One is always left to be released: a robot has a horizon to plan with.
     drive.releasedCount = std::min({_options.baseLength, drive.grantedCount, drive.nodes.size() - 1});
@@ -415,7 +415,7 @@ bool PlanEngine::Impl::TryBeginDrive(Robot& robot, const Wish& wish)
     robot.bTouched = true;
     if (drive.goal == EGoal::Step)
     {
-        robot.courtesy.reset();
+        robot.yield.reset();
         robot.planOrNull->bStepArrived = false;
     }
     Command(robot, Drive{drive.driveID, drive.route, drive.releasedCount});

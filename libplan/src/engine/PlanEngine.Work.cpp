@@ -58,7 +58,7 @@ void PlanEngine::Impl::BeginStep(ActivePlan& plan, Robot& robot)
     plan.bStepArrived = false;
     robot.activity = EActivity::Waits;
     robot.bTouched = true;
-    robot.wish.reset();
+    robot.plannedRoute.reset();
     robot.detours = 0;
     ChangeStep(plan, EStepState::Dispatched, {});
     _bDispatchNeeded = true;
@@ -83,7 +83,7 @@ void PlanEngine::Impl::MarkArrived(Robot& robot)
     MarkStepBegun(plan);
     if (!std::exchange(plan.bStepArrived, true))
     {
-        TellStatus(robot, ERobotStatus::Arrival);
+        PublishStatus(robot, ERobotStatus::Arrival);
     }
 }
 
@@ -91,7 +91,7 @@ void PlanEngine::Impl::MarkArrived(Robot& robot)
 void PlanEngine::Impl::BeginWork(Robot& robot)
 {
     MarkArrived(robot);
-    if (robot.planOrNull->bUnstored || GetTrayObjectionOrNull(robot).has_value())
+    if (robot.planOrNull->bUnstored || DescribeMissingTrayOrNull(robot).has_value())
     {
         return; // after a crash nobody would know that it was ever begun; or its tray is not there
     }
@@ -110,7 +110,7 @@ void PlanEngine::Impl::BeginJob(Robot& robot)
     }
     if (robot.bDoubtful)
     {
-        HoldDoubtful(robot);
+        SuspendDoubtfulJob(robot);
         return;
     }
     if (HasJob(plan) && GetJobState(plan) == EJobState::Pending)
@@ -315,7 +315,7 @@ void PlanEngine::Impl::BeginNext(Robot& robot)
         BeginStep(*robot.planOrNull, robot);
         return;
     }
-    if (IsUsable(robot) && !GetTrayObjectionOrNull(robot).has_value())
+    if (IsUsable(robot) && !DescribeMissingTrayOrNull(robot).has_value())
     {
         BeginJob(robot);
         return;
@@ -382,7 +382,7 @@ void PlanEngine::Impl::EndPlan(ActivePlan& plan, EPlanState state, const std::st
         robot.bWorkTouched = std::exchange(robot.bDoubtful, false) || robot.bWorkTouched;
         robot.retreatNode.reset();
         robot.bTouched = true;
-        robot.wish.reset();
+        robot.plannedRoute.reset();
     }
     _bDispatchNeeded = true;
     if (state == EPlanState::Completed)

@@ -59,37 +59,37 @@ bool PlanEngine::Impl::IsHelpable(const Robot& robot) const
 
 bool PlanEngine::Impl::IsYielding(const Robot& robot) const
 {
-    if (!robot.courtesy.has_value() || robot.retreatNode.has_value() || robot.planOrNull == nullptr)
+    if (!robot.yield.has_value() || robot.retreatNode.has_value() || robot.planOrNull == nullptr)
     {
         return false;
     }
-    const Robot& leader = _robots[robot.courtesy->leader];
+    const Robot& leader = _robots[robot.yield->leader];
     if (!_traffic.IsMovable(leader.index) || (IsWaiting(leader) && !IsHelpable(leader)))
     {
         return false;
     }
-    if (!robot.courtesy->planSequence.has_value())
+    if (!robot.yield->planSequence.has_value())
     {
         return leader.planOrNull == nullptr && leader.homeNode.has_value() && leader.node != leader.homeNode;
     }
-    return leader.planOrNull != nullptr && leader.planOrNull->record.sequence == robot.courtesy->planSequence
-        && leader.planOrNull->step == robot.courtesy->step && leader.activity == EActivity::Waits;
+    return leader.planOrNull != nullptr && leader.planOrNull->record.sequence == robot.yield->planSequence
+        && leader.planOrNull->step == robot.yield->step && leader.activity == EActivity::Waits;
 }
 
-void PlanEngine::Impl::LetGoFirst(Robot& robot, const Robot& leader)
+void PlanEngine::Impl::YieldTo(Robot& robot, const Robot& leader)
 {
-    Courtesy courtesy;
-    courtesy.leader = leader.index;
+    Yield yield;
+    yield.leader = leader.index;
     if (leader.planOrNull != nullptr)
     {
-        courtesy.planSequence = leader.planOrNull->record.sequence;
-        courtesy.step = leader.planOrNull->step;
+        yield.planSequence = leader.planOrNull->record.sequence;
+        yield.step = leader.planOrNull->step;
     }
-    robot.courtesy = courtesy;
+    robot.yield = yield;
 }
 
 /// Robots that wait, and wait for nobody who will do something by himself: the most urgent first.
-std::vector<PlanEngine::Impl::Robot*> PlanEngine::Impl::GetStuck()
+std::vector<PlanEngine::Impl::Robot*> PlanEngine::Impl::ListDeadlocked()
 {
     std::vector<bool> hopeful(_robots.size(), false);
     std::vector<Robot*> waiting;
@@ -142,19 +142,19 @@ std::vector<PlanEngine::Impl::Robot*> PlanEngine::Impl::GetBlockersOf(const Robo
 
 /// Robots that only wait for one another would do so for ever. One at a time is set in motion, until each of them waits
 /// for one that moves.
-void PlanEngine::Impl::PartStuck()
+void PlanEngine::Impl::ResolveDeadlocks()
 {
     for (std::size_t round = 0; round < _robots.size(); ++round)
     {
-        const std::vector<Robot*> stuck = GetStuck();
-        if (stuck.empty() || !TryPart(stuck))
+        const std::vector<Robot*> stuck = ListDeadlocked();
+        if (stuck.empty() || !TryResolveDeadlock(stuck))
         {
             return;
         }
     }
 }
 
-bool PlanEngine::Impl::TryPart(const std::vector<Robot*>& stuck)
+bool PlanEngine::Impl::TryResolveDeadlock(const std::vector<Robot*>& stuck)
 {
     if (std::ranges::any_of(stuck, [this](Robot* robot) { return TryDetour(*robot); })
         || std::ranges::any_of(stuck, [this, &stuck](Robot* robot) { return TryMakeWay(*robot, stuck); }))
@@ -167,7 +167,7 @@ bool PlanEngine::Impl::TryPart(const std::vector<Robot*>& stuck)
     {
         return false;
     }
-    first.courtesy.reset();
+    first.yield.reset();
     return TryDrive(first);
 }
 
@@ -189,14 +189,13 @@ bool PlanEngine::Impl::TryDetour(Robot& robot)
         const std::vector<std::size_t> holders = _traffic.GetHolders(node, robot.index);
         return std::ranges::any_of(holders, [this](std::size_t holder) { return !IsMoving(_robots[holder]); });
     };
-    std::optional<Wish> detour = FindWishOrNull(robot, *target, isInTheWay);
+    std::optional<PlannedRoute> detour = PlanRouteOrNull(robot, *target, isInTheWay);
     if (!detour.has_value())
     {
         return false;
     }
-    const bool bBegun = robot.drive.has_value()
-        ? TryDriveInstead(robot, std::move(*detour), robot.retreatNode.has_value())
-        : TryBeginDrive(robot, *detour);
+    const bool bBegun = robot.drive.has_value() ? TryReroute(robot, std::move(*detour), robot.retreatNode.has_value())
+                                                : TryBeginDrive(robot, *detour);
     robot.detours += bBegun && !bHome ? 1U : 0U;
     return bBegun;
 }
@@ -234,39 +233,40 @@ bool PlanEngine::Impl::TryMakeWay(Robot& leader, const std::vector<Robot*>& stuc
 
 bool PlanEngine::Impl::TryRetreat(Robot& robot, const Robot& leader)
 {
-    const bool bGoesHome = robot.drive.has_value() && robot.drive->nodes.back() == robot.berthNode;
+    const bool bGoesHome = robot.drive.has_value() && robot.drive->nodes.back() == robot.parkingNode;
     if (!_traffic.IsMovable(robot.index) || IsMoving(robot) || bGoesHome || robot.bHomeRefused || robot.bConfirming
-        || (robot.retreatNode.has_value() && robot.retreatNode == robot.berthNode) || !robot.berthNode.has_value()
-        || robot.node == robot.berthNode || !GetTargetHolders(robot, *robot.berthNode).empty())
+        || (robot.retreatNode.has_value() && robot.retreatNode == robot.parkingNode) || !robot.parkingNode.has_value()
+        || robot.node == robot.parkingNode || !GetTargetHolders(robot, *robot.parkingNode).empty())
     {
         return false;
     }
-    std::optional<Wish> wish = FindWishOrNull(robot, *robot.berthNode, [this, &robot](std::size_t node) {
-        return !_traffic.IsOpenFor(node, robot.index);
-    });
-    if (!wish.has_value())
+    std::optional<PlannedRoute> plannedRoute =
+        PlanRouteOrNull(robot, *robot.parkingNode, [this, &robot](std::size_t node) {
+            return !_traffic.IsOpenFor(node, robot.index);
+        });
+    if (!plannedRoute.has_value())
     {
         return false;
     }
     bool bBegun = false;
     if (robot.drive.has_value())
     {
-        bBegun = TryDriveInstead(robot, std::move(*wish), true);
+        bBegun = TryReroute(robot, std::move(*plannedRoute), true);
     }
     else
     {
-        robot.retreatNode = robot.berthNode;
-        bBegun = TryBeginDrive(robot, *wish);
+        robot.retreatNode = robot.parkingNode;
+        bBegun = TryBeginDrive(robot, *plannedRoute);
         robot.retreatNode = bBegun ? robot.retreatNode : std::nullopt;
     }
     if (bBegun)
     {
-        LetGoFirst(robot, leader);
+        YieldTo(robot, leader);
         Note(
             robot,
             fmt::format(
                 "goes to {} first, out of the way of {}",
-                _site.GetNodes()[*robot.berthNode].nodeID,
+                _site.GetNodes()[*robot.parkingNode].nodeID,
                 GetRobotID(leader)));
     }
     return bBegun;
@@ -276,8 +276,8 @@ bool PlanEngine::Impl::TryRetreat(Robot& robot, const Robot& leader)
 bool PlanEngine::Impl::TryStepAside(Robot& robot, const Robot& leader)
 {
     const std::optional<std::size_t> wanted = GetTargetOrNull(leader);
-    const bool bInTheWay = leader.wish.has_value() && robot.node.has_value()
-        && std::ranges::any_of(leader.wish->nodes,
+    const bool bInTheWay = leader.plannedRoute.has_value() && robot.node.has_value()
+        && std::ranges::any_of(leader.plannedRoute->nodes,
                                [this, &robot](std::size_t node) { return _traffic.IsNear(node, *robot.node); });
     if (!bInTheWay || robot.planOrNull != nullptr || robot.drive.has_value() || !_traffic.IsMovable(robot.index)
         || !CanDriveHome() || robot.bHomeRefused || !wanted.has_value())
@@ -287,13 +287,13 @@ bool PlanEngine::Impl::TryStepAside(Robot& robot, const Robot& leader)
     std::vector<bool> avoided(_site.GetNodes().size(), false);
     for (const Robot& other : _robots)
     {
-        for (const std::size_t node :
-             other.wish.has_value() && &other != &robot ? other.wish->nodes : std::vector<std::size_t>())
+        for (const std::size_t node : other.plannedRoute.has_value() && &other != &robot ? other.plannedRoute->nodes
+                                                                                         : std::vector<std::size_t>())
         {
             avoided[node] = true;
         }
     }
-    std::optional<Wish> best;
+    std::optional<PlannedRoute> best;
     for (const SiteStation& station : _site.GetStations())
     {
         const std::optional<std::size_t> dock =
@@ -303,12 +303,13 @@ bool PlanEngine::Impl::TryStepAside(Robot& robot, const Robot& leader)
         {
             continue;
         }
-        std::optional<Wish> wish = FindWishOrNull(robot, *dock, [this, &robot](std::size_t node) {
+        std::optional<PlannedRoute> plannedRoute = PlanRouteOrNull(robot, *dock, [this, &robot](std::size_t node) {
             return !_traffic.IsFreeFor(node, robot.index);
         });
-        if (wish.has_value() && (!best.has_value() || wish->route.travelSeconds < best->route.travelSeconds))
+        if (plannedRoute.has_value()
+            && (!best.has_value() || plannedRoute->route.travelSeconds < best->route.travelSeconds))
         {
-            best = std::move(wish);
+            best = std::move(plannedRoute);
         }
     }
     if (!best.has_value())
@@ -326,16 +327,16 @@ bool PlanEngine::Impl::TryStepAside(Robot& robot, const Robot& leader)
 }
 
 /// Another way than the one that it is on: granted now, driven when the vehicle has given the present one up.
-bool PlanEngine::Impl::TryDriveInstead(Robot& robot, Wish wish, bool bRetreats)
+bool PlanEngine::Impl::TryReroute(Robot& robot, PlannedRoute plannedRoute, bool bRetreats)
 {
-    const std::size_t wanted = std::min(_options.baseLength, wish.nodes.size() - 1);
-    if (_traffic.Extend(robot.index, std::span(wish.nodes).subspan(1, wanted)) == 0)
+    const std::size_t wanted = std::min(_options.baseLength, plannedRoute.nodes.size() - 1);
+    if (_traffic.Extend(robot.index, std::span(plannedRoute.nodes).subspan(1, wanted)) == 0)
     {
         return false;
     }
     ActiveDrive& drive = *robot.drive;
-    drive.instead = std::move(wish);
-    drive.bInsteadRetreats = bRetreats;
+    drive.reroute = std::move(plannedRoute);
+    drive.bRerouteRetreats = bRetreats;
     drive.bCancelAsked = true;
     drive.bCancelling = true;
     Command(robot, CancelDrive{drive.driveID});
@@ -344,32 +345,32 @@ bool PlanEngine::Impl::TryDriveInstead(Robot& robot, Wish wish, bool bRetreats)
 }
 
 /// The vehicle has given its drive up for this.
-void PlanEngine::Impl::BeginInstead(Robot& robot, Wish wish, bool bRetreats)
+void PlanEngine::Impl::BeginReroute(Robot& robot, PlannedRoute plannedRoute, bool bRetreats)
 {
-    if (wish.nodes.front() != robot.node)
+    if (plannedRoute.nodes.front() != robot.node)
     {
         return; // It went on meanwhile: as any that waits.
     }
     if (bRetreats)
     {
-        robot.retreatNode = wish.target;
+        robot.retreatNode = plannedRoute.target;
     }
-    robot.wish = std::move(wish);
+    robot.plannedRoute = std::move(plannedRoute);
     if (_traffic.IsMovable(robot.index) && IsUsable(robot))
     {
-        static_cast<void>(TryBeginDrive(robot, *robot.wish));
+        static_cast<void>(TryBeginDrive(robot, *robot.plannedRoute));
     }
 }
 
 /// The vehicle has not given its drive up in time: it stays on it.
-void PlanEngine::Impl::GiveInsteadUp(Robot& robot)
+void PlanEngine::Impl::AbandonReroute(Robot& robot)
 {
-    if (!robot.drive.has_value() || !robot.drive->instead.has_value())
+    if (!robot.drive.has_value() || !robot.drive->reroute.has_value())
     {
         return;
     }
     ActiveDrive& drive = *robot.drive;
-    drive.instead.reset();
+    drive.reroute.reset();
     drive.bCancelling = false;
     _traffic.Shorten(robot.index, drive.grantedCount - drive.passed);
     _bDispatchNeeded = true;

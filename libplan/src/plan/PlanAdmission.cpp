@@ -466,15 +466,15 @@ Core::Result<void> PlanAdmission::FindCandidates(const Plan& plan, ResolvedPlan&
     std::string objections;
     for (std::size_t i = 0; i < _options.robots.size(); ++i)
     {
-        const std::optional<std::string> objectionOrNull =
-            GetRobotObjectionOrNull(_options.robots[i], plan, resolved, namedRobots);
-        if (!objectionOrNull.has_value())
+        const std::optional<std::string> unavailabilityOrNull =
+            GetRejectionReasonOrNull(_options.robots[i], plan, resolved, namedRobots);
+        if (!unavailabilityOrNull.has_value())
         {
             resolved.candidates.push_back(i);
             continue;
         }
         objections += objections.empty() ? "" : "; ";
-        objections += *objectionOrNull;
+        objections += *unavailabilityOrNull;
     }
     if (resolved.candidates.empty())
     {
@@ -483,7 +483,7 @@ Core::Result<void> PlanAdmission::FindCandidates(const Plan& plan, ResolvedPlan&
     return {};
 }
 
-std::optional<std::string> PlanAdmission::GetRobotObjectionOrNull(
+std::optional<std::string> PlanAdmission::GetRejectionReasonOrNull(
     const RobotOptions& robot,
     const Plan& plan,
     const ResolvedPlan& resolved,

@@ -62,7 +62,7 @@ class PlanAdmission
         const;
     [[nodiscard]] static Core::Result<void> CheckPorts(const Plan& plan, const ResolvedPlan& resolved);
     [[nodiscard]] Core::Result<void> FindCandidates(const Plan& plan, ResolvedPlan& resolved) const;
-    [[nodiscard]] std::optional<std::string> GetRobotObjectionOrNull(
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(
         const RobotOptions& robot,
         const Plan& plan,
         const ResolvedPlan& resolved,

@@ -23,7 +23,7 @@ void PlanBook::BeginCall()
     _lastStoredSequence = _lastSequence;
 }
 
-std::vector<PlanProgressed> PlanBook::TakeProgress()
+std::vector<PlanProgressed> PlanBook::CollectProgress()
 {
     std::vector<PlanProgressed> changes;
     for (const std::string& planID : std::exchange(_progressed, {}))

@@ -46,7 +46,7 @@ public:
     /// What the call before has added is stored, and what it has ended is history.
     void BeginCall();
     /// The changes of states since the last time, one for each plan.
-    [[nodiscard]] std::vector<PlanProgressed> TakeProgress();
+    [[nodiscard]] std::vector<PlanProgressed> CollectProgress();
 
     /// Numbers the plan and queues it. Returns what is to be stored, a finished plan of the same id first.
     [[nodiscard]] std::vector<StoreChange> Accept(std::unique_ptr<ActivePlan> plan, Core::WallTime now);

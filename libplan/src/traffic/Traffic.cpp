@@ -102,13 +102,13 @@ std::size_t Traffic::GetEnd(const Vehicle& vehicle)
     return vehicle.path.back();
 }
 
-/// What was true of homecomings stays true where nodes were only given back, or granted, if it was so of all robots.
+/// A safe state of all robots remains one where nodes were only given back or granted.
 void Traffic::Note(bool bOnlyFreed)
 {
     bOnlyFreed = !std::exchange(_bPassedOn, false) && bOnlyFreed;
-    for (Homecoming& homecoming : _homecomings)
+    for (SafeState& safeState : _safeStates)
     {
-        homecoming.bValid = homecoming.bValid && bOnlyFreed && homecoming.bAll;
+        safeState.bValid = safeState.bValid && bOnlyFreed && safeState.bAll;
     }
     ++_freedCount;
 }

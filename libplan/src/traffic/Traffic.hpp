@@ -35,7 +35,7 @@ class Traffic
     };
 
     /// Which robots can come home; kept until it may have become untrue.
-    struct Homecoming
+    struct SafeState
     {
         std::vector<bool> reachable;
         bool bAll = false;
@@ -51,7 +51,7 @@ class Traffic
         bool operator==(const Awaited&) const = default;
     };
 
-    enum class EStanding : std::uint8_t
+    enum class ESafeStateScope : std::uint8_t
     {
         AllMove, ///< As if every robot could move.
         AsIs,    ///< Robots that cannot move stay where they are.
@@ -63,7 +63,7 @@ class Traffic
     std::vector<std::optional<std::size_t>> _holders;
     std::vector<std::uint16_t> _covers; ///< Of each node: how many held nodes exclude it.
     std::vector<std::uint16_t> _homes;  ///< Of each node: how many homes exclude it.
-    std::array<Homecoming, 2> _homecomings;
+    std::array<SafeState, 2> _safeStates;
     std::vector<Awaited> _awaited; ///< In the order in which they were asked for.
     bool _bPassedOn = false;       ///< Something that was given back is held by another since the last Note.
     std::vector<std::size_t> _blockers;
@@ -162,9 +162,9 @@ private:
         std::size_t from,
         const std::vector<std::uint16_t>& covers) const;
     [[nodiscard]] bool CanGoHome(const Vehicle& vehicle, std::size_t from, const std::vector<std::uint16_t>& covers);
-    [[nodiscard]] Homecoming FindHomecoming(EStanding standing);
-    [[nodiscard]] const Homecoming& GetHomecoming(EStanding standing);
-    [[nodiscard]] bool IsAsGood(EStanding standing, std::size_t robot);
+    [[nodiscard]] SafeState FindSafeState(ESafeStateScope standing);
+    [[nodiscard]] const SafeState& GetSafeState(ESafeStateScope standing);
+    [[nodiscard]] bool IsAsGood(ESafeStateScope standing, std::size_t robot);
     [[nodiscard]] bool IsSafe(std::size_t robot, std::span<const std::size_t> ahead);
 };
 

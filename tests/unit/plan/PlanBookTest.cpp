@@ -112,8 +112,8 @@ TEST_CASE("PlanBook: changes of state are collected once for each plan")
     CHECK(plan.record.progress.startedAt == START + 1s);
     CHECK(GetJobState(plan) == EJobState::Instructed);
     CHECK(book.IsAnyRunning());
-    CHECK(book.TakeProgress() == std::vector<PlanProgressed>{{"P1", plan.record.progress}});
-    CHECK(book.TakeProgress().empty());
+    CHECK(book.CollectProgress() == std::vector<PlanProgressed>{{"P1", plan.record.progress}});
+    CHECK(book.CollectProgress().empty());
     CHECK(PlanBook::CanEnd(plan, EPlanState::Completed));
     book.Change(plan, EPlanState::Paused, {}, START + 2s);
     CHECK_FALSE(PlanBook::CanEnd(plan, EPlanState::Completed));
@@ -129,7 +129,7 @@ TEST_CASE("PlanBook: an ended plan is history and lives to the end of the call")
     CHECK(book.FindActiveOrNull("P1") == nullptr);
     CHECK(book.GetQueue().empty());
     CHECK(book.FindRecordOrNull("P1")->progress.state == EPlanState::Cancelled);
-    CHECK(book.TakeProgress().size() == 1);
+    CHECK(book.CollectProgress().size() == 1);
 }
 
 TEST_CASE("PlanBook: the oldest finished plans are forgotten once their end is stored")
@@ -142,7 +142,7 @@ TEST_CASE("PlanBook: the oldest finished plans are forgotten once their end is s
     Accept(book, "P3");
     CHECK(Cancel(book, "P1").empty());
     CHECK(Cancel(book, "P2").empty()); // the end of P1 is not stored yet
-    static_cast<void>(book.TakeProgress());
+    static_cast<void>(book.CollectProgress());
     CHECK(Cancel(book, "P3") == std::vector<StoreChange>{PlanRemoved{1}, PlanRemoved{2}});
     CHECK(book.FindRecordOrNull("P1") == nullptr);
     CHECK(book.FindFinishedOrNull("P3") != nullptr);

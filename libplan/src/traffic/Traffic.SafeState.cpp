@@ -152,16 +152,16 @@ bool Traffic::CanGoHome(const Vehicle& vehicle, std::size_t from, const std::vec
 
 /// Whoever can drive home does, and leaves the floor to the rest; in which order makes no difference to who can. All that
 /// a robot was granted counts as taken until it goes, as it may be stopped on any of it.
-Traffic::Homecoming Traffic::FindHomecoming(EStanding standing)
+Traffic::SafeState Traffic::FindSafeState(ESafeStateScope standing)
 {
-    Homecoming found;
+    SafeState found;
     found.reachable.assign(_vehicles.size(), false);
     found.bValid = true;
     std::vector<std::uint16_t> covers = _covers;
     std::vector<std::size_t> waiting;
     for (std::size_t i = 0; i < _vehicles.size(); ++i)
     {
-        if (!_vehicles[i].path.empty() && (standing == EStanding::AllMove || _vehicles[i].bMovable))
+        if (!_vehicles[i].path.empty() && (standing == ESafeStateScope::AllMove || _vehicles[i].bMovable))
         {
             waiting.push_back(i);
         }
@@ -186,23 +186,23 @@ Traffic::Homecoming Traffic::FindHomecoming(EStanding standing)
     return found;
 }
 
-const Traffic::Homecoming& Traffic::GetHomecoming(EStanding standing)
+const Traffic::SafeState& Traffic::GetSafeState(ESafeStateScope standing)
 {
-    if (!_homecomings[static_cast<std::size_t>(standing)].bValid)
+    if (!_safeStates[static_cast<std::size_t>(standing)].bValid)
     {
-        _homecomings[static_cast<std::size_t>(standing)] = FindHomecoming(standing);
+        _safeStates[static_cast<std::size_t>(standing)] = FindSafeState(standing);
     }
-    return _homecomings[static_cast<std::size_t>(standing)];
+    return _safeStates[static_cast<std::size_t>(standing)];
 }
 
 /// Whether nobody has lost his way home by what is held on trial; who has is a blocker of the robot.
-bool Traffic::IsAsGood(EStanding standing, std::size_t robot)
+bool Traffic::IsAsGood(ESafeStateScope standing, std::size_t robot)
 {
-    const Homecoming after = FindHomecoming(standing);
+    const SafeState after = FindSafeState(standing);
     bool bGood = true;
     for (std::size_t other = 0; other < _vehicles.size(); ++other)
     {
-        const bool bLost = _homecomings[static_cast<std::size_t>(standing)].reachable[other] && !after.reachable[other];
+        const bool bLost = _safeStates[static_cast<std::size_t>(standing)].reachable[other] && !after.reachable[other];
         bGood = bGood && !bLost;
         if (bLost && other != robot && std::ranges::count(_blockers, other) == 0)
         {
@@ -224,7 +224,7 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
         return true;
     }
     // As it is now; not after the nodes are held below.
-    static_cast<void>(GetHomecoming(EStanding::AllMove));
+    static_cast<void>(GetSafeState(ESafeStateScope::AllMove));
     const std::size_t heldCount = vehicle.path.size();
     std::vector<std::size_t> held;
     const auto take = [this, robot, ahead, &vehicle, &held] {
@@ -244,13 +244,13 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
         held.clear();
     };
     take();
-    bool bSafe = IsAsGood(EStanding::AllMove, robot);
+    bool bSafe = IsAsGood(ESafeStateScope::AllMove, robot);
     giveBack();
     if (bSafe && IsAnyFixed())
     {
-        static_cast<void>(GetHomecoming(EStanding::AsIs));
+        static_cast<void>(GetSafeState(ESafeStateScope::AsIs));
         take();
-        bSafe = IsAsGood(EStanding::AsIs, robot);
+        bSafe = IsAsGood(ESafeStateScope::AsIs, robot);
         giveBack();
     }
     if (!bSafe && _blockers.empty())
