@@ -270,28 +270,24 @@ void PlanEngine::Impl::CollectWork()
         {
             continue;
         }
-        const StartJob* jobOrNull = robot.job.GetOrNull();
-        RobotWorkChanged work{
-            GetRobotID(robot),
-            robot.commandID,
-            robot.earlierIDs,
-            jobOrNull == nullptr ? std::nullopt : std::optional(*jobOrNull),
-            robot.state.has_value() ? robot.state->mark : robot.storedWork.mark,
-            robot.pause.IsPaused() || robot.pause.IsResuming(),
-            robot.bDoubtful,
-            robot.drive.has_value() ? robot.storedWork.nodeIDs : ListNodes(robot),
-            robot.bCommandTaken,
-            robot.jobNumber};
-        const bool bNothing =
-            robot.storedWork.robotID.empty() && work.commandID.empty() && !work.bPauseAsked && work.nodeIDs.empty();
-        // While it drives the nodes alone are no reason to write: they only become fewer.
-        // A mark alone is no reason to write: it is that of the moment when a command or a job's end was written down.
-        RobotWorkChanged unmarked = work;
-        unmarked.mark = robot.storedWork.mark;
-        if (!bNothing && (std::exchange(robot.bMarkDue, false) || unmarked != robot.storedWork))
+        RobotWorkChanged work = robot.work.Make(GetRobotID(robot));
+        work.bPauseAsked = robot.pause.IsPaused() || robot.pause.IsResuming();
+        if (const StartJob* jobOrNull = robot.job.GetOrNull(); jobOrNull != nullptr)
+        {
+            work.job = *jobOrNull;
+        }
+        if (robot.state.has_value())
+        {
+            work.mark = robot.state->mark;
+        }
+        if (!robot.drive.has_value()) // while it drives the nodes alone are no reason to write: they only become fewer
         {
             work.nodeIDs = ListNodes(robot);
-            robot.storedWork = work;
+        }
+        if (robot.work.TryBeginStore(work))
+        {
+            work.nodeIDs = ListNodes(robot);
+            robot.work.OnStored(work);
             _changes.emplace_back(std::move(work));
         }
     }

@@ -6,6 +6,7 @@
 #include "plan/PlanAdmission.hpp"
 #include "plan/PlanBook.hpp"
 #include "restart/StartupBarrier.hpp"
+#include "restart/WorkRecord.hpp"
 #include "robot/ChargingPolicy.hpp"
 #include "robot/JobTracker.hpp"
 #include "robot/PauseTracker.hpp"
@@ -125,18 +126,9 @@ public:
         ActivePlan* planOrNull = nullptr;
         JobTracker job;
         PauseTracker pause;
-        std::string commandID;               ///< Of its last drive or job.
-        std::int32_t jobNumber = 0;          ///< Of its last job; 0: none, or commanded by an older version.
-        std::vector<std::string> earlierIDs; ///< Of those before, the latest first.
+        WorkRecord work;
         bool bStandstillAwaited = false; ///< After a restart: what its plan's control comes to shows once it stands.
-        /// After a restart, until it has shown what it was told last: what of that was written down.
-        std::optional<RobotWorkChanged> trace;
-        bool bMarkDue = false; ///< Its mark is stored though nothing else has changed.
-        /// It may have done more jobs of its plan than were written down: an operator is asked about each.
-        bool bDoubtful = false;
-        bool bCommandTaken = false; ///< It has shown that it had one of its commands.
-        bool bWorkTouched = false;  ///< What is stored of its work may have changed.
-        RobotWorkChanged storedWork;
+        bool bWorkTouched = false;       ///< What is stored of its work may have changed.
         std::optional<ActiveDrive> drive;
         PortLedger ports;
         StallMonitor stall;
@@ -403,13 +395,11 @@ private:
 
     // Steps and jobs (PlanEngine.Work.cpp).
     void BeginPlan(ActivePlan& plan, Robot& robot);
-    static void NoteEvidence(Robot& robot);
     void BeginStep(ActivePlan& plan, Robot& robot);
     void MarkArrived(Robot& robot);
     void BeginWork(Robot& robot);
     void BeginJob(Robot& robot);
     void LimitJob(Robot& robot);
-    static void NoteCommand(Robot& robot, const std::string& commandID);
     void EndJob(Robot& robot, std::string message);
     void LeaveStep(Robot& robot);
     void ContinuePlan(Robot& robot);
@@ -430,7 +420,6 @@ private:
         std::size_t stepIndex,
         std::size_t jobIndex,
         const Robot& robot) const;
-    [[nodiscard]] std::int32_t DrawJobNumber(std::int32_t previous);
 
     // Who does what (PlanEngine.Dispatch.cpp).
     void Dispatch();
@@ -498,7 +487,6 @@ private:
     [[nodiscard]] static std::vector<std::size_t> ListPossibleAhead(const Robot& robot, std::size_t node);
     [[nodiscard]] std::vector<std::string> ListNodes(const Robot& robot) const;
     void UpdateStandstill(Robot& robot);
-    static void CheckEvidence(Robot& robot);
     void SuspendDoubtfulJob(Robot& robot);
     void CatchUp(Robot& robot);
     void SuspendJob(Robot& robot, const std::string& reason);

@@ -19,7 +19,7 @@ constexpr std::chrono::seconds LOAD_ALARM_INTERVAL{10};
 
 void PlanEngine::Impl::CompareLoads(Robot& robot)
 {
-    if (!robot.state->loads.has_value() || robot.bDoubtful)
+    if (!robot.state->loads.has_value() || robot.work.IsDoubtful())
     {
         return;
     }

@@ -87,13 +87,7 @@ void PlanEngine::Impl::RestoreRobot(const RobotWorkChanged& work)
         return;
     }
     Robot& robot = _robots[found->second];
-    robot.storedWork = work;
-    robot.commandID = work.commandID;
-    robot.earlierIDs = work.earlierIDs;
-    robot.jobNumber = work.jobNumber;
-    robot.trace = work;
-    robot.bDoubtful = work.bDoubtful;
-    robot.bCommandTaken = work.bCommandTaken;
+    robot.work.Restore(work);
     if (work.job.has_value())
     {
         robot.job.Begin(*work.job);
@@ -186,8 +180,8 @@ void PlanEngine::Impl::RestoreWork(ActivePlan& plan, Robot& robot)
     const StartJob* jobOrNull = robot.job.GetOrNull();
     const bool bOpen = jobOrNull != nullptr && jobOrNull->planID == plan.record.plan.planID;
     // A store of before schema version 3 tells nothing of robots.
-    const bool bUntraced = !bOpen && robot.storedWork.robotID.empty() && job != EJobState::Pending && !IsFinal(job)
-        && !IsFinal(step.state);
+    const bool bUntraced = !bOpen && robot.work.GetStored().robotID.empty() && job != EJobState::Pending
+        && !IsFinal(job) && !IsFinal(step.state);
     const bool bStepWorked = bOpen || plan.job > 0 || job != EJobState::Pending;
     plan.bStepArrived = bStepWorked;
     plan.bJobBegun = bStepWorked || plan.step > 0;
@@ -264,7 +258,7 @@ void PlanEngine::Impl::RestoreOverdue(Robot& robot)
 void PlanEngine::Impl::RequestJobOutcome(Robot& robot)
 {
     robot.job.BeginRecovery();
-    Command(robot, RecoverJob{*robot.job.GetOrNull(), robot.earlierIDs});
+    Command(robot, RecoverJob{*robot.job.GetOrNull(), robot.work.GetEarlierIDs()});
 }
 
 /// A drive that was to be cancelled before the restart: the adapter gives up what is left of it, and here it stands.
@@ -290,32 +284,6 @@ void PlanEngine::Impl::UpdateStandstill(Robot& robot)
     {
         ContinueAfterControl(robot);
     }
-}
-
-/// While the store fails work goes on. After a crash then the robot shows what nobody wrote down, or that it has forgotten
-/// what it had: the next jobs of its plan may have been a part of that.
-void PlanEngine::Impl::CheckEvidence(Robot& robot)
-{
-    const std::optional<RobotWorkChanged> trace = std::exchange(robot.trace, std::nullopt);
-    if (!trace.has_value() || robot.planOrNull == nullptr)
-    {
-        return;
-    }
-    const StateChanged& state = *robot.state;
-    bool bMore = false;
-    if (!state.mark.empty() && !trace->mark.empty())
-    {
-        bMore = !trace->job.has_value() && state.mark != trace->mark; // of one that was commanded the adapter tells
-    }
-    else if (state.shownCommandID.has_value())
-    {
-        // Nothing shown: either it never had any, or it was switched off meanwhile.
-        const bool bNeverHadAny = state.shownCommandID->empty() && trace->earlierIDs.empty() && !trace->bCommandTaken;
-        bMore = !bNeverHadAny && *state.shownCommandID != trace->commandID
-            && std::ranges::count(trace->earlierIDs, *state.shownCommandID) == 0;
-    }
-    robot.bDoubtful = robot.bDoubtful || bMore;
-    robot.bWorkTouched = true;
 }
 
 /// Instead of beginning the present job.
@@ -452,8 +420,10 @@ void PlanEngine::Impl::OnJobUncertain(Robot& robot, const JobUncertain& event)
     if ((bOverdue || bOfPlan) && !robot.job.IsUnresolved())
     {
         // After a restart marks that do not tell of this job do not tell of those after it either.
-        robot.bDoubtful =
-            robot.bDoubtful || (robot.job.IsRecovering() && bOfPlan && !robot.job.GetOrNull()->mark.empty());
+        if (robot.job.IsRecovering() && bOfPlan && !robot.job.GetOrNull()->mark.empty())
+        {
+            robot.work.MarkDoubtful();
+        }
         robot.bWorkTouched = true;
         SuspendJob(robot, event.reason);
     }
@@ -537,7 +507,7 @@ void PlanEngine::Impl::ApplyAnswer(Robot& robot, EJobAnswer answer)
             EndJob(robot, "Reported as done by the operator.");
             break;
         case EJobAnswer::Again:
-            robot.bDoubtful = false; // nor was anything after it done
+            robot.work.TryClearDoubt(); // nor was anything after it done
             RepeatJob(robot, {});
             break;
         case EJobAnswer::Failed:

@@ -66,7 +66,7 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
     {
         MarkStepBegun(*robot.planOrNull);
     }
-    CheckEvidence(robot);
+    robot.bWorkTouched = robot.work.TryCheckEvidence(event, robot.planOrNull != nullptr) || robot.bWorkTouched;
     CompareLoads(robot);
     UpdatePause(robot, bBack, bWasPaused);
     UpdateStandstill(robot);
@@ -206,7 +206,7 @@ void PlanEngine::Impl::OnNodePassed(Robot& robot, const NodePassed& event)
         return;
     }
     robot.drive->bTaken = true;
-    robot.bCommandTaken = true;
+    robot.work.MarkCommandTaken();
     robot.bWorkTouched = true;
     if (!robot.drive->bConfirmed)
     {
@@ -500,7 +500,7 @@ void PlanEngine::Impl::OnJobStarted(Robot& robot, const JobStarted& event)
     {
         return; // an operator has been asked
     }
-    robot.bCommandTaken = true;
+    robot.work.MarkCommandTaken();
     robot.bWorkTouched = true;
     EndRecovery(robot);
     ActivePlan& plan = *robot.planOrNull;

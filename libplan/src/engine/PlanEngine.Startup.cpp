@@ -137,7 +137,7 @@ std::vector<std::string> PlanEngine::Impl::ListNodes(const Robot& robot) const
     }
     else if (robot.state.has_value())
     {
-        return robot.storedWork.nodeIDs; // it has lost its place
+        return robot.work.GetStored().nodeIDs; // it has lost its place
     }
     std::vector<std::string> nodeIDs;
     for (const std::size_t node : nodes)

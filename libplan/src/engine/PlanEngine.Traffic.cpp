@@ -405,7 +405,7 @@ bool PlanEngine::Impl::TryBeginDrive(Robot& robot, const PlannedRoute& plannedRo
     EndCharging(robot);
     ActiveDrive drive;
     drive.driveID = Core::MakeUuid(_random);
-    NoteCommand(robot, drive.driveID);
+    robot.work.AddCommand(drive.driveID);
     drive.route = plannedRoute.route;
     drive.nodes = plannedRoute.nodes;
     drive.grantedCount = granted + 1;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <utility>
 
 namespace ACS::Planning
@@ -34,21 +33,11 @@ void PlanEngine::Impl::BeginPlan(ActivePlan& plan, Robot& robot)
     plan.record.progress.robotID = GetRobotID(robot);
     robot.planOrNull = &plan;
     robot.bHomeRefused = false;
-    NoteEvidence(robot);
+    robot.work.BeginPlan(robot.state.has_value() ? robot.state->shownCommandID : std::nullopt);
+    robot.bWorkTouched = true;
     _begun.push_back(plan.record.plan.planID);
     ChangePlan(plan, EPlanState::InProgress, fmt::format("Assigned to {}.", GetRobotID(robot)));
     BeginStep(plan, robot);
-}
-
-/// What it shows as it begins a plan is stored with that: what it shows beyond it after a crash was done for the plan.
-void PlanEngine::Impl::NoteEvidence(Robot& robot)
-{
-    if (robot.commandID.empty() && robot.state.has_value())
-    {
-        robot.commandID = robot.state->shownCommandID.value_or(std::string()); // of whoever commanded it before
-    }
-    robot.bWorkTouched = true;
-    robot.bMarkDue = true;
 }
 
 void PlanEngine::Impl::BeginStep(ActivePlan& plan, Robot& robot)
@@ -108,7 +97,7 @@ void PlanEngine::Impl::BeginJob(Robot& robot)
     {
         plan.madeJobID = Core::MakeUuid(_random);
     }
-    if (robot.bDoubtful)
+    if (robot.work.IsDoubtful())
     {
         SuspendDoubtfulJob(robot);
         return;
@@ -120,37 +109,12 @@ void PlanEngine::Impl::BeginJob(Robot& robot)
     const std::string repeated = std::exchange(plan.repeatedCommandID, {});
     StartJob job = MakeStartJob(robot);
     job.commandID = repeated.empty() ? Core::MakeUuid(_random) : repeated;
-    const bool bNumberKept = !repeated.empty() && robot.jobNumber != 0;
-    robot.jobNumber = bNumberKept ? robot.jobNumber : DrawJobNumber(robot.jobNumber);
-    job.jobNumber = robot.jobNumber;
+    job.jobNumber = robot.work.NumberJob(!repeated.empty(), _random);
     job.mark = robot.state.has_value() ? robot.state->mark : std::string();
-    NoteCommand(robot, job.commandID);
+    robot.work.AddCommand(job.commandID);
     robot.job.Begin(job);
     Command(robot, std::move(job));
     LimitJob(robot);
-}
-
-/// 1 to 2^31 - 1, and not the previous one.
-std::int32_t PlanEngine::Impl::DrawJobNumber(std::int32_t previous)
-{
-    constexpr std::int32_t MAXIMUM = std::numeric_limits<std::int32_t>::max();
-    const auto drawn = static_cast<std::int32_t>(_random.GetNext() % static_cast<std::uint64_t>(MAXIMUM)) + 1;
-    return drawn == previous ? previous % MAXIMUM + 1 : drawn;
-}
-
-void PlanEngine::Impl::NoteCommand(Robot& robot, const std::string& commandID)
-{
-    constexpr std::size_t MOST_REMEMBERED = 8;
-    if (robot.commandID == commandID)
-    {
-        return;
-    }
-    if (!robot.commandID.empty())
-    {
-        robot.earlierIDs.insert(robot.earlierIDs.begin(), robot.commandID);
-        robot.earlierIDs.resize(std::min(robot.earlierIDs.size(), MOST_REMEMBERED));
-    }
-    robot.commandID = commandID;
 }
 
 void PlanEngine::Impl::LimitJob(Robot& robot)
@@ -379,7 +343,7 @@ void PlanEngine::Impl::EndPlan(ActivePlan& plan, EPlanState state, const std::st
         }
         robot.planOrNull = nullptr;
         robot.activity = EActivity::Idle;
-        robot.bWorkTouched = std::exchange(robot.bDoubtful, false) || robot.bWorkTouched;
+        robot.bWorkTouched = robot.work.TryClearDoubt() || robot.bWorkTouched;
         robot.retreatNode.reset();
         robot.bTouched = true;
         robot.plannedRoute.reset();

@@ -1,0 +1,124 @@
+#include "restart/WorkRecord.hpp"
+
+#include "Catch.hpp"
+#include "SeededRandom.hpp"
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+
+namespace
+{
+
+RobotWorkChanged MakeStored(const std::string& commandID, const std::string& mark = {})
+{
+    RobotWorkChanged work;
+    work.robotID = "LR01";
+    work.commandID = commandID;
+    work.mark = mark;
+    return work;
+}
+
+StateChanged MakeShown(std::optional<std::string> commandID, const std::string& mark = {})
+{
+    StateChanged state;
+    state.shownCommandID = std::move(commandID);
+    state.mark = mark;
+    return state;
+}
+
+/// Whether a robot that shows this after a restart may have done more than was stored.
+bool IsDoubtfulAfter(const RobotWorkChanged& stored, const StateChanged& state)
+{
+    WorkRecord record;
+    record.Restore(stored);
+    CHECK(record.TryCheckEvidence(state, true));
+    CHECK_FALSE(record.TryCheckEvidence(MakeShown("another"), true)); // only the first state counts
+    return record.IsDoubtful();
+}
+
+} // namespace
+
+TEST_CASE("WorkRecord: earlier commands are remembered, the latest first and eight at most")
+{
+    WorkRecord record;
+    for (const char* commandID : {"1", "2", "2", "3", "4", "5", "6", "7", "8", "9", "10"})
+    {
+        record.AddCommand(commandID);
+    }
+    CHECK(record.Make("LR01").commandID == "10");
+    CHECK(record.GetEarlierIDs() == std::vector<std::string>{"9", "8", "7", "6", "5", "4", "3", "2"});
+}
+
+TEST_CASE("WorkRecord: a job has a number of its own, and a repeated job keeps it")
+{
+    ACS::Testing::SeededRandom random(1);
+    WorkRecord record;
+    const std::int32_t first = record.NumberJob(true, random); // there is no number to keep
+    CHECK(first > 0);
+    CHECK(record.NumberJob(true, random) == first);
+    CHECK(record.NumberJob(false, random) != first);
+}
+
+TEST_CASE("WorkRecord: a shown command that was not stored makes the next jobs doubtful")
+{
+    RobotWorkChanged stored = MakeStored("C2");
+    stored.earlierIDs = {"C1"};
+    CHECK_FALSE(IsDoubtfulAfter(stored, MakeShown("C2")));
+    CHECK_FALSE(IsDoubtfulAfter(stored, MakeShown("C1")));
+    CHECK_FALSE(IsDoubtfulAfter(stored, MakeShown(std::nullopt))); // robots of its kind show none
+    CHECK(IsDoubtfulAfter(stored, MakeShown("C3")));
+    CHECK(IsDoubtfulAfter(stored, MakeShown(""))); // it has forgotten its commands
+}
+
+TEST_CASE("WorkRecord: a robot that never had a command shows none")
+{
+    RobotWorkChanged stored = MakeStored("C1");
+    CHECK_FALSE(IsDoubtfulAfter(stored, MakeShown("")));
+    stored.bCommandTaken = true;
+    CHECK(IsDoubtfulAfter(stored, MakeShown("")));
+}
+
+TEST_CASE("WorkRecord: a mark tells more than the command, but not of a job that is open")
+{
+    RobotWorkChanged stored = MakeStored("C1", "7");
+    CHECK_FALSE(IsDoubtfulAfter(stored, MakeShown("C9", "7")));
+    CHECK(IsDoubtfulAfter(stored, MakeShown("C1", "8")));
+    stored.job = StartJob{};
+    CHECK_FALSE(IsDoubtfulAfter(stored, MakeShown("C1", "8")));
+}
+
+TEST_CASE("WorkRecord: without a plan there is nothing to doubt, and a doubt is cleared once")
+{
+    WorkRecord record;
+    record.Restore(MakeStored("C1"));
+    CHECK_FALSE(record.TryCheckEvidence(MakeShown("C2"), false));
+    CHECK_FALSE(record.IsDoubtful());
+    record.MarkDoubtful();
+    CHECK(record.TryClearDoubt());
+    CHECK_FALSE(record.TryClearDoubt());
+}
+
+TEST_CASE("WorkRecord: the work is stored when it has changed, and a mark only with a plan")
+{
+    WorkRecord record;
+    CHECK_FALSE(record.TryBeginStore(record.Make("LR01"))); // there is no command yet
+    record.AddCommand("C1");
+    const RobotWorkChanged work = record.Make("LR01");
+    CHECK(record.TryBeginStore(work));
+    record.OnStored(work);
+    CHECK_FALSE(record.TryBeginStore(work));
+
+    RobotWorkChanged marked = work;
+    marked.mark = "7";
+    CHECK_FALSE(record.TryBeginStore(marked));
+    record.BeginPlan(std::nullopt);
+    CHECK(record.TryBeginStore(marked));
+    CHECK_FALSE(record.TryBeginStore(marked));
+    CHECK(record.Make("LR01").commandID == "C1");
+}
+
+TEST_CASE("WorkRecord: the first plan stores the command that the robot shows of others")
+{
+    WorkRecord record;
+    record.BeginPlan("foreign");
+    CHECK(record.Make("LR01").commandID == "foreign");
+}
