@@ -7,6 +7,7 @@ using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test o
 using namespace std::chrono_literals;
 using ACS::Testing::BeginPlan;
 using ACS::Testing::Contains;
+using ACS::Testing::CountStarts;
 using ACS::Testing::FinishPlan;
 using ACS::Testing::GetReportsAfter;
 using ACS::Testing::Lines;
@@ -52,13 +53,6 @@ void BeginUncertain(PlanWorld& world)
     CHECK(alarm.planID == "P1");
     CHECK(alarm.jobID == "P1-a4");
     CHECK(alarm.message.find("it was switched off") != std::string::npos);
-}
-
-std::size_t CountStarts(const PlanWorld& world, const std::string& jobID)
-{
-    return static_cast<std::size_t>(std::ranges::count_if(world.trace, [&jobID](const std::string& line) {
-        return line.find("StartJob " + jobID + " ") != std::string::npos;
-    }));
 }
 
 /// P1 was to go on when the engine ended, and its robot has not heard of it.

@@ -10,6 +10,7 @@ using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test o
 using namespace std::chrono_literals;
 using ACS::Testing::BeginPlan;
 using ACS::Testing::Contains;
+using ACS::Testing::CountStarts;
 using ACS::Testing::FinishPlan;
 using ACS::Testing::Lines;
 using ACS::Testing::MakeControlPlan;
@@ -22,13 +23,6 @@ using ACS::Testing::TryRunUntil;
 
 namespace
 {
-
-std::size_t CountStarts(const PlanWorld& world, const std::string& jobID)
-{
-    return static_cast<std::size_t>(std::ranges::count_if(world.trace, [&jobID](const std::string& line) {
-        return line.find("StartJob " + jobID + " ") != std::string::npos;
-    }));
-}
 
 /// The job that an operator is asked about; empty: none is.
 std::string GetHeldJob(const PlanWorld& world)

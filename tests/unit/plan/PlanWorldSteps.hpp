@@ -85,6 +85,14 @@ inline void FinishPlan(PlanWorld& world)
     return {reports.begin() + static_cast<std::ptrdiff_t>(std::min(count, reports.size())), reports.end()};
 }
 
+/// How often a robot was commanded to start the job.
+[[nodiscard]] inline std::size_t CountStarts(const PlanWorld& world, const std::string& jobID)
+{
+    return static_cast<std::size_t>(std::ranges::count_if(world.trace, [&jobID](const std::string& line) {
+        return line.find("StartJob " + jobID + " ") != std::string::npos;
+    }));
+}
+
 /// On the first port of the first robot.
 [[nodiscard]] inline std::optional<std::string> GetCarrierOrNull(const PlanWorld& world)
 {
