@@ -410,7 +410,7 @@ WaitReason PlanEngine::Impl::DescribeWaiting(const ActivePlan& plan, std::size_t
     {
         reason.message = fmt::format("The TSC is {}: no plan is begun.", GetText(_tscState));
     }
-    else if (_bStoreFailing)
+    else if (_backlog.IsFailing())
     {
         reason.message = "The store fails: no plan is begun that cannot be stored as begun.";
     }

@@ -103,7 +103,7 @@ void PlanEngine::Impl::RefuseControl(const ControlPlan& command)
 void PlanEngine::Impl::Control(const ControlPlan& command)
 {
     const bool bRepeated = IsRepetition(command);
-    if (_bStoreFailing && (!bRepeated || _unstoredIDs.contains(MakeRequestID(command))))
+    if (_backlog.IsFailing() && (!bRepeated || _unstoredIDs.contains(MakeRequestID(command))))
     {
         _actions.emplace_back(
             ReplyCommand{command.replyToken, false, "The request cannot be stored, as the store fails: ask again."});

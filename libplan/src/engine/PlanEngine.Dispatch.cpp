@@ -11,7 +11,7 @@ void PlanEngine::Impl::Dispatch()
     while (std::exchange(_bDispatchNeeded, false))
     {
         // Not what could not be stored as begun.
-        if (_tscState == ETscState::Auto && !_bStoreFailing)
+        if (_tscState == ETscState::Auto && !_backlog.IsFailing())
         {
             AssignPlans();
         }

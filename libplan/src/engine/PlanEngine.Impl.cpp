@@ -119,7 +119,7 @@ void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineAc
             _bDispatchNeeded = true;
             break;
         case EEngineTimer::StoreRetry:
-            _bStoreRetryRuns = false; // The end of the call stores what is left.
+            _backlog.OnRetryDue(); // The end of the call stores what is left.
             break;
         case EEngineTimer::Acknowledged:
             std::ranges::move(_acknowledged, std::back_inserter(_changes));
@@ -195,7 +195,7 @@ void PlanEngine::Impl::Begin(Core::Now now)
     assert(!_gate.IsClosed());
     _now = now;
     _plans.BeginCall();
-    NoteStoreSuccess();
+    CheckStoreRecovery();
     _begun.clear();
     _asked.reset();
     _repeated.clear();
@@ -214,22 +214,14 @@ void PlanEngine::Impl::End(EngineActions& out)
     PublishStatusChanges();
     WatchOutbox();
     CollectWork();
-    std::vector<StoreChange> changes = std::exchange(_unsaved, {});
+    std::vector<StoreChange> changes = _backlog.CollectChanges();
     std::ranges::move(_plans.CollectProgress(), std::back_inserter(changes));
     std::ranges::move(_changes, std::back_inserter(changes));
     _changes.clear();
-    if (!IsStoreWorthTrying(changes))
+    if (!_backlog.IsWorthTrying(changes))
     {
-        KeepForStore(std::move(changes));
-        for (EngineAction& action : std::exchange(_actions, {}))
-        {
-            if (auto* reportOrNull = std::get_if<SendReport>(&action); reportOrNull != nullptr)
-            {
-                _held.push_back(std::move(reportOrNull->entry));
-                continue;
-            }
-            out.push_back(std::move(action));
-        }
+        _backlog.Add(std::move(changes));
+        ReleaseActions(out);
         return;
     }
     EngineActions dependent;
@@ -237,18 +229,15 @@ void PlanEngine::Impl::End(EngineActions& out)
     {
         std::ranges::move(_acknowledged, std::back_inserter(changes));
         _acknowledged.clear();
-        _bStoreAttempted = true;
-        if (_bStoreFailing)
+        if (_backlog.TryBeginAttempt())
         {
-            // Whether it works again shows when this call is followed by another.
             StartStoreRetry(dependent);
         }
     }
-    for (OutboxEntry& entry : _held)
+    for (OutboxEntry& entry : _backlog.CollectReports())
     {
         dependent.emplace_back(SendReport{std::move(entry)});
     }
-    _held.clear();
     std::ranges::move(_actions, std::back_inserter(dependent));
     _actions.clear();
     if (changes.empty())

@@ -3,6 +3,7 @@
 #include "engine/AlarmBook.hpp"
 #include "engine/CommitGate.hpp"
 #include "engine/EngineAlarm.hpp"
+#include "engine/StoreBacklog.hpp"
 #include "plan/PlanAdmission.hpp"
 #include "plan/PlanBook.hpp"
 #include "restart/StartupBarrier.hpp"
@@ -181,12 +182,7 @@ private:
     EngineActions _actions;
     bool _bDispatchNeeded = false;
 
-    // A store that fails: what is still to be stored, and the reports that wait for it.
-    std::vector<StoreChange> _unsaved;
-    std::vector<OutboxEntry> _held;
-    bool _bStoreFailing = false;
-    bool _bStoreRetryRuns = false; ///< Until then what is left waits.
-    bool _bStoreAttempted = false;
+    StoreBacklog _backlog;
     std::vector<StoreChange> _acknowledged; ///< Stored with the next batch, or by the timer.
 
 public:
@@ -237,7 +233,6 @@ private:
     void ReportAlarms(const std::vector<ErrorReport>& reports);
     void RaiseAlarm(Alarm alarm);
     void ClearAlarm(const Alarm& alarm);
-    [[nodiscard]] bool IsHeldBack(const OutboxEntry& entry) const;
     [[nodiscard]] ERobotStatus DeriveStatus(const Robot& robot) const;
     [[nodiscard]] ERobotStatus DeriveDriveStatus(const Robot& robot, const ActiveDrive& drive) const;
     [[nodiscard]] static bool IsApproaching(const ActiveDrive& drive);
@@ -502,7 +497,7 @@ private:
     [[nodiscard]] Alarm MakeUnresolvedAlarm(const Robot& robot) const;
 
     // Failures of the store (PlanEngine.StoreFailure.cpp).
-    void NoteStoreSuccess();
+    void CheckStoreRecovery();
     [[nodiscard]] std::size_t RecoverBatch(const StoreBatch& batch);
     void ReleaseWithoutStore(
         const EngineActions& withheld,
@@ -512,10 +507,9 @@ private:
     [[nodiscard]] bool TryWithdraw(const CommandRobot& command);
     void WithdrawPause(Robot& robot);
     void ReportStoreFailure(std::string_view reason, EngineActions& out);
+    void ReleaseActions(EngineActions& out);
     void StartStoreRetry(EngineActions& out);
-    void KeepForStore(std::vector<StoreChange> changes);
     [[nodiscard]] static Alarm MakeStoreAlarm(std::string message);
-    [[nodiscard]] bool IsStoreWorthTrying(const std::vector<StoreChange>& changes) const;
 };
 
 /// What section 4.3 tells of a plan.

@@ -73,7 +73,7 @@ bool PlanEngine::Impl::HasCause(const Alarm& alarm) const
 {
     if (alarm.errorCode == ALARM_STORE)
     {
-        return _bStoreFailing;
+        return _backlog.IsFailing();
     }
     const auto found = _robotIndices.find(alarm.robotID);
     if (found == _robotIndices.end())

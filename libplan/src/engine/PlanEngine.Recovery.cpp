@@ -71,7 +71,10 @@ void PlanEngine::Impl::RestoreAlarms(std::vector<Alarm> alarms)
 {
     _alarms.Restore(std::move(alarms));
     // Set when the store worked again, to be cleared by what was not called any more.
-    _bStoreFailing = _bStoreFailing || std::ranges::count(_alarms.GetAlarms(), ALARM_STORE, &Alarm::errorCode) > 0;
+    if (std::ranges::count(_alarms.GetAlarms(), ALARM_STORE, &Alarm::errorCode) > 0)
+    {
+        _backlog.RestoreFailing();
+    }
     ReportAlarms(_alarms.ClearIf([this](const Alarm& alarm) {
         const bool bRobotGone = alarm.robotID != OWN_ROBOT_ID && !_robotIndices.contains(alarm.robotID);
         return bRobotGone || alarm.errorCode == ALARM_STALL;

@@ -211,17 +211,11 @@ PlanSummary MakeSummary(const PlanRecord& record)
     return summary;
 }
 
-/// For a failing store. What is held is a part of the outbox, in the same order.
-bool PlanEngine::Impl::IsHeldBack(const OutboxEntry& entry) const
-{
-    return std::ranges::binary_search(_held, entry.sequence, {}, &OutboxEntry::sequence);
-}
-
 std::vector<OutboxEntry> PlanEngine::Impl::GetUnacknowledged() const
 {
     std::vector<OutboxEntry> entries;
     std::ranges::copy_if(_outbox.GetUnacknowledged(), std::back_inserter(entries), [this](const OutboxEntry& entry) {
-        return !IsHeldBack(entry);
+        return !_backlog.IsHeldBack(entry);
     });
     return entries;
 }
@@ -230,8 +224,8 @@ OutboxSummary PlanEngine::Impl::GetOutboxSummary() const
 {
     const std::deque<OutboxEntry>& outbox = _outbox.GetUnacknowledged();
     const auto oldest =
-        std::ranges::find_if_not(outbox, [this](const OutboxEntry& entry) { return IsHeldBack(entry); });
-    OutboxSummary summary{outbox.size() - _held.size(), std::nullopt};
+        std::ranges::find_if_not(outbox, [this](const OutboxEntry& entry) { return _backlog.IsHeldBack(entry); });
+    OutboxSummary summary{outbox.size() - _backlog.CountHeldBack(), std::nullopt};
     if (oldest != outbox.end())
     {
         summary.oldest = oldest->time;

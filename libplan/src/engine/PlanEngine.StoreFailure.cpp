@@ -21,8 +21,7 @@ void PlanEngine::Impl::OnStored(const Core::Result<void>& result, Core::Now now,
     }
     const std::string reason = Core::Describe(result.error());
     _now = now;
-    _bStoreFailing = true;
-    _bStoreAttempted = false;
+    _backlog.OnFailed();
     const bool bPlanRefused = RecoverBatch(transaction.batch) > 0;
     ReleaseWithoutStore(transaction.dependent, bPlanRefused, reason, out);
     ReportStoreFailure(reason, out);
@@ -36,13 +35,12 @@ bool PlanEngine::Impl::IsStoring() const noexcept
 void PlanEngine::Impl::OnStoreLost(std::string_view reason, Core::Now now, EngineActions& out)
 {
     assert(!_gate.IsClosed());
-    if (_bStoreFailing)
+    if (_backlog.IsFailing())
     {
         return; // it is tried again all the time, and fails for this or for another reason
     }
     _now = now;
-    _bStoreFailing = true;
-    _bStoreAttempted = false;
+    _backlog.OnFailed();
     ReportStoreFailure(reason, out);
 }
 
@@ -50,23 +48,27 @@ void PlanEngine::Impl::OnStoreLost(std::string_view reason, Core::Now now, Engin
 void PlanEngine::Impl::ReportStoreFailure(std::string_view reason, EngineActions& out)
 {
     RaiseAlarm(MakeStoreAlarm("Plans cannot be stored: " + std::string(reason)));
-    KeepForStore(std::exchange(_changes, {}));
-    for (EngineAction& action : _actions)
+    _backlog.Add(std::exchange(_changes, {}));
+    ReleaseActions(out);
+    StartStoreRetry(out);
+}
+
+/// The actions of a call whose changes are not stored: all but the reports.
+void PlanEngine::Impl::ReleaseActions(EngineActions& out)
+{
+    for (EngineAction& action : std::exchange(_actions, {}))
     {
         if (auto* reportOrNull = std::get_if<SendReport>(&action); reportOrNull != nullptr)
         {
-            _held.push_back(std::move(reportOrNull->entry));
+            _backlog.HoldBack(std::move(reportOrNull->entry));
             continue;
         }
         out.push_back(std::move(action));
     }
-    _actions.clear();
-    StartStoreRetry(out);
 }
 
 void PlanEngine::Impl::StartStoreRetry(EngineActions& out)
 {
-    _bStoreRetryRuns = true;
     out.emplace_back(StartEngineTimer{{EEngineTimer::StoreRetry, {}}, _options.storeRetry});
 }
 
@@ -85,7 +87,7 @@ std::size_t PlanEngine::Impl::RecoverBatch(const StoreBatch& batch)
         const auto* addedOrNull = std::get_if<PlanAdded>(&change);
         if (addedOrNull == nullptr)
         {
-            _unsaved.push_back(change);
+            _backlog.Add({change});
             continue;
         }
         ++refused;
@@ -120,8 +122,8 @@ void PlanEngine::Impl::ReleaseWithoutStore(
     {
         std::visit(
             Core::Overloaded{
-                [this](const StorePlans& typed) { KeepForStore(typed.batch.changes); },
-                [this](const SendReport& typed) { _held.push_back(typed.entry); },
+                [this](const StorePlans& typed) { _backlog.Add(typed.batch.changes); },
+                [this](const SendReport& typed) { _backlog.HoldBack(typed.entry); },
                 [this, &out, &refusal, bPlanRefused](const ReplyCommand& typed) {
                     const auto repeated = _repeated.find(typed.replyToken);
                     const bool bKnown =
@@ -176,24 +178,18 @@ void PlanEngine::Impl::WithdrawPause(Robot& robot)
     }
 }
 
-void PlanEngine::Impl::KeepForStore(std::vector<StoreChange> changes)
-{
-    std::ranges::move(changes, std::back_inserter(_unsaved));
-}
-
 Alarm PlanEngine::Impl::MakeStoreAlarm(std::string message)
 {
     return MakeAlarm(OWN_ROBOT_ID, ALARM_STORE, EAlarmLevel::Heavy, std::move(message));
 }
 
 /// A call after a batch that did not fail.
-void PlanEngine::Impl::NoteStoreSuccess()
+void PlanEngine::Impl::CheckStoreRecovery()
 {
-    if (!_bStoreFailing || !_bStoreAttempted)
+    if (!_backlog.TryRecover())
     {
         return;
     }
-    _bStoreFailing = false;
     _unstoredIDs.clear();
     _bDispatchNeeded = true;
     for (const auto& [planID, plan] : _plans.GetActive())
@@ -204,14 +200,6 @@ void PlanEngine::Impl::NoteStoreSuccess()
         }
     }
     ClearAlarm(MakeStoreAlarm({}));
-}
-
-/// Each attempt costs as much as all that is left to be stored: only new plans and the timer StoreRetry make one.
-bool PlanEngine::Impl::IsStoreWorthTrying(const std::vector<StoreChange>& changes) const
-{
-    return !_bStoreFailing || !_bStoreRetryRuns || std::ranges::any_of(changes, [](const StoreChange& change) {
-        return std::holds_alternative<PlanAdded>(change);
-    });
 }
 
 } // namespace ACS::Planning
