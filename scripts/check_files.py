@@ -89,7 +89,7 @@ def check_header(path, text):
     # Specialisations count: a header full of them is a family, not one class.
     defined = [name for _, kind, name in types if kind not in ("using", "concept")]
     if classes and stem not in names:
-        yield classes[0][0], f"class {classes[0][1]} stands in a file of another name; call the file {classes[0][1]}.hpp"
+        yield classes[0][0], f"class {classes[0][1]} is in a file of another name; rename it to {classes[0][1]}.hpp"
     elif (len(defined) == 1 and stem not in names and stem not in text.split("#pragma once", 1)[-1]
           and not FREE_DECLARATION.search(text)):
         yield 1, f"the file declares {defined[0]} only; call it {defined[0]}.hpp"

@@ -91,7 +91,7 @@ def explain_refusal(path, layer, used):
     if layer.startswith("apps/"):
         return None
     if used == "examples":
-        return "is an example; nobody depends on it"
+        return "is an example; no other file may include it"
     if used == "json":
         if layer in PURE and (path.endswith(".cpp") or "/src/codec/" in path):
             return None

@@ -49,7 +49,7 @@ def strip_pairs(text, opening, closing):
 
 
 def list_declarations(body):
-    """The declarations of a class body, nested braces emptied. After an empty pair a declaration goes on with ";", "," or
+    """The declarations of a class body, nested braces emptied. After an empty pair a declaration continues with ";", "," or
     an initialiser; anything else begins the next one."""
     flat, index = [], 0
     while index < len(body):

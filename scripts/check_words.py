@@ -11,12 +11,15 @@ from source_tree import COMMENT_OR_STRING, list_files, read_text
 # (beginning, end) of the paths that are covered. Sources are added as their words are brought to the glossary.
 COVERED = (
     ("", ".md"),
+    ("cmake/", ""),
     ("examples/site/", ".toml"),
+    ("scripts/", ""),
     ("tests/install/", ".cpp"),
 )
 
 # Not covered although they match.
 EXCEPTIONS = (
+    re.compile(r"^scripts/check_words\.py$"),  # lists them
     re.compile(r"^docs/design/decisions/000[78]-"),  # about to be replaced by one decision
 )
 
@@ -53,9 +56,11 @@ WORDS = (
     (r"news", "event, evidence"),
     (r"begin anew|begun anew|anew", "again"),
 )
-PATTERN = re.compile("|".join(rf"(?P<w{i}>(?<![\w-])(?:{words})(?![\w-]))" for i, (words, _) in enumerate(WORDS)),
-                     re.IGNORECASE)
+# A phrase may go over the end of a line.
+PATTERN = re.compile("|".join(rf"(?P<w{i}>(?<![\w-])(?:{words})(?![\w-]))" for i, (words, _) in enumerate(WORDS))
+                     .replace(" ", r"\s+"), re.IGNORECASE)
 
+_COMMENT_MARK = re.compile(r"^[ \t]*(?://[/!]?<?|#+)", re.MULTILINE)
 _CODE = re.compile(r"^(?P<fence>```).*?^```|`[^`\n]+`|\]\([^)\n]*\)|(?<=\n\n)(?: {4}[^\n]*\n)+", re.DOTALL | re.MULTILINE)
 
 
@@ -65,10 +70,10 @@ def _blank(text):
 
 def keep_prose(path, text):
     """The words for a reader, everything else blank, lines and columns as they were: of a document all but code and the
-    targets of links; of a configuration everything; of a source its comments and literals."""
+    targets of links; of a C++ source its comments and literals; of anything else everything."""
     if path.endswith(".md"):
         return _CODE.sub(lambda match: _blank(match.group(0)), text)
-    if path.endswith(".toml"):
+    if not path.endswith((".hpp", ".cpp")):
         return text
     kept, end = "", 0
     for match in COMMENT_OR_STRING.finditer(text):
@@ -83,11 +88,10 @@ def is_covered(path):
 
 
 def check_text(path, text):
-    # A phrase may go over the end of a line.
-    joined = re.sub(r"\s", " ", keep_prose(path, text))
-    for match in PATTERN.finditer(joined):
+    prose = _COMMENT_MARK.sub(lambda match: _blank(match.group(0)), keep_prose(path, text))
+    for match in PATTERN.finditer(prose):
         better = next(WORDS[i][1] for i in range(len(WORDS)) if match.group(f"w{i}"))
-        yield text.count("\n", 0, match.start()) + 1, f"'{match.group(0)}': write {better}"
+        yield text.count("\n", 0, match.start()) + 1, f"'{' '.join(match.group(0).split())}': write {better}"
 
 
 def check_tree(root):

@@ -39,7 +39,7 @@ def parse_arguments():
 
 
 def terminal_environment():
-    """mcs-sim writes into our pipe: it learns the size of the terminal behind it from its environment."""
+    """mcs-sim writes to our pipe: its environment has the size of the terminal."""
     size = shutil.get_terminal_size()
     return {**os.environ, "COLUMNS": str(size.columns), "LINES": str(size.lines)}
 
@@ -60,7 +60,7 @@ def is_live_terminal():
 
 
 class Output:
-    """What mcs-sim writes goes on to our own output; when nobody reads that any more, the play is over."""
+    """Copies the output of mcs-sim to our own; ends when our output is closed."""
 
     def __init__(self):
         self.error = None
@@ -82,7 +82,7 @@ class Output:
 
 
 def start_line(line, arguments, output):
-    """The order is that of a plant: first what others connect to. Everybody retries, so it does not matter."""
+    """The order is that of a plant: first what others connect to. All programs retry, so it does not matter."""
     line.share_world()
     line.start_broker()
     vehicles = line.start_vehicles(arguments.time_scale)

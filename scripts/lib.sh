@@ -29,7 +29,7 @@ die_usage()
 # setup SET: installs the packages of that set (scripts/setup --help).
 setup()
 {
-    "$ACS_ROOT/scripts/setup" --for "$1" || die "cannot go on without the packages above"
+    "$ACS_ROOT/scripts/setup" --for "$1" || die "cannot continue without the packages above"
 }
 
 # configure PRESET [OPTION...]: runs CMake if the folder has never been configured with these options, or if the presets
@@ -57,7 +57,7 @@ configure()
     printf '%s\n%s\n' "$state" "$*" >"$folder/.configured"
 }
 
-# is_configured STATE OPTIONS: compares with the two lines of .configured. Whoever needs no options takes any.
+# is_configured STATE OPTIONS: compares with the two lines of .configured. A caller without options accepts any.
 is_configured()
 {
     local state options

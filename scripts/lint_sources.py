@@ -24,12 +24,12 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BUILD = os.path.join(ROOT, "build", "tidy")
 # Compiled by other presets, by other projects, or not at all.
 ELSEWHERE = ("tests/fuzz/", "tests/install/", "tests/style/bad/", "tests/unit/compile_fail/")
-# Shared by all clones of a machine, as the compiler's cache is: what passed in one need not be looked at in another.
+# Shared by all clones of a machine, as the compiler's cache is: what passed in one is not checked in another.
 CACHE = os.path.join(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"), "acs-lint")
 QUERIES = os.path.join("scripts", "house-rules.clang-query")
 MAX_BUNDLE = 12
 WITHOUT_ANALYZER = "-clang-analyzer-*"
-# The static analyzer looks at one source at a time, which is most of the work: only where others link what we write.
+# The static analyzer checks one source at a time, which is most of the work: only for what others link.
 ONLY_ANALYZER = "-*,clang-analyzer-*,-clang-analyzer-optin.cplusplus.VirtualCall"
 ANALYZED = ("lib",)
 ANALYZED_DEEP = ("lib", "apps/", "examples/")
@@ -83,9 +83,9 @@ class Source:
         words = shlex.split(command)[1:]
         out = words.index("-o")
         del words[out:out + 2]
-        #: All that the compiler is told but the names of the files.
+        #: All arguments of the compiler except the names of files.
         self.arguments = [word for word in words if word != "-c" and os.path.join(ROOT, word) != self.full_path]
-        #: What must be equal for two sources to be looked at together: the arguments and the rules.
+        #: What must be equal for two sources to be checked together: the arguments and the rules.
         self.kind = (*self.arguments, *(folder for folder in self.get_folders()
                                         if os.path.exists(os.path.join(ROOT, folder, ".clang-tidy"))))
 
@@ -149,8 +149,8 @@ def tidy(path, checks):
 
 
 class Linter:
-    """Looks at bundles of sources; where one is not clean, at its halves, so that a complaint is always one about a
-    source that was looked at alone."""
+    """Checks bundles of sources; if one is not clean, its halves, so that each finding is of a source that was checked
+    alone."""
 
     def __init__(self, pool, folder, analyzed, progress):
         self._pool = pool
@@ -219,7 +219,7 @@ def select(arguments):
         unknown = {path for path in list_files(ROOT) if path.endswith(".cpp") and not path.startswith(ELSEWHERE)}
         unknown -= set(commands)
     if unknown:
-        print("no target of preset tidy compiles, so nobody checks: " + ", ".join(sorted(unknown)))
+        print("not compiled by a target of preset tidy, so not checked: " + ", ".join(sorted(unknown)))
     fingerprints = Fingerprints()
     chosen = []
     for path, command in sorted(commands.items()):
@@ -238,7 +238,7 @@ def main():
     arguments = parser.parse_args()
     os.makedirs(CACHE, exist_ok=True)
     chosen, total, orphans = select(arguments)
-    print(f"{len(chosen)} of {total} sources to look at", flush=True)
+    print(f"{len(chosen)} of {total} sources to check", flush=True)
     begin = time.monotonic()
     analyzed = ANALYZED_DEEP if arguments.deep else ANALYZED
     for source in chosen:

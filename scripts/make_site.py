@@ -2,7 +2,7 @@
 """Writes the example site: a VDMA LIF 1.0 layout, and a picture of it.
 
     scripts/make_site.py             writes examples/site/site.lif.json and examples/site/site.svg
-    scripts/make_site.py --check     says whether both files are what this script would write (exit code 1 if not)
+    scripts/make_site.py --check     compares both files with what this script would write (exit code 1 if they differ)
     scripts/make_site.py --out FILE  writes the layout elsewhere;  --svg FILE  the picture
 
 All lengths are whole millimetres until they are printed, so that the same input gives the same bytes everywhere.

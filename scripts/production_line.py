@@ -153,7 +153,7 @@ class Line:
         self.programs.remove(program)
 
     def start_broker(self, port=None, access=("allow_anonymous true",)):
-        """mosquitto with a private configuration. It cannot tell a free port itself: pick one and retry."""
+        """mosquitto with a private configuration. It cannot select a free port itself: pick one and retry."""
         binary = shutil.which("mosquitto") or shutil.which("mosquitto", path="/usr/sbin:/sbin:/usr/local/sbin")
         if binary is None:
             raise LineError("mosquitto is not installed; run scripts/setup")

@@ -1,4 +1,4 @@
-"""What the checks share: which files the tree has, and what a C++ file says apart from comments and strings."""
+"""What the checks share: which files the tree has, and a C++ file without comments and strings."""
 
 import os
 import re
@@ -51,7 +51,7 @@ def list_includes(text):
 
 
 class IncludeResolver:
-    """Finds the file of this tree that an #include means, or None where it is somebody else's header."""
+    """Finds the file of this tree that an #include means, or None if it is a foreign header."""
 
     def __init__(self, files):
         self._files = set(files)

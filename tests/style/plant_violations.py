@@ -153,6 +153,7 @@ PLANTED = [
     ("words", "docs/guide.md", "It drove without leave.\n", 1, "write without a reservation"),
     ("words", "docs/guide.md", "[tells](reference/keys.md)\n", 1, "'tells'"),
     ("words", "examples/site/acsd.toml", "[log]\nlevel = \"info\"  # what is told\n", 2, "'told': write report"),
+    ("words", "scripts/setup", "# one\n# two goes\n# on\n", 2, "write continue"),
     ("words", "tests/install/consumer_Core.cpp", "int tells = 1; // the plan\n// is told so\n", 2, "'told': write report"),
     ("words", "tests/install/consumer_Core.cpp", "const char* text = \"a mistake\";\n", 1, "'mistake': write error"),
 ]
