@@ -273,7 +273,7 @@ private:
     [[nodiscard]] bool IsChargeDue(const Robot& robot) const;
     [[nodiscard]] std::optional<std::size_t> GetHomeOrNull(const Robot& robot) const;
 
-    // Which robot takes which plan, and why none does (PlanEngine.Choice.cpp).
+    // Which robot takes which plan (PlanEngine.Choice.cpp).
     void AssignPlans();
     [[nodiscard]] Robot* FindNearestOrNull(const ActivePlan& plan);
     [[nodiscard]] Robot* FindQuickestOrNull(const ActivePlan& plan, const std::vector<Robot*>& robots) const;
@@ -304,6 +304,8 @@ private:
         const Robot& robot,
         std::size_t port,
         const std::string& carrierID) const;
+
+    // Why plans wait (PlanEngine.WaitReasons.cpp).
     [[nodiscard]] std::optional<std::string> DescribeUnavailabilityOrNull(const ActivePlan& plan, const Robot& robot)
         const;
     [[nodiscard]] WaitReason DescribeWaiting(const ActivePlan& plan, std::size_t position) const;
@@ -316,8 +318,6 @@ private:
     void RefuseControl(const ControlPlan& command);
     void Cancel(ActivePlan& plan);
     void Abort(ActivePlan& plan);
-    void Pause(ActivePlan& plan);
-    void Resume(ActivePlan& plan);
     [[nodiscard]] bool IsRepetition(const ControlPlan& command) const;
     void Remember(PlanProgress& progress, const ControlPlan& command);
     void Ask(ActivePlan& plan, EPlanControl control);
@@ -327,11 +327,6 @@ private:
     void RaiseDropped(const Robot& robot);
     [[nodiscard]] Alarm MakeDroppedAlarm(const Robot& robot) const;
     void EndByControl(ActivePlan& plan, EPlanControl control);
-    void ConfirmPause(Robot& robot);
-    void ConfirmResume(Robot& robot);
-    void UpdatePause(Robot& robot, bool bBack, bool bWasPaused);
-    void ReleasePause(Robot& robot);
-    void LeavePause(ActivePlan& plan, std::string message);
     void ContinueAfterControl(Robot& robot);
     void StartConfirming(Robot& robot, Core::Duration limit);
     void StopConfirming(Robot& robot);
@@ -341,6 +336,15 @@ private:
     void StopJobTimer(Robot& robot);
     void ReportControlResult(EPlanControl control, const std::string& planID, bool bSucceeded, std::string message);
     [[nodiscard]] bool IsCancellable(const ActivePlan& plan) const;
+
+    // Pausing and resuming (PlanEngine.Pause.cpp).
+    void Pause(ActivePlan& plan);
+    void Resume(ActivePlan& plan);
+    void UpdatePause(Robot& robot, bool bBack, bool bWasPaused);
+    void ConfirmPause(Robot& robot);
+    void ConfirmResume(Robot& robot);
+    void LeavePause(ActivePlan& plan, std::string message);
+    void ReleasePause(Robot& robot);
     [[nodiscard]] static bool IsHeld(const Robot& robot);
 
     // Events of robots (PlanEngine.Robots.cpp).
@@ -351,15 +355,7 @@ private:
     void OnDriveRejected(Robot& robot, const DriveRejected& event);
     [[nodiscard]] static bool IsEnding(const Robot& robot);
     void OnDriveCancelled(Robot& robot, const DriveCancelled& event);
-    void OnJobStarted(Robot& robot, const JobStarted& event);
-    void OnJobFinished(Robot& robot, const JobFinished& event);
     void UpdateApproach(Robot& robot);
-    void OnJobFailed(Robot& robot, const JobFailed& event);
-    void OnJobUnknown(Robot& robot, const JobUnknown& event);
-    void OnJobUncertain(Robot& robot, const JobUncertain& event);
-    void OnJobTimeout(Robot& robot);
-    void OnJobEndTimeout(Robot& robot);
-    [[nodiscard]] bool TryEndOverdueJob(Robot& robot, const std::string& jobID, bool bDone);
     [[nodiscard]] Alarm MakeLinkAlarm(const Robot& robot, std::string message) const;
     [[nodiscard]] Alarm MakePlaceAlarm(const Robot& robot, std::string message) const;
     void Place(Robot& robot);
@@ -367,13 +363,28 @@ private:
     [[nodiscard]] std::vector<std::size_t> ListClaimed(const Robot& robot, std::size_t node) const;
     void CompareErrors(Robot& robot);
     [[nodiscard]] bool TryAdvance(Robot& robot, std::size_t routeIndex);
-    [[nodiscard]] std::vector<std::size_t> FindAhead(
-        const Robot& robot,
-        std::size_t node,
-        std::span<const std::size_t> ahead) const;
-    [[nodiscard]] static bool IsOn(const StateChanged& state, const SiteNode& node, const SiteNode& next);
-    [[nodiscard]] static bool IsBetween(const StateChanged& state, const SiteNode& from, const SiteNode& to);
     void EndDrive(Robot& robot);
+
+    // Outcomes of jobs (PlanEngine.Jobs.cpp).
+    void OnJobStarted(Robot& robot, const JobStarted& event);
+    void OnJobFinished(Robot& robot, const JobFinished& event);
+    void OnJobFailed(Robot& robot, const JobFailed& event);
+    void OnJobUnknown(Robot& robot, const JobUnknown& event);
+    void OnJobUncertain(Robot& robot, const JobUncertain& event);
+    void OnJobTimeout(Robot& robot);
+    void OnJobEndTimeout(Robot& robot);
+    [[nodiscard]] bool TryEndOverdueJob(Robot& robot, const std::string& jobID, bool bDone);
+    void SuspendDoubtfulJob(Robot& robot);
+    void SuspendJob(Robot& robot, const std::string& reason);
+    void AbortUnresolvedJob(Robot& robot);
+    void EndRecovery(Robot& robot);
+    void ReleaseJob(Robot& robot);
+    void RepeatJob(Robot& robot, std::string commandID);
+    [[nodiscard]] std::optional<std::size_t> FindWorkerOrNull(const SettleJob& command) const;
+    void Settle(const SettleJob& command);
+    void CatchUp(Robot& robot);
+    void ApplyAnswer(Robot& robot, EJobAnswer answer);
+    [[nodiscard]] Alarm MakeUnresolvedAlarm(const Robot& robot) const;
 
     // Which jobs a robot can do (PlanEngine.JobCheck.cpp).
     void OnJobCheck(Robot& robot, const JobCheckChanged& event);
@@ -472,6 +483,11 @@ private:
     void RestoreTsc(ETscState stored);
     void RestoreOverdue(Robot& robot);
     void EndUnfit(ActivePlan& plan, const std::string& reason);
+    void UpdateStandstill(Robot& robot);
+    void RequestJobOutcome(Robot& robot);
+
+    // Waiting for the robots after a start (PlanEngine.Startup.cpp).
+    [[nodiscard]] static bool IsPositionAwaited(const Robot& robot);
     void BeginStartup(bool bHasWork);
     void UpdateStartup();
     void EndStartup();
@@ -481,20 +497,6 @@ private:
     void ForgetPossibleNodes(Robot& robot);
     [[nodiscard]] static std::vector<std::size_t> ListPossibleAhead(const Robot& robot, std::size_t node);
     [[nodiscard]] std::vector<std::string> ListNodes(const Robot& robot) const;
-    void UpdateStandstill(Robot& robot);
-    void SuspendDoubtfulJob(Robot& robot);
-    void CatchUp(Robot& robot);
-    void SuspendJob(Robot& robot, const std::string& reason);
-    void AbortUnresolvedJob(Robot& robot);
-    void EndRecovery(Robot& robot);
-    void ReleaseJob(Robot& robot);
-    void RepeatJob(Robot& robot, std::string commandID);
-    [[nodiscard]] std::optional<std::size_t> FindWorkerOrNull(const SettleJob& command) const;
-    void Settle(const SettleJob& command);
-    void ApplyAnswer(Robot& robot, EJobAnswer answer);
-    void RequestJobOutcome(Robot& robot);
-    [[nodiscard]] static bool IsPositionAwaited(const Robot& robot);
-    [[nodiscard]] Alarm MakeUnresolvedAlarm(const Robot& robot) const;
 
     // Failures of the store (PlanEngine.StoreFailure.cpp).
     void CheckStoreRecovery();

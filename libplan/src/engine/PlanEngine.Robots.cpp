@@ -1,23 +1,15 @@
 #include "engine/PlanEngine.Impl.hpp"
+#include "robot/NodesAhead.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <span>
 #include <utility>
 
 namespace ACS::Planning
 {
-
-namespace
-{
-
-/// Metres from a node at which a robot still stands on it.
-constexpr double STAND_TOLERANCE = 0.5;
-
-} // namespace
 
 Alarm PlanEngine::Impl::MakeLinkAlarm(const Robot& robot, std::string message) const
 {
@@ -89,8 +81,11 @@ void PlanEngine::Impl::Place(Robot& robot)
         return;
     }
     const std::vector<std::size_t> claim = ListClaimed(robot, *node);
-    std::vector<std::size_t> ahead =
-        FindAhead(robot, *node, node == robot.node ? robot.aheadNodes : ListPossibleAhead(robot, *node));
+    std::vector<std::size_t> ahead = FindNodesAhead(
+        _site,
+        robot.state,
+        *node,
+        node == robot.node ? robot.aheadNodes : ListPossibleAhead(robot, *node));
     std::erase_if(ahead, [&claim](std::size_t between) { return std::ranges::count(claim, between) > 0; });
     std::vector<std::size_t> held(claim);
     held.insert(held.end(), ahead.begin(), ahead.end());
@@ -268,56 +263,6 @@ bool PlanEngine::Impl::TryAdvance(Robot& robot, std::size_t routeIndex)
     return true;
 }
 
-/// Which of the nodes ahead a robot without a drive keeps: all while it still drives, or nobody knows; then those between
-/// which it has come to a stand.
-std::vector<std::size_t> PlanEngine::Impl::FindAhead(
-    const Robot& robot,
-    std::size_t node,
-    std::span<const std::size_t> ahead) const
-{
-    if (!robot.state.has_value() || robot.state->bDriving)
-    {
-        return {ahead.begin(), ahead.end()};
-    }
-    if (ahead.empty()
-        || (robot.state->bPoseKnown && IsOn(*robot.state, _site.GetNodes()[node], _site.GetNodes()[ahead.front()])))
-    {
-        return {};
-    }
-    std::size_t from = node;
-    for (const std::size_t next : ahead)
-    {
-        if (robot.state->bPoseKnown && IsBetween(*robot.state, _site.GetNodes()[from], _site.GetNodes()[next]))
-        {
-            return from == node ? std::vector<std::size_t>{next} : std::vector<std::size_t>{from, next};
-        }
-        from = next;
-    }
-    return {};
-}
-
-/// Still on the first one, of two: its way may come past there again.
-bool PlanEngine::Impl::IsOn(const StateChanged& state, const SiteNode& node, const SiteNode& next)
-{
-    return std::hypot(state.x - node.x, state.y - node.y) <= std::min(STAND_TOLERANCE, GetDistance(node, next) / 4);
-}
-
-/// On the way from one to the other, and no longer on the first one.
-bool PlanEngine::Impl::IsBetween(const StateChanged& state, const SiteNode& from, const SiteNode& to)
-{
-    const double length = GetDistance(from, to);
-    if (length <= 0)
-    {
-        return false;
-    }
-    const double x = state.x - from.x;
-    const double y = state.y - from.y;
-    const double along = (x * (to.x - from.x) + y * (to.y - from.y)) / length;
-    const double beside = std::abs(x * (to.y - from.y) - y * (to.x - from.x)) / length;
-    const double tolerance = std::min(STAND_TOLERANCE, length / 4);
-    return along > tolerance && along <= length + tolerance && beside <= STAND_TOLERANCE;
-}
-
 /// The robot stands on drive->passed, or between it and the next node: nothing else of the way is its own any more.
 void PlanEngine::Impl::EndDrive(Robot& robot)
 {
@@ -336,13 +281,19 @@ void PlanEngine::Impl::EndDrive(Robot& robot)
     const std::size_t begin = drive.passed + 1;
     if (!drive.bConfirmed)
     {
-        robot.aheadNodes =
-            FindAhead(robot, *robot.node, robot.aheadNodes); // of the drive before: this one it never had
+        robot.aheadNodes = FindNodesAhead(
+            _site,
+            robot.state,
+            *robot.node,
+            robot.aheadNodes); // of the drive before: this one it never had
     }
     else if (begin < drive.grantedCount)
     {
-        robot.aheadNodes =
-            FindAhead(robot, *robot.node, std::span(drive.nodes).subspan(begin, drive.grantedCount - begin));
+        robot.aheadNodes = FindNodesAhead(
+            _site,
+            robot.state,
+            *robot.node,
+            std::span(drive.nodes).subspan(begin, drive.grantedCount - begin));
     }
     else
     {
@@ -488,92 +439,6 @@ void PlanEngine::Impl::OnDriveCancelled(Robot& robot, const DriveCancelled& even
         return;
     }
     OnDriveRejected(robot, DriveRejected{event.driveID, "it was cancelled"});
-}
-
-void PlanEngine::Impl::OnJobStarted(Robot& robot, const JobStarted& event)
-{
-    if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID)
-    {
-        return;
-    }
-    if (robot.job.IsUnresolved())
-    {
-        return; // an operator has been asked
-    }
-    robot.work.MarkCommandTaken();
-    robot.bWorkTouched = true;
-    EndRecovery(robot);
-    ActivePlan& plan = *robot.planOrNull;
-    if (GetJobState(plan) == EJobState::Instructed)
-    {
-        ChangeJob(plan, EJobState::InProgress, {});
-    }
-}
-
-/// Its plan is over, but what it did to the robot's ports counts. The robot's word is as good as an operator's.
-bool PlanEngine::Impl::TryEndOverdueJob(Robot& robot, const std::string& jobID, bool bDone)
-{
-    if (!robot.job.IsOverdue(jobID))
-    {
-        return false;
-    }
-    CancelTimer(EEngineTimer::JobEnd, GetRobotID(robot));
-    if (bDone)
-    {
-        ClearAlarm(MakeDroppedAlarm(robot));
-        MoveCarrier(robot, *robot.job.GetOrNull());
-    }
-    ReleaseJob(robot);
-    _bDispatchNeeded = true;
-    return true;
-}
-
-/// The robot cannot be used until somebody says how the job ended.
-void PlanEngine::Impl::OnJobEndTimeout(Robot& robot)
-{
-    if (robot.job.IsOverdue() && !robot.job.IsUnresolved())
-    {
-        SuspendJob(robot, "its plan is over, and the robot does not tell the job's end");
-    }
-}
-
-void PlanEngine::Impl::OnJobFinished(Robot& robot, const JobFinished& event)
-{
-    if (TryEndOverdueJob(robot, event.jobID, true))
-    {
-        return;
-    }
-    if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID || robot.job.IsUnresolved())
-    {
-        return;
-    }
-    OnJobStarted(robot, JobStarted{event.jobID});
-    EndJob(robot, {});
-}
-
-void PlanEngine::Impl::OnJobFailed(Robot& robot, const JobFailed& event)
-{
-    if (TryEndOverdueJob(robot, event.jobID, false))
-    {
-        return;
-    }
-    if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID || robot.job.IsUnresolved())
-    {
-        return;
-    }
-    ReleaseJob(robot);
-    FailPlan(*robot.planOrNull, event.reason);
-}
-
-void PlanEngine::Impl::OnJobTimeout(Robot& robot)
-{
-    if (robot.activity != EActivity::Works)
-    {
-        return;
-    }
-    robot.planOrNull->jobDeadline.reset();
-    DropJob(robot);
-    FailPlan(*robot.planOrNull, "The job took longer than its limit.");
 }
 
 } // namespace ACS::Planning

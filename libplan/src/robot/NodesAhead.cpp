@@ -1,0 +1,66 @@
+#include "robot/NodesAhead.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ACS::Planning
+{
+
+namespace
+{
+
+/// Metres from a node at which a robot still stands on it.
+constexpr double STAND_TOLERANCE = 0.5;
+
+/// Still on the first one, of two: its route may come past there again.
+bool IsOn(const StateChanged& state, const SiteNode& node, const SiteNode& next)
+{
+    return std::hypot(state.x - node.x, state.y - node.y) <= std::min(STAND_TOLERANCE, GetDistance(node, next) / 4);
+}
+
+/// On the way from one to the other, and no longer on the first one.
+bool IsBetween(const StateChanged& state, const SiteNode& from, const SiteNode& to)
+{
+    const double length = GetDistance(from, to);
+    if (length <= 0)
+    {
+        return false;
+    }
+    const double x = state.x - from.x;
+    const double y = state.y - from.y;
+    const double along = (x * (to.x - from.x) + y * (to.y - from.y)) / length;
+    const double beside = std::abs(x * (to.y - from.y) - y * (to.x - from.x)) / length;
+    const double tolerance = std::min(STAND_TOLERANCE, length / 4);
+    return along > tolerance && along <= length + tolerance && beside <= STAND_TOLERANCE;
+}
+
+} // namespace
+
+std::vector<std::size_t> FindNodesAhead(
+    const SiteMap& site,
+    const std::optional<StateChanged>& state,
+    std::size_t node,
+    std::span<const std::size_t> ahead)
+{
+    const std::vector<SiteNode>& nodes = site.GetNodes();
+    if (!state.has_value() || state->bDriving)
+    {
+        return {ahead.begin(), ahead.end()};
+    }
+    if (ahead.empty() || !state->bPoseKnown || IsOn(*state, nodes[node], nodes[ahead.front()]))
+    {
+        return {};
+    }
+    std::size_t from = node;
+    for (const std::size_t next : ahead)
+    {
+        if (IsBetween(*state, nodes[from], nodes[next]))
+        {
+            return from == node ? std::vector<std::size_t>{next} : std::vector<std::size_t>{from, next};
+        }
+        from = next;
+    }
+    return {};
+}
+
+} // namespace ACS::Planning

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <acs/plan/RobotEvent.hpp>
+#include <acs/plan/SiteMap.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+/// Which of the nodes ahead of its last node a robot without a drive keeps: all while it still drives, or while its state is
+/// unknown; then those between which it has stopped.
+[[nodiscard]] std::vector<std::size_t> FindNodesAhead(
+    const SiteMap& site,
+    const std::optional<StateChanged>& state,
+    std::size_t node,
+    std::span<const std::size_t> ahead);
+
+} // namespace ACS::Planning

@@ -1,0 +1,67 @@
+#include "robot/NodesAhead.hpp"
+
+#include "Catch.hpp"
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+
+namespace
+{
+
+using Indices = std::vector<std::size_t>;
+
+/// Three nodes, 10 m apart on the x axis.
+SiteMap MakeLine()
+{
+    std::vector<SiteNode> nodes(3);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+    {
+        nodes[i].nodeID = std::string(1, static_cast<char>('A' + i));
+        nodes[i].x = 10.0 * static_cast<double>(i);
+    }
+    return *SiteMap::Create(nodes, {}, {});
+}
+
+StateChanged MakeStopped(double x, double y = 0)
+{
+    StateChanged state;
+    state.bPoseKnown = true;
+    state.x = x;
+    state.y = y;
+    return state;
+}
+
+Indices Find(const std::optional<StateChanged>& state)
+{
+    const Indices ahead{1, 2};
+    return FindNodesAhead(MakeLine(), state, 0, ahead);
+}
+
+} // namespace
+
+TEST_CASE("FindNodesAhead: a robot that drives or is out of reach keeps all nodes ahead")
+{
+    StateChanged driving = MakeStopped(0);
+    driving.bDriving = true;
+    CHECK(Find(driving) == Indices{1, 2});
+    CHECK(Find(std::nullopt) == Indices{1, 2});
+}
+
+TEST_CASE("FindNodesAhead: a robot that stands on its node keeps none")
+{
+    CHECK(Find(MakeStopped(0.4)).empty());
+    CHECK(FindNodesAhead(MakeLine(), MakeStopped(5), 0, {}).empty());
+}
+
+TEST_CASE("FindNodesAhead: a robot between two nodes keeps those that it stands between")
+{
+    CHECK(Find(MakeStopped(5)) == Indices{1});
+    CHECK(Find(MakeStopped(15)) == Indices{1, 2});
+}
+
+TEST_CASE("FindNodesAhead: a robot beside the route, or without a pose, keeps none")
+{
+    CHECK(Find(MakeStopped(5, 0.6)).empty());
+    StateChanged lost = MakeStopped(5);
+    lost.bPoseKnown = false;
+    CHECK(Find(lost).empty());
+}
