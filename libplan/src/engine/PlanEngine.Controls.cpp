@@ -264,13 +264,12 @@ void PlanEngine::Impl::StopDrive(ActivePlan& plan, EPlanControl control)
 {
     Ask(plan, control);
     Robot* robotOrNull = plan.robot.has_value() ? &_robots[*plan.robot] : nullptr;
-    if (robotOrNull == nullptr || !robotOrNull->drive.has_value() || robotOrNull->drive->goal == EGoal::Home)
+    if (robotOrNull == nullptr || !robotOrNull->drive.has_value() || robotOrNull->drive->goal == EDriveGoal::Home)
     {
         EndByControl(plan, control);
         return;
     }
-    robotOrNull->drive->bCancelAsked = true;
-    if (!std::exchange(robotOrNull->drive->bCancelling, true))
+    if (std::exchange(robotOrNull->drive->cancellation, ECancellation::Awaited) != ECancellation::Awaited)
     {
         Command(*robotOrNull, CancelDrive{robotOrNull->drive->driveID});
     }
@@ -364,7 +363,7 @@ void PlanEngine::Impl::OnControlTimeout(Robot& robot)
     const EPlanControl control = *plan.record.progress.control;
     if (robot.drive.has_value())
     {
-        robot.drive->bCancelling = false;
+        robot.drive->StopAwaitingCancellation();
         UpdateApproach(robot);
     }
     const bool bStaysPaused = control != EPlanControl::Pause && plan.record.progress.state == EPlanState::Paused;

@@ -8,6 +8,7 @@
 #include "plan/PlanBook.hpp"
 #include "restart/StartupBarrier.hpp"
 #include "restart/WorkRecord.hpp"
+#include "robot/ActiveDrive.hpp"
 #include "robot/ChargingPolicy.hpp"
 #include "robot/JobTracker.hpp"
 #include "robot/PauseTracker.hpp"
@@ -61,37 +62,6 @@ public:
     {
         std::optional<std::string> unavailabilityOrNull;
         bool bSupposed = false; ///< A carrier that it is to unload was put on by hand, if it is there at all.
-    };
-
-    enum class EGoal : std::uint8_t
-    {
-        Step,
-        Home,
-    };
-
-    /// Where a robot wants to go, and how.
-    struct PlannedRoute
-    {
-        std::size_t target = 0;
-        Route route;
-        std::vector<std::size_t> nodes; ///< Of the route, by index in the map.
-    };
-
-    struct ActiveDrive
-    {
-        std::string driveID;
-        Route route;
-        std::vector<std::size_t> nodes; ///< Of the route, by index in the map.
-        std::size_t grantedCount = 0;   ///< Nodes from the start on that are the robot's, or were.
-        std::size_t releasedCount = 0;  ///< Of them, those that it was told.
-        std::size_t passed = 0;         ///< Index in the route of the last node passed.
-        EGoal goal = EGoal::Step;
-        bool bConfirmed = false;
-        bool bTaken = false;                 ///< The robot itself has shown that it has the drive.
-        bool bCancelAsked = false;           ///< The robot was told to give it up, and may still do so.
-        bool bCancelling = false;            ///< And that is waited for.
-        std::optional<PlannedRoute> reroute; ///< It is cancelled for this way; the first nodes of it are granted.
-        bool bRerouteRetreats = false;
     };
 
     /// A robot lets another one go first until that one is there, or has another aim.
@@ -235,7 +205,6 @@ private:
     void ClearAlarm(const Alarm& alarm);
     [[nodiscard]] ERobotStatus DeriveStatus(const Robot& robot) const;
     [[nodiscard]] ERobotStatus DeriveDriveStatus(const Robot& robot, const ActiveDrive& drive) const;
-    [[nodiscard]] static bool IsApproaching(const ActiveDrive& drive);
     [[nodiscard]] bool IsAtPlace(const Robot& robot) const;
     [[nodiscard]] std::string GetReportedPosition(const Robot& robot, ERobotStatus status) const;
     [[nodiscard]] std::string DescribeStatus(const Robot& robot) const;
@@ -397,7 +366,6 @@ private:
     void OnDriveStall(Robot& robot);
     [[nodiscard]] bool IsProgressExpected(const Robot& robot) const;
     [[nodiscard]] std::string DescribeStall(const Robot& robot) const;
-    [[nodiscard]] static bool IsAtBaseEnd(const ActiveDrive& drive);
 
     // Steps and jobs (PlanEngine.Work.cpp).
     void BeginPlan(ActivePlan& plan, Robot& robot);

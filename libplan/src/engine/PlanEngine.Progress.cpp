@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <string>
@@ -13,17 +12,11 @@
 namespace ACS::Planning
 {
 
-/// Whether the robot is on the last node of its base, and the route continues.
-bool PlanEngine::Impl::IsAtBaseEnd(const ActiveDrive& drive)
-{
-    return drive.passed + 1 >= drive.releasedCount && drive.releasedCount < drive.nodes.size();
-}
-
 /// Whether the robot must pass another node soon: it is connected, may drive and has a base ahead.
 bool PlanEngine::Impl::IsProgressExpected(const Robot& robot) const
 {
     return _options.stallTimeout.count() > 0 && robot.bOnline && robot.drive.has_value() && !robot.pause.IsPaused()
-        && (!robot.drive->bTaken || !IsAtBaseEnd(*robot.drive));
+        && (!robot.drive->bTaken || !robot.drive->IsAtBaseEnd());
 }
 
 /// At the end of every call.
@@ -85,12 +78,11 @@ void PlanEngine::Impl::OnDriveStall(Robot& robot)
 std::string PlanEngine::Impl::DescribeStall(const Robot& robot) const
 {
     const ActiveDrive& drive = *robot.drive;
-    const std::vector<RouteNode>& nodes = drive.route.nodes;
     const EUnavailability unavailability = GetUnavailability(robot);
     return fmt::format(
         "{} node {}{} since {} s{}; look at the robot",
         drive.bTaken ? "it has not come to" : "it has not shown that it took its drive to",
-        nodes[std::min(drive.passed + 1, nodes.size() - 1)].nodeID,
+        drive.GetNextNodeID(),
         robot.planOrNull == nullptr ? std::string() : " for plan " + robot.planOrNull->record.plan.planID,
         std::chrono::duration_cast<std::chrono::seconds>(robot.stall.GetTimeWithoutProgress(_now.steady)).count(),
         unavailability == EUnavailability::None ? std::string()

@@ -54,7 +54,7 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
     {
         Place(robot);
     }
-    else if (event.bDriving && robot.drive->goal == EGoal::Step && robot.planOrNull != nullptr)
+    else if (event.bDriving && robot.drive->goal == EDriveGoal::Step && robot.planOrNull != nullptr)
     {
         MarkStepBegun(*robot.planOrNull);
     }
@@ -208,7 +208,7 @@ void PlanEngine::Impl::OnNodePassed(Robot& robot, const NodePassed& event)
         robot.drive->bConfirmed = true;
         CancelTimer(EEngineTimer::DriveExtension, GetRobotID(robot));
     }
-    if (routeIndex > 0 && robot.drive->goal == EGoal::Step && robot.planOrNull != nullptr)
+    if (routeIndex > 0 && robot.drive->goal == EDriveGoal::Step && robot.planOrNull != nullptr)
     {
         MarkStepBegun(*robot.planOrNull);
     }
@@ -223,8 +223,8 @@ void PlanEngine::Impl::OnNodePassed(Robot& robot, const NodePassed& event)
 void PlanEngine::Impl::UpdateApproach(Robot& robot)
 {
     const ActiveDrive& drive = *robot.drive;
-    if (drive.bTaken && drive.goal == EGoal::Step && robot.planOrNull != nullptr && !drive.bCancelling
-        && IsApproaching(drive))
+    if (drive.bTaken && drive.goal == EDriveGoal::Step && robot.planOrNull != nullptr && !drive.IsCancelling()
+        && drive.IsApproaching())
     {
         MarkArrived(robot);
     }
@@ -274,7 +274,7 @@ void PlanEngine::Impl::EndDrive(Robot& robot)
     }
     // A pause has still to be shown.
     const bool bControlOpen = robot.planOrNull != nullptr && robot.planOrNull->record.progress.control.has_value();
-    if (drive.bCancelling && !bControlOpen)
+    if (drive.IsCancelling() && !bControlOpen)
     {
         StopConfirming(robot);
     }
@@ -329,14 +329,14 @@ void PlanEngine::Impl::OnArrived(Robot& robot, const Arrived& event)
         robot.bPlaced = false;
         return;
     }
-    const EGoal goal = robot.drive->goal;
+    const EDriveGoal goal = robot.drive->goal;
     const std::string nodeID = robot.drive->route.nodes.back().nodeID;
     EndDrive(robot);
     if (const SiteStation* stationOrNull = _site.FindStationAtOrNull(nodeID); stationOrNull != nullptr)
     {
         robot.position = stationOrNull->stationID;
     }
-    if (goal == EGoal::Home)
+    if (goal == EDriveGoal::Home)
     {
         robot.retreatNode.reset();
         return;
@@ -375,10 +375,10 @@ void PlanEngine::Impl::OnDriveRejected(Robot& robot, const DriveRejected& event)
     {
         return;
     }
-    const EGoal goal = robot.drive->goal;
+    const EDriveGoal goal = robot.drive->goal;
     EndDrive(robot);
     Note(robot, "did not do its drive: " + event.reason);
-    if (goal == EGoal::Home)
+    if (goal == EDriveGoal::Home)
     {
         RefuseHome(robot);
         return;
@@ -425,13 +425,12 @@ void PlanEngine::Impl::OnDriveCancelled(Robot& robot, const DriveCancelled& even
     const bool bWanted = IsEnding(robot);
     if (robot.drive->reroute.has_value() && !bWanted)
     {
-        const bool bRetreats = robot.drive->bRerouteRetreats;
-        PlannedRoute reroute = std::move(*robot.drive->reroute);
+        Reroute reroute = std::move(*robot.drive->reroute);
         EndDrive(robot);
-        BeginReroute(robot, std::move(reroute), bRetreats);
+        BeginReroute(robot, std::move(reroute.route), reroute.bRetreats);
         return;
     }
-    if (robot.drive->bCancelAsked && !bWanted)
+    if (robot.drive->cancellation != ECancellation::None && !bWanted)
     {
         // Later than anybody waited for it, and the plan goes on: another drive takes it there.
         robot.retreatNode.reset();

@@ -74,20 +74,14 @@ ERobotStatus PlanEngine::Impl::DeriveDriveStatus(const Robot& robot, const Activ
     }
     const std::vector<RouteNode>& nodes = drive.route.nodes;
     const bool bArrivalDue =
-        drive.goal == EGoal::Step && robot.planOrNull != nullptr && !robot.planOrNull->bStepArrived;
-    if (drive.bTaken && !bArrivalDue && IsApproaching(drive)
+        drive.goal == EDriveGoal::Step && robot.planOrNull != nullptr && !robot.planOrNull->bStepArrived;
+    if (drive.bTaken && !bArrivalDue && drive.IsApproaching()
         && _site.FindStationAtOrNull(nodes.back().nodeID) != nullptr)
     {
         return ERobotStatus::Docking;
     }
     const bool bLeaves = drive.passed == 0 && _site.FindStationAtOrNull(nodes.front().nodeID) != nullptr;
     return bLeaves ? ERobotStatus::UnDocking : ERobotStatus::Moving;
-}
-
-/// Whether the last node before its aim is passed.
-bool PlanEngine::Impl::IsApproaching(const ActiveDrive& drive)
-{
-    return drive.passed + 2 >= drive.nodes.size();
 }
 
 /// Whether the robot stands where its present step is done.
@@ -127,10 +121,7 @@ std::string PlanEngine::Impl::DescribeStatus(const Robot& robot) const
     }
     if (robot.stall.IsStalled() && robot.drive.has_value())
     {
-        const std::vector<RouteNode>& nodes = robot.drive->route.nodes;
-        return fmt::format(
-            "Robot stalled: node {} not reached.",
-            nodes[std::min(robot.drive->passed + 1, nodes.size() - 1)].nodeID);
+        return fmt::format("Robot stalled: node {} not reached.", robot.drive->GetNextNodeID());
     }
     if (robot.planOrNull != nullptr && robot.retreatNode.has_value() && robot.yield.has_value())
     {

@@ -200,7 +200,7 @@ void PlanEngine::Impl::ExtendBase(Robot& robot)
 {
     ActiveDrive& drive = *robot.drive;
     const std::size_t reached = drive.passed + 1;
-    if (drive.bCancelling || !CanAdvance(robot))
+    if (drive.IsCancelling() || !CanAdvance(robot))
     {
         return;
     }
@@ -327,7 +327,7 @@ bool PlanEngine::Impl::TryBeginPlannedRoute(Robot& robot)
     return TryBeginDrive(robot, *robot.plannedRoute);
 }
 
-std::optional<PlanEngine::Impl::PlannedRoute> PlanEngine::Impl::PlanRouteOrNull(
+std::optional<PlannedRoute> PlanEngine::Impl::PlanRouteOrNull(
     const Robot& robot,
     std::size_t target,
     const Router::NodeFilter& isExcluded) const
@@ -411,9 +411,9 @@ bool PlanEngine::Impl::TryBeginDrive(Robot& robot, const PlannedRoute& plannedRo
     drive.grantedCount = granted + 1;
     // One is always left to be released: a robot has a horizon to plan with.
     drive.releasedCount = std::min({_options.baseLength, drive.grantedCount, drive.nodes.size() - 1});
-    drive.goal = robot.planOrNull == nullptr || robot.retreatNode.has_value() ? EGoal::Home : EGoal::Step;
+    drive.goal = robot.planOrNull == nullptr || robot.retreatNode.has_value() ? EDriveGoal::Home : EDriveGoal::Step;
     robot.bTouched = true;
-    if (drive.goal == EGoal::Step)
+    if (drive.goal == EDriveGoal::Step)
     {
         robot.yield.reset();
         robot.planOrNull->bStepArrived = false;

@@ -155,7 +155,7 @@ std::optional<WaitReason> PlanEngine::Impl::DescribeBegunOrNull(const ActivePlan
             : GetRobotID(robot) + " is about to work.";
         return reason;
     }
-    const bool bAtBaseEnd = robot.drive.has_value() && !robot.state->bDriving && IsAtBaseEnd(*robot.drive);
+    const bool bAtBaseEnd = robot.drive.has_value() && !robot.state->bDriving && robot.drive->IsAtBaseEnd();
     if (robot.activity != EActivity::Waits || (robot.drive.has_value() && !bAtBaseEnd))
     {
         return std::nullopt;

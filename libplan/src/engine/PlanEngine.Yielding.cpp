@@ -29,7 +29,7 @@ bool PlanEngine::Impl::IsMoving(const Robot& robot) const
     if (robot.drive.has_value())
     {
         const ActiveDrive& drive = *robot.drive;
-        return drive.bCancelling || !drive.bConfirmed || drive.passed + 1 < drive.grantedCount
+        return drive.IsCancelling() || !drive.bConfirmed || drive.passed + 1 < drive.grantedCount
             || drive.grantedCount == drive.nodes.size();
     }
     return robot.activity == EActivity::Works;
@@ -335,10 +335,8 @@ bool PlanEngine::Impl::TryReroute(Robot& robot, PlannedRoute plannedRoute, bool 
         return false;
     }
     ActiveDrive& drive = *robot.drive;
-    drive.reroute = std::move(plannedRoute);
-    drive.bRerouteRetreats = bRetreats;
-    drive.bCancelAsked = true;
-    drive.bCancelling = true;
+    drive.reroute = Reroute{std::move(plannedRoute), bRetreats};
+    drive.cancellation = ECancellation::Awaited;
     Command(robot, CancelDrive{drive.driveID});
     StartConfirming(robot, _options.controls.cancelTimeout);
     return true;
@@ -371,7 +369,7 @@ void PlanEngine::Impl::AbandonReroute(Robot& robot)
     }
     ActiveDrive& drive = *robot.drive;
     drive.reroute.reset();
-    drive.bCancelling = false;
+    drive.StopAwaitingCancellation();
     _traffic.Shorten(robot.index, drive.grantedCount - drive.passed);
     _bDispatchNeeded = true;
 }

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <acs/plan/RobotCommand.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+enum class EDriveGoal : std::uint8_t
+{
+    Step,
+    Home,
+};
+
+enum class ECancellation : std::uint8_t
+{
+    None,
+    Awaited, ///< The robot was commanded to cancel the drive.
+    Late,    ///< Likewise, but nothing waits for it any more; the robot may still cancel it.
+};
+
+/// Where a robot wants to go, and how.
+struct PlannedRoute
+{
+    std::size_t target = 0;
+    Route route;
+    std::vector<std::size_t> nodes; ///< Of the route, by index in the map.
+};
+
+/// A drive is cancelled for this route. The first nodes of it are granted.
+struct Reroute
+{
+    PlannedRoute route;
+    bool bRetreats = false;
+};
+
+/// A drive from its command to its end.
+struct ActiveDrive
+{
+    std::string driveID;
+    Route route;
+    std::vector<std::size_t> nodes; ///< Of the route, by index in the map.
+    std::size_t grantedCount = 0;   ///< Nodes from the start on that are the robot's, or were.
+    std::size_t releasedCount = 0;  ///< Of them, those that it was commanded.
+    std::size_t passed = 0;         ///< Index in the route of the last node passed.
+    EDriveGoal goal = EDriveGoal::Step;
+    bool bConfirmed = false;
+    bool bTaken = false; ///< The robot itself has shown that it has the drive.
+    ECancellation cancellation = ECancellation::None;
+    std::optional<Reroute> reroute;
+
+    [[nodiscard]] bool IsCancelling() const noexcept;
+    void StopAwaitingCancellation() noexcept;
+    /// The robot is on the last node of its base, and the route continues.
+    [[nodiscard]] bool IsAtBaseEnd() const noexcept;
+    /// The last node before the target is passed.
+    [[nodiscard]] bool IsApproaching() const noexcept;
+    /// The node after the last one passed; on the last node that one.
+    [[nodiscard]] const std::string& GetNextNodeID() const;
+};
+
+} // namespace ACS::Planning
