@@ -211,7 +211,7 @@ class Line:
         settings = {
             "mcs.url": f"ws://{mcs_address}/acs/",
             "mqtt.url": f"mqtt://127.0.0.1:{self.broker_port}",
-            "store.path": str(self.folder / "acsd.db"),
+            "store.directory": str(self.folder / "store"),
             "http.listen": "127.0.0.1:0",
             "robots.CR01.arm.url": f"tcp://{arm_addresses['stream']}",
         }

@@ -546,7 +546,7 @@ Acsd::~Acsd() = default;
 Core::Result<std::unique_ptr<Acsd>> Acsd::Create(Surroundings surroundings, AcsdConfig config)
 {
     assert(config.mistakes.empty());
-    Core::Result<std::unique_ptr<Planning::SqlitePlanStore>> store = Planning::SqlitePlanStore::Open(config.storeFile);
+    Core::Result<std::unique_ptr<Planning::SqlitePlanStore>> store = Planning::SqlitePlanStore::Open(config.storePath);
     if (!store)
     {
         return tl::unexpected<Core::Error>(store.error());
@@ -558,7 +558,7 @@ Core::Result<std::unique_ptr<Acsd>> Acsd::Create(Surroundings surroundings, Acsd
     }
     surroundings.logger.MakeFor("store").Info(
         MakeStoreSummary((*store)->GetOrigin(), *state),
-        {{"path", config.storeFile}});
+        {{"directory", config.storePath}});
     auto impl = std::make_unique<Impl>(std::move(surroundings), std::move(config), std::move(*store));
     const Core::Result<void> opened = impl->Open(std::move(*state));
     if (!opened)

@@ -70,18 +70,18 @@ void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig
 void ReadStore(const ConfigSection& root, const std::string& fileName, bool bStoreInspected, AcsdConfig& config)
 {
     const ConfigSection section = root.GetSection("store");
-    const std::string path = section.GetString("path");
-    config.storeFile = ResolvePath(fileName, path);
-    if (path.empty())
+    const std::string directory = section.GetString("directory");
+    config.storePath = ResolvePath(fileName, directory);
+    if (directory.empty())
     {
-        section.AddMistake("path", "is empty; give the path of a file, such as \"acsd.db\"");
+        section.AddMistake("directory", "is empty; give the path of a directory, such as \"store\"");
     }
     else if (bStoreInspected)
     {
-        const Core::Result<Planning::StoreOrigin> origin = Planning::SqlitePlanStore::Inspect(config.storeFile);
+        const Core::Result<Planning::StoreOrigin> origin = Planning::SqlitePlanStore::Inspect(config.storePath);
         if (!origin.has_value())
         {
-            section.AddMistake("path", Core::Describe(origin.error()));
+            section.AddMistake("directory", Core::Describe(origin.error()));
         }
     }
 }

@@ -46,7 +46,7 @@ struct AcsdConfig
     ArmOptions arm; ///< Of arms whose robot does not give its own.
     EArmRelayIndex relayIndex = EArmRelayIndex::Value;
     std::string siteFile;
-    std::string storeFile;
+    std::string storePath;
     Apps::Endpoint httpListen{"127.0.0.1", 8080};
     std::vector<std::string> httpHosts; ///< Names by which it may be called, without port.
     Apps::LocalOffset localOffset;

@@ -15,14 +15,17 @@ struct RemovedKey
     const char* replacement;
 };
 
-/// These accepted a single value, which acsd uses now.
-constexpr std::array<RemovedKey, 6> REMOVED_KEYS{
+/// These were renamed, or accepted a single value, which acsd uses now.
+constexpr std::array<RemovedKey, 7> REMOVED_KEYS{
     {{"plan", "duplicate", "a plan with a known planId is always refused; see plan.reuse_finished_id"},
      {"plan", "allow_mixed_robot_types", "one robot always executes the whole plan; delete the key"},
      {"locations", "unknown", "a plan with a location that is not on the map is always refused; delete the key"},
      {"locations", "robot_aliases", "AMR is always the alias of the assigned robot; delete the key"},
      {"mcs", "sync_config", "SyncConfig is always answered with Fail; delete the key"},
-     {"ext", "battery_station", "MCS-ACS 1.2.1 removed the message; delete the key"}}};
+     {"ext", "battery_station", "MCS-ACS 1.2.1 removed the message; delete the key"},
+     {"store",
+      "path",
+      "renamed to store.directory; keep its value: the first start migrates the database at that path to a directory"}}};
 
 } // namespace
 

@@ -51,7 +51,11 @@ std::string MakeStoreSummary(const Planning::StoreOrigin& origin, const Planning
     }
     if (origin.bRescued)
     {
-        text += "; the file was gone while it was open, and is made again of the copy that was saved then";
+        text += "; restored from the copy that was made when the database was removed while it was open";
+    }
+    if (origin.bMigrated)
+    {
+        text += "; migrated from the former layout, whose files are kept with .former in their names";
     }
     return text;
 }

@@ -309,17 +309,11 @@ BENCHMARK(BenchRoute)->ArgName("columns")->Arg(0)->Arg(25)->Arg(49);
 /// One accepted plan on disk: what stands between a plan and its Ack.
 void BenchStoreCommit(benchmark::State& state)
 {
-    const std::string file = (std::filesystem::temp_directory_path() / "acs-plan-bench.db").string();
-    const auto remove = [&file] {
-        for (const char* ending : {"", "-wal", "-shm"})
-        {
-            std::error_code ignored;
-            std::filesystem::remove(file + ending, ignored);
-        }
-    };
-    remove();
+    const std::filesystem::path directory = std::filesystem::temp_directory_path() / "acs-plan-bench";
+    std::error_code ignored;
+    std::filesystem::remove_all(directory, ignored);
     {
-        const auto store = SqlitePlanStore::Open(file);
+        const auto store = SqlitePlanStore::Open(directory.string());
         PlanRecord record;
         record.plan = MakePlan(0, 1);
         record.progress.steps = {
@@ -337,7 +331,7 @@ void BenchStoreCommit(benchmark::State& state)
             }
         }
     }
-    remove();
+    std::filesystem::remove_all(directory, ignored);
 }
 BENCHMARK(BenchStoreCommit);
 #endif

@@ -45,12 +45,12 @@ class BadInput(ScenarioCase):
         with socket.create_server(("127.0.0.1", 0)) as taken:
             address = f"127.0.0.1:{taken.getsockname()[1]}"
             plan = write_plan(self.line.folder, "plan.json", lambda plan: None)
-            store = self.line.folder / "acsd.db"
+            store = self.line.folder / "store"
             rows = {
                 "mcs-sim": ["--listen", address, "--plan", plan],
                 "openstream-sim": ["--listen", address, "--http", "127.0.0.1:0"],
                 "acsd": ["--config", SITE / "acsd.toml", "--set", f"http.listen={address}",
-                         "--set", f"store.path={store}"],
+                         "--set", f"store.directory={store}"],
             }
             for name, arguments in rows.items():
                 with self.subTest(name):
@@ -102,15 +102,16 @@ class BadInput(ScenarioCase):
 
     def test_one_vehicle_cannot_be_two_robots(self):
         self.assert_refused(self.check_config("robots.CR01.serial=LR01"), 2, "robots.", "serial", "LR01")
-        self.assert_refused(self.check_config("store.path="), 2, "store.path", "empty")
+        self.assert_refused(self.check_config("store.directory="), 2, "store.directory", "empty")
+        self.assert_refused(self.check_config("store.path=acsd.db"), 2, "store.path", "renamed to store.directory")
 
     def test_a_store_is_one_acsd_s_at_a_time(self):
         arguments = ["--config", SITE / "acsd.toml", "--set", "mcs.url=ws://127.0.0.1:1/acs/", "--set",
                      "mqtt.url=mqtt://127.0.0.1:1", "--set", "http.listen=127.0.0.1:0", "--set",
-                     f"store.path={self.line.folder / 'acsd.db'}"]
+                     f"store.directory={self.line.folder / 'store'}"]
         first = self.line.start("acsd", *arguments)
         first.wait_ready()
-        self.assert_refused(self.run_program("acsd", *arguments), 1, "acsd.db", "another program")
+        self.assert_refused(self.run_program("acsd", *arguments), 1, str(self.line.folder / "store"), "another program")
         self.line.forget(first)
         self.assertEqual(first.stop(), 0)
         second = self.line.start("acsd", *arguments)
@@ -124,7 +125,7 @@ class BadInput(ScenarioCase):
         acsd = self.line.start("acsd", "--config", SITE / "acsd.toml", "--set", "mcs.url=ws://127.0.0.1:1/acs/",
                                "--set", "mqtt.url=mqtt://127.0.0.1:1", "--set", "http.listen=127.0.0.1:0",
                                "--set", "robots.CR01.arm.url=tcp://127.0.0.1:1",
-                               "--set", f"store.path={self.line.folder / 'acsd.db'}")
+                               "--set", f"store.directory={self.line.folder / 'store'}")
         self.assertIn("http", acsd.wait_ready())
         missing = ("cannot reach the MCS", "cannot reach the MQTT broker", "no Open Stream session")
         self.wait_for_log(acsd, *missing)

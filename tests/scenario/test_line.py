@@ -31,7 +31,7 @@ class WholeLine(ScenarioCase):
             message = json.loads(text)
             if message["command"] == "ExecutionPlanAck":
                 plan_id = message["payload"]["planId"]
-                store = sqlite3.connect(f"file:{self.line.folder}/acsd.db?mode=ro", uri=True)
+                store = sqlite3.connect(f"file:{self.line.folder}/store/acsd.db?mode=ro", uri=True)
                 dump = "\n".join(store.iterdump())
                 store.close()
                 seen.append((message["result"], plan_id in dump))
@@ -63,7 +63,7 @@ class WholeLine(ScenarioCase):
         arm = self.start_robots()
         mcs = self.line.start_mcs(PLANS[:1], "--tls-certificate", certificate, "--tls-key", key)
         url = f"mcs.url=wss://{next(iter(mcs.wait_ready().values()))}/acs/"
-        stranger = self.line.start_acsd("127.0.0.1:1", arm, url, f"store.path={self.line.folder / 'stranger.db'}")
+        stranger = self.line.start_acsd("127.0.0.1:1", arm, url, f"store.directory={self.line.folder / 'stranger'}")
         stranger.wait_ready()
         self.wait_for_line(stranger, "cannot reach the MCS")
         self.assertIn("self-signed", stranger.log.read_text())

@@ -120,8 +120,9 @@ class Operations(ScenarioCase):
         overrides = ("tsc.initial=paused",)
         acsd = self.line.start_acsd(stub.address, robots, *overrides)
         address = acsd.wait_ready()["http"]
-        store = self.line.folder / "acsd.db"
-        self.assertRegex(acsd.log.read_text(), rf"store: new, schema \d+ path={store}\n")
+        directory = self.line.folder / "store"
+        store = directory / "acsd.db"
+        self.assertRegex(acsd.log.read_text(), rf"store: new, schema \d+ directory={directory}\n")
         stub.wait_for("RobotStatusUpdate")
         self.assertEqual(self.submit(stub, "P1")["result"], "Success")
         self.wait_for_status(address, lambda status: status["plans"] and not status["obstacles"])
@@ -157,7 +158,7 @@ class Operations(ScenarioCase):
         self.assertEqual({plan["planId"] for plan in status["plans"]}, {"P1", "P3"})
         self.assertEqual({robot["robotId"] for robot in status["robots"] if robot["maintenance"]}, {"LR01"})
         self.assertRegex(acsd.log.read_text(), r"store: schema \d+, 2 open plans taken up, no ended plans, .*in maintenance "
-                         r"LR01.*; the file was gone while it was open, and is made again of the copy")
+                         r"LR01.*; restored from the copy that was made when the database was removed")
         self.assertTrue(store.exists())
 
     def test_a_broker_with_a_password_takes_acsd_by_its_name_and_the_password_in_its_file(self):

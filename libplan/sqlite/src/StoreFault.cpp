@@ -12,32 +12,31 @@ namespace ACS::Planning
 namespace
 {
 
-/// Of an extended code of SQLite the kind of failure.
+/// Masks the primary code of an extended code of SQLite.
 constexpr int PRIMARY_CODE = 0xFF;
 
 std::string MakeAdvice(int code)
 {
     switch (code)
     {
-        case SQLITE_ERROR: // a statement that does not fit what stands in the file
+        case SQLITE_ERROR: // a statement that the tables in the file do not have
         case SQLITE_CORRUPT:
         case SQLITE_NOTADB:
             return fmt::format("an undamaged plan store; {}", RESTORE_IT);
         case SQLITE_FULL:
-            return "room on its disk; free some";
+            return "free space on its disk; free some";
         case SQLITE_IOERR:
-            return "a disk that reads and writes; look at it and at the system's log, and move the store to another one if "
-                   "it is broken";
+            return "a disk that reads and writes; check it and the system log, and move the store to another disk if it is "
+                   "broken";
         case SQLITE_READONLY:
         case SQLITE_PERM:
         case SQLITE_CANTOPEN:
-            return "a file that can be written, as can those with -wal and -shm beside it; correct their owner and rights, "
-                   "and those of their folder";
+            return "files that can be written; correct the owner and mode of the store directory and of the files in it";
         case SQLITE_BUSY:
         case SQLITE_LOCKED:
-            return "a store that no other program locks; close that one, such as a shell of sqlite3";
+            return "a database that no other program locks; close that program, such as a sqlite3 shell";
         default:
-            return "a file that can be read and written; look at it, its folder and its disk";
+            return "a file that can be read and written; check it, its directory and its disk";
     }
 }
 
@@ -52,18 +51,23 @@ tl::unexpected<Core::Error> Refuse(
     return Core::Fail(make_error_code(error), path, std::move(expected), std::move(found));
 }
 
+tl::unexpected<Core::Error> Refuse(const std::string& path, std::string expected, std::string found)
+{
+    return Refuse(EPlanningError::StoreFailed, path, std::move(expected), std::move(found));
+}
+
 tl::unexpected<Core::Error> RefuseFor(
     const SQLite::Exception& exception,
     const std::string& path,
-    std::string_view doing,
+    std::string_view operation,
     int systemError)
 {
     const int code = exception.getErrorCode() & PRIMARY_CODE;
-    const bool bOfSystem = code == SQLITE_IOERR || code == SQLITE_CANTOPEN; // only then SQLite notes it
-    std::string found = fmt::format("{} failed: {}", doing, exception.what());
+    const bool bOfSystem = code == SQLITE_IOERR || code == SQLITE_CANTOPEN; // else errno is of something else
+    std::string found = fmt::format("{} failed: {}", operation, exception.what());
     if (bOfSystem && systemError != 0)
     {
-        found += fmt::format(" ({})", std::generic_category().message(systemError));
+        found += fmt::format(" ({})", DescribeErrno(systemError));
     }
     const bool bCorrupt = code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_ERROR;
     return Refuse(
@@ -71,6 +75,11 @@ tl::unexpected<Core::Error> RefuseFor(
         path,
         MakeAdvice(code),
         std::move(found));
+}
+
+std::string DescribeErrno(int reason)
+{
+    return std::generic_category().message(reason);
 }
 
 } // namespace ACS::Planning

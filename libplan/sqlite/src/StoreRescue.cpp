@@ -2,7 +2,7 @@
 
 #include "StoreFault.hpp"
 #include "StoreFiles.hpp"
-#include "StoreLock.hpp"
+#include "StoreGeneration.hpp"
 
 #include <fmt/format.h>
 #include <SQLiteCpp/Statement.h>
@@ -14,46 +14,18 @@
 namespace ACS::Planning
 {
 
-namespace
+std::string GetRescuePath(const std::string& database)
 {
-
-tl::unexpected<Core::Error> RefuseCopy(const std::string& path, const std::error_code& reason)
-{
-    return Refuse(EPlanningError::StoreFailed, path, "a copy that can be written", reason.message());
+    return database + ".rescued";
 }
 
-/// A name that is whole or not there at all.
-Core::Result<void> Rename(const std::string& from, const std::string& to)
+Core::Result<void> CopyDatabase(SQLite::Database& database, const std::string& target)
 {
-    std::error_code failed;
-    std::filesystem::rename(from, to, failed);
-    if (!failed && !StoreFiles::TrySynchroniseFolder(to))
-    {
-        failed = std::error_code(errno, std::generic_category());
-    }
-    return failed ? Core::Result<void>(RefuseCopy(to, failed)) : Core::Result<void>();
-}
-
-bool IsThere(const std::string& path)
-{
-    std::error_code ignored;
-    return std::filesystem::exists(path, ignored);
-}
-
-} // namespace
-
-std::string GetRescuePath(const std::string& storePath)
-{
-    return storePath + ".rescued";
-}
-
-Core::Result<void> RescueStore(SQLite::Database& database, const std::string& storePath)
-{
-    const std::string part = GetRescuePath(storePath) + ".part";
+    const std::string part = target + ".part";
     try
     {
         std::error_code ignored;
-        std::filesystem::remove(part, ignored); // of a try that failed
+        std::filesystem::remove(part, ignored); // of an attempt that failed
         SQLite::Statement copy(database, "VACUUM INTO ?");
         copy.bind(1, part);
         copy.exec();
@@ -64,60 +36,50 @@ Core::Result<void> RescueStore(SQLite::Database& database, const std::string& st
     }
     if (!StoreFiles::TrySynchronise(part))
     {
-        return RefuseCopy(part, std::error_code(errno, std::generic_category()));
+        return Refuse(part, "a copy that can be written", DescribeErrno(errno));
     }
-    return Rename(part, GetRescuePath(storePath));
+    return StoreFiles::Rename(part, target);
 }
 
-void ForgetRescued(const std::string& storePath)
+void RemoveRescued(const std::string& database)
 {
     std::error_code ignored;
-    std::filesystem::remove(GetRescuePath(storePath), ignored);
+    std::filesystem::remove(GetRescuePath(database), ignored);
 }
 
-Core::Result<void> CheckRescued(const std::string& storePath)
+Core::Result<void> CheckRescued(const std::string& database)
 {
-    const std::string copy = GetRescuePath(storePath);
-    if (!IsThere(copy) || !IsThere(storePath))
+    const std::string copy = GetRescuePath(database);
+    if (!StoreFiles::IsThere(copy) || !StoreFiles::IsThere(database))
     {
         return {};
     }
     return Refuse(
-        EPlanningError::StoreFailed,
-        storePath,
+        database,
         fmt::format(
-            "one store; the file was gone while it was open, and what it held was copied to {}: move that away to go on with "
-            "this one, or this one with the files -wal and -shm beside it to go on with what was copied",
+            "one database; this one was missing while it was open, and its content was copied to {}: move that file away to "
+            "continue with this database, or move this one away, with the files -wal and -shm beside it, to continue with the copy",
             copy),
         "both");
 }
 
-Core::Result<bool> TakeUpRescued(const std::string& storePath)
+Core::Result<bool> RestoreRescued(const std::string& database)
 {
-    if (Core::Result<void> checked = CheckRescued(storePath); !checked.has_value())
+    Core::Result<void> checked = CheckRescued(database);
+    if (!checked.has_value())
     {
         return tl::unexpected(std::move(checked.error()));
     }
-    if (!IsThere(GetRescuePath(storePath)))
+    if (!StoreFiles::IsThere(GetRescuePath(database)))
     {
         return false;
     }
-    const Core::Result<StoreLock> lock = StoreLock::Acquire(storePath);
-    if (!lock.has_value())
-    {
-        return tl::unexpected(lock.error());
-    }
-    // What they hold is in the copy, and SQLite would take them for logs of it.
+    // Their content is in the copy, and SQLite would apply them to it.
     std::error_code ignored;
-    std::filesystem::remove(storePath + "-wal", ignored);
-    std::filesystem::remove(storePath + "-shm", ignored);
-    lock->Unmark();
-    Core::Result<void> renamed = Rename(GetRescuePath(storePath), storePath);
-    if (!renamed.has_value())
-    {
-        return tl::unexpected(std::move(renamed.error()));
-    }
-    return true;
+    std::filesystem::remove(StoreFiles::GetLogPath(database), ignored);
+    std::filesystem::remove(database + "-shm", ignored);
+    ForgetGeneration(database); // the copy is marked as open, and has no log
+    return StoreFiles::Rename(GetRescuePath(database), database).map([] { return true; });
 }
 
 } // namespace ACS::Planning

@@ -9,21 +9,20 @@
 namespace ACS::Planning
 {
 
-/// "acsd.db.rescued": where what was stored is copied to when the store's file is gone while it is open, as the open file
-/// goes with this program. The next start takes it up.
-[[nodiscard]] std::string GetRescuePath(const std::string& storePath);
+/// "acsd.db.rescued": the copy of a database whose file was removed while it is open. Its content would be lost when the
+/// program ends. The next start restores it.
+[[nodiscard]] std::string GetRescuePath(const std::string& database);
 
-/// Copies all that the open database holds to its rescue path, on disk on return. EPlanningError::StoreFailed.
-[[nodiscard]] Core::Result<void> RescueStore(SQLite::Database& database, const std::string& storePath);
+/// Copies all that a database holds to a file, on disk and complete on return. EPlanningError::StoreFailed.
+[[nodiscard]] Core::Result<void> CopyDatabase(SQLite::Database& database, const std::string& target);
 
-/// The file is back: nobody needs the copy any more.
-void ForgetRescued(const std::string& storePath);
+/// The file is back: the copy is not needed any more.
+void RemoveRescued(const std::string& database);
 
-/// Whether no copy waits, or it can be taken up: not where there is a store too, as only a person can tell which of the
-/// two holds. EPlanningError::StoreFailed.
-[[nodiscard]] Core::Result<void> CheckRescued(const std::string& storePath);
+/// Fails if there are both a copy and a database: only a person can decide between them. EPlanningError::StoreFailed.
+[[nodiscard]] Core::Result<void> CheckRescued(const std::string& database);
 
-/// Before the store is opened: makes it of the copy where there is no store. Says whether it did. EPlanningError::StoreFailed.
-[[nodiscard]] Core::Result<bool> TakeUpRescued(const std::string& storePath);
+/// Before the store is opened: restores the copy if there is one. Returns whether it did. EPlanningError::StoreFailed.
+[[nodiscard]] Core::Result<bool> RestoreRescued(const std::string& database);
 
 } // namespace ACS::Planning

@@ -1,10 +1,7 @@
-#include "Catch.hpp"
 #include "ManualClock.hpp"
-#include "SeededRandom.hpp"
-#include "TemporaryFolder.hpp"
+#include "StoreFolder.hpp"
 #include <acs/plan/EPlanningError.hpp>
 #include <acs/plan/MemoryPlanStore.hpp>
-#include <acs/plan_sqlite/SqlitePlanStore.hpp>
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
@@ -13,20 +10,12 @@
 #include <memory>
 #include <string>
 
-using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
-using namespace ACS;           // NOLINT(google-build-using-namespace)
+using namespace ACS::Planning;       // NOLINT(google-build-using-namespace): a test of that namespace
+using namespace ACS::Planning::Test; // NOLINT(google-build-using-namespace)
+using namespace ACS;                 // NOLINT(google-build-using-namespace)
 
 namespace
 {
-
-class DatabaseFolder : public Testing::TemporaryFolder
-{
-public:
-    [[nodiscard]] std::string GetFile() const
-    {
-        return (GetPath() / "acsd.db").string();
-    }
-};
 
 PlanRecord MakeRecord(std::uint64_t sequence, const std::string& planID)
 {
@@ -111,25 +100,18 @@ std::vector<StoreBatch> MakeBatches()
           later}}};
 }
 
-std::unique_ptr<SqlitePlanStore> OpenDatabase(const std::string& file)
-{
-    Core::Result<std::unique_ptr<SqlitePlanStore>> store = SqlitePlanStore::Open(file);
-    REQUIRE(store.has_value());
-    return std::move(*store);
-}
-
 } // namespace
 
 TEST_CASE("Store: what was appended is there after the file was closed and opened, as the store in memory has it")
 {
-    const DatabaseFolder folder;
+    const StoreFolder folder;
     MemoryPlanStore memory;
     for (const StoreBatch& batch : MakeBatches())
     {
-        REQUIRE(OpenDatabase(folder.GetFile())->Append(batch).has_value());
+        REQUIRE(OpenStore(folder.GetStore())->Append(batch).has_value());
         REQUIRE(memory.Append(batch).has_value());
     }
-    const Core::Result<StoredState> loaded = OpenDatabase(folder.GetFile())->Load();
+    const Core::Result<StoredState> loaded = OpenStore(folder.GetStore())->Load();
     REQUIRE(loaded.has_value());
     CHECK(*loaded == memory.GetState());
     CHECK(loaded->lastReportSequence == 3);
@@ -137,39 +119,41 @@ TEST_CASE("Store: what was appended is there after the file was closed and opene
     CHECK(loaded->tscState == ETscState::Pausing);
     CHECK(loaded->robotsInMaintenance == std::vector<std::string>{"CR01"});
 
-    REQUIRE(OpenDatabase(folder.GetFile())->Append({{AlarmCleared{GetAlarm()}}}).has_value());
-    CHECK(OpenDatabase(folder.GetFile())->Load()->alarms.empty());
+    REQUIRE(OpenStore(folder.GetStore())->Append({{AlarmCleared{GetAlarm()}}}).has_value());
+    CHECK(OpenStore(folder.GetStore())->Load()->alarms.empty());
 }
 
 TEST_CASE("Store: an empty file becomes a store with a schema version, in a write-ahead log")
 {
-    const DatabaseFolder folder;
-    std::ofstream(folder.GetFile()).close();
-    const std::unique_ptr<SqlitePlanStore> store = OpenDatabase(folder.GetFile());
+    const StoreFolder folder;
+    MakeDirectory(folder.GetStore());
+    std::ofstream(GetDatabase(folder.GetStore())).close();
+    const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetStore());
     CHECK(*store->Load() == StoredState{});
-    SQLite::Database database(folder.GetFile(), SQLite::OPEN_READONLY);
-    CHECK(database.execAndGet("PRAGMA user_version").getInt() == 3);
+    SQLite::Database database(GetDatabase(folder.GetStore()), SQLite::OPEN_READONLY);
+    CHECK(database.execAndGet("PRAGMA user_version").getInt() == NEWEST);
     CHECK(database.execAndGet("PRAGMA journal_mode").getString() == "wal");
 }
 
 TEST_CASE("Store: a planID whose plan was removed can be stored again, in the same batch too")
 {
-    const DatabaseFolder folder;
-    const std::unique_ptr<SqlitePlanStore> store = OpenDatabase(folder.GetFile());
+    const StoreFolder folder;
+    const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetStore());
     REQUIRE(store->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
     REQUIRE(store->Append({{PlanRemoved{1}, PlanAdded{MakeRecord(2, "P1")}}}).has_value());
     REQUIRE(store->Load()->plans.size() == 1);
     CHECK(store->Load()->plans.front().sequence == 2);
 }
 
-TEST_CASE("Store: files of the first and second schema are brought forward, and nothing of them is lost")
+TEST_CASE("Store: databases of the first and second schema are migrated, and nothing of them is lost")
 {
     for (const int version : {1, 2})
     {
         INFO("version " << version);
-        const DatabaseFolder folder;
+        const StoreFolder folder;
+        MakeDirectory(folder.GetStore());
         {
-            SQLite::Database database(folder.GetFile(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+            SQLite::Database database(GetDatabase(folder.GetStore()), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
             database.exec(FIRST_SCHEMA);
             if (version == 2)
             {
@@ -177,7 +161,7 @@ TEST_CASE("Store: files of the first and second schema are brought forward, and 
             }
             database.exec("PRAGMA application_id = 0x41435350; PRAGMA user_version = " + std::to_string(version));
         }
-        const std::unique_ptr<SqlitePlanStore> store = OpenDatabase(folder.GetFile());
+        const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetStore());
         const Core::Result<StoredState> loaded = store->Load();
         REQUIRE(loaded.has_value());
         REQUIRE(loaded->plans.size() == 1);
@@ -198,10 +182,10 @@ TEST_CASE("Store: files of the first and second schema are brought forward, and 
     }
 }
 
-TEST_CASE("Store: a batch that fails in the middle leaves nothing behind and the store goes on")
+TEST_CASE("Store: a batch that fails in the middle leaves nothing, and the store still works")
 {
-    const DatabaseFolder folder;
-    const std::unique_ptr<SqlitePlanStore> store = OpenDatabase(folder.GetFile());
+    const StoreFolder folder;
+    const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetStore());
     REQUIRE(store->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
     const Core::Result<void> twice = store->Append({{ReportAdded{MakeEntry(1, "P1")}, PlanAdded{MakeRecord(2, "P1")}}});
     REQUIRE_FALSE(twice.has_value());
@@ -212,82 +196,84 @@ TEST_CASE("Store: a batch that fails in the middle leaves nothing behind and the
     CHECK(store->Load()->plans.size() == 2);
 }
 
-TEST_CASE("Store: damage, another program's file and a newer version are told apart and left as they are")
+TEST_CASE("Store: damage, another program's file and a newer version are distinguished and left unchanged")
 {
-    const DatabaseFolder folder;
-    const auto refuse = [&folder](EPlanningError error) {
-        const std::uintmax_t size = std::filesystem::file_size(folder.GetFile());
-        const Core::Result<std::unique_ptr<SqlitePlanStore>> store = SqlitePlanStore::Open(folder.GetFile());
+    const StoreFolder folder;
+    const std::string file = GetDatabase(folder.GetStore());
+    MakeDirectory(folder.GetStore());
+    const auto refuse = [&folder, &file](EPlanningError error) {
+        const std::uintmax_t size = std::filesystem::file_size(file);
+        const Core::Result<std::unique_ptr<SqlitePlanStore>> store = SqlitePlanStore::Open(folder.GetStore());
         REQUIRE_FALSE(store.has_value());
         CHECK(store.error().code == error);
-        CHECK(Core::Describe(store.error()).find(folder.GetFile()) != std::string::npos);
-        CHECK(std::filesystem::file_size(folder.GetFile()) == size);
+        CHECK(Core::Describe(store.error()).find(file) != std::string::npos);
+        CHECK(std::filesystem::file_size(file) == size);
     };
     SECTION("no database")
     {
-        std::ofstream(folder.GetFile()) << std::string(8192, 'x');
+        std::ofstream(file) << std::string(8192, 'x');
         refuse(EPlanningError::StoreCorrupt);
     }
     SECTION("a damaged page")
     {
         {
-            const std::unique_ptr<SqlitePlanStore> store = OpenDatabase(folder.GetFile());
+            const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetStore());
             for (std::uint64_t sequence = 1; sequence <= 100; ++sequence)
             {
                 const PlanRecord record = MakeRecord(sequence, "P" + std::to_string(sequence));
                 REQUIRE(store->Append({{PlanAdded{record}}}).has_value());
             }
         }
-        std::fstream file(folder.GetFile(), std::ios::in | std::ios::out | std::ios::binary);
-        file.seekp(3 * 4096);
-        file << std::string(4096, 'x');
-        file.close();
+        std::fstream damage(file, std::ios::in | std::ios::out | std::ios::binary);
+        damage.seekp(3 * 4096);
+        damage << std::string(4096, 'x');
+        damage.close();
         refuse(EPlanningError::StoreCorrupt);
     }
     SECTION("another program's")
     {
-        SQLite::Database(folder.GetFile(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE).exec("CREATE TABLE a (b)");
+        SQLite::Database(file, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE).exec("CREATE TABLE a (b)");
         refuse(EPlanningError::StoreCorrupt);
     }
     SECTION("a newer version")
     {
-        static_cast<void>(OpenDatabase(folder.GetFile()));
-        SQLite::Database(folder.GetFile(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
+        static_cast<void>(OpenStore(folder.GetStore()));
+        SQLite::Database(file, SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
         refuse(EPlanningError::StoreTooNew);
     }
     SECTION("a row that cannot be read")
     {
-        REQUIRE(OpenDatabase(folder.GetFile())->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
-        SQLite::Database(folder.GetFile(), SQLite::OPEN_READWRITE).exec("UPDATE plans SET progress = '{}'");
-        const Core::Result<StoredState> loaded = OpenDatabase(folder.GetFile())->Load();
+        REQUIRE(OpenStore(folder.GetStore())->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
+        SQLite::Database(file, SQLite::OPEN_READWRITE).exec("UPDATE plans SET progress = '{}'");
+        const Core::Result<StoredState> loaded = OpenStore(folder.GetStore())->Load();
         REQUIRE_FALSE(loaded.has_value());
         CHECK(loaded.error().code == EPlanningError::StoreCorrupt);
         CHECK(loaded.error().found.find("plan P1") != std::string::npos);
     }
 }
 
-TEST_CASE("Store: a file is one program's at a time, and free again when that one has closed it")
+TEST_CASE("Store: a directory is one program's at a time, and free again when that one has closed it")
 {
-    const DatabaseFolder folder;
+    const StoreFolder folder;
     {
-        const std::unique_ptr<SqlitePlanStore> first = OpenDatabase(folder.GetFile());
-        const Core::Result<std::unique_ptr<SqlitePlanStore>> second = SqlitePlanStore::Open(folder.GetFile());
+        const std::unique_ptr<SqlitePlanStore> first = OpenStore(folder.GetStore());
+        const Core::Result<std::unique_ptr<SqlitePlanStore>> second = SqlitePlanStore::Open(folder.GetStore());
         REQUIRE_FALSE(second.has_value());
         CHECK(second.error().code == EPlanningError::StoreFailed);
-        CHECK(second.error().path == folder.GetFile());
+        CHECK(second.error().path == folder.GetStore());
         CHECK(Core::Describe(second.error()).find("another program") != std::string::npos);
-        const std::string link = folder.GetFile() + ".link";
-        std::filesystem::create_symlink(folder.GetFile(), link);
+        const std::string link = folder.GetStore("link");
+        std::filesystem::create_directory_symlink(folder.GetStore(), link);
         CHECK_FALSE(SqlitePlanStore::Open(link).has_value());
         CHECK(first->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
     }
-    CHECK(OpenDatabase(folder.GetFile())->Load()->plans.size() == 1);
+    CHECK(OpenStore(folder.GetStore())->Load()->plans.size() == 1);
 }
 
-TEST_CASE("Store: a folder that is not there is a failure that names the file")
+TEST_CASE("Store: a parent directory that is missing is a failure that names the store directory")
 {
-    const Core::Result<std::unique_ptr<SqlitePlanStore>> store = SqlitePlanStore::Open("/nonexistent/acsd.db");
+    const Core::Result<std::unique_ptr<SqlitePlanStore>> store = SqlitePlanStore::Open("/nonexistent/store");
     REQUIRE_FALSE(store.has_value());
     CHECK(store.error().code == EPlanningError::StoreFailed);
-    CHECK(store.error().path == "/nonexistent/acsd.db");
+    CHECK(store.error().path == "/nonexistent/store");
 }

@@ -66,237 +66,260 @@ public:
 
 } // namespace
 
-TEST_CASE(
-    "Store: a file that is removed while it is open is noticed without a write, saved, and made again by the next start")
+TEST_CASE("Store: a database that is removed while it is open is noticed, copied, and restored by the next start")
 {
     const StoreFolder folder;
-    const std::string file = folder.GetFile();
+    const std::string directory = folder.GetStore();
+    const std::string file = GetDatabase(directory);
     {
-        const std::unique_ptr<SqlitePlanStore> store = OpenStore(file);
+        const std::unique_ptr<SqlitePlanStore> store = OpenStore(directory);
         REQUIRE(store->Append(MakeBatch("LR01")).has_value());
         CHECK(store->Check().has_value());
         Files::remove(file);
         CHECK(
             DescribeFailure(store->Check())
-            == file + ": expected the file that it has opened; put it back, or restart: what was stored is in " + file
-                + ".rescued, and the next start takes it up, found " + file
+            == file + ": expected the file that was opened; put it back, or restart: everything stored is in " + file
+                + ".rescued, which the next start restores, found " + file
                 + " removed or moved away while it was open");
         CHECK(DescribeFailure(store->Append(MakeBatch("LR02"))) == DescribeFailure(store->Check()));
         CHECK_FALSE(Files::exists(file));
-        CHECK_FALSE(SqlitePlanStore::Open(file).has_value()); // as long as this one has it
-        // A crash leaves the log behind, which belongs to no other file.
-        Files::copy_file(file + "-wal", folder.GetFile("log"));
+        CHECK_FALSE(SqlitePlanStore::Open(directory).has_value()); // this program has it open
+        // A crash leaves the log, which belongs to no other database.
+        Files::copy_file(GetLog(directory), folder.GetStore("log"));
     }
-    Files::rename(folder.GetFile("log"), file + "-wal");
-    const std::unique_ptr<SqlitePlanStore> store = OpenStore(file);
+    Files::rename(folder.GetStore("log"), GetLog(directory));
+    CHECK(*SqlitePlanStore::Inspect(directory) == StoreOrigin{false, true, 0, NEWEST});
+    const std::unique_ptr<SqlitePlanStore> store = OpenStore(directory);
     CHECK(store->GetOrigin() == StoreOrigin{false, true, NEWEST, NEWEST});
     CHECK(LoadRobots(*store) == std::vector<std::string>{"LR01"});
     CHECK(store->Append(MakeBatch("LR02")).has_value());
     CHECK_FALSE(Files::exists(file + ".rescued"));
 }
 
-TEST_CASE("Store: a file that is put back is gone on with, and what was saved meanwhile goes")
+TEST_CASE("Store: a database that is put back is used again, and the copy is deleted")
 {
     const StoreFolder folder;
-    const std::string file = folder.GetFile();
+    const std::string directory = folder.GetStore();
+    const std::string file = GetDatabase(directory);
+    const bool bWhole = GENERATE(false, true); // the whole directory
     {
-        const std::unique_ptr<SqlitePlanStore> store = OpenStore(file);
+        const std::unique_ptr<SqlitePlanStore> store = OpenStore(directory);
         REQUIRE(store->Append(MakeBatch("LR01")).has_value());
-        Files::rename(file, folder.GetFile("away"));
+        Files::rename(bWhole ? directory : file, folder.GetStore("away"));
         CHECK_FALSE(store->Append(MakeBatch("LR02")).has_value());
-        CHECK(Files::exists(file + ".rescued"));
-        Files::rename(folder.GetFile("away"), file);
+        CHECK(Files::exists(file + ".rescued") == !bWhole);
+        Files::rename(folder.GetStore("away"), bWhole ? directory : file);
         CHECK(store->Append(MakeBatch("LR02")).has_value());
         CHECK(store->Check().has_value());
     }
-    CHECK(LoadRobots(*OpenStore(file)) == std::vector<std::string>{"LR01", "LR02"});
-    CHECK(folder.ListNames() == std::vector<std::string>{"acsd.db", "acsd.db.lock"});
+    CHECK(LoadRobots(*OpenStore(directory)) == std::vector<std::string>{"LR01", "LR02"});
+    CHECK(StoreFolder::ListNamesIn(directory) == std::vector<std::string>{"acsd.db", "generation"});
 }
 
 TEST_CASE(
-    "Store: another file in the place of the open one is never written, and the next start asks which of the two holds")
+    "Store: another database in the place of the open one is never written, and the next start asks for a decision")
 {
     const StoreFolder folder;
-    const std::string file = folder.GetFile();
-    const std::string other = folder.GetFile("other.db");
+    const std::string directory = folder.GetStore();
+    const std::string file = GetDatabase(directory);
+    const std::string other = folder.GetStore("other");
     REQUIRE(OpenStore(other)->Append(MakeBatch("CR01")).has_value());
     {
-        const std::unique_ptr<SqlitePlanStore> store = OpenStore(file);
+        const std::unique_ptr<SqlitePlanStore> store = OpenStore(directory);
         REQUIRE(store->Append(MakeBatch("LR01")).has_value());
-        Files::rename(other, file);
+        Files::rename(GetDatabase(other), file);
         const std::string failure = DescribeFailure(store->Append(MakeBatch("LR02")));
-        CHECK(Contains(failure, "found another file in the place of " + file));
-        CHECK(Contains(failure, "put it back, or move the other one away and restart"));
+        CHECK(Contains(failure, "found " + file + " replaced by another file"));
+        CHECK(Contains(failure, "put it back, or move the other file away and restart"));
     }
-    const std::string refusal = DescribeOpening(SqlitePlanStore::Open(file));
-    CHECK(refusal.starts_with(file + ": expected one store; "));
+    const std::string refusal = DescribeOpening(SqlitePlanStore::Open(directory));
+    CHECK(refusal.starts_with(file + ": expected one database; "));
     CHECK(Contains(refusal, file + ".rescued"));
-    CHECK(DescribeOpening(SqlitePlanStore::Inspect(file)) == refusal);
-    Files::rename(file, other);
-    CHECK(LoadRobots(*OpenStore(file)) == std::vector<std::string>{"LR01"});
+    CHECK(DescribeOpening(SqlitePlanStore::Inspect(directory)) == refusal);
+    Files::rename(file, GetDatabase(other));
+    CHECK(LoadRobots(*OpenStore(directory)) == std::vector<std::string>{"LR01"});
     CHECK(LoadRobots(*OpenStore(other)) == std::vector<std::string>{"CR01"});
 }
 
-TEST_CASE("Store: a write-ahead log that is removed is noticed, and what was in it is brought into the store")
+TEST_CASE("Store: a write-ahead log that is removed is noticed, and its changes are merged into the database")
 {
     const StoreFolder folder;
-    const std::string file = folder.GetFile();
+    const std::string directory = folder.GetStore();
     {
-        const std::unique_ptr<SqlitePlanStore> store = OpenStore(file);
+        const std::unique_ptr<SqlitePlanStore> store = OpenStore(directory);
         REQUIRE(store->Append(MakeBatch("LR01")).has_value());
-        Files::remove(file + "-wal");
+        Files::rename(GetLog(directory), folder.GetStore("log"));
         const std::string failure = DescribeFailure(store->Check());
-        CHECK(Contains(failure, "found " + file + "-wal removed or moved away"));
-        CHECK(Contains(failure, "restart: what was stored is in the store itself"));
+        CHECK(Contains(failure, "found " + GetLog(directory) + " removed or moved away"));
+        CHECK(Contains(failure, "restart: everything stored is in the database"));
         CHECK_FALSE(store->Append(MakeBatch("LR02")).has_value());
-        Files::copy_file(file, folder.GetFile("crashed.db")); // as a crash would leave it
+        Files::copy(directory, folder.GetStore("crashed")); // as a crash would leave it
+        Files::permissions(folder.GetStore("crashed"), Files::perms::owner_all);
+        CHECK(LoadRobots(*OpenStore(folder.GetStore("crashed"))) == std::vector<std::string>{"LR01"});
+        // Put back, the store works again, and the log is needed after a crash as before.
+        Files::rename(folder.GetStore("log"), GetLog(directory));
+        CHECK(store->Append(MakeBatch("LR02")).has_value());
+        Files::copy(directory, folder.GetStore("later"));
+        Files::permissions(folder.GetStore("later"), Files::perms::owner_all);
+        Files::remove(GetLog(folder.GetStore("later")));
+        CHECK_FALSE(SqlitePlanStore::Open(folder.GetStore("later")).has_value());
     }
-    CHECK(LoadRobots(*OpenStore(folder.GetFile("crashed.db"))) == std::vector<std::string>{"LR01"});
-    CHECK(LoadRobots(*OpenStore(file)) == std::vector<std::string>{"LR01"});
+    CHECK(LoadRobots(*OpenStore(directory)) == std::vector<std::string>{"LR01", "LR02"});
 }
 
-TEST_CASE("Store: where no copy can be made the failure says that all is lost with the program, and tries again")
+TEST_CASE(
+    "Store: if no copy can be made the failure states that all plans are lost with the program, and it is retried")
 {
     const StoreFolder folder;
-    Files::create_directory(folder.GetFile("deep"));
-    const std::string file = folder.GetFile("deep/acsd.db");
+    const std::string directory = folder.GetStore();
     {
-        const std::unique_ptr<SqlitePlanStore> store = OpenStore(file);
+        const std::unique_ptr<SqlitePlanStore> store = OpenStore(directory);
         REQUIRE(store->Append(MakeBatch("LR01")).has_value());
-        Files::remove_all(folder.GetFile("deep"));
-        CHECK(Contains(DescribeFailure(store->Check()), "or all is lost with it, as no copy can be made: " + file));
-        Files::create_directory(folder.GetFile("deep"));
-        CHECK(Contains(DescribeFailure(store->Check()), "the next start takes it up"));
+        Files::remove_all(directory);
+        CHECK(Contains(
+            DescribeFailure(store->Check()),
+            "or all plans are lost: they cannot be copied: " + GetDatabase(directory)));
+        MakeDirectory(directory);
+        CHECK(Contains(DescribeFailure(store->Check()), "which the next start restores"));
     }
-    CHECK(LoadRobots(*OpenStore(file)) == std::vector<std::string>{"LR01"});
+    CHECK(LoadRobots(*OpenStore(directory)) == std::vector<std::string>{"LR01"});
 }
 
-TEST_CASE("Store: by a link the file is watched that the link leads to, with its log")
+TEST_CASE("Store: a store that is opened by a link to its directory is watched and inspected by that link")
 {
     const StoreFolder folder;
-    const std::string file = folder.GetFile();
-    const std::string link = folder.GetFile("link.db");
-    Files::create_symlink(file, link);
-    const std::unique_ptr<SqlitePlanStore> store = OpenStore(link);
+    const std::string directory = folder.GetStore();
+    const std::string link = folder.GetStore("link");
+    MakeDirectory(directory);
+    Files::create_directory_symlink(directory, link);
+    const std::unique_ptr<SqlitePlanStore> store = OpenStore(link + "/");
     REQUIRE(store->Append(MakeBatch("LR01")).has_value());
     CHECK(store->Check().has_value());
-    Files::remove(file + "-wal");
-    CHECK(Contains(DescribeFailure(store->Check()), file + "-wal removed"));
-}
-
-TEST_CASE("Store: to look at one by a link reads the log of what the link leads to")
-{
-    const StoreFolder folder;
-    const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetFile());
-    SQLite::Database(folder.GetFile(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99"); // into the log
-    Files::create_symlink(folder.GetFile(), folder.GetFile("link.db"));
-    const Core::Result<StoreOrigin> seen = SqlitePlanStore::Inspect(folder.GetFile("link.db"));
+    SQLite::Database(GetDatabase(directory), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99"); // into the log
+    const Core::Result<StoreOrigin> seen = SqlitePlanStore::Inspect(link);
     REQUIRE_FALSE(seen.has_value());
     CHECK(seen.error().code == EPlanningError::StoreTooNew);
+    Files::remove(GetLog(directory));
+    CHECK(Contains(DescribeFailure(store->Check()), GetLog(link) + " removed"));
 }
 
-TEST_CASE("Store: each failure to open names the path, the reason and what to do")
+TEST_CASE("Store: each failure to open names the path, the reason and the remedy")
 {
     struct Row
     {
-        std::string file;
+        std::string store;
         std::string expected;
         std::string found;
+        std::string file = ""; ///< In the directory, where it is named.
     };
     const StoreFolder folder;
-    std::ofstream(folder.GetFile("text")) << "not a database, and long enough to be told from an empty file";
-    SQLite::Database(folder.GetFile("foreign"), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)
+    std::ofstream(folder.GetStore("text")) << "not a database, and longer than an empty file";
+    MakeDirectory(folder.GetStore("damaged"));
+    Files::copy_file(folder.GetStore("text"), GetDatabase(folder.GetStore("damaged")));
+    MakeDirectory(folder.GetStore("foreign"));
+    SQLite::Database(GetDatabase(folder.GetStore("foreign")), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)
         .exec("CREATE TABLE t (a)");
-    OpenStore(folder.GetFile("new")).reset();
-    SQLite::Database(folder.GetFile("new"), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
-    Files::create_directory(folder.GetFile("folder"));
-    REQUIRE(::mkfifo(folder.GetFile("pipe").c_str(), 0600) == 0);
-    Files::create_directory(folder.GetFile("locked"));
-    Files::permissions(folder.GetFile("locked"), Files::perms::owner_read | Files::perms::owner_exec);
-    OpenStore(folder.GetFile("read-only")).reset();
-    Files::permissions(folder.GetFile("read-only"), Files::perms::owner_read);
+    OpenStore(folder.GetStore("new")).reset();
+    SQLite::Database(GetDatabase(folder.GetStore("new")), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
+    REQUIRE(::mkfifo(folder.GetStore("pipe").c_str(), 0600) == 0);
+    MakeDirectory(folder.GetStore("linked"));
+    Files::create_symlink(folder.GetStore("text"), GetDatabase(folder.GetStore("linked")));
+    MakeDirectory(folder.GetStore("shared"));
+    Files::permissions(folder.GetStore("shared"), Files::perms::owner_all | Files::perms::others_read);
+    MakeDirectory(folder.GetStore("former"));
+    std::ofstream(GetDatabase(folder.GetStore("former")) + ".lock").close();
+    OpenStore(folder.GetStore("good")).reset();
+    MakeDirectory(folder.GetStore("locked"));
+    Files::permissions(folder.GetStore("locked"), Files::perms::owner_read | Files::perms::owner_exec);
+    OpenStore(folder.GetStore("read-only")).reset();
+    Files::permissions(GetDatabase(folder.GetStore("read-only")), Files::perms::owner_read);
     std::vector<Row> rows{
-        {"none/acsd.db", "make the folder " + folder.GetFile("none"), "No such file or directory"},
-        {"text/acsd.db", "a file in a folder; give another path", "which is no folder"},
-        {"folder", "a file; give the path of one in that folder", "a folder"},
-        {"pipe", "a regular file; give another path", "a device, a pipe or a socket"},
+        {"none/store", "create the directory " + folder.GetStore("none"), "No such file or directory"},
+        {"text/store", "create the directory " + folder.GetStore("text"), "Not a directory"},
         {"text", "an undamaged plan store; move it away", "file is not a database"},
-        {"foreign", "a plan store; give another path", "a database of another program"},
-        {"new", "start the newer program that wrote it", "version 99"}};
+        {"pipe", "a directory; give another path", "a device, pipe or socket"},
+        {"shared", "set its mode to 0700", "mode 0704"},
+        {"linked", "a regular file; move it away", "link", "/acsd.db"},
+        {"former", "itself as the directory: it is migrated", "the former layout", "/acsd.db"},
+        {"good/acsd.db", "give the directory of this database", "a database of such a directory"},
+        {"damaged", "an undamaged plan store; move it away", "file is not a database", "/acsd.db"},
+        {"foreign", "a plan store; give another path", "a database of another program", "/acsd.db"},
+        {"new", "start the newer program that wrote it", "version 99", "/acsd.db"}};
     if (::geteuid() != 0) // who may do everything
     {
-        rows.push_back({"locked/acsd.db", "correct the owner or the rights of", "Permission denied"});
-        rows.push_back({"read-only", "correct its owner or its rights", "Permission denied"});
+        rows.push_back({"locked/store", "correct the owner or the mode of", "Permission denied"});
+        rows.push_back({"locked", "correct its owner or its mode", "Permission denied"});
+        rows.push_back({"read-only", "correct its owner or its mode", "Permission denied", "/acsd.db"});
     }
     const std::vector<std::string> before = folder.ListNames();
     for (const Row& row : rows)
     {
-        INFO(row.file);
-        const std::string file = folder.GetFile(row.file);
-        const std::string failure = DescribeOpening(SqlitePlanStore::Inspect(file));
-        CHECK(failure.starts_with(file + ": expected "));
+        INFO(row.store);
+        const std::string store = folder.GetStore(row.store);
+        const std::string failure = DescribeOpening(SqlitePlanStore::Inspect(store));
+        INFO(failure);
+        CHECK(failure.starts_with(store + row.file + ": expected "));
         CHECK(Contains(failure.substr(0, failure.find(", found ")), row.expected));
         CHECK(Contains(failure.substr(failure.find(", found ")), row.found));
-        CHECK(DescribeOpening(SqlitePlanStore::Open(file)) == failure);
+        CHECK(DescribeOpening(SqlitePlanStore::Open(store)) == failure);
     }
     CHECK(folder.ListNames() == before);
-    Files::permissions(folder.GetFile("locked"), Files::perms::owner_all);
+    Files::permissions(folder.GetStore("locked"), Files::perms::owner_all);
 }
 
 TEST_CASE(
-    "Store: a write that fails names the path, the reason and what to do, and is got over: another program's lock")
+    "Store: a write that fails names the path, the reason and the remedy, and the next one succeeds: another program's lock")
 {
     const StoreFolder folder;
-    const std::string file = folder.GetFile();
-    const std::unique_ptr<SqlitePlanStore> store = OpenStore(file);
+    const std::string file = GetDatabase(folder.GetStore());
+    const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetStore());
     {
         SQLite::Database other(file, SQLite::OPEN_READWRITE);
         const SQLite::Transaction locks(other, SQLite::TransactionBehavior::IMMEDIATE);
         const std::string failure = DescribeFailure(store->Append(MakeBatch("LR01")));
-        CHECK(failure.starts_with(file + ": expected a store that no other program locks; close that one"));
+        CHECK(failure.starts_with(file + ": expected a database that no other program locks; close that program"));
         CHECK(Contains(failure, "found writing failed: database is locked"));
     }
     CHECK(store->Append(MakeBatch("LR01")).has_value());
 }
 
 TEST_CASE(
-    "Store: a write that fails names the path, the reason and what to do, and is got over: the system takes no more")
+    "Store: a write that fails names the path, the reason and the remedy, and the next one succeeds: the system takes no more")
 {
     const StoreFolder folder;
-    const std::string file = folder.GetFile();
-    const std::unique_ptr<SqlitePlanStore> store = OpenStore(file);
+    const std::string file = GetDatabase(folder.GetStore());
+    const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetStore());
     REQUIRE(store->Append(MakeBatch("LR01")).has_value());
-    const auto failed = [&store, &file] {
-        const TightDisk disk(Files::file_size(file + "-wal"));
+    const auto failed = [&store, &folder] {
+        const TightDisk disk(Files::file_size(GetLog(folder.GetStore())));
         return store->Append(MakeBatch("LR02"));
     }();
     const std::string failure = DescribeFailure(failed);
-    CHECK(failure.starts_with(file + ": expected a disk that reads and writes; look at it and at the system's log"));
+    CHECK(failure.starts_with(file + ": expected a disk that reads and writes; check it and the system log"));
     INFO(failure);
     CHECK(Contains(failure, "found writing failed: disk I/O error (File too large)"));
     CHECK(store->Append(MakeBatch("LR02")).has_value());
     CHECK(LoadRobots(*store) == std::vector<std::string>{"LR01", "LR02"});
 }
 
-TEST_CASE("Store: one that could not be made for want of room is made when there is some")
+TEST_CASE("Store: a store that could not be created on a full disk is created when there is space")
 {
     for (const std::uintmax_t room : {0U, 1U, 4U, 5U, 8U, 16U, 24U, 32U, 40U, 64U})
     {
         INFO(room << " KiB");
         const StoreFolder folder;
-        const std::string file = folder.GetFile();
         bool bMade = false;
         {
             const TightDisk disk(room * 1024);
-            bMade = SqlitePlanStore::Open(file).has_value();
+            bMade = SqlitePlanStore::Open(folder.GetStore()).has_value();
         }
         CHECK((room > 32 || !bMade));
-        const std::unique_ptr<SqlitePlanStore> store = OpenStore(file);
+        const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetStore());
         CHECK(store->Append(MakeBatch("LR01")).has_value());
     }
 }
 
-TEST_CASE("Store: a file that lacks its tables, or has a version that cannot be, is told as damaged")
+TEST_CASE("Store: a file that lacks its tables, or has an impossible version, is reported as damaged")
 {
     struct Row
     {
@@ -313,13 +336,14 @@ TEST_CASE("Store: a file that lacks its tables, or has a version that cannot be,
     {
         INFO(row.statement);
         const StoreFolder folder;
-        const std::string file = folder.GetFile();
+        MakeDirectory(folder.GetStore());
         if (row.bStore)
         {
-            OpenStore(file);
+            OpenStore(folder.GetStore());
         }
-        SQLite::Database(file, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE).exec(row.statement);
-        const auto refused = SqlitePlanStore::Open(file);
+        SQLite::Database(GetDatabase(folder.GetStore()), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)
+            .exec(row.statement);
+        const auto refused = SqlitePlanStore::Open(folder.GetStore());
         REQUIRE_FALSE(refused.has_value());
         CHECK(refused.error().code == EPlanningError::StoreCorrupt);
         CHECK(Contains(Core::Describe(refused.error()), row.found));
@@ -327,26 +351,27 @@ TEST_CASE("Store: a file that lacks its tables, or has a version that cannot be,
     }
 }
 
-TEST_CASE("Store: to look at a store makes, changes and takes nothing, also while another program has it open")
+TEST_CASE("Store: an inspection creates, changes and locks nothing, also while another program has the store open")
 {
     const StoreFolder folder;
-    const std::string file = folder.GetFile("a store%20#1?.db");
-    CHECK(*SqlitePlanStore::Inspect(file) == StoreOrigin{true, false, 0, NEWEST});
+    const std::string directory = folder.GetStore("a store%20#1?");
+    CHECK(*SqlitePlanStore::Inspect(directory) == StoreOrigin{true, false, 0, NEWEST});
     CHECK(folder.ListNames().empty());
     {
-        const std::unique_ptr<SqlitePlanStore> store = OpenStore(file);
+        const std::unique_ptr<SqlitePlanStore> store = OpenStore(directory);
+        CHECK(Files::status(directory).permissions() == Files::perms::owner_all);
         CHECK(store->GetOrigin() == StoreOrigin{true, false, 0, NEWEST});
         REQUIRE(store->Append(MakeBatch("LR01")).has_value());
-        const std::vector<std::string> before = folder.ListNames();
-        CHECK(*SqlitePlanStore::Inspect(file) == StoreOrigin{false, false, NEWEST, NEWEST});
-        CHECK(folder.ListNames() == before);
+        const std::vector<std::string> before = StoreFolder::ListNamesIn(directory);
+        CHECK(*SqlitePlanStore::Inspect(directory) == StoreOrigin{false, false, NEWEST, NEWEST});
+        CHECK(StoreFolder::ListNamesIn(directory) == before);
         CHECK(store->Append(MakeBatch("LR02")).has_value());
     }
-    const std::vector<std::string> before = folder.ListNames();
-    CHECK(before.size() == 2); // and its lock
-    const auto time = Files::last_write_time(file);
-    CHECK(*SqlitePlanStore::Inspect(file) == StoreOrigin{false, false, NEWEST, NEWEST});
-    CHECK(folder.ListNames() == before);
-    CHECK(Files::last_write_time(file) == time);
-    CHECK(OpenStore(file)->GetOrigin() == StoreOrigin{false, false, NEWEST, NEWEST});
+    const std::vector<std::string> before = StoreFolder::ListNamesIn(directory);
+    CHECK(before == std::vector<std::string>{"acsd.db", "generation"});
+    const auto time = Files::last_write_time(GetDatabase(directory));
+    CHECK(*SqlitePlanStore::Inspect(directory) == StoreOrigin{false, false, NEWEST, NEWEST});
+    CHECK(StoreFolder::ListNamesIn(directory) == before);
+    CHECK(Files::last_write_time(GetDatabase(directory)) == time);
+    CHECK(OpenStore(directory)->GetOrigin() == StoreOrigin{false, false, NEWEST, NEWEST});
 }

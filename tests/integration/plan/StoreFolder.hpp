@@ -16,20 +16,25 @@ namespace ACS::Planning::Test
 {
 
 /// Of the schema.
-inline constexpr int NEWEST = 3;
+inline constexpr int NEWEST = 4;
 
 class StoreFolder : public Testing::TemporaryFolder
 {
 public:
-    [[nodiscard]] std::string GetFile(const std::string& name = "acsd.db") const
+    [[nodiscard]] std::string GetStore(const std::string& name = "store") const
     {
         return (GetPath() / name).string();
     }
 
     [[nodiscard]] std::vector<std::string> ListNames() const
     {
+        return ListNamesIn(GetPath().string());
+    }
+
+    [[nodiscard]] static std::vector<std::string> ListNamesIn(const std::string& directory)
+    {
         std::vector<std::string> names;
-        for (const std::filesystem::directory_entry& entry : std::filesystem::directory_iterator(GetPath()))
+        for (const std::filesystem::directory_entry& entry : std::filesystem::directory_iterator(directory))
         {
             names.push_back(entry.path().filename().string());
         }
@@ -38,9 +43,31 @@ public:
     }
 };
 
-inline std::unique_ptr<SqlitePlanStore> OpenStore(const std::string& file)
+inline std::string GetDatabase(const std::string& store)
 {
-    Core::Result<std::unique_ptr<SqlitePlanStore>> store = SqlitePlanStore::Open(file);
+    return store + "/acsd.db";
+}
+
+inline std::string GetLog(const std::string& store)
+{
+    return store + "/acsd.db-wal";
+}
+
+inline std::string GetGeneration(const std::string& store)
+{
+    return store + "/generation";
+}
+
+/// Of mode 0700.
+inline void MakeDirectory(const std::string& path)
+{
+    std::filesystem::create_directory(path);
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+}
+
+inline std::unique_ptr<SqlitePlanStore> OpenStore(const std::string& directory)
+{
+    Core::Result<std::unique_ptr<SqlitePlanStore>> store = SqlitePlanStore::Open(directory);
     INFO((store.has_value() ? std::string() : Core::Describe(store.error())));
     REQUIRE(store.has_value());
     return std::move(*store);

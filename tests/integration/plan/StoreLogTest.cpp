@@ -26,141 +26,146 @@ std::string ReadBytes(const std::string& file)
 }
 
 /// What a program leaves that is killed while it has the store open.
-void CopyAsKilled(const std::string& file, const std::string& copy)
+void CopyAsKilled(const std::string& directory, const std::string& copy)
 {
-    for (const char* ending : {"", "-wal", ".lock"})
+    MakeDirectory(copy);
+    for (const char* name : {"acsd.db", "acsd.db-wal", "generation"})
     {
-        Files::copy_file(file + ending, copy + ending);
+        Files::copy_file(Files::path(directory) / name, Files::path(copy) / name);
     }
 }
 
-constexpr int FOLDING_WRITES = 1'200; ///< After so many the log has been folded.
+constexpr int CHECKPOINT_WRITES = 1'200; ///< After this many the log has been merged.
 
 void WriteMuch(SqlitePlanStore& store)
 {
-    for (int count = 0; count < FOLDING_WRITES; ++count)
+    for (int count = 0; count < CHECKPOINT_WRITES; ++count)
     {
         REQUIRE(store.Append({{MaintenanceChanged{"LR01", count % 2 != 0}}}).has_value());
     }
 }
 
-void RequireLost(const std::string& file)
+void RequireRefused(const std::string& directory, const std::string& found)
 {
-    const auto refused = SqlitePlanStore::Open(file);
+    const std::string log = GetLog(directory);
+    const std::string text = Files::exists(log) ? ReadBytes(log) : std::string();
+    const auto refused = SqlitePlanStore::Open(directory);
     REQUIRE_FALSE(refused.has_value());
     CHECK(refused.error().code == EPlanningError::StoreCorrupt);
-    CHECK(Contains(Core::Describe(refused.error()), file + "-wal, as the program before did not close the store"));
-    CHECK(Contains(Core::Describe(refused.error()), "a backup that was restored, remove " + file + ".lock"));
-    CHECK_FALSE(SqlitePlanStore::Inspect(file).has_value());
+    INFO(Core::Describe(refused.error()));
+    CHECK(Contains(Core::Describe(refused.error()), "with its log " + log + "; put these files back"));
+    CHECK(Contains(Core::Describe(refused.error()), "remove " + GetGeneration(directory)));
+    CHECK(Contains(Core::Describe(refused.error()), found));
+    CHECK_FALSE(SqlitePlanStore::Inspect(directory).has_value());
+    CHECK((Files::exists(log) ? ReadBytes(log) : std::string()) == text);
 }
+
+constexpr const char* WITHOUT_LOG = "found a database that was not closed, without its log";
+constexpr const char* OTHER_GENERATION = "found a database of another generation";
 
 } // namespace
 
-TEST_CASE("Store: a log without its store is not thrown away for a new one")
+TEST_CASE("Store: a log without its database is not deleted for a new database")
 {
     const StoreFolder folder;
-    const std::string file = folder.GetFile();
-    const std::string lost = folder.GetFile("lost.db");
-    const std::unique_ptr<SqlitePlanStore> store = OpenStore(file);
+    const std::string directory = folder.GetStore();
+    const std::string lost = folder.GetStore("lost");
+    const std::unique_ptr<SqlitePlanStore> store = OpenStore(directory);
     REQUIRE(store->Append(MakeBatch("LR01")).has_value());
-    Files::copy_file(file + "-wal", lost + "-wal"); // as a crash leaves it
+    CopyAsKilled(directory, lost);
+    Files::remove(GetDatabase(lost));
     if (GENERATE(false, true))
     {
-        std::ofstream(lost).flush();
+        std::ofstream(GetDatabase(lost)).flush();
     }
     for (const Core::Error& error : {SqlitePlanStore::Open(lost).error(), SqlitePlanStore::Inspect(lost).error()})
     {
         CHECK(error.code == EPlanningError::StoreCorrupt);
-        CHECK(Contains(Core::Describe(error), lost + "-wal belongs; put that file back"));
+        CHECK(Contains(Core::Describe(error), GetLog(lost) + " belongs; put that file back"));
     }
-    CHECK(Files::file_size(lost + "-wal") == Files::file_size(file + "-wal"));
-    Files::copy_file(file, lost, Files::copy_options::overwrite_existing);
+    CHECK(Files::file_size(GetLog(lost)) == Files::file_size(GetLog(directory)));
+    Files::copy_file(GetDatabase(directory), GetDatabase(lost), Files::copy_options::overwrite_existing);
     CHECK(LoadRobots(*OpenStore(lost)) == std::vector<std::string>{"LR01"});
 }
 
-TEST_CASE("Store: one that was not closed and whose log is missing is not opened, as what was stored last is missing")
+TEST_CASE("Store: a store that is killed directly after its start is opened again")
 {
     const StoreFolder folder;
-    const std::string file = folder.GetFile();
-    const std::string copy = folder.GetFile("copy.db");
-    const auto store = OpenStore(file);
+    const auto store = OpenStore(folder.GetStore());
+    CopyAsKilled(folder.GetStore(), folder.GetStore("copy"));
+    OpenStore(folder.GetStore("copy"));
+}
+
+TEST_CASE("Store: a store whose log could not be merged at its start is refused without it")
+{
+    const StoreFolder folder;
+    const std::string directory = folder.GetStore();
+    const std::string copy = folder.GetStore("copy");
+    OpenStore(directory);
+    SQLite::Database reader(GetDatabase(directory), SQLite::OPEN_READWRITE);
+    reader.exec("BEGIN");
+    reader.exec("SELECT * FROM plans");
+    const auto store = OpenStore(directory);
     REQUIRE(store->Append(MakeBatch("LR01")).has_value());
-    // As a program leaves it that is killed.
-    Files::copy_file(file, copy);
-    Files::copy_file(file + ".lock", copy + ".lock");
-    SECTION("The log is missing")
-    {
-        const auto refused = SqlitePlanStore::Open(copy);
-        REQUIRE_FALSE(refused.has_value());
-        CHECK(refused.error().code == EPlanningError::StoreCorrupt);
-        CHECK(Core::Describe(refused.error()).find(copy + "-wal") != std::string::npos);
-        CHECK_FALSE(SqlitePlanStore::Inspect(copy).has_value());
-        Files::remove(copy + ".lock");
-        CHECK_FALSE(OpenStore(copy)->GetOrigin().bNew);
-    }
-    SECTION("It is there")
-    {
-        Files::copy_file(file + "-wal", copy + "-wal");
-        CHECK(OpenStore(copy)->Load()->robotsInMaintenance == std::vector<std::string>{"LR01"});
-    }
+    CopyAsKilled(directory, copy);
+    const std::string log = ReadBytes(GetLog(copy));
+    Files::remove(GetLog(copy));
+    RequireRefused(copy, OTHER_GENERATION);
+    std::ofstream(GetLog(copy), std::ios::binary) << log;
+    CHECK(LoadRobots(*OpenStore(copy)) == std::vector<std::string>{"LR01"});
 }
 
-TEST_CASE("Store: one that was not closed and whose log another program has folded is opened, as nothing is missing")
+TEST_CASE("Store: a store that was not closed is opened with its log, and refused without it")
 {
     const StoreFolder folder;
-    const std::string copy = folder.GetFile("copy.db");
-    const auto store = OpenStore(folder.GetFile());
-    SECTION("A young one")
-    {
-    }
-    SECTION("One that has folded its log before")
-    {
-        WriteMuch(*store);
-    }
-    REQUIRE(store->Append(MakeBatch("LR02")).has_value());
-    CopyAsKilled(folder.GetFile(), copy);
-    SQLite::Database(copy, SQLite::OPEN_READWRITE).exec("VACUUM INTO '" + folder.GetFile("backup.db") + "'");
-    REQUIRE_FALSE(Files::exists(copy + "-wal"));
-    CHECK(SqlitePlanStore::Inspect(copy).has_value());
-    CHECK(LoadRobots(*OpenStore(copy)).back() == "LR02");
-}
-
-TEST_CASE("Store: what a lost log had is missed also where some of what was stored is in the file")
-{
-    const StoreFolder folder;
-    const std::string file = folder.GetFile();
-    const std::string copy = folder.GetFile("copy.db");
-    const auto store = OpenStore(file);
+    const std::string directory = folder.GetStore();
+    const std::string copy = folder.GetStore("copy");
+    const auto store = OpenStore(directory);
     REQUIRE(store->Append(MakeBatch("CR01")).has_value());
-    SECTION("It was folded by acsd itself")
+    const std::string history = GENERATE(
+        as<std::string>(),
+        "never merged",
+        "merged by the store",
+        "merged by another program",
+        "read by another program while the store tries to merge it");
+    INFO("The log was " << history);
+    if (history == "merged by the store")
     {
         WriteMuch(*store);
-        CHECK(SqlitePlanStore::Inspect(file).has_value());
-        CHECK(Files::file_size(file + "-wal") < 8'000'000);
+        CHECK(SqlitePlanStore::Inspect(directory).has_value());
+        CHECK(Files::file_size(GetLog(directory)) < 8'000'000);
     }
-    SECTION("Another program tried to")
+    else if (history == "merged by another program")
     {
-        SQLite::Database(file, SQLite::OPEN_READWRITE).exec("PRAGMA wal_checkpoint(TRUNCATE)");
+        SQLite::Database(GetDatabase(directory), SQLite::OPEN_READWRITE).exec("PRAGMA wal_checkpoint(TRUNCATE)");
     }
-    SECTION("Another program read while acsd did")
+    else if (history != "never merged")
     {
-        SQLite::Database reader(file, SQLite::OPEN_READONLY);
+        SQLite::Database reader(GetDatabase(directory), SQLite::OPEN_READONLY);
         reader.exec("BEGIN; SELECT * FROM plans");
         WriteMuch(*store);
-        REQUIRE(store->Append(MakeBatch("LR02")).has_value());
-        SQLite::Database(file, SQLite::OPEN_READWRITE).exec("PRAGMA wal_checkpoint(TRUNCATE)");
     }
     REQUIRE(store->Append(MakeBatch("LR03")).has_value());
-    CopyAsKilled(file, copy);
-    SECTION("The log is gone")
+    CopyAsKilled(directory, copy);
+    SECTION("The log is missing")
     {
-        Files::remove(copy + "-wal");
-        RequireLost(copy);
+        Files::remove(GetLog(copy));
+        RequireRefused(copy, WITHOUT_LOG);
+        Files::remove(GetGeneration(copy));
+        CHECK_FALSE(OpenStore(copy)->GetOrigin().bNew);
     }
     SECTION("The log is empty")
     {
-        Files::resize_file(copy + "-wal", 0);
-        RequireLost(copy);
+        Files::resize_file(GetLog(copy), 0);
+        RequireRefused(copy, WITHOUT_LOG);
+    }
+    SECTION("Another program has merged and deleted the log")
+    {
+        SQLite::Database(GetDatabase(copy), SQLite::OPEN_READWRITE).exec("VACUUM");
+        REQUIRE_FALSE(Files::exists(GetLog(copy)));
+        RequireRefused(copy, WITHOUT_LOG);
+        Files::remove(GetGeneration(copy));
+        CHECK(LoadRobots(*OpenStore(copy)).back() == "LR03");
     }
     SECTION("It is there")
     {
@@ -168,116 +173,128 @@ TEST_CASE("Store: what a lost log had is missed also where some of what was stor
     }
 }
 
-TEST_CASE("Store: one that was closed while another program read it is opened after that one has ended")
+TEST_CASE("Store: a store that was closed while another program read it is opened after that program has ended")
 {
     const StoreFolder folder;
-    const std::string file = folder.GetFile();
-    const auto readWhileClosing = [&file](const char* first, const char* second) {
-        auto store = OpenStore(file);
+    const std::string directory = folder.GetStore();
+    const auto readWhileClosing = [&directory](const char* first, const char* second) {
+        auto store = OpenStore(directory);
         REQUIRE(store->Append(MakeBatch("LR01")).has_value());
-        SQLite::Database reader(file, SQLite::OPEN_READWRITE);
+        SQLite::Database reader(GetDatabase(directory), SQLite::OPEN_READWRITE);
         reader.exec(first);
         reader.exec("SELECT * FROM plans");
         REQUIRE(store->Append(MakeBatch("LR02")).has_value());
         store.reset();
         reader.exec(second);
     };
-    SECTION("One that looks now and then")
+    SECTION("It reads now and then")
     {
         readWhileClosing("SELECT 1", "SELECT 1");
     }
-    SECTION("One in the middle of a look")
+    SECTION("It is in a transaction")
     {
         readWhileClosing("BEGIN", "ROLLBACK");
     }
-    REQUIRE_FALSE(Files::exists(file + "-wal"));
-    CHECK(LoadRobots(*OpenStore(file)) == std::vector<std::string>{"LR01", "LR02"});
+    REQUIRE_FALSE(Files::exists(GetLog(directory)));
+    CHECK(LoadRobots(*OpenStore(directory)) == std::vector<std::string>{"LR01", "LR02"});
 }
 
-TEST_CASE("Store: a backup in the place of one that was not closed is asked about, and opened when it was closed")
+TEST_CASE(
+    "Store: an older database in the place of the one that was used last is refused until the generation is removed")
 {
     const StoreFolder folder;
-    const std::string file = folder.GetFile();
-    const std::string copy = folder.GetFile("copy.db");
-    OpenStore(file);
-    Files::copy_file(file, folder.GetFile("backup.db"));
+    const std::string directory = folder.GetStore();
+    const std::string copy = folder.GetStore("copy");
+    const std::string backup = folder.GetStore("backup.db");
+    OpenStore(directory);
+    Files::copy_file(GetDatabase(directory), backup);
+    const auto store = OpenStore(directory);
+    REQUIRE(store->Append(MakeBatch("LR01")).has_value());
+    CopyAsKilled(directory, copy);
+    SECTION("Not closed")
     {
-        const auto store = OpenStore(file);
-        REQUIRE(store->Append(MakeBatch("LR01")).has_value());
-        CopyAsKilled(file, copy);
+        Files::remove(GetLog(copy));
     }
-    Files::copy_file(folder.GetFile("backup.db"), file, Files::copy_options::overwrite_existing);
-    CHECK(LoadRobots(*OpenStore(file)).empty());
-    Files::remove(copy + "-wal");
-    Files::copy_file(folder.GetFile("backup.db"), copy, Files::copy_options::overwrite_existing);
-    RequireLost(copy);
-    Files::remove(copy + ".lock");
+    SECTION("Closed")
+    {
+        OpenStore(copy);
+    }
+    Files::copy_file(backup, GetDatabase(copy), Files::copy_options::overwrite_existing);
+    RequireRefused(copy, OTHER_GENERATION);
+    Files::remove(GetGeneration(copy));
     CHECK(LoadRobots(*OpenStore(copy)).empty());
 }
 
-TEST_CASE("Store: one that was killed while its log was folded needs the log")
+TEST_CASE("Store: a backup of an open store is a store in a directory of its own")
 {
     const StoreFolder folder;
-    const std::string copy = folder.GetFile("copy.db");
-    const auto store = OpenStore(folder.GetFile());
+    const std::string backup = folder.GetStore("backup");
+    const auto store = OpenStore(folder.GetStore());
     REQUIRE(store->Append(MakeBatch("LR01")).has_value());
-    CopyAsKilled(folder.GetFile(), copy);
-    std::ofstream(copy + ".lock") << "open\n";
-    SECTION("It is there")
+    MakeDirectory(backup);
+    SQLite::Database(GetDatabase(folder.GetStore()), SQLite::OPEN_READONLY)
+        .exec("VACUUM INTO '" + GetDatabase(backup) + "'");
+    CHECK(LoadRobots(*OpenStore(backup)) == std::vector<std::string>{"LR01"});
+}
+
+TEST_CASE("Store: a start that is killed before it has stored its generation is repeated")
+{
+    const StoreFolder folder;
+    const std::string directory = folder.GetStore();
+    REQUIRE(OpenStore(directory)->Append(MakeBatch("LR01")).has_value());
+    const std::string previous = ReadBytes(GetGeneration(directory));
+    std::ofstream(GetGeneration(directory)) << "0123456789abcdef\n" << previous;
+    CHECK(SqlitePlanStore::Inspect(directory).has_value());
+    CHECK(LoadRobots(*OpenStore(directory)) == std::vector<std::string>{"LR01"});
+    const std::string next = ReadBytes(GetGeneration(directory));
+    CHECK(next.size() == previous.size());
+    CHECK(next != previous);
+    for (const char* text : {"", "0123456789abcdef\n"})
     {
-        CHECK(LoadRobots(*OpenStore(copy)) == std::vector<std::string>{"LR01"});
-    }
-    SECTION("It is not")
-    {
-        Files::remove(copy + "-wal");
-        RequireLost(copy);
+        std::ofstream(GetGeneration(directory)) << text;
+        RequireRefused(directory, OTHER_GENERATION);
     }
 }
 
-TEST_CASE("Store: a new one in the place of one that was moved away without its mark is opened again after a crash")
+TEST_CASE("Store: a new database in the place of one that was moved away is opened again after a crash")
 {
     const StoreFolder folder;
-    const std::string copy = folder.GetFile("copy.db");
-    const auto store = OpenStore(folder.GetFile());
-    std::ofstream(folder.GetFile("copy.db.lock")) << "log 7\n";
-    const auto young = OpenStore(copy);
-    CopyAsKilled(copy, folder.GetFile("killed.db"));
-    OpenStore(folder.GetFile("killed.db"));
-    REQUIRE(young->Append(MakeBatch("LR01")).has_value());
-    CopyAsKilled(copy, folder.GetFile("later.db"));
-    CHECK(LoadRobots(*OpenStore(folder.GetFile("later.db"))) == std::vector<std::string>{"LR01"});
+    const std::string directory = folder.GetStore();
+    const std::string killed = folder.GetStore("killed");
+    MakeDirectory(directory);
+    std::ofstream(GetGeneration(directory)) << "0123456789abcdef\n";
+    const auto store = OpenStore(directory);
+    CHECK(store->GetOrigin().bNew);
+    REQUIRE(store->Append(MakeBatch("LR01")).has_value());
+    CopyAsKilled(directory, killed);
+    CHECK(LoadRobots(*OpenStore(killed)) == std::vector<std::string>{"LR01"});
 }
 
-TEST_CASE("Store: one that was not closed and is refused is left as it is, with its log")
+TEST_CASE("Store: a store that was not closed and is refused is left unchanged, with its log")
 {
     const StoreFolder folder;
-    const std::string copy = folder.GetFile("copy.db");
+    const std::string copy = folder.GetStore("copy");
     {
-        const auto store = OpenStore(folder.GetFile());
+        const auto store = OpenStore(folder.GetStore());
         REQUIRE(store->Append(MakeBatch("LR01")).has_value());
-        SQLite::Database(folder.GetFile(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
-        CopyAsKilled(folder.GetFile(), copy);
+        SQLite::Database(GetDatabase(folder.GetStore()), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
+        CopyAsKilled(folder.GetStore(), copy);
     }
-    const std::string before = ReadBytes(copy);
-    const std::string log = ReadBytes(copy + "-wal");
+    const std::string before = ReadBytes(GetDatabase(copy));
+    const std::string log = ReadBytes(GetLog(copy));
     const auto refused = SqlitePlanStore::Open(copy);
     REQUIRE_FALSE(refused.has_value());
     CHECK(refused.error().code == EPlanningError::StoreTooNew);
-    CHECK((ReadBytes(copy) == before)); // too long to be shown
-    CHECK((ReadBytes(copy + "-wal") == log));
+    CHECK((ReadBytes(GetDatabase(copy)) == before)); // too long to be shown
+    CHECK((ReadBytes(GetLog(copy)) == log));
 }
 
-TEST_CASE("Store: one that was closed needs no log, and a copy of a new one's file is a store")
+TEST_CASE("Store: the database alone is a store, also while the store is open")
 {
     const StoreFolder folder;
-    const std::string file = folder.GetFile();
-    {
-        const auto store = OpenStore(file);
-        Files::copy_file(file, folder.GetFile("copy.db"));
-        REQUIRE(store->Append(MakeBatch("LR01")).has_value());
-        CHECK(Files::file_size(file + ".lock") > 0);
-    }
-    CHECK(Files::file_size(file + ".lock") == 0);
-    CHECK_FALSE(OpenStore(file)->GetOrigin().bNew);
-    CHECK_FALSE(OpenStore(folder.GetFile("copy.db"))->GetOrigin().bNew);
+    const std::string copy = folder.GetStore("copy");
+    const auto store = OpenStore(folder.GetStore());
+    MakeDirectory(copy);
+    Files::copy_file(GetDatabase(folder.GetStore()), GetDatabase(copy));
+    CHECK_FALSE(OpenStore(copy)->GetOrigin().bNew);
 }

@@ -164,7 +164,7 @@ int Run(const Options& options)
         "--set",
         "mqtt.url=mqtt://127.0.0.1:1", // nobody: plans are taken, and wait
         "--set",
-        fmt::format("store.path={}", (folder.GetPath() / "acsd.db").string()),
+        fmt::format("store.directory={}", (folder.GetPath() / "acsd").string()),
         "--set",
         "http.listen=127.0.0.1:0",
         "--set",
@@ -179,7 +179,7 @@ int Run(const Options& options)
     BareCommit bare((folder.GetPath() / "bare.db").string());
     MeasureAcks(sender, bare, options.plans, figures);
     figures.burst = static_cast<double>(options.plans) / Seconds(sender.Send(options.plans)).count();
-    const auto store = Planning::SqlitePlanStore::Open((folder.GetPath() / "store.db").string());
+    const auto store = Planning::SqlitePlanStore::Open((folder.GetPath() / "store").string());
     if (!store)
     {
         throw std::runtime_error(Core::Describe(store.error()));

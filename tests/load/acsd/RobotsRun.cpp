@@ -52,7 +52,7 @@ url = "{}"
 [site]
 map = "cells.lif.json"
 [store]
-path = "acsd.db"
+directory = "store"
 [http]
 listen = "127.0.0.1:0"
 [queue]

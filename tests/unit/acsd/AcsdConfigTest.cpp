@@ -142,8 +142,8 @@ TEST_CASE("Each mistake is told once, under its key, with the line of the file o
         {{"robots.CR01.home=CHG01"}, {"--set: robots.CR01.home: expected a station"}},
         {{"actions.Start=7"}, {"--set: actions.Start: expected a table"}},
         {{"mcs=7"}, {"--set: mcs: expected a table"}},
-        {{"store.path=7"}, {"--set: store.path: expected a string"}},
-        {{"store.path="}, {"--set: store.path: is empty"}},
+        {{"store.directory=7"}, {"--set: store.directory: expected a string"}},
+        {{"store.directory="}, {"--set: store.directory: is empty"}},
         {{"site.map="}, {"--set: site.map: is empty; give the path of a LIF file"}},
         {{"errors.map=/nowhere"}, {"--set: errors.map: /nowhere cannot be read (No such file or directory)"}},
         {{"mqtt.ca_file=/nowhere"}, {"--set: mqtt.ca_file: is for mqtts:// only"}},
@@ -184,27 +184,31 @@ TEST_CASE("What the map does not have is told with the line of its key")
 TEST_CASE("--check-config looks at the store, makes and changes nothing, and tells what is wrong with it under its key")
 {
     const Testing::TemporaryFolder folder;
-    const std::string path = (folder.GetPath() / "acsd.db").string();
+    const std::string path = (folder.GetPath() / "store").string();
     const auto check = [](const std::string& store) {
-        return Acsd::CheckAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", {"store.path=" + store}).mistakes;
+        return Acsd::CheckAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", {"store.directory=" + store}).mistakes;
     };
     CHECK(check(path).empty());
     CHECK(std::filesystem::is_empty(folder.GetPath()));
     REQUIRE(Planning::SqlitePlanStore::Open(path).has_value());
     CHECK(check(path).empty());
-    std::ofstream(path, std::ios::trunc) << "no store at all, but long enough to be one";
+    const std::string text = (folder.GetPath() / "text").string();
+    std::ofstream(text) << "no store at all, but long enough to be one";
+    const std::string open = (folder.GetPath() / "open").string();
+    std::filesystem::create_directory(open);
+    std::filesystem::permissions(open, std::filesystem::perms::owner_all | std::filesystem::perms::group_read);
     for (const auto& [store, expected, found] :
-         {std::tuple(path, "an undamaged plan store", "file is not a database"),
-          std::tuple(folder.GetPath().string(), "a file; give the path of one in that folder", "a folder"),
-          std::tuple(std::string("/nowhere/acsd.db"), "make the folder /nowhere", "No such file or directory")})
+         {std::tuple(text, "an undamaged plan store", "file is not a database"),
+          std::tuple(open, "a directory for this program only", "mode 0740"),
+          std::tuple(std::string("/nowhere/store"), "create the directory /nowhere", "No such file or directory")})
     {
         INFO(store);
         const std::vector<std::string> mistakes = check(store);
         REQUIRE(mistakes.size() == 1);
-        CHECK(mistakes[0].starts_with("--set: store.path: " + store + ": expected "));
+        CHECK(mistakes[0].starts_with("--set: store.directory: " + store + ": expected "));
         CHECK(mistakes[0].find(expected) != std::string::npos);
         CHECK(mistakes[0].find(found) != std::string::npos);
-        CHECK(Read({"store.path=" + store}).mistakes.empty()); // a SIGHUP does not touch it, a start opens it
+        CHECK(Read({"store.directory=" + store}).mistakes.empty()); // a SIGHUP does not touch it, a start opens it
     }
 }
 
@@ -405,7 +409,8 @@ TEST_CASE("A removed key is a mistake that says what replaces it, whatever its v
           "locations.unknown=reject",
           R"(locations.robot_aliases=["AMR"])",
           "mcs.sync_config={a=1}",
-          "ext.battery_station=false"})
+          "ext.battery_station=false",
+          "store.path=acsd.db"})
     {
         INFO(override);
         const std::string key = std::string(override).substr(0, std::string(override).find('='));

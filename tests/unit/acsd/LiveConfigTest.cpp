@@ -27,8 +27,11 @@ AcsdConfig ReadLive(const std::vector<std::string>& overrides)
 TEST_CASE("A second reading says per key what holds from now on and what needs a restart")
 {
     const ConfigChange change = CompareConfigs(
-        {{"log.level", "\"info\""}, {"comm.grace", "\"1s\""}, {"mcs.url", "\"ws://a\""}, {"store.path", "\"a\""}},
-        {{"log.level", "\"debug\""}, {"mcs.url", "\"ws://b\""}, {"store.path", "\"a\""}, {"queue.max_plans", "7"}});
+        {{"log.level", "\"info\""}, {"comm.grace", "\"1s\""}, {"mcs.url", "\"ws://a\""}, {"store.directory", "\"a\""}},
+        {{"log.level", "\"debug\""},
+         {"mcs.url", "\"ws://b\""},
+         {"store.directory", "\"a\""},
+         {"queue.max_plans", "7"}});
     CHECK(change.taken == std::vector<std::string>{"comm.grace", "log.level"});
     CHECK(change.waiting == std::vector<std::string>{"mcs.url", "queue.max_plans"});
 }

@@ -45,10 +45,10 @@ TEST_CASE("A start says what it has found in its store, in numbers")
     state.robotsInMaintenance = {"CR01", "LR01"};
     state.tscState = ETscState::Paused;
     CHECK(
-        MakeStoreSummary({false, true, 2, 3}, state)
+        MakeStoreSummary({false, true, 2, 3, true}, state)
         == "schema 3 brought forward from 2, 3 open plans taken up, 4 ended plans, 2 reports not acknowledged, 1 alarm, in "
-           "maintenance CR01 LR01, TSC Paused; the file was gone while it was open, and is made again of the copy that was "
-           "saved then");
+           "maintenance CR01 LR01, TSC Paused; restored from the copy that was made when the database was removed while it "
+           "was open; migrated from the former layout, whose files are kept with .former in their names");
 }
 
 } // namespace ACS::Acsd::Test

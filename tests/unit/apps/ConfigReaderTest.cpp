@@ -162,7 +162,7 @@ TEST_CASE("An override takes a TOML value, and anything else as a string")
          "mcs.retries=7",
          "mcs.compress=false",
          "mcs.timeout='9s'",
-         "store.path=a b",
+         "store.directory=a b",
          "store.empty="});
     const auto mcs = reader.GetRoot().GetSection("mcs");
     CHECK(mcs.GetString("url") == "ws://h:1/#");

@@ -10,9 +10,9 @@
 namespace ACS::Planning
 {
 
-/// Plans in one SQLite file, with a write-ahead log and full synchronisation: what Append returned for is on disk. The
-/// schema is brought up to date on opening. One store per file, which a lock on a file beside it (".lock") sees to; one
-/// thread.
+/// Plans in a SQLite database, with a write-ahead log and full synchronisation: what Append returned for is on disk. The
+/// store owns a directory of mode 0700 and locks it while it is open: one store per directory. The database is `acsd.db` in
+/// it. Used by one thread.
 class SqlitePlanStore final : public IPlanStore
 {
     class Impl;
@@ -25,24 +25,27 @@ public:
     SqlitePlanStore& operator=(const SqlitePlanStore&) = delete;
     ~SqlitePlanStore() override;
 
-    /// Opens the file, or creates it. Errors, each naming the file: EPlanningError::StoreFailed (no such folder, no
-    /// permission, another program has it), StoreCorrupt (damaged, no file of ours, or without the log that it had),
-    /// StoreTooNew. A file that is refused is left as it is, and its log too.
-    /// Each tells path, what failed with the reason of the system or SQLite, and what to do.
-    [[nodiscard]] static Core::Result<std::unique_ptr<SqlitePlanStore>> Open(const std::string& path);
+    /// Opens the store, or creates it; its parent directory must exist. The schema is brought up to date. A path to a
+    /// database of the former layout (a file with `.lock` beside it) is migrated to a directory; the former files are kept
+    /// with `.former` in their names.
+    /// Errors: EPlanningError::StoreFailed (no such directory, no permission, open in another program), StoreCorrupt
+    /// (damaged, not a plan store, or its log is missing), StoreTooNew. Each names the file, the reason of the system or
+    /// of SQLite, and the remedy. A database that is refused is left unchanged, and its log too.
+    [[nodiscard]] static Core::Result<std::unique_ptr<SqlitePlanStore>> Open(const std::string& directory);
 
-    /// What Open would find, without making, changing or taking anything; the store may be another program's at that
-    /// moment. Errors as of Open, but for who has it.
-    [[nodiscard]] static Core::Result<StoreOrigin> Inspect(const std::string& path);
+    /// What Open would find, without creating or changing a file; another program may have the store open. Errors as of
+    /// Open, except that no lock is taken.
+    [[nodiscard]] static Core::Result<StoreOrigin> Inspect(const std::string& directory);
 
     [[nodiscard]] const StoreOrigin& GetOrigin() const noexcept;
 
     [[nodiscard]] Core::Result<StoredState> Load() override;
     [[nodiscard]] Core::Result<void> Append(const StoreBatch& batch) override;
 
-    /// The file, or its write-ahead log, was removed, moved or replaced while it is open: Append fails too, as what it
-    /// writes would be lost. All that is stored is copied to the path with ".rescued" at once. The files put back, all goes
-    /// on and the copy goes; else the next Open makes the store of the copy, or is refused where there is another file too.
+    /// Fails when the database or its log was removed, moved or replaced while it is open. Append fails too, because its
+    /// changes would be lost. The stored state is copied to `acsd.db.rescued` at once. When the files are back, the store
+    /// works again and the copy is deleted; else the next Open restores the copy, or is refused if there is another
+    /// database too.
     [[nodiscard]] Core::Result<void> Check() override;
 };
 

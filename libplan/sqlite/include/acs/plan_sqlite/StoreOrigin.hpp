@@ -3,13 +3,14 @@
 namespace ACS::Planning
 {
 
-/// What a store's file was when it was opened, or looked at.
+/// The state in which a store was found when it was opened or inspected.
 struct StoreOrigin
 {
-    bool bNew = false;     ///< There was none, or an empty one.
-    bool bRescued = false; ///< It was removed while it was open, and made again of the copy that was saved then.
-    int foundVersion = 0;  ///< Of its schema; 0 for a new one.
-    int version = 0;       ///< What it was brought to.
+    bool bNew = false;      ///< There was no database, or an empty one.
+    bool bRescued = false;  ///< The database was removed while it was open, and restored from the copy made then.
+    int foundVersion = 0;   ///< Schema version found; 0 for a new store.
+    int version = 0;        ///< Schema version after opening.
+    bool bMigrated = false; ///< It was a file and is a directory now: the former layout.
 
     bool operator==(const StoreOrigin&) const = default;
 };

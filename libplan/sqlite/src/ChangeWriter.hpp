@@ -1,0 +1,31 @@
+#pragma once
+
+#include <acs/plan/IPlanStore.hpp>
+
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Statement.h>
+
+#include <map>
+#include <string>
+
+namespace ACS::Planning
+{
+
+/// Writes changes into the tables. Throws SQLite::Exception.
+class ChangeWriter
+{
+    SQLite::Database& _database;
+    std::map<std::string, SQLite::Statement> _statements; ///< Prepared once, by their text.
+
+public:
+    /// The database has the newest schema, and lives longer.
+    explicit ChangeWriter(SQLite::Database& database);
+
+    void Write(const StoreChange& change);
+
+private:
+    template <typename... TValues>
+    void Run(const char* text, const TValues&... values);
+};
+
+} // namespace ACS::Planning
