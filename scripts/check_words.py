@@ -82,7 +82,8 @@ def keep_prose(path, text):
 
 
 def is_covered(path):
-    return any(path.startswith(beginning) and path.endswith(end) for beginning, end in COVERED)
+    return (any(path.startswith(beginning) and path.endswith(end) for beginning, end in COVERED)
+            and not any(exception.search(path) for exception in EXCEPTIONS))
 
 
 def check_text(path, text):
