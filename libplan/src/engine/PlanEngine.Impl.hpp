@@ -20,13 +20,10 @@
 #include <acs/plan/ReportOutbox.hpp>
 #include <acs/plan/Router.hpp>
 
-#include <deque>
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
-#include <tuple>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -61,10 +58,10 @@ public:
     struct PortVerdict
     {
         std::optional<std::string> unavailabilityOrNull;
-        bool bSupposed = false; ///< A carrier that it is to unload was put on by hand, if it is there at all.
+        bool bSupposed = false; ///< A carrier that the plan unloads is not on record: it was put on by hand, if at all.
     };
 
-    /// A robot lets another one go first until that one is there, or has another aim.
+    /// A robot yields to the leader until the leader has reached its target, or has another one.
     struct Yield
     {
         std::size_t leader = 0;
@@ -78,44 +75,44 @@ public:
         const RobotOptions* options = nullptr;
         std::shared_ptr<const IJobCheck> jobCheck; ///< Null: no job is rejected.
         bool bOnline = false;
-        bool bPlaced = false;      ///< Has reported its position since the start.
+        bool bPlaced = false;      ///< Its position is known since the start.
         bool bHomeRefused = false; ///< Until the timer HomeRetry.
-        unsigned homeRefusals = 0; ///< One after the other, without that it moved or had to be made usable.
+        unsigned homeRefusals = 0; ///< In a row, without a move and without becoming available again.
         bool bTouched = true;      ///< Its status may have changed.
         bool bConfirming = false;  ///< The timer ControlConfirm runs.
         bool bInMaintenance = false;
         std::optional<StateChanged> state;
-        std::optional<std::size_t> node; ///< Where it stands or passed last.
-        /// After a restart: where it may be, as far as was written down; once it has told its node, what of that is ahead.
+        std::optional<std::size_t> node; ///< The node it stands on or has passed last.
+        /// After a restart: the stored nodes where it may be; once it has reported its node, those of them that are ahead.
         std::vector<std::size_t> possibleNodes;
-        std::vector<std::size_t> heldNodes; ///< Without a drive: where it may still go all the same, its node included.
-        std::string position;               ///< The last station where it stood.
-        std::optional<std::size_t> homeNode; ///< Where it goes without work; with a low battery its chargeNode.
+        std::vector<std::size_t> heldNodes;  ///< Without a drive: its node and those to which it may still drive.
+        std::string position;                ///< The last station at which it stood.
+        std::optional<std::size_t> homeNode; ///< Its target without work; with a low battery its chargeNode.
         std::optional<std::size_t> chargeNode;
-        std::optional<std::size_t> retreatNode; ///< Goes here first, out of the way of others.
+        std::optional<std::size_t> retreatNode; ///< Its next target, to clear the route of others.
         EActivity activity = EActivity::Idle;
         ActivePlan* planOrNull = nullptr;
         JobTracker job;
         PauseTracker pause;
         WorkRecord work;
-        bool bStandstillAwaited = false; ///< After a restart: what its plan's control comes to shows once it stands.
-        bool bWorkTouched = false;       ///< What is stored of its work may have changed.
+        bool bStandstillAwaited = false; ///< After a restart: the plan's control is answered once it stands.
+        bool bWorkTouched = false;       ///< Its WorkRecord may have changed.
         std::optional<ActiveDrive> drive;
         PortLedger ports;
         StallMonitor stall;
         ChargingPolicy charging;
         RobotStatus lastStatus;
-        std::optional<PlannedRoute> plannedRoute; ///< The quickest way to where it wants to go, kept while it waits.
-        std::vector<std::size_t> blockers;        ///< Robots that kept it from driving on when it last wanted to.
+        std::optional<PlannedRoute> plannedRoute; ///< The quickest route to its target, kept while it waits.
+        std::vector<std::size_t> blockers;        ///< Robots that blocked its last attempt to drive.
         std::uint64_t refusedAt = 0;              ///< Traffic::GetFreedCount then.
         std::optional<Yield> yield;
         std::optional<PlannedRoute>
-            detour; ///< Around those who stood in the way at detourAt (_standingChanges); nullopt: none.
+            detour; ///< Around the robots that blocked the route at detourAt (_standingChanges).
         std::uint64_t detourAt = 0;
         std::size_t detourTarget = 0;
-        std::size_t detours = 0;                ///< Taken on the way to its present step.
-        std::optional<std::size_t> parkingNode; ///< Its home or, without one, where it can be out of the way.
-        /// Without a drive: nodes behind its own on the way that it had, up to which it may have come, or may still come.
+        std::size_t detours = 0;                ///< Driven on the way to its present step.
+        std::optional<std::size_t> parkingNode; ///< Its home or, without one, where it blocks nobody.
+        /// Without a drive: nodes after its own on its former route that it may have reached, or may still reach.
         std::vector<std::size_t> aheadNodes;
     };
 
@@ -127,14 +124,14 @@ private:
     Router _router;
     PlanAdmission _admission;
     Traffic _traffic;
-    std::uint64_t _standingChanges = 1; ///< Grows when a robot stops, sets out, or can move no more or again.
+    std::uint64_t _standingChanges = 1; ///< Grows when a robot stops, starts, or becomes movable or not.
 
     PlanBook _plans;
-    std::vector<std::string> _begun;             ///< Plans that were begun in the call that is being stored.
-    std::map<ReplyToken, std::string> _repeated; ///< Plans that this call brought once more.
-    std::optional<std::string> _asked;           ///< The control that this call was; as in PlanProgress::requestIDs.
+    std::vector<std::string> _begun;             ///< Plans begun in the call that is being stored.
+    std::map<ReplyToken, std::string> _repeated; ///< Plans that were submitted again in this call.
+    std::optional<std::string> _asked;           ///< The control of this call, as in PlanProgress::requestIDs.
     std::set<std::string> _unstoredIDs;          ///< Controls that could not be stored; likewise.
-    std::vector<std::string> _unreported;        ///< Accepted, their PlanReport(Pending) is owed.
+    std::vector<std::string> _unreported;        ///< Accepted, PlanReport(Pending) not sent.
     ETscState _tscState = ETscState::Auto;
 
     std::vector<Robot> _robots;
@@ -143,10 +140,9 @@ private:
     ReportOutbox _outbox;
 
     StartupBarrier _startup;
-
     CommitGate _gate;
 
-    // The present call: what is stored first, and what is told after it.
+    // The present call: the changes are stored before the actions are released.
     Core::Now _now;
     std::vector<StoreChange> _changes;
     EngineActions _actions;
