@@ -11,8 +11,15 @@ from source_tree import COMMENT_OR_STRING, list_files, read_text
 # (beginning, end) of the paths that are covered. Sources are added as their words are brought to the glossary.
 COVERED = (
     ("", ".md"),
+    ("apps/mcs-sim/", ""),
     ("cmake/", ""),
+    ("examples/", ".cpp"),
+    ("examples/", ".hpp"),
     ("examples/site/", ".toml"),
+    ("libacs-core/", ""),
+    ("libacs-protocol/", ""),
+    ("libopenstream/", ""),
+    ("libvda5050/", ""),
     ("scripts/", ""),
     ("tests/install/", ".cpp"),
 )
