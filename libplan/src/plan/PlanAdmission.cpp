@@ -1,5 +1,6 @@
 #include "plan/PlanAdmission.hpp"
 
+#include "plan/PlaceRule.hpp"
 #include <acs/core/ControlCharacter.hpp>
 #include <acs/core/ECoreError.hpp>
 
@@ -56,48 +57,6 @@ bool IsInside(const Core::Location& place, const std::string& stationID)
 {
     const std::string dock = place.GetDockingPlace().GetText();
     return dock == stationID || dock.starts_with(stationID + '.');
-}
-
-std::string_view DescribeRule(EPlaceRule rule)
-{
-    switch (rule)
-    {
-        case EPlaceRule::None:
-            return "nothing";
-        case EPlaceRule::FixedCassette:
-            return "a cassette port of the site (A01.CP01)";
-        case EPlaceRule::FixedTray:
-            return "a tray port of the site (A01.CP01.TP01)";
-        case EPlaceRule::RobotCassette:
-            return "a cassette port of the robot (AMR.CP01)";
-        case EPlaceRule::RobotTray:
-            return "a tray port of the robot (AMR.TP01)";
-        case EPlaceRule::Memory:
-            return "a memory port (A01.SET01.MP01 or AMR.TP01.MP01)";
-        default:
-            return "a place";
-    }
-}
-
-bool Matches(const Core::Location& place, EPlaceRule rule)
-{
-    switch (rule)
-    {
-        case EPlaceRule::None:
-            return true;
-        case EPlaceRule::FixedCassette:
-            return place.IsCassettePort() && !place.IsRobotPort();
-        case EPlaceRule::FixedTray:
-            return place.IsTrayPort() && !place.IsRobotPort();
-        case EPlaceRule::RobotCassette:
-            return place.IsCassettePort() && place.IsRobotPort();
-        case EPlaceRule::RobotTray:
-            return place.IsTrayPort() && place.IsRobotPort();
-        case EPlaceRule::Memory:
-            return place.IsMemoryPort();
-        default:
-            return false;
-    }
 }
 
 bool IsSameWord(std::string_view one, std::string_view other)
@@ -343,7 +302,7 @@ Core::Result<std::optional<Core::Location>> PlanAdmission::ResolvePlace(
     }
     if (!text.has_value() || text->empty())
     {
-        return Refuse(ECoreError::MissingField, path, std::string(DescribeRule(rule)), "nothing");
+        return Refuse(ECoreError::MissingField, path, std::string(DescribePlaceRule(rule)), "nothing");
     }
     const Core::Result<Core::Location> location = Core::Location::Parse(*text);
     if (!location.has_value())
@@ -418,9 +377,9 @@ Core::Result<void> PlanAdmission::CheckPorts(const Plan& plan, const ResolvedPla
 Core::Result<void> PlanAdmission::CheckPlace(const Core::Location& place, EPlaceRule rule, const std::string& path)
     const
 {
-    if (!Matches(place, rule))
+    if (!IsPlaceAllowed(place, rule))
     {
-        return Refuse(ECoreError::InvalidLocation, path, std::string(DescribeRule(rule)), place.GetOriginalText());
+        return Refuse(ECoreError::InvalidLocation, path, std::string(DescribePlaceRule(rule)), place.GetOriginalText());
     }
     if (!place.IsRobotPort())
     {
