@@ -12,7 +12,7 @@ namespace
 
 bool IsAllowed(const char* place, EPlaceRule rule)
 {
-    return IsPlaceAllowed(*Location::Parse(place), rule);
+    return IsPlaceAllowed(Location::Parse(place).value(), rule);
 }
 
 } // namespace

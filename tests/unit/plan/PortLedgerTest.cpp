@@ -12,7 +12,9 @@ namespace
 
 const std::array<Location, 2>& GetTestPorts()
 {
-    static const std::array<Location, 2> PORTS{*Location::Parse("CR01.TP01"), *Location::Parse("CR01.TP02")};
+    static const std::array<Location, 2> PORTS{
+        Location::Parse("CR01.TP01").value(),
+        Location::Parse("CR01.TP02").value()};
     return PORTS;
 }
 
@@ -132,13 +134,13 @@ TEST_CASE("PortLedger: disputes are reported once in an interval")
 TEST_CASE("PortLedger: a memory place needs its tray on record, or a job that loads it before")
 {
     PortLedger ledger = MakeLedger({"T1", std::nullopt});
-    const Location first = *Location::Parse("CR01.TP01.MP01");
-    const Location second = *Location::Parse("AMR.TP02.MP01");
+    const Location first = Location::Parse("CR01.TP01.MP01").value();
+    const Location second = Location::Parse("AMR.TP02.MP01").value();
     CHECK_FALSE(ledger.FindMissingTrayOrNull(first, {}).has_value());
     CHECK(ledger.FindMissingTrayOrNull(second, {}) == 1U);
     CHECK_FALSE(ledger.FindMissingTrayOrNull(second, {{1, true}}).has_value());
     CHECK(ledger.FindMissingTrayOrNull(first, {{0, false}}) == 0U);
-    CHECK_FALSE(ledger.FindMissingTrayOrNull(*Location::Parse("ST01.MP15"), {}).has_value());
+    CHECK_FALSE(ledger.FindMissingTrayOrNull(Location::Parse("SET02.MP15").value(), {}).has_value());
 }
 
 TEST_CASE("PortLedger: a stored record of another number of ports is ignored")
