@@ -122,7 +122,7 @@ public:
         MigrateSchema(_database, _origin.foundVersion);
         _database.exec("PRAGMA journal_mode = WAL");
         // A missing table is reported now, not at the first change.
-        SQLite::Statement(
+        const SQLite::Statement allTables(
             _database,
             "SELECT 1 FROM plans, reports, carriers, alarms, settings, robot_works, maintenance");
         Core::Result<void> begun = Begin();

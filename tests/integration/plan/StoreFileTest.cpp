@@ -210,7 +210,7 @@ TEST_CASE("Store: each failure to open names the path, the reason and the remedy
         std::string store;
         std::string expected;
         std::string found;
-        std::string file = ""; ///< In the directory, where it is named.
+        std::string file{}; ///< In the directory, where it is named.
     };
     const StoreFolder folder;
     std::ofstream(folder.GetStore("text")) << "not a database, and longer than an empty file";
