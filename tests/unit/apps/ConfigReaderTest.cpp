@@ -170,7 +170,7 @@ TEST_CASE("An override takes a TOML value, and anything else as a string")
     CHECK_FALSE(mcs.IsEnabled("compress", true));
     CHECK(mcs.GetDuration("timeout", 1s, 1min, 2s) == 9s);
     CHECK(mcs.GetNumber("factor", 0.0, 2.0) == 1.5);
-    CHECK(reader.GetRoot().GetSection("store").GetString("path") == "a b");
+    CHECK(reader.GetRoot().GetSection("store").GetString("directory") == "a b");
     CHECK(reader.GetRoot().GetSection("store").GetString("empty", "x").empty());
 }
 
