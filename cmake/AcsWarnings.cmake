@@ -7,6 +7,6 @@ target_compile_options(acs_warnings INTERFACE
   # g++ 12 reports overlaps in std::string's own copying at -O2 that do not exist (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # In a unity build a source is included, and g++ takes its anonymous namespace for a header's.
-  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${ACS_UNITY_BATCH}>>:-Wno-subobject-linkage>
   $<$<CXX_COMPILER_ID:Clang>:-Wno-switch-default>
   $<$<BOOL:${ACS_WARNINGS_AS_ERRORS}>:-Werror>)
