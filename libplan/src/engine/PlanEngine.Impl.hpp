@@ -73,47 +73,47 @@ public:
     {
         std::size_t index = 0;
         const RobotOptions* options = nullptr;
+        ActivePlan* planOrNull = nullptr;
+        std::uint64_t refusedAt = 0; ///< Traffic::GetFreedCount then.
+        std::uint64_t detourAt = 0;
+        std::size_t detourTarget = 0;
+        std::size_t detours = 0;                   ///< Driven on the way to its present step.
         std::shared_ptr<const IJobCheck> jobCheck; ///< Null: no job is rejected.
+        std::optional<std::size_t> node;           ///< The node it stands on or has passed last.
+        std::optional<std::size_t> homeNode;       ///< Its target without work; with a low battery its chargeNode.
+        std::optional<std::size_t> chargeNode;
+        std::optional<std::size_t> retreatNode; ///< Its next target, to clear the route of others.
+        std::optional<std::size_t> parkingNode; ///< Its home or, without one, where it blocks nobody.
+        /// After a restart: the stored nodes where it may be; once it has reported its node, those of them that are ahead.
+        std::vector<std::size_t> possibleNodes;
+        std::vector<std::size_t> heldNodes; ///< Without a drive: its node and those to which it may still drive.
+        /// Without a drive: nodes after its own on its former route that it may have reached, or may still reach.
+        std::vector<std::size_t> aheadNodes;
+        std::vector<std::size_t> blockers; ///< Robots that blocked its last attempt to drive.
+        std::string position;              ///< The last station at which it stood.
+        std::optional<Yield> yield;
+        StallMonitor stall;
+        PortLedger ports;
+        std::optional<PlannedRoute> plannedRoute; ///< The quickest route to its target, kept while it waits.
+        std::optional<PlannedRoute>
+            detour; ///< Around the robots that blocked the route at detourAt (_standingChanges).
+        RobotStatus lastStatus;
+        std::optional<StateChanged> state;
+        std::optional<ActiveDrive> drive;
+        JobTracker job;
+        WorkRecord work;
+        unsigned homeRefusals = 0; ///< In a row, without a move and without becoming available again.
         bool bOnline = false;
         bool bPlaced = false;      ///< Its position is known since the start.
         bool bHomeRefused = false; ///< Until the timer HomeRetry.
-        unsigned homeRefusals = 0; ///< In a row, without a move and without becoming available again.
         bool bTouched = true;      ///< Its status may have changed.
         bool bConfirming = false;  ///< The timer ControlConfirm runs.
         bool bInMaintenance = false;
-        std::optional<StateChanged> state;
-        std::optional<std::size_t> node; ///< The node it stands on or has passed last.
-        /// After a restart: the stored nodes where it may be; once it has reported its node, those of them that are ahead.
-        std::vector<std::size_t> possibleNodes;
-        std::vector<std::size_t> heldNodes;  ///< Without a drive: its node and those to which it may still drive.
-        std::string position;                ///< The last station at which it stood.
-        std::optional<std::size_t> homeNode; ///< Its target without work; with a low battery its chargeNode.
-        std::optional<std::size_t> chargeNode;
-        std::optional<std::size_t> retreatNode; ///< Its next target, to clear the route of others.
         EActivity activity = EActivity::Idle;
-        ActivePlan* planOrNull = nullptr;
-        JobTracker job;
         PauseTracker pause;
-        WorkRecord work;
         bool bStandstillAwaited = false; ///< After a restart: the plan's control is answered once it stands.
         bool bWorkTouched = false;       ///< Its WorkRecord may have changed.
-        std::optional<ActiveDrive> drive;
-        PortLedger ports;
-        StallMonitor stall;
         ChargingPolicy charging;
-        RobotStatus lastStatus;
-        std::optional<PlannedRoute> plannedRoute; ///< The quickest route to its target, kept while it waits.
-        std::vector<std::size_t> blockers;        ///< Robots that blocked its last attempt to drive.
-        std::uint64_t refusedAt = 0;              ///< Traffic::GetFreedCount then.
-        std::optional<Yield> yield;
-        std::optional<PlannedRoute>
-            detour; ///< Around the robots that blocked the route at detourAt (_standingChanges).
-        std::uint64_t detourAt = 0;
-        std::size_t detourTarget = 0;
-        std::size_t detours = 0;                ///< Driven on the way to its present step.
-        std::optional<std::size_t> parkingNode; ///< Its home or, without one, where it blocks nobody.
-        /// Without a drive: nodes after its own on its former route that it may have reached, or may still reach.
-        std::vector<std::size_t> aheadNodes;
     };
 
 private:
