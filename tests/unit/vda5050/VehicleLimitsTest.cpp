@@ -198,20 +198,20 @@ TEST_CASE("3.7 Where actionStates is limited instant actions that have ended mak
     {
         bench.Instant("stateRequest", actionID);
     }
-    using Names = std::vector<std::string>;
-    CHECK(ListActions(bench.GetPublishedState()) == Names{"i2", "i3", "i4"});
+    using ActionIDs = std::vector<std::string>;
+    CHECK(ListActions(bench.GetPublishedState()) == ActionIDs{"i2", "i3", "i4"});
     OrderBuilder builder = MakeBuilder(3);
     bench.Order(WithActions(*builder.MakeOrder(2, 0), 2));
     bench.Instant("stateRequest", "i5");
     bench.Order(*builder.MakeUpdate(3));
-    CHECK(ListActions(bench.GetPublishedState()) == Names{"order-10", "order-11", "i5"});
+    CHECK(ListActions(bench.GetPublishedState()) == ActionIDs{"order-10", "order-11", "i5"});
     bench.Instant("startCharging", "i6");
-    CHECK(ListActions(bench.GetPublishedState()) == Names{"order-10", "order-11", "i6"});
+    CHECK(ListActions(bench.GetPublishedState()) == ActionIDs{"order-10", "order-11", "i6"});
     // i6 runs: there is no room for another one.
     bench.Instant("startCharging", "i7");
-    CHECK(ListActions(bench.GetPublishedState()) == Names{"order-10", "order-11", "i6"});
+    CHECK(ListActions(bench.GetPublishedState()) == ActionIDs{"order-10", "order-11", "i6"});
     CHECK(bench.HasError(ErrorTypes::INSTANT_ACTION_ERROR));
-    CHECK(bench.GetStartedActions() == Names{"i6"});
+    CHECK(bench.GetStartedActions() == ActionIDs{"i6"});
     for (const char* actionType : {"startPause", "stopPause", "cancelOrder"})
     {
         bench.Instant(actionType, actionType);
