@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 """House rules about files: names, one class per file, line ends, links of documents, and nothing left over."""
 
-import argparse
 import os
 import re
 import sys
 
-from source_tree import list_files, read_text, strip_comments_and_strings
+from source_tree import list_files, read_text, run_check, strip_comments_and_strings
 
 BINARY = (".png", ".ico", ".gz", ".db", ".bin", ".woff2")
 PASCAL_NAME = re.compile(r"[A-Z][A-Za-z0-9]*(\.[A-Z][A-Za-z0-9]*)?")
@@ -146,14 +145,5 @@ def check_tree(root):
             yield f"{path}:{line}: {reason}"
 
 
-def main():
-    parser = argparse.ArgumentParser(description="Checks names and contents of files; silent when all is well.")
-    parser.add_argument("--root", default=os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-    violations = list(check_tree(parser.parse_args().root))
-    for violation in violations:
-        print(violation)
-    return 1 if violations else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_check("Checks names and contents of files", check_tree))

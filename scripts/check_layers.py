@@ -2,12 +2,12 @@
 """Who may include whom: docs/design/architecture.md as a program. Headers in /usr/include need no link line, so only reading
 the sources shows a pure library that reaches for a socket or a clock."""
 
-import argparse
 import os
 import re
 import sys
 
-from source_tree import CPP_SUFFIXES, IncludeResolver, list_files, list_includes, read_text, strip_comments_and_strings
+from source_tree import (CPP_SUFFIXES, IncludeResolver, list_files, list_includes, read_text, run_check,
+                         strip_comments_and_strings)
 
 PURE = ("protocol", "vda5050", "openstream", "plan")
 IO = {"protocol_beast": "protocol", "vda5050_mosquitto": "vda5050", "openstream_asio": "openstream",
@@ -178,14 +178,5 @@ def check_tree(root):
             yield f"{path}:{line}: {reason}"
 
 
-def main():
-    parser = argparse.ArgumentParser(description="Checks which layer includes which; silent when all is well.")
-    parser.add_argument("--root", default=os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-    violations = list(check_tree(parser.parse_args().root))
-    for violation in violations:
-        print(violation)
-    return 1 if violations else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_check("Checks which layer includes which", check_tree))

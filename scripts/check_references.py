@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 """The reference documents list what the sources define: each alarm code and each metric of acsd, and no other."""
 
-import argparse
 import os
 import re
 import sys
 
-from source_tree import list_files, read_text
+from source_tree import list_files, read_text, run_check
 
 SOURCES = ("libplan/src/", "apps/acsd/")
 # document, what sources define as a literal, what the first cells of its tables list
@@ -43,14 +42,5 @@ def check_tree(root):
             yield f"{document}:{listed[name]}: {name} is not defined in {' or '.join(SOURCES)}"
 
 
-def main():
-    parser = argparse.ArgumentParser(description="Compares reference documents with the sources; silent when all is well.")
-    parser.add_argument("--root", default=os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-    violations = list(check_tree(parser.parse_args().root))
-    for violation in violations:
-        print(violation)
-    return 1 if violations else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_check("Compares reference documents with the sources", check_tree))

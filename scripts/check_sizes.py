@@ -3,12 +3,12 @@
 lines of a file; and no cycle of includes between the subfolders of libplan/src. scripts/sizes-exceeded.txt
 lists what is still above a limit, with its size today: it may shrink and never grow."""
 
-import argparse
 import os
 import re
 import sys
 
-from source_tree import CPP_SUFFIXES, IncludeResolver, list_files, list_includes, read_text, strip_comments_and_strings
+from source_tree import (CPP_SUFFIXES, IncludeResolver, list_files, list_includes, read_text, run_check,
+                         strip_comments_and_strings)
 
 FOLDERS = ("libplan/", "apps/acsd/")
 CYCLE_ROOT = "libplan/src/"
@@ -179,14 +179,5 @@ def check_tree(root):
     yield from check_cycles(root, files)
 
 
-def main():
-    parser = argparse.ArgumentParser(description="Checks sizes in libplan and apps/acsd; silent when all is well.")
-    parser.add_argument("--root", default=os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-    violations = list(check_tree(parser.parse_args().root))
-    for violation in violations:
-        print(violation)
-    return 1 if violations else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_check("Checks sizes in libplan and apps/acsd", check_tree))

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 """Words of documents, comments and messages: rejects those that have a better name in the field (docs/GLOSSARY.md)."""
 
-import argparse
 import os
 import re
 import sys
 
-from source_tree import COMMENT_OR_STRING, list_files, read_text
+from source_tree import COMMENT_OR_STRING, list_files, read_text, run_check
 
 # (beginning, end) of the paths that are covered. Sources are added as their words are brought to the glossary.
 COVERED = (
@@ -107,14 +106,5 @@ def check_tree(root):
                 yield f"{path}:{line}: {reason}"
 
 
-def main():
-    parser = argparse.ArgumentParser(description="Rejects words that have a better name; silent when all is well.")
-    parser.add_argument("--root", default=os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-    violations = list(check_tree(parser.parse_args().root))
-    for violation in violations:
-        print(violation)
-    return 1 if violations else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_check("Rejects words that have a better name", check_tree))

@@ -1,5 +1,6 @@
 """What the checks share: which files the tree has, and a C++ file without comments and strings."""
 
+import argparse
 import os
 import re
 import subprocess
@@ -71,3 +72,14 @@ class IncludeResolver:
             candidates = [path for path in candidates if name.startswith("acs/")]
         # The nearest one: the longest common folder with the includer.
         return max(candidates, key=lambda path: len(os.path.commonprefix([path, includer])), default=None)
+
+
+def run_check(description, check_tree):
+    """The program of a check: prints each violation, one per line. The exit code is 1 if there is one."""
+    parser = argparse.ArgumentParser(description=f"{description}; silent when all is well.")
+    parser.add_argument("--root", default=os.path.dirname(os.path.dirname(os.path.abspath(__file__))),
+                        help="the tree to check (default: this one)")
+    violations = list(check_tree(parser.parse_args().root))
+    for violation in violations:
+        print(violation)
+    return 1 if violations else 0
