@@ -46,7 +46,7 @@ constexpr std::chrono::milliseconds SETTLE_TIME = 300ms;
 
 enum class EAcsdTimer : std::uint8_t
 {
-    WorkGrace,  ///< Until the MCS is told that no work can be accepted.
+    WorkGrace,  ///< Until the MCS gets the report that no work can be accepted.
     Drain,      ///< For everything to be reported.
     Settle,     ///< Everything is reported; the acknowledgements are still to be stored.
     Stop,       ///< For the links to close.
@@ -367,7 +367,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         _timers.CancelAll();
         _engineTimers.CancelAll();
         _timers.Start(EAcsdTimer::Stop, STOP_LIMIT);
-        if (!_host.IsStoring()) // else what stands behind the batch is told first
+        if (!_host.IsStoring()) // otherwise what the batch withholds is released first
         {
             StopLinks();
         }

@@ -191,7 +191,7 @@ PlanEngine::Impl::Robot* PlanEngine::Impl::FindNearestOrNull(const ActivePlan& p
             return quickestOrNull;
         }
     }
-    // Where there is nobody to wait for it is begun all the same, and fails for want of a way.
+    // With no robot to wait for, the drive starts anyway and fails because there is no route.
     return bAll ? &_robots[plan.resolved.candidates.front()] : nullptr;
 }
 
@@ -305,7 +305,7 @@ std::optional<std::string> PlanEngine::Impl::DescribeLoadConflictOrNull(const Ro
         : std::nullopt;
 }
 
-/// A carrier is only where it is known to be. One that nobody is known to have may have been put on by hand.
+/// A carrier is only where it is known to be. One that no robot is known to carry may have been loaded by hand.
 std::optional<std::string> PlanEngine::Impl::DescribeUnloadConflictOrNull(
     const Robot& robot,
     std::size_t port,

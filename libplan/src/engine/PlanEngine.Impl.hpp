@@ -83,7 +83,7 @@ public:
         std::optional<std::size_t> homeNode;       ///< Its target without work; with a low battery its chargeNode.
         std::optional<std::size_t> chargeNode;
         std::optional<std::size_t> retreatNode; ///< Its next target, to clear the route of others.
-        std::optional<std::size_t> parkingNode; ///< Its home or, without one, where it blocks nobody.
+        std::optional<std::size_t> parkingNode; ///< Its home or, without one, where it blocks no robot.
         /// After a restart: the stored nodes where it may be; once it has reported its node, those of them that are ahead.
         std::vector<std::size_t> possibleNodes;
         std::vector<std::size_t> heldNodes; ///< Without a drive: its node and those to which it may still drive.
@@ -478,7 +478,7 @@ private:
     [[nodiscard]] static Alarm MakeStoreAlarm(std::string message);
 };
 
-/// What section 4.3 tells of a plan.
+/// The fields of a plan in section 4.3.
 [[nodiscard]] PlanSummary MakeSummary(const PlanRecord& record);
 
 } // namespace ACS::Planning

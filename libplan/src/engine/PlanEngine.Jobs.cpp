@@ -47,7 +47,7 @@ bool PlanEngine::Impl::TryEndOverdueJob(Robot& robot, const std::string& jobID, 
     return true;
 }
 
-/// The robot cannot be used until somebody says how the job ended.
+/// The robot cannot be used until an operator resolves the job.
 void PlanEngine::Impl::OnJobEndTimeout(Robot& robot)
 {
     if (robot.job.IsOverdue() && !robot.job.IsUnresolved())
@@ -111,7 +111,7 @@ Alarm PlanEngine::Impl::MakeUnresolvedAlarm(const Robot& robot) const
     return alarm;
 }
 
-/// It is not done again, and nothing else is done with this robot, before somebody has looked.
+/// The job is not repeated, and the robot gets no other work, until an operator has checked.
 void PlanEngine::Impl::SuspendJob(Robot& robot, const std::string& reason)
 {
     robot.job.MarkUnresolved();
@@ -141,14 +141,14 @@ void PlanEngine::Impl::SuspendJob(Robot& robot, const std::string& reason)
     }
 }
 
-/// Whoever aborts the plan need not answer for its job.
+/// Aborting the plan does not require an operator to resolve its job.
 void PlanEngine::Impl::AbortUnresolvedJob(Robot& robot)
 {
     RaiseDropped(robot);
     EndByControl(*robot.planOrNull, EPlanControl::Abort);
 }
 
-/// The robot has told what became of the job.
+/// The robot has reported the outcome of the job.
 void PlanEngine::Impl::EndRecovery(Robot& robot)
 {
     if (!robot.job.TryEndRecovery())
@@ -228,7 +228,7 @@ void PlanEngine::Impl::OnJobUncertain(Robot& robot, const JobUncertain& event)
     const bool bOfPlan = robot.activity == EActivity::Works && GetJobID(*robot.planOrNull) == event.jobID;
     if ((bOverdue || bOfPlan) && !robot.job.IsUnresolved())
     {
-        // After a restart marks that do not tell of this job do not tell of those after it either.
+        // After a restart, marks without this job have none of the later jobs either.
         if (robot.job.IsRecovering() && bOfPlan && !robot.job.GetOrNull()->mark.empty())
         {
             robot.work.MarkDoubtful();
@@ -288,7 +288,7 @@ void PlanEngine::Impl::Settle(const SettleJob& command)
     ApplyAnswer(robot, command.answer);
 }
 
-/// A job that was done and never written down as commanded is told from its beginning.
+/// A job that was done and never stored as commanded is reported from its beginning.
 void PlanEngine::Impl::CatchUp(Robot& robot)
 {
     ActivePlan& plan = *robot.planOrNull;

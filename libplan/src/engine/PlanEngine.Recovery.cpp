@@ -62,7 +62,7 @@ void PlanEngine::Impl::RestoreTsc(ETscState stored)
     }
 }
 
-/// An alarm about a robot that is gone would have nobody to clear it, and drives are begun anew.
+/// An alarm about a robot that was removed would never be cleared, and drives start again.
 void PlanEngine::Impl::RestoreAlarms(std::vector<Alarm> alarms)
 {
     _alarms.Restore(std::move(alarms));
@@ -77,7 +77,7 @@ void PlanEngine::Impl::RestoreAlarms(std::vector<Alarm> alarms)
     }));
 }
 
-/// Of a robot that is not configured any more nobody can ask; its row stays, in case that it comes back.
+/// The row of a robot that is no longer configured is kept in case the robot returns.
 void PlanEngine::Impl::RestoreRobot(const RobotWorkChanged& work)
 {
     const auto found = _robotIndices.find(work.robotID);
@@ -164,7 +164,7 @@ void PlanEngine::Impl::EndUnfit(ActivePlan& plan, const std::string& reason)
     }
 }
 
-/// The plan stays with its robot. A job whose end nobody has heard is asked for; everything else begins where it stands.
+/// The plan stays with its robot. The robot is asked for the outcome of an unfinished job; everything else resumes.
 void PlanEngine::Impl::RestoreWork(ActivePlan& plan, Robot& robot)
 {
     FindPosition(plan);
@@ -178,7 +178,7 @@ void PlanEngine::Impl::RestoreWork(ActivePlan& plan, Robot& robot)
     plan.next = IsFinal(step.state) ? EContinuation::End : unbegun;
     const StartJob* jobOrNull = robot.job.GetOrNull();
     const bool bOpen = jobOrNull != nullptr && jobOrNull->planID == plan.record.plan.planID;
-    // A store of before schema version 3 tells nothing of robots.
+    // A store older than schema version 3 has no rows of robots.
     const bool bUntraced = !bOpen && robot.work.GetStored().robotID.empty() && job != EJobState::Pending
         && !IsFinal(job) && !IsFinal(step.state);
     const bool bStepWorked = bOpen || plan.job > 0 || job != EJobState::Pending;
