@@ -59,6 +59,7 @@ public:
             requests.insert_or_assign(sequence, std::get<ACS::Protocol::AcsRequest>(std::move(*outcome.message)));
         }
         std::vector<ACS::Protocol::DurableRequest> result;
+        result.reserve(requests.size());
         for (auto& [sequence, request] : requests)
         {
             result.push_back({sequence, std::move(request)});

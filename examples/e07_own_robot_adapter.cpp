@@ -109,7 +109,7 @@ int main() // NOLINT(bugprone-exception-escape): nothing throws here but a full 
     ExampleAcs host(std::move(*options), std::move(*site), random, ExampleFloor::ROBOT, robot);
     AdapterActions actions;
     SlowRobotAdapter::Connect("N-HOME", actions);
-    host.Run(std::move(actions));
+    host.Run(actions);
     host.Submit(ExampleFloor::MakePlan());
     while (!host.IsCompleted() && host.TryAdvance())
     {

@@ -156,7 +156,7 @@ private:
     }
 
     /// A report that cannot be stored would be lost with the program: it ends instead.
-    void Check(const Core::Result<void>& stored)
+    void Check(const Core::Result<void>& stored) const
     {
         if (!stored.has_value())
         {

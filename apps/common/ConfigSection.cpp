@@ -124,8 +124,17 @@ double ConfigSection::GetNumber(const std::string& key, double min, double max, 
 
 bool ConfigSection::IsEnabled(const std::string& key, bool bFallback) const
 {
-    return ReadOrNull(key, false, "true or false", [](const toml::node& node) { return node.value_exact<bool>(); })
-        .value_or(bFallback);
+    const toml::node* const nodeOrNull = FindGivenOrNull(key);
+    if (nodeOrNull == nullptr)
+    {
+        return bFallback;
+    }
+    const std::optional<bool> bGiven = nodeOrNull->value_exact<bool>();
+    if (!bGiven.has_value())
+    {
+        AddMistake(key, MakeWrongText("true or false", *nodeOrNull));
+    }
+    return bGiven.value_or(bFallback);
 }
 
 std::chrono::milliseconds ConfigSection::GetDuration(

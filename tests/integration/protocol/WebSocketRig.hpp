@@ -91,7 +91,7 @@ public:
     }
 
     /// Closes the first connection of the server.
-    void CloseFromServer(std::uint16_t code, const std::string& reason)
+    void CloseFromServer(std::uint16_t code, const std::string& reason) const
     {
         server->Run([code, &reason](Core::Now /*now*/, Protocol::SessionActions& out) {
             out.emplace_back(Protocol::Close{1, code, reason});

@@ -52,7 +52,7 @@ struct WatchFixture
     [[nodiscard]] std::uint64_t CountOf(const std::string& kind) const
     {
         const std::string text = metrics.Render();
-        const std::string series = "acsd_robot_oddities_total{kind=\"" + kind + "\",robot=\"LR01\"} ";
+        const std::string series = R"(acsd_robot_oddities_total{kind=")" + kind + R"(",robot="LR01"} )";
         const std::size_t found = text.find(series);
         return found == std::string::npos ? 0 : std::stoull(text.substr(found + series.size()));
     }

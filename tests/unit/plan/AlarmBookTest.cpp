@@ -8,7 +8,7 @@ using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test o
 namespace
 {
 
-Alarm MakeStall(std::string robotID, EAlarmLevel level = EAlarmLevel::Light, std::string message = "stalled")
+Alarm MakeStall(const std::string& robotID, EAlarmLevel level = EAlarmLevel::Light, std::string message = "stalled")
 {
     return MakeAlarm(robotID, ALARM_STALL, level, std::move(message));
 }

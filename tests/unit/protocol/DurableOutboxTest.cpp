@@ -6,9 +6,11 @@
 #include <acs/protocol/DurableOutbox.hpp>
 #include <acs/protocol/McsSession.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -44,10 +46,9 @@ public:
     [[nodiscard]] std::vector<DurableRequest> GetAll() const
     {
         std::vector<DurableRequest> all;
-        for (auto entry = requests.rbegin(); entry != requests.rend(); ++entry)
-        {
-            all.push_back(entry->second);
-        }
+        std::transform(requests.rbegin(), requests.rend(), std::back_inserter(all), [](const auto& entry) {
+            return entry.second;
+        });
         return all;
     }
 
