@@ -1,7 +1,7 @@
 #pragma once
 
-#include "AcsdConfig.hpp"
-#include "MessageTrace.hpp"
+#include "config/AcsdConfig.hpp"
+#include "trace/MessageTrace.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>

@@ -1,13 +1,13 @@
 #include "AcsdProgram.hpp"
 
 #include "Acsd.hpp"
-#include "common/CommandLine.hpp"
-#include "common/HangUpWaiter.hpp"
-#include "common/ReadyLine.hpp"
-#include "common/SignalWaiter.hpp"
-#include "common/SpdlogSink.hpp"
-#include "common/SystemClock.hpp"
-#include "common/SystemRandom.hpp"
+#include "common/config/CommandLine.hpp"
+#include "common/log/SpdlogSink.hpp"
+#include "common/process/HangUpWaiter.hpp"
+#include "common/process/ReadyLine.hpp"
+#include "common/process/SignalWaiter.hpp"
+#include "common/process/SystemClock.hpp"
+#include "common/process/SystemRandom.hpp"
 
 #include <boost/asio/io_context.hpp>
 #include <CLI/CLI.hpp>

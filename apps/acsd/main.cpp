@@ -1,5 +1,5 @@
 #include "AcsdProgram.hpp"
-#include "common/CommandLine.hpp"
+#include "common/config/CommandLine.hpp"
 
 int main(int argc, char** argv)
 {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "common/CommandLine.hpp"
-#include "common/Endpoint.hpp"
-#include "Profile.hpp"
+#include "common/config/CommandLine.hpp"
+#include "common/config/Endpoint.hpp"
+#include "wire/Profile.hpp"
 #include <acs/protocol_beast/TlsOptions.hpp>
 
 #include <cstddef>

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "common/Endpoint.hpp"
-#include "FloorChecker.hpp"
-#include "PlannedPlan.hpp"
-#include "Profile.hpp"
-#include "Scenario.hpp"
+#include "common/config/Endpoint.hpp"
+#include "floor/FloorChecker.hpp"
+#include "plans/PlannedPlan.hpp"
+#include "scenario/Scenario.hpp"
+#include "wire/Profile.hpp"
 #include "world/IWorld.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>

@@ -1,4 +1,4 @@
-#include "common/CommandLine.hpp"
+#include "common/config/CommandLine.hpp"
 #include "McsSimOptions.hpp"
 #include "Program.hpp"
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "Arm.hpp"
-#include "MoveStatement.hpp"
-#include "RelayMemory.hpp"
-#include "RelayName.hpp"
+#include "arm/Arm.hpp"
+#include "arm/MoveStatement.hpp"
+#include "programs/RelayMemory.hpp"
+#include "programs/RelayName.hpp"
 #include <acs/core/Now.hpp>
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 #include "OpenStreamSimOptions.hpp"
 
-#include "common/DurationText.hpp"
-#include "common/FaultOptions.hpp"
-#include "ProgramFile.hpp"
+#include "common/config/DurationText.hpp"
+#include "common/faults/FaultOptions.hpp"
+#include "programs/ProgramFile.hpp"
 #include <acs/core/RobotID.hpp>
 
 #include <CLI/CLI.hpp>

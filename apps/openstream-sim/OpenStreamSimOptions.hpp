@@ -1,7 +1,7 @@
 #pragma once
 
-#include "common/CommandLine.hpp"
-#include "ControllerFleet.hpp"
+#include "common/config/CommandLine.hpp"
+#include "controller/ControllerFleet.hpp"
 
 #include <optional>
 #include <string>

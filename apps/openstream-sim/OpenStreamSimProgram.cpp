@@ -1,11 +1,11 @@
 #include "OpenStreamSimProgram.hpp"
 
-#include "common/FileLimit.hpp"
-#include "common/ReadyLine.hpp"
-#include "common/SignalWaiter.hpp"
-#include "common/SpdlogSink.hpp"
-#include "common/SystemClock.hpp"
-#include "ControllerFleet.hpp"
+#include "common/log/SpdlogSink.hpp"
+#include "common/process/FileLimit.hpp"
+#include "common/process/ReadyLine.hpp"
+#include "common/process/SignalWaiter.hpp"
+#include "common/process/SystemClock.hpp"
+#include "controller/ControllerFleet.hpp"
 #include "OpenStreamSimOptions.hpp"
 #include "world/WorldFile.hpp"
 #include <acs/openstream_asio/RealTime.hpp>

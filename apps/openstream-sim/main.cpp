@@ -1,4 +1,4 @@
-#include "common/CommandLine.hpp"
+#include "common/config/CommandLine.hpp"
 #include "OpenStreamSimOptions.hpp"
 #include "OpenStreamSimProgram.hpp"
 

@@ -1,6 +1,6 @@
 #include "vda-sim/BrokerOptions.hpp"
 
-#include "common/TextFile.hpp"
+#include "common/config/TextFile.hpp"
 #include <acs/core/Result.hpp>
 
 #include <CLI/CLI.hpp>

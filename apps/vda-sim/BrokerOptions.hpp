@@ -1,7 +1,7 @@
 #pragma once
 
-#include "common/CommandLine.hpp"
-#include "common/Url.hpp"
+#include "common/config/CommandLine.hpp"
+#include "common/config/Url.hpp"
 #include <acs/vda5050/QosTable.hpp>
 #include <acs/vda5050_mosquitto/MosquittoOptions.hpp>
 

@@ -1,6 +1,6 @@
 #include "vda-sim/Fault.hpp"
 
-#include "common/FaultText.hpp"
+#include "common/faults/FaultText.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "common/FaultBase.hpp"
-#include "common/FaultBoard.hpp"
-#include "common/FaultGrammar.hpp"
+#include "common/faults/FaultBase.hpp"
+#include "common/faults/FaultBoard.hpp"
+#include "common/faults/FaultGrammar.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/vda5050/StateMessage.hpp>
 #include <acs/vda5050/Topic.hpp>

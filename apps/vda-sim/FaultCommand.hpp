@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/FaultCommand.hpp"
+#include "common/faults/FaultCommand.hpp"
 #include "vda-sim/Fault.hpp"
 
 namespace ACS::VdaSim

@@ -1,8 +1,8 @@
 #include "vda-sim/VdaSimOptions.hpp"
 
-#include "common/DurationText.hpp"
-#include "common/FaultOptions.hpp"
-#include "common/TextFile.hpp"
+#include "common/config/DurationText.hpp"
+#include "common/config/TextFile.hpp"
+#include "common/faults/FaultOptions.hpp"
 #include <acs/core/RobotID.hpp>
 #include <acs/plan/LifReader.hpp>
 #include <acs/vda5050/PredefinedActions.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/CommandLine.hpp"
+#include "common/config/CommandLine.hpp"
 #include "vda-sim/BrokerOptions.hpp"
 #include "vda-sim/FaultCommand.hpp"
 #include "vda-sim/VehicleSpec.hpp"

@@ -1,6 +1,6 @@
 #include "vda-sim/VehicleRunner.hpp"
 
-#include "common/TimerSet.hpp"
+#include "common/process/TimerSet.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/vda5050_mosquitto/MosquittoLink.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/LogRateLimiter.hpp"
+#include "common/log/LogRateLimiter.hpp"
 #include "vda-sim/ActionRunner.hpp"
 #include "vda-sim/Fault.hpp"
 #include "vda-sim/MessageGate.hpp"

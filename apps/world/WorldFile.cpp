@@ -1,6 +1,6 @@
 #include "world/WorldFile.hpp"
 
-#include "common/TextFile.hpp"
+#include "common/config/TextFile.hpp"
 #include "world/EWorldError.hpp"
 #include "world/WorldEventCodec.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "common/SystemClock.hpp"
-#include "common/SystemRandom.hpp"
+#include "common/process/SystemClock.hpp"
+#include "common/process/SystemRandom.hpp"
 #include "TickLog.hpp"
 #include <acs/protocol_beast/ISessionHandler.hpp>
 #include <acs/protocol_beast/McsServer.hpp>

@@ -1,7 +1,7 @@
 #include "BareCommit.hpp"
 #include "BoundLine.hpp"
 #include "ChildProcess.hpp"
-#include "common/CommandLine.hpp"
+#include "common/config/CommandLine.hpp"
 #include "PlanSender.hpp"
 #include "TemporaryFolder.hpp"
 #include <acs/plan_sqlite/SqlitePlanStore.hpp>

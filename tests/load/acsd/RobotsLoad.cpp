@@ -1,5 +1,5 @@
 #include "BoundLine.hpp"
-#include "common/CommandLine.hpp"
+#include "common/config/CommandLine.hpp"
 #include "RobotsRun.hpp"
 
 #include <CLI/CLI.hpp>

@@ -1,7 +1,7 @@
 #include "RobotsRun.hpp"
 
 #include "CellSite.hpp"
-#include "common/SignalWaiter.hpp"
+#include "common/process/SignalWaiter.hpp"
 #include "MosquittoBroker.hpp"
 #include "ProcessProbe.hpp"
 

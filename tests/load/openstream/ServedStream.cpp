@@ -1,7 +1,7 @@
 #include "ServedStream.hpp"
 
-#include "common/SystemClock.hpp"
-#include "common/SystemRandom.hpp"
+#include "common/process/SystemClock.hpp"
+#include "common/process/SystemRandom.hpp"
 #include "ContextThread.hpp"
 #include <acs/openstream_asio/OpenStreamClient.hpp>
 #include <acs/openstream_asio/OpenStreamServer.hpp>

@@ -1,6 +1,6 @@
 #include "BareStream.hpp"
 #include "BoundLine.hpp"
-#include "common/CommandLine.hpp"
+#include "common/config/CommandLine.hpp"
 #include "ServedStream.hpp"
 #include "StallWatch.hpp"
 #include <acs/openstream_asio/RealTime.hpp>

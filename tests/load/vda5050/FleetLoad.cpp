@@ -1,5 +1,5 @@
 #include "BoundLine.hpp"
-#include "common/CommandLine.hpp"
+#include "common/config/CommandLine.hpp"
 #include "FleetMaster.hpp"
 #include "MosquittoBroker.hpp"
 #include "ProcessProbe.hpp"

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "common/SystemClock.hpp"
-#include "common/SystemRandom.hpp"
-#include "common/TimerSet.hpp"
+#include "common/process/SystemClock.hpp"
+#include "common/process/SystemRandom.hpp"
+#include "common/process/TimerSet.hpp"
 #include <acs/vda5050/MasterFleet.hpp>
 #include <acs/vda5050/OrderBuilder.hpp>
 #include <acs/vda5050_mosquitto/MosquittoLink.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ArmController.hpp"
-#include "RobotOutputs.hpp"
+#include "robots/RobotOutputs.hpp"
 #include "TextNetwork.hpp"
 #include "TimerBank.hpp"
 #include <acs/openstream/ClientSession.hpp>

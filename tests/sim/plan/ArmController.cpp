@@ -1,9 +1,9 @@
 #include "ArmController.hpp"
 
 #include "ArmPrograms.hpp"
-#include "openstream-sim/ControllerMachine.hpp"
-#include "openstream-sim/PlaceTemplate.hpp"
-#include "openstream-sim/RelayName.hpp"
+#include "openstream-sim/controller/ControllerMachine.hpp"
+#include "openstream-sim/programs/PlaceTemplate.hpp"
+#include "openstream-sim/programs/RelayName.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "Dice.hpp"
-#include "mcs-sim/SimulatedMcsSession.hpp"
+#include "mcs-sim/wire/SimulatedMcsSession.hpp"
 #include "McsJudge.hpp"
 #include "Scenario.hpp"
 #include "TextNetwork.hpp"

@@ -1,6 +1,6 @@
 #include "SimulationOptions.hpp"
 
-#include "common/CommandLine.hpp"
+#include "common/config/CommandLine.hpp"
 #include <acs/core/Result.hpp>
 
 #include <CLI/CLI.hpp>

@@ -1,7 +1,7 @@
 #include "VehicleHand.hpp"
 
-#include "AcsdConfig.hpp"
 #include "ArmPrograms.hpp"
+#include "config/AcsdConfig.hpp"
 
 #include <memory>
 #include <optional>

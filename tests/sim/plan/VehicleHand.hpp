@@ -5,8 +5,8 @@
 #include "ArmController.hpp"
 #include "ISimulatedRobot.hpp"
 #include "MqttBroker.hpp"
-#include "RobotAdapterFactory.hpp"
-#include "RobotOutputs.hpp"
+#include "robots/RobotAdapterFactory.hpp"
+#include "robots/RobotOutputs.hpp"
 
 #include <memory>
 #include <string>

@@ -1,8 +1,8 @@
 #include "World.hpp"
 
 #include "ArmRobot.hpp"
+#include "mcs/ReportMapper.hpp"
 #include "RadioRobot.hpp"
-#include "ReportMapper.hpp"
 #include "VehicleRobot.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "common/CommandLine.hpp"
+#include "common/config/CommandLine.hpp"
 #include "SimulationRunner.hpp"
 
 int main(int argc, char** argv)

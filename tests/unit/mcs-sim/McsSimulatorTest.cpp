@@ -1,12 +1,12 @@
 #include "McsSimulator.hpp"
 
 #include "Catch.hpp"
-#include "common/SystemClock.hpp"
-#include "RawPeer.hpp"
-#include "SamplePlans.hpp"
-#include "ScenarioFile.hpp"
-#include "Screen.hpp"
+#include "common/process/SystemClock.hpp"
+#include "console/Screen.hpp"
+#include "plans/SamplePlans.hpp"
+#include "scenario/ScenarioFile.hpp"
 #include "SeededRandom.hpp"
+#include "wire/RawPeer.hpp"
 #include "world/MemoryWorld.hpp"
 #include <acs/core/Uuid.hpp>
 #include <acs/protocol_beast/AcsClient.hpp>

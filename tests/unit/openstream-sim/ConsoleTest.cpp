@@ -1,6 +1,6 @@
+#include "arm/MoveStatement.hpp"
 #include "Catch.hpp"
-#include "ControllerHarness.hpp"
-#include "MoveStatement.hpp"
+#include "controller/ControllerHarness.hpp"
 
 #include <chrono>
 #include <string>

@@ -1,0 +1,158 @@
+#include "config/AcsdConfig.hpp"
+
+#include "common/config/TextFile.hpp"
+#include "config/ArmConfig.hpp"
+#include "config/EngineConfig.hpp"
+#include "config/JobConfig.hpp"
+#include "config/PlaceConfig.hpp"
+#include "config/RemovedKeys.hpp"
+#include "config/RobotConfig.hpp"
+#include "config/StationConfig.hpp"
+#include <acs/plan/LifReader.hpp>
+#include <acs/plan_sqlite/SqlitePlanStore.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+using Apps::ConfigSection;
+
+void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
+{
+    const ConfigSection section = root.GetSection("site");
+    const std::string map = section.GetString("map");
+    config.siteFile = ResolvePath(fileName, map);
+    config.engine.places = ReadPlaces(section, "ports", "");
+    const std::string zone = section.GetString("timezone", "system");
+    const Core::Result<Apps::LocalOffset> offset = Apps::LocalOffset::Parse(zone);
+    if (offset)
+    {
+        config.localOffset = *offset;
+    }
+    else
+    {
+        section.AddMistake("timezone", Core::Describe(offset.error()));
+    }
+    if (map.empty())
+    {
+        section.AddMistake("map", "is empty; give the path of a LIF file");
+        return;
+    }
+    const tl::expected<std::string, std::string> text = Apps::ReadTextFile(config.siteFile);
+    if (!text.has_value())
+    {
+        section.AddMistake(
+            "map",
+            fmt::format("{} cannot be read ({}); give the path of a LIF file", config.siteFile, text.error()));
+        return;
+    }
+    Core::Result<Planning::SiteMap> site = Planning::DecodeLif(*text);
+    if (site)
+    {
+        config.site = std::move(*site);
+    }
+    else
+    {
+        section.AddMistake(
+            "map",
+            fmt::format("{} is no LIF layout: {}", config.siteFile, Core::Describe(site.error())));
+    }
+}
+
+void ReadStore(const ConfigSection& root, const std::string& fileName, bool bStoreInspected, AcsdConfig& config)
+{
+    const ConfigSection section = root.GetSection("store");
+    const std::string directory = section.GetString("directory");
+    config.storePath = ResolvePath(fileName, directory);
+    if (directory.empty())
+    {
+        section.AddMistake("directory", "is empty; give the path of a directory, such as \"store\"");
+    }
+    else if (bStoreInspected)
+    {
+        const Core::Result<Planning::StoreOrigin> origin = Planning::SqlitePlanStore::Inspect(config.storePath);
+        if (!origin.has_value())
+        {
+            section.AddMistake("directory", Core::Describe(origin.error()));
+        }
+    }
+}
+
+void ReadHttp(const ConfigSection& root, AcsdConfig& config)
+{
+    const ConfigSection http = root.GetSection("http");
+    config.httpListen = http.GetEndpoint("listen", config.httpListen);
+    config.httpHosts = http.GetStringList("hosts");
+    const auto wrong = std::ranges::find_if(config.httpHosts, [](const std::string& name) {
+        return !Apps::ParseEndpoint(name + ":0").has_value();
+    });
+    if (wrong != config.httpHosts.end())
+    {
+        http.AddMistake(
+            "hosts",
+            fmt::format(
+                R"(expected names without port, such as "acs.example", found {})",
+                Core::QuoteForError(*wrong)));
+    }
+}
+
+AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& overrides, bool bStoreInspected)
+{
+    AcsdConfig config;
+    const Apps::ConfigReader reader = Apps::ConfigReader::ReadFile(fileName, overrides);
+    const ConfigSection root = reader.GetRoot();
+    std::vector<std::string> otherMistakes;
+    ReadMcsConfig(root, fileName, config.mcs, otherMistakes);
+    ReadOperationsConfig(root, config.operations);
+    ReadMqttConfig(root, fileName, config.mqtt, config.warnings);
+    const ConfigSection arm = root.GetSection("arm");
+    config.arm = ReadArmOptions(arm, config.arm);
+    const bool bByte = arm.GetWord("relay_index", {"value", "byte"}, "value") == "byte";
+    config.relayIndex = bByte ? EArmRelayIndex::Byte : EArmRelayIndex::Value;
+    ReadSite(root, fileName, config);
+    ReadStore(root, fileName, bStoreInspected, config);
+    ReadHttp(root, config);
+    ReadEngineConfig(root, config.engine);
+    ReadStations(root, config);
+    ReadRobots(root, config);
+    ReadJobs(root, config);
+    ReportRemovedKeys(root);
+    if (reader.GetMistakes().empty())
+    {
+        RejectActions(root, config);
+    }
+    if (reader.GetMistakes().empty() && config.site.has_value())
+    {
+        for (Core::Error& error : Planning::FindMistakes(config.engine, *config.site))
+        {
+            const std::string path = std::exchange(error.path, {});
+            reader.AddMistake(path, Core::Describe(error));
+        }
+    }
+    config.mistakes = reader.GetMistakes();
+    std::ranges::move(otherMistakes, std::back_inserter(config.mistakes));
+    config.values = reader.GetValues();
+    return config;
+}
+
+} // namespace
+
+AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::string>& overrides)
+{
+    return Read(fileName, overrides, false);
+}
+
+AcsdConfig CheckAcsdConfig(const std::string& fileName, const std::vector<std::string>& overrides)
+{
+    return Read(fileName, overrides, true);
+}
+
+} // namespace ACS::Acsd

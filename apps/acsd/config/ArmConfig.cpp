@@ -1,0 +1,102 @@
+#include "config/ArmConfig.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+using namespace std::chrono_literals;
+using Apps::ConfigSection;
+
+constexpr std::int64_t HIGHEST_RELAY_BYTE = 65'535;
+constexpr std::int64_t HIGHEST_WORD_INDEX = 255;
+constexpr std::int64_t MOST_INPUT_RETRIES = 100;
+constexpr std::int64_t NO_ECHO = -1;
+
+struct CounterWord
+{
+    std::string key;
+    std::size_t index = 0;
+};
+
+std::size_t ReadIndex(const ConfigSection& arm, const std::string& key, std::size_t fallback)
+{
+    return static_cast<std::size_t>(arm.GetInteger(key, 0, HIGHEST_WORD_INDEX, static_cast<std::int64_t>(fallback)));
+}
+
+std::optional<std::size_t> ReadEchoOrNull(const ConfigSection& arm, std::optional<std::size_t> fallback)
+{
+    const std::int64_t present = fallback.has_value() ? static_cast<std::int64_t>(*fallback) : NO_ECHO;
+    const std::int64_t index = arm.GetInteger("counter_echo", NO_ECHO, HIGHEST_WORD_INDEX, present);
+    return index == NO_ECHO ? std::nullopt : std::optional(static_cast<std::size_t>(index));
+}
+
+/// A job would be reported done when it begins. Where none is given here, the table with the defaults has been checked.
+void RefuseSharedWords(const ConfigSection& arm, const std::vector<CounterWord>& words)
+{
+    const bool bGiven = std::ranges::any_of(words, [&arm](const CounterWord& word) { return arm.HasKey(word.key); });
+    if (!bGiven)
+    {
+        return;
+    }
+    for (auto second = words.begin(); second != words.end(); ++second)
+    {
+        const auto first = std::find_if(words.begin(), second, [&second](const CounterWord& word) {
+            return word.index == second->index;
+        });
+        if (first != second)
+        {
+            // Of the two the one that is given: the other may be the default.
+            const bool bSecond = arm.HasKey(second->key);
+            arm.AddMistake(
+                bSecond ? second->key : first->key,
+                fmt::format(
+                    "is {}, as {}.{} is: each counter needs a word of its own",
+                    second->index,
+                    arm.GetPath(),
+                    bSecond ? first->key : second->key));
+        }
+    }
+}
+
+} // namespace
+
+ArmOptions ReadArmOptions(const ConfigSection& arm, const ArmOptions& defaults)
+{
+    ArmOptions options = defaults;
+    options.monitorUrl = arm.GetString("monitor_url", options.monitorUrl);
+    options.firstByte =
+        static_cast<std::uint32_t>(arm.GetInteger("monitor_start", 0, HIGHEST_RELAY_BYTE, options.firstByte));
+    options.period = arm.GetDuration("monitor_period", 2ms, 30s, options.period);
+    options.startedIndex = ReadIndex(arm, "counter_started", options.startedIndex);
+    options.finishedIndex = ReadIndex(arm, "counter_finished", options.finishedIndex);
+    options.failedIndex = ReadIndex(arm, "counter_failed", options.failedIndex);
+    options.echoIndex = ReadEchoOrNull(arm, options.echoIndex);
+    options.inputTimeout = arm.GetDuration("input_timeout", 1ms, 10min, options.inputTimeout);
+    options.inputRetries = static_cast<std::size_t>(
+        arm.GetInteger("input_retries", 0, MOST_INPUT_RETRIES, static_cast<std::int64_t>(options.inputRetries)));
+    std::vector<CounterWord> words{
+        {"counter_started", options.startedIndex},
+        {"counter_finished", options.finishedIndex},
+        {"counter_failed", options.failedIndex}};
+    if (options.echoIndex.has_value())
+    {
+        words.push_back({"counter_echo", *options.echoIndex});
+    }
+    RefuseSharedWords(arm, words);
+    return options;
+}
+
+} // namespace ACS::Acsd

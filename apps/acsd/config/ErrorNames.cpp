@@ -1,0 +1,50 @@
+#include "config/ErrorNames.hpp"
+
+#include "common/config/ConfigReader.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace ACS::Acsd
+{
+
+ErrorNames ReadErrorNames(const std::string& fileName, std::vector<std::string>& mistakes)
+{
+    const Apps::ConfigReader reader = Apps::ConfigReader::ReadFile(fileName, {});
+    const Apps::ConfigSection root = reader.GetRoot();
+    ErrorNames names;
+    for (const std::string& ownCode : root.GetNames())
+    {
+        const Apps::ConfigSection section = root.GetSection(ownCode);
+        ErrorName name;
+        name.code = section.GetStringOrNull("code");
+        name.message = section.GetStringOrNull("message");
+        if (name.code.has_value() && name.code->empty())
+        {
+            section.AddMistake("code", "is empty; leave it out to keep acsd's own code");
+        }
+        if (section.HasKey("level"))
+        {
+            const bool bHeavy = section.GetWord("level", {"heavy", "light"}) == "heavy";
+            name.level = bHeavy ? Planning::EAlarmLevel::Heavy : Planning::EAlarmLevel::Light;
+        }
+        names.emplace(ownCode, std::move(name));
+    }
+    std::ranges::copy(reader.GetMistakes(), std::back_inserter(mistakes));
+    return names;
+}
+
+Planning::Alarm Rename(Planning::Alarm alarm, const ErrorNames& names)
+{
+    const auto found = names.find(alarm.errorCode);
+    if (found != names.end())
+    {
+        const ErrorName& name = found->second;
+        alarm.errorCode = name.code.value_or(alarm.errorCode);
+        alarm.level = name.level.value_or(alarm.level);
+        alarm.message = name.message.value_or(alarm.message);
+    }
+    return alarm;
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,171 @@
+#include "config/JobConfig.hpp"
+
+#include "config/ActionConfig.hpp"
+#include "config/TemplateCheck.hpp"
+#include "robots/MethodResolver.hpp"
+#include "robots/RobotHost.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+using Apps::ConfigSection;
+
+/// The tables `actions` of a robot or a station. A type is given for robots.
+MethodTables ReadOverrides(
+    const ConfigSection& owner,
+    const Planning::ActionTable& actions,
+    const Planning::ERobotType* typeOrNull,
+    const TemplateCheck& check)
+{
+    MethodTables tables;
+    const ConfigSection section = owner.GetSection("actions");
+    const std::vector<std::string> names = section.GetNames();
+    if (names.empty() && owner.HasKey("actions"))
+    {
+        section.AddMistake("", "is empty; give a table per action, or leave it out");
+    }
+    for (const std::string& name : names)
+    {
+        const ConfigSection table = section.GetSection(name);
+        const auto rule = actions.find(name);
+        if (rule == actions.end())
+        {
+            table.Refuse(fmt::format("expected an action of the table actions, found {}", Core::QuoteForError(name)));
+        }
+        else if (typeOrNull != nullptr && rule->second.robotType != *typeOrNull)
+        {
+            table.Refuse(fmt::format("actions.{}.robot gives the action to the other type of robot", name));
+        }
+        else if (table.GetNames().empty())
+        {
+            table.AddMistake(
+                "",
+                "is empty; give vehicle_action, parameters, arm_program or arm_inputs, or leave it out");
+        }
+        else
+        {
+            tables.emplace(name, MethodTable{table, ReadMethodKeys(table, rule->second, check)});
+        }
+    }
+    return tables;
+}
+
+MethodTables ReadActions(const ConfigSection& root, const TemplateCheck& check, Planning::ActionTable& rules)
+{
+    MethodTables tables;
+    const ConfigSection actions = root.GetSection("actions");
+    rules.clear();
+    for (const std::string& name : actions.GetNames())
+    {
+        const ConfigSection section = actions.GetSection(name);
+        const Planning::ActionRule rule = ReadActionRule(section, name);
+        MethodKeys keys = ReadMethodKeys(section, rule, check);
+        if (keys.vehicleAction.has_value() == keys.armProgram.has_value())
+        {
+            section.AddMistake("", "needs exactly one of vehicle_action and arm_program");
+        }
+        rules.insert_or_assign(name, rule);
+        tables.emplace(name, MethodTable{section, std::move(keys)});
+    }
+    if (rules.empty())
+    {
+        root.AddMistake("actions", "needs at least one table, such as [actions.CassetteLoad]: no plan could be done");
+    }
+    return tables;
+}
+
+StationTables ReadStationTables(const ConfigSection& root, const AcsdConfig& config, const TemplateCheck& check)
+{
+    StationTables tables;
+    const ConfigSection stations = root.GetSection("stations");
+    for (const auto& [stationID, values] : *config.stations)
+    {
+        const ConfigSection station = stations.GetSection(stationID);
+        if (station.HasKey("actions"))
+        {
+            tables.emplace(stationID, ReadOverrides(station, config.engine.actions, nullptr, check));
+        }
+    }
+    return tables;
+}
+
+} // namespace
+
+void ReadJobs(const ConfigSection& root, AcsdConfig& config)
+{
+    const TemplateCheck check(*config.stations, config.engine, config.relayIndex);
+    const MethodTables actions = ReadActions(root, check, config.engine.actions);
+    const StationTables stations = ReadStationTables(root, config, check);
+    std::vector<MethodTables> overrides;
+    for (std::size_t i = 0; i < config.robots.size(); ++i)
+    {
+        const ConfigSection section = root.GetSection("robots").GetSection(config.robots[i].robotID);
+        overrides.push_back(ReadOverrides(section, config.engine.actions, &config.engine.robots[i].type, check));
+    }
+    for (const auto& [name, table] : actions)
+    {
+        const Planning::ActionRule& rule = config.engine.actions.at(name);
+        MethodResolver resolver(name, rule, table, stations, config.warnings);
+        for (std::size_t i = 0; i < config.robots.size(); ++i)
+        {
+            const Planning::RobotOptions& options = config.engine.robots[i];
+            if (rule.robotType == options.type)
+            {
+                const auto own = overrides[i].find(name);
+                resolver.SetMethods(
+                    own == overrides[i].end() ? nullptr : &own->second,
+                    options.ports.size(),
+                    config.robots[i]);
+            }
+        }
+        resolver.Check(check.GetPlaces());
+    }
+}
+
+void RejectActions(const ConfigSection& root, AcsdConfig& config)
+{
+    std::map<std::string, std::string> reasons; ///< Of the first robot.
+    std::set<std::string> possible;
+    for (std::size_t i = 0; i < config.robots.size(); ++i)
+    {
+        Planning::RobotOptions& robot = config.engine.robots[i];
+        robot.rejectedActions = RobotHost::FindRejectedActions(config, config.robots[i], robot.type);
+        for (const auto& [name, rule] : config.engine.actions)
+        {
+            const auto rejected = robot.rejectedActions.find(name);
+            if (rejected != robot.rejectedActions.end())
+            {
+                reasons.try_emplace(name, fmt::format("{}: {}", robot.robotID.GetText(), rejected->second));
+            }
+            else if (rule.robotType == robot.type)
+            {
+                possible.insert(name);
+            }
+        }
+    }
+    for (const auto& [name, reason] : reasons)
+    {
+        if (!possible.contains(name))
+        {
+            root.GetSection("actions").GetSection(name).AddMistake(
+                "",
+                fmt::format(
+                    "no robot can do it, {}; give arm_program for robots with an arm, vehicle_action for those without",
+                    reason));
+        }
+    }
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,102 @@
+#include "config/LiveConfig.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <set>
+#include <utility>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+constexpr std::array<std::string_view, 12> LIVE_KEYS{
+    "comm.grace",
+    "log.level",
+    "mcs.empty_carriers",
+    "mcs.on_report_nack",
+    "mcs.tx_max_bytes",
+    "mcs.tx_warn_bytes",
+    "mcs.unassigned_robot_id",
+    "outbox.replay",
+    "robot.status_interval",
+    "shutdown.drain_timeout",
+    "trace.max_file_bytes",
+    "trace.max_files"};
+
+} // namespace
+
+bool IsLiveKey(std::string_view key)
+{
+    return std::ranges::find(LIVE_KEYS, key) != LIVE_KEYS.end();
+}
+
+ConfigChange CompareConfigs(
+    const std::map<std::string, std::string>& before,
+    const std::map<std::string, std::string>& after)
+{
+    std::set<std::string> keys;
+    for (const auto& [key, value] : before)
+    {
+        keys.insert(key);
+    }
+    for (const auto& [key, value] : after)
+    {
+        keys.insert(key);
+    }
+    ConfigChange change;
+    for (const std::string& key : keys)
+    {
+        const auto old = before.find(key);
+        const auto fresh = after.find(key);
+        const bool bSame = old != before.end() && fresh != after.end() && old->second == fresh->second;
+        if (!bSame)
+        {
+            (IsLiveKey(key) ? change.taken : change.waiting).push_back(key);
+        }
+    }
+    return change;
+}
+
+void LogChange(const AcsdConfig& present, const AcsdConfig& fresh, const Core::Logger& logger)
+{
+    const ConfigChange change = CompareConfigs(present.values, fresh.values);
+    for (const std::string& key : change.taken)
+    {
+        const auto value = fresh.values.find(key);
+        const std::string_view text = value == fresh.values.end() ? "default" : std::string_view(value->second);
+        logger.Info("taken", {{"key", key}, {"value", text}});
+    }
+    for (const std::string& key : change.waiting)
+    {
+        logger.Warning("changed in the file, but needs a restart of acsd", {{"key", key}});
+    }
+    if (change == ConfigChange{})
+    {
+        logger.Info("read again, nothing has changed");
+    }
+}
+
+void TakeLiveKeys(const AcsdConfig& fresh, AcsdConfig& present)
+{
+    present.operations.logLevel = fresh.operations.logLevel;
+    present.operations.trace = fresh.operations.trace;
+    present.operations.workGrace = fresh.operations.workGrace;
+    present.operations.statusInterval = fresh.operations.statusInterval;
+    present.operations.drainTimeout = fresh.operations.drainTimeout;
+    const MessageStyle& style = fresh.mcs.style;
+    present.mcs.style.bUnassignedRobotEmpty = style.bUnassignedRobotEmpty;
+    present.mcs.style.bEmptyCarriersOmitted = style.bEmptyCarriersOmitted;
+    present.mcs.style.bRefusedReportsRetried = style.bRefusedReportsRetried;
+    present.mcs.style.longestText = style.longestText;
+    present.mcs.style.replay = style.replay;
+    present.mcs.warnBytes = fresh.mcs.warnBytes;
+    std::erase_if(present.values, [](const auto& entry) { return IsLiveKey(entry.first); });
+    std::ranges::copy_if(fresh.values, std::inserter(present.values, present.values.end()), [](const auto& entry) {
+        return IsLiveKey(entry.first);
+    });
+}
+
+} // namespace ACS::Acsd

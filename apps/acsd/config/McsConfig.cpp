@@ -1,0 +1,208 @@
+#include "config/McsConfig.hpp"
+
+#include "common/config/TextFile.hpp"
+#include <acs/core/Result.hpp>
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+using namespace std::chrono_literals;
+using Apps::ConfigSection;
+using Apps::EUrlScheme;
+
+constexpr std::int64_t MOST_RETRIES = 100;
+constexpr std::int64_t LARGEST_WINDOW = 1'000;
+constexpr std::int64_t SMALLEST_TEXT = 1'024;
+constexpr std::int64_t LARGEST_TEXT = 1024LL * 1024 * 1024;
+
+/// Certificates are read when the client is made; what is wrong with them is a mistake of the configuration all the same.
+void ReadTls(const ConfigSection& mcs, const std::string& fileName, McsConfig& config)
+{
+    if (!mcs.HasKey("tls"))
+    {
+        return;
+    }
+    const ConfigSection section = mcs.GetSection("tls");
+    const auto readFile = [&](const std::string& key) {
+        const std::string path = section.GetString(key, "");
+        return path.empty() ? path : ResolvePath(fileName, path);
+    };
+    config.tls.caFile = readFile("ca");
+    config.tls.certificateFile = readFile("certificate");
+    config.tls.keyFile = readFile("key");
+    config.tls.serverName = section.GetString("server_name", "");
+    if (config.url.scheme == EUrlScheme::Ws)
+    {
+        mcs.AddMistake("tls", "is for wss:// only, and mcs.url is ws://, which encrypts nothing");
+    }
+    if (config.url.scheme != EUrlScheme::Wss)
+    {
+        return;
+    }
+    const Core::Result<void> checked = ProtocolBeast::CheckClientTls(config.tls, config.url.peer.host);
+    if (!checked.has_value())
+    {
+        Core::Error error = checked.error();
+        const std::string key = error.path.substr(error.path.find('.') + 1);
+        error.path.clear();
+        section.AddMistake(key, Core::Describe(error));
+    }
+}
+
+void ReadHeaders(const ConfigSection& mcs, McsConfig& config)
+{
+    config.host = mcs.GetString("host", "");
+    const Core::Result<void> host = ProtocolBeast::CheckHostHeader(config.host);
+    if (!host.has_value())
+    {
+        mcs.AddMistake("host", "expected " + host.error().expected);
+    }
+    else if (!config.host.empty() && !Apps::ParseEndpoint(config.host) && !Apps::ParseEndpoint(config.host + ":80"))
+    {
+        mcs.AddMistake("host", fmt::format("expected HOST or HOST:PORT, found {}", Core::QuoteForError(config.host)));
+    }
+    if (!mcs.HasKey("headers"))
+    {
+        return;
+    }
+    const ConfigSection section = mcs.GetSection("headers");
+    for (const std::string& name : section.GetNames())
+    {
+        const ProtocolBeast::HttpHeaders header{{name, section.GetString(name)}};
+        const Core::Result<void> checked = ProtocolBeast::CheckHttpHeaders(header);
+        if (checked.has_value())
+        {
+            config.headers.push_back(header[0]);
+        }
+        else
+        {
+            section.AddMistake(name, "expected " + checked.error().expected);
+        }
+    }
+}
+
+/// The transport has one figure: a ping goes out after half of the silence that ends a connection.
+void ReadPing(const ConfigSection& mcs, McsConfig& config)
+{
+    config.pingInterval = mcs.GetDuration("ping_interval", 100ms, 10min, config.pingInterval);
+    const std::chrono::milliseconds timeout = mcs.GetDuration("ping_timeout", 200ms, 20min, 2 * config.pingInterval);
+    if (!mcs.HasKey("ping_interval"))
+    {
+        config.pingInterval = timeout / 2;
+    }
+    else if (timeout != 2 * config.pingInterval)
+    {
+        mcs.AddMistake(
+            "ping_timeout",
+            "must be twice mcs.ping_interval, because a ping goes out after half of the silence that ends a connection; give "
+            "one of the two");
+    }
+}
+
+void ReadSession(const ConfigSection& mcs, Protocol::SessionOptions& session)
+{
+    const auto readCount = [&mcs](const std::string& key, std::int64_t min, std::int64_t max, std::size_t& value) {
+        value = static_cast<std::size_t>(mcs.GetInteger(key, min, max, static_cast<std::int64_t>(value)));
+    };
+    session.ackTimeout = mcs.GetDuration("ack_timeout", 10ms, 10min, session.ackTimeout);
+    readCount("ack_retries", 0, MOST_RETRIES, session.ackRetries);
+    readCount("ack_dead_after", 1, MOST_RETRIES, session.ackDeadAfter);
+    readCount("window", 1, LARGEST_WINDOW, session.window);
+    session.bAcksMatchedByCommand =
+        mcs.GetWord("ack_match", {"id_then_command", "id"}, "id_then_command") == "id_then_command";
+    readCount("max_rx_bytes", SMALLEST_TEXT, LARGEST_TEXT, session.codec.maximumBytes);
+    session.codec.bUnknownMembersRefused = mcs.GetWord("unknown_fields", {"ignore", "reject"}, "ignore") == "reject";
+    session.codec.bLegacyNames = mcs.IsEnabled("legacy_aliases", session.codec.bLegacyNames);
+    session.codec.bLenientJson = mcs.IsEnabled("json_lenient", session.codec.bLenientJson);
+}
+
+void ReadStyle(const ConfigSection& mcs, McsConfig& config)
+{
+    MessageStyle& style = config.style;
+    // A word of the register that is empty text.
+    const std::string unassigned = mcs.GetString("unassigned_robot_id", "null");
+    style.bUnassignedRobotEmpty = unassigned.empty();
+    if (!unassigned.empty() && unassigned != "null")
+    {
+        mcs.AddMistake("unassigned_robot_id", R"(expected "null" or "")");
+    }
+    style.bEmptyCarriersOmitted =
+        mcs.GetWord("empty_carriers", {"positional_null", "omit"}, "positional_null") == "omit";
+    style.bResultFailureIsFail = mcs.GetWord("result_report_failure", {"Failed", "Fail"}, "Failed") == "Fail";
+    style.bRefusedReportsRetried = mcs.GetWord("on_report_nack", {"log", "retry"}, "log") == "retry";
+    config.warnBytes = static_cast<std::size_t>(
+        mcs.GetInteger("tx_warn_bytes", 0, LARGEST_TEXT, static_cast<std::int64_t>(config.warnBytes)));
+    style.longestText = static_cast<std::size_t>(mcs.GetInteger("tx_max_bytes", 0, LARGEST_TEXT, 0));
+    if (style.longestText > 0 && style.longestText < static_cast<std::size_t>(SMALLEST_TEXT))
+    {
+        mcs.AddMistake("tx_max_bytes", fmt::format("must be 0 (lists are never cut) or at least {}", SMALLEST_TEXT));
+    }
+}
+
+void ReadErrors(
+    const ConfigSection& root,
+    const std::string& fileName,
+    ErrorNames& names,
+    std::vector<std::string>& mistakes)
+{
+    const ConfigSection section = root.GetSection("errors");
+    const std::optional<std::string> map = section.GetStringOrNull("map");
+    if (!map.has_value())
+    {
+        return;
+    }
+    const std::string path = ResolvePath(fileName, *map);
+    if (const tl::expected<std::string, std::string> text = Apps::ReadTextFile(path); !text.has_value())
+    {
+        section.AddMistake(
+            "map",
+            fmt::format("{} cannot be read ({}); give the path of a file with names of errors", path, text.error()));
+        return;
+    }
+    names = ReadErrorNames(path, mistakes);
+}
+
+} // namespace
+
+std::string ResolvePath(const std::string& configFile, const std::string& path)
+{
+    const std::filesystem::path target(path);
+    return target.is_absolute() ? path : (std::filesystem::path(configFile).parent_path() / target).string();
+}
+
+void ReadMcsConfig(
+    const ConfigSection& root,
+    const std::string& fileName,
+    McsConfig& config,
+    std::vector<std::string>& mistakes)
+{
+    const ConfigSection mcs = root.GetSection("mcs");
+    config.url = mcs.GetUrl("url", {EUrlScheme::Ws, EUrlScheme::Wss});
+    ReadTls(mcs, fileName, config);
+    ReadHeaders(mcs, config);
+    ReadPing(mcs, config);
+    ReadSession(mcs, config.session);
+    ReadStyle(mcs, config);
+    const std::chrono::milliseconds interval =
+        root.GetSection("position").GetDuration("interval", 0ms, 1min, config.session.positionInterval);
+    if (interval > 0ms && interval < 10ms)
+    {
+        root.GetSection("position").AddMistake("interval", R"(must be "0s" (no positions) or at least "10ms")");
+    }
+    config.session.positionInterval = interval;
+    const std::string replay = root.GetSection("outbox").GetWord("replay", {"all", "final_only", "none"}, "all");
+    config.style.replay =
+        replay == "all" ? EOutboxReplay::All : (replay == "none" ? EOutboxReplay::None : EOutboxReplay::FinalOnly);
+    ReadErrors(root, fileName, config.style.errors, mistakes);
+}
+
+} // namespace ACS::Acsd

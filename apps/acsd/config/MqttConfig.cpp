@@ -1,0 +1,150 @@
+#include "config/MqttConfig.hpp"
+
+#include "common/config/TextFile.hpp"
+#include "config/McsConfig.hpp"
+#include <acs/core/Uuid.hpp>
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+using Apps::ConfigSection;
+using Apps::EUrlScheme;
+
+std::optional<std::string> ReadFileOrNull(const ConfigSection& mqtt, const std::string& key, const std::string& path)
+{
+    tl::expected<std::string, std::string> text = Apps::ReadTextFile(path);
+    if (!text.has_value())
+    {
+        mqtt.AddMistake(key, fmt::format("{} cannot be read ({})", path, text.error()));
+        return std::nullopt;
+    }
+    return std::move(*text);
+}
+
+void WarnOfReaders(const std::string& key, const std::string& path, std::vector<std::string>& warnings)
+{
+    std::error_code ignored;
+    const std::filesystem::perms permissions = std::filesystem::status(path, ignored).permissions();
+    if (!ignored && (permissions & std::filesystem::perms::others_read) != std::filesystem::perms::none)
+    {
+        warnings.push_back(fmt::format("{}: everybody on this machine can read {}; chmod o-r it", key, path));
+    }
+}
+
+void ReadPassword(
+    const ConfigSection& mqtt,
+    const std::string& fileName,
+    MqttConfig& config,
+    std::vector<std::string>& warnings)
+{
+    const std::string key = "password_file";
+    config.username = mqtt.GetString("username", "");
+    const std::string file = mqtt.GetString(key, "");
+    if (file.empty())
+    {
+        return;
+    }
+    if (config.username.empty())
+    {
+        mqtt.AddMistake(key, "needs mqtt.username, as MQTT has no password without a name");
+    }
+    const std::string path = ResolvePath(fileName, file);
+    const std::optional<std::string> text = ReadFileOrNull(mqtt, key, path);
+    if (!text.has_value())
+    {
+        return;
+    }
+    config.password = text->substr(0, text->find_first_of("\r\n"));
+    if (config.password.empty())
+    {
+        mqtt.AddMistake(key, path + " has no password in its first line");
+    }
+    WarnOfReaders("mqtt." + key, path, warnings);
+}
+
+/// The files are read at each connect; that they are there is seen at the start all the same.
+void ReadTls(
+    const ConfigSection& mqtt,
+    const std::string& fileName,
+    MqttConfig& config,
+    std::vector<std::string>& warnings)
+{
+    const bool bPlain = config.url.scheme == EUrlScheme::Mqtt;
+    const auto readPath = [&](const std::string& key) {
+        const std::string file = mqtt.GetString(key, "");
+        if (file.empty())
+        {
+            return std::string();
+        }
+        if (bPlain)
+        {
+            mqtt.AddMistake(key, "is for mqtts:// only, and mqtt.url is mqtt://, which encrypts nothing");
+        }
+        std::string path = ResolvePath(fileName, file);
+        const std::optional<std::string> text = ReadFileOrNull(mqtt, key, path);
+        if (text.has_value() && text->find("-----BEGIN ") == std::string::npos)
+        {
+            mqtt.AddMistake(key, path + " is no PEM file");
+        }
+        return path;
+    };
+    config.tls.caFile = readPath("ca_file");
+    config.tls.certFile = readPath("cert_file");
+    config.tls.keyFile = readPath("key_file");
+    if (config.tls.certFile.empty() != config.tls.keyFile.empty())
+    {
+        mqtt.AddMistake(
+            config.tls.certFile.empty() ? "key_file" : "cert_file",
+            "needs the other one too: mqtt.cert_file and mqtt.key_file go together");
+    }
+    if (!config.tls.keyFile.empty())
+    {
+        WarnOfReaders("mqtt.key_file", config.tls.keyFile, warnings);
+    }
+}
+
+} // namespace
+
+void ReadMqttConfig(
+    const ConfigSection& root,
+    const std::string& fileName,
+    MqttConfig& config,
+    std::vector<std::string>& warnings)
+{
+    const ConfigSection mqtt = root.GetSection("mqtt");
+    config.url = mqtt.GetUrl("url", {EUrlScheme::Mqtt, EUrlScheme::Mqtts});
+    config.interfaceName = mqtt.GetString("interface_name", config.interfaceName);
+    if (config.interfaceName.empty() || config.interfaceName.find_first_of("/+#$") != std::string::npos)
+    {
+        mqtt.AddMistake("interface_name", "must be one level of a topic: not empty, without / + # $");
+    }
+    ReadPassword(mqtt, fileName, config, warnings);
+    ReadTls(mqtt, fileName, config, warnings);
+}
+
+VDA5050::MosquittoOptions MakeMqttOptions(const MqttConfig& config, Core::IRandom& random)
+{
+    VDA5050::MosquittoOptions options;
+    options.clientID = "acsd-" + Core::MakeUuid(random);
+    options.host = config.url.peer.host;
+    options.port = config.url.peer.port;
+    options.username = config.username;
+    options.password = config.password;
+    if (Apps::IsSecure(config.url.scheme))
+    {
+        options.tls = config.tls;
+    }
+    return options;
+}
+
+} // namespace ACS::Acsd

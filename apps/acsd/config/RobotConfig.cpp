@@ -1,0 +1,199 @@
+#include "config/RobotConfig.hpp"
+
+#include "config/ArmConfig.hpp"
+#include "config/PlaceConfig.hpp"
+#include "mcs/MessageValue.hpp"
+#include <acs/core/Location.hpp>
+#include <acs/core/RobotID.hpp>
+#include <acs/vda5050/Topic.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+using Apps::ConfigSection;
+using Apps::EUrlScheme;
+
+/// Ports that are listed twice, and places inside carriers on ports that the robot does not have.
+void CheckPorts(const ConfigSection& section, const Planning::RobotOptions& robot)
+{
+    std::set<std::string_view> seen;
+    for (const auto& [key, places] : {std::pair("ports", &robot.ports), std::pair("child_ports", &robot.childPorts)})
+    {
+        for (const Core::Location& place : *places)
+        {
+            if (!seen.insert(place.GetText()).second)
+            {
+                section.AddMistake(key, fmt::format("{} is listed twice", place.GetText()));
+            }
+        }
+    }
+    for (const Core::Location& child : robot.childPorts)
+    {
+        const std::string_view text = child.GetText();
+        const std::string_view carrier = text.substr(0, text.rfind('.'));
+        if (std::ranges::find(robot.ports, carrier, &Core::Location::GetText) == robot.ports.end())
+        {
+            section.AddMistake("child_ports", fmt::format("{} is in {}, which is not in ports", text, carrier));
+        }
+    }
+}
+
+std::optional<Apps::Url> ReadArmOrNull(
+    const ConfigSection& robot,
+    bool bNeeded,
+    const std::vector<RobotLinkConfig>& others)
+{
+    if (!robot.HasKey("arm"))
+    {
+        if (bNeeded)
+        {
+            robot.AddMistake("arm", "a CR needs arm.url (tcp://) of its arm's controller");
+        }
+        return std::nullopt;
+    }
+    const ConfigSection section = robot.GetSection("arm");
+    Apps::Url url = section.GetUrl("url", {EUrlScheme::Tcp});
+    const auto twin = std::ranges::find_if(others, [&url](const RobotLinkConfig& other) {
+        return other.armOrNone.has_value() && *other.armOrNone == url && !url.peer.host.empty();
+    });
+    if (twin != others.end())
+    {
+        section.AddMistake("url", fmt::format("{} has the same: one arm cannot be of two robots", twin->robotID));
+    }
+    return url;
+}
+
+/// The vehicle's names of its ports: a table by port without the robot ("CP01").
+LoadPositions ReadLoadPositions(const ConfigSection& robot, const std::vector<Core::Location>& ports)
+{
+    std::map<std::string, std::string, std::less<>> names;
+    const ConfigSection section = robot.GetSection("load_positions");
+    for (const std::string& name : section.GetNames())
+    {
+        const std::string position = section.GetString(name);
+        const bool bPort = std::ranges::count(ports, name, LoadPositions::GetPortName) > 0;
+        if (!bPort || position.empty())
+        {
+            section.AddMistake(name, "expected a port of this robot, such as CP01, and the vehicle's name of it");
+        }
+        else if (const std::optional<std::string> fault = FindNameFaultOrNull(position))
+        {
+            section.AddMistake(name, *fault);
+        }
+        names.emplace(name, position);
+    }
+    std::map<std::string, std::string, std::less<>> portsByPosition;
+    for (const Core::Location& port : ports)
+    {
+        const std::string portName = LoadPositions::GetPortName(port);
+        const auto given = names.find(portName);
+        const std::string& position = given == names.end() ? portName : given->second;
+        const auto [other, bNew] = portsByPosition.emplace(position, portName);
+        if (!bNew && other->second != portName)
+        {
+            section.AddMistake(
+                given == names.end() ? other->second : portName,
+                fmt::format("is {}, as the position of another port is: each port has one of its own", position));
+        }
+    }
+    return {ports, names};
+}
+
+/// Whether the table has one of the keys that each robot needs. One with overrides under a misspelled name has none.
+bool HasRobotKey(const ConfigSection& section)
+{
+    static constexpr std::array KEYS{"type", "manufacturer", "serial", "vehicle_type", "start_node"};
+    const std::vector<std::string> names = section.GetNames();
+    return std::ranges::any_of(KEYS, [&names](const char* key) { return std::ranges::count(names, key) > 0; });
+}
+
+void ReadRobot(const ConfigSection& section, const std::string& name, AcsdConfig& config)
+{
+    const Core::Result<Core::RobotID> robotID = Core::RobotID::Parse(name);
+    if (!robotID)
+    {
+        section.Refuse(Core::Describe(robotID.error()));
+        return;
+    }
+    if (!HasRobotKey(section))
+    {
+        section.Refuse(
+            "describes no robot; correct the name, or give type, manufacturer, serial, vehicle_type and start_node");
+        return;
+    }
+    Planning::RobotOptions options{*robotID, {}, {}, {}, {}, {}, {}, {}};
+    options.type = section.GetWord("type", {"LR", "CR"}) == "CR" ? Planning::ERobotType::CR : Planning::ERobotType::LR;
+    options.vehicleTypeID = section.GetString("vehicle_type");
+    options.startNodeID = section.GetString("start_node");
+    options.homeStationID = section.GetStringOrNull("home");
+    options.chargingStationID = section.GetStringOrNull("charge");
+    options.ports = ReadPlaces(section, "ports", name + ".");
+    options.childPorts = ReadPlaces(section, "child_ports", name + ".");
+    CheckPorts(section, options);
+
+    RobotLinkConfig link;
+    link.robotID = name;
+    link.manufacturer = section.GetString("manufacturer");
+    link.serialNumber = section.GetString("serial");
+    link.protocolVersion = section.GetWord("protocol", {"2.0.0", "2.1.0"}, "2.0.0");
+    link.armOrNone = ReadArmOrNull(section, options.type == Planning::ERobotType::CR, config.robots);
+    if (link.armOrNone.has_value())
+    {
+        link.armOptions = ReadArmOptions(section.GetSection("arm"), config.arm);
+    }
+    // The vehicle of a robot with an arm does not see what the arm carries, unless its positions are named.
+    const bool bLoadsShown = !link.armOrNone.has_value() || section.HasKey("load_positions");
+    link.methods =
+        JobMethods(bLoadsShown ? ReadLoadPositions(section, options.ports) : LoadPositions(), config.stations);
+    for (const auto& [key, level] :
+         {std::pair("manufacturer", link.manufacturer), std::pair("serial", link.serialNumber)})
+    {
+        if (!VDA5050::IsValidAddress({"uagv", level, level}))
+        {
+            section.AddMistake(key, "is a level of a topic: not empty, without / + #");
+        }
+    }
+    const auto twin = std::ranges::find_if(config.robots, [&link](const RobotLinkConfig& other) {
+        return other.manufacturer == link.manufacturer && other.serialNumber == link.serialNumber;
+    });
+    if (twin != config.robots.end() && !link.serialNumber.empty())
+    {
+        section.AddMistake(
+            "serial",
+            fmt::format("{} has the same manufacturer and serial: one vehicle cannot be two robots", twin->robotID));
+    }
+    config.engine.robots.push_back(std::move(options));
+    config.robots.push_back(std::move(link));
+}
+
+} // namespace
+
+void ReadRobots(const ConfigSection& root, AcsdConfig& config)
+{
+    const ConfigSection robots = root.GetSection("robots");
+    for (const std::string& name : robots.GetNames())
+    {
+        ReadRobot(robots.GetSection(name), name, config);
+    }
+    if (config.robots.empty())
+    {
+        root.AddMistake("robots", "needs at least one table, such as [robots.LR01]");
+    }
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,301 @@
+#include "mcs/McsLink.hpp"
+
+#include <acs/core/Overloaded.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <variant>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+ProtocolBeast::ClientOptions MakeOptions(const AcsdConfig& config)
+{
+    ProtocolBeast::ClientOptions options;
+    options.url = Apps::MakeText(config.mcs.url);
+    options.host = config.mcs.host;
+    options.tls = config.mcs.tls;
+    options.headers = config.mcs.headers;
+    options.link.pingInterval = config.mcs.pingInterval;
+    options.link.maximumRead = config.mcs.session.codec.maximumBytes;
+    options.session = config.mcs.session;
+    return options;
+}
+
+/// Of a text in the log.
+constexpr std::size_t LOGGED_TEXT = 120;
+
+} // namespace
+
+McsLink::McsLink(
+    const Core::IClock& clock,
+    Core::Logger logger,
+    const Apps::LocalOffset& localOffset,
+    const Planning::PlanEngine& engine,
+    CommandHandler handler)
+    : _clock(clock),
+      _logger(logger),
+      _log(logger),
+      _notes(logger),
+      _dialog(clock, std::move(logger), localOffset, engine, *this, std::move(handler))
+{
+}
+
+McsLink::~McsLink() = default;
+
+Core::Result<void> McsLink::Open(
+    const boost::asio::any_io_executor& executor,
+    Core::IRandom& random,
+    const AcsdConfig& config,
+    MessageTrace* traceOrNull)
+{
+    _traceOrNull = traceOrNull;
+    SetLimits(config.mcs);
+    _dialog.SetAckObserver([this](const Protocol::Acked& acked, Core::Duration wait) {
+        const bool bRefused = acked.result == Protocol::EAckResult::Fail;
+        _figures.refused.at(static_cast<std::size_t>(acked.command)) += bRefused ? 1U : 0U;
+        if (_ackObserver)
+        {
+            _ackObserver(wait);
+        }
+    });
+    ProtocolBeast::ClientOptions options = MakeOptions(config);
+    options.onWire = [this](ProtocolBeast::EWireDirection direction, std::string_view text) {
+        WatchWire(direction, text);
+    };
+    auto client = ProtocolBeast::AcsClient::Create(executor, _clock, random, _logger, options, *this);
+    if (!client)
+    {
+        return tl::unexpected<Core::Error>(client.error());
+    }
+    _client = std::move(*client);
+    _url = Apps::MakeText(config.mcs.url);
+    return {};
+}
+
+void McsLink::Restore(std::uint64_t lastSequence)
+{
+    _dialog.Restore(lastSequence);
+}
+
+void McsLink::Start()
+{
+    _dialog.Begin();
+    _client->Start();
+}
+
+void McsLink::SetLimits(const McsConfig& config)
+{
+    _dialog.SetStyle(config.style);
+    _warnBytes = config.warnBytes;
+}
+
+void McsLink::SetAckObserver(AckObserver observer)
+{
+    _ackObserver = std::move(observer);
+}
+
+void McsLink::BeginDraining()
+{
+    _dialog.BeginDraining();
+}
+
+/// Section 12: what is longer than the MCS's buffer is lost without an acknowledgement. Each new length is told once.
+void McsLink::WatchWire(ProtocolBeast::EWireDirection direction, std::string_view text)
+{
+    if (_traceOrNull != nullptr)
+    {
+        _traceOrNull->Write({"mcs", direction, {}, {}, text});
+    }
+    if (direction == ProtocolBeast::EWireDirection::In)
+    {
+        _notes.Flush(_clock.GetNow().steady);
+    }
+    if (direction == ProtocolBeast::EWireDirection::In || text.size() <= _figures.longestSent)
+    {
+        return;
+    }
+    _figures.longestSent = text.size();
+    if (_warnBytes > 0 && text.size() > _warnBytes)
+    {
+        _logger.Warning(
+            "a message to the MCS is longer than mcs.tx_warn_bytes: an MCS with a small buffer does not get it",
+            {{"bytes", fmt::format_int(text.size()).str()}, {"begins", text.substr(0, LOGGED_TEXT)}});
+    }
+}
+
+void McsLink::StopAsync(StopHandler handler)
+{
+    _stopHandler = std::move(handler);
+    _client->SendStatus(Protocol::AcsCommStateUpdate{false});
+    _client->Stop();
+}
+
+void McsLink::Reply(const Planning::ReplyCommand& reply)
+{
+    _dialog.Reply(reply);
+}
+
+void McsLink::Report(const Planning::OutboxEntry& entry)
+{
+    _dialog.Report(entry);
+}
+
+void McsLink::TellStatus(const Planning::RobotStatus& status)
+{
+    _dialog.TellStatus(status);
+}
+
+void McsLink::TellWorking(bool bWorking)
+{
+    _dialog.TellWorking(bWorking);
+}
+
+void McsLink::TellTsc(Planning::ETscState state)
+{
+    _dialog.TellTsc(state);
+}
+
+bool McsLink::IsRegistered() const
+{
+    return _client->IsRegistered();
+}
+
+bool McsLink::TrySendDurable(const Protocol::AcsRequest& request)
+{
+    return _client->TrySendDurable(request);
+}
+
+void McsLink::ReplayDone()
+{
+    _client->ReplayDone();
+}
+
+void McsLink::SendStatus(const Protocol::AcsPayload& status)
+{
+    _client->SendStatus(status);
+}
+
+void McsLink::SendPosition(const Protocol::RobotPositionUpdate& positions)
+{
+    _client->SendPosition(positions);
+}
+
+void McsLink::Answer(
+    Protocol::EAcsCommand command,
+    std::string_view transactionID,
+    Protocol::EAckResult result,
+    std::string_view message,
+    const Protocol::AckPayload& payload)
+{
+    _client->Answer(command, transactionID, result, message, payload);
+}
+
+void McsLink::SetSiteOffset(std::chrono::minutes offset)
+{
+    _client->SetSiteOffset(offset);
+}
+
+McsLink::Figures McsLink::GetFigures() const
+{
+    Figures figures = _figures;
+    figures.bConnected = GetStatistics().connects > _connectsBefore;
+    figures.refusedReports = _dialog.GetRefusedReports();
+    return figures;
+}
+
+LinkStatus McsLink::GetLink() const
+{
+    const bool bUp = IsRegistered();
+    return {"mcs", bUp, bUp ? std::string() : _watch.GetObstacle(GetFigures().bConnected)};
+}
+
+const Protocol::SessionStatistics& McsLink::GetStatistics() const
+{
+    return _client->GetStatistics();
+}
+
+void McsLink::OnSessionEvent(const Protocol::SessionEvent& event)
+{
+    LogEvent(event);
+    _watch.OnSessionEvent(event);
+    if (std::holds_alternative<Protocol::LinkLost>(event))
+    {
+        _connectsBefore = GetStatistics().connects;
+    }
+    _dialog.OnSessionEvent(event);
+    if (std::holds_alternative<Protocol::Stopped>(event) && _stopHandler)
+    {
+        std::exchange(_stopHandler, nullptr)();
+    }
+}
+
+void McsLink::LogEvent(const Protocol::SessionEvent& event)
+{
+    if (!std::holds_alternative<Protocol::RequestRefused>(event))
+    {
+        _notes.Flush(_clock.GetNow().steady);
+    }
+    std::visit(
+        Core::Overloaded{
+            [&](const Protocol::Registered&) {
+                _logger.Info("registered with the MCS");
+                _loggedOutage.clear();
+            },
+            [&](const Protocol::RegistrationRefused& refused) {
+                Warn("registration", "the MCS refuses the registration, trying again", {{"reason", refused.message}});
+            },
+            [&](const Protocol::RequestUnanswered& unanswered) {
+                ++_figures.unanswered;
+                Warn(
+                    "unanswered",
+                    "the MCS does not acknowledge",
+                    {{"command", GetText(unanswered.command)},
+                     {"transactionId", unanswered.transactionID},
+                     {"count", fmt::format_int(_figures.unanswered).str()}});
+            },
+            [&](const Protocol::LinkLost& lost) { LogOutage(lost); },
+            [&](const Protocol::ProtocolNoted& noted) {
+                _notes.Take(noted, GetStatistics().CountOf(noted.what), _clock.GetNow().steady);
+            },
+            [&](const Protocol::RequestRefused& refused) {
+                _notes.Forget();
+                Warn(
+                    "refused " + CutReason(refused.reason),
+                    "command refused",
+                    {{"command", refused.commandName},
+                     {"planId", refused.planID},
+                     {"transactionId", refused.transactionID},
+                     {"reason", refused.reason},
+                     {"field", refused.path}});
+            },
+            [](const auto&) { /* not worth a line */ }},
+        event);
+}
+
+void McsLink::Warn(std::string_view kind, std::string_view message, std::initializer_list<Core::LogField> fields)
+{
+    _log.Write(_clock.GetNow().steady, Core::ELogLevel::Warning, kind, message, fields);
+}
+
+void McsLink::LogOutage(const Protocol::LinkLost& lost)
+{
+    // Once per reason: every further try fails for the same one, or tells something new.
+    if (_stopHandler || lost.reason == _loggedOutage)
+    {
+        return;
+    }
+    _loggedOutage = lost.reason;
+    _logger.Warning(
+        lost.bWasRegistered ? "lost the MCS, trying again until it answers"
+                            : "cannot reach the MCS: start it or correct mcs.url; trying again until it answers",
+        {{"url", _url}, {"reason", lost.reason}});
+}
+
+} // namespace ACS::Acsd

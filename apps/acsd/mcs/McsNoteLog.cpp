@@ -1,0 +1,85 @@
+#include "mcs/McsNoteLog.hpp"
+
+#include "mcs/McsDialog.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+/// Habits that cost nothing.
+bool IsHarmless(Protocol::EProtocolNote what)
+{
+    switch (what)
+    {
+        case Protocol::EProtocolNote::UnknownMember:
+        case Protocol::EProtocolNote::NullOptional:
+        case Protocol::EProtocolNote::LenientWord:
+        case Protocol::EProtocolNote::LenientNumber:
+        case Protocol::EProtocolNote::BadTimestamp:
+        case Protocol::EProtocolNote::DuplicateRequest:
+            return true;
+        case Protocol::EProtocolNote::Undecodable:
+        case Protocol::EProtocolNote::UnknownCommand:
+        case Protocol::EProtocolNote::AckMismatched:
+        case Protocol::EProtocolNote::AckUnexpected:
+        case Protocol::EProtocolNote::AckFailed:
+        case Protocol::EProtocolNote::BeforeRegistered:
+        case Protocol::EProtocolNote::RegistrationUnanswered:
+        default:
+            return false;
+    }
+}
+
+} // namespace
+
+McsNoteLog::McsNoteLog(Core::Logger logger)
+    : _log(std::move(logger))
+{
+}
+
+void McsNoteLog::Take(const Protocol::ProtocolNoted& noted, std::uint64_t total, Core::SteadyTime now)
+{
+    Flush(now);
+    const bool bMayBeRefused =
+        noted.what == Protocol::EProtocolNote::Undecodable || noted.what == Protocol::EProtocolNote::UnknownCommand;
+    if (bMayBeRefused)
+    {
+        _waiting = Waiting{noted, total};
+    }
+    else
+    {
+        Write({noted, total}, now);
+    }
+}
+
+void McsNoteLog::Forget()
+{
+    _waiting.reset();
+}
+
+void McsNoteLog::Flush(Core::SteadyTime now)
+{
+    if (const std::optional<Waiting> note = std::exchange(_waiting, std::nullopt))
+    {
+        Write(*note, now);
+    }
+}
+
+void McsNoteLog::Write(const Waiting& note, Core::SteadyTime now)
+{
+    const std::string_view what = GetText(note.noted.what);
+    _log.Write(
+        now,
+        IsHarmless(note.noted.what) ? Core::ELogLevel::Debug : Core::ELogLevel::Warning,
+        fmt::format("{} {}", what, CutReason(note.noted.detail)),
+        "the MCS departs from the protocol",
+        {{"what", what}, {"detail", note.noted.detail}, {"count", fmt::format_int(note.total).str()}});
+}
+
+} // namespace ACS::Acsd

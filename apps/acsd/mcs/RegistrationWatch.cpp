@@ -1,0 +1,54 @@
+#include "mcs/RegistrationWatch.hpp"
+
+#include <acs/core/Overloaded.hpp>
+
+#include <utility>
+#include <variant>
+
+namespace ACS::Acsd
+{
+
+void RegistrationWatch::OnSessionEvent(const Protocol::SessionEvent& event)
+{
+    const auto refuse = [this](std::string reason) {
+        _reason = std::move(reason);
+        _bRefused = true;
+        _bRefusedNow = true;
+    };
+    std::visit(
+        Core::Overloaded{
+            [this](const Protocol::Registered&) { *this = {}; },
+            [&refuse](const Protocol::RegistrationRefused& refused) {
+                refuse("it refuses the registration" + (refused.message.empty() ? "" : ": " + refused.message));
+            },
+            [&refuse](const Protocol::ProtocolNoted& noted) {
+                if (noted.what == Protocol::EProtocolNote::RegistrationUnanswered)
+                {
+                    refuse("it does not answer the registration");
+                }
+            },
+            [this](const Protocol::LinkLost& lost) {
+                if (!std::exchange(_bRefusedNow, false))
+                {
+                    _reason = lost.reason;
+                    _bRefused = false;
+                }
+            },
+            [](const auto&) { /* says nothing about it */ }},
+        event);
+}
+
+std::string RegistrationWatch::GetObstacle(bool bConnected) const
+{
+    if (_bRefused)
+    {
+        return "connected, not registered: mcs: " + _reason;
+    }
+    if (bConnected)
+    {
+        return "connected, not registered: mcs: it has not answered the registration yet";
+    }
+    return _reason.empty() ? "no connection: mcs" : "no connection: mcs: " + _reason;
+}
+
+} // namespace ACS::Acsd

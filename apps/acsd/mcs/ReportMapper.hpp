@@ -1,0 +1,47 @@
+#pragma once
+
+#include "mcs/MessageStyle.hpp"
+#include <acs/core/Now.hpp>
+#include <acs/plan/ETscState.hpp>
+#include <acs/plan/PlanRecord.hpp>
+#include <acs/plan/Report.hpp>
+#include <acs/plan/RobotStatus.hpp>
+#include <acs/protocol/AcsMessage.hpp>
+
+#include <chrono>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+/// From what the engine tells to what the MCS is sent. The offset is that of the site's local time.
+
+/// With the report's own transactionId and time: sent again it is the same message.
+[[nodiscard]] Protocol::AcsRequest MakeReportRequest(
+    const Planning::OutboxEntry& entry,
+    std::chrono::minutes offset,
+    const MessageStyle& style = {});
+
+[[nodiscard]] Protocol::RobotStatusUpdate MakeStatusUpdate(
+    const Planning::RobotStatus& status,
+    const MessageStyle& style = {});
+
+[[nodiscard]] Protocol::TscStateUpdate MakeTscUpdate(Planning::ETscState state);
+
+/// All robots in one update; in several where it would be longer than the style allows (section 5.10), at least one robot in
+/// each. Radians become degrees from 0 to below 360, the battery a whole number.
+[[nodiscard]] std::vector<Protocol::RobotPositionUpdate> MakePositionUpdates(
+    const std::vector<Planning::RobotPose>& poses,
+    const MessageStyle& style = {});
+
+[[nodiscard]] Protocol::PlanEntry MakePlanEntry(
+    const Planning::PlanSummary& summary,
+    std::chrono::minutes offset,
+    const MessageStyle& style = {});
+
+[[nodiscard]] Protocol::ErrorReport MakeErrorReport(
+    const Planning::Alarm& ownAlarm,
+    bool bSet,
+    const MessageStyle& style = {});
+
+} // namespace ACS::Acsd

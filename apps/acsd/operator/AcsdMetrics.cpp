@@ -1,0 +1,228 @@
+#include "operator/AcsdMetrics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+using Planning::EAlarmLevel;
+using Planning::EPlanState;
+using Planning::ERobotStatus;
+
+constexpr const char* LINK_UP = "acsd_link_up";
+constexpr const char* MCS_CONNECTED = "acsd_mcs_connected";
+constexpr const char* MCS_REGISTERED = "acsd_mcs_registered";
+constexpr const char* MCS_LINK_LOSSES = "acsd_mcs_link_losses_total";
+constexpr const char* MCS_SENT = "acsd_mcs_requests_sent_total";
+constexpr const char* MCS_RECEIVED = "acsd_mcs_requests_received_total";
+constexpr const char* MCS_REFUSED = "acsd_mcs_requests_refused_total";
+constexpr const char* MCS_NACKS = "acsd_mcs_nacks_total";
+constexpr const char* MCS_TIMEOUTS = "acsd_mcs_ack_timeouts_total";
+constexpr const char* MCS_UNMATCHED = "acsd_mcs_ack_unmatched_total";
+constexpr const char* MCS_NOTES = "acsd_mcs_notes_total";
+constexpr const char* MCS_LONGEST = "acsd_mcs_tx_bytes_max";
+constexpr const char* POSITIONS_MISSED = "acsd_position_ticks_missed_total";
+constexpr const char* MCS_ACK_WAIT = "acsd_mcs_ack_wait_seconds";
+constexpr const char* OUTBOX_DEPTH = "acsd_outbox_depth";
+constexpr const char* OUTBOX_OLDEST = "acsd_outbox_oldest_seconds";
+constexpr const char* PLANS_ACTIVE = "acsd_plans_active";
+constexpr const char* PLANS = "acsd_plans";
+constexpr const char* ALARMS = "acsd_alarms_active";
+constexpr const char* ROBOT_STATE = "acsd_robot_state";
+constexpr const char* ROBOT_BATTERY = "acsd_robot_battery";
+constexpr const char* ROBOT_SEEN = "acsd_robot_last_seen_seconds";
+constexpr const char* ROBOT_STATES = "acsd_robot_states_received_total";
+constexpr const char* ROBOT_RESENT = "acsd_robot_orders_resent_total";
+constexpr const char* ARM_UP = "acsd_arm_up";
+constexpr const char* ARM_CONNECTS = "acsd_arm_connects_total";
+constexpr const char* ARM_MISSING = "acsd_arm_samples_missing_total";
+constexpr const char* COMMITS = "acsd_store_commit_seconds";
+constexpr const char* TRACE_LOST = "acsd_trace_lost_total";
+
+constexpr std::array ACTIVE_STATES{EPlanState::Pending, EPlanState::InProgress, EPlanState::Paused};
+constexpr std::array ROBOT_STATES_ALL{
+    ERobotStatus::Init,
+    ERobotStatus::Disconnected,
+    ERobotStatus::Manual,
+    ERobotStatus::Idle,
+    ERobotStatus::Moving,
+    ERobotStatus::Arrival,
+    ERobotStatus::Docking,
+    ERobotStatus::UnDocking,
+    ERobotStatus::Working,
+    ERobotStatus::Charging,
+    ERobotStatus::Error,
+    ERobotStatus::Stopped};
+
+double ToSeconds(Core::Duration duration)
+{
+    return std::chrono::duration<double>(duration).count();
+}
+
+template <typename TNumber>
+double ToNumber(TNumber number)
+{
+    return static_cast<double>(number);
+}
+
+} // namespace
+
+AcsdMetrics::AcsdMetrics(Apps::MetricsEndpoint& metrics)
+    : _metrics(metrics)
+{
+    _metrics.AddGauge(LINK_UP, "Whether the link is up: mcs is registered, mqtt is subscribed");
+    _metrics.AddGauge(MCS_CONNECTED, "Whether the WebSocket to the MCS is open");
+    _metrics.AddGauge(MCS_REGISTERED, "Whether the MCS has accepted the registration");
+    _metrics.AddCounter(MCS_LINK_LOSSES, "Connections to the MCS that ended or could not be made");
+    _metrics.AddCounter(MCS_SENT, "Requests sent to the MCS, resends included");
+    _metrics.AddCounter(MCS_RECEIVED, "Requests of the MCS, repeated ones included");
+    _metrics.AddCounter(MCS_REFUSED, "Requests of the MCS that were answered with Fail");
+    _metrics.AddCounter(MCS_NACKS, "Reports that the MCS answered with Fail");
+    _metrics.AddCounter(MCS_TIMEOUTS, "Reports that the MCS did not acknowledge, after all resends");
+    _metrics.AddCounter(MCS_UNMATCHED, "Acks with a foreign transactionId, or that nothing waited for");
+    _metrics.AddCounter(MCS_NOTES, "What the MCS does otherwise than the document, by kind");
+    _metrics.AddGauge(MCS_LONGEST, "Bytes of the longest message sent to the MCS");
+    _metrics.AddCounter(POSITIONS_MISSED, "Periods of RobotPositionUpdate in which none was sent, acsd being late");
+    _metrics.AddHistogram(
+        MCS_ACK_WAIT,
+        "From a report to its Ack",
+        {0.001, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5, 5, 10});
+    _metrics.AddGauge(OUTBOX_DEPTH, "Reports that the MCS has not acknowledged");
+    _metrics.AddGauge(OUTBOX_OLDEST, "Age of the oldest of them; 0: there is none");
+    _metrics.AddGauge(PLANS_ACTIVE, "Plans that are not finished");
+    _metrics.AddGauge(PLANS, "Plans that are not finished, by status");
+    _metrics.AddGauge(ALARMS, "Alarms that are set, by level");
+    _metrics.AddGauge(ROBOT_STATE, "1 for the robot's present status, 0 for all others");
+    _metrics.AddGauge(ROBOT_BATTERY, "Charge in percent");
+    _metrics.AddGauge(ROBOT_SEEN, "Since the vehicle said anything; absent: it never did");
+    _metrics.AddCounter(ROBOT_STATES, "VDA5050 states received");
+    _metrics.AddCounter(ROBOT_RESENT, "VDA5050 orders that had to be sent again");
+    _metrics.AddGauge(ARM_UP, "Whether the arm's Open Stream session stands");
+    _metrics.AddCounter(ARM_CONNECTS, "Open Stream sessions that were begun");
+    _metrics.AddCounter(ARM_MISSING, "Samples of the MONITOR that did not come");
+    _metrics.AddHistogram(
+        COMMITS,
+        "From a batch of changes to its place on the disk",
+        {0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 5});
+    _metrics.AddCounter(TRACE_LOST, "Messages that are missing in the trace");
+}
+
+void AcsdMetrics::ObserveAckWait(Core::Duration wait)
+{
+    _metrics.Observe(MCS_ACK_WAIT, {}, ToSeconds(wait));
+}
+
+void AcsdMetrics::ObserveCommit(Core::Duration duration)
+{
+    _metrics.Observe(COMMITS, {}, ToSeconds(duration));
+}
+
+void AcsdMetrics::UpdateLink(const std::string& name, bool bUp)
+{
+    _metrics.SetGauge(LINK_UP, {{"link", name}}, bUp ? 1.0 : 0.0);
+}
+
+void AcsdMetrics::UpdateMcs(const McsLink& mcs)
+{
+    const Protocol::SessionStatistics& statistics = mcs.GetStatistics();
+    const McsLink::Figures figures = mcs.GetFigures();
+    _metrics.SetGauge(MCS_CONNECTED, {}, figures.bConnected ? 1.0 : 0.0);
+    _metrics.SetGauge(MCS_REGISTERED, {}, mcs.IsRegistered() ? 1.0 : 0.0);
+    _metrics.SetGauge(MCS_LONGEST, {}, ToNumber(figures.longestSent));
+    _metrics.SetTotal(MCS_LINK_LOSSES, {}, ToNumber(statistics.linkLosses));
+    _metrics.SetTotal(POSITIONS_MISSED, {}, ToNumber(statistics.positionTicksMissed));
+    _metrics.SetTotal(MCS_TIMEOUTS, {}, ToNumber(figures.unanswered));
+    for (std::size_t index = 0; index < Protocol::COMMAND_COUNT; ++index)
+    {
+        const auto command = static_cast<Protocol::EAcsCommand>(index);
+        const Apps::MetricsEndpoint::Labels labels{{"command", std::string(GetText(command))}};
+        const Protocol::CommandCounters& counters = statistics.Of(command);
+        _metrics.SetTotal(MCS_SENT, labels, ToNumber(counters.sent));
+        _metrics.SetTotal(MCS_RECEIVED, labels, ToNumber(counters.received));
+        _metrics.SetTotal(MCS_REFUSED, labels, ToNumber(counters.refused));
+        _metrics.SetTotal(MCS_NACKS, labels, ToNumber(figures.refused.at(index)));
+    }
+    for (std::size_t index = 0; index < Protocol::NOTE_COUNT; ++index)
+    {
+        const auto note = static_cast<Protocol::EProtocolNote>(index);
+        _metrics.SetTotal(MCS_NOTES, {{"what", std::string(GetText(note))}}, ToNumber(statistics.CountOf(note)));
+    }
+    _metrics.SetTotal(
+        MCS_UNMATCHED,
+        {},
+        ToNumber(
+            statistics.CountOf(Protocol::EProtocolNote::AckMismatched)
+            + statistics.CountOf(Protocol::EProtocolNote::AckUnexpected)));
+}
+
+void AcsdMetrics::UpdatePlans(const Planning::PlanEngine& engine, Core::Now now)
+{
+    const std::vector<Planning::PlanSummary> plans = engine.GetActivePlans();
+    _metrics.SetGauge(PLANS_ACTIVE, {}, ToNumber(plans.size()));
+    for (const EPlanState state : ACTIVE_STATES)
+    {
+        const auto count = std::ranges::count(plans, state, &Planning::PlanSummary::state);
+        _metrics.SetGauge(PLANS, {{"status", std::string(GetText(state))}}, ToNumber(count));
+    }
+    const Planning::OutboxSummary outbox = engine.GetOutboxSummary();
+    _metrics.SetGauge(OUTBOX_DEPTH, {}, ToNumber(outbox.count));
+    // The wall clock may have been set meanwhile.
+    const std::chrono::duration<double> age = now.wall - outbox.oldest.value_or(now.wall);
+    _metrics.SetGauge(OUTBOX_OLDEST, {}, std::max(age.count(), 0.0));
+    for (const EAlarmLevel level : {EAlarmLevel::Heavy, EAlarmLevel::Light})
+    {
+        const auto count = std::ranges::count(engine.GetActiveAlarms(), level, &Planning::Alarm::level);
+        _metrics.SetGauge(ALARMS, {{"level", std::string(GetText(level))}}, ToNumber(count));
+    }
+    for (const Planning::RobotStatus& status : engine.GetRobotStatuses())
+    {
+        UpdateRobotStatus(status);
+    }
+    for (const Planning::RobotPose& pose : engine.GetRobotPoses())
+    {
+        _metrics.SetGauge(ROBOT_BATTERY, {{"robot", pose.robotID}}, pose.batteryPercent);
+    }
+}
+
+void AcsdMetrics::UpdateRobotStatus(const Planning::RobotStatus& status)
+{
+    for (const ERobotStatus state : ROBOT_STATES_ALL)
+    {
+        _metrics.SetGauge(
+            ROBOT_STATE,
+            {{"robot", status.robotID}, {"state", std::string(GetText(state))}},
+            status.status == state ? 1.0 : 0.0);
+    }
+}
+
+void AcsdMetrics::UpdateRobot(const RobotHost& robot, Core::Now now)
+{
+    const Apps::MetricsEndpoint::Labels labels{{"robot", robot.GetRobotID()}};
+    const RobotHost::Figures figures = robot.GetFigures();
+    if (figures.seenAt.has_value())
+    {
+        _metrics.SetGauge(ROBOT_SEEN, labels, ToSeconds(now.steady - *figures.seenAt));
+    }
+    _metrics.SetTotal(ROBOT_STATES, labels, ToNumber(figures.vehicle.statesReceived));
+    _metrics.SetTotal(ROBOT_RESENT, labels, ToNumber(figures.vehicle.ordersResent));
+    if (figures.arm.has_value())
+    {
+        _metrics.SetGauge(ARM_UP, labels, figures.bArmReady ? 1.0 : 0.0);
+        _metrics.SetTotal(ARM_CONNECTS, labels, ToNumber(figures.arm->connects));
+        _metrics.SetTotal(ARM_MISSING, labels, ToNumber(figures.arm->missingLines));
+    }
+}
+
+void AcsdMetrics::UpdateTrace(std::uint64_t lost)
+{
+    _metrics.SetTotal(TRACE_LOST, {}, ToNumber(lost));
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "common/http/MetricsEndpoint.hpp"
+#include "mcs/McsLink.hpp"
+#include "robots/RobotHost.hpp"
+#include <acs/core/Now.hpp>
+#include <acs/plan/PlanEngine.hpp>
+#include <acs/plan/RobotStatus.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace ACS::Acsd
+{
+
+/// acsd's figures by their names at /metrics; docs/reference/metrics.md lists them. Those that something else counts are fetched
+/// when somebody asks; waits are observed when they end.
+class AcsdMetrics final
+{
+    Apps::MetricsEndpoint& _metrics;
+
+    void UpdateRobotStatus(const Planning::RobotStatus& status);
+
+public:
+    /// The endpoint outlives it.
+    explicit AcsdMetrics(Apps::MetricsEndpoint& metrics);
+
+    void ObserveAckWait(Core::Duration wait);
+    void ObserveCommit(Core::Duration duration);
+
+    void UpdateLink(const std::string& name, bool bUp);
+    void UpdateMcs(const McsLink& mcs);
+    void UpdatePlans(const Planning::PlanEngine& engine, Core::Now now);
+    void UpdateRobot(const RobotHost& robot, Core::Now now);
+    void UpdateTrace(std::uint64_t lost);
+};
+
+} // namespace ACS::Acsd

@@ -1,0 +1,111 @@
+#include "robots/ArmMonitor.hpp"
+
+#include "robots/ArmTimers.hpp"
+
+#include <algorithm>
+#include <utility>
+
+// What MONITOR shows in place of the counters: the effect of a CONTROL, and probes.
+
+namespace ACS::Acsd
+{
+
+using ArmViews::Counters;
+using ArmViews::Effect;
+using ArmViews::Probe;
+
+namespace
+{
+
+using namespace std::chrono_literals;
+using Planning::AdapterActions;
+
+constexpr std::chrono::milliseconds PROBE_INTERVAL = 1s;
+/// A probe costs two samples: a MONITOR that is slow is not kept busy by them.
+constexpr int PROBE_PERIODS = 20;
+/// For the controller to show what a CONTROL has done; then its silence counts.
+constexpr std::chrono::milliseconds EFFECT_LIMIT = 2s;
+/// Effects in a row that were not shown: then this controller shows them otherwise, and is not waited for.
+constexpr std::size_t MOST_UNSHOWN = 3;
+
+} // namespace
+
+/// Nothing was shown, but nothing was refused either.
+void ArmMonitor::OnEffectTimer()
+{
+    if (std::holds_alternative<Effect>(_view))
+    {
+        ++_unshownEffects;
+        VerifyCounters();
+    }
+}
+
+void ArmMonitor::VerifyEffect(AdapterActions& out)
+{
+    if (_bGeneralHidden || _unshownEffects >= MOST_UNSHOWN)
+    {
+        VerifyCounters();
+        return;
+    }
+    _view = Effect{};
+    Monitor(GENERAL_URL, _options.period, std::nullopt);
+    out.emplace_back(Planning::StartAdapterTimer{ArmTimers::EFFECT, EFFECT_LIMIT});
+}
+
+void ArmMonitor::EndEffect(AdapterActions& out)
+{
+    _unshownEffects = 0;
+    out.emplace_back(Planning::CancelAdapterTimer{ArmTimers::EFFECT});
+    VerifyCounters();
+}
+
+ArmFact ArmMonitor::OnProbeTimer(std::optional<EArmProbe> wantedOrNull, AdapterActions& out)
+{
+    StartProbeTimer(out);
+    if (_link != ELink::Ready)
+    {
+        return {};
+    }
+    if (const Probe* const probeOrNull = std::get_if<Probe>(&_view))
+    {
+        return AbandonProbe(probeOrNull->bTaken);
+    }
+    const Counters* const countersOrNull = std::get_if<Counters>(&_view);
+    const bool bFree = countersOrNull != nullptr && countersOrNull->bFresh && _controls.IsIdle();
+    if (bFree && wantedOrNull.has_value() && !IsHidden(*wantedOrNull))
+    {
+        BeginProbe(*wantedOrNull, out);
+    }
+    return {};
+}
+
+void ArmMonitor::StartProbeTimer(AdapterActions& out) const
+{
+    const std::chrono::milliseconds delay = std::max(PROBE_INTERVAL, PROBE_PERIODS * _options.period);
+    out.emplace_back(Planning::StartAdapterTimer{ArmTimers::PROBE, delay});
+}
+
+/// It has the whole interval to be answered.
+void ArmMonitor::BeginProbe(EArmProbe probe, AdapterActions& out)
+{
+    StartProbeTimer(out);
+    _view = Probe{probe, false};
+    Monitor(GetProbeUrl(probe), _options.period, std::nullopt);
+}
+
+/// One that was taken and not answered, or refused, is not shown by this controller.
+ArmFact ArmMonitor::AbandonProbe(bool bHidden)
+{
+    const EArmProbe kind = std::get<Probe>(_view).kind;
+    bool& bKnownHidden = kind == EArmProbe::Motor ? _bMotorHidden : _bGeneralHidden;
+    bKnownHidden = bKnownHidden || bHidden;
+    _view = Counters{};
+    return ArmProbed{kind, std::nullopt};
+}
+
+std::string_view ArmMonitor::GetProbeUrl(EArmProbe probe)
+{
+    return probe == EArmProbe::Motor ? MOTOR_STATE_URL : GENERAL_URL;
+}
+
+} // namespace ACS::Acsd

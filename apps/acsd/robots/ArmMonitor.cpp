@@ -1,0 +1,437 @@
+#include "robots/ArmMonitor.hpp"
+
+#include "robots/ArmTimers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace ACS::Acsd
+{
+
+using ArmViews::ArmView;
+using ArmViews::Counters;
+using ArmViews::Effect;
+using ArmViews::Probe;
+using ArmViews::Relays;
+using ArmViews::Verification;
+
+namespace
+{
+
+using namespace std::chrono_literals;
+using Planning::AdapterActions;
+using Planning::RobotError;
+
+constexpr std::chrono::milliseconds MOTOR_PERIOD = 200ms;
+/// While a job waits for what is read.
+constexpr std::chrono::milliseconds LONGEST_READ_PERIOD = 100ms;
+
+constexpr std::string_view MOTOR_ON_URL = "/project/robot/motor_on";
+
+constexpr std::string_view ERROR_MOTOR = "ARM-motorOff";
+constexpr std::string_view ERROR_MONITOR = "ARM-monitorRefused";
+constexpr std::string_view ERROR_COUNTERS = "ARM-countersMissing";
+
+RobotError MakeHeavy(std::string_view errorCode, std::string message)
+{
+    return {std::string(errorCode), Planning::EAlarmLevel::Heavy, std::move(message)};
+}
+
+Core::JsonText MakeRangeArgs(std::uint32_t firstByte, std::size_t words)
+{
+    return Core::JsonText::FromTrusted(fmt::format(R"({{"st":{},"len":{}}})", firstByte, words));
+}
+
+} // namespace
+
+ArmMonitor::ArmMonitor(ArmOptions options, RobotOutputs& outputs, ArmControls& controls)
+    : _options(std::move(options)),
+      _outputs(outputs),
+      _controls(controls)
+{
+}
+
+void ArmMonitor::Monitor(
+    std::string_view url,
+    std::chrono::milliseconds period,
+    std::optional<Core::JsonText> argsOrNull)
+{
+    OpenStream::MonitorRequest monitor;
+    monitor.url = url;
+    monitor.period = period;
+    monitor.args = std::move(argsOrNull);
+    ++_requestNumber;
+    _outputs.armRequests.emplace_back(std::move(monitor));
+}
+
+void ArmMonitor::MonitorMotor()
+{
+    Monitor(MOTOR_STATE_URL, MOTOR_PERIOD, std::nullopt);
+}
+
+void ArmMonitor::SwitchMotorOn()
+{
+    _controls.Send(EArmControl::SwitchMotorOn, MOTOR_ON_URL, "{}");
+}
+
+std::size_t ArmMonitor::GetWordCount() const
+{
+    return std::max(
+               {_options.startedIndex, _options.finishedIndex, _options.failedIndex, _options.echoIndex.value_or(0)})
+        + 1;
+}
+
+void ArmMonitor::WatchCounters(ArmView view)
+{
+    Monitor(_options.monitorUrl, _options.period, MakeRangeArgs(_options.firstByte, GetWordCount()));
+    _bRelaysLate = _bRelaysLate || IsReadingRelays();
+    _view = std::move(view);
+}
+
+void ArmMonitor::WatchCounters()
+{
+    WatchCounters(Counters{});
+}
+
+void ArmMonitor::VerifyCounters()
+{
+    WatchCounters(Verification{});
+}
+
+void ArmMonitor::WatchMotor(AdapterActions& out)
+{
+    _motorRefusal.clear();
+    _link = ELink::MotorOff;
+    _view = Counters{};
+    MonitorMotor();
+    SwitchMotorOn();
+    out.emplace_back(Planning::StartAdapterTimer{ArmTimers::RETRY, ArmTimers::RETRY_DELAY});
+}
+
+void ArmMonitor::OnLost(AdapterActions& out)
+{
+    for (const Planning::AdapterTimerID timer : {ArmTimers::RETRY, ArmTimers::PROBE, ArmTimers::EFFECT})
+    {
+        out.emplace_back(Planning::CancelAdapterTimer{timer});
+    }
+    _link = ELink::Lost;
+    _view = Counters{};
+    _trouble.reset();
+    _bMonitorRefused = false;
+    _bRelaysLate = false;
+    _bMotorHidden = false;
+    _bGeneralHidden = false;
+    _unshownEffects = 0;
+}
+
+ArmFact ArmMonitor::OnSample(const Core::JsonText& json, AdapterActions& out)
+{
+    switch (_link)
+    {
+        case ELink::MotorOff:
+            if (ReadMotorOnOrNull(json).value_or(false))
+            {
+                _link = ELink::Counting;
+                WatchCounters();
+                out.emplace_back(Planning::StartAdapterTimer{ArmTimers::RETRY, ArmTimers::RETRY_DELAY});
+            }
+            return {};
+        case ELink::Counting:
+        case ELink::Ready:
+            return TakeSample(json, out);
+        case ELink::Lost:
+        default:
+            return {};
+    }
+}
+
+/// A sample of the counters may still be on its way when another one is watched. Those of relays look like it: until the
+/// MONITOR of a range was taken, a sample can be of that one, of the range before, or of the counters.
+ArmFact ArmMonitor::TakeSample(const Core::JsonText& json, AdapterActions& out)
+{
+    if (const Relays* const relaysOrNull = std::get_if<Relays>(&_view))
+    {
+        return relaysOrNull->bTaken ? TakeRelays(json) : ArmFact();
+    }
+    if (std::holds_alternative<Effect>(_view))
+    {
+        if (const std::optional<GeneralState> stateOrNull = ReadGeneralStateOrNull(json); stateOrNull.has_value())
+        {
+            return ArmEffectShown{*stateOrNull};
+        }
+    }
+    ArmFact probed = TakeProbe(json);
+    return std::holds_alternative<std::monostate>(probed) ? TakeCounters(json, out) : probed;
+}
+
+ArmFact ArmMonitor::TakeProbe(const Core::JsonText& json)
+{
+    const Probe* const probeOrNull = std::get_if<Probe>(&_view);
+    if (probeOrNull == nullptr)
+    {
+        return {};
+    }
+    const EArmProbe kind = probeOrNull->kind;
+    std::optional<bool> bOn;
+    if (kind == EArmProbe::Motor)
+    {
+        bOn = ReadMotorOnOrNull(json);
+    }
+    else if (const std::optional<GeneralState> stateOrNull = ReadGeneralStateOrNull(json); stateOrNull.has_value())
+    {
+        bOn = stateOrNull->bPlaying;
+    }
+    if (!bOn.has_value())
+    {
+        return {};
+    }
+    _view = Counters{};
+    return ArmProbed{kind, bOn};
+}
+
+ArmFact ArmMonitor::TakeRelays(const Core::JsonText& json)
+{
+    Relays& relays = std::get<Relays>(_view);
+    std::optional<std::vector<std::int64_t>> words = ReadRelayWordsOrNull(json);
+    const ArmRelayRange& range = relays.ranges[relays.read.size()];
+    if (!words.has_value() || words->size() < range.words)
+    {
+        return {};
+    }
+    relays.read.push_back({range, std::move(*words)});
+    if (relays.read.size() < relays.ranges.size())
+    {
+        MonitorRange();
+        return {};
+    }
+    relays.bTaken = relays.ranges.size() == 1; // several ones are asked for again
+    return ArmRelaysRead{std::exchange(relays.read, {})};
+}
+
+/// The next range that is to be read.
+void ArmMonitor::MonitorRange()
+{
+    Relays& relays = std::get<Relays>(_view);
+    const ArmRelayRange& range = relays.ranges[relays.read.size()];
+    Monitor(range.url, std::min(_options.period, LONGEST_READ_PERIOD), MakeRangeArgs(range.firstByte, range.words));
+    relays.bTaken = false;
+}
+
+void ArmMonitor::ReadRelays(std::vector<ArmRelayRange> ranges)
+{
+    _view = Relays{std::move(ranges), {}, false};
+    MonitorRange();
+}
+
+/// A single range comes again by itself.
+void ArmMonitor::RepeatRelays()
+{
+    const Relays* const relaysOrNull = std::get_if<Relays>(&_view);
+    if (relaysOrNull != nullptr && relaysOrNull->ranges.size() > 1)
+    {
+        MonitorRange();
+    }
+}
+
+std::optional<ArmSample> ArmMonitor::ReadSampleOrNull(const Core::JsonText& json) const
+{
+    const std::optional<std::vector<std::int64_t>> words = ReadRelayWordsOrNull(json);
+    if (!words.has_value() || words->size() < GetWordCount())
+    {
+        return std::nullopt; // a late sample of the MONITOR before, or a controller that lacks these relays
+    }
+    ArmSample sample;
+    sample.counters = {
+        (*words)[_options.startedIndex],
+        (*words)[_options.finishedIndex],
+        (*words)[_options.failedIndex]};
+    if (_options.echoIndex.has_value())
+    {
+        sample.echo = (*words)[*_options.echoIndex];
+    }
+    return sample;
+}
+
+ArmFact ArmMonitor::TakeCounters(const Core::JsonText& json, AdapterActions& out)
+{
+    const std::optional<ArmSample> sampleOrNull = ReadSampleOrNull(json);
+    if (!sampleOrNull.has_value() || _bRelaysLate)
+    {
+        return {};
+    }
+    const bool bFirst = std::exchange(_link, ELink::Ready) != ELink::Ready;
+    if (bFirst)
+    {
+        _trouble.reset();
+        out.emplace_back(Planning::CancelAdapterTimer{ArmTimers::RETRY});
+        StartProbeTimer(out);
+    }
+    const Verification* const verificationOrNull = std::get_if<Verification>(&_view);
+    const bool bVerifies = verificationOrNull != nullptr && verificationOrNull->bTaken;
+    if (bVerifies || std::holds_alternative<Counters>(_view))
+    {
+        _view = Counters{true};
+    }
+    return ArmCounted{*sampleOrNull, bFirst, bVerifies};
+}
+
+void ArmMonitor::OnTaken(std::uint64_t requestNumber)
+{
+    if (requestNumber != _requestNumber)
+    {
+        return; // another one has been asked for since
+    }
+    _bRelaysLate = false;
+    if (Verification* const verificationOrNull = std::get_if<Verification>(&_view))
+    {
+        verificationOrNull->bTaken = true;
+    }
+    else if (Probe* const probeOrNull = std::get_if<Probe>(&_view))
+    {
+        probeOrNull->bTaken = true;
+    }
+    else if (Relays* const relaysOrNull = std::get_if<Relays>(&_view))
+    {
+        relaysOrNull->bTaken = true;
+    }
+}
+
+ArmFact ArmMonitor::OnRefused(const OpenStream::ClientMonitorRefused& refused, AdapterActions& out)
+{
+    const std::string reason = fmt::format(
+        "the arm's controller refuses the MONITOR of {}: {} {}",
+        refused.url,
+        refused.error.codeText,
+        refused.error.message);
+    if (std::holds_alternative<Effect>(_view) && refused.url == GENERAL_URL)
+    {
+        _bGeneralHidden = true;
+        VerifyCounters();
+        return {};
+    }
+    if (const Probe* const probeOrNull = std::get_if<Probe>(&_view);
+        probeOrNull != nullptr && refused.url == GetProbeUrl(probeOrNull->kind))
+    {
+        return AbandonProbe(true);
+    }
+    if (const Relays* const relaysOrNull = std::get_if<Relays>(&_view);
+        relaysOrNull != nullptr && refused.url == relaysOrNull->ranges[relaysOrNull->read.size()].url)
+    {
+        return ArmRelaysRefused{reason};
+    }
+    const std::string_view wanted = _link == ELink::MotorOff ? MOTOR_STATE_URL : std::string_view(_options.monitorUrl);
+    if (_link == ELink::Lost || refused.url != wanted)
+    {
+        return {}; // another one has taken its place
+    }
+    if (_link == ELink::Ready)
+    {
+        _link = ELink::Counting;
+    }
+    _bMonitorRefused = true;
+    _trouble = MakeHeavy(ERROR_MONITOR, fmt::format("Counters or motor unknown: {}. Retrying in 5 s.", reason));
+    out.emplace_back(Planning::StartAdapterTimer{ArmTimers::RETRY, ArmTimers::RETRY_DELAY});
+    return {};
+}
+
+/// The motor's state shows whether it is on; why it is not, only the refusal does.
+void ArmMonitor::OnMotorSettled(const ArmSettlement& settlement)
+{
+    const bool bRefused = settlement.outcome == OpenStream::EControlOutcome::Refused;
+    _motorRefusal = bRefused ? settlement.refusal.reason : std::string();
+}
+
+bool ArmMonitor::TryTakeFault(const std::string& reason)
+{
+    if (_link != ELink::MotorOff)
+    {
+        return false;
+    }
+    _motorRefusal = reason;
+    return true;
+}
+
+/// What should have come is not here yet: it is reported, and asked for again.
+bool ArmMonitor::TryRetry(AdapterActions& out)
+{
+    if (_link != ELink::MotorOff && _link != ELink::Counting)
+    {
+        return false;
+    }
+    const bool bRefused = std::exchange(_bMonitorRefused, false);
+    if (_link == ELink::MotorOff)
+    {
+        if (bRefused)
+        {
+            MonitorMotor();
+        }
+        else
+        {
+            ReportMotorOff();
+        }
+        SwitchMotorOn();
+    }
+    else
+    {
+        const bool bVerifies = std::holds_alternative<Verification>(_view);
+        WatchCounters(bVerifies ? ArmView(Verification{}) : ArmView(Counters{}));
+        if (!bRefused)
+        {
+            _trouble = MakeHeavy(
+                ERROR_COUNTERS,
+                fmt::format(
+                    "MONITOR of {} shows no counters of the arm's programs. Check whether the controller has these "
+                    "relays, and arm.monitor_url, arm.monitor_start and arm.counter_… of the configuration.",
+                    _options.monitorUrl));
+        }
+    }
+    out.emplace_back(Planning::StartAdapterTimer{ArmTimers::RETRY, ArmTimers::RETRY_DELAY});
+    return true;
+}
+
+void ArmMonitor::ReportMotorOff()
+{
+    _trouble = MakeHeavy(
+        ERROR_MOTOR,
+        _motorRefusal.empty() ? std::string("The arm's motor is off. It is being switched on.")
+                              : fmt::format("The arm's motor is off: {}", _motorRefusal));
+}
+
+bool ArmMonitor::IsLost() const noexcept
+{
+    return _link == ELink::Lost;
+}
+
+bool ArmMonitor::IsReady() const noexcept
+{
+    return _link == ELink::Ready;
+}
+
+bool ArmMonitor::IsIdle() const noexcept
+{
+    return IsReady() && (std::holds_alternative<Counters>(_view) || IsProbing());
+}
+
+bool ArmMonitor::IsProbing() const noexcept
+{
+    return std::holds_alternative<Probe>(_view);
+}
+
+bool ArmMonitor::IsReadingRelays() const noexcept
+{
+    return std::holds_alternative<Relays>(_view);
+}
+
+bool ArmMonitor::IsHidden(EArmProbe probe) const noexcept
+{
+    return probe == EArmProbe::Motor ? _bMotorHidden : _bGeneralHidden;
+}
+
+const std::optional<RobotError>& ArmMonitor::GetTroubleOrNull() const noexcept
+{
+    return _trouble;
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "robots/ArmProgramState.hpp"
+
+// The states of ArmProgram by their own names. For its sources only.
+
+namespace ACS::Acsd
+{
+
+using ArmStates::Awaited;
+using ArmStates::Doubtful;
+using ArmStates::EArmStart;
+using ArmStates::NoJob;
+using ArmStates::Prepared;
+using ArmStates::ReadingInputs;
+using ArmStates::Refused;
+using ArmStates::Resetting;
+using ArmStates::ResumeRefused;
+using ArmStates::Resuming;
+using ArmStates::Rewinding;
+using ArmStates::Running;
+using ArmStates::Selecting;
+using ArmStates::Starting;
+using ArmStates::Stopped;
+using ArmStates::Stopping;
+using ArmStates::VerifyingCounters;
+using ArmStates::VerifyingSelection;
+using ArmStates::WritingInputs;
+
+} // namespace ACS::Acsd

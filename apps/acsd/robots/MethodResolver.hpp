@@ -1,0 +1,70 @@
+#pragma once
+
+#include "common/config/ConfigSection.hpp"
+#include "config/AcsdConfig.hpp"
+#include "config/ActionConfig.hpp"
+#include "config/SitePlaces.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+/// One table of an action and its keys.
+struct MethodTable
+{
+    Apps::ConfigSection section;
+    MethodKeys keys;
+};
+
+/// By action, and of stations by station too.
+using MethodTables = std::map<std::string, MethodTable, std::less<>>;
+using StationTables = std::map<std::string, MethodTables, std::less<>>;
+
+/// Why a robot cannot do an action, and which key of a table is the cause.
+struct MethodFault
+{
+    std::string robotID;
+    std::string key;
+    std::string reason; ///< As the robot's adapter has it.
+    std::string remedy;
+};
+
+/// Resolves how each robot does one action, and reports tables that take it from a robot or have no effect.
+class MethodResolver final
+{
+    const std::string& _action;
+    const Planning::ActionRule& _rule;
+    const MethodTable& _base;
+    const StationTables& _stations;
+    std::vector<std::string>& _warnings;
+    std::vector<MethodKeys> _used;               ///< Of the robots that can do it.
+    std::optional<MethodFault> _baseFaultOrNone; ///< Of the first robot without an override that cannot.
+    bool _bOverrideFault = false;
+
+public:
+    /// All of them must outlive it.
+    MethodResolver(
+        const std::string& action,
+        const Planning::ActionRule& rule,
+        const MethodTable& base,
+        const StationTables& stations,
+        std::vector<std::string>& warnings);
+
+    /// The override is null where the robot has none.
+    void SetMethods(const MethodTable* overrideOrNull, std::size_t portCount, RobotLinkConfig& robot);
+
+    /// Reports what is wrong for all robots together, after the last one.
+    void Check(const SitePlaces& places) const;
+
+private:
+    void SetStationMethods(const MethodKeys& keys, std::size_t portCount, RobotLinkConfig& robot) const;
+    void CheckStation(const std::string& stationID, const MethodTable& table, const SitePlaces& places) const;
+};
+
+} // namespace ACS::Acsd

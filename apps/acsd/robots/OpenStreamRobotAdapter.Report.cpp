@@ -1,0 +1,124 @@
+#include "robots/OpenStreamRobotAdapter.hpp"
+
+#include <utility>
+#include <variant>
+
+// What is reported of the robot as a whole: its base and its arm are one.
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+using Planning::AdapterActions;
+using Planning::RaiseEvent;
+
+} // namespace
+
+void OpenStreamRobotAdapter::DrainBase(AdapterActions& out)
+{
+    for (Planning::AdapterAction& action : _baseActions)
+    {
+        const RaiseEvent* raiseOrNull = std::get_if<RaiseEvent>(&action);
+        const Planning::LinkChanged* linkOrNull =
+            raiseOrNull == nullptr ? nullptr : std::get_if<Planning::LinkChanged>(&raiseOrNull->event);
+        const Planning::StateChanged* stateOrNull =
+            raiseOrNull == nullptr ? nullptr : std::get_if<Planning::StateChanged>(&raiseOrNull->event);
+        const bool bJobCheck =
+            raiseOrNull != nullptr && std::holds_alternative<Planning::JobCheckChanged>(raiseOrNull->event);
+        if (bJobCheck)
+        {
+            continue; // the base does no jobs
+        }
+        if (stateOrNull != nullptr)
+        {
+            _baseState = *stateOrNull;
+            if (stateOrNull->bPaused)
+            {
+                _program.OnPauseSeen();
+            }
+            _bBaseStateKnown = true;
+            _bPaused = IsPaused();
+            out.emplace_back(RaiseEvent{MakeState()});
+        }
+        else if (linkOrNull != nullptr)
+        {
+            _bBaseOnline = linkOrNull->bOnline;
+            _bBaseStateKnown = _bBaseStateKnown && _bBaseOnline;
+            ReportOnline(out);
+        }
+        else
+        {
+            out.push_back(std::move(action));
+        }
+    }
+    _baseActions.clear();
+}
+
+Planning::StateChanged OpenStreamRobotAdapter::MakeState() const
+{
+    Planning::StateChanged state = _baseState;
+    state.bPaused = _bPaused;
+    state.mark = _evidence.MakeProgressToken();
+    if (_trouble.has_value())
+    {
+        state.errors.push_back(*_trouble);
+    }
+    return state;
+}
+
+void OpenStreamRobotAdapter::ReportState(AdapterActions& out) const
+{
+    if (_bBaseStateKnown)
+    {
+        out.emplace_back(RaiseEvent{MakeState()});
+    }
+}
+
+/// With a trouble the robot is in reach, but does no work; without, an arm that shows no counters is out of reach.
+void OpenStreamRobotAdapter::ReportArm(AdapterActions& out)
+{
+    const std::optional<Planning::RobotError>& trouble =
+        _monitor.GetTroubleOrNull().has_value() ? _monitor.GetTroubleOrNull() : _program.GetTroubleOrNull();
+    const bool bNews = _trouble != trouble;
+    _trouble = trouble;
+    const bool bWasOnline = _bOnline;
+    ReportOnline(out);
+    if (bNews && bWasOnline && _bOnline)
+    {
+        ReportState(out);
+    }
+}
+
+/// The robot is online when both its parts are.
+void OpenStreamRobotAdapter::ReportOnline(AdapterActions& out)
+{
+    const bool bArmInReach = _monitor.IsReady() || (!_monitor.IsLost() && _trouble.has_value());
+    const bool bOnline = _bBaseOnline && bArmInReach;
+    if (std::exchange(_bOnline, bOnline) == bOnline)
+    {
+        return;
+    }
+    out.emplace_back(RaiseEvent{Planning::LinkChanged{bOnline}});
+    if (bOnline)
+    {
+        ReportState(out); // the base may report its next one much later
+    }
+}
+
+/// When base and arm are stopped; no longer when both continue.
+bool OpenStreamRobotAdapter::IsPaused() const
+{
+    return (_baseState.bPaused && _program.IsArmStopped()) || _program.IsResumeDue();
+}
+
+void OpenStreamRobotAdapter::ReportPaused(AdapterActions& out)
+{
+    if (_bBaseStateKnown && std::exchange(_bPaused, IsPaused()) != IsPaused())
+    {
+        ReportState(out);
+    }
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,493 @@
+#include "robots/OpenStreamRobotAdapter.hpp"
+
+#include "robots/ArmTimers.hpp"
+#include <acs/core/Overloaded.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+using Planning::AdapterActions;
+using Planning::RaiseEvent;
+
+/// The number that the job's program echoes; 0 where it gets none, and cannot.
+std::int32_t GetEchoedNumber(const Planning::StartJob& job, const ArmJob& made)
+{
+    const bool bGiven =
+        std::ranges::any_of(made.inputs, [&job](const ArmInput& input) { return input.value == job.jobNumber; });
+    return bGiven ? job.jobNumber : 0;
+}
+
+} // namespace
+
+OpenStreamRobotAdapter::OpenStreamRobotAdapter(
+    VDA5050::MasterOptions base,
+    ArmOptions arm,
+    JobMethods methods,
+    ArmInputResolver inputs,
+    RobotOutputs& outputs)
+    : _base(std::move(base), methods, outputs),
+      _options(std::move(arm)),
+      _methods(std::move(methods)),
+      _resolveInputs(std::move(inputs)),
+      _controls(outputs),
+      _monitor(_options, outputs, _controls),
+      _program(_options, _controls)
+{
+}
+
+void OpenStreamRobotAdapter::Handle(const Planning::RobotCommand& command, Core::Now now, AdapterActions& out)
+{
+    const Planning::StartJob* jobOrNull = std::get_if<Planning::StartJob>(&command);
+    const Planning::RecoverJob* recoverOrNull = std::get_if<Planning::RecoverJob>(&command);
+    const Planning::CancelJob* cancelOrNull = std::get_if<Planning::CancelJob>(&command);
+    if (jobOrNull != nullptr)
+    {
+        StartJob(*jobOrNull, out);
+    }
+    else if (recoverOrNull != nullptr)
+    {
+        _recovery = recoverOrNull->job;
+        if (_monitor.IsReady())
+        {
+            RecoverJob(out);
+            Update(out);
+        }
+    }
+    else if (cancelOrNull != nullptr)
+    {
+        _program.Cancel(cancelOrNull->jobID, out);
+        Update(out);
+    }
+    else
+    {
+        const bool bPause = std::holds_alternative<Planning::Pause>(command);
+        if (bPause || std::holds_alternative<Planning::Resume>(command))
+        {
+            _program.SetPauseWanted(bPause);
+            Update(out);
+        }
+        _base.Handle(command, now, _baseActions);
+        DrainBase(out);
+    }
+}
+
+void OpenStreamRobotAdapter::OnTimer(Planning::AdapterTimerID timer, Core::Now now, AdapterActions& out)
+{
+    switch (timer)
+    {
+        case ArmTimers::RETRY:
+            if (!_monitor.TryRetry(out) && !_monitor.IsProbing())
+            {
+                _program.Retry();
+            }
+            break;
+        case ArmTimers::PROBE:
+            OnProbeTimer(out);
+            break;
+        case ArmTimers::EFFECT:
+            _monitor.OnEffectTimer();
+            break;
+        case ArmTimers::START:
+            if (_monitor.IsReady())
+            {
+                _program.OnStartTimer(_evidence.IsEchoed(), out);
+            }
+            break;
+        case ArmTimers::INPUT:
+            _program.OnInputTimer(out);
+            break;
+        default:
+            _base.OnTimer(timer, now, _baseActions);
+            DrainBase(out);
+            return;
+    }
+    Update(out);
+}
+
+std::optional<std::string> OpenStreamRobotAdapter::GetRejectionReasonOrNull(std::string_view action) const
+{
+    const JobMethod* const methodOrNull = _methods.FindMethodOrNull(action);
+    if (methodOrNull == nullptr || methodOrNull->armProgram == 0)
+    {
+        return fmt::format("the arm has no program for {}", action);
+    }
+    return std::nullopt;
+}
+
+std::vector<VDA5050::MqttSubscription> OpenStreamRobotAdapter::GetSubscriptions() const
+{
+    return _base.GetSubscriptions();
+}
+
+void OpenStreamRobotAdapter::OnLinkUp(Core::Now now, AdapterActions& out)
+{
+    _base.OnLinkUp(now, _baseActions);
+    DrainBase(out);
+}
+
+void OpenStreamRobotAdapter::OnLinkDown(Core::Now now, AdapterActions& out)
+{
+    _base.OnLinkDown(now, _baseActions);
+    DrainBase(out);
+}
+
+void OpenStreamRobotAdapter::OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, AdapterActions& out)
+{
+    _base.OnMqttMessage(message, now, _baseActions);
+    DrainBase(out);
+}
+
+const VDA5050::MasterSession& OpenStreamRobotAdapter::GetSession() const noexcept
+{
+    return _base.GetSession();
+}
+
+void OpenStreamRobotAdapter::OnArmEvent(const OpenStream::ClientEvent& event, Core::Now /*now*/, AdapterActions& out)
+{
+    std::visit(
+        Core::Overloaded{
+            [&](const OpenStream::ClientReady&) {
+                _monitor.WatchMotor(out);
+                ReportArm(out);
+            },
+            [&](const OpenStream::ClientData& data) { OnData(data.line, out); },
+            [&](const OpenStream::ClientControlSettled& settled) { OnSettled(settled, out); },
+            [&](const OpenStream::ClientMonitorStarted& started) { _monitor.OnTaken(started.requestNumber); },
+            [&](const OpenStream::ClientMonitorRefused& refused) {
+                OnFact(_monitor.OnRefused(refused, out), out);
+                Update(out);
+            },
+            [&](const OpenStream::ClientControlFault& fault) { OnFault(fault, out); },
+            [&](const OpenStream::ClientLost&) { OnLost(out); },
+            [](const auto&) {
+            }},
+        event);
+}
+
+void OpenStreamRobotAdapter::OnLost(AdapterActions& out)
+{
+    _monitor.OnLost(out);
+    _trouble.reset(); // with the robot out of reach it is not reported by itself
+    ReportArm(out);   // before a job is given back, which would come again at once
+    const bool bHadJob = _program.HasJob();
+    _program.OnLost(out);
+    if (bHadJob && !_program.HasJob())
+    {
+        ReportPaused(out);
+    }
+}
+
+void OpenStreamRobotAdapter::OnFault(const OpenStream::ClientControlFault& fault, AdapterActions& out)
+{
+    const ArmRefusal refusal = MakeArmRefusal(fault.status, fault.body, fault.detail);
+    if (!_monitor.TryTakeFault(refusal.reason))
+    {
+        _program.OnFault(refusal, out);
+        Update(out);
+    }
+}
+
+void OpenStreamRobotAdapter::OnSettled(const OpenStream::ClientControlSettled& settled, AdapterActions& out)
+{
+    const std::optional<ArmSettlement> settlementOrNull = _controls.SettleOrNull(settled);
+    if (!settlementOrNull.has_value())
+    {
+        return;
+    }
+    if (settlementOrNull->kind == EArmControl::SwitchMotorOn)
+    {
+        _monitor.OnMotorSettled(*settlementOrNull);
+        Update(out);
+        return;
+    }
+    _program.OnSettled(*settlementOrNull, out);
+    if (settled.outcome == OpenStream::EControlOutcome::Unknown)
+    {
+        ReportPaused(out); // the connection is gone: the program continues when the counters are back
+    }
+    else
+    {
+        Update(out);
+    }
+}
+
+void OpenStreamRobotAdapter::OnData(const OpenStream::DataLine& line, AdapterActions& out)
+{
+    if (line.result.has_value())
+    {
+        OnFact(_monitor.OnSample(*line.result, out), out);
+    }
+}
+
+void OpenStreamRobotAdapter::OnFact(const ArmFact& fact, AdapterActions& out)
+{
+    std::visit(
+        Core::Overloaded{
+            [](const std::monostate&) {},
+            [&](const ArmCounted& counted) { OnCounted(counted, out); },
+            [&](const ArmEffectShown& shown) {
+                if (_program.IsEffectShown(shown.state))
+                {
+                    _monitor.EndEffect(out);
+                }
+            },
+            [&](const ArmProbed& probed) { OnProbed(probed, out); },
+            [&](const ArmRelaysRead& read) {
+                _program.OnInputsRead(read.ranges, out);
+                if (_program.IsReadingInputs())
+                {
+                    _monitor.RepeatRelays();
+                }
+                Update(out);
+            },
+            [&](const ArmRelaysRefused& refused) {
+                _program.OnInputsRefused(refused.reason, out);
+                Update(out);
+            }},
+        fact);
+}
+
+void OpenStreamRobotAdapter::OnCounted(const ArmCounted& counted, AdapterActions& out)
+{
+    const ArmJobEvidence::EChange change = _evidence.Update(counted.sample);
+    if (change != ArmJobEvidence::EChange::None)
+    {
+        ReportState(out); // with the new mark, before a job begins on it
+    }
+    if (counted.bFirst)
+    {
+        _program.ForgetHalt();
+    }
+    ReportArm(out);
+    if (change == ArmJobEvidence::EChange::Fallen && _program.IsCounted())
+    {
+        _program.OnRestarted(out);
+        Update(out);
+        return;
+    }
+    if (_recovery.has_value())
+    {
+        RecoverJob(out);
+    }
+    if (_program.IsCounted())
+    {
+        const ArmProof proof = _evidence.Evaluate();
+        _program.OnProof(proof, _evidence.DescribeEcho(), out);
+    }
+    else if (_program.IsPreparing() && !_evidence.IsUnchanged())
+    {
+        _program.OnCountedBeforeStart(out);
+    }
+    if (!counted.bFirst)
+    {
+        _program.OnCounted(IsProgramWatched(), out);
+    }
+    if (counted.bVerifies)
+    {
+        _program.OnVerified(_evidence.IsUnchanged(), out);
+    }
+    if (counted.bFirst)
+    {
+        _program.OnCountersBack(out);
+    }
+    Update(out);
+}
+
+void OpenStreamRobotAdapter::OnProbed(const ArmProbed& probed, AdapterActions& out)
+{
+    const bool bMotor = probed.probe == EArmProbe::Motor;
+    if (bMotor && probed.bOnOrNone == false && _program.IsMotorDecisive())
+    {
+        _monitor.ReportMotorOff();
+        _monitor.WatchMotor(out);
+        ReportArm(out); // before a job is given back, which would come again at once
+        _program.OnMotorOff(out);
+    }
+    else if (bMotor)
+    {
+        _monitor.WatchCounters();
+        _program.OnMotorProbed(out);
+    }
+    else
+    {
+        _monitor.WatchCounters();
+        _program.OnPlaybackProbed(probed.bOnOrNone, IsProgramWatched());
+    }
+    Update(out);
+}
+
+/// MONITOR reads one thing at a time: now and then, between two samples of the counters, it is another one.
+void OpenStreamRobotAdapter::OnProbeTimer(AdapterActions& out)
+{
+    const bool bWatched = IsProgramWatched();
+    if (_monitor.IsReady() && !bWatched && !_program.IsResumeDue())
+    {
+        _program.ForgetHalt();
+    }
+    std::optional<EArmProbe> wanted;
+    if (!_program.HasJob())
+    {
+        wanted = EArmProbe::Motor;
+    }
+    else if (bWatched)
+    {
+        wanted = EArmProbe::Playback;
+    }
+    OnFact(_monitor.OnProbeTimer(wanted, out), out);
+}
+
+void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, AdapterActions& out)
+{
+    _recovery.reset();
+    tl::expected<ArmJob, std::string> made = MakeJob(job);
+    if (!made.has_value())
+    {
+        out.emplace_back(RaiseEvent{Planning::JobFailed{job.jobID, made.error()}});
+        return;
+    }
+    if (!_monitor.IsReady())
+    {
+        // It went away while the job waited to be stored. The robot is offline for that time, so the job comes again when it
+        // is there.
+        out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});
+        return;
+    }
+    if (!job.mark.empty() && job.mark != _evidence.MakeProgressToken())
+    {
+        // A program has run meanwhile: after a restart this one could not be told from it.
+        out.emplace_back(RaiseEvent{MakeState()});
+        out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});
+        return;
+    }
+    _evidence.Begin(GetEchoedNumber(job, *made));
+    _program.Start(std::move(*made));
+}
+
+tl::expected<ArmJob, std::string> OpenStreamRobotAdapter::MakeJob(const Planning::StartJob& job) const
+{
+    if (std::optional<std::string> rejection = GetRejectionReasonOrNull(job.action); rejection.has_value())
+    {
+        return tl::unexpected(std::move(*rejection));
+    }
+    ArmJob made{job.jobID, _methods.FindMethodOrNull(job.action, _methods.MakeData(job))->armProgram, {}};
+    if (_resolveInputs)
+    {
+        tl::expected<std::vector<ArmInput>, std::string> inputs = _resolveInputs(job);
+        if (!inputs.has_value())
+        {
+            return tl::unexpected(fmt::format("no inputs for the arm's program: {}", inputs.error()));
+        }
+        made.inputs = std::move(*inputs);
+    }
+    for (const ArmInput& input : made.inputs)
+    {
+        if (!CanHold(input.relay, input.value))
+        {
+            return tl::unexpected(
+                fmt::format("relay {} of the arm is too narrow for the value {}", input.relay.name, input.value));
+        }
+    }
+    return made;
+}
+
+/// A job that was commanded before a restart: the counters show whether its program has begun.
+void OpenStreamRobotAdapter::RecoverJob(AdapterActions& out)
+{
+    const Planning::StartJob job = *std::exchange(_recovery, std::nullopt);
+    const tl::expected<ArmJob, std::string> made = MakeJob(job);
+    const std::int32_t number = made.has_value() ? GetEchoedNumber(job, *made) : job.jobNumber;
+    const tl::expected<bool, std::string> begun = _evidence.Recover(job.mark, number);
+    if (!begun.has_value())
+    {
+        out.emplace_back(RaiseEvent{Planning::JobUncertain{job.jobID, begun.error()}});
+        return;
+    }
+    _program.Recover({job.jobID, 0, {}}, *begun, out);
+}
+
+void OpenStreamRobotAdapter::ServeProgram(AdapterActions& out)
+{
+    for (std::vector<EArmRequest> requests = _program.TakeRequests(); !requests.empty();
+         requests = _program.TakeRequests())
+    {
+        for (const EArmRequest request : requests)
+        {
+            Serve(request, out);
+        }
+    }
+}
+
+void OpenStreamRobotAdapter::Serve(EArmRequest request, AdapterActions& out)
+{
+    switch (request)
+    {
+        case EArmRequest::VerifyEffect:
+            _monitor.VerifyEffect(out);
+            break;
+        case EArmRequest::VerifyCounters:
+            _monitor.VerifyCounters();
+            break;
+        case EArmRequest::ReadInputs:
+        {
+            std::vector<ArmRelay> relays;
+            for (const ArmInput& input : _program.GetInputs())
+            {
+                relays.push_back(input.relay);
+            }
+            _monitor.ReadRelays(MakeRelayRanges(relays));
+            break;
+        }
+        case EArmRequest::ProbeMotor:
+            if (_monitor.IsHidden(EArmProbe::Motor))
+            {
+                _program.OnMotorProbed(out);
+                break;
+            }
+            _monitor.BeginProbe(EArmProbe::Motor, out);
+            break;
+        case EArmRequest::ProbePlayback:
+            if (_monitor.IsHidden(EArmProbe::Playback))
+            {
+                _program.OnPlaybackHidden(out);
+                break;
+            }
+            _monitor.BeginProbe(EArmProbe::Playback, out);
+            break;
+        default:
+            break;
+    }
+}
+
+void OpenStreamRobotAdapter::Update(AdapterActions& out)
+{
+    ServeProgram(out);
+    if (_monitor.IsReadingRelays() && !_program.IsReadingInputs())
+    {
+        _monitor.WatchCounters();
+    }
+    _program.Advance(IsFree(), _monitor.IsProbing(), out);
+    ServeProgram(out);
+    ReportArm(out);
+    ReportPaused(out);
+}
+
+bool OpenStreamRobotAdapter::IsFree() const
+{
+    return _controls.IsIdle() && _monitor.IsIdle();
+}
+
+bool OpenStreamRobotAdapter::IsProgramWatched() const
+{
+    return IsFree() && _program.IsRunning();
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,105 @@
+#pragma once
+
+#include "config/AcsdConfig.hpp"
+#include "config/ArmOptions.hpp"
+#include "robots/ArmControls.hpp"
+#include "robots/ArmInput.hpp"
+#include "robots/ArmJobEvidence.hpp"
+#include "robots/ArmMonitor.hpp"
+#include "robots/ArmProgram.hpp"
+#include "robots/IMqttRobotAdapter.hpp"
+#include "robots/RobotOutputs.hpp"
+#include "robots/Vda5050RobotAdapter.hpp"
+#include <acs/core/Now.hpp>
+#include <acs/openstream/ClientSessionActions.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+/// Joins a control robot to the engine: its base is a VDA5050 vehicle, its arm a Hi6 controller behind Open Stream.
+/// Drives go to the base. A job is a program of the arm: CONTROL selects it, writes its inputs and starts it; it is done when
+/// a counter that the program raises in a relay has changed, as MONITOR shows it. A pause stops the program where it is and
+/// the base too; the robot is paused when both are stopped. Pure, like the adapter of the base inside it.
+///
+/// It carries facts between its parts: ArmMonitor, what MONITOR shows; ArmProgram, the program of the present job;
+/// ArmJobEvidence, what the counters prove of it.
+class OpenStreamRobotAdapter final : public IMqttRobotAdapter
+{
+    Vda5050RobotAdapter _base;
+    ArmOptions _options;
+    JobMethods _methods;
+    ArmInputResolver _resolveInputs;
+    ArmControls _controls;
+    ArmMonitor _monitor;
+    ArmProgram _program;
+    ArmJobEvidence _evidence;
+    Planning::AdapterActions _baseActions;
+    std::optional<Planning::StartJob> _recovery; ///< A job of before a restart; the counters have not come yet.
+
+    bool _bBaseOnline = false;
+    bool _bBaseStateKnown = false;
+    Planning::StateChanged _baseState; ///< The latest of the base.
+    bool _bOnline = false;             ///< As it was reported last.
+    bool _bPaused = false;             ///< Likewise.
+    std::optional<Planning::RobotError> _trouble;
+
+    void StartJob(const Planning::StartJob& job, Planning::AdapterActions& out);
+    [[nodiscard]] tl::expected<ArmJob, std::string> MakeJob(const Planning::StartJob& job) const;
+    void RecoverJob(Planning::AdapterActions& out);
+
+    void OnSettled(const OpenStream::ClientControlSettled& settled, Planning::AdapterActions& out);
+    void OnFault(const OpenStream::ClientControlFault& fault, Planning::AdapterActions& out);
+    void OnLost(Planning::AdapterActions& out);
+    void OnData(const OpenStream::DataLine& line, Planning::AdapterActions& out);
+    void OnFact(const ArmFact& fact, Planning::AdapterActions& out);
+    void OnCounted(const ArmCounted& counted, Planning::AdapterActions& out);
+    void OnProbed(const ArmProbed& probed, Planning::AdapterActions& out);
+    void OnProbeTimer(Planning::AdapterActions& out);
+
+    /// What the program needs MONITOR for.
+    void ServeProgram(Planning::AdapterActions& out);
+    void Serve(EArmRequest request, Planning::AdapterActions& out);
+    /// After each input: the program's next step, and what has changed for the engine.
+    void Update(Planning::AdapterActions& out);
+    /// Nothing is under way.
+    [[nodiscard]] bool IsFree() const;
+    /// The counters do not stop changing for a reason of its own.
+    [[nodiscard]] bool IsProgramWatched() const;
+
+    void DrainBase(Planning::AdapterActions& out);
+    [[nodiscard]] Planning::StateChanged MakeState() const;
+    void ReportState(Planning::AdapterActions& out) const;
+    void ReportArm(Planning::AdapterActions& out);
+    void ReportOnline(Planning::AdapterActions& out);
+    void ReportPaused(Planning::AdapterActions& out);
+    [[nodiscard]] bool IsPaused() const;
+
+public:
+    /// The outputs must outlive the adapter. Each MONITOR in them is one SetMonitor call of one session, which has no other.
+    /// An empty resolver: no action has inputs.
+    OpenStreamRobotAdapter(
+        VDA5050::MasterOptions base,
+        ArmOptions arm,
+        JobMethods methods,
+        ArmInputResolver inputs,
+        RobotOutputs& outputs);
+
+    void Handle(const Planning::RobotCommand& command, Core::Now now, Planning::AdapterActions& out) override;
+    void OnTimer(Planning::AdapterTimerID timer, Core::Now now, Planning::AdapterActions& out) override;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(std::string_view action) const override;
+
+    [[nodiscard]] std::vector<VDA5050::MqttSubscription> GetSubscriptions() const override;
+    void OnLinkUp(Core::Now now, Planning::AdapterActions& out) override;
+    void OnLinkDown(Core::Now now, Planning::AdapterActions& out) override;
+    void OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, Planning::AdapterActions& out) override;
+    [[nodiscard]] const VDA5050::MasterSession& GetSession() const noexcept override;
+
+    void OnArmEvent(const OpenStream::ClientEvent& event, Core::Now now, Planning::AdapterActions& out);
+};
+
+} // namespace ACS::Acsd

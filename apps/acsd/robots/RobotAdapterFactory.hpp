@@ -1,0 +1,30 @@
+#pragma once
+
+#include "config/AcsdConfig.hpp"
+#include "robots/IMqttRobotAdapter.hpp"
+#include "robots/OpenStreamRobotAdapter.hpp"
+#include "robots/RobotOutputs.hpp"
+#include <acs/openstream/ClientSessionActions.hpp>
+
+#include <memory>
+
+namespace ACS::Acsd
+{
+
+/// The adapter of one robot.
+struct RobotAdapter
+{
+    std::unique_ptr<IMqttRobotAdapter> adapter;  ///< Never null.
+    OpenStreamRobotAdapter* armOrNull = nullptr; ///< The same once more, where the robot has an arm.
+};
+
+/// As the configuration wants it: a vehicle, or a vehicle with an arm. The outputs must outlive it.
+[[nodiscard]] RobotAdapter MakeRobotAdapter(
+    const AcsdConfig& config,
+    const RobotLinkConfig& robot,
+    RobotOutputs& outputs);
+
+/// Of acsd's session with the controller of an arm.
+[[nodiscard]] OpenStream::ClientSessionOptions MakeArmSessionOptions();
+
+} // namespace ACS::Acsd

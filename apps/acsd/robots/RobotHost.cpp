@@ -1,0 +1,270 @@
+#include "robots/RobotHost.hpp"
+
+#include "common/process/TimerSet.hpp"
+#include "robots/RobotAdapterFactory.hpp"
+#include "robots/RobotOutputs.hpp"
+#include "robots/VehicleWatch.hpp"
+#include "trace/ArmTrace.hpp"
+#include <acs/core/Overloaded.hpp>
+#include <acs/openstream_asio/OpenStreamClient.hpp>
+
+#include <algorithm>
+#include <deque>
+#include <iterator>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+OpenStreamAsio::OpenStreamClientOptions MakeArmOptions(const Apps::Url& arm)
+{
+    OpenStreamAsio::OpenStreamClientOptions options;
+    options.host = arm.peer.host;
+    options.port = arm.peer.port;
+    options.session = MakeArmSessionOptions();
+    return options;
+}
+
+} // namespace
+
+struct RobotHost::Impl
+{
+    Surroundings surroundings;
+    RobotLinkConfig robot;
+    EventHandler handler;
+    RobotOutputs outputs;
+    std::unique_ptr<IMqttRobotAdapter> adapter;
+    OpenStreamRobotAdapter* armAdapterOrNull = nullptr;
+    std::optional<Apps::TimerSet<Planning::AdapterTimerID>> timers;
+    std::deque<Planning::AdapterAction> actions; ///< Still to be carried out.
+    bool bExecuting = false;
+    std::optional<ArmTrace> armTrace;
+    VehicleWatch watch;
+    std::optional<Core::SteadyTime> seenAt;
+    std::unique_ptr<OpenStreamAsio::OpenStreamClient> armClient;
+
+    Impl(Surroundings around, const AcsdConfig& config, const RobotLinkConfig& link, EventHandler eventHandler)
+        : surroundings(std::move(around)),
+          robot(link),
+          handler(std::move(eventHandler)),
+          watch(
+              *config.site,
+              link.robotID,
+              {surroundings.clock, surroundings.logger.MakeFor("robot"), surroundings.metrics},
+              link.methods.GetPositions())
+    {
+        RobotAdapter made = MakeRobotAdapter(config, robot, outputs);
+        adapter = std::move(made.adapter);
+        armAdapterOrNull = made.armOrNull;
+        timers.emplace(surroundings.executor, [this](Planning::AdapterTimerID timer) {
+            Call([this, timer](Core::Now now, Planning::AdapterActions& out) { adapter->OnTimer(timer, now, out); });
+        });
+    }
+
+    /// Calls the adapter and carries out what it wants. What an event leads to may call the adapter again: that call's
+    /// actions come after the rest of this one's, which may for instance cancel a timer that the new call starts.
+    template <typename TCall>
+    void Call(TCall call)
+    {
+        Planning::AdapterActions wanted;
+        call(surroundings.clock.GetNow(), wanted);
+        std::ranges::move(wanted, std::back_inserter(actions));
+        if (std::exchange(bExecuting, true))
+        {
+            return;
+        }
+        while (!actions.empty())
+        {
+            const Planning::AdapterAction action = std::move(actions.front());
+            actions.pop_front();
+            Execute(action);
+        }
+        bExecuting = false;
+        SendAll();
+    }
+
+    void SendAll()
+    {
+        for (const VDA5050::MqttMessage& message : std::exchange(outputs.messages, {}))
+        {
+            Publish(message);
+        }
+        for (const ArmRequest& request : std::exchange(outputs.armRequests, {}))
+        {
+            Send(request);
+        }
+    }
+
+    void Execute(const Planning::AdapterAction& action)
+    {
+        std::visit(
+            Core::Overloaded{
+                [&](const Planning::RaiseEvent& raise) { handler(robot.robotID, raise.event); },
+                [&](const Planning::StartAdapterTimer& start) { timers->Start(start.timer, start.delay); },
+                [&](const Planning::CancelAdapterTimer& cancel) {
+                    timers->Cancel(cancel.timer);
+                }},
+            action);
+    }
+
+    void Publish(const VDA5050::MqttMessage& message)
+    {
+        const Core::Result<void> published = surroundings.mqtt.Publish(message);
+        if (!published)
+        {
+            // The session sends it again until the vehicle has shown it.
+            surroundings.logger.Warning(
+                "a message to the vehicle could not be sent",
+                {{"robotId", robot.robotID}, {"topic", message.topic}, {"reason", Core::Describe(published.error())}});
+        }
+        else if (surroundings.traceOrNull != nullptr)
+        {
+            surroundings.traceOrNull->Write(
+                {"mqtt", ProtocolBeast::EWireDirection::Out, robot.robotID, message.topic, message.payload});
+        }
+    }
+
+    void Send(const ArmRequest& request) const
+    {
+        std::visit(
+            Core::Overloaded{
+                [&](const OpenStream::MonitorRequest& monitor) { armClient->SetMonitor(monitor); },
+                [&](const OpenStream::ControlRequest& control) {
+                    static_cast<void>(armClient->SendControl(control));
+                }},
+            request);
+    }
+
+    void StartArm()
+    {
+        OpenStreamAsio::OpenStreamClientOptions options = MakeArmOptions(*robot.armOrNone);
+        if (surroundings.traceOrNull != nullptr)
+        {
+            armTrace.emplace(*surroundings.traceOrNull, robot.robotID);
+            options.onReceived = [this](std::string_view bytes) {
+                armTrace->OnReceived(bytes);
+            };
+            options.onSent = [this](std::string_view bytes) {
+                armTrace->OnSent(bytes);
+            };
+        }
+        armClient = std::make_unique<OpenStreamAsio::OpenStreamClient>(
+            surroundings.executor,
+            surroundings.clock,
+            surroundings.random,
+            surroundings.logger.MakeFor("arm." + robot.robotID),
+            std::move(options),
+            [this](const OpenStream::ClientEvent& event, Core::Now /*now*/) {
+                if (armTrace.has_value() && std::holds_alternative<OpenStream::ClientLost>(event))
+                {
+                    armTrace->OnLost();
+                }
+                watch.OnArmEvent(event);
+                Call([this, &event](Core::Now now, Planning::AdapterActions& out) {
+                    armAdapterOrNull->OnArmEvent(event, now, out);
+                });
+            });
+        armClient->Start();
+    }
+};
+
+Planning::RejectedActions RobotHost::FindRejectedActions(
+    const AcsdConfig& config,
+    const RobotLinkConfig& robot,
+    Planning::ERobotType type)
+{
+    RobotOutputs outputs; // stays empty: the adapter is only asked
+    const RobotAdapter made = MakeRobotAdapter(config, robot, outputs);
+    return Planning::FindRejectedActions(*made.adapter, type, config.engine.actions);
+}
+
+RobotHost::RobotHost(
+    Surroundings surroundings,
+    const AcsdConfig& config,
+    const RobotLinkConfig& robot,
+    EventHandler handler)
+    : _impl(std::make_unique<Impl>(std::move(surroundings), config, robot, std::move(handler)))
+{
+}
+
+RobotHost::~RobotHost() = default;
+
+void RobotHost::Start()
+{
+    _impl->surroundings.mqtt.Subscribe(_impl->adapter->GetSubscriptions());
+    if (_impl->robot.armOrNone.has_value())
+    {
+        _impl->StartArm();
+    }
+}
+
+void RobotHost::Stop()
+{
+    _impl->timers->CancelAll();
+    if (_impl->armClient != nullptr)
+    {
+        _impl->armClient->Stop();
+    }
+}
+
+void RobotHost::Handle(const Planning::RobotCommand& command)
+{
+    _impl->Call(
+        [this, &command](Core::Now now, Planning::AdapterActions& out) { _impl->adapter->Handle(command, now, out); });
+}
+
+void RobotHost::OnLinkUp()
+{
+    _impl->Call([this](Core::Now now, Planning::AdapterActions& out) { _impl->adapter->OnLinkUp(now, out); });
+}
+
+void RobotHost::OnLinkDown()
+{
+    _impl->Call([this](Core::Now now, Planning::AdapterActions& out) { _impl->adapter->OnLinkDown(now, out); });
+}
+
+void RobotHost::OnMqttMessage(const VDA5050::MqttMessage& message)
+{
+    if (!message.bRetained)
+    {
+        _impl->seenAt = _impl->surroundings.clock.GetNow().steady;
+    }
+    const VDA5050::MasterSession& session = _impl->adapter->GetSession();
+    const std::uint64_t statesBefore = session.GetStatistics().statesReceived;
+    _impl->Call([this, &message](Core::Now now, Planning::AdapterActions& out) {
+        _impl->adapter->OnMqttMessage(message, now, out);
+    });
+    _impl->watch.OnStatistics(session.GetStatistics());
+    if (session.GetStatistics().statesReceived != statesBefore)
+    {
+        _impl->watch.OnState(*session.GetStateOrNull());
+    }
+    else if (session.GetLink() != VDA5050::EVehicleLink::Online)
+    {
+        _impl->watch.OnAway();
+    }
+}
+
+RobotHost::Figures RobotHost::GetFigures() const
+{
+    Figures figures{_impl->seenAt, _impl->adapter->GetSession().GetStatistics(), {}, false};
+    if (_impl->armClient != nullptr)
+    {
+        figures.arm = _impl->armClient->GetStats();
+        figures.bArmReady = _impl->armClient->GetState() == OpenStream::EClientState::Ready;
+    }
+    return figures;
+}
+
+const std::string& RobotHost::GetRobotID() const noexcept
+{
+    return _impl->robot.robotID;
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "common/http/MetricsEndpoint.hpp"
+#include "config/AcsdConfig.hpp"
+#include "trace/MessageTrace.hpp"
+#include <acs/core/IRandom.hpp>
+#include <acs/core/Logger.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/openstream/ClientSessionActions.hpp>
+#include <acs/plan/EngineOptions.hpp>
+#include <acs/plan/ERobotType.hpp>
+#include <acs/plan/RobotCommand.hpp>
+#include <acs/plan/RobotEvent.hpp>
+#include <acs/vda5050/IMqttLink.hpp>
+#include <acs/vda5050/MasterSession.hpp>
+
+#include <boost/asio/any_io_executor.hpp>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace ACS::Acsd
+{
+
+/// Runs the adapter of one robot: gives it events and time, publishes and sends what it wants sent, keeps its timers,
+/// passes its events on. Decides nothing. One thread: the executor's.
+class RobotHost final
+{
+    struct Impl;
+    std::unique_ptr<Impl> _impl;
+
+public:
+    /// Called from within the host's calls and from its timers; may call Handle.
+    using EventHandler = std::function<void(const std::string& robotID, const Planning::RobotEvent& event)>;
+
+    /// What is known of the links of this robot.
+    struct Figures
+    {
+        std::optional<Core::SteadyTime> seenAt; ///< When the vehicle said anything last.
+        VDA5050::MasterStatistics vehicle;
+        std::optional<OpenStream::ClientSessionStats> arm; ///< Once its client has been started.
+        bool bArmReady = false;
+    };
+
+    /// What a host needs from the program; everything outlives it.
+    struct Surroundings
+    {
+        boost::asio::any_io_executor executor;
+        Core::IClock& clock;
+        Core::IRandom& random;
+        VDA5050::IMqttLink& mqtt;
+        Core::Logger logger;
+        Apps::MetricsEndpoint& metrics;
+        MessageTrace* traceOrNull = nullptr;
+    };
+
+    /// What its adapter will not do: the one place that knows is the adapter.
+    [[nodiscard]] static Planning::RejectedActions FindRejectedActions(
+        const AcsdConfig& config,
+        const RobotLinkConfig& robot,
+        Planning::ERobotType type);
+
+    RobotHost(Surroundings surroundings, const AcsdConfig& config, const RobotLinkConfig& robot, EventHandler handler);
+    RobotHost(const RobotHost&) = delete;
+    RobotHost& operator=(const RobotHost&) = delete;
+    ~RobotHost();
+
+    /// Subscribes and connects to the arm.
+    void Start();
+
+    /// Takes leave of the arm.
+    void Stop();
+
+    void Handle(const Planning::RobotCommand& command);
+    void OnLinkUp();
+    void OnLinkDown();
+    void OnMqttMessage(const VDA5050::MqttMessage& message);
+
+    [[nodiscard]] const std::string& GetRobotID() const noexcept;
+    [[nodiscard]] Figures GetFigures() const;
+};
+
+} // namespace ACS::Acsd

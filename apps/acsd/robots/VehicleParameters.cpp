@@ -1,0 +1,110 @@
+#include "robots/VehicleParameters.hpp"
+
+#include <acs/vda5050/PredefinedActions.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+using VDA5050::AgvAction;
+using VDA5050::AgvActionParameter;
+
+/// The vehicle's own description of the action; null where it gives none.
+const AgvAction* FindListedOrNull(const VDA5050::FactsheetMessage* factsheetOrNull, const std::string& actionType)
+{
+    if (factsheetOrNull == nullptr)
+    {
+        return nullptr;
+    }
+    const std::vector<AgvAction>& listed = factsheetOrNull->protocolFeatures.agvActions;
+    const auto row = std::ranges::find(listed, actionType, &AgvAction::actionType);
+    return row == listed.end() ? nullptr : &*row;
+}
+
+const AgvActionParameter* FindParameterOrNull(const AgvAction* actionOrNull, const std::string& key)
+{
+    if (actionOrNull == nullptr)
+    {
+        return nullptr;
+    }
+    const auto row = std::ranges::find(actionOrNull->actionParameters, key, &AgvActionParameter::key);
+    return row == actionOrNull->actionParameters.end() ? nullptr : &*row;
+}
+
+bool IsMandatory(const AgvActionParameter* parameterOrNull)
+{
+    return parameterOrNull != nullptr && !parameterOrNull->bOptional.value_or(false);
+}
+
+/// A mandatory parameter of the factsheet that has no template.
+const AgvActionParameter* FindUnnamedOrNull(const AgvAction& listed, const JobMethod& method)
+{
+    const auto unnamed = std::ranges::find_if(listed.actionParameters, [&method](const AgvActionParameter& rule) {
+        return IsMandatory(&rule) && std::ranges::count(method.parameters, rule.key, &VehicleParameter::key) == 0;
+    });
+    return unnamed == listed.actionParameters.end() ? nullptr : &*unnamed;
+}
+
+} // namespace
+
+tl::expected<std::vector<VDA5050::ActionParameter>, std::string> MakeActionParameters(
+    const JobMethod& method,
+    const JobData& data,
+    const VDA5050::FactsheetMessage* factsheetOrNull)
+{
+    const std::string& actionType = method.vehicleAction;
+    const AgvAction* listedOrNull = FindListedOrNull(factsheetOrNull, actionType);
+    const bool bListsOthers = factsheetOrNull != nullptr && !factsheetOrNull->protocolFeatures.agvActions.empty();
+    if (listedOrNull == nullptr && bListsOthers)
+    {
+        return tl::unexpected(fmt::format("the vehicle's factsheet does not list {}", actionType));
+    }
+    if (listedOrNull != nullptr && listedOrNull->actionParameters.empty())
+    {
+        listedOrNull = nullptr; // says nothing of parameters
+    }
+    const AgvAction* const rulesOrNull =
+        listedOrNull == nullptr ? VDA5050::FindPredefinedActionOrNull(actionType) : listedOrNull;
+    std::vector<VDA5050::ActionParameter> parameters;
+    for (const VehicleParameter& parameter : method.parameters)
+    {
+        const AgvActionParameter* const knownOrNull = FindParameterOrNull(listedOrNull, parameter.key);
+        if (listedOrNull != nullptr && knownOrNull == nullptr)
+        {
+            if (parameter.bDefault)
+            {
+                continue;
+            }
+            return tl::unexpected(
+                fmt::format("the vehicle's factsheet does not list the parameter {} of {}", parameter.key, actionType));
+        }
+        tl::expected<Core::JsonText, std::string> value = parameter.value.Resolve(
+            data,
+            knownOrNull == nullptr ? std::nullopt : std::optional(knownOrNull->valueDataType));
+        if (value.has_value())
+        {
+            parameters.push_back({parameter.key, std::move(*value)});
+        }
+        else if (IsMandatory(FindParameterOrNull(rulesOrNull, parameter.key)))
+        {
+            return tl::unexpected(
+                fmt::format("the parameter {} of {} cannot be given: {}", parameter.key, actionType, value.error()));
+        }
+    }
+    if (const AgvActionParameter* const unnamedOrNull =
+            listedOrNull == nullptr ? nullptr : FindUnnamedOrNull(*listedOrNull, method))
+    {
+        return tl::unexpected(
+            fmt::format("the parameter {} of {} is mandatory and not configured", unnamedOrNull->key, actionType));
+    }
+    return parameters;
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "robots/JobData.hpp"
+#include "robots/JobMethod.hpp"
+#include <acs/vda5050/Action.hpp>
+#include <acs/vda5050/FactsheetMessage.hpp>
+
+#include <tl/expected.hpp>
+
+#include <string>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+/// The parameters of the vehicle's action for one job, of the types that the factsheet declares. An optional one without a
+/// value of its type is left out. The error says which mandatory one has none, or what the factsheet does not list.
+[[nodiscard]] tl::expected<std::vector<VDA5050::ActionParameter>, std::string> MakeActionParameters(
+    const JobMethod& method,
+    const JobData& data,
+    const VDA5050::FactsheetMessage* factsheetOrNull);
+
+} // namespace ACS::Acsd

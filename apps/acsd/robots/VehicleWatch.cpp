@@ -1,0 +1,224 @@
+#include "robots/VehicleWatch.hpp"
+
+#include <acs/core/Overloaded.hpp>
+#include <acs/vda5050/ActionMachine.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+constexpr const char* ODDITIES = "acsd_robot_oddities_total";
+constexpr double HIGHEST_CHARGE = 100.0;
+
+/// How far an action is. Running and paused take turns, so they are alike.
+int GetProgress(VDA5050::EActionStatus status)
+{
+    switch (status)
+    {
+        case VDA5050::EActionStatus::Waiting:
+            return 0;
+        case VDA5050::EActionStatus::Initializing:
+            return 1;
+        case VDA5050::EActionStatus::Running:
+        case VDA5050::EActionStatus::Paused:
+            return 2;
+        case VDA5050::EActionStatus::Finished:
+        case VDA5050::EActionStatus::Failed:
+        default:
+            return 3;
+    }
+}
+
+/// States get lost, so an action may skip some; it never goes back, and its end is its end.
+bool IsBackwards(VDA5050::EActionStatus before, VDA5050::EActionStatus after)
+{
+    return GetProgress(after) < GetProgress(before) || (VDA5050::IsTerminal(before) && after != before);
+}
+
+} // namespace
+
+VehicleWatch::VehicleWatch(
+    const Planning::SiteMap& site,
+    std::string robotID,
+    const Dependencies& dependencies,
+    LoadPositions positions)
+    : _site(site),
+      _robotID(std::move(robotID)),
+      _clock(dependencies.clock),
+      _log(dependencies.logger),
+      _metrics(dependencies.metrics),
+      _positions(std::move(positions)),
+      _rangeX(FindRange(site, &Planning::SiteNode::x)),
+      _rangeY(FindRange(site, &Planning::SiteNode::y))
+{
+    _metrics.AddCounter(ODDITIES, "Contradictions in what robots report, by kind");
+}
+
+VehicleWatch::Range VehicleWatch::FindRange(const Planning::SiteMap& site, double Planning::SiteNode::*coordinate)
+{
+    const auto [low, high] = std::ranges::minmax(site.GetNodes(), {}, coordinate);
+    return {low.*coordinate - MARGIN, high.*coordinate + MARGIN};
+}
+
+void VehicleWatch::Note(std::string_view kind, std::string_view detail)
+{
+    const std::string name(kind);
+    const std::uint64_t total = ++_counts[name];
+    _metrics.Increment(ODDITIES, {{"robot", _robotID}, {"kind", name}});
+    _log.Write(
+        _clock.GetNow().steady,
+        Core::ELogLevel::Warning,
+        kind,
+        "the robot reports a contradiction",
+        {{"robotId", _robotID}, {"what", kind}, {"detail", detail}, {"count", std::to_string(total)}});
+}
+
+void VehicleWatch::OnState(const VDA5050::StateMessage& state)
+{
+    LookAtPlace(state);
+    CheckLoads(state);
+    if (_shown.has_value())
+    {
+        LookAtOrder(state);
+        LookAtActions(state);
+    }
+    Shown shown{state.orderID, state.orderUpdateID, state.lastNodeSequenceID, {}};
+    for (const VDA5050::ActionState& action : state.actionStates)
+    {
+        if (!shown.actions.emplace(action.actionID, action.actionStatus).second)
+        {
+            Note("action_twice", action.actionID);
+        }
+    }
+    _shown = std::move(shown);
+}
+
+void VehicleWatch::OnAway()
+{
+    _shown.reset();
+}
+
+void VehicleWatch::LookAtPlace(const VDA5050::StateMessage& state)
+{
+    if (!state.lastNodeID.empty() && _site.FindNodeOrNull(state.lastNodeID) == nullptr)
+    {
+        Note("unknown_node", state.lastNodeID);
+    }
+    if (state.agvPosition.has_value() && state.agvPosition->bPositionInitialized)
+    {
+        const VDA5050::AgvPosition& at = *state.agvPosition;
+        if (at.x < _rangeX.low || at.x > _rangeX.high || at.y < _rangeY.low || at.y > _rangeY.high)
+        {
+            Note("off_map", fmt::format("x {} y {}", at.x, at.y));
+        }
+    }
+    const double charge = state.batteryState.batteryCharge;
+    if (charge < 0 || charge > HIGHEST_CHARGE)
+    {
+        Note("battery_range", fmt::format("{} %", charge));
+    }
+}
+
+/// Of a robot whose ports the vehicle shows: with such a load acsd does not know what is on any of them.
+void VehicleWatch::CheckLoads(const VDA5050::StateMessage& state)
+{
+    if (!state.loads.has_value() || _positions.IsEmpty())
+    {
+        return;
+    }
+    for (const VDA5050::Load& load : *state.loads)
+    {
+        if (_positions.FindPortOrNull(load.loadPosition) == nullptr)
+        {
+            Note(
+                "unknown_load_position",
+                fmt::format("\"{}\": give the port that is meant in load_positions", load.loadPosition));
+        }
+    }
+}
+
+void VehicleWatch::LookAtOrder(const VDA5050::StateMessage& state)
+{
+    if (state.orderID.empty() || state.orderID != _shown->orderID)
+    {
+        return;
+    }
+    if (state.orderUpdateID < _shown->orderUpdateID)
+    {
+        Note(
+            "update_backwards",
+            fmt::format("order {}: {} after {}", state.orderID, state.orderUpdateID, _shown->orderUpdateID));
+    }
+    if (state.lastNodeSequenceID < _shown->lastNodeSequenceID)
+    {
+        Note(
+            "node_backwards",
+            fmt::format("order {}: {} after {}", state.orderID, state.lastNodeSequenceID, _shown->lastNodeSequenceID));
+    }
+}
+
+void VehicleWatch::LookAtActions(const VDA5050::StateMessage& state)
+{
+    for (const VDA5050::ActionState& action : state.actionStates)
+    {
+        const auto before = _shown->actions.find(action.actionID);
+        if (before != _shown->actions.end() && IsBackwards(before->second, action.actionStatus))
+        {
+            Note(
+                "action_backwards",
+                fmt::format(
+                    "{}: {} after {}",
+                    action.actionID,
+                    VDA5050::GetStatusText(action.actionStatus),
+                    VDA5050::GetStatusText(before->second)));
+        }
+    }
+}
+
+void VehicleWatch::OnStatistics(const VDA5050::MasterStatistics& statistics)
+{
+    const auto look =
+        [this](std::uint64_t before, std::uint64_t after, std::string_view kind, std::string_view detail) {
+            for (std::uint64_t i = before; i < after; ++i)
+            {
+                Note(kind, detail);
+            }
+        };
+    look(
+        _statistics.messagesRefused,
+        statistics.messagesRefused,
+        "unreadable_message",
+        "not VDA5050 2.x, or of another vehicle");
+    look(_statistics.statesIgnored, statistics.statesIgnored, "state_out_of_order", "older than one before it");
+    look(_statistics.retainedIgnored, statistics.retainedIgnored, "state_retained", "of unknown age");
+    _statistics = statistics;
+}
+
+void VehicleWatch::OnArmEvent(const OpenStream::ClientEvent& event)
+{
+    std::visit(
+        Core::Overloaded{
+            [&](const OpenStream::ClientBadLine& bad) { Note("arm_bad_line", bad.detail); },
+            [&](const OpenStream::ClientErrorReported& reported) {
+                Note("arm_error_line", reported.error.codeText + " " + reported.error.message);
+            },
+            [&](const OpenStream::ClientMonitorRefused& refused) {
+                Note("arm_monitor_refused", refused.error.codeText + " " + refused.error.message);
+            },
+            [&](const OpenStream::ClientControlFault& fault) { Note("arm_control_fault", fault.detail); },
+            [&](const OpenStream::ClientMonitorStale& stale) {
+                Note("arm_silent", fmt::format("no sample for {} ms", stale.age.count()));
+            },
+            [](const auto&) { /* as it should be */ }},
+        event);
+}
+
+} // namespace ACS::Acsd

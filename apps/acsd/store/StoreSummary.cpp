@@ -1,0 +1,63 @@
+#include "store/StoreSummary.hpp"
+
+#include <acs/plan/PlanTransitions.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+/// "no alarms", "1 alarm", "2 alarms"
+std::string CountOf(std::size_t count, std::string_view one, std::string_view many)
+{
+    return count == 0 ? fmt::format("no {}", many) : fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+} // namespace
+
+std::string MakeStoreSummary(const Planning::StoreOrigin& origin, const Planning::StoredState& state)
+{
+    if (origin.bNew)
+    {
+        return fmt::format("new, schema {}", origin.version);
+    }
+    const auto ended = static_cast<std::size_t>(
+        std::ranges::count_if(state.plans, [](const auto& record) { return IsFinal(record.progress.state); }));
+    std::string text = fmt::format("schema {}", origin.version);
+    if (origin.foundVersion != origin.version)
+    {
+        text += fmt::format(" brought forward from {}", origin.foundVersion);
+    }
+    text += fmt::format(
+        ", {} taken up, {}, {} not acknowledged, {}",
+        CountOf(state.plans.size() - ended, "open plan", "open plans"),
+        CountOf(ended, "ended plan", "ended plans"),
+        CountOf(state.outbox.size(), "report", "reports"),
+        CountOf(state.alarms.size(), "alarm", "alarms"));
+    if (!state.robotsInMaintenance.empty())
+    {
+        text += fmt::format(", in maintenance {}", fmt::join(state.robotsInMaintenance, " "));
+    }
+    if (state.tscState != Planning::ETscState::Auto)
+    {
+        text += fmt::format(", TSC {}", GetText(state.tscState));
+    }
+    if (origin.bRescued)
+    {
+        text += "; restored from the copy that was made when the database was removed while it was open";
+    }
+    if (origin.bMigrated)
+    {
+        text += "; migrated from the former layout, whose files are kept with .former in their names";
+    }
+    return text;
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,88 @@
+#include "store/StoreWorker.hpp"
+
+#include <boost/asio/post.hpp>
+#include <boost/asio/thread_pool.hpp>
+
+#include <utility>
+
+namespace ACS::Acsd
+{
+
+struct StoreWorker::Impl
+{
+    boost::asio::any_io_executor executor;
+    std::unique_ptr<Planning::IPlanStore> store;
+    StoredHandler handler;
+    LostHandler lostHandler;
+    bool bChecking = false;
+    boost::asio::thread_pool thread{1};
+};
+
+StoreWorker::StoreWorker(
+    const boost::asio::any_io_executor& executor,
+    std::unique_ptr<Planning::IPlanStore> store,
+    StoredHandler handler,
+    LostHandler lostHandler)
+    : _impl(std::make_shared<Impl>())
+{
+    _impl->executor = executor;
+    _impl->store = std::move(store);
+    _impl->handler = std::move(handler);
+    _impl->lostHandler = std::move(lostHandler);
+}
+
+StoreWorker::~StoreWorker()
+{
+    _impl->handler = nullptr;
+    _impl->lostHandler = nullptr;
+    _impl->thread.join();
+}
+
+/// The work in the thread, what comes of it on the executor. The store outlives the thread's work: the destructor waits.
+template <typename TWork, typename TAnswer>
+void StoreWorker::Do(TWork work, TAnswer answer)
+{
+    boost::asio::post(_impl->thread, [weak = std::weak_ptr(_impl), &store = *_impl->store, work, answer]() {
+        Core::Result<void> result = work(store);
+        const std::shared_ptr<Impl> self = weak.lock();
+        if (self == nullptr)
+        {
+            return;
+        }
+        boost::asio::post(self->executor, [weak, answer, result = std::move(result)]() {
+            if (const std::shared_ptr<Impl> owner = weak.lock(); owner != nullptr)
+            {
+                answer(*owner, result);
+            }
+        });
+    });
+}
+
+void StoreWorker::Append(const Planning::StoreBatch& batch)
+{
+    Do([batch](Planning::IPlanStore& store) { return store.Append(batch); },
+       [](Impl& owner, const Core::Result<void>& result) {
+           if (owner.handler)
+           {
+               owner.handler(result);
+           }
+       });
+}
+
+void StoreWorker::CheckAsync()
+{
+    if (std::exchange(_impl->bChecking, true))
+    {
+        return;
+    }
+    Do([](Planning::IPlanStore& store) { return store.Check(); },
+       [](Impl& owner, const Core::Result<void>& result) {
+           owner.bChecking = false;
+           if (!result.has_value() && owner.lostHandler)
+           {
+               owner.lostHandler(result.error());
+           }
+       });
+}
+
+} // namespace ACS::Acsd

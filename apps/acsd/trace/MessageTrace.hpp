@@ -1,0 +1,64 @@
+#pragma once
+
+#include "common/trace/TraceWriter.hpp"
+#include <acs/core/Logger.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/core/Result.hpp>
+#include <acs/protocol_beast/EWireDirection.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace ACS::Acsd
+{
+
+/// One message of a link, as it was on the wire.
+struct TraceEntry
+{
+    std::string_view link; ///< "mcs", "mqtt", "arm"
+    ProtocolBeast::EWireDirection direction = ProtocolBeast::EWireDirection::In;
+    std::string_view robotID; ///< Empty: of no robot, or of one that is not ours.
+    std::string_view topic;   ///< Of MQTT; else empty.
+    std::string_view text;    ///< Any bytes.
+};
+
+/// The entry as one line of JSON, without its end. In text that is not valid UTF-8, \xNN stands for each invalid byte, each
+/// backslash is doubled, and the line has "escaped":true.
+[[nodiscard]] std::string MakeTraceLine(const TraceEntry& entry, Core::Now now);
+
+/// Writes every message of every link to a trace. Called on one thread, the executor's.
+class MessageTrace final
+{
+    const Core::IClock& _clock;
+    Apps::TraceWriter _writer;
+
+    MessageTrace(
+        const std::string& folder,
+        const Apps::TraceLimits& limits,
+        const Core::IClock& clock,
+        Core::Logger logger,
+        std::size_t maxQueuedBytes);
+
+public:
+    /// Opens a file in the folder, which is created if necessary. The error is a sentence. Clock and the logger's sink
+    /// outlive the trace.
+    [[nodiscard]] static Core::Result<std::unique_ptr<MessageTrace>> Create(
+        const std::string& folder,
+        const Apps::TraceLimits& limits,
+        const Core::IClock& clock,
+        Core::Logger logger,
+        std::size_t maxQueuedBytes = Apps::TraceWriter::DEFAULT_QUEUE_BYTES);
+
+    void Write(const TraceEntry& entry);
+
+    /// For the next file.
+    void SetLimits(const Apps::TraceLimits& limits);
+
+    /// Messages that are missing in the trace.
+    [[nodiscard]] std::uint64_t GetLost() const;
+};
+
+} // namespace ACS::Acsd

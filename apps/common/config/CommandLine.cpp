@@ -1,0 +1,189 @@
+#include "common/config/CommandLine.hpp"
+
+#include "common/log/LogText.hpp"
+#include "common/Version.hpp"
+#include <acs/core/ControlCharacter.hpp>
+#include <acs/core/Result.hpp>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <utility>
+
+namespace ACS::Apps
+{
+
+namespace
+{
+
+constexpr double MIN_TIME_SCALE = 0.01;
+constexpr double MAX_TIME_SCALE = 1000.0;
+
+/// Assigns the value, or returns what is wrong with it.
+template <typename TValue>
+std::string Take(Core::Result<TValue> value, TValue& target)
+{
+    if (!value.has_value())
+    {
+        return Core::Describe(value.error());
+    }
+    target = std::move(*value);
+    return {};
+}
+
+} // namespace
+
+void AddCommonOptions(CLI::App& app, CommonOptions& options)
+{
+    app.set_version_flag("--version", fmt::format("{} {}", app.get_name(), VERSION));
+    AddTextOption(
+        app,
+        "--log-level",
+        [&options](const std::string& text) { return Take(ParseLogLevel(text), options.logLevel); },
+        "What to log on standard error: debug, info, warning or error")
+        .default_str("info");
+}
+
+CLI::Option& AddEndpointOption(CLI::App& app, const std::string& name, Endpoint& target, const std::string& help)
+{
+    CLI::Option& option = AddTextOption(
+        app,
+        name,
+        [&target](const std::string& text) { return Take(ParseEndpoint(text), target); },
+        help);
+    option.type_name("HOST:PORT");
+    if (!target.host.empty())
+    {
+        option.default_str(MakeText(target));
+    }
+    return option;
+}
+
+CLI::Option& AddUrlOption(
+    CLI::App& app,
+    const std::string& name,
+    Url& target,
+    const std::vector<EUrlScheme>& allowed,
+    const std::string& help)
+{
+    CLI::Option& option = AddTextOption(
+        app,
+        name,
+        [&target, allowed](const std::string& text) { return Take(ParseUrl(text, allowed), target); },
+        help);
+    option.type_name("URL");
+    if (!target.peer.host.empty())
+    {
+        option.default_str(MakeText(target));
+    }
+    return option;
+}
+
+CLI::Option& AddTimeScaleOption(CLI::App& app, double& target)
+{
+    CLI::Option* const option = app.add_option("--time-scale", target, "How many times faster than real time to run");
+    // A range alone accepts what is not a number.
+    option->check([](const std::string& text) {
+        double scale = 0.0;
+        const bool bNumber =
+            CLI::detail::lexical_cast(text, scale) && scale >= MIN_TIME_SCALE && scale <= MAX_TIME_SCALE;
+        return bNumber ? std::string()
+                       : fmt::format(
+                           "expected a number from {} to {}, found {}",
+                           MIN_TIME_SCALE,
+                           MAX_TIME_SCALE,
+                           Core::QuoteForError(text));
+    });
+    return *option->capture_default_str();
+}
+
+CLI::Option& AddTextOption(CLI::App& app, const std::string& name, TextReader reader, const std::string& help)
+{
+    CLI::Option& option = AddRepeatedOption(app, name, std::move(reader), help);
+    return *option.multi_option_policy(CLI::MultiOptionPolicy::Throw);
+}
+
+CLI::Option& AddFileOption(CLI::App& app, const std::string& name, std::string& target, const std::string& help)
+{
+    CLI::Option& option = AddTextOption(
+        app,
+        name,
+        [&target](const std::string& text) {
+            target = text;
+            return std::string(text.empty() ? "expected a file" : "");
+        },
+        help);
+    option.type_name("FILE");
+    return option;
+}
+
+CLI::Option& AddRepeatedOption(CLI::App& app, const std::string& name, TextReader reader, const std::string& help)
+{
+    CLI::Option* const option = app.add_option_function<std::vector<std::string>>(
+        name,
+        [name, reader = std::move(reader)](const std::vector<std::string>& values) {
+            for (const std::string& value : values)
+            {
+                const std::string mistake = reader(value);
+                if (!mistake.empty())
+                {
+                    throw CLI::ValidationError(name, mistake);
+                }
+            }
+        },
+        help);
+    return *option->type_name("TEXT")->expected(1)->allow_extra_args(false)->multi_option_policy(
+        CLI::MultiOptionPolicy::TakeAll);
+}
+
+std::optional<int> ParseCommandLineOrNull(CLI::App& app, int argc, const char* const* argv)
+{
+    try
+    {
+        app.parse(argc, argv);
+        return std::nullopt;
+    }
+    catch (const CLI::CallForHelp&)
+    {
+        std::cout << app.help();
+        return EXIT_SUCCESS;
+    }
+    catch (const CLI::CallForVersion&)
+    {
+        std::cout << fmt::format("{} {}\n", app.get_name(), VERSION);
+        return EXIT_SUCCESS;
+    }
+    catch (const CLI::ParseError& error)
+    {
+        PrintMistake(app.get_name(), fmt::format("{}; try {} --help", error.what(), app.get_name()));
+        return EXIT_BAD_COMMAND_LINE;
+    }
+}
+
+void PrintMistake(std::string_view program, std::string_view text)
+{
+    std::string line = fmt::format("{}: ", program);
+    for (const char character : text)
+    {
+        AppendPrintable(line, character == '\n' ? ' ' : character);
+    }
+    std::cerr << line << std::endl;
+}
+
+int RunProgram(std::string_view program, const std::function<int()>& body)
+{
+    try
+    {
+        return body();
+    }
+    catch (const std::exception& error)
+    {
+        PrintMistake(program, fmt::format("stopped by an unexpected error: {}", error.what()));
+        return EXIT_FAILURE;
+    }
+}
+
+} // namespace ACS::Apps

@@ -1,0 +1,334 @@
+#include "common/config/ConfigDocument.hpp"
+
+#include <acs/core/ControlCharacter.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+namespace ACS::Apps
+{
+
+namespace
+{
+
+constexpr std::string_view OVERRIDE = "--set";
+
+/// An unknown key that is at most this many edits from a known one is taken for a typing error.
+constexpr std::size_t MAX_SLIP = 3;
+
+bool IsBareKey(std::string_view key)
+{
+    return !key.empty() && std::all_of(key.begin(), key.end(), [](char character) {
+        return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z')
+            || (character >= '0' && character <= '9') || character == '-' || character == '_';
+    });
+}
+
+/// In quotes, as TOML has it.
+std::string QuoteKey(std::string_view key)
+{
+    std::string text;
+    for (const char character : key)
+    {
+        text += Core::IsControlCharacter(character) ? fmt::format("\\u{:04X}", static_cast<unsigned char>(character))
+                                                    : std::string(1, character);
+    }
+    return fmt::format("\"{}\"", text);
+}
+
+/// How many characters must be inserted, removed, replaced or exchanged with their neighbour to make one of the other.
+std::size_t CountEdits(std::string_view left, std::string_view right)
+{
+    std::vector<std::size_t> beforePrevious;
+    std::vector<std::size_t> previous(right.size() + 1);
+    std::iota(previous.begin(), previous.end(), std::size_t{0});
+    std::vector<std::size_t> current(right.size() + 1);
+    for (std::size_t row = 1; row <= left.size(); ++row)
+    {
+        current[0] = row;
+        for (std::size_t column = 1; column <= right.size(); ++column)
+        {
+            const std::size_t replaced = previous[column - 1] + (left[row - 1] == right[column - 1] ? 0U : 1U);
+            current[column] = std::min({replaced, previous[column] + 1, current[column - 1] + 1});
+            const bool bExchanged =
+                row > 1 && column > 1 && left[row - 1] == right[column - 2] && left[row - 2] == right[column - 1];
+            if (bExchanged)
+            {
+                current[column] = std::min(current[column], beforePrevious[column - 2] + 1);
+            }
+        }
+        beforePrevious = std::exchange(previous, current);
+    }
+    return previous.back();
+}
+
+std::optional<toml::table> ParseOverrideOrNull(const std::string& text)
+{
+    try
+    {
+        return toml::parse(text, OVERRIDE);
+    }
+    catch (const toml::parse_error&)
+    {
+        return std::nullopt;
+    }
+}
+
+std::string MakeUnknownText(const std::set<std::string>& known, const std::string& key)
+{
+    if (known.empty())
+    {
+        return "unknown key; this table takes none";
+    }
+    const auto nearest =
+        std::ranges::min_element(known, {}, [&key](const std::string& other) { return CountEdits(key, other); });
+    if (CountEdits(key, *nearest) <= std::min(MAX_SLIP, key.size() / 2))
+    {
+        return fmt::format("unknown key; did you mean '{}'?", *nearest);
+    }
+    return fmt::format("unknown key; allowed here: {}", fmt::join(known, ", "));
+}
+
+} // namespace
+
+ConfigDocument::ConfigDocument(std::string_view text, std::string fileName)
+    : _fileName(std::move(fileName))
+{
+    try
+    {
+        _root = toml::parse(text, _fileName);
+    }
+    catch (const toml::parse_error& error)
+    {
+        AddMistakeAt(error.source(), {}, fmt::format("not TOML: {}", error.description()));
+        _bUnreadable = true;
+    }
+}
+
+std::shared_ptr<ConfigDocument> ConfigDocument::MakeUnreadable(std::string fileName, const std::string& reason)
+{
+    auto document = std::make_shared<ConfigDocument>(std::string_view(), std::move(fileName));
+    document->AddMistake(nullptr, {}, reason);
+    document->_bUnreadable = true;
+    return document;
+}
+
+void ConfigDocument::Override(const std::string& text)
+{
+    const std::size_t equals = text.find('=');
+    const std::string key = text.substr(0, equals);
+    // A key with a line break or '#' in it would make other TOML than it seems to.
+    std::optional<toml::table> table = equals != std::string::npos && key.find_first_of("\n\r#[") == std::string::npos
+        ? ParseOverrideOrNull(key + " = ''")
+        : std::nullopt;
+    if (!table.has_value())
+    {
+        const toml::source_region source{{}, {}, std::make_shared<const std::string>(OVERRIDE)};
+        AddMistakeAt(source, {}, fmt::format("'{}': write table.key=value", text));
+        return;
+    }
+    const std::string value = text.substr(equals + 1);
+    const bool bOneLine = value.find_first_of("\n\r") == std::string::npos;
+    std::optional<toml::table> typed = bOneLine ? ParseOverrideOrNull(key + " = " + value) : std::nullopt;
+    if (!typed.has_value())
+    {
+        // Anything that is not a TOML value is a string.
+        toml::node* leaf = &*table;
+        while (leaf->is_table())
+        {
+            leaf = &leaf->as_table()->begin()->second;
+        }
+        leaf->as_string()->get() = value;
+    }
+    Merge(std::move(typed.has_value() ? *typed : *table));
+}
+
+void ConfigDocument::Merge(toml::table source)
+{
+    std::vector<std::pair<toml::table*, toml::table*>> work{{&_root, &source}};
+    while (!work.empty())
+    {
+        const auto [target, from] = work.back();
+        work.pop_back();
+        for (auto&& [key, value] : *from)
+        {
+            auto* const present = target->get_as<toml::table>(key.str());
+            if (present != nullptr && value.is_table())
+            {
+                work.emplace_back(present, value.as_table());
+            }
+            else
+            {
+                target->insert_or_assign(key, std::move(value));
+            }
+        }
+    }
+}
+
+const toml::table& ConfigDocument::GetRoot() const noexcept
+{
+    return _root;
+}
+
+void ConfigDocument::AddKnownKey(const toml::table& table, const std::string& key)
+{
+    _knownKeys[&table].insert(key);
+}
+
+void ConfigDocument::AcceptAll(const toml::node& value)
+{
+    _accepted.insert(&value);
+}
+
+void ConfigDocument::AddMistake(const toml::node* nodeOrNull, const std::string& path, const std::string& text)
+{
+    AddMistakeAt(GetSource(nodeOrNull), path, text);
+}
+
+void ConfigDocument::RefuseTable(const toml::node* nodeOrNull, const std::string& path, const std::string& text)
+{
+    AddMistake(nodeOrNull, path, text);
+    _refused.insert(path);
+}
+
+const toml::node* ConfigDocument::FindNearestOrNull(const std::string& path) const
+{
+    const toml::node* nearest = &_root;
+    for (std::size_t begin = 0; begin <= path.size() && nearest->is_table();)
+    {
+        const std::size_t end = std::min(path.find('.', begin), path.size());
+        const toml::node* const child = nearest->as_table()->get(std::string_view(path).substr(begin, end - begin));
+        if (child == nullptr)
+        {
+            break;
+        }
+        nearest = child;
+        begin = end + 1;
+    }
+    return nearest == &_root ? nullptr : nearest;
+}
+
+std::vector<std::string> ConfigDocument::MakeMistakes() const
+{
+    std::vector<Mistake> mistakes = _mistakes;
+    if (!_bUnreadable)
+    {
+        FindUnknown(mistakes);
+    }
+    std::ranges::stable_sort(mistakes, {}, [](const Mistake& mistake) {
+        return std::pair(mistake.bOverride, mistake.line);
+    });
+    std::vector<std::string> texts;
+    std::ranges::transform(mistakes, std::back_inserter(texts), &Mistake::text);
+    return texts;
+}
+
+std::map<std::string, std::string> ConfigDocument::MakeValues() const
+{
+    std::map<std::string, std::string> values;
+    std::vector<std::pair<std::string, const toml::node*>> work{{std::string(), &_root}};
+    while (!work.empty())
+    {
+        const auto [path, node] = std::move(work.back());
+        work.pop_back();
+        if (const toml::table* const table = node->as_table())
+        {
+            for (auto&& [key, value] : *table)
+            {
+                work.emplace_back(JoinPath(path, std::string(key.str())), &value);
+            }
+            continue;
+        }
+        std::ostringstream text;
+        text << toml::toml_formatter(*node, toml::format_flags::allow_unicode_strings);
+        values.emplace(path, text.str());
+    }
+    return values;
+}
+
+std::string ConfigDocument::JoinPath(const std::string& path, const std::string& key)
+{
+    const std::string name = IsBareKey(key) ? key : QuoteKey(key);
+    return path.empty() ? name : fmt::format("{}.{}", path, name);
+}
+
+void ConfigDocument::AddMistakeAt(const toml::source_region& source, const std::string& path, const std::string& text)
+{
+    const bool bKnown = !path.empty() && (IsInRefused(path) || !_mistaken.insert(path).second);
+    if (!_bUnreadable && !bKnown)
+    {
+        _mistakes.push_back(MakeMistake(source, path, text));
+    }
+}
+
+toml::source_region ConfigDocument::GetSource(const toml::node* nodeOrNull) const
+{
+    const bool bHasLine = nodeOrNull != nullptr && nodeOrNull != &_root;
+    return bHasLine ? nodeOrNull->source() : toml::source_region{};
+}
+
+ConfigDocument::Mistake ConfigDocument::MakeMistake(
+    const toml::source_region& source,
+    const std::string& path,
+    const std::string& text) const
+{
+    const bool bOverride = source.path != nullptr && *source.path == OVERRIDE;
+    const std::uint32_t line = bOverride ? 0 : source.begin.line;
+    std::string where = bOverride ? std::string(OVERRIDE) : _fileName;
+    where += line == 0 ? std::string() : fmt::format(":{}", line);
+    where += path.empty() ? std::string() : fmt::format(": {}", path);
+    return {bOverride, line, fmt::format("{}: {}", where, text)};
+}
+
+bool ConfigDocument::IsInRefused(const std::string& path) const
+{
+    return std::ranges::any_of(_refused, [&path](const std::string& table) { return path.starts_with(table + "."); });
+}
+
+void ConfigDocument::FindUnknown(std::vector<Mistake>& out) const
+{
+    static const std::set<std::string> NONE;
+    std::vector<std::pair<const toml::node*, std::string>> work{{&_root, std::string()}};
+    while (!work.empty())
+    {
+        const auto [node, path] = std::move(work.back());
+        work.pop_back();
+        if (_accepted.contains(node))
+        {
+            continue;
+        }
+        if (const toml::array* const array = node->as_array())
+        {
+            for (std::size_t index = 0; index < array->size(); ++index)
+            {
+                work.emplace_back(array->get(index), fmt::format("{}[{}]", path, index));
+            }
+        }
+        else if (const toml::table* const table = node->as_table())
+        {
+            const auto found = _knownKeys.find(table);
+            const std::set<std::string>& known = found == _knownKeys.end() ? NONE : found->second;
+            for (auto&& [tomlKey, value] : *table)
+            {
+                const std::string key(tomlKey.str());
+                const std::string keyPath = JoinPath(path, key);
+                if (known.contains(key))
+                {
+                    work.emplace_back(&value, keyPath);
+                }
+                else if (!IsInRefused(keyPath))
+                {
+                    out.push_back(MakeMistake(value.source(), keyPath, MakeUnknownText(known, key)));
+                }
+            }
+        }
+    }
+}
+
+} // namespace ACS::Apps

@@ -1,0 +1,92 @@
+#include "common/http/HttpGuard.hpp"
+
+#include <acs/core/Result.hpp>
+
+#include <boost/asio/ip/address.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace ACS::Apps
+{
+
+namespace
+{
+
+bool IsSameText(std::string_view left, std::string_view right)
+{
+    const auto lower = [](char letter) {
+        return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+    };
+    return std::ranges::equal(left, right, {}, lower, lower);
+}
+
+/// "[::1]:80" is ::1.
+std::string_view CutPort(std::string_view host)
+{
+    if (host.starts_with('['))
+    {
+        return host.substr(1, host.find(']') - 1);
+    }
+    return host.substr(0, host.find(':'));
+}
+
+bool IsAddress(std::string_view host)
+{
+    boost::system::error_code error;
+    static_cast<void>(boost::asio::ip::make_address(std::string(host), error));
+    return !error.failed();
+}
+
+/// The page comes from this server.
+bool IsOwnOrigin(std::string_view origin, std::string_view host)
+{
+    const std::size_t colon = origin.find("://");
+    return colon != std::string_view::npos && IsSameText(origin.substr(colon + 3), host);
+}
+
+} // namespace
+
+HttpGuard::HttpGuard(Options options)
+    : _options(std::move(options))
+{
+}
+
+bool HttpGuard::IsOwnName(std::string_view host) const
+{
+    const std::string_view name = CutPort(host);
+    return _options.bAnyName || IsSameText(name, "localhost") || IsAddress(name)
+        || std::ranges::any_of(_options.names, [name](const std::string& own) { return IsSameText(own, name); });
+}
+
+std::optional<std::string> HttpGuard::GetObjectionOrNull(const HttpRequest& request, const HttpSource& source) const
+{
+    const bool bReads = request.method == "GET" || request.method == "HEAD";
+    if (bReads && std::ranges::find(_options.openPaths, request.path) != _options.openPaths.end())
+    {
+        return std::nullopt;
+    }
+    // HTTP/1.0 needs no Host, but every browser sends one.
+    if (!source.host.empty() && !IsOwnName(source.host))
+    {
+        return fmt::format(
+            "not served under the name {}: ask by the address, or have the configuration allow the name",
+            Core::QuoteForError(source.host));
+    }
+    if (bReads)
+    {
+        return std::nullopt; // the browser hides the response from a page of another origin
+    }
+    if (!source.origin.empty() && !IsOwnOrigin(source.origin, source.host))
+    {
+        return fmt::format("a web page of {} may not send commands", Core::QuoteForError(source.origin));
+    }
+    if (!source.fetchSite.empty() && source.fetchSite != "same-origin" && source.fetchSite != "none")
+    {
+        return "a web page of another origin may not send commands";
+    }
+    return std::nullopt;
+}
+
+} // namespace ACS::Apps

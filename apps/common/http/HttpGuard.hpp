@@ -1,0 +1,49 @@
+#pragma once
+
+#include "common/http/HttpMessage.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::Apps
+{
+
+/// The headers that show where a request comes from; empty if absent.
+struct HttpSource
+{
+    std::string_view host;      ///< Host
+    std::string_view origin;    ///< Origin
+    std::string_view fetchSite; ///< Sec-Fetch-Site
+};
+
+/// Protects a program from web pages in the browser of a user who can reach it. Any page can send a POST (cross-site request
+/// forgery), and can make its own name resolve to the address of the program (DNS rebinding). Clients other than browsers
+/// send neither Origin nor Sec-Fetch-Site, and the configured Host. Pure.
+class HttpGuard
+{
+public:
+    struct Options
+    {
+        /// Allowed names of the server, without port, besides localhost and IP addresses, which no page can spoof.
+        std::vector<std::string> names;
+        bool bAnyName = false;
+        /// GET and HEAD of these paths are served under any name: they contain nothing confidential.
+        std::vector<std::string> openPaths;
+    };
+
+private:
+    Options _options;
+
+    [[nodiscard]] bool IsOwnName(std::string_view host) const;
+
+public:
+    explicit HttpGuard(Options options);
+
+    /// Why the request is refused, as a sentence.
+    [[nodiscard]] std::optional<std::string> GetObjectionOrNull(const HttpRequest& request, const HttpSource& source)
+        const;
+};
+
+} // namespace ACS::Apps

@@ -1,0 +1,469 @@
+#include "common/http/HttpServer.hpp"
+
+#include "common/log/LogRateLimiter.hpp"
+#include <acs/net/TcpListener.hpp>
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http.hpp>
+
+#include <algorithm>
+#include <list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace ACS::Apps
+{
+
+namespace
+{
+
+namespace Asio = boost::asio;
+namespace Beast = boost::beast;
+namespace Http = boost::beast::http;
+using Tcp = boost::asio::ip::tcp;
+using ErrorCode = boost::system::error_code;
+
+/// How long a refused peer may go on sending before the connection is cut: closing with unread bytes would make the
+/// system drop the refusal, too.
+constexpr std::chrono::seconds DRAIN_TIME{2};
+constexpr std::size_t DRAIN_BYTES = 16U * 1024U;
+
+/// Of bytes that were read and not parsed yet. Beast itself has no limit for what may stand behind the size of a chunk.
+constexpr std::size_t BUFFER_BYTES = 64U * 1024U;
+
+constexpr std::string_view CONTINUE = "HTTP/1.1 100 Continue\r\n\r\n";
+
+HttpResponse MakeRefusal(Http::status status, std::string reason)
+{
+    HttpResponse response;
+    response.status = static_cast<unsigned>(status);
+    response.body = std::move(reason) + "\n";
+    return response;
+}
+
+/// The answer to what Beast could not read; nothing where the peer simply went away or was silent.
+std::optional<HttpResponse> MakeRefusalOrNull(const ErrorCode& error, const HttpLimits& limits)
+{
+    if (error == Http::error::body_limit)
+    {
+        return MakeRefusal(
+            Http::status::payload_too_large,
+            "the body is longer than " + std::to_string(limits.maxBodyBytes) + " bytes");
+    }
+    if (error == Http::error::header_limit)
+    {
+        return MakeRefusal(
+            Http::status::request_header_fields_too_large,
+            "the header is longer than " + std::to_string(limits.maxHeaderBytes) + " bytes");
+    }
+    const bool bHttpError = error.category() == Http::make_error_code(Http::error::bad_method).category();
+    if (bHttpError && error != Http::error::end_of_stream && error != Http::error::partial_message)
+    {
+        return MakeRefusal(Http::status::bad_request, "not an HTTP/1.1 request");
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+struct HttpServer::Impl : std::enable_shared_from_this<Impl>
+{
+    class Connection;
+    using ConnectionList = std::list<std::shared_ptr<Connection>>;
+
+    Handler handler;
+    Core::Logger logger;
+    LogRateLimiter refusals; ///< Anybody may send anything.
+    HttpLimits limits;
+    std::optional<HttpGuard> guardOrNone;
+    std::shared_ptr<Net::TcpListener> listener;
+    ConnectionList connections;
+    std::optional<Tcp::socket> nextOrNull; ///< Has come while all others were being answered.
+
+    Impl(
+        const Asio::any_io_executor& executor,
+        Handler handlerToCall,
+        Core::Logger serverLogger,
+        HttpLimits serverLimits,
+        std::optional<HttpGuard> serverGuardOrNone)
+        : handler(std::move(handlerToCall)),
+          logger(std::move(serverLogger)),
+          refusals(logger),
+          limits(serverLimits),
+          guardOrNone(std::move(serverGuardOrNone)),
+          listener(std::make_shared<Net::TcpListener>(executor, logger, [this](Tcp::socket socket) {
+              OnAccepted(std::move(socket));
+              return !nextOrNull.has_value();
+          }))
+    {
+    }
+
+    Core::Result<Endpoint> Listen(const Endpoint& endpoint);
+    void LogRefusal(std::string_view kind, std::string_view reason);
+    [[nodiscard]] std::optional<std::string> FindObjectionOrNull(const HttpRequest& request, const Http::fields& header)
+        const;
+    [[nodiscard]] std::shared_ptr<Connection> FindWaitingOrNull() const;
+    void OnAccepted(Tcp::socket socket);
+    void TakeNext();
+    void OnClosed(ConnectionList::iterator place);
+    void Stop();
+};
+
+/// One peer: reads a request, answers it, reads the next. Lives in the server's list and in its pending operation.
+class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connection>
+{
+    std::weak_ptr<Impl> _server;
+    HttpLimits _limits;
+    Beast::tcp_stream _stream;
+    Beast::flat_buffer _buffer{BUFFER_BYTES};
+    std::optional<Http::request_parser<Http::string_body>> _parserOrNull;
+    std::optional<Http::response<Http::string_body>> _responseOrNull;
+    std::optional<Http::response_serializer<Http::string_body>> _serializerOrNull;
+    Asio::steady_timer _delay;
+    bool _bWaiting = false; ///< For a whole request.
+
+public:
+    ConnectionList::iterator place; ///< In the server's list.
+
+    Connection(const std::shared_ptr<Impl>& server, Tcp::socket socket)
+        : _server(server),
+          _limits(server->limits),
+          _stream(std::move(socket)),
+          _delay(_stream.get_executor())
+    {
+    }
+
+    void ReadAsync()
+    {
+        _bWaiting = true;
+        if (const std::shared_ptr<Impl> server = _server.lock(); server != nullptr)
+        {
+            server->connections.splice(server->connections.end(), server->connections, place);
+            if (server->nextOrNull.has_value())
+            {
+                // Perhaps in the place of this one, so when this call is over.
+                Asio::post(_stream.get_executor(), [weak = _server]() {
+                    if (const std::shared_ptr<Impl> owner = weak.lock(); owner != nullptr)
+                    {
+                        owner->TakeNext();
+                    }
+                });
+            }
+        }
+        _parserOrNull.emplace();
+        _parserOrNull->header_limit(_limits.maxHeaderBytes);
+        _parserOrNull->body_limit(_limits.maxBodyBytes);
+        _stream.expires_after(_limits.timeout);
+        Http::async_read_header(
+            _stream,
+            _buffer,
+            *_parserOrNull,
+            Beast::bind_front_handler(&Connection::OnHeader, shared_from_this()));
+    }
+
+    [[nodiscard]] bool IsWaiting() const noexcept
+    {
+        return _bWaiting;
+    }
+
+    void Close()
+    {
+        _bWaiting = false;
+        ErrorCode ignored;
+        _delay.cancel(ignored);
+        _stream.socket().shutdown(Tcp::socket::shutdown_both, ignored);
+        _stream.close();
+    }
+
+private:
+    void OnHeader(const ErrorCode& error, std::size_t count)
+    {
+        if (error.failed() || _parserOrNull->is_done())
+        {
+            return OnRead(error, count);
+        }
+        if (!Beast::iequals(_parserOrNull->get()[Http::field::expect], "100-continue"))
+        {
+            return ReadBodyAsync();
+        }
+        // Who asks first whether its body is wanted would wait for the answer.
+        Asio::async_write(
+            _stream,
+            Asio::buffer(CONTINUE),
+            [self = shared_from_this()](const ErrorCode& writeError, std::size_t written) {
+                if (writeError.failed())
+                {
+                    return self->OnRead(writeError, written);
+                }
+                self->ReadBodyAsync();
+            });
+    }
+
+    void ReadBodyAsync()
+    {
+        Http::async_read(
+            _stream,
+            _buffer,
+            *_parserOrNull,
+            Beast::bind_front_handler(&Connection::OnRead, shared_from_this()));
+    }
+
+    void OnRead(const ErrorCode& error, std::size_t /*count*/)
+    {
+        _bWaiting = false;
+        const std::shared_ptr<Impl> server = _server.lock();
+        if (server == nullptr || !_stream.socket().is_open())
+        {
+            return Leave();
+        }
+        if (error.failed())
+        {
+            const std::optional<HttpResponse> refusal = MakeRefusalOrNull(error, _limits);
+            if (!refusal.has_value())
+            {
+                return Leave();
+            }
+            const std::string reason = error.message();
+            server->LogRefusal(reason, reason);
+            return WriteAsync(*refusal, false, false);
+        }
+        const auto& request = _parserOrNull->get();
+        const std::string_view target(request.target().data(), request.target().size());
+        Core::Result<HttpRequest> parsed = ParseHttpTarget(target);
+        const bool bHead = request.method() == Http::verb::head;
+        if (!parsed.has_value())
+        {
+            const HttpResponse refusal = MakeRefusal(Http::status::bad_request, Core::Describe(parsed.error()));
+            return WriteAsync(refusal, request.keep_alive(), bHead);
+        }
+        parsed->method = std::string(request.method_string());
+        parsed->body = request.body();
+        if (const std::optional<std::string> objection = server->FindObjectionOrNull(*parsed, request))
+        {
+            server->LogRefusal("forbidden", *objection);
+            return WriteAsync(MakeRefusal(Http::status::forbidden, *objection), request.keep_alive(), bHead);
+        }
+        // A copy: the handler may stop and destroy the server.
+        const Handler makeResponse = server->handler;
+        const HttpResponse response = makeResponse(*parsed);
+        PrepareResponse(response, request.keep_alive());
+        if (response.delay <= Core::Duration::zero())
+        {
+            return WritePreparedAsync(request.keep_alive(), bHead);
+        }
+        _delay.expires_after(response.delay);
+        _delay.async_wait([self = shared_from_this(), bKeepAlive = request.keep_alive(), bHead](const ErrorCode&) {
+            // Closed in the meantime: the write fails at once.
+            self->WritePreparedAsync(bKeepAlive, bHead);
+        });
+    }
+
+    void WriteAsync(const HttpResponse& response, bool bKeepAlive, bool bHead)
+    {
+        PrepareResponse(response, bKeepAlive);
+        WritePreparedAsync(bKeepAlive, bHead);
+    }
+
+    void PrepareResponse(const HttpResponse& response, bool bKeepAlive)
+    {
+        _responseOrNull.emplace(Http::int_to_status(response.status), 11U);
+        _responseOrNull->result(response.status);
+        _responseOrNull->set(Http::field::content_type, response.contentType);
+        if (!response.allow.empty())
+        {
+            _responseOrNull->set(Http::field::allow, response.allow);
+        }
+        _responseOrNull->body() = response.body;
+        _responseOrNull->keep_alive(bKeepAlive);
+        _responseOrNull->prepare_payload();
+        _serializerOrNull.emplace(*_responseOrNull);
+    }
+
+    void WritePreparedAsync(bool bKeepAlive, bool bHead)
+    {
+        _stream.expires_after(_limits.timeout);
+        auto onWritten = Beast::bind_front_handler(&Connection::OnWritten, shared_from_this(), bKeepAlive);
+        if (bHead)
+        {
+            Http::async_write_header(_stream, *_serializerOrNull, std::move(onWritten));
+        }
+        else
+        {
+            Http::async_write(_stream, *_serializerOrNull, std::move(onWritten));
+        }
+    }
+
+    void OnWritten(bool bKeepAlive, const ErrorCode& error, std::size_t /*count*/)
+    {
+        if (!error.failed() && bKeepAlive && !_server.expired() && _stream.socket().is_open())
+        {
+            ReadAsync();
+        }
+        else if (!error.failed() && _stream.socket().is_open())
+        {
+            ErrorCode ignored;
+            _stream.socket().shutdown(Tcp::socket::shutdown_send, ignored);
+            _stream.expires_after(DRAIN_TIME);
+            DrainAsync();
+        }
+        else
+        {
+            Leave();
+        }
+    }
+
+    /// Reads on until the peer closes; the time that ends this is not renewed.
+    void DrainAsync()
+    {
+        _buffer.clear();
+        _stream.async_read_some(
+            _buffer.prepare(DRAIN_BYTES),
+            Beast::bind_front_handler(&Connection::OnDrained, shared_from_this()));
+    }
+
+    void OnDrained(const ErrorCode& error, std::size_t /*count*/)
+    {
+        if (error.failed())
+        {
+            Leave();
+        }
+        else
+        {
+            DrainAsync();
+        }
+    }
+
+    /// Closes, and leaves the list of the server where that still lives.
+    void Leave()
+    {
+        Close();
+        if (const std::shared_ptr<Impl> server = _server.lock())
+        {
+            server->OnClosed(std::exchange(place, server->connections.end()));
+        }
+    }
+};
+
+Core::Result<Endpoint> HttpServer::Impl::Listen(const Endpoint& endpoint)
+{
+    const Core::Result<std::uint16_t> port = listener->Listen(endpoint.host, endpoint.port);
+    if (!port.has_value())
+    {
+        return tl::make_unexpected(port.error());
+    }
+    return Endpoint{endpoint.host, *port};
+}
+
+void HttpServer::Impl::LogRefusal(std::string_view kind, std::string_view reason)
+{
+    refusals.Write(
+        std::chrono::steady_clock::now(),
+        Core::ELogLevel::Warning,
+        kind,
+        "Refused an HTTP request",
+        {{"reason", reason}});
+}
+
+std::optional<std::string> HttpServer::Impl::FindObjectionOrNull(const HttpRequest& request, const Http::fields& header)
+    const
+{
+    const auto get = [&header](std::string_view name) {
+        const auto value = header[name];
+        return std::string_view(value.data(), value.size());
+    };
+    return guardOrNone.has_value()
+        ? guardOrNone->GetObjectionOrNull(request, {get("Host"), get("Origin"), get("Sec-Fetch-Site")})
+        : std::nullopt;
+}
+
+/// Who has waited for a whole request the longest.
+std::shared_ptr<HttpServer::Impl::Connection> HttpServer::Impl::FindWaitingOrNull() const
+{
+    const auto found = std::ranges::find_if(connections, &Connection::IsWaiting);
+    return found != connections.end() ? *found : nullptr;
+}
+
+/// Peers that say nothing must not keep out those that have something to ask.
+void HttpServer::Impl::OnAccepted(Tcp::socket socket)
+{
+    if (connections.size() >= limits.maxConnections)
+    {
+        const std::shared_ptr<Connection> silent = FindWaitingOrNull();
+        if (silent == nullptr)
+        {
+            nextOrNull = std::move(socket);
+            return;
+        }
+        silent->Close();
+    }
+    const auto connection = std::make_shared<Connection>(shared_from_this(), std::move(socket));
+    connections.push_back(connection);
+    connection->place = std::prev(connections.end());
+    connection->ReadAsync();
+}
+
+void HttpServer::Impl::TakeNext()
+{
+    if (nextOrNull.has_value())
+    {
+        Tcp::socket socket = std::move(*nextOrNull);
+        nextOrNull.reset();
+        OnAccepted(std::move(socket));
+        listener->AcceptAsync();
+    }
+}
+
+void HttpServer::Impl::OnClosed(ConnectionList::iterator place)
+{
+    if (place != connections.end())
+    {
+        connections.erase(place);
+        TakeNext();
+    }
+}
+
+void HttpServer::Impl::Stop()
+{
+    listener->Stop();
+    nextOrNull.reset();
+    for (const std::shared_ptr<Connection>& connection : connections)
+    {
+        connection->place = connections.end();
+        connection->Close();
+    }
+    connections.clear();
+}
+
+HttpServer::HttpServer(
+    const Asio::any_io_executor& executor,
+    Handler handler,
+    Core::Logger logger,
+    HttpLimits limits,
+    std::optional<HttpGuard> guardOrNone)
+    : _impl(std::make_shared<Impl>(executor, std::move(handler), std::move(logger), limits, std::move(guardOrNone)))
+{
+}
+
+HttpServer::~HttpServer()
+{
+    _impl->Stop();
+}
+
+Core::Result<Endpoint> HttpServer::Listen(const Endpoint& endpoint)
+{
+    return _impl->Listen(endpoint);
+}
+
+void HttpServer::Stop()
+{
+    _impl->Stop();
+}
+
+} // namespace ACS::Apps

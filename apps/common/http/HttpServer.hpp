@@ -1,0 +1,64 @@
+#pragma once
+
+#include "common/config/Endpoint.hpp"
+#include "common/http/HttpGuard.hpp"
+#include "common/http/HttpMessage.hpp"
+#include <acs/core/Logger.hpp>
+#include <acs/core/Result.hpp>
+
+#include <boost/asio/any_io_executor.hpp>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace ACS::Apps
+{
+
+/// What a server accepts from one peer and from all of them.
+struct HttpLimits
+{
+    std::uint32_t maxHeaderBytes = 16U * 1024U;
+    std::uint64_t maxBodyBytes = 1024U * 1024U;
+    std::chrono::milliseconds timeout{30'000}; ///< For a whole request, and for an idle connection.
+    /// One more replaces the connection that has waited longest for a whole request. If all are being answered, it waits until
+    /// one is finished.
+    std::size_t maxConnections = 64;
+};
+
+/// A small HTTP/1.1 server: status and metrics of a program, the Open API of the simulated controller. Keeps
+/// connections alive; answers 400, 413 and 431 itself, 403 if its guard refuses the request, and closes after what is not HTTP.
+/// One thread: the executor's.
+class HttpServer final
+{
+    struct Impl;
+    std::shared_ptr<Impl> _impl;
+
+public:
+    /// Called on the executor, one request after the other; must not block and must not throw.
+    using Handler = std::function<HttpResponse(const HttpRequest&)>;
+
+    HttpServer(
+        const boost::asio::any_io_executor& executor,
+        Handler handler,
+        Core::Logger logger,
+        HttpLimits limits = {},
+        std::optional<HttpGuard> guardOrNone = std::nullopt);
+    HttpServer(const HttpServer&) = delete;
+    HttpServer& operator=(const HttpServer&) = delete;
+
+    /// Stops.
+    ~HttpServer();
+
+    /// Starts to serve. Returns the same host with the actual port. Fails if the address is not one of this machine or the
+    /// port is in use; another call may follow.
+    [[nodiscard]] Core::Result<Endpoint> Listen(const Endpoint& endpoint);
+
+    /// Closes the port and all connections. The handler is not called any more.
+    void Stop();
+};
+
+} // namespace ACS::Apps

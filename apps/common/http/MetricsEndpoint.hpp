@@ -1,0 +1,48 @@
+#pragma once
+
+#include "common/http/HttpMessage.hpp"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace ACS::Apps
+{
+
+/// Counters, gauges and histograms of one program, served as Prometheus text. Names and label names match
+/// [a-zA-Z_][a-zA-Z0-9_]*; label values may be any text.
+class MetricsEndpoint final
+{
+    struct Impl;
+    std::unique_ptr<Impl> _impl;
+
+public:
+    using Labels = std::map<std::string, std::string>;
+
+    MetricsEndpoint();
+    MetricsEndpoint(const MetricsEndpoint&) = delete;
+    MetricsEndpoint& operator=(const MetricsEndpoint&) = delete;
+    ~MetricsEndpoint();
+
+    /// Adds the metric with its help text. Only the first call for a name counts.
+    void AddCounter(const std::string& name, const std::string& help);
+    void AddGauge(const std::string& name, const std::string& help);
+    /// The bounds of its buckets, ascending; the last bucket has no bound.
+    void AddHistogram(const std::string& name, const std::string& help, const std::vector<double>& bounds);
+
+    /// For metrics that were added.
+    void Increment(const std::string& name, const Labels& labels = {}, double delta = 1.0);
+    /// Raises a counter to the total that a library's statistics show; a smaller total changes nothing.
+    void SetTotal(const std::string& name, const Labels& labels, double total);
+    void Observe(const std::string& name, const Labels& labels, double value);
+    void SetGauge(const std::string& name, const Labels& labels, double value);
+
+    /// The text exposition format.
+    [[nodiscard]] std::string Render() const;
+
+    /// The response to GET /metrics.
+    [[nodiscard]] HttpResponse Respond() const;
+};
+
+} // namespace ACS::Apps

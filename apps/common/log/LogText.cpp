@@ -1,0 +1,97 @@
+#include "common/log/LogText.hpp"
+
+#include <acs/core/ControlCharacter.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace ACS::Apps
+{
+
+namespace
+{
+
+void AppendEscaped(std::string& out, std::string_view text, bool bQuoted)
+{
+    for (const char character : text)
+    {
+        if (character == '\n')
+        {
+            out += "\\n";
+        }
+        else
+        {
+            out += bQuoted && (character == '"' || character == '\\') ? "\\" : "";
+            AppendPrintable(out, character);
+        }
+    }
+}
+
+bool NeedsQuotes(std::string_view value)
+{
+    return value.empty() || std::any_of(value.begin(), value.end(), [](char character) {
+               return Core::IsControlCharacter(character) || character == ' ' || character == '"' || character == '=';
+           });
+}
+
+} // namespace
+
+void AppendPrintable(std::string& out, char character)
+{
+    if (Core::IsControlCharacter(character))
+    {
+        out += fmt::format("\\x{:02x}", static_cast<unsigned>(static_cast<unsigned char>(character)));
+    }
+    else
+    {
+        out += character;
+    }
+}
+
+std::string MakeLogText(
+    std::string_view component,
+    std::string_view message,
+    std::initializer_list<Core::LogField> fields)
+{
+    std::string text = fmt::format("{}: ", component);
+    AppendEscaped(text, message, false);
+    for (const Core::LogField& field : fields)
+    {
+        text += fmt::format(" {}=", field.key);
+        if (NeedsQuotes(field.value))
+        {
+            text += '"';
+            AppendEscaped(text, field.value, true);
+            text += '"';
+        }
+        else
+        {
+            text += field.value;
+        }
+    }
+    return text;
+}
+
+Core::Result<Core::ELogLevel> ParseLogLevel(std::string_view text)
+{
+    if (text == "debug")
+    {
+        return Core::ELogLevel::Debug;
+    }
+    if (text == "info")
+    {
+        return Core::ELogLevel::Info;
+    }
+    if (text == "warning")
+    {
+        return Core::ELogLevel::Warning;
+    }
+    if (text == "error")
+    {
+        return Core::ELogLevel::Error;
+    }
+    return Core::Fail(Core::ECoreError::UnknownWord, {}, "debug, info, warning or error", fmt::format("'{}'", text));
+}
+
+} // namespace ACS::Apps

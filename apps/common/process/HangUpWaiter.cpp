@@ -1,0 +1,51 @@
+#include "common/process/HangUpWaiter.hpp"
+
+#include <boost/asio/signal_set.hpp>
+
+#include <csignal>
+#include <utility>
+
+namespace ACS::Apps
+{
+
+struct HangUpWaiter::Impl : public std::enable_shared_from_this<HangUpWaiter::Impl>
+{
+    boost::asio::signal_set signals;
+    Handler handler;
+    bool bStopped = false;
+
+    Impl(const boost::asio::any_io_executor& executor, Handler handlerToCall)
+        : signals(executor, SIGHUP),
+          handler(std::move(handlerToCall))
+    {
+    }
+
+    void WaitAsync()
+    {
+        signals.async_wait([weak = weak_from_this()](const boost::system::error_code& error, int /*signalNumber*/) {
+            const std::shared_ptr<Impl> impl = weak.lock();
+            if (impl == nullptr || impl->bStopped || error.failed())
+            {
+                return;
+            }
+            impl->handler();
+            impl->WaitAsync();
+        });
+    }
+};
+
+HangUpWaiter::HangUpWaiter(const boost::asio::any_io_executor& executor, Handler handler)
+    : _impl(std::make_shared<Impl>(executor, std::move(handler)))
+{
+    _impl->WaitAsync();
+}
+
+HangUpWaiter::~HangUpWaiter()
+{
+    _impl->bStopped = true;
+    boost::system::error_code ignored;
+    _impl->signals.clear(ignored);
+    _impl->signals.cancel(ignored);
+}
+
+} // namespace ACS::Apps

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "common/config/Endpoint.hpp"
+
+#include <string>
+#include <vector>
+
+namespace ACS::Apps
+{
+
+/// One address on which a program serves.
+struct ReadyAddress
+{
+    std::string name;  ///< "http", "ws", "stream", "broker"; each once.
+    Endpoint endpoint; ///< With the real port, never 0.
+};
+
+/// "ready: http=127.0.0.1:8080 ws=…", without line end.
+[[nodiscard]] std::string MakeReadyLine(const std::vector<ReadyAddress>& addresses);
+
+/// Prints that line on standard output and flushes, so that a reader of the pipe gets it at once.
+void PrintReadyLine(const std::vector<ReadyAddress>& addresses);
+
+} // namespace ACS::Apps

@@ -1,0 +1,194 @@
+#include "common/trace/TraceFiles.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <fcntl.h>
+#include <filesystem>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+namespace ACS::Apps
+{
+
+namespace
+{
+
+constexpr std::string_view PREFIX = "acsd-";
+constexpr std::string_view SUFFIX = ".ndjson";
+constexpr mode_t FILE_MODE = 0640; // messages may be confidential
+constexpr std::size_t FLUSH_BYTES = 256U * 1024U;
+
+/// 0: not one of ours.
+std::uint64_t ReadNumber(const std::string& name)
+{
+    if (name.size() <= PREFIX.size() + SUFFIX.size() || !name.starts_with(PREFIX) || !name.ends_with(SUFFIX))
+    {
+        return 0;
+    }
+    const std::string_view digits =
+        std::string_view(name).substr(PREFIX.size(), name.size() - PREFIX.size() - SUFFIX.size());
+    std::uint64_t number = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    return error == std::errc() && end == digits.data() + digits.size() ? number : 0;
+}
+
+/// Ascending.
+std::vector<std::pair<std::uint64_t, std::filesystem::path>> ListFiles(const std::string& folder)
+{
+    std::vector<std::pair<std::uint64_t, std::filesystem::path>> files;
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    {
+        const std::uint64_t number = ReadNumber(entry->path().filename().string());
+        if (number > 0)
+        {
+            files.emplace_back(number, entry->path());
+        }
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
+std::error_code GetLastError()
+{
+    return {errno, std::generic_category()};
+}
+
+} // namespace
+
+TraceFiles::TraceFiles(std::string path)
+    : _path(std::move(path))
+{
+}
+
+TraceFiles::~TraceFiles()
+{
+    Close();
+}
+
+std::error_code TraceFiles::Open(const TraceLimits& limits)
+{
+    if (limits.maxFiles == 0)
+    {
+        return OpenFile(_path, O_TRUNC);
+    }
+    std::error_code error;
+    std::filesystem::create_directories(_path, error);
+    return error ? error : OpenNext(limits);
+}
+
+std::error_code TraceFiles::OpenNext(const TraceLimits& limits)
+{
+    if (limits.maxFiles == 0)
+    {
+        return OpenFile(_path, 0);
+    }
+    auto files = ListFiles(_path);
+    const std::uint64_t number = files.empty() ? 1 : files.back().first + 1;
+    // Room is made before it is needed.
+    for (std::size_t i = 0; i + limits.maxFiles <= files.size(); ++i)
+    {
+        std::error_code ignored;
+        std::filesystem::remove(files[i].second, ignored);
+    }
+    return OpenFile(std::filesystem::path(_path) / fmt::format("{}{:06}{}", PREFIX, number, SUFFIX), O_EXCL);
+}
+
+std::error_code TraceFiles::OpenFile(const std::string& path, int flags)
+{
+    Close();
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): POSIX has no other
+    _file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | flags, FILE_MODE);
+    if (_file < 0)
+    {
+        return GetLastError();
+    }
+    _written = static_cast<std::uint64_t>(std::max<off_t>(::lseek(_file, 0, SEEK_END), 0));
+    return {};
+}
+
+void TraceFiles::Close() noexcept
+{
+    if (_file >= 0)
+    {
+        ::close(std::exchange(_file, -1));
+    }
+    _written = 0;
+    _buffer.clear();
+    _bufferedLines = 0;
+}
+
+std::error_code TraceFiles::Append(std::string_view line, const TraceLimits& limits)
+{
+    const std::uint64_t size = _written + _buffer.size();
+    if (size > 0 && size + line.size() + 1 > limits.maxFileBytes)
+    {
+        const std::error_code error = Flush();
+        if (error)
+        {
+            ++_lostLines;
+            return error;
+        }
+        Close();
+    }
+    if (_file < 0)
+    {
+        const std::error_code error = OpenNext(limits);
+        if (error)
+        {
+            _lostLines = 1;
+            return error;
+        }
+    }
+    _buffer.append(line);
+    _buffer += '\n';
+    ++_bufferedLines;
+    return _buffer.size() >= FLUSH_BYTES ? Flush() : std::error_code();
+}
+
+std::error_code TraceFiles::Flush()
+{
+    const std::error_code error = WriteBuffer();
+    if (error)
+    {
+        _lostLines = _bufferedLines;
+        // Back to the end of the last whole line.
+        static_cast<void>(::ftruncate(_file, static_cast<off_t>(_written)) == 0);
+        Close();
+        return error;
+    }
+    _written += _buffer.size();
+    _buffer.clear();
+    _bufferedLines = 0;
+    return {};
+}
+
+std::size_t TraceFiles::GetLostLines() const noexcept
+{
+    return _lostLines;
+}
+
+std::error_code TraceFiles::WriteBuffer()
+{
+    std::size_t done = 0;
+    while (done < _buffer.size())
+    {
+        const ssize_t count = ::write(_file, _buffer.data() + done, _buffer.size() - done);
+        if (count < 0 && errno == EINTR)
+        {
+            continue;
+        }
+        if (count <= 0)
+        {
+            return count < 0 ? GetLastError() : std::make_error_code(std::errc::io_error);
+        }
+        done += static_cast<std::size_t>(count);
+    }
+    return {};
+}
+
+} // namespace ACS::Apps

@@ -1,0 +1,241 @@
+#include "common/trace/TraceWriter.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+namespace ACS::Apps
+{
+
+namespace
+{
+
+/// Between two attempts to write after a failure.
+constexpr std::chrono::seconds RETRY{10};
+/// What a queued line takes besides its text.
+constexpr std::size_t ENTRY_BYTES = 96;
+
+} // namespace
+
+struct TraceWriter::Impl
+{
+    struct Entry
+    {
+        std::string line;
+        Core::Now now;
+        std::uint64_t lostBefore = 0; ///< Lines for which the queue had no room.
+    };
+
+    const Core::IClock& clock;
+    Core::Logger logger;
+    Options options; ///< The limits: under the mutex.
+
+    std::mutex mutex; ///< Of what follows.
+    std::condition_variable wake;
+    std::deque<Entry> queue;
+    std::size_t queuedBytes = 0;
+    std::uint64_t unqueued = 0; ///< Lost, and no entry states it yet.
+    std::uint64_t lost = 0;
+    std::optional<std::string> failureOrNone; ///< To be logged by the caller's thread.
+    bool bRecovered = false;                  ///< Likewise.
+    bool bClosing = false;
+
+    // The thread's own.
+    TraceFiles files;
+    std::optional<Core::SteadyTime> failedAt;
+    std::uint64_t unwritten = 0; ///< Lost, and no line of the trace states it yet.
+    std::thread thread;
+
+    Impl(Options writerOptions, const Core::IClock& writerClock, Core::Logger writerLogger)
+        : clock(writerClock),
+          logger(std::move(writerLogger)),
+          options(std::move(writerOptions)),
+          files(options.path)
+    {
+    }
+
+    void Run()
+    {
+        std::unique_lock lock(mutex);
+        while (!bClosing || !queue.empty() || unqueued > 0)
+        {
+            wake.wait(lock, [this] { return bClosing || !queue.empty(); });
+            const std::deque<Entry> entries = std::exchange(queue, {});
+            const std::uint64_t lostAtEnd = bClosing ? std::exchange(unqueued, 0) : 0;
+            const TraceLimits limits = options.limits;
+            queuedBytes = 0;
+            lock.unlock();
+            WriteAll(entries, lostAtEnd, limits);
+            lock.lock();
+        }
+    }
+
+    void WriteAll(const std::deque<Entry>& entries, std::uint64_t lostAtEnd, const TraceLimits& limits)
+    {
+        for (const Entry& entry : entries)
+        {
+            unwritten += entry.lostBefore;
+            const bool bPausing = failedAt.has_value() && entry.now.steady - *failedAt < RETRY;
+            if (bPausing || !TryWriteLoss(entry.now, limits))
+            {
+                AddLost(1);
+                continue;
+            }
+            Check(files.Append(entry.line, limits), entry.now);
+        }
+        const Core::Now now = entries.empty() ? clock.GetNow() : entries.back().now;
+        unwritten += lostAtEnd;
+        if (lostAtEnd > 0)
+        {
+            static_cast<void>(TryWriteLoss(now, limits));
+        }
+        Check(files.Flush(), now);
+    }
+
+    /// The number of lost lines precedes the next line. False: the trace still cannot be written.
+    [[nodiscard]] bool TryWriteLoss(Core::Now now, const TraceLimits& limits)
+    {
+        if (unwritten == 0)
+        {
+            return true;
+        }
+        // By itself, so that each line lost from here on is a message or this one.
+        std::error_code error = files.Flush();
+        Check(error, now);
+        if (error)
+        {
+            return false;
+        }
+        error = files.Append(options.makeLossLine(unwritten, now), limits);
+        if (!error)
+        {
+            error = files.Flush();
+        }
+        if (error)
+        {
+            OnFailed(error, now);
+            return false;
+        }
+        unwritten = 0;
+        if (std::exchange(failedAt, std::nullopt).has_value())
+        {
+            const std::lock_guard lock(mutex);
+            bRecovered = true;
+        }
+        return true;
+    }
+
+    void Check(const std::error_code& error, Core::Now now)
+    {
+        if (error)
+        {
+            OnFailed(error, now);
+            AddLost(files.GetLostLines());
+        }
+    }
+
+    void OnFailed(const std::error_code& error, Core::Now now)
+    {
+        if (!std::exchange(failedAt, now.steady).has_value())
+        {
+            const std::lock_guard lock(mutex);
+            failureOrNone = error.message();
+        }
+    }
+
+    void AddLost(std::uint64_t count)
+    {
+        unwritten += count;
+        const std::lock_guard lock(mutex);
+        lost += count;
+    }
+};
+
+TraceWriter::TraceWriter(Options options, const Core::IClock& clock, Core::Logger logger)
+    : _impl(std::make_unique<Impl>(std::move(options), clock, std::move(logger)))
+{
+}
+
+TraceWriter::~TraceWriter()
+{
+    Close();
+}
+
+std::error_code TraceWriter::Open()
+{
+    const std::error_code error = _impl->files.Open(_impl->options.limits);
+    if (!error)
+    {
+        _impl->thread = std::thread([&impl = *_impl] { impl.Run(); });
+    }
+    return error;
+}
+
+void TraceWriter::Write(std::string line, Core::Now now)
+{
+    std::optional<std::string> failure;
+    bool bRecovered = false;
+    bool bWake = false;
+    {
+        const std::lock_guard lock(_impl->mutex);
+        const std::size_t size = ENTRY_BYTES + line.size();
+        if (_impl->queuedBytes + size > _impl->options.maxQueuedBytes)
+        {
+            ++_impl->unqueued;
+            ++_impl->lost;
+        }
+        else
+        {
+            bWake = _impl->queue.empty();
+            _impl->queuedBytes += size;
+            _impl->queue.push_back({std::move(line), now, std::exchange(_impl->unqueued, 0)});
+        }
+        failure = std::exchange(_impl->failureOrNone, std::nullopt);
+        bRecovered = std::exchange(_impl->bRecovered, false);
+    }
+    if (bWake)
+    {
+        _impl->wake.notify_one();
+    }
+    if (failure.has_value())
+    {
+        _impl->logger.Error(
+            "the trace cannot be written; retrying every 10 s, messages are lost meanwhile",
+            {{"path", _impl->options.path}, {"reason", *failure}});
+    }
+    if (bRecovered)
+    {
+        _impl->logger.Info("the trace is written again", {{"path", _impl->options.path}});
+    }
+}
+
+void TraceWriter::SetLimits(const TraceLimits& limits)
+{
+    const std::lock_guard lock(_impl->mutex);
+    _impl->options.limits = limits;
+}
+
+void TraceWriter::Close()
+{
+    {
+        const std::lock_guard lock(_impl->mutex);
+        _impl->bClosing = true;
+    }
+    _impl->wake.notify_one();
+    if (_impl->thread.joinable())
+    {
+        _impl->thread.join();
+    }
+}
+
+std::uint64_t TraceWriter::GetLost() const
+{
+    const std::lock_guard lock(_impl->mutex);
+    return _impl->lost;
+}
+
+} // namespace ACS::Apps

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "common/trace/TraceFiles.hpp"
+#include <acs/core/Logger.hpp>
+#include <acs/core/Now.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace ACS::Apps
+{
+
+/// Writes the lines of a trace on a thread of its own: the caller never waits for the disk. Lines for which the queue has no
+/// room, and lines that a full disk does not accept, are lost. They are counted, also by a line in the trace. Called on one
+/// thread.
+class TraceWriter final
+{
+    struct Impl;
+    std::unique_ptr<Impl> _impl;
+
+public:
+    /// The line of the trace (without its end) that states a number of lost lines.
+    using LossFormat = std::function<std::string(std::uint64_t lost, Core::Now now)>;
+
+    static constexpr std::size_t DEFAULT_QUEUE_BYTES = 32U * 1024U * 1024U;
+
+    struct Options
+    {
+        std::string path; ///< Of the folder, or of the file.
+        TraceLimits limits;
+        LossFormat makeLossLine; ///< Called on the writer's thread.
+        std::size_t maxQueuedBytes = DEFAULT_QUEUE_BYTES;
+    };
+
+    /// The clock and the sink of the logger outlive the writer.
+    TraceWriter(Options options, const Core::IClock& clock, Core::Logger logger);
+    TraceWriter(const TraceWriter&) = delete;
+    TraceWriter& operator=(const TraceWriter&) = delete;
+
+    /// Closes.
+    ~TraceWriter();
+
+    /// Once, before anything else: opens the first file and starts the thread.
+    [[nodiscard]] std::error_code Open();
+
+    /// A line without its end, with the time of the message.
+    void Write(std::string line, Core::Now now);
+
+    /// For the next file.
+    void SetLimits(const TraceLimits& limits);
+
+    /// Waits until everything is written. Nothing may be written after it.
+    void Close();
+
+    /// Lines that are missing in the trace.
+    [[nodiscard]] std::uint64_t GetLost() const;
+};
+
+} // namespace ACS::Apps

@@ -1,0 +1,93 @@
+#include "console/InputLines.hpp"
+
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
+#include <boost/asio/read_until.hpp>
+
+#include <cstddef>
+#include <unistd.h>
+#include <utility>
+
+namespace ACS::McsSim
+{
+
+namespace
+{
+
+constexpr std::size_t MAX_LINE = 4096;
+
+} // namespace
+
+struct InputLines::Impl : std::enable_shared_from_this<InputLines::Impl>
+{
+    boost::asio::posix::stream_descriptor input;
+    std::string buffer;
+    std::function<void(const std::string& line)> onLine;
+    std::function<void()> onEnd;
+    std::function<void()> onMore; ///< Reads on: a handler of its own, for Asio's templates are not to call each other.
+
+    Impl(
+        const boost::asio::any_io_executor& executor,
+        std::function<void(const std::string& line)> lineHandler,
+        std::function<void()> endHandler)
+        : input(executor),
+          onLine(std::move(lineHandler)),
+          onEnd(std::move(endHandler))
+    {
+    }
+
+    void ReadAsync()
+    {
+        boost::asio::async_read_until(
+            input,
+            boost::asio::dynamic_buffer(buffer, MAX_LINE),
+            '\n',
+            [weak = weak_from_this()](const boost::system::error_code& error, std::size_t count) {
+                const std::shared_ptr<Impl> self = weak.lock();
+                if (self != nullptr && self->onLine)
+                {
+                    self->OnRead(error, count);
+                }
+            });
+    }
+
+    void OnRead(const boost::system::error_code& error, std::size_t count)
+    {
+        if (error)
+        {
+            onLine = nullptr;
+            std::exchange(onEnd, nullptr)();
+            return;
+        }
+        const std::string line = buffer.substr(0, count - 1);
+        buffer.erase(0, count);
+        onLine(line);
+        if (onLine)
+        {
+            onMore();
+        }
+    }
+};
+
+InputLines::InputLines(
+    const boost::asio::any_io_executor& executor,
+    std::function<void(const std::string& line)> onLine,
+    std::function<void()> onEnd)
+    : _impl(std::make_shared<Impl>(executor, std::move(onLine), std::move(onEnd)))
+{
+    // A copy, so that closing it leaves standard input alone.
+    boost::system::error_code code;
+    _impl->input.assign(::dup(STDIN_FILENO), code); // NOLINT(android-cloexec-dup): starts no programs
+    _impl->onMore = [impl = _impl.get()] {
+        impl->ReadAsync();
+    };
+    _impl->ReadAsync();
+}
+
+InputLines::~InputLines()
+{
+    _impl->onLine = nullptr;
+    _impl->onEnd = nullptr;
+}
+
+} // namespace ACS::McsSim

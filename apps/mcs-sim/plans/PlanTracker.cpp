@@ -1,0 +1,513 @@
+#include "plans/PlanTracker.hpp"
+
+#include "console/CleanText.hpp"
+#include "plans/ReportRules.hpp"
+#include <acs/core/Overloaded.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+#include <variant>
+
+namespace ACS::McsSim
+{
+
+using Protocol::EAckResult;
+using Protocol::EAcsCommand;
+
+namespace
+{
+
+TrackedPlan MakeTracked(PlannedPlan&& planned)
+{
+    TrackedPlan tracked;
+    for (const Protocol::PlanStep& step : planned.plan.steps)
+    {
+        TrackedStep& made = tracked.steps.emplace_back();
+        made.stepNo = step.stepNo;
+        made.action = step.action;
+        made.position = step.position;
+        for (const Protocol::PlanJob& job : step.jobs)
+        {
+            made.jobs.emplace_back().jobID = job.jobID;
+        }
+    }
+    std::stable_sort(tracked.steps.begin(), tracked.steps.end(), [](const TrackedStep& left, const TrackedStep& right) {
+        return left.stepNo < right.stepNo;
+    });
+    tracked.planned = std::move(planned);
+    return tracked;
+}
+
+/// ": text", or nothing.
+std::string MakeTail(std::string_view text)
+{
+    return text.empty() ? std::string() : ": " + CleanText(text);
+}
+
+/// What became of a request to cancel, abort, pause or resume.
+template <typename TReport>
+void TellResult(std::string_view name, const TReport& report, PlanTracker::Lines& out)
+{
+    out.push_back(
+        fmt::format("{} {} {}{}", CleanText(report.planID), name, GetText(report.result), MakeTail(report.message)));
+}
+
+std::string MakeTail(std::string_view robotID, std::string_view text)
+{
+    return (robotID.empty() ? std::string() : " (" + CleanText(robotID) + ")") + MakeTail(text);
+}
+
+} // namespace
+
+PlanTracker::PlanTracker(std::vector<PlannedPlan> plans, bool bResending)
+    : _bResending(bResending)
+{
+    _plans.reserve(plans.size());
+    for (PlannedPlan& planned : plans)
+    {
+        static_cast<void>(AddPlan(std::move(planned)));
+    }
+}
+
+std::size_t PlanTracker::AddPlan(PlannedPlan plan)
+{
+    const auto [entry, bNew] = _byTransaction.emplace(plan.transactionID, _plans.size());
+    if (bNew)
+    {
+        _byPlanID[plan.plan.planID].push_back(_plans.size());
+        _plans.push_back(MakeTracked(std::move(plan)));
+        ++_outcomes.front();
+    }
+    return entry->second;
+}
+
+void PlanTracker::OnRegistered()
+{
+    _bAcsReady = true;
+    _firstWaiting = 0;
+    for (TrackedPlan& plan : _plans)
+    {
+        if (plan.delivery == EDelivery::Sent && _bResending)
+        {
+            plan.delivery = EDelivery::Waiting;
+        }
+    }
+}
+
+void PlanTracker::OnLinkLost()
+{
+    _bAcsReady = false;
+}
+
+std::optional<std::size_t> PlanTracker::GetNextToSendOrNull(Core::Now now)
+{
+    if (!_bAcsReady)
+    {
+        return std::nullopt;
+    }
+    std::size_t unanswered = 0;
+    for (std::size_t i = _firstWaiting; i < _plans.size(); ++i)
+    {
+        const TrackedPlan& plan = _plans[i];
+        const bool bOpen = GetOutcome(plan) == EOutcome::Open;
+        const bool bSent = bOpen && plan.delivery == EDelivery::Sent;
+        const bool bLate = bSent && _bResending && now.steady - plan.lastSent >= RESEND_AFTER;
+        if ((bOpen && plan.delivery == EDelivery::Waiting) || bLate)
+        {
+            return i;
+        }
+        const bool bDueLater = bSent || plan.delivery == EDelivery::Blocked;
+        _firstWaiting += !bDueLater && i == _firstWaiting ? 1U : 0U;
+        unanswered += bSent ? 1U : 0U;
+        if (unanswered >= SEND_WINDOW && _bResending)
+        {
+            return std::nullopt;
+        }
+    }
+    return std::nullopt;
+}
+
+void PlanTracker::Block(std::size_t index)
+{
+    assert(_plans[index].sends == 0);
+    _plans[index].delivery = EDelivery::Blocked;
+}
+
+void PlanTracker::Unblock(std::size_t index)
+{
+    assert(_plans[index].delivery == EDelivery::Blocked);
+    _plans[index].delivery = EDelivery::Waiting;
+}
+
+void PlanTracker::ReplacePlan(std::size_t index, const Protocol::ExecutionPlan& plan)
+{
+    assert(_plans[index].sends == 0);
+    _plans[index].planned.plan = plan;
+}
+
+void PlanTracker::OnSent(std::size_t index, Core::Now now, Lines& out)
+{
+    TrackedPlan& plan = _plans[index];
+    // What was answered once stays answered, though it goes again.
+    plan.delivery = plan.delivery == EDelivery::Waiting ? EDelivery::Sent : plan.delivery;
+    plan.lastSent = now.steady;
+    ++plan.sends;
+    out.push_back(fmt::format(
+        "{} ExecutionPlan {}",
+        CleanText(plan.planned.plan.planID),
+        plan.sends == 1 ? "sent" : "sent again"));
+}
+
+void PlanTracker::OnAck(const Protocol::AcsAck& ack, Lines& out)
+{
+    if (ack.command != EAcsCommand::ExecutionPlan)
+    {
+        const auto* const planAckOrNull = std::get_if<Protocol::PlanAck>(&ack.payload);
+        out.push_back(fmt::format(
+            "{} {}Ack {}{}",
+            CleanText(planAckOrNull == nullptr || planAckOrNull->planID.empty() ? "ACS" : planAckOrNull->planID),
+            GetText(ack.command),
+            GetText(ack.result),
+            MakeTail(ack.message)));
+        return;
+    }
+    const auto found = _byTransaction.find(ack.transactionID);
+    TrackedPlan* planOrNull = found == _byTransaction.end() ? nullptr : &_plans[found->second];
+    const auto* const payloadOrNull = std::get_if<Protocol::PlanAck>(&ack.payload);
+    if (payloadOrNull != nullptr && !payloadOrNull->planID.empty()
+        && (planOrNull == nullptr || planOrNull->planned.plan.planID != payloadOrNull->planID))
+    {
+        // An Ack that came too late is taken for that of another transaction by the session: its planId knows better.
+        const auto named = _byPlanID.find(payloadOrNull->planID);
+        planOrNull = named == _byPlanID.end() ? nullptr : &_plans[named->second.front()];
+    }
+    if (planOrNull == nullptr)
+    {
+        AddViolation("ExecutionPlanAck for an unknown plan", out);
+        return;
+    }
+    if (planOrNull->delivery == EDelivery::Accepted || planOrNull->delivery == EDelivery::Refused)
+    {
+        return; // The answer to one that was sent twice.
+    }
+    // A plan that is reported was accepted, regardless of the answer to a repetition.
+    const bool bAccepted = ack.result == EAckResult::Success || planOrNull->bReported;
+    ChangePlan(*planOrNull, [planOrNull, bAccepted, &ack] {
+        planOrNull->delivery = bAccepted ? EDelivery::Accepted : EDelivery::Refused;
+        planOrNull->reason = bAccepted ? planOrNull->reason : ack.message;
+    });
+    out.push_back(fmt::format(
+        "{} ExecutionPlanAck {}{}",
+        CleanText(planOrNull->planned.plan.planID),
+        GetText(ack.result),
+        MakeTail(ack.message)));
+}
+
+void PlanTracker::OnRequest(const Protocol::AcsPayload& payload, Lines& out)
+{
+    std::visit(
+        Core::Overloaded{
+            [this, &out](const Protocol::PlanReport& report) { Handle(report, out); },
+            [this, &out](const Protocol::StepReport& report) { Handle(report, out); },
+            [this, &out](const Protocol::JobReport& report) { Handle(report, out); },
+            [&out](const Protocol::ErrorReport& report) { Handle(report, out); },
+            [this, &out](const Protocol::AcsCommStateUpdate& update) { Handle(update, out); },
+            [&out](const Protocol::TscStateUpdate& update) { Handle(update, out); },
+            [&out](const Protocol::CancelResultReport& report) { TellResult("CancelResultReport", report, out); },
+            [&out](const Protocol::AbortResultReport& report) { TellResult("AbortResultReport", report, out); },
+            [&out](const Protocol::PauseResultReport& report) { TellResult("PauseResultReport", report, out); },
+            [&out](const Protocol::ResumeResultReport& report) { TellResult("ResumeResultReport", report, out); },
+            // Other messages do not concern a plan, or answer a request that is never sent here.
+            [](const auto& /*other*/) {
+            }},
+        payload);
+}
+
+void PlanTracker::Handle(const Protocol::PlanReport& report, Lines& out)
+{
+    TrackedPlan* const planOrNull = FindReportedOrNull("PlanReport", report.planID, out);
+    if (planOrNull == nullptr)
+    {
+        return;
+    }
+    const std::optional<std::string> mistake = FindPlanViolationOrNull(*planOrNull, report.status);
+    if (mistake.has_value())
+    {
+        AddViolation(fmt::format("{} PlanReport {}", CleanText(report.planID), *mistake), out);
+    }
+    ChangePlan(*planOrNull, [planOrNull, &report] {
+        planOrNull->status = report.status;
+        planOrNull->bReported = true;
+        const bool bBad = IsFinal(report.status) && report.status != Protocol::EPlanStatus::Completed;
+        planOrNull->reason = bBad && !report.message.empty() ? report.message : planOrNull->reason;
+    });
+    out.push_back(fmt::format(
+        "{} PlanReport {}{}",
+        CleanText(report.planID),
+        GetText(report.status),
+        MakeTail(planOrNull->robotID, report.message)));
+}
+
+void PlanTracker::Handle(const Protocol::StepReport& report, Lines& out)
+{
+    TrackedPlan* const planOrNull = FindReportedOrNull("StepReport", report.planID, out);
+    TrackedStep* const stepOrNull =
+        planOrNull == nullptr ? nullptr : FindStepOrNull(*planOrNull, "StepReport", report.stepNo, out);
+    if (stepOrNull == nullptr)
+    {
+        return;
+    }
+    CheckRobot(*planOrNull, report.robotID, out);
+    const std::optional<std::string> mistake = FindStepViolationOrNull(*planOrNull, *stepOrNull, report.status);
+    if (mistake.has_value())
+    {
+        AddViolation(fmt::format("{} StepReport step {} {}", CleanText(report.planID), report.stepNo, *mistake), out);
+    }
+    stepOrNull->status = report.status;
+    stepOrNull->bReported = true;
+    if (report.status == Protocol::EStepStatus::Failed && !report.message.empty())
+    {
+        planOrNull->reason = report.message;
+    }
+    out.push_back(fmt::format(
+        "{} StepReport step {} {} at {} {}{}",
+        CleanText(report.planID),
+        report.stepNo,
+        CleanText(stepOrNull->action),
+        CleanText(stepOrNull->position),
+        GetText(report.status),
+        MakeTail(report.robotID, report.message)));
+}
+
+void PlanTracker::Handle(const Protocol::JobReport& report, Lines& out)
+{
+    TrackedPlan* const planOrNull = FindReportedOrNull("JobReport", report.planID, out);
+    TrackedStep* const stepOrNull =
+        planOrNull == nullptr ? nullptr : FindStepOrNull(*planOrNull, "JobReport", report.stepNo, out);
+    if (stepOrNull == nullptr)
+    {
+        return;
+    }
+    const auto job = std::find_if(stepOrNull->jobs.begin(), stepOrNull->jobs.end(), [&report](const TrackedJob& other) {
+        return other.jobID == report.jobID;
+    });
+    if (job == stepOrNull->jobs.end())
+    {
+        AddViolation(
+            fmt::format(
+                "{} JobReport step {} for an unknown job {}",
+                CleanText(report.planID),
+                report.stepNo,
+                CleanText(report.jobID)),
+            out);
+        return;
+    }
+    CheckRobot(*planOrNull, report.robotID, out);
+    const auto number = job - stepOrNull->jobs.begin() + 1;
+    const std::optional<std::string> mistake = FindJobViolationOrNull(*planOrNull, *stepOrNull, *job, report.status);
+    if (mistake.has_value())
+    {
+        AddViolation(
+            fmt::format("{} JobReport step {} job {} {}", CleanText(report.planID), report.stepNo, number, *mistake),
+            out);
+    }
+    job->status = report.status;
+    job->bReported = true;
+    if (report.status == Protocol::EJobStatus::Failed && !report.message.empty())
+    {
+        planOrNull->reason = report.message;
+    }
+    out.push_back(fmt::format(
+        "{} JobReport step {} job {}/{} {}{}",
+        CleanText(report.planID),
+        report.stepNo,
+        number,
+        stepOrNull->jobs.size(),
+        GetText(report.status),
+        MakeTail(report.robotID, report.message)));
+}
+
+void PlanTracker::Handle(const Protocol::ErrorReport& report, Lines& out)
+{
+    out.push_back(fmt::format(
+        "{} ErrorReport {} {} {}{}",
+        CleanText(report.robotID.empty() ? "ACS" : report.robotID),
+        GetText(report.level),
+        CleanText(report.errorCode),
+        report.bSet ? "set" : "cleared",
+        MakeTail(report.message)));
+}
+
+void PlanTracker::Handle(const Protocol::AcsCommStateUpdate& update, Lines& out)
+{
+    if (_bAcsReady != update.bConnected)
+    {
+        out.emplace_back(update.bConnected ? "ACS takes plans again" : "ACS takes no plans for now");
+    }
+    _bAcsReady = update.bConnected;
+}
+
+void PlanTracker::Handle(const Protocol::TscStateUpdate& update, Lines& out)
+{
+    out.push_back(fmt::format("ACS TscStateUpdate {}", GetText(update.state)));
+}
+
+const std::vector<TrackedPlan>& PlanTracker::GetPlans() const noexcept
+{
+    return _plans;
+}
+
+const TrackedPlan* PlanTracker::FindPlanOrNull(const std::string& planID) const
+{
+    const auto found = _byPlanID.find(planID);
+    if (found == _byPlanID.end())
+    {
+        return nullptr;
+    }
+    const auto index = std::find_if(found->second.begin(), found->second.end(), [this](std::size_t candidate) {
+        return _plans[candidate].delivery != EDelivery::Refused;
+    });
+    return &_plans[index == found->second.end() ? found->second.front() : *index];
+}
+
+std::size_t PlanTracker::CountOutcome(EOutcome outcome) const noexcept
+{
+    return _outcomes[static_cast<std::size_t>(outcome)];
+}
+
+std::size_t PlanTracker::CountFailed() const noexcept
+{
+    return _plans.size() - CountOutcome(EOutcome::Open) - CountOutcome(EOutcome::Completed);
+}
+
+DoneCount PlanTracker::CountSteps() const noexcept
+{
+    DoneCount count;
+    for (const TrackedPlan& plan : _plans)
+    {
+        count.all += plan.steps.size();
+        count.done += static_cast<std::size_t>(std::count_if(plan.steps.begin(), plan.steps.end(), IsDone));
+    }
+    return count;
+}
+
+DoneCount PlanTracker::CountJobs() const noexcept
+{
+    DoneCount count;
+    for (const TrackedPlan& plan : _plans)
+    {
+        for (const TrackedStep& step : plan.steps)
+        {
+            count.all += step.jobs.size();
+            count.done +=
+                static_cast<std::size_t>(std::count_if(step.jobs.begin(), step.jobs.end(), [](const TrackedJob& job) {
+                    return job.status == Protocol::EJobStatus::Completed;
+                }));
+        }
+    }
+    return count;
+}
+
+std::size_t PlanTracker::CountResends() const noexcept
+{
+    std::size_t count = 0;
+    for (const TrackedPlan& plan : _plans)
+    {
+        count += plan.sends > 1 ? plan.sends - 1 : 0;
+    }
+    return count;
+}
+
+std::size_t PlanTracker::CountViolations() const noexcept
+{
+    return _violationCount;
+}
+
+const std::vector<std::string>& PlanTracker::GetViolations() const noexcept
+{
+    return _violations;
+}
+
+bool PlanTracker::IsFinished() const noexcept
+{
+    return CountOutcome(EOutcome::Open) == 0;
+}
+
+bool PlanTracker::IsSuccess() const noexcept
+{
+    return CountOutcome(EOutcome::Completed) == _plans.size() && _violationCount == 0;
+}
+
+void PlanTracker::AddViolation(std::string text, Lines& out)
+{
+    ++_violationCount;
+    out.push_back("VIOLATION " + text);
+    if (_violations.size() < MAX_VIOLATION_TEXTS)
+    {
+        _violations.push_back(std::move(text));
+    }
+}
+
+void PlanTracker::ChangePlan(TrackedPlan& plan, const std::function<void()>& change)
+{
+    --_outcomes[static_cast<std::size_t>(GetOutcome(plan))];
+    change();
+    ++_outcomes[static_cast<std::size_t>(GetOutcome(plan))];
+}
+
+TrackedPlan* PlanTracker::FindReportedOrNull(std::string_view what, const std::string& planID, Lines& out)
+{
+    const TrackedPlan* const foundOrNull = FindPlanOrNull(planID);
+    if (foundOrNull == nullptr)
+    {
+        AddViolation(fmt::format("{} {} for an unknown plan", CleanText(planID), what), out);
+        return nullptr;
+    }
+    TrackedPlan& plan = _plans[static_cast<std::size_t>(foundOrNull - _plans.data())];
+    if (plan.sends == 0)
+    {
+        AddViolation(fmt::format("{} {} before it was sent", CleanText(planID), what), out);
+        return nullptr;
+    }
+    if (GetOutcome(plan) != EOutcome::Open)
+    {
+        AddViolation(fmt::format("{} {} after it was {}", CleanText(planID), what, GetText(GetOutcome(plan))), out);
+        return nullptr;
+    }
+    return &plan;
+}
+
+TrackedStep* PlanTracker::FindStepOrNull(TrackedPlan& plan, std::string_view what, std::int32_t stepNo, Lines& out)
+{
+    const auto step = std::find_if(plan.steps.begin(), plan.steps.end(), [stepNo](const TrackedStep& other) {
+        return other.stepNo == stepNo;
+    });
+    if (step == plan.steps.end())
+    {
+        AddViolation(
+            fmt::format("{} {} for an unknown step {}", CleanText(plan.planned.plan.planID), what, stepNo),
+            out);
+        return nullptr;
+    }
+    return &*step;
+}
+
+void PlanTracker::CheckRobot(TrackedPlan& plan, const std::string& robotID, Lines& out)
+{
+    if (!plan.robotID.empty() && plan.robotID != robotID)
+    {
+        AddViolation(
+            fmt::format(
+                "{} moved from {} to {}",
+                CleanText(plan.planned.plan.planID),
+                CleanText(plan.robotID),
+                CleanText(robotID)),
+            out);
+    }
+    plan.robotID = robotID;
+}
+
+} // namespace ACS::McsSim

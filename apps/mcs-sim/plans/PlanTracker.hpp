@@ -1,0 +1,115 @@
+#pragma once
+
+#include "plans/TrackedPlan.hpp"
+#include <acs/protocol/AcsMessage.hpp>
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace ACS::McsSim
+{
+
+/// How many of something are there, and how many of these are Completed.
+struct DoneCount
+{
+    std::size_t done = 0;
+    std::size_t all = 0;
+};
+
+/// All plans of a run and what the ACS reports about them. Pure: events and the time go in. A function with `out`
+/// appends a line for people per change of state. Reports in a wrong order, or about what does not exist, are counted
+/// as violations and followed nevertheless as far as that is possible.
+class PlanTracker
+{
+public:
+    /// A plan that is not acknowledged is sent again after this time.
+    static constexpr std::chrono::milliseconds RESEND_AFTER{5'000};
+    /// Maximum number of plans without an Ack.
+    static constexpr std::size_t SEND_WINDOW = 32;
+    /// Violations beyond this number are only counted.
+    static constexpr std::size_t MAX_VIOLATION_TEXTS = 20;
+
+    using Lines = std::vector<std::string>;
+
+private:
+    std::vector<TrackedPlan> _plans;
+    std::unordered_map<std::string, std::vector<std::size_t>> _byPlanID;
+    std::unordered_map<std::string, std::size_t> _byTransaction;
+    std::vector<std::string> _violations;
+    std::size_t _violationCount = 0;
+    std::array<std::size_t, OUTCOME_COUNT> _outcomes{};
+    std::size_t _firstWaiting = 0;
+    bool _bResending = true;
+    bool _bAcsReady = false;
+
+public:
+    /// Transaction ids differ; planIds may repeat, which the ACS then refuses. Without resending a plan goes once, also
+    /// where it is not acknowledged.
+    explicit PlanTracker(std::vector<PlannedPlan> plans, bool bResending = true);
+
+    /// One plan more, by its index; one with the transaction of another is that one.
+    std::size_t AddPlan(PlannedPlan plan);
+
+    /// An ACS has registered, on a first or a new connection: what it has not acknowledged is due again.
+    void OnRegistered();
+    void OnLinkLost();
+
+    /// The plan to send now, by its index: none while no ACS is there or it cannot take work (section 6.21), or while too
+    /// many wait for their Ack.
+    [[nodiscard]] std::optional<std::size_t> GetNextToSendOrNull(Core::Now now);
+    /// For a plan that was not sent yet: it is not due until it is unblocked.
+    void Block(std::size_t index);
+    void Unblock(std::size_t index);
+    /// Other places than before, in a plan that was not sent yet.
+    void ReplacePlan(std::size_t index, const Protocol::ExecutionPlan& plan);
+    void OnSent(std::size_t index, Core::Now now, Lines& out);
+
+    void OnAck(const Protocol::AcsAck& ack, Lines& out);
+
+    /// Any request of the ACS that was not seen before.
+    void OnRequest(const Protocol::AcsPayload& payload, Lines& out);
+
+    /// Something else is wrong with what came from the ACS.
+    void AddViolation(std::string text, Lines& out);
+
+    [[nodiscard]] const std::vector<TrackedPlan>& GetPlans() const noexcept;
+    /// Of plans that share their planId the ACS has accepted one: the first that it did not refuse.
+    [[nodiscard]] const TrackedPlan* FindPlanOrNull(const std::string& planID) const;
+    [[nodiscard]] std::size_t CountOutcome(EOutcome outcome) const noexcept;
+    /// Failed, Cancelled, Aborted and refused.
+    [[nodiscard]] std::size_t CountFailed() const noexcept;
+    [[nodiscard]] DoneCount CountSteps() const noexcept;
+    [[nodiscard]] DoneCount CountJobs() const noexcept;
+    [[nodiscard]] std::size_t CountResends() const noexcept;
+    [[nodiscard]] std::size_t CountViolations() const noexcept;
+    [[nodiscard]] const std::vector<std::string>& GetViolations() const noexcept;
+    /// Whether every plan has ended, one way or the other.
+    [[nodiscard]] bool IsFinished() const noexcept;
+    /// Whether every plan is Completed, and no report was wrong.
+    [[nodiscard]] bool IsSuccess() const noexcept;
+
+private:
+    void ChangePlan(TrackedPlan& plan, const std::function<void()>& change);
+    [[nodiscard]] TrackedPlan* FindReportedOrNull(std::string_view what, const std::string& planID, Lines& out);
+    [[nodiscard]] TrackedStep* FindStepOrNull(
+        TrackedPlan& plan,
+        std::string_view what,
+        std::int32_t stepNo,
+        Lines& out);
+    void CheckRobot(TrackedPlan& plan, const std::string& robotID, Lines& out);
+    void Handle(const Protocol::PlanReport& report, Lines& out);
+    void Handle(const Protocol::StepReport& report, Lines& out);
+    void Handle(const Protocol::JobReport& report, Lines& out);
+    static void Handle(const Protocol::ErrorReport& report, Lines& out);
+    void Handle(const Protocol::AcsCommStateUpdate& update, Lines& out);
+    static void Handle(const Protocol::TscStateUpdate& update, Lines& out);
+};
+
+} // namespace ACS::McsSim

@@ -1,0 +1,158 @@
+#include "plans/ReportRules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace ACS::McsSim
+{
+
+using Protocol::EJobStatus;
+using Protocol::EPlanStatus;
+using Protocol::EStepStatus;
+
+namespace
+{
+
+template <typename TStatus>
+using Transition = std::pair<TStatus, TStatus>;
+
+constexpr std::array PLAN_TRANSITIONS{
+    Transition<EPlanStatus>{EPlanStatus::Pending, EPlanStatus::InProgress},
+    Transition<EPlanStatus>{EPlanStatus::Pending, EPlanStatus::Paused},
+    Transition<EPlanStatus>{EPlanStatus::Pending, EPlanStatus::Cancelled},
+    Transition<EPlanStatus>{EPlanStatus::Pending, EPlanStatus::Aborted},
+    Transition<EPlanStatus>{EPlanStatus::InProgress, EPlanStatus::Completed},
+    Transition<EPlanStatus>{EPlanStatus::InProgress, EPlanStatus::Failed},
+    Transition<EPlanStatus>{EPlanStatus::InProgress, EPlanStatus::Cancelled},
+    Transition<EPlanStatus>{EPlanStatus::InProgress, EPlanStatus::Aborted},
+    Transition<EPlanStatus>{EPlanStatus::InProgress, EPlanStatus::Paused},
+    Transition<EPlanStatus>{EPlanStatus::Paused, EPlanStatus::InProgress},
+    Transition<EPlanStatus>{EPlanStatus::Paused, EPlanStatus::Pending},
+    Transition<EPlanStatus>{EPlanStatus::Paused, EPlanStatus::Aborted},
+};
+
+constexpr std::array STEP_TRANSITIONS{
+    Transition<EStepStatus>{EStepStatus::Pending, EStepStatus::Dispatched},
+    Transition<EStepStatus>{EStepStatus::Pending, EStepStatus::Skipped},
+    Transition<EStepStatus>{EStepStatus::Dispatched, EStepStatus::InProgress},
+    Transition<EStepStatus>{EStepStatus::Dispatched, EStepStatus::Failed},
+    Transition<EStepStatus>{EStepStatus::InProgress, EStepStatus::Completed},
+    Transition<EStepStatus>{EStepStatus::InProgress, EStepStatus::Failed},
+    Transition<EStepStatus>{EStepStatus::InProgress, EStepStatus::Skipped}, // where its job is unresolved
+};
+
+constexpr std::array JOB_TRANSITIONS{
+    Transition<EJobStatus>{EJobStatus::Pending, EJobStatus::Instructed},
+    Transition<EJobStatus>{EJobStatus::Instructed, EJobStatus::InProgress},
+    Transition<EJobStatus>{EJobStatus::Instructed, EJobStatus::Failed},
+    Transition<EJobStatus>{EJobStatus::InProgress, EJobStatus::Completed},
+    Transition<EJobStatus>{EJobStatus::InProgress, EJobStatus::Failed},
+};
+
+/// A first report of Pending changes nothing, and is allowed (D-24).
+template <typename TTransitions, typename TTracked, typename TStatus>
+std::optional<std::string> FindBadTransitionOrNull(
+    const TTransitions& transitions,
+    const TTracked& tracked,
+    TStatus status)
+{
+    const bool bInitial = status == TStatus::Pending && tracked.status == TStatus::Pending && !tracked.bReported;
+    const Transition<TStatus> wanted{tracked.status, status};
+    if (bInitial || std::find(transitions.begin(), transitions.end(), wanted) != transitions.end())
+    {
+        return std::nullopt;
+    }
+    return fmt::format("{} after {}", GetText(status), GetText(tracked.status));
+}
+
+bool IsFailureUntold(const TrackedStep& step)
+{
+    const bool bJobFailed = std::any_of(step.jobs.begin(), step.jobs.end(), [](const TrackedJob& job) {
+        return job.status == EJobStatus::Failed;
+    });
+    return bJobFailed && step.status != EStepStatus::Failed;
+}
+
+bool IsAnyEarlierStepOpen(const TrackedPlan& plan, const TrackedStep& step)
+{
+    return std::any_of(plan.steps.begin(), plan.steps.end(), [&step](const TrackedStep& other) {
+        return other.stepNo < step.stepNo && !IsDone(other);
+    });
+}
+
+} // namespace
+
+std::optional<std::string> FindPlanViolationOrNull(const TrackedPlan& plan, EPlanStatus status)
+{
+    std::optional<std::string> mistakeOrNull = FindBadTransitionOrNull(PLAN_TRANSITIONS, plan, status);
+    if (mistakeOrNull.has_value())
+    {
+        return mistakeOrNull;
+    }
+    if (status == EPlanStatus::Completed && !std::all_of(plan.steps.begin(), plan.steps.end(), IsDone))
+    {
+        return "Completed before all its steps";
+    }
+    if (status == EPlanStatus::Failed && std::any_of(plan.steps.begin(), plan.steps.end(), IsFailureUntold))
+    {
+        return "Failed before the step of its failed job";
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> FindStepViolationOrNull(const TrackedPlan& plan, const TrackedStep& step, EStepStatus status)
+{
+    std::optional<std::string> mistakeOrNull = FindBadTransitionOrNull(STEP_TRANSITIONS, step, status);
+    if (mistakeOrNull.has_value())
+    {
+        return mistakeOrNull;
+    }
+    const bool bBegins = status == EStepStatus::Dispatched || status == EStepStatus::InProgress;
+    if (status != EStepStatus::Pending && plan.status == EPlanStatus::Pending)
+    {
+        return fmt::format("{} while the plan is Pending", GetText(status));
+    }
+    if (bBegins && IsAnyEarlierStepOpen(plan, step))
+    {
+        return fmt::format("{} before the steps in front of it are done", GetText(status));
+    }
+    const bool bJobsCompleted = std::all_of(step.jobs.begin(), step.jobs.end(), [](const TrackedJob& job) {
+        return job.status == EJobStatus::Completed;
+    });
+    if (status == EStepStatus::Completed && !bJobsCompleted)
+    {
+        return "Completed before all its jobs";
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> FindJobViolationOrNull(
+    const TrackedPlan& plan,
+    const TrackedStep& step,
+    const TrackedJob& job,
+    EJobStatus status)
+{
+    std::optional<std::string> mistakeOrNull = FindBadTransitionOrNull(JOB_TRANSITIONS, job, status);
+    if (mistakeOrNull.has_value())
+    {
+        return mistakeOrNull;
+    }
+    if (status == EJobStatus::Pending)
+    {
+        return std::nullopt;
+    }
+    if (plan.status == EPlanStatus::Pending)
+    {
+        return fmt::format("{} while the plan is Pending", GetText(status));
+    }
+    if (step.status != EStepStatus::InProgress)
+    {
+        return fmt::format("{} while its step is {}", GetText(status), GetText(step.status));
+    }
+    return std::nullopt;
+}
+
+} // namespace ACS::McsSim

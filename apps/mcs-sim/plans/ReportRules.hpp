@@ -1,0 +1,24 @@
+#pragma once
+
+#include "plans/TrackedPlan.hpp"
+
+#include <optional>
+#include <string>
+
+namespace ACS::McsSim
+{
+
+/// What is wrong with a report that would change the plan, step or job to this status; nullopt where nothing is.
+/// Checks the transitions of section 7 of MCS-ACS and the causal order of section 6: job, then its step, then the plan.
+[[nodiscard]] std::optional<std::string> FindPlanViolationOrNull(const TrackedPlan& plan, Protocol::EPlanStatus status);
+[[nodiscard]] std::optional<std::string> FindStepViolationOrNull(
+    const TrackedPlan& plan,
+    const TrackedStep& step,
+    Protocol::EStepStatus status);
+[[nodiscard]] std::optional<std::string> FindJobViolationOrNull(
+    const TrackedPlan& plan,
+    const TrackedStep& step,
+    const TrackedJob& job,
+    Protocol::EJobStatus status);
+
+} // namespace ACS::McsSim

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "common/config/Endpoint.hpp"
+#include "common/http/HttpServer.hpp"
+#include "common/process/ReadyLine.hpp"
+#include "controller/ControllerHost.hpp"
+#include "controller/Fault.hpp"
+#include <acs/core/Logger.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/core/Result.hpp>
+
+#include <boost/asio/any_io_executor.hpp>
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::OpenStreamSim
+{
+
+struct FleetOptions
+{
+    static constexpr std::size_t MAX_CONTROLLERS = 500;
+
+    HostOptions first; ///< The next ones have the next ports; where its port is 0, each takes a free one.
+    std::map<std::size_t, std::string> robots; ///< By the number of their controller, from 1.
+    std::size_t controllers = 1;               ///< 1 to MAX_CONTROLLERS; the ports must not go beyond 65535.
+    std::vector<FaultCommand> faults;          ///< Each begins one; their times count from Start.
+    std::optional<Apps::Endpoint> control;     ///< Where commands are taken over HTTP; port 0 takes a free one.
+};
+
+/// The controllers of one process, called 1, 2 and so on, and what is commanded to them. Runs on the executor's one
+/// thread; the clock must outlive it.
+class ControllerFleet final
+{
+    Core::Logger _logger;
+    FleetOptions _options;
+    std::vector<std::unique_ptr<ControllerHost>> _hosts;
+    Apps::HttpServer _controlServer;
+
+    [[nodiscard]] Apps::HttpResponse Handle(const Apps::HttpRequest& request);
+    [[nodiscard]] std::string Apply(const FaultCommand& command);
+    /// How many faults it took or ended.
+    [[nodiscard]] static std::size_t ApplyTo(ControllerHost& host, const FaultCommand& command);
+
+public:
+    ControllerFleet(
+        const boost::asio::any_io_executor& executor,
+        Core::IClock& clock,
+        const Core::Logger& logger,
+        FleetOptions options);
+    ControllerFleet(const ControllerFleet&) = delete;
+    ControllerFleet& operator=(const ControllerFleet&) = delete;
+    ~ControllerFleet() = default;
+
+    /// Opens all ports, or none, and adds the faults. The error names the address that could not be had.
+    [[nodiscard]] Core::Result<void> Start();
+
+    /// Closes all ports and connections.
+    void Stop();
+
+    /// stream and http of the first one, stream2 and http2 of the second and so on, in the end control, with the ports
+    /// that were got.
+    [[nodiscard]] std::vector<Apps::ReadyAddress> GetAddresses() const;
+
+    /// Does what the commands of a message say, all or none; the answer has a line for each. Every mistake is one line
+    /// that begins with "error: ".
+    [[nodiscard]] std::string Command(std::string_view text);
+};
+
+} // namespace ACS::OpenStreamSim

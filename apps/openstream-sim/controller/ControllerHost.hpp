@@ -1,0 +1,80 @@
+#pragma once
+
+#include "api/FaultyService.hpp"
+#include "common/config/Endpoint.hpp"
+#include "common/http/HttpServer.hpp"
+#include "common/process/TimerSet.hpp"
+#include "controller/ControllerFaults.hpp"
+#include "controller/VirtualController.hpp"
+#include <acs/core/Logger.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/core/Result.hpp>
+#include <acs/openstream_asio/OpenStreamServer.hpp>
+
+#include <boost/asio/any_io_executor.hpp>
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace ACS::OpenStreamSim
+{
+
+struct HostOptions
+{
+    /// Behind what its log lines begin with ("stream 2"); empty for a controller that is alone.
+    std::string label;
+    Apps::Endpoint stream{"127.0.0.1", 49'000};        ///< Port 0 takes a free one.
+    Apps::Endpoint http{"127.0.0.1", 8888};            ///< Likewise.
+    std::size_t sessions = 8;                          ///< Of the Open Stream at a time.
+    std::chrono::milliseconds handshakeTimeout{5'000}; ///< Of an Open Stream connection; 0: none.
+    ControllerOptions controller;
+};
+
+/// One simulated controller, its faults and its two ports: Open Stream and the HTTP Open API over the same
+/// VirtualController. Runs on the executor's one thread; the clock must outlive it.
+class ControllerHost final : private IFaultHost
+{
+    Core::IClock& _clock;
+    HostOptions _options;
+    VirtualController _controller;
+    Apps::TimerSet<int> _timers; ///< One: for what comes next of the faults and the controller.
+    ControllerFaults _faults;
+    FaultyService _streamService;
+    FaultyService _httpService;
+    OpenStreamAsio::OpenStreamServer _streamServer;
+    Apps::HttpServer _httpServer;
+
+    [[nodiscard]] Apps::HttpResponse Handle(const Apps::HttpRequest& request);
+    void DropSessions() override;
+    void WakeAt(std::optional<Core::SteadyTime> time) override;
+
+public:
+    ControllerHost(
+        const boost::asio::any_io_executor& executor,
+        Core::IClock& clock,
+        const Core::Logger& logger,
+        HostOptions options);
+    ControllerHost(const ControllerHost&) = delete;
+    ControllerHost& operator=(const ControllerHost&) = delete;
+    ~ControllerHost() override = default;
+
+    /// Opens both ports. The error names the address that could not be had.
+    [[nodiscard]] Core::Result<void> Start();
+
+    /// Closes both ports and all connections.
+    void Stop();
+
+    /// False where there are too many already.
+    [[nodiscard]] bool TryAddFault(const Fault& fault);
+
+    /// Ends those of the kind (absent: all), also those that have not begun; how many.
+    std::size_t EndFaults(std::optional<EFaultKind> kindOrNull);
+
+    /// With the ports that were got, after Start.
+    [[nodiscard]] const Apps::Endpoint& GetStreamEndpoint() const noexcept;
+    [[nodiscard]] const Apps::Endpoint& GetHttpEndpoint() const noexcept;
+};
+
+} // namespace ACS::OpenStreamSim

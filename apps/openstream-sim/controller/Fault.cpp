@@ -1,0 +1,136 @@
+#include "controller/Fault.hpp"
+
+#include "common/faults/FaultText.hpp"
+#include "controller/ControllerOptions.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <limits>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace ACS::OpenStreamSim
+{
+
+namespace
+{
+
+constexpr std::chrono::milliseconds HOLE{100};
+constexpr std::chrono::milliseconds SLOWNESS{500};
+constexpr std::chrono::minutes LONGEST_DELAY{1};
+constexpr int FIRST_REFUSAL = 400;
+constexpr int LAST_REFUSAL = 599;
+
+constexpr Apps::ValueWords<bool, 2> MOMENTS{{{"start", true}, {"end", false}}};
+constexpr Apps::ValueWords<EFaultSide, 3> SIDES{
+    {{"stream", EFaultSide::Stream}, {"http", EFaultSide::Http}, {"both", EFaultSide::Both}}};
+
+template <typename TInteger>
+std::string ReadInteger(std::string_view text, TInteger lowest, TInteger highest, TInteger& target)
+{
+    TInteger number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size() || number < lowest || number > highest)
+    {
+        return fmt::format("a number from {} to {}", lowest, highest);
+    }
+    target = number;
+    return {};
+}
+
+/// An HTTP connection keeps its place until its answer has left, whether or not somebody still waits for it.
+std::string ReadSlowness(std::string_view text, Fault& fault)
+{
+    const std::string expected = Apps::ReadDurationValue(text, fault.time);
+    return expected.empty() && fault.time > LONGEST_DELAY ? "a duration of at most 1m" : expected;
+}
+
+std::string ReadProgram(std::string_view text, Fault& fault)
+{
+    int number = 0;
+    std::string expected = ReadInteger(text, FIRST_PROGRAM, LAST_PROGRAM, number);
+    if (expected.empty())
+    {
+        fault.place = fmt::to_string(number);
+    }
+    return expected;
+}
+
+constexpr std::array<Apps::FaultParameter<Fault>, 11> PARAMETERS{
+    {Apps::FAULT_AT<Fault>,
+     {"program", "NUMBER", ReadProgram},
+     Apps::FAULT_FOR<Fault>,
+     Apps::FAULT_EVERY<Fault>,
+     Apps::FAULT_COUNT<Fault>,
+     {"time", "DURATION", ReadSlowness},
+     {"side",
+      "stream|http|both",
+      [](std::string_view text, Fault& fault) {
+          return Apps::ReadWordValue(text, SIDES, fault.side);
+      }},
+     {"status",
+      "400..599",
+      [](std::string_view text, Fault& fault) {
+          return ReadInteger(text, FIRST_REFUSAL, LAST_REFUSAL, fault.status);
+      }},
+     {"code",
+      "NUMBER",
+      [](std::string_view text, Fault& fault) {
+          using Limits = std::numeric_limits<std::int32_t>;
+          return ReadInteger(text, Limits::min(), Limits::max(), fault.code);
+      }},
+     {"silence",
+      "DURATION",
+      [](std::string_view text, Fault& fault) {
+          return Apps::ReadDurationValue(text, fault.silence);
+      }},
+     {"when", "start|end", [](std::string_view text, Fault& fault) {
+          return Apps::ReadWordValue(text, MOMENTS, fault.bAtStart);
+      }}}};
+
+constexpr std::array<Apps::FaultRow<Fault>, 11> ROWS{
+    {{EFaultKind::Silence, "silence", "", "connected and answering commands, but no data line leaves"},
+     {EFaultKind::Hole, "hole", "", "the same, for 100 ms unless for says otherwise"},
+     {EFaultKind::Drop, "drop", "", "closes each Open Stream connection without a line", true},
+     {EFaultKind::Slow, "slow", "time side", "each answer of the Open API comes later, by default 500 ms"},
+     {EFaultKind::Refuse, "refuse", "count status code", "the next CONTROL is refused, by default with 403 and -1554"},
+     {EFaultKind::Mode, "mode", "silence", "the mode switch is turned out of remote; the stream may fall silent at it"},
+     {EFaultKind::EmergencyStop, "estop", "", "the emergency stop is pressed"},
+     {EFaultKind::ProtectiveStop, "protective-stop", "", "a safeguard is open: the motor is off and stays so"},
+     {EFaultKind::MotorOff, "motor-off", "", "the operator switches the motor off", true},
+     {EFaultKind::ProgramFails, "program-fails", "when count", "the next program fails at its end, or where it begins"},
+     {EFaultKind::WrongValue, "wrong-value", "count", "the next relay that a client writes gets another value"}}};
+
+/// What goes without saying, and what could never show.
+Core::Result<void> CheckWhole(Fault& fault, const std::set<std::string_view>& keys)
+{
+    if (fault.kind == EFaultKind::Hole && !fault.lasts.has_value())
+    {
+        fault.lasts = HOLE;
+    }
+    if (fault.kind == EFaultKind::Slow && !keys.contains("time"))
+    {
+        fault.time = SLOWNESS;
+    }
+    return {};
+}
+
+} // namespace
+
+const Apps::FaultGrammar<Fault>& GetFaultGrammar()
+{
+    static constexpr Apps::FaultGrammar<Fault> GRAMMAR{
+        .target = "CONTROLLER",
+        .when = "at program for every",
+        .whenOnce = "at program every",
+        .parameters = PARAMETERS,
+        .rows = ROWS,
+        .check = CheckWhole};
+    return GRAMMAR;
+}
+
+} // namespace ACS::OpenStreamSim

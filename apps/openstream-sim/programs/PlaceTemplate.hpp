@@ -1,0 +1,59 @@
+#pragma once
+
+#include "programs/RelayMemory.hpp"
+#include "programs/RelayName.hpp"
+#include <acs/core/Location.hpp>
+#include <acs/core/Result.hpp>
+
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace ACS::OpenStreamSim
+{
+
+/// A place of MCS-ACS whose numbers are in relays: "A{ml106}.CP{ml107}.TP{ml108}", "{robot}.TP{ml109}".
+class PlaceTemplate
+{
+    /// {robot}
+    struct RobotTag
+    {
+        bool operator==(const RobotTag&) const = default;
+    };
+
+    /// {ml106}
+    struct WordTag
+    {
+        std::string text;
+        RelayName relay;
+
+        bool operator==(const WordTag&) const = default;
+    };
+
+    using Part = std::variant<std::string, RobotTag, WordTag>;
+
+    std::string _text;
+    std::vector<Part> _parts;
+
+    [[nodiscard]] static Core::Result<Part> ParseTag(std::string_view tag);
+    [[nodiscard]] std::string MakeSample() const;
+
+public:
+    /// Fails with InvalidLocation where no numbers make a place of it, and with UnknownWord for a tag that is no relay word.
+    [[nodiscard]] static Core::Result<PlaceTemplate> Parse(std::string_view text);
+
+    /// The place with the numbers that the relays have now, each with at least two digits. Fails with OutOfRange where one of
+    /// them is below 1 or above 9999: the template does not apply then.
+    [[nodiscard]] Core::Result<std::string> Fill(const RelayMemory& relays, std::string_view robotID) const;
+
+    [[nodiscard]] const std::string& GetText() const noexcept;
+    [[nodiscard]] Core::ESegmentKind GetKind() const;
+    [[nodiscard]] bool HasRobotName() const;
+    /// Without relays it is the same place always, and always applies.
+    [[nodiscard]] bool HasRelays() const;
+
+    bool operator==(const PlaceTemplate&) const = default;
+};
+
+} // namespace ACS::OpenStreamSim

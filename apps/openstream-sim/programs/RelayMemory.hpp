@@ -1,0 +1,34 @@
+#pragma once
+
+#include "programs/RelayName.hpp"
+#include <acs/core/Result.hpp>
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace ACS::OpenStreamSim
+{
+
+/// The controller's relays: bytes, little-endian, all zero at first. A block takes memory once it is written.
+class RelayMemory
+{
+    std::map<RelayBlock, std::vector<std::uint8_t>> _blocks;
+
+    [[nodiscard]] std::uint32_t ReadBytes(const RelayBlock& block, std::size_t first, std::size_t count) const;
+    void WriteBytes(const RelayBlock& block, std::size_t first, std::size_t count, std::uint32_t bits);
+
+public:
+    /// The value, integers signed; the name must lie inside its block.
+    [[nodiscard]] double Read(const RelayName& name) const;
+
+    /// The name must lie inside its block. Refused is what the width cannot hold; an integer may be given signed or
+    /// unsigned.
+    [[nodiscard]] Core::Result<void> Write(const RelayName& name, double value);
+
+    /// 32 bits from any byte on; they must lie inside the block.
+    [[nodiscard]] std::int32_t ReadS32(const RelayBlock& block, std::size_t firstByte) const;
+    void WriteU32(const RelayBlock& block, std::size_t firstByte, std::uint32_t value);
+};
+
+} // namespace ACS::OpenStreamSim

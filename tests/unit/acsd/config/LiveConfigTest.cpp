@@ -1,0 +1,100 @@
+#include "config/LiveConfig.hpp"
+
+#include "Catch.hpp"
+#include "RecordingLogSink.hpp"
+#include "TemporaryFolder.hpp"
+
+#include <chrono>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace ACS::Acsd::Test
+{
+
+namespace
+{
+
+AcsdConfig ReadLive(const std::vector<std::string>& overrides)
+{
+    AcsdConfig config = ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", overrides);
+    REQUIRE(config.mistakes == std::vector<std::string>{});
+    return config;
+}
+
+} // namespace
+
+TEST_CASE("A second reading says per key what holds from now on and what needs a restart")
+{
+    const ConfigChange change = CompareConfigs(
+        {{"log.level", "\"info\""}, {"comm.grace", "\"1s\""}, {"mcs.url", "\"ws://a\""}, {"store.directory", "\"a\""}},
+        {{"log.level", "\"debug\""},
+         {"mcs.url", "\"ws://b\""},
+         {"store.directory", "\"a\""},
+         {"queue.max_plans", "7"}});
+    CHECK(change.taken == std::vector<std::string>{"comm.grace", "log.level"});
+    CHECK(change.waiting == std::vector<std::string>{"mcs.url", "queue.max_plans"});
+}
+
+TEST_CASE("Taking a second reading changes the live keys and nothing else")
+{
+    AcsdConfig present = ReadLive({});
+    const AcsdConfig before = present;
+    const AcsdConfig fresh = ReadLive(
+        {"log.level=debug",
+         "comm.grace=1s",
+         "robot.status_interval=2s",
+         "shutdown.drain_timeout=1s",
+         "trace.max_files=3",
+         "mcs.tx_max_bytes=4096",
+         "mcs.ack_timeout=1s",
+         "queue.max_plans=7"});
+    Testing::RecordingLogSink sink;
+    LogChange(present, fresh, Core::Logger(sink, "config"));
+    CHECK(sink.ContainsField("key", "log.level"));
+    CHECK(sink.ContainsField("value", "\"debug\""));
+    CHECK(sink.Contains(Core::ELogLevel::Warning, "needs a restart"));
+    CHECK(sink.CountLevel(Core::ELogLevel::Warning) == 2);
+
+    TakeLiveKeys(fresh, present);
+    CHECK(present.operations.logLevel == Core::ELogLevel::Debug);
+    CHECK(present.operations.workGrace == std::chrono::seconds(1));
+    CHECK(present.operations.statusInterval == std::chrono::seconds(2));
+    CHECK(present.operations.drainTimeout == std::chrono::seconds(1));
+    CHECK(present.operations.trace.maxFiles == 3);
+    CHECK(present.mcs.style.longestText == 4096);
+    CHECK(present.mcs.session.ackTimeout == before.mcs.session.ackTimeout);
+    CHECK(present.engine.maximumPlans == before.engine.maximumPlans);
+
+    // What was taken is no news any more; what needs a restart is told again.
+    const ConfigChange next = CompareConfigs(present.values, fresh.values);
+    CHECK(next.taken.empty());
+    CHECK(next.waiting == std::vector<std::string>{"mcs.ack_timeout", "queue.max_plans"});
+}
+
+TEST_CASE("Of how messages are written the live keys are taken, and no other")
+{
+    const Testing::TemporaryFolder folder;
+    const std::string names = (folder.GetPath() / "errors.toml").string();
+    std::ofstream(names) << "[\"ACS-1002\"]\ncode = \"E-2\"\n";
+    const std::vector<std::string> live{
+        "mcs.unassigned_robot_id=",
+        "mcs.empty_carriers=omit",
+        "mcs.on_report_nack=retry",
+        "mcs.tx_max_bytes=4096",
+        "outbox.replay=final_only"};
+    // A report that is sent again is the same message; an alarm is cleared under the name that it was set with.
+    const std::vector<std::string> waiting{"mcs.result_report_failure=Fail", "errors.map=" + names};
+    std::vector<std::string> all = live;
+    all.insert(all.end(), waiting.begin(), waiting.end());
+
+    AcsdConfig present = ReadLive({});
+    const AcsdConfig fresh = ReadLive(all);
+    REQUIRE_FALSE(fresh.mcs.style.errors == present.mcs.style.errors);
+    REQUIRE(fresh.mcs.style.bResultFailureIsFail);
+    TakeLiveKeys(fresh, present);
+    CHECK((present.mcs.style == ReadLive(live).mcs.style));
+    CHECK_FALSE((present.mcs.style == fresh.mcs.style));
+}
+
+} // namespace ACS::Acsd::Test

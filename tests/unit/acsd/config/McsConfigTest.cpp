@@ -1,0 +1,169 @@
+#include "config/McsConfig.hpp"
+
+#include "Catch.hpp"
+#include "config/AcsdConfig.hpp"
+#include "TemporaryFolder.hpp"
+
+#include <chrono>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace ACS::Acsd::Test
+{
+
+namespace
+{
+
+using namespace std::chrono_literals;
+
+AcsdConfig ReadMcs(const std::vector<std::string>& overrides)
+{
+    return ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", overrides);
+}
+
+/// The one mistake that this override makes; empty where it makes none.
+std::string FindMistake(const std::string& override)
+{
+    const std::vector<std::string> mistakes = ReadMcs({override}).mistakes;
+    return mistakes.size() == 1 ? mistakes[0] : std::string();
+}
+
+} // namespace
+
+TEST_CASE("The keys about messages have the defaults of sections 9, 11 and 12")
+{
+    const AcsdConfig config = ReadMcs({});
+    REQUIRE(config.mistakes == std::vector<std::string>{});
+    CHECK(config.mcs.host.empty());
+    CHECK(config.mcs.pingInterval == 10s);
+    CHECK(config.mcs.session.ackTimeout == 5s);
+    CHECK(config.mcs.session.ackRetries == 3);
+    CHECK(config.mcs.session.ackDeadAfter == 5);
+    CHECK(config.mcs.session.window == 16);
+    CHECK(config.mcs.session.positionInterval == 200ms);
+    CHECK(config.mcs.session.codec.maximumBytes == 4U * 1024 * 1024);
+    CHECK_FALSE(config.mcs.session.codec.bUnknownMembersRefused);
+    CHECK(config.mcs.session.codec.bLegacyNames);
+    CHECK_FALSE(config.mcs.session.codec.bLenientJson);
+    CHECK(config.mcs.warnBytes == 4096);
+    CHECK(config.mcs.style == MessageStyle{});
+    CHECK(config.operations == OperationsConfig{});
+    CHECK(config.operations.workGrace == 10s);
+    CHECK(config.operations.offlineAfter == 15s);
+    CHECK(config.operations.statusInterval == 0s);
+}
+
+TEST_CASE("The keys about messages are read")
+{
+    const AcsdConfig config = ReadMcs(
+        {"mcs.host=mcs.example:9001",
+         "mcs.ping_interval=1s",
+         "mcs.ping_timeout=2s",
+         "mcs.ack_timeout=1s",
+         "mcs.ack_retries=1",
+         "mcs.ack_dead_after=2",
+         "mcs.window=4",
+         "mcs.max_rx_bytes=65536",
+         "mcs.unknown_fields=reject",
+         "mcs.legacy_aliases=false",
+         "mcs.json_lenient=true",
+         "mcs.unassigned_robot_id=\"\"",
+         "mcs.empty_carriers=omit",
+         "mcs.on_report_nack=retry",
+         "mcs.tx_warn_bytes=0",
+         "mcs.tx_max_bytes=4096",
+         "outbox.replay=final_only",
+         "position.interval=0s",
+         "comm.grace=0s",
+         "robot.offline_after=20s",
+         "robot.status_interval=1m",
+         "log.level=warning",
+         "shutdown.drain_timeout=7s",
+         "trace.max_file_bytes=4096",
+         "trace.max_files=2"});
+    REQUIRE(config.mistakes == std::vector<std::string>{});
+    CHECK(config.mcs.host == "mcs.example:9001");
+    CHECK(config.mcs.pingInterval == 1s);
+    CHECK(config.mcs.session.ackTimeout == 1s);
+    CHECK(config.mcs.session.ackRetries == 1);
+    CHECK(config.mcs.session.ackDeadAfter == 2);
+    CHECK(config.mcs.session.window == 4);
+    CHECK(config.mcs.session.positionInterval == 0s);
+    CHECK(config.mcs.session.codec.maximumBytes == 65536);
+    CHECK(config.mcs.session.codec.bUnknownMembersRefused);
+    CHECK_FALSE(config.mcs.session.codec.bLegacyNames);
+    CHECK(config.mcs.session.codec.bLenientJson);
+    CHECK(config.mcs.warnBytes == 0);
+    CHECK(config.mcs.style.bUnassignedRobotEmpty);
+    CHECK(config.mcs.style.bEmptyCarriersOmitted);
+    CHECK(config.mcs.style.bRefusedReportsRetried);
+    CHECK(config.mcs.style.longestText == 4096);
+    CHECK(config.mcs.style.replay == EOutboxReplay::FinalOnly);
+    CHECK(config.operations.workGrace == 0s);
+    CHECK(config.operations.offlineAfter == 20s);
+    CHECK(config.operations.statusInterval == 1min);
+    CHECK(config.operations.logLevel == Core::ELogLevel::Warning);
+    CHECK(config.operations.drainTimeout == 7s);
+    CHECK(config.operations.trace == Apps::TraceLimits{4096, 2});
+    CHECK(ReadMcs({"outbox.replay=none"}).mcs.style.replay == EOutboxReplay::None);
+}
+
+TEST_CASE("A value that the register does not have, or that cannot work, is a mistake with its key")
+{
+    for (const char* override :
+         {R"(mcs.host="a\nb")",
+          "mcs.ack_dead_after=0",
+          "mcs.window=0",
+          "mcs.max_rx_bytes=10",
+          "mcs.unknown_fields=keep",
+          "mcs.unassigned_robot_id=none",
+          "mcs.empty_carriers=drop",
+          "mcs.on_report_nack=ignore",
+          "mcs.tx_max_bytes=100",
+          "outbox.replay=some",
+          "position.interval=5ms",
+          "robot.offline_after=0s",
+          "log.level=loud",
+          "trace.max_files=0",
+          "errors.map=/nowhere/errors.toml"})
+    {
+        INFO(override);
+        const std::string mistake = FindMistake(override);
+        const std::string key = std::string(override).substr(0, std::string(override).find('='));
+        CHECK(mistake.find(key == "errors.map" ? "/nowhere/errors.toml" : key) != std::string::npos);
+    }
+    CHECK(FindMistake("mcs.ping_timeout=11s").find("twice mcs.ping_interval") != std::string::npos);
+}
+
+TEST_CASE("errors.map gives alarms the site's names and levels; its mistakes have their file and line")
+{
+    const Testing::TemporaryFolder folder;
+    const std::string path = (folder.GetPath() / "errors.toml").string();
+    std::ofstream(path) << "[ACS-1002]\ncode = \"E77\"\nlevel = \"light\"\n\n[AGV-blocked]\nmessage = \"steht\"\n";
+    const AcsdConfig config = ReadMcs({"errors.map=" + path});
+    REQUIRE(config.mistakes == std::vector<std::string>{});
+
+    Planning::Alarm alarm;
+    alarm.errorCode = "ACS-1002";
+    alarm.level = Planning::EAlarmLevel::Heavy;
+    alarm.message = "The connection is lost.";
+    const Planning::Alarm renamed = Rename(alarm, config.mcs.style.errors);
+    CHECK(renamed.errorCode == "E77");
+    CHECK(renamed.level == Planning::EAlarmLevel::Light);
+    CHECK(renamed.message == alarm.message);
+    alarm.errorCode = "AGV-blocked";
+    CHECK(Rename(alarm, config.mcs.style.errors).message == "steht");
+    CHECK(Rename(alarm, config.mcs.style.errors).errorCode == "AGV-blocked");
+    alarm.errorCode = "ACS-1003";
+    CHECK(Rename(alarm, config.mcs.style.errors) == alarm);
+
+    std::ofstream(path) << "[ACS-1002]\ncode = \"\"\nlevel = \"loud\"\ncolour = 1\n";
+    const std::vector<std::string> mistakes = ReadMcs({"errors.map=" + path}).mistakes;
+    REQUIRE(mistakes.size() == 3);
+    CHECK(mistakes[0].find(path + ":2: ACS-1002.code") != std::string::npos);
+    CHECK(mistakes[1].find(path + ":3: ACS-1002.level") != std::string::npos);
+    CHECK(mistakes[2].find(path + ":4: ACS-1002.colour") != std::string::npos);
+}
+
+} // namespace ACS::Acsd::Test

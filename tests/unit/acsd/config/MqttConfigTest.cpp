@@ -1,0 +1,129 @@
+#include "Catch.hpp"
+#include "CertificateMaker.hpp"
+#include "config/AcsdConfig.hpp"
+#include "SeededRandom.hpp"
+#include "TemporaryFolder.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace ACS::Acsd::Test
+{
+
+namespace
+{
+
+AcsdConfig ReadMqtt(const std::vector<std::string>& overrides)
+{
+    return ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", overrides);
+}
+
+std::string WriteFile(const Testing::TemporaryFolder& folder, const std::string& name, const std::string& text)
+{
+    std::string path = (folder.GetPath() / name).string();
+    std::ofstream(path) << text;
+    std::filesystem::permissions(path, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+    return path;
+}
+
+} // namespace
+
+TEST_CASE("Without further keys the broker is plain and acsd nobody there")
+{
+    Testing::SeededRandom random{1};
+    const AcsdConfig config = ReadMqtt({});
+    const VDA5050::MosquittoOptions options = MakeMqttOptions(config.mqtt, random);
+    CHECK(options.host == "127.0.0.1");
+    CHECK(options.port == 1883);
+    CHECK(options.username.empty());
+    CHECK(options.password.empty());
+    CHECK_FALSE(options.tls.has_value());
+    CHECK(MakeMqttOptions(config.mqtt, random).clientID != options.clientID);
+    CHECK(config.warnings.empty());
+}
+
+TEST_CASE(
+    "mqtt.username and the first line of mqtt.password_file are what acsd tells the broker; others should not read it")
+{
+    const Testing::TemporaryFolder folder;
+    const std::string file = WriteFile(folder, "password", "s3cret word\r\nsecond line\n");
+    AcsdConfig config = ReadMqtt({"mqtt.username=acs", "mqtt.password_file=" + file});
+    REQUIRE(config.mistakes.empty());
+    CHECK(config.warnings.empty());
+    Testing::SeededRandom random{1};
+    const VDA5050::MosquittoOptions options = MakeMqttOptions(config.mqtt, random);
+    CHECK(options.username == "acs");
+    CHECK(options.password == "s3cret word");
+    for (const auto& [key, value] : config.values) // which are logged when they change
+    {
+        CHECK(value.find("s3cret") == std::string::npos);
+    }
+
+    std::filesystem::permissions(file, std::filesystem::perms::others_read, std::filesystem::perm_options::add);
+    config = ReadMqtt({"mqtt.username=acs", "mqtt.password_file=" + file});
+    CHECK(config.mistakes.empty());
+    REQUIRE(config.warnings.size() == 1);
+    CHECK(config.warnings[0].find("mqtt.password_file: everybody on this machine can read " + file) == 0);
+}
+
+TEST_CASE("A password file that is missing, empty or without a name is a mistake with its key")
+{
+    const Testing::TemporaryFolder folder;
+    const std::string empty = WriteFile(folder, "empty", "\n");
+    const std::string good = WriteFile(folder, "good", "x\n");
+    const auto getMistake = [](const std::vector<std::string>& overrides) {
+        const std::vector<std::string> mistakes = ReadMqtt(overrides).mistakes;
+        REQUIRE(mistakes.size() == 1);
+        return mistakes[0];
+    };
+    CHECK_THAT(
+        getMistake({"mqtt.username=acs", "mqtt.password_file=/nowhere/password"}),
+        Catch::Contains("mqtt.password_file: /nowhere/password cannot be read (No such file or directory)"));
+    CHECK_THAT(
+        getMistake({"mqtt.username=acs", "mqtt.password_file=" + empty}),
+        Catch::Contains("mqtt.password_file: " + empty + " has no password in its first line"));
+    CHECK_THAT(getMistake({"mqtt.password_file=" + good}), Catch::Contains("mqtt.password_file: needs mqtt.username"));
+}
+
+TEST_CASE("With mqtts the CA, the certificate and its key are files that are there; with mqtt they are a mistake")
+{
+    const Testing::TemporaryFolder folder;
+    Testing::CertificateMaker maker(folder.GetPath());
+    const Testing::CertificateFiles ca = maker.MakeCA("ca");
+    const Testing::CertificateFiles own = maker.Make(ca, {});
+    const std::vector<std::string> files{
+        "mqtt.ca_file=" + ca.certificate,
+        "mqtt.cert_file=" + own.certificate,
+        "mqtt.key_file=" + own.key};
+    const auto with = [&files](const std::string& url, std::size_t count) {
+        std::vector<std::string> overrides{"mqtt.url=" + url};
+        overrides.insert(overrides.end(), files.begin(), files.begin() + static_cast<std::ptrdiff_t>(count));
+        return ReadMqtt(overrides);
+    };
+    Testing::SeededRandom random{1};
+    const AcsdConfig config = with("mqtts://broker:8883", 3);
+    REQUIRE(config.mistakes.empty());
+    const VDA5050::MosquittoOptions options = MakeMqttOptions(config.mqtt, random);
+    REQUIRE(options.tls.has_value());
+    CHECK(options.tls->caFile == ca.certificate);
+    CHECK(options.tls->certFile == own.certificate);
+    CHECK(options.tls->keyFile == own.key);
+    CHECK(MakeMqttOptions(with("mqtts://broker:8883", 0).mqtt, random).tls.has_value());
+
+    const auto plain = with("mqtt://broker:1883", 1).mistakes;
+    REQUIRE(plain.size() == 1);
+    CHECK_THAT(plain[0], Catch::Contains("mqtt.ca_file: is for mqtts:// only"));
+    const auto half = with("mqtts://broker:8883", 2).mistakes;
+    REQUIRE(half.size() == 1);
+    CHECK_THAT(half[0], Catch::Contains("mqtt.cert_file: needs the other one too"));
+    const auto wrong =
+        ReadMqtt({"mqtt.url=mqtts://broker:8883", "mqtt.ca_file=" + WriteFile(folder, "text", "no PEM\n")}).mistakes;
+    REQUIRE(wrong.size() == 1);
+    CHECK_THAT(wrong[0], Catch::Contains("mqtt.ca_file: "));
+    const AcsdConfig relative = ReadMqtt({"mqtt.url=mqtts://broker:8883", "mqtt.ca_file=nowhere.pem"});
+    CHECK(relative.mqtt.tls.caFile == std::string(ACS_SITE) + "/nowhere.pem");
+}
+
+} // namespace ACS::Acsd::Test

@@ -1,0 +1,35 @@
+#include "mcs/RegistrationWatch.hpp"
+
+#include "Catch.hpp"
+
+#include <string>
+
+using namespace ACS; // NOLINT(google-build-using-namespace): a test of several of them
+
+TEST_CASE(
+    "An MCS that refuses the registration is told as such, also between two tries, until it is not reached any more")
+{
+    Acsd::RegistrationWatch watch;
+    CHECK(watch.GetObstacle(false) == "no connection: mcs");
+    watch.OnSessionEvent(Protocol::LinkLost{"Connection refused", false});
+    CHECK(watch.GetObstacle(false) == "no connection: mcs: Connection refused");
+    CHECK(watch.GetObstacle(true) == "connected, not registered: mcs: it has not answered the registration yet");
+    const std::string refused = "connected, not registered: mcs: it refuses the registration: not you";
+    for (int count = 0; count < 2; ++count)
+    {
+        watch.OnSessionEvent(Protocol::RegistrationRefused{"not you"});
+        CHECK(watch.GetObstacle(true) == refused);
+        watch.OnSessionEvent(Protocol::LinkLost{"registration refused", false});
+        CHECK(watch.GetObstacle(false) == refused);
+        CHECK(watch.GetObstacle(true) == refused);
+    }
+    watch.OnSessionEvent(Protocol::LinkLost{"Connection refused", false});
+    CHECK(watch.GetObstacle(false) == "no connection: mcs: Connection refused");
+    watch.OnSessionEvent(Protocol::ProtocolNoted{Protocol::EProtocolNote::RegistrationUnanswered, 1, {}});
+    watch.OnSessionEvent(Protocol::LinkLost{"no answer to Registration", false});
+    CHECK(watch.GetObstacle(false) == "connected, not registered: mcs: it does not answer the registration");
+    watch.OnSessionEvent(Protocol::RegistrationRefused{});
+    CHECK(watch.GetObstacle(true) == "connected, not registered: mcs: it refuses the registration");
+    watch.OnSessionEvent(Protocol::Registered{});
+    CHECK(watch.GetObstacle(false) == "no connection: mcs");
+}

@@ -1,0 +1,312 @@
+#pragma once
+
+#include "Catch.hpp"
+#include "ManualClock.hpp"
+#include "robots/OpenStreamRobotAdapter.hpp"
+#include <acs/vda5050/Vda5050Codec.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace ACS::Acsd::Test
+{
+
+inline const std::string SELECT =
+    R"(CONTROL /project/context/tasks[0]/cur_prog_cnt {"pno":11,"sno":0,"fno":0,"ext_sel":1})";
+inline const std::string REWIND = R"(CONTROL /project/context/tasks[0]/set_cur_pc_idx {"idx":1})";
+inline const std::string START = "CONTROL /project/robot/start {}";
+inline const std::string STOP = "CONTROL /project/robot/stop {}";
+inline const std::string RESET = R"(CONTROL /project/service/r_code/execute {"code":1})";
+inline const std::string RESET_TASK = "CONTROL /project/context/tasks[0]/reset {}";
+inline const std::string LOOK = "MONITOR /project/plc/m/val_s32";
+inline const std::string MOTOR_ON = "CONTROL /project/robot/motor_on {}";
+inline const std::string LOOK_AT_MOTOR = "MONITOR /project/robot/motor_on_state";
+/// What the controller's general state shows.
+inline constexpr std::string_view SELECTED = R"({"is_playback":0,"cur_prog_no":11,"cur_step_no":0})";
+inline constexpr std::string_view STANDS = R"({"is_playback":0,"cur_prog_no":11,"cur_step_no":3})";
+inline constexpr std::string_view PLAYS = R"({"is_playback":1,"cur_prog_no":11,"cur_step_no":3})";
+inline constexpr std::string_view MOTOR_ON_SAMPLE = R"({"_type":"JObject","val":0})";
+inline constexpr std::string_view MOTOR_OFF_SAMPLE = R"({"_type":"JObject","val":1})";
+inline const std::string LOOK_AT_PLAYBACK = "MONITOR /project/rgen";
+
+/// Of programs that cannot echo the number of their job.
+inline ArmOptions MakeArmOptions()
+{
+    ArmOptions options;
+    options.echoIndex.reset();
+    return options;
+}
+
+inline VDA5050::MasterOptions MakeBaseOptions()
+{
+    VDA5050::MasterOptions options;
+    options.address = {"uagv", "ACS", "CR01"};
+    return options;
+}
+
+/// An adapter whose base is never heard of: only the arm's side is under test here.
+struct ArmFixture
+{
+    static constexpr Planning::AdapterTimerID RETRY_TIMER = 100;
+    static constexpr Planning::AdapterTimerID START_TIMER = 101;
+    static constexpr Planning::AdapterTimerID GLANCE_TIMER = 102;
+    static constexpr Planning::AdapterTimerID LOOK_TIMER = 103;
+    static constexpr Planning::AdapterTimerID INPUT_TIMER = 104;
+
+    Testing::ManualClock clock;
+    RobotOutputs outputs;
+    OpenStreamRobotAdapter adapter;
+    Planning::AdapterActions actions;
+    std::uint32_t headerID = 0;
+    std::string lastControl;        ///< Of those that were taken.
+    std::uint64_t monitorCount = 0; ///< Likewise.
+
+    ArmFixture()
+        : ArmFixture(MakeArmOptions(), {})
+    {
+    }
+
+    ArmFixture(ArmOptions options, ArmInputResolver inputs)
+        : adapter(
+            MakeBaseOptions(),
+            std::move(options),
+            {{"TrayLoad", {"", 11}}, {"CassetteLoad", {"pick", 0}}},
+            std::move(inputs),
+            outputs)
+    {
+    }
+
+    void Tell(const OpenStream::ClientEvent& event)
+    {
+        adapter.OnArmEvent(event, clock.GetNow(), actions);
+    }
+
+    /// The controller takes the MONITOR that was asked for last, or so many before it.
+    void AcknowledgeMonitor(std::uint64_t before = 0)
+    {
+        const auto waiting = std::ranges::count_if(outputs.armRequests, [](const ArmRequest& request) {
+            return std::holds_alternative<OpenStream::MonitorRequest>(request);
+        });
+        Tell(OpenStream::ClientMonitorStarted{monitorCount + static_cast<std::uint64_t>(waiting) - before});
+    }
+
+    void TellData(std::string_view json)
+    {
+        OpenStream::DataLine line;
+        line.result = Core::JsonText::FromTrusted(std::string(json));
+        Tell(OpenStream::ClientData{line, clock.GetNow()});
+    }
+
+    /// What was looked for behind a CONTROL is shown: its effect, where that is to be seen, and the counters.
+    void ShowLook(std::string_view counters = "[5,5,0]")
+    {
+        std::vector<std::string> requests = TakeRequests();
+        if (requests == std::vector<std::string>{LOOK_AT_PLAYBACK})
+        {
+            ShowEffect(lastControl == STOP ? STANDS : lastControl == SELECT ? SELECTED : PLAYS);
+            requests = TakeRequests();
+        }
+        CHECK(requests == std::vector<std::string>{LOOK});
+        AcknowledgeMonitor();
+        TellData(counters);
+    }
+
+    /// The CONTROL is answered by silence, and by a look behind it.
+    void Accept(std::string_view counters = "[5,5,0]")
+    {
+        static_cast<void>(TakeRequests());
+        if (lastControl == REWIND) // before the selection after a start
+        {
+            Settle(OpenStream::EControlOutcome::Accepted);
+            static_cast<void>(TakeRequests());
+        }
+        Settle(OpenStream::EControlOutcome::Accepted);
+        ShowLook(counters);
+    }
+
+    /// The MONITOR behind a CONTROL is taken, and shows what that has done.
+    void ShowEffect(std::string_view state)
+    {
+        AcknowledgeMonitor();
+        TellData(state);
+    }
+
+    /// A CONTROL is refused with the controller's own error code.
+    void RefuseWith(int status, std::string_view body)
+    {
+        Tell(OpenStream::ClientControlSettled{
+            0,
+            OpenStream::EControlOutcome::Refused,
+            status,
+            Core::JsonText::FromTrusted(std::string(body)),
+            "detail"});
+    }
+
+    void Settle(OpenStream::EControlOutcome outcome, int status = 0)
+    {
+        Tell(OpenStream::ClientControlSettled{0, outcome, status, std::nullopt, "detail"});
+    }
+
+    void Command(const std::string& jobID, const std::string& action = "TrayLoad")
+    {
+        Planning::StartJob job;
+        job.jobID = jobID;
+        job.action = action;
+        adapter.Handle(job, clock.GetNow(), actions);
+    }
+
+    /// The arm is connected, and its motor not yet known; the base has told its state.
+    void ConnectWithBase()
+    {
+        adapter.OnLinkUp(clock.GetNow(), actions);
+        ShowBase(false);
+        Tell(OpenStream::ClientReady{});
+    }
+
+    /// The base's state is told, too, and with it the robot's.
+    void BringUpWithBase()
+    {
+        adapter.OnLinkUp(clock.GetNow(), actions);
+        BringUp();
+        ShowBase(false);
+    }
+
+    /// The base shows a state.
+    void ShowBase(bool bPaused)
+    {
+        VDA5050::StateMessage state;
+        state.header = {++headerID, clock.GetNow().wall, "2.0.0", "ACS", "CR01"};
+        state.lastNodeID = "A";
+        state.bPaused = bPaused;
+        std::string payload;
+        VDA5050::Vda5050Codec().Encode(state, VDA5050::EVda5050Version::Version200, payload);
+        adapter.OnMqttMessage({"uagv/v2/ACS/CR01/state", payload, 0, false}, clock.GetNow(), actions);
+    }
+
+    /// Whether the robot is paused, as it was told last.
+    bool IsToldPaused()
+    {
+        const auto states = TakeEvents<Planning::StateChanged>();
+        return !states.empty() && states.back().bPaused;
+    }
+
+    /// What it glances at, after some time in which nothing happened.
+    std::vector<std::string> LookAround()
+    {
+        static_cast<void>(TakeRequests());
+        Fire(GLANCE_TIMER);
+        return TakeRequests();
+    }
+
+    void Fire(Planning::AdapterTimerID timer)
+    {
+        adapter.OnTimer(timer, clock.GetNow(), actions);
+    }
+
+    void RefuseMonitor(std::string url)
+    {
+        OpenStream::ErrorLine error;
+        error.codeText = "invalid_url";
+        error.message = "no such thing";
+        Tell(OpenStream::ClientMonitorRefused{error, std::move(url)});
+    }
+
+    /// The errors that were told last; "?" where no state was told since.
+    std::string TakeErrors()
+    {
+        const auto states = TakeEvents<Planning::StateChanged>();
+        actions.clear();
+        std::string codes = states.empty() ? "?" : "";
+        for (const Planning::RobotError& error :
+             states.empty() ? decltype(states.back().errors){} : states.back().errors)
+        {
+            CHECK(error.level == Planning::EAlarmLevel::Heavy);
+            codes += error.errorCode;
+        }
+        return codes;
+    }
+
+    /// Whether a program has to begin in time.
+    [[nodiscard]] bool IsStartWatched() const
+    {
+        return std::any_of(actions.begin(), actions.end(), [](const Planning::AdapterAction& action) {
+            const auto* const startOrNull = std::get_if<Planning::StartAdapterTimer>(&action);
+            return startOrNull != nullptr && startOrNull->timer == START_TIMER;
+        });
+    }
+
+    /// A job whose program runs.
+    void StartRunning()
+    {
+        BringUpWithBase();
+        Command("J");
+        Accept();
+        Accept("[6,5,0]");
+        CHECK(TakeRequests().empty());
+    }
+
+    /// Handshake, motor on, first counters.
+    void BringUp(std::string_view counters = "[5,5,0]")
+    {
+        Tell(OpenStream::ClientReady{});
+        Settle(OpenStream::EControlOutcome::Accepted); // motor_on
+        TellData(R"({"_type":"JObject","val":0})");
+        TellData(counters);
+        static_cast<void>(TakeRequests());
+        actions.clear();
+    }
+
+    /// After a loss, with a program that has not ended; what it asks for then is still to be taken.
+    void ComeBack()
+    {
+        Tell(OpenStream::ClientReady{});
+        Settle(OpenStream::EControlOutcome::Accepted); // motor_on
+        TellData(MOTOR_ON_SAMPLE);
+        static_cast<void>(TakeRequests());
+        TellData("[6,5,0]");
+    }
+
+    /// "MONITOR url" or "CONTROL url body" of what was asked for since the last call.
+    std::vector<std::string> TakeRequests()
+    {
+        std::vector<std::string> texts;
+        for (const ArmRequest& request : std::exchange(outputs.armRequests, {}))
+        {
+            if (const auto* monitorOrNull = std::get_if<OpenStream::MonitorRequest>(&request))
+            {
+                ++monitorCount;
+                texts.push_back("MONITOR " + monitorOrNull->url);
+            }
+            else
+            {
+                const auto& control = std::get<OpenStream::ControlRequest>(request);
+                lastControl = fmt::format("CONTROL {} {}", control.url, control.body->GetText());
+                texts.push_back(lastControl);
+            }
+        }
+        return texts;
+    }
+
+    template <typename TEvent>
+    std::vector<TEvent> TakeEvents()
+    {
+        std::vector<TEvent> events;
+        for (const Planning::AdapterAction& action : actions)
+        {
+            const auto* raiseOrNull = std::get_if<Planning::RaiseEvent>(&action);
+            if (raiseOrNull != nullptr && std::holds_alternative<TEvent>(raiseOrNull->event))
+            {
+                events.push_back(std::get<TEvent>(raiseOrNull->event));
+            }
+        }
+        return events;
+    }
+};
+
+} // namespace ACS::Acsd::Test

@@ -1,0 +1,597 @@
+#include "robots/ArmFixture.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+// The inputs of an arm's program, and the number of its job that it echoes.
+
+namespace ACS::Acsd::Test
+{
+
+namespace
+{
+
+const std::string WRITE_NUMBER = R"(CONTROL /project/plc/set_relay_value {"name":"ml105","value":4711})";
+const std::string WRITE_AREA = R"(CONTROL /project/plc/set_relay_value {"name":"ml106","value":1})";
+const std::string READ_OUTPUTS = "MONITOR /project/plc/do/val_s32";
+/// The number of the job; 0 until it is known.
+constexpr std::string_view BEFORE = "[5,5,0,0,17]";
+constexpr std::string_view BEGUN = "[6,5,0,11,4711]";
+constexpr std::string_view DONE = "[6,6,0,11,4711]";
+
+tl::expected<std::vector<ArmInput>, std::string> ResolveInputs(const Planning::StartJob& job)
+{
+    if (!job.from.has_value())
+    {
+        return tl::unexpected<std::string>("{from.area}: the job has no from");
+    }
+    return std::vector<ArmInput>{{*ParseArmRelay("ml105"), job.jobNumber}, {*ParseArmRelay("ml106"), 1}};
+}
+
+/// Its programs have inputs and echo the number of their job.
+struct ArmInputFixture : ArmFixture
+{
+    explicit ArmInputFixture(ArmInputResolver inputs = ResolveInputs, ArmOptions options = {})
+        : ArmFixture(std::move(options), std::move(inputs))
+    {
+        BringUp(BEFORE);
+    }
+
+    static Planning::StartJob MakeJob(std::int32_t number = 4711)
+    {
+        Planning::StartJob job;
+        job.jobID = "J";
+        job.action = "TrayLoad";
+        job.from = "A01.CP01.TP01";
+        job.mark = "5 5 0";
+        job.jobNumber = number;
+        return job;
+    }
+
+    void Command(const Planning::StartJob& job)
+    {
+        adapter.Handle(job, clock.GetNow(), actions);
+    }
+
+    /// The program is selected, and the inputs are written; they are being read.
+    void WriteInputs()
+    {
+        Command(MakeJob());
+        CHECK(TakeRequests() == std::vector<std::string>{SELECT});
+        Settle(OpenStream::EControlOutcome::Accepted);
+        ShowLook(BEFORE);
+        WriteAll();
+    }
+
+    /// The program is selected; its first input is being written.
+    void SelectWithInputs()
+    {
+        Command(MakeJob());
+        static_cast<void>(TakeRequests());
+        Settle(OpenStream::EControlOutcome::Accepted);
+        ShowLook(BEFORE);
+    }
+
+    /// All inputs are written; the first range is being read.
+    void WriteInputs(int count)
+    {
+        SelectWithInputs();
+        for (int written = 0; written < count; ++written)
+        {
+            Settle(OpenStream::EControlOutcome::Accepted);
+        }
+        static_cast<void>(TakeRequests());
+        AcknowledgeMonitor();
+    }
+
+    void WriteAll()
+    {
+        CHECK(TakeRequests() == std::vector<std::string>{WRITE_NUMBER});
+        Settle(OpenStream::EControlOutcome::Accepted);
+        CHECK(TakeRequests() == std::vector<std::string>{WRITE_AREA});
+        Settle(OpenStream::EControlOutcome::Accepted);
+        CHECK(TakeRequests() == std::vector<std::string>{LOOK});
+        AcknowledgeMonitor();
+    }
+
+    /// The program is started.
+    void StartWithInputs()
+    {
+        WriteInputs();
+        TellData("[4711,1]");
+        ShowLook(BEFORE);
+        CHECK(TakeRequests() == std::vector<std::string>{START});
+        Settle(OpenStream::EControlOutcome::Accepted);
+        ShowLook(BEFORE);
+    }
+
+    std::string TakeFailure()
+    {
+        const auto failed = TakeEvents<Planning::JobFailed>();
+        CHECK(failed.size() == 1);
+        return failed.empty() ? std::string() : failed.front().reason;
+    }
+};
+
+} // namespace
+
+TEST_CASE("Inputs are written after the selection, read back, and only then the program is started")
+{
+    ArmInputFixture arm;
+    arm.StartWithInputs();
+    arm.TellData(BEGUN);
+    CHECK(arm.TakeEvents<Planning::JobStarted>().size() == 1);
+    arm.TellData(DONE);
+    CHECK(arm.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+}
+
+TEST_CASE("Inputs that read back late are waited for; those of before the writing are not taken for them")
+{
+    ArmInputFixture arm;
+    arm.SelectWithInputs();
+    arm.WriteAll();
+    arm.TellData("[4711,0]");
+    arm.TellData("[17,1]");
+    arm.TellData("[4711]");
+    arm.TellData(R"({"val":0})");
+    CHECK(arm.TakeRequests().empty());
+    arm.TellData("[4711,1]");
+    arm.ShowLook(BEFORE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+}
+
+TEST_CASE("Samples that were on their way before the inputs are read are still those of the counters")
+{
+    ArmInputFixture arm([](const Planning::StartJob&) {
+        return std::vector<ArmInput>{{*ParseArmRelay("ml105"), 5}, {*ParseArmRelay("ml106"), 5}};
+    });
+    arm.SelectWithInputs();
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    static_cast<void>(arm.TakeRequests());
+    arm.TellData(BEFORE); // [5,5,…], before the MONITOR of the inputs was taken
+    CHECK(arm.TakeRequests().empty());
+    arm.AcknowledgeMonitor();
+    arm.TellData("[5,5]");
+    arm.ShowLook(BEFORE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+}
+
+TEST_CASE("Samples of the inputs that come after the counters are asked for again are not taken for the counters")
+{
+    ArmInputFixture arm([](const Planning::StartJob& job) {
+        std::vector<ArmInput> inputs{{*ParseArmRelay("ml105"), job.jobNumber}};
+        for (const char* const relay : {"ml106", "ml107", "ml108", "ml109"})
+        {
+            inputs.push_back({*ParseArmRelay(relay), 1});
+        }
+        return inputs;
+    });
+    arm.WriteInputs(5);
+    arm.TellData("[4711,1,1,1,1]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    for (int late = 0; late < 3; ++late)
+    {
+        arm.TellData("[4711,1,1,1,1]");
+        arm.AcknowledgeMonitor(1);
+    }
+    CHECK(arm.TakeRequests().empty());
+    CHECK(arm.TakeEvents<Planning::JobUnknown>().empty());
+    arm.AcknowledgeMonitor();
+    arm.TellData(BEFORE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.ShowLook(BEFORE);
+    arm.TellData(BEGUN);
+    arm.TellData(DONE);
+    CHECK(arm.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
+}
+
+TEST_CASE(
+    "Inputs that differ are written again, and then the job fails with relay, written and read; nothing was started")
+{
+    ArmInputFixture arm;
+    arm.WriteInputs();
+    for (int retry = 0; retry < 2; ++retry)
+    {
+        arm.TellData("[4711,2]");
+        arm.Fire(ArmFixture::INPUT_TIMER);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{WRITE_NUMBER, LOOK});
+        static_cast<void>(arm.TakeRequests());
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{WRITE_AREA, LOOK});
+        arm.AcknowledgeMonitor();
+    }
+    arm.TellData("[4711,2]");
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    arm.Fire(ArmFixture::INPUT_TIMER);
+    CHECK(arm.TakeFailure().find("relay ml106 was written as 1 and reads 2") != std::string::npos);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    arm.Fire(ArmFixture::INPUT_TIMER);
+    CHECK(arm.TakeRequests().empty());
+    arm.TellData(BEFORE);
+    CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+}
+
+TEST_CASE("Relays that the controller refuses or does not show fail the job; nothing was started")
+{
+    ArmInputFixture arm;
+    SECTION("It refuses to write one")
+    {
+        arm.SelectWithInputs();
+        static_cast<void>(arm.TakeRequests());
+        arm.Settle(OpenStream::EControlOutcome::Refused, 400);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_MOTOR});
+        arm.TellData(MOTOR_ON_SAMPLE);
+        const std::string reason = arm.TakeFailure();
+        CHECK(reason.find("ml105") != std::string::npos);
+        CHECK(reason.find("400") != std::string::npos);
+    }
+    SECTION("It refuses to show them")
+    {
+        arm.WriteInputs();
+        arm.RefuseMonitor("/project/plc/m/val_s32");
+        CHECK(arm.TakeFailure().find("/project/plc/m/val_s32") != std::string::npos);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    }
+    SECTION("It shows nothing")
+    {
+        arm.WriteInputs();
+        for (int retry = 0; retry < 3; ++retry)
+        {
+            arm.Fire(ArmFixture::INPUT_TIMER);
+            arm.Settle(OpenStream::EControlOutcome::Accepted);
+            arm.Settle(OpenStream::EControlOutcome::Accepted);
+        }
+        CHECK(arm.TakeFailure().find("not shown") != std::string::npos);
+    }
+    const std::vector<std::string> requests = arm.TakeRequests();
+    CHECK(std::ranges::find(requests, START) == requests.end());
+}
+
+TEST_CASE("Inputs of several areas are read one after the other, and all again until they are right")
+{
+    ArmInputFixture arm([](const Planning::StartJob&) {
+        return std::vector<ArmInput>{{*ParseArmRelay("do3"), 1}, {*ParseArmRelay("ml105"), 7}};
+    });
+    arm.SelectWithInputs();
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    static_cast<void>(arm.TakeRequests());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{READ_OUTPUTS});
+    arm.AcknowledgeMonitor();
+    arm.TellData("[8]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    arm.TellData("[8]"); // of the range before
+    CHECK(arm.TakeRequests().empty());
+    arm.AcknowledgeMonitor();
+    arm.TellData("[6]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{READ_OUTPUTS});
+    arm.AcknowledgeMonitor();
+    arm.TellData("[8]");
+    arm.AcknowledgeMonitor();
+    static_cast<void>(arm.TakeRequests());
+    arm.TellData("[7]");
+    arm.ShowLook(BEFORE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+}
+
+TEST_CASE("Late samples of one range of inputs are not taken for the next one, nor its acknowledgement for another")
+{
+    ArmInputFixture arm([](const Planning::StartJob& job) {
+        return std::vector<ArmInput>{
+            {*ParseArmRelay("ml105"), job.jobNumber},
+            {*ParseArmRelay("ml110"), 1},
+            {*ParseArmRelay("ml2000"), job.jobNumber},
+            {*ParseArmRelay("ml2005"), 2}};
+    });
+    arm.WriteInputs(4);
+    arm.TellData("[4711,0,0,0,0,1]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK}); // of the second range
+    for (int late = 0; late < 2; ++late)
+    {
+        arm.TellData("[4711,0,0,0,0,1]");
+        arm.AcknowledgeMonitor(1);
+    }
+    CHECK(arm.TakeRequests().empty());
+    CHECK(arm.TakeEvents<Planning::JobUnknown>().empty());
+    arm.AcknowledgeMonitor();
+    arm.TellData("[4711,0,0,0,0,3]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK}); // of the first range again
+    arm.AcknowledgeMonitor();
+    arm.TellData("[4711,0,0,0,0,1]");
+    static_cast<void>(arm.TakeRequests());
+    arm.AcknowledgeMonitor();
+    arm.TellData("[4711,0,0,0,0,2]");
+    arm.ShowLook(BEFORE); // no range again
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+    CHECK(arm.TakeEvents<Planning::JobUnknown>().empty());
+}
+
+TEST_CASE("A program that was run after the inputs were read back is not taken for the job's: nothing is started")
+{
+    const bool bEcho = GENERATE(false, true);
+    ArmInputFixture arm(
+        [](const Planning::StartJob& job) {
+            return std::vector<ArmInput>{{*ParseArmRelay("ml105"), job.jobNumber}, {*ParseArmRelay("ml106"), 1}};
+        },
+        bEcho ? ArmOptions{} : MakeArmOptions());
+    arm.WriteInputs();
+    arm.TellData("[4711,1]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    arm.AcknowledgeMonitor();
+    const std::string_view counters = GENERATE(
+        std::string_view("[6,5,0,11,17]"),
+        std::string_view("[6,6,0,11,17]"),
+        std::string_view("[6,5,1,11,17]"),
+        std::string_view("[0,0,0,0,0]"));
+    arm.TellData(counters);
+    CHECK(arm.TakeRequests().empty());
+    CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
+    CHECK(arm.TakeEvents<Planning::JobStarted>().empty());
+    CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    CHECK(arm.TakeEvents<Planning::JobUncertain>().empty());
+}
+
+TEST_CASE("A job that was sent again has the counters of after the program that another one ran for its own base")
+{
+    ArmInputFixture arm(ResolveInputs, MakeArmOptions());
+    arm.WriteInputs();
+    arm.TellData("[4711,1]");
+    arm.ShowLook("[6,6,0]");
+    CHECK(arm.TakeEvents<Planning::JobUnknown>().size() == 1);
+    Planning::StartJob again = ArmInputFixture::MakeJob();
+    again.mark = "6 6 0";
+    arm.Command(again);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.ShowLook("[6,6,0]");
+    arm.WriteAll();
+    arm.TellData("[4711,1]");
+    arm.ShowLook("[6,6,0]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.ShowLook("[6,6,0]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
+    arm.TellData("[7,7,0]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+}
+
+TEST_CASE("Between the inputs and the start a pause, a cancellation and a loss are as before it")
+{
+    ArmInputFixture arm;
+    arm.WriteInputs();
+    arm.TellData("[4711,1]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    SECTION("Paused: the inputs are read again after it")
+    {
+        arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+        arm.AcknowledgeMonitor();
+        arm.TellData(BEFORE);
+        CHECK(arm.TakeRequests().empty());
+        arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+        arm.AcknowledgeMonitor();
+        arm.TellData("[4711,1]");
+        arm.ShowLook(BEFORE);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+    }
+    SECTION("Cancelled")
+    {
+        arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+        CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+        arm.AcknowledgeMonitor();
+        arm.TellData(BEFORE);
+        CHECK(arm.TakeRequests().empty());
+    }
+    SECTION("Lost")
+    {
+        arm.Tell(OpenStream::ClientLost{});
+        CHECK(arm.TakeEvents<Planning::JobUnknown>().size() == 1);
+        CHECK(arm.TakeRequests().empty());
+    }
+    SECTION("A refusal of the selection that came late")
+    {
+        arm.Tell(OpenStream::ClientControlFault{403, Core::JsonText::FromTrusted(R"({"err_code":-1245280})"), ""});
+        CHECK(arm.TakeRequests() == std::vector<std::string>{REWIND});
+    }
+}
+
+TEST_CASE("Inputs that cannot be derived from the job, or do not fit into their relay, fail it before anything is sent")
+{
+    SECTION("They cannot be derived")
+    {
+        ArmInputFixture arm;
+        Planning::StartJob job = ArmInputFixture::MakeJob();
+        job.from.reset();
+        arm.Command(job);
+        CHECK(arm.TakeFailure().find("{from.area}") != std::string::npos);
+        CHECK(arm.TakeRequests().empty());
+    }
+    SECTION("One does not fit")
+    {
+        ArmInputFixture arm([](const Planning::StartJob&) {
+            return std::vector<ArmInput>{{*ParseArmRelay("mb5"), 300}};
+        });
+        arm.Command(ArmInputFixture::MakeJob());
+        CHECK(arm.TakeFailure().find("mb5") != std::string::npos);
+        CHECK(arm.TakeRequests().empty());
+    }
+}
+
+TEST_CASE("A pause while inputs are written holds the start; they are read again after it")
+{
+    ArmInputFixture arm;
+    arm.WriteInputs();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    arm.TellData("[4711,1]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    arm.AcknowledgeMonitor();
+    arm.TellData(BEFORE);
+    CHECK(arm.TakeRequests().empty());
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    arm.AcknowledgeMonitor();
+    SECTION("They are as they were")
+    {
+        arm.TellData("[4711,1]");
+        arm.ShowLook(BEFORE);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+    }
+    SECTION("They were overwritten")
+    {
+        arm.TellData("[4711,9]");
+        CHECK(arm.TakeRequests().empty());
+        arm.Fire(ArmFixture::INPUT_TIMER);
+        CHECK(arm.TakeRequests().front() == WRITE_NUMBER);
+    }
+}
+
+TEST_CASE("A job that is cancelled, or whose connection is lost, while its inputs are written was not started")
+{
+    ArmInputFixture arm;
+    const bool bRead = GENERATE(false, true);
+    if (bRead)
+    {
+        arm.WriteInputs();
+    }
+    else
+    {
+        arm.SelectWithInputs();
+        static_cast<void>(arm.TakeRequests());
+    }
+    SECTION("Cancelled")
+    {
+        arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+        CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+        if (bRead)
+        {
+            CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+        }
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+    }
+    SECTION("Lost")
+    {
+        arm.Tell(OpenStream::ClientLost{});
+        CHECK(arm.TakeEvents<Planning::JobUnknown>().size() == 1);
+    }
+    SECTION("A program was run at the controller")
+    {
+        if (!bRead)
+        {
+            arm.TellData("[6,5,0,0,17]");
+            CHECK(arm.TakeEvents<Planning::JobUnknown>().size() == 1);
+        }
+    }
+    for (const std::string& request : arm.TakeRequests())
+    {
+        CHECK(request != START);
+    }
+}
+
+TEST_CASE("Counters that change under another job's number are no evidence: after two samples the outcome is unknown")
+{
+    ArmInputFixture arm;
+    arm.StartWithInputs();
+    arm.TellData("[6,5,0,11,17]");
+    CHECK(arm.TakeEvents<Planning::JobStarted>().empty());
+    SECTION("The words of one sample were of two moments")
+    {
+        arm.TellData(BEGUN);
+        CHECK(arm.TakeEvents<Planning::JobStarted>().size() == 1);
+        CHECK(arm.TakeEvents<Planning::JobUncertain>().empty());
+    }
+    SECTION("It was another program")
+    {
+        arm.TellData("[6,6,0,11,17]");
+        const auto uncertain = arm.TakeEvents<Planning::JobUncertain>();
+        REQUIRE(uncertain.size() == 1);
+        CHECK(uncertain.front().reason.find("4711") != std::string::npos);
+        CHECK(uncertain.front().reason.find("17") != std::string::npos);
+    }
+    CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+}
+
+TEST_CASE("A job whose number is unknown, from before an update, counts any change for its own")
+{
+    ArmInputFixture arm([](const Planning::StartJob&) { return std::vector<ArmInput>{}; });
+    arm.Command(ArmInputFixture::MakeJob(0));
+    static_cast<void>(arm.TakeRequests());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.ShowLook(BEFORE);
+    arm.Accept(BEFORE);
+    arm.TellData("[6,6,0,11,17]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+}
+
+TEST_CASE("A program that gets no number of its job cannot echo one: any change counts for it")
+{
+    ArmInputFixture arm([](const Planning::StartJob&) { return std::vector<ArmInput>{{*ParseArmRelay("ml105"), 3}}; });
+    SECTION("Of a job that was commanded before a restart")
+    {
+        arm.TellData("[6,5,0,11,17]");
+        arm.adapter.Handle(Planning::RecoverJob{ArmInputFixture::MakeJob(), {}}, arm.clock.GetNow(), arm.actions);
+    }
+    SECTION("Of another one")
+    {
+        arm.Command(ArmInputFixture::MakeJob());
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        static_cast<void>(arm.TakeRequests());
+        arm.ShowEffect(SELECTED);
+        arm.ShowLook(BEFORE);
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        arm.AcknowledgeMonitor();
+        static_cast<void>(arm.TakeRequests());
+        arm.TellData("[3]");
+        arm.ShowLook(BEFORE);
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+    }
+    arm.TellData("[6,6,0,11,17]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+}
+
+TEST_CASE("After a restart the echo shows whether the program that ran was this job's")
+{
+    ArmFixture arm(ArmOptions{}, ResolveInputs);
+    arm.adapter.Handle(Planning::RecoverJob{ArmInputFixture::MakeJob(), {}}, arm.clock.GetNow(), arm.actions);
+    SECTION("It was, and has finished")
+    {
+        arm.BringUp("[5,5,0,0,4711]");
+        arm.TellData(DONE);
+        CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+    }
+    SECTION("Another one ran")
+    {
+        arm.Tell(OpenStream::ClientReady{});
+        arm.TellData(MOTOR_ON_SAMPLE);
+        arm.TellData("[6,6,0,11,17]");
+        CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
+        REQUIRE(arm.TakeEvents<Planning::JobUncertain>().size() == 1);
+        CHECK(arm.TakeEvents<Planning::JobUncertain>().front().reason.find("4711") != std::string::npos);
+    }
+    SECTION("It echoed its number and raised no counter: it is not commanded again")
+    {
+        arm.BringUp("[5,5,0,0,4711]");
+        arm.Fire(ArmFixture::START_TIMER);
+        CHECK(arm.TakeEvents<Planning::JobUnknown>().empty());
+        CHECK(arm.TakeEvents<Planning::JobUncertain>().size() == 1);
+    }
+    SECTION("It was not started")
+    {
+        arm.BringUp(BEFORE);
+        arm.Fire(ArmFixture::START_TIMER);
+        CHECK(arm.TakeEvents<Planning::JobUnknown>().size() == 1);
+    }
+    for (const std::string& request : arm.TakeRequests())
+    {
+        CHECK(request != START);
+        CHECK(request != SELECT);
+    }
+}
+
+} // namespace ACS::Acsd::Test

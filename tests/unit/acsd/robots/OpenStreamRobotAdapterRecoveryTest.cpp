@@ -1,0 +1,119 @@
+#include "robots/ArmFixture.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::Acsd::Test
+{
+
+namespace
+{
+
+/// acsd was restarted and the adapter asked for the job J, which was commanded when the counters were [5 5 0].
+struct ArmRecoveryFixture : ArmFixture
+{
+    explicit ArmRecoveryFixture(std::string_view counters, const std::string& mark = "5 5 0")
+    {
+        Planning::RecoverJob recover;
+        recover.job.jobID = "J";
+        recover.job.action = "TrayLoad";
+        recover.job.mark = mark;
+        adapter.Handle(recover, clock.GetNow(), actions);
+        CHECK(actions.empty());
+        Tell(OpenStream::ClientReady{});
+        Settle(OpenStream::EControlOutcome::Accepted); // motor_on
+        TellData(R"({"_type":"JObject","val":0})");
+        static_cast<void>(TakeRequests());
+        TellData(counters);
+    }
+
+    void EndWait()
+    {
+        adapter.OnTimer(101, clock.GetNow(), actions);
+    }
+};
+
+} // namespace
+
+TEST_CASE("After a restart the counters tell of a job that ended meanwhile, and of one that runs")
+{
+    ArmRecoveryFixture done("[6,6,0]");
+    CHECK(done.TakeEvents<Planning::JobStarted>().size() == 1);
+    CHECK(done.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
+    ArmRecoveryFixture failed("[6,5,1]");
+    CHECK(failed.TakeEvents<Planning::JobFailed>().size() == 1);
+    ArmRecoveryFixture running("[6,5,0]");
+    CHECK(running.TakeEvents<Planning::JobStarted>().size() == 1);
+    CHECK(running.TakeEvents<Planning::JobFinished>().empty());
+    running.EndWait();
+    running.TellData("[6,6,0]");
+    CHECK(running.TakeEvents<Planning::JobFinished>().size() == 1);
+    CHECK(running.TakeRequests().empty()); // nothing was started
+}
+
+TEST_CASE("After a restart a program whose first counter does not rise in time was never started; one in time runs")
+{
+    ArmRecoveryFixture never("[5,5,0]");
+    CHECK(never.TakeEvents<Planning::JobUnknown>().empty());
+    never.EndWait();
+    CHECK(never.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
+    never.EndWait();
+    CHECK(never.TakeEvents<Planning::JobUnknown>().size() == 1);
+    ArmRecoveryFixture late("[5,5,0]");
+    late.TellData("[6,5,0]");
+    late.EndWait();
+    CHECK(late.TakeEvents<Planning::JobUnknown>().empty());
+    CHECK(late.TakeEvents<Planning::JobStarted>().size() == 1);
+    CHECK(late.TakeRequests().empty());
+}
+
+TEST_CASE("After a restart counters that are all 0, have fallen or have risen too far prove nothing of a job")
+{
+    for (const char* counters : {"[0,0,0]", "[4,4,0]", "[7,7,0]", "[6,6,1]", "[5,6,0]"})
+    {
+        INFO(counters);
+        ArmRecoveryFixture arm(counters);
+        CHECK(arm.TakeEvents<Planning::JobUncertain>().size() == 1);
+        arm.EndWait();
+        arm.TellData("[6,6,0]"); // later evidence is none
+        CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
+        CHECK(arm.TakeEvents<Planning::JobUnknown>().empty());
+    }
+    ArmRecoveryFixture zero("[0,0,0]", "0 0 0"); // a controller that was restarted shows the same
+    CHECK(zero.TakeEvents<Planning::JobUncertain>().size() == 1);
+    ArmRecoveryFixture unmarked("[5,5,0]", "");
+    CHECK(unmarked.TakeEvents<Planning::JobUncertain>().size() == 1);
+}
+
+TEST_CASE(
+    "After a restart a program that may have been paused is stopped, looked at and goes on; else it is left alone")
+{
+    ArmRecoveryFixture alone("[6,5,0]");
+    CHECK(alone.TakeRequests().empty());
+
+    ArmRecoveryFixture arm("[6,5,0]");
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
+    SECTION("It stood")
+    {
+        arm.Accept("[6,5,0]");
+        CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+        arm.Accept("[6,5,0]");
+    }
+    SECTION("It has ended meanwhile")
+    {
+        arm.Accept("[6,6,0]");
+        CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+    }
+    SECTION("It stands for a reason of its own")
+    {
+        arm.Accept("[6,5,0]");
+        arm.Settle(OpenStream::EControlOutcome::Refused, 403);
+        static_cast<void>(arm.TakeRequests());
+        CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    }
+    CHECK(arm.TakeRequests().empty());
+}
+
+} // namespace ACS::Acsd::Test

@@ -1,0 +1,338 @@
+#include "robots/ArmFixture.hpp"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace ACS::Acsd::Test
+{
+
+TEST_CASE("After the handshake the motor is asked to go on, and only then the counters are watched")
+{
+    ArmFixture arm;
+    arm.Tell(OpenStream::ClientReady{});
+    CHECK(
+        arm.TakeRequests()
+        == std::vector<std::string>{"MONITOR /project/robot/motor_on_state", "CONTROL /project/robot/motor_on {}"});
+    arm.TellData(R"({"val":2})");
+    arm.TellData(R"({"val":1})");
+    CHECK(arm.TakeRequests().empty());
+    arm.TellData(R"({"val":0})");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{"MONITOR /project/plc/m/val_s32"});
+}
+
+TEST_CASE("A job selects its program, starts it, and is done when the finished counter has changed")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
+    arm.Accept();
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+    arm.TellData("[5,5,0]");
+    CHECK(arm.TakeEvents<Planning::JobStarted>().empty());
+    arm.TellData("[6,5,0]");
+    arm.TellData("[6,5,0]");
+    CHECK(arm.TakeEvents<Planning::JobStarted>() == std::vector<Planning::JobStarted>{{"J"}});
+    CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
+    arm.TellData("[6,6,0]");
+    arm.TellData("[6,6,0]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+}
+
+TEST_CASE("A counter that wraps around has changed, too")
+{
+    ArmFixture arm;
+    arm.BringUp("[2147483647,2147483647,0]");
+    arm.Command("J");
+    arm.Accept("[2147483647,2147483647,0]");
+    arm.TellData("[-2147483648,-2147483648,0]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+}
+
+TEST_CASE("A program that raises the failed counter fails its job")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    arm.Accept();
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.TellData("[6,5,1]");
+    REQUIRE(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+    arm.TellData("[6,6,1]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
+}
+
+TEST_CASE("A refused CONTROL fails the job with the controller's status")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    arm.Accept();
+    arm.Settle(OpenStream::EControlOutcome::Refused, 403);
+    arm.TellData(R"({"val":0})"); // the motor is not the reason
+    const auto failed = arm.TakeEvents<Planning::JobFailed>();
+    REQUIRE(failed.size() == 1);
+    CHECK(failed.front().reason.find("403") != std::string::npos);
+}
+
+TEST_CASE("A start whose fate is not known is never sent again: the counters decide")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    arm.Accept();
+    static_cast<void>(arm.TakeRequests());
+    arm.Settle(OpenStream::EControlOutcome::Unknown);
+    arm.Tell(OpenStream::ClientLost{});
+    arm.Tell(OpenStream::ClientReady{});
+    arm.TellData(R"({"val":0})");
+    arm.TellData("[6,6,0]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
+    for (const std::string& request : arm.TakeRequests())
+    {
+        CHECK(request != START);
+        CHECK(request != SELECT);
+    }
+}
+
+TEST_CASE("A start that got lost with the connection fails its job when the program does not begin")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    arm.Accept();
+    arm.Settle(OpenStream::EControlOutcome::Unknown);
+    arm.Tell(OpenStream::ClientLost{});
+    arm.Tell(OpenStream::ClientReady{});
+    arm.TellData(R"({"val":0})");
+    arm.actions.clear();
+    arm.TellData("[5,5,0]");
+    REQUIRE(arm.IsStartWatched());
+    SECTION("It does not begin")
+    {
+        arm.Fire(ArmFixture::START_TIMER);
+        CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+    }
+    SECTION("It has begun")
+    {
+        arm.TellData("[6,5,0]");
+        arm.Fire(ArmFixture::START_TIMER);
+        CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+        arm.TellData("[6,6,0]");
+        CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+    }
+}
+
+TEST_CASE("Counters that begin again are the work of a restart: nobody can tell what became of the job, and it is held")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    arm.Accept();
+    arm.Accept("[6,5,0]");
+    arm.Tell(OpenStream::ClientLost{});
+    arm.Tell(OpenStream::ClientReady{});
+    arm.TellData(R"({"val":0})");
+    arm.TellData("[0,0,0]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    REQUIRE(arm.TakeEvents<Planning::JobUncertain>().size() == 1);
+    CHECK(arm.TakeEvents<Planning::JobUncertain>().front().reason.find("restarted") != std::string::npos);
+}
+
+TEST_CASE("A start that was answered by silence and got lost fails its job when the program does not begin")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    arm.Accept();
+    arm.Settle(OpenStream::EControlOutcome::Accepted); // nobody heard it
+    arm.Tell(OpenStream::ClientLost{});
+    arm.Tell(OpenStream::ClientReady{});
+    arm.TellData(R"({"val":0})");
+    arm.actions.clear();
+    arm.TellData("[5,5,0]");
+    CHECK(arm.IsStartWatched());
+    arm.adapter.OnTimer(101, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+}
+
+TEST_CASE("A refusal that comes after the silence fails the job whose program it did not let begin")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    SECTION("Of the selection: nothing is started")
+    {
+        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT, LOOK_AT_PLAYBACK});
+        arm.Tell(OpenStream::ClientControlFault{403, std::nullopt, "a task is playing"});
+    }
+    SECTION("Of the start")
+    {
+        arm.Accept();
+        arm.Accept();
+        arm.actions.clear();
+        arm.Tell(OpenStream::ClientControlFault{403, std::nullopt, "a task is playing"});
+        CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+        CHECK(arm.IsStartWatched());
+        arm.Fire(ArmFixture::START_TIMER);
+    }
+    const auto failed = arm.TakeEvents<Planning::JobFailed>();
+    REQUIRE(failed.size() == 1);
+    CHECK(failed.front().reason.find("a task is playing") != std::string::npos);
+    CHECK(arm.TakeRequests().empty());
+}
+
+TEST_CASE("A refusal that comes after the silence, and a program that begins behind it: it was not this one's")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    arm.Accept();
+    arm.Accept();
+    arm.Tell(OpenStream::ClientControlFault{403, std::nullopt, "late"});
+    arm.TellData("[6,5,0]");
+    arm.Fire(ArmFixture::START_TIMER);
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    arm.TellData("[6,6,0]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
+}
+
+TEST_CASE("A job of an action without a program fails with a reason")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J2", "CassetteLoad");
+    const auto failed = arm.TakeEvents<Planning::JobFailed>();
+    REQUIRE(failed.size() == 1);
+    CHECK(failed.front().jobID == "J2");
+    CHECK(failed.front().reason.find("CassetteLoad") != std::string::npos);
+    CHECK(arm.TakeRequests().empty());
+}
+
+TEST_CASE("A job that comes while the arm is away was not begun: it waits for the arm instead of failing its plan")
+{
+    ArmFixture arm;
+    arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
+    SECTION("The arm has gone")
+    {
+        arm.BringUp();
+        arm.ShowBase(false);
+        arm.actions.clear();
+        arm.Tell(OpenStream::ClientLost{});
+        // Said before the job is given back: the engine does not send it again at once.
+        CHECK(arm.TakeEvents<Planning::LinkChanged>() == std::vector<Planning::LinkChanged>{{false}});
+    }
+    SECTION("Its motor is not on yet")
+    {
+        arm.Tell(OpenStream::ClientReady{});
+        static_cast<void>(arm.TakeRequests());
+    }
+    Planning::StartJob job;
+    job.jobID = "J";
+    job.action = "TrayLoad";
+    job.mark = "5 5 0";
+    arm.adapter.Handle(job, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    CHECK(arm.TakeRequests().empty());
+
+    arm.BringUp();
+    arm.adapter.Handle(job, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
+}
+
+TEST_CASE("While the base is away nothing that it told before is told again, whatever the arm shows")
+{
+    ArmFixture arm;
+    arm.BringUpWithBase();
+    arm.adapter.OnLinkDown(arm.clock.GetNow(), arm.actions);
+    arm.actions.clear();
+    arm.TellData("[6,5,0]");
+    CHECK(arm.TakeEvents<Planning::StateChanged>().empty());
+    arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeEvents<Planning::StateChanged>().empty());
+    arm.ShowBase(false);
+    const auto states = arm.TakeEvents<Planning::StateChanged>();
+    REQUIRE_FALSE(states.empty());
+    CHECK(states.back().mark == "6 5 0");
+}
+
+TEST_CASE("A program that was surely not started is not the job's failure, whatever got lost on the way")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    SECTION("Its selection never left")
+    {
+        arm.Settle(OpenStream::EControlOutcome::NotSent);
+    }
+    SECTION("Nobody knows whether it was selected")
+    {
+        arm.Settle(OpenStream::EControlOutcome::Unknown);
+    }
+    SECTION("Its start never left")
+    {
+        arm.Accept();
+        arm.Settle(OpenStream::EControlOutcome::NotSent);
+    }
+    CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    static_cast<void>(arm.TakeRequests());
+    arm.Command("J");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
+}
+
+TEST_CASE("The settling of motor_on is not taken for that of a job's CONTROL")
+{
+    ArmFixture arm;
+    arm.Tell(OpenStream::ClientReady{});
+    arm.TellData(R"({"val":0})");
+    arm.TellData("[5,5,0]");
+    static_cast<void>(arm.TakeRequests());
+    arm.Command("J");
+    arm.Settle(OpenStream::EControlOutcome::Accepted); // motor_on, late
+    CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
+    arm.Accept();
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+}
+
+TEST_CASE("Answers that are no counters are passed over")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    arm.Accept();
+    for (const std::string_view nonsense : {"[]", "[6]", R"(["a","b","c"])", R"({"val":0})", "null", "[6,6.5,0]"})
+    {
+        arm.TellData(nonsense);
+    }
+    CHECK(arm.TakeEvents<Planning::JobStarted>().empty());
+    CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
+}
+
+TEST_CASE("The counters are the mark of the robot's state; a job with another mark is not begun")
+{
+    ArmFixture arm;
+    arm.BringUpWithBase();
+    CHECK(arm.TakeEvents<Planning::StateChanged>().back().mark == "5 5 0");
+    arm.TellData("[6,6,0]"); // a program that somebody ran by hand
+    CHECK(arm.TakeEvents<Planning::StateChanged>().back().mark == "6 6 0");
+    Planning::StartJob job;
+    job.jobID = "J";
+    job.action = "TrayLoad";
+    job.mark = "5 5 0";
+    arm.adapter.Handle(job, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeEvents<Planning::JobUnknown>().size() == 1);
+    CHECK(arm.TakeRequests().empty());
+    job.mark = "6 6 0";
+    arm.adapter.Handle(job, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
+}
+
+} // namespace ACS::Acsd::Test

@@ -1,0 +1,224 @@
+#include "robots/VehicleWatch.hpp"
+
+#include "Catch.hpp"
+#include "config/AcsdConfig.hpp"
+#include "ManualClock.hpp"
+#include "RecordingLogSink.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace ACS::Acsd::Test
+{
+
+namespace
+{
+
+/// A robot on the example site whose words a test puts into its mouth.
+struct WatchFixture
+{
+    AcsdConfig config = ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", {});
+    Testing::RecordingLogSink sink;
+    Testing::ManualClock clock;
+    Apps::MetricsEndpoint metrics;
+    VehicleWatch watch{
+        *config.site,
+        "LR01",
+        {clock, Core::Logger(sink, "robot"), metrics},
+        config.robots.back().methods.GetPositions()};
+    VDA5050::StateMessage state;
+
+    WatchFixture()
+    {
+        state.orderID = "O";
+        state.orderUpdateID = 1;
+        state.lastNodeID = config.site->GetNodes().front().nodeID;
+        state.lastNodeSequenceID = 4;
+        state.batteryState.batteryCharge = 80;
+    }
+
+    void Show()
+    {
+        watch.OnState(state);
+    }
+
+    void ShowAction(VDA5050::EActionStatus status)
+    {
+        state.actionStates = {{"J", "pick", "", status, ""}};
+        Show();
+    }
+
+    /// As /metrics shows it.
+    [[nodiscard]] std::uint64_t CountOf(const std::string& kind) const
+    {
+        const std::string text = metrics.Render();
+        const std::string series = R"(acsd_robot_oddities_total{kind=")" + kind + R"(",robot="LR01"} )";
+        const std::size_t found = text.find(series);
+        return found == std::string::npos ? 0 : std::stoull(text.substr(found + series.size()));
+    }
+
+    [[nodiscard]] std::size_t CountKinds() const
+    {
+        const std::string text = metrics.Render();
+        const std::string series = "acsd_robot_oddities_total{";
+        std::size_t count = 0;
+        for (std::size_t at = text.find(series); at != std::string::npos; at = text.find(series, at + 1))
+        {
+            ++count;
+        }
+        return count;
+    }
+};
+
+} // namespace
+
+TEST_CASE_METHOD(WatchFixture, "An honest robot is not told of: states may be lost, paused and running take turns")
+{
+    Show();
+    using E = VDA5050::EActionStatus;
+    for (const E status : {E::Waiting, E::Running, E::Paused, E::Running, E::Finished, E::Finished})
+    {
+        ShowAction(status);
+    }
+    state.orderID = "O2"; // a new order counts anew
+    state.orderUpdateID = 0;
+    state.lastNodeSequenceID = 0;
+    ShowAction(E::Finished);
+    state.lastNodeID.clear(); // it may not know yet
+    Show();
+    CHECK(CountKinds() == 0);
+    CHECK(sink.GetLines().empty());
+}
+
+TEST_CASE_METHOD(WatchFixture, "A node that the map does not have is told and counted")
+{
+    state.lastNodeID = "nowhere";
+    Show();
+    CHECK(CountOf("unknown_node") == 1);
+    CHECK(sink.ContainsField("what", "unknown_node"));
+    CHECK(sink.ContainsField("detail", "nowhere"));
+}
+
+TEST_CASE_METHOD(WatchFixture, "A position off the map is told, one at its rim is not, nor one that is not known")
+{
+    VDA5050::AgvPosition& at = state.agvPosition.emplace();
+    at.bPositionInitialized = true;
+    at.x = config.site->GetNodes().front().x;
+    at.y = config.site->GetNodes().front().y;
+    Show();
+    CHECK(CountOf("off_map") == 0);
+    at.x = 1e6;
+    Show();
+    CHECK(CountOf("off_map") == 1);
+    at.bPositionInitialized = false;
+    Show();
+    CHECK(CountOf("off_map") == 1);
+}
+
+TEST_CASE_METHOD(WatchFixture, "An action that goes backwards is told, before and after its end")
+{
+    using E = VDA5050::EActionStatus;
+    ShowAction(E::Running);
+    ShowAction(E::Waiting);
+    CHECK(CountOf("action_backwards") == 1);
+    ShowAction(E::Finished);
+    ShowAction(E::Running);
+    CHECK(CountOf("action_backwards") == 2);
+    ShowAction(E::Finished);
+    ShowAction(E::Failed); // an end is an end
+    CHECK(CountOf("action_backwards") == 3);
+    CHECK(sink.ContainsField("detail", "J: WAITING after RUNNING"));
+}
+
+TEST_CASE_METHOD(
+    WatchFixture,
+    "An order whose update or node number goes backwards is told; not after the robot was away")
+{
+    Show();
+    state.orderUpdateID = 0;
+    state.lastNodeSequenceID = 2;
+    Show();
+    CHECK(CountOf("update_backwards") == 1);
+    CHECK(CountOf("node_backwards") == 1);
+    watch.OnAway();
+    state.lastNodeSequenceID = 0;
+    Show();
+    CHECK(CountOf("node_backwards") == 1);
+}
+
+TEST_CASE_METHOD(WatchFixture, "Two actions of one id and a battery beyond its range are told")
+{
+    state.actionStates = {
+        {"J", "pick", "", VDA5050::EActionStatus::Waiting, ""},
+        {"J", "pick", "", VDA5050::EActionStatus::Running, ""}};
+    state.batteryState.batteryCharge = 140;
+    Show();
+    CHECK(CountOf("action_twice") == 1);
+    CHECK(CountOf("battery_range") == 1);
+}
+
+TEST_CASE_METHOD(WatchFixture, "What the session threw away is counted by kind")
+{
+    VDA5050::MasterStatistics statistics;
+    statistics.messagesRefused = 2;
+    statistics.statesIgnored = 1;
+    watch.OnStatistics(statistics);
+    statistics.messagesRefused = 3;
+    statistics.retainedIgnored = 1;
+    watch.OnStatistics(statistics);
+    CHECK(CountOf("unreadable_message") == 3);
+    CHECK(CountOf("state_out_of_order") == 1);
+    CHECK(CountOf("state_retained") == 1);
+}
+
+TEST_CASE_METHOD(WatchFixture, "An arm that answers nonsense is told by what it said")
+{
+    watch.OnArmEvent(OpenStream::ClientBadLine{"no JSON"});
+    OpenStream::ClientErrorReported reported;
+    reported.error.codeText = "monitor_internal_error";
+    watch.OnArmEvent(reported);
+    watch.OnArmEvent(OpenStream::ClientMonitorRefused{});
+    watch.OnArmEvent(OpenStream::ClientControlFault{});
+    watch.OnArmEvent(OpenStream::ClientMonitorStale{});
+    watch.OnArmEvent(OpenStream::ClientReady{});
+    for (const char* kind :
+         {"arm_bad_line", "arm_error_line", "arm_monitor_refused", "arm_control_fault", "arm_silent"})
+    {
+        CHECK(CountOf(kind) == 1);
+    }
+    CHECK(CountKinds() == 5);
+}
+
+TEST_CASE_METHOD(
+    WatchFixture,
+    "A robot that repeats its mistake does not fill the log: the first few, then one line a minute with its count")
+{
+    state.lastNodeID = "nowhere";
+    for (int i = 0; i < 250; ++i)
+    {
+        Show();
+    }
+    CHECK(CountOf("unknown_node") == 250);
+    CHECK(sink.GetLines().size() == Apps::LogRateLimiter::BURST);
+    clock.Advance(Apps::LogRateLimiter::INTERVAL);
+    Show();
+    CHECK(sink.GetLines().back().message == "the robot reports a contradiction (245 similar lines suppressed)");
+    CHECK(sink.ContainsField("count", "251"));
+}
+
+TEST_CASE_METHOD(WatchFixture, "A load at a position that no port has is reported")
+{
+    REQUIRE(config.robots.back().robotID == "LR01");
+    VDA5050::Load load;
+    load.loadPosition = "CP01";
+    state.loads = {load};
+    Show();
+    state.loads->front().loadPosition.clear(); // of the only port
+    Show();
+    CHECK(CountOf("unknown_load_position") == 0);
+    state.loads->front().loadPosition = "front";
+    Show();
+    CHECK(CountOf("unknown_load_position") == 1);
+}
+
+} // namespace ACS::Acsd::Test

@@ -1,0 +1,131 @@
+#include "store/StoreWorker.hpp"
+
+#include "Catch.hpp"
+#include <acs/plan/EPlanningError.hpp>
+
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+
+#include <atomic>
+#include <future>
+#include <thread>
+
+namespace ACS::Testing
+{
+namespace
+{
+
+using namespace Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+
+/// A disk that waits for a word, and is told what to answer.
+class SlowStore final : public IPlanStore
+{
+    std::future<bool> _word;
+    std::atomic<std::size_t>& _written;
+
+public:
+    SlowStore(std::future<bool> word, std::atomic<std::size_t>& written)
+        : _word(std::move(word)),
+          _written(written)
+    {
+    }
+
+    [[nodiscard]] Core::Result<StoredState> Load() override
+    {
+        return StoredState{};
+    }
+
+    [[nodiscard]] Core::Result<void> Append(const StoreBatch& batch) override
+    {
+        if (!_word.get())
+        {
+            return Core::Fail(make_error_code(EPlanningError::StoreFailed), "acsd.db", "room", "disk full");
+        }
+        _written += batch.changes.size();
+        return {};
+    }
+
+    [[nodiscard]] Core::Result<void> Check() override
+    {
+        return _word.get() ? Core::Result<void>()
+                           : Core::Fail(make_error_code(EPlanningError::StoreFailed), "acsd.db", "the file", "nothing");
+    }
+};
+
+} // namespace
+
+TEST_CASE("A batch is stored beside the executor, which hears of it on its own thread")
+{
+    const bool bWorks = GENERATE(true, false);
+    boost::asio::io_context context;
+    const auto guard = boost::asio::make_work_guard(context);
+    std::promise<bool> word;
+    std::atomic<std::size_t> written{0};
+    std::optional<Core::Result<void>> answer;
+    std::thread::id answeredBy;
+    Acsd::StoreWorker worker(
+        context.get_executor(),
+        std::make_unique<SlowStore>(word.get_future(), written),
+        [&](const Core::Result<void>& result) {
+            answer = result;
+            answeredBy = std::this_thread::get_id();
+        },
+        nullptr);
+    worker.Append({{ReportRemoved{1}, ReportRemoved{2}}});
+    context.poll();
+    CHECK_FALSE(answer.has_value()); // the disk waits for its word, the executor does not
+    word.set_value(bWorks);
+    while (!answer.has_value())
+    {
+        REQUIRE(context.run_one_for(std::chrono::seconds(10)) == 1);
+    }
+    CHECK(answer->has_value() == bWorks);
+    CHECK(answeredBy == std::this_thread::get_id());
+    CHECK(written == (bWorks ? 2 : 0));
+}
+
+TEST_CASE("A worker that goes waits for what it began, and tells nobody")
+{
+    boost::asio::io_context context;
+    std::promise<bool> word;
+    std::atomic<std::size_t> written{0};
+    bool bTold = false;
+    {
+        Acsd::StoreWorker worker(
+            context.get_executor(),
+            std::make_unique<SlowStore>(word.get_future(), written),
+            [&](const Core::Result<void>&) { bTold = true; },
+            [&](const Core::Error&) { bTold = true; });
+        worker.Append({{ReportRemoved{1}}});
+        word.set_value(true);
+    }
+    CHECK(written == 1);
+    context.run();
+    CHECK_FALSE(bTold);
+}
+
+TEST_CASE("A check is made beside the executor, one at a time; who waits hears of it where it has failed")
+{
+    boost::asio::io_context context;
+    const auto guard = boost::asio::make_work_guard(context);
+    std::promise<bool> word;
+    std::atomic<std::size_t> written{0};
+    std::optional<Core::Error> fault;
+    Acsd::StoreWorker worker(
+        context.get_executor(),
+        std::make_unique<SlowStore>(word.get_future(), written),
+        [](const Core::Result<void>&) { FAIL("nothing was stored"); },
+        [&](const Core::Error& error) { fault = error; });
+    worker.CheckAsync();
+    worker.CheckAsync(); // the word is given once: a second one would throw
+    context.poll();
+    CHECK_FALSE(fault.has_value());
+    word.set_value(false);
+    while (!fault.has_value())
+    {
+        REQUIRE(context.run_one_for(std::chrono::seconds(10)) == 1);
+    }
+    CHECK(fault->path == "acsd.db");
+}
+
+} // namespace ACS::Testing

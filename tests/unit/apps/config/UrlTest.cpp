@@ -1,0 +1,79 @@
+#include "common/config/Url.hpp"
+
+#include "Catch.hpp"
+
+#include <string>
+
+namespace Apps = ACS::Apps;
+using Apps::EUrlScheme;
+
+namespace
+{
+
+const std::vector<EUrlScheme>& GetAllSchemes()
+{
+    static const std::vector<EUrlScheme>
+        ALL{EUrlScheme::Ws, EUrlScheme::Wss, EUrlScheme::Mqtt, EUrlScheme::Mqtts, EUrlScheme::Tcp, EUrlScheme::Http};
+    return ALL;
+}
+
+} // namespace
+
+TEST_CASE("A URL without port takes that of its scheme")
+{
+    using Row = std::pair<const char*, std::uint16_t>;
+    const auto [text, port] = GENERATE(
+        Row{"ws://mcs", 80},
+        Row{"wss://mcs", 443},
+        Row{"mqtt://broker", 1883},
+        Row{"mqtts://broker", 8883},
+        Row{"tcp://arm", 49000},
+        Row{"http://arm", 80});
+    const auto url = Apps::ParseUrl(text, GetAllSchemes());
+    REQUIRE(url.has_value());
+    REQUIRE(url->peer.port == port);
+}
+
+TEST_CASE("A URL keeps its host, port and path")
+{
+    const auto url = Apps::ParseUrl("wss://[::1]:9001/acs/?site=A", {EUrlScheme::Ws, EUrlScheme::Wss});
+    REQUIRE(url == Apps::Url{EUrlScheme::Wss, {"::1", 9001}, "/acs/?site=A"});
+    REQUIRE(Apps::MakeText(*url) == "wss://[::1]:9001/acs/?site=A");
+    REQUIRE(Apps::ParseUrl("ws://mcs:1", GetAllSchemes())->path == "/");
+    REQUIRE(Apps::ParseUrl("mqtt://broker/", GetAllSchemes())->path.empty());
+    REQUIRE(Apps::ParseUrl("ws://[::1]/x", GetAllSchemes())->peer == Apps::Endpoint{"::1", 80});
+}
+
+TEST_CASE("What is no URL, or not of an allowed scheme, is refused with the allowed forms")
+{
+    const auto* const text = GENERATE(
+        "",
+        "broker:1883",
+        "ws://broker",
+        "MQTT://broker",
+        "mqtt://",
+        "mqtt://:1883",
+        "mqtt://broker:0",
+        "mqtt://broker:99999",
+        "mqtt://broker:1883/topic",
+        "mqtt://user@broker",
+        "mqtt://bro ker");
+    CAPTURE(text);
+    const auto url = Apps::ParseUrl(text, {EUrlScheme::Mqtt, EUrlScheme::Mqtts});
+    REQUIRE_FALSE(url.has_value());
+    REQUIRE(url.error().expected == "a URL mqtt://HOST[:PORT] or mqtts://HOST[:PORT]");
+}
+
+TEST_CASE("The path of a URL holds no blank, no fragment and no control character")
+{
+    const auto* const text = GENERATE("ws://mcs/a b", "ws://mcs/a#b", "ws://mcs/a\nHost: x", "ws://mcs/\x7f");
+    REQUIRE_FALSE(Apps::ParseUrl(text, GetAllSchemes()).has_value());
+}
+
+TEST_CASE("wss and mqtts are the secure schemes")
+{
+    REQUIRE(Apps::IsSecure(EUrlScheme::Wss));
+    REQUIRE(Apps::IsSecure(EUrlScheme::Mqtts));
+    REQUIRE_FALSE(Apps::IsSecure(EUrlScheme::Ws));
+    REQUIRE_FALSE(Apps::IsSecure(EUrlScheme::Http));
+}

@@ -1,0 +1,90 @@
+#include "common/http/HttpGuard.hpp"
+
+#include "Catch.hpp"
+
+#include <optional>
+#include <string>
+
+using namespace ACS; // NOLINT(google-build-using-namespace)
+
+namespace
+{
+
+std::optional<std::string> AskOrNull(const std::string& method, const std::string& path, const Apps::HttpSource& source)
+{
+    const Apps::HttpGuard guard({{"acs.example"}, false, {"/metrics"}});
+    Apps::HttpRequest request = *Apps::ParseHttpTarget(path);
+    request.method = method;
+    return guard.GetObjectionOrNull(request, source);
+}
+
+} // namespace
+
+TEST_CASE("What a program sends is served: by address, by localhost, by a name of its own, and without a Host")
+{
+    for (const char* host :
+         {"127.0.0.1:8080",
+          "127.0.0.1",
+          "[::1]:8080",
+          "[::1]",
+          "10.1.2.3:80",
+          "localhost:8080",
+          "LOCALHOST",
+          "acs.example:8080",
+          "ACS.Example",
+          ""})
+    {
+        INFO(host);
+        CHECK(AskOrNull("POST", "/tsc/pause", {host, {}, {}}) == std::nullopt);
+        CHECK(AskOrNull("GET", "/status", {host, {}, {}}) == std::nullopt);
+    }
+}
+
+TEST_CASE("A foreign name is refused but for what is open: a page's own name may lead here")
+{
+    for (const char* host :
+         {"evil.example:8080", "127.0.0.1.evil.example", "localhost.evil", "acs.example.evil", "[evil", ":"})
+    {
+        INFO(host);
+        CHECK(AskOrNull("POST", "/tsc/pause", {host, {}, {}}).has_value());
+        CHECK(AskOrNull("POST", "/metrics", {host, {}, {}}).has_value());
+        CHECK(AskOrNull("GET", "/status", {host, {}, {}}).has_value());
+        CHECK(AskOrNull("HEAD", "/metrics", {host, {}, {}}) == std::nullopt);
+    }
+    CHECK(
+        AskOrNull("GET", "/status", {"evil.example:8080", {}, {}})
+        == "not served under the name \"evil.example:8080\": ask by the address, or have the configuration allow the name");
+}
+
+TEST_CASE("A page may send commands only to where it has come from")
+{
+    for (const char* origin : {"http://127.0.0.1:8080", "https://127.0.0.1:8080"})
+    {
+        CHECK(AskOrNull("POST", "/x", {"127.0.0.1:8080", origin, "same-origin"}) == std::nullopt);
+    }
+    CHECK(AskOrNull("POST", "/x", {"127.0.0.1:8080", {}, "none"}) == std::nullopt);
+    for (const char* origin :
+         {"http://evil.example", "http://127.0.0.1:3000", "http://127.0.0.1", "null", "127.0.0.1:8080"})
+    {
+        INFO(origin);
+        CHECK(AskOrNull("POST", "/x", {"127.0.0.1:8080", origin, {}}).has_value());
+        CHECK(AskOrNull("DELETE", "/x", {"127.0.0.1:8080", origin, {}}).has_value());
+        CHECK(AskOrNull("GET", "/x", {"127.0.0.1:8080", origin, {}}) == std::nullopt);
+    }
+    CHECK(AskOrNull("POST", "/x", {{}, "http://evil.example", {}}).has_value());
+    for (const char* site : {"cross-site", "same-site"})
+    {
+        INFO(site);
+        CHECK(AskOrNull("POST", "/x", {"127.0.0.1:8080", {}, site}).has_value());
+        CHECK(AskOrNull("GET", "/x", {"127.0.0.1:8080", {}, site}) == std::nullopt);
+    }
+}
+
+TEST_CASE("Where every name is served, pages of other origins are refused all the same")
+{
+    const Apps::HttpGuard guard({{}, true, {}});
+    Apps::HttpRequest request = *Apps::ParseHttpTarget("/fault");
+    request.method = "POST";
+    CHECK(guard.GetObjectionOrNull(request, {"simulator:8890", {}, {}}) == std::nullopt);
+    CHECK(guard.GetObjectionOrNull(request, {"simulator:8890", "http://evil.example", {}}).has_value());
+}

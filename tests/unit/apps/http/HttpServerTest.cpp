@@ -1,0 +1,470 @@
+#include "common/http/HttpServer.hpp"
+
+#include "Catch.hpp"
+#include "common/log/LogRateLimiter.hpp"
+#include "RecordingLogSink.hpp"
+
+#include <boost/asio/connect.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/read.hpp>
+#include <boost/asio/read_until.hpp>
+#include <boost/asio/write.hpp>
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace Apps = ACS::Apps;
+namespace Core = ACS::Core;
+namespace Testing = ACS::Testing;
+using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
+using Catch::Matchers::StartsWith;
+using Tcp = boost::asio::ip::tcp;
+
+namespace
+{
+
+constexpr auto LIMIT = 10s;
+constexpr const char* LOOPBACK = "127.0.0.1";
+
+/// A raw peer on the server's own loop, so that a test sends exactly the bytes that it wants to.
+class RawClient final
+{
+    boost::asio::io_context& _context;
+    Tcp::socket _socket;
+    std::string _received;
+    bool _bClosed = false;
+
+public:
+    RawClient(boost::asio::io_context& context, std::uint16_t port)
+        : _context(context),
+          _socket(context)
+    {
+        _socket.connect({boost::asio::ip::make_address(LOOPBACK), port});
+        ReadAsync();
+    }
+
+    void Send(const std::string& text)
+    {
+        auto copy = std::make_shared<std::string>(text);
+        boost::asio::async_write(
+            _socket,
+            boost::asio::buffer(*copy),
+            [copy](const boost::system::error_code&, std::size_t) {});
+    }
+
+    /// Runs the loop until that many answers with that end have come, or time is up.
+    [[nodiscard]] bool HasReceived(const std::string& end)
+    {
+        return Matches([this, &end] { return _received.find(end) != std::string::npos; });
+    }
+
+    [[nodiscard]] bool WasClosed()
+    {
+        return Matches([this] { return _bClosed; });
+    }
+
+    [[nodiscard]] std::string TakeReceived()
+    {
+        return std::exchange(_received, {});
+    }
+
+private:
+    bool Matches(const std::function<bool()>& isDone)
+    {
+        const auto deadline = std::chrono::steady_clock::now() + LIMIT;
+        while (!isDone() && std::chrono::steady_clock::now() < deadline)
+        {
+            _context.restart();
+            _context.run_one_for(100ms);
+        }
+        return isDone();
+    }
+
+    void ReadAsync()
+    {
+        auto chunk = std::make_shared<std::string>(4096, '\0');
+        _socket.async_read_some(
+            boost::asio::buffer(*chunk),
+            [this, chunk](const boost::system::error_code& error, std::size_t count) {
+                if (error == boost::asio::error::operation_aborted)
+                {
+                    return;
+                }
+                _received += chunk->substr(0, count);
+                _bClosed = error.failed();
+                if (!_bClosed)
+                {
+                    ReadAsync();
+                }
+            });
+    }
+};
+
+struct Fixture
+{
+    boost::asio::io_context context;
+    Testing::RecordingLogSink log;
+    std::vector<Apps::HttpRequest> requests;
+    Apps::HttpResponse answer;
+    std::unique_ptr<Apps::HttpServer> server;
+    std::uint16_t port = 0;
+
+    explicit Fixture(Apps::HttpLimits limits = {}, std::optional<Apps::HttpGuard> guardOrNone = std::nullopt)
+    {
+        const auto handler = [this](const Apps::HttpRequest& request) {
+            requests.push_back(request);
+            return answer;
+        };
+        server = std::make_unique<Apps::HttpServer>(
+            context.get_executor(),
+            handler,
+            Core::Logger(log, "http"),
+            limits,
+            std::move(guardOrNone));
+        const auto endpoint = server->Listen({LOOPBACK, 0});
+        REQUIRE(endpoint.has_value());
+        REQUIRE(endpoint->host == LOOPBACK);
+        REQUIRE(endpoint->port != 0);
+        port = endpoint->port;
+        answer.body = "<answer>";
+    }
+
+    /// Runs the loop until it is, or time is up.
+    [[nodiscard]] bool IsReached(const std::function<bool()>& isReached)
+    {
+        const auto deadline = std::chrono::steady_clock::now() + LIMIT;
+        while (!isReached() && std::chrono::steady_clock::now() < deadline)
+        {
+            context.restart();
+            context.run_one_for(100ms);
+        }
+        return isReached();
+    }
+};
+
+} // namespace
+
+TEST_CASE("A request reaches the handler decoded, and its answer the peer")
+{
+    Fixture fixture;
+    fixture.answer = {404, "application/json", "{\"no\":1}"};
+    RawClient client(fixture.context, fixture.port);
+    client.Send("POST /tasks%5B0%5D/x?type=io HTTP/1.1\r\nHost: x\r\nContent-Length: 4\r\n\r\nbody");
+    REQUIRE(client.HasReceived("{\"no\":1}"));
+    const std::string answer = client.TakeReceived();
+    REQUIRE_THAT(answer, StartsWith("HTTP/1.1 404 Not Found\r\n"));
+    REQUIRE_THAT(answer, Contains("Content-Type: application/json\r\n"));
+    REQUIRE_THAT(answer, Contains("Content-Length: 8\r\n"));
+    REQUIRE(fixture.requests.size() == 1);
+    REQUIRE(fixture.requests[0].method == "POST");
+    REQUIRE(fixture.requests[0].path == "/tasks[0]/x");
+    REQUIRE(fixture.requests[0].GetQueryOrNull("type") == "io");
+    REQUIRE(fixture.requests[0].body == "body");
+}
+
+TEST_CASE("A connection serves one request after the other, also when they come in pieces or together")
+{
+    Fixture fixture;
+    RawClient client(fixture.context, fixture.port);
+    client.Send("GET /1 HT");
+    client.Send("TP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(client.HasReceived("<answer>"));
+    (void)client.TakeReceived();
+    client.Send("GET /2 HTTP/1.1\r\nHost: x\r\n\r\nGET /3 HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n");
+    REQUIRE(client.WasClosed());
+    REQUIRE(fixture.requests.size() == 3);
+    REQUIRE(fixture.requests[2].path == "/3");
+}
+
+TEST_CASE("An answer with a delay comes later, other connections do not wait; a stop does not either")
+{
+    Fixture fixture;
+    fixture.answer.delay = 1h;
+    RawClient slow(fixture.context, fixture.port);
+    slow.Send("GET /slow HTTP/1.1\r\n\r\n");
+    RawClient gone(fixture.context, fixture.port);
+    gone.Send("GET /gone HTTP/1.1\r\n\r\n");
+    REQUIRE(fixture.IsReached([&fixture] { return fixture.requests.size() == 2; }));
+    fixture.answer.delay = 20ms;
+    const auto asked = std::chrono::steady_clock::now();
+    RawClient other(fixture.context, fixture.port);
+    other.Send("GET /1 HTTP/1.1\r\n\r\nHEAD /2 HTTP/1.1\r\nConnection: close\r\n\r\n");
+    REQUIRE(other.WasClosed());
+    CHECK(std::chrono::steady_clock::now() - asked >= 40ms);
+    const std::string received = other.TakeReceived();
+    CHECK(received.find("<answer>") != std::string::npos);
+    CHECK(received.find("<answer>") == received.rfind("<answer>"));
+    fixture.server->Stop();
+    REQUIRE(slow.WasClosed());
+    CHECK(slow.TakeReceived().empty());
+}
+
+TEST_CASE("Who asks whether the body is wanted is told to go on, unless it is too long")
+{
+    Fixture fixture;
+    RawClient client(fixture.context, fixture.port);
+    client.Send("POST /1 HTTP/1.1\r\nExpect: 100-Continue\r\nContent-Length: 4\r\n\r\n");
+    REQUIRE(client.HasReceived("HTTP/1.1 100 Continue\r\n\r\n"));
+    CHECK(fixture.requests.empty());
+    client.Send("bodyPOST /2 HTTP/1.1\r\nExpect: 100-continue\r\nContent-Length: 1048577\r\n\r\n");
+    REQUIRE(client.HasReceived("HTTP/1.1 413 "));
+    REQUIRE(fixture.requests.size() == 1);
+    CHECK(fixture.requests.front().body == "body");
+    const std::string received = client.TakeReceived();
+    CHECK(received.find("100 Continue") == received.rfind("100 Continue"));
+}
+
+TEST_CASE("A chunk whose size has no end is refused, and not kept until it has one")
+{
+    Fixture fixture;
+    RawClient client(fixture.context, fixture.port);
+    client.Send("POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n5;" + std::string(1'000'000, 'x'));
+    REQUIRE(client.HasReceived("HTTP/1.1 400 "));
+    CHECK(fixture.requests.empty());
+}
+
+TEST_CASE("A body in chunks is whole, and bounded as any other")
+{
+    Fixture fixture;
+    RawClient client(fixture.context, fixture.port);
+    client.Send("POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n2;x=y\r\nbo\r\n2\r\ndy\r\n0\r\n\r\n");
+    REQUIRE(client.HasReceived("<answer>"));
+    CHECK(fixture.requests.at(0).body == "body");
+    const std::string chunk = "10000\r\n" + std::string(0x10000, 'x') + "\r\n";
+    std::string request = "POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n";
+    for (int i = 0; i < 17; ++i)
+    {
+        request += chunk;
+    }
+    client.Send(request);
+    REQUIRE(client.HasReceived("HTTP/1.1 413 "));
+    CHECK(fixture.requests.size() == 1);
+}
+
+TEST_CASE("HEAD is answered with the header alone")
+{
+    Fixture fixture;
+    RawClient client(fixture.context, fixture.port);
+    client.Send("HEAD / HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n");
+    REQUIRE(client.WasClosed());
+    const std::string answer = client.TakeReceived();
+    REQUIRE_THAT(answer, Contains("Content-Length: 8\r\n"));
+    REQUIRE_THAT(answer, EndsWith("\r\n\r\n"));
+}
+
+TEST_CASE("The methods that are served go out in the header Allow, and only where they are told")
+{
+    Fixture fixture;
+    fixture.answer = {405, "text/plain", "<answer>", {}, "GET, HEAD"};
+    RawClient client(fixture.context, fixture.port);
+    client.Send("POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 0\r\n\r\n");
+    REQUIRE(client.HasReceived("<answer>"));
+    REQUIRE_THAT(client.TakeReceived(), Contains("\nAllow: GET, HEAD\r\n"));
+    fixture.answer.allow.clear();
+    client.Send("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(client.HasReceived("<answer>"));
+    REQUIRE_THAT(client.TakeReceived(), !Contains("\nAllow:"));
+}
+
+TEST_CASE("What is no HTTP is answered with 400 and the server lives on")
+{
+    const auto* const garbage = GENERATE("\x16\x03\x01\x02hello\r\n\r\n", "GET\r\n\r\n", "G\x01T / HTTP/1.1\r\n\r\n");
+    Fixture fixture;
+    RawClient bad(fixture.context, fixture.port);
+    bad.Send(garbage);
+    REQUIRE(bad.WasClosed());
+    REQUIRE_THAT(bad.TakeReceived(), StartsWith("HTTP/1.1 400 "));
+    REQUIRE(fixture.requests.empty());
+    REQUIRE(fixture.log.Contains(Core::ELogLevel::Warning, "Refused"));
+    RawClient good(fixture.context, fixture.port);
+    good.Send("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(good.HasReceived("<answer>"));
+}
+
+TEST_CASE("A flood of bad requests is a few lines of the log")
+{
+    Fixture fixture;
+    for (std::size_t count = 0; count < 4 * Apps::LogRateLimiter::BURST; ++count)
+    {
+        RawClient bad(fixture.context, fixture.port);
+        bad.Send("\x16\x03\x01 hello\r\n\r\n");
+        REQUIRE(bad.WasClosed());
+    }
+    CHECK(fixture.log.GetLines().size() == Apps::LogRateLimiter::BURST);
+    CHECK(fixture.log.Contains(Core::ELogLevel::Warning, "Refused an HTTP request"));
+}
+
+TEST_CASE("What the guard objects to is answered with 403 and told in the log; the connection lives on")
+{
+    Fixture fixture({}, Apps::HttpGuard({{}, false, {"/metrics"}}));
+    RawClient client(fixture.context, fixture.port);
+    const std::string host = "Host: 127.0.0.1:" + std::to_string(fixture.port) + "\r\n";
+    for (const std::string& header :
+         {host + "Origin: http://evil.example\r\n",
+          host + "sec-fetch-site: cross-site\r\n",
+          std::string("Host: evil.example\r\n")})
+    {
+        INFO(header);
+        client.Send("POST /tsc/pause HTTP/1.1\r\n" + header + "Content-Length: 0\r\n\r\n");
+        REQUIRE(client.HasReceived("\r\n\r\n"));
+        const std::string answer = client.TakeReceived();
+        CHECK_THAT(answer, StartsWith("HTTP/1.1 403 "));
+        CHECK_THAT(answer, EndsWith("\n"));
+    }
+    CHECK(fixture.requests.empty());
+    CHECK(fixture.log.Contains(Core::ELogLevel::Warning, "Refused an HTTP request"));
+    client.Send("POST /tsc/pause HTTP/1.1\r\n" + host + "Content-Length: 0\r\n\r\n");
+    REQUIRE(client.HasReceived("<answer>"));
+    (void)client.TakeReceived();
+    client.Send("GET /metrics HTTP/1.1\r\nHost: acs.example:9090\r\n\r\n");
+    REQUIRE(client.HasReceived("<answer>"));
+    CHECK(fixture.requests.size() == 2);
+}
+
+TEST_CASE("A target that is not decodable is answered with 400 and the connection lives on")
+{
+    Fixture fixture;
+    RawClient client(fixture.context, fixture.port);
+    client.Send("GET /%zz HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(client.HasReceived("percent-encoded\n"));
+    REQUIRE_THAT(client.TakeReceived(), StartsWith("HTTP/1.1 400 "));
+    client.Send("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(client.HasReceived("<answer>"));
+}
+
+TEST_CASE("A body of 1 MiB is taken, one byte more is answered with 413")
+{
+    const std::size_t excess = GENERATE(0U, 1U);
+    const std::size_t size = 1024U * 1024U + excess;
+    Fixture fixture;
+    RawClient client(fixture.context, fixture.port);
+    client.Send("PUT / HTTP/1.1\r\nHost: x\r\nContent-Length: " + std::to_string(size) + "\r\n\r\n");
+    client.Send(std::string(size, 'x'));
+    REQUIRE(client.HasReceived("\r\n\r\n"));
+    REQUIRE_THAT(client.TakeReceived(), StartsWith(excess == 0 ? "HTTP/1.1 200 " : "HTTP/1.1 413 "));
+    REQUIRE(fixture.requests.size() == (excess == 0 ? 1U : 0U));
+}
+
+TEST_CASE("A header without end is answered with 431")
+{
+    Fixture fixture;
+    RawClient client(fixture.context, fixture.port);
+    client.Send("GET / HTTP/1.1\r\nX: " + std::string(20'000, 'x'));
+    REQUIRE(client.WasClosed());
+    REQUIRE_THAT(client.TakeReceived(), StartsWith("HTTP/1.1 431 "));
+}
+
+TEST_CASE("A silent peer is closed when its time is up")
+{
+    Apps::HttpLimits limits;
+    limits.timeout = 50ms;
+    Fixture fixture(limits);
+    RawClient client(fixture.context, fixture.port);
+    client.Send("GET / HT");
+    REQUIRE(client.WasClosed());
+    REQUIRE(client.TakeReceived().empty());
+}
+
+TEST_CASE("A peer beyond the limit takes the place of the one that has been silent the longest")
+{
+    Apps::HttpLimits limits;
+    limits.maxConnections = 2;
+    Fixture fixture(limits);
+    RawClient half(fixture.context, fixture.port);
+    half.Send("GET / HT");
+    RawClient idle(fixture.context, fixture.port);
+    idle.Send("GET /1 HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(idle.HasReceived("<answer>"));
+    RawClient third(fixture.context, fixture.port);
+    third.Send("GET /2 HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(third.HasReceived("<answer>"));
+    REQUIRE(half.WasClosed());
+    REQUIRE(half.TakeReceived().empty());
+    static_cast<void>(idle.TakeReceived());
+    idle.Send("GET /3 HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(idle.HasReceived("<answer>"));
+}
+
+TEST_CASE("Peers beyond the limit wait while all others are being answered, and are served one after the other")
+{
+    Apps::HttpLimits limits;
+    limits.maxConnections = 1;
+    Fixture fixture(limits);
+    fixture.answer.delay = 50ms;
+    std::vector<std::unique_ptr<RawClient>> clients;
+    for (std::size_t number = 0; number < 3; ++number)
+    {
+        clients.push_back(std::make_unique<RawClient>(fixture.context, fixture.port));
+        clients.back()->Send("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
+        REQUIRE(fixture.IsReached([&]() { return fixture.requests.size() == 1; }));
+    }
+    for (std::size_t number = 0; number < clients.size(); ++number)
+    {
+        CHECK(fixture.requests.size() <= number + 1);
+        REQUIRE(clients[number]->HasReceived("<answer>"));
+    }
+    REQUIRE(clients.front()->WasClosed());
+}
+
+TEST_CASE("A port in use is told with the address and what to do, and another port works")
+{
+    Fixture fixture;
+    Apps::HttpServer other(
+        fixture.context.get_executor(),
+        [](const Apps::HttpRequest&) { return Apps::HttpResponse{}; },
+        {});
+    const auto refused = other.Listen({LOOPBACK, fixture.port});
+    REQUIRE_FALSE(refused.has_value());
+    const std::string text = Core::Describe(refused.error());
+    REQUIRE_THAT(text, StartsWith("127.0.0.1:" + std::to_string(fixture.port) + ": "));
+    REQUIRE_THAT(text, Contains("choose another"));
+    REQUIRE(other.Listen({LOOPBACK, 0}).has_value());
+}
+
+TEST_CASE("An address that is not this machine's is refused")
+{
+    boost::asio::io_context context;
+    Apps::HttpServer server(context.get_executor(), [](const Apps::HttpRequest&) { return Apps::HttpResponse{}; }, {});
+    const auto refused = server.Listen({"192.0.2.1", 0});
+    REQUIRE_FALSE(refused.has_value());
+    REQUIRE_THAT(Core::Describe(refused.error()), Contains("192.0.2.1:0"));
+}
+
+TEST_CASE("Stop closes every connection and lets the loop end")
+{
+    Fixture fixture;
+    RawClient client(fixture.context, fixture.port);
+    client.Send("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(client.HasReceived("<answer>"));
+    fixture.server->Stop();
+    REQUIRE(client.WasClosed());
+    fixture.context.restart();
+    fixture.context.run_for(LIMIT);
+    REQUIRE(fixture.context.stopped());
+}
+
+TEST_CASE("A handler may destroy its server")
+{
+    boost::asio::io_context context;
+    std::unique_ptr<Apps::HttpServer> server;
+    server = std::make_unique<Apps::HttpServer>(
+        context.get_executor(),
+        [&server](const Apps::HttpRequest&) {
+            server.reset();
+            return Apps::HttpResponse{};
+        },
+        Core::Logger());
+    const auto endpoint = server->Listen({LOOPBACK, 0});
+    REQUIRE(endpoint.has_value());
+    RawClient client(context, endpoint->port);
+    client.Send("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(client.WasClosed());
+    REQUIRE(server == nullptr);
+}

@@ -1,0 +1,45 @@
+#include "common/log/LogText.hpp"
+
+#include "Catch.hpp"
+#include "common/log/SpdlogSink.hpp"
+
+namespace Apps = ACS::Apps;
+namespace Core = ACS::Core;
+
+TEST_CASE("A log line is component, message and fields")
+{
+    REQUIRE(
+        Apps::MakeLogText("mcs", "Plan accepted", {{"planId", "PLAN-1"}, {"steps", "3"}})
+        == "mcs: Plan accepted planId=PLAN-1 steps=3");
+}
+
+TEST_CASE("A value that would be misread is quoted")
+{
+    REQUIRE(
+        Apps::MakeLogText("x", "m", {{"a", ""}, {"b", "two words"}, {"c", R"(say "hi" \)"}, {"d", "k=v"}})
+        == R"(x: m a="" b="two words" c="say \"hi\" \\" d="k=v")");
+}
+
+TEST_CASE("What a peer sent cannot begin a line of its own")
+{
+    REQUIRE(
+        Apps::MakeLogText("x", "bad\nline", {{"text", "a\r\nb\x1b[0m"}}) == R"(x: bad\nline text="a\x0d\nb\x1b[0m")");
+}
+
+TEST_CASE("A log level is one of four words")
+{
+    REQUIRE(Apps::ParseLogLevel("debug") == Core::ELogLevel::Debug);
+    REQUIRE(Apps::ParseLogLevel("info") == Core::ELogLevel::Info);
+    REQUIRE(Apps::ParseLogLevel("warning") == Core::ELogLevel::Warning);
+    REQUIRE(Apps::ParseLogLevel("error") == Core::ELogLevel::Error);
+    REQUIRE_FALSE(Apps::ParseLogLevel("INFO").has_value());
+}
+
+TEST_CASE("A sink writes its level and those above")
+{
+    const Apps::SpdlogSink sink(Core::ELogLevel::Warning);
+    REQUIRE_FALSE(sink.ShouldWrite(Core::ELogLevel::Debug));
+    REQUIRE_FALSE(sink.ShouldWrite(Core::ELogLevel::Info));
+    REQUIRE(sink.ShouldWrite(Core::ELogLevel::Warning));
+    REQUIRE(sink.ShouldWrite(Core::ELogLevel::Error));
+}

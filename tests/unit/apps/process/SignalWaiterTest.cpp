@@ -1,0 +1,80 @@
+#include "common/process/SignalWaiter.hpp"
+
+#include "Catch.hpp"
+
+#include <boost/asio/io_context.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+namespace Apps = ACS::Apps;
+using namespace std::chrono_literals;
+
+namespace
+{
+
+constexpr int EXIT_NOT_KILLED = 7;
+
+/// A child of its own takes the second signal: it ends the process. Returns its status as waitpid() gives it.
+int RunChildWithTwoSignals(int signalNumber)
+{
+    const pid_t child = fork();
+    if (child == 0)
+    {
+        boost::asio::io_context context;
+        const Apps::SignalWaiter waiter(context.get_executor(), [signalNumber](int) {
+            // The loop hangs here: only the signal handler can end the process.
+            std::raise(signalNumber);
+            std::_Exit(EXIT_NOT_KILLED);
+        });
+        std::raise(signalNumber);
+        context.run_for(5s);
+        std::_Exit(EXIT_NOT_KILLED);
+    }
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    return status;
+}
+
+} // namespace
+
+TEST_CASE("The first signal reaches the handler once and lets the loop end")
+{
+    const int signalNumber = GENERATE(SIGINT, SIGTERM);
+    boost::asio::io_context context;
+    std::vector<int> received;
+    {
+        const Apps::SignalWaiter waiter(context.get_executor(), [&received](int number) {
+            received.push_back(number);
+        });
+        std::raise(signalNumber);
+        context.run_for(5s);
+    }
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+    REQUIRE(received == std::vector<int>{signalNumber});
+    REQUIRE(context.stopped());
+}
+
+TEST_CASE("The second signal ends the process at once with 130 or 143")
+{
+    const int signalNumber = GENERATE(SIGINT, SIGTERM);
+    const int status = RunChildWithTwoSignals(signalNumber);
+    REQUIRE(WIFEXITED(status));
+    REQUIRE(WEXITSTATUS(status) == 128 + signalNumber);
+}
+
+TEST_CASE("A stopped waiter keeps no loop alive and calls nobody")
+{
+    boost::asio::io_context context;
+    int count = 0;
+    Apps::SignalWaiter waiter(context.get_executor(), [&count](int) { ++count; });
+    waiter.Stop();
+    context.run_for(5s);
+    REQUIRE(context.stopped());
+    REQUIRE(count == 0);
+}

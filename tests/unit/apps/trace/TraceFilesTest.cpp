@@ -1,0 +1,88 @@
+#include "common/trace/TraceFiles.hpp"
+
+#include "Catch.hpp"
+#include "FolderLines.hpp"
+#include "FullDisk.hpp"
+#include "TemporaryFolder.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace ACS::Testing
+{
+
+using Apps::TraceFiles;
+using Apps::TraceLimits;
+
+TEST_CASE("Files of a trace are bounded in size and count; the oldest go, and nobody else's")
+{
+    const Testing::TemporaryFolder place;
+    std::ofstream(place.GetPath() / "acsd-notes.ndjson") << "mine\n";
+    TraceFiles files(place.GetPath().string());
+    const TraceLimits limits{100, 2};
+    REQUIRE_FALSE(files.Open(limits));
+    for (int i = 0; i < 9; ++i)
+    {
+        REQUIRE_FALSE(files.Append(std::to_string(i) + std::string(29, '-'), limits));
+    }
+    REQUIRE_FALSE(files.Flush());
+    CHECK(
+        ListNames(place.GetPath())
+        == std::vector<std::string>{"acsd-000002.ndjson", "acsd-000003.ndjson", "acsd-notes.ndjson"});
+    CHECK(std::filesystem::file_size(place.GetPath() / "acsd-000003.ndjson") == 93);
+
+    // A restart begins a new file, and a line that is longer than a file has one of its own.
+    TraceFiles next(place.GetPath().string());
+    REQUIRE_FALSE(next.Open(limits));
+    REQUIRE_FALSE(next.Append(std::string(200, 'x'), limits));
+    REQUIRE_FALSE(next.Append("y", limits));
+    REQUIRE_FALSE(next.Flush());
+    CHECK(
+        ListNames(place.GetPath())
+        == std::vector<std::string>{"acsd-000004.ndjson", "acsd-000005.ndjson", "acsd-notes.ndjson"});
+    CHECK(std::filesystem::file_size(place.GetPath() / "acsd-000004.ndjson") == 201);
+}
+
+TEST_CASE("A full disk costs whole lines, never half a one, and their number is known")
+{
+    const Testing::TemporaryFolder place;
+    TraceFiles files(place.GetPath().string());
+    REQUIRE_FALSE(files.Open({}));
+    REQUIRE_FALSE(files.Append("first", {}));
+    REQUIRE_FALSE(files.Flush());
+    {
+        const FullDisk full(10);
+        REQUIRE_FALSE(files.Append("second", {}));
+        REQUIRE_FALSE(files.Append("third", {}));
+        CHECK(files.Flush());
+        CHECK(files.GetLostLines() == 2);
+    }
+    REQUIRE_FALSE(files.Append("fourth", {}));
+    REQUIRE_FALSE(files.Flush());
+    CHECK(ReadLines(place.GetPath()) == std::vector<std::string>{"first", "fourth"});
+}
+
+TEST_CASE("A trace of one file replaces the file at the start and continues it after a failure")
+{
+    const Testing::TemporaryFolder place;
+    const std::string path = (place.GetPath() / "trace.ndjson").string();
+    std::ofstream(path) << "older\n";
+    const TraceLimits limits{1'000, 0};
+    TraceFiles files(path);
+    REQUIRE_FALSE(files.Open(limits));
+    REQUIRE_FALSE(files.Append("first", limits));
+    REQUIRE_FALSE(files.Flush());
+    {
+        const FullDisk full(10);
+        REQUIRE_FALSE(files.Append("second", limits));
+        CHECK(files.Flush());
+    }
+    REQUIRE_FALSE(files.Append("third", limits));
+    REQUIRE_FALSE(files.Flush());
+    CHECK(ReadLines(place.GetPath()) == std::vector<std::string>{"first", "third"});
+    CHECK(TraceFiles(place.GetPath().string()).Open(limits) == std::errc::is_a_directory);
+}
+
+} // namespace ACS::Testing

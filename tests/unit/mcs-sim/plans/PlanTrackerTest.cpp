@@ -1,0 +1,488 @@
+#include "plans/PlanTracker.hpp"
+
+#include "Catch.hpp"
+#include "ManualClock.hpp"
+#include "plans/SamplePlans.hpp"
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+using ACS::McsSim::EDelivery;
+using ACS::McsSim::EOutcome;
+using ACS::McsSim::PlannedPlan;
+using ACS::McsSim::PlanTracker;
+using ACS::McsSim::TrackedPlan;
+using ACS::Protocol::AcsPayload;
+using ACS::Protocol::EAckResult;
+using ACS::Protocol::EJobStatus;
+using ACS::Protocol::EPlanStatus;
+using ACS::Protocol::EStepStatus;
+using ACS::Testing::MakeAck;
+using ACS::Testing::MakeJobReport;
+using ACS::Testing::MakePlanReport;
+using ACS::Testing::MakeSamplePlan;
+using ACS::Testing::MakeStepReport;
+using ACS::Testing::ManualClock;
+
+namespace
+{
+
+/// A tracker of one or more sample plans P1, P2, … with an ACS at its other end.
+class Bench
+{
+public:
+    ManualClock clock;
+    PlanTracker tracker;
+    PlanTracker::Lines lines;
+
+    explicit Bench(std::size_t count = 1)
+        : tracker(MakePlans(count))
+    {
+    }
+
+    static std::vector<PlannedPlan> MakePlans(std::size_t count)
+    {
+        std::vector<PlannedPlan> plans;
+        for (std::size_t i = 1; i <= count; ++i)
+        {
+            plans.push_back(MakeSamplePlan("P" + std::to_string(i), "T" + std::to_string(i)));
+        }
+        return plans;
+    }
+
+    /// Sends what is due; the planIds, in order.
+    std::string Send()
+    {
+        std::string sent;
+        std::optional<std::size_t> next = tracker.GetNextToSendOrNull(clock.GetNow());
+        while (next.has_value())
+        {
+            sent += (sent.empty() ? "" : " ") + tracker.GetPlans()[*next].planned.plan.planID;
+            tracker.OnSent(*next, clock.GetNow(), lines);
+            next = tracker.GetNextToSendOrNull(clock.GetNow());
+        }
+        return sent;
+    }
+
+    void Ack(std::size_t index, EAckResult result = EAckResult::Success, const std::string& message = {})
+    {
+        tracker.OnAck(MakeAck(tracker.GetPlans()[index].planned, result, message), lines);
+    }
+
+    void Report(const std::vector<AcsPayload>& reports)
+    {
+        for (const AcsPayload& report : reports)
+        {
+            tracker.OnRequest(report, lines);
+        }
+    }
+
+    /// Registered, sent, accepted, and the reports of the first step up to its job's end.
+    void RunFirstJob()
+    {
+        tracker.OnRegistered();
+        Send();
+        Ack(0);
+        Report(
+            {MakePlanReport("P1", EPlanStatus::InProgress),
+             MakeStepReport("P1", 1, EStepStatus::Dispatched),
+             MakeStepReport("P1", 1, EStepStatus::InProgress),
+             MakeJobReport("P1", 1, "J1", EJobStatus::Instructed),
+             MakeJobReport("P1", 1, "J1", EJobStatus::InProgress),
+             MakeJobReport("P1", 1, "J1", EJobStatus::Completed)});
+    }
+
+    void RunSecondStep()
+    {
+        Report({MakeStepReport("P1", 2, EStepStatus::Dispatched), MakeStepReport("P1", 2, EStepStatus::InProgress)});
+        for (const char* const jobID : {"J2", "J3"})
+        {
+            Report(
+                {MakeJobReport("P1", 2, jobID, EJobStatus::Instructed),
+                 MakeJobReport("P1", 2, jobID, EJobStatus::InProgress),
+                 MakeJobReport("P1", 2, jobID, EJobStatus::Completed)});
+        }
+        Report({MakeStepReport("P1", 2, EStepStatus::Completed)});
+    }
+
+    [[nodiscard]] const TrackedPlan& GetFirst() const
+    {
+        return tracker.GetPlans().front();
+    }
+
+    /// The only violation; something else where there is none or more than one.
+    [[nodiscard]] std::string GetViolation() const
+    {
+        return tracker.CountViolations() == 1 ? tracker.GetViolations().front()
+                                              : std::to_string(tracker.CountViolations()) + " violations";
+    }
+};
+
+} // namespace
+
+TEST_CASE("6 A plan whose reports come in causal order is completed, without a violation")
+{
+    Bench bench;
+    bench.RunFirstJob();
+    bench.Report({MakeStepReport("P1", 1, EStepStatus::Completed)});
+    bench.RunSecondStep();
+    CHECK_FALSE(bench.tracker.IsFinished());
+    bench.Report({MakePlanReport("P1", EPlanStatus::Completed)});
+    CHECK(bench.tracker.IsFinished());
+    CHECK(bench.tracker.IsSuccess());
+    CHECK(bench.tracker.CountOutcome(EOutcome::Completed) == 1);
+    CHECK(bench.tracker.CountSteps().done == 2);
+    CHECK(bench.tracker.CountJobs().done == 3);
+    CHECK(bench.tracker.CountViolations() == 0);
+    CHECK(bench.GetFirst().robotID == "LR01");
+    CHECK(bench.lines.front() == "P1 ExecutionPlan sent");
+    CHECK(bench.lines.back() == "P1 PlanReport Completed (LR01)");
+}
+
+TEST_CASE("A line for people names step, job, status and robot")
+{
+    Bench bench;
+    bench.RunFirstJob();
+    CHECK(bench.lines[1] == "P1 ExecutionPlanAck Success");
+    CHECK(bench.lines[3] == "P1 StepReport step 1 CassetteLoad at A01.CP01 Dispatched (LR01)");
+    CHECK(bench.lines.back() == "P1 JobReport step 1 job 1/1 Completed (LR01)");
+}
+
+TEST_CASE("Nothing is sent before an ACS has registered")
+{
+    Bench bench(2);
+    CHECK(bench.Send().empty());
+    bench.tracker.OnRegistered();
+    CHECK(bench.Send() == "P1 P2");
+    CHECK(bench.Send().empty());
+}
+
+TEST_CASE("6.21 No plan is sent while the ACS says that it cannot take work")
+{
+    Bench bench;
+    bench.tracker.OnRegistered();
+    bench.Report({ACS::Protocol::AcsCommStateUpdate{false}});
+    CHECK(bench.Send().empty());
+    bench.Report({ACS::Protocol::AcsCommStateUpdate{true}});
+    CHECK(bench.Send() == "P1");
+}
+
+TEST_CASE("A plan that is not acknowledged within five seconds is sent again")
+{
+    Bench bench(2);
+    bench.tracker.OnRegistered();
+    bench.Send();
+    bench.Ack(0);
+    bench.clock.Advance(std::chrono::milliseconds(4'999));
+    CHECK(bench.Send().empty());
+    bench.clock.Advance(std::chrono::milliseconds(1));
+    CHECK(bench.Send() == "P2");
+    CHECK(bench.lines.back() == "P2 ExecutionPlan sent again");
+    CHECK(bench.tracker.CountResends() == 1);
+    bench.Ack(1);
+    bench.clock.Advance(std::chrono::milliseconds(60'000));
+    CHECK(bench.Send().empty());
+}
+
+TEST_CASE("After a reconnect only what was not acknowledged is sent again")
+{
+    Bench bench(3);
+    bench.tracker.OnRegistered();
+    bench.Send();
+    bench.Ack(1);
+    bench.tracker.OnLinkLost();
+    CHECK(bench.Send().empty());
+    bench.tracker.OnRegistered();
+    CHECK(bench.Send() == "P1 P3");
+}
+
+TEST_CASE("Only so many plans wait for their Ack at a time")
+{
+    Bench bench(PlanTracker::SEND_WINDOW + 2);
+    bench.tracker.OnRegistered();
+    bench.Send();
+    CHECK(bench.lines.size() == PlanTracker::SEND_WINDOW);
+    bench.Ack(7);
+    CHECK(bench.Send() == "P" + std::to_string(PlanTracker::SEND_WINDOW + 1));
+}
+
+TEST_CASE("A plan that is blocked lets later ones go, and is due when it is unblocked")
+{
+    Bench bench(3);
+    bench.tracker.Block(0);
+    bench.tracker.OnRegistered();
+    CHECK(bench.Send() == "P2 P3");
+    bench.Ack(1);
+    bench.Ack(2);
+    CHECK(bench.Send().empty());
+    bench.tracker.Unblock(0);
+    CHECK(bench.Send() == "P1");
+}
+
+TEST_CASE("6.13 A step is Skipped before it begins or while it is InProgress, and the plan goes on without a JobReport")
+{
+    Bench bench;
+    bench.tracker.OnRegistered();
+    bench.Send();
+    bench.Report({MakePlanReport("P1", EPlanStatus::InProgress)});
+    SECTION("from InProgress")
+    {
+        bench.Report(
+            {MakeStepReport("P1", 1, EStepStatus::Dispatched),
+             MakeStepReport("P1", 1, EStepStatus::InProgress),
+             MakeJobReport("P1", 1, "J1", EJobStatus::Instructed)});
+    }
+    SECTION("from Pending")
+    {
+    }
+    bench.Report({MakeStepReport("P1", 1, EStepStatus::Skipped)});
+    bench.RunSecondStep();
+    bench.Report({MakePlanReport("P1", EPlanStatus::Completed)});
+    CHECK(bench.tracker.CountViolations() == 0);
+    CHECK(bench.tracker.IsSuccess());
+    bench.Report({MakeStepReport("P1", 1, EStepStatus::Skipped)});
+    CHECK(bench.tracker.CountViolations() == 1);
+}
+
+TEST_CASE("6.4 A refused plan has failed, for the reason that the ACS gave")
+{
+    Bench bench;
+    bench.tracker.OnRegistered();
+    bench.Send();
+    bench.Ack(0, EAckResult::Fail, "no such place as A09.CP01");
+    CHECK(bench.tracker.IsFinished());
+    CHECK_FALSE(bench.tracker.IsSuccess());
+    CHECK(bench.tracker.CountOutcome(EOutcome::Refused) == 1);
+    CHECK(bench.tracker.CountFailed() == 1);
+    CHECK(bench.GetFirst().reason == "no such place as A09.CP01");
+    CHECK(bench.lines.back() == "P1 ExecutionPlanAck Fail: no such place as A09.CP01");
+    bench.Report({MakePlanReport("P1", EPlanStatus::InProgress)});
+    CHECK(bench.GetViolation() == "P1 PlanReport after it was refused");
+}
+
+TEST_CASE("A late Ack that was taken for another transaction counts for the plan that it names")
+{
+    Bench bench(2);
+    bench.tracker.OnRegistered();
+    bench.Send();
+    ACS::Protocol::AcsAck late = MakeAck(bench.tracker.GetPlans()[0].planned, EAckResult::Success);
+    late.transactionID = "T2";
+    bench.tracker.OnAck(late, bench.lines);
+    CHECK(bench.tracker.GetPlans()[0].delivery == EDelivery::Accepted);
+    CHECK(bench.tracker.GetPlans()[1].delivery == EDelivery::Sent);
+}
+
+TEST_CASE("A plan that is being reported is not refused by the answer to its repetition")
+{
+    Bench bench;
+    bench.tracker.OnRegistered();
+    bench.Send();
+    bench.Report({MakePlanReport("P1", EPlanStatus::InProgress)});
+    bench.Ack(0, EAckResult::Fail, "Duplicated Plan");
+    CHECK(bench.GetFirst().delivery == EDelivery::Accepted);
+    CHECK(bench.tracker.CountOutcome(EOutcome::Open) == 1);
+}
+
+TEST_CASE("6.14 A failed job fails its step and its plan, in this order")
+{
+    Bench bench;
+    bench.RunFirstJob();
+    bench.Report(
+        {MakeStepReport("P1", 1, EStepStatus::Completed),
+         MakeStepReport("P1", 2, EStepStatus::Dispatched),
+         MakeStepReport("P1", 2, EStepStatus::InProgress),
+         MakeJobReport("P1", 2, "J2", EJobStatus::Instructed),
+         MakeJobReport("P1", 2, "J2", EJobStatus::Failed)});
+    SECTION("as it must be")
+    {
+        bench.Report(
+            {MakeStepReport("P1", 2, EStepStatus::Failed), MakePlanReport("P1", EPlanStatus::Failed, "gripper open")});
+        CHECK(bench.tracker.CountViolations() == 0);
+        CHECK(bench.tracker.CountOutcome(EOutcome::Failed) == 1);
+        CHECK(bench.GetFirst().reason == "gripper open");
+    }
+    SECTION("the plan before its step")
+    {
+        bench.Report({MakePlanReport("P1", EPlanStatus::Failed)});
+        CHECK(bench.GetViolation() == "P1 PlanReport Failed before the step of its failed job");
+    }
+}
+
+TEST_CASE("Cancelled and aborted plans count as failed")
+{
+    Bench bench(2);
+    bench.tracker.OnRegistered();
+    bench.Send();
+    bench.Report(
+        {MakePlanReport("P1", EPlanStatus::Cancelled),
+         MakePlanReport("P2", EPlanStatus::InProgress),
+         MakePlanReport("P2", EPlanStatus::Aborted)});
+    CHECK(bench.tracker.CountViolations() == 0);
+    CHECK(bench.tracker.CountFailed() == 2);
+    CHECK(bench.tracker.IsFinished());
+}
+
+TEST_CASE("A report out of causal order is a violation, and followed nevertheless")
+{
+    Bench bench;
+    bench.RunFirstJob();
+    using Row = std::pair<AcsPayload, std::string>;
+    const Row row = GENERATE(
+        Row{MakePlanReport("P1", EPlanStatus::Completed), "P1 PlanReport Completed before all its steps"},
+        Row{MakePlanReport("P1", EPlanStatus::InProgress), "P1 PlanReport InProgress after InProgress"},
+        Row{MakeStepReport("P1", 2, EStepStatus::Dispatched),
+            "P1 StepReport step 2 Dispatched before the steps in front of it are done"},
+        Row{MakeStepReport("P1", 1, EStepStatus::Dispatched), "P1 StepReport step 1 Dispatched after InProgress"},
+        Row{MakeStepReport("P1", 2, EStepStatus::Completed), "P1 StepReport step 2 Completed after Pending"},
+        Row{MakeJobReport("P1", 2, "J2", EJobStatus::Instructed),
+            "P1 JobReport step 2 job 1 Instructed while its step is Pending"},
+        Row{MakeJobReport("P1", 1, "J1", EJobStatus::Completed), "P1 JobReport step 1 job 1 Completed after Completed"},
+        Row{MakeJobReport("P1", 1, "J2", EJobStatus::Completed), "P1 JobReport step 1 for an unknown job J2"},
+        Row{MakeStepReport("P1", 3, EStepStatus::Dispatched), "P1 StepReport for an unknown step 3"},
+        Row{MakePlanReport("P9", EPlanStatus::InProgress), "P9 PlanReport for an unknown plan"});
+    bench.Report({row.first});
+    CHECK(bench.GetViolation() == row.second);
+    CHECK_FALSE(bench.tracker.IsSuccess());
+}
+
+TEST_CASE("A step is not Completed before all its jobs")
+{
+    Bench bench;
+    bench.RunFirstJob();
+    bench.Report(
+        {MakeStepReport("P1", 1, EStepStatus::Completed),
+         MakeStepReport("P1", 2, EStepStatus::Dispatched),
+         MakeStepReport("P1", 2, EStepStatus::InProgress),
+         MakeStepReport("P1", 2, EStepStatus::Completed)});
+    CHECK(bench.GetViolation() == "P1 StepReport step 2 Completed before all its jobs");
+}
+
+TEST_CASE("6.13 A step is skipped before it is begun, or while its job is unresolved; a step that failed is not")
+{
+    Bench bench;
+    bench.RunFirstJob();
+    bench.Report(
+        {MakeStepReport("P1", 1, EStepStatus::Completed),
+         MakeStepReport("P1", 2, EStepStatus::Dispatched),
+         MakeStepReport("P1", 2, EStepStatus::InProgress),
+         MakeJobReport("P1", 2, "J2", EJobStatus::Instructed)});
+    SECTION("unresolved")
+    {
+        bench.Report({MakeStepReport("P1", 2, EStepStatus::Skipped), MakePlanReport("P1", EPlanStatus::Completed)});
+        CHECK(bench.tracker.CountViolations() == 0);
+        CHECK(bench.tracker.CountOutcome(EOutcome::Completed) == 1);
+    }
+    SECTION("failed")
+    {
+        bench.Report(
+            {MakeJobReport("P1", 2, "J2", EJobStatus::Failed),
+             MakeStepReport("P1", 2, EStepStatus::Failed),
+             MakeStepReport("P1", 2, EStepStatus::Skipped)});
+        CHECK(bench.GetViolation() == "P1 StepReport step 2 Skipped after Failed");
+    }
+}
+
+TEST_CASE("A violation makes the run fail even where every plan is completed")
+{
+    Bench bench;
+    bench.RunFirstJob();
+    bench.Report({MakePlanReport("P1", EPlanStatus::Completed)});
+    CHECK(bench.tracker.CountOutcome(EOutcome::Completed) == 1);
+    CHECK(bench.tracker.IsFinished());
+    CHECK_FALSE(bench.tracker.IsSuccess());
+}
+
+TEST_CASE("7 A report after the final one is a violation, and changes nothing")
+{
+    Bench bench;
+    bench.tracker.OnRegistered();
+    bench.Send();
+    bench.Ack(0);
+    bench.Report({MakePlanReport("P1", EPlanStatus::Cancelled), MakePlanReport("P1", EPlanStatus::InProgress)});
+    CHECK(bench.GetViolation() == "P1 PlanReport after it was cancelled");
+    CHECK(bench.tracker.CountOutcome(EOutcome::Cancelled) == 1);
+}
+
+TEST_CASE("A report about a plan that was not sent yet is a violation")
+{
+    Bench bench;
+    bench.tracker.OnRegistered();
+    bench.Report({MakePlanReport("P1", EPlanStatus::InProgress)});
+    CHECK(bench.GetViolation() == "P1 PlanReport before it was sent");
+}
+
+TEST_CASE("A plan that moves to another robot is a violation")
+{
+    Bench bench;
+    bench.RunFirstJob();
+    ACS::Protocol::StepReport report = MakeStepReport("P1", 1, EStepStatus::Completed);
+    report.robotID = "LR02";
+    bench.Report({report});
+    CHECK(bench.GetViolation() == "P1 moved from LR01 to LR02");
+}
+
+TEST_CASE("D-24 A first report of Pending is no violation")
+{
+    Bench bench;
+    bench.tracker.OnRegistered();
+    bench.Send();
+    bench.Report(
+        {MakePlanReport("P1", EPlanStatus::Pending),
+         MakeStepReport("P1", 1, EStepStatus::Pending),
+         MakeJobReport("P1", 1, "J1", EJobStatus::Pending),
+         MakePlanReport("P1", EPlanStatus::InProgress)});
+    CHECK(bench.tracker.CountViolations() == 0);
+}
+
+TEST_CASE("Of two plans with one planId the reports belong to the one that was not refused")
+{
+    PlanTracker tracker({MakeSamplePlan("P", "T1"), MakeSamplePlan("P", "T2")});
+    PlanTracker::Lines lines;
+    const ManualClock clock;
+    tracker.OnRegistered();
+    tracker.OnSent(0, clock.GetNow(), lines);
+    tracker.OnSent(1, clock.GetNow(), lines);
+    tracker.OnAck(MakeAck(tracker.GetPlans()[0].planned, EAckResult::Success), lines);
+    tracker.OnAck(MakeAck(tracker.GetPlans()[1].planned, EAckResult::Fail, "Duplicated Plan"), lines);
+    tracker.OnRequest(MakePlanReport("P", EPlanStatus::Cancelled), lines);
+    CHECK(tracker.CountViolations() == 0);
+    CHECK(tracker.CountOutcome(EOutcome::Cancelled) == 1);
+    CHECK(tracker.CountOutcome(EOutcome::Refused) == 1);
+}
+
+TEST_CASE("What a peer sends cannot forge a line or a terminal's sequence")
+{
+    Bench bench;
+    bench.tracker.OnRegistered();
+    bench.Send();
+    bench.Ack(0, EAckResult::Fail, "bad\n0.1 P1 PlanReport Completed\x1b[2J");
+    CHECK(bench.lines.back() == "P1 ExecutionPlanAck Fail: bad?0.1 P1 PlanReport Completed?[2J");
+}
+
+TEST_CASE("12.6 Without resending a plan goes once, however long its Ack takes, and on a new connection too")
+{
+    ACS::Testing::ManualClock clock;
+    PlanTracker tracker({MakeSamplePlan("P1", "T1")}, false);
+    PlanTracker::Lines lines;
+    tracker.OnRegistered();
+    REQUIRE(tracker.GetNextToSendOrNull(clock.GetNow()) == std::size_t{0});
+    tracker.OnSent(0, clock.GetNow(), lines);
+    clock.Advance(PlanTracker::RESEND_AFTER);
+    CHECK_FALSE(tracker.GetNextToSendOrNull(clock.GetNow()).has_value());
+    tracker.OnRegistered();
+    CHECK_FALSE(tracker.GetNextToSendOrNull(clock.GetNow()).has_value());
+}
+
+TEST_CASE("A plan can be added to the run; the same message again is the same plan, and stays answered")
+{
+    Bench bench;
+    bench.RunFirstJob();
+    CHECK(bench.tracker.AddPlan(MakeSamplePlan("P1", "T1")) == 0);
+    bench.tracker.OnSent(0, bench.clock.GetNow(), bench.lines);
+    CHECK(bench.GetFirst().delivery == EDelivery::Accepted);
+    CHECK(bench.tracker.AddPlan(MakeSamplePlan("P2", "T2")) == 1);
+    CHECK(bench.tracker.CountOutcome(EOutcome::Open) == 2);
+}

@@ -1,0 +1,572 @@
+#include "Catch.hpp"
+#include "controller/ControllerHarness.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+#include <string>
+
+using namespace std::chrono_literals;
+using ACS::OpenStream::ApiResponse;
+using ACS::OpenStream::EApiMethod;
+using ACS::OpenStreamSim::ControllerOptions;
+using ACS::Testing::ControllerHarness;
+
+namespace
+{
+
+constexpr const char* INIT = "/project/robot/trajectory/joint_traject_init";
+constexpr const char* INSERT_POINT = "/project/robot/trajectory/joint_traject_insert_point";
+constexpr const char* INSERT_POINTS = "/project/robot/trajectory/joint_traject_insert_points";
+constexpr const char* FREE = "/project/robot/trajectory/joint_traject_buf_avail";
+constexpr const char* AGILITY = "/project/robot/trajectory/joint_traject_agility_info";
+constexpr const char* MODE = "/project/robot/trajectory/joint_traject_mode";
+constexpr const char* READY = "/project/robot/trajectory/joint_traject_ready";
+constexpr const char* OFF = "/project/robot/trajectory/joint_traject_off";
+constexpr const char* LOG = "/project/robot/trajectory/joint_traject_log";
+constexpr const char* COMMAND = "/console/execute_cmd";
+constexpr const char* JOINT_STATES = "/project/robot/joints/joint_states?jno_start=1&jno_n=1";
+
+constexpr const char* EMPTY_ANSWER = R"({"_type":"JObject"})";
+constexpr const char* GOOD_POINT =
+    R"({"interval":0.002,"time_from_start":-1,"look_ahead_time":0,"point":[0.1,90,0,0,0,0]})";
+
+/// The motor is on and a program waits in playback.
+ControllerOptions MakeTrajectoryOptions()
+{
+    ControllerOptions options;
+    options.bWaiting = true;
+    return options;
+}
+
+std::string MakePoint(double first, double time = -1.0, double lookAhead = 0.0)
+{
+    return fmt::format(
+        R"({{"interval":0.002,"time_from_start":{},"look_ahead_time":{},"point":[{},90,0,0,0,0]}})",
+        time,
+        lookAhead,
+        first);
+}
+
+/// Two points, the first where a fresh arm stands.
+std::string MakePoints(const std::string& points)
+{
+    return R"({"joint_names":["j1","j2","j3","j4","j5","j6"],"points":{)" + points + "}}";
+}
+
+std::string MakeTimed(int number, double radians, double time)
+{
+    return fmt::format(
+        R"("point_{}":{{"positions":[{},1.5707963267948966,0,0,0,0],"time_from_start":{}}})",
+        number,
+        radians,
+        time);
+}
+
+std::string MakePair(double firstTime = 0.0, double lastTime = 1.0)
+{
+    return MakePoints(MakeTimed(1, 0.0, firstTime) + "," + MakeTimed(2, 0.5, lastTime));
+}
+
+/// The angle of axis 1.
+double GetFirstAngle(ControllerHarness& harness)
+{
+    const std::string text = harness.Get(JOINT_STATES);
+    constexpr std::string_view KEY = "\"position\":[";
+    return std::stod(text.substr(text.find(KEY) + KEY.size()));
+}
+
+std::string GetFree(ControllerHarness& harness)
+{
+    const std::string text = harness.Get(FREE);
+    constexpr std::string_view FRONT = R"({"_type":"JObject","val":)";
+    REQUIRE(text.starts_with(FRONT));
+    return text.substr(FRONT.size(), text.size() - FRONT.size() - 1);
+}
+
+bool IsMode(ControllerHarness& harness)
+{
+    return harness.Contains(MODE, R"("mode":true)");
+}
+
+bool IsReady(ControllerHarness& harness)
+{
+    return harness.Contains(READY, R"("ready":true)");
+}
+
+} // namespace
+
+TEST_CASE("C.1 The gates of a trajectory stand in the order remote mode, motor, waiting program in playback")
+{
+    for (const char* url : {INSERT_POINT, INSERT_POINTS})
+    {
+        INFO(url);
+        const std::string body = url == INSERT_POINT ? GOOD_POINT : MakePair();
+        ControllerHarness harness;
+        harness.controller.TurnModeSwitch(false, harness.clock.GetNow());
+        REQUIRE(harness.PostForCode(url, body) == "403 -38500");
+        harness.controller.TurnModeSwitch(true, harness.clock.GetNow());
+        REQUIRE(harness.PostForCode(url, body) == "403 -1442071");
+        REQUIRE(harness.Post("/project/robot/motor_on") == 200);
+        harness.clock.Advance(1s);
+        REQUIRE(harness.Contains("/project/robot", R"("alarm":-1)"));
+        REQUIRE(harness.PostForCode(url, body) == "403 -1554");
+        REQUIRE(harness.Contains("/project/robot", R"("alarm":1554)"));
+        REQUIRE(harness.Contains("/project/rgen", R"("eid_last_err":1554)"));
+        REQUIRE(harness.Select(11) == 200);
+        REQUIRE(harness.Start() == 200);
+        REQUIRE(harness.PostForCode(url, body) == "403 -1554"); // plays, but does not wait
+        REQUIRE_FALSE(IsReady(harness));
+        harness.clock.Advance(2s);
+        REQUIRE(harness.Post(COMMAND, R"({"cmd_line":"rl.i wait di1"})") == 200);
+        REQUIRE(harness.Post(COMMAND, R"({"cmd_line":"rl.start"})") == 200);
+        REQUIRE(IsReady(harness));
+        REQUIRE(harness.PostForCode(url, body) == "200");
+        harness.clock.Advance(2s);
+        REQUIRE(GetFirstAngle(harness) > 0.09);
+        REQUIRE(harness.GetCounters() == "[1,1,0,11]");
+    }
+}
+
+TEST_CASE("C.1 A driver brings the controller up from a cold start, as hdr_client_driver does")
+{
+    ControllerHarness harness;
+    REQUIRE(harness.Post("/project/robot/motor_on") == 200);
+    harness.clock.Advance(5s);
+    REQUIRE(harness.Contains("/project/robot/motor_on_state", R"("val":0})"));
+    REQUIRE(harness.Post("/project/plc/set_relay_value", R"({"name":"fb0.di23","value":1})") == 200);
+    REQUIRE(harness.Post(INIT) == 200);
+    for (const char* command : {"rl.stop", "rl.reinit", "rl.i wait di1", "rl.i end", "rl.start"})
+    {
+        INFO(command);
+        const ApiResponse answer =
+            harness.Call(EApiMethod::Post, COMMAND, fmt::format(R"({{"cmd_line":"{}"}})", command));
+        REQUIRE(answer.status == 200);
+        REQUIRE(answer.body->GetText() == EMPTY_ANSWER);
+    }
+    REQUIRE(harness.Contains("/project/rgen", R"("is_playback":1)"));
+    REQUIRE(harness.PostForCode(INSERT_POINT, GOOD_POINT) == "200");
+    harness.clock.Advance(1s);
+    REQUIRE(GetFirstAngle(harness) == Approx(0.1).margin(1e-6));
+}
+
+TEST_CASE("C.1 With --playing a client needs nothing but joint_traject_init and its points")
+{
+    ControllerHarness harness(MakeTrajectoryOptions());
+    REQUIRE(harness.Contains("/project/robot", R"("motor_on_state":0,"is_playback":1,"is_remote_mode":1)"));
+    REQUIRE(harness.Post(INIT) == 200);
+    for (int number = 0; number < 500; ++number)
+    {
+        REQUIRE(harness.Post(INSERT_POINT, MakePoint(0.02 * number, 0.002 * number, 0.04)) == 200);
+        harness.clock.Advance(2ms);
+    }
+    REQUIRE(harness.Contains("/project/robot/joint_states", R"("velocity":[)"));
+    REQUIRE(GetFirstAngle(harness) == Approx(0.02 * (499 - 20) - 0.4).margin(0.1)); // look-ahead and lag behind
+    REQUIRE(harness.Contains("/project/robot/po_cur?crd=2", R"("j1":9.)"));
+    REQUIRE(harness.Contains("/project/rgen", R"("in_position":[0,)"));
+    REQUIRE(GetFree(harness) == "2029");
+    harness.clock.Advance(1s);
+    REQUIRE(GetFirstAngle(harness) == Approx(9.98));
+    REQUIRE(harness.Contains("/project/rgen", R"("in_position":[1,)"));
+}
+
+TEST_CASE("A joint_traject_insert_point: what is wrong with its body is told with 400, whatever the arm does")
+{
+    constexpr std::array BODIES{
+        R"([])",
+        R"({})",
+        R"({"interval":"0.002","time_from_start":-1,"look_ahead_time":0,"point":[0,90,0,0,0,0]})",
+        R"({"interval":0,"time_from_start":-1,"look_ahead_time":0,"point":[0,90,0,0,0,0]})",
+        R"({"interval":-0.002,"time_from_start":-1,"look_ahead_time":0,"point":[0,90,0,0,0,0]})",
+        R"({"interval":1e300,"time_from_start":-1,"look_ahead_time":0,"point":[0,90,0,0,0,0]})",
+        R"({"time_from_start":-1,"look_ahead_time":0,"point":[0,90,0,0,0,0]})",
+        R"({"interval":null,"time_from_start":-1,"look_ahead_time":0,"point":[0,90,0,0,0,0]})",
+        R"({"interval":0.002,"time_from_start":"NaN","look_ahead_time":0,"point":[0,90,0,0,0,0]})",
+        R"({"interval":0.002,"time_from_start":-2,"look_ahead_time":0,"point":[0,90,0,0,0,0]})",
+        R"({"interval":0.002,"time_from_start":1e300,"look_ahead_time":0,"point":[0,90,0,0,0,0]})",
+        R"({"interval":0.002,"time_from_start":-1,"look_ahead_time":-1,"point":[0,90,0,0,0,0]})",
+        R"({"interval":0.002,"time_from_start":-1,"look_ahead_time":1e9,"point":[0,90,0,0,0,0]})",
+        R"({"interval":0.002,"time_from_start":-1,"look_ahead_time":[],"point":[0,90,0,0,0,0]})",
+        R"({"interval":0.002,"time_from_start":-1,"point":[0,90,0,0,0,0]})",
+        R"({"interval":0.002,"time_from_start":-1,"look_ahead_time":0})",
+        R"({"interval":0.002,"time_from_start":-1,"look_ahead_time":0,"point":[]})",
+        R"({"interval":0.002,"time_from_start":-1,"look_ahead_time":0,"point":{}})",
+        R"({"interval":0.002,"time_from_start":-1,"look_ahead_time":0,"point":[0,90,0,0,0]})",
+        R"({"interval":0.002,"time_from_start":-1,"look_ahead_time":0,"point":[0,90,0,0,0,0,0]})",
+        R"({"interval":0.002,"time_from_start":-1,"look_ahead_time":0,"point":[0,"90",0,0,0,0]})",
+        R"({"interval":0.002,"time_from_start":-1,"look_ahead_time":0,"point":[0,null,0,0,0,0]})",
+        R"({"interval":0.002,"time_from_start":-1,"look_ahead_time":0,"point":[180.1,90,0,0,0,0]})",
+        R"({"interval":0.002,"time_from_start":-1,"look_ahead_time":0,"point":[0,90,0,0,0,1e308]})"};
+    for (const bool bPlaying : {false, true})
+    {
+        ControllerHarness harness(bPlaying ? MakeTrajectoryOptions() : ControllerOptions{});
+        for (const char* body : BODIES)
+        {
+            INFO(body);
+            const ApiResponse answer = harness.Call(EApiMethod::Post, INSERT_POINT, body);
+            REQUIRE(answer.status == 400);
+            REQUIRE(answer.body->GetText().find(R"("err_code":-1,"err_msg":")") != std::string::npos);
+        }
+        const std::string many = "[0" + std::string(200'000, ' ') + ",0]";
+        REQUIRE(
+            harness.PostForCode(INSERT_POINT, R"({"interval":0.002,"look_ahead_time":0,"point":)" + many + "}")
+            == "400 -1");
+        REQUIRE(GetFree(harness) == "2048");
+        REQUIRE_FALSE(IsMode(harness));
+    }
+}
+
+TEST_CASE("7.43 time_from_start may be absent, negative, or rise; it does not go back while points are waiting")
+{
+    ControllerHarness harness(MakeTrajectoryOptions());
+    constexpr const char* ABSENT = R"({"interval":0.01,"look_ahead_time":5,"point":[0.1,90,0,0,0,0]})";
+    REQUIRE(harness.Post(INSERT_POINT, ABSENT) == 200);
+    REQUIRE(harness.Post(INSERT_POINT, MakePoint(0.2)) == 200);
+    REQUIRE(harness.Post(INSERT_POINT, MakePoint(0.3, 0.014)) == 200);
+    REQUIRE(harness.PostForCode(INSERT_POINT, MakePoint(0.4, 0.014)) == "400 -1"); // 10 + 2 + 2 ms
+    REQUIRE(harness.PostForCode(INSERT_POINT, MakePoint(0.4, 0.0)) == "400 -1");
+    REQUIRE(harness.Post(INSERT_POINT, MakePoint(0.4, 0.016)) == 200);
+    harness.clock.Advance(1s);
+    REQUIRE(GetFirstAngle(harness) == Approx(0.4).margin(1e-6));
+    REQUIRE(harness.Post(INSERT_POINT, MakePoint(0.3, 0.0)) == 200); // it stands: a trajectory of its own
+}
+
+TEST_CASE("C.2 A 2049th point is refused with -8, the 2048 are driven")
+{
+    ControllerHarness harness(MakeTrajectoryOptions());
+    for (int number = 1; number <= 2048; ++number)
+    {
+        REQUIRE(harness.Post(INSERT_POINT, MakePoint(0.01 * number, -1.0, 60.0)) == 200);
+    }
+    REQUIRE(GetFree(harness) == "0");
+    REQUIRE(harness.PostForCode(INSERT_POINT, MakePoint(1.0)) == "403 -8");
+    REQUIRE(harness.PostForCode(INSERT_POINTS, MakePair(5.0, 6.0)) == "403 -8");
+    harness.clock.Advance(60s + 4'096ms);
+    REQUIRE(GetFree(harness) == "2048");
+    harness.clock.Advance(1s);
+    REQUIRE(GetFirstAngle(harness) == Approx(20.48).margin(1e-6));
+}
+
+TEST_CASE("A joint_traject_insert_points: each mistake has its code, and nothing is taken")
+{
+    const std::string names = R"("joint_names":["j1","j2","j3","j4","j5","j6"])";
+    const std::string first = MakeTimed(1, 0.0, 0.0);
+    const std::string second = MakeTimed(2, 0.5, 1.0);
+    struct Mistake
+    {
+        std::string body;
+        const char* code;
+    };
+    const std::vector<Mistake> mistakes{
+        {"[]", "400 -1"},
+        {"{}", "403 -2"},
+        {"{\"points\":{" + first + "," + second + "}}", "403 -2"},
+        {R"({"joint_names":"j1"})", "403 -3"},
+        {R"({"joint_names":null})", "403 -3"},
+        {R"({"joint_names":[]})", "403 -3"},
+        {R"({"joint_names":["j1","j2","j3","j4","j5"]})", "403 -3"},
+        {R"({"joint_names":["j1","j3","j2","j4","j5","j6"]})", "403 -3"},
+        {R"({"joint_names":["x1","j2","j3","j4","j5","j6"]})", "403 -3"},
+        {R"({"joint_names":[1,2,3,4,5,6]})", "403 -3"},
+        {"{" + names + "}", "403 -4"},
+        {"{" + names + R"(,"points":[]})", "403 -5"},
+        {"{" + names + R"(,"points":null})", "403 -5"},
+        {"{" + names + R"(,"points":7})", "403 -5"},
+        {MakePoints(""), "403 -6"},
+        {MakePoints(first), "403 -6"},
+        {MakePoints(first + R"(,"point_3":{})"), "403 -5"},
+        {MakePoints(first + R"(,"point_02":{})"), "403 -5"},
+        {MakePoints(first + R"(,"p":{})"), "403 -5"},
+        {MakePoints(first + R"(,"point_":{})"), "403 -5"},
+        {MakePoints(first + "," + first), "403 -5"},
+        {MakePoints(first + R"(,"point_2":[])"), "403 -9"},
+        {MakePoints(first + R"(,"point_2":null)"), "403 -9"},
+        {MakePoints(first + R"(,"point_2":{"time_from_start":1})"), "403 -10"},
+        {MakePoints(first + R"(,"point_2":{"positions":[0,1.57,0,0,0],"time_from_start":1})"), "403 -11"},
+        {MakePoints(first + R"(,"point_2":{"positions":[0,1.57,0,0,0,0,0],"time_from_start":1})"), "403 -11"},
+        {MakePoints(first + R"(,"point_2":{"positions":[0,"1.57",0,0,0,0],"time_from_start":1})"), "403 -11"},
+        {MakePoints(first + R"(,"point_2":{"positions":{},"time_from_start":1})"), "403 -11"},
+        {MakePoints(first + R"(,"point_2":{"positions":[4,1.57,0,0,0,0],"time_from_start":1})"), "403 -11"}, // 229 deg
+        {MakePoints(first + R"(,"point_2":{"positions":[1e308,1.57,0,0,0,0],"time_from_start":1})"), "403 -11"},
+        {MakePoints(first + R"(,"point_2":{"positions":[0,1.57,0,0,0,0]})"), "403 -12"},
+        {MakePoints(first + R"(,"point_2":{"positions":[0,1.57,0,0,0,0],"time_from_start":"1"})"), "403 -13"},
+        {MakePoints(first + R"(,"point_2":{"positions":[0,1.57,0,0,0,0],"time_from_start":-1})"), "403 -13"},
+        {MakePoints(first + R"(,"point_2":{"positions":[0,1.57,0,0,0,0],"time_from_start":0})"), "403 -13"},
+        {MakePoints(first + R"(,"point_2":{"positions":[0,1.57,0,0,0,0],"time_from_start":1e300})"), "403 -13"},
+        {MakePoints(first + R"(,"point_2":{"positions":[0,1.57,0,0,0,0],"time_from_start":1e-300})"), "403 -13"},
+        {MakePair(0.5), "403 -13"},                                      // from standstill at 0.0
+        {MakePoints(MakeTimed(1, 0.1, 0.0) + "," + second), "403 -11"}}; // not where it stands
+    for (const Mistake& mistake : mistakes)
+    {
+        INFO(mistake.body);
+        ControllerHarness harness(MakeTrajectoryOptions());
+        CHECK(harness.PostForCode(INSERT_POINTS, mistake.body) == mistake.code);
+        CHECK(GetFree(harness) == "2048");
+        harness.clock.Advance(1s);
+        CHECK(harness.Contains("/project/robot/joint_states", R"("position":[0,90,0,0,0,0])"));
+    }
+}
+
+TEST_CASE("A joint_traject_insert_points: 2048 points are taken, 2049 and 100,000 are -7")
+{
+    ControllerHarness harness(MakeTrajectoryOptions());
+    const auto makeMany = [](int count) {
+        std::string points;
+        for (int number = count; number >= 1; --number) // in any order
+        {
+            points += MakeTimed(number, 0.0001 * (number - 1), 0.01 * (number - 1)) + (number > 1 ? "," : "");
+        }
+        return MakePoints(points);
+    };
+    REQUIRE(harness.PostForCode(INSERT_POINTS, makeMany(2049)) == "403 -7");
+    std::string huge;
+    for (int number = 1; number <= 100'000; ++number)
+    {
+        huge += fmt::format("{}\"point_{}\":0", number > 1 ? "," : "", number);
+    }
+    REQUIRE(harness.PostForCode(INSERT_POINTS, MakePoints(huge)) == "403 -7");
+    REQUIRE(harness.PostForCode(INSERT_POINTS, makeMany(2048)) == "200");
+    REQUIRE(GetFree(harness) == "1"); // at the first one it stands already
+    harness.clock.Advance(21s);
+    REQUIRE(GetFirstAngle(harness) == Approx(0.2047 * 180.0 / 3.14159265358979).margin(1e-6));
+}
+
+TEST_CASE(
+    "A joint_traject_insert_points: straight between the points, radians, velocities ignored, times go on while it moves")
+{
+    ControllerHarness harness(MakeTrajectoryOptions());
+    const std::string body = MakePoints(
+        R"("point_2":{"positions":[0.5,1.570796,0,0,0,0],"velocities":["?"],"accelerations":7,"time_from_start":1.0},)"
+        R"("point_1":{"positions":[0,1.570796,0,0,0,0],"time_from_start":0.0})");
+    REQUIRE(harness.Post(INSERT_POINTS, body) == 200);
+    harness.clock.Advance(500ms);
+    constexpr double DEGREES = 28.6478897565;
+    REQUIRE(GetFirstAngle(harness) == Approx(DEGREES * (0.5 - 0.04)).margin(0.001));
+    REQUIRE(harness.Contains(JOINT_STATES, R"("velocity":[28.64)"));
+    REQUIRE(harness.PostForCode(INSERT_POINTS, MakePair(0.0, 1.0)) == "403 -13"); // it moves
+    REQUIRE(harness.PostForCode(INSERT_POINTS, MakePair(1.0, 2.0)) == "403 -13"); // not after the last
+    REQUIRE(harness.Post(INSERT_POINTS, MakePoints(MakeTimed(1, 0.5, 2.0) + "," + MakeTimed(2, 0.0, 3.0))) == 200);
+    harness.clock.Advance(1s); // 1.5: holds
+    REQUIRE(GetFirstAngle(harness) == Approx(DEGREES).margin(0.001));
+    harness.clock.Advance(1s); // 2.5: on the way back
+    REQUIRE(GetFirstAngle(harness) == Approx(DEGREES * (0.5 + 0.04)).margin(0.001));
+    harness.clock.Advance(2s);
+    REQUIRE(GetFirstAngle(harness) == Approx(0.0).margin(0.001));
+    REQUIRE(harness.Post(INSERT_POINTS, MakePair(0.0, 1.0)) == 200); // stands: from 0 again
+}
+
+TEST_CASE("C.3 Too fast an axis raises E159 and stops the arm; points are refused until joint_traject_init")
+{
+    ControllerHarness harness(MakeTrajectoryOptions());
+    REQUIRE(harness.Post(INSERT_POINT, MakePoint(0.2)) == 200);
+    REQUIRE(harness.Post(INSERT_POINT, MakePoint(5.0)) == 200); // 2400 deg/s
+    REQUIRE(harness.Post(INSERT_POINT, MakePoint(5.1)) == 200);
+    harness.clock.Advance(10ms);
+    REQUIRE(harness.Contains("/project/robot", R"("alarm":159)"));
+    REQUIRE(harness.Contains("/project/rgen", R"("eid_last_err":159)"));
+    REQUIRE(harness.Contains(JOINT_STATES, R"("velocity":[0])"));
+    const double stopped = GetFirstAngle(harness);
+    REQUIRE(stopped > 0.0);
+    REQUIRE(stopped < 0.2);
+    REQUIRE(GetFree(harness) == "2046");
+    REQUIRE_FALSE(IsReady(harness));
+    REQUIRE(harness.PostForCode(INSERT_POINT, MakePoint(stopped)) == "403 -159");
+    REQUIRE(harness.PostForCode(INSERT_POINTS, MakePair()) == "403 -159");
+    REQUIRE(GetFree(harness) == "2046");
+    REQUIRE(harness.Post(INIT) == 200);
+    REQUIRE(GetFree(harness) == "2048");
+    REQUIRE(harness.Contains("/project/robot", R"("alarm":-1)"));
+    REQUIRE(GetFirstAngle(harness) == stopped);
+    REQUIRE(harness.Post(INSERT_POINT, MakePoint(stopped)) == 200);
+}
+
+TEST_CASE("C.4 STOP control clears the buffer and holds the arm; the program plays on and takes points at once")
+{
+    ControllerHarness harness(MakeTrajectoryOptions());
+    REQUIRE(harness.Post(INSERT_POINTS, MakePair()) == 200);
+    harness.clock.Advance(500ms);
+    REQUIRE(IsMode(harness));
+    harness.controller.StopControl(harness.clock.GetNow());
+    const double stopped = GetFirstAngle(harness);
+    REQUIRE(harness.Contains(JOINT_STATES, R"("velocity":[0])"));
+    REQUIRE(GetFree(harness) == "2048");
+    REQUIRE_FALSE(IsMode(harness));
+    REQUIRE(IsReady(harness));
+    harness.clock.Advance(1s);
+    REQUIRE(GetFirstAngle(harness) == stopped);
+    REQUIRE(harness.Post(INSERT_POINT, MakePoint(stopped + 0.1, 0.0)) == 200);
+}
+
+TEST_CASE(
+    "A joint_traject_init: empties the buffer in the middle of a motion, which stops; needs remote mode, not the motor")
+{
+    ControllerHarness harness(MakeTrajectoryOptions());
+    REQUIRE(harness.Post(INSERT_POINTS, MakePair()) == 200);
+    harness.clock.Advance(500ms);
+    REQUIRE(harness.Post(INIT) == 200);
+    const double stopped = GetFirstAngle(harness);
+    REQUIRE(GetFree(harness) == "2048");
+    harness.clock.Advance(1s);
+    REQUIRE(GetFirstAngle(harness) == stopped);
+    harness.controller.GetMachine(harness.clock.GetNow()).SwitchMotorOff();
+    REQUIRE(harness.Post(INIT) == 200);
+    harness.controller.TurnModeSwitch(false, harness.clock.GetNow());
+    REQUIRE(harness.PostForCode(INIT) == "403 -38500");
+    REQUIRE(harness.PostForCode(OFF) == "403 -38500");
+}
+
+TEST_CASE("A joint_traject_init, joint_traject_agility_info: what is set is what is read, an empty body resets it")
+{
+    ControllerHarness harness;
+    REQUIRE(harness.Get(AGILITY) == R"({"_type":"JObject","agility_mode":false,"agility_freq":20})");
+    REQUIRE(harness.Post(INIT, R"({"agility_mode":true,"agility_freq":30})") == 200);
+    REQUIRE(harness.Get(AGILITY) == R"({"_type":"JObject","agility_mode":true,"agility_freq":30})");
+    for (const char* body :
+         {R"({"agility_mode":1})",
+          R"({"agility_mode":"true"})",
+          R"({"agility_freq":501})",
+          R"({"agility_freq":-1})",
+          R"({"agility_freq":"NaN"})",
+          R"({"agility_freq":[]})",
+          "[]"})
+    {
+        INFO(body);
+        REQUIRE(harness.PostForCode(INIT, body) == "400 -1");
+        REQUIRE(harness.Contains(AGILITY, R"("agility_freq":30)"));
+    }
+    REQUIRE(harness.Post(INIT) == 200);
+    REQUIRE(harness.Contains(AGILITY, R"("agility_mode":false,"agility_freq":20)"));
+}
+
+TEST_CASE(
+    "A joint_traject_mode, joint_traject_off: active while it moves; off drops the rest, and agility is cleaned up for 0.5 s")
+{
+    for (const bool bAgile : {false, true})
+    {
+        ControllerHarness harness(MakeTrajectoryOptions());
+        REQUIRE(harness.Post(INIT, fmt::format(R"({{"agility_mode":{},"agility_freq":100}})", bAgile)) == 200);
+        REQUIRE_FALSE(IsMode(harness));
+        REQUIRE(harness.Post(INSERT_POINTS, MakePair()) == 200);
+        REQUIRE(IsMode(harness));
+        harness.clock.Advance(500ms);
+        REQUIRE(harness.Post(OFF) == 200);
+        REQUIRE(GetFree(harness) == "2048");
+        harness.clock.Advance(490ms);
+        REQUIRE(IsMode(harness) == bAgile);
+        REQUIRE(GetFirstAngle(harness) == Approx(14.324).margin(0.001));
+        harness.clock.Advance(10ms);
+        REQUIRE_FALSE(IsMode(harness));
+        REQUIRE(IsReady(harness));
+        REQUIRE(harness.Post(OFF) == 200); // nothing to end
+    }
+}
+
+TEST_CASE("A joint_traject_log: POST sets it, GET tells it, a point that comes too early switches it off")
+{
+    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    REQUIRE(harness.Get(LOG) == R"({"_type":"JObject","val":0})");
+    REQUIRE(harness.Post(LOG, R"({"enable":true})") == 200);
+    REQUIRE(harness.Contains(LOG, R"("val":1)"));
+    for (const char* body : {"{}", R"({"enable":1})", R"({"enable":null})", R"({"enable":"true"})", "[]"})
+    {
+        INFO(body);
+        REQUIRE(harness.PostForCode(LOG, body) == "400 -1");
+    }
+    REQUIRE(harness.Contains(LOG, R"("val":1)"));
+    REQUIRE(harness.PostForCode(INSERT_POINT, GOOD_POINT) == "403 -1554");
+    REQUIRE(harness.Contains(LOG, R"("val":0)"));
+}
+
+TEST_CASE("C.1 What ends the playback stops the arm; what is left of the points must be cleared before new ones come")
+{
+    using Interruption = void (*)(ControllerHarness&);
+    constexpr std::array<Interruption, 4> INTERRUPTIONS{
+        [](ControllerHarness& harness) { REQUIRE(harness.Post("/project/robot/stop") == 200); },
+        [](ControllerHarness& harness) {
+            harness.controller.GetMachine(harness.clock.GetNow()).SwitchMotorOff();
+            REQUIRE(harness.PostForCode(INSERT_POINT, GOOD_POINT) == "403 -1442071");
+            REQUIRE(harness.Post("/project/robot/motor_on") == 200);
+        },
+        [](ControllerHarness& harness) {
+            REQUIRE(harness.Post("/project/robot/emergency_stop") == 200);
+            REQUIRE(harness.Post("/project/robot/emergency_stop", R"({"val":0})") == 200);
+            REQUIRE(harness.Post("/project/robot/motor_on") == 200);
+        },
+        [](ControllerHarness& harness) {
+            harness.controller.TurnModeSwitch(false, harness.clock.GetNow());
+            REQUIRE(harness.PostForCode(INSERT_POINT, GOOD_POINT) == "403 -38500");
+            harness.controller.TurnModeSwitch(true, harness.clock.GetNow());
+        }};
+    for (const Interruption interrupt : INTERRUPTIONS)
+    {
+        ControllerHarness harness(MakeTrajectoryOptions());
+        REQUIRE(harness.Post(INSERT_POINTS, MakePair()) == 200);
+        harness.clock.Advance(500ms);
+        interrupt(harness);
+        const double stopped = GetFirstAngle(harness);
+        REQUIRE(harness.Contains(JOINT_STATES, R"("velocity":[0])"));
+        harness.clock.Advance(2s);
+        REQUIRE(GetFirstAngle(harness) == stopped);
+        REQUIRE(GetFree(harness) == "2047");
+        REQUIRE_FALSE(IsMode(harness));
+        REQUIRE(harness.Start() == 200); // waits again
+        REQUIRE(harness.PostForCode(INSERT_POINT, MakePoint(stopped)) == "403 -101");
+        REQUIRE(harness.Post(INIT) == 200);
+        REQUIRE(harness.Post(INSERT_POINT, MakePoint(stopped)) == 200);
+    }
+}
+
+TEST_CASE("A joint_traject_ready: a point that comes while it is false raises E01554 and clears what a stop has left")
+{
+    ControllerHarness harness(MakeTrajectoryOptions());
+    REQUIRE(harness.Post(INSERT_POINTS, MakePair()) == 200);
+    harness.clock.Advance(500ms);
+    REQUIRE(harness.Post("/project/robot/stop") == 200);
+    REQUIRE_FALSE(IsReady(harness));
+    REQUIRE(GetFree(harness) == "2047");
+    REQUIRE(harness.PostForCode(INSERT_POINT, GOOD_POINT) == "403 -1554");
+    REQUIRE(GetFree(harness) == "2048");
+    REQUIRE(harness.Start() == 200);
+    REQUIRE(IsReady(harness));
+}
+
+TEST_CASE(
+    "C.1 The wait ends when its relay is set; the arm then stands, and a program swings it from there without a jump")
+{
+    ControllerHarness harness(MakeTrajectoryOptions());
+    REQUIRE(harness.Post(INSERT_POINTS, MakePair()) == 200);
+    harness.clock.Advance(500ms);
+    REQUIRE(harness.Post("/project/plc/set_relay_value", R"({"name":"di1","value":1})") == 200);
+    const double stopped = GetFirstAngle(harness);
+    harness.clock.Advance(1s);
+    REQUIRE(harness.Contains("/project/rgen", R"("is_playback":0)"));
+    REQUIRE(GetFirstAngle(harness) == stopped);
+    REQUIRE(harness.Select(11) == 200);
+    REQUIRE(harness.Start() == 200);
+    REQUIRE(GetFirstAngle(harness) == stopped);
+    harness.clock.Advance(2s);
+    REQUIRE(harness.GetCounters() == "[1,1,0,11]");
+    REQUIRE(harness.Contains("/project/robot/joint_states", R"("velocity":[0,0,0,0,0,0])"));
+    REQUIRE(GetFirstAngle(harness) == Approx(0.0).margin(1e-9));
+}
+
+TEST_CASE("C.5 Gravity's effort follows the axes 2 and 3 in a trajectory")
+{
+    ControllerHarness harness(MakeTrajectoryOptions());
+    const std::string body = R"({"interval":1,"look_ahead_time":0,"point":[0,30,0,0,0,0]})";
+    REQUIRE(harness.Post(INSERT_POINT, body) == 200);
+    harness.clock.Advance(10s);
+    REQUIRE(harness.Contains("/project/robot/joint_states", R"("effort":[0,47.0000)"));
+}
+
+TEST_CASE("The time scale holds for trajectories, velocities are those that a client sees")
+{
+    ControllerOptions options = MakeTrajectoryOptions();
+    options.timeScale = 10.0;
+    ControllerHarness harness(options);
+    REQUIRE(harness.Post(INSERT_POINTS, MakePair()) == 200);
+    harness.clock.Advance(50ms);
+    REQUIRE(GetFirstAngle(harness) == Approx(28.6478897565 * 0.46).margin(0.001));
+    REQUIRE(harness.Contains(JOINT_STATES, R"("velocity":[286.4)"));
+}

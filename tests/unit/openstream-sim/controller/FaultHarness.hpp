@@ -1,0 +1,182 @@
+#pragma once
+
+#include "api/FaultyService.hpp"
+#include "Catch.hpp"
+#include "controller/ControllerFaults.hpp"
+#include "controller/VirtualController.hpp"
+#include "ManualClock.hpp"
+#include "RecordingLogSink.hpp"
+#include <acs/core/JsonText.hpp>
+#include <acs/openstream/ApiRequest.hpp>
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::Testing
+{
+
+/// A controller with faults, and both of its sides, on time that the test moves by hand.
+class FaultHarness final : public OpenStreamSim::IFaultHost
+{
+    RecordingLogSink _log;
+
+public:
+    ManualClock clock;
+
+private:
+    OpenStreamSim::VirtualController _controller;
+    std::optional<OpenStreamSim::ControllerFaults> _faults;
+    std::optional<OpenStreamSim::FaultyService> _stream;
+    std::optional<OpenStreamSim::FaultyService> _http;
+
+    void DropSessions() override
+    {
+        ++drops;
+    }
+
+    void WakeAt(std::optional<Core::SteadyTime> time) override
+    {
+        wakeAt = time;
+    }
+
+public:
+    int drops = 0;
+    std::optional<Core::SteadyTime> wakeAt;
+    OpenStream::ApiResponse response; ///< Of the last call.
+
+    explicit FaultHarness(const OpenStreamSim::ControllerOptions& options = MakeOptions())
+        : _controller(options, clock.GetNow(), Core::Logger(_log, "controller"))
+    {
+        _faults.emplace(_controller, *this, Core::Logger(_log, "controller"), clock.GetNow());
+        _stream.emplace(_controller, *_faults, OpenStreamSim::EFaultSide::Stream);
+        _http.emplace(_controller, *_faults, OpenStreamSim::EFaultSide::Http);
+    }
+
+    [[nodiscard]] static OpenStreamSim::ControllerOptions MakeOptions()
+    {
+        OpenStreamSim::ControllerOptions options;
+        options.bMotorOn = true;
+        return options;
+    }
+
+    void Begin(std::string_view text)
+    {
+        const auto fault = Apps::ParseFault(OpenStreamSim::GetFaultGrammar(), text);
+        REQUIRE(fault.has_value());
+        REQUIRE(_faults->TryAdd(*fault, clock.GetNow()));
+    }
+
+    [[nodiscard]] bool TryBegin(const OpenStreamSim::Fault& fault)
+    {
+        return _faults->TryAdd(fault, clock.GetNow());
+    }
+
+    /// "+estop for=5s", "-estop for=5s its time is over" of the log.
+    [[nodiscard]] std::vector<std::string> GetChanges() const
+    {
+        std::vector<std::string> changes;
+        for (const RecordedLine& line : _log.GetLines())
+        {
+            if (line.message == "fault begins")
+            {
+                changes.push_back("+" + line.fields.at(0).second);
+            }
+            if (line.message == "fault ended")
+            {
+                changes.push_back("-" + line.fields.at(0).second + " " + line.fields.at(1).second);
+            }
+        }
+        return changes;
+    }
+
+    std::size_t End(std::optional<OpenStreamSim::EFaultKind> kindOrNull = std::nullopt)
+    {
+        return _faults->End(kindOrNull, clock.GetNow());
+    }
+
+    /// Moves the time, and does what is due at its own time, as the timer of a host does.
+    void Pass(std::chrono::milliseconds span)
+    {
+        const Core::SteadyTime end = clock.GetNow().steady + span;
+        while (wakeAt.has_value() && *wakeAt <= end)
+        {
+            clock.Advance(std::chrono::duration_cast<std::chrono::milliseconds>(*wakeAt - clock.GetNow().steady));
+            wakeAt.reset();
+            _faults->OnTimer(clock.GetNow());
+        }
+        clock.Advance(std::chrono::duration_cast<std::chrono::milliseconds>(end - clock.GetNow().steady));
+    }
+
+    /// What a MONITOR gets of a tick; nothing where no line leaves.
+    std::string Sample(std::string_view url)
+    {
+        Call(*_stream, OpenStream::EApiMethod::Get, url, {});
+        return response.bNoSample ? std::string() : response.body.value_or(Core::JsonText()).GetText();
+    }
+
+    /// The status of a CONTROL.
+    int Control(std::string_view url, std::string body = "{}")
+    {
+        Call(*_stream, OpenStream::EApiMethod::Post, url, std::move(body));
+        return response.status;
+    }
+
+    std::string GetOverHttp(std::string_view url)
+    {
+        Call(*_http, OpenStream::EApiMethod::Get, url, {});
+        return response.body.value_or(Core::JsonText()).GetText();
+    }
+
+    int PostOverHttp(std::string_view url, std::string body = "{}")
+    {
+        Call(*_http, OpenStream::EApiMethod::Post, url, std::move(body));
+        return response.status;
+    }
+
+    void CallStream(const OpenStream::ApiRequest& request, OpenStream::ApiResponse& answer)
+    {
+        _stream->Call(request, clock.GetNow(), answer);
+    }
+
+    int StartProgram(int number)
+    {
+        const std::string body = R"({"ext_sel":1,"pno":)" + std::to_string(number) + "}";
+        REQUIRE(PostOverHttp("/project/context/tasks[0]/set_cur_pc_idx", R"({"idx":1})") == 200);
+        REQUIRE(PostOverHttp("/project/context/tasks[0]/cur_prog_cnt", body) == 200);
+        return PostOverHttp("/project/robot/start");
+    }
+
+    /// Started, finished, failed and the number of the last program.
+    std::string GetCounters()
+    {
+        return GetOverHttp("/project/plc/m/val_s32?st=400&len=4");
+    }
+
+    /// The member of /project/robot.
+    bool ContainsInRobot(std::string_view member)
+    {
+        return GetOverHttp("/project/robot").find(member) != std::string::npos;
+    }
+
+private:
+    void Call(
+        OpenStreamSim::FaultyService& service,
+        OpenStream::EApiMethod method,
+        std::string_view url,
+        std::string body)
+    {
+        OpenStream::ApiRequest request;
+        request.method = method;
+        OpenStream::SplitUrl(url, request);
+        if (method != OpenStream::EApiMethod::Get)
+        {
+            request.body = Core::JsonText::FromTrusted(std::move(body));
+        }
+        service.Call(request, clock.GetNow(), response);
+    }
+};
+
+} // namespace ACS::Testing

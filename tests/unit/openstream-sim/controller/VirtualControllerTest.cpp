@@ -1,0 +1,358 @@
+#include "controller/VirtualController.hpp"
+
+#include "Catch.hpp"
+#include "controller/ControllerHarness.hpp"
+
+using ACS::OpenStreamSim::ControllerOptions;
+using ACS::OpenStreamSim::ProgramSpec;
+using ACS::Testing::ControllerHarness;
+using namespace std::chrono_literals;
+
+namespace
+{
+
+constexpr const char* MOTOR_ON = "/project/robot/motor_on";
+constexpr const char* MOTOR_STATE = "/project/robot/motor_on_state";
+constexpr const char* ROBOT = "/project/robot";
+constexpr const char* STOP = "/project/robot/stop";
+constexpr const char* SELECT = "/project/context/tasks[0]/cur_prog_cnt";
+constexpr const char* SET_CURSOR = "/project/context/tasks[0]/set_cur_pc_idx";
+constexpr const char* R_CODE = "/project/service/r_code/execute";
+
+/// The last version before the withdrawals of 60.30.
+ControllerOptions MakeOldOptions()
+{
+    ControllerOptions options;
+    options.version = {60, 29, 99};
+    return options;
+}
+
+bool IsMotor(ControllerHarness& harness, int state)
+{
+    return harness.Contains(MOTOR_STATE, "\"val\":" + std::to_string(state) + "}");
+}
+
+} // namespace
+
+TEST_CASE("A 7.44 The motor is off (1) at the start, goes on (2) for a simulated second, then is on (0)")
+{
+    ControllerHarness harness(MakeOldOptions());
+    REQUIRE(IsMotor(harness, 1));
+    REQUIRE(harness.Post(MOTOR_ON) == 200);
+    REQUIRE(IsMotor(harness, 2));
+    harness.clock.Advance(999ms);
+    REQUIRE(harness.Post(MOTOR_ON) == 200); // does not begin anew
+    REQUIRE(IsMotor(harness, 2));
+    harness.clock.Advance(1ms);
+    REQUIRE(IsMotor(harness, 0));
+    REQUIRE(harness.Post(MOTOR_ON) == 200);
+    REQUIRE(IsMotor(harness, 0));
+    REQUIRE(harness.Post("/project/robot/motor_off") == 200);
+    REQUIRE(IsMotor(harness, 1));
+}
+
+TEST_CASE("A With --ready the motor is on at once")
+{
+    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    REQUIRE(IsMotor(harness, 0));
+}
+
+TEST_CASE("C The gates of start stand in the order remote mode, motor, running program, selected program")
+{
+    ControllerHarness harness;
+    harness.controller.TurnModeSwitch(false, harness.clock.GetNow());
+    REQUIRE(harness.PostForCode("/project/robot/start") == "403 -38500");
+    REQUIRE(harness.PostForCode(MOTOR_ON) == "403 -38500");
+    harness.controller.TurnModeSwitch(true, harness.clock.GetNow());
+    REQUIRE(harness.PostForCode("/project/robot/start") == "403 -1442071");
+    REQUIRE(harness.Post(MOTOR_ON) == 200);
+    REQUIRE(harness.PostForCode("/project/robot/start") == "403 -1442071"); // still busy
+    harness.clock.Advance(1s);
+    REQUIRE(harness.PostForCode("/project/robot/start") == "403 -3");
+    REQUIRE(harness.Select(11) == 200);
+    REQUIRE(harness.PostForCode("/project/robot/start") == "200");
+    REQUIRE(harness.PostForCode("/project/robot/start") == "403 -1442080");
+    REQUIRE(harness.GetCounters() == "[1,0,0,0]"); // no refusal counted
+}
+
+TEST_CASE("A program tells its beginning and its good end in the relays, in this order")
+{
+    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    REQUIRE(harness.Select(4711) == 200);
+    REQUIRE(harness.GetCounters() == "[0,0,0,0]");
+    REQUIRE(harness.Start() == 200);
+    REQUIRE(harness.GetCounters() == "[1,0,0,0]");
+    REQUIRE(harness.Contains("/project/rgen", R"("is_playback":1)"));
+    REQUIRE(harness.Contains("/project/rgen", R"("cur_prog_no":4711)"));
+    harness.clock.Advance(1'999ms);
+    REQUIRE(harness.GetCounters() == "[1,0,0,0]");
+    harness.clock.Advance(1ms);
+    REQUIRE(harness.GetCounters() == "[1,1,0,4711]");
+    REQUIRE(harness.Contains("/project/rgen", R"("is_playback":0)"));
+    REQUIRE(harness.Start() == 200); // the same program, from its beginning again
+    harness.clock.Advance(2s);
+    REQUIRE(harness.GetCounters() == "[2,2,0,4711]");
+}
+
+TEST_CASE("A program that is set to fail takes its time and tells the failed end")
+{
+    ControllerOptions options = ControllerHarness::MakeReadyOptions();
+    options.programs.emplace(11, ProgramSpec{3s, false});
+    options.programs.emplace(12, ProgramSpec{500ms, true});
+    ControllerHarness harness(options);
+    REQUIRE(harness.Select(12) == 200);
+    REQUIRE(harness.Start() == 200);
+    harness.clock.Advance(499ms);
+    REQUIRE(harness.GetCounters() == "[1,0,0,0]");
+    harness.clock.Advance(1ms);
+    REQUIRE(harness.GetCounters() == "[1,0,1,12]");
+    REQUIRE(harness.Select(11) == 200);
+    REQUIRE(harness.Start() == 200);
+    harness.clock.Advance(2'999ms);
+    REQUIRE(harness.GetCounters() == "[2,0,1,12]");
+    harness.clock.Advance(1ms);
+    REQUIRE(harness.GetCounters() == "[2,1,1,11]");
+}
+
+TEST_CASE("The time scale holds for the motor and for programs")
+{
+    ControllerOptions options;
+    options.timeScale = 10.0;
+    ControllerHarness harness(options);
+    REQUIRE(harness.Post(MOTOR_ON) == 200);
+    harness.clock.Advance(99ms);
+    REQUIRE(IsMotor(harness, 2));
+    harness.clock.Advance(1ms);
+    REQUIRE(IsMotor(harness, 0));
+    REQUIRE(harness.Select(11) == 200);
+    REQUIRE(harness.Start() == 200);
+    harness.clock.Advance(199ms);
+    REQUIRE(harness.GetCounters() == "[1,0,0,0]");
+    harness.clock.Advance(1ms);
+    REQUIRE(harness.GetCounters() == "[1,1,0,11]");
+}
+
+TEST_CASE("A stopped program goes on at the next start and needs its rest of the time, counted once")
+{
+    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    REQUIRE(harness.Post(STOP) == 200); // nothing to stop
+    REQUIRE(harness.Select(11) == 200);
+    REQUIRE(harness.Start() == 200);
+    harness.clock.Advance(1'500ms);
+    REQUIRE(harness.Post(STOP) == 200);
+    REQUIRE(harness.Contains(ROBOT, R"("is_playback":0)"));
+    harness.clock.Advance(1h);
+    REQUIRE(harness.GetCounters() == "[1,0,0,0]");
+    REQUIRE(harness.Start() == 200);
+    harness.clock.Advance(499ms);
+    REQUIRE(harness.GetCounters() == "[1,0,0,0]");
+    harness.clock.Advance(1ms);
+    REQUIRE(harness.GetCounters() == "[1,1,0,11]");
+}
+
+TEST_CASE("A program is given up, and counted as failed, by a reset and by another selection in its middle")
+{
+    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    REQUIRE(harness.Select(11) == 200);
+    REQUIRE(harness.Reset() == 200);
+    REQUIRE(harness.GetCounters() == "[0,0,0,0]"); // it had not begun
+    REQUIRE(harness.Start() == 200);
+    harness.clock.Advance(1s);
+    REQUIRE(harness.Reset() == 200);
+    REQUIRE(harness.GetCounters() == "[1,0,1,11]");
+    REQUIRE(harness.Contains(ROBOT, R"("is_playback":0)"));
+    harness.clock.Advance(10s);
+    REQUIRE(harness.GetCounters() == "[1,0,1,11]");
+
+    REQUIRE(harness.Start() == 200);
+    harness.clock.Advance(1s);
+    REQUIRE(harness.PostForCode(SELECT, R"({"pno":12,"ext_sel":1})") == "403 -1442080");
+    REQUIRE(harness.Post(STOP) == 200);
+    REQUIRE(harness.Post(SELECT, R"({"pno":-1,"sno":-1,"fno":-1,"ext_sel":1})") == 200);
+    REQUIRE(harness.GetCounters() == "[2,0,1,11]");
+    REQUIRE(harness.Select(12) == 200);
+    REQUIRE(harness.GetCounters() == "[2,0,2,11]");
+    REQUIRE(harness.Contains(ROBOT, R"("cur_prog_no":12)"));
+}
+
+TEST_CASE("The emergency stop takes the motor's power, halts the program and stays until it is released")
+{
+    constexpr const char* BUTTON = "/project/robot/emergency_stop";
+    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    REQUIRE(harness.Get(BUTTON) == R"({"_type":"JObject","val":0})");
+    REQUIRE(harness.Select(11) == 200);
+    REQUIRE(harness.Start() == 200);
+    harness.clock.Advance(1s);
+    REQUIRE(harness.Post(BUTTON) == 200);
+    REQUIRE(harness.Get(BUTTON) == R"({"_type":"JObject","val":1})");
+    REQUIRE(IsMotor(harness, 1));
+    REQUIRE(harness.Contains(ROBOT, R"("is_playback":0)"));
+    REQUIRE(harness.PostForCode(MOTOR_ON) == "403 -4");
+    REQUIRE(harness.Post(BUTTON, R"({"val":0})") == 200);
+    REQUIRE(IsMotor(harness, 1));
+    REQUIRE(harness.Post(MOTOR_ON) == 200);
+    harness.clock.Advance(1s);
+    REQUIRE(harness.Start() == 200);
+    harness.clock.Advance(1s);
+    REQUIRE(harness.GetCounters() == "[1,1,0,11]");
+}
+
+TEST_CASE("D-1 Remote mode takes selections with ext_sel 1 only, manual mode those with 0; absent is 0")
+{
+    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    REQUIRE(harness.PostForCode(SELECT, R"({"pno":11})") == "403 -102");
+    REQUIRE(harness.PostForCode(SELECT, R"({"pno":11,"ext_sel":0})") == "403 -102");
+    REQUIRE(harness.PostForCode(SELECT, R"({"pno":-1,"ext_sel":0})") == "403 -102");
+    REQUIRE(harness.PostForCode(SELECT, R"({"pno":11,"ext_sel":2})") == "400 -1");
+    REQUIRE(harness.Contains(ROBOT, R"("cur_prog_no":0)"));
+    REQUIRE(harness.Post(SELECT, R"({"pno":11,"ext_sel":1})") == 200);
+    harness.controller.TurnModeSwitch(false, harness.clock.GetNow());
+    REQUIRE(harness.PostForCode(SELECT, R"({"pno":12,"ext_sel":1})") == "403 -1114208");
+    REQUIRE(harness.Contains(ROBOT, R"("cur_prog_no":11)"));
+    REQUIRE(harness.Post(SELECT, R"({"pno":12})") == 200);
+    REQUIRE(harness.Contains(ROBOT, R"("cur_prog_no":12)"));
+}
+
+TEST_CASE("D-2 After a start or stop a selection is refused until the cursor is set")
+{
+    const std::string program = R"({"pno":11,"ext_sel":1})";
+    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    REQUIRE(
+        harness.PostForCode("/project/context/tasks[0]/cur_prog_cnt", R"({"sno":1,"ext_sel":1})") == "403 -1245280");
+    REQUIRE(harness.Post(SELECT, program) == 200);
+    REQUIRE(harness.Post(SELECT, program) == 200);
+    REQUIRE(harness.Start() == 200);
+    REQUIRE(harness.PostForCode(SET_CURSOR, R"({"idx":1})") == "403 -38501");
+    harness.clock.Advance(2s);
+    REQUIRE(harness.PostForCode(SELECT, program) == "403 -1245280");
+    REQUIRE(harness.Post("/project/context/tasks[1]/set_cur_pc_idx", R"({"idx":1})") == 200); // another task's
+    REQUIRE(harness.Reset() == 200);
+    REQUIRE(harness.PostForCode(SELECT, program) == "403 -1245280");
+    REQUIRE(harness.Post(SET_CURSOR, R"({"idx":1})") == 200);
+    REQUIRE(harness.Post(SELECT, program) == 200);
+    REQUIRE(harness.Post(STOP) == 200);
+    REQUIRE(harness.PostForCode(SELECT, program) == "403 -1245280");
+    REQUIRE(harness.Post(SET_CURSOR, R"({"idx":0})") == 200);
+    REQUIRE(harness.Post(SELECT, program) == 200);
+    REQUIRE(harness.GetCounters() == "[1,1,0,11]");
+}
+
+TEST_CASE("D-3 D-4 Before 60.30 reset and motor_off are served and r_code is not; since then it is the reverse")
+{
+    ControllerOptions options = ControllerHarness::MakeReadyOptions();
+    const bool bOld = GENERATE(true, false);
+    options.version =
+        bOld ? ACS::OpenStreamSim::ControllerVersion{60, 29, 99} : ACS::OpenStreamSim::ControllerVersion{60, 30, 0};
+    ControllerHarness harness(options);
+    REQUIRE(harness.Contains("/versions/sysver", bOld ? R"("ver":"60.29-99")" : R"("ver":"60.30-00")"));
+    REQUIRE(harness.Select(11) == 200);
+    for (const char* path :
+         {"/project/context/tasks/reset", "/project/context/tasks[0]/reset", "/project/robot/motor_off"})
+    {
+        INFO(path);
+        REQUIRE(harness.PostForCode(path) == (bOld ? "200" : "403 -103"));
+    }
+    REQUIRE(IsMotor(harness, bOld ? 1 : 0));
+    REQUIRE(harness.PostForCode(R_CODE, R"({"code":1})") == (bOld ? "404 -2" : "200"));
+}
+
+TEST_CASE("D-3 Before 60.30 the reset of task 0 gives the program up, that of another task does not")
+{
+    ControllerOptions options = MakeOldOptions();
+    options.bMotorOn = true;
+    ControllerHarness harness(options);
+    REQUIRE(harness.Select(11) == 200);
+    REQUIRE(harness.Start() == 200);
+    REQUIRE(harness.Post("/project/context/tasks[3]/reset") == 200);
+    REQUIRE(harness.Contains(ROBOT, R"("is_playback":1)"));
+    REQUIRE(harness.Post("/project/context/tasks[0]/reset") == 200);
+    REQUIRE(harness.GetCounters() == "[1,0,1,11]");
+}
+
+TEST_CASE("D-3 r_code 1 resets the tasks and keeps the selection, 0 clears it too; others are refused")
+{
+    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    REQUIRE(harness.Select(11) == 200);
+    REQUIRE(harness.Start() == 200);
+    REQUIRE(
+        harness.Call(ACS::OpenStream::EApiMethod::Post, R_CODE, R"({"code":1})").body->GetText()
+        == R"({"_type":"JObject","code":1})");
+    REQUIRE(harness.GetCounters() == "[1,0,1,11]");
+    REQUIRE(harness.Contains(ROBOT, R"("cur_prog_no":11)"));
+    REQUIRE(harness.Start() == 200);
+    REQUIRE(harness.Post(R_CODE, R"({"code":0})") == 200);
+    REQUIRE(harness.GetCounters() == "[2,0,2,11]");
+    REQUIRE(harness.Contains(ROBOT, R"("cur_prog_no":0)"));
+    REQUIRE(harness.PostForCode("/project/robot/start") == "403 -3");
+    REQUIRE(harness.PostForCode(R_CODE, R"({"code":2})") == "400 -1");
+    REQUIRE(harness.PostForCode(R_CODE, "{}") == "400 -1");
+}
+
+TEST_CASE("D-5 rgen shows the model that is set and the state of the job")
+{
+    ControllerOptions options;
+    REQUIRE(ControllerHarness(options).Contains("/project/rgen", R"("robot_model":"HA006B-01")"));
+    options.robotModel = "HS220-02";
+    ControllerHarness harness(options);
+    REQUIRE(harness.Contains("/project/rgen", R"("robot_model":"HS220-02")"));
+    REQUIRE(harness.Contains("/project/rgen", R"("job_state":0,"job_sub_state":0)"));
+}
+
+TEST_CASE("D-9 What clients in the field send is accepted: true as playback mode, bits with any value, upper case")
+{
+    ControllerHarness harness;
+    const auto answer = harness.Call(
+        ACS::OpenStream::EApiMethod::Put,
+        "/project/control/op_cnd",
+        R"({"playback_mode":true,"playback_spd_rate":30})");
+    REQUIRE(answer.status == 200);
+    REQUIRE(answer.body->GetText() == R"({"_text":""})");
+    REQUIRE(harness.Contains("/project/control/op_cnd", R"("playback_mode":1,)"));
+    REQUIRE(harness.Post("/project/control/op_cnd", R"({"playback_mode":false})") == 400);
+    REQUIRE(harness.Post("/project/plc/set_relay_value", R"({"name":"FB3.DOF12","value":"2.5"})") == 200);
+    REQUIRE(harness.Contains("/project/control/ios/dio/do_val?type=dof&blk_no=3&sig_no=12", R"("val":2.5})"));
+    REQUIRE(harness.Post("/project/control/ios/dio/do_val", R"({"type":"do","blk_no":2,"sig_no":3,"val":-99})") == 200);
+    REQUIRE(harness.Contains("/project/control/ios/dio/do_val?type=do&blk_no=2&sig_no=3", R"("val":1})"));
+    REQUIRE(harness.Get("/project/plc/fb2_do/val_s32?len=1") == "[8]");
+}
+
+TEST_CASE("Motor off and manual mode halt the program")
+{
+    ControllerOptions options = MakeOldOptions();
+    options.bMotorOn = true;
+    ControllerHarness harness(options);
+    REQUIRE(harness.Select(11) == 200);
+    REQUIRE(harness.Start() == 200);
+    harness.controller.TurnModeSwitch(false, harness.clock.GetNow());
+    REQUIRE(harness.Contains("/project/rgen", R"("is_playback":0,"is_remote_mode":0)"));
+    harness.controller.TurnModeSwitch(true, harness.clock.GetNow());
+    REQUIRE(harness.Start() == 200);
+    REQUIRE(harness.Contains("/project/rgen", R"("is_playback":1,"is_remote_mode":1)"));
+    REQUIRE(harness.Post("/project/robot/motor_off") == 200);
+    harness.clock.Advance(1h);
+    REQUIRE(harness.GetCounters() == "[1,0,0,0]");
+}
+
+TEST_CASE("A program runs on when a client sends STOP control: there is no trajectory to release")
+{
+    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    REQUIRE(harness.Select(11) == 200);
+    REQUIRE(harness.Start() == 200);
+    harness.clock.Advance(1s);
+    harness.controller.StopControl(harness.clock.GetNow());
+    harness.clock.Advance(1s);
+    REQUIRE(harness.GetCounters() == "[1,1,0,11]");
+}
+
+TEST_CASE("The program's step moves with its time")
+{
+    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    REQUIRE(harness.Select(11) == 200);
+    REQUIRE(harness.Contains("/project/rgen", R"("cur_step_no":0)"));
+    REQUIRE(harness.Start() == 200);
+    REQUIRE(harness.Contains("/project/rgen", R"("cur_step_no":1,)"));
+    harness.clock.Advance(1s);
+    REQUIRE(harness.Contains("/project/rgen", R"("cur_step_no":5,)"));
+    harness.clock.Advance(999ms);
+    REQUIRE(harness.Contains("/project/rgen", R"("cur_step_no":9,)"));
+}

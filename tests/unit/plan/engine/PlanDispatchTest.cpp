@@ -1,0 +1,253 @@
+#include "fixtures/PlanWorldSteps.hpp"
+
+#include <chrono>
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using ACS::Testing::MakeControlPlan;
+using ACS::Testing::MakeLogisticsPlan;
+using ACS::Testing::MakeWorld;
+using ACS::Testing::PlanWorld;
+using ACS::Testing::TryRunUntil;
+
+namespace
+{
+
+Plan MakeUnloadPlan(const std::string& planID, const std::string& carrierID, const std::string& port = "AMR.CP01")
+{
+    return {planID, "", 1, {{1, "CassetteUnload", "A01.CP02", {carrierID}, {{planID + "-u", port, "A01.CP02"}}}}};
+}
+
+Plan MakeLoadPlan(const std::string& planID, const std::string& carrierID)
+{
+    return {planID, "", 1, {{1, "CassetteLoad", "A01.CP01", {carrierID}, {{planID + "-l", "A01.CP01", "AMR.CP01"}}}}};
+}
+
+void SetCarrier(PlanWorld& world, const std::string& robotID, std::optional<std::string> carrierID)
+{
+    world.Ask(SetCarriers{robotID, {std::move(carrierID)}, 77});
+    REQUIRE(world.replies.at(77).bAccepted);
+}
+
+std::string GetRobotOf(const PlanWorld& world, const std::string& planID)
+{
+    return world.engine->GetPlanOrNull(planID)->robotID.value_or("");
+}
+
+std::string GetReason(const PlanWorld& world, const std::string& planID, const std::string& robotID)
+{
+    const std::optional<WaitReason> reason = world.engine->GetWaitReasonOrNull(planID);
+    REQUIRE(reason.has_value());
+    for (const RobotObjection& robot : reason->robots)
+    {
+        if (robot.robotID == robotID)
+        {
+            return robot.reason;
+        }
+    }
+    return {};
+}
+
+} // namespace
+
+TEST_CASE("Carrier continuity: an unload goes to the robot that has the carrier, however far it is")
+{
+    for (const std::string owner : {"LR01", "LR02"})
+    {
+        PlanWorld world(1, true);
+        world.Connect();
+        SetCarrier(world, owner, "CASSETTE_07");
+        world.Submit(MakeUnloadPlan("P1", "CASSETTE_07"));
+        REQUIRE(world.TryRun());
+        CHECK(GetRobotOf(world, "P1") == owner);
+        CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+        CHECK(world.engine->GetActiveAlarms().empty());
+    }
+}
+
+TEST_CASE("Carrier continuity: what one plan loads, the next one unloads, over a restart of the engine too")
+{
+    PlanWorld world(1, true);
+    world.Connect();
+    world.Submit(MakeLoadPlan("P1", "CASSETTE_07"));
+    REQUIRE(world.TryRun());
+    const std::string owner = GetRobotOf(world, "P1");
+    world.Restart(ACS::Testing::MakeTestOptions(true), ACS::Testing::MakeTestSite());
+    world.Connect();
+    world.Submit(MakeUnloadPlan("P2", "CASSETTE_07"));
+    REQUIRE(world.TryRun());
+    CHECK(GetRobotOf(world, "P2") == owner);
+    CHECK(world.engine->GetActiveAlarms().empty());
+}
+
+TEST_CASE("Carrier continuity: a carrier that is elsewhere is waited for, and the answer says where it is")
+{
+    PlanWorld world(1, true);
+    world.Connect();
+    SetCarrier(world, "LR01", "CASSETTE_07");
+    world.Submit(MakeUnloadPlan("P1", "CASSETTE_07", "LR02.CP01"));
+    world.Submit(MakeUnloadPlan("P2", "CASSETTE_08", "LR01.CP01"));
+    REQUIRE(world.TryRun());
+    CHECK(GetReason(world, "P1", "LR02") == "CASSETTE_07 is on LR01.CP01");
+    CHECK(GetReason(world, "P2", "LR01") == "LR01.CP01 holds CASSETTE_07, not CASSETTE_08");
+    SetCarrier(world, "LR01", std::nullopt);
+    REQUIRE(world.TryRun());
+    // Nobody is known to have it any more: it may have been put on by hand.
+    CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+    CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
+}
+
+TEST_CASE("Carrier continuity: a carrier of which nothing is known is looked for first where something unknown is")
+{
+    PlanWorld world(1, true);
+    world.Connect();
+    SetCarrier(world, "LR02", "UNKNOWN");
+    world.Submit(MakeUnloadPlan("P1", "CASSETTE_07"));
+    REQUIRE(world.TryRun());
+    CHECK(GetRobotOf(world, "P1") == "LR02");
+}
+
+TEST_CASE("An unload of another carrier than the one on record is told, and so long as nobody knows it is not")
+{
+    for (const std::string known : {"CASSETTE_99", "UNKNOWN"})
+    {
+        PlanWorld world;
+        world.Connect();
+        world.Submit(MakeUnloadPlan("P1", "CASSETTE_07"));
+        REQUIRE(TryRunUntil(world, "P1", "Step 1 InProgress"));
+        SetCarrier(world, "LR01", known);
+        REQUIRE(TryRunUntil(world, "P1", "Plan Completed"));
+        const std::vector<Alarm>& alarms = world.engine->GetActiveAlarms();
+        REQUIRE(alarms.size() == (known == "UNKNOWN" ? 0U : 1U));
+        if (!alarms.empty())
+        {
+            CHECK(alarms.front().errorCode == "ACS-1004");
+            CHECK(alarms.front().message == "CASSETTE_07 was unloaded from LR01.CP01 though CASSETTE_99 was in it.");
+        }
+    }
+}
+
+TEST_CASE("A load into a port that is taken goes to another robot, or waits, unless the option says to try")
+{
+    for (const bool bTries : {false, true})
+    {
+        PlanWorld world =
+            MakeWorld([bTries](EngineOptions& options) { options.dispatch.bLoadsIntoTakenPorts = bTries; });
+        world.Connect();
+        SetCarrier(world, "LR01", "CASSETTE_07");
+        world.Submit(MakeLoadPlan("P1", "CASSETTE_08"));
+        REQUIRE(world.TryRun());
+        if (bTries)
+        {
+            CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+            REQUIRE(world.engine->GetActiveAlarms().size() == 1);
+            CHECK(world.engine->GetActiveAlarms().front().errorCode == "ACS-1004");
+            continue;
+        }
+        CHECK(world.GetReportsOf("P1").empty());
+        CHECK(GetReason(world, "P1", "LR01") == "LR01.CP01 is taken by CASSETTE_07");
+        SetCarrier(world, "LR01", std::nullopt);
+        REQUIRE(world.TryRun());
+        CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+    }
+    PlanWorld world(1, true);
+    world.Connect();
+    SetCarrier(world, "LR01", "CASSETTE_07");
+    world.Submit(MakeLoadPlan("P1", "CASSETTE_08"));
+    REQUIRE(world.TryRun());
+    CHECK(GetRobotOf(world, "P1") == "LR02");
+}
+
+TEST_CASE("A plan that unloads a port before it loads it is no load into a taken port")
+{
+    PlanWorld world;
+    world.Connect();
+    SetCarrier(world, "LR01", "CASSETTE_07");
+    Plan plan = MakeUnloadPlan("P1", "CASSETTE_07");
+    Step load = MakeLoadPlan("P1", "CASSETTE_08").steps.front();
+    load.stepNo = 2;
+    plan.steps.push_back(load);
+    world.Submit(plan);
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+    CHECK(world.engine->GetRobotStatuses().front().carrierIDs.front() == "CASSETTE_08");
+}
+
+TEST_CASE("Why does it wait: the place in the queue, and for each robot that could do it what keeps it")
+{
+    PlanWorld world(1, true);
+    world.Submit(MakeLogisticsPlan("P1"));
+    CHECK(GetReason(world, "P1", "LR01") == "no connection");
+    world.Connect();
+    REQUIRE(TryRunUntil(world, "P1", "Plan InProgress"));
+    const std::string busy = GetRobotOf(world, "P1");
+    const std::string other = busy == "LR01" ? "LR02" : "LR01";
+    world.Raise(other, LinkChanged{false});
+    world.Submit(MakeLogisticsPlan("P2"));
+    world.Submit(MakeLogisticsPlan("P3"));
+    const WaitReason reason = *world.engine->GetWaitReasonOrNull("P3");
+    CHECK(reason.queuePosition == 2);
+    CHECK(reason.message == "No robot that can do it is free for it.");
+    CHECK(reason.robots.size() == 2);
+    CHECK(GetReason(world, "P3", busy) == "busy with plan P1");
+    CHECK(GetReason(world, "P3", other) == "no connection");
+    world.SwitchTsc(true);
+    CHECK(world.engine->GetWaitReasonOrNull("P2")->message == "The TSC is Pausing: no plan is begun.");
+    CHECK(world.engine->GetWaitReasons().back().planID == "P3");
+    CHECK_FALSE(world.engine->GetWaitReasonOrNull("P9").has_value());
+}
+
+TEST_CASE("Why does it wait: a plan that is held or paused, and one whose robot cannot go on")
+{
+    PlanWorld world;
+    world.Connect();
+    world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(TryRunUntil(world, "P1", "Job 1 P1-a4 InProgress"));
+    CHECK_FALSE(world.engine->GetWaitReasonOrNull("P1").has_value());
+    world.Submit(MakeLogisticsPlan("P2"));
+    world.Control(EPlanControl::Pause, "P2");
+    CHECK(world.engine->GetWaitReasonOrNull("P2")->message == "It is held in the queue by PausePlan.");
+    world.Raise("LR01", LinkChanged{false});
+    CHECK(world.engine->GetWaitReasonOrNull("P1")->message == "LR01: no connection.");
+}
+
+TEST_CASE("5.9 The position while a robot drives: the last station, the one it drives to, or none")
+{
+    for (const EMovingPosition moving : {EMovingPosition::Last, EMovingPosition::Target, EMovingPosition::None})
+    {
+        PlanWorld world = MakeWorld([moving](EngineOptions& options) { options.movingPosition = moving; });
+        world.Connect();
+        world.Submit(MakeLogisticsPlan("P1"));
+        REQUIRE(TryRunUntil(world, "P1", "Step 1 InProgress"));
+        const std::string position = world.engine->GetRobotStatuses().front().position;
+        CHECK(
+            position
+            == (moving == EMovingPosition::Last ? "CHG01" : (moving == EMovingPosition::Target ? "A01.CP01" : "")));
+        REQUIRE(TryRunUntil(world, "P1", "Job 1 P1-a4 InProgress"));
+        CHECK(world.engine->GetRobotStatuses().front().position == "A01.CP01");
+    }
+}
+
+TEST_CASE("A robot that loses its drive while it moves keeps the nodes ahead until it is known where it stands")
+{
+    PlanWorld world;
+    ACS::Testing::BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").GetOccupied().front() == "L01"; }));
+    world.Submit(MakeControlPlan("P2"));
+    static_cast<void>(ACS::Testing::TryRunFor(world, std::chrono::milliseconds(1)));
+    StateChanged state;
+    state.lastNodeID = "L01";
+    state.bPoseKnown = true;
+    state.bDriving = true;
+    world.Raise("LR01", state);
+    const std::size_t line = world.trace.size();
+    world.Raise("LR01", DriveRejected{world.GetRobot("LR01").GetDriveID(), "the vehicle lost the order"});
+    CHECK(world.GetReportsOf("P1").back() == "Plan Failed");
+    CHECK(ACS::Testing::FindLine(world, "command CR01", line) == world.trace.size()); // it waits at L02
+    state.x = 0.9;
+    state.bDriving = false;
+    world.Raise("LR01", state);
+    CHECK(ACS::Testing::FindLine(world, "command CR01", line) == world.trace.size());
+    state.x = 0;
+    world.Raise("LR01", state);
+    CHECK(ACS::Testing::FindLine(world, "command CR01", line) < world.trace.size());
+}

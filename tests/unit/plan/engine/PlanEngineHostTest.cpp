@@ -1,0 +1,277 @@
+#include "Catch.hpp"
+#include "fixtures/PlanWorld.hpp"
+#include <acs/plan/PlanEngineHost.hpp>
+
+#include <algorithm>
+
+namespace ACS::Testing
+{
+namespace
+{
+
+using namespace Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+
+/// The host with an engine, and a disk that answers when the test says so.
+class HostTest
+{
+protected:
+    ManualClock _clock;
+    SeededRandom _random{1};
+    PlanEngine _engine{MakeTestOptions(false), MakeTestSite(), _random};
+    PlanEngineHost _host{
+        _engine,
+        _clock,
+        [this](const EngineAction& action) { OnAction(action); },
+        [this](const StoreBatch& batch) {
+            _batches.push_back(batch);
+        }};
+
+    std::vector<StoreBatch> _batches;
+    std::vector<ReplyCommand> _replies;
+    std::vector<EngineTimer> _timers; ///< That were started.
+    std::vector<StartJob> _jobs;      ///< That were commanded.
+
+    void OnAction(const EngineAction& action)
+    {
+        REQUIRE_FALSE(std::holds_alternative<StorePlans>(action));
+        if (const auto* const replyOrNull = std::get_if<ReplyCommand>(&action))
+        {
+            _replies.push_back(*replyOrNull);
+        }
+        if (const auto* const commandOrNull = std::get_if<CommandRobot>(&action);
+            commandOrNull != nullptr && std::holds_alternative<StartJob>(commandOrNull->command))
+        {
+            _jobs.push_back(std::get<StartJob>(commandOrNull->command));
+        }
+        if (const auto* const startOrNull = std::get_if<StartEngineTimer>(&action))
+        {
+            _timers.push_back(startOrNull->timer);
+        }
+    }
+
+    void Submit(const std::string& planID, ReplyToken token)
+    {
+        _host.Push(SubmitPlan{MakeLogisticsPlan(planID), token});
+    }
+
+    /// The disk answers as long as something is to be stored; false where that has no end.
+    [[nodiscard]] bool TryStoreAll()
+    {
+        constexpr int MANY = 100;
+        for (int i = 0; i < MANY && _host.IsStoring(); ++i)
+        {
+            _host.OnStored({});
+        }
+        return !_host.IsStoring();
+    }
+
+    [[nodiscard]] static std::vector<std::string> ListAdded(const StoreBatch& batch)
+    {
+        std::vector<std::string> planIDs;
+        for (const StoreChange& change : batch.changes)
+        {
+            if (const auto* const addedOrNull = std::get_if<PlanAdded>(&change))
+            {
+                planIDs.push_back(addedOrNull->record.plan.planID);
+            }
+        }
+        return planIDs;
+    }
+
+    [[nodiscard]] std::vector<std::pair<ReplyToken, bool>> ListReplies() const
+    {
+        std::vector<std::pair<ReplyToken, bool>> list;
+        for (const ReplyCommand& reply : _replies)
+        {
+            list.emplace_back(reply.replyToken, reply.bAccepted);
+        }
+        return list;
+    }
+};
+
+using Texts = std::vector<std::string>;
+using Replies = std::vector<std::pair<ReplyToken, bool>>;
+
+const Core::Error DISK_FULL{make_error_code(EPlanningError::StoreFailed), "acsd.db", "room", "disk full"};
+
+} // namespace
+
+TEST_CASE_METHOD(
+    HostTest,
+    "4.1 Plans that come while the disk works share the next commit, and each has its own Ack behind it")
+{
+    Submit("P1", 1);
+    REQUIRE(_batches.size() == 1);
+    CHECK(_host.IsStoring());
+    Submit("P2", 2);
+    Submit("P3", 3);
+    Submit("P2", 4);
+    CHECK(_batches.size() == 1);
+    CHECK(_replies.empty());
+    _host.OnStored({});
+    CHECK(ListReplies() == Replies{{1, true}});
+    REQUIRE(_batches.size() == 2);
+    CHECK(ListAdded(_batches[1]) == Texts{"P2", "P3"});
+    _host.OnStored({});
+    CHECK(ListReplies() == Replies{{1, true}, {2, true}, {3, true}, {4, false}});
+    CHECK_FALSE(_host.IsStoring());
+}
+
+TEST_CASE_METHOD(
+    HostTest,
+    "4.1 A burst that cannot be stored is refused as a whole, with the reason, and nothing of it is left")
+{
+    Submit("P0", 10);
+    Submit("P1", 1);
+    Submit("P2", 2);
+    Submit("P1", 3);
+    _host.OnStored({});
+    REQUIRE(ListAdded(_batches.back()) == Texts{"P1", "P2"});
+    _host.OnStored(tl::unexpected(DISK_FULL));
+    CHECK(ListReplies() == Replies{{10, true}, {1, false}, {2, false}, {3, false}});
+    CHECK(_replies[1].message.find("disk full") != std::string::npos);
+    CHECK(_replies[3].message.find("Duplicated Plan") != std::string::npos); // refused before it, for its own reason
+    CHECK_FALSE(_engine.GetPlanOrNull("P1").has_value());
+    CHECK_FALSE(_engine.GetPlanOrNull("P2").has_value());
+    CHECK(_engine.GetPlanOrNull("P0").has_value());
+}
+
+TEST_CASE_METHOD(
+    HostTest,
+    "A store that is lost without a write is told by the alarm, refuses plans, and is tried until it is back")
+{
+    Submit("P0", 10);
+    _host.OnStoreLost(DISK_FULL); // a batch is on its way, and fails by itself where it is so
+    CHECK(_engine.GetActiveAlarms().empty());
+    _host.OnStored({});
+    const std::size_t stored = _batches.size();
+    _host.OnStoreLost(DISK_FULL);
+    _host.OnStoreLost(DISK_FULL);
+    REQUIRE(_engine.GetActiveAlarms().size() == 1);
+    CHECK(_engine.GetActiveAlarms()[0].errorCode == "ACS-1005");
+    CHECK(_engine.GetActiveAlarms()[0].message == "Plans cannot be stored: " + Core::Describe(DISK_FULL));
+    CHECK(_engine.GetPlanOrNull("P0").has_value());
+    CHECK(_batches.size() == stored);
+    const EngineTimer retry{EEngineTimer::StoreRetry, {}};
+    CHECK(std::ranges::count(_timers, retry) == 1);
+    Submit("P1", 1);
+    REQUIRE(_host.IsStoring());
+    _host.OnStored(tl::unexpected(DISK_FULL));
+    CHECK(ListReplies() == Replies{{10, true}, {1, false}});
+    _host.Push(retry);
+    REQUIRE(_host.IsStoring());
+    REQUIRE(TryStoreAll());
+    _host.Push(retry);
+    REQUIRE(TryStoreAll());
+    CHECK(_engine.GetActiveAlarms().empty());
+    Submit("P2", 2);
+    REQUIRE(TryStoreAll());
+    CHECK(ListReplies() == Replies{{10, true}, {1, false}, {2, true}});
+}
+
+TEST_CASE_METHOD(HostTest, "What comes between two plans keeps its place")
+{
+    Submit("P1", 1);
+    Submit("P2", 2);
+    _host.Push(RobotInput{"LR01", LinkChanged{true}});
+    Submit("P3", 3);
+    _host.OnStored({});
+    REQUIRE(ListAdded(_batches.back()) == Texts{"P2"});
+    CHECK(_engine.GetRobotStatuses().front().status == ERobotStatus::Disconnected);
+    _host.OnStored({});
+    CHECK(_engine.GetRobotStatuses().front().status != ERobotStatus::Disconnected);
+    while (_host.IsStoring())
+    {
+        _host.OnStored({});
+    }
+    CHECK(ListReplies() == Replies{{1, true}, {2, true}, {3, true}});
+}
+
+TEST_CASE_METHOD(
+    HostTest,
+    "A job whose robot goes away while its command waits for the disk is sent once more when the robot is back, no sooner")
+{
+    StateChanged state;
+    state.lastNodeID = "D-A01.CP01"; // where the plan begins
+    Submit("P1", 1);
+    _host.Push(RobotInput{"LR01", LinkChanged{true}});
+    _host.Push(RobotInput{"LR01", state});
+    const auto hasJob = [](const StoreChange& change) {
+        const auto* const workOrNull = std::get_if<RobotWorkChanged>(&change);
+        return workOrNull != nullptr && workOrNull->job.has_value();
+    };
+    while (_host.IsStoring() && std::ranges::none_of(_batches.back().changes, hasJob))
+    {
+        _host.OnStored({});
+    }
+    REQUIRE(_host.IsStoring());
+    REQUIRE(_jobs.empty());
+    _host.Push(RobotInput{"LR01", LinkChanged{false}});
+    REQUIRE(TryStoreAll());
+    REQUIRE(_jobs.size() == 1);
+    _host.Push(RobotInput{"LR01", JobUnknown{"P1-a4"}}); // as the adapter says, which had not sent it
+    REQUIRE(TryStoreAll());
+    CHECK(_jobs.size() == 1);
+    CHECK(_engine.GetPlanOrNull("P1")->state == EPlanState::InProgress);
+
+    _host.Push(RobotInput{"LR01", LinkChanged{true}});
+    _host.Push(RobotInput{"LR01", state});
+    REQUIRE(TryStoreAll());
+    REQUIRE(_jobs.size() == 2);
+    CHECK(_jobs[1].commandID == _jobs[0].commandID);
+}
+
+TEST_CASE_METHOD(
+    HostTest,
+    "While the disk hangs a robot's states that differ in pose and battery only are one; all else keeps its place")
+{
+    StateChanged state;
+    state.lastNodeID = "D-CHG01";
+    state.bPoseKnown = true;
+    _host.Push(RobotInput{"LR01", LinkChanged{true}});
+    Submit("P1", 1);
+    REQUIRE(_host.IsStoring());
+    for (int i = 0; i < 10'000; ++i)
+    {
+        state.x += 0.01;
+        state.batteryPercent = 100 - i / 1'000.0;
+        _host.Push(RobotInput{"LR01", state});
+        _host.Push(RobotInput{"CR01", state}); // another robot's between them
+    }
+    CHECK(_host.GetWaitingCount() == 2);
+    state.errors.push_back({"AGV-x", EAlarmLevel::Light, "which goes again"});
+    _host.Push(RobotInput{"LR01", state});
+    state.errors.clear();
+    _host.Push(RobotInput{"LR01", state});
+    CHECK(_host.GetWaitingCount() == 4);
+    _host.Push(RobotInput{"LR01", LinkChanged{false}});
+    _host.Push(RobotInput{"LR01", LinkChanged{true}});
+    state.x = 7;
+    _host.Push(RobotInput{"LR01", state}); // behind the new link
+    CHECK(_host.GetWaitingCount() == 7);
+    while (_host.IsStoring())
+    {
+        _host.OnStored({});
+    }
+    REQUIRE(_engine.GetRobotPoses().size() == 1);
+    CHECK(_engine.GetRobotPoses().front().x == 7);
+}
+
+TEST_CASE_METHOD(
+    HostTest,
+    "4.1, R1 A loop that is closed still tells what stands behind the batch on its way, and refuses what comes")
+{
+    Submit("P1", 1);
+    Submit("P2", 2);
+    _host.Close();
+    Submit("P3", 3);
+    _host.Push(PlanCommand(ControlPlan{EPlanControl::Cancel, "P1", {}, 4}));
+    _host.Push(PlanCommand(MessageAcknowledged{1}));
+    CHECK_FALSE(_host.TryPush(ControlTsc{true, 9}));
+    _host.OnStored({});
+    CHECK(ListReplies() == Replies{{2, false}, {3, false}, {4, false}, {1, true}});
+    CHECK(_batches.size() == 1);
+    CHECK(std::ranges::count(_timers, EngineTimer{EEngineTimer::Dispatch, {}}) == 1);
+}
+
+} // namespace ACS::Testing

@@ -1,0 +1,297 @@
+#include "fixtures/PlanWorldSteps.hpp"
+
+#include <algorithm>
+#include <functional>
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using ACS::Testing::BeginPlan;
+using ACS::Testing::FinishPlan;
+using ACS::Testing::Lines;
+using ACS::Testing::MakeLogisticsPlan;
+using ACS::Testing::MakeTestOptions;
+using ACS::Testing::MakeTestSite;
+using ACS::Testing::MakeWorld;
+using ACS::Testing::PausePlan;
+using ACS::Testing::PlanWorld;
+using ACS::Testing::TryRunUntil;
+
+namespace
+{
+
+void Restart(PlanWorld& world, const std::function<void(EngineOptions&)>& change)
+{
+    EngineOptions options = MakeTestOptions(false);
+    change(options);
+    world.Restart(options, MakeTestSite());
+}
+
+Plan MakePlan(const std::string& planID, std::optional<std::int32_t> priority)
+{
+    Plan plan = MakeLogisticsPlan(planID);
+    plan.priority = priority;
+    return plan;
+}
+
+Lines GetQueue(const PlanWorld& world)
+{
+    Lines planIDs;
+    for (const PlanSummary& summary : world.engine->GetActivePlans())
+    {
+        planIDs.push_back(summary.planID);
+    }
+    return planIDs;
+}
+
+} // namespace
+
+TEST_CASE("D-6 queue.priority_order and queue.default_priority")
+{
+    for (const bool bLower : {false, true})
+    {
+        PlanWorld world = MakeWorld([bLower](EngineOptions& options) {
+            options.bLowerPriorityFirst = bLower;
+            options.defaultPriority = 4;
+        });
+        world.Submit(MakePlan("P5", 5));
+        world.Submit(MakePlan("P3", 3));
+        world.Submit(MakePlan("P4", std::nullopt));
+        CHECK(GetQueue(world) == (bLower ? Lines{"P3", "P4", "P5"} : Lines{"P5", "P4", "P3"}));
+    }
+}
+
+TEST_CASE("queue.ageing: a plan that has waited long enough goes before a later one of a higher priority")
+{
+    for (const int minutes : {0, 5, 20})
+    {
+        PlanWorld world =
+            MakeWorld([minutes](EngineOptions& options) { options.queueAgeing = std::chrono::minutes(minutes); });
+        world.Submit(MakePlan("old", 1));
+        world.Advance(std::chrono::minutes(16));
+        world.Submit(MakePlan("new", 4));
+        world.Submit(MakePlan("urgent", 5));
+        // 16 minutes are worth 3.2 at 5 minutes each, 0.8 at 20.
+        CHECK(GetQueue(world) == (minutes == 5 ? Lines{"urgent", "old", "new"} : Lines{"urgent", "new", "old"}));
+        Restart(world, [minutes](EngineOptions& options) { options.queueAgeing = std::chrono::minutes(minutes); });
+        CHECK(GetQueue(world) == (minutes == 5 ? Lines{"urgent", "old", "new"} : Lines{"urgent", "new", "old"}));
+    }
+}
+
+TEST_CASE("D-23 A planId that is known is refused, unless plan.reuse_finished_id lets one that is over come again")
+{
+    for (const bool bReused : {false, true})
+    {
+        PlanWorld world = MakeWorld([bReused](EngineOptions& options) { options.bFinishedIDsReused = bReused; });
+        world.Connect();
+        world.Submit(MakeLogisticsPlan("P1"), 1);
+        world.Submit(MakeLogisticsPlan("P1"), 2);
+        CHECK_FALSE(world.replies.at(2).bAccepted);
+        REQUIRE(world.TryRun());
+        const std::size_t before = world.GetReportsOf("P1").size();
+        world.Submit(MakeLogisticsPlan("P1"), 3);
+        CHECK(world.replies.at(3).bAccepted == bReused);
+        REQUIRE(world.TryRun());
+        CHECK(world.GetReportsOf("P1").size() == (bReused ? 2 * before : before));
+        REQUIRE(world.store.GetState().plans.size() == 1);
+        CHECK(world.store.GetState().plans.front().sequence == (bReused ? 2 : 1));
+    }
+}
+
+TEST_CASE("D-23 A planId that could not be used again for a failing store keeps its history")
+{
+    PlanWorld world = MakeWorld([](EngineOptions& options) { options.bFinishedIDsReused = true; });
+    world.Connect();
+    world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(world.TryRun());
+    world.store.bFails = true;
+    world.Submit(MakeLogisticsPlan("P1"), 2);
+    CHECK_FALSE(world.replies.at(2).bAccepted);
+    REQUIRE(world.engine->GetPlanOrNull("P1").has_value());
+    CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Completed);
+    world.store.bFails = false;
+    REQUIRE(world.TryRun());
+    REQUIRE(world.store.GetState().plans.size() == 1);
+    CHECK(world.store.GetState().plans.front().progress.state == EPlanState::Completed);
+}
+
+TEST_CASE("D-24 reports.initial_pending: accepted plans are reported as Pending, or not; refused ones never")
+{
+    for (const bool bTold : {false, true})
+    {
+        PlanWorld world = MakeWorld([bTold](EngineOptions& options) { options.bInitialPendingReported = bTold; });
+        world.Submit(MakeLogisticsPlan("P1"));
+        world.store.bFails = true;
+        world.Submit(MakeLogisticsPlan("P2"));
+        world.store.bFails = false;
+        REQUIRE(world.TryRun());
+        CHECK(world.GetReportsOf("P1") == (bTold ? Lines{"Plan Pending"} : Lines{}));
+        CHECK(world.GetReportsOf("P2").empty());
+    }
+}
+
+TEST_CASE("history.keep: of finished plans only the latest are kept, in memory, in the store and after a restart")
+{
+    PlanWorld world = MakeWorld([](EngineOptions& options) { options.finishedPlansKept = 3; });
+    world.Connect();
+    for (const std::string number : {"1", "2", "3", "4", "5"})
+    {
+        world.Submit(MakeLogisticsPlan("P" + number));
+        world.Control(EPlanControl::Cancel, "P" + number);
+    }
+    REQUIRE(world.TryRun());
+    CHECK_FALSE(world.engine->GetPlanOrNull("P2").has_value());
+    CHECK(world.engine->GetPlanOrNull("P3").has_value());
+    REQUIRE(world.store.GetState().plans.size() == 3);
+    CHECK(world.store.GetState().plans.front().plan.planID == "P3");
+    Restart(world, [](EngineOptions& options) { options.finishedPlansKept = 1; });
+    REQUIRE(world.store.GetState().plans.size() == 1);
+    CHECK(world.store.GetState().plans.front().plan.planID == "P5");
+    CHECK(world.engine->GetPlanOrNull("P5")->state == EPlanState::Cancelled);
+}
+
+TEST_CASE("R15, E82 TSC: Pausing ends what runs and begins nothing, Paused keeps what comes, Auto begins it")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    world.SwitchTsc(true);
+    CHECK(world.engine->GetTscState() == ETscState::Pausing);
+    world.Submit(MakeLogisticsPlan("P2"), 2);
+    CHECK(world.replies.at(2).bAccepted);
+    FinishPlan(world);
+    CHECK(world.GetReportsOf("P2").empty());
+    CHECK(world.GetTraceOf("tsc ") == Lines{"Pausing", "Paused"});
+    CHECK(world.GetRobot("LR01").GetOccupied() == Lines{"D-A02.CP03"}); // not even home
+    world.SwitchTsc(true);
+    world.SwitchTsc(false);
+    world.SwitchTsc(false);
+    CHECK(world.GetTraceOf("tsc ") == Lines{"Pausing", "Paused", "Auto"});
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
+}
+
+TEST_CASE("E82 TSC: paused at once where nothing runs, and back to Auto while it is still pausing")
+{
+    PlanWorld world;
+    world.Connect();
+    world.SwitchTsc(true);
+    CHECK(world.GetTraceOf("tsc ") == Lines{"Pausing", "Paused"});
+    world.SwitchTsc(false);
+    world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(TryRunUntil(world, "P1", "Plan InProgress"));
+    world.SwitchTsc(true);
+    world.SwitchTsc(false);
+    CHECK(world.GetTraceOf("tsc ") == Lines{"Pausing", "Paused", "Auto", "Pausing", "Auto"});
+}
+
+TEST_CASE("E82 TSC: a robot that still drives home keeps it pausing until it stands")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Plan Completed");
+    REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").drives == 3; }));
+    world.SwitchTsc(true);
+    CHECK(world.GetTraceOf("tsc ") == Lines{"Pausing"});
+    REQUIRE(world.TryRun());
+    CHECK(world.GetTraceOf("tsc ") == Lines{"Pausing", "Paused"});
+    CHECK(world.GetRobot("LR01").GetOccupied() == Lines{"D-CHG01"});
+}
+
+TEST_CASE("E82 TSC: a paused plan does not keep it pausing, and is not resumed before the TSC is Auto")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    PausePlan(world);
+    world.SwitchTsc(true);
+    CHECK(world.engine->GetTscState() == ETscState::Paused);
+    world.Control(EPlanControl::Resume, "P1");
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P1").back() == "ResumeResult Failed");
+    world.SwitchTsc(false);
+    world.Control(EPlanControl::Resume, "P1");
+    FinishPlan(world);
+}
+
+TEST_CASE("E82 TSC: what was paused is so after a restart; tsc.initial paused begins so every time")
+{
+    PlanWorld world;
+    world.SwitchTsc(true);
+    world.SwitchTsc(false);
+    Restart(world, [](EngineOptions&) {});
+    CHECK(world.engine->GetTscState() == ETscState::Auto);
+    world.SwitchTsc(true);
+    Restart(world, [](EngineOptions&) {});
+    CHECK(world.engine->GetTscState() == ETscState::Paused);
+    world.Connect();
+    world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P1").empty());
+    world.SwitchTsc(false);
+    REQUIRE(TryRunUntil(world, "P1", "Plan InProgress"));
+    Restart(world, [](EngineOptions& options) { options.bTscStartsPaused = true; });
+    CHECK(world.engine->GetTscState() == ETscState::Pausing); // what was being worked on comes to its end
+    world.Connect();
+    FinishPlan(world);
+    CHECK(world.engine->GetTscState() == ETscState::Paused);
+    CHECK(world.store.GetState().tscState == ETscState::Paused);
+}
+
+TEST_CASE("E82 tsc.paused_accepts_plans: plans that come while the TSC is not Auto wait, or are refused")
+{
+    for (const bool bAccepted : {true, false})
+    {
+        PlanWorld world =
+            MakeWorld([bAccepted](EngineOptions& options) { options.bTscPausedAcceptsPlans = bAccepted; });
+        world.SwitchTsc(true);
+        world.Submit(MakeLogisticsPlan("P1"), 1);
+        CHECK(world.replies.at(1).bAccepted == bAccepted);
+    }
+}
+
+TEST_CASE("After a restart a plan that was held in the queue is still held, and goes on when it is resumed")
+{
+    PlanWorld world;
+    world.Submit(MakeLogisticsPlan("P1"));
+    world.Control(EPlanControl::Pause, "P1");
+    Restart(world, [](EngineOptions&) {});
+    world.Connect();
+    REQUIRE(world.TryRun());
+    CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Paused);
+    world.Control(EPlanControl::Resume, "P1");
+    FinishPlan(world);
+}
+
+TEST_CASE("9 outbox.max: with so many unacknowledged reports plans are refused, an alarm says so, and nothing is lost")
+{
+    constexpr std::size_t LIMIT = 8;
+    PlanWorld world = MakeWorld([](EngineOptions& options) { options.maximumReports = LIMIT; });
+    const auto isFull = [&world] {
+        const auto& alarms = world.engine->GetActiveAlarms();
+        return std::any_of(alarms.begin(), alarms.end(), [](const Alarm& alarm) {
+            return alarm.errorCode == "ACS-1020";
+        });
+    };
+    world.bAcknowledges = false;
+    world.Connect();
+    world.Submit(MakeLogisticsPlan("P1"), 1);
+    REQUIRE(world.TryRun());
+    REQUIRE_FALSE(world.GetReportsOf("P1").empty());
+    CHECK(isFull());
+    const std::vector<OutboxEntry> waiting = world.engine->GetUnacknowledged();
+    CHECK(waiting.size() > LIMIT); // what runs is told to its end
+    CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+
+    world.Submit(MakeLogisticsPlan("P2"), 2);
+    CHECK_FALSE(world.replies.at(2).bAccepted);
+    CHECK(world.replies.at(2).message.find("Outbox Full") != std::string::npos);
+
+    EngineActions ignored;
+    for (const OutboxEntry& entry : waiting)
+    {
+        world.engine->Handle(PlanCommand(MessageAcknowledged{entry.sequence}), world.GetNow(), ignored);
+        if (world.engine->IsStoring())
+        {
+            world.engine->OnStored({}, world.GetNow(), ignored);
+        }
+    }
+    CHECK_FALSE(isFull());
+    world.Submit(MakeLogisticsPlan("P3"), 3);
+    CHECK(world.replies.at(3).bAccepted);
+}

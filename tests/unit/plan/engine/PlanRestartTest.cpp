@@ -1,0 +1,509 @@
+#include "fixtures/PlanWorldSteps.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using namespace std::chrono_literals;
+using ACS::Testing::BeginPlan;
+using ACS::Testing::Contains;
+using ACS::Testing::CountStarts;
+using ACS::Testing::FinishPlan;
+using ACS::Testing::GetReportsAfter;
+using ACS::Testing::Lines;
+using ACS::Testing::MakeControlPlan;
+using ACS::Testing::MakeLogisticsPlan;
+using ACS::Testing::MakeTestOptions;
+using ACS::Testing::MakeTestSite;
+using ACS::Testing::PausePlan;
+using ACS::Testing::PlanWorld;
+using ACS::Testing::RestartEngine;
+using ACS::Testing::TryRunFor;
+using ACS::Testing::TryRunUntil;
+
+namespace
+{
+
+const Lines LOGISTICS_REPORTS{
+    "Plan InProgress",
+    "Step 1 Dispatched",
+    "Step 1 InProgress",
+    "Job 1 P1-a4 Instructed",
+    "Job 1 P1-a4 InProgress",
+    "Job 1 P1-a4 Completed",
+    "Step 1 Completed",
+    "Step 2 Dispatched",
+    "Step 2 InProgress",
+    "Job 2 P1-b2 Instructed",
+    "Job 2 P1-b2 InProgress",
+    "Job 2 P1-b2 Completed",
+    "Step 2 Completed",
+    "Plan Completed"};
+
+/// P1, whose first job runs, after a restart over which nobody knows what became of it.
+void BeginUncertain(PlanWorld& world)
+{
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
+    world.GetRobot("LR01").uncertainReason = "it was switched off";
+    RestartEngine(world);
+    REQUIRE(world.engine->GetActiveAlarms().size() == 1);
+    const Alarm& alarm = world.engine->GetActiveAlarms().front();
+    CHECK(alarm.errorCode == "ACS-1008");
+    CHECK(alarm.level == EAlarmLevel::Heavy);
+    CHECK(alarm.planID == "P1");
+    CHECK(alarm.jobID == "P1-a4");
+    CHECK(alarm.message.find("it was switched off") != std::string::npos);
+}
+
+/// P1 was to go on when the engine ended, and its robot has not heard of it.
+void CrashInResume(PlanWorld& world)
+{
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
+    PausePlan(world);
+    world.GetRobot("LR01").bIgnoresPause = true;
+    world.Control(EPlanControl::Resume, "P1");
+    world.Crash();
+    world.GetRobot("LR01").bIgnoresPause = false;
+}
+
+} // namespace
+
+TEST_CASE("13.8 A crash at any action and a restart: each state is reported once and in order, each job is done once")
+{
+    for (std::size_t action = 0; action < 400; ++action)
+    {
+        INFO("action " << action);
+        PlanWorld world(action + 1);
+        world.Connect();
+        world.CrashAtAction(action);
+        world.Submit(MakeLogisticsPlan("P1"), 1, "T1");
+        static_cast<void>(world.TryRun([&world] { return world.engine == nullptr; }));
+        const bool bCrashed = world.engine == nullptr;
+        if (bCrashed)
+        {
+            const auto pause = std::chrono::milliseconds(world.GetRandom(4) * world.GetRandom(3'000));
+            static_cast<void>(TryRunFor(world, pause)); // the robot goes on alone
+            RestartEngine(world);
+            world.Submit(MakeLogisticsPlan("P1"), 2, "T1"); // its Ack may have been lost
+            CHECK(world.replies.at(2).bAccepted);
+        }
+        REQUIRE(world.TryRun());
+        CHECK(world.violations == Lines{});
+        CHECK(world.GetReportsOf("P1") == LOGISTICS_REPORTS);
+        CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
+        CHECK(world.engine->GetActiveAlarms().empty());
+        if (!bCrashed)
+        {
+            return; // the plan has fewer actions
+        }
+    }
+    FAIL("the plan has more actions than were crashed at");
+}
+
+TEST_CASE("13.8 Crash after crash, at random moments, on four robots: every plan ends and every job is done once")
+{
+    for (std::uint64_t seed = 1; seed <= 80; ++seed)
+    {
+        INFO("seed " << seed);
+        PlanWorld world(seed, true);
+        world.Connect();
+        std::size_t jobs = 0;
+        for (const char* planID : {"P1", "P2", "P3", "P4"})
+        {
+            world.Submit(MakeLogisticsPlan(planID), 0, planID);
+            world.Submit(MakeControlPlan(planID + std::string("C")), 0, planID);
+            jobs += 8;
+        }
+        for (int crash = 0; crash < 12; ++crash)
+        {
+            world.CrashAtAction(world.GetRandom(150));
+            static_cast<void>(world.TryRun([&world] { return world.engine == nullptr; }));
+            static_cast<void>(TryRunFor(world, std::chrono::milliseconds(world.GetRandom(5'000))));
+            world.Restart(MakeTestOptions(true), MakeTestSite());
+            world.Connect();
+        }
+        REQUIRE(world.TryRun());
+        CHECK(world.violations == Lines{});
+        CHECK(world.engine->GetActivePlans().empty());
+        std::vector<std::string> done;
+        for (const char* robotID : {"LR01", "LR02", "CR01", "CR02"})
+        {
+            const Lines& ofRobot = world.GetRobot(robotID).doneJobs;
+            done.insert(done.end(), ofRobot.begin(), ofRobot.end());
+        }
+        std::ranges::sort(done);
+        CHECK(done.size() == jobs);
+        CHECK(std::ranges::adjacent_find(done) == done.end());
+        for (const char* planID : {"P1", "P2C", "P4", "P4C"})
+        {
+            const Lines reports = world.GetReportsOf(planID);
+            CHECK(std::ranges::count(reports, "Plan Completed") == 1);
+            CHECK(reports.back() == "Plan Completed");
+        }
+    }
+}
+
+TEST_CASE("After a restart a job that ended meanwhile is told once, done or failed, and never commanded again")
+{
+    for (const bool bFails : {false, true})
+    {
+        PlanWorld world;
+        BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
+        if (bFails)
+        {
+            world.GetRobot("LR01").failingJobs.insert("P1-a4");
+        }
+        world.Crash();
+        static_cast<void>(TryRunFor(world, 10s));
+        const std::size_t told = world.GetReportsOf("P1").size();
+        RestartEngine(world);
+        REQUIRE(world.TryRun());
+        const Lines reports = GetReportsAfter(world, "P1", told);
+        CHECK(reports.front() == (bFails ? "Job 1 P1-a4 Failed" : "Job 1 P1-a4 Completed"));
+        CHECK(reports.back() == (bFails ? "Plan Failed" : "Plan Completed"));
+        CHECK(CountStarts(world, "P1-a4") == 1);
+    }
+}
+
+TEST_CASE("After a restart a job that cannot be known is held: not repeated, the robot does nothing else")
+{
+    PlanWorld world;
+    BeginUncertain(world);
+    world.Submit(MakeLogisticsPlan("P2"));
+    REQUIRE(world.TryRun());
+    CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::InProgress);
+    CHECK(world.engine->GetPlanOrNull("P2")->state == EPlanState::Pending);
+    CHECK(CountStarts(world, "P1-a4") == 1);
+    RestartEngine(world); // and still after one more
+    REQUIRE(world.TryRun());
+    CHECK(world.engine->GetActiveAlarms().size() == 1);
+    CHECK(CountStarts(world, "P1-a4") == 1);
+    CHECK(std::ranges::count(world.GetReportsOf("P1"), "Error ACS-1008 set") == 1);
+}
+
+TEST_CASE("The operator's answer to a held job: done, failed or again; what the robot tells later changes nothing")
+{
+    for (const EJobAnswer answer : {EJobAnswer::Done, EJobAnswer::Failed, EJobAnswer::Again})
+    {
+        INFO(GetText(answer));
+        PlanWorld world;
+        BeginUncertain(world);
+        REQUIRE(world.TryRun());
+        world.Raise("LR01", JobFailed{"P1-a4", "late news"});
+        CHECK(world.engine->GetActiveAlarms().size() == 1);
+        world.Settle("P1", "P1-b2", answer, 7);
+        CHECK_FALSE(world.replies.at(7).bAccepted);
+        const std::size_t told = world.GetReportsOf("P1").size();
+        world.Settle("P1", "P1-a4", answer, 8);
+        CHECK(world.replies.at(8).bAccepted);
+        world.Settle("P1", "P1-a4", answer, 9);
+        CHECK_FALSE(world.replies.at(9).bAccepted);
+        CHECK(world.engine->GetActiveAlarms().empty());
+        REQUIRE(world.TryRun());
+        const Lines reports = GetReportsAfter(world, "P1", told);
+        CHECK(reports.front() == "Error ACS-1008 cleared");
+        CHECK(reports.back() == (answer == EJobAnswer::Failed ? "Plan Failed" : "Plan Completed"));
+        CHECK(CountStarts(world, "P1-a4") == (answer == EJobAnswer::Again ? 2 : 1));
+        CHECK(CountStarts(world, "P1-b2") == (answer == EJobAnswer::Failed ? 0 : 1));
+        CHECK(std::ranges::count(world.GetReportsOf("P1"), "Job 1 P1-a4 InProgress") == 1);
+    }
+}
+
+TEST_CASE("A plan whose job is held can be aborted, which tells where to look")
+{
+    PlanWorld world;
+    BeginUncertain(world);
+    REQUIRE(world.TryRun());
+    const std::size_t told = world.GetReportsOf("P1").size();
+    world.Control(EPlanControl::Abort, "P1");
+    CHECK(
+        GetReportsAfter(world, "P1", told)
+        == Lines{"Error ACS-1007 set", "Plan Aborted", "AbortResult Success", "Error ACS-1008 cleared"});
+    world.GetRobot("LR01").uncertainReason.clear();
+    world.Submit(MakeLogisticsPlan("P2"));
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
+}
+
+TEST_CASE("After a restart nobody sets out before every robot has told where it stands, or 30 s have passed")
+{
+    for (const bool bAllThere : {true, false})
+    {
+        PlanWorld world(1, true);
+        BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 Dispatched");
+        world.Restart(MakeTestOptions(true), MakeTestSite());
+        const std::size_t before = world.GetTraceOf("command ").size();
+        StateChanged state;
+        for (const char* robotID : {"LR01", "CR01", "CR02"})
+        {
+            state.lastNodeID = world.GetRobot(robotID).GetOccupied().front();
+            world.Raise(robotID, LinkChanged{true});
+            world.Raise(robotID, state);
+        }
+        CHECK(world.GetTraceOf("command ").size() == before);
+        if (bAllThere)
+        {
+            world.Connect();
+        }
+        const auto start = world.GetNow().steady;
+        REQUIRE(world.TryRun([&world, before] { return world.GetTraceOf("command ").size() > before; }));
+        CHECK(world.GetNow().steady - start == (bAllThere ? 0s : 30s));
+    }
+}
+
+TEST_CASE("After a restart nobody waits for a robot that is in maintenance")
+{
+    PlanWorld world(1, true);
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 Dispatched");
+    REQUIRE(world.store.Append({{MaintenanceChanged{"LR02", true}}}).has_value());
+    world.Restart(MakeTestOptions(true), MakeTestSite());
+    const std::size_t before = world.GetTraceOf("command ").size();
+    StateChanged state;
+    for (const char* robotID : {"LR01", "CR01", "CR02"})
+    {
+        CHECK(world.GetTraceOf("command ").size() == before);
+        state.lastNodeID = world.GetRobot(robotID).GetOccupied().front();
+        world.Raise(robotID, LinkChanged{true});
+        world.Raise(robotID, state);
+    }
+    CHECK(world.GetTraceOf("command ").size() > before);
+}
+
+TEST_CASE("After a restart the nodes that a robot may still drive to are nobody else's")
+{
+    PlanWorld world(1, true);
+    world.Connect();
+    world.Restart(MakeTestOptions(true), MakeTestSite());
+    world.Connect();
+    StateChanged state;
+    state.lastNodeID = "D-CHG03";
+    state.bOccupied = true;
+    state.heldNodeIDs = {"L15", "L16", "L01", "L02"};
+    world.Raise("LR02", state);
+    world.Submit(MakeLogisticsPlan("P1"));
+    CHECK_FALSE(TryRunUntil(world, "P1", "Step 1 Dispatched")); // its way begins on L01
+    CHECK(world.GetTraceOf("command LR01 ").empty());
+    state.heldNodeIDs.clear();
+    state.bOccupied = false;
+    world.Raise("LR02", state);
+    CHECK(world.GetTraceOf("command LR01 ").size() == 1);
+}
+
+TEST_CASE("After a restart nobody is sent to where a robot that is not there yet may be, until it is out of service")
+{
+    for (const bool bDriving : {false, true})
+    {
+        PlanWorld world(1, true);
+        BeginPlan(world, MakeLogisticsPlan("P1"), bDriving ? "Step 1 InProgress" : "Job 1 P1-a4 InProgress");
+        world.Crash();
+        world.Restart(MakeTestOptions(true), MakeTestSite());
+        for (const char* robotID : {"LR02", "CR01", "CR02"})
+        {
+            world.Raise(robotID, LinkChanged{true});
+            world.TellState(robotID);
+        }
+        REQUIRE(TryRunFor(world, MakeTestOptions(true).restartWait));
+        world.Submit(MakeLogisticsPlan("P2")); // its first place is that of P1
+        REQUIRE(world.TryRun());
+        CHECK(world.GetTraceOf("command LR02 ").empty());
+        world.Ask(SetMaintenance{"LR01", true, 0});
+        REQUIRE(TryRunUntil(world, "P2", "Job 1 P2-a4 Completed"));
+    }
+}
+
+TEST_CASE("After a restart a plan that was paused stays so, and goes on where it was when it is resumed")
+{
+    for (const char* report :
+         {"Step 1 InProgress", "Job 1 P1-a4 Instructed", "Job 1 P1-a4 InProgress", "Step 2 InProgress"})
+    {
+        INFO(report);
+        PlanWorld world;
+        BeginPlan(world, MakeLogisticsPlan("P1"), report);
+        PausePlan(world);
+        world.Crash();
+        static_cast<void>(TryRunFor(world, 20s));
+        RestartEngine(world);
+        REQUIRE(world.TryRun());
+        CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Paused);
+        CHECK(world.engine->GetRobotStatuses()[0].status == ERobotStatus::Stopped);
+        world.Control(EPlanControl::Resume, "P1");
+        FinishPlan(world);
+        CHECK(Contains(world.GetReportsOf("P1"), "ResumeResult Success"));
+        CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
+        CHECK(world.violations == Lines{});
+    }
+}
+
+TEST_CASE(
+    "6.5 to 6.8 A control whose outcome was open has exactly one result after the restart, also when it came twice")
+{
+    struct Case
+    {
+        EPlanControl control;
+        const char* report;
+        const char* result;
+        const char* end;
+    };
+    const std::vector<Case> cases{
+        {EPlanControl::Cancel, "Step 1 InProgress", "CancelResult Success", "Plan Cancelled"},
+        {EPlanControl::Abort, "Step 2 Dispatched", "AbortResult Success", "Plan Aborted"},
+        {EPlanControl::Abort, "Job 1 P1-a4 InProgress", "AbortResult Success", "Plan Aborted"},
+        {EPlanControl::Pause, "Step 1 InProgress", "PauseResult Success", "Plan Paused"},
+        {EPlanControl::Pause, "Job 1 P1-a4 InProgress", "PauseResult Success", "Plan Paused"}};
+    for (const Case& row : cases)
+    {
+        INFO(GetText(row.control) << " at " << row.report);
+        PlanWorld world;
+        BeginPlan(world, MakeLogisticsPlan("P1"), row.report);
+        world.GetRobot("LR01").bIgnoresPause = true;
+        world.GetRobot("LR01").bIgnoresDriveCancel = true;
+        world.Control(row.control, "P1", 5, "T5");
+        CHECK(world.replies.at(5).bAccepted);
+        CHECK_FALSE(Contains(world.GetReportsOf("P1"), row.result));
+        world.Crash();
+        world.GetRobot("LR01").bIgnoresPause = false;
+        world.GetRobot("LR01").bIgnoresDriveCancel = false;
+        RestartEngine(world);
+        world.Control(row.control, "P1", 6, "T5"); // the Ack was lost, or so it seems
+        CHECK(world.replies.at(6).bAccepted);
+        REQUIRE(world.TryRun());
+        CHECK(std::ranges::count(world.GetReportsOf("P1"), row.result) == 1);
+        CHECK(std::ranges::count(world.GetReportsOf("P1"), row.end) == 1);
+        world.Control(row.control, "P1", 7, "T5");
+        CHECK(world.replies.at(7).bAccepted);
+        CHECK(std::ranges::count(world.GetReportsOf("P1"), row.result) == 1);
+    }
+}
+
+TEST_CASE("6.8 A Resume whose outcome was open is carried out after the restart")
+{
+    PlanWorld world;
+    CrashInResume(world);
+    RestartEngine(world);
+    FinishPlan(world);
+    CHECK(std::ranges::count(world.GetReportsOf("P1"), "ResumeResult Success") == 1);
+}
+
+TEST_CASE("6.8 A robot that shows no pause after the restart is told all the same to go on, as a part of it may stand")
+{
+    PlanWorld world;
+    CrashInResume(world);
+    world.GetRobot("LR01").bFinishesJobs = true; // goes on
+    world.GetRobot("LR01").resumesAsked = 0;
+    RestartEngine(world);
+    FinishPlan(world);
+    CHECK(world.GetRobot("LR01").resumesAsked > 0);
+    CHECK(std::ranges::count(world.GetReportsOf("P1"), "ResumeResult Success") == 1);
+}
+
+TEST_CASE("6.5 A cancel that was open and whose robot arrived meanwhile fails, and the plan goes on")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    world.GetRobot("LR01").bIgnoresDriveCancel = true;
+    world.Control(EPlanControl::Cancel, "P1");
+    world.Restart(MakeTestOptions(false), MakeTestSite());
+    StateChanged state;
+    state.lastNodeID = "D-A01.CP01";
+    world.Raise("LR01", LinkChanged{true});
+    world.Raise("LR01", state);
+    CHECK(world.GetReportsOf("P1").back() == "CancelResult Failed");
+    CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::InProgress);
+}
+
+TEST_CASE("D-23, 13.5 The same plan under the same transactionId is answered as the first time, also after a restart")
+{
+    PlanWorld world;
+    world.Connect();
+    world.Submit(MakeLogisticsPlan("P1"), 1, "T1");
+    world.Submit(MakeLogisticsPlan("P1"), 2, "T1");
+    RestartEngine(world);
+    world.Submit(MakeLogisticsPlan("P1"), 3, "T1");
+    REQUIRE(world.TryRun());
+    RestartEngine(world);
+    world.Submit(MakeLogisticsPlan("P1"), 4, "T1");
+    for (const ReplyToken token : {2U, 3U, 4U})
+    {
+        CHECK(world.replies.at(token).bAccepted);
+        CHECK(world.replies.at(token).message == world.replies.at(1).message);
+    }
+    world.Submit(MakeLogisticsPlan("P1"), 5, "T2");
+    Plan other = MakeLogisticsPlan("P1");
+    other.lotID = "another";
+    world.Submit(other, 6, "T1");
+    for (const ReplyToken token : {5U, 6U})
+    {
+        CHECK_FALSE(world.replies.at(token).bAccepted);
+        CHECK(world.replies.at(token).message.find("Duplicated Plan") != std::string::npos);
+    }
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P1") == LOGISTICS_REPORTS);
+}
+
+TEST_CASE(
+    "D-23 Another control under a transactionId that a control of the plan had is no repetition, nor after a restart")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
+    world.Control(EPlanControl::Cancel, "P1", 1, "T");
+    RestartEngine(world);
+    world.Control(EPlanControl::Cancel, "P1", 2, "T");
+    world.Control(EPlanControl::Abort, "P1", 3, "T");
+    REQUIRE(world.TryRun());
+    CHECK(world.replies.at(2).bAccepted);
+    CHECK(world.replies.at(3).bAccepted);
+    const Lines reports = world.GetReportsOf("P1");
+    CHECK(std::ranges::count(reports, "CancelResult Failed") == 1);
+    CHECK(std::ranges::count(reports, "AbortResult Success") == 1);
+}
+
+TEST_CASE("A job that was given up and had not ended keeps its robot out of work over a restart, too")
+{
+    for (const bool bUncertain : {false, true})
+    {
+        PlanWorld world =
+            ACS::Testing::MakeWorld([](EngineOptions& options) { options.controls.bAbortStopsJob = true; });
+        BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
+        world.GetRobot("LR01").bIgnoresJobCancel = true;
+        world.Control(EPlanControl::Abort, "P1");
+        CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Aborted);
+        world.GetRobot("LR01").uncertainReason = bUncertain ? "it was switched off" : "";
+        RestartEngine(world);
+        world.Submit(MakeLogisticsPlan("P2"));
+        if (bUncertain)
+        {
+            CHECK(world.engine->GetPlanOrNull("P2")->state == EPlanState::Pending);
+            world.Settle("P1", "P1-a4", EJobAnswer::Again, 8);
+            CHECK_FALSE(world.replies.at(8).bAccepted);
+            world.Settle("P1", "P1-a4", EJobAnswer::Done, 9);
+            CHECK(world.replies.at(9).bAccepted);
+        }
+        REQUIRE(world.TryRun());
+        CHECK(world.GetReportsOf("P2").empty()); // the job has filled the port
+        world.Ask(SetCarriers{"LR01", {std::nullopt}, 0});
+        REQUIRE(world.TryRun());
+        CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
+        CHECK(world.engine->GetActiveAlarms().empty());
+    }
+}
+
+TEST_CASE("A store of an older version, which tells nothing of robots, has a running job held and a waiting one begun")
+{
+    for (const EJobState state : {EJobState::Pending, EJobState::InProgress})
+    {
+        PlanWorld world;
+        PlanRecord record;
+        record.sequence = 1;
+        record.plan = MakeLogisticsPlan("P1");
+        record.progress.state = EPlanState::InProgress;
+        record.progress.robotID = "LR01";
+        record.progress.steps = {{EStepState::InProgress, {state}}, {EStepState::Pending, {EJobState::Pending}}};
+        REQUIRE(world.store.Append({{PlanAdded{record}}}).has_value());
+        RestartEngine(world);
+        REQUIRE(world.TryRun());
+        const bool bHeld = state == EJobState::InProgress;
+        CHECK(world.engine->GetActiveAlarms().size() == (bHeld ? 1 : 0));
+        CHECK(world.engine->GetPlanOrNull("P1")->state == (bHeld ? EPlanState::InProgress : EPlanState::Completed));
+        CHECK(CountStarts(world, "P1-a4") == (bHeld ? 0 : 1));
+    }
+}

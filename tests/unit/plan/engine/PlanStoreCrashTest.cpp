@@ -1,0 +1,282 @@
+#include "fixtures/PlanWorldSteps.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using namespace std::chrono_literals;
+using ACS::Testing::BeginPlan;
+using ACS::Testing::Contains;
+using ACS::Testing::CountStarts;
+using ACS::Testing::FinishPlan;
+using ACS::Testing::Lines;
+using ACS::Testing::MakeControlPlan;
+using ACS::Testing::MakeLogisticsPlan;
+using ACS::Testing::PausePlan;
+using ACS::Testing::PlanWorld;
+using ACS::Testing::RestartEngine;
+using ACS::Testing::TryRunFor;
+using ACS::Testing::TryRunUntil;
+
+namespace
+{
+
+/// The job that an operator is asked about; empty: none is.
+std::string GetHeldJob(const PlanWorld& world)
+{
+    const std::vector<Alarm> alarms = world.engine->GetActiveAlarms();
+    const auto held = std::ranges::find(alarms, "ACS-1008", &Alarm::errorCode);
+    return held == alarms.end() ? std::string() : held->jobID.value_or(std::string());
+}
+
+/// While the disk fails LR01 does its first job.
+void CrashBehindFirstJob(PlanWorld& world)
+{
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    world.store.bFails = true;
+    REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").doneJobs.size() == 1; }));
+    world.Crash();
+    world.store.bFails = false;
+}
+
+/// The first job of LR01 was done, and nobody wrote that down: both of its jobs are asked for, and each is done once.
+void CheckFirstJobHeld(PlanWorld& world)
+{
+    REQUIRE(world.TryRun());
+    CHECK(GetHeldJob(world) == "P1-a4");
+    world.Settle("P1", "P1-a4", EJobAnswer::Done);
+    REQUIRE(world.TryRun());
+    world.Settle("P1", "P1-b2", EJobAnswer::Again);
+    FinishPlan(world);
+    CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
+}
+
+} // namespace
+
+TEST_CASE("A crash while the disk fails: what the robot did and nobody wrote down is held, not done again")
+{
+    PlanWorld world;
+    CrashBehindFirstJob(world);
+    RestartEngine(world);
+    REQUIRE(world.TryRun());
+    REQUIRE(world.engine->GetActiveAlarms().size() == 1);
+    CHECK(world.engine->GetActiveAlarms().front().errorCode == "ACS-1008");
+    CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4"});
+    world.Settle("P1", "P1-a4", EJobAnswer::Done);
+    // The next one may have been done as well.
+    REQUIRE(world.TryRun());
+    CHECK(CountStarts(world, "P1-b2") == 0);
+    world.Settle("P1", "P1-b2", EJobAnswer::Again);
+    FinishPlan(world);
+    CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
+}
+
+TEST_CASE("A crash while the disk fails: each job that the robot may have done is asked for, also after another crash")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeControlPlan("P1"), "Job 1 P1-cd InProgress");
+    world.store.bFails = true;
+    REQUIRE(world.TryRun([&world] { return world.GetRobot("CR01").doneJobs.size() == 3; }));
+    world.Crash();
+    world.store.bFails = false;
+    RestartEngine(world);
+    REQUIRE(world.TryRun());
+    CHECK(GetHeldJob(world) == "P1-b3");
+    world.Crash();
+    RestartEngine(world);
+    REQUIRE(world.TryRun());
+    CHECK(GetHeldJob(world) == "P1-b3");
+    world.Settle("P1", "P1-b3", EJobAnswer::Done);
+    REQUIRE(world.TryRun());
+    CHECK(GetHeldJob(world) == "P1-f3"); // of the next step
+    world.Settle("P1", "P1-f3", EJobAnswer::Done);
+    REQUIRE(world.TryRun());
+    CHECK(GetHeldJob(world) == "P1-e0");
+    world.Settle("P1", "P1-e0", EJobAnswer::Done); // begun before the crash, and done after it
+    REQUIRE(world.TryRun());
+    CHECK(GetHeldJob(world) == "P1-d1");
+    world.Settle("P1", "P1-d1", EJobAnswer::Again);
+    FinishPlan(world);
+    CHECK(world.GetRobot("CR01").doneJobs == Lines{"P1-cd", "P1-b3", "P1-f3", "P1-e0", "P1-d1", "P1-d2"});
+    CHECK(GetHeldJob(world).empty());
+}
+
+TEST_CASE("A crash while the disk fails: so is the first job of a robot of which no command is written down")
+{
+    const std::string before = GENERATE("", "an order of another system");
+    PlanWorld world(1, true);
+    world.Connect();
+    StateChanged state;
+    state.lastNodeID = "D-CHG01";
+    state.shownCommandID = before;
+    world.Raise("LR01", state);
+    StateChanged inTheWay;
+    inTheWay.lastNodeID = "D-CHG03";
+    inTheWay.bDriving = true;
+    inTheWay.heldNodeIDs = {"L01"};
+    world.Raise("LR02", inTheWay);
+    world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(TryRunUntil(world, "P1", "Step 1 Dispatched"));
+    world.store.bFails = true;
+    world.TellState("LR02");
+    REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").doneJobs.size() == 1; }));
+    world.Crash();
+    world.store.bFails = false;
+    world.Restart(ACS::Testing::MakeTestOptions(true), ACS::Testing::MakeTestSite());
+    world.Connect();
+    CheckFirstJobHeld(world);
+}
+
+TEST_CASE(
+    "A crash while the disk fails: so is the first job of a robot that took its first drive and was switched off since")
+{
+    PlanWorld world;
+    CrashBehindFirstJob(world);
+    world.GetRobot("LR01").Forget();
+    RestartEngine(world);
+    CheckFirstJobHeld(world);
+}
+
+TEST_CASE("What an arm shows as its plan begins is written down with that")
+{
+    PlanWorld world;
+    world.Connect();
+    StateChanged state;
+    state.lastNodeID = "D-CHG02";
+    state.mark = "5 5 0";
+    world.Raise("CR01", state);
+    world.Submit(MakeControlPlan("P1"));
+    REQUIRE(TryRunUntil(world, "P1", "Plan InProgress"));
+    const std::vector<RobotWorkChanged>& works = world.store.GetState().robotWorks;
+    CHECK(std::ranges::find(works, "CR01", &RobotWorkChanged::robotID)->mark == "5 5 0");
+}
+
+TEST_CASE("A robot that shows nothing after a restart, as it was switched off meanwhile, has its next job asked for")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeControlPlan("P1"), "Job 1 P1-cd InProgress");
+    world.store.bFails = true;
+    REQUIRE(world.TryRun([&world] { return world.GetRobot("CR01").doneJobs.size() == 1; }));
+    world.store.bFails = false;
+    REQUIRE(TryRunUntil(world, "P1", "Job 1 P1-cd Completed"));
+    PausePlan(world);
+    REQUIRE(world.TryRun());
+    world.Crash();
+    world.GetRobot("CR01").Forget();
+    RestartEngine(world);
+    world.Control(EPlanControl::Resume, "P1");
+    REQUIRE(world.TryRun());
+    CHECK_FALSE(GetHeldJob(world).empty());
+}
+
+TEST_CASE(
+    "A job is not begun in the call that begins its plan, if that cannot be stored: after a crash it would be again")
+{
+    PlanWorld world =
+        ACS::Testing::MakeWorld([](EngineOptions& options) { options.robots.front().startNodeID = "D-A01.CP01"; });
+    world.Connect();
+    world.Submit(MakeLogisticsPlan("P1"));
+    world.store.bFails = true;
+    static_cast<void>(TryRunFor(world, 500ms));
+    CHECK(CountStarts(world, "P1-a4") == 0);
+    world.store.bFails = false;
+    FinishPlan(world);
+    CHECK(CountStarts(world, "P1-a4") == 1);
+}
+
+TEST_CASE("A robot is not told to pause by a request that cannot be stored: after a crash nobody would let it go on")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    world.store.bFails = true;
+    world.Control(EPlanControl::Pause, "P1", 5, "T5");
+    CHECK_FALSE(world.replies.at(5).bAccepted);
+    CHECK(world.GetTraceOf("command LR01 Pause").empty());
+    world.Crash();
+    world.store.bFails = false;
+    RestartEngine(world);
+    FinishPlan(world);
+}
+
+TEST_CASE("A control that cannot be stored is refused: after a crash nobody would know that it was promised")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    world.store.bFails = true;
+    world.Control(EPlanControl::Pause, "P1", 5, "T5"); // the write that shows that the disk fails
+    CHECK_FALSE(world.replies.at(5).bAccepted);
+    CHECK(world.replies.at(5).message.find("cannot be stored") != std::string::npos);
+    world.Control(EPlanControl::Pause, "P1", 6, "T5");
+    CHECK_FALSE(world.replies.at(6).bAccepted);
+    world.Control(EPlanControl::Abort, "P1", 7, "T7");
+    CHECK_FALSE(world.replies.at(7).bAccepted);
+    world.Control(EPlanControl::Abort, "nobody", 8, "T8");
+    CHECK_FALSE(world.replies.at(8).bAccepted);
+    static_cast<void>(TryRunFor(world, 1s));
+    world.store.bFails = false;
+    static_cast<void>(TryRunFor(world, 2s));
+    CHECK_FALSE(Contains(world.GetReportsOf("P1"), "AbortResult Success"));
+    world.Control(EPlanControl::Abort, "P1", 9, "T7");
+    CHECK(world.replies.at(9).bAccepted);
+    REQUIRE(world.TryRun());
+    CHECK(Contains(world.GetReportsOf("P1"), "AbortResult Success"));
+}
+
+TEST_CASE("13.5 A plan that is stored is not refused because it is sent again together with one that cannot be")
+{
+    PlanWorld world;
+    world.Connect();
+    world.Submit(MakeLogisticsPlan("P1"), 1, "T1");
+    world.store.bFails = true;
+    world.SubmitTogether({{MakeLogisticsPlan("P1"), 2, "T1"}, {MakeLogisticsPlan("P2"), 3, "T2"}});
+    CHECK(world.replies.at(2).bAccepted);
+    CHECK_FALSE(world.replies.at(3).bAccepted);
+}
+
+TEST_CASE("6.7 A pause that waits for the end of a held job is confirmed when the job is to be done again")
+{
+    const auto change = [](EngineOptions& options) {
+        options.controls.bPausesAfterJob = true;
+    };
+    PlanWorld world = ACS::Testing::MakeWorld(change);
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
+    world.GetRobot("LR01").uncertainReason = "it was switched off";
+    RestartEngine(world, change);
+    REQUIRE(world.TryRun());
+    REQUIRE(GetHeldJob(world) == "P1-a4");
+    world.Control(EPlanControl::Pause, "P1");
+    world.Settle("P1", "P1-a4", EJobAnswer::Again);
+    CHECK(world.GetReportsOf("P1").back() != "Plan Completed");
+    CHECK(Contains(world.GetReportsOf("P1"), "PauseResult Success"));
+    world.Control(EPlanControl::Resume, "P1");
+    FinishPlan(world);
+}
+
+TEST_CASE(
+    "While the disk fails no plan is begun, and one whose begin was lost does no job: a crash would begin it again")
+{
+    PlanWorld world;
+    world.Connect();
+    world.Submit(MakeLogisticsPlan("P1"));
+    world.store.bFails = true;
+    static_cast<void>(TryRunFor(world, 60s));
+    CHECK(world.GetRobot("LR01").drives == 1);
+    CHECK(CountStarts(world, "P1-a4") == 0);
+    world.Crash();
+    world.store.bFails = false;
+    RestartEngine(world);
+    FinishPlan(world);
+    CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
+    world.Submit(MakeLogisticsPlan("P2"));
+    world.store.bFails = true;
+    world.SwitchTsc(true); // fails to be stored
+    world.SwitchTsc(false);
+    static_cast<void>(TryRunFor(world, 5s));
+    CHECK(world.engine->GetPlanOrNull("P2")->state == EPlanState::Pending);
+    world.store.bFails = false;
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
+}

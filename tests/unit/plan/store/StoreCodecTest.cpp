@@ -1,0 +1,92 @@
+#include "Catch.hpp"
+#include "fixtures/PlanWorld.hpp"
+#include <acs/plan/StoreCodec.hpp>
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using namespace ACS;           // NOLINT(google-build-using-namespace)
+
+TEST_CASE("Store texts: plans, states, carriers and alarms come back as they went")
+{
+    const Plan plan = Testing::MakeControlPlan("PLAN-\"1\" ä");
+    CHECK(DecodePlan(EncodePlan(plan)) == plan);
+
+    PlanProgress progress;
+    progress.state = EPlanState::InProgress;
+    progress.robotID = "CR01";
+    progress.startedAt = Testing::ManualClock().GetNow().wall + std::chrono::nanoseconds(1);
+    progress.steps = {{EStepState::Completed, {EJobState::Completed}}, {EStepState::Dispatched, {}}};
+    CHECK(DecodeProgress(EncodeProgress(progress)) == progress);
+
+    const CarriersChanged carriers{"CR01", {std::nullopt, "TRAY_02", std::nullopt}};
+    CHECK(DecodeCarriers(EncodeCarriers(carriers)) == carriers);
+
+    const Alarm alarm{"CR01", "ACS-1001", EAlarmLevel::Heavy, "look", "P1", 2, std::nullopt};
+    CHECK(DecodeAlarm(EncodeAlarm(alarm)) == alarm);
+}
+
+TEST_CASE("Store texts: a robot's work comes back with its job, also as older versions wrote it")
+{
+    RobotWorkChanged work;
+    work.robotID = "CR01";
+    work.commandID = "command";
+    work.job =
+        StartJob{"P1", 2, "J1", "TrayLoad", "A01.CP01", "A01.CP01.TP01", "CR01.TP01", "TRAY_01", "command", "m", 4711};
+    work.jobNumber = 4711;
+    CHECK(DecodeRobotWork(EncodeRobotWork(work)) == work);
+
+    const Core::Result<RobotWorkChanged> old = DecodeRobotWork(
+        R"({"robotId":"CR01","commandId":"command","job":{"planId":"P1","stepNo":2,"jobId":"J1","action":"TrayLoad",)"
+        R"("position":"A01.CP01","from":"A01.CP01.TP01","to":"CR01.TP01","carrierId":"TRAY_01","commandId":"command",)"
+        R"("mark":"m"}})");
+    REQUIRE(old.has_value());
+    work.jobNumber = 0;
+    work.job->jobNumber = 0;
+    CHECK(*old == work);
+}
+
+TEST_CASE("Store texts: what was accepted comes back however long it is")
+{
+    constexpr std::size_t LONGEST_MESSAGE_BY_DEFAULT = 4U * 1024 * 1024;
+    constexpr std::size_t LONGEST_STRING_BY_DEFAULT = 64U * 1024;
+    constexpr std::size_t MOST_JOBS = 1'000;
+    Plan plan = Testing::MakeControlPlan("P1");
+    Step step = plan.steps[1];
+    step.jobs.resize(MOST_JOBS, step.jobs.front());
+    plan.steps.resize(100, step);
+    const std::string text = EncodePlan(plan);
+    REQUIRE(text.size() > LONGEST_MESSAGE_BY_DEFAULT);
+    const Core::Result<Plan> read = DecodePlan(text);
+    REQUIRE(read.has_value());
+    CHECK((*read == plan)); // without the text of both where it fails
+
+    // A vehicle's description of that length, with words of ours before it.
+    const Report report =
+        PlanReport{"P1", EPlanState::Failed, "It failed: " + std::string(LONGEST_STRING_BY_DEFAULT, 'x')};
+    const Core::Result<Report> readReport = DecodeReport(EncodeReport(report));
+    REQUIRE(readReport.has_value());
+    CHECK((*readReport == report));
+}
+
+TEST_CASE("Store texts: every kind of report comes back as it went")
+{
+    const std::vector<Report> reports{
+        PlanReport{"P1", EPlanState::Failed, "why"},
+        StepReport{"P1", "LR01", 1, EStepState::InProgress, ""},
+        JobReport{"P1", "LR01", 1, "J1", EJobState::Instructed, ""},
+        ErrorReport{{"LR01", "AGV-x", EAlarmLevel::Light, "m", std::nullopt, std::nullopt, std::nullopt}, false},
+        ControlResultReport{EPlanControl::Abort, "P1", false, "late"}};
+    for (const Report& report : reports)
+    {
+        INFO(EncodeReport(report));
+        CHECK(DecodeReport(EncodeReport(report)) == report);
+    }
+}
+
+TEST_CASE("Store texts: what is damaged is refused and not guessed")
+{
+    CHECK_FALSE(DecodePlan("").has_value());
+    CHECK_FALSE(DecodePlan(R"({"steps":[]})").has_value());
+    CHECK_FALSE(DecodeReport(R"({"kind":"Step","planId":"P1"})").has_value());
+    CHECK_FALSE(DecodeReport(R"({"kind":"Nothing"})").has_value());
+    CHECK_FALSE(DecodeProgress(R"({"state":"Lost","steps":[]})").has_value());
+}
