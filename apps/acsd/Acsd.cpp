@@ -127,15 +127,15 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
                 [&](const Planning::SendReport& report) { _mcs.Report(report.entry); },
                 [&](const Planning::CommandRobot& command) { CommandRobot(command); },
                 [&](const Planning::RobotStatusChanged& changed) {
-                    _mcs.TellStatus(changed.status);
+                    _mcs.PublishStatus(changed.status);
                     _reachable.erase(changed.status.robotID);
                     if (changed.status.status != Planning::ERobotStatus::Disconnected)
                     {
                         _reachable.insert(changed.status.robotID);
                     }
-                    TellWorking();
+                    UpdateWorking();
                 },
-                [&](const Planning::TscStateChanged& changed) { _mcs.TellTsc(changed.state); },
+                [&](const Planning::TscStateChanged& changed) { _mcs.PublishTscState(changed.state); },
                 [&](const Planning::StartEngineTimer& start) { _engineTimers.Start(start.timer, start.delay); },
                 [&](const Planning::CancelEngineTimer& cancel) {
                     _engineTimers.Cancel(cancel.timer);
@@ -155,7 +155,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         switch (timer)
         {
             case EAcsdTimer::WorkGrace:
-                _mcs.TellWorking(false);
+                _mcs.PublishWorking(false);
                 break;
             case EAcsdTimer::Drain:
             case EAcsdTimer::Settle:
@@ -180,7 +180,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     }
 
     /// 5.3: no work can be taken while the broker is away, or all robots are; told after a grace.
-    void TellWorking()
+    void UpdateWorking()
     {
         if (_bDraining)
         {
@@ -195,7 +195,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         if (bWorks)
         {
             _timers.Cancel(EAcsdTimer::WorkGrace);
-            _mcs.TellWorking(true);
+            _mcs.PublishWorking(true);
         }
         else
         {
@@ -210,7 +210,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         {
             return;
         }
-        TellWorking();
+        UpdateWorking();
         for (const auto& [robotID, robot] : _robots)
         {
             robot->OnLinkUp();
@@ -224,7 +224,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         {
             return;
         }
-        TellWorking();
+        UpdateWorking();
         for (const auto& [robotID, robot] : _robots)
         {
             robot->OnLinkDown();
@@ -341,7 +341,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
     {
         for (const Planning::RobotStatus& status : _engine.GetRobotStatuses())
         {
-            _mcs.TellStatus(status);
+            _mcs.PublishStatus(status);
         }
         StartStatusTimer();
     }

@@ -8,7 +8,7 @@
 namespace ACS::Acsd
 {
 
-/// What McsDialog needs of the session with the MCS: functions of AcsSession, carried out at once. Events that they lead to
+/// What McsGateway needs of the session with the MCS: functions of AcsSession, carried out at once. Events that they lead to
 /// come after the call has returned.
 class IMcsOutput
 {

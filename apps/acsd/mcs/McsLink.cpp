@@ -43,7 +43,7 @@ McsLink::McsLink(
       _logger(logger),
       _log(logger),
       _notes(logger),
-      _dialog(clock, std::move(logger), localOffset, engine, *this, std::move(handler))
+      _gateway(clock, std::move(logger), localOffset, engine, *this, std::move(handler))
 {
 }
 
@@ -57,7 +57,7 @@ Core::Result<void> McsLink::Open(
 {
     _traceOrNull = traceOrNull;
     SetLimits(config.mcs);
-    _dialog.SetAckObserver([this](const Protocol::Acked& acked, Core::Duration wait) {
+    _gateway.SetAckObserver([this](const Protocol::Acked& acked, Core::Duration wait) {
         const bool bRefused = acked.result == Protocol::EAckResult::Fail;
         _figures.refused.at(static_cast<std::size_t>(acked.command)) += bRefused ? 1U : 0U;
         if (_ackObserver)
@@ -81,18 +81,18 @@ Core::Result<void> McsLink::Open(
 
 void McsLink::Restore(std::uint64_t lastSequence)
 {
-    _dialog.Restore(lastSequence);
+    _gateway.Restore(lastSequence);
 }
 
 void McsLink::Start()
 {
-    _dialog.Begin();
+    _gateway.Begin();
     _client->Start();
 }
 
 void McsLink::SetLimits(const McsConfig& config)
 {
-    _dialog.SetStyle(config.style);
+    _gateway.SetStyle(config.style);
     _warnBytes = config.warnBytes;
 }
 
@@ -103,7 +103,7 @@ void McsLink::SetAckObserver(AckObserver observer)
 
 void McsLink::BeginDraining()
 {
-    _dialog.BeginDraining();
+    _gateway.BeginDraining();
 }
 
 /// Section 12: what is longer than the MCS's buffer is lost without an acknowledgement. Each new length is told once.
@@ -139,27 +139,27 @@ void McsLink::StopAsync(StopHandler handler)
 
 void McsLink::Reply(const Planning::ReplyCommand& reply)
 {
-    _dialog.Reply(reply);
+    _gateway.Reply(reply);
 }
 
 void McsLink::Report(const Planning::OutboxEntry& entry)
 {
-    _dialog.Report(entry);
+    _gateway.Report(entry);
 }
 
-void McsLink::TellStatus(const Planning::RobotStatus& status)
+void McsLink::PublishStatus(const Planning::RobotStatus& status)
 {
-    _dialog.TellStatus(status);
+    _gateway.PublishStatus(status);
 }
 
-void McsLink::TellWorking(bool bWorking)
+void McsLink::PublishWorking(bool bWorking)
 {
-    _dialog.TellWorking(bWorking);
+    _gateway.PublishWorking(bWorking);
 }
 
-void McsLink::TellTsc(Planning::ETscState state)
+void McsLink::PublishTscState(Planning::ETscState state)
 {
-    _dialog.TellTsc(state);
+    _gateway.PublishTscState(state);
 }
 
 bool McsLink::IsRegistered() const
@@ -206,7 +206,7 @@ McsLink::Figures McsLink::GetFigures() const
 {
     Figures figures = _figures;
     figures.bConnected = GetStatistics().connects > _connectsBefore;
-    figures.refusedReports = _dialog.GetRefusedReports();
+    figures.refusedReports = _gateway.GetRefusedReports();
     return figures;
 }
 
@@ -229,7 +229,7 @@ void McsLink::OnSessionEvent(const Protocol::SessionEvent& event)
     {
         _connectsBefore = GetStatistics().connects;
     }
-    _dialog.OnSessionEvent(event);
+    _gateway.OnSessionEvent(event);
     if (std::holds_alternative<Protocol::Stopped>(event) && _stopHandler)
     {
         std::exchange(_stopHandler, nullptr)();

@@ -3,7 +3,7 @@
 #include "common/log/LogRateLimiter.hpp"
 #include "config/AcsdConfig.hpp"
 #include "mcs/IMcsOutput.hpp"
-#include "mcs/McsDialog.hpp"
+#include "mcs/McsGateway.hpp"
 #include "mcs/McsNoteLog.hpp"
 #include "mcs/RegistrationWatch.hpp"
 #include "operator/AcsdStatus.hpp"
@@ -32,11 +32,11 @@
 namespace ACS::Acsd
 {
 
-/// The side of acsd that faces the MCS: a McsDialog over a WebSocket, and what is logged of it. One thread: the executor's.
+/// The side of acsd that faces the MCS: a McsGateway over a WebSocket, and what is logged of it. One thread: the executor's.
 class McsLink final : private ProtocolBeast::ISessionHandler, private IMcsOutput
 {
 public:
-    using CommandHandler = McsDialog::CommandHandler;
+    using CommandHandler = McsGateway::CommandHandler;
     using StopHandler = std::function<void()>;
 
     /// What the session's own statistics do not have.
@@ -57,7 +57,7 @@ private:
     Apps::LogRateLimiter _log; ///< For what the MCS can make come in a flood.
     McsNoteLog _notes;
     RegistrationWatch _watch;
-    McsDialog _dialog;
+    McsGateway _gateway;
     StopHandler _stopHandler;
     std::unique_ptr<ProtocolBeast::AcsClient> _client;
     std::string _url;
@@ -121,9 +121,9 @@ public:
 
     void Reply(const Planning::ReplyCommand& reply);
     void Report(const Planning::OutboxEntry& entry);
-    void TellStatus(const Planning::RobotStatus& status);
-    void TellWorking(bool bWorking);
-    void TellTsc(Planning::ETscState state);
+    void PublishStatus(const Planning::RobotStatus& status);
+    void PublishWorking(bool bWorking);
+    void PublishTscState(Planning::ETscState state);
 
     [[nodiscard]] bool IsRegistered() const override;
     [[nodiscard]] const Protocol::SessionStatistics& GetStatistics() const;

@@ -1,6 +1,6 @@
 #include "mcs/McsNoteLog.hpp"
 
-#include "mcs/McsDialog.hpp"
+#include "mcs/McsGateway.hpp"
 
 #include <fmt/format.h>
 

@@ -39,7 +39,7 @@ AcsdProcess::AcsdProcess(const Surroundings& around, CrashHandler onCrash, Commi
           [this](const Planning::EngineAction& action) { Execute(action); },
           [this](const Planning::StoreBatch& batch) { Store(batch); }),
       _session(MakeSessionOptions(), _around.ownRandom),
-      _dialog(
+      _gateway(
           _around.timeline,
           Core::Logger(),
           Apps::LocalOffset(std::chrono::minutes(540)),
@@ -71,13 +71,13 @@ void AcsdProcess::Begin()
                 TakeRobotEvent(robotID, event);
             }));
     }
-    _dialog.Restore(_around.store.GetState().lastReportSequence);
+    _gateway.Restore(_around.store.GetState().lastReportSequence);
     _host.Restore(_mutator.OnRestore(_around.store.Load()));
     if (_bDead)
     {
         return;
     }
-    _dialog.Begin();
+    _gateway.Begin();
     RunSession([this](Core::Now now, auto& out) { _session.Start(now, out); });
 }
 
@@ -194,11 +194,11 @@ void AcsdProcess::CarryOut(const Planning::EngineAction& action)
     std::visit(
         Core::Overloaded{
             [](const Planning::StorePlans&) { assert(false && "carried out by the loop"); },
-            [this](const Planning::ReplyCommand& reply) { _dialog.Reply(_mutator.OnReply(reply)); },
+            [this](const Planning::ReplyCommand& reply) { _gateway.Reply(_mutator.OnReply(reply)); },
             [this](const Planning::SendReport& report) { Report(report.entry); },
             [this](const Planning::CommandRobot& command) { CommandRobot(command); },
-            [this](const Planning::RobotStatusChanged& changed) { _dialog.TellStatus(changed.status); },
-            [this](const Planning::TscStateChanged& changed) { _dialog.TellTsc(changed.state); },
+            [this](const Planning::RobotStatusChanged& changed) { _gateway.PublishStatus(changed.status); },
+            [this](const Planning::TscStateChanged& changed) { _gateway.PublishTscState(changed.state); },
             [this](const Planning::StartEngineTimer& start) {
                 if (_mutator.ShouldForgetTimer())
                 {
@@ -219,7 +219,7 @@ void AcsdProcess::Report(const Planning::OutboxEntry& entry)
     const Mutator::ReportOutcome outcome = _mutator.OnReport(entry);
     for (const Planning::OutboxEntry& told : outcome.told)
     {
-        _dialog.Report(told);
+        _gateway.Report(told);
     }
     if (outcome.bAcknowledged)
     {
@@ -327,7 +327,7 @@ void AcsdProcess::Act(const Protocol::SessionAction& action)
                         _mutator.Is(EMutation::ReplayForgotten) && std::holds_alternative<Protocol::Registered>(event);
                     if (!_bDead && !bForgotten)
                     {
-                        _dialog.OnSessionEvent(event);
+                        _gateway.OnSessionEvent(event);
                     }
                     else if (!_bDead)
                     {

@@ -6,7 +6,7 @@
 #include "IRobotHand.hpp"
 #include "ISimulatedRobot.hpp"
 #include "mcs/IMcsOutput.hpp"
-#include "mcs/McsDialog.hpp"
+#include "mcs/McsGateway.hpp"
 #include "Mutator.hpp"
 #include "Scenario.hpp"
 #include "TextNetwork.hpp"
@@ -27,8 +27,8 @@
 namespace ACS::Simulation
 {
 
-/// acsd from one start to its crash: the engine, its loop, the dialog with the MCS, the session and the robots' adapters,
-/// joined as Acsd joins them, with the world's disk, network and radios in place of the system's.
+/// acsd from one start to its crash: the engine, its loop, the gateway to the MCS, the session and the robots' adapters,
+/// connected as Acsd connects them, with the world's disk, network and radios in place of the system's.
 class AcsdProcess final : private Acsd::IMcsOutput, private ITextPeer
 {
 public:
@@ -63,7 +63,7 @@ private:
     Planning::PlanEngine _engine;
     Planning::PlanEngineHost _host;
     Protocol::AcsSession _session;
-    Acsd::McsDialog _dialog;
+    Acsd::McsGateway _gateway;
     std::map<std::string, std::unique_ptr<IRobotHand>> _hands;
 
     TimerBank<Planning::EngineTimer> _engineTimers;

@@ -1,7 +1,7 @@
 #include "Catch.hpp"
 #include "config/AcsdConfig.hpp"
 #include "ManualClock.hpp"
-#include "mcs/McsDialog.hpp"
+#include "mcs/McsGateway.hpp"
 #include "RecordingLogSink.hpp"
 #include "SeededRandom.hpp"
 #include <acs/protocol/AcsCodec.hpp>
@@ -70,8 +70,8 @@ public:
     }
 };
 
-/// An engine that has restored these reports and alarms, and the dialog in front of it.
-struct DialogFixture
+/// An engine that has restored these reports and alarms, and the gateway in front of it.
+struct GatewayFixture
 {
     AcsdConfig config = ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", {});
     Testing::ManualClock clock;
@@ -80,7 +80,7 @@ struct DialogFixture
     Planning::PlanEngine engine{config.engine, *config.site, random};
     RecordedOutput output;
     std::vector<Planning::PlanCommand> commands;
-    McsDialog dialog{
+    McsGateway gateway{
         clock,
         Core::Logger(sink, "mcs"),
         config.localOffset,
@@ -93,7 +93,7 @@ struct DialogFixture
     void Restore(Planning::StoredState state)
     {
         Planning::EngineActions ignored;
-        dialog.Restore(state.outbox.empty() ? 0 : state.outbox.back().sequence);
+        gateway.Restore(state.outbox.empty() ? 0 : state.outbox.back().sequence);
         engine.Restore(std::move(state), clock.GetNow(), ignored);
     }
 
@@ -110,12 +110,12 @@ struct DialogFixture
 
     void Ask(Protocol::AcsPayload payload)
     {
-        dialog.OnSessionEvent(Protocol::RequestReceived{{"R", {}, std::move(payload)}, false});
+        gateway.OnSessionEvent(Protocol::RequestReceived{{"R", {}, std::move(payload)}, false});
     }
 
     void Ack(const std::string& transactionID, Protocol::EAckResult result)
     {
-        dialog.OnSessionEvent(Protocol::Acked{Protocol::EAcsCommand::PlanReport, transactionID, result, "no"});
+        gateway.OnSessionEvent(Protocol::Acked{Protocol::EAcsCommand::PlanReport, transactionID, result, "no"});
     }
 
     [[nodiscard]] std::vector<std::uint64_t> GetForgotten() const
@@ -157,22 +157,22 @@ const std::vector<Planning::Report> OUTAGE{
 } // namespace
 
 TEST_CASE_METHOD(
-    DialogFixture,
+    GatewayFixture,
     "outbox.replay: all of an outage is told, or what is final, or nothing; the rest is forgotten")
 {
     Restore(OUTAGE);
     MessageStyle style;
     SECTION("all")
     {
-        dialog.OnSessionEvent(Protocol::Registered{});
+        gateway.OnSessionEvent(Protocol::Registered{});
         CHECK(GetSentIDs() == std::vector<std::string>{"T1", "T2", "T3", "T4"});
         CHECK(commands.empty());
     }
     SECTION("final_only")
     {
         style.replay = EOutboxReplay::FinalOnly;
-        dialog.SetStyle(style);
-        dialog.OnSessionEvent(Protocol::Registered{});
+        gateway.SetStyle(style);
+        gateway.OnSessionEvent(Protocol::Registered{});
         CHECK(GetSentIDs() == std::vector<std::string>{"T3", "T4"});
         CHECK(GetForgotten() == std::vector<std::uint64_t>{1, 2});
         CHECK(sink.ContainsField("count", "2"));
@@ -180,8 +180,8 @@ TEST_CASE_METHOD(
     SECTION("none")
     {
         style.replay = EOutboxReplay::None;
-        dialog.SetStyle(style);
-        dialog.OnSessionEvent(Protocol::Registered{});
+        gateway.SetStyle(style);
+        gateway.OnSessionEvent(Protocol::Registered{});
         CHECK(output.durable.empty());
         CHECK(GetForgotten() == std::vector<std::uint64_t>{1, 2, 3, 4});
     }
@@ -189,40 +189,40 @@ TEST_CASE_METHOD(
 }
 
 TEST_CASE_METHOD(
-    DialogFixture,
+    GatewayFixture,
     "mcs.on_report_nack: a refused report is final, or is sent again with the next registration")
 {
     Restore({OUTAGE.front()});
     const bool bRetried = GENERATE(false, true);
     MessageStyle style;
     style.bRefusedReportsRetried = bRetried;
-    dialog.SetStyle(style);
-    dialog.OnSessionEvent(Protocol::Registered{});
+    gateway.SetStyle(style);
+    gateway.OnSessionEvent(Protocol::Registered{});
     Ack("T1", Protocol::EAckResult::Fail);
     CHECK(sink.Contains(Core::ELogLevel::Warning, "refuses a report"));
     CHECK(sink.GetLines().back().HasField("planId", "P"));
     CHECK(sink.GetLines().back().HasField("reason", "no"));
-    CHECK(dialog.GetRefusedReports().count == 1);
-    CHECK(dialog.GetRefusedReports().command == "PlanReport");
-    CHECK(dialog.GetRefusedReports().planID == "P");
-    CHECK(dialog.GetRefusedReports().message == "no");
+    CHECK(gateway.GetRefusedReports().count == 1);
+    CHECK(gateway.GetRefusedReports().command == "PlanReport");
+    CHECK(gateway.GetRefusedReports().planID == "P");
+    CHECK(gateway.GetRefusedReports().message == "no");
     CHECK(GetForgotten() == (bRetried ? std::vector<std::uint64_t>{} : std::vector<std::uint64_t>{1}));
     if (bRetried)
     {
-        dialog.OnSessionEvent(Protocol::LinkLost{});
-        dialog.OnSessionEvent(Protocol::Registered{});
+        gateway.OnSessionEvent(Protocol::LinkLost{});
+        gateway.OnSessionEvent(Protocol::Registered{});
         CHECK(GetSentIDs() == std::vector<std::string>{"T1", "T1"});
         Ack("T1", Protocol::EAckResult::Success);
         CHECK(GetForgotten() == std::vector<std::uint64_t>{1});
     }
 }
 
-TEST_CASE_METHOD(DialogFixture, "The wait for an acknowledgement is observed once per report of this connection")
+TEST_CASE_METHOD(GatewayFixture, "The wait for an acknowledgement is observed once per report of this connection")
 {
     Restore({OUTAGE.front()});
     std::vector<Core::Duration> waits;
-    dialog.SetAckObserver([&waits](const Protocol::Acked&, Core::Duration wait) { waits.push_back(wait); });
-    dialog.OnSessionEvent(Protocol::Registered{});
+    gateway.SetAckObserver([&waits](const Protocol::Acked&, Core::Duration wait) { waits.push_back(wait); });
+    gateway.OnSessionEvent(Protocol::Registered{});
     clock.Advance(std::chrono::milliseconds(30));
     Ack("T1", Protocol::EAckResult::Success);
     Ack("T1", Protocol::EAckResult::Success); // an MCS that acknowledges twice
@@ -232,10 +232,10 @@ TEST_CASE_METHOD(DialogFixture, "The wait for an acknowledgement is observed onc
 }
 
 TEST_CASE_METHOD(
-    DialogFixture,
+    GatewayFixture,
     "While acsd drains, plans and controls are refused with the reason; queries are answered")
 {
-    dialog.BeginDraining();
+    gateway.BeginDraining();
     REQUIRE(output.statuses.size() == 1);
     CHECK(std::get<Protocol::AcsCommStateUpdate>(output.statuses[0]) == Protocol::AcsCommStateUpdate{false});
     Protocol::ExecutionPlan plan;
@@ -255,7 +255,7 @@ TEST_CASE_METHOD(
 }
 
 TEST_CASE_METHOD(
-    DialogFixture,
+    GatewayFixture,
     "mcs.tx_max_bytes: a list that is too long is cut to fit, newest errors first, and says so")
 {
     Planning::StoredState state;
@@ -272,7 +272,7 @@ TEST_CASE_METHOD(
 
     MessageStyle style;
     style.longestText = 4096;
-    dialog.SetStyle(style);
+    gateway.SetStyle(style);
     Ask(Protocol::RequestAcsErrorList{});
     REQUIRE(output.answers.size() == 2);
     std::string text;

@@ -1,4 +1,4 @@
-#include "mcs/McsDialog.hpp"
+#include "mcs/McsGateway.hpp"
 
 #include "mcs/PlanMapper.hpp"
 #include "mcs/ReportMapper.hpp"
@@ -77,7 +77,7 @@ std::string CutReason(std::string_view reason)
     return std::string(reason.substr(0, std::min(reason.find(", found "), LONGEST)));
 }
 
-McsDialog::McsDialog(
+McsGateway::McsGateway(
     const Core::IClock& clock,
     Core::Logger logger,
     const Apps::LocalOffset& localOffset,
@@ -94,45 +94,45 @@ McsDialog::McsDialog(
 {
 }
 
-void McsDialog::Restore(std::uint64_t lastSequence)
+void McsGateway::Restore(std::uint64_t lastSequence)
 {
-    _lastTold = lastSequence;
+    _lastPublished = lastSequence;
 }
 
-void McsDialog::SetStyle(MessageStyle style)
+void McsGateway::SetStyle(MessageStyle style)
 {
     _style = std::move(style);
 }
 
-void McsDialog::SetAckObserver(AckObserver observer)
+void McsGateway::SetAckObserver(AckObserver observer)
 {
     _ackObserver = std::move(observer);
 }
 
-void McsDialog::BeginDraining()
+void McsGateway::BeginDraining()
 {
     _bDraining = true;
-    TellWorking(false);
+    PublishWorking(false);
 }
 
-void McsDialog::Begin()
+void McsGateway::Begin()
 {
     _output.SetSiteOffset(GetOffset());
-    TellTsc(_engine.GetTscState());
+    PublishTscState(_engine.GetTscState());
     for (const Planning::RobotStatus& status : _engine.GetRobotStatuses())
     {
-        TellStatus(status);
+        PublishStatus(status);
     }
 }
 
-void McsDialog::OnSessionEvent(const Protocol::SessionEvent& event)
+void McsGateway::OnSessionEvent(const Protocol::SessionEvent& event)
 {
     _output.SetSiteOffset(GetOffset()); // summer time may have begun since the last one
     std::visit(
         Core::Overloaded{
             [&](const Protocol::Registered&) { BeginReplay(); },
-            [&](const Protocol::RequestReceived& received) { TakeRequest(received.request); },
-            [&](const Protocol::Acked& acked) { TakeAck(acked); },
+            [&](const Protocol::RequestReceived& received) { HandleRequest(received.request); },
+            [&](const Protocol::Acked& acked) { HandleAck(acked); },
             [&](const Protocol::WindowOpened&) { Feed(); },
             [&](const Protocol::PositionDue&) {
                 for (const auto& update : MakePositionUpdates(_engine.GetRobotPoses(), _style))
@@ -149,7 +149,7 @@ void McsDialog::OnSessionEvent(const Protocol::SessionEvent& event)
         event);
 }
 
-void McsDialog::Reply(const Planning::ReplyCommand& reply)
+void McsGateway::Reply(const Planning::ReplyCommand& reply)
 {
     const auto found = _openRequests.find(reply.replyToken);
     if (found == _openRequests.end())
@@ -167,9 +167,9 @@ void McsDialog::Reply(const Planning::ReplyCommand& reply)
         Protocol::PlanAck{request.planID});
 }
 
-void McsDialog::Report(const Planning::OutboxEntry& entry)
+void McsGateway::Report(const Planning::OutboxEntry& entry)
 {
-    _lastTold = entry.sequence;
+    _lastPublished = entry.sequence;
     // Before the replay it stays in the engine's outbox, from which that is made.
     if (_bOpen)
     {
@@ -178,22 +178,22 @@ void McsDialog::Report(const Planning::OutboxEntry& entry)
     }
 }
 
-void McsDialog::TellStatus(const Planning::RobotStatus& status)
+void McsGateway::PublishStatus(const Planning::RobotStatus& status)
 {
     _output.SendStatus(MakeStatusUpdate(status, _style));
 }
 
-void McsDialog::TellWorking(bool bWorking)
+void McsGateway::PublishWorking(bool bWorking)
 {
     _output.SendStatus(Protocol::AcsCommStateUpdate{bWorking});
 }
 
-void McsDialog::TellTsc(Planning::ETscState state)
+void McsGateway::PublishTscState(Planning::ETscState state)
 {
     _output.SendStatus(MakeTscUpdate(state));
 }
 
-void McsDialog::TakeRequest(const Protocol::AcsRequest& request)
+void McsGateway::HandleRequest(const Protocol::AcsRequest& request)
 {
     const Planning::ReplyToken token = ++_lastToken;
     std::optional<Planning::PlanCommand> commandOrNull =
@@ -220,7 +220,7 @@ void McsDialog::TakeRequest(const Protocol::AcsRequest& request)
     _handler(std::move(*commandOrNull));
 }
 
-void McsDialog::LogAnswer(const OpenRequest& request, bool bAccepted, std::string_view reason)
+void McsGateway::LogAnswer(const OpenRequest& request, bool bAccepted, std::string_view reason)
 {
     if (bAccepted)
     {
@@ -247,7 +247,7 @@ void McsDialog::LogAnswer(const OpenRequest& request, bool bAccepted, std::strin
          {"field", bField ? before : std::string_view()}});
 }
 
-void McsDialog::AnswerQuery(const Protocol::AcsRequest& request)
+void McsGateway::AnswerQuery(const Protocol::AcsRequest& request)
 {
     std::visit(
         Core::Overloaded{
@@ -279,7 +279,7 @@ void McsDialog::AnswerQuery(const Protocol::AcsRequest& request)
         request.payload);
 }
 
-void McsDialog::AnswerHistory(const Protocol::AcsRequest& request, const Protocol::RequestAcsPlanHistory& query)
+void McsGateway::AnswerHistory(const Protocol::AcsRequest& request, const Protocol::RequestAcsPlanHistory& query)
 {
     Protocol::PlanListAck list;
     std::vector<std::string_view> unknown;
@@ -305,7 +305,7 @@ void McsDialog::AnswerHistory(const Protocol::AcsRequest& request, const Protoco
 
 /// Section 12: an MCS that reads 4096 bytes loses a longer answer without a word; a shorter one says what it left out.
 template <typename TList, typename TEntries>
-void McsDialog::AnswerList(
+void McsGateway::AnswerList(
     const Protocol::AcsRequest& request,
     const std::string& message,
     TList list,
@@ -344,7 +344,7 @@ void McsDialog::AnswerList(
     _output.Answer(Protocol::GetCommand(request), request.transactionID, Protocol::EAckResult::Success, text, list);
 }
 
-void McsDialog::TakeAck(const Protocol::Acked& acked)
+void McsGateway::HandleAck(const Protocol::Acked& acked)
 {
     const auto found = _sent.find(acked.transactionID);
     if (found == _sent.end())
@@ -359,7 +359,7 @@ void McsDialog::TakeAck(const Protocol::Acked& acked)
     }
     if (acked.result == Protocol::EAckResult::Fail)
     {
-        TakeRefusal(acked, sent);
+        HandleRefusal(acked, sent);
         if (_style.bRefusedReportsRetried)
         {
             return;
@@ -369,7 +369,7 @@ void McsDialog::TakeAck(const Protocol::Acked& acked)
 }
 
 /// Remembered, as the engine may be waiting for the disk: a replay meanwhile is made without it.
-void McsDialog::Acknowledge(std::uint64_t sequence)
+void McsGateway::Acknowledge(std::uint64_t sequence)
 {
     if (_acknowledged.size() >= _acknowledgedLimit)
     {
@@ -380,7 +380,7 @@ void McsDialog::Acknowledge(std::uint64_t sequence)
     _handler(Planning::MessageAcknowledged{sequence});
 }
 
-void McsDialog::PruneAcknowledged(const std::vector<Planning::OutboxEntry>& outbox)
+void McsGateway::PruneAcknowledged(const std::vector<Planning::OutboxEntry>& outbox)
 {
     std::erase_if(_acknowledged, [&outbox](std::uint64_t sequence) {
         return !std::ranges::binary_search(outbox, sequence, {}, &Planning::OutboxEntry::sequence);
@@ -388,7 +388,7 @@ void McsDialog::PruneAcknowledged(const std::vector<Planning::OutboxEntry>& outb
 }
 
 /// Final (register, mcs.on_report_nack): the MCS has it and does not want it. Or it is kept for the next connection.
-void McsDialog::TakeRefusal(const Protocol::Acked& acked, const SentReport& sent)
+void McsGateway::HandleRefusal(const Protocol::Acked& acked, const SentReport& sent)
 {
     ++_refusedReports.count;
     _refusedReports.command = GetText(acked.command);
@@ -406,12 +406,12 @@ void McsDialog::TakeRefusal(const Protocol::Acked& acked, const SentReport& sent
          {"reason", acked.message}});
 }
 
-const RefusedReports& McsDialog::GetRefusedReports() const noexcept
+const RefusedReports& McsGateway::GetRefusedReports() const noexcept
 {
     return _refusedReports;
 }
 
-void McsDialog::BeginReplay()
+void McsGateway::BeginReplay()
 {
     _unsent.clear();
     _sent.clear();
@@ -420,7 +420,7 @@ void McsDialog::BeginReplay()
     PruneAcknowledged(outbox);
     for (Planning::OutboxEntry& entry : outbox)
     {
-        if (entry.sequence > _lastTold || _acknowledged.contains(entry.sequence))
+        if (entry.sequence > _lastPublished || _acknowledged.contains(entry.sequence))
         {
             continue; // still on its way to the disk, where it is told after, or from which it is removed
         }
@@ -446,7 +446,7 @@ void McsDialog::BeginReplay()
     Feed();
 }
 
-void McsDialog::Feed()
+void McsGateway::Feed()
 {
     while (!_unsent.empty())
     {
@@ -466,7 +466,7 @@ void McsDialog::Feed()
     }
 }
 
-std::chrono::minutes McsDialog::GetOffset() const
+std::chrono::minutes McsGateway::GetOffset() const
 {
     return _localOffset.GetAt(_clock.GetNow().wall);
 }

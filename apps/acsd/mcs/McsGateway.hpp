@@ -30,13 +30,13 @@ namespace ACS::Acsd
 /// Of a refusal what it is about, without what was found: refusals of which this is the same are alike.
 [[nodiscard]] std::string CutReason(std::string_view reason);
 
-/// What acsd and the MCS say to each other: hands requests to the engine as commands, answers them, feeds the engine's
-/// outbox into the session and tells the engine what was acknowledged. Pure: the session is the caller's.
-class McsDialog final
+/// The MCS side of acsd: passes requests to the engine as commands, answers them, sends the engine's outbox through the
+/// session and reports acknowledgements to the engine. Pure: the session is the caller's.
+class McsGateway final
 {
 public:
-    /// Receives the engine's next command, as the last thing but what is told here: the engine may answer within the call,
-    /// and whoever carries its actions out may call Reply, Report, TellStatus and TellTsc from it. Nothing else.
+    /// Receives the next command of the engine. The engine may answer within the call: the handler may call Reply, Report,
+    /// PublishStatus and PublishTscState, and nothing else.
     using CommandHandler = std::function<void(Planning::PlanCommand command)>;
     /// Receives what the MCS answered to a report, and how long that took since this connection was given it.
     using AckObserver = std::function<void(const Protocol::Acked& acked, Core::Duration wait)>;
@@ -74,15 +74,16 @@ private:
     /// Sequences that the MCS has acknowledged and the engine may not have removed: its commands wait for the disk.
     std::set<std::uint64_t> _acknowledged;
     std::size_t _acknowledgedLimit = FIRST_ACKNOWLEDGED_LIMIT; ///< Then those that the engine has removed go.
-    std::uint64_t _lastTold = 0; ///< The highest sequence that is on disk: behind it the engine may know more already.
-    bool _bOpen = false;         ///< The replay has begun: what is told now goes behind it.
+    std::uint64_t _lastPublished =
+        0;               ///< The highest sequence that is on disk: behind it the engine may know more already.
+    bool _bOpen = false; ///< The replay has begun: what is told now goes behind it.
     bool _bReplaying = false;
     bool _bDraining = false;
     MessageStyle _style;
     AckObserver _ackObserver;
     RefusedReports _refusedReports;
 
-    void TakeRequest(const Protocol::AcsRequest& request);
+    void HandleRequest(const Protocol::AcsRequest& request);
     template <typename TList, typename TEntries>
     void AnswerList(
         const Protocol::AcsRequest& request,
@@ -92,8 +93,8 @@ private:
     void LogAnswer(const OpenRequest& request, bool bAccepted, std::string_view reason);
     void AnswerQuery(const Protocol::AcsRequest& request);
     void AnswerHistory(const Protocol::AcsRequest& request, const Protocol::RequestAcsPlanHistory& query);
-    void TakeAck(const Protocol::Acked& acked);
-    void TakeRefusal(const Protocol::Acked& acked, const SentReport& sent);
+    void HandleAck(const Protocol::Acked& acked);
+    void HandleRefusal(const Protocol::Acked& acked, const SentReport& sent);
     void Acknowledge(std::uint64_t sequence);
     /// Forgets what the engine has removed from its outbox.
     void PruneAcknowledged(const std::vector<Planning::OutboxEntry>& outbox);
@@ -102,8 +103,8 @@ private:
     [[nodiscard]] std::chrono::minutes GetOffset() const;
 
 public:
-    /// Clock, engine and output must outlive the dialog.
-    McsDialog(
+    /// Clock, engine and output must outlive the gateway.
+    McsGateway(
         const Core::IClock& clock,
         Core::Logger logger,
         const Apps::LocalOffset& localOffset,
@@ -111,7 +112,7 @@ public:
         IMcsOutput& output,
         CommandHandler handler);
 
-    /// Once, before the engine is given what the store held: the highest sequence of a report in it.
+    /// Call once, before the engine is restored, with the highest report sequence of the store.
     void Restore(std::uint64_t lastSequence);
 
     /// From the next message on. Without it messages are as the document has them.
@@ -121,17 +122,17 @@ public:
     /// From now on plans and controls are refused: acsd is about to stop.
     void BeginDraining();
 
-    /// Once, before the session is started: what the MCS is to be told of TSC and robots.
+    /// Call once, before the session starts. Sets the states of TSC and robots that the session reports.
     void Begin();
 
-    /// What the session tells.
+    /// Handles an event of the session.
     void OnSessionEvent(const Protocol::SessionEvent& event);
 
     void Reply(const Planning::ReplyCommand& reply);
     void Report(const Planning::OutboxEntry& entry);
-    void TellStatus(const Planning::RobotStatus& status);
-    void TellWorking(bool bWorking);
-    void TellTsc(Planning::ETscState state);
+    void PublishStatus(const Planning::RobotStatus& status);
+    void PublishWorking(bool bWorking);
+    void PublishTscState(Planning::ETscState state);
 
     [[nodiscard]] const RefusedReports& GetRefusedReports() const noexcept;
 };

@@ -1,4 +1,4 @@
-#include "mcs/McsDialog.hpp"
+#include "mcs/McsGateway.hpp"
 
 #include "Catch.hpp"
 #include "fixtures/PlanWorld.hpp"
@@ -14,15 +14,15 @@ namespace
 
 using namespace Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 
-/// The dialog with an engine and its loop, a session that takes everything, and a disk that answers when the test says so.
-class DialogTest : private Acsd::IMcsOutput
+/// The gateway with an engine and its loop, a session that takes everything, and a disk that answers when the test says so.
+class GatewayTest : private Acsd::IMcsOutput
 {
 protected:
     ManualClock _clock;
     RecordingLogSink _log;
     SeededRandom _random{1};
     PlanEngine _engine{MakeTestOptions(false), MakeTestSite(), _random};
-    Acsd::McsDialog _dialog{
+    Acsd::McsGateway _gateway{
         _clock,
         Core::Logger(_log, "mcs"),
         Apps::LocalOffset(std::chrono::minutes(0)),
@@ -37,11 +37,11 @@ protected:
         [this](const EngineAction& action) {
             if (const auto* const reportOrNull = std::get_if<SendReport>(&action))
             {
-                _dialog.Report(reportOrNull->entry);
+                _gateway.Report(reportOrNull->entry);
             }
             if (const auto* const replyOrNull = std::get_if<ReplyCommand>(&action))
             {
-                _dialog.Reply(*replyOrNull);
+                _gateway.Reply(*replyOrNull);
             }
         },
         [this](const StoreBatch& batch) {
@@ -56,7 +56,7 @@ protected:
     void Register()
     {
         _bRegistered = true;
-        _dialog.OnSessionEvent(Protocol::Registered{});
+        _gateway.OnSessionEvent(Protocol::Registered{});
     }
 
     void BeginPlan(const std::string& planID)
@@ -111,7 +111,7 @@ private:
 } // namespace
 
 TEST_CASE_METHOD(
-    DialogTest,
+    GatewayTest,
     "A command that is refused has a line with planId, transactionId, reason and field; of a flood a few, other reasons as well")
 {
     Register();
@@ -119,7 +119,7 @@ TEST_CASE_METHOD(
         Protocol::ExecutionPlan plan;
         plan.planID = "P" + std::to_string(number);
         plan.steps = {{1, action, "A01.CP01", {}, {{"J", "A01.CP01", "AMR.CP01"}}}};
-        _dialog.OnSessionEvent(Protocol::RequestReceived{{"T" + std::to_string(number), {}, std::move(plan)}, false});
+        _gateway.OnSessionEvent(Protocol::RequestReceived{{"T" + std::to_string(number), {}, std::move(plan)}, false});
     };
     submit("Fly", 0);
     REQUIRE(_log.GetLines().size() == 1);
@@ -137,7 +137,7 @@ TEST_CASE_METHOD(
         submit("Fly", number);
     }
     CHECK(_log.GetLines().size() == Apps::LogRateLimiter::BURST);
-    _dialog.OnSessionEvent(Protocol::RequestReceived{{"T", {}, Protocol::CancelPlan{"P9", {}}}, false});
+    _gateway.OnSessionEvent(Protocol::RequestReceived{{"T", {}, Protocol::CancelPlan{"P9", {}}}, false});
     while (_host.IsStoring())
     {
         _host.OnStored({});
@@ -150,13 +150,13 @@ TEST_CASE_METHOD(
     CHECK(_log.GetLines().back().HasField("planId", "P100"));
 }
 
-TEST_CASE_METHOD(DialogTest, "A refusal that is not about a field of the command names none")
+TEST_CASE_METHOD(GatewayTest, "A refusal that is not about a field of the command names none")
 {
     Register();
     Protocol::ExecutionPlan plan;
     plan.planID = "P1";
     plan.steps = {{1, "CassetteLoad", "A01.CP01", {}, {{"J", "A01.CP01", "AMR.CP01"}}}};
-    _dialog.OnSessionEvent(Protocol::RequestReceived{{"T1", {}, std::move(plan)}, false});
+    _gateway.OnSessionEvent(Protocol::RequestReceived{{"T1", {}, std::move(plan)}, false});
     REQUIRE(_host.IsStoring());
     _host.OnStored(Core::Fail(Core::ECoreError::OutOfRange, "acsd.db", "room on the disk", "none"));
     const auto refused = std::ranges::find(_log.GetLines(), "command refused", &RecordedLine::message);
@@ -169,7 +169,7 @@ TEST_CASE_METHOD(DialogTest, "A refusal that is not about a field of the command
 }
 
 TEST_CASE_METHOD(
-    DialogTest,
+    GatewayTest,
     "A registration while a report is on its way to the disk does not tell it before it is there")
 {
     BeginPlan("P1");
@@ -186,7 +186,7 @@ TEST_CASE_METHOD(
     CHECK(_sent.front().transactionID == _engine.GetUnacknowledged().front().transactionID);
 }
 
-TEST_CASE_METHOD(DialogTest, "A report that comes between the registration and its event does not overtake the replay")
+TEST_CASE_METHOD(GatewayTest, "A report that comes between the registration and its event does not overtake the replay")
 {
     BeginPlan("P1");
     _host.OnStored({});
@@ -201,14 +201,14 @@ TEST_CASE_METHOD(DialogTest, "A report that comes between the registration and i
     }
     CHECK(_sent.empty());
 
-    _dialog.OnSessionEvent(Protocol::Registered{});
+    _gateway.OnSessionEvent(Protocol::Registered{});
     REQUIRE(_sent.size() > before);
     const std::vector<OutboxEntry> entries = _engine.GetUnacknowledged();
     CHECK(std::ranges::equal(_sent, entries, {}, &Protocol::AcsRequest::transactionID, &OutboxEntry::transactionID));
 }
 
 TEST_CASE_METHOD(
-    DialogTest,
+    GatewayTest,
     "A report that was acknowledged while the disk was busy is not replayed on the next connection")
 {
     Register();
@@ -223,10 +223,10 @@ TEST_CASE_METHOD(
 
     _host.Push(SubmitPlan{MakeLogisticsPlan("P2"), 2});
     REQUIRE(_host.IsStoring());
-    _dialog.OnSessionEvent(
+    _gateway.OnSessionEvent(
         Protocol::Acked{Protocol::EAcsCommand::PlanReport, first, Protocol::EAckResult::Success, {}});
     REQUIRE(_engine.GetUnacknowledged().front().transactionID == first);
-    _dialog.OnSessionEvent(Protocol::LinkLost{"reset", true});
+    _gateway.OnSessionEvent(Protocol::LinkLost{"reset", true});
     _sent.clear();
     Register();
     REQUIRE_FALSE(_sent.empty());
@@ -236,13 +236,13 @@ TEST_CASE_METHOD(
     CHECK(_engine.GetUnacknowledged().front().transactionID == second);
 }
 
-TEST_CASE_METHOD(DialogTest, "What the store held is replayed after a restart")
+TEST_CASE_METHOD(GatewayTest, "What the store held is replayed after a restart")
 {
     OutboxEntry entry{7, "T7", _clock.GetNow().wall, PlanReport{"P0", EPlanState::Completed, {}}};
     StoredState state;
     state.outbox.push_back(entry);
     state.lastReportSequence = 7;
-    _dialog.Restore(state.lastReportSequence);
+    _gateway.Restore(state.lastReportSequence);
     _host.Restore(std::move(state));
 
     Register();
