@@ -15,9 +15,8 @@
 namespace ACS::Acsd
 {
 
-/// acsd as a whole: the engine, its store, the link to the MCS, the broker and the robots. Carries out the engine's
-/// actions strictly in their order; a store action is confirmed before what stands behind it is carried out. One thread:
-/// the executor's.
+/// acsd as a whole: the I/O around AcsdCore, which are its store, the link to the MCS, the broker, the robots and HTTP. One
+/// thread: the executor's.
 class Acsd final
 {
     class Impl;
@@ -28,8 +27,8 @@ class Acsd final
 public:
     using StopHandler = std::function<void()>;
 
-    /// What the program gives; everything outlives acsd.
-    struct Surroundings
+    /// All references must outlive acsd.
+    struct Dependencies
     {
         boost::asio::any_io_executor executor;
         Core::IClock& clock;
@@ -38,26 +37,26 @@ public:
         MessageTrace* traceOrNull = nullptr;
     };
 
-    /// Opens the store, takes up what it holds and listens on its HTTP address; connects to nothing yet. The
-    /// configuration must be without mistakes. Errors, each a sentence with what to do: the store, the HTTP address.
-    [[nodiscard]] static Core::Result<std::unique_ptr<Acsd>> Create(Surroundings surroundings, AcsdConfig config);
+    /// Opens the store, restores its contents and listens on the HTTP address; opens no connection. The configuration must
+    /// be without errors. Fails with a sentence about the store or the HTTP address and its remedy.
+    [[nodiscard]] static Core::Result<std::unique_ptr<Acsd>> Create(Dependencies dependencies, AcsdConfig config);
 
     Acsd(const Acsd&) = delete;
     Acsd& operator=(const Acsd&) = delete;
     ~Acsd();
 
-    /// Connects to the MCS, the broker and the arms, and goes on doing so for ever.
+    /// Connects to the MCS, the broker and the arms, and reconnects until it is stopped.
     void Start();
 
-    /// Takes from a second reading, without mistakes, what may change while acsd runs, and logs for each key that differs
-    /// whether it was taken or needs a restart.
+    /// Applies the keys that may change while acsd runs. The fresh configuration must be without errors. Logs for each key
+    /// that differs whether it was applied or needs a restart.
     void Reload(const AcsdConfig& fresh);
 
-    /// Refuses plans and controls from now on, waits until the MCS has all reports (at most `shutdown.drain_timeout`), takes
-    /// leave of everybody within a bounded time, then calls back, once. Robots go on with what they have.
+    /// Refuses plans and controls from now on, waits until the MCS has acknowledged all reports (at most
+    /// `shutdown.drain_timeout`), closes all links within AcsdCore::STOP_LIMIT, then calls back, once. Robots continue.
     void StopAsync(StopHandler handler);
 
-    /// Where the HTTP side serves, with its real port.
+    /// The HTTP address in use, with its actual port.
     [[nodiscard]] Apps::Endpoint GetHttpEndpoint() const;
 };
 

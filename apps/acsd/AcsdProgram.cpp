@@ -88,7 +88,7 @@ int Serve(const ProgramOptions& options, AcsdConfig config)
     }
     boost::asio::io_context context(1);
     Core::Result<std::unique_ptr<Acsd>> acsd =
-        Acsd::Create(Acsd::Surroundings{context.get_executor(), clock, random, logger, trace.get()}, std::move(config));
+        Acsd::Create(Acsd::Dependencies{context.get_executor(), clock, random, logger, trace.get()}, std::move(config));
     if (!acsd)
     {
         Apps::PrintMistake(NAME, Core::Describe(acsd.error()));

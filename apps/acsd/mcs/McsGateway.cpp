@@ -355,7 +355,7 @@ void McsGateway::HandleAck(const Protocol::Acked& acked)
     _sent.erase(found);
     if (_ackObserver)
     {
-        _ackObserver(acked, _clock.GetNow().steady - sent.sentAt);
+        _ackObserver(_clock.GetNow().steady - sent.sentAt);
     }
     if (acked.result == Protocol::EAckResult::Fail)
     {
@@ -391,6 +391,7 @@ void McsGateway::PruneAcknowledged(const std::vector<Planning::OutboxEntry>& out
 void McsGateway::HandleRefusal(const Protocol::Acked& acked, const SentReport& sent)
 {
     ++_refusedReports.count;
+    ++_refusedReports.byCommand.at(static_cast<std::size_t>(acked.command));
     _refusedReports.command = GetText(acked.command);
     _refusedReports.planID = sent.planID;
     _refusedReports.message = acked.message;

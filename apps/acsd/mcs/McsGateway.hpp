@@ -38,8 +38,8 @@ public:
     /// Receives the next command of the engine. The engine may answer within the call: the handler may call Reply, Report,
     /// PublishStatus and PublishTscState, and nothing else.
     using CommandHandler = std::function<void(Planning::PlanCommand command)>;
-    /// Receives what the MCS answered to a report, and how long that took since this connection was given it.
-    using AckObserver = std::function<void(const Protocol::Acked& acked, Core::Duration wait)>;
+    /// Receives the time from sending a report on this connection to its Ack.
+    using AckObserver = std::function<void(Core::Duration wait)>;
 
 private:
     /// A command of the MCS that waits for the engine's reply.

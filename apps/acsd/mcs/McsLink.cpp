@@ -1,5 +1,6 @@
 #include "mcs/McsLink.hpp"
 
+#include "mcs/McsGateway.hpp"
 #include <acs/core/Overloaded.hpp>
 
 #include <fmt/format.h>
@@ -33,17 +34,12 @@ constexpr std::size_t LOGGED_TEXT = 120;
 
 } // namespace
 
-McsLink::McsLink(
-    const Core::IClock& clock,
-    Core::Logger logger,
-    const Apps::LocalOffset& localOffset,
-    const Planning::PlanEngine& engine,
-    CommandHandler handler)
+McsLink::McsLink(const Core::IClock& clock, Core::Logger logger, EventHandler handler)
     : _clock(clock),
-      _logger(logger),
-      _log(logger),
-      _notes(logger),
-      _gateway(clock, std::move(logger), localOffset, engine, *this, std::move(handler))
+      _logger(std::move(logger)),
+      _log(_logger),
+      _notes(_logger),
+      _handler(std::move(handler))
 {
 }
 
@@ -57,14 +53,6 @@ Core::Result<void> McsLink::Open(
 {
     _traceOrNull = traceOrNull;
     SetLimits(config.mcs);
-    _gateway.SetAckObserver([this](const Protocol::Acked& acked, Core::Duration wait) {
-        const bool bRefused = acked.result == Protocol::EAckResult::Fail;
-        _figures.refused.at(static_cast<std::size_t>(acked.command)) += bRefused ? 1U : 0U;
-        if (_ackObserver)
-        {
-            _ackObserver(wait);
-        }
-    });
     ProtocolBeast::ClientOptions options = MakeOptions(config);
     options.onWire = [this](ProtocolBeast::EWireDirection direction, std::string_view text) {
         WatchWire(direction, text);
@@ -79,34 +67,17 @@ Core::Result<void> McsLink::Open(
     return {};
 }
 
-void McsLink::Restore(std::uint64_t lastSequence)
-{
-    _gateway.Restore(lastSequence);
-}
-
 void McsLink::Start()
 {
-    _gateway.Begin();
     _client->Start();
 }
 
 void McsLink::SetLimits(const McsConfig& config)
 {
-    _gateway.SetStyle(config.style);
     _warnBytes = config.warnBytes;
 }
 
-void McsLink::SetAckObserver(AckObserver observer)
-{
-    _ackObserver = std::move(observer);
-}
-
-void McsLink::BeginDraining()
-{
-    _gateway.BeginDraining();
-}
-
-/// Section 12: what is longer than the MCS's buffer is lost without an acknowledgement. Each new length is told once.
+/// Section 12: a message longer than the MCS's buffer is lost without an Ack. Each new length is logged once.
 void McsLink::WatchWire(ProtocolBeast::EWireDirection direction, std::string_view text)
 {
     if (_traceOrNull != nullptr)
@@ -117,11 +88,11 @@ void McsLink::WatchWire(ProtocolBeast::EWireDirection direction, std::string_vie
     {
         _notes.Flush(_clock.GetNow().steady);
     }
-    if (direction == ProtocolBeast::EWireDirection::In || text.size() <= _figures.longestSent)
+    if (direction == ProtocolBeast::EWireDirection::In || text.size() <= _metrics.longestSent)
     {
         return;
     }
-    _figures.longestSent = text.size();
+    _metrics.longestSent = text.size();
     if (_warnBytes > 0 && text.size() > _warnBytes)
     {
         _logger.Warning(
@@ -135,31 +106,6 @@ void McsLink::StopAsync(StopHandler handler)
     _stopHandler = std::move(handler);
     _client->SendStatus(Protocol::AcsCommStateUpdate{false});
     _client->Stop();
-}
-
-void McsLink::Reply(const Planning::ReplyCommand& reply)
-{
-    _gateway.Reply(reply);
-}
-
-void McsLink::Report(const Planning::OutboxEntry& entry)
-{
-    _gateway.Report(entry);
-}
-
-void McsLink::PublishStatus(const Planning::RobotStatus& status)
-{
-    _gateway.PublishStatus(status);
-}
-
-void McsLink::PublishWorking(bool bWorking)
-{
-    _gateway.PublishWorking(bWorking);
-}
-
-void McsLink::PublishTscState(Planning::ETscState state)
-{
-    _gateway.PublishTscState(state);
 }
 
 bool McsLink::IsRegistered() const
@@ -202,18 +148,17 @@ void McsLink::SetSiteOffset(std::chrono::minutes offset)
     _client->SetSiteOffset(offset);
 }
 
-McsLink::Figures McsLink::GetFigures() const
+McsLink::Metrics McsLink::GetMetrics() const
 {
-    Figures figures = _figures;
-    figures.bConnected = GetStatistics().connects > _connectsBefore;
-    figures.refusedReports = _gateway.GetRefusedReports();
-    return figures;
+    Metrics metrics = _metrics;
+    metrics.bConnected = GetStatistics().connects > _connectsBefore;
+    return metrics;
 }
 
 LinkStatus McsLink::GetLink() const
 {
     const bool bUp = IsRegistered();
-    return {"mcs", bUp, bUp ? std::string() : _watch.GetObstacle(GetFigures().bConnected)};
+    return {"mcs", bUp, bUp ? std::string() : _watch.GetObstacle(GetMetrics().bConnected)};
 }
 
 const Protocol::SessionStatistics& McsLink::GetStatistics() const
@@ -229,7 +174,7 @@ void McsLink::OnSessionEvent(const Protocol::SessionEvent& event)
     {
         _connectsBefore = GetStatistics().connects;
     }
-    _gateway.OnSessionEvent(event);
+    _handler(event);
     if (std::holds_alternative<Protocol::Stopped>(event) && _stopHandler)
     {
         std::exchange(_stopHandler, nullptr)();
@@ -252,13 +197,13 @@ void McsLink::LogEvent(const Protocol::SessionEvent& event)
                 Warn("registration", "the MCS refuses the registration, trying again", {{"reason", refused.message}});
             },
             [&](const Protocol::RequestUnanswered& unanswered) {
-                ++_figures.unanswered;
+                ++_metrics.unanswered;
                 Warn(
                     "unanswered",
                     "the MCS does not acknowledge",
                     {{"command", GetText(unanswered.command)},
                      {"transactionId", unanswered.transactionID},
-                     {"count", fmt::format_int(_figures.unanswered).str()}});
+                     {"count", fmt::format_int(_metrics.unanswered).str()}});
             },
             [&](const Protocol::LinkLost& lost) { LogOutage(lost); },
             [&](const Protocol::ProtocolNoted& noted) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <acs/protocol/EAcsCommand.hpp>
+
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -13,6 +16,7 @@ struct RefusedReports
     std::string command; ///< This and the next two: of the last one. "JobReport"
     std::string planID;  ///< Empty for what belongs to no plan.
     std::string message; ///< The MCS's.
+    std::array<std::uint64_t, Protocol::COMMAND_COUNT> byCommand{};
 };
 
 } // namespace ACS::Acsd

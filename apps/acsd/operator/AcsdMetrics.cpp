@@ -129,16 +129,16 @@ void AcsdMetrics::UpdateLink(const std::string& name, bool bUp)
     _metrics.SetGauge(LINK_UP, {{"link", name}}, bUp ? 1.0 : 0.0);
 }
 
-void AcsdMetrics::UpdateMcs(const McsLink& mcs)
+void AcsdMetrics::UpdateMcs(const McsLink& mcs, const RefusedReports& refused)
 {
     const Protocol::SessionStatistics& statistics = mcs.GetStatistics();
-    const McsLink::Figures figures = mcs.GetFigures();
-    _metrics.SetGauge(MCS_CONNECTED, {}, figures.bConnected ? 1.0 : 0.0);
+    const McsLink::Metrics metrics = mcs.GetMetrics();
+    _metrics.SetGauge(MCS_CONNECTED, {}, metrics.bConnected ? 1.0 : 0.0);
     _metrics.SetGauge(MCS_REGISTERED, {}, mcs.IsRegistered() ? 1.0 : 0.0);
-    _metrics.SetGauge(MCS_LONGEST, {}, ToNumber(figures.longestSent));
+    _metrics.SetGauge(MCS_LONGEST, {}, ToNumber(metrics.longestSent));
     _metrics.SetTotal(MCS_LINK_LOSSES, {}, ToNumber(statistics.linkLosses));
     _metrics.SetTotal(POSITIONS_MISSED, {}, ToNumber(statistics.positionTicksMissed));
-    _metrics.SetTotal(MCS_TIMEOUTS, {}, ToNumber(figures.unanswered));
+    _metrics.SetTotal(MCS_TIMEOUTS, {}, ToNumber(metrics.unanswered));
     for (std::size_t index = 0; index < Protocol::COMMAND_COUNT; ++index)
     {
         const auto command = static_cast<Protocol::EAcsCommand>(index);
@@ -147,7 +147,7 @@ void AcsdMetrics::UpdateMcs(const McsLink& mcs)
         _metrics.SetTotal(MCS_SENT, labels, ToNumber(counters.sent));
         _metrics.SetTotal(MCS_RECEIVED, labels, ToNumber(counters.received));
         _metrics.SetTotal(MCS_REFUSED, labels, ToNumber(counters.refused));
-        _metrics.SetTotal(MCS_NACKS, labels, ToNumber(figures.refused.at(index)));
+        _metrics.SetTotal(MCS_NACKS, labels, ToNumber(refused.byCommand.at(index)));
     }
     for (std::size_t index = 0; index < Protocol::NOTE_COUNT; ++index)
     {

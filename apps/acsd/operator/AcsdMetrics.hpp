@@ -2,6 +2,7 @@
 
 #include "common/http/MetricsEndpoint.hpp"
 #include "mcs/McsLink.hpp"
+#include "mcs/RefusedReports.hpp"
 #include "robots/RobotHost.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/plan/PlanEngine.hpp>
@@ -13,8 +14,8 @@
 namespace ACS::Acsd
 {
 
-/// acsd's figures by their names at /metrics; docs/reference/metrics.md lists them. Those that something else counts are fetched
-/// when somebody asks; waits are observed when they end.
+/// acsd's metrics by their names at /metrics; docs/reference/metrics.md lists them. Counters of other components are read at
+/// each request; durations are observed when they end.
 class AcsdMetrics final
 {
     Apps::MetricsEndpoint& _metrics;
@@ -29,7 +30,7 @@ public:
     void ObserveCommit(Core::Duration duration);
 
     void UpdateLink(const std::string& name, bool bUp);
-    void UpdateMcs(const McsLink& mcs);
+    void UpdateMcs(const McsLink& mcs, const RefusedReports& refused);
     void UpdatePlans(const Planning::PlanEngine& engine, Core::Now now);
     void UpdateRobot(const RobotHost& robot, Core::Now now);
     void UpdateTrace(std::uint64_t lost);

@@ -49,7 +49,7 @@ void StoreWatch::OnLost(const Core::Error& error, Core::SteadyTime now)
     _failures.Write(now, Core::ELogLevel::Error, _fault, "the store fails", {{"reason", _fault}});
 }
 
-std::optional<std::string> StoreWatch::GetObstacleOrNull() const
+std::optional<std::string> StoreWatch::GetFaultOrNull() const
 {
     if (_bHangs)
     {

@@ -42,7 +42,7 @@ public:
     void OnLost(const Core::Error& error, Core::SteadyTime now);
 
     /// Why plans cannot be taken for the store's sake.
-    [[nodiscard]] std::optional<std::string> GetObstacleOrNull() const;
+    [[nodiscard]] std::optional<std::string> GetFaultOrNull() const;
 };
 
 } // namespace ACS::Acsd

@@ -203,6 +203,7 @@ TEST_CASE_METHOD(
     CHECK(sink.GetLines().back().HasField("planId", "P"));
     CHECK(sink.GetLines().back().HasField("reason", "no"));
     CHECK(gateway.GetRefusedReports().count == 1);
+    CHECK(gateway.GetRefusedReports().byCommand.at(static_cast<std::size_t>(Protocol::EAcsCommand::PlanReport)) == 1);
     CHECK(gateway.GetRefusedReports().command == "PlanReport");
     CHECK(gateway.GetRefusedReports().planID == "P");
     CHECK(gateway.GetRefusedReports().message == "no");
@@ -221,7 +222,7 @@ TEST_CASE_METHOD(GatewayFixture, "The wait for an acknowledgement is observed on
 {
     Restore({OUTAGE.front()});
     std::vector<Core::Duration> waits;
-    gateway.SetAckObserver([&waits](const Protocol::Acked&, Core::Duration wait) { waits.push_back(wait); });
+    gateway.SetAckObserver([&waits](Core::Duration wait) { waits.push_back(wait); });
     gateway.OnSessionEvent(Protocol::Registered{});
     clock.Advance(std::chrono::milliseconds(30));
     Ack("T1", Protocol::EAckResult::Success);

@@ -16,14 +16,14 @@ TEST_CASE("A write that takes too long is told in the log and keeps acsd from be
     Testing::RecordingLogSink sink;
     StoreWatch watch{Core::Logger(sink, "store")};
     watch.OnBegun(clock.GetNow().steady);
-    CHECK_FALSE(watch.GetObstacleOrNull().has_value());
+    CHECK_FALSE(watch.GetFaultOrNull().has_value());
     clock.Advance(StoreWatch::LIMIT);
     watch.OnLate();
-    CHECK(watch.GetObstacleOrNull() == std::string("the store does not answer"));
+    CHECK(watch.GetFaultOrNull() == std::string("the store does not answer"));
     CHECK(sink.Contains(Core::ELogLevel::Error, "the disk does not answer"));
     clock.Advance(2s);
     CHECK(watch.OnStored({}, clock.GetNow().steady) == StoreWatch::LIMIT + 2s);
-    CHECK_FALSE(watch.GetObstacleOrNull().has_value());
+    CHECK_FALSE(watch.GetFaultOrNull().has_value());
     CHECK(sink.ContainsField("after", "7 s"));
     watch.OnBegun(clock.GetNow().steady);
     CHECK(watch.OnStored({}, clock.GetNow().steady) == Core::Duration::zero());
@@ -38,12 +38,11 @@ TEST_CASE("A write that fails keeps acsd from being ready until one succeeds")
     watch.OnBegun(clock.GetNow().steady);
     watch.OnStored(Core::Fail(Core::ECoreError::TooLarge, "acsd.db", "room", "disk full"), clock.GetNow().steady);
     CHECK(
-        watch.GetObstacleOrNull()
-        == std::string("the store cannot be written: acsd.db: expected room, found disk full"));
+        watch.GetFaultOrNull() == std::string("the store cannot be written: acsd.db: expected room, found disk full"));
     CHECK(sink.Contains(Core::ELogLevel::Error, "the store fails"));
     CHECK(sink.ContainsField("reason", "acsd.db: expected room, found disk full"));
     watch.OnStored({}, clock.GetNow().steady);
-    CHECK_FALSE(watch.GetObstacleOrNull().has_value());
+    CHECK_FALSE(watch.GetFaultOrNull().has_value());
     CHECK(sink.Contains(Core::ELogLevel::Warning, "the store works again"));
 }
 
@@ -74,12 +73,12 @@ TEST_CASE("A file that is gone keeps acsd from being ready without a write, unti
     StoreWatch watch{Core::Logger(sink, "store")};
     watch.OnLost({Core::ECoreError::OutOfRange, "acsd.db", "the file", "nothing"}, clock.GetNow().steady);
     CHECK(
-        watch.GetObstacleOrNull()
+        watch.GetFaultOrNull()
         == std::string("the store cannot be written: acsd.db: expected the file, found nothing"));
     CHECK(sink.Contains(Core::ELogLevel::Error, "the store fails"));
     watch.OnBegun(clock.GetNow().steady);
     watch.OnStored({}, clock.GetNow().steady);
-    CHECK_FALSE(watch.GetObstacleOrNull().has_value());
+    CHECK_FALSE(watch.GetFaultOrNull().has_value());
 }
 
 } // namespace ACS::Acsd::Test

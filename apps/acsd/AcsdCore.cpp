@@ -1,0 +1,357 @@
+#include "AcsdCore.hpp"
+
+#include <acs/core/Overloaded.hpp>
+
+#include <cassert>
+#include <utility>
+#include <variant>
+
+namespace ACS::Acsd
+{
+
+AcsdCore::AcsdCore(Dependencies dependencies, const AcsdConfig& config)
+    : _dependencies(std::move(dependencies)),
+      _operations(config.operations),
+      _engine(config.engine, *config.site, _dependencies.random),
+      _host(
+          _engine,
+          _dependencies.clock,
+          [this](const Planning::EngineAction& action) {
+              if (_dependencies.filter)
+              {
+                  _dependencies.filter(action, [this](const Planning::EngineAction& passed) { Execute(passed); });
+              }
+              else
+              {
+                  Execute(action);
+              }
+          },
+          [this](const Planning::StoreBatch& batch) { Store(batch); }),
+      _gateway(
+          _dependencies.clock,
+          _dependencies.logger.MakeFor("mcs"),
+          config.localOffset,
+          _engine,
+          _dependencies.mcs,
+          [this](Planning::PlanCommand command) {
+              _host.Push(std::move(command));
+              UpdateDrain();
+          }),
+      _storeWatch(_dependencies.logger.MakeFor("store"))
+{
+    _gateway.SetStyle(config.mcs.style);
+    _gateway.SetAckObserver([this](Core::Duration wait) { _dependencies.output.ObserveAckWait(wait); });
+}
+
+void AcsdCore::SetObserver(Planning::IPlanObserver& observer)
+{
+    _engine.SetObserver(observer);
+}
+
+void AcsdCore::Restore(Planning::StoredState state)
+{
+    _gateway.Restore(state.lastReportSequence);
+    _host.Restore(std::move(state));
+}
+
+void AcsdCore::Start()
+{
+    _dependencies.output.StartTimer(EAcsdTimer::WorkGrace, _operations.workGrace);
+    StartStatusTimer();
+    CheckStore();
+    _gateway.Begin();
+}
+
+void AcsdCore::Reload(const AcsdConfig& config)
+{
+    _operations = config.operations;
+    _gateway.SetStyle(config.mcs.style);
+    if (_phase == EPhase::Running)
+    {
+        StartStatusTimer();
+    }
+}
+
+void AcsdCore::Stop()
+{
+    if (_phase != EPhase::Running)
+    {
+        return;
+    }
+    _phase = EPhase::Draining;
+    _dependencies.output.CancelTimer(EAcsdTimer::WorkGrace);
+    _dependencies.output.StartTimer(EAcsdTimer::Drain, _operations.drainTimeout);
+    _gateway.BeginDraining();
+    UpdateDrain();
+}
+
+void AcsdCore::Close()
+{
+    if (IsClosed())
+    {
+        return;
+    }
+    _phase = EPhase::Closing;
+    _host.Close();
+    _dependencies.output.CancelTimers();
+    _dependencies.output.StartTimer(EAcsdTimer::Stop, STOP_LIMIT);
+    if (!_host.IsStoring()) // otherwise the actions that wait for the transaction are executed first
+    {
+        CloseLinks();
+    }
+}
+
+void AcsdCore::OnSessionEvent(const Protocol::SessionEvent& event)
+{
+    _gateway.OnSessionEvent(event);
+}
+
+void AcsdCore::OnRobotEvent(const std::string& robotID, const Planning::RobotEvent& event)
+{
+    _host.Push(Planning::RobotInput{robotID, event});
+}
+
+void AcsdCore::OnTimer(const AcsdTimer& timer)
+{
+    std::visit(
+        Core::Overloaded{
+            [this](EAcsdTimer own) { OnOwnTimer(own); },
+            [this](const Planning::EngineTimer& ofEngine) {
+                _host.Push(ofEngine);
+            }},
+        timer);
+}
+
+void AcsdCore::OnMqttUp()
+{
+    _bMqttUp = true;
+    UpdateWorking();
+}
+
+void AcsdCore::OnMqttDown()
+{
+    _bMqttUp = false;
+    UpdateWorking();
+}
+
+void AcsdCore::OnStored(const Core::Result<void>& result)
+{
+    _dependencies.output.CancelTimer(EAcsdTimer::StoreLate);
+    _dependencies.output.ObserveCommit(_storeWatch.OnStored(result, _dependencies.clock.GetNow().steady));
+    _host.OnStored(result);
+    UpdateDrain();
+    if (_phase == EPhase::Closing && !_host.IsStoring())
+    {
+        CloseLinks();
+    }
+}
+
+void AcsdCore::OnStoreLost(const Core::Error& error)
+{
+    if (!_host.IsStoring())
+    {
+        _storeWatch.OnLost(error, _dependencies.clock.GetNow().steady);
+        _host.OnStoreLost(error);
+    }
+}
+
+void AcsdCore::OnLinksClosed()
+{
+    if (_phase == EPhase::Leaving)
+    {
+        FinishStop();
+    }
+}
+
+bool AcsdCore::TryPush(Planning::PlanCommand command)
+{
+    return _host.TryPush(std::move(command));
+}
+
+const Planning::PlanEngine& AcsdCore::GetEngine() const noexcept
+{
+    return _engine;
+}
+
+const RefusedReports& AcsdCore::GetRefusedReports() const noexcept
+{
+    return _gateway.GetRefusedReports();
+}
+
+bool AcsdCore::IsMqttUp() const noexcept
+{
+    return _bMqttUp;
+}
+
+bool AcsdCore::IsClosed() const noexcept
+{
+    return _phase >= EPhase::Closing;
+}
+
+std::optional<std::string> AcsdCore::GetStoreFaultOrNull() const
+{
+    return _storeWatch.GetFaultOrNull();
+}
+
+std::vector<std::string> AcsdCore::GetNotReadyReasons() const
+{
+    std::vector<std::string> reasons;
+    if (_phase != EPhase::Running)
+    {
+        reasons.emplace_back("acsd draining for shutdown");
+    }
+    if (std::optional<std::string> faultOrNull = _storeWatch.GetFaultOrNull())
+    {
+        reasons.push_back(std::move(*faultOrNull));
+    }
+    return reasons;
+}
+
+void AcsdCore::Store(const Planning::StoreBatch& batch)
+{
+    _storeWatch.OnBegun(_dependencies.clock.GetNow().steady);
+    _dependencies.output.StartTimer(EAcsdTimer::StoreLate, StoreWatch::LIMIT);
+    _dependencies.output.Store(batch);
+}
+
+void AcsdCore::Execute(const Planning::EngineAction& action)
+{
+    std::visit(
+        Core::Overloaded{
+            [](const Planning::StorePlans&) { assert(false && "executed by the host"); },
+            [this](const Planning::ReplyCommand& reply) { _gateway.Reply(reply); },
+            [this](const Planning::SendReport& report) { _gateway.Report(report.entry); },
+            [this](const Planning::CommandRobot& command) { _dependencies.output.CommandRobot(command); },
+            [this](const Planning::RobotStatusChanged& changed) { OnStatusChanged(changed.status); },
+            [this](const Planning::TscStateChanged& changed) { _gateway.PublishTscState(changed.state); },
+            [this](const Planning::StartEngineTimer& start) {
+                _dependencies.output.StartTimer(start.timer, start.delay);
+            },
+            [this](const Planning::CancelEngineTimer& cancel) {
+                _dependencies.output.CancelTimer(cancel.timer);
+            }},
+        action);
+}
+
+void AcsdCore::OnStatusChanged(const Planning::RobotStatus& status)
+{
+    _gateway.PublishStatus(status);
+    if (status.status == Planning::ERobotStatus::Disconnected)
+    {
+        _reachable.erase(status.robotID);
+    }
+    else
+    {
+        _reachable.insert(status.robotID);
+    }
+    UpdateWorking();
+}
+
+void AcsdCore::OnOwnTimer(EAcsdTimer timer)
+{
+    switch (timer)
+    {
+        case EAcsdTimer::WorkGrace:
+            _gateway.PublishWorking(false);
+            break;
+        case EAcsdTimer::Drain:
+        case EAcsdTimer::Settle:
+            Close();
+            break;
+        case EAcsdTimer::Stop:
+            FinishStop();
+            break;
+        case EAcsdTimer::Status:
+            RepeatStatuses();
+            break;
+        case EAcsdTimer::StoreLate:
+            _storeWatch.OnLate();
+            break;
+        case EAcsdTimer::StoreCheck:
+            CheckStore();
+            break;
+        default:
+            assert(false);
+            break;
+    }
+}
+
+/// Section 5.3: no work can be accepted while the broker or all robots are away; reported after a grace time.
+void AcsdCore::UpdateWorking()
+{
+    const bool bWorking = _bMqttUp && !_reachable.empty();
+    if (_phase != EPhase::Running || bWorking == std::exchange(_bWorking, bWorking))
+    {
+        return;
+    }
+    if (bWorking)
+    {
+        _dependencies.output.CancelTimer(EAcsdTimer::WorkGrace);
+        _gateway.PublishWorking(true);
+    }
+    else
+    {
+        _dependencies.output.StartTimer(EAcsdTimer::WorkGrace, _operations.workGrace);
+    }
+}
+
+void AcsdCore::StartStatusTimer()
+{
+    if (_operations.statusInterval.count() > 0)
+    {
+        _dependencies.output.StartTimer(EAcsdTimer::Status, _operations.statusInterval);
+    }
+    else
+    {
+        _dependencies.output.CancelTimer(EAcsdTimer::Status);
+    }
+}
+
+/// Section 5.9 allows this besides the update of each change (`robot.status_interval`).
+void AcsdCore::RepeatStatuses()
+{
+    for (const Planning::RobotStatus& status : _engine.GetRobotStatuses())
+    {
+        _gateway.PublishStatus(status);
+    }
+    StartStatusTimer();
+}
+
+/// While the store fails, the engine retries its writes, which is a check as well.
+void AcsdCore::CheckStore()
+{
+    if (!_host.IsStoring() && !_storeWatch.GetFaultOrNull().has_value())
+    {
+        _dependencies.output.CheckStore();
+    }
+    _dependencies.output.StartTimer(EAcsdTimer::StoreCheck, StoreWatch::CHECK_INTERVAL);
+}
+
+/// Without an MCS no report can be acknowledged: there is nothing to wait for.
+void AcsdCore::UpdateDrain()
+{
+    if (_phase != EPhase::Draining || _host.IsStoring())
+    {
+        return;
+    }
+    if (!_dependencies.mcs.IsRegistered() || _engine.GetOutboxSummary().count == 0)
+    {
+        _phase = EPhase::Settling;
+        _dependencies.output.StartTimer(EAcsdTimer::Settle, SETTLE_TIME);
+    }
+}
+
+void AcsdCore::CloseLinks()
+{
+    _phase = EPhase::Leaving;
+    _dependencies.output.CloseLinks();
+}
+
+void AcsdCore::FinishStop()
+{
+    _phase = EPhase::Stopped;
+    _dependencies.output.CancelTimers();
+    _dependencies.output.OnStopped();
+}
+
+} // namespace ACS::Acsd

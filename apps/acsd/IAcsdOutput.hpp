@@ -1,0 +1,42 @@
+#pragma once
+
+#include "AcsdTimer.hpp"
+#include <acs/core/Now.hpp>
+#include <acs/plan/EngineAction.hpp>
+
+namespace ACS::Acsd
+{
+
+/// The I/O that AcsdCore needs besides the session with the MCS.
+class IAcsdOutput
+{
+public:
+    IAcsdOutput() = default;
+    IAcsdOutput(const IAcsdOutput&) = delete;
+    IAcsdOutput& operator=(const IAcsdOutput&) = delete;
+    virtual ~IAcsdOutput() = default;
+
+    /// Stores the batch as one transaction and reports the outcome to AcsdCore::OnStored.
+    virtual void Store(const Planning::StoreBatch& batch) = 0;
+    /// Checks the store without writing and reports a failure to AcsdCore::OnStoreLost.
+    virtual void CheckStore() = 0;
+    /// The robot reports to AcsdCore::OnRobotEvent, later or from within.
+    virtual void CommandRobot(const Planning::CommandRobot& command) = 0;
+
+    /// Calls AcsdCore::OnTimer after the delay. Restarts a timer that is running.
+    virtual void StartTimer(const AcsdTimer& timer, Core::Duration delay) = 0;
+    virtual void CancelTimer(const AcsdTimer& timer) = 0;
+    virtual void CancelTimers() = 0;
+
+    /// Closes the links to the MCS, the broker and the arms, then calls AcsdCore::OnLinksClosed.
+    virtual void CloseLinks() = 0;
+    /// The stop is complete. Last call.
+    virtual void OnStopped() = 0;
+
+    /// Duration of a transaction of the store.
+    virtual void ObserveCommit(Core::Duration duration) = 0;
+    /// From sending a report to its Ack.
+    virtual void ObserveAckWait(Core::Duration wait) = 0;
+};
+
+} // namespace ACS::Acsd
