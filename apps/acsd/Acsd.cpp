@@ -320,7 +320,7 @@ private:
         {
             _metrics.UpdateLink(link.name, link.bUp);
         }
-        _metrics.UpdateMcs(_mcs, _core.GetRefusedReports());
+        _metrics.UpdateMCS(_mcs, _core.GetRefusedReports());
         _metrics.UpdatePlans(_core.GetEngine(), now);
         for (const auto& [robotID, robot] : _robots)
         {

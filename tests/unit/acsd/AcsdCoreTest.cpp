@@ -320,7 +320,7 @@ TEST_CASE_METHOD(AcsdCoreFixture, "A stop refuses plans and waits for the Acks o
     CHECK(_stops == 0);
     _core->OnLinksClosed();
     CHECK(_stops == 1);
-    CHECK_FALSE(_core->TryPush(Planning::ControlTsc{true, 0}));
+    CHECK_FALSE(_core->TryPush(Planning::ControlTSC{true, 0}));
 }
 
 TEST_CASE_METHOD(
