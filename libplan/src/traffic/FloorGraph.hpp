@@ -47,9 +47,6 @@ public:
     [[nodiscard]] static double GetTurnSeconds(const Lane& from, const Lane& to);
 };
 
-/// Of driving metres along an edge for which the map says this speed, if any.
-[[nodiscard]] double GetDriveSeconds(double length, const std::optional<double>& maxSpeed);
-
 /// The smallest angle between two headings, in radians.
 [[nodiscard]] double GetAngleBetween(double left, double right);
 
