@@ -16,10 +16,10 @@ namespace ACS::Planning
 class TscControl
 {
     const EngineOptions& _options;
-    PlanBook& _plans;
-    Fleet& _fleet;
+    const PlanBook& _plans;
+    const Fleet& _fleet;
     EngineTransaction& _transaction;
-    StartupBarrier& _startup;
+    const StartupBarrier& _startup;
     ETscState _tscState = ETscState::Auto;
 
 public:

@@ -12,7 +12,7 @@
 namespace ACS::Planning
 {
 
-Dispatcher::Dispatcher(EngineState& engine, TrafficCoordinator& coordinator)
+Dispatcher::Dispatcher(EngineState& engine, const TrafficCoordinator& coordinator)
     : _admission(engine.admission),
       _plans(engine.plans),
       _fleet(engine.fleet),

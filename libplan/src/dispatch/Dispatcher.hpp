@@ -17,15 +17,15 @@ namespace ACS::Planning
 class Dispatcher
 {
     const PlanAdmission& _admission;
-    PlanBook& _plans;
+    const PlanBook& _plans;
     Fleet& _fleet;
     EngineTransaction& _transaction;
-    TrafficCoordinator& _coordinator;
+    const TrafficCoordinator& _coordinator;
     const Router& _router;
     PortCheck _ports;
 
 public:
-    Dispatcher(EngineState& engine, TrafficCoordinator& coordinator);
+    Dispatcher(EngineState& engine, const TrafficCoordinator& coordinator);
 
     /// Of the robots that are free, can do the jobs and whose ports fit, the nearest; one that is known to have the carriers
     /// before one of which that is only supposed.

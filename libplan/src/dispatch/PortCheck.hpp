@@ -22,7 +22,7 @@ struct PortVerdict
 class PortCheck
 {
     const EngineOptions& _options;
-    Fleet& _fleet;
+    const Fleet& _fleet;
 
 public:
     explicit PortCheck(EngineState& engine);

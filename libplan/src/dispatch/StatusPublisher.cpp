@@ -8,7 +8,11 @@
 namespace ACS::Planning
 {
 
-StatusPublisher::StatusPublisher(EngineState& engine, StallWatch& stalls, WaitingRobots& waiting, WaitReasons& waits)
+StatusPublisher::StatusPublisher(
+    EngineState& engine,
+    const StallWatch& stalls,
+    const WaitingRobots& waiting,
+    const WaitReasons& waits)
     : _options(engine.options),
       _site(engine.site),
       _fleet(engine.fleet),

@@ -21,13 +21,17 @@ class StatusPublisher
     const SiteMap& _site;
     Fleet& _fleet;
     EngineTransaction& _transaction;
-    StallWatch& _stalls;
-    WaitingRobots& _waiting;
-    WaitReasons& _waits;
+    const StallWatch& _stalls;
+    const WaitingRobots& _waiting;
+    const WaitReasons& _waits;
     std::vector<RobotStatus> _last; ///< By robot.
 
 public:
-    StatusPublisher(EngineState& engine, StallWatch& stalls, WaitingRobots& waiting, WaitReasons& waits);
+    StatusPublisher(
+        EngineState& engine,
+        const StallWatch& stalls,
+        const WaitingRobots& waiting,
+        const WaitReasons& waits);
 
     /// Section 5: the first that holds.
     [[nodiscard]] ERobotStatus DeriveStatus(const Robot& robot) const;

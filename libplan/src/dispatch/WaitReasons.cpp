@@ -10,11 +10,11 @@ namespace ACS::Planning
 
 WaitReasons::WaitReasons(
     EngineState& engine,
-    TscControl& tsc,
-    StallWatch& stalls,
-    WaitingRobots& waiting,
-    TrafficCoordinator& coordinator,
-    Dispatcher& dispatcher)
+    const TscControl& tsc,
+    const StallWatch& stalls,
+    const WaitingRobots& waiting,
+    const TrafficCoordinator& coordinator,
+    const Dispatcher& dispatcher)
     : _options(engine.options),
       _plans(engine.plans),
       _fleet(engine.fleet),

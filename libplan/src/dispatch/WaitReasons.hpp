@@ -22,24 +22,24 @@ namespace ACS::Planning
 class WaitReasons
 {
     const EngineOptions& _options;
-    PlanBook& _plans;
-    Fleet& _fleet;
-    StoreBacklog& _backlog;
-    StartupBarrier& _startup;
-    TscControl& _tsc;
-    StallWatch& _stalls;
-    WaitingRobots& _waiting;
-    TrafficCoordinator& _coordinator;
-    Dispatcher& _dispatcher;
+    const PlanBook& _plans;
+    const Fleet& _fleet;
+    const StoreBacklog& _backlog;
+    const StartupBarrier& _startup;
+    const TscControl& _tsc;
+    const StallWatch& _stalls;
+    const WaitingRobots& _waiting;
+    const TrafficCoordinator& _coordinator;
+    const Dispatcher& _dispatcher;
 
 public:
     WaitReasons(
         EngineState& engine,
-        TscControl& tsc,
-        StallWatch& stalls,
-        WaitingRobots& waiting,
-        TrafficCoordinator& coordinator,
-        Dispatcher& dispatcher);
+        const TscControl& tsc,
+        const StallWatch& stalls,
+        const WaitingRobots& waiting,
+        const TrafficCoordinator& coordinator,
+        const Dispatcher& dispatcher);
 
     [[nodiscard]] std::vector<WaitReason> GetWaitReasons() const;
     [[nodiscard]] std::optional<WaitReason> GetWaitReasonOrNull(std::string_view planID) const;

@@ -28,7 +28,7 @@ std::string DescribePorts(const CarrierIDs& carriers)
 OperatorCommands::OperatorCommands(
     EngineState& engine,
     LoadWatch& loads,
-    StallWatch& stalls,
+    const StallWatch& stalls,
     PlaceTracker& places,
     PlanWork& work,
     JobOutcomes& jobs)

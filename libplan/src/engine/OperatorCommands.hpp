@@ -20,13 +20,13 @@ namespace ACS::Planning
 /// What an operator asks for: maintenance, alarms, carriers, skipped steps and the outcome of jobs.
 class OperatorCommands
 {
-    PlanBook& _plans;
+    const PlanBook& _plans;
     Fleet& _fleet;
     AlarmBook& _alarms;
     EngineTransaction& _transaction;
-    StoreBacklog& _backlog;
+    const StoreBacklog& _backlog;
     LoadWatch& _loads;
-    StallWatch& _stalls;
+    const StallWatch& _stalls;
     PlaceTracker& _places;
     PlanWork& _work;
     JobOutcomes& _jobs;
@@ -35,7 +35,7 @@ public:
     OperatorCommands(
         EngineState& engine,
         LoadWatch& loads,
-        StallWatch& stalls,
+        const StallWatch& stalls,
         PlaceTracker& places,
         PlanWork& work,
         JobOutcomes& jobs);

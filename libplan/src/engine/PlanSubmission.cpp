@@ -10,7 +10,11 @@
 namespace ACS::Planning
 {
 
-PlanSubmission::PlanSubmission(EngineState& engine, TscControl& tsc, Dispatcher& dispatcher, WaitReasons& waits)
+PlanSubmission::PlanSubmission(
+    EngineState& engine,
+    const TscControl& tsc,
+    const Dispatcher& dispatcher,
+    const WaitReasons& waits)
     : _options(engine.options),
       _admission(engine.admission),
       _plans(engine.plans),

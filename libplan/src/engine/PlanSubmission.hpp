@@ -20,17 +20,17 @@ class PlanSubmission
     const EngineOptions& _options;
     const PlanAdmission& _admission;
     PlanBook& _plans;
-    Fleet& _fleet;
-    ReportOutbox& _outbox;
+    const Fleet& _fleet;
+    const ReportOutbox& _outbox;
     EngineTransaction& _transaction;
     CallRecord& _call;
-    TscControl& _tsc;
-    Dispatcher& _dispatcher;
-    WaitReasons& _waits;
+    const TscControl& _tsc;
+    const Dispatcher& _dispatcher;
+    const WaitReasons& _waits;
     std::vector<std::string> _unreported; ///< Accepted, PlanReport(Pending) not sent.
 
 public:
-    PlanSubmission(EngineState& engine, TscControl& tsc, Dispatcher& dispatcher, WaitReasons& waits);
+    PlanSubmission(EngineState& engine, const TscControl& tsc, const Dispatcher& dispatcher, const WaitReasons& waits);
 
     void Submit(const SubmitPlan& command);
     /// Register D-24. Not with the reply: a plan that cannot be stored is refused, and must not have been reported.

@@ -12,7 +12,7 @@
 namespace ACS::Planning
 {
 
-StoreGate::StoreGate(EngineState& engine, ControlAnswers& answers, PlaceTracker& places, PlanWork& work)
+StoreGate::StoreGate(EngineState& engine, ControlAnswers& answers, const PlaceTracker& places, PlanWork& work)
     : _options(engine.options),
       _plans(engine.plans),
       _fleet(engine.fleet),

@@ -26,13 +26,13 @@ class StoreGate
     CallRecord& _call;
     StoreBacklog& _backlog;
     ControlAnswers& _answers;
-    PlaceTracker& _places;
+    const PlaceTracker& _places;
     PlanWork& _work;
     CommitGate _gate;
     std::vector<StoreChange> _acknowledged; ///< Stored with the next batch, or by the timer.
 
 public:
-    StoreGate(EngineState& engine, ControlAnswers& answers, PlaceTracker& places, PlanWork& work);
+    StoreGate(EngineState& engine, ControlAnswers& answers, const PlaceTracker& places, PlanWork& work);
 
     /// One batch for the whole call, then everything that waits for it.
     void Commit(EngineActions& out);

@@ -18,7 +18,7 @@ constexpr std::size_t DETOURS_AT_MOST = 3;
 
 DeadlockResolver::DeadlockResolver(
     EngineState& engine,
-    TscControl& tsc,
+    const TscControl& tsc,
     PlaceTracker& places,
     WaitingRobots& waiting,
     TrafficCoordinator& coordinator)

@@ -28,9 +28,9 @@ public:
 private:
     const SiteMap& _site;
     const PlanAdmission& _admission;
-    Fleet& _fleet;
+    const Fleet& _fleet;
     EngineTransaction& _transaction;
-    TscControl& _tsc;
+    const TscControl& _tsc;
     WaitingRobots& _waiting;
     TrafficCoordinator& _coordinator;
     const Traffic& _traffic;
@@ -38,7 +38,7 @@ private:
 public:
     DeadlockResolver(
         EngineState& engine,
-        TscControl& tsc,
+        const TscControl& tsc,
         PlaceTracker& places,
         WaitingRobots& waiting,
         TrafficCoordinator& coordinator);

@@ -19,7 +19,7 @@ TrafficCoordinator::TrafficCoordinator(
     ControlAnswers& answers,
     ChargingControl& charging,
     PlaceTracker& places,
-    WaitingRobots& waiting)
+    const WaitingRobots& waiting)
     : _options(engine.options),
       _site(engine.site),
       _random(engine.random),

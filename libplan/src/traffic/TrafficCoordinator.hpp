@@ -36,7 +36,7 @@ class TrafficCoordinator
     ControlAnswers& _answers;
     ChargingControl& _charging;
     PlaceTracker& _places;
-    WaitingRobots& _waiting;
+    const WaitingRobots& _waiting;
     Router _router;
     Traffic& _traffic;
 
@@ -46,7 +46,7 @@ public:
         ControlAnswers& answers,
         ChargingControl& charging,
         PlaceTracker& places,
-        WaitingRobots& waiting);
+        const WaitingRobots& waiting);
 
     /// The parking position of a robot without a home is the first free station beside the lanes with a route there and back. The
     /// robot goes there only to make way.

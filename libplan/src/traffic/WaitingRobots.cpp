@@ -7,7 +7,7 @@
 namespace ACS::Planning
 {
 
-WaitingRobots::WaitingRobots(EngineState& engine, TscControl& tsc, PlaceTracker& places)
+WaitingRobots::WaitingRobots(EngineState& engine, const TscControl& tsc, PlaceTracker& places)
     : _admission(engine.admission),
       _fleet(engine.fleet),
       _tsc(tsc),

@@ -18,11 +18,11 @@ class WaitingRobots
 {
     const PlanAdmission& _admission;
     Fleet& _fleet;
-    TscControl& _tsc;
+    const TscControl& _tsc;
     const Traffic& _traffic;
 
 public:
-    WaitingRobots(EngineState& engine, TscControl& tsc, PlaceTracker& places);
+    WaitingRobots(EngineState& engine, const TscControl& tsc, PlaceTracker& places);
 
     [[nodiscard]] std::optional<std::size_t> GetTargetOrNull(const Robot& robot) const;
     /// Other robots that stand on the target, or drive to it. Nobody sets out for a place that another one has first: so

@@ -22,7 +22,7 @@ class DriveOutcomes
 {
     const EngineOptions& _options;
     const SiteMap& _site;
-    Fleet& _fleet;
+    const Fleet& _fleet;
     EngineTransaction& _transaction;
     ControlAnswers& _answers;
     WaitingRobots& _waiting;

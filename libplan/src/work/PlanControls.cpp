@@ -10,9 +10,9 @@ namespace ACS::Planning
 
 PlanControls::PlanControls(
     EngineState& engine,
-    TscControl& tsc,
+    const TscControl& tsc,
     ControlAnswers& answers,
-    WaitingRobots& waiting,
+    const WaitingRobots& waiting,
     TrafficCoordinator& coordinator,
     StatusPublisher& status,
     PlanWork& work)

@@ -25,10 +25,10 @@ class PlanControls
     Fleet& _fleet;
     EngineTransaction& _transaction;
     CallRecord& _call;
-    StoreBacklog& _backlog;
-    TscControl& _tsc;
+    const StoreBacklog& _backlog;
+    const TscControl& _tsc;
     ControlAnswers& _answers;
-    WaitingRobots& _waiting;
+    const WaitingRobots& _waiting;
     TrafficCoordinator& _coordinator;
     StatusPublisher& _status;
     PlanWork& _work;
@@ -36,9 +36,9 @@ class PlanControls
 public:
     PlanControls(
         EngineState& engine,
-        TscControl& tsc,
+        const TscControl& tsc,
         ControlAnswers& answers,
-        WaitingRobots& waiting,
+        const WaitingRobots& waiting,
         TrafficCoordinator& coordinator,
         StatusPublisher& status,
         PlanWork& work);
