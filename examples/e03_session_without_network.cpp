@@ -36,6 +36,50 @@ class Line
     Protocol::SessionActions _fromMcs;
     std::map<Protocol::ESessionTimer, Core::SteadyTime> _acsTimers; ///< When each is due.
 
+public:
+    bool bNextAckLost = false; ///< The line eats the next text from the MCS.
+    bool bRegistered = false;
+    bool bAcked = false;
+
+    explicit Line(const Protocol::SessionOptions& options)
+        : _acs(options, _random),
+          _mcs({}, _random)
+    {
+        _acs.Start(_now, _fromAcs);
+    }
+
+    /// Carries out what both sides want until neither wants anything. Actions never run inside the call that made them.
+    void Settle()
+    {
+        while (!_fromAcs.empty() || !_fromMcs.empty())
+        {
+            for (const Protocol::SessionAction& action : std::exchange(_fromAcs, {}))
+            {
+                ExecuteForAcs(action);
+            }
+            for (const Protocol::SessionAction& action : std::exchange(_fromMcs, {}))
+            {
+                ExecuteForMcs(action);
+            }
+        }
+    }
+
+    /// The id and the time of a report are the caller's, and the same on every attempt: so a repetition shows as one.
+    [[nodiscard]] bool TryReport(const Protocol::PlanReport& report)
+    {
+        _acs.ReplayDone(_now, _fromAcs); // Nothing is left over from an earlier connection.
+        return _acs.TrySendDurable({"report-1", {_now.wall, {}}, report}, _now, _fromAcs);
+    }
+
+    /// Time jumps to the deadline of the Ack.
+    void WaitForAck()
+    {
+        _now.steady = _acsTimers[Protocol::ESessionTimer::Ack];
+        Print("ACS", "no Ack, again");
+        _acs.OnTimer(Protocol::ESessionTimer::Ack, _now, _fromAcs);
+    }
+
+private:
     void Print(std::string_view who, std::string_view what) const
     {
         const auto time = std::chrono::duration_cast<std::chrono::milliseconds>(_now.steady.time_since_epoch());
@@ -78,49 +122,6 @@ class Line
         {
             _acs.OnText(sendOrNull->text, _now, _fromAcs);
         }
-    }
-
-public:
-    bool bNextAckLost = false; ///< The line eats the next text from the MCS.
-    bool bRegistered = false;
-    bool bAcked = false;
-
-    explicit Line(const Protocol::SessionOptions& options)
-        : _acs(options, _random),
-          _mcs({}, _random)
-    {
-        _acs.Start(_now, _fromAcs);
-    }
-
-    /// Carries out what both sides want until neither wants anything. Actions never run inside the call that made them.
-    void Settle()
-    {
-        while (!_fromAcs.empty() || !_fromMcs.empty())
-        {
-            for (const Protocol::SessionAction& action : std::exchange(_fromAcs, {}))
-            {
-                ExecuteForAcs(action);
-            }
-            for (const Protocol::SessionAction& action : std::exchange(_fromMcs, {}))
-            {
-                ExecuteForMcs(action);
-            }
-        }
-    }
-
-    /// The id and the time of a report are the caller's, and the same on every attempt: so a repetition shows as one.
-    [[nodiscard]] bool TryReport(const Protocol::PlanReport& report)
-    {
-        _acs.ReplayDone(_now, _fromAcs); // Nothing is left over from an earlier connection.
-        return _acs.TrySendDurable({"report-1", {_now.wall, {}}, report}, _now, _fromAcs);
-    }
-
-    /// Time jumps to the deadline of the Ack.
-    void WaitForAck()
-    {
-        _now.steady = _acsTimers[Protocol::ESessionTimer::Ack];
-        Print("ACS", "no Ack, again");
-        _acs.OnTimer(Protocol::ESessionTimer::Ack, _now, _fromAcs);
     }
 };
 

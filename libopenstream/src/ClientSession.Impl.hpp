@@ -121,7 +121,7 @@ private:
     void HandleErrorWhenReady(ErrorLine& error, Core::Now now, ClientActions& out);
     void HandleMonitorError(ErrorLine& error, ClientActions& out);
     void HandleStopError(ErrorLine& error, ClientActions& out);
-    void RefuseControl(int status, std::optional<Core::JsonText> body, std::string detail, ClientActions& out);
+    void RefuseControl(int status, std::optional<Core::JsonText> bodyOrNull, std::string detail, ClientActions& out);
     void SettleInFlight(EControlOutcome outcome, std::string_view detail, ClientActions& out);
     void SettleWaiting(std::string_view detail, ClientActions& out);
     void FinishInFlight(ClientActions& out);

@@ -52,6 +52,10 @@ bool HasHalfSurrogate(std::string_view text)
 /// Passes the parser's events on to the document, and ends the parse at the depth limit and at half a surrogate pair.
 class StrictHandler
 {
+public:
+    using Ch = char;
+
+private:
     Document& _document;
     std::size_t _depth = 0;
     const std::size_t _maximumDepth;
@@ -59,22 +63,7 @@ class StrictHandler
     bool _bHalfSurrogate = false;
     bool _bNumberTooLarge = false;
 
-    template <typename TNumber>
-    [[nodiscard]] static bool TryRead(std::string_view text, TNumber& out)
-    {
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-        return error == std::errc() && end == text.data() + text.size();
-    }
-
-    [[nodiscard]] bool IsWhole(const char* text, rapidjson::SizeType length)
-    {
-        _bHalfSurrogate = _bEscaped && HasHalfSurrogate({text, length});
-        return !_bHalfSurrogate;
-    }
-
 public:
-    using Ch = char;
-
     StrictHandler(Document& document, std::size_t maximumDepth, bool bEscaped)
         : _document(document),
           _maximumDepth(maximumDepth),
@@ -186,6 +175,20 @@ public:
     {
         --_depth;
         return _document.EndArray(count);
+    }
+
+private:
+    template <typename TNumber>
+    [[nodiscard]] static bool TryRead(std::string_view text, TNumber& out)
+    {
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+        return error == std::errc() && end == text.data() + text.size();
+    }
+
+    [[nodiscard]] bool IsWhole(const char* text, rapidjson::SizeType length)
+    {
+        _bHalfSurrogate = _bEscaped && HasHalfSurrogate({text, length});
+        return !_bHalfSurrogate;
     }
 };
 

@@ -42,13 +42,13 @@ tl::unexpected<Core::Error> Refuse(
     EOpenStreamErrorCode code,
     std::string path,
     std::string expected,
-    const Value* value)
+    const Value* valueOrNull)
 {
     return Core::Fail(
         code,
         std::move(path),
         std::move(expected),
-        value == nullptr ? std::string() : Json::ShortenForError(*value));
+        valueOrNull == nullptr ? std::string() : Json::ShortenForError(*valueOrNull));
 }
 
 /// Where a read failed; the first failure wins, so that fields are checked in their order.
@@ -57,11 +57,11 @@ struct PayloadReader
     const Value& payload;
     std::optional<Core::Error> error;
 
-    void Fail(EOpenStreamErrorCode code, const char* name, std::string expected, const Value* value)
+    void Fail(EOpenStreamErrorCode code, const char* name, std::string expected, const Value* valueOrNull)
     {
         if (!error.has_value())
         {
-            error = Refuse(code, fmt::format("payload.{}", name), std::move(expected), value).value();
+            error = Refuse(code, fmt::format("payload.{}", name), std::move(expected), valueOrNull).value();
         }
     }
 

@@ -53,7 +53,7 @@ public:
         std::int64_t ts,
         double serviceDurationMs,
         const ApiResponse& response,
-        const std::optional<Core::JsonText>& id,
+        const std::optional<Core::JsonText>& idOrNull,
         std::string& out);
 };
 
