@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""House conventions that no compiler checks: the order of a class's members, and the names of parameters that may be
-null."""
+"""House conventions that no compiler checks: the order of a class's members, abbreviations at the end of names, and the
+names of parameters that may be null."""
 
 import re
 import sys
@@ -8,13 +8,16 @@ import sys
 from check_sizes import LABEL, NO_MEMBER, find_end, is_method, list_types
 from source_tree import CPP_SUFFIXES, list_files, read_text, run_check, strip_comments_and_strings
 
-# Folders are added as they are brought to these conventions.
+# Of order and parameters. Folders are added as they are brought to these conventions.
 COVERED = ("apps/mcs-sim/", "examples/", "libacs-core/", "libacs-protocol/", "libopenstream/", "libvda5050/")
 # Public types and constants, data, constructors, then methods from public to private.
 TYPES, DATA, CONSTRUCTORS, PUBLIC, PROTECTED, PRIVATE = range(6)
 RANKS = ("a public type or constant", "data", "a constructor", "a public method", "a protected method", "a private method")
 ACCESS_RANKS = {"public": PUBLIC, "protected": PROTECTED, "private": PRIVATE}
 CONSTANT = re.compile(r"^(?:inline\s+|static\s+|constexpr\s+|const\s+)*static\b.*?\b[A-Z][A-Z0-9_]*\s*(?:=|\{|$)")
+# An abbreviation at the end of a name is in capitals: OrderID, but HttpCode. RapidJson is a name.
+ABBREVIATIONS = "Id Ids Url Urls Uri Json Xml Html Tcp Udp Tls Ssl Http Mqtt Uuid Utc Sql Api Lif Acs Mcs Tsc".split()
+NAME = re.compile(r"\b\w*[a-z0-9](?<!Rapid)(?:" + "|".join(ABBREVIATIONS) + r")\b")
 PARAMETERS = re.compile(r"(?<!\bif)(?<!\bwhile)(?<!\bfor)(?<!\bswitch)(?<=[\w>\]])\s*\(([^()]*(?:\([^()]*\)[^()]*)*)\)\s*(?:const\b|noexcept\b|override\b|->|;|\{|:|=)")
 # An optional that is filled for the caller is a result, and a C string is a text.
 OPTIONAL = re.compile(r"^(?:const\s+std::optional<.*>\s*&|(?:const\s+)?std::optional<.*>(?:\s*&&)?)\s+(\w+)\s*(?:=.*)?$", re.DOTALL)
@@ -89,6 +92,15 @@ def check_order(text):
             highest, before = place, RANKS[place]
 
 
+def check_abbreviations(text):
+    seen = set()
+    for match in NAME.finditer(text):
+        name = match.group(0)
+        if name not in seen:
+            seen.add(name)
+            yield 1 + text.count("\n", 0, match.start()), f"{name}: an abbreviation at the end of a name is in capitals"
+
+
 def split_parameters(text):
     parts, depth, part = [], 0, []
     for letter in text:
@@ -114,9 +126,11 @@ def check_nullable(text):
 
 
 def check_tree(root):
-    for path in (name for name in list_files(root) if name.endswith(CPP_SUFFIXES) and name.startswith(COVERED)):
+    for path in (name for name in list_files(root) if name.endswith(CPP_SUFFIXES)):
         text = strip_comments_and_strings(read_text(root, path))
-        for check in (check_order, check_nullable):
+        for check in (check_order, check_nullable, check_abbreviations):
+            if check is not check_abbreviations and not path.startswith(COVERED):
+                continue
             for line, problem in check(text):
                 yield f"{path}:{line}: {problem}"
 

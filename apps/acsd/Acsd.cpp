@@ -135,7 +135,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
                     }
                     TellWorking();
                 },
-                [&](const Planning::TscStateChanged& changed) { _mcs.TellTsc(changed.state); },
+                [&](const Planning::TscStateChanged& changed) { _mcs.TellTSC(changed.state); },
                 [&](const Planning::StartEngineTimer& start) { _engineTimers.Start(start.timer, start.delay); },
                 [&](const Planning::CancelEngineTimer& cancel) {
                     _engineTimers.Cancel(cancel.timer);
@@ -297,7 +297,7 @@ class Acsd::Impl final : public VDA5050::IMqttLinkListener
         {
             _figures.UpdateLink(link.name, link.bUp);
         }
-        _figures.UpdateMcs(_mcs);
+        _figures.UpdateMCS(_mcs);
         _figures.UpdatePlans(_engine, now);
         for (const auto& [robotID, robot] : _robots)
         {

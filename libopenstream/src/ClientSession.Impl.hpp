@@ -70,7 +70,7 @@ class ClientSession::Impl
     std::optional<MonitorRequest> _monitor;
     std::uint64_t _monitorNumber = 0;     ///< Of the last SetMonitor call.
     std::uint64_t _sentMonitorNumber = 0; ///< Of the last MONITOR sent.
-    std::string _sentMonitorUrl;          ///< Likewise.
+    std::string _sentMonitorURL;          ///< Likewise.
     bool _bMonitorDue = false;            ///< SetMonitor was called and nothing was sent yet.
     bool _bMonitorOn = false;             ///< The server streams, as far as known.
     bool _bMonitorStopFirst = false;      ///< The server answered monitor_already_active.

@@ -212,7 +212,7 @@ void ServerSession::Impl::FillRequest(
     ApiRequest& request)
 {
     request.method = method;
-    SplitUrl(url, request);
+    SplitURL(url, request);
     if (argsOrNull.has_value())
     {
         AddArguments(*argsOrNull, request);

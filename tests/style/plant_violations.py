@@ -159,6 +159,7 @@ PLANTED = [
     ("members", "libacs-core/src/Box.cpp", "void Open(int size,\n          const std::optional<int>& limit);\n", 1,
      "parameter limit may be null"),
     ("members", "libacs-core/src/Box.cpp", "int Open(Box* box)\n{\n    return 1;\n}\n", 1, "parameter box may be null"),
+    ("members", "tests/unit/Box.cpp", "int one;\nstd::string orderId;\n", 2, "orderId: an abbreviation"),
     ("words", "docs/guide.md", "As long as it is there\n", 1, "write while"),
     ("words", "docs/guide.md", "So many controllers\n", 1, "write number of"),
     ("words", "docs/guide.md", "The robot stands at a node; it stands for AMR.\n", 1, "write is stationary"),
@@ -188,6 +189,7 @@ ACCEPTED = [
      "    static constexpr int LIMIT = 1;\n\nprivate:\n    class Impl;\n    std::unique_ptr<Impl> _impl{new Impl()};\n\npublic:\n"
      "    explicit Box(int* sizeOrNull);\n    ~Box();\n    Box& operator=(const Box&) = delete;\n    bool operator==(const Box&) const;\n"
      "    int Get(const char* name, std::optional<int>& out);\n\nprotected:\n    int Read();\n\nprivate:\n    void Run() {}\n};\n"),
+    ("members", "libacs-core/src/Box.cpp", "// orderId\nint HttpCode = GetURL(\"mapId\", ParseRapidJson);\n"),
     ("members", "libacs-core/src/Box.cpp", "struct Pair\n{\n    int Sum();\n    int one = 0;\n};\n"
      "void Run() { if (const std::optional<int> next = Get()) { Use(2 * next); } }\n"),
     ("words", "docs/guide.md", "`nobody` stands for [it](told.md); a look-up, on-going, wished. They mistake the order for another.\n"),

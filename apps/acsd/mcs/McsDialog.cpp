@@ -118,7 +118,7 @@ void McsDialog::BeginDraining()
 void McsDialog::Begin()
 {
     _output.SetSiteOffset(GetOffset());
-    TellTsc(_engine.GetTscState());
+    TellTSC(_engine.GetTscState());
     for (const Planning::RobotStatus& status : _engine.GetRobotStatuses())
     {
         TellStatus(status);
@@ -188,7 +188,7 @@ void McsDialog::TellWorking(bool bWorking)
     _output.SendStatus(Protocol::AcsCommStateUpdate{bWorking});
 }
 
-void McsDialog::TellTsc(Planning::ETscState state)
+void McsDialog::TellTSC(Planning::ETscState state)
 {
     _output.SendStatus(MakeTscUpdate(state));
 }

@@ -36,7 +36,7 @@ class McsDialog final
 {
 public:
     /// Receives the engine's next command, as the last thing but what is told here: the engine may answer within the call,
-    /// and whoever carries its actions out may call Reply, Report, TellStatus and TellTsc from it. Nothing else.
+    /// and whoever carries its actions out may call Reply, Report, TellStatus and TellTSC from it. Nothing else.
     using CommandHandler = std::function<void(Planning::PlanCommand command)>;
     /// Receives what the MCS answered to a report, and how long that took since this connection was given it.
     using AckObserver = std::function<void(const Protocol::Acked& acked, Core::Duration wait)>;
@@ -131,7 +131,7 @@ public:
     void Report(const Planning::OutboxEntry& entry);
     void TellStatus(const Planning::RobotStatus& status);
     void TellWorking(bool bWorking);
-    void TellTsc(Planning::ETscState state);
+    void TellTSC(Planning::ETscState state);
 
     [[nodiscard]] const RefusedReports& GetRefusedReports() const noexcept;
 };

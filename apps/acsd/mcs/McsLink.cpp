@@ -157,9 +157,9 @@ void McsLink::TellWorking(bool bWorking)
     _dialog.TellWorking(bWorking);
 }
 
-void McsLink::TellTsc(Planning::ETscState state)
+void McsLink::TellTSC(Planning::ETscState state)
 {
-    _dialog.TellTsc(state);
+    _dialog.TellTSC(state);
 }
 
 bool McsLink::IsRegistered() const

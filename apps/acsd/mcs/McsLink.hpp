@@ -123,7 +123,7 @@ public:
     void Report(const Planning::OutboxEntry& entry);
     void TellStatus(const Planning::RobotStatus& status);
     void TellWorking(bool bWorking);
-    void TellTsc(Planning::ETscState state);
+    void TellTSC(Planning::ETscState state);
 
     [[nodiscard]] bool IsRegistered() const override;
     [[nodiscard]] const Protocol::SessionStatistics& GetStatistics() const;

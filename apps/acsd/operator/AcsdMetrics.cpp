@@ -129,7 +129,7 @@ void AcsdMetrics::UpdateLink(const std::string& name, bool bUp)
     _metrics.SetGauge(LINK_UP, {{"link", name}}, bUp ? 1.0 : 0.0);
 }
 
-void AcsdMetrics::UpdateMcs(const McsLink& mcs)
+void AcsdMetrics::UpdateMCS(const McsLink& mcs)
 {
     const Protocol::SessionStatistics& statistics = mcs.GetStatistics();
     const McsLink::Figures figures = mcs.GetFigures();

@@ -29,7 +29,7 @@ public:
     void ObserveCommit(Core::Duration duration);
 
     void UpdateLink(const std::string& name, bool bUp);
-    void UpdateMcs(const McsLink& mcs);
+    void UpdateMCS(const McsLink& mcs);
     void UpdatePlans(const Planning::PlanEngine& engine, Core::Now now);
     void UpdateRobot(const RobotHost& robot, Core::Now now);
     void UpdateTrace(std::uint64_t lost);

@@ -228,7 +228,7 @@ bool ValueDecoder<Core::JsonText>::TryDecode(
     if ((value.IsObject() || value.IsArray()) && HasDuplicateNames(value))
     {
         return context.IsFailedWith(
-            make_error_code(Core::ECoreError::InvalidJson),
+            make_error_code(Core::ECoreError::InvalidJSON),
             "each member once",
             "a member named twice");
     }

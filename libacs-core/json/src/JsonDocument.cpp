@@ -260,7 +260,7 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
     const std::string_view body = SkipByteOrderMark(text);
     if (!Core::JsonText::IsUtf8(body))
     {
-        return Core::Fail(Core::ECoreError::InvalidJson, {}, "JSON", "invalid UTF-8");
+        return Core::Fail(Core::ECoreError::InvalidJSON, {}, "JSON", "invalid UTF-8");
     }
     _document.reset();
     _valuePool.Clear();
@@ -279,11 +279,11 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
     document.Populate(generate);
     if (handler.HasFoundHalfSurrogate())
     {
-        return Core::Fail(Core::ECoreError::InvalidJson, {}, "JSON", "half a surrogate pair");
+        return Core::Fail(Core::ECoreError::InvalidJSON, {}, "JSON", "half a surrogate pair");
     }
     if (handler.HasFoundLargeNumber())
     {
-        return Core::Fail(Core::ECoreError::InvalidJson, {}, "JSON", "a number beyond the range of a double");
+        return Core::Fail(Core::ECoreError::InvalidJSON, {}, "JSON", "a number beyond the range of a double");
     }
     if (outcome.Code() == rapidjson::kParseErrorTermination)
     {
@@ -292,7 +292,7 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
     if (outcome.IsError())
     {
         return Core::Fail(
-            Core::ECoreError::InvalidJson,
+            Core::ECoreError::InvalidJSON,
             {},
             "JSON",
             fmt::format(
@@ -304,7 +304,7 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
     if (stream.Tell() != body.size())
     {
         return Core::Fail(
-            Core::ECoreError::InvalidJson,
+            Core::ECoreError::InvalidJSON,
             {},
             "JSON",
             fmt::format("a NUL at {}", DescribePosition(body, stream.Tell())));

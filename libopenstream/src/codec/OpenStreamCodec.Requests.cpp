@@ -91,16 +91,16 @@ struct PayloadReader
         }
     }
 
-    void ReadUrl(std::string& out)
+    void ReadURL(std::string& out)
     {
         const Value* value = FindMemberOrNull(payload, "url");
         if (value == nullptr)
         {
-            Fail(EOpenStreamErrorCode::MissingUrl, "url", "a path such as /project/robot/po_cur", value);
+            Fail(EOpenStreamErrorCode::MissingURL, "url", "a path such as /project/robot/po_cur", value);
         }
-        else if (!value->IsString() || !IsUrl(GetText(*value)))
+        else if (!value->IsString() || !IsURL(GetText(*value)))
         {
-            Fail(EOpenStreamErrorCode::InvalidUrl, "url", "a path that begins with / and has no blanks", value);
+            Fail(EOpenStreamErrorCode::InvalidURL, "url", "a path that begins with / and has no blanks", value);
         }
         else if (value->GetStringLength() > LONGEST_URL)
         {
@@ -190,7 +190,7 @@ MonitorRequest ReadMonitor(PayloadReader& reader)
     MonitorRequest request;
     EApiMethod method = EApiMethod::Get;
     std::int64_t period = 0;
-    reader.ReadUrl(request.url);
+    reader.ReadURL(request.url);
     reader.ReadMethod(true, method);
     reader.ReadInteger("period_ms", EOpenStreamErrorCode::MissingPeriodMs, EOpenStreamErrorCode::InvalidPeriod, period);
     reader.ReadArgs(request.args);
@@ -211,7 +211,7 @@ MonitorRequest ReadMonitor(PayloadReader& reader)
 ControlRequest ReadControl(PayloadReader& reader)
 {
     ControlRequest request;
-    reader.ReadUrl(request.url);
+    reader.ReadURL(request.url);
     reader.ReadMethod(false, request.method);
     reader.ReadArgs(request.args);
     reader.ReadBody(request.body);

@@ -20,23 +20,23 @@ TscControl::TscControl(EngineState& engine)
 {
 }
 
-void TscControl::SwitchTsc(const ControlTsc& command)
+void TscControl::SwitchTSC(const ControlTSC& command)
 {
     const bool bAuto = _tscState == ETscState::Auto;
     if (command.bPause && bAuto)
     {
-        ChangeTsc(ETscState::Pausing);
+        ChangeTSC(ETscState::Pausing);
         FinishTscPause();
     }
     else if (!command.bPause && !bAuto)
     {
-        ChangeTsc(ETscState::Auto);
+        ChangeTSC(ETscState::Auto);
         _transaction.RequestDispatch();
     }
     _transaction.Emit(ReplyCommand{command.replyToken, true, fmt::format("The TSC is {}.", GetText(_tscState))});
 }
 
-void TscControl::ChangeTsc(ETscState state)
+void TscControl::ChangeTSC(ETscState state)
 {
     assert(CanChange(_tscState, state));
     const ETscState from = std::exchange(_tscState, state);
@@ -61,7 +61,7 @@ void TscControl::FinishTscPause()
     };
     if (_tscState == ETscState::Pausing && !_plans.IsAnyRunning() && std::ranges::none_of(_fleet, isBusy))
     {
-        ChangeTsc(ETscState::Paused);
+        ChangeTSC(ETscState::Paused);
     }
 }
 
@@ -70,7 +70,7 @@ bool TscControl::CanDriveHome() const
     return _tscState == ETscState::Auto || (_tscState == ETscState::Pausing && _plans.IsAnyRunning());
 }
 
-void TscControl::RestoreTsc(ETscState stored)
+void TscControl::RestoreTSC(ETscState stored)
 {
     _tscState = ETscState::Auto;
     if (_options.bTscStartsPaused || stored != ETscState::Auto)

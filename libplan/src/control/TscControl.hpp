@@ -25,21 +25,21 @@ class TscControl
 public:
     explicit TscControl(EngineState& engine);
 
-    void SwitchTsc(const ControlTsc& command);
+    void SwitchTSC(const ControlTSC& command);
     void PublishTscState(ETscState from);
     /// The TSC is paused once no plan runs and no robot moves or works.
     void FinishTscPause();
     /// While the TSC is pausing, only to make way for what still runs.
     [[nodiscard]] bool CanDriveHome() const;
     /// What was paused stays so: nothing is begun. What was being worked on goes on to its end.
-    void RestoreTsc(ETscState stored);
+    void RestoreTSC(ETscState stored);
     /// Section 5.2: Paused until the first consistency check is done.
     [[nodiscard]] ETscState GetTscState() const noexcept;
     /// Without regard to the startup barrier.
     [[nodiscard]] ETscState GetState() const noexcept;
 
 private:
-    void ChangeTsc(ETscState state);
+    void ChangeTSC(ETscState state);
 };
 
 } // namespace ACS::Planning

@@ -68,7 +68,7 @@ void RestartRecovery::Restore(StoredState state)
     {
         RestoreOverdue(robot);
     }
-    _tsc.RestoreTsc(state.tscState);
+    _tsc.RestoreTSC(state.tscState);
     BeginStartup(!_plans.GetActive().empty() || !state.robotWorks.empty());
     _transaction.StartTimer(EEngineTimer::Dispatch, {}, {});
 }

@@ -260,7 +260,7 @@ Core::Result<SiteMap> MakeSite(LifFile&& file)
 
 } // namespace
 
-Core::Result<SiteMap> DecodeLif(std::string_view text)
+Core::Result<SiteMap> DecodeLIF(std::string_view text)
 {
     Core::Result<LifFile> file = DecodeFile(text);
     return file.has_value() ? MakeSite(std::move(*file)) : tl::unexpected(std::move(file.error()));

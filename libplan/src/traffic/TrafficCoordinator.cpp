@@ -275,7 +275,7 @@ bool TrafficCoordinator::TryBeginDrive(Robot& robot, const PlannedRoute& planned
     }
     _charging.EndCharging(robot);
     ActiveDrive drive;
-    drive.driveID = Core::MakeUuid(_random);
+    drive.driveID = Core::MakeUUID(_random);
     robot.work.AddCommand(drive.driveID);
     drive.route = plannedRoute.route;
     drive.nodes = plannedRoute.nodes;

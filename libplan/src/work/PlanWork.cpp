@@ -104,7 +104,7 @@ void PlanWork::BeginJob(Robot& robot)
     plan.bJobBegun = true;
     if (!HasJob(plan))
     {
-        plan.madeJobID = Core::MakeUuid(_random);
+        plan.madeJobID = Core::MakeUUID(_random);
     }
     if (robot.work.IsDoubtful())
     {
@@ -117,7 +117,7 @@ void PlanWork::BeginJob(Robot& robot)
     }
     const std::string repeated = std::exchange(plan.repeatedCommandID, {});
     StartJob job = MakeStartJob(robot);
-    job.commandID = repeated.empty() ? Core::MakeUuid(_random) : repeated;
+    job.commandID = repeated.empty() ? Core::MakeUUID(_random) : repeated;
     job.jobNumber = robot.work.NumberJob(!repeated.empty(), _random);
     job.mark = robot.view.state.has_value() ? robot.view.state->mark : std::string();
     robot.work.AddCommand(job.commandID);

@@ -198,7 +198,7 @@ void AcsdProcess::CarryOut(const Planning::EngineAction& action)
             [this](const Planning::SendReport& report) { Report(report.entry); },
             [this](const Planning::CommandRobot& command) { CommandRobot(command); },
             [this](const Planning::RobotStatusChanged& changed) { _dialog.TellStatus(changed.status); },
-            [this](const Planning::TscStateChanged& changed) { _dialog.TellTsc(changed.state); },
+            [this](const Planning::TscStateChanged& changed) { _dialog.TellTSC(changed.state); },
             [this](const Planning::StartEngineTimer& start) {
                 if (_mutator.ShouldForgetTimer())
                 {

@@ -58,6 +58,6 @@ public:
 };
 
 /// Whether a url is valid in MONITOR or CONTROL: begins with '/', no blank or control character. Ignores its length.
-[[nodiscard]] bool IsUrl(std::string_view url) noexcept;
+[[nodiscard]] bool IsURL(std::string_view url) noexcept;
 
 } // namespace ACS::OpenStream

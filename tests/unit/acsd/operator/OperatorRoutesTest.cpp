@@ -86,7 +86,7 @@ TEST_CASE("/status shows links, obstacles, what waits for the MCS since when, an
     REQUIRE(world.TryRun());
     const std::vector<Planning::OutboxEntry> waiting = world.engine->GetUnacknowledged();
     REQUIRE_FALSE(waiting.empty());
-    const std::string time = Core::FormatUtc(waiting.front().time);
+    const std::string time = Core::FormatUTC(waiting.front().time);
     CHECK(HasText(
         getStatus(),
         R"("outbox":{"reports":)" + std::to_string(waiting.size()) + R"(,"oldest":")" + time + R"("})"));

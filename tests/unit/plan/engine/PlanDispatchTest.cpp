@@ -190,7 +190,7 @@ TEST_CASE("Why does it wait: the place in the queue, and for each robot that cou
     CHECK(reason.robots.size() == 2);
     CHECK(GetReason(world, "P3", busy) == "busy with plan P1");
     CHECK(GetReason(world, "P3", other) == "no connection");
-    world.SwitchTsc(true);
+    world.SwitchTSC(true);
     CHECK(world.engine->GetWaitReasonOrNull("P2")->message == "The TSC is Pausing: no plan is begun.");
     CHECK(world.engine->GetWaitReasons().back().planID == "P3");
     CHECK_FALSE(world.engine->GetWaitReasonOrNull("P9").has_value());

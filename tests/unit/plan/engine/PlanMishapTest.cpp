@@ -260,13 +260,13 @@ TEST_CASE("A robot is told to stop charging before it leaves, also where it leav
         options.robots.front().chargingStationID = "CHG01";
         options.robots.front().homeStationID = "CHG03";
     });
-    world.SwitchTsc(true);
+    world.SwitchTSC(true);
     world.Connect();
     world.GetRobot("LR01").battery = 50;
     world.TellState("LR01");
     REQUIRE(world.TryRun());
     REQUIRE(Contains(world.trace, "command LR01 StartCharging"));
-    world.SwitchTsc(false);
+    world.SwitchTSC(false);
     REQUIRE(world.TryRun());
     CHECK(world.GetRobot("LR01").GetOccupied() == Lines{"D-CHG03"});
     const std::size_t stop = FindLine(world, "command LR01 StopCharging", 0);
@@ -325,7 +325,7 @@ TEST_CASE("5.2 After a restart with work the TSC is told as Paused until robots 
     CHECK(world.engine->GetTscState() == ETscState::Auto);
     CHECK(Contains(world.trace, "tsc Auto"));
     world.Restart(MakeTestOptions(false), MakeTestSite());
-    world.SwitchTsc(true);
+    world.SwitchTSC(true);
     world.Connect();
     REQUIRE(world.TryRun());
     CHECK(world.engine->GetTscState() == ETscState::Paused);

@@ -16,7 +16,7 @@
 
 /// Joins a plan engine, a store and one robot in virtual time. A program does the same with real timers, the store on disk
 /// and reports that go to the MCS.
-class ExampleAcs : private ACS::Core::IClock
+class ExampleACS : private ACS::Core::IClock
 {
     using Timer = std::variant<ACS::Planning::EngineTimer, ACS::Planning::AdapterTimerID>;
 
@@ -31,7 +31,7 @@ class ExampleAcs : private ACS::Core::IClock
 
 public:
     /// The random source and the robot outlive the host.
-    ExampleAcs(
+    ExampleACS(
         ACS::Planning::EngineOptions options,
         ACS::Planning::SiteMap site,
         ACS::Core::IRandom& random,

@@ -4,7 +4,7 @@
 #include "controller/ControllerMachine.hpp"
 
 /// The endpoints below /project/robot/trajectory.
-namespace ACS::OpenStreamSim::TrajectoryApi
+namespace ACS::OpenStreamSim::TrajectoryAPI
 {
 
 [[nodiscard]] OpenStream::ApiResponse Init(ControllerMachine& machine, const ApiCall& call);
@@ -18,4 +18,4 @@ namespace ACS::OpenStreamSim::TrajectoryApi
 [[nodiscard]] OpenStream::ApiResponse GetLog(ControllerMachine& machine, const ApiCall& call);
 [[nodiscard]] OpenStream::ApiResponse SetLog(ControllerMachine& machine, const ApiCall& call);
 
-} // namespace ACS::OpenStreamSim::TrajectoryApi
+} // namespace ACS::OpenStreamSim::TrajectoryAPI

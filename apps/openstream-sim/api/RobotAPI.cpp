@@ -1,4 +1,4 @@
-#include "api/RobotApi.hpp"
+#include "api/RobotAPI.hpp"
 
 #include "api/ApiAnswers.hpp"
 #include "arm/FlangePose.hpp"
@@ -11,7 +11,7 @@
 #include <span>
 #include <utility>
 
-namespace ACS::OpenStreamSim::RobotApi
+namespace ACS::OpenStreamSim::RobotAPI
 {
 
 namespace
@@ -334,4 +334,4 @@ ApiResponse SelectCoordinates(ControllerMachine& machine, const ApiCall& call)
     return Succeed(CoordinatesAnswer{settings.coordinates, settings.userCoordinates});
 }
 
-} // namespace ACS::OpenStreamSim::RobotApi
+} // namespace ACS::OpenStreamSim::RobotAPI

@@ -33,7 +33,7 @@ inline Protocol::CodecOptions MakeCodecOptions()
 }
 
 /// An MCS by hand, on one connection: keeps what comes, and acknowledges it if it is to.
-class RawMcs
+class RawMCS
 {
     RawPeer& _peer;
     Protocol::AcsCodec _codec{MakeCodecOptions()};
@@ -45,7 +45,7 @@ public:
     /// Whether the request is to be acknowledged; may do to the connection what it likes.
     std::function<bool(const Protocol::AcsRequest& request)> onRequest;
 
-    explicit RawMcs(RawPeer& peer)
+    explicit RawMCS(RawPeer& peer)
         : _peer(peer)
     {
         peer.onChange = [this] {

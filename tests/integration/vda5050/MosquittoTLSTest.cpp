@@ -13,7 +13,7 @@ namespace
 
 using namespace std::chrono_literals;
 using VDA5050::EMqttVersion;
-using VDA5050::MosquittoTls;
+using VDA5050::MosquittoTLS;
 
 class TlsTest
 {
@@ -32,7 +32,7 @@ protected:
 
     [[nodiscard]] std::unique_ptr<TestLink> MakeLink(
         const MosquittoBroker& broker,
-        const std::optional<MosquittoTls>& tls,
+        const std::optional<MosquittoTLS>& tls,
         const std::string& clientID = "client",
         const std::string& filter = {})
     {
@@ -60,9 +60,9 @@ protected:
 TEST_CASE_METHOD(TlsTest, "2 Over TLS thousands of messages arrive complete and in order")
 {
     const MosquittoBroker broker(MakeSettings({}, "max_queued_messages 0\n"));
-    const auto receiver = MakeLink(broker, MosquittoTls{_ca.certificate, {}, {}}, "receiver", "load");
+    const auto receiver = MakeLink(broker, MosquittoTLS{_ca.certificate, {}, {}}, "receiver", "load");
     REQUIRE(CanConnect(receiver));
-    const auto sender = MakeLink(broker, MosquittoTls{_ca.certificate, {}, {}}, "sender");
+    const auto sender = MakeLink(broker, MosquittoTLS{_ca.certificate, {}, {}}, "sender");
     REQUIRE(CanConnect(sender));
     constexpr std::size_t COUNT = 3000;
     const std::string filling(700, 'x');
@@ -85,7 +85,7 @@ TEST_CASE_METHOD(
     "2 A broker whose certificate does not stand up is not talked to, and the log says where to look")
 {
     CertificateWish wish;
-    std::optional<MosquittoTls> tls = MosquittoTls{_ca.certificate, {}, {}};
+    std::optional<MosquittoTLS> tls = MosquittoTLS{_ca.certificate, {}, {}};
     SECTION("by another authority")
     {
         tls->caFile = _maker.MakeCA("other").certificate;
@@ -109,11 +109,11 @@ TEST_CASE_METHOD(TlsTest, "2 A broker that wants a client certificate takes one 
 {
     const MosquittoBroker broker(MakeSettings({}, "require_certificate true\n"));
     const CertificateFiles own = _maker.Make(_ca, {});
-    CHECK(CanConnect(MakeLink(broker, MosquittoTls{_ca.certificate, own.certificate, own.key}, "own")));
-    CHECK_FALSE(CanConnect(MakeLink(broker, MosquittoTls{_ca.certificate, {}, {}}, "none")));
+    CHECK(CanConnect(MakeLink(broker, MosquittoTLS{_ca.certificate, own.certificate, own.key}, "own")));
+    CHECK_FALSE(CanConnect(MakeLink(broker, MosquittoTLS{_ca.certificate, {}, {}}, "none")));
     const CertificateFiles foreign = _maker.MakeSelfSigned({});
-    CHECK_FALSE(CanConnect(MakeLink(broker, MosquittoTls{_ca.certificate, foreign.certificate, foreign.key}, "other")));
-    CHECK_FALSE(CanConnect(MakeLink(broker, MosquittoTls{"/nowhere.pem", {}, {}}, "nowhere")));
+    CHECK_FALSE(CanConnect(MakeLink(broker, MosquittoTLS{_ca.certificate, foreign.certificate, foreign.key}, "other")));
+    CHECK_FALSE(CanConnect(MakeLink(broker, MosquittoTLS{"/nowhere.pem", {}, {}}, "nowhere")));
     CHECK_FALSE(CanConnect(MakeLink(broker, std::nullopt, "plain")));
 }
 

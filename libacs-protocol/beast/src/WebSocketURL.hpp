@@ -9,7 +9,7 @@ namespace ACS::ProtocolBeast
 {
 
 /// ws://host[:port][/path] or wss://…
-struct WebSocketUrl
+struct WebSocketURL
 {
     bool bSecure = false;
     std::string host; ///< Without the brackets of an IPv6 address.
@@ -18,6 +18,6 @@ struct WebSocketUrl
     std::string target;     ///< Path and query, at least a slash.
 };
 
-[[nodiscard]] Core::Result<WebSocketUrl> ParseWebSocketUrl(std::string_view text);
+[[nodiscard]] Core::Result<WebSocketURL> ParseWebSocketURL(std::string_view text);
 
 } // namespace ACS::ProtocolBeast

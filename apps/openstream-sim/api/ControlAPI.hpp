@@ -4,7 +4,7 @@
 #include "controller/ControllerMachine.hpp"
 
 /// The endpoints of the operating conditions, the signals, the relays, the tasks and the console.
-namespace ACS::OpenStreamSim::ControlApi
+namespace ACS::OpenStreamSim::ControlAPI
 {
 
 [[nodiscard]] OpenStream::ApiResponse GetConditions(ControllerMachine& machine, const ApiCall& call);
@@ -27,4 +27,4 @@ namespace ACS::OpenStreamSim::ControlApi
 [[nodiscard]] OpenStream::ApiResponse ExecuteMove(ControllerMachine& machine, const ApiCall& call);
 [[nodiscard]] OpenStream::ApiResponse ExecuteCommand(ControllerMachine& machine, const ApiCall& call);
 
-} // namespace ACS::OpenStreamSim::ControlApi
+} // namespace ACS::OpenStreamSim::ControlAPI

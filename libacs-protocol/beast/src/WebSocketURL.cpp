@@ -1,4 +1,4 @@
-#include "WebSocketUrl.hpp"
+#include "WebSocketURL.hpp"
 
 #include <acs/core/ECoreError.hpp>
 
@@ -43,7 +43,7 @@ bool HasForbiddenByte(std::string_view text)
 
 } // namespace
 
-Core::Result<WebSocketUrl> ParseWebSocketUrl(std::string_view text)
+Core::Result<WebSocketURL> ParseWebSocketURL(std::string_view text)
 {
     const bool bSecure = text.starts_with(SECURE);
     if ((!bSecure && !text.starts_with(PLAIN)) || HasForbiddenByte(text))
@@ -75,7 +75,7 @@ Core::Result<WebSocketUrl> ParseWebSocketUrl(std::string_view text)
         return Refuse(text);
     }
     const std::string_view defaultPort = bSecure ? SECURE_PORT : PLAIN_PORT;
-    WebSocketUrl url;
+    WebSocketURL url;
     url.bSecure = bSecure;
     url.host = host;
     url.port = port.empty() ? defaultPort : port;

@@ -1,4 +1,4 @@
-#include "api/ControlApi.hpp"
+#include "api/ControlAPI.hpp"
 
 #include "api/ApiAnswers.hpp"
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-namespace ACS::OpenStreamSim::ControlApi
+namespace ACS::OpenStreamSim::ControlAPI
 {
 
 namespace
@@ -346,4 +346,4 @@ ApiResponse ExecuteCommand(ControllerMachine& machine, const ApiCall& call)
     return bAdded ? Succeed() : Succeed(ConsoleAnswer{});
 }
 
-} // namespace ACS::OpenStreamSim::ControlApi
+} // namespace ACS::OpenStreamSim::ControlAPI

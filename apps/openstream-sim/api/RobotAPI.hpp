@@ -4,7 +4,7 @@
 #include "controller/ControllerMachine.hpp"
 
 /// The endpoints below /project/robot and what tells about the controller as a whole.
-namespace ACS::OpenStreamSim::RobotApi
+namespace ACS::OpenStreamSim::RobotAPI
 {
 
 [[nodiscard]] OpenStream::ApiResponse GetHealth(ControllerMachine& machine, const ApiCall& call);
@@ -25,4 +25,4 @@ namespace ACS::OpenStreamSim::RobotApi
 [[nodiscard]] OpenStream::ApiResponse SelectTool(ControllerMachine& machine, const ApiCall& call);
 [[nodiscard]] OpenStream::ApiResponse SelectCoordinates(ControllerMachine& machine, const ApiCall& call);
 
-} // namespace ACS::OpenStreamSim::RobotApi
+} // namespace ACS::OpenStreamSim::RobotAPI

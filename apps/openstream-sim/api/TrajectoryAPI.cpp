@@ -1,4 +1,4 @@
-#include "api/TrajectoryApi.hpp"
+#include "api/TrajectoryAPI.hpp"
 
 #include "api/ApiAnswers.hpp"
 #include "arm/TrajectoryPoints.hpp"
@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace ACS::OpenStreamSim::TrajectoryApi
+namespace ACS::OpenStreamSim::TrajectoryAPI
 {
 
 namespace
@@ -114,4 +114,4 @@ ApiResponse SetLog(ControllerMachine& machine, const ApiCall& call)
     return Succeed();
 }
 
-} // namespace ACS::OpenStreamSim::TrajectoryApi
+} // namespace ACS::OpenStreamSim::TrajectoryAPI
