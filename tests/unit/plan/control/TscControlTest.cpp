@@ -8,7 +8,7 @@ using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixt
 TEST_CASE("TscControl: without work a pause is finished in the call that requests it")
 {
     EngineParts parts;
-    parts.tsc.SwitchTsc(ControlTsc{true, 7});
+    parts.tsc.SwitchTSC(ControlTSC{true, 7});
     const CallOutcome outcome = parts.Collect();
     CHECK(
         outcome.ListChanges<TscChanged>()
@@ -20,7 +20,7 @@ TEST_CASE("TscControl: without work a pause is finished in the call that request
     REQUIRE(replies.size() == 1);
     CHECK(replies.front().replyToken == 7);
     CHECK(replies.front().bAccepted);
-    parts.tsc.SwitchTsc(ControlTsc{true, 8});
+    parts.tsc.SwitchTSC(ControlTSC{true, 8});
     CHECK(parts.Collect().changes.empty());
 }
 
@@ -28,7 +28,7 @@ TEST_CASE("TscControl: a pause waits for running plans and for drives")
 {
     EngineParts parts;
     ActivePlan& plan = parts.BeginDriveToLoad();
-    parts.tsc.SwitchTsc(ControlTsc{true, 7});
+    parts.tsc.SwitchTSC(ControlTSC{true, 7});
     CHECK(parts.tsc.GetState() == ETscState::Pausing);
     CHECK(parts.tsc.CanDriveHome());
     parts.work.EndPlan(plan, EPlanState::Aborted, {});
@@ -43,9 +43,9 @@ TEST_CASE("TscControl: a pause waits for running plans and for drives")
 TEST_CASE("TscControl: Auto dispatches again")
 {
     EngineParts parts;
-    parts.tsc.SwitchTsc(ControlTsc{true, 7});
+    parts.tsc.SwitchTSC(ControlTSC{true, 7});
     parts.Discard();
-    parts.tsc.SwitchTsc(ControlTsc{false, 8});
+    parts.tsc.SwitchTSC(ControlTSC{false, 8});
     CHECK(parts.tsc.GetState() == ETscState::Auto);
     CHECK(parts.engine.transaction.IsDispatchNeeded());
     CHECK(parts.Collect().ListChanges<TscChanged>() == std::vector{TscChanged{ETscState::Auto}});
@@ -57,14 +57,14 @@ TEST_CASE("TscControl: a pause survives a restart, and a start may begin with on
     SECTION("Auto stays Auto")
     {
         EngineParts parts(options);
-        parts.tsc.RestoreTsc(ETscState::Auto);
+        parts.tsc.RestoreTSC(ETscState::Auto);
         CHECK(parts.tsc.GetState() == ETscState::Auto);
         CHECK(parts.Collect().changes.empty());
     }
     SECTION("a pause that was under way is finished without running plans")
     {
         EngineParts parts(options);
-        parts.tsc.RestoreTsc(ETscState::Pausing);
+        parts.tsc.RestoreTSC(ETscState::Pausing);
         CHECK(parts.tsc.GetState() == ETscState::Paused);
         CHECK(parts.Collect().ListChanges<TscChanged>() == std::vector{TscChanged{ETscState::Paused}});
     }
@@ -73,7 +73,7 @@ TEST_CASE("TscControl: a pause survives a restart, and a start may begin with on
         options.bTscStartsPaused = true;
         EngineParts parts(options);
         parts.BeginLoad();
-        parts.tsc.RestoreTsc(ETscState::Auto);
+        parts.tsc.RestoreTSC(ETscState::Auto);
         CHECK(parts.tsc.GetState() == ETscState::Pausing);
     }
 }

@@ -42,7 +42,7 @@ TEST_CASE("WaitReasons: what holds all plans back comes before what holds one ba
     CHECK(messages.insert(describe()).second);
     parts.engine.backlog.OnFailed();
     CHECK(messages.insert(describe()).second);
-    parts.tsc.SwitchTsc(ControlTsc{true, 0});
+    parts.tsc.SwitchTSC(ControlTSC{true, 0});
     CHECK(messages.insert(describe()).second);
 }
 

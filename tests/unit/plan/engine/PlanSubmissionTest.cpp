@@ -97,7 +97,7 @@ TEST_CASE("PlanSubmission: plans are refused at each limit")
     {
         options.bTscPausedAcceptsPlans = GENERATE(false, true);
         SubmissionParts parts(options);
-        parts.tsc.SwitchTsc(ControlTsc{true, 0});
+        parts.tsc.SwitchTSC(ControlTSC{true, 0});
         parts.Discard();
         CHECK(parts.IsAccepted("P1") == options.bTscPausedAcceptsPlans);
     }
