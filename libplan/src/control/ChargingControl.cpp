@@ -28,7 +28,8 @@ void ChargingControl::UpdateBattery(Robot& robot)
         const bool bLow = battery == EBatteryChange::Low;
         _transaction.Note(
             robot,
-            fmt::format("its battery is {}", bLow ? "low: it takes no new plan" : "full enough for plans again"));
+            bLow ? fmt::format("battery below {:.0f} %: no new plan is assigned", dispatch.batteryFloor)
+                 : fmt::format("battery at {:.0f} %: available for plans", dispatch.batteryResume));
         robot.parking.homeNode = bLow ? robot.parking.chargeNode : GetHomeOrNull(robot);
         robot.search.plannedRoute.reset();
         _transaction.RequestDispatch();
@@ -94,7 +95,7 @@ Alarm ChargingControl::MakeChargeAlarm(const Robot& robot) const
         robot.GetID(),
         ALARM_CHARGE,
         EAlarmLevel::Light,
-        "It stands at its charging station with a low battery and does not charge.");
+        "Robot not charging: its battery is low and it is at its charging station. Check the charger and its contact.");
 }
 
 bool ChargingControl::IsChargeDue(const Robot& robot) const

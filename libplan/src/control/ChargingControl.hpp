@@ -11,7 +11,7 @@
 namespace ACS::Planning
 {
 
-/// Sends robots with a low battery to charge, and commands charging (ChargingPolicy decides).
+/// Chooses the home of each robot by its battery, commands charging and raises ACS-1010. ChargingPolicy keeps the state.
 class ChargingControl
 {
     const EngineOptions& _options;
@@ -22,14 +22,17 @@ class ChargingControl
 public:
     explicit ChargingControl(EngineState& engine);
 
-    /// By the robot's new state.
+    /// Handles the battery and the charging in the robot's new state.
     void UpdateBattery(Robot& robot);
-    /// Robots without work that stand at their charging stations, low or not.
+    /// Commands charging to each idle robot at its charging station.
     void ChargeIdle();
-    /// Before it leaves, or as it is full enough.
+    /// The robot leaves its charging station, or its battery is charged.
     void EndCharging(Robot& robot);
+    /// The robot has not shown that it charges: the command is repeated, and a low battery raises the alarm.
     void OnChargeRetry(Robot& robot);
+    /// Node of the configured home station.
     [[nodiscard]] std::optional<std::size_t> GetHomeOrNull(const Robot& robot) const;
+    /// Node of the configured charging station.
     [[nodiscard]] std::optional<std::size_t> GetChargeNodeOrNull(const Robot& robot) const;
 
 private:

@@ -11,7 +11,7 @@
 namespace ACS::Planning
 {
 
-/// The control that a plan was asked for (cancel, abort, pause, resume): repetitions, the open one, its timer and its outcome.
+/// Keeps the open control of each plan (Cancel, Abort, Pause, Resume), recognises repeated requests, and reports outcomes.
 class ControlAnswers
 {
     const EngineOptions& _options;
@@ -22,24 +22,28 @@ class ControlAnswers
 public:
     explicit ControlAnswers(EngineState& engine);
 
-    /// A transactionID is one request's of its command; another command may have the same.
+    /// Key of a request: a transactionID is unique among requests of the same command only.
     [[nodiscard]] static std::string MakeRequestID(const ControlPlan& command);
-    /// Register D-23: after a crash the Ack may have been lost, and not the control.
+    /// Register D-23: the request was handled before a crash in which its Ack was lost.
     [[nodiscard]] bool IsRepetition(const ControlPlan& command) const;
+    /// Remembers the request to recognise a repetition.
     void Remember(PlanProgress& progress, const ControlPlan& command);
-    /// A control is open from here on until Answer.
+    /// Opens a control, until Answer.
     void Ask(ActivePlan& plan, EPlanControl control);
-    /// The outcome of the control that is open, if one is: once for each time that it was asked for.
+    /// Closes the open control, if any, and reports its outcome once per request.
     void Answer(ActivePlan& plan, bool bSucceeded, const std::string& message);
+    /// Reports an outcome without an open control.
     void ReportControlResult(EPlanControl control, const std::string& planID, bool bSucceeded, std::string message);
+    /// Limits the time in which the robot must confirm a control or a reroute.
     void StartConfirming(Robot& robot, Core::Duration limit);
     void StopConfirming(Robot& robot);
-    /// What it is to confirm beside the control has its time anew: that it gives its present way up for another one.
+    /// As StopConfirming; a pending reroute gets its full time again.
     void StopConfirmingControl(Robot& robot);
+    /// A paused plan becomes InProgress, or Pending without a robot.
     void LeavePause(ActivePlan& plan, std::string message);
-    /// The robot's own pause ends, where the engine has asked for it.
+    /// Commands the robot to resume if the engine has paused it.
     void ReleasePause(Robot& robot);
-    /// Register D-19, D-20.
+    /// Refuses a control of an unknown or finished plan (register D-19, D-20).
     void RefuseControl(const ControlPlan& command);
 };
 

@@ -11,7 +11,7 @@ namespace ACS::Planning
 namespace
 {
 
-/// The alarm is set or updated once in this time at most. It is cleared at once.
+/// Minimum time between two updates of the alarm. Clearing is not delayed.
 constexpr std::chrono::seconds LOAD_ALARM_INTERVAL{10};
 
 } // namespace
@@ -51,8 +51,8 @@ void LoadWatch::UpdateLoadAlarm(Robot& robot)
         ALARM_LOADS,
         EAlarmLevel::Light,
         fmt::format(
-            "Reported loads differ from the record: {}. The record follows the robot, but a carrier shown at two ports "
-            "changes no id. Check the ports, then correct the record or clear the alarm.",
+            "Reported loads differ from the record: {}. The record now has the reported loads, except carriers reported at "
+            "two ports. Check the ports, then correct the record or clear the alarm.",
             robot.ports.DescribeDisputes()));
     if (!robot.ports.IsDisputed())
     {

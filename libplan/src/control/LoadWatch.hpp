@@ -11,7 +11,7 @@
 namespace ACS::Planning
 {
 
-/// Keeps the record of a robot's ports: by the jobs that it finished, and by the loads that it reports.
+/// Updates the record of each robot's ports from finished jobs and reported loads, and raises ACS-1004 and ACS-1011.
 class LoadWatch
 {
     const EngineOptions& _options;
@@ -21,18 +21,18 @@ class LoadWatch
 public:
     explicit LoadWatch(EngineState& engine);
 
+    /// Compares the reported loads with the record.
     void CompareLoads(Robot& robot);
-    /// Set until each port shows again what was expected there, a job has moved its carrier, or an operator has checked it. A robot
-    /// whose loads change with each state must not flood the MCS: the first difference is reported at once, then the latest one
-    /// when the timer LoadAlarm has expired.
+    /// Sets, updates or clears ACS-1011. The first difference is reported at once, later ones at most once per LoadAlarm
+    /// interval: a robot whose loads change with each state must not flood the MCS.
     void UpdateLoadAlarm(Robot& robot);
     void OnLoadAlarmTimer(Robot& robot);
-    /// What a finished job does to the robot's ports. What does not fit is reported, not refused: the robot has done it, so the
-    /// ports were not what the engine believed.
+    /// Records what a finished job moved. A contradiction raises ACS-1004 but is not refused: the job was done, so the record
+    /// was wrong.
     void MoveCarrier(Robot& robot, const StartJob& job);
 
 private:
-    /// The ports of its robot that a job empties and fills, in this order.
+    /// Ports of the robot that the job empties, then those that it fills.
     [[nodiscard]] std::vector<PortUse> ListPortUses(const Robot& robot, const StartJob& job) const;
 };
 

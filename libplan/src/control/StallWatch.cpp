@@ -35,7 +35,7 @@ void StallWatch::UpdateStall(Robot& robot)
         _monitors[robot.index].OnProgress(std::move(progress), releasedCount, _transaction.GetNow().steady);
     if (update.bStallEnded)
     {
-        // Its plan may be over meanwhile.
+        // The plan that the alarm names may have ended.
         _transaction.ReportAlarms(_alarms.ClearIf([this, &robot](const Alarm& alarm) {
             return alarm.robotID == robot.GetID() && alarm.errorCode == ALARM_STALL;
         }));
@@ -67,7 +67,7 @@ void StallWatch::OnDriveStall(Robot& robot)
         robot.GetID(),
         ALARM_STALL,
         EAlarmLevel::Light,
-        fmt::format("It does not get on: {}.", DescribeStall(robot)));
+        fmt::format("Robot stalled: {}. Check the robot.", DescribeStall(robot)));
     if (robot.planOrNull != nullptr)
     {
         const Plan& plan = robot.planOrNull->record.plan;
@@ -93,10 +93,10 @@ std::string StallWatch::DescribeStall(const Robot& robot) const
     const ActiveDrive& drive = *robot.drive;
     const EUnavailability unavailability = robot.GetUnavailability();
     return fmt::format(
-        "{} node {}{} since {} s{}; look at the robot",
-        drive.bTaken ? "it has not come to" : "it has not shown that it took its drive to",
+        "{} {} {} for {} s{}",
+        drive.bTaken ? "node" : "drive to node",
         drive.GetNextNodeID(),
-        robot.planOrNull == nullptr ? std::string() : " for plan " + robot.planOrNull->record.plan.planID,
+        drive.bTaken ? "not reached" : "not confirmed",
         std::chrono::duration_cast<std::chrono::seconds>(
             _monitors[robot.index].GetTimeWithoutProgress(_transaction.GetNow().steady))
             .count(),

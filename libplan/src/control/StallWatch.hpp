@@ -12,7 +12,7 @@
 namespace ACS::Planning
 {
 
-/// Raises an alarm for a drive without progress.
+/// Keeps a StallMonitor per robot and raises ACS-1009 for a drive without progress.
 class StallWatch
 {
     const EngineOptions& _options;
@@ -23,14 +23,16 @@ class StallWatch
 public:
     explicit StallWatch(EngineState& engine);
 
-    /// At the end of every call.
+    /// Updates the monitor of the robot; called at the end of every engine call.
     void UpdateStall(Robot& robot);
+    /// The timer has expired: raises the alarm.
     void OnDriveStall(Robot& robot);
     [[nodiscard]] bool IsStalled(const Robot& robot) const;
+    /// "node N2 not reached for 60 s"
     [[nodiscard]] std::string DescribeStall(const Robot& robot) const;
 
 private:
-    /// Whether the robot must pass another node soon: it is connected, may drive and has a base ahead.
+    /// The robot is connected, may drive and has released nodes ahead.
     [[nodiscard]] bool IsProgressExpected(const Robot& robot) const;
 };
 

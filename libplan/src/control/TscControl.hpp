@@ -12,7 +12,7 @@
 namespace ACS::Planning
 {
 
-/// Whether plans are begun: the state of the TSC (section 5.2), and how a pause is finished.
+/// Owns the TSC state (section 5.2), which decides whether plans are started, and completes a pause.
 class TscControl
 {
     const EngineOptions& _options;
@@ -25,17 +25,19 @@ class TscControl
 public:
     explicit TscControl(EngineState& engine);
 
+    /// Handles the operator's command.
     void SwitchTSC(const ControlTSC& command);
+    /// Publishes the present state as a change from another one.
     void PublishTscState(ETscState from);
-    /// The TSC is paused once no plan runs and no robot moves or works.
+    /// Pausing becomes Paused once no plan is running and no robot moves or works.
     void FinishTscPause();
-    /// While the TSC is pausing, only to make way for what still runs.
+    /// Whether idle robots may drive. While the TSC is pausing they only clear the routes of running plans.
     [[nodiscard]] bool CanDriveHome() const;
-    /// What was paused stays so: nothing is begun. What was being worked on goes on to its end.
+    /// Restores the stored state. A paused TSC stays paused; running plans are completed.
     void RestoreTSC(ETscState stored);
-    /// Section 5.2: Paused until the first consistency check is done.
+    /// The published state: Paused while the startup barrier holds work back (section 5.2).
     [[nodiscard]] ETscState GetTscState() const noexcept;
-    /// Without regard to the startup barrier.
+    /// The state apart from the startup barrier.
     [[nodiscard]] ETscState GetState() const noexcept;
 
 private:

@@ -55,7 +55,7 @@ Robot* Dispatcher::FindNearestOrNull(const ActivePlan& plan)
 
 Robot* Dispatcher::FindQuickestOrNull(const ActivePlan& plan, const std::vector<Robot*>& robots) const
 {
-    // One search for each vehicle type, however many robots of it there are.
+    // One search per vehicle type.
     std::map<std::string_view, std::vector<std::size_t>> starts;
     for (const Robot* robot : robots)
     {
@@ -135,7 +135,7 @@ std::string Dispatcher::DescribeRejections(const ActivePlan& plan) const
     {
         text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", _fleet[index].GetID(), reason);
     }
-    return fmt::format("No robot can do it: {}.", text);
+    return fmt::format("No robot can execute the plan: {}.", text);
 }
 
 const PortCheck& Dispatcher::GetPorts() const noexcept

@@ -13,7 +13,7 @@
 namespace ACS::Planning
 {
 
-/// Which robot gets a plan: the nearest of those that are free, can do its jobs and whose ports fit.
+/// Chooses the robot for a plan, and checks plans against what the robots can do (IJobCheck).
 class Dispatcher
 {
     const PlanAdmission& _admission;
@@ -27,23 +27,22 @@ class Dispatcher
 public:
     Dispatcher(EngineState& engine, const TrafficCoordinator& coordinator);
 
-    /// Of the robots that are free, can do the jobs and whose ports fit, the nearest; one that is known to have the carriers
-    /// before one of which that is only supposed.
+    /// The nearest robot that is free, can do the jobs and has suitable ports. Robots whose record has the carriers come before
+    /// those where they are only assumed.
     [[nodiscard]] Robot* FindNearestOrNull(const ActivePlan& plan);
     [[nodiscard]] const PortCheck& GetPorts() const noexcept;
-    /// To the plan's first place. By the times that the router keeps for it: the whole route of each robot would be searched
-    /// for nothing.
+    /// Whether a route leads to the plan's first station. Uses the router's cached times instead of a route search.
     [[nodiscard]] bool HasWay(const ActivePlan& plan, const Robot& robot) const;
-    /// A plan that a robot has stays with it: the adapter refuses its jobs itself.
+    /// Checks the unassigned plans again. An assigned plan stays with its robot, whose adapter refuses the job.
     void OnJobCheck(Robot& robot, const JobCheckChanged& event);
-    /// The plan's first job that the robot cannot do keeps the plan from the robot.
+    /// Records the first job of the plan that the robot rejects.
     void CheckJobs(ActivePlan& plan, const Robot& robot) const;
-    /// What a robot that is out of reach would reject is not known for certain.
+    /// Rejections of disconnected robots do not count: they may be outdated.
     [[nodiscard]] bool IsRejectedByAll(const ActivePlan& plan) const;
     [[nodiscard]] std::string DescribeRejections(const ActivePlan& plan) const;
 
 private:
-    /// Of these, the one with the shortest way to the plan's first place; null where none has a way.
+    /// The robot with the quickest route to the plan's first station; null without a route.
     [[nodiscard]] Robot* FindQuickestOrNull(const ActivePlan& plan, const std::vector<Robot*>& robots) const;
 };
 

@@ -82,7 +82,7 @@ void PortCheck::JudgeJob(
     }
 }
 
-/// A memory place on a robot is inside a tray: the tray must be on record on its port, or be loaded by a job before.
+/// A memory place on a robot is inside a tray. The record must have the tray on its port, or an earlier job must load it.
 std::optional<std::string> PortCheck::DescribeMissingTrayOrNull(
     const Robot& robot,
     const ResolvedJob& job,

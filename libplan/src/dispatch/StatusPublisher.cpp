@@ -123,7 +123,7 @@ std::string StatusPublisher::DescribeStatus(const Robot& robot) const
     }
     if (robot.planOrNull != nullptr && robot.parking.retreatNode.has_value() && robot.search.yield.has_value())
     {
-        return fmt::format("Makes way for {}.", _fleet[robot.search.yield->leader].GetID());
+        return fmt::format("Yields to {}.", _fleet[robot.search.yield->leader].GetID());
     }
     if (robot.planOrNull != nullptr)
     {

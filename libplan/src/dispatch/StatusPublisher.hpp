@@ -14,7 +14,7 @@
 namespace ACS::Planning
 {
 
-/// The status of each robot (section 5), published when it changes.
+/// Derives the status of each robot (section 5) and publishes it when it changes.
 class StatusPublisher
 {
     const EngineOptions& _options;
@@ -33,21 +33,23 @@ public:
         const WaitingRobots& waiting,
         const WaitReasons& waits);
 
-    /// Section 5: the first that holds.
+    /// The first status of section 5 that applies.
     [[nodiscard]] ERobotStatus DeriveStatus(const Robot& robot) const;
+    /// Publishes this status at once.
     void PublishStatus(const Robot& robot, ERobotStatus status);
+    /// Publishes the derived status of each robot that may have changed in this call.
     void PublishStatusChanges();
-    /// Its present status counts as published.
+    /// Treats the present status as published.
     void Reset(Robot& robot);
     [[nodiscard]] const std::vector<RobotStatus>& GetRobotStatuses() const noexcept;
 
 private:
-    /// The first edge leads out of a station, the last one into one. A robot that waits between them for others is not docking,
-    /// nor is one whose Arrival is not reported because its drive is to be cancelled.
+    /// UnDocking on the first edge out of a station, Docking on the last edge into one, else Moving. A robot whose Arrival is
+    /// not reported because its drive is being cancelled is not docking.
     [[nodiscard]] ERobotStatus DeriveDriveStatus(const Robot& robot, const ActiveDrive& drive) const;
-    /// Who has reached a station's last node before the dock is as good as there.
+    /// A robot on the last node before the dock counts as at the station.
     [[nodiscard]] std::string GetReportedPosition(const Robot& robot, ERobotStatus status) const;
-    /// Why the robot does not do more than it does; empty where nothing keeps it.
+    /// What the robot waits for; may be empty.
     [[nodiscard]] std::string DescribeStatus(const Robot& robot) const;
     [[nodiscard]] RobotStatus MakeStatus(const Robot& robot, ERobotStatus status) const;
 };

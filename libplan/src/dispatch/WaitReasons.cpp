@@ -104,15 +104,15 @@ WaitReason WaitReasons::DescribeWaiting(const ActivePlan& plan, std::size_t posi
     }
     if (_tsc.GetState() != ETscState::Auto)
     {
-        reason.message = fmt::format("The TSC is {}: no plan is begun.", GetText(_tsc.GetState()));
+        reason.message = fmt::format("The TSC is {}: no plan is started.", GetText(_tsc.GetState()));
     }
     else if (_backlog.IsFailing())
     {
-        reason.message = "The store fails: no plan is begun that cannot be stored as begun.";
+        reason.message = "The store is failing: no plan is started until it works again.";
     }
     else if (_startup.IsHoldingWork())
     {
-        reason.message = "Not every robot has told where it stands since the restart.";
+        reason.message = "Not all robots have reported their positions since the restart.";
     }
     else if (_dispatcher.IsRejectedByAll(plan))
     {
@@ -120,11 +120,11 @@ WaitReason WaitReasons::DescribeWaiting(const ActivePlan& plan, std::size_t posi
     }
     else if (reason.robots.size() < plan.resolved.candidates.size())
     {
-        reason.message = "It is about to be begun.";
+        reason.message = "The plan is about to start.";
     }
     else
     {
-        reason.message = "No robot that can do it is free for it.";
+        reason.message = "No suitable robot is free.";
     }
     return reason;
 }
@@ -135,7 +135,7 @@ std::optional<WaitReason> WaitReasons::DescribeBegunOrNull(const ActivePlan& pla
     reason.planID = plan.record.plan.planID;
     if (plan.record.progress.state == EPlanState::Paused)
     {
-        reason.message = plan.robot.has_value() ? "It is paused." : "It is held in the queue by PausePlan.";
+        reason.message = plan.robot.has_value() ? "The plan is paused." : "The plan is held in the queue by PausePlan.";
         return reason;
     }
     if (!plan.robot.has_value())
@@ -151,17 +151,17 @@ std::optional<WaitReason> WaitReasons::DescribeBegunOrNull(const ActivePlan& pla
     if (robot.activity == EActivity::Works && robot.job.IsUnresolved())
     {
         reason.message =
-            fmt::format("{} cannot tell what became of job {}: look, and answer.", robot.GetID(), GetJobID(plan));
+            fmt::format("Outcome of job {} unknown. Check {}, then resolve the job.", GetJobID(plan), robot.GetID());
         return reason;
     }
     if (plan.bUnstored)
     {
-        reason.message = "The store fails, and does not tell yet that the plan was begun.";
+        reason.message = "The store is failing: the start of the plan is not stored yet.";
         return reason;
     }
     if (_stalls.IsStalled(robot) && robot.drive.has_value())
     {
-        reason.message = fmt::format("{} does not get on: {}.", robot.GetID(), _stalls.DescribeStall(robot));
+        reason.message = fmt::format("{} stalled: {}. Check the robot.", robot.GetID(), _stalls.DescribeStall(robot));
         return reason;
     }
     if (robot.activity == EActivity::Waits && _waiting.IsAtPlace(robot))
@@ -169,7 +169,7 @@ std::optional<WaitReason> WaitReasons::DescribeBegunOrNull(const ActivePlan& pla
         const std::optional<std::string> objection = PortCheck::DescribeMissingTrayOrNull(robot);
         reason.message = objection.has_value()
             ? fmt::format("{}: load the tray by hand and correct the record.", *objection)
-            : robot.GetID() + " is about to work.";
+            : robot.GetID() + " is about to start the job.";
         return reason;
     }
     const bool bAtBaseEnd = robot.drive.has_value() && !robot.view.state->bDriving && robot.drive->IsAtBaseEnd();
@@ -195,7 +195,7 @@ std::string WaitReasons::DescribeStanding(const Robot& robot) const
             "{} waits for node {} on its route{}.",
             robot.GetID(),
             next.nodeID,
-            holders.empty() ? "" : ", until it is clear of " + holders);
+            holders.empty() ? "" : ", blocked by " + holders);
     }
     if (holders.empty())
     {
@@ -220,7 +220,7 @@ std::string WaitReasons::DescribeUnfree(const Robot& robot) const
         const DispatchOptions& dispatch = _options.dispatch;
         return percent < dispatch.batteryFloor
             ? fmt::format("battery {:.0f} % is below {:.0f} %", percent, dispatch.batteryFloor)
-            : fmt::format("charges, battery {:.0f} % of {:.0f} %", percent, dispatch.batteryResume);
+            : fmt::format("charging, battery {:.0f} % of {:.0f} %", percent, dispatch.batteryResume);
     }
     return "drives to " + robot.drive->route.nodes.back().nodeID;
 }

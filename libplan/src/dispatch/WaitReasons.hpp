@@ -18,7 +18,7 @@
 namespace ACS::Planning
 {
 
-/// Why plans wait.
+/// Describes for the operator why a plan makes no progress. Owns no data and changes none.
 class WaitReasons
 {
     const EngineOptions& _options;
@@ -41,17 +41,18 @@ public:
         const TrafficCoordinator& coordinator,
         const Dispatcher& dispatcher);
 
+    /// Assigned plans first, then the queue in its order.
     [[nodiscard]] std::vector<WaitReason> GetWaitReasons() const;
     [[nodiscard]] std::optional<WaitReason> GetWaitReasonOrNull(std::string_view planID) const;
-    /// Of a plan that is paused, or whose robot has it and stands.
+    /// Of a paused plan, or of an assigned plan whose robot makes no progress.
     [[nodiscard]] std::optional<WaitReason> DescribeBegunOrNull(const ActivePlan& plan) const;
 
 private:
-    /// Why the robot is not given the plan now; nullopt where it is.
+    /// Why the plan is not assigned to the robot now.
     [[nodiscard]] std::optional<std::string> DescribeUnavailabilityOrNull(const ActivePlan& plan, const Robot& robot)
         const;
     [[nodiscard]] WaitReason DescribeWaiting(const ActivePlan& plan, std::size_t position) const;
-    /// A robot with a plan that has no way yet, or has come to the end of what others leave it.
+    /// Of a robot that waits to start its drive, or at the end of its base.
     [[nodiscard]] std::string DescribeStanding(const Robot& robot) const;
     [[nodiscard]] std::string DescribeUnfree(const Robot& robot) const;
 };

@@ -59,12 +59,14 @@ void OperatorCommands::Maintain(const SetMaintenance& command)
         _transaction.Store(MaintenanceChanged{command.robotID, command.bOn});
         robot.changes.bStatus = true;
         _transaction.RequestDispatch();
-        _transaction.Note(robot, command.bOn ? "is taken out of service" : "is in service again");
+        _transaction.Note(
+            robot,
+            command.bOn ? "taken out of service by the operator" : "returned to service by the operator");
     }
     if (command.bOn && !robot.place.bPlaced && !robot.place.possibleNodes.empty())
     {
         _places.ForgetPossibleNodes(robot);
-        _transaction.Note(robot, "is not on the floor: where it was is free again");
+        _transaction.Note(robot, "not on the floor: the nodes of its last position are released");
     }
     const bool bEndsPlan = command.bOn && robot.planOrNull != nullptr;
     _transaction.Reply(
@@ -95,7 +97,7 @@ void OperatorCommands::ClearByOperator(const ClearAlarms& command)
     if (Robot* robotOrNull = _fleet.FindOrNull(command.robotID);
         robotOrNull != nullptr && command.errorCode == ALARM_LOADS)
     {
-        robotOrNull->ports.ForgetDisputes(); // the record has followed the robot already
+        robotOrNull->ports.ForgetDisputes(); // the record already has the reported loads
     }
     std::size_t lasting = 0;
     for (const ErrorReport& report : cleared)
@@ -110,7 +112,7 @@ void OperatorCommands::ClearByOperator(const ClearAlarms& command)
     _transaction.Reply(
         command.replyToken,
         true,
-        fmt::format("{} cleared; {} set again, as the cause is still there.", cleared.size(), lasting));
+        fmt::format("{} cleared; {} set again because the cause remains.", cleared.size(), lasting));
 }
 
 bool OperatorCommands::HasCause(const Alarm& alarm) const
@@ -156,7 +158,7 @@ void OperatorCommands::CorrectCarriers(const SetCarriers& command)
     _transaction.Note(
         robot,
         fmt::format(
-            "its ports were corrected by an operator, from {} to {}",
+            "ports corrected by the operator from {} to {}",
             DescribePorts(robot.ports.GetCarriers()),
             DescribePorts(command.carrierIDs)));
     robot.ports.Correct(command.carrierIDs);
@@ -168,19 +170,19 @@ void OperatorCommands::CorrectCarriers(const SetCarriers& command)
     _transaction.Reply(command.replyToken, true, fmt::format("The ports of {} are corrected.", command.robotID));
 }
 
-/// Answered are jobs that are held, those of plans that are over, and those of robots that are not there to tell.
+/// Jobs can be resolved if they are unresolved, if their plan has ended, or if their robot is disconnected.
 std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const SettleJob& command) const
 {
     const std::optional<std::size_t> worker = FindWorkerOrNull(command);
     if (!worker.has_value())
     {
-        return "No robot has such a job.";
+        return fmt::format("No robot has job {} of plan {}.", command.jobID, command.planID);
     }
     const Robot& robot = _fleet[*worker];
     const bool bOver = robot.job.IsOverdue();
     if (bOver && command.answer == EJobAnswer::Again)
     {
-        return "Its plan is over: answer done or failed.";
+        return fmt::format("Plan {} has ended: answer done or failed.", command.planID);
     }
     if (robot.job.IsUnresolved() || bOver)
     {
@@ -188,14 +190,13 @@ std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const Sett
     }
     if (robot.view.bOnline)
     {
-        return fmt::format("{} will tell how it ends.", robot.GetID());
+        return fmt::format("{} is connected and will report the outcome of the job.", robot.GetID());
     }
-    return command.answer == EJobAnswer::Again
-        ? std::optional(fmt::format("{} is not there to do it again: answer done or failed.", robot.GetID()))
-        : std::nullopt;
+    return command.answer == EJobAnswer::Again ? std::optional(
+               fmt::format("{} is disconnected and cannot repeat the job: answer done or failed.", robot.GetID()))
+                                               : std::nullopt;
 }
 
-/// Why these cannot be what is on the robot's ports.
 std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const SetCarriers& command) const
 {
     const Robot* robotOrNull = _fleet.FindOrNull(command.robotID);
@@ -207,7 +208,7 @@ std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const SetC
     if (command.carrierIDs.size() != robot.ports.GetCarriers().size())
     {
         return fmt::format(
-            "{} has {} carrier ports, and {} carriers were given; one for each port, empty for none.",
+            "{} has {} carrier ports, but {} carriers were given. Give one entry per port, empty for no carrier.",
             command.robotID,
             robot.ports.GetCarriers().size(),
             command.carrierIDs.size());
@@ -220,28 +221,30 @@ std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const SetC
         }
         if (carrier->empty() || carrier->size() > MAXIMUM_ID_LENGTH)
         {
-            return fmt::format("A carrierId has 1 to {} bytes.", MAXIMUM_ID_LENGTH);
+            return fmt::format("Invalid carrierId: expected 1 to {} bytes.", MAXIMUM_ID_LENGTH);
         }
         if (Core::HasControlCharacter(*carrier))
         {
-            return std::string("A carrierId has no control characters.");
+            return std::string("Invalid carrierId: control characters are not allowed.");
         }
         if (std::ranges::count(command.carrierIDs, carrier) > 1)
         {
-            return fmt::format("{} cannot be on two ports.", *carrier);
+            return fmt::format("Carrier {} is given for two ports.", *carrier);
         }
         for (const Robot& other : _fleet)
         {
             if (&other != &robot && other.ports.FindCarrierOrNull(*carrier).has_value())
             {
-                return fmt::format("{} is on {}; correct that robot's ports first.", *carrier, other.GetID());
+                return fmt::format(
+                    "Carrier {} is on {}. Correct the ports of that robot first.",
+                    *carrier,
+                    other.GetID());
             }
         }
     }
     return std::nullopt;
 }
 
-/// Why the step cannot be skipped.
 std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const SkipStep& command) const
 {
     const ActivePlan* planOrNull = _plans.FindActiveOrNull(command.planID);
@@ -260,7 +263,7 @@ std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const Skip
     }
     if (!plan.robot.has_value())
     {
-        return fmt::format("No robot has plan {} yet: skip the step when the plan is InProgress.", command.planID);
+        return fmt::format("Plan {} has no robot yet. Skip the step once the plan is InProgress.", command.planID);
     }
     const EStepState state = plan.record.progress.steps[*index].state;
     const Robot& robot = _fleet[*plan.robot];
@@ -271,7 +274,7 @@ std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const Skip
         return std::nullopt;
     }
     return fmt::format(
-        "Step {} is {}: only a step that is Pending, or whose job is unresolved, can be skipped.",
+        "Step {} is {}. Only a Pending step or a step with an unresolved job can be skipped.",
         command.stepNo,
         GetText(state));
 }
@@ -289,9 +292,7 @@ void OperatorCommands::Skip(const SkipStep& command)
     const std::size_t index = *FindStepOrNull(plan.record.plan, command.stepNo);
     const bool bUnresolved = plan.record.progress.steps[index].state == EStepState::InProgress;
     robot.changes.bStatus = true;
-    _transaction.Note(
-        robot,
-        fmt::format("step {} of plan {} is skipped by an operator", command.stepNo, command.planID));
+    _transaction.Note(robot, fmt::format("step {} of plan {} skipped by the operator", command.stepNo, command.planID));
     _transaction.ChangeStepAt(plan, index, EStepState::Skipped, "Skipped by the operator.");
     if (bUnresolved)
     {
@@ -299,7 +300,7 @@ void OperatorCommands::Skip(const SkipStep& command)
     }
     else if (index == plan.step)
     {
-        _work.LeaveStep(robot); // the plan is paused before it
+        _work.LeaveStep(robot); // the plan is paused before this step
     }
 }
 
@@ -349,12 +350,12 @@ void OperatorCommands::ApplyAnswer(Robot& robot, EJobAnswer answer)
             _work.EndJob(robot, "Reported as done by the operator.");
             break;
         case EJobAnswer::Again:
-            robot.work.TryClearDoubt(); // nor was anything after it done
+            robot.work.TryClearDoubt(); // no later job was done either
             _work.RepeatJob(robot, {});
             break;
         case EJobAnswer::Failed:
         default:
-            _jobs.OnJobFailed(robot, JobFailed{jobID, "The operator says that it was not done."});
+            _jobs.OnJobFailed(robot, JobFailed{jobID, "Reported as not done by the operator."});
             break;
     }
 }

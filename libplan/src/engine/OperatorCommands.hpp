@@ -17,7 +17,7 @@
 namespace ACS::Planning
 {
 
-/// What an operator asks for: maintenance, alarms, carriers, skipped steps and the outcome of jobs.
+/// Handles the operator's commands: maintenance, alarms, carriers, skipped steps and the outcome of jobs. Owns no data.
 class OperatorCommands
 {
     const PlanBook& _plans;
@@ -40,25 +40,30 @@ public:
         PlanWork& work,
         JobOutcomes& jobs);
 
+    /// Takes a robot out of service, or returns it.
     void Maintain(const SetMaintenance& command);
+    /// Clears alarms. Those whose cause remains are set again.
     void ClearByOperator(const ClearAlarms& command);
+    /// Replaces the record of a robot's ports.
     void CorrectCarriers(const SetCarriers& command);
+    /// Why the command would be refused now.
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SetCarriers& command) const;
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SettleJob& command) const;
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SkipStep& command) const;
-    /// Section 6.13.
+    /// Skips a step (section 6.13).
     void Skip(const SkipStep& command);
+    /// Resolves a job whose outcome is unknown.
     void Settle(const SettleJob& command);
 
 private:
-    /// Whether what it tells of lasts, as far as the engine knows.
+    /// Whether the cause of the alarm remains, as far as the engine knows.
     [[nodiscard]] bool HasCause(const Alarm& alarm) const;
-    /// What became of the job stays unknown, and what is on the robot's ports as it is on record.
+    /// The outcome of the job stays unknown; the record of the ports is not changed.
     void SkipUnresolved(Robot& robot);
-    /// The robot that has the job, by its index.
+    /// Index of the robot that has the job.
     [[nodiscard]] std::optional<std::size_t> FindWorkerOrNull(const SettleJob& command) const;
     void ApplyAnswer(Robot& robot, EJobAnswer answer);
-    /// A job that was done and never stored as commanded is reported from its beginning.
+    /// Reports a job from its beginning that was done but never stored as commanded.
     void CatchUp(Robot& robot);
 };
 

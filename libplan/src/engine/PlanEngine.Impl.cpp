@@ -127,7 +127,7 @@ void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineAc
             _engine.transaction.RequestDispatch();
             break;
         case EEngineTimer::StoreRetry:
-            _engine.backlog.OnRetryDue(); // The end of the call stores what is left.
+            _engine.backlog.OnRetryDue(); // stored at the end of the call
             break;
         case EEngineTimer::Acknowledged:
             _store.StoreAcknowledged();
@@ -217,7 +217,6 @@ void PlanEngine::Impl::Begin(Core::Now now)
     _engine.call.Begin();
 }
 
-/// One batch for the whole call, then everything that waits for it.
 void PlanEngine::Impl::End(EngineActions& out)
 {
     _recovery.UpdateStartup();
@@ -234,10 +233,10 @@ void PlanEngine::Impl::End(EngineActions& out)
 
 void PlanEngine::Impl::Dispatch()
 {
-    // What one part releases or ends may be what an earlier part waited for.
+    // Each pass may free what an earlier one waited for.
     while (_engine.transaction.TryBeginDispatch())
     {
-        // Not while the beginning of a plan could not be stored.
+        // The start of a plan must be stored before the plan is executed.
         if (_tsc.GetState() == ETscState::Auto && !_engine.backlog.IsFailing())
         {
             AssignPlans();
@@ -274,14 +273,14 @@ void PlanEngine::Impl::OnLink(Robot& robot, const LinkChanged& event)
         return;
     }
     robot.view.bOnline = event.bOnline;
-    Alarm alarm = MakeLinkAlarm(robot.GetID(), "The connection to the robot is lost.");
+    Alarm alarm = MakeLinkAlarm(robot.GetID(), "Robot disconnected. Check the robot and its network.");
     _engine.transaction.RequestDispatch();
     if (event.bOnline)
     {
         _engine.transaction.ClearAlarm(alarm);
         return;
     }
-    // The position and the state are outdated when it is back.
+    // The state is outdated when the robot reconnects.
     robot.view.state.reset();
     robot.charging.OnLinkLost();
     _engine.transaction.RaiseAlarm(std::move(alarm));

@@ -31,8 +31,8 @@
 namespace ACS::Planning
 {
 
-/// Routes each input to the part that handles it, then dispatches until nothing is left to do and commits the call. A part
-/// calls only the parts that are declared before it.
+/// Owns the parts. Routes each input to the part that handles it, dispatches until nothing is left to do, and commits the
+/// call. A part calls only the parts that are declared before it.
 class PlanEngine::Impl
 {
     EngineState _engine;

@@ -83,7 +83,7 @@ Core::Result<ResolvedPlan> PlanSubmission::Admit(const Plan& plan) const
         return Core::Fail(
             make_error_code(Core::ECoreError::InvalidIdentifier),
             "planId",
-            "a planId that was not used before (Duplicated Plan)",
+            "an unused planId (Duplicated Plan)",
             plan.planID);
     }
     Core::Result<ResolvedPlan> resolved = _admission.Resolve(plan);
@@ -100,9 +100,7 @@ Core::Result<ResolvedPlan> PlanSubmission::Admit(const Plan& plan) const
         return Core::Fail(
             make_error_code(Core::ECoreError::QueueFull),
             {},
-            fmt::format(
-                "fewer than {} reports that the MCS has not acknowledged (Outbox Full)",
-                _options.maximumReports),
+            fmt::format("fewer than {} unacknowledged reports (Outbox Full)", _options.maximumReports),
             fmt::format("{}", _outbox.GetUnacknowledged().size()));
     }
     if (resolved.has_value() && _tsc.GetTscState() != ETscState::Auto && !_options.bTscPausedAcceptsPlans)
@@ -110,7 +108,7 @@ Core::Result<ResolvedPlan> PlanSubmission::Admit(const Plan& plan) const
         return Core::Fail(
             make_error_code(Core::ECoreError::QueueFull),
             {},
-            "plans while the TSC is Auto",
+            "TSC state Auto",
             std::string(GetText(_tsc.GetTscState())));
     }
     return resolved;

@@ -14,7 +14,7 @@
 namespace ACS::Planning
 {
 
-/// Accepts and refuses plans.
+/// Accepts or refuses submitted plans. Owns the list of accepted plans whose PlanReport(Pending) is not sent.
 class PlanSubmission
 {
     const EngineOptions& _options;
@@ -32,13 +32,15 @@ class PlanSubmission
 public:
     PlanSubmission(EngineState& engine, const TscControl& tsc, const Dispatcher& dispatcher, const WaitReasons& waits);
 
+    /// Checks the plan, stores and queues it, and replies.
     void Submit(const SubmitPlan& command);
-    /// Register D-24. Not with the reply: a plan that cannot be stored is refused, and must not have been reported.
+    /// Register D-24: reports accepted plans as Pending. In a later call than the reply, because a plan that cannot be stored is
+    /// refused and must not have been reported.
     void ReportAccepted();
 
 private:
     [[nodiscard]] Core::Result<ResolvedPlan> Admit(const Plan& plan) const;
-    /// Register D-23: the same request again, whose Ack may have been lost in a crash. The plan's steps are sorted.
+    /// Register D-23: a repeated request whose Ack was lost in a crash. The steps of the plan must be sorted.
     [[nodiscard]] bool IsRepetition(const Plan& plan, const std::string& transactionID) const;
 };
 

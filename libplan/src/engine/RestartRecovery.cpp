@@ -95,7 +95,7 @@ void RestartRecovery::RestoreRobot(const RobotWorkChanged& work)
     }
     if (work.bPauseAsked)
     {
-        robot.control.pause.Resume(); // where no plan wants it to stand
+        robot.control.pause.Resume(); // unless its plan is paused (RestoreControl)
     }
 }
 
@@ -113,10 +113,11 @@ void RestartRecovery::RestorePlan(PlanRecord record)
     const bool bRobotGone = !robotID.empty() && (robotOrNull == nullptr || robotOrNull->planOrNull != nullptr);
     if (!resolved.has_value() || bRobotGone)
     {
-        const std::string reason = resolved.has_value() ? robotID + " is gone" : Core::Describe(resolved.error());
+        const std::string reason =
+            resolved.has_value() ? robotID + " is not available" : Core::Describe(resolved.error());
         EndUnfit(
             plan,
-            "While the ACS was down, the site, its robots or what plans may ask for have changed: " + reason);
+            "The plan no longer fits the site or its robots, which changed while the ACS was stopped: " + reason);
         return;
     }
     plan.resolved = std::move(*resolved);
@@ -160,7 +161,7 @@ void RestartRecovery::RestoreWork(ActivePlan& plan, Robot& robot)
     {
         robot.job.Begin(MakeStartJob(robot));
         robot.changes.bWork = true;
-        _work.SuspendJob(robot, "the ACS that commanded it did not write down how to ask for it");
+        _work.SuspendJob(robot, "an older version of the ACS started it and stored no command ID");
         return;
     }
     plan.madeJobID = HasJob(plan) ? std::string() : jobOrNull->jobID;
@@ -210,7 +211,7 @@ void RestartRecovery::RestoreControl(ActivePlan& plan, Robot& robot)
 void RestartRecovery::RestoreAlarms(std::vector<Alarm> alarms)
 {
     _alarms.Restore(std::move(alarms));
-    // Set when the store worked again, to be cleared by what was not called any more.
+    // The store worked again, but the crash came before the alarm was cleared.
     if (std::ranges::count(_alarms.GetAlarms(), ALARM_STORE, &Alarm::errorCode) > 0)
     {
         _backlog.RestoreFailing();
@@ -242,7 +243,7 @@ void RestartRecovery::EndUnfit(ActivePlan& plan, const std::string& reason)
             plan.record.progress.robotID,
             ALARM_INTERRUPTED,
             EAlarmLevel::Heavy,
-            "This plan cannot go on after the restart: look at the robot and its carriers.");
+            "Plan ended by the restart: it no longer fits the site or its robots. Check the robot and its carriers.");
         alarm.planID = summary.planID;
         alarm.stepNo = summary.stepNo;
         alarm.jobID = summary.jobID;
@@ -314,17 +315,20 @@ void RestartRecovery::RaiseMissing()
         }
         if (robot.view.bOnline)
         {
-            _transaction.RaiseAlarm(_places.MakePlaceAlarm(robot, "It is connected and does not tell its state."));
+            _transaction.RaiseAlarm(
+                _places.MakePlaceAlarm(robot, "Robot connected, but it reports no state. Check the robot."));
             continue;
         }
         const bool bHasWork = robot.planOrNull != nullptr || robot.job.GetOrNull() != nullptr;
         Alarm alarm = MakeLinkAlarm(
             robot.GetID(),
-            bHasWork ? "It has not come back since the ACS was started, and has work."
-                     : "It has not been there since the ACS was started.");
+            bHasWork
+                ? "Robot with unfinished work not connected since the start of the ACS. Check the robot and its network."
+                : "Robot not connected since the start of the ACS. Check the robot and its network.");
         if (!robot.place.possibleNodes.empty())
         {
-            alarm.message += " Where it may be is kept free until it is back, or is taken into maintenance.";
+            alarm.message +=
+                " The nodes of its last position stay reserved until it reconnects or is set to maintenance.";
         }
         _transaction.RaiseAlarm(std::move(alarm));
     }

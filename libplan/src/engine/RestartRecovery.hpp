@@ -16,7 +16,7 @@
 namespace ACS::Planning
 {
 
-/// Restores robots and plans after a start, and waits for the robots' positions.
+/// Restores robots, plans, controls and alarms after a start, and ends the startup barrier. Owns no data.
 class RestartRecovery
 {
     const EngineOptions& _options;
@@ -44,28 +44,31 @@ public:
         StatusPublisher& status,
         PlanWork& work);
 
+    /// Restores the stored state; called once, before all else.
     void Restore(StoredState state);
+    /// Ends the startup barrier once all robots have reported their positions.
     void UpdateStartup();
+    /// The barrier ends: all positions are known, or the time limit has expired.
     void EndStartup();
-    /// Section 9: silence from the start on is an alarm, too.
+    /// Raises an alarm for each robot that has not reported since the start (section 9).
     void RaiseMissing();
 
 private:
     /// The row of a robot that is no longer configured is kept in case the robot returns.
     void RestoreRobot(const RobotWorkChanged& work);
     void RestorePlan(PlanRecord record);
-    /// The plan stays with its robot. The robot is asked for the outcome of an unfinished job; everything else resumes.
+    /// The plan stays with its robot. The robot is asked for the outcome of an unfinished job; everything else is resumed.
     void RestoreWork(ActivePlan& plan, Robot& robot);
-    /// An outcome that was open is still owed, once; and what was paused stays so.
+    /// An open control still gets its result, and a paused plan stays paused.
     void RestoreControl(ActivePlan& plan, Robot& robot);
-    /// An alarm about a robot that was removed would never be cleared, and drives start again.
+    /// Clears alarms of robots that are no longer configured, and of stalled drives, which start again.
     void RestoreAlarms(std::vector<Alarm> alarms);
-    /// Of a plan that is over.
+    /// Restores a job whose plan has ended.
     void RestoreOverdue(Robot& robot);
-    /// What was planned does not fit what there is now. Where a robot had it, an alarm says where to look.
+    /// Ends a plan that no longer fits the site or the robots, with an alarm if a robot had it.
     void EndUnfit(ActivePlan& plan, const std::string& reason);
     void RequestJobOutcome(Robot& robot);
-    /// Whether it has still to tell where it stands. One that is out of service may be switched off for days.
+    /// Whether the robot has not reported its position. Robots in maintenance may be off for days and are not awaited.
     [[nodiscard]] static bool IsPositionAwaited(const Robot& robot);
     void BeginStartup(bool bHasWork);
 };

@@ -81,7 +81,7 @@ void StoreGate::CollectWork()
         {
             work.mark = robot.view.state->mark;
         }
-        if (!robot.drive.has_value()) // while it drives the nodes alone are no reason to write: they only become fewer
+        if (!robot.drive.has_value()) // during a drive nodes only become fewer, which alone is no reason to write
         {
             work.nodeIDs = _places.ListNodes(robot);
         }
@@ -138,7 +138,7 @@ void StoreGate::OnStoreLost(std::string_view reason, Core::Now now, EngineAction
     assert(!_gate.IsClosed());
     if (_backlog.IsFailing())
     {
-        return; // it is tried again all the time, and fails for this or for another reason
+        return; // already failing, and retried
     }
     _transaction.SetNow(now);
     _backlog.OnFailed();
@@ -179,7 +179,7 @@ std::size_t StoreGate::RecoverBatch(const StoreBatch& batch)
         const auto* removedOrNull = std::get_if<PlanRemoved>(&change);
         if (removedOrNull != nullptr && _plans.IsReplaced(removedOrNull->sequence))
         {
-            continue; // it comes back below
+            continue; // restored below
         }
         const auto* addedOrNull = std::get_if<PlanAdded>(&change);
         if (addedOrNull == nullptr)
@@ -199,7 +199,7 @@ std::size_t StoreGate::RecoverBatch(const StoreBatch& batch)
     }
     if (_call.controlID.has_value())
     {
-        // Its outcome would be owed, and a crash would forget it. What it has set going stays so.
+        // A crash would lose the result it is owed, so it is refused. Its effects stay.
         _call.unstoredControlIDs.insert(*_call.controlID);
     }
     _transaction.Store(_plans.RestoreReplaced());

@@ -15,7 +15,7 @@
 namespace ACS::Planning
 {
 
-/// Commits each call's changes, withholds what depends on them, and recovers when the store fails.
+/// Owns the CommitGate. Commits the changes of each call, withholds what depends on them, and recovers when the store fails.
 class StoreGate
 {
     const EngineOptions& _options;
@@ -34,37 +34,39 @@ class StoreGate
 public:
     StoreGate(EngineState& engine, ControlAnswers& answers, const PlaceTracker& places, PlanWork& work);
 
-    /// One batch for the whole call, then everything that waits for it.
+    /// Emits one batch for the whole call and withholds everything that depends on it.
     void Commit(EngineActions& out);
+    /// Removes an acknowledged report; stored with the next batch or after a delay.
     void Acknowledge(const MessageAcknowledged& command);
-    /// The timer Acknowledged.
+    /// The delay has expired (timer Acknowledged).
     void StoreAcknowledged();
+    /// Releases the withheld actions or, after a failure, what is possible without the store.
     void OnStored(const Core::Result<void>& result, Core::Now now, EngineActions& out);
     [[nodiscard]] bool IsStoring() const noexcept;
+    /// The store reports that it would fail, without a batch in progress.
     void OnStoreLost(std::string_view reason, Core::Now now, EngineActions& out);
-    /// A call after a batch that did not fail.
+    /// Clears the alarm once a batch was stored again; called at the beginning of each call.
     void CheckStoreRecovery();
 
 private:
-    /// What robots were told in this call is stored before they are told.
+    /// Collects the WorkRecord of each robot, so that commands are stored before they are sent.
     void CollectWork();
-    /// By the alarm, which waits for the store with all the rest, and tries again from now on.
+    /// Raises ACS-1005, whose report waits for the store too, and starts the retries.
     void ReportStoreFailure(std::string_view reason, EngineActions& out);
-    /// The actions of a call whose changes are not stored: all but the reports.
+    /// Releases all actions but the reports.
     void ReleaseActions(EngineActions& out);
     void StartStoreRetry(EngineActions& out);
-    /// What is to be stored later, but for new plans: they are not told to anybody and not begun, as if they had never come.
-    /// Gives how many there were.
+    /// Keeps the changes for the next attempt, except new plans, which are withdrawn. Returns the number of withdrawn plans.
     [[nodiscard]] std::size_t RecoverBatch(const StoreBatch& batch);
-    /// What depends on the batch: reports wait, new plans and controls are rejected, everything else is released.
+    /// Handles withheld actions: reports wait, new plans and controls are refused, everything else is released.
     void ReleaseWithoutStore(
         const EngineActions& withheld,
         bool bPlanRefused,
         std::string_view reason,
         EngineActions& out);
-    /// What a robot must not do while nobody could know of it after a crash.
+    /// Withdraws a command that must not be executed while a crash would lose its record.
     [[nodiscard]] bool TryWithdraw(const CommandRobot& command);
-    /// The control that wanted it is refused. After a crash nobody would know who has stopped the robot.
+    /// The PausePlan is refused: after a crash the reason of the robot's pause would be unknown.
     void WithdrawPause(Robot& robot);
     [[nodiscard]] static Alarm MakeStoreAlarm(std::string message);
 };

@@ -5,7 +5,7 @@
 namespace ACS::Planning
 {
 
-/// Why a robot can neither be driven nor work.
+/// Why a robot can neither drive nor work.
 enum class EUnavailability : std::uint8_t
 {
     None,

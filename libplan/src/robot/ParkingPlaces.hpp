@@ -6,7 +6,7 @@
 namespace ACS::Planning
 {
 
-/// Where a robot goes without work. Nodes by index in the map.
+/// Where an idle robot waits. Nodes by index in the map.
 struct ParkingPlaces
 {
     std::optional<std::size_t> homeNode; ///< Its target without work; with a low battery its chargeNode.

@@ -20,7 +20,7 @@ EUnavailability Robot::GetUnavailability() const
     {
         return EUnavailability::Place;
     }
-    // It ends its plan first, and a drive home.
+    // A robot in maintenance completes its plan and its drive first.
     if (view.bInMaintenance && planOrNull == nullptr && !drive.has_value())
     {
         return EUnavailability::Maintenance;
@@ -57,7 +57,7 @@ std::string Robot::Describe(EUnavailability unavailability) const
         case EUnavailability::Link:
             return "no connection";
         case EUnavailability::Place:
-            return "its place is not known";
+            return "position unknown";
         case EUnavailability::Maintenance:
             return "in maintenance";
         case EUnavailability::Error:
@@ -72,9 +72,9 @@ std::string Robot::Describe(EUnavailability unavailability) const
         case EUnavailability::Manual:
             return "not in automatic mode";
         case EUnavailability::Occupied:
-            return "busy with work that is no part of a plan any more";
+            return "busy with work of an ended plan";
         default:
-            return "cannot be used";
+            return "unavailable";
     }
 }
 

@@ -25,11 +25,11 @@ namespace ACS::Planning
 enum class EActivity : std::uint8_t
 {
     Idle,  ///< No plan.
-    Waits, ///< Has a plan and must get to its step's place.
+    Waits, ///< Has a plan and must reach its step's station.
     Works, ///< A job runs.
 };
 
-/// What the robot is to confirm of a control of its plan.
+/// What the robot must confirm for the control of its plan.
 struct RobotControl
 {
     PauseTracker pause;
@@ -44,7 +44,7 @@ struct RobotChanges
     bool bWork = false; ///< Its WorkRecord.
 };
 
-/// A robot of the fleet: what each part of the engine knows of it.
+/// A robot of the fleet: its state, by the part of the engine that keeps it.
 struct Robot
 {
     std::size_t index = 0;
@@ -64,17 +64,17 @@ struct Robot
     RobotChanges changes;
 
     [[nodiscard]] const std::string& GetID() const;
-    /// The first that holds, apart from having other work.
+    /// The first reason that applies, apart from having other work.
     [[nodiscard]] EUnavailability GetUnavailability() const;
     [[nodiscard]] std::string Describe(EUnavailability unavailability) const;
     [[nodiscard]] bool IsUsable() const;
-    /// Whether it may be given a plan, as far as the robot itself is concerned.
+    /// Whether a plan may be assigned to it.
     [[nodiscard]] bool IsFree() const;
-    /// Whether its drive may be extended. A robot without a connection may still report nodes, and then continues.
+    /// Whether its drive may be extended. A disconnected robot may still report nodes, and then continues.
     [[nodiscard]] bool CanAdvance() const;
-    /// Whether its plan is to begin nothing further.
+    /// Whether its plan is paused or being paused.
     [[nodiscard]] bool IsHeld() const;
-    /// Whether its plan is to be cancelled or aborted.
+    /// Whether its plan is being cancelled or aborted.
     [[nodiscard]] bool IsEnding() const;
 };
 

@@ -8,7 +8,7 @@
 namespace ACS::Planning
 {
 
-/// Where a robot is, and where it may be. PlaceTracker and TrafficCoordinator keep it. Nodes by index in the map.
+/// Where a robot is, and where it may be. Kept by PlaceTracker and TrafficCoordinator. Nodes by index in the map.
 struct RobotPlace
 {
     std::optional<std::size_t> node; ///< The node it is on or has passed last.

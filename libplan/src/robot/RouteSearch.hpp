@@ -18,7 +18,7 @@ struct Yield
     std::size_t step = 0;
 };
 
-/// How a robot is to get to its target, and what keeps it. TrafficCoordinator and DeadlockResolver keep it.
+/// The planned route of a robot, and what blocks it. Kept by TrafficCoordinator and DeadlockResolver.
 struct RouteSearch
 {
     std::optional<PlannedRoute> plannedRoute; ///< The quickest route to its target, kept while it waits.

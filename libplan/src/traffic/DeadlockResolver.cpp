@@ -11,7 +11,7 @@ namespace ACS::Planning
 namespace
 {
 
-/// Ways around others that a robot tries on its way to a step: others may make way for it, too, and then it arrives.
+/// Limit per step; after that other robots must clear the route.
 constexpr std::size_t DETOURS_AT_MOST = 3;
 
 } // namespace
@@ -45,7 +45,7 @@ DeadlockResolver::Round DeadlockResolver::TryResolveDeadlock()
     {
         return {true, nullptr};
     }
-    // Whoever is the first has nobody to let go first, if that one waits, too.
+    // The most urgent robot does not yield to one that waits, too.
     Robot& first = *stuck.front();
     if (first.drive.has_value() || !_waiting.IsYielding(first))
     {
@@ -149,7 +149,7 @@ bool DeadlockResolver::TryRetreat(Robot& robot, const Robot& leader)
         _transaction.Note(
             robot,
             fmt::format(
-                "goes to {} first, out of the way of {}",
+                "drives to node {} to clear the route of {}",
                 _site.GetNodes()[*robot.parking.parkingNode].nodeID,
                 leader.GetID()));
     }
@@ -207,7 +207,7 @@ bool DeadlockResolver::TryStepAside(Robot& robot, const Robot& leader)
         robot.parking.retreatNode.reset();
         return false;
     }
-    _transaction.Note(robot, fmt::format("steps aside for {}", leader.GetID()));
+    _transaction.Note(robot, fmt::format("moves aside to clear the route of {}", leader.GetID()));
     return true;
 }
 

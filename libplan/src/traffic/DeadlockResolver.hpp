@@ -15,7 +15,7 @@
 namespace ACS::Planning
 {
 
-/// Breaks cycles of robots that wait for one another: one takes a detour, retreats to its parking position or steps aside.
+/// Breaks cycles of waiting robots: one takes a detour, retreats to its parking position or moves aside. Owns no data.
 class DeadlockResolver
 {
 public:
@@ -43,16 +43,17 @@ public:
         WaitingRobots& waiting,
         TrafficCoordinator& coordinator);
 
+    /// Sets at most one robot in motion. The caller moves Round::releasedOrNull and calls again until nothing has moved.
     [[nodiscard]] Round TryResolveDeadlock();
 
 private:
-    /// On to its aim around everybody who stands; home only where the whole way is open.
+    /// Reroutes the robot around all stationary robots; home only if the whole route is open.
     [[nodiscard]] bool TryDetour(Robot& robot);
-    /// One of those who keep the leader goes home first; where none can, the leader does, and else whoever stands idle steps
-    /// aside.
+    /// One of the robots that block the leader retreats; else the leader does, or an idle robot moves aside.
     [[nodiscard]] bool TryMakeWay(Robot& leader, const std::vector<Robot*>& stuck);
+    /// Sends the robot to its parking position until the leader has arrived.
     [[nodiscard]] bool TryRetreat(Robot& robot, const Robot& leader);
-    /// A robot without work that stands at its home, or has none, in somebody's way: to the nearest station that nobody wants.
+    /// Sends an idle robot on the leader's route to the nearest station that no planned route uses.
     [[nodiscard]] bool TryStepAside(Robot& robot, const Robot& leader);
 };
 

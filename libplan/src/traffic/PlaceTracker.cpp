@@ -19,7 +19,6 @@ PlaceTracker::PlaceTracker(EngineState& engine)
 {
 }
 
-/// A robot that is not able to drive now is an obstacle for the others.
 void PlaceTracker::NoteMovable(const Robot& robot)
 {
     const bool bMovable = robot.IsUsable() && !robot.control.pause.IsPaused();
@@ -31,7 +30,6 @@ void PlaceTracker::NoteMovable(const Robot& robot)
     }
 }
 
-/// Where a robot without a drive stands, and where it may still go on an order that is none of the engine's.
 void PlaceTracker::Place(Robot& robot)
 {
     const std::string& nodeID = robot.view.state->lastNodeID;
@@ -65,19 +63,19 @@ void PlaceTracker::Place(Robot& robot)
         });
         const std::size_t holder = *_traffic.GetHolderOrNull(*taken);
         robot.place.bPlaced = false;
-        // Where it is all the same nobody else is let.
+        // The robot is there all the same: no other robot gets these nodes.
         _traffic.HoldPossible(robot.index, held);
         _transaction.RaiseAlarm(MakePlaceAlarm(
             robot,
             fmt::format(
-                "It {} node {}, which {} holds.",
-                taken == claim.begin() ? "stands on" : "may still go to",
+                "Robot {} node {}, which is reserved for {}. Move the robot to a free node.",
+                taken == claim.begin() ? "is on" : "may still drive to",
                 _site.GetNodes()[*taken].nodeID,
                 _fleet[holder].GetID())));
         return;
     }
     _transaction.ClearAlarm(MakePlaceAlarm(robot, {}));
-    // An order that is none of the engine's may be given up between two nodes, too.
+    // An order of another master may be cancelled between two nodes, too.
     robot.place.aheadNodes.assign(held.begin() + 1, held.end());
     robot.parking.refusals = node == robot.place.node ? robot.parking.refusals : 0;
     robot.place.node = node;
@@ -101,8 +99,11 @@ void PlaceTracker::OnPositionLost(Robot& robot)
     const std::string& nodeID = robot.view.state->lastNodeID;
     _transaction.RaiseAlarm(MakePlaceAlarm(
         robot,
-        nodeID.empty() ? "It does not tell any more on which node it stands."
-                       : fmt::format("It stands on node {}, which the map does not have.", nodeID)));
+        nodeID.empty()
+            ? "Robot position unknown: the robot reports no node. Move it to a free node of the map."
+            : fmt::format(
+                "Robot is on node {}, which is not on the map. Move the robot to a free node, or correct the map.",
+                nodeID)));
 }
 
 std::vector<std::size_t> PlaceTracker::ListClaimed(const Robot& robot, std::size_t node) const
@@ -169,7 +170,6 @@ std::vector<std::size_t> PlaceTracker::ListPossibleAhead(const Robot& robot, std
         : std::vector<std::size_t>(here + 1, robot.place.possibleNodes.end());
 }
 
-/// To be written down: where the robot may be after a restart.
 std::vector<std::string> PlaceTracker::ListNodes(const Robot& robot) const
 {
     std::span<const std::size_t> nodes = robot.place.possibleNodes;
@@ -183,7 +183,7 @@ std::vector<std::string> PlaceTracker::ListNodes(const Robot& robot) const
     }
     else if (robot.view.state.has_value())
     {
-        return robot.work.GetStored().nodeIDs; // it has lost its place
+        return robot.work.GetStored().nodeIDs; // position lost
     }
     std::vector<std::string> nodeIDs;
     for (const std::size_t node : nodes)

@@ -12,7 +12,7 @@
 namespace ACS::Planning
 {
 
-/// Where each robot is and may be, and which nodes it therefore holds.
+/// Owns the reservations (Traffic). Decides which nodes a robot without a drive occupies or may occupy, and raises ACS-1003.
 class PlaceTracker
 {
     const SiteMap& _site;
@@ -24,31 +24,32 @@ class PlaceTracker
 public:
     explicit PlaceTracker(EngineState& engine);
 
+    /// ACS-1003
     [[nodiscard]] Alarm MakePlaceAlarm(const Robot& robot, std::string message) const;
-    /// A robot that cannot drive now is an obstacle for the others.
+    /// Updates whether the robot can drive; one that cannot is a fixed obstacle.
     void NoteMovable(const Robot& robot);
-    /// Where a robot without a drive is, and where it may still drive on an order that is none of the engine's.
+    /// Reserves the node of a robot without a drive, and the nodes it may still reach on an order of another master.
     void Place(Robot& robot);
-    /// A robot stops, starts, or becomes movable or not.
+    /// A robot has stopped or started.
     void NoteStandingChanged() noexcept;
-    /// Grows with each such change.
+    /// Increases when a robot stops, starts, or becomes movable or not.
     [[nodiscard]] std::uint64_t GetStandingChanges() const noexcept;
     [[nodiscard]] Traffic& GetTraffic() noexcept;
-    /// To be stored: where the robot may be after a restart.
+    /// The nodes where the robot may be after a restart; stored.
     [[nodiscard]] std::vector<std::string> ListNodes(const Robot& robot) const;
-    /// Nobody else is let to where a robot may be that has not told it. Those that have told come first.
+    /// Reserves the possible nodes of robots without a reported position. Reported positions take precedence.
     void ReservePossibleNodes();
-    /// It is not on the floor.
+    /// The robot is not on the floor: its possible nodes are released.
     void ForgetPossibleNodes(Robot& robot);
 
 private:
-    /// Somebody has taken it off the map, or it does not know where it is. What it held stays its own until it tells a node.
+    /// The robot reports no node of the map. Its reservations stay until it reports one.
     void OnPositionLost(Robot& robot);
-    /// The node on which it stands first, then those to which it may still go.
+    /// The robot's node, then the nodes to which it may still drive.
     [[nodiscard]] std::vector<std::size_t> ListClaimed(const Robot& robot, std::size_t node) const;
-    /// A robot tells that it is there: so nobody is of whom that is only supposed.
+    /// Another robot has reported these nodes: no robot can be there that only may be.
     void ReleasePossibleNodes(std::span<const std::size_t> nodes);
-    /// Of the way that was written down, what lies behind the node.
+    /// The stored possible nodes after this one.
     [[nodiscard]] static std::vector<std::size_t> ListPossibleAhead(const Robot& robot, std::size_t node);
 };
 

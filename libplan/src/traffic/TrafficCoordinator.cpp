@@ -97,7 +97,7 @@ void TrafficCoordinator::ExtendDrives()
         const ActiveDrive& drive = *robot.drive;
         const bool bAsks =
             drive.grantedCount < drive.nodes.size() && robot.search.refusedAt != _traffic.GetFreedCount();
-        // What was granted while the robot could not go on is released now.
+        // Nodes granted while the robot could not continue are released now.
         const bool bWants = bAsks || drive.releasedCount < drive.grantedCount;
         if (bWants)
         {
@@ -199,7 +199,7 @@ bool TrafficCoordinator::TryBeginPlannedRoute(Robot& robot)
     {
         return TryBeginDrive(robot, *robot.search.plannedRoute);
     }
-    // Who stands where is the same for many events: so is the way around.
+    // The detour is kept until a robot stops, starts, or becomes movable or not.
     if (robot.search.detourAt != _places.GetStandingChanges()
         || robot.search.detourTarget != robot.search.plannedRoute->target)
     {
@@ -264,7 +264,7 @@ bool TrafficCoordinator::TryBeginDrive(Robot& robot, const PlannedRoute& planned
     if (!robot.place.aheadNodes.empty() && robot.view.state.has_value() && robot.view.state->bDriving)
     {
         robot.search.blockers.clear();
-        return false; // it is still coming to a stand, and where that is nobody knows
+        return false; // the robot is still stopping: its position is not final
     }
     const std::size_t wanted = std::min(_options.baseLength, plannedRoute.nodes.size() - 1);
     const std::size_t granted = _traffic.Extend(robot.index, std::span(plannedRoute.nodes).subspan(1, wanted));
@@ -280,7 +280,7 @@ bool TrafficCoordinator::TryBeginDrive(Robot& robot, const PlannedRoute& planned
     drive.route = plannedRoute.route;
     drive.nodes = plannedRoute.nodes;
     drive.grantedCount = granted + 1;
-    // One is always left to be released: a robot has a horizon to plan with.
+    // The last node is not released yet: the robot needs a horizon.
     drive.releasedCount = std::min({_options.baseLength, drive.grantedCount, drive.nodes.size() - 1});
     drive.goal =
         robot.planOrNull == nullptr || robot.parking.retreatNode.has_value() ? EDriveGoal::Home : EDriveGoal::Step;
@@ -336,7 +336,7 @@ void TrafficCoordinator::BeginReroute(Robot& robot, PlannedRoute plannedRoute, b
 {
     if (plannedRoute.nodes.front() != robot.place.node)
     {
-        return; // It went on meanwhile: as any that waits.
+        return; // The robot has moved since: it waits as any other.
     }
     if (bRetreats)
     {
@@ -374,10 +374,12 @@ bool TrafficCoordinator::TryAdvance(Robot& robot, std::size_t routeIndex)
         {
             _transaction.RaiseAlarm(_places.MakePlaceAlarm(
                 robot,
-                fmt::format("It drove on to node {} without leave.", drive.route.nodes[routeIndex].nodeID)));
+                fmt::format(
+                    "Robot entered node {} without a reservation. Move the robot to a free node.",
+                    drive.route.nodes[routeIndex].nodeID)));
             return false;
         }
-        _transaction.Note(robot, "drove on beyond what was released");
+        _transaction.Note(robot, "drove beyond the released nodes");
         drive.grantedCount = routeIndex + 1;
     }
     if (routeIndex > drive.passed)
@@ -401,7 +403,7 @@ void TrafficCoordinator::EndDrive(Robot& robot)
     {
         _transaction.CancelTimer(EEngineTimer::DriveExtension, robotID);
     }
-    // A pause has still to be shown.
+    // An open pause must still be confirmed.
     const bool bControlOpen = robot.planOrNull != nullptr && robot.planOrNull->record.progress.control.has_value();
     if (drive.IsCancelling() && !bControlOpen)
     {
@@ -414,7 +416,7 @@ void TrafficCoordinator::EndDrive(Robot& robot)
             _site,
             robot.view.state,
             *robot.place.node,
-            robot.place.aheadNodes); // of the drive before: this one it never had
+            robot.place.aheadNodes); // of the previous drive: the robot never had this one
     }
     else if (begin < drive.grantedCount)
     {

@@ -24,7 +24,7 @@ enum class EDriveAttempt : std::uint8_t
     NoRoute,
 };
 
-/// Plans routes, begins drives, extends their base, reroutes and ends them.
+/// Owns the router. Plans routes, begins and ends drives, extends their base and reroutes them.
 class TrafficCoordinator
 {
     const EngineOptions& _options;
@@ -48,42 +48,46 @@ public:
         PlaceTracker& places,
         const WaitingRobots& waiting);
 
-    /// The parking position of a robot without a home is the first free station beside the lanes with a route there and back. The
-    /// robot goes there only to make way.
+    /// Chooses the parking positions. Without a home it is the first free station beside the lanes with a route there and back,
+    /// used only to clear the routes of others.
     void AssignParking();
     [[nodiscard]] const Router& GetRouter() const noexcept;
-    /// The vehicle has had its time to report its drive.
+    /// The time to confirm a drive has expired: the base is extended anyway.
     void OnExtensionDue(Robot& robot);
+    /// The robot may be sent home again.
     void OnHomeRetry(Robot& robot);
+    /// Grants further nodes to all drives, the most urgent first.
     void ExtendDrives();
-    /// Keeps the base ahead of the robot. Longer than asked for, so that not every node costs an update.
+    /// Grants and releases further nodes; twice the base length, so that not every node costs an order update.
     void ExtendBase(Robot& robot);
+    /// Begins a drive to the robot's target if its route is free. Returns what the caller must do next.
     [[nodiscard]] EDriveAttempt TryDrive(Robot& robot);
+    /// The quickest route that avoids the excluded nodes.
     [[nodiscard]] std::optional<PlannedRoute> PlanRouteOrNull(
         const Robot& robot,
         std::size_t target,
         const Router::NodeFilter& isExcluded) const;
-    /// Begun with the first nodes that are granted; without any it is not begun.
+    /// Begins the drive with the nodes that are granted; false if there are none.
     [[nodiscard]] bool TryBeginDrive(Robot& robot, const PlannedRoute& plannedRoute);
-    /// Sent home again later, each time twice as late: one that stands between two nodes refuses until somebody comes.
+    /// Delays the next attempt to send the robot home, twice as long each time: a robot between two nodes refuses each one.
     void RefuseHome(Robot& robot);
-    /// Whether those that cannot move leave it a way to all places of the plan and from each of them home.
+    /// Whether robots that cannot move leave free a route to each station of the plan and from there home.
     [[nodiscard]] bool CanServe(const Robot& robot, const ActivePlan& plan) const;
-    /// Another way than the one that it is on: granted now, driven when the vehicle has given the present one up.
+    /// Cancels the drive for another route, whose first nodes are granted now.
     [[nodiscard]] bool TryReroute(Robot& robot, PlannedRoute plannedRoute, bool bRetreats);
-    /// The vehicle has given its drive up for this.
+    /// The vehicle has cancelled its drive: begins the new route.
     void BeginReroute(Robot& robot, PlannedRoute plannedRoute, bool bRetreats);
-    /// The vehicle has not given its drive up in time: it stays on it.
+    /// The vehicle has not cancelled its drive in time: the drive continues.
     void AbandonReroute(Robot& robot);
-    /// The robot is at or beyond this node of its way: what lies behind is free for others. False: another robot holds the
-    /// node, as this one drove on without leave.
+    /// The robot has reached this node of its route: frees the nodes before it. False: the robot entered a node that another
+    /// robot has reserved.
     [[nodiscard]] bool TryAdvance(Robot& robot, std::size_t routeIndex);
-    /// The robot stands on drive->passed, or between it and the next node: nothing else of the way is its own any more.
+    /// The robot is stationary on the node that it passed last, or after it: frees the rest of the route.
     void EndDrive(Robot& robot);
 
 private:
     [[nodiscard]] bool CanParkAt(const RobotOptions& robot, std::size_t dock) const;
-    /// Around those who stand in the way and have no reason to leave soon, where there is a way around them.
+    /// Begins the planned route, or a detour around stationary robots if there is one.
     [[nodiscard]] bool TryBeginPlannedRoute(Robot& robot);
     [[nodiscard]] bool TryPlanRoute(Robot& robot, std::size_t target);
 };

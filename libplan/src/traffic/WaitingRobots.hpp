@@ -13,7 +13,7 @@
 namespace ACS::Planning
 {
 
-/// Where each robot is to go, and which robots wait for which others.
+/// Decides where each robot drives next, which robots wait and for which others. Owns no data.
 class WaitingRobots
 {
     const PlanAdmission& _admission;
@@ -24,27 +24,30 @@ class WaitingRobots
 public:
     WaitingRobots(EngineState& engine, const TscControl& tsc, PlaceTracker& places);
 
+    /// Node of the retreat, of the present step's station, or of the home.
     [[nodiscard]] std::optional<std::size_t> GetTargetOrNull(const Robot& robot) const;
-    /// Other robots that stand on the target, or drive to it. Nobody sets out for a place that another one has first: so
-    /// who waits for a place waits at a place, and not on a lane.
+    /// Other robots that occupy the target or drive to it. No drive starts while there are any, so a robot waits for a station
+    /// at a station and not on a lane.
     [[nodiscard]] std::vector<std::size_t> GetTargetHolders(const Robot& robot, std::size_t target) const;
-    /// Whether the robot stands where its present step is done.
+    /// Whether the robot is at the station of its present step.
     [[nodiscard]] bool IsAtPlace(const Robot& robot) const;
-    /// Robots that must get to a place and stand, in the order of their plans.
+    /// Robots with a plan and without a drive that must reach a station, the most urgent first.
     [[nodiscard]] std::vector<Robot*> GetWaiting();
-    /// Robots without work that stand elsewhere than at home.
+    /// Idle robots that are not at home.
     [[nodiscard]] std::vector<Robot*> ListAwayFromHome();
-    /// Will do something without anybody else: it has nodes before it, or works, or is about to answer.
+    /// Makes progress without other robots: it has granted nodes ahead, works, or has an unconfirmed drive.
     [[nodiscard]] bool IsMoving(const Robot& robot) const;
-    /// Wants to drive and cannot until others have moved.
+    /// Needs other robots to move before it can drive.
     [[nodiscard]] bool IsWaiting(const Robot& robot) const;
-    /// Who waits for robots that cannot move is not helped by others.
+    /// Whether other robots can help: false if it waits only for robots that cannot move.
     [[nodiscard]] bool IsHelpable(const Robot& robot) const;
+    /// Waits until the robot to which it yielded has arrived or can no longer move.
     [[nodiscard]] bool IsYielding(const Robot& robot) const;
+    /// The robot does not start before the leader has arrived.
     static void YieldTo(Robot& robot, const Robot& leader);
-    /// Robots that wait, and wait for nobody who will do something by himself: the most urgent first.
+    /// Robots that wait, directly or indirectly, for no robot that makes progress; the most urgent first.
     [[nodiscard]] std::vector<Robot*> ListDeadlocked();
-    /// All that a robot waits for, and what those wait for in turn; the least urgent first.
+    /// All robots for which this one waits, directly or indirectly; the least urgent first.
     [[nodiscard]] std::vector<Robot*> GetBlockersOf(const Robot& start);
 };
 

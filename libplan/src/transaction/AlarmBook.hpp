@@ -8,8 +8,8 @@
 namespace ACS::Planning
 {
 
-/// The alarms that are set, by identity (Alarm::IsSameAs). What changes the book returns the reports that the MCS is owed, in
-/// this order; empty where nothing has changed.
+/// The alarms that are set, by identity (Alarm::IsSameAs). Each change returns the reports for the MCS, in order; empty if
+/// nothing has changed.
 class AlarmBook
 {
     std::vector<Alarm> _alarms;
@@ -20,12 +20,11 @@ public:
     /// Replaces all alarms without a report: these were reported before the restart.
     void Restore(std::vector<Alarm> alarms);
 
-    /// Sets the alarm. One that is set already is only replaced where its level differs: it is cleared and set again, as a
-    /// set alarm has no other way to change.
+    /// Sets the alarm. If it is set already with another level, it is cleared and set again: a report cannot change an alarm.
     [[nodiscard]] std::vector<ErrorReport> Raise(Alarm alarm);
-    /// As Raise, but replaces an alarm that differs in anything.
+    /// As Raise, but also replaces an alarm with another message.
     [[nodiscard]] std::vector<ErrorReport> Update(Alarm alarm);
-    /// Clears the alarm of this identity. Its report repeats the text with which it was set.
+    /// Clears the alarm of this identity. The report repeats the message with which it was set.
     [[nodiscard]] std::vector<ErrorReport> Clear(const Alarm& alarm);
     [[nodiscard]] std::vector<ErrorReport> ClearIf(const std::function<bool(const Alarm&)>& isCleared);
 

@@ -11,7 +11,7 @@
 namespace ACS::Planning
 {
 
-/// What the present call has begun and answered, in case it cannot be stored.
+/// What the present call has started and acknowledged: needed if it cannot be stored.
 struct CallRecord
 {
     std::vector<std::string> begunPlanIDs;

@@ -10,8 +10,8 @@
 namespace ACS::Planning
 {
 
-/// Withholds the actions that depend on a batch until the store has answered. Nothing that others see happens before the
-/// state behind it is stored, so a crash never reveals what the next start does not know.
+/// Withholds the actions that depend on a batch until the store has confirmed it. No effect is visible outside before its state
+/// is stored, so after a crash the next start knows everything that was visible.
 class CommitGate
 {
 public:

@@ -16,8 +16,8 @@
 namespace ACS::Planning
 {
 
-/// What the parts of the engine share: the configuration, the records, and the transaction of the present call. Each part
-/// refers to what it uses.
+/// Data that the parts of the engine share: configuration, records, and the transaction of the present call. Each part refers
+/// only to what it uses.
 struct EngineState
 {
     EngineOptions options;

@@ -1,5 +1,7 @@
 #include "transaction/EngineTransaction.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -104,7 +106,9 @@ void EngineTransaction::WatchOutbox()
         OWN_ROBOT_ID,
         ALARM_OUTBOX,
         EAlarmLevel::Heavy,
-        "The MCS has not acknowledged too many reports: new plans are refused.");
+        fmt::format(
+            "Outbox full: {} reports are not acknowledged, and new plans are refused. Check the MCS and its connection.",
+            _options.maximumReports));
     const std::size_t count = _outbox.GetUnacknowledged().size();
     if (count >= _options.maximumReports)
     {

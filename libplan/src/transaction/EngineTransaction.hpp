@@ -18,9 +18,9 @@
 namespace ACS::Planning
 {
 
-/// The changes, reports, alarms, commands and timers of one call of the engine, in order. Nothing is undone: what depends on
-/// the store is released after the store has confirmed (CommitGate). Whether plans and robots must be looked at again in the
-/// same call is known here too, as every part may cause it.
+/// The changes, reports, alarms, commands and timers of one engine call, in order: the one writer of all parts. Nothing is
+/// undone: what depends on the store is released after the store has confirmed (CommitGate). It also has the request to
+/// dispatch again in the same call, which every part may make.
 class EngineTransaction
 {
     const EngineOptions& _options;
@@ -46,18 +46,19 @@ public:
     void SetNow(Core::Now now);
     [[nodiscard]] const Core::Now& GetNow() const noexcept;
 
-    /// Returns the report's transactionID, until the next one.
+    /// Adds the report to the outbox. Returns its transactionID, valid until the next report.
     std::string_view AddReport(Report report);
     void Emit(EngineAction action);
     void Reply(ReplyToken token, bool bAccepted, std::string message);
     void Command(Robot& robot, RobotCommand command);
     void StartTimer(EEngineTimer kind, const std::string& robotID, Core::Duration delay);
     void CancelTimer(EEngineTimer kind, const std::string& robotID);
+    /// A line for the log, by the observer.
     void Note(const Robot& robot, const std::string& text);
     void Store(StoreChange change);
     void Store(std::vector<StoreChange> changes);
 
-    // The only places where states change.
+    // States change here only.
     void ChangePlan(ActivePlan& plan, EPlanState state, std::string message);
     void ChangeStep(ActivePlan& plan, EStepState state, std::string message);
     void ChangeStepAt(ActivePlan& plan, std::size_t index, EStepState state, std::string message);
@@ -66,15 +67,18 @@ public:
     void PublishTscState(ETscState state, ETscState from);
     void RaiseAlarm(Alarm alarm);
     void ClearAlarm(const Alarm& alarm);
+    /// Reports that AlarmBook returned.
     void ReportAlarms(const std::vector<ErrorReport>& reports);
-    /// `outbox.max`: while it is reached, an alarm is set and no plan is accepted. Running plans continue and are reported.
+    /// Sets ACS-1020 while EngineOptions::maximumReports is reached. Running plans continue and are reported.
     void WatchOutbox();
 
+    /// Something has changed that may let a plan or a robot continue.
     void RequestDispatch() noexcept;
     [[nodiscard]] bool IsDispatchNeeded() const noexcept;
-    /// True: it was requested since the last time.
+    /// True: dispatch was requested since the last time.
     [[nodiscard]] bool TryBeginDispatch() noexcept;
 
+    /// Returns the collected changes and forgets them.
     [[nodiscard]] std::vector<StoreChange> CollectChanges();
     [[nodiscard]] EngineActions CollectActions();
 };

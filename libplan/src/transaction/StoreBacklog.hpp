@@ -11,8 +11,7 @@
 namespace ACS::Planning
 {
 
-/// Whether the store works, and while it fails what waits for it: changes that are not stored, and reports that must not be
-/// sent before those are.
+/// Whether the store works. While it fails: the changes to be stored, and the reports that must not be sent before them.
 class StoreBacklog
 {
     enum class EState : std::uint8_t
@@ -20,7 +19,7 @@ class StoreBacklog
         Working,
         Waiting,   ///< Failed; the retry timer runs.
         Due,       ///< The next changes are an attempt.
-        Attempted, ///< Whether it works again shows when the next call comes without a failure.
+        Attempted, ///< It works again if no failure is reported before the next call.
     };
 
     EState _state = EState::Working;
@@ -30,13 +29,13 @@ class StoreBacklog
 public:
     void OnFailed() noexcept;
     void OnRetryDue() noexcept;
-    /// After a restart whose store failed before: the next changes are an attempt.
+    /// The store was failing before the restart: the next changes are an attempt.
     void RestoreFailing() noexcept;
-    /// At the beginning of a call. True: the attempt of the call before was successful.
+    /// At the beginning of a call. True: the attempt of the previous call was successful.
     [[nodiscard]] bool TryRecover() noexcept;
-    /// Each attempt costs as much as the whole backlog: only new plans and the retry timer make one.
+    /// An attempt writes the whole backlog, so only new plans and the retry timer trigger one.
     [[nodiscard]] bool IsWorthTrying(std::span<const StoreChange> changes) const;
-    /// A batch leaves. True: the store has failed before, and the retry is to be timed.
+    /// A batch is sent to the store. True: the store was failing; start the retry timer.
     [[nodiscard]] bool TryBeginAttempt() noexcept;
 
     void Add(std::vector<StoreChange> changes);
@@ -45,7 +44,7 @@ public:
     [[nodiscard]] std::vector<OutboxEntry> CollectReports();
 
     [[nodiscard]] bool IsFailing() const noexcept;
-    /// The reports that are held back are a part of the outbox, in the same order.
+    /// Reports that are held back are also in the outbox, in the same order.
     [[nodiscard]] bool IsHeldBack(const OutboxEntry& report) const;
     [[nodiscard]] std::size_t CountHeldBack() const noexcept;
 };

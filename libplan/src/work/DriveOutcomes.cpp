@@ -80,7 +80,7 @@ bool DriveOutcomes::MoveRobot(Robot& robot)
 void DriveOutcomes::OnNoRoute(Robot& robot, std::size_t target)
 {
     const std::string text = fmt::format(
-        "{} has no way from {} to {}.",
+        "{} has no route from {} to {}.",
         robot.GetID(),
         _site.GetNodes()[*robot.place.node].nodeID,
         _site.GetNodes()[target].nodeID);
@@ -104,7 +104,7 @@ void DriveOutcomes::OnNodePassed(Robot& robot, const NodePassed& event)
     const auto routeIndex = static_cast<std::size_t>(found - nodes.begin());
     if (found == nodes.end() || routeIndex < robot.drive->passed)
     {
-        _transaction.Note(robot, fmt::format("told a node that is not ahead on its way: {}", event.nodeID));
+        _transaction.Note(robot, fmt::format("reported node {}, which is not ahead on its route", event.nodeID));
         return;
     }
     robot.drive->bTaken = true;
@@ -134,7 +134,7 @@ void DriveOutcomes::OnArrived(Robot& robot, const Arrived& event)
     }
     if (!_coordinator.TryAdvance(robot, robot.drive->nodes.size() - 1))
     {
-        OnDriveRejected(robot, DriveRejected{event.driveID, "it went where another robot is"});
+        OnDriveRejected(robot, DriveRejected{event.driveID, "it entered a node that is reserved for another robot"});
         robot.place.bPlaced = false;
         return;
     }
@@ -171,7 +171,7 @@ void DriveOutcomes::OnArrived(Robot& robot, const Arrived& event)
             _controls.ContinueAfterControl(robot);
         }
     }
-    // Otherwise the work begins when the robot is there again: the drive may well end while its arm is out of reach.
+    // Otherwise the work begins when the robot is available again: a drive may end while its arm is disconnected.
     if (robot.IsUsable())
     {
         _work.BeginWork(robot);
@@ -186,7 +186,7 @@ void DriveOutcomes::OnDriveRejected(Robot& robot, const DriveRejected& event)
     }
     const EDriveGoal goal = robot.drive->goal;
     _coordinator.EndDrive(robot);
-    _transaction.Note(robot, "did not do its drive: " + event.reason);
+    _transaction.Note(robot, "did not complete its drive: " + event.reason);
     if (goal == EDriveGoal::Home)
     {
         _coordinator.RefuseHome(robot);
@@ -202,7 +202,7 @@ void DriveOutcomes::OnDriveRejected(Robot& robot, const DriveRejected& event)
         _work.EndByControl(plan, *plan.record.progress.control);
         return;
     }
-    _work.FailPlan(plan, fmt::format("{} did not do its drive: {}", robot.GetID(), event.reason));
+    _work.FailPlan(plan, fmt::format("{} did not complete its drive: {}", robot.GetID(), event.reason));
 }
 
 void DriveOutcomes::OnDriveCancelled(Robot& robot, const DriveCancelled& event)
@@ -216,7 +216,7 @@ void DriveOutcomes::OnDriveCancelled(Robot& robot, const DriveCancelled& event)
     const auto routeIndex = static_cast<std::size_t>(found - nodes.begin());
     if (found != nodes.end() && routeIndex > robot.drive->passed && !_coordinator.TryAdvance(robot, routeIndex))
     {
-        OnDriveRejected(robot, DriveRejected{event.driveID, "it went where another robot is"});
+        OnDriveRejected(robot, DriveRejected{event.driveID, "it entered a node that is reserved for another robot"});
         robot.place.bPlaced = false;
         return;
     }
@@ -230,7 +230,7 @@ void DriveOutcomes::OnDriveCancelled(Robot& robot, const DriveCancelled& event)
     }
     if (robot.drive->cancellation != ECancellation::None && !bWanted)
     {
-        // Later than anybody waited for it, and the plan goes on: another drive takes it there.
+        // Cancelled after the time limit: the plan continues with another drive.
         robot.parking.retreatNode.reset();
         _coordinator.EndDrive(robot);
         return;

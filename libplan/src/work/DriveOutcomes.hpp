@@ -17,7 +17,7 @@
 namespace ACS::Planning
 {
 
-/// Moves robots, and handles what they report of their drives.
+/// Owns the DeadlockResolver. Starts drives, and handles what robots report of them.
 class DriveOutcomes
 {
     const EngineOptions& _options;
@@ -42,11 +42,11 @@ public:
         PlanWork& work,
         PlanControls& controls);
 
-    /// Robots under way first, as they stand where others want to pass.
+    /// Extends drives first, because their robots are on lanes; then starts robots with a plan.
     void MoveWaiting();
+    /// Starts idle robots towards their homes.
     void SendIdleHome();
-    /// Robots that only wait for one another would do so for ever. One at a time is set in motion, until each of them waits
-    /// for one that moves.
+    /// Sets one robot at a time in motion until each waiting robot waits for one that makes progress.
     void ResolveDeadlocks();
     void OnNodePassed(Robot& robot, const NodePassed& event);
     void OnArrived(Robot& robot, const Arrived& event);
@@ -54,7 +54,7 @@ public:
     void OnDriveCancelled(Robot& robot, const DriveCancelled& event);
 
 private:
-    /// Whether the robot has begun to drive, or stands where it wants to be.
+    /// Tries to drive, and begins the work or fails the plan. Returns whether the robot drives or is at its target.
     [[nodiscard]] bool MoveRobot(Robot& robot);
     void OnNoRoute(Robot& robot, std::size_t target);
 };

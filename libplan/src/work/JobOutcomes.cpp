@@ -18,7 +18,7 @@ void JobOutcomes::OnJobStarted(Robot& robot, const JobStarted& event)
     }
     if (robot.job.IsUnresolved())
     {
-        return; // an operator has been asked
+        return; // an operator resolves it
     }
     robot.work.MarkCommandTaken();
     robot.changes.bWork = true;
@@ -51,7 +51,7 @@ void JobOutcomes::OnJobEndTimeout(Robot& robot)
 {
     if (robot.job.IsOverdue() && !robot.job.IsUnresolved())
     {
-        _work.SuspendJob(robot, "its plan is over, and the robot does not tell the job's end");
+        _work.SuspendJob(robot, "its plan has ended, and the robot has not reported the end of the job");
     }
 }
 
@@ -91,7 +91,7 @@ void JobOutcomes::OnJobTimeout(Robot& robot)
     }
     robot.planOrNull->jobDeadline.reset();
     _work.DropJob(robot);
-    _work.FailPlan(*robot.planOrNull, "The job took longer than its limit.");
+    _work.FailPlan(*robot.planOrNull, "The job exceeded its time limit.");
 }
 
 void JobOutcomes::OnJobUnknown(Robot& robot, const JobUnknown& event)
@@ -107,11 +107,11 @@ void JobOutcomes::OnJobUnknown(Robot& robot, const JobUnknown& event)
     ActivePlan& plan = *robot.planOrNull;
     if (GetJobState(plan) == EJobState::InProgress)
     {
-        _work.SuspendJob(robot, "the robot does not know it, though it had begun it");
+        _work.SuspendJob(robot, "the robot had started the job and no longer has it");
     }
     else if (robot.job.GetOrNull()->commandID.empty())
     {
-        _work.SuspendJob(robot, "what became of it was asked before, and not answered");
+        _work.SuspendJob(robot, "an earlier request for the outcome was not answered");
     }
     else if (plan.record.progress.control == EPlanControl::Abort)
     {
@@ -129,7 +129,7 @@ void JobOutcomes::OnJobUncertain(Robot& robot, const JobUncertain& event)
     const bool bOfPlan = robot.activity == EActivity::Works && GetJobID(*robot.planOrNull) == event.jobID;
     if ((bOverdue || bOfPlan) && !robot.job.IsUnresolved())
     {
-        // After a restart, marks without this job have none of the later jobs either.
+        // After a restart, marks that do not prove this job prove none of the later jobs either.
         if (robot.job.IsRecovering() && bOfPlan && !robot.job.GetOrNull()->mark.empty())
         {
             robot.work.MarkDoubtful();

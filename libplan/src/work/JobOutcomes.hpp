@@ -13,7 +13,7 @@
 namespace ACS::Planning
 {
 
-/// What robots report of their jobs.
+/// Handles what robots report of their jobs. Owns no data.
 class JobOutcomes
 {
     EngineTransaction& _transaction;
@@ -24,12 +24,13 @@ public:
     JobOutcomes(EngineState& engine, LoadWatch& loads, PlanWork& work);
 
     void OnJobStarted(Robot& robot, const JobStarted& event);
-    /// Its plan is over, but what it did to the robot's ports counts. The robot's word is as good as an operator's.
+    /// Ends a job whose plan has ended, by the robot's report or an operator. The moved carrier is recorded. False: no such job.
     [[nodiscard]] bool TryEndOverdueJob(Robot& robot, const std::string& jobID, bool bDone);
-    /// The robot cannot be used until an operator resolves the job.
+    /// The robot has not reported the end of an overdue job: an operator must resolve it.
     void OnJobEndTimeout(Robot& robot);
     void OnJobFinished(Robot& robot, const JobFinished& event);
     void OnJobFailed(Robot& robot, const JobFailed& event);
+    /// The job has exceeded the time limit of its action: it is cancelled and the plan fails.
     void OnJobTimeout(Robot& robot);
     void OnJobUnknown(Robot& robot, const JobUnknown& event);
     void OnJobUncertain(Robot& robot, const JobUncertain& event);

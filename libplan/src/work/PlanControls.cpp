@@ -37,8 +37,10 @@ void PlanControls::Control(const ControlPlan& command)
     if (_backlog.IsFailing()
         && (!bRepeated || _call.unstoredControlIDs.contains(ControlAnswers::MakeRequestID(command))))
     {
-        _transaction.Emit(
-            ReplyCommand{command.replyToken, false, "The request cannot be stored, as the store fails: ask again."});
+        _transaction.Emit(ReplyCommand{
+            command.replyToken,
+            false,
+            "The request cannot be stored because the store is failing. Send it again."});
         return;
     }
     if (bRepeated)
@@ -70,7 +72,7 @@ void PlanControls::Control(const ControlPlan& command)
             command.control,
             command.planID,
             false,
-            fmt::format("{}Plan of this plan is under way.", GetText(*plan.record.progress.control)));
+            fmt::format("{}Plan is already in progress for this plan.", GetText(*plan.record.progress.control)));
         return;
     }
     Apply(command.control, plan);
@@ -103,18 +105,18 @@ void PlanControls::Cancel(ActivePlan& plan)
     if (!IsCancellable(plan))
     {
         const char* reason = _options.controls.cancelUntil == ECancelWindow::Dispatch
-            ? "A robot has the plan."
-            : (plan.bJobBegun ? "The work has begun." : "The robot has arrived.");
+            ? "The plan is assigned to a robot."
+            : (plan.bJobBegun ? "The first job has started." : "The robot has arrived.");
         _answers.ReportControlResult(EPlanControl::Cancel, plan.record.plan.planID, false, reason);
         return;
     }
-    _answers.Answer(plan, false, "CancelPlan came in between.");
+    _answers.Answer(plan, false, "Superseded by CancelPlan.");
     StopDrive(plan, EPlanControl::Cancel);
 }
 
 void PlanControls::Abort(ActivePlan& plan)
 {
-    _answers.Answer(plan, false, "AbortPlan came in between.");
+    _answers.Answer(plan, false, "Superseded by AbortPlan.");
     const bool bJobRuns = plan.robot.has_value() && _fleet[*plan.robot].activity == EActivity::Works;
     if (!bJobRuns)
     {
@@ -170,7 +172,7 @@ void PlanControls::StopDrive(ActivePlan& plan, EPlanControl control)
     {
         _transaction.Command(*robotOrNull, CancelDrive{robotOrNull->drive->driveID});
     }
-    // Between two nodes a vehicle may have to go on to the next one before it can give its drive up.
+    // A paused vehicle between two nodes may have to reach the next one before it can cancel its drive.
     _answers.ReleasePause(*robotOrNull);
     _answers.StartConfirming(*robotOrNull, _options.controls.cancelTimeout);
 }
@@ -224,7 +226,7 @@ void PlanControls::OnControlTimeout(Robot& robot)
         _answers.Answer(
             plan,
             false,
-            control == EPlanControl::Resume ? "The robot did not show that it goes on; the plan stays paused."
+            control == EPlanControl::Resume ? "The robot did not confirm that it resumed; the plan stays paused."
                                             : "The robot did not confirm that it stopped; the plan stays paused.");
         robot.control.pause.Pause();
         _transaction.Command(robot, Planning::Pause{});
@@ -234,7 +236,7 @@ void PlanControls::OnControlTimeout(Robot& robot)
     {
         _answers.LeavePause(plan, "PausePlan failed: the robot did not confirm that it stopped.");
     }
-    _answers.Answer(plan, false, "The robot did not confirm that it stopped; the plan goes on.");
+    _answers.Answer(plan, false, "The robot did not confirm that it stopped; the plan continues.");
     ContinueAfterControl(robot);
 }
 
@@ -243,10 +245,10 @@ void PlanControls::Pause(ActivePlan& plan)
     const bool bPaused = plan.record.progress.state == EPlanState::Paused;
     if (bPaused && !plan.record.progress.control.has_value())
     {
-        _answers.ReportControlResult(EPlanControl::Pause, plan.record.plan.planID, true, "The plan is paused already.");
+        _answers.ReportControlResult(EPlanControl::Pause, plan.record.plan.planID, true, "The plan is already paused.");
         return;
     }
-    _answers.Answer(plan, false, "PausePlan came in between.");
+    _answers.Answer(plan, false, "Superseded by PausePlan.");
     _answers.Ask(plan, EPlanControl::Pause);
     if (!plan.robot.has_value())
     {
@@ -259,7 +261,7 @@ void PlanControls::Pause(ActivePlan& plan)
     const bool bWorks = robot.activity == EActivity::Works;
     if (bWorks && _options.controls.bPausesAfterJob)
     {
-        return; // until the job ends
+        return; // confirmed at the end of the job
     }
     if (!bWorks && !robot.drive.has_value())
     {
@@ -286,16 +288,16 @@ void PlanControls::Resume(ActivePlan& plan)
             EPlanControl::Resume,
             planID,
             false,
-            fmt::format("The TSC is {}: nothing is begun before it is Auto.", GetText(_tsc.GetState())));
+            fmt::format("The TSC is {}. Resume the plan when it is Auto.", GetText(_tsc.GetState())));
         return;
     }
-    _answers.Answer(plan, false, "ResumePlan came in between.");
+    _answers.Answer(plan, false, "Superseded by ResumePlan.");
     _answers.Ask(plan, EPlanControl::Resume);
     if (!plan.robot.has_value())
     {
         _answers.LeavePause(plan, "Resumed by ResumePlan.");
         _plans.Enqueue(plan);
-        _answers.Answer(plan, true, "The plan waits in the queue again.");
+        _answers.Answer(plan, true, "The plan is back in the queue.");
         _transaction.RequestDispatch();
         return;
     }
@@ -326,7 +328,7 @@ void PlanControls::UpdatePause(Robot& robot, bool bBack, bool bWasPaused)
     }
     else if (repeat == PauseTracker::ERepeat::Pause)
     {
-        _transaction.Note(robot, "is told once more to pause");
+        _transaction.Note(robot, "pause command repeated");
         _transaction.Command(robot, Planning::Pause{});
     }
     const std::optional<EPlanControl> control =
@@ -346,7 +348,7 @@ void PlanControls::ConfirmResume(Robot& robot)
     ActivePlan& plan = *robot.planOrNull;
     _status.PublishStatus(robot, _status.DeriveStatus(robot));
     _answers.LeavePause(plan, "Resumed by ResumePlan.");
-    _answers.Answer(plan, true, "The plan goes on.");
+    _answers.Answer(plan, true, "The plan continues.");
     ContinueAfterControl(robot);
 }
 

@@ -17,7 +17,7 @@
 namespace ACS::Planning
 {
 
-/// Cancels, aborts, pauses and resumes plans (sections 6.5 to 6.8).
+/// Handles CancelPlan, AbortPlan, PausePlan and ResumePlan (sections 6.5 to 6.8): decides when each succeeds or fails.
 class PlanControls
 {
     const EngineOptions& _options;
@@ -43,15 +43,16 @@ public:
         StatusPublisher& status,
         PlanWork& work);
 
+    /// Acknowledges the request and applies it.
     void Control(const ControlPlan& command);
-    /// With what a pause, or a control that came to nothing, has held up.
+    /// Continues what a pause or a failed control has delayed.
     void ContinueAfterControl(Robot& robot);
-    /// The robot has not shown in time that it stopped, or that it goes on: what was asked for came to nothing.
+    /// The robot has not confirmed in time that it stopped or resumed: the control fails.
     void OnControlTimeout(Robot& robot);
-    /// What a robot's state says about a pause that was asked for, or that is to last. One that is back, in reach or under
-    /// control, may have missed what it was told.
+    /// Confirms an open pause or resume from the robot's state, and repeats the command. bBack: the robot is connected or in
+    /// automatic mode again, and may have missed a command.
     void UpdatePause(Robot& robot, bool bBack, bool bWasPaused);
-    /// A drive that was to be cancelled before the restart: the adapter gives up what is left of it, and here it stands.
+    /// Completes a cancel or abort from before a restart once the robot is stationary.
     void UpdateStandstill(Robot& robot);
 
 private:
@@ -61,14 +62,14 @@ private:
     void Abort(ActivePlan& plan);
     /// Section 6.5, register D-14.
     [[nodiscard]] bool IsCancellable(const ActivePlan& plan) const;
-    /// Ends the plan at once, or, where its robot is under way to the step's place, when the robot stands.
+    /// Ends the plan at once, or, if its robot drives to the step's station, when the robot has stopped.
     void StopDrive(ActivePlan& plan, EPlanControl control);
-    /// Section 6.7, register D-21, D-22. A plan without a robot is held in the queue; a robot that stands is just held; one
-    /// that drives or works must show that it has stopped.
+    /// Section 6.7, register D-21, D-22. A plan without a robot is held in the queue. A robot that drives or works must confirm
+    /// that it has stopped.
     void Pause(ActivePlan& plan);
     /// Section 6.8.
     void Resume(ActivePlan& plan);
-    /// The robot may go on: its status, the plan's and the result leave in this order.
+    /// The robot has resumed: reports its status, the plan's state and the result, in this order.
     void ConfirmResume(Robot& robot);
 };
 

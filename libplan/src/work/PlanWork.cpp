@@ -91,7 +91,7 @@ void PlanWork::BeginWork(Robot& robot)
     MarkArrived(robot);
     if (robot.planOrNull->bUnstored || PortCheck::DescribeMissingTrayOrNull(robot).has_value())
     {
-        return; // after a crash nobody would know that it was ever begun; or its tray is not there
+        return; // the start of the plan is not stored yet, or the tray is missing
     }
     robot.activity = EActivity::Works;
     BeginJob(robot);
@@ -205,7 +205,7 @@ void PlanWork::ContinuePlan(Robot& robot)
         BeginNext(robot);
         return;
     }
-    // The rest is for when the pause ends.
+    // Continues when the pause ends.
     robot.activity = EActivity::Waits;
     robot.changes.bStatus = true;
     if (plan.record.progress.control == EPlanControl::Pause && !robot.control.pause.IsPaused())
@@ -226,7 +226,7 @@ void PlanWork::BeginNext(Robot& robot)
         BeginJob(robot);
         return;
     }
-    // As soon as it is there again, or its tray is.
+    // Continues when the robot, or the tray, is available again.
     robot.activity = EActivity::Waits;
     robot.changes.bStatus = true;
 }
@@ -308,7 +308,7 @@ void PlanWork::EndPlan(ActivePlan& plan, EPlanState state, const std::string& me
     _transaction.RequestDispatch();
     if (state == EPlanState::Completed)
     {
-        // A robot that has completed a plan since was checked; otherwise the list of alarms would only grow.
+        // A robot that has completed a plan was checked; otherwise these alarms would stay indefinitely.
         _transaction.ReportAlarms(_alarms.ClearIf([&plan](const Alarm& alarm) {
             return alarm.robotID == plan.record.progress.robotID
                 && (alarm.errorCode == ALARM_INTERRUPTED || alarm.errorCode == ALARM_DROPPED);
@@ -352,7 +352,7 @@ Alarm PlanWork::MakeDroppedAlarm(const Robot& robot) const
         robot.GetID(),
         ALARM_DROPPED,
         EAlarmLevel::Heavy,
-        "A job that had begun was given up: look whether the robot still holds what it moved.");
+        "Job cancelled after it had begun. Check whether the robot still has the carrier.");
     AddJob(alarm, *robot.job.GetOrNull());
     return alarm;
 }
@@ -362,7 +362,7 @@ void PlanWork::SuspendDoubtfulJob(Robot& robot)
     robot.planOrNull->repeatedCommandID.clear();
     robot.job.Begin(MakeStartJob(robot));
     robot.changes.bWork = true;
-    SuspendJob(robot, "the robot may have done work that the ACS could not write down before it stopped");
+    SuspendJob(robot, "the robot may have done work that the ACS could not store before it stopped");
 }
 
 void PlanWork::SuspendJob(Robot& robot, const std::string& reason)
@@ -373,15 +373,15 @@ void PlanWork::SuspendJob(Robot& robot, const std::string& reason)
     Alarm alarm = MakeUnresolvedAlarm(robot);
     const bool bOfPlan = robot.planOrNull != nullptr && !robot.job.IsOverdue();
     alarm.message = fmt::format(
-        "It is unknown whether {} was done at {}: {}. Check the robot and that place, then answer {}.",
+        "Outcome of {} at {} unknown: {}. Check the robot and the station, then answer {}.",
         job.action,
         job.position,
         reason,
         bOfPlan
-            ? "done (the plan continues with the next job), failed (the plan fails) or again (it was not done and nothing "
-              "was moved: it starts again now). Or skip the step (the plan continues with the next step; the job has no "
-              "further report), or have the MCS abort the plan"
-            : "done (the carrier is where it was to go) or failed (it is where it was); the robot is free again then");
+            ? "done (the plan continues with the next job), failed (the plan fails) or again (the job was not done and "
+              "nothing was moved: it is repeated). Or skip the step (the plan continues with the next step, and the job has no "
+              "further report), or abort the plan from the MCS"
+            : "done (the carrier was moved) or failed (it was not). The robot is available again after that");
     _transaction.RaiseAlarm(std::move(alarm));
     if (!bOfPlan)
     {
@@ -428,7 +428,7 @@ void PlanWork::RepeatJob(Robot& robot, std::string commandID)
     _transaction.RequestDispatch();
     if (robot.planOrNull->record.progress.control == EPlanControl::Pause && !robot.control.pause.IsPaused())
     {
-        ConfirmPause(robot); // it was to wait for the job's end
+        ConfirmPause(robot); // the pause was waiting for the end of the job
     }
 }
 

@@ -15,7 +15,7 @@
 namespace ACS::Planning
 {
 
-/// Carries a plan through its steps and jobs to its end.
+/// Executes a plan: its steps, jobs and end. Decides what follows a job, and suspends a job whose outcome is unknown.
 class PlanWork
 {
     const EngineOptions& _options;
@@ -32,51 +32,57 @@ class PlanWork
 public:
     PlanWork(EngineState& engine, ControlAnswers& answers, LoadWatch& loads, StatusPublisher& status);
 
+    /// Assigns the plan to the robot and begins its first step.
     void BeginPlan(ActivePlan& plan, Robot& robot);
     void BeginStep(ActivePlan& plan, Robot& robot);
+    /// The robot moves to the step's station: the step is InProgress.
     void MarkStepBegun(ActivePlan& plan);
-    /// The robot is at the last node before its step's place, or there.
+    /// The robot is at the last node before its step's station, or at the station.
     void MarkArrived(Robot& robot);
-    /// Arrival is reported before the robot docks. A robot whose drive is to be cancelled has not arrived.
+    /// Reports Arrival on the last node before the station, unless the drive is being cancelled.
     void UpdateApproach(Robot& robot);
-    /// The robot stands at its step's place and can work.
+    /// The robot is at its step's station and can work.
     void BeginWork(Robot& robot);
+    /// The present job is done: the plan continues.
     void EndJob(Robot& robot, std::string message);
-    /// On to the next step that is not skipped, or to the end.
+    /// Continues with the next step that is not skipped, or ends the plan.
     void LeaveStep(Robot& robot);
-    /// The robot stands: its status, the plan's and the result leave in this order.
+    /// The robot has stopped: reports its status, the plan's state and the result, in this order.
     void ConfirmPause(Robot& robot);
-    /// Section 6.14: the job, its step and the plan at once; nothing about what never ran.
+    /// Fails the present job, its step and the plan; jobs and steps that never ran are not reported (section 6.14).
     void FailPlan(ActivePlan& plan, const std::string& reason);
-    /// The robot is free again, the plan is history. The plan lives to the end of this call. A control that is under way has
-    /// its answer in that.
+    /// Ends the plan, answers its open control and frees the robot. References to the plan stay valid until the end of the call.
     void EndPlan(ActivePlan& plan, EPlanState state, const std::string& message);
+    /// Ends the plan as Cancelled or Aborted.
     void EndByControl(ActivePlan& plan, EPlanControl control);
-    /// The robot is told to give its job up, and is not used before it has told the job's end.
+    /// Commands the robot to cancel its job. The robot gets no work until it has reported the end of the job.
     void DropJob(Robot& robot);
+    /// ACS-1007
     [[nodiscard]] Alarm MakeDroppedAlarm(const Robot& robot) const;
-    /// The job is not repeated, and the robot gets no other work, until an operator has checked.
+    /// The outcome of the job is unknown: the robot gets no work until an operator resolves the job.
     void SuspendJob(Robot& robot, const std::string& reason);
-    /// Aborting the plan does not require an operator to resolve its job.
+    /// Aborts the plan without an operator resolving its job.
     void AbortUnresolvedJob(Robot& robot);
-    /// Nothing is open any more about the job that the robot was commanded.
+    /// The job is closed, and its alarm is cleared.
     void ReleaseJob(Robot& robot);
-    /// As soon as the robot stands at the place and may work. The ID is usually that of the job which is released here.
+    /// Commands the job again once the robot may work; with the same commandID if the robot never had the job.
     void RepeatJob(Robot& robot, std::string commandID);
     /// The robot has reported the outcome of the job.
     void EndRecovery(Robot& robot);
+    /// Limits the time of the present job.
     void StartJobTimer(Robot& robot, Core::Duration limit);
     void StopJobTimer(Robot& robot);
 
 private:
     void BeginJob(Robot& robot);
     void LimitJob(Robot& robot);
-    /// With the next job or step, unless the plan is to begin nothing further.
+    /// Continues with the next job or step, unless the plan is paused.
     void ContinuePlan(Robot& robot);
-    /// What comes after a job.
+    /// Begins the next step, or the next job if the robot can work.
     void BeginNext(Robot& robot);
+    /// Raises ACS-1007 if the job moves something.
     void RaiseDropped(const Robot& robot);
-    /// Instead of beginning the present job.
+    /// Suspends the present job instead of commanding it.
     void SuspendDoubtfulJob(Robot& robot);
     [[nodiscard]] Alarm MakeUnresolvedAlarm(const Robot& robot) const;
 };
