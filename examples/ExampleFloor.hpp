@@ -9,7 +9,7 @@
 #include <vector>
 
 /// The floor of lessons 7 and 8: HOME and the cassette port A01.CP01 with a node each, one robot, one plan. A real site
-/// comes from a VDMA LIF file (DecodeLif), a real plan from the MCS.
+/// comes from a VDMA LIF file (DecodeLIF), a real plan from the MCS.
 namespace ExampleFloor
 {
 

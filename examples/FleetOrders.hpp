@@ -58,6 +58,21 @@ struct FleetOrder
 /// takes no more: then onBroken has been called, and nothing may be sent either.
 class FleetOrders
 {
+public:
+    enum class ETaking : std::uint8_t
+    {
+        Taken,
+        Known,  ///< One with this id was taken before.
+        Broken, ///< onBroken has been called.
+    };
+
+    struct Taking
+    {
+        std::string orderID;
+        ETaking result = ETaking::Taken;
+    };
+
+private:
     struct Queue
     {
         std::deque<FleetOrder> orders;
@@ -103,19 +118,6 @@ public:
         std::deque<FleetOrder>& orders = _queues[vehicle].orders;
         return orders.empty() ? nullptr : &orders.front();
     }
-
-    enum class ETaking : std::uint8_t
-    {
-        Taken,
-        Known,  ///< One with this id was taken before.
-        Broken, ///< onBroken has been called.
-    };
-
-    struct Taking
-    {
-        std::string orderID;
-        ETaking result = ETaking::Taken;
-    };
 
     /// The text is an order message with its whole route. An error where it is none.
     [[nodiscard]] ACS::Core::Result<Taking> Take(const std::string& vehicle, const std::string& text)

@@ -32,53 +32,9 @@ class Line
     Core::Now _now;
     Protocol::AcsSession _acs;
     Protocol::McsSession _mcs;
-    Protocol::SessionActions _fromAcs;
-    Protocol::SessionActions _fromMcs;
+    Protocol::SessionActions _fromACS;
+    Protocol::SessionActions _fromMCS;
     std::map<Protocol::ESessionTimer, Core::SteadyTime> _acsTimers; ///< When each is due.
-
-    void Print(std::string_view who, std::string_view what) const
-    {
-        const auto time = std::chrono::duration_cast<std::chrono::milliseconds>(_now.steady.time_since_epoch());
-        fmt::print("[{:>4} ms] {}: {}\n", time.count(), who, what);
-    }
-
-    void ExecuteForAcs(const Protocol::SessionAction& action)
-    {
-        std::visit(
-            Core::Overloaded{
-                [this](const Protocol::Connect&) {
-                    _mcs.OnConnected(CONNECTION, _now, _fromMcs);
-                    _acs.OnConnected(_now, _fromAcs);
-                },
-                [this](const Protocol::SendText& send) {
-                    Print("ACS", send.text);
-                    _mcs.OnText(CONNECTION, send.text, _now, _fromMcs);
-                },
-                [this](const Protocol::Close& close) { _acs.OnClosed(close.reason, _now, _fromAcs); },
-                [this](const Protocol::StartTimer& start) { _acsTimers[start.timer] = _now.steady + start.delay; },
-                [this](const Protocol::CancelTimer& cancel) { _acsTimers.erase(cancel.timer); },
-                [this](const Protocol::Deliver& deliver) {
-                    bRegistered = bRegistered || std::holds_alternative<Protocol::Registered>(deliver.event);
-                    bAcked = bAcked || std::holds_alternative<Protocol::Acked>(deliver.event);
-                }},
-            action);
-    }
-
-    /// The MCS of this lesson only acknowledges, and for that it needs no timers.
-    void ExecuteForMcs(const Protocol::SessionAction& action)
-    {
-        const auto* sendOrNull = std::get_if<Protocol::SendText>(&action);
-        if (sendOrNull == nullptr)
-        {
-            return;
-        }
-        const bool bLost = std::exchange(bNextAckLost, false);
-        Print(bLost ? "lost" : "MCS", sendOrNull->text);
-        if (!bLost)
-        {
-            _acs.OnText(sendOrNull->text, _now, _fromAcs);
-        }
-    }
 
 public:
     bool bNextAckLost = false; ///< The line eats the next text from the MCS.
@@ -89,21 +45,21 @@ public:
         : _acs(options, _random),
           _mcs({}, _random)
     {
-        _acs.Start(_now, _fromAcs);
+        _acs.Start(_now, _fromACS);
     }
 
     /// Carries out what both sides want until neither wants anything. Actions never run inside the call that made them.
     void Settle()
     {
-        while (!_fromAcs.empty() || !_fromMcs.empty())
+        while (!_fromACS.empty() || !_fromMCS.empty())
         {
-            for (const Protocol::SessionAction& action : std::exchange(_fromAcs, {}))
+            for (const Protocol::SessionAction& action : std::exchange(_fromACS, {}))
             {
-                ExecuteForAcs(action);
+                ExecuteForACS(action);
             }
-            for (const Protocol::SessionAction& action : std::exchange(_fromMcs, {}))
+            for (const Protocol::SessionAction& action : std::exchange(_fromMCS, {}))
             {
-                ExecuteForMcs(action);
+                ExecuteForMCS(action);
             }
         }
     }
@@ -111,8 +67,8 @@ public:
     /// The id and the time of a report are the caller's, and the same on every attempt: so a repetition shows as one.
     [[nodiscard]] bool TryReport(const Protocol::PlanReport& report)
     {
-        _acs.ReplayDone(_now, _fromAcs); // Nothing is left over from an earlier connection.
-        return _acs.TrySendDurable({"report-1", {_now.wall, {}}, report}, _now, _fromAcs);
+        _acs.ReplayDone(_now, _fromACS); // Nothing is left over from an earlier connection.
+        return _acs.TrySendDurable({"report-1", {_now.wall, {}}, report}, _now, _fromACS);
     }
 
     /// Time jumps to the deadline of the Ack.
@@ -120,7 +76,52 @@ public:
     {
         _now.steady = _acsTimers[Protocol::ESessionTimer::Ack];
         Print("ACS", "no Ack, again");
-        _acs.OnTimer(Protocol::ESessionTimer::Ack, _now, _fromAcs);
+        _acs.OnTimer(Protocol::ESessionTimer::Ack, _now, _fromACS);
+    }
+
+private:
+    void Print(std::string_view who, std::string_view what) const
+    {
+        const auto time = std::chrono::duration_cast<std::chrono::milliseconds>(_now.steady.time_since_epoch());
+        fmt::print("[{:>4} ms] {}: {}\n", time.count(), who, what);
+    }
+
+    void ExecuteForACS(const Protocol::SessionAction& action)
+    {
+        std::visit(
+            Core::Overloaded{
+                [this](const Protocol::Connect&) {
+                    _mcs.OnConnected(CONNECTION, _now, _fromMCS);
+                    _acs.OnConnected(_now, _fromACS);
+                },
+                [this](const Protocol::SendText& send) {
+                    Print("ACS", send.text);
+                    _mcs.OnText(CONNECTION, send.text, _now, _fromMCS);
+                },
+                [this](const Protocol::Close& close) { _acs.OnClosed(close.reason, _now, _fromACS); },
+                [this](const Protocol::StartTimer& start) { _acsTimers[start.timer] = _now.steady + start.delay; },
+                [this](const Protocol::CancelTimer& cancel) { _acsTimers.erase(cancel.timer); },
+                [this](const Protocol::Deliver& deliver) {
+                    bRegistered = bRegistered || std::holds_alternative<Protocol::Registered>(deliver.event);
+                    bAcked = bAcked || std::holds_alternative<Protocol::Acked>(deliver.event);
+                }},
+            action);
+    }
+
+    /// The MCS of this lesson only acknowledges, and for that it needs no timers.
+    void ExecuteForMCS(const Protocol::SessionAction& action)
+    {
+        const auto* sendOrNull = std::get_if<Protocol::SendText>(&action);
+        if (sendOrNull == nullptr)
+        {
+            return;
+        }
+        const bool bLost = std::exchange(bNextAckLost, false);
+        Print(bLost ? "lost" : "MCS", sendOrNull->text);
+        if (!bLost)
+        {
+            _acs.OnText(sendOrNull->text, _now, _fromACS);
+        }
     }
 };
 

@@ -30,46 +30,6 @@ class Line
     VehicleActions _fromVehicle;
     Core::Now _now;
 
-    void ExecuteForMaster(const MasterAction& action)
-    {
-        std::visit(
-            Core::Overloaded{
-                [this](const PublishMessage& publish) {
-                    _vehicle.OnMessage(publish.message.topic, publish.message.payload, false, _now, _fromVehicle);
-                },
-                [](const OrderAccepted& accepted) {
-                    fmt::print("master: update {} of {} is accepted\n", accepted.orderUpdateID, accepted.orderID);
-                },
-                [](const NodeReached& reached) { fmt::print("master: {} is reached\n", reached.nodeID); },
-                [this](const OrderFinished& /*finished*/) { bFinished = true; },
-                [](const auto& /*other*/) {
-                }}, // Of no interest to this lesson.
-            action);
-    }
-
-    void ExecuteForVehicle(const VehicleAction& action)
-    {
-        std::visit(
-            Core::Overloaded{
-                [this](const PublishMessage& publish) {
-                    _master.OnMessage(publish.message.topic, publish.message.payload, _now, _fromMaster);
-                },
-                [this](const DriveTo& drive) {
-                    fmt::print("vehicle: drives to {}\n", drive.node.nodeID); // And is there at once.
-                    _vehicle.TryReachNode(drive.node.sequenceID, _now, _fromVehicle);
-                },
-                [this](const StartVehicleTimer& start) {
-                    if (start.timer == EVehicleTimer::MinimumStateInterval) // The next state waits for it.
-                    {
-                        _now.steady += start.delay;
-                        _vehicle.OnTimer(start.timer, _now, _fromVehicle);
-                    }
-                },
-                [](const auto& /*other*/) {
-                }},
-            action);
-    }
-
 public:
     bool bFinished = false;
 
@@ -111,6 +71,47 @@ public:
         });
         Settle();
         return sent.has_value();
+    }
+
+private:
+    void ExecuteForMaster(const MasterAction& action)
+    {
+        std::visit(
+            Core::Overloaded{
+                [this](const PublishMessage& publish) {
+                    _vehicle.OnMessage(publish.message.topic, publish.message.payload, false, _now, _fromVehicle);
+                },
+                [](const OrderAccepted& accepted) {
+                    fmt::print("master: update {} of {} is accepted\n", accepted.orderUpdateID, accepted.orderID);
+                },
+                [](const NodeReached& reached) { fmt::print("master: {} is reached\n", reached.nodeID); },
+                [this](const OrderFinished& /*finished*/) { bFinished = true; },
+                [](const auto& /*other*/) {
+                }}, // Of no interest to this lesson.
+            action);
+    }
+
+    void ExecuteForVehicle(const VehicleAction& action)
+    {
+        std::visit(
+            Core::Overloaded{
+                [this](const PublishMessage& publish) {
+                    _master.OnMessage(publish.message.topic, publish.message.payload, _now, _fromMaster);
+                },
+                [this](const DriveTo& drive) {
+                    fmt::print("vehicle: drives to {}\n", drive.node.nodeID); // And is there at once.
+                    _vehicle.TryReachNode(drive.node.sequenceID, _now, _fromVehicle);
+                },
+                [this](const StartVehicleTimer& start) {
+                    if (start.timer == EVehicleTimer::MinimumStateInterval) // The next state waits for it.
+                    {
+                        _now.steady += start.delay;
+                        _vehicle.OnTimer(start.timer, _now, _fromVehicle);
+                    }
+                },
+                [](const auto& /*other*/) {
+                }},
+            action);
     }
 };
 

@@ -1,7 +1,7 @@
 // Lesson 7: a robot of one's own under the plan engine. An IRobotAdapter joins a make of robot to the SDK: it takes the
-// engine's commands and reports the robot's events. The one here stands in for its robot, too, in virtual time. ExampleAcs.hpp carries out what both want.
+// engine's commands and reports the robot's events. The one here stands in for its robot, too, in virtual time. ExampleACS.hpp carries out what both want.
 
-#include "ExampleAcs.hpp"
+#include "ExampleACS.hpp"
 #include "ExampleFloor.hpp"
 #include "ExampleRandom.hpp"
 #include <acs/core/Overloaded.hpp>
@@ -86,7 +86,7 @@ public:
         }
     }
 
-    /// Called at start (ExampleAcs): the MCS gets the reason, and no plan fails half-way.
+    /// Called at start (ExampleACS): the MCS gets the reason, and no plan fails half-way.
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(std::string_view action) const override
     {
         return action.starts_with("Cassette") ? std::nullopt : std::optional<std::string>("it carries cassettes only");
@@ -106,7 +106,7 @@ int main() // NOLINT(bugprone-exception-escape): nothing throws here but a full 
     }
     ExampleRandom random;
     SlowRobotAdapter robot;
-    ExampleAcs host(std::move(*options), std::move(*site), random, ExampleFloor::ROBOT, robot);
+    ExampleACS host(std::move(*options), std::move(*site), random, ExampleFloor::ROBOT, robot);
     AdapterActions actions;
     SlowRobotAdapter::Connect("N-HOME", actions);
     host.Run(actions);

@@ -21,14 +21,14 @@ namespace
 {
 
 /// An ACS without timers: the engine, its host, and a store that outlives both. Prints what a program would send.
-class MemoryAcs : private Core::IClock
+class MemoryACS : private Core::IClock
 {
     IPlanStore& _store;
     PlanEngine _engine;
     PlanEngineHost _host;
 
 public:
-    MemoryAcs(const EngineOptions& options, const SiteMap& site, IPlanStore& store, Core::IRandom& random)
+    MemoryACS(const EngineOptions& options, const SiteMap& site, IPlanStore& store, Core::IRandom& random)
         : _store(store),
           _engine(options, site, random),
           _host(
@@ -96,9 +96,9 @@ void PrintPlan(const PlanEngine& engine)
 }
 
 /// Until the robot is driving.
-void RunFirstAcs(const EngineOptions& options, const SiteMap& site, IPlanStore& store, Core::IRandom& random)
+void RunFirstACS(const EngineOptions& options, const SiteMap& site, IPlanStore& store, Core::IRandom& random)
 {
-    MemoryAcs acs(options, site, store, random);
+    MemoryACS acs(options, site, store, random);
     fmt::print("the robot connects\n");
     acs.ConnectRobot();
     fmt::print("the MCS submits a plan\n");
@@ -124,7 +124,7 @@ int main()
     }
     MemoryPlanStore store;
     ExampleRandom random;
-    RunFirstAcs(*options, *site, store, random);
+    RunFirstACS(*options, *site, store, random);
 
     fmt::print("crash and restart\n");
     Core::Result<StoredState> stored = store.Load();
@@ -133,7 +133,7 @@ int main()
         fmt::print("{}\n", Core::Describe(stored.error()));
         return 1;
     }
-    MemoryAcs acs(*options, *site, store, random);
+    MemoryACS acs(*options, *site, store, random);
     // The plan still has its robot. The outcome of a job would be requested (RecoverJob); this robot was driving, and its
     // drive starts again as soon as it has reported its position.
     acs.Restore(std::move(*stored));

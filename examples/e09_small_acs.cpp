@@ -68,7 +68,7 @@ struct ActivePlan
     bool bAborting = false; ///< The job that runs is its last.
 };
 
-class SmallAcs final : public ProtocolBeast::ISessionHandler
+class SmallACS final : public ProtocolBeast::ISessionHandler
 {
     const Core::IClock& _clock;
     boost::asio::steady_timer _timer; ///< Runs while the robot does something.
@@ -84,7 +84,7 @@ public:
     std::unique_ptr<ProtocolBeast::AcsClient> client;
     std::function<void()> onStopped;
 
-    SmallAcs(boost::asio::io_context& io, const Core::IClock& clock, DurableOutbox& outbox)
+    SmallACS(boost::asio::io_context& io, const Core::IClock& clock, DurableOutbox& outbox)
         : _clock(clock),
           _timer(io),
           _outbox(outbox)
@@ -123,12 +123,12 @@ public:
         if (line == "pause" && _tsc == ETscState::Auto)
         {
             // The running plan is completed (SEMI E82), and no other one is started.
-            SetTsc(ETscState::Pausing);
+            SetTSC(ETscState::Pausing);
             StartNext();
         }
         else if (line == "auto" && _tsc != ETscState::Auto)
         {
-            SetTsc(ETscState::Auto);
+            SetTSC(ETscState::Auto);
             StartNext();
         }
         else if ((line == "error" && !_bError) || (line == "clear" && _bError))
@@ -184,7 +184,7 @@ private:
         client->SendStatus(update);
     }
 
-    void SetTsc(ETscState state)
+    void SetTSC(ETscState state)
     {
         _tsc = state;
         client->SendStatus(TscStateUpdate{state});
@@ -202,10 +202,10 @@ private:
         std::visit(
             Core::Overloaded{
                 [&](const ExecutionPlan& plan) { OnPlan(request, plan); },
-                [&](const CancelPlan& control) { OnControl(request, control.planID, &SmallAcs::Cancel); },
-                [&](const AbortPlan& control) { OnControl(request, control.planID, &SmallAcs::Abort); },
-                [&](const PausePlan& control) { OnControl(request, control.planID, &SmallAcs::Pause); },
-                [&](const ResumePlan& control) { OnControl(request, control.planID, &SmallAcs::Resume); },
+                [&](const CancelPlan& control) { OnControl(request, control.planID, &SmallACS::Cancel); },
+                [&](const AbortPlan& control) { OnControl(request, control.planID, &SmallACS::Abort); },
+                [&](const PausePlan& control) { OnControl(request, control.planID, &SmallACS::Pause); },
+                [&](const ResumePlan& control) { OnControl(request, control.planID, &SmallACS::Resume); },
                 [&](const RequestAcsErrorList& /*request*/) {
                     ErrorListAck list;
                     list.errors.assign(_bError ? 1 : 0, MakeError(true));
@@ -239,7 +239,7 @@ private:
     }
 
     /// Acknowledged first, feasible or not; what became of it follows as a report.
-    void OnControl(const AcsRequest& request, const std::string& planID, void (SmallAcs::*control)(const std::string&))
+    void OnControl(const AcsRequest& request, const std::string& planID, void (SmallACS::*control)(const std::string&))
     {
         const EAckResult result = _knownPlans.contains(planID) ? EAckResult::Success : EAckResult::Fail;
         client->Answer(GetCommand(request), request.transactionID, result, "", PlanAck{planID});
@@ -340,7 +340,7 @@ private:
         }
         if (_tsc == ETscState::Pausing)
         {
-            SetTsc(ETscState::Paused);
+            SetTSC(ETscState::Paused);
         }
         if (_tsc == ETscState::Auto && !_waiting.empty())
         {
@@ -469,7 +469,7 @@ int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing th
         }
         outbox.Restore(std::move(*requests));
     }
-    SmallAcs acs(io, clock, outbox);
+    SmallACS acs(io, clock, outbox);
     ProtocolBeast::ClientOptions options;
     options.url = arguments[0];
     auto client = ProtocolBeast::AcsClient::Create(io.get_executor(), clock, random, logger, options, acs);

@@ -53,14 +53,17 @@ struct SimulatorOptions
 /// One thread: the executor's.
 class McsSimulator
 {
-    class Impl;
-    std::unique_ptr<Impl> _impl;
-
 public:
     /// Called once, after the table was printed: 0 if every plan was completed (with scenarios: every expectation held), no
     /// report was invalid, and no carrier was misplaced.
     using DoneHandler = std::function<void(int exitCode)>;
 
+private:
+    class Impl;
+
+    std::unique_ptr<Impl> _impl;
+
+public:
     /// Clock, random source, log sink and output outlive the simulator; so does the screen. Without a screen the output
     /// gets a line per change of state instead.
     McsSimulator(

@@ -106,7 +106,7 @@ void AddBrokerOptions(CLI::App& app, BrokerOptions& options)
 
 std::string CheckBrokerOptions(const BrokerOptions& options, Apps::EUrlScheme scheme)
 {
-    const VDA5050::MosquittoTls& tls = options.tls;
+    const VDA5050::MosquittoTLS& tls = options.tls;
     const bool bTlsGiven = !tls.caFile.empty() || !tls.certFile.empty() || !tls.keyFile.empty();
     if (bTlsGiven && !Apps::IsSecure(scheme))
     {

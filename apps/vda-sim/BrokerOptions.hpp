@@ -17,7 +17,7 @@ struct BrokerOptions
     VDA5050::QosTable qos;
     std::string username; ///< Empty: none.
     std::string password;
-    VDA5050::MosquittoTls tls; ///< For a broker at mqtts.
+    VDA5050::MosquittoTLS tls; ///< For a broker at mqtts.
 };
 
 /// --mqtt, --qos, --user, --password-file, --tls-ca, --tls-certificate and --tls-key. The target must outlive parsing.

@@ -333,7 +333,7 @@ tl::expected<Planning::SiteMap, std::string> LoadSite(const std::string& path)
         return tl::make_unexpected(
             fmt::format("the site {} cannot be read ({}); give the path of a LIF file", path, text.error()));
     }
-    Core::Result<Planning::SiteMap> site = Planning::DecodeLif(*text);
+    Core::Result<Planning::SiteMap> site = Planning::DecodeLIF(*text);
     if (!site.has_value())
     {
         return tl::make_unexpected(

@@ -151,7 +151,7 @@ Core::Result<void> CheckNames(const Json::Value& root)
     }
     if (repeated.has_value())
     {
-        return Core::Fail(Core::ECoreError::InvalidJson, *repeated, "each member once", "it twice");
+        return Core::Fail(Core::ECoreError::InvalidJSON, *repeated, "each member once", "it twice");
     }
     return {};
 }

@@ -20,7 +20,7 @@ public:
     {
         switch (static_cast<ECoreError>(condition))
         {
-            case ECoreError::InvalidJson:
+            case ECoreError::InvalidJSON:
                 return "not valid JSON";
             case ECoreError::MissingField:
                 return "a required field is missing";

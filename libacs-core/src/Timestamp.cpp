@@ -245,7 +245,7 @@ std::string FormatLocal(WallTime time, std::chrono::minutes offset)
     return {text.data(), text.size()};
 }
 
-std::string FormatUtc(WallTime time)
+std::string FormatUTC(WallTime time)
 {
     Printer<UTC_LENGTH> printer;
     printer.PutDateAndTime(time);

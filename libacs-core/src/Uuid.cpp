@@ -18,7 +18,7 @@ constexpr std::uint64_t NODE_MASK = 0xFFFF'FFFF'FFFFU;
 
 } // namespace
 
-std::string MakeUuid(IRandom& random)
+std::string MakeUUID(IRandom& random)
 {
     const std::uint64_t high = (random.GetNext() & ~VERSION_MASK) | VERSION_4;
     const std::uint64_t low = (random.GetNext() & ~VARIANT_MASK) | VARIANT_RFC;

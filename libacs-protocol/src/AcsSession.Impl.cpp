@@ -68,7 +68,7 @@ void AcsSession::Impl::OnConnected(Core::Now now, SessionActions& out)
     }
     ++_output.statistics.connects;
     _state = EState::Registering;
-    _registrationID = Core::MakeUuid(_random);
+    _registrationID = Core::MakeUUID(_random);
     AcsCodec::EncodeRequest({_registrationID, Detail::MakeTimestamp(now, _siteOffset), Registration{}}, _scratch);
     ++_output.statistics.Of(EAcsCommand::Registration).sent;
     out.emplace_back(SendText{0, _scratch, false});

@@ -107,7 +107,7 @@ void AcsSession::Impl::HandleRequest(AcsRequest& request, bool bLegacyName, Core
         return;
     }
     CommandCounters& counters = _output.statistics.Of(command);
-    if (!IsSentByMcs(command))
+    if (!IsSentByMCS(command))
     {
         ++counters.received;
         RefuseForeign(request, now, out);

@@ -77,7 +77,7 @@ void AcsSession::Impl::SendPosition(const RobotPositionUpdate& positions, Core::
     {
         return;
     }
-    AcsCodec::EncodeRequest({Core::MakeUuid(_random), Detail::MakeTimestamp(now, _siteOffset), positions}, _scratch);
+    AcsCodec::EncodeRequest({Core::MakeUUID(_random), Detail::MakeTimestamp(now, _siteOffset), positions}, _scratch);
     ++_output.statistics.Of(EAcsCommand::RobotPositionUpdate).sent;
     out.emplace_back(SendText{0, _scratch, true});
 }
@@ -114,7 +114,7 @@ void AcsSession::Impl::Send(
 
 std::string AcsSession::Impl::SendPayload(AcsPayload payload, StatusKey statusKey, Core::Now now, SessionActions& out)
 {
-    AcsRequest request{Core::MakeUuid(_random), Detail::MakeTimestamp(now, _siteOffset), std::move(payload)};
+    AcsRequest request{Core::MakeUUID(_random), Detail::MakeTimestamp(now, _siteOffset), std::move(payload)};
     Send(request, false, std::move(statusKey), now, out);
     return std::move(request.transactionID);
 }

@@ -27,7 +27,7 @@ void DurableOutbox::Restore(std::vector<DurableRequest> requests)
 
 Core::Result<void> DurableOutbox::Add(AcsPayload payload, const Core::Timestamp& timestamp)
 {
-    DurableRequest request{_lastSequence + 1, {Core::MakeUuid(_random), timestamp, std::move(payload)}};
+    DurableRequest request{_lastSequence + 1, {Core::MakeUUID(_random), timestamp, std::move(payload)}};
     Core::Result<void> stored = _store.Append(request);
     if (stored.has_value())
     {

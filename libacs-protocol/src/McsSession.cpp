@@ -135,7 +135,7 @@ public:
 
     AcsRequest MakeRequest(AcsPayload payload, Core::Now now)
     {
-        return {Core::MakeUuid(_random), Detail::MakeTimestamp(now, _siteOffset), std::move(payload)};
+        return {Core::MakeUUID(_random), Detail::MakeTimestamp(now, _siteOffset), std::move(payload)};
     }
 
     bool TrySend(const AcsRequest& request, Core::Now now, SessionActions& out)
@@ -316,7 +316,7 @@ private:
         }
         CommandCounters& counters = _output.statistics.Of(command);
         ++counters.received;
-        if (IsSentByMcs(command))
+        if (IsSentByMCS(command))
         {
             _output.Note(EProtocolNote::UnknownCommand, std::string(GetText(command)), out);
             Acknowledge(connection, request, EAckResult::Fail, Detail::UNSUPPORTED, now, out);

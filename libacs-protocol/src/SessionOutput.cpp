@@ -48,9 +48,9 @@ void SessionOutput::CancelAll(SessionActions& out)
     }
 }
 
-ERefusal SessionOutput::NoteFailure(const DecodeFailure& failure, bool bTakesFromMcs, SessionActions& out)
+ERefusal SessionOutput::NoteFailure(const DecodeFailure& failure, bool bTakesFromMCS, SessionActions& out)
 {
-    const bool bForUs = failure.command.has_value() && IsSentByMcs(*failure.command) == bTakesFromMcs;
+    const bool bForUs = failure.command.has_value() && IsSentByMCS(*failure.command) == bTakesFromMCS;
     const bool bKnown = failure.commandName.empty() || failure.bAck || bForUs;
     Note(bKnown ? EProtocolNote::Undecodable : EProtocolNote::UnknownCommand, Core::Describe(failure.error), out);
     const bool bHasAck = !failure.command.has_value() || HasAck(*failure.command);

@@ -34,7 +34,7 @@ public:
     void NoteAll(const DecodeNotes& notes, SessionActions& out);
 
     /// Counts an unreadable message, and returns the answer of a side that accepts the commands of the MCS, or of the ACS.
-    [[nodiscard]] ERefusal NoteFailure(const DecodeFailure& failure, bool bTakesFromMcs, SessionActions& out);
+    [[nodiscard]] ERefusal NoteFailure(const DecodeFailure& failure, bool bTakesFromMCS, SessionActions& out);
 
     void Start(ESessionTimer timer, std::chrono::milliseconds delay, SessionActions& out);
     /// No effect if the timer is not running.

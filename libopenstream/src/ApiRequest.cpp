@@ -71,7 +71,7 @@ std::string ApiResponse::TakeRoom()
     return room;
 }
 
-void SplitUrl(std::string_view url, ApiRequest& request)
+void SplitURL(std::string_view url, ApiRequest& request)
 {
     request.query.clear();
     const std::size_t mark = url.find('?');
@@ -116,7 +116,7 @@ void AddArguments(const Core::JsonText& args, ApiRequest& request)
     }
 }
 
-std::string BuildUrl(const ApiRequest& request)
+std::string BuildURL(const ApiRequest& request)
 {
     std::string url = request.path;
     char separator = '?';

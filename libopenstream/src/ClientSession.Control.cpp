@@ -204,18 +204,23 @@ void ClientSession::Impl::Handle(ControlError& error, Core::Now now, ClientActio
 
 void ClientSession::Impl::RefuseControl(
     int status,
-    std::optional<Core::JsonText> body,
+    std::optional<Core::JsonText> bodyOrNull,
     std::string detail,
     ClientActions& out)
 {
     if (_inFlight != EInFlight::Control)
     {
-        Report(ClientControlFault{status, std::move(body), std::move(detail)}, out);
+        Report(ClientControlFault{status, std::move(bodyOrNull), std::move(detail)}, out);
         return;
     }
     FinishInFlight(out);
     Report(
-        ClientControlSettled{_control.token, EControlOutcome::Refused, status, std::move(body), std::move(detail)},
+        ClientControlSettled{
+            _control.token,
+            EControlOutcome::Refused,
+            status,
+            std::move(bodyOrNull),
+            std::move(detail)},
         out);
 }
 

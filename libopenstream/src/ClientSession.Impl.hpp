@@ -70,7 +70,7 @@ class ClientSession::Impl
     std::optional<MonitorRequest> _monitor;
     std::uint64_t _monitorNumber = 0;     ///< Of the last SetMonitor call.
     std::uint64_t _sentMonitorNumber = 0; ///< Of the last MONITOR sent.
-    std::string _sentMonitorUrl;          ///< Likewise.
+    std::string _sentMonitorURL;          ///< Likewise.
     bool _bMonitorDue = false;            ///< SetMonitor was called and nothing was sent yet.
     bool _bMonitorOn = false;             ///< The server streams, as far as known.
     bool _bMonitorStopFirst = false;      ///< The server answered monitor_already_active.
@@ -121,7 +121,7 @@ private:
     void HandleErrorWhenReady(ErrorLine& error, Core::Now now, ClientActions& out);
     void HandleMonitorError(ErrorLine& error, ClientActions& out);
     void HandleStopError(ErrorLine& error, ClientActions& out);
-    void RefuseControl(int status, std::optional<Core::JsonText> body, std::string detail, ClientActions& out);
+    void RefuseControl(int status, std::optional<Core::JsonText> bodyOrNull, std::string detail, ClientActions& out);
     void SettleInFlight(EControlOutcome outcome, std::string_view detail, ClientActions& out);
     void SettleWaiting(std::string_view detail, ClientActions& out);
     void FinishInFlight(ClientActions& out);

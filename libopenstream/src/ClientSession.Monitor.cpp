@@ -67,7 +67,7 @@ void ClientSession::Impl::HandleMonitorError(ErrorLine& error, ClientActions& ou
         return;
     }
     _bMonitorStopFirst = false;
-    Report(ClientMonitorRefused{std::move(error), _sentMonitorUrl}, out);
+    Report(ClientMonitorRefused{std::move(error), _sentMonitorURL}, out);
 }
 
 bool ClientSession::Impl::TrySendMonitor(Core::Now now, ClientActions& out)
@@ -87,7 +87,7 @@ bool ClientSession::Impl::TrySendMonitor(Core::Now now, ClientActions& out)
     {
         _meter.Begin(_monitor->period);
         _sentMonitorNumber = _monitorNumber;
-        _sentMonitorUrl = _monitor->url;
+        _sentMonitorURL = _monitor->url;
         SendAwaited(*_monitor, EInFlight::Monitor, now, out);
     }
     return _monitor.has_value();

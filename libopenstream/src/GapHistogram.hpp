@@ -20,13 +20,14 @@ class GapHistogram
     double _sum = 0.0;
     double _largest = 0.0;
 
-    [[nodiscard]] double GetPercentile(double share) const;
-
 public:
     /// Negative values are ignored.
     void Add(double milliseconds);
     void Clear();
     [[nodiscard]] GapStatistics GetStatistics() const;
+
+private:
+    [[nodiscard]] double GetPercentile(double share) const;
 };
 
 } // namespace ACS::OpenStream

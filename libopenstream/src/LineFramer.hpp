@@ -23,10 +23,6 @@ class LineFramer
     std::string_view _input;
     bool _bOverflown = false;
 
-    [[nodiscard]] std::optional<std::string_view> TakeRawLineOrNull();
-    [[nodiscard]] std::optional<std::string_view> CutKeptOrNull();
-    void KeepPartialLine();
-
 public:
     /// Maximum number of bytes of a line without its end.
     explicit LineFramer(std::size_t maximumLine);
@@ -48,6 +44,11 @@ public:
 
     /// Discards everything, for a new connection.
     void Reset();
+
+private:
+    [[nodiscard]] std::optional<std::string_view> TakeRawLineOrNull();
+    [[nodiscard]] std::optional<std::string_view> CutKeptOrNull();
+    void KeepPartialLine();
 };
 
 } // namespace ACS::OpenStream

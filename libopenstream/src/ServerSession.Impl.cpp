@@ -208,14 +208,14 @@ void ServerSession::Impl::Handle(const HandshakeRequest& request, Core::Now /*no
 void ServerSession::Impl::FillRequest(
     EApiMethod method,
     std::string_view url,
-    const std::optional<Core::JsonText>& args,
+    const std::optional<Core::JsonText>& argsOrNull,
     ApiRequest& request)
 {
     request.method = method;
-    SplitUrl(url, request);
-    if (args.has_value())
+    SplitURL(url, request);
+    if (argsOrNull.has_value())
     {
-        AddArguments(*args, request);
+        AddArguments(*argsOrNull, request);
     }
 }
 

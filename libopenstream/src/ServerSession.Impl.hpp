@@ -77,7 +77,7 @@ private:
     static void FillRequest(
         EApiMethod method,
         std::string_view url,
-        const std::optional<Core::JsonText>& args,
+        const std::optional<Core::JsonText>& argsOrNull,
         ApiRequest& request);
     void StopMonitor(ServerActions& out);
     [[nodiscard]] bool TryStopControl(ServerActions& out);

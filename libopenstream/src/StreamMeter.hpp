@@ -29,8 +29,6 @@ class StreamMeter
     std::size_t _next = 0;
     std::size_t _filled = 0;
 
-    void Note(bool bInTime);
-
 public:
     /// A MONITOR starts or replaces another one: resets all values.
     void Begin(std::chrono::milliseconds period);
@@ -39,6 +37,9 @@ public:
     std::uint64_t Add(double ts, Core::SteadyTime receivedAt);
 
     [[nodiscard]] StreamQuality GetQuality() const;
+
+private:
+    void Note(bool bInTime);
 };
 
 } // namespace ACS::OpenStream

@@ -327,10 +327,10 @@ void MasterSession::Impl::OnFactsheet(std::string_view payload, MasterActions& o
     out.emplace_back(FactsheetReceived{});
 }
 
-void MasterSession::Impl::ReportDifferences(const std::optional<StateMessage>& previous, MasterActions& out) const
+void MasterSession::Impl::ReportDifferences(const std::optional<StateMessage>& previousOrNull, MasterActions& out) const
 {
     const StateMessage none;
-    const StateMessage& before = previous.has_value() ? *previous : none;
+    const StateMessage& before = previousOrNull.has_value() ? *previousOrNull : none;
     const ActionIndex actionsBefore(before.actionStates);
     for (const ActionState& action : _state->actionStates)
     {

@@ -120,7 +120,7 @@ private:
     /// Whether the last known mode allows orders and instant actions.
     [[nodiscard]] bool IsUnderMasterControl() const;
 
-    void ReportDifferences(const std::optional<StateMessage>& previous, MasterActions& out) const;
+    void ReportDifferences(const std::optional<StateMessage>& previousOrNull, MasterActions& out) const;
     void SettlePendingActions(const ActionIndex& shown, MasterActions& out);
     void SettleInFlight(Core::Now now, MasterActions& out);
     void AcceptInFlight(Core::Now now, MasterActions& out);

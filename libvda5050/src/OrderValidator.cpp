@@ -69,9 +69,9 @@ void CheckBase(const OrderMessage& order, OrderFindings& findings)
 }
 
 /// NaN is out of every range.
-bool IsWithin(const std::optional<double>& value, double minimum, double maximum)
+bool IsWithin(const std::optional<double>& valueOrNull, double minimum, double maximum)
 {
-    return !value.has_value() || (*value >= minimum && *value <= maximum);
+    return !valueOrNull.has_value() || (*valueOrNull >= minimum && *valueOrNull <= maximum);
 }
 
 bool HasBadNumbers(const NodePosition& position)

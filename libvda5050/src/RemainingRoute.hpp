@@ -77,10 +77,6 @@ class RemainingRoute
     std::size_t _bytes = 0;    ///< Maximum size of the released steps in a state.
     std::string _startNodeID;  ///< Start node of the first edge.
 
-    [[nodiscard]] static Step MakeStep(OrderEdge edge, OrderNode node);
-    [[nodiscard]] const std::string& GetStartNodeID(std::size_t index) const;
-    [[nodiscard]] std::size_t Measure(std::size_t index) const;
-
 public:
     /// Appends the order without its first node.
     void Append(OrderMessage order);
@@ -114,6 +110,11 @@ public:
     /// As states show them.
     [[nodiscard]] NodeState GetNodeState(std::size_t index) const;
     [[nodiscard]] EdgeState GetEdgeState(std::size_t index) const;
+
+private:
+    [[nodiscard]] static Step MakeStep(OrderEdge edge, OrderNode node);
+    [[nodiscard]] const std::string& GetStartNodeID(std::size_t index) const;
+    [[nodiscard]] std::size_t Measure(std::size_t index) const;
 };
 
 } // namespace ACS::VDA5050

@@ -60,11 +60,6 @@ private:
     std::unordered_map<std::string_view, Iterator> _index; ///< The keys point into _held, whose elements never move.
     Counts _counts{};
 
-    [[nodiscard]] static Counts Measure(const ReportedAction& held);
-    void Count(const ReportedAction& held);
-    void Discount(const ReportedAction& held);
-    [[nodiscard]] std::size_t Get(ECount count) const noexcept;
-
 public:
     ReportedActions() = default;
     ReportedActions(const ReportedActions&) = delete;
@@ -107,6 +102,12 @@ public:
     [[nodiscard]] Iterator end() noexcept;              // NOLINT(readability-identifier-naming)
     [[nodiscard]] ConstIterator begin() const noexcept; // NOLINT(readability-identifier-naming)
     [[nodiscard]] ConstIterator end() const noexcept;   // NOLINT(readability-identifier-naming)
+
+private:
+    [[nodiscard]] static Counts Measure(const ReportedAction& held);
+    void Count(const ReportedAction& held);
+    void Discount(const ReportedAction& held);
+    [[nodiscard]] std::size_t Get(ECount count) const noexcept;
 };
 
 } // namespace ACS::VDA5050

@@ -24,28 +24,28 @@ void DropNonFinite(std::optional<double>& number)
 }
 
 /// As stated, and no more than is read.
-std::size_t GetMost(std::optional<std::uint32_t> limit)
+std::size_t GetMost(std::optional<std::uint32_t> limitOrNull)
 {
-    return limit.value_or(0) == 0 ? StateRoom::ARRAY : std::min<std::size_t>(*limit, StateRoom::ARRAY);
+    return limitOrNull.value_or(0) == 0 ? StateRoom::ARRAY : std::min<std::size_t>(*limitOrNull, StateRoom::ARRAY);
 }
 
-bool IsTooLong(std::size_t size, std::optional<std::uint32_t> limit)
+bool IsTooLong(std::size_t size, std::optional<std::uint32_t> limitOrNull)
 {
-    return size > GetMost(limit);
+    return size > GetMost(limitOrNull);
 }
 
 template <typename TItem>
-void Cut(std::vector<TItem>& items, std::optional<std::uint32_t> limit)
+void Cut(std::vector<TItem>& items, std::optional<std::uint32_t> limitOrNull)
 {
-    if (IsTooLong(items.size(), limit))
+    if (IsTooLong(items.size(), limitOrNull))
     {
-        items.resize(GetMost(limit));
+        items.resize(GetMost(limitOrNull));
     }
 }
 
-void CutErrors(std::vector<VehicleError>& errors, std::optional<std::uint32_t> limit)
+void CutErrors(std::vector<VehicleError>& errors, std::optional<std::uint32_t> limitOrNull)
 {
-    while (IsTooLong(errors.size(), limit))
+    while (IsTooLong(errors.size(), limitOrNull))
     {
         const auto firstWarning = std::ranges::find(errors, EErrorLevel::Warning, &VehicleError::errorLevel);
         errors.erase(firstWarning == errors.end() ? errors.begin() : firstWarning);

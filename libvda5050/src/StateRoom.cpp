@@ -30,13 +30,13 @@ std::size_t MeasureText(std::string_view text)
     });
 }
 
-std::size_t MeasureTrajectory(const std::optional<Trajectory>& trajectory)
+std::size_t MeasureTrajectory(const std::optional<Trajectory>& trajectoryOrNull)
 {
     constexpr std::size_t FIXED = 64;
     constexpr std::size_t NUMBER = 26;
     constexpr std::size_t POINT = 3 * NUMBER + 24;
-    return trajectory.has_value()
-        ? FIXED + NUMBER * trajectory->knotVector.size() + POINT * trajectory->controlPoints.size()
+    return trajectoryOrNull.has_value()
+        ? FIXED + NUMBER * trajectoryOrNull->knotVector.size() + POINT * trajectoryOrNull->controlPoints.size()
         : 0;
 }
 

@@ -30,7 +30,7 @@ static_assert(ORDER_BYTES + CONTROL_BYTES < CodecLimits{}.payloadBytes * 3 / 4);
 
 // At least as many bytes as the element takes in a state.
 [[nodiscard]] std::size_t MeasureText(std::string_view text);
-[[nodiscard]] std::size_t MeasureTrajectory(const std::optional<Trajectory>& trajectory);
+[[nodiscard]] std::size_t MeasureTrajectory(const std::optional<Trajectory>& trajectoryOrNull);
 
 /// Of an Action or an ActionState; with a short result.
 template <typename TAction>

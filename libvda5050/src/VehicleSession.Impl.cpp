@@ -50,7 +50,7 @@ VehicleSession::Impl::Impl(VehicleOptions options)
 void VehicleSession::Impl::OnPosition(
     const AgvPosition& position,
     const Velocity& velocity,
-    std::optional<double> distanceSinceLastNode)
+    std::optional<double> distanceSinceLastNodeOrNull)
 {
     if (!IsFinite(position))
     {
@@ -65,8 +65,8 @@ void VehicleSession::Impl::OnPosition(
     }
     _velocity = velocity;
     DropNonFinite(*_velocity);
-    _distanceSinceLastNode = distanceSinceLastNode;
-    if (!std::isfinite(distanceSinceLastNode.value_or(0.0)))
+    _distanceSinceLastNode = distanceSinceLastNodeOrNull;
+    if (!std::isfinite(distanceSinceLastNodeOrNull.value_or(0.0)))
     {
         _distanceSinceLastNode.reset();
     }
@@ -85,21 +85,21 @@ void VehicleSession::Impl::OnBattery(const BatteryState& battery, Core::Now now,
     Settle(now, out);
 }
 
-void VehicleSession::Impl::OnLoads(std::optional<std::vector<Load>> loads, Core::Now now, VehicleActions& out)
+void VehicleSession::Impl::OnLoads(std::optional<std::vector<Load>> loadsOrNull, Core::Now now, VehicleActions& out)
 {
-    if (loads.has_value())
+    if (loadsOrNull.has_value())
     {
-        std::ranges::for_each(*loads, [](Load& load) { DropNonFinite(load); });
+        std::ranges::for_each(*loadsOrNull, [](Load& load) { DropNonFinite(load); });
     }
-    _bStateDue = _bStateDue || loads != _loads;
-    _loads = std::move(loads);
+    _bStateDue = _bStateDue || loadsOrNull != _loads;
+    _loads = std::move(loadsOrNull);
     Settle(now, out);
 }
 
-void VehicleSession::Impl::OnMaps(std::optional<std::vector<MapState>> maps, Core::Now now, VehicleActions& out)
+void VehicleSession::Impl::OnMaps(std::optional<std::vector<MapState>> mapsOrNull, Core::Now now, VehicleActions& out)
 {
-    _bStateDue = _bStateDue || maps != _maps;
-    _maps = std::move(maps);
+    _bStateDue = _bStateDue || mapsOrNull != _maps;
+    _maps = std::move(mapsOrNull);
     Settle(now, out);
 }
 

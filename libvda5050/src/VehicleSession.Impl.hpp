@@ -113,7 +113,10 @@ public:
     bool TrySetLastNode(std::string nodeID, Core::Now now, VehicleActions& out);
     bool TrySetOutsideCorridor(bool bOutside, Core::Now now, VehicleActions& out);
     bool TrySetTrajectory(std::uint32_t edgeSequenceID, Trajectory trajectory, Core::Now now, VehicleActions& out);
-    void OnPosition(const AgvPosition& position, const Velocity& velocity, std::optional<double> distanceSinceLastNode);
+    void OnPosition(
+        const AgvPosition& position,
+        const Velocity& velocity,
+        std::optional<double> distanceSinceLastNodeOrNull);
     void OnDrivingChanged(bool bDriving, Core::Now now, VehicleActions& out);
     bool TrySetActionStatus(
         std::string_view actionID,
@@ -122,8 +125,8 @@ public:
         Core::Now now,
         VehicleActions& out);
     void OnBattery(const BatteryState& battery, Core::Now now, VehicleActions& out);
-    void OnLoads(std::optional<std::vector<Load>> loads, Core::Now now, VehicleActions& out);
-    void OnMaps(std::optional<std::vector<MapState>> maps, Core::Now now, VehicleActions& out);
+    void OnLoads(std::optional<std::vector<Load>> loadsOrNull, Core::Now now, VehicleActions& out);
+    void OnMaps(std::optional<std::vector<MapState>> mapsOrNull, Core::Now now, VehicleActions& out);
     void OnErrors(std::vector<VehicleError> errors, Core::Now now, VehicleActions& out);
     void OnInformation(std::vector<Information> information);
     void OnSafetyState(const SafetyState& safety, Core::Now now, VehicleActions& out);

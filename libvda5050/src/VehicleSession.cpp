@@ -88,9 +88,9 @@ bool VehicleSession::TrySetTrajectory(
 void VehicleSession::OnPosition(
     const AgvPosition& position,
     const Velocity& velocity,
-    std::optional<double> distanceSinceLastNode)
+    std::optional<double> distanceSinceLastNodeOrNull)
 {
-    _impl->OnPosition(position, velocity, distanceSinceLastNode);
+    _impl->OnPosition(position, velocity, distanceSinceLastNodeOrNull);
 }
 
 void VehicleSession::OnDrivingChanged(bool bDriving, Core::Now now, VehicleActions& out)
@@ -113,14 +113,14 @@ void VehicleSession::OnBattery(const BatteryState& battery, Core::Now now, Vehic
     _impl->OnBattery(battery, now, out);
 }
 
-void VehicleSession::OnLoads(std::optional<std::vector<Load>> loads, Core::Now now, VehicleActions& out)
+void VehicleSession::OnLoads(std::optional<std::vector<Load>> loadsOrNull, Core::Now now, VehicleActions& out)
 {
-    _impl->OnLoads(std::move(loads), now, out);
+    _impl->OnLoads(std::move(loadsOrNull), now, out);
 }
 
-void VehicleSession::OnMaps(std::optional<std::vector<MapState>> maps, Core::Now now, VehicleActions& out)
+void VehicleSession::OnMaps(std::optional<std::vector<MapState>> mapsOrNull, Core::Now now, VehicleActions& out)
 {
-    _impl->OnMaps(std::move(maps), now, out);
+    _impl->OnMaps(std::move(mapsOrNull), now, out);
 }
 
 void VehicleSession::OnErrors(std::vector<VehicleError> errors, Core::Now now, VehicleActions& out)

@@ -136,7 +136,7 @@ Json WriteHeader(const Header& header)
 {
     return Json{
         {"headerId", header.headerID},
-        {"timestamp", Core::FormatUtc(header.timestamp)},
+        {"timestamp", Core::FormatUTC(header.timestamp)},
         {"version", header.version},
         {"manufacturer", header.manufacturer},
         {"serialNumber", header.serialNumber}};

@@ -4,7 +4,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace ACS; // NOLINT(google-build-using-namespace)
-    const Core::Result<Planning::SiteMap> site = Planning::DecodeLif(Fuzz::AsText(data, size));
+    const Core::Result<Planning::SiteMap> site = Planning::DecodeLIF(Fuzz::AsText(data, size));
     if (site)
     {
         for (const Planning::SiteEdge& edge : site->GetEdges())

@@ -5,7 +5,7 @@
 
 int main()
 {
-    const ACS::Core::Result<ACS::Planning::SiteMap> site = ACS::Planning::DecodeLif("{}");
+    const ACS::Core::Result<ACS::Planning::SiteMap> site = ACS::Planning::DecodeLIF("{}");
     const std::string sentence = site.has_value() ? std::string() : ACS::Core::Describe(site.error());
     std::puts(sentence.c_str());
     return sentence.find("metaInformation") == std::string::npos ? 1 : 0;

@@ -78,7 +78,7 @@ class Vehicles(ScenarioCase):
 
     def wait_for_reason(self, plan_id, reason):
         """Until only this plan is left, and waits with this reason."""
-        message = f"No robot can do it: {reason}."
+        message = f"No robot can execute the plan: {reason}."
         self.wait_for_status(self.http, lambda status: [
             (plan["planId"], (plan["waits"] or {}).get("message")) for plan in status["plans"]] == [(plan_id, message)],
             FINISH_SECONDS)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plants one violation after another in an otherwise right tree, and requires that scripts/check_layers.py,
-scripts/check_files.py, scripts/check_references.py, scripts/check_sizes.py and scripts/check_words.py report it at its
-line; the tree without it must pass."""
+scripts/check_files.py, scripts/check_members.py, scripts/check_references.py, scripts/check_sizes.py and
+scripts/check_words.py report it at its line; the tree without it must pass."""
 
 import os
 import subprocess
@@ -13,12 +13,13 @@ sys.path.insert(0, os.path.join(ROOT, "scripts"))
 sys.dont_write_bytecode = True
 import check_files  # noqa: E402
 import check_layers  # noqa: E402
+import check_members  # noqa: E402
 import check_references  # noqa: E402
 import check_sizes  # noqa: E402
 import check_words  # noqa: E402
 
-CHECKS = {"layers": check_layers, "files": check_files, "references": check_references, "sizes": check_sizes,
-          "words": check_words}
+CHECKS = {"layers": check_layers, "files": check_files, "members": check_members, "references": check_references,
+          "sizes": check_sizes, "words": check_words}
 
 RIGHT = {
     "libacs-core/include/acs/core/Location.hpp": "#pragma once\n#include <fmt/core.h>\nclass Location\n{\n};\n",
@@ -147,6 +148,18 @@ PLANTED = [
     ("words", "docs/guide.md", "Time to look around.\n", 1, "write check"),
     ("words", "docs/guide.md", "`a` Every mistake `b`\n", 1, "write error"),
     ("words", "docs/guide.md", "There is no objection.\n", 1, "write rejection reason"),
+    ("members", "libacs-core/src/Box.cpp", "class Box\n{\n    int Get();\n\npublic:\n    Box();\n};\n", 6,
+     "a constructor of Box is after a private method"),
+    ("members", "libacs-core/src/Box.cpp", "class Box\n{\n    int _a = 0;\n\npublic:\n    using Size = int;\n};\n", 6,
+     "a public type or constant of Box is after data"),
+    ("members", "libacs-core/src/Box.cpp", "class Box\n{\npublic:\n    Box();\n\nprivate:\n    std::map<int, int> _a{{1, 2}};\n};\n", 7,
+     "data of Box is after a constructor"),
+    ("members", "libacs-core/src/Box.cpp", "class Box\n{\nprivate:\n    void Run() { One(); }\npublic:\n    int Get() const;\n};\n",
+     6, "a public method of Box is after a private method"),
+    ("members", "libacs-core/src/Box.cpp", "void Open(int size,\n          const std::optional<int>& limit);\n", 1,
+     "parameter limit may be null"),
+    ("members", "libacs-core/src/Box.cpp", "int Open(Box* box)\n{\n    return 1;\n}\n", 1, "parameter box may be null"),
+    ("members", "tests/unit/Box.cpp", "int one;\nstd::string orderId;\n", 2, "orderId: an abbreviation"),
     ("words", "docs/guide.md", "As long as it is there\n", 1, "write while"),
     ("words", "docs/guide.md", "So many controllers\n", 1, "write number of"),
     ("words", "docs/guide.md", "The robot stands at a node; it stands for AMR.\n", 1, "write is stationary"),
@@ -172,6 +185,13 @@ ACCEPTED = [
     ("files", "examples/e07_own_robot_adapter.cpp", "int one;\n" * 149),
     ("files", "examples/e09_small_acs.cpp", "int one;\n" * 500),
     ("layers", "libplan/src/Engine.cpp", "const char* text = \"steady_clock::now()\"; // steady_clock::now()\n"),
+    ("members", "libacs-core/src/Box.cpp", "class Box final : public IBox\n{\npublic:\n    enum class EKind\n    {\n        One,\n    };\n"
+     "    static constexpr int LIMIT = 1;\n\nprivate:\n    class Impl;\n    std::unique_ptr<Impl> _impl{new Impl()};\n\npublic:\n"
+     "    explicit Box(int* sizeOrNull);\n    ~Box();\n    Box& operator=(const Box&) = delete;\n    bool operator==(const Box&) const;\n"
+     "    int Get(const char* name, std::optional<int>& out);\n\nprotected:\n    int Read();\n\nprivate:\n    void Run() {}\n};\n"),
+    ("members", "libacs-core/src/Box.cpp", "// orderId\nint HttpCode = GetURL(\"mapId\", ParseRapidJson);\n"),
+    ("members", "libacs-core/src/Box.cpp", "struct Pair\n{\n    int Sum();\n    int one = 0;\n};\n"
+     "void Run() { if (const std::optional<int> next = Get()) { Use(2 * next); } }\n"),
     ("words", "docs/guide.md", "`nobody` stands for [it](told.md); a look-up, on-going, wished. They mistake the order for another.\n"),
     ("words", "tests/install/consumer_Core.cpp", "int mistake = nobody(told); // counts\n"),
     ("words", "libplan/src/Engine.cpp", "// Sources that are not covered yet: nobody is told.\n"),

@@ -74,7 +74,7 @@ public:
         return _port;
     }
 
-    [[nodiscard]] std::string GetUrl() const
+    [[nodiscard]] std::string GetURL() const
     {
         return "mqtt://127.0.0.1:" + std::to_string(_port);
     }

@@ -54,7 +54,7 @@ void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig
             fmt::format("{} cannot be read ({}); give the path of a LIF file", config.siteFile, text.error()));
         return;
     }
-    Core::Result<Planning::SiteMap> site = Planning::DecodeLif(*text);
+    Core::Result<Planning::SiteMap> site = Planning::DecodeLIF(*text);
     if (site)
     {
         config.site = std::move(*site);
@@ -86,7 +86,7 @@ void ReadStore(const ConfigSection& root, const std::string& fileName, bool bSto
     }
 }
 
-void ReadHttp(const ConfigSection& root, AcsdConfig& config)
+void ReadHTTP(const ConfigSection& root, AcsdConfig& config)
 {
     const ConfigSection http = root.GetSection("http");
     config.httpListen = http.GetEndpoint("listen", config.httpListen);
@@ -119,7 +119,7 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
     config.relayIndex = bByte ? EArmRelayIndex::Byte : EArmRelayIndex::Value;
     ReadSite(root, fileName, config);
     ReadStore(root, fileName, bStoreInspected, config);
-    ReadHttp(root, config);
+    ReadHTTP(root, config);
     ReadEngineConfig(root, config.engine);
     ReadStations(root, config);
     ReadRobots(root, config);

@@ -76,7 +76,7 @@ void RefuseSharedWords(const ConfigSection& arm, const std::vector<CounterWord>&
 ArmOptions ReadArmOptions(const ConfigSection& arm, const ArmOptions& defaults)
 {
     ArmOptions options = defaults;
-    options.monitorUrl = arm.GetString("monitor_url", options.monitorUrl);
+    options.monitorURL = arm.GetString("monitor_url", options.monitorURL);
     options.firstByte =
         static_cast<std::uint32_t>(arm.GetInteger("monitor_start", 0, HIGHEST_RELAY_BYTE, options.firstByte));
     options.period = arm.GetDuration("monitor_period", 2ms, 30s, options.period);

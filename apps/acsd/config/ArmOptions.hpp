@@ -13,7 +13,7 @@ namespace ACS::Acsd
 /// and how the inputs of a program are written.
 struct ArmOptions
 {
-    std::string monitorUrl = "/project/plc/m/val_s32";
+    std::string monitorURL = "/project/plc/m/val_s32";
     std::uint32_t firstByte = 400;
     std::chrono::milliseconds period{20};
     std::size_t startedIndex = 0;

@@ -25,7 +25,7 @@ constexpr std::int64_t SMALLEST_TEXT = 1'024;
 constexpr std::int64_t LARGEST_TEXT = 1024LL * 1024 * 1024;
 
 /// Certificates are read when the client is made; what is wrong with them is a mistake of the configuration all the same.
-void ReadTls(const ConfigSection& mcs, const std::string& fileName, McsConfig& config)
+void ReadTLS(const ConfigSection& mcs, const std::string& fileName, McsConfig& config)
 {
     if (!mcs.HasKey("tls"))
     {
@@ -48,7 +48,7 @@ void ReadTls(const ConfigSection& mcs, const std::string& fileName, McsConfig& c
     {
         return;
     }
-    const Core::Result<void> checked = ProtocolBeast::CheckClientTls(config.tls, config.url.peer.host);
+    const Core::Result<void> checked = ProtocolBeast::CheckClientTLS(config.tls, config.url.peer.host);
     if (!checked.has_value())
     {
         Core::Error error = checked.error();
@@ -122,7 +122,7 @@ void ReadSession(const ConfigSection& mcs, Protocol::SessionOptions& session)
     readCount("max_rx_bytes", SMALLEST_TEXT, LARGEST_TEXT, session.codec.maximumBytes);
     session.codec.bUnknownMembersRefused = mcs.GetWord("unknown_fields", {"ignore", "reject"}, "ignore") == "reject";
     session.codec.bLegacyNames = mcs.IsEnabled("legacy_aliases", session.codec.bLegacyNames);
-    session.codec.bLenientJson = mcs.IsEnabled("json_lenient", session.codec.bLenientJson);
+    session.codec.bLenientJSON = mcs.IsEnabled("json_lenient", session.codec.bLenientJSON);
 }
 
 void ReadStyle(const ConfigSection& mcs, McsConfig& config)
@@ -186,8 +186,8 @@ void ReadMcsConfig(
     std::vector<std::string>& mistakes)
 {
     const ConfigSection mcs = root.GetSection("mcs");
-    config.url = mcs.GetUrl("url", {EUrlScheme::Ws, EUrlScheme::Wss});
-    ReadTls(mcs, fileName, config);
+    config.url = mcs.GetURL("url", {EUrlScheme::Ws, EUrlScheme::Wss});
+    ReadTLS(mcs, fileName, config);
     ReadHeaders(mcs, config);
     ReadPing(mcs, config);
     ReadSession(mcs, config.session);

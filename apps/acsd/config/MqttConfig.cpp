@@ -73,7 +73,7 @@ void ReadPassword(
 }
 
 /// The files are read at each connect; that they are there is seen at the start all the same.
-void ReadTls(
+void ReadTLS(
     const ConfigSection& mqtt,
     const std::string& fileName,
     MqttConfig& config,
@@ -122,20 +122,20 @@ void ReadMqttConfig(
     std::vector<std::string>& warnings)
 {
     const ConfigSection mqtt = root.GetSection("mqtt");
-    config.url = mqtt.GetUrl("url", {EUrlScheme::Mqtt, EUrlScheme::Mqtts});
+    config.url = mqtt.GetURL("url", {EUrlScheme::Mqtt, EUrlScheme::Mqtts});
     config.interfaceName = mqtt.GetString("interface_name", config.interfaceName);
     if (config.interfaceName.empty() || config.interfaceName.find_first_of("/+#$") != std::string::npos)
     {
         mqtt.AddMistake("interface_name", "must be one level of a topic: not empty, without / + # $");
     }
     ReadPassword(mqtt, fileName, config, warnings);
-    ReadTls(mqtt, fileName, config, warnings);
+    ReadTLS(mqtt, fileName, config, warnings);
 }
 
 VDA5050::MosquittoOptions MakeMqttOptions(const MqttConfig& config, Core::IRandom& random)
 {
     VDA5050::MosquittoOptions options;
-    options.clientID = "acsd-" + Core::MakeUuid(random);
+    options.clientID = "acsd-" + Core::MakeUUID(random);
     options.host = config.url.peer.host;
     options.port = config.url.peer.port;
     options.username = config.username;

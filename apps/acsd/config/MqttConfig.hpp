@@ -18,7 +18,7 @@ struct MqttConfig
     std::string interfaceName = "uagv";
     std::string username; ///< Empty: none.
     std::string password; ///< First line of its file.
-    VDA5050::MosquittoTls tls;
+    VDA5050::MosquittoTLS tls;
 };
 
 /// Relative paths count from the folder of the file. What is not wrong, but should not be so, is added to warnings.

@@ -67,7 +67,7 @@ std::optional<Apps::Url> ReadArmOrNull(
         return std::nullopt;
     }
     const ConfigSection section = robot.GetSection("arm");
-    Apps::Url url = section.GetUrl("url", {EUrlScheme::Tcp});
+    Apps::Url url = section.GetURL("url", {EUrlScheme::Tcp});
     const auto twin = std::ranges::find_if(others, [&url](const RobotLinkConfig& other) {
         return other.armOrNone.has_value() && *other.armOrNone == url && !url.peer.host.empty();
     });

@@ -79,7 +79,7 @@ void WriteOutbox(Json::JsonWriter& writer, const Planning::OutboxSummary& outbox
     writer.Key("oldest");
     if (outbox.oldest.has_value())
     {
-        writer.WriteString(Core::FormatUtc(*outbox.oldest));
+        writer.WriteString(Core::FormatUTC(*outbox.oldest));
     }
     else
     {

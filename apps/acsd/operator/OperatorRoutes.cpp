@@ -276,7 +276,7 @@ void AddOperatorRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& eng
         add(fmt::format("/tsc/{}", word), {}, [access, bPause, word](const HttpRequest&, const Captures&) {
             return HandOn(
                 access,
-                Planning::ControlTsc{bPause, 0},
+                Planning::ControlTSC{bPause, 0},
                 fmt::format("The TSC is told to {}; /status has its state.", word),
                 bPause ? EUnstored::Taken : EUnstored::Refused);
         });

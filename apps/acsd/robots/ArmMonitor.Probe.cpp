@@ -90,7 +90,7 @@ void ArmMonitor::BeginProbe(EArmProbe probe, AdapterActions& out)
 {
     StartProbeTimer(out);
     _view = Probe{probe, false};
-    Monitor(GetProbeUrl(probe), _options.period, std::nullopt);
+    Monitor(GetProbeURL(probe), _options.period, std::nullopt);
 }
 
 /// One that was taken and not answered, or refused, is not shown by this controller.
@@ -103,7 +103,7 @@ ArmFact ArmMonitor::AbandonProbe(bool bHidden)
     return ArmProbed{kind, std::nullopt};
 }
 
-std::string_view ArmMonitor::GetProbeUrl(EArmProbe probe)
+std::string_view ArmMonitor::GetProbeURL(EArmProbe probe)
 {
     return probe == EArmProbe::Motor ? MOTOR_STATE_URL : GENERAL_URL;
 }

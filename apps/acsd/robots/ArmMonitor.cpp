@@ -85,7 +85,7 @@ std::size_t ArmMonitor::GetWordCount() const
 
 void ArmMonitor::WatchCounters(ArmView view)
 {
-    Monitor(_options.monitorUrl, _options.period, MakeRangeArgs(_options.firstByte, GetWordCount()));
+    Monitor(_options.monitorURL, _options.period, MakeRangeArgs(_options.firstByte, GetWordCount()));
     _bRelaysLate = _bRelaysLate || IsReadingRelays();
     _view = std::move(view);
 }
@@ -312,7 +312,7 @@ ArmFact ArmMonitor::OnRefused(const OpenStream::ClientMonitorRefused& refused, A
         return {};
     }
     if (const Probe* const probeOrNull = std::get_if<Probe>(&_view);
-        probeOrNull != nullptr && refused.url == GetProbeUrl(probeOrNull->kind))
+        probeOrNull != nullptr && refused.url == GetProbeURL(probeOrNull->kind))
     {
         return AbandonProbe(true);
     }
@@ -321,7 +321,7 @@ ArmFact ArmMonitor::OnRefused(const OpenStream::ClientMonitorRefused& refused, A
     {
         return ArmRelaysRefused{reason};
     }
-    const std::string_view wanted = _link == ELink::MotorOff ? MOTOR_STATE_URL : std::string_view(_options.monitorUrl);
+    const std::string_view wanted = _link == ELink::MotorOff ? MOTOR_STATE_URL : std::string_view(_options.monitorURL);
     if (_link == ELink::Lost || refused.url != wanted)
     {
         return {}; // another one has taken its place
@@ -384,7 +384,7 @@ bool ArmMonitor::TryRetry(AdapterActions& out)
                 fmt::format(
                     "MONITOR of {} shows no counters of the arm's programs. Check whether the controller has these "
                     "relays, and arm.monitor_url, arm.monitor_start and arm.counter_… of the configuration.",
-                    _options.monitorUrl));
+                    _options.monitorURL));
         }
     }
     out.emplace_back(Planning::StartAdapterTimer{ArmTimers::RETRY, ArmTimers::RETRY_DELAY});

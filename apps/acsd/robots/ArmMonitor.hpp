@@ -63,7 +63,7 @@ class ArmMonitor
     [[nodiscard]] ArmFact TakeRelays(const Core::JsonText& json);
     [[nodiscard]] ArmFact TakeCounters(const Core::JsonText& json, Planning::AdapterActions& out);
     [[nodiscard]] ArmFact AbandonProbe(bool bHidden);
-    [[nodiscard]] static std::string_view GetProbeUrl(EArmProbe probe);
+    [[nodiscard]] static std::string_view GetProbeURL(EArmProbe probe);
 
 public:
     /// The outputs and the controls must outlive it.

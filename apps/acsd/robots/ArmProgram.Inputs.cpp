@@ -5,76 +5,33 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
-
-// The inputs of a job's program: written after its selection, read back before its start. The counters are read last: while
-// MONITOR shows the inputs, another program may run.
+// The inputs of a job's program are written after its selection and read back before its start. The counters are read last,
+// because another program may run while MONITOR shows the inputs.
 
 namespace ACS::Acsd
 {
 
-namespace
-{
-
 using Planning::AdapterActions;
 
-constexpr std::string_view WRITE_URL = "/project/plc/set_relay_value";
-
-} // namespace
-
-void ArmProgram::Prepare()
+void ArmProgram::WriteInput()
 {
-    if (_work.job.inputs.empty())
-    {
-        _state = Prepared{true};
-    }
-    else
-    {
-        WriteInput({});
-    }
+    _state = WritingInputs{};
+    _controls.WriteInput(_work.inputs.GetCurrent());
 }
 
-void ArmProgram::WriteInput(WritingInputs writing)
+void ArmProgram::ReadInputs(AdapterActions& out)
 {
-    _state = writing;
-    const ArmInput& input = _work.job.inputs[writing.next];
-    _controls.Send(
-        EArmControl::WriteInput,
-        WRITE_URL,
-        fmt::format(R"({{"name":"{}","value":{}}})", input.relay.name, input.value));
-}
-
-void ArmProgram::ReadInputs(std::size_t attempt, AdapterActions& out)
-{
-    _state = ReadingInputs{attempt, {}};
+    _state = ReadingInputs{};
+    _work.inputs.BeginReading();
     _requests.push_back(EArmRequest::ReadInputs);
     out.emplace_back(Planning::StartAdapterTimer{ArmTimers::INPUT, _options.inputTimeout});
 }
 
 void ArmProgram::OnInputsRead(const std::vector<ArmRelayWords>& ranges, AdapterActions& out)
 {
-    ReadingInputs* const readingOrNull = std::get_if<ReadingInputs>(&_state);
-    if (readingOrNull == nullptr)
+    if (!Is<ReadingInputs>() || !_work.inputs.Verify(ranges))
     {
         return;
-    }
-    readingOrNull->difference.clear();
-    for (const ArmInput& input : _work.job.inputs)
-    {
-        std::optional<std::int32_t> value;
-        for (const ArmRelayWords& shown : ranges)
-        {
-            value = value.has_value() ? value : ReadRelayOrNull(input.relay, shown.range, shown.words);
-        }
-        if (!value.has_value() || !IsSameValue(input.relay, input.value, *value))
-        {
-            readingOrNull->difference = fmt::format(
-                "relay {} was written as {} and reads {}",
-                input.relay.name,
-                input.value,
-                value.has_value() ? fmt::format("{}", *value) : "nothing");
-            return;
-        }
     }
     out.emplace_back(Planning::CancelAdapterTimer{ArmTimers::INPUT});
     _state = VerifyingCounters{};
@@ -91,34 +48,20 @@ void ArmProgram::OnInputsRefused(const std::string& reason, AdapterActions& out)
 
 void ArmProgram::OnInputTimer(AdapterActions& out)
 {
-    const ReadingInputs* const readingOrNull = std::get_if<ReadingInputs>(&_state);
-    if (readingOrNull == nullptr)
+    if (!Is<ReadingInputs>())
     {
         return;
     }
-    if (readingOrNull->attempt < _options.inputRetries)
+    if (_work.inputs.TryRetry())
     {
-        WriteInput({readingOrNull->attempt + 1, 0});
+        WriteInput();
         return;
     }
     Fail(
         fmt::format(
             "the arm's controller does not store the inputs of the program, it was not started: {}",
-            readingOrNull->difference.empty() ? std::string("the relays are not shown") : readingOrNull->difference),
+            _work.inputs.DescribeDifference()),
         out);
-}
-
-void ArmProgram::OnInputWritten(AdapterActions& out)
-{
-    const WritingInputs writing = std::get<WritingInputs>(_state);
-    if (writing.next + 1 < _work.job.inputs.size())
-    {
-        WriteInput({writing.attempt, writing.next + 1});
-    }
-    else
-    {
-        ReadInputs(writing.attempt, out);
-    }
 }
 
 } // namespace ACS::Acsd

@@ -7,7 +7,7 @@
 
 #include <string_view>
 
-// What became of the CONTROLs, and what the probes after a refusal show.
+// The outcomes of the CONTROLs, and the probes after a refusal.
 
 namespace ACS::Acsd
 {
@@ -17,9 +17,9 @@ namespace
 
 using Planning::AdapterActions;
 
-/// After a refusal that came late, for a start to be seen.
+/// Maximum time for a program to begin after a refusal that arrived late.
 constexpr std::chrono::milliseconds REFUSED_START_LIMIT{2'000};
-/// Between two of them the counters can follow.
+/// Number of probes in a row that must find the program stopped: between two of them its last counters arrive.
 constexpr std::size_t PROBES_OF_HALT = 2;
 
 constexpr std::string_view ERROR_HALTED = "ARM-programHalted";
@@ -28,13 +28,11 @@ constexpr std::string_view ERROR_HALTED = "ARM-programHalted";
 
 void ArmProgram::OnSettled(const ArmSettlement& settlement, AdapterActions& out)
 {
-    if (!IsExpected(settlement.kind))
+    if (!ArmStates::IsAwaiting(_state, settlement.kind))
     {
         return; // of a job that has ended meanwhile
     }
-    const bool bMoves = settlement.kind == EArmControl::StartProgram || settlement.kind == EArmControl::StopProgram
-        || settlement.kind == EArmControl::ResumeProgram;
-    _bRewindDue = _bRewindDue || (bMoves && settlement.outcome != OpenStream::EControlOutcome::NotSent);
+    _controls.OnSettled(settlement.kind, settlement.outcome);
     switch (settlement.outcome)
     {
         case OpenStream::EControlOutcome::Accepted:
@@ -52,30 +50,6 @@ void ArmProgram::OnSettled(const ArmSettlement& settlement, AdapterActions& out)
     }
 }
 
-bool ArmProgram::IsExpected(EArmControl kind) const
-{
-    switch (kind)
-    {
-        case EArmControl::SelectProgram:
-            return Is<Selecting>();
-        case EArmControl::RewindProgram:
-            return Is<Rewinding>();
-        case EArmControl::WriteInput:
-            return Is<WritingInputs>();
-        case EArmControl::StartProgram:
-            return Is<Starting>();
-        case EArmControl::StopProgram:
-            return Is<Stopping>();
-        case EArmControl::ResumeProgram:
-            return Is<Resuming>();
-        case EArmControl::ResetProgram:
-            return Is<Resetting>();
-        case EArmControl::SwitchMotorOn:
-        default:
-            return false;
-    }
-}
-
 void ArmProgram::OnAccepted(EArmControl kind, AdapterActions& out)
 {
     switch (kind)
@@ -90,18 +64,21 @@ void ArmProgram::OnAccepted(EArmControl kind, AdapterActions& out)
             _requests.push_back(EArmRequest::VerifyEffect);
             break;
         case EArmControl::RewindProgram:
-            _bRewindDue = false;
             SelectUnlessCancelled(out);
             break;
         case EArmControl::WriteInput:
-            OnInputWritten(out);
+            if (_work.inputs.TryNext())
+            {
+                WriteInput();
+                break;
+            }
+            ReadInputs(out);
             break;
         case EArmControl::StartProgram:
             LeaveStarting();
             _requests.push_back(EArmRequest::VerifyCounters);
             break;
         case EArmControl::ResetProgram:
-            _resetPath = std::get<Resetting>(_state).bRCode ? EResetPath::RCode : EResetPath::TaskReset;
             Fail("cancelled while it was paused", out);
             break;
         case EArmControl::StopProgram:
@@ -125,7 +102,7 @@ void ArmProgram::SelectUnlessCancelled(AdapterActions& out)
     }
 }
 
-/// It was started, or may have been.
+/// The program was started, or may have been.
 void ArmProgram::LeaveStarting()
 {
     if (std::get<Starting>(_state).bBegun)
@@ -138,7 +115,7 @@ void ArmProgram::LeaveStarting()
     }
 }
 
-/// The connection is gone, or the CONTROL never left.
+/// The connection is lost, or the CONTROL was not sent.
 void ArmProgram::OnUnanswered(EArmControl kind, OpenStream::EControlOutcome outcome, AdapterActions& out)
 {
     switch (kind)
@@ -146,16 +123,16 @@ void ArmProgram::OnUnanswered(EArmControl kind, OpenStream::EControlOutcome outc
         case EArmControl::StartProgram:
             if (outcome == OpenStream::EControlOutcome::NotSent)
             {
-                Disown(out);
+                ReportNotStarted(out);
                 return;
             }
-            // Started or not: the counters show it after the reconnect. It is never started a second time.
+            // The counters show after the reconnect whether it was started. It is never started a second time.
             LeaveStarting();
             break;
         case EArmControl::StopProgram:
         case EArmControl::ResumeProgram:
             _work.bResumeRepeated = _work.bResumeRepeated || kind == EArmControl::ResumeProgram;
-            _state = Doubtful{};
+            _state = Unverified{};
             break;
         case EArmControl::ResetProgram:
             _state = Stopped{};
@@ -165,7 +142,7 @@ void ArmProgram::OnUnanswered(EArmControl kind, OpenStream::EControlOutcome outc
         case EArmControl::WriteInput:
         case EArmControl::SwitchMotorOn:
         default:
-            Disown(out); // selected perhaps, but not started
+            ReportNotStarted(out); // it may be selected, but it was not started
             break;
     }
 }
@@ -175,7 +152,7 @@ void ArmProgram::OnControlRefused(EArmControl kind, const ArmRefusal& refusal, A
     const bool bBeforeStart = kind == EArmControl::SelectProgram || kind == EArmControl::WriteInput;
     if (bBeforeStart && TryRewind(refusal))
     {
-        return; // of the selection, however late
+        return; // a late refusal of the selection
     }
     switch (kind)
     {
@@ -183,24 +160,29 @@ void ArmProgram::OnControlRefused(EArmControl kind, const ArmRefusal& refusal, A
             Refuse(refusal.reason);
             break;
         case EArmControl::RewindProgram:
-            SelectUnlessCancelled(out); // a controller may not know it, and the selection shows whether it is needed
+            SelectUnlessCancelled(
+                out); // a controller may not know the rewind; the selection shows whether it is needed
             break;
         case EArmControl::WriteInput:
             Refuse(fmt::format(
                 "relay {} of the arm was not written: {}",
-                _work.job.inputs[std::get<WritingInputs>(_state).next].relay.name,
+                _work.inputs.GetCurrent().relay.name,
                 refusal.reason));
             break;
         case EArmControl::StopProgram:
             _state = Running{EArmStart::Sent, true, 0};
             break;
         case EArmControl::ResumeProgram:
-            // A motor that is off, or a program that runs already, is no fault of the job's.
+            // The job does not fail when the motor is off or the program runs already.
             _state = ResumeRefused{refusal.reason, false, false};
             _requests.push_back(EArmRequest::ProbeMotor);
             break;
         case EArmControl::ResetProgram:
-            OnResetRefused();
+            if (!_controls.TryOtherReset())
+            {
+                _work.bCancelled = false;
+                _state = Stopped{};
+            }
             break;
         case EArmControl::StartProgram:
             OnStartRefused(refusal, out);
@@ -211,10 +193,10 @@ void ArmProgram::OnControlRefused(EArmControl kind, const ArmRefusal& refusal, A
     }
 }
 
-/// One of the selection, that came late, says nothing of the start: whether the program begins shows it.
+/// A late refusal of the selection does not refuse the start: the counters show whether the program begins.
 void ArmProgram::OnStartRefused(const ArmRefusal& refusal, AdapterActions& out)
 {
-    if (!IsOfSelection(refusal))
+    if (!ArmProgramControls::IsRewindWanted(refusal))
     {
         Refuse(refusal.reason);
         return;
@@ -228,23 +210,11 @@ void ArmProgram::OnStartRefused(const ArmRefusal& refusal, AdapterActions& out)
     _requests.push_back(EArmRequest::VerifyCounters);
 }
 
-/// The program was surely not started. The motor is probed before the job fails: one that is off is no fault of the job's.
+/// The program was certainly not started. The motor is probed first: the job does not fail when it is off.
 void ArmProgram::Refuse(std::string reason)
 {
     _state = Refused{std::move(reason)};
     _requests.push_back(EArmRequest::ProbeMotor);
-}
-
-/// Versions before 60.30 do not know r_code, later ones refuse the reset of a task.
-void ArmProgram::OnResetRefused()
-{
-    if (_resetPath == EResetPath::Unknown && std::get<Resetting>(_state).bRCode)
-    {
-        ResetProgram(EResetPath::TaskReset);
-        return;
-    }
-    _work.bCancelled = false;
-    _state = Stopped{};
 }
 
 void ArmProgram::OnFault(const ArmRefusal& refusal, AdapterActions& out)
@@ -259,7 +229,7 @@ void ArmProgram::OnFault(const ArmRefusal& refusal, AdapterActions& out)
     }
     else if (awaitedOrNull != nullptr && awaitedOrNull->start != EArmStart::Unknown)
     {
-        // Where the controller was slow it may be of the selection, and the program begins yet.
+        // It may be a late refusal of the selection: the program may still begin.
         awaitedOrNull->refusal = refusal.reason;
         out.emplace_back(Planning::StartAdapterTimer{ArmTimers::START, REFUSED_START_LIMIT});
     }
@@ -285,17 +255,17 @@ void ArmProgram::OnMotorProbed(AdapterActions& out)
     }
 }
 
-/// A program that could not be started comes again when the motor is on; one that could not be resumed is probed then.
+/// A job whose program could not be started is commanded again when the motor is on.
 void ArmProgram::OnMotorOff(AdapterActions& out)
 {
     if (Is<Refused>())
     {
-        Disown(out);
+        ReportNotStarted(out);
     }
 }
 
-/// It may have been resumed at the controller, and may have come to its end by now: only one that is seen stopped, with its
-/// counters as they were, is started or reset.
+/// The program may have been resumed at the controller, and may have ended by now. Only a program that is found stopped,
+/// with unchanged counters, is resumed or reset.
 void ArmProgram::ProbeRefusedProgram()
 {
     std::get<ResumeRefused>(_state).bSeenStopped = false;
@@ -314,7 +284,7 @@ void ArmProgram::OnPlaybackHidden(AdapterActions& out)
         _state = Running{};
         return;
     }
-    Fail(fmt::format("it was paused and does not resume: {}", refusedOrNull->refusal), out);
+    Fail(fmt::format("it was paused and cannot be resumed: {}", refusedOrNull->refusal), out);
 }
 
 void ArmProgram::OnPlaybackProbed(std::optional<bool> bPlayingOrNull, bool bWatched)
@@ -347,20 +317,20 @@ void ArmProgram::OnPlaybackProbed(std::optional<bool> bPlayingOrNull, bool bWatc
     }
     else
     {
-        ++runningOrNull->standingProbes;
+        ++runningOrNull->stoppedProbes;
     }
 }
 
-/// A program that has come to its end is stopped, too: that it has not shows only by counters of after the probe.
+/// A program that has ended is stopped, too. Only counters that are newer than the probe show that it has not ended.
 void ArmProgram::OnCounted(bool bWatched, AdapterActions& out)
 {
     const Running* const runningOrNull = std::get_if<Running>(&_state);
-    if (runningOrNull != nullptr && bWatched && runningOrNull->standingProbes >= PROBES_OF_HALT)
+    if (runningOrNull != nullptr && bWatched && runningOrNull->stoppedProbes >= PROBES_OF_HALT)
     {
-        Halt(fmt::format(
-            "The arm's program of job {} is stopped before its end. Find out why at the controller. Resume it there, or "
-            "abandon it there: the job then fails.",
-            _work.job.jobID));
+        RaiseHalt(fmt::format(
+            "The arm's program of job {} is stopped before its end. Find the cause at the controller. Resume the program "
+            "there, or abandon it there: the job then fails.",
+            _work.jobID));
     }
     ResumeRefused* const refusedOrNull = std::get_if<ResumeRefused>(&_state);
     if (refusedOrNull == nullptr || !std::exchange(refusedOrNull->bSeenStopped, false))
@@ -373,23 +343,24 @@ void ArmProgram::OnCounted(bool bWatched, AdapterActions& out)
         return;
     }
     refusedOrNull->bRetries = true;
-    Halt(fmt::format(
-        "The arm's program of job {} was paused and does not resume: {}. Retrying in 5 s. Or resume it at the controller, or "
+    RaiseHalt(fmt::format(
+        "The arm's program of job {} was paused and cannot be resumed: {}. Retrying in 5 s. Resume it at the controller, or "
         "abandon it there: the job then fails.",
-        _work.job.jobID,
+        _work.jobID,
         refusedOrNull->refusal));
     out.emplace_back(Planning::StartAdapterTimer{ArmTimers::RETRY, ArmTimers::RETRY_DELAY});
 }
 
 void ArmProgram::Retry()
 {
-    if (IsRetryDue())
+    if (const ResumeRefused* const refusedOrNull = std::get_if<ResumeRefused>(&_state);
+        refusedOrNull != nullptr && refusedOrNull->bRetries)
     {
         ProbeRefusedProgram();
     }
 }
 
-void ArmProgram::Halt(std::string message)
+void ArmProgram::RaiseHalt(std::string message)
 {
     _trouble = {std::string(ERROR_HALTED), Planning::EAlarmLevel::Heavy, std::move(message)};
 }
@@ -398,7 +369,7 @@ void ArmProgram::ForgetHalt()
 {
     if (Running* const runningOrNull = std::get_if<Running>(&_state))
     {
-        runningOrNull->standingProbes = 0;
+        runningOrNull->stoppedProbes = 0;
     }
     _trouble.reset();
 }

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
-
 namespace ACS::Acsd
 {
 
@@ -16,19 +14,9 @@ namespace
 using Planning::AdapterActions;
 using Planning::RaiseEvent;
 
-constexpr std::string_view SELECT_URL = "/project/context/tasks[0]/cur_prog_cnt";
-constexpr std::string_view REWIND_URL = "/project/context/tasks[0]/set_cur_pc_idx";
-constexpr std::string_view START_URL = "/project/robot/start";
-constexpr std::string_view STOP_URL = "/project/robot/stop";
-constexpr std::string_view RCODE_URL = "/project/service/r_code/execute";
-constexpr std::string_view RESET_URL = "/project/context/tasks[0]/reset";
-
-/// Bad program counter: a selection wants set_cur_pc_idx first.
-constexpr std::int64_t BAD_COUNTER = -1'245'280;
-
-/// Of a program that begins; some count from 0.
+/// The step of a program that begins. Some controllers count from 0.
 constexpr std::int64_t FIRST_STEP = 1;
-/// For a program to raise its first counter when it is not known whether its start arrived.
+/// Maximum time for a program to raise its first counter when it is unknown whether its start arrived.
 constexpr std::chrono::milliseconds START_LIMIT{10'000};
 
 } // namespace
@@ -39,10 +27,15 @@ ArmProgram::ArmProgram(ArmOptions options, ArmControls& controls)
 {
 }
 
+void ArmProgram::SetWork(ArmJob job)
+{
+    _work = {std::move(job.jobID), job.program, ArmInputTransfer(std::move(job.inputs), _options.inputRetries)};
+}
+
 void ArmProgram::Start(ArmJob job)
 {
-    _work = {std::move(job)};
-    if (_bRewindDue)
+    SetWork(std::move(job));
+    if (_controls.IsRewindDue())
     {
         Rewind();
     }
@@ -55,29 +48,19 @@ void ArmProgram::Start(ArmJob job)
 void ArmProgram::Select()
 {
     _state = Selecting{};
-    // ext_sel 1: as it must be in remote mode, without which there is no start.
-    _controls.Send(
-        EArmControl::SelectProgram,
-        SELECT_URL,
-        fmt::format(R"({{"pno":{},"sno":0,"fno":0,"ext_sel":1}})", _work.job.program));
+    _controls.Select(_work.program);
 }
 
-/// After a start or stop a controller may refuse a selection for its program counter, which is set before the next one.
 void ArmProgram::Rewind()
 {
     _state = Rewinding{};
-    _controls.Send(EArmControl::RewindProgram, REWIND_URL, R"({"idx":1})");
+    _controls.Rewind();
 }
 
-bool ArmProgram::IsOfSelection(const ArmRefusal& refusal)
-{
-    return refusal.codeOrNone == BAD_COUNTER;
-}
-
-/// A program that was started or stopped by others: the counter is set, once, and it is selected again.
+/// Where a program was started or stopped by others, the counter is set once, and the program is selected again.
 bool ArmProgram::TryRewind(const ArmRefusal& refusal)
 {
-    if (!IsOfSelection(refusal) || std::exchange(_work.bRewound, true))
+    if (!ArmProgramControls::IsRewindWanted(refusal) || std::exchange(_work.bRewound, true))
     {
         return false;
     }
@@ -85,38 +68,13 @@ bool ArmProgram::TryRewind(const ArmRefusal& refusal)
     return true;
 }
 
-void ArmProgram::StartProgram()
-{
-    _state = Starting{};
-    _controls.Send(EArmControl::StartProgram, START_URL, "{}");
-}
-
-void ArmProgram::StopProgram()
-{
-    _state = Stopping{};
-    _controls.Send(EArmControl::StopProgram, STOP_URL, "{}");
-}
-
-void ArmProgram::ResumeProgram()
-{
-    _state = Resuming{};
-    _controls.Send(EArmControl::ResumeProgram, START_URL, "{}");
-}
-
-void ArmProgram::ResetProgram(EResetPath path)
-{
-    const bool bRCode = path == EResetPath::RCode;
-    _state = Resetting{bRCode};
-    _controls.Send(EArmControl::ResetProgram, bRCode ? RCODE_URL : RESET_URL, bRCode ? R"({"code":1})" : "{}");
-}
-
 void ArmProgram::Cancel(const std::string& jobID, AdapterActions& out)
 {
-    if (jobID != _work.job.jobID || !HasJob())
+    if (jobID != _work.jobID || !HasJob())
     {
         return;
     }
-    if (IsBeforeStart())
+    if (ArmStates::IsBeforeStart(_state))
     {
         Fail("cancelled before it was started", out);
         return;
@@ -133,7 +91,7 @@ void ArmProgram::SetPauseWanted(bool bWanted)
     {
         runningOrNull->bStopRefused = false;
     }
-    DoubtFound();
+    VerifyRecovered();
 }
 
 void ArmProgram::OnPauseSeen() noexcept
@@ -141,25 +99,25 @@ void ArmProgram::OnPauseSeen() noexcept
     _bPauseKnown = true;
 }
 
-/// Where there were pauses, a program that was found after a restart may be stopped: only by being stopped and started again
-/// it surely runs.
-void ArmProgram::DoubtFound()
+/// Where there were pauses, a program that was found after a restart may be stopped. It is stopped and resumed, after which
+/// it is known to run.
+void ArmProgram::VerifyRecovered()
 {
     const Running* const runningOrNull = std::get_if<Running>(&_state);
     if (runningOrNull != nullptr && runningOrNull->start == EArmStart::Counted && _bPauseKnown)
     {
         _work.bResumeRepeated = true;
-        _state = Doubtful{};
+        _state = Unverified{};
     }
 }
 
 void ArmProgram::Recover(ArmJob job, bool bBegun, AdapterActions& out)
 {
-    _work = {std::move(job)};
+    SetWork(std::move(job));
     _state = Awaited{bBegun ? EArmStart::Counted : EArmStart::Unknown, {}};
     if (!bBegun)
     {
-        // It may be on its way still. A program that has not raised its first counter by then was not started.
+        // The start may still be on its way. A program that has not raised its first counter by then was not started.
         out.emplace_back(Planning::StartAdapterTimer{ArmTimers::START, START_LIMIT});
     }
 }
@@ -174,35 +132,41 @@ void ArmProgram::Advance(bool bFree, bool bProbing, AdapterActions& out)
     {
         if (_bPauseWanted)
         {
-            preparedOrNull->bVerified = _work.job.inputs.empty(); // they may be overwritten meanwhile
+            preparedOrNull->bVerified = _work.inputs.GetInputs().empty(); // they may be overwritten meanwhile
         }
         else if (preparedOrNull->bVerified)
         {
-            StartProgram();
+            _state = Starting{};
+            _controls.Start();
         }
         else
         {
-            ReadInputs(0, out);
+            ReadInputs(out);
         }
     }
     else if (const Running* const runningOrNull = std::get_if<Running>(&_state))
     {
         if (_bPauseWanted && !runningOrNull->bStopRefused)
         {
-            StopProgram();
+            _state = Stopping{};
+            _controls.Stop();
         }
     }
-    else if (Is<Doubtful>())
+    else if (Is<Unverified>())
     {
-        StopProgram(); // starting it on suspicion could run it a second time, had it come to its end
+        // Not resumed: a program that has ended would run a second time.
+        _state = Stopping{};
+        _controls.Stop();
     }
     else if (Is<Stopped>() && _work.bCancelled)
     {
-        ResetProgram(_resetPath == EResetPath::Unknown ? EResetPath::RCode : _resetPath);
+        _state = Resetting{};
+        _controls.Reset();
     }
     else if (Is<Stopped>() && !_bPauseWanted)
     {
-        ResumeProgram();
+        _state = Resuming{};
+        _controls.Resume();
     }
     else if (const ResumeRefused* const refusedOrNull = std::get_if<ResumeRefused>(&_state))
     {
@@ -224,13 +188,13 @@ void ArmProgram::OnProof(const ArmProof& proof, const std::string& echo, Adapter
     switch (proof.outcome)
     {
         case ArmProof::EOutcome::Finished:
-            Finish(out);
+            out.emplace_back(RaiseEvent{Planning::JobFinished{End(out)}});
             break;
         case ArmProof::EOutcome::Failed:
-            Fail("the arm's program gave up", out);
+            Fail("the arm's program reported a failure", out);
             break;
         case ArmProof::EOutcome::OtherProgram:
-            Hold(fmt::format("the arm's counters were raised by another program: {}", echo), out);
+            ReportUnresolved(fmt::format("the arm's counters were raised by another program: {}", echo), out);
             break;
         case ArmProof::EOutcome::Open:
         default:
@@ -243,25 +207,27 @@ void ArmProgram::Begin(AdapterActions& out)
     Starting* const startingOrNull = std::get_if<Starting>(&_state);
     if (startingOrNull != nullptr && !std::exchange(startingOrNull->bBegun, true))
     {
-        out.emplace_back(RaiseEvent{Planning::JobStarted{_work.job.jobID}});
+        out.emplace_back(RaiseEvent{Planning::JobStarted{_work.jobID}});
     }
     else if (const Awaited* const awaitedOrNull = std::get_if<Awaited>(&_state))
     {
-        out.emplace_back(RaiseEvent{Planning::JobStarted{_work.job.jobID}});
+        out.emplace_back(RaiseEvent{Planning::JobStarted{_work.jobID}});
         _state = Running{awaitedOrNull->start};
-        DoubtFound();
+        VerifyRecovered();
     }
 }
 
 void ArmProgram::OnRestarted(AdapterActions& out)
 {
-    Hold("the arm's controller was restarted while its program ran, or might have: its counters began again", out);
+    ReportUnresolved(
+        "the arm's controller was restarted while its program was running or being started: the counters have fallen",
+        out);
 }
 
-/// A program that ran since the selection: nothing that is seen later could tell it from this job's.
+/// Another program has run since the selection. Its counters could not be distinguished from those of this job's program.
 void ArmProgram::OnCountedBeforeStart(AdapterActions& out)
 {
-    Disown(out);
+    ReportNotStarted(out);
 }
 
 void ArmProgram::OnVerified(bool bUnchanged, AdapterActions& out)
@@ -269,12 +235,18 @@ void ArmProgram::OnVerified(bool bUnchanged, AdapterActions& out)
     const bool bBeforeStart = Is<VerifyingSelection>() || Is<VerifyingCounters>();
     if (bBeforeStart && !bUnchanged)
     {
-        // The selection has abandoned a program, or another one was run: no evidence could tell them apart.
-        Disown(out);
+        // The selection has abandoned a program, or another one has run: the counters do not distinguish them.
+        ReportNotStarted(out);
     }
     else if (Is<VerifyingSelection>())
     {
-        Prepare();
+        if (_work.inputs.GetInputs().empty())
+        {
+            _state = Prepared{true};
+            return;
+        }
+        _work.inputs.Begin();
+        WriteInput();
     }
     else if (Is<VerifyingCounters>())
     {
@@ -294,7 +266,7 @@ bool ArmProgram::IsEffectShown(const GeneralState& state) const
 {
     if (Is<VerifyingSelection>())
     {
-        return state.program == std::int64_t{_work.job.program} && state.step.value_or(0) <= FIRST_STEP;
+        return state.program == std::int64_t{_work.program} && state.step.value_or(0) <= FIRST_STEP;
     }
     if (Is<Stopping>())
     {
@@ -307,7 +279,7 @@ bool ArmProgram::IsEffectShown(const GeneralState& state) const
     return true; // the job has ended meanwhile
 }
 
-/// A start that got lost on the way would leave the job running indefinitely.
+/// Without this limit a start that was lost on the way would leave the job running indefinitely.
 void ArmProgram::OnStartTimer(bool bEchoed, AdapterActions& out)
 {
     const Awaited* const awaitedOrNull = std::get_if<Awaited>(&_state);
@@ -317,7 +289,7 @@ void ArmProgram::OnStartTimer(bool bEchoed, AdapterActions& out)
     }
     if (bEchoed)
     {
-        Hold("the arm's program has echoed the job's number and does not raise its started counter", out);
+        ReportUnresolved("the arm's program has echoed the job's number but has not raised its started counter", out);
     }
     else if (!awaitedOrNull->refusal.empty())
     {
@@ -325,7 +297,7 @@ void ArmProgram::OnStartTimer(bool bEchoed, AdapterActions& out)
     }
     else if (awaitedOrNull->start == EArmStart::Unknown)
     {
-        Disown(out);
+        ReportNotStarted(out);
     }
     else
     {
@@ -350,24 +322,24 @@ void ArmProgram::OnCountersBack(AdapterActions& out)
 void ArmProgram::OnLost(AdapterActions& out)
 {
     _trouble.reset();
-    _resetPath = EResetPath::Unknown;
+    _controls.OnLost();
     out.emplace_back(Planning::CancelAdapterTimer{ArmTimers::START});
     if (Running* const runningOrNull = std::get_if<Running>(&_state))
     {
-        runningOrNull->standingProbes = 0;
+        runningOrNull->stoppedProbes = 0;
     }
     _work.bResumeRepeated = _work.bResumeRepeated || Is<Resuming>();
     if (Is<Stopping>() || Is<Resuming>())
     {
-        _state = Doubtful{};
+        _state = Unverified{};
     }
     else if (Is<Resetting>())
     {
         _state = Stopped{};
     }
-    else if (IsBeforeStart())
+    else if (ArmStates::IsBeforeStart(_state))
     {
-        Disown(out); // another one may be selected by the time the connection is back
+        ReportNotStarted(out); // another program may be selected when the connection is back
     }
 }
 
@@ -379,13 +351,7 @@ std::string ArmProgram::End(AdapterActions& out)
     }
     _state = NoJob{};
     _trouble.reset();
-    return std::exchange(_work, {}).job.jobID;
-}
-
-void ArmProgram::Finish(AdapterActions& out)
-{
-    std::string jobID = End(out);
-    out.emplace_back(RaiseEvent{Planning::JobFinished{std::move(jobID)}});
+    return std::exchange(_work, {}).jobID;
 }
 
 void ArmProgram::Fail(std::string reason, AdapterActions& out)
@@ -394,15 +360,15 @@ void ArmProgram::Fail(std::string reason, AdapterActions& out)
     out.emplace_back(RaiseEvent{Planning::JobFailed{std::move(jobID), std::move(reason)}});
 }
 
-/// What the arm shows proves nothing.
-void ArmProgram::Hold(std::string reason, AdapterActions& out)
+/// The counters do not prove the outcome of the job.
+void ArmProgram::ReportUnresolved(std::string reason, AdapterActions& out)
 {
     std::string jobID = End(out);
     out.emplace_back(RaiseEvent{Planning::JobUncertain{std::move(jobID), std::move(reason)}});
 }
 
-/// The program was surely not started: the job can be commanded again.
-void ArmProgram::Disown(AdapterActions& out)
+/// The program was certainly not started: the job can be commanded again.
+void ArmProgram::ReportNotStarted(AdapterActions& out)
 {
     std::string jobID = End(out);
     out.emplace_back(RaiseEvent{Planning::JobUnknown{std::move(jobID)}});
@@ -415,7 +381,7 @@ std::vector<EArmRequest> ArmProgram::TakeRequests()
 
 const std::vector<ArmInput>& ArmProgram::GetInputs() const noexcept
 {
-    return _work.job.inputs;
+    return _work.inputs.GetInputs();
 }
 
 bool ArmProgram::HasJob() const noexcept
@@ -423,19 +389,14 @@ bool ArmProgram::HasJob() const noexcept
     return !Is<NoJob>();
 }
 
-bool ArmProgram::IsBeforeStart() const
-{
-    return Is<VerifyingSelection>() || IsPreparing() || Is<Refused>();
-}
-
 bool ArmProgram::IsPreparing() const
 {
-    return Is<WritingInputs>() || Is<ReadingInputs>() || Is<VerifyingCounters>() || Is<Prepared>();
+    return ArmStates::IsPreparing(_state);
 }
 
 bool ArmProgram::IsCounted() const
 {
-    return HasJob() && !IsBeforeStart() && !Is<Selecting>() && !Is<Rewinding>();
+    return HasJob() && !ArmStates::IsBeforeStart(_state) && !Is<Selecting>() && !Is<Rewinding>();
 }
 
 bool ArmProgram::IsReadingInputs() const
@@ -457,12 +418,6 @@ bool ArmProgram::IsResumeDue() const
 {
     const bool bStopped = Is<Stopped>() || Is<Resetting>() || Is<Resuming>() || Is<ResumeRefused>();
     return bStopped && !_bPauseWanted;
-}
-
-bool ArmProgram::IsRetryDue() const
-{
-    const ResumeRefused* const refusedOrNull = std::get_if<ResumeRefused>(&_state);
-    return refusedOrNull != nullptr && refusedOrNull->bRetries;
 }
 
 bool ArmProgram::IsArmStopped() const

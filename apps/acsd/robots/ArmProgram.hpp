@@ -5,13 +5,14 @@
 #include "robots/ArmControls.hpp"
 #include "robots/ArmFact.hpp"
 #include "robots/ArmInput.hpp"
+#include "robots/ArmInputTransfer.hpp"
 #include "robots/ArmJobEvidence.hpp"
+#include "robots/ArmProgramControls.hpp"
 #include "robots/ArmProgramState.hpp"
 #include <acs/plan/IRobotAdapter.hpp>
 #include <acs/plan/RobotEvent.hpp>
 
 #include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -25,8 +26,8 @@ namespace ACS::Acsd
 /// What the program of a job needs MONITOR for.
 enum class EArmRequest : std::uint8_t
 {
-    VerifyEffect,   ///< The general state, then the counters of after the CONTROL that has settled.
-    VerifyCounters, ///< Those counters alone.
+    VerifyEffect,   ///< The general state, then the first counters after the CONTROL that has settled.
+    VerifyCounters, ///< Only those counters.
     ReadInputs,
     ProbeMotor,
     ProbePlayback,
@@ -40,37 +41,29 @@ struct ArmJob
     std::vector<ArmInput> inputs;
 };
 
-/// The program of one job, from its selection to its end: select, write the inputs, read them back, verify that no program
-/// has run meanwhile, start; stop and resume it for pauses, reset it where the job is cancelled. Each step is verified before
-/// the next. Whatever it needs to see is requested, and comes as an On… call.
+/// Runs the program of one job. It selects the program, writes its inputs, reads them back, verifies that no other program
+/// has run meanwhile, and starts it. It stops and resumes the program for a pause, and resets it when the job is cancelled.
+/// Each step is verified before the next. What must be observed for that is requested, and arrives as a call of On….
 class ArmProgram
 {
-    /// Found out once a connection.
-    enum class EResetPath : std::uint8_t
-    {
-        Unknown,
-        RCode,     ///< From version 60.30.
-        TaskReset, ///< Before.
-    };
-
-    /// The job, and what holds in several of its states.
+    /// The job, and what is valid in several of its states.
     struct Work
     {
-        ArmJob job;
+        std::string jobID;
+        std::uint32_t program = 0;
+        ArmInputTransfer inputs;
         bool bRewound = false;        ///< For its selection.
-        bool bResumeRepeated = false; ///< Its program may run already: that it does is no refusal.
-        bool bCancelled = false;      ///< Its program is reset as soon as it is surely stopped.
+        bool bResumeRepeated = false; ///< Its program may run already, in which case a refused resume is no failure.
+        bool bCancelled = false;      ///< Its program is reset as soon as it is known to be stopped.
     };
 
     ArmOptions _options;
-    ArmControls& _controls;
+    ArmProgramControls _controls;
     std::vector<EArmRequest> _requests;
     ArmStates::ArmProgramState _state;
-    Work _work;               ///< Empty without a job.
-    bool _bRewindDue = false; ///< A program was started or stopped since the program counter was set.
+    Work _work; ///< Empty without a job.
     bool _bPauseWanted = false;
-    bool _bPauseKnown = false; ///< The robot was paused or resumed, as far as is known here.
-    EResetPath _resetPath = EResetPath::Unknown;
+    bool _bPauseKnown = false; ///< The robot has been paused or resumed since this start of acsd.
     std::optional<Planning::RobotError> _trouble;
 
     template <typename TState>
@@ -79,56 +72,46 @@ class ArmProgram
         return std::holds_alternative<TState>(_state);
     }
 
+    void SetWork(ArmJob job);
     void Select();
+    void SelectUnlessCancelled(Planning::AdapterActions& out);
     void Rewind();
-    void WriteInput(ArmStates::WritingInputs writing);
-    void Prepare();
-    void OnInputWritten(Planning::AdapterActions& out);
-    void ReadInputs(std::size_t attempt, Planning::AdapterActions& out);
+    [[nodiscard]] bool TryRewind(const ArmRefusal& refusal);
+    void WriteInput();
+    void ReadInputs(Planning::AdapterActions& out);
     void LeaveStarting();
-    void StartProgram();
-    void StopProgram();
-    void ResumeProgram();
-    void ResetProgram(EResetPath path);
     void ProbeRefusedProgram();
-    void DoubtFound();
-    void OnResetRefused();
+    void VerifyRecovered();
     void OnAccepted(EArmControl kind, Planning::AdapterActions& out);
     void OnUnanswered(EArmControl kind, OpenStream::EControlOutcome outcome, Planning::AdapterActions& out);
     void OnControlRefused(EArmControl kind, const ArmRefusal& refusal, Planning::AdapterActions& out);
     void OnStartRefused(const ArmRefusal& refusal, Planning::AdapterActions& out);
-    void SelectUnlessCancelled(Planning::AdapterActions& out);
-    [[nodiscard]] bool TryRewind(const ArmRefusal& refusal);
-    [[nodiscard]] static bool IsOfSelection(const ArmRefusal& refusal);
     void Refuse(std::string reason);
     void Begin(Planning::AdapterActions& out);
-    /// The job's ID, which is the program's no longer.
+    /// Returns the ID of the job that has ended.
     [[nodiscard]] std::string End(Planning::AdapterActions& out);
-    void Finish(Planning::AdapterActions& out);
     void Fail(std::string reason, Planning::AdapterActions& out);
-    void Hold(std::string reason, Planning::AdapterActions& out);
-    void Disown(Planning::AdapterActions& out);
-    void Halt(std::string message);
-    [[nodiscard]] bool IsExpected(EArmControl kind) const;
-    [[nodiscard]] bool IsBeforeStart() const;
+    void ReportUnresolved(std::string reason, Planning::AdapterActions& out);
+    void ReportNotStarted(Planning::AdapterActions& out);
+    void RaiseHalt(std::string message);
 
 public:
     /// The controls must outlive it.
     ArmProgram(ArmOptions options, ArmControls& controls);
 
     void Start(ArmJob job);
-    /// Its program was found by the counters after a restart.
+    /// Continues a job of before a restart. bBegun: the counters show that its program has begun.
     void Recover(ArmJob job, bool bBegun, Planning::AdapterActions& out);
-    /// A program holds material: one that runs is never aborted, its end is reported as always. One that was stopped for a
-    /// pause is reset where it is.
+    /// A running program is never aborted, because it may hold material: its end is reported as usual. A program that is
+    /// stopped for a pause is reset.
     void Cancel(const std::string& jobID, Planning::AdapterActions& out);
     void SetPauseWanted(bool bWanted);
-    /// Its vehicle was seen paused.
+    /// The vehicle was reported paused.
     void OnPauseSeen() noexcept;
 
     /// A CONTROL has settled that was not the motor's.
     void OnSettled(const ArmSettlement& settlement, Planning::AdapterActions& out);
-    /// A refusal that came after the silence.
+    /// A refusal that arrived after the CONTROL had settled.
     void OnFault(const ArmRefusal& refusal, Planning::AdapterActions& out);
     void OnLost(Planning::AdapterActions& out);
 
@@ -142,7 +125,7 @@ public:
     void OnCounted(bool bWatched, Planning::AdapterActions& out);
     /// The first counters of a connection.
     void OnCountersBack(Planning::AdapterActions& out);
-    /// The counters of after the CONTROL have come; whether they are those of before the job.
+    /// The first counters after the CONTROL. bUnchanged: they are equal to those before the job.
     void OnVerified(bool bUnchanged, Planning::AdapterActions& out);
     [[nodiscard]] bool IsEffectShown(const GeneralState& state) const;
     void OnInputsRead(const std::vector<ArmRelayWords>& ranges, Planning::AdapterActions& out);
@@ -152,14 +135,14 @@ public:
     /// The motor is on, or the controller does not show it.
     void OnMotorProbed(Planning::AdapterActions& out);
     void OnMotorOff(Planning::AdapterActions& out);
-    /// Without a value where the controller did not answer.
+    /// Without a value when the controller did not answer.
     void OnPlaybackProbed(std::optional<bool> bPlayingOrNull, bool bWatched);
     void OnPlaybackHidden(Planning::AdapterActions& out);
-    /// Time to resume a program whose resuming was refused.
+    /// Time to resume a program whose resume was refused.
     void Retry();
     void ForgetHalt();
 
-    /// The next step, once it is known what came of the one before.
+    /// Begins the next step, if the last one is verified.
     void Advance(bool bFree, bool bProbing, Planning::AdapterActions& out);
 
     [[nodiscard]] std::vector<EArmRequest> TakeRequests();
@@ -173,9 +156,8 @@ public:
     [[nodiscard]] bool IsRunning() const;
     /// The result of a probe of the motor decides about the job.
     [[nodiscard]] bool IsMotorDecisive() const;
-    /// It is to resume, and is not known to.
+    /// It must be resumed, and is not verified to run.
     [[nodiscard]] bool IsResumeDue() const;
-    [[nodiscard]] bool IsRetryDue() const;
     [[nodiscard]] bool IsArmStopped() const;
     [[nodiscard]] const std::optional<Planning::RobotError>& GetTroubleOrNull() const noexcept;
 };

@@ -2,13 +2,12 @@
 
 #include "robots/ArmProgramState.hpp"
 
-// The states of ArmProgram by their own names. For its sources only.
+// Short names for the states of ArmProgram, for its sources only.
 
 namespace ACS::Acsd
 {
 
 using ArmStates::Awaited;
-using ArmStates::Doubtful;
 using ArmStates::EArmStart;
 using ArmStates::NoJob;
 using ArmStates::Prepared;
@@ -23,6 +22,7 @@ using ArmStates::Selecting;
 using ArmStates::Starting;
 using ArmStates::Stopped;
 using ArmStates::Stopping;
+using ArmStates::Unverified;
 using ArmStates::VerifyingCounters;
 using ArmStates::VerifyingSelection;
 using ArmStates::WritingInputs;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "robots/ArmControls.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -22,35 +24,32 @@ struct Rewinding
 {
 };
 
-/// The selection was not refused; the first counters of after it have not come.
+/// The selection was not refused. The first counters after it have not come.
 struct VerifyingSelection
 {
 };
 
+/// The CONTROL that writes one of the inputs is under way.
 struct WritingInputs
 {
-    std::size_t attempt = 0;
-    std::size_t next = 0; ///< The one under way.
 };
 
 struct ReadingInputs
 {
-    std::size_t attempt = 0;
-    std::string difference; ///< Of the latest sample; empty: none has come.
 };
 
-/// The inputs are as they were written; the first counters of after that have not come.
+/// The inputs are as they were written. The first counters after that have not come.
 struct VerifyingCounters
 {
 };
 
-/// It can be started, at the latest when the pause ends.
+/// It can be started as soon as no pause is wanted.
 struct Prepared
 {
-    bool bVerified = false; ///< Inputs and counters, just now.
+    bool bVerified = false; ///< Inputs and counters were verified last; otherwise the inputs are read again.
 };
 
-/// The controller refused one of these CONTROLs; the motor is probed.
+/// The controller refused a CONTROL before the program was started. The motor is probed.
 struct Refused
 {
     std::string reason;
@@ -62,29 +61,29 @@ struct Starting
     bool bBegun = false;
 };
 
-/// What is known of a program that is awaited.
+/// What is known of a start whose effect is awaited.
 enum class EArmStart : std::uint8_t
 {
-    Sent,    ///< It was started now.
-    Unknown, ///< It was started before a restart, or never.
-    Counted, ///< The counters show after a restart that it has begun; it may have been paused since.
+    Sent,    ///< Sent since this start of acsd.
+    Unknown, ///< Sent before a restart of acsd, or never.
+    Counted, ///< The counters show after a restart that the program has begun. It may have been paused since.
 };
 
 /// It was started, and has not begun.
 struct Awaited
 {
     EArmStart start = EArmStart::Sent;
-    std::string refusal; ///< One that came late; empty: none.
+    std::string refusal; ///< One that arrived late; empty: none.
 };
 
 struct Running
 {
     EArmStart start = EArmStart::Sent;
-    bool bStopRefused = false;      ///< Not asked for again before the next pause.
-    std::size_t standingProbes = 0; ///< In a row.
+    bool bStopRefused = false;     ///< Not sent again before the next pause.
+    std::size_t stoppedProbes = 0; ///< Probes in a row that found the program stopped.
 };
 
-/// The CONTROL that stops it was sent, and is not verified.
+/// The CONTROL that stops it was sent. Its effect is not verified.
 struct Stopping
 {
 };
@@ -93,28 +92,27 @@ struct Stopped
 {
 };
 
-/// Likewise of the one that starts it again.
+/// The CONTROL that resumes it was sent. Its effect is not verified.
 struct Resuming
 {
 };
 
-/// The connection broke meanwhile: it runs, or is stopped.
-struct Doubtful
+/// Whether it runs or is stopped is unknown, for example because the connection broke while it was being stopped.
+struct Unverified
 {
 };
 
-/// The controller refused to resume it: whether it runs is probed.
+/// The controller refused to resume it. Whether it runs is probed.
 struct ResumeRefused
 {
     std::string refusal;
-    bool bRetries = false;     ///< It is resumed as soon as another probe has seen that it is stopped.
-    bool bSeenStopped = false; ///< Counters are to come after that: it may have come to its end.
+    bool bRetries = false;     ///< It is resumed as soon as another probe has found it stopped.
+    bool bSeenStopped = false; ///< Counters must follow: the program may have ended.
 };
 
 /// The CONTROL that abandons it is under way.
 struct Resetting
 {
-    bool bRCode = false; ///< By r_code; otherwise by the reset of its task.
 };
 
 /// Where the program of a job is between its selection and its end.
@@ -134,8 +132,15 @@ using ArmProgramState = std::variant<
     Stopping,
     Stopped,
     Resuming,
-    Doubtful,
+    Unverified,
     ResumeRefused,
     Resetting>;
+
+/// The state is the one in which this CONTROL is under way. Otherwise its job has ended meanwhile.
+[[nodiscard]] bool IsAwaiting(const ArmProgramState& state, EArmControl kind);
+/// It is selected and not started: a program that changes the counters now is another one.
+[[nodiscard]] bool IsPreparing(const ArmProgramState& state);
+/// Its start was not sent, and no selection is under way.
+[[nodiscard]] bool IsBeforeStart(const ArmProgramState& state);
 
 } // namespace ACS::Acsd::ArmStates

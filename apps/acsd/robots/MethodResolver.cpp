@@ -42,7 +42,7 @@ std::string_view GetArea(std::string_view url)
 /// The first byte of the counter or echo that shares a byte with the relay.
 std::optional<std::size_t> FindCounterOrNull(const ArmRelay& relay, const ArmOptions& options)
 {
-    if (GetArea(relay.url) != GetArea(options.monitorUrl))
+    if (GetArea(relay.url) != GetArea(options.monitorURL))
     {
         return std::nullopt;
     }

@@ -46,7 +46,7 @@ std::string_view GetTypeName(EValueDataType type)
     }
 }
 
-JsonText MakeJson(const JobValue& value)
+JsonText MakeJSON(const JobValue& value)
 {
     return std::visit(
         Core::Overloaded{
@@ -62,7 +62,7 @@ JsonText MakeJson(const JobValue& value)
 std::string MakeText(const JobValue& value)
 {
     const auto* const text = std::get_if<std::string>(&value);
-    return text == nullptr ? MakeJson(value).GetText() : *text;
+    return text == nullptr ? MakeJSON(value).GetText() : *text;
 }
 
 std::optional<double> ReadNumberOrNull(const std::string& text)
@@ -80,14 +80,14 @@ std::optional<JsonText> MakeNumberOrNull(const JobValue& value)
         const std::optional<double> number = ReadNumberOrNull(*text);
         return number.has_value() ? std::optional(JsonText::FromNumber(*number)) : std::nullopt;
     }
-    return std::holds_alternative<bool>(value) ? std::nullopt : std::optional(MakeJson(value));
+    return std::holds_alternative<bool>(value) ? std::nullopt : std::optional(MakeJSON(value));
 }
 
 std::optional<JsonText> MakeIntegerOrNull(const JobValue& value)
 {
     if (std::holds_alternative<std::int64_t>(value))
     {
-        return MakeJson(value);
+        return MakeJSON(value);
     }
     const std::optional<JsonText> number = MakeNumberOrNull(value);
     const std::optional<double> whole = number.has_value() ? number->GetNumberOrNull() : std::nullopt;
@@ -263,10 +263,10 @@ tl::expected<JsonText, std::string> ParameterTemplate::Resolve(const JobData& da
         }
         const bool bConverted = IsScalar() && type.has_value();
         const std::optional<JsonText> converted =
-            bConverted ? ConvertOrNull(*value, *type) : std::optional(MakeJson(*value));
+            bConverted ? ConvertOrNull(*value, *type) : std::optional(MakeJSON(*value));
         if (!converted.has_value())
         {
-            return tl::unexpected(fmt::format("{} is not of type {}", MakeJson(*value).GetText(), GetTypeName(*type)));
+            return tl::unexpected(fmt::format("{} is not of type {}", MakeJSON(*value).GetText(), GetTypeName(*type)));
         }
         json += converted->GetText();
     }

@@ -21,7 +21,8 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
 {
     if (_bFactsheetAwaited)
     {
-        _deferredJob = job;
+        DropLoadCheck(out);
+        _job.Defer(job);
         return;
     }
     const std::optional<std::string> rejection = GetRejectionReasonOrNull(job.action);
@@ -33,15 +34,15 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
     const VDA5050::StateMessage* stateOrNull = _session.GetStateOrNull();
     if (stateOrNull == nullptr || stateOrNull->lastNodeID.empty())
     {
-        out.emplace_back(RaiseEvent{Planning::JobFailed{job.jobID, "the vehicle does not tell on which node it is"}});
+        out.emplace_back(RaiseEvent{Planning::JobFailed{job.jobID, "the vehicle does not report its node"}});
         return;
     }
-    _recovery.reset();
     DropLoadCheck(out);
+    _job.Clear();
     if (stateOrNull->orderID == job.commandID)
     {
-        // It came to the vehicle late, and is there all the same.
-        TakeUp(job, now, out);
+        // The order was believed lost, and has reached the vehicle late.
+        ResumeJob(job, now, out);
         return;
     }
     tl::expected<VDA5050::Action, std::string> action = _jobCheck->MakeAction(job);
@@ -50,16 +51,29 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
         out.emplace_back(RaiseEvent{Planning::JobFailed{job.jobID, action.error()}});
         return;
     }
-    _job = job;
-    _bJobStarted = false;
-    _pendingOrder = PendingOrder{MakeJobOrder(job, std::move(*action))};
+    _pendingOrder = MakeJobOrder(job, std::move(*action));
+    _job.Run(job);
     SendPendingOrder(now, out);
+}
+
+void Vda5050RobotAdapter::CancelJob(const std::string& jobID, Core::Now now, AdapterActions& out)
+{
+    const Planning::StartJob* const runningOrNull = _job.GetRunningOrNull();
+    if (_job.IsDeferred(jobID))
+    {
+        _job.Clear();
+        out.emplace_back(RaiseEvent{Planning::JobFailed{jobID, "cancelled before it was sent to the vehicle"}});
+    }
+    else if (runningOrNull != nullptr && runningOrNull->jobID == jobID)
+    {
+        CancelOrder(std::string(runningOrNull->commandID), now, out);
+    }
 }
 
 VDA5050::OrderMessage Vda5050RobotAdapter::MakeJobOrder(const Planning::StartJob& job, VDA5050::Action action) const
 {
     VDA5050::OrderMessage order;
-    // Plans may name a job as one before did: a vehicle takes an orderId that it knows for a repetition.
+    // Not the jobID, which a later plan may use again: a vehicle treats a known orderId as a repetition.
     order.orderID = job.commandID;
     VDA5050::OrderNode& node = order.nodes.emplace_back();
     node.nodeID = _session.GetStateOrNull()->lastNodeID;
@@ -68,54 +82,54 @@ VDA5050::OrderMessage Vda5050RobotAdapter::MakeJobOrder(const Planning::StartJob
     return order;
 }
 
-void Vda5050RobotAdapter::FindJob(Core::Now now, AdapterActions& out)
+void Vda5050RobotAdapter::RecoverJob(Core::Now now, AdapterActions& out)
 {
-    if (!_recovery.has_value() || !_session.IsReady())
+    const std::optional<Planning::RecoverJob> recoveryOrNull =
+        _session.IsReady() ? _job.TakeRecoveryOrNull() : std::nullopt;
+    if (!recoveryOrNull.has_value())
     {
         return;
     }
-    const Planning::RecoverJob recovery = *std::exchange(_recovery, std::nullopt);
+    const Planning::RecoverJob& recovery = *recoveryOrNull;
     const Planning::StartJob& job = recovery.job;
     const VDA5050::StateMessage& state = *_session.GetStateOrNull();
-    const auto tell = [&out, &job](const std::string& reason) {
+    const auto reportUnresolved = [&out, &job](const std::string& reason) {
         out.emplace_back(RaiseEvent{Planning::JobUncertain{job.jobID, reason}});
     };
     const bool bShown = std::ranges::count(state.actionStates, job.commandID, &VDA5050::ActionState::actionID) > 0;
     if (bShown)
     {
-        TakeUp(job, now, out);
+        ResumeJob(job, now, out);
     }
     else if (state.orderID.empty())
     {
-        tell("the vehicle shows no order, as after a restart of its own");
+        reportUnresolved("the vehicle shows no order, it may have been restarted");
     }
     else if (std::ranges::count(recovery.earlierIDs, state.orderID) > 0)
     {
-        // Orders are taken one after the other: this one never came.
+        // A vehicle accepts orders one after the other: this one did not reach it.
         out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});
     }
     else
     {
-        tell(fmt::format("the vehicle shows the order {} and nothing of this job", state.orderID));
+        reportUnresolved(fmt::format("the vehicle shows the order {} and not this job", state.orderID));
     }
 }
 
-void Vda5050RobotAdapter::TakeUp(const Planning::StartJob& job, Core::Now now, AdapterActions& out)
+void Vda5050RobotAdapter::ResumeJob(const Planning::StartJob& job, Core::Now now, AdapterActions& out)
 {
     const VDA5050::StateMessage& state = *_session.GetStateOrNull();
-    DropLoadCheck(out);
-    _job = job;
-    _bJobStarted = false;
+    _job.Run(job);
     const auto shown = std::ranges::find(state.actionStates, job.commandID, &VDA5050::ActionState::actionID);
     if (shown != state.actionStates.end())
     {
-        TakeAction({shown->actionID, shown->actionType, shown->actionStatus, shown->resultDescription}, out);
+        OnActionChanged({shown->actionID, shown->actionType, shown->actionStatus, shown->resultDescription}, out);
     }
-    if (!_job.has_value() || state.orderID != job.commandID)
+    if (_job.GetRunningOrNull() == nullptr || state.orderID != job.commandID)
     {
-        return; // its end is told, or will be by the action's own state
+        return; // its end is reported, or will be when the action's state shows it
     }
-    // The vehicle has the parameters. They may not be known here before its factsheet has come.
+    // The vehicle has the parameters. They may be unknown here before its factsheet has been received.
     VDA5050::Action action;
     action.actionType = shown == state.actionStates.end() || shown->actionType.empty() ? job.action : shown->actionType;
     action.actionID = job.commandID;
@@ -126,24 +140,27 @@ void Vda5050RobotAdapter::TakeUp(const Planning::StartJob& job, Core::Now now, A
     const Core::Result<void> resumed = _session.ResumeOrder(std::move(record), now, _sessionActions);
     if (!resumed)
     {
-        _job.reset();
+        _job.Clear();
         out.emplace_back(RaiseEvent{Planning::JobUncertain{job.jobID, Core::Describe(resumed.error())}});
     }
 }
 
-/// Whether the job's action goes on, which a vehicle may show together with paused.
+/// Whether the job's action runs, which a vehicle may show together with paused.
 bool Vda5050RobotAdapter::IsJobRunning(const VDA5050::StateMessage& state) const
 {
-    return _job.has_value() && std::ranges::any_of(state.actionStates, [this](const VDA5050::ActionState& action) {
-               return action.actionID == _job->commandID
+    const Planning::StartJob* const jobOrNull = _job.GetRunningOrNull();
+    return jobOrNull != nullptr
+        && std::ranges::any_of(state.actionStates, [jobOrNull](const VDA5050::ActionState& action) {
+               return action.actionID == jobOrNull->commandID
                    && (action.actionStatus == VDA5050::EActionStatus::Initializing
                        || action.actionStatus == VDA5050::EActionStatus::Running);
            });
 }
 
-void Vda5050RobotAdapter::TakeAction(const VDA5050::ActionChanged& action, AdapterActions& out)
+void Vda5050RobotAdapter::OnActionChanged(const VDA5050::ActionChanged& action, AdapterActions& out)
 {
-    if (!_job.has_value() || action.actionID != _job->commandID)
+    const Planning::StartJob* const jobOrNull = _job.GetRunningOrNull();
+    if (jobOrNull == nullptr || action.actionID != jobOrNull->commandID)
     {
         return;
     }
@@ -154,9 +171,9 @@ void Vda5050RobotAdapter::TakeAction(const VDA5050::ActionChanged& action, Adapt
         case VDA5050::EActionStatus::Initializing:
         case VDA5050::EActionStatus::Running:
         case VDA5050::EActionStatus::Paused:
-            if (!std::exchange(_bJobStarted, true))
+            if (_job.TryStart())
             {
-                out.emplace_back(RaiseEvent{Planning::JobStarted{_job->jobID}});
+                out.emplace_back(RaiseEvent{Planning::JobStarted{jobOrNull->jobID}});
             }
             break;
         case VDA5050::EActionStatus::Finished:
@@ -164,7 +181,7 @@ void Vda5050RobotAdapter::TakeAction(const VDA5050::ActionChanged& action, Adapt
             break;
         case VDA5050::EActionStatus::Failed:
             out.emplace_back(RaiseEvent{Planning::JobFailed{
-                std::exchange(_job, std::nullopt)->jobID,
+                _job.TakeRunning().jobID,
                 action.resultDescription.empty() ? "the vehicle's action failed" : action.resultDescription}});
             break;
         default:

@@ -8,58 +8,61 @@ namespace ACS::Acsd
 using Planning::AdapterActions;
 using Planning::RaiseEvent;
 
-/// The vehicle reports the end of the job's action. Its loads may follow later, or show that it did something else.
+/// The vehicle reports the end of the job's action. Its loads may follow later, or contradict it.
 void Vda5050RobotAdapter::OnJobDone(AdapterActions& out)
 {
-    const Planning::StartJob job = *std::exchange(_job, std::nullopt);
+    const Planning::StartJob job = _job.TakeRunning();
     const JobMethod* const methodOrNull = _methods.FindMethodOrNull(job.action);
-    _loadCheck.emplace(job, methodOrNull == nullptr ? Planning::EActionEffect::None : methodOrNull->effect);
+    LoadCheck check(job, methodOrNull == nullptr ? Planning::EActionEffect::None : methodOrNull->effect);
     const auto loads = _methods.GetPositions().MakePortLoadsOrNull(*_session.GetStateOrNull());
-    const bool bContradicted = loads.has_value() && _loadCheck->FindContradictionOrNull(*loads).has_value();
-    if (bContradicted)
+    if (loads.has_value() && check.FindContradictionOrNull(*loads).has_value())
     {
+        _job.VerifyLoads(std::move(check));
         out.emplace_back(Planning::StartAdapterTimer{LOAD_TIMER, _loadTimeout});
         return;
     }
     out.emplace_back(RaiseEvent{Planning::JobFinished{job.jobID}});
-    _loadCheck.reset();
 }
 
-/// A job is finished as soon as the loads agree; a vehicle that no longer reports any does not confirm it.
+/// A job is finished as soon as the loads agree. A vehicle that no longer reports loads does not confirm it.
 void Vda5050RobotAdapter::VerifyLoads(AdapterActions& out)
 {
-    const bool bAgreed = _loadCheck.has_value() && _state.loads.has_value()
-        && !_loadCheck->FindContradictionOrNull(*_state.loads).has_value();
+    const LoadCheck* const checkOrNull = _job.GetLoadCheckOrNull();
+    const std::optional<std::vector<Planning::PortLoad>>& loads = _report.GetState().loads;
+    const bool bAgreed =
+        checkOrNull != nullptr && loads.has_value() && !checkOrNull->FindContradictionOrNull(*loads).has_value();
     if (bAgreed)
     {
-        out.emplace_back(Planning::CancelAdapterTimer{LOAD_TIMER});
-        out.emplace_back(RaiseEvent{Planning::JobFinished{_loadCheck->GetJobID()}});
-        _loadCheck.reset();
+        const std::string jobID = checkOrNull->GetJobID();
+        DropLoadCheck(out);
+        out.emplace_back(RaiseEvent{Planning::JobFinished{jobID}});
     }
 }
 
 void Vda5050RobotAdapter::OnLoadTimeout(AdapterActions& out)
 {
-    if (!_loadCheck.has_value())
+    const LoadCheck* const checkOrNull = _job.GetLoadCheckOrNull();
+    if (checkOrNull == nullptr)
     {
         return;
     }
+    const std::optional<std::vector<Planning::PortLoad>>& loads = _report.GetState().loads;
     const std::optional<std::string> contradiction =
-        _state.loads.has_value() ? _loadCheck->FindContradictionOrNull(*_state.loads) : std::nullopt;
+        loads.has_value() ? checkOrNull->FindContradictionOrNull(*loads) : std::nullopt;
     out.emplace_back(RaiseEvent{Planning::JobUncertain{
-        _loadCheck->GetJobID(),
+        checkOrNull->GetJobID(),
         "the vehicle reports the action finished, but its loads disagree: "
             + contradiction.value_or("it no longer reports any")}});
-    _loadCheck.reset();
+    _job.Clear();
 }
 
-/// Another job begins, or this one is asked for again.
+/// The loads agree, another job begins, or this one is recovered.
 void Vda5050RobotAdapter::DropLoadCheck(AdapterActions& out)
 {
-    if (_loadCheck.has_value())
+    if (_job.GetLoadCheckOrNull() != nullptr)
     {
         out.emplace_back(Planning::CancelAdapterTimer{LOAD_TIMER});
-        _loadCheck.reset();
+        _job.Clear();
     }
 }
 

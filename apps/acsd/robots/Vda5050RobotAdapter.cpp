@@ -16,37 +16,6 @@ namespace
 using Planning::AdapterActions;
 using Planning::RaiseEvent;
 
-VDA5050::OrderNode MakeNode(const Planning::RouteNode& from)
-{
-    VDA5050::OrderNode node;
-    node.nodeID = from.nodeID;
-    VDA5050::NodePosition& position = node.nodePosition.emplace();
-    position.x = from.x;
-    position.y = from.y;
-    position.theta = from.theta;
-    position.mapID = from.mapID;
-    position.allowedDeviationXY = from.allowedDeviation;
-    return node;
-}
-
-VDA5050::OrderEdge MakeEdge(const Planning::RouteEdge& from)
-{
-    VDA5050::OrderEdge edge;
-    edge.edgeID = from.edgeID;
-    edge.startNodeID = from.startNodeID;
-    edge.endNodeID = from.endNodeID;
-    edge.maxSpeed = from.maxSpeed;
-    edge.maxRotationSpeed = from.maxRotationSpeed;
-    edge.orientation = from.orientation;
-    if (from.orientationType == "GLOBAL")
-    {
-        edge.orientationType = VDA5050::EOrientationType::Global;
-    }
-    edge.bRotationAllowed = from.bRotationAllowed;
-    edge.length = from.length;
-    return edge;
-}
-
 } // namespace
 
 Vda5050RobotAdapter::Vda5050RobotAdapter(
@@ -69,31 +38,20 @@ void Vda5050RobotAdapter::Handle(const Planning::RobotCommand& command, Core::No
         Core::Overloaded{
             [&](const Planning::Drive& drive) { StartDrive(drive, now, out); },
             [&](const Planning::ExtendDrive& extension) {
-                if (_route.has_value() && _route->GetOrderID() == extension.driveID)
+                if (IsDrive(extension.driveID))
                 {
-                    _wantedReleased = extension.releasedCount;
+                    _drive->Extend(extension.releasedCount);
                     SendPendingUpdate(now, out);
                 }
             },
             [&](const Planning::CancelDrive& cancel) { CancelOrder(cancel.driveID, now, out); },
             [&](const Planning::StartJob& job) { StartJob(job, now, out); },
             [&](const Planning::RecoverJob& recover) {
-                _deferredJob.reset();
-                _recovery = recover;
-                FindJob(now, out);
+                DropLoadCheck(out);
+                _job.Recover(recover);
+                RecoverJob(now, out);
             },
-            [&](const Planning::CancelJob& cancel) {
-                if (_deferredJob.has_value() && cancel.jobID == _deferredJob->jobID)
-                {
-                    _deferredJob.reset();
-                    out.emplace_back(
-                        RaiseEvent{Planning::JobFailed{cancel.jobID, "cancelled before the vehicle had it"}});
-                }
-                else if (_job.has_value() && cancel.jobID == _job->jobID)
-                {
-                    CancelOrder(_job->commandID, now, out);
-                }
-            },
+            [&](const Planning::CancelJob& cancel) { CancelJob(cancel.jobID, now, out); },
             [&](const Planning::Pause&) { SendInstantAction(VDA5050::ActionTypes::START_PAUSE, now); },
             [&](const Planning::Resume&) { SendInstantAction(VDA5050::ActionTypes::STOP_PAUSE, now); },
             [&](const Planning::StartCharging&) { SendInstantAction(VDA5050::ActionTypes::START_CHARGING, now); },
@@ -162,51 +120,34 @@ const VDA5050::MasterSession& Vda5050RobotAdapter::GetSession() const noexcept
 
 void Vda5050RobotAdapter::StartDrive(const Planning::Drive& drive, Core::Now now, AdapterActions& out)
 {
-    std::vector<VDA5050::OrderNode> nodes;
-    std::vector<VDA5050::OrderEdge> edges;
-    for (const Planning::RouteNode& node : drive.route.nodes)
+    Core::Result<VehicleDrive> made = VehicleDrive::Create(drive);
+    if (!made)
     {
-        nodes.push_back(MakeNode(node));
-    }
-    for (const Planning::RouteEdge& edge : drive.route.edges)
-    {
-        edges.push_back(MakeEdge(edge));
-    }
-    Core::Result<VDA5050::OrderBuilder> builder =
-        VDA5050::OrderBuilder::Create(drive.driveID, std::move(nodes), std::move(edges));
-    if (!builder)
-    {
-        out.emplace_back(RaiseEvent{Planning::DriveRejected{drive.driveID, Core::Describe(builder.error())}});
+        out.emplace_back(RaiseEvent{Planning::DriveRejected{drive.driveID, Core::Describe(made.error())}});
         return;
     }
-    Core::Result<VDA5050::OrderMessage> order = builder->MakeOrder(drive.releasedCount);
+    Core::Result<VDA5050::OrderMessage> order = made->MakeOrder();
     if (!order)
     {
         out.emplace_back(RaiseEvent{Planning::DriveRejected{drive.driveID, Core::Describe(order.error())}});
         return;
     }
-    _route = std::move(*builder);
-    _wantedReleased = drive.releasedCount;
-    _lastPassedNodeID.clear();
-    _bUpdateUnderWay = true;
-    _lastUpdate.reset();
-    _lossReason.reset();
-    _pendingOrder = PendingOrder{std::move(*order)};
+    _drive = std::move(*made);
+    _pendingOrder = std::move(*order);
     SendPendingOrder(now, out);
 }
 
 void Vda5050RobotAdapter::CancelOrder(std::string_view id, Core::Now now, AdapterActions& out)
 {
-    if (_pendingOrder.has_value() && _pendingOrder->order.orderID == id)
+    if (_pendingOrder.has_value() && _pendingOrder->orderID == id)
     {
-        // The vehicle never saw it.
-        const std::string orderID = std::exchange(_pendingOrder, std::nullopt)->order.orderID;
-        RefuseOrder(orderID, "cancelled before the vehicle had it", out);
+        const std::string orderID = std::exchange(_pendingOrder, std::nullopt)->orderID;
+        RejectOrder(orderID, "cancelled before it was sent to the vehicle", out);
         return;
     }
     if (_session.GetOrderID() == id)
     {
-        // Where it cannot be cancelled now, its end is told as if it had not been asked for.
+        // If it cannot be cancelled now, its end is reported as if no cancellation had been requested.
         static_cast<void>(_session.Cancel(now, _sessionActions));
     }
 }
@@ -215,7 +156,7 @@ void Vda5050RobotAdapter::SendInstantAction(std::string_view actionType, Core::N
 {
     VDA5050::Action action;
     action.actionType = actionType;
-    // A vehicle that is away shows by its state that it did not pause; the engine watches that with its own time.
+    // The state of an offline vehicle shows later that it did not pause. The engine has a time limit of its own for that.
     static_cast<void>(_session.SendInstantAction(std::move(action), now, _sessionActions));
 }
 
@@ -225,82 +166,85 @@ void Vda5050RobotAdapter::SendPendingOrder(Core::Now now, AdapterActions& out)
     {
         return;
     }
-    VDA5050::OrderMessage order = std::exchange(_pendingOrder, std::nullopt)->order;
+    VDA5050::OrderMessage order = *std::exchange(_pendingOrder, std::nullopt);
     const std::string orderID = order.orderID;
     const Core::Result<void> sent = _session.SendOrder(std::move(order), now, _sessionActions);
     if (!sent)
     {
-        RefuseOrder(orderID, Core::Describe(sent.error()), out);
+        RejectOrder(orderID, Core::Describe(sent.error()), out);
     }
 }
 
 void Vda5050RobotAdapter::SendPendingUpdate(Core::Now now, AdapterActions& out)
 {
-    // While it is being cancelled nothing is added to it: that may fail, and then it goes on.
+    // Nothing is added to an order that is being cancelled: cancelling may fail, and the order then continues.
     const bool bCancelling = _session.GetOrderPhase() == VDA5050::EOrderPhase::Cancelling;
-    if (!_route.has_value() || _bUpdateUnderWay || _lossReason.has_value() || bCancelling
-        || _wantedReleased <= _route->GetReleasedNodes())
+    if (!_drive.has_value() || bCancelling || !_drive->IsUpdateDue())
     {
         return;
     }
-    Core::Result<VDA5050::OrderMessage> update = _route->MakeUpdate(_wantedReleased);
+    Core::Result<VDA5050::OrderMessage> update = _drive->MakeUpdate();
     if (!update)
     {
-        GiveDriveUp(Core::Describe(update.error()), now, out);
+        AbandonDrive(Core::Describe(update.error()), now, out);
         return;
     }
-    _lastUpdate = *update;
-    const Core::Result<void> sent = _session.SendOrderUpdate(std::move(*update), now, _sessionActions);
+    const Core::Result<void> sent = _session.SendOrderUpdate(*update, now, _sessionActions);
     if (!sent)
     {
-        GiveDriveUp(Core::Describe(sent.error()), now, out);
+        AbandonDrive(Core::Describe(sent.error()), now, out);
         return;
     }
-    _bUpdateUnderWay = true;
+    _drive->OnUpdateSent(std::move(*update));
 }
 
-void Vda5050RobotAdapter::GiveDriveUp(const std::string& reason, Core::Now now, AdapterActions& out)
+void Vda5050RobotAdapter::AbandonDrive(const std::string& reason, Core::Now now, AdapterActions& out)
 {
-    const std::string orderID = _route->GetOrderID();
-    const bool bHeld = _session.GetOrderID() == orderID && _session.Cancel(now, _sessionActions).has_value();
-    if (bHeld)
+    const std::string orderID = _drive->GetOrderID();
+    const bool bCancelling = _session.GetOrderID() == orderID && _session.Cancel(now, _sessionActions).has_value();
+    if (bCancelling)
     {
-        _lossReason = reason;
+        _drive->Abandon(reason);
         return;
     }
-    RefuseOrder(orderID, reason, out);
+    RejectOrder(orderID, reason, out);
 }
 
-void Vda5050RobotAdapter::RefuseOrder(const std::string& orderID, const std::string& reason, AdapterActions& out)
+bool Vda5050RobotAdapter::IsDrive(std::string_view orderID) const
 {
-    if (_route.has_value() && _route->GetOrderID() == orderID)
+    return _drive.has_value() && _drive->GetOrderID() == orderID;
+}
+
+void Vda5050RobotAdapter::RejectOrder(const std::string& orderID, const std::string& reason, AdapterActions& out)
+{
+    const Planning::StartJob* const jobOrNull = _job.GetRunningOrNull();
+    if (IsDrive(orderID))
     {
-        _route.reset();
-        _lossReason.reset();
+        _drive.reset();
         out.emplace_back(RaiseEvent{Planning::DriveRejected{orderID, reason}});
     }
-    else if (_job.has_value() && _job->commandID == orderID)
+    else if (jobOrNull != nullptr && jobOrNull->commandID == orderID)
     {
-        out.emplace_back(RaiseEvent{Planning::JobFailed{std::exchange(_job, std::nullopt)->jobID, reason}});
+        out.emplace_back(RaiseEvent{Planning::JobFailed{_job.TakeRunning().jobID, reason}});
     }
 }
 
 void Vda5050RobotAdapter::Drain(Core::Now now, AdapterActions& out)
 {
-    // What is told may make the session say more, so the list is taken before it is walked.
+    // Handling an action may add more of them.
     while (!_sessionActions.empty())
     {
         const VDA5050::MasterActions actions = std::exchange(_sessionActions, {});
         for (const VDA5050::MasterAction& action : actions)
         {
-            Take(action, now, out);
+            HandleAction(action, now, out);
         }
         SendPendingUpdate(now, out);
         SendPendingOrder(now, out);
     }
 }
 
-void Vda5050RobotAdapter::Take(const VDA5050::MasterAction& action, Core::Now now, AdapterActions& out)
+void Vda5050RobotAdapter::HandleAction(const VDA5050::MasterAction& action, Core::Now now, AdapterActions& out)
 {
     std::visit(
         Core::Overloaded{
@@ -312,8 +256,8 @@ void Vda5050RobotAdapter::Take(const VDA5050::MasterAction& action, Core::Now no
             [&](const VDA5050::CancelMasterTimer& cancel) {
                 out.emplace_back(Planning::CancelAdapterTimer{static_cast<Planning::AdapterTimerID>(cancel.timer)});
             },
-            [&](const VDA5050::StateReceived&) { TakeState(now, out); },
-            [&](const VDA5050::PositionReceived& received) { TakePosition(received, out); },
+            [&](const VDA5050::StateReceived&) { OnState(now, out); },
+            [&](const VDA5050::PositionReceived& received) { OnPosition(received, out); },
             [&](const VDA5050::FactsheetReceived&) {
                 out.emplace_back(Planning::CancelAdapterTimer{FACTSHEET_TIMER});
                 OnFactsheet(now, out);
@@ -323,92 +267,97 @@ void Vda5050RobotAdapter::Take(const VDA5050::MasterAction& action, Core::Now no
             [&](const VDA5050::VehicleBroken&) { SetOnline(false, out); },
             [&](const VDA5050::VehicleSilent&) { SetOnline(false, out); },
             [&](const VDA5050::OrderAccepted&) {
-                _bUpdateUnderWay = false;
-                _lastUpdate.reset();
-            },
-            [&](const VDA5050::OrderRejected& rejected) { TakeRejected(rejected, now, out); },
-            [&](const VDA5050::OrderLost& lost) {
-                RefuseOrder(lost.orderID, "the vehicle lost the order: " + lost.reason, out);
-            },
-            [&](const VDA5050::NodeReached& reached) {
-                if (_route.has_value())
+                if (_drive.has_value())
                 {
-                    _lastPassedNodeID = reached.nodeID;
-                    out.emplace_back(RaiseEvent{Planning::NodePassed{_route->GetOrderID(), reached.nodeID}});
+                    _drive->OnConfirmed();
                 }
             },
-            [&](const VDA5050::ActionChanged& changed) { TakeAction(changed, out); },
-            [&](const VDA5050::OrderFinished& finished) { TakeFinished(finished.orderID, out); },
-            [&](const VDA5050::OrderCancelled& cancelled) { TakeCancelled(cancelled.orderID, out); },
-            [&](const VDA5050::CancelFailed&) { TakeCancelFailed(now, out); },
+            [&](const VDA5050::OrderRejected& rejected) { OnRejected(rejected, now, out); },
+            [&](const VDA5050::OrderLost& lost) {
+                RejectOrder(lost.orderID, "the vehicle lost the order: " + lost.reason, out);
+            },
+            [&](const VDA5050::NodeReached& reached) { OnNodeReached(reached, out); },
+            [&](const VDA5050::ActionChanged& changed) { OnActionChanged(changed, out); },
+            [&](const VDA5050::OrderFinished& finished) { OnFinished(finished.orderID, out); },
+            [&](const VDA5050::OrderCancelled& cancelled) { OnCancelled(cancelled.orderID, out); },
+            [&](const VDA5050::CancelFailed&) { OnCancelFailed(now, out); },
             [](const auto&) {
             }},
         action);
 }
 
-void Vda5050RobotAdapter::TakeRejected(const VDA5050::OrderRejected& rejected, Core::Now now, AdapterActions& out)
+void Vda5050RobotAdapter::OnNodeReached(const VDA5050::NodeReached& reached, AdapterActions& out)
 {
-    const std::string reason = "the vehicle refuses the order: " + rejected.reason;
-    const bool bOfDrive = _route.has_value() && _route->GetOrderID() == rejected.orderID;
-    if (!bOfDrive || rejected.orderUpdateID == 0)
+    if (_drive.has_value())
     {
-        RefuseOrder(rejected.orderID, reason, out);
-    }
-    else if (!_lossReason.has_value())
-    {
-        // An update: the vehicle still drives along what it accepted before.
-        GiveDriveUp(reason, now, out);
+        _drive->OnNodePassed(reached.nodeID);
+        out.emplace_back(RaiseEvent{Planning::NodePassed{_drive->GetOrderID(), reached.nodeID}});
     }
 }
 
-void Vda5050RobotAdapter::TakeCancelled(const std::string& orderID, AdapterActions& out)
+void Vda5050RobotAdapter::OnRejected(const VDA5050::OrderRejected& rejected, Core::Now now, AdapterActions& out)
 {
-    if (const std::optional<std::string> reason = std::exchange(_lossReason, std::nullopt))
+    const std::string reason = "the vehicle rejected the order: " + rejected.reason;
+    if (!IsDrive(rejected.orderID) || rejected.orderUpdateID == 0)
     {
-        RefuseOrder(orderID, *reason, out);
-        return;
+        RejectOrder(rejected.orderID, reason, out);
     }
-    if (_route.has_value() && _route->GetOrderID() == orderID)
+    else if (!_drive->GetAbandonReasonOrNull().has_value())
     {
-        _route.reset();
-        out.emplace_back(RaiseEvent{Planning::DriveCancelled{orderID, _lastPassedNodeID}});
+        // An update was rejected. The vehicle still drives along the route that it accepted before.
+        AbandonDrive(reason, now, out);
     }
-    RefuseOrder(orderID, "cancelled", out);
 }
 
-/// The vehicle goes on. What was under way to it when the cancelling began was withdrawn and is sent again.
-void Vda5050RobotAdapter::TakeCancelFailed(Core::Now now, AdapterActions& out)
+void Vda5050RobotAdapter::OnCancelled(const std::string& orderID, AdapterActions& out)
 {
-    const std::optional<std::string> reason = std::exchange(_lossReason, std::nullopt);
-    if (!_route.has_value())
+    if (!IsDrive(orderID))
+    {
+        RejectOrder(orderID, "cancelled", out);
+        return;
+    }
+    const VehicleDrive drive = *std::exchange(_drive, std::nullopt);
+    if (const std::optional<std::string>& reason = drive.GetAbandonReasonOrNull(); reason.has_value())
+    {
+        out.emplace_back(RaiseEvent{Planning::DriveRejected{orderID, *reason}});
+        return;
+    }
+    out.emplace_back(RaiseEvent{Planning::DriveCancelled{orderID, drive.GetLastPassedNodeID()}});
+}
+
+/// The vehicle continues. The update that was withdrawn for the cancellation is sent again.
+void Vda5050RobotAdapter::OnCancelFailed(Core::Now now, AdapterActions& out)
+{
+    if (!_drive.has_value())
     {
         return;
     }
-    if (reason.has_value())
+    if (const std::optional<std::string> reason = _drive->GetAbandonReasonOrNull(); reason.has_value())
     {
-        RefuseOrder(_route->GetOrderID(), *reason, out);
+        RejectOrder(std::string(_drive->GetOrderID()), *reason, out);
         return;
     }
-    if (!_lastUpdate.has_value())
+    const VDA5050::OrderMessage* const updateOrNull = _drive->GetPendingUpdateOrNull();
+    if (updateOrNull == nullptr)
     {
         return;
     }
-    const Core::Result<void> sent = _session.SendOrderUpdate(*_lastUpdate, now, _sessionActions);
+    const Core::Result<void> sent = _session.SendOrderUpdate(*updateOrNull, now, _sessionActions);
     if (!sent)
     {
-        RefuseOrder(_route->GetOrderID(), Core::Describe(sent.error()), out);
+        RejectOrder(std::string(_drive->GetOrderID()), Core::Describe(sent.error()), out);
     }
 }
 
-void Vda5050RobotAdapter::TakeFinished(const std::string& orderID, AdapterActions& out)
+void Vda5050RobotAdapter::OnFinished(const std::string& orderID, AdapterActions& out)
 {
-    if (_route.has_value() && _route->GetOrderID() == orderID)
+    if (IsDrive(orderID))
     {
-        _route.reset();
-        _lossReason.reset();
+        _drive.reset();
         out.emplace_back(RaiseEvent{Planning::Arrived{orderID}});
+        return;
     }
-    RefuseOrder(orderID, "the order ended without a word of the action", out);
+    RejectOrder(orderID, "the order ended without an end of its action", out);
 }
 
 void Vda5050RobotAdapter::SetOnline(bool bOnline, AdapterActions& out)
@@ -439,9 +388,9 @@ void Vda5050RobotAdapter::OnFactsheet(Core::Now now, AdapterActions& out)
     {
         UpdateJobCheck(out);
     }
-    if (_deferredJob.has_value())
+    if (const std::optional<Planning::StartJob> jobOrNull = _job.TakeDeferredOrNull(); jobOrNull.has_value())
     {
-        StartJob(*std::exchange(_deferredJob, std::nullopt), now, out);
+        StartJob(*jobOrNull, now, out);
     }
 }
 

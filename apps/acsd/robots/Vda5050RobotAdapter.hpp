@@ -2,12 +2,14 @@
 
 #include "robots/IMqttRobotAdapter.hpp"
 #include "robots/JobMethods.hpp"
-#include "robots/LoadCheck.hpp"
 #include "robots/RobotOutputs.hpp"
+#include "robots/VehicleDrive.hpp"
+#include "robots/VehicleJob.hpp"
 #include "robots/VehicleJobCheck.hpp"
+#include "robots/VehicleReport.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/vda5050/MasterSession.hpp>
-#include <acs/vda5050/OrderBuilder.hpp>
+#include <acs/vda5050/OrderMessage.hpp>
 
 #include <tl/expected.hpp>
 
@@ -21,22 +23,17 @@
 namespace ACS::Acsd
 {
 
-/// Joins a VDA5050 vehicle to the engine. A drive is an order, its extensions are order updates; a job is an order of
-/// the single node where the vehicle stands, with one action whose actionId is the jobId. Pure: what has to be sent goes
-/// into the outputs.
+/// Connects a VDA5050 vehicle to the engine. A drive is an order, its extensions are order updates. A job is an order with
+/// the vehicle's current node only and one action, whose actionId is the commandID. Pure: messages to be sent go into the
+/// outputs.
 class Vda5050RobotAdapter final : public IMqttRobotAdapter
 {
-    /// An order that waits until the vehicle has finished the one before.
-    struct PendingOrder
-    {
-        VDA5050::OrderMessage order;
-    };
-
-    /// The session has the numbers of its own timers, which are fewer.
+    /// Numbers below 50 are those of the session's own timers.
     static constexpr Planning::AdapterTimerID LOAD_TIMER = 50;
     static constexpr std::chrono::milliseconds LOAD_TIMEOUT{10'000};
     static constexpr Planning::AdapterTimerID FACTSHEET_TIMER = 51;
-    /// For the answer to the first factsheetRequest. Then the vehicle counts as one that publishes none.
+    /// Maximum time to wait for the answer to the first factsheetRequest. After it the vehicle is treated as one without a
+    /// factsheet.
     static constexpr std::chrono::milliseconds FACTSHEET_TIMEOUT{5'000};
 
     bool _bFactsheetAwaited;
@@ -48,68 +45,60 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
     VDA5050::MasterActions _sessionActions;
 
     bool _bOnline = false;
-    Planning::StateChanged _state;
-    bool _bPoseInState = false;                  ///< The latest state had a position.
-    std::optional<VDA5050::OrderBuilder> _route; ///< Of the present drive.
-    std::size_t _wantedReleased = 0;             ///< Nodes that the engine has released.
-    bool _bUpdateUnderWay = false;               ///< The vehicle has not shown the last message of the drive yet.
-    std::string _lastPassedNodeID;
-    std::optional<Planning::StartJob> _job; ///< The vehicle knows it by its commandID, as order and as action.
-    bool _bJobStarted = false;
-    std::optional<Planning::StartJob> _deferredJob; ///< Until the factsheet has come, or is awaited no longer.
-    std::optional<LoadCheck> _loadCheck; ///< Of a job whose action is finished and whose loads do not show it yet.
-    std::optional<PendingOrder> _pendingOrder;
-    std::optional<Planning::RecoverJob> _recovery;    ///< Asked for, and the vehicle has not told its state yet.
-    std::optional<VDA5050::OrderMessage> _lastUpdate; ///< Sent and not shown yet.
-    std::optional<std::string> _lossReason;           ///< Why the present drive is given up; told when it is cancelled.
-    bool _bPauseDone = false; ///< startPause was done and stopPause not, of a vehicle whose state does not say paused.
-    std::string _foreignOrderID; ///< Of an order that is not ours and was asked to be cancelled.
+    VehicleReport _report;
+    std::optional<VehicleDrive> _drive;
+    VehicleJob _job;
+    std::optional<VDA5050::OrderMessage> _pendingOrder; ///< Sent when the vehicle has finished the order before.
+    std::string _foreignOrderID; ///< The latest order of another master for which cancelOrder was sent.
 
     void StartDrive(const Planning::Drive& drive, Core::Now now, Planning::AdapterActions& out);
     void StartJob(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
+    void CancelJob(const std::string& jobID, Core::Now now, Planning::AdapterActions& out);
     [[nodiscard]] VDA5050::OrderMessage MakeJobOrder(const Planning::StartJob& job, VDA5050::Action action) const;
     void OnJobDone(Planning::AdapterActions& out);
     void VerifyLoads(Planning::AdapterActions& out);
     void OnLoadTimeout(Planning::AdapterActions& out);
     void DropLoadCheck(Planning::AdapterActions& out);
 
-    /// What the vehicle's state says of a job that was commanded before a restart.
-    void FindJob(Core::Now now, Planning::AdapterActions& out);
-    /// Goes on with the order of the job, which the vehicle shows, as if this adapter had sent it.
-    void TakeUp(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
+    /// Evaluates what the vehicle's state shows of a job that was commanded before a restart.
+    void RecoverJob(Core::Now now, Planning::AdapterActions& out);
+    /// Continues the order of the job, which the vehicle shows, as if this adapter had sent it.
+    void ResumeJob(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
     void CancelOrder(std::string_view id, Core::Now now, Planning::AdapterActions& out);
     void SendInstantAction(std::string_view actionType, Core::Now now);
     void SendPendingOrder(Core::Now now, Planning::AdapterActions& out);
     void SendPendingUpdate(Core::Now now, Planning::AdapterActions& out);
-    void RefuseOrder(const std::string& orderID, const std::string& reason, Planning::AdapterActions& out);
+    [[nodiscard]] bool IsDrive(std::string_view orderID) const;
+    void RejectOrder(const std::string& orderID, const std::string& reason, Planning::AdapterActions& out);
 
-    /// The vehicle holds the drive and will not be brought further: it is told as refused once it stands.
-    void GiveDriveUp(const std::string& reason, Core::Now now, Planning::AdapterActions& out);
+    /// The vehicle has accepted the drive, which cannot be continued. It is reported as rejected when the vehicle has stopped.
+    void AbandonDrive(const std::string& reason, Core::Now now, Planning::AdapterActions& out);
 
-    /// Whether the vehicle works on an order that this adapter did not give it, or gave it before a restart. What is left
-    /// to drive is cancelled, once per order; running actions come to their end.
+    /// Whether the vehicle executes an order of another master, or one that was sent before a restart. Its remaining route is
+    /// cancelled, once per order; running actions are not interrupted.
     [[nodiscard]] bool IsOccupied(const VDA5050::StateMessage& state) const;
     void CancelForeignOrder(Core::Now now);
     [[nodiscard]] bool IsJobRunning(const VDA5050::StateMessage& state) const;
-    void FollowPauseActions(const VDA5050::StateMessage& state);
-    void TakeCancelled(const std::string& orderID, Planning::AdapterActions& out);
-    void TakeCancelFailed(Core::Now now, Planning::AdapterActions& out);
-    void TakeRejected(const VDA5050::OrderRejected& rejected, Core::Now now, Planning::AdapterActions& out);
 
-    /// Carries out what the session asked for, and tells the engine what it told.
+    /// Executes the actions of the session and reports its events to the engine.
     void Drain(Core::Now now, Planning::AdapterActions& out);
-    void Take(const VDA5050::MasterAction& action, Core::Now now, Planning::AdapterActions& out);
-    void TakeState(Core::Now now, Planning::AdapterActions& out);
-    void TakePosition(const VDA5050::PositionReceived& received, Planning::AdapterActions& out);
-    void TakeAction(const VDA5050::ActionChanged& action, Planning::AdapterActions& out);
-    void TakeFinished(const std::string& orderID, Planning::AdapterActions& out);
+    void HandleAction(const VDA5050::MasterAction& action, Core::Now now, Planning::AdapterActions& out);
+    void OnState(Core::Now now, Planning::AdapterActions& out);
+    void OnPosition(const VDA5050::PositionReceived& received, Planning::AdapterActions& out);
+    void OnNodeReached(const VDA5050::NodeReached& reached, Planning::AdapterActions& out);
+    void OnActionChanged(const VDA5050::ActionChanged& action, Planning::AdapterActions& out);
+    void OnRejected(const VDA5050::OrderRejected& rejected, Core::Now now, Planning::AdapterActions& out);
+    void OnFinished(const std::string& orderID, Planning::AdapterActions& out);
+    void OnCancelled(const std::string& orderID, Planning::AdapterActions& out);
+    void OnCancelFailed(Core::Now now, Planning::AdapterActions& out);
     void SetOnline(bool bOnline, Planning::AdapterActions& out);
-    /// The factsheet has come, or is awaited no longer.
+    /// The factsheet was received, or is no longer awaited.
     void OnFactsheet(Core::Now now, Planning::AdapterActions& out);
     void UpdateJobCheck(Planning::AdapterActions& out);
 
 public:
-    /// The outputs must outlive the adapter. The time limit is for the loads to agree with a job whose action is finished.
+    /// The outputs must outlive the adapter. loadTimeout: maximum time for the loads to agree with a job whose action is
+    /// finished.
     Vda5050RobotAdapter(
         VDA5050::MasterOptions options,
         JobMethods methods,

@@ -56,7 +56,7 @@ void BeginLine(Core::Now now, std::string_view link, std::string& line)
     fmt::format_to(
         std::back_inserter(line),
         R"({{"time":"{}","mono_us":{},"link":"{}")",
-        Core::FormatUtc(now.wall),
+        Core::FormatUTC(now.wall),
         std::chrono::duration_cast<std::chrono::microseconds>(now.steady.time_since_epoch()).count(),
         link);
 }

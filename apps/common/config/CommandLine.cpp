@@ -72,7 +72,7 @@ CLI::Option& AddUrlOption(
     CLI::Option& option = AddTextOption(
         app,
         name,
-        [&target, allowed](const std::string& text) { return Take(ParseUrl(text, allowed), target); },
+        [&target, allowed](const std::string& text) { return Take(ParseURL(text, allowed), target); },
         help);
     option.type_name("URL");
     if (!target.peer.host.empty())

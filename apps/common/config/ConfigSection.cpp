@@ -163,14 +163,14 @@ Endpoint ConfigSection::GetEndpoint(const std::string& key, const Endpoint& fall
     return GetParsed<Endpoint>(key, ParseEndpoint, fallback);
 }
 
-Url ConfigSection::GetUrl(const std::string& key, const std::vector<EUrlScheme>& allowed) const
+Url ConfigSection::GetURL(const std::string& key, const std::vector<EUrlScheme>& allowed) const
 {
-    return GetParsed<Url>(key, [&allowed](std::string_view text) { return ParseUrl(text, allowed); });
+    return GetParsed<Url>(key, [&allowed](std::string_view text) { return ParseURL(text, allowed); });
 }
 
 std::optional<Url> ConfigSection::GetUrlOrNull(const std::string& key, const std::vector<EUrlScheme>& allowed) const
 {
-    return HasKey(key) ? std::optional<Url>(GetUrl(key, allowed)) : std::nullopt;
+    return HasKey(key) ? std::optional<Url>(GetURL(key, allowed)) : std::nullopt;
 }
 
 std::vector<std::string> ConfigSection::GetStringList(const std::string& key) const

@@ -68,7 +68,7 @@ public:
         std::chrono::milliseconds fallback) const;
 
     [[nodiscard]] Endpoint GetEndpoint(const std::string& key, const Endpoint& fallback) const;
-    [[nodiscard]] Url GetUrl(const std::string& key, const std::vector<EUrlScheme>& allowed) const;
+    [[nodiscard]] Url GetURL(const std::string& key, const std::vector<EUrlScheme>& allowed) const;
     [[nodiscard]] std::optional<Url> GetUrlOrNull(const std::string& key, const std::vector<EUrlScheme>& allowed) const;
 
     /// A list of strings; empty where the key is absent.

@@ -57,7 +57,7 @@ bool IsPath(std::string_view text)
 
 } // namespace
 
-Core::Result<Url> ParseUrl(std::string_view text, const std::vector<EUrlScheme>& allowed)
+Core::Result<Url> ParseURL(std::string_view text, const std::vector<EUrlScheme>& allowed)
 {
     const auto fail = [text, &allowed] {
         return Core::Fail(Core::ECoreError::OutOfRange, {}, MakeAllowedText(allowed), fmt::format("'{}'", text));

@@ -32,7 +32,7 @@ struct Url
 };
 
 /// SCHEME://HOST[:PORT][/PATH]; other schemes, user names and fragments are refused.
-[[nodiscard]] Core::Result<Url> ParseUrl(std::string_view text, const std::vector<EUrlScheme>& allowed);
+[[nodiscard]] Core::Result<Url> ParseURL(std::string_view text, const std::vector<EUrlScheme>& allowed);
 
 /// Always with the port.
 [[nodiscard]] std::string MakeText(const Url& url);

@@ -87,7 +87,7 @@ void AddMessages(const PlanTracker& tracker, const Protocol::SessionStatistics& 
     {
         const auto command = static_cast<EAcsCommand>(i);
         const CommandCounters& counters = statistics.Of(command);
-        if (command != EAcsCommand::ExecutionPlan && IsSentByMcs(command) && counters.sent > 0)
+        if (command != EAcsCommand::ExecutionPlan && IsSentByMCS(command) && counters.sent > 0)
         {
             // Nothing but a plan is ever sent again.
             out.push_back(MakeNumbers(
@@ -103,7 +103,7 @@ void AddMessages(const PlanTracker& tracker, const Protocol::SessionStatistics& 
     {
         const auto command = static_cast<EAcsCommand>(i);
         const CommandCounters& counters = statistics.Of(command);
-        if (IsSentByMcs(command) || counters.received == 0)
+        if (IsSentByMCS(command) || counters.received == 0)
         {
             continue;
         }

@@ -27,7 +27,7 @@ std::vector<PlannedPlan> MakeBatch(
             }
             else if (planned.transactionID.empty())
             {
-                planned.transactionID = Core::MakeUuid(random);
+                planned.transactionID = Core::MakeUUID(random);
             }
         }
     }

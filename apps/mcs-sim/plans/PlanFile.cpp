@@ -42,7 +42,7 @@ Core::Result<PlannedPlan> ParsePlanFile(std::string_view text)
     }
     const Protocol::DecodeFailure& failure = whole.message.error();
     // Only what is JSON without a command can be a payload; of everything else the first error is the right one.
-    if (!failure.commandName.empty() || failure.error.code == Core::ECoreError::InvalidJson
+    if (!failure.commandName.empty() || failure.error.code == Core::ECoreError::InvalidJSON
         || failure.error.code == Core::ECoreError::TooLarge)
     {
         return tl::make_unexpected(failure.error);

@@ -27,7 +27,7 @@ void PlanRefresher::Refresh(PlannedPlan& planned)
 {
     const std::string tag = MakeTag();
     planned.plan.planID = fmt::format("PLAN-{}-{:04}-{}", _date, ++_count, tag);
-    planned.transactionID = Core::MakeUuid(_random);
+    planned.transactionID = Core::MakeUUID(_random);
     for (Protocol::PlanStep& step : planned.plan.steps)
     {
         for (std::string& carrierID : step.carrierIDs)
@@ -36,7 +36,7 @@ void PlanRefresher::Refresh(PlannedPlan& planned)
         }
         for (Protocol::PlanJob& job : step.jobs)
         {
-            job.jobID = Core::MakeUuid(_random);
+            job.jobID = Core::MakeUUID(_random);
         }
     }
 }

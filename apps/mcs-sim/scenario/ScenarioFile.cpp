@@ -194,9 +194,9 @@ ScenarioStep ReadSend(StepsContext& context, ObjectReader& reader, const Verb& /
 {
     const std::string name = reader.TakeText("send");
     const std::optional<EAcsCommand> command = FindCommandOrNull(name);
-    if (!command.has_value() || !Protocol::IsSentByMcs(*command))
+    if (!command.has_value() || !Protocol::IsSentByMCS(*command))
     {
-        reader.Refuse("send", "one of " + ListCommands(Protocol::IsSentByMcs), Core::QuoteForError(name));
+        reader.Refuse("send", "one of " + ListCommands(Protocol::IsSentByMCS), Core::QuoteForError(name));
         return {};
     }
     return *command == EAcsCommand::ExecutionPlan ? ReadSendPlan(context, reader) : ReadSendRequest(reader, *command);
@@ -245,11 +245,11 @@ MessagePattern ReadPattern(ObjectReader& reader, std::string_view member, std::s
 {
     MessagePattern pattern;
     pattern.command = reader.TakeText(member);
-    if (!reader.HasFailed() && !CanComeFromAcs(pattern.command))
+    if (!reader.HasFailed() && !CanComeFromACS(pattern.command))
     {
         reader.Refuse(
             member,
-            "the Ack of a command of the MCS, a name with '*', or one of " + ListCommands(IsSentByAcs),
+            "the Ack of a command of the MCS, a name with '*', or one of " + ListCommands(IsSentByACS),
             Core::QuoteForError(pattern.command));
     }
     std::string members = "{";
@@ -314,7 +314,7 @@ ScenarioStep ReadExpectNext(StepsContext& context, ObjectReader& reader, const V
     }
     step.within = reader.TakeDuration("within", context.within);
     step.besides = reader.HasMember("besides") ? reader.TakeText("besides") : std::string();
-    if (!step.besides.empty() && !CanComeFromAcs(step.besides))
+    if (!step.besides.empty() && !CanComeFromACS(step.besides))
     {
         reader.Refuse("besides", "the name of a message of the ACS", Core::QuoteForError(step.besides));
     }
@@ -400,9 +400,9 @@ AckHold ReadHold(ObjectReader& reader, std::string_view member)
     const std::string name = reader.TakeText(member);
     hold.command = FindCommandOrNull(name);
     hold.duration = reader.TakeDuration("for");
-    if (name != EVERY_COMMAND && (!hold.command.has_value() || !IsAckedByMcs(*hold.command)))
+    if (name != EVERY_COMMAND && (!hold.command.has_value() || !IsAckedByMCS(*hold.command)))
     {
-        reader.Refuse(member, "\"*\" or one of " + ListCommands(IsAckedByMcs), Core::QuoteForError(name));
+        reader.Refuse(member, "\"*\" or one of " + ListCommands(IsAckedByMCS), Core::QuoteForError(name));
     }
     return hold;
 }
@@ -497,7 +497,7 @@ Core::Result<Scenario> ParseScenario(std::string_view text, const PlanReader& re
     }
     if (Json::HasDuplicateNames(**parsed))
     {
-        return Core::Fail(Core::ECoreError::InvalidJson, {}, "each member once", "a member that is named twice");
+        return Core::Fail(Core::ECoreError::InvalidJSON, {}, "each member once", "a member that is named twice");
     }
     ObjectReader reader(**parsed, {});
     Scenario scenario;

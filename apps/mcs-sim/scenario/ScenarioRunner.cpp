@@ -248,7 +248,7 @@ ScenarioRunner::EProgress ScenarioRunner::Try(Core::Now now, ScenarioActions& ou
 
 ScenarioRunner::EProgress ScenarioRunner::Do(const SendPlanStep& step, Core::Now now, ScenarioActions& out)
 {
-    const EProgress progress = AwaitAcs(now);
+    const EProgress progress = AwaitACS(now);
     if (progress != EProgress::Done)
     {
         return progress;
@@ -263,7 +263,7 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const SendPlanStep& step, Core::Now
         }
         else if (planned.transactionID.empty())
         {
-            planned.transactionID = Core::MakeUuid(_random);
+            planned.transactionID = Core::MakeUUID(_random);
         }
         _names.insert_or_assign(step.name, planned);
         out.emplace_back(SendPlannedPlan{std::move(planned), step.bFreshIDs});
@@ -273,21 +273,21 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const SendPlanStep& step, Core::Now
 
 ScenarioRunner::EProgress ScenarioRunner::Do(const SendAgainStep& step, Core::Now now, ScenarioActions& out)
 {
-    const EProgress progress = AwaitAcs(now);
+    const EProgress progress = AwaitACS(now);
     if (progress != EProgress::Done)
     {
         return progress;
     }
     Forget(_kept.size());
     PlannedPlan planned = std::get<PlannedPlan>(_names.at(step.name));
-    planned.transactionID = step.bFreshTransaction ? Core::MakeUuid(_random) : planned.transactionID;
+    planned.transactionID = step.bFreshTransaction ? Core::MakeUUID(_random) : planned.transactionID;
     out.emplace_back(SendPlannedPlan{std::move(planned), false});
     return EProgress::Done;
 }
 
 ScenarioRunner::EProgress ScenarioRunner::Do(const SendRequestStep& step, Core::Now now, ScenarioActions& out)
 {
-    const EProgress progress = AwaitAcs(now);
+    const EProgress progress = AwaitACS(now);
     if (progress != EProgress::Done)
     {
         return progress;
@@ -305,7 +305,7 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const SendRequestStep& step, Core::
 
 ScenarioRunner::EProgress ScenarioRunner::Do(const SendTextStep& step, Core::Now now, ScenarioActions& out)
 {
-    const EProgress progress = AwaitAcs(now);
+    const EProgress progress = AwaitACS(now);
     if (progress == EProgress::Done)
     {
         Forget(_kept.size());
@@ -396,7 +396,7 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const WaitStep& /*step*/, Core::Now
 
 ScenarioRunner::EProgress ScenarioRunner::Do(const AskStep& step, Core::Now now, ScenarioActions& out)
 {
-    const EProgress progress = AwaitAcs(now);
+    const EProgress progress = AwaitACS(now);
     if (progress == EProgress::Done)
     {
         Forget(_kept.size());
@@ -407,7 +407,7 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const AskStep& step, Core::Now now,
 
 ScenarioRunner::EProgress ScenarioRunner::Do(const DropStep& step, Core::Now now, ScenarioActions& out)
 {
-    const EProgress progress = AwaitAcs(now);
+    const EProgress progress = AwaitACS(now);
     if (progress == EProgress::Done)
     {
         Forget(_kept.size());
@@ -440,7 +440,7 @@ ScenarioRunner::EProgress ScenarioRunner::Fail(std::string reason)
     return EProgress::Failed;
 }
 
-ScenarioRunner::EProgress ScenarioRunner::AwaitAcs(Core::Now now)
+ScenarioRunner::EProgress ScenarioRunner::AwaitACS(Core::Now now)
 {
     if (_bRegistered)
     {

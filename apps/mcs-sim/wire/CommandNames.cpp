@@ -13,12 +13,12 @@ namespace
 constexpr std::string_view ACK = "Ack";
 
 /// Whether '*' in the name stands for something.
-bool MatchesAnyFromAcs(std::string_view name)
+bool MatchesAnyFromACS(std::string_view name)
 {
     for (std::size_t i = 0; i < Protocol::COMMAND_COUNT; ++i)
     {
         const auto command = static_cast<EAcsCommand>(i);
-        const std::string sent = std::string(GetText(command)) + (IsSentByAcs(command) ? "" : std::string(ACK));
+        const std::string sent = std::string(GetText(command)) + (IsSentByACS(command) ? "" : std::string(ACK));
         if (MatchesGlob(sent, name))
         {
             return true;
@@ -56,28 +56,28 @@ std::string ListCommands(bool (*isListed)(EAcsCommand))
     return list;
 }
 
-bool IsSentByAcs(EAcsCommand command)
+bool IsSentByACS(EAcsCommand command)
 {
-    return !Protocol::IsSentByMcs(command);
+    return !Protocol::IsSentByMCS(command);
 }
 
-bool IsAckedByMcs(EAcsCommand command)
+bool IsAckedByMCS(EAcsCommand command)
 {
-    return IsSentByAcs(command) && HasAck(command);
+    return IsSentByACS(command) && HasAck(command);
 }
 
-bool CanComeFromAcs(std::string_view name)
+bool CanComeFromACS(std::string_view name)
 {
     if (name.find('*') != std::string_view::npos)
     {
-        return MatchesAnyFromAcs(name);
+        return MatchesAnyFromACS(name);
     }
     const bool bAck = name.ends_with(ACK);
     const std::optional<EAcsCommand> command =
         FindCommandOrNull(bAck ? name.substr(0, name.size() - ACK.size()) : name);
     // Unknown commands are refused by the ACS under their own name.
-    return bAck ? !command.has_value() || Protocol::IsSentByMcs(*command)
-                : command.has_value() && IsSentByAcs(*command);
+    return bAck ? !command.has_value() || Protocol::IsSentByMCS(*command)
+                : command.has_value() && IsSentByACS(*command);
 }
 
 } // namespace ACS::McsSim

@@ -15,10 +15,10 @@ namespace ACS::McsSim
 /// "ExecutionPlan, CancelPlan": the names of all commands that match the predicate.
 [[nodiscard]] std::string ListCommands(bool (*isListed)(Protocol::EAcsCommand));
 
-[[nodiscard]] bool IsSentByAcs(Protocol::EAcsCommand command);
-[[nodiscard]] bool IsAckedByMcs(Protocol::EAcsCommand command);
+[[nodiscard]] bool IsSentByACS(Protocol::EAcsCommand command);
+[[nodiscard]] bool IsAckedByMCS(Protocol::EAcsCommand command);
 
 /// What an ACS may send: its own commands, the Acks of the MCS's, and a name in which '*' makes it one of these.
-[[nodiscard]] bool CanComeFromAcs(std::string_view name);
+[[nodiscard]] bool CanComeFromACS(std::string_view name);
 
 } // namespace ACS::McsSim

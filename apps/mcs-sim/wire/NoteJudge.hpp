@@ -31,9 +31,6 @@ using NoteCounts = std::array<std::uint64_t, Protocol::NOTE_COUNT>;
 /// Decides for each deviation that the session tolerated or discarded whether it is a fault of the ACS. Pure.
 class NoteJudge
 {
-    std::size_t _excuses = 0;
-    NoteCounts _counts{};
-
 public:
     /// A line for people, and whether it is a violation.
     struct Verdict
@@ -44,6 +41,11 @@ public:
         bool operator==(const Verdict&) const = default;
     };
 
+private:
+    std::size_t _excuses = 0;
+    NoteCounts _counts{};
+
+public:
     /// One answer that fits nothing will come through no fault of the ACS: a request was abandoned, of which the Ack may
     /// still come, or a message was cut on purpose.
     void Excuse() noexcept;

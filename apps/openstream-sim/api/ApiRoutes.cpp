@@ -2,9 +2,9 @@
 
 #include "api/ApiAnswers.hpp"
 #include "api/ApiCall.hpp"
-#include "api/ControlApi.hpp"
-#include "api/RobotApi.hpp"
-#include "api/TrajectoryApi.hpp"
+#include "api/ControlAPI.hpp"
+#include "api/RobotAPI.hpp"
+#include "api/TrajectoryAPI.hpp"
 
 #include <fmt/format.h>
 
@@ -35,58 +35,58 @@ struct ApiRoute
 };
 
 constexpr std::array ROUTES{
-    ApiRoute{Get, "/api/health", RobotApi::GetHealth},
-    ApiRoute{Get, "/api_ver", RobotApi::GetApiVersion},
-    ApiRoute{Get, "/versions/sysver", RobotApi::GetSystemVersions},
+    ApiRoute{Get, "/api/health", RobotAPI::GetHealth},
+    ApiRoute{Get, "/api_ver", RobotAPI::GetApiVersion},
+    ApiRoute{Get, "/versions/sysver", RobotAPI::GetSystemVersions},
 
-    ApiRoute{Get, "/project/robot", RobotApi::GetRobot},
-    ApiRoute{Get, "/project/robot/joints/joint_states", RobotApi::GetJointStates},
-    ApiRoute{Get, "/project/robot/joint_states", RobotApi::GetJointStates},
-    ApiRoute{Get, "/project/robot/po_cur", RobotApi::GetPose},
-    ApiRoute{Get, "/project/rgen", RobotApi::GetGeneral},
-    ApiRoute{Get, "/project/robot/motor_on_state", RobotApi::GetMotorState},
-    ApiRoute{Post, "/project/robot/motor_on", RobotApi::SwitchMotorOn},
-    ApiRoute{Post, "/project/robot/motor_off", RobotApi::SwitchMotorOff, EServed::BeforeRCode},
-    ApiRoute{Get, "/project/robot/emergency_stop", RobotApi::GetEmergencyStop},
-    ApiRoute{Post, "/project/robot/emergency_stop", RobotApi::PressEmergencyStop},
-    ApiRoute{Get, "/project/robot/cur_tool_data", RobotApi::GetCurrentTool},
-    ApiRoute{Get, "/project/robot/tools", RobotApi::GetTools},
-    ApiRoute{Get, "/project/robot/tools/t_{}", RobotApi::GetTool},
-    ApiRoute{Post, "/project/robot/tool_no", RobotApi::SelectTool},
-    ApiRoute{Post, "/project/robot/crd_sys", RobotApi::SelectCoordinates},
+    ApiRoute{Get, "/project/robot", RobotAPI::GetRobot},
+    ApiRoute{Get, "/project/robot/joints/joint_states", RobotAPI::GetJointStates},
+    ApiRoute{Get, "/project/robot/joint_states", RobotAPI::GetJointStates},
+    ApiRoute{Get, "/project/robot/po_cur", RobotAPI::GetPose},
+    ApiRoute{Get, "/project/rgen", RobotAPI::GetGeneral},
+    ApiRoute{Get, "/project/robot/motor_on_state", RobotAPI::GetMotorState},
+    ApiRoute{Post, "/project/robot/motor_on", RobotAPI::SwitchMotorOn},
+    ApiRoute{Post, "/project/robot/motor_off", RobotAPI::SwitchMotorOff, EServed::BeforeRCode},
+    ApiRoute{Get, "/project/robot/emergency_stop", RobotAPI::GetEmergencyStop},
+    ApiRoute{Post, "/project/robot/emergency_stop", RobotAPI::PressEmergencyStop},
+    ApiRoute{Get, "/project/robot/cur_tool_data", RobotAPI::GetCurrentTool},
+    ApiRoute{Get, "/project/robot/tools", RobotAPI::GetTools},
+    ApiRoute{Get, "/project/robot/tools/t_{}", RobotAPI::GetTool},
+    ApiRoute{Post, "/project/robot/tool_no", RobotAPI::SelectTool},
+    ApiRoute{Post, "/project/robot/crd_sys", RobotAPI::SelectCoordinates},
 
-    ApiRoute{Post, "/project/robot/trajectory/joint_traject_init", TrajectoryApi::Init},
-    ApiRoute{Post, "/project/robot/trajectory/joint_traject_insert_point", TrajectoryApi::InsertPoint},
-    ApiRoute{Post, "/project/robot/trajectory/joint_traject_insert_points", TrajectoryApi::InsertPoints},
-    ApiRoute{Get, "/project/robot/trajectory/joint_traject_buf_avail", TrajectoryApi::GetFree},
-    ApiRoute{Get, "/project/robot/trajectory/joint_traject_agility_info", TrajectoryApi::GetAgility},
-    ApiRoute{Get, "/project/robot/trajectory/joint_traject_mode", TrajectoryApi::GetMode},
-    ApiRoute{Get, "/project/robot/trajectory/joint_traject_ready", TrajectoryApi::GetReady},
-    ApiRoute{Post, "/project/robot/trajectory/joint_traject_off", TrajectoryApi::Finish},
-    ApiRoute{Get, "/project/robot/trajectory/joint_traject_log", TrajectoryApi::GetLog},
-    ApiRoute{Post, "/project/robot/trajectory/joint_traject_log", TrajectoryApi::SetLog},
+    ApiRoute{Post, "/project/robot/trajectory/joint_traject_init", TrajectoryAPI::Init},
+    ApiRoute{Post, "/project/robot/trajectory/joint_traject_insert_point", TrajectoryAPI::InsertPoint},
+    ApiRoute{Post, "/project/robot/trajectory/joint_traject_insert_points", TrajectoryAPI::InsertPoints},
+    ApiRoute{Get, "/project/robot/trajectory/joint_traject_buf_avail", TrajectoryAPI::GetFree},
+    ApiRoute{Get, "/project/robot/trajectory/joint_traject_agility_info", TrajectoryAPI::GetAgility},
+    ApiRoute{Get, "/project/robot/trajectory/joint_traject_mode", TrajectoryAPI::GetMode},
+    ApiRoute{Get, "/project/robot/trajectory/joint_traject_ready", TrajectoryAPI::GetReady},
+    ApiRoute{Post, "/project/robot/trajectory/joint_traject_off", TrajectoryAPI::Finish},
+    ApiRoute{Get, "/project/robot/trajectory/joint_traject_log", TrajectoryAPI::GetLog},
+    ApiRoute{Post, "/project/robot/trajectory/joint_traject_log", TrajectoryAPI::SetLog},
 
-    ApiRoute{Post, "/project/robot/start", ControlApi::StartProgram},
-    ApiRoute{Post, "/project/robot/stop", ControlApi::StopProgram},
-    ApiRoute{Post, "/project/context/tasks/reset", ControlApi::ResetTasks, EServed::BeforeRCode},
-    ApiRoute{Post, "/project/context/tasks[{}]/reset", ControlApi::ResetTask, EServed::BeforeRCode},
-    ApiRoute{Post, "/project/service/r_code/execute", ControlApi::ExecuteServiceCode, EServed::SinceRCode},
-    ApiRoute{Post, "/project/context/tasks[0]/cur_prog_cnt", ControlApi::SetProgramCounter},
-    ApiRoute{Post, "/project/context/tasks[{}]/set_cur_pc_idx", ControlApi::SetPcIndex},
-    ApiRoute{Post, "/project/context/tasks[0]/release_wait", ControlApi::ReleaseWait},
-    ApiRoute{Post, "/project/context/tasks[{}]/execute_move", ControlApi::ExecuteMove},
-    ApiRoute{Post, "/console/execute_cmd", ControlApi::ExecuteCommand},
+    ApiRoute{Post, "/project/robot/start", ControlAPI::StartProgram},
+    ApiRoute{Post, "/project/robot/stop", ControlAPI::StopProgram},
+    ApiRoute{Post, "/project/context/tasks/reset", ControlAPI::ResetTasks, EServed::BeforeRCode},
+    ApiRoute{Post, "/project/context/tasks[{}]/reset", ControlAPI::ResetTask, EServed::BeforeRCode},
+    ApiRoute{Post, "/project/service/r_code/execute", ControlAPI::ExecuteServiceCode, EServed::SinceRCode},
+    ApiRoute{Post, "/project/context/tasks[0]/cur_prog_cnt", ControlAPI::SetProgramCounter},
+    ApiRoute{Post, "/project/context/tasks[{}]/set_cur_pc_idx", ControlAPI::SetPcIndex},
+    ApiRoute{Post, "/project/context/tasks[0]/release_wait", ControlAPI::ReleaseWait},
+    ApiRoute{Post, "/project/context/tasks[{}]/execute_move", ControlAPI::ExecuteMove},
+    ApiRoute{Post, "/console/execute_cmd", ControlAPI::ExecuteCommand},
 
-    ApiRoute{Get, "/project/control/op_cnd", ControlApi::GetConditions},
-    ApiRoute{Put, "/project/control/op_cnd", ControlApi::SetConditions},
-    ApiRoute{Post, "/project/control/op_cnd", ControlApi::SetConditions},
-    ApiRoute{Get, "/project/control/ios/dio/di_val", ControlApi::GetInput},
-    ApiRoute{Get, "/project/control/ios/dio/do_val", ControlApi::GetOutput},
-    ApiRoute{Post, "/project/control/ios/dio/do_val", ControlApi::SetOutput},
-    ApiRoute{Get, "/project/control/ios/sio/si_val", ControlApi::GetSystemInput},
-    ApiRoute{Get, "/project/control/ios/sio/so_val", ControlApi::GetSystemOutput},
-    ApiRoute{Get, "/project/plc/{}/val_s32", ControlApi::GetRelayWords},
-    ApiRoute{Post, "/project/plc/set_relay_value", ControlApi::SetRelay}};
+    ApiRoute{Get, "/project/control/op_cnd", ControlAPI::GetConditions},
+    ApiRoute{Put, "/project/control/op_cnd", ControlAPI::SetConditions},
+    ApiRoute{Post, "/project/control/op_cnd", ControlAPI::SetConditions},
+    ApiRoute{Get, "/project/control/ios/dio/di_val", ControlAPI::GetInput},
+    ApiRoute{Get, "/project/control/ios/dio/do_val", ControlAPI::GetOutput},
+    ApiRoute{Post, "/project/control/ios/dio/do_val", ControlAPI::SetOutput},
+    ApiRoute{Get, "/project/control/ios/sio/si_val", ControlAPI::GetSystemInput},
+    ApiRoute{Get, "/project/control/ios/sio/so_val", ControlAPI::GetSystemOutput},
+    ApiRoute{Get, "/project/plc/{}/val_s32", ControlAPI::GetRelayWords},
+    ApiRoute{Post, "/project/plc/set_relay_value", ControlAPI::SetRelay}};
 
 } // namespace
 

@@ -46,7 +46,7 @@ std::string MakePath(std::string_view decoded)
 }
 
 /// The body as JSON; nothing with a GET.
-Core::Result<std::optional<Core::JsonText>> ReadJson(const Apps::HttpRequest& request, OpenStream::EApiMethod method)
+Core::Result<std::optional<Core::JsonText>> ReadJSON(const Apps::HttpRequest& request, OpenStream::EApiMethod method)
 {
     if (method == Get)
     {
@@ -81,14 +81,14 @@ Apps::HttpResponse MakeHttpResponse(const OpenStream::ApiResponse& response)
 
 } // namespace
 
-Apps::HttpResponse AnswerHttp(const Apps::HttpRequest& request, OpenStream::IOpenApiService& service, Core::Now now)
+Apps::HttpResponse AnswerHTTP(const Apps::HttpRequest& request, OpenStream::IOpenApiService& service, Core::Now now)
 {
     const std::optional<OpenStream::EApiMethod> method = ParseMethodOrNull(request.method);
     if (!method.has_value())
     {
         return MakeHttpResponse(RefusePath("the Open API has GET, POST, PUT and DELETE"));
     }
-    Core::Result<std::optional<Core::JsonText>> body = ReadJson(request, *method);
+    Core::Result<std::optional<Core::JsonText>> body = ReadJSON(request, *method);
     if (!body.has_value())
     {
         return MakeHttpResponse(Refuse(body.error()));

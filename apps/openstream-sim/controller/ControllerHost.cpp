@@ -56,7 +56,7 @@ ControllerHost::ControllerHost(
 
 Apps::HttpResponse ControllerHost::Handle(const Apps::HttpRequest& request)
 {
-    return AnswerHttp(request, _httpService, _clock.GetNow());
+    return AnswerHTTP(request, _httpService, _clock.GetNow());
 }
 
 void ControllerHost::DropSessions()

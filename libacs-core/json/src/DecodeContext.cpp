@@ -133,7 +133,7 @@ bool DecodeContext::TryForgetUnknown(std::size_t firstUnknown)
 bool IsRepeatedMember(std::string_view name, DecodeContext& context)
 {
     static_cast<void>(context.IsFailedWith(
-        make_error_code(Core::ECoreError::InvalidJson),
+        make_error_code(Core::ECoreError::InvalidJSON),
         "each member once",
         "a member named twice"));
     return context.IsFailedAt(name);

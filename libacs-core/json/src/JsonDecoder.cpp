@@ -64,7 +64,11 @@ bool IsBadLength(std::size_t length, const FieldBounds& bounds, std::size_t fall
 
 } // namespace
 
-bool TryCheckRequired(std::uint64_t seen, std::uint64_t required, const std::string_view* names, DecodeContext& context)
+bool TryCheckRequired(
+    std::uint64_t seen,
+    std::uint64_t required,
+    const std::string_view* namesOrNull,
+    DecodeContext& context)
 {
     if ((seen & required) == required)
     {
@@ -79,7 +83,7 @@ bool TryCheckRequired(std::uint64_t seen, std::uint64_t required, const std::str
         make_error_code(Core::ECoreError::MissingField),
         "a value",
         "nothing (the member is missing)"));
-    return context.IsFailedAt(names[index]); // NOLINT(cppcoreguidelines-pro-bounds-pointer-arithmetic)
+    return context.IsFailedAt(namesOrNull[index]); // NOLINT(cppcoreguidelines-pro-bounds-pointer-arithmetic)
 }
 
 bool TryDecodeInteger(
@@ -224,7 +228,7 @@ bool ValueDecoder<Core::JsonText>::TryDecode(
     if ((value.IsObject() || value.IsArray()) && HasDuplicateNames(value))
     {
         return context.IsFailedWith(
-            make_error_code(Core::ECoreError::InvalidJson),
+            make_error_code(Core::ECoreError::InvalidJSON),
             "each member once",
             "a member named twice");
     }

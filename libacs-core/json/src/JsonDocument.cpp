@@ -52,6 +52,10 @@ bool HasHalfSurrogate(std::string_view text)
 /// Passes the parser's events on to the document, and ends the parse at the depth limit and at half a surrogate pair.
 class StrictHandler
 {
+public:
+    using Ch = char;
+
+private:
     Document& _document;
     std::size_t _depth = 0;
     const std::size_t _maximumDepth;
@@ -59,22 +63,7 @@ class StrictHandler
     bool _bHalfSurrogate = false;
     bool _bNumberTooLarge = false;
 
-    template <typename TNumber>
-    [[nodiscard]] static bool TryRead(std::string_view text, TNumber& out)
-    {
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-        return error == std::errc() && end == text.data() + text.size();
-    }
-
-    [[nodiscard]] bool IsWhole(const char* text, rapidjson::SizeType length)
-    {
-        _bHalfSurrogate = _bEscaped && HasHalfSurrogate({text, length});
-        return !_bHalfSurrogate;
-    }
-
 public:
-    using Ch = char;
-
     StrictHandler(Document& document, std::size_t maximumDepth, bool bEscaped)
         : _document(document),
           _maximumDepth(maximumDepth),
@@ -187,6 +176,20 @@ public:
         --_depth;
         return _document.EndArray(count);
     }
+
+private:
+    template <typename TNumber>
+    [[nodiscard]] static bool TryRead(std::string_view text, TNumber& out)
+    {
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+        return error == std::errc() && end == text.data() + text.size();
+    }
+
+    [[nodiscard]] bool IsWhole(const char* text, rapidjson::SizeType length)
+    {
+        _bHalfSurrogate = _bEscaped && HasHalfSurrogate({text, length});
+        return !_bHalfSurrogate;
+    }
 };
 
 std::string_view SkipByteOrderMark(std::string_view text)
@@ -257,7 +260,7 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
     const std::string_view body = SkipByteOrderMark(text);
     if (!Core::JsonText::IsUtf8(body))
     {
-        return Core::Fail(Core::ECoreError::InvalidJson, {}, "JSON", "invalid UTF-8");
+        return Core::Fail(Core::ECoreError::InvalidJSON, {}, "JSON", "invalid UTF-8");
     }
     _document.reset();
     _valuePool.Clear();
@@ -276,11 +279,11 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
     document.Populate(generate);
     if (handler.HasFoundHalfSurrogate())
     {
-        return Core::Fail(Core::ECoreError::InvalidJson, {}, "JSON", "half a surrogate pair");
+        return Core::Fail(Core::ECoreError::InvalidJSON, {}, "JSON", "half a surrogate pair");
     }
     if (handler.HasFoundLargeNumber())
     {
-        return Core::Fail(Core::ECoreError::InvalidJson, {}, "JSON", "a number beyond the range of a double");
+        return Core::Fail(Core::ECoreError::InvalidJSON, {}, "JSON", "a number beyond the range of a double");
     }
     if (outcome.Code() == rapidjson::kParseErrorTermination)
     {
@@ -289,7 +292,7 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
     if (outcome.IsError())
     {
         return Core::Fail(
-            Core::ECoreError::InvalidJson,
+            Core::ECoreError::InvalidJSON,
             {},
             "JSON",
             fmt::format(
@@ -301,7 +304,7 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
     if (stream.Tell() != body.size())
     {
         return Core::Fail(
-            Core::ECoreError::InvalidJson,
+            Core::ECoreError::InvalidJSON,
             {},
             "JSON",
             fmt::format("a NUL at {}", DescribePosition(body, stream.Tell())));

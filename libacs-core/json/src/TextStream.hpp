@@ -14,6 +14,13 @@ namespace ACS::Json
 /// usually all of it, is skipped eight bytes at a time.
 class TextStream : public rapidjson::InsituStringStream
 {
+public:
+    /// Number of zero bytes required after the text: its end, and one block of bytes that are checked together.
+    static constexpr std::size_t PADDING = sizeof(std::uint64_t);
+
+    using rapidjson::InsituStringStream::InsituStringStream;
+
+private:
     static constexpr std::uint64_t ONES = 0x0101010101010101;
     static constexpr std::uint64_t HIGHS = 0x8080808080808080;
     static constexpr bool B_FIRST_IS_LOWEST = std::endian::native == std::endian::little;
@@ -22,6 +29,21 @@ class TextStream : public rapidjson::InsituStringStream
     static constexpr char BACKSLASH = '\\';
     static constexpr char FIRST_PRINTABLE = ' ';
 
+public:
+    /// Where what the reader takes next begins; never null. It asks behind the quote that opens a string, and at a number,
+    /// whose text it takes from there.
+    auto PutBegin()
+    {
+        Ch* const begin = src_;
+        if (begin != head_ && begin[-1] == QUOTE)
+        {
+            SkipPlain();
+        }
+        dst_ = src_;
+        return begin;
+    }
+
+private:
     /// The high bits of the bytes that are a quote, a backslash or a control character. Only the lowest is sure: the
     /// subtractions borrow from the bytes above it.
     [[nodiscard]] static std::uint64_t MarkSpecial(std::uint64_t bytes)
@@ -57,25 +79,6 @@ class TextStream : public rapidjson::InsituStringStream
         {
             ++src_;
         }
-    }
-
-public:
-    /// Number of zero bytes required after the text: its end, and one block of bytes that are checked together.
-    static constexpr std::size_t PADDING = sizeof(std::uint64_t);
-
-    using rapidjson::InsituStringStream::InsituStringStream;
-
-    /// Where what the reader takes next begins; never null. It asks behind the quote that opens a string, and at a number,
-    /// whose text it takes from there.
-    auto PutBegin()
-    {
-        Ch* const begin = src_;
-        if (begin != head_ && begin[-1] == QUOTE)
-        {
-            SkipPlain();
-        }
-        dst_ = src_;
-        return begin;
     }
 };
 

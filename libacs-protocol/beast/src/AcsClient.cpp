@@ -2,7 +2,7 @@
 #include "EventQueue.hpp"
 #include "PlainTransport.hpp"
 #include "TlsTransport.hpp"
-#include "WebSocketUrl.hpp"
+#include "WebSocketURL.hpp"
 #include <acs/core/ECoreError.hpp>
 #include <acs/core/Overloaded.hpp>
 #include <acs/net/TimerArray.hpp>
@@ -28,7 +28,7 @@ class AcsClient::Impl : public std::enable_shared_from_this<AcsClient::Impl>
     const Core::IClock& _clock;
     Core::Logger _logger;
     ClientOptions _options;
-    WebSocketUrl _url;
+    WebSocketURL _url;
     Protocol::AcsSession _session;
     std::shared_ptr<EventQueue> _events;
     std::shared_ptr<SessionTimers> _timers;
@@ -44,7 +44,7 @@ public:
         Core::IRandom& random,
         const Core::Logger& logger,
         const ClientOptions& options,
-        WebSocketUrl url,
+        WebSocketURL url,
         std::unique_ptr<ITransport> transport,
         ISessionHandler& handler)
         : _executor(executor),
@@ -206,7 +206,7 @@ private:
 namespace
 {
 
-Core::Result<std::unique_ptr<ITransport>> MakeTransport(const ClientOptions& options, const WebSocketUrl& url)
+Core::Result<std::unique_ptr<ITransport>> MakeTransport(const ClientOptions& options, const WebSocketURL& url)
 {
     if (url.bSecure)
     {
@@ -244,7 +244,7 @@ Core::Result<std::unique_ptr<AcsClient>> AcsClient::Create(
     const ClientOptions& options,
     ISessionHandler& handler)
 {
-    Core::Result<WebSocketUrl> url = ParseWebSocketUrl(options.url);
+    Core::Result<WebSocketURL> url = ParseWebSocketURL(options.url);
     if (!url.has_value())
     {
         return tl::unexpected<Core::Error>(std::move(url.error()));

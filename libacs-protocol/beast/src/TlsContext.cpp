@@ -227,7 +227,7 @@ void SetRequestedName(SSL* stream, const std::string& name)
     }
 }
 
-Core::Result<void> CheckClientTls(const TlsOptions& options, std::string_view host)
+Core::Result<void> CheckClientTLS(const TlsOptions& options, std::string_view host)
 {
     Core::Result<ssl::context> context = MakeClientContext(options, host);
     if (!context.has_value())

@@ -87,8 +87,8 @@ private:
         {
             return;
         }
-        const bool bHttp = error.category() == ErrorCode(http::error::bad_method).category();
-        if (error && (!bHttp || error == http::error::end_of_stream))
+        const bool bHTTP = error.category() == ErrorCode(http::error::bad_method).category();
+        if (error && (!bHTTP || error == http::error::end_of_stream))
         {
             LeaveAsync(IsSilence(error) ? "" : "no request came: " + TLayer::Describe(_stream, error));
             return;

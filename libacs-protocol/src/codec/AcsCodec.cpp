@@ -401,7 +401,7 @@ DecodeOutcome AcsCodec::Decode(std::string_view text)
 {
     DecodeOutcome outcome;
     const Json::ParseLimits limits{_impl->options.maximumBytes, _impl->options.maximumDepth};
-    Core::Result<const Json::Value*> root = _impl->document.Parse(text, limits, _impl->options.bLenientJson);
+    Core::Result<const Json::Value*> root = _impl->document.Parse(text, limits, _impl->options.bLenientJSON);
     if (!root.has_value())
     {
         DecodeFailure failure;

@@ -58,7 +58,7 @@ std::string_view GetText(EProtocolNote note)
     return Json::GetWord(note);
 }
 
-bool IsSentByMcs(EAcsCommand command) noexcept
+bool IsSentByMCS(EAcsCommand command) noexcept
 {
     return command < EAcsCommand::Registration;
 }

@@ -11,15 +11,17 @@ namespace ACS::OpenStreamAsio
 template <typename T>
 class HandlerAllocator
 {
+public:
+    using value_type = T;
+    using pointer = T*;
+
+private:
     template <typename TOther>
     friend class HandlerAllocator;
 
     HandlerMemory* _memory;
 
 public:
-    using value_type = T;
-    using pointer = T*;
-
     explicit HandlerAllocator(HandlerMemory& memory) noexcept
         : _memory(&memory)
     {

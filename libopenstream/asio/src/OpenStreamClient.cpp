@@ -78,6 +78,77 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
         }
     };
 
+public:
+    Impl(
+        const boost::asio::any_io_executor& executor,
+        Core::IClock& clock,
+        Core::IRandom& random,
+        Core::Logger logger,
+        OpenStreamClientOptions options,
+        EventHandler handler)
+        : _clock(clock),
+          _logger(std::move(logger)),
+          _options(std::move(options)),
+          _handler(std::move(handler)),
+          _session(_options.session, random),
+          _resolver(executor),
+          _socket(executor),
+          _timers(std::make_shared<Timers>(executor, [this](OpenStream::EClientTimer timer) { OnTimer(timer); }))
+    {
+    }
+
+    void Start()
+    {
+        _session.Start(_clock.GetNow(), _actions);
+        Execute();
+    }
+
+    void Stop()
+    {
+        _session.Stop(_clock.GetNow(), _actions);
+        Execute();
+    }
+
+    void SetMonitor(std::optional<OpenStream::MonitorRequest> monitorOrNull)
+    {
+        _session.SetMonitor(std::move(monitorOrNull), _clock.GetNow(), _actions);
+        Execute();
+    }
+
+    std::uint64_t SendControl(const OpenStream::ControlRequest& request, OpenStream::EControlTracking tracking)
+    {
+        const std::uint64_t token = _session.SendControl(request, tracking, _clock.GetNow(), _actions);
+        Execute();
+        return token;
+    }
+
+    std::uint64_t SendControlCall(OpenStream::ControlCall call)
+    {
+        const std::uint64_t token = _session.SendControlCall(std::move(call), _clock.GetNow(), _actions);
+        Execute();
+        return token;
+    }
+
+    void StopControl()
+    {
+        _session.StopControl(_clock.GetNow(), _actions);
+        Execute();
+    }
+
+    void ShutDown()
+    {
+        _bDown = true;
+        _resolver.cancel();
+        _timers->CancelAll();
+        CloseSocket();
+    }
+
+    [[nodiscard]] const OpenStream::ClientSession& GetSession() const noexcept
+    {
+        return _session;
+    }
+
+private:
     template <typename... TResults>
     [[nodiscard]] GuardedHandler<TResults...> Guard(void (Impl::*method)(TResults...))
     {
@@ -258,76 +329,6 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
     void Do(const OpenStream::ClientCancelTimer& action)
     {
         _timers->Cancel(action.timer);
-    }
-
-public:
-    Impl(
-        const boost::asio::any_io_executor& executor,
-        Core::IClock& clock,
-        Core::IRandom& random,
-        Core::Logger logger,
-        OpenStreamClientOptions options,
-        EventHandler handler)
-        : _clock(clock),
-          _logger(std::move(logger)),
-          _options(std::move(options)),
-          _handler(std::move(handler)),
-          _session(_options.session, random),
-          _resolver(executor),
-          _socket(executor),
-          _timers(std::make_shared<Timers>(executor, [this](OpenStream::EClientTimer timer) { OnTimer(timer); }))
-    {
-    }
-
-    void Start()
-    {
-        _session.Start(_clock.GetNow(), _actions);
-        Execute();
-    }
-
-    void Stop()
-    {
-        _session.Stop(_clock.GetNow(), _actions);
-        Execute();
-    }
-
-    void SetMonitor(std::optional<OpenStream::MonitorRequest> monitorOrNull)
-    {
-        _session.SetMonitor(std::move(monitorOrNull), _clock.GetNow(), _actions);
-        Execute();
-    }
-
-    std::uint64_t SendControl(const OpenStream::ControlRequest& request, OpenStream::EControlTracking tracking)
-    {
-        const std::uint64_t token = _session.SendControl(request, tracking, _clock.GetNow(), _actions);
-        Execute();
-        return token;
-    }
-
-    std::uint64_t SendControlCall(OpenStream::ControlCall call)
-    {
-        const std::uint64_t token = _session.SendControlCall(std::move(call), _clock.GetNow(), _actions);
-        Execute();
-        return token;
-    }
-
-    void StopControl()
-    {
-        _session.StopControl(_clock.GetNow(), _actions);
-        Execute();
-    }
-
-    void ShutDown()
-    {
-        _bDown = true;
-        _resolver.cancel();
-        _timers->CancelAll();
-        CloseSocket();
-    }
-
-    [[nodiscard]] const OpenStream::ClientSession& GetSession() const noexcept
-    {
-        return _session;
     }
 };
 

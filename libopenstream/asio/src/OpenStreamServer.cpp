@@ -29,71 +29,6 @@ class OpenStreamServer::Impl final : public std::enable_shared_from_this<OpenStr
     std::vector<std::shared_ptr<ServerConnection>> _connections;
     OpenStream::ServerSessionStats _endedStats;
 
-    void OnAccepted(boost::asio::ip::tcp::socket socket)
-    {
-        const bool bRoom = CountSessions() < _options.maximumSessions || TryEvictSilent();
-        if (_connections.size() >= _options.maximumSessions + MAX_ENDING)
-        {
-            return;
-        }
-        auto connection = std::make_shared<ServerConnection>(
-            std::move(socket),
-            _clock,
-            _logger,
-            _options.session,
-            _service,
-            [weak = weak_from_this()](ServerConnection& closed) {
-                if (const std::shared_ptr<Impl> self = weak.lock())
-                {
-                    self->Forget(closed);
-                }
-            });
-        _connections.push_back(connection);
-        if (bRoom)
-        {
-            connection->Start();
-        }
-        else
-        {
-            connection->Reject("this controller serves no more sessions at once");
-        }
-    }
-
-    /// Those that end do not count: they are served no more.
-    [[nodiscard]] std::size_t CountSessions() const
-    {
-        return static_cast<std::size_t>(std::ranges::count_if(_connections, [](const auto& connection) {
-            return connection->GetState() < OpenStream::EServerState::Closing;
-        }));
-    }
-
-    /// Ends the oldest connection that has sent no HANDSHAKE yet. False where there is none.
-    [[nodiscard]] bool TryEvictSilent()
-    {
-        const auto oldest = std::ranges::find_if(_connections, [](const auto& connection) {
-            return connection->GetState() == OpenStream::EServerState::Connected;
-        });
-        if (oldest == _connections.end())
-        {
-            return false;
-        }
-        const std::shared_ptr<ServerConnection> connection = *oldest;
-        if (_connections.size() < _options.maximumSessions + MAX_ENDING)
-        {
-            connection->Reject("no HANDSHAKE came, and another client needs the session");
-            return true;
-        }
-        connection->Abort();
-        Forget(*connection);
-        return true;
-    }
-
-    void Forget(const ServerConnection& closed)
-    {
-        _endedStats += closed.GetStats();
-        std::erase_if(_connections, [&closed](const auto& connection) { return connection.get() == &closed; });
-    }
-
 public:
     Impl(
         const boost::asio::any_io_executor& executor,
@@ -159,6 +94,72 @@ public:
             total += connection->GetStats();
         }
         return total;
+    }
+
+private:
+    void OnAccepted(boost::asio::ip::tcp::socket socket)
+    {
+        const bool bRoom = CountSessions() < _options.maximumSessions || TryEvictSilent();
+        if (_connections.size() >= _options.maximumSessions + MAX_ENDING)
+        {
+            return;
+        }
+        auto connection = std::make_shared<ServerConnection>(
+            std::move(socket),
+            _clock,
+            _logger,
+            _options.session,
+            _service,
+            [weak = weak_from_this()](ServerConnection& closed) {
+                if (const std::shared_ptr<Impl> self = weak.lock())
+                {
+                    self->Forget(closed);
+                }
+            });
+        _connections.push_back(connection);
+        if (bRoom)
+        {
+            connection->Start();
+        }
+        else
+        {
+            connection->Reject("this controller serves no more sessions at once");
+        }
+    }
+
+    /// Those that end do not count: they are served no more.
+    [[nodiscard]] std::size_t CountSessions() const
+    {
+        return static_cast<std::size_t>(std::ranges::count_if(_connections, [](const auto& connection) {
+            return connection->GetState() < OpenStream::EServerState::Closing;
+        }));
+    }
+
+    /// Ends the oldest connection that has sent no HANDSHAKE yet. False where there is none.
+    [[nodiscard]] bool TryEvictSilent()
+    {
+        const auto oldest = std::ranges::find_if(_connections, [](const auto& connection) {
+            return connection->GetState() == OpenStream::EServerState::Connected;
+        });
+        if (oldest == _connections.end())
+        {
+            return false;
+        }
+        const std::shared_ptr<ServerConnection> connection = *oldest;
+        if (_connections.size() < _options.maximumSessions + MAX_ENDING)
+        {
+            connection->Reject("no HANDSHAKE came, and another client needs the session");
+            return true;
+        }
+        connection->Abort();
+        Forget(*connection);
+        return true;
+    }
+
+    void Forget(const ServerConnection& closed)
+    {
+        _endedStats += closed.GetStats();
+        std::erase_if(_connections, [&closed](const auto& connection) { return connection.get() == &closed; });
     }
 };
 

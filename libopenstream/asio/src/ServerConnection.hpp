@@ -66,24 +66,6 @@ private:
     bool _bPeerClosed = false;
     bool _bClosed = false;
 
-    void Execute();
-    void Do(const OpenStream::ServerSend& action);
-    void Do(const OpenStream::ServerCall& action);
-    void Do(const OpenStream::ServerStopControl& action);
-    void Do(const OpenStream::ServerStartTimer& action);
-    void Do(const OpenStream::ServerCancelTimer& action);
-    void Do(const OpenStream::ServerPauseReading& action);
-    void Do(const OpenStream::ServerResumeReading& action);
-    void Do(const OpenStream::ServerContinue& action);
-    void Do(const OpenStream::ServerShutdownSend& action);
-    void Do(const OpenStream::ServerClose& action);
-    void ReadMoreAsync();
-    void OnRead(const boost::system::error_code& error, std::size_t size);
-    void OnWritten(const boost::system::error_code& error, std::size_t size);
-    void OnTimer(OpenStream::EServerTimer timer);
-    void OnAnswerDue(EAnswer kind);
-    void OnContinue();
-
 public:
     ServerConnection(
         boost::asio::ip::tcp::socket socket,
@@ -101,6 +83,25 @@ public:
 
     [[nodiscard]] OpenStream::EServerState GetState() const noexcept;
     [[nodiscard]] const OpenStream::ServerSessionStats& GetStats() const noexcept;
+
+private:
+    void Execute();
+    void Do(const OpenStream::ServerSend& action);
+    void Do(const OpenStream::ServerCall& action);
+    void Do(const OpenStream::ServerStopControl& action);
+    void Do(const OpenStream::ServerStartTimer& action);
+    void Do(const OpenStream::ServerCancelTimer& action);
+    void Do(const OpenStream::ServerPauseReading& action);
+    void Do(const OpenStream::ServerResumeReading& action);
+    void Do(const OpenStream::ServerContinue& action);
+    void Do(const OpenStream::ServerShutdownSend& action);
+    void Do(const OpenStream::ServerClose& action);
+    void ReadMoreAsync();
+    void OnRead(const boost::system::error_code& error, std::size_t size);
+    void OnWritten(const boost::system::error_code& error, std::size_t size);
+    void OnTimer(OpenStream::EServerTimer timer);
+    void OnAnswerDue(EAnswer kind);
+    void OnContinue();
 };
 
 } // namespace ACS::OpenStreamAsio

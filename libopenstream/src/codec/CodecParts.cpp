@@ -30,12 +30,12 @@ const Json::Value* FindMemberOrNull(const Json::Value& object, const char* name)
     return member == object.MemberEnd() ? nullptr : &member->value;
 }
 
-void WriteOptional(std::string_view name, const std::optional<Core::JsonText>& value, Json::JsonWriter& writer)
+void WriteOptional(std::string_view name, const std::optional<Core::JsonText>& valueOrNull, Json::JsonWriter& writer)
 {
-    if (value.has_value())
+    if (valueOrNull.has_value())
     {
         writer.Key(name);
-        writer.WriteRaw(*value);
+        writer.WriteRaw(*valueOrNull);
     }
 }
 

@@ -57,7 +57,7 @@ inline constexpr Json::ParseLimits LIMITS{LONGEST_LINE, DEEPEST_NESTING};
 [[nodiscard]] std::string_view GetText(const Json::Value& value);
 [[nodiscard]] const Json::Value* FindMemberOrNull(const Json::Value& object, const char* name);
 
-void WriteOptional(std::string_view name, const std::optional<Core::JsonText>& value, Json::JsonWriter& writer);
+void WriteOptional(std::string_view name, const std::optional<Core::JsonText>& valueOrNull, Json::JsonWriter& writer);
 
 /// Ends the object that begins there, and the line with it.
 void EndLine(std::size_t begin, Json::JsonWriter& writer, std::string& out);

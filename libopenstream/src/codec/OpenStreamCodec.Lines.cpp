@@ -204,7 +204,7 @@ void OpenStreamCodec::EncodeData(
     std::int64_t ts,
     double serviceDurationMs,
     const ApiResponse& response,
-    const std::optional<Core::JsonText>& id,
+    const std::optional<Core::JsonText>& idOrNull,
     std::string& out)
 {
     const std::size_t begin = out.size();
@@ -222,7 +222,7 @@ void OpenStreamCodec::EncodeData(
         writer.Key("status");
         writer.WriteInteger(response.status);
     }
-    Detail::WriteOptional("id", id, writer);
+    Detail::WriteOptional("id", idOrNull, writer);
     Detail::EndLine(begin, writer, out);
 }
 

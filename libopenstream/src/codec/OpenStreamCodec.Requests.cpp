@@ -42,13 +42,13 @@ tl::unexpected<Core::Error> Refuse(
     EOpenStreamErrorCode code,
     std::string path,
     std::string expected,
-    const Value* value)
+    const Value* valueOrNull)
 {
     return Core::Fail(
         code,
         std::move(path),
         std::move(expected),
-        value == nullptr ? std::string() : Json::ShortenForError(*value));
+        valueOrNull == nullptr ? std::string() : Json::ShortenForError(*valueOrNull));
 }
 
 /// Where a read failed; the first failure wins, so that fields are checked in their order.
@@ -57,11 +57,11 @@ struct PayloadReader
     const Value& payload;
     std::optional<Core::Error> error;
 
-    void Fail(EOpenStreamErrorCode code, const char* name, std::string expected, const Value* value)
+    void Fail(EOpenStreamErrorCode code, const char* name, std::string expected, const Value* valueOrNull)
     {
         if (!error.has_value())
         {
-            error = Refuse(code, fmt::format("payload.{}", name), std::move(expected), value).value();
+            error = Refuse(code, fmt::format("payload.{}", name), std::move(expected), valueOrNull).value();
         }
     }
 
@@ -91,16 +91,16 @@ struct PayloadReader
         }
     }
 
-    void ReadUrl(std::string& out)
+    void ReadURL(std::string& out)
     {
         const Value* value = FindMemberOrNull(payload, "url");
         if (value == nullptr)
         {
-            Fail(EOpenStreamErrorCode::MissingUrl, "url", "a path such as /project/robot/po_cur", value);
+            Fail(EOpenStreamErrorCode::MissingURL, "url", "a path such as /project/robot/po_cur", value);
         }
-        else if (!value->IsString() || !IsUrl(GetText(*value)))
+        else if (!value->IsString() || !IsURL(GetText(*value)))
         {
-            Fail(EOpenStreamErrorCode::InvalidUrl, "url", "a path that begins with / and has no blanks", value);
+            Fail(EOpenStreamErrorCode::InvalidURL, "url", "a path that begins with / and has no blanks", value);
         }
         else if (value->GetStringLength() > LONGEST_URL)
         {
@@ -190,7 +190,7 @@ MonitorRequest ReadMonitor(PayloadReader& reader)
     MonitorRequest request;
     EApiMethod method = EApiMethod::Get;
     std::int64_t period = 0;
-    reader.ReadUrl(request.url);
+    reader.ReadURL(request.url);
     reader.ReadMethod(true, method);
     reader.ReadInteger("period_ms", EOpenStreamErrorCode::MissingPeriodMs, EOpenStreamErrorCode::InvalidPeriod, period);
     reader.ReadArgs(request.args);
@@ -211,7 +211,7 @@ MonitorRequest ReadMonitor(PayloadReader& reader)
 ControlRequest ReadControl(PayloadReader& reader)
 {
     ControlRequest request;
-    reader.ReadUrl(request.url);
+    reader.ReadURL(request.url);
     reader.ReadMethod(false, request.method);
     reader.ReadArgs(request.args);
     reader.ReadBody(request.body);

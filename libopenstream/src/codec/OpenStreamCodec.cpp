@@ -22,7 +22,7 @@ OpenStreamCodec::OpenStreamCodec(OpenStreamCodec&&) noexcept = default;
 OpenStreamCodec& OpenStreamCodec::operator=(OpenStreamCodec&&) noexcept = default;
 OpenStreamCodec::~OpenStreamCodec() = default;
 
-bool IsUrl(std::string_view url) noexcept
+bool IsURL(std::string_view url) noexcept
 {
     const auto isRefused = [](char letter) {
         const auto byte = static_cast<unsigned char>(letter);

@@ -24,7 +24,7 @@ tl::unexpected<Core::Error> RefuseWrite(const std::string& path, const std::stri
 }
 
 /// A path may have any character; three of them separate the parts of a URI.
-std::string EscapeForUri(const std::string& path)
+std::string EscapeForURI(const std::string& path)
 {
     std::string escaped;
     for (const char character : path)
@@ -95,7 +95,7 @@ bool StoreFiles::HasContent(const std::string& path)
 std::optional<std::string> StoreFiles::MakeImmutableUriOrNull(const std::string& database)
 {
     return HasContent(GetLogPath(database)) ? std::nullopt
-                                            : std::optional("file:" + EscapeForUri(database) + "?immutable=1");
+                                            : std::optional("file:" + EscapeForURI(database) + "?immutable=1");
 }
 
 bool StoreFiles::TrySynchronise(const std::string& path)

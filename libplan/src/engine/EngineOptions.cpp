@@ -18,7 +18,7 @@ class MistakeFinder
     const SiteMap& _site;
     std::vector<Core::Error> _mistakes;
     std::set<std::string> _robotIDs;
-    std::map<std::string, std::string> _homes; ///< Nodes where robots stand without work, and whose they are.
+    std::map<std::string, std::string> _homes; ///< Home and charging nodes, with their robot.
     std::set<std::string> _starts;
 
 public:
@@ -38,7 +38,7 @@ public:
         const std::string path = "robots." + robot.robotID.GetText();
         if (robot.robotID.IsAlias() || !_robotIDs.insert(robot.robotID.GetText()).second)
         {
-            Add(path, "a name that no other robot has", robot.robotID.GetText());
+            Add(path, "a unique robot name", robot.robotID.GetText());
         }
         const bool bTypeKnown = _site.HasVehicleType(robot.vehicleTypeID);
         if (!bTypeKnown)
@@ -114,7 +114,7 @@ private:
         }
     }
 
-    /// Where a robot stands when it has no work is its own: nobody may wait for it there.
+    /// Home and charging stations are exclusive.
     void CheckStation(std::string path, const std::string& stationID, const RobotOptions& robot, bool bTypeKnown)
     {
         const SiteStation* stationOrNull = _site.FindStationOrNull(stationID);
@@ -130,7 +130,7 @@ private:
             _homes.try_emplace(stationOrNull->nodeIDs.front(), robot.robotID.GetText()).first->second
             != robot.robotID.GetText())
         {
-            Add(std::move(path), "a station that is home or charging station to no other robot", stationID);
+            Add(std::move(path), "a station that is not the home or charging station of another robot", stationID);
         }
     }
 

@@ -1,47 +1,58 @@
 #include "engine/PlanEngine.Impl.hpp"
 
+#include "plan/PlanSummaries.hpp"
 #include <acs/core/Overloaded.hpp>
 
 #include <algorithm>
 #include <cassert>
 #include <iterator>
+#include <utility>
 
 namespace ACS::Planning
 {
 
 PlanEngine::Impl::Impl(EngineOptions options, SiteMap site, Core::IRandom& random)
-    : _options(std::move(options)),
-      _site(std::move(site)),
-      _random(random),
-      _router(_site),
-      _admission(_options, _site),
-      _traffic(_site, _options.clearance),
-      _plans(_options)
+    : _engine(std::move(options), std::move(site), random),
+      _tsc(_engine),
+      _answers(_engine),
+      _charging(_engine),
+      _loads(_engine),
+      _stalls(_engine),
+      _places(_engine),
+      _waiting(_engine, _tsc, _places),
+      _coordinator(_engine, _answers, _charging, _places, _waiting),
+      _dispatcher(_engine, _coordinator),
+      _waits(_engine, _tsc, _stalls, _waiting, _coordinator, _dispatcher),
+      _status(_engine, _stalls, _waiting, _waits),
+      _work(_engine, _answers, _loads, _status),
+      _jobs(_engine, _loads, _work),
+      _controls(_engine, _tsc, _answers, _waiting, _coordinator, _status, _work),
+      _drives(_engine, _tsc, _answers, _places, _waiting, _coordinator, _work, _controls),
+      _submission(_engine, _tsc, _dispatcher, _waits),
+      _operator(_engine, _loads, _stalls, _places, _work, _jobs),
+      _recovery(_engine, _tsc, _answers, _places, _status, _work),
+      _store(_engine, _answers, _places, _work)
 {
-    assert(FindMistakes(_options, _site).empty());
-    _robots.resize(_options.robots.size());
-    for (std::size_t i = 0; i < _robots.size(); ++i)
+    assert(FindMistakes(_engine.options, _engine.site).empty());
+    for (Robot& robot : _engine.fleet)
     {
-        Robot& robot = _robots[i];
-        robot.index = i;
-        robot.options = &_options.robots[i];
-        robot.ports = PortLedger(robot.options->ports);
-        _robotIndices.emplace(GetRobotID(robot), i);
-        robot.homeNode = GetHomeOrNull(robot);
-        if (robot.options->chargingStationID.has_value())
-        {
-            robot.chargeNode =
-                _admission.FindDockOrNull(*robot.options->chargingStationID, robot.options->vehicleTypeID);
-        }
-        robot.lastStatus = MakeStatus(robot, DeriveStatus(robot));
-        robot.bTouched = false;
+        robot.parking.homeNode = _charging.GetHomeOrNull(robot);
+        robot.parking.chargeNode = _charging.GetChargeNodeOrNull(robot);
+        _status.Reset(robot);
     }
-    AssignParking();
+    _coordinator.AssignParking();
 }
 
 void PlanEngine::Impl::SetObserver(IPlanObserver& observer)
 {
-    _observerOrNull = &observer;
+    _engine.transaction.SetObserver(observer);
+}
+
+void PlanEngine::Impl::Restore(StoredState state, Core::Now now, EngineActions& out)
+{
+    Begin(now);
+    _recovery.Restore(std::move(state));
+    End(out);
 }
 
 void PlanEngine::Impl::HandleCommand(const PlanCommand& command, Core::Now now, EngineActions& out)
@@ -49,21 +60,21 @@ void PlanEngine::Impl::HandleCommand(const PlanCommand& command, Core::Now now, 
     Begin(now);
     std::visit(
         Core::Overloaded{
-            [this](const SubmitPlan& submit) { Submit(submit); },
-            [this](const ControlPlan& control) { Control(control); },
-            [this](const MessageAcknowledged& acknowledged) { Acknowledge(acknowledged); },
-            [this](const ControlTsc& control) { SwitchTsc(control); },
-            [this](const SettleJob& settle) { Settle(settle); },
-            [this](const SetMaintenance& maintenance) { Maintain(maintenance); },
-            [this](const ClearAlarms& clear) { ClearByOperator(clear); },
-            [this](const SetCarriers& carriers) { CorrectCarriers(carriers); },
+            [this](const SubmitPlan& submit) { _submission.Submit(submit); },
+            [this](const ControlPlan& control) { _controls.Control(control); },
+            [this](const MessageAcknowledged& acknowledged) { _store.Acknowledge(acknowledged); },
+            [this](const ControlTSC& control) { _tsc.SwitchTSC(control); },
+            [this](const SettleJob& settle) { _operator.Settle(settle); },
+            [this](const SetMaintenance& maintenance) { _operator.Maintain(maintenance); },
+            [this](const ClearAlarms& clear) { _operator.ClearByOperator(clear); },
+            [this](const SetCarriers& carriers) { _operator.CorrectCarriers(carriers); },
             [this](const SkipStep& skip) {
-                Skip(skip);
+                _operator.Skip(skip);
             }},
         command);
     if (!std::holds_alternative<MessageAcknowledged>(command))
     {
-        std::ranges::for_each(_robots, [this](const Robot& robot) { NoteMovable(robot); });
+        std::ranges::for_each(_engine.fleet, [this](const Robot& robot) { _places.NoteMovable(robot); });
     }
     End(out);
 }
@@ -71,373 +82,371 @@ void PlanEngine::Impl::HandleCommand(const PlanCommand& command, Core::Now now, 
 void PlanEngine::Impl::SubmitAll(std::span<const SubmitPlan> plans, Core::Now now, EngineActions& out)
 {
     Begin(now);
-    std::ranges::for_each(plans, [this](const SubmitPlan& plan) { Submit(plan); });
+    std::ranges::for_each(plans, [this](const SubmitPlan& plan) { _submission.Submit(plan); });
     End(out);
 }
 
 void PlanEngine::Impl::HandleEvent(std::string_view robotID, const RobotEvent& event, Core::Now now, EngineActions& out)
 {
-    const auto found = _robotIndices.find(robotID);
-    if (found == _robotIndices.end())
+    Robot* robotOrNull = _engine.fleet.FindOrNull(robotID);
+    if (robotOrNull == nullptr)
     {
         return;
     }
     Begin(now);
-    Robot& robot = _robots[found->second];
-    robot.bTouched = true;
-    robot.bWorkTouched = true;
+    Robot& robot = *robotOrNull;
+    robot.changes = {true, true};
     std::visit(
         Core::Overloaded{
             [this, &robot](const LinkChanged& typed) { OnLink(robot, typed); },
             [this, &robot](const StateChanged& typed) { OnState(robot, typed); },
-            [this, &robot](const NodePassed& typed) { OnNodePassed(robot, typed); },
-            [this, &robot](const Arrived& typed) { OnArrived(robot, typed); },
-            [this, &robot](const DriveRejected& typed) { OnDriveRejected(robot, typed); },
-            [this, &robot](const DriveCancelled& typed) { OnDriveCancelled(robot, typed); },
-            [this, &robot](const JobStarted& typed) { OnJobStarted(robot, typed); },
-            [this, &robot](const JobFinished& typed) { OnJobFinished(robot, typed); },
-            [this, &robot](const JobFailed& typed) { OnJobFailed(robot, typed); },
-            [this, &robot](const JobUnknown& typed) { OnJobUnknown(robot, typed); },
-            [this, &robot](const JobUncertain& typed) { OnJobUncertain(robot, typed); },
+            [this, &robot](const NodePassed& typed) { _drives.OnNodePassed(robot, typed); },
+            [this, &robot](const Arrived& typed) { _drives.OnArrived(robot, typed); },
+            [this, &robot](const DriveRejected& typed) { _drives.OnDriveRejected(robot, typed); },
+            [this, &robot](const DriveCancelled& typed) { _drives.OnDriveCancelled(robot, typed); },
+            [this, &robot](const JobStarted& typed) { _jobs.OnJobStarted(robot, typed); },
+            [this, &robot](const JobFinished& typed) { _jobs.OnJobFinished(robot, typed); },
+            [this, &robot](const JobFailed& typed) { _jobs.OnJobFailed(robot, typed); },
+            [this, &robot](const JobUnknown& typed) { _jobs.OnJobUnknown(robot, typed); },
+            [this, &robot](const JobUncertain& typed) { _jobs.OnJobUncertain(robot, typed); },
             [this, &robot](const JobCheckChanged& typed) {
-                OnJobCheck(robot, typed);
+                _dispatcher.OnJobCheck(robot, typed);
             }},
         event);
-    NoteMovable(robot);
+    _places.NoteMovable(robot);
     End(out);
 }
 
 void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineActions& out)
 {
     Begin(now);
-    const auto found = _robotIndices.find(timer.robotID);
-    Robot* robotOrNull = found == _robotIndices.end() ? nullptr : &_robots[found->second];
     switch (timer.kind)
     {
         case EEngineTimer::Dispatch:
-            ReportAccepted();
-            _bDispatchNeeded = true;
+            _submission.ReportAccepted();
+            _engine.transaction.RequestDispatch();
             break;
         case EEngineTimer::StoreRetry:
-            _backlog.OnRetryDue(); // The end of the call stores what is left.
+            _engine.backlog.OnRetryDue(); // stored at the end of the call
             break;
         case EEngineTimer::Acknowledged:
-            std::ranges::move(_acknowledged, std::back_inserter(_changes));
-            _acknowledged.clear();
-            break;
-        case EEngineTimer::DriveExtension:
-            if (robotOrNull != nullptr && robotOrNull->drive.has_value())
-            {
-                robotOrNull->drive->bConfirmed = true; // It has had its time to say so.
-                _bDispatchNeeded = true;
-            }
-            break;
-        case EEngineTimer::ControlConfirm:
-            if (robotOrNull != nullptr && std::exchange(robotOrNull->bConfirming, false))
-            {
-                OnControlTimeout(*robotOrNull);
-            }
-            break;
-        case EEngineTimer::JobTimeout:
-            if (robotOrNull != nullptr)
-            {
-                OnJobTimeout(*robotOrNull);
-            }
-            break;
-        case EEngineTimer::HomeRetry:
-            if (robotOrNull != nullptr)
-            {
-                robotOrNull->bHomeRefused = false;
-                _bDispatchNeeded = true;
-            }
+            _store.StoreAcknowledged();
             break;
         case EEngineTimer::Startup:
-            EndStartup();
-            RaiseMissing();
+            _recovery.EndStartup();
+            _recovery.RaiseMissing();
             break;
+        case EEngineTimer::DriveExtension:
+        case EEngineTimer::ControlConfirm:
+        case EEngineTimer::JobTimeout:
+        case EEngineTimer::HomeRetry:
         case EEngineTimer::JobEnd:
-            if (robotOrNull != nullptr)
-            {
-                OnJobEndTimeout(*robotOrNull);
-            }
-            break;
         case EEngineTimer::ChargeRetry:
-            if (robotOrNull != nullptr)
-            {
-                OnChargeRetry(*robotOrNull);
-            }
-            break;
         case EEngineTimer::DriveStall:
-            if (robotOrNull != nullptr)
-            {
-                OnDriveStall(*robotOrNull);
-            }
-            break;
         case EEngineTimer::LoadAlarm:
-            if (robotOrNull != nullptr)
-            {
-                OnLoadAlarmTimer(*robotOrNull);
-            }
-            break;
         default:
-            assert(false && "a timer has no case");
             break;
     }
-    if (robotOrNull != nullptr)
+    if (Robot* robotOrNull = _engine.fleet.FindOrNull(timer.robotID); robotOrNull != nullptr)
     {
-        NoteMovable(*robotOrNull);
+        OnRobotTimer(timer.kind, *robotOrNull);
+        _places.NoteMovable(*robotOrNull);
     }
     End(out);
 }
 
-void PlanEngine::Impl::Begin(Core::Now now)
+void PlanEngine::Impl::OnRobotTimer(EEngineTimer kind, Robot& robot)
 {
-    assert(!_gate.IsClosed());
-    _now = now;
-    _plans.BeginCall();
-    CheckStoreRecovery();
-    _begun.clear();
-    _asked.reset();
-    _repeated.clear();
+    switch (kind)
+    {
+        case EEngineTimer::DriveExtension:
+            _coordinator.OnExtensionDue(robot);
+            break;
+        case EEngineTimer::ControlConfirm:
+            _controls.OnControlTimeout(robot);
+            break;
+        case EEngineTimer::JobTimeout:
+            _jobs.OnJobTimeout(robot);
+            break;
+        case EEngineTimer::HomeRetry:
+            _coordinator.OnHomeRetry(robot);
+            break;
+        case EEngineTimer::JobEnd:
+            _jobs.OnJobEndTimeout(robot);
+            break;
+        case EEngineTimer::ChargeRetry:
+            _charging.OnChargeRetry(robot);
+            break;
+        case EEngineTimer::DriveStall:
+            _stalls.OnDriveStall(robot);
+            break;
+        case EEngineTimer::LoadAlarm:
+            _loads.OnLoadAlarmTimer(robot);
+            break;
+        case EEngineTimer::Dispatch:
+        case EEngineTimer::StoreRetry:
+        case EEngineTimer::Acknowledged:
+        case EEngineTimer::Startup:
+        default:
+            assert(false && "not a timer of a robot");
+            break;
+    }
 }
 
-/// One batch for the whole call, then everything that waits for it.
+void PlanEngine::Impl::OnStored(const Core::Result<void>& result, Core::Now now, EngineActions& out)
+{
+    _store.OnStored(result, now, out);
+}
+
+bool PlanEngine::Impl::IsStoring() const noexcept
+{
+    return _store.IsStoring();
+}
+
+void PlanEngine::Impl::OnStoreLost(std::string_view reason, Core::Now now, EngineActions& out)
+{
+    _store.OnStoreLost(reason, now, out);
+}
+
+void PlanEngine::Impl::Begin(Core::Now now)
+{
+    assert(!_store.IsStoring());
+    _engine.transaction.SetNow(now);
+    _engine.plans.BeginCall();
+    _store.CheckStoreRecovery();
+    _engine.call.Begin();
+}
+
 void PlanEngine::Impl::End(EngineActions& out)
 {
-    UpdateStartup();
-    if (_bDispatchNeeded && !_startup.IsHoldingWork())
+    _recovery.UpdateStartup();
+    if (_engine.transaction.IsDispatchNeeded() && !_engine.startup.IsHoldingWork())
     {
         Dispatch();
     }
-    FinishTscPause();
-    std::ranges::for_each(_robots, [this](Robot& robot) { UpdateStall(robot); });
-    PublishStatusChanges();
-    WatchOutbox();
-    CollectWork();
-    std::vector<StoreChange> changes = _backlog.CollectChanges();
-    std::ranges::move(_plans.CollectProgress(), std::back_inserter(changes));
-    std::ranges::move(_changes, std::back_inserter(changes));
-    _changes.clear();
-    if (!_backlog.IsWorthTrying(changes))
-    {
-        _backlog.Add(std::move(changes));
-        ReleaseActions(out);
-        return;
-    }
-    EngineActions dependent;
-    if (!changes.empty())
-    {
-        std::ranges::move(_acknowledged, std::back_inserter(changes));
-        _acknowledged.clear();
-        if (_backlog.TryBeginAttempt())
-        {
-            StartStoreRetry(dependent);
-        }
-    }
-    for (OutboxEntry& entry : _backlog.CollectReports())
-    {
-        dependent.emplace_back(SendReport{std::move(entry)});
-    }
-    std::ranges::move(_actions, std::back_inserter(dependent));
-    _actions.clear();
-    if (changes.empty())
-    {
-        std::ranges::move(dependent, std::back_inserter(out));
-        return;
-    }
-    StoreBatch batch{std::move(changes)};
-    _gate.Close(batch, std::move(dependent));
-    out.emplace_back(StorePlans{std::move(batch)});
+    _tsc.FinishTscPause();
+    std::ranges::for_each(_engine.fleet, [this](Robot& robot) { _stalls.UpdateStall(robot); });
+    _status.PublishStatusChanges();
+    _engine.transaction.WatchOutbox();
+    _store.Commit(out);
 }
 
-/// What robots were told in this call is stored before they are told.
-void PlanEngine::Impl::CollectWork()
+void PlanEngine::Impl::Dispatch()
 {
-    for (Robot& robot : _robots)
+    // Each pass may free what an earlier one waited for.
+    while (_engine.transaction.TryBeginDispatch())
     {
-        if (!std::exchange(robot.bWorkTouched, false))
+        // The start of a plan must be stored before the plan is executed.
+        if (_tsc.GetState() == ETscState::Auto && !_engine.backlog.IsFailing())
         {
-            continue;
+            AssignPlans();
         }
-        RobotWorkChanged work = robot.work.Make(GetRobotID(robot));
-        work.bPauseAsked = robot.pause.IsPaused() || robot.pause.IsResuming();
-        if (const StartJob* jobOrNull = robot.job.GetOrNull(); jobOrNull != nullptr)
+        _drives.MoveWaiting();
+        if (_tsc.CanDriveHome())
         {
-            work.job = *jobOrNull;
+            _drives.SendIdleHome();
         }
-        if (robot.state.has_value())
+        _drives.ResolveDeadlocks();
+        _charging.ChargeIdle();
+    }
+}
+
+void PlanEngine::Impl::AssignPlans()
+{
+    for (ActivePlan* plan : _engine.plans.ListStoredQueue())
+    {
+        if (std::ranges::none_of(_engine.fleet, &Robot::IsFree))
         {
-            work.mark = robot.state->mark;
+            return;
         }
-        if (!robot.drive.has_value()) // while it drives the nodes alone are no reason to write: they only become fewer
+        if (Robot* robotOrNull = _dispatcher.FindNearestOrNull(*plan); robotOrNull != nullptr)
         {
-            work.nodeIDs = ListNodes(robot);
-        }
-        if (robot.work.TryBeginStore(work))
-        {
-            work.nodeIDs = ListNodes(robot);
-            robot.work.OnStored(work);
-            _changes.emplace_back(std::move(work));
+            _work.BeginPlan(*plan, *robotOrNull);
         }
     }
 }
 
-/// Gives the report's transactionID, until the next one.
-std::string_view PlanEngine::Impl::AddReport(Report report)
+void PlanEngine::Impl::OnLink(Robot& robot, const LinkChanged& event)
 {
-    const OutboxEntry& entry = _outbox.Add(std::move(report), _now.wall, _random);
-    _changes.emplace_back(ReportAdded{entry});
-    _actions.emplace_back(SendReport{entry});
-    return entry.transactionID;
-}
-
-/// `outbox.max`. What runs goes on and is reported: nothing is thrown away, but nothing new begins.
-void PlanEngine::Impl::WatchOutbox()
-{
-    constexpr std::size_t TENTH = 10;
-    Alarm alarm = MakeAlarm(
-        OWN_ROBOT_ID,
-        ALARM_OUTBOX,
-        EAlarmLevel::Heavy,
-        "The MCS has not acknowledged too many reports: new plans are refused.");
-    const std::size_t count = _outbox.GetUnacknowledged().size();
-    if (count >= _options.maximumReports)
-    {
-        RaiseAlarm(std::move(alarm));
-    }
-    else if (count < _options.maximumReports - _options.maximumReports / TENTH)
-    {
-        ClearAlarm(alarm);
-    }
-}
-
-void PlanEngine::Impl::PublishStatusChanges()
-{
-    for (Robot& robot : _robots)
-    {
-        if (std::exchange(robot.bTouched, false))
-        {
-            PublishStatus(robot, DeriveStatus(robot));
-        }
-    }
-}
-
-void PlanEngine::Impl::PublishStatus(Robot& robot, ERobotStatus status)
-{
-    RobotStatus made = MakeStatus(robot, status);
-    if (made == robot.lastStatus)
+    if (robot.view.bOnline == event.bOnline)
     {
         return;
     }
-    robot.lastStatus = std::move(made);
-    if (_observerOrNull != nullptr)
+    robot.view.bOnline = event.bOnline;
+    Alarm alarm = MakeLinkAlarm(robot.GetID(), "Robot disconnected. Check the robot and its network.");
+    _engine.transaction.RequestDispatch();
+    if (event.bOnline)
     {
-        _observerOrNull->OnRobotStatusChanged(robot.lastStatus, _now);
+        _engine.transaction.ClearAlarm(alarm);
+        return;
     }
-    _actions.emplace_back(RobotStatusChanged{robot.lastStatus});
+    // The state is outdated when the robot reconnects.
+    robot.view.state.reset();
+    robot.charging.OnLinkLost();
+    _engine.transaction.RaiseAlarm(std::move(alarm));
 }
 
-void PlanEngine::Impl::StartTimer(EEngineTimer kind, const std::string& robotID, Core::Duration delay)
+void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
 {
-    _actions.emplace_back(StartEngineTimer{{kind, robotID}, delay});
-}
-
-void PlanEngine::Impl::CancelTimer(EEngineTimer kind, const std::string& robotID)
-{
-    _actions.emplace_back(CancelEngineTimer{{kind, robotID}});
-}
-
-void PlanEngine::Impl::Command(Robot& robot, RobotCommand command)
-{
-    robot.bWorkTouched = true;
-    _actions.emplace_back(CommandRobot{GetRobotID(robot), std::move(command)});
-}
-
-void PlanEngine::Impl::Note(const Robot& robot, const std::string& text)
-{
-    if (_observerOrNull != nullptr)
+    if (!robot.view.bOnline)
     {
-        _observerOrNull->OnNote(GetRobotID(robot), text, _now);
+        return;
     }
-}
-
-void PlanEngine::Impl::ChangePlan(ActivePlan& plan, EPlanState state, std::string message)
-{
-    const EPlanState from = _plans.Change(plan, state, message, _now.wall);
-    const std::string_view transactionID = AddReport(PlanReport{plan.record.plan.planID, state, std::move(message)});
-    if (_observerOrNull != nullptr)
+    const bool bWasUsable = robot.IsUsable();
+    const bool bFirst = !robot.view.state.has_value();
+    const bool bWasPaused = !bFirst && robot.view.state->bPaused;
+    // A robot in manual mode may ignore commands.
+    const bool bBack = bFirst || (!robot.view.state->bAutomatic && event.bAutomatic);
+    robot.view.state = event;
+    CompareErrors(robot);
+    if (!robot.drive.has_value())
     {
-        _observerOrNull->OnPlanChanged(plan.record, from, transactionID, _now);
+        _places.Place(robot);
     }
-}
-
-void PlanEngine::Impl::ChangeStep(ActivePlan& plan, EStepState state, std::string message)
-{
-    ChangeStepAt(plan, plan.step, state, std::move(message));
-}
-
-void PlanEngine::Impl::ChangeStepAt(ActivePlan& plan, std::size_t index, EStepState state, std::string message)
-{
-    const EStepState from = _plans.ChangeStep(plan, index, state);
-    const std::string_view transactionID = AddReport(StepReport{
-        plan.record.plan.planID,
-        plan.record.progress.robotID,
-        plan.record.plan.steps[index].stepNo,
-        state,
-        std::move(message)});
-    if (_observerOrNull != nullptr)
+    else if (event.bDriving && robot.drive->goal == EDriveGoal::Step && robot.planOrNull != nullptr)
     {
-        _observerOrNull->OnStepChanged(plan.record, index, from, transactionID, _now);
+        _work.MarkStepBegun(*robot.planOrNull);
+    }
+    robot.changes.bWork = robot.work.TryCheckEvidence(event, robot.planOrNull != nullptr) || robot.changes.bWork;
+    _loads.CompareLoads(robot);
+    _controls.UpdatePause(robot, bBack, bWasPaused);
+    _controls.UpdateStandstill(robot);
+    _charging.UpdateBattery(robot);
+    if (robot.IsUsable() && !bWasUsable)
+    {
+        robot.parking.refusals = 0;
+        _engine.transaction.RequestDispatch();
     }
 }
 
-void PlanEngine::Impl::ChangeJob(ActivePlan& plan, EJobState state, std::string message)
+/// Sets and clears an alarm for each error that came or went.
+void PlanEngine::Impl::CompareErrors(const Robot& robot)
 {
-    if (!HasJob(plan))
+    const std::string& robotID = robot.GetID();
+    const std::vector<RobotError>& errors = robot.view.state->errors;
+    _engine.transaction.ReportAlarms(_engine.alarms.ClearIf([&errors, &robotID](const Alarm& alarm) {
+        return alarm.robotID == robotID && !alarm.errorCode.starts_with(ALARM_PREFIX)
+            && std::ranges::count(errors, alarm.errorCode, &RobotError::errorCode) == 0;
+    }));
+    for (const RobotError& error : errors)
     {
-        return; // The engine made this job: the MCS has no id for it.
-    }
-    const EJobState from = _plans.ChangeJob(plan, state);
-    const std::string_view transactionID = AddReport(JobReport{
-        plan.record.plan.planID,
-        plan.record.progress.robotID,
-        plan.record.plan.steps[plan.step].stepNo,
-        GetJobID(plan),
-        state,
-        std::move(message)});
-    if (_observerOrNull != nullptr)
-    {
-        _observerOrNull->OnJobChanged(plan.record, plan.step, plan.job, from, transactionID, _now);
-    }
-}
-
-void PlanEngine::Impl::Store(std::vector<StoreChange> changes)
-{
-    std::ranges::move(changes, std::back_inserter(_changes));
-}
-
-void PlanEngine::Impl::ReportAlarms(const std::vector<ErrorReport>& reports)
-{
-    for (const ErrorReport& report : reports)
-    {
-        const Alarm& alarm = report.alarm;
-        _changes.push_back(report.bSet ? StoreChange(AlarmSet{alarm}) : StoreChange(AlarmCleared{alarm}));
-        const std::string_view transactionID = AddReport(report);
-        if (_observerOrNull != nullptr)
+        const bool bOutweighed = std::ranges::any_of(errors, [&error](const RobotError& other) {
+            return other.errorCode == error.errorCode && other.level == EAlarmLevel::Heavy
+                && error.level != EAlarmLevel::Heavy;
+        });
+        if (!bOutweighed)
         {
-            _observerOrNull->OnAlarmChanged(alarm, report.bSet, transactionID, _now);
+            _engine.transaction.RaiseAlarm(MakeAlarm(robotID, error.errorCode, error.level, error.message));
         }
     }
 }
 
-void PlanEngine::Impl::RaiseAlarm(Alarm alarm)
+std::vector<OutboxEntry> PlanEngine::Impl::GetUnacknowledged() const
 {
-    ReportAlarms(_alarms.Raise(std::move(alarm)));
+    std::vector<OutboxEntry> entries;
+    std::ranges::copy_if(
+        _engine.outbox.GetUnacknowledged(),
+        std::back_inserter(entries),
+        [this](const OutboxEntry& entry) { return !_engine.backlog.IsHeldBack(entry); });
+    return entries;
 }
 
-void PlanEngine::Impl::ClearAlarm(const Alarm& alarm)
+OutboxSummary PlanEngine::Impl::GetOutboxSummary() const
 {
-    ReportAlarms(_alarms.Clear(alarm));
+    const std::deque<OutboxEntry>& outbox = _engine.outbox.GetUnacknowledged();
+    const auto oldest = std::ranges::find_if_not(outbox, [this](const OutboxEntry& entry) {
+        return _engine.backlog.IsHeldBack(entry);
+    });
+    OutboxSummary summary{outbox.size() - _engine.backlog.CountHeldBack(), std::nullopt};
+    if (oldest != outbox.end())
+    {
+        summary.oldest = oldest->time;
+    }
+    return summary;
+}
+
+std::vector<RobotPose> PlanEngine::Impl::GetRobotPoses() const
+{
+    std::vector<RobotPose> poses;
+    for (const Robot& robot : _engine.fleet)
+    {
+        if (robot.view.state.has_value() && robot.view.state->bPoseKnown)
+        {
+            const StateChanged& state = *robot.view.state;
+            poses.push_back({robot.GetID(), state.x, state.y, state.theta, state.batteryPercent});
+        }
+    }
+    return poses;
+}
+
+std::vector<PlanSummary> PlanEngine::Impl::GetActivePlans() const
+{
+    const auto rank = [](const ActivePlan* plan) {
+        const EPlanState state = plan->record.progress.state;
+        return state == EPlanState::InProgress ? 0 : (state == EPlanState::Paused ? 1 : 2);
+    };
+    std::vector<const ActivePlan*> ordered;
+    ordered.reserve(_engine.plans.GetActive().size());
+    for (const auto& [planID, plan] : _engine.plans.GetActive())
+    {
+        ordered.push_back(plan.get());
+    }
+    std::ranges::sort(ordered, [&rank](const ActivePlan* left, const ActivePlan* right) {
+        return std::pair(rank(left), left->key) < std::pair(rank(right), right->key);
+    });
+    std::vector<PlanSummary> summaries;
+    summaries.reserve(ordered.size());
+    for (const ActivePlan* plan : ordered)
+    {
+        summaries.push_back(MakeSummary(plan->record));
+    }
+    return summaries;
+}
+
+std::optional<PlanSummary> PlanEngine::Impl::GetPlanOrNull(std::string_view planID) const
+{
+    const PlanRecord* recordOrNull = _engine.plans.FindRecordOrNull(planID);
+    return recordOrNull == nullptr ? std::nullopt : std::optional(MakeSummary(*recordOrNull));
+}
+
+std::vector<RobotStatus> PlanEngine::Impl::GetRobotStatuses() const
+{
+    return _status.GetRobotStatuses();
+}
+
+std::vector<WaitReason> PlanEngine::Impl::GetWaitReasons() const
+{
+    return _waits.GetWaitReasons();
+}
+
+std::optional<WaitReason> PlanEngine::Impl::GetWaitReasonOrNull(std::string_view planID) const
+{
+    return _waits.GetWaitReasonOrNull(planID);
+}
+
+std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const SetCarriers& command) const
+{
+    return _operator.GetRejectionReasonOrNull(command);
+}
+
+std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const SettleJob& command) const
+{
+    return _operator.GetRejectionReasonOrNull(command);
+}
+
+std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const SkipStep& command) const
+{
+    return _operator.GetRejectionReasonOrNull(command);
+}
+
+const std::vector<Alarm>& PlanEngine::Impl::GetActiveAlarms() const noexcept
+{
+    return _engine.alarms.GetAlarms();
+}
+
+ETscState PlanEngine::Impl::GetTscState() const noexcept
+{
+    return _tsc.GetTscState();
 }
 
 } // namespace ACS::Planning

@@ -26,7 +26,7 @@ struct QueueKey
     }
 };
 
-/// What a plan that a robot has continues with.
+/// What an assigned plan continues with.
 enum class EContinuation : std::uint8_t
 {
     Job,  ///< The present job of the present step.
@@ -45,13 +45,13 @@ struct ActivePlan
     EContinuation next = EContinuation::Job;
     std::string madeJobID; ///< Of a step without jobs.
     std::optional<std::size_t> robot;
-    bool bStepArrived = false;     ///< Arrival was reported for the present step, and its drive.
+    bool bStepArrived = false;     ///< Arrival was reported for the present step and its drive.
     bool bJobBegun = false;        ///< Any of its jobs.
-    bool bUnstored = false;        ///< That it was begun could not be stored: its first job waits for that.
-    std::string repeatedCommandID; ///< Of a job that the robot never had: it is sent again under this.
+    bool bUnstored = false;        ///< Its start is not stored yet: the first job waits for that.
+    std::string repeatedCommandID; ///< commandID of a job that the robot never had: it is sent again with it.
     std::optional<Core::SteadyTime> jobDeadline;
     std::optional<Core::Duration> jobTimeLeft;     ///< Of a job that is paused.
-    std::map<std::size_t, std::string> rejections; ///< While no robot has it, by robot: why it cannot do a job.
+    std::map<std::size_t, std::string> rejections; ///< Unassigned: by robot, why it cannot do a job.
 };
 
 /// Whether the present step has jobs. Without them the engine makes one, whose id the MCS does not know.

@@ -104,7 +104,7 @@ Core::Result<void> CheckIDs(const Plan& plan)
             return Refuse(
                 ECoreError::OutOfRange,
                 fmt::format("steps[{}].stepNo", i),
-                "a number from 1, once in the plan",
+                "a number from 1 that is unique in the plan",
                 fmt::format("{}", step.stepNo));
         }
         for (std::size_t job = 0; job < step.jobs.size(); ++job)
@@ -119,7 +119,7 @@ Core::Result<void> CheckIDs(const Plan& plan)
                 return Refuse(
                     ECoreError::InvalidIdentifier,
                     path,
-                    "a jobId that is once in the plan",
+                    "a jobId that is unique in the plan",
                     step.jobs[job].jobID);
             }
         }
@@ -205,7 +205,7 @@ Core::Result<ResolvedPlan> PlanAdmission::Resolve(const Plan& plan) const
             return Refuse(
                 ECoreError::UnknownWord,
                 fmt::format("steps[{}].action", i),
-                fmt::format("an action of {} robots, as in the steps before", GetText(first)),
+                fmt::format("an action of {} robots, as in the previous steps", GetText(first)),
                 plan.steps[i].action);
         }
     }
@@ -330,8 +330,8 @@ Core::Result<std::optional<Core::Location>> PlanAdmission::ResolvePlace(
     return std::optional(std::move(place));
 }
 
-/// Section 4.1: the jobs of a step are done without the robot moving. What a robot can work at from a station the map does
-/// not say: only the configuration does.
+/// Section 4.1: the robot does not move during the jobs of a step. The map does not state which stations are within reach; the
+/// configuration does.
 bool PlanAdmission::IsWithinReach(const Core::Location& place, const Core::Location& position) const
 {
     if (IsInside(place, position.GetText()))
@@ -344,7 +344,7 @@ bool PlanAdmission::IsWithinReach(const Core::Location& place, const Core::Locat
            });
 }
 
-/// A port has one carrier. What is on it before the plan nobody knows here.
+/// A port has one carrier. What it has before the plan is not known here.
 Core::Result<void> PlanAdmission::CheckPorts(const Plan& plan, const ResolvedPlan& resolved)
 {
     std::map<std::string, bool> filled; // by port, whichever the robot is
@@ -366,7 +366,7 @@ Core::Result<void> PlanAdmission::CheckPorts(const Plan& plan, const ResolvedPla
                 return Refuse(
                     ECoreError::InvalidLocation,
                     fmt::format("steps[{}].jobs[{}].{}", i, job, bFills ? "to" : "from"),
-                    bFills ? "a port that no job before has loaded" : "a port that no job before has unloaded",
+                    bFills ? "a port that no earlier job loads" : "a port that no earlier job unloads",
                     fmt::format("{} for job {}", port->GetOriginalText(), plan.steps[i].jobs[job].jobID));
             }
         }
@@ -437,7 +437,7 @@ Core::Result<void> PlanAdmission::FindCandidates(const Plan& plan, ResolvedPlan&
     }
     if (resolved.candidates.empty())
     {
-        return Refuse(ECoreError::InvalidLocation, "steps", "work that a robot of this site can do", objections);
+        return Refuse(ECoreError::InvalidLocation, "steps", "a plan that a robot of this site can execute", objections);
     }
     return {};
 }
@@ -451,11 +451,11 @@ std::optional<std::string> PlanAdmission::GetRejectionReasonOrNull(
     const std::string& name = robot.robotID.GetText();
     if (!namedRobots.empty() && *namedRobots.begin() != name)
     {
-        return name + " is not the robot that is named";
+        return name + " is not the robot named in the plan";
     }
     if (resolved.steps.front().rule->robotType != robot.type)
     {
-        return fmt::format("{} is {}", name, GetText(robot.type));
+        return fmt::format("{} is of type {}", name, GetText(robot.type));
     }
     const auto hasPort = [this, &robot](const std::optional<Core::Location>& place) {
         if (!place.has_value() || !place->IsRobotPort())

@@ -16,7 +16,7 @@
 namespace ACS::Planning
 {
 
-/// Whether a job of this effect fills the port in its to, or empties the port in its from.
+/// Whether a job with this effect loads its to (bFills) or unloads its from.
 [[nodiscard]] constexpr bool IsPortChanged(EActionEffect effect, bool bFills) noexcept
 {
     return effect == EActionEffect::Move || effect == (bFills ? EActionEffect::Load : EActionEffect::Unload);
@@ -36,11 +36,11 @@ struct ResolvedStep
     std::vector<ResolvedJob> jobs;
 };
 
-/// What a plan's texts mean on this site.
+/// A plan with its names resolved on this site.
 struct ResolvedPlan
 {
     std::vector<ResolvedStep> steps;
-    std::vector<std::size_t> candidates; ///< The robots that can do it; never empty.
+    std::vector<std::size_t> candidates; ///< The robots that can execute it; never empty.
 };
 
 /// Checks plans against site, robots and actions (section 4.1 of MCS-ACS).
@@ -71,18 +71,18 @@ class PlanAdmission
 public:
     PlanAdmission(const EngineOptions& options, const SiteMap& site);
 
-    /// Gives actions that are written in another case (section 2) their own name.
+    /// Corrects the case of action names (section 2).
     void SpellActions(Plan& plan) const;
 
     /// The steps must be in ascending order (SortSteps). The error's path names the field.
     [[nodiscard]] Core::Result<ResolvedPlan> Resolve(const Plan& plan) const;
 
-    /// Where a robot of the type docks at the station; nullopt where it cannot.
+    /// The node at which a robot of the type docks at the station.
     [[nodiscard]] std::optional<std::size_t> FindDockOrNull(std::string_view stationID, std::string_view vehicleTypeID)
         const;
 };
 
-/// Steps run in ascending stepNo, however they came.
+/// Sorts the steps by stepNo.
 void SortSteps(Plan& plan);
 
 } // namespace ACS::Planning

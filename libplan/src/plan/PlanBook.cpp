@@ -240,7 +240,7 @@ std::vector<StoreChange> PlanBook::Remember(PlanRecord record)
     const std::string planID = record.plan.planID;
     _finished.insert_or_assign(planID, std::move(record));
     _finishedOrder.push_back(planID);
-    // What is still to be stored is not forgotten yet.
+    // A plan with unstored progress is not removed yet.
     while (_finishedOrder.size() > _options.finishedPlansKept && !_progressed.contains(_finishedOrder.front()))
     {
         const auto oldest = _finished.find(_finishedOrder.front());

@@ -19,8 +19,8 @@
 namespace ACS::Planning
 {
 
-/// All plans: those that are not finished, the queue of those that wait for a robot, and the history. Changes states, and
-/// only by the transition tables. What is to be stored of a change is collected (TakeProgress) or returned.
+/// All plans: active ones, the queue of those without a robot, and the history. States change here only, by the transition
+/// tables. What must be stored is collected (CollectProgress) or returned.
 class PlanBook
 {
 public:
@@ -34,7 +34,7 @@ private:
     std::vector<std::unique_ptr<ActivePlan>> _ended; ///< In the present call: references to them stay valid.
     std::unordered_map<std::string, PlanRecord> _finished;
     std::deque<std::string> _finishedOrder;
-    std::vector<PlanRecord> _replaced; ///< In the present call: finished plans whose id a new plan has.
+    std::vector<PlanRecord> _replaced; ///< In the present call: finished plans whose ID a new plan reuses.
     std::set<std::string> _progressed; ///< By id; not stored yet.
     std::uint64_t _lastSequence = 0;
     std::uint64_t _lastStoredSequence = 0;
@@ -43,36 +43,36 @@ public:
     /// The options must outlive the book.
     explicit PlanBook(const EngineOptions& options);
 
-    /// What the call before has added is stored, and what it has ended is history.
+    /// Plans that the previous call added are stored, and those that it ended are history.
     void BeginCall();
-    /// The changes of states since the last time, one for each plan.
+    /// The progress of each plan that changed since the last time.
     [[nodiscard]] std::vector<PlanProgressed> CollectProgress();
 
-    /// Numbers the plan and queues it. Returns what is to be stored, a finished plan of the same id first.
+    /// Numbers the plan and queues it. Returns what must be stored; the removal of a finished plan with the same ID comes first.
     [[nodiscard]] std::vector<StoreChange> Accept(std::unique_ptr<ActivePlan> plan, Core::WallTime now);
     /// After a restart; the record is not finished. The plan is not queued.
     [[nodiscard]] ActivePlan& RestoreActive(PlanRecord record);
     [[nodiscard]] std::vector<StoreChange> RestoreFinished(PlanRecord record);
-    /// A plan that could not be stored: it was never accepted.
+    /// Removes a plan that could not be stored: it was never accepted.
     void Withdraw(std::string_view planID);
-    /// The finished plans that new ones have replaced in this call, as those could not be stored. Returns what is to be stored.
+    /// Restores the finished plans that withdrawn plans of this call had replaced. Returns what must be stored.
     [[nodiscard]] std::vector<StoreChange> RestoreReplaced();
     [[nodiscard]] bool IsReplaced(std::uint64_t sequence) const;
 
     void Enqueue(ActivePlan& plan);
     void Dequeue(const ActivePlan& plan);
 
-    /// These return the state before. The transition must be in its table.
+    /// These return the previous state. The transition must be in its table.
     EPlanState Change(ActivePlan& plan, EPlanState state, std::string message, Core::WallTime now);
     EStepState ChangeStep(ActivePlan& plan, std::size_t index, EStepState state);
     /// Of the present job.
     EJobState ChangeJob(ActivePlan& plan, EJobState state);
-    /// Something else of the plan's progress has changed.
+    /// The plan's progress must be stored.
     void MarkProgressed(const std::string& planID);
-    /// Whether the plan can end so from its present state.
+    /// Whether the plan can change to this final state.
     [[nodiscard]] static bool CanEnd(const ActivePlan& plan, EPlanState state);
-    /// A plan in a final state becomes history. It lives to the end of the call. Returns what is to be stored: the oldest
-    /// finished plans are forgotten.
+    /// A plan in a final state becomes history; references to it stay valid until the end of the call. Returns what must be
+    /// stored: the removal of the oldest finished plans.
     [[nodiscard]] std::vector<StoreChange> End(ActivePlan& plan);
 
     [[nodiscard]] const ActivePlans& GetActive() const noexcept;

@@ -5,22 +5,22 @@
 namespace ACS::Planning
 {
 
-/// After a start: whether the engine still waits for the positions of robots, and whether it begins work meanwhile.
+/// After a start: whether the engine waits for the robots' positions, and whether work is held back until then.
 class StartupBarrier
 {
     enum class EState : std::uint8_t
     {
         Passed,
         Waiting,
-        HoldingWork, ///< As Waiting, and nothing is begun.
+        HoldingWork, ///< As Waiting, and no work is started.
     };
 
     EState _state = EState::Passed;
 
 public:
-    /// bHasWork: there is work from before the start. Nothing is begun until the robots have reported what they do.
+    /// bHasWork: there is work from before the start, so none is started until the robots have reported.
     void Begin(bool bHasWork) noexcept;
-    /// All robots have reported, or the time is over. True: work was held back and may begin now.
+    /// All robots have reported, or the time limit has expired. True: work was held back and may start now.
     [[nodiscard]] bool TryRelease() noexcept;
 
     [[nodiscard]] bool IsWaiting() const noexcept;

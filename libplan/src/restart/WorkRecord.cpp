@@ -22,7 +22,7 @@ void WorkRecord::BeginPlan(const std::optional<std::string>& shownCommandID)
 {
     if (_commandID.empty())
     {
-        _commandID = shownCommandID.value_or(std::string()); // of whoever commanded it before
+        _commandID = shownCommandID.value_or(std::string()); // of the previous master
     }
     _bMarkDue = true;
 }
@@ -82,7 +82,7 @@ bool WorkRecord::TryCheckEvidence(const StateChanged& state, bool bHasPlan)
     }
     else if (state.shownCommandID.has_value())
     {
-        // Nothing shown: either it never had any, or it was switched off meanwhile.
+        // The robot shows no command: it never had one, or it was switched off.
         const bool bNeverHadAny =
             state.shownCommandID->empty() && evidence->earlierIDs.empty() && !evidence->bCommandTaken;
         bMore = !bNeverHadAny && *state.shownCommandID != evidence->commandID

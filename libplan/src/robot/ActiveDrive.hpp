@@ -21,10 +21,10 @@ enum class ECancellation : std::uint8_t
 {
     None,
     Awaited, ///< The robot was commanded to cancel the drive.
-    Late,    ///< Likewise, but nothing waits for it any more; the robot may still cancel it.
+    Late,    ///< The time limit has expired; the robot may still cancel the drive.
 };
 
-/// Where a robot wants to go, and how.
+/// The route that a robot is to drive next.
 struct PlannedRoute
 {
     std::size_t target = 0;
@@ -45,12 +45,12 @@ struct ActiveDrive
     std::string driveID;
     Route route;
     std::vector<std::size_t> nodes; ///< Of the route, by index in the map.
-    std::size_t grantedCount = 0;   ///< Nodes from the start on that are the robot's, or were.
-    std::size_t releasedCount = 0;  ///< Of them, those that it was commanded.
+    std::size_t grantedCount = 0;   ///< Nodes from the start that are or were granted.
+    std::size_t releasedCount = 0;  ///< Of them, those released to the robot.
     std::size_t passed = 0;         ///< Index in the route of the last node passed.
     EDriveGoal goal = EDriveGoal::Step;
     bool bConfirmed = false;
-    bool bTaken = false; ///< The robot itself has shown that it has the drive.
+    bool bTaken = false; ///< The robot has confirmed the drive.
     ECancellation cancellation = ECancellation::None;
     std::optional<Reroute> reroute;
 
@@ -60,7 +60,7 @@ struct ActiveDrive
     [[nodiscard]] bool IsAtBaseEnd() const noexcept;
     /// The last node before the target is passed.
     [[nodiscard]] bool IsApproaching() const noexcept;
-    /// The node after the last one passed; on the last node that one.
+    /// The node after the last one passed, at most the last node.
     [[nodiscard]] const std::string& GetNextNodeID() const;
 };
 

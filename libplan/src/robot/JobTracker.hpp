@@ -16,7 +16,7 @@ class JobTracker
     {
         Commanded,
         Recovering, ///< After a restart: the robot was asked for the outcome.
-        Unresolved, ///< The robot cannot tell the outcome: an operator decides.
+        Unresolved, ///< The outcome is unknown: an operator decides.
     };
 
     std::optional<StartJob> _job;
@@ -25,7 +25,7 @@ class JobTracker
 
 public:
     void Begin(StartJob job);
-    /// The job's plan has ended: until the end of the job is reported the robot neither drives nor works.
+    /// The job's plan has ended. The robot gets no work until it has reported the end of the job.
     void MarkOverdue();
     void BeginRecovery();
     /// The robot has reported the outcome. False: it was not asked.

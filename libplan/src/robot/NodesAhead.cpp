@@ -9,16 +9,16 @@ namespace ACS::Planning
 namespace
 {
 
-/// Metres from a node at which a robot still stands on it.
+/// Maximum distance in metres from a node at which a robot is on it.
 constexpr double STAND_TOLERANCE = 0.5;
 
-/// Still on the first one, of two: its route may come past there again.
+/// Still on the first of two nodes; the route may pass it again.
 bool IsOn(const StateChanged& state, const SiteNode& node, const SiteNode& next)
 {
     return std::hypot(state.x - node.x, state.y - node.y) <= std::min(STAND_TOLERANCE, GetDistance(node, next) / 4);
 }
 
-/// On the way from one to the other, and no longer on the first one.
+/// Between the two nodes, and no longer on the first.
 bool IsBetween(const StateChanged& state, const SiteNode& from, const SiteNode& to)
 {
     const double length = GetDistance(from, to);

@@ -11,8 +11,8 @@
 namespace ACS::Planning
 {
 
-/// Which of the nodes ahead of its last node a robot without a drive keeps: all while it still drives, or while its state is
-/// unknown; then those between which it has stopped.
+/// Which of the nodes ahead a robot without a drive keeps: all while it still drives or its state is unknown, then those
+/// between which it has stopped.
 [[nodiscard]] std::vector<std::size_t> FindNodesAhead(
     const SiteMap& site,
     const std::optional<StateChanged>& state,

@@ -38,12 +38,12 @@ PauseTracker::ERepeat PauseTracker::OnState(bool bPaused, bool bWasPaused, bool 
     {
         return ERepeat::None;
     }
-    // In manual mode it may have missed the pause, and still stop.
+    // In manual mode the robot may not have received the pause, and may still stop.
     if (!bPaused && bAutomatic)
     {
         Reset();
     }
-    // Also where it shows no pause: its base may continue, and its arm stand still.
+    // Also if it shows no pause: its base may drive while its arm is still stopped.
     return bBack ? ERepeat::Resume : ERepeat::None;
 }
 

@@ -5,11 +5,11 @@
 namespace ACS::Planning
 {
 
-/// Whether a robot was commanded to pause, and whether it has shown since that it resumed.
+/// Whether a robot was commanded to pause, and whether it has confirmed that it resumed.
 class PauseTracker
 {
 public:
-    /// What is commanded once more.
+    /// The command to repeat.
     enum class ERepeat : std::uint8_t
     {
         None,
@@ -32,7 +32,7 @@ public:
     void Resume() noexcept;
     /// True: a pause was commanded; command the robot to resume.
     [[nodiscard]] bool TryResume() noexcept;
-    /// The last command counts as never given.
+    /// Forgets the last command.
     void Reset() noexcept;
     /// By the robot's new state. bBack: it is connected or in automatic mode again, and may have missed a command.
     [[nodiscard]] ERepeat OnState(bool bPaused, bool bWasPaused, bool bAutomatic, bool bBack) noexcept;

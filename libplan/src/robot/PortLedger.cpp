@@ -17,14 +17,14 @@ namespace
 
 constexpr const char* NO_CARRIER = "no carrier";
 
-/// An id that an operator could not give a carrier does not count.
+/// An ID that an operator could not enter does not count.
 bool HasID(const PortLoad& load)
 {
     return !load.carrierID.empty() && load.carrierID.size() <= MAXIMUM_ID_LENGTH
         && !Core::HasControlCharacter(load.carrierID) && load.carrierID != UNKNOWN_CARRIER;
 }
 
-/// A report without an id contradicts no id, and only an empty port contradicts an unknown carrier.
+/// A load without an ID contradicts no ID, and only an empty port contradicts an unknown carrier.
 bool IsAgreed(const std::optional<std::string>& expected, const PortLoad& load)
 {
     if (!load.bLoaded || !expected.has_value())
@@ -108,7 +108,7 @@ PortLedger::Comparison PortLedger::Compare(std::span<const PortLoad> loads, std:
     return {_carriers != recorded, bWasDisputed || IsDisputed()};
 }
 
-/// A carrier that is reported at two ports is evidence for neither: both are loaded, and their ids stay as on record.
+/// A carrier that is reported at two ports proves neither: both are loaded, and their recorded IDs stay.
 void PortLedger::CompareLoad(std::size_t port, const PortLoad& load, const std::string& otherPorts)
 {
     std::optional<std::string>& record = _carriers[port];
@@ -160,14 +160,24 @@ std::string PortLedger::DescribeContradiction(const PortUse& use, const std::opt
     const std::optional<std::string>& carrier = _carriers[use.port];
     if (use.bFills)
     {
-        return carrier.has_value() ? fmt::format("{} was loaded though {} was in it.", name, *carrier) : std::string();
+        return carrier.has_value() ? fmt::format(
+                   "{} was loaded, but the record has {} there. Check the port and correct the record.",
+                   name,
+                   *carrier)
+                                   : std::string();
     }
     if (!carrier.has_value())
     {
-        return fmt::format("{} was unloaded though nothing was in it.", name);
+        return fmt::format(
+            "{} was unloaded, but the record has no carrier there. Check the port and correct the record.",
+            name);
     }
     const bool bOther = carrierID.has_value() && carrier != carrierID && carrier != UNKNOWN_CARRIER;
-    return bOther ? fmt::format("{} was unloaded from {} though {} was in it.", *carrierID, name, *carrier)
+    return bOther ? fmt::format(
+               "{} was unloaded from {}, but the record has {} there. Check the port and correct the record.",
+               *carrierID,
+               name,
+               *carrier)
                   : std::string();
 }
 
@@ -197,7 +207,7 @@ std::string PortLedger::DescribeDisputes() const
     for (const auto& [port, dispute] : _disputes)
     {
         text += fmt::format(
-            "{}{}: expected {}, shown {}",
+            "{}{}: expected {}, reported {}",
             text.empty() ? "" : "; ",
             GetName(port),
             dispute.expected.value_or(NO_CARRIER),
@@ -231,7 +241,7 @@ std::optional<std::size_t> PortLedger::FindMissingTrayOrNull(const Core::Locatio
         return std::nullopt;
     }
     const std::string_view memory = place.GetText();
-    const std::size_t begin = memory.find('.'); // whichever robot it names
+    const std::size_t begin = memory.find('.'); // after the name of the robot
     const std::string_view tray = memory.substr(begin, memory.rfind('.') - begin);
     const auto found = std::ranges::find_if(_ports, [tray](const Core::Location& port) {
         const std::string_view text = port.GetText();

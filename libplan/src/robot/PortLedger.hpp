@@ -58,31 +58,31 @@ public:
     /// The ports must outlive the ledger. All are empty.
     explicit PortLedger(std::span<const Core::Location> ports);
 
-    /// After a restart. Ignored where the number of ports is another one.
+    /// After a restart. Ignored if the number of ports differs.
     void Restore(const CarrierIDs& carriers);
     /// By an operator: one entry per port.
     void Correct(CarrierIDs carriers);
     void ForgetDisputes();
-    /// The robot's sensors replace the record, but not at the ports of a job that has not ended: what is reported there
-    /// meanwhile is no evidence. A carrier that is reported at two ports changes no id.
+    /// The robot's sensors replace the record, except at the ports of an unfinished job. A carrier that is reported at two ports
+    /// changes no ID.
     [[nodiscard]] Comparison Compare(std::span<const PortLoad> loads, std::span<const PortUse> openUses);
-    /// Enters what a finished job moved. Returns why that contradicts the record; empty where it does not. The job counts in
-    /// any case: the record was wrong then.
+    /// Records what a finished job moved. Returns the contradiction with the record, if any; the job counts in any case, because
+    /// the record was wrong then.
     [[nodiscard]] std::string Move(std::span<const PortUse> uses, const std::optional<std::string>& carrierID);
 
-    /// Whether disputes may be reported now: once in an interval, which the caller times.
+    /// Whether disputes may be reported now: once per interval, which the caller times.
     [[nodiscard]] bool TryBeginReportInterval();
     void EndReportInterval();
 
     [[nodiscard]] const CarrierIDs& GetCarriers() const noexcept;
     [[nodiscard]] bool IsDisputed() const noexcept;
-    /// "LR01.CP01: expected C1, shown no carrier; …"
+    /// "LR01.CP01: expected C1, reported no carrier; …"
     [[nodiscard]] std::string DescribeDisputes() const;
     [[nodiscard]] const std::string& GetName(std::size_t port) const;
     [[nodiscard]] std::optional<std::size_t> FindPortOrNull(std::string_view name) const;
     [[nodiscard]] std::optional<std::size_t> FindCarrierOrNull(const std::string& carrierID) const;
-    /// The port of the tray that a memory place of a robot is inside of, where that tray is neither on record nor planned to
-    /// be loaded before.
+    /// For a memory place in a tray on the robot: the port of that tray, if the tray is neither on record nor loaded by an
+    /// earlier job.
     [[nodiscard]] std::optional<std::size_t> FindMissingTrayOrNull(const Core::Location& place, const Contents& planned)
         const;
 

@@ -52,10 +52,10 @@ Core::Duration StallMonitor::GetTimeWithoutProgress(Core::SteadyTime now) const 
 
 Core::Duration StallMonitor::GetLimit(Core::Duration timeout, double edgeSeconds)
 {
-    constexpr double PATIENCE = 3;
+    constexpr double EDGE_FACTOR = 3;
     constexpr std::chrono::duration<double> LONGEST = std::chrono::hours(24);
-    const std::chrono::duration<double> patient(PATIENCE * edgeSeconds);
-    return std::max<Core::Duration>(timeout, std::chrono::ceil<std::chrono::milliseconds>(std::min(patient, LONGEST)));
+    const std::chrono::duration<double> limit(EDGE_FACTOR * edgeSeconds);
+    return std::max<Core::Duration>(timeout, std::chrono::ceil<std::chrono::milliseconds>(std::min(limit, LONGEST)));
 }
 
 } // namespace ACS::Planning

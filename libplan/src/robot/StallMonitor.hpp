@@ -14,7 +14,7 @@ namespace ACS::Planning
 struct DriveProgress
 {
     std::string driveID;
-    bool bTaken = false;    ///< The robot has shown that it has the drive.
+    bool bTaken = false;    ///< The robot has confirmed the drive.
     std::size_t passed = 0; ///< Index in the route of the last node passed.
 
     bool operator==(const DriveProgress&) const = default;
@@ -45,8 +45,8 @@ private:
     bool _bStalled = false;
 
 public:
-    /// progress: nullopt without a drive or a connection. releasedCount: nodes that the robot may drive to; nullopt while no
-    /// further node is expected of it. The time without progress starts again with each node and each extension.
+    /// progress: nullopt without a drive or a connection. releasedCount: released nodes; nullopt while no further node is
+    /// expected. The time without progress restarts with each node and each extension.
     [[nodiscard]] Update OnProgress(
         std::optional<DriveProgress> progress,
         std::optional<std::size_t> releasedCount,

@@ -21,7 +21,7 @@ namespace
 
 constexpr double HALF_TURN_DEGREES = 180.0;
 constexpr double FULL_TURN_DEGREES = 360.0;
-/// Files round half a turn up (3.1416).
+/// Files may round half a turn up (3.1416).
 constexpr double MAXIMUM_THETA = 3.1416;
 constexpr std::size_t MAXIMUM_NAME = 256;
 constexpr std::size_t MAXIMUM_ELEMENTS = 100'000;
@@ -70,7 +70,7 @@ double ToRadians(double degrees)
     return turned * std::numbers::pi / HALF_TURN_DEGREES;
 }
 
-/// Where the element of a joined list stood: "edges[3].x" of the second layout was "layouts[1].edges[1].x".
+/// Path in the file of an element of the merged lists: "edges[3].x" of the second layout was "layouts[1].edges[1].x".
 std::string LocatePath(const std::string& path, const std::vector<std::vector<std::size_t>>& counts)
 {
     static constexpr std::array<std::string_view, 3> LISTS{"nodes", "edges", "stations"};
@@ -215,7 +215,7 @@ Core::Result<LifFile> DecodeFile(std::string_view text)
         return Core::Fail(
             Core::ECoreError::UnknownWord,
             "metaInformation.lifVersion",
-            "a version 1 of LIF (1.0.0)",
+            "LIF version 1, such as 1.0.0",
             file.meta.lifVersion);
     }
     return file;
@@ -260,7 +260,7 @@ Core::Result<SiteMap> MakeSite(LifFile&& file)
 
 } // namespace
 
-Core::Result<SiteMap> DecodeLif(std::string_view text)
+Core::Result<SiteMap> DecodeLIF(std::string_view text)
 {
     Core::Result<LifFile> file = DecodeFile(text);
     return file.has_value() ? MakeSite(std::move(*file)) : tl::unexpected(std::move(file.error()));

@@ -11,7 +11,7 @@ namespace ACS::Planning
 const OutboxEntry& ReportOutbox::Add(Report report, Core::WallTime time, Core::IRandom& random)
 {
     ++_lastSequence;
-    _entries.push_back({_lastSequence, Core::MakeUuid(random), time, std::move(report)});
+    _entries.push_back({_lastSequence, Core::MakeUUID(random), time, std::move(report)});
     return _entries.back();
 }
 

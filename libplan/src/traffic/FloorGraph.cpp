@@ -1,5 +1,6 @@
 #include "traffic/FloorGraph.hpp"
 
+#include "site/DriveTime.hpp"
 #include <acs/plan/Router.hpp>
 
 #include <algorithm>
@@ -35,11 +36,6 @@ std::vector<std::size_t> MakeFirsts(const TList& list, std::size_t nodeCount, TG
 }
 
 } // namespace
-
-double GetDriveSeconds(double length, const std::optional<double>& maxSpeed)
-{
-    return length / maxSpeed.value_or(DEFAULT_SPEED);
-}
 
 double GetAngleBetween(double left, double right)
 {

@@ -18,8 +18,8 @@ struct Lane
     std::size_t to = 0;   ///< Node by index in the map.
     std::size_t edge = 0; ///< Edge by index in the map.
     double seconds = 0;   ///< Of driving along it.
-    double heading = 0;   ///< Radians: how the vehicle is turned while it drives along the edge.
-    double turnSpeed = 0; ///< Radians per second; 0: the map does not tell.
+    double heading = 0;   ///< Radians: orientation of the vehicle on the edge.
+    double turnSpeed = 0; ///< Radians per second; 0: not given by the map.
 };
 
 /// What a vehicle type can drive along: the edges of the map whose ends and itself it may use. Lanes by index, in the
@@ -40,15 +40,12 @@ public:
     [[nodiscard]] std::span<const Lane> GetLanesFrom(std::size_t node) const;
     /// Indices of the lanes that end on the node.
     [[nodiscard]] std::span<const std::size_t> GetLanesTo(std::size_t node) const;
-    /// Of a lane that GetLanes or GetLanesFrom gave.
+    /// Index of a lane that GetLanes or GetLanesFrom returned.
     [[nodiscard]] std::size_t GetIndex(const Lane& lane) const;
 
-    /// Seconds of turning on the node between two lanes; 0 where the map does not let it be known.
+    /// Seconds of turning on the node between two lanes; 0 if the map does not give the rotation speed.
     [[nodiscard]] static double GetTurnSeconds(const Lane& from, const Lane& to);
 };
-
-/// Of driving metres along an edge for which the map says this speed, if any.
-[[nodiscard]] double GetDriveSeconds(double length, const std::optional<double>& maxSpeed);
 
 /// The smallest angle between two headings, in radians.
 [[nodiscard]] double GetAngleBetween(double left, double right);

@@ -21,19 +21,19 @@ namespace
 constexpr double NEVER = std::numeric_limits<double>::infinity();
 constexpr std::size_t NO_LANE = std::numeric_limits<std::size_t>::max();
 
-/// Targets of which the times to them are kept, for each vehicle type: 2,000 nodes take 50 kB each.
+/// Cached targets per vehicle type; each takes 50 kB with 2,000 nodes.
 constexpr std::size_t TARGETS_KEPT = 128;
 
-/// By time, then by index, so that of ways as quick the same one is always found.
+/// By time, then by index, so that the result is the same among routes of equal time.
 using Entry = std::pair<double, std::size_t>;
 using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
 
-/// Times to a target, turning left out: Dijkstra's algorithm backwards, as far as anybody has asked.
+/// Times to a target without turning: Dijkstra's algorithm backwards, as far as requested.
 struct Field
 {
     std::vector<double> seconds;    ///< Of each node.
-    std::vector<bool> settled;      ///< Whether it can not become less.
-    std::vector<std::size_t> lanes; ///< The first of the way from each node.
+    std::vector<bool> settled;      ///< Whether the time is final.
+    std::vector<std::size_t> lanes; ///< By node: the first lane of the route.
     Queue open;
     std::uint64_t usedAt = 0;
 };
@@ -41,14 +41,14 @@ struct Field
 struct Graph
 {
     FloorGraph floor;
-    bool bTurns = false;                 ///< Whether the map tells what turning takes anywhere.
+    bool bTurns = false;                 ///< Whether the map gives any rotation speed.
     std::map<std::size_t, Field> fields; ///< By target.
 };
 
-/// Nodes that are nearer than maps are drawn are in the same place.
+/// Nodes within this distance are at the same position.
 constexpr double SAME_PLACE = 0.01;
 
-/// Of each node, metres.
+/// By node, in metres.
 std::vector<double> MeasureDeviations(const std::vector<SiteNode>& nodes)
 {
     std::vector<std::size_t> byX(nodes.size());
@@ -246,7 +246,7 @@ private:
         return field;
     }
 
-    /// Goes on to the next node that is wanted; not at all where the one that is asked about is settled already.
+    /// Continues until a wanted node is settled.
     template <typename TWanted>
     void Settle(const FloorGraph& floor, Field& field, TWanted isWanted, std::size_t askedNode) const
     {
@@ -260,7 +260,7 @@ private:
             field.open.pop();
             if (field.settled[node])
             {
-                continue; // a quicker way was found since
+                continue; // a quicker route was found since
             }
             field.settled[node] = true;
             ++_visitedNodes;
@@ -282,7 +282,7 @@ private:
         }
     }
 
-    /// A* over lanes, as turning depends on where one comes from; what is left to drive at least is what the field tells.
+    /// A* over lanes, because turning depends on the previous lane. The field is the estimate of the remaining time.
     [[nodiscard]] std::optional<Route> SearchOrNull(
         const Graph& graph,
         Field& field,
@@ -348,7 +348,7 @@ private:
         return std::nullopt;
     }
 
-    /// In the order of driving. A loop, driven so as not to turn, is left out: a route meets each node once.
+    /// In driving order. Loops that avoid turning are removed: a route has each node once.
     [[nodiscard]] static std::vector<std::size_t> GetPath(
         const FloorGraph& floor,
         const std::vector<std::size_t>& previous,

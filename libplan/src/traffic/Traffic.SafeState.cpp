@@ -16,7 +16,7 @@ constexpr std::uint32_t NOWHERE = std::numeric_limits<std::uint32_t>::max();
 
 } // namespace
 
-/// Whoever lives between the homes of others, on a lane, can not be promised to come home.
+/// A home on a lane, between the homes of others, has no guaranteed route back.
 void Traffic::FindReturns()
 {
     if (std::exchange(_bReturnsKnown, true))
@@ -36,7 +36,7 @@ void Traffic::FindReturns()
     }
 }
 
-/// Backwards from the home, the quickest first.
+/// Dijkstra's algorithm, backwards from the home.
 void Traffic::FindWaysHome(Vehicle& vehicle) const
 {
     using Entry = std::pair<double, std::size_t>;
@@ -92,7 +92,7 @@ bool Traffic::IsHomeOfOther(const Vehicle& vehicle, std::size_t node) const
     return _homes[node] > own;
 }
 
-/// Around what is covered and around the homes of others, so that it does not matter who has come home before.
+/// A route around covered nodes and the homes of others, so that the order of parking does not matter.
 bool Traffic::HasWay(const Vehicle& vehicle, std::size_t from, std::size_t to, const std::vector<std::uint16_t>& covers)
     const
 {
@@ -139,7 +139,7 @@ bool Traffic::HasStraightWayHome(const Vehicle& vehicle, std::size_t from, const
     return true;
 }
 
-/// Covers are those of all others.
+/// covers: of all other robots.
 bool Traffic::CanGoHome(const Vehicle& vehicle, std::size_t from, const std::vector<std::uint16_t>& covers)
 {
     FindReturns();
@@ -150,8 +150,8 @@ bool Traffic::CanGoHome(const Vehicle& vehicle, std::size_t from, const std::vec
     return HasStraightWayHome(vehicle, from, covers) || HasWay(vehicle, from, *vehicle.home, covers);
 }
 
-/// Whoever can drive home does, and leaves the floor to the rest; in which order makes no difference to who can. All that
-/// a robot was granted counts as taken until it goes, as it may be stopped on any of it.
+/// Robots that can park do so and free their nodes for the rest; the order makes no difference. All granted nodes of a robot
+/// count as occupied until then, because it may stop on any of them.
 Traffic::SafeState Traffic::FindSafeState(ESafeStateScope standing)
 {
     SafeState found;
@@ -195,7 +195,7 @@ const Traffic::SafeState& Traffic::GetSafeState(ESafeStateScope standing)
     return _safeStates[static_cast<std::size_t>(standing)];
 }
 
-/// Whether nobody has lost his way home by what is held on trial; who has is a blocker of the robot.
+/// Whether each robot that could park before still can with the nodes held on trial. One that cannot is a blocker.
 bool Traffic::IsAsGood(ESafeStateScope standing, std::size_t robot)
 {
     const SafeState after = FindSafeState(standing);
@@ -215,7 +215,7 @@ bool Traffic::IsAsGood(ESafeStateScope standing, std::size_t robot)
 bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
 {
     Vehicle& vehicle = _vehicles[robot];
-    // Where it can go home before all others, the floor is then as free as if it had never been here.
+    // A robot that can park before all others leaves the floor as if it had never been there.
     Cover(vehicle, _covers, false);
     const bool bFirst = vehicle.bMovable && CanGoHome(vehicle, ahead.back(), _covers);
     Cover(vehicle, _covers, true);
@@ -223,7 +223,7 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
     {
         return true;
     }
-    // As it is now; not after the nodes are held below.
+    // The present state, before the nodes are held on trial.
     static_cast<void>(GetSafeState(ESafeStateScope::AllMove));
     const std::size_t heldCount = vehicle.path.size();
     std::vector<std::size_t> held;

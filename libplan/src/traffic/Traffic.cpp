@@ -131,7 +131,7 @@ void Traffic::Free(std::size_t node)
     }
 }
 
-/// Whoever waits for the node holds it from now on: for nobody else it was free between.
+/// A robot that awaits the node gets it at once: no other robot can reserve it in between.
 void Traffic::GiveBack(std::size_t node)
 {
     Free(node);
@@ -162,7 +162,7 @@ bool Traffic::TryStand(
     }
     std::vector<std::size_t> wanted(extra.begin(), extra.end());
     wanted.insert(wanted.end(), possible.begin(), possible.end());
-    // Within what it holds already it takes nothing from others.
+    // Nodes that it holds already affect no other robot.
     const auto isOwn = [this, robot](std::size_t held) {
         return _holders[held] == robot;
     };
@@ -236,7 +236,7 @@ std::size_t Traffic::Extend(std::size_t robot, std::span<const std::size_t> ahea
     }
     if (!IsSafe(robot, ahead.first(count)))
     {
-        // The next one at least; what lies between is asked for again as it goes.
+        // The next node at least; the others are requested again later.
         count = count > 1 && IsSafe(robot, ahead.first(1)) ? 1 : 0;
     }
     for (const std::size_t node : ahead.first(count))

@@ -16,25 +16,25 @@
 namespace ACS::Planning
 {
 
-/// Who may drive onto which node of the map, and when: docs/design/traffic.md. Robots and nodes by index.
+/// Reservations of nodes and the safe-state check (docs/design/traffic.md). Robots and nodes by index.
 ///
-/// A node, with all nodes that are nearer to it than the clearance, belongs to one robot at a time. A robot holds the node
-/// where it stands and the nodes of its way that it was granted; it gives them back as it passes them. A grant never takes
-/// from any robot the way home that it had: after it, as before it, all of them can drive home one after another.
+/// A node and all nodes within the clearance are reserved by one robot at a time. A robot holds the node on which it is
+/// stationary and the granted nodes of its route, and frees each node as it passes. A grant is refused if a robot that could
+/// park before, one after another with the others, could not park afterwards.
 class Traffic
 {
     struct Vehicle
     {
         const FloorGraph* graphOrNull = nullptr; ///< Null where no edge is for its type.
         std::optional<std::size_t> home;
-        std::vector<std::size_t> path;         ///< What it holds in the order of driving; it stands on the first.
-        std::vector<std::size_t> extra;        ///< Held too: where it may be, or go without being asked.
-        std::vector<std::uint32_t> nextToHome; ///< Of each node, on the quickest way home.
+        std::vector<std::size_t> path;         ///< Held nodes in driving order; it is on the first.
+        std::vector<std::size_t> extra;        ///< Other held nodes: where it may be, or may drive uncommanded.
+        std::vector<std::uint32_t> nextToHome; ///< By node: the next one on the quickest route home.
         bool bMovable = false;
-        bool bCanReturn = false; ///< There is a way out of its home and back, whoever else is at home.
+        bool bCanReturn = false; ///< A route leads out of its home and back while all others are parked.
     };
 
-    /// Which robots can come home; kept until it may have become untrue.
+    /// Which robots can park; kept until it may have changed.
     struct SafeState
     {
         std::vector<bool> reachable;
@@ -42,7 +42,7 @@ class Traffic
         bool bValid = false;
     };
 
-    /// A node that another one holds, and that the robot is to hold as soon as it is given back.
+    /// A node that another robot holds, and that this one gets as soon as it is freed.
     struct Awaited
     {
         std::size_t robot = 0;
@@ -54,7 +54,7 @@ class Traffic
     enum class ESafeStateScope : std::uint8_t
     {
         AllMove, ///< As if every robot could move.
-        AsIs,    ///< Robots that cannot move stay where they are.
+        AsIs,    ///< Robots that cannot move are fixed obstacles.
     };
 
     std::vector<std::vector<std::uint32_t>> _near; ///< Of each node: those that it excludes, itself among them.
@@ -76,68 +76,67 @@ class Traffic
     mutable std::vector<std::uint32_t> _open;
 
 public:
-    /// clearance: nodes of one map at this distance (metres) or nearer exclude each other; nodes in the same place always do.
+    /// clearance: nodes of one map within this distance (metres) exclude each other; nodes at the same position always do.
     Traffic(const SiteMap& site, double clearance);
 
-    /// The next index. The home must be nobody else's.
+    /// Adds the robot with the next index. The home must be exclusive.
     void AddRobot(std::string_view vehicleTypeID, std::optional<std::size_t> home);
 
-    /// Whether it is able to drive. One that is not is an obstacle for all others until it is again.
+    /// A robot that cannot move is a fixed obstacle.
     void SetMovable(std::size_t robot, bool bMovable);
     [[nodiscard]] bool IsMovable(std::size_t robot) const;
 
-    /// It stands on the node, may be on the extra ones too, and holds nothing else but the possible ones (HoldPossible).
-    /// False, and nothing is changed, where another robot holds the node or an extra one.
+    /// The robot is stationary on the node or on an extra one. Its other reservations are freed, except the possible nodes
+    /// (HoldPossible). False, without a change, if another robot holds the node or an extra one.
     [[nodiscard]] bool TryStand(
         std::size_t robot,
         std::size_t node,
         std::span<const std::size_t> extra = {},
         std::span<const std::size_t> possible = {});
 
-    /// It may be there, whoever else is: holds the nodes beside what it holds, those of others as soon as they give them
-    /// back.
+    /// The robot may be on these nodes: reserves them in addition, and those of other robots as soon as they are freed.
     void HoldPossible(std::size_t robot, std::span<const std::size_t> nodes);
 
-    /// Takes back one node of HoldPossible.
+    /// Frees one node of HoldPossible.
     void Disown(std::size_t robot, std::size_t node);
 
-    /// Grants the next nodes of its way, behind the last one that it holds: as many as can be, none where the first
-    /// cannot. Returns how many; see GetBlockers where it is none.
+    /// Grants the next nodes of the route, up to the first that is refused. Returns their number; GetBlockers has the reason
+    /// for 0.
     [[nodiscard]] std::size_t Extend(std::size_t robot, std::span<const std::size_t> ahead);
 
-    /// It is on these nodes although they were not granted. False, and nothing is changed, where another holds one.
+    /// The robot is on these nodes without a grant. False, without a change, if another robot holds one.
     [[nodiscard]] bool TryOverrun(std::size_t robot, std::span<const std::size_t> ahead);
 
-    /// It has passed so many of its nodes, less than it holds.
+    /// Frees the first count nodes, less than it holds.
     void Pass(std::size_t robot, std::size_t count);
 
-    /// Gives back all but the first so many of its nodes, 1 or more.
+    /// Frees all but the first count nodes, 1 or more.
     void Shorten(std::size_t robot, std::size_t count);
 
     [[nodiscard]] std::optional<std::size_t> GetHolderOrNull(std::size_t node) const;
-    /// What the robot holds, in the order of driving.
+    /// The reserved nodes of its route, in driving order.
     [[nodiscard]] std::span<const std::size_t> GetHeld(std::size_t robot) const;
-    /// Whether no other robot holds the node or one too near to it.
+    /// Whether no other robot holds the node or one within the clearance.
     [[nodiscard]] bool IsFreeFor(std::size_t node, std::size_t robot) const;
-    /// Likewise, and it is not in the way of another robot's home.
+    /// As IsFreeFor, and the node is not the home of another robot.
     [[nodiscard]] bool IsOpenFor(std::size_t node, std::size_t robot) const;
-    /// Other robots that hold the node or one too near to it.
+    /// Other robots that hold the node or one within the clearance.
     [[nodiscard]] std::vector<std::size_t> GetHolders(std::size_t node, std::size_t robot) const;
-    /// Whether the node is a dead end for the vehicle type: nobody else need ever pass it.
+    /// Whether the node is a dead end for the vehicle type, so that no route passes through it.
     [[nodiscard]] bool IsSpur(std::string_view vehicleTypeID, std::size_t node) const;
     /// Whether two nodes exclude each other.
     [[nodiscard]] bool IsNear(std::size_t left, std::size_t right) const;
 
-    /// Whose nodes, or whose ways home, kept the last Extend from granting more.
+    /// Robots whose reservations, or whose routes to their parking positions, limited the last Extend.
     [[nodiscard]] const std::vector<std::size_t>& GetBlockers() const noexcept;
 
-    /// All others that hold nodes and cannot move.
+    /// Other robots that hold nodes and cannot move.
     [[nodiscard]] std::vector<std::size_t> GetFixed(std::size_t robot) const;
 
-    /// Grows with everything that may turn a refusal into a grant.
+    /// Increases with each change after which a refused grant may be possible.
     [[nodiscard]] std::uint64_t GetFreedCount() const noexcept;
 
-    /// Whether robots that cannot move leave it a way to the node and from there home. True where it has no home.
+    /// Whether robots that cannot move leave free a route to the node and from there home. True without a home.
     [[nodiscard]] bool CanServe(std::size_t robot, std::size_t node) const;
 
 private:

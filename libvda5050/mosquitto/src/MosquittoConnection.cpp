@@ -139,7 +139,7 @@ int MosquittoConnection::Configure(const MosquittoOptions& options)
     }
     if (code == MOSQ_ERR_SUCCESS && options.tls.has_value())
     {
-        code = ConfigureTls(*options.tls);
+        code = ConfigureTLS(*options.tls);
     }
     if (code == MOSQ_ERR_SUCCESS && options.will.has_value())
     {
@@ -186,7 +186,7 @@ int MosquittoConnection::Connect(const MosquittoOptions& options)
     return code;
 }
 
-int MosquittoConnection::ConfigureTls(const MosquittoTls& tls)
+int MosquittoConnection::ConfigureTLS(const MosquittoTLS& tls)
 {
     if (tls.caFile.empty())
     {

@@ -120,7 +120,7 @@ public:
 
 private:
     [[nodiscard]] int Configure(const MosquittoOptions& options);
-    [[nodiscard]] int ConfigureTls(const MosquittoTls& tls);
+    [[nodiscard]] int ConfigureTLS(const MosquittoTLS& tls);
     [[nodiscard]] int Connect(const MosquittoOptions& options);
     void SetCallbacks();
     void WaitToRead();

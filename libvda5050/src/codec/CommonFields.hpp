@@ -55,7 +55,7 @@ struct ValueEncoder<Core::WallTime>
 {
     static void Encode(const Core::WallTime& value, JsonWriter& writer)
     {
-        writer.WriteString(Core::FormatUtc(value));
+        writer.WriteString(Core::FormatUTC(value));
     }
 };
 

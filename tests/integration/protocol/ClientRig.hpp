@@ -1,6 +1,6 @@
 #pragma once
 
-#include "RawMcs.hpp"
+#include "RawMCS.hpp"
 #include "RawPeer.hpp"
 #include "RawServer.hpp"
 #include "WebSocketRig.hpp"
@@ -18,13 +18,13 @@ class ClientRig : public WebSocketRig
 {
 public:
     RawServer raw{io};
-    std::vector<std::unique_ptr<RawMcs>> connections;
-    std::function<void(std::size_t index, RawMcs& mcs)> onConnection;
+    std::vector<std::unique_ptr<RawMCS>> connections;
+    std::function<void(std::size_t index, RawMCS& mcs)> onConnection;
 
     ClientRig()
     {
         raw.onPeer = [this](std::size_t index, RawPeer& peer) {
-            connections.push_back(std::make_unique<RawMcs>(peer));
+            connections.push_back(std::make_unique<RawMCS>(peer));
             if (onConnection)
             {
                 onConnection(index, *connections.back());
@@ -34,7 +34,7 @@ public:
 
     void RegisterWithRaw()
     {
-        ConnectTo(raw.GetUrl());
+        ConnectTo(raw.GetURL());
         REQUIRE(WasRegistered());
         client->ReplayDone();
     }

@@ -30,7 +30,7 @@ void RawServer::SetReceiveBuffer(int bytes)
     _acceptor.set_option(boost::asio::socket_base::receive_buffer_size(bytes));
 }
 
-std::string RawServer::GetUrl(const std::string& scheme, const std::string& host) const
+std::string RawServer::GetURL(const std::string& scheme, const std::string& host) const
 {
     return scheme + "://" + host + ":" + std::to_string(_acceptor.local_endpoint().port()) + "/acs/";
 }

@@ -34,7 +34,7 @@ public:
     /// Of the sockets accepted from now on: how much the system keeps for a peer that does not read.
     void SetReceiveBuffer(int bytes);
 
-    [[nodiscard]] std::string GetUrl(const std::string& scheme = "ws", const std::string& host = "127.0.0.1") const;
+    [[nodiscard]] std::string GetURL(const std::string& scheme = "ws", const std::string& host = "127.0.0.1") const;
     [[nodiscard]] std::size_t GetCount() const noexcept;
     [[nodiscard]] RawPeer& GetPeer(std::size_t index) const;
 

@@ -1,5 +1,5 @@
 #include "ClientRig.hpp"
-#include "RawMcs.hpp"
+#include "RawMCS.hpp"
 #include "RawPeer.hpp"
 #include "RawServer.hpp"
 #include "WebSocketRig.hpp"
@@ -28,7 +28,7 @@ using Testing::MakeFrameHead;
 using Testing::MakePlan;
 using Testing::MakeReport;
 using Testing::RawFrame;
-using Testing::RawMcs;
+using Testing::RawMCS;
 using Testing::RawPeer;
 using Testing::RawServer;
 using Rig = Testing::WebSocketRig;
@@ -118,7 +118,7 @@ TEST_CASE("13.11 A plan of 75 jobs in three fragments, text or binary, is one re
     const std::size_t third = text.size() / 3;
     REQUIRE(third > 2'000);
 
-    RawMcs& mcs = *rig.connections.at(0);
+    RawMCS& mcs = *rig.connections.at(0);
     mcs.Send(text.substr(0, third), kind, false);
     mcs.GetPeer().Write(MakeFrame({EFrame::Ping, "between", true}, false)); // control frames may stand between
     mcs.Send(text.substr(third, third), EFrame::Continuation, false);
@@ -175,7 +175,7 @@ TEST_CASE("1 A frame that announces 100 MB is answered with 1009 before a byte o
     {
         ClientRig rig;
         rig.RegisterWithRaw();
-        RawMcs& mcs = *rig.connections.at(0);
+        RawMCS& mcs = *rig.connections.at(0);
         mcs.GetPeer().Write(MakeFrameHead({EFrame::Text, {}, true}, HUGE_FRAME, false));
         REQUIRE(rig.WasReached([&mcs] { return !mcs.closes.empty(); }));
         CHECK(mcs.closes[0].payload.substr(0, 2) == "\x03\xF1");
@@ -255,7 +255,7 @@ TEST_CASE("1 A peer that says nothing does not hold a connection for longer than
         Rig rig;
         const RawServer silent(rig.io);
         rig.clientOptions.link.handshakeTimeout = 20ms;
-        rig.ConnectTo(silent.GetUrl());
+        rig.ConnectTo(silent.GetURL());
         REQUIRE(rig.WasLost(2));
         CHECK(rig.acsEvents.GetFirstLoss() == "the WebSocket handshake failed: the other side did not answer in time");
     }
@@ -298,7 +298,7 @@ TEST_CASE(
 {
     ClientRig rig;
     // What a connection does with the first report: each kind of loss in turn, then nothing bad any more.
-    rig.onConnection = [](std::size_t index, RawMcs& mcs) {
+    rig.onConnection = [](std::size_t index, RawMCS& mcs) {
         if (index == 1)
         {
             mcs.GetPeer().onChange = [&mcs] {
@@ -332,7 +332,7 @@ TEST_CASE(
         }
     };
     rig.clientOptions.session.positionInterval = 10ms;
-    rig.ConnectTo(rig.raw.GetUrl());
+    rig.ConnectTo(rig.raw.GetURL());
     rig.client->SendStatus(Protocol::TscStateUpdate{});
     rig.client->SendStatus(Protocol::AcsCommStateUpdate{});
     rig.client->SendStatus(MakeStatus());

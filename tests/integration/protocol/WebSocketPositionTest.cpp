@@ -1,5 +1,5 @@
 #include "ClientRig.hpp"
-#include "RawMcs.hpp"
+#include "RawMCS.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 using Protocol::EAcsCommand;
 using Testing::ClientRig;
 using Testing::MakeReport;
-using Testing::RawMcs;
+using Testing::RawMCS;
 
 TEST_CASE("13.12 While the socket is blocked positions are left out, and none of them follows when it flows again")
 {
@@ -25,7 +25,7 @@ TEST_CASE("13.12 While the socket is blocked positions are left out, and none of
     rig.clientOptions.session.positionInterval = 1ms;
     rig.clientOptions.session.ackTimeout = 60s; // nothing is sent again
     rig.RegisterWithRaw();
-    RawMcs& mcs = *rig.connections.at(0);
+    RawMCS& mcs = *rig.connections.at(0);
 
     // 12 MB that nobody reads are more than the system takes.
     mcs.GetPeer().StopReading();
@@ -62,7 +62,7 @@ TEST_CASE("R14 A position goes out together with the reports of the same moment"
     constexpr std::size_t REPORTS = 8; // With other bytes than the position has: more than two of it.
     ClientRig rig;
     rig.RegisterWithRaw();
-    RawMcs& mcs = *rig.connections.at(0);
+    RawMCS& mcs = *rig.connections.at(0);
     for (std::size_t round = 1; round <= ROUNDS; ++round)
     {
         for (std::size_t i = 0; i < REPORTS; ++i)
@@ -86,7 +86,7 @@ TEST_CASE("5.10 The parts of a position update that was cut go out together, beh
     const Protocol::RobotPositionUpdate part{std::vector<Protocol::RobotPosition>(50, {"LR01", 1.0, 2.0, 90.0, 75.0})};
     ClientRig rig;
     rig.RegisterWithRaw();
-    RawMcs& mcs = *rig.connections.at(0);
+    RawMCS& mcs = *rig.connections.at(0);
     for (std::size_t round = 1; round <= ROUNDS; ++round)
     {
         for (std::size_t i = 0; i < REPORTS; ++i)
@@ -112,7 +112,7 @@ TEST_CASE("13.12 Positions alone do not pile up in the system either, while the 
     rig.raw.SetReceiveBuffer(4'096);
     rig.clientOptions.session.positionInterval = 1ms;
     rig.RegisterWithRaw();
-    RawMcs& mcs = *rig.connections.at(0);
+    RawMCS& mcs = *rig.connections.at(0);
     mcs.GetPeer().StopReading();
     std::size_t due = 0;
     rig.acsEvents.onEvent = [&rig, &due](const Protocol::SessionEvent& event) {

@@ -60,7 +60,7 @@ public:
         serverOptions.port = server->GetPort();
     }
 
-    [[nodiscard]] std::string GetUrl(const std::string& path = "/acs/", const std::string& host = "127.0.0.1") const
+    [[nodiscard]] std::string GetURL(const std::string& path = "/acs/", const std::string& host = "127.0.0.1") const
     {
         return (serverOptions.tls.has_value() ? "wss://" : "ws://") + host + ":" + std::to_string(serverOptions.port)
             + path;
@@ -87,7 +87,7 @@ public:
 
     void Connect(const std::string& path = "/acs/")
     {
-        ConnectTo(GetUrl(path));
+        ConnectTo(GetURL(path));
     }
 
     /// Closes the first connection of the server.

@@ -58,7 +58,7 @@ public:
     [[nodiscard]] std::string ConnectInVain(const std::string& host = "localhost")
     {
         Listen();
-        ConnectTo(GetUrl("/acs/", host));
+        ConnectTo(GetURL("/acs/", host));
         REQUIRE(WasLost(2));
         CHECK(acsEvents.GetAll<Protocol::Registered>().empty());
         CHECK_FALSE(server->IsRegistered());
@@ -80,7 +80,7 @@ public:
         clientOptions.tls = options;
         const auto refused = TryMakeClient(acsEvents);
         REQUIRE_FALSE(refused.has_value());
-        CHECK(refused.error() == CheckClientTls(options, "localhost").error());
+        CHECK(refused.error() == CheckClientTLS(options, "localhost").error());
         return Core::Describe(refused.error());
     }
 
@@ -163,7 +163,7 @@ TEST_CASE("1 wss: a server is taken by its name, its address or the name that it
         rig.UseOnServer(rig.maker.Make(rig.ca, MakeWish("DNS:localhost", true)));
     }
     rig.Listen();
-    rig.ConnectTo(rig.GetUrl("/acs/", host));
+    rig.ConnectTo(rig.GetURL("/acs/", host));
     CHECK(rig.WasRegistered());
 }
 
@@ -179,7 +179,7 @@ TEST_CASE("1 wss without a CA file trusts the CAs of the system and no other")
     {
         setenv("SSL_CERT_FILE", rig.ca.certificate.c_str(), 1); // NOLINT(concurrency-mt-unsafe): one thread
         rig.Listen();
-        rig.ConnectTo(rig.GetUrl("/acs/", "localhost"));
+        rig.ConnectTo(rig.GetURL("/acs/", "localhost"));
         unsetenv("SSL_CERT_FILE"); // NOLINT(concurrency-mt-unsafe)
         CHECK(rig.WasRegistered());
     }
@@ -329,7 +329,7 @@ TEST_CASE("1 wss: a peer that says nothing does not hold a connection for longer
             peer.ReadAsync();
         };
         rig.clientOptions.link.handshakeTimeout = 20ms;
-        rig.ConnectTo(silent.GetUrl("wss", "localhost"));
+        rig.ConnectTo(silent.GetURL("wss", "localhost"));
         REQUIRE(rig.WasLost(2));
         CHECK(rig.acsEvents.GetFirstLoss() == "the TLS handshake failed: the other side did not answer in time");
         // The name that is wanted is asked for, so that a server of many names can choose its certificate.

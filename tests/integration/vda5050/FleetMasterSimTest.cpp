@@ -35,7 +35,7 @@ protected:
 
     [[nodiscard]] ChildProcess MakeVehicle() const
     {
-        return ChildProcess(MakeCommand(_broker.GetUrl(), ACS_SITE_FILE, "LR01"));
+        return ChildProcess(MakeCommand(_broker.GetURL(), ACS_SITE_FILE, "LR01"));
     }
 
     [[nodiscard]] static bool HasPicked(const VDA5050::StateMessage& state)

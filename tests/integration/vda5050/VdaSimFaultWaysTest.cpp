@@ -204,7 +204,7 @@ TEST_CASE_METHOD(WaysTest, "vda-sim: the master sees every fault, whether by com
     CAPTURE(static_cast<int>(way));
     const TemporaryFolder folder;
     const std::string file = (folder.GetPath() / "faults.txt").string();
-    std::vector<std::string> command = MakeCommand(_broker.GetUrl(), ACS_SITE_FILE, WITNESS + ",node=D-CHG01");
+    std::vector<std::string> command = MakeCommand(_broker.GetURL(), ACS_SITE_FILE, WITNESS + ",node=D-CHG01");
     for (const FaultRow& row : ListFaults())
     {
         command.insert(command.end(), {"--vehicle", row.vehicle + ",node=D-CHG01"});

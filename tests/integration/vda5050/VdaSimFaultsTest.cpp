@@ -32,7 +32,7 @@ protected:
 
     [[nodiscard]] std::vector<std::string> With(std::vector<std::string> more) const
     {
-        std::vector<std::string> command = MakeCommand(_broker.GetUrl(), ACS_SITE_FILE, "LR01,protocol=2.1.0");
+        std::vector<std::string> command = MakeCommand(_broker.GetURL(), ACS_SITE_FILE, "LR01,protocol=2.1.0");
         command.insert(command.end(), more.begin(), more.end());
         return command;
     }

@@ -22,7 +22,7 @@ using namespace std::chrono_literals;
 
 TEST_CASE_METHOD(VdaSimFixture, "vda-sim: online, an order with an update and an action to its end, offline")
 {
-    ChildProcess program(MakeCommand(_broker.GetUrl(), ACS_SITE_FILE, "LR01"));
+    ChildProcess program(MakeCommand(_broker.GetURL(), ACS_SITE_FILE, "LR01"));
     REQUIRE(program.TryWaitForText("ready: broker=127.0.0.1:" + std::to_string(_broker.GetPort()) + "\n", PATIENCE));
     REQUIRE(TryRunUntil(_context, [this]() { return _master->listener.Contains(CONNECTION_TOPIC, "ONLINE"); }));
     REQUIRE(TryRunUntil(_context, [this]() { return _master->listener.CountTopic(STATE_TOPIC) > 0; }));
@@ -57,7 +57,7 @@ TEST_CASE_METHOD(VdaSimFixture, "vda-sim: online, an order with an update and an
 
 TEST_CASE_METHOD(VdaSimFixture, "vda-sim: one that is killed is reported as broken by the broker")
 {
-    ChildProcess program(MakeCommand(_broker.GetUrl(), ACS_SITE_FILE, "LR01"));
+    ChildProcess program(MakeCommand(_broker.GetURL(), ACS_SITE_FILE, "LR01"));
     REQUIRE(TryRunUntil(_context, [this]() { return _master->listener.Contains(CONNECTION_TOPIC, "ONLINE"); }));
     program.Signal(SIGKILL);
     REQUIRE(
@@ -67,7 +67,7 @@ TEST_CASE_METHOD(VdaSimFixture, "vda-sim: one that is killed is reported as brok
 TEST_CASE_METHOD(VdaSimFixture, "vda-sim: waits for its broker and says so, and comes online when it is there")
 {
     _broker.Kill();
-    ChildProcess program(MakeCommand(_broker.GetUrl(), ACS_SITE_FILE, "LR01"));
+    ChildProcess program(MakeCommand(_broker.GetURL(), ACS_SITE_FILE, "LR01"));
     REQUIRE(program.TryWaitForText("cannot reach the MQTT broker at 127.0.0.1:", PATIENCE));
     CHECK(program.GetText().find("ready:") == std::string::npos);
     _broker.Restart();
@@ -127,7 +127,7 @@ TEST_CASE("vda-sim: joins a broker that asks for TLS, a certificate, a user and 
 TEST_CASE_METHOD(VdaSimFixture, "vda-sim: with --qos standard a state comes with quality of service 0, else with 1")
 {
     const bool bStandard = GENERATE(false, true);
-    std::vector<std::string> command = MakeCommand(_broker.GetUrl(), ACS_SITE_FILE, "LR01");
+    std::vector<std::string> command = MakeCommand(_broker.GetURL(), ACS_SITE_FILE, "LR01");
     command.insert(command.end(), {"--qos", bStandard ? "standard" : "project"});
     ChildProcess program(command);
     REQUIRE(TryRunUntil(_context, [this]() { return _master->listener.CountTopic(STATE_TOPIC) > 0; }));

@@ -60,7 +60,7 @@ TEST_CASE_METHOD(VdaSimFixture, "vda-sim: moves the carriers of a world that ano
     std::ofstream(path) << R"({"version":1,"carriers":{"CASSETTE_01":"A01.CP01","CASSETTE_02":"LR01.CP01"}})";
     auto world = Sim::WorldFile::Open(path);
     REQUIRE(world.has_value());
-    ChildProcess program(MakeWorldCommand(_broker.GetUrl(), path));
+    ChildProcess program(MakeWorldCommand(_broker.GetURL(), path));
     const auto getEnd = [this](const std::string& actionID) {
         for (const VDA5050::ActionState& action : GetLastState().actionStates)
         {

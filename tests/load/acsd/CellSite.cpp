@@ -181,7 +181,7 @@ void WriteStations(Json::JsonWriter& writer, std::size_t cells)
 
 } // namespace
 
-std::string WriteLif(std::size_t cells)
+std::string WriteLIF(std::size_t cells)
 {
     std::string text;
     Json::JsonWriter writer(text);

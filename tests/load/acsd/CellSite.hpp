@@ -12,7 +12,7 @@ namespace ACS::Load::CellSite
 inline constexpr const char* VEHICLE_TYPE = "lr-base";
 
 /// As LIF, for acsd and vda-sim.
-[[nodiscard]] std::string WriteLif(std::size_t cells);
+[[nodiscard]] std::string WriteLIF(std::size_t cells);
 
 /// The port where a carrier is loaded, and that where it is unloaded.
 [[nodiscard]] std::string GetSource(std::size_t cell);

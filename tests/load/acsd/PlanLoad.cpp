@@ -173,7 +173,7 @@ int Run(const Options& options)
     {
         throw std::runtime_error("acsd does not start: " + acsd.GetText());
     }
-    sender.WaitForAcs();
+    sender.WaitForACS();
 
     Figures figures;
     BareCommit bare((folder.GetPath() / "bare.db").string());

@@ -56,7 +56,7 @@ std::uint16_t PlanSender::GetPort() const
     return _server->GetPort();
 }
 
-void PlanSender::WaitForAcs()
+void PlanSender::WaitForACS()
 {
     RunUntil([this]() { return _server->IsRegistered(); }, "acsd has not registered");
 }

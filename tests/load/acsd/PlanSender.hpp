@@ -40,7 +40,7 @@ public:
     explicit PlanSender(boost::asio::io_context& context);
 
     [[nodiscard]] std::uint16_t GetPort() const;
-    void WaitForAcs();
+    void WaitForACS();
 
     /// So many at once; returns when each has its Ack.
     [[nodiscard]] Core::Duration Send(std::size_t plans);

@@ -42,7 +42,7 @@ std::string GetRobotID(std::size_t number)
     return fmt::format("LR{:03}", number);
 }
 
-std::string MakeConfig(std::size_t robots, std::uint16_t mcsPort, const std::string& brokerUrl)
+std::string MakeConfig(std::size_t robots, std::uint16_t mcsPort, const std::string& brokerURL)
 {
     std::string text = fmt::format(
         R"([mcs]
@@ -67,7 +67,7 @@ robot = "LR"
 vehicle_action = "drop"
 )",
         mcsPort,
-        brokerUrl,
+        brokerURL,
         2 * robots,
         POSITION_PERIOD.count());
     for (std::size_t number = 1; number <= robots; ++number)
@@ -120,8 +120,8 @@ public:
               }),
           _keeper(_context, robots)
     {
-        WriteFile("cells.lif.json", CellSite::WriteLif(std::max(robots, LEAST_CELLS)));
-        WriteFile("acsd.toml", MakeConfig(robots, _keeper.GetPort(), _broker.GetUrl()));
+        WriteFile("cells.lif.json", CellSite::WriteLIF(std::max(robots, LEAST_CELLS)));
+        WriteFile("acsd.toml", MakeConfig(robots, _keeper.GetPort(), _broker.GetURL()));
         _acsd.emplace(std::vector<std::string>{ACS_ACSD, "--config", GetPath("acsd.toml"), "--log-level", "error"});
         if (!_acsd->TryWaitForText("ready:", PATIENCE))
         {
@@ -196,7 +196,7 @@ private:
         std::vector<std::string> arguments{
             ACS_VDA_SIM,
             "--broker",
-            _broker.GetUrl(),
+            _broker.GetURL(),
             "--site",
             GetPath("cells.lif.json"),
             "--no-control",

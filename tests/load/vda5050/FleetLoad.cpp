@@ -104,13 +104,13 @@ public:
           _vehicles(vehicles)
     {
         const std::string site = (_broker.GetFolder() / "ring.lif.json").string();
-        std::ofstream(site) << RingSite::WriteLif();
+        std::ofstream(site) << RingSite::WriteLIF();
         ProcessProbe::KeepOnCore(getpid(), MASTER_CORE);
         _context.run_for(std::chrono::milliseconds(200)); // the master listens before the fleet comes
         _simulator.emplace(std::vector<std::string>{
             ACS_VDA_SIM,
             "--broker",
-            _broker.GetUrl(),
+            _broker.GetURL(),
             "--site",
             site,
             "--count",

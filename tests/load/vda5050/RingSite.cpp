@@ -36,7 +36,7 @@ std::string GetName(std::size_t index)
 
 } // namespace
 
-std::string WriteLif()
+std::string WriteLIF()
 {
     std::string nodes;
     std::string edges;

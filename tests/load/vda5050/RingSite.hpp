@@ -14,7 +14,7 @@ inline constexpr double METRES_APART = 4.0;
 inline constexpr double METRES_PER_SECOND = 1.2;
 
 /// As LIF, for vda-sim.
-[[nodiscard]] std::string WriteLif();
+[[nodiscard]] std::string WriteLIF();
 
 [[nodiscard]] std::size_t GetNodeIndex(const std::string& nodeID);
 

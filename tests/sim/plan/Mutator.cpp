@@ -89,7 +89,7 @@ Mutator::ReportOutcome Mutator::OnReport(const Planning::OutboxEntry& entry)
     if ((Is(EMutation::FinalReportTwice) && bFinal) || (Is(EMutation::ResultTwice) && bResult))
     {
         outcome.told.push_back(entry);
-        outcome.told.back().transactionID = Core::MakeUuid(_random);
+        outcome.told.back().transactionID = Core::MakeUUID(_random);
     }
     const bool bSwallowed = (Is(EMutation::PlanReportSwallowed) && bFinal && _dice.IsHit(300))
         || (Is(EMutation::ResultSwallowed) && bResult);
@@ -105,7 +105,7 @@ Mutator::ReportOutcome Mutator::OnReport(const Planning::OutboxEntry& entry)
     if (Is(EMutation::ReportNotStored) && _dice.IsHit(50))
     {
         outcome.told.push_back(entry);
-        outcome.told.back().transactionID = Core::MakeUuid(_random);
+        outcome.told.back().transactionID = Core::MakeUUID(_random);
         outcome.told.back().report = Planning::ErrorReport{};
     }
     if (Is(EMutation::ReportsSwapped))
@@ -139,7 +139,7 @@ Mutator::CommandOutcome Mutator::OnCommand(const Planning::CommandRobot& command
     if (Is(EMutation::JobStartedTwice) && jobOrNull != nullptr && _dice.IsHit(200))
     {
         Planning::StartJob again = *jobOrNull;
-        again.commandID = Core::MakeUuid(_random);
+        again.commandID = Core::MakeUUID(_random);
         outcome.sentLater.emplace_back(std::move(again));
     }
     if (jobOrNull != nullptr)
@@ -155,7 +155,7 @@ Mutator::CommandOutcome Mutator::OnCommand(const Planning::CommandRobot& command
     if (jobOrNull != nullptr && _denied.contains(jobOrNull->commandID))
     {
         Planning::StartJob again = *jobOrNull;
-        again.commandID = Core::MakeUuid(_random);
+        again.commandID = Core::MakeUUID(_random);
         outcome.sent = {std::move(again)};
     }
     const auto* const cancelOrNull = std::get_if<Planning::CancelDrive>(&command.command);

@@ -292,7 +292,7 @@ void World::Operate()
     {
         const bool bPause = _process->GetEngine().GetTscState() == Planning::ETscState::Auto;
         _trace.Tell("operator: TSC {}", bPause ? "pause" : "resume");
-        _process->PushCommand(Planning::ControlTsc{bPause, 0});
+        _process->PushCommand(Planning::ControlTSC{bPause, 0});
     }
     SettleJobs();
     _habits.Start(EHabit::Operator, _weather.GetBetween(1s, 60s), [this] { Operate(); });
@@ -368,7 +368,7 @@ void World::Watch()
     SettleJobs();
     if (_process != nullptr && _process->GetEngine().GetTscState() != Planning::ETscState::Auto)
     {
-        _process->PushCommand(Planning::ControlTsc{false, 0});
+        _process->PushCommand(Planning::ControlTSC{false, 0});
     }
     _caretaker.GiveBack();
     TakeCarriersOff();

@@ -32,7 +32,7 @@ TEST_CASE("A failed result compares with its enumerator")
 TEST_CASE("Every core error has a sentence of its own")
 {
     constexpr int LAST = static_cast<int>(ECoreError::UnhandledEnum);
-    const std::error_category& category = make_error_code(ECoreError::InvalidJson).category();
+    const std::error_category& category = make_error_code(ECoreError::InvalidJSON).category();
     CHECK(std::string(category.name()) == "acs.core");
     for (int value = 1; value <= LAST; ++value)
     {

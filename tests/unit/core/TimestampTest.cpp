@@ -6,7 +6,7 @@
 
 using ACS::Core::ECoreError;
 using ACS::Core::FormatLocal;
-using ACS::Core::FormatUtc;
+using ACS::Core::FormatUTC;
 using ACS::Core::ParseTimestamp;
 using ACS::Core::Result;
 using ACS::Core::Timestamp;
@@ -102,17 +102,17 @@ TEST_CASE("2 A timestamp out of range or of another shape is refused")
 
 TEST_CASE("2 Leap days are dates")
 {
-    CHECK(FormatUtc(ParseTimestamp("2024-02-29T00:00:00Z").value().time) == "2024-02-29T00:00:00.000Z");
-    CHECK(FormatUtc(ParseTimestamp("2000-02-29T00:00:00Z").value().time) == "2000-02-29T00:00:00.000Z");
+    CHECK(FormatUTC(ParseTimestamp("2024-02-29T00:00:00Z").value().time) == "2024-02-29T00:00:00.000Z");
+    CHECK(FormatUTC(ParseTimestamp("2000-02-29T00:00:00Z").value().time) == "2000-02-29T00:00:00.000Z");
     CHECK(
-        FormatUtc(ParseTimestamp("2024-02-28T23:59:59Z").value().time + std::chrono::seconds(1))
+        FormatUTC(ParseTimestamp("2024-02-28T23:59:59Z").value().time + std::chrono::seconds(1))
         == "2024-02-29T00:00:00.000Z");
 }
 
 TEST_CASE("2 The first and the last year do not overflow")
 {
-    CHECK(FormatUtc(ParseTimestamp("1678-01-01T00:00:00+23:59").value().time) == "1677-12-31T00:01:00.000Z");
-    CHECK(FormatUtc(ParseTimestamp("2261-12-31T23:59:59.999-23:59").value().time) == "2262-01-01T23:58:59.999Z");
+    CHECK(FormatUTC(ParseTimestamp("1678-01-01T00:00:00+23:59").value().time) == "1677-12-31T00:01:00.000Z");
+    CHECK(FormatUTC(ParseTimestamp("2261-12-31T23:59:59.999-23:59").value().time) == "2262-01-01T23:58:59.999Z");
 }
 
 TEST_CASE("2 MCS-ACS gets local time with offset and milliseconds")
@@ -125,9 +125,9 @@ TEST_CASE("2 MCS-ACS gets local time with offset and milliseconds")
 
 TEST_CASE("VDA5050 6.1 Robots get UTC with milliseconds")
 {
-    CHECK(FormatUtc(GetNoon() + milliseconds(123)) == "2025-07-02T12:00:00.123Z");
-    CHECK(FormatUtc(GetNoon() + nanoseconds(999'999)) == "2025-07-02T12:00:00.000Z");
-    CHECK(FormatUtc(WallTime() - nanoseconds(1)) == "1969-12-31T23:59:59.999Z");
+    CHECK(FormatUTC(GetNoon() + milliseconds(123)) == "2025-07-02T12:00:00.123Z");
+    CHECK(FormatUTC(GetNoon() + nanoseconds(999'999)) == "2025-07-02T12:00:00.000Z");
+    CHECK(FormatUTC(WallTime() - nanoseconds(1)) == "1969-12-31T23:59:59.999Z");
 }
 
 TEST_CASE("2 What we print reads back as the same moment")

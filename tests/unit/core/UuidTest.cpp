@@ -5,7 +5,7 @@
 #include <regex>
 #include <set>
 
-using ACS::Core::MakeUuid;
+using ACS::Core::MakeUUID;
 using ACS::Testing::SeededRandom;
 
 namespace
@@ -34,14 +34,14 @@ TEST_CASE("D-12 A UUID that we make is canonical, lower case and of version 4")
 {
     ConstantRandom zeros(0);
     ConstantRandom ones(~std::uint64_t{0});
-    CHECK(MakeUuid(zeros) == "00000000-0000-4000-8000-000000000000");
-    CHECK(MakeUuid(ones) == "ffffffff-ffff-4fff-bfff-ffffffffffff");
+    CHECK(MakeUUID(zeros) == "00000000-0000-4000-8000-000000000000");
+    CHECK(MakeUUID(ones) == "ffffffff-ffff-4fff-bfff-ffffffffffff");
 
     const std::regex canonical("[0-9a-f]{8}-[0-9a-f]{4}-4[0-9a-f]{3}-[89ab][0-9a-f]{3}-[0-9a-f]{12}");
     SeededRandom random;
     for (int i = 0; i < 100; ++i)
     {
-        CHECK(std::regex_match(MakeUuid(random), canonical));
+        CHECK(std::regex_match(MakeUUID(random), canonical));
     }
 }
 
@@ -52,8 +52,8 @@ TEST_CASE("D-12 UUIDs differ from each other and depend on the random source alo
     std::set<std::string> uuids;
     for (int i = 0; i < 1'000; ++i)
     {
-        const std::string uuid = MakeUuid(random);
-        CHECK(uuid == MakeUuid(twin));
+        const std::string uuid = MakeUUID(random);
+        CHECK(uuid == MakeUUID(twin));
         uuids.insert(uuid);
     }
     CHECK(uuids.size() == 1'000);

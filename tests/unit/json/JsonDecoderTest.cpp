@@ -146,7 +146,7 @@ TEST_CASE("A member named twice is refused, known or not, at any depth")
     {
         const Outcome outcome = Decode(text);
         CHECK_FALSE(outcome.bGood);
-        CHECK(outcome.error.code == Core::ECoreError::InvalidJson);
+        CHECK(outcome.error.code == Core::ECoreError::InvalidJSON);
     }
 }
 

@@ -53,7 +53,7 @@ TEST_CASE("Five megabytes of opening brackets are refused without a crash")
     limits.bytes = 8U * 1024U * 1024U;
     CHECK(GetParseError(std::string(5U * 1024U * 1024U, '['), limits) == Core::ECoreError::TooLarge);
     limits.depth = limits.bytes;
-    CHECK(GetParseError(std::string(5U * 1024U * 1024U, '['), limits) == Core::ECoreError::InvalidJson);
+    CHECK(GetParseError(std::string(5U * 1024U * 1024U, '['), limits) == Core::ECoreError::InvalidJSON);
 }
 
 TEST_CASE("Nesting is allowed up to the limit and no further")
@@ -103,7 +103,7 @@ TEST_CASE("A number of any length and exponent is read exactly, as zero, or refu
          {std::string("1e309"), std::string("1.8e308"), longInteger, std::string("01"), std::string("1.")})
     {
         INFO(text);
-        CHECK(GetParseError(text) == Core::ECoreError::InvalidJson);
+        CHECK(GetParseError(text) == Core::ECoreError::InvalidJSON);
     }
 }
 
@@ -113,7 +113,7 @@ TEST_CASE("Half a surrogate pair is refused, in a value and in a name, and a who
          {R"("\ud83d")", R"("\uddDD")", R"("\ude00\ud83d")", R"("x\uDFFFy")", R"({"\udc00":1})", R"(["\ud83d\u0041"])"})
     {
         INFO(text);
-        CHECK(GetParseError(text) == Core::ECoreError::InvalidJson);
+        CHECK(GetParseError(text) == Core::ECoreError::InvalidJSON);
     }
     for (const std::string_view text :
          {R"("\ud83d\ude00")", R"("\ud7ff")", R"("\ue000")", "\"\xED\x95\x9C\\n\"", "\"\xED\x9F\xBF\\t\xEE\x80\x80\""})
@@ -144,7 +144,7 @@ TEST_CASE("What is no JSON is refused")
           "01"sv})
     {
         CAPTURE(text);
-        CHECK(GetParseError(text) == Core::ECoreError::InvalidJson);
+        CHECK(GetParseError(text) == Core::ECoreError::InvalidJSON);
     }
 }
 

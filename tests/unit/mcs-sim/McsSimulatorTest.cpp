@@ -43,7 +43,7 @@ namespace
 constexpr std::chrono::seconds LONGEST{20};
 
 /// A small ACS: accepts every plan and reports it as done at once, but for what a test wants otherwise.
-class TinyAcs final : private ACS::ProtocolBeast::ISessionHandler
+class TinyACS final : private ACS::ProtocolBeast::ISessionHandler
 {
 public:
     std::optional<std::string> refusal;    ///< Refuses every plan for this reason.
@@ -60,7 +60,7 @@ private:
     std::deque<ACS::Protocol::AcsRequest> _outbox;
 
 public:
-    TinyAcs(boost::asio::io_context& context, const ACS::Core::IClock& clock, std::string url)
+    TinyACS(boost::asio::io_context& context, const ACS::Core::IClock& clock, std::string url)
         : _clock(clock),
           _context(context),
           _url(std::move(url))
@@ -178,7 +178,7 @@ private:
 
     void Queue(AcsPayload payload)
     {
-        _outbox.push_back({ACS::Core::MakeUuid(_random), {_clock.GetNow().wall, {}}, std::move(payload)});
+        _outbox.push_back({ACS::Core::MakeUUID(_random), {_clock.GetNow().wall, {}}, std::move(payload)});
     }
 
     void SendNext()
@@ -204,7 +204,7 @@ struct Bench
     std::optional<int> exitCode;
     ACS::Apps::Endpoint endpoint;
     std::unique_ptr<McsSimulator> simulator;
-    std::unique_ptr<TinyAcs> acs;
+    std::unique_ptr<TinyACS> acs;
 
     explicit Bench(std::size_t plans, bool bLive = false, const ACS::McsSim::SimulatorOptions& options = {})
     {
@@ -229,7 +229,7 @@ struct Bench
         const auto started = simulator->Start();
         REQUIRE(started.has_value());
         endpoint = *started;
-        acs = std::make_unique<TinyAcs>(context, clock, "ws://" + MakeText(endpoint) + "/acs/");
+        acs = std::make_unique<TinyACS>(context, clock, "ws://" + MakeText(endpoint) + "/acs/");
     }
 
     /// Until the simulator is done, or too much time has passed. Its output.

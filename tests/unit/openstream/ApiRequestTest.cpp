@@ -10,7 +10,7 @@ using ACS::Core::JsonText;
 TEST_CASE("7.29 A url is an opaque path and a query, into which args go and win")
 {
     ApiRequest request;
-    SplitUrl("/project/context/tasks[0]/x%20y?jno_n=3&flag&&empty=", request);
+    SplitURL("/project/context/tasks[0]/x%20y?jno_n=3&flag&&empty=", request);
     REQUIRE(request.path == "/project/context/tasks[0]/x%20y");
     REQUIRE(request.query.size() == 3);
     REQUIRE(*request.GetParameterOrNull("jno_n") == "3");
@@ -34,7 +34,7 @@ TEST_CASE("7.29 As many args as a line holds replace all parameters of their nam
         args += (i == 0 ? "\"" : ",\"") + std::to_string(i) + "\":" + std::to_string(i % 7);
     }
     ApiRequest request;
-    SplitUrl("/project/rgen?3=x&3=y&kept=1&59999=z", request);
+    SplitURL("/project/rgen?3=x&3=y&kept=1&59999=z", request);
     AddArguments(JsonText::FromTrusted(args + "}"), request);
     REQUIRE(request.query.size() == COUNT + 1);
     REQUIRE(*request.GetParameterOrNull("kept") == "1");
@@ -46,20 +46,20 @@ TEST_CASE("7.29 BuildUrl encodes what a query cannot carry")
 {
     ApiRequest request;
     request.path = "/project/robot/po_cur";
-    REQUIRE(BuildUrl(request) == "/project/robot/po_cur");
+    REQUIRE(BuildURL(request) == "/project/robot/po_cur");
     request.query = {{"crd", "-1"}, {"text", "a b&c=\xC3\xA9"}};
-    REQUIRE(BuildUrl(request) == "/project/robot/po_cur?crd=-1&text=a%20b%26c%3D%C3%A9");
+    REQUIRE(BuildURL(request) == "/project/robot/po_cur?crd=-1&text=a%20b%26c%3D%C3%A9");
 }
 
 TEST_CASE("7.29 Blanks, control characters and relative urls are refused, the rest is opaque")
 {
     for (const char* good : {"/", "/a/../b", "/a#b?c=%zz", "/tasks[0]"})
     {
-        REQUIRE(IsUrl(good));
+        REQUIRE(IsURL(good));
     }
     for (const char* bad : {"", "a", "/a b", "/a\tb", "/a\x7F", "http://x/"})
     {
-        REQUIRE_FALSE(IsUrl(bad));
+        REQUIRE_FALSE(IsURL(bad));
     }
 }
 

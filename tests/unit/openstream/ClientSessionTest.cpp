@@ -169,7 +169,7 @@ TEST_CASE("3 A refused MONITOR is reported and not repeated until it is set anew
     client.SetMonitor(20ms);
     client.Receive("{\"error\":\"invalid_url\",\"message\":\"m\"}\n");
     const ClientMonitorRefused refused = client.Take<ClientMonitorRefused>().at(0);
-    REQUIRE(refused.error.code == EOpenStreamErrorCode::InvalidUrl);
+    REQUIRE(refused.error.code == EOpenStreamErrorCode::InvalidURL);
     REQUIRE(refused.url == "/project/rgen");
     client.Pass(10s);
     REQUIRE(client.CountLines("\"MONITOR\"") == 1);

@@ -70,7 +70,7 @@ TEST_CASE("4 Every code has its text, finds back to itself, and has a status")
 
 TEST_CASE("4 Each thing that is wrong with a request has its own code")
 {
-    const std::string longUrl = R"("url":"/)" + std::string(LONGEST_URL, 'a') + "\"";
+    const std::string longURL = R"("url":"/)" + std::string(LONGEST_URL, 'a') + "\"";
     const std::string url = R"("url":"/a",)";
     const std::vector<Refusal> refusals{
         {"", ECode::InvalidNdjson},
@@ -91,13 +91,13 @@ TEST_CASE("4 Each thing that is wrong with a request has its own code")
         {R"({"cmd":"HANDSHAKE","payload":{"major":1.5}})", ECode::InvalidMajorType},
         {R"({"cmd":"HANDSHAKE","payload":{"major":-1}})", ECode::InvalidVersion},
         {R"({"cmd":"HANDSHAKE","payload":{"major":-99999999999999999999}})", ECode::InvalidVersion},
-        {MakeMonitor(R"("method":1)"), ECode::MissingUrl},
-        {MakeMonitor(R"("stop":true)"), ECode::MissingUrl},
-        {MakeMonitor(R"("url":7)"), ECode::InvalidUrl},
-        {MakeMonitor(R"("url":"a")"), ECode::InvalidUrl},
-        {MakeMonitor(R"("url":"/a b")"), ECode::InvalidUrl},
-        {MakeMonitor(R"("url":"/a\u0000b")"), ECode::InvalidUrl},
-        {MakeMonitor(longUrl), ECode::UrlTooLong},
+        {MakeMonitor(R"("method":1)"), ECode::MissingURL},
+        {MakeMonitor(R"("stop":true)"), ECode::MissingURL},
+        {MakeMonitor(R"("url":7)"), ECode::InvalidURL},
+        {MakeMonitor(R"("url":"a")"), ECode::InvalidURL},
+        {MakeMonitor(R"("url":"/a b")"), ECode::InvalidURL},
+        {MakeMonitor(R"("url":"/a\u0000b")"), ECode::InvalidURL},
+        {MakeMonitor(longURL), ECode::UrlTooLong},
         {MakeMonitor(R"("url":"/a","period_ms":"x")"), ECode::MissingMethod},
         {MakeMonitor(url + R"("method":"get","period_ms":2)"), ECode::InvalidMethod},
         {MakeMonitor(url + R"("method":"POST","period_ms":2)"), ECode::InvalidMethod},
@@ -108,7 +108,7 @@ TEST_CASE("4 Each thing that is wrong with a request has its own code")
         {MakeMonitor(url + R"("method":"GET","period_ms":null)"), ECode::InvalidPeriod},
         {MakeMonitor(url + R"("method":"GET","period_ms":2,"args":null)"), ECode::InvalidArgs},
         {MakeMonitor(url + R"("method":"GET","period_ms":2,"args":[])"), ECode::InvalidArgs},
-        {MakeControl(R"("method":"POST")"), ECode::MissingUrl},
+        {MakeControl(R"("method":"POST")"), ECode::MissingURL},
         {MakeControl(R"("url":"/a")"), ECode::MissingMethod},
         {MakeControl(url + R"("method":"GET")"), ECode::InvalidMethod},
         {MakeControl(url + R"("method":"POST","args":1,"body":1)"), ECode::InvalidArgs},
@@ -206,7 +206,7 @@ TEST_CASE("2 A line of the server reads back as it was written")
         DataLine{402, 0.25, JsonText::FromTrusted("[1,2]"), {}, JsonText::FromInteger(1)},
         StopAck{EStopTarget::Session},
         ControlError{403, JsonText::FromTrusted(R"({"err_code":-38500})")},
-        ErrorLine{ECode::InvalidUrl, "invalid_url", "text", "hint"},
+        ErrorLine{ECode::InvalidURL, "invalid_url", "text", "hint"},
     };
     OpenStreamCodec codec;
     for (const OpenStreamLine& line : lines)

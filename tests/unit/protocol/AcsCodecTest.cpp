@@ -79,7 +79,7 @@ const std::vector<std::string>& GetExactFixtures()
     return NAMES;
 }
 
-bool IsSameJson(const std::string& left, const std::string& right)
+bool IsSameJSON(const std::string& left, const std::string& right)
 {
     Json::JsonDocument leftDocument;
     Json::JsonDocument rightDocument;
@@ -127,7 +127,7 @@ TEST_CASE("6.2-6.21 Every example decodes, and encodes to the same JSON")
         std::string encoded;
         AcsCodec::Encode(message, encoded);
         INFO(encoded);
-        CHECK(IsSameJson(encoded, text));
+        CHECK(IsSameJSON(encoded, text));
         CHECK(DecodeOrFail(codec, encoded) == message);
         CHECK(encoded.find('\n') == std::string::npos);
     }
@@ -146,7 +146,7 @@ TEST_CASE("6.10, 6.14, D-2, D-3 The document's odd spellings are read, noted, an
         AcsCodec::Encode(message, encoded);
         CHECK(DecodeOrFail(codec, encoded) == message);
         CHECK(codec.Decode(encoded).notes == Protocol::DecodeNotes{});
-        CHECK_FALSE(IsSameJson(encoded, text));
+        CHECK_FALSE(IsSameJSON(encoded, text));
     }
 }
 
@@ -476,7 +476,7 @@ TEST_CASE("2 A member of the envelope that is named twice is refused, and the re
           R"({"x":1,"x":1,"command":"CancelPlan","transactionId":"t-1","payload":{"planId":"P"}})"})
     {
         const DecodeFailure failure = FailOrDecode(codec, text);
-        CHECK(failure.error.code == Core::ECoreError::InvalidJson);
+        CHECK(failure.error.code == Core::ECoreError::InvalidJSON);
         CHECK(failure.command == EAcsCommand::CancelPlan);
         CHECK(failure.transactionID == "t-1");
         CHECK(failure.planID == "P");
@@ -520,9 +520,9 @@ TEST_CASE("D-11 Comments and spare commas are refused, and read by option only")
     const std::string text = R"({"command":"CancelPlan",// stops it
         "transactionId":"t","timestamp":"2025-07-02T21:00:00.123+09:00","payload":{"planId":"P","reason":"r",},})";
     AcsCodec codec;
-    CHECK(FailOrDecode(codec, text).error.code == Core::ECoreError::InvalidJson);
+    CHECK(FailOrDecode(codec, text).error.code == Core::ECoreError::InvalidJSON);
     Protocol::CodecOptions options;
-    options.bLenientJson = true;
+    options.bLenientJSON = true;
     AcsCodec lenient(options);
     CHECK(
         std::get<AcsRequest>(DecodeOrFail(lenient, text)).payload

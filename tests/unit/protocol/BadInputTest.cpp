@@ -99,7 +99,7 @@ std::vector<BadInput> ListCommon(const std::string& command, const std::string& 
 }
 
 /// What an MCS may get wrong.
-std::vector<BadInput> ListForAcs()
+std::vector<BadInput> ListForACS()
 {
     const std::string control = R"("position":"A01.CP01","jobs":[{"jobId":"J",)";
     return {
@@ -192,7 +192,7 @@ std::vector<BadInput> ListForAcs()
 }
 
 /// What an ACS may get wrong.
-std::vector<BadInput> ListForMcs()
+std::vector<BadInput> ListForMCS()
 {
     const auto status = [](const std::string& type, const std::string& word) {
         return MakeRequestText(
@@ -275,7 +275,7 @@ TEST_CASE("R1, R3 Whatever an MCS sends, the ACS refuses or counts it, executes 
     Testing::AcsSessionBench bench;
     bench.StartAndReplay();
     std::vector<BadInput> inputs = ListCommon("CancelPlan", R"({"planId":"P"})");
-    Append(inputs, ListForAcs());
+    Append(inputs, ListForACS());
     const auto feed = [&bench](const std::string& text) -> Testing::SessionProbe& {
         bench.Text(text);
         return bench.probe;
@@ -305,7 +305,7 @@ TEST_CASE("R1, R3 Whatever an ACS sends, the MCS refuses or counts it, delivers 
     REQUIRE(session.IsRegistered());
     const std::string report = R"({"planId":"P","status":"Failed","message":""})";
     std::vector<BadInput> inputs = ListCommon("PlanReport", report);
-    Append(inputs, ListForMcs());
+    Append(inputs, ListForMCS());
     int good = 0;
     for (const BadInput& bad : inputs)
     {

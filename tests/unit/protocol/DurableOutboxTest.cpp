@@ -343,12 +343,12 @@ TEST_CASE("6 Every report reaches the MCS once and in order, over lost links and
     const auto exchangeTexts = [&](AcsFixture& acs, Protocol::ConnectionID connection, int limit) {
         for (int turn = 0; turn < limit + 1; ++turn)
         {
-            Protocol::SessionActions fromMcs;
+            Protocol::SessionActions fromMCS;
             for (const std::string& text : acs.TakeTexts())
             {
-                mcs.OnText(connection, text, clock.GetNow(), fromMcs);
+                mcs.OnText(connection, text, clock.GetNow(), fromMCS);
             }
-            for (const Protocol::SessionAction& action : fromMcs)
+            for (const Protocol::SessionAction& action : fromMCS)
             {
                 if (const std::optional<std::string> planID = GetNewReportOrNull(action); planID.has_value())
                 {

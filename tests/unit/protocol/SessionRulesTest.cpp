@@ -30,13 +30,13 @@ using Strings = std::vector<std::string>;
 namespace
 {
 
-std::vector<EAcsCommand> ListCommands(bool bSentByMcs)
+std::vector<EAcsCommand> ListCommands(bool bSentByMCS)
 {
     std::vector<EAcsCommand> commands;
     for (std::size_t index = 0; index < Protocol::COMMAND_COUNT; ++index)
     {
         const auto command = static_cast<EAcsCommand>(index);
-        if (IsSentByMcs(command) == bSentByMcs)
+        if (IsSentByMCS(command) == bSentByMCS)
         {
             commands.push_back(command);
         }
@@ -157,18 +157,18 @@ TEST_CASE("R3 A payload that is not defined is answered with Fail by either side
 {
     for (const std::string payload : {"null", "[]", "7", R"("x")"})
     {
-        for (const bool bSentByMcs : {true, false})
+        for (const bool bSentByMCS : {true, false})
         {
             AcsSessionBench bench;
             bench.StartAndReplay();
             McsSide side;
-            for (const EAcsCommand command : ListCommands(bSentByMcs))
+            for (const EAcsCommand command : ListCommands(bSentByMCS))
             {
                 INFO(GetText(command) << " " << payload);
                 const std::string text = MakeRequestText(std::string(GetText(command)), payload, "bad");
                 bench.Text(text);
                 side.Text(text);
-                Testing::SessionProbe& probe = bSentByMcs ? bench.probe : side.probe;
+                Testing::SessionProbe& probe = bSentByMCS ? bench.probe : side.probe;
                 CHECK(probe.GetEvents<Protocol::RequestReceived>().empty());
                 if (!HasAck(command))
                 {

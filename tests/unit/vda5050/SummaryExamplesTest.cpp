@@ -39,7 +39,7 @@ std::vector<std::string> ListExamples(const std::filesystem::path& path)
     return examples;
 }
 
-std::string WriteJson(const rapidjson::Value& value)
+std::string WriteJSON(const rapidjson::Value& value)
 {
     rapidjson::StringBuffer buffer;
     rapidjson::Writer<rapidjson::StringBuffer> writer(buffer);
@@ -139,7 +139,7 @@ TEST_CASE("11 The examples of the project's own summary are read as they stand t
             {
                 whole[member.name].CopyFrom(member.value, whole.GetAllocator());
             }
-            static_cast<void>(Read<StateMessage>(WriteJson(whole)));
+            static_cast<void>(Read<StateMessage>(WriteJSON(whole)));
         }
     }
     CHECK(parts == 6);

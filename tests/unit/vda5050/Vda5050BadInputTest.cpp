@@ -227,9 +227,9 @@ TEST_CASE("3.1 What is no header is refused; a version, a name or an id is any t
         Case{R"("headerId":7)", R"("headerId":18446744073709551616)", ECoreError::OutOfRange},
         Case{R"("headerId":7)", R"("headerId":1e300)", ECoreError::OutOfRange},
         Case{R"("headerId":7)", R"("headerId":7.5)", ECoreError::OutOfRange},
-        Case{R"("headerId":7)", R"("headerId":NaN)", ECoreError::InvalidJson},
-        Case{R"("headerId":7)", R"("headerId":Infinity)", ECoreError::InvalidJson},
-        Case{R"("headerId":7)", R"("headerId":07)", ECoreError::InvalidJson},
+        Case{R"("headerId":7)", R"("headerId":NaN)", ECoreError::InvalidJSON},
+        Case{R"("headerId":7)", R"("headerId":Infinity)", ECoreError::InvalidJSON},
+        Case{R"("headerId":7)", R"("headerId":07)", ECoreError::InvalidJSON},
         Case{R"("2026-11-20T23:37:12.345Z")", R"("")", ECoreError::InvalidTimestamp},
         Case{R"("2026-11-20T23:37:12.345Z")", R"("2026-02-30T00:00:00Z")", ECoreError::InvalidTimestamp},
         Case{R"("2026-11-20T23:37:12.345Z")", R"("1763681832")", ECoreError::InvalidTimestamp});
@@ -260,8 +260,8 @@ TEST_CASE("3 A number out of its range and a word out of its list are refused, a
     const Case wrong = GENERATE(
         Case{ETopic::Order, R"("orderUpdateId":3)", R"("orderUpdateId":-3)", "orderUpdateId", ECoreError::OutOfRange},
         Case{ETopic::Order, R"("sequenceId":1)", R"("sequenceId":-1)", "edges[0].sequenceId", ECoreError::OutOfRange},
-        Case{ETopic::Order, R"("x":0.5)", R"("x":1e999)", "", ECoreError::InvalidJson},
-        Case{ETopic::Order, R"("x":0.5)", R"("x":NaN)", "", ECoreError::InvalidJson},
+        Case{ETopic::Order, R"("x":0.5)", R"("x":1e999)", "", ECoreError::InvalidJSON},
+        Case{ETopic::Order, R"("x":0.5)", R"("x":NaN)", "", ECoreError::InvalidJSON},
         Case{
             ETopic::Order,
             R"("theta":1.5)",

@@ -8,7 +8,7 @@ namespace ACS::Core
 /// Errors of values from outside. The numbers are stable: they appear in logs and metrics.
 enum class ECoreError
 {
-    InvalidJson = 1,       ///< Not valid JSON or UTF-8, or a repeated member name.
+    InvalidJSON = 1,       ///< Not valid JSON or UTF-8, or a repeated member name.
     MissingField = 2,      ///< A required member is absent.
     WrongType = 3,         ///< A member has another JSON type than required.
     OutOfRange = 4,        ///< A number, a length or a count exceeds its limits.

@@ -15,15 +15,22 @@ namespace ACS::Core
 /// is a segment of a location (A01, ST1, SET12, T01, CP01 …, in any case). Case-sensitive.
 class RobotID
 {
-    std::string _text;
-
-    explicit RobotID(std::string text);
-
 public:
     static constexpr std::size_t MAX_LENGTH = 64;
     /// Stands for the robot that executes the plan (section 10 of MCS-ACS).
     static constexpr std::string_view ALIAS = "AMR";
 
+    friend std::strong_ordering operator<=>(const RobotID& left, const RobotID& right) noexcept
+    {
+        return left._text <=> right._text;
+    }
+
+private:
+    std::string _text;
+
+    explicit RobotID(std::string text);
+
+public:
     /// Whether Parse would accept this text.
     [[nodiscard]] static bool IsRobotID(std::string_view text) noexcept;
 
@@ -36,11 +43,6 @@ public:
     [[nodiscard]] bool IsAlias() const noexcept;
 
     bool operator==(const RobotID&) const = default;
-
-    friend std::strong_ordering operator<=>(const RobotID& left, const RobotID& right) noexcept
-    {
-        return left._text <=> right._text;
-    }
 };
 
 } // namespace ACS::Core

@@ -37,6 +37,6 @@ using LocalTimeText = std::array<char, LOCAL_TIME_LENGTH>;
 [[nodiscard]] LocalTimeText PrintLocal(WallTime time, std::chrono::minutes offset);
 
 /// UTC, as VDA5050 writes it: 2025-07-02T12:00:00.123Z. Cuts below a millisecond.
-[[nodiscard]] std::string FormatUtc(WallTime time);
+[[nodiscard]] std::string FormatUTC(WallTime time);
 
 } // namespace ACS::Core

@@ -9,6 +9,6 @@ namespace ACS::Core
 
 /// A random UUID (version 4) in its canonical lower-case form, for example for a transactionId. Its uniqueness
 /// depends on the random source.
-[[nodiscard]] std::string MakeUuid(IRandom& random);
+[[nodiscard]] std::string MakeUUID(IRandom& random);
 
 } // namespace ACS::Core

@@ -15,7 +15,7 @@ struct CodecOptions
     std::size_t maximumArray = 10'000;             ///< Elements of one array.
     bool bUnknownMembersRefused = false;           ///< Otherwise unknown members are ignored and counted.
     bool bLegacyNames = true;                      ///< Accept RequestAcsStatus as RequestAcsPlans (D-5).
-    bool bLenientJson = false;                     ///< Accept comments and trailing commas (D-11).
+    bool bLenientJSON = false;                     ///< Accept comments and trailing commas (D-11).
     bool bLocationsChecked = true;                 ///< Reject a plan with an invalid location.
     std::chrono::minutes siteOffset{0};            ///< Assumed for a timestamp without an offset.
 };

@@ -41,7 +41,7 @@ inline constexpr std::size_t COMMAND_COUNT = 22;
 [[nodiscard]] std::string_view GetText(EAcsCommand command);
 
 /// Whether the MCS sends this command; otherwise the ACS does.
-[[nodiscard]] bool IsSentByMcs(EAcsCommand command) noexcept;
+[[nodiscard]] bool IsSentByMCS(EAcsCommand command) noexcept;
 
 /// Whether the receiver answers with an Ack: every command but RobotPositionUpdate (sections 6.1 and 6.19).
 [[nodiscard]] bool HasAck(EAcsCommand command) noexcept;

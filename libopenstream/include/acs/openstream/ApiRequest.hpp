@@ -57,13 +57,13 @@ struct ApiResponse
 };
 
 /// Parses "/path?name=value&name2=value2" into path and query of the request.
-void SplitUrl(std::string_view url, ApiRequest& request);
+void SplitURL(std::string_view url, ApiRequest& request);
 
 /// Adds the arguments (a JSON object, as in MONITOR and CONTROL) to the query. An argument replaces a parameter of the same
 /// name.
 void AddArguments(const Core::JsonText& args, ApiRequest& request);
 
 /// Path and query as an HTTP target, with percent-encoded names and values.
-[[nodiscard]] std::string BuildUrl(const ApiRequest& request);
+[[nodiscard]] std::string BuildURL(const ApiRequest& request);
 
 } // namespace ACS::OpenStream

@@ -53,11 +53,11 @@ public:
         std::int64_t ts,
         double serviceDurationMs,
         const ApiResponse& response,
-        const std::optional<Core::JsonText>& id,
+        const std::optional<Core::JsonText>& idOrNull,
         std::string& out);
 };
 
 /// Whether a url is valid in MONITOR or CONTROL: begins with '/', no blank or control character. Ignores its length.
-[[nodiscard]] bool IsUrl(std::string_view url) noexcept;
+[[nodiscard]] bool IsURL(std::string_view url) noexcept;
 
 } // namespace ACS::OpenStream

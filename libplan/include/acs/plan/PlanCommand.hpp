@@ -51,12 +51,12 @@ struct MessageAcknowledged
 
 /// Of the operator: begin nothing any more (Pausing, then Paused), or be Auto again. Changes nothing where it is so
 /// already. Answered by one ReplyCommand.
-struct ControlTsc
+struct ControlTSC
 {
     bool bPause = false;
     ReplyToken replyToken = 0;
 
-    bool operator==(const ControlTsc&) const = default;
+    bool operator==(const ControlTSC&) const = default;
 };
 
 /// Of the operator, who has looked: what became of a job that is held (alarm ACS-1008). What the robot tells of it later
@@ -120,7 +120,7 @@ using PlanCommand = std::variant<
     SubmitPlan,
     ControlPlan,
     MessageAcknowledged,
-    ControlTsc,
+    ControlTSC,
     SettleJob,
     SetMaintenance,
     ClearAlarms,

@@ -29,13 +29,16 @@ struct QuickestStart
 /// reference to the map, which must outlive it. Not shared between threads.
 class Router
 {
-    class Impl;
-    std::unique_ptr<Impl> _impl;
-
 public:
     /// Whether the way must not lead over the node of this index (see SiteMap::GetNodes). Must not search itself.
     using NodeFilter = std::function<bool(std::size_t nodeIndex)>;
 
+private:
+    class Impl;
+
+    std::unique_ptr<Impl> _impl;
+
+public:
     explicit Router(const SiteMap& site);
     Router(const Router&) = delete;
     Router& operator=(const Router&) = delete;

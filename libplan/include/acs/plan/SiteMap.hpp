@@ -98,10 +98,6 @@ class SiteMap
 
     SiteMap() = default;
 
-    [[nodiscard]] Core::Result<void> IndexNodes();
-    [[nodiscard]] Core::Result<void> CheckEdges() const;
-    [[nodiscard]] Core::Result<void> IndexStations();
-
 public:
     /// Errors: EPlanningError::InvalidSite, with the path "nodes[3].nodeId" and so on.
     [[nodiscard]] static Core::Result<SiteMap> Create(
@@ -125,6 +121,11 @@ public:
 
     /// Whether any node names the vehicle type.
     [[nodiscard]] bool HasVehicleType(std::string_view vehicleTypeID) const noexcept;
+
+private:
+    [[nodiscard]] Core::Result<void> IndexNodes();
+    [[nodiscard]] Core::Result<void> CheckEdges() const;
+    [[nodiscard]] Core::Result<void> IndexStations();
 };
 
 /// Metres between two nodes, as the crow flies.

@@ -67,15 +67,6 @@ class MasterFleet
     MasterActions _scratch;
     bool _bLinkUp = false;
 
-    [[nodiscard]] const std::size_t* FindNumberOrNull(std::string_view topic) const;
-    void Discover(const MqttMessage& message, Core::Now now, FleetActions& out);
-    void Ignore(const MqttMessage& message, Core::Error reason);
-    /// The version that an unknown vehicle's message names, or why it makes none known.
-    [[nodiscard]] Core::Result<EVda5050Version> ReadVersion(const MqttMessage& message);
-    [[nodiscard]] std::unique_ptr<MasterSession> MakeSession(const VehicleAddress& address, EVda5050Version version)
-        const;
-    std::size_t Insert(std::unique_ptr<MasterSession> session);
-
 public:
     /// The interfaceName must be valid: see Create.
     explicit MasterFleet(FleetOptions options);
@@ -117,6 +108,16 @@ public:
     [[nodiscard]] const LeftOutMessage* GetLastLeftOutOrNull() const noexcept;
     /// The sum over all vehicles.
     [[nodiscard]] MasterStatistics GetStatistics() const;
+
+private:
+    [[nodiscard]] const std::size_t* FindNumberOrNull(std::string_view topic) const;
+    void Discover(const MqttMessage& message, Core::Now now, FleetActions& out);
+    void Ignore(const MqttMessage& message, Core::Error reason);
+    /// The version that an unknown vehicle's message names, or why it makes none known.
+    [[nodiscard]] Core::Result<EVda5050Version> ReadVersion(const MqttMessage& message);
+    [[nodiscard]] std::unique_ptr<MasterSession> MakeSession(const VehicleAddress& address, EVda5050Version version)
+        const;
+    std::size_t Insert(std::unique_ptr<MasterSession> session);
 };
 
 } // namespace ACS::VDA5050

@@ -16,6 +16,10 @@ namespace ACS::VDA5050
 /// update begins at the decision point (the last released node). The caller sets ids, positions, actions and limits.
 class OrderBuilder
 {
+public:
+    static constexpr std::size_t WHOLE_ROUTE = std::numeric_limits<std::size_t>::max();
+
+private:
     std::string _orderID;
     std::uint32_t _orderUpdateID = 0;
     std::vector<OrderNode> _nodes;
@@ -23,11 +27,8 @@ class OrderBuilder
     std::size_t _releasedNodes = 0;
 
     OrderBuilder(std::string orderID, std::vector<OrderNode> nodes, std::vector<OrderEdge> edges);
-    [[nodiscard]] OrderMessage Cut(std::size_t firstNode, std::size_t horizonNodes) const;
 
 public:
-    static constexpr std::size_t WHOLE_ROUTE = std::numeric_limits<std::size_t>::max();
-
     /// Requires at least one node, and one edge less than nodes: edge n leads from node n to node n + 1. Fails with
     /// InvalidOrder.
     [[nodiscard]] static Core::Result<OrderBuilder> Create(
@@ -55,6 +56,9 @@ public:
     [[nodiscard]] const std::vector<OrderNode>& GetNodes() const noexcept;
     [[nodiscard]] std::size_t GetReleasedNodes() const noexcept;
     [[nodiscard]] bool IsWholeRouteReleased() const noexcept;
+
+private:
+    [[nodiscard]] OrderMessage Cut(std::size_t firstNode, std::size_t horizonNodes) const;
 };
 
 } // namespace ACS::VDA5050

@@ -72,7 +72,7 @@ public:
     void OnPosition(
         const AgvPosition& position,
         const Velocity& velocity,
-        std::optional<double> distanceSinceLastNode = {});
+        std::optional<double> distanceSinceLastNodeOrNull = {});
     /// Required with false after StopDriving, once the vehicle is stationary: startPause and cancelOrder wait for it.
     void OnDrivingChanged(bool bDriving, Core::Now now, VehicleActions& out);
     /// Returns false and does nothing for an action that StartAction did not request, and for a transition that
@@ -86,8 +86,8 @@ public:
     /// A state is sent when charging begins or ends; a new charge alone waits for the next state. If the charge is not
     /// finite, the previous value stays in effect.
     void OnBattery(const BatteryState& battery, Core::Now now, VehicleActions& out);
-    void OnLoads(std::optional<std::vector<Load>> loads, Core::Now now, VehicleActions& out);
-    void OnMaps(std::optional<std::vector<MapState>> maps, Core::Now now, VehicleActions& out);
+    void OnLoads(std::optional<std::vector<Load>> loadsOrNull, Core::Now now, VehicleActions& out);
+    void OnMaps(std::optional<std::vector<MapState>> mapsOrNull, Core::Now now, VehicleActions& out);
     /// All active errors of the vehicle itself; the session manages errors about orders. An error without a reference to a
     /// topic gets a reference to the state topic.
     void OnErrors(std::vector<VehicleError> errors, Core::Now now, VehicleActions& out);

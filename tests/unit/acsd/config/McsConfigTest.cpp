@@ -17,7 +17,7 @@ namespace
 
 using namespace std::chrono_literals;
 
-AcsdConfig ReadMcs(const std::vector<std::string>& overrides)
+AcsdConfig ReadMCS(const std::vector<std::string>& overrides)
 {
     return ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", overrides);
 }
@@ -25,7 +25,7 @@ AcsdConfig ReadMcs(const std::vector<std::string>& overrides)
 /// The one mistake that this override makes; empty where it makes none.
 std::string FindMistake(const std::string& override)
 {
-    const std::vector<std::string> mistakes = ReadMcs({override}).mistakes;
+    const std::vector<std::string> mistakes = ReadMCS({override}).mistakes;
     return mistakes.size() == 1 ? mistakes[0] : std::string();
 }
 
@@ -33,7 +33,7 @@ std::string FindMistake(const std::string& override)
 
 TEST_CASE("The keys about messages have the defaults of sections 9, 11 and 12")
 {
-    const AcsdConfig config = ReadMcs({});
+    const AcsdConfig config = ReadMCS({});
     REQUIRE(config.mistakes == std::vector<std::string>{});
     CHECK(config.mcs.host.empty());
     CHECK(config.mcs.pingInterval == 10s);
@@ -45,7 +45,7 @@ TEST_CASE("The keys about messages have the defaults of sections 9, 11 and 12")
     CHECK(config.mcs.session.codec.maximumBytes == 4U * 1024 * 1024);
     CHECK_FALSE(config.mcs.session.codec.bUnknownMembersRefused);
     CHECK(config.mcs.session.codec.bLegacyNames);
-    CHECK_FALSE(config.mcs.session.codec.bLenientJson);
+    CHECK_FALSE(config.mcs.session.codec.bLenientJSON);
     CHECK(config.mcs.warnBytes == 4096);
     CHECK(config.mcs.style == MessageStyle{});
     CHECK(config.operations == OperationsConfig{});
@@ -56,7 +56,7 @@ TEST_CASE("The keys about messages have the defaults of sections 9, 11 and 12")
 
 TEST_CASE("The keys about messages are read")
 {
-    const AcsdConfig config = ReadMcs(
+    const AcsdConfig config = ReadMCS(
         {"mcs.host=mcs.example:9001",
          "mcs.ping_interval=1s",
          "mcs.ping_timeout=2s",
@@ -93,7 +93,7 @@ TEST_CASE("The keys about messages are read")
     CHECK(config.mcs.session.codec.maximumBytes == 65536);
     CHECK(config.mcs.session.codec.bUnknownMembersRefused);
     CHECK_FALSE(config.mcs.session.codec.bLegacyNames);
-    CHECK(config.mcs.session.codec.bLenientJson);
+    CHECK(config.mcs.session.codec.bLenientJSON);
     CHECK(config.mcs.warnBytes == 0);
     CHECK(config.mcs.style.bUnassignedRobotEmpty);
     CHECK(config.mcs.style.bEmptyCarriersOmitted);
@@ -106,7 +106,7 @@ TEST_CASE("The keys about messages are read")
     CHECK(config.operations.logLevel == Core::ELogLevel::Warning);
     CHECK(config.operations.drainTimeout == 7s);
     CHECK(config.operations.trace == Apps::TraceLimits{4096, 2});
-    CHECK(ReadMcs({"outbox.replay=none"}).mcs.style.replay == EOutboxReplay::None);
+    CHECK(ReadMCS({"outbox.replay=none"}).mcs.style.replay == EOutboxReplay::None);
 }
 
 TEST_CASE("A value that the register does not have, or that cannot work, is a mistake with its key")
@@ -141,7 +141,7 @@ TEST_CASE("errors.map gives alarms the site's names and levels; its mistakes hav
     const Testing::TemporaryFolder folder;
     const std::string path = (folder.GetPath() / "errors.toml").string();
     std::ofstream(path) << "[ACS-1002]\ncode = \"E77\"\nlevel = \"light\"\n\n[AGV-blocked]\nmessage = \"steht\"\n";
-    const AcsdConfig config = ReadMcs({"errors.map=" + path});
+    const AcsdConfig config = ReadMCS({"errors.map=" + path});
     REQUIRE(config.mistakes == std::vector<std::string>{});
 
     Planning::Alarm alarm;
@@ -159,7 +159,7 @@ TEST_CASE("errors.map gives alarms the site's names and levels; its mistakes hav
     CHECK(Rename(alarm, config.mcs.style.errors) == alarm);
 
     std::ofstream(path) << "[ACS-1002]\ncode = \"\"\nlevel = \"loud\"\ncolour = 1\n";
-    const std::vector<std::string> mistakes = ReadMcs({"errors.map=" + path}).mistakes;
+    const std::vector<std::string> mistakes = ReadMCS({"errors.map=" + path}).mistakes;
     REQUIRE(mistakes.size() == 3);
     CHECK(mistakes[0].find(path + ":2: ACS-1002.code") != std::string::npos);
     CHECK(mistakes[1].find(path + ":3: ACS-1002.level") != std::string::npos);

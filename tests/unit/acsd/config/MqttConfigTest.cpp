@@ -15,7 +15,7 @@ namespace ACS::Acsd::Test
 namespace
 {
 
-AcsdConfig ReadMqtt(const std::vector<std::string>& overrides)
+AcsdConfig ReadMQTT(const std::vector<std::string>& overrides)
 {
     return ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", overrides);
 }
@@ -33,7 +33,7 @@ std::string WriteFile(const Testing::TemporaryFolder& folder, const std::string&
 TEST_CASE("Without further keys the broker is plain and acsd nobody there")
 {
     Testing::SeededRandom random{1};
-    const AcsdConfig config = ReadMqtt({});
+    const AcsdConfig config = ReadMQTT({});
     const VDA5050::MosquittoOptions options = MakeMqttOptions(config.mqtt, random);
     CHECK(options.host == "127.0.0.1");
     CHECK(options.port == 1883);
@@ -49,7 +49,7 @@ TEST_CASE(
 {
     const Testing::TemporaryFolder folder;
     const std::string file = WriteFile(folder, "password", "s3cret word\r\nsecond line\n");
-    AcsdConfig config = ReadMqtt({"mqtt.username=acs", "mqtt.password_file=" + file});
+    AcsdConfig config = ReadMQTT({"mqtt.username=acs", "mqtt.password_file=" + file});
     REQUIRE(config.mistakes.empty());
     CHECK(config.warnings.empty());
     Testing::SeededRandom random{1};
@@ -62,7 +62,7 @@ TEST_CASE(
     }
 
     std::filesystem::permissions(file, std::filesystem::perms::others_read, std::filesystem::perm_options::add);
-    config = ReadMqtt({"mqtt.username=acs", "mqtt.password_file=" + file});
+    config = ReadMQTT({"mqtt.username=acs", "mqtt.password_file=" + file});
     CHECK(config.mistakes.empty());
     REQUIRE(config.warnings.size() == 1);
     CHECK(config.warnings[0].find("mqtt.password_file: everybody on this machine can read " + file) == 0);
@@ -74,7 +74,7 @@ TEST_CASE("A password file that is missing, empty or without a name is a mistake
     const std::string empty = WriteFile(folder, "empty", "\n");
     const std::string good = WriteFile(folder, "good", "x\n");
     const auto getMistake = [](const std::vector<std::string>& overrides) {
-        const std::vector<std::string> mistakes = ReadMqtt(overrides).mistakes;
+        const std::vector<std::string> mistakes = ReadMQTT(overrides).mistakes;
         REQUIRE(mistakes.size() == 1);
         return mistakes[0];
     };
@@ -100,7 +100,7 @@ TEST_CASE("With mqtts the CA, the certificate and its key are files that are the
     const auto with = [&files](const std::string& url, std::size_t count) {
         std::vector<std::string> overrides{"mqtt.url=" + url};
         overrides.insert(overrides.end(), files.begin(), files.begin() + static_cast<std::ptrdiff_t>(count));
-        return ReadMqtt(overrides);
+        return ReadMQTT(overrides);
     };
     Testing::SeededRandom random{1};
     const AcsdConfig config = with("mqtts://broker:8883", 3);
@@ -119,10 +119,10 @@ TEST_CASE("With mqtts the CA, the certificate and its key are files that are the
     REQUIRE(half.size() == 1);
     CHECK_THAT(half[0], Catch::Contains("mqtt.cert_file: needs the other one too"));
     const auto wrong =
-        ReadMqtt({"mqtt.url=mqtts://broker:8883", "mqtt.ca_file=" + WriteFile(folder, "text", "no PEM\n")}).mistakes;
+        ReadMQTT({"mqtt.url=mqtts://broker:8883", "mqtt.ca_file=" + WriteFile(folder, "text", "no PEM\n")}).mistakes;
     REQUIRE(wrong.size() == 1);
     CHECK_THAT(wrong[0], Catch::Contains("mqtt.ca_file: "));
-    const AcsdConfig relative = ReadMqtt({"mqtt.url=mqtts://broker:8883", "mqtt.ca_file=nowhere.pem"});
+    const AcsdConfig relative = ReadMQTT({"mqtt.url=mqtts://broker:8883", "mqtt.ca_file=nowhere.pem"});
     CHECK(relative.mqtt.tls.caFile == std::string(ACS_SITE) + "/nowhere.pem");
 }
 

@@ -86,7 +86,7 @@ TEST_CASE("/status shows links, obstacles, what waits for the MCS since when, an
     REQUIRE(world.TryRun());
     const std::vector<Planning::OutboxEntry> waiting = world.engine->GetUnacknowledged();
     REQUIRE_FALSE(waiting.empty());
-    const std::string time = Core::FormatUtc(waiting.front().time);
+    const std::string time = Core::FormatUTC(waiting.front().time);
     CHECK(HasText(
         getStatus(),
         R"("outbox":{"reports":)" + std::to_string(waiting.size()) + R"(,"oldest":")" + time + R"("})"));
@@ -169,7 +169,7 @@ TEST_CASE("POST /robots/ID/maintenance/on and off; /status shows it and why a pl
     CHECK(HasText(status, R"("battery":null,"armUp":null,"maintenance":true)"));
     CHECK(HasText(
         status,
-        R"("waits":{"message":"No robot that can do it is free for it.","queuePosition":1,"robots":[{"robotId":"LR01",)"
+        R"("waits":{"message":"No suitable robot is free.","queuePosition":1,"robots":[{"robotId":"LR01",)"
         R"("reason":"in maintenance"},{"robotId":"LR02","reason":"in maintenance"}]}})"));
     CHECK(HasText(user.Post("/robots/LR01/maintenance/off"), "202 "));
     REQUIRE(user.world.TryRun());
@@ -202,16 +202,18 @@ TEST_CASE("POST /plans/PLAN/jobs/JOB/done, failed and again answer for a job tha
     Operator user;
     user.world.Submit(MakeLogisticsPlan("P1"));
     REQUIRE(Testing::TryRunUntil(user.world, "P1", "Job 1 P1-a4 InProgress"));
-    CHECK(HasText(user.Post("/plans/P1/jobs/P1-a4/done"), "404 {\"error\":\"LR01 will tell how it ends."));
-    CHECK(HasText(user.Post("/plans/P1/jobs/P1-zz/done"), "404 {\"error\":\"No robot has such a job."));
+    CHECK(HasText(
+        user.Post("/plans/P1/jobs/P1-a4/done"),
+        "404 {\"error\":\"LR01 is connected and will report the outcome of the job."));
+    CHECK(HasText(user.Post("/plans/P1/jobs/P1-zz/done"), "404 {\"error\":\"No robot has job P1-zz of plan P1."));
     user.world.Raise("LR01", Planning::JobUncertain{"P1-a4", "it was switched off"});
     CHECK(HasText(user.GetStatus(), R"("errorCode":"ACS-1008")"));
     CHECK(HasText(user.GetStatus(), R"("planId":"P1","stepNo":1,"jobId":"P1-a4"})"));
     CHECK(HasText(
         user.GetStatus(),
-        "then answer done (the plan continues with the next job), failed (the plan fails) or again (it was not done and nothing "
-        "was moved: it starts again now). Or skip the step (the plan continues with the next step; the job has no further "
-        "report), or have the MCS abort the plan. To answer, send POST /plans/P1/jobs/P1-a4/done to acsd's HTTP address, with "
+        "then answer done (the plan continues with the next job), failed (the plan fails) or again (the job was not done and "
+        "nothing was moved: it is repeated). Or skip the step (the plan continues with the next step, and the job has no "
+        "further report), or abort the plan from the MCS. To answer, send POST /plans/P1/jobs/P1-a4/done to acsd's HTTP address, with "
         "the answer in the place of done. To skip the step, send POST /plans/P1/steps/1/skip."));
     CHECK(HasText(user.Post("/plans/P1/jobs/P1-b2/done"), "404 "));
     CHECK(HasText(user.Post("/plans/P2/jobs/P1-a4/again"), "404 "));
@@ -225,7 +227,7 @@ TEST_CASE("POST /plans/PLAN/steps/NO/skip skips a step that is Pending or whose 
 {
     Operator user;
     user.world.Submit(MakeLogisticsPlan("P1"));
-    CHECK(HasText(user.Post("/plans/P1/steps/1/skip"), "409 {\"error\":\"No robot has plan P1 yet"));
+    CHECK(HasText(user.Post("/plans/P1/steps/1/skip"), "409 {\"error\":\"Plan P1 has no robot yet"));
     REQUIRE(Testing::TryRunUntil(user.world, "P1", "Job 1 P1-a4 InProgress"));
     CHECK(HasText(user.Post("/plans/P9/steps/1/skip"), "404 {\"error\":\"There is no plan P9."));
     CHECK(HasText(user.Post("/plans/P1/steps/9/skip"), "409 {\"error\":\"Plan P1 has no step 9."));

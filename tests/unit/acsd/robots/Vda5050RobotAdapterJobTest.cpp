@@ -207,7 +207,7 @@ TEST_CASE("A job that is commanded before the factsheet has come is sent after i
         vehicle.Command(Planning::CancelJob{"J"});
         CHECK(
             vehicle.TakeEvents<Planning::JobFailed>()
-            == std::vector<Planning::JobFailed>{{"J", "cancelled before the vehicle had it"}});
+            == std::vector<Planning::JobFailed>{{"J", "cancelled before it was sent to the vehicle"}});
         vehicle.Receive("factsheet", factsheet);
         CHECK(vehicle.TakeOrders().empty());
     }

@@ -109,7 +109,8 @@ TEST_CASE("A vehicle whose factsheet demands a parameter that is not configured 
     AvailabilityFixture site;
     CHECK(site.Run(MakePlan("P1", "LR01", "A01.CP01")) == "LR01 Completed");
     site.Publish("fork");
-    const std::string reason = "No robot can do it: LR01: the parameter fork of pick is mandatory and not configured.";
+    const std::string reason =
+        "No robot can execute the plan: LR01: the parameter fork of pick is mandatory and not configured.";
     CHECK(site.Run(MakePlan("P2", "LR01", "A01.CP01")) == reason);
     CHECK(site.Run(MakePlan("P3", "AMR", "A01.CP01")) == "LR02 Completed");
     CHECK(site.Describe("P2") == reason);
@@ -120,7 +121,7 @@ TEST_CASE("The station of each job decides whether a vehicle can do the plan, an
     AvailabilityFixture site;
     site.Publish("height");
     const std::string reason =
-        "No robot can do it: LR01: the parameter height of pick cannot be given: the job has no {station.height}.";
+        "No robot can execute the plan: LR01: the parameter height of pick cannot be given: the job has no {station.height}.";
     CHECK(site.Run(MakePlan("P1", "LR01", "A01.CP02")) == reason);
     CHECK(site.Run(MakePlan("P2", "LR01", "A01.CP01")) == "LR01 Completed");
     CHECK(site.Run(MakePlan("P3", "AMR", "A01.CP02")) == "LR02 Completed");
@@ -136,7 +137,7 @@ TEST_CASE("A plan without carriers is rejected by a vehicle whose pick requires 
     site.Publish("loadId");
     CHECK(
         site.Run(MakePlan("P1", "LR01", "A01.CP01", {}))
-        == "No robot can do it: LR01: the parameter loadId of pick cannot be given: the job has no {carrier}.");
+        == "No robot can execute the plan: LR01: the parameter loadId of pick cannot be given: the job has no {carrier}.");
     CHECK(site.Run(MakePlan("P2", "LR01", "A01.CP01")) == "LR01 Completed");
 }
 

@@ -49,7 +49,7 @@ TEST_CASE("A good configuration gives its values and no mistakes")
 {
     const auto reader = Read(GOOD);
     const auto mcs = reader.GetRoot().GetSection("mcs");
-    CHECK(Apps::MakeText(mcs.GetUrl("url", {Apps::EUrlScheme::Ws})) == "ws://127.0.0.1:9001/acs/");
+    CHECK(Apps::MakeText(mcs.GetURL("url", {Apps::EUrlScheme::Ws})) == "ws://127.0.0.1:9001/acs/");
     CHECK(mcs.GetDuration("timeout", 1s, 1min, 2s) == 5s);
     CHECK(mcs.GetInteger("retries", 0, 10) == 3);
     CHECK(mcs.GetNumber("factor", 0.0, 2.0) == 1.5);
@@ -107,7 +107,7 @@ wait = '2m'
     CHECK(robot.GetNumber("factor", 0.0, 1.0) == 0.0);
     CHECK(robot.GetDuration("wait", 1s, 1min, 5s) == 5s);
     const auto mcs = reader.GetRoot().GetSection("mcs");
-    CHECK(mcs.GetUrl("url", {Apps::EUrlScheme::Ws}) == Apps::Url{});
+    CHECK(mcs.GetURL("url", {Apps::EUrlScheme::Ws}) == Apps::Url{});
     CHECK(mcs.GetDuration("timeout", 1s, 1min, 2s) == 2s);
     CHECK(mcs.GetInteger("retries", 0, 10) == 0);
     CHECK(mcs.IsEnabled("compress", true));
@@ -132,7 +132,7 @@ wait = '2m'
 TEST_CASE("A missing key that has a form is told with that form")
 {
     const auto reader = Read("[mqtt]\n");
-    (void)reader.GetRoot().GetSection("mqtt").GetUrl("url", {Apps::EUrlScheme::Mqtt});
+    (void)reader.GetRoot().GetSection("mqtt").GetURL("url", {Apps::EUrlScheme::Mqtt});
     CHECK(reader.GetMistakes() == Lines{"acsd.toml:1: mqtt.url: missing; give a URL mqtt://HOST[:PORT]"});
 }
 

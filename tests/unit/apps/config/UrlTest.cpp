@@ -29,19 +29,19 @@ TEST_CASE("A URL without port takes that of its scheme")
         Row{"mqtts://broker", 8883},
         Row{"tcp://arm", 49000},
         Row{"http://arm", 80});
-    const auto url = Apps::ParseUrl(text, GetAllSchemes());
+    const auto url = Apps::ParseURL(text, GetAllSchemes());
     REQUIRE(url.has_value());
     REQUIRE(url->peer.port == port);
 }
 
 TEST_CASE("A URL keeps its host, port and path")
 {
-    const auto url = Apps::ParseUrl("wss://[::1]:9001/acs/?site=A", {EUrlScheme::Ws, EUrlScheme::Wss});
+    const auto url = Apps::ParseURL("wss://[::1]:9001/acs/?site=A", {EUrlScheme::Ws, EUrlScheme::Wss});
     REQUIRE(url == Apps::Url{EUrlScheme::Wss, {"::1", 9001}, "/acs/?site=A"});
     REQUIRE(Apps::MakeText(*url) == "wss://[::1]:9001/acs/?site=A");
-    REQUIRE(Apps::ParseUrl("ws://mcs:1", GetAllSchemes())->path == "/");
-    REQUIRE(Apps::ParseUrl("mqtt://broker/", GetAllSchemes())->path.empty());
-    REQUIRE(Apps::ParseUrl("ws://[::1]/x", GetAllSchemes())->peer == Apps::Endpoint{"::1", 80});
+    REQUIRE(Apps::ParseURL("ws://mcs:1", GetAllSchemes())->path == "/");
+    REQUIRE(Apps::ParseURL("mqtt://broker/", GetAllSchemes())->path.empty());
+    REQUIRE(Apps::ParseURL("ws://[::1]/x", GetAllSchemes())->peer == Apps::Endpoint{"::1", 80});
 }
 
 TEST_CASE("What is no URL, or not of an allowed scheme, is refused with the allowed forms")
@@ -59,7 +59,7 @@ TEST_CASE("What is no URL, or not of an allowed scheme, is refused with the allo
         "mqtt://user@broker",
         "mqtt://bro ker");
     CAPTURE(text);
-    const auto url = Apps::ParseUrl(text, {EUrlScheme::Mqtt, EUrlScheme::Mqtts});
+    const auto url = Apps::ParseURL(text, {EUrlScheme::Mqtt, EUrlScheme::Mqtts});
     REQUIRE_FALSE(url.has_value());
     REQUIRE(url.error().expected == "a URL mqtt://HOST[:PORT] or mqtts://HOST[:PORT]");
 }
@@ -67,7 +67,7 @@ TEST_CASE("What is no URL, or not of an allowed scheme, is refused with the allo
 TEST_CASE("The path of a URL holds no blank, no fragment and no control character")
 {
     const auto* const text = GENERATE("ws://mcs/a b", "ws://mcs/a#b", "ws://mcs/a\nHost: x", "ws://mcs/\x7f");
-    REQUIRE_FALSE(Apps::ParseUrl(text, GetAllSchemes()).has_value());
+    REQUIRE_FALSE(Apps::ParseURL(text, GetAllSchemes()).has_value());
 }
 
 TEST_CASE("wss and mqtts are the secure schemes")

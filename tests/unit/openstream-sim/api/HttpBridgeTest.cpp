@@ -12,7 +12,7 @@ namespace
 
 HttpResponse Send(ControllerHarness& harness, const HttpRequest& request)
 {
-    return ACS::OpenStreamSim::AnswerHttp(request, harness.controller, harness.clock.GetNow());
+    return ACS::OpenStreamSim::AnswerHTTP(request, harness.controller, harness.clock.GetNow());
 }
 
 } // namespace

@@ -24,7 +24,7 @@ TEST_CASE("9 Without a fault both sides are the controller's own")
     FaultHarness harness;
     CHECK(harness.Sample(MOTOR) == ON);
     CHECK(harness.response.delay == 0s);
-    CHECK(harness.GetOverHttp(MOTOR) == ON);
+    CHECK(harness.GetOverHTTP(MOTOR) == ON);
     CHECK(harness.Control("/project/robot/tool_no", R"({"val":1})") == 200);
     CHECK(harness.ContainsInRobot(R"("tool_no":1)"));
     CHECK(harness.GetChanges().empty());
@@ -40,7 +40,7 @@ TEST_CASE("9 In a silence the MONITOR gets no line; CONTROL and HTTP are served,
     harness.Pass(1ms);
     CHECK(harness.Sample(MOTOR).empty());
     CHECK(harness.Control("/project/robot/emergency_stop") == 200);
-    CHECK(harness.GetOverHttp(MOTOR) == OFF);
+    CHECK(harness.GetOverHTTP(MOTOR) == OFF);
     harness.Pass(1999ms);
     CHECK(harness.Sample(MOTOR).empty());
     harness.Pass(1ms);
@@ -74,9 +74,9 @@ TEST_CASE("9 A call by call controller sees the same as one whose timers fire, e
     REQUIRE(harness.StartProgram(11) == 200);
     harness.clock.Advance(10s);                  // no timer fired
     CHECK(harness.GetCounters() == "[1,0,0,0]"); // halted after 1 s of 2
-    CHECK(harness.GetOverHttp(MOTOR) == OFF);
+    CHECK(harness.GetOverHTTP(MOTOR) == OFF);
     CHECK(harness.GetChanges() == Texts{"+estop at=1s for=1s", "-estop at=1s for=1s its time is over"});
-    CHECK(harness.GetOverHttp("/project/robot/emergency_stop") == R"({"_type":"JObject","val":0})");
+    CHECK(harness.GetOverHTTP("/project/robot/emergency_stop") == R"({"_type":"JObject","val":0})");
 }
 
 TEST_CASE("9 A program that has ended is not met by a fault that begins later")
@@ -102,17 +102,17 @@ TEST_CASE("9 A slow service answers later on the side that is meant, and does wh
     CHECK(harness.response.delay == 300ms);
     CHECK(harness.Control("/project/robot/emergency_stop") == 200);
     CHECK(harness.response.delay == 300ms);
-    CHECK(harness.GetOverHttp(MOTOR) == OFF);
+    CHECK(harness.GetOverHTTP(MOTOR) == OFF);
     CHECK(harness.response.delay == 300ms);
     harness.Begin("slow time=1s side=http");
-    CHECK(harness.PostOverHttp("/nothing") == 404);
+    CHECK(harness.PostOverHTTP("/nothing") == 404);
     CHECK(harness.response.delay == 1s);
     CHECK(harness.Sample(MOTOR) == OFF);
     CHECK(harness.response.delay == 300ms);
     harness.Pass(1s);
     CHECK(harness.Sample(MOTOR) == OFF);
     CHECK(harness.response.delay == 0s);
-    CHECK(harness.GetOverHttp(MOTOR) == OFF);
+    CHECK(harness.GetOverHTTP(MOTOR) == OFF);
     CHECK(harness.response.delay == 1s);
 }
 
@@ -141,7 +141,7 @@ TEST_CASE("9 A burst of refusals takes the next CONTROLs, of one time or in a ti
         CHECK(harness.ContainsInRobot(R"("tool_no":0)"));
     }
     CHECK(harness.Sample(MOTOR) == ON);                                           // the MONITOR is none
-    CHECK(harness.PostOverHttp("/project/robot/tool_no", R"({"val":2})") == 200); // nor is HTTP
+    CHECK(harness.PostOverHTTP("/project/robot/tool_no", R"({"val":2})") == 200); // nor is HTTP
     CHECK(harness.Control("/project/robot/tool_no", tool) == 200);
     CHECK(harness.GetChanges() == Texts{"+refuse count=2", "-refuse count=2 it is used up"});
     harness.Begin("refuse status=500 code=-9");
@@ -201,11 +201,11 @@ TEST_CASE("9 The emergency stop takes the motor until it is released; then motor
     REQUIRE(harness.StartProgram(11) == 200);
     harness.Pass(1s);
     harness.Begin("estop for=5s");
-    CHECK(harness.GetOverHttp("/project/robot/emergency_stop") == R"({"_type":"JObject","val":1})");
+    CHECK(harness.GetOverHTTP("/project/robot/emergency_stop") == R"({"_type":"JObject","val":1})");
     CHECK(harness.Sample(MOTOR) == OFF);
     CHECK(harness.Control("/project/robot/motor_on") == 403);
     harness.Pass(5s);
-    CHECK(harness.GetOverHttp("/project/robot/emergency_stop") == R"({"_type":"JObject","val":0})");
+    CHECK(harness.GetOverHTTP("/project/robot/emergency_stop") == R"({"_type":"JObject","val":0})");
     CHECK(harness.Sample(MOTOR) == OFF);
     CHECK(harness.Control("/project/robot/motor_on") == 200);
     harness.Pass(1s);
@@ -220,7 +220,7 @@ TEST_CASE("9 A protective stop does likewise, without the emergency stop")
     REQUIRE(harness.StartProgram(11) == 200);
     harness.Pass(1s);
     harness.Begin("protective-stop for=5s");
-    CHECK(harness.GetOverHttp("/project/robot/emergency_stop") == R"({"_type":"JObject","val":0})");
+    CHECK(harness.GetOverHTTP("/project/robot/emergency_stop") == R"({"_type":"JObject","val":0})");
     CHECK(harness.Sample(MOTOR) == OFF);
     CHECK(harness.Control("/project/robot/motor_on") == 403);
     CHECK_THAT(harness.response.body->GetText(), Catch::Contains(R"("err_code":-5,"err_msg":"a safeguard is open)"));
@@ -263,9 +263,9 @@ TEST_CASE("9 The next program fails at its end, or where it begins, and the one 
     // One that goes on after a stop does not begin.
     REQUIRE(harness.StartProgram(14) == 200);
     harness.Pass(1s);
-    REQUIRE(harness.PostOverHttp("/project/robot/stop") == 200);
+    REQUIRE(harness.PostOverHTTP("/project/robot/stop") == 200);
     harness.Begin("program-fails when=start");
-    REQUIRE(harness.PostOverHttp("/project/robot/start") == 200);
+    REQUIRE(harness.PostOverHTTP("/project/robot/start") == 200);
     harness.Pass(1s);
     CHECK(harness.GetCounters() == "[4,2,2,14]");
 }
@@ -283,7 +283,7 @@ TEST_CASE("9 The next relay that is written gets another value, and those after 
     write("ml106", 0);
     write("m3424", 1); // the first bit of ml107
     write("ml108", 5);
-    CHECK(harness.GetOverHttp("/project/plc/m/val_s32?st=420&len=4") == "[4710,1,0,5]");
+    CHECK(harness.GetOverHTTP("/project/plc/m/val_s32?st=420&len=4") == "[4710,1,0,5]");
     CHECK(harness.GetChanges() == Texts{"+wrong-value count=3", "-wrong-value count=3 it is used up"});
 }
 
@@ -305,7 +305,7 @@ TEST_CASE("9 A fault with a program waits until that one begins")
     CHECK(harness.Sample(MOTOR) == OFF);
     harness.Begin("motor-off program=14");
     harness.Pass(1s);
-    REQUIRE(harness.PostOverHttp("/project/robot/motor_on") == 200);
+    REQUIRE(harness.PostOverHTTP("/project/robot/motor_on") == 200);
     harness.Pass(1s);
     REQUIRE(harness.StartProgram(14) == 200); // it began, and was stopped at once
     CHECK(harness.Sample(MOTOR) == OFF);

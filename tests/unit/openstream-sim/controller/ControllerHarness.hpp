@@ -43,7 +43,7 @@ public:
     {
         OpenStream::ApiRequest request;
         request.method = method;
-        OpenStream::SplitUrl(url, request);
+        OpenStream::SplitURL(url, request);
         if (method != OpenStream::EApiMethod::Get)
         {
             request.body = Core::JsonText::FromTrusted(std::move(body));

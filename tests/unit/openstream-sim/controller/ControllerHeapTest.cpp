@@ -24,7 +24,7 @@ constexpr int FIRST_CALLS = 20;
 std::uint64_t CountBlocks(Testing::ControllerHarness& harness, std::string_view url)
 {
     OpenStream::ApiRequest request;
-    OpenStream::SplitUrl(url, request);
+    OpenStream::SplitURL(url, request);
     OpenStream::ApiResponse response;
     for (int count = 0; count < FIRST_CALLS; ++count)
     {
@@ -103,7 +103,7 @@ TEST_CASE("A MONITOR's tick takes nothing from the heap with faults about, nor i
         INFO(silence);
         harness.Begin(silence);
         OpenStream::ApiRequest request;
-        OpenStream::SplitUrl("/project/robot/joint_states", request);
+        OpenStream::SplitURL("/project/robot/joint_states", request);
         OpenStream::ApiResponse response;
         harness.CallStream(request, response); // the text reaches its size
         const std::uint64_t before = HeapProbe::GetBlockCount();

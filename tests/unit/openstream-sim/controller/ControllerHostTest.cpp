@@ -132,11 +132,11 @@ TEST_CASE("3 A program is started by CONTROL, MONITOR shows its counters rise, H
     fixture.Monitor("/project/plc/m/val_s32", R"({"st":400,"len":4})");
     REQUIRE(fixture.TryAwaitSample("[0,0,0,0]"));
     REQUIRE(IsAccepted(fixture.Control("/project/context/tasks[0]/cur_prog_cnt", R"({"pno":11,"ext_sel":1})")));
-    REQUIRE(Contains(fixture.GetOverHttp("/project/rgen"), R"("cur_prog_no":11)"));
+    REQUIRE(Contains(fixture.GetOverHTTP("/project/rgen"), R"("cur_prog_no":11)"));
     REQUIRE(IsAccepted(fixture.Control("/project/robot/start", "{}")));
     REQUIRE(fixture.TryAwaitSample("[1,0,0,0]"));
     REQUIRE(fixture.TryAwaitSample("[1,1,0,11]"));
-    REQUIRE(Contains(fixture.GetOverHttp("/project/plc/m/val_s32?st=400&len=4"), "\r\n\r\n[1,1,0,11]"));
+    REQUIRE(Contains(fixture.GetOverHTTP("/project/plc/m/val_s32?st=400&len=4"), "\r\n\r\n[1,1,0,11]"));
 }
 
 TEST_CASE(
@@ -162,7 +162,7 @@ TEST_CASE(
         REQUIRE(angles[i] <= LAST + 1e-4);
     }
     REQUIRE(Contains(
-        fixture.GetOverHttp("/project/robot/trajectory/joint_traject_buf_avail"),
+        fixture.GetOverHTTP("/project/robot/trajectory/joint_traject_buf_avail"),
         R"({"_type":"JObject","val":2048})"));
 
     // A point that is to be reached in a minute; STOP control drops it.
@@ -173,7 +173,7 @@ TEST_CASE(
     REQUIRE(fixture.TryRunUntil(
         [&fixture]() { return fixture.GetSample().find(R"("velocity":[0])") != std::string::npos; }));
     REQUIRE(Contains(
-        fixture.GetOverHttp("/project/robot/trajectory/joint_traject_mode"),
+        fixture.GetOverHTTP("/project/robot/trajectory/joint_traject_mode"),
         R"({"_type":"JObject","mode":false})"));
     REQUIRE(points.GetAngles().back() < 90.0);
 }
@@ -182,15 +182,15 @@ TEST_CASE("A Over HTTP the encoded path, the status and the content type are rig
 {
     Fixture fixture;
     const std::string body = R"({"pno":12,"ext_sel":1})";
-    const std::string selected = fixture.SendHttp(
+    const std::string selected = fixture.SendHTTP(
         "POST /project/context/tasks%5B0%5D/cur_prog_cnt HTTP/1.1\r\nHost: sim\r\nConnection: close\r\n"
         "Content-Type: text/plain\r\nContent-Length: "
         + std::to_string(body.size()) + "\r\n\r\n" + body);
     REQUIRE(Contains(selected, "HTTP/1.1 200 "));
     REQUIRE(Contains(selected, "application/json; charset=utf-8"));
     REQUIRE(Contains(selected, "sno_new"));
-    REQUIRE(Contains(fixture.GetOverHttp("/project/robot"), R"("cur_prog_no":12)"));
-    const std::string missing = fixture.GetOverHttp("/project/nothing");
+    REQUIRE(Contains(fixture.GetOverHTTP("/project/robot"), R"("cur_prog_no":12)"));
+    const std::string missing = fixture.GetOverHTTP("/project/nothing");
     REQUIRE(Contains(missing, "HTTP/1.1 404 "));
     REQUIRE(Contains(missing, R"("err_code":-2)"));
 }

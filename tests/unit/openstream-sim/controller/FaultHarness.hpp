@@ -124,13 +124,13 @@ public:
         return response.status;
     }
 
-    std::string GetOverHttp(std::string_view url)
+    std::string GetOverHTTP(std::string_view url)
     {
         Call(*_http, OpenStream::EApiMethod::Get, url, {});
         return response.body.value_or(Core::JsonText()).GetText();
     }
 
-    int PostOverHttp(std::string_view url, std::string body = "{}")
+    int PostOverHTTP(std::string_view url, std::string body = "{}")
     {
         Call(*_http, OpenStream::EApiMethod::Post, url, std::move(body));
         return response.status;
@@ -144,21 +144,21 @@ public:
     int StartProgram(int number)
     {
         const std::string body = R"({"ext_sel":1,"pno":)" + std::to_string(number) + "}";
-        REQUIRE(PostOverHttp("/project/context/tasks[0]/set_cur_pc_idx", R"({"idx":1})") == 200);
-        REQUIRE(PostOverHttp("/project/context/tasks[0]/cur_prog_cnt", body) == 200);
-        return PostOverHttp("/project/robot/start");
+        REQUIRE(PostOverHTTP("/project/context/tasks[0]/set_cur_pc_idx", R"({"idx":1})") == 200);
+        REQUIRE(PostOverHTTP("/project/context/tasks[0]/cur_prog_cnt", body) == 200);
+        return PostOverHTTP("/project/robot/start");
     }
 
     /// Started, finished, failed and the number of the last program.
     std::string GetCounters()
     {
-        return GetOverHttp("/project/plc/m/val_s32?st=400&len=4");
+        return GetOverHTTP("/project/plc/m/val_s32?st=400&len=4");
     }
 
     /// The member of /project/robot.
     bool ContainsInRobot(std::string_view member)
     {
-        return GetOverHttp("/project/robot").find(member) != std::string::npos;
+        return GetOverHTTP("/project/robot").find(member) != std::string::npos;
     }
 
 private:
@@ -170,7 +170,7 @@ private:
     {
         OpenStream::ApiRequest request;
         request.method = method;
-        OpenStream::SplitUrl(url, request);
+        OpenStream::SplitURL(url, request);
         if (method != OpenStream::EApiMethod::Get)
         {
             request.body = Core::JsonText::FromTrusted(std::move(body));

@@ -113,7 +113,7 @@ TEST_CASE("9 Over a socket: a CONTROL that a slow controller works on is unknown
         OpenStream::ControlRequest{OpenStream::EApiMethod::Post, "/project/robot/tool_no", {}, {}},
         OpenStream::EControlTracking::Tracked);
     // It is with the controller: HTTP waits for nothing.
-    REQUIRE(fixture.TryRunUntil([&]() { return fixture.GetOverHttp("/api_ver").ends_with("5"); }));
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.GetOverHTTP("/api_ver").ends_with("5"); }));
     fixture.Begin("drop");
     REQUIRE(fixture.TryAwaitCount<ClientControlSettled>(1));
     CHECK(fixture.GetLast<ClientControlSettled>().token == token);
@@ -129,7 +129,7 @@ TEST_CASE("9 7.27 Over a socket: a slow service skips ticks and says so in svc_d
     CHECK(fixture.GetLast<OpenStream::ClientData>().line.serviceDurationMs >= 50.0);
     CHECK(fixture.client->GetQuality().missing >= 4U * 4U);
     const auto asked = std::chrono::steady_clock::now();
-    CHECK(fixture.GetOverHttp("/api_ver").ends_with("\r\n\r\n5"));
+    CHECK(fixture.GetOverHTTP("/api_ver").ends_with("\r\n\r\n5"));
     CHECK(std::chrono::steady_clock::now() - asked >= 50ms);
 }
 
@@ -184,7 +184,7 @@ TEST_CASE("9 Over a socket: the start of a program that fails where it begins is
     static_cast<void>(fixture.client->SendControlCall(call));
     REQUIRE(fixture.TryAwaitCount<ClientControlSettled>(before + 1));
     CHECK(fixture.GetLast<ClientControlSettled>().outcome == EControlOutcome::Unconfirmed);
-    CHECK_THAT(fixture.GetOverHttp("/project/plc/m/val_s32?st=400&len=4"), Catch::Contains("[1,0,1,11]"));
+    CHECK_THAT(fixture.GetOverHTTP("/project/plc/m/val_s32?st=400&len=4"), Catch::Contains("[1,0,1,11]"));
 }
 
 TEST_CASE("9 Stopping in the middle of every fault lets nothing follow")

@@ -178,7 +178,7 @@ public:
     }
 
     /// The whole answer to bytes that were sent on a connection of their own.
-    [[nodiscard]] std::string SendHttp(const std::string& request)
+    [[nodiscard]] std::string SendHTTP(const std::string& request)
     {
         boost::asio::ip::tcp::socket socket(context);
         socket.connect({boost::asio::ip::address_v4::loopback(), host->GetHttpEndpoint().port});
@@ -200,9 +200,9 @@ public:
         return answer;
     }
 
-    [[nodiscard]] std::string GetOverHttp(const std::string& target)
+    [[nodiscard]] std::string GetOverHTTP(const std::string& target)
     {
-        return SendHttp("GET " + target + " HTTP/1.1\r\nHost: sim\r\nConnection: close\r\n\r\n");
+        return SendHTTP("GET " + target + " HTTP/1.1\r\nHost: sim\r\nConnection: close\r\n\r\n");
     }
 };
 

@@ -251,10 +251,10 @@ TEST_CASE("A program ends in its time though no client asks")
     SECTION("it is stopped and goes on")
     {
         harness.Pass(1s);
-        REQUIRE(harness.PostOverHttp("/project/robot/stop") == 200);
+        REQUIRE(harness.PostOverHTTP("/project/robot/stop") == 200);
         REQUIRE_FALSE(harness.wakeAt.has_value());
         harness.Pass(10s);
-        REQUIRE(harness.PostOverHttp("/project/robot/start") == 200);
+        REQUIRE(harness.PostOverHTTP("/project/robot/start") == 200);
         harness.Pass(2'999ms);
         REQUIRE(world.TakeEvents().empty());
         harness.Pass(1ms);

@@ -51,7 +51,7 @@ TEST_CASE(
     REQUIRE(waiting.robots.size() == 1);
     CHECK(waiting.robots.front().reason == "battery 12 % is below 20 %");
     SetBattery(world, 79);
-    CHECK(world.engine->GetWaitReasonOrNull("P1")->robots.front().reason == "charges, battery 79 % of 80 %");
+    CHECK(world.engine->GetWaitReasonOrNull("P1")->robots.front().reason == "charging, battery 79 % of 80 %");
     SetBattery(world, 80);
     REQUIRE(world.TryRun());
     CHECK(Contains(world.trace, "command LR01 StopCharging"));

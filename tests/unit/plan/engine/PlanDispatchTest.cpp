@@ -121,7 +121,9 @@ TEST_CASE("An unload of another carrier than the one on record is told, and so l
         if (!alarms.empty())
         {
             CHECK(alarms.front().errorCode == "ACS-1004");
-            CHECK(alarms.front().message == "CASSETTE_07 was unloaded from LR01.CP01 though CASSETTE_99 was in it.");
+            CHECK(
+                alarms.front().message
+                == "CASSETTE_07 was unloaded from LR01.CP01, but the record has CASSETTE_99 there. Check the port and correct the record.");
         }
     }
 }
@@ -186,12 +188,12 @@ TEST_CASE("Why does it wait: the place in the queue, and for each robot that cou
     world.Submit(MakeLogisticsPlan("P3"));
     const WaitReason reason = *world.engine->GetWaitReasonOrNull("P3");
     CHECK(reason.queuePosition == 2);
-    CHECK(reason.message == "No robot that can do it is free for it.");
+    CHECK(reason.message == "No suitable robot is free.");
     CHECK(reason.robots.size() == 2);
     CHECK(GetReason(world, "P3", busy) == "busy with plan P1");
     CHECK(GetReason(world, "P3", other) == "no connection");
-    world.SwitchTsc(true);
-    CHECK(world.engine->GetWaitReasonOrNull("P2")->message == "The TSC is Pausing: no plan is begun.");
+    world.SwitchTSC(true);
+    CHECK(world.engine->GetWaitReasonOrNull("P2")->message == "The TSC is Pausing: no plan is started.");
     CHECK(world.engine->GetWaitReasons().back().planID == "P3");
     CHECK_FALSE(world.engine->GetWaitReasonOrNull("P9").has_value());
 }
@@ -205,7 +207,7 @@ TEST_CASE("Why does it wait: a plan that is held or paused, and one whose robot 
     CHECK_FALSE(world.engine->GetWaitReasonOrNull("P1").has_value());
     world.Submit(MakeLogisticsPlan("P2"));
     world.Control(EPlanControl::Pause, "P2");
-    CHECK(world.engine->GetWaitReasonOrNull("P2")->message == "It is held in the queue by PausePlan.");
+    CHECK(world.engine->GetWaitReasonOrNull("P2")->message == "The plan is held in the queue by PausePlan.");
     world.Raise("LR01", LinkChanged{false});
     CHECK(world.engine->GetWaitReasonOrNull("P1")->message == "LR01: no connection.");
 }

@@ -267,7 +267,7 @@ TEST_CASE_METHOD(
     Submit("P3", 3);
     _host.Push(PlanCommand(ControlPlan{EPlanControl::Cancel, "P1", {}, 4}));
     _host.Push(PlanCommand(MessageAcknowledged{1}));
-    CHECK_FALSE(_host.TryPush(ControlTsc{true, 9}));
+    CHECK_FALSE(_host.TryPush(ControlTSC{true, 9}));
     _host.OnStored({});
     CHECK(ListReplies() == Replies{{2, false}, {3, false}, {4, false}, {1, true}});
     CHECK(_batches.size() == 1);

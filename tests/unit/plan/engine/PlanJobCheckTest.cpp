@@ -88,7 +88,9 @@ TEST_CASE("A plan with a job that no robot can do waits with the reasons until o
     CHECK(world.GetReportsOf("P1").empty());
     const std::optional<WaitReason> reason = world.engine->GetWaitReasonOrNull("P1");
     REQUIRE(reason.has_value());
-    CHECK(reason->message == "No robot can do it: LR01: no fork for CassetteUnload; LR02: CassetteLoad is not listed.");
+    CHECK(
+        reason->message
+        == "No robot can execute the plan: LR01: no fork for CassetteUnload; LR02: CassetteLoad is not listed.");
     CHECK(
         reason->robots
         == std::vector<RobotObjection>{{"LR01", "no fork for CassetteUnload"}, {"LR02", "CassetteLoad is not listed"}});
@@ -105,7 +107,9 @@ TEST_CASE("A plan for one robot waits for that robot, although another one could
     SetCheck(world, "LR01", RejectUnloads);
     world.Submit(MakePlan("P1", "LR01"));
     REQUIRE(world.TryRun());
-    CHECK(world.engine->GetWaitReasonOrNull("P1")->message == "No robot can do it: LR01: no fork for CassetteUnload.");
+    CHECK(
+        world.engine->GetWaitReasonOrNull("P1")->message
+        == "No robot can execute the plan: LR01: no fork for CassetteUnload.");
     world.Raise("LR01", JobCheckChanged{nullptr});
     REQUIRE(world.TryRun());
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
@@ -154,7 +158,9 @@ TEST_CASE("A step without jobs is checked as the job that its robot would be com
     SetCheck(world, "CR01", [](const StartJob& job) { return job.action + " at " + job.position; });
     world.Submit({"P1", "", 1, {{1, "OpenSetCover", "A01.SET01", {}, {}}}});
     REQUIRE(world.TryRun());
-    CHECK(world.engine->GetWaitReasonOrNull("P1")->message == "No robot can do it: CR01: OpenSetCover at A01.SET01.");
+    CHECK(
+        world.engine->GetWaitReasonOrNull("P1")->message
+        == "No robot can execute the plan: CR01: OpenSetCover at A01.SET01.");
 }
 
 TEST_CASE("A plan that a robot has stays with it, whatever is learnt of the robot")
@@ -197,5 +203,5 @@ TEST_CASE("D-24 The first report of a plan that no robot can do says why")
     REQUIRE(world.reports.size() == 1);
     CHECK(
         std::get<PlanReport>(world.reports.front().report).message
-        == "No robot can do it: LR01: no fork for CassetteUnload.");
+        == "No robot can execute the plan: LR01: no fork for CassetteUnload.");
 }

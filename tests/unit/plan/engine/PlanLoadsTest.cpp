@@ -51,7 +51,7 @@ std::string GetAlarm(const PlanWorld& world)
 std::string MakeAlarm(const std::string& differences)
 {
     return "Reported loads differ from the record: " + differences
-        + ". The record follows the robot, but a carrier shown at two ports changes no id. Check the ports, then correct the "
+        + ". The record now has the reported loads, except carriers reported at two ports. Check the ports, then correct the "
           "record or clear the alarm.";
 }
 
@@ -74,13 +74,13 @@ TEST_CASE("Reported loads replace the record, and a difference is an alarm until
     Show(world, true, "CASSETTE_09");
     CHECK(GetCarrierOrNull(world) == "CASSETTE_09");
     CHECK(world.store.GetState().carriers.back().carrierIDs == Carriers{"CASSETTE_09"});
-    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, shown CASSETTE_09"));
+    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, reported CASSETTE_09"));
     Show(world, true, "CASSETTE_09");
-    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, shown CASSETTE_09"));
+    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, reported CASSETTE_09"));
     Show(world, false);
     CHECK(GetCarrierOrNull(world) == std::nullopt);
     REQUIRE(world.TryRun());
-    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, shown no carrier"));
+    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, reported no carrier"));
     Show(world, true, "CASSETTE_01");
     CHECK(GetCarrierOrNull(world) == "CASSETTE_01");
     CHECK(GetAlarm(world).empty());
@@ -106,13 +106,13 @@ TEST_CASE("A robot that shows another carrier in each state sets the alarm at on
     };
     const auto asked = world.GetNow().steady;
     showAll();
-    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, shown CASSETTE_10"));
+    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, reported CASSETTE_10"));
     CHECK(GetCarrierOrNull(world) == "CASSETTE_29");
     REQUIRE(world.TryRun([&world] { return world.GetReportsOf("-").size() > 1; }));
     CHECK(world.GetNow().steady - asked == std::chrono::seconds(10));
-    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, shown CASSETTE_29"));
+    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, reported CASSETTE_29"));
     showAll();
-    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, shown CASSETTE_29"));
+    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, reported CASSETTE_29"));
     REQUIRE(world.TryRun());
     CHECK(
         world.GetReportsOf("-")
@@ -134,7 +134,7 @@ TEST_CASE("A robot whose carrier appears and disappears clears the alarm at once
     Show(world, false);
     CHECK(GetAlarm(world).empty());
     REQUIRE(world.TryRun());
-    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, shown no carrier"));
+    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected CASSETTE_01, reported no carrier"));
     CHECK(world.GetReportsOf("-").size() == 3);
 }
 
@@ -160,15 +160,16 @@ TEST_CASE(
     CHECK(world.engine->GetRobotStatuses()[1].carrierIDs == Carriers{"TRAY_01", "TRAY_02", "UNKNOWN"});
     CHECK(
         getMessages()
-        == Carriers{MakeAlarm("CR01.TP01: expected TRAY_01, shown TRAY_01, also at CR01.TP03; CR01.TP03: expected no "
-                              "carrier, shown TRAY_01, also at CR01.TP01")});
+        == Carriers{
+            MakeAlarm("CR01.TP01: expected TRAY_01, reported TRAY_01, also at CR01.TP03; CR01.TP03: expected no "
+                      "carrier, reported TRAY_01, also at CR01.TP01")});
     show({{"CR01.TP01", true, "TRAY_02"}, {"CR01.TP02", true, "TRAY_02"}, {"CR01.TP03", false, {}}});
     CHECK(world.engine->GetRobotStatuses()[1].carrierIDs == Carriers{"TRAY_01", "TRAY_02", {}});
     REQUIRE(world.TryRun());
     CHECK(
         getMessages()
-        == Carriers{MakeAlarm("CR01.TP01: expected TRAY_01, shown TRAY_02, also at CR01.TP02; CR01.TP02: expected "
-                              "TRAY_02, shown TRAY_02, also at CR01.TP01")});
+        == Carriers{MakeAlarm("CR01.TP01: expected TRAY_01, reported TRAY_02, also at CR01.TP02; CR01.TP02: expected "
+                              "TRAY_02, reported TRAY_02, also at CR01.TP01")});
     show({{"CR01.TP01", true, "TRAY_01"}, {"CR01.TP02", true, "TRAY_02"}, {"CR01.TP03", false, {}}});
     CHECK(getMessages().empty());
     CHECK(world.engine->GetRobotStatuses()[1].carrierIDs == Carriers{"TRAY_01", "TRAY_02", {}});
@@ -180,7 +181,7 @@ TEST_CASE("A loaded port without an id keeps the carrier on record, or has an un
     world.Connect();
     Show(world, true);
     CHECK(GetCarrierOrNull(world) == "UNKNOWN");
-    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected no carrier, shown UNKNOWN"));
+    CHECK(GetAlarm(world) == MakeAlarm("LR01.CP01: expected no carrier, reported UNKNOWN"));
     SetCarrier(world, "CASSETTE_01");
     CHECK(GetAlarm(world).empty());
     Show(world, true);
@@ -247,7 +248,8 @@ TEST_CASE("After a job its robot shows what it has: another carrier, or one thou
     CHECK(GetCarrierOrNull(world) == "CASSETTE_09");
     CHECK(
         GetAlarm(world)
-        == MakeAlarm(fmt::format("LR01.CP01: expected {}, shown CASSETTE_09", bFails ? "no carrier" : "CASSETTE_01")));
+        == MakeAlarm(
+            fmt::format("LR01.CP01: expected {}, reported CASSETTE_09", bFails ? "no carrier" : "CASSETTE_01")));
 }
 
 TEST_CASE("A job at another place of the robot does not hide what is shown at a port")
@@ -262,7 +264,8 @@ TEST_CASE("A job at another place of the robot does not hide what is shown at a 
     CHECK(world.engine->GetRobotStatuses()[1].carrierIDs == Carriers{"TRAY_01", {}, {}});
     REQUIRE(world.engine->GetActiveAlarms().size() == 1);
     CHECK(
-        world.engine->GetActiveAlarms().front().message == MakeAlarm("CR01.TP02: expected TRAY_02, shown no carrier"));
+        world.engine->GetActiveAlarms().front().message
+        == MakeAlarm("CR01.TP02: expected TRAY_02, reported no carrier"));
     REQUIRE(world.TryRun());
     CHECK(world.engine->GetRobotStatuses()[1].carrierIDs == Carriers{{}, {}, {}});
 }
@@ -310,7 +313,7 @@ TEST_CASE(
     SECTION("cleared")
     {
         world.Ask(ClearAlarms{"LR01", "ACS-1011", {}, {}, 1});
-        CHECK(world.replies.at(1).message == "1 cleared; 0 set again, as the cause is still there.");
+        CHECK(world.replies.at(1).message == "1 cleared; 0 set again because the cause remains.");
         Show(world, false);
         CHECK(GetAlarm(world).empty());
     }

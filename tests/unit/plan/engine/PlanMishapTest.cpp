@@ -176,7 +176,7 @@ TEST_CASE("A robot that stands where the map has nothing is not used, keeps what
         world.Submit(MakeLogisticsPlan("P1"));
         REQUIRE(world.TryRun());
         CHECK(world.GetReportsOf("P1").empty());
-        CHECK(world.engine->GetWaitReasonOrNull("P1")->robots.front().reason == "its place is not known");
+        CHECK(world.engine->GetWaitReasonOrNull("P1")->robots.front().reason == "position unknown");
         world.Raise("LR01", MakeState("D-CHG01"));
         CHECK(GetAlarmOrNull(world, "LR01", "ACS-1003") == std::nullopt);
         REQUIRE(world.TryRun());
@@ -220,8 +220,7 @@ TEST_CASE(
         REQUIRE(GetAlarmOrNull(world, "LR01", "ACS-1008") == EAlarmLevel::Heavy);
         const auto asks = [](const Alarm& alarm) {
             return alarm.message.ends_with(
-                "then answer done (the carrier is where it was to go) or failed (it is where it was); the robot is free again "
-                "then.");
+                "then answer done (the carrier was moved) or failed (it was not). The robot is available again after that.");
         };
         CHECK(std::ranges::count_if(world.engine->GetActiveAlarms(), asks) == 1); // not again: its plan is over
         if (bOperator)
@@ -244,7 +243,7 @@ TEST_CASE("6.6 The abort of a job whose robot is gone ends when an operator tell
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
     world.Control(EPlanControl::Abort, "P1");
     world.Settle("P1", "P1-a4", EJobAnswer::Failed, 7);
-    CHECK(world.replies.at(7).message == "LR01 will tell how it ends.");
+    CHECK(world.replies.at(7).message == "LR01 is connected and will report the outcome of the job.");
     world.Raise("LR01", LinkChanged{false});
     world.Settle("P1", "P1-a4", EJobAnswer::Again, 8);
     CHECK_FALSE(world.replies.at(8).bAccepted);
@@ -260,13 +259,13 @@ TEST_CASE("A robot is told to stop charging before it leaves, also where it leav
         options.robots.front().chargingStationID = "CHG01";
         options.robots.front().homeStationID = "CHG03";
     });
-    world.SwitchTsc(true);
+    world.SwitchTSC(true);
     world.Connect();
     world.GetRobot("LR01").battery = 50;
     world.TellState("LR01");
     REQUIRE(world.TryRun());
     REQUIRE(Contains(world.trace, "command LR01 StartCharging"));
-    world.SwitchTsc(false);
+    world.SwitchTSC(false);
     REQUIRE(world.TryRun());
     CHECK(world.GetRobot("LR01").GetOccupied() == Lines{"D-CHG03"});
     const std::size_t stop = FindLine(world, "command LR01 StopCharging", 0);
@@ -325,7 +324,7 @@ TEST_CASE("5.2 After a restart with work the TSC is told as Paused until robots 
     CHECK(world.engine->GetTscState() == ETscState::Auto);
     CHECK(Contains(world.trace, "tsc Auto"));
     world.Restart(MakeTestOptions(false), MakeTestSite());
-    world.SwitchTsc(true);
+    world.SwitchTSC(true);
     world.Connect();
     REQUIRE(world.TryRun());
     CHECK(world.engine->GetTscState() == ETscState::Paused);

@@ -100,7 +100,7 @@ TEST_CASE("An alarm that the operator clears is told as cleared, and set again w
     Fail(world, true);
     CHECK(
         Ask(world, ClearAlarms{"LR01", "AGV-motor", {}, {}, 0})
-        == "yes: 1 cleared; 1 set again, as the cause is still there.");
+        == "yes: 1 cleared; 1 set again because the cause remains.");
     CHECK(
         world.GetReportsOf("-")
         == std::vector<std::string>{"Error AGV-motor set", "Error AGV-motor cleared", "Error AGV-motor set"});
@@ -131,7 +131,7 @@ TEST_CASE("An alarm is kept over a restart until it is cleared, and so is its cl
     CHECK(world.engine->GetActiveAlarms().size() == 1);
     CHECK(
         Ask(world, ClearAlarms{"LR01", "ACS-1004", {}, {}, 0})
-        == "yes: 1 cleared; 0 set again, as the cause is still there.");
+        == "yes: 1 cleared; 0 set again because the cause remains.");
     world.Restart(MakeTestOptions(false), MakeTestSite());
     CHECK(world.engine->GetActiveAlarms().empty());
     CHECK(world.GetReportsOf("-").back() == "Error ACS-1004 cleared");
@@ -147,11 +147,13 @@ TEST_CASE("5.9, R12 Ports that an operator corrects are told at once and stored;
     world.Restart(MakeTestOptions(true), MakeTestSite());
     CHECK(world.engine->GetRobotStatuses()[1].carrierIDs == carriers);
     CHECK(Ask(world, SetCarriers{"CR01", {"TRAY_01"}, 0}).starts_with("no: CR01 has 3 carrier ports"));
-    CHECK(Ask(world, SetCarriers{"CR01", {"A", "A", {}}, 0}) == "no: A cannot be on two ports.");
-    CHECK(Ask(world, SetCarriers{"CR01", {"", {}, {}}, 0}) == "no: A carrierId has 1 to 128 bytes.");
-    CHECK(Ask(world, SetCarriers{"CR01", {"A\n", {}, {}}, 0}) == "no: A carrierId has no control characters.");
+    CHECK(Ask(world, SetCarriers{"CR01", {"A", "A", {}}, 0}) == "no: Carrier A is given for two ports.");
+    CHECK(Ask(world, SetCarriers{"CR01", {"", {}, {}}, 0}) == "no: Invalid carrierId: expected 1 to 128 bytes.");
+    CHECK(
+        Ask(world, SetCarriers{"CR01", {"A\n", {}, {}}, 0})
+        == "no: Invalid carrierId: control characters are not allowed.");
     CHECK(
         Ask(world, SetCarriers{"CR02", {{}, "TRAY_03", {}}, 0})
-        == "no: TRAY_03 is on CR01; correct that robot's ports first.");
+        == "no: Carrier TRAY_03 is on CR01. Correct the ports of that robot first.");
     CHECK(Ask(world, SetCarriers{"LR09", {}, 0}) == "no: There is no robot LR09.");
 }

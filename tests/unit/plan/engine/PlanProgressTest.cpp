@@ -72,11 +72,8 @@ TEST_CASE(
     CHECK(alarm.level == EAlarmLevel::Light);
     CHECK(alarm.planID == "P1");
     CHECK(alarm.stepNo == 1);
-    CHECK(
-        alarm.message == "It does not get on: it has not come to node L01 for plan P1 since 60 s; look at the robot.");
-    CHECK(
-        GetReason(world)
-        == "LR01 does not get on: it has not come to node L01 for plan P1 since 60 s; look at the robot.");
+    CHECK(alarm.message == "Robot stalled: node L01 not reached for 60 s. Check the robot.");
+    CHECK(GetReason(world) == "LR01 stalled: node L01 not reached for 60 s. Check the robot.");
     Unstick(world);
     FinishPlan(world);
     const Lines reports = world.GetReportsOf("P1");
@@ -92,10 +89,7 @@ TEST_CASE(
     world.GetRobot("LR01").bDeaf = true;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 Dispatched");
     REQUIRE(TryRunUntilStall(world));
-    CHECK(
-        GetReason(world)
-        == "LR01 does not get on: it has not shown that it took its drive to node L01 for plan P1 since 60 s; look at the "
-           "robot.");
+    CHECK(GetReason(world) == "LR01 stalled: drive to node L01 not confirmed for 60 s. Check the robot.");
     world.Raise("LR01", NodePassed{world.driveIDs.at("LR01"), "D-CHG01"});
     CHECK(FindStallOrNull(world) == nullptr);
     CHECK(GetReason(world).empty());
@@ -146,7 +140,7 @@ TEST_CASE("drive.stall_timeout: who waits for another one at the end of its way 
     world.TellState("LR02");
     const std::optional<WaitReason> reason = world.engine->GetWaitReasonOrNull("P2");
     REQUIRE(reason.has_value());
-    CHECK(reason->message.ends_with("until it is clear of LR01."));
+    CHECK(reason->message.ends_with("blocked by LR01."));
     CHECK(FindStallOrNull(world, "LR01") != nullptr);
     CHECK(FindStallOrNull(world, "LR02") == nullptr);
 }

@@ -152,7 +152,7 @@ TEST_CASE("R15, E82 TSC: Pausing ends what runs and begins nothing, Paused keeps
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
-    world.SwitchTsc(true);
+    world.SwitchTSC(true);
     CHECK(world.engine->GetTscState() == ETscState::Pausing);
     world.Submit(MakeLogisticsPlan("P2"), 2);
     CHECK(world.replies.at(2).bAccepted);
@@ -160,9 +160,9 @@ TEST_CASE("R15, E82 TSC: Pausing ends what runs and begins nothing, Paused keeps
     CHECK(world.GetReportsOf("P2").empty());
     CHECK(world.GetTraceOf("tsc ") == Lines{"Pausing", "Paused"});
     CHECK(world.GetRobot("LR01").GetOccupied() == Lines{"D-A02.CP03"}); // not even home
-    world.SwitchTsc(true);
-    world.SwitchTsc(false);
-    world.SwitchTsc(false);
+    world.SwitchTSC(true);
+    world.SwitchTSC(false);
+    world.SwitchTSC(false);
     CHECK(world.GetTraceOf("tsc ") == Lines{"Pausing", "Paused", "Auto"});
     REQUIRE(world.TryRun());
     CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
@@ -172,13 +172,13 @@ TEST_CASE("E82 TSC: paused at once where nothing runs, and back to Auto while it
 {
     PlanWorld world;
     world.Connect();
-    world.SwitchTsc(true);
+    world.SwitchTSC(true);
     CHECK(world.GetTraceOf("tsc ") == Lines{"Pausing", "Paused"});
-    world.SwitchTsc(false);
+    world.SwitchTSC(false);
     world.Submit(MakeLogisticsPlan("P1"));
     REQUIRE(TryRunUntil(world, "P1", "Plan InProgress"));
-    world.SwitchTsc(true);
-    world.SwitchTsc(false);
+    world.SwitchTSC(true);
+    world.SwitchTSC(false);
     CHECK(world.GetTraceOf("tsc ") == Lines{"Pausing", "Paused", "Auto", "Pausing", "Auto"});
 }
 
@@ -187,7 +187,7 @@ TEST_CASE("E82 TSC: a robot that still drives home keeps it pausing until it sta
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Plan Completed");
     REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").drives == 3; }));
-    world.SwitchTsc(true);
+    world.SwitchTSC(true);
     CHECK(world.GetTraceOf("tsc ") == Lines{"Pausing"});
     REQUIRE(world.TryRun());
     CHECK(world.GetTraceOf("tsc ") == Lines{"Pausing", "Paused"});
@@ -199,12 +199,12 @@ TEST_CASE("E82 TSC: a paused plan does not keep it pausing, and is not resumed b
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
     PausePlan(world);
-    world.SwitchTsc(true);
+    world.SwitchTSC(true);
     CHECK(world.engine->GetTscState() == ETscState::Paused);
     world.Control(EPlanControl::Resume, "P1");
     REQUIRE(world.TryRun());
     CHECK(world.GetReportsOf("P1").back() == "ResumeResult Failed");
-    world.SwitchTsc(false);
+    world.SwitchTSC(false);
     world.Control(EPlanControl::Resume, "P1");
     FinishPlan(world);
 }
@@ -212,18 +212,18 @@ TEST_CASE("E82 TSC: a paused plan does not keep it pausing, and is not resumed b
 TEST_CASE("E82 TSC: what was paused is so after a restart; tsc.initial paused begins so every time")
 {
     PlanWorld world;
-    world.SwitchTsc(true);
-    world.SwitchTsc(false);
+    world.SwitchTSC(true);
+    world.SwitchTSC(false);
     Restart(world, [](EngineOptions&) {});
     CHECK(world.engine->GetTscState() == ETscState::Auto);
-    world.SwitchTsc(true);
+    world.SwitchTSC(true);
     Restart(world, [](EngineOptions&) {});
     CHECK(world.engine->GetTscState() == ETscState::Paused);
     world.Connect();
     world.Submit(MakeLogisticsPlan("P1"));
     REQUIRE(world.TryRun());
     CHECK(world.GetReportsOf("P1").empty());
-    world.SwitchTsc(false);
+    world.SwitchTSC(false);
     REQUIRE(TryRunUntil(world, "P1", "Plan InProgress"));
     Restart(world, [](EngineOptions& options) { options.bTscStartsPaused = true; });
     CHECK(world.engine->GetTscState() == ETscState::Pausing); // what was being worked on comes to its end
@@ -239,7 +239,7 @@ TEST_CASE("E82 tsc.paused_accepts_plans: plans that come while the TSC is not Au
     {
         PlanWorld world =
             MakeWorld([bAccepted](EngineOptions& options) { options.bTscPausedAcceptsPlans = bAccepted; });
-        world.SwitchTsc(true);
+        world.SwitchTSC(true);
         world.Submit(MakeLogisticsPlan("P1"), 1);
         CHECK(world.replies.at(1).bAccepted == bAccepted);
     }

@@ -181,10 +181,10 @@ TEST_CASE("6.13 What is under way, over, unknown or not begun cannot be skipped"
     PlanWorld world;
     CHECK(Skip(world, 1) == "no: There is no plan P1.");
     world.Submit(MakeLogisticsPlan("P1"));
-    CHECK(Skip(world, 1) == "no: No robot has plan P1 yet: skip the step when the plan is InProgress.");
+    CHECK(Skip(world, 1) == "no: Plan P1 has no robot yet. Skip the step once the plan is InProgress.");
     CHECK(Skip(world, 3) == "no: Plan P1 has no step 3.");
     world.Connect();
-    const std::string rule = ": only a step that is Pending, or whose job is unresolved, can be skipped.";
+    const std::string rule = ". Only a Pending step or a step with an unresolved job can be skipped.";
     REQUIRE(TryRunUntil(world, "P1", "Step 1 Dispatched"));
     CHECK(Skip(world, 1) == "no: Step 1 is Dispatched" + rule);
     REQUIRE(TryRunUntil(world, "P1", "Job 1 P1-a4 InProgress"));

@@ -176,7 +176,7 @@ TEST_CASE("5.9 A robot whose job is unresolved says so")
     world.GetRobot("LR01").uncertainReason = "it was switched off";
     RestartEngine(world);
     CHECK(GetStatus(world, "LR01").status == ERobotStatus::Working);
-    CHECK(GetStatus(world, "LR01").message == "LR01 cannot tell what became of job J1: look, and answer.");
+    CHECK(GetStatus(world, "LR01").message == "Outcome of job J1 unknown. Check LR01, then resolve the job.");
 }
 
 TEST_CASE("5.4 The message of a plan's report says which robot has it, and which control changed it")
@@ -207,7 +207,7 @@ TEST_CASE("5.4, D-24 The message of a plan that is reported as Pending says why 
     PlanWorld world(1, options, MakeTestSite());
     world.Submit(MakeLoadPlan());
     REQUIRE(world.TryRun());
-    CHECK(GetMessage(world, "P1", EPlanState::Pending) == "No robot that can do it is free for it.");
+    CHECK(GetMessage(world, "P1", EPlanState::Pending) == "No suitable robot is free.");
 }
 
 TEST_CASE("5.6 The message of a job's report says why it failed, and who reported it as done")
@@ -224,5 +224,5 @@ TEST_CASE("5.6 The message of a job's report says why it failed, and who reporte
     REQUIRE(last != world.reports.rend());
     CHECK(
         std::get<JobReport>(last->report).message
-        == (bFails ? "The operator says that it was not done." : "Reported as done by the operator."));
+        == (bFails ? "Reported as not done by the operator." : "Reported as done by the operator."));
 }

@@ -272,8 +272,8 @@ TEST_CASE(
     CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
     world.Submit(MakeLogisticsPlan("P2"));
     world.store.bFails = true;
-    world.SwitchTsc(true); // fails to be stored
-    world.SwitchTsc(false);
+    world.SwitchTSC(true); // fails to be stored
+    world.SwitchTSC(false);
     static_cast<void>(TryRunFor(world, 5s));
     CHECK(world.engine->GetPlanOrNull("P2")->state == EPlanState::Pending);
     world.store.bFails = false;

@@ -53,12 +53,12 @@ TEST_CASE("4.1 What is wrong with a plan is refused with a message that names th
          [](Plan& plan) {
              plan.steps[0].jobs.push_back({"again", "A01.CP01", "AMR.CP01"});
          },
-         "steps[0].jobs[1].to: expected a port that no job before has loaded"},
+         "steps[0].jobs[1].to: expected a port that no earlier job loads"},
         {"an unload of a port that is unloaded already",
          [](Plan& plan) {
              plan.steps[1].jobs.push_back({"again", "AMR.CP01", "A02.CP03"});
          },
-         "steps[1].jobs[1].from: expected a port that no job before has unloaded"},
+         "steps[1].jobs[1].from: expected a port that no earlier job unloads"},
         {"no from", [](Plan& plan) { plan.steps[0].jobs[0].from.reset(); }, "steps[0].jobs[0].from"},
         {"a to of the wrong kind", [](Plan& plan) { plan.steps[0].jobs[0].to = "A01.CP02"; }, "steps[0].jobs[0].to"},
         {"a port that no robot has", [](Plan& plan) { plan.steps[0].jobs[0].to = "AMR.CP09"; }, "AMR.CP09"},

@@ -51,9 +51,15 @@ TEST_CASE("PortLedger: a job moves its carrier, and an unknown one where the pla
 TEST_CASE("PortLedger: a job that contradicts the record counts all the same")
 {
     PortLedger ledger = MakeLedger({"T1", std::nullopt});
-    CHECK(ledger.Move(std::array{PortUse{0, true}}, "T2") == "CR01.TP01 was loaded though T1 was in it.");
-    CHECK(ledger.Move(std::array{PortUse{1, false}}, "T3") == "CR01.TP02 was unloaded though nothing was in it.");
-    CHECK(ledger.Move(std::array{PortUse{0, false}}, "T3") == "T3 was unloaded from CR01.TP01 though T2 was in it.");
+    CHECK(
+        ledger.Move(std::array{PortUse{0, true}}, "T2")
+        == "CR01.TP01 was loaded, but the record has T1 there. Check the port and correct the record.");
+    CHECK(
+        ledger.Move(std::array{PortUse{1, false}}, "T3")
+        == "CR01.TP02 was unloaded, but the record has no carrier there. Check the port and correct the record.");
+    CHECK(
+        ledger.Move(std::array{PortUse{0, false}}, "T3")
+        == "T3 was unloaded from CR01.TP01, but the record has T2 there. Check the port and correct the record.");
     CHECK(ledger.GetCarriers() == CarrierIDs{std::nullopt, std::nullopt});
 }
 
@@ -66,7 +72,7 @@ TEST_CASE("PortLedger: a report replaces the record and the port is disputed unt
     CHECK(comparison.bRecordChanged);
     CHECK(comparison.bDisputed);
     CHECK(ledger.GetCarriers() == CarrierIDs{"T2", std::nullopt});
-    CHECK(ledger.DescribeDisputes() == "CR01.TP01: expected T1, shown T2");
+    CHECK(ledger.DescribeDisputes() == "CR01.TP01: expected T1, reported T2");
 
     CHECK(ledger.Compare(MakeLoads({"T1", std::nullopt}), {}).bRecordChanged);
     CHECK_FALSE(ledger.IsDisputed());
@@ -88,7 +94,7 @@ TEST_CASE("PortLedger: a carrier that is reported at two ports changes no id")
     CHECK(ledger.GetCarriers() == CarrierIDs{"T1", "UNKNOWN"});
     CHECK(
         ledger.DescribeDisputes()
-        == "CR01.TP01: expected T1, shown T1, also at CR01.TP02; CR01.TP02: expected no carrier, shown T1, also at "
+        == "CR01.TP01: expected T1, reported T1, also at CR01.TP02; CR01.TP02: expected no carrier, reported T1, also at "
            "CR01.TP01");
 }
 

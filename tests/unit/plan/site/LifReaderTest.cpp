@@ -11,7 +11,7 @@ using namespace ACS;           // NOLINT(google-build-using-namespace)
 namespace
 {
 
-const std::string& GetLif()
+const std::string& GetLIF()
 {
     static const std::string TEXT = R"({
       "metaInformation": {"projectIdentification": "p", "creator": "c", "exportTimestamp": "2025-01-01T00:00:00Z",
@@ -41,7 +41,7 @@ std::string Replace(std::string text, const std::string& from, const std::string
 
 TEST_CASE("LIF: nodes, edges and stations become a map, degrees become radians")
 {
-    const Core::Result<SiteMap> site = DecodeLif(GetLif());
+    const Core::Result<SiteMap> site = DecodeLIF(GetLIF());
     REQUIRE(site.has_value());
     REQUIRE(site->GetNodes().size() == 2);
     CHECK(site->FindNodeOrNull("N1")->mapID == "floor");
@@ -85,12 +85,12 @@ TEST_CASE("LIF: a file that is not LIF is refused at the place where it goes wro
     for (const Case& wrong : cases)
     {
         INFO(wrong.from << " -> " << wrong.to);
-        const Core::Result<SiteMap> site = DecodeLif(Replace(GetLif(), wrong.from, wrong.to));
+        const Core::Result<SiteMap> site = DecodeLIF(Replace(GetLIF(), wrong.from, wrong.to));
         REQUIRE_FALSE(site.has_value());
         CHECK(site.error().path == wrong.path);
     }
-    CHECK_FALSE(DecodeLif("").has_value());
-    CHECK_FALSE(DecodeLif("[]").has_value());
+    CHECK_FALSE(DecodeLIF("").has_value());
+    CHECK_FALSE(DecodeLIF("[]").has_value());
 }
 
 TEST_CASE("LIF: an error in the second layout is found there, and a map without nodes is none")
@@ -98,14 +98,14 @@ TEST_CASE("LIF: an error in the second layout is found there, and a map without 
     const std::string second =
         R"(, {"layoutId": "two", "layoutVersion": "1", "nodes": [{"nodeId": "N1", "nodePosition": {"x": 0, "y": 0},
            "vehicleTypeNodeProperties": []}], "edges": [], "stations": []}]})";
-    const std::string& text = GetLif();
-    const Core::Result<SiteMap> twice = DecodeLif(text.substr(0, text.size() - 2) + second);
+    const std::string& text = GetLIF();
+    const Core::Result<SiteMap> twice = DecodeLIF(text.substr(0, text.size() - 2) + second);
     REQUIRE_FALSE(twice.has_value());
     CHECK(twice.error().path == "layouts[1].nodes[0].nodeId");
     CHECK(twice.error().code == EPlanningError::InvalidSite);
 
     const std::string empty = text.substr(0, text.find("\"layouts\"")) + "\"layouts\": []}";
-    const Core::Result<SiteMap> none = DecodeLif(empty);
+    const Core::Result<SiteMap> none = DecodeLIF(empty);
     REQUIRE_FALSE(none.has_value());
     CHECK(none.error().path == "layouts");
 }

@@ -299,7 +299,7 @@ template <std::size_t COUNT>
 [[nodiscard]] bool TryCheckRequired(
     std::uint64_t seen,
     std::uint64_t required,
-    const std::string_view* names,
+    const std::string_view* namesOrNull,
     DecodeContext& context);
 
 template <DescribedStruct T>

@@ -41,7 +41,7 @@ public:
     JsonDocument& operator=(const JsonDocument&) = delete;
     ~JsonDocument();
 
-    /// The value is valid until the next Parse. Errors: TooLarge, InvalidJson (with byte or line). With bLenient,
+    /// The value is valid until the next Parse. Errors: TooLarge, InvalidJSON (with byte or line). With bLenient,
     /// comments and commas behind the last member or element are read over.
     [[nodiscard]] Core::Result<const Value*> Parse(
         std::string_view text,

@@ -96,11 +96,11 @@ struct ValueEncoder<T>
 template <typename T>
 struct ValueEncoder<std::optional<T>>
 {
-    static void Encode(const std::optional<T>& value, JsonWriter& writer)
+    static void Encode(const std::optional<T>& valueOrNull, JsonWriter& writer)
     {
-        if (value.has_value())
+        if (valueOrNull.has_value())
         {
-            ValueEncoder<T>::Encode(*value, writer);
+            ValueEncoder<T>::Encode(*valueOrNull, writer);
         }
         else
         {
@@ -185,9 +185,12 @@ struct KeyText
     return (form.wholeIn & dialect) != 0 ? std::round(bounded) : bounded;
 }
 
-[[nodiscard]] inline double Shape(const std::optional<double>& value, const WrittenForm& form, DialectFlags dialect)
+[[nodiscard]] inline double Shape(
+    const std::optional<double>& valueOrNull,
+    const WrittenForm& form,
+    DialectFlags dialect)
 {
-    return Shape(*value, form, dialect);
+    return Shape(*valueOrNull, form, dialect);
 }
 
 template <DescribedStruct T, std::size_t INDEX>

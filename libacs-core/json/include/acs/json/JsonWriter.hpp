@@ -17,21 +17,6 @@ class JsonWriter
     std::string& _out;
     DialectFlags _dialect;
 
-    /// Whether the next value follows another member or element.
-    [[nodiscard]] bool NeedsComma() const noexcept
-    {
-        const char last = _out.empty() ? '\n' : _out.back();
-        return last != '{' && last != '[' && last != ':' && last != ',' && last != '\n';
-    }
-
-    void Separate()
-    {
-        if (NeedsComma())
-        {
-            _out += ',';
-        }
-    }
-
 public:
     /// Of the fields that are bound to dialects, those of this one are written.
     explicit JsonWriter(std::string& out, DialectFlags dialect = ALL_DIALECTS);
@@ -66,6 +51,22 @@ public:
     void WriteBoolean(bool bValue);
     void WriteNull();
     void WriteRaw(const Core::JsonText& value);
+
+private:
+    /// Whether the next value follows another member or element.
+    [[nodiscard]] bool NeedsComma() const noexcept
+    {
+        const char last = _out.empty() ? '\n' : _out.back();
+        return last != '{' && last != '[' && last != ':' && last != ',' && last != '\n';
+    }
+
+    void Separate()
+    {
+        if (NeedsComma())
+        {
+            _out += ',';
+        }
+    }
 };
 
 } // namespace ACS::Json

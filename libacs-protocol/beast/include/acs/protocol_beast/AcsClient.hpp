@@ -23,11 +23,17 @@ namespace ACS::ProtocolBeast
 class AcsClient
 {
     class Impl;
+
     std::shared_ptr<Impl> _impl;
 
     explicit AcsClient(std::shared_ptr<Impl> impl);
 
 public:
+    AcsClient(const AcsClient&) = delete;
+    AcsClient& operator=(const AcsClient&) = delete;
+    /// Closes the connection at once, without a closing handshake; the handler is not called any more.
+    ~AcsClient();
+
     /// Opens no connection. The error concerns the URL, a header or a TLS file. Clock, random source, log sink and handler
     /// must outlive the client.
     [[nodiscard]] static Core::Result<std::unique_ptr<AcsClient>> Create(
@@ -37,11 +43,6 @@ public:
         const Core::Logger& logger,
         const ClientOptions& options,
         ISessionHandler& handler);
-
-    AcsClient(const AcsClient&) = delete;
-    AcsClient& operator=(const AcsClient&) = delete;
-    /// Closes the connection at once, without a closing handshake; the handler is not called any more.
-    ~AcsClient();
 
     /// These call AcsSession's function of the same name and carry out its actions; events reach the handler after the
     /// call has returned.

@@ -24,14 +24,22 @@ namespace ACS::ProtocolBeast
 /// strand), and is called from there only.
 class McsServer
 {
+public:
+    /// Adds actions to be carried out, for example by calling a session of one's own.
+    using SessionCall = std::function<void(Core::Now now, Protocol::SessionActions& out)>;
+
+private:
     class Impl;
+
     std::shared_ptr<Impl> _impl;
 
     explicit McsServer(std::shared_ptr<Impl> impl);
 
 public:
-    /// Adds actions to be carried out, for example by calling a session of one's own.
-    using SessionCall = std::function<void(Core::Now now, Protocol::SessionActions& out)>;
+    McsServer(const McsServer&) = delete;
+    McsServer& operator=(const McsServer&) = delete;
+    /// Closes all connections at once, without a closing handshake; the handler is not called any more.
+    ~McsServer();
 
     /// Listens, with an McsSession made of options.session. The error names the address, or the file for TLS, and the
     /// remedy. Clock, random source, log sink and handler must outlive the server.
@@ -51,11 +59,6 @@ public:
         const ServerOptions& options,
         std::unique_ptr<Protocol::IMcsSession> session,
         ISessionHandler& handler);
-
-    McsServer(const McsServer&) = delete;
-    McsServer& operator=(const McsServer&) = delete;
-    /// Closes all connections at once, without a closing handshake; the handler is not called any more.
-    ~McsServer();
 
     /// The port that the server listens on.
     [[nodiscard]] std::uint16_t GetPort() const;

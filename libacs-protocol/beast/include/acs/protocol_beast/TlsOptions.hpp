@@ -24,6 +24,6 @@ struct TlsOptions
 
 /// Checks what AcsClient::Create would reject for a server of that host; reads the files. The error's path is "tls.ca",
 /// "tls.certificate", "tls.key" or "tls.server_name"; the error names the file and what is wrong with it.
-[[nodiscard]] Core::Result<void> CheckClientTls(const TlsOptions& options, std::string_view host);
+[[nodiscard]] Core::Result<void> CheckClientTLS(const TlsOptions& options, std::string_view host);
 
 } // namespace ACS::ProtocolBeast

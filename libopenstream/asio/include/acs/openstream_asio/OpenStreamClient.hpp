@@ -32,14 +32,16 @@ struct OpenStreamClientOptions
 /// called. Clock and random source must outlive the client.
 class OpenStreamClient
 {
+public:
+    /// May call the client, but must not destroy it.
+    using EventHandler = std::function<void(const OpenStream::ClientEvent& event, Core::Now now)>;
+
+private:
     class Impl;
 
     std::shared_ptr<Impl> _impl;
 
 public:
-    /// May call the client, but must not destroy it.
-    using EventHandler = std::function<void(const OpenStream::ClientEvent& event, Core::Now now)>;
-
     OpenStreamClient(
         const boost::asio::any_io_executor& executor,
         Core::IClock& clock,

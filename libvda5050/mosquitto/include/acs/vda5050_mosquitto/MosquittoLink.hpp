@@ -26,14 +26,17 @@ namespace ACS::VDA5050
 /// is tried, except for localhost.
 class MosquittoLink final : public IMqttLink
 {
-    class Impl;
-    std::shared_ptr<Impl> _impl;
-
 public:
     using StopHandler = std::function<void()>;
 
     static constexpr std::chrono::milliseconds DEFAULT_STOP_TIMEOUT{2'000};
 
+private:
+    class Impl;
+
+    std::shared_ptr<Impl> _impl;
+
+public:
     /// Does not connect before Start. The random source (for the backoff) and the listener must outlive the link.
     MosquittoLink(
         const boost::asio::any_io_executor& executor,

@@ -13,7 +13,7 @@ namespace ACS::VDA5050
 {
 
 /// TLS (mqtts). Paths of PEM files, which are read at each connect.
-struct MosquittoTls
+struct MosquittoTLS
 {
     std::string caFile;   ///< Trusted CAs; empty: the system's.
     std::string certFile; ///< Client certificate; empty: none.
@@ -35,7 +35,7 @@ struct MosquittoOptions
     std::chrono::seconds keepAlive{15}; ///< At least 5 s. The broker sends the will after 1.5 times this.
     std::string username;               ///< Empty: none.
     std::string password;
-    std::optional<MosquittoTls> tls;
+    std::optional<MosquittoTLS> tls;
     /// False: a persistent session, which needs a clientID. While there is no connection, the broker keeps the subscriptions
     /// and their messages of QoS 1 and 2. Published messages of QoS 1 and 2 are resent until they are acknowledged; those of
     /// QoS 2 are delivered exactly once in both directions, for the lifetime of the link and of the broker's session.

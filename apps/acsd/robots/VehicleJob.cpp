@@ -1,0 +1,95 @@
+#include "robots/VehicleJob.hpp"
+
+#include <cassert>
+#include <utility>
+
+namespace ACS::Acsd
+{
+
+void VehicleJob::Defer(Planning::StartJob job)
+{
+    _state = Deferred{std::move(job)};
+}
+
+void VehicleJob::Recover(Planning::RecoverJob recovery)
+{
+    _state = Recovering{std::move(recovery)};
+}
+
+void VehicleJob::Run(Planning::StartJob job)
+{
+    _state = Running{std::move(job)};
+}
+
+void VehicleJob::VerifyLoads(LoadCheck check)
+{
+    _state = VerifyingLoads{std::move(check)};
+}
+
+void VehicleJob::Clear()
+{
+    _state = std::monostate{};
+}
+
+std::optional<Planning::StartJob> VehicleJob::TakeDeferredOrNull()
+{
+    Deferred* const deferredOrNull = std::get_if<Deferred>(&_state);
+    if (deferredOrNull == nullptr)
+    {
+        return std::nullopt;
+    }
+    Planning::StartJob job = std::move(deferredOrNull->job);
+    Clear();
+    return job;
+}
+
+std::optional<Planning::RecoverJob> VehicleJob::TakeRecoveryOrNull()
+{
+    Recovering* const recoveringOrNull = std::get_if<Recovering>(&_state);
+    if (recoveringOrNull == nullptr)
+    {
+        return std::nullopt;
+    }
+    Planning::RecoverJob recovery = std::move(recoveringOrNull->recovery);
+    Clear();
+    return recovery;
+}
+
+Planning::StartJob VehicleJob::TakeRunning()
+{
+    assert(std::holds_alternative<Running>(_state));
+    Planning::StartJob job = std::move(std::get<Running>(_state).job);
+    Clear();
+    return job;
+}
+
+bool VehicleJob::TryStart()
+{
+    Running* const runningOrNull = std::get_if<Running>(&_state);
+    return runningOrNull != nullptr && !std::exchange(runningOrNull->bStarted, true);
+}
+
+bool VehicleJob::IsDeferred(std::string_view jobID) const
+{
+    const Deferred* const deferredOrNull = std::get_if<Deferred>(&_state);
+    return deferredOrNull != nullptr && deferredOrNull->job.jobID == jobID;
+}
+
+bool VehicleJob::IsRecovering() const
+{
+    return std::holds_alternative<Recovering>(_state);
+}
+
+const Planning::StartJob* VehicleJob::GetRunningOrNull() const noexcept
+{
+    const Running* const runningOrNull = std::get_if<Running>(&_state);
+    return runningOrNull == nullptr ? nullptr : &runningOrNull->job;
+}
+
+const LoadCheck* VehicleJob::GetLoadCheckOrNull() const noexcept
+{
+    const VerifyingLoads* const verifyingOrNull = std::get_if<VerifyingLoads>(&_state);
+    return verifyingOrNull == nullptr ? nullptr : &verifyingOrNull->check;
+}
+
+} // namespace ACS::Acsd

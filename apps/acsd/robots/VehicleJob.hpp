@@ -1,0 +1,65 @@
+#pragma once
+
+#include "robots/LoadCheck.hpp"
+#include <acs/plan/RobotCommand.hpp>
+
+#include <optional>
+#include <string_view>
+#include <variant>
+
+namespace ACS::Acsd
+{
+
+/// The job of a VDA5050 vehicle, from its command or its recovery to the end that is reported to the engine.
+class VehicleJob final
+{
+    /// The vehicle's factsheet is awaited.
+    struct Deferred
+    {
+        Planning::StartJob job;
+    };
+
+    /// It was commanded before a restart, and the vehicle has not reported its state yet.
+    struct Recovering
+    {
+        Planning::RecoverJob recovery;
+    };
+
+    /// The vehicle has its order, or receives it next. Order and action have the commandID.
+    struct Running
+    {
+        Planning::StartJob job;
+        bool bStarted = false; ///< Its action has begun.
+    };
+
+    /// The action is finished, and the loads do not show it yet.
+    struct VerifyingLoads
+    {
+        LoadCheck check;
+    };
+
+    std::variant<std::monostate, Deferred, Recovering, Running, VerifyingLoads> _state;
+
+public:
+    void Defer(Planning::StartJob job);
+    void Recover(Planning::RecoverJob recovery);
+    void Run(Planning::StartJob job);
+    void VerifyLoads(LoadCheck check);
+    void Clear();
+
+    /// The deferred job, which is then no longer here.
+    [[nodiscard]] std::optional<Planning::StartJob> TakeDeferredOrNull();
+    /// Likewise the job to be recovered.
+    [[nodiscard]] std::optional<Planning::RecoverJob> TakeRecoveryOrNull();
+    /// Likewise the running job. Only while GetRunningOrNull is not null.
+    [[nodiscard]] Planning::StartJob TakeRunning();
+    /// The action of the running job was seen to run. Returns whether that is the first time.
+    [[nodiscard]] bool TryStart();
+
+    [[nodiscard]] bool IsDeferred(std::string_view jobID) const;
+    [[nodiscard]] bool IsRecovering() const;
+    [[nodiscard]] const Planning::StartJob* GetRunningOrNull() const noexcept;
+    [[nodiscard]] const LoadCheck* GetLoadCheckOrNull() const noexcept;
+};
+
+} // namespace ACS::Acsd

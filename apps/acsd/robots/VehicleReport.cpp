@@ -1,0 +1,114 @@
+#include "robots/VehicleReport.hpp"
+
+#include <acs/vda5050/PredefinedActions.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+constexpr double FULL_BATTERY = 100;
+
+/// Metres. No site is as large: a vehicle that reports a greater coordinate is not localised.
+constexpr double FARTHEST = 1e7;
+
+Planning::RobotError MakeError(const VDA5050::VehicleError& error)
+{
+    const bool bFatal = error.errorLevel == VDA5050::EErrorLevel::Fatal;
+    return {
+        "AGV-" + error.errorType,
+        bFatal ? Planning::EAlarmLevel::Heavy : Planning::EAlarmLevel::Light,
+        error.errorDescription.empty() ? error.errorType : error.errorDescription};
+}
+
+} // namespace
+
+void VehicleReport::Update(const VDA5050::StateMessage& state, bool bJobRunning, const LoadPositions& positions)
+{
+    if (state.agvPosition.has_value())
+    {
+        UpdatePose(*state.agvPosition);
+        _bPoseInState = true;
+    }
+    else if (std::exchange(_bPoseInState, false))
+    {
+        // The vehicle has lost its position. One that reports it only by visualization messages has not.
+        _state.bPoseKnown = false;
+    }
+    _state.batteryPercent = std::clamp(state.batteryState.batteryCharge, 0.0, FULL_BATTERY);
+    _state.lastNodeID = state.lastNodeID;
+    _state.bDriving = state.bDriving;
+    _state.bCharging = state.batteryState.bCharging;
+    UpdatePause(state, bJobRunning);
+    _state.bAutomatic = state.operatingMode == VDA5050::EOperatingMode::Automatic
+        || state.operatingMode == VDA5050::EOperatingMode::SemiAutomatic;
+    _state.bSafetyStop =
+        state.safetyState.emergencyStop != VDA5050::EEmergencyStop::None || state.safetyState.bFieldViolation;
+    UpdateErrors(state);
+    _state.shownCommandID = state.orderID;
+    _state.loads = positions.MakePortLoadsOrNull(state);
+}
+
+void VehicleReport::UpdatePose(const VDA5050::AgvPosition& position)
+{
+    _state.x = position.x;
+    _state.y = position.y;
+    _state.theta = position.theta;
+    const bool bPossible = std::abs(position.x) <= FARTHEST && std::abs(position.y) <= FARTHEST;
+    _state.bPoseKnown = position.bPositionInitialized && bPossible;
+}
+
+/// The member paused is optional. Where it is absent, the vehicle is paused from the end of startPause to the end of
+/// stopPause. An action that the vehicle cannot pause runs to its end first: until then the vehicle is not paused.
+void VehicleReport::UpdatePause(const VDA5050::StateMessage& state, bool bJobRunning)
+{
+    for (const VDA5050::ActionState& action : state.actionStates)
+    {
+        const bool bStart = action.actionType == VDA5050::ActionTypes::START_PAUSE;
+        const bool bStop = action.actionType == VDA5050::ActionTypes::STOP_PAUSE;
+        if (action.actionStatus == VDA5050::EActionStatus::Finished && (bStart || bStop))
+        {
+            _bPauseDone = bStart;
+        }
+    }
+    _state.bPaused = state.bPaused.value_or(_bPauseDone) && !bJobRunning;
+}
+
+void VehicleReport::UpdateErrors(const VDA5050::StateMessage& state)
+{
+    _state.errors.clear();
+    for (const VDA5050::VehicleError& error : state.errors)
+    {
+        _state.errors.push_back(MakeError(error));
+    }
+}
+
+void VehicleReport::OnPosition(const VDA5050::AgvPosition& position)
+{
+    UpdatePose(position);
+}
+
+void VehicleReport::SetOccupied(bool bOccupied, const VDA5050::StateMessage& state)
+{
+    _state.bOccupied = bOccupied;
+    _state.heldNodeIDs.clear();
+    for (const VDA5050::NodeState& node : state.nodeStates)
+    {
+        if (bOccupied && node.bReleased)
+        {
+            _state.heldNodeIDs.push_back(node.nodeID);
+        }
+    }
+}
+
+const Planning::StateChanged& VehicleReport::GetState() const noexcept
+{
+    return _state;
+}
+
+} // namespace ACS::Acsd

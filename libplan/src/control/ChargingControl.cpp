@@ -1,0 +1,122 @@
+#include "control/ChargingControl.hpp"
+
+#include <fmt/format.h>
+
+namespace ACS::Planning
+{
+
+ChargingControl::ChargingControl(EngineState& engine)
+    : _options(engine.options),
+      _admission(engine.admission),
+      _fleet(engine.fleet),
+      _transaction(engine.transaction)
+{
+}
+
+void ChargingControl::UpdateBattery(Robot& robot)
+{
+    using EBatteryChange = ChargingPolicy::EBatteryChange;
+    using EChargingChange = ChargingPolicy::EChargingChange;
+    if (!robot.parking.chargeNode.has_value())
+    {
+        return;
+    }
+    const DispatchOptions& dispatch = _options.dispatch;
+    const EBatteryChange battery = robot.charging.UpdateBattery(robot.view.state->batteryPercent, dispatch);
+    if (battery != EBatteryChange::None)
+    {
+        const bool bLow = battery == EBatteryChange::Low;
+        _transaction.Note(
+            robot,
+            bLow ? fmt::format("battery below {:.0f} %: no new plan is assigned", dispatch.batteryFloor)
+                 : fmt::format("battery at {:.0f} %: available for plans", dispatch.batteryResume));
+        robot.parking.homeNode = bLow ? robot.parking.chargeNode : GetHomeOrNull(robot);
+        robot.search.plannedRoute.reset();
+        _transaction.RequestDispatch();
+        if (!bLow && robot.parking.homeNode.has_value() && robot.parking.homeNode != robot.parking.chargeNode)
+        {
+            EndCharging(robot);
+        }
+    }
+    const EChargingChange charging = robot.charging.UpdateCharging(robot.view.state->bCharging);
+    if (charging == EChargingChange::Begun)
+    {
+        _transaction.CancelTimer(EEngineTimer::ChargeRetry, robot.GetID());
+        _transaction.ClearAlarm(MakeChargeAlarm(robot));
+    }
+    else if (charging == EChargingChange::Interrupted)
+    {
+        _transaction.StartTimer(EEngineTimer::ChargeRetry, robot.GetID(), dispatch.chargeRetry);
+    }
+    if (IsChargeDue(robot) && !robot.charging.IsCommanded())
+    {
+        _transaction.RequestDispatch();
+    }
+}
+
+void ChargingControl::ChargeIdle()
+{
+    for (Robot& robot : _fleet)
+    {
+        if (IsChargeDue(robot) && !robot.view.state->bCharging && robot.charging.TryBegin())
+        {
+            _transaction.Command(robot, StartCharging{});
+            _transaction.StartTimer(EEngineTimer::ChargeRetry, robot.GetID(), _options.dispatch.chargeRetry);
+        }
+    }
+}
+
+void ChargingControl::EndCharging(Robot& robot)
+{
+    if (!robot.parking.chargeNode.has_value() || !robot.charging.TryEnd())
+    {
+        return;
+    }
+    _transaction.CancelTimer(EEngineTimer::ChargeRetry, robot.GetID());
+    _transaction.Command(robot, StopCharging{});
+}
+
+void ChargingControl::OnChargeRetry(Robot& robot)
+{
+    if (!IsChargeDue(robot) || robot.view.state->bCharging || !robot.charging.TryRepeat())
+    {
+        return;
+    }
+    if (robot.charging.IsBatteryLow())
+    {
+        _transaction.RaiseAlarm(MakeChargeAlarm(robot));
+    }
+    _transaction.RequestDispatch();
+}
+
+Alarm ChargingControl::MakeChargeAlarm(const Robot& robot) const
+{
+    return MakeAlarm(
+        robot.GetID(),
+        ALARM_CHARGE,
+        EAlarmLevel::Light,
+        "Robot not charging: its battery is low and it is at its charging station. Check the charger and its contact.");
+}
+
+bool ChargingControl::IsChargeDue(const Robot& robot) const
+{
+    return robot.parking.chargeNode.has_value() && robot.planOrNull == nullptr && !robot.drive.has_value()
+        && robot.IsUsable() && robot.place.node == robot.parking.chargeNode
+        && robot.view.state->batteryPercent < _options.dispatch.batteryResume;
+}
+
+std::optional<std::size_t> ChargingControl::GetHomeOrNull(const Robot& robot) const
+{
+    return robot.options->homeStationID.has_value()
+        ? _admission.FindDockOrNull(*robot.options->homeStationID, robot.options->vehicleTypeID)
+        : std::nullopt;
+}
+
+std::optional<std::size_t> ChargingControl::GetChargeNodeOrNull(const Robot& robot) const
+{
+    return robot.options->chargingStationID.has_value()
+        ? _admission.FindDockOrNull(*robot.options->chargingStationID, robot.options->vehicleTypeID)
+        : std::nullopt;
+}
+
+} // namespace ACS::Planning

@@ -1,0 +1,106 @@
+#include "control/StallWatch.hpp"
+
+#include "site/DriveTime.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+StallWatch::StallWatch(EngineState& engine)
+    : _options(engine.options),
+      _alarms(engine.alarms),
+      _transaction(engine.transaction),
+      _monitors(engine.options.robots.size())
+{
+}
+
+void StallWatch::UpdateStall(Robot& robot)
+{
+    if (!robot.changes.bWork)
+    {
+        return;
+    }
+    std::optional<DriveProgress> progress;
+    if (robot.drive.has_value() && robot.view.bOnline)
+    {
+        progress = DriveProgress{robot.drive->driveID, robot.drive->bTaken, robot.drive->passed};
+    }
+    const std::optional<std::size_t> releasedCount =
+        IsProgressExpected(robot) ? std::optional(robot.drive->releasedCount) : std::nullopt;
+    const StallMonitor::Update update =
+        _monitors[robot.index].OnProgress(std::move(progress), releasedCount, _transaction.GetNow().steady);
+    if (update.bStallEnded)
+    {
+        // The plan that the alarm names may have ended.
+        _transaction.ReportAlarms(_alarms.ClearIf([this, &robot](const Alarm& alarm) {
+            return alarm.robotID == robot.GetID() && alarm.errorCode == ALARM_STALL;
+        }));
+    }
+    if (update.timer == EStallTimer::Start)
+    {
+        const std::vector<RouteEdge>& edges = robot.drive->route.edges;
+        const std::size_t edge = robot.drive->passed;
+        const double seconds = edge < edges.size() ? GetDriveSeconds(edges[edge].length, edges[edge].maxSpeed) : 0.0;
+        _transaction.StartTimer(
+            EEngineTimer::DriveStall,
+            robot.GetID(),
+            StallMonitor::GetLimit(_options.stallTimeout, seconds));
+    }
+    else if (update.timer == EStallTimer::Cancel)
+    {
+        _transaction.CancelTimer(EEngineTimer::DriveStall, robot.GetID());
+    }
+}
+
+void StallWatch::OnDriveStall(Robot& robot)
+{
+    if (!_monitors[robot.index].TryStall())
+    {
+        return;
+    }
+    robot.changes.bStatus = true;
+    Alarm alarm = MakeAlarm(
+        robot.GetID(),
+        ALARM_STALL,
+        EAlarmLevel::Light,
+        fmt::format("Robot stalled: {}. Check the robot.", DescribeStall(robot)));
+    if (robot.planOrNull != nullptr)
+    {
+        const Plan& plan = robot.planOrNull->record.plan;
+        alarm.planID = plan.planID;
+        alarm.stepNo = plan.steps[robot.planOrNull->step].stepNo;
+    }
+    _transaction.RaiseAlarm(std::move(alarm));
+}
+
+bool StallWatch::IsStalled(const Robot& robot) const
+{
+    return _monitors[robot.index].IsStalled();
+}
+
+bool StallWatch::IsProgressExpected(const Robot& robot) const
+{
+    return _options.stallTimeout.count() > 0 && robot.view.bOnline && robot.drive.has_value()
+        && !robot.control.pause.IsPaused() && (!robot.drive->bTaken || !robot.drive->IsAtBaseEnd());
+}
+
+std::string StallWatch::DescribeStall(const Robot& robot) const
+{
+    const ActiveDrive& drive = *robot.drive;
+    const EUnavailability unavailability = robot.GetUnavailability();
+    return fmt::format(
+        "{} {} {} for {} s{}",
+        drive.bTaken ? "node" : "drive to node",
+        drive.GetNextNodeID(),
+        drive.bTaken ? "not reached" : "not confirmed",
+        std::chrono::duration_cast<std::chrono::seconds>(
+            _monitors[robot.index].GetTimeWithoutProgress(_transaction.GetNow().steady))
+            .count(),
+        unavailability == EUnavailability::None ? std::string() : fmt::format(" ({})", robot.Describe(unavailability)));
+}
+
+} // namespace ACS::Planning

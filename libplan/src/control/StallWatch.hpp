@@ -1,0 +1,39 @@
+#pragma once
+
+#include "robot/StallMonitor.hpp"
+#include "transaction/EngineState.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+/// Keeps a StallMonitor per robot and raises ACS-1009 for a drive without progress.
+class StallWatch
+{
+    const EngineOptions& _options;
+    AlarmBook& _alarms;
+    EngineTransaction& _transaction;
+    std::vector<StallMonitor> _monitors; ///< By robot.
+
+public:
+    explicit StallWatch(EngineState& engine);
+
+    /// Updates the monitor of the robot; called at the end of every engine call.
+    void UpdateStall(Robot& robot);
+    /// The timer has expired: raises the alarm.
+    void OnDriveStall(Robot& robot);
+    [[nodiscard]] bool IsStalled(const Robot& robot) const;
+    /// "node N2 not reached for 60 s"
+    [[nodiscard]] std::string DescribeStall(const Robot& robot) const;
+
+private:
+    /// The robot is connected, may drive and has released nodes ahead.
+    [[nodiscard]] bool IsProgressExpected(const Robot& robot) const;
+};
+
+} // namespace ACS::Planning

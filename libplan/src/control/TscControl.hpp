@@ -1,0 +1,47 @@
+#pragma once
+
+#include "transaction/EngineState.hpp"
+#include <acs/plan/PlanTransitions.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+/// Owns the TSC state (section 5.2), which decides whether plans are started, and completes a pause.
+class TscControl
+{
+    const EngineOptions& _options;
+    const PlanBook& _plans;
+    const Fleet& _fleet;
+    EngineTransaction& _transaction;
+    const StartupBarrier& _startup;
+    ETscState _tscState = ETscState::Auto;
+
+public:
+    explicit TscControl(EngineState& engine);
+
+    /// Handles the operator's command.
+    void SwitchTSC(const ControlTSC& command);
+    /// Publishes the present state as a change from another one.
+    void PublishTscState(ETscState from);
+    /// Pausing becomes Paused once no plan is running and no robot moves or works.
+    void FinishTscPause();
+    /// Whether idle robots may drive. While the TSC is pausing they only clear the routes of running plans.
+    [[nodiscard]] bool CanDriveHome() const;
+    /// Restores the stored state. A paused TSC stays paused; running plans are completed.
+    void RestoreTSC(ETscState stored);
+    /// The published state: Paused while the startup barrier holds work back (section 5.2).
+    [[nodiscard]] ETscState GetTscState() const noexcept;
+    /// The state apart from the startup barrier.
+    [[nodiscard]] ETscState GetState() const noexcept;
+
+private:
+    void ChangeTSC(ETscState state);
+};
+
+} // namespace ACS::Planning

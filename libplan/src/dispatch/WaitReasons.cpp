@@ -1,0 +1,228 @@
+#include "dispatch/WaitReasons.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+WaitReasons::WaitReasons(
+    EngineState& engine,
+    const TscControl& tsc,
+    const StallWatch& stalls,
+    const WaitingRobots& waiting,
+    const TrafficCoordinator& coordinator,
+    const Dispatcher& dispatcher)
+    : _options(engine.options),
+      _plans(engine.plans),
+      _fleet(engine.fleet),
+      _backlog(engine.backlog),
+      _startup(engine.startup),
+      _tsc(tsc),
+      _stalls(stalls),
+      _waiting(waiting),
+      _coordinator(coordinator),
+      _dispatcher(dispatcher)
+{
+}
+
+std::vector<WaitReason> WaitReasons::GetWaitReasons() const
+{
+    std::vector<WaitReason> reasons;
+    for (const auto& [planID, plan] : _plans.GetActive())
+    {
+        if (std::optional<WaitReason> reason = DescribeBegunOrNull(*plan))
+        {
+            reasons.push_back(std::move(*reason));
+        }
+    }
+    std::size_t position = 0;
+    for (const auto& [key, plan] : _plans.GetQueue())
+    {
+        ++position;
+        reasons.push_back(DescribeWaiting(*plan, position));
+    }
+    return reasons;
+}
+
+std::optional<WaitReason> WaitReasons::GetWaitReasonOrNull(std::string_view planID) const
+{
+    const ActivePlan* planOrNull = _plans.FindActiveOrNull(planID);
+    if (planOrNull == nullptr)
+    {
+        return std::nullopt;
+    }
+    const PlanBook::Queue& queue = _plans.GetQueue();
+    const auto queued = queue.find(planOrNull->key);
+    return queued == queue.end()
+        ? DescribeBegunOrNull(*planOrNull)
+        : std::optional(
+            DescribeWaiting(*planOrNull, static_cast<std::size_t>(std::distance(queue.begin(), queued)) + 1));
+}
+
+std::optional<std::string> WaitReasons::DescribeUnavailabilityOrNull(const ActivePlan& plan, const Robot& robot) const
+{
+    if (!robot.view.bOnline)
+    {
+        return DescribeUnfree(robot);
+    }
+    if (const auto rejection = plan.rejections.find(robot.index); rejection != plan.rejections.end())
+    {
+        return rejection->second;
+    }
+    if (!robot.IsFree())
+    {
+        return DescribeUnfree(robot);
+    }
+    if (std::optional<std::string> reason = _dispatcher.GetPorts().JudgePorts(plan, robot).unavailabilityOrNull)
+    {
+        return reason;
+    }
+    if (!_dispatcher.HasWay(plan, robot))
+    {
+        return "no route to " + plan.resolved.steps.front().stationID;
+    }
+    return _coordinator.CanServe(robot, plan)
+        ? std::nullopt
+        : std::optional<std::string>(
+            "robots that cannot move block the route to the station, or from there to its parking position");
+}
+
+WaitReason WaitReasons::DescribeWaiting(const ActivePlan& plan, std::size_t position) const
+{
+    WaitReason reason;
+    reason.planID = plan.record.plan.planID;
+    reason.queuePosition = position;
+    for (const std::size_t index : plan.resolved.candidates)
+    {
+        if (std::optional<std::string> robotReason = DescribeUnavailabilityOrNull(plan, _fleet[index]))
+        {
+            reason.robots.push_back({_fleet[index].GetID(), std::move(*robotReason)});
+        }
+    }
+    if (_tsc.GetState() != ETscState::Auto)
+    {
+        reason.message = fmt::format("The TSC is {}: no plan is started.", GetText(_tsc.GetState()));
+    }
+    else if (_backlog.IsFailing())
+    {
+        reason.message = "The store is failing: no plan is started until it works again.";
+    }
+    else if (_startup.IsHoldingWork())
+    {
+        reason.message = "Not all robots have reported their positions since the restart.";
+    }
+    else if (_dispatcher.IsRejectedByAll(plan))
+    {
+        reason.message = _dispatcher.DescribeRejections(plan);
+    }
+    else if (reason.robots.size() < plan.resolved.candidates.size())
+    {
+        reason.message = "The plan is about to start.";
+    }
+    else
+    {
+        reason.message = "No suitable robot is free.";
+    }
+    return reason;
+}
+
+std::optional<WaitReason> WaitReasons::DescribeBegunOrNull(const ActivePlan& plan) const
+{
+    WaitReason reason;
+    reason.planID = plan.record.plan.planID;
+    if (plan.record.progress.state == EPlanState::Paused)
+    {
+        reason.message = plan.robot.has_value() ? "The plan is paused." : "The plan is held in the queue by PausePlan.";
+        return reason;
+    }
+    if (!plan.robot.has_value())
+    {
+        return std::nullopt;
+    }
+    const Robot& robot = _fleet[*plan.robot];
+    if (const EUnavailability unavailability = robot.GetUnavailability(); unavailability != EUnavailability::None)
+    {
+        reason.message = fmt::format("{}: {}.", robot.GetID(), robot.Describe(unavailability));
+        return reason;
+    }
+    if (robot.activity == EActivity::Works && robot.job.IsUnresolved())
+    {
+        reason.message =
+            fmt::format("Outcome of job {} unknown. Check {}, then resolve the job.", GetJobID(plan), robot.GetID());
+        return reason;
+    }
+    if (plan.bUnstored)
+    {
+        reason.message = "The store is failing: the start of the plan is not stored yet.";
+        return reason;
+    }
+    if (_stalls.IsStalled(robot) && robot.drive.has_value())
+    {
+        reason.message = fmt::format("{} stalled: {}. Check the robot.", robot.GetID(), _stalls.DescribeStall(robot));
+        return reason;
+    }
+    if (robot.activity == EActivity::Waits && _waiting.IsAtPlace(robot))
+    {
+        const std::optional<std::string> objection = PortCheck::DescribeMissingTrayOrNull(robot);
+        reason.message = objection.has_value()
+            ? fmt::format("{}: load the tray by hand and correct the record.", *objection)
+            : robot.GetID() + " is about to start the job.";
+        return reason;
+    }
+    const bool bAtBaseEnd = robot.drive.has_value() && !robot.view.state->bDriving && robot.drive->IsAtBaseEnd();
+    if (robot.activity != EActivity::Waits || (robot.drive.has_value() && !bAtBaseEnd))
+    {
+        return std::nullopt;
+    }
+    reason.message = DescribeStanding(robot);
+    return reason;
+}
+
+std::string WaitReasons::DescribeStanding(const Robot& robot) const
+{
+    std::string holders;
+    for (const std::size_t blocker : robot.search.blockers)
+    {
+        holders += (holders.empty() ? "" : " and ") + _fleet[blocker].GetID();
+    }
+    if (robot.drive.has_value())
+    {
+        const RouteNode& next = robot.drive->route.nodes[robot.drive->releasedCount];
+        return fmt::format(
+            "{} waits for node {} on its route{}.",
+            robot.GetID(),
+            next.nodeID,
+            holders.empty() ? "" : ", blocked by " + holders);
+    }
+    if (holders.empty())
+    {
+        return robot.GetID() + " is about to drive.";
+    }
+    return fmt::format("{} waits for {} to clear its route.", robot.GetID(), holders);
+}
+
+std::string WaitReasons::DescribeUnfree(const Robot& robot) const
+{
+    if (const EUnavailability unavailability = robot.GetUnavailability(); unavailability != EUnavailability::None)
+    {
+        return robot.Describe(unavailability);
+    }
+    if (robot.planOrNull != nullptr)
+    {
+        return "busy with plan " + robot.planOrNull->record.plan.planID;
+    }
+    if (robot.charging.IsBatteryLow())
+    {
+        const double percent = robot.view.state->batteryPercent;
+        const DispatchOptions& dispatch = _options.dispatch;
+        return percent < dispatch.batteryFloor
+            ? fmt::format("battery {:.0f} % is below {:.0f} %", percent, dispatch.batteryFloor)
+            : fmt::format("charging, battery {:.0f} % of {:.0f} %", percent, dispatch.batteryResume);
+    }
+    return "drives to " + robot.drive->route.nodes.back().nodeID;
+}
+
+} // namespace ACS::Planning

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "control/StallWatch.hpp"
+#include "control/TscControl.hpp"
+#include "dispatch/Dispatcher.hpp"
+#include "dispatch/PortCheck.hpp"
+#include "traffic/TrafficCoordinator.hpp"
+#include "traffic/WaitingRobots.hpp"
+#include "transaction/EngineState.hpp"
+#include <acs/plan/WaitReason.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+/// Describes for the operator why a plan makes no progress. Owns no data and changes none.
+class WaitReasons
+{
+    const EngineOptions& _options;
+    const PlanBook& _plans;
+    const Fleet& _fleet;
+    const StoreBacklog& _backlog;
+    const StartupBarrier& _startup;
+    const TscControl& _tsc;
+    const StallWatch& _stalls;
+    const WaitingRobots& _waiting;
+    const TrafficCoordinator& _coordinator;
+    const Dispatcher& _dispatcher;
+
+public:
+    WaitReasons(
+        EngineState& engine,
+        const TscControl& tsc,
+        const StallWatch& stalls,
+        const WaitingRobots& waiting,
+        const TrafficCoordinator& coordinator,
+        const Dispatcher& dispatcher);
+
+    /// Assigned plans first, then the queue in its order.
+    [[nodiscard]] std::vector<WaitReason> GetWaitReasons() const;
+    [[nodiscard]] std::optional<WaitReason> GetWaitReasonOrNull(std::string_view planID) const;
+    /// Of a paused plan, or of an assigned plan whose robot makes no progress.
+    [[nodiscard]] std::optional<WaitReason> DescribeBegunOrNull(const ActivePlan& plan) const;
+
+private:
+    /// Why the plan is not assigned to the robot now.
+    [[nodiscard]] std::optional<std::string> DescribeUnavailabilityOrNull(const ActivePlan& plan, const Robot& robot)
+        const;
+    [[nodiscard]] WaitReason DescribeWaiting(const ActivePlan& plan, std::size_t position) const;
+    /// Of a robot that waits to start its drive, or at the end of its base.
+    [[nodiscard]] std::string DescribeStanding(const Robot& robot) const;
+    [[nodiscard]] std::string DescribeUnfree(const Robot& robot) const;
+};
+
+} // namespace ACS::Planning

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "control/ControlAnswers.hpp"
+#include "control/LoadWatch.hpp"
+#include "control/StallWatch.hpp"
+#include "traffic/PlaceTracker.hpp"
+#include "transaction/EngineState.hpp"
+#include "work/JobOutcomes.hpp"
+#include "work/PlanWork.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+/// Handles the operator's commands: maintenance, alarms, carriers, skipped steps and the outcome of jobs. Owns no data.
+class OperatorCommands
+{
+    const PlanBook& _plans;
+    Fleet& _fleet;
+    AlarmBook& _alarms;
+    EngineTransaction& _transaction;
+    const StoreBacklog& _backlog;
+    LoadWatch& _loads;
+    const StallWatch& _stalls;
+    PlaceTracker& _places;
+    PlanWork& _work;
+    JobOutcomes& _jobs;
+
+public:
+    OperatorCommands(
+        EngineState& engine,
+        LoadWatch& loads,
+        const StallWatch& stalls,
+        PlaceTracker& places,
+        PlanWork& work,
+        JobOutcomes& jobs);
+
+    /// Takes a robot out of service, or returns it.
+    void Maintain(const SetMaintenance& command);
+    /// Clears alarms. Those whose cause remains are set again.
+    void ClearByOperator(const ClearAlarms& command);
+    /// Replaces the record of a robot's ports.
+    void CorrectCarriers(const SetCarriers& command);
+    /// Why the command would be refused now.
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SetCarriers& command) const;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SettleJob& command) const;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SkipStep& command) const;
+    /// Skips a step (section 6.13).
+    void Skip(const SkipStep& command);
+    /// Resolves a job whose outcome is unknown.
+    void Settle(const SettleJob& command);
+
+private:
+    /// Whether the cause of the alarm remains, as far as the engine knows.
+    [[nodiscard]] bool HasCause(const Alarm& alarm) const;
+    /// The outcome of the job stays unknown; the record of the ports is not changed.
+    void SkipUnresolved(Robot& robot);
+    /// Index of the robot that has the job.
+    [[nodiscard]] std::optional<std::size_t> FindWorkerOrNull(const SettleJob& command) const;
+    void ApplyAnswer(Robot& robot, EJobAnswer answer);
+    /// Reports a job from its beginning that was done but never stored as commanded.
+    void CatchUp(Robot& robot);
+};
+
+} // namespace ACS::Planning

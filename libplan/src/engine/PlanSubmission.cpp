@@ -1,0 +1,124 @@
+#include "engine/PlanSubmission.hpp"
+
+#include <acs/core/ECoreError.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+PlanSubmission::PlanSubmission(
+    EngineState& engine,
+    const TscControl& tsc,
+    const Dispatcher& dispatcher,
+    const WaitReasons& waits)
+    : _options(engine.options),
+      _admission(engine.admission),
+      _plans(engine.plans),
+      _fleet(engine.fleet),
+      _outbox(engine.outbox),
+      _transaction(engine.transaction),
+      _call(engine.call),
+      _tsc(tsc),
+      _dispatcher(dispatcher),
+      _waits(waits)
+{
+}
+
+void PlanSubmission::Submit(const SubmitPlan& command)
+{
+    constexpr const char* REGISTERED = "Plan registered successfully.";
+    auto plan = std::make_unique<ActivePlan>();
+    plan->record.plan = command.plan;
+    plan->record.transactionID = command.transactionID;
+    SortSteps(plan->record.plan);
+    _admission.SpellActions(plan->record.plan);
+    if (IsRepetition(plan->record.plan, command.transactionID))
+    {
+        _call.repeatedPlanIDs.emplace(command.replyToken, command.plan.planID);
+        _transaction.Emit(ReplyCommand{command.replyToken, true, REGISTERED});
+        return;
+    }
+    Core::Result<ResolvedPlan> resolved = Admit(plan->record.plan);
+    if (!resolved.has_value())
+    {
+        _transaction.Emit(ReplyCommand{command.replyToken, false, Core::Describe(resolved.error())});
+        return;
+    }
+    plan->resolved = std::move(*resolved);
+    if (_options.bInitialPendingReported)
+    {
+        _unreported.push_back(plan->record.plan.planID);
+    }
+    std::ranges::for_each(_fleet, [this, &plan](const Robot& robot) { _dispatcher.CheckJobs(*plan, robot); });
+    _transaction.Store(_plans.Accept(std::move(plan), _transaction.GetNow().wall));
+    _transaction.Emit(ReplyCommand{command.replyToken, true, REGISTERED});
+    _transaction.StartTimer(EEngineTimer::Dispatch, {}, {});
+}
+
+void PlanSubmission::ReportAccepted()
+{
+    for (const std::string& planID : std::exchange(_unreported, {}))
+    {
+        const ActivePlan* planOrNull = _plans.FindActiveOrNull(planID);
+        if (planOrNull != nullptr && planOrNull->record.progress.state == EPlanState::Pending)
+        {
+            _transaction.AddReport(PlanReport{
+                planID,
+                EPlanState::Pending,
+                _waits.GetWaitReasonOrNull(planID).value_or(WaitReason()).message});
+        }
+    }
+}
+
+Core::Result<ResolvedPlan> PlanSubmission::Admit(const Plan& plan) const
+{
+    const bool bKnown = _plans.FindActiveOrNull(plan.planID) != nullptr
+        || (!_options.bFinishedIDsReused && _plans.FindFinishedOrNull(plan.planID) != nullptr);
+    if (bKnown && !plan.planID.empty())
+    {
+        return Core::Fail(
+            make_error_code(Core::ECoreError::InvalidIdentifier),
+            "planId",
+            "an unused planId (Duplicated Plan)",
+            plan.planID);
+    }
+    Core::Result<ResolvedPlan> resolved = _admission.Resolve(plan);
+    if (resolved.has_value() && _plans.GetActive().size() >= _options.maximumPlans)
+    {
+        return Core::Fail(
+            make_error_code(Core::ECoreError::QueueFull),
+            {},
+            fmt::format("fewer than {} unfinished plans (Queue Full)", _options.maximumPlans),
+            fmt::format("{}", _plans.GetActive().size()));
+    }
+    if (resolved.has_value() && _outbox.GetUnacknowledged().size() >= _options.maximumReports)
+    {
+        return Core::Fail(
+            make_error_code(Core::ECoreError::QueueFull),
+            {},
+            fmt::format("fewer than {} unacknowledged reports (Outbox Full)", _options.maximumReports),
+            fmt::format("{}", _outbox.GetUnacknowledged().size()));
+    }
+    if (resolved.has_value() && _tsc.GetTscState() != ETscState::Auto && !_options.bTscPausedAcceptsPlans)
+    {
+        return Core::Fail(
+            make_error_code(Core::ECoreError::QueueFull),
+            {},
+            "TSC state Auto",
+            std::string(GetText(_tsc.GetTscState())));
+    }
+    return resolved;
+}
+
+bool PlanSubmission::IsRepetition(const Plan& plan, const std::string& transactionID) const
+{
+    const PlanRecord* recordOrNull = _plans.FindRecordOrNull(plan.planID);
+    return recordOrNull != nullptr && !transactionID.empty() && recordOrNull->transactionID == transactionID
+        && recordOrNull->plan == plan;
+}
+
+} // namespace ACS::Planning

@@ -1,0 +1,126 @@
+#include "robot/Robot.hpp"
+
+#include <algorithm>
+
+namespace ACS::Planning
+{
+
+const std::string& Robot::GetID() const
+{
+    return options->robotID.GetText();
+}
+
+EUnavailability Robot::GetUnavailability() const
+{
+    if (!view.bOnline)
+    {
+        return EUnavailability::Link;
+    }
+    if (!view.state.has_value() || !place.bPlaced || !place.node.has_value())
+    {
+        return EUnavailability::Place;
+    }
+    // A robot in maintenance completes its plan and its drive first.
+    if (view.bInMaintenance && planOrNull == nullptr && !drive.has_value())
+    {
+        return EUnavailability::Maintenance;
+    }
+    const StateChanged& state = *view.state;
+    const bool bFatal =
+        std::ranges::any_of(state.errors, [](const RobotError& error) { return error.level == EAlarmLevel::Heavy; });
+    if (bFatal)
+    {
+        return EUnavailability::Error;
+    }
+    if (state.bSafetyStop)
+    {
+        return EUnavailability::SafetyStop;
+    }
+    if (state.bPaused || IsHeld())
+    {
+        return EUnavailability::Paused;
+    }
+    if (!state.bAutomatic)
+    {
+        return EUnavailability::Manual;
+    }
+    const bool bOccupied = state.bOccupied || control.bStandstillAwaited || job.IsOverdue();
+    return bOccupied ? EUnavailability::Occupied : EUnavailability::None;
+}
+
+std::string Robot::Describe(EUnavailability unavailability) const
+{
+    switch (unavailability)
+    {
+        case EUnavailability::None:
+            return {};
+        case EUnavailability::Link:
+            return "no connection";
+        case EUnavailability::Place:
+            return "position unknown";
+        case EUnavailability::Maintenance:
+            return "in maintenance";
+        case EUnavailability::Error:
+        {
+            const std::vector<RobotError>& errors = view.state->errors;
+            return "error " + std::ranges::find(errors, EAlarmLevel::Heavy, &RobotError::level)->errorCode;
+        }
+        case EUnavailability::SafetyStop:
+            return "emergency or protective stop";
+        case EUnavailability::Paused:
+            return "paused";
+        case EUnavailability::Manual:
+            return "not in automatic mode";
+        case EUnavailability::Occupied:
+            return "busy with work of an ended plan";
+        default:
+            return "unavailable";
+    }
+}
+
+bool Robot::IsUsable() const
+{
+    return GetUnavailability() == EUnavailability::None;
+}
+
+bool Robot::IsFree() const
+{
+    return planOrNull == nullptr && !drive.has_value() && !charging.IsBatteryLow() && IsUsable();
+}
+
+bool Robot::CanAdvance() const
+{
+    return IsUsable() ? !control.pause.IsPaused() : !view.bOnline && !control.pause.IsPaused() && !IsHeld();
+}
+
+bool Robot::IsHeld() const
+{
+    return planOrNull != nullptr
+        && (planOrNull->record.progress.state == EPlanState::Paused
+            || planOrNull->record.progress.control == EPlanControl::Pause);
+}
+
+bool Robot::IsEnding() const
+{
+    if (planOrNull == nullptr)
+    {
+        return false;
+    }
+    const std::optional<EPlanControl>& open = planOrNull->record.progress.control;
+    return open == EPlanControl::Cancel || open == EPlanControl::Abort;
+}
+
+bool IsMoreUrgent(const Robot* left, const Robot* right)
+{
+    if (left->planOrNull != nullptr && right->planOrNull != nullptr)
+    {
+        return left->planOrNull->key < right->planOrNull->key;
+    }
+    if (left->planOrNull != nullptr || right->planOrNull != nullptr)
+    {
+        return left->planOrNull != nullptr;
+    }
+    return left->index < right->index;
+}
+
+} // namespace ACS::Planning

@@ -1,0 +1,84 @@
+#pragma once
+
+#include "plan/ActivePlan.hpp"
+#include "restart/WorkRecord.hpp"
+#include "robot/ActiveDrive.hpp"
+#include "robot/ChargingPolicy.hpp"
+#include "robot/EUnavailability.hpp"
+#include "robot/JobTracker.hpp"
+#include "robot/ParkingPlaces.hpp"
+#include "robot/PauseTracker.hpp"
+#include "robot/PortLedger.hpp"
+#include "robot/RobotPlace.hpp"
+#include "robot/RobotView.hpp"
+#include "robot/RouteSearch.hpp"
+#include <acs/plan/EngineOptions.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace ACS::Planning
+{
+
+enum class EActivity : std::uint8_t
+{
+    Idle,  ///< No plan.
+    Waits, ///< Has a plan and must reach its step's station.
+    Works, ///< A job runs.
+};
+
+/// What the robot must confirm for the control of its plan.
+struct RobotControl
+{
+    PauseTracker pause;
+    bool bConfirming = false;        ///< The timer ControlConfirm runs.
+    bool bStandstillAwaited = false; ///< After a restart: the plan's control is answered once the robot is stationary.
+};
+
+/// What may have changed in the present call.
+struct RobotChanges
+{
+    bool bStatus = true;
+    bool bWork = false; ///< Its WorkRecord.
+};
+
+/// A robot of the fleet: its state, by the part of the engine that keeps it.
+struct Robot
+{
+    std::size_t index = 0;
+    const RobotOptions* options = nullptr;
+    ActivePlan* planOrNull = nullptr;
+    EActivity activity = EActivity::Idle;
+    RobotView view;
+    RobotPlace place;
+    ParkingPlaces parking;
+    RouteSearch search;
+    std::optional<ActiveDrive> drive;
+    JobTracker job;
+    WorkRecord work;
+    RobotControl control;
+    PortLedger ports;
+    ChargingPolicy charging;
+    RobotChanges changes;
+
+    [[nodiscard]] const std::string& GetID() const;
+    /// The first reason that applies, apart from having other work.
+    [[nodiscard]] EUnavailability GetUnavailability() const;
+    [[nodiscard]] std::string Describe(EUnavailability unavailability) const;
+    [[nodiscard]] bool IsUsable() const;
+    /// Whether a plan may be assigned to it.
+    [[nodiscard]] bool IsFree() const;
+    /// Whether its drive may be extended. A disconnected robot may still report nodes, and then continues.
+    [[nodiscard]] bool CanAdvance() const;
+    /// Whether its plan is paused or being paused.
+    [[nodiscard]] bool IsHeld() const;
+    /// Whether its plan is being cancelled or aborted.
+    [[nodiscard]] bool IsEnding() const;
+};
+
+/// Robots with plans in the order of their plans, then those without.
+[[nodiscard]] bool IsMoreUrgent(const Robot* left, const Robot* right);
+
+} // namespace ACS::Planning

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <acs/plan/IJobCheck.hpp>
+#include <acs/plan/RobotEvent.hpp>
+
+#include <memory>
+#include <optional>
+
+namespace ACS::Planning
+{
+
+/// What the robot and the operator reported last.
+struct RobotView
+{
+    bool bOnline = false;
+    std::optional<StateChanged> state;         ///< Since the connection; nullopt until the first.
+    std::shared_ptr<const IJobCheck> jobCheck; ///< Null: no job is rejected.
+    bool bInMaintenance = false;
+};
+
+} // namespace ACS::Planning

@@ -1,0 +1,214 @@
+#include "traffic/DeadlockResolver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+namespace
+{
+
+/// Limit per step; after that other robots must clear the route.
+constexpr std::size_t DETOURS_AT_MOST = 3;
+
+} // namespace
+
+DeadlockResolver::DeadlockResolver(
+    EngineState& engine,
+    const TscControl& tsc,
+    PlaceTracker& places,
+    WaitingRobots& waiting,
+    TrafficCoordinator& coordinator)
+    : _site(engine.site),
+      _admission(engine.admission),
+      _fleet(engine.fleet),
+      _transaction(engine.transaction),
+      _tsc(tsc),
+      _waiting(waiting),
+      _coordinator(coordinator),
+      _traffic(places.GetTraffic())
+{
+}
+
+DeadlockResolver::Round DeadlockResolver::TryResolveDeadlock()
+{
+    const std::vector<Robot*> stuck = _waiting.ListDeadlocked();
+    if (stuck.empty())
+    {
+        return {};
+    }
+    if (std::ranges::any_of(stuck, [this](Robot* robot) { return TryDetour(*robot); })
+        || std::ranges::any_of(stuck, [this, &stuck](Robot* robot) { return TryMakeWay(*robot, stuck); }))
+    {
+        return {true, nullptr};
+    }
+    // The most urgent robot does not yield to one that waits, too.
+    Robot& first = *stuck.front();
+    if (first.drive.has_value() || !_waiting.IsYielding(first))
+    {
+        return {};
+    }
+    first.search.yield.reset();
+    return {false, &first};
+}
+
+bool DeadlockResolver::TryDetour(Robot& robot)
+{
+    const bool bHome = robot.planOrNull == nullptr || robot.parking.retreatNode.has_value();
+    const std::optional<std::size_t> target = _waiting.GetTargetOrNull(robot);
+    if (!target.has_value() || target == robot.place.node || robot.control.bConfirming
+        || (!bHome && robot.search.detours >= DETOURS_AT_MOST) || !_waiting.GetTargetHolders(robot, *target).empty())
+    {
+        return false;
+    }
+    const auto isInTheWay = [this, &robot, bHome](std::size_t node) {
+        if (bHome)
+        {
+            return !_traffic.IsOpenFor(node, robot.index);
+        }
+        const std::vector<std::size_t> holders = _traffic.GetHolders(node, robot.index);
+        return std::ranges::any_of(holders, [this](std::size_t holder) { return !_waiting.IsMoving(_fleet[holder]); });
+    };
+    std::optional<PlannedRoute> detour = _coordinator.PlanRouteOrNull(robot, *target, isInTheWay);
+    if (!detour.has_value())
+    {
+        return false;
+    }
+    const bool bBegun = robot.drive.has_value()
+        ? _coordinator.TryReroute(robot, std::move(*detour), robot.parking.retreatNode.has_value())
+        : _coordinator.TryBeginDrive(robot, *detour);
+    robot.search.detours += bBegun && !bHome ? 1U : 0U;
+    return bBegun;
+}
+
+bool DeadlockResolver::TryMakeWay(Robot& leader, const std::vector<Robot*>& stuck)
+{
+    if (leader.planOrNull == nullptr || leader.parking.retreatNode.has_value() || !_waiting.IsHelpable(leader))
+    {
+        return false;
+    }
+    const std::vector<Robot*> blockers = _waiting.GetBlockersOf(leader);
+    const auto tryRetreat = [this, &leader](Robot* robot) {
+        return robot != &leader && TryRetreat(*robot, leader);
+    };
+    if (std::ranges::any_of(blockers, tryRetreat) || std::any_of(stuck.rbegin(), stuck.rend(), tryRetreat))
+    {
+        return true;
+    }
+    if (std::ranges::count(blockers, &leader) > 0)
+    {
+        const auto other = std::ranges::find_if(blockers, [this, &leader](Robot* robot) {
+            return robot != &leader && _waiting.IsWaiting(*robot);
+        });
+        if (other != blockers.end() && TryRetreat(leader, **other))
+        {
+            return true;
+        }
+    }
+    return std::ranges::any_of(blockers, [this, &leader](Robot* robot) {
+        return robot != &leader && TryStepAside(*robot, leader);
+    });
+}
+
+bool DeadlockResolver::TryRetreat(Robot& robot, const Robot& leader)
+{
+    const bool bGoesHome = robot.drive.has_value() && robot.drive->nodes.back() == robot.parking.parkingNode;
+    if (!_traffic.IsMovable(robot.index) || _waiting.IsMoving(robot) || bGoesHome || robot.parking.bRefused
+        || robot.control.bConfirming
+        || (robot.parking.retreatNode.has_value() && robot.parking.retreatNode == robot.parking.parkingNode)
+        || !robot.parking.parkingNode.has_value() || robot.place.node == robot.parking.parkingNode
+        || !_waiting.GetTargetHolders(robot, *robot.parking.parkingNode).empty())
+    {
+        return false;
+    }
+    std::optional<PlannedRoute> plannedRoute =
+        _coordinator.PlanRouteOrNull(robot, *robot.parking.parkingNode, [this, &robot](std::size_t node) {
+            return !_traffic.IsOpenFor(node, robot.index);
+        });
+    if (!plannedRoute.has_value())
+    {
+        return false;
+    }
+    bool bBegun = false;
+    if (robot.drive.has_value())
+    {
+        bBegun = _coordinator.TryReroute(robot, std::move(*plannedRoute), true);
+    }
+    else
+    {
+        robot.parking.retreatNode = robot.parking.parkingNode;
+        bBegun = _coordinator.TryBeginDrive(robot, *plannedRoute);
+        robot.parking.retreatNode = bBegun ? robot.parking.retreatNode : std::nullopt;
+    }
+    if (bBegun)
+    {
+        _waiting.YieldTo(robot, leader);
+        _transaction.Note(
+            robot,
+            fmt::format(
+                "drives to node {} to clear the route of {}",
+                _site.GetNodes()[*robot.parking.parkingNode].nodeID,
+                leader.GetID()));
+    }
+    return bBegun;
+}
+
+bool DeadlockResolver::TryStepAside(Robot& robot, const Robot& leader)
+{
+    const std::optional<std::size_t> wanted = _waiting.GetTargetOrNull(leader);
+    const bool bInTheWay = leader.search.plannedRoute.has_value() && robot.place.node.has_value()
+        && std::ranges::any_of(leader.search.plannedRoute->nodes,
+                               [this, &robot](std::size_t node) { return _traffic.IsNear(node, *robot.place.node); });
+    if (!bInTheWay || robot.planOrNull != nullptr || robot.drive.has_value() || !_traffic.IsMovable(robot.index)
+        || !_tsc.CanDriveHome() || robot.parking.bRefused || !wanted.has_value())
+    {
+        return false;
+    }
+    std::vector<bool> avoided(_site.GetNodes().size(), false);
+    for (const Robot& other : _fleet)
+    {
+        for (const std::size_t node : other.search.plannedRoute.has_value() && &other != &robot
+                 ? other.search.plannedRoute->nodes
+                 : std::vector<std::size_t>())
+        {
+            avoided[node] = true;
+        }
+    }
+    std::optional<PlannedRoute> best;
+    for (const SiteStation& station : _site.GetStations())
+    {
+        const std::optional<std::size_t> dock =
+            _admission.FindDockOrNull(station.stationID, robot.options->vehicleTypeID);
+        if (!dock.has_value() || avoided[*dock] || dock == wanted || dock == robot.place.node
+            || !_traffic.IsOpenFor(*dock, robot.index) || !_waiting.GetTargetHolders(robot, *dock).empty())
+        {
+            continue;
+        }
+        std::optional<PlannedRoute> plannedRoute =
+            _coordinator.PlanRouteOrNull(robot, *dock, [this, &robot](std::size_t node) {
+                return !_traffic.IsFreeFor(node, robot.index);
+            });
+        if (plannedRoute.has_value()
+            && (!best.has_value() || plannedRoute->route.travelSeconds < best->route.travelSeconds))
+        {
+            best = std::move(plannedRoute);
+        }
+    }
+    if (!best.has_value())
+    {
+        return false;
+    }
+    robot.parking.retreatNode = best->target;
+    if (!_coordinator.TryBeginDrive(robot, *best))
+    {
+        robot.parking.retreatNode.reset();
+        return false;
+    }
+    _transaction.Note(robot, fmt::format("moves aside to clear the route of {}", leader.GetID()));
+    return true;
+}
+
+} // namespace ACS::Planning

@@ -1,0 +1,211 @@
+#include "traffic/PlaceTracker.hpp"
+
+#include "robot/NodesAhead.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+PlaceTracker::PlaceTracker(EngineState& engine)
+    : _site(engine.site),
+      _fleet(engine.fleet),
+      _transaction(engine.transaction),
+      _traffic(engine.site, engine.options.clearance)
+{
+}
+
+void PlaceTracker::NoteMovable(const Robot& robot)
+{
+    const bool bMovable = robot.IsUsable() && !robot.control.pause.IsPaused();
+    if (_traffic.IsMovable(robot.index) != bMovable)
+    {
+        _traffic.SetMovable(robot.index, bMovable);
+        ++_standingChanges;
+        _transaction.RequestDispatch();
+    }
+}
+
+void PlaceTracker::Place(Robot& robot)
+{
+    const std::string& nodeID = robot.view.state->lastNodeID;
+    const std::optional<std::size_t> node = _site.FindNodeIndexOrNull(nodeID);
+    if (!node.has_value())
+    {
+        OnPositionLost(robot);
+        return;
+    }
+    const std::vector<std::size_t> claim = ListClaimed(robot, *node);
+    std::vector<std::size_t> ahead = FindNodesAhead(
+        _site,
+        robot.view.state,
+        *node,
+        node == robot.place.node ? robot.place.aheadNodes : ListPossibleAhead(robot, *node));
+    std::erase_if(ahead, [&claim](std::size_t between) { return std::ranges::count(claim, between) > 0; });
+    std::vector<std::size_t> held(claim);
+    held.insert(held.end(), ahead.begin(), ahead.end());
+    if (robot.place.bPlaced && node == robot.place.node && held == robot.place.heldNodes)
+    {
+        return;
+    }
+    std::erase_if(robot.place.possibleNodes, [&ahead](std::size_t supposed) {
+        return std::ranges::count(ahead, supposed) == 0;
+    });
+    ReleasePossibleNodes(claim);
+    if (!_traffic.TryStand(robot.index, *node, std::span(claim).subspan(1), ahead))
+    {
+        const auto taken = std::ranges::find_if(claim, [this, &robot](std::size_t other) {
+            return !_traffic.IsFreeFor(other, robot.index);
+        });
+        const std::size_t holder = *_traffic.GetHolderOrNull(*taken);
+        robot.place.bPlaced = false;
+        // The robot is there all the same: no other robot gets these nodes.
+        _traffic.HoldPossible(robot.index, held);
+        _transaction.RaiseAlarm(MakePlaceAlarm(
+            robot,
+            fmt::format(
+                "Robot {} node {}, which is reserved for {}. Move the robot to a free node.",
+                taken == claim.begin() ? "is on" : "may still drive to",
+                _site.GetNodes()[*taken].nodeID,
+                _fleet[holder].GetID())));
+        return;
+    }
+    _transaction.ClearAlarm(MakePlaceAlarm(robot, {}));
+    // An order of another master may be cancelled between two nodes, too.
+    robot.place.aheadNodes.assign(held.begin() + 1, held.end());
+    robot.parking.refusals = node == robot.place.node ? robot.parking.refusals : 0;
+    robot.place.node = node;
+    robot.place.heldNodes = std::move(held);
+    robot.place.bPlaced = true;
+    robot.search.plannedRoute.reset();
+    ++_standingChanges;
+    if (const SiteStation* stationOrNull = _site.FindStationAtOrNull(nodeID); stationOrNull != nullptr)
+    {
+        robot.place.position = stationOrNull->stationID;
+    }
+    _transaction.RequestDispatch();
+}
+
+void PlaceTracker::OnPositionLost(Robot& robot)
+{
+    if (!std::exchange(robot.place.bPlaced, false))
+    {
+        return;
+    }
+    const std::string& nodeID = robot.view.state->lastNodeID;
+    _transaction.RaiseAlarm(MakePlaceAlarm(
+        robot,
+        nodeID.empty()
+            ? "Robot position unknown: the robot reports no node. Move it to a free node of the map."
+            : fmt::format(
+                "Robot is on node {}, which is not on the map. Move the robot to a free node, or correct the map.",
+                nodeID)));
+}
+
+std::vector<std::size_t> PlaceTracker::ListClaimed(const Robot& robot, std::size_t node) const
+{
+    std::vector<std::size_t> claim{node};
+    for (const std::string& heldID : robot.view.state->heldNodeIDs)
+    {
+        const std::optional<std::size_t> held = _site.FindNodeIndexOrNull(heldID);
+        if (held.has_value() && std::ranges::count(claim, *held) == 0)
+        {
+            claim.push_back(*held);
+        }
+    }
+    return claim;
+}
+
+Alarm PlaceTracker::MakePlaceAlarm(const Robot& robot, std::string message) const
+{
+    return MakeAlarm(robot.GetID(), ALARM_PLACE, EAlarmLevel::Heavy, std::move(message));
+}
+
+void PlaceTracker::ReservePossibleNodes()
+{
+    for (const Robot& robot : _fleet)
+    {
+        if (!robot.place.bPlaced)
+        {
+            _traffic.HoldPossible(robot.index, robot.place.possibleNodes);
+        }
+    }
+}
+
+void PlaceTracker::ReleasePossibleNodes(std::span<const std::size_t> nodes)
+{
+    for (Robot& robot : _fleet)
+    {
+        for (const std::size_t node : nodes)
+        {
+            if (std::erase(robot.place.possibleNodes, node) > 0)
+            {
+                std::erase(robot.place.aheadNodes, node);
+                std::erase(robot.place.heldNodes, node);
+                _traffic.Disown(robot.index, node);
+            }
+        }
+    }
+}
+
+void PlaceTracker::ForgetPossibleNodes(Robot& robot)
+{
+    for (const std::size_t node : std::exchange(robot.place.possibleNodes, {}))
+    {
+        _traffic.Disown(robot.index, node);
+    }
+    robot.changes.bWork = true;
+    _transaction.RequestDispatch();
+}
+
+std::vector<std::size_t> PlaceTracker::ListPossibleAhead(const Robot& robot, std::size_t node)
+{
+    const auto here = std::ranges::find(robot.place.possibleNodes, node);
+    return here == robot.place.possibleNodes.end()
+        ? std::vector<std::size_t>()
+        : std::vector<std::size_t>(here + 1, robot.place.possibleNodes.end());
+}
+
+std::vector<std::string> PlaceTracker::ListNodes(const Robot& robot) const
+{
+    std::span<const std::size_t> nodes = robot.place.possibleNodes;
+    if (robot.drive.has_value())
+    {
+        nodes = std::span(robot.drive->nodes).subspan(robot.drive->passed);
+    }
+    else if (robot.place.bPlaced)
+    {
+        nodes = robot.place.heldNodes;
+    }
+    else if (robot.view.state.has_value())
+    {
+        return robot.work.GetStored().nodeIDs; // position lost
+    }
+    std::vector<std::string> nodeIDs;
+    for (const std::size_t node : nodes)
+    {
+        nodeIDs.push_back(_site.GetNodes()[node].nodeID);
+    }
+    return nodeIDs;
+}
+
+void PlaceTracker::NoteStandingChanged() noexcept
+{
+    ++_standingChanges;
+}
+
+std::uint64_t PlaceTracker::GetStandingChanges() const noexcept
+{
+    return _standingChanges;
+}
+
+Traffic& PlaceTracker::GetTraffic() noexcept
+{
+    return _traffic;
+}
+
+} // namespace ACS::Planning

@@ -1,0 +1,472 @@
+#include "traffic/TrafficCoordinator.hpp"
+
+#include "robot/NodesAhead.hpp"
+#include <acs/core/Uuid.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <set>
+#include <span>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+TrafficCoordinator::TrafficCoordinator(
+    EngineState& engine,
+    ControlAnswers& answers,
+    ChargingControl& charging,
+    PlaceTracker& places,
+    const WaitingRobots& waiting)
+    : _options(engine.options),
+      _site(engine.site),
+      _random(engine.random),
+      _admission(engine.admission),
+      _fleet(engine.fleet),
+      _transaction(engine.transaction),
+      _answers(answers),
+      _charging(charging),
+      _places(places),
+      _waiting(waiting),
+      _router(engine.site),
+      _traffic(places.GetTraffic())
+{
+}
+
+void TrafficCoordinator::AssignParking()
+{
+    std::set<std::size_t> taken;
+    for (const Robot& robot : _fleet)
+    {
+        if (robot.parking.homeNode.has_value())
+        {
+            taken.insert(*robot.parking.homeNode);
+        }
+        if (robot.parking.chargeNode.has_value())
+        {
+            taken.insert(*robot.parking.chargeNode);
+        }
+    }
+    for (Robot& robot : _fleet)
+    {
+        const RobotOptions& options = *robot.options;
+        robot.parking.parkingNode =
+            robot.parking.homeNode.has_value() ? robot.parking.homeNode : robot.parking.chargeNode;
+        for (const SiteStation& station : _site.GetStations())
+        {
+            const std::optional<std::size_t> dock = _admission.FindDockOrNull(station.stationID, options.vehicleTypeID);
+            if (!robot.parking.parkingNode.has_value() && dock.has_value() && CanParkAt(options, *dock)
+                && taken.insert(*dock).second)
+            {
+                robot.parking.parkingNode = dock;
+            }
+        }
+        _traffic.AddRobot(options.vehicleTypeID, robot.parking.parkingNode);
+        if (options.startNodeID.has_value())
+        {
+            const bool bStands = _traffic.TryStand(robot.index, *_site.FindNodeIndexOrNull(*options.startNodeID));
+            assert(bStands);
+            static_cast<void>(bStands);
+        }
+    }
+}
+
+bool TrafficCoordinator::CanParkAt(const RobotOptions& robot, std::size_t dock) const
+{
+    if (!_traffic.IsSpur(robot.vehicleTypeID, dock))
+    {
+        return false;
+    }
+    const std::string& dockID = _site.GetNodes()[dock].nodeID;
+    const std::string& startID = robot.startNodeID.value_or(dockID);
+    return _router.FindRouteOrNull(robot.vehicleTypeID, startID, dockID).has_value()
+        && _router.FindRouteOrNull(robot.vehicleTypeID, dockID, startID).has_value();
+}
+
+void TrafficCoordinator::ExtendDrives()
+{
+    std::vector<Robot*> driving;
+    for (Robot& robot : _fleet)
+    {
+        if (!robot.drive.has_value() || !robot.drive->bConfirmed || !_traffic.IsMovable(robot.index))
+        {
+            continue;
+        }
+        const ActiveDrive& drive = *robot.drive;
+        const bool bAsks =
+            drive.grantedCount < drive.nodes.size() && robot.search.refusedAt != _traffic.GetFreedCount();
+        // Nodes granted while the robot could not continue are released now.
+        const bool bWants = bAsks || drive.releasedCount < drive.grantedCount;
+        if (bWants)
+        {
+            driving.push_back(&robot);
+        }
+    }
+    std::ranges::sort(driving, IsMoreUrgent);
+    std::ranges::for_each(driving, [this](Robot* robot) { ExtendBase(*robot); });
+}
+
+void TrafficCoordinator::ExtendBase(Robot& robot)
+{
+    ActiveDrive& drive = *robot.drive;
+    const std::size_t reached = drive.passed + 1;
+    if (drive.IsCancelling() || !robot.CanAdvance())
+    {
+        return;
+    }
+    if (drive.grantedCount < drive.nodes.size() && drive.grantedCount < reached + _options.baseLength)
+    {
+        const std::size_t wanted = std::min(drive.nodes.size(), reached + 2 * _options.baseLength);
+        const std::span<const std::size_t> nodes(drive.nodes);
+        const std::size_t granted =
+            _traffic.Extend(robot.index, nodes.subspan(drive.grantedCount, wanted - drive.grantedCount));
+        drive.grantedCount += granted;
+        robot.changes.bStatus = robot.changes.bStatus || granted > 0 || robot.search.blockers != _traffic.GetBlockers();
+        robot.search.blockers = _traffic.GetBlockers();
+        robot.search.refusedAt = _traffic.GetFreedCount();
+    }
+    if (drive.grantedCount > drive.releasedCount)
+    {
+        drive.releasedCount = drive.grantedCount;
+        _transaction.Command(robot, ExtendDrive{drive.driveID, drive.releasedCount});
+    }
+}
+
+EDriveAttempt TrafficCoordinator::TryDrive(Robot& robot)
+{
+    const std::optional<std::size_t> target = _waiting.GetTargetOrNull(robot);
+    if (!target.has_value())
+    {
+        return EDriveAttempt::Waits;
+    }
+    if (robot.place.node == target)
+    {
+        robot.parking.retreatNode.reset();
+        return EDriveAttempt::AtTarget;
+    }
+    const bool bFirst = !robot.search.plannedRoute.has_value() || robot.search.plannedRoute->target != *target;
+    if (!TryPlanRoute(robot, *target))
+    {
+        return EDriveAttempt::NoRoute;
+    }
+    if (_waiting.IsYielding(robot))
+    {
+        robot.search.blockers.assign(1, robot.search.yield->leader);
+        return EDriveAttempt::Waits;
+    }
+    std::vector<std::size_t> holders = _waiting.GetTargetHolders(robot, *target);
+    if (!holders.empty())
+    {
+        robot.search.blockers = std::move(holders);
+        return EDriveAttempt::Waits;
+    }
+    if (!bFirst && robot.search.refusedAt == _traffic.GetFreedCount())
+    {
+        return EDriveAttempt::Waits;
+    }
+    if (!_traffic.CanServe(robot.index, *target))
+    {
+        robot.search.blockers = _traffic.GetFixed(robot.index);
+        robot.search.refusedAt = _traffic.GetFreedCount();
+        return EDriveAttempt::Waits;
+    }
+    const bool bBegun = TryBeginPlannedRoute(robot);
+    robot.search.refusedAt = _traffic.GetFreedCount();
+    return bBegun ? EDriveAttempt::Begun : EDriveAttempt::Waits;
+}
+
+bool TrafficCoordinator::TryBeginPlannedRoute(Robot& robot)
+{
+    std::vector<std::size_t> standing;
+    std::vector<std::size_t> fixed;
+    for (const std::size_t node : robot.search.plannedRoute->nodes)
+    {
+        for (const std::size_t holder : _traffic.GetHolders(node, robot.index))
+        {
+            if (!_traffic.IsMovable(holder))
+            {
+                fixed.push_back(holder);
+            }
+            else if (!_fleet[holder].drive.has_value())
+            {
+                standing.push_back(holder);
+            }
+        }
+    }
+    if (fixed.empty() && standing.empty())
+    {
+        return TryBeginDrive(robot, *robot.search.plannedRoute);
+    }
+    // The detour is kept until a robot stops, starts, or becomes movable or not.
+    if (robot.search.detourAt != _places.GetStandingChanges()
+        || robot.search.detourTarget != robot.search.plannedRoute->target)
+    {
+        const auto isStandingInTheWay = [this, &robot](std::size_t node) {
+            const std::vector<std::size_t> holders = _traffic.GetHolders(node, robot.index);
+            return std::ranges::any_of(holders, [this](std::size_t holder) {
+                return !_fleet[holder].drive.has_value() || !_traffic.IsMovable(holder);
+            });
+        };
+        robot.search.detour = PlanRouteOrNull(robot, robot.search.plannedRoute->target, isStandingInTheWay);
+        robot.search.detourAt = _places.GetStandingChanges();
+        robot.search.detourTarget = robot.search.plannedRoute->target;
+    }
+    if (robot.search.detour.has_value())
+    {
+        return TryBeginDrive(robot, *robot.search.detour);
+    }
+    if (!fixed.empty())
+    {
+        robot.search.blockers = std::move(fixed);
+        return false;
+    }
+    return TryBeginDrive(robot, *robot.search.plannedRoute);
+}
+
+bool TrafficCoordinator::TryPlanRoute(Robot& robot, std::size_t target)
+{
+    if (!robot.search.plannedRoute.has_value() || robot.search.plannedRoute->target != target)
+    {
+        robot.search.plannedRoute = PlanRouteOrNull(robot, target, {});
+    }
+    return robot.search.plannedRoute.has_value();
+}
+
+std::optional<PlannedRoute> TrafficCoordinator::PlanRouteOrNull(
+    const Robot& robot,
+    std::size_t target,
+    const Router::NodeFilter& isExcluded) const
+{
+    const std::vector<SiteNode>& nodes = _site.GetNodes();
+    std::optional<Route> route = _router.FindRouteOrNull(
+        robot.options->vehicleTypeID,
+        nodes[*robot.place.node].nodeID,
+        nodes[target].nodeID,
+        isExcluded);
+    if (!route.has_value())
+    {
+        return std::nullopt;
+    }
+    PlannedRoute plannedRoute;
+    plannedRoute.target = target;
+    for (const RouteNode& node : route->nodes)
+    {
+        plannedRoute.nodes.push_back(*_site.FindNodeIndexOrNull(node.nodeID));
+    }
+    plannedRoute.route = std::move(*route);
+    return plannedRoute;
+}
+
+bool TrafficCoordinator::TryBeginDrive(Robot& robot, const PlannedRoute& plannedRoute)
+{
+    if (!robot.place.aheadNodes.empty() && robot.view.state.has_value() && robot.view.state->bDriving)
+    {
+        robot.search.blockers.clear();
+        return false; // the robot is still stopping: its position is not final
+    }
+    const std::size_t wanted = std::min(_options.baseLength, plannedRoute.nodes.size() - 1);
+    const std::size_t granted = _traffic.Extend(robot.index, std::span(plannedRoute.nodes).subspan(1, wanted));
+    robot.search.blockers = _traffic.GetBlockers();
+    if (granted == 0)
+    {
+        return false;
+    }
+    _charging.EndCharging(robot);
+    ActiveDrive drive;
+    drive.driveID = Core::MakeUUID(_random);
+    robot.work.AddCommand(drive.driveID);
+    drive.route = plannedRoute.route;
+    drive.nodes = plannedRoute.nodes;
+    drive.grantedCount = granted + 1;
+    // The last node is not released yet: the robot needs a horizon.
+    drive.releasedCount = std::min({_options.baseLength, drive.grantedCount, drive.nodes.size() - 1});
+    drive.goal =
+        robot.planOrNull == nullptr || robot.parking.retreatNode.has_value() ? EDriveGoal::Home : EDriveGoal::Step;
+    robot.changes.bStatus = true;
+    if (drive.goal == EDriveGoal::Step)
+    {
+        robot.search.yield.reset();
+        robot.planOrNull->bStepArrived = false;
+    }
+    _transaction.Command(robot, Drive{drive.driveID, drive.route, drive.releasedCount});
+    _transaction.StartTimer(EEngineTimer::DriveExtension, robot.GetID(), _options.extensionDelay);
+    robot.drive = std::move(drive);
+    _places.NoteStandingChanged();
+    return true;
+}
+
+void TrafficCoordinator::RefuseHome(Robot& robot)
+{
+    constexpr unsigned MOST_DOUBLINGS = 6;
+    robot.parking.retreatNode.reset();
+    robot.parking.bRefused = true;
+    _transaction.StartTimer(
+        EEngineTimer::HomeRetry,
+        robot.GetID(),
+        _options.homeRetry * (1U << robot.parking.refusals));
+    robot.parking.refusals = std::min(robot.parking.refusals + 1, MOST_DOUBLINGS);
+}
+
+bool TrafficCoordinator::CanServe(const Robot& robot, const ActivePlan& plan) const
+{
+    return std::ranges::all_of(plan.resolved.steps, [this, &robot](const ResolvedStep& step) {
+        const std::optional<std::size_t> dock = _admission.FindDockOrNull(step.stationID, robot.options->vehicleTypeID);
+        return !dock.has_value() || _traffic.CanServe(robot.index, *dock);
+    });
+}
+
+bool TrafficCoordinator::TryReroute(Robot& robot, PlannedRoute plannedRoute, bool bRetreats)
+{
+    const std::size_t wanted = std::min(_options.baseLength, plannedRoute.nodes.size() - 1);
+    if (_traffic.Extend(robot.index, std::span(plannedRoute.nodes).subspan(1, wanted)) == 0)
+    {
+        return false;
+    }
+    ActiveDrive& drive = *robot.drive;
+    drive.reroute = Reroute{std::move(plannedRoute), bRetreats};
+    drive.cancellation = ECancellation::Awaited;
+    _transaction.Command(robot, CancelDrive{drive.driveID});
+    _answers.StartConfirming(robot, _options.controls.cancelTimeout);
+    return true;
+}
+
+void TrafficCoordinator::BeginReroute(Robot& robot, PlannedRoute plannedRoute, bool bRetreats)
+{
+    if (plannedRoute.nodes.front() != robot.place.node)
+    {
+        return; // The robot has moved since: it waits as any other.
+    }
+    if (bRetreats)
+    {
+        robot.parking.retreatNode = plannedRoute.target;
+    }
+    robot.search.plannedRoute = std::move(plannedRoute);
+    if (_traffic.IsMovable(robot.index) && robot.IsUsable())
+    {
+        static_cast<void>(TryBeginDrive(robot, *robot.search.plannedRoute));
+    }
+}
+
+void TrafficCoordinator::AbandonReroute(Robot& robot)
+{
+    if (!robot.drive.has_value() || !robot.drive->reroute.has_value())
+    {
+        return;
+    }
+    ActiveDrive& drive = *robot.drive;
+    drive.reroute.reset();
+    drive.StopAwaitingCancellation();
+    _traffic.Shorten(robot.index, drive.grantedCount - drive.passed);
+    _transaction.RequestDispatch();
+}
+
+bool TrafficCoordinator::TryAdvance(Robot& robot, std::size_t routeIndex)
+{
+    ActiveDrive& drive = *robot.drive;
+    if (routeIndex >= drive.grantedCount)
+    {
+        const std::span<const std::size_t> nodes(drive.nodes);
+        const std::span<const std::size_t> overrun =
+            nodes.subspan(drive.grantedCount, routeIndex + 1 - drive.grantedCount);
+        if (drive.reroute.has_value() || !_traffic.TryOverrun(robot.index, overrun))
+        {
+            _transaction.RaiseAlarm(_places.MakePlaceAlarm(
+                robot,
+                fmt::format(
+                    "Robot entered node {} without a reservation. Move the robot to a free node.",
+                    drive.route.nodes[routeIndex].nodeID)));
+            return false;
+        }
+        _transaction.Note(robot, "drove beyond the released nodes");
+        drive.grantedCount = routeIndex + 1;
+    }
+    if (routeIndex > drive.passed)
+    {
+        _traffic.Pass(robot.index, routeIndex - drive.passed);
+        _transaction.RequestDispatch();
+        robot.place.aheadNodes.clear();
+        robot.place.possibleNodes.clear();
+        robot.parking.refusals = 0;
+    }
+    drive.passed = routeIndex;
+    robot.place.node = drive.nodes[routeIndex];
+    return true;
+}
+
+void TrafficCoordinator::EndDrive(Robot& robot)
+{
+    const std::string& robotID = robot.GetID();
+    const ActiveDrive& drive = *robot.drive;
+    if (!drive.bConfirmed)
+    {
+        _transaction.CancelTimer(EEngineTimer::DriveExtension, robotID);
+    }
+    // An open pause must still be confirmed.
+    const bool bControlOpen = robot.planOrNull != nullptr && robot.planOrNull->record.progress.control.has_value();
+    if (drive.IsCancelling() && !bControlOpen)
+    {
+        _answers.StopConfirming(robot);
+    }
+    const std::size_t begin = drive.passed + 1;
+    if (!drive.bConfirmed)
+    {
+        robot.place.aheadNodes = FindNodesAhead(
+            _site,
+            robot.view.state,
+            *robot.place.node,
+            robot.place.aheadNodes); // of the previous drive: the robot never had this one
+    }
+    else if (begin < drive.grantedCount)
+    {
+        robot.place.aheadNodes = FindNodesAhead(
+            _site,
+            robot.view.state,
+            *robot.place.node,
+            std::span(drive.nodes).subspan(begin, drive.grantedCount - begin));
+    }
+    else
+    {
+        robot.place.aheadNodes.clear();
+    }
+    robot.place.heldNodes.assign(1, *robot.place.node);
+    for (const std::size_t between : robot.place.aheadNodes)
+    {
+        if (std::ranges::count(robot.place.heldNodes, between) == 0)
+        {
+            robot.place.heldNodes.push_back(between);
+        }
+    }
+    const bool bStands =
+        _traffic.TryStand(robot.index, *robot.place.node, {}, std::span(robot.place.heldNodes).subspan(1));
+    assert(bStands);
+    static_cast<void>(bStands);
+    robot.drive.reset();
+    _places.NoteStandingChanged();
+    robot.search.plannedRoute.reset();
+    robot.search.blockers.clear();
+    _transaction.RequestDispatch();
+}
+
+const Router& TrafficCoordinator::GetRouter() const noexcept
+{
+    return _router;
+}
+
+void TrafficCoordinator::OnExtensionDue(Robot& robot)
+{
+    if (robot.drive.has_value())
+    {
+        robot.drive->bConfirmed = true;
+        _transaction.RequestDispatch();
+    }
+}
+
+void TrafficCoordinator::OnHomeRetry(Robot& robot)
+{
+    robot.parking.bRefused = false;
+    _transaction.RequestDispatch();
+}
+
+} // namespace ACS::Planning

@@ -1,0 +1,95 @@
+#pragma once
+
+#include "control/ChargingControl.hpp"
+#include "control/ControlAnswers.hpp"
+#include "traffic/PlaceTracker.hpp"
+#include "traffic/WaitingRobots.hpp"
+#include "transaction/EngineState.hpp"
+#include <acs/plan/Router.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+enum class EDriveAttempt : std::uint8_t
+{
+    Waits,
+    Begun,
+    AtTarget,
+    NoRoute,
+};
+
+/// Owns the router. Plans routes, begins and ends drives, extends their base and reroutes them.
+class TrafficCoordinator
+{
+    const EngineOptions& _options;
+    const SiteMap& _site;
+    Core::IRandom& _random;
+    const PlanAdmission& _admission;
+    Fleet& _fleet;
+    EngineTransaction& _transaction;
+    ControlAnswers& _answers;
+    ChargingControl& _charging;
+    PlaceTracker& _places;
+    const WaitingRobots& _waiting;
+    Router _router;
+    Traffic& _traffic;
+
+public:
+    TrafficCoordinator(
+        EngineState& engine,
+        ControlAnswers& answers,
+        ChargingControl& charging,
+        PlaceTracker& places,
+        const WaitingRobots& waiting);
+
+    /// Chooses the parking positions. Without a home it is the first free station beside the lanes with a route there and back,
+    /// used only to clear the routes of others.
+    void AssignParking();
+    [[nodiscard]] const Router& GetRouter() const noexcept;
+    /// The time to confirm a drive has expired: the base is extended anyway.
+    void OnExtensionDue(Robot& robot);
+    /// The robot may be sent home again.
+    void OnHomeRetry(Robot& robot);
+    /// Grants further nodes to all drives, the most urgent first.
+    void ExtendDrives();
+    /// Grants and releases further nodes; twice the base length, so that not every node costs an order update.
+    void ExtendBase(Robot& robot);
+    /// Begins a drive to the robot's target if its route is free. Returns what the caller must do next.
+    [[nodiscard]] EDriveAttempt TryDrive(Robot& robot);
+    /// The quickest route that avoids the excluded nodes.
+    [[nodiscard]] std::optional<PlannedRoute> PlanRouteOrNull(
+        const Robot& robot,
+        std::size_t target,
+        const Router::NodeFilter& isExcluded) const;
+    /// Begins the drive with the nodes that are granted; false if there are none.
+    [[nodiscard]] bool TryBeginDrive(Robot& robot, const PlannedRoute& plannedRoute);
+    /// Delays the next attempt to send the robot home, twice as long each time: a robot between two nodes refuses each one.
+    void RefuseHome(Robot& robot);
+    /// Whether robots that cannot move leave free a route to each station of the plan and from there home.
+    [[nodiscard]] bool CanServe(const Robot& robot, const ActivePlan& plan) const;
+    /// Cancels the drive for another route, whose first nodes are granted now.
+    [[nodiscard]] bool TryReroute(Robot& robot, PlannedRoute plannedRoute, bool bRetreats);
+    /// The vehicle has cancelled its drive: begins the new route.
+    void BeginReroute(Robot& robot, PlannedRoute plannedRoute, bool bRetreats);
+    /// The vehicle has not cancelled its drive in time: the drive continues.
+    void AbandonReroute(Robot& robot);
+    /// The robot has reached this node of its route: frees the nodes before it. False: the robot entered a node that another
+    /// robot has reserved.
+    [[nodiscard]] bool TryAdvance(Robot& robot, std::size_t routeIndex);
+    /// The robot is stationary on the node that it passed last, or after it: frees the rest of the route.
+    void EndDrive(Robot& robot);
+
+private:
+    [[nodiscard]] bool CanParkAt(const RobotOptions& robot, std::size_t dock) const;
+    /// Begins the planned route, or a detour around stationary robots if there is one.
+    [[nodiscard]] bool TryBeginPlannedRoute(Robot& robot);
+    [[nodiscard]] bool TryPlanRoute(Robot& robot, std::size_t target);
+};
+
+} // namespace ACS::Planning

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <acs/plan/PlanCommand.hpp>
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+/// What the present call has started and acknowledged: needed if it cannot be stored.
+struct CallRecord
+{
+    std::vector<std::string> begunPlanIDs;
+    std::map<ReplyToken, std::string> repeatedPlanIDs; ///< Plans that were submitted again.
+    std::optional<std::string> controlID;              ///< The control of this call, as in PlanProgress::requestIDs.
+    std::set<std::string> unstoredControlIDs;          ///< Of all calls since the store fails.
+
+    void Begin()
+    {
+        begunPlanIDs.clear();
+        repeatedPlanIDs.clear();
+        controlID.reset();
+    }
+};
+
+} // namespace ACS::Planning

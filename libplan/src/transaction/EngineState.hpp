@@ -1,0 +1,47 @@
+#pragma once
+
+#include "plan/PlanAdmission.hpp"
+#include "plan/PlanBook.hpp"
+#include "restart/StartupBarrier.hpp"
+#include "robot/Fleet.hpp"
+#include "transaction/AlarmBook.hpp"
+#include "transaction/CallRecord.hpp"
+#include "transaction/EngineTransaction.hpp"
+#include "transaction/StoreBacklog.hpp"
+#include <acs/core/IRandom.hpp>
+#include <acs/plan/ReportOutbox.hpp>
+
+#include <utility>
+
+namespace ACS::Planning
+{
+
+/// Data that the parts of the engine share: configuration, records, and the transaction of the present call. Each part refers
+/// only to what it uses.
+struct EngineState
+{
+    EngineOptions options;
+    SiteMap site;
+    Core::IRandom& random;
+    PlanAdmission admission{options, site};
+    PlanBook plans{options};
+    Fleet fleet{options};
+    AlarmBook alarms;
+    ReportOutbox outbox;
+    StoreBacklog backlog;
+    StartupBarrier startup;
+    CallRecord call;
+    EngineTransaction transaction{options, random, plans, alarms, outbox};
+
+    EngineState(EngineOptions engineOptions, SiteMap siteMap, Core::IRandom& randomSource)
+        : options(std::move(engineOptions)),
+          site(std::move(siteMap)),
+          random(randomSource)
+    {
+    }
+
+    EngineState(const EngineState&) = delete;
+    EngineState& operator=(const EngineState&) = delete;
+};
+
+} // namespace ACS::Planning

@@ -1,0 +1,231 @@
+#include "transaction/EngineTransaction.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+EngineTransaction::EngineTransaction(
+    const EngineOptions& options,
+    Core::IRandom& random,
+    PlanBook& plans,
+    AlarmBook& alarms,
+    ReportOutbox& outbox)
+    : _options(options),
+      _random(random),
+      _plans(plans),
+      _alarms(alarms),
+      _outbox(outbox)
+{
+}
+
+void EngineTransaction::SetObserver(IPlanObserver& observer)
+{
+    _observerOrNull = &observer;
+}
+
+void EngineTransaction::SetNow(Core::Now now)
+{
+    _now = now;
+}
+
+const Core::Now& EngineTransaction::GetNow() const noexcept
+{
+    return _now;
+}
+
+void EngineTransaction::Emit(EngineAction action)
+{
+    _actions.push_back(std::move(action));
+}
+
+void EngineTransaction::Store(StoreChange change)
+{
+    _changes.push_back(std::move(change));
+}
+
+void EngineTransaction::PublishRobotStatus(const RobotStatus& status)
+{
+    if (_observerOrNull != nullptr)
+    {
+        _observerOrNull->OnRobotStatusChanged(status, _now);
+    }
+    _actions.emplace_back(RobotStatusChanged{status});
+}
+
+void EngineTransaction::PublishTscState(ETscState state, ETscState from)
+{
+    _actions.emplace_back(TscStateChanged{state});
+    if (_observerOrNull != nullptr)
+    {
+        _observerOrNull->OnTscChanged(state, from, _now);
+    }
+}
+
+void EngineTransaction::RequestDispatch() noexcept
+{
+    _bDispatchNeeded = true;
+}
+
+bool EngineTransaction::IsDispatchNeeded() const noexcept
+{
+    return _bDispatchNeeded;
+}
+
+bool EngineTransaction::TryBeginDispatch() noexcept
+{
+    return std::exchange(_bDispatchNeeded, false);
+}
+
+std::vector<StoreChange> EngineTransaction::CollectChanges()
+{
+    return std::exchange(_changes, {});
+}
+
+EngineActions EngineTransaction::CollectActions()
+{
+    return std::exchange(_actions, {});
+}
+
+std::string_view EngineTransaction::AddReport(Report report)
+{
+    const OutboxEntry& entry = _outbox.Add(std::move(report), _now.wall, _random);
+    _changes.emplace_back(ReportAdded{entry});
+    _actions.emplace_back(SendReport{entry});
+    return entry.transactionID;
+}
+
+void EngineTransaction::WatchOutbox()
+{
+    constexpr std::size_t TENTH = 10;
+    Alarm alarm = MakeAlarm(
+        OWN_ROBOT_ID,
+        ALARM_OUTBOX,
+        EAlarmLevel::Heavy,
+        fmt::format(
+            "Outbox full: {} reports are not acknowledged, and new plans are refused. Check the MCS and its connection.",
+            _options.maximumReports));
+    const std::size_t count = _outbox.GetUnacknowledged().size();
+    if (count >= _options.maximumReports)
+    {
+        RaiseAlarm(std::move(alarm));
+    }
+    else if (count < _options.maximumReports - _options.maximumReports / TENTH)
+    {
+        ClearAlarm(alarm);
+    }
+}
+
+void EngineTransaction::StartTimer(EEngineTimer kind, const std::string& robotID, Core::Duration delay)
+{
+    _actions.emplace_back(StartEngineTimer{{kind, robotID}, delay});
+}
+
+void EngineTransaction::CancelTimer(EEngineTimer kind, const std::string& robotID)
+{
+    _actions.emplace_back(CancelEngineTimer{{kind, robotID}});
+}
+
+void EngineTransaction::Command(Robot& robot, RobotCommand command)
+{
+    robot.changes.bWork = true;
+    _actions.emplace_back(CommandRobot{robot.GetID(), std::move(command)});
+}
+
+void EngineTransaction::Note(const Robot& robot, const std::string& text)
+{
+    if (_observerOrNull != nullptr)
+    {
+        _observerOrNull->OnNote(robot.GetID(), text, _now);
+    }
+}
+
+void EngineTransaction::ChangePlan(ActivePlan& plan, EPlanState state, std::string message)
+{
+    const EPlanState from = _plans.Change(plan, state, message, _now.wall);
+    const std::string_view transactionID = AddReport(PlanReport{plan.record.plan.planID, state, std::move(message)});
+    if (_observerOrNull != nullptr)
+    {
+        _observerOrNull->OnPlanChanged(plan.record, from, transactionID, _now);
+    }
+}
+
+void EngineTransaction::ChangeStep(ActivePlan& plan, EStepState state, std::string message)
+{
+    ChangeStepAt(plan, plan.step, state, std::move(message));
+}
+
+void EngineTransaction::ChangeStepAt(ActivePlan& plan, std::size_t index, EStepState state, std::string message)
+{
+    const EStepState from = _plans.ChangeStep(plan, index, state);
+    const std::string_view transactionID = AddReport(StepReport{
+        plan.record.plan.planID,
+        plan.record.progress.robotID,
+        plan.record.plan.steps[index].stepNo,
+        state,
+        std::move(message)});
+    if (_observerOrNull != nullptr)
+    {
+        _observerOrNull->OnStepChanged(plan.record, index, from, transactionID, _now);
+    }
+}
+
+void EngineTransaction::ChangeJob(ActivePlan& plan, EJobState state, std::string message)
+{
+    if (!HasJob(plan))
+    {
+        return; // The engine made this job: the MCS has no id for it.
+    }
+    const EJobState from = _plans.ChangeJob(plan, state);
+    const std::string_view transactionID = AddReport(JobReport{
+        plan.record.plan.planID,
+        plan.record.progress.robotID,
+        plan.record.plan.steps[plan.step].stepNo,
+        GetJobID(plan),
+        state,
+        std::move(message)});
+    if (_observerOrNull != nullptr)
+    {
+        _observerOrNull->OnJobChanged(plan.record, plan.step, plan.job, from, transactionID, _now);
+    }
+}
+
+void EngineTransaction::Store(std::vector<StoreChange> changes)
+{
+    std::ranges::move(changes, std::back_inserter(_changes));
+}
+
+void EngineTransaction::ReportAlarms(const std::vector<ErrorReport>& reports)
+{
+    for (const ErrorReport& report : reports)
+    {
+        const Alarm& alarm = report.alarm;
+        _changes.push_back(report.bSet ? StoreChange(AlarmSet{alarm}) : StoreChange(AlarmCleared{alarm}));
+        const std::string_view transactionID = AddReport(report);
+        if (_observerOrNull != nullptr)
+        {
+            _observerOrNull->OnAlarmChanged(alarm, report.bSet, transactionID, _now);
+        }
+    }
+}
+
+void EngineTransaction::RaiseAlarm(Alarm alarm)
+{
+    ReportAlarms(_alarms.Raise(std::move(alarm)));
+}
+
+void EngineTransaction::ClearAlarm(const Alarm& alarm)
+{
+    ReportAlarms(_alarms.Clear(alarm));
+}
+
+void EngineTransaction::Reply(ReplyToken token, bool bAccepted, std::string message)
+{
+    _actions.emplace_back(ReplyCommand{token, bAccepted, std::move(message)});
+}
+
+} // namespace ACS::Planning

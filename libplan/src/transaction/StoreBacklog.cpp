@@ -1,0 +1,87 @@
+#include "transaction/StoreBacklog.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+void StoreBacklog::OnFailed() noexcept
+{
+    _state = EState::Waiting;
+}
+
+void StoreBacklog::OnRetryDue() noexcept
+{
+    _state = _state == EState::Waiting ? EState::Due : _state;
+}
+
+void StoreBacklog::RestoreFailing() noexcept
+{
+    _state = EState::Due;
+}
+
+bool StoreBacklog::TryRecover() noexcept
+{
+    if (_state != EState::Attempted)
+    {
+        return false;
+    }
+    _state = EState::Working;
+    return true;
+}
+
+bool StoreBacklog::IsWorthTrying(std::span<const StoreChange> changes) const
+{
+    return _state != EState::Waiting || std::ranges::any_of(changes, [](const StoreChange& change) {
+               return std::holds_alternative<PlanAdded>(change);
+           });
+}
+
+bool StoreBacklog::TryBeginAttempt() noexcept
+{
+    if (!IsFailing())
+    {
+        return false;
+    }
+    _state = EState::Attempted;
+    return true;
+}
+
+void StoreBacklog::Add(std::vector<StoreChange> changes)
+{
+    std::ranges::move(changes, std::back_inserter(_changes));
+}
+
+std::vector<StoreChange> StoreBacklog::CollectChanges()
+{
+    return std::exchange(_changes, {});
+}
+
+void StoreBacklog::HoldBack(OutboxEntry report)
+{
+    _reports.push_back(std::move(report));
+}
+
+std::vector<OutboxEntry> StoreBacklog::CollectReports()
+{
+    return std::exchange(_reports, {});
+}
+
+bool StoreBacklog::IsFailing() const noexcept
+{
+    return _state != EState::Working;
+}
+
+bool StoreBacklog::IsHeldBack(const OutboxEntry& report) const
+{
+    return std::ranges::binary_search(_reports, report.sequence, {}, &OutboxEntry::sequence);
+}
+
+std::size_t StoreBacklog::CountHeldBack() const noexcept
+{
+    return _reports.size();
+}
+
+} // namespace ACS::Planning

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <acs/plan/IPlanStore.hpp>
+#include <acs/plan/Report.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+/// Whether the store works. While it fails: the changes to be stored, and the reports that must not be sent before them.
+class StoreBacklog
+{
+    enum class EState : std::uint8_t
+    {
+        Working,
+        Waiting,   ///< Failed; the retry timer runs.
+        Due,       ///< The next changes are an attempt.
+        Attempted, ///< It works again if no failure is reported before the next call.
+    };
+
+    EState _state = EState::Working;
+    std::vector<StoreChange> _changes;
+    std::vector<OutboxEntry> _reports;
+
+public:
+    void OnFailed() noexcept;
+    void OnRetryDue() noexcept;
+    /// The store was failing before the restart: the next changes are an attempt.
+    void RestoreFailing() noexcept;
+    /// At the beginning of a call. True: the attempt of the previous call was successful.
+    [[nodiscard]] bool TryRecover() noexcept;
+    /// An attempt writes the whole backlog, so only new plans and the retry timer trigger one.
+    [[nodiscard]] bool IsWorthTrying(std::span<const StoreChange> changes) const;
+    /// A batch is sent to the store. True: the store was failing; start the retry timer.
+    [[nodiscard]] bool TryBeginAttempt() noexcept;
+
+    void Add(std::vector<StoreChange> changes);
+    [[nodiscard]] std::vector<StoreChange> CollectChanges();
+    void HoldBack(OutboxEntry report);
+    [[nodiscard]] std::vector<OutboxEntry> CollectReports();
+
+    [[nodiscard]] bool IsFailing() const noexcept;
+    /// Reports that are held back are also in the outbox, in the same order.
+    [[nodiscard]] bool IsHeldBack(const OutboxEntry& report) const;
+    [[nodiscard]] std::size_t CountHeldBack() const noexcept;
+};
+
+} // namespace ACS::Planning

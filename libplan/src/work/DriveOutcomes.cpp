@@ -1,0 +1,241 @@
+#include "work/DriveOutcomes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+DriveOutcomes::DriveOutcomes(
+    EngineState& engine,
+    TscControl& tsc,
+    ControlAnswers& answers,
+    PlaceTracker& places,
+    WaitingRobots& waiting,
+    TrafficCoordinator& coordinator,
+    PlanWork& work,
+    PlanControls& controls)
+    : _options(engine.options),
+      _site(engine.site),
+      _fleet(engine.fleet),
+      _transaction(engine.transaction),
+      _answers(answers),
+      _waiting(waiting),
+      _coordinator(coordinator),
+      _deadlocks(engine, tsc, places, waiting, coordinator),
+      _work(work),
+      _controls(controls)
+{
+}
+
+void DriveOutcomes::MoveWaiting()
+{
+    _coordinator.ExtendDrives();
+    for (Robot* robot : _waiting.GetWaiting())
+    {
+        const std::vector<std::size_t> blockers = robot->search.blockers;
+        static_cast<void>(MoveRobot(*robot));
+        robot->changes.bStatus = robot->changes.bStatus || robot->search.blockers != blockers;
+    }
+}
+
+void DriveOutcomes::SendIdleHome()
+{
+    for (Robot* robot : _waiting.ListAwayFromHome())
+    {
+        static_cast<void>(MoveRobot(*robot));
+    }
+}
+
+void DriveOutcomes::ResolveDeadlocks()
+{
+    for (std::size_t round = 0; round < _fleet.size(); ++round)
+    {
+        const DeadlockResolver::Round result = _deadlocks.TryResolveDeadlock();
+        const bool bMoved = result.releasedOrNull == nullptr ? result.bMoved : MoveRobot(*result.releasedOrNull);
+        if (!bMoved)
+        {
+            return;
+        }
+    }
+}
+
+bool DriveOutcomes::MoveRobot(Robot& robot)
+{
+    const EDriveAttempt attempt = _coordinator.TryDrive(robot);
+    if (attempt == EDriveAttempt::AtTarget && robot.planOrNull != nullptr
+        && _waiting.GetTargetOrNull(robot) == robot.place.node)
+    {
+        _work.BeginWork(robot);
+    }
+    else if (attempt == EDriveAttempt::NoRoute)
+    {
+        OnNoRoute(robot, *_waiting.GetTargetOrNull(robot));
+    }
+    return attempt == EDriveAttempt::AtTarget || attempt == EDriveAttempt::Begun;
+}
+
+void DriveOutcomes::OnNoRoute(Robot& robot, std::size_t target)
+{
+    const std::string text = fmt::format(
+        "{} has no route from {} to {}.",
+        robot.GetID(),
+        _site.GetNodes()[*robot.place.node].nodeID,
+        _site.GetNodes()[target].nodeID);
+    if (robot.planOrNull != nullptr && !robot.parking.retreatNode.has_value())
+    {
+        _work.FailPlan(*robot.planOrNull, text);
+        return;
+    }
+    _coordinator.RefuseHome(robot);
+    _transaction.Note(robot, text);
+}
+
+void DriveOutcomes::OnNodePassed(Robot& robot, const NodePassed& event)
+{
+    if (!robot.drive.has_value() || robot.drive->driveID != event.driveID)
+    {
+        return;
+    }
+    const std::vector<RouteNode>& nodes = robot.drive->route.nodes;
+    const auto found = std::ranges::find(nodes, event.nodeID, &RouteNode::nodeID);
+    const auto routeIndex = static_cast<std::size_t>(found - nodes.begin());
+    if (found == nodes.end() || routeIndex < robot.drive->passed)
+    {
+        _transaction.Note(robot, fmt::format("reported node {}, which is not ahead on its route", event.nodeID));
+        return;
+    }
+    robot.drive->bTaken = true;
+    robot.work.MarkCommandTaken();
+    robot.changes.bWork = true;
+    if (!robot.drive->bConfirmed)
+    {
+        robot.drive->bConfirmed = true;
+        _transaction.CancelTimer(EEngineTimer::DriveExtension, robot.GetID());
+    }
+    if (routeIndex > 0 && robot.drive->goal == EDriveGoal::Step && robot.planOrNull != nullptr)
+    {
+        _work.MarkStepBegun(*robot.planOrNull);
+    }
+    if (_coordinator.TryAdvance(robot, routeIndex))
+    {
+        _work.UpdateApproach(robot);
+        _coordinator.ExtendBase(robot);
+    }
+}
+
+void DriveOutcomes::OnArrived(Robot& robot, const Arrived& event)
+{
+    if (!robot.drive.has_value() || robot.drive->driveID != event.driveID)
+    {
+        return;
+    }
+    if (!_coordinator.TryAdvance(robot, robot.drive->nodes.size() - 1))
+    {
+        OnDriveRejected(robot, DriveRejected{event.driveID, "it entered a node that is reserved for another robot"});
+        robot.place.bPlaced = false;
+        return;
+    }
+    const EDriveGoal goal = robot.drive->goal;
+    const std::string nodeID = robot.drive->route.nodes.back().nodeID;
+    _coordinator.EndDrive(robot);
+    if (const SiteStation* stationOrNull = _site.FindStationAtOrNull(nodeID); stationOrNull != nullptr)
+    {
+        robot.place.position = stationOrNull->stationID;
+    }
+    if (goal == EDriveGoal::Home)
+    {
+        robot.parking.retreatNode.reset();
+        return;
+    }
+    if (robot.planOrNull == nullptr)
+    {
+        return;
+    }
+    ActivePlan& plan = *robot.planOrNull;
+    const bool bCancelLate = _options.controls.cancelUntil != ECancelWindow::FirstJob;
+    if (plan.record.progress.control == EPlanControl::Abort
+        || (plan.record.progress.control == EPlanControl::Cancel && !bCancelLate))
+    {
+        _work.EndByControl(plan, *plan.record.progress.control);
+        return;
+    }
+    _work.MarkArrived(robot);
+    if (plan.record.progress.control == EPlanControl::Cancel)
+    {
+        _answers.Answer(plan, false, "The robot has arrived.");
+        if (plan.record.progress.state != EPlanState::Paused)
+        {
+            _controls.ContinueAfterControl(robot);
+        }
+    }
+    // Otherwise the work begins when the robot is available again: a drive may end while its arm is disconnected.
+    if (robot.IsUsable())
+    {
+        _work.BeginWork(robot);
+    }
+}
+
+void DriveOutcomes::OnDriveRejected(Robot& robot, const DriveRejected& event)
+{
+    if (!robot.drive.has_value() || robot.drive->driveID != event.driveID)
+    {
+        return;
+    }
+    const EDriveGoal goal = robot.drive->goal;
+    _coordinator.EndDrive(robot);
+    _transaction.Note(robot, "did not complete its drive: " + event.reason);
+    if (goal == EDriveGoal::Home)
+    {
+        _coordinator.RefuseHome(robot);
+        return;
+    }
+    if (robot.planOrNull == nullptr)
+    {
+        return;
+    }
+    ActivePlan& plan = *robot.planOrNull;
+    if (robot.IsEnding())
+    {
+        _work.EndByControl(plan, *plan.record.progress.control);
+        return;
+    }
+    _work.FailPlan(plan, fmt::format("{} did not complete its drive: {}", robot.GetID(), event.reason));
+}
+
+void DriveOutcomes::OnDriveCancelled(Robot& robot, const DriveCancelled& event)
+{
+    if (!robot.drive.has_value() || robot.drive->driveID != event.driveID)
+    {
+        return;
+    }
+    const std::vector<RouteNode>& nodes = robot.drive->route.nodes;
+    const auto found = std::ranges::find(nodes, event.nodeID, &RouteNode::nodeID);
+    const auto routeIndex = static_cast<std::size_t>(found - nodes.begin());
+    if (found != nodes.end() && routeIndex > robot.drive->passed && !_coordinator.TryAdvance(robot, routeIndex))
+    {
+        OnDriveRejected(robot, DriveRejected{event.driveID, "it entered a node that is reserved for another robot"});
+        robot.place.bPlaced = false;
+        return;
+    }
+    const bool bWanted = robot.IsEnding();
+    if (robot.drive->reroute.has_value() && !bWanted)
+    {
+        Reroute reroute = std::move(*robot.drive->reroute);
+        _coordinator.EndDrive(robot);
+        _coordinator.BeginReroute(robot, std::move(reroute.route), reroute.bRetreats);
+        return;
+    }
+    if (robot.drive->cancellation != ECancellation::None && !bWanted)
+    {
+        // Cancelled after the time limit: the plan continues with another drive.
+        robot.parking.retreatNode.reset();
+        _coordinator.EndDrive(robot);
+        return;
+    }
+    OnDriveRejected(robot, DriveRejected{event.driveID, "it was cancelled"});
+}
+
+} // namespace ACS::Planning

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "control/ControlAnswers.hpp"
+#include "traffic/DeadlockResolver.hpp"
+#include "traffic/TrafficCoordinator.hpp"
+#include "traffic/WaitingRobots.hpp"
+#include "transaction/EngineState.hpp"
+#include "work/PlanControls.hpp"
+#include "work/PlanWork.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+/// Owns the DeadlockResolver. Starts drives, and handles what robots report of them.
+class DriveOutcomes
+{
+    const EngineOptions& _options;
+    const SiteMap& _site;
+    const Fleet& _fleet;
+    EngineTransaction& _transaction;
+    ControlAnswers& _answers;
+    WaitingRobots& _waiting;
+    TrafficCoordinator& _coordinator;
+    DeadlockResolver _deadlocks;
+    PlanWork& _work;
+    PlanControls& _controls;
+
+public:
+    DriveOutcomes(
+        EngineState& engine,
+        TscControl& tsc,
+        ControlAnswers& answers,
+        PlaceTracker& places,
+        WaitingRobots& waiting,
+        TrafficCoordinator& coordinator,
+        PlanWork& work,
+        PlanControls& controls);
+
+    /// Extends drives first, because their robots are on lanes; then starts robots with a plan.
+    void MoveWaiting();
+    /// Starts idle robots towards their homes.
+    void SendIdleHome();
+    /// Sets one robot at a time in motion until each waiting robot waits for one that makes progress.
+    void ResolveDeadlocks();
+    void OnNodePassed(Robot& robot, const NodePassed& event);
+    void OnArrived(Robot& robot, const Arrived& event);
+    void OnDriveRejected(Robot& robot, const DriveRejected& event);
+    void OnDriveCancelled(Robot& robot, const DriveCancelled& event);
+
+private:
+    /// Tries to drive, and begins the work or fails the plan. Returns whether the robot drives or is at its target.
+    [[nodiscard]] bool MoveRobot(Robot& robot);
+    void OnNoRoute(Robot& robot, std::size_t target);
+};
+
+} // namespace ACS::Planning

@@ -1,0 +1,379 @@
+#include "work/PlanControls.hpp"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+PlanControls::PlanControls(
+    EngineState& engine,
+    const TscControl& tsc,
+    ControlAnswers& answers,
+    const WaitingRobots& waiting,
+    TrafficCoordinator& coordinator,
+    StatusPublisher& status,
+    PlanWork& work)
+    : _options(engine.options),
+      _plans(engine.plans),
+      _fleet(engine.fleet),
+      _transaction(engine.transaction),
+      _call(engine.call),
+      _backlog(engine.backlog),
+      _tsc(tsc),
+      _answers(answers),
+      _waiting(waiting),
+      _coordinator(coordinator),
+      _status(status),
+      _work(work)
+{
+}
+
+void PlanControls::Control(const ControlPlan& command)
+{
+    const bool bRepeated = _answers.IsRepetition(command);
+    if (_backlog.IsFailing()
+        && (!bRepeated || _call.unstoredControlIDs.contains(ControlAnswers::MakeRequestID(command))))
+    {
+        _transaction.Emit(ReplyCommand{
+            command.replyToken,
+            false,
+            "The request cannot be stored because the store is failing. Send it again."});
+        return;
+    }
+    if (bRepeated)
+    {
+        _transaction.Emit(ReplyCommand{command.replyToken, true, "Received."});
+        return;
+    }
+    _call.controlID = ControlAnswers::MakeRequestID(command);
+    ActivePlan* planOrNull = _plans.FindActiveOrNull(command.planID);
+    if (planOrNull == nullptr)
+    {
+        _answers.RefuseControl(command);
+        return;
+    }
+    _transaction.Emit(ReplyCommand{command.replyToken, true, "Received."});
+    ActivePlan& plan = *planOrNull;
+    _answers.Remember(plan.record.progress, command);
+    if (plan.record.progress.control == command.control)
+    {
+        ++plan.record.progress.controlCount;
+        _plans.MarkProgressed(command.planID);
+        return;
+    }
+    const bool bEnding = plan.record.progress.control == EPlanControl::Abort
+        || (plan.record.progress.control == EPlanControl::Cancel && command.control != EPlanControl::Abort);
+    if (bEnding)
+    {
+        _answers.ReportControlResult(
+            command.control,
+            command.planID,
+            false,
+            fmt::format("{}Plan is already in progress for this plan.", GetText(*plan.record.progress.control)));
+        return;
+    }
+    Apply(command.control, plan);
+}
+
+void PlanControls::Apply(EPlanControl control, ActivePlan& plan)
+{
+    switch (control)
+    {
+        case EPlanControl::Cancel:
+            Cancel(plan);
+            break;
+        case EPlanControl::Abort:
+            Abort(plan);
+            break;
+        case EPlanControl::Pause:
+            Pause(plan);
+            break;
+        case EPlanControl::Resume:
+            Resume(plan);
+            break;
+        default:
+            assert(false && "a control has no case");
+            break;
+    }
+}
+
+void PlanControls::Cancel(ActivePlan& plan)
+{
+    if (!IsCancellable(plan))
+    {
+        const char* reason = _options.controls.cancelUntil == ECancelWindow::Dispatch
+            ? "The plan is assigned to a robot."
+            : (plan.bJobBegun ? "The first job has started." : "The robot has arrived.");
+        _answers.ReportControlResult(EPlanControl::Cancel, plan.record.plan.planID, false, reason);
+        return;
+    }
+    _answers.Answer(plan, false, "Superseded by CancelPlan.");
+    StopDrive(plan, EPlanControl::Cancel);
+}
+
+void PlanControls::Abort(ActivePlan& plan)
+{
+    _answers.Answer(plan, false, "Superseded by AbortPlan.");
+    const bool bJobRuns = plan.robot.has_value() && _fleet[*plan.robot].activity == EActivity::Works;
+    if (!bJobRuns)
+    {
+        StopDrive(plan, EPlanControl::Abort);
+        return;
+    }
+    Robot& robot = _fleet[*plan.robot];
+    _answers.Ask(plan, EPlanControl::Abort);
+    if (robot.job.IsUnresolved())
+    {
+        _work.AbortUnresolvedJob(robot);
+        return;
+    }
+    const bool bPaused = plan.record.progress.state == EPlanState::Paused;
+    const bool bFinishes = bPaused ? _options.controls.bAbortFinishesPausedJob : !_options.controls.bAbortStopsJob;
+    if (!bFinishes)
+    {
+        _work.DropJob(robot);
+        _work.EndByControl(plan, EPlanControl::Abort);
+        return;
+    }
+    _answers.ReleasePause(robot);
+    if (plan.jobTimeLeft.has_value())
+    {
+        _work.StartJobTimer(robot, *std::exchange(plan.jobTimeLeft, std::nullopt));
+    }
+}
+
+bool PlanControls::IsCancellable(const ActivePlan& plan) const
+{
+    switch (_options.controls.cancelUntil)
+    {
+        case ECancelWindow::Dispatch:
+            return !plan.robot.has_value();
+        case ECancelWindow::FirstJob:
+            return !plan.bJobBegun;
+        case ECancelWindow::FirstArrival:
+        default:
+            return !plan.record.progress.bArrived;
+    }
+}
+
+void PlanControls::StopDrive(ActivePlan& plan, EPlanControl control)
+{
+    _answers.Ask(plan, control);
+    Robot* robotOrNull = plan.robot.has_value() ? &_fleet[*plan.robot] : nullptr;
+    if (robotOrNull == nullptr || !robotOrNull->drive.has_value() || robotOrNull->drive->goal == EDriveGoal::Home)
+    {
+        _work.EndByControl(plan, control);
+        return;
+    }
+    if (std::exchange(robotOrNull->drive->cancellation, ECancellation::Awaited) != ECancellation::Awaited)
+    {
+        _transaction.Command(*robotOrNull, CancelDrive{robotOrNull->drive->driveID});
+    }
+    // A paused vehicle between two nodes may have to reach the next one before it can cancel its drive.
+    _answers.ReleasePause(*robotOrNull);
+    _answers.StartConfirming(*robotOrNull, _options.controls.cancelTimeout);
+}
+
+void PlanControls::ContinueAfterControl(Robot& robot)
+{
+    ActivePlan& plan = *robot.planOrNull;
+    _answers.ReleasePause(robot);
+    _transaction.RequestDispatch();
+    robot.changes.bStatus = true;
+    if (plan.next == EContinuation::End)
+    {
+        _work.EndPlan(plan, EPlanState::Completed, {});
+        return;
+    }
+    if (plan.jobTimeLeft.has_value())
+    {
+        _work.StartJobTimer(robot, *std::exchange(plan.jobTimeLeft, std::nullopt));
+    }
+    if (plan.next == EContinuation::Step)
+    {
+        _work.BeginStep(plan, robot);
+    }
+    if (robot.drive.has_value())
+    {
+        _coordinator.ExtendBase(robot);
+    }
+}
+
+void PlanControls::OnControlTimeout(Robot& robot)
+{
+    if (!std::exchange(robot.control.bConfirming, false))
+    {
+        return;
+    }
+    _coordinator.AbandonReroute(robot);
+    if (robot.planOrNull == nullptr || !robot.planOrNull->record.progress.control.has_value())
+    {
+        return;
+    }
+    ActivePlan& plan = *robot.planOrNull;
+    const EPlanControl control = *plan.record.progress.control;
+    if (robot.drive.has_value())
+    {
+        robot.drive->StopAwaitingCancellation();
+        _work.UpdateApproach(robot);
+    }
+    const bool bStaysPaused = control != EPlanControl::Pause && plan.record.progress.state == EPlanState::Paused;
+    if (bStaysPaused)
+    {
+        _answers.Answer(
+            plan,
+            false,
+            control == EPlanControl::Resume ? "The robot did not confirm that it resumed; the plan stays paused."
+                                            : "The robot did not confirm that it stopped; the plan stays paused.");
+        robot.control.pause.Pause();
+        _transaction.Command(robot, Planning::Pause{});
+        return;
+    }
+    if (plan.record.progress.state == EPlanState::Paused)
+    {
+        _answers.LeavePause(plan, "PausePlan failed: the robot did not confirm that it stopped.");
+    }
+    _answers.Answer(plan, false, "The robot did not confirm that it stopped; the plan continues.");
+    ContinueAfterControl(robot);
+}
+
+void PlanControls::Pause(ActivePlan& plan)
+{
+    const bool bPaused = plan.record.progress.state == EPlanState::Paused;
+    if (bPaused && !plan.record.progress.control.has_value())
+    {
+        _answers.ReportControlResult(EPlanControl::Pause, plan.record.plan.planID, true, "The plan is already paused.");
+        return;
+    }
+    _answers.Answer(plan, false, "Superseded by PausePlan.");
+    _answers.Ask(plan, EPlanControl::Pause);
+    if (!plan.robot.has_value())
+    {
+        _plans.Dequeue(plan);
+        _transaction.ChangePlan(plan, EPlanState::Paused, "Held in the queue by PausePlan.");
+        _answers.Answer(plan, true, "The plan is held in the queue.");
+        return;
+    }
+    Robot& robot = _fleet[*plan.robot];
+    const bool bWorks = robot.activity == EActivity::Works;
+    if (bWorks && _options.controls.bPausesAfterJob)
+    {
+        return; // confirmed at the end of the job
+    }
+    if (!bWorks && !robot.drive.has_value())
+    {
+        _work.ConfirmPause(robot);
+        return;
+    }
+    robot.control.pause.Pause();
+    _transaction.Command(robot, Planning::Pause{});
+    _answers.StartConfirming(robot, _options.controls.pauseTimeout);
+    UpdatePause(robot, false, false);
+}
+
+void PlanControls::Resume(ActivePlan& plan)
+{
+    const std::string& planID = plan.record.plan.planID;
+    if (plan.record.progress.state != EPlanState::Paused)
+    {
+        _answers.ReportControlResult(EPlanControl::Resume, planID, false, "The plan is not paused.");
+        return;
+    }
+    if (_tsc.GetState() != ETscState::Auto && plan.robot.has_value())
+    {
+        _answers.ReportControlResult(
+            EPlanControl::Resume,
+            planID,
+            false,
+            fmt::format("The TSC is {}. Resume the plan when it is Auto.", GetText(_tsc.GetState())));
+        return;
+    }
+    _answers.Answer(plan, false, "Superseded by ResumePlan.");
+    _answers.Ask(plan, EPlanControl::Resume);
+    if (!plan.robot.has_value())
+    {
+        _answers.LeavePause(plan, "Resumed by ResumePlan.");
+        _plans.Enqueue(plan);
+        _answers.Answer(plan, true, "The plan is back in the queue.");
+        _transaction.RequestDispatch();
+        return;
+    }
+    Robot& robot = _fleet[*plan.robot];
+    const bool bShowsPaused = robot.view.state.has_value() && robot.view.state->bPaused;
+    if (!robot.control.pause.IsPaused() && !bShowsPaused)
+    {
+        ConfirmResume(robot);
+        return;
+    }
+    robot.control.pause.Resume();
+    _transaction.Command(robot, Planning::Resume{});
+    _answers.StartConfirming(robot, _options.controls.pauseTimeout);
+}
+
+void PlanControls::UpdatePause(Robot& robot, bool bBack, bool bWasPaused)
+{
+    if (!robot.view.state.has_value())
+    {
+        return;
+    }
+    const StateChanged& state = *robot.view.state;
+    const PauseTracker::ERepeat repeat =
+        robot.control.pause.OnState(state.bPaused, bWasPaused, state.bAutomatic, bBack);
+    if (repeat == PauseTracker::ERepeat::Resume)
+    {
+        _transaction.Command(robot, Planning::Resume{});
+    }
+    else if (repeat == PauseTracker::ERepeat::Pause)
+    {
+        _transaction.Note(robot, "pause command repeated");
+        _transaction.Command(robot, Planning::Pause{});
+    }
+    const std::optional<EPlanControl> control =
+        robot.planOrNull == nullptr ? std::nullopt : robot.planOrNull->record.progress.control;
+    if (control == EPlanControl::Pause && robot.control.pause.IsPaused() && state.bPaused && !state.bDriving)
+    {
+        _work.ConfirmPause(robot);
+    }
+    else if (control == EPlanControl::Resume && !state.bPaused)
+    {
+        ConfirmResume(robot);
+    }
+}
+
+void PlanControls::ConfirmResume(Robot& robot)
+{
+    ActivePlan& plan = *robot.planOrNull;
+    _status.PublishStatus(robot, _status.DeriveStatus(robot));
+    _answers.LeavePause(plan, "Resumed by ResumePlan.");
+    _answers.Answer(plan, true, "The plan continues.");
+    ContinueAfterControl(robot);
+}
+
+void PlanControls::UpdateStandstill(Robot& robot)
+{
+    const StateChanged& state = *robot.view.state;
+    if (!robot.control.bStandstillAwaited || !robot.place.bPlaced || state.bOccupied || state.bDriving)
+    {
+        return;
+    }
+    robot.control.bStandstillAwaited = false;
+    ActivePlan& plan = *robot.planOrNull;
+    const EPlanControl control = *plan.record.progress.control;
+    const bool bArrived = robot.place.node == _waiting.GetTargetOrNull(robot);
+    if (control != EPlanControl::Cancel || !bArrived || _options.controls.cancelUntil == ECancelWindow::FirstJob)
+    {
+        _work.EndByControl(plan, control);
+        return;
+    }
+    _work.MarkArrived(robot);
+    _answers.Answer(plan, false, "The robot has arrived.");
+    if (plan.record.progress.state != EPlanState::Paused)
+    {
+        ContinueAfterControl(robot);
+    }
+}
+
+} // namespace ACS::Planning

@@ -1,0 +1,452 @@
+#include "work/PlanWork.hpp"
+
+#include "robot/JobCommand.hpp"
+#include <acs/core/Uuid.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+PlanWork::PlanWork(EngineState& engine, ControlAnswers& answers, LoadWatch& loads, StatusPublisher& status)
+    : _options(engine.options),
+      _random(engine.random),
+      _plans(engine.plans),
+      _fleet(engine.fleet),
+      _alarms(engine.alarms),
+      _transaction(engine.transaction),
+      _call(engine.call),
+      _answers(answers),
+      _loads(loads),
+      _status(status)
+{
+}
+
+void PlanWork::BeginPlan(ActivePlan& plan, Robot& robot)
+{
+    _plans.Dequeue(plan);
+    plan.robot = robot.index;
+    plan.rejections.clear();
+    plan.record.progress.robotID = robot.GetID();
+    robot.planOrNull = &plan;
+    robot.parking.bRefused = false;
+    robot.work.BeginPlan(robot.view.state.has_value() ? robot.view.state->shownCommandID : std::nullopt);
+    robot.changes.bWork = true;
+    _call.begunPlanIDs.push_back(plan.record.plan.planID);
+    _transaction.ChangePlan(plan, EPlanState::InProgress, fmt::format("Assigned to {}.", robot.GetID()));
+    BeginStep(plan, robot);
+}
+
+void PlanWork::BeginStep(ActivePlan& plan, Robot& robot)
+{
+    plan.job = 0;
+    plan.next = EContinuation::Job;
+    plan.bStepArrived = false;
+    robot.activity = EActivity::Waits;
+    robot.changes.bStatus = true;
+    robot.search.plannedRoute.reset();
+    robot.search.detours = 0;
+    _transaction.ChangeStep(plan, EStepState::Dispatched, {});
+    _transaction.RequestDispatch();
+}
+
+void PlanWork::MarkStepBegun(ActivePlan& plan)
+{
+    if (plan.record.progress.steps[plan.step].state == EStepState::Dispatched)
+    {
+        _transaction.ChangeStep(plan, EStepState::InProgress, {});
+    }
+}
+
+void PlanWork::MarkArrived(Robot& robot)
+{
+    ActivePlan& plan = *robot.planOrNull;
+    if (!std::exchange(plan.record.progress.bArrived, true))
+    {
+        _plans.MarkProgressed(plan.record.plan.planID);
+    }
+    MarkStepBegun(plan);
+    if (!std::exchange(plan.bStepArrived, true))
+    {
+        _status.PublishStatus(robot, ERobotStatus::Arrival);
+    }
+}
+
+void PlanWork::UpdateApproach(Robot& robot)
+{
+    const ActiveDrive& drive = *robot.drive;
+    if (drive.bTaken && drive.goal == EDriveGoal::Step && robot.planOrNull != nullptr && !drive.IsCancelling()
+        && drive.IsApproaching())
+    {
+        MarkArrived(robot);
+    }
+}
+
+void PlanWork::BeginWork(Robot& robot)
+{
+    MarkArrived(robot);
+    if (robot.planOrNull->bUnstored || PortCheck::DescribeMissingTrayOrNull(robot).has_value())
+    {
+        return; // the start of the plan is not stored yet, or the tray is missing
+    }
+    robot.activity = EActivity::Works;
+    BeginJob(robot);
+}
+
+void PlanWork::BeginJob(Robot& robot)
+{
+    ActivePlan& plan = *robot.planOrNull;
+    robot.changes.bStatus = true;
+    plan.bJobBegun = true;
+    if (!HasJob(plan))
+    {
+        plan.madeJobID = Core::MakeUUID(_random);
+    }
+    if (robot.work.IsDoubtful())
+    {
+        SuspendDoubtfulJob(robot);
+        return;
+    }
+    if (HasJob(plan) && GetJobState(plan) == EJobState::Pending)
+    {
+        _transaction.ChangeJob(plan, EJobState::Instructed, {});
+    }
+    const std::string repeated = std::exchange(plan.repeatedCommandID, {});
+    StartJob job = MakeStartJob(robot);
+    job.commandID = repeated.empty() ? Core::MakeUUID(_random) : repeated;
+    job.jobNumber = robot.work.NumberJob(!repeated.empty(), _random);
+    job.mark = robot.view.state.has_value() ? robot.view.state->mark : std::string();
+    robot.work.AddCommand(job.commandID);
+    robot.job.Begin(job);
+    _transaction.Command(robot, std::move(job));
+    LimitJob(robot);
+}
+
+void PlanWork::LimitJob(Robot& robot)
+{
+    const ActivePlan& plan = *robot.planOrNull;
+    const std::chrono::milliseconds timeout = plan.resolved.steps[plan.step].rule->timeout;
+    if (timeout.count() > 0)
+    {
+        StartJobTimer(robot, timeout);
+    }
+}
+
+void PlanWork::StartJobTimer(Robot& robot, Core::Duration limit)
+{
+    robot.planOrNull->jobDeadline = _transaction.GetNow().steady + limit;
+    _transaction.StartTimer(EEngineTimer::JobTimeout, robot.GetID(), limit);
+}
+
+void PlanWork::StopJobTimer(Robot& robot)
+{
+    if (robot.planOrNull->jobDeadline.has_value())
+    {
+        robot.planOrNull->jobDeadline.reset();
+        _transaction.CancelTimer(EEngineTimer::JobTimeout, robot.GetID());
+    }
+}
+
+void PlanWork::EndJob(Robot& robot, std::string message)
+{
+    ActivePlan& plan = *robot.planOrNull;
+    StopJobTimer(robot);
+    ReleaseJob(robot);
+    plan.jobTimeLeft.reset();
+    _loads.MoveCarrier(robot, MakeStartJob(robot));
+    _transaction.ChangeJob(plan, EJobState::Completed, std::move(message));
+    const bool bStepDone = plan.job + 1 >= plan.record.plan.steps[plan.step].jobs.size();
+    const bool bAborting = plan.record.progress.control == EPlanControl::Abort;
+    if (bStepDone && (!bAborting || _options.controls.bAbortReportsStep))
+    {
+        _transaction.ChangeStep(plan, EStepState::Completed, {});
+    }
+    if (bAborting)
+    {
+        EndByControl(plan, EPlanControl::Abort);
+        return;
+    }
+    if (bStepDone)
+    {
+        LeaveStep(robot);
+        return;
+    }
+    ++plan.job;
+    ContinuePlan(robot);
+}
+
+void PlanWork::LeaveStep(Robot& robot)
+{
+    ActivePlan& plan = *robot.planOrNull;
+    const std::optional<std::size_t> next = FindOpenStepOrNull(plan, plan.step + 1);
+    plan.next = next.has_value() ? EContinuation::Step : EContinuation::End;
+    if (!next.has_value() && plan.record.progress.state != EPlanState::Paused)
+    {
+        EndPlan(plan, EPlanState::Completed, {});
+        return;
+    }
+    if (next.has_value())
+    {
+        plan.step = *next;
+        plan.job = 0;
+    }
+    ContinuePlan(robot);
+}
+
+void PlanWork::ContinuePlan(Robot& robot)
+{
+    const ActivePlan& plan = *robot.planOrNull;
+    if (!robot.IsHeld())
+    {
+        BeginNext(robot);
+        return;
+    }
+    // Continues when the pause ends.
+    robot.activity = EActivity::Waits;
+    robot.changes.bStatus = true;
+    if (plan.record.progress.control == EPlanControl::Pause && !robot.control.pause.IsPaused())
+    {
+        ConfirmPause(robot);
+    }
+}
+
+void PlanWork::BeginNext(Robot& robot)
+{
+    if (robot.planOrNull->next == EContinuation::Step)
+    {
+        BeginStep(*robot.planOrNull, robot);
+        return;
+    }
+    if (robot.IsUsable() && !PortCheck::DescribeMissingTrayOrNull(robot).has_value())
+    {
+        BeginJob(robot);
+        return;
+    }
+    // Continues when the robot, or the tray, is available again.
+    robot.activity = EActivity::Waits;
+    robot.changes.bStatus = true;
+}
+
+void PlanWork::ConfirmPause(Robot& robot)
+{
+    ActivePlan& plan = *robot.planOrNull;
+    if (plan.jobDeadline.has_value())
+    {
+        const Core::Duration least = std::chrono::milliseconds(1);
+        plan.jobTimeLeft = std::max(least, *plan.jobDeadline - _transaction.GetNow().steady);
+        StopJobTimer(robot);
+    }
+    _status.PublishStatus(robot, ERobotStatus::Stopped);
+    robot.changes.bStatus = true;
+    if (plan.record.progress.state != EPlanState::Paused)
+    {
+        _transaction.ChangePlan(plan, EPlanState::Paused, "Paused by PausePlan.");
+    }
+    _answers.Answer(plan, true, "The plan is paused.");
+}
+
+void PlanWork::FailPlan(ActivePlan& plan, const std::string& reason)
+{
+    const bool bAborting =
+        plan.record.progress.control == EPlanControl::Abort && !_options.controls.bJobFailureFailsAbort;
+    if (plan.record.progress.state == EPlanState::Paused && !bAborting)
+    {
+        _answers.LeavePause(plan, reason);
+    }
+    const EJobState job = GetJobState(plan);
+    if (job == EJobState::Instructed || job == EJobState::InProgress)
+    {
+        _transaction.ChangeJob(plan, EJobState::Failed, reason);
+    }
+    if (bAborting)
+    {
+        EndByControl(plan, EPlanControl::Abort);
+        return;
+    }
+    const EStepState step = plan.record.progress.steps[plan.step].state;
+    if (step == EStepState::Dispatched || step == EStepState::InProgress)
+    {
+        _transaction.ChangeStep(plan, EStepState::Failed, reason);
+    }
+    EndPlan(plan, EPlanState::Failed, reason);
+}
+
+void PlanWork::EndPlan(ActivePlan& plan, EPlanState state, const std::string& message)
+{
+    if (!PlanBook::CanEnd(plan, state))
+    {
+        _answers.LeavePause(plan, message);
+    }
+    _transaction.ChangePlan(plan, state, message);
+    const bool bAsAsked = (plan.record.progress.control == EPlanControl::Cancel && state == EPlanState::Cancelled)
+        || (plan.record.progress.control == EPlanControl::Abort && state == EPlanState::Aborted);
+    const bool bReasoned = !bAsAsked && !message.empty();
+    _answers.Answer(
+        plan,
+        bAsAsked,
+        fmt::format("The plan is {}{}{}", GetText(state), bReasoned ? ": " : ".", bReasoned ? message : ""));
+    if (plan.robot.has_value())
+    {
+        Robot& robot = _fleet[*plan.robot];
+        StopJobTimer(robot);
+        _answers.ReleasePause(robot);
+        if (!robot.job.IsOverdue())
+        {
+            ReleaseJob(robot);
+        }
+        robot.planOrNull = nullptr;
+        robot.activity = EActivity::Idle;
+        robot.changes.bWork = robot.work.TryClearDoubt() || robot.changes.bWork;
+        robot.parking.retreatNode.reset();
+        robot.changes.bStatus = true;
+        robot.search.plannedRoute.reset();
+    }
+    _transaction.RequestDispatch();
+    if (state == EPlanState::Completed)
+    {
+        // A robot that has completed a plan was checked; otherwise these alarms would stay indefinitely.
+        _transaction.ReportAlarms(_alarms.ClearIf([&plan](const Alarm& alarm) {
+            return alarm.robotID == plan.record.progress.robotID
+                && (alarm.errorCode == ALARM_INTERRUPTED || alarm.errorCode == ALARM_DROPPED);
+        }));
+    }
+    _transaction.Store(_plans.End(plan));
+}
+
+void PlanWork::EndByControl(ActivePlan& plan, EPlanControl control)
+{
+    EndPlan(
+        plan,
+        control == EPlanControl::Cancel ? EPlanState::Cancelled : EPlanState::Aborted,
+        fmt::format("Ended by {}Plan.", GetText(control)));
+}
+
+void PlanWork::DropJob(Robot& robot)
+{
+    const ActivePlan& plan = *robot.planOrNull;
+    robot.job.MarkOverdue();
+    _transaction.Command(robot, CancelJob{GetJobID(plan)});
+    _transaction.StartTimer(EEngineTimer::JobEnd, robot.GetID(), _options.controls.jobEndTimeout);
+    if (GetJobState(plan) == EJobState::InProgress)
+    {
+        RaiseDropped(robot);
+    }
+}
+
+void PlanWork::RaiseDropped(const Robot& robot)
+{
+    const ActionRule& rule = *robot.planOrNull->resolved.steps[robot.planOrNull->step].rule;
+    if (rule.from != EPlaceRule::None || rule.to != EPlaceRule::None)
+    {
+        _transaction.RaiseAlarm(MakeDroppedAlarm(robot));
+    }
+}
+
+Alarm PlanWork::MakeDroppedAlarm(const Robot& robot) const
+{
+    Alarm alarm = MakeAlarm(
+        robot.GetID(),
+        ALARM_DROPPED,
+        EAlarmLevel::Heavy,
+        "Job cancelled after it had begun. Check whether the robot still has the carrier.");
+    AddJob(alarm, *robot.job.GetOrNull());
+    return alarm;
+}
+
+void PlanWork::SuspendDoubtfulJob(Robot& robot)
+{
+    robot.planOrNull->repeatedCommandID.clear();
+    robot.job.Begin(MakeStartJob(robot));
+    robot.changes.bWork = true;
+    SuspendJob(robot, "the robot may have done work that the ACS could not store before it stopped");
+}
+
+void PlanWork::SuspendJob(Robot& robot, const std::string& reason)
+{
+    robot.job.MarkUnresolved();
+    robot.changes.bStatus = true;
+    const StartJob& job = *robot.job.GetOrNull();
+    Alarm alarm = MakeUnresolvedAlarm(robot);
+    const bool bOfPlan = robot.planOrNull != nullptr && !robot.job.IsOverdue();
+    alarm.message = fmt::format(
+        "Outcome of {} at {} unknown: {}. Check the robot and the station, then answer {}.",
+        job.action,
+        job.position,
+        reason,
+        bOfPlan
+            ? "done (the plan continues with the next job), failed (the plan fails) or again (the job was not done and "
+              "nothing was moved: it is repeated). Or skip the step (the plan continues with the next step, and the job has no "
+              "further report), or abort the plan from the MCS"
+            : "done (the carrier was moved) or failed (it was not). The robot is available again after that");
+    _transaction.RaiseAlarm(std::move(alarm));
+    if (!bOfPlan)
+    {
+        return;
+    }
+    StopJobTimer(robot);
+    if (robot.planOrNull->record.progress.control == EPlanControl::Abort)
+    {
+        AbortUnresolvedJob(robot);
+    }
+}
+
+void PlanWork::AbortUnresolvedJob(Robot& robot)
+{
+    RaiseDropped(robot);
+    EndByControl(*robot.planOrNull, EPlanControl::Abort);
+}
+
+Alarm PlanWork::MakeUnresolvedAlarm(const Robot& robot) const
+{
+    Alarm alarm = MakeAlarm(robot.GetID(), ALARM_UNRESOLVED, EAlarmLevel::Heavy, {});
+    AddJob(alarm, *robot.job.GetOrNull());
+    return alarm;
+}
+
+void PlanWork::ReleaseJob(Robot& robot)
+{
+    if (robot.job.GetOrNull() == nullptr)
+    {
+        return;
+    }
+    _transaction.ClearAlarm(MakeUnresolvedAlarm(robot));
+    robot.job.Release();
+    robot.changes.bWork = true;
+}
+
+void PlanWork::RepeatJob(Robot& robot, std::string commandID)
+{
+    StopJobTimer(robot);
+    ReleaseJob(robot);
+    robot.planOrNull->repeatedCommandID = std::move(commandID);
+    robot.activity = EActivity::Waits;
+    robot.changes.bStatus = true;
+    _transaction.RequestDispatch();
+    if (robot.planOrNull->record.progress.control == EPlanControl::Pause && !robot.control.pause.IsPaused())
+    {
+        ConfirmPause(robot); // the pause was waiting for the end of the job
+    }
+}
+
+void PlanWork::EndRecovery(Robot& robot)
+{
+    if (!robot.job.TryEndRecovery())
+    {
+        return;
+    }
+    _transaction.ClearAlarm(MakeUnresolvedAlarm(robot));
+    if (robot.planOrNull->record.progress.state == EPlanState::Paused)
+    {
+        const std::chrono::milliseconds timeout =
+            robot.planOrNull->resolved.steps[robot.planOrNull->step].rule->timeout;
+        robot.planOrNull->jobTimeLeft = timeout.count() > 0 ? std::optional<Core::Duration>(timeout) : std::nullopt;
+        return;
+    }
+    LimitJob(robot);
+}
+
+} // namespace ACS::Planning

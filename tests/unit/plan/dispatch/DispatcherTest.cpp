@@ -1,0 +1,88 @@
+#include "Catch.hpp"
+#include "fixtures/EngineParts.hpp"
+#include "fixtures/PlanWorld.hpp"
+
+#include <memory>
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixtures
+
+namespace
+{
+
+class SingleActionCheck final : public IJobCheck
+{
+    std::string _rejected;
+
+public:
+    explicit SingleActionCheck(std::string rejected)
+        : _rejected(std::move(rejected))
+    {
+    }
+
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const StartJob& job) const override
+    {
+        return job.action == _rejected ? std::optional("no program for " + job.action) : std::nullopt;
+    }
+};
+
+} // namespace
+
+TEST_CASE("Dispatcher: the nearest of the free robots gets the plan")
+{
+    EngineParts parts(MakeTestOptions(true));
+    Robot& other = parts.engine.fleet[2];
+    const ActivePlan& plan = parts.AddLoad();
+    parts.PutOn(parts.lr, "D-A01.CP02");
+    CHECK(parts.dispatcher.FindNearestOrNull(plan) == &parts.lr);
+    parts.PutOn(other, "D-CHG03"); // one way: A01.CP02 is after A01.CP01
+    CHECK(parts.dispatcher.FindNearestOrNull(plan) == &other);
+    parts.PutOn(parts.lr, "D-CHG01");
+    CHECK(parts.dispatcher.FindNearestOrNull(plan) == &parts.lr);
+    parts.lr.view.bInMaintenance = true;
+    CHECK(parts.dispatcher.FindNearestOrNull(plan) == &other);
+    other.view.state->bAutomatic = false;
+    CHECK(parts.dispatcher.FindNearestOrNull(plan) == nullptr);
+}
+
+TEST_CASE("Dispatcher: a robot that is known to have the carrier comes before a nearer one")
+{
+    EngineParts parts(MakeTestOptions(true));
+    Plan plan = MakeLogisticsPlan("P1");
+    plan.steps.erase(plan.steps.begin());
+    plan.steps.front().carrierIDs.clear();
+    const ActivePlan& active = parts.Add(plan);
+    parts.PutOn(parts.lr, "D-CHG01");
+    parts.PutOn(parts.engine.fleet[2], "D-CHG03");
+    CHECK(parts.dispatcher.FindNearestOrNull(active) == &parts.lr);
+    parts.engine.fleet[2].ports.Correct({"CASSETTE_01"});
+    CHECK(parts.dispatcher.FindNearestOrNull(active) == &parts.engine.fleet[2]);
+}
+
+TEST_CASE("Dispatcher: a plan is kept from the robots that reject one of its jobs")
+{
+    EngineParts parts;
+    ActivePlan& plan = parts.AddLoad();
+    parts.PutOn(parts.lr, "D-CHG01");
+    parts.Discard();
+    parts.dispatcher.OnJobCheck(parts.lr, JobCheckChanged{std::make_shared<SingleActionCheck>("CassetteUnload")});
+    CHECK(parts.engine.transaction.IsDispatchNeeded());
+    REQUIRE(plan.rejections.contains(parts.lr.index));
+    CHECK(plan.rejections.at(parts.lr.index) == "no program for CassetteUnload");
+    CHECK(parts.dispatcher.FindNearestOrNull(plan) == nullptr);
+    CHECK(parts.dispatcher.IsRejectedByAll(plan));
+    parts.lr.view.bOnline = false;
+    CHECK_FALSE(parts.dispatcher.IsRejectedByAll(plan));
+    parts.lr.view.bOnline = true;
+    parts.dispatcher.OnJobCheck(parts.lr, JobCheckChanged{std::make_shared<SingleActionCheck>("TrayLoad")});
+    CHECK(plan.rejections.empty());
+    CHECK(parts.dispatcher.FindNearestOrNull(plan) == &parts.lr);
+}
+
+TEST_CASE("Dispatcher: a plan that a robot has keeps its robot")
+{
+    EngineParts parts;
+    ActivePlan& plan = parts.BeginDriveToLoad();
+    parts.dispatcher.OnJobCheck(parts.lr, JobCheckChanged{std::make_shared<SingleActionCheck>("CassetteLoad")});
+    CHECK(plan.rejections.empty());
+}

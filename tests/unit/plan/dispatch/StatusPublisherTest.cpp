@@ -1,0 +1,109 @@
+#include "Catch.hpp"
+#include "fixtures/EngineParts.hpp"
+#include "fixtures/PlanWorld.hpp"
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixtures
+
+TEST_CASE("StatusPublisher: the first rule that holds decides")
+{
+    EngineParts parts;
+    const auto derive = [&parts] {
+        return parts.status.DeriveStatus(parts.lr);
+    };
+    CHECK(derive() == ERobotStatus::Disconnected);
+    parts.lr.view.bOnline = true;
+    CHECK(derive() == ERobotStatus::Init);
+    parts.PutOn(parts.lr, "D-CHG01");
+    CHECK(derive() == ERobotStatus::Idle);
+    parts.lr.view.state->bOccupied = true;
+    CHECK(derive() == ERobotStatus::Working);
+    parts.lr.view.state->bCharging = true;
+    CHECK(derive() == ERobotStatus::Charging);
+    parts.lr.view.state->bAutomatic = false;
+    CHECK(derive() == ERobotStatus::Manual);
+    parts.lr.view.state->bPaused = true;
+    CHECK(derive() == ERobotStatus::Stopped);
+    parts.lr.view.state->errors = {RobotError{"AGV-1", EAlarmLevel::Light, {}}};
+    CHECK(derive() == ERobotStatus::Stopped);
+    parts.lr.view.state->errors = {RobotError{"AGV-1", EAlarmLevel::Heavy, {}}};
+    CHECK(derive() == ERobotStatus::Error);
+    parts.lr.view.bOnline = false;
+    CHECK(derive() == ERobotStatus::Disconnected);
+}
+
+TEST_CASE("StatusPublisher: a robot with a plan drives out of a station, along lanes, into a station, and works")
+{
+    EngineParts parts;
+    parts.PutOn(parts.lr, "D-CHG01");
+    parts.work.BeginPlan(parts.AddLoad(), parts.lr);
+    const auto derive = [&parts] {
+        return parts.status.DeriveStatus(parts.lr);
+    };
+    CHECK(derive() == ERobotStatus::Moving);
+    REQUIRE(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Begun);
+    ActiveDrive& drive = *parts.lr.drive;
+    drive.bTaken = true;
+    CHECK(derive() == ERobotStatus::UnDocking);
+    drive.passed = 1;
+    CHECK(derive() == ERobotStatus::Moving);
+    drive.passed = 3;
+    parts.lr.planOrNull->bStepArrived = true;
+    CHECK(derive() == ERobotStatus::Moving); // it waits for its last node
+    drive.grantedCount = drive.nodes.size();
+    CHECK(derive() == ERobotStatus::Docking);
+    parts.lr.planOrNull->bStepArrived = false;
+    CHECK(derive() == ERobotStatus::Moving);
+    parts.lr.drive.reset();
+    parts.lr.place.node = parts.FindNode("D-A01.CP01");
+    CHECK(derive() == ERobotStatus::Working);
+}
+
+TEST_CASE("StatusPublisher: a status is published where it may have changed and has")
+{
+    EngineParts parts;
+    parts.PutOn(parts.lr, "D-CHG01");
+    parts.Discard();
+    parts.lr.changes.bStatus = false;
+    parts.status.PublishStatusChanges();
+    CHECK(parts.Collect().actions.empty());
+    parts.lr.changes.bStatus = true;
+    parts.status.PublishStatusChanges();
+    const auto published = parts.Collect().ListActions<RobotStatusChanged>();
+    REQUIRE(published.size() == 1);
+    CHECK(published.front().status.robotID == "LR01");
+    CHECK(published.front().status.status == ERobotStatus::Idle);
+    CHECK(published.front().status == parts.status.GetRobotStatuses().front());
+    parts.lr.changes.bStatus = true;
+    parts.status.PublishStatusChanges();
+    CHECK(parts.Collect().actions.empty());
+}
+
+TEST_CASE("StatusPublisher: the status names plan, step, job and carriers")
+{
+    EngineParts parts;
+    parts.BeginLoad();
+    parts.lr.ports.Correct({"CASSETTE_01"});
+    parts.status.Reset(parts.lr);
+    CHECK(parts.Collect().actions.empty());
+    const RobotStatus& status = parts.status.GetRobotStatuses().front();
+    CHECK(status.status == ERobotStatus::Working);
+    CHECK(status.planID == "P1");
+    CHECK(status.stepNo == 1);
+    CHECK(status.jobID == "P1-a4");
+    CHECK(status.carrierIDs == std::vector<std::optional<std::string>>{"CASSETTE_01"});
+}
+
+TEST_CASE("StatusPublisher: the option decides which position a moving robot has")
+{
+    EngineOptions options = MakeTestOptions(false);
+    const auto [position, expected] = GENERATE(table<EMovingPosition, std::string>(
+        {{EMovingPosition::Last, "CHG01"}, {EMovingPosition::Target, "A01.CP01"}, {EMovingPosition::None, ""}}));
+    options.movingPosition = position;
+    EngineParts parts(options);
+    parts.BeginDriveToLoad();
+    parts.status.PublishStatus(parts.lr, ERobotStatus::Moving);
+    CHECK(parts.status.GetRobotStatuses().front().position == expected);
+    parts.status.PublishStatus(parts.lr, ERobotStatus::Docking);
+    CHECK(parts.status.GetRobotStatuses().front().position == "A01.CP01");
+}

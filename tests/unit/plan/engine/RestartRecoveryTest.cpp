@@ -1,0 +1,162 @@
+#include "engine/RestartRecovery.hpp"
+
+#include "Catch.hpp"
+#include "fixtures/EngineParts.hpp"
+#include "fixtures/PlanWorld.hpp"
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixtures
+
+namespace
+{
+
+struct RecoveryParts : EngineParts
+{
+    RestartRecovery recovery{engine, tsc, answers, places, status, work};
+};
+
+/// What a store holds of plan P1 and its robot LR01.
+StoredState StoreWork(const EngineParts& parts, const ActivePlan& plan)
+{
+    RobotWorkChanged work = parts.lr.work.Make("LR01");
+    if (const StartJob* jobOrNull = parts.lr.job.GetOrNull(); jobOrNull != nullptr)
+    {
+        work.job = *jobOrNull;
+    }
+    work.nodeIDs = parts.places.ListNodes(parts.lr);
+    StoredState stored;
+    stored.plans = {plan.record};
+    stored.robotWorks = {work};
+    return stored;
+}
+
+} // namespace
+
+TEST_CASE("RestartRecovery: plans are queued again, finished ones are history")
+{
+    RecoveryParts parts;
+    StoredState stored;
+    {
+        EngineParts before;
+        stored.plans = {before.AddLoad().record, before.Add(MakeLogisticsPlan("P2")).record};
+        stored.plans.front().progress.state = EPlanState::Completed;
+    }
+    parts.recovery.Restore(stored);
+    CHECK(parts.engine.plans.FindFinishedOrNull("P1") != nullptr);
+    REQUIRE(parts.engine.plans.ListStoredQueue().size() == 1);
+    CHECK(parts.engine.plans.ListStoredQueue().front()->record.plan.planID == "P2");
+    CHECK(parts.Collect().GetDelayOrNull(EEngineTimer::Dispatch).has_value());
+}
+
+TEST_CASE("RestartRecovery: a plan stays with its robot, which is asked for the outcome of its job")
+{
+    RecoveryParts parts;
+    EngineParts before;
+    const ActivePlan& plan = before.BeginLoad();
+    const StartJob job = *before.lr.job.GetOrNull();
+    parts.recovery.Restore(StoreWork(before, plan));
+    REQUIRE(parts.lr.planOrNull != nullptr);
+    CHECK(parts.lr.activity == EActivity::Works);
+    CHECK(parts.lr.job.IsRecovering());
+    const auto commands = parts.Collect().ListCommands<RecoverJob>();
+    REQUIRE(commands.size() == 1);
+    CHECK(commands.front().job == job);
+}
+
+TEST_CASE("RestartRecovery: the job of a plan that is over is overdue")
+{
+    RecoveryParts parts;
+    EngineParts before;
+    const ActivePlan& plan = before.BeginLoad();
+    StoredState stored = StoreWork(before, plan);
+    stored.plans.front().progress.state = EPlanState::Aborted;
+    parts.recovery.Restore(stored);
+    CHECK(parts.lr.planOrNull == nullptr);
+    CHECK(parts.lr.job.IsOverdue("P1-a4"));
+    const CallOutcome outcome = parts.Collect();
+    CHECK(outcome.ListCommands<RecoverJob>().size() == 1);
+    CHECK(outcome.GetDelayOrNull(EEngineTimer::JobEnd).has_value());
+}
+
+TEST_CASE("RestartRecovery: a plan whose robot is no longer configured fails with an alarm")
+{
+    RecoveryParts parts;
+    EngineParts before;
+    StoredState stored;
+    stored.plans = {before.BeginLoad().record};
+    stored.plans.front().progress.robotID = "LR09";
+    parts.recovery.Restore(stored);
+    const PlanRecord* recordOrNull = parts.engine.plans.FindFinishedOrNull("P1");
+    REQUIRE(recordOrNull != nullptr);
+    CHECK(recordOrNull->progress.state == EPlanState::Failed);
+    CHECK(parts.Collect().ListSetAlarms() == std::vector<std::string>{"ACS-1001"});
+}
+
+TEST_CASE("RestartRecovery: an open control is confirmed again")
+{
+    RecoveryParts parts;
+    EngineParts before;
+    ActivePlan& plan = before.BeginDriveToLoad();
+    plan.record.progress.control = GENERATE(EPlanControl::Cancel, EPlanControl::Pause);
+    parts.recovery.Restore(StoreWork(before, plan));
+    CHECK(parts.lr.planOrNull->record.progress.controlCount == 1);
+    CHECK(parts.lr.control.bConfirming);
+    CHECK(parts.Collect().GetDelayOrNull(EEngineTimer::ControlConfirm).has_value());
+    const bool bCancels = plan.record.progress.control == EPlanControl::Cancel;
+    CHECK(parts.lr.control.bStandstillAwaited == bCancels);
+    CHECK(parts.lr.control.pause.IsPaused() != bCancels);
+}
+
+TEST_CASE("RestartRecovery: work is held until every robot that is in service has reported")
+{
+    RecoveryParts parts;
+    EngineParts before;
+    const ActivePlan& plan = before.BeginDriveToLoad();
+    StoredState stored = StoreWork(before, plan);
+    stored.robotWorks.front().nodeIDs = {"L03"};
+    stored.robotsInMaintenance = {"CR01"};
+    parts.recovery.Restore(stored);
+    CHECK(parts.engine.startup.IsHoldingWork());
+    CHECK(parts.Collect().GetDelayOrNull(EEngineTimer::Startup) == parts.engine.options.restartWait);
+    parts.recovery.UpdateStartup();
+    CHECK(parts.engine.startup.IsHoldingWork());
+    parts.PutOn(parts.lr, "L03");
+    parts.Discard();
+    parts.recovery.UpdateStartup();
+    CHECK_FALSE(parts.engine.startup.IsHoldingWork());
+    CHECK(parts.engine.transaction.IsDispatchNeeded());
+    const CallOutcome outcome = parts.Collect();
+    CHECK(outcome.IsTimerCancelled(EEngineTimer::Startup));
+    CHECK(outcome.ListActions<TscStateChanged>() == std::vector{TscStateChanged{ETscState::Auto}});
+}
+
+TEST_CASE("RestartRecovery: after the wait each missing robot has an alarm, and its nodes stay reserved")
+{
+    RecoveryParts parts;
+    EngineParts before;
+    const ActivePlan& plan = before.BeginDriveToLoad();
+    StoredState stored = StoreWork(before, plan);
+    stored.robotWorks.front().nodeIDs = {"L03"};
+    parts.recovery.Restore(stored);
+    parts.cr.view.bOnline = true;
+    parts.Discard();
+    parts.recovery.EndStartup();
+    parts.recovery.RaiseMissing();
+    CHECK(parts.Collect().ListSetAlarms() == std::vector<std::string>{"ACS-1002", "ACS-1003"});
+    CHECK(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("L03")) == parts.lr.index);
+}
+
+TEST_CASE("RestartRecovery: alarms of robots that are gone and of drives are cleared")
+{
+    RecoveryParts parts;
+    StoredState stored;
+    stored.alarms = {
+        MakeLinkAlarm("LR09", {}),
+        MakeAlarm("LR01", ALARM_STALL, EAlarmLevel::Light, {}),
+        MakeAlarm("LR01", ALARM_PORT, EAlarmLevel::Light, {}),
+        MakeAlarm(OWN_ROBOT_ID, ALARM_STORE, EAlarmLevel::Heavy, {})};
+    parts.recovery.Restore(stored);
+    CHECK(parts.Collect().ListClearedAlarms() == std::vector<std::string>{"ACS-1002", "ACS-1009"});
+    CHECK(parts.engine.alarms.GetAlarms().size() == 2);
+    CHECK(parts.engine.backlog.IsFailing());
+}

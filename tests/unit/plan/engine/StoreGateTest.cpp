@@ -1,0 +1,199 @@
+#include "engine/StoreGate.hpp"
+
+#include "Catch.hpp"
+#include "fixtures/EngineParts.hpp"
+#include "fixtures/PlanWorld.hpp"
+#include <acs/plan/EPlanningError.hpp>
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixtures
+
+namespace
+{
+
+struct GateParts : EngineParts
+{
+    StoreGate store{engine, answers, places, work};
+
+    /// The actions of the call, and the changes of its batch.
+    CallOutcome CommitCall()
+    {
+        CallOutcome outcome;
+        store.Commit(outcome.actions);
+        for (const StorePlans& action : outcome.ListActions<StorePlans>())
+        {
+            outcome.changes = action.batch.changes;
+        }
+        return outcome;
+    }
+
+    CallOutcome EndStore(bool bStored)
+    {
+        const ACS::Core::Result<void> failed = ACS::Core::Fail(make_error_code(EPlanningError::StoreFailed));
+        CallOutcome outcome;
+        store.OnStored(bStored ? ACS::Core::Result<void>() : failed, engine.transaction.GetNow(), outcome.actions);
+        return outcome;
+    }
+
+    void BeginCall()
+    {
+        engine.plans.BeginCall();
+        store.CheckStoreRecovery();
+        engine.call.Begin();
+    }
+
+    /// The store fails with a report.
+    void FailStore()
+    {
+        engine.transaction.AddReport(PlanReport{});
+        static_cast<void>(CommitCall());
+        static_cast<void>(EndStore(false));
+    }
+};
+
+} // namespace
+
+TEST_CASE("StoreGate: what depends on a batch is released after it is stored")
+{
+    GateParts parts;
+    parts.engine.transaction.AddReport(PlanReport{"P1", EPlanState::Pending, {}});
+    parts.engine.transaction.Command(parts.lr, Pause{});
+    const CallOutcome call = parts.CommitCall();
+    CHECK(call.actions.size() == 1);
+    CHECK(call.ListChanges<ReportAdded>().size() == 1);
+    CHECK(parts.store.IsStoring());
+    const CallOutcome stored = parts.EndStore(true);
+    CHECK_FALSE(parts.store.IsStoring());
+    CHECK(stored.ListReports<PlanReport>().size() == 1);
+    CHECK(stored.ListCommands<Pause>().size() == 1);
+}
+
+TEST_CASE("StoreGate: actions without changes do not wait")
+{
+    GateParts parts;
+    parts.engine.transaction.Reply(7, true, {});
+    CHECK(parts.CommitCall().ListActions<ReplyCommand>().size() == 1);
+    CHECK_FALSE(parts.store.IsStoring());
+}
+
+TEST_CASE("StoreGate: a job is stored with the work of its robot before it is commanded")
+{
+    GateParts parts;
+    parts.BeginLoad();
+    parts.lr.changes.bWork = true;
+    const auto works = parts.CommitCall().ListChanges<RobotWorkChanged>();
+    REQUIRE(works.size() == 1);
+    REQUIRE(works.front().job.has_value());
+    CHECK(works.front().job->jobID == "P1-a4");
+    CHECK(works.front().nodeIDs == std::vector<std::string>{"D-A01.CP01"});
+    static_cast<void>(parts.EndStore(true));
+    parts.lr.changes.bWork = true;
+    CHECK(parts.CommitCall().actions.empty());
+}
+
+TEST_CASE("StoreGate: a plan that cannot be stored is refused, and the reports wait")
+{
+    GateParts parts;
+    parts.BeginCall();
+    parts.Accept(MakeLogisticsPlan("P1"));
+    parts.engine.transaction.Reply(7, true, {});
+    static_cast<void>(parts.CommitCall());
+    const CallOutcome failed = parts.EndStore(false);
+    REQUIRE(failed.ListActions<ReplyCommand>().size() == 1);
+    CHECK_FALSE(failed.ListActions<ReplyCommand>().front().bAccepted);
+    CHECK(failed.GetDelayOrNull(EEngineTimer::StoreRetry) == parts.engine.options.storeRetry);
+    CHECK(failed.ListActions<SendReport>().empty());
+    CHECK(parts.engine.plans.GetActive().empty());
+    REQUIRE(parts.engine.alarms.GetAlarms().size() == 1);
+    CHECK(parts.engine.alarms.GetAlarms().front().errorCode == "ACS-1005");
+    CHECK(parts.engine.backlog.CountHeldBack() == 1);
+}
+
+TEST_CASE("StoreGate: the retry stores what has waited, and the next call clears the alarm")
+{
+    GateParts parts;
+    parts.FailStore();
+    parts.BeginCall();
+    parts.engine.transaction.AddReport(PlanReport{"P2", EPlanState::Failed, {}});
+    parts.engine.transaction.Command(parts.lr, Pause{});
+    CallOutcome call = parts.CommitCall();
+    CHECK(call.ListActions<StorePlans>().empty());
+    CHECK(call.ListCommands<Pause>().size() == 1);
+    CHECK(call.ListActions<SendReport>().empty());
+    parts.engine.backlog.OnRetryDue();
+    parts.BeginCall();
+    call = parts.CommitCall();
+    CHECK(call.ListChanges<ReportAdded>().size() == 3);
+    const CallOutcome stored = parts.EndStore(true);
+    CHECK(stored.ListActions<SendReport>().size() == 3);
+    CHECK(parts.engine.backlog.IsFailing());
+    parts.BeginCall();
+    CHECK_FALSE(parts.engine.backlog.IsFailing());
+    CHECK(parts.engine.alarms.GetAlarms().empty());
+    CHECK(parts.engine.transaction.IsDispatchNeeded());
+}
+
+TEST_CASE("StoreGate: the first job of a plan that is not stored as begun is withdrawn")
+{
+    GateParts parts;
+    parts.BeginCall();
+    parts.PutOn(parts.lr, "D-A01.CP01");
+    ActivePlan& plan = parts.AddLoad();
+    parts.Discard(); // the plan itself is stored
+    parts.work.BeginPlan(plan, parts.lr);
+    parts.work.BeginWork(parts.lr);
+    const std::string commandID = parts.lr.job.GetOrNull()->commandID;
+    static_cast<void>(parts.CommitCall());
+    const CallOutcome failed = parts.EndStore(false);
+    CHECK(failed.ListCommands<StartJob>().empty());
+    CHECK(plan.bUnstored);
+    CHECK(plan.repeatedCommandID == commandID);
+    CHECK(parts.lr.activity == EActivity::Waits);
+}
+
+TEST_CASE("StoreGate: a control that cannot be stored is refused, and its pause is withdrawn")
+{
+    GateParts parts;
+    ActivePlan& plan = parts.BeginLoad();
+    parts.BeginCall();
+    parts.controls.Control(ControlPlan{EPlanControl::Pause, "P1", {}, 7, "1"});
+    static_cast<void>(parts.CommitCall());
+    const CallOutcome failed = parts.EndStore(false);
+    REQUIRE(failed.ListActions<ReplyCommand>().size() == 1);
+    CHECK_FALSE(failed.ListActions<ReplyCommand>().front().bAccepted);
+    CHECK(failed.ListCommands<Pause>().empty());
+    CHECK_FALSE(plan.record.progress.control.has_value());
+    CHECK_FALSE(parts.lr.control.pause.IsPaused());
+    CHECK(parts.engine.call.unstoredControlIDs.size() == 1);
+}
+
+TEST_CASE("StoreGate: acknowledgements are stored together")
+{
+    GateParts parts;
+    parts.engine.transaction.AddReport(PlanReport{});
+    parts.engine.transaction.AddReport(PlanReport{});
+    static_cast<void>(parts.CommitCall());
+    static_cast<void>(parts.EndStore(true));
+    for (const std::uint64_t sequence : {1U, 2U, 2U})
+    {
+        parts.store.Acknowledge(MessageAcknowledged{sequence});
+    }
+    const CallOutcome call = parts.CommitCall();
+    CHECK(call.ListActions<StartEngineTimer>().size() == 1);
+    CHECK(call.GetDelayOrNull(EEngineTimer::Acknowledged) == parts.engine.options.acknowledgedDelay);
+    parts.store.StoreAcknowledged();
+    CHECK(parts.CommitCall().ListChanges<ReportRemoved>() == std::vector{ReportRemoved{1}, ReportRemoved{2}});
+}
+
+TEST_CASE("StoreGate: a lost store is reported once")
+{
+    GateParts parts;
+    CallOutcome lost;
+    parts.store.OnStoreLost("gone", parts.engine.transaction.GetNow(), lost.actions);
+    CHECK(lost.GetDelayOrNull(EEngineTimer::StoreRetry).has_value());
+    CHECK(parts.engine.backlog.IsFailing());
+    CallOutcome again;
+    parts.store.OnStoreLost("gone", parts.engine.transaction.GetNow(), again.actions);
+    CHECK(again.actions.empty());
+    CHECK(parts.engine.alarms.GetAlarms().size() == 1);
+}

@@ -1,0 +1,99 @@
+#include "traffic/DeadlockResolver.hpp"
+
+#include "Catch.hpp"
+#include "fixtures/EngineParts.hpp"
+#include "fixtures/PlanWorld.hpp"
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixtures
+
+namespace
+{
+
+/// Each robot stands where the other one has its step.
+void Exchange(EngineParts& parts)
+{
+    Plan plan = MakeControlPlan("P2");
+    plan.steps.resize(1);
+    plan.steps.front().position = "A01.CP02";
+    plan.steps.front().jobs = {{"P2-1", "A01.CP02.TP01", "AMR.TP01"}};
+    parts.PutOn(parts.lr, "D-A01.CP02");
+    parts.PutOn(parts.cr, "D-A01.CP01");
+    parts.work.BeginPlan(parts.AddLoad(), parts.lr);
+    parts.work.BeginPlan(parts.Add(plan), parts.cr);
+    REQUIRE(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Waits);
+    REQUIRE(parts.coordinator.TryDrive(parts.cr) == EDriveAttempt::Waits);
+    parts.Discard();
+}
+
+} // namespace
+
+TEST_CASE("DeadlockResolver: of two robots that want to exchange places the less urgent one retreats")
+{
+    EngineParts parts;
+    DeadlockResolver resolver(parts.engine, parts.tsc, parts.places, parts.waiting, parts.coordinator);
+    Exchange(parts);
+    const DeadlockResolver::Round round = resolver.TryResolveDeadlock();
+    CHECK(round.bMoved);
+    CHECK_FALSE(parts.lr.drive.has_value());
+    REQUIRE(parts.cr.drive.has_value());
+    CHECK(parts.cr.drive->goal == EDriveGoal::Home);
+    CHECK(parts.cr.drive->nodes.back() == parts.FindNode("D-CHG02"));
+    CHECK(parts.cr.parking.retreatNode == parts.FindNode("D-CHG02"));
+    REQUIRE(parts.cr.search.yield.has_value());
+    CHECK(parts.cr.search.yield->leader == parts.lr.index);
+    CHECK(parts.Collect().ListCommands<Drive>().size() == 1);
+    CHECK_FALSE(resolver.TryResolveDeadlock().bMoved);
+}
+
+TEST_CASE("DeadlockResolver: the leader retreats where the other robot cannot")
+{
+    EngineParts parts;
+    DeadlockResolver resolver(parts.engine, parts.tsc, parts.places, parts.waiting, parts.coordinator);
+    Exchange(parts);
+    parts.cr.parking.bRefused = true;
+    CHECK(resolver.TryResolveDeadlock().bMoved);
+    CHECK(parts.lr.parking.retreatNode == parts.FindNode("D-CHG01"));
+    CHECK_FALSE(parts.cr.drive.has_value());
+}
+
+TEST_CASE("DeadlockResolver: the first robot stops yielding where nothing else can be done")
+{
+    EngineParts parts;
+    DeadlockResolver resolver(parts.engine, parts.tsc, parts.places, parts.waiting, parts.coordinator);
+    Exchange(parts);
+    parts.lr.parking.bRefused = true;
+    parts.cr.parking.bRefused = true;
+    CHECK(resolver.TryResolveDeadlock().releasedOrNull == nullptr);
+    WaitingRobots::YieldTo(parts.lr, parts.cr);
+    const DeadlockResolver::Round round = resolver.TryResolveDeadlock();
+    CHECK_FALSE(round.bMoved);
+    CHECK(round.releasedOrNull == &parts.lr);
+    CHECK_FALSE(parts.lr.search.yield.has_value());
+}
+
+TEST_CASE("DeadlockResolver: an idle robot in its parking position steps aside")
+{
+    EngineOptions options = MakeTestOptions(false);
+    options.robots[1].startNodeID = "D-A01.CP01";
+    options.robots[1].homeStationID = "A01.CP01";
+    EngineParts parts(options);
+    DeadlockResolver resolver(parts.engine, parts.tsc, parts.places, parts.waiting, parts.coordinator);
+    parts.PutOn(parts.lr, "D-CHG01");
+    parts.PutOn(parts.cr, "D-A01.CP01");
+    parts.work.BeginPlan(parts.AddLoad(), parts.lr);
+    REQUIRE(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Waits);
+    parts.Discard();
+    SECTION("while robots are driven")
+    {
+        CHECK(resolver.TryResolveDeadlock().bMoved);
+        REQUIRE(parts.cr.drive.has_value());
+        CHECK(parts.cr.parking.retreatNode == parts.FindNode("D-A01.CP02"));
+    }
+    SECTION("but not while it refuses")
+    {
+        parts.cr.parking.bRefused = true;
+        CHECK_FALSE(resolver.TryResolveDeadlock().bMoved);
+        CHECK(parts.Collect().actions.empty());
+    }
+}

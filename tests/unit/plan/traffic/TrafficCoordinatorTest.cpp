@@ -1,0 +1,151 @@
+#include "Catch.hpp"
+#include "fixtures/EngineParts.hpp"
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixtures
+
+TEST_CASE("TrafficCoordinator: a drive begins with the length of the base")
+{
+    EngineParts parts;
+    parts.PutOn(parts.lr, "D-CHG01");
+    parts.work.BeginPlan(parts.AddLoad(), parts.lr);
+    parts.Discard();
+    REQUIRE(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Begun);
+    const CallOutcome outcome = parts.Collect();
+    const auto drives = outcome.ListCommands<Drive>();
+    REQUIRE(drives.size() == 1);
+    CHECK(drives.front().releasedCount == 3);
+    CHECK(drives.front().route.nodes.size() == 5);
+    CHECK(outcome.GetDelayOrNull(EEngineTimer::DriveExtension) == parts.engine.options.extensionDelay);
+    CHECK(parts.lr.drive->driveID == drives.front().driveID);
+    CHECK(parts.lr.drive->goal == EDriveGoal::Step);
+    CHECK(parts.lr.drive->grantedCount == 4);
+    CHECK(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("L03")) == 0U);
+    CHECK_FALSE(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("D-A01.CP01")).has_value());
+}
+
+TEST_CASE("TrafficCoordinator: a robot does not set out for a place that another one has")
+{
+    EngineParts parts;
+    parts.PutOn(parts.lr, "D-CHG01");
+    parts.PutOn(parts.cr, "D-A01.CP01");
+    parts.work.BeginPlan(parts.AddLoad(), parts.lr);
+    parts.Discard();
+    CHECK(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Waits);
+    CHECK(parts.lr.search.blockers == std::vector<std::size_t>{1});
+    CHECK(parts.Collect().ListCommands<Drive>().empty());
+    parts.PutOn(parts.cr, "D-CHG02");
+    CHECK(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Begun);
+}
+
+TEST_CASE("TrafficCoordinator: a robot at its target has retreated")
+{
+    EngineParts parts;
+    parts.PutOn(parts.lr, "D-CHG01");
+    parts.lr.parking.retreatNode = parts.FindNode("D-CHG01");
+    CHECK(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::AtTarget);
+    CHECK_FALSE(parts.lr.parking.retreatNode.has_value());
+}
+
+TEST_CASE("TrafficCoordinator: the base is extended as the robot passes nodes, and not while it is cancelling")
+{
+    EngineParts parts;
+    parts.BeginDriveToLoad();
+    parts.coordinator.ExtendBase(parts.lr);
+    CHECK(parts.Collect().ListCommands<ExtendDrive>() == std::vector{ExtendDrive{parts.lr.drive->driveID, 4}});
+    REQUIRE(parts.coordinator.TryAdvance(parts.lr, 1));
+    CHECK_FALSE(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("D-CHG01")).has_value());
+    parts.lr.drive->cancellation = ECancellation::Awaited;
+    parts.coordinator.ExtendBase(parts.lr);
+    CHECK(parts.Collect().ListCommands<ExtendDrive>().empty());
+    parts.lr.drive->cancellation = ECancellation::None;
+    parts.lr.view.state->bAutomatic = false;
+    parts.coordinator.ExtendBase(parts.lr);
+    CHECK(parts.Collect().ListCommands<ExtendDrive>().empty());
+    parts.lr.view.state->bAutomatic = true;
+    parts.coordinator.ExtendBase(parts.lr);
+    CHECK(parts.Collect().ListCommands<ExtendDrive>() == std::vector{ExtendDrive{parts.lr.drive->driveID, 5}});
+}
+
+TEST_CASE("TrafficCoordinator: a robot may pass a free node without a grant, and not that of another robot")
+{
+    EngineParts parts;
+    parts.BeginDriveToLoad();
+    REQUIRE(parts.lr.drive->grantedCount == 4);
+    SECTION("free")
+    {
+        CHECK(parts.coordinator.TryAdvance(parts.lr, 4));
+        CHECK(parts.lr.drive->grantedCount == 5);
+        CHECK(parts.lr.place.node == parts.FindNode("D-A01.CP01"));
+        CHECK(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("D-A01.CP01")) == 0U);
+        CHECK(parts.Collect().ListSetAlarms().empty());
+    }
+    SECTION("of another robot")
+    {
+        parts.PutOn(parts.cr, "D-A01.CP01");
+        parts.Discard();
+        CHECK_FALSE(parts.coordinator.TryAdvance(parts.lr, 4));
+        CHECK(parts.lr.drive->passed == 0);
+        CHECK(parts.Collect().ListSetAlarms() == std::vector<std::string>{"ACS-1003"});
+    }
+}
+
+TEST_CASE("TrafficCoordinator: a drive that has ended leaves its nodes to others")
+{
+    EngineParts parts;
+    parts.BeginDriveToLoad();
+    REQUIRE(parts.coordinator.TryAdvance(parts.lr, 1));
+    parts.Discard();
+    parts.coordinator.EndDrive(parts.lr);
+    CHECK_FALSE(parts.lr.drive.has_value());
+    CHECK(parts.lr.place.heldNodes == std::vector<std::size_t>{parts.FindNode("L01")});
+    CHECK_FALSE(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("L02")).has_value());
+    CHECK(parts.Collect().IsTimerCancelled(EEngineTimer::DriveExtension));
+    CHECK(parts.engine.transaction.IsDispatchNeeded());
+}
+
+TEST_CASE("TrafficCoordinator: the nodes of a reroute are granted before the drive is cancelled")
+{
+    EngineParts parts;
+    parts.BeginDriveToLoad();
+    REQUIRE(parts.coordinator.TryAdvance(parts.lr, 3));
+    parts.Discard();
+    std::optional<PlannedRoute> route = parts.coordinator.PlanRouteOrNull(parts.lr, parts.FindNode("D-A01.CP02"), {});
+    REQUIRE(route.has_value());
+    REQUIRE(parts.coordinator.TryReroute(parts.lr, *route, false));
+    CHECK(parts.lr.drive->IsCancelling());
+    CHECK(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("L04")) == 0U);
+    const CallOutcome outcome = parts.Collect();
+    CHECK(outcome.ListCommands<CancelDrive>() == std::vector{CancelDrive{parts.lr.drive->driveID}});
+    CHECK(outcome.GetDelayOrNull(EEngineTimer::ControlConfirm) == parts.engine.options.controls.cancelTimeout);
+    SECTION("a robot that keeps its drive gives them back")
+    {
+        parts.coordinator.AbandonReroute(parts.lr);
+        CHECK_FALSE(parts.lr.drive->reroute.has_value());
+        CHECK_FALSE(parts.lr.drive->IsCancelling());
+        CHECK_FALSE(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("L04")).has_value());
+        CHECK(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("L03")) == 0U);
+    }
+    SECTION("a robot that has stopped drives on along them")
+    {
+        parts.coordinator.EndDrive(parts.lr);
+        parts.coordinator.BeginReroute(parts.lr, *route, false);
+        REQUIRE(parts.lr.drive.has_value());
+        CHECK(parts.lr.drive->nodes == route->nodes);
+        CHECK(parts.Collect().ListCommands<Drive>().size() == 1);
+    }
+}
+
+TEST_CASE("TrafficCoordinator: a refused drive home is tried again, each time twice as late up to 64 times")
+{
+    EngineParts parts;
+    parts.PutOn(parts.lr, "D-A01.CP01");
+    for (const int factor : {1, 2, 4, 8, 16, 32, 64, 64})
+    {
+        parts.coordinator.RefuseHome(parts.lr);
+        CHECK(parts.lr.parking.bRefused);
+        CHECK(parts.Collect().GetDelayOrNull(EEngineTimer::HomeRetry) == parts.engine.options.homeRetry * factor);
+        parts.coordinator.OnHomeRetry(parts.lr);
+        CHECK_FALSE(parts.lr.parking.bRefused);
+    }
+}

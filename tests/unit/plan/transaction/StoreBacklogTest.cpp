@@ -1,0 +1,85 @@
+#include "transaction/StoreBacklog.hpp"
+
+#include "Catch.hpp"
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+
+namespace
+{
+
+const std::vector<StoreChange>& GetChanges()
+{
+    static const std::vector<StoreChange> CHANGES{PlanRemoved{1}, PlanRemoved{2}};
+    return CHANGES;
+}
+
+OutboxEntry MakeReport(std::uint64_t sequence)
+{
+    OutboxEntry entry;
+    entry.sequence = sequence;
+    return entry;
+}
+
+} // namespace
+
+TEST_CASE("StoreBacklog: while the store works every call stores its changes and no retry is timed")
+{
+    StoreBacklog backlog;
+    CHECK(backlog.IsWorthTrying(GetChanges()));
+    CHECK_FALSE(backlog.TryBeginAttempt());
+    CHECK_FALSE(backlog.TryRecover());
+    CHECK_FALSE(backlog.IsFailing());
+}
+
+TEST_CASE("StoreBacklog: after a failure only a new plan and the retry timer make an attempt")
+{
+    StoreBacklog backlog;
+    backlog.OnFailed();
+    CHECK(backlog.IsFailing());
+    CHECK_FALSE(backlog.IsWorthTrying(GetChanges()));
+    CHECK(backlog.IsWorthTrying(std::vector<StoreChange>{PlanAdded{}}));
+    CHECK_FALSE(backlog.TryRecover());
+    backlog.OnRetryDue();
+    CHECK(backlog.IsWorthTrying(GetChanges()));
+}
+
+TEST_CASE("StoreBacklog: the store works again once an attempt was not followed by a failure")
+{
+    StoreBacklog backlog;
+    SECTION("after a failure in this run")
+    {
+        backlog.OnFailed();
+        backlog.OnRetryDue();
+        CHECK(backlog.TryBeginAttempt());
+        backlog.OnFailed();
+        CHECK_FALSE(backlog.TryRecover());
+        backlog.OnRetryDue();
+    }
+    SECTION("after a failure before the restart")
+    {
+        backlog.RestoreFailing();
+        CHECK(backlog.IsWorthTrying(GetChanges()));
+    }
+    CHECK(backlog.TryBeginAttempt());
+    CHECK(backlog.IsFailing());
+    CHECK(backlog.TryRecover());
+    CHECK_FALSE(backlog.IsFailing());
+    CHECK_FALSE(backlog.TryRecover());
+}
+
+TEST_CASE("StoreBacklog: changes and reports wait in their order")
+{
+    StoreBacklog backlog;
+    backlog.Add({GetChanges().front()});
+    backlog.Add({GetChanges().back()});
+    CHECK(backlog.CollectChanges() == GetChanges());
+    CHECK(backlog.CollectChanges().empty());
+
+    backlog.HoldBack(MakeReport(3));
+    backlog.HoldBack(MakeReport(5));
+    CHECK(backlog.IsHeldBack(MakeReport(5)));
+    CHECK_FALSE(backlog.IsHeldBack(MakeReport(4)));
+    CHECK(backlog.CountHeldBack() == 2);
+    CHECK(backlog.CollectReports() == std::vector<OutboxEntry>{MakeReport(3), MakeReport(5)});
+    CHECK(backlog.CountHeldBack() == 0);
+}

@@ -1,0 +1,123 @@
+#include "work/DriveOutcomes.hpp"
+
+#include "Catch.hpp"
+#include "fixtures/EngineParts.hpp"
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixtures
+
+namespace
+{
+
+struct DriveParts : EngineParts
+{
+    DriveOutcomes drives{engine, tsc, answers, places, waiting, coordinator, work, controls};
+
+    [[nodiscard]] std::string GetDriveID() const
+    {
+        return lr.drive->driveID;
+    }
+};
+
+} // namespace
+
+TEST_CASE("DriveOutcomes: the first node confirms the drive, later ones begin the step and extend the base")
+{
+    DriveParts parts;
+    ActivePlan& plan = parts.BeginDriveToLoad();
+    parts.drives.OnNodePassed(parts.lr, NodePassed{"another", "D-CHG01"});
+    CHECK_FALSE(parts.lr.drive->bConfirmed);
+    parts.drives.OnNodePassed(parts.lr, NodePassed{parts.GetDriveID(), "D-CHG01"});
+    CHECK(parts.lr.drive->bConfirmed);
+    CHECK(parts.lr.drive->bTaken);
+    CHECK(parts.Collect().IsTimerCancelled(EEngineTimer::DriveExtension));
+    CHECK(plan.record.progress.steps[0].state == EStepState::Dispatched);
+    parts.drives.OnNodePassed(parts.lr, NodePassed{parts.GetDriveID(), "L01"});
+    CHECK(plan.record.progress.steps[0].state == EStepState::InProgress);
+    CHECK(parts.Collect().ListCommands<ExtendDrive>() == std::vector{ExtendDrive{parts.GetDriveID(), 5}});
+    parts.drives.OnNodePassed(parts.lr, NodePassed{parts.GetDriveID(), "D-CHG01"});
+    CHECK(parts.lr.drive->passed == 1);
+}
+
+TEST_CASE("DriveOutcomes: the arrival is reported at the last node before the place, the work begins there")
+{
+    DriveParts parts;
+    ActivePlan& plan = parts.BeginDriveToLoad();
+    parts.drives.OnNodePassed(parts.lr, NodePassed{parts.GetDriveID(), "L02"});
+    CHECK_FALSE(plan.record.progress.bArrived);
+    parts.drives.OnNodePassed(parts.lr, NodePassed{parts.GetDriveID(), "L03"});
+    CHECK(plan.record.progress.bArrived);
+    CHECK(parts.lr.activity == EActivity::Waits);
+    parts.Discard();
+    parts.drives.OnArrived(parts.lr, Arrived{parts.GetDriveID()});
+    CHECK_FALSE(parts.lr.drive.has_value());
+    CHECK(parts.lr.place.position == "A01.CP01");
+    CHECK(parts.Collect().ListCommands<StartJob>().size() == 1);
+}
+
+TEST_CASE("DriveOutcomes: an arrival ends a plan that is to be aborted, and fails its cancellation")
+{
+    DriveParts parts;
+    const EPlanControl control = GENERATE(EPlanControl::Abort, EPlanControl::Cancel);
+    ActivePlan& plan = parts.BeginDriveToLoad();
+    parts.controls.Control(ControlPlan{control, "P1", {}, 7, {}});
+    parts.Discard();
+    parts.drives.OnArrived(parts.lr, Arrived{parts.GetDriveID()});
+    const auto results = parts.Collect().ListReports<ControlResultReport>();
+    REQUIRE(results.size() == 1);
+    CHECK(results.front().bSucceeded == (control == EPlanControl::Abort));
+    CHECK(
+        plan.record.progress.state == (control == EPlanControl::Abort ? EPlanState::Aborted : EPlanState::InProgress));
+}
+
+TEST_CASE("DriveOutcomes: a rejected drive fails the plan, on the way home it is tried again later")
+{
+    DriveParts parts;
+    SECTION("to a step")
+    {
+        ActivePlan& plan = parts.BeginDriveToLoad();
+        parts.drives.OnDriveRejected(parts.lr, DriveRejected{parts.GetDriveID(), "blocked"});
+        CHECK(plan.record.progress.state == EPlanState::Failed);
+        CHECK_FALSE(parts.Collect().GetDelayOrNull(EEngineTimer::HomeRetry).has_value());
+    }
+    SECTION("home")
+    {
+        parts.PutOn(parts.lr, "D-A01.CP01");
+        parts.drives.SendIdleHome();
+        REQUIRE(parts.lr.drive.has_value());
+        CHECK(parts.lr.drive->goal == EDriveGoal::Home);
+        parts.Discard();
+        parts.drives.OnDriveRejected(parts.lr, DriveRejected{parts.GetDriveID(), "blocked"});
+        CHECK(parts.Collect().GetDelayOrNull(EEngineTimer::HomeRetry).has_value());
+        parts.drives.SendIdleHome();
+        CHECK_FALSE(parts.lr.drive.has_value());
+    }
+}
+
+TEST_CASE("DriveOutcomes: a cancelled drive ends the plan that was to end, and no other")
+{
+    DriveParts parts;
+    ActivePlan& plan = parts.BeginDriveToLoad();
+    SECTION("the plan was to be cancelled")
+    {
+        parts.controls.Control(ControlPlan{EPlanControl::Cancel, "P1", {}, 7, {}});
+        parts.drives.OnDriveCancelled(parts.lr, DriveCancelled{parts.GetDriveID(), "L01"});
+        CHECK(plan.record.progress.state == EPlanState::Cancelled);
+        CHECK(parts.lr.place.node == parts.FindNode("L01"));
+    }
+    SECTION("the cancellation has timed out before")
+    {
+        parts.controls.Control(ControlPlan{EPlanControl::Cancel, "P1", {}, 7, {}});
+        parts.controls.OnControlTimeout(parts.lr);
+        parts.drives.OnDriveCancelled(parts.lr, DriveCancelled{parts.GetDriveID(), "L01"});
+        CHECK(plan.record.progress.state == EPlanState::InProgress);
+        CHECK_FALSE(parts.lr.drive.has_value());
+        parts.drives.MoveWaiting();
+        CHECK(parts.lr.drive.has_value());
+    }
+    SECTION("nothing was to be cancelled")
+    {
+        parts.drives.OnDriveCancelled(parts.lr, DriveCancelled{parts.GetDriveID(), "L01"});
+        CHECK(plan.record.progress.state == EPlanState::Failed);
+    }
+}

@@ -1,0 +1,118 @@
+#include "Catch.hpp"
+#include "fixtures/EngineParts.hpp"
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixtures
+
+TEST_CASE("JobOutcomes: the start of the present job is reported once")
+{
+    EngineParts parts;
+    ActivePlan& plan = parts.BeginLoad();
+    parts.jobs.OnJobStarted(parts.lr, JobStarted{"another"});
+    CHECK(GetJobState(plan) == EJobState::Instructed);
+    parts.jobs.OnJobStarted(parts.lr, JobStarted{"P1-a4"});
+    parts.jobs.OnJobStarted(parts.lr, JobStarted{"P1-a4"});
+    CHECK(GetJobState(plan) == EJobState::InProgress);
+    CHECK(parts.Collect().ListReports<JobReport>().size() == 1);
+}
+
+TEST_CASE("JobOutcomes: the end of a job includes its start")
+{
+    EngineParts parts;
+    ActivePlan& plan = parts.BeginLoad();
+    parts.jobs.OnJobFinished(parts.lr, JobFinished{"another"});
+    CHECK(parts.Collect().actions.empty());
+    parts.jobs.OnJobFinished(parts.lr, JobFinished{"P1-a4"});
+    const auto reports = parts.Collect().ListReports<JobReport>();
+    REQUIRE(reports.size() == 2);
+    CHECK(reports[0].state == EJobState::InProgress);
+    CHECK(reports[1].state == EJobState::Completed);
+    CHECK(plan.step == 1);
+    CHECK(parts.lr.ports.FindCarrierOrNull("CASSETTE_01").has_value());
+}
+
+TEST_CASE("JobOutcomes: a failed job fails its plan and moves no carrier")
+{
+    EngineParts parts;
+    ActivePlan& plan = parts.BeginLoad();
+    parts.jobs.OnJobFailed(parts.lr, JobFailed{"P1-a4", "the gripper is empty"});
+    CHECK(plan.record.progress.state == EPlanState::Failed);
+    CHECK_FALSE(parts.lr.ports.FindCarrierOrNull("CASSETTE_01").has_value());
+    CHECK(parts.lr.IsFree());
+}
+
+TEST_CASE("JobOutcomes: the robot of a job that took too long is free after the job's end")
+{
+    EngineParts parts;
+    ActivePlan& plan = parts.BeginLoad();
+    parts.jobs.OnJobTimeout(parts.lr);
+    CHECK(parts.Collect().ListCommands<CancelJob>().size() == 1);
+    CHECK(plan.record.progress.state == EPlanState::Failed);
+    CHECK_FALSE(parts.lr.IsFree());
+    SECTION("it was done after all: its carrier has moved")
+    {
+        parts.jobs.OnJobFinished(parts.lr, JobFinished{"P1-a4"});
+        CHECK(parts.lr.ports.FindCarrierOrNull("CASSETTE_01").has_value());
+        CHECK(parts.Collect().IsTimerCancelled(EEngineTimer::JobEnd));
+        CHECK(parts.lr.IsFree());
+    }
+    SECTION("it was cancelled")
+    {
+        parts.jobs.OnJobFailed(parts.lr, JobFailed{"P1-a4", "cancelled"});
+        CHECK_FALSE(parts.lr.ports.FindCarrierOrNull("CASSETTE_01").has_value());
+        CHECK(parts.lr.IsFree());
+    }
+    SECTION("its end is not reported: an operator decides")
+    {
+        parts.jobs.OnJobEndTimeout(parts.lr);
+        CHECK(parts.Collect().ListSetAlarms() == std::vector<std::string>{"ACS-1008"});
+        CHECK(parts.lr.job.IsUnresolved());
+        parts.jobs.OnJobEndTimeout(parts.lr);
+        CHECK(parts.Collect().actions.empty());
+        CHECK_FALSE(parts.lr.IsFree());
+    }
+}
+
+TEST_CASE("JobOutcomes: a job that the robot never had is repeated under its commandID, unless it had begun")
+{
+    EngineParts parts;
+    ActivePlan& plan = parts.BeginLoad();
+    const std::string commandID = parts.lr.job.GetOrNull()->commandID;
+    SECTION("not begun")
+    {
+        parts.jobs.OnJobUnknown(parts.lr, JobUnknown{"P1-a4"});
+        CHECK(parts.lr.job.GetOrNull() == nullptr);
+        parts.Discard();
+        parts.work.BeginWork(parts.lr);
+        const auto jobs = parts.Collect().ListCommands<StartJob>();
+        REQUIRE(jobs.size() == 1);
+        CHECK(jobs.front().commandID == commandID);
+    }
+    SECTION("not begun, and the plan is to be aborted")
+    {
+        parts.answers.Ask(plan, EPlanControl::Abort);
+        parts.jobs.OnJobUnknown(parts.lr, JobUnknown{"P1-a4"});
+        CHECK(plan.record.progress.state == EPlanState::Aborted);
+    }
+    SECTION("begun")
+    {
+        parts.jobs.OnJobStarted(parts.lr, JobStarted{"P1-a4"});
+        parts.jobs.OnJobUnknown(parts.lr, JobUnknown{"P1-a4"});
+        CHECK(parts.lr.job.IsUnresolved());
+    }
+}
+
+TEST_CASE("JobOutcomes: an uncertain job waits for the operator, whatever the robot reports later")
+{
+    EngineParts parts;
+    ActivePlan& plan = parts.BeginLoad();
+    parts.jobs.OnJobUncertain(parts.lr, JobUncertain{"P1-a4", "restarted"});
+    CHECK(parts.Collect().ListSetAlarms() == std::vector<std::string>{"ACS-1008"});
+    parts.jobs.OnJobUncertain(parts.lr, JobUncertain{"P1-a4", "restarted"});
+    parts.jobs.OnJobStarted(parts.lr, JobStarted{"P1-a4"});
+    parts.jobs.OnJobFinished(parts.lr, JobFinished{"P1-a4"});
+    parts.jobs.OnJobFailed(parts.lr, JobFailed{"P1-a4", "no"});
+    CHECK(parts.Collect().actions.empty());
+    CHECK(GetJobState(plan) == EJobState::Instructed);
+    CHECK(parts.lr.job.IsUnresolved());
+}
