@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr const char* ARM_INPUTS = "arm_inputs";
-constexpr std::size_t WORD_BYTES = 4;
+constexpr std::size_t METHOD_WORD_BYTES = 4;
 
 /// The first of the keys that are given.
 std::string FindCause(const MethodKeys& given)
@@ -56,7 +56,7 @@ std::optional<std::size_t> FindCounterOrNull(const ArmRelay& relay, const ArmOpt
         ArmRelay counter;
         counter.url = relay.url;
         counter.width = EArmRelayWidth::Long;
-        counter.firstByte = static_cast<std::uint32_t>(options.firstByte + word * WORD_BYTES);
+        counter.firstByte = static_cast<std::uint32_t>(options.firstByte + word * METHOD_WORD_BYTES);
         if (IsOverlapping(relay, counter))
         {
             return counter.firstByte;
@@ -115,7 +115,7 @@ void RefuseCounters(const MethodTable& table, const RobotLinkConfig& robot)
                         "is a counter of the arm of {}, bytes {} to {}; give a relay that is free",
                         robot.robotID,
                         *counter,
-                        *counter + WORD_BYTES - 1));
+                        *counter + METHOD_WORD_BYTES - 1));
         }
     }
 }
