@@ -43,7 +43,7 @@ void ArmInputTransfer::BeginReading()
     _difference.clear();
 }
 
-bool ArmInputTransfer::Verify(const std::vector<ArmRelayWords>& ranges)
+bool ArmInputTransfer::TryVerify(const std::vector<ArmRelayWords>& ranges)
 {
     _difference.clear();
     for (const ArmInput& input : _inputs)

@@ -34,7 +34,7 @@ public:
     /// No sample has come yet.
     void BeginReading();
     /// Returns whether the sample shows every input as it was written.
-    [[nodiscard]] bool Verify(const std::vector<ArmRelayWords>& ranges);
+    [[nodiscard]] bool TryVerify(const std::vector<ArmRelayWords>& ranges);
     /// No sample did: from the first input again. Returns false when no retry is left.
     [[nodiscard]] bool TryRetry();
 

@@ -29,7 +29,7 @@ void ArmProgram::ReadInputs(AdapterActions& out)
 
 void ArmProgram::OnInputsRead(const std::vector<ArmRelayWords>& ranges, AdapterActions& out)
 {
-    if (!Is<ReadingInputs>() || !_work.inputs.Verify(ranges))
+    if (!Is<ReadingInputs>() || !_work.inputs.TryVerify(ranges))
     {
         return;
     }

@@ -42,6 +42,9 @@ struct EngineState
 
     EngineState(const EngineState&) = delete;
     EngineState& operator=(const EngineState&) = delete;
+    EngineState(EngineState&&) = delete;
+    EngineState& operator=(EngineState&&) = delete;
+    ~EngineState() = default;
 };
 
 } // namespace ACS::Planning

@@ -36,7 +36,7 @@ void DriveOutcomes::MoveWaiting()
     for (Robot* robot : _waiting.GetWaiting())
     {
         const std::vector<std::size_t> blockers = robot->search.blockers;
-        static_cast<void>(MoveRobot(*robot));
+        static_cast<void>(TryMove(*robot));
         robot->changes.bStatus = robot->changes.bStatus || robot->search.blockers != blockers;
     }
 }
@@ -45,7 +45,7 @@ void DriveOutcomes::SendIdleHome()
 {
     for (Robot* robot : _waiting.ListAwayFromHome())
     {
-        static_cast<void>(MoveRobot(*robot));
+        static_cast<void>(TryMove(*robot));
     }
 }
 
@@ -54,7 +54,7 @@ void DriveOutcomes::ResolveDeadlocks()
     for (std::size_t round = 0; round < _fleet.size(); ++round)
     {
         const DeadlockResolver::Round result = _deadlocks.TryResolveDeadlock();
-        const bool bMoved = result.releasedOrNull == nullptr ? result.bMoved : MoveRobot(*result.releasedOrNull);
+        const bool bMoved = result.releasedOrNull == nullptr ? result.bMoved : TryMove(*result.releasedOrNull);
         if (!bMoved)
         {
             return;
@@ -62,7 +62,7 @@ void DriveOutcomes::ResolveDeadlocks()
     }
 }
 
-bool DriveOutcomes::MoveRobot(Robot& robot)
+bool DriveOutcomes::TryMove(Robot& robot)
 {
     const EDriveAttempt attempt = _coordinator.TryDrive(robot);
     if (attempt == EDriveAttempt::AtTarget && robot.planOrNull != nullptr

@@ -55,7 +55,7 @@ public:
 
 private:
     /// Tries to drive, and begins the work or fails the plan. Returns whether the robot drives or is at its target.
-    [[nodiscard]] bool MoveRobot(Robot& robot);
+    [[nodiscard]] bool TryMove(Robot& robot);
     void OnNoRoute(Robot& robot, std::size_t target);
 };
 

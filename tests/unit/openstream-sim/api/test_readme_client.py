@@ -17,7 +17,7 @@ import urllib.error
 import urllib.request
 
 LIMIT = 30
-PAGE = pathlib.Path(__file__).resolve().parents[3] / "docs" / "reference" / "openstream-sim.md"
+PAGE = pathlib.Path(__file__).resolve().parents[4] / "docs" / "reference" / "openstream-sim.md"
 PROGRAM = None
 
 
