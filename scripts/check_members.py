@@ -8,8 +8,6 @@ import sys
 from check_sizes import LABEL, NO_MEMBER, find_end, is_method, list_types
 from source_tree import CPP_SUFFIXES, list_files, read_text, run_check, strip_comments_and_strings
 
-# Of order and parameters. Folders are added as they are brought to these conventions.
-COVERED = ("apps/mcs-sim/", "examples/", "libacs-core/", "libacs-protocol/", "libopenstream/", "libvda5050/")
 # Public types and constants, data, constructors, then methods from public to private.
 TYPES, DATA, CONSTRUCTORS, PUBLIC, PROTECTED, PRIVATE = range(6)
 RANKS = ("a public type or constant", "data", "a constructor", "a public method", "a protected method", "a private method")
@@ -129,8 +127,6 @@ def check_tree(root):
     for path in (name for name in list_files(root) if name.endswith(CPP_SUFFIXES)):
         text = strip_comments_and_strings(read_text(root, path))
         for check in (check_order, check_nullable, check_abbreviations):
-            if check is not check_abbreviations and not path.startswith(COVERED):
-                continue
             for line, problem in check(text):
                 yield f"{path}:{line}: {problem}"
 

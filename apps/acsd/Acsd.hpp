@@ -19,11 +19,6 @@ namespace ACS::Acsd
 /// thread: the executor's.
 class Acsd final
 {
-    class Impl;
-    std::unique_ptr<Impl> _impl;
-
-    explicit Acsd(std::unique_ptr<Impl> impl);
-
 public:
     using StopHandler = std::function<void()>;
 
@@ -37,13 +32,21 @@ public:
         MessageTrace* traceOrNull = nullptr;
     };
 
-    /// Opens the store, restores its contents and listens on the HTTP address; opens no connection. The configuration must
-    /// be without errors. Fails with a sentence about the store or the HTTP address and its remedy.
-    [[nodiscard]] static Core::Result<std::unique_ptr<Acsd>> Create(Dependencies dependencies, AcsdConfig config);
+private:
+    class Impl;
 
+    std::unique_ptr<Impl> _impl;
+
+    explicit Acsd(std::unique_ptr<Impl> impl);
+
+public:
     Acsd(const Acsd&) = delete;
     Acsd& operator=(const Acsd&) = delete;
     ~Acsd();
+
+    /// Opens the store, restores its contents and listens on the HTTP address; opens no connection. The configuration must
+    /// be without errors. Fails with a sentence about the store or the HTTP address and its remedy.
+    [[nodiscard]] static Core::Result<std::unique_ptr<Acsd>> Create(Dependencies dependencies, AcsdConfig config);
 
     /// Connects to the MCS, the broker and the arms, and reconnects until it is stopped.
     void Start();

@@ -29,6 +29,12 @@ struct ActionOutcome
 /// whether the vehicle charges.
 class ActionRunner
 {
+public:
+    /// Seconds of simulated time.
+    static constexpr double HANDLING_SECONDS = 3.0; ///< pick, drop
+    static constexpr double SHORT_SECONDS = 1.0;    ///< all others
+
+private:
     struct RunningAction
     {
         VDA5050::Action action;
@@ -43,10 +49,6 @@ class ActionRunner
     bool _bCharging = false;
 
 public:
-    /// Seconds of simulated time.
-    static constexpr double HANDLING_SECONDS = 3.0; ///< pick, drop
-    static constexpr double SHORT_SECONDS = 1.0;    ///< all others
-
     /// Duration of actions of a type, where it is not as above: seconds of simulated time by actionType. That of `pick` and
     /// `drop` applies to those that mean them at this make.
     ActionRunner(std::map<std::string, double, std::less<>> seconds, LoadDevice device);

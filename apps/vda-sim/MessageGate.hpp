@@ -17,6 +17,12 @@ namespace ACS::VdaSim
 /// overtakes another. Pure.
 class MessageGate
 {
+public:
+    /// What is held back at most; what comes then is lost, as where the buffers of a network are full.
+    static constexpr std::size_t MAX_MESSAGES = 10'000;
+    static constexpr std::size_t MAX_BYTES = 16U * 1024U * 1024U;
+
+private:
     struct Held
     {
         Core::SteadyTime due;
@@ -29,10 +35,6 @@ class MessageGate
     std::size_t _overflow = 0;
 
 public:
-    /// What is held back at most; what comes then is lost, as where the buffers of a network are full.
-    static constexpr std::size_t MAX_MESSAGES = 10'000;
-    static constexpr std::size_t MAX_BYTES = 16U * 1024U * 1024U;
-
     explicit MessageGate(EFaultDirection direction);
 
     /// Appends the message to out where it goes through at once.

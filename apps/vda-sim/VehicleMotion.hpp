@@ -61,6 +61,11 @@ enum class EBrake : std::uint8_t
 /// smooth stand at its end. Pure: time comes in as seconds.
 class VehicleMotion
 {
+public:
+    /// A vehicle leaves its way no steeper than this: metres aside for each metre driven.
+    static constexpr double SWERVE_SLOPE = 0.5;
+
+private:
     MotionLimits _limits;
     Pose _pose;
     std::optional<MotionLeg> _leg;
@@ -74,9 +79,6 @@ class VehicleMotion
     bool _bFollows = false;  ///< Looks where it should, and from now on where the bends lead.
 
 public:
-    /// A vehicle leaves its way no steeper than this: metres aside for each metre driven.
-    static constexpr double SWERVE_SLOPE = 0.5;
-
     VehicleMotion(const MotionLimits& limits, const Pose& pose);
 
     /// Goes on from where it is, at the speed that it has; the brake stays as it is.

@@ -19,13 +19,16 @@ namespace ACS::VdaSim
 /// One thread: the executor's. The clock and the random source must outlive it.
 class VehicleRunner
 {
-    class Impl;
-    std::unique_ptr<Impl> _impl;
-
 public:
     /// Both are called from the executor.
     using Handler = std::function<void()>;
 
+private:
+    class Impl;
+
+    std::unique_ptr<Impl> _impl;
+
+public:
     /// The link's will is filled in here. The random source is for the pauses between attempts to connect.
     VehicleRunner(
         const boost::asio::any_io_executor& executor,

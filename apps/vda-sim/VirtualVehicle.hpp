@@ -76,6 +76,11 @@ struct VirtualVehicleOptions
 /// outlive it; from the site come the start position and the places of nodes that an order does not place.
 class VirtualVehicle
 {
+public:
+    /// A lower charge is reported as an error; %.
+    static constexpr double LOW_CHARGE = 15.0;
+
+private:
     static constexpr std::uint64_t KEY_TICK = 100;  ///< Above the keys of the session's own timers.
     static constexpr std::uint64_t KEY_EVENT = 101; ///< A fault, or a message that was held back.
 
@@ -114,9 +119,6 @@ class VirtualVehicle
     bool _bBatteryLow = false;
 
 public:
-    /// A lower charge is reported as an error; %.
-    static constexpr double LOW_CHARGE = 15.0;
-
     VirtualVehicle(
         VirtualVehicleOptions options,
         const Planning::SiteMap& site,

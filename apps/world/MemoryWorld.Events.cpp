@@ -47,9 +47,12 @@ Core::Result<void> CheckFits(std::string_view from, const Place& to)
     return {};
 }
 
-Core::Result<void> CheckHolds(const Place& place, const std::optional<std::string>& carrier, const std::string& wanted)
+Core::Result<void> CheckHolds(
+    const Place& place,
+    const std::optional<std::string>& carrierOrNull,
+    const std::string& wanted)
 {
-    if (!carrier.has_value())
+    if (!carrierOrNull.has_value())
     {
         return Core::Fail(
             EWorldError::PlaceEmpty,
@@ -57,9 +60,9 @@ Core::Result<void> CheckHolds(const Place& place, const std::optional<std::strin
             wanted.empty() ? "a carrier" : fmt::format("the carrier {}", wanted),
             "an empty place");
     }
-    if (!wanted.empty() && *carrier != wanted)
+    if (!wanted.empty() && *carrierOrNull != wanted)
     {
-        return Core::Fail(EWorldError::OtherCarrier, place.text, fmt::format("the carrier {}", wanted), *carrier);
+        return Core::Fail(EWorldError::OtherCarrier, place.text, fmt::format("the carrier {}", wanted), *carrierOrNull);
     }
     return {};
 }

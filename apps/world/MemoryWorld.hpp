@@ -22,6 +22,14 @@ namespace ACS::Sim
 /// The floor and its rules, in the memory of one process; docs/reference/world.md has the rules. Pure: no files, threads or clocks.
 class MemoryWorld final : public IWorld
 {
+public:
+    static constexpr std::size_t MAX_CARRIERS = 100'000;
+    static constexpr std::size_t MAX_MEMORIES = 1'000'000;
+    static constexpr std::size_t MAX_ROBOTS = 10'000;
+    static constexpr std::size_t MAX_STATIONS = 100; ///< Of one robot.
+    static constexpr std::size_t MAX_EVENTS = 100'000;
+
+private:
     FloorContents _contents;
     PlaceList _places;
     std::set<std::string, std::less<>> _closedSets;
@@ -30,12 +38,6 @@ class MemoryWorld final : public IWorld
     std::deque<WorldEvent> _events;
 
 public:
-    static constexpr std::size_t MAX_CARRIERS = 100'000;
-    static constexpr std::size_t MAX_MEMORIES = 1'000'000;
-    static constexpr std::size_t MAX_ROBOTS = 10'000;
-    static constexpr std::size_t MAX_STATIONS = 100; ///< Of one robot.
-    static constexpr std::size_t MAX_EVENTS = 100'000;
-
     /// An empty floor on which every place exists.
     MemoryWorld() = default;
 

@@ -15,12 +15,14 @@ namespace ACS::Sim
 /// listed. What is on a tray or inside a robot's cassette need not be listed.
 class PlaceList
 {
+public:
+    static constexpr std::size_t MAX_PLACES = 1'000'000;
+
+private:
     std::set<std::string, std::less<>> _places; ///< With the stations of them.
     std::set<std::string, std::less<>> _owners; ///< Robots of listed ports; the empty name for fixed places.
 
 public:
-    static constexpr std::size_t MAX_PLACES = 1'000'000;
-
     /// A place or a range: "A01.CP01.TP01-04".
     [[nodiscard]] Core::Result<void> Add(std::string_view range);
 

@@ -17,14 +17,6 @@ namespace ACS::Sim
 /// written: what a killed process left of a line is not read, and the next Append cuts it off.
 class WorldJournal
 {
-    std::string _path;
-    int _descriptor = -1;
-    std::uint64_t _offset = 0; ///< Of the first line that is not read yet.
-    std::uint64_t _line = 0;   ///< Lines that are read.
-    bool _bLockMissed = false; ///< By the last Acquire.
-
-    WorldJournal(std::string path, int descriptor);
-
 public:
     static constexpr std::uint64_t MAX_BYTES = 256U * 1024U * 1024U;
     static constexpr std::size_t MAX_LINE = 64U * 1024U;
@@ -56,6 +48,16 @@ public:
 
     using LineReader = std::function<Core::Result<void>(std::string_view line)>;
 
+private:
+    std::string _path;
+    int _descriptor = -1;
+    std::uint64_t _offset = 0; ///< Of the first line that is not read yet.
+    std::uint64_t _line = 0;   ///< Lines that are read.
+    bool _bLockMissed = false; ///< By the last Acquire.
+
+    WorldJournal(std::string path, int descriptor);
+
+public:
     WorldJournal(const WorldJournal&) = delete;
     WorldJournal& operator=(const WorldJournal&) = delete;
 

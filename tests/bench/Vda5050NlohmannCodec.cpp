@@ -87,11 +87,11 @@ void ReadOptionalObject(const Json& object, const char* name, std::optional<T>& 
 }
 
 template <typename T>
-void WriteOptional(Json& object, const char* name, const std::optional<T>& value)
+void WriteOptional(Json& object, const char* name, const std::optional<T>& valueOrNull)
 {
-    if (value.has_value())
+    if (valueOrNull.has_value())
     {
-        object[name] = *value;
+        object[name] = *valueOrNull;
     }
 }
 
@@ -115,11 +115,11 @@ Json WriteArray(const std::vector<T>& values, Json (*write)(const T&))
 }
 
 template <typename T>
-void WriteOptionalObject(Json& object, const char* name, const std::optional<T>& value, Json (*write)(const T&))
+void WriteOptionalObject(Json& object, const char* name, const std::optional<T>& valueOrNull, Json (*write)(const T&))
 {
-    if (value.has_value())
+    if (valueOrNull.has_value())
     {
-        object[name] = write(*value);
+        object[name] = write(*valueOrNull);
     }
 }
 

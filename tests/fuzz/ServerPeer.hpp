@@ -45,21 +45,6 @@ class ServerPeer
     bool _bPeerClosed = false;
     bool _bClosed = false;
 
-    void Execute();
-    void Do(const OpenStream::ServerSend& action);
-    void Do(const OpenStream::ServerCall& action);
-    void Do(const OpenStream::ServerStopControl& action);
-    void Do(const OpenStream::ServerStartTimer& action);
-    void Do(const OpenStream::ServerCancelTimer& action);
-    void Do(const OpenStream::ServerPauseReading& action);
-    void Do(const OpenStream::ServerResumeReading& action);
-    void Do(const OpenStream::ServerContinue& action);
-    void Do(const OpenStream::ServerShutdownSend& action);
-    void Do(const OpenStream::ServerClose& action);
-    void CheckLine(std::string_view text);
-    void CheckAnswer(const std::string& kind);
-    void FireTimers();
-
 public:
     explicit ServerPeer(const OpenStream::ServerSessionOptions& options);
 
@@ -76,6 +61,22 @@ public:
     void End();
 
     [[nodiscard]] bool IsReading() const;
+
+private:
+    void Execute();
+    void Do(const OpenStream::ServerSend& action);
+    void Do(const OpenStream::ServerCall& action);
+    void Do(const OpenStream::ServerStopControl& action);
+    void Do(const OpenStream::ServerStartTimer& action);
+    void Do(const OpenStream::ServerCancelTimer& action);
+    void Do(const OpenStream::ServerPauseReading& action);
+    void Do(const OpenStream::ServerResumeReading& action);
+    void Do(const OpenStream::ServerContinue& action);
+    void Do(const OpenStream::ServerShutdownSend& action);
+    void Do(const OpenStream::ServerClose& action);
+    void CheckLine(std::string_view text);
+    void CheckAnswer(const std::string& kind);
+    void FireTimers();
 };
 
 } // namespace ACS::Fuzz

@@ -40,6 +40,22 @@ class VehicleOwner
     bool _bOrderRuns = false;
     bool _bLinked = true;
 
+public:
+    explicit VehicleOwner(VDA5050::VehicleOptions options);
+
+    [[nodiscard]] VDA5050::StateMessage GetState() const;
+
+    void PassTime(std::uint32_t milliseconds);
+    void Receive(VDA5050::ETopic topic, std::string_view payload, bool bRetained);
+    void SendInstant(std::string_view actionType, const std::string& actionID);
+    /// One of the things that can happen to a vehicle by itself.
+    void Happen(Choices& choices);
+    void ReachNode();
+    void SetStatus(Choices& choices);
+    /// Ends what can be ended, as a vehicle does that is left alone; then cancels what is left, and all must be over.
+    void End();
+
+private:
     void Obey();
     void Watch(const VDA5050::VehicleAction& action);
     void WatchStart(const VDA5050::StartAction& start);
@@ -56,21 +72,6 @@ class VehicleOwner
     void LeaveCorridor(bool bOutside);
     void Sense(Choices& choices);
     void Finish();
-
-public:
-    explicit VehicleOwner(VDA5050::VehicleOptions options);
-
-    [[nodiscard]] VDA5050::StateMessage GetState() const;
-
-    void PassTime(std::uint32_t milliseconds);
-    void Receive(VDA5050::ETopic topic, std::string_view payload, bool bRetained);
-    void SendInstant(std::string_view actionType, const std::string& actionID);
-    /// One of the things that can happen to a vehicle by itself.
-    void Happen(Choices& choices);
-    void ReachNode();
-    void SetStatus(Choices& choices);
-    /// Ends what can be ended, as a vehicle does that is left alone; then cancels what is left, and all must be over.
-    void End();
 };
 
 } // namespace ACS::Fuzz

@@ -38,8 +38,6 @@ private:
 
     std::vector<std::unique_ptr<Sleeper>> _sleepers;
 
-    static void Watch(Sleeper& sleeper, Core::Duration late);
-
 public:
     /// Remembers what was later than this.
     explicit StallWatch(std::chrono::milliseconds late = std::chrono::milliseconds(1));
@@ -49,6 +47,9 @@ public:
 
     /// Ends the watch. What all processors saw, in the order of its beginning.
     [[nodiscard]] std::vector<Stall> Stop();
+
+private:
+    static void Watch(Sleeper& sleeper, Core::Duration late);
 };
 
 } // namespace ACS::Load

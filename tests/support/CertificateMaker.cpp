@@ -67,17 +67,17 @@ Key MakeKey(bool bRSA)
     return key;
 }
 
-void AddExtension(X509* certificate, int kind, const std::string& value)
+void AddExtension(X509* certificateOrNull, int kind, const std::string& value)
 {
     X509V3_CTX context{};
-    X509V3_set_ctx(&context, certificate, certificate, nullptr, nullptr, 0);
+    X509V3_set_ctx(&context, certificateOrNull, certificateOrNull, nullptr, nullptr, 0);
     const std::unique_ptr<X509_EXTENSION, Release> extension(
         X509V3_EXT_conf_nid(nullptr, &context, kind, value.c_str()));
-    Need(extension != nullptr && X509_add_ext(certificate, extension.get(), -1) == 1, value);
+    Need(extension != nullptr && X509_add_ext(certificateOrNull, extension.get(), -1) == 1, value);
 }
 
 /// Without issuer and signature.
-Certificate MakeBlank(EVP_PKEY* key, const std::string& name, int serial, const CertificateWish& wish)
+Certificate MakeBlank(EVP_PKEY* keyOrNull, const std::string& name, int serial, const CertificateWish& wish)
 {
     Certificate certificate(X509_new());
     Need(certificate != nullptr, "certificate");
@@ -88,33 +88,33 @@ Certificate MakeBlank(EVP_PKEY* key, const std::string& name, int serial, const 
     const bool bDone = X509_set_version(handle, X509_VERSION_3) == 1
         && ASN1_INTEGER_set(X509_get_serialNumber(handle), serial) == 1
         && X509_gmtime_adj(X509_getm_notBefore(handle), from) != nullptr
-        && X509_gmtime_adj(X509_getm_notAfter(handle), to) != nullptr && X509_set_pubkey(handle, key) == 1
+        && X509_gmtime_adj(X509_getm_notAfter(handle), to) != nullptr && X509_set_pubkey(handle, keyOrNull) == 1
         && X509_NAME_add_entry_by_NID(X509_get_subject_name(handle), NID_commonName, MBSTRING_UTF8, text, -1, -1, 0)
             == 1;
     Need(bDone, name);
     return certificate;
 }
 
-void Sign(X509* certificate, const X509* issuer, EVP_PKEY* issuerKey)
+void Sign(X509* certificateOrNull, const X509* issuerOrNull, EVP_PKEY* issuerKeyOrNull)
 {
     Need(
-        X509_set_issuer_name(certificate, X509_get_subject_name(issuer)) == 1
-            && X509_sign(certificate, issuerKey, EVP_sha256()) > 0,
+        X509_set_issuer_name(certificateOrNull, X509_get_subject_name(issuerOrNull)) == 1
+            && X509_sign(certificateOrNull, issuerKeyOrNull, EVP_sha256()) > 0,
         "signature");
 }
 
 CertificateFiles Write(
     const std::filesystem::path& path,
-    X509* certificate,
-    EVP_PKEY* key,
+    X509* certificateOrNull,
+    EVP_PKEY* keyOrNull,
     const std::string& passphrase)
 {
     CertificateFiles files{path.string() + ".pem", path.string() + ".key"};
-    Need(PEM_write_bio_X509(Open(files.certificate, "w").get(), certificate) == 1, files.certificate);
+    Need(PEM_write_bio_X509(Open(files.certificate, "w").get(), certificateOrNull) == 1, files.certificate);
     const auto* const secret = reinterpret_cast<const unsigned char*>(passphrase.data()); // OpenSSL wants it so
     const bool bWritten = PEM_write_bio_PrivateKey(
                               Open(files.key, "w").get(),
-                              key,
+                              keyOrNull,
                               passphrase.empty() ? nullptr : EVP_aes_128_cbc(),
                               passphrase.empty() ? nullptr : secret,
                               static_cast<int>(passphrase.size()),

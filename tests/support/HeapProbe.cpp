@@ -14,9 +14,9 @@ extern "C"
 {
     Block __real_malloc(std::size_t size);
     Block __real_calloc(std::size_t count, std::size_t size);
-    Block __real_realloc(void* block, std::size_t size);
+    Block __real_realloc(void* blockOrNull, std::size_t size);
     Block __real_aligned_alloc(std::size_t alignment, std::size_t size);
-    void __real_free(void* block);
+    void __real_free(void* blockOrNull);
 }
 
 namespace
@@ -25,20 +25,20 @@ namespace
 constinit std::uint64_t takenBlocks = 0;
 constinit std::int64_t liveBytes = 0;
 
-Block Count(void* block) noexcept
+Block Count(void* blockOrNull) noexcept
 {
-    if (block != nullptr)
+    if (blockOrNull != nullptr)
     {
         ++takenBlocks;
-        liveBytes += static_cast<std::int64_t>(malloc_usable_size(block));
+        liveBytes += static_cast<std::int64_t>(malloc_usable_size(blockOrNull));
     }
-    return block;
+    return blockOrNull;
 }
 
-void Release(void* block) noexcept
+void Release(void* blockOrNull) noexcept
 {
-    liveBytes -= static_cast<std::int64_t>(malloc_usable_size(block));
-    __real_free(block);
+    liveBytes -= static_cast<std::int64_t>(malloc_usable_size(blockOrNull));
+    __real_free(blockOrNull);
 }
 
 } // namespace
@@ -55,10 +55,10 @@ extern "C"
         return Count(__real_calloc(count, size));
     }
 
-    Block __wrap_realloc(void* block, std::size_t size)
+    Block __wrap_realloc(void* blockOrNull, std::size_t size)
     {
-        liveBytes -= static_cast<std::int64_t>(malloc_usable_size(block));
-        return Count(__real_realloc(block, size));
+        liveBytes -= static_cast<std::int64_t>(malloc_usable_size(blockOrNull));
+        return Count(__real_realloc(blockOrNull, size));
     }
 
     /// What Asio takes its handlers' memory with.
@@ -67,9 +67,9 @@ extern "C"
         return Count(__real_aligned_alloc(alignment, size));
     }
 
-    void __wrap_free(void* block)
+    void __wrap_free(void* blockOrNull)
     {
-        Release(block);
+        Release(blockOrNull);
     }
 }
 
@@ -88,14 +88,14 @@ void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept
     return Count(__real_malloc(size == 0 ? 1 : size));
 }
 
-void operator delete(void* block) noexcept
+void operator delete(void* blockOrNull) noexcept
 {
-    Release(block);
+    Release(blockOrNull);
 }
 
-void operator delete(void* block, std::size_t /*size*/) noexcept
+void operator delete(void* blockOrNull, std::size_t /*size*/) noexcept
 {
-    Release(block);
+    Release(blockOrNull);
 }
 // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
 // NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming,cppcoreguidelines-no-malloc)

@@ -33,7 +33,7 @@ struct RobotLinkConfig
     std::string manufacturer;
     std::string serialNumber;
     std::string protocolVersion;        ///< "2.0.0" or "2.1.0"
-    std::optional<Apps::Url> armOrNone; ///< tcp://, Open Stream of its controller
+    std::optional<Apps::Url> armOrNull; ///< tcp://, Open Stream of its controller
     ArmOptions armOptions = {};
     JobMethods methods = {}; ///< Of the actions of its type.
 };

@@ -36,9 +36,9 @@ std::size_t ReadIndex(const ConfigSection& arm, const std::string& key, std::siz
     return static_cast<std::size_t>(arm.GetInteger(key, 0, HIGHEST_WORD_INDEX, static_cast<std::int64_t>(fallback)));
 }
 
-std::optional<std::size_t> ReadEchoOrNull(const ConfigSection& arm, std::optional<std::size_t> fallback)
+std::optional<std::size_t> ReadEchoOrNull(const ConfigSection& arm, std::optional<std::size_t> fallbackOrNull)
 {
-    const std::int64_t present = fallback.has_value() ? static_cast<std::int64_t>(*fallback) : NO_ECHO;
+    const std::int64_t present = fallbackOrNull.has_value() ? static_cast<std::int64_t>(*fallbackOrNull) : NO_ECHO;
     const std::int64_t index = arm.GetInteger("counter_echo", NO_ECHO, HIGHEST_WORD_INDEX, present);
     return index == NO_ECHO ? std::nullopt : std::optional(static_cast<std::size_t>(index));
 }

@@ -69,7 +69,7 @@ std::optional<Apps::Url> ReadArmOrNull(
     const ConfigSection section = robot.GetSection("arm");
     Apps::Url url = section.GetURL("url", {EUrlScheme::Tcp});
     const auto twin = std::ranges::find_if(others, [&url](const RobotLinkConfig& other) {
-        return other.armOrNone.has_value() && *other.armOrNone == url && !url.peer.host.empty();
+        return other.armOrNull.has_value() && *other.armOrNull == url && !url.peer.host.empty();
     });
     if (twin != others.end())
     {
@@ -151,13 +151,13 @@ void ReadRobot(const ConfigSection& section, const std::string& name, AcsdConfig
     link.manufacturer = section.GetString("manufacturer");
     link.serialNumber = section.GetString("serial");
     link.protocolVersion = section.GetWord("protocol", {"2.0.0", "2.1.0"}, "2.0.0");
-    link.armOrNone = ReadArmOrNull(section, options.type == Planning::ERobotType::CR, config.robots);
-    if (link.armOrNone.has_value())
+    link.armOrNull = ReadArmOrNull(section, options.type == Planning::ERobotType::CR, config.robots);
+    if (link.armOrNull.has_value())
     {
         link.armOptions = ReadArmOptions(section.GetSection("arm"), config.arm);
     }
     // The vehicle of a robot with an arm does not see what the arm carries, unless its positions are named.
-    const bool bLoadsShown = !link.armOrNone.has_value() || section.HasKey("load_positions");
+    const bool bLoadsShown = !link.armOrNull.has_value() || section.HasKey("load_positions");
     link.methods =
         JobMethods(bLoadsShown ? ReadLoadPositions(section, options.ports) : LoadPositions(), config.stations);
     for (const auto& [key, level] :

@@ -23,13 +23,6 @@ class TemplateCheck final
     std::int64_t _highestRobotPort = 0;
     EArmRelayIndex _relayIndex;
 
-    [[nodiscard]] std::optional<std::string> FindPlaceFaultOrNull(const JobName& name, const Planning::ActionRule& rule)
-        const;
-    [[nodiscard]] std::optional<std::string> FindStationFaultOrNull(const std::string& key) const;
-    [[nodiscard]] std::optional<std::string> FindStationNumberFaultOrNull(const ArmInputTemplate& input) const;
-    [[nodiscard]] std::int64_t GetHighest(const JobName& name) const;
-    void Count(const Core::Location& place);
-
 public:
     /// The stations must outlive it.
     TemplateCheck(const StationTable& stations, const Planning::EngineOptions& engine, EArmRelayIndex relayIndex);
@@ -47,6 +40,14 @@ public:
     [[nodiscard]] std::optional<std::string> FindFaultOrNull(
         const ArmInputTemplate& input,
         const Planning::ActionRule& rule) const;
+
+private:
+    [[nodiscard]] std::optional<std::string> FindPlaceFaultOrNull(const JobName& name, const Planning::ActionRule& rule)
+        const;
+    [[nodiscard]] std::optional<std::string> FindStationFaultOrNull(const std::string& key) const;
+    [[nodiscard]] std::optional<std::string> FindStationNumberFaultOrNull(const ArmInputTemplate& input) const;
+    [[nodiscard]] std::int64_t GetHighest(const JobName& name) const;
+    void Count(const Core::Location& place);
 };
 
 } // namespace ACS::Acsd

@@ -83,25 +83,6 @@ private:
     AckObserver _ackObserver;
     RefusedReports _refusedReports;
 
-    void HandleRequest(const Protocol::AcsRequest& request);
-    template <typename TList, typename TEntries>
-    void AnswerList(
-        const Protocol::AcsRequest& request,
-        const std::string& message,
-        TList list,
-        TEntries TList::*entries);
-    void LogAnswer(const OpenRequest& request, bool bAccepted, std::string_view reason);
-    void AnswerQuery(const Protocol::AcsRequest& request);
-    void AnswerHistory(const Protocol::AcsRequest& request, const Protocol::RequestAcsPlanHistory& query);
-    void HandleAck(const Protocol::Acked& acked);
-    void HandleRefusal(const Protocol::Acked& acked, const SentReport& sent);
-    void Acknowledge(std::uint64_t sequence);
-    /// Forgets what the engine has removed from its outbox.
-    void PruneAcknowledged(const std::vector<Planning::OutboxEntry>& outbox);
-    void BeginReplay();
-    void Feed();
-    [[nodiscard]] std::chrono::minutes GetOffset() const;
-
 public:
     /// Clock, engine and output must outlive the gateway.
     McsGateway(
@@ -135,6 +116,26 @@ public:
     void PublishTscState(Planning::ETscState state);
 
     [[nodiscard]] const RefusedReports& GetRefusedReports() const noexcept;
+
+private:
+    void HandleRequest(const Protocol::AcsRequest& request);
+    template <typename TList, typename TEntries>
+    void AnswerList(
+        const Protocol::AcsRequest& request,
+        const std::string& message,
+        TList list,
+        TEntries TList::*entries);
+    void LogAnswer(const OpenRequest& request, bool bAccepted, std::string_view reason);
+    void AnswerQuery(const Protocol::AcsRequest& request);
+    void AnswerHistory(const Protocol::AcsRequest& request, const Protocol::RequestAcsPlanHistory& query);
+    void HandleAck(const Protocol::Acked& acked);
+    void HandleRefusal(const Protocol::Acked& acked, const SentReport& sent);
+    void Acknowledge(std::uint64_t sequence);
+    /// Forgets what the engine has removed from its outbox.
+    void PruneAcknowledged(const std::vector<Planning::OutboxEntry>& outbox);
+    void BeginReplay();
+    void Feed();
+    [[nodiscard]] std::chrono::minutes GetOffset() const;
 };
 
 } // namespace ACS::Acsd

@@ -58,12 +58,6 @@ private:
     MessageTrace* _traceOrNull = nullptr;
     std::string _loggedOutage; ///< The reason that was told last, of the outage that goes on.
 
-    void OnSessionEvent(const Protocol::SessionEvent& event) override;
-    void LogEvent(const Protocol::SessionEvent& event);
-    void Warn(std::string_view kind, std::string_view message, std::initializer_list<Core::LogField> fields);
-    void WatchWire(ProtocolBeast::EWireDirection direction, std::string_view text);
-    void LogOutage(const Protocol::LinkLost& lost);
-
 public:
     /// The clock must outlive the link.
     McsLink(const Core::IClock& clock, Core::Logger logger, EventHandler handler);
@@ -103,6 +97,13 @@ public:
     [[nodiscard]] Metrics GetMetrics() const;
     /// Up while it is registered.
     [[nodiscard]] LinkStatus GetLink() const;
+
+private:
+    void OnSessionEvent(const Protocol::SessionEvent& event) override;
+    void LogEvent(const Protocol::SessionEvent& event);
+    void Warn(std::string_view kind, std::string_view message, std::initializer_list<Core::LogField> fields);
+    void WatchWire(ProtocolBeast::EWireDirection direction, std::string_view text);
+    void LogOutage(const Protocol::LinkLost& lost);
 };
 
 } // namespace ACS::Acsd

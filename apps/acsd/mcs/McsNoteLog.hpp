@@ -24,8 +24,6 @@ class McsNoteLog
     Apps::LogRateLimiter _log;
     std::optional<Waiting> _waiting;
 
-    void Write(const Waiting& note, Core::SteadyTime now);
-
 public:
     explicit McsNoteLog(Core::Logger logger);
 
@@ -37,6 +35,9 @@ public:
 
     /// What waits was not: something else has come.
     void Flush(Core::SteadyTime now);
+
+private:
+    void Write(const Waiting& note, Core::SteadyTime now);
 };
 
 } // namespace ACS::Acsd

@@ -20,8 +20,6 @@ class AcsdMetrics final
 {
     Apps::MetricsEndpoint& _metrics;
 
-    void UpdateRobotStatus(const Planning::RobotStatus& status);
-
 public:
     /// The endpoint outlives it.
     explicit AcsdMetrics(Apps::MetricsEndpoint& metrics);
@@ -34,6 +32,9 @@ public:
     void UpdatePlans(const Planning::PlanEngine& engine, Core::Now now);
     void UpdateRobot(const RobotHost& robot, Core::Now now);
     void UpdateTrace(std::uint64_t lost);
+
+private:
+    void UpdateRobotStatus(const Planning::RobotStatus& status);
 };
 
 } // namespace ACS::Acsd

@@ -25,13 +25,6 @@ class PlanLog final : public Planning::IPlanObserver
     Apps::LogRateLimiter _alarms; ///< A robot may make up as many as it likes.
     Apps::LogRateLimiter _robots; ///< And come and go as often.
 
-    void ObserveJob(
-        const Planning::PlanRecord& record,
-        const Planning::Step& step,
-        const std::string& jobID,
-        Planning::EJobState state,
-        Core::Now now);
-
 public:
     /// The metrics must outlive the log.
     PlanLog(Core::Logger logger, Apps::MetricsEndpoint& metrics);
@@ -59,6 +52,14 @@ public:
     void OnRobotStatusChanged(const Planning::RobotStatus& status, Core::Now now) override;
     void OnTscChanged(Planning::ETscState state, Planning::ETscState from, Core::Now now) override;
     void OnNote(std::string_view robotID, std::string_view text, Core::Now now) override;
+
+private:
+    void ObserveJob(
+        const Planning::PlanRecord& record,
+        const Planning::Step& step,
+        const std::string& jobID,
+        Planning::EJobState state,
+        Core::Now now);
 };
 
 } // namespace ACS::Acsd

@@ -23,7 +23,7 @@ ArmRefusal MakeArmRefusal(int status, const std::optional<Core::JsonText>& bodyO
         status,
         bodyOrNull.has_value() ? bodyOrNull->GetText().substr(0, LONGEST_BODY) : detail);
     refusal.status = status;
-    refusal.codeOrNone = bodyOrNull.has_value() ? ReadErrorCodeOrNull(*bodyOrNull) : std::nullopt;
+    refusal.codeOrNull = bodyOrNull.has_value() ? ReadErrorCodeOrNull(*bodyOrNull) : std::nullopt;
     return refusal;
 }
 

@@ -31,7 +31,7 @@ struct ArmRefusal
 {
     std::string reason; ///< For people.
     int status = 0;     ///< HTTP.
-    std::optional<std::int64_t> codeOrNone;
+    std::optional<std::int64_t> codeOrNull;
 };
 
 [[nodiscard]] ArmRefusal MakeArmRefusal(

@@ -45,7 +45,7 @@ struct ArmEffectShown
 struct ArmProbed
 {
     EArmProbe probe = EArmProbe::Motor;
-    std::optional<bool> bOnOrNone; ///< The motor is on, or a program runs.
+    std::optional<bool> bOnOrNull; ///< The motor is on, or a program runs.
 };
 
 /// Fact: all ranges of relays were read once.

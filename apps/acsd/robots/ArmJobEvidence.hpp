@@ -66,8 +66,6 @@ private:
     std::int32_t _jobNumber = 0; ///< 0: unknown.
     std::size_t _otherSamples = 0;
 
-    [[nodiscard]] bool IsEchoExpected() const;
-
 public:
     EChange Update(const ArmSample& sample);
 
@@ -92,6 +90,9 @@ public:
 
     /// For people: the number of this job and the one that the last program echoed.
     [[nodiscard]] std::string DescribeEcho() const;
+
+private:
+    [[nodiscard]] bool IsEchoExpected() const;
 };
 
 } // namespace ACS::Acsd

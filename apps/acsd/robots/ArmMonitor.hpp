@@ -50,21 +50,6 @@ class ArmMonitor
     std::string _motorRefusal;        ///< Of the last CONTROL that was to switch it on; empty: none.
     std::optional<Planning::RobotError> _trouble; ///< What keeps the arm from its work, its session being there.
 
-    void Monitor(std::string_view url, std::chrono::milliseconds period, std::optional<Core::JsonText> argsOrNull);
-    void MonitorMotor();
-    void MonitorRange();
-    void SwitchMotorOn();
-    void WatchCounters(ArmViews::ArmView view);
-    [[nodiscard]] std::size_t GetWordCount() const;
-    [[nodiscard]] std::optional<ArmSample> ReadSampleOrNull(const Core::JsonText& json) const;
-    void StartProbeTimer(Planning::AdapterActions& out) const;
-    [[nodiscard]] ArmFact TakeSample(const Core::JsonText& json, Planning::AdapterActions& out);
-    [[nodiscard]] ArmFact TakeProbe(const Core::JsonText& json);
-    [[nodiscard]] ArmFact TakeRelays(const Core::JsonText& json);
-    [[nodiscard]] ArmFact TakeCounters(const Core::JsonText& json, Planning::AdapterActions& out);
-    [[nodiscard]] ArmFact AbandonProbe(bool bHidden);
-    [[nodiscard]] static std::string_view GetProbeURL(EArmProbe probe);
-
 public:
     /// The outputs and the controls must outlive it.
     ArmMonitor(ArmOptions options, RobotOutputs& outputs, ArmControls& controls);
@@ -107,6 +92,22 @@ public:
     [[nodiscard]] bool IsReadingRelays() const noexcept;
     [[nodiscard]] bool IsHidden(EArmProbe probe) const noexcept;
     [[nodiscard]] const std::optional<Planning::RobotError>& GetTroubleOrNull() const noexcept;
+
+private:
+    void Monitor(std::string_view url, std::chrono::milliseconds period, std::optional<Core::JsonText> argsOrNull);
+    void MonitorMotor();
+    void MonitorRange();
+    void SwitchMotorOn();
+    void WatchCounters(ArmViews::ArmView view);
+    [[nodiscard]] std::size_t GetWordCount() const;
+    [[nodiscard]] std::optional<ArmSample> ReadSampleOrNull(const Core::JsonText& json) const;
+    void StartProbeTimer(Planning::AdapterActions& out) const;
+    [[nodiscard]] ArmFact TakeSample(const Core::JsonText& json, Planning::AdapterActions& out);
+    [[nodiscard]] ArmFact TakeProbe(const Core::JsonText& json);
+    [[nodiscard]] ArmFact TakeRelays(const Core::JsonText& json);
+    [[nodiscard]] ArmFact TakeCounters(const Core::JsonText& json, Planning::AdapterActions& out);
+    [[nodiscard]] ArmFact AbandonProbe(bool bHidden);
+    [[nodiscard]] static std::string_view GetProbeURL(EArmProbe probe);
 };
 
 } // namespace ACS::Acsd

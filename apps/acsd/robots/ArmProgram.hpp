@@ -66,35 +66,6 @@ class ArmProgram
     bool _bPauseKnown = false; ///< The robot has been paused or resumed since this start of acsd.
     std::optional<Planning::RobotError> _trouble;
 
-    template <typename TState>
-    [[nodiscard]] bool Is() const noexcept
-    {
-        return std::holds_alternative<TState>(_state);
-    }
-
-    void SetWork(ArmJob job);
-    void Select();
-    void SelectUnlessCancelled(Planning::AdapterActions& out);
-    void Rewind();
-    [[nodiscard]] bool TryRewind(const ArmRefusal& refusal);
-    void WriteInput();
-    void ReadInputs(Planning::AdapterActions& out);
-    void LeaveStarting();
-    void ProbeRefusedProgram();
-    void VerifyRecovered();
-    void OnAccepted(EArmControl kind, Planning::AdapterActions& out);
-    void OnUnanswered(EArmControl kind, OpenStream::EControlOutcome outcome, Planning::AdapterActions& out);
-    void OnControlRefused(EArmControl kind, const ArmRefusal& refusal, Planning::AdapterActions& out);
-    void OnStartRefused(const ArmRefusal& refusal, Planning::AdapterActions& out);
-    void Refuse(std::string reason);
-    void Begin(Planning::AdapterActions& out);
-    /// Returns the ID of the job that has ended.
-    [[nodiscard]] std::string End(Planning::AdapterActions& out);
-    void Fail(std::string reason, Planning::AdapterActions& out);
-    void ReportUnresolved(std::string reason, Planning::AdapterActions& out);
-    void ReportNotStarted(Planning::AdapterActions& out);
-    void RaiseHalt(std::string message);
-
 public:
     /// The controls must outlive it.
     ArmProgram(ArmOptions options, ArmControls& controls);
@@ -160,6 +131,36 @@ public:
     [[nodiscard]] bool IsResumeDue() const;
     [[nodiscard]] bool IsArmStopped() const;
     [[nodiscard]] const std::optional<Planning::RobotError>& GetTroubleOrNull() const noexcept;
+
+private:
+    template <typename TState>
+    [[nodiscard]] bool Is() const noexcept
+    {
+        return std::holds_alternative<TState>(_state);
+    }
+
+    void SetWork(ArmJob job);
+    void Select();
+    void SelectUnlessCancelled(Planning::AdapterActions& out);
+    void Rewind();
+    [[nodiscard]] bool TryRewind(const ArmRefusal& refusal);
+    void WriteInput();
+    void ReadInputs(Planning::AdapterActions& out);
+    void LeaveStarting();
+    void ProbeRefusedProgram();
+    void VerifyRecovered();
+    void OnAccepted(EArmControl kind, Planning::AdapterActions& out);
+    void OnUnanswered(EArmControl kind, OpenStream::EControlOutcome outcome, Planning::AdapterActions& out);
+    void OnControlRefused(EArmControl kind, const ArmRefusal& refusal, Planning::AdapterActions& out);
+    void OnStartRefused(const ArmRefusal& refusal, Planning::AdapterActions& out);
+    void Refuse(std::string reason);
+    void Begin(Planning::AdapterActions& out);
+    /// Returns the ID of the job that has ended.
+    [[nodiscard]] std::string End(Planning::AdapterActions& out);
+    void Fail(std::string reason, Planning::AdapterActions& out);
+    void ReportUnresolved(std::string reason, Planning::AdapterActions& out);
+    void ReportNotStarted(Planning::AdapterActions& out);
+    void RaiseHalt(std::string message);
 };
 
 } // namespace ACS::Acsd

@@ -67,7 +67,7 @@ void ArmProgramControls::Resume()
 
 void ArmProgramControls::Reset()
 {
-    SendReset(_acceptedResetOrNone.value_or(EReset::RCode));
+    SendReset(_acceptedResetOrNull.value_or(EReset::RCode));
 }
 
 void ArmProgramControls::SendReset(EReset reset)
@@ -79,7 +79,7 @@ void ArmProgramControls::SendReset(EReset reset)
 
 bool ArmProgramControls::TryOtherReset()
 {
-    if (_acceptedResetOrNone.has_value() || _sentReset == EReset::TaskReset)
+    if (_acceptedResetOrNull.has_value() || _sentReset == EReset::TaskReset)
     {
         return false;
     }
@@ -103,7 +103,7 @@ void ArmProgramControls::OnSettled(EArmControl kind, OpenStream::EControlOutcome
         case EArmControl::ResetProgram:
             if (bAccepted)
             {
-                _acceptedResetOrNone = _sentReset;
+                _acceptedResetOrNull = _sentReset;
             }
             break;
         case EArmControl::SwitchMotorOn:
@@ -116,7 +116,7 @@ void ArmProgramControls::OnSettled(EArmControl kind, OpenStream::EControlOutcome
 
 void ArmProgramControls::OnLost() noexcept
 {
-    _acceptedResetOrNone.reset();
+    _acceptedResetOrNull.reset();
 }
 
 bool ArmProgramControls::IsRewindDue() const noexcept
@@ -126,7 +126,7 @@ bool ArmProgramControls::IsRewindDue() const noexcept
 
 bool ArmProgramControls::IsRewindWanted(const ArmRefusal& refusal) noexcept
 {
-    return refusal.codeOrNone == BAD_COUNTER;
+    return refusal.codeOrNull == BAD_COUNTER;
 }
 
 } // namespace ACS::Acsd

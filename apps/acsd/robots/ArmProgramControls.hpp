@@ -22,9 +22,7 @@ class ArmProgramControls
     ArmControls& _controls;
     bool _bRewindDue = false;                   ///< A program was started or stopped since the program counter was set.
     EReset _sentReset = EReset::RCode;          ///< The latest.
-    std::optional<EReset> _acceptedResetOrNone; ///< Of this connection.
-
-    void SendReset(EReset reset);
+    std::optional<EReset> _acceptedResetOrNull; ///< Of this connection.
 
 public:
     /// The controls must outlive it.
@@ -49,6 +47,9 @@ public:
     [[nodiscard]] bool IsRewindDue() const noexcept;
     /// Whether the controller refused a selection because of its program counter.
     [[nodiscard]] static bool IsRewindWanted(const ArmRefusal& refusal) noexcept;
+
+private:
+    void SendReset(EReset reset);
 };
 
 } // namespace ACS::Acsd

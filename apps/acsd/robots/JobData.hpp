@@ -37,11 +37,6 @@ class JobData final
     const StationValues* _stationOrNull = nullptr;
     std::optional<std::string> _robotPosition; ///< The vehicle's name of the robot port.
 
-    [[nodiscard]] const std::optional<Core::Location>& GetLocation(JobName::ESubject subject) const;
-    [[nodiscard]] const Core::Location* FindPlaceOrNull() const;
-    [[nodiscard]] const Core::Location* FindRobotPlaceOrNull() const;
-    [[nodiscard]] std::optional<JobValue> FindStationValueOrNull(const std::string& key) const;
-
 public:
     /// The stations must outlive it.
     JobData(const Planning::StartJob& job, const StationTable& stations, const LoadPositions& positions);
@@ -55,6 +50,12 @@ public:
 
     /// The same as a whole number, 0 where there is none: the robot port is its own number.
     [[nodiscard]] std::int64_t GetNumber(const JobName& name) const;
+
+private:
+    [[nodiscard]] const std::optional<Core::Location>& GetLocation(JobName::ESubject subject) const;
+    [[nodiscard]] const Core::Location* FindPlaceOrNull() const;
+    [[nodiscard]] const Core::Location* FindRobotPlaceOrNull() const;
+    [[nodiscard]] std::optional<JobValue> FindStationValueOrNull(const std::string& key) const;
 };
 
 } // namespace ACS::Acsd

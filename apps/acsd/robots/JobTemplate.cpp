@@ -67,9 +67,9 @@ std::vector<JobName> JobTemplate::GetNames() const
     std::vector<JobName> names;
     for (const Piece& piece : _pieces)
     {
-        if (piece.nameOrNone.has_value())
+        if (piece.nameOrNull.has_value())
         {
-            names.push_back(*piece.nameOrNone);
+            names.push_back(*piece.nameOrNull);
         }
     }
     return names;
@@ -81,14 +81,14 @@ tl::expected<JobValue, JobName> JobTemplate::Resolve(const JobData& data) const
     for (const Piece& piece : _pieces)
     {
         text += piece.text;
-        if (!piece.nameOrNone.has_value())
+        if (!piece.nameOrNull.has_value())
         {
             continue;
         }
-        std::optional<JobValue> value = data.FindOrNull(*piece.nameOrNone);
+        std::optional<JobValue> value = data.FindOrNull(*piece.nameOrNull);
         if (!value.has_value())
         {
-            return tl::unexpected(*piece.nameOrNone);
+            return tl::unexpected(*piece.nameOrNull);
         }
         if (_pieces.size() == 1 && piece.text.empty())
         {

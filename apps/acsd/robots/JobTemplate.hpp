@@ -19,7 +19,7 @@ class JobTemplate final
     struct Piece
     {
         std::string text;
-        std::optional<JobName> nameOrNone; ///< What follows the text.
+        std::optional<JobName> nameOrNull; ///< What follows the text.
     };
 
     std::vector<Piece> _pieces;

@@ -77,7 +77,7 @@ std::optional<MethodFault> FindMethodFaultOrNull(
     {
         return std::nullopt; // keys of both or of neither are reported already
     }
-    const bool bArm = robot.armOrNone.has_value();
+    const bool bArm = robot.armOrNull.has_value();
     if (bArm && method.armProgram == 0)
     {
         return MethodFault{
@@ -100,7 +100,7 @@ std::optional<MethodFault> FindMethodFaultOrNull(
 /// The program would lose what it shows there, or acsd would take the input for it.
 void RefuseCounters(const MethodTable& table, const RobotLinkConfig& robot)
 {
-    if (!robot.armOrNone.has_value() || !table.keys.armInputs.has_value())
+    if (!robot.armOrNull.has_value() || !table.keys.armInputs.has_value())
     {
         return;
     }
@@ -180,9 +180,9 @@ void MethodResolver::SetMethods(const MethodTable* overrideOrNull, std::size_t p
             fault->key,
             fmt::format("{} cannot do {} with it: {}; {}", robot.robotID, _action, fault->reason, fault->remedy));
     }
-    else if (fault.has_value() && !_baseFaultOrNone.has_value())
+    else if (fault.has_value() && !_baseFaultOrNull.has_value())
     {
-        _baseFaultOrNone = fault;
+        _baseFaultOrNull = fault;
     }
     else if (!fault.has_value())
     {
@@ -202,15 +202,15 @@ void MethodResolver::SetMethods(const MethodTable* overrideOrNull, std::size_t p
 void MethodResolver::Check(const SitePlaces& places) const
 {
     const bool bBaseValid = _base.keys.vehicleAction.has_value() != _base.keys.armProgram.has_value();
-    if (bBaseValid && _used.empty() && _baseFaultOrNone.has_value() && !_bOverrideFault)
+    if (bBaseValid && _used.empty() && _baseFaultOrNull.has_value() && !_bOverrideFault)
     {
         _base.section.AddMistake(
-            _baseFaultOrNone->key,
+            _baseFaultOrNull->key,
             fmt::format(
                 "no robot can do it, {}: {}; {}",
-                _baseFaultOrNone->robotID,
-                _baseFaultOrNone->reason,
-                _baseFaultOrNone->remedy));
+                _baseFaultOrNull->robotID,
+                _baseFaultOrNull->reason,
+                _baseFaultOrNull->remedy));
     }
     for (const auto& [stationID, tables] : _stations)
     {

@@ -44,7 +44,7 @@ class MethodResolver final
     const StationTables& _stations;
     std::vector<std::string>& _warnings;
     std::vector<MethodKeys> _used;               ///< Of the robots that can do it.
-    std::optional<MethodFault> _baseFaultOrNone; ///< Of the first robot without an override that cannot.
+    std::optional<MethodFault> _baseFaultOrNull; ///< Of the first robot without an override that cannot.
     bool _bOverrideFault = false;
 
 public:

@@ -305,7 +305,7 @@ void OpenStreamRobotAdapter::OnCounted(const ArmCounted& counted, AdapterActions
 void OpenStreamRobotAdapter::OnProbed(const ArmProbed& probed, AdapterActions& out)
 {
     const bool bMotor = probed.probe == EArmProbe::Motor;
-    if (bMotor && probed.bOnOrNone == false && _program.IsMotorDecisive())
+    if (bMotor && probed.bOnOrNull == false && _program.IsMotorDecisive())
     {
         _monitor.ReportMotorOff();
         _monitor.WatchMotor(out);
@@ -320,7 +320,7 @@ void OpenStreamRobotAdapter::OnProbed(const ArmProbed& probed, AdapterActions& o
     else
     {
         _monitor.WatchCounters();
-        _program.OnPlaybackProbed(probed.bOnOrNone, IsProgramWatched());
+        _program.OnPlaybackProbed(probed.bOnOrNull, IsProgramWatched());
     }
     Update(out);
 }

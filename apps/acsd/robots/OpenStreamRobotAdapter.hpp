@@ -48,6 +48,29 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     bool _bPaused = false;             ///< Likewise.
     std::optional<Planning::RobotError> _trouble;
 
+public:
+    /// The outputs must outlive the adapter. Each MONITOR in them is one SetMonitor call of one session, which has no other.
+    /// An empty resolver: no action has inputs.
+    OpenStreamRobotAdapter(
+        VDA5050::MasterOptions base,
+        ArmOptions arm,
+        JobMethods methods,
+        ArmInputResolver inputs,
+        RobotOutputs& outputs);
+
+    void Handle(const Planning::RobotCommand& command, Core::Now now, Planning::AdapterActions& out) override;
+    void OnTimer(Planning::AdapterTimerID timer, Core::Now now, Planning::AdapterActions& out) override;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(std::string_view action) const override;
+
+    [[nodiscard]] std::vector<VDA5050::MqttSubscription> GetSubscriptions() const override;
+    void OnLinkUp(Core::Now now, Planning::AdapterActions& out) override;
+    void OnLinkDown(Core::Now now, Planning::AdapterActions& out) override;
+    void OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, Planning::AdapterActions& out) override;
+    [[nodiscard]] const VDA5050::MasterSession& GetSession() const noexcept override;
+
+    void OnArmEvent(const OpenStream::ClientEvent& event, Core::Now now, Planning::AdapterActions& out);
+
+private:
     void StartJob(const Planning::StartJob& job, Planning::AdapterActions& out);
     [[nodiscard]] tl::expected<ArmJob, std::string> MakeJob(const Planning::StartJob& job) const;
     void RecoverJob(Planning::AdapterActions& out);
@@ -78,28 +101,6 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     void ReportOnline(Planning::AdapterActions& out);
     void ReportPaused(Planning::AdapterActions& out);
     [[nodiscard]] bool IsPaused() const;
-
-public:
-    /// The outputs must outlive the adapter. Each MONITOR in them is one SetMonitor call of one session, which has no other.
-    /// An empty resolver: no action has inputs.
-    OpenStreamRobotAdapter(
-        VDA5050::MasterOptions base,
-        ArmOptions arm,
-        JobMethods methods,
-        ArmInputResolver inputs,
-        RobotOutputs& outputs);
-
-    void Handle(const Planning::RobotCommand& command, Core::Now now, Planning::AdapterActions& out) override;
-    void OnTimer(Planning::AdapterTimerID timer, Core::Now now, Planning::AdapterActions& out) override;
-    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(std::string_view action) const override;
-
-    [[nodiscard]] std::vector<VDA5050::MqttSubscription> GetSubscriptions() const override;
-    void OnLinkUp(Core::Now now, Planning::AdapterActions& out) override;
-    void OnLinkDown(Core::Now now, Planning::AdapterActions& out) override;
-    void OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, Planning::AdapterActions& out) override;
-    [[nodiscard]] const VDA5050::MasterSession& GetSession() const noexcept override;
-
-    void OnArmEvent(const OpenStream::ClientEvent& event, Core::Now now, Planning::AdapterActions& out);
 };
 
 } // namespace ACS::Acsd

@@ -191,7 +191,7 @@ std::optional<std::string> ParameterTemplate::AppendRecursiveOrNull(const toml::
         {
             return std::move(parsed.error());
         }
-        scalar = std::move(*parsed->_pieces.front().scalarOrNone);
+        scalar = std::move(*parsed->_pieces.front().scalarOrNull);
     }
     else if (const std::optional<std::int64_t> integer = node.value_exact<std::int64_t>())
     {
@@ -230,7 +230,7 @@ std::vector<JobName> ParameterTemplate::GetNames() const
     for (const Piece& piece : _pieces)
     {
         const auto* const text =
-            piece.scalarOrNone.has_value() ? std::get_if<JobTemplate>(&*piece.scalarOrNone) : nullptr;
+            piece.scalarOrNull.has_value() ? std::get_if<JobTemplate>(&*piece.scalarOrNull) : nullptr;
         if (text != nullptr)
         {
             std::ranges::move(text->GetNames(), std::back_inserter(names));
@@ -239,14 +239,15 @@ std::vector<JobName> ParameterTemplate::GetNames() const
     return names;
 }
 
-tl::expected<JsonText, std::string> ParameterTemplate::Resolve(const JobData& data, std::optional<EValueDataType> type)
-    const
+tl::expected<JsonText, std::string> ParameterTemplate::Resolve(
+    const JobData& data,
+    std::optional<EValueDataType> typeOrNull) const
 {
     std::string json;
     for (const Piece& piece : _pieces)
     {
         json += piece.json;
-        if (!piece.scalarOrNone.has_value())
+        if (!piece.scalarOrNull.has_value())
         {
             continue;
         }
@@ -256,25 +257,26 @@ tl::expected<JsonText, std::string> ParameterTemplate::Resolve(const JobData& da
                 [](const auto& scalar) {
                     return tl::expected<JobValue, JobName>(JobValue(scalar));
                 }},
-            *piece.scalarOrNone);
+            *piece.scalarOrNull);
         if (!value.has_value())
         {
             return tl::unexpected(fmt::format("the job has no {}", MakeNameText(value.error())));
         }
-        const bool bConverted = IsScalar() && type.has_value();
+        const bool bConverted = IsScalar() && typeOrNull.has_value();
         const std::optional<JsonText> converted =
-            bConverted ? ConvertOrNull(*value, *type) : std::optional(MakeJSON(*value));
+            bConverted ? ConvertOrNull(*value, *typeOrNull) : std::optional(MakeJSON(*value));
         if (!converted.has_value())
         {
-            return tl::unexpected(fmt::format("{} is not of type {}", MakeJSON(*value).GetText(), GetTypeName(*type)));
+            return tl::unexpected(
+                fmt::format("{} is not of type {}", MakeJSON(*value).GetText(), GetTypeName(*typeOrNull)));
         }
         json += converted->GetText();
     }
     const bool bObject = json.starts_with('{');
     const EValueDataType structure = bObject ? EValueDataType::Object : EValueDataType::Array;
-    if (!IsScalar() && type.value_or(structure) != structure)
+    if (!IsScalar() && typeOrNull.value_or(structure) != structure)
     {
-        return tl::unexpected(fmt::format("{} is not of type {}", GetJsonKind(), GetTypeName(*type)));
+        return tl::unexpected(fmt::format("{} is not of type {}", GetJsonKind(), GetTypeName(*typeOrNull)));
     }
     return JsonText::FromTrusted(std::move(json));
 }

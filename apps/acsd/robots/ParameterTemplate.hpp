@@ -25,7 +25,7 @@ class ParameterTemplate final
     struct Piece
     {
         std::string json;
-        std::optional<Scalar> scalarOrNone;
+        std::optional<Scalar> scalarOrNull;
     };
 
     std::vector<Piece> _pieces; ///< A scalar is one piece without text.
@@ -45,7 +45,7 @@ public:
     /// have, or which value has another type.
     [[nodiscard]] tl::expected<Core::JsonText, std::string> Resolve(
         const JobData& data,
-        std::optional<VDA5050::EValueDataType> type) const;
+        std::optional<VDA5050::EValueDataType> typeOrNull) const;
 
 private:
     /// Appends the pieces of the value; the JSON text after the last one stays in `json`. Returns what is wrong with it.

@@ -34,7 +34,7 @@ VDA5050::MasterOptions MakeMasterOptions(const AcsdConfig& config, const RobotLi
 RobotAdapter MakeRobotAdapter(const AcsdConfig& config, const RobotLinkConfig& robot, RobotOutputs& outputs)
 {
     VDA5050::MasterOptions options = MakeMasterOptions(config, robot);
-    if (!robot.armOrNone.has_value())
+    if (!robot.armOrNull.has_value())
     {
         auto vehicle = std::make_unique<Vda5050RobotAdapter>(
             std::move(options),

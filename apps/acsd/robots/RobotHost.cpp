@@ -143,7 +143,7 @@ struct RobotHost::Impl
 
     void StartArm()
     {
-        OpenStreamAsio::OpenStreamClientOptions options = MakeArmOptions(*robot.armOrNone);
+        OpenStreamAsio::OpenStreamClientOptions options = MakeArmOptions(*robot.armOrNull);
         if (surroundings.traceOrNull != nullptr)
         {
             armTrace.emplace(*surroundings.traceOrNull, robot.robotID);
@@ -198,7 +198,7 @@ RobotHost::~RobotHost() = default;
 void RobotHost::Start()
 {
     _impl->surroundings.mqtt.Subscribe(_impl->adapter->GetSubscriptions());
-    if (_impl->robot.armOrNone.has_value())
+    if (_impl->robot.armOrNull.has_value())
     {
         _impl->StartArm();
     }

@@ -28,9 +28,6 @@ namespace ACS::Acsd
 /// passes its events on. Decides nothing. One thread: the executor's.
 class RobotHost final
 {
-    struct Impl;
-    std::unique_ptr<Impl> _impl;
-
 public:
     /// Called from within the host's calls and from its timers; may call Handle.
     using EventHandler = std::function<void(const std::string& robotID, const Planning::RobotEvent& event)>;
@@ -56,16 +53,22 @@ public:
         MessageTrace* traceOrNull = nullptr;
     };
 
+private:
+    struct Impl;
+
+    std::unique_ptr<Impl> _impl;
+
+public:
+    RobotHost(Surroundings surroundings, const AcsdConfig& config, const RobotLinkConfig& robot, EventHandler handler);
+    RobotHost(const RobotHost&) = delete;
+    RobotHost& operator=(const RobotHost&) = delete;
+    ~RobotHost();
+
     /// What its adapter will not do: the one place that knows is the adapter.
     [[nodiscard]] static Planning::RejectedActions FindRejectedActions(
         const AcsdConfig& config,
         const RobotLinkConfig& robot,
         Planning::ERobotType type);
-
-    RobotHost(Surroundings surroundings, const AcsdConfig& config, const RobotLinkConfig& robot, EventHandler handler);
-    RobotHost(const RobotHost&) = delete;
-    RobotHost& operator=(const RobotHost&) = delete;
-    ~RobotHost();
 
     /// Subscribes and connects to the arm.
     void Start();

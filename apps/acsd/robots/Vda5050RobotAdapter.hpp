@@ -51,6 +51,27 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
     std::optional<VDA5050::OrderMessage> _pendingOrder; ///< Sent when the vehicle has finished the order before.
     std::string _foreignOrderID; ///< The latest order of another master for which cancelOrder was sent.
 
+public:
+    /// The outputs must outlive the adapter. loadTimeout: maximum time for the loads to agree with a job whose action is
+    /// finished.
+    Vda5050RobotAdapter(
+        VDA5050::MasterOptions options,
+        JobMethods methods,
+        RobotOutputs& outputs,
+        std::chrono::milliseconds loadTimeout = LOAD_TIMEOUT);
+
+    void Handle(const Planning::RobotCommand& command, Core::Now now, Planning::AdapterActions& out) override;
+    void OnTimer(Planning::AdapterTimerID timer, Core::Now now, Planning::AdapterActions& out) override;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(std::string_view action) const override;
+
+    [[nodiscard]] std::vector<VDA5050::MqttSubscription> GetSubscriptions() const override;
+    void OnLinkUp(Core::Now now, Planning::AdapterActions& out) override;
+    void OnLinkDown(Core::Now now, Planning::AdapterActions& out) override;
+    void OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, Planning::AdapterActions& out) override;
+
+    [[nodiscard]] const VDA5050::MasterSession& GetSession() const noexcept override;
+
+private:
     void StartDrive(const Planning::Drive& drive, Core::Now now, Planning::AdapterActions& out);
     void StartJob(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
     void CancelJob(const std::string& jobID, Core::Now now, Planning::AdapterActions& out);
@@ -95,26 +116,6 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
     /// The factsheet was received, or is no longer awaited.
     void OnFactsheet(Core::Now now, Planning::AdapterActions& out);
     void UpdateJobCheck(Planning::AdapterActions& out);
-
-public:
-    /// The outputs must outlive the adapter. loadTimeout: maximum time for the loads to agree with a job whose action is
-    /// finished.
-    Vda5050RobotAdapter(
-        VDA5050::MasterOptions options,
-        JobMethods methods,
-        RobotOutputs& outputs,
-        std::chrono::milliseconds loadTimeout = LOAD_TIMEOUT);
-
-    void Handle(const Planning::RobotCommand& command, Core::Now now, Planning::AdapterActions& out) override;
-    void OnTimer(Planning::AdapterTimerID timer, Core::Now now, Planning::AdapterActions& out) override;
-    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(std::string_view action) const override;
-
-    [[nodiscard]] std::vector<VDA5050::MqttSubscription> GetSubscriptions() const override;
-    void OnLinkUp(Core::Now now, Planning::AdapterActions& out) override;
-    void OnLinkDown(Core::Now now, Planning::AdapterActions& out) override;
-    void OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, Planning::AdapterActions& out) override;
-
-    [[nodiscard]] const VDA5050::MasterSession& GetSession() const noexcept override;
 };
 
 } // namespace ACS::Acsd

@@ -14,10 +14,6 @@ class VehicleReport final
     bool _bPoseInState = false; ///< The latest state had a position.
     bool _bPauseDone = false;   ///< startPause was finished later than stopPause.
 
-    void UpdatePose(const VDA5050::AgvPosition& position);
-    void UpdatePause(const VDA5050::StateMessage& state, bool bJobRunning);
-    void UpdateErrors(const VDA5050::StateMessage& state);
-
 public:
     /// bJobRunning: the action of the present job runs. Whether the vehicle is occupied is set by SetOccupied.
     void Update(const VDA5050::StateMessage& state, bool bJobRunning, const LoadPositions& positions);
@@ -27,6 +23,11 @@ public:
     void SetOccupied(bool bOccupied, const VDA5050::StateMessage& state);
 
     [[nodiscard]] const Planning::StateChanged& GetState() const noexcept;
+
+private:
+    void UpdatePose(const VDA5050::AgvPosition& position);
+    void UpdatePause(const VDA5050::StateMessage& state, bool bJobRunning);
+    void UpdateErrors(const VDA5050::StateMessage& state);
 };
 
 } // namespace ACS::Acsd

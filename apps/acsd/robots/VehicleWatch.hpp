@@ -23,6 +23,19 @@ namespace ACS::Acsd
 /// sessions and engine tolerate them by themselves. Pure.
 class VehicleWatch final
 {
+public:
+    /// Everything outlives the watch.
+    struct Dependencies
+    {
+        const Core::IClock& clock;
+        Core::Logger logger;
+        Apps::MetricsEndpoint& metrics;
+    };
+
+    /// How far outside the rectangle around all nodes a vehicle may be, in metres.
+    static constexpr double MARGIN = 5.0;
+
+private:
     struct Shown
     {
         std::string orderID;
@@ -50,25 +63,7 @@ class VehicleWatch final
     Range _rangeX;                         ///< Both: around the site's nodes.
     Range _rangeY;
 
-    [[nodiscard]] static Range FindRange(const Planning::SiteMap& site, double Planning::SiteNode::*coordinate);
-    void LookAtPlace(const VDA5050::StateMessage& state);
-    void CheckLoads(const VDA5050::StateMessage& state);
-    void LookAtOrder(const VDA5050::StateMessage& state);
-    void LookAtActions(const VDA5050::StateMessage& state);
-    void Note(std::string_view kind, std::string_view detail);
-
 public:
-    /// Everything outlives the watch.
-    struct Dependencies
-    {
-        const Core::IClock& clock;
-        Core::Logger logger;
-        Apps::MetricsEndpoint& metrics;
-    };
-
-    /// How far outside the rectangle around all nodes a vehicle may be, in metres.
-    static constexpr double MARGIN = 5.0;
-
     /// The site outlives the watch.
     VehicleWatch(
         const Planning::SiteMap& site,
@@ -86,6 +81,14 @@ public:
     void OnStatistics(const VDA5050::MasterStatistics& statistics);
 
     void OnArmEvent(const OpenStream::ClientEvent& event);
+
+private:
+    [[nodiscard]] static Range FindRange(const Planning::SiteMap& site, double Planning::SiteNode::*coordinate);
+    void LookAtPlace(const VDA5050::StateMessage& state);
+    void CheckLoads(const VDA5050::StateMessage& state);
+    void LookAtOrder(const VDA5050::StateMessage& state);
+    void LookAtActions(const VDA5050::StateMessage& state);
+    void Note(std::string_view kind, std::string_view detail);
 };
 
 } // namespace ACS::Acsd

@@ -16,12 +16,6 @@ namespace ACS::Acsd
 /// that people should look at the disk. Pure; the timer is the caller's.
 class StoreWatch
 {
-    Core::Logger _logger;
-    Apps::LogRateLimiter _failures; ///< It is tried again every second.
-    Core::SteadyTime _began;
-    std::string _fault; ///< Why the store failed last; empty: it did not.
-    bool _bHangs = false;
-
 public:
     /// Nothing is told to anybody before a write is over. A good disk takes milliseconds.
     static constexpr std::chrono::milliseconds LIMIT{5'000};
@@ -29,6 +23,14 @@ public:
     /// Between two looks at the file's name: so long a file that was removed can go unnoticed where nothing is written.
     static constexpr std::chrono::milliseconds CHECK_INTERVAL{2'000};
 
+private:
+    Core::Logger _logger;
+    Apps::LogRateLimiter _failures; ///< It is tried again every second.
+    Core::SteadyTime _began;
+    std::string _fault; ///< Why the store failed last; empty: it did not.
+    bool _bHangs = false;
+
+public:
     explicit StoreWatch(Core::Logger logger);
 
     /// A write begins; OnLate is due LIMIT later, unless OnStored comes first.

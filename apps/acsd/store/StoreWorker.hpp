@@ -15,16 +15,16 @@ namespace ACS::Acsd
 /// executor's thread.
 class StoreWorker final
 {
-    struct Impl;
-    std::shared_ptr<Impl> _impl;
-
-    template <typename TWork, typename TAnswer>
-    void Do(TWork work, TAnswer answer);
-
 public:
     using StoredHandler = std::function<void(const Core::Result<void>& result)>;
     using LostHandler = std::function<void(const Core::Error& error)>;
 
+private:
+    struct Impl;
+
+    std::shared_ptr<Impl> _impl;
+
+public:
     /// The second handler is called for each check that has failed.
     StoreWorker(
         const boost::asio::any_io_executor& executor,
@@ -42,6 +42,10 @@ public:
 
     /// Has the store look whether what it holds will be found again; nothing while the check before is not answered.
     void CheckAsync();
+
+private:
+    template <typename TWork, typename TAnswer>
+    void Do(TWork work, TAnswer answer);
 };
 
 } // namespace ACS::Acsd

@@ -16,9 +16,6 @@ class ArmTrace final
     std::string _received; ///< The line that is not whole yet.
     std::string _sent;
 
-    void Take(ProtocolBeast::EWireDirection direction, std::string_view bytes, std::string& kept);
-    void Write(ProtocolBeast::EWireDirection direction, std::string_view line);
-
 public:
     /// The trace outlives it.
     ArmTrace(MessageTrace& trace, std::string robotID);
@@ -28,6 +25,10 @@ public:
 
     /// The connection has ended: what came of the next line is a line.
     void OnLost();
+
+private:
+    void Take(ProtocolBeast::EWireDirection direction, std::string_view bytes, std::string& kept);
+    void Write(ProtocolBeast::EWireDirection direction, std::string_view line);
 };
 
 } // namespace ACS::Acsd

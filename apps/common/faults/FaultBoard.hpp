@@ -30,6 +30,11 @@ struct FaultChange
 template <typename TFault>
 class FaultBoard
 {
+public:
+    /// Active and waiting faults. The owner must check before it adds one.
+    static constexpr std::size_t MAX_FAULTS = 1000;
+
+private:
     using Kind = typename TFault::Kind;
     using Changes = std::vector<FaultChange<TFault>>;
 
@@ -46,9 +51,6 @@ class FaultBoard
     std::vector<Entry> _entries;
 
 public:
-    /// Active and waiting faults. The owner must check before it adds one.
-    static constexpr std::size_t MAX_FAULTS = 1000;
-
     [[nodiscard]] std::size_t CountFaults() const noexcept
     {
         return _entries.size();

@@ -36,14 +36,15 @@ public:
 private:
     Options _options;
 
-    [[nodiscard]] bool IsOwnName(std::string_view host) const;
-
 public:
     explicit HttpGuard(Options options);
 
     /// Why the request is refused, as a sentence.
     [[nodiscard]] std::optional<std::string> GetObjectionOrNull(const HttpRequest& request, const HttpSource& source)
         const;
+
+private:
+    [[nodiscard]] bool IsOwnName(std::string_view host) const;
 };
 
 } // namespace ACS::Apps

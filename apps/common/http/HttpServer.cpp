@@ -82,7 +82,7 @@ struct HttpServer::Impl : std::enable_shared_from_this<Impl>
     Core::Logger logger;
     LogRateLimiter refusals; ///< Anybody may send anything.
     HttpLimits limits;
-    std::optional<HttpGuard> guardOrNone;
+    std::optional<HttpGuard> guardOrNull;
     std::shared_ptr<Net::TcpListener> listener;
     ConnectionList connections;
     std::optional<Tcp::socket> nextOrNull; ///< Has come while all others were being answered.
@@ -92,12 +92,12 @@ struct HttpServer::Impl : std::enable_shared_from_this<Impl>
         Handler handlerToCall,
         Core::Logger serverLogger,
         HttpLimits serverLimits,
-        std::optional<HttpGuard> serverGuardOrNone)
+        std::optional<HttpGuard> serverGuardOrNull)
         : handler(std::move(handlerToCall)),
           logger(std::move(serverLogger)),
           refusals(logger),
           limits(serverLimits),
-          guardOrNone(std::move(serverGuardOrNone)),
+          guardOrNull(std::move(serverGuardOrNull)),
           listener(std::make_shared<Net::TcpListener>(executor, logger, [this](Tcp::socket socket) {
               OnAccepted(std::move(socket));
               return !nextOrNull.has_value();
@@ -378,8 +378,8 @@ std::optional<std::string> HttpServer::Impl::FindObjectionOrNull(const HttpReque
         const auto value = header[name];
         return std::string_view(value.data(), value.size());
     };
-    return guardOrNone.has_value()
-        ? guardOrNone->GetObjectionOrNull(request, {get("Host"), get("Origin"), get("Sec-Fetch-Site")})
+    return guardOrNull.has_value()
+        ? guardOrNull->GetObjectionOrNull(request, {get("Host"), get("Origin"), get("Sec-Fetch-Site")})
         : std::nullopt;
 }
 
@@ -446,8 +446,8 @@ HttpServer::HttpServer(
     Handler handler,
     Core::Logger logger,
     HttpLimits limits,
-    std::optional<HttpGuard> guardOrNone)
-    : _impl(std::make_shared<Impl>(executor, std::move(handler), std::move(logger), limits, std::move(guardOrNone)))
+    std::optional<HttpGuard> guardOrNull)
+    : _impl(std::make_shared<Impl>(executor, std::move(handler), std::move(logger), limits, std::move(guardOrNull)))
 {
 }
 

@@ -34,19 +34,22 @@ struct HttpLimits
 /// One thread: the executor's.
 class HttpServer final
 {
-    struct Impl;
-    std::shared_ptr<Impl> _impl;
-
 public:
     /// Called on the executor, one request after the other; must not block and must not throw.
     using Handler = std::function<HttpResponse(const HttpRequest&)>;
 
+private:
+    struct Impl;
+
+    std::shared_ptr<Impl> _impl;
+
+public:
     HttpServer(
         const boost::asio::any_io_executor& executor,
         Handler handler,
         Core::Logger logger,
         HttpLimits limits = {},
-        std::optional<HttpGuard> guardOrNone = std::nullopt);
+        std::optional<HttpGuard> guardOrNull = std::nullopt);
     HttpServer(const HttpServer&) = delete;
     HttpServer& operator=(const HttpServer&) = delete;
 

@@ -14,12 +14,15 @@ namespace ACS::Apps
 /// [a-zA-Z_][a-zA-Z0-9_]*; label values may be any text.
 class MetricsEndpoint final
 {
-    struct Impl;
-    std::unique_ptr<Impl> _impl;
-
 public:
     using Labels = std::map<std::string, std::string>;
 
+private:
+    struct Impl;
+
+    std::unique_ptr<Impl> _impl;
+
+public:
     MetricsEndpoint();
     MetricsEndpoint(const MetricsEndpoint&) = delete;
     MetricsEndpoint& operator=(const MetricsEndpoint&) = delete;

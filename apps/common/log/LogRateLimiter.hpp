@@ -18,6 +18,13 @@ namespace ACS::Apps
 /// number of lines that were suppressed since the last one. A kind that was silent for an interval gets a new burst. Pure.
 class LogRateLimiter final
 {
+public:
+    static constexpr std::size_t BURST = 5;
+    static constexpr std::chrono::seconds INTERVAL{60};
+    /// Bounds the memory that a peer can make it use: further kinds count as one.
+    static constexpr std::size_t MAX_KINDS = 500;
+
+private:
     struct Kind
     {
         std::size_t written = 0;
@@ -31,11 +38,6 @@ class LogRateLimiter final
     std::map<std::string, Kind, std::less<>> _kinds;
 
 public:
-    static constexpr std::size_t BURST = 5;
-    static constexpr std::chrono::seconds INTERVAL{60};
-    /// Bounds the memory that a peer can make it use: further kinds count as one.
-    static constexpr std::size_t MAX_KINDS = 500;
-
     explicit LogRateLimiter(Core::Logger logger, std::size_t burst = BURST);
 
     /// Lines of one kind count together, whatever their fields. A kind is for example "refused" and the reason without its

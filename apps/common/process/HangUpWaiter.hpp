@@ -12,12 +12,15 @@ namespace ACS::Apps
 /// while the handler runs become one more call.
 class HangUpWaiter final
 {
-    struct Impl;
-    std::shared_ptr<Impl> _impl;
-
 public:
     using Handler = std::function<void()>;
 
+private:
+    struct Impl;
+
+    std::shared_ptr<Impl> _impl;
+
+public:
     HangUpWaiter(const boost::asio::any_io_executor& executor, Handler handler);
     HangUpWaiter(const HangUpWaiter&) = delete;
     HangUpWaiter& operator=(const HangUpWaiter&) = delete;

@@ -12,13 +12,16 @@ namespace ACS::Apps
 /// ends the process at once, with 130 or 143, even when the event loop hangs. At most one instance exists at a time.
 class SignalWaiter final
 {
-    struct Impl;
-    std::shared_ptr<Impl> _impl;
-
 public:
     /// Receives the number of the signal.
     using Handler = std::function<void(int)>;
 
+private:
+    struct Impl;
+
+    std::shared_ptr<Impl> _impl;
+
+public:
     SignalWaiter(const boost::asio::any_io_executor& executor, Handler handler);
     SignalWaiter(const SignalWaiter&) = delete;
     SignalWaiter& operator=(const SignalWaiter&) = delete;

@@ -29,11 +29,6 @@ class TraceFiles final
     std::size_t _lostLines = 0;
     int _file = -1;
 
-    [[nodiscard]] std::error_code OpenNext(const TraceLimits& limits);
-    [[nodiscard]] std::error_code OpenFile(const std::string& path, int flags);
-    [[nodiscard]] std::error_code WriteBuffer();
-    void Close() noexcept;
-
 public:
     /// Opens nothing.
     explicit TraceFiles(std::string path);
@@ -51,6 +46,12 @@ public:
 
     /// Of the last error.
     [[nodiscard]] std::size_t GetLostLines() const noexcept;
+
+private:
+    [[nodiscard]] std::error_code OpenNext(const TraceLimits& limits);
+    [[nodiscard]] std::error_code OpenFile(const std::string& path, int flags);
+    [[nodiscard]] std::error_code WriteBuffer();
+    void Close() noexcept;
 };
 
 } // namespace ACS::Apps

@@ -40,7 +40,7 @@ struct TraceWriter::Impl
     std::size_t queuedBytes = 0;
     std::uint64_t unqueued = 0; ///< Lost, and no entry states it yet.
     std::uint64_t lost = 0;
-    std::optional<std::string> failureOrNone; ///< To be logged by the caller's thread.
+    std::optional<std::string> failureOrNull; ///< To be logged by the caller's thread.
     bool bRecovered = false;                  ///< Likewise.
     bool bClosing = false;
 
@@ -143,7 +143,7 @@ struct TraceWriter::Impl
         if (!std::exchange(failedAt, now.steady).has_value())
         {
             const std::lock_guard lock(mutex);
-            failureOrNone = error.message();
+            failureOrNull = error.message();
         }
     }
 
@@ -194,7 +194,7 @@ void TraceWriter::Write(std::string line, Core::Now now)
             _impl->queuedBytes += size;
             _impl->queue.push_back({std::move(line), now, std::exchange(_impl->unqueued, 0)});
         }
-        failure = std::exchange(_impl->failureOrNone, std::nullopt);
+        failure = std::exchange(_impl->failureOrNull, std::nullopt);
         bRecovered = std::exchange(_impl->bRecovered, false);
     }
     if (bWake)

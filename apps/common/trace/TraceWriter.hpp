@@ -20,9 +20,6 @@ namespace ACS::Apps
 /// thread.
 class TraceWriter final
 {
-    struct Impl;
-    std::unique_ptr<Impl> _impl;
-
 public:
     /// The line of the trace (without its end) that states a number of lost lines.
     using LossFormat = std::function<std::string(std::uint64_t lost, Core::Now now)>;
@@ -37,6 +34,12 @@ public:
         std::size_t maxQueuedBytes = DEFAULT_QUEUE_BYTES;
     };
 
+private:
+    struct Impl;
+
+    std::unique_ptr<Impl> _impl;
+
+public:
     /// The clock and the sink of the logger outlive the writer.
     TraceWriter(Options options, const Core::IClock& clock, Core::Logger logger);
     TraceWriter(const TraceWriter&) = delete;

@@ -33,9 +33,6 @@ class Arm
     PointMotion _move;
     TrajectoryFollower _trajectory;
 
-    /// Position and velocity.
-    [[nodiscard]] JointStates GetMotion(Core::Duration now, const ProgramProgress& progress) const;
-
 public:
     void BeginProgram(Core::Duration duration, Core::Duration now);
     void EndProgram(Core::Duration elapsed);
@@ -61,6 +58,10 @@ public:
     void Stop(Core::Duration now);
 
     [[nodiscard]] JointStates GetStates(Core::Duration now, const ProgramProgress& progress) const;
+
+private:
+    /// Position and velocity.
+    [[nodiscard]] JointStates GetMotion(Core::Duration now, const ProgramProgress& progress) const;
 };
 
 } // namespace ACS::OpenStreamSim

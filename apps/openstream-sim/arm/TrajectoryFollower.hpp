@@ -55,13 +55,6 @@ class TrajectoryFollower
     Core::Duration _cleanUntil{}; ///< With agility.
     double _newestTime = 0.0;     ///< time_from_start of the newest point, s.
 
-    [[nodiscard]] double GetLagSeconds() const noexcept;
-    [[nodiscard]] JointVector GetRates() const;
-    [[nodiscard]] JointVector GetCommand(Core::Duration now) const;
-    void Hold(Core::Duration now, const JointVector& command);
-    void Rest(Core::Duration now);
-    [[nodiscard]] bool CanReachFront() const;
-
 public:
     /// The arm rests here, and the buffer is empty.
     void Begin(const JointVector& position, Core::Duration now);
@@ -96,6 +89,14 @@ public:
     [[nodiscard]] bool IsBlocked() const noexcept;
     /// Moves, is about to, has not settled yet, or, with agility, cleans up.
     [[nodiscard]] bool IsActive(Core::Duration now) const;
+
+private:
+    [[nodiscard]] double GetLagSeconds() const noexcept;
+    [[nodiscard]] JointVector GetRates() const;
+    [[nodiscard]] JointVector GetCommand(Core::Duration now) const;
+    void Hold(Core::Duration now, const JointVector& command);
+    void Rest(Core::Duration now);
+    [[nodiscard]] bool CanReachFront() const;
 };
 
 } // namespace ACS::OpenStreamSim

@@ -169,10 +169,10 @@ TrajectoryMistake ReadPoints(const Value& object, TimedPoints& pointsOut)
 
 } // namespace
 
-TrajectoryMistake ReadTrajectory(const std::optional<Core::JsonText>& body, TimedPoints& pointsOut)
+TrajectoryMistake ReadTrajectory(const std::optional<Core::JsonText>& bodyOrNull, TimedPoints& pointsOut)
 {
     Json::JsonDocument document;
-    const std::string text = body.has_value() ? body->GetText() : "{}";
+    const std::string text = bodyOrNull.has_value() ? bodyOrNull->GetText() : "{}";
     const Core::Result<const Value*> root = document.Parse(text, Json::ParseLimits{});
     if (!root.has_value())
     {

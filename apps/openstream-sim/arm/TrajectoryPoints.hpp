@@ -61,6 +61,6 @@ inline constexpr double LONGEST_TRAJECTORY = 1'000'000.0;
 
 /// Reads the body of joint_traject_insert_points. The points come out in the order of their numbers, in degrees, their
 /// times rising; nothing where there is a mistake. Whether they fit to where the arm is, is the machine's to say.
-[[nodiscard]] TrajectoryMistake ReadTrajectory(const std::optional<Core::JsonText>& body, TimedPoints& pointsOut);
+[[nodiscard]] TrajectoryMistake ReadTrajectory(const std::optional<Core::JsonText>& bodyOrNull, TimedPoints& pointsOut);
 
 } // namespace ACS::OpenStreamSim

@@ -27,14 +27,6 @@ class ControllerFaults final
     std::optional<Core::SteadyTime> _wakeAt;
     Core::Now _now;
 
-    void AdvanceAll(Core::Now now);
-    void ApplyChanges();
-    void Apply(const FaultChange& change);
-    void TurnModeSwitch(const Fault& fault);
-    [[nodiscard]] bool ShouldFail(int number, bool bAtStart);
-    [[nodiscard]] bool ShouldStoreWrongValue();
-    void Finish();
-
 public:
     /// Both outlive it, and the controller must not be asked any more when it is gone.
     ControllerFaults(VirtualController& controller, IFaultHost& host, Core::Logger logger, Core::Now now);
@@ -61,6 +53,15 @@ public:
     /// Uses a refusal up.
     [[nodiscard]] std::optional<OpenStream::ApiResponse> TakeRefusalOrNull();
     [[nodiscard]] Core::Duration GetDelay(EFaultSide side) const;
+
+private:
+    void AdvanceAll(Core::Now now);
+    void ApplyChanges();
+    void Apply(const FaultChange& change);
+    void TurnModeSwitch(const Fault& fault);
+    [[nodiscard]] bool ShouldFail(int number, bool bAtStart);
+    [[nodiscard]] bool ShouldStoreWrongValue();
+    void Finish();
 };
 
 } // namespace ACS::OpenStreamSim

@@ -42,11 +42,6 @@ class ControllerFleet final
     std::vector<std::unique_ptr<ControllerHost>> _hosts;
     Apps::HttpServer _controlServer;
 
-    [[nodiscard]] Apps::HttpResponse Handle(const Apps::HttpRequest& request);
-    [[nodiscard]] std::string Apply(const FaultCommand& command);
-    /// How many faults it took or ended.
-    [[nodiscard]] static std::size_t ApplyTo(ControllerHost& host, const FaultCommand& command);
-
 public:
     ControllerFleet(
         const boost::asio::any_io_executor& executor,
@@ -70,6 +65,12 @@ public:
     /// Does what the commands of a message say, all or none; the answer has a line for each. Every mistake is one line
     /// that begins with "error: ".
     [[nodiscard]] std::string Command(std::string_view text);
+
+private:
+    [[nodiscard]] Apps::HttpResponse Handle(const Apps::HttpRequest& request);
+    [[nodiscard]] std::string Apply(const FaultCommand& command);
+    /// How many faults it took or ended.
+    [[nodiscard]] static std::size_t ApplyTo(ControllerHost& host, const FaultCommand& command);
 };
 
 } // namespace ACS::OpenStreamSim

@@ -64,12 +64,12 @@ void ControllerHost::DropSessions()
     _streamServer.DropSessions();
 }
 
-void ControllerHost::WakeAt(std::optional<Core::SteadyTime> time)
+void ControllerHost::WakeAt(std::optional<Core::SteadyTime> timeOrNull)
 {
     _timers.CancelAll();
-    if (time.has_value())
+    if (timeOrNull.has_value())
     {
-        _timers.Start(0, *time - _clock.GetNow().steady);
+        _timers.Start(0, *timeOrNull - _clock.GetNow().steady);
     }
 }
 

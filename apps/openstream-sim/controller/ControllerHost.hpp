@@ -46,10 +46,6 @@ class ControllerHost final : private IFaultHost
     OpenStreamAsio::OpenStreamServer _streamServer;
     Apps::HttpServer _httpServer;
 
-    [[nodiscard]] Apps::HttpResponse Handle(const Apps::HttpRequest& request);
-    void DropSessions() override;
-    void WakeAt(std::optional<Core::SteadyTime> time) override;
-
 public:
     ControllerHost(
         const boost::asio::any_io_executor& executor,
@@ -75,6 +71,11 @@ public:
     /// With the ports that were got, after Start.
     [[nodiscard]] const Apps::Endpoint& GetStreamEndpoint() const noexcept;
     [[nodiscard]] const Apps::Endpoint& GetHttpEndpoint() const noexcept;
+
+private:
+    [[nodiscard]] Apps::HttpResponse Handle(const Apps::HttpRequest& request);
+    void DropSessions() override;
+    void WakeAt(std::optional<Core::SteadyTime> timeOrNull) override;
 };
 
 } // namespace ACS::OpenStreamSim

@@ -83,18 +83,6 @@ class ControllerMachine
     RelayJudge _storesWrongValue;
     FloorWork _floorWork;
 
-    void HandleEvents(Core::Duration elapsed);
-    void BeginWork();
-    /// Makes a good end a failed one where the program cannot do its work.
-    void FinishWork(ProgramEvent& event);
-    void Count(std::size_t byte);
-    void HaltProgram();
-    void GiveProgramUp();
-    void RaiseAlarm(EAlarm alarm);
-    [[nodiscard]] ProgramProgress GetProgress() const;
-    [[nodiscard]] EApiError CheckMotion() const;
-    [[nodiscard]] EApiError AcceptTrajectory();
-
 public:
     ControllerMachine(const ControllerOptions& options, Core::Now now, Core::Logger logger);
 
@@ -181,6 +169,19 @@ public:
 
     /// Velocities as a client sees them: degrees in a real second.
     [[nodiscard]] JointStates GetJointStates() const;
+
+private:
+    void HandleEvents(Core::Duration elapsed);
+    void BeginWork();
+    /// Makes a good end a failed one where the program cannot do its work.
+    void FinishWork(ProgramEvent& event);
+    void Count(std::size_t byte);
+    void HaltProgram();
+    void GiveProgramUp();
+    void RaiseAlarm(EAlarm alarm);
+    [[nodiscard]] ProgramProgress GetProgress() const;
+    [[nodiscard]] EApiError CheckMotion() const;
+    [[nodiscard]] EApiError AcceptTrajectory();
 };
 
 } // namespace ACS::OpenStreamSim

@@ -20,7 +20,7 @@ public:
     virtual void DropSessions() = 0;
 
     /// Call ControllerFaults::OnTimer then; nothing: no more. Replaces what was asked for before.
-    virtual void WakeAt(std::optional<Core::SteadyTime> time) = 0;
+    virtual void WakeAt(std::optional<Core::SteadyTime> timeOrNull) = 0;
 };
 
 } // namespace ACS::OpenStreamSim

@@ -36,9 +36,6 @@ class PlaceTemplate
     std::string _text;
     std::vector<Part> _parts;
 
-    [[nodiscard]] static Core::Result<Part> ParseTag(std::string_view tag);
-    [[nodiscard]] std::string MakeSample() const;
-
 public:
     /// Fails with InvalidLocation where no numbers make a place of it, and with UnknownWord for a tag that is no relay word.
     [[nodiscard]] static Core::Result<PlaceTemplate> Parse(std::string_view text);
@@ -54,6 +51,10 @@ public:
     [[nodiscard]] bool HasRelays() const;
 
     bool operator==(const PlaceTemplate&) const = default;
+
+private:
+    [[nodiscard]] static Core::Result<Part> ParseTag(std::string_view tag);
+    [[nodiscard]] std::string MakeSample() const;
 };
 
 } // namespace ACS::OpenStreamSim

@@ -77,6 +77,27 @@ class ProgramReader
     Apps::ConfigSection _section;
     std::string _echoText; ///< As it is in the file; empty where it is not given.
 
+public:
+    ProgramReader(Apps::ConfigSection section, std::string echoText)
+        : _section(std::move(section)),
+          _echoText(std::move(echoText))
+    {
+    }
+
+    [[nodiscard]] ProgramSpec Read() const
+    {
+        using namespace std::chrono_literals;
+        constexpr std::chrono::milliseconds SHORTEST = 1ms;
+        constexpr std::chrono::milliseconds LONGEST = 24h;
+        ProgramSpec spec;
+        spec.duration = _section.GetDuration("duration", SHORTEST, LONGEST, spec.duration);
+        spec.bFails = _section.IsEnabled("fail", spec.bFails);
+        spec.echo = ReadEchoOrNull();
+        spec.work = ReadWork();
+        return spec;
+    }
+
+private:
     [[nodiscard]] PlaceTemplates ReadPlaces(const PlaceKey& key) const
     {
         PlaceTemplates places;
@@ -205,26 +226,6 @@ class ProgramReader
             return ButtonWork{ReadPlaces(MakeButtonKey())};
         }
         return {};
-    }
-
-public:
-    ProgramReader(Apps::ConfigSection section, std::string echoText)
-        : _section(std::move(section)),
-          _echoText(std::move(echoText))
-    {
-    }
-
-    [[nodiscard]] ProgramSpec Read() const
-    {
-        using namespace std::chrono_literals;
-        constexpr std::chrono::milliseconds SHORTEST = 1ms;
-        constexpr std::chrono::milliseconds LONGEST = 24h;
-        ProgramSpec spec;
-        spec.duration = _section.GetDuration("duration", SHORTEST, LONGEST, spec.duration);
-        spec.bFails = _section.IsEnabled("fail", spec.bFails);
-        spec.echo = ReadEchoOrNull();
-        spec.work = ReadWork();
-        return spec;
     }
 };
 

@@ -47,8 +47,6 @@ class ProgramRunner
     Core::Duration _elapsed{}; ///< Of the program's own time, until _resumedAt.
     Core::Duration _resumedAt{};
 
-    void GiveUp(ProgramEvents& out);
-
 public:
     ProgramRunner(std::map<int, ProgramSpec> programs, ProgramSpec otherPrograms);
 
@@ -80,6 +78,9 @@ public:
     /// How long the selected program has run, stops left out.
     [[nodiscard]] Core::Duration GetElapsed(Core::Duration now) const noexcept;
     [[nodiscard]] Core::Duration GetDuration() const noexcept;
+
+private:
+    void GiveUp(ProgramEvents& out);
 };
 
 } // namespace ACS::OpenStreamSim

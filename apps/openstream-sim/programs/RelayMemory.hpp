@@ -15,9 +15,6 @@ class RelayMemory
 {
     std::map<RelayBlock, std::vector<std::uint8_t>> _blocks;
 
-    [[nodiscard]] std::uint32_t ReadBytes(const RelayBlock& block, std::size_t first, std::size_t count) const;
-    void WriteBytes(const RelayBlock& block, std::size_t first, std::size_t count, std::uint32_t bits);
-
 public:
     /// The value, integers signed; the name must lie inside its block.
     [[nodiscard]] double Read(const RelayName& name) const;
@@ -29,6 +26,10 @@ public:
     /// 32 bits from any byte on; they must lie inside the block.
     [[nodiscard]] std::int32_t ReadS32(const RelayBlock& block, std::size_t firstByte) const;
     void WriteU32(const RelayBlock& block, std::size_t firstByte, std::uint32_t value);
+
+private:
+    [[nodiscard]] std::uint32_t ReadBytes(const RelayBlock& block, std::size_t first, std::size_t count) const;
+    void WriteBytes(const RelayBlock& block, std::size_t first, std::size_t count, std::uint32_t bits);
 };
 
 } // namespace ACS::OpenStreamSim

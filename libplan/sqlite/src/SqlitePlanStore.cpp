@@ -232,9 +232,9 @@ Core::Result<std::unique_ptr<SqlitePlanStore>> SqlitePlanStore::Open(const std::
     StoreOrigin origin;
     StoreDirectory locked;
     const Core::Result<void> usable = MigrateFormerStore(path)
-                                          .and_then([&](const std::optional<StoreOrigin>& former) {
-                                              origin.bMigrated = former.has_value();
-                                              origin.bRescued = former.has_value() && former->bRescued;
+                                          .and_then([&](const std::optional<StoreOrigin>& formerOrNull) {
+                                              origin.bMigrated = formerOrNull.has_value();
+                                              origin.bRescued = formerOrNull.has_value() && formerOrNull->bRescued;
                                               return StoreDirectory::Check(path);
                                           })
                                           .and_then([&] { return StoreDirectory::Acquire(path); })

@@ -246,14 +246,15 @@ Core::Result<TValue> DecodeText(std::string_view text)
     return value;
 }
 
-std::optional<std::int64_t> MakeCountOrNull(const std::optional<Core::WallTime>& time)
+std::optional<std::int64_t> MakeCountOrNull(const std::optional<Core::WallTime>& timeOrNull)
 {
-    return time.has_value() ? std::optional<std::int64_t>(time->time_since_epoch().count()) : std::nullopt;
+    return timeOrNull.has_value() ? std::optional<std::int64_t>(timeOrNull->time_since_epoch().count()) : std::nullopt;
 }
 
-std::optional<Core::WallTime> MakeTimeOrNull(std::optional<std::int64_t> count)
+std::optional<Core::WallTime> MakeTimeOrNull(std::optional<std::int64_t> countOrNull)
 {
-    return count.has_value() ? std::optional(Core::WallTime(Core::WallTime::duration(*count))) : std::nullopt;
+    return countOrNull.has_value() ? std::optional(Core::WallTime(Core::WallTime::duration(*countOrNull)))
+                                   : std::nullopt;
 }
 
 ReportText MakeText(const PlanReport& report)

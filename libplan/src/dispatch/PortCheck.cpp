@@ -13,14 +13,15 @@ PortCheck::PortCheck(EngineState& engine)
 {
 }
 
-std::optional<std::size_t> PortCheck::FindPortOrNull(const Robot& robot, const std::optional<Core::Location>& place)
-    const
+std::optional<std::size_t> PortCheck::FindPortOrNull(
+    const Robot& robot,
+    const std::optional<Core::Location>& placeOrNull) const
 {
-    if (!place.has_value())
+    if (!placeOrNull.has_value())
     {
         return std::nullopt;
     }
-    const Core::Result<Core::Location> port = place->WithRobot(_options.robots[robot.index].robotID);
+    const Core::Result<Core::Location> port = placeOrNull->WithRobot(_options.robots[robot.index].robotID);
     return port.has_value() ? robot.ports.FindPortOrNull(port->GetText()) : std::nullopt;
 }
 

@@ -41,7 +41,7 @@ private:
     /// Which of the robot's carrier ports the place is; nullopt where it is none.
     [[nodiscard]] std::optional<std::size_t> FindPortOrNull(
         const Robot& robot,
-        const std::optional<Core::Location>& place) const;
+        const std::optional<Core::Location>& placeOrNull) const;
     void JudgeJob(
         const Robot& robot,
         const ResolvedStep& step,

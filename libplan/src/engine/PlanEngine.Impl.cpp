@@ -381,8 +381,8 @@ std::vector<RobotPose> PlanEngine::Impl::GetRobotPoses() const
 
 std::vector<PlanSummary> PlanEngine::Impl::GetActivePlans() const
 {
-    const auto rank = [](const ActivePlan* plan) {
-        const EPlanState state = plan->record.progress.state;
+    const auto rank = [](const ActivePlan* planOrNull) {
+        const EPlanState state = planOrNull->record.progress.state;
         return state == EPlanState::InProgress ? 0 : (state == EPlanState::Paused ? 1 : 2);
     };
     std::vector<const ActivePlan*> ordered;
@@ -391,8 +391,8 @@ std::vector<PlanSummary> PlanEngine::Impl::GetActivePlans() const
     {
         ordered.push_back(plan.get());
     }
-    std::ranges::sort(ordered, [&rank](const ActivePlan* left, const ActivePlan* right) {
-        return std::pair(rank(left), left->key) < std::pair(rank(right), right->key);
+    std::ranges::sort(ordered, [&rank](const ActivePlan* leftOrNull, const ActivePlan* rightOrNull) {
+        return std::pair(rank(leftOrNull), leftOrNull->key) < std::pair(rank(rightOrNull), rightOrNull->key);
     });
     std::vector<PlanSummary> summaries;
     summaries.reserve(ordered.size());

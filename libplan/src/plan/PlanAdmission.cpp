@@ -400,10 +400,10 @@ Core::Result<void> PlanAdmission::CheckPlace(const Core::Location& place, EPlace
 Core::Result<void> PlanAdmission::FindCandidates(const Plan& plan, ResolvedPlan& resolved) const
 {
     std::set<std::string> namedRobots;
-    const auto note = [&namedRobots](const std::optional<Core::Location>& place) {
-        if (place.has_value() && place->IsRobotPort() && !place->GetRobotOrNull()->IsAlias())
+    const auto note = [&namedRobots](const std::optional<Core::Location>& placeOrNull) {
+        if (placeOrNull.has_value() && placeOrNull->IsRobotPort() && !placeOrNull->GetRobotOrNull()->IsAlias())
         {
-            namedRobots.insert(place->GetRobotOrNull()->GetText());
+            namedRobots.insert(placeOrNull->GetRobotOrNull()->GetText());
         }
     };
     for (const ResolvedStep& step : resolved.steps)
@@ -457,12 +457,12 @@ std::optional<std::string> PlanAdmission::GetRejectionReasonOrNull(
     {
         return fmt::format("{} is of type {}", name, GetText(robot.type));
     }
-    const auto hasPort = [this, &robot](const std::optional<Core::Location>& place) {
-        if (!place.has_value() || !place->IsRobotPort())
+    const auto hasPort = [this, &robot](const std::optional<Core::Location>& placeOrNull) {
+        if (!placeOrNull.has_value() || !placeOrNull->IsRobotPort())
         {
             return true;
         }
-        const Core::Result<Core::Location> port = place->WithRobot(robot.robotID);
+        const Core::Result<Core::Location> port = placeOrNull->WithRobot(robot.robotID);
         return port.has_value() && _catalog.Contains(*port);
     };
     for (std::size_t i = 0; i < resolved.steps.size(); ++i)

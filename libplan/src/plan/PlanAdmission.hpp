@@ -50,6 +50,20 @@ class PlanAdmission
     const SiteMap& _site;
     PortCatalog _catalog;
 
+public:
+    PlanAdmission(const EngineOptions& options, const SiteMap& site);
+
+    /// Corrects the case of action names (section 2).
+    void SpellActions(Plan& plan) const;
+
+    /// The steps must be in ascending order (SortSteps). The error's path names the field.
+    [[nodiscard]] Core::Result<ResolvedPlan> Resolve(const Plan& plan) const;
+
+    /// The node at which a robot of the type docks at the station.
+    [[nodiscard]] std::optional<std::size_t> FindDockOrNull(std::string_view stationID, std::string_view vehicleTypeID)
+        const;
+
+private:
     [[nodiscard]] Core::Result<ResolvedStep> ResolveStep(const Step& step, const std::string& path) const;
     [[nodiscard]] Core::Result<Core::Location> ResolvePosition(const std::string& text, const std::string& path) const;
     [[nodiscard]] Core::Result<std::optional<Core::Location>> ResolvePlace(
@@ -67,19 +81,6 @@ class PlanAdmission
         const Plan& plan,
         const ResolvedPlan& resolved,
         const std::set<std::string>& namedRobots) const;
-
-public:
-    PlanAdmission(const EngineOptions& options, const SiteMap& site);
-
-    /// Corrects the case of action names (section 2).
-    void SpellActions(Plan& plan) const;
-
-    /// The steps must be in ascending order (SortSteps). The error's path names the field.
-    [[nodiscard]] Core::Result<ResolvedPlan> Resolve(const Plan& plan) const;
-
-    /// The node at which a robot of the type docks at the station.
-    [[nodiscard]] std::optional<std::size_t> FindDockOrNull(std::string_view stationID, std::string_view vehicleTypeID)
-        const;
 };
 
 /// Sorts the steps by stepNo.

@@ -18,11 +18,11 @@ void WorkRecord::Restore(const RobotWorkChanged& work)
     _stored = work;
 }
 
-void WorkRecord::BeginPlan(const std::optional<std::string>& shownCommandID)
+void WorkRecord::BeginPlan(const std::optional<std::string>& shownCommandIDOrNull)
 {
     if (_commandID.empty())
     {
-        _commandID = shownCommandID.value_or(std::string()); // of the previous master
+        _commandID = shownCommandIDOrNull.value_or(std::string()); // of the previous master
     }
     _bMarkDue = true;
 }

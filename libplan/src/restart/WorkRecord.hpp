@@ -28,7 +28,7 @@ public:
     void Restore(const RobotWorkChanged& work);
 
     /// Stores what the robot shows at the start of a plan. Whatever it shows beyond that after a crash was done for the plan.
-    void BeginPlan(const std::optional<std::string>& shownCommandID);
+    void BeginPlan(const std::optional<std::string>& shownCommandIDOrNull);
     void AddCommand(const std::string& commandID);
     /// 1 to 2^31 - 1, and not the previous one; a repeated job keeps its number.
     [[nodiscard]] std::int32_t NumberJob(bool bRepeated, Core::IRandom& random);

@@ -6,14 +6,16 @@ namespace ACS::Planning
 namespace
 {
 
-std::optional<std::string> GetTextForOrNull(const std::optional<Core::Location>& place, const Core::RobotID& robotID)
+std::optional<std::string> GetTextForOrNull(
+    const std::optional<Core::Location>& placeOrNull,
+    const Core::RobotID& robotID)
 {
-    if (!place.has_value())
+    if (!placeOrNull.has_value())
     {
         return std::nullopt;
     }
-    const Core::Result<Core::Location> port = place->WithRobot(robotID);
-    return port.has_value() ? port->GetText() : place->GetText();
+    const Core::Result<Core::Location> port = placeOrNull->WithRobot(robotID);
+    return port.has_value() ? port->GetText() : placeOrNull->GetText();
 }
 
 } // namespace

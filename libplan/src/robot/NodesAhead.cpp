@@ -38,23 +38,23 @@ bool IsBetween(const StateChanged& state, const SiteNode& from, const SiteNode& 
 
 std::vector<std::size_t> FindNodesAhead(
     const SiteMap& site,
-    const std::optional<StateChanged>& state,
+    const std::optional<StateChanged>& stateOrNull,
     std::size_t node,
     std::span<const std::size_t> ahead)
 {
     const std::vector<SiteNode>& nodes = site.GetNodes();
-    if (!state.has_value() || state->bDriving)
+    if (!stateOrNull.has_value() || stateOrNull->bDriving)
     {
         return {ahead.begin(), ahead.end()};
     }
-    if (ahead.empty() || !state->bPoseKnown || IsOn(*state, nodes[node], nodes[ahead.front()]))
+    if (ahead.empty() || !stateOrNull->bPoseKnown || IsOn(*stateOrNull, nodes[node], nodes[ahead.front()]))
     {
         return {};
     }
     std::size_t from = node;
     for (const std::size_t next : ahead)
     {
-        if (IsBetween(*state, nodes[from], nodes[next]))
+        if (IsBetween(*stateOrNull, nodes[from], nodes[next]))
         {
             return from == node ? std::vector<std::size_t>{next} : std::vector<std::size_t>{from, next};
         }

@@ -15,7 +15,7 @@ namespace ACS::Planning
 /// between which it has stopped.
 [[nodiscard]] std::vector<std::size_t> FindNodesAhead(
     const SiteMap& site,
-    const std::optional<StateChanged>& state,
+    const std::optional<StateChanged>& stateOrNull,
     std::size_t node,
     std::span<const std::size_t> ahead);
 

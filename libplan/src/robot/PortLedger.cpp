@@ -25,13 +25,13 @@ bool HasID(const PortLoad& load)
 }
 
 /// A load without an ID contradicts no ID, and only an empty port contradicts an unknown carrier.
-bool IsAgreed(const std::optional<std::string>& expected, const PortLoad& load)
+bool IsAgreed(const std::optional<std::string>& expectedOrNull, const PortLoad& load)
 {
-    if (!load.bLoaded || !expected.has_value())
+    if (!load.bLoaded || !expectedOrNull.has_value())
     {
-        return load.bLoaded == expected.has_value();
+        return load.bLoaded == expectedOrNull.has_value();
     }
-    return !HasID(load) || *expected == UNKNOWN_CARRIER || *expected == load.carrierID;
+    return !HasID(load) || *expectedOrNull == UNKNOWN_CARRIER || *expectedOrNull == load.carrierID;
 }
 
 /// The other ports at which the load's carrier is reported ("CR01.TP02, CR01.TP03").
@@ -49,13 +49,13 @@ std::string ListOtherPorts(const std::vector<PortLoad>& loads, const PortLoad& l
     return ports;
 }
 
-std::optional<std::string> MergeOrNull(const std::optional<std::string>& known, const PortLoad& load)
+std::optional<std::string> MergeOrNull(const std::optional<std::string>& knownOrNull, const PortLoad& load)
 {
     if (!load.bLoaded)
     {
         return std::nullopt;
     }
-    return HasID(load) ? load.carrierID : known.value_or(std::string(UNKNOWN_CARRIER));
+    return HasID(load) ? load.carrierID : knownOrNull.value_or(std::string(UNKNOWN_CARRIER));
 }
 
 } // namespace
@@ -132,13 +132,13 @@ void PortLedger::CompareLoad(std::size_t port, const PortLoad& load, const std::
     }
 }
 
-std::string PortLedger::Move(std::span<const PortUse> uses, const std::optional<std::string>& carrierID)
+std::string PortLedger::Move(std::span<const PortUse> uses, const std::optional<std::string>& carrierIDOrNull)
 {
-    std::optional<std::string> carrier = carrierID;
+    std::optional<std::string> carrier = carrierIDOrNull;
     std::string contradiction;
     for (const PortUse& use : uses)
     {
-        contradiction = contradiction.empty() ? DescribeContradiction(use, carrierID) : contradiction;
+        contradiction = contradiction.empty() ? DescribeContradiction(use, carrierIDOrNull) : contradiction;
         std::optional<std::string>& record = _carriers[use.port];
         if (use.bFills)
         {
@@ -154,7 +154,8 @@ std::string PortLedger::Move(std::span<const PortUse> uses, const std::optional<
     return contradiction;
 }
 
-std::string PortLedger::DescribeContradiction(const PortUse& use, const std::optional<std::string>& carrierID) const
+std::string PortLedger::DescribeContradiction(const PortUse& use, const std::optional<std::string>& carrierIDOrNull)
+    const
 {
     const std::string& name = GetName(use.port);
     const std::optional<std::string>& carrier = _carriers[use.port];
@@ -172,10 +173,10 @@ std::string PortLedger::DescribeContradiction(const PortUse& use, const std::opt
             "{} was unloaded, but the record has no carrier there. Check the port and correct the record.",
             name);
     }
-    const bool bOther = carrierID.has_value() && carrier != carrierID && carrier != UNKNOWN_CARRIER;
+    const bool bOther = carrierIDOrNull.has_value() && carrier != carrierIDOrNull && carrier != UNKNOWN_CARRIER;
     return bOther ? fmt::format(
                "{} was unloaded from {}, but the record has {} there. Check the port and correct the record.",
-               *carrierID,
+               *carrierIDOrNull,
                name,
                *carrier)
                   : std::string();

@@ -68,7 +68,7 @@ public:
     [[nodiscard]] Comparison Compare(std::span<const PortLoad> loads, std::span<const PortUse> openUses);
     /// Records what a finished job moved. Returns the contradiction with the record, if any; the job counts in any case, because
     /// the record was wrong then.
-    [[nodiscard]] std::string Move(std::span<const PortUse> uses, const std::optional<std::string>& carrierID);
+    [[nodiscard]] std::string Move(std::span<const PortUse> uses, const std::optional<std::string>& carrierIDOrNull);
 
     /// Whether disputes may be reported now: once per interval, which the caller times.
     [[nodiscard]] bool TryBeginReportInterval();
@@ -88,8 +88,9 @@ public:
 
 private:
     void CompareLoad(std::size_t port, const PortLoad& load, const std::string& otherPorts);
-    [[nodiscard]] std::string DescribeContradiction(const PortUse& use, const std::optional<std::string>& carrierID)
-        const;
+    [[nodiscard]] std::string DescribeContradiction(
+        const PortUse& use,
+        const std::optional<std::string>& carrierIDOrNull) const;
 };
 
 } // namespace ACS::Planning

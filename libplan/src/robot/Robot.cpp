@@ -110,17 +110,17 @@ bool Robot::IsEnding() const
     return open == EPlanControl::Cancel || open == EPlanControl::Abort;
 }
 
-bool IsMoreUrgent(const Robot* left, const Robot* right)
+bool IsMoreUrgent(const Robot* leftOrNull, const Robot* rightOrNull)
 {
-    if (left->planOrNull != nullptr && right->planOrNull != nullptr)
+    if (leftOrNull->planOrNull != nullptr && rightOrNull->planOrNull != nullptr)
     {
-        return left->planOrNull->key < right->planOrNull->key;
+        return leftOrNull->planOrNull->key < rightOrNull->planOrNull->key;
     }
-    if (left->planOrNull != nullptr || right->planOrNull != nullptr)
+    if (leftOrNull->planOrNull != nullptr || rightOrNull->planOrNull != nullptr)
     {
-        return left->planOrNull != nullptr;
+        return leftOrNull->planOrNull != nullptr;
     }
-    return left->index < right->index;
+    return leftOrNull->index < rightOrNull->index;
 }
 
 } // namespace ACS::Planning

@@ -79,6 +79,6 @@ struct Robot
 };
 
 /// Robots with plans in the order of their plans, then those without.
-[[nodiscard]] bool IsMoreUrgent(const Robot* left, const Robot* right);
+[[nodiscard]] bool IsMoreUrgent(const Robot* leftOrNull, const Robot* rightOrNull);
 
 } // namespace ACS::Planning

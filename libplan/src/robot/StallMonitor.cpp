@@ -8,21 +8,21 @@ namespace ACS::Planning
 {
 
 StallMonitor::Update StallMonitor::OnProgress(
-    std::optional<DriveProgress> progress,
-    std::optional<std::size_t> releasedCount,
+    std::optional<DriveProgress> progressOrNull,
+    std::optional<std::size_t> releasedCountOrNull,
     Core::SteadyTime now)
 {
     Update update;
-    const bool bProgress = progress != _progress;
-    _progress = std::move(progress);
+    const bool bProgress = progressOrNull != _progress;
+    _progress = std::move(progressOrNull);
     update.bStallEnded = bProgress && std::exchange(_bStalled, false);
     const bool bWatched = _releasedCount.has_value();
-    if (!bProgress && releasedCount == _releasedCount)
+    if (!bProgress && releasedCountOrNull == _releasedCount)
     {
         return update;
     }
-    _releasedCount = releasedCount;
-    if (releasedCount.has_value())
+    _releasedCount = releasedCountOrNull;
+    if (releasedCountOrNull.has_value())
     {
         _since = now;
         update.timer = EStallTimer::Start;
@@ -54,7 +54,7 @@ Core::Duration StallMonitor::GetLimit(Core::Duration timeout, double edgeSeconds
 {
     constexpr double EDGE_FACTOR = 3;
     constexpr std::chrono::duration<double> LONGEST = std::chrono::hours(24);
-    const std::chrono::duration<double> limit(EDGE_FACTOR * edgeSeconds);
+    const std::chrono::duration<double> limit(edgeSeconds * EDGE_FACTOR);
     return std::max<Core::Duration>(timeout, std::chrono::ceil<std::chrono::milliseconds>(std::min(limit, LONGEST)));
 }
 

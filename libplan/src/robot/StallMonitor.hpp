@@ -45,11 +45,11 @@ private:
     bool _bStalled = false;
 
 public:
-    /// progress: nullopt without a drive or a connection. releasedCount: released nodes; nullopt while no further node is
+    /// progressOrNull: nullopt without a drive or a connection. releasedCountOrNull: released nodes; nullopt while no further node is
     /// expected. The time without progress restarts with each node and each extension.
     [[nodiscard]] Update OnProgress(
-        std::optional<DriveProgress> progress,
-        std::optional<std::size_t> releasedCount,
+        std::optional<DriveProgress> progressOrNull,
+        std::optional<std::size_t> releasedCountOrNull,
         Core::SteadyTime now);
     /// The timer has expired. False: nothing is watched.
     [[nodiscard]] bool TryStall();

@@ -40,8 +40,8 @@ DeadlockResolver::Round DeadlockResolver::TryResolveDeadlock()
     {
         return {};
     }
-    if (std::ranges::any_of(stuck, [this](Robot* robot) { return TryDetour(*robot); })
-        || std::ranges::any_of(stuck, [this, &stuck](Robot* robot) { return TryMakeWay(*robot, stuck); }))
+    if (std::ranges::any_of(stuck, [this](Robot* robotOrNull) { return TryDetour(*robotOrNull); })
+        || std::ranges::any_of(stuck, [this, &stuck](Robot* robotOrNull) { return TryMakeWay(*robotOrNull, stuck); }))
     {
         return {true, nullptr};
     }
@@ -91,8 +91,8 @@ bool DeadlockResolver::TryMakeWay(Robot& leader, const std::vector<Robot*>& stuc
         return false;
     }
     const std::vector<Robot*> blockers = _waiting.GetBlockersOf(leader);
-    const auto tryRetreat = [this, &leader](Robot* robot) {
-        return robot != &leader && TryRetreat(*robot, leader);
+    const auto tryRetreat = [this, &leader](Robot* robotOrNull) {
+        return robotOrNull != &leader && TryRetreat(*robotOrNull, leader);
     };
     if (std::ranges::any_of(blockers, tryRetreat) || std::any_of(stuck.rbegin(), stuck.rend(), tryRetreat))
     {

@@ -51,17 +51,17 @@ void Traffic::FindNear(const SiteMap& site, double clearance)
     }
 }
 
-void Traffic::AddRobot(std::string_view vehicleTypeID, std::optional<std::size_t> home)
+void Traffic::AddRobot(std::string_view vehicleTypeID, std::optional<std::size_t> homeOrNull)
 {
     Vehicle& vehicle = _vehicles.emplace_back();
     const auto found = _graphs.find(vehicleTypeID);
     vehicle.graphOrNull = found == _graphs.end() ? nullptr : &found->second;
-    vehicle.home = home;
-    if (home.has_value() && vehicle.graphOrNull != nullptr)
+    vehicle.home = homeOrNull;
+    if (homeOrNull.has_value() && vehicle.graphOrNull != nullptr)
     {
         FindWaysHome(vehicle);
     }
-    for (const std::uint32_t node : home.has_value() ? _near[*home] : std::vector<std::uint32_t>())
+    for (const std::uint32_t node : homeOrNull.has_value() ? _near[*homeOrNull] : std::vector<std::uint32_t>())
     {
         ++_homes[node];
     }

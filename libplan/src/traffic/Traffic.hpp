@@ -80,7 +80,7 @@ public:
     Traffic(const SiteMap& site, double clearance);
 
     /// Adds the robot with the next index. The home must be exclusive.
-    void AddRobot(std::string_view vehicleTypeID, std::optional<std::size_t> home);
+    void AddRobot(std::string_view vehicleTypeID, std::optional<std::size_t> homeOrNull);
 
     /// A robot that cannot move is a fixed obstacle.
     void SetMovable(std::size_t robot, bool bMovable);

@@ -161,10 +161,11 @@ std::vector<Robot*> WaitingRobots::ListDeadlocked()
     }
     for (bool bChanged = true; std::exchange(bChanged, false);)
     {
-        std::erase_if(waiting, [&hopeful, &bChanged](const Robot* robot) {
-            const bool bHopeful =
-                std::ranges::any_of(robot->search.blockers, [&hopeful](std::size_t other) { return hopeful[other]; });
-            hopeful[robot->index] = hopeful[robot->index] || bHopeful;
+        std::erase_if(waiting, [&hopeful, &bChanged](const Robot* robotOrNull) {
+            const bool bHopeful = std::ranges::any_of(robotOrNull->search.blockers, [&hopeful](std::size_t other) {
+                return hopeful[other];
+            });
+            hopeful[robotOrNull->index] = hopeful[robotOrNull->index] || bHopeful;
             bChanged = bChanged || bHopeful;
             return bHopeful;
         });

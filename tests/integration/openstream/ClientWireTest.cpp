@@ -31,44 +31,16 @@ using Tcp = boost::asio::ip::tcp;
 /// Answers the HANDSHAKE of each connection, and reads nothing more.
 class DeafController
 {
+public:
+    static constexpr std::string_view ACK = "{\"type\":\"handshake_ack\",\"ok\":true,\"version\":\"1.0.0\"}\n";
+
+private:
     Tcp::acceptor _acceptor;
     std::optional<Tcp::socket> _socket;
     std::optional<Tcp::socket> _former; ///< Of the connection before.
     boost::asio::streambuf _input;
 
-    void AcceptAsync()
-    {
-        _acceptor.async_accept([this](const boost::system::error_code& error, Tcp::socket socket) {
-            if (!error)
-            {
-                ++connections;
-                _former = std::exchange(_socket, std::move(socket));
-                _socket->set_option(Tcp::no_delay(true));
-                ReadLineAsync();
-            }
-        });
-    }
-
-    void ReadLineAsync()
-    {
-        _input.consume(_input.size());
-        boost::asio::async_read_until(
-            *_socket,
-            _input,
-            '\n',
-            [this](const boost::system::error_code& error, std::size_t size) {
-                if (!error)
-                {
-                    firstLine.assign(static_cast<const char*>(_input.data().data()), size);
-                    boost::asio::write(*_socket, boost::asio::buffer(ACK));
-                    AcceptAsync();
-                }
-            });
-    }
-
 public:
-    static constexpr std::string_view ACK = "{\"type\":\"handshake_ack\",\"ok\":true,\"version\":\"1.0.0\"}\n";
-
     std::size_t connections = 0;
     std::string firstLine; ///< Of the last connection.
 
@@ -109,6 +81,37 @@ public:
         socklen_t size = sizeof info;
         REQUIRE(getsockopt(_socket->native_handle(), IPPROTO_TCP, TCP_INFO, &info, &size) == 0);
         return info.tcpi_unacked == 0;
+    }
+
+private:
+    void AcceptAsync()
+    {
+        _acceptor.async_accept([this](const boost::system::error_code& error, Tcp::socket socket) {
+            if (!error)
+            {
+                ++connections;
+                _former = std::exchange(_socket, std::move(socket));
+                _socket->set_option(Tcp::no_delay(true));
+                ReadLineAsync();
+            }
+        });
+    }
+
+    void ReadLineAsync()
+    {
+        _input.consume(_input.size());
+        boost::asio::async_read_until(
+            *_socket,
+            _input,
+            '\n',
+            [this](const boost::system::error_code& error, std::size_t size) {
+                if (!error)
+                {
+                    firstLine.assign(static_cast<const char*>(_input.data().data()), size);
+                    boost::asio::write(*_socket, boost::asio::buffer(ACK));
+                    AcceptAsync();
+                }
+            });
     }
 };
 

@@ -71,11 +71,6 @@ public:
         _reader->socket.connect(server);
     }
 
-    void Read()
-    {
-        _reader->ReadAsync();
-    }
-
     RawPeer(const RawPeer&) = delete;
     RawPeer& operator=(const RawPeer&) = delete;
 
@@ -83,6 +78,11 @@ public:
     {
         boost::system::error_code ignored;
         static_cast<void>(_reader->socket.close(ignored));
+    }
+
+    void Read()
+    {
+        _reader->ReadAsync();
     }
 
     void Send(std::string_view bytes)

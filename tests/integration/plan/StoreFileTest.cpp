@@ -44,7 +44,6 @@ std::string DescribeOpening(const Core::Result<T>& result)
 class TightDisk
 {
     rlimit _before{};
-    void (*_handler)(int) = std::signal(SIGXFSZ, SIG_IGN);
 
 public:
     explicit TightDisk(std::uintmax_t room)
@@ -62,6 +61,9 @@ public:
         ::setrlimit(RLIMIT_FSIZE, &_before);
         std::signal(SIGXFSZ, _handler);
     }
+
+private:
+    void (*_handler)(int) = std::signal(SIGXFSZ, SIG_IGN);
 };
 
 } // namespace

@@ -30,6 +30,15 @@ enum class EPacket : std::uint8_t
 /// Stands between clients and a broker, knows where one packet ends and the next begins, and cuts the connection at one.
 class CuttingProxy
 {
+public:
+    struct Cut
+    {
+        EPacket packet = EPacket::Publish;
+        bool bToBroker = false;
+        bool bForwarded = false; ///< Whether the packet itself still arrives.
+    };
+
+private:
     using Tcp = boost::asio::ip::tcp;
 
     struct Side
@@ -62,13 +71,6 @@ class CuttingProxy
     Tcp::endpoint _broker;
 
 public:
-    struct Cut
-    {
-        EPacket packet = EPacket::Publish;
-        bool bToBroker = false;
-        bool bForwarded = false; ///< Whether the packet itself still arrives.
-    };
-
     std::optional<Cut> cutOrNull; ///< Done once.
     std::size_t connections = 0;
 

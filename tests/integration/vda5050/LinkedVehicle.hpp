@@ -31,6 +31,10 @@ namespace ACS::Testing
 /// A VehicleSession on a link, with a vehicle that drives to each node at once, unless it is held.
 class LinkedVehicle final : VDA5050::IMqttLinkListener
 {
+public:
+    static constexpr std::uint32_t EVERYWHERE = 1'000;
+
+private:
     boost::asio::io_context& _context;
     RecordingLogSink _log;
     SeededRandom _random;
@@ -43,7 +47,7 @@ class LinkedVehicle final : VDA5050::IMqttLinkListener
     std::shared_ptr<bool> _alive = std::make_shared<bool>(true); ///< What was posted looks for it first.
 
 public:
-    static constexpr std::uint32_t EVERYWHERE = 1'000; ///< No test's order goes that far.
+    ///< No test's order goes that far.
 
     VDA5050::VehicleActions told;
 

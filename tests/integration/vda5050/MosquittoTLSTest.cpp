@@ -32,12 +32,12 @@ protected:
 
     [[nodiscard]] std::unique_ptr<TestLink> MakeLink(
         const MosquittoBroker& broker,
-        const std::optional<MosquittoTLS>& tls,
+        const std::optional<MosquittoTLS>& tlsOrNull,
         const std::string& clientID = "client",
         const std::string& filter = {})
     {
         auto options = MakeOptions(broker.GetPort(), clientID);
-        options.tls = tls;
+        options.tls = tlsOrNull;
         auto link = std::make_unique<TestLink>(_context, options);
         if (!filter.empty())
         {

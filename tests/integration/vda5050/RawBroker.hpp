@@ -20,6 +20,10 @@ namespace ACS::Testing
 /// A peer that takes every MQTT 3.1.1 client and says what the test wants to its packets: nothing, unless it is told to.
 class RawBroker
 {
+public:
+    static constexpr char SUBSCRIBE = '\x82';
+
+private:
     struct Client
     {
         boost::asio::ip::tcp::socket socket;
@@ -35,8 +39,6 @@ class RawBroker
     std::shared_ptr<Client> _lastClient;
 
 public:
-    static constexpr char SUBSCRIBE = '\x82';
-
     std::size_t connections = 0;
     std::string received; ///< By all clients.
     /// What is sent after a SUBSCRIBE, by its packet id.

@@ -78,16 +78,17 @@ inline VDA5050::OrderMessage MakeOrder(std::size_t releasedNodes)
 /// A broker, and a master that hears all that vehicles publish; every test ends with a look at whether it is valid.
 class VdaSimFixture
 {
-public:
-    VdaSimFixture(const VdaSimFixture&) = delete;
-    VdaSimFixture& operator=(const VdaSimFixture&) = delete;
-
 protected:
     boost::asio::io_context _context;
     MosquittoBroker _broker;
     VDA5050::Vda5050Codec _codec;
     std::unique_ptr<TestLink> _master;
 
+public:
+    VdaSimFixture(const VdaSimFixture&) = delete;
+    VdaSimFixture& operator=(const VdaSimFixture&) = delete;
+
+protected:
     VdaSimFixture()
     {
         _master = std::make_unique<TestLink>(_context, MakeOptions(_broker.GetPort(), "master"));

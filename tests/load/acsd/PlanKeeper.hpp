@@ -42,13 +42,6 @@ class PlanKeeper final : private ProtocolBeast::ISessionHandler
     KeeperCount _count;
     TickLog _positions;
 
-    void OnSessionEvent(const Protocol::SessionEvent& event) override;
-    void TakeRequest(const Protocol::AcsRequest& request);
-    void TakePlanReport(const Protocol::PlanReport& report);
-    void TakePositions(const Protocol::RobotPositionUpdate& update);
-    void SendPlan(std::size_t cell);
-    void CountError(std::string_view what);
-
 public:
     /// Throws std::runtime_error where it cannot listen.
     PlanKeeper(boost::asio::io_context& context, std::size_t robots);
@@ -65,6 +58,14 @@ public:
     void CountAnew();
     [[nodiscard]] const KeeperCount& GetCount() const noexcept;
     [[nodiscard]] const TickLog& GetPositions() const noexcept;
+
+private:
+    void OnSessionEvent(const Protocol::SessionEvent& event) override;
+    void TakeRequest(const Protocol::AcsRequest& request);
+    void TakePlanReport(const Protocol::PlanReport& report);
+    void TakePositions(const Protocol::RobotPositionUpdate& update);
+    void SendPlan(std::size_t cell);
+    void CountError(std::string_view what);
 };
 
 } // namespace ACS::Load

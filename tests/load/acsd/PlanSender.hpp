@@ -33,9 +33,6 @@ class PlanSender final : private ProtocolBeast::ISessionHandler
     std::size_t _refused = 0;
     std::string _firstRefusal;
 
-    void OnSessionEvent(const Protocol::SessionEvent& event) override;
-    void RunUntil(const std::function<bool()>& isTrue, std::string_view what);
-
 public:
     explicit PlanSender(boost::asio::io_context& context);
 
@@ -48,6 +45,10 @@ public:
     [[nodiscard]] std::size_t GetAccepted() const noexcept;
     /// Empty where none was refused.
     [[nodiscard]] const std::string& GetFirstRefusal() const noexcept;
+
+private:
+    void OnSessionEvent(const Protocol::SessionEvent& event) override;
+    void RunUntil(const std::function<bool()>& isTrue, std::string_view what);
 };
 
 } // namespace ACS::Load

@@ -36,6 +36,37 @@ class BareSender
     bool _bStopped = false;
     bool _bWriting = false;
 
+public:
+    std::uint64_t sent = 0;
+    std::uint64_t skipped = 0;
+
+    explicit BareSender(boost::asio::io_context& context)
+        : _acceptor(context, Tcp::endpoint(boost::asio::ip::address_v4::loopback(), 0)),
+          _socket(context),
+          _timer(context)
+    {
+        _acceptor.async_accept(_socket, [this](const boost::system::error_code& error) {
+            if (!error)
+            {
+                _socket.set_option(Tcp::no_delay(true));
+                _next = std::chrono::steady_clock::now() + PERIOD;
+                WaitAsync();
+            }
+        });
+    }
+
+    [[nodiscard]] Tcp::endpoint GetEndpoint() const
+    {
+        return _acceptor.local_endpoint();
+    }
+
+    void Stop()
+    {
+        _bStopped = true;
+        _timer.cancel();
+    }
+
+private:
     void WaitAsync()
     {
         _timer.expires_at(_next);
@@ -66,36 +97,6 @@ class BareSender
                 sent += error ? 0U : 1U;
             });
     }
-
-public:
-    std::uint64_t sent = 0;
-    std::uint64_t skipped = 0;
-
-    explicit BareSender(boost::asio::io_context& context)
-        : _acceptor(context, Tcp::endpoint(boost::asio::ip::address_v4::loopback(), 0)),
-          _socket(context),
-          _timer(context)
-    {
-        _acceptor.async_accept(_socket, [this](const boost::system::error_code& error) {
-            if (!error)
-            {
-                _socket.set_option(Tcp::no_delay(true));
-                _next = std::chrono::steady_clock::now() + PERIOD;
-                WaitAsync();
-            }
-        });
-    }
-
-    [[nodiscard]] Tcp::endpoint GetEndpoint() const
-    {
-        return _acceptor.local_endpoint();
-    }
-
-    void Stop()
-    {
-        _bStopped = true;
-        _timer.cancel();
-    }
 };
 
 class BareReader
@@ -105,6 +106,19 @@ class BareReader
     std::array<char, 4096> _input{};
     std::optional<Core::SteadyTime> _last;
 
+public:
+    std::uint64_t received = 0;
+    bool bRecording = false;
+
+    BareReader(boost::asio::io_context& context, const Tcp::endpoint& endpoint, GapLog& log)
+        : _socket(context),
+          _log(log)
+    {
+        _socket.connect(endpoint);
+        ReadAsync();
+    }
+
+private:
     void ReadAsync()
     {
         _socket.async_read_some(
@@ -132,18 +146,6 @@ class BareReader
             }
             _last = bRecording ? std::optional(now) : std::nullopt;
         }
-    }
-
-public:
-    std::uint64_t received = 0;
-    bool bRecording = false;
-
-    BareReader(boost::asio::io_context& context, const Tcp::endpoint& endpoint, GapLog& log)
-        : _socket(context),
-          _log(log)
-    {
-        _socket.connect(endpoint);
-        ReadAsync();
     }
 };
 

@@ -74,6 +74,48 @@ class LoadClient
     double _lastTs = 0.0;
     std::unique_ptr<OpenStreamAsio::OpenStreamClient> _client;
 
+public:
+    std::uint64_t received = 0;
+    bool bRecording = false;
+    std::size_t starts = 0; ///< Of a MONITOR.
+
+    LoadClient(
+        boost::asio::io_context& context,
+        Core::IClock& clock,
+        Core::IRandom& random,
+        std::uint16_t port,
+        StreamFigures& figures)
+        : _context(context),
+          _figures(figures)
+    {
+        OpenStreamAsio::OpenStreamClientOptions options;
+        options.port = port;
+        options.session.connectTimeout = PATIENCE;
+        options.session.answerTimeout = PATIENCE;
+        options.session.lostAfter = PATIENCE;
+        _client = std::make_unique<OpenStreamAsio::OpenStreamClient>(
+            context.get_executor(),
+            clock,
+            random,
+            Core::Logger(),
+            options,
+            [this](const ClientEvent& event, Core::Now /*now*/) { Take(event); });
+        _client->SetMonitor(MonitorRequest{URL, PERIOD, {}, {}});
+        _client->Start();
+    }
+
+    void SendControl(const ControlRequest& request)
+    {
+        static_cast<void>(_client->SendControl(request, EControlTracking::Streamed));
+    }
+
+    /// The stream goes on at its longest period, so that what has been sent is not passed over as after a STOP.
+    void SlowDown()
+    {
+        _client->SetMonitor(MonitorRequest{URL, MAXIMUM_PERIOD, {}, {}});
+    }
+
+private:
     void NoteRefusal(std::string text)
     {
         ++_figures.linesRefused;
@@ -117,47 +159,6 @@ class LoadClient
             _context.stop();
         }
     }
-
-public:
-    std::uint64_t received = 0;
-    bool bRecording = false;
-    std::size_t starts = 0; ///< Of a MONITOR.
-
-    LoadClient(
-        boost::asio::io_context& context,
-        Core::IClock& clock,
-        Core::IRandom& random,
-        std::uint16_t port,
-        StreamFigures& figures)
-        : _context(context),
-          _figures(figures)
-    {
-        OpenStreamAsio::OpenStreamClientOptions options;
-        options.port = port;
-        options.session.connectTimeout = PATIENCE;
-        options.session.answerTimeout = PATIENCE;
-        options.session.lostAfter = PATIENCE;
-        _client = std::make_unique<OpenStreamAsio::OpenStreamClient>(
-            context.get_executor(),
-            clock,
-            random,
-            Core::Logger(),
-            options,
-            [this](const ClientEvent& event, Core::Now /*now*/) { Take(event); });
-        _client->SetMonitor(MonitorRequest{URL, PERIOD, {}, {}});
-        _client->Start();
-    }
-
-    void SendControl(const ControlRequest& request)
-    {
-        static_cast<void>(_client->SendControl(request, EControlTracking::Streamed));
-    }
-
-    /// The stream goes on at its longest period, so that what has been sent is not passed over as after a STOP.
-    void SlowDown()
-    {
-        _client->SetMonitor(MonitorRequest{URL, MAXIMUM_PERIOD, {}, {}});
-    }
 };
 
 std::uint64_t CountReceived(const std::vector<std::unique_ptr<LoadClient>>& clients)
@@ -189,6 +190,27 @@ class ControlLoop
         Core::JsonText::FromTrusted(R"({"interval":0.002,"time_from_start":-1,"look_ahead_time":0.01,)"
                                     R"("point":[0.1,90.2,-1.5,0.25,45.1,3.7]})")};
 
+public:
+    ControlLoop(
+        boost::asio::io_context& context,
+        std::vector<std::unique_ptr<LoadClient>>& clients,
+        const LoadService& service,
+        StreamFigures& figures)
+        : _clients(clients),
+          _service(service),
+          _figures(figures),
+          _timer(context)
+    {
+        WaitAsync();
+    }
+
+    void Stop()
+    {
+        _bStopped = true;
+        _timer.cancel();
+    }
+
+private:
     void WaitAsync()
     {
         _next += PERIOD;
@@ -223,26 +245,6 @@ class ControlLoop
         _sent += _clients.size();
         _figures.controlsSent += _clients.size();
     }
-
-public:
-    ControlLoop(
-        boost::asio::io_context& context,
-        std::vector<std::unique_ptr<LoadClient>>& clients,
-        const LoadService& service,
-        StreamFigures& figures)
-        : _clients(clients),
-          _service(service),
-          _figures(figures),
-          _timer(context)
-    {
-        WaitAsync();
-    }
-
-    void Stop()
-    {
-        _bStopped = true;
-        _timer.cancel();
-    }
 };
 
 /// Of this program; 0 where the system does not tell.
@@ -269,6 +271,42 @@ class ServedTurn
     std::vector<std::unique_ptr<LoadClient>> _clients;
     std::optional<ControlLoop> _controls;
 
+public:
+    ServedTurn(const StreamKind& kind, StreamFigures& figures)
+        : _kind(kind),
+          _figures(figures)
+    {
+    }
+
+    ServedTurn(const ServedTurn&) = delete;
+    ServedTurn& operator=(const ServedTurn&) = delete;
+
+    ~ServedTurn()
+    {
+        _server.Stop();
+    }
+
+    bool TryRun(std::chrono::milliseconds duration)
+    {
+        if (!TryStartServer())
+        {
+            return false;
+        }
+        StartClients();
+        if (!TryRunUntil([this]() { return HasEachStarted(1); }, "not every MONITOR began"))
+        {
+            return false;
+        }
+        if (_kind.bControls)
+        {
+            _controls.emplace(_context, _clients, _service, _figures);
+        }
+        _context.run_for(WARM_UP);
+        Measure(duration);
+        return TryFinish();
+    }
+
+private:
     /// Runs for as long as anything moves. False where nothing does any more, or a connection was lost; the failure is noted.
     bool TryRunUntil(const std::function<bool()>& isReached, const char* what)
     {
@@ -389,41 +427,6 @@ class ServedTurn
         _figures.framesReceived += CountReceived(_clients);
         _figures.controlsServed += _service.controls.load();
         return true;
-    }
-
-public:
-    ServedTurn(const StreamKind& kind, StreamFigures& figures)
-        : _kind(kind),
-          _figures(figures)
-    {
-    }
-
-    ServedTurn(const ServedTurn&) = delete;
-    ServedTurn& operator=(const ServedTurn&) = delete;
-
-    ~ServedTurn()
-    {
-        _server.Stop();
-    }
-
-    bool TryRun(std::chrono::milliseconds duration)
-    {
-        if (!TryStartServer())
-        {
-            return false;
-        }
-        StartClients();
-        if (!TryRunUntil([this]() { return HasEachStarted(1); }, "not every MONITOR began"))
-        {
-            return false;
-        }
-        if (_kind.bControls)
-        {
-            _controls.emplace(_context, _clients, _service, _figures);
-        }
-        _context.run_for(WARM_UP);
-        Measure(duration);
-        return TryFinish();
     }
 };
 

@@ -75,6 +75,24 @@ private:
     std::optional<Planning::StoreBatch> _writing; ///< On its way to the disk.
     Mutator _mutator;
 
+public:
+    AcsdProcess(const Surroundings& around, CrashHandler onCrash, CommitHandler onCommit);
+    AcsdProcess(const AcsdProcess&) = delete;
+    AcsdProcess& operator=(const AcsdProcess&) = delete;
+    ~AcsdProcess() override;
+
+    /// Reads the disk and begins.
+    void Begin();
+
+    /// It ends at this moment, whatever it is doing.
+    void Crash(std::string_view where);
+    /// No crashes by chance from now on.
+    void EndCrashes();
+
+    void PushCommand(Planning::PlanCommand command);
+    [[nodiscard]] const Planning::PlanEngine& GetEngine() const noexcept;
+
+private:
     void Store(const Planning::StoreBatch& batch);
     void Commit();
     [[nodiscard]] bool TryCommit(const Planning::StoreBatch& batch);
@@ -105,23 +123,6 @@ private:
     void OnOpened(Protocol::ConnectionID connection) override;
     void OnText(Protocol::ConnectionID connection, const std::string& text) override;
     void OnClosed(Protocol::ConnectionID connection, const std::string& reason) override;
-
-public:
-    AcsdProcess(const Surroundings& around, CrashHandler onCrash, CommitHandler onCommit);
-    AcsdProcess(const AcsdProcess&) = delete;
-    AcsdProcess& operator=(const AcsdProcess&) = delete;
-    ~AcsdProcess() override;
-
-    /// Reads the disk and begins.
-    void Begin();
-
-    /// It ends at this moment, whatever it is doing.
-    void Crash(std::string_view where);
-    /// No crashes by chance from now on.
-    void EndCrashes();
-
-    void PushCommand(Planning::PlanCommand command);
-    [[nodiscard]] const Planning::PlanEngine& GetEngine() const noexcept;
 };
 
 } // namespace ACS::Simulation

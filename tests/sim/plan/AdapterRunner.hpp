@@ -25,8 +25,6 @@ class AdapterRunner final
     std::deque<Planning::AdapterAction> _actions;
     bool _bExecuting = false;
 
-    void Execute(const Planning::AdapterAction& action);
-
 public:
     /// The adapter outlives the runner. Afterwards (it may be empty) is called when everything has been carried out.
     AdapterRunner(
@@ -49,6 +47,7 @@ public:
     }
 
 private:
+    void Execute(const Planning::AdapterAction& action);
     void ExecuteAll();
 };
 

@@ -34,21 +34,6 @@ private:
     bool _bStartSent = false; ///< Since the session began, or before it.
     std::string _commandID;   ///< Of the job that the adapter was given last.
 
-    template <typename TCall>
-    void Call(TCall call);
-    void Tell(const OpenStream::ClientEvent& event);
-    /// The built-in defect.
-    void Mutate(const OpenStream::ClientEvent& event);
-    void Do(const OpenStream::ClientEvent& event);
-    void Do(const OpenStream::ClientConnect& action);
-    void Do(const OpenStream::ClientSend& action);
-    void Do(const OpenStream::ClientClose& action);
-    void Do(const OpenStream::ClientStartTimer& action);
-    void Do(const OpenStream::ClientCancelTimer& action);
-    void OnOpened(Protocol::ConnectionID connection) override;
-    void OnText(Protocol::ConnectionID connection, const std::string& text) override;
-    void OnClosed(Protocol::ConnectionID connection, const std::string& reason) override;
-
 public:
     ArmClient(
         Timeline& timeline,
@@ -65,6 +50,22 @@ public:
 
     /// Before the adapter is given it: whatever starts a program from now on does so for this job.
     void NoteCommand(const Planning::RobotCommand& command);
+
+private:
+    template <typename TCall>
+    void Call(TCall call);
+    void Tell(const OpenStream::ClientEvent& event);
+    /// The built-in defect.
+    void Mutate(const OpenStream::ClientEvent& event);
+    void Do(const OpenStream::ClientEvent& event);
+    void Do(const OpenStream::ClientConnect& action);
+    void Do(const OpenStream::ClientSend& action);
+    void Do(const OpenStream::ClientClose& action);
+    void Do(const OpenStream::ClientStartTimer& action);
+    void Do(const OpenStream::ClientCancelTimer& action);
+    void OnOpened(Protocol::ConnectionID connection) override;
+    void OnText(Protocol::ConnectionID connection, const std::string& text) override;
+    void OnClosed(Protocol::ConnectionID connection, const std::string& reason) override;
 };
 
 } // namespace ACS::Simulation

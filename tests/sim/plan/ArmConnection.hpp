@@ -53,6 +53,20 @@ private:
     TimerBank<EAnswer> _answerTimers;
     bool _bEnded = false;
 
+public:
+    ArmConnection(Timeline& timeline, TextNetwork& network, Protocol::ConnectionID id, Handlers handlers);
+    ArmConnection(const ArmConnection&) = delete;
+    ArmConnection& operator=(const ArmConnection&) = delete;
+    ~ArmConnection() = default;
+
+    void Start();
+    void OnText(const std::string& text);
+    void OnPeerClosed();
+    /// Without a line; the handler is not called.
+    void Drop();
+    [[nodiscard]] bool IsEnded() const noexcept;
+
+private:
     template <typename TCall>
     void Call(TCall call);
     void Do(const OpenStream::ServerSend& action);
@@ -66,19 +80,6 @@ private:
     void Do(const OpenStream::ServerShutdownSend& action);
     void Do(const OpenStream::ServerClose& action);
     void End();
-
-public:
-    ArmConnection(Timeline& timeline, TextNetwork& network, Protocol::ConnectionID id, Handlers handlers);
-    ArmConnection(const ArmConnection&) = delete;
-    ArmConnection& operator=(const ArmConnection&) = delete;
-    ~ArmConnection() = default;
-
-    void Start();
-    void OnText(const std::string& text);
-    void OnPeerClosed();
-    /// Without a line; the handler is not called.
-    void Drop();
-    [[nodiscard]] bool IsEnded() const noexcept;
 };
 
 } // namespace ACS::Simulation

@@ -263,12 +263,12 @@ void ArmController::DropSessions()
     });
 }
 
-void ArmController::WakeAt(std::optional<Core::SteadyTime> time)
+void ArmController::WakeAt(std::optional<Core::SteadyTime> timeOrNull)
 {
     _habits.Cancel(EHabit::Wake);
-    if (time.has_value())
+    if (timeOrNull.has_value())
     {
-        _habits.Start(EHabit::Wake, *time - _around.timeline.GetNow().steady, [this] {
+        _habits.Start(EHabit::Wake, *timeOrNull - _around.timeline.GetNow().steady, [this] {
             _machine->faults.Advance(_around.timeline.GetNow());
         });
     }

@@ -90,27 +90,6 @@ private:
     bool _bPowered = true;
     bool _bCalm = false;
 
-    void SwitchOn();
-    void UpdateNetwork();
-    [[nodiscard]] OpenStreamSim::ControllerMachine& GetMachine();
-    [[nodiscard]] Counters ReadCounters();
-    void Look(const std::string& startedFor);
-    void WatchProgram();
-    void Call(
-        Protocol::ConnectionID connection,
-        const OpenStream::ApiRequest& request,
-        OpenStream::ApiResponse& response);
-    [[nodiscard]] std::string TakeStart(Protocol::ConnectionID connection);
-    void CheckProgram(const Planning::StartJob& job);
-    void Inject(const OpenStreamSim::Fault& fault);
-    void SetRight();
-    void RunByHand();
-    void DropSessions() override;
-    void WakeAt(std::optional<Core::SteadyTime> time) override;
-    void OnOpened(Protocol::ConnectionID connection) override;
-    void OnText(Protocol::ConnectionID connection, const std::string& text) override;
-    void OnClosed(Protocol::ConnectionID connection, const std::string& reason) override;
-
 public:
     /// IsDriving tells whether the base of the arm moves.
     ArmController(
@@ -147,6 +126,28 @@ public:
     [[nodiscard]] bool IsPlaying();
     /// A program runs or was halted by a fault, or its start may be on its way: nobody can say yet what becomes of it.
     [[nodiscard]] bool IsWorkUnderWay();
+
+private:
+    void SwitchOn();
+    void UpdateNetwork();
+    [[nodiscard]] OpenStreamSim::ControllerMachine& GetMachine();
+    [[nodiscard]] Counters ReadCounters();
+    void Look(const std::string& startedFor);
+    void WatchProgram();
+    void Call(
+        Protocol::ConnectionID connection,
+        const OpenStream::ApiRequest& request,
+        OpenStream::ApiResponse& response);
+    [[nodiscard]] std::string TakeStart(Protocol::ConnectionID connection);
+    void CheckProgram(const Planning::StartJob& job);
+    void Inject(const OpenStreamSim::Fault& fault);
+    void SetRight();
+    void RunByHand();
+    void DropSessions() override;
+    void WakeAt(std::optional<Core::SteadyTime> timeOrNull) override;
+    void OnOpened(Protocol::ConnectionID connection) override;
+    void OnText(Protocol::ConnectionID connection, const std::string& text) override;
+    void OnClosed(Protocol::ConnectionID connection, const std::string& reason) override;
 };
 
 } // namespace ACS::Simulation

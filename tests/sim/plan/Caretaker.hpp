@@ -29,6 +29,11 @@ private:
         Turn,
         Look,
     };
+    struct Service
+    {
+        bool bInMaintenance = false;
+        std::size_t looks = 0; ///< Since it was last another one, or the disk failed.
+    };
 
     Trace& _trace;
     Dice _dice;
@@ -36,20 +41,10 @@ private:
     const CrashableStore& _store;
     ProcessSource _getProcessOrNull;
     TimerBank<EHabit> _habits;
-    struct Service
-    {
-        bool bInMaintenance = false;
-        std::size_t looks = 0; ///< Since it was last another one, or the disk failed.
-    };
 
     std::map<std::string, std::string> _resting; ///< NodeIDs of those that stand out of service.
     std::map<std::string, Service> _services;    ///< As acsd shows them.
     std::map<std::string, bool> _expected;       ///< After a start: whether it is in maintenance.
-
-    void Turn();
-    void Look();
-    void LookAtRest(const Planning::RobotStatus& robot);
-    void LookAtService(const Planning::RobotStatus& robot);
 
 public:
     Caretaker(
@@ -66,6 +61,12 @@ public:
     void OnStart();
     /// Until all are in service.
     void GiveBack() const;
+
+private:
+    void Turn();
+    void Look();
+    void LookAtRest(const Planning::RobotStatus& robot);
+    void LookAtService(const Planning::RobotStatus& robot);
 };
 
 } // namespace ACS::Simulation

@@ -65,15 +65,6 @@ private:
     std::optional<Protocol::ETscState> _tscState;
     std::vector<Protocol::ErrorReport> _alarms;
 
-    void TakePlanReport(const Protocol::PlanReport& report);
-    void TakeStepReport(const Protocol::StepReport& report);
-    void TakeJobReport(const Protocol::JobReport& report);
-    void TakeResult(Planning::EPlanControl control, const std::string& planID, Protocol::EReportResult result);
-    void TakeAlarm(const Protocol::ErrorReport& report);
-    void TakeFirst(const Protocol::AcsPayload& payload);
-    [[nodiscard]] PlanView* FindReportedOrNull(const std::string& planID, std::string_view what);
-    void CheckCompleted(const std::string& planID, const PlanView& plan);
-
 public:
     McsJudge(Trace& trace, const CrashableStore& store, const WorkWitness& witness);
 
@@ -98,6 +89,16 @@ public:
 
     /// What is still owed to the MCS, in words; empty where nothing is.
     [[nodiscard]] std::string DescribeOwed() const;
+
+private:
+    void TakePlanReport(const Protocol::PlanReport& report);
+    void TakeStepReport(const Protocol::StepReport& report);
+    void TakeJobReport(const Protocol::JobReport& report);
+    void TakeResult(Planning::EPlanControl control, const std::string& planID, Protocol::EReportResult result);
+    void TakeAlarm(const Protocol::ErrorReport& report);
+    void TakeFirst(const Protocol::AcsPayload& payload);
+    [[nodiscard]] PlanView* FindReportedOrNull(const std::string& planID, std::string_view what);
+    void CheckCompleted(const std::string& planID, const PlanView& plan);
 };
 
 /// Which control the command asks for, or the result tells of; nullopt for others.

@@ -55,20 +55,6 @@ class McsSide final : public ITextPeer
     std::map<std::string, Protocol::AcsRequest> _unanswered; ///< By transactionID: to be sent, or sent without an Ack.
     bool _bSettling = false;
 
-    template <typename TCall>
-    void Run(TCall call);
-    void Act(const Protocol::SessionAction& action);
-    void Take(const Protocol::SessionEvent& event);
-    void TakeAck(const Protocol::AcsAck& ack);
-    void TakeUnanswered(const std::string& transactionID);
-    void Send(const Protocol::AcsRequest& request);
-    void SendPlan();
-    void SendControl(Planning::EPlanControl control, const std::string& planID);
-    void SendRandomControl();
-    void Ask();
-    void Misbehave();
-    void Settle();
-
 public:
     McsSide(
         Timeline& timeline,
@@ -89,6 +75,21 @@ public:
     void OnOpened(Protocol::ConnectionID connection) override;
     void OnText(Protocol::ConnectionID connection, const std::string& text) override;
     void OnClosed(Protocol::ConnectionID connection, const std::string& reason) override;
+
+private:
+    template <typename TCall>
+    void Run(TCall call);
+    void Act(const Protocol::SessionAction& action);
+    void Take(const Protocol::SessionEvent& event);
+    void TakeAck(const Protocol::AcsAck& ack);
+    void TakeUnanswered(const std::string& transactionID);
+    void Send(const Protocol::AcsRequest& request);
+    void SendPlan();
+    void SendControl(Planning::EPlanControl control, const std::string& planID);
+    void SendRandomControl();
+    void Ask();
+    void Misbehave();
+    void Settle();
 };
 
 } // namespace ACS::Simulation

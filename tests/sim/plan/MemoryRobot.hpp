@@ -55,24 +55,6 @@ private:
     bool _bPauseAsked = false;
     bool _bStopped = false; ///< For safety, by hand or for an error: neither drives nor works.
 
-    void BeginDrive(const Planning::Drive& drive);
-    void Extend(const Planning::ExtendDrive& extension);
-    void CancelDrive(const Planning::CancelDrive& cancel);
-    void BeginJob(const Planning::StartJob& job);
-    void CancelJob(const std::string& commandID);
-    void SetPause(const PauseWish& wish);
-    void GoOn();
-    void OnMoveTimer();
-    void OnJobTimer();
-    void FinishJob();
-    void EndDrive(EDriveState state);
-    void EndJob(EJobState state, const std::string& reason);
-    void Unhalt();
-    void ShowPlace();
-    void Show();
-    [[nodiscard]] bool IsHalted() const noexcept;
-    [[nodiscard]] const std::string& GetNodeID() const noexcept;
-
 public:
     /// Permille.
     std::size_t rejectChance = 0;
@@ -97,6 +79,25 @@ public:
 
     [[nodiscard]] const RobotSnapshot& GetSnapshot() const noexcept;
     [[nodiscard]] bool IsDisturbed() const noexcept;
+
+private:
+    void BeginDrive(const Planning::Drive& drive);
+    void Extend(const Planning::ExtendDrive& extension);
+    void CancelDrive(const Planning::CancelDrive& cancel);
+    void BeginJob(const Planning::StartJob& job);
+    void CancelJob(const std::string& commandID);
+    void SetPause(const PauseWish& wish);
+    void GoOn();
+    void OnMoveTimer();
+    void OnJobTimer();
+    void FinishJob();
+    void EndDrive(EDriveState state);
+    void EndJob(EJobState state, const std::string& reason);
+    void Unhalt();
+    void ShowPlace();
+    void Show();
+    [[nodiscard]] bool IsHalted() const noexcept;
+    [[nodiscard]] const std::string& GetNodeID() const noexcept;
 };
 
 } // namespace ACS::Simulation

@@ -36,14 +36,6 @@ private:
     bool _bJobShown = false;     ///< The robot had it.
     std::string _foreignDriveID; ///< Of one that was given before a restart and is being cancelled.
 
-    void Send(const RobotMessage& message);
-    void Confirm();
-    [[nodiscard]] bool IsConfirmed(const RobotMessage& message) const;
-    void Recover(Planning::AdapterActions& out);
-    void FollowDrive(Planning::AdapterActions& out);
-    void FollowJob(Planning::AdapterActions& out);
-    void TellState(Planning::AdapterActions& out);
-
 public:
     /// The number is higher than that of every adapter before this one.
     MemoryRobotAdapter(std::uint64_t number, Sender send);
@@ -55,6 +47,15 @@ public:
     void OnLinkUp(Planning::AdapterActions& out);
     void OnLinkDown(Planning::AdapterActions& out);
     void OnSnapshot(const RobotSnapshot& snapshot, Planning::AdapterActions& out);
+
+private:
+    void Send(const RobotMessage& message);
+    void Confirm();
+    [[nodiscard]] bool IsConfirmed(const RobotMessage& message) const;
+    void Recover(Planning::AdapterActions& out);
+    void FollowDrive(Planning::AdapterActions& out);
+    void FollowJob(Planning::AdapterActions& out);
+    void TellState(Planning::AdapterActions& out);
 };
 
 } // namespace ACS::Simulation

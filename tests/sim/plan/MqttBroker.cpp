@@ -34,13 +34,13 @@ MqttBroker::MqttBroker(Timeline& timeline, Trace& trace, const DiceSeed& seed, b
 MqttBroker::ClientID MqttBroker::Open(
     VDA5050::IMqttLinkListener& listener,
     std::vector<VDA5050::MqttSubscription> subscriptions,
-    std::optional<VDA5050::MqttWill> will)
+    std::optional<VDA5050::MqttWill> willOrNull)
 {
     const ClientID id = ++_lastClient;
     Client& client = _clients[id];
     client.listener = &listener;
     client.subscriptions = std::move(subscriptions);
-    client.nextWill = std::move(will);
+    client.nextWill = std::move(willOrNull);
     ConnectSoon(id);
     return id;
 }

@@ -55,16 +55,6 @@ private:
     ClientID _lastClient = 0;
     bool _bFaulty;
 
-    [[nodiscard]] Core::Duration GetLatency();
-    void Post(Way& way, Timeline::Task task);
-    void Lose(Way& way);
-    void ConnectSoon(ClientID id);
-    void Connect(ClientID id);
-    void Break(ClientID id);
-    void PublishWill(ClientID id);
-    void Distribute(const VDA5050::MqttMessage& message);
-    void Deliver(ClientID id, VDA5050::MqttMessage message);
-
 public:
     MqttBroker(Timeline& timeline, Trace& trace, const DiceSeed& seed, bool bFaulty);
 
@@ -72,7 +62,7 @@ public:
     [[nodiscard]] ClientID Open(
         VDA5050::IMqttLinkListener& listener,
         std::vector<VDA5050::MqttSubscription> subscriptions,
-        std::optional<VDA5050::MqttWill> will);
+        std::optional<VDA5050::MqttWill> willOrNull);
     void SetWill(ClientID id, const VDA5050::MqttWill& will);
     /// Lost where there is no connection.
     void Publish(ClientID id, const VDA5050::MqttMessage& message);
@@ -87,6 +77,17 @@ public:
     void Restart();
     /// Nothing gets lost or comes twice from now on.
     void Calm();
+
+private:
+    [[nodiscard]] Core::Duration GetLatency();
+    void Post(Way& way, Timeline::Task task);
+    void Lose(Way& way);
+    void ConnectSoon(ClientID id);
+    void Connect(ClientID id);
+    void Break(ClientID id);
+    void PublishWill(ClientID id);
+    void Distribute(const VDA5050::MqttMessage& message);
+    void Deliver(ClientID id, VDA5050::MqttMessage message);
 };
 
 } // namespace ACS::Simulation

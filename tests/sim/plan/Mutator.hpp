@@ -45,8 +45,6 @@ private:
     std::map<std::pair<std::string, std::string>, Planning::StartJob> _latestJobs; ///< By robot and action.
     std::set<std::string> _standing; ///< Robots that count as standing until their next drive.
 
-    [[nodiscard]] Planning::StartJob Misdirect(const std::string& robotID, Planning::StartJob job);
-
 public:
     Mutator(EMutation mutation, Dice& dice, Core::IRandom& random);
 
@@ -60,6 +58,9 @@ public:
         const std::string& robotID,
         const Planning::RobotEvent& event) const;
     [[nodiscard]] bool ShouldForgetTimer() const;
+
+private:
+    [[nodiscard]] Planning::StartJob Misdirect(const std::string& robotID, Planning::StartJob job);
 };
 
 } // namespace ACS::Simulation

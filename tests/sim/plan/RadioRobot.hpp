@@ -14,10 +14,6 @@ namespace ACS::Simulation
 /// A robot in memory behind a radio.
 class RadioRobot final : public ISimulatedRobot
 {
-    Timeline& _timeline;
-    MemoryRobot _robot;
-    RobotRadio _radio;
-
 public:
     struct Seeds
     {
@@ -25,6 +21,12 @@ public:
         DiceSeed radio;
     };
 
+private:
+    Timeline& _timeline;
+    MemoryRobot _robot;
+    RobotRadio _radio;
+
+public:
     RadioRobot(
         Timeline& timeline,
         Trace& trace,

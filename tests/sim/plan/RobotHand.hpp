@@ -24,10 +24,6 @@ private:
     MemoryRobotAdapter _adapter;
     AdapterRunner _runner;
 
-    void OnRadioUp() override;
-    void OnRadioDown() override;
-    void OnSnapshot(const RobotSnapshot& snapshot) override;
-
 public:
     RobotHand(Timeline& timeline, RobotRadio& radio, std::uint64_t number, EventHandler handler);
     RobotHand(const RobotHand&) = delete;
@@ -35,6 +31,11 @@ public:
     ~RobotHand() override;
 
     void Handle(const Planning::RobotCommand& command) override;
+
+private:
+    void OnRadioUp() override;
+    void OnRadioDown() override;
+    void OnSnapshot(const RobotSnapshot& snapshot) override;
 };
 
 } // namespace ACS::Simulation

@@ -45,10 +45,6 @@ class RobotRadio final
     bool _bListenerUp = false; ///< What the listener was told.
     std::uint64_t _epoch = 0;
 
-    void Post(Way& way, Timeline::Task task);
-    void Lose(Way& way);
-    void TellLink(Core::Duration delay);
-
 public:
     RobotRadio(Timeline& timeline, MemoryRobot& robot, const DiceSeed& seed);
 
@@ -58,6 +54,11 @@ public:
     void Send(const RobotMessage& message);
     void SetUp(bool bUp);
     [[nodiscard]] bool IsUp() const noexcept;
+
+private:
+    void Post(Way& way, Timeline::Task task);
+    void Lose(Way& way);
+    void TellLink(Core::Duration delay);
 };
 
 } // namespace ACS::Simulation

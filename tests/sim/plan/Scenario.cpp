@@ -334,7 +334,7 @@ Planning::SiteMap Scenario::MakeSite() const
     return *Planning::SiteMap::Create(nodes, edges, stations);
 }
 
-Scenario MakeScenario(std::uint64_t seed, const FaultSet& without, std::optional<ERobotKind> robotsOrNone)
+Scenario MakeScenario(std::uint64_t seed, const FaultSet& without, std::optional<ERobotKind> robotsOrNull)
 {
     Dice dice({seed, DICE_PART});
     Scenario scenario;
@@ -371,7 +371,7 @@ Scenario MakeScenario(std::uint64_t seed, const FaultSet& without, std::optional
     const bool bVehicles = dice.IsHit(70);
     const bool bArms = !bVehicles && Dice({seed, ARM_PART}).IsHit(40);
     const ERobotKind kind = bArms ? ERobotKind::Arms : ERobotKind::Memory;
-    scenario.robots = robotsOrNone.value_or(bVehicles ? ERobotKind::Vda5050 : kind);
+    scenario.robots = robotsOrNull.value_or(bVehicles ? ERobotKind::Vda5050 : kind);
     ChooseService(scenario);
     return scenario;
 }

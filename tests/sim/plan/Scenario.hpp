@@ -69,7 +69,7 @@ struct Scenario
 [[nodiscard]] Scenario MakeScenario(
     std::uint64_t seed,
     const FaultSet& without,
-    std::optional<ERobotKind> robotsOrNone);
+    std::optional<ERobotKind> robotsOrNull);
 
 /// A plan that a robot of the scenario can do.
 [[nodiscard]] Protocol::ExecutionPlan MakeGoodPlan(const Scenario& scenario, Dice& dice, const std::string& planID);

@@ -61,7 +61,7 @@ std::optional<int> ReadOptionsOrNull(int argc, const char* const* argv, Simulati
         "plan_simulation"};
     app.add_option("--seeds", options.seeds, "number of worlds, each from its own seed")->capture_default_str();
     app.add_option("--first", options.first, "the first seed")->capture_default_str();
-    app.add_option("--seed", options.seedOrNone, "only this seed");
+    app.add_option("--seed", options.seedOrNull, "only this seed");
     app.add_flag("--trace", options.bTrace, "print everything that happens; with --seed");
     app.add_flag("--keep-going", options.bKeepsGoing, "do not stop at the first seed that fails; report all");
     app.add_option("--workers", options.workers, "number of threads, each running its own worlds")

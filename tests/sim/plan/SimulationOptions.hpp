@@ -15,7 +15,7 @@ struct SimulationOptions
 {
     std::uint64_t first = 1;
     std::size_t seeds = 2000;
-    std::optional<std::uint64_t> seedOrNone; ///< Only this one.
+    std::optional<std::uint64_t> seedOrNull; ///< Only this one.
     bool bTrace = false;
     std::size_t workers = 2;
     FaultSet without;

@@ -45,9 +45,9 @@ int SimulationRunner::Run() const
     {
         return RunMutations();
     }
-    if (_options.seedOrNone.has_value())
+    if (_options.seedOrNull.has_value())
     {
-        return RunSeed(*_options.seedOrNone);
+        return RunSeed(*_options.seedOrNull);
     }
     const auto start = std::chrono::steady_clock::now();
     const Tally tally = RunWorlds(_options.mutation, isatty(STDOUT_FILENO) != 0);
@@ -57,12 +57,12 @@ int SimulationRunner::Run() const
         tally.simulatedHours,
         tally.starts,
         GetSecondsSince(start));
-    if (!tally.failureOrNone.has_value())
+    if (!tally.failureOrNull.has_value())
     {
         return 0;
     }
-    fmt::print("seed {}: {}\n", tally.failureOrNone->seed, tally.failureOrNone->violation);
-    fmt::print("replay: {}\n", DescribeReplay(_options.mutation, tally.failureOrNone->seed));
+    fmt::print("seed {}: {}\n", tally.failureOrNull->seed, tally.failureOrNull->violation);
+    fmt::print("replay: {}\n", DescribeReplay(_options.mutation, tally.failureOrNull->seed));
     return 1;
 }
 
@@ -129,9 +129,9 @@ SimulationRunner::Tally SimulationRunner::RunWorlds(EMutation mutation, bool bPr
                 {
                     fmt::print("seed {}: {}\n", seed, violations.front());
                 }
-                if (!tally.failureOrNone.has_value() || seed < tally.failureOrNone->seed)
+                if (!tally.failureOrNull.has_value() || seed < tally.failureOrNull->seed)
                 {
-                    tally.failureOrNone = Failure{seed, violations.front()};
+                    tally.failureOrNull = Failure{seed, violations.front()};
                 }
             }
             if (bProgress)
@@ -161,9 +161,9 @@ SimulationRunner::Tally SimulationRunner::RunWorlds(EMutation mutation, bool bPr
 int SimulationRunner::RunMutations() const
 {
     const Tally intact = RunWorlds(EMutation::None, false);
-    if (intact.failureOrNone.has_value())
+    if (intact.failureOrNull.has_value())
     {
-        fmt::print("without a mutation seed {}: {}\n", intact.failureOrNone->seed, intact.failureOrNone->violation);
+        fmt::print("without a mutation seed {}: {}\n", intact.failureOrNull->seed, intact.failureOrNull->violation);
         return 1; // what fails by itself shows nothing
     }
     std::size_t missed = 0;
@@ -172,12 +172,12 @@ int SimulationRunner::RunMutations() const
         const auto mutation = static_cast<EMutation>(index);
         const auto start = std::chrono::steady_clock::now();
         const Tally tally = RunWorlds(mutation, false);
-        const bool bCaught = tally.failureOrNone.has_value();
+        const bool bCaught = tally.failureOrNull.has_value();
         missed += bCaught ? 0U : 1U;
         fmt::print(
             "{:24}{} {:5.1f} s\n",
             MUTATION_TEXTS[index].name,
-            bCaught ? fmt::format("seed {}: {}", tally.failureOrNone->seed, tally.failureOrNone->violation)
+            bCaught ? fmt::format("seed {}: {}", tally.failureOrNull->seed, tally.failureOrNull->violation)
                     : fmt::format("NOT CAUGHT within {} seeds", tally.worlds),
             GetSecondsSince(start));
         std::fflush(stdout);

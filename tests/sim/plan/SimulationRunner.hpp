@@ -24,11 +24,18 @@ class SimulationRunner final
         std::size_t worlds = 0;
         std::size_t starts = 0;
         double simulatedHours = 0;
-        std::optional<Failure> failureOrNone; ///< Of the lowest seed.
+        std::optional<Failure> failureOrNull; ///< Of the lowest seed.
     };
 
     SimulationOptions _options;
 
+public:
+    explicit SimulationRunner(const SimulationOptions& options);
+
+    /// The exit code: 0 where all is as it should be.
+    [[nodiscard]] int Run() const;
+
+private:
     /// Stops at the first that fails.
     [[nodiscard]] Tally RunWorlds(EMutation mutation, bool bProgress) const;
     /// As was asked for; else nullopt, and what the mutation needs.
@@ -36,12 +43,6 @@ class SimulationRunner final
     [[nodiscard]] int RunSeed(std::uint64_t seed) const;
     [[nodiscard]] int RunMutations() const;
     [[nodiscard]] std::string DescribeReplay(EMutation mutation, std::uint64_t seed) const;
-
-public:
-    explicit SimulationRunner(const SimulationOptions& options);
-
-    /// The exit code: 0 where all is as it should be.
-    [[nodiscard]] int Run() const;
 };
 
 } // namespace ACS::Simulation

@@ -24,11 +24,11 @@ ETextEnd GetOther(ETextEnd end)
 
 } // namespace
 
-TextNetwork::TextNetwork(Timeline& timeline, Trace& trace, const DiceSeed& seed, std::optional<TextNames> namesOrNone)
+TextNetwork::TextNetwork(Timeline& timeline, Trace& trace, const DiceSeed& seed, std::optional<TextNames> namesOrNull)
     : _timeline(timeline),
       _trace(trace),
       _dice(seed),
-      _namesOrNone(std::move(namesOrNone))
+      _namesOrNull(std::move(namesOrNull))
 {
 }
 
@@ -100,11 +100,11 @@ void TextNetwork::Send(Protocol::ConnectionID id, ETextEnd from, const std::stri
         arriving.underWay.pop_front();
         if (arriving.peerOrNull != nullptr)
         {
-            if (_namesOrNone.has_value())
+            if (_namesOrNull.has_value())
             {
                 const bool bToServer = end == ETextEnd::Server;
-                const std::string& sender = bToServer ? _namesOrNone->client : _namesOrNone->server;
-                _trace.Tell("{} -> {} {}", sender, bToServer ? _namesOrNone->server : _namesOrNone->client, text);
+                const std::string& sender = bToServer ? _namesOrNull->client : _namesOrNull->server;
+                _trace.Tell("{} -> {} {}", sender, bToServer ? _namesOrNull->server : _namesOrNull->client, text);
             }
             arriving.peerOrNull->OnText(id, text);
         }

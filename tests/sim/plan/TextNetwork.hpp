@@ -65,21 +65,16 @@ class TextNetwork final
     Timeline& _timeline;
     Trace& _trace;
     Dice _dice;
-    std::optional<TextNames> _namesOrNone;
+    std::optional<TextNames> _namesOrNull;
     ITextPeer* _serverOrNull = nullptr;
     std::map<Protocol::ConnectionID, Connection> _connections;
     Protocol::ConnectionID _lastConnection = 0;
     bool _bReachable = true;
     bool _bSlow = false;
 
-    [[nodiscard]] Core::Duration GetLatency();
-    void Lose(Way& way);
-    void TellClosed(Protocol::ConnectionID id, ETextEnd end, Core::Duration delay, const std::string& reason);
-    void Forget(Protocol::ConnectionID id);
-
 public:
     /// Without names the texts are not traced.
-    TextNetwork(Timeline& timeline, Trace& trace, const DiceSeed& seed, std::optional<TextNames> namesOrNone);
+    TextNetwork(Timeline& timeline, Trace& trace, const DiceSeed& seed, std::optional<TextNames> namesOrNull);
 
     /// Before any client.
     void Listen(ITextPeer& server);
@@ -98,6 +93,12 @@ public:
     void SetReachable(bool bReachable);
     /// Texts take seconds now and then.
     void SetSlow(bool bSlow);
+
+private:
+    [[nodiscard]] Core::Duration GetLatency();
+    void Lose(Way& way);
+    void TellClosed(Protocol::ConnectionID id, ETextEnd end, Core::Duration delay, const std::string& reason);
+    void Forget(Protocol::ConnectionID id);
 };
 
 } // namespace ACS::Simulation

@@ -78,7 +78,7 @@ Acsd::RobotLinkConfig MakeLink(const Planning::RobotOptions& robot, const ArmCon
     {
         return link;
     }
-    link.armOrNone.emplace(); // its addresses are the network's business
+    link.armOrNull.emplace(); // its addresses are the network's business
     link.armOptions.period = ARM_PERIOD;
     if (controllerOrNull->Is(EMutation::EchoIgnored))
     {

@@ -29,11 +29,6 @@ private:
     MqttBroker::ClientID _client;
     std::unique_ptr<ArmClient> _armOrNull;
 
-    void SendAll();
-    void OnLinkUp() override;
-    void OnLinkDown(std::error_code reason) override;
-    void OnMqttMessage(const VDA5050::MqttMessage& message) override;
-
 public:
     /// The controller is that of its arm, where it has one.
     VehicleHand(
@@ -47,6 +42,12 @@ public:
     ~VehicleHand() override;
 
     void Handle(const Planning::RobotCommand& command) override;
+
+private:
+    void SendAll();
+    void OnLinkUp() override;
+    void OnLinkDown(std::error_code reason) override;
+    void OnMqttMessage(const VDA5050::MqttMessage& message) override;
 };
 
 } // namespace ACS::Simulation

@@ -61,21 +61,6 @@ private:
     std::uint32_t _handCount = 1000;
     bool _bReachable = true;
 
-    void SwitchOn(const std::string& nodeID);
-    void Equip(VdaSim::VirtualVehicleOptions& options);
-    template <typename TCall>
-    void Call(TCall call);
-    void Execute(const VdaSim::VirtualAction& action);
-    void Inject(VdaSim::Fault fault);
-    void PutOnNode();
-    void ShowPlace();
-    void ShowJobs();
-    void SeeFloor();
-    [[nodiscard]] std::vector<std::string> FindPlace() const;
-    void OnLinkUp() override;
-    void OnLinkDown(std::error_code reason) override;
-    void OnMqttMessage(const VDA5050::MqttMessage& message) override;
-
 public:
     VehicleRobot(
         const Surroundings& around,
@@ -100,6 +85,22 @@ public:
     [[nodiscard]] bool IsAtRest() const override;
     [[nodiscard]] bool IsWorkUnderWay() const override;
     [[nodiscard]] bool IsDriving() const;
+
+private:
+    void SwitchOn(const std::string& nodeID);
+    void Equip(VdaSim::VirtualVehicleOptions& options);
+    template <typename TCall>
+    void Call(TCall call);
+    void Execute(const VdaSim::VirtualAction& action);
+    void Inject(VdaSim::Fault fault);
+    void PutOnNode();
+    void ShowPlace();
+    void ShowJobs();
+    void SeeFloor();
+    [[nodiscard]] std::vector<std::string> FindPlace() const;
+    void OnLinkUp() override;
+    void OnLinkDown(std::error_code reason) override;
+    void OnMqttMessage(const VDA5050::MqttMessage& message) override;
 };
 
 } // namespace ACS::Simulation

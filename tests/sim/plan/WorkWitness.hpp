@@ -37,9 +37,6 @@ private:
     std::map<std::string, Planning::StartJob> _commands;
     FloorChecker _floor;
 
-    /// A step without jobs has one that the engine makes up: its jobID says nothing.
-    [[nodiscard]] JobKey MakeKey(const std::string& planID, std::int32_t stepNo, const std::string& jobID) const;
-
 public:
     WorkWitness(Trace& trace, const Planning::SiteMap& site, EHandling handling);
 
@@ -59,6 +56,10 @@ public:
 
     /// Of a step without jobs the jobID does not matter.
     [[nodiscard]] JobTruth GetTruth(const std::string& planID, std::int32_t stepNo, const std::string& jobID) const;
+
+private:
+    /// A step without jobs has one that the engine makes up: its jobID says nothing.
+    [[nodiscard]] JobKey MakeKey(const std::string& planID, std::int32_t stepNo, const std::string& jobID) const;
 };
 
 } // namespace ACS::Simulation

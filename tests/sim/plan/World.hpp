@@ -65,6 +65,16 @@ class World final
     bool _bSettling = false;
     bool _bDone = false;
 
+public:
+    World(Scenario scenario, EMutation mutation, bool bPrinting);
+
+    /// The rules that were broken, the first one first; empty where none was.
+    [[nodiscard]] std::vector<std::string> Run();
+
+    [[nodiscard]] std::size_t GetStarts() const noexcept;
+    [[nodiscard]] Core::Duration GetAge() const;
+
+private:
     void AddRobots();
     void StartAcsd();
     void BringIntoReach();
@@ -83,15 +93,6 @@ class World final
     void TakeCarriersOff();
     [[nodiscard]] std::vector<std::string> GetPorts(std::string_view robotID) const;
     [[nodiscard]] std::string DescribeUnrest() const;
-
-public:
-    World(Scenario scenario, EMutation mutation, bool bPrinting);
-
-    /// The rules that were broken, the first one first; empty where none was.
-    [[nodiscard]] std::vector<std::string> Run();
-
-    [[nodiscard]] std::size_t GetStarts() const noexcept;
-    [[nodiscard]] Core::Duration GetAge() const;
 };
 
 } // namespace ACS::Simulation

@@ -34,46 +34,6 @@ public:
 private:
     std::array<std::optional<Core::SteadyTime>, OpenStream::CLIENT_TIMER_COUNT> _deadlines;
 
-    void Do(const OpenStream::ClientEvent& event)
-    {
-        events.push_back(event);
-    }
-
-    void Do(const OpenStream::ClientConnect& /*action*/)
-    {
-        ++connects;
-    }
-
-    void Do(const OpenStream::ClientSend& action)
-    {
-        std::string_view rest = action.text;
-        while (!rest.empty())
-        {
-            const std::size_t end = rest.find('\n');
-            lines.emplace_back(rest.substr(0, end));
-            rest.remove_prefix(end + 1);
-        }
-        if (bSocketTakes)
-        {
-            session.OnSendCompleted(clock.GetNow(), actions);
-        }
-    }
-
-    void Do(const OpenStream::ClientClose& /*action*/)
-    {
-        ++closes;
-    }
-
-    void Do(const OpenStream::ClientStartTimer& action)
-    {
-        _deadlines.at(static_cast<std::size_t>(action.timer)) = action.deadline;
-    }
-
-    void Do(const OpenStream::ClientCancelTimer& action)
-    {
-        _deadlines.at(static_cast<std::size_t>(action.timer)).reset();
-    }
-
 public:
     explicit ClientHarness(const OpenStream::ClientSessionOptions& options = {})
         : session(options, random)
@@ -191,6 +151,47 @@ public:
             count += line.find(part) == std::string::npos ? 0U : 1U;
         }
         return count;
+    }
+
+private:
+    void Do(const OpenStream::ClientEvent& event)
+    {
+        events.push_back(event);
+    }
+
+    void Do(const OpenStream::ClientConnect& /*action*/)
+    {
+        ++connects;
+    }
+
+    void Do(const OpenStream::ClientSend& action)
+    {
+        std::string_view rest = action.text;
+        while (!rest.empty())
+        {
+            const std::size_t end = rest.find('\n');
+            lines.emplace_back(rest.substr(0, end));
+            rest.remove_prefix(end + 1);
+        }
+        if (bSocketTakes)
+        {
+            session.OnSendCompleted(clock.GetNow(), actions);
+        }
+    }
+
+    void Do(const OpenStream::ClientClose& /*action*/)
+    {
+        ++closes;
+    }
+
+    void Do(const OpenStream::ClientStartTimer& action)
+    {
+        _deadlines.at(static_cast<std::size_t>(action.timer)) = action.deadline;
+    }
+
+    void Do(const OpenStream::ClientCancelTimer& action)
+    {
+        _deadlines.at(static_cast<std::size_t>(action.timer)).reset();
     }
 };
 

@@ -37,6 +37,90 @@ private:
     OpenStream::ServerActions _actions;
     bool _bSendPending = false;
 
+public:
+    explicit ServerHarness(const OpenStream::ServerSessionOptions& options = {})
+        : session(options)
+    {
+        session.Start(clock.GetNow(), _actions);
+        Execute();
+    }
+
+    void Receive(std::string_view bytes)
+    {
+        session.OnBytes(bytes, clock.GetNow(), _actions);
+        Execute();
+    }
+
+    void Continue()
+    {
+        bContinueWanted = false;
+        session.OnContinue(clock.GetNow(), _actions);
+        Execute();
+    }
+
+    void Answer(std::uint64_t token)
+    {
+        session.OnServiceAnswer(token, answer, clock.GetNow(), _actions);
+        Execute();
+    }
+
+    void ClosePeer()
+    {
+        session.OnPeerClosed(clock.GetNow(), _actions);
+        Execute();
+    }
+
+    void Reject()
+    {
+        session.Reject("no room", clock.GetNow(), _actions);
+        Execute();
+    }
+
+    /// Lets what waits in the socket leave.
+    void Drain()
+    {
+        bSocketTakes = true;
+        if (_bSendPending)
+        {
+            CompleteSend();
+            Execute();
+        }
+    }
+
+    /// Time passes, a millisecond at a time.
+    void Pass(std::chrono::milliseconds span)
+    {
+        for (std::chrono::milliseconds passed{0}; passed < span; ++passed)
+        {
+            clock.Advance(std::chrono::milliseconds(1));
+            FireDueTimers();
+        }
+    }
+
+    /// Time passes and nobody looks at the timers until its end: a stall of the machine.
+    void Stall(std::chrono::milliseconds span)
+    {
+        clock.Advance(span);
+        FireDueTimers();
+    }
+
+    /// The lines since the last call.
+    [[nodiscard]] std::vector<std::string> TakeLines()
+    {
+        return std::exchange(lines, {});
+    }
+
+    [[nodiscard]] std::size_t Count(std::string_view part) const
+    {
+        std::size_t count = 0;
+        for (const std::string& line : lines)
+        {
+            count += line.find(part) == std::string::npos ? 0U : 1U;
+        }
+        return count;
+    }
+
+private:
     void Execute()
     {
         std::size_t index = 0;
@@ -135,89 +219,6 @@ private:
                 Execute();
             }
         }
-    }
-
-public:
-    explicit ServerHarness(const OpenStream::ServerSessionOptions& options = {})
-        : session(options)
-    {
-        session.Start(clock.GetNow(), _actions);
-        Execute();
-    }
-
-    void Receive(std::string_view bytes)
-    {
-        session.OnBytes(bytes, clock.GetNow(), _actions);
-        Execute();
-    }
-
-    void Continue()
-    {
-        bContinueWanted = false;
-        session.OnContinue(clock.GetNow(), _actions);
-        Execute();
-    }
-
-    void Answer(std::uint64_t token)
-    {
-        session.OnServiceAnswer(token, answer, clock.GetNow(), _actions);
-        Execute();
-    }
-
-    void ClosePeer()
-    {
-        session.OnPeerClosed(clock.GetNow(), _actions);
-        Execute();
-    }
-
-    void Reject()
-    {
-        session.Reject("no room", clock.GetNow(), _actions);
-        Execute();
-    }
-
-    /// Lets what waits in the socket leave.
-    void Drain()
-    {
-        bSocketTakes = true;
-        if (_bSendPending)
-        {
-            CompleteSend();
-            Execute();
-        }
-    }
-
-    /// Time passes, a millisecond at a time.
-    void Pass(std::chrono::milliseconds span)
-    {
-        for (std::chrono::milliseconds passed{0}; passed < span; ++passed)
-        {
-            clock.Advance(std::chrono::milliseconds(1));
-            FireDueTimers();
-        }
-    }
-
-    /// Time passes and nobody looks at the timers until its end: a stall of the machine.
-    void Stall(std::chrono::milliseconds span)
-    {
-        clock.Advance(span);
-        FireDueTimers();
-    }
-
-    /// The lines since the last call.
-    [[nodiscard]] std::vector<std::string> TakeLines()
-    {
-        return std::exchange(lines, {});
-    }
-
-    [[nodiscard]] std::size_t Count(std::string_view part) const
-    {
-        std::size_t count = 0;
-        for (const std::string& line : lines)
-        {
-            count += line.find(part) == std::string::npos ? 0U : 1U;
-        }
-        return count;
     }
 };
 

@@ -240,13 +240,6 @@ class AcsFixture
     DurableOutbox _outbox;
     Protocol::SessionActions _actions;
 
-    static Protocol::SessionOptions MakeOptions()
-    {
-        Protocol::SessionOptions options;
-        options.window = 2;
-        return options;
-    }
-
 public:
     AcsFixture(const Testing::ManualClock& clock, Core::IRandom& random, MemoryStore& store)
         : _clock(clock),
@@ -314,6 +307,14 @@ public:
             }
         }
         return texts;
+    }
+
+private:
+    static Protocol::SessionOptions MakeOptions()
+    {
+        Protocol::SessionOptions options;
+        options.window = 2;
+        return options;
     }
 };
 

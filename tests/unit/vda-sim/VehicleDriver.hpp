@@ -30,8 +30,8 @@ namespace ACS::Testing
 /// A01.CP01 and A01.CP02 are at N1, A02.CP01 at N2.
 inline Planning::SiteMap MakeTestSite()
 {
-    const auto node = [](std::string nodeID, double x, double y, std::optional<double> theta) {
-        return Planning::SiteNode{std::move(nodeID), x, y, "floor", {{"any", theta}}};
+    const auto node = [](std::string nodeID, double x, double y, std::optional<double> thetaOrNull) {
+        return Planning::SiteNode{std::move(nodeID), x, y, "floor", {{"any", thetaOrNull}}};
     };
     const auto edge = [](std::string from, std::string to, double speed, double orientation, bool bRotation) {
         Planning::SiteEdgeRule rule{"any", speed, std::nullopt, orientation, "TANGENTIAL", bRotation};

@@ -26,55 +26,6 @@ class Line
     std::optional<std::uint32_t> _goal;
     std::vector<std::string> _running;
 
-    [[nodiscard]] static MasterOptions MakeMasterOptions()
-    {
-        MasterOptions options;
-        options.address = MakeAddress();
-        return options;
-    }
-
-    [[nodiscard]] bool IsLost()
-    {
-        return _random.GetNext() % 100 < _lossPercent;
-    }
-
-    void ToVehicle(const MasterActions& actions)
-    {
-        CheckPublished(actions);
-        for (const PublishMessage& publish : Pick<PublishMessage>(actions))
-        {
-            if (!IsLost())
-            {
-                VehicleActions out;
-                _vehicle.OnMessage(publish.message.topic, publish.message.payload, false, _clock.GetNow(), out);
-                ToMaster(out);
-            }
-        }
-        std::copy(actions.begin(), actions.end(), std::back_inserter(_told));
-    }
-
-    void ToMaster(const VehicleActions& actions)
-    {
-        CheckPublished(actions);
-        for (const DriveTo& drive : Pick<DriveTo>(actions))
-        {
-            _goal = drive.node.sequenceID;
-        }
-        for (const StartAction& start : Pick<StartAction>(actions))
-        {
-            _running.push_back(start.action.actionID);
-        }
-        for (const PublishMessage& publish : Pick<PublishMessage>(actions))
-        {
-            if (!IsLost())
-            {
-                MasterActions out;
-                _master.OnMessage(publish.message.topic, publish.message.payload, _clock.GetNow(), out);
-                ToVehicle(out);
-            }
-        }
-    }
-
 public:
     Line(std::uint64_t seed, std::uint32_t lossPercent)
         : _random(seed),
@@ -138,6 +89,56 @@ public:
         _master.OnTimer(EMasterTimer::ResendOrder, _clock.GetNow(), actions);
         _master.OnTimer(EMasterTimer::ResendInstantActions, _clock.GetNow(), actions);
         ToVehicle(actions);
+    }
+
+private:
+    [[nodiscard]] static MasterOptions MakeMasterOptions()
+    {
+        MasterOptions options;
+        options.address = MakeAddress();
+        return options;
+    }
+
+    [[nodiscard]] bool IsLost()
+    {
+        return _random.GetNext() % 100 < _lossPercent;
+    }
+
+    void ToVehicle(const MasterActions& actions)
+    {
+        CheckPublished(actions);
+        for (const PublishMessage& publish : Pick<PublishMessage>(actions))
+        {
+            if (!IsLost())
+            {
+                VehicleActions out;
+                _vehicle.OnMessage(publish.message.topic, publish.message.payload, false, _clock.GetNow(), out);
+                ToMaster(out);
+            }
+        }
+        std::copy(actions.begin(), actions.end(), std::back_inserter(_told));
+    }
+
+    void ToMaster(const VehicleActions& actions)
+    {
+        CheckPublished(actions);
+        for (const DriveTo& drive : Pick<DriveTo>(actions))
+        {
+            _goal = drive.node.sequenceID;
+        }
+        for (const StartAction& start : Pick<StartAction>(actions))
+        {
+            _running.push_back(start.action.actionID);
+        }
+        for (const PublishMessage& publish : Pick<PublishMessage>(actions))
+        {
+            if (!IsLost())
+            {
+                MasterActions out;
+                _master.OnMessage(publish.message.topic, publish.message.payload, _clock.GetNow(), out);
+                ToVehicle(out);
+            }
+        }
     }
 };
 

@@ -16,10 +16,10 @@ namespace
 
 using namespace std::chrono_literals;
 
-const Planning::SubmitPlan& AsSubmit(const std::optional<Planning::PlanCommand>& command)
+const Planning::SubmitPlan& AsSubmit(const std::optional<Planning::PlanCommand>& commandOrNull)
 {
-    REQUIRE(command.has_value());
-    return std::get<Planning::SubmitPlan>(*command);
+    REQUIRE(commandOrNull.has_value());
+    return std::get<Planning::SubmitPlan>(*commandOrNull);
 }
 
 } // namespace

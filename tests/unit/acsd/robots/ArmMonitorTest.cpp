@@ -157,7 +157,7 @@ TEST_CASE("A probe begins only between fresh counters, and one that is not answe
     {
         const ArmFact fact = arm.Show(R"({"val":1})");
         REQUIRE(std::holds_alternative<ArmProbed>(fact));
-        CHECK(std::get<ArmProbed>(fact).bOnOrNone == false);
+        CHECK(std::get<ArmProbed>(fact).bOnOrNull == false);
         arm.monitor.WatchCounters();
         static_cast<void>(arm.TakeMonitors());
         static_cast<void>(arm.monitor.OnProbeTimer(EArmProbe::Motor, arm.actions));
@@ -168,7 +168,7 @@ TEST_CASE("A probe begins only between fresh counters, and one that is not answe
         arm.Acknowledge();
         const ArmFact fact = arm.monitor.OnProbeTimer(EArmProbe::Motor, arm.actions);
         REQUIRE(std::holds_alternative<ArmProbed>(fact));
-        CHECK_FALSE(std::get<ArmProbed>(fact).bOnOrNone.has_value());
+        CHECK_FALSE(std::get<ArmProbed>(fact).bOnOrNull.has_value());
         CHECK(arm.monitor.IsHidden(EArmProbe::Motor));
         CHECK_FALSE(arm.monitor.IsHidden(EArmProbe::Playback));
     }

@@ -90,9 +90,9 @@ TEST_CASE("Only the refusal for a bad program counter asks for a rewind")
 {
     ArmRefusal refusal;
     CHECK_FALSE(ArmProgramControls::IsRewindWanted(refusal));
-    refusal.codeOrNone = -1;
+    refusal.codeOrNull = -1;
     CHECK_FALSE(ArmProgramControls::IsRewindWanted(refusal));
-    refusal.codeOrNone = -1'245'280;
+    refusal.codeOrNull = -1'245'280;
     CHECK(ArmProgramControls::IsRewindWanted(refusal));
 }
 

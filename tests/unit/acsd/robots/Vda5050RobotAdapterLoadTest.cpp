@@ -38,11 +38,11 @@ struct LoadFixture : VehicleFixture
         ComeOnline();
     }
 
-    static VDA5050::Load MakeLoad(const std::string& position, std::optional<std::string> loadID)
+    static VDA5050::Load MakeLoad(const std::string& position, std::optional<std::string> loadIDOrNull)
     {
         VDA5050::Load load;
         load.loadPosition = position;
-        load.loadID = std::move(loadID);
+        load.loadID = std::move(loadIDOrNull);
         return load;
     }
 

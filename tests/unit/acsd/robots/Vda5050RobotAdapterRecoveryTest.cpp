@@ -13,15 +13,15 @@ namespace
 /// A vehicle that shows this after acsd was restarted; the adapter was asked for the job J before.
 struct RecoveryFixture : VehicleFixture
 {
-    RecoveryFixture(const std::string& orderID, std::optional<VDA5050::EActionStatus> status)
+    RecoveryFixture(const std::string& orderID, std::optional<VDA5050::EActionStatus> statusOrNull)
     {
         state.orderID = orderID;
-        if (status.has_value())
+        if (statusOrNull.has_value())
         {
             VDA5050::ActionState action;
             action.actionID = "U1";
             action.actionType = "pick";
-            action.actionStatus = *status;
+            action.actionStatus = *statusOrNull;
             state.actionStates.push_back(action);
         }
         Command(Planning::RecoverJob{MakeJob("CassetteLoad"), {"D"}});

@@ -116,7 +116,7 @@ struct Fixture
     std::unique_ptr<Apps::HttpServer> server;
     std::uint16_t port = 0;
 
-    explicit Fixture(Apps::HttpLimits limits = {}, std::optional<Apps::HttpGuard> guardOrNone = std::nullopt)
+    explicit Fixture(Apps::HttpLimits limits = {}, std::optional<Apps::HttpGuard> guardOrNull = std::nullopt)
     {
         const auto handler = [this](const Apps::HttpRequest& request) {
             requests.push_back(request);
@@ -127,7 +127,7 @@ struct Fixture
             handler,
             Core::Logger(log, "http"),
             limits,
-            std::move(guardOrNone));
+            std::move(guardOrNull));
         const auto endpoint = server->Listen({LOOPBACK, 0});
         REQUIRE(endpoint.has_value());
         REQUIRE(endpoint->host == LOOPBACK);

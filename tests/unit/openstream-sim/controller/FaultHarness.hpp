@@ -32,16 +32,6 @@ private:
     std::optional<OpenStreamSim::FaultyService> _stream;
     std::optional<OpenStreamSim::FaultyService> _http;
 
-    void DropSessions() override
-    {
-        ++drops;
-    }
-
-    void WakeAt(std::optional<Core::SteadyTime> time) override
-    {
-        wakeAt = time;
-    }
-
 public:
     int drops = 0;
     std::optional<Core::SteadyTime> wakeAt;
@@ -162,6 +152,15 @@ public:
     }
 
 private:
+    void DropSessions() override
+    {
+        ++drops;
+    }
+
+    void WakeAt(std::optional<Core::SteadyTime> timeOrNull) override
+    {
+        wakeAt = timeOrNull;
+    }
     void Call(
         OpenStreamSim::FaultyService& service,
         OpenStream::EApiMethod method,

@@ -27,6 +27,29 @@ class BareServer
     ApiResponse _response;
     std::uint64_t _sampleCount = 0;
 
+public:
+    std::uint64_t bytes = 0;
+    bool bSocketTakes = true;
+
+    void Receive(std::string_view text)
+    {
+        _session.OnBytes(text, _clock.GetNow(), _actions);
+        Execute();
+    }
+
+    void Tick()
+    {
+        _clock.Advance(2ms);
+        _session.OnTimer(EServerTimer::MonitorTick, _clock.GetNow(), _actions);
+        Execute();
+    }
+
+    [[nodiscard]] const ServerSessionStats& GetStats() const
+    {
+        return _session.GetStats();
+    }
+
+private:
     void Do(const ServerSend& action)
     {
         bytes += action.text.size();
@@ -61,28 +84,6 @@ class BareServer
             ++index;
         }
         _actions.clear();
-    }
-
-public:
-    std::uint64_t bytes = 0;
-    bool bSocketTakes = true;
-
-    void Receive(std::string_view text)
-    {
-        _session.OnBytes(text, _clock.GetNow(), _actions);
-        Execute();
-    }
-
-    void Tick()
-    {
-        _clock.Advance(2ms);
-        _session.OnTimer(EServerTimer::MonitorTick, _clock.GetNow(), _actions);
-        Execute();
-    }
-
-    [[nodiscard]] const ServerSessionStats& GetStats() const
-    {
-        return _session.GetStats();
     }
 };
 

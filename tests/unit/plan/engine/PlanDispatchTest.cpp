@@ -22,9 +22,9 @@ Plan MakeLoadPlan(const std::string& planID, const std::string& carrierID)
     return {planID, "", 1, {{1, "CassetteLoad", "A01.CP01", {carrierID}, {{planID + "-l", "A01.CP01", "AMR.CP01"}}}}};
 }
 
-void SetCarrier(PlanWorld& world, const std::string& robotID, std::optional<std::string> carrierID)
+void SetCarrier(PlanWorld& world, const std::string& robotID, std::optional<std::string> carrierIDOrNull)
 {
-    world.Ask(SetCarriers{robotID, {std::move(carrierID)}, 77});
+    world.Ask(SetCarriers{robotID, {std::move(carrierIDOrNull)}, 77});
     REQUIRE(world.replies.at(77).bAccepted);
 }
 

@@ -28,9 +28,9 @@ void Show(PlanWorld& world, bool bLoaded, const std::string& carrierID = {})
     world.TellState("LR01");
 }
 
-void SetCarrier(PlanWorld& world, std::optional<std::string> carrierID)
+void SetCarrier(PlanWorld& world, std::optional<std::string> carrierIDOrNull)
 {
-    world.Ask(SetCarriers{"LR01", {std::move(carrierID)}, 77});
+    world.Ask(SetCarriers{"LR01", {std::move(carrierIDOrNull)}, 77});
     REQUIRE(world.replies.at(77).bAccepted);
 }
 

@@ -25,10 +25,10 @@ void Restart(PlanWorld& world, const std::function<void(EngineOptions&)>& change
     world.Restart(options, MakeTestSite());
 }
 
-Plan MakePlan(const std::string& planID, std::optional<std::int32_t> priority)
+Plan MakePlan(const std::string& planID, std::optional<std::int32_t> priorityOrNull)
 {
     Plan plan = MakeLogisticsPlan(planID);
-    plan.priority = priority;
+    plan.priority = priorityOrNull;
     return plan;
 }
 

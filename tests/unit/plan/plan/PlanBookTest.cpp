@@ -12,19 +12,21 @@ namespace
 
 constexpr ACS::Core::WallTime START{1000h};
 
-std::unique_ptr<ActivePlan> MakePlan(const std::string& planID, std::optional<std::int32_t> priority = std::nullopt)
+std::unique_ptr<ActivePlan> MakePlan(
+    const std::string& planID,
+    std::optional<std::int32_t> priorityOrNull = std::nullopt)
 {
     auto plan = std::make_unique<ActivePlan>();
     plan->record.plan.planID = planID;
-    plan->record.plan.priority = priority;
+    plan->record.plan.priority = priorityOrNull;
     plan->record.plan.steps.resize(2);
     plan->record.plan.steps.front().jobs.resize(1);
     return plan;
 }
 
-ActivePlan& Accept(PlanBook& book, const std::string& planID, std::optional<std::int32_t> priority = std::nullopt)
+ActivePlan& Accept(PlanBook& book, const std::string& planID, std::optional<std::int32_t> priorityOrNull = std::nullopt)
 {
-    static_cast<void>(book.Accept(MakePlan(planID, priority), START));
+    static_cast<void>(book.Accept(MakePlan(planID, priorityOrNull), START));
     return *book.FindActiveOrNull(planID);
 }
 

@@ -17,10 +17,10 @@ RobotWorkChanged MakeStored(const std::string& commandID, const std::string& mar
     return work;
 }
 
-StateChanged MakeShown(std::optional<std::string> commandID, const std::string& mark = {})
+StateChanged MakeShown(std::optional<std::string> commandIDOrNull, const std::string& mark = {})
 {
     StateChanged state;
-    state.shownCommandID = std::move(commandID);
+    state.shownCommandID = std::move(commandIDOrNull);
     state.mark = mark;
     return state;
 }

@@ -30,10 +30,10 @@ StateChanged MakeStopped(double x, double y = 0)
     return state;
 }
 
-Indices Find(const std::optional<StateChanged>& state)
+Indices Find(const std::optional<StateChanged>& stateOrNull)
 {
     const Indices ahead{1, 2};
-    return FindNodesAhead(MakeLine(), state, 0, ahead);
+    return FindNodesAhead(MakeLine(), stateOrNull, 0, ahead);
 }
 
 } // namespace

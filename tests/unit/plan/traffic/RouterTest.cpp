@@ -25,10 +25,10 @@ SiteNode MakeNode(std::string nodeID, double x, double y)
     return {std::move(nodeID), x, y, "", {{"lr", std::nullopt}}};
 }
 
-std::vector<std::string> GetNodeIDs(const std::optional<Route>& route)
+std::vector<std::string> GetNodeIDs(const std::optional<Route>& routeOrNull)
 {
     std::vector<std::string> nodeIDs;
-    for (const RouteNode& node : route.value_or(Route{}).nodes)
+    for (const RouteNode& node : routeOrNull.value_or(Route{}).nodes)
     {
         nodeIDs.push_back(node.nodeID);
     }
