@@ -36,7 +36,7 @@ inline ACS::Core::Result<ACS::Planning::SiteMap> MakeSite()
     return ACS::Planning::SiteMap::Create(std::move(nodes), std::move(edges), std::move(stations));
 }
 
-/// Every value from outside is checked and may fail; FindMistakes then checks the whole.
+/// Every value from outside is checked and may fail; FindErrors then checks the whole.
 inline ACS::Core::Result<ACS::Planning::EngineOptions> MakeOptions(const ACS::Planning::SiteMap& site)
 {
     auto robotID = ACS::Core::RobotID::Parse(ROBOT);
@@ -48,7 +48,7 @@ inline ACS::Core::Result<ACS::Planning::EngineOptions> MakeOptions(const ACS::Pl
     ACS::Planning::EngineOptions options;
     options.robots.push_back(
         {*robotID, ACS::Planning::ERobotType::LR, VEHICLE_TYPE, "N-HOME", HOME, std::move(*ports), {}, {}});
-    const std::vector<ACS::Core::Error> mistakes = FindMistakes(options, site);
+    const std::vector<ACS::Core::Error> mistakes = FindErrors(options, site);
     if (!mistakes.empty())
     {
         return tl::unexpected(mistakes.front());

@@ -87,7 +87,7 @@ public:
         for (const RobotLinkConfig& robot : _config.robots)
         {
             auto host = std::make_unique<RobotHost>(
-                RobotHost::Surroundings{
+                RobotHost::Dependencies{
                     _dependencies.executor,
                     _dependencies.clock,
                     _dependencies.random,

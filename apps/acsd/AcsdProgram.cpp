@@ -81,7 +81,7 @@ int Serve(const ProgramOptions& options, AcsdConfig config)
             MessageTrace::Create(options.traceFolder, config.operations.trace, clock, logger.MakeFor("trace"));
         if (!created)
         {
-            Apps::PrintMistake(NAME, Core::Describe(created.error()));
+            Apps::PrintError(NAME, Core::Describe(created.error()));
             return 1;
         }
         trace = std::move(*created);
@@ -91,7 +91,7 @@ int Serve(const ProgramOptions& options, AcsdConfig config)
         Acsd::Create(Acsd::Dependencies{context.get_executor(), clock, random, logger, trace.get()}, std::move(config));
     if (!acsd)
     {
-        Apps::PrintMistake(NAME, Core::Describe(acsd.error()));
+        Apps::PrintError(NAME, Core::Describe(acsd.error()));
         return 1;
     }
     std::optional<Apps::SignalWaiter> signals;

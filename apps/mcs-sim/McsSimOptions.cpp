@@ -197,14 +197,14 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimO
     const std::string contradiction = FindContradiction(options);
     if (!contradiction.empty())
     {
-        Apps::PrintMistake(PROGRAM_NAME, contradiction);
+        Apps::PrintError(PROGRAM_NAME, contradiction);
         return Apps::EXIT_BAD_COMMAND_LINE;
     }
     if (tls != ProtocolBeast::TlsOptions())
     {
         if (tls.certificateFile.empty() || tls.keyFile.empty())
         {
-            Apps::PrintMistake(PROGRAM_NAME, "wss needs both --tls-certificate FILE.pem and --tls-key FILE.pem");
+            Apps::PrintError(PROGRAM_NAME, "wss needs both --tls-certificate FILE.pem and --tls-key FILE.pem");
             return Apps::EXIT_BAD_COMMAND_LINE;
         }
         options.tls = std::move(tls);

@@ -89,7 +89,7 @@ int TellStartFailure(Core::Error error)
 {
     const std::optional<std::string_view> option = FindOptionOrNull(error);
     error.path = option.value_or(error.path);
-    Apps::PrintMistake(PROGRAM_NAME, Describe(error));
+    Apps::PrintError(PROGRAM_NAME, Describe(error));
     return option.has_value() ? Apps::EXIT_BAD_COMMAND_LINE : EXIT_FAILURE;
 }
 
@@ -188,13 +188,13 @@ int Run(const McsSimOptions& options)
     tl::expected<std::vector<Scenario>, std::string> scenarios = LoadScenarios(options);
     if (!plans.has_value() || !scenarios.has_value())
     {
-        Apps::PrintMistake(PROGRAM_NAME, plans.has_value() ? scenarios.error() : plans.error());
+        Apps::PrintError(PROGRAM_NAME, plans.has_value() ? scenarios.error() : plans.error());
         return Apps::EXIT_BAD_COMMAND_LINE;
     }
     const Core::Result<std::unique_ptr<Sim::IWorld>> world = OpenWorld(options.worldFile);
     if (!world.has_value())
     {
-        Apps::PrintMistake(PROGRAM_NAME, "--world: " + Describe(world.error()));
+        Apps::PrintError(PROGRAM_NAME, "--world: " + Describe(world.error()));
         return Apps::EXIT_BAD_COMMAND_LINE;
     }
     const std::string work = scenarios->empty() ? fmt::format("send {} plans", plans->size())
@@ -232,7 +232,7 @@ int Run(const McsSimOptions& options)
         auto created = TraceFile::Create(options.traceFile, clock, offset, logger);
         if (!created.has_value())
         {
-            Apps::PrintMistake(PROGRAM_NAME, created.error());
+            Apps::PrintError(PROGRAM_NAME, created.error());
             return Apps::EXIT_BAD_COMMAND_LINE;
         }
         trace = std::move(*created);
@@ -267,7 +267,7 @@ int Run(const McsSimOptions& options)
     context.run();
     if (trace != nullptr && !trace->TryClose())
     {
-        Apps::PrintMistake(PROGRAM_NAME, "the trace file " + options.traceFile + " is incomplete");
+        Apps::PrintError(PROGRAM_NAME, "the trace file " + options.traceFile + " is incomplete");
         return exitCode == EXIT_SUCCESS ? EXIT_FAILURE : exitCode;
     }
     return exitCode;

@@ -409,7 +409,7 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, OpenStr
     {
         for (const std::string& mistake : programs.mistakes)
         {
-            Apps::PrintMistake(PROGRAM_NAME, mistake);
+            Apps::PrintError(PROGRAM_NAME, mistake);
         }
         return Apps::EXIT_BAD_COMMAND_LINE;
     }
@@ -419,7 +419,7 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, OpenStr
     mistake = mistake.empty() ? CheckRobots(options, programs) : mistake;
     if (!mistake.empty())
     {
-        Apps::PrintMistake(PROGRAM_NAME, fmt::format("{}; try {} --help", mistake, PROGRAM_NAME));
+        Apps::PrintError(PROGRAM_NAME, fmt::format("{}; try {} --help", mistake, PROGRAM_NAME));
         return Apps::EXIT_BAD_COMMAND_LINE;
     }
     return std::nullopt;

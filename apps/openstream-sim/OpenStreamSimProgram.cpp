@@ -46,7 +46,7 @@ int RunOpenStreamSim(int argc, const char* const* argv)
         Core::Result<std::unique_ptr<Sim::WorldFile>> opened = Sim::WorldFile::Open(options.worldFile);
         if (!opened.has_value())
         {
-            Apps::PrintMistake(PROGRAM_NAME, fmt::format("--world: {}", Core::Describe(opened.error())));
+            Apps::PrintError(PROGRAM_NAME, fmt::format("--world: {}", Core::Describe(opened.error())));
             return Apps::EXIT_BAD_COMMAND_LINE;
         }
         world = std::move(*opened);
@@ -57,7 +57,7 @@ int RunOpenStreamSim(int argc, const char* const* argv)
     const Core::Result<void> started = fleet.Start();
     if (!started.has_value())
     {
-        Apps::PrintMistake(PROGRAM_NAME, Core::Describe(started.error()));
+        Apps::PrintError(PROGRAM_NAME, Core::Describe(started.error()));
         return EXIT_FAILURE;
     }
     const Apps::SignalWaiter signals(context.get_executor(), [&](int) {

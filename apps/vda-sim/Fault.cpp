@@ -19,28 +19,29 @@ using VDA5050::EErrorLevel;
 using VDA5050::EOperatingMode;
 using VDA5050::ETopic;
 
-constexpr Apps::ValueWords<bool, 2> YES_OR_NO{{{"yes", true}, {"no", false}}};
-constexpr Apps::ValueWords<bool, 2> MOMENTS{{{"start", true}, {"end", false}}};
-constexpr Apps::ValueWords<EFaultDirection, 3> DIRECTIONS{
+constexpr Apps::ValueEnumNames<bool, 2> YES_OR_NO{{{"yes", true}, {"no", false}}};
+constexpr Apps::ValueEnumNames<bool, 2> MOMENTS{{{"start", true}, {"end", false}}};
+constexpr Apps::ValueEnumNames<EFaultDirection, 3> DIRECTIONS{
     {{"in", EFaultDirection::In}, {"out", EFaultDirection::Out}, {"both", EFaultDirection::Both}}};
-constexpr Apps::ValueWords<ETopic, VDA5050::TOPIC_COUNT> TOPICS{
+constexpr Apps::ValueEnumNames<ETopic, VDA5050::TOPIC_COUNT> TOPICS{
     {{"order", ETopic::Order},
      {"instantActions", ETopic::InstantActions},
      {"state", ETopic::State},
      {"visualization", ETopic::Visualization},
      {"connection", ETopic::Connection},
      {"factsheet", ETopic::Factsheet}}};
-constexpr Apps::ValueWords<EEmergencyStop, 3> EMERGENCY_STOPS{
+constexpr Apps::ValueEnumNames<EEmergencyStop, 3> EMERGENCY_STOPS{
     {{"AUTOACK", EEmergencyStop::AutoAcknowledge},
      {"MANUAL", EEmergencyStop::Manual},
      {"REMOTE", EEmergencyStop::Remote}}};
 /// AUTOMATIC is no fault: the end of one brings it back.
-constexpr Apps::ValueWords<EOperatingMode, 4> MODES{
+constexpr Apps::ValueEnumNames<EOperatingMode, 4> MODES{
     {{"MANUAL", EOperatingMode::Manual},
      {"SERVICE", EOperatingMode::Service},
      {"TEACHIN", EOperatingMode::TeachIn},
      {"SEMIAUTOMATIC", EOperatingMode::SemiAutomatic}}};
-constexpr Apps::ValueWords<EErrorLevel, 2> LEVELS{{{"WARNING", EErrorLevel::Warning}, {"FATAL", EErrorLevel::Fatal}}};
+constexpr Apps::ValueEnumNames<EErrorLevel, 2> LEVELS{
+    {{"WARNING", EErrorLevel::Warning}, {"FATAL", EErrorLevel::Fatal}}};
 
 constexpr double MAX_PERCENT = 100.0;
 constexpr double MAX_SWERVE = 10.0; ///< m

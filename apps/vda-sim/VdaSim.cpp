@@ -272,7 +272,7 @@ private:
 
 int Refuse(const std::string& mistake)
 {
-    Apps::PrintMistake("vda-sim", mistake);
+    Apps::PrintError("vda-sim", mistake);
     return Apps::EXIT_BAD_COMMAND_LINE;
 }
 

@@ -319,7 +319,7 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
     mistake = mistake.empty() ? CheckFaults(options.faults, options.vehicles) : mistake;
     if (!mistake.empty())
     {
-        Apps::PrintMistake(PROGRAM, mistake);
+        Apps::PrintError(PROGRAM, mistake);
         return Apps::EXIT_BAD_COMMAND_LINE;
     }
     return std::nullopt;

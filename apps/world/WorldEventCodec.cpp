@@ -1,6 +1,6 @@
 #include "world/WorldEventCodec.hpp"
 
-#include "world/MemoryWords.hpp"
+#include "world/MemoryEnumNames.hpp"
 #include <acs/json/JsonDecoder.hpp>
 #include <acs/json/JsonDocument.hpp>
 #include <acs/json/JsonEncoder.hpp>
@@ -41,7 +41,7 @@ namespace ACS::Json
 {
 
 template <>
-struct EnumWords<Sim::EWorldEvent>
+struct EnumNames<Sim::EWorldEvent>
 {
     static constexpr std::array WORDS{
         EnumWord<Sim::EWorldEvent>{Sim::EWorldEvent::RobotDocked, "RobotDocked"},

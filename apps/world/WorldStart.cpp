@@ -1,6 +1,6 @@
 #include "world/WorldStart.hpp"
 
-#include "world/MemoryWords.hpp"
+#include "world/MemoryEnumNames.hpp"
 #include <acs/json/JsonDocument.hpp>
 
 #include <fmt/format.h>

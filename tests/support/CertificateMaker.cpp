@@ -77,7 +77,7 @@ void AddExtension(X509* certificateOrNull, int kind, const std::string& value)
 }
 
 /// Without issuer and signature.
-Certificate MakeBlank(EVP_PKEY* keyOrNull, const std::string& name, int serial, const CertificateWish& wish)
+Certificate MakeBlank(EVP_PKEY* keyOrNull, const std::string& name, int serial, const CertificateRequest& wish)
 {
     Certificate certificate(X509_new());
     Need(certificate != nullptr, "certificate");
@@ -142,7 +142,7 @@ CertificateFiles CertificateMaker::MakeCA(const std::string& name)
     return Write(_folder / name, certificate.get(), key.get(), {});
 }
 
-CertificateFiles CertificateMaker::Make(const CertificateFiles& ca, const CertificateWish& wish)
+CertificateFiles CertificateMaker::Make(const CertificateFiles& ca, const CertificateRequest& wish)
 {
     const Certificate issuer(PEM_read_bio_X509(Open(ca.certificate, "r").get(), nullptr, nullptr, nullptr));
     const Key issuerKey(PEM_read_bio_PrivateKey(Open(ca.key, "r").get(), nullptr, nullptr, nullptr));
@@ -155,7 +155,7 @@ CertificateFiles CertificateMaker::Make(const CertificateFiles& ca, const Certif
     return Write(_folder / name, certificate.get(), key.get(), wish.passphrase);
 }
 
-CertificateFiles CertificateMaker::MakeSelfSigned(const CertificateWish& wish)
+CertificateFiles CertificateMaker::MakeSelfSigned(const CertificateRequest& wish)
 {
     const std::string name = "self" + std::to_string(++_count);
     const Key key = MakeKey(wish.bRSA);

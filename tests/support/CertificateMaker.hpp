@@ -15,7 +15,7 @@ struct CertificateFiles
 };
 
 /// What a certificate is to say.
-struct CertificateWish
+struct CertificateRequest
 {
     std::string alternativeName = "DNS:localhost,IP:127.0.0.1"; ///< As OpenSSL's configuration writes it.
     std::chrono::hours validFrom{-24};                          ///< From now.
@@ -34,8 +34,8 @@ public:
     explicit CertificateMaker(std::filesystem::path folder);
 
     [[nodiscard]] CertificateFiles MakeCA(const std::string& name);
-    [[nodiscard]] CertificateFiles Make(const CertificateFiles& ca, const CertificateWish& wish);
-    [[nodiscard]] CertificateFiles MakeSelfSigned(const CertificateWish& wish);
+    [[nodiscard]] CertificateFiles Make(const CertificateFiles& ca, const CertificateRequest& wish);
+    [[nodiscard]] CertificateFiles MakeSelfSigned(const CertificateRequest& wish);
 
     /// A file with this text; its path.
     [[nodiscard]] std::string WriteFile(const std::string& name, const std::string& text) const;

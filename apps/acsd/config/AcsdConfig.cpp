@@ -39,17 +39,17 @@ void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig
     }
     else
     {
-        section.AddMistake("timezone", Core::Describe(offset.error()));
+        section.AddError("timezone", Core::Describe(offset.error()));
     }
     if (map.empty())
     {
-        section.AddMistake("map", "is empty; give the path of a LIF file");
+        section.AddError("map", "is empty; give the path of a LIF file");
         return;
     }
     const tl::expected<std::string, std::string> text = Apps::ReadTextFile(config.siteFile);
     if (!text.has_value())
     {
-        section.AddMistake(
+        section.AddError(
             "map",
             fmt::format("{} cannot be read ({}); give the path of a LIF file", config.siteFile, text.error()));
         return;
@@ -61,9 +61,7 @@ void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig
     }
     else
     {
-        section.AddMistake(
-            "map",
-            fmt::format("{} is no LIF layout: {}", config.siteFile, Core::Describe(site.error())));
+        section.AddError("map", fmt::format("{} is no LIF layout: {}", config.siteFile, Core::Describe(site.error())));
     }
 }
 
@@ -74,14 +72,14 @@ void ReadStore(const ConfigSection& root, const std::string& fileName, bool bSto
     config.storePath = ResolvePath(fileName, directory);
     if (directory.empty())
     {
-        section.AddMistake("directory", "is empty; give the path of a directory, such as \"store\"");
+        section.AddError("directory", "is empty; give the path of a directory, such as \"store\"");
     }
     else if (bStoreInspected)
     {
         const Core::Result<Planning::StoreOrigin> origin = Planning::SqlitePlanStore::Inspect(config.storePath);
         if (!origin.has_value())
         {
-            section.AddMistake("directory", Core::Describe(origin.error()));
+            section.AddError("directory", Core::Describe(origin.error()));
         }
     }
 }
@@ -96,7 +94,7 @@ void ReadHTTP(const ConfigSection& root, AcsdConfig& config)
     });
     if (wrong != config.httpHosts.end())
     {
-        http.AddMistake(
+        http.AddError(
             "hosts",
             fmt::format(
                 R"(expected names without port, such as "acs.example", found {})",
@@ -109,8 +107,8 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
     AcsdConfig config;
     const Apps::ConfigReader reader = Apps::ConfigReader::ReadFile(fileName, overrides);
     const ConfigSection root = reader.GetRoot();
-    std::vector<std::string> otherMistakes;
-    ReadMcsConfig(root, fileName, config.mcs, otherMistakes);
+    std::vector<std::string> otherErrors;
+    ReadMcsConfig(root, fileName, config.mcs, otherErrors);
     ReadOperationsConfig(root, config.operations);
     ReadMqttConfig(root, fileName, config.mqtt, config.warnings);
     const ConfigSection arm = root.GetSection("arm");
@@ -125,20 +123,20 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
     ReadRobots(root, config);
     ReadJobs(root, config);
     ReportRemovedKeys(root);
-    if (reader.GetMistakes().empty())
+    if (reader.GetErrors().empty())
     {
         RejectActions(root, config);
     }
-    if (reader.GetMistakes().empty() && config.site.has_value())
+    if (reader.GetErrors().empty() && config.site.has_value())
     {
-        for (Core::Error& error : Planning::FindMistakes(config.engine, *config.site))
+        for (Core::Error& error : Planning::FindErrors(config.engine, *config.site))
         {
             const std::string path = std::exchange(error.path, {});
-            reader.AddMistake(path, Core::Describe(error));
+            reader.AddError(path, Core::Describe(error));
         }
     }
-    config.mistakes = reader.GetMistakes();
-    std::ranges::move(otherMistakes, std::back_inserter(config.mistakes));
+    config.mistakes = reader.GetErrors();
+    std::ranges::move(otherErrors, std::back_inserter(config.mistakes));
     config.values = reader.GetValues();
     return config;
 }

@@ -70,15 +70,15 @@ void CheckEffect(const ConfigSection& section, const Planning::ActionRule& rule)
 {
     if (rule.effect == EActionEffect::Load && !IsRobotPort(rule.to))
     {
-        section.AddMistake("effect", R"(load needs to = "robot_cp" or "robot_tp")");
+        section.AddError("effect", R"(load needs to = "robot_cp" or "robot_tp")");
     }
     else if (rule.effect == EActionEffect::Unload && !IsRobotPort(rule.from))
     {
-        section.AddMistake("effect", R"(unload needs from = "robot_cp" or "robot_tp")");
+        section.AddError("effect", R"(unload needs from = "robot_cp" or "robot_tp")");
     }
     else if (rule.effect == EActionEffect::Move && !IsRobotPort(rule.from) && !IsRobotPort(rule.to))
     {
-        section.AddMistake("effect", R"(move needs from or to as "robot_cp" or "robot_tp")");
+        section.AddError("effect", R"(move needs from or to as "robot_cp" or "robot_tp")");
     }
 }
 
@@ -92,19 +92,19 @@ std::vector<VehicleParameter> ReadParameters(
     {
         if (const std::optional<std::string> fault = FindNameFaultOrNull(key))
         {
-            section.AddMistake(key, *fault);
+            section.AddError(key, *fault);
         }
         tl::expected<ParameterTemplate, std::string> value = ParameterTemplate::Make(*section.FindValueOrNull(key));
         if (!value.has_value())
         {
-            section.AddMistake(key, value.error());
+            section.AddError(key, value.error());
             continue;
         }
         for (const JobName& name : value->GetNames())
         {
             if (const std::optional<std::string> fault = check.FindFaultOrNull(name, rule))
             {
-                section.AddMistake(key, *fault);
+                section.AddError(key, *fault);
             }
         }
         parameters.push_back({key, std::move(*value), false});
@@ -137,7 +137,7 @@ std::vector<ArmInputTemplate> ReadArmInputs(
         tl::expected<ArmRelay, std::string> relay = ParseArmRelay(key, check.GetRelayIndex());
         if (!relay.has_value() || !value.has_value())
         {
-            section.AddMistake(key, relay.has_value() ? value.error() : relay.error());
+            section.AddError(key, relay.has_value() ? value.error() : relay.error());
             continue;
         }
         const auto overlapped = std::ranges::find_if(inputs, [&relay](const ArmInputTemplate& input) {
@@ -145,12 +145,12 @@ std::vector<ArmInputTemplate> ReadArmInputs(
         });
         if (overlapped != inputs.end())
         {
-            section.AddMistake(key, fmt::format("shares bytes with {}; see arm.relay_index", overlapped->relay.name));
+            section.AddError(key, fmt::format("shares bytes with {}; see arm.relay_index", overlapped->relay.name));
         }
         inputs.push_back({std::move(*relay), std::move(*value)});
         if (const std::optional<std::string> fault = check.FindFaultOrNull(inputs.back(), rule))
         {
-            section.AddMistake(key, *fault);
+            section.AddError(key, *fault);
         }
     }
     return inputs;
@@ -189,7 +189,7 @@ Planning::ActionRule ReadActionRule(const ConfigSection& section, const std::str
     {
         if (section.HasKey(key))
         {
-            section.AddMistake(key, "MCS-ACS fixes it for this action; give it for actions of your own");
+            section.AddError(key, "MCS-ACS fixes it for this action; give it for actions of your own");
         }
     }
     return rule;
@@ -203,11 +203,11 @@ MethodKeys ReadMethodKeys(const ConfigSection& section, const Planning::ActionRu
         keys.vehicleAction = section.GetString("vehicle_action");
         if (keys.vehicleAction->empty())
         {
-            section.AddMistake("vehicle_action", "is empty; give a VDA5050 actionType");
+            section.AddError("vehicle_action", "is empty; give a VDA5050 actionType");
         }
         else if (const std::optional<std::string> fault = FindNameFaultOrNull(*keys.vehicleAction))
         {
-            section.AddMistake("vehicle_action", *fault);
+            section.AddError("vehicle_action", *fault);
         }
     }
     if (section.HasKey("parameters"))
@@ -224,7 +224,7 @@ MethodKeys ReadMethodKeys(const ConfigSection& section, const Planning::ActionRu
     }
     if (keys.IsOfVehicle() && keys.IsOfArm())
     {
-        section.AddMistake(
+        section.AddError(
             "",
             "has keys of a vehicle (vehicle_action, parameters) and of an arm (arm_program, arm_inputs); give those of one");
     }

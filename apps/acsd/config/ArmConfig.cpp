@@ -60,7 +60,7 @@ void RefuseSharedWords(const ConfigSection& arm, const std::vector<CounterWord>&
         {
             // Of the two the one that is given: the other may be the default.
             const bool bSecond = arm.HasKey(second->key);
-            arm.AddMistake(
+            arm.AddError(
                 bSecond ? second->key : first->key,
                 fmt::format(
                     "is {}, as {}.{} is: each counter needs a word of its own",

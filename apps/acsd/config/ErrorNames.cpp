@@ -21,7 +21,7 @@ ErrorNames ReadErrorNames(const std::string& fileName, std::vector<std::string>&
         name.message = section.GetStringOrNull("message");
         if (name.code.has_value() && name.code->empty())
         {
-            section.AddMistake("code", "is empty; leave it out to keep acsd's own code");
+            section.AddError("code", "is empty; leave it out to keep acsd's own code");
         }
         if (section.HasKey("level"))
         {
@@ -30,7 +30,7 @@ ErrorNames ReadErrorNames(const std::string& fileName, std::vector<std::string>&
         }
         names.emplace(ownCode, std::move(name));
     }
-    std::ranges::copy(reader.GetMistakes(), std::back_inserter(mistakes));
+    std::ranges::copy(reader.GetErrors(), std::back_inserter(mistakes));
     return names;
 }
 

@@ -34,7 +34,7 @@ MethodTables ReadOverrides(
     const std::vector<std::string> names = section.GetNames();
     if (names.empty() && owner.HasKey("actions"))
     {
-        section.AddMistake("", "is empty; give a table per action, or leave it out");
+        section.AddError("", "is empty; give a table per action, or leave it out");
     }
     for (const std::string& name : names)
     {
@@ -50,9 +50,7 @@ MethodTables ReadOverrides(
         }
         else if (table.GetNames().empty())
         {
-            table.AddMistake(
-                "",
-                "is empty; give vehicle_action, parameters, arm_program or arm_inputs, or leave it out");
+            table.AddError("", "is empty; give vehicle_action, parameters, arm_program or arm_inputs, or leave it out");
         }
         else
         {
@@ -74,14 +72,14 @@ MethodTables ReadActions(const ConfigSection& root, const TemplateCheck& check, 
         MethodKeys keys = ReadMethodKeys(section, rule, check);
         if (keys.vehicleAction.has_value() == keys.armProgram.has_value())
         {
-            section.AddMistake("", "needs exactly one of vehicle_action and arm_program");
+            section.AddError("", "needs exactly one of vehicle_action and arm_program");
         }
         rules.insert_or_assign(name, rule);
         tables.emplace(name, MethodTable{section, std::move(keys)});
     }
     if (rules.empty())
     {
-        root.AddMistake("actions", "needs at least one table, such as [actions.CassetteLoad]: no plan could be done");
+        root.AddError("actions", "needs at least one table, such as [actions.CassetteLoad]: no plan could be done");
     }
     return tables;
 }
@@ -159,7 +157,7 @@ void RejectActions(const ConfigSection& root, AcsdConfig& config)
     {
         if (!possible.contains(name))
         {
-            root.GetSection("actions").GetSection(name).AddMistake(
+            root.GetSection("actions").GetSection(name).AddError(
                 "",
                 fmt::format(
                     "no robot can do it, {}; give arm_program for robots with an arm, vehicle_action for those without",

@@ -42,7 +42,7 @@ void ReadTLS(const ConfigSection& mcs, const std::string& fileName, McsConfig& c
     config.tls.serverName = section.GetString("server_name", "");
     if (config.url.scheme == EUrlScheme::Ws)
     {
-        mcs.AddMistake("tls", "is for wss:// only, and mcs.url is ws://, which encrypts nothing");
+        mcs.AddError("tls", "is for wss:// only, and mcs.url is ws://, which encrypts nothing");
     }
     if (config.url.scheme != EUrlScheme::Wss)
     {
@@ -54,7 +54,7 @@ void ReadTLS(const ConfigSection& mcs, const std::string& fileName, McsConfig& c
         Core::Error error = checked.error();
         const std::string key = error.path.substr(error.path.find('.') + 1);
         error.path.clear();
-        section.AddMistake(key, Core::Describe(error));
+        section.AddError(key, Core::Describe(error));
     }
 }
 
@@ -64,11 +64,11 @@ void ReadHeaders(const ConfigSection& mcs, McsConfig& config)
     const Core::Result<void> host = ProtocolBeast::CheckHostHeader(config.host);
     if (!host.has_value())
     {
-        mcs.AddMistake("host", "expected " + host.error().expected);
+        mcs.AddError("host", "expected " + host.error().expected);
     }
     else if (!config.host.empty() && !Apps::ParseEndpoint(config.host) && !Apps::ParseEndpoint(config.host + ":80"))
     {
-        mcs.AddMistake("host", fmt::format("expected HOST or HOST:PORT, found {}", Core::QuoteForError(config.host)));
+        mcs.AddError("host", fmt::format("expected HOST or HOST:PORT, found {}", Core::QuoteForError(config.host)));
     }
     if (!mcs.HasKey("headers"))
     {
@@ -85,7 +85,7 @@ void ReadHeaders(const ConfigSection& mcs, McsConfig& config)
         }
         else
         {
-            section.AddMistake(name, "expected " + checked.error().expected);
+            section.AddError(name, "expected " + checked.error().expected);
         }
     }
 }
@@ -101,7 +101,7 @@ void ReadPing(const ConfigSection& mcs, McsConfig& config)
     }
     else if (timeout != 2 * config.pingInterval)
     {
-        mcs.AddMistake(
+        mcs.AddError(
             "ping_timeout",
             "must be twice mcs.ping_interval, because a ping goes out after half of the silence that ends a connection; give "
             "one of the two");
@@ -133,7 +133,7 @@ void ReadStyle(const ConfigSection& mcs, McsConfig& config)
     style.bUnassignedRobotEmpty = unassigned.empty();
     if (!unassigned.empty() && unassigned != "null")
     {
-        mcs.AddMistake("unassigned_robot_id", R"(expected "null" or "")");
+        mcs.AddError("unassigned_robot_id", R"(expected "null" or "")");
     }
     style.bEmptyCarriersOmitted =
         mcs.GetWord("empty_carriers", {"positional_null", "omit"}, "positional_null") == "omit";
@@ -144,7 +144,7 @@ void ReadStyle(const ConfigSection& mcs, McsConfig& config)
     style.longestText = static_cast<std::size_t>(mcs.GetInteger("tx_max_bytes", 0, LARGEST_TEXT, 0));
     if (style.longestText > 0 && style.longestText < static_cast<std::size_t>(SMALLEST_TEXT))
     {
-        mcs.AddMistake("tx_max_bytes", fmt::format("must be 0 (lists are never cut) or at least {}", SMALLEST_TEXT));
+        mcs.AddError("tx_max_bytes", fmt::format("must be 0 (lists are never cut) or at least {}", SMALLEST_TEXT));
     }
 }
 
@@ -163,7 +163,7 @@ void ReadErrors(
     const std::string path = ResolvePath(fileName, *map);
     if (const tl::expected<std::string, std::string> text = Apps::ReadTextFile(path); !text.has_value())
     {
-        section.AddMistake(
+        section.AddError(
             "map",
             fmt::format("{} cannot be read ({}); give the path of a file with names of errors", path, text.error()));
         return;
@@ -196,7 +196,7 @@ void ReadMcsConfig(
         root.GetSection("position").GetDuration("interval", 0ms, 1min, config.session.positionInterval);
     if (interval > 0ms && interval < 10ms)
     {
-        root.GetSection("position").AddMistake("interval", R"(must be "0s" (no positions) or at least "10ms")");
+        root.GetSection("position").AddError("interval", R"(must be "0s" (no positions) or at least "10ms")");
     }
     config.session.positionInterval = interval;
     const std::string replay = root.GetSection("outbox").GetWord("replay", {"all", "final_only", "none"}, "all");

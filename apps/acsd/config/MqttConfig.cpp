@@ -25,7 +25,7 @@ std::optional<std::string> ReadFileOrNull(const ConfigSection& mqtt, const std::
     tl::expected<std::string, std::string> text = Apps::ReadTextFile(path);
     if (!text.has_value())
     {
-        mqtt.AddMistake(key, fmt::format("{} cannot be read ({})", path, text.error()));
+        mqtt.AddError(key, fmt::format("{} cannot be read ({})", path, text.error()));
         return std::nullopt;
     }
     return std::move(*text);
@@ -56,7 +56,7 @@ void ReadPassword(
     }
     if (config.username.empty())
     {
-        mqtt.AddMistake(key, "needs mqtt.username, as MQTT has no password without a name");
+        mqtt.AddError(key, "needs mqtt.username, as MQTT has no password without a name");
     }
     const std::string path = ResolvePath(fileName, file);
     const std::optional<std::string> text = ReadFileOrNull(mqtt, key, path);
@@ -67,7 +67,7 @@ void ReadPassword(
     config.password = text->substr(0, text->find_first_of("\r\n"));
     if (config.password.empty())
     {
-        mqtt.AddMistake(key, path + " has no password in its first line");
+        mqtt.AddError(key, path + " has no password in its first line");
     }
     WarnOfReaders("mqtt." + key, path, warnings);
 }
@@ -88,13 +88,13 @@ void ReadTLS(
         }
         if (bPlain)
         {
-            mqtt.AddMistake(key, "is for mqtts:// only, and mqtt.url is mqtt://, which encrypts nothing");
+            mqtt.AddError(key, "is for mqtts:// only, and mqtt.url is mqtt://, which encrypts nothing");
         }
         std::string path = ResolvePath(fileName, file);
         const std::optional<std::string> text = ReadFileOrNull(mqtt, key, path);
         if (text.has_value() && text->find("-----BEGIN ") == std::string::npos)
         {
-            mqtt.AddMistake(key, path + " is no PEM file");
+            mqtt.AddError(key, path + " is no PEM file");
         }
         return path;
     };
@@ -103,7 +103,7 @@ void ReadTLS(
     config.tls.keyFile = readPath("key_file");
     if (config.tls.certFile.empty() != config.tls.keyFile.empty())
     {
-        mqtt.AddMistake(
+        mqtt.AddError(
             config.tls.certFile.empty() ? "key_file" : "cert_file",
             "needs the other one too: mqtt.cert_file and mqtt.key_file go together");
     }
@@ -126,7 +126,7 @@ void ReadMqttConfig(
     config.interfaceName = mqtt.GetString("interface_name", config.interfaceName);
     if (config.interfaceName.empty() || config.interfaceName.find_first_of("/+#$") != std::string::npos)
     {
-        mqtt.AddMistake("interface_name", "must be one level of a topic: not empty, without / + # $");
+        mqtt.AddError("interface_name", "must be one level of a topic: not empty, without / + # $");
     }
     ReadPassword(mqtt, fileName, config, warnings);
     ReadTLS(mqtt, fileName, config, warnings);

@@ -31,7 +31,7 @@ std::vector<Core::Location> ReadPlaces(
     }
     if (!mistakes.empty())
     {
-        section.AddMistake(key, mistakes);
+        section.AddError(key, mistakes);
     }
     return places;
 }

@@ -38,7 +38,7 @@ void CheckPorts(const ConfigSection& section, const Planning::RobotOptions& robo
         {
             if (!seen.insert(place.GetText()).second)
             {
-                section.AddMistake(key, fmt::format("{} is listed twice", place.GetText()));
+                section.AddError(key, fmt::format("{} is listed twice", place.GetText()));
             }
         }
     }
@@ -48,7 +48,7 @@ void CheckPorts(const ConfigSection& section, const Planning::RobotOptions& robo
         const std::string_view carrier = text.substr(0, text.rfind('.'));
         if (std::ranges::find(robot.ports, carrier, &Core::Location::GetText) == robot.ports.end())
         {
-            section.AddMistake("child_ports", fmt::format("{} is in {}, which is not in ports", text, carrier));
+            section.AddError("child_ports", fmt::format("{} is in {}, which is not in ports", text, carrier));
         }
     }
 }
@@ -62,7 +62,7 @@ std::optional<Apps::Url> ReadArmOrNull(
     {
         if (bNeeded)
         {
-            robot.AddMistake("arm", "a CR needs arm.url (tcp://) of its arm's controller");
+            robot.AddError("arm", "a CR needs arm.url (tcp://) of its arm's controller");
         }
         return std::nullopt;
     }
@@ -73,7 +73,7 @@ std::optional<Apps::Url> ReadArmOrNull(
     });
     if (twin != others.end())
     {
-        section.AddMistake("url", fmt::format("{} has the same: one arm cannot be of two robots", twin->robotID));
+        section.AddError("url", fmt::format("{} has the same: one arm cannot be of two robots", twin->robotID));
     }
     return url;
 }
@@ -89,11 +89,11 @@ LoadPositions ReadLoadPositions(const ConfigSection& robot, const std::vector<Co
         const bool bPort = std::ranges::count(ports, name, LoadPositions::GetPortName) > 0;
         if (!bPort || position.empty())
         {
-            section.AddMistake(name, "expected a port of this robot, such as CP01, and the vehicle's name of it");
+            section.AddError(name, "expected a port of this robot, such as CP01, and the vehicle's name of it");
         }
         else if (const std::optional<std::string> fault = FindNameFaultOrNull(position))
         {
-            section.AddMistake(name, *fault);
+            section.AddError(name, *fault);
         }
         names.emplace(name, position);
     }
@@ -106,7 +106,7 @@ LoadPositions ReadLoadPositions(const ConfigSection& robot, const std::vector<Co
         const auto [other, bNew] = portsByPosition.emplace(position, portName);
         if (!bNew && other->second != portName)
         {
-            section.AddMistake(
+            section.AddError(
                 given == names.end() ? other->second : portName,
                 fmt::format("is {}, as the position of another port is: each port has one of its own", position));
         }
@@ -165,7 +165,7 @@ void ReadRobot(const ConfigSection& section, const std::string& name, AcsdConfig
     {
         if (!VDA5050::IsValidAddress({"uagv", level, level}))
         {
-            section.AddMistake(key, "is a level of a topic: not empty, without / + #");
+            section.AddError(key, "is a level of a topic: not empty, without / + #");
         }
     }
     const auto twin = std::ranges::find_if(config.robots, [&link](const RobotLinkConfig& other) {
@@ -173,7 +173,7 @@ void ReadRobot(const ConfigSection& section, const std::string& name, AcsdConfig
     });
     if (twin != config.robots.end() && !link.serialNumber.empty())
     {
-        section.AddMistake(
+        section.AddError(
             "serial",
             fmt::format("{} has the same manufacturer and serial: one vehicle cannot be two robots", twin->robotID));
     }
@@ -192,7 +192,7 @@ void ReadRobots(const ConfigSection& root, AcsdConfig& config)
     }
     if (config.robots.empty())
     {
-        root.AddMistake("robots", "needs at least one table, such as [robots.LR01]");
+        root.AddError("robots", "needs at least one table, such as [robots.LR01]");
     }
 }
 

@@ -52,7 +52,7 @@ void CheckValues(const ConfigSection& section, const StationValues& values)
     {
         if (const std::optional<std::string> fault = FindFaultOrNull(value))
         {
-            section.AddMistake(key, *fault);
+            section.AddError(key, *fault);
         }
     }
 }
@@ -68,7 +68,7 @@ void ReadValue(const ConfigSection& section, const std::string& key, StationValu
         }
         else
         {
-            section.AddMistake(key, "expected a string, a number or a boolean");
+            section.AddError(key, "expected a string, a number or a boolean");
         }
     });
 }
@@ -81,7 +81,7 @@ void ReadReach(const ConfigSection& section, const std::string& stationID, AcsdC
     });
     if (wrong != reach.end())
     {
-        section.AddMistake(
+        section.AddError(
             "reach",
             fmt::format("expected other stations of the site map, found {}", Core::QuoteForError(*wrong)));
         return;
@@ -91,7 +91,7 @@ void ReadReach(const ConfigSection& section, const std::string& stationID, AcsdC
     {
         if (!seen.insert(other).second)
         {
-            section.AddMistake("reach", fmt::format("{} is listed twice", other));
+            section.AddError("reach", fmt::format("{} is listed twice", other));
             return;
         }
     }

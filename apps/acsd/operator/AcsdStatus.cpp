@@ -160,7 +160,7 @@ void WriteWait(Json::JsonWriter& writer, const Planning::WaitReason& wait)
     }
     writer.Key("robots");
     writer.BeginArray();
-    for (const Planning::RobotObjection& robot : wait.robots)
+    for (const Planning::RobotUnavailability& robot : wait.robots)
     {
         writer.BeginObject();
         WriteMember(writer, "robotId", std::string_view(robot.robotID));

@@ -200,18 +200,18 @@ HttpResponse ClearAlarms(const Planning::PlanEngine& engine, const OperatorAcces
         "The alarm is cleared; it comes back if its cause is still there.");
 }
 
-HttpResponse SettleJob(
+HttpResponse ResolveJob(
     const Planning::PlanEngine& engine,
     const OperatorAccess& access,
-    const Planning::SettleJob& command)
+    const Planning::ResolveJob& command)
 {
     const std::optional<std::string> objection = engine.GetRejectionReasonOrNull(command);
     if (!objection.has_value())
     {
         return HandOn(access, command, "The answer is taken; the alarm ACS-1008 of the job is cleared.");
     }
-    Planning::SettleJob other = command;
-    other.answer = Planning::EJobAnswer::Done;
+    Planning::ResolveJob other = command;
+    other.answer = Planning::EJobResolution::Done;
     const bool bHeld = !engine.GetRejectionReasonOrNull(other).has_value();
     return bHeld
         ? Refuse(HTTP_CONFLICT, *objection)
@@ -285,15 +285,15 @@ void AddOperatorRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& eng
         return SkipStep(engine, access, captures[0], captures[1]);
     });
     for (const auto& [word, answer] :
-         {std::pair("done", Planning::EJobAnswer::Done),
-          std::pair("failed", Planning::EJobAnswer::Failed),
-          std::pair("again", Planning::EJobAnswer::Again)})
+         {std::pair("done", Planning::EJobResolution::Done),
+          std::pair("failed", Planning::EJobResolution::Failed),
+          std::pair("again", Planning::EJobResolution::Again)})
     {
-        const Planning::EJobAnswer said = answer;
+        const Planning::EJobResolution said = answer;
         add(std::string("/plans/{PLAN}/jobs/{JOB}/") + word,
             {},
             [&engine, access, said](const HttpRequest&, const Captures& captures) {
-                return SettleJob(engine, access, {captures[0], captures[1], said, 0});
+                return ResolveJob(engine, access, {captures[0], captures[1], said, 0});
             });
     }
 }

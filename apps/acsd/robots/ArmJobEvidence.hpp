@@ -69,7 +69,7 @@ private:
 public:
     EChange Update(const ArmSample& sample);
 
-    /// "5 5 0" for StateChanged::mark; empty before the first sample.
+    /// "5 5 0" for RestartEvidence::progressToken; empty before the first sample.
     [[nodiscard]] std::string MakeProgressToken() const;
 
     /// The job is commanded now. Number 0: any change of the counters counts for it.

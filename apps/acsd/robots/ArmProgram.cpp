@@ -364,7 +364,7 @@ void ArmProgram::Fail(std::string reason, AdapterActions& out)
 void ArmProgram::ReportUnresolved(std::string reason, AdapterActions& out)
 {
     std::string jobID = End(out);
-    out.emplace_back(RaiseEvent{Planning::JobUncertain{std::move(jobID), std::move(reason)}});
+    out.emplace_back(RaiseEvent{Planning::JobUnresolved{std::move(jobID), std::move(reason)}});
 }
 
 /// The program was certainly not started: the job can be commanded again.

@@ -109,7 +109,7 @@ void RefuseCounters(const MethodTable& table, const RobotLinkConfig& robot)
         if (const std::optional<std::size_t> counter = FindCounterOrNull(input.relay, robot.armOptions))
         {
             table.section.GetSection(ARM_INPUTS)
-                .AddMistake(
+                .AddError(
                     input.relay.name,
                     fmt::format(
                         "is a counter of the arm of {}, bytes {} to {}; give a relay that is free",
@@ -176,7 +176,7 @@ void MethodResolver::SetMethods(const MethodTable* overrideOrNull, std::size_t p
     if (fault.has_value() && overrideOrNull != nullptr)
     {
         _bOverrideFault = true;
-        given.section.AddMistake(
+        given.section.AddError(
             fault->key,
             fmt::format("{} cannot do {} with it: {}; {}", robot.robotID, _action, fault->reason, fault->remedy));
     }
@@ -204,7 +204,7 @@ void MethodResolver::Check(const SitePlaces& places) const
     const bool bBaseValid = _base.keys.vehicleAction.has_value() != _base.keys.armProgram.has_value();
     if (bBaseValid && _used.empty() && _baseFaultOrNull.has_value() && !_bOverrideFault)
     {
-        _base.section.AddMistake(
+        _base.section.AddError(
             _baseFaultOrNull->key,
             fmt::format(
                 "no robot can do it, {}: {}; {}",
@@ -247,17 +247,17 @@ void MethodResolver::CheckStation(const std::string& stationID, const MethodTabl
     const bool bOfBase = IsSameKind(_base.keys, table.keys);
     if (!places.HasPlaceAt(stationID, _rule))
     {
-        table.section.AddMistake("", fmt::format("has no effect: {} has no job at this station", _action));
+        table.section.AddError("", fmt::format("has no effect: {} has no job at this station", _action));
     }
     else if (!bUsed && !bOfBase)
     {
-        table.section.AddMistake(
+        table.section.AddError(
             "",
             fmt::format("expected keys of the same kind as in actions.{}: of a vehicle or of an arm", _action));
     }
     else if (!bUsed && !_used.empty() && !_bOverrideFault)
     {
-        table.section.AddMistake(
+        table.section.AddError(
             "",
             fmt::format(
                 "has no effect: no robot does {} with {}",

@@ -60,7 +60,7 @@ Planning::StateChanged OpenStreamRobotAdapter::MakeState() const
 {
     Planning::StateChanged state = _baseState;
     state.bPaused = _bPaused;
-    state.mark = _evidence.MakeProgressToken();
+    state.restartEvidence.progressToken = _evidence.MakeProgressToken();
     if (_trouble.has_value())
     {
         state.errors.push_back(*_trouble);

@@ -261,7 +261,7 @@ void OpenStreamRobotAdapter::OnCounted(const ArmCounted& counted, AdapterActions
     const ArmJobEvidence::EChange change = _evidence.Update(counted.sample);
     if (change != ArmJobEvidence::EChange::None)
     {
-        ReportState(out); // with the new mark, before a job begins on it
+        ReportState(out); // with the new progress token, before a job begins on it
     }
     if (counted.bFirst)
     {
@@ -361,7 +361,7 @@ void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, AdapterActi
         out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});
         return;
     }
-    if (!job.mark.empty() && job.mark != _evidence.MakeProgressToken())
+    if (!job.progressToken.empty() && job.progressToken != _evidence.MakeProgressToken())
     {
         // A program has run meanwhile: after a restart this one could not be told from it.
         out.emplace_back(RaiseEvent{MakeState()});
@@ -405,10 +405,10 @@ void OpenStreamRobotAdapter::RecoverJob(AdapterActions& out)
     const Planning::StartJob job = *std::exchange(_recovery, std::nullopt);
     const tl::expected<ArmJob, std::string> made = MakeJob(job);
     const std::int32_t number = made.has_value() ? GetEchoedNumber(job, *made) : job.jobNumber;
-    const tl::expected<bool, std::string> begun = _evidence.Recover(job.mark, number);
+    const tl::expected<bool, std::string> begun = _evidence.Recover(job.progressToken, number);
     if (!begun.has_value())
     {
-        out.emplace_back(RaiseEvent{Planning::JobUncertain{job.jobID, begun.error()}});
+        out.emplace_back(RaiseEvent{Planning::JobUnresolved{job.jobID, begun.error()}});
         return;
     }
     _program.Recover({job.jobID, 0, {}}, *begun, out);

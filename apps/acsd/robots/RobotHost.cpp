@@ -35,7 +35,7 @@ OpenStreamAsio::OpenStreamClientOptions MakeArmOptions(const Apps::Url& arm)
 
 struct RobotHost::Impl
 {
-    Surroundings surroundings;
+    Dependencies surroundings;
     RobotLinkConfig robot;
     EventHandler handler;
     RobotOutputs outputs;
@@ -49,7 +49,7 @@ struct RobotHost::Impl
     std::optional<Core::SteadyTime> seenAt;
     std::unique_ptr<OpenStreamAsio::OpenStreamClient> armClient;
 
-    Impl(Surroundings around, const AcsdConfig& config, const RobotLinkConfig& link, EventHandler eventHandler)
+    Impl(Dependencies around, const AcsdConfig& config, const RobotLinkConfig& link, EventHandler eventHandler)
         : surroundings(std::move(around)),
           robot(link),
           handler(std::move(eventHandler)),
@@ -185,7 +185,7 @@ Planning::RejectedActions RobotHost::FindRejectedActions(
 }
 
 RobotHost::RobotHost(
-    Surroundings surroundings,
+    Dependencies surroundings,
     const AcsdConfig& config,
     const RobotLinkConfig& robot,
     EventHandler handler)

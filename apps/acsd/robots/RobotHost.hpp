@@ -42,7 +42,7 @@ public:
     };
 
     /// What a host needs from the program; everything outlives it.
-    struct Surroundings
+    struct Dependencies
     {
         boost::asio::any_io_executor executor;
         Core::IClock& clock;
@@ -59,7 +59,7 @@ private:
     std::unique_ptr<Impl> _impl;
 
 public:
-    RobotHost(Surroundings surroundings, const AcsdConfig& config, const RobotLinkConfig& robot, EventHandler handler);
+    RobotHost(Dependencies surroundings, const AcsdConfig& config, const RobotLinkConfig& robot, EventHandler handler);
     RobotHost(const RobotHost&) = delete;
     RobotHost& operator=(const RobotHost&) = delete;
     ~RobotHost();

@@ -94,7 +94,7 @@ void Vda5050RobotAdapter::RecoverJob(Core::Now now, AdapterActions& out)
     const Planning::StartJob& job = recovery.job;
     const VDA5050::StateMessage& state = *_session.GetStateOrNull();
     const auto reportUnresolved = [&out, &job](const std::string& reason) {
-        out.emplace_back(RaiseEvent{Planning::JobUncertain{job.jobID, reason}});
+        out.emplace_back(RaiseEvent{Planning::JobUnresolved{job.jobID, reason}});
     };
     const bool bShown = std::ranges::count(state.actionStates, job.commandID, &VDA5050::ActionState::actionID) > 0;
     if (bShown)
@@ -141,7 +141,7 @@ void Vda5050RobotAdapter::ResumeJob(const Planning::StartJob& job, Core::Now now
     if (!resumed)
     {
         _job.Clear();
-        out.emplace_back(RaiseEvent{Planning::JobUncertain{job.jobID, Core::Describe(resumed.error())}});
+        out.emplace_back(RaiseEvent{Planning::JobUnresolved{job.jobID, Core::Describe(resumed.error())}});
     }
 }
 

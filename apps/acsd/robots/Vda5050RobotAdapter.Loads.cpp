@@ -49,7 +49,7 @@ void Vda5050RobotAdapter::OnLoadTimeout(AdapterActions& out)
     const std::optional<std::vector<Planning::PortLoad>>& loads = _report.GetState().loads;
     const std::optional<std::string> contradiction =
         loads.has_value() ? checkOrNull->FindContradictionOrNull(*loads) : std::nullopt;
-    out.emplace_back(RaiseEvent{Planning::JobUncertain{
+    out.emplace_back(RaiseEvent{Planning::JobUnresolved{
         checkOrNull->GetJobID(),
         "the vehicle reports the action finished, but its loads disagree: "
             + contradiction.value_or("it no longer reports any")}});

@@ -50,7 +50,7 @@ void VehicleReport::Update(const VDA5050::StateMessage& state, bool bJobRunning,
     _state.bSafetyStop =
         state.safetyState.emergencyStop != VDA5050::EEmergencyStop::None || state.safetyState.bFieldViolation;
     UpdateErrors(state);
-    _state.shownCommandID = state.orderID;
+    _state.restartEvidence.commandID = state.orderID;
     _state.loads = positions.MakePortLoadsOrNull(state);
 }
 

@@ -158,12 +158,12 @@ std::optional<int> ParseCommandLineOrNull(CLI::App& app, int argc, const char* c
     }
     catch (const CLI::ParseError& error)
     {
-        PrintMistake(app.get_name(), fmt::format("{}; try {} --help", error.what(), app.get_name()));
+        PrintError(app.get_name(), fmt::format("{}; try {} --help", error.what(), app.get_name()));
         return EXIT_BAD_COMMAND_LINE;
     }
 }
 
-void PrintMistake(std::string_view program, std::string_view text)
+void PrintError(std::string_view program, std::string_view text)
 {
     std::string line = fmt::format("{}: ", program);
     for (const char character : text)
@@ -181,7 +181,7 @@ int RunProgram(std::string_view program, const std::function<int()>& body)
     }
     catch (const std::exception& error)
     {
-        PrintMistake(program, fmt::format("stopped by an unexpected error: {}", error.what()));
+        PrintError(program, fmt::format("stopped by an unexpected error: {}", error.what()));
         return EXIT_FAILURE;
     }
 }

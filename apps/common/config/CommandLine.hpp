@@ -64,7 +64,7 @@ CLI::Option& AddRepeatedOption(CLI::App& app, const std::string& name, TextReade
 [[nodiscard]] std::optional<int> ParseCommandLineOrNull(CLI::App& app, int argc, const char* const* argv);
 
 /// One line on standard error, "NAME: text"; line ends within the text become spaces, other control characters are escaped.
-void PrintMistake(std::string_view program, std::string_view text);
+void PrintError(std::string_view program, std::string_view text);
 
 /// Runs the body of main(). An exception that nothing else caught becomes one line on standard error and exit code 1.
 [[nodiscard]] int RunProgram(std::string_view program, const std::function<int()>& body);

@@ -106,7 +106,7 @@ ConfigDocument::ConfigDocument(std::string_view text, std::string fileName)
     }
     catch (const toml::parse_error& error)
     {
-        AddMistakeAt(error.source(), {}, fmt::format("not TOML: {}", error.description()));
+        AddErrorAt(error.source(), {}, fmt::format("not TOML: {}", error.description()));
         _bUnreadable = true;
     }
 }
@@ -114,7 +114,7 @@ ConfigDocument::ConfigDocument(std::string_view text, std::string fileName)
 std::shared_ptr<ConfigDocument> ConfigDocument::MakeUnreadable(std::string fileName, const std::string& reason)
 {
     auto document = std::make_shared<ConfigDocument>(std::string_view(), std::move(fileName));
-    document->AddMistake(nullptr, {}, reason);
+    document->AddError(nullptr, {}, reason);
     document->_bUnreadable = true;
     return document;
 }
@@ -130,7 +130,7 @@ void ConfigDocument::Override(const std::string& text)
     if (!table.has_value())
     {
         const toml::source_region source{{}, {}, std::make_shared<const std::string>(OVERRIDE)};
-        AddMistakeAt(source, {}, fmt::format("'{}': write table.key=value", text));
+        AddErrorAt(source, {}, fmt::format("'{}': write table.key=value", text));
         return;
     }
     const std::string value = text.substr(equals + 1);
@@ -186,14 +186,14 @@ void ConfigDocument::AcceptAll(const toml::node& value)
     _accepted.insert(&value);
 }
 
-void ConfigDocument::AddMistake(const toml::node* nodeOrNull, const std::string& path, const std::string& text)
+void ConfigDocument::AddError(const toml::node* nodeOrNull, const std::string& path, const std::string& text)
 {
-    AddMistakeAt(GetSource(nodeOrNull), path, text);
+    AddErrorAt(GetSource(nodeOrNull), path, text);
 }
 
 void ConfigDocument::RefuseTable(const toml::node* nodeOrNull, const std::string& path, const std::string& text)
 {
-    AddMistake(nodeOrNull, path, text);
+    AddError(nodeOrNull, path, text);
     _refused.insert(path);
 }
 
@@ -214,7 +214,7 @@ const toml::node* ConfigDocument::FindNearestOrNull(const std::string& path) con
     return nearest == &_root ? nullptr : nearest;
 }
 
-std::vector<std::string> ConfigDocument::MakeMistakes() const
+std::vector<std::string> ConfigDocument::MakeConfigErrors() const
 {
     std::vector<Mistake> mistakes = _mistakes;
     if (!_bUnreadable)
@@ -258,12 +258,12 @@ std::string ConfigDocument::JoinPath(const std::string& path, const std::string&
     return path.empty() ? name : fmt::format("{}.{}", path, name);
 }
 
-void ConfigDocument::AddMistakeAt(const toml::source_region& source, const std::string& path, const std::string& text)
+void ConfigDocument::AddErrorAt(const toml::source_region& source, const std::string& path, const std::string& text)
 {
     const bool bKnown = !path.empty() && (IsInRefused(path) || !_mistaken.insert(path).second);
     if (!_bUnreadable && !bKnown)
     {
-        _mistakes.push_back(MakeMistake(source, path, text));
+        _mistakes.push_back(MakeConfigError(source, path, text));
     }
 }
 
@@ -273,7 +273,7 @@ toml::source_region ConfigDocument::GetSource(const toml::node* nodeOrNull) cons
     return bHasLine ? nodeOrNull->source() : toml::source_region{};
 }
 
-ConfigDocument::Mistake ConfigDocument::MakeMistake(
+ConfigDocument::Mistake ConfigDocument::MakeConfigError(
     const toml::source_region& source,
     const std::string& path,
     const std::string& text) const
@@ -324,7 +324,7 @@ void ConfigDocument::FindUnknown(std::vector<Mistake>& out) const
                 }
                 else if (!IsInRefused(keyPath))
                 {
-                    out.push_back(MakeMistake(value.source(), keyPath, MakeUnknownText(known, key)));
+                    out.push_back(MakeConfigError(value.source(), keyPath, MakeUnknownText(known, key)));
                 }
             }
         }

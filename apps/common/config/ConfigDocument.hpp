@@ -51,7 +51,7 @@ public:
 
     /// At the line of the node; without one, at the file. Only the first mistake of a path is kept, and none inside a
     /// refused table.
-    void AddMistake(const toml::node* nodeOrNull, const std::string& path, const std::string& text);
+    void AddError(const toml::node* nodeOrNull, const std::string& path, const std::string& text);
 
     /// The same for a table as a whole.
     void RefuseTable(const toml::node* nodeOrNull, const std::string& path, const std::string& text);
@@ -60,7 +60,7 @@ public:
     [[nodiscard]] const toml::node* FindNearestOrNull(const std::string& path) const;
 
     /// With the unknown keys, sorted by line.
-    [[nodiscard]] std::vector<std::string> MakeMistakes() const;
+    [[nodiscard]] std::vector<std::string> MakeConfigErrors() const;
 
     /// Every value by its path; a list is one value.
     [[nodiscard]] std::map<std::string, std::string> MakeValues() const;
@@ -69,9 +69,9 @@ public:
     [[nodiscard]] static std::string JoinPath(const std::string& path, const std::string& key);
 
 private:
-    void AddMistakeAt(const toml::source_region& source, const std::string& path, const std::string& text);
+    void AddErrorAt(const toml::source_region& source, const std::string& path, const std::string& text);
     [[nodiscard]] toml::source_region GetSource(const toml::node* nodeOrNull) const;
-    [[nodiscard]] Mistake MakeMistake(
+    [[nodiscard]] Mistake MakeConfigError(
         const toml::source_region& source,
         const std::string& path,
         const std::string& text) const;

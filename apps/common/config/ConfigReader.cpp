@@ -54,14 +54,14 @@ ConfigSection ConfigReader::GetRoot() const
     return {_document, &_document->GetRoot(), {}};
 }
 
-void ConfigReader::AddMistake(const std::string& path, const std::string& text) const
+void ConfigReader::AddError(const std::string& path, const std::string& text) const
 {
-    _document->AddMistake(_document->FindNearestOrNull(path), path, text);
+    _document->AddError(_document->FindNearestOrNull(path), path, text);
 }
 
-std::vector<std::string> ConfigReader::GetMistakes() const
+std::vector<std::string> ConfigReader::GetErrors() const
 {
-    return _document->MakeMistakes();
+    return _document->MakeConfigErrors();
 }
 
 std::map<std::string, std::string> ConfigReader::GetValues() const

@@ -12,7 +12,7 @@ namespace ACS::Apps
 {
 
 /// Reads a TOML file and the overrides of the command line, and collects every mistake instead of stopping at the
-/// first: read all keys from the sections, then check GetMistakes(). Keys that were not read are mistakes too.
+/// first: read all keys from the sections, then check GetErrors(). Keys that were not read are mistakes too.
 class ConfigReader final
 {
     std::shared_ptr<ConfigDocument> _document;
@@ -34,12 +34,12 @@ public:
 
     /// Adds a mistake of the key with that path ("robots.LR01.home"; no name in it has a dot), at the line of the key, or at
     /// that of its table if the key is absent.
-    void AddMistake(const std::string& path, const std::string& text) const;
+    void AddError(const std::string& path, const std::string& text) const;
 
     /// All mistakes, by line, those of overrides last: "FILE:LINE: KEY: what is wrong and what is allowed", or
     /// "--set: KEY: …". Empty: every value that the getters returned is valid. If the file cannot be read or is not valid
     /// TOML, that is the only mistake.
-    [[nodiscard]] std::vector<std::string> GetMistakes() const;
+    [[nodiscard]] std::vector<std::string> GetErrors() const;
 
     /// The value of every given key as text, by path ("mcs.url"). Equal texts mean equal values.
     [[nodiscard]] std::map<std::string, std::string> GetValues() const;

@@ -132,7 +132,7 @@ bool ConfigSection::IsEnabled(const std::string& key, bool bFallback) const
     const std::optional<bool> bGiven = nodeOrNull->value_exact<bool>();
     if (!bGiven.has_value())
     {
-        AddMistake(key, MakeWrongText("true or false", *nodeOrNull));
+        AddError(key, MakeWrongText("true or false", *nodeOrNull));
     }
     return bGiven.value_or(bFallback);
 }
@@ -148,7 +148,7 @@ std::chrono::milliseconds ConfigSection::GetDuration(
     {
         return duration;
     }
-    AddMistake(
+    AddError(
         key,
         fmt::format(
             "expected a duration from '{}' to '{}', found '{}'",
@@ -183,14 +183,14 @@ std::vector<std::string> ConfigSection::GetStringList(const std::string& key) co
     }
     if (!nodeOrNull->is_array())
     {
-        AddMistake(key, MakeWrongText("a list of strings", *nodeOrNull));
+        AddError(key, MakeWrongText("a list of strings", *nodeOrNull));
         return values;
     }
     for (const toml::node& item : *nodeOrNull->as_array())
     {
         if (!item.is_string())
         {
-            AddMistake(key, MakeWrongText("a list of strings", item));
+            AddError(key, MakeWrongText("a list of strings", item));
             return {};
         }
         values.push_back(item.as_string()->get());
@@ -231,7 +231,7 @@ std::vector<ConfigSection> ConfigSection::GetSectionList(const std::string& name
     const toml::array* const arrayOrNull = nodeOrNull->as_array();
     if (arrayOrNull == nullptr)
     {
-        AddMistake(name, MakeWrongText(fmt::format("a list of tables ([[{}]])", path), *nodeOrNull));
+        AddError(name, MakeWrongText(fmt::format("a list of tables ([[{}]])", path), *nodeOrNull));
         return sections;
     }
     for (std::size_t index = 0; index < arrayOrNull->size(); ++index)
@@ -239,7 +239,7 @@ std::vector<ConfigSection> ConfigSection::GetSectionList(const std::string& name
         const toml::node& item = *arrayOrNull->get(index);
         if (!item.is_table())
         {
-            AddMistake(name, MakeWrongText(A_TABLE, item));
+            AddError(name, MakeWrongText(A_TABLE, item));
             continue;
         }
         sections.emplace_back(_document, item.as_table(), fmt::format("{}[{}]", path, index));
@@ -265,11 +265,11 @@ bool ConfigSection::HasKey(const std::string& key) const
     return FindGivenOrNull(key) != nullptr;
 }
 
-void ConfigSection::AddMistake(const std::string& key, const std::string& text) const
+void ConfigSection::AddError(const std::string& key, const std::string& text) const
 {
     const toml::node* const nodeOrNull = key.empty() ? nullptr : FindOrNull(key);
     const std::string path = key.empty() ? _path : ConfigDocument::JoinPath(_path, key);
-    _document->AddMistake(nodeOrNull != nullptr ? nodeOrNull : _tableOrNull, path, text);
+    _document->AddError(nodeOrNull != nullptr ? nodeOrNull : _tableOrNull, path, text);
 }
 
 void ConfigSection::ReportRemoved(const std::string& key, std::string_view replacement) const
@@ -277,7 +277,7 @@ void ConfigSection::ReportRemoved(const std::string& key, std::string_view repla
     if (FindOrNull(key) != nullptr)
     {
         static_cast<void>(FindValueOrNull(key)); // not unknown as well
-        AddMistake(key, fmt::format("removed: {}", replacement));
+        AddError(key, fmt::format("removed: {}", replacement));
     }
 }
 
@@ -321,7 +321,7 @@ auto ConfigSection::ReadOrNull(const std::string& key, bool bRequired, std::stri
     auto valueOrNull = readOrNull(*nodeOrNull);
     if (!valueOrNull.has_value())
     {
-        AddMistake(key, MakeWrongText(allowed, *nodeOrNull));
+        AddError(key, MakeWrongText(allowed, *nodeOrNull));
     }
     return valueOrNull;
 }
@@ -375,12 +375,12 @@ std::optional<std::string> ConfigSection::ReadWordOrNull(
 
 void ConfigSection::AddMissing(const std::string& key, std::string_view allowed) const
 {
-    AddMistake(key, fmt::format("missing; give {}", allowed.empty() ? A_STRING : allowed));
+    AddError(key, fmt::format("missing; give {}", allowed.empty() ? A_STRING : allowed));
 }
 
-void ConfigSection::AddParseMistake(const std::string& key, const Core::Error& error) const
+void ConfigSection::AddParseError(const std::string& key, const Core::Error& error) const
 {
-    AddMistake(key, Core::Describe(error));
+    AddError(key, Core::Describe(error));
 }
 
 } // namespace ACS::Apps

@@ -21,7 +21,7 @@ namespace ACS::Apps
 
 class ConfigDocument;
 
-/// One table of a configuration. A getter that finds a mistake adds it to ConfigReader::GetMistakes and returns the default,
+/// One table of a configuration. A getter that finds a mistake adds it to ConfigReader::GetErrors and returns the default,
 /// or an empty value if the key is required: the caller reads all keys and checks once at the end. Getters with a default
 /// read an optional key, those without one a required key. Cheap to copy.
 class ConfigSection final
@@ -112,7 +112,7 @@ public:
 
     /// Adds a mistake that only the caller can detect ("no such station in the map") at the line of that key; an empty key
     /// means the table itself. Only the first mistake of a key is kept.
-    void AddMistake(const std::string& key, const std::string& text) const;
+    void AddError(const std::string& key, const std::string& text) const;
 
     /// Adds a mistake if the key is given, because this version no longer reads it. The text says what replaces it.
     void ReportRemoved(const std::string& key, std::string_view replacement) const;
@@ -143,7 +143,7 @@ private:
     [[nodiscard]] auto ReadOrNull(const std::string& key, bool bRequired, std::string_view allowed, TRead readOrNull)
         const -> decltype(readOrNull(std::declval<const toml::node&>()));
     void AddMissing(const std::string& key, std::string_view allowed) const;
-    void AddParseMistake(const std::string& key, const Core::Error& error) const;
+    void AddParseError(const std::string& key, const Core::Error& error) const;
 
     template <typename TValue, typename TParse>
     [[nodiscard]] TValue ParseOr(
@@ -159,7 +159,7 @@ private:
         Core::Result<TValue> value = parse(*text);
         if (!value.has_value())
         {
-            AddParseMistake(key, value.error());
+            AddParseError(key, value.error());
             return fallback;
         }
         return std::move(*value);

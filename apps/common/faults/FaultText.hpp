@@ -24,10 +24,13 @@ namespace ACS::Apps
 
 /// The allowed words and their values.
 template <typename TValue, std::size_t Count>
-using ValueWords = std::array<std::pair<std::string_view, TValue>, Count>;
+using ValueEnumNames = std::array<std::pair<std::string_view, TValue>, Count>;
 
 template <typename TValue, std::size_t Count>
-[[nodiscard]] std::string ReadWordValue(std::string_view text, const ValueWords<TValue, Count>& words, TValue& target)
+[[nodiscard]] std::string ReadWordValue(
+    std::string_view text,
+    const ValueEnumNames<TValue, Count>& words,
+    TValue& target)
 {
     const auto found = std::ranges::find(words, text, &std::pair<std::string_view, TValue>::first);
     if (found != words.end())

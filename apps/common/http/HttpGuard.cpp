@@ -60,7 +60,8 @@ bool HttpGuard::IsOwnName(std::string_view host) const
         || std::ranges::any_of(_options.names, [name](const std::string& own) { return IsSameText(own, name); });
 }
 
-std::optional<std::string> HttpGuard::GetObjectionOrNull(const HttpRequest& request, const HttpSource& source) const
+std::optional<std::string> HttpGuard::GetUnavailabilityOrNull(const HttpRequest& request, const HttpSource& source)
+    const
 {
     const bool bReads = request.method == "GET" || request.method == "HEAD";
     if (bReads && std::ranges::find(_options.openPaths, request.path) != _options.openPaths.end())

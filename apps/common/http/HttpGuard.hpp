@@ -40,8 +40,9 @@ public:
     explicit HttpGuard(Options options);
 
     /// Why the request is refused, as a sentence.
-    [[nodiscard]] std::optional<std::string> GetObjectionOrNull(const HttpRequest& request, const HttpSource& source)
-        const;
+    [[nodiscard]] std::optional<std::string> GetUnavailabilityOrNull(
+        const HttpRequest& request,
+        const HttpSource& source) const;
 
 private:
     [[nodiscard]] bool IsOwnName(std::string_view host) const;

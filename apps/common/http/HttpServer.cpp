@@ -107,8 +107,9 @@ struct HttpServer::Impl : std::enable_shared_from_this<Impl>
 
     Core::Result<Endpoint> Listen(const Endpoint& endpoint);
     void LogRefusal(std::string_view kind, std::string_view reason);
-    [[nodiscard]] std::optional<std::string> FindObjectionOrNull(const HttpRequest& request, const Http::fields& header)
-        const;
+    [[nodiscard]] std::optional<std::string> FindUnavailabilityOrNull(
+        const HttpRequest& request,
+        const Http::fields& header) const;
     [[nodiscard]] std::shared_ptr<Connection> FindWaitingOrNull() const;
     void OnAccepted(Tcp::socket socket);
     void TakeNext();
@@ -245,7 +246,7 @@ private:
         }
         parsed->method = std::string(request.method_string());
         parsed->body = request.body();
-        if (const std::optional<std::string> objection = server->FindObjectionOrNull(*parsed, request))
+        if (const std::optional<std::string> objection = server->FindUnavailabilityOrNull(*parsed, request))
         {
             server->LogRefusal("forbidden", *objection);
             return WriteAsync(MakeRefusal(Http::status::forbidden, *objection), request.keep_alive(), bHead);
@@ -371,15 +372,16 @@ void HttpServer::Impl::LogRefusal(std::string_view kind, std::string_view reason
         {{"reason", reason}});
 }
 
-std::optional<std::string> HttpServer::Impl::FindObjectionOrNull(const HttpRequest& request, const Http::fields& header)
-    const
+std::optional<std::string> HttpServer::Impl::FindUnavailabilityOrNull(
+    const HttpRequest& request,
+    const Http::fields& header) const
 {
     const auto get = [&header](std::string_view name) {
         const auto value = header[name];
         return std::string_view(value.data(), value.size());
     };
     return guardOrNull.has_value()
-        ? guardOrNull->GetObjectionOrNull(request, {get("Host"), get("Origin"), get("Sec-Fetch-Site")})
+        ? guardOrNull->GetUnavailabilityOrNull(request, {get("Host"), get("Origin"), get("Sec-Fetch-Site")})
         : std::nullopt;
 }
 

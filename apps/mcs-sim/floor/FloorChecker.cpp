@@ -80,9 +80,9 @@ EMoveReport GetReport(const TrackedPlan& plan, const FloorMove& move)
 /// The way of a carrier through a plan.
 struct CarrierWay
 {
-    std::string to;          ///< Of its last move that was reported Completed; empty: of none.
-    bool bLast = false;      ///< That was the last move of the plan.
-    bool bUncertain = false; ///< A later one was begun.
+    std::string to;           ///< Of its last move that was reported Completed; empty: of none.
+    bool bLast = false;       ///< That was the last move of the plan.
+    bool bUnresolved = false; ///< A later one was begun.
 };
 
 std::map<std::string, CarrierWay> MakeWays(const TrackedPlan& plan, const FloorPlan& floor)
@@ -99,7 +99,7 @@ std::map<std::string, CarrierWay> MakeWays(const TrackedPlan& plan, const FloorP
         CarrierWay& way = ways[movedOrNull->carrierID];
         const EMoveReport report = GetReport(plan, move);
         way.bLast = report == EMoveReport::Completed;
-        way.bUncertain = !way.bLast && (way.bUncertain || report == EMoveReport::Begun);
+        way.bUnresolved = !way.bLast && (way.bUnresolved || report == EMoveReport::Begun);
         way.to = way.bLast ? movedOrNull->to : way.to;
     }
     return ways;
@@ -294,7 +294,7 @@ void FloorChecker::CountCarriers(std::size_t index, PlanTracker::Lines& out)
         {
             _count.delivered += way.bLast ? 1U : 0U;
         }
-        else if (!way.bUncertain && !IsClaimed(carrierID))
+        else if (!way.bUnresolved && !IsClaimed(carrierID))
         {
             ++_count.misplaced;
             _tracker.AddViolation(

@@ -56,16 +56,16 @@ ApiResponse InsertPoint(ControllerMachine& machine, const ApiCall& call)
 ApiResponse InsertPoints(ControllerMachine& machine, const ApiCall& call)
 {
     TimedPoints points;
-    TrajectoryMistake mistake = ReadTrajectory(call.request.body, points);
+    TrajectoryError mistake = ReadTrajectory(call.request.body, points);
     if (mistake.notNow == EApiError::BadInput)
     {
         return RefuseInput("body", "an object with joint_names and points", std::move(mistake.sentence));
     }
-    if (mistake.code == ETrajectoryMistake::None)
+    if (mistake.code == ETrajectoryError::None)
     {
         mistake = machine.InsertPoints(points);
     }
-    if (mistake.code != ETrajectoryMistake::None)
+    if (mistake.code != ETrajectoryError::None)
     {
         return Forbid(static_cast<std::int32_t>(mistake.code), std::move(mistake.sentence));
     }

@@ -24,9 +24,9 @@ constexpr double ROUNDING = 1e-4; ///< deg: clients write radians with a few dig
 constexpr std::size_t FEWEST_POINTS = 2;
 constexpr std::string_view POINT_PREFIX = "point_";
 
-TrajectoryMistake Fail(ETrajectoryMistake code, std::string sentence)
+TrajectoryError Fail(ETrajectoryError code, std::string sentence)
 {
-    return TrajectoryMistake{code, EApiError::None, std::move(sentence)};
+    return TrajectoryError{code, EApiError::None, std::move(sentence)};
 }
 
 const Value* FindOrNull(const Value& object, const char* name)
@@ -100,39 +100,39 @@ bool TryReadPositions(const Value& positions, JointVector& positionOut)
     return true;
 }
 
-TrajectoryMistake ReadPoint(const Value& value, const std::string& name, TimedPoint& pointOut)
+TrajectoryError ReadPoint(const Value& value, const std::string& name, TimedPoint& pointOut)
 {
     if (!value.IsObject())
     {
-        return Fail(ETrajectoryMistake::PointNoObject, name + ": expected an object");
+        return Fail(ETrajectoryError::PointNoObject, name + ": expected an object");
     }
     const Value* const positionsOrNull = FindOrNull(value, "positions");
     if (positionsOrNull == nullptr)
     {
-        return Fail(ETrajectoryMistake::NoPositions, name + ".positions: expected a value");
+        return Fail(ETrajectoryError::NoPositions, name + ".positions: expected a value");
     }
     if (!TryReadPositions(*positionsOrNull, pointOut.position))
     {
         return Fail(
-            ETrajectoryMistake::BadPositions,
+            ETrajectoryError::BadPositions,
             fmt::format("{}.positions: expected {} angles in radians, each in its axis's range", name, AXES));
     }
     const Value* const timeOrNull = FindOrNull(value, "time_from_start");
     if (timeOrNull == nullptr)
     {
-        return Fail(ETrajectoryMistake::NoTime, name + ".time_from_start: expected a value");
+        return Fail(ETrajectoryError::NoTime, name + ".time_from_start: expected a value");
     }
     pointOut.time = timeOrNull->IsNumber() ? timeOrNull->GetDouble() : -1.0;
     if (!(pointOut.time >= 0.0 && pointOut.time <= LONGEST_TRAJECTORY))
     {
         return Fail(
-            ETrajectoryMistake::BadTime,
+            ETrajectoryError::BadTime,
             fmt::format("{}.time_from_start: expected seconds from 0 to {}", name, LONGEST_TRAJECTORY));
     }
     return {};
 }
 
-TrajectoryMistake ReadPoints(const Value& object, TimedPoints& pointsOut)
+TrajectoryError ReadPoints(const Value& object, TimedPoints& pointsOut)
 {
     const std::size_t count = object.MemberCount();
     std::vector<const Value*> ordered(count, nullptr);
@@ -142,7 +142,7 @@ TrajectoryMistake ReadPoints(const Value& object, TimedPoints& pointsOut)
         if (!index.has_value() || ordered[*index] != nullptr)
         {
             return Fail(
-                ETrajectoryMistake::PointsNoObject,
+                ETrajectoryError::PointsNoObject,
                 fmt::format("points: expected point_1 to point_{}, each once", count));
         }
         ordered[*index] = &member.value;
@@ -151,16 +151,14 @@ TrajectoryMistake ReadPoints(const Value& object, TimedPoints& pointsOut)
     for (std::size_t index = 0; index < count; ++index)
     {
         const std::string name = fmt::format("points.{}{}", POINT_PREFIX, index + 1);
-        TrajectoryMistake mistake = ReadPoint(*ordered[index], name, points[index]);
-        if (mistake.code != ETrajectoryMistake::None)
+        TrajectoryError mistake = ReadPoint(*ordered[index], name, points[index]);
+        if (mistake.code != ETrajectoryError::None)
         {
             return mistake;
         }
         if (index > 0 && points[index].time <= points[index - 1].time)
         {
-            return Fail(
-                ETrajectoryMistake::BadTime,
-                name + ".time_from_start: expected more than the point before has");
+            return Fail(ETrajectoryError::BadTime, name + ".time_from_start: expected more than the point before has");
         }
     }
     pointsOut = std::move(points);
@@ -169,47 +167,47 @@ TrajectoryMistake ReadPoints(const Value& object, TimedPoints& pointsOut)
 
 } // namespace
 
-TrajectoryMistake ReadTrajectory(const std::optional<Core::JsonText>& bodyOrNull, TimedPoints& pointsOut)
+TrajectoryError ReadTrajectory(const std::optional<Core::JsonText>& bodyOrNull, TimedPoints& pointsOut)
 {
     Json::JsonDocument document;
     const std::string text = bodyOrNull.has_value() ? bodyOrNull->GetText() : "{}";
     const Core::Result<const Value*> root = document.Parse(text, Json::ParseLimits{});
     if (!root.has_value())
     {
-        return TrajectoryMistake{ETrajectoryMistake::None, EApiError::BadInput, Core::Describe(root.error())};
+        return TrajectoryError{ETrajectoryError::None, EApiError::BadInput, Core::Describe(root.error())};
     }
     if (!(*root)->IsObject())
     {
-        return TrajectoryMistake{ETrajectoryMistake::None, EApiError::BadInput, "expected an object"};
+        return TrajectoryError{ETrajectoryError::None, EApiError::BadInput, "expected an object"};
     }
     const Value* const namesOrNull = FindOrNull(**root, "joint_names");
     if (namesOrNull == nullptr)
     {
-        return Fail(ETrajectoryMistake::NoJointNames, "joint_names: expected a value");
+        return Fail(ETrajectoryError::NoJointNames, "joint_names: expected a value");
     }
     if (!IsListOfJoints(*namesOrNull))
     {
         return Fail(
-            ETrajectoryMistake::BadJointNames,
+            ETrajectoryError::BadJointNames,
             fmt::format("joint_names: expected j1 to j{} in this order", AXES));
     }
     const Value* const objectOrNull = FindOrNull(**root, "points");
     if (objectOrNull == nullptr)
     {
-        return Fail(ETrajectoryMistake::NoPoints, "points: expected a value");
+        return Fail(ETrajectoryError::NoPoints, "points: expected a value");
     }
     if (!objectOrNull->IsObject())
     {
-        return Fail(ETrajectoryMistake::PointsNoObject, "points: expected an object");
+        return Fail(ETrajectoryError::PointsNoObject, "points: expected an object");
     }
     const std::size_t count = objectOrNull->MemberCount();
     if (count < FEWEST_POINTS)
     {
-        return Fail(ETrajectoryMistake::TooFewPoints, fmt::format("points: expected at least {}", FEWEST_POINTS));
+        return Fail(ETrajectoryError::TooFewPoints, fmt::format("points: expected at least {}", FEWEST_POINTS));
     }
     if (count > TRAJECTORY_CAPACITY)
     {
-        return Fail(ETrajectoryMistake::TooManyPoints, fmt::format("points: expected at most {}", TRAJECTORY_CAPACITY));
+        return Fail(ETrajectoryError::TooManyPoints, fmt::format("points: expected at most {}", TRAJECTORY_CAPACITY));
     }
     return ReadPoints(*objectOrNull, pointsOut);
 }

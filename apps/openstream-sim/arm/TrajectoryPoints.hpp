@@ -31,7 +31,7 @@ struct TimedPoint
 using TimedPoints = std::vector<TimedPoint>;
 
 /// Why joint_traject_insert_points refuses, by the numbers of its manual.
-enum class ETrajectoryMistake : std::int32_t
+enum class ETrajectoryError : std::int32_t
 {
     None = 0,
     NoJointNames = -2,
@@ -49,9 +49,9 @@ enum class ETrajectoryMistake : std::int32_t
 };
 
 /// What is wrong with a trajectory; or, where it is none of the manual's mistakes, why none is taken now.
-struct TrajectoryMistake
+struct TrajectoryError
 {
-    ETrajectoryMistake code = ETrajectoryMistake::None;
+    ETrajectoryError code = ETrajectoryError::None;
     EApiError notNow = EApiError::None;
     std::string sentence; ///< Of the mistake.
 };
@@ -61,6 +61,6 @@ inline constexpr double LONGEST_TRAJECTORY = 1'000'000.0;
 
 /// Reads the body of joint_traject_insert_points. The points come out in the order of their numbers, in degrees, their
 /// times rising; nothing where there is a mistake. Whether they fit to where the arm is, is the machine's to say.
-[[nodiscard]] TrajectoryMistake ReadTrajectory(const std::optional<Core::JsonText>& bodyOrNull, TimedPoints& pointsOut);
+[[nodiscard]] TrajectoryError ReadTrajectory(const std::optional<Core::JsonText>& bodyOrNull, TimedPoints& pointsOut);
 
 } // namespace ACS::OpenStreamSim

@@ -32,9 +32,9 @@ bool IsNear(const JointVector& one, const JointVector& other)
     });
 }
 
-TrajectoryMistake Fail(ETrajectoryMistake code, std::string sentence)
+TrajectoryError Fail(ETrajectoryError code, std::string sentence)
 {
-    return TrajectoryMistake{code, EApiError::None, std::move(sentence)};
+    return TrajectoryError{code, EApiError::None, std::move(sentence)};
 }
 
 } // namespace
@@ -104,29 +104,29 @@ EApiError ControllerMachine::InsertPoint(const StreamedPoint& point)
     return EApiError::None;
 }
 
-TrajectoryMistake ControllerMachine::InsertPoints(const TimedPoints& points)
+TrajectoryError ControllerMachine::InsertPoints(const TimedPoints& points)
 {
     assert(!points.empty());
     const EApiError error = AcceptTrajectory();
     if (error != EApiError::None)
     {
-        return TrajectoryMistake{ETrajectoryMistake::None, error, {}};
+        return TrajectoryError{ETrajectoryError::None, error, {}};
     }
     TrajectoryFollower& trajectory = _arm.GetTrajectory();
     if (points.size() > trajectory.GetFree())
     {
         return Fail(
-            ETrajectoryMistake::BufferExceeded,
+            ETrajectoryError::BufferExceeded,
             fmt::format("points: expected at most {}, which are free in the buffer", trajectory.GetFree()));
     }
     const bool bResting = trajectory.IsResting();
     if (bResting && points.front().time != 0.0)
     {
-        return Fail(ETrajectoryMistake::BadTime, "points.point_1.time_from_start: expected 0 where the arm stands");
+        return Fail(ETrajectoryError::BadTime, "points.point_1.time_from_start: expected 0 where the arm stands");
     }
     if (bResting && !IsNear(points.front().position, trajectory.GetHeld()))
     {
-        return Fail(ETrajectoryMistake::BadPositions, "points.point_1.positions: expected where the arm stands");
+        return Fail(ETrajectoryError::BadPositions, "points.point_1.positions: expected where the arm stands");
     }
     double before = bResting ? 0.0 : trajectory.GetNewestTime();
     // A standing arm is at its first point already.
@@ -137,7 +137,7 @@ TrajectoryMistake ControllerMachine::InsertPoints(const TimedPoints& points)
         if (ToDuration(point.time - earlier) <= Core::Duration{})
         {
             return Fail(
-                ETrajectoryMistake::BadTime,
+                ETrajectoryError::BadTime,
                 fmt::format("points: expected a time after {} s, found {} s", earlier, point.time));
         }
         earlier = point.time;

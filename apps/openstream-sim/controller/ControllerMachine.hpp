@@ -119,7 +119,7 @@ public:
     /// joint_traject_insert_point; BadInput where its time is not after that of the point before.
     [[nodiscard]] EApiError InsertPoint(const StreamedPoint& point);
     /// joint_traject_insert_points, all or nothing.
-    [[nodiscard]] TrajectoryMistake InsertPoints(const TimedPoints& points);
+    [[nodiscard]] TrajectoryError InsertPoints(const TimedPoints& points);
     /// joint_traject_off: the rest of the points is dropped.
     [[nodiscard]] EApiError FinishTrajectory();
     /// STOP control: nothing is left in the buffer, the arm stands. A program runs on.

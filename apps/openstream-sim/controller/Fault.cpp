@@ -25,8 +25,8 @@ constexpr std::chrono::minutes LONGEST_DELAY{1};
 constexpr int FIRST_REFUSAL = 400;
 constexpr int LAST_REFUSAL = 599;
 
-constexpr Apps::ValueWords<bool, 2> MOMENTS{{{"start", true}, {"end", false}}};
-constexpr Apps::ValueWords<EFaultSide, 3> SIDES{
+constexpr Apps::ValueEnumNames<bool, 2> MOMENTS{{{"start", true}, {"end", false}}};
+constexpr Apps::ValueEnumNames<EFaultSide, 3> SIDES{
     {{"stream", EFaultSide::Stream}, {"http", EFaultSide::Http}, {"both", EFaultSide::Both}}};
 
 template <typename TInteger>

@@ -109,12 +109,12 @@ private:
             if (!place.has_value())
             {
                 const Core::Error& error = place.error();
-                _section.AddMistake(key.key, fmt::format("expected {}, found {}", error.expected, error.found));
+                _section.AddError(key.key, fmt::format("expected {}, found {}", error.expected, error.found));
             }
             else if (std::ranges::find(key.kinds, place->GetKind()) == key.kinds.end())
             {
                 const std::string found = Core::QuoteForError(text);
-                _section.AddMistake(key.key, fmt::format("expected {}, found {}", key.expected, found));
+                _section.AddError(key.key, fmt::format("expected {}, found {}", key.expected, found));
             }
             else
             {
@@ -124,7 +124,7 @@ private:
         const auto last = std::ranges::find_if(places, [](const PlaceTemplate& place) { return !place.HasRelays(); });
         if (last != places.end() && std::next(last) != places.end())
         {
-            _section.AddMistake(
+            _section.AddError(
                 key.key,
                 fmt::format(
                     "expected {} at the end: it always applies, and the places after it never do",
@@ -132,7 +132,7 @@ private:
         }
         if (bGiven && texts.empty())
         {
-            _section.AddMistake(key.key, "expected at least one place, found an empty list");
+            _section.AddError(key.key, "expected at least one place, found an empty list");
         }
         return places;
     }
@@ -147,7 +147,7 @@ private:
         const std::optional<RelayName> relay = ParseRelayNameOrNull(text);
         if (!relay.has_value() || relay->width == ERelayWidth::Float)
         {
-            _section.AddMistake(
+            _section.AddError(
                 ECHO,
                 fmt::format(
                     "expected a relay that holds a whole number, such as 'ml105', or -1 for none, found {}",
@@ -156,7 +156,7 @@ private:
         }
         if (IsOutcome(*relay))
         {
-            _section.AddMistake(
+            _section.AddError(
                 ECHO,
                 fmt::format(
                     "expected a relay that a client writes, such as 'ml105', found {}: the program itself writes ml100 to "
@@ -173,7 +173,7 @@ private:
         {
             if (!_section.HasKey(key))
             {
-                _section.AddMistake(key, "missing: from and to belong together");
+                _section.AddError(key, "missing: from and to belong together");
             }
         }
         std::set<ESegmentKind> kinds;
@@ -186,7 +186,7 @@ private:
         }
         if (kinds.size() > 1)
         {
-            _section.AddMistake(TO, "expected places of one kind in from and to: CP, TP or MP");
+            _section.AddError(TO, "expected places of one kind in from and to: CP, TP or MP");
         }
         return transfer;
     }
@@ -198,7 +198,7 @@ private:
         cover.set = ReadPlaces(MakeSetKey());
         if (!_section.HasKey(SET))
         {
-            _section.AddMistake(SET, "missing: cover and set belong together");
+            _section.AddError(SET, "missing: cover and set belong together");
         }
         return cover;
     }
@@ -248,7 +248,7 @@ ProgramFile ReadPrograms(const Apps::ConfigReader& reader)
             *number,
             ProgramReader(section, echo == values.end() ? std::string() : echo->second).Read());
     }
-    file.mistakes = reader.GetMistakes();
+    file.mistakes = reader.GetErrors();
     if (!file.mistakes.empty())
     {
         file.programs.clear();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <acs/json/EnumWords.hpp>
+#include <acs/json/EnumNames.hpp>
 #include <acs/protocol/AcsMessage.hpp>
 #include <acs/protocol/SessionEvent.hpp>
 
@@ -11,7 +11,7 @@ namespace ACS::Json
 {
 
 template <>
-struct EnumWords<Protocol::EAcsCommand>
+struct EnumNames<Protocol::EAcsCommand>
 {
     using Word = EnumWord<Protocol::EAcsCommand>;
     using E = Protocol::EAcsCommand;
@@ -43,7 +43,7 @@ struct EnumWords<Protocol::EAcsCommand>
 };
 
 template <>
-struct EnumWords<Protocol::EAckResult>
+struct EnumNames<Protocol::EAckResult>
 {
     static constexpr std::array WORDS{
         EnumWord<Protocol::EAckResult>{Protocol::EAckResult::Success, "Success"},
@@ -52,7 +52,7 @@ struct EnumWords<Protocol::EAckResult>
 };
 
 template <>
-struct EnumWords<Protocol::EReportResult>
+struct EnumNames<Protocol::EReportResult>
 {
     static constexpr std::array WORDS{
         EnumWord<Protocol::EReportResult>{Protocol::EReportResult::Success, "Success"},
@@ -62,7 +62,7 @@ struct EnumWords<Protocol::EReportResult>
 };
 
 template <>
-struct EnumWords<Protocol::EPlanStatus>
+struct EnumNames<Protocol::EPlanStatus>
 {
     using Word = EnumWord<Protocol::EPlanStatus>;
     using E = Protocol::EPlanStatus;
@@ -78,7 +78,7 @@ struct EnumWords<Protocol::EPlanStatus>
 };
 
 template <>
-struct EnumWords<Protocol::EStepStatus>
+struct EnumNames<Protocol::EStepStatus>
 {
     using Word = EnumWord<Protocol::EStepStatus>;
     using E = Protocol::EStepStatus;
@@ -93,7 +93,7 @@ struct EnumWords<Protocol::EStepStatus>
 };
 
 template <>
-struct EnumWords<Protocol::EJobStatus>
+struct EnumNames<Protocol::EJobStatus>
 {
     using Word = EnumWord<Protocol::EJobStatus>;
     using E = Protocol::EJobStatus;
@@ -107,7 +107,7 @@ struct EnumWords<Protocol::EJobStatus>
 };
 
 template <>
-struct EnumWords<Protocol::EErrorLevel>
+struct EnumNames<Protocol::EErrorLevel>
 {
     static constexpr std::array WORDS{
         EnumWord<Protocol::EErrorLevel>{Protocol::EErrorLevel::Heavy, "heavy"},
@@ -116,7 +116,7 @@ struct EnumWords<Protocol::EErrorLevel>
 };
 
 template <>
-struct EnumWords<Protocol::ERobotType>
+struct EnumNames<Protocol::ERobotType>
 {
     static constexpr std::array WORDS{
         EnumWord<Protocol::ERobotType>{Protocol::ERobotType::Logistics, "LR"},
@@ -125,7 +125,7 @@ struct EnumWords<Protocol::ERobotType>
 };
 
 template <>
-struct EnumWords<Protocol::ERobotStatus>
+struct EnumNames<Protocol::ERobotStatus>
 {
     using Word = EnumWord<Protocol::ERobotStatus>;
     using E = Protocol::ERobotStatus;
@@ -146,7 +146,7 @@ struct EnumWords<Protocol::ERobotStatus>
 };
 
 template <>
-struct EnumWords<Protocol::ETscState>
+struct EnumNames<Protocol::ETscState>
 {
     static constexpr std::array WORDS{
         EnumWord<Protocol::ETscState>{Protocol::ETscState::Auto, "Auto"},
@@ -157,7 +157,7 @@ struct EnumWords<Protocol::ETscState>
 
 /// Not of the wire: for logs and metrics.
 template <>
-struct EnumWords<Protocol::EProtocolNote>
+struct EnumNames<Protocol::EProtocolNote>
 {
     using Word = EnumWord<Protocol::EProtocolNote>;
     using E = Protocol::EProtocolNote;

@@ -17,7 +17,7 @@ using OpenStream::EApiMethod;
 using OpenStream::EStopTarget;
 
 template <>
-struct EnumWords<EStopTarget>
+struct EnumNames<EStopTarget>
 {
     static constexpr std::array WORDS{
         EnumWord<EStopTarget>{EStopTarget::Monitor, "monitor"},
@@ -26,7 +26,7 @@ struct EnumWords<EStopTarget>
 };
 
 template <>
-struct EnumWords<EApiMethod>
+struct EnumNames<EApiMethod>
 {
     static constexpr std::array WORDS{
         EnumWord<EApiMethod>{EApiMethod::Get, "GET"},

@@ -14,7 +14,7 @@ namespace ACS::Json
 using OpenStream::EOpenStreamCommand;
 
 template <>
-struct EnumWords<EOpenStreamCommand>
+struct EnumNames<EOpenStreamCommand>
 {
     static constexpr std::array WORDS{
         EnumWord<EOpenStreamCommand>{EOpenStreamCommand::Handshake, "HANDSHAKE"},

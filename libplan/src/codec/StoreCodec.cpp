@@ -1,4 +1,4 @@
-#include "codec/PlanWords.hpp"
+#include "codec/PlanEnumNames.hpp"
 #include <acs/core/ECoreError.hpp>
 #include <acs/core/Overloaded.hpp>
 #include <acs/json/JsonDecoder.hpp>
@@ -66,7 +66,7 @@ namespace ACS::Json
 {
 
 template <>
-struct EnumWords<Planning::EReportKind>
+struct EnumNames<Planning::EReportKind>
 {
     static constexpr std::array WORDS{
         EnumWord<Planning::EReportKind>{Planning::EReportKind::Plan, "Plan"},
@@ -165,7 +165,7 @@ struct JsonFields<Planning::StartJob>
         Optional("to", &Planning::StartJob::to),
         Optional("carrierId", &Planning::StartJob::carrierID),
         Required("commandId", &Planning::StartJob::commandID),
-        Optional("mark", &Planning::StartJob::mark),
+        Optional("mark", &Planning::StartJob::progressToken),
         Optional("jobNumber", &Planning::StartJob::jobNumber));
 };
 
@@ -176,10 +176,10 @@ struct JsonFields<Planning::RobotWorkChanged>
         Required("robotId", &Planning::RobotWorkChanged::robotID),
         Optional("commandId", &Planning::RobotWorkChanged::commandID),
         Optional("earlierIds", &Planning::RobotWorkChanged::earlierIDs),
-        Optional("mark", &Planning::RobotWorkChanged::mark),
+        Optional("mark", &Planning::RobotWorkChanged::progressToken),
         Optional("job", &Planning::RobotWorkChanged::job),
         Optional("pauseAsked", &Planning::RobotWorkChanged::bPauseAsked),
-        Optional("doubtful", &Planning::RobotWorkChanged::bDoubtful),
+        Optional("doubtful", &Planning::RobotWorkChanged::bUnresolved),
         Optional("nodeIds", &Planning::RobotWorkChanged::nodeIDs),
         Optional("commandTaken", &Planning::RobotWorkChanged::bCommandTaken),
         Optional("jobNumber", &Planning::RobotWorkChanged::jobNumber));

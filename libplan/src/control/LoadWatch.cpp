@@ -25,7 +25,7 @@ LoadWatch::LoadWatch(EngineState& engine)
 
 void LoadWatch::CompareLoads(Robot& robot)
 {
-    if (!robot.view.state->loads.has_value() || robot.work.IsDoubtful())
+    if (!robot.view.state->loads.has_value() || robot.work.IsUnresolved())
     {
         return;
     }

@@ -36,9 +36,8 @@ void StallWatch::UpdateStall(Robot& robot)
     if (update.bStallEnded)
     {
         // The plan that the alarm names may have ended.
-        _transaction.ReportAlarms(_alarms.ClearIf([this, &robot](const Alarm& alarm) {
-            return alarm.robotID == robot.GetID() && alarm.errorCode == ALARM_STALL;
-        }));
+        _transaction.ReportAlarms(_alarms.ClearIf(
+            [&robot](const Alarm& alarm) { return alarm.robotID == robot.GetID() && alarm.errorCode == ALARM_STALL; }));
     }
     if (update.timer == EStallTimer::Start)
     {

@@ -13,7 +13,7 @@ namespace ACS::Planning
 namespace
 {
 
-class MistakeFinder
+class ErrorFinder
 {
     const SiteMap& _site;
     std::vector<Core::Error> _mistakes;
@@ -22,7 +22,7 @@ class MistakeFinder
     std::set<std::string> _starts;
 
 public:
-    explicit MistakeFinder(const SiteMap& site)
+    explicit ErrorFinder(const SiteMap& site)
         : _site(site)
     {
     }
@@ -90,7 +90,7 @@ public:
         }
     }
 
-    [[nodiscard]] std::vector<Core::Error> TakeMistakes()
+    [[nodiscard]] std::vector<Core::Error> TakeErrorTexts()
     {
         return std::move(_mistakes);
     }
@@ -176,9 +176,9 @@ ActionTable MakeStandardActions()
     };
 }
 
-std::vector<Core::Error> FindMistakes(const EngineOptions& options, const SiteMap& site)
+std::vector<Core::Error> FindErrors(const EngineOptions& options, const SiteMap& site)
 {
-    MistakeFinder finder(site);
+    ErrorFinder finder(site);
     for (const RobotOptions& robot : options.robots)
     {
         finder.Check(robot);
@@ -209,7 +209,7 @@ std::vector<Core::Error> FindMistakes(const EngineOptions& options, const SiteMa
             "0 to 100 percent, and less than robot.battery_resume",
             fmt::format("{} and {}", dispatch.batteryFloor, dispatch.batteryResume));
     }
-    return finder.TakeMistakes();
+    return finder.TakeErrorTexts();
 }
 
 } // namespace ACS::Planning

@@ -171,7 +171,7 @@ void OperatorCommands::CorrectCarriers(const SetCarriers& command)
 }
 
 /// Jobs can be resolved if they are unresolved, if their plan has ended, or if their robot is disconnected.
-std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const SettleJob& command) const
+std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const ResolveJob& command) const
 {
     const std::optional<std::size_t> worker = FindWorkerOrNull(command);
     if (!worker.has_value())
@@ -180,7 +180,7 @@ std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const Sett
     }
     const Robot& robot = _fleet[*worker];
     const bool bOver = robot.job.IsOverdue();
-    if (bOver && command.answer == EJobAnswer::Again)
+    if (bOver && command.answer == EJobResolution::Again)
     {
         return fmt::format("Plan {} has ended: answer done or failed.", command.planID);
     }
@@ -192,9 +192,9 @@ std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const Sett
     {
         return fmt::format("{} is connected and will report the outcome of the job.", robot.GetID());
     }
-    return command.answer == EJobAnswer::Again ? std::optional(
+    return command.answer == EJobResolution::Again ? std::optional(
                fmt::format("{} is disconnected and cannot repeat the job: answer done or failed.", robot.GetID()))
-                                               : std::nullopt;
+                                                   : std::nullopt;
 }
 
 std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const SetCarriers& command) const
@@ -312,7 +312,7 @@ void OperatorCommands::SkipUnresolved(Robot& robot)
     _work.LeaveStep(robot);
 }
 
-std::optional<std::size_t> OperatorCommands::FindWorkerOrNull(const SettleJob& command) const
+std::optional<std::size_t> OperatorCommands::FindWorkerOrNull(const ResolveJob& command) const
 {
     const auto robot = std::ranges::find_if(_fleet, [&command](const Robot& candidate) {
         const StartJob* jobOrNull = candidate.job.GetOrNull();
@@ -321,7 +321,7 @@ std::optional<std::size_t> OperatorCommands::FindWorkerOrNull(const SettleJob& c
     return robot == _fleet.end() ? std::nullopt : std::optional(robot->index);
 }
 
-void OperatorCommands::Settle(const SettleJob& command)
+void OperatorCommands::Settle(const ResolveJob& command)
 {
     if (std::optional<std::string> reason = GetRejectionReasonOrNull(command))
     {
@@ -334,26 +334,26 @@ void OperatorCommands::Settle(const SettleJob& command)
     ApplyAnswer(robot, command.answer);
 }
 
-void OperatorCommands::ApplyAnswer(Robot& robot, EJobAnswer answer)
+void OperatorCommands::ApplyAnswer(Robot& robot, EJobResolution answer)
 {
     robot.job.Resolve();
     const std::string jobID = robot.job.GetOrNull()->jobID;
-    if (_jobs.TryEndOverdueJob(robot, jobID, answer == EJobAnswer::Done))
+    if (_jobs.TryEndOverdueJob(robot, jobID, answer == EJobResolution::Done))
     {
         return;
     }
     switch (answer)
     {
-        case EJobAnswer::Done:
+        case EJobResolution::Done:
             CatchUp(robot);
             _jobs.OnJobStarted(robot, JobStarted{jobID});
             _work.EndJob(robot, "Reported as done by the operator.");
             break;
-        case EJobAnswer::Again:
-            robot.work.TryClearDoubt(); // no later job was done either
+        case EJobResolution::Again:
+            robot.work.TryResolve(); // no later job was done either
             _work.RepeatJob(robot, {});
             break;
-        case EJobAnswer::Failed:
+        case EJobResolution::Failed:
         default:
             _jobs.OnJobFailed(robot, JobFailed{jobID, "Reported as not done by the operator."});
             break;

@@ -48,12 +48,12 @@ public:
     void CorrectCarriers(const SetCarriers& command);
     /// Why the command would be refused now.
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SetCarriers& command) const;
-    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SettleJob& command) const;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const ResolveJob& command) const;
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SkipStep& command) const;
     /// Skips a step (section 6.13).
     void Skip(const SkipStep& command);
     /// Resolves a job whose outcome is unknown.
-    void Settle(const SettleJob& command);
+    void Settle(const ResolveJob& command);
 
 private:
     /// Whether the cause of the alarm remains, as far as the engine knows.
@@ -61,8 +61,8 @@ private:
     /// The outcome of the job stays unknown; the record of the ports is not changed.
     void SkipUnresolved(Robot& robot);
     /// Index of the robot that has the job.
-    [[nodiscard]] std::optional<std::size_t> FindWorkerOrNull(const SettleJob& command) const;
-    void ApplyAnswer(Robot& robot, EJobAnswer answer);
+    [[nodiscard]] std::optional<std::size_t> FindWorkerOrNull(const ResolveJob& command) const;
+    void ApplyAnswer(Robot& robot, EJobResolution answer);
     /// Reports a job from its beginning that was done but never stored as commanded.
     void CatchUp(Robot& robot);
 };

@@ -33,7 +33,7 @@ PlanEngine::Impl::Impl(EngineOptions options, SiteMap site, Core::IRandom& rando
       _recovery(_engine, _tsc, _answers, _places, _status, _work),
       _store(_engine, _answers, _places, _work)
 {
-    assert(FindMistakes(_engine.options, _engine.site).empty());
+    assert(FindErrors(_engine.options, _engine.site).empty());
     for (Robot& robot : _engine.fleet)
     {
         robot.parking.homeNode = _charging.GetHomeOrNull(robot);
@@ -64,7 +64,7 @@ void PlanEngine::Impl::HandleCommand(const PlanCommand& command, Core::Now now, 
             [this](const ControlPlan& control) { _controls.Control(control); },
             [this](const MessageAcknowledged& acknowledged) { _store.Acknowledge(acknowledged); },
             [this](const ControlTSC& control) { _tsc.SwitchTSC(control); },
-            [this](const SettleJob& settle) { _operator.Settle(settle); },
+            [this](const ResolveJob& settle) { _operator.Settle(settle); },
             [this](const SetMaintenance& maintenance) { _operator.Maintain(maintenance); },
             [this](const ClearAlarms& clear) { _operator.ClearByOperator(clear); },
             [this](const SetCarriers& carriers) { _operator.CorrectCarriers(carriers); },
@@ -108,7 +108,7 @@ void PlanEngine::Impl::HandleEvent(std::string_view robotID, const RobotEvent& e
             [this, &robot](const JobFinished& typed) { _jobs.OnJobFinished(robot, typed); },
             [this, &robot](const JobFailed& typed) { _jobs.OnJobFailed(robot, typed); },
             [this, &robot](const JobUnknown& typed) { _jobs.OnJobUnknown(robot, typed); },
-            [this, &robot](const JobUncertain& typed) { _jobs.OnJobUncertain(robot, typed); },
+            [this, &robot](const JobUnresolved& typed) { _jobs.OnJobUnresolved(robot, typed); },
             [this, &robot](const JobCheckChanged& typed) {
                 _dispatcher.OnJobCheck(robot, typed);
             }},
@@ -429,7 +429,7 @@ std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const SetC
     return _operator.GetRejectionReasonOrNull(command);
 }
 
-std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const SettleJob& command) const
+std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const ResolveJob& command) const
 {
     return _operator.GetRejectionReasonOrNull(command);
 }

@@ -78,7 +78,7 @@ public:
     [[nodiscard]] std::vector<WaitReason> GetWaitReasons() const;
     [[nodiscard]] std::optional<WaitReason> GetWaitReasonOrNull(std::string_view planID) const;
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SetCarriers& command) const;
-    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SettleJob& command) const;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const ResolveJob& command) const;
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SkipStep& command) const;
     [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;
     [[nodiscard]] ETscState GetTscState() const noexcept;

@@ -100,7 +100,7 @@ std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const SetCarrier
     return _impl->GetRejectionReasonOrNull(command);
 }
 
-std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const SettleJob& command) const
+std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const ResolveJob& command) const
 {
     return _impl->GetRejectionReasonOrNull(command);
 }

@@ -79,7 +79,7 @@ void StoreGate::CollectWork()
         }
         if (robot.view.state.has_value())
         {
-            work.mark = robot.view.state->mark;
+            work.progressToken = robot.view.state->restartEvidence.progressToken;
         }
         if (!robot.drive.has_value()) // during a drive nodes only become fewer, which alone is no reason to write
         {

@@ -13,18 +13,18 @@ void WorkRecord::Restore(const RobotWorkChanged& work)
     _earlierIDs = work.earlierIDs;
     _jobNumber = work.jobNumber;
     _bCommandTaken = work.bCommandTaken;
-    _bDoubtful = work.bDoubtful;
+    _bUnresolved = work.bUnresolved;
     _evidence = work;
     _stored = work;
 }
 
-void WorkRecord::BeginPlan(const std::optional<std::string>& shownCommandIDOrNull)
+void WorkRecord::BeginPlan(const std::optional<std::string>& evidentCommandIDOrNull)
 {
     if (_commandID.empty())
     {
-        _commandID = shownCommandIDOrNull.value_or(std::string()); // of the previous master
+        _commandID = evidentCommandIDOrNull.value_or(std::string()); // of the previous master
     }
-    _bMarkDue = true;
+    _bTokenDue = true;
 }
 
 void WorkRecord::AddCommand(const std::string& commandID)
@@ -58,14 +58,14 @@ void WorkRecord::MarkCommandTaken() noexcept
     _bCommandTaken = true;
 }
 
-void WorkRecord::MarkDoubtful() noexcept
+void WorkRecord::MarkUnresolved() noexcept
 {
-    _bDoubtful = true;
+    _bUnresolved = true;
 }
 
-bool WorkRecord::TryClearDoubt() noexcept
+bool WorkRecord::TryResolve() noexcept
 {
-    return std::exchange(_bDoubtful, false);
+    return std::exchange(_bUnresolved, false);
 }
 
 bool WorkRecord::TryCheckEvidence(const StateChanged& state, bool bHasPlan)
@@ -76,19 +76,20 @@ bool WorkRecord::TryCheckEvidence(const StateChanged& state, bool bHasPlan)
         return false;
     }
     bool bMore = false;
-    if (!state.mark.empty() && !evidence->mark.empty())
+    if (!state.restartEvidence.progressToken.empty() && !evidence->progressToken.empty())
     {
-        bMore = !evidence->job.has_value() && state.mark != evidence->mark; // the adapter reports a commanded one
+        bMore = !evidence->job.has_value()
+            && state.restartEvidence.progressToken != evidence->progressToken; // the adapter reports a commanded one
     }
-    else if (state.shownCommandID.has_value())
+    else if (state.restartEvidence.commandID.has_value())
     {
         // The robot shows no command: it never had one, or it was switched off.
         const bool bNeverHadAny =
-            state.shownCommandID->empty() && evidence->earlierIDs.empty() && !evidence->bCommandTaken;
-        bMore = !bNeverHadAny && *state.shownCommandID != evidence->commandID
-            && std::ranges::count(evidence->earlierIDs, *state.shownCommandID) == 0;
+            state.restartEvidence.commandID->empty() && evidence->earlierIDs.empty() && !evidence->bCommandTaken;
+        bMore = !bNeverHadAny && *state.restartEvidence.commandID != evidence->commandID
+            && std::ranges::count(evidence->earlierIDs, *state.restartEvidence.commandID) == 0;
     }
-    _bDoubtful = _bDoubtful || bMore;
+    _bUnresolved = _bUnresolved || bMore;
     return true;
 }
 
@@ -98,8 +99,8 @@ RobotWorkChanged WorkRecord::Make(const std::string& robotID) const
     work.robotID = robotID;
     work.commandID = _commandID;
     work.earlierIDs = _earlierIDs;
-    work.mark = _stored.mark;
-    work.bDoubtful = _bDoubtful;
+    work.progressToken = _stored.progressToken;
+    work.bUnresolved = _bUnresolved;
     work.nodeIDs = _stored.nodeIDs;
     work.bCommandTaken = _bCommandTaken;
     work.jobNumber = _jobNumber;
@@ -110,9 +111,9 @@ bool WorkRecord::TryBeginStore(const RobotWorkChanged& work)
 {
     const bool bNothing =
         _stored.robotID.empty() && work.commandID.empty() && !work.bPauseAsked && work.nodeIDs.empty();
-    RobotWorkChanged unmarked = work;
-    unmarked.mark = _stored.mark;
-    return !bNothing && (std::exchange(_bMarkDue, false) || unmarked != _stored);
+    RobotWorkChanged unchanged = work;
+    unchanged.progressToken = _stored.progressToken;
+    return !bNothing && (std::exchange(_bTokenDue, false) || unchanged != _stored);
 }
 
 void WorkRecord::OnStored(RobotWorkChanged work)
@@ -130,9 +131,9 @@ const std::vector<std::string>& WorkRecord::GetEarlierIDs() const noexcept
     return _earlierIDs;
 }
 
-bool WorkRecord::IsDoubtful() const noexcept
+bool WorkRecord::IsUnresolved() const noexcept
 {
-    return _bDoubtful;
+    return _bUnresolved;
 }
 
 } // namespace ACS::Planning

@@ -39,10 +39,10 @@ void Traffic::FindReturns()
 /// Dijkstra's algorithm, backwards from the home.
 void Traffic::FindWaysHome(Vehicle& vehicle) const
 {
-    using Entry = std::pair<double, std::size_t>;
+    using OpenNode = std::pair<double, std::size_t>;
     const FloorGraph& graph = *vehicle.graphOrNull;
     std::vector<double> seconds(_holders.size(), std::numeric_limits<double>::infinity());
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    std::priority_queue<OpenNode, std::vector<OpenNode>, std::greater<>> open;
     vehicle.nextToHome.assign(_holders.size(), NOWHERE);
     seconds[*vehicle.home] = 0;
     open.emplace(0, *vehicle.home);

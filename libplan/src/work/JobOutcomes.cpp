@@ -123,16 +123,16 @@ void JobOutcomes::OnJobUnknown(Robot& robot, const JobUnknown& event)
     }
 }
 
-void JobOutcomes::OnJobUncertain(Robot& robot, const JobUncertain& event)
+void JobOutcomes::OnJobUnresolved(Robot& robot, const JobUnresolved& event)
 {
     const bool bOverdue = robot.job.IsOverdue(event.jobID);
     const bool bOfPlan = robot.activity == EActivity::Works && GetJobID(*robot.planOrNull) == event.jobID;
     if ((bOverdue || bOfPlan) && !robot.job.IsUnresolved())
     {
         // After a restart, marks that do not prove this job prove none of the later jobs either.
-        if (robot.job.IsRecovering() && bOfPlan && !robot.job.GetOrNull()->mark.empty())
+        if (robot.job.IsRecovering() && bOfPlan && !robot.job.GetOrNull()->progressToken.empty())
         {
-            robot.work.MarkDoubtful();
+            robot.work.MarkUnresolved();
         }
         robot.changes.bWork = true;
         _work.SuspendJob(robot, event.reason);

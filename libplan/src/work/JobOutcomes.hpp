@@ -33,7 +33,7 @@ public:
     /// The job has exceeded the time limit of its action: it is cancelled and the plan fails.
     void OnJobTimeout(Robot& robot);
     void OnJobUnknown(Robot& robot, const JobUnknown& event);
-    void OnJobUncertain(Robot& robot, const JobUncertain& event);
+    void OnJobUnresolved(Robot& robot, const JobUnresolved& event);
 };
 
 } // namespace ACS::Planning

@@ -34,7 +34,7 @@ void PlanWork::BeginPlan(ActivePlan& plan, Robot& robot)
     plan.record.progress.robotID = robot.GetID();
     robot.planOrNull = &plan;
     robot.parking.bRefused = false;
-    robot.work.BeginPlan(robot.view.state.has_value() ? robot.view.state->shownCommandID : std::nullopt);
+    robot.work.BeginPlan(robot.view.state.has_value() ? robot.view.state->restartEvidence.commandID : std::nullopt);
     robot.changes.bWork = true;
     _call.begunPlanIDs.push_back(plan.record.plan.planID);
     _transaction.ChangePlan(plan, EPlanState::InProgress, fmt::format("Assigned to {}.", robot.GetID()));
@@ -106,9 +106,9 @@ void PlanWork::BeginJob(Robot& robot)
     {
         plan.madeJobID = Core::MakeUUID(_random);
     }
-    if (robot.work.IsDoubtful())
+    if (robot.work.IsUnresolved())
     {
-        SuspendDoubtfulJob(robot);
+        SuspendUnresolvedJob(robot);
         return;
     }
     if (HasJob(plan) && GetJobState(plan) == EJobState::Pending)
@@ -119,7 +119,7 @@ void PlanWork::BeginJob(Robot& robot)
     StartJob job = MakeStartJob(robot);
     job.commandID = repeated.empty() ? Core::MakeUUID(_random) : repeated;
     job.jobNumber = robot.work.NumberJob(!repeated.empty(), _random);
-    job.mark = robot.view.state.has_value() ? robot.view.state->mark : std::string();
+    job.progressToken = robot.view.state.has_value() ? robot.view.state->restartEvidence.progressToken : std::string();
     robot.work.AddCommand(job.commandID);
     robot.job.Begin(job);
     _transaction.Command(robot, std::move(job));
@@ -300,7 +300,7 @@ void PlanWork::EndPlan(ActivePlan& plan, EPlanState state, const std::string& me
         }
         robot.planOrNull = nullptr;
         robot.activity = EActivity::Idle;
-        robot.changes.bWork = robot.work.TryClearDoubt() || robot.changes.bWork;
+        robot.changes.bWork = robot.work.TryResolve() || robot.changes.bWork;
         robot.parking.retreatNode.reset();
         robot.changes.bStatus = true;
         robot.search.plannedRoute.reset();
@@ -357,7 +357,7 @@ Alarm PlanWork::MakeDroppedAlarm(const Robot& robot) const
     return alarm;
 }
 
-void PlanWork::SuspendDoubtfulJob(Robot& robot)
+void PlanWork::SuspendUnresolvedJob(Robot& robot)
 {
     robot.planOrNull->repeatedCommandID.clear();
     robot.job.Begin(MakeStartJob(robot));

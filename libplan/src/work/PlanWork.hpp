@@ -83,7 +83,7 @@ private:
     /// Raises ACS-1007 if the job moves something.
     void RaiseDropped(const Robot& robot);
     /// Suspends the present job instead of commanding it.
-    void SuspendDoubtfulJob(Robot& robot);
+    void SuspendUnresolvedJob(Robot& robot);
     [[nodiscard]] Alarm MakeUnresolvedAlarm(const Robot& robot) const;
 };
 

@@ -81,7 +81,7 @@ template <typename TMessage, typename TMember>
 }
 
 template <>
-struct EnumWords<VDA5050::EBlockingType>
+struct EnumNames<VDA5050::EBlockingType>
 {
     using Type = VDA5050::EBlockingType;
     static constexpr std::array WORDS{

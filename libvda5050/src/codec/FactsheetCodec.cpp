@@ -6,7 +6,7 @@ namespace ACS::Json
 {
 
 template <>
-struct EnumWords<VDA5050::EAgvKinematic>
+struct EnumNames<VDA5050::EAgvKinematic>
 {
     using Type = VDA5050::EAgvKinematic;
     static constexpr std::array WORDS{
@@ -16,7 +16,7 @@ struct EnumWords<VDA5050::EAgvKinematic>
 };
 
 template <>
-struct EnumWords<VDA5050::EAgvClass>
+struct EnumNames<VDA5050::EAgvClass>
 {
     using Type = VDA5050::EAgvClass;
     static constexpr std::array WORDS{
@@ -117,7 +117,7 @@ struct JsonFields<VDA5050::ProtocolLimits>
 };
 
 template <>
-struct EnumWords<VDA5050::EParameterSupport>
+struct EnumNames<VDA5050::EParameterSupport>
 {
     using Type = VDA5050::EParameterSupport;
     static constexpr std::array WORDS{
@@ -136,7 +136,7 @@ struct JsonFields<VDA5050::OptionalParameter>
 };
 
 template <>
-struct EnumWords<VDA5050::EActionScope>
+struct EnumNames<VDA5050::EActionScope>
 {
     using Type = VDA5050::EActionScope;
     static constexpr std::array WORDS{
@@ -146,7 +146,7 @@ struct EnumWords<VDA5050::EActionScope>
 };
 
 template <>
-struct EnumWords<VDA5050::EValueDataType>
+struct EnumNames<VDA5050::EValueDataType>
 {
     using Type = VDA5050::EValueDataType;
     static constexpr std::array WORDS{
@@ -193,7 +193,7 @@ struct JsonFields<VDA5050::ProtocolFeatures>
 };
 
 template <>
-struct EnumWords<VDA5050::EWheelType>
+struct EnumNames<VDA5050::EWheelType>
 {
     using Type = VDA5050::EWheelType;
     static constexpr std::array WORDS{

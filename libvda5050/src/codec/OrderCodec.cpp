@@ -38,7 +38,7 @@ struct JsonFields<VDA5050::OrderNode>
 };
 
 template <>
-struct EnumWords<VDA5050::ECorridorReferencePoint>
+struct EnumNames<VDA5050::ECorridorReferencePoint>
 {
     using Type = VDA5050::ECorridorReferencePoint;
     static constexpr std::array WORDS{
@@ -57,7 +57,7 @@ struct JsonFields<VDA5050::Corridor>
 };
 
 template <>
-struct EnumWords<VDA5050::EOrientationType>
+struct EnumNames<VDA5050::EOrientationType>
 {
     using Type = VDA5050::EOrientationType;
     static constexpr std::array WORDS{

@@ -5,7 +5,7 @@ namespace ACS::Json
 {
 
 template <>
-struct EnumWords<VDA5050::EMapStatus>
+struct EnumNames<VDA5050::EMapStatus>
 {
     using Type = VDA5050::EMapStatus;
     static constexpr std::array WORDS{
@@ -101,7 +101,7 @@ struct JsonFields<VDA5050::Load>
 };
 
 template <>
-struct EnumWords<VDA5050::EActionStatus>
+struct EnumNames<VDA5050::EActionStatus>
 {
     using Type = VDA5050::EActionStatus;
     static constexpr std::array WORDS{
@@ -141,7 +141,7 @@ struct JsonFields<VDA5050::BatteryState>
 };
 
 template <>
-struct EnumWords<VDA5050::EOperatingMode>
+struct EnumNames<VDA5050::EOperatingMode>
 {
     using Type = VDA5050::EOperatingMode;
     static constexpr std::array WORDS{
@@ -153,7 +153,7 @@ struct EnumWords<VDA5050::EOperatingMode>
 };
 
 template <>
-struct EnumWords<VDA5050::EErrorLevel>
+struct EnumNames<VDA5050::EErrorLevel>
 {
     using Type = VDA5050::EErrorLevel;
     static constexpr std::array WORDS{EnumWord<Type>{Type::Warning, "WARNING"}, EnumWord<Type>{Type::Fatal, "FATAL"}};
@@ -181,7 +181,7 @@ struct JsonFields<VDA5050::VehicleError>
 };
 
 template <>
-struct EnumWords<VDA5050::EInformationLevel>
+struct EnumNames<VDA5050::EInformationLevel>
 {
     using Type = VDA5050::EInformationLevel;
     static constexpr std::array WORDS{EnumWord<Type>{Type::Info, "INFO"}, EnumWord<Type>{Type::Debug, "DEBUG"}};
@@ -199,7 +199,7 @@ struct JsonFields<VDA5050::Information>
 };
 
 template <>
-struct EnumWords<VDA5050::EEmergencyStop>
+struct EnumNames<VDA5050::EEmergencyStop>
 {
     using Type = VDA5050::EEmergencyStop;
     static constexpr std::array WORDS{
@@ -262,7 +262,7 @@ struct JsonFields<VDA5050::VisualizationMessage>
 };
 
 template <>
-struct EnumWords<VDA5050::EConnectionState>
+struct EnumNames<VDA5050::EConnectionState>
 {
     using Type = VDA5050::EConnectionState;
     static constexpr std::array WORDS{

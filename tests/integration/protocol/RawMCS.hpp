@@ -1,7 +1,7 @@
 #pragma once
 
 #include "RawPeer.hpp"
-#include "WebSocketRig.hpp"
+#include "WebSocketFixture.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/protocol/AcsCodec.hpp>
 

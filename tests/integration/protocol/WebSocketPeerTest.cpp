@@ -1,8 +1,8 @@
-#include "ClientRig.hpp"
+#include "ClientWireFixture.hpp"
 #include "RawMCS.hpp"
 #include "RawPeer.hpp"
 #include "RawServer.hpp"
-#include "WebSocketRig.hpp"
+#include "WebSocketFixture.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -20,7 +20,7 @@
 using namespace ACS; // NOLINT(google-build-using-namespace)
 using namespace std::chrono_literals;
 using Protocol::EAcsCommand;
-using Testing::ClientRig;
+using Testing::ClientWireFixture;
 using Testing::EFrame;
 using Testing::Encode;
 using Testing::MakeFrame;
@@ -31,7 +31,7 @@ using Testing::RawFrame;
 using Testing::RawMCS;
 using Testing::RawPeer;
 using Testing::RawServer;
-using Rig = Testing::WebSocketRig;
+using Rig = Testing::WebSocketFixture;
 
 namespace
 {
@@ -41,7 +41,7 @@ constexpr std::string_view REGISTRATION =
     R"({"command":"Registration","transactionId":"t-1","timestamp":"2025-07-02T21:00:00.123+09:00","payload":{}})";
 
 /// A server of ours against a client by hand that is registered.
-class ServerRig : public Rig
+class ServerWireFixture : public Rig
 {
 public:
     std::shared_ptr<RawPeer> peer;
@@ -110,7 +110,7 @@ Protocol::RobotStatusUpdate MakeStatus()
 
 TEST_CASE("13.11 A plan of 75 jobs in three fragments, text or binary, is one request")
 {
-    ClientRig rig;
+    ClientWireFixture rig;
     rig.RegisterWithRaw();
     const EFrame kind = GENERATE(EFrame::Text, EFrame::Binary);
     const Protocol::AcsRequest plan{"p-1", {}, MakePlan(75)};
@@ -133,7 +133,7 @@ TEST_CASE("13.11 A plan of 75 jobs in three fragments, text or binary, is one re
 
 TEST_CASE("1 A server takes text and binary, whole and in fragments, and a PONG that nobody asked for")
 {
-    ServerRig rig;
+    ServerWireFixture rig;
     rig.Listen();
     rig.ConnectRaw();
     rig.peer->Write(MakeFrame({EFrame::Pong, "unasked", true}, true));
@@ -147,7 +147,7 @@ TEST_CASE("1 A server takes text and binary, whole and in fragments, and a PONG 
 
 TEST_CASE("1 Garbage in frames is counted and the connection goes on")
 {
-    ServerRig rig;
+    ServerWireFixture rig;
     rig.RegisterRaw();
     for (const std::string garbage : {"", "no json", "[[[[[[", "{\"command\":", "null"})
     {
@@ -164,7 +164,7 @@ TEST_CASE("1 A frame that announces 100 MB is answered with 1009 before a byte o
     const long before = GetPeakKilobytes();
     SECTION("server")
     {
-        ServerRig rig;
+        ServerWireFixture rig;
         rig.RegisterRaw();
         rig.peer->Write(MakeFrameHead({EFrame::Text, {}, true}, HUGE_FRAME, true));
         CHECK(rig.WaitForCloseCode() == 1009);
@@ -173,7 +173,7 @@ TEST_CASE("1 A frame that announces 100 MB is answered with 1009 before a byte o
     }
     SECTION("client")
     {
-        ClientRig rig;
+        ClientWireFixture rig;
         rig.RegisterWithRaw();
         RawMCS& mcs = *rig.connections.at(0);
         mcs.GetPeer().Write(MakeFrameHead({EFrame::Text, {}, true}, HUGE_FRAME, false));
@@ -187,7 +187,7 @@ TEST_CASE("1 A frame that announces 100 MB is answered with 1009 before a byte o
 
 TEST_CASE("1 Fragments that are too long together are answered with 1009")
 {
-    ServerRig rig;
+    ServerWireFixture rig;
     rig.serverOptions.link.maximumRead = 1'000;
     rig.RegisterRaw();
     rig.peer->Write(MakeFrame({EFrame::Text, std::string(900, ' '), false}, true));
@@ -197,7 +197,7 @@ TEST_CASE("1 Fragments that are too long together are answered with 1009")
 
 TEST_CASE("12.1 By option only the last frame of a fragmented message is read; a long frame is read whole")
 {
-    ServerRig rig;
+    ServerWireFixture rig;
     rig.serverOptions.link.bLastFrameOnly = true;
     rig.RegisterRaw();
     const std::string lost = Encode(MakeReport("lost"));
@@ -218,7 +218,7 @@ TEST_CASE("1 A half-open peer that answers no ping is dropped, by either side")
 {
     SECTION("server")
     {
-        ServerRig rig;
+        ServerWireFixture rig;
         rig.serverOptions.link.pingInterval = 20ms;
         rig.RegisterRaw();
         REQUIRE(rig.WasReached([&rig] { return !rig.GetFirstMcsLoss().empty(); }));
@@ -227,7 +227,7 @@ TEST_CASE("1 A half-open peer that answers no ping is dropped, by either side")
     }
     SECTION("client")
     {
-        ClientRig rig;
+        ClientWireFixture rig;
         rig.clientOptions.link.pingInterval = 20ms;
         rig.RegisterWithRaw();
         REQUIRE(rig.WasLost());
@@ -240,7 +240,7 @@ TEST_CASE("1 A peer that says nothing does not hold a connection for longer than
 {
     SECTION("server")
     {
-        ServerRig rig;
+        ServerWireFixture rig;
         rig.serverOptions.link.handshakeTimeout = 20ms;
         rig.serverOptions.maximumClients = 1;
         rig.Listen();
@@ -263,7 +263,7 @@ TEST_CASE("1 A peer that says nothing does not hold a connection for longer than
 
 TEST_CASE("1 Extra headers and another Host stand in the upgrade; what would break the request is refused")
 {
-    ClientRig rig;
+    ClientWireFixture rig;
     rig.clientOptions.host = "127.0.0.1:9001";
     rig.clientOptions.headers = {{"Authorization", "Bearer secret"}, {"X-Site", "A"}};
     rig.RegisterWithRaw();
@@ -296,7 +296,7 @@ TEST_CASE("1 Extra headers and another Host stand in the upgrade; what would bre
 TEST_CASE(
     "13.10 After RST in mid frame, 403 and 1008 the client connects again, registers, replays and tells its state")
 {
-    ClientRig rig;
+    ClientWireFixture rig;
     // What a connection does with the first report: each kind of loss in turn, then nothing bad any more.
     rig.onConnection = [](std::size_t index, RawMCS& mcs) {
         if (index == 1)
@@ -363,7 +363,7 @@ TEST_CASE(
 
 TEST_CASE("1 A client that is cut off with RST in mid frame is forgotten, and the next one is served")
 {
-    ServerRig rig;
+    ServerWireFixture rig;
     rig.RegisterRaw();
     rig.peer->Write(MakeFrameHead({EFrame::Text, {}, true}, 5'000, true) + "{\"command\":");
     rig.peer->Reset();
@@ -375,7 +375,7 @@ TEST_CASE("1 A client that is cut off with RST in mid frame is forgotten, and th
 
 TEST_CASE("1 Where more waits to be written than the limit the link is dropped and made anew")
 {
-    ClientRig rig;
+    ClientWireFixture rig;
     rig.raw.SetReceiveBuffer(16'384);
     rig.clientOptions.link.maximumQueued = 2'000'000;
     rig.RegisterWithRaw();

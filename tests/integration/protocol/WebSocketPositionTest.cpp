@@ -1,4 +1,4 @@
-#include "ClientRig.hpp"
+#include "ClientWireFixture.hpp"
 #include "RawMCS.hpp"
 
 #include <chrono>
@@ -12,7 +12,7 @@
 using namespace ACS; // NOLINT(google-build-using-namespace)
 using namespace std::chrono_literals;
 using Protocol::EAcsCommand;
-using Testing::ClientRig;
+using Testing::ClientWireFixture;
 using Testing::MakeReport;
 using Testing::RawMCS;
 
@@ -20,7 +20,7 @@ TEST_CASE("13.12 While the socket is blocked positions are left out, and none of
 {
     constexpr std::size_t POSITIONS = 50;
     constexpr std::size_t WINDOW = 12;
-    ClientRig rig;
+    ClientWireFixture rig;
     rig.raw.SetReceiveBuffer(16'384);
     rig.clientOptions.session.positionInterval = 1ms;
     rig.clientOptions.session.ackTimeout = 60s; // nothing is sent again
@@ -60,7 +60,7 @@ TEST_CASE("R14 A position goes out together with the reports of the same moment"
 {
     constexpr std::size_t ROUNDS = 50;
     constexpr std::size_t REPORTS = 8; // With other bytes than the position has: more than two of it.
-    ClientRig rig;
+    ClientWireFixture rig;
     rig.RegisterWithRaw();
     RawMCS& mcs = *rig.connections.at(0);
     for (std::size_t round = 1; round <= ROUNDS; ++round)
@@ -84,7 +84,7 @@ TEST_CASE("5.10 The parts of a position update that was cut go out together, beh
     constexpr std::size_t PARTS = 6;
     constexpr std::size_t REPORTS = 4;
     const Protocol::RobotPositionUpdate part{std::vector<Protocol::RobotPosition>(50, {"LR01", 1.0, 2.0, 90.0, 75.0})};
-    ClientRig rig;
+    ClientWireFixture rig;
     rig.RegisterWithRaw();
     RawMCS& mcs = *rig.connections.at(0);
     for (std::size_t round = 1; round <= ROUNDS; ++round)
@@ -108,7 +108,7 @@ TEST_CASE("5.10 The parts of a position update that was cut go out together, beh
 TEST_CASE("13.12 Positions alone do not pile up in the system either, while the other side takes nothing")
 {
     constexpr std::size_t POSITIONS = 1'000;
-    ClientRig rig;
+    ClientWireFixture rig;
     rig.raw.SetReceiveBuffer(4'096);
     rig.clientOptions.session.positionInterval = 1ms;
     rig.RegisterWithRaw();

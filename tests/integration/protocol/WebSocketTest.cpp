@@ -1,7 +1,7 @@
 #include "CertificateMaker.hpp"
 #include "RawPeer.hpp"
 #include "TemporaryFolder.hpp"
-#include "WebSocketRig.hpp"
+#include "WebSocketFixture.hpp"
 
 #include <chrono>
 #include <memory>
@@ -20,12 +20,12 @@ namespace
 {
 
 /// Over TLS where it is wanted.
-class LinkRig : public Testing::WebSocketRig
+class LinkWireFixture : public Testing::WebSocketFixture
 {
     Testing::TemporaryFolder _folder;
 
 public:
-    explicit LinkRig(bool bSecure = false)
+    explicit LinkWireFixture(bool bSecure = false)
     {
         if (bSecure)
         {
@@ -52,7 +52,7 @@ public:
 
 TEST_CASE("6 Over a real socket, ws and wss: register, plan, Ack, reports, goodbye")
 {
-    LinkRig rig(GENERATE(false, true));
+    LinkWireFixture rig(GENERATE(false, true));
     rig.RegisterBoth();
     CHECK(rig.server->IsRegistered());
 
@@ -89,7 +89,7 @@ TEST_CASE("6 Over a real socket, ws and wss: register, plan, Ack, reports, goodb
 
 TEST_CASE("1 After a cut, ws and wss, the client registers again and what was not acknowledged is fed again")
 {
-    LinkRig rig(GENERATE(false, true));
+    LinkWireFixture rig(GENERATE(false, true));
     rig.RegisterBoth();
     REQUIRE(rig.client->TrySendDurable(MakeReport("a")));
     rig.CloseFromServer(Protocol::CLOSE_ABNORMAL, "cut");
@@ -108,7 +108,7 @@ TEST_CASE("1 After a cut, ws and wss, the client registers again and what was no
 
 TEST_CASE("1 A server that goes and comes back on its port is found again")
 {
-    LinkRig rig;
+    LinkWireFixture rig;
     rig.RegisterBoth();
     rig.server.reset();
     REQUIRE(rig.WasReached([&rig] { return rig.acsEvents.GetAll<Protocol::LinkLost>().size() >= 3; }));
@@ -119,7 +119,7 @@ TEST_CASE("1 A server that goes and comes back on its port is found again")
 
 TEST_CASE("12.3 A close with 1008 is followed by another attempt")
 {
-    LinkRig rig;
+    LinkWireFixture rig;
     rig.RegisterBoth();
     rig.CloseFromServer(1008, "not today");
     REQUIRE(rig.WasReached([&rig] { return rig.acsEvents.GetAll<Protocol::Registered>().size() == 2; }));
@@ -128,7 +128,7 @@ TEST_CASE("12.3 A close with 1008 is followed by another attempt")
 
 TEST_CASE("1 A close reason that is too long for its frame is cut between characters")
 {
-    LinkRig rig;
+    LinkWireFixture rig;
     rig.RegisterBoth();
     std::string reason = "x"; // the 123 bytes of a close frame end within the 41st of the characters that follow
     for (int i = 0; i < 50; ++i)
@@ -143,7 +143,7 @@ TEST_CASE("1 A close reason that is too long for its frame is cut between charac
 
 TEST_CASE("12.3 A second client is refused with 403 where the option says so, and goes on trying")
 {
-    LinkRig rig;
+    LinkWireFixture rig;
     rig.serverOptions.session.bSecondRefused = true;
     rig.RegisterBoth();
     Recorder others;
@@ -158,7 +158,7 @@ TEST_CASE("12.3 A second client is refused with 403 where the option says so, an
 
 TEST_CASE("1 A wrong path is answered with 404, plain HTTP politely, garbage without harm")
 {
-    LinkRig rig;
+    LinkWireFixture rig;
     rig.Listen();
     CHECK(rig.TalkRaw("GET /other HTTP/1.1\r\nHost: x\r\n\r\n").find("HTTP/1.1 404") == 0);
     const std::string plain = rig.TalkRaw("GET /acs/ HTTP/1.1\r\nHost: x\r\n\r\n");
@@ -176,7 +176,7 @@ TEST_CASE("1 A wrong path is answered with 404, plain HTTP politely, garbage wit
 
 TEST_CASE("1 Garbage inside a WebSocket is counted and the connection goes on")
 {
-    LinkRig rig;
+    LinkWireFixture rig;
     rig.RegisterBoth();
     // A plan with a name that no JSON text can hold is written with a replacement, so that the peer can read it.
     REQUIRE(rig.client->TrySendDurable(MakeReport("bad \xFF utf-8")));
@@ -187,7 +187,7 @@ TEST_CASE("1 Garbage inside a WebSocket is counted and the connection goes on")
 
 TEST_CASE("A port in use and a bad address are refused with a sentence that names them")
 {
-    LinkRig rig;
+    LinkWireFixture rig;
     rig.Listen();
     const auto second = rig.TryListen();
     REQUIRE_FALSE(second.has_value());
@@ -199,7 +199,7 @@ TEST_CASE("A port in use and a bad address are refused with a sentence that name
 
 TEST_CASE("An MCS listens on a name, too")
 {
-    LinkRig rig;
+    LinkWireFixture rig;
     rig.serverOptions.address = "localhost";
     rig.Listen();
     CHECK(rig.server->GetPort() != 0);
@@ -207,7 +207,7 @@ TEST_CASE("An MCS listens on a name, too")
 
 TEST_CASE("A URL that is none is refused with a sentence")
 {
-    LinkRig rig;
+    LinkWireFixture rig;
     for (const std::string url :
          {"",
           "http://x/",
@@ -230,7 +230,7 @@ TEST_CASE("A URL that is none is refused with a sentence")
 
 TEST_CASE("After destruction, ws and wss, no handler is called and nothing is left to run")
 {
-    LinkRig rig(GENERATE(false, true));
+    LinkWireFixture rig(GENERATE(false, true));
     rig.RegisterBoth();
     REQUIRE(rig.client->TrySendDurable(MakeReport("a")));
     REQUIRE(rig.server->TrySend(rig.server->MakeRequest(Protocol::RequestAcsPlans{})));
@@ -248,7 +248,7 @@ TEST_CASE("After destruction, ws and wss, no handler is called and nothing is le
 
 TEST_CASE("An observer sees every text of both directions before the session judges it")
 {
-    LinkRig rig;
+    LinkWireFixture rig;
     std::vector<std::string> seen;
     rig.serverOptions.onWire =
         [&seen](ProtocolBeast::EWireDirection direction, Protocol::ConnectionID connection, std::string_view text) {

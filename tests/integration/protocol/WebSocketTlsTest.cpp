@@ -2,7 +2,7 @@
 #include "RawPeer.hpp"
 #include "RawServer.hpp"
 #include "TemporaryFolder.hpp"
-#include "WebSocketRig.hpp"
+#include "WebSocketFixture.hpp"
 
 #include <openssl/bio.h>
 #include <openssl/ssl.h>
@@ -18,7 +18,7 @@ using namespace ACS; // NOLINT(google-build-using-namespace)
 using namespace std::chrono_literals;
 using ProtocolBeast::TlsOptions;
 using Testing::CertificateFiles;
-using Testing::CertificateWish;
+using Testing::CertificateRequest;
 using Testing::RawPeer;
 using Testing::RawServer;
 
@@ -26,7 +26,7 @@ namespace
 {
 
 /// A CA that both sides know, one that nobody knows, and a server with a good certificate.
-class TlsRig : public Testing::WebSocketRig
+class TLSFixture : public Testing::WebSocketFixture
 {
     Testing::TemporaryFolder _folder;
 
@@ -35,7 +35,7 @@ public:
     CertificateFiles ca = maker.MakeCA("ca");
     CertificateFiles otherCA = maker.MakeCA("other");
 
-    TlsRig()
+    TLSFixture()
     {
         serverOptions.tls.emplace();
         UseOnServer(maker.Make(ca, {}));
@@ -93,9 +93,12 @@ public:
     }
 };
 
-CertificateWish MakeWish(const std::string& name, bool bRSA = false, const std::string& passphrase = {})
+CertificateRequest MakeCertificateRequest(
+    const std::string& name,
+    bool bRSA = false,
+    const std::string& passphrase = {})
 {
-    CertificateWish wish;
+    CertificateRequest wish;
     wish.alternativeName = name;
     wish.bRSA = bRSA;
     wish.passphrase = passphrase;
@@ -103,9 +106,9 @@ CertificateWish MakeWish(const std::string& name, bool bRSA = false, const std::
 }
 
 /// A certificate that is good from so many hours from now for a day.
-CertificateWish MakeWish(std::chrono::hours from)
+CertificateRequest MakeCertificateRequest(std::chrono::hours from)
 {
-    CertificateWish wish;
+    CertificateRequest wish;
     wish.validFrom = from;
     wish.validTo = from + 24h;
     return wish;
@@ -135,20 +138,20 @@ std::string MakeOldHello()
 
 TEST_CASE("1 wss: a server is taken by its name, its address or the name that it should have")
 {
-    TlsRig rig;
+    TLSFixture rig;
     std::string host = "localhost";
     SECTION("name")
     {
-        rig.UseOnServer(rig.maker.Make(rig.ca, MakeWish("DNS:localhost")));
+        rig.UseOnServer(rig.maker.Make(rig.ca, MakeCertificateRequest("DNS:localhost")));
     }
     SECTION("address")
     {
-        rig.UseOnServer(rig.maker.Make(rig.ca, MakeWish("IP:127.0.0.1")));
+        rig.UseOnServer(rig.maker.Make(rig.ca, MakeCertificateRequest("IP:127.0.0.1")));
         host = "127.0.0.1";
     }
     SECTION("given name")
     {
-        rig.UseOnServer(rig.maker.Make(rig.ca, MakeWish("DNS:mcs.example")));
+        rig.UseOnServer(rig.maker.Make(rig.ca, MakeCertificateRequest("DNS:mcs.example")));
         rig.clientOptions.tls.serverName = "mcs.example";
         host = "127.0.0.1";
     }
@@ -160,7 +163,7 @@ TEST_CASE("1 wss: a server is taken by its name, its address or the name that it
     }
     SECTION("RSA")
     {
-        rig.UseOnServer(rig.maker.Make(rig.ca, MakeWish("DNS:localhost", true)));
+        rig.UseOnServer(rig.maker.Make(rig.ca, MakeCertificateRequest("DNS:localhost", true)));
     }
     rig.Listen();
     rig.ConnectTo(rig.GetURL("/acs/", host));
@@ -169,7 +172,7 @@ TEST_CASE("1 wss: a server is taken by its name, its address or the name that it
 
 TEST_CASE("1 wss without a CA file trusts the CAs of the system and no other")
 {
-    TlsRig rig;
+    TLSFixture rig;
     rig.clientOptions.tls.caFile.clear();
     SECTION("unknown there")
     {
@@ -187,7 +190,7 @@ TEST_CASE("1 wss without a CA file trusts the CAs of the system and no other")
 
 TEST_CASE("1 wss: each wrong server is refused with a sentence that says what is wrong with it")
 {
-    TlsRig rig;
+    TLSFixture rig;
     const std::string start = "the TLS handshake failed: the server's certificate ";
     std::string host = "localhost";
     std::string wanted;
@@ -203,22 +206,22 @@ TEST_CASE("1 wss: each wrong server is refused with a sentence that says what is
     }
     SECTION("expired")
     {
-        rig.UseOnServer(rig.maker.Make(rig.ca, MakeWish(-48h)));
+        rig.UseOnServer(rig.maker.Make(rig.ca, MakeCertificateRequest(-48h)));
         wanted = "has expired (or this machine's clock is wrong)";
     }
     SECTION("not valid yet")
     {
-        rig.UseOnServer(rig.maker.Make(rig.ca, MakeWish(24h)));
+        rig.UseOnServer(rig.maker.Make(rig.ca, MakeCertificateRequest(24h)));
         wanted = "is not valid yet (or this machine's clock is wrong)";
     }
     SECTION("wrong name")
     {
-        rig.UseOnServer(rig.maker.Make(rig.ca, MakeWish("DNS:other.example,IP:127.0.0.1")));
+        rig.UseOnServer(rig.maker.Make(rig.ca, MakeCertificateRequest("DNS:other.example,IP:127.0.0.1")));
         wanted = "is for another name than localhost";
     }
     SECTION("wrong address")
     {
-        rig.UseOnServer(rig.maker.Make(rig.ca, MakeWish("DNS:localhost,IP:127.0.0.2")));
+        rig.UseOnServer(rig.maker.Make(rig.ca, MakeCertificateRequest("DNS:localhost,IP:127.0.0.2")));
         host = "127.0.0.1";
         wanted = "is for another name than 127.0.0.1";
     }
@@ -227,7 +230,7 @@ TEST_CASE("1 wss: each wrong server is refused with a sentence that says what is
 
 TEST_CASE("1 wss: a server with a client CA takes only those who show its certificate, and both sides say why")
 {
-    TlsRig rig;
+    TLSFixture rig;
     rig.serverOptions.tls->caFile = rig.ca.certificate;
     const std::string start = "the TLS handshake failed: ";
     SECTION("a good one")
@@ -250,7 +253,7 @@ TEST_CASE("1 wss: a server with a client CA takes only those who show its certif
     }
     SECTION("expired")
     {
-        rig.UseOnClient(rig.maker.Make(rig.ca, MakeWish(-48h)));
+        rig.UseOnClient(rig.maker.Make(rig.ca, MakeCertificateRequest(-48h)));
         CHECK(Contains(rig.ConnectInVain(), "the other side reports that our certificate has expired"));
         CHECK(rig.WasLogged(start + "the client's certificate has expired (or this machine's clock is wrong)"));
     }
@@ -258,7 +261,7 @@ TEST_CASE("1 wss: a server with a client CA takes only those who show its certif
 
 TEST_CASE("1 wss against ws, and ws against wss, fail with a sentence")
 {
-    TlsRig rig;
+    TLSFixture rig;
     SECTION("client wss, server ws")
     {
         rig.serverOptions.tls.reset();
@@ -281,7 +284,7 @@ TEST_CASE("1 wss against ws, and ws against wss, fail with a sentence")
 
 TEST_CASE("1 wss: garbage, plain HTTP and old TLS do a server no harm")
 {
-    TlsRig rig;
+    TLSFixture rig;
     rig.serverOptions.maximumClients = 1;
     rig.Listen();
     const std::string bad = GENERATE(
@@ -298,7 +301,7 @@ TEST_CASE("1 wss: garbage, plain HTTP and old TLS do a server no harm")
 
 TEST_CASE("1 wss: TLS before 1.2 is refused")
 {
-    TlsRig rig;
+    TLSFixture rig;
     rig.Listen();
     const auto peer = RawPeer::Connect(rig.io, rig.serverOptions.port);
     peer->Write(MakeOldHello());
@@ -311,7 +314,7 @@ TEST_CASE("1 wss: TLS before 1.2 is refused")
 
 TEST_CASE("1 wss: a peer that says nothing does not hold a connection for longer than the handshake may take")
 {
-    TlsRig rig;
+    TLSFixture rig;
     SECTION("server")
     {
         rig.serverOptions.link.handshakeTimeout = 20ms;
@@ -339,11 +342,11 @@ TEST_CASE("1 wss: a peer that says nothing does not hold a connection for longer
 
 TEST_CASE("1 wss: files that cannot be used are an error of Create, with path and reason")
 {
-    TlsRig rig;
+    TLSFixture rig;
     const CertificateFiles good = rig.maker.Make(rig.ca, {});
     const CertificateFiles other = rig.maker.Make(rig.ca, {});
-    const CertificateFiles rsa = rig.maker.Make(rig.ca, MakeWish("DNS:x", true));
-    const CertificateFiles locked = rig.maker.Make(rig.ca, MakeWish("DNS:x", false, "secret"));
+    const CertificateFiles rsa = rig.maker.Make(rig.ca, MakeCertificateRequest("DNS:x", true));
+    const CertificateFiles locked = rig.maker.Make(rig.ca, MakeCertificateRequest("DNS:x", false, "secret"));
     const std::string garbage = rig.maker.WriteFile("garbage", "no PEM\n");
     const std::string empty = rig.maker.WriteFile("empty", "");
     struct Row
@@ -387,7 +390,7 @@ TEST_CASE("1 wss: files that cannot be used are an error of Create, with path an
 
 TEST_CASE("Options for TLS with a ws URL are refused: nobody who gives them wants to talk in the open")
 {
-    TlsRig rig;
+    TLSFixture rig;
     rig.clientOptions.url = "ws://localhost/acs/";
     const auto refused = rig.TryMakeClient(rig.acsEvents);
     REQUIRE_FALSE(refused.has_value());

@@ -23,7 +23,7 @@ protected:
     CertificateFiles _ca = _maker.MakeCA("ca");
     boost::asio::io_context _context;
 
-    [[nodiscard]] std::string MakeSettings(const CertificateWish& wish, const std::string& more = {})
+    [[nodiscard]] std::string MakeSettings(const CertificateRequest& wish, const std::string& more = {})
     {
         const CertificateFiles files = _maker.Make(_ca, wish);
         return "allow_anonymous true\ncafile " + _ca.certificate + "\ncertfile " + files.certificate + "\nkeyfile "
@@ -84,7 +84,7 @@ TEST_CASE_METHOD(
     TlsTest,
     "2 A broker whose certificate does not stand up is not talked to, and the log says where to look")
 {
-    CertificateWish wish;
+    CertificateRequest wish;
     std::optional<MosquittoTLS> tls = MosquittoTLS{_ca.certificate, {}, {}};
     SECTION("by another authority")
     {

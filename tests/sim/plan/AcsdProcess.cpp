@@ -27,7 +27,7 @@ Protocol::SessionOptions MakeSessionOptions()
 
 } // namespace
 
-AcsdProcess::AcsdProcess(const Surroundings& around, CrashHandler onCrash, CommitHandler onCommit)
+AcsdProcess::AcsdProcess(const Dependencies& around, CrashHandler onCrash, CommitHandler onCommit)
     : _around(around),
       _onCrash(std::move(onCrash)),
       _onCommit(std::move(onCommit)),
@@ -67,7 +67,7 @@ void AcsdProcess::Begin()
     {
         _hands.emplace(
             robotID,
-            robot->MakeHand(_around.number, [this, robotID = robotID](const Planning::RobotEvent& event) {
+            robot->MakeConnection(_around.number, [this, robotID = robotID](const Planning::RobotEvent& event) {
                 TakeRobotEvent(robotID, event);
             }));
     }
@@ -232,7 +232,7 @@ void AcsdProcess::CommandRobot(const Planning::CommandRobot& command)
     _around.trace.Tell("acsd: {} {}", command.robotID, Describe(command.command));
     const auto found = _hands.find(command.robotID);
     assert(found != _hands.end());
-    IRobotHand& hand = *found->second;
+    IRobotConnection& hand = *found->second;
     const Mutator::CommandOutcome outcome = _mutator.OnCommand(command);
     for (const Planning::RobotCommand& sent : outcome.sent)
     {

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "ChanceModel.hpp"
 #include "CrashableStore.hpp"
-#include "Dice.hpp"
 #include "EMutation.hpp"
-#include "IRobotHand.hpp"
+#include "IRobotConnection.hpp"
 #include "ISimulatedRobot.hpp"
 #include "mcs/IMcsOutput.hpp"
 #include "mcs/McsGateway.hpp"
@@ -12,7 +12,7 @@
 #include "TextNetwork.hpp"
 #include "TimerBank.hpp"
 #include "Trace.hpp"
-#include "WorkWitness.hpp"
+#include "WorkChecker.hpp"
 #include <acs/plan/PlanEngine.hpp>
 #include <acs/plan/PlanEngineHost.hpp>
 #include <acs/protocol/AcsSession.hpp>
@@ -33,16 +33,16 @@ class AcsdProcess final : private Acsd::IMcsOutput, private ITextPeer
 {
 public:
     /// What it lives in; everything outlives it.
-    struct Surroundings
+    struct Dependencies
     {
         Timeline& timeline;
         Trace& trace;
-        Dice& dice;      ///< For latencies and crashes.
-        Dice& ownRandom; ///< acsd's source of ids.
+        ChanceModel& dice;      ///< For latencies and crashes.
+        ChanceModel& ownRandom; ///< acsd's source of ids.
         CrashableStore& store;
         TextNetwork& network;
         std::map<std::string, std::unique_ptr<ISimulatedRobot>>& robots;
-        WorkWitness& witness;
+        WorkChecker& witness;
         const Scenario& scenario;
         EMutation mutation = EMutation::None;
         std::uint64_t number = 0; ///< Of this start.
@@ -54,7 +54,7 @@ public:
     using CommitHandler = std::function<void()>;
 
 private:
-    Surroundings _around;
+    Dependencies _around;
     CrashHandler _onCrash;
     CommitHandler _onCommit;
     bool _bDead = false;
@@ -64,7 +64,7 @@ private:
     Planning::PlanEngineHost _host;
     Protocol::AcsSession _session;
     Acsd::McsGateway _gateway;
-    std::map<std::string, std::unique_ptr<IRobotHand>> _hands;
+    std::map<std::string, std::unique_ptr<IRobotConnection>> _hands;
 
     TimerBank<Planning::EngineTimer> _engineTimers;
     TimerBank<Protocol::ESessionTimer> _sessionTimers;
@@ -76,7 +76,7 @@ private:
     Mutator _mutator;
 
 public:
-    AcsdProcess(const Surroundings& around, CrashHandler onCrash, CommitHandler onCommit);
+    AcsdProcess(const Dependencies& around, CrashHandler onCrash, CommitHandler onCommit);
     AcsdProcess(const AcsdProcess&) = delete;
     AcsdProcess& operator=(const AcsdProcess&) = delete;
     ~AcsdProcess() override;

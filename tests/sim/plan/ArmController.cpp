@@ -63,7 +63,7 @@ ArmController::Machine::Machine(
 }
 
 ArmController::ArmController(
-    const Surroundings& around,
+    const Dependencies& around,
     const Seeds& seeds,
     std::string robotID,
     bool bFaulty,
@@ -199,7 +199,7 @@ void ArmController::WatchProgram()
     {
         _around.trace.Violate("{} drives while its arm executes a job", _robotID);
     }
-    _habits.Start(EHabit::Look, LOOK_INTERVAL, [this] { Look({}); });
+    _habits.Start(EBehaviour::Look, LOOK_INTERVAL, [this] { Look({}); });
 }
 
 void ArmController::CheckProgram(const Planning::StartJob& job)
@@ -265,10 +265,10 @@ void ArmController::DropSessions()
 
 void ArmController::WakeAt(std::optional<Core::SteadyTime> timeOrNull)
 {
-    _habits.Cancel(EHabit::Wake);
+    _habits.Cancel(EBehaviour::Wake);
     if (timeOrNull.has_value())
     {
-        _habits.Start(EHabit::Wake, *timeOrNull - _around.timeline.GetNow().steady, [this] {
+        _habits.Start(EBehaviour::Wake, *timeOrNull - _around.timeline.GetNow().steady, [this] {
             _machine->faults.Advance(_around.timeline.GetNow());
         });
     }
@@ -371,7 +371,7 @@ void ArmController::Recover()
 void ArmController::SetRight()
 {
     static_cast<void>(GetMachine().SwitchMotorOn());
-    _habits.Start(EHabit::Hand, 1500ms, [this] {
+    _habits.Start(EBehaviour::Hand, 1500ms, [this] {
         Look({});
         OpenStreamSim::ControllerMachine& machine = GetMachine();
         if (!std::exchange(_bHaltedByFault, false) || _running.empty() || _bStopAsked || machine.IsPlaying())
@@ -415,7 +415,7 @@ void ArmController::Restart()
     UpdateNetwork();
     if (bForgets)
     {
-        _habits.Cancel(EHabit::Wake);
+        _habits.Cancel(EBehaviour::Wake);
         SwitchOn();
     }
     else
@@ -423,7 +423,7 @@ void ArmController::Restart()
         _bHaltedByFault = _bHaltedByFault || GetMachine().IsPlaying();
         GetMachine().SwitchMotorOff();
     }
-    _habits.Start(EHabit::Power, _dice.GetBetween(1s, 8s), [this] {
+    _habits.Start(EBehaviour::Power, _dice.GetBetween(1s, 8s), [this] {
         _bPowered = true;
         UpdateNetwork();
         SetRight();

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ArmConnection.hpp"
-#include "Dice.hpp"
+#include "ChanceModel.hpp"
 #include "EMutation.hpp"
 #include "openstream-sim/api/FaultyService.hpp"
 #include "openstream-sim/controller/ControllerFaults.hpp"
@@ -10,7 +10,7 @@
 #include "TextNetwork.hpp"
 #include "TimerBank.hpp"
 #include "Trace.hpp"
-#include "WorkWitness.hpp"
+#include "WorkChecker.hpp"
 
 #include <cstdint>
 #include <deque>
@@ -29,19 +29,19 @@ class ArmController final : private ITextPeer, private OpenStreamSim::IFaultHost
 {
 public:
     /// What it lives in; everything outlives it.
-    struct Surroundings
+    struct Dependencies
     {
         Timeline& timeline;
         Trace& trace;
-        WorkWitness& witness;
+        WorkChecker& witness;
         EMutation mutation;
         bool bBadRadio; ///< Connections break when there is something to lose.
     };
 
     struct Seeds
     {
-        DiceSeed controller;
-        DiceSeed network;
+        ChanceSeed controller;
+        ChanceSeed network;
     };
 
 private:
@@ -62,7 +62,7 @@ private:
         std::int32_t failed = 0;
     };
 
-    enum class EHabit : std::uint8_t
+    enum class EBehaviour : std::uint8_t
     {
         Wake, ///< For the faults.
         Look, ///< While a program runs.
@@ -70,16 +70,16 @@ private:
         Hand,
     };
 
-    Surroundings _around;
-    Dice _dice;
-    Dice _clientRandom;
+    Dependencies _around;
+    ChanceModel _dice;
+    ChanceModel _clientRandom;
     TextNetwork _network;
     std::string _robotID;
     bool _bFaulty;
     std::function<bool()> _isDriving;
     std::unique_ptr<Machine> _machine;
     std::map<Protocol::ConnectionID, std::unique_ptr<ArmConnection>> _connections;
-    TimerBank<EHabit> _habits;
+    TimerBank<EBehaviour> _habits;
     std::map<Protocol::ConnectionID, std::deque<std::string>> _starts; ///< CommandIDs of those that were sent.
     Core::SteadyTime _lastStartAt{};                                   ///< Sent.
     Counters _seen;
@@ -93,7 +93,7 @@ private:
 public:
     /// IsDriving tells whether the base of the arm moves.
     ArmController(
-        const Surroundings& around,
+        const Dependencies& around,
         const Seeds& seeds,
         std::string robotID,
         bool bFaulty,

@@ -1,6 +1,6 @@
 #include "ArmRobot.hpp"
 
-#include "VehicleHand.hpp"
+#include "VehicleConnection.hpp"
 
 #include <utility>
 
@@ -8,7 +8,7 @@ namespace ACS::Simulation
 {
 
 ArmRobot::ArmRobot(
-    const VehicleRobot::Surroundings& around,
+    const VehicleRobot::Dependencies& around,
     const Seeds& seeds,
     const std::string& robotID,
     const std::string& nodeID,
@@ -27,9 +27,9 @@ ArmRobot::ArmRobot(
 {
 }
 
-std::unique_ptr<IRobotHand> ArmRobot::MakeHand(std::uint64_t /*number*/, EventHandler handler)
+std::unique_ptr<IRobotConnection> ArmRobot::MakeConnection(std::uint64_t /*number*/, EventHandler handler)
 {
-    return std::make_unique<VehicleHand>(_timeline, _broker, _robot, std::move(handler), &_arm);
+    return std::make_unique<VehicleConnection>(_timeline, _broker, _robot, std::move(handler), &_arm);
 }
 
 /// Mostly both parts have one radio.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ArmController.hpp"
-#include "Dice.hpp"
+#include "ChanceModel.hpp"
 #include "ISimulatedRobot.hpp"
 #include "VehicleRobot.hpp"
 
@@ -17,16 +17,16 @@ class ArmRobot final : public ISimulatedRobot
 public:
     struct Seeds
     {
-        DiceSeed base;
+        ChanceSeed base;
         ArmController::Seeds arm;
-        DiceSeed trouble; ///< Of which part has it.
+        ChanceSeed trouble; ///< Of which part has it.
     };
 
 private:
     Timeline& _timeline;
     MqttBroker& _broker;
     const Planning::RobotOptions& _robot;
-    Dice _dice;
+    ChanceModel _dice;
     VehicleRobot _base;
     mutable ArmController _arm; ///< Whoever looks brings it to the present.
     bool _bReachable = true;
@@ -34,13 +34,13 @@ private:
 
 public:
     ArmRobot(
-        const VehicleRobot::Surroundings& around,
+        const VehicleRobot::Dependencies& around,
         const Seeds& seeds,
         const std::string& robotID,
         const std::string& nodeID,
         bool bFaulty);
 
-    [[nodiscard]] std::unique_ptr<IRobotHand> MakeHand(std::uint64_t number, EventHandler handler) override;
+    [[nodiscard]] std::unique_ptr<IRobotConnection> MakeConnection(std::uint64_t number, EventHandler handler) override;
     void SetReachable(bool bReachable) override;
     [[nodiscard]] bool IsReachable() const override;
     void Disturb() override;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "IRobotHand.hpp"
+#include "IRobotConnection.hpp"
 #include <acs/plan/RobotEvent.hpp>
 
 #include <cstdint>
@@ -23,7 +23,9 @@ public:
     virtual ~ISimulatedRobot() = default;
 
     /// The adapter of a new acsd, whose number is higher than those before.
-    [[nodiscard]] virtual std::unique_ptr<IRobotHand> MakeHand(std::uint64_t number, EventHandler handler) = 0;
+    [[nodiscard]] virtual std::unique_ptr<IRobotConnection> MakeConnection(
+        std::uint64_t number,
+        EventHandler handler) = 0;
 
     /// Whether acsd can reach it.
     virtual void SetReachable(bool bReachable) = 0;

@@ -77,7 +77,7 @@ std::optional<Planning::EPlanControl> GetControlOrNull(Protocol::EAcsCommand com
     return std::nullopt;
 }
 
-McsJudge::McsJudge(Trace& trace, const CrashableStore& store, const WorkWitness& witness)
+McsJudge::McsJudge(Trace& trace, const CrashableStore& store, const WorkChecker& witness)
     : _trace(trace),
       _store(store),
       _witness(witness)
@@ -276,7 +276,7 @@ void McsJudge::CheckCompleted(const std::string& planID, const PlanView& plan)
         {
             _trace.Violate("plan {} is Completed, but its step {} is {}", planID, stepNo, GetText(step.status));
         }
-        const WorkWitness::JobTruth truth = _witness.GetTruth(planID, stepNo, {});
+        const WorkChecker::JobTruth truth = _witness.GetTruth(planID, stepNo, {});
         if (step.jobs.empty() && (truth.finished == 0 || !truth.bMoved))
         {
             _trace.Violate("plan {} is Completed, but no robot executed its step {}", planID, stepNo);
@@ -351,7 +351,7 @@ void McsJudge::TakeJobReport(const Protocol::JobReport& report)
     {
         _trace.Violate("job {} of plan {} is reported while its step is not InProgress", report.jobID, report.planID);
     }
-    const WorkWitness::JobTruth truth = _witness.GetTruth(report.planID, report.stepNo, report.jobID);
+    const WorkChecker::JobTruth truth = _witness.GetTruth(report.planID, report.stepNo, report.jobID);
     const bool bNeedsEnd = report.status == Protocol::EJobStatus::Completed;
     const bool bNeedsBegin = bNeedsEnd || report.status == Protocol::EJobStatus::InProgress;
     if ((bNeedsEnd && truth.finished == 0) || (bNeedsBegin && truth.begun == 0))

@@ -2,7 +2,7 @@
 
 #include "CrashableStore.hpp"
 #include "Trace.hpp"
-#include "WorkWitness.hpp"
+#include "WorkChecker.hpp"
 #include <acs/plan/EPlanControl.hpp>
 #include <acs/protocol/AcsMessage.hpp>
 
@@ -56,7 +56,7 @@ private:
 
     Trace& _trace;
     const CrashableStore& _store;
-    const WorkWitness& _witness;
+    const WorkChecker& _witness;
     std::map<std::string, PlanView> _plans;
     std::map<std::pair<std::string, Planning::EPlanControl>, ControlView> _controls;
     std::map<std::string, Protocol::AcsPayload> _seen;
@@ -66,7 +66,7 @@ private:
     std::vector<Protocol::ErrorReport> _alarms;
 
 public:
-    McsJudge(Trace& trace, const CrashableStore& store, const WorkWitness& witness);
+    McsJudge(Trace& trace, const CrashableStore& store, const WorkChecker& witness);
 
     /// A plan that will be sent; a good one is one that can be done.
     void NotePlan(const Protocol::ExecutionPlan& plan, bool bGood);

@@ -68,7 +68,7 @@ McsSide::McsSide(
     Trace& trace,
     TextNetwork& network,
     McsJudge& judge,
-    WorkWitness& witness,
+    WorkChecker& witness,
     const Scenario& scenario)
     : _timeline(timeline),
       _trace(trace),
@@ -77,11 +77,11 @@ McsSide::McsSide(
       _witness(witness),
       _scenario(scenario),
       _dice({scenario.seed, DICE_PART}),
-      _idDice({scenario.seed, ID_DICE_PART}),
+      _idChance({scenario.seed, ID_DICE_PART}),
       _session(
           Protocol::McsSessionOptions{},
           McsSim::McsBehaviour{},
-          _idDice,
+          _idChance,
           [this](std::chrono::milliseconds delay) {
               _delays.Start(EDelay::Ack, delay, [this] {
                   Run([this](Core::Now now, auto& out) { _session.SendDelayed(now, out); });
@@ -99,13 +99,13 @@ void McsSide::Begin()
     SendPlan();
     if (_scenario.Has(EFault::Controls))
     {
-        _habits.Start(EHabit::SendControl, _dice.GetBetween(0s, 20s), [this] { SendRandomControl(); });
+        _habits.Start(EBehaviour::SendControl, _dice.GetBetween(0s, 20s), [this] { SendRandomControl(); });
     }
     if (_scenario.Has(EFault::Mcs))
     {
-        _habits.Start(EHabit::Misbehave, _dice.GetBetween(0s, 40s), [this] { Misbehave(); });
+        _habits.Start(EBehaviour::Misbehave, _dice.GetBetween(0s, 40s), [this] { Misbehave(); });
     }
-    _habits.Start(EHabit::Ask, _dice.GetBetween(10s, 90s), [this] { Ask(); });
+    _habits.Start(EBehaviour::Ask, _dice.GetBetween(10s, 90s), [this] { Ask(); });
 }
 
 void McsSide::BeginSettling()
@@ -117,7 +117,7 @@ void McsSide::BeginSettling()
     {
         SendPlan();
     }
-    _habits.Cancel(EHabit::SendPlan);
+    _habits.Cancel(EBehaviour::SendPlan);
     // What got no Ack for so long that acsd gave it up is sent again over the next connection only (section 9).
     Run([this](Core::Now /*now*/, auto& out) { _session.Drop(Protocol::CLOSE_NORMAL, "once more", out); });
     Settle();
@@ -268,7 +268,7 @@ void McsSide::SendPlan()
     Send(request);
     if (_planIDs.size() < _scenario.planCount)
     {
-        _habits.Start(EHabit::SendPlan, _dice.GetBetween(0s, _dice.IsHit(400) ? 1s : 30s), [this] { SendPlan(); });
+        _habits.Start(EBehaviour::SendPlan, _dice.GetBetween(0s, _dice.IsHit(400) ? 1s : 30s), [this] { SendPlan(); });
     }
 }
 
@@ -297,7 +297,7 @@ void McsSide::SendRandomControl()
     {
         SendControl(_dice.Pick(controls), planID);
     }
-    _habits.Start(EHabit::SendControl, _dice.GetBetween(0s, _dice.IsHit(300) ? 2s : 30s), [this] {
+    _habits.Start(EBehaviour::SendControl, _dice.GetBetween(0s, _dice.IsHit(300) ? 2s : 30s), [this] {
         SendRandomControl();
     });
 }
@@ -317,7 +317,7 @@ void McsSide::Ask()
     {
         ask(Protocol::RequestAcsPlanHistory{_planIDs});
     }
-    _habits.Start(EHabit::Ask, _dice.GetBetween(10s, 90s), [this] { Ask(); });
+    _habits.Start(EBehaviour::Ask, _dice.GetBetween(10s, 90s), [this] { Ask(); });
 }
 
 void McsSide::Misbehave()
@@ -352,7 +352,7 @@ void McsSide::Misbehave()
             });
             break;
     }
-    _habits.Start(EHabit::Misbehave, _dice.GetBetween(1s, 60s), [this] { Misbehave(); });
+    _habits.Start(EBehaviour::Misbehave, _dice.GetBetween(1s, 60s), [this] { Misbehave(); });
 }
 
 /// What is paused is resumed, again and again, until it is not.
@@ -366,7 +366,7 @@ void McsSide::Settle()
     {
         SendControl(Planning::EPlanControl::Resume, planID);
     }
-    _habits.Start(EHabit::Settle, 60s, [this] { Settle(); });
+    _habits.Start(EBehaviour::Settle, 60s, [this] { Settle(); });
 }
 
 } // namespace ACS::Simulation

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Dice.hpp"
+#include "ChanceModel.hpp"
 #include "mcs-sim/wire/SimulatedMcsSession.hpp"
 #include "McsJudge.hpp"
 #include "Scenario.hpp"
@@ -22,7 +22,7 @@ namespace ACS::Simulation
 /// own Acks back. All that it sees goes to the judge.
 class McsSide final : public ITextPeer
 {
-    enum class EHabit : std::uint8_t
+    enum class EBehaviour : std::uint8_t
     {
         SendPlan,
         SendControl,
@@ -41,14 +41,14 @@ class McsSide final : public ITextPeer
     Trace& _trace;
     TextNetwork& _network;
     McsJudge& _judge;
-    WorkWitness& _witness;
+    WorkChecker& _witness;
     const Scenario& _scenario;
-    Dice _dice;
-    Dice _idDice;
+    ChanceModel _dice;
+    ChanceModel _idChance;
     McsSim::SimulatedMcsSession _session;
     TimerBank<Protocol::ESessionTimer> _sessionTimers;
     TimerBank<EDelay> _delays; ///< Not ended with the habits.
-    TimerBank<EHabit> _habits;
+    TimerBank<EBehaviour> _habits;
     std::deque<Protocol::SessionAction> _actions;
     bool _bActing = false;
     std::vector<std::string> _planIDs;                       ///< Of all that were sent.
@@ -61,7 +61,7 @@ public:
         Trace& trace,
         TextNetwork& network,
         McsJudge& judge,
-        WorkWitness& witness,
+        WorkChecker& witness,
         const Scenario& scenario);
 
     void Begin();

@@ -13,8 +13,8 @@ using namespace std::chrono_literals;
 MemoryRobot::MemoryRobot(
     Timeline& timeline,
     Trace& trace,
-    WorkWitness& witness,
-    const DiceSeed& seed,
+    WorkChecker& witness,
+    const ChanceSeed& seed,
     std::string robotID,
     std::string nodeID)
     : _trace(trace),
@@ -47,7 +47,7 @@ void MemoryRobot::Receive(const RobotMessage& message)
             [this](const Planning::CancelDrive& cancel) { CancelDrive(cancel); },
             [this](const Planning::StartJob& job) { BeginJob(job); },
             [this](const JobCancellation& cancel) { CancelJob(cancel.commandID); },
-            [this](const PauseWish& wish) {
+            [this](const PauseRequest& wish) {
                 SetPause(wish);
             }},
         message);
@@ -251,13 +251,13 @@ void MemoryRobot::CancelJob(const std::string& commandID)
     }
 }
 
-void MemoryRobot::SetPause(const PauseWish& wish)
+void MemoryRobot::SetPause(const PauseRequest& wish)
 {
-    if (wish.number <= _snapshot.pauseWish)
+    if (wish.number <= _snapshot.pauseRequest)
     {
         return;
     }
-    _snapshot.pauseWish = wish.number;
+    _snapshot.pauseRequest = wish.number;
     _bPauseAsked = wish.bPause;
     if (!wish.bPause)
     {

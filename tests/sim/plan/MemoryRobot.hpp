@@ -1,10 +1,10 @@
 #pragma once
 
-#include "Dice.hpp"
+#include "ChanceModel.hpp"
 #include "RobotMessages.hpp"
 #include "TimerBank.hpp"
 #include "Trace.hpp"
-#include "WorkWitness.hpp"
+#include "WorkChecker.hpp"
 
 #include <functional>
 #include <optional>
@@ -37,8 +37,8 @@ private:
     };
 
     Trace& _trace;
-    WorkWitness& _witness;
-    Dice _dice;
+    WorkChecker& _witness;
+    ChanceModel _dice;
     TimerBank<ETimer> _timers;
     std::string _robotID;
     Nature _nature;
@@ -63,8 +63,8 @@ public:
     MemoryRobot(
         Timeline& timeline,
         Trace& trace,
-        WorkWitness& witness,
-        const DiceSeed& seed,
+        WorkChecker& witness,
+        const ChanceSeed& seed,
         std::string robotID,
         std::string nodeID);
 
@@ -86,7 +86,7 @@ private:
     void CancelDrive(const Planning::CancelDrive& cancel);
     void BeginJob(const Planning::StartJob& job);
     void CancelJob(const std::string& commandID);
-    void SetPause(const PauseWish& wish);
+    void SetPause(const PauseRequest& wish);
     void GoOn();
     void OnMoveTimer();
     void OnJobTimer();

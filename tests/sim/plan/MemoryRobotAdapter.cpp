@@ -71,10 +71,10 @@ void MemoryRobotAdapter::Handle(const Planning::RobotCommand& command, Core::Now
                 }
             },
             [this](const Planning::Pause&) {
-                Send(PauseWish{++_number, true});
+                Send(PauseRequest{++_number, true});
             },
             [this](const Planning::Resume&) {
-                Send(PauseWish{++_number, false});
+                Send(PauseRequest{++_number, false});
             },
             [](const Planning::StartCharging&) {}, // its battery lasts
             [](const Planning::StopCharging&) {
@@ -182,8 +182,8 @@ bool MemoryRobotAdapter::IsConfirmed(const RobotMessage& message) const
                 const auto found = _snapshot->jobs.find(cancel.commandID);
                 return found != _snapshot->jobs.end() && found->second.state != EJobState::Waiting;
             },
-            [&](const PauseWish& wish) {
-                return _snapshot->pauseWish >= wish.number;
+            [&](const PauseRequest& wish) {
+                return _snapshot->pauseRequest >= wish.number;
             }},
         message);
 }
@@ -242,7 +242,7 @@ void MemoryRobotAdapter::Recover(Planning::AdapterActions& out)
     }
     else
     {
-        Raise(Planning::JobUncertain{recovery.job.jobID, "the robot remembers nothing"}, out);
+        Raise(Planning::JobUnresolved{recovery.job.jobID, "the robot remembers nothing"}, out);
     }
 }
 
@@ -294,7 +294,7 @@ void MemoryRobotAdapter::TellState(Planning::AdapterActions& out)
     const std::string commandID = _job.has_value() ? _job->commandID : std::string();
     const bool bForeignJob = !_snapshot->activeCommandID.empty() && _snapshot->activeCommandID != commandID;
     state.bOccupied = bForeignDrive || bForeignJob;
-    state.shownCommandID = _snapshot->lastCommandID;
+    state.restartEvidence.commandID = _snapshot->lastCommandID;
     state.heldNodeIDs = bForeignDrive ? _snapshot->aheadNodeIDs : std::vector<std::string>();
     if (bForeignDrive && std::exchange(_foreignDriveID, driveID) != driveID)
     {

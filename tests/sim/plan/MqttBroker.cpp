@@ -23,7 +23,7 @@ const VDA5050::MqttSubscription* FindSubscriptionOrNull(
 
 } // namespace
 
-MqttBroker::MqttBroker(Timeline& timeline, Trace& trace, const DiceSeed& seed, bool bFaulty)
+MqttBroker::MqttBroker(Timeline& timeline, Trace& trace, const ChanceSeed& seed, bool bFaulty)
     : _timeline(timeline),
       _trace(trace),
       _dice(seed),

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Dice.hpp"
+#include "ChanceModel.hpp"
 #include "Timeline.hpp"
 #include "Trace.hpp"
 #include <acs/vda5050/IMqttLink.hpp>
@@ -49,14 +49,14 @@ private:
 
     Timeline& _timeline;
     Trace& _trace;
-    Dice _dice;
+    ChanceModel _dice;
     std::map<ClientID, Client> _clients;
     std::map<std::string, VDA5050::MqttMessage> _retained;
     ClientID _lastClient = 0;
     bool _bFaulty;
 
 public:
-    MqttBroker(Timeline& timeline, Trace& trace, const DiceSeed& seed, bool bFaulty);
+    MqttBroker(Timeline& timeline, Trace& trace, const ChanceSeed& seed, bool bFaulty);
 
     /// Connects, and again whenever it can, until Abandon. The listener outlives that.
     [[nodiscard]] ClientID Open(

@@ -35,7 +35,7 @@ bool IsFinalReport(const Planning::Report& report)
 
 } // namespace
 
-Mutator::Mutator(EMutation mutation, Dice& dice, Core::IRandom& random)
+Mutator::Mutator(EMutation mutation, ChanceModel& dice, Core::IRandom& random)
     : _mutation(mutation),
       _dice(dice),
       _random(random)

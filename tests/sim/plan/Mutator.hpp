@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Dice.hpp"
+#include "ChanceModel.hpp"
 #include "EMutation.hpp"
 #include <acs/plan/EngineAction.hpp>
 #include <acs/plan/IPlanStore.hpp>
@@ -37,7 +37,7 @@ public:
 
 private:
     EMutation _mutation;
-    Dice& _dice;
+    ChanceModel& _dice;
     Core::IRandom& _random;
     std::optional<Planning::OutboxEntry> _heldBack;
     std::map<std::string, Planning::Drive> _drives;                                ///< The latest of each robot.
@@ -46,7 +46,7 @@ private:
     std::set<std::string> _standing; ///< Robots that count as standing until their next drive.
 
 public:
-    Mutator(EMutation mutation, Dice& dice, Core::IRandom& random);
+    Mutator(EMutation mutation, ChanceModel& dice, Core::IRandom& random);
 
     [[nodiscard]] bool Is(EMutation mutation) const noexcept;
     [[nodiscard]] Planning::StoredState OnRestore(Planning::StoredState state) const;

@@ -1,6 +1,6 @@
 #include "RadioRobot.hpp"
 
-#include "RobotHand.hpp"
+#include "RobotConnection.hpp"
 
 #include <utility>
 
@@ -10,7 +10,7 @@ namespace ACS::Simulation
 RadioRobot::RadioRobot(
     Timeline& timeline,
     Trace& trace,
-    WorkWitness& witness,
+    WorkChecker& witness,
     const Seeds& seeds,
     const std::string& robotID,
     const std::string& nodeID,
@@ -25,9 +25,9 @@ RadioRobot::RadioRobot(
     _robot.failChance = bFaulty ? FAIL_CHANCE : 0;
 }
 
-std::unique_ptr<IRobotHand> RadioRobot::MakeHand(std::uint64_t number, EventHandler handler)
+std::unique_ptr<IRobotConnection> RadioRobot::MakeConnection(std::uint64_t number, EventHandler handler)
 {
-    return std::make_unique<RobotHand>(_timeline, _radio, number, std::move(handler));
+    return std::make_unique<RobotConnection>(_timeline, _radio, number, std::move(handler));
 }
 
 void RadioRobot::SetReachable(bool bReachable)

@@ -17,8 +17,8 @@ class RadioRobot final : public ISimulatedRobot
 public:
     struct Seeds
     {
-        DiceSeed robot;
-        DiceSeed radio;
+        ChanceSeed robot;
+        ChanceSeed radio;
     };
 
 private:
@@ -30,13 +30,13 @@ public:
     RadioRobot(
         Timeline& timeline,
         Trace& trace,
-        WorkWitness& witness,
+        WorkChecker& witness,
         const Seeds& seeds,
         const std::string& robotID,
         const std::string& nodeID,
         bool bFaulty);
 
-    [[nodiscard]] std::unique_ptr<IRobotHand> MakeHand(std::uint64_t number, EventHandler handler) override;
+    [[nodiscard]] std::unique_ptr<IRobotConnection> MakeConnection(std::uint64_t number, EventHandler handler) override;
     void SetReachable(bool bReachable) override;
     [[nodiscard]] bool IsReachable() const override;
     void Disturb() override;

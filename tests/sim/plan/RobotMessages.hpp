@@ -19,7 +19,7 @@ struct Greeting
     std::uint64_t number = 0;
 };
 
-struct PauseWish
+struct PauseRequest
 {
     std::uint64_t number = 0; ///< The highest counts.
     bool bPause = false;
@@ -39,7 +39,7 @@ using RobotMessage = std::variant<
     Planning::CancelDrive,
     Planning::StartJob,
     JobCancellation,
-    PauseWish>;
+    PauseRequest>;
 
 enum class EDriveState : std::uint8_t
 {
@@ -76,7 +76,7 @@ struct JobView
 struct RobotSnapshot
 {
     std::uint64_t greeting = 0;
-    std::uint64_t pauseWish = 0;
+    std::uint64_t pauseRequest = 0;
     Planning::StateChanged state;
     std::string activeDriveID;               ///< Empty: none.
     std::vector<std::string> aheadNodeIDs;   ///< On which it may still drive.

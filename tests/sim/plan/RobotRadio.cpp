@@ -8,7 +8,7 @@ namespace ACS::Simulation
 
 using namespace std::chrono_literals;
 
-RobotRadio::RobotRadio(Timeline& timeline, MemoryRobot& robot, const DiceSeed& seed)
+RobotRadio::RobotRadio(Timeline& timeline, MemoryRobot& robot, const ChanceSeed& seed)
     : _timeline(timeline),
       _robot(robot),
       _dice(seed)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Dice.hpp"
+#include "ChanceModel.hpp"
 #include "MemoryRobot.hpp"
 #include "RobotMessages.hpp"
 #include "Timeline.hpp"
@@ -37,7 +37,7 @@ class RobotRadio final
 
     Timeline& _timeline;
     MemoryRobot& _robot;
-    Dice _dice;
+    ChanceModel _dice;
     IRadioListener* _listenerOrNull = nullptr;
     Way _toRobot;
     Way _toListener;
@@ -46,7 +46,7 @@ class RobotRadio final
     std::uint64_t _epoch = 0;
 
 public:
-    RobotRadio(Timeline& timeline, MemoryRobot& robot, const DiceSeed& seed);
+    RobotRadio(Timeline& timeline, MemoryRobot& robot, const ChanceSeed& seed);
 
     void Attach(IRadioListener& listener);
     /// It has died.

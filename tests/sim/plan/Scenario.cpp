@@ -191,7 +191,7 @@ Planning::RobotOptions MakeRobot(const std::string& robotID, Planning::ERobotTyp
     return robot;
 }
 
-void ChooseOptions(Scenario& scenario, Dice& dice)
+void ChooseOptions(Scenario& scenario, ChanceModel& dice)
 {
     using Planning::ERobotType;
     Planning::EngineOptions& options = scenario.options;
@@ -236,7 +236,7 @@ void ChooseOptions(Scenario& scenario, Dice& dice)
 
 void ChooseService(Scenario& scenario)
 {
-    Dice dice({scenario.seed, SERVICE_PART});
+    ChanceModel dice({scenario.seed, SERVICE_PART});
     scenario.bMaintenance = dice.IsHit(200) && scenario.Has(EFault::Controls);
     scenario.bBatteries = dice.IsHit(300) && scenario.HasVehicles();
     if (!scenario.bBatteries)
@@ -262,7 +262,7 @@ Protocol::PlanStep MakeStep(std::int32_t stepNo, std::string action, std::string
 }
 
 /// One or two transports of a cassette.
-void AddTransports(Protocol::ExecutionPlan& plan, const Scenario& scenario, Dice& dice, const std::string& port)
+void AddTransports(Protocol::ExecutionPlan& plan, const Scenario& scenario, ChanceModel& dice, const std::string& port)
 {
     std::int32_t stepNo = 0;
     for (std::size_t count = dice.GetBetween(1, 2); count > 0; --count)
@@ -284,7 +284,7 @@ void AddTransports(Protocol::ExecutionPlan& plan, const Scenario& scenario, Dice
 }
 
 /// Trays are fetched, samples moved at a set, trays brought back.
-void AddTrayWork(Protocol::ExecutionPlan& plan, const Scenario& scenario, Dice& dice, const std::string& robot)
+void AddTrayWork(Protocol::ExecutionPlan& plan, const Scenario& scenario, ChanceModel& dice, const std::string& robot)
 {
     const std::string place = dice.Pick(scenario.trayPlaces);
     const std::string set = dice.Pick(scenario.sets);
@@ -336,7 +336,7 @@ Planning::SiteMap Scenario::MakeSite() const
 
 Scenario MakeScenario(std::uint64_t seed, const FaultSet& without, std::optional<ERobotKind> robotsOrNull)
 {
-    Dice dice({seed, DICE_PART});
+    ChanceModel dice({seed, DICE_PART});
     Scenario scenario;
     scenario.seed = seed;
     scenario.cassettePlaces = {"A01.CP01", "A01.CP02", "A02.CP03", "A02.CP04"};
@@ -369,14 +369,14 @@ Scenario MakeScenario(std::uint64_t seed, const FaultSet& without, std::optional
         scenario.faults.set(fault, (bAll || bChosen) && !without.test(fault));
     }
     const bool bVehicles = dice.IsHit(70);
-    const bool bArms = !bVehicles && Dice({seed, ARM_PART}).IsHit(40);
+    const bool bArms = !bVehicles && ChanceModel({seed, ARM_PART}).IsHit(40);
     const ERobotKind kind = bArms ? ERobotKind::Arms : ERobotKind::Memory;
     scenario.robots = robotsOrNull.value_or(bVehicles ? ERobotKind::Vda5050 : kind);
     ChooseService(scenario);
     return scenario;
 }
 
-Protocol::ExecutionPlan MakeGoodPlan(const Scenario& scenario, Dice& dice, const std::string& planID)
+Protocol::ExecutionPlan MakeGoodPlan(const Scenario& scenario, ChanceModel& dice, const std::string& planID)
 {
     Protocol::ExecutionPlan plan;
     plan.planID = planID;
@@ -406,7 +406,7 @@ Protocol::ExecutionPlan MakeGoodPlan(const Scenario& scenario, Dice& dice, const
     return plan;
 }
 
-Protocol::ExecutionPlan MakeBadPlan(const Scenario& scenario, Dice& dice, const std::string& planID)
+Protocol::ExecutionPlan MakeBadPlan(const Scenario& scenario, ChanceModel& dice, const std::string& planID)
 {
     Protocol::ExecutionPlan plan = MakeGoodPlan(scenario, dice, planID);
     Protocol::PlanStep& step = plan.steps[dice.GetBelow(plan.steps.size())];

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Dice.hpp"
+#include "ChanceModel.hpp"
 #include "EFault.hpp"
 #include <acs/plan/EngineOptions.hpp>
 #include <acs/plan/SiteMap.hpp>
@@ -72,9 +72,15 @@ struct Scenario
     std::optional<ERobotKind> robotsOrNull);
 
 /// A plan that a robot of the scenario can do.
-[[nodiscard]] Protocol::ExecutionPlan MakeGoodPlan(const Scenario& scenario, Dice& dice, const std::string& planID);
+[[nodiscard]] Protocol::ExecutionPlan MakeGoodPlan(
+    const Scenario& scenario,
+    ChanceModel& dice,
+    const std::string& planID);
 
 /// A plan that must be refused, each time for another of the reasons.
-[[nodiscard]] Protocol::ExecutionPlan MakeBadPlan(const Scenario& scenario, Dice& dice, const std::string& planID);
+[[nodiscard]] Protocol::ExecutionPlan MakeBadPlan(
+    const Scenario& scenario,
+    ChanceModel& dice,
+    const std::string& planID);
 
 } // namespace ACS::Simulation

@@ -24,7 +24,7 @@ ETextEnd GetOther(ETextEnd end)
 
 } // namespace
 
-TextNetwork::TextNetwork(Timeline& timeline, Trace& trace, const DiceSeed& seed, std::optional<TextNames> namesOrNull)
+TextNetwork::TextNetwork(Timeline& timeline, Trace& trace, const ChanceSeed& seed, std::optional<TextNames> namesOrNull)
     : _timeline(timeline),
       _trace(trace),
       _dice(seed),

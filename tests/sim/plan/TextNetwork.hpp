@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Dice.hpp"
+#include "ChanceModel.hpp"
 #include "TimerBank.hpp"
 #include "Trace.hpp"
 #include <acs/protocol/SessionAction.hpp>
@@ -64,7 +64,7 @@ class TextNetwork final
 
     Timeline& _timeline;
     Trace& _trace;
-    Dice _dice;
+    ChanceModel _dice;
     std::optional<TextNames> _namesOrNull;
     ITextPeer* _serverOrNull = nullptr;
     std::map<Protocol::ConnectionID, Connection> _connections;
@@ -74,7 +74,7 @@ class TextNetwork final
 
 public:
     /// Without names the texts are not traced.
-    TextNetwork(Timeline& timeline, Trace& trace, const DiceSeed& seed, std::optional<TextNames> namesOrNull);
+    TextNetwork(Timeline& timeline, Trace& trace, const ChanceSeed& seed, std::optional<TextNames> namesOrNull);
 
     /// Before any client.
     void Listen(ITextPeer& server);

@@ -96,7 +96,7 @@ std::string Describe(const Planning::RobotEvent& event)
                 return fmt::format("job {} failed: {}", typed.jobID, typed.reason);
             },
             [](const Planning::JobUnknown& typed) { return fmt::format("job {} is unknown", typed.jobID); },
-            [](const Planning::JobUncertain& typed) {
+            [](const Planning::JobUnresolved& typed) {
                 return fmt::format("job {} is uncertain: {}", typed.jobID, typed.reason);
             },
             [](const Planning::JobCheckChanged&) { return std::string("checks jobs anew"); },

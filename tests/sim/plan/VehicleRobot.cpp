@@ -1,6 +1,6 @@
 #include "VehicleRobot.hpp"
 
-#include "VehicleHand.hpp"
+#include "VehicleConnection.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/vda5050/Topic.hpp>
 
@@ -32,10 +32,10 @@ double GetDistance(const VdaSim::Pose& pose, const Planning::SiteNode& node)
     return std::hypot(pose.x - node.x, pose.y - node.y);
 }
 
-double ChooseCharge(const DiceSeed& seed, bool bBatteries)
+double ChooseCharge(const ChanceSeed& seed, bool bBatteries)
 {
     constexpr std::uint64_t BATTERY_PARTS = 10'000; // behind all others
-    Dice dice({seed.seed, BATTERY_PARTS + seed.part});
+    ChanceModel dice({seed.seed, BATTERY_PARTS + seed.part});
     return bBatteries ? static_cast<double>(dice.GetBetween(15, 26)) : 100.0;
 }
 
@@ -50,8 +50,8 @@ VdaSim::Fault MakeFault(VdaSim::EFaultKind kind)
 } // namespace
 
 VehicleRobot::VehicleRobot(
-    const Surroundings& around,
-    const DiceSeed& seed,
+    const Dependencies& around,
+    const ChanceSeed& seed,
     std::string robotID,
     const std::string& nodeID,
     bool bFaulty)
@@ -259,9 +259,14 @@ void VehicleRobot::ShowJobs()
     }
 }
 
-std::unique_ptr<IRobotHand> VehicleRobot::MakeHand(std::uint64_t /*number*/, EventHandler handler)
+std::unique_ptr<IRobotConnection> VehicleRobot::MakeConnection(std::uint64_t /*number*/, EventHandler handler)
 {
-    return std::make_unique<VehicleHand>(_around.timeline, _around.broker, _around.robot, std::move(handler), nullptr);
+    return std::make_unique<VehicleConnection>(
+        _around.timeline,
+        _around.broker,
+        _around.robot,
+        std::move(handler),
+        nullptr);
 }
 
 void VehicleRobot::SetReachable(bool bReachable)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Dice.hpp"
+#include "ChanceModel.hpp"
 #include "EMutation.hpp"
 #include "ISimulatedRobot.hpp"
 #include "MqttBroker.hpp"
@@ -8,7 +8,7 @@
 #include "Trace.hpp"
 #include "TrayPortWorld.hpp"
 #include "vda-sim/VirtualVehicle.hpp"
-#include "WorkWitness.hpp"
+#include "WorkChecker.hpp"
 #include <acs/plan/EngineOptions.hpp>
 #include <acs/plan/SiteMap.hpp>
 
@@ -28,11 +28,11 @@ class VehicleRobot final : public ISimulatedRobot, private VDA5050::IMqttLinkLis
 {
 public:
     /// What it lives in; everything outlives it.
-    struct Surroundings
+    struct Dependencies
     {
         Timeline& timeline;
         Trace& trace;
-        WorkWitness& witness;
+        WorkChecker& witness;
         MqttBroker& broker;
         const Planning::SiteMap& site;
         bool bBatteries; ///< It is little more than empty at first; else full.
@@ -43,8 +43,8 @@ public:
     };
 
 private:
-    Surroundings _around;
-    Dice _dice;
+    Dependencies _around;
+    ChanceModel _dice;
     std::string _robotID;
     bool _bFaulty;
     double _charge;           ///< Percent, when it is switched on.
@@ -63,8 +63,8 @@ private:
 
 public:
     VehicleRobot(
-        const Surroundings& around,
-        const DiceSeed& seed,
+        const Dependencies& around,
+        const ChanceSeed& seed,
         std::string robotID,
         const std::string& nodeID,
         bool bFaulty);
@@ -72,7 +72,7 @@ public:
     VehicleRobot& operator=(const VehicleRobot&) = delete;
     ~VehicleRobot() override;
 
-    [[nodiscard]] std::unique_ptr<IRobotHand> MakeHand(std::uint64_t number, EventHandler handler) override;
+    [[nodiscard]] std::unique_ptr<IRobotConnection> MakeConnection(std::uint64_t number, EventHandler handler) override;
     void SetReachable(bool bReachable) override;
     [[nodiscard]] bool IsReachable() const override;
     void Disturb() override;

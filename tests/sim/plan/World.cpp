@@ -48,7 +48,7 @@ World::World(Scenario scenario, EMutation mutation, bool bPrinting)
       _dice({_scenario.seed, PROCESS_PART}),
       _ownRandom({_scenario.seed, OWN_RANDOM_PART}),
       _weather({_scenario.seed, WEATHER_PART}),
-      _robotDice({_scenario.seed, ROBOT_PART}),
+      _robotChance({_scenario.seed, ROBOT_PART}),
       _site(_scenario.MakeSite()),
       _witness(_trace, _site, GetHandling(_scenario.robots)),
       _judge(_trace, _store, _witness),
@@ -56,8 +56,8 @@ World::World(Scenario scenario, EMutation mutation, bool bPrinting)
       _mcs(_timeline, _trace, _network, _judge, _witness, _scenario),
       _broker(_timeline, _trace, {_scenario.seed, BROKER_PART}, _scenario.Has(EFault::Radio)),
       _habits(_timeline),
-      _robotHabits(_timeline),
-      _radioHabits(_timeline),
+      _robotBehaviours(_timeline),
+      _radioBehaviours(_timeline),
       _caretaker(_timeline, _trace, {_scenario.seed, CARETAKER_PART}, _robots, _store, [this] {
           return _process.get();
       })
@@ -99,10 +99,10 @@ void World::AddRobots()
     {
         const std::string& robotID = options.robotID.GetText();
         const std::string nodeID = options.startNodeID.value_or(std::string());
-        const DiceSeed seed{_scenario.seed, FIRST_ROBOT_PART + number};
-        const DiceSeed radioSeed{_scenario.seed, FIRST_RADIO_PART + number};
+        const ChanceSeed seed{_scenario.seed, FIRST_ROBOT_PART + number};
+        const ChanceSeed radioSeed{_scenario.seed, FIRST_RADIO_PART + number};
         const bool bFaulty = _scenario.Has(EFault::Robots);
-        const VehicleRobot::Surroundings around{
+        const VehicleRobot::Dependencies around{
             _timeline,
             _trace,
             _witness,
@@ -141,7 +141,7 @@ void World::StartAcsd()
     ++_starts;
     _caretaker.OnStart();
     BringIntoReach();
-    const AcsdProcess::Surroundings around{
+    const AcsdProcess::Dependencies around{
         _timeline,
         _trace,
         _dice,
@@ -180,7 +180,7 @@ void World::BringIntoReach()
         }
         _trace.Tell("{} is kept in reach: its position is not stored", robotID);
         robot->SetReachable(true);
-        _radioHabits.Start(robotID, UNTIL_TOLD, [this, robotID = robotID] { TurnRadio(robotID); });
+        _radioBehaviours.Start(robotID, UNTIL_TOLD, [this, robotID = robotID] { TurnRadio(robotID); });
     }
 }
 
@@ -188,23 +188,25 @@ void World::BringIntoReach()
 void World::OnCrash()
 {
     _habits.Post(0ms, [this] { _process.reset(); });
-    _habits.Start(EHabit::Restart, _weather.GetBetween(1ms, _weather.IsHit(300) ? 30s : 2s), [this] { StartAcsd(); });
+    _habits.Start(EBehaviour::Restart, _weather.GetBetween(1ms, _weather.IsHit(300) ? 30s : 2s), [this] {
+        StartAcsd();
+    });
 }
 
 void World::BeginFaults()
 {
-    _habits.Start(EHabit::EndFaults, _scenario.faultsEnd, [this] { EndFaults(); });
+    _habits.Start(EBehaviour::EndFaults, _scenario.faultsEnd, [this] { EndFaults(); });
     if (_scenario.Has(EFault::Disk))
     {
-        _habits.Start(EHabit::Disk, _weather.GetBetween(1s, 60s), [this] { TurnDisk(); });
+        _habits.Start(EBehaviour::Disk, _weather.GetBetween(1s, 60s), [this] { TurnDisk(); });
     }
     if (_scenario.Has(EFault::Link))
     {
-        _habits.Start(EHabit::Link, _weather.GetBetween(0s, 20s), [this] { TurnLink(); });
+        _habits.Start(EBehaviour::Link, _weather.GetBetween(0s, 20s), [this] { TurnLink(); });
     }
     if (_scenario.Has(EFault::Controls))
     {
-        _habits.Start(EHabit::Operator, _weather.GetBetween(5s, 90s), [this] { Operate(); });
+        _habits.Start(EBehaviour::Operator, _weather.GetBetween(5s, 90s), [this] { Operate(); });
     }
     if (_scenario.bMaintenance)
     {
@@ -212,21 +214,21 @@ void World::BeginFaults()
     }
     if (_scenario.Has(EFault::Crashes))
     {
-        _habits.Start(EHabit::Crash, _weather.GetBetween(1s, 120s), [this] { CrashSometime(); });
+        _habits.Start(EBehaviour::Crash, _weather.GetBetween(1s, 120s), [this] { CrashSometime(); });
     }
     if (_scenario.Has(EFault::Radio) && _scenario.HasVehicles())
     {
-        _habits.Start(EHabit::Broker, _weather.GetBetween(10s, 200s), [this] { TurnBroker(); });
+        _habits.Start(EBehaviour::Broker, _weather.GetBetween(10s, 200s), [this] { TurnBroker(); });
     }
     for (const auto& [robotID, robot] : _robots)
     {
         if (_scenario.Has(EFault::Robots))
         {
-            _robotHabits.Start(robotID, _robotDice.GetBetween(5s, 120s), [this, id = robotID] { TurnRobot(id); });
+            _robotBehaviours.Start(robotID, _robotChance.GetBetween(5s, 120s), [this, id = robotID] { TurnRobot(id); });
         }
         if (_scenario.Has(EFault::Radio))
         {
-            _radioHabits.Start(robotID, _robotDice.GetBetween(1s, 90s), [this, id = robotID] { TurnRadio(id); });
+            _radioBehaviours.Start(robotID, _robotChance.GetBetween(1s, 90s), [this, id = robotID] { TurnRadio(id); });
         }
     }
 }
@@ -236,12 +238,13 @@ void World::EndFaults()
     _trace.Tell("no more faults from now on");
     _bSettling = true;
     _deadline = _timeline.GetNow().steady + SETTLING_LIMIT;
-    for (const EHabit habit : {EHabit::Disk, EHabit::Link, EHabit::Operator, EHabit::Crash, EHabit::Broker})
+    for (const EBehaviour habit :
+         {EBehaviour::Disk, EBehaviour::Link, EBehaviour::Operator, EBehaviour::Crash, EBehaviour::Broker})
     {
         _habits.Cancel(habit);
     }
-    _robotHabits.CancelAll();
-    _radioHabits.CancelAll();
+    _robotBehaviours.CancelAll();
+    _radioBehaviours.CancelAll();
     _caretaker.End();
     _store.bFails = false;
     _broker.Calm();
@@ -268,9 +271,10 @@ void World::TurnDisk()
 {
     _store.bFails = !_store.bFails;
     _trace.Tell("disk {}", _store.bFails ? "fails" : "works");
-    _habits.Start(EHabit::Disk, _store.bFails ? _weather.GetBetween(100ms, 15s) : _weather.GetBetween(1s, 60s), [this] {
-        TurnDisk();
-    });
+    _habits.Start(
+        EBehaviour::Disk,
+        _store.bFails ? _weather.GetBetween(100ms, 15s) : _weather.GetBetween(1s, 60s),
+        [this] { TurnDisk(); });
 }
 
 void World::TurnLink()
@@ -282,7 +286,7 @@ void World::TurnLink()
     {
         _network.Cut();
     }
-    _habits.Start(EHabit::Link, _weather.GetBetween(100ms, 30s), [this] { TurnLink(); });
+    _habits.Start(EBehaviour::Link, _weather.GetBetween(100ms, 30s), [this] { TurnLink(); });
 }
 
 /// The operator switches the TSC.
@@ -294,8 +298,8 @@ void World::Operate()
         _trace.Tell("operator: TSC {}", bPause ? "pause" : "resume");
         _process->PushCommand(Planning::ControlTSC{bPause, 0});
     }
-    SettleJobs();
-    _habits.Start(EHabit::Operator, _weather.GetBetween(1s, 60s), [this] { Operate(); });
+    ResolveJobs();
+    _habits.Start(EBehaviour::Operator, _weather.GetBetween(1s, 60s), [this] { Operate(); });
 }
 
 void World::CrashSometime()
@@ -304,13 +308,13 @@ void World::CrashSometime()
     {
         _process->Crash("at a random time");
     }
-    _habits.Start(EHabit::Crash, _weather.GetBetween(1s, 120s), [this] { CrashSometime(); });
+    _habits.Start(EBehaviour::Crash, _weather.GetBetween(1s, 120s), [this] { CrashSometime(); });
 }
 
 void World::TurnBroker()
 {
     _broker.Restart();
-    _habits.Start(EHabit::Broker, _weather.GetBetween(10s, 200s), [this] { TurnBroker(); });
+    _habits.Start(EBehaviour::Broker, _weather.GetBetween(10s, 200s), [this] { TurnBroker(); });
 }
 
 void World::TurnRobot(const std::string& robotID)
@@ -320,7 +324,7 @@ void World::TurnRobot(const std::string& robotID)
     {
         robot.Recover();
     }
-    else if (_robotDice.IsHit(150))
+    else if (_robotChance.IsHit(150))
     {
         robot.Forget();
     }
@@ -328,8 +332,9 @@ void World::TurnRobot(const std::string& robotID)
     {
         robot.Disturb();
     }
-    const Core::Duration span = robot.IsDisturbed() ? _robotDice.GetBetween(1s, 40s) : _robotDice.GetBetween(10s, 150s);
-    _robotHabits.Start(robotID, span, [this, robotID] { TurnRobot(robotID); });
+    const Core::Duration span =
+        robot.IsDisturbed() ? _robotChance.GetBetween(1s, 40s) : _robotChance.GetBetween(10s, 150s);
+    _robotBehaviours.Start(robotID, span, [this, robotID] { TurnRobot(robotID); });
 }
 
 void World::TurnRadio(const std::string& robotID)
@@ -337,12 +342,13 @@ void World::TurnRadio(const std::string& robotID)
     ISimulatedRobot& robot = *_robots.at(robotID);
     robot.SetReachable(!robot.IsReachable());
     _trace.Tell("{} is {} reach", robotID, robot.IsReachable() ? "in" : "out of");
-    const Core::Duration span = robot.IsReachable() ? _robotDice.GetBetween(1s, 90s) : _robotDice.GetBetween(10ms, 30s);
-    _radioHabits.Start(robotID, span, [this, robotID] { TurnRadio(robotID); });
+    const Core::Duration span =
+        robot.IsReachable() ? _robotChance.GetBetween(1s, 90s) : _robotChance.GetBetween(10ms, 30s);
+    _radioBehaviours.Start(robotID, span, [this, robotID] { TurnRadio(robotID); });
 }
 
 /// The operator looks at each job that is held, and says what he sees.
-void World::SettleJobs()
+void World::ResolveJobs()
 {
     const std::vector<Planning::Alarm> alarms =
         _process == nullptr ? std::vector<Planning::Alarm>() : _process->GetEngine().GetActiveAlarms();
@@ -353,19 +359,20 @@ void World::SettleJobs()
             continue;
         }
         const std::string jobID = alarm.jobID.value_or(std::string());
-        const WorkWitness::JobTruth truth = _witness.GetTruth(*alarm.planID, alarm.stepNo.value_or(0), jobID);
-        const Planning::EJobAnswer other =
-            truth.begun == 0 && _weather.IsHit(700) ? Planning::EJobAnswer::Again : Planning::EJobAnswer::Failed;
-        const Planning::EJobAnswer answer = truth.finished > 0 ? Planning::EJobAnswer::Done : other;
+        const WorkChecker::JobTruth truth = _witness.GetTruth(*alarm.planID, alarm.stepNo.value_or(0), jobID);
+        const Planning::EJobResolution other = truth.begun == 0 && _weather.IsHit(700)
+            ? Planning::EJobResolution::Again
+            : Planning::EJobResolution::Failed;
+        const Planning::EJobResolution answer = truth.finished > 0 ? Planning::EJobResolution::Done : other;
         _trace.Tell("operator: job {} of {} {}", jobID, *alarm.planID, GetText(answer));
-        _process->PushCommand(Planning::SettleJob{*alarm.planID, jobID, answer, 0});
+        _process->PushCommand(Planning::ResolveJob{*alarm.planID, jobID, answer, 0});
     }
 }
 
 /// Whether all is over; too late, what is not.
 void World::Watch()
 {
-    SettleJobs();
+    ResolveJobs();
     if (_process != nullptr && _process->GetEngine().GetTscState() != Planning::ETscState::Auto)
     {
         _process->PushCommand(Planning::ControlTSC{false, 0});
@@ -383,7 +390,7 @@ void World::Watch()
         _trace.Violate("not finished in time after the last fault: {}", unrest);
         return;
     }
-    _habits.Start(EHabit::Watch, WATCH_INTERVAL, [this] { Watch(); });
+    _habits.Start(EBehaviour::Watch, WATCH_INTERVAL, [this] { Watch(); });
 }
 
 /// A plan that was given up may have left its carrier on a robot, whom others wait for: the operator takes it off.

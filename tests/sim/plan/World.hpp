@@ -1,19 +1,19 @@
 #pragma once
 
 #include "AcsdProcess.hpp"
-#include "Caretaker.hpp"
+#include "ChanceModel.hpp"
 #include "CrashableStore.hpp"
-#include "Dice.hpp"
 #include "EMutation.hpp"
 #include "ISimulatedRobot.hpp"
 #include "McsJudge.hpp"
 #include "McsSide.hpp"
 #include "MqttBroker.hpp"
+#include "OperatorSimulator.hpp"
 #include "Scenario.hpp"
 #include "TextNetwork.hpp"
 #include "TimerBank.hpp"
 #include "Trace.hpp"
-#include "WorkWitness.hpp"
+#include "WorkChecker.hpp"
 
 #include <map>
 #include <memory>
@@ -27,7 +27,7 @@ namespace ACS::Simulation
 /// One seed's world, from its first plan until everything has come to its end.
 class World final
 {
-    enum class EHabit : std::uint8_t
+    enum class EBehaviour : std::uint8_t
     {
         Restart,
         Disk,
@@ -43,23 +43,23 @@ class World final
     EMutation _mutation;
     Timeline _timeline;
     Trace _trace;
-    Dice _dice;      ///< Of acsd's surroundings.
-    Dice _ownRandom; ///< Of acsd's ids.
-    Dice _weather;   ///< Of what breaks from outside.
-    Dice _robotDice; ///< Of what happens to robots.
+    ChanceModel _dice;        ///< Of acsd's surroundings.
+    ChanceModel _ownRandom;   ///< Of acsd's ids.
+    ChanceModel _weather;     ///< Of what breaks from outside.
+    ChanceModel _robotChance; ///< Of what happens to robots.
     CrashableStore _store;
     Planning::SiteMap _site;
-    WorkWitness _witness;
+    WorkChecker _witness;
     McsJudge _judge;
     TextNetwork _network;
     McsSide _mcs;
     MqttBroker _broker;
     std::map<std::string, std::unique_ptr<ISimulatedRobot>> _robots;
-    TimerBank<EHabit> _habits;
-    TimerBank<std::string> _robotHabits;
-    TimerBank<std::string> _radioHabits;
+    TimerBank<EBehaviour> _habits;
+    TimerBank<std::string> _robotBehaviours;
+    TimerBank<std::string> _radioBehaviours;
     std::unique_ptr<AcsdProcess> _process;
-    Caretaker _caretaker;
+    OperatorSimulator _caretaker;
     std::uint64_t _starts = 0;
     Core::SteadyTime _deadline{};
     bool _bSettling = false;
@@ -88,7 +88,7 @@ private:
     void TurnBroker();
     void TurnRobot(const std::string& robotID);
     void TurnRadio(const std::string& robotID);
-    void SettleJobs();
+    void ResolveJobs();
     void Watch();
     void TakeCarriersOff();
     [[nodiscard]] std::vector<std::string> GetPorts(std::string_view robotID) const;

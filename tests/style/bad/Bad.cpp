@@ -18,25 +18,18 @@ enum class Colour // EXPECT readability-identifier-naming
 
 class robot_list // EXPECT readability-identifier-naming
 {
-    static constexpr int kLimit = 4; // EXPECT readability-identifier-naming
+public:
+    int GetSize() const { return size; } // EXPECT modernize-use-nodiscard
+    void setSize(int new_size) { size = new_size; } // EXPECT readability-identifier-naming
 
 protected:
     int room = 0; // EXPECT readability-identifier-naming
 
 private:
-    int size = 0;         // EXPECT readability-identifier-naming
-    int m_age = 0;        // EXPECT readability-identifier-naming
+    int size = 0; // EXPECT readability-identifier-naming
+    int m_age = 0; // EXPECT readability-identifier-naming
     const int bound_ = 3; // EXPECT readability-identifier-naming
-
-public:
-    int GetSize() const
-    {
-        return size;
-    } // EXPECT modernize-use-nodiscard
-    void setSize(int new_size)
-    {
-        size = new_size;
-    } // EXPECT readability-identifier-naming
+    static constexpr int kLimit = 4; // EXPECT readability-identifier-naming
 };
 
 struct Report
@@ -63,7 +56,7 @@ public:
     virtual void Clear();
 };
 
-using id_list = std::vector<int>;    // EXPECT readability-identifier-naming
+using id_list = std::vector<int>; // EXPECT readability-identifier-naming
 typedef std::vector<int> NumberList; // EXPECT modernize-use-using
 
 template <typename Value> // EXPECT readability-identifier-naming
@@ -72,18 +65,17 @@ int CountValues(const std::vector<Value>& values)
     return static_cast<int>(values.size());
 }
 
-const int retryCount = 3;                           // EXPECT readability-identifier-naming
-int globalCount = 0;                                // EXPECT cppcoreguidelines-avoid-non-const-global-variables
+const int retryCount = 3; // EXPECT readability-identifier-naming
+int globalCount = 0; // EXPECT cppcoreguidelines-avoid-non-const-global-variables
 const std::string GREETING = std::string(100, 'x'); // EXPECT cert-err58-cpp
 
-#define TWICE(x) ((x)*2) // EXPECT cppcoreguidelines-macro-usage
-#define THREE 3          // EXPECT cppcoreguidelines-macro-usage
+#define TWICE(x) ((x) * 2) // EXPECT cppcoreguidelines-macro-usage
+#define THREE 3 // EXPECT cppcoreguidelines-macro-usage
 
 int count_all(int Start) // EXPECT readability-identifier-naming
 {
     int unset; // EXPECT cppcoreguidelines-init-variables
-    if (Start > 1)
-        return 1; // EXPECT readability-braces-around-statements
+    if (Start > 1) return 1; // EXPECT readability-braces-around-statements
     unset = 2;
     int *Raw = new int(3), other = 4; // EXPECT readability-isolate-declaration
     unset += *Raw + other;
@@ -156,7 +148,7 @@ end:
 
 void UseMemory()
 {
-    int numbers[3] = {1, 2, 3};                  // EXPECT modernize-avoid-c-arrays
+    int numbers[3] = {1, 2, 3}; // EXPECT modernize-avoid-c-arrays
     void* memory = std::malloc(sizeof(numbers)); // EXPECT cppcoreguidelines-no-malloc
     std::free(memory);
 }
@@ -203,13 +195,11 @@ int Tangle(const std::vector<int>& values, int first, int second) // EXPECT read
 
 class Number
 {
-    int _value;
-
 public:
-    Number(int value)
-        : _value(value)
-    {
-    } // EXPECT google-explicit-constructor
+    Number(int value) : _value(value) {} // EXPECT google-explicit-constructor
+
+private:
+    int _value;
 };
 
 class Copied // EXPECT cppcoreguidelines-special-member-functions

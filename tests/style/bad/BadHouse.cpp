@@ -1,8 +1,8 @@
 // House rules that clang-tidy 14 has no check for; scripts/house-rules.clang-query must report each EXPECT-QUERY line
 // and no other.
 #include <atomic>
-#include <memory>
 #include <optional>
+#include <memory>
 
 namespace ACS
 {
@@ -17,15 +17,13 @@ struct Robot
 
 class Vehicle
 {
-public:
-    static constexpr bool IS_SIMULATED = true;
-
-private:
     bool _stopping = false; // EXPECT-QUERY
     bool _bFired = false;
     std::atomic<bool> _running = false; // EXPECT-QUERY
 
 public:
+    static constexpr bool IS_SIMULATED = true;
+
     bool Stop(bool force) // EXPECT-QUERY
     {
         bool done = force && _stopping; // EXPECT-QUERY

@@ -57,7 +57,7 @@ namespace ACS::Json
 {
 
 template <>
-struct EnumWords<Test::EColour>
+struct EnumNames<Test::EColour>
 {
     static constexpr std::array WORDS{
         EnumWord<Test::EColour>{Test::EColour::Red, "Red"},

@@ -1,6 +1,6 @@
 #include "arm/MoveStatement.hpp"
 #include "Catch.hpp"
-#include "controller/ControllerHarness.hpp"
+#include "controller/ControllerFixture.hpp"
 
 #include <chrono>
 #include <string>
@@ -8,7 +8,7 @@
 using namespace std::chrono_literals;
 using namespace ACS::OpenStreamSim; // NOLINT(google-build-using-namespace)
 using ACS::OpenStream::EApiMethod;
-using ACS::Testing::ControllerHarness;
+using ACS::Testing::ControllerFixture;
 
 namespace
 {
@@ -16,29 +16,29 @@ namespace
 constexpr const char* MOVE_PATH = "/project/context/tasks[0]/execute_move";
 constexpr const char* JOINTS = "/project/robot/joint_states?jno_start=1&jno_n=1";
 
-int Command(ControllerHarness& harness, const std::string& line)
+int Command(ControllerFixture& harness, const std::string& line)
 {
     return harness.Post("/console/execute_cmd", R"({"cmd_line":")" + line + R"("})");
 }
 
-bool IsKnown(ControllerHarness& harness, const std::string& line)
+bool IsKnown(ControllerFixture& harness, const std::string& line)
 {
     const auto answer = harness.Call(EApiMethod::Post, "/console/execute_cmd", R"({"cmd_line":")" + line + R"("})");
     REQUIRE(answer.status == 200);
     return answer.body->GetText() == R"({"_type":"JObject"})";
 }
 
-std::string ExecuteMove(ControllerHarness& harness, const std::string& statement)
+std::string ExecuteMove(ControllerFixture& harness, const std::string& statement)
 {
     return harness.PostForCode(MOVE_PATH, R"({"stmt":")" + statement + R"("})");
 }
 
-bool IsPlaying(ControllerHarness& harness)
+bool IsPlaying(ControllerFixture& harness)
 {
     return harness.Contains("/project/rgen", R"("is_playback":1)");
 }
 
-bool IsAt(ControllerHarness& harness, const std::string& angle)
+bool IsAt(ControllerFixture& harness, const std::string& angle)
 {
     return harness.Contains(JOINTS, "\"position\":[" + angle + "]");
 }
@@ -59,7 +59,7 @@ TEST_CASE("A execute_move: the statement is read with blanks or commas, any inte
 
 TEST_CASE("A execute_move: what is no statement of the robot language is -1376272, and nothing moves")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     for (const char* statement :
          {"",
           "move",
@@ -111,7 +111,7 @@ TEST_CASE("A execute_move: what is no statement of the robot language is -137627
 
 TEST_CASE("A execute_move: the arm is there after its time and stands, in between it moves; stop ends it where it is")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(ExecuteMove(harness, "move P,spd=2sec,accu=0,tool=0 [40,90,0,0,0,0]") == "200");
     REQUIRE(IsAt(harness, "0"));
     REQUIRE_FALSE(IsPlaying(harness));
@@ -133,7 +133,7 @@ TEST_CASE("A execute_move: the arm is there after its time and stands, in betwee
 
 TEST_CASE("A execute_move: no axis goes faster than it can; % counts of that, mm/sec of the flange's way")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(ExecuteMove(harness, "move P,spd=0.001sec [100,90,0,0,0,0]") == "200");
     harness.clock.Advance(375ms);
     REQUIRE(IsAt(harness, "50"));
@@ -157,7 +157,7 @@ TEST_CASE("A execute_move: no axis goes faster than it can; % counts of that, mm
 
 TEST_CASE("A execute_move: a program that was stopped in its middle is given up, and the next one starts from there")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(harness.Select(11) == 200);
     REQUIRE(harness.Start() == 200);
     harness.clock.Advance(1s);
@@ -175,7 +175,7 @@ TEST_CASE("A execute_move: a program that was stopped in its middle is given up,
 
 TEST_CASE("A execute_cmd: moves and waits run one after the other, exactly in time, and end")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(Command(harness, "rl.i move P,spd=1sec,accu=4,tool=0 [10, 90, 0, 0, 0, 0]") == 200);
     REQUIRE(Command(harness, "rl.i wait ml10") == 200);
     REQUIRE(Command(harness, "rl.i move P,spd=1sec,accu=4,tool=0 [-10, 90, 0, 0, 0, 0]") == 200);
@@ -204,7 +204,7 @@ TEST_CASE("A execute_cmd: moves and waits run one after the other, exactly in ti
 
 TEST_CASE("A execute_cmd: rl.stop halts a move, start goes on with it, rl.reinit forgets the statements")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(Command(harness, "rl.i move P,spd=2sec [40, 90, 0, 0, 0, 0]") == 200);
     REQUIRE(Command(harness, "rl.start") == 200);
     harness.clock.Advance(1s);
@@ -225,7 +225,7 @@ TEST_CASE("A execute_cmd: rl.stop halts a move, start goes on with it, rl.reinit
 
 TEST_CASE("A execute_cmd: a selected program takes the place of the console's, which takes that of a halted one")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(Command(harness, "rl.i wait di1") == 200);
     REQUIRE(Command(harness, "rl.start") == 200);
     REQUIRE(
@@ -247,7 +247,7 @@ TEST_CASE("A execute_cmd: a selected program takes the place of the console's, w
 
 TEST_CASE("D-7 execute_cmd: rl.exit ends the console's program and forgets it; a selected program is not touched")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(Command(harness, "rl.i move P,spd=2sec [40, 90, 0, 0, 0, 0]") == 200);
     REQUIRE(Command(harness, "rl.start") == 200);
     harness.clock.Advance(1s);
@@ -266,7 +266,7 @@ TEST_CASE("D-7 execute_cmd: rl.exit ends the console's program and forgets it; a
 TEST_CASE("D-6 release_wait: the program leaves the wait at which it stands; refused where none waits")
 {
     constexpr const char* RELEASE = "/project/context/tasks[0]/release_wait";
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(harness.PostForCode(RELEASE) == "403 -104");
     REQUIRE(Command(harness, "rl.i wait di1") == 200);
     REQUIRE(Command(harness, "rl.i wait di2") == 200);
@@ -283,7 +283,7 @@ TEST_CASE("D-6 release_wait: the program leaves the wait at which it stands; ref
 
 TEST_CASE("A execute_cmd: what is no command, or no statement, is answered with ecode 1 and changes nothing")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     for (const char* line :
          {"",
           "rl",
@@ -313,7 +313,7 @@ TEST_CASE("A execute_cmd: what is no command, or no statement, is answered with 
 
 TEST_CASE("A execute_cmd: a program has room for 1000 statements")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     for (int count = 0; count < 1'000; ++count)
     {
         REQUIRE(IsKnown(harness, "rl.i wait di1"));

@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "ClientHarness.hpp"
+#include "ClientFixture.hpp"
 
 #include <string>
 #include <utility>
@@ -35,7 +35,7 @@ std::string MakeSample(int ts, const std::string& result)
     return R"({"type":"data","ts":)" + std::to_string(ts) + R"(,"svc_dur_ms":0.1,"result":")" + result + "\"}\n";
 }
 
-void MakeStreaming(ClientHarness& client)
+void MakeStreaming(ClientFixture& client)
 {
     client.SetMonitor(10ms);
     MakeReady(client);
@@ -48,7 +48,7 @@ void MakeStreaming(ClientHarness& client)
 
 TEST_CASE("3 A CONTROL is accepted when nothing refuses it and a sample confirms it")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeStreaming(client);
     client.Receive(MakeSample(10, "moved")); // before it was sent: says nothing
     const std::uint64_t token = client.Call(MakeConfirmedCall("/a", 1'000ms));
@@ -97,7 +97,7 @@ TEST_CASE("3 A CONTROL is accepted when nothing refuses it and a sample confirms
 
 TEST_CASE("3 A confirmation within the window waits for its end, as a refusal may still come")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeStreaming(client);
     const std::uint64_t first = client.Call(MakeConfirmedCall("/a", 100ms)); // shorter than the window
     const std::uint64_t second = client.Call(MakeConfirmedCall("/b", 100ms));
@@ -127,7 +127,7 @@ TEST_CASE("3 A CONTROL that waits for its turn is given up in its time, and neve
 {
     ClientSessionOptions options;
     options.controlTimeout = 700ms;
-    ClientHarness client(options);
+    ClientFixture client(options);
     MakeReady(client);
     ControlCall shorter = MakeCall("/shorter");
     shorter.timeout = 200ms;
@@ -157,7 +157,7 @@ TEST_CASE("3 A CONTROL that waits for its turn is given up in its time, and neve
 
 TEST_CASE("3 A CONTROL that the socket does not take costs the connection, so that it cannot leave later")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeReady(client);
     client.bSocketTakes = false;
     const std::uint64_t token = client.Control("/a");
@@ -174,7 +174,7 @@ TEST_CASE("3 A CONTROL that the socket does not take costs the connection, so th
 
 TEST_CASE("3 A streamed CONTROL that the socket does not take costs the connection, so that it cannot leave later")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeReady(client);
     client.bSocketTakes = false;
     client.Control("/a", EControlTracking::Streamed);
@@ -225,7 +225,7 @@ TEST_CASE("3 A streamed CONTROL that the socket does not take costs the connecti
 
 TEST_CASE("3 Streamed CONTROLs that leave in time cost nothing, however many there are")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeReady(client);
     for (int count = 0; count < 20; ++count)
     {
@@ -243,7 +243,7 @@ TEST_CASE("3 Streamed CONTROLs that leave in time cost nothing, however many the
 
 TEST_CASE("3 STOP control has its time to leave as well, a session that ends does not come back for it")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeReady(client);
     client.bSocketTakes = false;
     client.session.StopControl(client.GetNow(), client.actions);
@@ -271,7 +271,7 @@ TEST_CASE("3 Without a time limit a CONTROL waits for ever")
 {
     ClientSessionOptions options;
     options.controlTimeout = 0ms;
-    ClientHarness client(options);
+    ClientFixture client(options);
     MakeReady(client);
     client.bSocketTakes = false;
     SECTION("a tracked one")
@@ -289,7 +289,7 @@ TEST_CASE("3 Without a time limit a CONTROL waits for ever")
 
 TEST_CASE("11 The newest sample can be read at any time, and never one of another MONITOR or connection")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeStreaming(client);
     CHECK(client.session.GetLatestOrNull() == nullptr);
     client.Receive(MakeSample(10, "a") + MakeSample(20, "b"));
@@ -313,7 +313,7 @@ TEST_CASE("11 Without sample events only the newest sample is kept")
 {
     ClientSessionOptions options;
     options.bSampleEvents = false;
-    ClientHarness client(options);
+    ClientFixture client(options);
     MakeStreaming(client);
     client.Receive(MakeSample(10, "a") + MakeSample(20, "b"));
     CHECK(client.Take<ClientData>().empty());
@@ -323,7 +323,7 @@ TEST_CASE("11 Without sample events only the newest sample is kept")
 
 TEST_CASE("11 Quality begins anew with each MONITOR, the counts of the session do not")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeStreaming(client);
     client.Receive(MakeSample(10, "a") + MakeSample(40, "b"));
     CHECK(client.session.GetQuality().samples == 2);

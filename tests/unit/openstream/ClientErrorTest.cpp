@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "ClientHarness.hpp"
+#include "ClientFixture.hpp"
 
 #include <array>
 #include <string>
@@ -65,7 +65,7 @@ std::string MakeError(const char* code)
     return R"({"error":")" + std::string(code) + R"(","message":"why","hint":"what to do"})" + "\n";
 }
 
-char GetLetter(const ClientHarness& client)
+char GetLetter(const ClientFixture& client)
 {
     for (const ClientEvent& event : client.events)
     {
@@ -115,7 +115,7 @@ TEST_CASE("4 7.16 7.19 Each code while a MONITOR is in flight")
     for (const CodeRow& row : CODES)
     {
         INFO(row.code);
-        ClientHarness client;
+        ClientFixture client;
         MakeReady(client);
         client.SetMonitor(10ms);
         client.Receive(MakeError(row.code));
@@ -128,7 +128,7 @@ TEST_CASE("4 7.15 7.16 Each code while a CONTROL is in flight")
     for (const CodeRow& row : CODES)
     {
         INFO(row.code);
-        ClientHarness client;
+        ClientFixture client;
         MakeReady(client);
         const std::uint64_t token = client.Control("/a");
         client.Receive(MakeError(row.code));
@@ -154,7 +154,7 @@ TEST_CASE("4 Each code while nothing is in flight")
     for (const CodeRow& row : CODES)
     {
         INFO(row.code);
-        ClientHarness client;
+        ClientFixture client;
         MakeReady(client);
         client.Receive(MakeError(row.code));
         CHECK(GetLetter(client) == row.onNothing);
@@ -167,7 +167,7 @@ TEST_CASE("4 Each code in answer to the HANDSHAKE: another connection is made")
     for (const CodeRow& row : CODES)
     {
         INFO(row.code);
-        ClientHarness client;
+        ClientFixture client;
         client.Start();
         client.session.OnConnected(client.GetNow(), client.actions);
         client.Execute();
@@ -185,7 +185,7 @@ TEST_CASE("4 7.19 Each code in answer to STOP monitor or STOP session ends what 
     for (const CodeRow& row : CODES)
     {
         INFO(row.code);
-        ClientHarness client;
+        ClientFixture client;
         client.SetMonitor(10ms);
         MakeReady(client);
         client.Receive(MONITOR_ACK);
@@ -203,7 +203,7 @@ TEST_CASE("4 7.19 Each code in answer to STOP monitor or STOP session ends what 
 
 TEST_CASE("7.5 ts is whatever clock the server has: only steps forward count, and only of this stream")
 {
-    ClientHarness client;
+    ClientFixture client;
     client.SetMonitor(10ms);
     MakeReady(client);
     client.Receive(MONITOR_ACK);

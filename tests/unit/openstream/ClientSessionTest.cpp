@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "ClientHarness.hpp"
+#include "ClientFixture.hpp"
 
 #include <chrono>
 #include <optional>
@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 
 TEST_CASE("3 The client shakes hands first and sets up the MONITOR that it was given")
 {
-    ClientHarness client;
+    ClientFixture client;
     client.SetMonitor(1ms);
     client.Start();
     REQUIRE(client.connects == 1);
@@ -32,7 +32,7 @@ TEST_CASE("3 The client shakes hands first and sets up the MONITOR that it was g
 
 TEST_CASE("8 The MONITOR is set up again after every reconnect, and the waits grow until a handshake")
 {
-    ClientHarness client;
+    ClientFixture client;
     client.SetMonitor(20ms);
     MakeReady(client);
     client.Receive(MONITOR_ACK);
@@ -55,7 +55,7 @@ TEST_CASE("8 The MONITOR is set up again after every reconnect, and the waits gr
 
 TEST_CASE("3 Silence for the window means that the CONTROL worked; the next one waits for that")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeReady(client);
     const std::uint64_t first = client.Control("/a");
     const std::uint64_t second = client.Control("/b");
@@ -79,7 +79,7 @@ TEST_CASE("7.15 7.16 An error line about the request refuses the CONTROL in flig
 {
     for (const char* code : {"invalid_method", "method_not_allowed", "invalid_url", "control_busy", "invalid_value"})
     {
-        ClientHarness client;
+        ClientFixture client;
         MakeReady(client);
         static_cast<void>(client.Control("/a"));
         client.Receive(std::string(R"({"error":")") + code + "\",\"message\":\"m\"}\n");
@@ -89,7 +89,7 @@ TEST_CASE("7.15 7.16 An error line about the request refuses the CONTROL in flig
 
 TEST_CASE("3 The window begins when the CONTROL has left")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeReady(client);
     client.bSocketTakes = false;
     static_cast<void>(client.Control("/a"));
@@ -103,7 +103,7 @@ TEST_CASE("3 The window begins when the CONTROL has left")
 
 TEST_CASE("3 A lost connection leaves the CONTROL in flight unknown, and those that wait surely unsent")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeReady(client);
     static_cast<void>(client.Control("/a"));
     static_cast<void>(client.Control("/b"));
@@ -121,7 +121,7 @@ TEST_CASE("3 A lost connection leaves the CONTROL in flight unknown, and those t
 
 TEST_CASE("3 Streamed CONTROLs do not wait, their refusals are faults")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeReady(client);
     static_cast<void>(client.Control("/a", EControlTracking::Streamed));
     static_cast<void>(client.Control("/b", EControlTracking::Streamed));
@@ -133,7 +133,7 @@ TEST_CASE("3 Streamed CONTROLs do not wait, their refusals are faults")
 
 TEST_CASE("3 STOP control goes at once: the CONTROL in flight is unknown, the waiting one unsent")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeReady(client);
     static_cast<void>(client.Control("/a"));
     static_cast<void>(client.Control("/b"));
@@ -150,7 +150,7 @@ TEST_CASE("3 STOP control goes at once: the CONTROL in flight is unknown, the wa
 
 TEST_CASE("7.7 monitor_already_active means stop and retry")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeReady(client);
     client.SetMonitor(20ms);
     client.Receive("{\"error\":\"monitor_already_active\",\"message\":\"\"}\n");
@@ -164,7 +164,7 @@ TEST_CASE("7.7 monitor_already_active means stop and retry")
 
 TEST_CASE("3 A refused MONITOR is reported and not repeated until it is set anew")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeReady(client);
     client.SetMonitor(20ms);
     client.Receive("{\"error\":\"invalid_url\",\"message\":\"m\"}\n");
@@ -179,7 +179,7 @@ TEST_CASE("3 A refused MONITOR is reported and not repeated until it is set anew
 
 TEST_CASE("3 The acknowledgement of a MONITOR has the number of the call that asked for it")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeReady(client);
     client.SetMonitor(20ms);
     client.SetMonitor(30ms);
@@ -200,7 +200,7 @@ TEST_CASE("3 The acknowledgement of a MONITOR has the number of the call that as
 
 TEST_CASE("7.22 Data after the stream was stopped is tolerated and not reported")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeReady(client);
     client.SetMonitor(20ms);
     client.Receive(MONITOR_ACK);
@@ -217,7 +217,7 @@ TEST_CASE("7.22 Data after the stream was stopped is tolerated and not reported"
 
 TEST_CASE("9 Data overdue is reported once as stale, and in the end the connection is made anew")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeReady(client);
     client.SetMonitor(20ms);
     client.Receive(MONITOR_ACK);
@@ -243,7 +243,7 @@ TEST_CASE("9 Data overdue is reported once as stale, and in the end the connecti
 
 TEST_CASE("11 What ts skipped is counted as missing")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeReady(client);
     client.SetMonitor(20ms);
     client.Receive(MONITOR_ACK);
@@ -259,7 +259,7 @@ TEST_CASE("4 Only the codes that end a session cost the connection")
 {
     for (const char* code : {"session_timeout", "stop_failed", "handshake_rejected", "rx_buf_overflow"})
     {
-        ClientHarness client;
+        ClientFixture client;
         MakeReady(client);
         client.Receive(std::string(R"({"error":")") + code + "\",\"message\":\"m\"}\n" + std::string(HANDSHAKE_ACK));
         REQUIRE(client.Take<ClientLost>().at(0).reason == EClientLossReason::SessionEnded);
@@ -267,7 +267,7 @@ TEST_CASE("4 Only the codes that end a session cost the connection")
     }
     for (const char* code : {"monitor_internal_error", "busy_session_active", "invalid_ndjson", "new_code"})
     {
-        ClientHarness client;
+        ClientFixture client;
         MakeReady(client);
         client.Receive(std::string(R"({"error":")") + code + "\",\"message\":\"m\"}\n");
         REQUIRE(client.session.GetState() == EClientState::Ready);
@@ -276,7 +276,7 @@ TEST_CASE("4 Only the codes that end a session cost the connection")
 
 TEST_CASE("3 A refused or unanswered HANDSHAKE is tried again on a new connection")
 {
-    ClientHarness client;
+    ClientFixture client;
     client.Start();
     client.session.OnConnected(client.GetNow(), client.actions);
     client.Execute();
@@ -296,7 +296,7 @@ TEST_CASE("3 A refused or unanswered HANDSHAKE is tried again on a new connectio
 
 TEST_CASE("1 Half lines, CRLF and garbage from the server cost nothing but themselves")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeReady(client);
     client.SetMonitor(20ms);
     client.Receive(R"({"type":"moni)");
@@ -311,7 +311,7 @@ TEST_CASE("7.20 A line beyond the bound costs the connection")
 {
     ClientSessionOptions options;
     options.longestLine = 200;
-    ClientHarness client(options);
+    ClientFixture client(options);
     MakeReady(client);
     client.Receive(std::string(201, 'x'));
     REQUIRE(client.Take<ClientLost>().at(0).reason == EClientLossReason::LineTooLong);
@@ -319,7 +319,7 @@ TEST_CASE("7.20 A line beyond the bound costs the connection")
 
 TEST_CASE("7.21 Stop says STOP session, waits for its ack and ends; without an answer it ends as well")
 {
-    ClientHarness client;
+    ClientFixture client;
     MakeReady(client);
     static_cast<void>(client.Control("/a"));
     client.session.Stop(client.GetNow(), client.actions);
@@ -347,7 +347,7 @@ TEST_CASE("7.21 Stop says STOP session, waits for its ack and ends; without an a
 
 TEST_CASE("8 Connecting takes its time limit and is tried for ever")
 {
-    ClientHarness client;
+    ClientFixture client;
     client.Start();
     client.Pass(3s);
     REQUIRE(client.Take<ClientLost>().at(0).reason == EClientLossReason::ConnectTimeout);

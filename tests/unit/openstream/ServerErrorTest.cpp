@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "ServerHarness.hpp"
+#include "ServerFixture.hpp"
 #include <acs/openstream/EOpenStreamErrorCode.hpp>
 #include <acs/openstream/OpenStreamCodec.hpp>
 
@@ -41,7 +41,7 @@ std::string MakeNested(std::size_t depth)
 void CheckGoesOn(const BadLine& bad)
 {
     INFO(bad.rule << " " << bad.line.substr(0, 200));
-    ServerHarness server;
+    ServerFixture server;
     server.Receive(HANDSHAKE);
     server.Receive(MakeMonitorLine(10));
     server.lines.clear();
@@ -100,7 +100,7 @@ TEST_CASE("4 Each code of a HANDSHAKE that is wrong: one error line, and another
     for (const BadLine& bad : lines)
     {
         INFO(bad.rule);
-        ServerHarness server;
+        ServerFixture server;
         server.Receive(bad.line + "\n");
         REQUIRE(server.TakeLines().size() == 1);
         CHECK(server.session.GetStats().errorLines == 1);
@@ -153,7 +153,7 @@ TEST_CASE(
 
 TEST_CASE("7.30 7.32 7.38 What is just inside a bound is taken")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive(HANDSHAKE);
     server.Receive(MakeControlWith(R"("url":"/)" + std::string(LONGEST_URL - 1, 'a') + R"(","method":"POST")") + "\n");
     server.Receive(MakeNested(DEEPEST_NESTING) + "\n");
@@ -171,7 +171,7 @@ TEST_CASE("7.30 7.32 7.38 What is just inside a bound is taken")
 
 TEST_CASE("7.1 7.37 A period that no integer holds is clamped like every other")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive(HANDSHAKE);
     for (const char* period : {"1", "-99999999999999999999", "0", "2.0"})
     {
@@ -192,8 +192,8 @@ TEST_CASE("7.1 7.37 A period that no integer holds is clamped like every other")
 
 TEST_CASE("7.12 Sessions are independent: what one of them gets wrong, the other does not notice")
 {
-    ServerHarness first;
-    ServerHarness second;
+    ServerFixture first;
+    ServerFixture second;
     first.Receive(HANDSHAKE);
     first.Receive(MakeMonitorLine(10));
     second.Receive("garbage\n" + MakeStopLine("session"));
@@ -204,7 +204,7 @@ TEST_CASE("7.12 Sessions are independent: what one of them gets wrong, the other
 
 TEST_CASE("7.4 A body that ends with a line end tears no line and swallows no comma")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.answer = ApiResponse{404, ACS::Core::JsonText::FromTrusted("{\n  \"a\": 1\n}\n")};
     server.Receive(HANDSHAKE);
     server.Receive(MakeMonitorWith(R"("url":"/a","method":"GET","period_ms":2,"id":7)") + "\n" + std::string(CONTROL));

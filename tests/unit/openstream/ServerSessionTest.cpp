@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "ServerHarness.hpp"
+#include "ServerFixture.hpp"
 
 using namespace ACS::OpenStream; // NOLINT(google-build-using-namespace)
 using namespace ACS::Testing;    // NOLINT(google-build-using-namespace)
@@ -8,7 +8,7 @@ using ACS::Core::JsonText;
 
 TEST_CASE("3 HANDSHAKE with the same major version is acknowledged")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive(HANDSHAKE);
     REQUIRE(server.TakeLines() == std::vector<std::string>{R"({"type":"handshake_ack","ok":true,"version":"1.0.0"})"});
     REQUIRE(server.session.GetState() == EServerState::Ready);
@@ -16,7 +16,7 @@ TEST_CASE("3 HANDSHAKE with the same major version is acknowledged")
 
 TEST_CASE("4 Another major version is a mismatch and leaves the session as it was")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive("{\"cmd\":\"HANDSHAKE\",\"payload\":{\"major\":2}}\n");
     REQUIRE(server.Count("version_mismatch") == 1);
     REQUIRE(server.session.GetState() == EServerState::Connected);
@@ -26,14 +26,14 @@ TEST_CASE("4 Another major version is a mismatch and leaves the session as it wa
 
 TEST_CASE("7.10 HANDSHAKE twice while idle is acknowledged again")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive(std::string(HANDSHAKE) + std::string(HANDSHAKE));
     REQUIRE(server.Count("handshake_ack") == 2);
 }
 
 TEST_CASE("7.11 HANDSHAKE is busy while a MONITOR is active or a CONTROL in flight, and disturbs neither")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive(HANDSHAKE);
     server.Receive(MakeMonitorLine(2));
     server.Receive(HANDSHAKE);
@@ -53,7 +53,7 @@ TEST_CASE("7.11 HANDSHAKE is busy while a MONITOR is active or a CONTROL in flig
 
 TEST_CASE("7.13 Before the HANDSHAKE nothing is executed and the connection stays")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive(MakeMonitorLine(2));
     server.Receive(CONTROL);
     server.Receive(MakeStopLine("session"));
@@ -66,7 +66,7 @@ TEST_CASE("7.13 Before the HANDSHAKE nothing is executed and the connection stay
 
 TEST_CASE("7.14 The gate goes before the fields, the command before the gate")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive("{\"cmd\":\"MONITOR\",\"payload\":7}\n");
     REQUIRE(server.Count("handshake_required") == 1);
     server.Receive("{\"cmd\":\"DANCE\"}\n");
@@ -78,7 +78,7 @@ TEST_CASE("7.14 The gate goes before the fields, the command before the gate")
 
 TEST_CASE("7.15 A CONTROL that the service refuses is a control_err, one that is no request an error")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive(HANDSHAKE);
     static_cast<void>(server.TakeLines());
     server.answer = ApiResponse{403, JsonText::FromTrusted(R"({"err_code":-38500})")};
@@ -93,7 +93,7 @@ TEST_CASE("7.15 A CONTROL that the service refuses is a control_err, one that is
 
 TEST_CASE("7.17 7.18 Every 2xx is silent, a refusal without body has no body")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive(HANDSHAKE);
     static_cast<void>(server.TakeLines());
     server.answer = ApiResponse{204, {}};
@@ -106,7 +106,7 @@ TEST_CASE("7.17 7.18 Every 2xx is silent, a refusal without body has no body")
 
 TEST_CASE("3 A CONTROL without body carries an empty object to the service, args go into the query")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive(HANDSHAKE);
     server.Receive("{\"cmd\":\"CONTROL\",\"payload\":{\"method\":\"PUT\",\"url\":\"/a?x=1\",\"args\":{\"x\":2}}}\n");
     REQUIRE(server.calls.size() == 1);
@@ -118,7 +118,7 @@ TEST_CASE("3 A CONTROL without body carries an empty object to the service, args
 
 TEST_CASE("8 CONTROLs reach the service one after another, in their order")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.bServiceAnswers = false;
     server.Receive(HANDSHAKE);
     for (const char* url : {"/a", "/b", "/c"})
@@ -137,7 +137,7 @@ TEST_CASE("8 A full queue of CONTROLs stops reading; control_busy only where the
 {
     ServerSessionOptions options;
     options.maximumControls = 2;
-    ServerHarness server(options);
+    ServerFixture server(options);
     server.bServiceAnswers = false;
     server.Receive(HANDSHAKE);
     server.Receive(std::string(CONTROL) + std::string(CONTROL) + std::string(CONTROL));
@@ -162,7 +162,7 @@ TEST_CASE("8 CONTROLs that wait are bounded in bytes as in number")
 {
     ServerSessionOptions options;
     options.maximumControlBytes = 3'000;
-    ServerHarness server(options);
+    ServerFixture server(options);
     server.bServiceAnswers = false;
     server.Receive(HANDSHAKE);
     const std::string line = R"({"cmd":"CONTROL","payload":{"method":"POST","url":"/a","body":{"text":")"
@@ -189,7 +189,7 @@ TEST_CASE("8 STOP control makes room again: a queue that fills up later waits be
 {
     ServerSessionOptions options;
     options.maximumControls = 2;
-    ServerHarness server(options);
+    ServerFixture server(options);
     server.bServiceAnswers = false;
     server.Receive(HANDSHAKE);
     server.Receive(std::string(CONTROL) + std::string(CONTROL) + std::string(CONTROL));
@@ -204,7 +204,7 @@ TEST_CASE("8 STOP control makes room again: a queue that fills up later waits be
 
 TEST_CASE("7.19 STOP of what is not there is nothing_to_stop, STOP session is always acknowledged")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive(HANDSHAKE);
     server.Receive(MakeStopLine("monitor"));
     server.Receive(MakeStopLine("control"));
@@ -221,7 +221,7 @@ TEST_CASE("7.19 STOP of what is not there is nothing_to_stop, STOP session is al
 
 TEST_CASE("3 STOP control drops the CONTROLs that wait")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.bServiceAnswers = false;
     server.Receive(HANDSHAKE);
     server.Receive(std::string(CONTROL) + std::string(CONTROL) + MakeStopLine("control"));
@@ -232,7 +232,7 @@ TEST_CASE("3 STOP control drops the CONTROLs that wait")
 
 TEST_CASE("7.21 STOP session: ack, nothing but handshake_required after it, shutdown, close after a second at most")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive(HANDSHAKE);
     server.Receive(MakeMonitorLine(2));
     server.Pass(4ms);
@@ -249,7 +249,7 @@ TEST_CASE("7.21 STOP session: ack, nothing but handshake_required after it, shut
 
 TEST_CASE("7.21 The client's own close ends the wait after STOP session")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive(HANDSHAKE);
     server.Receive(MakeStopLine("session"));
     server.ClosePeer();
@@ -258,7 +258,7 @@ TEST_CASE("7.21 The client's own close ends the wait after STOP session")
 
 TEST_CASE("7.23 7.8 STOP without target and MONITOR with stop are refused, session and stream go on")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive(HANDSHAKE);
     server.Receive(MakeMonitorLine(2));
     server.Receive("{\"cmd\":\"STOP\",\"payload\":{\"id\":1}}\n");
@@ -273,7 +273,7 @@ TEST_CASE("7.20 A line beyond the bound gets one rx_buf_overflow, then the sessi
 {
     ServerSessionOptions options;
     options.longestLine = 100;
-    ServerHarness server(options);
+    ServerFixture server(options);
     server.Receive(HANDSHAKE);
     server.Receive(std::string(101, 'x'));
     server.Receive(std::string(500, 'x') + "\n" + std::string(CONTROL));
@@ -286,7 +286,7 @@ TEST_CASE("7.20 A line beyond the bound gets one rx_buf_overflow, then the sessi
 
 TEST_CASE("7.33 7.34 7.35 Empty lines are skipped, each broken one has one error that does not echo it")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive("\r\n\n  \n");
     REQUIRE(server.lines.empty());
     server.Receive("{\n\xFF\xFE\nnull\n");
@@ -302,7 +302,7 @@ TEST_CASE("7.33 7.34 7.35 Empty lines are skipped, each broken one has one error
 
 TEST_CASE("7.39 Half-close: whole lines are worked on, half a line is dropped, then the close")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive(HANDSHAKE);
     server.Receive(MakeMonitorLine(2));
     server.answer = ApiResponse{403, {}};
@@ -315,7 +315,7 @@ TEST_CASE("7.39 Half-close: whole lines are worked on, half a line is dropped, t
 
 TEST_CASE("7.39 Half-close with a CONTROL in flight waits for its answer, a second at most")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive(HANDSHAKE);
     server.bServiceAnswers = false;
     server.answer = ApiResponse{403, {}};
@@ -337,7 +337,7 @@ TEST_CASE("7.39 Half-close with a CONTROL in flight waits for its answer, a seco
 
 TEST_CASE("7.12 4 A session too many is told so and closed")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Reject();
     server.Receive(HANDSHAKE);
     REQUIRE(server.Count("handshake_rejected") == 1);
@@ -348,7 +348,7 @@ TEST_CASE("7.12 4 A session too many is told so and closed")
 
 TEST_CASE("D-10 Without a HANDSHAKE the session ends after 5 s; no other line extends the deadline")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Pass(4s);
     server.Receive("garbage\n\n");
     server.Receive(MakeMonitorLine(2));
@@ -363,7 +363,7 @@ TEST_CASE("D-10 Without a HANDSHAKE the session ends after 5 s; no other line ex
 
 TEST_CASE("D-10 A HANDSHAKE just before the deadline is in time")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Pass(4'999ms);
     server.Receive(HANDSHAKE);
     server.Pass(10s);
@@ -375,7 +375,7 @@ TEST_CASE("D-10 7.25 Without a deadline for the HANDSHAKE the 180 s run before i
 {
     ServerSessionOptions options;
     options.handshakeTimeout = 0ms;
-    ServerHarness server(options);
+    ServerFixture server(options);
     server.Pass(100s);
     server.Receive("garbage\n");
     server.Receive(MakeMonitorLine(2));
@@ -389,7 +389,7 @@ TEST_CASE("D-10 7.25 Without a deadline for the HANDSHAKE the 180 s run before i
 
 TEST_CASE("7.25 A good command begins the 180 s anew")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive(HANDSHAKE);
     server.Pass(100s);
     server.Receive(HANDSHAKE);
@@ -403,7 +403,7 @@ TEST_CASE("8 Acks and errors that nobody reads are bounded")
 {
     ServerSessionOptions options;
     options.maximumOutput = 1'000;
-    ServerHarness server(options);
+    ServerFixture server(options);
     server.bSocketTakes = false;
     for (int count = 0; count < 100 && !server.closed.has_value(); ++count)
     {

@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "ServerHarness.hpp"
+#include "ServerFixture.hpp"
 #include <acs/openstream/OpenStreamCodec.hpp>
 
 using namespace ACS::OpenStream; // NOLINT(google-build-using-namespace)
@@ -11,7 +11,7 @@ namespace
 {
 
 /// The ts of every data line so far.
-std::vector<int> GetTimes(const ServerHarness& server)
+std::vector<int> GetTimes(const ServerFixture& server)
 {
     OpenStreamCodec codec;
     std::vector<int> times;
@@ -27,7 +27,7 @@ std::vector<int> GetTimes(const ServerHarness& server)
     return times;
 }
 
-ServerHarness& Stream(ServerHarness& server, int periodMs)
+ServerFixture& Stream(ServerFixture& server, int periodMs)
 {
     server.Receive(HANDSHAKE);
     server.Receive(MakeMonitorLine(periodMs));
@@ -38,7 +38,7 @@ ServerHarness& Stream(ServerHarness& server, int periodMs)
 
 TEST_CASE("7.5 7.6 The first sample comes after one period, ts counts from the beginning of the MONITOR")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Pass(123ms);
     Stream(server, 10).Pass(35ms);
     REQUIRE(GetTimes(server) == std::vector<int>{10, 20, 30});
@@ -48,7 +48,7 @@ TEST_CASE("7.5 7.6 The first sample comes after one period, ts counts from the b
 
 TEST_CASE("7.7 A second MONITOR replaces the first: no line of the old one after the new ack")
 {
-    ServerHarness server;
+    ServerFixture server;
     Stream(server, 10);
     server.bSocketTakes = false;
     server.Pass(25ms);
@@ -69,7 +69,7 @@ TEST_CASE("7.7 A second MONITOR replaces the first: no line of the old one after
 
 TEST_CASE("7.6 A client that sends MONITOR again and again starves no stream")
 {
-    ServerHarness server;
+    ServerFixture server;
     Stream(server, 4);
     for (int count = 0; count < 20; ++count)
     {
@@ -81,7 +81,7 @@ TEST_CASE("7.6 A client that sends MONITOR again and again starves no stream")
 
 TEST_CASE("7.9 A number or a string as id comes back in the data lines, nothing else does")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.Receive(HANDSHAKE);
     server.Receive(
         "{\"cmd\":\"MONITOR\",\"payload\":{\"url\":\"/a\",\"method\":\"GET\",\"period_ms\":2,\"id\":\"m1\"}}\n");
@@ -96,7 +96,7 @@ TEST_CASE("7.9 A number or a string as id comes back in the data lines, nothing 
 
 TEST_CASE("7.22 No data after the stop_ack, and every line before it")
 {
-    ServerHarness server;
+    ServerFixture server;
     Stream(server, 2);
     server.bSocketTakes = false;
     server.Pass(6ms);
@@ -109,7 +109,7 @@ TEST_CASE("7.22 No data after the stop_ack, and every line before it")
 
 TEST_CASE("7.24 A stream that nobody reads ends after 5 s; a silent client that reads lives for ever")
 {
-    ServerHarness server;
+    ServerFixture server;
     Stream(server, 2).Pass(600s);
     REQUIRE_FALSE(server.closed.has_value());
     server.bSocketTakes = false;
@@ -125,7 +125,7 @@ TEST_CASE("7.24 A stream that nobody reads ends after 5 s; a silent client that 
 
 TEST_CASE("7.24 Repeating the MONITOR is no reading of it; the longest period is no interruption")
 {
-    ServerHarness server;
+    ServerFixture server;
     Stream(server, 30'000).Pass(100s);
     REQUIRE(server.Count("\"data\"") == 3);
     server.bSocketTakes = false;
@@ -139,7 +139,7 @@ TEST_CASE("7.24 Repeating the MONITOR is no reading of it; the longest period is
 
 TEST_CASE("7.26 A slow reader gets the newest sample, whole, and every ack")
 {
-    ServerHarness server;
+    ServerFixture server;
     Stream(server, 2);
     server.bSocketTakes = false;
     server.Pass(100ms);
@@ -157,7 +157,7 @@ TEST_CASE("7.26 A slow reader gets the newest sample, whole, and every ack")
 
 TEST_CASE("7.27 After an overrun the phase is kept, nothing is made up for, and what was skipped is counted")
 {
-    ServerHarness server;
+    ServerFixture server;
     Stream(server, 10).Pass(20ms);
     server.Stall(37ms);
     server.Pass(13ms);
@@ -167,7 +167,7 @@ TEST_CASE("7.27 After an overrun the phase is kept, nothing is made up for, and 
 
 TEST_CASE("7.27 A service slower than the period skips ticks, one call at a time")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.bServiceAnswers = false;
     Stream(server, 10).Pass(35ms);
     REQUIRE(server.calls.size() == 1);
@@ -180,7 +180,7 @@ TEST_CASE("7.27 A service slower than the period skips ticks, one call at a time
 
 TEST_CASE("9 A service without a sample sends no line; what is skipped is counted, the phase and ts stay")
 {
-    ServerHarness server;
+    ServerFixture server;
     Stream(server, 10).Pass(20ms);
     server.answer.bNoSample = true;
     server.Pass(30ms);
@@ -194,7 +194,7 @@ TEST_CASE("9 A service without a sample sends no line; what is skipped is counte
 
 TEST_CASE("7.24 A service without a sample for longer than the limit of interrupted streaming ends the session")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.answer.bNoSample = true;
     Stream(server, 10).Pass(6s);
     REQUIRE(server.Count("\"data\"") == 0);
@@ -203,7 +203,7 @@ TEST_CASE("7.24 A service without a sample for longer than the limit of interrup
 
 TEST_CASE("7.17 A CONTROL does not care for samples")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.answer.bNoSample = true;
     server.answer.status = 403;
     Stream(server, 10);
@@ -214,7 +214,7 @@ TEST_CASE("7.17 A CONTROL does not care for samples")
 
 TEST_CASE("7.28 A url that the service does not have gives data with its status, not an error a tick")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.answer = ApiResponse{404, {}};
     Stream(server, 2).Pass(4ms);
     REQUIRE(server.Count("monitor_ack") == 1);
@@ -224,7 +224,7 @@ TEST_CASE("7.28 A url that the service does not have gives data with its status,
 
 TEST_CASE("4 A service that fails is one monitor_internal_error an episode, and the stream goes on")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.answer = ApiResponse{500, {}};
     Stream(server, 2).Pass(10ms);
     REQUIRE(server.Count("monitor_internal_error") == 1);
@@ -238,7 +238,7 @@ TEST_CASE("4 A service that fails is one monitor_internal_error an episode, and 
 
 TEST_CASE("4 7.24 A service that hangs is an internal error after its time, and in the end a timeout")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.bServiceAnswers = false;
     Stream(server, 2).Pass(1'100ms);
     REQUIRE(server.Count("monitor_internal_error") == 1);
@@ -249,7 +249,7 @@ TEST_CASE("4 7.24 A service that hangs is an internal error after its time, and 
 
 TEST_CASE("7.7 The answer to a replaced MONITOR is not sent")
 {
-    ServerHarness server;
+    ServerFixture server;
     server.bServiceAnswers = false;
     Stream(server, 2).Pass(2ms);
     server.Receive(MakeMonitorLine(2, "/project/rgen"));
@@ -259,7 +259,7 @@ TEST_CASE("7.7 The answer to a replaced MONITOR is not sent")
 
 TEST_CASE("8 A flood of commands gives a due tick its turn after 64 lines")
 {
-    ServerHarness server;
+    ServerFixture server;
     Stream(server, 2);
     std::string flood;
     for (int count = 0; count < 100; ++count)

@@ -165,6 +165,6 @@ struct EngineOptions
 
 /// Every mistake of the options at once, each with a path ("robots.LR01.home"); empty where there is none. The engine
 /// takes only options without mistakes.
-[[nodiscard]] std::vector<Core::Error> FindMistakes(const EngineOptions& options, const SiteMap& site);
+[[nodiscard]] std::vector<Core::Error> FindErrors(const EngineOptions& options, const SiteMap& site);
 
 } // namespace ACS::Planning

@@ -18,7 +18,7 @@ public:
     IJobCheck& operator=(const IJobCheck&) = delete;
     virtual ~IJobCheck() = default;
 
-    /// Why the robot cannot do the job, in words for the MCS; nullopt where it can. The job has no commandID, mark and
+    /// Why the robot cannot do the job, in words for the MCS; nullopt where it can. The job has no commandID, progressToken and
     /// jobNumber yet, and no jobID where the plan gives its step no job.
     [[nodiscard]] virtual std::optional<std::string> GetRejectionReasonOrNull(const StartJob& job) const = 0;
 };

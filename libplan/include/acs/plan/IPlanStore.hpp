@@ -73,9 +73,9 @@ struct RobotWorkChanged
     /// Of those before, the latest first, so many as tell an old order of the robot from a stranger's.
     std::vector<std::string> earlierIDs;
     std::optional<StartJob> job; ///< Commanded, and its end not told.
-    std::string mark;            ///< StateChanged::mark, when all this was written down.
+    std::string progressToken;   ///< RestartEvidence::progressToken, when all this was written down.
     bool bPauseAsked = false;    ///< It was told to pause, and has not shown since that it goes on.
-    bool bDoubtful = false;      ///< It may have done jobs of its plan that could not be written down.
+    bool bUnresolved = false;    ///< It may have done jobs of its plan that could not be written down.
     /// Where it may be: while it drives what was left of its way when this was written down, else where it stands.
     std::vector<std::string> nodeIDs;
     bool bCommandTaken = false; ///< It has shown that it had one of these commands: showing none, it was switched off.

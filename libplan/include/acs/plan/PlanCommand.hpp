@@ -1,6 +1,6 @@
 #pragma once
 
-#include <acs/plan/EJobAnswer.hpp>
+#include <acs/plan/EJobResolution.hpp>
 #include <acs/plan/EPlanControl.hpp>
 #include <acs/plan/Plan.hpp>
 
@@ -61,14 +61,14 @@ struct ControlTSC
 
 /// Of the operator, who has looked: what became of a job that is held (alarm ACS-1008). What the robot tells of it later
 /// changes nothing. Answered by one ReplyCommand.
-struct SettleJob
+struct ResolveJob
 {
     std::string planID;
     std::string jobID; ///< As the alarm names it.
-    EJobAnswer answer = EJobAnswer::Done;
+    EJobResolution answer = EJobResolution::Done;
     ReplyToken replyToken = 0;
 
-    bool operator==(const SettleJob&) const = default;
+    bool operator==(const ResolveJob&) const = default;
 };
 
 /// Of the operator: the robot is taken out of service, or given back. It ends its plan first, takes no other one and is
@@ -121,7 +121,7 @@ using PlanCommand = std::variant<
     ControlPlan,
     MessageAcknowledged,
     ControlTSC,
-    SettleJob,
+    ResolveJob,
     SetMaintenance,
     ClearAlarms,
     SetCarriers,

@@ -44,7 +44,7 @@ class PlanEngine
     std::unique_ptr<Impl> _impl;
 
 public:
-    /// The options must be without mistakes (FindMistakes). The random source makes transactionIDs and driveIDs; it
+    /// The options must be without mistakes (FindErrors). The random source makes transactionIDs and driveIDs; it
     /// must outlive the engine.
     PlanEngine(EngineOptions options, SiteMap site, Core::IRandom& random);
     PlanEngine(const PlanEngine&) = delete;
@@ -57,7 +57,7 @@ public:
     /// Once, before any command or event: what the store held. Plans stay in their states and with their robots, paused ones
     /// and those held in the queue included, and controls whose outcome was open still owe it. Each robot is asked what
     /// became of a job whose end nobody heard (RecoverJob); where it cannot tell, the job is held with a heavy alarm until
-    /// SettleJob or AbortPlan. Drives are begun anew; nobody sets out before every robot has told its place, or
+    /// ResolveJob or AbortPlan. Drives are begun anew; nobody sets out before every robot has told its place, or
     /// EngineOptions::restartWait has passed. Unacknowledged reports are in GetUnacknowledged.
     void Restore(StoredState state, Core::Now now, EngineActions& out);
 
@@ -112,7 +112,7 @@ public:
 
     /// Why the engine would refuse the command at this moment; nullopt where it would not.
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SetCarriers& command) const;
-    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SettleJob& command) const;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const ResolveJob& command) const;
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SkipStep& command) const;
 
     /// nullopt where the plan is not known, is finished or goes on.

@@ -82,7 +82,7 @@ struct CancelDrive
 };
 
 /// Do a job here. Answered by JobStarted and then JobFinished or JobFailed, or by JobUnknown where it was surely not begun
-/// and may be given again, or JobUncertain where nobody can tell. All locations are canonical and name the robot itself
+/// and may be given again, or JobUnresolved where nobody can tell. All locations are canonical and name the robot itself
 /// ("LR01.CP01", never "AMR.CP01").
 struct StartJob
 {
@@ -97,7 +97,7 @@ struct StartJob
     /// A UUID. What is done under it is done once: another plan may bring the same jobID, and a job that has to be sent
     /// again, because the robot never had it, has the same commandID.
     std::string commandID;
-    std::string mark; ///< StateChanged::mark of the moment before.
+    std::string progressToken; ///< RestartEvidence::progressToken of the moment before.
     /// For robots that cannot show a UUID, such as the words of an arm's controller: random, 1 to 2^31 - 1, different from
     /// that of the robot's previous job, stored with the command. 0: unknown, commanded by an older version.
     std::int32_t jobNumber = 0;
@@ -106,7 +106,7 @@ struct StartJob
 };
 
 /// After a restart: tell what became of this job, which was commanded before and whose end nobody has heard. Answered, as
-/// soon as the robot is there, by JobStarted, JobFinished or JobFailed, and else by one of JobUnknown and JobUncertain. It
+/// soon as the robot is there, by JobStarted, JobFinished or JobFailed, and else by one of JobUnknown and JobUnresolved. It
 /// never begins the job.
 struct RecoverJob
 {

@@ -40,6 +40,20 @@ struct PortLoad
     bool operator==(const PortLoad&) const = default;
 };
 
+/// What the robot shows of its commands. After a restart of the ACS the engine recognises by it which jobs were done. The default
+/// shows nothing: each job in progress at a crash becomes unresolved.
+struct RestartEvidence
+{
+    /// The last Drive or StartJob that the robot shows; empty if it shows none, for example after it was switched off. nullopt
+    /// if robots of its kind never show one.
+    std::optional<std::string> commandID{};
+    /// A value of the adapter's own that differs once a further job has begun, such as an arm's counters. The engine stores it
+    /// with the command and returns it in StartJob::progressToken. Empty if commandID is enough.
+    std::string progressToken{};
+
+    bool operator==(const RestartEvidence&) const = default;
+};
+
 /// The robot's present state; raised on every change, as often as the robot tells.
 struct StateChanged
 {
@@ -59,12 +73,7 @@ struct StateChanged
     /// Nodes ahead on which it may still drive without another command, of an order that it was given before a restart or
     /// by somebody else: they are kept free for it.
     std::vector<std::string> heldNodeIDs;
-    /// The last Drive or StartJob that the robot shows that it had; empty: it shows none, as after it was switched off.
-    /// Absent where robots of its kind show no such thing.
-    std::optional<std::string> shownCommandID;
-    /// What is true of the robot now and will have changed once a job has begun, in words of the adapter's own (an arm's
-    /// counters). Comes back with the job; empty where the commandID is enough.
-    std::string mark;
+    RestartEvidence restartEvidence;
     /// One entry per carrier port, in the order of RobotOptions::ports. Absent where the robot reports no loads.
     std::optional<std::vector<PortLoad>> loads;
 
@@ -140,12 +149,12 @@ struct JobUnknown
 
 /// What became of the job cannot be known from the robot: a person has to look. The last word about this job: the adapter
 /// tells nothing of it any more.
-struct JobUncertain
+struct JobUnresolved
 {
     std::string jobID;
     std::string reason; ///< What the robot shows, in words for that person.
 
-    bool operator==(const JobUncertain&) const = default;
+    bool operator==(const JobUnresolved&) const = default;
 };
 
 /// What is known of the jobs that the robot can do has changed, as with a vehicle's factsheet. Plans that no robot has are
@@ -170,7 +179,7 @@ using RobotEvent = std::variant<
     JobFinished,
     JobFailed,
     JobUnknown,
-    JobUncertain,
+    JobUnresolved,
     JobCheckChanged>;
 
 } // namespace ACS::Planning

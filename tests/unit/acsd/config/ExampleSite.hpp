@@ -16,16 +16,16 @@ inline AcsdConfig ReadSite(const std::vector<std::string>& overrides)
 }
 
 /// Keys on top of the example site, and how the only mistake of that begins after "--set: ".
-struct MistakeRow
+struct ConfigErrorRow
 {
     std::vector<std::string> overrides;
     std::string mistake;
 };
 
 /// Checks that each row has its mistake and no other.
-inline void CheckMistakes(const std::vector<MistakeRow>& rows)
+inline void CheckErrors(const std::vector<ConfigErrorRow>& rows)
 {
-    for (const MistakeRow& row : rows)
+    for (const ConfigErrorRow& row : rows)
     {
         INFO(row.overrides.front());
         INFO(row.mistake);

@@ -86,7 +86,7 @@ const std::string SECOND_ROBOT = "robots.LR02={type='LR', manufacturer='B', seri
                                  "start_node='N001', ports=['CP01-02'], ";
 
 /// The one mistake, without the place that it comes from.
-std::string FindMistake(const std::vector<std::string>& overrides)
+std::string FindError(const std::vector<std::string>& overrides)
 {
     const std::vector<std::string> mistakes = ReadJobs(overrides).mistakes;
     if (mistakes.size() != 1)
@@ -340,7 +340,7 @@ TEST_CASE("What a configuration of jobs cannot mean is reported under its key")
     {
         INFO(row.overrides.front());
         INFO(row.mistake);
-        const std::string mistake = FindMistake(row.overrides);
+        const std::string mistake = FindError(row.overrides);
         INFO(mistake);
         CHECK(mistake.starts_with(row.mistake));
     }

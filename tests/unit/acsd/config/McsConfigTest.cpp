@@ -23,7 +23,7 @@ AcsdConfig ReadMCS(const std::vector<std::string>& overrides)
 }
 
 /// The one mistake that this override makes; empty where it makes none.
-std::string FindMistake(const std::string& override)
+std::string FindError(const std::string& override)
 {
     const std::vector<std::string> mistakes = ReadMCS({override}).mistakes;
     return mistakes.size() == 1 ? mistakes[0] : std::string();
@@ -129,11 +129,11 @@ TEST_CASE("A value that the register does not have, or that cannot work, is a mi
           "errors.map=/nowhere/errors.toml"})
     {
         INFO(override);
-        const std::string mistake = FindMistake(override);
+        const std::string mistake = FindError(override);
         const std::string key = std::string(override).substr(0, std::string(override).find('='));
         CHECK(mistake.find(key == "errors.map" ? "/nowhere/errors.toml" : key) != std::string::npos);
     }
-    CHECK(FindMistake("mcs.ping_timeout=11s").find("twice mcs.ping_interval") != std::string::npos);
+    CHECK(FindError("mcs.ping_timeout=11s").find("twice mcs.ping_interval") != std::string::npos);
 }
 
 TEST_CASE("errors.map gives alarms the site's names and levels; its mistakes have their file and line")

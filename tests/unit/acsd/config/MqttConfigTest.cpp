@@ -73,18 +73,18 @@ TEST_CASE("A password file that is missing, empty or without a name is a mistake
     const Testing::TemporaryFolder folder;
     const std::string empty = WriteFile(folder, "empty", "\n");
     const std::string good = WriteFile(folder, "good", "x\n");
-    const auto getMistake = [](const std::vector<std::string>& overrides) {
+    const auto getError = [](const std::vector<std::string>& overrides) {
         const std::vector<std::string> mistakes = ReadMQTT(overrides).mistakes;
         REQUIRE(mistakes.size() == 1);
         return mistakes[0];
     };
     CHECK_THAT(
-        getMistake({"mqtt.username=acs", "mqtt.password_file=/nowhere/password"}),
+        getError({"mqtt.username=acs", "mqtt.password_file=/nowhere/password"}),
         Catch::Contains("mqtt.password_file: /nowhere/password cannot be read (No such file or directory)"));
     CHECK_THAT(
-        getMistake({"mqtt.username=acs", "mqtt.password_file=" + empty}),
+        getError({"mqtt.username=acs", "mqtt.password_file=" + empty}),
         Catch::Contains("mqtt.password_file: " + empty + " has no password in its first line"));
-    CHECK_THAT(getMistake({"mqtt.password_file=" + good}), Catch::Contains("mqtt.password_file: needs mqtt.username"));
+    CHECK_THAT(getError({"mqtt.password_file=" + good}), Catch::Contains("mqtt.password_file: needs mqtt.username"));
 }
 
 TEST_CASE("With mqtts the CA, the certificate and its key are files that are there; with mqtt they are a mistake")

@@ -12,7 +12,7 @@ TEST_CASE("A number that no place of the action has at this site is an error, as
 {
     const std::string tray = "actions.TrayLoad.arm_inputs";
     const std::string memory = "actions.MemoryPickAndPlace.arm_inputs";
-    CheckMistakes({
+    CheckErrors({
         {{tray + ".ml120='{from.st}'"}, tray + ".ml120: no place of this action has {from.st}"},
         {{"actions.TrayUnload.arm_inputs.ml120='{to.st}'"},
          "actions.TrayUnload.arm_inputs.ml120: no place of this action has {to.st}"},

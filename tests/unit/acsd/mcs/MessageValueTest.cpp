@@ -12,7 +12,7 @@ TEST_CASE("What a message to a vehicle cannot have is an error of the configurat
 {
     const std::string load = "actions.CassetteLoad.parameters";
     const std::string own = "robots.LR01.actions.CassetteLoad.parameters";
-    CheckMistakes({
+    CheckErrors({
         {{load + ".a=nan"}, load + ".a: expected a finite number, found nan"},
         {{load + ".a=inf"}, load + ".a: expected a finite number, found inf"},
         {{load + ".a=-inf"}, load + ".a: expected a finite number, found -inf"},

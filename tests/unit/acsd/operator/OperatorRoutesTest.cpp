@@ -116,7 +116,7 @@ TEST_CASE("Who may ask: programs by address or a name of the configuration; heal
     const auto bServed = [&guard](const std::string& method, const std::string& path, const Apps::HttpSource& source) {
         Apps::HttpRequest request = *Apps::ParseHttpTarget(path);
         request.method = method;
-        return !guard.GetObjectionOrNull(request, source).has_value();
+        return !guard.GetUnavailabilityOrNull(request, source).has_value();
     };
     for (const char* host : {"127.0.0.1:8080", "acs.local:8080", "acs.example"})
     {
@@ -206,7 +206,7 @@ TEST_CASE("POST /plans/PLAN/jobs/JOB/done, failed and again answer for a job tha
         user.Post("/plans/P1/jobs/P1-a4/done"),
         "404 {\"error\":\"LR01 is connected and will report the outcome of the job."));
     CHECK(HasText(user.Post("/plans/P1/jobs/P1-zz/done"), "404 {\"error\":\"No robot has job P1-zz of plan P1."));
-    user.world.Raise("LR01", Planning::JobUncertain{"P1-a4", "it was switched off"});
+    user.world.Raise("LR01", Planning::JobUnresolved{"P1-a4", "it was switched off"});
     CHECK(HasText(user.GetStatus(), R"("errorCode":"ACS-1008")"));
     CHECK(HasText(user.GetStatus(), R"("planId":"P1","stepNo":1,"jobId":"P1-a4"})"));
     CHECK(HasText(
@@ -242,7 +242,7 @@ TEST_CASE("POST /plans/PLAN/steps/NO/skip skips a step that is Pending or whose 
     CHECK(HasText(user.Post("/plans/P1/steps/2/skip"), "503 "));
     user.storeObstacle.reset();
     CHECK(user.Post("/plans/P1/steps/2/skip") == "202 {\"message\":\"Step 2 of plan P1 is skipped.\"}\n");
-    user.world.Raise("LR01", Planning::JobUncertain{"P1-a4", "it was switched off"});
+    user.world.Raise("LR01", Planning::JobUnresolved{"P1-a4", "it was switched off"});
     CHECK(HasText(user.Post("/plans/P1/steps/1/skip"), "202 "));
     CHECK_FALSE(HasText(user.GetStatus(), R"("errorCode":"ACS-1008")"));
     CHECK(user.world.GetReportsOf("P1").back() == "Plan Completed");
@@ -331,7 +331,7 @@ TEST_CASE("An answer for a job that is held waits for the store")
     Operator user;
     user.world.Submit(MakeLogisticsPlan("P1"));
     REQUIRE(Testing::TryRunUntil(user.world, "P1", "Job 1 P1-a4 InProgress"));
-    user.world.Raise("LR01", Planning::JobUncertain{"P1-a4", "it was switched off"});
+    user.world.Raise("LR01", Planning::JobUnresolved{"P1-a4", "it was switched off"});
     user.storeObstacle = "the store cannot be written";
     CHECK(HasText(user.Post("/plans/P1/jobs/P1-a4/done"), "503 "));
     CHECK(HasText(user.GetStatus(), R"("errorCode":"ACS-1008")"));

@@ -151,12 +151,12 @@ TEST_CASE("A program ends as the counters prove, and only once")
     SECTION("Another program ran")
     {
         arm.Prove(false, ArmProof::EOutcome::OtherProgram);
-        CHECK(arm.HasReported<Planning::JobUncertain>());
+        CHECK(arm.HasReported<Planning::JobUnresolved>());
     }
     SECTION("The controller was restarted")
     {
         arm.program.OnRestarted(arm.actions);
-        CHECK(arm.HasReported<Planning::JobUncertain>());
+        CHECK(arm.HasReported<Planning::JobUnresolved>());
     }
     CHECK_FALSE(arm.program.HasJob());
     CHECK_FALSE(arm.program.IsCounted());
@@ -227,7 +227,7 @@ TEST_CASE("A start whose fate is unknown is awaited, and echoed without counters
     arm.program.OnCountersBack(arm.actions);
     const bool bEchoed = GENERATE(false, true);
     arm.program.OnStartTimer(bEchoed, arm.actions);
-    CHECK(arm.HasReported<Planning::JobUncertain>() == bEchoed);
+    CHECK(arm.HasReported<Planning::JobUnresolved>() == bEchoed);
     CHECK(arm.HasReported<Planning::JobFailed>() != bEchoed);
 }
 

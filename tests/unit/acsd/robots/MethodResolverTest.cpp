@@ -36,7 +36,7 @@ void WriteWithByteNumbers(const std::string& file)
 TEST_CASE("An override that takes an action from its robot is an error, also where another robot can do it")
 {
     const std::string load = "actions.CassetteLoad";
-    CheckMistakes({
+    CheckErrors({
         {{SECOND_VEHICLE + load + ".arm_program=5}"},
          "robots.LR02.actions.CassetteLoad.arm_program: LR02 cannot do CassetteLoad with it: the vehicle has no action for "
          "CassetteLoad; give vehicle_action, as LR02 has no arm"},
@@ -81,7 +81,7 @@ TEST_CASE("An override's error has the file and the line of its key")
 
 TEST_CASE("An action of the site that no robot can do is reported at the key that says how")
 {
-    CheckMistakes({
+    CheckErrors({
         {{"actions.X={robot='LR', arm_program=5}"},
          "actions.X.arm_program: no robot can do it, LR01: the vehicle has no action for X; give vehicle_action, as LR01 "
          "has no arm"},
@@ -95,7 +95,7 @@ TEST_CASE("An action of the site that no robot can do is reported at the key tha
 
 TEST_CASE("A table of overrides without a key has no effect")
 {
-    CheckMistakes({
+    CheckErrors({
         {{"robots.LR01.actions.CassetteLoad={}"},
          "robots.LR01.actions.CassetteLoad: is empty; give vehicle_action, parameters, arm_program or arm_inputs"},
         {{"robots.LR01.actions={}"}, "robots.LR01.actions: is empty; give a table per action"},
@@ -106,7 +106,7 @@ TEST_CASE("A table of overrides without a key has no effect")
 
 TEST_CASE("A station's table for an action that has no job there, or that no robot does so, has no effect")
 {
-    CheckMistakes({
+    CheckErrors({
         {{R"(stations."A01.SET01".actions.CassetteLoad.vehicle_action="x")"},
          R"(stations."A01.SET01".actions.CassetteLoad: has no effect: CassetteLoad has no job at this station)"},
         {{R"(stations."ST01.CP01".actions.TrayLoad.arm_program=5)"},
@@ -172,7 +172,7 @@ TEST_CASE("An input that shares a byte with a counter is an error, whatever its 
 TEST_CASE("The counters are those of each robot's own arm, and the inputs those that it has in the end")
 {
     const std::string tray = "actions.TrayLoad.arm_inputs";
-    CheckMistakes({
+    CheckErrors({
         {{SECOND_ARM + "protocol='2.0.0'}", tray + "={ml121=1}"},
          tray + ".ml121: is a counter of the arm of CR02, bytes 484 to 487"},
         {{SECOND_ARM + "actions.TrayLoad.arm_inputs={ml122=1}}"},

@@ -44,7 +44,7 @@ struct ArmInputFixture : ArmFixture
         job.jobID = "J";
         job.action = "TrayLoad";
         job.from = "A01.CP01.TP01";
-        job.mark = "5 5 0";
+        job.progressToken = "5 5 0";
         job.jobNumber = number;
         return job;
     }
@@ -334,7 +334,7 @@ TEST_CASE("A program that was run after the inputs were read back is not taken f
     CHECK(arm.TakeEvents<Planning::JobStarted>().empty());
     CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
-    CHECK(arm.TakeEvents<Planning::JobUncertain>().empty());
+    CHECK(arm.TakeEvents<Planning::JobUnresolved>().empty());
 }
 
 TEST_CASE("A job that was sent again has the counters of after the program that another one ran for its own base")
@@ -345,7 +345,7 @@ TEST_CASE("A job that was sent again has the counters of after the program that 
     arm.ShowLook("[6,6,0]");
     CHECK(arm.TakeEvents<Planning::JobUnknown>().size() == 1);
     Planning::StartJob again = ArmInputFixture::MakeJob();
-    again.mark = "6 6 0";
+    again.progressToken = "6 6 0";
     arm.Command(again);
     CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
     arm.Settle(OpenStream::EControlOutcome::Accepted);
@@ -503,12 +503,12 @@ TEST_CASE("Counters that change under another job's number are no evidence: afte
     {
         arm.TellData(BEGUN);
         CHECK(arm.TakeEvents<Planning::JobStarted>().size() == 1);
-        CHECK(arm.TakeEvents<Planning::JobUncertain>().empty());
+        CHECK(arm.TakeEvents<Planning::JobUnresolved>().empty());
     }
     SECTION("It was another program")
     {
         arm.TellData("[6,6,0,11,17]");
-        const auto uncertain = arm.TakeEvents<Planning::JobUncertain>();
+        const auto uncertain = arm.TakeEvents<Planning::JobUnresolved>();
         REQUIRE(uncertain.size() == 1);
         CHECK(uncertain.front().reason.find("4711") != std::string::npos);
         CHECK(uncertain.front().reason.find("17") != std::string::npos);
@@ -571,15 +571,15 @@ TEST_CASE("After a restart the echo shows whether the program that ran was this 
         arm.TellData(MOTOR_ON_SAMPLE);
         arm.TellData("[6,6,0,11,17]");
         CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
-        REQUIRE(arm.TakeEvents<Planning::JobUncertain>().size() == 1);
-        CHECK(arm.TakeEvents<Planning::JobUncertain>().front().reason.find("4711") != std::string::npos);
+        REQUIRE(arm.TakeEvents<Planning::JobUnresolved>().size() == 1);
+        CHECK(arm.TakeEvents<Planning::JobUnresolved>().front().reason.find("4711") != std::string::npos);
     }
     SECTION("It echoed its number and raised no counter: it is not commanded again")
     {
         arm.BringUp("[5,5,0,0,4711]");
         arm.Fire(ArmFixture::START_TIMER);
         CHECK(arm.TakeEvents<Planning::JobUnknown>().empty());
-        CHECK(arm.TakeEvents<Planning::JobUncertain>().size() == 1);
+        CHECK(arm.TakeEvents<Planning::JobUnresolved>().size() == 1);
     }
     SECTION("It was not started")
     {

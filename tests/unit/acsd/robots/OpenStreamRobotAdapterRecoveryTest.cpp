@@ -13,12 +13,12 @@ namespace
 /// acsd was restarted and the adapter asked for the job J, which was commanded when the counters were [5 5 0].
 struct ArmRecoveryFixture : ArmFixture
 {
-    explicit ArmRecoveryFixture(std::string_view counters, const std::string& mark = "5 5 0")
+    explicit ArmRecoveryFixture(std::string_view counters, const std::string& progressToken = "5 5 0")
     {
         Planning::RecoverJob recover;
         recover.job.jobID = "J";
         recover.job.action = "TrayLoad";
-        recover.job.mark = mark;
+        recover.job.progressToken = progressToken;
         adapter.Handle(recover, clock.GetNow(), actions);
         CHECK(actions.empty());
         Tell(OpenStream::ClientReady{});
@@ -74,16 +74,16 @@ TEST_CASE("After a restart counters that are all 0, have fallen or have risen to
     {
         INFO(counters);
         ArmRecoveryFixture arm(counters);
-        CHECK(arm.TakeEvents<Planning::JobUncertain>().size() == 1);
+        CHECK(arm.TakeEvents<Planning::JobUnresolved>().size() == 1);
         arm.EndWait();
         arm.TellData("[6,6,0]"); // later evidence is none
         CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
         CHECK(arm.TakeEvents<Planning::JobUnknown>().empty());
     }
     ArmRecoveryFixture zero("[0,0,0]", "0 0 0"); // a controller that was restarted shows the same
-    CHECK(zero.TakeEvents<Planning::JobUncertain>().size() == 1);
-    ArmRecoveryFixture unmarked("[5,5,0]", "");
-    CHECK(unmarked.TakeEvents<Planning::JobUncertain>().size() == 1);
+    CHECK(zero.TakeEvents<Planning::JobUnresolved>().size() == 1);
+    ArmRecoveryFixture unchanged("[5,5,0]", "");
+    CHECK(unchanged.TakeEvents<Planning::JobUnresolved>().size() == 1);
 }
 
 TEST_CASE(

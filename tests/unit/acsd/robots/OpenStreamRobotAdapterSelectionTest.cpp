@@ -117,7 +117,7 @@ TEST_CASE("A selection that gave up another program is not taken for this one's 
     arm.Command("J");
     arm.Accept("[5,5,1]"); // one that stood in its middle
     CHECK(arm.TakeRequests().empty());
-    CHECK(arm.TakeEvents<Planning::StateChanged>().back().mark == "5 5 1");
+    CHECK(arm.TakeEvents<Planning::StateChanged>().back().restartEvidence.progressToken == "5 5 1");
     CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
     arm.Command("J");

@@ -140,8 +140,8 @@ TEST_CASE("Counters that begin again are the work of a restart: nobody can tell 
     arm.TellData("[0,0,0]");
     CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
-    REQUIRE(arm.TakeEvents<Planning::JobUncertain>().size() == 1);
-    CHECK(arm.TakeEvents<Planning::JobUncertain>().front().reason.find("restarted") != std::string::npos);
+    REQUIRE(arm.TakeEvents<Planning::JobUnresolved>().size() == 1);
+    CHECK(arm.TakeEvents<Planning::JobUnresolved>().front().reason.find("restarted") != std::string::npos);
 }
 
 TEST_CASE("A start that was answered by silence and got lost fails its job when the program does not begin")
@@ -236,7 +236,7 @@ TEST_CASE("A job that comes while the arm is away was not begun: it waits for th
     Planning::StartJob job;
     job.jobID = "J";
     job.action = "TrayLoad";
-    job.mark = "5 5 0";
+    job.progressToken = "5 5 0";
     arm.adapter.Handle(job, arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
@@ -260,7 +260,7 @@ TEST_CASE("While the base is away nothing that it told before is told again, wha
     arm.ShowBase(false);
     const auto states = arm.TakeEvents<Planning::StateChanged>();
     REQUIRE_FALSE(states.empty());
-    CHECK(states.back().mark == "6 5 0");
+    CHECK(states.back().restartEvidence.progressToken == "6 5 0");
 }
 
 TEST_CASE("A program that was surely not started is not the job's failure, whatever got lost on the way")
@@ -316,21 +316,21 @@ TEST_CASE("Answers that are no counters are passed over")
     CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
 }
 
-TEST_CASE("The counters are the mark of the robot's state; a job with another mark is not begun")
+TEST_CASE("The counters are the progress token of the robot; a job with another token is not begun")
 {
     ArmFixture arm;
     arm.BringUpWithBase();
-    CHECK(arm.TakeEvents<Planning::StateChanged>().back().mark == "5 5 0");
+    CHECK(arm.TakeEvents<Planning::StateChanged>().back().restartEvidence.progressToken == "5 5 0");
     arm.TellData("[6,6,0]"); // a program that somebody ran by hand
-    CHECK(arm.TakeEvents<Planning::StateChanged>().back().mark == "6 6 0");
+    CHECK(arm.TakeEvents<Planning::StateChanged>().back().restartEvidence.progressToken == "6 6 0");
     Planning::StartJob job;
     job.jobID = "J";
     job.action = "TrayLoad";
-    job.mark = "5 5 0";
+    job.progressToken = "5 5 0";
     arm.adapter.Handle(job, arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeEvents<Planning::JobUnknown>().size() == 1);
     CHECK(arm.TakeRequests().empty());
-    job.mark = "6 6 0";
+    job.progressToken = "6 6 0";
     arm.adapter.Handle(job, arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
 }

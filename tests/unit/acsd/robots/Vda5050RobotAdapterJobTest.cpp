@@ -225,7 +225,7 @@ TEST_CASE("A job that the vehicle shows after a restart goes on before its facts
     vehicle.state.actionStates = {{"U1", "pick", "", VDA5050::EActionStatus::Running, ""}};
     vehicle.ComeOnline();
     vehicle.Command(Planning::RecoverJob{MakeLoad("A01.CP01", "LR01.CP01"), {}});
-    CHECK(vehicle.TakeEvents<Planning::JobUncertain>().empty());
+    CHECK(vehicle.TakeEvents<Planning::JobUnresolved>().empty());
     vehicle.state.actionStates[0].actionStatus = VDA5050::EActionStatus::Finished;
     vehicle.ShowState();
     CHECK(vehicle.TakeEvents<Planning::JobFinished>().size() == 1);

@@ -13,7 +13,7 @@ namespace
 
 using Planning::EActionEffect;
 using Planning::JobFinished;
-using Planning::JobUncertain;
+using Planning::JobUnresolved;
 using Planning::PortLoad;
 
 constexpr Planning::AdapterTimerID LOAD_TIMER = 50;
@@ -155,7 +155,7 @@ TEST_CASE("A job whose loads disagree with its finished action is finished as so
     vehicle.FireLoadTimer(); // too late
     vehicle.Show({});
     CHECK(vehicle.TakeEvents<JobFinished>().size() == 1);
-    CHECK(vehicle.TakeEvents<JobUncertain>().empty());
+    CHECK(vehicle.TakeEvents<JobUnresolved>().empty());
 }
 
 TEST_CASE("A job whose loads keep disagreeing is uncertain, with port, expected and shown")
@@ -170,7 +170,7 @@ TEST_CASE("A job whose loads keep disagreeing is uncertain, with port, expected 
         CHECK(vehicle.TakeEvents<JobFinished>().empty());
         vehicle.FireLoadTimer();
         vehicle.FireLoadTimer();
-        const auto uncertain = vehicle.TakeEvents<JobUncertain>();
+        const auto uncertain = vehicle.TakeEvents<JobUnresolved>();
         REQUIRE(uncertain.size() == 1);
         CHECK(uncertain[0].jobID == "J");
         vehicle.Show({LoadFixture::MakeLoad("rear", "C1")});
@@ -203,7 +203,7 @@ TEST_CASE("A vehicle that stops reporting loads does not confirm a job that they
     vehicle.ShowState();
     CHECK(vehicle.TakeEvents<JobFinished>().empty());
     vehicle.FireLoadTimer();
-    const auto uncertain = vehicle.TakeEvents<JobUncertain>();
+    const auto uncertain = vehicle.TakeEvents<JobUnresolved>();
     REQUIRE(uncertain.size() == 1);
     CHECK(uncertain[0].reason.ends_with("it no longer reports any"));
 }

@@ -99,7 +99,7 @@ TEST_CASE("After a restart no order, an unknown order or one without its action 
     {
         INFO(orderID);
         RecoveryFixture vehicle(orderID, std::nullopt);
-        CHECK(vehicle.TakeEvents<Planning::JobUncertain>().size() == 1);
+        CHECK(vehicle.TakeEvents<Planning::JobUnresolved>().size() == 1);
         CHECK(vehicle.TakeEvents<Planning::JobUnknown>().empty());
         vehicle.state.orderID = "D"; // later evidence is none
         vehicle.ShowState();

@@ -175,6 +175,6 @@ TEST_CASE("What escapes the body of a program becomes one line and exit code 1")
 TEST_CASE("Control characters in a mistake are escaped")
 {
     const StreamCapture errors(std::cerr);
-    Apps::PrintMistake("vda-sim", std::string_view("carriers.A\0B\x1B[2J: wrong\nname", 28));
+    Apps::PrintError("vda-sim", std::string_view("carriers.A\0B\x1B[2J: wrong\nname", 28));
     REQUIRE(errors.GetText() == "vda-sim: carriers.A\\x00B\\x1b[2J: wrong name\n");
 }

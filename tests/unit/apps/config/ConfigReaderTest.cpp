@@ -65,7 +65,7 @@ TEST_CASE("A good configuration gives its values and no mistakes")
     REQUIRE(ports.size() == 2);
     CHECK(ports[0].GetString("id") == "A01");
     CHECK(ports[1].GetString("id") == "A02");
-    CHECK(reader.GetMistakes().empty());
+    CHECK(reader.GetErrors().empty());
 }
 
 TEST_CASE("Absent optional keys take their defaults, also in a table that is not there")
@@ -84,7 +84,7 @@ TEST_CASE("Absent optional keys take their defaults, also in a table that is not
     CHECK(http.GetSectionList("s").empty());
     CHECK_FALSE(http.GetUrlOrNull("u", {Apps::EUrlScheme::Http}).has_value());
     CHECK_FALSE(http.HasKey("listen"));
-    CHECK(reader.GetMistakes().empty());
+    CHECK(reader.GetErrors().empty());
 }
 
 TEST_CASE("All mistakes come at once, by line, each with file, line and key")
@@ -114,7 +114,7 @@ wait = '2m'
     CHECK(mcs.GetStringList("words").empty());
     CHECK(reader.GetRoot().GetSection("site").GetString("map").empty());
     CHECK(
-        reader.GetMistakes()
+        reader.GetErrors()
         == Lines{
             "acsd.toml: site.map: missing; give a string",
             "acsd.toml:3: mcs.url: expected a URL ws://HOST[:PORT][/PATH], found 'http://mcs'",
@@ -133,7 +133,7 @@ TEST_CASE("A missing key that has a form is told with that form")
 {
     const auto reader = Read("[mqtt]\n");
     (void)reader.GetRoot().GetSection("mqtt").GetURL("url", {Apps::EUrlScheme::Mqtt});
-    CHECK(reader.GetMistakes() == Lines{"acsd.toml:1: mqtt.url: missing; give a URL mqtt://HOST[:PORT]"});
+    CHECK(reader.GetErrors() == Lines{"acsd.toml:1: mqtt.url: missing; give a URL mqtt://HOST[:PORT]"});
 }
 
 TEST_CASE("A key that nobody asked for is a mistake, with the nearest known key")
@@ -145,7 +145,7 @@ TEST_CASE("A key that nobody asked for is a mistake, with the nearest known key"
     (void)reader.GetRoot().GetSection("robots");
     (void)reader.GetRoot().GetSectionList("ports").at(0).GetStringOrNull("id");
     CHECK(
-        reader.GetMistakes()
+        reader.GetErrors()
         == Lines{
             "acsd.toml:2: mcs.ulr: unknown key; did you mean 'url'?",
             "acsd.toml:3: mcs.speed: unknown key; allowed here: compress, url",
@@ -183,7 +183,7 @@ TEST_CASE("A later override wins, and may add a table or name a quoted one")
     CHECK(robots.GetNames() == Lines{"CR 01", "X"});
     CHECK(robots.GetSection("CR 01").GetString("type") == "CR");
     CHECK(robots.GetSection("X").GetString("type") == "LR");
-    CHECK(reader.GetMistakes().empty());
+    CHECK(reader.GetErrors().empty());
 }
 
 TEST_CASE("A mistake in an override names the option, after those of the file")
@@ -192,7 +192,7 @@ TEST_CASE("A mistake in an override names the option, after those of the file")
         "[mcs]\nretries = 1\nx = 1\n",
         {"mcs.retries=many", "mcs.rerties=1", "nonsense", "a..b=1", "=1", "a\nb=1"});
     CHECK(reader.GetRoot().GetSection("mcs").GetInteger("retries", 0, 10) == 0);
-    const Lines mistakes = reader.GetMistakes();
+    const Lines mistakes = reader.GetErrors();
     REQUIRE(mistakes.size() == 7);
     CHECK_THAT(mistakes[0], StartsWith("acsd.toml:3: mcs.x: unknown key"));
     for (std::size_t index = 1; index < mistakes.size(); ++index)
@@ -212,7 +212,7 @@ TEST_CASE("An override that puts a value in the place of a table, or the reverse
     const auto reader = Read(GOOD, {"mcs=5", "robots.LR01.type.x=1"});
     CHECK(reader.GetRoot().GetSection("mcs").GetString("url").empty());
     CHECK(reader.GetRoot().GetSection("robots").GetSection("LR01").GetString("type").empty());
-    const Lines mistakes = reader.GetMistakes();
+    const Lines mistakes = reader.GetErrors();
     CHECK(std::count(mistakes.begin(), mistakes.end(), "--set: mcs: expected a table, found the integer 5") == 1);
     CHECK(
         std::count(mistakes.begin(), mistakes.end(), "--set: robots.LR01.type: expected a string, found a table") == 1);
@@ -223,10 +223,10 @@ TEST_CASE("The caller's own mistake stands at the line of its key")
     const auto reader = Read("[robots.LR01]\nnode = 'N9'\n");
     const auto robot = reader.GetRoot().GetSection("robots").GetSection("LR01");
     CHECK(robot.GetString("node") == "N9");
-    robot.AddMistake("node", "no such node in the map");
-    robot.AddMistake({}, "too many robots");
+    robot.AddError("node", "no such node in the map");
+    robot.AddError({}, "too many robots");
     CHECK(
-        reader.GetMistakes()
+        reader.GetErrors()
         == Lines{
             "acsd.toml:1: robots.LR01: too many robots",
             "acsd.toml:2: robots.LR01.node: no such node in the map",
@@ -239,13 +239,13 @@ TEST_CASE("Of a key only the first mistake is told, and none of what stands in a
         Apps::ConfigReader::ReadText("a = 7\n[b]\nx = 1\ny = 2\n[c]\nz = 3\n", "f.toml", {"c=4"});
     const Apps::ConfigSection root = reader.GetRoot();
     static_cast<void>(root.GetString("a"));
-    root.AddMistake("a", "is empty");
+    root.AddError("a", "is empty");
     root.GetSection("b").Refuse("has no good name");
-    root.GetSection("b").AddMistake("x", "is bad");
+    root.GetSection("b").AddError("x", "is bad");
     static_cast<void>(root.GetSection("c").GetString("z"));
     static_cast<void>(root.GetSection("c"));
     CHECK(
-        reader.GetMistakes()
+        reader.GetErrors()
         == std::vector<std::string>{
             "f.toml:1: a: expected a string, found the integer 7",
             "f.toml:2: b: has no good name",
@@ -255,12 +255,12 @@ TEST_CASE("Of a key only the first mistake is told, and none of what stands in a
 TEST_CASE("A mistake by its path stands at the line of the key, or of as much of the path as is given")
 {
     const Apps::ConfigReader reader = Apps::ConfigReader::ReadText("[a]\n[a.b]\nc = 1\n", "f.toml", {"d.e=1"});
-    reader.AddMistake("a.b.c", "1");
-    reader.AddMistake("a.b.x", "2");
-    reader.AddMistake("a.b.c.deeper", "3");
-    reader.AddMistake("d.e", "4");
-    reader.AddMistake("nothing.of.it", "5");
-    std::vector<std::string> mistakes = reader.GetMistakes();
+    reader.AddError("a.b.c", "1");
+    reader.AddError("a.b.x", "2");
+    reader.AddError("a.b.c.deeper", "3");
+    reader.AddError("d.e", "4");
+    reader.AddError("nothing.of.it", "5");
+    std::vector<std::string> mistakes = reader.GetErrors();
     std::erase_if(mistakes, [](const std::string& mistake) {
         return mistake.find("unknown key") != std::string::npos;
     });
@@ -278,14 +278,14 @@ TEST_CASE("A file that is no TOML is one mistake, with its line")
 {
     const auto reader = Read("[mcs]\nurl = 'x'\nurl = \n", {"bad"});
     CHECK(reader.GetRoot().GetSection("mcs").GetString("url").empty());
-    REQUIRE(reader.GetMistakes().size() == 1);
-    CHECK_THAT(reader.GetMistakes()[0], StartsWith("acsd.toml:3: not TOML: "));
+    REQUIRE(reader.GetErrors().size() == 1);
+    CHECK_THAT(reader.GetErrors()[0], StartsWith("acsd.toml:3: not TOML: "));
 }
 
 TEST_CASE("Nesting without end is a mistake and no crash")
 {
     const auto reader = Read("a = " + std::string(100'000, '['));
-    REQUIRE(reader.GetMistakes().size() == 1);
+    REQUIRE(reader.GetErrors().size() == 1);
 }
 
 TEST_CASE("A file that cannot be read is one mistake that says what to give")
@@ -293,8 +293,8 @@ TEST_CASE("A file that cannot be read is one mistake that says what to give")
     const auto* const name = GENERATE("/nonexistent/acsd.toml", "/");
     const auto reader = Apps::ConfigReader::ReadFile(name, {"a.b=1"});
     CHECK(reader.GetRoot().GetSection("mcs").GetString("url").empty());
-    REQUIRE(reader.GetMistakes().size() == 1);
-    CHECK_THAT(reader.GetMistakes()[0], StartsWith(std::string(name) + ": cannot be read ("));
+    REQUIRE(reader.GetErrors().size() == 1);
+    CHECK_THAT(reader.GetErrors()[0], StartsWith(std::string(name) + ": cannot be read ("));
 }
 
 TEST_CASE("Every given key has its path and value as text, overrides on top, to compare two readings")

@@ -72,13 +72,13 @@ TEST_CASE("A configuration is a regular file of at most 4 MiB; else that is its 
     const std::string pipe = folder.GetPath() / "pipe";
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
     CHECK(
-        Apps::ConfigReader::ReadFile(pipe, {}).GetMistakes()
+        Apps::ConfigReader::ReadFile(pipe, {}).GetErrors()
         == std::vector<std::string>{
             pipe
             + ": cannot be read (it is a pipe; only regular files are read); give the path of a configuration file"});
     const std::string path = MakeFile(folder, "# " + std::string(4U * 1024U * 1024U, 'x') + "\n");
     CHECK(
-        Apps::ConfigReader::ReadFile(path, {}).GetMistakes()
+        Apps::ConfigReader::ReadFile(path, {}).GetErrors()
         == std::vector<std::string>{
             path + ": cannot be read (it is longer than 4194304 bytes); give the path of a configuration file"});
 }

@@ -15,7 +15,7 @@ std::optional<std::string> AskOrNull(const std::string& method, const std::strin
     const Apps::HttpGuard guard({{"acs.example"}, false, {"/metrics"}});
     Apps::HttpRequest request = *Apps::ParseHttpTarget(path);
     request.method = method;
-    return guard.GetObjectionOrNull(request, source);
+    return guard.GetUnavailabilityOrNull(request, source);
 }
 
 } // namespace
@@ -85,6 +85,6 @@ TEST_CASE("Where every name is served, pages of other origins are refused all th
     const Apps::HttpGuard guard({{}, true, {}});
     Apps::HttpRequest request = *Apps::ParseHttpTarget("/fault");
     request.method = "POST";
-    CHECK(guard.GetObjectionOrNull(request, {"simulator:8890", {}, {}}) == std::nullopt);
-    CHECK(guard.GetObjectionOrNull(request, {"simulator:8890", "http://evil.example", {}}).has_value());
+    CHECK(guard.GetUnavailabilityOrNull(request, {"simulator:8890", {}, {}}) == std::nullopt);
+    CHECK(guard.GetUnavailabilityOrNull(request, {"simulator:8890", "http://evil.example", {}}).has_value());
 }

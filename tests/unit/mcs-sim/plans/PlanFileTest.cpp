@@ -22,7 +22,7 @@ std::string MakeMessage(const std::string& command, const std::string& payload)
         + R"(","transactionId":"T1","timestamp":"2025-07-02T21:00:00.123+09:00","payload":)" + payload + "}";
 }
 
-std::string GetMistake(const std::string& text)
+std::string GetPlanError(const std::string& text)
 {
     const Result<PlannedPlan> planned = ParsePlanFile(text);
     return planned.has_value() ? "none" : Describe(planned.error());
@@ -55,20 +55,20 @@ TEST_CASE("A plan file may begin with a byte order mark")
 
 TEST_CASE("A broken plan file is refused with the place of the mistake")
 {
-    CHECK(GetMistake("{\"planId\":").find("JSON") != std::string::npos);
-    CHECK(GetMistake("").find("JSON") != std::string::npos);
-    CHECK(GetMistake("[]") != "none");
-    CHECK(GetMistake(R"({"planId":"P1"})").find("payload.steps") != std::string::npos);
-    CHECK(GetMistake(MakeMessage("ExecutionPlan", R"({"planId":"P1"})")).find("steps") != std::string::npos);
+    CHECK(GetPlanError("{\"planId\":").find("JSON") != std::string::npos);
+    CHECK(GetPlanError("").find("JSON") != std::string::npos);
+    CHECK(GetPlanError("[]") != "none");
+    CHECK(GetPlanError(R"({"planId":"P1"})").find("payload.steps") != std::string::npos);
+    CHECK(GetPlanError(MakeMessage("ExecutionPlan", R"({"planId":"P1"})")).find("steps") != std::string::npos);
     // A payload cannot break out of the message that it is put into.
-    CHECK(GetMistake(std::string(PAYLOAD) + R"(,"command":"AbortPlan")") != "none");
+    CHECK(GetPlanError(std::string(PAYLOAD) + R"(,"command":"AbortPlan")") != "none");
 }
 
 TEST_CASE("A plan file with another command or an Ack is refused")
 {
-    CHECK(GetMistake(MakeMessage("AbortPlan", R"({"planId":"P1"})")).find("ExecutionPlan") != std::string::npos);
-    CHECK(GetMistake(MakeMessage("ExecutionPlanAck", R"({"planId":"P1"})")) != "none");
-    CHECK(GetMistake(MakeMessage("Frobnicate", "{}")) != "none");
+    CHECK(GetPlanError(MakeMessage("AbortPlan", R"({"planId":"P1"})")).find("ExecutionPlan") != std::string::npos);
+    CHECK(GetPlanError(MakeMessage("ExecutionPlanAck", R"({"planId":"P1"})")) != "none");
+    CHECK(GetPlanError(MakeMessage("Frobnicate", "{}")) != "none");
 }
 
 TEST_CASE("A plan file that is not there is named")

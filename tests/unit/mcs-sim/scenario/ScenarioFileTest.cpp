@@ -42,7 +42,7 @@ TStep ParseOne(const std::string& steps)
     return std::get<TStep>(scenario->steps.back().kind);
 }
 
-std::string FindMistake(const std::string& steps)
+std::string FindError(const std::string& steps)
 {
     const auto scenario = Parse(steps);
     REQUIRE_FALSE(scenario.has_value());
@@ -161,7 +161,7 @@ TEST_CASE("A mistake in a scenario is told with its place, what was expected and
         Row{R"({"drop":"close","code":1015})", "steps[0].code: expected a code that may be sent, found 1015"},
         Row{R"({"wait":"2s","wait":"3s"})", "expected each member once"},
         Row{R"({"wait":"2s","note":""})", R"(steps[0].note: expected a text, found "")"});
-    const std::string mistake = FindMistake(row.first);
+    const std::string mistake = FindError(row.first);
     CAPTURE(row.first, mistake);
     CHECK(mistake.find(row.second) == 0);
 }
@@ -194,7 +194,7 @@ TEST_CASE("A placeholder that stands for nothing is a mistake of the file, other
         Row{R"({"expectNext":"PlanReport","as":"S"})", "steps[1]: expected one of the members expectNext, "},
         Row{R"({"send":"ExecutionPlan","file":"plan.json","as":"the plan"})",
             "steps[1].as: expected a name of letters, "});
-    const std::string mistake = FindMistake(SEND_PLAN + "," + row.first);
+    const std::string mistake = FindError(SEND_PLAN + "," + row.first);
     CAPTURE(row.first, mistake);
     CHECK(mistake.find(row.second) == 0);
     CHECK(Parse(

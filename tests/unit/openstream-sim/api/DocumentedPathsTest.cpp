@@ -1,14 +1,14 @@
 #include "Catch.hpp"
-#include "controller/ControllerHarness.hpp"
+#include "controller/ControllerFixture.hpp"
 
 #include <string>
 
 using ACS::OpenStream::EApiMethod;
-using ACS::Testing::ControllerHarness;
+using ACS::Testing::ControllerFixture;
 
 TEST_CASE("7.40 The document's own CONTROL works: a path without /project, with a member that nobody knows")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(harness.Select(11) == 200);
     REQUIRE(harness.Post("/robot/start", R"({"speed":50})") == 200);
     REQUIRE(harness.GetCounters() == "[1,0,0,0]");
@@ -24,7 +24,7 @@ TEST_CASE("7.40 The document's own CONTROL works: a path without /project, with 
 
 TEST_CASE("7.40 The paths of the document's samples and of the vendor's client that no manual has are served")
 {
-    ControllerHarness harness;
+    ControllerFixture harness;
     for (const char* path : {"/project/robot", "/api/health"})
     {
         CAPTURE(path);
@@ -36,7 +36,7 @@ TEST_CASE("7.40 The paths of the document's samples and of the vendor's client t
 
 TEST_CASE("7.40 The alias is that of the robot alone, and of whole names")
 {
-    ControllerHarness harness;
+    ControllerFixture harness;
     for (const char* path : {"/robot", "/robots/po_cur", "/robot/", "/rgen", "/control/op_cnd", "/robot/robot/po_cur"})
     {
         CAPTURE(path);

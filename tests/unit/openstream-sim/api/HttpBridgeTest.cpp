@@ -1,16 +1,16 @@
 #include "api/HttpBridge.hpp"
 
 #include "Catch.hpp"
-#include "controller/ControllerHarness.hpp"
+#include "controller/ControllerFixture.hpp"
 
 using ACS::Apps::HttpRequest;
 using ACS::Apps::HttpResponse;
-using ACS::Testing::ControllerHarness;
+using ACS::Testing::ControllerFixture;
 
 namespace
 {
 
-HttpResponse Send(ControllerHarness& harness, const HttpRequest& request)
+HttpResponse Send(ControllerFixture& harness, const HttpRequest& request)
 {
     return ACS::OpenStreamSim::AnswerHTTP(request, harness.controller, harness.clock.GetNow());
 }
@@ -19,7 +19,7 @@ HttpResponse Send(ControllerHarness& harness, const HttpRequest& request)
 
 TEST_CASE("HTTP and Open Stream see the same controller")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(
         Send(harness, {"POST", "/project/context/tasks[0]/cur_prog_cnt", {}, R"({ "pno" : 11, "ext_sel" : 1 })"}).status
         == 200);
@@ -37,7 +37,7 @@ TEST_CASE("HTTP and Open Stream see the same controller")
 
 TEST_CASE("A body that is no JSON object or array is refused, a method that the Open API has not is not found")
 {
-    ControllerHarness harness;
+    ControllerFixture harness;
     for (const char* body : {"{", "7", "\"x\"", "null", "{} {}", R"({"val":1,"val":2})", "\xFF"})
     {
         INFO(body);
@@ -54,7 +54,7 @@ TEST_CASE("A body that is no JSON object or array is refused, a method that the 
 
 TEST_CASE("A path is decoded once: what came as %255B is no bracket, and a NUL or another byte is no end of it")
 {
-    ControllerHarness harness;
+    ControllerFixture harness;
     const std::string body = R"({"pno":11,"ext_sel":1})";
     REQUIRE(Send(harness, {"POST", "/project/context/tasks%5B0%5D/cur_prog_cnt", {}, body}).status == 404);
     REQUIRE(Send(harness, {"POST", "/project/context/tasks[0]/cur_prog_cnt", {}, body}).status == 200);

@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "controller/ControllerHarness.hpp"
+#include "controller/ControllerFixture.hpp"
 
 #include <chrono>
 #include <string>
@@ -10,7 +10,7 @@ using namespace std::chrono_literals;
 using ACS::OpenStream::ApiResponse;
 using ACS::OpenStream::EApiMethod;
 using ACS::OpenStreamSim::ControllerOptions;
-using ACS::Testing::ControllerHarness;
+using ACS::Testing::ControllerFixture;
 using enum EApiMethod;
 
 namespace
@@ -212,7 +212,7 @@ void CheckCalls(const std::vector<Call>& calls, const ControllerOptions& options
 {
     for (const Call& call : calls)
     {
-        ControllerHarness harness(options);
+        ControllerFixture harness(options);
         const ApiResponse response = harness.Call(call.method, call.url, call.body);
         INFO(call.url << ' ' << call.body);
         REQUIRE(response.body.has_value());
@@ -227,7 +227,7 @@ void CheckCalls(const std::vector<Call>& calls, const ControllerOptions& options
 TEST_CASE("A Each row of section A is served with the query, the body and the aliases that it names")
 {
     CheckCalls(CALLS, MakePlayingOptions());
-    CheckCalls(IDLE_CALLS, ControllerHarness::MakeReadyOptions());
+    CheckCalls(IDLE_CALLS, ControllerFixture::MakeReadyOptions());
     ControllerOptions old = MakePlayingOptions();
     old.version = {60, 29, 0};
     CheckCalls(OLD_CALLS, old);
@@ -237,7 +237,7 @@ TEST_CASE("A Each refusal that a row of section A names has its status and its c
 {
     for (const Refusal& refusal : REFUSALS)
     {
-        ControllerHarness harness;
+        ControllerFixture harness;
         for (const auto& [url, body] : refusal.before)
         {
             REQUIRE(harness.Post(url, body) == 200);
@@ -262,7 +262,7 @@ TEST_CASE("A Bodies of any kind are answered by every endpoint, and a refusal ha
     std::vector<Call> calls = CALLS;
     calls.insert(calls.end(), IDLE_CALLS.begin(), IDLE_CALLS.end());
     calls.push_back({Post, START, "{}", ""});
-    ControllerHarness harness(MakePlayingOptions());
+    ControllerFixture harness(MakePlayingOptions());
     for (const Call& call : calls)
     {
         for (const char* body : BAD_BODIES)
@@ -281,7 +281,7 @@ TEST_CASE("A Bodies of any kind are answered by every endpoint, and a refusal ha
 
 TEST_CASE("A A query of any kind is a 400 with the parameter's name, or has no effect")
 {
-    ControllerHarness harness;
+    ControllerFixture harness;
     for (const char* value :
          {"", "x", "-", "1e3", "0x1", "99999999999999999999", "-99999999999999999999", "1.5", "NaN", "[]"})
     {

@@ -1,9 +1,9 @@
 #include "Catch.hpp"
-#include "controller/ControllerHarness.hpp"
+#include "controller/ControllerFixture.hpp"
 
 using ACS::OpenStream::ApiResponse;
 using ACS::OpenStream::EApiMethod;
-using ACS::Testing::ControllerHarness;
+using ACS::Testing::ControllerFixture;
 
 namespace
 {
@@ -178,7 +178,7 @@ TEST_CASE("A Every endpoint answers a fresh controller's client with the documen
 {
     for (const Row& row : ROWS)
     {
-        ControllerHarness harness;
+        ControllerFixture harness;
         const ApiResponse response = harness.Call(row.method, row.url, row.body);
         INFO(row.url << ' ' << row.body);
         REQUIRE(response.body.has_value());
@@ -190,7 +190,7 @@ TEST_CASE("A Every endpoint answers a fresh controller's client with the documen
 
 TEST_CASE("A What is set is what is read")
 {
-    ControllerHarness harness;
+    ControllerFixture harness;
     REQUIRE(
         harness.Call(EApiMethod::Put, "/project/control/op_cnd", R"({"playback_spd_rate":40,"plc_mode":2})").status
         == 200);
@@ -231,7 +231,7 @@ TEST_CASE("A What is set is what is read")
 TEST_CASE("7.41 7.42 joint_states and po_cur move while a program runs, and stand where it was stopped")
 {
     using namespace std::chrono_literals;
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     const std::string home = harness.Get("/project/robot/joint_states");
     const std::string homePose = harness.Get("/project/robot/po_cur");
     REQUIRE(harness.Select(11) == 200);

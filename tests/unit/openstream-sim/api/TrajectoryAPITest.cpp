@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "controller/ControllerHarness.hpp"
+#include "controller/ControllerFixture.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@ using namespace std::chrono_literals;
 using ACS::OpenStream::ApiResponse;
 using ACS::OpenStream::EApiMethod;
 using ACS::OpenStreamSim::ControllerOptions;
-using ACS::Testing::ControllerHarness;
+using ACS::Testing::ControllerFixture;
 
 namespace
 {
@@ -70,14 +70,14 @@ std::string MakePair(double firstTime = 0.0, double lastTime = 1.0)
 }
 
 /// The angle of axis 1.
-double GetFirstAngle(ControllerHarness& harness)
+double GetFirstAngle(ControllerFixture& harness)
 {
     const std::string text = harness.Get(JOINT_STATES);
     constexpr std::string_view KEY = "\"position\":[";
     return std::stod(text.substr(text.find(KEY) + KEY.size()));
 }
 
-std::string GetFree(ControllerHarness& harness)
+std::string GetFree(ControllerFixture& harness)
 {
     const std::string text = harness.Get(FREE);
     constexpr std::string_view FRONT = R"({"_type":"JObject","val":)";
@@ -85,12 +85,12 @@ std::string GetFree(ControllerHarness& harness)
     return text.substr(FRONT.size(), text.size() - FRONT.size() - 1);
 }
 
-bool IsMode(ControllerHarness& harness)
+bool IsMode(ControllerFixture& harness)
 {
     return harness.Contains(MODE, R"("mode":true)");
 }
 
-bool IsReady(ControllerHarness& harness)
+bool IsReady(ControllerFixture& harness)
 {
     return harness.Contains(READY, R"("ready":true)");
 }
@@ -103,7 +103,7 @@ TEST_CASE("C.1 The gates of a trajectory stand in the order remote mode, motor, 
     {
         INFO(url);
         const std::string body = url == INSERT_POINT ? GOOD_POINT : MakePair();
-        ControllerHarness harness;
+        ControllerFixture harness;
         harness.controller.TurnModeSwitch(false, harness.clock.GetNow());
         REQUIRE(harness.PostForCode(url, body) == "403 -38500");
         harness.controller.TurnModeSwitch(true, harness.clock.GetNow());
@@ -131,7 +131,7 @@ TEST_CASE("C.1 The gates of a trajectory stand in the order remote mode, motor, 
 
 TEST_CASE("C.1 A driver brings the controller up from a cold start, as hdr_client_driver does")
 {
-    ControllerHarness harness;
+    ControllerFixture harness;
     REQUIRE(harness.Post("/project/robot/motor_on") == 200);
     harness.clock.Advance(5s);
     REQUIRE(harness.Contains("/project/robot/motor_on_state", R"("val":0})"));
@@ -153,7 +153,7 @@ TEST_CASE("C.1 A driver brings the controller up from a cold start, as hdr_clien
 
 TEST_CASE("C.1 With --playing a client needs nothing but joint_traject_init and its points")
 {
-    ControllerHarness harness(MakeTrajectoryOptions());
+    ControllerFixture harness(MakeTrajectoryOptions());
     REQUIRE(harness.Contains("/project/robot", R"("motor_on_state":0,"is_playback":1,"is_remote_mode":1)"));
     REQUIRE(harness.Post(INIT) == 200);
     for (int number = 0; number < 500; ++number)
@@ -200,7 +200,7 @@ TEST_CASE("A joint_traject_insert_point: what is wrong with its body is told wit
         R"({"interval":0.002,"time_from_start":-1,"look_ahead_time":0,"point":[0,90,0,0,0,1e308]})"};
     for (const bool bPlaying : {false, true})
     {
-        ControllerHarness harness(bPlaying ? MakeTrajectoryOptions() : ControllerOptions{});
+        ControllerFixture harness(bPlaying ? MakeTrajectoryOptions() : ControllerOptions{});
         for (const char* body : BODIES)
         {
             INFO(body);
@@ -219,7 +219,7 @@ TEST_CASE("A joint_traject_insert_point: what is wrong with its body is told wit
 
 TEST_CASE("7.43 time_from_start may be absent, negative, or rise; it does not go back while points are waiting")
 {
-    ControllerHarness harness(MakeTrajectoryOptions());
+    ControllerFixture harness(MakeTrajectoryOptions());
     constexpr const char* ABSENT = R"({"interval":0.01,"look_ahead_time":5,"point":[0.1,90,0,0,0,0]})";
     REQUIRE(harness.Post(INSERT_POINT, ABSENT) == 200);
     REQUIRE(harness.Post(INSERT_POINT, MakePoint(0.2)) == 200);
@@ -234,7 +234,7 @@ TEST_CASE("7.43 time_from_start may be absent, negative, or rise; it does not go
 
 TEST_CASE("C.2 A 2049th point is refused with -8, the 2048 are driven")
 {
-    ControllerHarness harness(MakeTrajectoryOptions());
+    ControllerFixture harness(MakeTrajectoryOptions());
     for (int number = 1; number <= 2048; ++number)
     {
         REQUIRE(harness.Post(INSERT_POINT, MakePoint(0.01 * number, -1.0, 60.0)) == 200);
@@ -300,7 +300,7 @@ TEST_CASE("A joint_traject_insert_points: each mistake has its code, and nothing
     for (const Mistake& mistake : mistakes)
     {
         INFO(mistake.body);
-        ControllerHarness harness(MakeTrajectoryOptions());
+        ControllerFixture harness(MakeTrajectoryOptions());
         CHECK(harness.PostForCode(INSERT_POINTS, mistake.body) == mistake.code);
         CHECK(GetFree(harness) == "2048");
         harness.clock.Advance(1s);
@@ -310,7 +310,7 @@ TEST_CASE("A joint_traject_insert_points: each mistake has its code, and nothing
 
 TEST_CASE("A joint_traject_insert_points: 2048 points are taken, 2049 and 100,000 are -7")
 {
-    ControllerHarness harness(MakeTrajectoryOptions());
+    ControllerFixture harness(MakeTrajectoryOptions());
     const auto makeMany = [](int count) {
         std::string points;
         for (int number = count; number >= 1; --number) // in any order
@@ -335,7 +335,7 @@ TEST_CASE("A joint_traject_insert_points: 2048 points are taken, 2049 and 100,00
 TEST_CASE(
     "A joint_traject_insert_points: straight between the points, radians, velocities ignored, times go on while it moves")
 {
-    ControllerHarness harness(MakeTrajectoryOptions());
+    ControllerFixture harness(MakeTrajectoryOptions());
     const std::string body = MakePoints(
         R"("point_2":{"positions":[0.5,1.570796,0,0,0,0],"velocities":["?"],"accelerations":7,"time_from_start":1.0},)"
         R"("point_1":{"positions":[0,1.570796,0,0,0,0],"time_from_start":0.0})");
@@ -358,7 +358,7 @@ TEST_CASE(
 
 TEST_CASE("C.3 Too fast an axis raises E159 and stops the arm; points are refused until joint_traject_init")
 {
-    ControllerHarness harness(MakeTrajectoryOptions());
+    ControllerFixture harness(MakeTrajectoryOptions());
     REQUIRE(harness.Post(INSERT_POINT, MakePoint(0.2)) == 200);
     REQUIRE(harness.Post(INSERT_POINT, MakePoint(5.0)) == 200); // 2400 deg/s
     REQUIRE(harness.Post(INSERT_POINT, MakePoint(5.1)) == 200);
@@ -383,7 +383,7 @@ TEST_CASE("C.3 Too fast an axis raises E159 and stops the arm; points are refuse
 
 TEST_CASE("C.4 STOP control clears the buffer and holds the arm; the program plays on and takes points at once")
 {
-    ControllerHarness harness(MakeTrajectoryOptions());
+    ControllerFixture harness(MakeTrajectoryOptions());
     REQUIRE(harness.Post(INSERT_POINTS, MakePair()) == 200);
     harness.clock.Advance(500ms);
     REQUIRE(IsMode(harness));
@@ -401,7 +401,7 @@ TEST_CASE("C.4 STOP control clears the buffer and holds the arm; the program pla
 TEST_CASE(
     "A joint_traject_init: empties the buffer in the middle of a motion, which stops; needs remote mode, not the motor")
 {
-    ControllerHarness harness(MakeTrajectoryOptions());
+    ControllerFixture harness(MakeTrajectoryOptions());
     REQUIRE(harness.Post(INSERT_POINTS, MakePair()) == 200);
     harness.clock.Advance(500ms);
     REQUIRE(harness.Post(INIT) == 200);
@@ -418,7 +418,7 @@ TEST_CASE(
 
 TEST_CASE("A joint_traject_init, joint_traject_agility_info: what is set is what is read, an empty body resets it")
 {
-    ControllerHarness harness;
+    ControllerFixture harness;
     REQUIRE(harness.Get(AGILITY) == R"({"_type":"JObject","agility_mode":false,"agility_freq":20})");
     REQUIRE(harness.Post(INIT, R"({"agility_mode":true,"agility_freq":30})") == 200);
     REQUIRE(harness.Get(AGILITY) == R"({"_type":"JObject","agility_mode":true,"agility_freq":30})");
@@ -444,7 +444,7 @@ TEST_CASE(
 {
     for (const bool bAgile : {false, true})
     {
-        ControllerHarness harness(MakeTrajectoryOptions());
+        ControllerFixture harness(MakeTrajectoryOptions());
         REQUIRE(harness.Post(INIT, fmt::format(R"({{"agility_mode":{},"agility_freq":100}})", bAgile)) == 200);
         REQUIRE_FALSE(IsMode(harness));
         REQUIRE(harness.Post(INSERT_POINTS, MakePair()) == 200);
@@ -464,7 +464,7 @@ TEST_CASE(
 
 TEST_CASE("A joint_traject_log: POST sets it, GET tells it, a point that comes too early switches it off")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(harness.Get(LOG) == R"({"_type":"JObject","val":0})");
     REQUIRE(harness.Post(LOG, R"({"enable":true})") == 200);
     REQUIRE(harness.Contains(LOG, R"("val":1)"));
@@ -480,27 +480,27 @@ TEST_CASE("A joint_traject_log: POST sets it, GET tells it, a point that comes t
 
 TEST_CASE("C.1 What ends the playback stops the arm; what is left of the points must be cleared before new ones come")
 {
-    using Interruption = void (*)(ControllerHarness&);
+    using Interruption = void (*)(ControllerFixture&);
     constexpr std::array<Interruption, 4> INTERRUPTIONS{
-        [](ControllerHarness& harness) { REQUIRE(harness.Post("/project/robot/stop") == 200); },
-        [](ControllerHarness& harness) {
+        [](ControllerFixture& harness) { REQUIRE(harness.Post("/project/robot/stop") == 200); },
+        [](ControllerFixture& harness) {
             harness.controller.GetMachine(harness.clock.GetNow()).SwitchMotorOff();
             REQUIRE(harness.PostForCode(INSERT_POINT, GOOD_POINT) == "403 -1442071");
             REQUIRE(harness.Post("/project/robot/motor_on") == 200);
         },
-        [](ControllerHarness& harness) {
+        [](ControllerFixture& harness) {
             REQUIRE(harness.Post("/project/robot/emergency_stop") == 200);
             REQUIRE(harness.Post("/project/robot/emergency_stop", R"({"val":0})") == 200);
             REQUIRE(harness.Post("/project/robot/motor_on") == 200);
         },
-        [](ControllerHarness& harness) {
+        [](ControllerFixture& harness) {
             harness.controller.TurnModeSwitch(false, harness.clock.GetNow());
             REQUIRE(harness.PostForCode(INSERT_POINT, GOOD_POINT) == "403 -38500");
             harness.controller.TurnModeSwitch(true, harness.clock.GetNow());
         }};
     for (const Interruption interrupt : INTERRUPTIONS)
     {
-        ControllerHarness harness(MakeTrajectoryOptions());
+        ControllerFixture harness(MakeTrajectoryOptions());
         REQUIRE(harness.Post(INSERT_POINTS, MakePair()) == 200);
         harness.clock.Advance(500ms);
         interrupt(harness);
@@ -519,7 +519,7 @@ TEST_CASE("C.1 What ends the playback stops the arm; what is left of the points 
 
 TEST_CASE("A joint_traject_ready: a point that comes while it is false raises E01554 and clears what a stop has left")
 {
-    ControllerHarness harness(MakeTrajectoryOptions());
+    ControllerFixture harness(MakeTrajectoryOptions());
     REQUIRE(harness.Post(INSERT_POINTS, MakePair()) == 200);
     harness.clock.Advance(500ms);
     REQUIRE(harness.Post("/project/robot/stop") == 200);
@@ -534,7 +534,7 @@ TEST_CASE("A joint_traject_ready: a point that comes while it is false raises E0
 TEST_CASE(
     "C.1 The wait ends when its relay is set; the arm then stands, and a program swings it from there without a jump")
 {
-    ControllerHarness harness(MakeTrajectoryOptions());
+    ControllerFixture harness(MakeTrajectoryOptions());
     REQUIRE(harness.Post(INSERT_POINTS, MakePair()) == 200);
     harness.clock.Advance(500ms);
     REQUIRE(harness.Post("/project/plc/set_relay_value", R"({"name":"di1","value":1})") == 200);
@@ -553,7 +553,7 @@ TEST_CASE(
 
 TEST_CASE("C.5 Gravity's effort follows the axes 2 and 3 in a trajectory")
 {
-    ControllerHarness harness(MakeTrajectoryOptions());
+    ControllerFixture harness(MakeTrajectoryOptions());
     const std::string body = R"({"interval":1,"look_ahead_time":0,"point":[0,30,0,0,0,0]})";
     REQUIRE(harness.Post(INSERT_POINT, body) == 200);
     harness.clock.Advance(10s);
@@ -564,7 +564,7 @@ TEST_CASE("The time scale holds for trajectories, velocities are those that a cl
 {
     ControllerOptions options = MakeTrajectoryOptions();
     options.timeScale = 10.0;
-    ControllerHarness harness(options);
+    ControllerFixture harness(options);
     REQUIRE(harness.Post(INSERT_POINTS, MakePair()) == 200);
     harness.clock.Advance(50ms);
     REQUIRE(GetFirstAngle(harness) == Approx(28.6478897565 * 0.46).margin(0.001));

@@ -1,4 +1,4 @@
-#include "controller/FaultHarness.hpp"
+#include "controller/FaultFixture.hpp"
 
 #include <chrono>
 #include <string>
@@ -21,7 +21,7 @@ constexpr const char* OFF = R"({"_type":"JObject","val":1})";
 
 TEST_CASE("9 Without a fault both sides are the controller's own")
 {
-    FaultHarness harness;
+    FaultFixture harness;
     CHECK(harness.Sample(MOTOR) == ON);
     CHECK(harness.response.delay == 0s);
     CHECK(harness.GetOverHTTP(MOTOR) == ON);
@@ -33,7 +33,7 @@ TEST_CASE("9 Without a fault both sides are the controller's own")
 
 TEST_CASE("9 In a silence the MONITOR gets no line; CONTROL and HTTP are served, and the arm goes on")
 {
-    FaultHarness harness;
+    FaultFixture harness;
     harness.Begin("silence at=1s for=2s");
     harness.Pass(999ms);
     CHECK(harness.Sample(MOTOR) == ON);
@@ -55,7 +55,7 @@ TEST_CASE("9 In a silence the MONITOR gets no line; CONTROL and HTTP are served,
 
 TEST_CASE("9 A hole is a silence of 100 ms, and comes again where that is asked for")
 {
-    FaultHarness harness;
+    FaultFixture harness;
     harness.Begin("hole every=1s");
     std::string pattern;
     for (int i = 0; i < 42; ++i)
@@ -69,7 +69,7 @@ TEST_CASE("9 A hole is a silence of 100 ms, and comes again where that is asked 
 
 TEST_CASE("9 A call by call controller sees the same as one whose timers fire, every fault at its own time")
 {
-    FaultHarness harness;
+    FaultFixture harness;
     harness.Begin("estop at=1s for=1s");
     REQUIRE(harness.StartProgram(11) == 200);
     harness.clock.Advance(10s);                  // no timer fired
@@ -81,7 +81,7 @@ TEST_CASE("9 A call by call controller sees the same as one whose timers fire, e
 
 TEST_CASE("9 A program that has ended is not met by a fault that begins later")
 {
-    FaultHarness harness;
+    FaultFixture harness;
     REQUIRE(harness.StartProgram(11) == 200);
     harness.clock.Advance(3s);
     harness.Begin("program-fails");
@@ -96,7 +96,7 @@ TEST_CASE("9 A program that has ended is not met by a fault that begins later")
 
 TEST_CASE("9 A slow service answers later on the side that is meant, and does what it is asked for")
 {
-    FaultHarness harness;
+    FaultFixture harness;
     harness.Begin("slow time=300ms for=1s");
     CHECK(harness.Sample(MOTOR) == ON);
     CHECK(harness.response.delay == 300ms);
@@ -118,7 +118,7 @@ TEST_CASE("9 A slow service answers later on the side that is meant, and does wh
 
 TEST_CASE("9 A drop closes what is connected, once, and again where that is asked for")
 {
-    FaultHarness harness;
+    FaultFixture harness;
     harness.Begin("drop at=1s");
     CHECK(harness.drops == 0);
     harness.Pass(1s);
@@ -131,7 +131,7 @@ TEST_CASE("9 A drop closes what is connected, once, and again where that is aske
 
 TEST_CASE("9 A burst of refusals takes the next CONTROLs, of one time or in a time, and executes none of them")
 {
-    FaultHarness harness;
+    FaultFixture harness;
     const std::string tool = R"({"val":3})";
     harness.Begin("refuse count=2");
     for (int i = 0; i < 2; ++i)
@@ -159,7 +159,7 @@ TEST_CASE("9 A burst of refusals takes the next CONTROLs, of one time or in a ti
 
 TEST_CASE("9 Out of remote mode the program halts and CONTROLs are refused; the stream may fall silent at each turn")
 {
-    FaultHarness harness;
+    FaultFixture harness;
     REQUIRE(harness.StartProgram(11) == 200);
     harness.Begin("mode for=5s silence=2s");
     CHECK(harness.ContainsInRobot(R"("is_remote_mode":0)"));
@@ -188,7 +188,7 @@ TEST_CASE("9 Out of remote mode the program halts and CONTROLs are refused; the 
 TEST_CASE("9 Who ends the turned mode switch by hand has the stream back at once")
 {
     const std::optional<EFaultKind> kindOrNull = GENERATE(std::optional<EFaultKind>(EFaultKind::Mode), std::nullopt);
-    FaultHarness harness;
+    FaultFixture harness;
     harness.Begin("mode silence=1h");
     CHECK(harness.Sample(MOTOR).empty());
     CHECK(harness.End(kindOrNull) == 1);
@@ -197,7 +197,7 @@ TEST_CASE("9 Who ends the turned mode switch by hand has the stream back at once
 
 TEST_CASE("9 The emergency stop takes the motor until it is released; then motor and program go on by command")
 {
-    FaultHarness harness;
+    FaultFixture harness;
     REQUIRE(harness.StartProgram(11) == 200);
     harness.Pass(1s);
     harness.Begin("estop for=5s");
@@ -216,7 +216,7 @@ TEST_CASE("9 The emergency stop takes the motor until it is released; then motor
 
 TEST_CASE("9 A protective stop does likewise, without the emergency stop")
 {
-    FaultHarness harness;
+    FaultFixture harness;
     REQUIRE(harness.StartProgram(11) == 200);
     harness.Pass(1s);
     harness.Begin("protective-stop for=5s");
@@ -235,7 +235,7 @@ TEST_CASE("9 A protective stop does likewise, without the emergency stop")
 
 TEST_CASE("9 The motor that the operator switches off can be switched on again at once")
 {
-    FaultHarness harness;
+    FaultFixture harness;
     REQUIRE(harness.StartProgram(11) == 200);
     harness.Begin("motor-off at=1s");
     harness.Pass(1s);
@@ -246,7 +246,7 @@ TEST_CASE("9 The motor that the operator switches off can be switched on again a
 
 TEST_CASE("9 The next program fails at its end, or where it begins, and the one behind it does not")
 {
-    FaultHarness harness;
+    FaultFixture harness;
     harness.Begin("program-fails");
     REQUIRE(harness.StartProgram(11) == 200);
     CHECK(harness.GetCounters() == "[1,0,0,0]");
@@ -272,7 +272,7 @@ TEST_CASE("9 The next program fails at its end, or where it begins, and the one 
 
 TEST_CASE("9 The next relay that is written gets another value, and those after it their own")
 {
-    FaultHarness harness;
+    FaultFixture harness;
     const auto write = [&harness](const std::string& name, int value) {
         const std::string body = R"({"name":")" + name + R"(","value":)" + std::to_string(value) + "}";
         REQUIRE(harness.Control("/project/plc/set_relay_value", body) == 200);
@@ -289,7 +289,7 @@ TEST_CASE("9 The next relay that is written gets another value, and those after 
 
 TEST_CASE("9 A fault with a program waits until that one begins")
 {
-    FaultHarness harness;
+    FaultFixture harness;
     harness.Begin("program-fails program=12");
     harness.Begin("estop program=13 at=500ms for=1s");
     REQUIRE(harness.StartProgram(11) == 200);
@@ -314,7 +314,7 @@ TEST_CASE("9 A fault with a program waits until that one begins")
 
 TEST_CASE("9 One fault too many is refused; ending all takes those to come, too")
 {
-    FaultHarness harness;
+    FaultFixture harness;
     const auto fault = Apps::ParseFault(OpenStreamSim::GetFaultGrammar(), "silence at=1h");
     for (std::size_t i = 0; i < OpenStreamSim::FaultBoard::MAX_FAULTS; ++i)
     {

@@ -1,6 +1,6 @@
 #include "Catch.hpp"
-#include "controller/ControllerHarness.hpp"
-#include "controller/FaultHarness.hpp"
+#include "controller/ControllerFixture.hpp"
+#include "controller/FaultFixture.hpp"
 #include "HeapProbe.hpp"
 
 #include <array>
@@ -21,7 +21,7 @@ constexpr int FIRST_CALLS = 20;
 
 /// How many blocks the calls take from the heap, 2 ms apart, after the first few, in which the text reaches its size: the
 /// numbers of an arm that moves are longer than those of one that stands.
-std::uint64_t CountBlocks(Testing::ControllerHarness& harness, std::string_view url)
+std::uint64_t CountBlocks(Testing::ControllerFixture& harness, std::string_view url)
 {
     OpenStream::ApiRequest request;
     OpenStream::SplitURL(url, request);
@@ -57,7 +57,7 @@ TEST_CASE("What is read at the shortest period takes nothing from the heap")
     for (const std::string_view url : URLS)
     {
         INFO(url);
-        Testing::ControllerHarness harness;
+        Testing::ControllerFixture harness;
         CHECK(CountBlocks(harness, url) == 0);
     }
 }
@@ -75,7 +75,7 @@ TEST_CASE("C.2 Nor does it while the arm follows a trajectory, whose buffer grow
         INFO(url);
         OpenStreamSim::ControllerOptions options;
         options.bWaiting = true;
-        Testing::ControllerHarness harness(options);
+        Testing::ControllerFixture harness(options);
         for (int number = 1; number <= CALLS; ++number)
         {
             const std::string body = BEGINNING + std::to_string(0.01 * number) + ",90,0,0,0,0]}";
@@ -85,7 +85,7 @@ TEST_CASE("C.2 Nor does it while the arm follows a trajectory, whose buffer grow
         CHECK(CountBlocks(harness, url) == 0);
         CHECK(harness.Contains("/project/robot/trajectory/joint_traject_buf_avail", R"("val":2048)"));
     }
-    Testing::ControllerHarness harness(Testing::ControllerHarness::MakeReadyOptions());
+    Testing::ControllerFixture harness(Testing::ControllerFixture::MakeReadyOptions());
     const std::string move = R"({"stmt":"move P,spd=2sec [40,90,0,0,0,0]"})";
     REQUIRE(harness.Post("/project/context/tasks[0]/execute_move", move) == 200);
     CHECK(CountBlocks(harness, URLS[0]) == 0);
@@ -94,7 +94,7 @@ TEST_CASE("C.2 Nor does it while the arm follows a trajectory, whose buffer grow
 
 TEST_CASE("A MONITOR's tick takes nothing from the heap with faults about, nor in a silence")
 {
-    Testing::FaultHarness harness;
+    Testing::FaultFixture harness;
     harness.Begin("slow time=1s side=http");
     harness.Begin("refuse count=3");
     harness.Begin("estop at=1h");

@@ -1,11 +1,11 @@
 #include "controller/VirtualController.hpp"
 
 #include "Catch.hpp"
-#include "controller/ControllerHarness.hpp"
+#include "controller/ControllerFixture.hpp"
 
 using ACS::OpenStreamSim::ControllerOptions;
 using ACS::OpenStreamSim::ProgramSpec;
-using ACS::Testing::ControllerHarness;
+using ACS::Testing::ControllerFixture;
 using namespace std::chrono_literals;
 
 namespace
@@ -27,7 +27,7 @@ ControllerOptions MakeOldOptions()
     return options;
 }
 
-bool IsMotor(ControllerHarness& harness, int state)
+bool IsMotor(ControllerFixture& harness, int state)
 {
     return harness.Contains(MOTOR_STATE, "\"val\":" + std::to_string(state) + "}");
 }
@@ -36,7 +36,7 @@ bool IsMotor(ControllerHarness& harness, int state)
 
 TEST_CASE("A 7.44 The motor is off (1) at the start, goes on (2) for a simulated second, then is on (0)")
 {
-    ControllerHarness harness(MakeOldOptions());
+    ControllerFixture harness(MakeOldOptions());
     REQUIRE(IsMotor(harness, 1));
     REQUIRE(harness.Post(MOTOR_ON) == 200);
     REQUIRE(IsMotor(harness, 2));
@@ -53,13 +53,13 @@ TEST_CASE("A 7.44 The motor is off (1) at the start, goes on (2) for a simulated
 
 TEST_CASE("A With --ready the motor is on at once")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(IsMotor(harness, 0));
 }
 
 TEST_CASE("C The gates of start stand in the order remote mode, motor, running program, selected program")
 {
-    ControllerHarness harness;
+    ControllerFixture harness;
     harness.controller.TurnModeSwitch(false, harness.clock.GetNow());
     REQUIRE(harness.PostForCode("/project/robot/start") == "403 -38500");
     REQUIRE(harness.PostForCode(MOTOR_ON) == "403 -38500");
@@ -77,7 +77,7 @@ TEST_CASE("C The gates of start stand in the order remote mode, motor, running p
 
 TEST_CASE("A program tells its beginning and its good end in the relays, in this order")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(harness.Select(4711) == 200);
     REQUIRE(harness.GetCounters() == "[0,0,0,0]");
     REQUIRE(harness.Start() == 200);
@@ -96,10 +96,10 @@ TEST_CASE("A program tells its beginning and its good end in the relays, in this
 
 TEST_CASE("A program that is set to fail takes its time and tells the failed end")
 {
-    ControllerOptions options = ControllerHarness::MakeReadyOptions();
+    ControllerOptions options = ControllerFixture::MakeReadyOptions();
     options.programs.emplace(11, ProgramSpec{3s, false});
     options.programs.emplace(12, ProgramSpec{500ms, true});
-    ControllerHarness harness(options);
+    ControllerFixture harness(options);
     REQUIRE(harness.Select(12) == 200);
     REQUIRE(harness.Start() == 200);
     harness.clock.Advance(499ms);
@@ -118,7 +118,7 @@ TEST_CASE("The time scale holds for the motor and for programs")
 {
     ControllerOptions options;
     options.timeScale = 10.0;
-    ControllerHarness harness(options);
+    ControllerFixture harness(options);
     REQUIRE(harness.Post(MOTOR_ON) == 200);
     harness.clock.Advance(99ms);
     REQUIRE(IsMotor(harness, 2));
@@ -134,7 +134,7 @@ TEST_CASE("The time scale holds for the motor and for programs")
 
 TEST_CASE("A stopped program goes on at the next start and needs its rest of the time, counted once")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(harness.Post(STOP) == 200); // nothing to stop
     REQUIRE(harness.Select(11) == 200);
     REQUIRE(harness.Start() == 200);
@@ -152,7 +152,7 @@ TEST_CASE("A stopped program goes on at the next start and needs its rest of the
 
 TEST_CASE("A program is given up, and counted as failed, by a reset and by another selection in its middle")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(harness.Select(11) == 200);
     REQUIRE(harness.Reset() == 200);
     REQUIRE(harness.GetCounters() == "[0,0,0,0]"); // it had not begun
@@ -178,7 +178,7 @@ TEST_CASE("A program is given up, and counted as failed, by a reset and by anoth
 TEST_CASE("The emergency stop takes the motor's power, halts the program and stays until it is released")
 {
     constexpr const char* BUTTON = "/project/robot/emergency_stop";
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(harness.Get(BUTTON) == R"({"_type":"JObject","val":0})");
     REQUIRE(harness.Select(11) == 200);
     REQUIRE(harness.Start() == 200);
@@ -199,7 +199,7 @@ TEST_CASE("The emergency stop takes the motor's power, halts the program and sta
 
 TEST_CASE("D-1 Remote mode takes selections with ext_sel 1 only, manual mode those with 0; absent is 0")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(harness.PostForCode(SELECT, R"({"pno":11})") == "403 -102");
     REQUIRE(harness.PostForCode(SELECT, R"({"pno":11,"ext_sel":0})") == "403 -102");
     REQUIRE(harness.PostForCode(SELECT, R"({"pno":-1,"ext_sel":0})") == "403 -102");
@@ -216,7 +216,7 @@ TEST_CASE("D-1 Remote mode takes selections with ext_sel 1 only, manual mode tho
 TEST_CASE("D-2 After a start or stop a selection is refused until the cursor is set")
 {
     const std::string program = R"({"pno":11,"ext_sel":1})";
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(
         harness.PostForCode("/project/context/tasks[0]/cur_prog_cnt", R"({"sno":1,"ext_sel":1})") == "403 -1245280");
     REQUIRE(harness.Post(SELECT, program) == 200);
@@ -239,11 +239,11 @@ TEST_CASE("D-2 After a start or stop a selection is refused until the cursor is 
 
 TEST_CASE("D-3 D-4 Before 60.30 reset and motor_off are served and r_code is not; since then it is the reverse")
 {
-    ControllerOptions options = ControllerHarness::MakeReadyOptions();
+    ControllerOptions options = ControllerFixture::MakeReadyOptions();
     const bool bOld = GENERATE(true, false);
     options.version =
         bOld ? ACS::OpenStreamSim::ControllerVersion{60, 29, 99} : ACS::OpenStreamSim::ControllerVersion{60, 30, 0};
-    ControllerHarness harness(options);
+    ControllerFixture harness(options);
     REQUIRE(harness.Contains("/versions/sysver", bOld ? R"("ver":"60.29-99")" : R"("ver":"60.30-00")"));
     REQUIRE(harness.Select(11) == 200);
     for (const char* path :
@@ -260,7 +260,7 @@ TEST_CASE("D-3 Before 60.30 the reset of task 0 gives the program up, that of an
 {
     ControllerOptions options = MakeOldOptions();
     options.bMotorOn = true;
-    ControllerHarness harness(options);
+    ControllerFixture harness(options);
     REQUIRE(harness.Select(11) == 200);
     REQUIRE(harness.Start() == 200);
     REQUIRE(harness.Post("/project/context/tasks[3]/reset") == 200);
@@ -271,7 +271,7 @@ TEST_CASE("D-3 Before 60.30 the reset of task 0 gives the program up, that of an
 
 TEST_CASE("D-3 r_code 1 resets the tasks and keeps the selection, 0 clears it too; others are refused")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(harness.Select(11) == 200);
     REQUIRE(harness.Start() == 200);
     REQUIRE(
@@ -291,16 +291,16 @@ TEST_CASE("D-3 r_code 1 resets the tasks and keeps the selection, 0 clears it to
 TEST_CASE("D-5 rgen shows the model that is set and the state of the job")
 {
     ControllerOptions options;
-    REQUIRE(ControllerHarness(options).Contains("/project/rgen", R"("robot_model":"HA006B-01")"));
+    REQUIRE(ControllerFixture(options).Contains("/project/rgen", R"("robot_model":"HA006B-01")"));
     options.robotModel = "HS220-02";
-    ControllerHarness harness(options);
+    ControllerFixture harness(options);
     REQUIRE(harness.Contains("/project/rgen", R"("robot_model":"HS220-02")"));
     REQUIRE(harness.Contains("/project/rgen", R"("job_state":0,"job_sub_state":0)"));
 }
 
 TEST_CASE("D-9 What clients in the field send is accepted: true as playback mode, bits with any value, upper case")
 {
-    ControllerHarness harness;
+    ControllerFixture harness;
     const auto answer = harness.Call(
         ACS::OpenStream::EApiMethod::Put,
         "/project/control/op_cnd",
@@ -320,7 +320,7 @@ TEST_CASE("Motor off and manual mode halt the program")
 {
     ControllerOptions options = MakeOldOptions();
     options.bMotorOn = true;
-    ControllerHarness harness(options);
+    ControllerFixture harness(options);
     REQUIRE(harness.Select(11) == 200);
     REQUIRE(harness.Start() == 200);
     harness.controller.TurnModeSwitch(false, harness.clock.GetNow());
@@ -335,7 +335,7 @@ TEST_CASE("Motor off and manual mode halt the program")
 
 TEST_CASE("A program runs on when a client sends STOP control: there is no trajectory to release")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(harness.Select(11) == 200);
     REQUIRE(harness.Start() == 200);
     harness.clock.Advance(1s);
@@ -346,7 +346,7 @@ TEST_CASE("A program runs on when a client sends STOP control: there is no traje
 
 TEST_CASE("The program's step moves with its time")
 {
-    ControllerHarness harness(ControllerHarness::MakeReadyOptions());
+    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
     REQUIRE(harness.Select(11) == 200);
     REQUIRE(harness.Contains("/project/rgen", R"("cur_step_no":0)"));
     REQUIRE(harness.Start() == 200);

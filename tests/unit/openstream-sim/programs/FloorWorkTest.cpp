@@ -1,6 +1,6 @@
 #include "Catch.hpp"
-#include "controller/ControllerHarness.hpp"
-#include "controller/FaultHarness.hpp"
+#include "controller/ControllerFixture.hpp"
+#include "controller/FaultFixture.hpp"
 #include "programs/ProgramFile.hpp"
 #include "TemporaryFolder.hpp"
 #include "world/MemoryWorld.hpp"
@@ -14,8 +14,8 @@
 
 using ACS::OpenStreamSim::ControllerOptions;
 using ACS::OpenStreamSim::ProgramFile;
-using ACS::Testing::ControllerHarness;
-using ACS::Testing::FaultHarness;
+using ACS::Testing::ControllerFixture;
+using ACS::Testing::FaultFixture;
 using namespace ACS::Sim; // NOLINT(google-build-using-namespace)
 using namespace std::chrono_literals;
 
@@ -26,7 +26,7 @@ namespace
 ControllerOptions MakeArmOptions(IWorld& world, const ProgramFile& file)
 {
     REQUIRE(file.mistakes.empty());
-    ControllerOptions options = ControllerHarness::MakeReadyOptions();
+    ControllerOptions options = ControllerFixture::MakeReadyOptions();
     options.programs = file.programs;
     options.robotID = "CR01";
     options.world = &world;
@@ -38,7 +38,7 @@ class FloorFixture
 {
 public:
     MemoryWorld world;
-    ControllerHarness harness;
+    ControllerFixture harness;
 
     FloorFixture()
         : harness(MakeArmOptions(world, ProgramFile::Read(ACS_SITE "/programs.toml")))
@@ -214,7 +214,7 @@ TEST_CASE("A program fails where the journal of the floor cannot be read, and th
     const auto world = WorldFile::Open(file);
     REQUIRE(world.has_value());
     std::ofstream(file + ".journal", std::ios::app) << "no JSON\n";
-    ControllerHarness harness(
+    ControllerFixture harness(
         MakeArmOptions(**world, ProgramFile::ReadText("[11]\nfrom = [\"CR01.TP01\"]\nto = [\"CR01.TP02\"]", "p.toml")));
     REQUIRE(harness.Select(11) == 200);
     REQUIRE(harness.Start() == 200);
@@ -236,7 +236,7 @@ TEST_CASE("A program ends in its time though no client asks")
         world,
         ProgramFile::ReadText("[11]\nduration = \"10s\"\nfrom = [\"CR01.TP01\"]\nto = [\"CR01.TP02\"]", "p.toml"));
     options.timeScale = 2.5;
-    FaultHarness harness(options);
+    FaultFixture harness(options);
     REQUIRE_FALSE(harness.wakeAt.has_value());
     REQUIRE(harness.StartProgram(11) == 200);
     SECTION("it runs through")

@@ -12,7 +12,7 @@ using Texts = std::vector<std::string>;
 namespace
 {
 
-Texts FindMistakes(const std::string& text)
+Texts FindErrors(const std::string& text)
 {
     const ProgramFile file = ProgramFile::ReadText(text, "p.toml");
     REQUIRE(file.programs.empty());
@@ -64,28 +64,28 @@ button = ["A{ml106}.SET{ml107}"]
 TEST_CASE("Each mistake of the file is reported with file, line and key")
 {
     REQUIRE(
-        FindMistakes("[11]\nfrom = [\"A{q1}.CP01\"]\nto = [\"{robot}.CP01\"]")
+        FindErrors("[11]\nfrom = [\"A{q1}.CP01\"]\nto = [\"{robot}.CP01\"]")
         == Texts{
             "p.toml:2: 11.from: expected {robot} or a relay that holds a whole number, such as {ml106}, found {q1}"});
     REQUIRE(
-        FindMistakes("[11]\nfrom = [\"A{ml1}.SET01\"]\nto = [\"{robot}.TP01\"]")
+        FindErrors("[11]\nfrom = [\"A{ml1}.SET01\"]\nto = [\"{robot}.TP01\"]")
         == Texts{"p.toml:2: 11.from: expected a CP, TP or MP, found \"A{ml1}.SET01\""});
     REQUIRE(
-        FindMistakes("[11]\nfrom = [\"A01.CP01\"]") == Texts{"p.toml:1: 11.to: missing: from and to belong together"});
+        FindErrors("[11]\nfrom = [\"A01.CP01\"]") == Texts{"p.toml:1: 11.to: missing: from and to belong together"});
     REQUIRE(
-        FindMistakes("[11]\nfrom = [\"A01.CP01.TP01\"]\nto = [\"{robot}.TP01.MP01\"]")
+        FindErrors("[11]\nfrom = [\"A01.CP01.TP01\"]\nto = [\"{robot}.TP01.MP01\"]")
         == Texts{"p.toml:3: 11.to: expected places of one kind in from and to: CP, TP or MP"});
     REQUIRE(
-        FindMistakes("[11]\n\necho = \"ml9999\"")
+        FindErrors("[11]\n\necho = \"ml9999\"")
         == Texts{
             "p.toml:3: 11.echo: expected a relay that holds a whole number, such as 'ml105', or -1 for none, found \"ml9999\""});
     REQUIRE(
-        FindMistakes("[11]\necho = \"ml100\"")
+        FindErrors("[11]\necho = \"ml100\"")
         == Texts{
             "p.toml:2: 11.echo: expected a relay that a client writes, such as 'ml105', found \"ml100\": the program itself "
             "writes ml100 to ml104"});
     REQUIRE(
-        FindMistakes("[11]\nbutton = [\"A{ml1}.SET01\", \"A01.SET01\", \"A01.SET{ml1}\"]")
+        FindErrors("[11]\nbutton = [\"A{ml1}.SET01\", \"A01.SET01\", \"A01.SET{ml1}\"]")
         == Texts{
             "p.toml:2: 11.button: expected \"A01.SET01\" at the end: it always applies, and the places after it never do"});
     for (const char* text :
@@ -116,7 +116,7 @@ TEST_CASE("Each mistake of the file is reported with file, line and key")
           "[11"})
     {
         INFO(text);
-        const Texts mistakes = FindMistakes(text);
+        const Texts mistakes = FindErrors(text);
         REQUIRE(mistakes.size() == 1);
         REQUIRE(mistakes.front().starts_with("p.toml:"));
     }

@@ -103,7 +103,7 @@ TEST_CASE("LoadWatch: loads are no evidence at the ports of an open job, nor of 
     {
         parts.PutOn(parts.lr, "D-CHG01");
         parts.Discard();
-        parts.lr.work.MarkDoubtful();
+        parts.lr.work.MarkUnresolved();
         ReportLoad(parts, "C1");
         CHECK(parts.Collect().changes.empty());
     }

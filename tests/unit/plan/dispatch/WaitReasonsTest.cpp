@@ -79,7 +79,7 @@ TEST_CASE("WaitReasons: a paused plan and an unresolved job have a reason, a run
     EngineParts parts;
     ActivePlan& plan = parts.BeginLoad();
     CHECK_FALSE(parts.waits.DescribeBegunOrNull(plan).has_value());
-    parts.jobs.OnJobUncertain(parts.lr, JobUncertain{"P1-a4", "restarted"});
+    parts.jobs.OnJobUnresolved(parts.lr, JobUnresolved{"P1-a4", "restarted"});
     const std::optional<WaitReason> unresolved = parts.waits.DescribeBegunOrNull(plan);
     REQUIRE(unresolved.has_value());
     CHECK_FALSE(unresolved->queuePosition.has_value());

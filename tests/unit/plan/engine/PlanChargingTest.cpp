@@ -117,7 +117,7 @@ TEST_CASE("A charging station is one robot's alone, and the levels are in order"
     options.robots[2].chargingStationID = "CHG01";
     options.robots[1].chargingStationID = "NOWHERE";
     options.dispatch.batteryFloor = 90;
-    const std::vector<ACS::Core::Error> mistakes = FindMistakes(options, MakeTestSite());
+    const std::vector<ACS::Core::Error> mistakes = FindErrors(options, MakeTestSite());
     REQUIRE(mistakes.size() == 3);
     CHECK(mistakes[0].path == "robots.CR01.charge");
     CHECK(mistakes[1].path == "robots.LR02.charge");

@@ -37,7 +37,7 @@ std::string GetReason(const PlanWorld& world, const std::string& planID, const s
 {
     const std::optional<WaitReason> reason = world.engine->GetWaitReasonOrNull(planID);
     REQUIRE(reason.has_value());
-    for (const RobotObjection& robot : reason->robots)
+    for (const RobotUnavailability& robot : reason->robots)
     {
         if (robot.robotID == robotID)
         {

@@ -93,7 +93,9 @@ TEST_CASE("A plan with a job that no robot can do waits with the reasons until o
         == "No robot can execute the plan: LR01: no fork for CassetteUnload; LR02: CassetteLoad is not listed.");
     CHECK(
         reason->robots
-        == std::vector<RobotObjection>{{"LR01", "no fork for CassetteUnload"}, {"LR02", "CassetteLoad is not listed"}});
+        == std::vector<RobotUnavailability>{
+            {"LR01", "no fork for CassetteUnload"},
+            {"LR02", "CassetteLoad is not listed"}});
     SetCheck(world, "LR02", [](const StartJob&) { return std::string(); });
     REQUIRE(world.TryRun());
     CHECK(GetOwner(world, "P1") == "LR02");
@@ -145,7 +147,7 @@ TEST_CASE("Jobs are checked as the robot would be commanded")
     for (StartJob& job : commanded)
     {
         job.commandID.clear();
-        job.mark.clear();
+        job.progressToken.clear();
         job.jobNumber = 0;
     }
     CHECK(checked == commanded);

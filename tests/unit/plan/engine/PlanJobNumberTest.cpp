@@ -119,9 +119,9 @@ TEST_CASE("A job that the operator has done again has another number, as it is a
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
-    world.GetRobot("LR01").uncertainReason = "it was switched off";
+    world.GetRobot("LR01").unresolvedReason = "it was switched off";
     RestartEngine(world);
-    world.Settle("P1", "P1-a4", EJobAnswer::Again);
+    world.Settle("P1", "P1-a4", EJobResolution::Again);
     REQUIRE(world.TryRun());
     const std::vector<StartJob>& jobs = world.GetRobot("LR01").commandedJobs;
     REQUIRE(jobs.size() >= 2);

@@ -288,12 +288,12 @@ TEST_CASE("A port whose job is unresolved is not compared before an operator has
     PlanWorld world;
     world.GetRobot("LR01").loads = Loads{{"LR01.CP01", false, {}}};
     BeginPlan(world, MakeLoadPlan(), "Job 1 P1-a4 InProgress");
-    world.GetRobot("LR01").uncertainReason = "it was switched off";
+    world.GetRobot("LR01").unresolvedReason = "it was switched off";
     world.GetRobot("LR01").loads = Loads{{"LR01.CP01", true, "CASSETTE_01"}};
     RestartEngine(world);
     CHECK(GetAlarm(world).empty());
     CHECK(GetCarrierOrNull(world) == std::nullopt);
-    world.Settle("P1", "P1-a4", EJobAnswer::Done);
+    world.Settle("P1", "P1-a4", EJobResolution::Done);
     REQUIRE(world.TryRun());
     CHECK(GetCarrierOrNull(world) == "CASSETTE_01");
     CHECK(world.engine->GetActiveAlarms().empty());

@@ -225,9 +225,9 @@ TEST_CASE(
         CHECK(std::ranges::count_if(world.engine->GetActiveAlarms(), asks) == 1); // not again: its plan is over
         if (bOperator)
         {
-            world.Settle("P1", "P1-a4", EJobAnswer::Again, 8);
+            world.Settle("P1", "P1-a4", EJobResolution::Again, 8);
             CHECK_FALSE(world.replies.at(8).bAccepted);
-            world.Settle("P1", "P1-a4", EJobAnswer::Failed, 9);
+            world.Settle("P1", "P1-a4", EJobResolution::Failed, 9);
             CHECK(world.replies.at(9).bAccepted);
             CHECK(GetAlarmOrNull(world, "LR01", "ACS-1008") == std::nullopt);
         }
@@ -242,12 +242,12 @@ TEST_CASE("6.6 The abort of a job whose robot is gone ends when an operator tell
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
     world.Control(EPlanControl::Abort, "P1");
-    world.Settle("P1", "P1-a4", EJobAnswer::Failed, 7);
+    world.Settle("P1", "P1-a4", EJobResolution::Failed, 7);
     CHECK(world.replies.at(7).message == "LR01 is connected and will report the outcome of the job.");
     world.Raise("LR01", LinkChanged{false});
-    world.Settle("P1", "P1-a4", EJobAnswer::Again, 8);
+    world.Settle("P1", "P1-a4", EJobResolution::Again, 8);
     CHECK_FALSE(world.replies.at(8).bAccepted);
-    world.Settle("P1", "P1-a4", EJobAnswer::Failed, 9);
+    world.Settle("P1", "P1-a4", EJobResolution::Failed, 9);
     CHECK(world.replies.at(9).bAccepted);
     CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Failed); // D-17
     CHECK(Contains(world.GetReportsOf("P1"), "AbortResult Failed"));
@@ -278,9 +278,9 @@ TEST_CASE("D-22 pause.mode after_job: the plan is paused when its job is to be d
     PlanWorld world = MakeWorld([](EngineOptions& options) { options.controls.bPausesAfterJob = true; });
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
     world.Control(EPlanControl::Pause, "P1");
-    world.Raise("LR01", JobUncertain{"P1-a4", "the test says so"});
+    world.Raise("LR01", JobUnresolved{"P1-a4", "the test says so"});
     CHECK_FALSE(Contains(world.GetReportsOf("P1"), "PauseResult Success"));
-    world.Settle("P1", "P1-a4", EJobAnswer::Again, 9);
+    world.Settle("P1", "P1-a4", EJobResolution::Again, 9);
     REQUIRE(world.replies.at(9).bAccepted);
     CHECK(Contains(world.GetReportsOf("P1"), "PauseResult Success"));
     CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Paused);
@@ -290,11 +290,11 @@ TEST_CASE(
     "A job at work whose end the robot cannot tell is held alone: nothing after it was begun, whatever its marks say")
 {
     PlanWorld world;
-    world.GetRobot("LR01").mark = "5 5 0";
+    world.GetRobot("LR01").progressToken = "5 5 0";
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
-    world.GetRobot("LR01").mark = "0 0 0";
-    world.Raise("LR01", JobUncertain{"P1-a4", "the test says so"});
-    world.Settle("P1", "P1-a4", EJobAnswer::Done);
+    world.GetRobot("LR01").progressToken = "0 0 0";
+    world.Raise("LR01", JobUnresolved{"P1-a4", "the test says so"});
+    world.Settle("P1", "P1-a4", EJobResolution::Done);
     REQUIRE(world.TryRun());
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
 }

@@ -41,10 +41,10 @@ const Lines LOGISTICS_REPORTS{
     "Plan Completed"};
 
 /// P1, whose first job runs, after a restart over which nobody knows what became of it.
-void BeginUncertain(PlanWorld& world)
+void BeginUnresolved(PlanWorld& world)
 {
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
-    world.GetRobot("LR01").uncertainReason = "it was switched off";
+    world.GetRobot("LR01").unresolvedReason = "it was switched off";
     RestartEngine(world);
     REQUIRE(world.engine->GetActiveAlarms().size() == 1);
     const Alarm& alarm = world.engine->GetActiveAlarms().front();
@@ -168,7 +168,7 @@ TEST_CASE("After a restart a job that ended meanwhile is told once, done or fail
 TEST_CASE("After a restart a job that cannot be known is held: not repeated, the robot does nothing else")
 {
     PlanWorld world;
-    BeginUncertain(world);
+    BeginUnresolved(world);
     world.Submit(MakeLogisticsPlan("P2"));
     REQUIRE(world.TryRun());
     CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::InProgress);
@@ -183,11 +183,11 @@ TEST_CASE("After a restart a job that cannot be known is held: not repeated, the
 
 TEST_CASE("The operator's answer to a held job: done, failed or again; what the robot tells later changes nothing")
 {
-    for (const EJobAnswer answer : {EJobAnswer::Done, EJobAnswer::Failed, EJobAnswer::Again})
+    for (const EJobResolution answer : {EJobResolution::Done, EJobResolution::Failed, EJobResolution::Again})
     {
         INFO(GetText(answer));
         PlanWorld world;
-        BeginUncertain(world);
+        BeginUnresolved(world);
         REQUIRE(world.TryRun());
         world.Raise("LR01", JobFailed{"P1-a4", "late news"});
         CHECK(world.engine->GetActiveAlarms().size() == 1);
@@ -202,9 +202,9 @@ TEST_CASE("The operator's answer to a held job: done, failed or again; what the 
         REQUIRE(world.TryRun());
         const Lines reports = GetReportsAfter(world, "P1", told);
         CHECK(reports.front() == "Error ACS-1008 cleared");
-        CHECK(reports.back() == (answer == EJobAnswer::Failed ? "Plan Failed" : "Plan Completed"));
-        CHECK(CountStarts(world, "P1-a4") == (answer == EJobAnswer::Again ? 2 : 1));
-        CHECK(CountStarts(world, "P1-b2") == (answer == EJobAnswer::Failed ? 0 : 1));
+        CHECK(reports.back() == (answer == EJobResolution::Failed ? "Plan Failed" : "Plan Completed"));
+        CHECK(CountStarts(world, "P1-a4") == (answer == EJobResolution::Again ? 2 : 1));
+        CHECK(CountStarts(world, "P1-b2") == (answer == EJobResolution::Failed ? 0 : 1));
         CHECK(std::ranges::count(world.GetReportsOf("P1"), "Job 1 P1-a4 InProgress") == 1);
     }
 }
@@ -212,14 +212,14 @@ TEST_CASE("The operator's answer to a held job: done, failed or again; what the 
 TEST_CASE("A plan whose job is held can be aborted, which tells where to look")
 {
     PlanWorld world;
-    BeginUncertain(world);
+    BeginUnresolved(world);
     REQUIRE(world.TryRun());
     const std::size_t told = world.GetReportsOf("P1").size();
     world.Control(EPlanControl::Abort, "P1");
     CHECK(
         GetReportsAfter(world, "P1", told)
         == Lines{"Error ACS-1007 set", "Plan Aborted", "AbortResult Success", "Error ACS-1008 cleared"});
-    world.GetRobot("LR01").uncertainReason.clear();
+    world.GetRobot("LR01").unresolvedReason.clear();
     world.Submit(MakeLogisticsPlan("P2"));
     REQUIRE(world.TryRun());
     CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
@@ -459,7 +459,7 @@ TEST_CASE(
 
 TEST_CASE("A job that was given up and had not ended keeps its robot out of work over a restart, too")
 {
-    for (const bool bUncertain : {false, true})
+    for (const bool bUnresolved : {false, true})
     {
         PlanWorld world =
             ACS::Testing::MakeWorld([](EngineOptions& options) { options.controls.bAbortStopsJob = true; });
@@ -467,15 +467,15 @@ TEST_CASE("A job that was given up and had not ended keeps its robot out of work
         world.GetRobot("LR01").bIgnoresJobCancel = true;
         world.Control(EPlanControl::Abort, "P1");
         CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Aborted);
-        world.GetRobot("LR01").uncertainReason = bUncertain ? "it was switched off" : "";
+        world.GetRobot("LR01").unresolvedReason = bUnresolved ? "it was switched off" : "";
         RestartEngine(world);
         world.Submit(MakeLogisticsPlan("P2"));
-        if (bUncertain)
+        if (bUnresolved)
         {
             CHECK(world.engine->GetPlanOrNull("P2")->state == EPlanState::Pending);
-            world.Settle("P1", "P1-a4", EJobAnswer::Again, 8);
+            world.Settle("P1", "P1-a4", EJobResolution::Again, 8);
             CHECK_FALSE(world.replies.at(8).bAccepted);
-            world.Settle("P1", "P1-a4", EJobAnswer::Done, 9);
+            world.Settle("P1", "P1-a4", EJobResolution::Done, 9);
             CHECK(world.replies.at(9).bAccepted);
         }
         REQUIRE(world.TryRun());

@@ -54,7 +54,7 @@ Lines GetStepReports(const PlanWorld& world)
 void BeginUnresolved(PlanWorld& world, const Plan& plan)
 {
     BeginPlan(world, plan, "Job 1 P1-a4 InProgress");
-    world.GetRobot("LR01").uncertainReason = "it was switched off";
+    world.GetRobot("LR01").unresolvedReason = "it was switched off";
     RestartEngine(world);
     REQUIRE(world.engine->GetActiveAlarms().size() == 1);
 }
@@ -163,7 +163,7 @@ TEST_CASE("6.13 A pause that waits for the end of an unresolved job comes when i
     };
     PlanWorld world = MakeWorld(change);
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
-    world.GetRobot("LR01").uncertainReason = "it was switched off";
+    world.GetRobot("LR01").unresolvedReason = "it was switched off";
     RestartEngine(world, change);
     world.Control(EPlanControl::Pause, "P1");
     REQUIRE(world.TryRun());

@@ -173,7 +173,7 @@ TEST_CASE("5.9 A robot whose job is unresolved says so")
 {
     PlanWorld world;
     BeginPlan(world, MakeLoadPlan(), "Job 1 J1 InProgress");
-    world.GetRobot("LR01").uncertainReason = "it was switched off";
+    world.GetRobot("LR01").unresolvedReason = "it was switched off";
     RestartEngine(world);
     CHECK(GetStatus(world, "LR01").status == ERobotStatus::Working);
     CHECK(GetStatus(world, "LR01").message == "Outcome of job J1 unknown. Check LR01, then resolve the job.");
@@ -215,9 +215,9 @@ TEST_CASE("5.6 The message of a job's report says why it failed, and who reporte
     PlanWorld world;
     const bool bFails = GENERATE(false, true);
     BeginPlan(world, MakeLoadPlan(), "Job 1 J1 InProgress");
-    world.GetRobot("LR01").uncertainReason = "it was switched off";
+    world.GetRobot("LR01").unresolvedReason = "it was switched off";
     RestartEngine(world);
-    world.Settle("P1", "J1", bFails ? EJobAnswer::Failed : EJobAnswer::Done);
+    world.Settle("P1", "J1", bFails ? EJobResolution::Failed : EJobResolution::Done);
     const auto last = std::find_if(world.reports.rbegin(), world.reports.rend(), [](const OutboxEntry& entry) {
         return std::holds_alternative<JobReport>(entry.report);
     });

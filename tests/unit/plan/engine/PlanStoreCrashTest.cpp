@@ -47,9 +47,9 @@ void CheckFirstJobHeld(PlanWorld& world)
 {
     REQUIRE(world.TryRun());
     CHECK(GetHeldJob(world) == "P1-a4");
-    world.Settle("P1", "P1-a4", EJobAnswer::Done);
+    world.Settle("P1", "P1-a4", EJobResolution::Done);
     REQUIRE(world.TryRun());
-    world.Settle("P1", "P1-b2", EJobAnswer::Again);
+    world.Settle("P1", "P1-b2", EJobResolution::Again);
     FinishPlan(world);
     CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
 }
@@ -65,11 +65,11 @@ TEST_CASE("A crash while the disk fails: what the robot did and nobody wrote dow
     REQUIRE(world.engine->GetActiveAlarms().size() == 1);
     CHECK(world.engine->GetActiveAlarms().front().errorCode == "ACS-1008");
     CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4"});
-    world.Settle("P1", "P1-a4", EJobAnswer::Done);
+    world.Settle("P1", "P1-a4", EJobResolution::Done);
     // The next one may have been done as well.
     REQUIRE(world.TryRun());
     CHECK(CountStarts(world, "P1-b2") == 0);
-    world.Settle("P1", "P1-b2", EJobAnswer::Again);
+    world.Settle("P1", "P1-b2", EJobResolution::Again);
     FinishPlan(world);
     CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
 }
@@ -89,16 +89,16 @@ TEST_CASE("A crash while the disk fails: each job that the robot may have done i
     RestartEngine(world);
     REQUIRE(world.TryRun());
     CHECK(GetHeldJob(world) == "P1-b3");
-    world.Settle("P1", "P1-b3", EJobAnswer::Done);
+    world.Settle("P1", "P1-b3", EJobResolution::Done);
     REQUIRE(world.TryRun());
     CHECK(GetHeldJob(world) == "P1-f3"); // of the next step
-    world.Settle("P1", "P1-f3", EJobAnswer::Done);
+    world.Settle("P1", "P1-f3", EJobResolution::Done);
     REQUIRE(world.TryRun());
     CHECK(GetHeldJob(world) == "P1-e0");
-    world.Settle("P1", "P1-e0", EJobAnswer::Done); // begun before the crash, and done after it
+    world.Settle("P1", "P1-e0", EJobResolution::Done); // begun before the crash, and done after it
     REQUIRE(world.TryRun());
     CHECK(GetHeldJob(world) == "P1-d1");
-    world.Settle("P1", "P1-d1", EJobAnswer::Again);
+    world.Settle("P1", "P1-d1", EJobResolution::Again);
     FinishPlan(world);
     CHECK(world.GetRobot("CR01").doneJobs == Lines{"P1-cd", "P1-b3", "P1-f3", "P1-e0", "P1-d1", "P1-d2"});
     CHECK(GetHeldJob(world).empty());
@@ -111,7 +111,7 @@ TEST_CASE("A crash while the disk fails: so is the first job of a robot of which
     world.Connect();
     StateChanged state;
     state.lastNodeID = "D-CHG01";
-    state.shownCommandID = before;
+    state.restartEvidence.commandID = before;
     world.Raise("LR01", state);
     StateChanged inTheWay;
     inTheWay.lastNodeID = "D-CHG03";
@@ -146,12 +146,12 @@ TEST_CASE("What an arm shows as its plan begins is written down with that")
     world.Connect();
     StateChanged state;
     state.lastNodeID = "D-CHG02";
-    state.mark = "5 5 0";
+    state.restartEvidence.progressToken = "5 5 0";
     world.Raise("CR01", state);
     world.Submit(MakeControlPlan("P1"));
     REQUIRE(TryRunUntil(world, "P1", "Plan InProgress"));
     const std::vector<RobotWorkChanged>& works = world.store.GetState().robotWorks;
-    CHECK(std::ranges::find(works, "CR01", &RobotWorkChanged::robotID)->mark == "5 5 0");
+    CHECK(std::ranges::find(works, "CR01", &RobotWorkChanged::robotID)->progressToken == "5 5 0");
 }
 
 TEST_CASE("A robot that shows nothing after a restart, as it was switched off meanwhile, has its next job asked for")
@@ -243,12 +243,12 @@ TEST_CASE("6.7 A pause that waits for the end of a held job is confirmed when th
     };
     PlanWorld world = ACS::Testing::MakeWorld(change);
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
-    world.GetRobot("LR01").uncertainReason = "it was switched off";
+    world.GetRobot("LR01").unresolvedReason = "it was switched off";
     RestartEngine(world, change);
     REQUIRE(world.TryRun());
     REQUIRE(GetHeldJob(world) == "P1-a4");
     world.Control(EPlanControl::Pause, "P1");
-    world.Settle("P1", "P1-a4", EJobAnswer::Again);
+    world.Settle("P1", "P1-a4", EJobResolution::Again);
     CHECK(world.GetReportsOf("P1").back() != "Plan Completed");
     CHECK(Contains(world.GetReportsOf("P1"), "PauseResult Success"));
     world.Control(EPlanControl::Resume, "P1");

@@ -244,7 +244,7 @@ TEST_CASE("6.4 A planId that was used and a full queue are refused")
 TEST_CASE("Options that do not fit the site are all told at once")
 {
     EngineOptions options = ACS::Testing::MakeTestOptions(false);
-    CHECK(FindMistakes(options, ACS::Testing::MakeTestSite()).empty());
+    CHECK(FindErrors(options, ACS::Testing::MakeTestSite()).empty());
     options.robots[0].vehicleTypeID = "zeppelin";
     options.robots[1].homeStationID = "CHG99";
     options.robots[1].startNodeID = "nowhere";
@@ -252,7 +252,7 @@ TEST_CASE("Options that do not fit the site are all told at once")
     options.places.push_back(*ACS::Core::Location::Parse("A77.CP01.TP02"));
     options.reach["A01.CP01"] = {"A01.CP02", "A77.CP02"};
     options.reach["A77.CP03"] = {"A01.CP01"};
-    const std::vector<ACS::Core::Error> mistakes = FindMistakes(options, ACS::Testing::MakeTestSite());
+    const std::vector<ACS::Core::Error> mistakes = FindErrors(options, ACS::Testing::MakeTestSite());
     REQUIRE(mistakes.size() == 6);
     CHECK(mistakes[0].path == "robots.LR01.vehicle_type");
     CHECK(mistakes[1].path == "robots.CR01.start_node");

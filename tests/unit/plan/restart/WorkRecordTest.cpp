@@ -8,31 +8,31 @@ using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test o
 namespace
 {
 
-RobotWorkChanged MakeStored(const std::string& commandID, const std::string& mark = {})
+RobotWorkChanged MakeStored(const std::string& commandID, const std::string& progressToken = {})
 {
     RobotWorkChanged work;
     work.robotID = "LR01";
     work.commandID = commandID;
-    work.mark = mark;
+    work.progressToken = progressToken;
     return work;
 }
 
-StateChanged MakeShown(std::optional<std::string> commandIDOrNull, const std::string& mark = {})
+StateChanged MakeShown(std::optional<std::string> commandIDOrNull, const std::string& progressToken = {})
 {
     StateChanged state;
-    state.shownCommandID = std::move(commandIDOrNull);
-    state.mark = mark;
+    state.restartEvidence.commandID = std::move(commandIDOrNull);
+    state.restartEvidence.progressToken = progressToken;
     return state;
 }
 
 /// Whether a robot that shows this after a restart may have done more than was stored.
-bool IsDoubtfulAfter(const RobotWorkChanged& stored, const StateChanged& state)
+bool IsUnresolvedAfter(const RobotWorkChanged& stored, const StateChanged& state)
 {
     WorkRecord record;
     record.Restore(stored);
     CHECK(record.TryCheckEvidence(state, true));
     CHECK_FALSE(record.TryCheckEvidence(MakeShown("another"), true)); // only the first state counts
-    return record.IsDoubtful();
+    return record.IsUnresolved();
 }
 
 } // namespace
@@ -62,28 +62,28 @@ TEST_CASE("WorkRecord: a shown command that was not stored makes the next jobs d
 {
     RobotWorkChanged stored = MakeStored("C2");
     stored.earlierIDs = {"C1"};
-    CHECK_FALSE(IsDoubtfulAfter(stored, MakeShown("C2")));
-    CHECK_FALSE(IsDoubtfulAfter(stored, MakeShown("C1")));
-    CHECK_FALSE(IsDoubtfulAfter(stored, MakeShown(std::nullopt))); // robots of its kind show none
-    CHECK(IsDoubtfulAfter(stored, MakeShown("C3")));
-    CHECK(IsDoubtfulAfter(stored, MakeShown(""))); // it has forgotten its commands
+    CHECK_FALSE(IsUnresolvedAfter(stored, MakeShown("C2")));
+    CHECK_FALSE(IsUnresolvedAfter(stored, MakeShown("C1")));
+    CHECK_FALSE(IsUnresolvedAfter(stored, MakeShown(std::nullopt))); // robots of its kind show none
+    CHECK(IsUnresolvedAfter(stored, MakeShown("C3")));
+    CHECK(IsUnresolvedAfter(stored, MakeShown(""))); // it has forgotten its commands
 }
 
 TEST_CASE("WorkRecord: a robot that never had a command shows none")
 {
     RobotWorkChanged stored = MakeStored("C1");
-    CHECK_FALSE(IsDoubtfulAfter(stored, MakeShown("")));
+    CHECK_FALSE(IsUnresolvedAfter(stored, MakeShown("")));
     stored.bCommandTaken = true;
-    CHECK(IsDoubtfulAfter(stored, MakeShown("")));
+    CHECK(IsUnresolvedAfter(stored, MakeShown("")));
 }
 
-TEST_CASE("WorkRecord: a mark tells more than the command, but not of a job that is open")
+TEST_CASE("WorkRecord: a progress token proves more than the command, but not of a job that is open")
 {
     RobotWorkChanged stored = MakeStored("C1", "7");
-    CHECK_FALSE(IsDoubtfulAfter(stored, MakeShown("C9", "7")));
-    CHECK(IsDoubtfulAfter(stored, MakeShown("C1", "8")));
+    CHECK_FALSE(IsUnresolvedAfter(stored, MakeShown("C9", "7")));
+    CHECK(IsUnresolvedAfter(stored, MakeShown("C1", "8")));
     stored.job = StartJob{};
-    CHECK_FALSE(IsDoubtfulAfter(stored, MakeShown("C1", "8")));
+    CHECK_FALSE(IsUnresolvedAfter(stored, MakeShown("C1", "8")));
 }
 
 TEST_CASE("WorkRecord: without a plan there is nothing to doubt, and a doubt is cleared once")
@@ -91,13 +91,13 @@ TEST_CASE("WorkRecord: without a plan there is nothing to doubt, and a doubt is 
     WorkRecord record;
     record.Restore(MakeStored("C1"));
     CHECK_FALSE(record.TryCheckEvidence(MakeShown("C2"), false));
-    CHECK_FALSE(record.IsDoubtful());
-    record.MarkDoubtful();
-    CHECK(record.TryClearDoubt());
-    CHECK_FALSE(record.TryClearDoubt());
+    CHECK_FALSE(record.IsUnresolved());
+    record.MarkUnresolved();
+    CHECK(record.TryResolve());
+    CHECK_FALSE(record.TryResolve());
 }
 
-TEST_CASE("WorkRecord: the work is stored when it has changed, and a mark only with a plan")
+TEST_CASE("WorkRecord: the work is stored when it has changed, and a progress token only with a plan")
 {
     WorkRecord record;
     CHECK_FALSE(record.TryBeginStore(record.Make("LR01"))); // there is no command yet
@@ -108,7 +108,7 @@ TEST_CASE("WorkRecord: the work is stored when it has changed, and a mark only w
     CHECK_FALSE(record.TryBeginStore(work));
 
     RobotWorkChanged marked = work;
-    marked.mark = "7";
+    marked.progressToken = "7";
     CHECK_FALSE(record.TryBeginStore(marked));
     record.BeginPlan(std::nullopt);
     CHECK(record.TryBeginStore(marked));

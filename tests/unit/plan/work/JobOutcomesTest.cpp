@@ -106,9 +106,9 @@ TEST_CASE("JobOutcomes: an uncertain job waits for the operator, whatever the ro
 {
     EngineParts parts;
     ActivePlan& plan = parts.BeginLoad();
-    parts.jobs.OnJobUncertain(parts.lr, JobUncertain{"P1-a4", "restarted"});
+    parts.jobs.OnJobUnresolved(parts.lr, JobUnresolved{"P1-a4", "restarted"});
     CHECK(parts.Collect().ListSetAlarms() == std::vector<std::string>{"ACS-1008"});
-    parts.jobs.OnJobUncertain(parts.lr, JobUncertain{"P1-a4", "restarted"});
+    parts.jobs.OnJobUnresolved(parts.lr, JobUnresolved{"P1-a4", "restarted"});
     parts.jobs.OnJobStarted(parts.lr, JobStarted{"P1-a4"});
     parts.jobs.OnJobFinished(parts.lr, JobFinished{"P1-a4"});
     parts.jobs.OnJobFailed(parts.lr, JobFailed{"P1-a4", "no"});

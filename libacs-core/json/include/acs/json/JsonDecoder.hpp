@@ -3,7 +3,7 @@
 #include <acs/core/JsonText.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/json/DecodeContext.hpp>
-#include <acs/json/EnumWords.hpp>
+#include <acs/json/EnumNames.hpp>
 #include <acs/json/JsonDocument.hpp>
 #include <acs/json/JsonFields.hpp>
 

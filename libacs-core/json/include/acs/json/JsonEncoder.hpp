@@ -1,6 +1,6 @@
 #pragma once
 
-#include <acs/json/EnumWords.hpp>
+#include <acs/json/EnumNames.hpp>
 #include <acs/json/JsonFields.hpp>
 #include <acs/json/JsonWriter.hpp>
 

@@ -3,7 +3,7 @@
 #include "RawMCS.hpp"
 #include "RawPeer.hpp"
 #include "RawServer.hpp"
-#include "WebSocketRig.hpp"
+#include "WebSocketFixture.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -14,14 +14,14 @@ namespace ACS::Testing
 {
 
 /// A client of ours against MCS's by hand, one for each connection.
-class ClientRig : public WebSocketRig
+class ClientWireFixture : public WebSocketFixture
 {
 public:
     RawServer raw{io};
     std::vector<std::unique_ptr<RawMCS>> connections;
     std::function<void(std::size_t index, RawMCS& mcs)> onConnection;
 
-    ClientRig()
+    ClientWireFixture()
     {
         raw.onPeer = [this](std::size_t index, RawPeer& peer) {
             connections.push_back(std::make_unique<RawMCS>(peer));

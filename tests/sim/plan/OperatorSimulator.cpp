@@ -1,4 +1,4 @@
-#include "Caretaker.hpp"
+#include "OperatorSimulator.hpp"
 
 #include <iterator>
 #include <utility>
@@ -16,10 +16,10 @@ constexpr std::size_t LOOKS_UNTIL_STORED = 15;
 
 } // namespace
 
-Caretaker::Caretaker(
+OperatorSimulator::OperatorSimulator(
     Timeline& timeline,
     Trace& trace,
-    const DiceSeed& seed,
+    const ChanceSeed& seed,
     const Robots& robots,
     const CrashableStore& store,
     ProcessSource getProcessOrNull)
@@ -32,18 +32,18 @@ Caretaker::Caretaker(
 {
 }
 
-void Caretaker::Begin()
+void OperatorSimulator::Begin()
 {
-    _habits.Start(EHabit::Turn, _dice.GetBetween(1s, 60s), [this] { Turn(); });
-    _habits.Start(EHabit::Look, 1s, [this] { Look(); });
+    _habits.Start(EBehaviour::Turn, _dice.GetBetween(1s, 60s), [this] { Turn(); });
+    _habits.Start(EBehaviour::Look, 1s, [this] { Look(); });
 }
 
-void Caretaker::End()
+void OperatorSimulator::End()
 {
     _habits.CancelAll();
 }
 
-void Caretaker::OnStart()
+void OperatorSimulator::OnStart()
 {
     _resting.clear();
     for (auto& [robotID, service] : _services)
@@ -56,7 +56,7 @@ void Caretaker::OnStart()
 }
 
 /// Of one that is out of reach he does not say that it is out of service: acsd takes it for one that was carried away.
-void Caretaker::Turn()
+void OperatorSimulator::Turn()
 {
     AcsdProcess* const processOrNull = _getProcessOrNull();
     if (processOrNull != nullptr)
@@ -74,10 +74,10 @@ void Caretaker::Turn()
             }
         }
     }
-    _habits.Start(EHabit::Turn, _dice.GetBetween(1s, 40s), [this] { Turn(); });
+    _habits.Start(EBehaviour::Turn, _dice.GetBetween(1s, 40s), [this] { Turn(); });
 }
 
-void Caretaker::Look()
+void OperatorSimulator::Look()
 {
     AcsdProcess* const processOrNull = _getProcessOrNull();
     const std::vector<Planning::RobotStatus> statuses =
@@ -87,10 +87,10 @@ void Caretaker::Look()
         LookAtRest(robot);
         LookAtService(robot);
     }
-    _habits.Start(EHabit::Look, 1s, [this] { Look(); });
+    _habits.Start(EBehaviour::Look, 1s, [this] { Look(); });
 }
 
-void Caretaker::LookAtRest(const Planning::RobotStatus& robot)
+void OperatorSimulator::LookAtRest(const Planning::RobotStatus& robot)
 {
     const ISimulatedRobot& truth = *_robots.at(robot.robotID);
     const auto resting = _resting.find(robot.robotID);
@@ -114,7 +114,7 @@ void Caretaker::LookAtRest(const Planning::RobotStatus& robot)
     }
 }
 
-void Caretaker::LookAtService(const Planning::RobotStatus& robot)
+void OperatorSimulator::LookAtService(const Planning::RobotStatus& robot)
 {
     const auto expected = _expected.find(robot.robotID);
     if (expected != _expected.end() && expected->second != robot.bInMaintenance)
@@ -133,7 +133,7 @@ void Caretaker::LookAtService(const Planning::RobotStatus& robot)
     service = {robot.bInMaintenance, bSame ? service.looks + 1 : 0};
 }
 
-void Caretaker::GiveBack() const
+void OperatorSimulator::GiveBack() const
 {
     AcsdProcess* const processOrNull = _getProcessOrNull();
     const std::vector<Planning::RobotStatus> statuses =

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "AcsdProcess.hpp"
-#include "Dice.hpp"
+#include "ChanceModel.hpp"
 #include "ISimulatedRobot.hpp"
 #include "TimerBank.hpp"
 #include "Trace.hpp"
@@ -16,7 +16,7 @@ namespace ACS::Simulation
 
 /// The operator who takes robots out of service and gives them back; and who sees that one that stands out of service is
 /// left alone.
-class Caretaker final
+class OperatorSimulator final
 {
 public:
     using Robots = std::map<std::string, std::unique_ptr<ISimulatedRobot>>;
@@ -24,7 +24,7 @@ public:
     using ProcessSource = std::function<AcsdProcess*()>;
 
 private:
-    enum class EHabit : std::uint8_t
+    enum class EBehaviour : std::uint8_t
     {
         Turn,
         Look,
@@ -36,21 +36,21 @@ private:
     };
 
     Trace& _trace;
-    Dice _dice;
+    ChanceModel _dice;
     const Robots& _robots;
     const CrashableStore& _store;
     ProcessSource _getProcessOrNull;
-    TimerBank<EHabit> _habits;
+    TimerBank<EBehaviour> _habits;
 
     std::map<std::string, std::string> _resting; ///< NodeIDs of those that stand out of service.
     std::map<std::string, Service> _services;    ///< As acsd shows them.
     std::map<std::string, bool> _expected;       ///< After a start: whether it is in maintenance.
 
 public:
-    Caretaker(
+    OperatorSimulator(
         Timeline& timeline,
         Trace& trace,
-        const DiceSeed& seed,
+        const ChanceSeed& seed,
         const Robots& robots,
         const CrashableStore& store,
         ProcessSource getProcessOrNull);

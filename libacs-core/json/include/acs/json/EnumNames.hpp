@@ -19,20 +19,20 @@ struct EnumWord
 };
 
 /// The words of an enumeration on the wire; specialise once per enumeration:
-/// `template <> struct EnumWords<EResult> { static constexpr std::array WORDS{EnumWord{EResult::Success, "Success"}, …}; };`
+/// `template <> struct EnumNames<EResult> { static constexpr std::array WORDS{EnumWord{EResult::Success, "Success"}, …}; };`
 template <typename TEnum>
-struct EnumWords;
+struct EnumNames;
 
 template <typename TEnum>
 concept WordedEnum = requires
 {
-    EnumWords<TEnum>::WORDS;
+    EnumNames<TEnum>::WORDS;
 };
 
 template <WordedEnum TEnum>
 [[nodiscard]] constexpr std::string_view GetWord(TEnum value)
 {
-    for (const EnumWord<TEnum>& word : EnumWords<TEnum>::WORDS)
+    for (const EnumWord<TEnum>& word : EnumNames<TEnum>::WORDS)
     {
         if (word.value == value)
         {
@@ -55,7 +55,7 @@ template <WordedEnum TEnum>
 template <WordedEnum TEnum>
 [[nodiscard]] bool TryReadWord(std::string_view text, TEnum& valueOut, bool& bExactOut)
 {
-    for (const EnumWord<TEnum>& word : EnumWords<TEnum>::WORDS)
+    for (const EnumWord<TEnum>& word : EnumNames<TEnum>::WORDS)
     {
         if (word.text == text)
         {
@@ -64,7 +64,7 @@ template <WordedEnum TEnum>
             return true;
         }
     }
-    for (const EnumWord<TEnum>& word : EnumWords<TEnum>::WORDS)
+    for (const EnumWord<TEnum>& word : EnumNames<TEnum>::WORDS)
     {
         if (IsEqualIgnoringCase(word.text, text))
         {
@@ -81,7 +81,7 @@ template <WordedEnum TEnum>
 [[nodiscard]] std::string ListWords()
 {
     std::string list = "one of ";
-    for (const EnumWord<TEnum>& word : EnumWords<TEnum>::WORDS)
+    for (const EnumWord<TEnum>& word : EnumNames<TEnum>::WORDS)
     {
         list += list.size() == std::string_view("one of ").size() ? "" : ", ";
         list += word.text;

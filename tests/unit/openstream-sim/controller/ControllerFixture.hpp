@@ -14,7 +14,7 @@ namespace ACS::Testing
 {
 
 /// A VirtualController on time that the test moves by hand.
-class ControllerHarness final
+class ControllerFixture final
 {
     RecordingLogSink _log;
 
@@ -22,7 +22,7 @@ public:
     ManualClock clock;
     OpenStreamSim::VirtualController controller;
 
-    explicit ControllerHarness(const OpenStreamSim::ControllerOptions& options = {})
+    explicit ControllerFixture(const OpenStreamSim::ControllerOptions& options = {})
         : controller(options, clock.GetNow(), Core::Logger(_log, "controller"))
     {
     }

@@ -18,7 +18,7 @@ namespace ACS::Simulation
 {
 
 /// The robots' own truth: where they are and which jobs they have really done. Nothing that acsd believes enters here.
-class WorkWitness final
+class WorkChecker final
 {
 public:
     struct JobTruth
@@ -38,7 +38,7 @@ private:
     FloorChecker _floor;
 
 public:
-    WorkWitness(Trace& trace, const Planning::SiteMap& site, EHandling handling);
+    WorkChecker(Trace& trace, const Planning::SiteMap& site, EHandling handling);
 
     /// The MCS is about to send the plan.
     void NotePlan(const Protocol::ExecutionPlan& plan);

@@ -18,7 +18,7 @@ inline constexpr std::string_view HANDSHAKE_ACK = "{\"type\":\"handshake_ack\",\
 inline constexpr std::string_view MONITOR_ACK = "{\"type\":\"monitor_ack\"}\n";
 
 /// A OpenStream::ClientSession in virtual time. A send leaves at once unless bSocketTakes is false.
-class ClientHarness
+class ClientFixture
 {
 public:
     ManualClock clock;
@@ -35,7 +35,7 @@ private:
     std::array<std::optional<Core::SteadyTime>, OpenStream::CLIENT_TIMER_COUNT> _deadlines;
 
 public:
-    explicit ClientHarness(const OpenStream::ClientSessionOptions& options = {})
+    explicit ClientFixture(const OpenStream::ClientSessionOptions& options = {})
         : session(options, random)
     {
     }
@@ -195,7 +195,7 @@ private:
     }
 };
 
-inline void MakeReady(ClientHarness& client)
+inline void MakeReady(ClientFixture& client)
 {
     client.Start();
     client.ConnectAndShake();

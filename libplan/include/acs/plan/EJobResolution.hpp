@@ -7,7 +7,7 @@ namespace ACS::Planning
 {
 
 /// What the operator says of a job of which the robot cannot tell what became.
-enum class EJobAnswer : std::uint8_t
+enum class EJobResolution : std::uint8_t
 {
     Done,   ///< It was done.
     Failed, ///< It was not done, or not well: the plan fails.
@@ -15,6 +15,6 @@ enum class EJobAnswer : std::uint8_t
 };
 
 /// "Done"
-[[nodiscard]] std::string_view GetText(EJobAnswer value) noexcept;
+[[nodiscard]] std::string_view GetText(EJobResolution value) noexcept;
 
 } // namespace ACS::Planning

@@ -19,7 +19,7 @@ namespace ACS::Testing
 {
 
 /// A controller with faults, and both of its sides, on time that the test moves by hand.
-class FaultHarness final : public OpenStreamSim::IFaultHost
+class FaultFixture final : public OpenStreamSim::IFaultHost
 {
     RecordingLogSink _log;
 
@@ -37,7 +37,7 @@ public:
     std::optional<Core::SteadyTime> wakeAt;
     OpenStream::ApiResponse response; ///< Of the last call.
 
-    explicit FaultHarness(const OpenStreamSim::ControllerOptions& options = MakeOptions())
+    explicit FaultFixture(const OpenStreamSim::ControllerOptions& options = MakeOptions())
         : _controller(options, clock.GetNow(), Core::Logger(_log, "controller"))
     {
         _faults.emplace(_controller, *this, Core::Logger(_log, "controller"), clock.GetNow());

@@ -1,4 +1,4 @@
-#include "codec/PlanWords.hpp"
+#include "codec/PlanEnumNames.hpp"
 
 namespace ACS::Planning
 {
@@ -18,7 +18,7 @@ std::string_view GetText(EJobState value) noexcept
     return Json::GetWord(value);
 }
 
-std::string_view GetText(EJobAnswer value) noexcept
+std::string_view GetText(EJobResolution value) noexcept
 {
     return Json::GetWord(value);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "AdapterRunner.hpp"
-#include "IRobotHand.hpp"
+#include "IRobotConnection.hpp"
 #include "ISimulatedRobot.hpp"
 #include "MemoryRobotAdapter.hpp"
 #include "RobotRadio.hpp"
@@ -14,7 +14,7 @@ namespace ACS::Simulation
 
 /// Runs the adapter of one robot in memory as RobotHost runs those of real ones: gives it events and time, keeps its
 /// timers, passes its events on.
-class RobotHand final : public IRobotHand, private IRadioListener
+class RobotConnection final : public IRobotConnection, private IRadioListener
 {
 public:
     using EventHandler = ISimulatedRobot::EventHandler;
@@ -25,10 +25,10 @@ private:
     AdapterRunner _runner;
 
 public:
-    RobotHand(Timeline& timeline, RobotRadio& radio, std::uint64_t number, EventHandler handler);
-    RobotHand(const RobotHand&) = delete;
-    RobotHand& operator=(const RobotHand&) = delete;
-    ~RobotHand() override;
+    RobotConnection(Timeline& timeline, RobotRadio& radio, std::uint64_t number, EventHandler handler);
+    RobotConnection(const RobotConnection&) = delete;
+    RobotConnection& operator=(const RobotConnection&) = delete;
+    ~RobotConnection() override;
 
     void Handle(const Planning::RobotCommand& command) override;
 

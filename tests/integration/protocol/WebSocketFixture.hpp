@@ -25,7 +25,7 @@ namespace ACS::Testing
 inline constexpr std::chrono::seconds PATIENCE{10};
 
 /// A server, a client and the loop that runs them.
-class WebSocketRig
+class WebSocketFixture
 {
 public:
     boost::asio::io_context io;
@@ -40,7 +40,7 @@ public:
     std::unique_ptr<ProtocolBeast::McsServer> server;
     std::unique_ptr<ProtocolBeast::AcsClient> client;
 
-    WebSocketRig()
+    WebSocketFixture()
     {
         clientOptions.session.reconnect.initial = std::chrono::milliseconds(20);
         clientOptions.session.reconnect.maximum = std::chrono::milliseconds(50);

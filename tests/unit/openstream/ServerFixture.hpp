@@ -15,7 +15,7 @@ namespace ACS::Testing
 {
 
 /// A ServerSession in virtual time: fires its timers, takes what it sends, answers for the service.
-class ServerHarness
+class ServerFixture
 {
 public:
     ManualClock clock;
@@ -38,7 +38,7 @@ private:
     bool _bSendPending = false;
 
 public:
-    explicit ServerHarness(const OpenStream::ServerSessionOptions& options = {})
+    explicit ServerFixture(const OpenStream::ServerSessionOptions& options = {})
         : session(options)
     {
         session.Start(clock.GetNow(), _actions);

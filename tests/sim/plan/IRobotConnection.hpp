@@ -6,13 +6,13 @@ namespace ACS::Simulation
 {
 
 /// One robot's adapter in an acsd that lives, with what runs it. It goes when acsd does.
-class IRobotHand
+class IRobotConnection
 {
 public:
-    IRobotHand() = default;
-    IRobotHand(const IRobotHand&) = delete;
-    IRobotHand& operator=(const IRobotHand&) = delete;
-    virtual ~IRobotHand() = default;
+    IRobotConnection() = default;
+    IRobotConnection(const IRobotConnection&) = delete;
+    IRobotConnection& operator=(const IRobotConnection&) = delete;
+    virtual ~IRobotConnection() = default;
 
     virtual void Handle(const Planning::RobotCommand& command) = 0;
 };

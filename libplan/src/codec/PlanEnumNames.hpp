@@ -1,8 +1,8 @@
 #pragma once
 
-#include <acs/json/EnumWords.hpp>
+#include <acs/json/EnumNames.hpp>
 #include <acs/plan/EAlarmLevel.hpp>
-#include <acs/plan/EJobAnswer.hpp>
+#include <acs/plan/EJobResolution.hpp>
 #include <acs/plan/EJobState.hpp>
 #include <acs/plan/EPlanControl.hpp>
 #include <acs/plan/EPlanState.hpp>
@@ -19,7 +19,7 @@ namespace ACS::Json
 // The words of section 3 of MCS-ACS: for logs, texts and the store.
 
 template <>
-struct EnumWords<Planning::EPlanState>
+struct EnumNames<Planning::EPlanState>
 {
     static constexpr std::array WORDS{
         EnumWord<Planning::EPlanState>{Planning::EPlanState::Pending, "Pending"},
@@ -33,7 +33,7 @@ struct EnumWords<Planning::EPlanState>
 };
 
 template <>
-struct EnumWords<Planning::EStepState>
+struct EnumNames<Planning::EStepState>
 {
     static constexpr std::array WORDS{
         EnumWord<Planning::EStepState>{Planning::EStepState::Pending, "Pending"},
@@ -46,7 +46,7 @@ struct EnumWords<Planning::EStepState>
 };
 
 template <>
-struct EnumWords<Planning::EJobState>
+struct EnumNames<Planning::EJobState>
 {
     static constexpr std::array WORDS{
         EnumWord<Planning::EJobState>{Planning::EJobState::Pending, "Pending"},
@@ -58,17 +58,17 @@ struct EnumWords<Planning::EJobState>
 };
 
 template <>
-struct EnumWords<Planning::EJobAnswer>
+struct EnumNames<Planning::EJobResolution>
 {
     static constexpr std::array WORDS{
-        EnumWord<Planning::EJobAnswer>{Planning::EJobAnswer::Done, "Done"},
-        EnumWord<Planning::EJobAnswer>{Planning::EJobAnswer::Failed, "Failed"},
-        EnumWord<Planning::EJobAnswer>{Planning::EJobAnswer::Again, "Again"},
+        EnumWord<Planning::EJobResolution>{Planning::EJobResolution::Done, "Done"},
+        EnumWord<Planning::EJobResolution>{Planning::EJobResolution::Failed, "Failed"},
+        EnumWord<Planning::EJobResolution>{Planning::EJobResolution::Again, "Again"},
     };
 };
 
 template <>
-struct EnumWords<Planning::ERobotType>
+struct EnumNames<Planning::ERobotType>
 {
     static constexpr std::array WORDS{
         EnumWord<Planning::ERobotType>{Planning::ERobotType::LR, "LR"},
@@ -77,7 +77,7 @@ struct EnumWords<Planning::ERobotType>
 };
 
 template <>
-struct EnumWords<Planning::ERobotStatus>
+struct EnumNames<Planning::ERobotStatus>
 {
     static constexpr std::array WORDS{
         EnumWord<Planning::ERobotStatus>{Planning::ERobotStatus::Init, "Init"},
@@ -96,7 +96,7 @@ struct EnumWords<Planning::ERobotStatus>
 };
 
 template <>
-struct EnumWords<Planning::EAlarmLevel>
+struct EnumNames<Planning::EAlarmLevel>
 {
     static constexpr std::array WORDS{
         EnumWord<Planning::EAlarmLevel>{Planning::EAlarmLevel::Heavy, "heavy"},
@@ -105,7 +105,7 @@ struct EnumWords<Planning::EAlarmLevel>
 };
 
 template <>
-struct EnumWords<Planning::EPlanControl>
+struct EnumNames<Planning::EPlanControl>
 {
     static constexpr std::array WORDS{
         EnumWord<Planning::EPlanControl>{Planning::EPlanControl::Cancel, "Cancel"},
@@ -116,7 +116,7 @@ struct EnumWords<Planning::EPlanControl>
 };
 
 template <>
-struct EnumWords<Planning::ETscState>
+struct EnumNames<Planning::ETscState>
 {
     static constexpr std::array WORDS{
         EnumWord<Planning::ETscState>{Planning::ETscState::Auto, "Auto"},

@@ -16,7 +16,7 @@ namespace ACS::Simulation
 
 /// Runs acsd's own adapter of a VDA5050 vehicle, with an arm or without, as RobotHost does: over the world's broker, and
 /// over the network of the arm's controller.
-class VehicleHand final : public IRobotHand, private VDA5050::IMqttLinkListener
+class VehicleConnection final : public IRobotConnection, private VDA5050::IMqttLinkListener
 {
 public:
     using EventHandler = ISimulatedRobot::EventHandler;
@@ -31,15 +31,15 @@ private:
 
 public:
     /// The controller is that of its arm, where it has one.
-    VehicleHand(
+    VehicleConnection(
         Timeline& timeline,
         MqttBroker& broker,
         const Planning::RobotOptions& robot,
         EventHandler handler,
         ArmController* controllerOrNull);
-    VehicleHand(const VehicleHand&) = delete;
-    VehicleHand& operator=(const VehicleHand&) = delete;
-    ~VehicleHand() override;
+    VehicleConnection(const VehicleConnection&) = delete;
+    VehicleConnection& operator=(const VehicleConnection&) = delete;
+    ~VehicleConnection() override;
 
     void Handle(const Planning::RobotCommand& command) override;
 

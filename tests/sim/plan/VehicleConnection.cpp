@@ -1,4 +1,4 @@
-#include "VehicleHand.hpp"
+#include "VehicleConnection.hpp"
 
 #include "ArmPrograms.hpp"
 #include "config/AcsdConfig.hpp"
@@ -89,7 +89,7 @@ Acsd::RobotLinkConfig MakeLink(const Planning::RobotOptions& robot, const ArmCon
 
 } // namespace
 
-VehicleHand::VehicleHand(
+VehicleConnection::VehicleConnection(
     Timeline& timeline,
     MqttBroker& broker,
     const Planning::RobotOptions& robot,
@@ -114,13 +114,13 @@ VehicleHand::VehicleHand(
     }
 }
 
-VehicleHand::~VehicleHand()
+VehicleConnection::~VehicleConnection()
 {
     _broker.Abandon(_client);
 }
 
 /// What the adapter has put out.
-void VehicleHand::SendAll()
+void VehicleConnection::SendAll()
 {
     for (const VDA5050::MqttMessage& message : std::exchange(_outputs.messages, {}))
     {
@@ -132,7 +132,7 @@ void VehicleHand::SendAll()
     }
 }
 
-void VehicleHand::Handle(const Planning::RobotCommand& command)
+void VehicleConnection::Handle(const Planning::RobotCommand& command)
 {
     if (_armOrNull != nullptr)
     {
@@ -141,17 +141,17 @@ void VehicleHand::Handle(const Planning::RobotCommand& command)
     _runner.Run([this, &command](Core::Now now, auto& out) { _adapter.adapter->Handle(command, now, out); });
 }
 
-void VehicleHand::OnLinkUp()
+void VehicleConnection::OnLinkUp()
 {
     _runner.Run([this](Core::Now now, auto& out) { _adapter.adapter->OnLinkUp(now, out); });
 }
 
-void VehicleHand::OnLinkDown(std::error_code /*reason*/)
+void VehicleConnection::OnLinkDown(std::error_code /*reason*/)
 {
     _runner.Run([this](Core::Now now, auto& out) { _adapter.adapter->OnLinkDown(now, out); });
 }
 
-void VehicleHand::OnMqttMessage(const VDA5050::MqttMessage& message)
+void VehicleConnection::OnMqttMessage(const VDA5050::MqttMessage& message)
 {
     _runner.Run([this, &message](Core::Now now, auto& out) { _adapter.adapter->OnMqttMessage(message, now, out); });
 }

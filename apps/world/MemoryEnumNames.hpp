@@ -1,16 +1,16 @@
 #pragma once
 
 #include "world/WorldEvent.hpp"
-#include <acs/json/EnumWords.hpp>
+#include <acs/json/EnumNames.hpp>
 
 #include <array>
 
 namespace ACS::Json
 {
 
-/// MemoryWords: what a memory place holds, as world files and journals spell it.
+/// MemoryEnumNames: what a memory place holds, as world files and journals spell it.
 template <>
-struct EnumWords<Sim::EMemory>
+struct EnumNames<Sim::EMemory>
 {
     static constexpr std::array WORDS{
         EnumWord<Sim::EMemory>{Sim::EMemory::Unknown, "unknown"},

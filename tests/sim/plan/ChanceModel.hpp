@@ -13,19 +13,19 @@ namespace ACS::Simulation
 {
 
 /// A seed and which part of its world.
-struct DiceSeed
+struct ChanceSeed
 {
     std::uint64_t seed = 0;
     std::uint64_t part = 0;
 };
 
 /// Chance for one part of a world: each part has its own, so that taking one kind of fault away leaves the rest alike.
-class Dice final : public Core::IRandom
+class ChanceModel final : public Core::IRandom
 {
     Testing::SeededRandom _random;
 
 public:
-    explicit Dice(const DiceSeed& seed)
+    explicit ChanceModel(const ChanceSeed& seed)
         : _random(seed.seed * 0x2545F4914F6CDD1DU + seed.part * 0xD6E8FEB86659FD93U)
     {
         static_cast<void>(_random.GetNext());

@@ -1,4 +1,4 @@
-#include "WorkWitness.hpp"
+#include "WorkChecker.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -6,13 +6,13 @@
 namespace ACS::Simulation
 {
 
-WorkWitness::WorkWitness(Trace& trace, const Planning::SiteMap& site, EHandling handling)
+WorkChecker::WorkChecker(Trace& trace, const Planning::SiteMap& site, EHandling handling)
     : _trace(trace),
       _floor(trace, site, handling)
 {
 }
 
-void WorkWitness::NotePlan(const Protocol::ExecutionPlan& plan)
+void WorkChecker::NotePlan(const Protocol::ExecutionPlan& plan)
 {
     _floor.NotePlan(plan);
     for (const Protocol::PlanStep& step : plan.steps)
@@ -24,28 +24,28 @@ void WorkWitness::NotePlan(const Protocol::ExecutionPlan& plan)
     }
 }
 
-FloorChecker& WorkWitness::GetFloor() noexcept
+FloorChecker& WorkChecker::GetFloor() noexcept
 {
     return _floor;
 }
 
-JobKey WorkWitness::MakeKey(const std::string& planID, std::int32_t stepNo, const std::string& jobID) const
+JobKey WorkChecker::MakeKey(const std::string& planID, std::int32_t stepNo, const std::string& jobID) const
 {
     return {planID, stepNo, _named.contains({planID, jobID}) ? jobID : std::string()};
 }
 
-void WorkWitness::NoteCommand(const Planning::StartJob& job)
+void WorkChecker::NoteCommand(const Planning::StartJob& job)
 {
     _commands.emplace(job.commandID, job);
 }
 
-const Planning::StartJob* WorkWitness::FindCommandOrNull(const std::string& commandID) const
+const Planning::StartJob* WorkChecker::FindCommandOrNull(const std::string& commandID) const
 {
     const auto found = _commands.find(commandID);
     return found == _commands.end() ? nullptr : &found->second;
 }
 
-void WorkWitness::OnPlaced(const std::string& robotID, std::vector<std::string> nodeIDs)
+void WorkChecker::OnPlaced(const std::string& robotID, std::vector<std::string> nodeIDs)
 {
     for (const auto& [other, taken] : _places)
     {
@@ -61,7 +61,7 @@ void WorkWitness::OnPlaced(const std::string& robotID, std::vector<std::string> 
     _places[robotID] = std::move(nodeIDs);
 }
 
-void WorkWitness::OnJobBegun(const std::string& robotID, const Planning::StartJob& job)
+void WorkChecker::OnJobBegun(const std::string& robotID, const Planning::StartJob& job)
 {
     _trace.Tell("{} begins job {} of {} step {}", robotID, job.jobID, job.planID, job.stepNo);
     const JobKey key = MakeKey(job.planID, job.stepNo, job.jobID);
@@ -72,14 +72,14 @@ void WorkWitness::OnJobBegun(const std::string& robotID, const Planning::StartJo
     _floor.OnJobBegun(robotID, key);
 }
 
-void WorkWitness::OnJobFinished(const std::string& robotID, const Planning::StartJob& job)
+void WorkChecker::OnJobFinished(const std::string& robotID, const Planning::StartJob& job)
 {
     _trace.Tell("{} has done job {} of {}", robotID, job.jobID, job.planID);
     ++_jobs[MakeKey(job.planID, job.stepNo, job.jobID)].finished;
     _floor.OnJobEnded(robotID);
 }
 
-WorkWitness::JobTruth WorkWitness::GetTruth(const std::string& planID, std::int32_t stepNo, const std::string& jobID)
+WorkChecker::JobTruth WorkChecker::GetTruth(const std::string& planID, std::int32_t stepNo, const std::string& jobID)
     const
 {
     const JobKey key = MakeKey(planID, stepNo, jobID);
