@@ -8,6 +8,8 @@ import sys
 from check_sizes import LABEL, NO_MEMBER, find_end, is_method, list_types
 from source_tree import CPP_SUFFIXES, list_files, read_text, run_check, strip_comments_and_strings
 
+# Violates every rule on purpose.
+SAMPLES = "tests/style/bad/"
 # Public types and constants, data, constructors, then methods from public to private.
 TYPES, DATA, CONSTRUCTORS, PUBLIC, PROTECTED, PRIVATE = range(6)
 RANKS = ("a public type or constant", "data", "a constructor", "a public method", "a protected method", "a private method")
@@ -125,6 +127,8 @@ def check_nullable(text):
 
 def check_tree(root):
     for path in (name for name in list_files(root) if name.endswith(CPP_SUFFIXES)):
+        if path.startswith(SAMPLES):
+            continue
         text = strip_comments_and_strings(read_text(root, path))
         for check in (check_order, check_nullable, check_abbreviations):
             for line, problem in check(text):

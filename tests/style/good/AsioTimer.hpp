@@ -13,12 +13,15 @@ namespace ACS::Sample
 /// Ten lines of Asio, compiled optimised with every warning: a flag that Asio cannot stand shows here first.
 class AsioTimer final
 {
-    struct Impl;
-    std::shared_ptr<Impl> _impl;
-
 public:
     using Handler = std::function<void(std::error_code)>;
 
+private:
+    struct Impl;
+
+    std::shared_ptr<Impl> _impl;
+
+public:
     explicit AsioTimer(const boost::asio::any_io_executor& executor);
     AsioTimer(const AsioTimer&) = delete;
     AsioTimer& operator=(const AsioTimer&) = delete;

@@ -29,13 +29,15 @@ public:
 /// A receiver of parser events: the names are the parser's, not ours.
 class JsonEventCounter final
 {
+public:
+    static constexpr std::chrono::milliseconds DEFAULT_LIMIT{5000};
+
+private:
     std::size_t _count = 0;
     std::atomic<bool> _bStopping = false;
     const std::chrono::milliseconds _limit;
 
 public:
-    static constexpr std::chrono::milliseconds DEFAULT_LIMIT{5000};
-
     explicit JsonEventCounter(std::chrono::milliseconds limit = DEFAULT_LIMIT);
 
     bool Null();
