@@ -18,6 +18,17 @@ using namespace std::chrono_literals;
 namespace
 {
 
+/// The simulated MCS does not use isConnected: it is reported neither after a grace time nor periodically.
+Acsd::AcsdConfig MakeConfig(const Scenario& scenario)
+{
+    Acsd::AcsdConfig config;
+    config.engine = scenario.options;
+    config.site = scenario.MakeSite();
+    config.localOffset = Apps::LocalOffset(540min);
+    config.operations.workGrace = 24h;
+    return config;
+}
+
 Protocol::SessionOptions MakeSessionOptions()
 {
     Protocol::SessionOptions options;
@@ -32,21 +43,18 @@ AcsdProcess::AcsdProcess(const Dependencies& around, CrashHandler onCrash, Commi
       _onCrash(std::move(onCrash)),
       _onCommit(std::move(onCommit)),
       _bCrashing(_around.scenario.Has(EFault::Crashes)),
-      _engine(_around.scenario.options, _around.scenario.MakeSite(), _around.ownRandom),
-      _host(
-          _engine,
-          _around.timeline,
-          [this](const Planning::EngineAction& action) { Execute(action); },
-          [this](const Planning::StoreBatch& batch) { Store(batch); }),
+      _core(
+          {_around.timeline,
+           _around.ownRandom,
+           Core::Logger(),
+           *this,
+           *this,
+           [this](const Planning::EngineAction& action, const Acsd::AcsdCore::ActionHandler& execute) {
+               OnAction(action, execute);
+           }},
+          MakeConfig(_around.scenario)),
       _session(MakeSessionOptions(), _around.ownRandom),
-      _gateway(
-          _around.timeline,
-          Core::Logger(),
-          Apps::LocalOffset(std::chrono::minutes(540)),
-          _engine,
-          *this,
-          [this](Planning::PlanCommand command) { PushCommand(std::move(command)); }),
-      _engineTimers(_around.timeline),
+      _timers(_around.timeline),
       _sessionTimers(_around.timeline),
       _mutator(_around.mutation, _around.dice, _around.ownRandom)
 {
@@ -68,16 +76,15 @@ void AcsdProcess::Begin()
         _hands.emplace(
             robotID,
             robot->MakeConnection(_around.number, [this, robotID = robotID](const Planning::RobotEvent& event) {
-                TakeRobotEvent(robotID, event);
+                OnRobotEvent(robotID, event);
             }));
     }
-    _gateway.Restore(_around.store.GetState().lastReportSequence);
-    _host.Restore(_mutator.OnRestore(_around.store.Load()));
+    _core.Restore(_mutator.OnRestore(_around.store.Load()));
     if (_bDead)
     {
         return;
     }
-    _gateway.Begin();
+    _core.Start();
     RunSession([this](Core::Now now, auto& out) { _session.Start(now, out); });
 }
 
@@ -88,9 +95,9 @@ void AcsdProcess::Crash(std::string_view where)
         return;
     }
     _around.trace.Tell("acsd: crash {}", where);
-    _engineTimers.CancelAll();
+    _timers.CancelAll();
     _sessionTimers.CancelAll();
-    _host.Close();
+    _core.Close();
     if (_writing.has_value() && _around.dice.IsHit(500))
     {
         _around.trace.Tell("acsd: the batch being written is stored");
@@ -115,16 +122,12 @@ void AcsdProcess::CrashByChance(std::size_t permyriad, std::string_view where)
 
 void AcsdProcess::PushCommand(Planning::PlanCommand command)
 {
-    if (_mutator.Is(EMutation::AckForgotten) && std::holds_alternative<Planning::MessageAcknowledged>(command))
-    {
-        return;
-    }
-    _host.Push(std::move(command));
+    static_cast<void>(_core.TryPush(std::move(command)));
 }
 
 const Planning::PlanEngine& AcsdProcess::GetEngine() const noexcept
 {
-    return _engine;
+    return _core.GetEngine();
 }
 
 void AcsdProcess::Store(const Planning::StoreBatch& batch)
@@ -138,7 +141,7 @@ void AcsdProcess::Store(const Planning::StoreBatch& batch)
     const bool bSlow = _around.scenario.Has(EFault::Disk) && _around.dice.IsHit(30);
     const Core::Duration time = _around.dice.GetBetween(1ms, bSlow ? 3s : 6ms);
     const bool bEarly = _mutator.Is(EMutation::StoreConfirmsEarly);
-    _engineTimers.Post(bEarly ? time + 300ms : time, [this, bEarly] {
+    _timers.Post(bEarly ? time + 300ms : time, [this, bEarly] {
         if (!bEarly)
         {
             Commit();
@@ -151,7 +154,7 @@ void AcsdProcess::Store(const Planning::StoreBatch& batch)
     if (bEarly)
     {
         // The batch before this one must not be lost by another reason.
-        _engineTimers.Post(0ms, [this] { _host.OnStored({}); });
+        _timers.Post(0ms, [this] { _core.OnStored({}); });
     }
 }
 
@@ -175,56 +178,83 @@ void AcsdProcess::Commit()
         return;
     }
     const bool bTold = bStored || _mutator.Is(EMutation::StoreHidesFailure);
-    _host.OnStored(
+    _core.OnStored(
         bTold ? Core::Result<void>()
               : Core::Fail(Planning::EPlanningError::StoreFailed, "acsd.db", "room", "disk full"));
 }
 
-void AcsdProcess::Execute(const Planning::EngineAction& action)
+void AcsdProcess::OnAction(const Planning::EngineAction& action, const Acsd::AcsdCore::ActionHandler& execute)
 {
     CrashByChance(5, "between two actions");
-    if (!_bDead)
+    if (_bDead)
     {
-        CarryOut(action);
+        return;
     }
-}
-
-void AcsdProcess::CarryOut(const Planning::EngineAction& action)
-{
     std::visit(
         Core::Overloaded{
-            [](const Planning::StorePlans&) { assert(false && "carried out by the loop"); },
-            [this](const Planning::ReplyCommand& reply) { _gateway.Reply(_mutator.OnReply(reply)); },
-            [this](const Planning::SendReport& report) { Report(report.entry); },
-            [this](const Planning::CommandRobot& command) { CommandRobot(command); },
-            [this](const Planning::RobotStatusChanged& changed) { _gateway.PublishStatus(changed.status); },
-            [this](const Planning::TscStateChanged& changed) { _gateway.PublishTscState(changed.state); },
-            [this](const Planning::StartEngineTimer& start) {
-                if (_mutator.ShouldForgetTimer())
-                {
-                    return;
-                }
-                const Planning::EngineTimer timer = start.timer;
-                _engineTimers.Start(timer, start.delay, [this, timer] { _host.Push(timer); });
-            },
-            [this](const Planning::CancelEngineTimer& cancel) {
-                _engineTimers.Cancel(cancel.timer);
+            [this, &execute](const Planning::ReplyCommand& reply) { execute(_mutator.OnReply(reply)); },
+            [this, &execute](const Planning::SendReport& report) { OnReport(report, execute); },
+            [&execute](const auto& other) {
+                execute(other);
             }},
         action);
 }
 
-void AcsdProcess::Report(const Planning::OutboxEntry& entry)
+void AcsdProcess::OnReport(const Planning::SendReport& report, const Acsd::AcsdCore::ActionHandler& execute)
 {
-    _around.trace.Tell("acsd: report {}: {}", entry.sequence, Describe(entry.report));
-    const Mutator::ReportOutcome outcome = _mutator.OnReport(entry);
-    for (const Planning::OutboxEntry& told : outcome.told)
+    _around.trace.Tell("acsd: report {}: {}", report.entry.sequence, Describe(report.entry.report));
+    const Mutator::ReportOutcome outcome = _mutator.OnReport(report.entry);
+    for (const Planning::OutboxEntry& published : outcome.told)
     {
-        _gateway.Report(told);
+        execute(Planning::SendReport{published});
     }
     if (outcome.bAcknowledged)
     {
-        PushCommand(Planning::MessageAcknowledged{entry.sequence});
+        PushCommand(Planning::MessageAcknowledged{report.entry.sequence});
     }
+}
+
+void AcsdProcess::CheckStore()
+{
+    // A simulated disk loses no file.
+}
+
+void AcsdProcess::StartTimer(const Acsd::AcsdTimer& timer, Core::Duration delay)
+{
+    const bool bOfEngine = std::holds_alternative<Planning::EngineTimer>(timer);
+    if (_bDead || (bOfEngine && _mutator.ShouldForgetTimer()))
+    {
+        return;
+    }
+    _timers.Start(timer, delay, [this, timer] { _core.OnTimer(timer); });
+}
+
+void AcsdProcess::CancelTimer(const Acsd::AcsdTimer& timer)
+{
+    _timers.Cancel(timer);
+}
+
+void AcsdProcess::CancelTimers()
+{
+    _timers.CancelAll();
+}
+
+void AcsdProcess::CloseLinks()
+{
+    // It only crashes: the links are lost with it.
+}
+
+void AcsdProcess::OnStopped()
+{
+    assert(false && "it only crashes");
+}
+
+void AcsdProcess::ObserveCommit(Core::Duration /*duration*/)
+{
+}
+
+void AcsdProcess::ObserveAckWait(Core::Duration /*wait*/)
+{
 }
 
 void AcsdProcess::CommandRobot(const Planning::CommandRobot& command)
@@ -248,17 +278,15 @@ void AcsdProcess::CommandRobot(const Planning::CommandRobot& command)
         {
             _around.witness.NoteCommand(*jobOrNull);
         }
-        _engineTimers.Post(5s, [&hand, sent] { hand.Handle(sent); });
+        _timers.Post(5s, [&hand, sent] { hand.Handle(sent); });
     }
     for (const Planning::RobotEvent& event : outcome.raised)
     {
-        _engineTimers.Post(1ms, [this, robotID = command.robotID, event] {
-            _host.Push(Planning::RobotInput{robotID, event});
-        });
+        _timers.Post(1ms, [this, robotID = command.robotID, event] { _core.OnRobotEvent(robotID, event); });
     }
 }
 
-void AcsdProcess::TakeRobotEvent(const std::string& robotID, const Planning::RobotEvent& event)
+void AcsdProcess::OnRobotEvent(const std::string& robotID, const Planning::RobotEvent& event)
 {
     if (_bDead)
     {
@@ -267,7 +295,7 @@ void AcsdProcess::TakeRobotEvent(const std::string& robotID, const Planning::Rob
     _around.trace.Tell("acsd receives: {} {}", robotID, Describe(event));
     for (const Planning::RobotEvent& heard : _mutator.OnEvent(robotID, event))
     {
-        _host.Push(Planning::RobotInput{robotID, heard});
+        _core.OnRobotEvent(robotID, heard);
     }
 }
 
@@ -322,20 +350,24 @@ void AcsdProcess::Act(const Protocol::SessionAction& action)
                 // AcsClient posts events: other work of the same thread may come between.
                 const Core::SteadyTime now = _around.timeline.GetNow().steady;
                 _lastDelivery = std::max(_lastDelivery, now + _around.dice.GetBetween(0ms, 3ms));
-                _sessionTimers.Post(_lastDelivery - now, [this, event = deliver.event] {
-                    const bool bForgotten =
-                        _mutator.Is(EMutation::ReplayForgotten) && std::holds_alternative<Protocol::Registered>(event);
-                    if (!_bDead && !bForgotten)
-                    {
-                        _gateway.OnSessionEvent(event);
-                    }
-                    else if (!_bDead)
-                    {
-                        ReplayDone();
-                    }
-                });
+                _sessionTimers.Post(_lastDelivery - now, [this, event = deliver.event] { OnSessionEvent(event); });
             }},
         action);
+}
+
+void AcsdProcess::OnSessionEvent(const Protocol::SessionEvent& event)
+{
+    const bool bAckForgotten = _mutator.Is(EMutation::AckForgotten) && std::holds_alternative<Protocol::Acked>(event);
+    if (_bDead || bAckForgotten)
+    {
+        return;
+    }
+    if (_mutator.Is(EMutation::ReplayForgotten) && std::holds_alternative<Protocol::Registered>(event))
+    {
+        ReplayDone();
+        return;
+    }
+    _core.OnSessionEvent(event);
 }
 
 bool AcsdProcess::IsRegistered() const

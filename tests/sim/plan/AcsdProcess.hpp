@@ -1,12 +1,13 @@
 #pragma once
 
+#include "AcsdCore.hpp"
 #include "ChanceModel.hpp"
 #include "CrashableStore.hpp"
 #include "EMutation.hpp"
+#include "IAcsdOutput.hpp"
 #include "IRobotConnection.hpp"
 #include "ISimulatedRobot.hpp"
 #include "mcs/IMcsOutput.hpp"
-#include "mcs/McsGateway.hpp"
 #include "Mutator.hpp"
 #include "Scenario.hpp"
 #include "TextNetwork.hpp"
@@ -14,7 +15,6 @@
 #include "Trace.hpp"
 #include "WorkChecker.hpp"
 #include <acs/plan/PlanEngine.hpp>
-#include <acs/plan/PlanEngineHost.hpp>
 #include <acs/protocol/AcsSession.hpp>
 
 #include <deque>
@@ -27,12 +27,12 @@
 namespace ACS::Simulation
 {
 
-/// acsd from one start to its crash: the engine, its loop, the gateway to the MCS, the session and the robots' adapters,
-/// connected as Acsd connects them, with the world's disk, network and radios in place of the system's.
-class AcsdProcess final : private Acsd::IMcsOutput, private ITextPeer
+/// acsd from one start to its crash: AcsdCore with the simulated disk, network and radios in place of the system's. What goes
+/// into the core and comes out of it passes the mutator.
+class AcsdProcess final : private Acsd::IAcsdOutput, private Acsd::IMcsOutput, private ITextPeer
 {
 public:
-    /// What it lives in; everything outlives it.
+    /// All references must outlive it.
     struct Dependencies
     {
         Timeline& timeline;
@@ -60,13 +60,11 @@ private:
     bool _bDead = false;
     bool _bCrashing; ///< By chance; ends with the faults.
 
-    Planning::PlanEngine _engine;
-    Planning::PlanEngineHost _host;
+    Acsd::AcsdCore _core;
     Protocol::AcsSession _session;
-    Acsd::McsGateway _gateway;
     std::map<std::string, std::unique_ptr<IRobotConnection>> _hands;
 
-    TimerBank<Planning::EngineTimer> _engineTimers;
+    TimerBank<Acsd::AcsdTimer> _timers;
     TimerBank<Protocol::ESessionTimer> _sessionTimers;
     std::deque<Protocol::SessionAction> _sessionActions;
     bool _bActing = false;
@@ -93,19 +91,28 @@ public:
     [[nodiscard]] const Planning::PlanEngine& GetEngine() const noexcept;
 
 private:
-    void Store(const Planning::StoreBatch& batch);
     void Commit();
     [[nodiscard]] bool TryCommit(const Planning::StoreBatch& batch);
-    void Execute(const Planning::EngineAction& action);
-    void CarryOut(const Planning::EngineAction& action);
-    void Report(const Planning::OutboxEntry& entry);
-    void CommandRobot(const Planning::CommandRobot& command);
-    void TakeRobotEvent(const std::string& robotID, const Planning::RobotEvent& event);
+    void OnAction(const Planning::EngineAction& action, const Acsd::AcsdCore::ActionHandler& execute);
+    void OnReport(const Planning::SendReport& report, const Acsd::AcsdCore::ActionHandler& execute);
+    void OnRobotEvent(const std::string& robotID, const Planning::RobotEvent& event);
     void CrashByChance(std::size_t permyriad, std::string_view where);
 
     template <typename TCall>
     void RunSession(TCall call);
     void Act(const Protocol::SessionAction& action);
+    void OnSessionEvent(const Protocol::SessionEvent& event);
+
+    void Store(const Planning::StoreBatch& batch) override;
+    void CheckStore() override;
+    void CommandRobot(const Planning::CommandRobot& command) override;
+    void StartTimer(const Acsd::AcsdTimer& timer, Core::Duration delay) override;
+    void CancelTimer(const Acsd::AcsdTimer& timer) override;
+    void CancelTimers() override;
+    void CloseLinks() override;
+    void OnStopped() override;
+    void ObserveCommit(Core::Duration duration) override;
+    void ObserveAckWait(Core::Duration wait) override;
 
     [[nodiscard]] bool IsRegistered() const override;
     [[nodiscard]] bool TrySendDurable(const Protocol::AcsRequest& request) override;
