@@ -29,6 +29,7 @@ AcsdCore::AcsdCore(Dependencies dependencies, const AcsdConfig& config)
           [this](const Planning::StoreBatch& batch) { Store(batch); }),
       _gateway(
           _dependencies.clock,
+          _dependencies.random,
           _dependencies.logger.MakeFor("mcs"),
           config.localOffset,
           _engine,
@@ -50,7 +51,7 @@ void AcsdCore::SetObserver(Planning::IPlanObserver& observer)
 
 void AcsdCore::Restore(Planning::StoredState state)
 {
-    _gateway.Restore(state.lastReportSequence);
+    _gateway.Restore(state.outbox);
     _host.Restore(std::move(state));
 }
 

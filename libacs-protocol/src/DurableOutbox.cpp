@@ -19,10 +19,13 @@ DurableOutbox::DurableOutbox(IOutboxStore& store, Core::IRandom& random)
 
 void DurableOutbox::Restore(std::vector<DurableRequest> requests)
 {
-    assert(_requests.empty() && "the store is read before the first report");
     std::ranges::sort(requests, {}, &DurableRequest::sequence);
     _requests.assign(std::make_move_iterator(requests.begin()), std::make_move_iterator(requests.end()));
-    _lastSequence = _requests.empty() ? 0 : _requests.back().sequence;
+    _sent = 0;
+    if (!_requests.empty())
+    {
+        _lastSequence = std::max(_lastSequence, _requests.back().sequence);
+    }
 }
 
 Core::Result<void> DurableOutbox::Add(AcsPayload payload, const Core::Timestamp& timestamp)
@@ -52,11 +55,11 @@ Core::Result<void> DurableOutbox::OnEvent(const SessionEvent& event)
         Core::Overloaded{
             [this](const Registered& /*registered*/) -> Core::Result<void> {
                 _sent = 0;
-                _bReplaying = true;
+                _phase = EPhase::Replaying;
                 return {};
             },
             [this](const LinkLost& /*lost*/) -> Core::Result<void> {
-                _bReplaying = false;
+                _phase = EPhase::Closed;
                 return {};
             },
             [this](const Acked& acked) { return Remove(acked.transactionID); },

@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -36,15 +38,19 @@ std::string GetPlanID(const Planning::PlanCommand& command)
         command);
 }
 
-std::string GetPlanID(const Planning::Report& report)
+/// Empty if the report is not about a plan.
+std::string GetPlanID(const Protocol::AcsPayload& report)
 {
-    return std::visit(
-        Core::Overloaded{
-            [](const Planning::ErrorReport& error) { return error.alarm.planID.value_or(std::string()); },
-            [](const auto& ofPlan) {
-                return ofPlan.planID;
-            }},
+    std::optional<std::string> planIDOrNull;
+    std::visit(
+        [&planIDOrNull](const auto& payload) {
+            if constexpr (requires { payload.planID; })
+            {
+                planIDOrNull = payload.planID;
+            }
+        },
         report);
+    return planIDOrNull.value_or(std::string());
 }
 
 /// Some by name: what the MCS has asked for may be longer than what it can read.
@@ -79,6 +85,7 @@ std::string CutReason(std::string_view reason)
 
 McsGateway::McsGateway(
     const Core::IClock& clock,
+    Core::IRandom& random,
     Core::Logger logger,
     const Apps::LocalOffset& localOffset,
     const Planning::PlanEngine& engine,
@@ -90,13 +97,18 @@ McsGateway::McsGateway(
       _localOffset(localOffset),
       _engine(engine),
       _output(output),
-      _handler(std::move(handler))
+      _handler(std::move(handler)),
+      _outbox(*this, random)
 {
 }
 
-void McsGateway::Restore(std::uint64_t lastSequence)
+void McsGateway::Restore(const std::vector<Planning::OutboxEntry>& entries)
 {
-    _lastPublished = lastSequence;
+    std::vector<Protocol::DurableRequest> requests;
+    std::ranges::transform(entries, std::back_inserter(requests), [this](const Planning::OutboxEntry& entry) {
+        return MakeRequest(entry);
+    });
+    _outbox.Restore(std::move(requests));
 }
 
 void McsGateway::SetStyle(MessageStyle style)
@@ -141,8 +153,7 @@ void McsGateway::OnSessionEvent(const Protocol::SessionEvent& event)
                 }
             },
             [&](const Protocol::LinkLost&) {
-                _bOpen = false;
-                _unsent.clear();
+                static_cast<void>(_outbox.OnEvent(event)); // removes nothing
                 _sent.clear();
             },
             [](const auto&) { /* nothing to be done */ }},
@@ -169,13 +180,8 @@ void McsGateway::Reply(const Planning::ReplyCommand& reply)
 
 void McsGateway::Report(const Planning::OutboxEntry& entry)
 {
-    _lastPublished = entry.sequence;
-    // Before the replay it stays in the engine's outbox, from which that is made.
-    if (_bOpen)
-    {
-        _unsent.push_back(entry);
-        Feed();
-    }
+    _outbox.Queue(MakeRequest(entry));
+    Feed();
 }
 
 void McsGateway::PublishStatus(const Planning::RobotStatus& status)
@@ -365,26 +371,7 @@ void McsGateway::HandleAck(const Protocol::Acked& acked)
             return;
         }
     }
-    Acknowledge(sent.sequence);
-}
-
-/// Remembered, as the engine may be waiting for the disk: a replay meanwhile is made without it.
-void McsGateway::Acknowledge(std::uint64_t sequence)
-{
-    if (_acknowledged.size() >= _acknowledgedLimit)
-    {
-        PruneAcknowledged(_engine.GetUnacknowledged());
-        _acknowledgedLimit = std::max(FIRST_ACKNOWLEDGED_LIMIT, 2 * _acknowledged.size());
-    }
-    _acknowledged.insert(sequence);
-    _handler(Planning::MessageAcknowledged{sequence});
-}
-
-void McsGateway::PruneAcknowledged(const std::vector<Planning::OutboxEntry>& outbox)
-{
-    std::erase_if(_acknowledged, [&outbox](std::uint64_t sequence) {
-        return !std::ranges::binary_search(outbox, sequence, {}, &Planning::OutboxEntry::sequence);
-    });
+    static_cast<void>(_outbox.OnEvent(acked)); // Remove does not fail
 }
 
 /// Final (register, mcs.on_report_nack): the MCS has it and does not want it. Or it is kept for the next connection.
@@ -412,28 +399,31 @@ const RefusedReports& McsGateway::GetRefusedReports() const noexcept
     return _refusedReports;
 }
 
+/// The requests are made again: the style may have changed since.
 void McsGateway::BeginReplay()
 {
-    _unsent.clear();
     _sent.clear();
+    const std::vector<Planning::OutboxEntry> entries = _engine.GetUnacknowledged();
+    std::vector<Protocol::DurableRequest> replayed;
     std::vector<std::uint64_t> leftOut;
-    std::vector<Planning::OutboxEntry> outbox = _engine.GetUnacknowledged();
-    PruneAcknowledged(outbox);
-    for (Planning::OutboxEntry& entry : outbox)
+    for (const Protocol::DurableRequest& request : _outbox.GetRequests())
     {
-        if (entry.sequence > _lastPublished || _acknowledged.contains(entry.sequence))
+        const auto entry = std::ranges::lower_bound(entries, request.sequence, {}, &Planning::OutboxEntry::sequence);
+        if (entry == entries.end() || entry->sequence != request.sequence)
         {
-            continue; // still on its way to the disk, where it is told after, or from which it is removed
-        }
-        if (IsReplayed(entry.report, _style.replay))
-        {
-            _unsent.push_back(std::move(entry));
             continue;
         }
-        leftOut.push_back(entry.sequence);
+        if (IsReplayed(entry->report, _style.replay))
+        {
+            replayed.push_back(MakeRequest(*entry));
+        }
+        else
+        {
+            leftOut.push_back(entry->sequence);
+        }
     }
-    _bOpen = true;
-    _bReplaying = true;
+    _outbox.Restore(std::move(replayed));
+    static_cast<void>(_outbox.OnEvent(Protocol::Registered{})); // removes nothing
     if (!leftOut.empty())
     {
         _logger.Warning(
@@ -442,29 +432,53 @@ void McsGateway::BeginReplay()
     }
     for (const std::uint64_t sequence : leftOut)
     {
-        Acknowledge(sequence);
+        _handler(Planning::MessageAcknowledged{sequence});
     }
     Feed();
 }
 
 void McsGateway::Feed()
 {
-    while (!_unsent.empty())
+    struct Session
     {
-        const Planning::OutboxEntry& entry = _unsent.front();
-        if (!_output.TrySendDurable(MakeReportRequest(entry, _localOffset.GetAt(entry.time), _style)))
+        McsGateway& gateway;
+
+        [[nodiscard]] bool TrySendDurable(const Protocol::AcsRequest& request)
         {
-            return; // WindowOpened or Registered comes
+            const bool bSent = gateway._output.TrySendDurable(request);
+            if (bSent)
+            {
+                gateway._sent.insert_or_assign(
+                    request.transactionID,
+                    SentReport{gateway._clock.GetNow().steady, GetPlanID(request.payload)});
+            }
+            return bSent;
         }
-        _sent.insert_or_assign(
-            entry.transactionID,
-            SentReport{entry.sequence, _clock.GetNow().steady, GetPlanID(entry.report)});
-        _unsent.pop_front();
-    }
-    if (std::exchange(_bReplaying, false))
-    {
-        _output.ReplayDone();
-    }
+
+        void ReplayDone()
+        {
+            gateway._output.ReplayDone();
+        }
+    };
+    Session session{*this};
+    _outbox.Feed(session);
+}
+
+Protocol::DurableRequest McsGateway::MakeRequest(const Planning::OutboxEntry& entry) const
+{
+    return {entry.sequence, MakeReportRequest(entry, _localOffset.GetAt(entry.time), _style)};
+}
+
+Core::Result<void> McsGateway::Append(const Protocol::DurableRequest& /*request*/)
+{
+    assert(false && "a report is stored with the plan's state");
+    return {};
+}
+
+Core::Result<void> McsGateway::Remove(std::uint64_t sequence)
+{
+    _handler(Planning::MessageAcknowledged{sequence});
+    return {};
 }
 
 std::chrono::minutes McsGateway::GetOffset() const

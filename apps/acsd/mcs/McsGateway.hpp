@@ -5,20 +5,22 @@
 #include "mcs/IMcsOutput.hpp"
 #include "mcs/MessageStyle.hpp"
 #include "mcs/RefusedReports.hpp"
+#include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
+#include <acs/core/Result.hpp>
 #include <acs/plan/PlanCommand.hpp>
 #include <acs/plan/PlanEngine.hpp>
 #include <acs/plan/Report.hpp>
 #include <acs/plan/RobotStatus.hpp>
+#include <acs/protocol/DurableOutbox.hpp>
+#include <acs/protocol/IOutboxStore.hpp>
 #include <acs/protocol/SessionEvent.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
-#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -32,7 +34,7 @@ namespace ACS::Acsd
 
 /// The MCS side of acsd: passes requests to the engine as commands, answers them, sends the engine's outbox through the
 /// session and reports acknowledgements to the engine. Pure: the session is the caller's.
-class McsGateway final
+class McsGateway final : private Protocol::IOutboxStore
 {
 public:
     /// Receives the next command of the engine. The engine may answer within the call: the handler may call Reply, Report,
@@ -53,12 +55,9 @@ private:
     /// A report that this connection was given.
     struct SentReport
     {
-        std::uint64_t sequence = 0;
         Core::SteadyTime sentAt;
-        std::string planID; ///< Empty for what belongs to none.
+        std::string planID; ///< Empty if it is not about a plan.
     };
-
-    static constexpr std::size_t FIRST_ACKNOWLEDGED_LIMIT = 1000;
 
     const Core::IClock& _clock;
     Core::Logger _logger;
@@ -69,32 +68,26 @@ private:
     CommandHandler _handler;
     std::map<Planning::ReplyToken, OpenRequest> _openRequests;
     Planning::ReplyToken _lastToken = 0;
-    std::deque<Planning::OutboxEntry> _unsent; ///< Only while registered: what this connection has not been given yet.
+    Protocol::DurableOutbox _outbox;                   ///< The reports that are stored and not acknowledged.
     std::unordered_map<std::string, SentReport> _sent; ///< By transactionId.
-    /// Sequences that the MCS has acknowledged and the engine may not have removed: its commands wait for the disk.
-    std::set<std::uint64_t> _acknowledged;
-    std::size_t _acknowledgedLimit = FIRST_ACKNOWLEDGED_LIMIT; ///< Then those that the engine has removed go.
-    std::uint64_t _lastPublished =
-        0;               ///< The highest sequence that is on disk: behind it the engine may know more already.
-    bool _bOpen = false; ///< The replay has begun: what is told now goes behind it.
-    bool _bReplaying = false;
     bool _bDraining = false;
     MessageStyle _style;
     AckObserver _ackObserver;
     RefusedReports _refusedReports;
 
 public:
-    /// Clock, engine and output must outlive the gateway.
+    /// Clock, random source, engine and output must outlive the gateway.
     McsGateway(
         const Core::IClock& clock,
+        Core::IRandom& random,
         Core::Logger logger,
         const Apps::LocalOffset& localOffset,
         const Planning::PlanEngine& engine,
         IMcsOutput& output,
         CommandHandler handler);
 
-    /// Call once, before the engine is restored, with the highest report sequence of the store.
-    void Restore(std::uint64_t lastSequence);
+    /// Call once, before all other functions, with the reports of the store.
+    void Restore(const std::vector<Planning::OutboxEntry>& entries);
 
     /// From the next message on. Without it messages are as the document has them.
     void SetStyle(MessageStyle style);
@@ -130,11 +123,11 @@ private:
     void AnswerHistory(const Protocol::AcsRequest& request, const Protocol::RequestAcsPlanHistory& query);
     void HandleAck(const Protocol::Acked& acked);
     void HandleRefusal(const Protocol::Acked& acked, const SentReport& sent);
-    void Acknowledge(std::uint64_t sequence);
-    /// Forgets what the engine has removed from its outbox.
-    void PruneAcknowledged(const std::vector<Planning::OutboxEntry>& outbox);
     void BeginReplay();
     void Feed();
+    [[nodiscard]] Protocol::DurableRequest MakeRequest(const Planning::OutboxEntry& entry) const;
+    [[nodiscard]] Core::Result<void> Append(const Protocol::DurableRequest& request) override;
+    [[nodiscard]] Core::Result<void> Remove(std::uint64_t sequence) override;
     [[nodiscard]] std::chrono::minutes GetOffset() const;
 };
 

@@ -204,7 +204,7 @@ void AcsdProcess::OnReport(const Planning::SendReport& report, const Acsd::AcsdC
 {
     _around.trace.Tell("acsd: report {}: {}", report.entry.sequence, Describe(report.entry.report));
     const Mutator::ReportOutcome outcome = _mutator.OnReport(report.entry);
-    for (const Planning::OutboxEntry& published : outcome.told)
+    for (const Planning::OutboxEntry& published : outcome.reported)
     {
         execute(Planning::SendReport{published});
     }
@@ -377,10 +377,15 @@ bool AcsdProcess::IsRegistered() const
 
 bool AcsdProcess::TrySendDurable(const Protocol::AcsRequest& request)
 {
-    bool bTaken = false;
-    RunSession(
-        [this, &request, &bTaken](Core::Now now, auto& out) { bTaken = _session.TrySendDurable(request, now, out); });
-    return bTaken;
+    bool bSent = false;
+    RunSession([this, &request, &bSent](Core::Now now, auto& out) {
+        bSent = _session.TrySendDurable(request, now, out);
+        if (const std::optional<Protocol::AcsRequest> further = bSent ? _mutator.OnSent(request) : std::nullopt)
+        {
+            static_cast<void>(_session.TrySendDurable(*further, now, out));
+        }
+    });
+    return bSent;
 }
 
 void AcsdProcess::ReplayDone()

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -31,6 +32,18 @@ bool IsFinalReport(const Planning::Report& report)
 {
     const auto* const planOrNull = std::get_if<Planning::PlanReport>(&report);
     return planOrNull != nullptr && Planning::IsFinal(planOrNull->state);
+}
+
+bool IsResult(const Protocol::AcsPayload& payload)
+{
+    return std::visit(
+        []<typename TPayload>(const TPayload& /*payload*/) {
+            return std::is_same_v<
+                       TPayload,
+                       Protocol::
+                           CancelResultReport> || std::is_same_v<TPayload, Protocol::AbortResultReport> || std::is_same_v<TPayload, Protocol::PauseResultReport> || std::is_same_v<TPayload, Protocol::ResumeResultReport>;
+        },
+        payload);
 }
 
 } // namespace
@@ -86,11 +99,6 @@ Mutator::ReportOutcome Mutator::OnReport(const Planning::OutboxEntry& entry)
     ReportOutcome outcome{{entry}, false};
     const bool bResult = std::holds_alternative<Planning::ControlResultReport>(entry.report);
     const bool bFinal = IsFinalReport(entry.report);
-    if ((Is(EMutation::FinalReportTwice) && bFinal) || (Is(EMutation::ResultTwice) && bResult))
-    {
-        outcome.told.push_back(entry);
-        outcome.told.back().transactionID = Core::MakeUUID(_random);
-    }
     const bool bSwallowed = (Is(EMutation::PlanReportSwallowed) && bFinal && _dice.IsHit(300))
         || (Is(EMutation::ResultSwallowed) && bResult);
     if (bSwallowed)
@@ -99,14 +107,8 @@ Mutator::ReportOutcome Mutator::OnReport(const Planning::OutboxEntry& entry)
     }
     if (Is(EMutation::ResultInverted) && bResult)
     {
-        auto& result = std::get<Planning::ControlResultReport>(outcome.told.front().report);
+        auto& result = std::get<Planning::ControlResultReport>(outcome.reported.front().report);
         result.bSucceeded = !result.bSucceeded;
-    }
-    if (Is(EMutation::ReportNotStored) && _dice.IsHit(50))
-    {
-        outcome.told.push_back(entry);
-        outcome.told.back().transactionID = Core::MakeUUID(_random);
-        outcome.told.back().report = Planning::ErrorReport{};
     }
     if (Is(EMutation::ReportsSwapped))
     {
@@ -117,10 +119,31 @@ Mutator::ReportOutcome Mutator::OnReport(const Planning::OutboxEntry& entry)
         }
         if (_heldBack.has_value())
         {
-            outcome.told.push_back(*std::exchange(_heldBack, std::nullopt));
+            outcome.reported.push_back(*std::exchange(_heldBack, std::nullopt));
+            std::swap(outcome.reported.front().sequence, outcome.reported.back().sequence);
         }
     }
     return outcome;
+}
+
+std::optional<Protocol::AcsRequest> Mutator::OnSent(const Protocol::AcsRequest& request)
+{
+    const auto* const planOrNull = std::get_if<Protocol::PlanReport>(&request.payload);
+    const bool bFinal = planOrNull != nullptr && planOrNull->status >= Protocol::EPlanStatus::Completed;
+    const bool bTwice =
+        (Is(EMutation::FinalReportTwice) && bFinal) || (Is(EMutation::ResultTwice) && IsResult(request.payload));
+    const bool bInvented = Is(EMutation::ReportNotStored) && _dice.IsHit(50);
+    if (!bTwice && !bInvented)
+    {
+        return std::nullopt;
+    }
+    Protocol::AcsRequest further = request;
+    further.transactionID = Core::MakeUUID(_random);
+    if (bInvented)
+    {
+        further.payload = Protocol::ErrorReport{};
+    }
+    return further;
 }
 
 Mutator::CommandOutcome Mutator::OnCommand(const Planning::CommandRobot& command)

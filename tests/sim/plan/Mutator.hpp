@@ -6,6 +6,7 @@
 #include <acs/plan/IPlanStore.hpp>
 #include <acs/plan/RobotCommand.hpp>
 #include <acs/plan/RobotEvent.hpp>
+#include <acs/protocol/AcsMessage.hpp>
 
 #include <map>
 #include <optional>
@@ -17,14 +18,14 @@
 namespace ACS::Simulation
 {
 
-/// Breaks what goes into the engine and comes out of it, in one way at a time. Without a mutation everything passes as
+/// Breaks what goes into AcsdCore and comes out of it, in one way at a time. Without a mutation everything passes as
 /// it is, and no chance is drawn.
 class Mutator final
 {
 public:
     struct ReportOutcome
     {
-        std::vector<Planning::OutboxEntry> told;
+        std::vector<Planning::OutboxEntry> reported;
         bool bAcknowledged = false; ///< To the engine, by nobody.
     };
 
@@ -53,6 +54,8 @@ public:
     [[nodiscard]] Planning::StoreBatch OnWrite(Planning::StoreBatch batch) const;
     [[nodiscard]] Planning::ReplyCommand OnReply(Planning::ReplyCommand reply) const;
     [[nodiscard]] ReportOutcome OnReport(const Planning::OutboxEntry& entry);
+    /// A further request to be sent after this one.
+    [[nodiscard]] std::optional<Protocol::AcsRequest> OnSent(const Protocol::AcsRequest& request);
     [[nodiscard]] CommandOutcome OnCommand(const Planning::CommandRobot& command);
     [[nodiscard]] std::vector<Planning::RobotEvent> OnEvent(
         const std::string& robotID,

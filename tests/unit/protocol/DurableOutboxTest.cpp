@@ -93,6 +93,13 @@ public:
     DurableOutbox outbox{store, random};
     SessionStub session;
 
+    /// Registered, and the replay of nothing done.
+    void Register()
+    {
+        On(Protocol::Registered{});
+        session.replays = 0;
+    }
+
     void Add(const std::string& planID)
     {
         REQUIRE(outbox.Add(Protocol::PlanReport{planID, Protocol::EPlanStatus::Completed, ""}, {}).has_value());
@@ -121,6 +128,7 @@ public:
 TEST_CASE("A report is stored before it is sent, and removed with its Ack")
 {
     OutboxFixture fixture;
+    fixture.Register();
     fixture.session.room = 0;
     fixture.Add("A");
     CHECK(fixture.session.sent.empty());
@@ -161,6 +169,36 @@ TEST_CASE("After a reconnect everything without an Ack is sent again in order, t
     CHECK(fixture.session.replays == 1);
 }
 
+TEST_CASE("A report between LinkLost and Registered waits for the replay, which sends each report once and in order")
+{
+    OutboxFixture fixture;
+    fixture.Add("A");
+    CHECK(fixture.session.sent.empty());
+    fixture.On(Protocol::Registered{});
+    fixture.On(Protocol::LinkLost{"cut", true});
+    fixture.session = {};
+    fixture.Add("B"); // the session may be registered already, its event still on the way
+    CHECK(fixture.session.sent.empty());
+    fixture.On(Protocol::Registered{});
+    CHECK(fixture.session.sent == std::vector<std::string>{"A", "B"});
+    CHECK(fixture.session.replays == 1);
+}
+
+TEST_CASE("Restore before Registered replaces the requests of the replay")
+{
+    OutboxFixture fixture;
+    fixture.Register();
+    fixture.Add("A");
+    fixture.Add("B");
+    fixture.On(Protocol::LinkLost{"cut", true});
+    fixture.session = {};
+    fixture.outbox.Restore({fixture.outbox.GetRequests().front()});
+    fixture.On(Protocol::Registered{});
+    fixture.Add("C");
+    CHECK(fixture.session.sent == std::vector<std::string>{"A", "C"});
+    CHECK(fixture.outbox.GetRequests().back().sequence == 3);
+}
+
 TEST_CASE("A connection that is lost during its replay does not end the replay of the next one")
 {
     OutboxFixture fixture;
@@ -184,6 +222,7 @@ TEST_CASE("Restored requests come first, in the order of their sequence, and kee
     OutboxFixture fixture;
     fixture.store.requests = before.store.requests;
     fixture.outbox.Restore(fixture.store.GetAll());
+    fixture.On(Protocol::Registered{});
     fixture.Add("C");
     CHECK(fixture.session.sent == std::vector<std::string>{"A", "B", "C"});
     CHECK(fixture.GetTransactionID(0) == before.GetTransactionID(0));
@@ -206,6 +245,7 @@ TEST_CASE("A report that the store refuses is not sent, and its sequence is not 
 TEST_CASE("An error while removing is reported; the request is not sent again")
 {
     OutboxFixture fixture;
+    fixture.Register();
     fixture.Add("A");
     fixture.store.bFailing = true;
     const Protocol::Acked acked{
@@ -222,6 +262,7 @@ TEST_CASE("An error while removing is reported; the request is not sent again")
 TEST_CASE("A request that the caller has stored is queued as it is")
 {
     OutboxFixture fixture;
+    fixture.Register();
     fixture.outbox.Queue({7, {"t-7", {}, Protocol::PlanReport{"A", Protocol::EPlanStatus::Completed, ""}}});
     fixture.Add("B");
     CHECK(fixture.session.sent == std::vector<std::string>{"A", "B"});

@@ -25,18 +25,26 @@ namespace ACS::Protocol
 ///     outbox.Feed(client);
 class DurableOutbox
 {
+    enum class EPhase : std::uint8_t
+    {
+        Closed,    ///< No session is registered: nothing is sent.
+        Replaying, ///< From Registered until everything was sent once.
+        Open
+    };
+
     IOutboxStore& _store;
     Core::IRandom& _random;
     std::deque<DurableRequest> _requests; ///< Without an Ack, in order. The first _sent of them are with the session.
     std::size_t _sent = 0;
     std::uint64_t _lastSequence = 0;
-    bool _bReplaying = false; ///< From Registered until everything was sent once.
+    EPhase _phase = EPhase::Closed;
 
 public:
     /// The random source generates transaction ids. Store and random source must outlive the outbox.
     DurableOutbox(IOutboxStore& store, Core::IRandom& random);
 
-    /// Requests that the store returned at start, in any order. Call before all other functions.
+    /// Replaces all requests, in any order. Call with those of the store before all other functions, and with those to be
+    /// replayed, if they are not all, before OnEvent(Registered).
     void Restore(std::vector<DurableRequest> requests);
 
     /// Assigns sequence and transactionID, stores the report and queues it. On an error of the store the report is not
@@ -51,18 +59,23 @@ public:
     /// outbox has forgotten the request nevertheless.
     [[nodiscard]] Core::Result<void> OnEvent(const SessionEvent& event);
 
-    /// Sends what the session accepts, in order, and ends the replay of a connection. Call after Restore, Add, Queue and
-    /// OnEvent. The session has TrySendDurable(request) and ReplayDone(), as an AcsClient has.
+    /// Sends what the session accepts, in order, and ends the replay of a connection. Before Registered it sends nothing.
+    /// Call after Restore, Add, Queue and OnEvent. The session has TrySendDurable(request) and ReplayDone(), as an AcsClient
+    /// has.
     template <typename TSession>
     void Feed(TSession& session)
     {
+        if (_phase == EPhase::Closed)
+        {
+            return;
+        }
         while (_sent < _requests.size() && session.TrySendDurable(_requests[_sent].request))
         {
             ++_sent;
         }
-        if (_bReplaying && _sent == _requests.size())
+        if (_phase == EPhase::Replaying && _sent == _requests.size())
         {
-            _bReplaying = false;
+            _phase = EPhase::Open;
             session.ReplayDone();
         }
     }

@@ -82,6 +82,7 @@ struct GatewayFixture
     std::vector<Planning::PlanCommand> commands;
     McsGateway gateway{
         clock,
+        random,
         Core::Logger(sink, "mcs"),
         config.localOffset,
         engine,
@@ -93,7 +94,7 @@ struct GatewayFixture
     void Restore(Planning::StoredState state)
     {
         Planning::EngineActions ignored;
-        gateway.Restore(state.outbox.empty() ? 0 : state.outbox.back().sequence);
+        gateway.Restore(state.outbox);
         engine.Restore(std::move(state), clock.GetNow(), ignored);
     }
 

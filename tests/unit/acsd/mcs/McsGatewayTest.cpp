@@ -24,6 +24,7 @@ protected:
     PlanEngine _engine{MakeTestOptions(false), MakeTestSite(), _random};
     Acsd::McsGateway _gateway{
         _clock,
+        _random,
         Core::Logger(_log, "mcs"),
         Apps::LocalOffset(std::chrono::minutes(0)),
         _engine,
@@ -242,7 +243,7 @@ TEST_CASE_METHOD(GatewayTest, "What the store held is replayed after a restart")
     StoredState state;
     state.outbox.push_back(entry);
     state.lastReportSequence = 7;
-    _gateway.Restore(state.lastReportSequence);
+    _gateway.Restore(state.outbox);
     _host.Restore(std::move(state));
 
     Register();
