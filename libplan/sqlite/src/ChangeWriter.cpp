@@ -97,7 +97,7 @@ void ChangeWriter::Write(const StoreChange& change)
     std::visit(writer, change);
 }
 
-/// Leaves the statement ready for the next time, also after a failure.
+/// Resets the statement before and after: it may have failed the last time, and it must not keep a lock.
 template <typename... TValues>
 void ChangeWriter::Run(const char* text, const TValues&... values)
 {

@@ -15,10 +15,10 @@ namespace ACS::Planning
 class ChangeWriter
 {
     SQLite::Database& _database;
-    std::map<std::string, SQLite::Statement> _statements; ///< Prepared once, by their text.
+    std::map<std::string, SQLite::Statement> _statements; ///< Prepared statements by their text.
 
 public:
-    /// The database has the newest schema, and lives longer.
+    /// The database must have the newest schema and outlive the writer.
     explicit ChangeWriter(SQLite::Database& database);
 
     void Write(const StoreChange& change);

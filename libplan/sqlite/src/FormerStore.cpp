@@ -22,7 +22,7 @@ namespace ACS::Planning
 namespace
 {
 
-/// The directory until it is complete and the former files are renamed.
+/// Name of the directory until it is complete and the former files are renamed.
 std::string GetStagingPath(const std::string& path)
 {
     return path + ".migrating";
@@ -39,7 +39,7 @@ bool IsRegular(const std::string& path)
     return std::filesystem::is_regular_file(path, ignored);
 }
 
-/// By a link, the files are those beside its target.
+/// If the path is a symbolic link, the files of the store are beside its target.
 std::string ResolveLink(const std::string& path)
 {
     std::error_code unresolved;
@@ -51,8 +51,8 @@ std::string ResolveLink(const std::string& path)
     return unresolved ? path : target.string();
 }
 
-/// The database; or the copy that was made when it was removed while it was open; or what an interrupted migration has
-/// left: the former database is renamed only when the staged one is complete.
+/// The database; else the copy that was made when the database was removed while it was open; else the staged database of an
+/// interrupted migration, which is complete once the former database is renamed.
 std::optional<std::string> FindSourceOrNull(const std::string& path)
 {
     if (IsRegular(path))
@@ -69,7 +69,8 @@ std::optional<std::string> FindSourceOrNull(const std::string& path)
     return std::nullopt;
 }
 
-/// While changes were in the log only, `.lock` had "log " with a number that is in that log, or "open".
+/// In the former layout, `.lock` had "log " and a number, or "open", while changes were only in the log. The number was
+/// written to the log too, so that a database without its log has a lower one.
 Core::Result<void> CheckFormerLog(SQLite::Database& database, const std::string& path, bool bLogFound)
 {
     constexpr std::string_view NUMBER_PREFIX = "log ";
@@ -142,7 +143,7 @@ Core::Result<std::unique_ptr<SQLite::Database>> OpenFormer(
         });
 }
 
-/// A directory with a copy of the former database, complete and on disk on return.
+/// Creates the directory with a copy of the former database, durable on return.
 Core::Result<void> Stage(const std::string& path, const std::string& source, StoreOrigin& origin)
 {
     const Core::Result<std::unique_ptr<SQLite::Database>> former = OpenFormer(path, source, origin);

@@ -9,9 +9,10 @@
 namespace ACS::Planning
 {
 
-// The former layout of a store: the path leads to the database itself, with `-wal`, `-shm`, `.lock` and `.rescued` beside it.
+// The former layout of a store: the path is that of the database, with `-wal`, `-shm`, `.lock` and `.rescued` beside it.
 
-/// What the migration would find, and whether it would succeed; nullopt if there is no store of the former layout.
+/// Checks a store of the former layout without changing it. Errors: those with which the migration would fail. nullopt if there
+/// is no such store.
 [[nodiscard]] Core::Result<std::optional<StoreOrigin>> InspectFormerStore(const std::string& path);
 
 /// Replaces a store of the former layout by a directory with the same path and content. The former files are kept with

@@ -26,14 +26,14 @@ namespace
 
 constexpr int BUSY_MILLISECONDS = 1'000;
 
-/// Whether the log stays when the database is closed; else SQLite merges it.
+/// Sets whether SQLite keeps the log when the database is closed, instead of merging and deleting it.
 void KeepLog(SQLite::Database& database, bool bKept)
 {
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): the library's own signature
     sqlite3_db_config(database.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, bKept ? 1 : 0, nullptr);
 }
 
-/// "store/" has the same files beside it as "store".
+/// The names of the files beside the directory are made from its path without a trailing slash.
 std::string RemoveTrailingSlashes(std::string path)
 {
     while (path.size() > 1 && path.back() == '/')
@@ -47,7 +47,7 @@ std::string RemoveTrailingSlashes(std::string path)
 
 class SqlitePlanStore::Impl
 {
-    StoreDirectory _directory; ///< Locked longer than the database is open.
+    StoreDirectory _directory; ///< Declared first: the lock is released after the database is closed.
     std::string _path;
     bool _bLogFound;
     SQLite::Database _database;
@@ -55,11 +55,11 @@ class SqlitePlanStore::Impl
     StoreFiles _files;
     StoreOrigin _origin;
     int _systemError = 0;
-    bool _bOpen = false;    ///< Marked as open.
-    bool _bRescued = false; ///< The files are missing, and their content is copied.
+    bool _bOpen = false;    ///< The database is marked as open (StoreGeneration.hpp).
+    bool _bRescued = false; ///< The database file is missing and its content was copied.
 
 public:
-    /// Throws SQLite::Exception, as all of this class but the destructor.
+    /// Throws SQLite::Exception, as all functions of this class except the destructor.
     Impl(StoreDirectory directory, const std::string& path, const std::string& file, int flags)
         : _directory(std::move(directory)),
           _path(path),
@@ -81,7 +81,7 @@ public:
         }
         catch (const std::exception&)
         {
-            // The log stays, and the next start needs it.
+            // The log is kept. The next start reads it.
         }
     }
 
@@ -95,13 +95,13 @@ public:
         return _origin;
     }
 
-    /// The system's number of the write that failed last.
+    /// errno of the last failed write.
     [[nodiscard]] int GetSystemError() const noexcept
     {
         return _systemError;
     }
 
-    /// Before anything is written.
+    /// Checks the database before anything is written.
     [[nodiscard]] Core::Result<void> Check()
     {
         return CheckSchema(_database, _path, _bLogFound).and_then([this](const StoreOrigin& origin) {
@@ -174,7 +174,7 @@ public:
 private:
     [[nodiscard]] Core::Result<void> Begin()
     {
-        KeepLog(_database, true); // also if this fails
+        KeepLog(_database, true); // first, because it must stay in effect if the rest fails
         Core::Result<void> begun = BeginGeneration(_database, _path);
         _bOpen = begun.has_value();
         return begun;
@@ -190,7 +190,7 @@ private:
         }
     }
 
-    /// Saves what is in a log that is missing, and returns the remedy.
+    /// Merges the content of a missing log into the database. Returns the remedy for the error text.
     [[nodiscard]] std::string SaveLog()
     {
         Close();
@@ -200,7 +200,7 @@ private:
               "merged into the database until then";
     }
 
-    /// Saves what is in a database that is missing, and returns the remedy.
+    /// Copies the content of a missing database. Returns the remedy for the error text.
     [[nodiscard]] std::string Rescue(bool bReplaced)
     {
         const std::string copy = GetRescuePath(_path);

@@ -47,7 +47,7 @@ bool IsFitting(const Plan& plan, const PlanProgress& progress)
     return bFitting;
 }
 
-/// Rows of one column.
+/// Decodes the rows of a query with one column.
 template <typename TDecode, typename TValue>
 Core::Result<void> ReadRows(
     SQLite::Database& database,
@@ -85,7 +85,7 @@ Core::Result<void> ReadPlans(SQLite::Database& database, const std::string& path
         }
         if (!IsFitting(*plan, *progress))
         {
-            return RefuseRow(path, row, "not one state for each step and job");
+            return RefuseRow(path, row, "the number of states differs from the number of steps or jobs");
         }
         PlanRecord& record = state.plans.emplace_back();
         record.sequence = ToSequence(query.getColumn(0));

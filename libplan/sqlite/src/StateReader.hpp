@@ -10,7 +10,7 @@
 namespace ACS::Planning
 {
 
-/// Everything that a database of the newest schema holds. EPlanningError::StoreCorrupt; throws SQLite::Exception.
+/// Reads the whole content of a database of the newest schema. EPlanningError::StoreCorrupt; throws SQLite::Exception.
 [[nodiscard]] Core::Result<StoredState> ReadState(SQLite::Database& database, const std::string& path);
 
 } // namespace ACS::Planning

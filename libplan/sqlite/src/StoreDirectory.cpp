@@ -21,7 +21,7 @@ namespace
 constexpr mode_t DIRECTORY_MODE = 0700;
 constexpr mode_t RIGHTS_OF_OTHERS = 0077;
 
-/// Whether a missing directory can be created there.
+/// Checks that a missing directory can be created.
 Core::Result<void> CheckParent(const std::string& path)
 {
     const std::string parent = StoreFiles::GetParent(path);

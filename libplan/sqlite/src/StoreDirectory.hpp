@@ -8,8 +8,8 @@
 namespace ACS::Planning
 {
 
-/// The directory that a store owns, locked: two engines on one store would execute each plan twice. The lock is on the
-/// directory itself (flock), so there is no lock file, and the system releases it however the program ends.
+/// The directory of a store, locked while this object exists: two engines on one store would execute each plan twice. The
+/// directory itself is locked (flock), because the system releases such a lock even if the program crashes.
 class StoreDirectory
 {
     int _descriptor = -1;
@@ -40,7 +40,8 @@ public:
     /// Locks an existing directory or file. EPlanningError::StoreFailed.
     [[nodiscard]] static Core::Result<StoreDirectory> Lock(const std::string& path);
 
-    /// Whether the directory can be used or created, and its database if there is one. EPlanningError::StoreFailed.
+    /// Checks that the directory can be used or created, and that its database, if there is one, can be opened.
+    /// EPlanningError::StoreFailed.
     [[nodiscard]] static Core::Result<void> Check(const std::string& path);
 
     [[nodiscard]] static std::string GetDatabasePath(const std::string& path);

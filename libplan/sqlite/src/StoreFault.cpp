@@ -63,7 +63,7 @@ tl::unexpected<Core::Error> RefuseFor(
     int systemError)
 {
     const int code = exception.getErrorCode() & PRIMARY_CODE;
-    const bool bOfSystem = code == SQLITE_IOERR || code == SQLITE_CANTOPEN; // else errno is of something else
+    const bool bOfSystem = code == SQLITE_IOERR || code == SQLITE_CANTOPEN; // otherwise errno is unrelated
     std::string found = fmt::format("{} failed: {}", operation, exception.what());
     if (bOfSystem && systemError != 0)
     {

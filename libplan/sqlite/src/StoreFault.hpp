@@ -11,12 +11,12 @@
 namespace ACS::Planning
 {
 
-/// The remedy for a database whose plans cannot be read.
+/// The remedy if the plans in a database cannot be read.
 inline constexpr std::string_view RESTORE_IT =
     "move it away with the files beside it (-wal, -shm, generation), and put a backup there, or nothing to start with an empty "
     "store";
 
-/// An error of a store names its path, what is expected and the remedy ("expected …; …"), and what failed with the reason of
+/// Makes an error of a store: its path, what is expected with the remedy ("expected …; …"), and what failed with the reason of
 /// the system or of SQLite ("found …").
 [[nodiscard]] tl::unexpected<Core::Error> Refuse(
     EPlanningError error,
@@ -27,7 +27,7 @@ inline constexpr std::string_view RESTORE_IT =
 /// EPlanningError::StoreFailed.
 [[nodiscard]] tl::unexpected<Core::Error> Refuse(const std::string& path, std::string expected, std::string found);
 
-/// For an exception of SQLite during an operation ("writing"). The system's error number is 0 where it is not known.
+/// Makes the error for an exception of SQLite during an operation ("writing"). systemError is an errno value, 0 if unknown.
 [[nodiscard]] tl::unexpected<Core::Error> RefuseFor(
     const SQLite::Exception& exception,
     const std::string& path,

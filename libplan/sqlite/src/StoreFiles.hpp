@@ -10,19 +10,19 @@
 namespace ACS::Planning
 {
 
-/// How the files of an open store have changed.
+/// A file of an open store that was removed or replaced.
 struct StoreFileChange
 {
-    bool bOfLog = false;    ///< Only the write-ahead log is concerned.
-    bool bReplaced = false; ///< Another file has its name; else it is missing or cannot be reached.
-    std::string found;      ///< The same as text.
+    bool bOfLog = false;    ///< The file is the write-ahead log; else it is the database.
+    bool bReplaced = false; ///< Another file has its name; else it is missing or cannot be accessed.
+    std::string found;      ///< Description for an error text.
 };
 
 /// The files of a database. An instance detects that the paths no longer lead to the files that were opened: SQLite writes
 /// to a removed file without an error, and the changes are lost when it is closed.
 class StoreFiles
 {
-    /// A file whatever its name is.
+    /// Identifies a file independently of its name.
     struct Identity
     {
         dev_t device = 0;
@@ -38,30 +38,31 @@ class StoreFiles
 public:
     StoreFiles() = default;
 
-    /// Remembers the files to which the paths lead now.
+    /// Stores the identities of the database and of its log.
     explicit StoreFiles(std::string database);
 
     [[nodiscard]] std::optional<StoreFileChange> FindChangeOrNull() const;
 
-    /// SQLite deletes a log whose database is missing or empty. EPlanningError::StoreCorrupt.
+    /// Fails if there is a log whose database is missing or empty, because SQLite would delete the log.
+    /// EPlanningError::StoreCorrupt.
     [[nodiscard]] static Core::Result<void> CheckLogHasDatabase(const std::string& database);
 
-    /// Of the write-ahead log.
     [[nodiscard]] static std::string GetLogPath(const std::string& database);
 
     [[nodiscard]] static std::string GetParent(const std::string& path);
     [[nodiscard]] static bool IsThere(const std::string& path);
     [[nodiscard]] static bool HasContent(const std::string& path);
 
-    /// With which SQLite reads a database without locking it or creating a file beside it; nullopt for one with a log,
-    /// which is read by its path only.
+    /// The URI with which SQLite reads a database without locking it and without creating files. nullopt if the database has a
+    /// log: such a database can be read by its path only.
     [[nodiscard]] static std::optional<std::string> MakeImmutableUriOrNull(const std::string& database);
 
-    /// A file, or the names in a directory: on disk on return. Else the reason is in errno.
+    /// Synchronises a file, or the entries of a directory, to disk. False on failure; the reason is in errno.
     [[nodiscard]] static bool TrySynchronise(const std::string& path);
     [[nodiscard]] static bool TrySynchroniseParent(const std::string& path);
 
-    /// Both on disk on return, and the file complete or unchanged. EPlanningError::StoreFailed.
+    /// Both are durable on return and atomic: the target has the complete new content or is unchanged.
+    /// EPlanningError::StoreFailed.
     [[nodiscard]] static Core::Result<void> Rename(const std::string& from, const std::string& to);
     [[nodiscard]] static Core::Result<void> Write(const std::string& path, std::string_view text);
 

@@ -20,7 +20,7 @@ namespace ACS::Planning
 namespace
 {
 
-/// Names in the table settings.
+/// Rows of the table settings.
 constexpr const char* GENERATION = "generation";
 constexpr const char* OPEN = "open";
 
@@ -44,7 +44,7 @@ void WriteSetting(SQLite::Database& database, const char* name, const std::strin
     statement.exec();
 }
 
-/// Every line of the file is a generation; while a start replaces it, the file has the previous one too.
+/// Each line of the file is a generation. While a start replaces the generation, the file has the previous one too.
 bool IsListed(const std::string& file, const std::string& generation)
 {
     std::ifstream in(file);
@@ -100,7 +100,7 @@ Core::Result<void> BeginGeneration(SQLite::Database& database, const std::string
     WriteSetting(database, GENERATION, generation);
     WriteSetting(database, OPEN, "1");
     transaction.commit();
-    // Where another program reads, the database file has the previous generation meanwhile, which is refused without the log.
+    // While another program reads, the database file keeps the previous generation: without its log it is refused then.
     static_cast<void>(TryCheckpoint(database));
     return StoreFiles::Write(file, generation + "\n");
 }

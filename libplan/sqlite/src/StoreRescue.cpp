@@ -74,7 +74,7 @@ Core::Result<bool> RestoreRescued(const std::string& database)
     {
         return false;
     }
-    // Their content is in the copy, and SQLite would apply them to it.
+    // The copy has the content of the log. SQLite would apply the log to the copy.
     std::error_code ignored;
     std::filesystem::remove(StoreFiles::GetLogPath(database), ignored);
     std::filesystem::remove(database + "-shm", ignored);

@@ -22,9 +22,9 @@ namespace
 /// What PRAGMA application_id of the databases returns: "ACSP".
 constexpr int STORE_APPLICATION_ID = 0x41435350;
 
-/// Step n leads from version n to n + 1. Never changed once released: append.
+/// Entry n migrates version n to n + 1. A released entry must not be changed; append a new one.
 constexpr std::array MIGRATIONS{
-    // Columns hold what is searched and sorted by, JSON texts the rest.
+    // Columns have the values for searching and sorting, JSON texts the rest.
     "CREATE TABLE plans (sequence INTEGER PRIMARY KEY, plan_id TEXT NOT NULL UNIQUE, accepted_at INTEGER NOT NULL,"
     "  plan TEXT NOT NULL, state TEXT NOT NULL, progress TEXT NOT NULL);"
     "CREATE INDEX plans_by_state ON plans (state);"
@@ -35,7 +35,7 @@ constexpr std::array MIGRATIONS{
     "  job_id TEXT NOT NULL, alarm TEXT NOT NULL, PRIMARY KEY (robot_id, error_code, plan_id, job_id)) WITHOUT ROWID;",
     // Single values by name.
     "CREATE TABLE settings (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;",
-    // The request that brought a plan, the last command of each robot, and robots out of service.
+    // The request that submitted a plan, the last commands of each robot, and the robots in maintenance.
     "ALTER TABLE plans ADD COLUMN transaction_id TEXT NOT NULL DEFAULT '';"
     "CREATE TABLE robot_works (robot_id TEXT PRIMARY KEY, work TEXT NOT NULL) WITHOUT ROWID;"
     "CREATE TABLE maintenance (robot_id TEXT PRIMARY KEY) WITHOUT ROWID;",

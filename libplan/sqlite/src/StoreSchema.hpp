@@ -16,7 +16,7 @@ inline constexpr int FIRST_DIRECTORY_VERSION = 4;
 /// The schema that this version reads and writes.
 [[nodiscard]] int GetNewestSchemaVersion() noexcept;
 
-/// Whether an open database is a plan store, undamaged, and of a known version; nothing is written.
+/// Checks, without writing, that an open database is a plan store, is undamaged and has a known version.
 /// EPlanningError::StoreCorrupt, StoreTooNew; throws SQLite::Exception.
 [[nodiscard]] Core::Result<StoreOrigin> CheckSchema(
     SQLite::Database& database,

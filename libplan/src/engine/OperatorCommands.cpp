@@ -180,7 +180,7 @@ std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const Reso
     }
     const Robot& robot = _fleet[*worker];
     const bool bOver = robot.job.IsOverdue();
-    if (bOver && command.answer == EJobResolution::Again)
+    if (bOver && command.resolution == EJobResolution::Again)
     {
         return fmt::format("Plan {} has ended: answer done or failed.", command.planID);
     }
@@ -192,9 +192,9 @@ std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const Reso
     {
         return fmt::format("{} is connected and will report the outcome of the job.", robot.GetID());
     }
-    return command.answer == EJobResolution::Again ? std::optional(
+    return command.resolution == EJobResolution::Again ? std::optional(
                fmt::format("{} is disconnected and cannot repeat the job: answer done or failed.", robot.GetID()))
-                                                   : std::nullopt;
+                                                       : std::nullopt;
 }
 
 std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const SetCarriers& command) const
@@ -331,7 +331,7 @@ void OperatorCommands::Settle(const ResolveJob& command)
     Robot& robot = _fleet[*FindWorkerOrNull(command)];
     _transaction.Emit(ReplyCommand{command.replyToken, true, "Received."});
     robot.changes.bStatus = true;
-    ApplyAnswer(robot, command.answer);
+    ApplyAnswer(robot, command.resolution);
 }
 
 void OperatorCommands::ApplyAnswer(Robot& robot, EJobResolution answer)

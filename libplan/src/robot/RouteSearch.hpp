@@ -14,7 +14,7 @@ namespace ACS::Planning
 struct Yield
 {
     std::size_t leader = 0;
-    std::optional<std::uint64_t> planSequence; ///< nullopt: the leader goes home.
+    std::optional<std::uint64_t> planSequence; ///< nullopt: the leader drives to its parking position.
     std::size_t step = 0;
 };
 

@@ -54,7 +54,7 @@ public:
     [[nodiscard]] const Router& GetRouter() const noexcept;
     /// The time to confirm a drive has expired: the base is extended anyway.
     void OnExtensionDue(Robot& robot);
-    /// The robot may be sent home again.
+    /// The robot may be sent to its parking position again.
     void OnHomeRetry(Robot& robot);
     /// Grants further nodes to all drives, the most urgent first.
     void ExtendDrives();

@@ -6,14 +6,14 @@
 namespace ACS::Planning
 {
 
-/// How bad an alarm is.
+/// Severity of an alarm.
 enum class EAlarmLevel : std::uint8_t
 {
-    Heavy, ///< Work cannot go on.
-    Light, ///< A warning.
+    Heavy, ///< The robot cannot work.
+    Light, ///< A warning; the robot continues to work.
 };
 
-/// The word of section 3 ("heavy").
+/// The value of section 3 ("heavy").
 [[nodiscard]] std::string_view GetText(EAlarmLevel value) noexcept;
 
 } // namespace ACS::Planning

@@ -6,12 +6,12 @@
 namespace ACS::Planning
 {
 
-/// What the operator says of a job of which the robot cannot tell what became.
+/// The operator's decision about an unresolved job (ResolveJob).
 enum class EJobResolution : std::uint8_t
 {
     Done,   ///< It was done.
-    Failed, ///< It was not done, or not well: the plan fails.
-    Again,  ///< It was not done, and nothing was moved: it is commanded once more.
+    Failed, ///< It was not done, or not completely: the plan fails.
+    Again,  ///< It was not done and nothing was moved: it is commanded again.
 };
 
 /// "Done"

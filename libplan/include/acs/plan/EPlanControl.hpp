@@ -6,13 +6,13 @@
 namespace ACS::Planning
 {
 
-/// What the MCS asks of an accepted plan (sections 6.5 to 6.8).
+/// A control of an accepted plan (sections 6.5 to 6.8 of MCS-ACS).
 enum class EPlanControl : std::uint8_t
 {
-    Cancel, ///< End it, unless a robot has arrived.
-    Abort,  ///< End it; a running job is let to its end.
-    Pause,  ///< Hold it.
-    Resume, ///< Go on with it.
+    Cancel, ///< End the plan; fails after ControlOptions::cancelUntil.
+    Abort,  ///< End the plan; a running job finishes first, unless ControlOptions::bAbortStopsJob.
+    Pause,
+    Resume,
 };
 
 /// "Cancel"

@@ -5,13 +5,13 @@
 namespace ACS::Planning
 {
 
-/// Errors of maps, configuration and stores. The numbers are stable: they appear in logs and metrics.
+/// Errors of maps, options and stores. The numbers are stable: they appear in logs and metrics.
 enum class EPlanningError
 {
-    InvalidSite = 1,    ///< A site map contradicts itself: an id twice, an edge or a station without its node.
-    InvalidOptions = 2, ///< The configuration does not fit the site or itself.
+    InvalidSite = 1,    ///< Inconsistent map: a duplicate id, or an edge or a station with an unknown node.
+    InvalidOptions = 2, ///< Options that contradict the map or each other.
     StoreFailed = 3,    ///< The store could not be read or written (disk full, no permission, …).
-    StoreCorrupt = 4,   ///< The store's file is damaged or is something else.
+    StoreCorrupt = 4,   ///< A file of the store is damaged or of another kind.
     StoreTooNew = 5,    ///< The store was written by a newer version.
 };
 

@@ -6,24 +6,24 @@
 namespace ACS::Planning
 {
 
-/// What a robot does, as the MCS sees it (section 3 of MCS-ACS).
+/// The status of a robot as it is reported to the MCS (section 3 of MCS-ACS).
 enum class ERobotStatus : std::uint8_t
 {
-    Init,         ///< Online, its place is not known yet.
-    Disconnected, ///< No connection.
+    Init,         ///< Connected; its position is unknown.
+    Disconnected, ///< Not connected.
     Manual,       ///< Not under automatic control.
-    Idle,         ///< No assigned work.
-    Moving,       ///< Drives, or waits for its way with a plan.
-    Arrival,   ///< Has reached the last node before its step's place, or the place; reported once for each drive there.
-    Docking,   ///< On the last edge of its way, which leads to a station.
-    UnDocking, ///< On the first edge of its way, which leads out of a station.
-    Working,   ///< A job runs, or the robot waits at its step's place.
-    Charging,  ///< Charges.
-    Error,     ///< A fatal error, an emergency or a protective stop.
-    Stopped,   ///< Paused.
+    Idle,         ///< Has no plan.
+    Moving,       ///< Drives, or has a plan and waits for a route.
+    Arrival,      ///< Reached the last node before the position of its step, or the position. Reported once per drive.
+    Docking,      ///< On the last edge of its route, which leads into a station.
+    UnDocking,    ///< On the first edge of its route, which leads out of a station.
+    Working,      ///< Executes a job, or waits at the position of its step.
+    Charging,
+    Error,   ///< Fatal error, emergency stop or protective stop.
+    Stopped, ///< Paused.
 };
 
-/// The word of section 3 ("UnDocking").
+/// The value of section 3 ("UnDocking").
 [[nodiscard]] std::string_view GetText(ERobotStatus value) noexcept;
 
 } // namespace ACS::Planning

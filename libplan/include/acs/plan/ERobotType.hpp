@@ -6,14 +6,14 @@
 namespace ACS::Planning
 {
 
-/// What a robot is for.
+/// The type of a robot.
 enum class ERobotType : std::uint8_t
 {
-    LR, ///< Logistics robot: cassettes.
-    CR, ///< Control robot: trays and memory, has an arm.
+    LR, ///< Logistics robot: moves cassettes.
+    CR, ///< Control robot: a base with an arm, for trays and memories.
 };
 
-/// The word of section 3 ("LR").
+/// The value of section 3 ("LR").
 [[nodiscard]] std::string_view GetText(ERobotType value) noexcept;
 
 } // namespace ACS::Planning

@@ -9,15 +9,15 @@ namespace ACS::Planning
 /// The state of a step (section 7 of MCS-ACS).
 enum class EStepState : std::uint8_t
 {
-    Pending,    ///< Not begun.
-    Dispatched, ///< Given to the robot.
-    InProgress, ///< The robot moves or works for it.
+    Pending,    ///< Not started.
+    Dispatched, ///< Sent to the robot.
+    InProgress, ///< The robot drives or works for it.
     Completed,  ///< Final: all its jobs are done.
     Failed,     ///< Final.
-    Skipped,    ///< Final: left out by an operator.
+    Skipped,    ///< Final: skipped by an operator.
 };
 
-/// The word of section 3 ("Dispatched").
+/// The value of section 3 ("Dispatched").
 [[nodiscard]] std::string_view GetText(EStepState value) noexcept;
 
 } // namespace ACS::Planning

@@ -6,15 +6,15 @@
 namespace ACS::Planning
 {
 
-/// Whether new work is begun at all (section 6.20 of MCS-ACS, with the meaning of SEMI E82).
+/// Whether new work is started (section 6.20 of MCS-ACS; the states of SEMI E82).
 enum class ETscState : std::uint8_t
 {
-    Auto,    ///< As usual.
-    Paused,  ///< Nothing runs, nothing is begun; plans are accepted and wait.
-    Pausing, ///< Nothing is begun any more, what runs goes on.
+    Auto,    ///< Plans are started.
+    Paused,  ///< No plan runs and none is started; accepted plans wait.
+    Pausing, ///< Running plans continue; none is started.
 };
 
-/// The word of section 3 ("Pausing").
+/// The value of section 3 ("Pausing").
 [[nodiscard]] std::string_view GetText(ETscState value) noexcept;
 
 } // namespace ACS::Planning

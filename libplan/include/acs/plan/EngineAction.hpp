@@ -17,23 +17,24 @@
 namespace ACS::Planning
 {
 
+/// What the engine does when the timer expires. The first three and Startup belong to the engine, the others to a robot.
 enum class EEngineTimer : std::uint8_t
 {
-    Dispatch,       ///< Look for work for the robots.
-    StoreRetry,     ///< Try again to store what could not be stored.
+    Dispatch,       ///< Assign plans and drives to robots.
+    StoreRetry,     ///< Store again what could not be stored.
     Acknowledged,   ///< Store which reports were acknowledged.
-    DriveExtension, ///< Of a robot: its drive has not been confirmed, release the next nodes anyway.
-    ControlConfirm, ///< Of a robot: it has not confirmed that it stopped, or goes on.
-    JobTimeout,     ///< Of a robot: its job takes too long.
-    HomeRetry,      ///< Of a robot: try again to send it home.
+    DriveExtension, ///< The robot has not confirmed its drive: release the next nodes anyway.
+    ControlConfirm, ///< The robot has not confirmed that it stopped or resumed.
+    JobTimeout,     ///< The job exceeds ActionRule::timeout.
+    HomeRetry,      ///< Send the robot to its parking position again.
     Startup,        ///< After a start: continue without the robots that have not reported their position.
-    ChargeRetry,    ///< Of a robot: it was told to charge and has not shown that it does.
-    JobEnd,         ///< Of a robot: it has not told the end of a job that was given up.
-    DriveStall,     ///< Of a robot: its drive has passed no node for long.
-    LoadAlarm,      ///< Of a robot: the alarm about its reported loads may be set or updated again.
+    ChargeRetry,    ///< The robot does not show that it charges: repeat StartCharging.
+    JobEnd,         ///< The robot has not reported the end of a cancelled job.
+    DriveStall,     ///< The robot has passed no node for EngineOptions::stallTimeout.
+    LoadAlarm,      ///< The alarm about reported loads may be set or updated again.
 };
 
-/// One timer; of a robot or, with an empty robotID, of the engine.
+/// A timer of a robot, or of the engine if robotID is empty.
 struct EngineTimer
 {
     EEngineTimer kind = EEngineTimer::Dispatch;
@@ -47,8 +48,8 @@ struct EngineTimer
     }
 };
 
-/// Append the batch to the store, as one transaction, and call PlanEngine::OnStored with the result. The only action of its
-/// call: what depends on it is withheld until then.
+/// Append the batch to the store as one transaction and call PlanEngine::OnStored with the result. It is the only action of
+/// its call: actions that depend on the batch are withheld until OnStored.
 struct StorePlans
 {
     StoreBatch batch;
@@ -56,8 +57,8 @@ struct StorePlans
     bool operator==(const StorePlans&) const = default;
 };
 
-/// The one answer to a command that has a replyToken: the Ack of SubmitPlan and ControlPlan, and what the operator is told of
-/// the others.
+/// The only answer to a command with a replyToken: the Ack of SubmitPlan and ControlPlan, the operator's answer for the other
+/// commands.
 struct ReplyCommand
 {
     ReplyToken replyToken = 0;
@@ -67,8 +68,8 @@ struct ReplyCommand
     bool operator==(const ReplyCommand&) const = default;
 };
 
-/// Send the report, now or when the MCS is there again; tell MessageAcknowledged when it is acknowledged. Also kept:
-/// see PlanEngine::GetUnacknowledged.
+/// Send the report to the MCS, after a reconnect if it is not connected. Pass MessageAcknowledged to the engine once the MCS
+/// has acknowledged the report; until then it is in PlanEngine::GetUnacknowledged too.
 struct SendReport
 {
     OutboxEntry entry;
@@ -84,7 +85,7 @@ struct CommandRobot
     bool operator==(const CommandRobot&) const = default;
 };
 
-/// Something in the robot's status has changed (RobotStatusUpdate). Not stored: only the latest counts.
+/// Publish the robot's status (RobotStatusUpdate). Not stored; a newer status replaces an unsent one.
 struct RobotStatusChanged
 {
     RobotStatus status;
@@ -92,7 +93,7 @@ struct RobotStatusChanged
     bool operator==(const RobotStatusChanged&) const = default;
 };
 
-/// TscStateUpdate. Only the latest counts.
+/// Publish the TSC state (TscStateUpdate). A newer state replaces an unsent one.
 struct TscStateChanged
 {
     ETscState state = ETscState::Auto;
@@ -100,8 +101,8 @@ struct TscStateChanged
     bool operator==(const TscStateChanged&) const = default;
 };
 
-/// Call PlanEngine::OnTimer after the delay (zero: as soon as possible, but not inside this call). A running timer of
-/// this name starts again.
+/// Call PlanEngine::OnTimer after the delay. 0: as soon as possible, but not before the current call has returned. A timer of
+/// the same identity that is running is restarted.
 struct StartEngineTimer
 {
     EngineTimer timer;

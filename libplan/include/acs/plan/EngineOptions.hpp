@@ -20,10 +20,10 @@
 namespace ACS::Planning
 {
 
-/// What the from or the to of a job must be.
+/// What the `from` or the `to` of a job must be.
 enum class EPlaceRule : std::uint8_t
 {
-    None,          ///< Nothing; what is given is ignored.
+    None,          ///< Not used; a given value is ignored.
     FixedCassette, ///< A cassette port of the site.
     FixedTray,     ///< A tray port of the site.
     RobotCassette, ///< A cassette port of the robot.
@@ -31,13 +31,13 @@ enum class EPlaceRule : std::uint8_t
     Memory,        ///< A memory port, of the site or in a tray on the robot.
 };
 
-/// What a finished job does to the robot's ports.
+/// How a finished job changes the record of the robot's ports.
 enum class EActionEffect : std::uint8_t
 {
     None,
-    Load,   ///< The port in to has the carrier.
-    Unload, ///< The port in from is empty.
-    Move,   ///< Both: whichever of from and to is a carrier port of the robot is emptied or has the carrier.
+    Load,   ///< The port in `to` has the carrier.
+    Unload, ///< The port in `from` is empty.
+    Move,   ///< Both, as far as `from` and `to` are carrier ports of the robot.
 };
 
 /// One action of the MCS (section 4.1 of MCS-ACS).
@@ -47,124 +47,124 @@ struct ActionRule
     EPlaceRule from = EPlaceRule::None;
     EPlaceRule to = EPlaceRule::None;
     EActionEffect effect = EActionEffect::None;
-    bool bJobsRequired = false;           ///< Whether a step without jobs is refused.
-    std::chrono::milliseconds timeout{0}; ///< A job that takes longer has failed; 0: no limit.
+    bool bJobsRequired = false;           ///< Whether a step without jobs is rejected.
+    std::chrono::milliseconds timeout{0}; ///< Maximum duration of a job, then it has failed; 0: no limit.
 
     bool operator==(const ActionRule&) const = default;
 };
 
 using ActionTable = std::map<std::string, ActionRule, std::less<>>;
 
-/// The eight actions of the document with its rules.
+/// The eight actions of section 4.1 of MCS-ACS.
 [[nodiscard]] ActionTable MakeStandardActions();
 
-/// Actions that a robot cannot do, each with the reason, which the MCS is told (FindRejectedActions).
+/// Actions that a robot cannot execute, each with the reason that is reported to the MCS (FindRejectedActions).
 using RejectedActions = std::map<std::string, std::string, std::less<>>;
 
 struct RobotOptions
 {
     Core::RobotID robotID;
     ERobotType type = ERobotType::LR;
-    std::string vehicleTypeID;              ///< Of the map: which nodes and edges it may use.
-    std::optional<std::string> startNodeID; ///< Held for it until it tells where it stands.
-    std::optional<std::string>
-        homeStationID;                      ///< Where it goes when it has no work or stands in the way; one robot each.
+    std::string vehicleTypeID; ///< Vehicle type of the map: selects the nodes and edges that the robot may use.
+    std::optional<std::string> startNodeID; ///< Reserved for the robot until it reports its position.
+    /// Preferred parking position: the robot drives there when it has no plan or blocks another robot. Not shared by robots.
+    std::optional<std::string> homeStationID;
     std::vector<Core::Location> ports;      ///< Its carrier ports ("LR01.CP01"), in the order of carrierIds.
     std::vector<Core::Location> childPorts; ///< Places inside its carriers ("CR01.TP01.MP01").
-    RejectedActions rejectedActions;        ///< Plans with one of them are not given to it.
-    /// Where it charges (DispatchOptions); one robot each, but it may be its home. Absent: its battery is not looked at.
+    RejectedActions rejectedActions;        ///< Plans with one of these actions are not given to the robot.
+    /// Where it charges (DispatchOptions). Not shared by robots; may be the home station. nullopt: its battery level is
+    /// ignored.
     std::optional<std::string> chargingStationID = std::nullopt;
 };
 
 /// Until when CancelPlan ends a plan (register D-14).
 enum class ECancelWindow : std::uint8_t
 {
-    Dispatch,     ///< While no robot has it.
-    FirstArrival, ///< Until its robot has come to the last node before its first place.
-    FirstJob,     ///< Until its first job is begun.
+    Dispatch,     ///< Until a robot has the plan.
+    FirstArrival, ///< Until the robot has reached the last node before the position of the first step.
+    FirstJob,     ///< Until the first job is started.
 };
 
-/// How CancelPlan, AbortPlan, PausePlan and ResumePlan are carried out (sections 6.5 to 6.8, register D-14 to D-22).
+/// How CancelPlan, AbortPlan, PausePlan and ResumePlan are executed (sections 6.5 to 6.8, register D-14 to D-22).
 struct ControlOptions
 {
     ECancelWindow cancelUntil = ECancelWindow::FirstArrival;
-    std::chrono::milliseconds cancelTimeout{30'000}; ///< For a robot to confirm that its drive is at an end.
-    std::chrono::milliseconds pauseTimeout{30'000};  ///< For a robot to confirm that it stands, or goes on.
-    /// For a robot to tell the end of a job that was given up; then an operator is asked for it (ACS-1008).
+    std::chrono::milliseconds cancelTimeout{30'000}; ///< Maximum time for a robot to confirm the end of its drive.
+    std::chrono::milliseconds pauseTimeout{30'000}; ///< Maximum time for a robot to confirm that it stopped or resumed.
+    /// Maximum time for a robot to report the end of a cancelled job; then the job is unresolved (ACS-1008).
     std::chrono::milliseconds jobEndTimeout{60'000};
-    bool bPausesAfterJob = false;         ///< A running job comes to its end before the pause; a drive never does.
-    bool bAbortStopsJob = false;          ///< Abort drops a running job (D-15).
-    bool bAbortFinishesPausedJob = false; ///< Abort has a paused job done first (D-16).
+    bool bPausesAfterJob = false;         ///< A running job finishes before the pause. A drive is always interrupted.
+    bool bAbortStopsJob = false;          ///< Abort cancels a running job (D-15).
+    bool bAbortFinishesPausedJob = false; ///< Abort resumes a paused job and waits for its end (D-16).
     bool bJobFailureFailsAbort = true;    ///< A job that fails during an abort fails the plan (D-17).
-    bool bAbortReportsStep = false;       ///< A step that ends with the last job of an aborted plan is told (D-18).
-    bool bResultAfterRefusal = true;      ///< Also of plans that nobody knows (D-19).
+    bool bAbortReportsStep = false;       ///< Report a step that ends with the last job of an aborted plan (D-18).
+    bool bResultAfterRefusal = true;      ///< A control of an unknown plan has a result report too (D-19).
 
     bool operator==(const ControlOptions&) const = default;
 };
 
-/// What RobotStatus::position says while a robot drives (section 5.9).
+/// The value of RobotStatus::position while a robot drives (section 5.9).
 enum class EMovingPosition : std::uint8_t
 {
-    Last,   ///< The last station where it stood.
-    Target, ///< The station to which it drives; where that is none, the last.
-    None,   ///< Nothing.
+    Last,   ///< The last station at which it was docked.
+    Target, ///< The station to which it drives; the last one if the target is not a station.
+    None,   ///< Empty.
 };
 
-/// Which robot takes a plan, and what becomes of those that take none.
+/// How plans are assigned to robots, and when robots charge.
 struct DispatchOptions
 {
-    double batteryFloor = 20;  ///< Percent; a robot with less takes no plan and drives to its charging station.
-    double batteryResume = 80; ///< Percent; until it has that much it takes no plan then, nor leaves the station.
-    std::chrono::milliseconds chargeRetry{10'000}; ///< For a robot to show that it charges; then it is told again.
-    /// Whether a load into a port that has a carrier, as far as the engine knows, is begun all the same, and a plan is taken
-    /// that loads one port twice.
+    double batteryFloor = 20;  ///< Percent. A robot below it is given no plan and drives to its charging station.
+    double batteryResume = 80; ///< Percent. A charging robot is given no plan and stays until it has this level.
+    std::chrono::milliseconds chargeRetry{10'000}; ///< Maximum time to show bCharging before StartCharging is repeated.
+    /// Start a load into a port that has a carrier according to the record, and accept a plan that loads a port twice.
     bool bLoadsIntoTakenPorts = false;
 
     bool operator==(const DispatchOptions&) const = default;
 };
 
-/// Everything that the engine is told at its start.
+/// The configuration of the engine.
 struct EngineOptions
 {
     std::vector<RobotOptions> robots;
     ActionTable actions = MakeStandardActions();
-    std::vector<Core::Location> places; ///< Ports inside stations ("A01.CP01.TP01"); stations are known from the map.
-    /// By station: other stations whose places a robot that is docked at it can work at. Nothing else is within reach.
+    std::vector<Core::Location> places; ///< Ports of stations ("A01.CP01.TP01"); the stations are those of the map.
+    /// By station: the other stations at whose places a robot that is docked there can work too.
     std::map<std::string, std::vector<std::string>, std::less<>> reach;
-
-    std::size_t maximumPlans = 100; ///< Plans that are not finished; one more is refused.
-    std::size_t maximumReports =
-        100'000; ///< That the MCS has not acknowledged; plans are refused while there are so many.
-    std::int32_t defaultPriority = 0;
-    bool bLowerPriorityFirst = false;
-    /// Waiting so long is worth as much as a priority by one; 0: a plan of a lower priority waits for all of a higher one.
+    std::size_t maximumPlans = 100; ///< Maximum number of unfinished plans; further ones are rejected.
+    /// Maximum number of unacknowledged reports; plans are rejected while it is reached.
+    std::size_t maximumReports = 100'000;
+    std::int32_t defaultPriority = 0; ///< Priority of plans without one.
+    bool bLowerPriorityFirst = false; ///< Lower values are more urgent.
+    /// A waiting plan gains one priority level per this duration. 0: a higher priority always comes first.
     std::chrono::milliseconds queueAgeing{600'000};
-    bool bFinishedIDsReused = false; ///< A planID may come again once its plan is finished, which is forgotten then.
-    bool bInitialPendingReported = false; ///< PlanReport(Pending) of each plan that was accepted (D-24).
-    bool bTscStartsPaused = false;        ///< Every start begins with the TSC paused.
-    bool bTscPausedAcceptsPlans = true;   ///< Plans that come while the TSC is not Auto wait; else they are refused.
-    std::size_t baseLength = 3;           ///< Nodes that a robot is released ahead; at least 1.
-    /// Metres. Nodes of one map at this distance or nearer exclude each other: a vehicle on one of them leaves no room for
-    /// another one on the other.
+    bool bFinishedIDsReused = false;      ///< Accept the planID of a finished plan again; deletes the finished plan.
+    bool bInitialPendingReported = false; ///< Send PlanReport(Pending) for each accepted plan (D-24).
+    bool bTscStartsPaused = false;        ///< The TSC is Paused after every start.
+    bool bTscPausedAcceptsPlans = true;   ///< Accept plans while the TSC is not Auto; false rejects them.
+    std::size_t baseLength = 3;           ///< Number of nodes released ahead of a robot; at least 1.
+    /// Metres. Nodes of a map at this distance or less exclude each other, because two vehicles would not have room.
     double clearance = 0;
     ControlOptions controls;
     DispatchOptions dispatch;
     EMovingPosition movingPosition = EMovingPosition::Last;
-    std::chrono::milliseconds extensionDelay{2'000}; ///< A drive that is not confirmed is extended after this.
-    /// A robot that has a drive, is in reach, may drive on and passes no node for so long raises ACS-1009; at least three
-    /// times what the map says for the edge before it. 0: none does.
+    std::chrono::milliseconds extensionDelay{2'000}; ///< Delay after which an unconfirmed drive is extended.
+    /// Time without a passed node after which a connected robot with released nodes ahead raises ACS-1009; at least three
+    /// times the travel time of its next edge. 0 disables the alarm.
     std::chrono::milliseconds stallTimeout{60'000};
-    /// Before the second attempt of a robot that refuses to drive home; then twice as long each time, up to 64 times that.
+    /// Delay before a robot that rejected the drive to its parking position is sent again; doubled each time, up to 64 times
+    /// this value.
     std::chrono::milliseconds homeRetry{5'000};
-    /// After a restart nobody sets out before every robot has told where it stands and may still drive, at most so long.
+    /// Maximum time to wait, after a restart, until every robot has reported its position and the nodes it may still enter.
+    /// No drive is started before.
     std::chrono::milliseconds restartWait{30'000};
-    std::chrono::milliseconds storeRetry{1'000};
-    std::chrono::milliseconds acknowledgedDelay{200}; ///< Acknowledgements that are stored together.
-    std::size_t finishedPlansKept = 1'000;            ///< In memory and in the store: history, and known planIDs.
+    std::chrono::milliseconds storeRetry{1'000};      ///< Delay before a failed batch is stored again.
+    std::chrono::milliseconds acknowledgedDelay{200}; ///< Acknowledgements of this period are stored in one batch.
+    std::size_t finishedPlansKept = 1'000;            ///< Number of finished plans in memory and in the store.
 };
 
-/// Every mistake of the options at once, each with a path ("robots.LR01.home"); empty where there is none. The engine
-/// takes only options without mistakes.
+/// All errors of the options, each with a path ("robots.LR01.home"); empty if the options are valid. PlanEngine requires
+/// valid options.
 [[nodiscard]] std::vector<Core::Error> FindErrors(const EngineOptions& options, const SiteMap& site);
 
 } // namespace ACS::Planning

@@ -8,8 +8,8 @@
 namespace ACS::Planning
 {
 
-/// Which jobs a robot can do, as far as its adapter knows before they are commanded. Immutable: when the adapter learns
-/// more, it raises JobCheckChanged with another one.
+/// Checks whether a robot can execute a job, with what its adapter knows before the job is commanded. Immutable: when that
+/// changes, the adapter raises JobCheckChanged with a new object.
 class IJobCheck
 {
 public:
@@ -18,8 +18,8 @@ public:
     IJobCheck& operator=(const IJobCheck&) = delete;
     virtual ~IJobCheck() = default;
 
-    /// Why the robot cannot do the job, in words for the MCS; nullopt where it can. The job has no commandID, progressToken and
-    /// jobNumber yet, and no jobID where the plan gives its step no job.
+    /// Why the robot cannot execute the job, in a sentence for the MCS; nullopt if it can. The job has no commandID,
+    /// progressToken and jobNumber yet, and no jobID if its step has no job in the plan.
     [[nodiscard]] virtual std::optional<std::string> GetRejectionReasonOrNull(const StartJob& job) const = 0;
 };
 

@@ -12,9 +12,9 @@
 namespace ACS::Planning
 {
 
-/// Sees every change of state, each once, at the one place where it is made: for logs, metrics, audit. Called inside
-/// the engine's calls, in the order of the changes; must not call the engine. transactionID: of the report that tells the
-/// MCS of the change, by which its Ack and every repetition can be found; valid during the call.
+/// Called once for every change of state, for logs, metrics and audits. Called inside the engine's calls, in the order of the
+/// changes; must not call the engine. transactionID is that of the report of the change, with which its Ack and its replays
+/// can be found. References and string views are valid during the call only.
 class IPlanObserver
 {
 public:
@@ -23,7 +23,7 @@ public:
     IPlanObserver& operator=(const IPlanObserver&) = delete;
     virtual ~IPlanObserver() = default;
 
-    /// The record already has the new state.
+    /// The record has the new state already.
     virtual void OnPlanChanged(
         const PlanRecord& record,
         EPlanState from,
@@ -45,7 +45,7 @@ public:
     virtual void OnAlarmChanged(const Alarm& alarm, bool bSet, std::string_view transactionID, Core::Now now) = 0;
     virtual void OnRobotStatusChanged(const RobotStatus& status, Core::Now now) = 0;
     virtual void OnTscChanged(ETscState state, ETscState from, Core::Now now) = 0;
-    /// Something that was tolerated and is worth a line.
+    /// A deviation that was tolerated, for the log.
     virtual void OnNote(std::string_view robotID, std::string_view text, Core::Now now) = 0;
 };
 

@@ -23,7 +23,7 @@ struct PlanAdded
     bool operator==(const PlanAdded&) const = default;
 };
 
-/// The states of a plan changed; the plan itself never does.
+/// The progress of a plan changed; the plan itself is immutable.
 struct PlanProgressed
 {
     std::string planID;
@@ -32,7 +32,7 @@ struct PlanProgressed
     bool operator==(const PlanProgressed&) const = default;
 };
 
-/// A finished plan is forgotten.
+/// A finished plan was deleted (EngineOptions::finishedPlansKept).
 struct PlanRemoved
 {
     std::uint64_t sequence = 0; ///< PlanRecord::sequence.
@@ -40,7 +40,7 @@ struct PlanRemoved
     bool operator==(const PlanRemoved&) const = default;
 };
 
-/// A report waits for its acknowledgement.
+/// A durable report was created and waits for its acknowledgement.
 struct ReportAdded
 {
     OutboxEntry entry;
@@ -56,30 +56,31 @@ struct ReportRemoved
     bool operator==(const ReportRemoved&) const = default;
 };
 
-/// What a robot has on its ports.
+/// The record of a robot's ports changed.
 struct CarriersChanged
 {
     std::string robotID;
-    std::vector<std::optional<std::string>> carrierIDs; ///< One per port.
+    std::vector<std::optional<std::string>> carrierIDs; ///< One per port, in the order of RobotOptions::ports.
 
     bool operator==(const CarriersChanged&) const = default;
 };
 
-/// What a robot was told last, stored before it is told: by this its work is known again after a restart.
+/// The commands of a robot, stored before they are sent. After a restart the engine compares them with RestartEvidence.
 struct RobotWorkChanged
 {
     std::string robotID;
-    std::string commandID; ///< Of its last Drive or StartJob; empty: none yet.
-    /// Of those before, the latest first, so many as tell an old order of the robot from a stranger's.
+    std::string commandID; ///< ID of the last Drive or StartJob; empty: none yet.
+    /// IDs of the commands before, latest first, limited in number: they show that an order is one of this ACS.
     std::vector<std::string> earlierIDs;
-    std::optional<StartJob> job; ///< Commanded, and its end not told.
-    std::string progressToken;   ///< RestartEvidence::progressToken, when all this was written down.
-    bool bPauseAsked = false;    ///< It was told to pause, and has not shown since that it goes on.
-    bool bUnresolved = false;    ///< It may have done jobs of its plan that could not be written down.
-    /// Where it may be: while it drives what was left of its way when this was written down, else where it stands.
+    std::optional<StartJob> job; ///< The commanded job whose end was not reported.
+    std::string progressToken;   ///< RestartEvidence::progressToken when this was stored.
+    bool bPauseAsked = false;    ///< Pause was sent and the robot has not shown since that it resumed.
+    bool bUnresolved = false;    ///< The robot may have executed jobs of its plan while the store failed.
+    /// Nodes where the robot may be: the rest of its route if it was driving when this was stored, else its node.
     std::vector<std::string> nodeIDs;
-    bool bCommandTaken = false; ///< It has shown that it had one of these commands: showing none, it was switched off.
-    std::int32_t jobNumber = 0; ///< StartJob::jobNumber of its last job; 0: none yet.
+    /// The robot has shown that it received one of these commands. If it shows none later, it was switched off.
+    bool bCommandTaken = false;
+    std::int32_t jobNumber = 0; ///< StartJob::jobNumber of the last job; 0: none yet.
 
     bool operator==(const RobotWorkChanged&) const = default;
 };
@@ -93,7 +94,7 @@ struct AlarmSet
 
 struct AlarmCleared
 {
-    Alarm alarm; ///< Its identity counts (Alarm::IsSameAs).
+    Alarm alarm; ///< Identifies the alarm (Alarm::IsSameAs).
 
     bool operator==(const AlarmCleared&) const = default;
 };
@@ -105,7 +106,7 @@ struct TscChanged
     bool operator==(const TscChanged&) const = default;
 };
 
-/// A robot was taken out of service, or given back.
+/// Maintenance of a robot was switched on or off (SetMaintenance).
 struct MaintenanceChanged
 {
     std::string robotID;
@@ -127,7 +128,7 @@ using StoreChange = std::variant<
     RobotWorkChanged,
     MaintenanceChanged>;
 
-/// Changes that are stored together or not at all.
+/// Changes that are stored as one transaction.
 struct StoreBatch
 {
     std::vector<StoreChange> changes;
@@ -135,22 +136,22 @@ struct StoreBatch
     bool operator==(const StoreBatch&) const = default;
 };
 
-/// Everything that a store holds.
+/// The content of a store.
 struct StoredState
 {
-    std::vector<PlanRecord> plans;        ///< By ascending sequence; finished ones too.
+    std::vector<PlanRecord> plans;        ///< By ascending sequence, finished ones included.
     std::vector<OutboxEntry> outbox;      ///< By ascending sequence.
-    std::uint64_t lastReportSequence = 0; ///< The highest ever given, acknowledged reports included.
+    std::uint64_t lastReportSequence = 0; ///< The highest ever assigned, acknowledged reports included.
     std::vector<CarriersChanged> carriers;
     std::vector<Alarm> alarms;
     std::vector<std::string> robotsInMaintenance;
-    ETscState tscState = ETscState::Auto; ///< Auto where none was ever stored.
+    ETscState tscState = ETscState::Auto; ///< Auto if none was ever stored.
     std::vector<RobotWorkChanged> robotWorks;
 
     bool operator==(const StoredState&) const = default;
 };
 
-/// Where plans survive. Used by one thread; a call returns when the work is done.
+/// Persistent storage of the engine's state. Used by one thread; calls block until the data is read or written.
 class IPlanStore
 {
 public:
@@ -159,14 +160,16 @@ public:
     IPlanStore& operator=(const IPlanStore&) = delete;
     virtual ~IPlanStore() = default;
 
-    /// Everything stored. Errors: EPlanningError::StoreCorrupt, StoreFailed.
+    /// Reads the whole content. Errors: EPlanningError::StoreCorrupt, StoreFailed.
     [[nodiscard]] virtual Core::Result<StoredState> Load() = 0;
 
-    /// All changes as one transaction, on disk on return; on error none of them. Errors: EPlanningError::StoreFailed.
+    /// Stores all changes as one transaction: they are durable on return; on error none of them is stored. Errors:
+    /// EPlanningError::StoreFailed.
     [[nodiscard]] virtual Core::Result<void> Append(const StoreBatch& batch) = 0;
 
-    /// Whether what is stored will be found by the next program that opens it, as far as can be told without writing; to be
-    /// asked now and then. Errors: EPlanningError::StoreFailed (see PlanEngine::OnStoreLost).
+    /// Checks, without writing, that the stored data can still be found by the next process that opens the store, for example
+    /// that its files were not removed. Call it periodically and pass a failure to PlanEngine::OnStoreLost. Errors:
+    /// EPlanningError::StoreFailed.
     [[nodiscard]] virtual Core::Result<void> Check() = 0;
 };
 

@@ -16,10 +16,10 @@
 namespace ACS::Planning
 {
 
-/// A timer of an adapter; the adapter gives the numbers.
+/// A timer of an adapter. The adapter chooses the number.
 using AdapterTimerID = std::uint32_t;
 
-/// Tell the engine.
+/// Pass the event to the engine.
 struct RaiseEvent
 {
     RobotEvent event;
@@ -27,7 +27,7 @@ struct RaiseEvent
     bool operator==(const RaiseEvent&) const = default;
 };
 
-/// Call OnTimer after the delay; a running timer of this number starts again.
+/// Call OnTimer after the delay. A running timer of the same number is restarted.
 struct StartAdapterTimer
 {
     AdapterTimerID timer = 0;
@@ -46,8 +46,9 @@ struct CancelAdapterTimer
 using AdapterAction = std::variant<RaiseEvent, StartAdapterTimer, CancelAdapterTimer>;
 using AdapterActions = std::vector<AdapterAction>;
 
-/// Joins one robot to the engine: takes its commands, tells its events. Pure: an implementation does no I/O and reads no
-/// clock; what it has to send to its robot leaves by outputs of its own. Calls append to out, which the caller owns.
+/// Connects one robot to the engine: executes its commands and reports its events. An implementation does no I/O and reads
+/// no clock; it has its own outputs for messages to its robot. Calls append to out, which the caller owns. Called by one
+/// thread at a time.
 class IRobotAdapter
 {
 public:
@@ -56,20 +57,19 @@ public:
     IRobotAdapter& operator=(const IRobotAdapter&) = delete;
     virtual ~IRobotAdapter() = default;
 
-    /// RobotCommand.hpp says what answers each of them. Answers may be in out at once or come by a later call, and a robot that
-    /// is out of reach owes them when it is back: the engine does not ask again.
+    /// Executes the command. RobotCommand.hpp states the events that answer it. They may be in out or follow in a later call.
+    /// If the robot is disconnected, they follow when it is connected again: the engine does not repeat the command.
     virtual void Handle(const RobotCommand& command, Core::Now now, AdapterActions& out) = 0;
 
-    /// A timer of StartAdapterTimer has come to its end, and was neither cancelled nor started again since.
+    /// A timer has expired and was neither cancelled nor restarted since.
     virtual void OnTimer(AdapterTimerID timer, Core::Now now, AdapterActions& out) = 0;
 
-    /// Why this robot cannot do the action, in words for the MCS; nullopt where it can. Asked at start
-    /// (FindRejectedActions), so it follows from how the robot is configured, not from how it does (JobCheckChanged).
+    /// Why this robot cannot execute the action, in a sentence for the MCS; nullopt if it can. Called once at start
+    /// (FindRejectedActions): depends only on the configuration. JobCheckChanged covers what changes later.
     [[nodiscard]] virtual std::optional<std::string> GetRejectionReasonOrNull(std::string_view action) const = 0;
 };
 
-/// What the adapter's robot cannot do of the actions of its type: for RobotOptions::rejectedActions, before the engine is
-/// made.
+/// The actions of the robot's type that its adapter rejects, for RobotOptions::rejectedActions.
 [[nodiscard]] RejectedActions FindRejectedActions(
     const IRobotAdapter& adapter,
     ERobotType type,

@@ -8,8 +8,8 @@
 namespace ACS::Planning
 {
 
-/// Reads a VDMA LIF 1.0 layout. All layouts of the file make one map. LIF's degrees become radians. Total: any text
-/// gives a map or an error whose path says where ("layouts[0].edges[3].endNodeId"). Errors: those of
+/// Decodes a VDMA LIF 1.0 file. All its layouts are merged into one map; degrees are converted to radians. Accepts any text:
+/// an invalid one is an error with the path of the member ("layouts[0].edges[3].endNodeId"). Errors: those of
 /// ACS::Core::ECoreError and EPlanningError::InvalidSite.
 [[nodiscard]] Core::Result<SiteMap> DecodeLIF(std::string_view text);
 

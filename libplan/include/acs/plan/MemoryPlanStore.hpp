@@ -5,7 +5,7 @@
 namespace ACS::Planning
 {
 
-/// Keeps everything in memory: for tests, examples and engines that need not survive. Never fails.
+/// Stores in memory only: for tests, examples and engines whose state need not survive a restart. Never fails.
 class MemoryPlanStore final : public IPlanStore
 {
     StoredState _state;

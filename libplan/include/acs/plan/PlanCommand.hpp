@@ -13,35 +13,35 @@
 namespace ACS::Planning
 {
 
-/// Ties ReplyCommand to its command; the caller gives it and the engine does not look at it.
+/// Assigns a ReplyCommand to its command. Chosen by the caller; the engine only copies it.
 using ReplyToken = std::uint64_t;
 
-/// Take this plan (ExecutionPlan). Answered by one ReplyCommand.
+/// Submit a plan (ExecutionPlan). Answered by one ReplyCommand.
 struct SubmitPlan
 {
     Plan plan;
     ReplyToken replyToken = 0;
-    /// Of the request. The same plan again with the same one is answered as the first time and not taken twice, also after
-    /// a restart (register D-23); empty: every repetition is a duplicate.
+    /// The transactionId of the request. The same plan with the same transactionId is answered as the first time and not
+    /// accepted twice, also after a restart (register D-23). Empty: a repetition is rejected as a duplicate.
     std::string transactionID = {};
 
     bool operator==(const SubmitPlan&) const = default;
 };
 
-/// CancelPlan, AbortPlan, PausePlan, ResumePlan. Answered by one ReplyCommand at once and by one ControlResultReport
-/// when the outcome is known.
+/// CancelPlan, AbortPlan, PausePlan, ResumePlan. Answered by one ReplyCommand immediately and by one ControlResultReport when
+/// the outcome is known.
 struct ControlPlan
 {
     EPlanControl control = EPlanControl::Cancel;
     std::string planID;
     std::string reason; ///< May be empty.
     ReplyToken replyToken = 0;
-    std::string transactionID = {}; ///< Of the request: a repetition of it has no result of its own. May be empty.
+    std::string transactionID = {}; ///< Of the request; a repetition has no result report of its own. May be empty.
 
     bool operator==(const ControlPlan&) const = default;
 };
 
-/// The MCS has acknowledged the report of this number (OutboxEntry::sequence), with either result.
+/// The MCS has acknowledged the report of this number (OutboxEntry::sequence), with Success or Fail.
 struct MessageAcknowledged
 {
     std::uint64_t sequence = 0;
@@ -49,7 +49,7 @@ struct MessageAcknowledged
     bool operator==(const MessageAcknowledged&) const = default;
 };
 
-/// Of the operator: begin nothing any more (Pausing, then Paused), or be Auto again. Changes nothing where it is so
+/// Operator: pause the TSC (Pausing, then Paused), or return to Auto. Accepted without effect if the TSC is in that state
 /// already. Answered by one ReplyCommand.
 struct ControlTSC
 {
@@ -59,20 +59,20 @@ struct ControlTSC
     bool operator==(const ControlTSC&) const = default;
 };
 
-/// Of the operator, who has looked: what became of a job that is held (alarm ACS-1008). What the robot tells of it later
-/// changes nothing. Answered by one ReplyCommand.
+/// Operator: resolve an unresolved job (alarm ACS-1008). Later events of the robot about this job are ignored. Answered by
+/// one ReplyCommand.
 struct ResolveJob
 {
     std::string planID;
-    std::string jobID; ///< As the alarm names it.
-    EJobResolution answer = EJobResolution::Done;
+    std::string jobID; ///< As in the alarm.
+    EJobResolution resolution = EJobResolution::Done;
     ReplyToken replyToken = 0;
 
     bool operator==(const ResolveJob&) const = default;
 };
 
-/// Of the operator: the robot is taken out of service, or given back. It ends its plan first, takes no other one and is
-/// driven nowhere; kept over a restart. Answered by one ReplyCommand.
+/// Operator: take the robot out of service, or return it to service. A robot in maintenance completes its plan, is given no
+/// other one and is not driven. Survives a restart. Answered by one ReplyCommand.
 struct SetMaintenance
 {
     std::string robotID;
@@ -82,19 +82,19 @@ struct SetMaintenance
     bool operator==(const SetMaintenance&) const = default;
 };
 
-/// Of the operator: these alarms were seen to. One whose cause is still there is set again. Answered by one ReplyCommand.
+/// Operator: clear these alarms. An alarm whose cause persists is set again. Answered by one ReplyCommand.
 struct ClearAlarms
 {
     std::string robotID;
     std::string errorCode;
-    std::optional<std::string> planID; ///< Absent: of any plan, or of none.
-    std::optional<std::string> jobID;  ///< Likewise.
+    std::optional<std::string> planID; ///< nullopt: alarms with and without a plan.
+    std::optional<std::string> jobID;  ///< nullopt: alarms with and without a job.
     ReplyToken replyToken = 0;
 
     bool operator==(const ClearAlarms&) const = default;
 };
 
-/// Of the operator: what is on the robot's ports, where the engine has it wrong. Answered by one ReplyCommand.
+/// Operator: correct the record of the robot's ports. Answered by one ReplyCommand.
 struct SetCarriers
 {
     std::string robotID;
@@ -104,9 +104,9 @@ struct SetCarriers
     bool operator==(const SetCarriers&) const = default;
 };
 
-/// Of the operator: leave this step out (section 6.13). One that is Pending in a plan that a robot has, or one whose job is
-/// unresolved (alarm ACS-1008): the job has no further report, and the record of the robot's ports stays as it is. Answered
-/// by one ReplyCommand.
+/// Operator: skip a step (section 6.13). Accepted for a Pending step of a plan that a robot has, and for a step with an
+/// unresolved job (alarm ACS-1008). The job is not reported any more and the record of the robot's ports is unchanged.
+/// Answered by one ReplyCommand.
 struct SkipStep
 {
     std::string planID;

@@ -24,98 +24,98 @@
 namespace ACS::Planning
 {
 
-/// Accepts plans, chooses robots, drives them, has their jobs done and reports everything once and in order. Pure: no I/O,
-/// no clock, no thread; one thread at a time calls it. Every call appends actions to out, which the caller owns and
-/// executes strictly in order before the next call; see EngineAction.hpp for what each demands. PlanEngineHost is the loop
-/// around it.
+/// Accepts plans, assigns robots, drives them, commands their jobs and reports every change once and in order. Does no I/O and
+/// has no clock and no thread. Called by one thread at a time. Every call appends actions to out. The caller owns out and
+/// executes the actions strictly in order before the next call; EngineAction.hpp describes each of them. PlanEngineHost is
+/// the loop around the engine.
 ///
-/// The commit gate: a call whose changes must be stored returns StorePlans and withholds everything that depends on it (the
-/// reply, reports, commands, timers). OnStored releases that, or what is done instead if the store has failed. Until then no
-/// other call that changes the engine is allowed. A submitted plan is started by a later call (EEngineTimer::Dispatch), so
-/// that its rejection for a failed store leaves no trace.
+/// Storing: a call whose changes must be stored appends StorePlans and withholds the actions that depend on it (reply,
+/// reports, commands, timers). OnStored appends them or, after a failure, other actions. Until then no other call that
+/// changes the engine is allowed. A submitted plan is started by a later call (EEngineTimer::Dispatch), so that a plan that
+/// could not be stored has no effect.
 ///
-/// Traffic (docs/design/traffic.md): a node is held by one robot at a time. Nodes of a way are granted and released step by step,
-/// only if afterwards all robots that could drive home one after another still can, and given back when the robot has told
-/// of the next one. Robots that wait for one another are parted by sending one of them around or home first. A robot without
-/// work goes home, and steps aside where it stands in somebody's way.
+/// Traffic (docs/design/traffic.md): a node is reserved for at most one robot. Further nodes of a route are granted only if
+/// the state stays safe: all robots that could drive to their parking positions one after another still can. A reservation
+/// ends when the robot has reported the next node. A deadlock is resolved by a detour of one robot or by sending it to its
+/// parking position. A robot without a plan drives to its parking position, and yields if it blocks another robot.
 class PlanEngine
 {
     class Impl;
     std::unique_ptr<Impl> _impl;
 
 public:
-    /// The options must be without mistakes (FindErrors). The random source makes transactionIDs and driveIDs; it
-    /// must outlive the engine.
+    /// The options must be valid (FindErrors). The random source generates transactionIDs and commandIDs; it must outlive the
+    /// engine.
     PlanEngine(EngineOptions options, SiteMap site, Core::IRandom& random);
     PlanEngine(const PlanEngine&) = delete;
     PlanEngine& operator=(const PlanEngine&) = delete;
     ~PlanEngine();
 
-    /// The observer must outlive the engine. At most one; call before anything else.
+    /// The observer must outlive the engine. Call it at most once, before any other function.
     void SetObserver(IPlanObserver& observer);
 
-    /// Once, before any command or event: what the store held. Plans stay in their states and with their robots, paused ones
-    /// and those held in the queue included, and controls whose outcome was open still owe it. Each robot is asked what
-    /// became of a job whose end nobody heard (RecoverJob); where it cannot tell, the job is held with a heavy alarm until
-    /// ResolveJob or AbortPlan. Drives are begun anew; nobody sets out before every robot has told its place, or
-    /// EngineOptions::restartWait has passed. Unacknowledged reports are in GetUnacknowledged.
+    /// Restores the content of the store. Call it once, before any command or event. Plans keep their states and robots, and
+    /// pending controls are still answered by a result report. A robot whose job has no reported end receives RecoverJob; a
+    /// job whose outcome cannot be known becomes unresolved, with a heavy alarm, until ResolveJob, SkipStep or AbortPlan.
+    /// Drives are started again, but none before every robot has reported its position or EngineOptions::restartWait has
+    /// passed. Unacknowledged reports are in GetUnacknowledged.
     void Restore(StoredState state, Core::Now now, EngineActions& out);
 
-    /// Whatever it asks for: what cannot be done is refused by the ReplyCommand, with the reason.
+    /// Handles a command. If it cannot be executed, it is rejected by ReplyCommand with the reason.
     void Handle(const PlanCommand& command, Core::Now now, EngineActions& out);
 
-    /// Plans that have come together, with one StorePlans for all of them: a store on disk takes many in the time of one.
-    /// Otherwise as if each had been handled by itself, in this order.
+    /// Handles several plans in this order with a single StorePlans, because a store on disk needs about the same time for
+    /// many plans as for one.
     void Submit(std::span<const SubmitPlan> plans, Core::Now now, EngineActions& out);
 
-    /// Events of robots that are not configured are ignored, and those of a drive or a job that is not the robot's present one.
+    /// Handles an event of a robot. Ignored if the robot is not configured, or if the event belongs to another drive or job
+    /// than the robot's current one.
     void Handle(std::string_view robotID, const RobotEvent& event, Core::Now now, EngineActions& out);
 
-    /// A timer that was started has come to its end, and was neither cancelled nor started again since. One that comes late
-    /// delays what it is for, and nothing else.
+    /// A timer has expired and was neither cancelled nor restarted since. A late call delays only what the timer is for.
     void OnTimer(const EngineTimer& timer, Core::Now now, EngineActions& out);
 
-    /// The batch of StorePlans is on disk, or could not be stored; call it exactly once for each StorePlans. On success the
-    /// withheld actions are released. On failure plans of the batch are rejected and running ones continue: their commands
-    /// are released, their reports wait until the store works again.
+    /// The result of StorePlans; call it exactly once for each. On success the withheld actions are appended. On failure
+    /// submitted plans of the batch are rejected; running plans continue: their commands are appended, their reports wait
+    /// until the store works again.
     void OnStored(const Core::Result<void>& result, Core::Now now, EngineActions& out);
 
-    /// Whether OnStored is due.
+    /// Whether a StorePlans has no OnStored yet.
     [[nodiscard]] bool IsStoring() const noexcept;
 
-    /// The store has shown that it would fail (IPlanStore::Check), with no batch on its way: as if one had failed. It is tried
-    /// again until it works.
+    /// IPlanStore::Check has failed. Handled as a failed batch: storing is retried until it succeeds. Not allowed while
+    /// IsStoring.
     void OnStoreLost(std::string_view reason, Core::Now now, EngineActions& out);
 
-    /// Reports that the MCS has not acknowledged, oldest first: what is sent again after a registration. Those that are
-    /// held back for a failing store are not in it.
+    /// The reports that the MCS has not acknowledged, oldest first: those to replay after a registration. Reports that are
+    /// withheld because the store fails are not included.
     [[nodiscard]] std::vector<OutboxEntry> GetUnacknowledged() const;
 
-    /// Of the same reports, without a copy of them.
+    /// Number and age of the same reports, without copying them.
     [[nodiscard]] OutboxSummary GetOutboxSummary() const;
 
-    /// One per configured robot, in the order of the options.
+    /// One per configured robot, in the order of EngineOptions::robots.
     [[nodiscard]] std::vector<RobotStatus> GetRobotStatuses() const;
 
-    /// Of the robots that have told their position.
+    /// Only of robots that have reported their position.
     [[nodiscard]] std::vector<RobotPose> GetRobotPoses() const;
 
     /// In progress, then paused, then pending, each in the order of the queue.
     [[nodiscard]] std::vector<PlanSummary> GetActivePlans() const;
 
-    /// nullopt where the plan is not known (any more).
+    /// nullopt if the plan is unknown or was deleted.
     [[nodiscard]] std::optional<PlanSummary> GetPlanOrNull(std::string_view planID) const;
 
-    /// Of every plan that does not go on at this moment: those that are paused, those whose robot stands without working,
-    /// then the queue in its order.
+    /// One for every plan that makes no progress now: paused plans, plans whose robot neither drives nor works, then the queue
+    /// in its order.
     [[nodiscard]] std::vector<WaitReason> GetWaitReasons() const;
 
-    /// Why the engine would refuse the command at this moment; nullopt where it would not.
+    /// Why the engine would reject the command now; nullopt if it would accept it.
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SetCarriers& command) const;
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const ResolveJob& command) const;
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SkipStep& command) const;
 
-    /// nullopt where the plan is not known, is finished or goes on.
+    /// nullopt if the plan is unknown, is finished or makes progress.
     [[nodiscard]] std::optional<WaitReason> GetWaitReasonOrNull(std::string_view planID) const;
 
     [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;

@@ -13,26 +13,26 @@
 namespace ACS::Planning
 {
 
-/// What a robot's adapter has reported.
+/// An event of a robot's adapter.
 struct RobotInput
 {
     std::string robotID;
     RobotEvent event;
 };
 
-/// What the engine is called for.
+/// An input of the engine.
 using EngineInput = std::variant<PlanCommand, RobotInput, EngineTimer>;
 
-/// The loop around a PlanEngine: calls it for one input at a time and has its actions executed strictly in order. While a
-/// batch is being stored, inputs wait. Plans that wait together are handed over together, so that one transaction serves a
-/// burst of them. Of states of a robot that differ only in pose or battery the latest counts, so that a disk that hangs does
-/// not fill the memory. Pure; store, timers, robots and MCS belong to the caller. One thread at a time calls it.
+/// The loop around a PlanEngine: calls it for one input at a time and passes its actions to the handlers strictly in order.
+/// Inputs wait while a batch is being stored. Waiting plans are submitted together, in one transaction. Waiting states of a
+/// robot that differ only in pose or battery are merged into the latest one, so that a blocked disk does not fill the
+/// memory. Does no I/O: store, timers, robots and MCS belong to the caller. Called by one thread at a time.
 class PlanEngineHost
 {
 public:
-    /// Executes one action, never a StorePlans; may push inputs.
+    /// Executes one action; never called with StorePlans. May call Push and TryPush.
     using ExecuteHandler = std::function<void(const EngineAction& action)>;
-    /// Stores the batch as one transaction and reports the outcome to OnStored, later or from within.
+    /// Stores the batch as one transaction and calls OnStored with the result, before it returns or later.
     using StoreHandler = std::function<void(const StoreBatch& batch)>;
 
 private:
@@ -49,24 +49,22 @@ public:
     /// Engine and clock must outlive the host.
     PlanEngineHost(PlanEngine& engine, const Core::IClock& clock, ExecuteHandler execute, StoreHandler store);
 
-    /// Once, before anything else: what the store held.
+    /// Passes the content of the store to the engine. Call it once, before any other function.
     void Restore(StoredState state);
 
-    /// A command that comes after Close is rejected by its reply.
+    /// Handles the input, or queues it. After Close a command is rejected by its reply; other inputs are dropped.
     void Push(EngineInput input);
 
-    /// The same for a command whose sender waits for no reply. False, and nothing done, after Close.
+    /// As Push, for a command whose sender waits for no reply. False after Close: the command is not handled.
     [[nodiscard]] bool TryPush(PlanCommand command);
 
-    /// The outcome of the batch that was given to the StoreHandler.
+    /// The result of the batch that was passed to the StoreHandler.
     void OnStored(const Core::Result<void>& result);
 
-    /// The store has reported, without a batch, that it would fail. Ignored while a batch is being stored: that will fail
-    /// itself.
+    /// IPlanStore::Check has failed. Ignored while a batch is being stored, because that batch fails too.
     void OnStoreLost(const Core::Error& error);
 
-    /// From now on commands are rejected, waiting ones included, and all other inputs are dropped. What is being stored is
-    /// still completed.
+    /// Rejects all further and waiting commands and drops all other inputs. A batch that is being stored is still completed.
     void Close();
 
     [[nodiscard]] bool IsStoring() const noexcept;

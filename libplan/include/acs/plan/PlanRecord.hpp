@@ -16,40 +16,40 @@
 namespace ACS::Planning
 {
 
-/// Where a step stands.
+/// The states of a step and of its jobs.
 struct StepProgress
 {
     EStepState state = EStepState::Pending;
-    std::vector<EJobState> jobs; ///< As many as the step has.
+    std::vector<EJobState> jobs; ///< One per job of the step.
 
     bool operator==(const StepProgress&) const = default;
 };
 
-/// The states of a plan: what changes while it lives.
+/// The part of a plan record that changes during execution.
 struct PlanProgress
 {
     EPlanState state = EPlanState::Pending;
-    std::string robotID; ///< Empty until a robot has it.
-    std::string message; ///< Of the last PlanReport.
+    std::string robotID; ///< Empty until the plan is assigned to a robot.
+    std::string message; ///< Message of the last PlanReport.
     std::optional<Core::WallTime> startedAt;
     std::optional<Core::WallTime> endedAt;
-    std::vector<StepProgress> steps;     ///< As many as the plan has, in ascending stepNo.
-    bool bArrived = false;               ///< The last node before the place of its first step was reached.
-    std::optional<EPlanControl> control; ///< Acknowledged, its outcome not known.
-    std::size_t controlCount = 0;        ///< How often it was asked for: each is owed a result.
-    std::vector<std::string> requestIDs; ///< Its controls ("Pause 4711": the transactionID), the latest ones.
+    std::vector<StepProgress> steps;     ///< One per step of the plan, in ascending stepNo.
+    bool bArrived = false;               ///< The last node before the position of the first step was reached.
+    std::optional<EPlanControl> control; ///< The acknowledged control whose outcome is not known.
+    std::size_t controlCount = 0;        ///< Number of requests for that control; each gets a result report.
+    std::vector<std::string> requestIDs; ///< The latest controls, each with its transactionID ("Pause 4711").
 
     bool operator==(const PlanProgress&) const = default;
 };
 
-/// An accepted plan, as it is kept and stored.
+/// An accepted plan, in memory and in the store.
 struct PlanRecord
 {
     std::uint64_t sequence = 0; ///< Order of acceptance, from 1.
     Core::WallTime acceptedAt;
-    Plan plan; ///< Its steps in ascending stepNo.
+    Plan plan; ///< With its steps in ascending stepNo.
     PlanProgress progress;
-    std::string transactionID; ///< Of the request that brought it; may be empty.
+    std::string transactionID; ///< Of the request that submitted it; may be empty.
 
     bool operator==(const PlanRecord&) const = default;
 };
@@ -60,10 +60,10 @@ struct PlanSummary
     std::string planID;
     std::optional<std::string> robotID;
     EPlanState state = EPlanState::Pending;
-    std::int32_t stepNo = 0; ///< 0 of a completed plan.
+    std::int32_t stepNo = 0; ///< The current step; 0 for a completed plan.
     std::optional<std::string> jobID;
     std::optional<std::string> currentAction;
-    Core::WallTime startTime; ///< Of a plan that has not started: when it was accepted.
+    Core::WallTime startTime; ///< Time of acceptance if the plan has not started.
     std::optional<Core::WallTime> endTime;
 
     bool operator==(const PlanSummary&) const = default;

@@ -19,8 +19,8 @@ struct Transition
     TState to;
 };
 
-/// The transitions that section 7 of MCS-ACS allows, and one that section 6.13 needs. The engine changes states only by
-/// these tables.
+/// The transitions that section 7 of MCS-ACS allows, and the one that section 6.13 requires. The engine makes no other
+/// transition.
 inline constexpr std::array PLAN_TRANSITIONS{
     Transition<EPlanState>{EPlanState::Pending, EPlanState::InProgress},
     Transition<EPlanState>{EPlanState::Pending, EPlanState::Paused},
@@ -43,7 +43,7 @@ inline constexpr std::array STEP_TRANSITIONS{
     Transition<EStepState>{EStepState::Dispatched, EStepState::Failed},
     Transition<EStepState>{EStepState::InProgress, EStepState::Completed},
     Transition<EStepState>{EStepState::InProgress, EStepState::Failed},
-    Transition<EStepState>{EStepState::InProgress, EStepState::Skipped}, // by an operator, where its job is unresolved
+    Transition<EStepState>{EStepState::InProgress, EStepState::Skipped}, // SkipStep of a step with an unresolved job
 };
 
 inline constexpr std::array JOB_TRANSITIONS{
@@ -92,7 +92,7 @@ template <typename TState>
     return ContainsTransition<ETscState>(TSC_TRANSITIONS, from, to);
 }
 
-/// Whether no transition leaves the state: a plan in it is never reported again.
+/// Whether the state has no further transition; a plan in such a state is not reported again.
 [[nodiscard]] constexpr bool IsFinal(EPlanState state) noexcept
 {
     return std::ranges::none_of(PLAN_TRANSITIONS, [state](const Transition<EPlanState>& transition) {

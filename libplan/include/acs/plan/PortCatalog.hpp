@@ -10,7 +10,7 @@
 namespace ACS::Planning
 {
 
-/// The set of all places that plans may name: the map's stations, the ports inside them, the robots' ports.
+/// All places that plans may name: the stations of the map, their ports, the ports of the robots.
 class PortCatalog
 {
     Core::LocationMap _places;
@@ -24,7 +24,7 @@ public:
 
     [[nodiscard]] bool Contains(const Core::Location& location) const;
 
-    /// A set without its area (SET02, SET02.MP15) with the only area that has it; nullopt where none or several have.
+    /// Adds the area to a set without one (SET02, SET02.MP15); nullopt if no area or several have this set.
     [[nodiscard]] std::optional<Core::Location> CompleteSetOrNull(const Core::Location& shortForm) const;
 };
 

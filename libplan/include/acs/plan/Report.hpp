@@ -16,7 +16,7 @@
 namespace ACS::Planning
 {
 
-/// Section 5.4 of MCS-ACS.
+/// A state of a plan (section 5.4 of MCS-ACS).
 struct PlanReport
 {
     std::string planID;
@@ -26,7 +26,7 @@ struct PlanReport
     bool operator==(const PlanReport&) const = default;
 };
 
-/// Section 5.5.
+/// A state of a step (section 5.5).
 struct StepReport
 {
     std::string planID;
@@ -38,7 +38,7 @@ struct StepReport
     bool operator==(const StepReport&) const = default;
 };
 
-/// Section 5.6.
+/// A state of a job (section 5.6).
 struct JobReport
 {
     std::string planID;
@@ -51,7 +51,8 @@ struct JobReport
     bool operator==(const JobReport&) const = default;
 };
 
-/// An alarm. Its identity is (robotID, errorCode, planID, jobID): the clearing report repeats what the setting one said.
+/// An alarm, identified by robotID, errorCode, planID and jobID. The report that clears it repeats the content of the report
+/// that set it.
 struct Alarm
 {
     std::string robotID;
@@ -71,7 +72,7 @@ struct Alarm
     bool operator==(const Alarm&) const = default;
 };
 
-/// Section 5.8.
+/// An alarm was set or cleared (section 5.8).
 struct ErrorReport
 {
     Alarm alarm;
@@ -80,7 +81,7 @@ struct ErrorReport
     bool operator==(const ErrorReport&) const = default;
 };
 
-/// The real outcome of CancelPlan, AbortPlan, PausePlan or ResumePlan (section 5.7).
+/// The outcome of CancelPlan, AbortPlan, PausePlan or ResumePlan (section 5.7).
 struct ControlResultReport
 {
     EPlanControl control = EPlanControl::Cancel;
@@ -91,13 +92,13 @@ struct ControlResultReport
     bool operator==(const ControlResultReport&) const = default;
 };
 
-/// What must reach the MCS, in this order, even over restarts.
+/// A durable report: reaches the MCS in the order of creation, also after a restart.
 using Report = std::variant<PlanReport, StepReport, JobReport, ErrorReport, ControlResultReport>;
 
-/// A report with what makes a repetition the same message: its transactionID and its first time.
+/// A report with its transactionID and creation time, which are the same in every replay.
 struct OutboxEntry
 {
-    std::uint64_t sequence = 0; ///< The outbox id: ascending, from 1; never used twice for one store.
+    std::uint64_t sequence = 0; ///< Ascending, from 1; never used twice in a store.
     std::string transactionID;
     Core::WallTime time;
     Report report;
@@ -105,11 +106,11 @@ struct OutboxEntry
     bool operator==(const OutboxEntry&) const = default;
 };
 
-/// How many reports wait for the MCS, and since when.
+/// Number and age of the reports that wait for their acknowledgement.
 struct OutboxSummary
 {
     std::size_t count = 0;
-    std::optional<Core::WallTime> oldest; ///< When the oldest one was made; nullopt: none waits.
+    std::optional<Core::WallTime> oldest; ///< Creation time of the oldest one; nullopt if none waits.
 };
 
 } // namespace ACS::Planning

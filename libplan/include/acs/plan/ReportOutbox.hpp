@@ -12,21 +12,20 @@
 namespace ACS::Planning
 {
 
-/// The reports that the MCS has not acknowledged, oldest first. The only outbox: a session in front of it holds no more
-/// than its window of messages under way.
+/// The durable reports that the MCS has not acknowledged, oldest first.
 class ReportOutbox
 {
     std::deque<OutboxEntry> _entries;
     std::uint64_t _lastSequence = 0;
 
 public:
-    /// Gives the report its number, transactionID and time.
+    /// Assigns the report its sequence number, transactionID and time. The reference is valid until the next call.
     const OutboxEntry& Add(Report report, Core::WallTime time, Core::IRandom& random);
 
-    /// False where there is no entry of this number (acknowledged twice).
+    /// False if there is no entry of this number, for example because it was acknowledged twice.
     [[nodiscard]] bool TryRemove(std::uint64_t sequence);
 
-    /// What a store gave back. Replaces everything.
+    /// Replaces all entries by those that a store returned.
     void Restore(std::vector<OutboxEntry> entries, std::uint64_t lastSequence);
 
     [[nodiscard]] const std::deque<OutboxEntry>& GetUnacknowledged() const noexcept;

@@ -12,17 +12,17 @@
 namespace ACS::Planning
 {
 
-/// An error that a robot has at present.
+/// An active error of a robot.
 struct RobotError
 {
-    std::string errorCode;                  ///< As the MCS will see it ("AGV-…", "ARM-…").
-    EAlarmLevel level = EAlarmLevel::Light; ///< Heavy: the robot takes no work while it lasts.
+    std::string errorCode;                  ///< As it is reported to the MCS ("AGV-…", "ARM-…").
+    EAlarmLevel level = EAlarmLevel::Light; ///< Heavy: the robot is given no work while the error is active.
     std::string message;
 
     bool operator==(const RobotError&) const = default;
 };
 
-/// The robot has come into reach or gone out of it. A new link says nothing about the robot's place.
+/// The robot was connected or disconnected. A new connection does not make its position known: StateChanged does.
 struct LinkChanged
 {
     bool bOnline = false;
@@ -35,7 +35,7 @@ struct PortLoad
 {
     std::string port;      ///< A port of RobotOptions::ports ("LR01.CP01").
     bool bLoaded = false;  ///< Whether a carrier is there.
-    std::string carrierID; ///< Its id; empty: the robot does not know it, or the port is empty.
+    std::string carrierID; ///< Empty if the port is empty or the robot does not know the id.
 
     bool operator==(const PortLoad&) const = default;
 };
@@ -54,34 +54,34 @@ struct RestartEvidence
     bool operator==(const RestartEvidence&) const = default;
 };
 
-/// The robot's present state; raised on every change, as often as the robot tells.
+/// The current state of the robot. Raised on every change and for every state message of the robot.
 struct StateChanged
 {
     double x = 0;              ///< Metres.
     double y = 0;              ///< Metres.
     double theta = 0;          ///< Radians.
-    bool bPoseKnown = false;   ///< Whether x, y and theta say anything (localised).
+    bool bPoseKnown = false;   ///< Whether x, y and theta are valid (the robot is localised).
     double batteryPercent = 0; ///< 0 to 100.
-    std::string lastNodeID;    ///< The node it stands on or has passed last; empty: not known.
+    std::string lastNodeID;    ///< The current or last passed node; empty: unknown.
     bool bDriving = false;
     bool bCharging = false;
     bool bPaused = false;
-    bool bAutomatic = true;   ///< Under our control: VDA5050 AUTOMATIC or SEMIAUTOMATIC, Hi6 remote and automatic.
-    bool bSafetyStop = false; ///< Emergency stop or protective field.
-    bool bOccupied = false;   ///< Busy with work that the engine did not give it, or gave it before a restart.
-    std::vector<RobotError> errors; ///< All that are active.
-    /// Nodes ahead on which it may still drive without another command, of an order that it was given before a restart or
-    /// by somebody else: they are kept free for it.
+    bool bAutomatic = true;   ///< The ACS controls it: VDA5050 AUTOMATIC or SEMIAUTOMATIC, Hi6 remote and automatic.
+    bool bSafetyStop = false; ///< Emergency stop, or the protective field is violated.
+    bool bOccupied = false;   ///< Executes work of another controller, or work commanded before a restart.
+    std::vector<RobotError> errors; ///< All active errors.
+    /// Nodes ahead that the robot may still enter without a further command, because of an order from before a restart or of
+    /// another controller. The engine reserves them for it.
     std::vector<std::string> heldNodeIDs;
     RestartEvidence restartEvidence;
-    /// One entry per carrier port, in the order of RobotOptions::ports. Absent where the robot reports no loads.
+    /// One entry per carrier port, in the order of RobotOptions::ports. nullopt if the robot reports no loads.
     std::optional<std::vector<PortLoad>> loads;
 
     bool operator==(const StateChanged&) const = default;
 };
 
-/// The robot has passed or reached a node of the drive. Raised once for every node in the order of the route, the
-/// first one included: that one as soon as the robot has accepted the drive. The last one before Arrived.
+/// The robot has passed or reached a node of the drive. Raised once for every node, in the order of the route: for the first
+/// node when the robot has accepted the drive, for the last one before Arrived.
 struct NodePassed
 {
     std::string driveID;
@@ -90,7 +90,7 @@ struct NodePassed
     bool operator==(const NodePassed&) const = default;
 };
 
-/// The robot stands on the last node of the drive.
+/// The robot has stopped on the last node of the drive.
 struct Arrived
 {
     std::string driveID;
@@ -98,7 +98,7 @@ struct Arrived
     bool operator==(const Arrived&) const = default;
 };
 
-/// The robot does not do the drive, or gave it up: it stands where it stands.
+/// The robot has rejected or abandoned the drive. It has stopped and keeps nothing of it.
 struct DriveRejected
 {
     std::string driveID;
@@ -107,11 +107,12 @@ struct DriveRejected
     bool operator==(const DriveRejected&) const = default;
 };
 
-/// The answer to CancelDrive: the robot stands, on the node or past it. Arrived instead: it was too late.
+/// The answer to CancelDrive: the robot has stopped on the node or after it. Arrived is raised instead if the robot reached
+/// the target first.
 struct DriveCancelled
 {
     std::string driveID;
-    std::string nodeID; ///< The last node of the drive that it passed or stands on.
+    std::string nodeID; ///< The last node of the drive that the robot has passed or is on.
 
     bool operator==(const DriveCancelled&) const = default;
 };
@@ -123,7 +124,7 @@ struct JobStarted
     bool operator==(const JobStarted&) const = default;
 };
 
-/// May come without JobStarted before it.
+/// May be raised without a JobStarted before.
 struct JobFinished
 {
     std::string jobID;
@@ -139,7 +140,7 @@ struct JobFailed
     bool operator==(const JobFailed&) const = default;
 };
 
-/// The robot shows that it never had the job: it can be commanded (again) without being done twice.
+/// The robot shows that it never received the job: it can be commanded again without the risk of a second execution.
 struct JobUnknown
 {
     std::string jobID;
@@ -147,27 +148,27 @@ struct JobUnknown
     bool operator==(const JobUnknown&) const = default;
 };
 
-/// What became of the job cannot be known from the robot: a person has to look. The last word about this job: the adapter
-/// tells nothing of it any more.
+/// The outcome of the job cannot be known from the robot: the operator has to check the floor and resolve it. The adapter
+/// raises no further event of this job.
 struct JobUnresolved
 {
     std::string jobID;
-    std::string reason; ///< What the robot shows, in words for that person.
+    std::string reason; ///< What the robot shows, in a sentence for the operator.
 
     bool operator==(const JobUnresolved&) const = default;
 };
 
-/// What is known of the jobs that the robot can do has changed, as with a vehicle's factsheet. Plans that no robot has are
-/// checked with it, and those that it rejects are not given to the robot. Stays in effect while the robot is out of reach.
+/// The set of jobs that the robot can execute has changed, for example by a factsheet. Plans that no robot has are checked
+/// with it; a plan that it rejects is not given to the robot. Stays in effect while the robot is disconnected.
 struct JobCheckChanged
 {
-    std::shared_ptr<const IJobCheck> jobCheck; ///< Null, as before the first one: no job is rejected.
+    std::shared_ptr<const IJobCheck> jobCheck; ///< Null (initial value): no job is rejected.
 
     bool operator==(const JobCheckChanged&) const = default;
 };
 
-/// What an adapter tells the engine about its robot. What does not belong to the present drive or job is ignored, so
-/// an adapter may repeat itself.
+/// What an adapter reports about its robot. Events of another drive or job than the current one are ignored, so that an
+/// adapter may repeat an event.
 using RobotEvent = std::variant<
     LinkChanged,
     StateChanged,

@@ -11,24 +11,24 @@
 namespace ACS::Planning
 {
 
-/// What RobotStatusUpdate says of a robot (section 5.9 of MCS-ACS).
+/// The content of RobotStatusUpdate (section 5.9 of MCS-ACS).
 struct RobotStatus
 {
     std::string robotID;
     ERobotType type = ERobotType::LR;
     ERobotStatus status = ERobotStatus::Disconnected;
-    std::string position;                               ///< The last confirmed station; empty where none is known.
+    std::string position;                               ///< The last confirmed station; empty: unknown.
     std::vector<std::optional<std::string>> carrierIDs; ///< One per port, in the order of RobotOptions::ports.
     std::optional<std::string> planID;
     std::optional<std::int32_t> stepNo;
     std::optional<std::string> jobID;
-    std::string message;         ///< Why the robot does not do more, such as what it waits for; may be empty.
-    bool bInMaintenance = false; ///< Not told to the MCS but by the message.
+    std::string message;         ///< Why the robot makes no progress, for example what it waits for; may be empty.
+    bool bInMaintenance = false; ///< Not a member of RobotStatusUpdate; the message mentions it.
 
     bool operator==(const RobotStatus&) const = default;
 };
 
-/// What RobotPositionUpdate says of a robot (section 5.10); only once the robot has told its position.
+/// The content of RobotPositionUpdate (section 5.10). Exists only once the robot has reported its position.
 struct RobotPose
 {
     std::string robotID;

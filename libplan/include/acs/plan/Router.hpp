@@ -15,22 +15,22 @@
 namespace ACS::Planning
 {
 
-/// Metres per second along an edge for which the map gives no speed.
+/// Speed on edges without a speed in the map, in metres per second.
 inline constexpr double DEFAULT_SPEED = 1.0;
 
-/// A beginning of a way, and what the way takes.
+/// The start of the fastest route and its travel time.
 struct QuickestStart
 {
-    std::size_t nodeIndex = 0; ///< See SiteMap::GetNodes.
-    double travelSeconds = 0.0;
+    std::size_t nodeIndex = 0;  ///< Index in SiteMap::GetNodes.
+    double travelSeconds = 0.0; ///< Seconds.
 };
 
-/// Ways of shortest travel time over a map, for each vehicle type along the edges and nodes that it may use. Holds a
-/// reference to the map, which must outlive it. Not shared between threads.
+/// Finds routes of shortest travel time, for each vehicle type over the nodes and edges that it may use. The map must outlive
+/// the router. Not thread-safe.
 class Router
 {
 public:
-    /// Whether the way must not lead over the node of this index (see SiteMap::GetNodes). Must not search itself.
+    /// Whether routes must avoid the node of this index in SiteMap::GetNodes. Must not call the router.
     using NodeFilter = std::function<bool(std::size_t nodeIndex)>;
 
 private:
@@ -44,28 +44,28 @@ public:
     Router& operator=(const Router&) = delete;
     ~Router();
 
-    /// From node to node, one node and no edge where they are the same. nullopt where there is no way, or one of the
-    /// ids or the vehicle type is not on the map.
+    /// The fastest route between two nodes; one node and no edge if they are the same. nullopt if there is no route, or if a
+    /// node or the vehicle type is not on the map.
     [[nodiscard]] std::optional<Route> FindRouteOrNull(
         std::string_view vehicleTypeID,
         std::string_view fromNodeID,
         std::string_view toNodeID) const;
 
-    /// Likewise, around the nodes that the filter excludes; the ends are never excluded.
+    /// The same, avoiding the nodes that the filter excludes. The filter does not apply to the two ends.
     [[nodiscard]] std::optional<Route> FindRouteOrNull(
         std::string_view vehicleTypeID,
         std::string_view fromNodeID,
         std::string_view toNodeID,
         const NodeFilter& isExcluded) const;
 
-    /// From which of these nodes the target is reached quickest, the nodes by their index in the map; nullopt where there
-    /// is no way from any. One search, however many starts there are. Of several as quick, that of the lowest index.
+    /// The start node from which the target is reached fastest; of equally fast ones that of the lowest index. nullopt if the
+    /// target cannot be reached from any of them. Costs one search for any number of starts.
     [[nodiscard]] std::optional<QuickestStart> FindQuickestStartOrNull(
         std::string_view vehicleTypeID,
         std::span<const std::size_t> startIndices,
         std::size_t targetIndex) const;
 
-    /// Of all searches so far: what they have cost, in a figure that no clock disturbs.
+    /// Number of nodes that all searches so far have visited: their cost, independent of the machine.
     [[nodiscard]] std::uint64_t CountVisitedNodes() const noexcept;
 };
 

@@ -13,7 +13,7 @@
 namespace ACS::Planning
 {
 
-/// What a vehicle type does on a node. A type that a node does not name may not use it.
+/// How a vehicle type uses a node. A type without a rule may not use the node.
 struct SiteNodeRule
 {
     std::string vehicleTypeID;
@@ -30,26 +30,26 @@ struct SiteNode
     std::string mapID; ///< May be empty.
     std::vector<SiteNodeRule> rules;
 
-    /// Null where the type may not use the node.
+    /// Null if the type may not use the node.
     [[nodiscard]] const SiteNodeRule* FindRuleOrNull(std::string_view vehicleTypeID) const noexcept;
 
     bool operator==(const SiteNode&) const = default;
 };
 
-/// How a vehicle type drives along an edge. A type that an edge does not name may not use it.
+/// How a vehicle type uses an edge. A type without a rule may not use the edge.
 struct SiteEdgeRule
 {
     std::string vehicleTypeID;
-    std::optional<double> maxSpeed;         ///< Metres per second, more than 0.
+    std::optional<double> maxSpeed;         ///< Metres per second, > 0.
     std::optional<double> maxRotationSpeed; ///< Radians per second.
-    std::optional<double> orientation;      ///< Radians (LIF has degrees).
+    std::optional<double> orientation;      ///< Radians (degrees in LIF).
     std::string orientationType;            ///< "TANGENTIAL", "GLOBAL" or empty.
     std::optional<bool> bRotationAllowed;
 
     bool operator==(const SiteEdgeRule&) const = default;
 };
 
-/// One way from a node to another.
+/// A directed connection of two nodes.
 struct SiteEdge
 {
     std::string edgeID;
@@ -57,24 +57,25 @@ struct SiteEdge
     std::string endNodeID;
     std::vector<SiteEdgeRule> rules;
 
-    /// Null where the type may not use the edge.
+    /// Null if the type may not use the edge.
     [[nodiscard]] const SiteEdgeRule* FindRuleOrNull(std::string_view vehicleTypeID) const noexcept;
 
     bool operator==(const SiteEdge&) const = default;
 };
 
-/// A place where robots work. Its id is the MCS location ("A01.CP01"), or any name for a charger or a parking spot.
+/// A place where robots work, charge or park. Its id is the location of MCS-ACS ("A01.CP01"), or any name for a charger or a
+/// parking position.
 struct SiteStation
 {
     std::string stationID;
-    std::vector<std::string> nodeIDs;            ///< Where a robot docks; at least one.
+    std::vector<std::string> nodeIDs;            ///< The docks; at least one.
     std::optional<double> height = std::nullopt; ///< Metres.
 
     bool operator==(const SiteStation&) const = default;
 };
 
-/// The floor: nodes, directed edges, stations. Valid by construction: ids are unique (nodes, edges and stations each),
-/// everything refers to known nodes, there is a node. Copied with all its content; nodes are addressed by index too.
+/// Nodes, directed edges and stations of a site. Always valid: ids are unique among nodes, among edges and among stations,
+/// every referenced node exists, and there is at least one node. Immutable; a copy is independent.
 class SiteMap
 {
     struct TextHash
@@ -99,7 +100,7 @@ class SiteMap
     SiteMap() = default;
 
 public:
-    /// Errors: EPlanningError::InvalidSite, with the path "nodes[3].nodeId" and so on.
+    /// Errors: EPlanningError::InvalidSite, with a path such as "nodes[3].nodeId".
     [[nodiscard]] static Core::Result<SiteMap> Create(
         std::vector<SiteNode> nodes,
         std::vector<SiteEdge> edges,
@@ -109,17 +110,19 @@ public:
     [[nodiscard]] const std::vector<SiteEdge>& GetEdges() const noexcept;
     [[nodiscard]] const std::vector<SiteStation>& GetStations() const noexcept;
 
-    /// Null where there is no node of this id.
+    /// Null if there is no node of this id.
     [[nodiscard]] const SiteNode* FindNodeOrNull(std::string_view nodeID) const;
+
+    /// Index in GetNodes; nullopt if there is no node of this id.
     [[nodiscard]] std::optional<std::size_t> FindNodeIndexOrNull(std::string_view nodeID) const;
 
-    /// Null where there is no station of this id.
+    /// Null if there is no station of this id.
     [[nodiscard]] const SiteStation* FindStationOrNull(std::string_view stationID) const;
 
-    /// The first station that has the node; null where there is none.
+    /// The first station that has the node; null if no station has it.
     [[nodiscard]] const SiteStation* FindStationAtOrNull(std::string_view nodeID) const;
 
-    /// Whether any node names the vehicle type.
+    /// Whether any node has a rule for the vehicle type.
     [[nodiscard]] bool HasVehicleType(std::string_view vehicleTypeID) const noexcept;
 
 private:
@@ -128,7 +131,7 @@ private:
     [[nodiscard]] Core::Result<void> IndexStations();
 };
 
-/// Metres between two nodes, as the crow flies.
+/// Straight-line distance of two nodes in metres. Their maps are not compared.
 [[nodiscard]] double GetDistance(const SiteNode& from, const SiteNode& to) noexcept;
 
 } // namespace ACS::Planning

@@ -12,8 +12,8 @@
 namespace ACS::Planning
 {
 
-/// The JSON texts in which a store on disk keeps things. Reading is total: stored bytes come from outside too. The wire's
-/// messages are another matter, though plans look alike.
+/// The JSON texts in a store on disk. They are not the messages of MCS-ACS, although a plan looks alike. Decoders accept any
+/// text, because a stored file may be damaged: an invalid one is an error of ACS::Core::ECoreError.
 [[nodiscard]] std::string EncodePlan(const Plan& plan);
 [[nodiscard]] Core::Result<Plan> DecodePlan(std::string_view text);
 

@@ -8,22 +8,24 @@
 namespace ACS::Planning
 {
 
-/// Why a robot that could do a plan does not do it now.
+/// Why a robot that is able to execute a plan cannot start it now.
 struct RobotUnavailability
 {
     std::string robotID;
-    std::string reason; ///< "busy with plan PLAN_7", "battery 12 % is below 20 %", "LR01.CP01 is taken by CASSETTE_01"
+    /// For the operator: "busy with plan PLAN_7", "battery 12 % is below 20 %", "LR01.CP01 is taken by CASSETTE_01".
+    std::string reason;
 
     bool operator==(const RobotUnavailability&) const = default;
 };
 
-/// Why a plan does not go on, in words for an operator.
+/// Why a plan makes no progress, in a sentence for the operator.
 struct WaitReason
 {
     std::string planID;
     std::string message;
-    std::optional<std::size_t> queuePosition; ///< From 1; of a plan that no robot has.
-    std::vector<RobotUnavailability> robots;  ///< All that could do a plan that no robot has, but not at this moment.
+    std::optional<std::size_t> queuePosition; ///< From 1; nullopt if a robot has the plan.
+    /// The robots that are able to execute the plan but are unavailable now; empty if a robot has the plan.
+    std::vector<RobotUnavailability> robots;
 
     bool operator==(const WaitReason&) const = default;
 };

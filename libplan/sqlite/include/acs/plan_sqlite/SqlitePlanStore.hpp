@@ -10,9 +10,9 @@
 namespace ACS::Planning
 {
 
-/// Plans in a SQLite database, with a write-ahead log and full synchronisation: what Append returned for is on disk. The
-/// store owns a directory of mode 0700 and locks it while it is open: one store per directory. The database is `acsd.db` in
-/// it. Used by one thread.
+/// Plan store in a SQLite database with a write-ahead log and full synchronisation: changes are on disk when Append returns.
+/// The store has a directory of its own with mode 0700 and the database `acsd.db`. The directory is locked while the store is
+/// open. Used by one thread.
 class SqlitePlanStore final : public IPlanStore
 {
     class Impl;
@@ -25,16 +25,16 @@ public:
     SqlitePlanStore& operator=(const SqlitePlanStore&) = delete;
     ~SqlitePlanStore() override;
 
-    /// Opens the store, or creates it; its parent directory must exist. The schema is brought up to date. A path to a
-    /// database of the former layout (a file with `.lock` beside it) is migrated to a directory; the former files are kept
-    /// with `.former` in their names.
+    /// Opens or creates the store; its parent directory must exist. An older schema is migrated. If the path is a database of
+    /// the former layout (a file with `.lock` beside it), it is migrated to a directory, and the former files are kept with
+    /// `.former` in their names.
     /// Errors: EPlanningError::StoreFailed (no such directory, no permission, open in another program), StoreCorrupt
     /// (damaged, not a plan store, or its log is missing), StoreTooNew. Each names the file, the reason of the system or
-    /// of SQLite, and the remedy. A database that is refused is left unchanged, and its log too.
+    /// of SQLite, and the remedy. A refused database and its log are left unchanged.
     [[nodiscard]] static Core::Result<std::unique_ptr<SqlitePlanStore>> Open(const std::string& directory);
 
-    /// What Open would find, without creating or changing a file; another program may have the store open. Errors as of
-    /// Open, except that no lock is taken.
+    /// Checks what Open would find, without locking, creating or changing a file; another program may have the store open.
+    /// Errors as of Open, except that of a locked store.
     [[nodiscard]] static Core::Result<StoreOrigin> Inspect(const std::string& directory);
 
     [[nodiscard]] const StoreOrigin& GetOrigin() const noexcept;
@@ -42,10 +42,10 @@ public:
     [[nodiscard]] Core::Result<StoredState> Load() override;
     [[nodiscard]] Core::Result<void> Append(const StoreBatch& batch) override;
 
-    /// Fails when the database or its log was removed, moved or replaced while it is open. Append fails too, because its
-    /// changes would be lost. The stored state is copied to `acsd.db.rescued` at once. When the files are back, the store
-    /// works again and the copy is deleted; else the next Open restores the copy, or is refused if there is another
-    /// database too.
+    /// Fails if the database or its log was removed, moved or replaced while open; Append fails too, because its changes would
+    /// be lost. The content of a removed database is copied to `acsd.db.rescued` immediately. When the files are back, the
+    /// store works again and the copy is deleted. Otherwise the next Open restores the copy, or fails if there is another
+    /// database.
     [[nodiscard]] Core::Result<void> Check() override;
 };
 

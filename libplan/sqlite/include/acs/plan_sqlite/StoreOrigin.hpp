@@ -7,10 +7,10 @@ namespace ACS::Planning
 struct StoreOrigin
 {
     bool bNew = false;      ///< There was no database, or an empty one.
-    bool bRescued = false;  ///< The database was removed while it was open, and restored from the copy made then.
+    bool bRescued = false;  ///< The database had been removed while open; it is restored from the copy made then.
     int foundVersion = 0;   ///< Schema version found; 0 for a new store.
     int version = 0;        ///< Schema version after opening.
-    bool bMigrated = false; ///< It was a file and is a directory now: the former layout.
+    bool bMigrated = false; ///< The store had the former layout and was migrated to a directory.
 
     bool operator==(const StoreOrigin&) const = default;
 };
